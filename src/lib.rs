@@ -1,0 +1,9 @@
+//! Exact reference solutions for the bouncing elastic rod.
+
+pub mod error;
+pub mod number;
+pub mod rod;
+
+pub use error::Error;
+pub use number::Number;
+pub use rod::Problem;

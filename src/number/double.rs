@@ -1,0 +1,90 @@
+//! Double precision.
+
+use super::{Analytic, Number, Scalar};
+
+impl Scalar for f64 {
+    const EXACT: bool = false;
+    type Precision = ();
+
+    fn from_number(number: &Number, _: &()) -> Self {
+        number.to_f64()
+    }
+
+    fn precision(&self) {}
+
+    #[inline]
+    fn int(&self, n: i64) -> Self {
+        n as f64
+    }
+
+    #[inline]
+    fn double(&self, x: f64) -> Self {
+        x
+    }
+
+    #[inline]
+    fn try_sqrt(&self) -> Option<Self> {
+        (*self >= 0.0).then(|| f64::sqrt(*self))
+    }
+
+    #[inline]
+    fn to_f64(&self) -> f64 {
+        *self
+    }
+
+    #[inline]
+    fn log2_roundoff(&self) -> f64 {
+        -53.0
+    }
+
+    #[inline]
+    fn floor_int(&self) -> Option<i64> {
+        let floor = self.floor();
+        (floor.abs() < 9.0e18).then_some(floor as i64)
+    }
+
+    #[inline]
+    fn is_finite(&self) -> bool {
+        f64::is_finite(*self)
+    }
+
+    fn text(&self) -> String {
+        // Display never uses an exponent; Debug does so for very large and very small values.
+        format!("{self:?}")
+    }
+}
+
+impl Analytic for f64 {
+    #[inline]
+    fn sqrt(&self) -> Self {
+        f64::sqrt(*self)
+    }
+    #[inline]
+    fn exp(&self) -> Self {
+        f64::exp(*self)
+    }
+    #[inline]
+    fn exp_m1(&self) -> Self {
+        f64::exp_m1(*self)
+    }
+    #[inline]
+    fn ln(&self) -> Self {
+        f64::ln(*self)
+    }
+    #[inline]
+    fn ln_1p(&self) -> Self {
+        f64::ln_1p(*self)
+    }
+    #[inline]
+    fn cos(&self) -> Self {
+        f64::cos(*self)
+    }
+    #[inline]
+    fn sin(&self) -> Self {
+        f64::sin(*self)
+    }
+    #[inline]
+    fn pi(&self) -> Self {
+        std::f64::consts::PI
+    }
+}

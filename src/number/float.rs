@@ -1,0 +1,159 @@
+//! Any number of bits.
+
+use rug::float::{Constant, Round};
+use rug::ops::Pow;
+use rug::{Float, Integer, Rational};
+
+use super::{Analytic, Number, Scalar};
+
+impl Scalar for Float {
+    const EXACT: bool = false;
+    /// Bits of the significand.
+    type Precision = u32;
+
+    fn from_number(number: &Number, precision: &u32) -> Self {
+        Float::with_val(*precision, number.to_rational())
+    }
+
+    fn precision(&self) -> u32 {
+        self.prec()
+    }
+
+    fn int(&self, n: i64) -> Self {
+        Float::with_val(self.prec(), n)
+    }
+
+    fn double(&self, x: f64) -> Self {
+        Float::with_val(self.prec(), x)
+    }
+
+    fn try_sqrt(&self) -> Option<Self> {
+        (!self.is_sign_negative() || Float::is_zero(self)).then(|| Float::with_val(self.prec(), self.sqrt_ref()))
+    }
+
+    fn to_f64(&self) -> f64 {
+        Float::to_f64(self)
+    }
+
+    fn log2_roundoff(&self) -> f64 {
+        -f64::from(self.prec())
+    }
+
+    fn floor_int(&self) -> Option<i64> {
+        self.to_integer_round(Round::Down).and_then(|(n, _)| n.to_i64())
+    }
+
+    fn is_finite(&self) -> bool {
+        Float::is_finite(self)
+    }
+
+    fn text(&self) -> String {
+        self.to_string_radix(10, None)
+    }
+
+    fn is_negative(&self) -> bool {
+        self.cmp0().is_some_and(std::cmp::Ordering::is_lt)
+    }
+
+    fn is_positive(&self) -> bool {
+        self.cmp0().is_some_and(std::cmp::Ordering::is_gt)
+    }
+
+    fn is_zero(&self) -> bool {
+        Float::is_zero(self)
+    }
+}
+
+impl Analytic for Float {
+    fn sqrt(&self) -> Self {
+        Float::with_val(self.prec(), self.sqrt_ref())
+    }
+    fn exp(&self) -> Self {
+        Float::with_val(self.prec(), self.exp_ref())
+    }
+    fn exp_m1(&self) -> Self {
+        Float::with_val(self.prec(), self.exp_m1_ref())
+    }
+    fn ln(&self) -> Self {
+        Float::with_val(self.prec(), self.ln_ref())
+    }
+    fn ln_1p(&self) -> Self {
+        Float::with_val(self.prec(), self.ln_1p_ref())
+    }
+    fn cos(&self) -> Self {
+        Float::with_val(self.prec(), self.cos_ref())
+    }
+    fn sin(&self) -> Self {
+        Float::with_val(self.prec(), self.sin_ref())
+    }
+    fn pi(&self) -> Self {
+        Float::with_val(self.prec(), Constant::Pi)
+    }
+}
+
+/// Bits that hold `digits` decimal digits: `⌈digits · log₂10⌉`.
+///
+/// **Accuracy**: exact for every `digits` below 10⁹.
+///
+/// ```
+/// assert_eq!(dalembert::number::bits_for_digits(15), 50);
+/// ```
+pub fn bits_for_digits(digits: u32) -> u32 {
+    let bits = (u64::from(digits) * 3_321_928_095).div_ceil(1_000_000_000);
+    u32::try_from(bits).unwrap_or(u32::MAX)
+}
+
+/// A decimal with exactly `digits` significant digits, rounded to nearest from the exact value of `x`.
+///
+/// Zero is `0`. Plain notation where the exponent is small (`0.00123`, `31.0000`), otherwise `1.23e-45`.
+///
+/// **Accuracy**: correctly rounded.
+///
+/// ```
+/// use rug::Rational;
+/// assert_eq!(dalembert::number::decimal(&Rational::from((2, 3)), 5), "0.66667");
+/// assert_eq!(dalembert::number::decimal(&Rational::from(31), 5), "31.000");
+/// ```
+pub fn decimal(x: &Rational, digits: u32) -> String {
+    let digits = digits.max(1) as usize;
+    if x.cmp0().is_eq() {
+        return "0".into();
+    }
+    // Scale to an integer of `digits` digits; the first guess at the exponent can be one off.
+    let mut exponent = decimal_exponent(x);
+    let (mantissa, exponent) = loop {
+        let scaled = scale(x, digits as i64 - 1 - exponent);
+        let text = scaled.abs().round().numer().to_string();
+        match text.len() {
+            n if n == digits => break (text, exponent),
+            n if n > digits => exponent += 1,
+            _ => exponent -= 1,
+        }
+    };
+    let sign = if x.cmp0().is_lt() { "-" } else { "" };
+    let point = exponent + 1;
+    if (-5..=digits.max(21) as i64).contains(&point) {
+        let body = if point <= 0 {
+            format!("0.{}{mantissa}", "0".repeat(point.unsigned_abs() as usize))
+        } else if point as usize >= digits {
+            format!("{mantissa}{}", "0".repeat(point as usize - digits))
+        } else {
+            format!("{}.{}", &mantissa[..point as usize], &mantissa[point as usize..])
+        };
+        return format!("{sign}{body}");
+    }
+    let (head, tail) = mantissa.split_at(1);
+    let dot = if tail.is_empty() { "" } else { "." };
+    format!("{sign}{head}{dot}{tail}e{exponent}")
+}
+
+/// `⌊log₁₀|x|⌋`, or one more or less.
+fn decimal_exponent(x: &Rational) -> i64 {
+    Float::with_val(64, x).abs().log10().floor_int().unwrap_or(0)
+}
+
+/// `x · 10^power`.
+fn scale(x: &Rational, power: i64) -> Rational {
+    let factor = Integer::from(10).pow(u32::try_from(power.unsigned_abs()).unwrap_or(u32::MAX));
+    if power < 0 { Rational::from(x / factor) } else { Rational::from(x * factor) }
+}

@@ -1,0 +1,171 @@
+//! A number as a person wrote it.
+
+use std::fmt;
+use std::str::FromStr;
+
+use thiserror::Error;
+
+/// A number as a person wrote it: `3`, `0.1`, `1e-9`, `1/3`, `2.5/7`. It stands for exactly the rational that it spells:
+/// `0.1` is 1/10, never the nearest double.
+///
+/// **Accuracy**: exact; [`Number::to_f64`] rounds once.
+///
+/// ```
+/// use dalembert::Number;
+/// let tenth: Number = "0.1".parse()?;
+/// assert_eq!(tenth.to_f64(), 0.1);
+/// assert_eq!(tenth.to_string(), "0.1");
+/// assert!("0x10".parse::<Number>().is_err());
+/// # Ok::<(), dalembert::number::NumberError>(())
+/// ```
+#[derive(Clone, Debug)]
+pub struct Number {
+    text: String,
+    value: f64,
+}
+
+/// Why a text is not a number that can be used.
+#[derive(Clone, Debug, Error, PartialEq)]
+pub enum NumberError {
+    /// The text does not spell a number.
+    #[error("found `{0}`, expected a number such as 3, 0.1, 1e-9 or \"1/3\"")]
+    Unreadable(String),
+    /// The denominator is zero.
+    #[error("found `{0}`, expected a fraction whose denominator is not zero")]
+    ZeroDenominator(String),
+    /// The magnitude is outside what every number system here holds.
+    #[error("found `{0}`, expected zero or a magnitude between 1e-300 and 1e300")]
+    Size(String),
+    /// The text is too long.
+    #[error("found a number of {0} characters, expected at most {MAX_CHARACTERS}")]
+    TooLong(usize),
+}
+
+const MAX_CHARACTERS: usize = 20_000;
+
+impl Number {
+    /// The nearest double. **Accuracy**: correctly rounded for decimals and for fractions of integers below 2⁵³;
+    /// within 1.5 ulp for other fractions.
+    #[inline]
+    pub fn to_f64(&self) -> f64 {
+        self.value
+    }
+
+    /// Whether the number is zero.
+    pub fn is_zero(&self) -> bool {
+        self.value == 0.0
+    }
+
+    /// The fraction that the text spells. **Accuracy**: exact.
+    #[cfg(feature = "mp")]
+    pub fn to_rational(&self) -> rug::Rational {
+        let (numerator, denominator) = self.text.split_once('/').unwrap_or((&self.text, "1"));
+        decimal_to_rational(numerator) / decimal_to_rational(denominator)
+    }
+}
+
+/// The fraction that a checked decimal spells.
+#[cfg(feature = "mp")]
+fn decimal_to_rational(text: &str) -> rug::Rational {
+    use rug::ops::Pow;
+    let (mantissa, exponent) = text.split_once(['e', 'E']).unwrap_or((text, "0"));
+    let (whole, fraction) = mantissa.split_once('.').unwrap_or((mantissa, ""));
+    let digits: rug::Integer = format!("{whole}{fraction}").parse().unwrap_or_default();
+    let exponent: i64 = exponent.parse().unwrap_or(0);
+    let power = exponent - fraction.len() as i64;
+    let factor = rug::Integer::from(10).pow(u32::try_from(power.unsigned_abs()).unwrap_or(u32::MAX));
+    if power < 0 { (digits, factor).into() } else { (digits * factor).into() }
+}
+
+impl FromStr for Number {
+    type Err = NumberError;
+
+    fn from_str(source: &str) -> Result<Self, NumberError> {
+        let text: String = source.trim().chars().filter(|c| *c != '_').collect();
+        if text.len() > MAX_CHARACTERS {
+            return Err(NumberError::TooLong(text.len()));
+        }
+        let (numerator, denominator) = match text.split_once('/') {
+            Some((a, b)) => (a.trim(), b.trim()),
+            None => (text.as_str(), "1"),
+        };
+        let unreadable = || NumberError::Unreadable(source.trim().to_string());
+        if !is_decimal(numerator) || !is_decimal(denominator) {
+            return Err(unreadable());
+        }
+        let top: f64 = numerator.parse().map_err(|_| unreadable())?;
+        let bottom: f64 = denominator.parse().map_err(|_| unreadable())?;
+        if spells_zero(denominator) {
+            return Err(NumberError::ZeroDenominator(source.trim().to_string()));
+        }
+        let fits = |value: f64| (1e-300..=1e300).contains(&value.abs());
+        if !spells_zero(numerator) && !(fits(top) && fits(bottom) && fits(top / bottom)) {
+            return Err(NumberError::Size(source.trim().to_string()));
+        }
+        let text = if denominator == "1" { numerator.to_string() } else { format!("{numerator}/{denominator}") };
+        // Adding zero turns −0 into 0.
+        Ok(Number { text, value: top / bottom + 0.0 })
+    }
+}
+
+/// Whether no digit of the mantissa is other than 0.
+fn spells_zero(decimal: &str) -> bool {
+    let mantissa = decimal.split(['e', 'E']).next().unwrap_or(decimal);
+    !mantissa.contains(|c: char| c.is_ascii_digit() && c != '0')
+}
+
+/// Sign, digits with at most one point, exponent; nothing else that `f64::from_str` would take (`inf`, `nan`).
+fn is_decimal(text: &str) -> bool {
+    let unsigned = text.strip_prefix(['+', '-']).unwrap_or(text);
+    let (mantissa, exponent) = unsigned.split_once(['e', 'E']).unwrap_or((unsigned, "0"));
+    let exponent = exponent.strip_prefix(['+', '-']).unwrap_or(exponent);
+    let digits = |s: &str| s.bytes().all(|b| b.is_ascii_digit());
+    let (whole, fraction) = mantissa.split_once('.').unwrap_or((mantissa, ""));
+    digits(whole) && digits(fraction) && !(whole.is_empty() && fraction.is_empty())
+        // Four digits of exponent are more than the range that is accepted needs.
+        && !exponent.is_empty() && exponent.len() <= 6 && digits(exponent)
+}
+
+impl From<i64> for Number {
+    fn from(n: i64) -> Self {
+        Number { text: n.to_string(), value: n as f64 }
+    }
+}
+
+/// The same text spells the same number; `1/2` and `0.5` are equal in value but not here.
+impl PartialEq for Number {
+    fn eq(&self, other: &Self) -> bool {
+        self.text == other.text
+    }
+}
+
+impl fmt::Display for Number {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(&self.text)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_is_not_a_number_is_said() {
+        for text in ["", "-", ".", "1/", "/2", "nan", "inf", "0x10", "1e", "1e9999999", "1.2.3", "1/2/3", "a"] {
+            assert!(matches!(text.parse::<Number>(), Err(NumberError::Unreadable(_))), "{text}");
+        }
+        assert!(matches!("1/0.0".parse::<Number>(), Err(NumberError::ZeroDenominator(_))));
+        for text in ["1e301", "1e-301", "1e400/1e399", "1e-400"] {
+            assert!(matches!(text.parse::<Number>(), Err(NumberError::Size(_))), "{text}");
+        }
+    }
+
+    #[cfg(feature = "mp")]
+    #[test]
+    fn a_decimal_is_the_rational_that_it_spells() {
+        let cases = [("0.1", (1, 10)), ("-2.50", (-5, 2)), ("1e-3", (1, 1000)), ("1_000", (1000, 1)), ("0.5/1.5", (1, 3)), (".5", (1, 2)), ("+3.", (3, 1))];
+        for (text, fraction) in cases {
+            assert_eq!(text.parse::<Number>().unwrap().to_rational(), rug::Rational::from(fraction), "{text}");
+        }
+    }
+}

@@ -1,0 +1,22 @@
+//! Numbers: two small traits, three number systems, exact text in and rounded text out.
+//!
+//! | type | system | what it promises |
+//! |---|---|---|
+//! | `f64` | double precision | each operation correctly rounded |
+//! | `rug::Float` (feature `mp`) | any number of bits | each operation correctly rounded |
+//! | `rug::Rational` (feature `mp`) | fractions | exact; square roots only where they are rational |
+//!
+//! Formulas are written once: undamped code is `impl<S: Scalar>`, damped code is `impl<S: Analytic>`.
+
+mod double;
+#[cfg(feature = "mp")]
+mod float;
+#[cfg(feature = "mp")]
+mod fraction;
+mod literal;
+mod scalar;
+
+#[cfg(feature = "mp")]
+pub use float::{bits_for_digits, decimal};
+pub use literal::{Number, NumberError};
+pub use scalar::{Analytic, Scalar};

@@ -1,0 +1,127 @@
+//! What a formula may ask of a number.
+
+use std::fmt::Debug;
+use std::ops::{Add, Div, Mul, Neg, Sub};
+
+use super::Number;
+
+/// A field with an order: all that the undamped rod needs.
+///
+/// Neither `Copy` nor a nullary `zero()` is offered, because an arbitrary-precision number carries its precision with
+/// it: constants are lifted from a neighbour, `t.int(2)`. Binary operations take the right operand by value or by
+/// reference and the result has the precision of the left one: `a.clone() * &b + &c`.
+pub trait Scalar:
+    Clone
+    + Debug
+    + PartialOrd
+    + Neg<Output = Self>
+    + Add<Output = Self>
+    + Sub<Output = Self>
+    + Mul<Output = Self>
+    + Div<Output = Self>
+    + for<'a> Add<&'a Self, Output = Self>
+    + for<'a> Sub<&'a Self, Output = Self>
+    + for<'a> Mul<&'a Self, Output = Self>
+    + for<'a> Div<&'a Self, Output = Self>
+    + Send
+    + Sync
+    + 'static
+{
+    /// Whether every operation of the trait is exact. Error bounds are neither carried nor compared where it is true.
+    const EXACT: bool;
+
+    /// What it takes to make a first number: nothing for `f64` and fractions, the number of bits for a `Float`.
+    type Precision: Clone + Debug + Send + Sync;
+
+    /// The number that a person wrote. **Accuracy**: correctly rounded (exact for fractions).
+    fn from_number(number: &Number, precision: &Self::Precision) -> Self;
+
+    /// The precision of this number.
+    fn precision(&self) -> Self::Precision;
+
+    /// An integer, in the precision of `self`.
+    fn int(&self, n: i64) -> Self;
+
+    /// A double, in the precision of `self` (exact if that is at least 53 bits).
+    fn double(&self, x: f64) -> Self;
+
+    /// `√self` where this system has it: `None` for a fraction that is no square and for negative numbers.
+    fn try_sqrt(&self) -> Option<Self>;
+
+    /// The nearest double. **Accuracy**: correctly rounded.
+    fn to_f64(&self) -> f64;
+
+    /// The unit roundoff `u` of this number's precision, as `log₂ u` (−∞ for exact systems): −53 for `f64`.
+    fn log2_roundoff(&self) -> f64;
+
+    /// The largest integer `≤ self`. **Errors**: `None` if it does not fit an `i64` or `self` is not finite.
+    fn floor_int(&self) -> Option<i64>;
+
+    /// Whether the number is finite (fractions always are).
+    fn is_finite(&self) -> bool;
+
+    /// The shortest faithful text: `0.1` for a double, `3/2` for a fraction, all digits for a `Float`.
+    fn text(&self) -> String;
+
+    /// `p/q` in the precision of `self`, for formulas with fractional constants.
+    fn ratio(&self, p: i64, q: i64) -> Self {
+        self.int(p) / self.int(q)
+    }
+
+    /// Zero, in the precision of `self`.
+    fn zero(&self) -> Self {
+        self.int(0)
+    }
+
+    /// One, in the precision of `self`.
+    fn one(&self) -> Self {
+        self.int(1)
+    }
+
+    /// `self²`.
+    fn square(&self) -> Self {
+        self.clone() * self
+    }
+
+    /// `|self|`.
+    fn magnitude(&self) -> Self {
+        if self.is_negative() { -self.clone() } else { self.clone() }
+    }
+
+    /// `self < 0`.
+    fn is_negative(&self) -> bool {
+        *self < self.zero()
+    }
+
+    /// `self > 0`.
+    fn is_positive(&self) -> bool {
+        *self > self.zero()
+    }
+
+    /// `self = 0`.
+    fn is_zero(&self) -> bool {
+        *self == self.zero()
+    }
+}
+
+/// A `Scalar` with the elementary functions: what the damped rod needs. Where a signature asks for it, exactness ends.
+///
+/// **Accuracy**: correctly rounded for `rug::Float`; within an ulp or two for `f64`.
+pub trait Analytic: Scalar {
+    /// `√self`.
+    fn sqrt(&self) -> Self;
+    /// `eˣ`.
+    fn exp(&self) -> Self;
+    /// `eˣ − 1` without cancellation near zero.
+    fn exp_m1(&self) -> Self;
+    /// `ln x`.
+    fn ln(&self) -> Self;
+    /// `ln(1 + x)` without cancellation near zero.
+    fn ln_1p(&self) -> Self;
+    /// `cos x`.
+    fn cos(&self) -> Self;
+    /// `sin x`.
+    fn sin(&self) -> Self;
+    /// `π`, in the precision of `self`.
+    fn pi(&self) -> Self;
+}
