@@ -14,4 +14,28 @@ pub enum Error {
         /// What stands under the root.
         square: String,
     },
+    /// A question about a time that the history does not reach.
+    #[error("found time {found}, expected one between 0 and {end}, where this history ends")]
+    TimeOutside {
+        /// The time.
+        found: String,
+        /// The end of the history.
+        end: String,
+    },
+    /// A question about a point outside of the rod.
+    #[error("found point {found}, expected one between 0 and {length}, the rod's length")]
+    PointOutside {
+        /// The point.
+        found: String,
+        /// The length of the rod.
+        length: String,
+    },
+    /// The history has more pieces than the limit allows.
+    #[error("the history passed {limit} pieces at t = {time}; expected fewer: ask for a shorter time or fewer impacts")]
+    TooManyPieces {
+        /// The limit.
+        limit: usize,
+        /// The time at which it was passed.
+        time: f64,
+    },
 }

@@ -99,7 +99,8 @@ impl FromStr for Number {
             return Err(NumberError::ZeroDenominator(source.trim().to_string()));
         }
         let fits = |value: f64| (1e-300..=1e300).contains(&value.abs());
-        if !spells_zero(numerator) && !(fits(top) && fits(bottom) && fits(top / bottom)) {
+        let usable = spells_zero(numerator) || (fits(top) && fits(bottom) && fits(top / bottom));
+        if !usable {
             return Err(NumberError::Size(source.trim().to_string()));
         }
         let text = if denominator == "1" { numerator.to_string() } else { format!("{numerator}/{denominator}") };
@@ -163,7 +164,15 @@ mod tests {
     #[cfg(feature = "mp")]
     #[test]
     fn a_decimal_is_the_rational_that_it_spells() {
-        let cases = [("0.1", (1, 10)), ("-2.50", (-5, 2)), ("1e-3", (1, 1000)), ("1_000", (1000, 1)), ("0.5/1.5", (1, 3)), (".5", (1, 2)), ("+3.", (3, 1))];
+        let cases = [
+            ("0.1", (1, 10)),
+            ("-2.50", (-5, 2)),
+            ("1e-3", (1, 1000)),
+            ("1_000", (1000, 1)),
+            ("0.5/1.5", (1, 3)),
+            (".5", (1, 2)),
+            ("+3.", (3, 1)),
+        ];
         for (text, fraction) in cases {
             assert_eq!(text.parse::<Number>().unwrap().to_rational(), rug::Rational::from(fraction), "{text}");
         }

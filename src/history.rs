@@ -1,0 +1,159 @@
+//! The answer as an object: what happened, and what can be asked of it.
+
+use crate::error::Error;
+use crate::number::Scalar;
+
+/// Which of two values at a jump: the limit from earlier or from later times.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Side {
+    /// The limit from earlier times, `t⁻`.
+    Left,
+    /// The limit from later times, `t⁺`.
+    #[default]
+    Right,
+}
+
+/// What happens to the ground end.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum EventKind {
+    /// It lands: contact begins.
+    Impact,
+    /// It leaves: contact ends.
+    Release,
+}
+
+/// A change between contact and flight.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Event<S> {
+    /// Landing or leaving.
+    pub kind: EventKind,
+    /// `t`.
+    pub time: S,
+    /// `v_t(0,t)`: just before an impact, just after a release.
+    pub end_velocity: S,
+    /// `h(t)`: the centre of mass, relative to its place in the undeformed rod on the ground.
+    pub centre: S,
+    /// `h′(t)`.
+    pub centre_velocity: S,
+    /// How far `time` may be off, in its own unit: zero where it is exact.
+    pub time_error: f64,
+}
+
+/// A time on the ground.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Contact<S> {
+    /// Its beginning.
+    pub from: S,
+    /// Its end; `None` where the history ends before.
+    pub to: Option<S>,
+    /// `−c² ∫ v_x(0,t) dt ≥ 0` over the contact: momentum per linear density that the ground gives.
+    pub impulse: S,
+    /// The most compressive `v_x(0,t)` of the contact, `≤ 0`.
+    pub peak_stress: S,
+}
+
+/// The energies (3.54), (3.61)–(3.63), per linear density.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Energy<S> {
+    /// `E = E_h + E_z`.
+    pub total: S,
+    /// `E_h = L h′²/2 + L g h`: the motion of the centre of mass.
+    pub translational: S,
+    /// `E_z = ½ ∫ ((v_t − h′)² + c² v_x²) dx`, a sum of squares.
+    pub vibrational: S,
+}
+
+/// The displacement and its derivatives at a point.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Field<S> {
+    /// `v`.
+    pub displacement: S,
+    /// `v_t`.
+    pub velocity: S,
+    /// `v_x`.
+    pub strain: S,
+}
+
+/// A stretch of the stress history `v_x(0,·)` without jump or kink.
+#[derive(Clone, Debug, PartialEq)]
+pub struct StressPiece<S> {
+    /// Its beginning.
+    pub from: S,
+    /// Its end.
+    pub to: S,
+    /// `v_x(0, from⁺)`.
+    pub left: S,
+    /// `v_x(0, to⁻)`.
+    pub right: S,
+    /// Chebyshev coefficients of `v_x(0,·)` on the piece (first one whole, not halved); empty where it is linear.
+    pub chebyshev: Vec<S>,
+}
+
+/// Why a history ends where it does.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Ending {
+    /// The time that was asked for.
+    Time,
+    /// The next impact after the contacts that were asked for.
+    NextImpact,
+    /// No impact can follow, for the reason that is said.
+    NoFurtherImpact(String),
+    /// No release can follow, for the reason that is said.
+    NoBounce(String),
+    /// The rod has come to rest, by the criterion that is said.
+    Rest(String),
+    /// The next event is at no fraction.
+    ExactnessEnds {
+        /// The event.
+        kind: EventKind,
+        /// Its time as a surd, `3 + √2`.
+        time: String,
+        /// The nearest double.
+        near: f64,
+    },
+    /// The asked accuracy or effort does not settle what comes next.
+    Undecided(String),
+}
+
+/// What can be asked of a solution. All times are absolute, in the units of the scene; a time outside of
+/// `0 … end()` is [`Error::TimeOutside`], a point outside of the rod is [`Error::PointOutside`].
+pub trait History<S: Scalar> {
+    /// The last time that is known.
+    fn end(&self) -> S;
+
+    /// Why it is the last.
+    fn ending(&self) -> &Ending;
+
+    /// All impacts and releases, in order. The start at `t = 0` is the first impact where the rod stands on the ground.
+    fn events(&self) -> &[Event<S>];
+
+    /// All contacts, in order.
+    fn contacts(&self) -> &[Contact<S>];
+
+    /// `v_x(0,·)` from 0 to the end, pieces in order, canonical: neighbours that continue each other are one.
+    fn stress_pieces(&self) -> Vec<StressPiece<S>>;
+
+    /// `v_x(0,t)`: the stress at the ground divided by the modulus; zero in flight.
+    fn stress(&self, time: &S, side: Side) -> Result<S, Error>;
+
+    /// `v(0,t)` and `v_t(0,t)`.
+    fn ground_end(&self, time: &S, side: Side) -> Result<(S, S), Error>;
+
+    /// `v(L,t)` and `v_t(L,t)`.
+    fn top_end(&self, time: &S, side: Side) -> Result<(S, S), Error>;
+
+    /// `h(t)` and `h′(t)`.
+    fn centre(&self, time: &S) -> Result<(S, S), Error>;
+
+    /// `E(t)`, `E_h(t)`, `E_z(t)`.
+    fn energy(&self, time: &S) -> Result<Energy<S>, Error>;
+
+    /// `v`, `v_t`, `v_x` at `(x,t)`.
+    fn field(&self, point: &S, time: &S, side: Side) -> Result<Field<S>, Error>;
+
+    /// How far any printed quantity may be off, relative to its natural scale: zero where it is exact.
+    fn error_estimate(&self) -> f64;
+
+    /// What a user should know: events decided by rounding, digits lost. Data, for the caller to print.
+    fn warnings(&self) -> &[String];
+}
