@@ -29,7 +29,8 @@ pub struct Event<S> {
     pub kind: EventKind,
     /// `t`.
     pub time: S,
-    /// `v_t(0,t)`: just before an impact, just after a release.
+    /// `v_t(0,t)`: just before an impact, just after a release. At a landing without speed that a ray turns into an impact,
+    /// the `v_t + c v_x < 0` which that ray brings.
     pub end_velocity: S,
     /// `h(t)`: the centre of mass, relative to its place in the undeformed rod on the ground.
     pub centre: S,

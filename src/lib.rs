@@ -2,9 +2,11 @@
 
 pub mod error;
 pub mod history;
+pub mod lattice;
 pub mod number;
 pub mod rod;
 
 pub use error::Error;
+pub use history::{Ending, EventKind, History, Side};
 pub use number::Number;
 pub use rod::Problem;

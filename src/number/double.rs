@@ -33,8 +33,8 @@ impl Scalar for f64 {
     }
 
     #[inline]
-    fn log2_roundoff(&self) -> f64 {
-        -53.0
+    fn roundoff(&self) -> Self {
+        f64::EPSILON / 2.0
     }
 
     #[inline]

@@ -35,8 +35,8 @@ impl Scalar for Float {
         Float::to_f64(self)
     }
 
-    fn log2_roundoff(&self) -> f64 {
-        -f64::from(self.prec())
+    fn roundoff(&self) -> Self {
+        Float::with_val(self.prec(), 1) >> self.prec()
     }
 
     fn floor_int(&self) -> Option<i64> {

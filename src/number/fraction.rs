@@ -6,6 +6,9 @@ use rug::{Float, Integer, Rational};
 
 use super::{Number, Scalar};
 
+/// Square factors below this leave the root of a surd that is printed.
+const SMALL_FACTOR: u32 = 10_000;
+
 impl Scalar for Rational {
     const EXACT: bool = true;
     type Precision = ();
@@ -36,8 +39,8 @@ impl Scalar for Rational {
         Float::with_val_round(53, self, Round::Nearest).0.to_f64()
     }
 
-    fn log2_roundoff(&self) -> f64 {
-        f64::NEG_INFINITY
+    fn roundoff(&self) -> Self {
+        Rational::new()
     }
 
     fn floor_int(&self) -> Option<i64> {
@@ -50,6 +53,33 @@ impl Scalar for Rational {
 
     fn text(&self) -> String {
         self.to_string()
+    }
+
+    fn surd(&self, plus: bool, square: &Self) -> String {
+        // √(n/d) = √(n d)/d, and squares of small primes leave the root.
+        let mut radicand = Integer::from(square.numer() * square.denom());
+        let mut factor = Rational::from((1, square.denom()));
+        let mut prime = Integer::from(2);
+        while prime < SMALL_FACTOR && Integer::from(prime.square_ref()) <= radicand {
+            let square = Integer::from(prime.square_ref());
+            while radicand.is_divisible(&square) {
+                radicand.div_exact_mut(&square);
+                factor *= &prime;
+            }
+            prime += 1;
+        }
+        if radicand.is_perfect_square() {
+            factor *= radicand.sqrt();
+            radicand = Integer::from(1);
+        }
+        let times = if *factor.numer() == 1 { String::new() } else { factor.numer().to_string() };
+        let over = if *factor.denom() == 1 { String::new() } else { format!("/{}", factor.denom()) };
+        let root = format!("{times}√{radicand}{over}");
+        match (self.cmp0().is_eq(), plus) {
+            (true, true) => root,
+            (true, false) => format!("−{root}"),
+            (false, _) => format!("{self} {} {root}", if plus { '+' } else { '−' }),
+        }
     }
 
     fn zero(&self) -> Self {
@@ -66,5 +96,19 @@ impl Scalar for Rational {
 
     fn is_zero(&self) -> bool {
         self.cmp0().is_eq()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn surds_are_printed_in_lowest_terms() {
+        let text = |a: (i32, i32), plus, b: (i32, i32)| Rational::from(a).surd(plus, &Rational::from(b));
+        assert_eq!(text((3, 1), true, (2, 1)), "3 + √2");
+        assert_eq!(text((5, 2), false, (12, 1)), "5/2 − 2√3");
+        assert_eq!(text((0, 1), true, (1, 2)), "√2/2");
+        assert_eq!(text((1, 1), true, (8, 9)), "1 + 2√2/3");
     }
 }

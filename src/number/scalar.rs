@@ -51,8 +51,8 @@ pub trait Scalar:
     /// The nearest double. **Accuracy**: correctly rounded.
     fn to_f64(&self) -> f64;
 
-    /// The unit roundoff `u` of this number's precision, as `log₂ u` (−∞ for exact systems): −53 for `f64`.
-    fn log2_roundoff(&self) -> f64;
+    /// The unit roundoff `u` of this number's precision: `2⁻⁵³` for `f64`, zero for exact systems.
+    fn roundoff(&self) -> Self;
 
     /// The largest integer `≤ self`. **Errors**: `None` if it does not fit an `i64` or `self` is not finite.
     fn floor_int(&self) -> Option<i64>;
@@ -62,6 +62,11 @@ pub trait Scalar:
 
     /// The shortest faithful text: `0.1` for a double, `3/2` for a fraction, all digits for a `Float`.
     fn text(&self) -> String;
+
+    /// The text of `self ± √square`, simplified where the system can: `3 + √2`.
+    fn surd(&self, plus: bool, square: &Self) -> String {
+        format!("{} {} √({})", self.text(), if plus { '+' } else { '−' }, square.text())
+    }
 
     /// `p/q` in the precision of `self`, for formulas with fractional constants.
     fn ratio(&self, p: i64, q: i64) -> Self {

@@ -1,0 +1,528 @@
+//! What can be asked of an undamped history.
+
+use super::march::{Halt, Limits, Marched, Until, march};
+use super::scaled::{Scaled, Units};
+use super::trace::Piece;
+use crate::error::Error;
+use crate::history::{Contact, Ending, Energy, Event, EventKind, Field, History, Side, StressPiece};
+use crate::number::Scalar;
+use crate::rod::{Problem, Run, Top};
+
+/// The history of an undamped rod: [`History`] by the ground trace of the upward invariant.
+///
+/// **Accuracy**: *exact* in fractions; otherwise rounded, with the bound of [`History::error_estimate`].
+#[derive(Clone, Debug)]
+pub struct Undamped<S> {
+    problem: Scaled<S>,
+    marched: Marched<S>,
+    end: Moment<S>,
+    ending: Ending,
+    events: Vec<Event<S>>,
+    contacts: Vec<Contact<S>>,
+    warnings: Vec<String>,
+}
+
+/// A time as a round trip and an age in it. The trip before the start has `index` 0.
+#[derive(Clone, Debug)]
+struct Moment<S> {
+    index: usize,
+    fraction: S,
+}
+
+impl<S: Scalar> Undamped<S> {
+    /// The history of `problem`, whose damping is ignored: see [`crate::scene::plan`] for the choice of engine.
+    ///
+    /// **Errors**: [`Error::Irrational`], [`Error::TooManyPieces`].
+    ///
+    /// ```
+    /// use dalembert::{History, Number, Problem, lattice::Undamped};
+    /// let problem = Problem::uniform(Number::from(1), Number::from(1), Number::from(1), Number::from(3));
+    /// let history = Undamped::<f64>::solve(&problem, &())?;
+    /// // Corollary 1: at μ = 3 ≥ g t₁ = 2 the contact lasts exactly t₁ = 2.
+    /// assert_eq!(history.contacts()[0].to, Some(2.0));
+    /// # Ok::<(), dalembert::Error>(())
+    /// ```
+    pub fn solve(problem: &Problem, precision: &S::Precision) -> Result<Self, Error> {
+        Self::solve_within(problem, precision, Limits::default(), |_, _| ())
+    }
+
+    /// [`Undamped::solve`] with a limit of one's own; `observe` is told the round trip and the pieces so far.
+    pub fn solve_within(
+        problem: &Problem,
+        precision: &S::Precision,
+        limits: Limits,
+        observe: impl FnMut(usize, usize),
+    ) -> Result<Self, Error> {
+        let scaled = Scaled::<S>::of(problem, precision)?;
+        let until = match &problem.run {
+            Run::Impacts(contacts) => Until::Contacts(*contacts),
+            Run::Time(time) => {
+                let age = S::from_number(time, precision) / &scaled.units.round_trip;
+                match age.floor_int().and_then(|trip| usize::try_from(trip).ok()) {
+                    Some(trip) => Until::Age(trip, age.clone() - age.int(trip as i64)),
+                    None => return Err(Error::TooManyPieces { limit: limits.pieces, time: time.to_f64() }),
+                }
+            }
+        };
+        let marched = march(&scaled, &until, limits, observe)?;
+        Ok(Self::assemble(scaled, marched, until))
+    }
+
+    fn assemble(problem: Scaled<S>, marched: Marched<S>, until: Until<S>) -> Self {
+        let trips = marched.trace.trips();
+        let moment = |trip: usize, fraction: &S| Moment { index: trip + 1, fraction: fraction.clone() };
+        let mut history = Undamped {
+            end: moment(trips, &problem.gravity.zero()),
+            ending: Ending::Time,
+            events: Vec::with_capacity(marched.occurrences.len()),
+            contacts: Vec::with_capacity(marched.occurrences.len() / 2 + 1),
+            warnings: Vec::new(),
+            problem,
+            marched,
+        };
+        match (&history.marched.halt, until) {
+            (Halt::Time, Until::Age(trip, fraction)) => history.end = Moment { index: trip + 1, fraction },
+            (Halt::Time, Until::Contacts(_)) => (),
+            (Halt::NextImpact(trip, fraction), _) => {
+                history.end = moment(*trip, fraction);
+                history.ending = Ending::NextImpact;
+            }
+            (Halt::NoFurtherImpact, _) => {
+                history.ending = Ending::NoFurtherImpact(
+                    "the end does not come down in two whole round trips, which repeat for ever".into(),
+                );
+            }
+            (Halt::NoBounce, _) => {
+                history.ending = Ending::NoBounce(
+                    "the end stays on the ground for two whole round trips, which repeat for ever".into(),
+                );
+            }
+            (Halt::Irrational { .. }, _) => history.stop_before_surd(),
+        }
+        if history.end.index == trips + 1 && history.end.fraction.is_zero() && !matches!(history.ending, Ending::Time) {
+            // The stored trips end where the next begins: the last instant that is known.
+            history.end = Moment { index: trips, fraction: history.end.fraction.one() };
+        }
+        history.tell_events();
+        history.tell_contacts();
+        history.tell_warnings();
+        history
+    }
+
+    /// Everything before the irrational landing is exact; the history ends at a fraction just below it.
+    fn stop_before_surd(&mut self) {
+        let Halt::Irrational { trip, fraction, q, slope, disc } = &self.marched.halt else { return };
+        let unit = &self.problem.units.round_trip;
+        let scale = unit.clone() / slope;
+        let rational = (q.int(*trip as i64) + fraction) * unit - scale.clone() * q;
+        let time = rational.surd(slope.is_negative(), &(scale.square() * disc));
+        let (q, slope, disc) = (q.to_f64(), slope.to_f64(), disc.to_f64());
+        let age = (-q - disc.sqrt()) / slope;
+        let near = (*trip as f64 + fraction.to_f64() + age) * unit.to_f64();
+        let below = fraction.clone() + fraction.double(age * (1.0 - 1e-9));
+        self.end = Moment { index: trip + 1, fraction: below };
+        self.ending = Ending::ExactnessEnds { kind: EventKind::Impact, time, near };
+    }
+
+    fn tell_events(&mut self) {
+        let round_trip = self.problem.units.round_trip.to_f64();
+        let unit = self.problem.gravity.roundoff().to_f64();
+        let events = self.marched.occurrences.iter().map(|occurrence| {
+            let moment = Moment { index: occurrence.trip + 1, fraction: occurrence.fraction.clone() };
+            let (centre, centre_velocity) = self.centre_at(&moment);
+            Event {
+                kind: occurrence.kind,
+                time: self.time_of(&moment),
+                end_velocity: occurrence.end_velocity.clone() * &self.problem.units.velocity,
+                centre,
+                centre_velocity,
+                time_error: if S::EXACT { 0.0 } else { occurrence.error * unit * round_trip },
+            }
+        });
+        self.events = events.collect();
+    }
+
+    fn tell_contacts(&mut self) {
+        let units = &self.problem.units;
+        let end = self.end.clone();
+        let moment = |k: usize| {
+            let at = self.marched.occurrences.get(k)?;
+            Some(Moment { index: at.trip + 1, fraction: at.fraction.clone() })
+        };
+        for (k, event) in self.events.iter().enumerate().filter(|(_, event)| event.kind == EventKind::Impact) {
+            let Some(from) = moment(k) else { continue };
+            let released = moment(k + 1);
+            let until = released.as_ref().unwrap_or(&end);
+            let width = until.fraction.int(until.index as i64 - from.index as i64) + &until.fraction - &from.fraction;
+            let (mut sum, mut peak) = (width.zero(), width.zero());
+            self.marched.trace.window(from.index, &from.fraction, &width, |part| {
+                let rise = part.slope.clone() * &part.width;
+                let at_end = part.value.clone() + &rise;
+                for p in [&part.value, &at_end] {
+                    if *p > peak {
+                        peak = p.clone();
+                    }
+                }
+                sum = sum.clone() + (part.value.clone() + rise / part.value.int(2)) * &part.width;
+            });
+            self.contacts.push(Contact {
+                from: event.time.clone(),
+                to: self.events.get(k + 1).map(|release| release.time.clone()),
+                impulse: sum * width.int(2) * &units.length * &units.velocity,
+                peak_stress: -(peak * &units.velocity / &units.wave_speed),
+            });
+        }
+    }
+
+    fn tell_warnings(&mut self) {
+        let round_trip = self.problem.units.round_trip.to_f64();
+        if let Some(event) = self.events.iter().find(|event| event.time_error > LOST * round_trip) {
+            self.warnings.push(format!(
+                "from t = {:.6} on, the events are not determined in this precision (error bound {:.1e}): ask for more digits",
+                event.time.to_f64(),
+                event.time_error
+            ));
+        }
+    }
+
+    /// The units of the lattice.
+    pub fn units(&self) -> &Units<S> {
+        &self.problem.units
+    }
+
+    /// The end `x = L`.
+    pub fn top(&self) -> Top {
+        self.problem.top
+    }
+
+    /// What the march left: pieces, occurrences, grazes and error bounds, in lattice units.
+    pub fn marched(&self) -> &Marched<S> {
+        &self.marched
+    }
+
+    /// Bound on the relative error of all that has been computed, in roundoffs.
+    pub fn greatest_error(&self) -> f64 {
+        self.marched.greatest_error
+    }
+
+    fn time_of(&self, moment: &Moment<S>) -> S {
+        let trips = moment.fraction.int(moment.index as i64 - 1);
+        (trips + &moment.fraction) * &self.problem.units.round_trip
+    }
+
+    /// Where `time` lies; in rounded numbers a time within rounding of a ray lies on it.
+    fn locate(&self, time: &S) -> Result<Moment<S>, Error> {
+        let outside = || Error::TimeOutside { found: time.text(), end: self.end().text() };
+        let age = time.clone() / &self.problem.units.round_trip;
+        let trip = age.floor_int().and_then(|trip| usize::try_from(trip).ok()).ok_or_else(outside)?;
+        let fraction = age.clone() - age.int(trip as i64);
+        let moment = self.snap(Moment { index: trip + 1, fraction });
+        let end = &self.end;
+        let later = moment.index > end.index || (moment.index == end.index && moment.fraction > end.fraction);
+        let after_whole_trip =
+            moment.index == end.index + 1 && moment.fraction.is_zero() && end.fraction == end.fraction.one();
+        if later && !after_whole_trip {
+            let excess = age.to_f64() - (end.index as f64 - 1.0 + end.fraction.to_f64());
+            if S::EXACT || excess > 8.0 * age.roundoff().to_f64() * age.to_f64() {
+                return Err(outside());
+            }
+        }
+        Ok(if later { end.clone() } else { moment })
+    }
+
+    fn snap(&self, moment: Moment<S>) -> Moment<S> {
+        if S::EXACT {
+            return moment;
+        }
+        let Moment { index, fraction } = moment;
+        let tolerance = fraction.roundoff() * fraction.double(8.0 * (index as f64 + 1.0));
+        if index < self.marched.trace.trips() + 1 && fraction.one() - &fraction <= tolerance {
+            return Moment { index: index + 1, fraction: fraction.zero() };
+        }
+        let near = |piece: &Piece<S>| (piece.fraction.clone() - &fraction).magnitude() <= tolerance;
+        if index > self.marched.trace.trips() {
+            return Moment { index, fraction };
+        }
+        let above = fraction.clone() + &tolerance;
+        let (found, piece) = self.marched.trace.find(index, &above, false);
+        let fraction = if found == index && near(piece) { piece.fraction.clone() } else { fraction };
+        Moment { index, fraction }
+    }
+
+    /// `by` earlier (if negative) or later, less than one round trip.
+    fn shifted(&self, moment: &Moment<S>, by: &S) -> Moment<S> {
+        let fraction = moment.fraction.clone() + by;
+        let one = by.one();
+        let moment = if fraction.is_negative() {
+            Moment { index: moment.index.saturating_sub(1), fraction: fraction + &one }
+        } else if fraction >= one {
+            Moment { index: moment.index + 1, fraction: fraction - &one }
+        } else {
+            Moment { index: moment.index, fraction }
+        };
+        self.snap(moment)
+    }
+
+    /// `v(0,t)` in lattice units.
+    fn height_at(&self, moment: &Moment<S>) -> S {
+        let (found, piece) = self.marched.trace.find(moment.index, &moment.fraction, true);
+        // At the very start there is no piece before.
+        if found == 0 {
+            return self.problem.ground_start.clone();
+        }
+        if piece.contact {
+            return piece.height.zero();
+        }
+        let trips = moment.fraction.int(moment.index as i64 - found as i64);
+        let age = trips + &moment.fraction - &piece.fraction;
+        let rise = piece.value.clone() + piece.slope.clone() * &age / age.int(2);
+        piece.height.clone() + rise * &age
+    }
+
+    /// `p` over `width` before the moment and `q` over `width` after it, part by part: `(offset, width, value, slope)`,
+    /// the offset counted from the ground for `q` and from the far end for `p`.
+    fn window(&self, moment: &Moment<S>, width: &S, mut upward: impl FnMut([S; 4]), mut downward: impl FnMut([S; 4])) {
+        let trace = &self.marched.trace;
+        let from = {
+            let fraction = moment.fraction.clone() - width;
+            if fraction.is_negative() { (moment.index - 1, fraction + width.one()) } else { (moment.index, fraction) }
+        };
+        trace.window(from.0, &from.1, width, |part| upward([part.offset, part.width, part.value, part.slope]));
+        trace.window(moment.index - 1, &moment.fraction, width, |part| {
+            downward([part.offset, part.width, trace.returned(&part.value), trace.returned_slope(&part.slope)]);
+        });
+    }
+
+    /// `h`, `h′` in the units of the scene.
+    ///
+    /// **Source**: with `X = x/2L` and times in round trips, `h′ = ∫(p + q) dX` and
+    /// `h = v(0,t) + ∫ (½ − X)(q − p) dX + g/24` over `0 < X < ½`, from `v_x` integrated from the ground up.
+    fn centre_at(&self, moment: &Moment<S>) -> (S, S) {
+        let gravity = &self.problem.gravity;
+        let half = gravity.ratio(1, 2);
+        let (mut h, mut rate) = (self.height_at(moment) + gravity.clone() / gravity.int(24), gravity.zero());
+        let (mut up, mut down) = ((half.zero(), half.zero()), (half.zero(), half.zero()));
+        // ∫ (a + m s) ds and ∫ s (a + m s) ds over a part.
+        let moments = |[_, w, a, m]: &[S; 4]| {
+            let rise = m.clone() * w;
+            let first = (a.clone() + rise.clone() / w.int(2)) * w;
+            let second = (a.clone() / w.int(2) + rise / w.int(3)) * w * w;
+            (first, second)
+        };
+        self.window(
+            moment,
+            &half,
+            |part| {
+                let (first, second) = moments(&part);
+                up = (up.0.clone() + &first, up.1.clone() + part[0].clone() * &first + second);
+            },
+            |part| {
+                let (first, second) = moments(&part);
+                down = (down.0.clone() + &first, down.1.clone() + (half.clone() - &part[0]) * &first - second);
+            },
+        );
+        rate = rate + up.0 + down.0;
+        h = h + down.1 - up.1;
+        let Units { round_trip, velocity, .. } = &self.problem.units;
+        (h * velocity * round_trip, rate * velocity)
+    }
+
+    fn field_at(&self, moment: &Moment<S>, x: &S, side: Side) -> Field<S> {
+        let trace = &self.marched.trace;
+        let units = &self.problem.units;
+        let gravity = &self.problem.gravity;
+        let before = side == Side::Left;
+        let height = x.clone() / x.int(2) / &units.length;
+        let lift = gravity.clone() * &height;
+        let below = self.shifted(moment, &-height.clone());
+        let above = self.shifted(moment, &height);
+        let p = trace.value(below.index, &below.fraction, before) - &lift;
+        let q = trace.returned(&trace.value(above.index - 1, &above.fraction, before)) + &lift;
+        let (mut up, mut down) = (x.zero(), x.zero());
+        let integral = |[_, w, a, m]: [S; 4]| (a + m * &w / w.int(2)) * &w;
+        self.window(
+            moment,
+            &height,
+            |part| up = up.clone() + integral(part),
+            |part| down = down.clone() + integral(part),
+        );
+        let v = self.height_at(moment) + (down - up + lift * height) / x.int(2);
+        Field {
+            displacement: v * &units.velocity * &units.round_trip,
+            velocity: (p.clone() + &q) / x.int(2) * &units.velocity,
+            strain: (q - p) / x.int(2) * &units.velocity / &units.wave_speed,
+        }
+    }
+
+    /// The piece at the asked side of a moment.
+    fn piece_at(&self, moment: &Moment<S>, side: Side) -> (usize, &Piece<S>) {
+        self.marched.trace.find(moment.index, &moment.fraction, side == Side::Left)
+    }
+}
+
+/// An event whose time may be off by this much of a round trip is no longer determined.
+const LOST: f64 = 1e-3;
+
+impl<S: Scalar> History<S> for Undamped<S> {
+    fn end(&self) -> S {
+        self.time_of(&self.end)
+    }
+
+    fn ending(&self) -> &Ending {
+        &self.ending
+    }
+
+    fn events(&self) -> &[Event<S>] {
+        &self.events
+    }
+
+    fn contacts(&self) -> &[Contact<S>] {
+        &self.contacts
+    }
+
+    fn stress_pieces(&self) -> Vec<StressPiece<S>> {
+        let Units { wave_speed, velocity, .. } = &self.problem.units;
+        let scale = velocity.clone() / wave_speed;
+        let mut out: Vec<StressPiece<S>> = Vec::new();
+        let mut last: Option<(&Piece<S>, usize)> = None;
+        let mut close = |from: &Piece<S>, trip: usize, to: &Moment<S>| {
+            let stress = |age: S| {
+                if !from.contact {
+                    return age.zero();
+                }
+                -((from.value.clone() + from.slope.clone() * age) * &scale)
+            };
+            let width = to.fraction.int(to.index as i64 - 1 - trip as i64) + &to.fraction - &from.fraction;
+            if width.is_positive() {
+                let begin = Moment { index: trip + 1, fraction: from.fraction.clone() };
+                out.push(StressPiece {
+                    from: self.time_of(&begin),
+                    to: self.time_of(to),
+                    left: stress(width.zero()),
+                    right: stress(width),
+                    chebyshev: Vec::new(),
+                });
+            }
+        };
+        for trip in 0..self.marched.trace.trips() {
+            for piece in self.marched.trace.trip(trip) {
+                let here = Moment { index: trip + 1, fraction: piece.fraction.clone() };
+                match last {
+                    Some((from, begun)) if self.continues(from, begun, piece, trip) => continue,
+                    Some((from, begun)) => close(from, begun, &here),
+                    None => (),
+                }
+                last = Some((piece, trip));
+            }
+        }
+        if let Some((from, begun)) = last {
+            close(from, begun, &self.end);
+        }
+        out
+    }
+
+    fn stress(&self, time: &S, side: Side) -> Result<S, Error> {
+        let moment = self.locate(time)?;
+        let (found, piece) = self.piece_at(&moment, side);
+        // Before the start nothing is stressed at the ground.
+        if found == 0 || !piece.contact {
+            return Ok(time.zero());
+        }
+        let p = self.marched.trace.value(moment.index, &moment.fraction, side == Side::Left);
+        Ok(-(p * &self.problem.units.velocity / &self.problem.units.wave_speed))
+    }
+
+    fn ground_end(&self, time: &S, side: Side) -> Result<(S, S), Error> {
+        let moment = self.locate(time)?;
+        let Units { round_trip, velocity, .. } = &self.problem.units;
+        let (found, piece) = self.piece_at(&moment, side);
+        let rate = if found == 0 {
+            self.problem.ground_velocity.clone()
+        } else if piece.contact {
+            time.zero()
+        } else {
+            self.marched.trace.value(moment.index, &moment.fraction, side == Side::Left)
+        };
+        Ok((self.height_at(&moment) * velocity * round_trip, rate * velocity))
+    }
+
+    fn top_end(&self, time: &S, side: Side) -> Result<(S, S), Error> {
+        let top = self.field_at(&self.locate(time)?, &self.problem.units.length, side);
+        Ok((top.displacement, top.velocity))
+    }
+
+    fn centre(&self, time: &S) -> Result<(S, S), Error> {
+        Ok(self.centre_at(&self.locate(time)?))
+    }
+
+    fn energy(&self, time: &S) -> Result<Energy<S>, Error> {
+        let moment = self.locate(time)?;
+        let Units { round_trip, velocity, length, .. } = &self.problem.units;
+        let gravity = &self.problem.gravity;
+        let (h, rate) = self.centre_at(&moment);
+        let (h, rate) = (h / velocity / round_trip, rate / velocity);
+        let half = h.ratio(1, 2);
+        let (mut up, mut down) = (h.zero(), h.zero());
+        // ∫ (a + m s)² ds over a part, as a sum of squares about its middle.
+        let square = |w: &S, a: S, m: &S| {
+            let rise = m.clone() * w;
+            let middle = a + rise.clone() / w.int(2);
+            (middle.square() + rise.square() / w.int(12)) * w
+        };
+        self.window(
+            &moment,
+            &half,
+            |[offset, w, a, m]| {
+                let lift = gravity.clone() * (half.clone() - &offset);
+                up = up.clone() + square(&w, a - lift - &rate, &(m + gravity));
+            },
+            |[offset, w, a, m]| {
+                let lift = gravity.clone() * &offset;
+                down = down.clone() + square(&w, a + lift - &rate, &(m + gravity));
+            },
+        );
+        let unit = velocity.square() * length;
+        let vibrational = (up + down) / h.int(2) * &unit;
+        let translational = (rate.square() / h.int(2) + gravity.clone() * &h) * &unit;
+        Ok(Energy { total: translational.clone() + &vibrational, translational, vibrational })
+    }
+
+    fn field(&self, point: &S, time: &S, side: Side) -> Result<Field<S>, Error> {
+        let length = &self.problem.units.length;
+        if point.is_negative() || point > length || !point.is_finite() {
+            return Err(Error::PointOutside { found: point.text(), length: length.text() });
+        }
+        Ok(self.field_at(&self.locate(time)?, point, side))
+    }
+
+    fn error_estimate(&self) -> f64 {
+        self.marched.greatest_error * self.problem.gravity.roundoff().to_f64()
+    }
+
+    fn warnings(&self) -> &[String] {
+        &self.warnings
+    }
+}
+
+impl<S: Scalar> Undamped<S> {
+    /// Whether `piece` of `trip` continues `from` of trip `begun`: the same line (or flight in both).
+    fn continues(&self, from: &Piece<S>, begun: usize, piece: &Piece<S>, trip: usize) -> bool {
+        if from.contact != piece.contact {
+            return false;
+        }
+        if !piece.contact {
+            return true;
+        }
+        if from.slope != piece.slope {
+            return false;
+        }
+        let age = piece.fraction.int(trip as i64 - begun as i64) + &piece.fraction - &from.fraction;
+        let jump = from.slope.clone() * age + &from.value - &piece.value;
+        if S::EXACT {
+            return jump.is_zero();
+        }
+        let rounding = 4.0 * (from.value.to_f64().abs() + piece.value.to_f64().abs());
+        let error = from.value_error + piece.value_error + rounding;
+        jump.magnitude() <= jump.roundoff() * jump.double(error)
+    }
+}
