@@ -1,4 +1,5 @@
 //! The undamped lattice against the reference values of an independent program.
+#![allow(clippy::unwrap_used)]
 
 mod common;
 

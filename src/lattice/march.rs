@@ -347,7 +347,7 @@ impl<S: Scalar> March<S> {
                 }
             };
             self.arriving = q_end;
-            let Some((kind, age, error)) = event else { return None };
+            let (kind, age, error) = event?;
             // The same line, anchored at the event.
             let q_event = match kind {
                 EventKind::Release => q.zero(),

@@ -156,7 +156,7 @@ impl<S: Scalar> Trace<S> {
     /// `p` over `width` after age `from` of trip `index` (0: before the start), in parts.
     pub(crate) fn window(&self, index: usize, from: &S, width: &S, mut visit: impl FnMut(Part<S>)) {
         let zero = width.zero();
-        if !(*width > zero) {
+        if !width.is_positive() {
             return;
         }
         let (mut index, mut from, mut left, mut offset) = (index, from.clone(), width.clone(), zero);
