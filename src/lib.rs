@@ -1,6 +1,7 @@
 //! Exact reference solutions for the bouncing elastic rod.
 
 pub mod error;
+pub mod first_contact;
 pub mod history;
 pub mod lattice;
 pub mod number;
