@@ -4,7 +4,9 @@ pub mod error;
 pub mod history;
 pub mod number;
 pub mod rod;
+pub mod scene;
 
 pub use error::Error;
 pub use number::Number;
 pub use rod::Problem;
+pub use scene::Scene;
