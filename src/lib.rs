@@ -6,8 +6,10 @@ pub mod history;
 pub mod lattice;
 pub mod number;
 pub mod rod;
+pub mod scene;
 
 pub use error::Error;
 pub use history::{Ending, EventKind, History, Side};
 pub use number::Number;
 pub use rod::Problem;
+pub use scene::Scene;

@@ -1,5 +1,6 @@
 //! A number as a person wrote it.
 
+use std::cmp::Ordering;
 use std::fmt;
 use std::str::FromStr;
 
@@ -56,11 +57,91 @@ impl Number {
         self.value == 0.0
     }
 
+    /// The order of two numbers by value: `1/2` and `0.5` are equal here.
+    ///
+    /// **Accuracy**: *exact*.
+    ///
+    /// ```
+    /// use dalembert::Number;
+    /// use std::cmp::Ordering;
+    /// let third: Number = "1/3".parse()?;
+    /// assert_eq!(third.compare(&"2/6".parse()?), Ordering::Equal);
+    /// assert_eq!(third.compare(&"0.333333333333333333333333333333".parse()?), Ordering::Greater);
+    /// # Ok::<(), dalembert::number::NumberError>(())
+    /// ```
+    pub fn compare(&self, other: &Number) -> Ordering {
+        // Both values are within 1.5 ulp: where they lie farther apart than that, doubles decide.
+        let slack = 4.0 * f64::EPSILON * self.value.abs().max(other.value.abs());
+        if (self.value - other.value).abs() > slack {
+            return self.value.total_cmp(&other.value);
+        }
+        // So close, the two have the same sign or are both zero; a/b against c/d is a·d against c·b.
+        let (a, b) = self.parts();
+        let (c, d) = other.parts();
+        let order = Magnitude::product(a, d).compare(&Magnitude::product(c, b));
+        if self.value < 0.0 { order.reverse() } else { order }
+    }
+
+    /// Numerator and denominator, each a decimal.
+    fn parts(&self) -> (&str, &str) {
+        self.text.split_once('/').unwrap_or((&self.text, "1"))
+    }
+
     /// The fraction that the text spells. **Accuracy**: exact.
     #[cfg(feature = "mp")]
     pub fn to_rational(&self) -> rug::Rational {
-        let (numerator, denominator) = self.text.split_once('/').unwrap_or((&self.text, "1"));
+        let (numerator, denominator) = self.parts();
         decimal_to_rational(numerator) / decimal_to_rational(denominator)
+    }
+}
+
+/// The magnitude of a decimal: `limbs`, of nine decimal digits each and the least first, times `10^power`.
+struct Magnitude {
+    limbs: Vec<u64>,
+    power: i64,
+}
+
+const LIMB: u64 = 1_000_000_000;
+
+impl Magnitude {
+    /// The magnitude of a checked decimal.
+    fn of(text: &str) -> Self {
+        let (mantissa, exponent) = text.split_once(['e', 'E']).unwrap_or((text, "0"));
+        let fraction = mantissa.split_once('.').map_or(0, |(_, fraction)| fraction.len());
+        let digits: Vec<u8> = mantissa.bytes().filter(u8::is_ascii_digit).map(|d| d - b'0').collect();
+        let limb = |nine: &[u8]| nine.iter().fold(0, |limb, digit| 10 * limb + u64::from(*digit));
+        let power = exponent.parse().unwrap_or(0) - fraction as i64;
+        Magnitude { limbs: digits.rchunks(9).map(limb).collect(), power }
+    }
+
+    /// `|a·b|`, digit by digit.
+    fn product(a: &str, b: &str) -> Self {
+        let (a, b) = (Magnitude::of(a), Magnitude::of(b));
+        let mut limbs = vec![0; a.limbs.len() + b.limbs.len()];
+        for (i, x) in a.limbs.iter().enumerate() {
+            let mut carry = 0;
+            for (limb, y) in limbs[i..].iter_mut().zip(b.limbs.iter().chain([&0])) {
+                carry += *limb + x * y;
+                *limb = carry % LIMB;
+                carry /= LIMB;
+            }
+        }
+        Magnitude { limbs, power: a.power + b.power }
+    }
+
+    /// The significant digits and the power of ten of the first of them.
+    fn leading(&self) -> (i64, String) {
+        let digits: String = self.limbs.iter().rev().map(|limb| format!("{limb:09}")).collect();
+        let digits = digits.trim_start_matches('0');
+        (self.power + digits.len() as i64, digits.trim_end_matches('0').to_string())
+    }
+
+    fn compare(&self, other: &Self) -> Ordering {
+        let ((p, a), (q, b)) = (self.leading(), other.leading());
+        match (a.is_empty(), b.is_empty()) {
+            (false, false) => p.cmp(&q).then_with(|| a.cmp(&b)),
+            (a, b) => b.cmp(&a),
+        }
     }
 }
 
@@ -158,6 +239,31 @@ mod tests {
         assert!(matches!("1/0.0".parse::<Number>(), Err(NumberError::ZeroDenominator(_))));
         for text in ["1e301", "1e-301", "1e400/1e399", "1e-400"] {
             assert!(matches!(text.parse::<Number>(), Err(NumberError::Size(_))), "{text}");
+        }
+    }
+
+    #[test]
+    fn order_is_that_of_the_values() {
+        use Ordering::{Equal, Greater, Less};
+        let cases = [
+            ("1/2", "0.5", Equal),
+            ("1e2", "100.00", Equal),
+            ("-0", "0e5", Equal),
+            ("1/-2", "-5e-1", Equal),
+            ("0.1", "0.1000000000000000000000000000000000001", Less),
+            ("-0.1", "-0.1000000000000000000000000000000000001", Greater),
+            ("2/3", "0.666666666666666666666666666666666666667", Less),
+            ("123456789123456789/123456788", "123456789123456788/123456787", Less),
+            ("1e300", "-1e300", Greater),
+            ("0", "1e-300", Less),
+            ("999999999999999999", "1e18", Less),
+        ];
+        for (a, b, order) in cases {
+            let (x, y): (Number, Number) = (a.parse().unwrap(), b.parse().unwrap());
+            assert_eq!(x.compare(&y), order, "{a} against {b}");
+            assert_eq!(y.compare(&x), order.reverse(), "{b} against {a}");
+            #[cfg(feature = "mp")]
+            assert_eq!(x.to_rational().cmp(&y.to_rational()), order, "{a} against {b}");
         }
     }
 

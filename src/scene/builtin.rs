@@ -1,0 +1,63 @@
+//! The scenes that come with the program: known problems of the literature and the figures of the paper.
+
+/// A scene that comes with the program.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Builtin {
+    /// The name that it is asked for by.
+    pub name: &'static str,
+    /// What it shows, in one line.
+    pub summary: &'static str,
+    /// The scene file, with comments on its origin and on what to expect.
+    pub source: &'static str,
+}
+
+/// One entry of the list: the file has the name of the scene.
+macro_rules! scene {
+    ($name:literal, $summary:literal) => {
+        Builtin { name: $name, summary: $summary, source: include_str!(concat!("builtin/", $name, ".toml")) }
+    };
+}
+
+/// Every built-in scene, the undamped ones first.
+pub const ALL: &[Builtin] = &[
+    scene!("doyen-ern-piperno", "periodic bounces: every second contact undoes the vibration of the one before"),
+    scene!("getfem-dynamic-contact", "a compressed rod under a fixed top, released at rest: period 3"),
+    scene!("siconos-impacting-bar", "a steel bar against a wall: one contact of 2L/c, 1270.8 N"),
+    scene!("ansys-vm265", "an elastic rod against a rigid wall, in inches and pounds"),
+    scene!("code-aster-sdnv100", "a beam in uniaxial strain against a rigid wall"),
+    scene!("paper-weak", "Corollary 1 below the critical speed: contact outlasts the round trip"),
+    scene!("paper-strong", "Corollary 1 above the critical speed: contact for one round trip"),
+    scene!("figure-2", "the paper's red dot: the largest vibrational energy, at the critical speed"),
+    scene!("figure-3", "one point of the paper's energy ratios: 1/12 of the energy vibrates"),
+    scene!("mu-1-period-36", "a tangential landing at t = 31, and then all over again after t = 36"),
+    scene!("mu-4-3", "repeated bounces at two thirds of the critical speed"),
+    scene!("mu-3-2-chaotic", "repeated bounces whose breakpoints multiply"),
+    scene!("figure-1-r26", "strong damping without gravity: the bounce comes in the second round trip"),
+    scene!("figure-1-r29", "stronger: the bounce comes in the third round trip"),
+    scene!("figure-1-r30", "stronger still: the bounce comes in the fourth round trip"),
+    scene!("figure-4-r01", "light damping at a high speed, r = 0.1: the bounce comes after one round trip"),
+    scene!("figure-4-r02", "the same with r = 0.2"),
+    scene!("figure-4-r03", "the same with r = 0.3"),
+    scene!("steel-bar", "a damped steel bar hits at 1 m/s: a contact of 0.4 ms"),
+];
+
+/// The names of the built-in scenes.
+///
+/// ```
+/// assert!(dalembert::scene::builtin::names().any(|name| name == "doyen-ern-piperno"));
+/// ```
+pub fn names() -> impl Iterator<Item = &'static str> {
+    ALL.iter().map(|builtin| builtin.name)
+}
+
+/// The built-in scene of this name; `None` where there is none.
+///
+/// ```
+/// use dalembert::{Scene, scene::builtin};
+/// let scene = Scene::parse(builtin::get("paper-strong").unwrap().source)?;
+/// assert_eq!(scene.problem.rod.length.to_f64(), 1.0);
+/// # Ok::<(), dalembert::scene::SceneError>(())
+/// ```
+pub fn get(name: &str) -> Option<&'static Builtin> {
+    ALL.iter().find(|builtin| builtin.name == name)
+}

@@ -1,0 +1,189 @@
+//! Which effects a scene calls for, which it does not, and what is therefore not computed.
+
+use serde::Serialize;
+
+use super::Scene;
+use super::error::short;
+use crate::rod::{Material, Profile, Run, Start, Top};
+
+/// An effect that the solver knows. One that a scene does not call for costs it nothing.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize)]
+#[serde(rename_all = "snake_case")]
+#[non_exhaustive]
+pub enum Effect {
+    /// `g > 0`.
+    Gravity,
+    /// `r > 0`.
+    Damping,
+    /// The ground pushes and never pulls: in every scene.
+    UnilateralContact,
+    /// More than one contact.
+    RepeatedImpacts,
+    /// The top does not move.
+    FixedTop,
+    /// The rod starts deformed or above the ground.
+    InitialStrain,
+    /// The rod starts with a velocity of its own at every point.
+    InitialVelocity,
+    /// Modulus, density and area give forces and energies their units.
+    SiForces,
+}
+
+impl Effect {
+    /// Every effect, in the order in which they are explained.
+    pub const ALL: [Effect; 8] = [
+        Effect::UnilateralContact,
+        Effect::Gravity,
+        Effect::Damping,
+        Effect::RepeatedImpacts,
+        Effect::FixedTop,
+        Effect::InitialStrain,
+        Effect::InitialVelocity,
+        Effect::SiForces,
+    ];
+
+    /// The name in output: `unilateral_contact`.
+    ///
+    /// ```
+    /// assert_eq!(dalembert::scene::Effect::SiForces.name(), "si_forces");
+    /// ```
+    pub fn name(self) -> &'static str {
+        match self {
+            Effect::Gravity => "gravity",
+            Effect::Damping => "damping",
+            Effect::UnilateralContact => "unilateral_contact",
+            Effect::RepeatedImpacts => "repeated_impacts",
+            Effect::FixedTop => "fixed_top",
+            Effect::InitialStrain => "initial_strain",
+            Effect::InitialVelocity => "initial_velocity",
+            Effect::SiForces => "si_forces",
+        }
+    }
+}
+
+impl std::fmt::Display for Effect {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.pad(self.name())
+    }
+}
+
+/// What a scene has to do with one effect.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
+pub struct EffectUse {
+    /// The effect.
+    pub effect: Effect,
+    /// Whether the scene calls for it.
+    pub called: bool,
+    /// The line of the scene that decides so, from 1; `None` where it is so because nothing is said.
+    pub line: Option<usize>,
+    /// Why; where it is not called for, what is therefore not computed.
+    pub because: String,
+}
+
+impl Scene {
+    /// Every effect, in the order of [`Effect::ALL`], with the line of the scene that calls for it or rules it out.
+    ///
+    /// ```
+    /// use dalembert::{Scene, scene::Effect};
+    /// let scene = Scene::parse("rod = { length = 1, wave_speed = 1, damping = 0.0 }\n[impact]\nspeed = 3\n")?;
+    /// let effects = scene.effects();
+    /// let damping = effects.iter().find(|e| e.effect == Effect::Damping).unwrap();
+    /// assert_eq!((damping.called, damping.line), (false, Some(1)));
+    /// # Ok::<(), dalembert::scene::SceneError>(())
+    /// ```
+    pub fn effects(&self) -> Vec<EffectUse> {
+        Effect::ALL.into_iter().map(|effect| self.effect(effect)).collect()
+    }
+
+    /// The effects that the scene calls for.
+    pub fn called_effects(&self) -> Vec<Effect> {
+        self.effects().into_iter().filter(|e| e.called).map(|e| e.effect).collect()
+    }
+
+    fn effect(&self, effect: Effect) -> EffectUse {
+        let (called, key, because) = match effect {
+            Effect::Gravity => self.gravity(),
+            Effect::Damping => self.damping(),
+            Effect::UnilateralContact => (true, None, "the ground is in every scene".into()),
+            Effect::RepeatedImpacts => self.repeated_impacts(),
+            Effect::FixedTop => self.fixed_top(),
+            Effect::InitialStrain => self.initial_strain(),
+            Effect::InitialVelocity => self.initial_velocity(),
+            Effect::SiForces => self.si_forces(),
+        };
+        EffectUse { effect, called, line: key.and_then(|key| self.line_of(key)), because }
+    }
+
+    fn gravity(&self) -> Decision {
+        let because = match &self.problem.gravity {
+            Some(g) => format!("acceleration = {}", short(&g.to_string())),
+            None => "no acceleration: flight is straight, and no weight enters the stress".into(),
+        };
+        (self.problem.gravity.is_some(), Some("gravity.acceleration"), because)
+    }
+
+    fn damping(&self) -> Decision {
+        let because = match &self.problem.rod.damping {
+            Some(r) => format!("damping = {}", short(&r.to_string())),
+            None => "no damping: no Bessel function is evaluated, and energy is constant".into(),
+        };
+        (self.problem.rod.damping.is_some(), Some("rod.damping"), because)
+    }
+
+    fn repeated_impacts(&self) -> Decision {
+        match &self.problem.run {
+            Run::Impacts(1) => {
+                let because = "one contact and the flight after it: later impacts are not computed";
+                (false, Some("run.impacts"), because.into())
+            }
+            Run::Impacts(impacts) => (true, Some("run.impacts"), format!("impacts = {impacts}")),
+            Run::Time(time) => (true, Some("run.time"), format!("every impact up to time = {}", short(&time.to_string()))),
+        }
+    }
+
+    fn fixed_top(&self) -> Decision {
+        match self.problem.rod.top {
+            Top::Fixed => (true, Some("rod.top"), "top = \"fixed\"".into()),
+            Top::Free => (false, Some("rod.top"), "the top is free: waves come back with the same strain reversed".into()),
+        }
+    }
+
+    fn profile(&self) -> Option<&Profile> {
+        match &self.problem.start {
+            Start::Profile(profile) => Some(profile),
+            Start::Uniform(_) => None,
+        }
+    }
+
+    fn initial_strain(&self) -> Decision {
+        let points = self.profile().map(|profile| profile.displacement.as_slice()).unwrap_or_default();
+        let key = Some("start.displacement");
+        if points.iter().any(|(_, v)| !v.is_zero()) {
+            return (true, key, format!("the displacement has {} points", points.len()));
+        }
+        (false, key, "the rod starts undeformed on the ground: no initial strain is carried".into())
+    }
+
+    fn initial_velocity(&self) -> Decision {
+        let points = self.profile().map(|profile| profile.velocity.as_slice()).unwrap_or_default();
+        let key = Some("start.velocity");
+        if points.iter().any(|(_, v)| !v.is_zero()) {
+            return (true, key, format!("the velocity has {} points", points.len()));
+        }
+        let because = if self.profile().is_some() { "the rod starts at rest" } else { "the rod starts with one velocity" };
+        (false, key, format!("{because}: no velocity profile is carried"))
+    }
+
+    fn si_forces(&self) -> Decision {
+        match self.problem.rod.material {
+            Material::Elastic { .. } => (true, Some("rod.modulus"), "modulus, density and area are given".into()),
+            Material::WaveSpeed(_) => {
+                let because = "only the wave speed is given: strains v_x, and no forces in newtons";
+                (false, Some("rod.wave_speed"), because.into())
+            }
+        }
+    }
+}
+
+/// Whether an effect is called for, the key that decides so, and why.
+type Decision = (bool, Option<&'static str>, String);

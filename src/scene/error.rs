@@ -1,0 +1,159 @@
+//! What is wrong with a scene, and where.
+
+use std::ops::Range;
+use std::sync::Arc;
+
+use thiserror::Error;
+
+/// What is wrong with a scene: what was found, where, and what was expected.
+///
+/// ```
+/// use dalembert::{Scene, scene::SceneErrorKind};
+/// let error = Scene::parse("[rod]\nlength = -1\nwave_speed = 1\n[impact]\nspeed = 3\n").unwrap_err();
+/// assert_eq!(error.kind, SceneErrorKind::OutOfRange);
+/// assert_eq!(error.to_string(), "line 2, column 10: found length = -1, expected a length above zero");
+/// assert_eq!((error.line, error.column, error.span), (2, 10, 15..17));
+/// ```
+#[derive(Clone, Debug, Error, PartialEq, Eq)]
+#[error("line {line}, column {column}: found {found}, expected {expected}")]
+#[non_exhaustive]
+pub struct SceneError {
+    /// Which rule the scene breaks.
+    pub kind: SceneErrorKind,
+    /// What was found, the offending value included.
+    pub found: String,
+    /// What was expected in its place.
+    pub expected: String,
+    /// The offending bytes of the source.
+    pub span: Range<usize>,
+    /// Line of the first of them, from 1.
+    pub line: usize,
+    /// Column of the first of them in characters, from 1.
+    pub column: usize,
+    pub(super) text: Arc<str>,
+    pub(super) file: Option<Arc<str>>,
+}
+
+/// Which rule a scene breaks.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[non_exhaustive]
+pub enum SceneErrorKind {
+    /// The source is longer than the limit.
+    TooLong,
+    /// Not TOML.
+    Syntax,
+    /// A key that no scene has.
+    UnknownKey,
+    /// A key that this scene needs and does not have.
+    MissingKey,
+    /// A value of the wrong type.
+    WrongType,
+    /// A text or literal that spells no usable number.
+    NotANumber,
+    /// A value outside of its range.
+    OutOfRange,
+    /// Two keys that exclude each other.
+    Contradiction,
+    /// A start whose points do not run along the rod.
+    Profile,
+    /// Values that are each possible, in a combination that double precision cannot hold.
+    Combination,
+}
+
+impl SceneError {
+    /// The same error, with the name of the file that the scene was read from.
+    #[must_use]
+    pub fn in_file(mut self, name: &str) -> Self {
+        self.file = Some(name.into());
+        self
+    }
+
+    /// The whole source.
+    pub fn source_text(&self) -> &str {
+        &self.text
+    }
+
+    /// The offending text.
+    pub fn offending(&self) -> &str {
+        self.text.get(self.span.clone()).unwrap_or_default()
+    }
+
+    pub(super) fn new(
+        source: &str,
+        span: Range<usize>,
+        kind: SceneErrorKind,
+        found: impl Into<String>,
+        expected: impl Into<String>,
+    ) -> Self {
+        let start = floor_boundary(source, span.start);
+        let end = floor_boundary(source, span.end).max(start);
+        let (line, column) = position(source, start);
+        let (found, expected) = (found.into(), expected.into());
+        SceneError { kind, found, expected, span: start..end, line, column, text: source.into(), file: None }
+    }
+}
+
+/// Line and column of a byte, both from 1; columns count characters.
+pub(super) fn position(source: &str, offset: usize) -> (usize, usize) {
+    let before = &source[..floor_boundary(source, offset)];
+    let line_start = before.rfind('\n').map_or(0, |newline| newline + 1);
+    (before.matches('\n').count() + 1, before[line_start..].chars().count() + 1)
+}
+
+/// The last character boundary at or before `offset`.
+fn floor_boundary(source: &str, offset: usize) -> usize {
+    let mut offset = offset.min(source.len());
+    while !source.is_char_boundary(offset) {
+        offset -= 1;
+    }
+    offset
+}
+
+/// A text for a message: on one line, at most 40 characters.
+pub(super) fn short(text: &str) -> String {
+    const MOST: usize = 40;
+    let mut shown: String =
+        text.chars().take(MOST).flat_map(|c| c.escape_debug()).collect::<String>().replace("\\\"", "\"");
+    if text.chars().nth(MOST).is_some() {
+        shown.push('…');
+    }
+    shown
+}
+
+#[cfg(feature = "cli")]
+impl miette::Diagnostic for SceneError {
+    fn help<'a>(&'a self) -> Option<Box<dyn std::fmt::Display + 'a>> {
+        Some(Box::new(format!("expected {}", self.expected)))
+    }
+
+    fn source_code(&self) -> Option<&dyn miette::SourceCode> {
+        Some(self)
+    }
+
+    fn labels(&self) -> Option<Box<dyn Iterator<Item = miette::LabeledSpan> + '_>> {
+        let label = miette::LabeledSpan::new(Some("here".into()), self.span.start, self.span.len());
+        Some(Box::new(std::iter::once(label)))
+    }
+}
+
+/// The source with the name of its file, so that a report points at `FILE:LINE:COLUMN`.
+#[cfg(feature = "cli")]
+impl miette::SourceCode for SceneError {
+    fn read_span<'a>(
+        &'a self,
+        span: &miette::SourceSpan,
+        before: usize,
+        after: usize,
+    ) -> Result<Box<dyn miette::SpanContents<'a> + 'a>, miette::MietteError> {
+        let inner = self.text.read_span(span, before, after)?;
+        let Some(name) = &self.file else { return Ok(inner) };
+        Ok(Box::new(miette::MietteSpanContents::new_named(
+            name.to_string(),
+            inner.data(),
+            *inner.span(),
+            inner.line(),
+            inner.column(),
+            inner.line_count(),
+        )))
+    }
+}
