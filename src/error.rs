@@ -4,6 +4,7 @@ use thiserror::Error;
 
 /// What was found, where, and what was expected.
 #[derive(Clone, Debug, Error, PartialEq)]
+#[cfg_attr(feature = "cli", derive(miette::Diagnostic))]
 #[non_exhaustive]
 pub enum Error {
     /// A fraction cannot hold a square root.
@@ -37,5 +38,30 @@ pub enum Error {
         limit: usize,
         /// The time at which it was passed.
         time: f64,
+    },
+    /// The scene is damped.
+    #[error("found damping = {damping}, expected an undamped scene: the damped engine is not part of this version")]
+    Damped {
+        /// The damping.
+        damping: String,
+    },
+    /// No digits, or absurdly many.
+    #[error("found --digits {found}, expected 1 to {most}")]
+    Digits {
+        /// What was asked for.
+        found: u32,
+        /// The most that is given.
+        most: u32,
+    },
+    /// Fractions and digits need GMP and MPFR.
+    #[error("found a build without arbitrary precision, expected one with the feature `mp` for --digits and --exact")]
+    NoMultiprecision,
+    /// More bits would be needed than are worth trying.
+    #[error("{digits} digits are not settled with {bits} bits; expected a shorter run or fewer digits")]
+    Unsettled {
+        /// What was asked for.
+        digits: u32,
+        /// What was tried.
+        bits: u32,
     },
 }

@@ -116,6 +116,35 @@ pub enum Ending {
     Undecided(String),
 }
 
+impl std::fmt::Display for Ending {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        match self {
+            Ending::Time => f.write_str("the time asked for"),
+            Ending::NextImpact => f.write_str("the impact after the last contact asked for"),
+            Ending::NoFurtherImpact(reason) => write!(f, "no further impact: {reason}"),
+            Ending::NoBounce(reason) => write!(f, "no bounce: {reason}"),
+            Ending::Rest(reason) => write!(f, "at rest: {reason}"),
+            Ending::ExactnessEnds { time, near, .. } => {
+                write!(f, "exactness ends before the impact at t = {time} ≈ {near}, which is no fraction")
+            }
+            Ending::Undecided(reason) => write!(f, "undecided: {reason}"),
+        }
+    }
+}
+
+/// The scales of a motion: what its quantities are to be compared with.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Scales<S> {
+    /// `t₁`, of times.
+    pub time: S,
+    /// `μ`, or `g t₁` where that is greater: of velocities. Displacements scale with `time · velocity`.
+    pub velocity: S,
+    /// `L`.
+    pub length: S,
+    /// `c`.
+    pub wave_speed: S,
+}
+
 /// What can be asked of a solution. All times are absolute, in the units of the scene; a time outside of
 /// `0 … end()` is [`Error::TimeOutside`], a point outside of the rod is [`Error::PointOutside`].
 pub trait History<S: Scalar> {
@@ -152,8 +181,11 @@ pub trait History<S: Scalar> {
     /// `v`, `v_t`, `v_x` at `(x,t)`.
     fn field(&self, point: &S, time: &S, side: Side) -> Result<Field<S>, Error>;
 
-    /// How far any printed quantity may be off, relative to its natural scale: zero where it is exact.
-    fn error_estimate(&self) -> f64;
+    /// The natural scales of the motion.
+    fn scales(&self) -> Scales<S>;
+
+    /// How far any quantity may be off, relative to its natural scale; zero where all is exact.
+    fn error_estimate(&self) -> S;
 
     /// What a user should know: events decided by rounding, digits lost. Data, for the caller to print.
     fn warnings(&self) -> &[String];

@@ -1,2 +1,16 @@
-//! x
-fn main() {}
+//! The `dalembert` command: parse, run, report, exit code.
+
+use std::process::ExitCode;
+
+use clap::Parser;
+use dalembert::cli::{Cli, run};
+
+fn main() -> ExitCode {
+    match run(Cli::parse()) {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(failure) => {
+            eprintln!("{failure:?}");
+            ExitCode::from(2)
+        }
+    }
+}

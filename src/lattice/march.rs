@@ -194,6 +194,12 @@ impl<S: Scalar> March<S> {
         self.sign(x, error) == Ordering::Equal
     }
 
+    /// `√(e u)` in roundoffs: the error of the square root of a number that may be zero.
+    fn root_error(&self, error: f64) -> f64 {
+        let half_bits = f64::from(self.unit.bits().unwrap_or(0)) / 2.0;
+        error.sqrt() * half_bits.exp2()
+    }
+
     /// One round trip: everything that left the ground in the one before comes back.
     fn trip(&mut self, trip: usize, until: &Until<S>) -> Option<Halt<S>> {
         self.trace.begin_trip();
@@ -455,10 +461,9 @@ impl<S: Scalar> March<S> {
         } else {
             // |√a − √b| ≤ |a − b|/√a where √a is well away from zero, √|a − b| where it is not.
             let (root, slope) = (root.to_f64(), slope.to_f64().abs());
-            let u = self.unit.to_f64();
             let value = self.height_error + age.to_f64() * q_error + 4.0 * size;
             let simple = 2.0 * value / root;
-            let double = if slope > 0.0 && u > 0.0 { (disc_error / u).sqrt() / slope } else { f64::INFINITY };
+            let double = self.root_error(disc_error) / slope;
             simple.min(double) + age.to_f64() + from.to_f64()
         };
         let landing = from.clone() + age;
@@ -481,10 +486,9 @@ impl<S: Scalar> March<S> {
         self.touch_error = if S::EXACT {
             0.0
         } else {
-            let (speed, slope, u) = (q_end.to_f64().abs(), slope.to_f64().abs(), self.unit.to_f64());
+            let (speed, slope) = (q_end.to_f64().abs(), slope.to_f64().abs());
             let simple = 2.0 * self.height_error / speed;
-            let double = if u > 0.0 { (2.0 * self.height_error / (slope * u)).sqrt() } else { f64::INFINITY };
-            simple.min(double)
+            simple.min(self.root_error(2.0 * self.height_error / slope))
         };
     }
 }

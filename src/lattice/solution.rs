@@ -4,7 +4,7 @@ use super::march::{Halt, Limits, Marched, Until, march};
 use super::scaled::{Scaled, Units};
 use super::trace::Piece;
 use crate::error::Error;
-use crate::history::{Contact, Ending, Energy, Event, EventKind, Field, History, Side, StressPiece};
+use crate::history::{Contact, Ending, Energy, Event, EventKind, Field, History, Scales, Side, StressPiece};
 use crate::number::Scalar;
 use crate::rod::{Problem, Run, Top};
 
@@ -198,11 +198,6 @@ impl<S: Scalar> Undamped<S> {
     /// What the march left: pieces, occurrences, grazes and error bounds, in lattice units.
     pub fn marched(&self) -> &Marched<S> {
         &self.marched
-    }
-
-    /// Bound on the relative error of all that has been computed, in roundoffs.
-    pub fn greatest_error(&self) -> f64 {
-        self.marched.greatest_error
     }
 
     fn time_of(&self, moment: &Moment<S>) -> S {
@@ -495,8 +490,16 @@ impl<S: Scalar> History<S> for Undamped<S> {
         Ok(self.field_at(&self.locate(time)?, point, side))
     }
 
-    fn error_estimate(&self) -> f64 {
-        self.marched.greatest_error * self.problem.gravity.roundoff().to_f64()
+    fn scales(&self) -> Scales<S> {
+        let Units { round_trip, velocity, length, wave_speed } = self.problem.units.clone();
+        let start = self.problem.ground_velocity.magnitude();
+        let velocity = if start > start.one() { start * velocity } else { velocity };
+        Scales { time: round_trip, velocity, length, wave_speed }
+    }
+
+    fn error_estimate(&self) -> S {
+        let zero = self.problem.gravity.zero();
+        if S::EXACT { zero } else { zero.double(self.marched.greatest_error) * zero.roundoff() }
     }
 
     fn warnings(&self) -> &[String] {

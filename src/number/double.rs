@@ -44,6 +44,10 @@ impl Scalar for f64 {
     }
 
     #[inline]
+    fn bits(&self) -> Option<u32> {
+        Some(53)
+    }
+
     fn is_finite(&self) -> bool {
         f64::is_finite(*self)
     }

@@ -43,6 +43,10 @@ impl Scalar for Float {
         self.to_integer_round(Round::Down).and_then(|(n, _)| n.to_i64())
     }
 
+    fn bits(&self) -> Option<u32> {
+        Some(self.prec())
+    }
+
     fn is_finite(&self) -> bool {
         Float::is_finite(self)
     }

@@ -47,6 +47,10 @@ impl Scalar for Rational {
         Integer::from(self.numer().div_floor(self.denom())).to_i64()
     }
 
+    fn bits(&self) -> Option<u32> {
+        None
+    }
+
     fn is_finite(&self) -> bool {
         true
     }

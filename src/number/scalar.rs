@@ -54,6 +54,9 @@ pub trait Scalar:
     /// The unit roundoff `u` of this number's precision: `2⁻⁵³` for `f64`, zero for exact systems.
     fn roundoff(&self) -> Self;
 
+    /// Bits of the significand; `None` for exact systems.
+    fn bits(&self) -> Option<u32>;
+
     /// The largest integer `≤ self`. **Errors**: `None` if it does not fit an `i64` or `self` is not finite.
     fn floor_int(&self) -> Option<i64>;
 

@@ -228,7 +228,8 @@ impl<'a> Reader<'a> {
                 Err(self.root.missing(expected))
             }
             (None, None) => {
-                let (found, expected) = ("neither [impact] nor [start]", "[impact] with speed or drop_height, or [start]");
+                let (found, expected) =
+                    ("neither [impact] nor [start]", "[impact] with speed or drop_height, or [start]");
                 Err(self.root.error(0..0, Kind::MissingKey, found, expected))
             }
         }
@@ -279,7 +280,8 @@ impl<'a> Reader<'a> {
         }
         let displacement = self.points(start, "displacement", scales)?;
         let velocity = self.points(start, "velocity", scales)?;
-        let values = |points: Vec<(Quantity, Quantity)>| points.into_iter().map(|(x, v)| (x.number, v.number)).collect();
+        let values =
+            |points: Vec<(Quantity, Quantity)>| points.into_iter().map(|(x, v)| (x.number, v.number)).collect();
         if let Some((_, ground)) = displacement.first() {
             if ground.number.to_f64() < 0.0 {
                 let found = format!("the displacement {} at x = 0", self.shown(ground));
@@ -326,7 +328,9 @@ impl<'a> Reader<'a> {
                 return refuse(&x, format!("a point within the length {}", super::error::short(&length.to_string())));
             }
             match x.number.compare(&last.number) {
-                Ordering::Less => return refuse(&x, format!("one beyond x = {}, the point before it", self.shown(last))),
+                Ordering::Less => {
+                    return refuse(&x, format!("one beyond x = {}, the point before it", self.shown(last)));
+                }
                 Ordering::Equal if key == "displacement" => {
                     return refuse(&x, "each x once: a displacement has no jump".into());
                 }

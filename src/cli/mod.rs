@@ -1,0 +1,136 @@
+//! The command: one file per subcommand.
+
+mod explain;
+mod sample;
+mod scenes;
+mod solve;
+mod source;
+
+use std::path::PathBuf;
+
+use clap::{Args, CommandFactory, Parser, Subcommand, ValueEnum};
+
+use crate::output::{Head, write_whole};
+use crate::rod::Material;
+use crate::scene::{Ask, Plan, Scene};
+
+/// Everything that can go wrong, ready to be reported.
+pub type Failure = miette::Report;
+
+/// The exact reference for the bouncing elastic rod.
+#[derive(Debug, Parser)]
+#[command(name = "dalembert", version, about, propagate_version = true, arg_required_else_help = true)]
+#[command(
+    after_help = "A scene is a file, `-` for standard input, or one of the built-in scenes that `dalembert scenes` lists.\n\n\
+    Start with:  dalembert solve doyen-ern-piperno"
+)]
+pub struct Cli {
+    #[command(subcommand)]
+    command: Command,
+}
+
+#[derive(Debug, Subcommand)]
+enum Command {
+    /// Solve a scene: events, contacts, restitution, energies, stress history
+    Solve(solve::Solve),
+    /// Values of a quantity at chosen times
+    Sample(sample::Sample),
+    /// The plan: which effects a scene calls for, which engine and numbers solve it, and what is left out
+    Explain(explain::Explain),
+    /// List the built-in scenes, or print one
+    Scenes(scenes::Scenes),
+    /// Print a completion script for a shell
+    Completions {
+        /// The shell
+        shell: clap_complete::Shell,
+    },
+}
+
+/// Runs the command.
+pub fn run(cli: Cli) -> Result<(), Failure> {
+    match cli.command {
+        Command::Solve(command) => command.run(),
+        Command::Sample(command) => command.run(),
+        Command::Explain(command) => command.run(),
+        Command::Scenes(command) => command.run(),
+        Command::Completions { shell } => {
+            let mut script = Vec::new();
+            clap_complete::generate(shell, &mut Cli::command(), "dalembert", &mut script);
+            Ok(write_whole(None, &script).map_err(source::cannot("write the script"))?)
+        }
+    }
+}
+
+/// How exact the numbers are to be.
+#[derive(Args, Clone, Copy, Debug)]
+struct NumberArgs {
+    /// Decimal digits, all of them right; with --exact, from where exactness ends
+    #[arg(long, value_name = "N")]
+    digits: Option<u32>,
+    /// Exact fractions, as far as they reach
+    #[arg(long)]
+    exact: bool,
+}
+
+impl NumberArgs {
+    fn ask(self) -> Ask {
+        Ask { exact: self.exact, digits: self.digits }
+    }
+}
+
+/// Where the output goes and what it looks like.
+#[derive(Args, Clone, Debug)]
+struct OutputArgs {
+    /// What to print; by default a table, or what the ending of FILE says
+    #[arg(long, value_enum)]
+    format: Option<Format>,
+    /// Write to this file, whole or not at all; `-` is standard output
+    #[arg(short, long, value_name = "FILE")]
+    output: Option<PathBuf>,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+enum Format {
+    /// For a person
+    Table,
+    /// For a program
+    Json,
+    /// For a spreadsheet
+    Csv,
+}
+
+impl OutputArgs {
+    fn format(&self) -> Format {
+        let ending = self.output.as_ref().and_then(|path| path.extension()).and_then(|ending| ending.to_str());
+        self.format.unwrap_or(match ending {
+            Some("json") => Format::Json,
+            Some("csv") => Format::Csv,
+            _ => Format::Table,
+        })
+    }
+
+    fn write(&self, text: &str) -> Result<(), Failure> {
+        let name = self.output.as_ref().map_or("standard output".into(), |path| path.display().to_string());
+        Ok(write_whole(self.output.as_deref(), text.as_bytes()).map_err(source::cannot(&format!("write {name}")))?)
+    }
+
+    fn write_json(&self, value: &serde_json::Value) -> Result<(), Failure> {
+        self.write(&format!("{value:#}\n"))
+    }
+}
+
+/// What stands above the numbers of a scene.
+fn head(scene: &Scene, plan: &Plan) -> Head {
+    let line_density = match &scene.problem.rod.material {
+        Material::Elastic { density, area, .. } => Some((density.clone(), area.clone())),
+        Material::WaveSpeed(_) => None,
+    };
+    Head {
+        title: scene.title.clone(),
+        number: plan.system.to_string(),
+        effects: plan.called(),
+        digits: 0,
+        line_density,
+        gravity: scene.problem.gravity.clone(),
+    }
+}

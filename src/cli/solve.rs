@@ -1,0 +1,84 @@
+//! `dalembert solve`.
+
+use clap::{Args, ValueEnum};
+
+use super::{Failure, Format, NumberArgs, OutputArgs, head, source};
+use crate::history::History;
+use crate::output::{Head, Part, Show, history_csv, history_json, history_table, record};
+use crate::scene::Plan;
+use crate::solve::{Solution, solve};
+
+/// Solve a scene: events, contacts, restitution, energies, stress history
+#[derive(Args, Debug)]
+#[command(
+    after_help = "Examples:\n  dalembert solve doyen-ern-piperno --exact\n  dalembert solve rod.toml --digits 38 -o rod.json\n  \
+    dalembert scenes paper-weak | dalembert solve - --format csv --part stress"
+)]
+pub(super) struct Solve {
+    /// A scene file, `-`, or a built-in scene
+    scene: String,
+    #[command(flatten)]
+    numbers: NumberArgs,
+    #[command(flatten)]
+    output: OutputArgs,
+    /// What a CSV holds
+    #[arg(long, value_enum, default_value_t = PartArg::Events)]
+    part: PartArg,
+}
+
+#[derive(Clone, Copy, Debug, ValueEnum)]
+enum PartArg {
+    /// Impacts and releases
+    Events,
+    /// Contacts
+    Contacts,
+    /// Pieces of the stress at the ground
+    Stress,
+}
+
+impl Solve {
+    pub(super) fn run(&self) -> Result<(), Failure> {
+        let scene = source::read(&self.scene)?;
+        let plan = Plan::of(&scene, self.numbers.ask())?;
+        let head = head(&scene, &plan);
+        let solution = {
+            let mut progress = source::Progress::of(&scene);
+            solve(&scene.problem, &plan, |trip, pieces| progress.observe(trip, pieces))?
+        };
+        match &solution {
+            Solution::Double(history) => self.print(history.as_ref(), &head),
+            #[cfg(feature = "mp")]
+            Solution::Digits(history, digits) => self.print(history.as_ref(), &Head { digits: *digits, ..head }),
+            #[cfg(feature = "mp")]
+            Solution::Exact(history, None) => self.print(history.as_ref(), &head),
+            #[cfg(feature = "mp")]
+            Solution::Exact(exact, Some((history, digits))) => {
+                // What is exact is printed so; the run in digits goes on from there.
+                eprintln!("note: {}; the history that follows is in {digits} digits", exact.ending());
+                let number = format!("{digits} digits; {}", exact.ending());
+                self.print(history.as_ref(), &Head { digits: *digits, number, ..head })
+            }
+        }
+    }
+
+    fn print<S: Show>(&self, history: &dyn History<S>, head: &Head) -> Result<(), Failure> {
+        let record = record(history, head)?;
+        for warning in &record.warnings {
+            eprintln!("warning: {warning}");
+        }
+        match self.output.format() {
+            Format::Table => self.output.write(&history_table(&record, head)),
+            Format::Json => self.output.write_json(&history_json(&record, head)),
+            Format::Csv => {
+                let part = match self.part {
+                    PartArg::Events => Part::Events,
+                    PartArg::Contacts => Part::Contacts,
+                    PartArg::Stress => Part::Stress,
+                };
+                let text =
+                    history_csv(&record, part, head).map_err(|error| miette::miette!("cannot write CSV: {error}"))?;
+                self.output.write(&text)
+            }
+        }
+    }
+}

@@ -1,0 +1,89 @@
+//! CSV: one part of the history a file, with a header.
+
+use super::json::side_name;
+use super::record::{Head, Quantity, Record, Sample, Show};
+use crate::history::EventKind;
+
+/// The part of a history that a CSV file holds.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Part {
+    /// Impacts and releases.
+    #[default]
+    Events,
+    /// Contacts.
+    Contacts,
+    /// The pieces of the stress at the ground.
+    Stress,
+}
+
+/// One part of the history.
+pub fn history_csv<S: Show>(record: &Record<S>, part: Part, head: &Head) -> Result<String, csv::Error> {
+    let show = |x: &S| x.show(head.digits);
+    let optional = |x: Option<&S>| x.map_or_else(String::new, show);
+    let mut rows: Vec<Vec<String>> = Vec::new();
+    let header: &[&str] = match part {
+        Part::Events => {
+            for event in &record.events {
+                let kind = if event.kind == EventKind::Impact { "impact" } else { "release" };
+                let numbers = [&event.time, &event.end_velocity, &event.centre, &event.centre_velocity].map(show);
+                rows.push(std::iter::once(kind.to_string()).chain(numbers).collect());
+            }
+            &["kind", "time", "end_velocity", "centre", "centre_velocity"]
+        }
+        Part::Contacts => {
+            for (contact, restitution, energy) in &record.contacts {
+                let energy = energy.as_ref();
+                rows.push(vec![
+                    show(&contact.from),
+                    optional(contact.to.as_ref()),
+                    show(&contact.impulse),
+                    show(&contact.peak_stress),
+                    optional(restitution.momentum.as_ref().ok()),
+                    optional(restitution.energy_squared.as_ref().ok()),
+                    optional(energy.map(|e| &e.total)),
+                    optional(energy.map(|e| &e.translational)),
+                    optional(energy.map(|e| &e.vibrational)),
+                ]);
+            }
+            &[
+                "from",
+                "to",
+                "impulse",
+                "peak_stress",
+                "restitution_momentum",
+                "restitution_energy_squared",
+                "total",
+                "translational",
+                "vibrational",
+            ]
+        }
+        Part::Stress => {
+            rows.extend(record.stress.iter().map(|p| [&p.from, &p.to, &p.left, &p.right].map(show).to_vec()));
+            &["from", "to", "left", "right"]
+        }
+    };
+    write(header, rows)
+}
+
+/// Samples.
+pub fn samples_csv<S: Show>(samples: &[Sample<S>], quantity: Quantity, head: &Head) -> Result<String, csv::Error> {
+    let show = |x: &S| x.show(head.digits);
+    let mut header = vec!["time", "point", "side"];
+    header.extend(quantity.names());
+    let rows = samples.iter().map(|sample| {
+        let place =
+            [show(&sample.time), sample.point.as_ref().map_or_else(String::new, show), side_name(sample.side).into()];
+        place.into_iter().chain(sample.values.iter().map(show)).collect()
+    });
+    write(&header, rows.collect())
+}
+
+fn write(header: &[&str], rows: Vec<Vec<String>>) -> Result<String, csv::Error> {
+    let mut writer = csv::Writer::from_writer(Vec::new());
+    writer.write_record(header)?;
+    for row in rows {
+        writer.write_record(row)?;
+    }
+    let bytes = writer.into_inner().map_err(|error| csv::Error::from(error.into_error()))?;
+    Ok(String::from_utf8_lossy(&bytes).into_owned())
+}

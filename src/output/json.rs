@@ -1,0 +1,120 @@
+//! JSON: numbers in double precision, strings otherwise.
+
+use serde_json::{Value, json};
+
+use super::record::{Head, Quantity, Record, Sample, Show};
+use crate::history::{Ending, EventKind, Side};
+
+/// The whole history, schema 1.
+pub fn history_json<S: Show>(record: &Record<S>, head: &Head) -> Value {
+    let number = |x: &S| x.json(head.digits);
+    let optional = |x: Option<&S>| x.map_or(Value::Null, number);
+    let events = record.events.iter().map(|event| {
+        json!({
+            "kind": kind(event.kind),
+            "time": number(&event.time),
+            "end_velocity": number(&event.end_velocity),
+            "centre": number(&event.centre),
+            "centre_velocity": number(&event.centre_velocity),
+        })
+    });
+    let contacts = record.contacts.iter().map(|(contact, restitution, energy)| {
+        let mut value = json!({
+            "from": number(&contact.from),
+            "to": optional(contact.to.as_ref()),
+            "impulse": number(&contact.impulse),
+            "peak_stress": number(&contact.peak_stress),
+            "restitution": {
+                "momentum": optional(restitution.momentum.as_ref().ok()),
+                "energy_squared": optional(restitution.energy_squared.as_ref().ok()),
+            },
+            "energy": energy.as_ref().map(|energy| json!({
+                "total": number(&energy.total),
+                "translational": number(&energy.translational),
+                "vibrational": number(&energy.vibrational),
+            })),
+        });
+        let reasons = [restitution.momentum.as_ref().err(), restitution.energy_squared.as_ref().err()];
+        if let Some(reason) = reasons.into_iter().flatten().next() {
+            value["restitution"]["undefined"] = reason.to_string().into();
+        }
+        if let Some((stiffness, line)) = &record.forces {
+            value["force"] = json!({
+                "peak_newton": number(&-(contact.peak_stress.clone() * stiffness)),
+                "impulse_newton_second": number(&(contact.impulse.clone() * line)),
+            });
+        }
+        value
+    });
+    let flights = record.flights.iter().map(|flight| {
+        json!({
+            "from": number(&flight.from),
+            "to": optional(flight.to.as_ref()),
+            "highest": flight.highest.as_ref().map(|(time, centre)| json!({"time": number(time), "centre": number(centre)})),
+        })
+    });
+    let pieces = record.stress.iter().map(|piece| {
+        let mut value = json!({
+            "from": number(&piece.from),
+            "to": number(&piece.to),
+            "left": number(&piece.left),
+            "right": number(&piece.right),
+        });
+        if !piece.chebyshev.is_empty() {
+            value["chebyshev"] = piece.chebyshev.iter().map(number).collect();
+        }
+        value
+    });
+    json!({
+        "schema": 1,
+        "title": head.title,
+        "number": head.number,
+        "effects": head.effects,
+        "events": events.collect::<Vec<_>>(),
+        "contacts": contacts.collect::<Vec<_>>(),
+        "flights": flights.collect::<Vec<_>>(),
+        "stress": {"pieces": pieces.collect::<Vec<_>>()},
+        "end": ending_json(&record.end.1, number(&record.end.0)),
+        "error_estimate": record.error.as_ref().map(|error| error.to_f64()),
+        "warnings": record.warnings,
+    })
+}
+
+fn ending_json(ending: &Ending, time: Value) -> Value {
+    match ending {
+        Ending::ExactnessEnds { kind: event, time: surd, near } => {
+            json!({"time": time, "reason": "exactness ends", "event": kind(*event), "surd": surd, "near": near})
+        }
+        other => json!({"time": time, "reason": other.to_string()}),
+    }
+}
+
+fn kind(kind: EventKind) -> &'static str {
+    match kind {
+        EventKind::Impact => "impact",
+        EventKind::Release => "release",
+    }
+}
+
+/// The name of a side: `left`, `right`.
+pub(super) fn side_name(side: Side) -> &'static str {
+    match side {
+        Side::Left => "left",
+        Side::Right => "right",
+    }
+}
+
+/// Samples, schema 1.
+pub fn samples_json<S: Show>(samples: &[Sample<S>], quantity: Quantity, head: &Head) -> Value {
+    let number = |x: &S| x.json(head.digits);
+    let rows = samples.iter().map(|sample| {
+        let values = quantity.names().iter().zip(&sample.values).map(|(name, x)| (name.to_string(), number(x)));
+        json!({
+            "time": number(&sample.time),
+            "point": sample.point.as_ref().map(number),
+            "side": side_name(sample.side),
+            "values": values.collect::<serde_json::Map<_, _>>(),
+        })
+    });
+    json!({"schema": 1, "number": head.number, "rows": rows.collect::<Vec<_>>()})
+}

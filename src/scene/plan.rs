@@ -1,0 +1,125 @@
+//! Which engine and which numbers a scene needs: the cheapest that give what is asked.
+
+use serde::Serialize;
+
+use super::{Effect, EffectUse, Scene};
+use crate::error::Error;
+use crate::rod::Run;
+
+/// What a user asks of a solution, beyond the scene itself.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Ask {
+    /// Exact fractions, as far as they reach.
+    pub exact: bool,
+    /// This many correctly rounded decimal digits. With `exact`: from where exactness ends.
+    pub digits: Option<u32>,
+}
+
+/// The engine that a plan chooses.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Engine {
+    /// [`crate::lattice`]: the undamped rod, event by event on the characteristic lattice.
+    Lattice,
+}
+
+impl std::fmt::Display for Engine {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.write_str(match self {
+            Engine::Lattice => "characteristic lattice, event by event, without a time step",
+        })
+    }
+}
+
+/// The number system that a plan chooses.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum System {
+    /// `f64`.
+    Double,
+    /// Decimal digits; how many bits they take is found from the error bound of the run.
+    Digits(u32),
+    /// Fractions, and decimal digits from where they end if that is asked for.
+    Exact(Option<u32>),
+}
+
+impl std::fmt::Display for System {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        match self {
+            System::Double => f.write_str("double"),
+            System::Digits(digits) => write!(f, "{digits} digits"),
+            System::Exact(None) => f.write_str("exact"),
+            System::Exact(Some(digits)) => write!(f, "exact, then {digits} digits"),
+        }
+    }
+}
+
+/// How a scene is going to be solved. What the plan leaves out is neither run nor allocated.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Plan {
+    /// Every effect, called for or not.
+    pub effects: Vec<EffectUse>,
+    /// The engine.
+    pub engine: Engine,
+    /// The numbers.
+    pub system: System,
+    /// Why this engine and these numbers.
+    pub reasons: Vec<String>,
+    /// What it will take, in words.
+    pub cost: String,
+}
+
+/// More digits than this are refused: a slip of the hand, not a question.
+pub const MAX_DIGITS: u32 = 100_000;
+
+impl Plan {
+    /// The plan for `scene`.
+    ///
+    /// **Errors**: [`Error::Damped`]; [`Error::Digits`] for none or absurdly many; [`Error::NoMultiprecision`] where the
+    /// crate was built without it.
+    ///
+    /// ```
+    /// use dalembert::{Scene, scene::{Ask, Plan, System}};
+    /// let scene = Scene::parse("[rod]\nlength = 1\nwave_speed = 1\n[impact]\nspeed = 3\n")?;
+    /// assert_eq!(Plan::of(&scene, Ask::default())?.system, System::Double);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    pub fn of(scene: &Scene, ask: Ask) -> Result<Self, Error> {
+        if let Some(damping) = &scene.problem.rod.damping {
+            return Err(Error::Damped { damping: damping.to_string() });
+        }
+        if let Some(digits) = ask.digits.filter(|digits| !(1..=MAX_DIGITS).contains(digits)) {
+            return Err(Error::Digits { found: digits, most: MAX_DIGITS });
+        }
+        if cfg!(not(feature = "mp")) && (ask.exact || ask.digits.is_some()) {
+            return Err(Error::NoMultiprecision);
+        }
+        let system = match (ask.exact, ask.digits) {
+            (true, digits) => System::Exact(digits),
+            (false, Some(digits)) => System::Digits(digits),
+            (false, None) => System::Double,
+        };
+        let mut reasons = vec!["without damping the solution travels unchanged along its characteristics".to_string()];
+        reasons.push(match system {
+            System::Double => {
+                "neither --digits nor --exact is asked for: double precision, with a running error bound".into()
+            }
+            System::Digits(digits) => {
+                format!("{digits} digits are asked for: bits are added until the running error bound leaves that many")
+            }
+            System::Exact(None) => "exact fractions are asked for: the run stops where a root is irrational".into(),
+            System::Exact(Some(digits)) => {
+                format!("exact fractions are asked for, and {digits} digits from the first irrational root on")
+            }
+        });
+        let cost = match &scene.problem.run {
+            Run::Impacts(impacts) => format!("{impacts} contact(s): time and memory linear in the number of pieces"),
+            Run::Time(time) => format!("to t = {time}: time and memory linear in the number of pieces"),
+        };
+        Ok(Plan { effects: scene.effects(), engine: Engine::Lattice, system, reasons, cost })
+    }
+
+    /// The names of the effects that the scene calls for.
+    pub fn called(&self) -> Vec<&'static str> {
+        self.effects.iter().filter(|used| used.called).map(|used| Effect::name(used.effect)).collect()
+    }
+}
