@@ -137,14 +137,18 @@ impl Scene {
                 (false, Some("run.impacts"), because.into())
             }
             Run::Impacts(impacts) => (true, Some("run.impacts"), format!("impacts = {impacts}")),
-            Run::Time(time) => (true, Some("run.time"), format!("every impact up to time = {}", short(&time.to_string()))),
+            Run::Time(time) => {
+                (true, Some("run.time"), format!("every impact up to time = {}", short(&time.to_string())))
+            }
         }
     }
 
     fn fixed_top(&self) -> Decision {
         match self.problem.rod.top {
             Top::Fixed => (true, Some("rod.top"), "top = \"fixed\"".into()),
-            Top::Free => (false, Some("rod.top"), "the top is free: waves come back with the same strain reversed".into()),
+            Top::Free => {
+                (false, Some("rod.top"), "the top is free: waves come back with the same strain reversed".into())
+            }
         }
     }
 
@@ -170,7 +174,8 @@ impl Scene {
         if points.iter().any(|(_, v)| !v.is_zero()) {
             return (true, key, format!("the velocity has {} points", points.len()));
         }
-        let because = if self.profile().is_some() { "the rod starts at rest" } else { "the rod starts with one velocity" };
+        let because =
+            if self.profile().is_some() { "the rod starts at rest" } else { "the rod starts with one velocity" };
         (false, key, format!("{because}: no velocity profile is carried"))
     }
 

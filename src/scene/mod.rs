@@ -46,6 +46,7 @@ pub mod builtin;
 mod effects;
 mod error;
 mod read;
+mod start;
 mod table;
 
 pub use effects::{Effect, EffectUse};
