@@ -39,12 +39,14 @@ fn every_scene_is_read_and_says_what_it_is() {
 }
 
 #[test]
-fn doyen_ern_piperno_falls_a_whole_number_of_traversals() {
+fn doyen_ern_piperno_is_periodic() {
     let scene = scene("doyen-ern-piperno");
     let p = parameters(&scene);
     assert_eq!((p.wave_speed, p.speed, p.round_trip()), (30.0, 10.0, 2.0 / 3.0));
-    // μ is a whole multiple of gL/c, so that every time is rational.
-    assert_eq!(p.speed / (p.gravity * p.length / p.wave_speed), 3.0);
+    // μ is a whole multiple k of gL/c, so that every time is rational and the period is 4(k + 1)L/c.
+    let k = p.speed / (p.gravity * p.length / p.wave_speed);
+    assert_eq!(k, 3.0);
+    close(4.0 * (k + 1.0) * p.length / p.wave_speed, 16.0 / 3.0, 1e-15);
     close(p.critical_speed().powi(2) * p.length / 6.0, 2000.0 / 27.0, 1e-15);
 }
 

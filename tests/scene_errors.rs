@@ -1,6 +1,7 @@
 //! Every mistake in a scene is answered with its place, what was found and what was expected.
 
 use dalembert::Scene;
+use dalembert::rod::Start;
 use dalembert::scene::SceneErrorKind as Kind;
 
 /// A scene, the rule that it breaks, and the line, column and text that the answer has to point at.
@@ -331,6 +332,41 @@ fn what_is_too_large_is_refused() {
     assert!(error.to_string().len() < 200, "{error}");
     let deep = "[".repeat(100_000);
     assert_eq!(Scene::parse(&format!("{rod}start.velocity = {deep}")).unwrap_err().kind, Kind::Syntax);
+}
+
+/// The limits of the module's documentation, each met from inside and passed.
+#[test]
+fn limits_are_where_the_documentation_says() {
+    let scene = |damping: &str, speed: &str, rest: &str| {
+        let rod = format!("rod = {{ length = 0.5, wave_speed = 1, damping = {damping} }}\n");
+        Scene::parse(&format!("{rod}impact.speed = {speed}\n{rest}")).map(|_| ()).map_err(|error| error.kind)
+    };
+    let gravity = "gravity.acceleration = 1\n";
+    for damping in ["0", "1e-300", "1e4", "1e6"] {
+        assert_eq!(scene(damping, "1", ""), Ok(()), "{damping}");
+    }
+    assert_eq!(scene("1.1e6", "1", ""), Err(Kind::Combination));
+    for speed in ["1e-12", "1e-8", "1e8", "1e12"] {
+        assert_eq!(scene("0", speed, gravity), Ok(()), "{speed}");
+    }
+    assert_eq!(scene("0", "0.9e-12", gravity), Err(Kind::Combination));
+    assert_eq!(scene("0", "1.1e12", gravity), Err(Kind::Combination));
+    assert_eq!(scene("0", "1e40", ""), Ok(()));
+    assert_eq!(scene("0", "1", "run.time = 1e12"), Ok(()));
+    assert_eq!(scene("0", "1", "run.impacts = 10_000_000"), Ok(()));
+    assert_eq!(scene("0", "1", "run = { impacts = 1, accuracy = 1e-300 }"), Ok(()));
+}
+
+/// `1/3` and `2/6` are one point; kept as two texts they would be two doubles.
+#[test]
+fn points_of_equal_value_are_kept_equal() {
+    let source = "rod = { length = \"0.6/2\", wave_speed = 1 }
+        start.velocity = [[0, 1], [\"0.1\", 2], [\"1/10\", -3], [0.3, 4]]\n";
+    let scene = Scene::parse(source).unwrap();
+    let Start::Profile(profile) = &scene.problem.start else { panic!("a profile") };
+    let kept: Vec<String> = profile.velocity.iter().map(|(x, v)| format!("{x} {v}")).collect();
+    assert_eq!(kept, ["0 1", "0.1 2", "0.1 -3", "0.6/2 4"]);
+    assert_eq!(scene.line_of("start.velocity"), Some(2));
 }
 
 #[cfg(feature = "cli")]

@@ -114,7 +114,7 @@ impl Reader<'_> {
         };
         let mut points: Vec<(Quantity, Quantity)> = Vec::with_capacity(array.len());
         for value in array.iter() {
-            let (x, v) = point(start, value, key)?;
+            let (mut x, v) = point(start, value, key)?;
             let Some((last, _)) = points.last() else {
                 if !x.number.is_zero() {
                     return refuse(&x, "the first point at x = 0".into());
@@ -122,8 +122,13 @@ impl Reader<'_> {
                 points.push((x, v));
                 continue;
             };
-            if x.number.compare(length).is_gt() {
-                return refuse(&x, format!("a point within the length {}", short(&length.to_string())));
+            // Points of equal value take the same text, so that they are equal in every number system.
+            match x.number.compare(length) {
+                Ordering::Greater => {
+                    return refuse(&x, format!("a point within the length {}", short(&length.to_string())));
+                }
+                Ordering::Equal => x.number = length.clone(),
+                Ordering::Less => {}
             }
             match x.number.compare(&last.number) {
                 Ordering::Less => {
@@ -140,6 +145,7 @@ impl Reader<'_> {
                     if before.is_some_and(|(b, _)| b.number.compare(&x.number).is_eq()) {
                         return refuse(&x, "each x at most twice".into());
                     }
+                    x.number = last.number.clone();
                 }
                 Ordering::Greater => {
                     if x.number.to_f64() - last.number.to_f64() < MIN_SPACING * length.to_f64() {
