@@ -100,9 +100,9 @@ pub fn history_table<S: Show>(record: &Record<S>, head: &Head) -> String {
     out += "\n";
     for (contact, restitution, _) in &record.contacts {
         let from = show(&contact.from, 0.0);
-        for reason in
-            [restitution.momentum.as_ref().err(), restitution.energy_squared.as_ref().err()].into_iter().flatten()
-        {
+        let mut reasons = vec![restitution.momentum.as_ref().err(), restitution.energy_squared.as_ref().err()];
+        reasons.dedup();
+        for reason in reasons.into_iter().flatten() {
             out += &format!("contact from {from}: {reason}\n");
         }
     }

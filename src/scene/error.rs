@@ -112,8 +112,14 @@ fn floor_boundary(source: &str, offset: usize) -> usize {
 /// A text for a message: on one line, at most 40 characters.
 pub(super) fn short(text: &str) -> String {
     const MOST: usize = 40;
-    let mut shown: String =
-        text.chars().take(MOST).flat_map(|c| c.escape_debug()).collect::<String>().replace("\\\"", "\"");
+    let mut shown = String::new();
+    for c in text.chars().take(MOST) {
+        if c.is_control() {
+            shown.extend(c.escape_default());
+        } else {
+            shown.push(c);
+        }
+    }
     if text.chars().nth(MOST).is_some() {
         shown.push('…');
     }

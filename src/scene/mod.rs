@@ -47,6 +47,7 @@ mod effects;
 mod error;
 pub mod plan;
 mod read;
+mod start;
 mod table;
 
 pub use effects::{Effect, EffectUse};

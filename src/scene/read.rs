@@ -1,15 +1,14 @@
 //! From the text of a scene to a checked problem.
 
-use std::cmp::Ordering;
 use std::collections::BTreeMap;
 use std::ops::Range;
 
 use toml::de::{DeTable, DeValue};
 
 use super::error::{SceneError, SceneErrorKind as Kind, position};
-use super::table::{Quantity, Table, Value};
+use super::table::{Quantity, Table};
 use crate::number::Number;
-use crate::rod::{Material, Problem, Profile, Rod, Run, Speed, Start, Top};
+use crate::rod::{Material, Problem, Rod, Run, Top};
 
 const SCENE_KEYS: &[&str] = &["title", "rod", "impact", "gravity", "start", "run"];
 const ROD_KEYS: &[&str] = &["length", "wave_speed", "modulus", "density", "area", "damping", "top"];
@@ -20,15 +19,11 @@ const RUN_KEYS: &[&str] = &["time", "impacts", "accuracy"];
 
 const MAX_BYTES: usize = 16 << 20;
 const MAX_IMPACTS: u32 = 10_000_000;
-const MAX_POINTS: usize = 100_000;
 /// Every quantity with a unit: energies are products of at most seven of them and stay within 1e±300.
-const UNITS: (f64, f64) = (1e-40, 1e40);
+pub(super) const UNITS: (f64, f64) = (1e-40, 1e40);
 const MAX_DAMPING: f64 = 1e6;
 const MIN_DAMPING: f64 = 1e-305;
-const SPEED_RATIO: (f64, f64) = (1e-12, 1e12);
 const MAX_ROUND_TRIPS: f64 = 1e12;
-/// Least distance of two points of a profile, in lengths of the rod.
-const MIN_SPACING: f64 = 1e-12;
 
 /// What a person wrote, checked: a problem in exact numbers, and the line that each value stands on.
 ///
@@ -82,28 +77,32 @@ impl Scene {
 fn syntax(source: &str, error: &toml::de::Error) -> SceneError {
     let span = error.span().unwrap_or(0..0);
     let (found, expected) = error.message().split_once(", expected ").unwrap_or((error.message(), ""));
-    let expected = if expected.is_empty() { "a TOML document" } else { expected };
+    let expected = match (found, expected) {
+        ("duplicate key", "") => "each key once",
+        (_, "") => "a TOML document",
+        (_, expected) => expected,
+    };
     SceneError::new(source, span, Kind::Syntax, format!("text that is not TOML ({found})"), expected)
 }
 
 /// The tables of one scene.
-struct Reader<'a> {
+pub(super) struct Reader<'a> {
     source: &'a str,
-    root: Table<'a>,
+    pub(super) root: Table<'a>,
     rod: Table<'a>,
-    impact: Option<Table<'a>>,
+    pub(super) impact: Option<Table<'a>>,
     gravity: Option<Table<'a>>,
-    start: Option<Table<'a>>,
+    pub(super) start: Option<Table<'a>>,
     run: Option<Table<'a>>,
 }
 
 /// The quantities that decide the size of everything else, each with its place.
-struct Scales {
-    length: Quantity,
+pub(super) struct Scales {
+    pub(super) length: Quantity,
     /// `c` in double precision.
     wave_speed: f64,
     damping: Option<Quantity>,
-    gravity: Option<Quantity>,
+    pub(super) gravity: Option<Quantity>,
 }
 
 impl Scales {
@@ -112,7 +111,7 @@ impl Scales {
     }
 
     /// `μ₀ = g t₁`.
-    fn critical_speed(&self) -> Option<f64> {
+    pub(super) fn critical_speed(&self) -> Option<f64> {
         self.gravity.as_ref().map(|g| g.number.to_f64() * self.round_trip())
     }
 }
@@ -160,7 +159,7 @@ impl<'a> Reader<'a> {
             return Ok((Material::WaveSpeed(wave_speed.number), value));
         }
         if ELASTIC.iter().all(|key| rod.get(key).is_none()) {
-            return Err(rod.missing("wave_speed, or modulus, density and area"));
+            return Err(rod.missing("no wave speed", "wave_speed, or modulus, density and area"));
         }
         let modulus = required(rod, "modulus", "a modulus")?.number;
         let density = required(rod, "density", "a density")?.number;
@@ -183,7 +182,7 @@ impl<'a> Reader<'a> {
     fn gravity(&self) -> Result<Option<Quantity>, SceneError> {
         let Some(table) = &self.gravity else { return Ok(None) };
         if table.get("acceleration").is_none() {
-            return Err(table.missing("acceleration"));
+            return Err(table.missing("no acceleration", "acceleration, zero or more"));
         }
         non_negative(table, "acceleration", "an acceleration")
     }
@@ -195,18 +194,13 @@ impl<'a> Reader<'a> {
             let found = format!("{} = {}, which makes {what}", quantity.key, self.shown(quantity));
             Err(self.root.error(quantity.span.clone(), Kind::Combination, found, expected))
         };
-        if !within(scales.wave_speed, UNITS) {
-            let found = format!("a modulus and a density which make the wave speed {:e}", scales.wave_speed);
-            let span = self.rod.get("modulus").map_or(0..0, |entry| entry.value.span());
-            return Err(self.root.error(span, Kind::Combination, found, format!("one {}", range(UNITS))));
-        }
         if !within(t1, UNITS) {
             return refuse(length, format!("the round trip 2L/c = {t1:e}"), format!("one {}", range(UNITS)));
         }
-        if let (Some(g), Some(speed)) = (&scales.gravity, scales.critical_speed()) {
-            if !within(speed, UNITS) {
-                return refuse(g, format!("g t₁ = {speed:e}"), format!("a speed {}", range(UNITS)));
-            }
+        if let (Some(g), Some(speed)) = (&scales.gravity, scales.critical_speed())
+            && !within(speed, UNITS)
+        {
+            return refuse(g, format!("g t₁ = {speed:e}"), format!("a speed {}", range(UNITS)));
         }
         if let Some(r) = &scales.damping {
             let group = r.number.to_f64() * t1;
@@ -216,147 +210,6 @@ impl<'a> Reader<'a> {
             }
         }
         Ok(())
-    }
-
-    fn start(&self, scales: &Scales) -> Result<Start, SceneError> {
-        match (&self.impact, &self.start) {
-            (Some(impact), None) => self.impact(impact, scales).map(Start::Uniform),
-            (None, Some(start)) => self.profile(start, scales).map(Start::Profile),
-            (Some(_), Some(_)) => {
-                let expected = "either [impact], for a uniform start, or [start]";
-                self.root.refuse("start", "[impact]", expected)?;
-                Err(self.root.missing(expected))
-            }
-            (None, None) => {
-                let (found, expected) =
-                    ("neither [impact] nor [start]", "[impact] with speed or drop_height, or [start]");
-                Err(self.root.error(0..0, Kind::MissingKey, found, expected))
-            }
-        }
-    }
-
-    fn impact(&self, impact: &Table<'_>, scales: &Scales) -> Result<Speed, SceneError> {
-        let given = positive(impact, "speed", "an impact speed")?;
-        let height = positive(impact, "drop_height", "a drop height")?;
-        let (quantity, speed) = match (given, height) {
-            (Some(_), Some(_)) => {
-                impact.refuse("drop_height", "speed", "either speed or drop_height")?;
-                return Err(impact.missing("either speed or drop_height"));
-            }
-            (Some(speed), None) => {
-                let value = speed.number.to_f64();
-                (speed, value)
-            }
-            (None, Some(height)) => {
-                let Some(g) = &scales.gravity else {
-                    let expected = "[gravity] with an acceleration above zero, or speed in place of drop_height";
-                    let span = impact.get("drop_height").map_or(0..0, |entry| entry.key_span.clone());
-                    return Err(impact.error(span, Kind::MissingKey, "drop_height without gravity", expected));
-                };
-                let value = (2.0 * g.number.to_f64() * height.number.to_f64()).sqrt();
-                (height, value)
-            }
-            (None, None) => return Err(impact.missing("speed or drop_height")),
-        };
-        let refuse = |what: String, expected: String| {
-            let found = format!("{} = {}, which makes {what}", quantity.key, self.shown(&quantity));
-            Err(impact.error(quantity.span.clone(), Kind::Combination, found, expected))
-        };
-        if !within(speed, UNITS) {
-            return refuse(format!("the impact speed {speed:e}"), format!("one {}", range(UNITS)));
-        }
-        if let Some(critical) = scales.critical_speed() {
-            let ratio = speed / critical;
-            if !within(ratio, SPEED_RATIO) {
-                return refuse(format!("μ/(g t₁) = {ratio:e}"), format!("a value {}", range(SPEED_RATIO)));
-            }
-        }
-        Ok(if quantity.key == "speed" { Speed::Given(quantity.number) } else { Speed::DropHeight(quantity.number) })
-    }
-
-    fn profile(&self, start: &Table<'_>, scales: &Scales) -> Result<Profile, SceneError> {
-        if start.entries().is_empty() {
-            return Err(start.missing("displacement, velocity or both"));
-        }
-        let displacement = self.points(start, "displacement", scales)?;
-        let velocity = self.points(start, "velocity", scales)?;
-        let values =
-            |points: Vec<(Quantity, Quantity)>| points.into_iter().map(|(x, v)| (x.number, v.number)).collect();
-        if let Some((_, ground)) = displacement.first() {
-            if ground.number.to_f64() < 0.0 {
-                let found = format!("the displacement {} at x = 0", self.shown(ground));
-                let expected = "zero or more: the ground is at zero";
-                return Err(start.error(ground.span.clone(), Kind::OutOfRange, found, expected));
-            }
-        }
-        Ok(Profile { displacement: values(displacement), velocity: values(velocity) })
-    }
-
-    /// The points of a piecewise-linear function on the whole rod.
-    fn points(
-        &self,
-        start: &Table<'_>,
-        key: &'static str,
-        scales: &Scales,
-    ) -> Result<Vec<(Quantity, Quantity)>, SceneError> {
-        const SHAPE: &str = "points [x, value] from x = 0 to x = length, such as [[0, 0], [1, -1]]";
-        let Some(entry) = start.get(key) else { return Ok(Vec::new()) };
-        let DeValue::Array(array) = entry.value.get_ref() else {
-            return Err(start.wrong_type(entry.value, key, SHAPE));
-        };
-        if !(2..=MAX_POINTS).contains(&array.len()) {
-            let found = format!("{key} with {} points", array.len());
-            let expected = format!("2 to {MAX_POINTS} {SHAPE}");
-            return Err(start.error(entry.value.span(), Kind::Profile, found, expected));
-        }
-        let length = &scales.length.number;
-        let refuse = |x: &Quantity, expected: String| {
-            let found = format!("the point x = {} of the {key}", self.shown(x));
-            Err(start.error(x.span.clone(), Kind::Profile, found, expected))
-        };
-        let mut points: Vec<(Quantity, Quantity)> = Vec::with_capacity(array.len());
-        for value in array.iter() {
-            let (x, v) = point(start, value, key)?;
-            let Some((last, _)) = points.last() else {
-                if !x.number.is_zero() {
-                    return refuse(&x, "the first point at x = 0".into());
-                }
-                points.push((x, v));
-                continue;
-            };
-            if x.number.compare(length).is_gt() {
-                return refuse(&x, format!("a point within the length {}", super::error::short(&length.to_string())));
-            }
-            match x.number.compare(&last.number) {
-                Ordering::Less => {
-                    return refuse(&x, format!("one beyond x = {}, the point before it", self.shown(last)));
-                }
-                Ordering::Equal if key == "displacement" => {
-                    return refuse(&x, "each x once: a displacement has no jump".into());
-                }
-                Ordering::Equal if x.number.is_zero() || x.number.compare(length).is_eq() => {
-                    return refuse(&x, "a jump inside the rod, not at its end".into());
-                }
-                Ordering::Equal => {
-                    let before = points.len().checked_sub(2).and_then(|i| points.get(i));
-                    if before.is_some_and(|(b, _)| b.number.compare(&x.number).is_eq()) {
-                        return refuse(&x, "each x at most twice".into());
-                    }
-                }
-                Ordering::Greater => {
-                    if x.number.to_f64() - last.number.to_f64() < MIN_SPACING * length.to_f64() {
-                        return refuse(&x, format!("points at least {MIN_SPACING:e} of the length apart"));
-                    }
-                }
-            }
-            points.push((x, v));
-        }
-        match points.last() {
-            Some((x, _)) if x.number.compare(length).is_ne() => {
-                refuse(x, format!("the last point at the length {}", super::error::short(&length.to_string())))
-            }
-            _ => Ok(points),
-        }
     }
 
     fn run(&self, scales: &Scales) -> Result<Run, SceneError> {
@@ -399,7 +252,7 @@ impl<'a> Reader<'a> {
     }
 
     /// A number as it stands in the source, shortened.
-    fn shown(&self, quantity: &Quantity) -> String {
+    pub(super) fn shown(&self, quantity: &Quantity) -> String {
         super::error::short(self.root.slice(&quantity.span))
     }
 
@@ -423,32 +276,13 @@ impl<'a> Reader<'a> {
     }
 }
 
-/// One point `[x, value]`.
-fn point(start: &Table<'_>, value: &Value<'_>, key: &'static str) -> Result<(Quantity, Quantity), SceneError> {
-    let pair = value.get_ref().as_array().filter(|array| array.len() == 2);
-    let mut numbers = pair.into_iter().flat_map(|array| array.iter());
-    let (Some(x), Some(v)) = (numbers.next(), numbers.next()) else {
-        let found = format!("{} among the points of the {key}", super::error::short(start.slice(&value.span())));
-        return Err(start.error(value.span(), Kind::WrongType, found, "a point [x, value]"));
-    };
-    let (x, v) = (start.number_of(x, "x")?, start.number_of(v, key)?);
-    let sized = |quantity: &Quantity| quantity.number.is_zero() || within(quantity.number.to_f64().abs(), UNITS);
-    if !sized(&v) {
-        return Err(out_of_range(start, &v, &format!("zero or a magnitude {}", range(UNITS))));
-    }
-    if x.number.to_f64() < 0.0 {
-        return Err(out_of_range(start, &x, "a point of the rod, from x = 0 to x = length"));
-    }
-    Ok((x, v))
-}
-
 /// A quantity that has to be there.
 fn required(table: &Table<'_>, key: &'static str, what: &str) -> Result<Quantity, SceneError> {
-    positive(table, key, what)?.ok_or_else(|| table.missing(key))
+    positive(table, key, what)?.ok_or_else(|| table.missing(&format!("no {key}"), &format!("{what} above zero")))
 }
 
 /// A quantity above zero, if it is there.
-fn positive(table: &Table<'_>, key: &'static str, what: &str) -> Result<Option<Quantity>, SceneError> {
+pub(super) fn positive(table: &Table<'_>, key: &'static str, what: &str) -> Result<Option<Quantity>, SceneError> {
     let Some(quantity) = table.number(key)? else { return Ok(None) };
     if quantity.number.to_f64() <= 0.0 {
         return Err(out_of_range(table, &quantity, &format!("{what} above zero")));
@@ -472,15 +306,15 @@ fn non_negative(table: &Table<'_>, key: &'static str, what: &str) -> Result<Opti
     Ok(Some(quantity).filter(|quantity| !quantity.number.is_zero()))
 }
 
-fn out_of_range(table: &Table<'_>, quantity: &Quantity, expected: &str) -> SceneError {
+pub(super) fn out_of_range(table: &Table<'_>, quantity: &Quantity, expected: &str) -> SceneError {
     let found = format!("{} = {}", quantity.key, super::error::short(table.slice(&quantity.span)));
     table.error(quantity.span.clone(), Kind::OutOfRange, found, expected)
 }
 
-fn within(value: f64, (low, high): (f64, f64)) -> bool {
+pub(super) fn within(value: f64, (low, high): (f64, f64)) -> bool {
     (low..=high).contains(&value)
 }
 
-fn range((low, high): (f64, f64)) -> String {
+pub(super) fn range((low, high): (f64, f64)) -> String {
     format!("between {low:e} and {high:e}")
 }

@@ -58,10 +58,9 @@ impl<'a> Table<'a> {
         }
         if let Some(key) = unknown {
             let text = key.get_ref();
-            let nearest = nearest(text, known).map_or(String::new(), |k| format!("{k} (did you mean that?), or "));
-            let others: Vec<&str> = known.iter().copied().filter(|k| !nearest.starts_with(&format!("{k} "))).collect();
+            let hint = nearest(text, known).map_or(String::new(), |k| format!(" (did you mean {k}?)"));
             let found = format!("the unknown key `{}` in {name}", short(text));
-            let expected = format!("{nearest}one of {}", others.join(", "));
+            let expected = format!("one of {}{hint}", known.join(", "));
             return Err(SceneError::new(source, key.span(), SceneErrorKind::UnknownKey, found, expected));
         }
         Ok(Table { source, name, span, entries })
@@ -75,10 +74,9 @@ impl<'a> Table<'a> {
         self.entries.iter().find(|entry| entry.key == key)
     }
 
-    /// The error that a key is missing.
-    pub(super) fn missing(&self, expected: &str) -> SceneError {
-        let found = format!("{} without it", self.name);
-        SceneError::new(self.source, self.span.clone(), SceneErrorKind::MissingKey, found, expected)
+    /// The error that a key is missing: `what` says how, such as `no length`.
+    pub(super) fn missing(&self, what: &str, expected: &str) -> SceneError {
+        self.error(self.span.clone(), SceneErrorKind::MissingKey, format!("{what} in {}", self.name), expected)
     }
 
     /// The error that `key` stands in the way of something, if the table has it.
