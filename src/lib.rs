@@ -5,6 +5,7 @@ pub mod first_contact;
 pub mod history;
 pub mod number;
 pub mod rod;
+pub mod special;
 
 pub use error::Error;
 pub use number::Number;

@@ -1,0 +1,16 @@
+//! Special functions in any precision: scaled Bessel functions, the sums over `ψ_n` that a ray carries, `φ` functions, Gauss–Legendre.
+
+mod bessel;
+mod gauss;
+mod phi;
+mod ray;
+
+pub use bessel::{i0_scaled, i1_scaled, in_scaled};
+pub use gauss::gauss_legendre;
+pub use phi::{log_mean, log_rest, phi1, phi2};
+pub use ray::{Ray, RaySums};
+
+/// Bits of the significand, as far as sums are to be carried.
+fn bits<S: crate::number::Scalar>(like: &S) -> f64 {
+    (-like.log2_roundoff()).clamp(1.0, 1e6)
+}
