@@ -3,13 +3,13 @@
 //! Everything is a sum over the rays that have arrived, with time in units of the round trip `t₁`: what remains of the
 //! parameters are `R = r t₁` and the weights `μ` and `μ₀ = g t₁` of two fixed solutions. `r = 0` is a value like any other.
 
-//mod bounce;
+mod bounce;
 //mod energy;
 mod field;
-//mod search;
+mod search;
 mod undamped;
 
-//pub use bounce::{Bounce, BounceKind};
+pub use bounce::{Bounce, BounceKind};
 //pub use energy::{BounceEnergy, Highest};
 pub use field::{Estimate, FirstContact};
 pub use undamped::Undamped;
