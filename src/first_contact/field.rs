@@ -245,11 +245,19 @@ impl<S: Analytic> FirstContact<S> {
 
     /// The same at `t/t₁`.
     pub(super) fn centre_at(&self, trips: &S) -> (Estimate<S>, Estimate<S>) {
-        let (r, one) = (&self.damping, trips.one());
-        let Some(rays) = Self::passed(trips, Side::Left) else {
-            let unknown = Estimate { value: one.zero(), error: f64::INFINITY };
-            return (unknown.clone(), unknown);
-        };
+        match self.centre_parts(trips) {
+            Some([height, rate]) => (self.combine(&height, &self.round_trip), self.combine(&rate, &trips.one())),
+            None => {
+                let unknown = Estimate { value: trips.zero(), error: f64::INFINITY };
+                (unknown.clone(), unknown)
+            }
+        }
+    }
+
+    /// `h/t₁` and `h′` for `μ = 1` and for `μ₀ = 1`.
+    pub(super) fn centre_parts(&self, trips: &S) -> Option<[Parts<S>; 2]> {
+        let r = &self.damping;
+        let rays = Self::passed(trips, Side::Left)?;
         let fall = -(r.int(2) * r * trips);
         let (fallen, dropped) = (-(phi1(&fall) * trips), -(phi2(&fall) * &trips.square()));
         let free = 6.0 + 2.0 * fall.to_f64().abs().min(64.0);
@@ -276,6 +284,6 @@ impl<S: Analytic> FirstContact<S> {
             rate.weight.add(alternate(j, d2 * &factor), far);
             rate.weight.add(alternate(j + 1, b2 * &damped), far);
         }
-        (self.combine(&height, &self.round_trip), self.combine(&rate, &one))
+        Some([height, rate])
     }
 }

@@ -4,12 +4,13 @@
 //! parameters are `R = r t₁` and the weights `μ` and `μ₀ = g t₁` of two fixed solutions. `r = 0` is a value like any other.
 
 mod bounce;
-//mod energy;
+mod energy;
 mod field;
+mod rebound;
 mod search;
 mod undamped;
 
 pub use bounce::{Bounce, BounceKind};
-//pub use energy::{BounceEnergy, Highest};
 pub use field::{Estimate, FirstContact};
+pub use rebound::Rebound;
 pub use undamped::Undamped;
