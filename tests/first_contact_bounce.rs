@@ -1,4 +1,5 @@
 //! The bounce time: the reference, thresholds, and where doubles lose their digits.
+#![allow(clippy::unwrap_used, clippy::panic)]
 
 use dalembert::Number;
 use dalembert::first_contact::{Bounce, BounceKind, FirstContact};

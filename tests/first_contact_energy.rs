@@ -1,4 +1,5 @@
 //! Energies, restitution and flight.
+#![allow(clippy::unwrap_used, clippy::panic)]
 
 use dalembert::Number;
 use dalembert::first_contact::{FirstContact, Undamped};

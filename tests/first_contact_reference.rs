@@ -1,4 +1,5 @@
 //! The reference values of an independent ball-arithmetic program.
+#![allow(clippy::unwrap_used, clippy::panic)]
 
 use dalembert::first_contact::{Estimate, FirstContact};
 use dalembert::history::Side;
