@@ -3,6 +3,7 @@
 
 use dalembert::Number;
 use dalembert::first_contact::{Bounce, BounceKind, FirstContact};
+use dalembert::history::Side;
 use dalembert::number::Analytic;
 use dalembert::rod::Parameters;
 use serde_json::Value;
@@ -86,6 +87,38 @@ fn close_to_the_overdamped_rod() {
         let never = rod(damping, 0.0, 0.5, 1.0).bounce();
         assert!(matches!(&never, Bounce::Never { reason } if reason.contains("overdamped")), "{damping}: {never:?}");
     }
+}
+
+/// g = 0, r = 3.135, at 12 t₁: 15 digits are gone. The truth is the sum in 1024 bits.
+#[cfg(feature = "mp")]
+#[test]
+fn lost_digits_are_noticed_and_fetched() {
+    let contact = rod(3.135, 0.0, 0.5, 1.0);
+    let plain = contact.stress(&12.5, Side::Right);
+    let (found, bits) = contact.stress_within(12.5, Side::Right, 1e-14);
+    assert!(bits > 53 && plain.error > plain.value.abs().min(found.value.abs()), "{plain:?}");
+    assert!((plain.value - found.value).abs() <= plain.error);
+    let lift = |x: f64| rug::Float::with_val(1024, x);
+    let mut sum = lift(0.0);
+    for j in 0..=12 {
+        let z = (lift(12.5).square() - lift(f64::from(j * j))).sqrt() * lift(3.135);
+        let mut term = lift(if j == 0 {
+            1.0
+        } else if j % 2 == 0 {
+            2.0
+        } else {
+            -2.0
+        });
+        let quarter = z.square() / 4u32;
+        for m in 1..400u32 {
+            sum += &term;
+            term *= &quarter;
+            term /= m * m;
+        }
+    }
+    let truth = -(sum * (lift(-3.135) * 12.5f64).exp()).to_f64();
+    assert!((found.value - truth).abs() <= 1e-14 * truth.abs(), "{found:?} {truth}");
+    assert_eq!(contact.stress_within(0.5, Side::Right, 1e-13).1, 53);
 }
 
 /// The doubles next to π.

@@ -1,11 +1,12 @@
 //! The bounce time `t_b`: the first root or jump of the stress, or the reason why there is none.
 
-use super::field::{FirstContact, Sum};
+use super::field::{Estimate, FirstContact, Sum};
 use super::search::{FirstRoot, coefficients, first_root};
 use crate::history::Side;
 use crate::number::Analytic;
 #[cfg(feature = "mp")]
 use crate::rod::Parameters;
+use crate::special::roundoff;
 
 /// How the contact ends.
 #[derive(Clone, Debug, PartialEq)]
@@ -212,9 +213,11 @@ impl<S: Analytic> FirstContact<S> {
                 rate.impact.roundings + rate.weight.roundings + slope.impact.roundings + slope.weight.roundings;
         }
         let size = |values: &[f64]| coefficients(values).iter().map(|c| c.abs()).sum::<f64>();
-        // Interpolation in a from the ellipse ρ = 8 (|Im a| ≤ 1, R < π): each of 2k + 2 rays is below 8(k+3)²(R+2)² there.
-        let rays = 16.0 * (k as f64 + 1.0) * (k as f64 + 3.0).powi(2) * 28.0;
-        let rest = 4.0 * rays * 8f64.powi(-(NODES as i32)) + self.bound(roundings) + 1e-11;
+        // Interpolation in a, from the ellipse ρ = 8 around the rod.
+        let interpolation =
+            4.0 * self.amplitude(k as f64, (8.0 - 1.0 / 8.0) / 8.0, 1.0, 1.0) * 8f64.powi(-(NODES as i32));
+        // Nodes at the ends were moved by 10⁻¹².
+        let rest = interpolation + self.bound(roundings) + 1e-9;
         let largest = size(&upward).max(size(&downward)) + rest;
         let share = beta.to_f64() / 2.0;
         (largest < share * (1.0 - 1e-9)).then(|| {
@@ -343,6 +346,57 @@ impl FirstContact<f64> {
         let _ = accuracy;
         bounce
     }
+
+    /// `v_x(0,t)` to `accuracy`, relative, as far as longer numbers reach; and the bits that were used, 53 for doubles.
+    ///
+    /// **Source**: [`FirstContact::stress`]. Without the feature `mp` doubles are all there is.
+    ///
+    /// **Accuracy**: the estimate's `error` says what was reached.
+    pub fn stress_within(&self, time: f64, side: Side, accuracy: f64) -> (Estimate<f64>, u32) {
+        let stress = self.stress(&time, side);
+        let enough = |found: &Estimate<f64>| found.error <= accuracy * found.value.abs();
+        if enough(&stress) || stress.error.is_infinite() {
+            return (stress, 53);
+        }
+        #[cfg(feature = "mp")]
+        {
+            use crate::number::Scalar;
+            // A lattice time as doubles compute it is meant to be that lattice time.
+            let trips = self.trips(&time);
+            let whole = trips.floor_int().filter(|k| trips == *k as f64);
+            for bits in LADDER {
+                let long = longer(&self.rod, bits);
+                let time = match whole {
+                    Some(k) => long.round_trip() * k,
+                    None => rug::Float::with_val(bits, time),
+                };
+                let found = long.stress(&time, side);
+                let value = found.value.to_f64();
+                let found = Estimate { value, error: found.error + 2f64.powi(-53) * value.abs() };
+                if enough(&found) {
+                    return (found, bits);
+                }
+            }
+        }
+        (stress, 53)
+    }
+}
+
+/// Bits that are tried where doubles do not suffice.
+#[cfg(feature = "mp")]
+const LADDER: [u32; 6] = [128, 256, 512, 1024, 2048, 4096];
+
+/// The same rod, exactly, in longer numbers.
+#[cfg(feature = "mp")]
+fn longer(rod: &Parameters<f64>, bits: u32) -> FirstContact<rug::Float> {
+    let lift = |x: f64| rug::Float::with_val(bits, x);
+    FirstContact::new(&Parameters {
+        length: lift(rod.length),
+        wave_speed: lift(rod.wave_speed),
+        damping: lift(rod.damping),
+        gravity: lift(rod.gravity),
+        speed: lift(rod.speed),
+    })
 }
 
 /// Whether more digits would add nothing.
@@ -359,16 +413,8 @@ fn good<S: Analytic>(bounce: &Bounce<S>, accuracy: f64) -> bool {
 #[cfg(feature = "mp")]
 fn escalate(rod: &Parameters<f64>, accuracy: f64) -> Option<Bounce<f64>> {
     let mut last = None;
-    for bits in [128u32, 256, 512, 1024, 2048, 4096] {
-        let lift = |x: f64| rug::Float::with_val(bits, x);
-        let long = Parameters {
-            length: lift(rod.length),
-            wave_speed: lift(rod.wave_speed),
-            damping: lift(rod.damping),
-            gravity: lift(rod.gravity),
-            speed: lift(rod.speed),
-        };
-        let bounce = FirstContact::new(&long).bounce();
+    for bits in LADDER {
+        let bounce = longer(rod, bits).bounce();
         let enough = good(&bounce, accuracy);
         last = Some(match bounce {
             Bounce::At { time, kind, error } => {
@@ -382,18 +428,4 @@ fn escalate(rod: &Parameters<f64>, accuracy: f64) -> Option<Bounce<f64>> {
         }
     }
     last
-}
-
-/// The unit roundoff as a number of its own system, which may be below the least double.
-fn roundoff<S: Analytic>(like: &S) -> S {
-    let mut bits = (-like.log2_roundoff()).clamp(1.0, 1e6) as u32;
-    let (mut power, mut square) = (like.one(), like.ratio(1, 2));
-    while bits > 0 {
-        if bits % 2 == 1 {
-            power = power * &square;
-        }
-        square = square.square();
-        bits /= 2;
-    }
-    power
 }

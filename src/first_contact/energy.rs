@@ -84,18 +84,16 @@ impl<S: Analytic> FirstContact<S> {
     /// The number of nodes that leave less than a roundoff of `size` between two rays, and what they leave.
     ///
     /// n nodes on an interval of half-width w leave less than `(64/15) w M ρ^{−2n}/(1 − ρ⁻²)`, where M bounds the integrand on
-    /// the Bernstein ellipse ρ, which reaches `δ = (ρ − 1/ρ)/8` beyond an interval of half-width 1/4. There each ray adds at most
-    /// `e^{Rδ}` times `4μ + 8μ₀ s² (1 + Rs)`, `s = τ + δ`, by `Σ qⁿIₙ = e^{(z/2)(q+1/q)}` and `n Iₙ ≤ (z/2) I_{n−1}`.
+    /// the Bernstein ellipse ρ, which reaches `δ = (ρ − 1/ρ)/8` beyond an interval of half-width 1/4.
     fn nodes(&self, trips: &S, size: f64) -> (usize, f64) {
-        let (r, tau) = (self.damping.to_f64(), trips.to_f64());
+        let tau = trips.to_f64();
         let (mu, mu0) = (self.rod.speed.to_f64(), self.critical.to_f64());
         let goal = self.damping.log2_roundoff() * std::f64::consts::LN_2 + size.max(f64::MIN_POSITIVE).ln();
         let mut best = f64::INFINITY;
         for rho in [1.1f64, 1.25, 1.5, 2.0, 4.0, 8.0, 16.0, 32.0, 64.0, 128.0, 256.0] {
             let beyond = (rho - 1.0 / rho) / 8.0;
-            let s = tau + beyond;
-            let amplitude = (4.0 * tau + 4.0) * (4.0 * mu + 8.0 * mu0 * s * s * (1.0 + r * s));
-            let log = 2.0 * amplitude.max(1e-150).ln() + 2.0 * r * beyond + (5.0 / (1.0 - 1.0 / (rho * rho))).ln();
+            let amplitude = self.amplitude(tau, beyond, mu, mu0);
+            let log = 2.0 * amplitude.ln() + (5.0 / (1.0 - 1.0 / (rho * rho))).ln();
             best = best.min((log - goal) / (2.0 * rho.ln()));
         }
         ((best.ceil().clamp(2.0, MOST_NODES as f64)) as usize, goal.exp())

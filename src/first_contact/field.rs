@@ -236,6 +236,16 @@ impl<S: Analytic> FirstContact<S> {
         (Field { displacement: displacement.value, velocity: velocity.value, strain: strain.value }, errors)
     }
 
+    /// A bound of `v_t`, `c v_x` and `v_t − h′` where the travel time a is complex, at most `beyond` from the rod.
+    ///
+    /// Each ray adds at most `e^{Rδ}` times `4μ + 8μ₀ s² (1 + Rs)`, `s = τ + δ`, by `Σ qⁿIₙ = e^{(z/2)(q+1/q)}` and
+    /// `n Iₙ ≤ (z/2) I_{n−1}`, with `|ξ|, |η|` for ξ, η; there are no more than 4τ + 4 terms with what free fall and the centre add.
+    pub(super) fn amplitude(&self, tau: f64, beyond: f64, mu: f64, mu0: f64) -> f64 {
+        let (r, s) = (self.damping.to_f64(), tau + beyond);
+        let each = 4.0 * mu + 8.0 * mu0 * s * s * (1.0 + r * s);
+        ((4.0 * tau + 4.0) * each * (r * beyond).exp()).clamp(1e-150, f64::MAX)
+    }
+
     /// `h(t)` and `h′(t) = P/L`: the centre of mass, relative to its place in the undeformed rod on the ground.
     ///
     /// **Source**: (3.38), (3.39).

@@ -14,3 +14,17 @@ pub use ray::{Ray, RaySums};
 fn bits<S: crate::number::Scalar>(like: &S) -> f64 {
     (-like.log2_roundoff()).clamp(1.0, 1e6)
 }
+
+/// The unit roundoff as a number of its own system, which may be below the least double.
+pub(crate) fn roundoff<S: crate::number::Analytic>(like: &S) -> S {
+    let mut left = bits(like) as u32;
+    let (mut power, mut square) = (like.one(), like.ratio(1, 2));
+    while left > 0 {
+        if left % 2 == 1 {
+            power = power * &square;
+        }
+        square = square.square();
+        left /= 2;
+    }
+    power
+}
