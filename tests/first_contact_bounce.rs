@@ -1,5 +1,5 @@
 //! The bounce time: the reference, thresholds, and where doubles lose their digits.
-#![allow(clippy::unwrap_used, clippy::panic)]
+#![allow(clippy::unwrap_used, clippy::panic, clippy::approx_constant)]
 
 use dalembert::Number;
 use dalembert::first_contact::{Bounce, BounceKind, FirstContact};
@@ -167,4 +167,31 @@ fn nothing_moves_or_nothing_is_known() {
     assert!(matches!(rod(0.1, 0.0, 1.0, 0.0).bounce(), Bounce::Never { .. }));
     assert!(matches!(rod(f64::NAN, 1.0, 1.0, 1.0).bounce(), Bounce::Undecided { .. }));
     assert!(matches!(rod(0.1, 1.0, 1.0, -1.0).bounce(), Bounce::Undecided { .. }));
+}
+
+proptest::proptest! {
+    #![proptest_config(proptest::prelude::ProptestConfig::with_cases(150))]
+
+    /// The glued rod's stress is compressive at a thousand times before t_b, and tensile just after.
+    #[test]
+    fn nothing_is_missed(damping in 0.0f64..2.2, speed in -2.0f64..3.0, weightless in proptest::bool::weighted(0.2)) {
+        let contact = rod(damping.min(1.5), f64::from(u8::from(!weightless)), 1.0, 10f64.powf(speed));
+        let end = match contact.bounce_within(1e-12) {
+            Bounce::At { time, kind, error } => {
+                let after = contact.stress(&(time + 1e-7), Side::Right);
+                let dull = after.error > after.value.abs();
+                proptest::prop_assert!(after.value > 0.0 || dull, "{} {} {:?} {:?}", time, error, kind, after);
+                time
+            }
+            Bounce::Never { .. } => 40.0,
+            Bounce::Undecided { until, why, .. } => {
+                proptest::prop_assert!(weightless && until > 20.0, "{} {}", until, why);
+                until
+            }
+        };
+        for k in 1..1000 {
+            let stress = contact.stress(&(end * f64::from(k) / 1000.0), Side::Right);
+            proptest::prop_assert!(stress.value <= stress.error, "{} {:?}", k, stress);
+        }
+    }
 }
