@@ -78,6 +78,11 @@ impl<S: Analytic> FirstContact<S> {
         if total.is_zero() {
             return Bounce::Never { reason: "neither speed nor gravity: nothing moves".into() };
         }
+        // By far the most frequent answer.
+        let (value, error) = self.force(&mu.one(), 1);
+        if value < -error {
+            return Bounce::At { time: self.round_trip.clone(), kind: BounceKind::Jump, error: 0.0 };
+        }
         let first = match self.lowest_mode() {
             Ok(first) => first,
             Err(answer) => return answer,
@@ -93,12 +98,12 @@ impl<S: Analytic> FirstContact<S> {
                 let why = format!("just after t = {k} t₁ the stress cannot be told from zero");
                 return Bounce::Undecided { until: start * &self.round_trip, why, digits: true };
             }
+            if let Some(end) = self.cell(k) {
+                return end;
+            }
             let looked = k <= 4 || k.count_ones() <= 2 && k % 2 == 0;
             if looked && let Some(reason) = self.settled(k) {
                 return Bounce::Never { reason };
-            }
-            if let Some(end) = self.cell(k) {
-                return end;
             }
         }
         let until = mu.int(MOST_CELLS + 1) * &self.round_trip;
@@ -199,6 +204,7 @@ impl<S: Analytic> FirstContact<S> {
         let (alpha, beta) = (self.rod.speed.clone() / &total, self.critical.clone() / &total);
         let (mut upward, mut downward) = (Vec::with_capacity(NODES + 1), Vec::with_capacity(NODES + 1));
         let mut roundings = 0.0f64;
+        let share = beta.to_f64() / 2.0;
         for j in 0..=NODES {
             let node = (std::f64::consts::PI * j as f64 / NODES as f64).cos();
             // The ends belong to the open interval: their rays are those that have arrived inside.
@@ -207,8 +213,12 @@ impl<S: Analytic> FirstContact<S> {
             let velocity = rate.impact.value * &alpha + rate.weight.value * &beta;
             let held = a - trips.ratio(1, 2);
             let strain = slope.impact.value * &alpha + (slope.weight.value - held) * &beta;
-            upward.push((velocity.clone() - &strain).to_f64());
-            downward.push((velocity + strain).to_f64());
+            let (up, down) = ((velocity.clone() - &strain).to_f64(), (velocity + strain).to_f64());
+            if up.abs().max(down.abs()) > share {
+                return None;
+            }
+            upward.push(up);
+            downward.push(down);
             roundings +=
                 rate.impact.roundings + rate.weight.roundings + slope.impact.roundings + slope.weight.roundings;
         }
@@ -219,7 +229,6 @@ impl<S: Analytic> FirstContact<S> {
         // Nodes at the ends were moved by 10⁻¹².
         let rest = interpolation + self.bound(roundings) + 1e-9;
         let largest = size(&upward).max(size(&downward)) + rest;
-        let share = beta.to_f64() / 2.0;
         (largest < share * (1.0 - 1e-9)).then(|| {
             let part = largest / share;
             format!(

@@ -3,7 +3,7 @@
 use crate::history::{Field, Side};
 use crate::number::{Analytic, Scalar};
 use crate::rod::Parameters;
-use crate::special::{Ray, phi1, phi2};
+use crate::special::{Ray, i1_scaled, negative_power, phi1, phi2};
 
 /// A value and how far it may be off.
 #[derive(Clone, Debug, PartialEq)]
@@ -110,7 +110,7 @@ impl<S: Analytic> FirstContact<S> {
     /// The bound that `roundings` stand for.
     pub(super) fn bound(&self, roundings: f64) -> f64 {
         // Below the least double a bound is still no promise of exactness.
-        (roundings * 2f64.powf(self.damping.log2_roundoff())).max(f64::MIN_POSITIVE)
+        (roundings * negative_power(-self.damping.log2_roundoff())).max(f64::MIN_POSITIVE)
     }
 
     /// `factor (μ impact + μ₀ weight)`.
@@ -130,7 +130,17 @@ impl<S: Analytic> FirstContact<S> {
         let mut parts = Parts { impact: Sum::new(zero.clone(), 0.0), weight: Sum::new(zero, 0.0) };
         for j in 0..=k {
             let ray = Ray::new(&self.damping, &trips.int(j), trips);
-            let twice = trips.int(if j == 0 { 1 } else { 2 });
+            if j == 0 {
+                // `G_r = t (I₀ + I₁)` before the first return.
+                let (start, roundings) = ray.start();
+                if !self.critical.is_zero() {
+                    let both = start.clone() + i1_scaled(&(self.damping.clone() * trips));
+                    parts.weight.add(both * trips, roundings + 4.0);
+                }
+                parts.impact.add(start, roundings);
+                continue;
+            }
+            let twice = trips.int(2);
             if self.critical.is_zero() {
                 let (start, roundings) = ray.start();
                 parts.impact.add(alternate(j, start * &twice), roundings);

@@ -28,3 +28,9 @@ pub(crate) fn roundoff<S: crate::number::Analytic>(like: &S) -> S {
     }
     power
 }
+
+/// `2^{−n}` for the whole part of n, zero below the normal doubles.
+#[inline]
+pub(crate) fn negative_power(n: f64) -> f64 {
+    if (0.0..1022.0).contains(&n) { f64::from_bits((1023 - n as u64) << 52) } else { 0.0 }
+}

@@ -4,7 +4,7 @@
 //! `ρ_n = ψ_n/ψ_{n−1}` obey `ρ_n = ξ/(n + (r²η/4) ρ_{n+1})`, which has no cancellation, is stable downwards, and is
 //! `ξ/n` at `r = 0`: no formula here divides by `r`.
 
-use super::{bits, i0_scaled};
+use super::{bits, i0_scaled, negative_power};
 use crate::number::Analytic;
 
 /// A ray of travel time `a` at age `t`: `ξ = t − a`, `η = t + a`, damping `r`.
@@ -82,8 +82,25 @@ impl<S: Analytic> Ray<S> {
         if reach == 0.0 {
             return first + 1;
         }
+        if z < 4.0 && goal < 100.0 {
+            // The same with the root left out, `I_n/I_{n−1} < z/(2n−1)`, and without divisions.
+            let (limit, z_square) = (negative_power(goal.ceil()), z * z);
+            let mut size = 1.0f64;
+            while n < 64 {
+                n += 1;
+                let (m, below) = (n as f64, (2 * n - 1) as f64);
+                rest *= reach;
+                square *= z_square;
+                size *= below;
+                // From n = 10 on the ratio, with the growth of the weights, is below 1/2.
+                if n >= 10 && 2.0 * rest * m * m * m <= limit * size && square <= limit * size * size {
+                    return n;
+                }
+            }
+            return n;
+        }
         let unit = 2f64.powi(-300);
-        let small = |goal: f64| if goal > 600.0 { 0.0 } else { 2f64.powf(-goal) };
+        let small = |goal: f64| if goal > 600.0 { 0.0 } else { negative_power(goal.ceil()) };
         let mut limit = small(goal);
         loop {
             n += 1;
