@@ -1,4 +1,5 @@
-//! The first contact in doubles: one stress value, one restitution, one energy, and Figure 4 with the part left of its dots.
+//! The first contact in doubles: one stress value, one restitution, one energy, and Figure 4 with the part left of
+//! its dots.
 
 use std::hint::black_box;
 
@@ -6,6 +7,7 @@ use criterion::{Criterion, criterion_group, criterion_main};
 use dalembert::first_contact::{Bounce, FirstContact};
 use dalembert::history::Side;
 use dalembert::rod::Parameters;
+use dalembert::special::{i0_scaled, i1_scaled};
 
 fn rod(damping: f64, speed: f64) -> Parameters<f64> {
     Parameters { length: 1.0, wave_speed: 1.0, damping, gravity: 1.0, speed }
@@ -21,6 +23,10 @@ fn restitution(damping: f64, speed: f64) -> Option<f64> {
 
 fn first_contact(criterion: &mut Criterion) {
     let contact = FirstContact::new(&rod(0.2, 5.0));
+    // What a machine takes for two Bessel functions: the floor of everything below.
+    criterion.bench_function("e^{−z} I₀(z) and I₁(z)", |b| {
+        b.iter(|| i0_scaled(black_box(&0.26_f64)) + i1_scaled(black_box(&0.26_f64)));
+    });
     criterion.bench_function("stress in the first round trip", |b| {
         b.iter(|| contact.stress(black_box(&1.3), Side::Right));
     });

@@ -51,15 +51,15 @@ const MOST_CELLS: i64 = 256;
 impl<S: Analytic> FirstContact<S> {
     /// `t_b` (1.10): the end of the first contact.
     ///
-    /// **Source**: Theorem 1, with (2.32) in closed form: `t_b = t₁` where `μ (2 − I₀(R)) > μ₀ (I₀(R) + I₁(R))`. Later cells
-    /// are searched one by one on a Chebyshev sum whose rest is bounded, see [`Bounce::Undecided`] for when that fails.
-    /// "Never" is shown in one of two ways. For `R ≥ π`: the kernel `H_r` is positive, because its lowest mode, overdamped,
-    /// exceeds the sum of all others from `t₁` on. For `R < π`: at some lattice time `|v_t ∓ c(v_x − v_s′)| < gL/c`
-    /// throughout the rod; this largest Riemann invariant of the transient cannot grow, since
-    /// `(∂_t ± c∂_x) p_± = −r (p₊ + p₋)`, and so the static stress wins at all later times.
+    /// **Source**: Theorem 1, with (2.32) in closed form: `t_b = t₁` where `μ (2 − I₀(R)) > μ₀ (I₀(R) + I₁(R))`.
+    /// Later cells are searched one by one on a Chebyshev sum whose rest is bounded, see [`Bounce::Undecided`] for
+    /// when that fails. "Never" is shown in one of two ways. For `R ≥ π`: the kernel `H_r` is positive, because its
+    /// lowest mode, overdamped, exceeds the sum of all others from `t₁` on. For `R < π`: at some lattice time
+    /// `|v_t ∓ c(v_x − v_s′)| < gL/c` throughout the rod; this largest Riemann invariant of the transient cannot
+    /// grow, since `(∂_t ± c∂_x) p_± = −r (p₊ + p₋)`, and so the static stress wins at all later times.
     ///
-    /// **Accuracy**: `error` bounds the rounding errors and the width of the last bracket. No root is reported that is not
-    /// bracketed by signs beyond the rounding errors.
+    /// **Accuracy**: `error` bounds the rounding errors and the width of the last bracket. No root is reported that
+    /// is not bracketed by signs beyond the rounding errors.
     ///
     /// ```
     /// # use dalembert::{Number, Problem, rod::Parameters, first_contact::{Bounce, BounceKind, FirstContact}};
@@ -114,7 +114,8 @@ impl<S: Analytic> FirstContact<S> {
         }
     }
 
-    /// `(μ e^{−rt}H_r + μ₀ e^{−rt}G_r/t₁)/(μ + μ₀)` with `k` returning rays, positive in contact; and its rounding error.
+    /// `(μ e^{−rt}H_r + μ₀ e^{−rt}G_r/t₁)/(μ + μ₀)` with `k` returning rays, positive in contact; and its rounding
+    /// error.
     fn force(&self, trips: &S, k: i64) -> (S, S) {
         let parts = self.ground(trips, k);
         let total = self.rod.speed.clone() + &self.critical;
@@ -126,12 +127,13 @@ impl<S: Analytic> FirstContact<S> {
 
     /// What the lowest mode settles at once: "never" for `R ≥ π`, and otherwise the first cell that need be searched.
     ///
-    /// `H_r = 4 Σ S_n`, `S_n = sin(Ω_n τ)/Ω_n`, `Ω_n² = ω_n² − R²`, `ω_n = (2n+1)π`, `τ = t/t₁`. Overdamped modes are positive.
-    /// For `ω_n ≥ 2R`, `|S_n − sin(ω_nτ)/ω_n| ≤ (R²/2Ω_n)(τ/Ω_n + 1/Ω_n²)`, and `4 Σ_{all} sin(ω_nτ)/ω_n = ±1`, with
-    /// `Ω_n² ≥ ¾ω_n²`, `Σ_{n≥N} ω_n⁻² ≤ ω_N⁻² + 1/2πω_N`, `Σ_{n≥N} ω_n⁻³ ≤ ω_N⁻³ + 1/4πω_N²`. Those between are at most τ and
-    /// `1/Ω_n`. All others together are at most `b₀ + b₁τ`. For `R ≥ π`, `S_0` is convex, so one look at τ = 1 is enough for
-    /// ever; for `R < π` it is concave up to `π/Ω_0`, so a look at τ = 1 and at τ = k is enough for all between. Before,
-    /// `H_r = I₀ > 0`. As long as H_r > 0, G_r > 0.
+    /// `H_r = 4 Σ S_n`, `S_n = sin(Ω_n τ)/Ω_n`, `Ω_n² = ω_n² − R²`, `ω_n = (2n+1)π`, `τ = t/t₁`. Overdamped modes are
+    /// positive. For `ω_n ≥ 2R`, `|S_n − sin(ω_nτ)/ω_n| ≤ (R²/2Ω_n)(τ/Ω_n + 1/Ω_n²)`, and
+    /// `4 Σ_{all} sin(ω_nτ)/ω_n = ±1`, with `Ω_n² ≥ ¾ω_n²`, `Σ_{n≥N} ω_n⁻² ≤ ω_N⁻² + 1/2πω_N`,
+    /// `Σ_{n≥N} ω_n⁻³ ≤ ω_N⁻³ + 1/4πω_N²`. Those between are at most τ and `1/Ω_n`. All others together are at most
+    /// `b₀ + b₁τ`. For `R ≥ π`, `S_0` is convex, so one look at τ = 1 is enough for ever; for `R < π` it is concave
+    /// up to `π/Ω_0`, so a look at τ = 1 and at τ = k is enough for all between. Before, `H_r = I₀ > 0`. As long as
+    /// H_r > 0, G_r > 0.
     fn lowest_mode(&self) -> Result<i64, Bounce<S>> {
         use std::f64::consts::PI;
         let pi = self.damping.pi();
@@ -237,11 +239,12 @@ impl<S: Analytic> FirstContact<S> {
         })
     }
 
-    /// The first root inside `(k t₁, (k+1) t₁)`, where the stress is compressive at the left end; `None` where there is none.
+    /// The first root inside `(k t₁, (k+1) t₁)`, where the stress is compressive at the left end; `None` where there
+    /// is none.
     ///
-    /// Chebyshev interpolation in n + 1 points is off by at most `4Mρ⁻ⁿ/(ρ−1)`. The ellipse with `ρ + 1/ρ = 4k + 2` stays in
-    /// Re τ ≥ 0, where `|e^{−Rτ}I₀(R√(τ²−j²))| ≤ 1`, because `(Re √(τ²−j²))² ≤ (Re τ)²`; so each ray adds at most 1 to the
-    /// impact's share and, integrated from j, at most 2k + 1 to the weight's: `M ≤ (2k+1)²`.
+    /// Chebyshev interpolation in n + 1 points is off by at most `4Mρ⁻ⁿ/(ρ−1)`. The ellipse with `ρ + 1/ρ = 4k + 2`
+    /// stays in Re τ ≥ 0, where `|e^{−Rτ}I₀(R√(τ²−j²))| ≤ 1`, because `(Re √(τ²−j²))² ≤ (Re τ)²`; so each ray adds at
+    /// most 1 to the impact's share and, integrated from j, at most 2k + 1 to the weight's: `M ≤ (2k+1)²`.
     fn cell(&self, k: i64) -> Option<Bounce<S>> {
         let at = |x: f64| self.damping.int(k) + (self.damping.double(x) + self.damping.one()) / self.damping.int(2);
         let lost =
@@ -295,7 +298,8 @@ impl<S: Analytic> FirstContact<S> {
         }
     }
 
-    /// The root in a bracket on which the force falls at least as fast as `slope`: the Illinois variant of regula falsi.
+    /// The root in a bracket on which the force falls at least as fast as `slope`: the Illinois variant of regula
+    /// falsi.
     fn refine(&self, k: i64, lo: S, hi: S, slope: &S) -> Bounce<S> {
         let (mut a, mut b) = (lo, hi);
         let (mut fa, mut fb) = (self.force(&a, k).0, self.force(&b, k).0);

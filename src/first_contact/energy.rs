@@ -21,9 +21,9 @@ impl<S: Analytic> FirstContact<S> {
     ///
     /// **Source**: (3.54), (3.61)–(3.63), with `E_z = ½∫((v_t − h′)² + c²v_x²)dx`, so that `E_z ≪ E` keeps its digits.
     ///
-    /// **Accuracy**: the bounds hold rounding and quadrature. At `t₁` and `R ≤ 1` the parts of `v_t` and `v_x` that do not
-    /// depend on x are left out before they are added up, and `E_z` is relatively accurate however small; at other times its
-    /// error is that of `v_t` and `v_x`, which are known to a part of `μ + μ₀`.
+    /// **Accuracy**: the bounds hold rounding and quadrature. At `t₁` and `R ≤ 1` the parts of `v_t` and `v_x` that
+    /// do not depend on x are left out before they are added up, and `E_z` is relatively accurate however small; at
+    /// other times its error is that of `v_t` and `v_x`, which are known to a part of `μ + μ₀`.
     ///
     /// ```
     /// # use dalembert::{rod::Parameters, first_contact::FirstContact};
@@ -83,8 +83,8 @@ impl<S: Analytic> FirstContact<S> {
 
     /// The number of nodes that leave less than a roundoff of `size` between two rays, and what they leave.
     ///
-    /// n nodes on an interval of half-width w leave less than `(64/15) w M ρ^{−2n}/(1 − ρ⁻²)`, where M bounds the integrand on
-    /// the Bernstein ellipse ρ, which reaches `δ = (ρ − 1/ρ)/8` beyond an interval of half-width 1/4.
+    /// n nodes on an interval of half-width w leave less than `(64/15) w M ρ^{−2n}/(1 − ρ⁻²)`, where M bounds the
+    /// integrand on the Bernstein ellipse ρ, which reaches `δ = (ρ − 1/ρ)/8` beyond an interval of half-width 1/4.
     fn nodes(&self, trips: &S, size: f64) -> (usize, f64) {
         let tau = trips.to_f64();
         let (mu, mu0) = (self.rod.speed.to_f64(), self.critical.to_f64());
@@ -143,8 +143,9 @@ impl<S: Analytic> FirstContact<S> {
 
     /// At `t₁`, for R ≤ 1: the impact's share without what is the same along the rod.
     ///
-    /// Two rays are there, `ξ = 1 ∓ a` and `ξ + η = 2`. In powers of R, `∂_tU₁ − RU₁ = 1 − Rξ + R²ξ/2 + T₃(ξ)`, and the first three
-    /// add up to a constant; `T₃` is of order R³, `I₀ − 1` of order R². What is left has no cancellation but its own zeros.
+    /// Two rays are there, `ξ = 1 ∓ a` and `ξ + η = 2`. In powers of R, `∂_tU₁ − RU₁ = 1 − Rξ + R²ξ/2 + T₃(ξ)`, and
+    /// the first three add up to a constant; `T₃` is of order R³, `I₀ − 1` of order R². What is left has no
+    /// cancellation but its own zeros.
     fn sample_first_return(&self, places: &[(S, S)]) -> Option<Vec<Node<S>>> {
         let trips = self.damping.one();
         let [_, centre] = self.centre_parts(&trips)?;
@@ -190,8 +191,8 @@ impl<S: Analytic> FirstContact<S> {
 
     /// `T₃(a) = Σ_{p≥3} (R/2)^p Σ_{n+2m=p} ±{1,2} ξ^{n+m}η^m/(m!(n+m)!)`, with `ξ = 1 − a`, `η = 1 + a`.
     ///
-    /// The terms of order p are at most `R^p/p!` together, since `Σ_ℤ qⁿIₙ = e^R`; the sum ends where that is a roundoff of R³/48,
-    /// and each order is one polynomial in ξ, η by Horner in η/ξ-free form.
+    /// The terms of order p are at most `R^p/p!` together, since `Σ_ℤ qⁿIₙ = e^R`; the sum ends where that is a
+    /// roundoff of R³/48, and each order is one polynomial in ξ, η by Horner in η/ξ-free form.
     fn third_order(&self, a: &S) -> S {
         let (xi, eta) = (a.one() - a, a.one() + a);
         let half = self.damping.clone() / a.int(2);

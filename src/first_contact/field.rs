@@ -170,7 +170,8 @@ impl<S: Analytic> FirstContact<S> {
         self.kernel(time, side, |parts| parts.impact, &time.one())
     }
 
-    /// `e^{−rt} G_r(t)`, `G_r = ∫₀ᵗ e^{r(t−τ)} H_r(τ) dτ`: the weight's share of (2.28). Zero terms are summed for `g = 0`.
+    /// `e^{−rt} G_r(t)`, `G_r = ∫₀ᵗ e^{r(t−τ)} H_r(τ) dτ`: the weight's share of (2.28). Zero terms are summed for
+    /// `g = 0`.
     pub fn weight_kernel(&self, time: &S, side: Side) -> Estimate<S> {
         self.kernel(time, side, |parts| parts.weight, &self.round_trip)
     }
@@ -249,7 +250,8 @@ impl<S: Analytic> FirstContact<S> {
     /// A bound of `v_t`, `c v_x` and `v_t − h′` where the travel time a is complex, at most `beyond` from the rod.
     ///
     /// Each ray adds at most `e^{Rδ}` times `4μ + 8μ₀ s² (1 + Rs)`, `s = τ + δ`, by `Σ qⁿIₙ = e^{(z/2)(q+1/q)}` and
-    /// `n Iₙ ≤ (z/2) I_{n−1}`, with `|ξ|, |η|` for ξ, η; there are no more than 4τ + 4 terms with what free fall and the centre add.
+    /// `n Iₙ ≤ (z/2) I_{n−1}`, with `|ξ|, |η|` for ξ, η; there are no more than 4τ + 4 terms with what free fall and
+    /// the centre add.
     pub(super) fn amplitude(&self, tau: f64, beyond: f64, mu: f64, mu0: f64) -> f64 {
         let (r, s) = (self.damping.to_f64(), tau + beyond);
         let each = 4.0 * mu + 8.0 * mu0 * s * s * (1.0 + r * s);

@@ -95,7 +95,8 @@ impl<S: Analytic> Rebound<S> {
 
     /// `e_E² = E_h(t_b)/E_h(0)`: the square of the energy coefficient of restitution.
     ///
-    /// **Source**: (4.71). For `t_b = t₁` and `μ → ∞`, `e_E` tends to `2e^{−R}(I₀(R) − I₁(R)) − e^{−2R}`, not to the `e^{−R}` of (4.75).
+    /// **Source**: (4.71). For `t_b = t₁` and `μ → ∞`, `e_E` tends to `2e^{−R}(I₀(R) − I₁(R)) − e^{−2R}`, not to the
+    /// `e^{−R}` of (4.75).
     ///
     /// **Errors**: `None` where `E_h(t_b) < 0`, where the paper leaves it undefined, and where `μ = 0`.
     pub fn energy_restitution_squared(&self) -> Option<S> {

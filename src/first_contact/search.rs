@@ -1,4 +1,5 @@
-//! First sign change of a smooth function on `[−1,1]`, from its Chebyshev coefficients and a bound of what they leave out.
+//! First sign change of a smooth function on `[−1,1]`, from its Chebyshev coefficients and a bound of what they leave
+//! out.
 
 /// What is known of the first sign change from `+` to `−`.
 #[derive(Clone, Debug, PartialEq)]
@@ -35,13 +36,13 @@ fn evaluate(coefficients: &[f64], x: f64) -> (f64, f64) {
     (coefficients.first().copied().unwrap_or(0.0) + x * b1 - b2, b1 + x * d1 - d2)
 }
 
-/// The first sign change of a function whose distance from the Chebyshev sum is at most `error`, given a better `sign` for
-/// places where the sum alone does not tell.
+/// The first sign change of a function whose distance from the Chebyshev sum is at most `error`, given a better
+/// `sign` for places where the sum alone does not tell.
 ///
-/// `B = Σ |c_n| n²(n²−1)/3` bounds the sum's second derivative. On an interval of width w the sum stays above its lesser end
-/// minus B w²/8, and its slope keeps its sign where |f′(middle)| > B w/2. By Markov's inequality the slope of what is left
-/// out is below n² `error`; four times that is granted. Intervals are taken from the left, each begins with a plus, and
-/// none is left without proof, so no earlier root is missed.
+/// `B = Σ |c_n| n²(n²−1)/3` bounds the sum's second derivative. On an interval of width w the sum stays above its
+/// lesser end minus B w²/8, and its slope keeps its sign where |f′(middle)| > B w/2. By Markov's inequality the slope
+/// of what is left out is below n² `error`; four times that is granted. Intervals are taken from the left, each
+/// begins with a plus, and none is left without proof, so no earlier root is missed.
 pub(super) fn first_root(sum: &[f64], error: f64, sign: impl Fn(f64) -> Sign) -> FirstRoot {
     let bend: f64 = (0u32..).zip(sum).map(|(n, c)| (f64::from(n).powi(4) - f64::from(n).powi(2)) * c.abs() / 3.0).sum();
     let steepness = 4.0 * (sum.len() * sum.len()) as f64 * error;

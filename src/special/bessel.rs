@@ -61,7 +61,8 @@ fn generic<S: Analytic>(z: &S, n: i64) -> S {
 /// `(2πz)^{−1/2} Σ_k (−1)ᵏ a_k(n)/zᵏ`, for n = 0, 1 and z > bits + 64; from k = 2 on all terms have one sign.
 ///
 /// The rest after ℓ terms is at most `4 χ(ℓ) |a_ℓ| z^{−ℓ} + e^{−2z}` with `χ(ℓ) = √π Γ(ℓ/2+1)/Γ(ℓ/2+1/2) < 2√ℓ + 2`
-/// (DLMF 10.40(ii), (iii), with `|n² − ¼| π/2z < 0.02`). Terms fall until k ≈ 2z, where they are e^{−2z}, beyond the precision.
+/// (DLMF 10.40(ii), (iii), with `|n² − ¼| π/2z < 0.02`). Terms fall until k ≈ 2z, where they are e^{−2z}, beyond the
+/// precision.
 fn expansion<S: Analytic>(z: &S, n: i64) -> S {
     let mut term = z.one();
     let mut sum = z.one();

@@ -67,12 +67,13 @@ impl<S: Analytic> Ray<S> {
         self.xi.clone() / (self.half.clone() * &self.eta * next + self.xi.int(n))
     }
 
-    /// How many terms leave a relative rest below the roundoff, for weights that grow no faster than n³, from index `first` on.
+    /// How many terms leave a relative rest below the roundoff, for weights that grow no faster than n³, from index
+    /// `first` on.
     ///
     /// With z = r√(ξη): `I_n/I_{n−1} < z/(n−½+√((n−½)²+z²))` (Amos 1974, Segura 2011), so `(r/2)ρ_n < rξ/(n−½+√(…))`.
-    /// These bounds fall with n: the rest after n is at most its first term times the geometric series of the ratio there.
-    /// Starting the recurrence with ρ = 0 changes `ρ_k` by the product of `(I_n/I_{n−1})(I_{n+1}/I_n)` from k on, which the
-    /// second product bounds by its square.
+    /// These bounds fall with n: the rest after n is at most its first term times the geometric series of the ratio
+    /// there. Starting the recurrence with ρ = 0 changes `ρ_k` by the product of `(I_n/I_{n−1})(I_{n+1}/I_n)` from k
+    /// on, which the second product bounds by its square.
     fn terms(&self, first: i64) -> i64 {
         let z = self.argument * (1.0 + 1e-12);
         let reach = 2.0 * self.half.to_f64() * self.xi.to_f64().max(0.0) * (1.0 + 1e-12);
@@ -125,7 +126,8 @@ impl<S: Analytic> Ray<S> {
         }
     }
 
-    /// `e^{−rt} ψ₀`, without overflow: `e^{−r(t−u)} · e^{−ru} I₀(ru)` with `u = √(ξη)`, `t − u = a²/(t+u)`; and its roundings.
+    /// `e^{−rt} ψ₀`, without overflow: `e^{−r(t−u)} · e^{−ru} I₀(ru)` with `u = √(ξη)`, `t − u = a²/(t+u)`; and its
+    /// roundings.
     pub fn start(&self) -> (S, f64) {
         let two = self.xi.int(2);
         let u = (self.xi.clone() * &self.eta).sqrt();
@@ -144,9 +146,9 @@ impl<S: Analytic> Ray<S> {
 
     /// `e^{−rt} Σ_{n≥n₀} c_n (r/2)^{n−n₀} ψ_n` for K sequences `c`, each from its own `n₀ ≥ 1`, in one pass.
     ///
-    /// **Accuracy**: the weights are not negative, so the relative error is at most `sum_roundings` roundings. With N terms,
-    /// each ratio adds 4 roundings and passes on those of its successor times `I_{n+1}/I_{n−1}`; summed over n by
-    /// `asinh s ≥ 0.88 s` (s ≤ 1) that is at most `4N + 2.3 z (2 + ln 2N)`; Horner adds 3 for each term.
+    /// **Accuracy**: the weights are not negative, so the relative error is at most `sum_roundings` roundings. With N
+    /// terms, each ratio adds 4 roundings and passes on those of its successor times `I_{n+1}/I_{n−1}`; summed over n
+    /// by `asinh s ≥ 0.88 s` (s ≤ 1) that is at most `4N + 2.3 z (2 + ln 2N)`; Horner adds 3 for each term.
     pub fn sums<const K: usize>(&self, first: [i64; K], weight: impl Fn(i64) -> [i64; K]) -> RaySums<S, K> {
         let last = first.iter().copied().max().unwrap_or(1);
         let terms = self.terms(last);
