@@ -14,14 +14,15 @@ fn as_double<S: Analytic>(z: &S) -> Option<f64> {
 ///
 /// **Source**: (2.16), the function of the *first* kind; the paper's text says second.
 ///
-/// **Accuracy**: within an ulp for `f64`; within `4z + 4·bits` roundings, and no more than `16·bits`, otherwise.
+/// **Accuracy**: for `f64` within 8 roundings, and within an ulp beyond z = 2; within `4z + 4·bits` roundings, and no more than `16·bits`, otherwise.
 ///
 /// ```
 /// assert_eq!(dalembert::special::i0_scaled(&0.0), 1.0);
 /// ```
 pub fn i0_scaled<S: Analytic>(z: &S) -> S {
     match as_double(z) {
-        Some(z_double) => z.double(pxfm::f_i0e(z_double)),
+        Some(small) if small <= 2.0 => z.double(short(small, &SQUARES)),
+        Some(large) => z.double(pxfm::f_i0e(large)),
         None => generic(z, 0),
     }
 }
@@ -30,14 +31,15 @@ pub fn i0_scaled<S: Analytic>(z: &S) -> S {
 ///
 /// **Source**: after (2.22).
 ///
-/// **Accuracy**: within an ulp for `f64`; within `4z + 4·bits` roundings, and no more than `16·bits`, otherwise.
+/// **Accuracy**: for `f64` within 8 roundings, and within an ulp beyond z = 2; within `4z + 4·bits` roundings, and no more than `16·bits`, otherwise.
 ///
 /// ```
 /// assert_eq!(dalembert::special::i1_scaled(&0.0), 0.0);
 /// ```
 pub fn i1_scaled<S: Analytic>(z: &S) -> S {
     match as_double(z) {
-        Some(z_double) => z.double(pxfm::f_i1e(z_double)),
+        Some(small) if small <= 2.0 => z.double(0.5 * small * short(small, &PRODUCTS)),
+        Some(large) => z.double(pxfm::f_i1e(large)),
         None => generic(z, 1),
     }
 }
@@ -51,6 +53,30 @@ pub fn in_scaled<S: Analytic>(z: &S, n: u32) -> S {
     let ray = super::Ray::at_source(z);
     let ratios = ray.ratios(i64::from(n));
     ratios.into_iter().fold(i0_scaled(z), |value, ratio| value * &ratio)
+}
+
+/// `1/m²`, m = 1 … 13.
+const SQUARES: [f64; 13] = reciprocals(0);
+/// `1/(m(m+1))`, m = 1 … 13.
+const PRODUCTS: [f64; 13] = reciprocals(1);
+
+const fn reciprocals(n: usize) -> [f64; 13] {
+    let mut list = [0.0; 13];
+    let mut m = 1;
+    while m <= 13 {
+        list[m - 1] = 1.0 / (m * (m + n)) as f64;
+        m += 1;
+    }
+    list
+}
+
+/// `e^{−z} Σ_m yᵐ Π 1/(k(k+n))`, y = z²/4, in doubles, z ≤ 2, ten times as fast as a correctly rounded function.
+///
+/// With y ≤ 1 the rest after m = 13 is below `2/(14!)² < 2⁻⁷⁰`. In Horner's form the last step has one rounding and weighs 1,
+/// those before add three each times the terms that they stand in, `(I₀ − 1)/I₀ < 0.6`, and the exponential has two.
+fn short(z: f64, steps: &[f64; 13]) -> f64 {
+    let y = 0.25 * z * z;
+    steps.iter().rev().fold(1.0, |tail, step| 1.0 + y * step * tail) * (-z).exp()
 }
 
 /// The expansion at infinity where it reaches the precision, the series at zero elsewhere.
@@ -144,10 +170,11 @@ mod tests {
     #[cfg(feature = "mp")]
     #[test]
     fn doubles_and_many_digits_agree() {
-        for z in [1e-300, 1e-5, 0.7, 3.0, 20.0, 223.9, 224.1, 800.0, 1e4, 1e12] {
+        for z in [1e-300, 1e-5, 0.7, 1.3, 1.999, 2.0, 3.0, 20.0, 223.9, 224.1, 800.0, 1e4, 1e12] {
             let many = rug::Float::with_val(160, z);
-            assert!((i0_scaled(&many).to_f64() / i0_scaled(&z) - 1.0).abs() < 3e-16);
-            assert!((i1_scaled(&many).to_f64() / i1_scaled(&z) - 1.0).abs() < 3e-16);
+            let accuracy = if z <= 2.0 { 9e-16 } else { 3e-16 };
+            assert!((i0_scaled(&many).to_f64() / i0_scaled(&z) - 1.0).abs() < accuracy);
+            assert!((i1_scaled(&many).to_f64() / i1_scaled(&z) - 1.0).abs() < accuracy);
             for n in if z < 1e5 { vec![2, 5, 30] } else { vec![] } {
                 let (double, exact) = (in_scaled(&z, n), in_scaled(&many, n).to_f64());
                 assert!((double - exact).abs() <= 1e-13 * exact, "{z} {n} {double} {exact}");

@@ -133,7 +133,7 @@ impl<S: Analytic> Ray<S> {
         let u = (self.xi.clone() * &self.eta).sqrt();
         let damping = self.half.clone() * &two;
         let bessel = i0_scaled(&(damping.clone() * &u));
-        let roundings = if bits(&self.xi) <= 53.0 { 4.0 } else { 8.0 + 2.0 * self.argument + 4.0 * bits(&self.xi) };
+        let roundings = if bits(&self.xi) <= 53.0 { 8.0 } else { 8.0 + 4.0 * self.argument + 4.0 * bits(&self.xi) };
         if self.xi == self.eta {
             return (bessel, roundings);
         }
