@@ -1,5 +1,6 @@
 //! Exact reference solutions for the bouncing elastic rod.
 
+pub mod damped;
 pub mod error;
 pub mod history;
 pub mod number;
