@@ -55,6 +55,11 @@ impl<S: Analytic> Damped<S> {
     /// **Errors**: [`Error::TooManyPieces`] beyond 400 000 strips, or where `r t₁` or the number of rays asks for more than
     /// 4096 segments in a round trip; [`Error::Irrational`] from the parameters.
     pub fn solve(problem: &Problem, precision: &S::Precision, digits: f64) -> Result<Self, Error> {
+        Self::solve_with(problem, precision, digits, 1)
+    }
+
+    /// [`Self::solve`] with segments `shorten` times shorter than need be.
+    fn solve_with(problem: &Problem, precision: &S::Precision, digits: f64, shorten: i64) -> Result<Self, Error> {
         let parameters = Parameters::<S>::of(problem, precision)?;
         let free_top = problem.rod.top == Top::Free;
         let data = Data::of(problem, &parameters, free_top);
@@ -63,7 +68,7 @@ impl<S: Analytic> Damped<S> {
         if data.damping.to_f64() > 2000.0 {
             return Err(Error::TooManyPieces { limit: 4096, time: 0.0 });
         }
-        let medium = Medium::new(&data.damping, data.slope.clone(), free_top, log2_accuracy);
+        let medium = Medium::new(&data.damping, data.slope.clone(), free_top, log2_accuracy, shorten);
         let goal = match &problem.run {
             Run::Impacts(count) => Goal::Impacts(*count),
             Run::Time(time) => Goal::Time(S::from_number(time, precision) / &data.units.time),
@@ -326,5 +331,74 @@ impl<S: Analytic> History<S> for Damped<S> {
 
     fn warnings(&self) -> &[String] {
         &self.warnings
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::Number;
+
+    /// A rod with c = L = 1.
+    fn rod(gravity: i64, speed: i64, damping: &str, run: Run) -> Problem {
+        let mut problem =
+            Problem::uniform(Number::from(1), Number::from(1), Number::from(gravity), Number::from(speed));
+        problem.rod.damping = damping.parse().ok();
+        problem.run = run;
+        problem
+    }
+
+    #[test]
+    fn shorter_cells_change_nothing() {
+        for damping in ["0.01", "0.3", "2.6"] {
+            let problem = rod(1, 4, damping, Run::Time(Number::from(14)));
+            let coarse = Damped::<f64>::solve_with(&problem, &(), 12.0, 1).unwrap();
+            let fine = Damped::<f64>::solve_with(&problem, &(), 12.0, 5).unwrap();
+            assert!(fine.pieces.len() > 4 * coarse.pieces.len() / 3);
+            assert_eq!(coarse.events.len(), fine.events.len());
+            for (a, b) in coarse.events.iter().zip(&fine.events) {
+                assert!((a.time - b.time).abs() < 1e-12, "{damping} {a:?} {b:?}");
+                assert!((a.centre - b.centre).abs() < 1e-12 && (a.centre_velocity - b.centre_velocity).abs() < 1e-12);
+            }
+            for k in 0..50 {
+                let t = 0.28 * f64::from(k) + 0.013;
+                for x in [0.0, 0.37, 1.0] {
+                    let (a, b) = (coarse.field(&x, &t, Side::Right).unwrap(), fine.field(&x, &t, Side::Right).unwrap());
+                    let off = [a.displacement - b.displacement, a.velocity - b.velocity, a.strain - b.strain];
+                    assert!(off.iter().all(|d| d.abs() < 1e-12), "{damping} {x} {t} {off:?}");
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn energy_is_lost_to_damping_alone() {
+        // E(t) − E(0) = −2r ∫∫ v_t²: Gauss in time between all times at which rays meet each other or an end.
+        let problem = rod(1, 3, "0.3", Run::Time(Number::from(7)));
+        let history = Damped::<f64>::solve(&problem, &(), 13.0).unwrap();
+        assert!(history.events.len() >= 3);
+        let end = history.end / 2.0;
+        let rays: Vec<f64> = history.pieces.iter().map(|piece| piece.from).collect();
+        let mut times = vec![0.0, end];
+        for a in &rays {
+            times.extend([*a, a + 0.5]);
+            times.extend(rays.iter().filter(|b| (*a - **b).abs() <= 1.0).map(|b| 0.5 * (a + b)));
+        }
+        times.retain(|t| (0.0..=end).contains(t));
+        times.sort_by(f64::total_cmp);
+        let mut lost = 0.0;
+        for pair in times.windows(2).filter(|pair| pair[1] - pair[0] > 1e-12) {
+            for (x, w) in &history.medium.basis.gauss {
+                let t = pair[0] + x * (pair[1] - pair[0]);
+                let motion: f64 =
+                    history.record().line(&t, &0.5).iter().map(|node| node.weight * node.z_t * node.z_t).sum();
+                lost += w * (pair[1] - pair[0]) * motion;
+            }
+        }
+        // V = 3, t₁ = 2, c t₁ = 2.
+        let lost = 2.0 * 0.3 * lost * 9.0 * 2.0 * 2.0;
+        let change = history.energy(&history.end).unwrap().total - history.energy(&0.0).unwrap().total;
+        assert!((change + lost).abs() < 1e-11, "{change} {lost}");
+        assert!((history.energy(&0.0).unwrap().total - 4.5).abs() < 1e-13);
     }
 }

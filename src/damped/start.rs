@@ -215,12 +215,6 @@ impl<S: Analytic> Data<S> {
         self.half.first().map_or_else(|| self.slope.zero(), |piece| piece.velocity.clone())
     }
 
-    /// `z(x,0)` at the ground side: `z(0,0) + ∫ z_x`, used by no one but tests of the start.
-    #[cfg(test)]
-    pub(super) fn pieces(&self) -> usize {
-        self.half.len()
-    }
-
     /// Marches from `ξ = −1` to `ξ = 0`. `visit` sees every cell; those beyond `x = ½` are mirror images.
     pub(super) fn march(&self, medium: &Medium<S>, visit: &mut impl FnMut(&Cell<'_, S>)) -> State<S> {
         let zero = self.slope.zero();
