@@ -92,8 +92,9 @@ impl<'a, S: Analytic> Follower<'a, S> {
     /// At `t = 0`.
     pub(super) fn new(medium: &'a Medium<S>, data: &'a Data<S>) -> Self {
         let state = data.march(medium, &mut |_| {});
-        // A cell: what the series leave out, and about a dozen roundings of each coefficient.
-        let roundoff = 16.0 * data.slope.log2_roundoff().exp2() * (1.0 + state.bound());
+        // A cell: what the series of its sides and of its sum leave out, and four roundings of every coefficient: the sum,
+        // the correction, the decay and its factor.
+        let roundoff = 4.0 * data.slope.log2_roundoff().exp2() * (1.0 + state.bound());
         let cell_error = 4.0 * medium.log2_accuracy.exp2() + roundoff;
         let mut follower = Follower {
             medium,
@@ -129,16 +130,19 @@ impl<'a, S: Analytic> Follower<'a, S> {
     }
 
     /// Whether the ground end, at height zero, leaves at once: `y > 0`, or `y = 0` and rising.
+    ///
+    /// What is less than the error counts as zero; Markov's inequality, `‖f′‖ ≤ 2n²‖f‖` on the unit interval, says what that
+    /// is for a derivative.
     fn rises(&self) -> bool {
-        let trace = self.medium.trace(&self.state, true);
+        let mut c = self.medium.trace(&self.state, true);
         let zero = self.height.zero();
-        let noise = self.error();
-        let mut c = trace;
+        let mut noise = self.error();
         for _ in 0..3 {
             let value = at_zero(&c, &zero).to_f64();
             if value.abs() > noise {
                 return value > 0.0;
             }
+            noise *= 2.0 * (c.len() as f64).powi(2);
             c = derivative(&c);
         }
         false
@@ -213,7 +217,8 @@ impl<'a, S: Analytic> Follower<'a, S> {
             let height = self.height_over(&trace, &len);
             let grounded = !self.contact && self.height.to_f64() <= self.height_error;
             if !fresh && grounded && !self.rises() {
-                if self.land(goal, &mut landed, ray_error) {
+                let time_error = ray_error.max(self.event_error(&trace, &len.zero(), &len));
+                if self.land(goal, &mut landed, time_error) {
                     return Ok(Ending::NextImpact);
                 }
                 fresh = true;
@@ -233,8 +238,11 @@ impl<'a, S: Analytic> Follower<'a, S> {
             if at_start && !fresh {
                 if self.contact {
                     self.event(ray_error, false);
-                } else if self.land(goal, &mut landed, ray_error) {
-                    return Ok(Ending::NextImpact);
+                } else {
+                    let time_error = ray_error.max(self.event_error(&trace, &len.zero(), &len));
+                    if self.land(goal, &mut landed, time_error) {
+                        return Ok(Ending::NextImpact);
+                    }
                 }
                 fresh = true;
                 continue;
@@ -362,7 +370,10 @@ impl<'a, S: Analytic> Follower<'a, S> {
         }
         self.contact = !self.contact;
         self.height = zero;
-        self.marks.push(Mark { kind, time: self.state.time(), velocity, time_error });
+        let time = self.state.time();
+        // A ray of the start is off by no more than the roundings of t₁ and of its own time.
+        let rounding = 4.0 * time.log2_roundoff().exp2() * (1.0 + time.to_f64());
+        self.marks.push(Mark { kind, time, velocity, time_error: time_error.max(rounding) });
     }
 
     /// An impact now; whether it is the one after the last that was asked for.
@@ -392,7 +403,9 @@ impl<'a, S: Analytic> Follower<'a, S> {
             return Some(if self.marks.len() > 1 { Ending::Rest(reason) } else { Ending::NoBounce(reason) });
         }
         if slope == 0.0 && most <= 4.0 * self.error() {
-            return Some(Ending::Undecided("the stress has decayed below the accuracy in contact".into()));
+            let reason =
+                "without a static stress the contact has decayed below the accuracy; more digits follow it further";
+            return Some(Ending::Undecided(reason.into()));
         }
         None
     }

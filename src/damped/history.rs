@@ -49,7 +49,7 @@ pub struct Damped<S> {
 impl<S: Analytic> Damped<S> {
     /// Follows `problem` as far as its `run` says, to about `digits` decimal digits of the natural scales.
     ///
-    /// What a cell leaves out is at most `2^{−16} 10^{−digits}`, or the roundoff of the number system where that is more;
+    /// What a cell leaves out is at most `2^{−20} 10^{−digits}`, or the roundoff of the number system where that is more;
     /// [`History::error_estimate`] says what came of it.
     ///
     /// **Errors**: [`Error::TooManyPieces`] beyond 400 000 strips, or where `r t₁` or the number of rays asks for more than
@@ -63,7 +63,7 @@ impl<S: Analytic> Damped<S> {
         let parameters = Parameters::<S>::of(problem, precision)?;
         let free_top = problem.rod.top == Top::Free;
         let data = Data::of(problem, &parameters, free_top);
-        let asked = -digits.max(1.0) * std::f64::consts::LOG2_10 - 16.0;
+        let asked = -digits.max(1.0) * std::f64::consts::LOG2_10 - 20.0;
         let log2_accuracy = asked.max(data.damping.log2_roundoff());
         if data.damping.to_f64() > 2000.0 {
             return Err(Error::TooManyPieces { limit: 4096, time: 0.0 });

@@ -63,9 +63,9 @@ impl<S: Analytic> Medium<S> {
     /// The medium for `R = r t₁`, with segments `shorten` times shorter than need be.
     pub(super) fn new(damping: &S, slope: S, free_top: bool, log2_accuracy: f64, shorten: i64) -> Self {
         let r = damping.to_f64();
-        // Segments of κ·len ≤ ½ keep every series short.
-        let longest = (if r > 1.0 { damping.one() / damping } else { damping.one() }) / damping.int(shorten);
-        let depth = 0.5 * r.min(1.0);
+        // Segments of κ·len ≤ 1: every series stays short, and what e^{κs} costs in digits is nothing.
+        let longest = if r > 2.0 { damping.int(2) / damping } else { damping.one() } / damping.int(shorten);
+        let depth = 0.5 * r.min(2.0);
         // y = (κ len)² is largest for two longest segments.
         let powers = super::cell::terms(depth * depth, log2_accuracy) + 1;
         // The trace times e^{−r τ}, and squares on a line of constant time, grow at most like e^{4κ|s|}.
