@@ -2,6 +2,7 @@
 
 #![allow(clippy::unwrap_used)]
 
+#[allow(unreachable_pub)]
 mod common;
 
 use common::{close, number, problem, reference, uniform};
@@ -58,16 +59,24 @@ fn without_damping_the_delay_recursion_holds() {
         let events = case["events"].as_array().unwrap();
         let last = number(&events.last().unwrap()["time"]).to_f64();
         let history = solve(&problem(&case, Run::Time(format!("{:?}", last * 0.999).parse().unwrap())));
-        println!(
-            "{name} {} {} {:?} {:e}",
-            history.events().len(),
-            events.len(),
+        // A tangential landing, as that at t = 31 of mu_1, may be off by the root of the error.
+        assert!(
+            history.warnings().is_empty() && history.error_estimate() < 1e-4,
+            "{name} {:?} {:e}",
             history.warnings(),
             history.error_estimate()
         );
+        assert_eq!(history.events().len(), events.len() - 1, "{name}");
         for (found, expected) in history.events().iter().zip(events) {
-            let time = number(&expected["time"]).to_f64();
-            println!("{:?} {} {} {:e} {:e}", found.kind, found.time, time, found.time - time, found.time_error);
+            assert_eq!(found.kind == EventKind::Impact, expected["kind"] == "impact");
+            let off = (found.time - number(&expected["time"]).to_f64()).abs();
+            assert!(off <= found.time_error && off < 1e-12, "{name} {found:?} {off:e}");
+            let unit = number(&case["impact_speed"]).to_f64();
+            let values = [(found.end_velocity, "approach"), (found.centre, "h"), (found.centre_velocity, "h_rate")];
+            for (value, key) in values {
+                let expected: f64 = expected[key].as_str().unwrap().parse().unwrap();
+                close(&format!("{name} {key}"), value / unit, expected / unit, 1.0, 1e-11);
+            }
         }
     }
 }
@@ -101,7 +110,7 @@ fn a_fixed_top_with_prestrain_repeats_after_three() {
             let start = history.field(&0.25, &(period + 0.1), Side::Right).unwrap();
             close("v", start.displacement, 0.375, 1.0, 1e-10);
             close("v_x", start.strain, -0.5, 1.0, 1e-10);
-            close("E", history.energy(&(period + 0.7)).unwrap().vibrational, 0.125 - 0.0, 1.0, 1.0);
+            close("E", history.energy(&(period + 0.7)).unwrap().total, 0.125, 1.0, 1e-10);
             close("top", history.top_end(&(period + 0.7), Side::Right).unwrap().0, 0.0, 1.0, 1e-10);
         }
     }
@@ -147,21 +156,19 @@ fn a_first_order_method_comes_closer_at_its_order() {
             (found.0 - exact.0).abs().max((found.1 - exact.1).abs())
         };
         let errors = [error(400), error(1600)];
-        println!("{errors:?}");
         assert!(errors[0] < 0.1 && errors[1] < 0.4 * errors[0], "{speed} {r} {errors:?}");
     }
 }
 
 #[test]
 fn what_cannot_leave_is_at_rest() {
-    for (speed, damping, bounces) in [("3", "25", false), ("1", "500", false), ("5", "0.5", true), ("2", "0.1", true)] {
+    for (speed, damping, bounces) in [("3", "25", false), ("1", "60", false), ("5", "0.5", true), ("2", "0.1", true)] {
         let history = solve(&damped("1", speed, damping, Run::Impacts(1000)));
         match history.ending() {
             Ending::NoBounce(_) => assert!(!bounces),
             Ending::Rest(_) => assert!(bounces),
             other => unreachable!("{other:?}"),
         }
-        println!("{speed} {damping} {} {}", history.end(), history.events().len());
         assert_eq!(history.contacts().last().unwrap().to, None);
         // The criterion is a proof: following the rod further changes nothing.
         let end = history.end() as i64 + 20;
@@ -173,13 +180,21 @@ fn what_cannot_leave_is_at_rest() {
 }
 
 #[test]
+fn a_settled_rod_costs_little() {
+    // 500 round trips: rays are forgotten as they fade, and one cell a round trip is left.
+    let history = solve(&damped("1", "3", "0.2", until(1000)));
+    assert!(history.stress_pieces().len() < 2000, "{}", history.stress_pieces().len());
+    close("stress", history.stress(&999.5, Side::Left).unwrap(), -1.0, 1.0, 1e-12);
+    close("h", history.centre(&1000.0).unwrap().0, -1.0 / 3.0, 1.0, 1e-10);
+}
+
+#[test]
 fn without_gravity_the_rod_flies_off() {
     for damping in ["1e-300", "0.01", "0.5", "2.6"] {
         let mut problem = damped("0", "1", damping, Run::Impacts(50));
         problem.rod.length = "1/2".parse().unwrap();
         let history = solve(&problem);
         assert!(matches!(history.ending(), Ending::NoFurtherImpact(_)), "{damping} {:?}", history.ending());
-        println!("{damping} {} {}", history.end(), history.events().len());
         problem.run = Run::Time(Number::from(history.end() as i64 + 40));
         assert_eq!(solve(&problem).events().len(), history.events().len());
     }
@@ -204,6 +219,19 @@ mod in_many_digits {
     use rug::Float;
 
     #[test]
+    fn a_late_first_bounce_needs_digits_and_gets_them() {
+        // g = 0, t₁ = 1: the stress at the release is e^{−r t_b} of what it was. f64 says that it can't tell.
+        for (damping, bounce) in [("3.13", "11.66136670144388438"), ("3.135", "15.33318837004014558")] {
+            let mut problem = damped("0", "1", damping, Run::Impacts(1));
+            problem.rod.length = "1/2".parse().unwrap();
+            assert!(matches!(solve(&problem).ending(), Ending::Undecided(_)));
+            let history = Damped::<Float>::solve(&problem, &200, 50.0).unwrap();
+            let time = history.events()[1].time.to_string_radix(10, Some(25));
+            assert!(time.starts_with(bounce), "{time}");
+        }
+    }
+
+    #[test]
     fn each_accuracy_meets_what_it_promises() {
         for (speed, damping, time) in [("3", "0.1", 11), ("3/2", "0.01", 11), ("5", "1.2", 5)] {
             let problem = damped("1", speed, damping, until(time));
@@ -219,7 +247,7 @@ mod in_many_digits {
                 let history = Damped::<f64>::solve(&problem, &(), digits).unwrap();
                 assert_eq!(history.events().len(), truth.events().len());
                 let promise = history.error_estimate();
-                assert!(promise < 30.0 * 10f64.powf(-digits).max(1e-12), "{digits} {promise:e}");
+                assert!(promise < 10f64.powf(-digits).max(1e-11), "{digits} {promise:e}");
                 let mut worst = 0.0f64;
                 for (found, expected) in history.events().iter().zip(truth.events()) {
                     assert!(off(&expected.time, found.time) <= found.time_error);
@@ -227,8 +255,8 @@ mod in_many_digits {
                         .max(off(&expected.centre, found.centre))
                         .max(off(&expected.end_velocity, found.end_velocity));
                 }
-                for k in 0..20 {
-                    let t = (f64::from(k) + 0.5) * 0.05 * time as f64;
+                for k in 0..8 {
+                    let t = (f64::from(k) + 0.5) * 0.125 * time as f64;
                     let exact =
                         truth.field(&Float::with_val(220, 0.625), &Float::with_val(220, t), Side::Right).unwrap();
                     let found = history.field(&0.625, &t, Side::Right).unwrap();
@@ -236,7 +264,6 @@ mod in_many_digits {
                         .max(off(&exact.displacement, found.displacement))
                         .max(off(&exact.velocity, found.velocity));
                 }
-                println!("{speed} {damping} {digits} {promise:e} {worst:e}");
                 // V ≤ 5.
                 assert!(worst <= 10.0 * promise, "{digits} {worst:e} {promise:e}");
             }

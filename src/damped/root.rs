@@ -80,11 +80,12 @@ fn descend<S: Analytic>(c: &[S], slope: &[S]) -> S {
     x
 }
 
-/// The smallest value on `0 … 1`. **Accuracy**: within the series' roundoff: parts are halved until they are monotone,
-/// constant to the roundoff, or shorter than `√u`, where the ends are within `u` of the least value.
+/// The smallest value on `0 … 1`. **Accuracy**: within `16u Σ|c_k|`: parts are halved until they are monotone, can't fall
+/// below what was found by more than that, or are shorter than `√u`, where the ends are within a few `u` of the least value.
 pub(super) fn smallest<S: Analytic>(basis: &Basis<S>, c: &[S]) -> Option<S> {
     let zero = c.first()?.zero();
     let unit = zero.log2_roundoff();
+    let roundoff = 16.0 * unit.exp2() * bound(c, 0);
     let mut least = at_zero(c, &zero);
     let mut parts = vec![(0.0, c.to_vec())];
     while let Some((log2_width, c)) = parts.pop() {
@@ -94,7 +95,8 @@ pub(super) fn smallest<S: Analytic>(basis: &Basis<S>, c: &[S]) -> Option<S> {
             }
         }
         let slope = derivative(&c);
-        let above = (c[0].clone() - &least).to_f64() > bound(&c, 1);
+        // What the part can still fall below the least value found.
+        let above = bound(&c, 1) - (c[0].clone() - &least).to_f64() <= roundoff;
         if above || slope[0].to_f64().abs() >= bound(&slope, 1) || log2_width < unit / 2.0 {
             continue;
         }
