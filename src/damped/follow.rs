@@ -352,12 +352,13 @@ impl<'a, S: Analytic> Follower<'a, S> {
         self.pieces.push(Piece { from, len, contact, cut: cut.is_some(), trace, height });
     }
 
-    /// Turns contact into flight or back, now. A release at a root of the trace has velocity zero.
+    /// Turns contact into flight or back, now. A release at a root of the trace has velocity zero. Where the end
+    /// only touches the ground and a ray arrives at that very time, the velocity is the one that the ray brings.
     fn event(&mut self, time_error: f64, at_root: bool) {
         let zero = self.height.zero();
         let kind = if self.contact { EventKind::Release } else { EventKind::Impact };
         let velocity = match (&self.last_trace, kind) {
-            (Some(last), EventKind::Impact) => last.clone(),
+            (Some(last), EventKind::Impact) if last.to_f64() < -self.error() => last.clone(),
             (_, EventKind::Release) if at_root => zero.clone(),
             _ => at_zero(&self.medium.trace(&self.state, true), &zero),
         };
