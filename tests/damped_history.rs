@@ -116,6 +116,34 @@ fn a_fixed_top_with_prestrain_repeats_after_three() {
     }
 }
 
+#[test]
+fn a_piecewise_linear_start_is_met_and_keeps_the_momentum() {
+    let n = |text: &str| text.parse::<Number>().unwrap();
+    let pairs = |list: &[(&str, &str)]| list.iter().map(|(x, v)| (n(x), n(v))).collect::<Vec<_>>();
+    let mut problem = damped("1", "0", "0.4", until(9));
+    problem.start = Start::Profile(Profile {
+        displacement: pairs(&[("0", "0.1"), ("0.3", "0.4"), ("1", "0.05")]),
+        velocity: pairs(&[("0", "-1"), ("0.6", "-2"), ("0.6", "1"), ("1", "0")]),
+    });
+    let history = solve(&problem);
+    for (x, v, v_t, v_x) in
+        [(0.15, 0.25, -1.25, 1.0), (0.45, 0.325, -1.75, -0.5), (0.8, 0.15, 0.5, -0.5), (0.65, 0.225, 0.875, -0.5)]
+    {
+        let found = history.field(&x, &0.0, Side::Right).unwrap();
+        close("v", found.displacement, v, 1.0, 1e-11);
+        close("v_t", found.velocity, v_t, 1.0, 1e-11);
+        close("v_x", found.strain, v_x, 1.0, 1e-11);
+    }
+    // ∫v = 0.3·0.25 + 0.7·0.225, ∫v_t = −0.6·1.5 + 0.4·0.5.
+    let (h0, rate0) = history.centre(&0.0).unwrap();
+    close("h", h0, 0.2325, 1.0, 1e-11);
+    close("h'", rate0, -0.7, 1.0, 1e-11);
+    assert!(!history.events().is_empty() && history.events()[0].time > 0.05);
+    let (h, rate) = history.centre(&history.end()).unwrap();
+    let impulse: f64 = history.contacts().iter().map(|contact| contact.impulse).sum();
+    close("momentum", rate - rate0 + 0.8 * (h - h0), impulse - 9.0, 1.0, 1e-10);
+}
+
 /// `v(0,T)` and `h(T)` by first-order steps along both families of characteristics, `n` points to the rod of length 1.
 fn by_steps(gravity: f64, speed: f64, r: f64, time: f64, n: usize) -> (f64, f64) {
     let dt = 1.0 / n as f64;
