@@ -1,7 +1,6 @@
 //! The damped march against values from programs that share no code with it.
 #![allow(clippy::unwrap_used)]
 
-#[allow(unreachable_pub)]
 mod common;
 
 use common::{close, number, problem, reference};
