@@ -131,6 +131,5 @@ fn head(scene: &Scene, plan: &Plan) -> Head {
         effects: plan.called(),
         digits: 0,
         line_density,
-        gravity: scene.problem.gravity.clone(),
     }
 }
