@@ -12,6 +12,8 @@ pub mod number;
 pub mod output;
 pub mod quantity;
 pub mod rod;
+#[cfg(feature = "mp")]
+pub mod rounded;
 pub mod scene;
 pub mod solve;
 pub mod special;

@@ -32,6 +32,8 @@ pub struct Joined<S> {
 /// A contact without end is kept for this many round trips, and shown for as many where no time is asked for.
 const MOST_TRIPS: i64 = 256;
 const SHOWN_TRIPS: i64 = 8;
+/// Cells are not marched to more digits than this: their cost grows with the cube of the digits.
+const MOST_MARCHED: f64 = 300.0;
 
 impl<S: Analytic> Joined<S> {
     /// Whether `problem` is the paper's: a uniform start, a free top.
@@ -118,6 +120,13 @@ impl<S: Analytic> Joined<S> {
 
     /// The flight and all that comes after it, from the cells, if they know the same bounce.
     fn follow(&mut self, problem: &Problem, precision: &S::Precision) -> Result<(), Error> {
+        if let (true, Some(bounce)) = (self.digits > MOST_MARCHED, &self.bounce) {
+            self.end = bounce.time.clone();
+            let why =
+                format!("beyond {MOST_MARCHED} digits only the first contact is computed, not the flight after it");
+            self.ending = Ending::Undecided(why);
+            return Ok(());
+        }
         let march = Damped::<S>::solve(problem, precision, self.digits)?;
         let Some(bounce) = &self.bounce else { return Ok(()) };
         let near = bounce.time.double(1e-6) * self.contact.round_trip();
