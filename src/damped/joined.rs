@@ -41,10 +41,17 @@ impl<S: Analytic> Joined<S> {
         problem.rod.top == Top::Free && matches!(problem.start, Start::Uniform(_))
     }
 
-    /// Follows `problem`, whose first contact ends as `bounce` says, to about `digits` decimal digits of the natural scales.
+    /// Follows `problem`, whose first contact ends as `bounce` says, to about `digits` decimal digits of the natural scales;
+    /// without `follow`, only to the bounce.
     ///
     /// **Errors**: those of [`Damped::solve`].
-    pub fn solve(problem: &Problem, precision: &S::Precision, digits: f64, bounce: Bounce<S>) -> Result<Self, Error> {
+    pub fn solve(
+        problem: &Problem,
+        precision: &S::Precision,
+        digits: f64,
+        bounce: Bounce<S>,
+        follow: bool,
+    ) -> Result<Self, Error> {
         let rod = Parameters::<S>::of(problem, precision)?;
         let contact = FirstContact::new(&rod);
         let asked = match &problem.run {
@@ -75,7 +82,7 @@ impl<S: Analytic> Joined<S> {
         match bounce {
             Bounce::At { time, error, .. } if asked.as_ref().is_none_or(|asked| time <= *asked) => {
                 joined.release(time, error);
-                joined.follow(problem, precision)?;
+                joined.follow(problem, precision, follow)?;
             }
             // The contact outlasts the time asked for.
             Bounce::At { .. } => (),
@@ -119,16 +126,19 @@ impl<S: Analytic> Joined<S> {
     }
 
     /// The flight and all that comes after it, from the cells, if they know the same bounce.
-    fn follow(&mut self, problem: &Problem, precision: &S::Precision) -> Result<(), Error> {
-        if let (true, Some(bounce)) = (self.digits > MOST_MARCHED, &self.bounce) {
+    fn follow(&mut self, problem: &Problem, precision: &S::Precision, follow: bool) -> Result<(), Error> {
+        let Some(bounce) = &self.bounce else { return Ok(()) };
+        if !follow || self.digits > MOST_MARCHED {
             self.end = bounce.time.clone();
-            let why =
-                format!("beyond {MOST_MARCHED} digits only the first contact is computed, not the flight after it");
-            self.ending = Ending::Undecided(why);
+            self.ending = Ending::Undecided(if follow {
+                format!("beyond {MOST_MARCHED} digits only the first contact is computed, not the flight after it")
+            } else {
+                let rest = bounce.velocity.value.to_f64() / self.rod.speed.to_f64();
+                format!("the rod leaves with {rest:.1e} of the impact speed: --digits N follows so faint a motion")
+            });
             return Ok(());
         }
         let march = Damped::<S>::solve(problem, precision, self.digits)?;
-        let Some(bounce) = &self.bounce else { return Ok(()) };
         let near = bounce.time.double(1e-6) * self.contact.round_trip();
         let after = |time: &S| *time > bounce.time.clone() + &near;
         // A release and an impact within rounding of the bounce belong to it.

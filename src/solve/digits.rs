@@ -61,6 +61,15 @@ pub fn undamped_to_digits(
 ///
 /// **Errors**: [`Error::Unsettled`], and those of the run.
 pub fn damped_to_digits(problem: &Problem, digits: u32) -> Result<Box<dyn History<Float>>, Error> {
+    damped_unless_faint(problem, digits, f64::INFINITY)
+}
+
+/// [`damped_to_digits`], but a motion that has decayed by more than `faintest` powers of e at the bounce ends there.
+pub(super) fn damped_unless_faint(
+    problem: &Problem,
+    digits: u32,
+    faintest: f64,
+) -> Result<Box<dyn History<Float>>, Error> {
     let fits = Joined::<Float>::fits(problem);
     let faded = if fits {
         let rod = Parameters::<f64>::of(problem, &())?;
@@ -72,6 +81,7 @@ pub fn damped_to_digits(problem: &Problem, digits: u32) -> Result<Box<dyn Histor
     // The rays of a contact that has faded by e⁻ᵏ cancel by e⁻ᵏ.
     let mut kept = f64::from(digits + SPARE_DIGITS) + faded;
     let goal = -(f64::from(digits + 1) + faded);
+    let follow = faded * std::f64::consts::LN_10 <= faintest;
     let mut bits = bits_for_digits((kept + faded).ceil() as u32) + GUARD_BITS;
     for _ in 0..MOST_TRIES {
         let history: Box<dyn History<Float>> = if fits {
@@ -81,7 +91,7 @@ pub fn damped_to_digits(problem: &Problem, digits: u32) -> Result<Box<dyn Histor
                 bits *= 2;
                 continue;
             }
-            Box::new(Joined::<Float>::solve(problem, &bits, kept, bounce)?)
+            Box::new(Joined::<Float>::solve(problem, &bits, kept, bounce, follow)?)
         } else {
             Box::new(Damped::<Float>::solve(problem, &bits, kept)?)
         };

@@ -107,6 +107,9 @@ const CELL_DIGITS: f64 = 13.0;
 /// digits of a double, and so would everything after.
 #[cfg(feature = "mp")]
 const MOST_FADED: f64 = 5.0;
+/// In doubles nobody follows a motion below e⁻³⁰ ≈ 1e-13 of what it was.
+#[cfg(feature = "mp")]
+const FAINTEST: f64 = 30.0;
 
 fn damped_in_doubles(problem: &Problem, accuracy: Option<f64>) -> Result<Box<dyn History<f64>>, Error> {
     let digits = accuracy.map_or(CELL_DIGITS, |accuracy| -accuracy.log10() + 1.0);
@@ -115,10 +118,10 @@ fn damped_in_doubles(problem: &Problem, accuracy: Option<f64>) -> Result<Box<dyn
         let bounce = FirstContact::new(&rod).bounce_within(1e-13);
         #[cfg(feature = "mp")]
         if digits::faded(&rod, &bounce, problem) > MOST_FADED {
-            let history = damped_to_digits(problem, digits::of_accuracy(accuracy))?;
+            let history = digits::damped_unless_faint(problem, digits::of_accuracy(accuracy), FAINTEST)?;
             return Ok(Box::new(crate::rounded::Rounded::new(history)));
         }
-        Box::new(Joined::<f64>::solve(problem, &(), digits, bounce)?)
+        Box::new(Joined::<f64>::solve(problem, &(), digits, bounce, true)?)
     } else {
         Box::new(Damped::<f64>::solve(problem, &(), digits)?)
     };
