@@ -15,6 +15,7 @@ pub mod scene;
 pub mod solve;
 
 pub use error::Error;
+pub use glam;
 pub use history::{Ending, EventKind, History, Side};
 pub use number::Number;
 pub use rod::Problem;

@@ -1,5 +1,5 @@
 //! What several test files share: reference files, problems made from them, and how far apart two numbers are.
-#![allow(dead_code, clippy::unwrap_used, clippy::panic)]
+#![allow(dead_code, unreachable_pub, clippy::unwrap_used, clippy::panic)]
 
 use dalembert::rod::{Run, Speed, Start};
 use dalembert::{Number, Problem};
