@@ -6,6 +6,8 @@ use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 
 use super::Failure;
 #[cfg(feature = "mp")]
+use crate::error::Error;
+#[cfg(feature = "mp")]
 use crate::rod::Problem;
 use crate::rod::{Parameters, Run};
 #[cfg(feature = "mp")]
@@ -66,9 +68,9 @@ fn read_text(from: impl Read, name: &str) -> Result<String, Failure> {
 #[cfg(feature = "mp")]
 pub(super) fn tell_inexact(problem: &Problem, plan: &Plan) {
     if let System::Exact(Some(digits)) = plan.system
-        && let Err(error) = Parameters::<rug::Rational>::of(problem, &())
+        && let Err(Error::Irrational { quantity, square }) = Parameters::<rug::Rational>::of(problem, &())
     {
-        eprintln!("note: {error}; all that follows is in {digits} digits");
+        eprintln!("note: the {quantity} √({square}) is no fraction; all that follows is in {digits} digits");
     }
 }
 
