@@ -21,3 +21,7 @@ pub use number::Number;
 pub use rod::Problem;
 pub use scene::{Ask, Plan, Scene};
 pub use solve::{Solution, solve};
+
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+struct Readme;

@@ -59,13 +59,16 @@ pub struct Head {
     pub exact_until: Option<Ending>,
 }
 
+/// A contact, its coefficients, and the energies at its end.
+pub type ContactRow<S> = (Contact<S>, Restitution<S>, Option<Energy<S>>);
+
 /// A history, ready to be printed.
 #[derive(Clone, Debug)]
 pub struct Record<S> {
     /// Impacts and releases.
     pub events: Vec<Event<S>>,
     /// Contacts with their coefficients and the energies at their ends.
-    pub contacts: Vec<(Contact<S>, Restitution<S>, Option<Energy<S>>)>,
+    pub contacts: Vec<ContactRow<S>>,
     /// Flights with their tops.
     pub flights: Vec<Flight<S>>,
     /// The stress at the ground.
