@@ -39,7 +39,7 @@ pub enum Solution {
 pub fn solve(problem: &Problem, plan: &Plan, mut observe: impl FnMut(usize, usize)) -> Result<Solution, Error> {
     match plan.system {
         System::Double => {
-            let history = Undamped::<f64>::solve_within(problem, &(), Limits::default(), observe)?;
+            let history = Undamped::<f64>::solve_within(problem, &(), Limits::default(), &mut observe)?;
             Ok(Solution::Double(Box::new(history)))
         }
         #[cfg(feature = "mp")]

@@ -111,7 +111,7 @@ fn rational_histories_are_exact() {
         let history = Undamped::<Rational>::solve(&problem(&case, Run::Time(60.into())), &()).unwrap();
         assert_eq!(history.ending(), &Ending::Time, "{name}");
         for (event, truth) in history.events().iter().zip(events(&case)) {
-            let difference = Rational::from(&event.time - number(&truth["time"]).to_rational());
+            let difference = &event.time - number(&truth["time"]).to_rational();
             assert!(difference.abs() < 1e-35, "{name}");
             // Times are multiples of L/c, which decimals cannot say but fractions can.
             let steps =

@@ -459,10 +459,11 @@ impl<S: Scalar> March<S> {
         let error = if S::EXACT {
             0.0
         } else {
-            // |√a − √b| ≤ |a − b|/√a where √a is well away from zero, √|a − b| where it is not.
+            // |√a − √b| = |a − b|/(√a + √b) where √a is well away from zero, at most √|a − b| where it is not.
             let (root, slope) = (root.to_f64(), slope.to_f64().abs());
             let value = self.height_error + age.to_f64() * q_error + 4.0 * size;
-            let simple = 2.0 * value / root;
+            let relative = disc_error * self.unit.to_f64() / (root * root);
+            let simple = 2.0 * value / (root * (1.0 + (1.0 - relative).max(0.0).sqrt()));
             let double = self.root_error(disc_error) / slope;
             simple.min(double) + age.to_f64() + from.to_f64()
         };

@@ -20,7 +20,7 @@ mod scaled;
 mod solution;
 mod trace;
 
-pub use march::{Limits, march};
+pub use march::{Halt, Limits, Marched, Until, march};
 pub use rays::{Ray, Rays, reflection};
 pub use scaled::{Scaled, Units};
 pub use solution::Undamped;

@@ -1,8 +1,10 @@
 //! What can be asked of an undamped history.
 
+use std::sync::OnceLock;
+
 use super::march::{Halt, Limits, Marched, Until, march};
 use super::scaled::{Scaled, Units};
-use super::trace::Piece;
+use super::trace::{Occurrence, Part, Piece};
 use crate::error::Error;
 use crate::history::{Contact, Ending, Energy, Event, EventKind, Field, History, Scales, Side, StressPiece};
 use crate::number::Scalar;
@@ -17,8 +19,9 @@ pub struct Undamped<S> {
     marched: Marched<S>,
     end: Moment<S>,
     ending: Ending,
-    events: Vec<Event<S>>,
-    contacts: Vec<Contact<S>>,
+    /// Told when first asked for: a sample of the stress needs neither.
+    events: OnceLock<Vec<Event<S>>>,
+    contacts: OnceLock<Vec<Contact<S>>>,
     warnings: Vec<String>,
 }
 
@@ -74,8 +77,8 @@ impl<S: Scalar> Undamped<S> {
         let mut history = Undamped {
             end: moment(trips, &problem.gravity.zero()),
             ending: Ending::Time,
-            events: Vec::with_capacity(marched.occurrences.len()),
-            contacts: Vec::with_capacity(marched.occurrences.len() / 2 + 1),
+            events: OnceLock::new(),
+            contacts: OnceLock::new(),
             warnings: Vec::new(),
             problem,
             marched,
@@ -103,9 +106,7 @@ impl<S: Scalar> Undamped<S> {
             // The stored trips end where the next begins: the last instant that is known.
             history.end = Moment { index: trips, fraction: history.end.fraction.one() };
         }
-        history.tell_events();
-        history.tell_contacts();
-        history.tell_warnings();
+        history.warnings = history.tell_warnings();
         history
     }
 
@@ -127,32 +128,67 @@ impl<S: Scalar> Undamped<S> {
         self.ending = Ending::ExactnessEnds { kind: EventKind::Impact, time, near };
     }
 
-    fn tell_events(&mut self) {
-        let round_trip = self.problem.units.round_trip.to_f64();
+    fn tell_events(&self) -> Vec<Event<S>> {
+        let Units { round_trip, velocity, .. } = &self.problem.units;
         let unit = self.problem.gravity.roundoff().to_f64();
-        let events = self.marched.occurrences.iter().map(|occurrence| {
+        let rise = velocity.clone() * round_trip;
+        let mut events: Vec<Event<S>> = Vec::with_capacity(self.marched.occurrences.len());
+        let mut last: Option<(&Occurrence<S>, S, S)> = None;
+        for occurrence in &self.marched.occurrences {
             let moment = Moment { index: occurrence.trip + 1, fraction: occurrence.fraction.clone() };
-            let (centre, centre_velocity) = self.centre_at(&moment);
-            Event {
+            let (h, rate) = match last {
+                Some((before, h, rate)) if before.trip == occurrence.trip && self.problem.top == Top::Free => {
+                    self.carried(before, h, rate, occurrence)
+                }
+                _ => self.centre_at(&moment),
+            };
+            events.push(Event {
                 kind: occurrence.kind,
                 time: self.time_of(&moment),
-                end_velocity: occurrence.end_velocity.clone() * &self.problem.units.velocity,
-                centre,
-                centre_velocity,
-                time_error: if S::EXACT { 0.0 } else { occurrence.error * unit * round_trip },
-            }
-        });
-        self.events = events.collect();
+                end_velocity: occurrence.end_velocity.clone() * velocity,
+                centre: h.clone() * &rise,
+                centre_velocity: rate.clone() * velocity,
+                time_error: if S::EXACT { 0.0 } else { occurrence.error * unit * round_trip.to_f64() },
+            });
+            last = Some((occurrence, h, rate));
+        }
+        events
     }
 
-    fn tell_contacts(&mut self) {
+    /// `h`, `h′` at the next event of the same round trip, in lattice units: under a free top `h″ = −(c²/L) v_x(0,t) − g`.
+    /// Started afresh in every round trip, this costs a piece once and adds no more than one trip's roundings.
+    fn carried(&self, before: &Occurrence<S>, h: S, rate: S, now: &Occurrence<S>) -> (S, S) {
+        let gravity = &self.problem.gravity;
+        let width = now.fraction.clone() - &before.fraction;
+        let fall = gravity.clone() * &width;
+        let (mut push, mut lift) = (width.zero(), width.zero());
+        if before.kind == EventKind::Impact {
+            self.marched.trace.window(
+                before.trip + 1,
+                &before.fraction,
+                &width,
+                |Part { offset, width: w, value, slope }| {
+                    let (first, second) = moments(&w, &value, &slope);
+                    push = push.clone() + &first;
+                    lift = lift.clone() + (width.clone() - offset) * &first - second;
+                },
+            );
+        }
+        let two = width.int(2);
+        let h = h + (rate.clone() - fall.clone() / &two) * &width + lift * &two;
+        (h, rate + push * two - fall)
+    }
+
+    fn tell_contacts(&self) -> Vec<Contact<S>> {
         let units = &self.problem.units;
+        let events = self.events();
+        let mut contacts = Vec::with_capacity(events.len() / 2 + 1);
         let end = self.end.clone();
         let moment = |k: usize| {
             let at = self.marched.occurrences.get(k)?;
             Some(Moment { index: at.trip + 1, fraction: at.fraction.clone() })
         };
-        for (k, event) in self.events.iter().enumerate().filter(|(_, event)| event.kind == EventKind::Impact) {
+        for (k, event) in events.iter().enumerate().filter(|(_, event)| event.kind == EventKind::Impact) {
             let Some(from) = moment(k) else { continue };
             let released = moment(k + 1);
             let until = released.as_ref().unwrap_or(&end);
@@ -168,24 +204,29 @@ impl<S: Scalar> Undamped<S> {
                 }
                 sum = sum.clone() + (part.value.clone() + rise / part.value.int(2)) * &part.width;
             });
-            self.contacts.push(Contact {
+            contacts.push(Contact {
                 from: event.time.clone(),
-                to: self.events.get(k + 1).map(|release| release.time.clone()),
+                to: events.get(k + 1).map(|release| release.time.clone()),
                 impulse: sum * width.int(2) * &units.length * &units.velocity,
                 peak_stress: -(peak * &units.velocity / &units.wave_speed),
             });
         }
+        contacts
     }
 
-    fn tell_warnings(&mut self) {
-        let round_trip = self.problem.units.round_trip.to_f64();
-        if let Some(event) = self.events.iter().find(|event| event.time_error > LOST * round_trip) {
-            self.warnings.push(format!(
-                "from t = {:.6} on, the events are not determined in this precision (error bound {:.1e}): ask for more digits",
-                event.time.to_f64(),
-                event.time_error
-            ));
-        }
+    fn tell_warnings(&self) -> Vec<String> {
+        let unit = self.problem.gravity.roundoff().to_f64();
+        let lost = self.marched.occurrences.iter().find(|event| event.error * unit > LOST);
+        let warning = lost.filter(|_| !S::EXACT).map(|event| {
+            let round_trip = self.problem.units.round_trip.to_f64();
+            let time = (event.trip as f64 + event.fraction.to_f64()) * round_trip;
+            let error = event.error * unit * round_trip;
+            format!(
+                "from t = {time:.6} on, the events are not determined in this precision (error bound {error:.1e}): \
+                 ask for more digits"
+            )
+        });
+        warning.into_iter().collect()
     }
 
     /// The units of the lattice.
@@ -291,38 +332,28 @@ impl<S: Scalar> Undamped<S> {
         });
     }
 
-    /// `h`, `h′` in the units of the scene.
+    /// `h`, `h′` in lattice units.
     ///
     /// **Source**: with `X = x/2L` and times in round trips, `h′ = ∫(p + q) dX` and
     /// `h = v(0,t) + ∫ (½ − X)(q − p) dX + g/24` over `0 < X < ½`, from `v_x` integrated from the ground up.
     fn centre_at(&self, moment: &Moment<S>) -> (S, S) {
         let gravity = &self.problem.gravity;
         let half = gravity.ratio(1, 2);
-        let (mut h, mut rate) = (self.height_at(moment) + gravity.clone() / gravity.int(24), gravity.zero());
         let (mut up, mut down) = ((half.zero(), half.zero()), (half.zero(), half.zero()));
-        // ∫ (a + m s) ds and ∫ s (a + m s) ds over a part.
-        let moments = |[_, w, a, m]: &[S; 4]| {
-            let rise = m.clone() * w;
-            let first = (a.clone() + rise.clone() / w.int(2)) * w;
-            let second = (a.clone() / w.int(2) + rise / w.int(3)) * w * w;
-            (first, second)
-        };
         self.window(
             moment,
             &half,
-            |part| {
-                let (first, second) = moments(&part);
-                up = (up.0.clone() + &first, up.1.clone() + part[0].clone() * &first + second);
+            |[offset, w, a, m]| {
+                let (first, second) = moments(&w, &a, &m);
+                up = (up.0.clone() + &first, up.1.clone() + offset * &first + second);
             },
-            |part| {
-                let (first, second) = moments(&part);
-                down = (down.0.clone() + &first, down.1.clone() + (half.clone() - &part[0]) * &first - second);
+            |[offset, w, a, m]| {
+                let (first, second) = moments(&w, &a, &m);
+                down = (down.0.clone() + &first, down.1.clone() + (half.clone() - &offset) * &first - second);
             },
         );
-        rate = rate + up.0 + down.0;
-        h = h + down.1 - up.1;
-        let Units { round_trip, velocity, .. } = &self.problem.units;
-        (h * velocity * round_trip, rate * velocity)
+        let h = self.height_at(moment) + gravity.clone() / gravity.int(24) + down.1 - up.1;
+        (h, up.0 + down.0)
     }
 
     fn field_at(&self, moment: &Moment<S>, x: &S, side: Side) -> Field<S> {
@@ -358,6 +389,14 @@ impl<S: Scalar> Undamped<S> {
     }
 }
 
+/// `∫ (a + m s) ds` and `∫ s (a + m s) ds` over `0 < s < w`.
+fn moments<S: Scalar>(w: &S, a: &S, m: &S) -> (S, S) {
+    let rise = m.clone() * w;
+    let first = (a.clone() + rise.clone() / w.int(2)) * w;
+    let second = (a.clone() / w.int(2) + rise / w.int(3)) * w * w;
+    (first, second)
+}
+
 /// An event whose time may be off by this much of a round trip is no longer determined.
 const LOST: f64 = 1e-3;
 /// Parts of a round trip to which the end of an exact history is rounded down.
@@ -373,11 +412,11 @@ impl<S: Scalar> History<S> for Undamped<S> {
     }
 
     fn events(&self) -> &[Event<S>] {
-        &self.events
+        self.events.get_or_init(|| self.tell_events())
     }
 
     fn contacts(&self) -> &[Contact<S>] {
-        &self.contacts
+        self.contacts.get_or_init(|| self.tell_contacts())
     }
 
     fn stress_pieces(&self) -> Vec<StressPiece<S>> {
@@ -452,15 +491,16 @@ impl<S: Scalar> History<S> for Undamped<S> {
     }
 
     fn centre(&self, time: &S) -> Result<(S, S), Error> {
-        Ok(self.centre_at(&self.locate(time)?))
+        let (h, rate) = self.centre_at(&self.locate(time)?);
+        let Units { round_trip, velocity, .. } = &self.problem.units;
+        Ok((h * velocity * round_trip, rate * velocity))
     }
 
     fn energy(&self, time: &S) -> Result<Energy<S>, Error> {
         let moment = self.locate(time)?;
-        let Units { round_trip, velocity, length, .. } = &self.problem.units;
+        let Units { velocity, length, .. } = &self.problem.units;
         let gravity = &self.problem.gravity;
         let (h, rate) = self.centre_at(&moment);
-        let (h, rate) = (h / velocity / round_trip, rate / velocity);
         let half = h.ratio(1, 2);
         let (mut up, mut down) = (h.zero(), h.zero());
         // ∫ (a + m s)² ds over a part, as a sum of squares about its middle.

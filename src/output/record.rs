@@ -59,8 +59,8 @@ pub struct Head {
     pub exact_until: Option<Ending>,
 }
 
-/// A contact, its coefficients, and the energies at its end.
-pub type ContactRow<S> = (Contact<S>, Restitution<S>, Option<Energy<S>>);
+/// A contact, its coefficients, and the energies at its end if it has one.
+pub type Finished<S> = (Contact<S>, Restitution<S>, Option<Energy<S>>);
 
 /// A history, ready to be printed.
 #[derive(Clone, Debug)]
@@ -68,7 +68,7 @@ pub struct Record<S> {
     /// Impacts and releases.
     pub events: Vec<Event<S>>,
     /// Contacts with their coefficients and the energies at their ends.
-    pub contacts: Vec<ContactRow<S>>,
+    pub contacts: Vec<Finished<S>>,
     /// Flights with their tops.
     pub flights: Vec<Flight<S>>,
     /// The stress at the ground.

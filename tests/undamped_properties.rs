@@ -1,0 +1,375 @@
+//! What holds of every undamped history, tested exactly, in fractions, on random scenes. Speeds that are small multiples of
+//! `g t₁` are common among them, so that rays and events often coincide.
+#![cfg(feature = "mp")]
+#![allow(clippy::unwrap_used, clippy::useless_conversion)]
+
+mod common;
+
+use dalembert::lattice::{Rays, Undamped, reflection};
+use dalembert::number::Scalar;
+use dalembert::quantity::{flights, restitution};
+use dalembert::rod::{Parameters, Profile, Run, Speed, Start, Top};
+use dalembert::{Ending, EventKind, History, Number, Problem, Side, first_contact};
+use proptest::prelude::*;
+use rug::{Float, Rational};
+
+type Exact = Undamped<Rational>;
+
+fn number(p: i64, q: i64) -> Number {
+    format!("{p}/{q}").parse().unwrap()
+}
+
+/// Positive fractions with small numerator and denominator.
+fn small() -> impl Strategy<Value = (i64, i64)> {
+    (1i64..=12, 1i64..=6)
+}
+
+/// A uniform start. `μ = M g t₁` with a small fraction `M`, or any `μ` without gravity.
+fn uniform() -> impl Strategy<Value = Problem> {
+    (small(), small(), prop::option::weighted(0.8, small()), small(), any::<bool>()).prop_map(|(l, c, g, m, fixed)| {
+        let (l, c) = (number(l.0, l.1), number(c.0, c.1));
+        let mut problem = Problem::uniform(l.clone(), c.clone(), Number::from(0), number(m.0, m.1));
+        if let Some((p, q)) = g {
+            let g = number(p, q);
+            let mu: Rational = Rational::from(m) * 2i64 * l.to_rational() / c.to_rational() * g.to_rational();
+            problem.gravity = Some(g);
+            problem.start = Start::Uniform(Speed::Given(mu.to_string().parse().unwrap()));
+        }
+        problem.rod.top = if fixed { Top::Fixed } else { Top::Free };
+        problem
+    })
+}
+
+/// A piecewise-linear start above or on the ground.
+fn profile() -> impl Strategy<Value = Problem> {
+    let points = prop::collection::vec((1i64..12, -4i64..=4), 0..4);
+    (uniform(), points.clone(), points, 0i64..4, any::<bool>()).prop_map(|(mut problem, shape, speeds, lift, jump)| {
+        let length = problem.rod.length.to_rational();
+        let list = |points: &[(i64, i64)], from: i64, to: i64| {
+            let mut inner: Vec<_> = points.to_vec();
+            inner.sort();
+            inner.dedup_by_key(|(x, _)| *x);
+            let x = |k: i64| -> Number { (length.clone() * k / 12i64).to_string().parse().unwrap() };
+            let mut list = vec![(x(0), Number::from(from))];
+            list.extend(inner.iter().map(|(k, y)| (x(*k), number(*y, 3))));
+            list.push((x(12), Number::from(to)));
+            list
+        };
+        let displacement = list(&shape, lift, 1);
+        // A fixed top stands still.
+        let top_speed = if problem.rod.top == Top::Fixed { 0 } else { -2 };
+        let mut velocity = list(&speeds, -1, top_speed);
+        if jump && velocity.len() > 2 {
+            let (x, _) = velocity[1].clone();
+            velocity.insert(2, (x, Number::from(2)));
+        }
+        problem.start = Start::Profile(Profile { displacement, velocity });
+        problem
+    })
+}
+
+/// The history to `trips` round trips, or as far as fractions reach.
+fn solve(mut problem: Problem, trips: i64) -> (Problem, Exact) {
+    let round_trip = Parameters::<Rational>::of(&problem, &()).unwrap().round_trip();
+    problem.run = Run::Time(Rational::from(round_trip * trips).to_string().parse().unwrap());
+    let history = Exact::solve(&problem, &()).unwrap();
+    (problem, history)
+}
+
+/// Times spread over the history: ordinary ones and those of the events.
+fn times(history: &Exact, count: i64) -> Vec<Rational> {
+    let end = history.end();
+    let mut times: Vec<_> = (0..=count).map(|k| end.clone() * k / count).collect();
+    times.extend(history.events().iter().map(|event| event.time.clone()));
+    times
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig { cases: 96, ..ProptestConfig::default() })]
+
+    /// Corollary 1, (3.47)–(3.53), (3.66)–(3.72), 4.1, (4.72), Remark 2: the paper's formulas and the lattice share no code.
+    #[test]
+    fn the_first_contact_is_the_paper_s(mut problem in uniform()) {
+        problem.rod.top = Top::Free;
+        problem.run = Run::Impacts(1);
+        let history = Exact::solve(&problem, &()).unwrap();
+        let rod = Parameters::<Rational>::of(&problem, &()).unwrap();
+        let paper = first_contact::Undamped::new(&rod).unwrap();
+        let bounce = paper.bounce_time();
+        prop_assert_eq!(history.contacts()[0].to.as_ref(), Some(&bounce));
+        for time in times(&history, 12) {
+            let (h, rate) = history.centre(&time).unwrap();
+            prop_assert_eq!((h, rate.clone()), paper.centre(&time), "t = {}", time);
+            prop_assert_eq!(rate * &rod.length, paper.momentum(&time));
+            let energy = history.energy(&time).unwrap();
+            prop_assert_eq!(energy.total, paper.total_energy());
+            prop_assert_eq!(energy.translational, paper.translational_energy(&time), "t = {}", time);
+            for side in [Side::Left, Side::Right] {
+                // Before the start and from the next impact on the paper does not speak.
+                if (time > 0 || side == Side::Right) && (time < history.end() || side == Side::Left) {
+                    prop_assert_eq!(history.stress(&time, side).unwrap(), paper.stress(&time, side), "t = {}", time);
+                }
+            }
+        }
+        let contact = &history.contacts()[0];
+        prop_assert_eq!(history.energy(&bounce).unwrap().vibrational, paper.vibrational_energy_at_bounce());
+        let e = restitution(&history, contact).unwrap();
+        prop_assert_eq!(e.momentum.unwrap(), paper.momentum_restitution());
+        prop_assert_eq!(e.energy_squared.unwrap(), paper.energy_restitution_squared().unwrap());
+        // The impulse turns the momentum round and carries the weight meanwhile.
+        let weight = rod.gravity.clone() * &rod.length * &bounce;
+        prop_assert_eq!(&contact.impulse, &(paper.momentum(&bounce) - paper.momentum(&Rational::new()) + weight));
+        if let Some(highest) = flights(&history, &rod.gravity)[0].highest.clone() {
+            prop_assert_eq!(Some(highest), paper.highest());
+        }
+    }
+
+    /// Energy is one and the same fraction at all times, for every start and both tops.
+    #[test]
+    fn energy_is_constant(problem in prop_oneof![uniform(), profile()]) {
+        let (_, history) = solve(problem, 8);
+        let start = history.energy(&Rational::new()).unwrap().total;
+        for time in times(&history, 7) {
+            let energy = history.energy(&time).unwrap();
+            prop_assert_eq!(&energy.total, &start, "t = {}", time);
+            prop_assert!(energy.vibrational >= 0);
+        }
+    }
+
+    /// (1.3)–(1.6): the end never goes below the ground, is only ever pushed, and never both in the air and pushed; the top
+    /// is free of stress or does not move.
+    #[test]
+    fn boundary_conditions(problem in prop_oneof![uniform(), profile()]) {
+        let (problem, history) = solve(problem, 8);
+        let length = problem.rod.length.to_rational();
+        let top = history.field(&length, &Rational::new(), Side::Right).unwrap().displacement;
+        for time in times(&history, 19) {
+            for side in [Side::Left, Side::Right] {
+                let (v, rate) = history.ground_end(&time, side).unwrap();
+                let stress = history.stress(&time, side).unwrap();
+                prop_assert!(v >= 0, "v = {} at {}", v, time);
+                prop_assert!(stress <= 0, "v_x = {} at {}", stress, time);
+                prop_assert_eq!(Rational::from(&v * &stress), 0);
+                if time == 0 && side == Side::Left {
+                    continue;
+                }
+                let at_top = history.field(&length, &time, side).unwrap();
+                let ground = history.field(&Rational::new(), &time, side).unwrap();
+                prop_assert_eq!((&ground.displacement, &ground.velocity, &ground.strain), (&v, &rate, &stress));
+                match problem.rod.top {
+                    Top::Free => prop_assert_eq!(at_top.strain, 0),
+                    Top::Fixed => prop_assert_eq!(at_top.displacement, top.clone()),
+                }
+            }
+        }
+    }
+
+    /// Momentum: between two times the centre gains the impulse of the ground less the weight.
+    #[test]
+    fn momentum_balance(mut problem in prop_oneof![uniform(), profile()]) {
+        problem.rod.top = Top::Free;
+        let (problem, history) = solve(problem, 8);
+        let rod = Parameters::<Rational>::of(&problem, &()).unwrap();
+        for contact in history.contacts() {
+            let to = contact.to.clone().unwrap_or_else(|| history.end());
+            let gained = history.centre(&to).unwrap().1 - history.centre(&contact.from).unwrap().1;
+            let weight = Rational::from(&to - &contact.from) * &rod.gravity;
+            prop_assert_eq!(contact.impulse.clone() / &rod.length, gained + weight);
+            prop_assert!(contact.peak_stress <= 0);
+        }
+    }
+
+    /// Proposition 2: across every ray the field jumps by exactly what the ray carries, both jumps together where two rays
+    /// cross, and it is continuous elsewhere.
+    #[test]
+    fn jumps_are_carried_by_rays(problem in prop_oneof![uniform(), profile()], place in 0i64..=12) {
+        let (problem, history) = solve(problem, 6);
+        let rod = Parameters::<Rational>::of(&problem, &()).unwrap();
+        let x = rod.length.clone() * place / 12i64;
+        let end = history.end();
+        let rays: Vec<_> = (0..6).flat_map(|trip| history.rays(trip)).collect();
+        let mut instants = Vec::new();
+        for ray in &rays {
+            instants.push(ray.from.clone() + Rational::from(&x / &rod.wave_speed));
+            instants.push(ray.to.clone() - Rational::from(&x / &rod.wave_speed));
+        }
+        instants.extend((1..8).map(|k| end.clone() * k / 8i64));
+        // Within the first round trip the rays that the start sent are not in the list.
+        for time in instants.iter().filter(|time| **time > rod.round_trip() && **time < end) {
+            let mut carried = [Rational::new(), Rational::new()];
+            let mut here = |at: &Rational, jump: &[Rational; 2]| {
+                if at == time {
+                    carried[0] += &jump[0];
+                    carried[1] += &jump[1];
+                }
+            };
+            for ray in &rays {
+                here(&(ray.from.clone() + Rational::from(&x / &rod.wave_speed)), &ray.up);
+                here(&(ray.to.clone() - Rational::from(&x / &rod.wave_speed)), &ray.down);
+            }
+            let [before, after] = [Side::Left, Side::Right].map(|side| history.field(&x, time, side).unwrap());
+            prop_assert_eq!(after.strain - before.strain, carried[0].clone(), "v_x at {}", time);
+            prop_assert_eq!(after.velocity - before.velocity, carried[1].clone(), "v_t at {}", time);
+            prop_assert_eq!(after.displacement, before.displacement);
+        }
+    }
+
+    /// A ray of a uniform start that meets no event leaves the ground as the reflection of what arrived.
+    #[test]
+    fn reflections_are_diagonal(problem in uniform()) {
+        let (_, history) = solve(problem, 6);
+        for trip in 0..5 {
+            for ray in history.rays(trip) {
+                let next = history.rays(trip + 1).into_iter().find(|next| next.from == ray.to);
+                let (Some(next), false) = (next, history.events().iter().any(|event| event.time == ray.to)) else {
+                    continue;
+                };
+                let held = history.ground_end(&ray.to, Side::Right).unwrap().0 == 0 &&
+                    history.ground_end(&ray.to, Side::Right).unwrap().1 == 0;
+                prop_assert_eq!(reflection(held) * ray.down_vector(), next.up_vector());
+            }
+        }
+    }
+
+    /// `h` and `h′` are the means of `v` and `v_t`, integrated between the rays by Simpson's rule, which is exact there.
+    #[test]
+    fn the_centre_is_the_mean_of_the_field(problem in prop_oneof![uniform(), profile()], part in 1i64..24) {
+        let (problem, history) = solve(problem, 6);
+        let rod = Parameters::<Rational>::of(&problem, &()).unwrap();
+        let time = Rational::from(history.end() * part / 24);
+        let mut cuts = vec![Rational::new(), rod.length.clone()];
+        // Rays of the start come from before it, a round trip earlier for each period.
+        for trip in 0..6 {
+            for ray in history.rays(trip) {
+                for shift in -1..=1 {
+                    let from = ray.from.clone() + Rational::from(rod.round_trip() * shift);
+                    cuts.push(Rational::from(&time - &from) * &rod.wave_speed);
+                    cuts.push((from + rod.round_trip() - &time) * &rod.wave_speed);
+                }
+            }
+        }
+        if let Start::Profile(profile) = &problem.start {
+            for (point, _) in profile.displacement.iter().chain(&profile.velocity) {
+                for sign in [-1i64, 1] {
+                    let way: Rational = rod.wave_speed.clone() * &time * sign + point.to_rational();
+                    cuts.extend([way.clone(), -way.clone(), rod.length.clone() * 2 - way]);
+                }
+            }
+        }
+        cuts.retain(|x| *x >= 0 && *x <= rod.length);
+        cuts.sort();
+        cuts.dedup();
+        let (mut mean, mut rate) = (Rational::new(), Rational::new());
+        for pair in cuts.windows(2) {
+            let width = Rational::from(&pair[1] - &pair[0]);
+            let [a, b, c] = [1, 2, 3].map(|k| history.field(&(pair[0].clone() + width.clone() * k / 4), &time, Side::Right).unwrap());
+            // Milne's open rule: exact for cubics, and it never asks on a ray.
+            mean += (a.displacement * 2 - b.displacement + c.displacement * 2) * width.clone() / 3;
+            rate += (a.velocity * 2 - b.velocity + c.velocity * 2) * width / 3;
+        }
+        prop_assert_eq!(history.centre(&time).unwrap(), (mean / &rod.length, rate / &rod.length));
+    }
+
+    /// Double precision keeps the order of events and its own error bounds wherever fractions know the truth.
+    #[test]
+    fn doubles_stay_within_their_bounds(problem in prop_oneof![uniform(), profile()]) {
+        let (problem, exact) = solve(problem, 8);
+        let mut problem = problem;
+        if let Ending::ExactnessEnds { .. } = exact.ending() {
+            problem.run = Run::Time(exact.end().to_string().parse().unwrap());
+        }
+        let rounded = Undamped::<f64>::solve(&problem, &()).unwrap();
+        let rod = Parameters::<Rational>::of(&problem, &()).unwrap();
+        let kinds = |events: &[dalembert::history::Event<f64>]| events.iter().map(|e| e.kind).collect::<Vec<_>>();
+        prop_assert_eq!(kinds(rounded.events()), exact.events().iter().map(|e| e.kind).collect::<Vec<_>>());
+        for (ours, truth) in rounded.events().iter().zip(exact.events()) {
+            let error = (Rational::from_f64(ours.time).unwrap() - &truth.time).abs().to_f64();
+            prop_assert!(error <= ours.time_error.max(4.0 * f64::EPSILON * ours.time), "{} > {}", error, ours.time_error);
+        }
+        let bound = 32.0 * rounded.error_estimate();
+        let scales = rounded.scales();
+        for time in times(&exact, 9).iter().filter(|time| **time < exact.end()) {
+            let x = rod.length.clone() * 5i64 / 7i64;
+            let truth = exact.field(&x, time, Side::Right).unwrap();
+            let ours = rounded.field(&Scalar::to_f64(&x), &Scalar::to_f64(time), Side::Right).unwrap();
+            let error = (ours.displacement - truth.displacement.to_f64()).abs();
+            prop_assert!(error <= bound * scales.velocity * scales.time, "v at {}: {:e}", time, error);
+        }
+    }
+
+    /// More digits only ever add to the same history.
+    #[test]
+    fn precisions_agree(problem in uniform()) {
+        let round_trip = Parameters::<Rational>::of(&problem, &()).unwrap().round_trip();
+        let mut problem = problem;
+        problem.run = Run::Time(Rational::from(round_trip * 9).to_string().parse().unwrap());
+        let low = Undamped::<Float>::solve(&problem, &256).unwrap();
+        let high = Undamped::<Float>::solve(&problem, &512).unwrap();
+        prop_assert_eq!(low.events().len(), high.events().len());
+        for (a, b) in low.events().iter().zip(high.events()) {
+            prop_assert_eq!(a.kind, b.kind);
+            let error = Scalar::to_f64(&(Float::with_val(512, &b.time) - &a.time)).abs();
+            prop_assert!(error <= a.time_error.max(1e-70), "{:e} > {:e}", error, a.time_error);
+        }
+    }
+}
+
+/// Complementarity (1.4)–(1.6) at 10 000 random times, exactly, on the histories that stay rational for ever: μ a whole
+/// multiple of gL/c.
+#[test]
+fn complementarity_at_ten_thousand_times() {
+    let mut checked = 0;
+    for k in 2..=6 {
+        let problem = common::uniform("1", "1", "1", &k.to_string(), Run::Time(400.into()));
+        let history = Exact::solve(&problem, &()).unwrap();
+        assert_eq!(history.ending(), &Ending::Time);
+        let mut seed = 12345u64 + k;
+        for _ in 0..2000 {
+            seed = seed.wrapping_mul(6364136223846793005).wrapping_add(1442695040888963407);
+            let time = Rational::from((seed >> 24, 1u64 << 40)) * 400;
+            let (v, _) = history.ground_end(&time, Side::Right).unwrap();
+            let stress = history.stress(&time, Side::Right).unwrap();
+            assert!(v >= 0 && stress <= 0 && Rational::from(&v * &stress) == 0, "μ = {k}, t = {time}");
+            checked += 1;
+        }
+    }
+    assert_eq!(checked, 10_000);
+}
+
+/// Doyen, Ern & Piperno's family: with μ = k gL/c, k ≥ 2, the second contact undoes the vibration of the first, and the
+/// period is 4(k + 1)L/c.
+#[test]
+fn every_second_contact_undoes_the_vibration() {
+    for k in 2..=9i64 {
+        let problem = common::uniform("10", "30", "10", &number(10 * k, 3).to_string(), Run::Impacts(8));
+        let history = Exact::solve(&problem, &()).unwrap();
+        let impacts: Vec<_> = history.events().iter().filter(|event| event.kind == EventKind::Impact).collect();
+        let period = Rational::from((4 * (k + 1), 3));
+        for pair in impacts.windows(3) {
+            assert_eq!(Rational::from(&pair[2].time - &pair[0].time), period, "k = {k}");
+        }
+        // μ₀ = 20/3: E_z = μ₀² L/6 after odd contacts, 0 after even ones.
+        for (n, contact) in history.contacts().iter().enumerate() {
+            let vibrational = history.energy(contact.to.as_ref().unwrap()).unwrap().vibrational;
+            let expected = if n % 2 == 0 { Rational::from((2000, 27)) } else { Rational::new() };
+            assert_eq!(vibrational, expected, "k = {k}, contact {n}");
+        }
+    }
+}
+
+/// Two precisions side by side on the chaotic history: the error bound of the lower one covers what separates them.
+#[test]
+fn a_chaotic_history_is_followed_with_enough_digits() {
+    let problem = common::uniform("1", "1", "1", "3/2", Run::Time(160.into()));
+    let history = dalembert::solve::undamped_to_digits(&problem, 15, |_, _| ()).unwrap();
+    let bits = history.end().prec();
+    let check = Undamped::<Float>::solve(&problem, &(2 * bits)).unwrap();
+    assert_eq!(history.events().len(), check.events().len());
+    for (a, b) in history.events().iter().zip(check.events()) {
+        let error = Scalar::to_f64(&(b.time.clone() - &a.time)).abs();
+        assert!(error <= 1e-15 * Scalar::to_f64(&b.time).max(1.0), "{error:e} at {}", b.time);
+    }
+    // Double precision has long lost it by then, and says so.
+    let rounded = Undamped::<f64>::solve(&problem, &()).unwrap();
+    assert!(rounded.warnings().iter().any(|warning| warning.contains("not determined")), "{:?}", rounded.warnings());
+}
