@@ -13,6 +13,7 @@ pub mod quantity;
 pub mod rod;
 pub mod scene;
 pub mod solve;
+pub mod special;
 
 pub use error::Error;
 pub use glam;

@@ -1,4 +1,5 @@
 //! The paper's undamped formulas, against each other and against the balance laws, in fractions.
+#![allow(clippy::unwrap_used, clippy::panic)]
 #![cfg(feature = "mp")]
 
 use dalembert::first_contact::Undamped;
@@ -30,7 +31,8 @@ prop_compose! {
 }
 
 proptest! {
-    /// P' = −c² v_x(0,t) − gL (3.36), h' = P/L (3.39), E_h = P²/2L + Lgh (3.63): every printed formula is in one of them.
+    /// P' = −c² v_x(0,t) − gL (3.36), h' = P/L (3.39), E_h = P²/2L + Lgh (3.63): every printed formula is in one of
+    /// them.
     #[test]
     fn printed_formulas_agree(rod in scenes(), part in 1i64..20) {
         let exact = Undamped::new(&rod).unwrap();

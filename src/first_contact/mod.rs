@@ -1,5 +1,17 @@
 //! The first contact in closed form: stress, bounce, motion, energy and field as the paper has them.
+//!
+//! Everything is a sum over the rays that have arrived, with time in units of the round trip `t₁`: what remains of the
+//! parameters are `R = r t₁` and the weights `μ` and `μ₀ = g t₁` of two fixed solutions. `r = 0` is a value like any
+//! other.
 
+mod bounce;
+mod energy;
+mod field;
+mod rebound;
+mod search;
 mod undamped;
 
+pub use bounce::{Bounce, BounceKind};
+pub use field::{Estimate, FirstContact};
+pub use rebound::Rebound;
 pub use undamped::Undamped;

@@ -1,9 +1,10 @@
-//! The undamped first contact, `r = 0`, from the paper's closed forms: (3.47)–(3.53), (3.66)–(3.72), Corollary 1, Remark 2.
+//! The undamped first contact, `r = 0`, from the paper's closed forms: (3.47)–(3.53), (3.66)–(3.72), Corollary 1,
+//! Remark 2.
 //!
 //! Nothing here is derived anew: each method is the printed formula, so that it can be held against the other engines.
-//! Between the printed formulas themselves the following hold, exactly, in fractions: `P = L h′`, `P` and `h` continuous at `t₁` and
-//! `t_b`, `E_h = P²/2L + L g h`, `E_h + E_z = μ²L/2`. All of them pass; only the case `μ = μ₀` is left out in print, see
-//! [`Undamped::momentum_restitution`].
+//! Between the printed formulas themselves the following hold, exactly, in fractions: `P = L h′`, `P` and `h`
+//! continuous at `t₁` and `t_b`, `E_h = P²/2L + L g h`, `E_h + E_z = μ²L/2`. All of them pass; only the case `μ = μ₀`
+//! is left out in print, see [`Undamped::momentum_restitution`].
 
 use crate::history::Side;
 use crate::number::Scalar;

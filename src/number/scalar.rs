@@ -66,6 +66,11 @@ pub trait Scalar:
     /// The shortest faithful text: `0.1` for a double, `3/2` for a fraction, all digits for a `Float`.
     fn text(&self) -> String;
 
+    /// `log₂ u` of the unit roundoff `u`: −53 for `f64`, −∞ for exact systems.
+    fn log2_roundoff(&self) -> f64 {
+        self.bits().map_or(f64::NEG_INFINITY, |bits| -f64::from(bits))
+    }
+
     /// The text of `self ± √square`, simplified where the system can: `3 + √2`.
     fn surd(&self, plus: bool, square: &Self) -> String {
         format!("{} {} √({})", self.text(), if plus { '+' } else { '−' }, square.text())

@@ -1,0 +1,107 @@
+//! First sign change of a smooth function on `[−1,1]`, from its Chebyshev coefficients and a bound of what they leave
+//! out.
+
+/// What is known of the first sign change from `+` to `−`.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) enum FirstRoot {
+    /// There is none: the function is positive, but for its ends.
+    None,
+    /// Exactly one root in `[lo, hi]`, none before it, and the slope is at most `−slope` throughout.
+    Between { lo: f64, hi: f64, slope: f64 },
+    /// Something near this place cannot be told from zero.
+    Unclear(f64),
+}
+
+/// Sign at a point: `Some(true)` above zero, `Some(false)` below, `None` unknown.
+pub(super) type Sign = Option<bool>;
+
+/// Chebyshev coefficients of the polynomial through `values` at `cos(πj/n)`, j = 0 … n.
+pub(super) fn coefficients(values: &[f64]) -> Vec<f64> {
+    let n = values.len().saturating_sub(1).max(1);
+    let step = std::f64::consts::PI / n as f64;
+    let cosines: Vec<f64> = (0..2 * n).map(|j| (step * j as f64).cos()).collect();
+    let ends = |j: usize| if j == 0 || j == n { 0.5 } else { 1.0 };
+    let term = |k: usize, j: usize| values[j] * cosines[(j * k) % (2 * n)] * ends(j);
+    (0..values.len()).map(|k| (0..values.len()).map(|j| term(k, j)).sum::<f64>() * 2.0 / n as f64 * ends(k)).collect()
+}
+
+/// Clenshaw's sum and its derivative.
+fn evaluate(coefficients: &[f64], x: f64) -> (f64, f64) {
+    let (mut b1, mut b2, mut d1, mut d2) = (0.0, 0.0, 0.0, 0.0);
+    for &c in coefficients.iter().skip(1).rev() {
+        let d = 2.0 * b1 + 2.0 * x * d1 - d2;
+        let b = c + 2.0 * x * b1 - b2;
+        (d2, d1, b2, b1) = (d1, d, b1, b);
+    }
+    (coefficients.first().copied().unwrap_or(0.0) + x * b1 - b2, b1 + x * d1 - d2)
+}
+
+/// The first sign change of a function whose distance from the Chebyshev sum is at most `error`, given a better
+/// `sign` for places where the sum alone does not tell.
+///
+/// `B = Σ |c_n| n²(n²−1)/3` bounds the sum's second derivative. On an interval of width w the sum stays above its
+/// lesser end minus B w²/8, and its slope keeps its sign where |f′(middle)| > B w/2. By Markov's inequality the slope
+/// of what is left out is below n² `error`; four times that is granted. Intervals are taken from the left, each
+/// begins with a plus, and none is left without proof, so no earlier root is missed.
+pub(super) fn first_root(sum: &[f64], error: f64, sign: impl Fn(f64) -> Sign) -> FirstRoot {
+    let bend: f64 = (0u32..).zip(sum).map(|(n, c)| (f64::from(n).powi(4) - f64::from(n).powi(2)) * c.abs() / 3.0).sum();
+    let steepness = 4.0 * (sum.len() * sum.len()) as f64 * error;
+    let known = |x: f64| {
+        let (value, _) = evaluate(sum, x);
+        if value.abs() > error { Some(value > 0.0) } else { sign(x) }
+    };
+    if known(-1.0) != Some(true) {
+        return FirstRoot::Unclear(-1.0);
+    }
+    let mut stack = vec![(-1.0f64, 1.0f64)];
+    while let Some((lo, hi)) = stack.pop() {
+        let width = hi - lo;
+        let lowest = evaluate(sum, lo).0.min(evaluate(sum, hi).0) - bend * width * width / 8.0;
+        if lowest > error {
+            continue;
+        }
+        let slope = evaluate(sum, 0.5 * (lo + hi)).1.abs() - bend * width / 2.0 - steepness;
+        if slope > 0.0 {
+            match known(hi) {
+                Some(true) => continue,
+                Some(false) => return FirstRoot::Between { lo, hi, slope },
+                // The function falls towards something that cannot be told from zero.
+                None => {}
+            }
+        }
+        if width < 1e-9 {
+            return FirstRoot::Unclear(lo);
+        }
+        // A cut that is no plus holds a root to its left, and the left part is taken first.
+        let cut = if known(0.5 * (lo + hi)).is_some() { 0.5 * (lo + hi) } else { lo + 0.381_966 * width };
+        stack.push((cut, hi));
+        stack.push((lo, cut));
+    }
+    FirstRoot::None
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn search(f: impl Fn(f64) -> f64) -> FirstRoot {
+        let n = 40;
+        let values: Vec<f64> = (0..=n).map(|j| f((std::f64::consts::PI * f64::from(j) / f64::from(n)).cos())).collect();
+        first_root(&coefficients(&values), 1e-13, |x| (f(x).abs() > 1e-15).then_some(f(x) > 0.0))
+    }
+
+    #[test]
+    fn the_first_of_several() {
+        let FirstRoot::Between { lo, hi, .. } = search(|x| (9.0 * (x + 1.0)).cos()) else { panic!() };
+        let root = std::f64::consts::PI / 18.0 - 1.0;
+        assert!(lo < root && root < hi);
+        assert_eq!(search(|x| x.exp()), FirstRoot::None);
+        assert!(matches!(search(|x| x * x), FirstRoot::Unclear(_)));
+        assert_eq!(search(|x| x * x + 1e-9), FirstRoot::None);
+        // Two roots 2·10⁻⁴ apart, the first of them.
+        let FirstRoot::Between { lo, hi, .. } = search(|x| (x - 0.3) * (x - 0.3) - 1e-8) else { panic!() };
+        assert!(lo < 0.2999 && 0.2999 < hi && hi < 0.3001);
+        // A plus at the left end that is far below the error of the sum.
+        assert!(matches!(search(|x| 1e-14 - (x + 1.0)), FirstRoot::Between { .. }));
+    }
+}

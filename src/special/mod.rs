@@ -1,0 +1,15 @@
+//! Special functions in any precision: scaled Bessel functions, the sums over `ψ_n` that a ray carries, `φ`
+//! functions, Gauss–Legendre.
+
+mod bessel;
+mod gauss;
+mod phi;
+mod precision;
+mod ray;
+
+pub use bessel::{i0_scaled, i1_scaled, in_scaled};
+pub use gauss::gauss_legendre;
+pub use phi::{log_mean, log_rest, phi1, phi2};
+use precision::bits;
+pub(crate) use precision::{negative_power, roundoff};
+pub use ray::{Ray, RaySums};

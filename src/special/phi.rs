@@ -1,0 +1,111 @@
+//! `φ₁`, `φ₂` of free fall with drag, and the two logarithmic means of its highest point, regular at zero.
+
+use super::bits;
+use crate::number::Analytic;
+
+/// `φ₁(z) = (eᶻ − 1)/z`, 1 at `z = 0`.
+///
+/// **Source**: (3.38), (3.43) without the division by `2r`.
+///
+/// **Accuracy**: within 3 roundings.
+///
+/// ```
+/// use dalembert::special::phi1;
+/// assert_eq!(phi1(&0.0), 1.0);
+/// assert!((phi1(&1.0_f64) - 1.718281828459045).abs() < 1e-15);
+/// ```
+pub fn phi1<S: Analytic>(z: &S) -> S {
+    if z.is_zero() { z.one() } else { z.exp_m1() / z }
+}
+
+/// `φ₂(z) = (eᶻ − 1 − z)/z²`, 1/2 at `z = 0`.
+///
+/// **Source**: (3.38), (3.44) without the division by `4r²`.
+///
+/// **Accuracy**: within 16 roundings for `z ≤ 1`: below `|z| = 1` the terms of the series add up to `φ₂(|z|) ≤ 2φ₂(z)`;
+/// for `z < −1` the difference is more than a third of `|z|`.
+///
+/// ```
+/// use dalembert::special::phi2;
+/// assert_eq!(phi2(&0.0), 0.5);
+/// assert!((phi2(&-1.0_f64) - 0.36787944117144233).abs() < 1e-15);
+/// ```
+pub fn phi2<S: Analytic>(z: &S) -> S {
+    let one = z.one();
+    if z.magnitude() > one {
+        return (z.exp_m1() - z) / z.square();
+    }
+    // Σ zᵏ/(k+2)!, by Horner. With |z| ≤ 1 the rest after K terms is below 2/(K+2)!.
+    let mut terms = 1i64;
+    let mut left = bits(z) + 2.0;
+    while left > 0.0 {
+        terms += 1;
+        left -= ((terms + 1) as f64).log2();
+    }
+    let mut sum = one.clone();
+    for k in (1..=terms).rev() {
+        sum = one.clone() + z.clone() * &sum / one.int(k + 2);
+    }
+    sum / one.int(2)
+}
+
+/// `λ(y) = ln(1+y)/y`, 1 at `y = 0`: the time of the highest point, `t* − t_b = (h¹/g) λ(2rh¹/g)`.
+///
+/// **Source**: Remark 2.
+///
+/// **Accuracy**: within 3 roundings.
+///
+/// **Errors**: not a number for `y ≤ −1`.
+pub fn log_mean<S: Analytic>(y: &S) -> S {
+    if y.is_zero() { y.one() } else { y.ln_1p() / y }
+}
+
+/// `λ₂(y) = (y − ln(1+y))/y²`, 1/2 at `y = 0`, for `y ≥ 0`: the highest point, `h_max − h⁰ = ((h¹)²/g) λ₂(2rh¹/g)`.
+///
+/// **Source**: Remark 2.
+///
+/// **Accuracy**: within 32 roundings: at `y = 1/4` the difference is a tenth of `y`.
+pub fn log_rest<S: Analytic>(y: &S) -> S {
+    if *y > y.ratio(1, 4) {
+        return (y.clone() - y.ln_1p()) / y.square();
+    }
+    // Σ (−y)ᵏ/(k+2): alternating, falling faster than 4⁻ᵏ, so the rest is below the first term left out.
+    let terms = (bits(y) / 2.0) as i64 + 2;
+    let mut sum = y.zero();
+    for k in (0..=terms).rev() {
+        sum = y.ratio(1, k + 2) - y.clone() * &sum;
+    }
+    sum
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn both_branches_meet() {
+        for z in [-1.0f64, 1.0] {
+            let (below, above) = (phi2(&(z * (1.0 - 1e-13))), phi2(&(z * (1.0 + 1e-13))));
+            assert!((below - above).abs() < 2e-13, "{z} {below} {above}");
+        }
+        let (below, above) = (log_rest(&(0.25f64 - 1e-15)), log_rest(&(0.25f64 + 1e-15)));
+        assert!((below - above).abs() < 1e-14, "{below} {above}");
+        assert_eq!(phi1(&1e-300), 1.0);
+        assert_eq!(phi2(&-1e-300), 0.5);
+        assert_eq!(log_rest(&1e-300), 0.5);
+        assert_eq!(log_mean(&0.0), 1.0);
+    }
+
+    #[cfg(feature = "mp")]
+    #[test]
+    fn fractions_of_e() {
+        use crate::number::Scalar;
+        let one = rug::Float::with_val(300, 1);
+        let e = one.clone().exp();
+        let wrong = (phi2(&one) - (e - 2u32)).abs();
+        assert!(wrong < 1e-88, "{wrong}");
+        let tiny = rug::Float::with_val(300, 1e-40);
+        let wrong = phi2(&tiny) - one.ratio(1, 2) - tiny.clone() / 6u32;
+        assert!(wrong.to_f64().abs() < 1e-80);
+    }
+}
