@@ -413,3 +413,21 @@ fn files_are_written_whole_or_not_at_all() {
     refused(&["solve", "paper-strong", "-o", &folder.path().to_string_lossy()], &["cannot write"]);
     assert_eq!(names(), 3, "nothing is left behind");
 }
+
+/// What the README shows is what the command prints; `…` stands for lines left out.
+#[cfg(feature = "mp")]
+#[test]
+fn the_readme_shows_real_output() {
+    let readme = include_str!("../README.md");
+    let mut shown = 0;
+    for block in readme.split("```text\n").skip(1).filter_map(|rest| rest.split("```").next()) {
+        let (command, lines) = block.split_once('\n').unwrap();
+        let args: Vec<&str> = command.strip_prefix("$ dalembert ").unwrap().split_whitespace().collect();
+        let out = quiet(&args);
+        for line in lines.lines().filter(|line| line.trim() != "…") {
+            assert!(out.lines().any(|real| real.trim_end() == line.trim_end()), "{command}: {line}");
+            shown += 1;
+        }
+    }
+    assert!(shown > 20);
+}
