@@ -33,7 +33,7 @@ fn main() -> Result<(), Error> {
         // Restitution: undamped, the rod loses no energy, but some of it goes on as vibration.
         let e = restitution(&history, contact)?;
         let (e_p, e_e) = (e.momentum.unwrap_or(f64::NAN), e.energy_squared.unwrap_or(f64::NAN));
-        let top = flights(&history, &gravity)[0].highest.map_or(f64::NAN, |(_, height)| height);
+        let top = flights(&history)[0].highest.map_or(f64::NAN, |(_, height)| height);
         println!("{text:>4}  {bounce:7.4}  {expected:9.4}   {e_p:7.4}  {e_e:7.4}  {top:7.4}");
     }
     Ok(())

@@ -2,6 +2,7 @@
 
 #[cfg(feature = "cli")]
 pub mod cli;
+pub mod damped;
 pub mod error;
 pub mod first_contact;
 pub mod history;

@@ -11,7 +11,7 @@ use std::path::PathBuf;
 use clap::{Args, CommandFactory, Parser, Subcommand, ValueEnum};
 
 use crate::output::{Head, write_whole};
-use crate::rod::{Material, Top};
+use crate::rod::Material;
 use crate::scene::{Ask, Plan, Scene};
 
 /// Everything that can go wrong, ready to be reported.
@@ -131,7 +131,6 @@ fn head(scene: &Scene, plan: &Plan) -> Head {
         effects: plan.called(),
         digits: 0,
         line_density,
-        gravity: scene.problem.gravity.clone().filter(|_| scene.problem.rod.top == Top::Free),
         exact_until: None,
     }
 }

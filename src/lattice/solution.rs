@@ -535,6 +535,17 @@ impl<S: Scalar> History<S> for Undamped<S> {
         Ok(self.field_at(&self.locate(time)?, point, side))
     }
 
+    fn highest(&self, release: &Event<S>) -> Option<(S, S)> {
+        let Units { round_trip, velocity, .. } = &self.problem.units;
+        if self.problem.gravity.is_zero() || self.problem.top == Top::Fixed || release.centre_velocity.is_negative() {
+            return None;
+        }
+        let gravity = velocity.clone() / round_trip;
+        let rate = &release.centre_velocity;
+        let rise = rate.square() / &gravity / rate.int(2);
+        Some((release.time.clone() + rate.clone() / &gravity, release.centre.clone() + rise))
+    }
+
     fn scales(&self) -> Scales<S> {
         let Units { round_trip, velocity, length, wave_speed } = self.problem.units.clone();
         let start = self.problem.ground_velocity.magnitude();

@@ -53,8 +53,6 @@ pub struct Head {
     pub digits: u32,
     /// `ρS` where the scene gives it: what turns strains into newtons.
     pub line_density: Option<(Number, Number)>,
-    /// `g` where it alone acts on the flying rod, for the top of each flight.
-    pub gravity: Option<Number>,
     /// Where an exact run ended, if a run in digits stands in for it.
     pub exact_until: Option<Ending>,
 }
@@ -97,7 +95,6 @@ pub fn record<S: Scalar>(history: &dyn History<S>, head: &Head) -> Result<Record
         };
         contacts.push((contact.clone(), restitution(history, contact)?, energy));
     }
-    let gravity = head.gravity.as_ref().map_or_else(|| end.zero(), lift);
     let forces = head.line_density.as_ref().map(|(density, area)| {
         let line = lift(density) * lift(area);
         (scales.wave_speed.square() * &line, line)
@@ -105,7 +102,7 @@ pub fn record<S: Scalar>(history: &dyn History<S>, head: &Head) -> Result<Record
     let mut record = Record {
         events: history.events().to_vec(),
         contacts,
-        flights: flights(history, &gravity),
+        flights: flights(history),
         stress: history.stress_pieces(),
         end: (end, history.ending().clone()),
         forces,
