@@ -407,7 +407,10 @@ fn files_are_written_whole_or_not_at_all() {
     assert_eq!(names(), 3);
 
     // A run that fails leaves an old file as it was.
-    refused(&["solve", "steel-bar", "-o", &path("a.txt")], &["found damping"]);
+    refused(
+        &["sample", "paper-strong", "--quantity", "end", "--times", "-1", "-o", &path("a.txt")],
+        &["found time -1"],
+    );
     assert_eq!(content("a.txt"), quiet(&["solve", "paper-strong"]));
     refused(&["solve", "paper-strong", "-o", &path("missing/a.json")], &["cannot write", "no folder"]);
     refused(&["solve", "paper-strong", "-o", &folder.path().to_string_lossy()], &["cannot write"]);
