@@ -8,7 +8,7 @@ use thiserror::Error;
 #[non_exhaustive]
 pub enum Error {
     /// A fraction cannot hold a square root.
-    #[error("exact fractions cannot hold the {quantity} √({square}); expected a square, or use --digits N")]
+    #[error("exact fractions cannot hold the {quantity} √({square}), expected a square or --digits N")]
     Irrational {
         /// The quantity that needs the root.
         quantity: &'static str,

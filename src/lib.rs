@@ -19,8 +19,13 @@ pub mod solve;
 pub mod special;
 
 pub use error::Error;
+pub use glam;
 pub use history::{Ending, EventKind, History, Side};
 pub use number::Number;
 pub use rod::Problem;
 pub use scene::{Ask, Plan, Scene};
 pub use solve::{Solution, solve};
+
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+struct Readme;

@@ -1,7 +1,7 @@
 //! What holds of every undamped history, tested exactly, in fractions, on random scenes. Speeds that are small multiples of
 //! `g t₁` are common among them, so that rays and events often coincide.
 #![cfg(feature = "mp")]
-#![allow(clippy::unwrap_used)]
+#![allow(clippy::unwrap_used, clippy::useless_conversion)]
 
 mod common;
 

@@ -134,5 +134,6 @@ fn head(scene: &Scene, plan: &Plan) -> Head {
         effects: plan.called(),
         digits: 0,
         line_density,
+        exact_until: None,
     }
 }

@@ -5,7 +5,13 @@ use std::io::Read;
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 
 use super::Failure;
-use crate::rod::Run;
+#[cfg(feature = "mp")]
+use crate::error::Error;
+#[cfg(feature = "mp")]
+use crate::rod::Problem;
+use crate::rod::{Parameters, Run};
+#[cfg(feature = "mp")]
+use crate::scene::{Plan, System};
 use crate::scene::{Scene, builtin};
 
 /// More than any scene: what is read of an endless stream before it is refused.
@@ -58,6 +64,16 @@ fn read_text(from: impl Read, name: &str) -> Result<String, Failure> {
     Ok(text)
 }
 
+/// Says why a run that was to be exact is in digits from its beginning.
+#[cfg(feature = "mp")]
+pub(super) fn tell_inexact(problem: &Problem, plan: &Plan) {
+    if let System::Exact(Some(digits)) = plan.system
+        && let Err(Error::Irrational { quantity, square }) = Parameters::<rug::Rational>::of(problem, &())
+    {
+        eprintln!("note: the {quantity} √({square}) is no fraction; all that follows is in {digits} digits");
+    }
+}
+
 /// A progress bar on standard error: only on a terminal, and only for runs over a second.
 pub(super) struct Progress {
     bar: ProgressBar,
@@ -70,7 +86,7 @@ impl Progress {
         let trips = match &scene.problem.run {
             Run::Time(time) => {
                 let precision = ();
-                crate::rod::Parameters::<f64>::of(&scene.problem, &precision)
+                Parameters::<f64>::of(&scene.problem, &precision)
                     .ok()
                     .map(|rod| (time.to_f64() / rod.round_trip()).ceil() as u64)
             }

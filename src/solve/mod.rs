@@ -64,11 +64,12 @@ pub fn solve(problem: &Problem, plan: &Plan, mut observe: impl FnMut(usize, usiz
         #[cfg(feature = "mp")]
         System::Exact(digits) => {
             let exact = match Undamped::<rug::Rational>::solve_within(problem, &(), Limits::default(), &mut observe) {
-                // Not even the parameters are fractions: all of it is in digits.
-                Err(Error::Irrational { .. }) if let Some(digits) = digits => {
+                // Not even the parameters are fractions: in digits from the beginning.
+                Err(error @ Error::Irrational { .. }) => {
+                    let digits = digits.ok_or(error)?;
                     return Ok(Solution::Digits(Box::new(undamped_to_digits(problem, digits, &mut observe)?), digits));
                 }
-                other => other?,
+                exact => exact?,
             };
             let rest = match digits {
                 Some(digits) if matches!(exact.ending(), Ending::ExactnessEnds { .. }) => {
