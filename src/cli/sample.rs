@@ -125,7 +125,7 @@ impl Sample {
         let plan = Plan::of(&scene, self.numbers.ask())?;
         let head = head(&scene, &plan);
         let solution = {
-            let mut progress = source::Progress::of(&scene);
+            let progress = source::Progress::of(&scene, &plan);
             solve(&scene.problem, &plan, |trip, pieces| progress.observe(trip, pieces))?
         };
         match &solution {
@@ -173,6 +173,12 @@ impl Sample {
                         help = "expected times before it, or --digits N as well, to go on from there in digits",
                         "found time {found}, but {}",
                         history.ending()
+                    )
+                }
+                (ending, Error::TimeOutside { found, .. }) if !matches!(ending, Ending::Time) => {
+                    miette::miette!(
+                        "found time {found}, expected times up to t = {}: {ending}",
+                        history.end().show(head.digits)
                     )
                 }
                 _ => error.into(),

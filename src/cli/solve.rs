@@ -45,7 +45,7 @@ impl Solve {
         let plan = Plan::of(&scene, self.numbers.ask())?;
         let head = head(&scene, &plan);
         let solution = {
-            let mut progress = source::Progress::of(&scene);
+            let progress = source::Progress::of(&scene, &plan);
             solve(&scene.problem, &plan, |trip, pieces| progress.observe(trip, pieces))?
         };
         match &solution {

@@ -27,6 +27,8 @@ pub fn history_json<S: Show>(record: &Record<S>, head: &Head) -> Value {
             "restitution": {
                 "momentum": optional(restitution.momentum.as_ref().ok()),
                 "energy_squared": optional(restitution.energy_squared.as_ref().ok()),
+                "translational_part": optional(restitution.translational_part.as_ref()),
+                "energy_kept": optional(restitution.energy_kept.as_ref()),
             },
             "energy": energy.as_ref().map(|energy| json!({
                 "total": number(&energy.total),

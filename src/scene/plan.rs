@@ -125,9 +125,12 @@ impl Plan {
             }
         }];
         reasons.push(match system {
+            System::Double(None) if engine == Engine::Lattice => {
+                "neither --digits, --exact nor --accuracy is asked for: double precision, with a running error bound".into()
+            }
             System::Double(None) => {
-                "neither --digits nor --exact nor --accuracy is asked for: double precision, with its own error bound; more \
-                 bits only where the first contact cancels them away"
+                "neither --digits nor --accuracy is asked for: double precision with an error bound, and more bits only \
+                 where the rays of a long first contact cancel"
                     .into()
             }
             System::Double(Some(accuracy)) => {
@@ -145,11 +148,23 @@ impl Plan {
             Run::Impacts(impacts) => format!("{impacts} contact(s): time and memory linear in the number of pieces"),
             Run::Time(time) => format!("to t = {time}: time and memory linear in the number of pieces"),
         };
-        Ok(Plan { effects: scene.effects(), engine, system, reasons, cost })
+        let mut effects = scene.effects();
+        effects.push(scene.effect(Effect::FieldEnergies));
+        effects.push(match system {
+            System::Double(_) => scene.effect(Effect::ArbitraryPrecision),
+            _ => EffectUse {
+                effect: Effect::ArbitraryPrecision,
+                called: true,
+                line: None,
+                because: format!("{system} asked for"),
+            },
+        });
+        Ok(Plan { effects, engine, system, reasons, cost })
     }
 
-    /// The names of the effects that the scene calls for.
+    /// The names of the effects that the scene itself calls for.
     pub fn called(&self) -> Vec<&'static str> {
-        self.effects.iter().filter(|used| used.called).map(|used| Effect::name(used.effect)).collect()
+        let called = self.effects.iter().filter(|used| used.called && Effect::ALL.contains(&used.effect));
+        called.map(|used| used.effect.name()).collect()
     }
 }
