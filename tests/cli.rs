@@ -376,6 +376,54 @@ fn digits_need_the_feature() {
     refused(&["solve", "paper-weak", "--exact"], &["found a build without arbitrary precision"]);
 }
 
+/// The damped scenes go through the same commands and formats.
+#[test]
+fn a_damped_history() {
+    let history = json(&["solve", "figure-4-r02", "--format", "json"]);
+    assert_eq!(history["effects"], serde_json::json!(["unilateral_contact", "gravity", "damping"]));
+    let contact = &history["contacts"][0];
+    assert_eq!(contact["to"], 2.0);
+    // e_E² of an independent program, `paper_r02_mu5` in tests/reference/first_contact.json, and its factors (4.73).
+    let value = |key: &str| contact["restitution"][key].as_f64().unwrap();
+    let truth = 0.400_991_089_077_476_9;
+    assert!((value("energy_squared") - truth).abs() < 1e-12, "{}", value("energy_squared"));
+    assert!((value("translational_part") * value("energy_kept") - truth).abs() < 1e-12);
+    // The stress between the ends of a piece is its Chebyshev sum.
+    let piece = &history["stress"]["pieces"][0];
+    let terms: Vec<f64> = piece["chebyshev"].as_array().unwrap().iter().map(|term| term.as_f64().unwrap()).collect();
+    let middle = terms.iter().step_by(2).zip([1.0, -1.0].iter().cycle()).map(|(term, sign)| term * sign).sum::<f64>();
+    let sample = json(&["sample", "figure-4-r02", "--quantity", "stress", "--times", "1", "--format", "json"]);
+    let stress = sample["rows"][0]["values"]["v_x"].as_f64().unwrap();
+    assert!((middle - stress).abs() < 1e-12 * stress.abs(), "{middle} {stress}");
+    let explained = json(&["explain", "figure-4-r02", "--format", "json"]);
+    assert_eq!(explained["engine"], "cells");
+}
+
+#[test]
+fn no_bounce_is_an_answer() {
+    let scene = "[rod]\nlength = 1\nwave_speed = 1\ndamping = 1\n[impact]\nspeed = 1\n[gravity]\nacceleration = 1\n";
+    let Run { code, out, err } = run_with(&["solve", "-", "--format", "json"], scene);
+    assert_eq!((code, err.as_str()), (Some(0), ""));
+    let history: Value = serde_json::from_str(&out).unwrap();
+    assert_eq!(history["events"].as_array().unwrap().len(), 1);
+    assert_eq!((&history["contacts"][0]["to"], &history["contacts"][0]["energy"]), (&Value::Null, &Value::Null));
+    assert!(history["end"]["reason"].as_str().unwrap().starts_with("no bounce: "), "{}", history["end"]);
+}
+
+#[test]
+#[cfg(feature = "mp")]
+fn a_damped_history_in_digits() {
+    let digits = json(&["solve", "figure-1-r26", "--digits", "30", "--format", "json"]);
+    // `figure1_r26` in tests/reference/first_contact.json.
+    assert_eq!(digits["events"][1]["time"], "1.78848103329887545175038380599");
+    assert_eq!(digits["events"][1]["centre_velocity"], "0.00844410807842711928782346527941");
+    let many = json(&["solve", "figure-1-r26", "--digits", "1000", "--format", "json"]);
+    assert!(many["events"][1]["time"].as_str().unwrap().len() == 1001);
+    assert!(many["end"]["reason"].as_str().unwrap().contains("300 digits"), "{}", many["end"]);
+    let rounded = json(&["solve", "figure-1-r26", "--accuracy", "1e-15", "--format", "json"]);
+    assert_eq!(rounded["events"][1]["time"], 1.788_481_033_298_875_5);
+}
+
 #[test]
 fn help_completions_and_version() {
     for args in

@@ -67,7 +67,12 @@ impl Solve {
     }
 
     fn print<S: Show>(&self, history: &dyn History<S>, head: &Head) -> Result<(), Failure> {
-        let record = record(history, head)?;
+        let stress = match self.output.format() {
+            Format::Table => false,
+            Format::Json => true,
+            Format::Csv => matches!(self.part, Some(PartArg::Stress)),
+        };
+        let record = record(history, head, stress)?;
         for warning in &record.warnings {
             eprintln!("warning: {warning}");
         }

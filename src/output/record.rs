@@ -69,7 +69,7 @@ pub struct Record<S> {
     pub contacts: Vec<Finished<S>>,
     /// Flights with their tops.
     pub flights: Vec<Flight<S>>,
-    /// The stress at the ground.
+    /// The stress at the ground, where it is asked for.
     pub stress: Vec<StressPiece<S>>,
     /// The last time that is known, and why.
     pub end: (S, Ending),
@@ -81,8 +81,8 @@ pub struct Record<S> {
     pub warnings: Vec<String>,
 }
 
-/// Gathers what is printed of `history`, in the numbers of `precision`.
-pub fn record<S: Scalar>(history: &dyn History<S>, head: &Head) -> Result<Record<S>, Error> {
+/// Gathers what is printed of `history`; the stress at the ground only if asked for, as it can cost more than all the rest.
+pub fn record<S: Scalar>(history: &dyn History<S>, head: &Head, stress: bool) -> Result<Record<S>, Error> {
     let end = history.end();
     let lift = |number: &Number| S::from_number(number, &end.precision());
     let scales = history.scales();
@@ -103,7 +103,7 @@ pub fn record<S: Scalar>(history: &dyn History<S>, head: &Head) -> Result<Record
         events: history.events().to_vec(),
         contacts,
         flights: flights(history),
-        stress: history.stress_pieces(),
+        stress: if stress { history.stress_pieces() } else { Vec::new() },
         end: (end, history.ending().clone()),
         forces,
         error,
