@@ -5,6 +5,7 @@ use crate::number::Scalar;
 
 /// Which of two values at a jump: the limit from earlier or from later times.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[cfg_attr(feature = "cli", derive(clap::ValueEnum))]
 pub enum Side {
     /// The limit from earlier times, `t⁻`.
     Left,

@@ -10,9 +10,11 @@ use std::path::PathBuf;
 
 use clap::{Args, CommandFactory, Parser, Subcommand, ValueEnum};
 
-use crate::output::{Head, write_whole};
+use crate::history::History;
+use crate::output::{Head, Show, write_whole};
 use crate::rod::Material;
 use crate::scene::{Ask, Plan, Scene};
+use crate::solve::{Solution, solve};
 
 /// Everything that can go wrong, ready to be reported.
 pub type Failure = miette::Report;
@@ -117,6 +119,10 @@ impl OutputArgs {
         Ok(write_whole(self.output.as_deref(), text.as_bytes()).map_err(source::cannot(&format!("write {name}")))?)
     }
 
+    fn write_csv(&self, text: Result<String, csv::Error>) -> Result<(), Failure> {
+        self.write(&text.map_err(|error| miette::miette!("cannot write CSV: {error}"))?)
+    }
+
     fn write_json(&self, value: &serde_json::Value) -> Result<(), Failure> {
         self.write(&format!("{value:#}\n"))
     }
@@ -135,5 +141,36 @@ fn head(scene: &Scene, plan: &Plan) -> Head {
         digits: 0,
         line_density,
         exact_until: None,
+    }
+}
+
+/// What a subcommand prints of a history, in any number system.
+trait Answer {
+    fn print<S: Show>(&self, history: &dyn History<S>, head: &Head) -> Result<(), Failure>;
+}
+
+/// Plans and solves `scene` in the numbers asked for, and lets `what` print of the solution.
+fn answer(scene: &Scene, numbers: NumberArgs, what: &impl Answer) -> Result<(), Failure> {
+    let plan = Plan::of(scene, numbers.ask())?;
+    let head = head(scene, &plan);
+    let solution = {
+        let progress = source::Progress::of(scene, &plan);
+        solve(&scene.problem, &plan, |trip, pieces| progress.observe(trip, pieces))?
+    };
+    match &solution {
+        Solution::Double(history) => what.print(history.as_ref(), &head),
+        #[cfg(feature = "mp")]
+        Solution::Digits(history, digits) => {
+            source::tell_inexact(&scene.problem, &plan);
+            what.print(history.as_ref(), &Head { number: format!("{digits} digits"), digits: *digits, ..head })
+        }
+        #[cfg(feature = "mp")]
+        Solution::Exact(history, None) => what.print(history.as_ref(), &head),
+        #[cfg(feature = "mp")]
+        Solution::Exact(exact, Some((history, digits))) => {
+            eprintln!("note: {}; what follows is in {digits} digits", exact.ending());
+            let (number, exact_until) = (format!("{digits} digits"), Some(exact.ending().clone()));
+            what.print(history.as_ref(), &Head { digits: *digits, number, exact_until, ..head })
+        }
     }
 }

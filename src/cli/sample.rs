@@ -1,15 +1,13 @@
 //! `dalembert sample`.
 
-use clap::{Args, ValueEnum};
+use clap::Args;
 
-use super::{Failure, Format, NumberArgs, OutputArgs, head, source};
+use super::{Answer, Failure, Format, NumberArgs, OutputArgs, answer, source};
 use crate::error::Error;
 use crate::history::{Ending, History, Side};
 use crate::number::{Number, Scalar};
 use crate::output::{Head, Quantity, Show, sample, samples_csv, samples_json, samples_table};
 use crate::rod::Run;
-use crate::scene::Plan;
-use crate::solve::{Solution, solve};
 
 /// Values of a quantity at chosen times
 #[derive(Args, Debug)]
@@ -23,7 +21,7 @@ pub(super) struct Sample {
     scene: String,
     /// What to sample
     #[arg(long, value_enum)]
-    quantity: QuantityArg,
+    quantity: Quantity,
     /// Times: numbers such as 0.3 or 1/3 separated by commas, or A..B:N for N times from A to B
     #[arg(long, value_name = "LIST", value_parser = list, allow_hyphen_values = true)]
     times: List,
@@ -31,36 +29,12 @@ pub(super) struct Sample {
     #[arg(long, value_name = "LIST", value_parser = list, allow_hyphen_values = true)]
     points: Option<List>,
     /// Which limit where there are two
-    #[arg(long, value_enum, default_value_t = SideArg::Right)]
-    side: SideArg,
+    #[arg(long, value_enum, default_value_t)]
+    side: Side,
     #[command(flatten)]
     numbers: NumberArgs,
     #[command(flatten)]
     output: OutputArgs,
-}
-
-#[derive(Clone, Copy, Debug, ValueEnum)]
-enum QuantityArg {
-    /// v_x at the ground
-    Stress,
-    /// v and v_t of the ground end
-    End,
-    /// v and v_t of the top
-    Top,
-    /// h and h′ of the centre of mass
-    Centre,
-    /// Total, translational and vibrational energy
-    Energy,
-    /// v, v_t and v_x at points of the rod
-    Field,
-}
-
-#[derive(Clone, Copy, Debug, ValueEnum)]
-enum SideArg {
-    /// The limit from earlier times
-    Left,
-    /// The limit from later times
-    Right,
 }
 
 /// The most values that one range may hold.
@@ -101,9 +75,12 @@ impl List {
             List::Range(from, to, count) => {
                 let (from, to) = (S::from_number(from, precision), S::from_number(to, precision));
                 let steps = i64::from(*count) - 1;
-                // Weighted so that both ends are met exactly.
-                let at = |k: i64| (from.clone() * from.int(steps - k) + to.clone() * to.int(k)) / from.int(steps);
-                (0..=steps).map(at).collect()
+                let inner = |k: i64| (from.clone() * from.int(steps - k) + to.clone() * to.int(k)) / from.int(steps);
+                // Both ends are met exactly: the last is where the history ends.
+                let mut times: Vec<S> = (0..steps).map(inner).collect();
+                times[0] = from.clone();
+                times.push(to.clone());
+                times
             }
         }
     }
@@ -115,37 +92,18 @@ impl Sample {
         let Some(last) = self.times.greatest() else {
             return Err(miette::miette!("found no times, expected at least one"));
         };
-        if self.points.is_some() && !matches!(self.quantity, QuantityArg::Field) {
+        if self.points.is_some() && !matches!(self.quantity, Quantity::Field) {
             return Err(miette::miette!("found --points, expected them with --quantity field only"));
         }
         if last.to_f64() < 0.0 {
             return Err(miette::miette!("found time {last}, expected times from 0 on"));
         }
         scene.problem.run = Run::Time(last);
-        let plan = Plan::of(&scene, self.numbers.ask())?;
-        let head = head(&scene, &plan);
-        let solution = {
-            let progress = source::Progress::of(&scene, &plan);
-            solve(&scene.problem, &plan, |trip, pieces| progress.observe(trip, pieces))?
-        };
-        match &solution {
-            Solution::Double(history) => self.print(history.as_ref(), &head),
-            #[cfg(feature = "mp")]
-            Solution::Digits(history, digits) => {
-                source::tell_inexact(&scene.problem, &plan);
-                self.print(history.as_ref(), &Head { number: format!("{digits} digits"), digits: *digits, ..head })
-            }
-            #[cfg(feature = "mp")]
-            Solution::Exact(history, None) => self.print(history.as_ref(), &head),
-            #[cfg(feature = "mp")]
-            Solution::Exact(exact, Some((history, digits))) => {
-                eprintln!("note: {}; the values are in {digits} digits", exact.ending());
-                let (number, exact_until) = (format!("{digits} digits"), Some(exact.ending().clone()));
-                self.print(history.as_ref(), &Head { digits: *digits, number, exact_until, ..head })
-            }
-        }
+        answer(&scene, self.numbers, self)
     }
+}
 
+impl Answer for Sample {
     fn print<S: Show>(&self, history: &dyn History<S>, head: &Head) -> Result<(), Failure> {
         let length = history.scales().length;
         let precision = length.precision();
@@ -154,20 +112,8 @@ impl Sample {
             Some(points) => points.lift::<S>(&precision),
             None => vec![length.zero(), length.clone() / length.int(2), length],
         };
-        let quantity = match self.quantity {
-            QuantityArg::Stress => Quantity::Stress,
-            QuantityArg::End => Quantity::End,
-            QuantityArg::Top => Quantity::Top,
-            QuantityArg::Centre => Quantity::Centre,
-            QuantityArg::Energy => Quantity::Energy,
-            QuantityArg::Field => Quantity::Field,
-        };
-        let side = match self.side {
-            SideArg::Left => Side::Left,
-            SideArg::Right => Side::Right,
-        };
-        let samples =
-            sample(history, quantity, &times, &points, side).map_err(|error| match (history.ending(), &error) {
+        let samples = sample(history, self.quantity, &times, &points, self.side).map_err(|error| {
+            match (history.ending(), &error) {
                 (Ending::ExactnessEnds { .. }, Error::TimeOutside { found, .. }) => {
                     miette::miette!(
                         help = "expected times before it, or --digits N as well, to go on from there in digits",
@@ -182,18 +128,15 @@ impl Sample {
                     )
                 }
                 _ => error.into(),
-            })?;
+            }
+        })?;
         for warning in history.warnings() {
             eprintln!("warning: {warning}");
         }
         match self.output.format() {
-            Format::Table => self.output.write(&samples_table(&samples, quantity, head)),
-            Format::Json => self.output.write_json(&samples_json(&samples, quantity, head)),
-            Format::Csv => {
-                let text = samples_csv(&samples, quantity, head)
-                    .map_err(|error| miette::miette!("cannot write CSV: {error}"))?;
-                self.output.write(&text)
-            }
+            Format::Table => self.output.write(&samples_table(&samples, self.quantity, head)),
+            Format::Json => self.output.write_json(&samples_json(&samples, self.quantity, head)),
+            Format::Csv => self.output.write_csv(samples_csv(&samples, self.quantity, head)),
         }
     }
 }

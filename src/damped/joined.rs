@@ -244,8 +244,11 @@ impl<S: Analytic> Joined<S> {
         let (middle, radius) = ((from.clone() + to) * &half, (to.clone() - from) * &half);
         let scale = self.rod.speed.clone() + self.contact.round_trip() * &self.rod.gravity;
         let least = scale / &self.rod.wave_speed * (from.int(10).ln() * from.double(-self.digits)).exp();
-        for n in [16i64, 32, 64, 128, 256, 512, 1024] {
-            let angle = |k: i64, j: i64| (half.pi() * half.ratio(k * (2 * j + 1), 2 * n)).cos();
+        // Analytic in a neighbourhood of the cell: the terms fall off geometrically, by a digit or more each.
+        let first = (self.digits.ceil() as u64).next_power_of_two().clamp(16, 1024) as i64;
+        for n in std::iter::successors(Some(first), |n| Some(2 * n)) {
+            let cosines: Vec<S> = (0..4 * n).map(|k| (half.pi() * half.ratio(k, 2 * n)).cos()).collect();
+            let angle = |k: i64, j: i64| cosines[(k * (2 * j + 1) % (4 * n)) as usize].clone();
             let values: Vec<S> = (0..n)
                 .map(|j| self.contact.stress(&(middle.clone() + radius.clone() * angle(1, j)), Side::Left).value)
                 .collect();
@@ -255,7 +258,7 @@ impl<S: Analytic> Joined<S> {
             };
             let mut terms: Vec<S> = (0..n).map(coefficient).collect();
             let settled = terms.iter().rev().take(4).all(|term| term.magnitude() <= least);
-            if settled || n == 1024 {
+            if settled || n >= 1024 {
                 while terms.len() > 1 && terms.last().is_some_and(|term| term.magnitude() <= least) {
                     terms.pop();
                 }

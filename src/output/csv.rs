@@ -5,7 +5,7 @@ use super::record::{Head, Quantity, Record, Sample, Show};
 use crate::history::EventKind;
 
 /// The part of a history that a CSV file holds.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, clap::ValueEnum)]
 pub enum Part {
     /// Impacts and releases.
     #[default]

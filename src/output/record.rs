@@ -179,7 +179,7 @@ fn vanish<S: Scalar>(value: &mut S, bound: &S) {
 }
 
 /// What `sample` can be asked for.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, clap::ValueEnum)]
 pub enum Quantity {
     /// `v_x(0,t)`.
     Stress,
