@@ -209,7 +209,7 @@ fn exactness_ends_at_a_surd_and_says_so() {
     refused(&beyond, &["found time 5", "exactness ends before the impact at t = 3 + √2", "--digits N"]);
     let Run { code, err, .. } = run(&[&beyond[..], &["--digits", "12"]].concat());
     assert_eq!(code, Some(0));
-    assert!(err.contains("the values are in 12 digits"), "{err}");
+    assert!(err.contains("what follows is in 12 digits"), "{err}");
 }
 
 #[cfg(feature = "mp")]
