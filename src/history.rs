@@ -136,9 +136,10 @@ impl std::fmt::Display for Ending {
 /// The scales of a motion: what its quantities are to be compared with.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Scales<S> {
-    /// `t₁`, of times.
+    /// `t₁`, of times; later times scale with themselves.
     pub time: S,
-    /// `μ`, or `g t₁` where that is greater: of velocities. Displacements scale with `time · velocity`.
+    /// About the greatest speed: `μ`, or `g t₁` where that is greater. Displacements scale with `time · velocity`, or with
+    /// themselves where they are greater.
     pub velocity: S,
     /// `L`.
     pub length: S,

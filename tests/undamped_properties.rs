@@ -373,3 +373,29 @@ fn a_chaotic_history_is_followed_with_enough_digits() {
     let rounded = Undamped::<f64>::solve(&problem, &()).unwrap();
     assert!(rounded.warnings().iter().any(|warning| warning.contains("not determined")), "{:?}", rounded.warnings());
 }
+
+/// A long flight is not marched trip by trip: M = 5·10⁷ takes a handful of pieces, and every answer inside is still exact.
+#[test]
+fn long_flights_are_leapt() {
+    let problem = common::uniform("1", "1", "1", "100000000", Run::Impacts(2));
+    let history = Exact::solve(&problem, &()).unwrap();
+    assert!(history.marched().trace.count() < 40, "{}", history.marched().trace.count());
+    let rod = Parameters::<Rational>::of(&problem, &()).unwrap();
+    let paper = first_contact::Undamped::new(&rod).unwrap();
+    // μ is a whole multiple of gL/c: the second contact undoes the vibration, and the third begins as the first.
+    assert_eq!(history.end(), 4 * (100_000_000 + 1));
+    for k in 0..200i64 {
+        let time = Rational::from((200_000_001 * k, 200)) + 1;
+        assert_eq!(history.centre(&time).unwrap(), paper.centre(&time), "t = {time}");
+        assert_eq!(history.energy(&time).unwrap().total, paper.total_energy());
+        let (v, _) = history.ground_end(&time, Side::Right).unwrap();
+        let field = history.field(&Rational::new(), &time, Side::Right).unwrap();
+        assert!(v >= 0 && field.displacement == v);
+    }
+    let rounded = Undamped::<f64>::solve(&problem, &()).unwrap();
+    for (ours, truth) in rounded.events().iter().zip(history.events()) {
+        common::close("time", ours.time, Scalar::to_f64(&truth.time), 1.0, 1e-14);
+        common::close("v_t(0,t)", ours.end_velocity, Scalar::to_f64(&truth.end_velocity), 1e8, 1e-14);
+    }
+    assert!(rounded.error_estimate() < 1e-12);
+}

@@ -12,7 +12,7 @@
 use std::cmp::Ordering;
 
 use super::scaled::Scaled;
-use super::trace::{Occurrence, Piece, Trace};
+use super::trace::{Occurrence, Part, Piece, Trace};
 use crate::error::Error;
 use crate::history::EventKind;
 use crate::number::Scalar;
@@ -31,6 +31,9 @@ impl Default for Limits {
         Limits { pieces: 10_000_000 }
     }
 }
+
+/// More round trips than this are not left out at once: their number must fit the arithmetic.
+const MOST_LEAPT: usize = 1 << 52;
 
 /// How far to march.
 #[derive(Clone, Debug)]
@@ -81,6 +84,8 @@ pub struct Marched<S> {
     /// The greatest error bound of any piece, in roundoffs. The time of a tangential landing is not among them: it loses
     /// half the digits, while the motion does not.
     pub greatest_error: f64,
+    /// The same, relative to the greatest speed of the start, and to height and time themselves where these are greater.
+    pub relative_error: f64,
 }
 
 /// Marches `problem` over round trip after round trip. `observe` is told the trip and the number of pieces so far.
@@ -106,6 +111,8 @@ pub fn march<S: Scalar>(
         arriving: problem.ground_velocity.clone(),
         touch_error: 0.0,
         greatest_error: 0.0,
+        relative_error: 0.0,
+        greatest_speed: problem.greatest_speed(),
     };
     let mut quiet_since = 0;
     let mut trip = 0;
@@ -123,6 +130,9 @@ pub fn march<S: Scalar>(
             return Err(Error::TooManyPieces { limit: limits.pieces, time });
         }
         observe(trip, state.trace.count());
+        if state.occurrences.len() == events && !state.contact {
+            trip += state.leap(trip, until);
+        }
         // Two round trips without an event repeat for ever, up to the drift of a rod that flies freely without gravity.
         if matches!(until, Until::Contacts(_)) && trip >= quiet_since + 2 {
             let drift = state.height.clone() - height;
@@ -135,8 +145,8 @@ pub fn march<S: Scalar>(
             }
         }
     };
-    let March { trace, occurrences, grazes, greatest_error, .. } = state;
-    Ok(Marched { trace, occurrences, grazes, halt, greatest_error })
+    let March { trace, occurrences, grazes, greatest_error, relative_error, .. } = state;
+    Ok(Marched { trace, occurrences, grazes, halt, greatest_error, relative_error })
 }
 
 /// What arrives at the ground on `from … to`: `q` is linear, with bounds on its error and on that of both ends.
@@ -166,6 +176,8 @@ struct March<S> {
     /// How far the touch at this break may be off in time, in roundoffs.
     touch_error: f64,
     greatest_error: f64,
+    relative_error: f64,
+    greatest_speed: f64,
 }
 
 impl<S: Scalar> March<S> {
@@ -194,6 +206,48 @@ impl<S: Scalar> March<S> {
         self.sign(x, error) == Ordering::Equal
     }
 
+    /// Leaves out round trips of a long flight under gravity that only repeat the one before `trip`: as many as end surely in
+    /// flight. Returns how many.
+    ///
+    /// With `D = ∫ q dt` over that trip, `v(0,·)` at age `f` is `v + j (D − f − (j − 1)/2)` after `j` more trips, `v ≥ 0`: a
+    /// concave function of `j`, positive up to `k` for every `f ≤ 1` if `D − 1 − (k − 1)/2 > 0`. One trip is kept in hand.
+    fn leap(&mut self, trip: usize, until: &Until<S>) -> usize {
+        if !self.trace.falls_freely() {
+            return 0;
+        }
+        let zero = self.height.zero();
+        let mut rise = zero.clone();
+        let mut size = 0.0;
+        self.trace.window(trip, &zero, &zero.one(), |Part { width, value, slope, .. }| {
+            let part = (slope * &width / width.int(2) + &value) * &width;
+            if !S::EXACT {
+                size += part.to_f64().abs();
+            }
+            rise = rise.clone() + part;
+        });
+        let most = match until {
+            Until::Age(last, _) => last.saturating_sub(trip),
+            Until::Contacts(_) => MOST_LEAPT,
+        };
+        let safe =
+            (rise.clone() * rise.int(2)).floor_int().and_then(|trips| usize::try_from(trips - 2).ok()).unwrap_or(0);
+        let trips = safe.min(most).min(MOST_LEAPT);
+        if trips < 2 {
+            return 0;
+        }
+        let (j, two) = (rise.int(trips as i64), rise.int(2));
+        // At the beginning of the next trip, j trips after that of this one: v + j (D − 1 − (j − 1)/2).
+        let lift = (rise.clone() - rise.one() - (j.clone() - rise.one()) / two) * &j;
+        if !S::EXACT {
+            let total = trips as f64;
+            self.height_error += 8.0 * total * (size + total) + self.height.to_f64().abs();
+        }
+        self.height = self.height.clone() + lift;
+        self.arriving = self.arriving.clone() - &j;
+        self.trace.repeat(rise, trips);
+        trips
+    }
+
     /// `√(e u)` in roundoffs: the error of the square root of a number that may be zero.
     fn root_error(&self, error: f64) -> f64 {
         let half_bits = f64::from(self.unit.bits().unwrap_or(0)) / 2.0;
@@ -203,9 +257,9 @@ impl<S: Scalar> March<S> {
     /// One round trip: everything that left the ground in the one before comes back.
     fn trip(&mut self, trip: usize, until: &Until<S>) -> Option<Halt<S>> {
         self.trace.begin_trip();
-        let (mut at, end) = (self.trace.start_of(trip), self.trace.start_of(trip + 1));
+        let ((mut at, fallen), end) = (self.trace.start_of(trip), self.trace.last_start());
         while at < end {
-            let (mut incoming, next) = self.incoming(at, end);
+            let (mut incoming, next) = self.incoming(at, end, &fallen);
             at = next;
             if let Until::Age(last, stop) = until
                 && *last <= trip
@@ -233,8 +287,9 @@ impl<S: Scalar> March<S> {
         None
     }
 
-    /// What arrives where piece `at` comes back, with all pieces after it that continue it; and the piece after those.
-    fn incoming(&self, at: usize, end: usize) -> (Incoming<S>, usize) {
+    /// What arrives where piece `at` comes back, `fallen` lower, with all pieces after it that continue it; and the piece
+    /// after those.
+    fn incoming(&self, at: usize, end: usize, fallen: &S) -> (Incoming<S>, usize) {
         let pieces = self.trace.pieces();
         let piece = &pieces[at];
         let mut value_error = piece.value_error;
@@ -243,8 +298,8 @@ impl<S: Scalar> March<S> {
             value_error += 2.0 * pieces[next].value_error;
             next += 1;
         }
-        let q = self.trace.returned(&piece.value);
-        let q_error = if S::EXACT { 0.0 } else { value_error + q.to_f64().abs() };
+        let q = self.trace.returned(&piece.value) - fallen;
+        let q_error = if S::EXACT { 0.0 } else { value_error + 2.0 * q.to_f64().abs() + fallen.to_f64() };
         let (to, to_error) = match pieces[..end].get(next) {
             Some(after) => (after.fraction.clone(), after.fraction_error),
             None => (q.one(), 0.0),
@@ -318,7 +373,13 @@ impl<S: Scalar> March<S> {
     /// What leaves the ground from `fraction` on: `−q` in contact, `q` in flight.
     fn leave(&mut self, fraction: &S, q: &S, slope: &S, value_error: f64, fraction_error: f64) {
         let (value, slope) = if self.contact { (-q.clone(), -slope.clone()) } else { (q.clone(), slope.clone()) };
-        self.greatest_error = self.greatest_error.max(value_error).max(self.height_error).max(fraction_error);
+        if !S::EXACT {
+            self.greatest_error = self.greatest_error.max(value_error).max(self.height_error).max(fraction_error);
+            let of_height = self.height_error / self.height.to_f64().abs().max(self.greatest_speed);
+            let of_value = value_error / self.greatest_speed;
+            let of_time = fraction_error / self.trace.trips().max(1) as f64;
+            self.relative_error = self.relative_error.max(of_value).max(of_height).max(of_time);
+        }
         self.trace.push(Piece {
             fraction: fraction.clone(),
             value,

@@ -61,10 +61,10 @@ impl<S: Scalar> Rays<S> for Undamped<S> {
         }
         let units = self.units();
         let mut rays = Vec::new();
-        for piece in trace.trip(trip) {
-            let before = trace.value(trip + 1, &piece.fraction, true);
+        for piece in trace.slice(trip + 1) {
+            let [before, after] = [true, false].map(|before| trace.value(trip + 1, &piece.fraction, before));
             let (_, earlier) = trace.find(trip + 1, &piece.fraction, true);
-            let jump = piece.value.clone() - before;
+            let jump = after - before;
             let kink = piece.slope.clone() - &earlier.slope;
             if jump.is_zero() && kink.is_zero() {
                 continue;

@@ -83,6 +83,13 @@ impl<S: Scalar> Scaled<S> {
     }
 }
 
+impl<S: Scalar> Scaled<S> {
+    /// The greatest of the speeds at the start and of 1, in lattice units.
+    pub fn greatest_speed(&self) -> f64 {
+        self.before.iter().map(|(_, p, _)| p.to_f64().abs()).fold(1.0, f64::max)
+    }
+}
+
 /// The initial data as lists of `(x, value)`.
 struct Knots<S> {
     displacement: Vec<(S, S)>,

@@ -278,13 +278,13 @@ impl<S: Scalar> Undamped<S> {
         if index < self.marched.trace.trips() + 1 && fraction.one() - &fraction <= tolerance {
             return Moment { index: index + 1, fraction: fraction.zero() };
         }
-        let near = |piece: &Piece<S>| (piece.fraction.clone() - &fraction).magnitude() <= tolerance;
         if index > self.marched.trace.trips() {
             return Moment { index, fraction };
         }
+        let near = |at: &S| (at.clone() - &fraction).magnitude() <= tolerance;
         let above = fraction.clone() + &tolerance;
         let (found, piece) = self.marched.trace.find(index, &above, false);
-        let fraction = if found == index && near(piece) { piece.fraction.clone() } else { fraction };
+        let fraction = if found == index && near(&piece.fraction) { piece.fraction } else { fraction };
         Moment { index, fraction }
     }
 
@@ -384,7 +384,7 @@ impl<S: Scalar> Undamped<S> {
     }
 
     /// The piece at the asked side of a moment.
-    fn piece_at(&self, moment: &Moment<S>, side: Side) -> (usize, &Piece<S>) {
+    fn piece_at(&self, moment: &Moment<S>, side: Side) -> (usize, Piece<S>) {
         self.marched.trace.find(moment.index, &moment.fraction, side == Side::Left)
     }
 }
@@ -443,8 +443,8 @@ impl<S: Scalar> History<S> for Undamped<S> {
                 });
             }
         };
-        for trip in 0..self.marched.trace.trips() {
-            for piece in self.marched.trace.trip(trip) {
+        for (trip, pieces) in self.marched.trace.stored() {
+            for piece in pieces {
                 let here = Moment { index: trip + 1, fraction: piece.fraction.clone() };
                 match last {
                     Some((from, begun)) if self.continues(from, begun, piece, trip) => continue,
@@ -548,14 +548,13 @@ impl<S: Scalar> History<S> for Undamped<S> {
 
     fn scales(&self) -> Scales<S> {
         let Units { round_trip, velocity, length, wave_speed } = self.problem.units.clone();
-        let start = self.problem.ground_velocity.magnitude();
-        let velocity = if start > start.one() { start * velocity } else { velocity };
+        let velocity = velocity.double(self.problem.greatest_speed()) * velocity;
         Scales { time: round_trip, velocity, length, wave_speed }
     }
 
     fn error_estimate(&self) -> S {
         let zero = self.problem.gravity.zero();
-        if S::EXACT { zero } else { zero.double(self.marched.greatest_error) * zero.roundoff() }
+        if S::EXACT { zero } else { zero.double(self.marched.relative_error) * zero.roundoff() }
     }
 
     fn warnings(&self) -> &[String] {

@@ -47,10 +47,26 @@ pub struct Occurrence<S> {
 #[derive(Clone, Debug)]
 pub struct Trace<S> {
     pieces: Vec<Piece<S>>,
-    /// Where each round trip begins in `pieces`; the first is the one before the start.
-    starts: Vec<usize>,
+    /// The round trips that are stored, the first being the one before the start.
+    slots: Vec<Slot<S>>,
+    /// The index after the last trip.
+    end: usize,
     top: Top,
     gravity: S,
+}
+
+/// A stored round trip, and those after it that only repeat it.
+///
+/// In flight under gravity `q` falls by `g = 1` from one trip to the next and nothing else changes. With `D = ∫ q dt` over
+/// the stored trip, `j` trips later `p` is lower by `j` and `v(0,·)` at age `f` higher by `j (D − f − (j − 1)/2)`.
+#[derive(Clone, Debug)]
+struct Slot<S> {
+    /// The index of the trip, 0 being the one before the start.
+    first: usize,
+    /// Where it begins in the pieces.
+    start: usize,
+    /// `D`, if trips that repeat this one follow it.
+    rise: Option<S>,
 }
 
 /// A part of a piece that lies in a window: `p = value + slope·s` for `0 ≤ s ≤ width`, `offset` after the window's start.
@@ -73,45 +89,95 @@ impl<S: Scalar> Trace<S> {
                 Piece { fraction, value, slope, height, contact: false, value_error, height_error: 0.0, fraction_error }
             })
             .collect();
-        Trace { pieces, starts: vec![0], top, gravity }
+        Trace { pieces, slots: vec![Slot { first: 0, start: 0, rise: None }], end: 1, top, gravity }
     }
 
-    /// All pieces, the round trip before the start included.
+    /// All pieces that are stored, the round trip before the start included.
     pub fn pieces(&self) -> &[Piece<S>] {
         &self.pieces
     }
 
-    /// The pieces of round trip `trip`, 0 being the first after the start.
-    pub fn trip(&self, trip: usize) -> &[Piece<S>] {
-        self.slice(trip + 1)
+    /// The stored round trips after the start: number (from 0) and pieces. Between them lie flights that repeat the trip
+    /// before them but for gravity.
+    pub fn stored(&self) -> impl Iterator<Item = (usize, &[Piece<S>])> {
+        self.slots.iter().enumerate().skip(1).map(|(k, slot)| (slot.first - 1, self.pieces_of(k)))
     }
 
-    /// How many round trips are stored, the last perhaps in part.
+    /// How many round trips there are, the last perhaps in part.
     pub fn trips(&self) -> usize {
-        self.starts.len() - 1
+        self.end - 1
     }
 
-    /// How many pieces there are after the start.
+    /// How many pieces are stored after the start.
     pub fn count(&self) -> usize {
-        self.pieces.len() - self.starts.get(1).copied().unwrap_or(self.pieces.len())
+        self.pieces.len() - self.slots.get(1).map_or(self.pieces.len(), |slot| slot.start)
     }
 
-    fn slice(&self, index: usize) -> &[Piece<S>] {
-        let from = self.starts[index];
-        let to = self.starts.get(index + 1).copied().unwrap_or(self.pieces.len());
-        &self.pieces[from..to]
+    fn pieces_of(&self, slot: usize) -> &[Piece<S>] {
+        let to = self.slots.get(slot + 1).map_or(self.pieces.len(), |next| next.start);
+        &self.pieces[self.slots[slot].start..to]
+    }
+
+    /// The slot that stands for trip `index`, and how many trips after its own that is.
+    fn slot(&self, index: usize) -> (usize, usize) {
+        let slot = self.slots.partition_point(|slot| slot.first <= index).max(1) - 1;
+        (slot, index - self.slots[slot].first)
+    }
+
+    /// The pieces that stand for trip `index`: its own, or those of the trip that it repeats.
+    pub(crate) fn slice(&self, index: usize) -> &[Piece<S>] {
+        self.pieces_of(self.slot(index).0)
+    }
+
+    /// A piece of [`Trace::slice`] as it is in trip `index`.
+    fn piece(&self, index: usize, piece: &Piece<S>) -> Piece<S> {
+        let (slot, later) = self.slot(index);
+        let mut piece = piece.clone();
+        if let (Some(rise), true) = (&self.slots[slot].rise, later > 0) {
+            let (j, two) = (rise.int(later as i64), rise.int(2));
+            let lift = (rise.clone() - &piece.fraction - (j.clone() - rise.one()) / two) * &j;
+            if !S::EXACT {
+                piece.value_error += piece.value.to_f64().abs() + later as f64;
+                let size = rise.to_f64().abs() + later as f64;
+                piece.height_error += 8.0 * size * later as f64 + piece.height.to_f64().abs();
+            }
+            piece.value = piece.value - j;
+            piece.height = piece.height + lift;
+        }
+        piece
+    }
+
+    /// Where the pieces that stand for trip `index` begin, and how far `p` has fallen since.
+    pub(crate) fn start_of(&self, index: usize) -> (usize, S) {
+        let (slot, later) = self.slot(index);
+        (self.slots[slot].start, self.gravity.int(later as i64) * &self.gravity)
     }
 
     pub(crate) fn begin_trip(&mut self) {
-        self.starts.push(self.pieces.len());
+        self.slots.push(Slot { first: self.end, start: self.pieces.len(), rise: None });
+        self.end += 1;
+    }
+
+    /// Whether a flight repeats itself but for the fall: gravity and a free top.
+    pub(crate) fn falls_freely(&self) -> bool {
+        self.top == Top::Free && !self.gravity.is_zero()
+    }
+
+    /// Where the pieces of the last trip begin.
+    pub(crate) fn last_start(&self) -> usize {
+        self.slots.last().map_or(0, |slot| slot.start)
+    }
+
+    /// Lets `trips` trips that repeat the last one follow it; `rise` is `∫ q dt` over that one.
+    pub(crate) fn repeat(&mut self, rise: S, trips: usize) {
+        if let Some(slot) = self.slots.last_mut() {
+            slot.rise = Some(rise);
+            self.end += trips;
+        }
     }
 
     pub(crate) fn push(&mut self, piece: Piece<S>) {
         self.pieces.push(piece);
-    }
-
-    pub(crate) fn start_of(&self, index: usize) -> usize {
-        self.starts[index]
     }
 
     /// `p → q`: what comes back a round trip later.
@@ -132,17 +198,17 @@ impl<S: Scalar> Trace<S> {
 
     /// The piece of `index` (0: before the start) in which `fraction` lies; at its very beginning the earlier one if
     /// `before` is asked for, which may be the last of the round trip before.
-    pub(crate) fn find(&self, index: usize, fraction: &S, before: bool) -> (usize, &Piece<S>) {
+    pub(crate) fn find(&self, index: usize, fraction: &S, before: bool) -> (usize, Piece<S>) {
         let pieces = self.slice(index);
         let behind = pieces
             .partition_point(|piece| if before { piece.fraction < *fraction } else { piece.fraction <= *fraction });
         match (behind, index) {
-            (0, 0) => (0, &pieces[0]),
+            (0, 0) => (0, pieces[0].clone()),
             (0, _) => {
                 let earlier = self.slice(index - 1);
-                (index - 1, &earlier[earlier.len() - 1])
+                (index - 1, self.piece(index - 1, &earlier[earlier.len() - 1]))
             }
-            _ => (index, &pieces[behind - 1]),
+            _ => (index, self.piece(index, &pieces[behind - 1])),
         }
     }
 
@@ -150,7 +216,7 @@ impl<S: Scalar> Trace<S> {
     pub(crate) fn value(&self, index: usize, fraction: &S, before: bool) -> S {
         let (found, piece) = self.find(index, fraction, before);
         let age = if found == index { fraction.clone() } else { fraction.clone() + fraction.one() };
-        piece.value.clone() + piece.slope.clone() * (age - &piece.fraction)
+        piece.value + piece.slope * (age - &piece.fraction)
     }
 
     /// `p` over `width` after age `from` of trip `index` (0: before the start), in parts.
@@ -161,18 +227,19 @@ impl<S: Scalar> Trace<S> {
         }
         let (mut index, mut from, mut left, mut offset) = (index, from.clone(), width.clone(), zero);
         let mut at = self.slice(index).partition_point(|piece| piece.fraction <= from).saturating_sub(1);
+        let mut pieces = self.slice(index);
+        let mut fallen = self.start_of(index).1;
         loop {
-            let pieces = self.slice(index);
             let piece = &pieces[at];
             let to = pieces.get(at + 1).map_or_else(|| from.one(), |next| next.fraction.clone());
             let room = to.clone() - &from;
             let done = room >= left;
             let width = if done { left.clone() } else { room };
             if width.is_positive() {
-                let value = piece.value.clone() + piece.slope.clone() * (from.clone() - &piece.fraction);
+                let value = piece.slope.clone() * (from.clone() - &piece.fraction) + &piece.value - &fallen;
                 visit(Part { offset: offset.clone(), width: width.clone(), value, slope: piece.slope.clone() });
             }
-            if done || (at + 1 == pieces.len() && index + 1 == self.starts.len()) {
+            if done || (at + 1 == pieces.len() && index + 1 == self.end) {
                 return;
             }
             (left, offset) = (left - &width, offset + &width);
@@ -180,6 +247,7 @@ impl<S: Scalar> Trace<S> {
                 (at, from) = (at + 1, to);
             } else {
                 (index, at, from) = (index + 1, 0, to.zero());
+                (pieces, fallen) = (self.slice(index), self.start_of(index).1);
             }
         }
     }
