@@ -139,7 +139,7 @@ pub struct Scales<S> {
     /// `t₁`, of times; later times scale with themselves.
     pub time: S,
     /// About the greatest speed: `μ`, or `g t₁` where that is greater. Displacements scale with `time · velocity`, or with
-    /// themselves where they are greater.
+    /// the greatest of them.
     pub velocity: S,
     /// `L`.
     pub length: S,

@@ -84,7 +84,7 @@ pub struct Marched<S> {
     /// The greatest error bound of any piece, in roundoffs. The time of a tangential landing is not among them: it loses
     /// half the digits, while the motion does not.
     pub greatest_error: f64,
-    /// The same, relative to the greatest speed of the start, and to height and time themselves where these are greater.
+    /// The same, relative to the greatest speed of the start, to the greatest height, and to time itself where it is greater than 1.
     pub relative_error: f64,
 }
 
@@ -113,6 +113,7 @@ pub fn march<S: Scalar>(
         greatest_error: 0.0,
         relative_error: 0.0,
         greatest_speed: problem.greatest_speed(),
+        greatest_height: problem.greatest_speed(),
     };
     let mut quiet_since = 0;
     let mut trip = 0;
@@ -178,6 +179,8 @@ struct March<S> {
     greatest_error: f64,
     relative_error: f64,
     greatest_speed: f64,
+    /// At least `greatest_speed`, which is what a round trip lifts.
+    greatest_height: f64,
 }
 
 impl<S: Scalar> March<S> {
@@ -241,6 +244,8 @@ impl<S: Scalar> March<S> {
         if !S::EXACT {
             let total = trips as f64;
             self.height_error += 8.0 * total * (size + total) + self.height.to_f64().abs();
+            // The top of the flight is among what is left out: D²/2.
+            self.greatest_height = self.greatest_height.max(rise.to_f64() * rise.to_f64() / 2.0);
         }
         self.height = self.height.clone() + lift;
         self.arriving = self.arriving.clone() - &j;
@@ -375,7 +380,8 @@ impl<S: Scalar> March<S> {
         let (value, slope) = if self.contact { (-q.clone(), -slope.clone()) } else { (q.clone(), slope.clone()) };
         if !S::EXACT {
             self.greatest_error = self.greatest_error.max(value_error).max(self.height_error).max(fraction_error);
-            let of_height = self.height_error / self.height.to_f64().abs().max(self.greatest_speed);
+            self.greatest_height = self.greatest_height.max(self.height.to_f64());
+            let of_height = self.height_error / self.greatest_height;
             let of_value = value_error / self.greatest_speed;
             let of_time = fraction_error / self.trace.trips().max(1) as f64;
             self.relative_error = self.relative_error.max(of_value).max(of_height).max(of_time);
