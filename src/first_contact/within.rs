@@ -12,6 +12,9 @@ use crate::rod::Parameters;
 /// `τR² ≈ 300`, which is `R → π` and 30 round trips.
 const MODES: u32 = 4096;
 
+/// What the modes may be expected to reach.
+const MODAL_ACCURACY: f64 = 1e-10;
+
 impl FirstContact<f64> {
     /// `t_b`, with as many digits in between as it takes, up to some thousand, to be sure of `accuracy`, relative.
     ///
@@ -34,12 +37,14 @@ impl FirstContact<f64> {
         if good(&bounce, accuracy) {
             return bounce;
         }
-        // Late in the contact it is the rays that cancel, and the modes do not.
-        let late = match &bounce {
-            Bounce::Undecided { until, .. } => *until >= 2.0 * self.round_trip,
-            Bounce::At { time, .. } => *time >= 2.0 * self.round_trip,
-            Bounce::Never { .. } => false,
-        };
+        // Late in the contact it is the rays that cancel, and the modes do not. Longer numbers are as fast and know more.
+        let worth = cfg!(not(feature = "mp")) || accuracy >= MODAL_ACCURACY;
+        let late = worth
+            && match &bounce {
+                Bounce::Undecided { until, .. } => *until >= 2.0 * self.round_trip,
+                Bounce::At { time, .. } => *time >= 2.0 * self.round_trip,
+                Bounce::Never { .. } => false,
+            };
         if late {
             let by_modes = self.bounce_by(&Route::Modes(Modal::new(&self.rod, MODES)));
             if good(&by_modes, accuracy) {

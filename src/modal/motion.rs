@@ -54,11 +54,15 @@ impl<S: Analytic> Modal<S> {
         self.finish(value, error)
     }
 
-    /// `e^{−rt} H_r` and `e^{−rt} G_r/t₁` at `t/t₁`.
+    /// `e^{−rt} H_r` and `e^{−rt} G_r/t₁` at `t/t₁`; the second is left out where nothing weighs.
     pub(crate) fn ground(&self, trips: &S, side: Side) -> [Estimate<S>; 2] {
         let ground = trips.zero();
-        let list = [series(0, Motion::Sine, Shape::Cosine), series(2, Motion::Rising, Shape::Cosine)];
-        let [impact, weight] = self.sums(trips, &ground, side, list);
+        let first = series(0, Motion::Sine, Shape::Cosine);
+        if self.critical.is_zero() {
+            let [impact] = self.sums(trips, &ground, side, [first]);
+            return [impact, Estimate { value: trips.zero(), error: 0.0 }];
+        }
+        let [impact, weight] = self.sums(trips, &ground, side, [first, series(2, Motion::Rising, Shape::Cosine)]);
         let weight = Estimate { value: trips.ratio(1, 2) - weight.value, error: weight.error };
         [impact, weight]
     }

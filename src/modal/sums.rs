@@ -107,11 +107,11 @@ impl<S: Analytic> Modal<S> {
                 });
             }
             let (sine, cosine) = (beta.sin(), beta.cos());
-            let mut powers = vec![trips.int(4)];
-            for _ in 0..4 {
-                let next = powers[powers.len() - 1].clone() * &step;
-                powers.push(next);
-            }
+            let mut power = trips.int(4);
+            let powers: [S; 5] = std::array::from_fn(|_| {
+                let next = power.clone() * &step;
+                std::mem::replace(&mut power, next)
+            });
             for (k, term) in list.iter().enumerate() {
                 let Some((rest, own, rest_roundings, own_roundings)) = &motions[term.motion as usize] else { continue };
                 let place = match term.shape {
