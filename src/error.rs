@@ -8,7 +8,7 @@ use thiserror::Error;
 #[non_exhaustive]
 pub enum Error {
     /// A fraction cannot hold a square root.
-    #[error("exact fractions cannot hold the {quantity} √({square}); expected a square, or use --digits N")]
+    #[error("exact fractions cannot hold the {quantity} √({square}), expected a square or --digits N")]
     Irrational {
         /// The quantity that needs the root.
         quantity: &'static str,
@@ -39,11 +39,19 @@ pub enum Error {
         /// The time at which it was passed.
         time: f64,
     },
-    /// The scene is damped.
-    #[error("found damping = {damping}, expected an undamped scene: the damped engine is not part of this version")]
-    Damped {
+    /// A damped scene has no exact fractions.
+    #[error(
+        "found damping = {damping} with --exact, expected an undamped scene: Bessel functions are no fractions; use --digits N"
+    )]
+    DampedExact {
         /// The damping.
         damping: String,
+    },
+    /// An accuracy outside of its range.
+    #[error("found accuracy {found}, expected one between 1e-300 and 0.1")]
+    Accuracy {
+        /// What was asked for.
+        found: f64,
     },
     /// No digits, or absurdly many.
     #[error("found --digits {found}, expected 1 to {most}")]

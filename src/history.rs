@@ -181,6 +181,10 @@ pub trait History<S: Scalar> {
     /// `v`, `v_t`, `v_x` at `(x,t)`.
     fn field(&self, point: &S, time: &S, side: Side) -> Result<Field<S>, Error>;
 
+    /// `t*` and `h(t*)`: where the centre of mass turns in the flight after `release`, if nothing ends the flight before.
+    /// `None` where it does not turn: without gravity, under a fixed top, or already falling at the release.
+    fn highest(&self, release: &Event<S>) -> Option<(S, S)>;
+
     /// The natural scales of the motion.
     fn scales(&self) -> Scales<S>;
 

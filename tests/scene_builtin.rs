@@ -116,6 +116,9 @@ fn first_contacts_with_damping() {
         ("figure-4-r01", true),
         ("figure-4-r02", true),
         ("figure-4-r03", true),
+        ("figure-5", true),
+        ("figure-6", true),
+        ("figure-7", true),
         ("steel-bar", true),
     ] {
         let scene = scene(name);

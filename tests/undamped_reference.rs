@@ -6,7 +6,7 @@ mod common;
 use common::{close, number, problem, reference};
 use dalembert::lattice::Undamped;
 use dalembert::rod::Run;
-use dalembert::{Ending, EventKind, History, Side};
+use dalembert::{EventKind, History, Side};
 use serde_json::Value;
 
 fn kind(event: &Value) -> EventKind {
@@ -109,7 +109,7 @@ fn rational_histories_are_exact() {
             continue;
         }
         let history = Undamped::<Rational>::solve(&problem(&case, Run::Time(60.into())), &()).unwrap();
-        assert_eq!(history.ending(), &Ending::Time, "{name}");
+        assert_eq!(history.ending(), &dalembert::Ending::Time, "{name}");
         for (event, truth) in history.events().iter().zip(events(&case)) {
             let difference = &event.time - number(&truth["time"]).to_rational();
             assert!(difference.abs() < 1e-35, "{name}");

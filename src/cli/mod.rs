@@ -70,11 +70,14 @@ struct NumberArgs {
     /// Exact fractions, as far as they reach
     #[arg(long)]
     exact: bool,
+    /// Accuracy relative to the natural scales, such as 1e-10; more bits are taken where doubles do not reach it
+    #[arg(long, value_name = "E", conflicts_with_all = ["digits", "exact"])]
+    accuracy: Option<f64>,
 }
 
 impl NumberArgs {
     fn ask(self) -> Ask {
-        Ask { exact: self.exact, digits: self.digits }
+        Ask { exact: self.exact, digits: self.digits, accuracy: self.accuracy }
     }
 }
 
@@ -131,6 +134,6 @@ fn head(scene: &Scene, plan: &Plan) -> Head {
         effects: plan.called(),
         digits: 0,
         line_density,
-        gravity: scene.problem.gravity.clone(),
+        exact_until: None,
     }
 }

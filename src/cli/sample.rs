@@ -3,7 +3,8 @@
 use clap::{Args, ValueEnum};
 
 use super::{Failure, Format, NumberArgs, OutputArgs, head, source};
-use crate::history::{History, Side};
+use crate::error::Error;
+use crate::history::{Ending, History, Side};
 use crate::number::{Number, Scalar};
 use crate::output::{Head, Quantity, Show, sample, samples_csv, samples_json, samples_table};
 use crate::rod::Run;
@@ -24,10 +25,10 @@ pub(super) struct Sample {
     #[arg(long, value_enum)]
     quantity: QuantityArg,
     /// Times: numbers such as 0.3 or 1/3 separated by commas, or A..B:N for N times from A to B
-    #[arg(long, value_name = "LIST", value_parser = list)]
+    #[arg(long, value_name = "LIST", value_parser = list, allow_hyphen_values = true)]
     times: List,
     /// Points of the rod for the field, in the same form; by default its two ends and its middle
-    #[arg(long, value_name = "LIST", value_parser = list)]
+    #[arg(long, value_name = "LIST", value_parser = list, allow_hyphen_values = true)]
     points: Option<List>,
     /// Which limit where there are two
     #[arg(long, value_enum, default_value_t = SideArg::Right)]
@@ -114,9 +115,7 @@ impl Sample {
         let Some(last) = self.times.greatest() else {
             return Err(miette::miette!("found no times, expected at least one"));
         };
-        if let (QuantityArg::Field, None) | (_, Some(_)) = (self.quantity, &self.points)
-            && !matches!(self.quantity, QuantityArg::Field)
-        {
+        if self.points.is_some() && !matches!(self.quantity, QuantityArg::Field) {
             return Err(miette::miette!("found --points, expected them with --quantity field only"));
         }
         if last.to_f64() < 0.0 {
@@ -126,19 +125,23 @@ impl Sample {
         let plan = Plan::of(&scene, self.numbers.ask())?;
         let head = head(&scene, &plan);
         let solution = {
-            let mut progress = source::Progress::of(&scene);
+            let progress = source::Progress::of(&scene, &plan);
             solve(&scene.problem, &plan, |trip, pieces| progress.observe(trip, pieces))?
         };
         match &solution {
             Solution::Double(history) => self.print(history.as_ref(), &head),
             #[cfg(feature = "mp")]
-            Solution::Digits(history, digits) => self.print(history.as_ref(), &Head { digits: *digits, ..head }),
+            Solution::Digits(history, digits) => {
+                source::tell_inexact(&scene.problem, &plan);
+                self.print(history.as_ref(), &Head { number: format!("{digits} digits"), digits: *digits, ..head })
+            }
             #[cfg(feature = "mp")]
             Solution::Exact(history, None) => self.print(history.as_ref(), &head),
             #[cfg(feature = "mp")]
             Solution::Exact(exact, Some((history, digits))) => {
                 eprintln!("note: {}; the values are in {digits} digits", exact.ending());
-                self.print(history.as_ref(), &Head { digits: *digits, number: format!("{digits} digits"), ..head })
+                let (number, exact_until) = (format!("{digits} digits"), Some(exact.ending().clone()));
+                self.print(history.as_ref(), &Head { digits: *digits, number, exact_until, ..head })
             }
         }
     }
@@ -163,7 +166,23 @@ impl Sample {
             SideArg::Left => Side::Left,
             SideArg::Right => Side::Right,
         };
-        let samples = sample(history, quantity, &times, &points, side)?;
+        let samples =
+            sample(history, quantity, &times, &points, side).map_err(|error| match (history.ending(), &error) {
+                (Ending::ExactnessEnds { .. }, Error::TimeOutside { found, .. }) => {
+                    miette::miette!(
+                        help = "expected times before it, or --digits N as well, to go on from there in digits",
+                        "found time {found}, but {}",
+                        history.ending()
+                    )
+                }
+                (ending, Error::TimeOutside { found, .. }) if !matches!(ending, Ending::Time) => {
+                    miette::miette!(
+                        "found time {found}, expected times up to t = {}: {ending}",
+                        history.end().show(head.digits)
+                    )
+                }
+                _ => error.into(),
+            })?;
         for warning in history.warnings() {
             eprintln!("warning: {warning}");
         }

@@ -21,9 +21,9 @@ pub(super) struct Solve {
     numbers: NumberArgs,
     #[command(flatten)]
     output: OutputArgs,
-    /// What a CSV holds
-    #[arg(long, value_enum, default_value_t = PartArg::Events)]
-    part: PartArg,
+    /// What a CSV holds; by default the events
+    #[arg(long, value_enum)]
+    part: Option<PartArg>,
 }
 
 #[derive(Clone, Copy, Debug, ValueEnum)]
@@ -38,31 +38,41 @@ enum PartArg {
 
 impl Solve {
     pub(super) fn run(&self) -> Result<(), Failure> {
+        if self.part.is_some() && self.output.format() != Format::Csv {
+            return Err(miette::miette!("found --part, expected it with --format csv only"));
+        }
         let scene = source::read(&self.scene)?;
         let plan = Plan::of(&scene, self.numbers.ask())?;
         let head = head(&scene, &plan);
         let solution = {
-            let mut progress = source::Progress::of(&scene);
+            let progress = source::Progress::of(&scene, &plan);
             solve(&scene.problem, &plan, |trip, pieces| progress.observe(trip, pieces))?
         };
         match &solution {
             Solution::Double(history) => self.print(history.as_ref(), &head),
             #[cfg(feature = "mp")]
-            Solution::Digits(history, digits) => self.print(history.as_ref(), &Head { digits: *digits, ..head }),
+            Solution::Digits(history, digits) => {
+                source::tell_inexact(&scene.problem, &plan);
+                self.print(history.as_ref(), &Head { number: format!("{digits} digits"), digits: *digits, ..head })
+            }
             #[cfg(feature = "mp")]
             Solution::Exact(history, None) => self.print(history.as_ref(), &head),
             #[cfg(feature = "mp")]
             Solution::Exact(exact, Some((history, digits))) => {
-                // What is exact is printed so; the run in digits goes on from there.
                 eprintln!("note: {}; the history that follows is in {digits} digits", exact.ending());
-                let number = format!("{digits} digits; {}", exact.ending());
-                self.print(history.as_ref(), &Head { digits: *digits, number, ..head })
+                let (number, exact_until) = (format!("{digits} digits"), Some(exact.ending().clone()));
+                self.print(history.as_ref(), &Head { digits: *digits, number, exact_until, ..head })
             }
         }
     }
 
     fn print<S: Show>(&self, history: &dyn History<S>, head: &Head) -> Result<(), Failure> {
-        let record = record(history, head)?;
+        let stress = match self.output.format() {
+            Format::Table => false,
+            Format::Json => true,
+            Format::Csv => matches!(self.part, Some(PartArg::Stress)),
+        };
+        let record = record(history, head, stress)?;
         for warning in &record.warnings {
             eprintln!("warning: {warning}");
         }
@@ -70,7 +80,7 @@ impl Solve {
             Format::Table => self.output.write(&history_table(&record, head)),
             Format::Json => self.output.write_json(&history_json(&record, head)),
             Format::Csv => {
-                let part = match self.part {
+                let part = match self.part.unwrap_or(PartArg::Events) {
                     PartArg::Events => Part::Events,
                     PartArg::Contacts => Part::Contacts,
                     PartArg::Stress => Part::Stress,

@@ -1,12 +1,21 @@
 //! Where a scene comes from, and how a run shows its progress.
 
 use std::io::Read;
+use std::sync::mpsc::{RecvTimeoutError, Sender, channel};
+use std::thread::JoinHandle;
+use std::time::Duration;
 
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 
 use super::Failure;
-use crate::rod::Run;
-use crate::scene::{Scene, builtin};
+#[cfg(feature = "mp")]
+use crate::error::Error;
+#[cfg(feature = "mp")]
+use crate::rod::Problem;
+use crate::rod::{Parameters, Run};
+#[cfg(feature = "mp")]
+use crate::scene::System;
+use crate::scene::{Engine, Plan, Scene, builtin};
 
 /// More than any scene: what is read of an endless stream before it is refused.
 const MAX_BYTES: u64 = (16 << 20) + 1;
@@ -58,54 +67,68 @@ fn read_text(from: impl Read, name: &str) -> Result<String, Failure> {
     Ok(text)
 }
 
+/// Says why a run that was to be exact is in digits from its beginning.
+#[cfg(feature = "mp")]
+pub(super) fn tell_inexact(problem: &Problem, plan: &Plan) {
+    if let System::Exact(Some(digits)) = plan.system
+        && let Err(Error::Irrational { quantity, square }) = Parameters::<rug::Rational>::of(problem, &())
+    {
+        eprintln!("note: the {quantity} √({square}) is no fraction; all that follows is in {digits} digits");
+    }
+}
+
 /// A progress bar on standard error: only on a terminal, and only for runs over a second.
 pub(super) struct Progress {
     bar: ProgressBar,
-    begun: std::time::Instant,
-    trips: Option<u64>,
+    running: Option<Sender<()>>,
+    watch: Option<JoinHandle<()>>,
 }
 
 impl Progress {
-    pub(super) fn of(scene: &Scene) -> Self {
-        let trips = match &scene.problem.run {
-            Run::Time(time) => {
-                let precision = ();
-                crate::rod::Parameters::<f64>::of(&scene.problem, &precision)
-                    .ok()
-                    .map(|rod| (time.to_f64() / rod.round_trip()).ceil() as u64)
-            }
-            Run::Impacts(_) => None,
+    pub(super) fn of(scene: &Scene, plan: &Plan) -> Self {
+        let round_trips = match (&scene.problem.run, plan.engine) {
+            (Run::Time(time), Engine::Lattice) => Parameters::<f64>::of(&scene.problem, &())
+                .ok()
+                .map(|rod| (time.to_f64() / rod.round_trip()).ceil() as u64),
+            _ => None,
         };
-        Progress { bar: ProgressBar::hidden(), begun: std::time::Instant::now(), trips }
+        let template = match (round_trips, plan.engine) {
+            (Some(_), _) => "{bar:40} {pos}/{len} round trips, {msg}",
+            (None, Engine::Lattice) => "{spinner} {pos} round trips, {msg}",
+            (None, Engine::Cells) => "{spinner} {elapsed}",
+        };
+        let bar = ProgressBar::with_draw_target(round_trips, ProgressDrawTarget::hidden());
+        if let Ok(style) = ProgressStyle::with_template(template) {
+            bar.set_style(style);
+        }
+        // A thread of its own shows it: a single step of a run in many digits can take longer than a second.
+        let (running, ended) = channel();
+        let shown = bar.clone();
+        let watch = std::thread::spawn(move || {
+            if ended.recv_timeout(Duration::from_secs(1)) == Err(RecvTimeoutError::Timeout) {
+                shown.set_draw_target(ProgressDrawTarget::stderr());
+                shown.enable_steady_tick(Duration::from_millis(100));
+            }
+        });
+        Progress { bar, running: Some(running), watch: Some(watch) }
     }
 
-    pub(super) fn observe(&mut self, trip: usize, pieces: usize) {
-        // The clock is looked at now and then only: a round trip can take less than a microsecond.
-        if !trip.is_multiple_of(64) || self.begun.elapsed().as_secs() < 1 {
-            return;
+    pub(super) fn observe(&self, trip: usize, pieces: usize) {
+        // Now and then only: a round trip can take less than a microsecond.
+        if trip.is_multiple_of(64) {
+            self.bar.set_message(format!("{pieces} pieces"));
+            self.bar.set_position(trip as u64);
         }
-        if self.bar.is_hidden() && self.bar.position() == 0 {
-            self.bar = match self.trips {
-                Some(trips) => ProgressBar::new(trips),
-                None => ProgressBar::new_spinner(),
-            };
-            self.bar.set_draw_target(ProgressDrawTarget::stderr());
-            let template = if self.trips.is_some() {
-                "{bar:40} {pos}/{len} round trips, {msg}"
-            } else {
-                "{spinner} {pos} round trips, {msg}"
-            };
-            if let Ok(style) = ProgressStyle::with_template(template) {
-                self.bar.set_style(style);
-            }
-        }
-        self.bar.set_message(format!("{pieces} pieces"));
-        self.bar.set_position(trip as u64);
     }
 }
 
 impl Drop for Progress {
     fn drop(&mut self) {
+        drop(self.running.take());
+        if let Some(watch) = self.watch.take() {
+            // A thread that only waits does not fail.
+            let _ = watch.join();
+        }
         self.bar.finish_and_clear();
     }
 }

@@ -120,7 +120,10 @@ impl<S: Scalar> Undamped<S> {
         let (q, slope, disc) = (q.to_f64(), slope.to_f64(), disc.to_f64());
         let age = (-q - disc.sqrt()) / slope;
         let near = (*trip as f64 + fraction.to_f64() + age) * unit.to_f64();
-        let below = fraction.clone() + fraction.double(age * (1.0 - 1e-9));
+        // A short fraction where one fits between the beginning of the piece and the root.
+        let ticks = ((fraction.to_f64() + age) * MILLION as f64 - 1e-3).floor();
+        let short = fraction.int(ticks as i64) / fraction.int(MILLION);
+        let below = if short > *fraction { short } else { fraction.clone() + fraction.double(age * (1.0 - 1e-9)) };
         self.end = Moment { index: trip + 1, fraction: below };
         self.ending = Ending::ExactnessEnds { kind: EventKind::Impact, time, near };
     }
@@ -396,6 +399,8 @@ fn moments<S: Scalar>(w: &S, a: &S, m: &S) -> (S, S) {
 
 /// An event whose time may be off by this much of a round trip is no longer determined.
 const LOST: f64 = 1e-3;
+/// Parts of a round trip to which the end of an exact history is rounded down.
+const MILLION: i64 = 1_000_000;
 
 impl<S: Scalar> History<S> for Undamped<S> {
     fn end(&self) -> S {
@@ -528,6 +533,17 @@ impl<S: Scalar> History<S> for Undamped<S> {
             return Err(Error::PointOutside { found: point.text(), length: length.text() });
         }
         Ok(self.field_at(&self.locate(time)?, point, side))
+    }
+
+    fn highest(&self, release: &Event<S>) -> Option<(S, S)> {
+        let Units { round_trip, velocity, .. } = &self.problem.units;
+        if self.problem.gravity.is_zero() || self.problem.top == Top::Fixed || release.centre_velocity.is_negative() {
+            return None;
+        }
+        let gravity = velocity.clone() / round_trip;
+        let rate = &release.centre_velocity;
+        let rise = rate.square() / &gravity / rate.int(2);
+        Some((release.time.clone() + rate.clone() / &gravity, release.centre.clone() + rise))
     }
 
     fn scales(&self) -> Scales<S> {

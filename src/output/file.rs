@@ -1,6 +1,6 @@
 //! Files written whole or not at all.
 
-use std::io::Write;
+use std::io::{ErrorKind, Write};
 use std::path::Path;
 
 /// Writes `bytes` to `path`, or to standard output for `-` or none. A file appears complete or not at all.
@@ -9,7 +9,7 @@ pub fn write_whole(path: Option<&Path>, bytes: &[u8]) -> std::io::Result<()> {
         let mut out = std::io::stdout().lock();
         return match out.write_all(bytes).and_then(|()| out.flush()) {
             // A reader that has seen enough, such as `head`.
-            Err(error) if error.kind() == std::io::ErrorKind::BrokenPipe => Ok(()),
+            Err(error) if error.kind() == ErrorKind::BrokenPipe => Ok(()),
             other => other,
         };
     };
@@ -22,8 +22,13 @@ pub fn write_whole(path: Option<&Path>, bytes: &[u8]) -> std::io::Result<()> {
         use std::os::unix::fs::PermissionsExt;
         builder.permissions(std::fs::Permissions::from_mode(0o666))
     };
-    let mut file = builder.tempfile_in(folder)?;
-    file.write_all(bytes)?;
+    // The name of the temporary file, which the error would carry, is nobody's business.
+    let plain = |error: std::io::Error| match error.kind() {
+        ErrorKind::NotFound => std::io::Error::new(ErrorKind::NotFound, format!("no folder {}", folder.display())),
+        kind => kind.into(),
+    };
+    let mut file = builder.tempfile_in(folder).map_err(plain)?;
+    file.write_all(bytes).map_err(|error| std::io::Error::from(error.kind()))?;
     file.persist(path)?;
     Ok(())
 }

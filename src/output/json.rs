@@ -27,6 +27,8 @@ pub fn history_json<S: Show>(record: &Record<S>, head: &Head) -> Value {
             "restitution": {
                 "momentum": optional(restitution.momentum.as_ref().ok()),
                 "energy_squared": optional(restitution.energy_squared.as_ref().ok()),
+                "translational_part": optional(restitution.translational_part.as_ref()),
+                "energy_kept": optional(restitution.energy_kept.as_ref()),
             },
             "energy": energy.as_ref().map(|energy| json!({
                 "total": number(&energy.total),
@@ -34,14 +36,19 @@ pub fn history_json<S: Show>(record: &Record<S>, head: &Head) -> Value {
                 "vibrational": number(&energy.vibrational),
             })),
         });
-        let reasons = [restitution.momentum.as_ref().err(), restitution.energy_squared.as_ref().err()];
-        if let Some(reason) = reasons.into_iter().flatten().next() {
-            value["restitution"]["undefined"] = reason.to_string().into();
+        let reasons = [
+            ("momentum", restitution.momentum.as_ref().err()),
+            ("energy_squared", restitution.energy_squared.as_ref().err()),
+        ];
+        for (name, reason) in reasons {
+            if let Some(reason) = reason {
+                value["restitution"]["undefined"][name] = reason.to_string().into();
+            }
         }
         if let Some((stiffness, line)) = &record.forces {
             value["force"] = json!({
-                "peak_newton": number(&-(contact.peak_stress.clone() * stiffness)),
-                "impulse_newton_second": number(&(contact.impulse.clone() * line)),
+                "peak": number(&-(contact.peak_stress.clone() * stiffness)),
+                "impulse": number(&(contact.impulse.clone() * line)),
             });
         }
         value
@@ -70,6 +77,7 @@ pub fn history_json<S: Show>(record: &Record<S>, head: &Head) -> Value {
         "title": head.title,
         "number": head.number,
         "effects": head.effects,
+        "exact_until": head.exact_until.as_ref().map(exactness_json),
         "events": events.collect::<Vec<_>>(),
         "contacts": contacts.collect::<Vec<_>>(),
         "flights": flights.collect::<Vec<_>>(),
@@ -82,10 +90,24 @@ pub fn history_json<S: Show>(record: &Record<S>, head: &Head) -> Value {
 
 fn ending_json(ending: &Ending, time: Value) -> Value {
     match ending {
-        Ending::ExactnessEnds { kind: event, time: surd, near } => {
-            json!({"time": time, "reason": "exactness ends", "event": kind(*event), "surd": surd, "near": near})
+        Ending::ExactnessEnds { .. } => {
+            let mut value = json!({"time": time, "reason": "exactness ends"});
+            if let (Some(value), Value::Object(more)) = (value.as_object_mut(), exactness_json(ending)) {
+                value.extend(more);
+            }
+            value
         }
         other => json!({"time": time, "reason": other.to_string()}),
+    }
+}
+
+/// The event at no fraction, before which exactness ends.
+fn exactness_json(ending: &Ending) -> Value {
+    match ending {
+        Ending::ExactnessEnds { kind: event, time: surd, near } => {
+            json!({"event": kind(*event), "surd": surd, "near": near})
+        }
+        other => json!({"reason": other.to_string()}),
     }
 }
 
@@ -116,5 +138,12 @@ pub fn samples_json<S: Show>(samples: &[Sample<S>], quantity: Quantity, head: &H
             "values": values.collect::<serde_json::Map<_, _>>(),
         })
     });
-    json!({"schema": 1, "number": head.number, "rows": rows.collect::<Vec<_>>()})
+    json!({
+        "schema": 1,
+        "title": head.title,
+        "number": head.number,
+        "quantity": quantity.name(),
+        "exact_until": head.exact_until.as_ref().map(exactness_json),
+        "rows": rows.collect::<Vec<_>>(),
+    })
 }

@@ -53,8 +53,8 @@ pub struct Head {
     pub digits: u32,
     /// `ρS` where the scene gives it: what turns strains into newtons.
     pub line_density: Option<(Number, Number)>,
-    /// `g`, for the top of each flight.
-    pub gravity: Option<Number>,
+    /// Where an exact run ended, if a run in digits stands in for it.
+    pub exact_until: Option<Ending>,
 }
 
 /// A contact, its coefficients, and the energies at its end if it has one.
@@ -69,7 +69,7 @@ pub struct Record<S> {
     pub contacts: Vec<Finished<S>>,
     /// Flights with their tops.
     pub flights: Vec<Flight<S>>,
-    /// The stress at the ground.
+    /// The stress at the ground, where it is asked for.
     pub stress: Vec<StressPiece<S>>,
     /// The last time that is known, and why.
     pub end: (S, Ending),
@@ -81,12 +81,12 @@ pub struct Record<S> {
     pub warnings: Vec<String>,
 }
 
-/// Gathers what is printed of `history`, in the numbers of `precision`.
-pub fn record<S: Scalar>(history: &dyn History<S>, head: &Head) -> Result<Record<S>, Error> {
+/// Gathers what is printed of `history`; the stress at the ground only if asked for, as it can cost more than all the rest.
+pub fn record<S: Scalar>(history: &dyn History<S>, head: &Head, stress: bool) -> Result<Record<S>, Error> {
     let end = history.end();
     let lift = |number: &Number| S::from_number(number, &end.precision());
     let scales = history.scales();
-    let error = history.error_estimate();
+    let error = (!S::EXACT).then(|| history.error_estimate());
     let mut contacts = Vec::with_capacity(history.contacts().len());
     for contact in history.contacts() {
         let energy = match &contact.to {
@@ -95,7 +95,6 @@ pub fn record<S: Scalar>(history: &dyn History<S>, head: &Head) -> Result<Record
         };
         contacts.push((contact.clone(), restitution(history, contact)?, energy));
     }
-    let gravity = head.gravity.as_ref().map_or_else(|| end.zero(), lift);
     let forces = head.line_density.as_ref().map(|(density, area)| {
         let line = lift(density) * lift(area);
         (scales.wave_speed.square() * &line, line)
@@ -103,32 +102,28 @@ pub fn record<S: Scalar>(history: &dyn History<S>, head: &Head) -> Result<Record
     let mut record = Record {
         events: history.events().to_vec(),
         contacts,
-        flights: flights(history, &gravity),
-        stress: history.stress_pieces(),
+        flights: flights(history),
+        stress: if stress { history.stress_pieces() } else { Vec::new() },
         end: (end, history.ending().clone()),
         forces,
-        error: (!S::EXACT).then(|| error.clone()),
+        error,
         warnings: history.warnings().to_vec(),
     };
-    if !S::EXACT && head.digits > 0 {
-        // A value below the error bound of a long-digit run is a zero whose digits nobody can give.
-        let rise = scales.velocity.clone() * &scales.time;
-        let bound = |scale: &S| error.int(16) * &error * scale;
-        let (of_rise, of_speed) = (bound(&rise), bound(&scales.velocity));
+    if let Some(Bounds { rise: of_rise, speed: of_speed, strain: of_strain, energy: of_energy, ratio }) =
+        Bounds::of(history)
+    {
         for event in &mut record.events {
             vanish(&mut event.centre, &of_rise);
             vanish(&mut event.centre_velocity, &of_speed);
             vanish(&mut event.end_velocity, &of_speed);
         }
-        let of_strain = of_speed.clone() / &scales.wave_speed;
         for piece in &mut record.stress {
             vanish(&mut piece.left, &of_strain);
             vanish(&mut piece.right, &of_strain);
         }
-        let of_energy = bound(&(scales.velocity.square() * &scales.length));
         for (_, restitution, energy) in &mut record.contacts {
             if let Ok(momentum) = &mut restitution.momentum {
-                vanish(momentum, &bound(&error.one()));
+                vanish(momentum, &ratio);
             }
             if let Some(energy) = energy {
                 vanish(&mut energy.vibrational, &of_energy);
@@ -137,6 +132,44 @@ pub fn record<S: Scalar>(history: &dyn History<S>, head: &Head) -> Result<Record
         }
     }
     Ok(record)
+}
+
+/// What lies below the error bound of a long-digit run is a zero whose digits nobody can give.
+struct Bounds<S> {
+    rise: S,
+    speed: S,
+    strain: S,
+    energy: S,
+    ratio: S,
+}
+
+impl<S: Scalar> Bounds<S> {
+    /// `None` for doubles, which are printed as they are, and for fractions.
+    fn of(history: &dyn History<S>) -> Option<Self> {
+        let (scales, error) = (history.scales(), history.error_estimate());
+        if error.bits()? <= f64::MANTISSA_DIGITS {
+            return None;
+        }
+        let ratio = error.int(16) * &error;
+        let speed = ratio.clone() * &scales.velocity;
+        Some(Bounds {
+            rise: speed.clone() * &scales.time,
+            strain: speed.clone() / &scales.wave_speed,
+            energy: speed.clone() * &scales.velocity * &scales.length,
+            speed,
+            ratio,
+        })
+    }
+
+    /// In the order of [`Quantity::names`].
+    fn of_values(&self, quantity: Quantity) -> [&S; 3] {
+        let Bounds { rise, speed, strain, energy, .. } = self;
+        match quantity {
+            Quantity::Stress => [strain; 3],
+            Quantity::End | Quantity::Top | Quantity::Centre | Quantity::Field => [rise, speed, strain],
+            Quantity::Energy => [energy; 3],
+        }
+    }
 }
 
 fn vanish<S: Scalar>(value: &mut S, bound: &S) {
@@ -163,6 +196,18 @@ pub enum Quantity {
 }
 
 impl Quantity {
+    /// The name of the quantity itself.
+    pub fn name(self) -> &'static str {
+        match self {
+            Quantity::Stress => "stress",
+            Quantity::End => "end",
+            Quantity::Top => "top",
+            Quantity::Centre => "centre",
+            Quantity::Energy => "energy",
+            Quantity::Field => "field",
+        }
+    }
+
     /// The names of its values.
     pub fn names(self) -> &'static [&'static str] {
         match self {
@@ -197,8 +242,16 @@ pub fn sample<S: Scalar>(
     side: Side,
 ) -> Result<Vec<Sample<S>>, Error> {
     let mut rows = Vec::new();
+    let bounds = Bounds::of(history);
     for time in times {
-        let mut row = |point: Option<S>, values: Vec<S>| rows.push(Sample { time: time.clone(), point, side, values });
+        let mut row = |point: Option<S>, mut values: Vec<S>| {
+            if let Some(bounds) = &bounds {
+                for (value, bound) in values.iter_mut().zip(bounds.of_values(quantity)) {
+                    vanish(value, bound);
+                }
+            }
+            rows.push(Sample { time: time.clone(), point, side, values });
+        };
         match quantity {
             Quantity::Stress => row(None, vec![history.stress(time, side)?]),
             Quantity::End => row(None, history.ground_end(time, side).map(|(v, rate)| vec![v, rate])?),

@@ -58,7 +58,11 @@ pub fn history_table<S: Show>(record: &Record<S>, head: &Head) -> String {
     if let Some(title) = &head.title {
         out += &format!("{title}\n");
     }
-    out += &format!("numbers: {}    effects: {}\n\n", head.number, head.effects.join(", "));
+    out += &format!("numbers: {}    effects: {}\n", head.number, head.effects.join(", "));
+    if let Some(ending) = &head.exact_until {
+        out += &format!("{ending}\n");
+    }
+    out += "\n";
 
     let events = record.events.iter().map(|event| {
         let kind = if event.kind == EventKind::Impact { "impact" } else { "release" };
@@ -75,7 +79,7 @@ pub fn history_table<S: Show>(record: &Record<S>, head: &Head) -> String {
 
     let mut header = vec!["contact from", "to", "impulse", "peak v_x(0,t)", "e_P", "e_E²", "E", "E_h", "E_z"];
     if record.forces.is_some() {
-        header.extend(["peak force [N]", "impulse [N s]"]);
+        header.extend(["peak force", "force impulse"]);
     }
     let contacts = record.contacts.iter().map(|(contact, restitution, energy)| {
         let energy = energy.as_ref();
@@ -97,7 +101,10 @@ pub fn history_table<S: Show>(record: &Record<S>, head: &Head) -> String {
         row
     });
     out += &table(&header, contacts.collect(), 0);
-    out += "\n";
+    out += "\n\n";
+    if record.forces.is_some() && !record.contacts.is_empty() {
+        out += "forces are in the units of the scene: newtons where it is written in SI\n";
+    }
     for (contact, restitution, _) in &record.contacts {
         let from = show(&contact.from, 0.0);
         let mut reasons = vec![restitution.momentum.as_ref().err(), restitution.energy_squared.as_ref().err()];

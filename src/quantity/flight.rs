@@ -14,9 +14,9 @@ pub struct Flight<S> {
     pub highest: Option<(S, S)>,
 }
 
-/// The flights of an undamped rod with a free top, in order.
+/// The flights of a history, in order.
 ///
-/// **Source**: Remark 2: `t* = t_b + h′(t_b)/g`, `h_max = h(t_b) + h′(t_b)²/2g`, for every flight and not just the first.
+/// **Source**: Remark 2, for every flight and not just the first.
 ///
 /// **Accuracy**: *exact* for exact histories, otherwise that of `h` and `h′` at the release.
 ///
@@ -25,25 +25,20 @@ pub struct Flight<S> {
 /// let problem = Problem::uniform(Number::from(1), Number::from(1), Number::from(1), Number::from(4));
 /// let history = Undamped::<f64>::solve(&problem, &())?;
 /// // μ²/2g − 2gL²/3c² = 8 − 2/3, reached at (2gL + μc)/cg = 6.
-/// let (time, height) = flights(&history, &1.0)[0].highest.unwrap();
+/// let (time, height) = flights(&history)[0].highest.unwrap();
 /// assert!((time - 6.0).abs() < 1e-14 && (height - 22.0 / 3.0).abs() < 1e-14);
 /// # Ok::<(), dalembert::Error>(())
 /// ```
-pub fn flights<S: Scalar>(history: &dyn History<S>, gravity: &S) -> Vec<Flight<S>> {
+pub fn flights<S: Scalar>(history: &dyn History<S>) -> Vec<Flight<S>> {
     let events = history.events();
     let end = history.end();
-    let mut flights = Vec::new();
-    for (k, event) in events.iter().enumerate().filter(|(_, event)| event.kind == EventKind::Release) {
-        let to = events.get(k + 1).map(|impact| impact.time.clone());
-        let mut highest = None;
-        if gravity.is_positive() && !event.centre_velocity.is_negative() {
-            let rate = &event.centre_velocity;
-            let time = event.time.clone() + rate.clone() / gravity;
-            if time <= *to.as_ref().unwrap_or(&end) {
-                highest = Some((time, event.centre.clone() + rate.square() / gravity / rate.int(2)));
-            }
-        }
-        flights.push(Flight { from: event.time.clone(), to, highest });
-    }
-    flights
+    let releases = events.iter().enumerate().filter(|(_, event)| event.kind == EventKind::Release);
+    releases
+        .map(|(k, release)| {
+            let to = events.get(k + 1).map(|impact| impact.time.clone());
+            let last = to.as_ref().unwrap_or(&end);
+            let highest = history.highest(release).filter(|(time, _)| time <= last);
+            Flight { from: release.time.clone(), to, highest }
+        })
+        .collect()
 }

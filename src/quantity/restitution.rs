@@ -4,13 +4,19 @@ use crate::error::Error;
 use crate::history::{Contact, History};
 use crate::number::Scalar;
 
-/// The coefficients of restitution `e_P` and `e_E²` of one contact, its end compared with its own beginning.
+/// The coefficients of restitution `e_P` and `e_E²` of one contact, its end compared with its own beginning, and the factors
+/// of `e_E²`.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Restitution<S> {
     /// `e_P = −P(to)/P(from)`.
     pub momentum: Result<S, Undefined>,
     /// `e_E² = E_h(to)/E_h(from)`.
     pub energy_squared: Result<S, Undefined>,
+    /// The first factor of (4.73), `E_h(to)/E(to)`: what part of the energy that is left moves the centre of mass. `None`
+    /// where the contact does not end or no energy is left.
+    pub translational_part: Option<S>,
+    /// The second factor, `E(to)/E(from)`: what part of the energy damping leaves.
+    pub energy_kept: Option<S>,
 }
 
 /// Why a coefficient of restitution is not defined.
@@ -32,7 +38,7 @@ pub enum Undefined {
 
 /// The coefficients of restitution of `contact`.
 ///
-/// **Source**: section 4.1 and (4.71), with the state at the beginning of the contact for that at `t = 0`: the same for the
+/// **Source**: section 4.1, (4.71) and (4.73), with the state at the beginning of the contact for that at `t = 0`: the same for the
 /// first contact. The datum of `E_h` is `h = 0`, the undeformed rod on the ground.
 ///
 /// **Accuracy**: *exact* for exact histories; otherwise that of `h′` and `E_h`.
@@ -50,21 +56,29 @@ pub enum Undefined {
 /// ```
 pub fn restitution<S: Scalar>(history: &dyn History<S>, contact: &Contact<S>) -> Result<Restitution<S>, Error> {
     let Some(to) = &contact.to else {
-        return Ok(Restitution { momentum: Err(Undefined::Unfinished), energy_squared: Err(Undefined::Unfinished) });
+        return Ok(Restitution {
+            momentum: Err(Undefined::Unfinished),
+            energy_squared: Err(Undefined::Unfinished),
+            translational_part: None,
+            energy_kept: None,
+        });
     };
     let (_, before) = history.centre(&contact.from)?;
     let (_, after) = history.centre(to)?;
     // Below its own error bound the momentum is a zero whose digits nobody can give.
     let bound = before.int(16) * history.error_estimate() * history.scales().velocity;
     let momentum = if before.magnitude() <= bound { Err(Undefined::NoMomentum) } else { Ok(-(after / &before)) };
-    let before = history.energy(&contact.from)?.translational;
-    let after = history.energy(to)?.translational;
-    let energy_squared = if !before.is_positive() {
+    let before = history.energy(&contact.from)?;
+    let after = history.energy(to)?;
+    let ratio = |part: &S, whole: &S| (!whole.is_zero()).then(|| part.clone() / whole);
+    let (translational_part, energy_kept) =
+        (ratio(&after.translational, &after.total), ratio(&after.total, &before.total));
+    let energy_squared = if !before.translational.is_positive() {
         Err(Undefined::NotPositiveBefore)
-    } else if after.is_negative() {
+    } else if after.translational.is_negative() {
         Err(Undefined::NegativeAfter)
     } else {
-        Ok(after / before)
+        Ok(after.translational / before.translational)
     };
-    Ok(Restitution { momentum, energy_squared })
+    Ok(Restitution { momentum, energy_squared, translational_part, energy_kept })
 }

@@ -38,6 +38,9 @@ pub const ALL: &[Builtin] = &[
     scene!("figure-4-r01", "light damping at a high speed, r = 0.1: the bounce comes after one round trip"),
     scene!("figure-4-r02", "the same with r = 0.2"),
     scene!("figure-4-r03", "the same with r = 0.3"),
+    scene!("figure-5", "the translational part of the energy that is left at the bounce, r = 0.2"),
+    scene!("figure-6", "the part of the energy that damping leaves at the bounce, r = 0.1"),
+    scene!("figure-7", "the same over e^(−2 r t₁), r = 0.3"),
     scene!("steel-bar", "a damped steel bar hits at 1 m/s: a contact of 0.4 ms"),
 ];
 

@@ -27,10 +27,14 @@ pub enum Effect {
     InitialVelocity,
     /// Modulus, density and area give forces and energies their units.
     SiForces,
+    /// Energies and the field at other times than the ends of contacts: what `sample` asks for.
+    FieldEnergies,
+    /// Fractions or more bits than doubles have: what `--exact` and `--digits` ask for.
+    ArbitraryPrecision,
 }
 
 impl Effect {
-    /// Every effect, in the order in which they are explained.
+    /// Every effect that a scene can call for, in the order in which they are explained.
     pub const ALL: [Effect; 8] = [
         Effect::UnilateralContact,
         Effect::Gravity,
@@ -57,6 +61,8 @@ impl Effect {
             Effect::InitialStrain => "initial_strain",
             Effect::InitialVelocity => "initial_velocity",
             Effect::SiForces => "si_forces",
+            Effect::FieldEnergies => "field_energies",
+            Effect::ArbitraryPrecision => "arbitrary_precision",
         }
     }
 }
@@ -100,7 +106,7 @@ impl Scene {
         self.effects().into_iter().filter(|e| e.called).map(|e| e.effect).collect()
     }
 
-    fn effect(&self, effect: Effect) -> EffectUse {
+    pub(super) fn effect(&self, effect: Effect) -> EffectUse {
         let (called, key, because) = match effect {
             Effect::Gravity => self.gravity(),
             Effect::Damping => self.damping(),
@@ -110,6 +116,12 @@ impl Scene {
             Effect::InitialStrain => self.initial_strain(),
             Effect::InitialVelocity => self.initial_velocity(),
             Effect::SiForces => self.si_forces(),
+            Effect::FieldEnergies => (
+                false,
+                None,
+                "energies at the ends of contacts only; `sample` asks for the field and for other times".into(),
+            ),
+            Effect::ArbitraryPrecision => (false, None, "a scene does not ask for it; --digits and --exact do".into()),
         };
         EffectUse { effect, called, line: key.and_then(|key| self.line_of(key)), because }
     }

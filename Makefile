@@ -1,0 +1,30 @@
+# Two commands for a machine with Rust and a C compiler:
+#   make demo   builds and solves a real scene
+#   make test   runs all tests
+# GMP and MPFR are built from source once, which takes minutes; they need m4, which is installed where it is missing.
+
+CARGO ?= cargo
+
+.PHONY: help demo test m4
+
+help:
+	@echo "make demo   build the command and solve the bouncing bar of Doyen, Ern and Piperno, exactly"
+	@echo "make test   run all tests, those of the documentation included"
+
+demo: m4
+	$(CARGO) run --quiet -- solve doyen-ern-piperno --exact
+
+test: m4
+	$(CARGO) test --no-fail-fast
+
+# Debian and its kin; elsewhere the message says what is missing.
+m4:
+	@command -v m4 >/dev/null 2>&1 && exit 0; \
+	missing="m4 is missing; GMP needs it to build. Install m4 (Debian: apt-get install m4) and try again."; \
+	command -v apt-get >/dev/null 2>&1 || { echo "$$missing" >&2; exit 1; }; \
+	if [ "$$(id -u)" = 0 ]; then root=; \
+	elif command -v sudo >/dev/null 2>&1; then root=sudo; \
+	else echo "$$missing" >&2; echo "This account is not root and there is no sudo." >&2; exit 1; fi; \
+	echo "installing m4"; \
+	{ $$root apt-get install -y m4 || { $$root apt-get update && $$root apt-get install -y m4; }; } >&2 \
+	&& command -v m4 >/dev/null 2>&1 || { echo "$$missing" >&2; exit 1; }

@@ -1,0 +1,413 @@
+//! Following the ground end through contacts and flights.
+//!
+//! With `y = v_t + c v_x` at the ground: in contact `y = c v_x`, and the rod leaves when `y` turns positive; in flight
+//! `y = v_t`, and it lands when `v(0,·) = ∫ y` returns to zero. A landing at which `y` is not negative, and at `y = 0` not
+//! falling, is none: the flight goes on.
+
+use super::march::{Medium, State};
+use super::record::{Node, Record};
+use super::root::first_descent;
+use super::series::{at_one, at_zero, bound, derivative, evaluate};
+use super::start::Data;
+use crate::error::Error;
+use crate::history::{Ending, EventKind};
+use crate::number::Analytic;
+
+/// What happened at the ground during one strip, dimensionless.
+#[derive(Clone, Debug)]
+pub(super) struct Piece<S> {
+    /// Its beginning.
+    pub(super) from: S,
+    /// Its length.
+    pub(super) len: S,
+    /// Whether the ground end is in contact.
+    pub(super) contact: bool,
+    /// Whether the first segment was cut for this strip.
+    pub(super) cut: bool,
+    /// `v_t + c v_x` in Chebyshev coefficients.
+    pub(super) trace: Vec<S>,
+    /// `v(0,·)`; empty in contact.
+    pub(super) height: Vec<S>,
+}
+
+impl<S: Analytic> Piece<S> {
+    /// Its end.
+    pub(super) fn to(&self) -> S {
+        self.from.clone() + &self.len
+    }
+}
+
+/// An event, dimensionless.
+#[derive(Clone, Debug)]
+pub(super) struct Mark<S> {
+    /// Landing or leaving.
+    pub(super) kind: EventKind,
+    /// Its time.
+    pub(super) time: S,
+    /// `v_t(0,·)`, just before or just after.
+    pub(super) velocity: S,
+    /// How far the time may be off.
+    pub(super) time_error: f64,
+}
+
+/// How far to go.
+#[derive(Clone, Debug)]
+pub(super) enum Goal<S> {
+    /// This many contacts with the flights after them.
+    Impacts(u32),
+    /// Up to this time, dimensionless.
+    Time(S),
+}
+
+/// The rod at the ground, on its way.
+#[derive(Debug)]
+pub(super) struct Follower<'a, S> {
+    medium: &'a Medium<S>,
+    data: &'a Data<S>,
+    state: State<S>,
+    contact: bool,
+    /// `v(0,b)`.
+    height: S,
+    pub(super) pieces: Vec<Piece<S>>,
+    pub(super) marks: Vec<Mark<S>>,
+    /// States at the beginning of each round trip, with the number of pieces before them.
+    pub(super) checkpoints: Vec<(usize, State<S>)>,
+    pub(super) warnings: Vec<String>,
+    /// Error of `p`, `q` made in one cell.
+    cell_error: f64,
+    /// Error of `p`, `q` from impacts that are off in time.
+    scattered: f64,
+    /// Error of `v(0,b)`.
+    height_error: f64,
+    /// The trace at the end of the last piece.
+    last_trace: Option<S>,
+}
+
+/// The most strips that are followed: some hundred megabytes.
+const MOST_PIECES: usize = 400_000;
+/// The most segments of a round trip.
+const MOST_SEGMENTS: usize = 4096;
+
+impl<'a, S: Analytic> Follower<'a, S> {
+    /// At `t = 0`.
+    pub(super) fn new(medium: &'a Medium<S>, data: &'a Data<S>) -> Self {
+        let state = data.march(medium, &mut |_| {});
+        // A cell: what the series of its sides and of its sum leave out, and four roundings of every coefficient: the sum,
+        // the correction, the decay and its factor.
+        let roundoff = 4.0 * data.slope.log2_roundoff().exp2() * (1.0 + state.bound());
+        let cell_error = 4.0 * medium.log2_accuracy.exp2() + roundoff;
+        let mut follower = Follower {
+            medium,
+            data,
+            state,
+            contact: false,
+            height: data.ground.clone(),
+            pieces: Vec::new(),
+            marks: Vec::new(),
+            checkpoints: Vec::new(),
+            warnings: Vec::new(),
+            cell_error,
+            scattered: 0.0,
+            height_error: roundoff,
+            last_trace: None,
+        };
+        if !data.ground.is_positive() && !follower.rises() {
+            follower.contact = true;
+            let velocity = data.end_velocity();
+            follower.marks.push(Mark { kind: EventKind::Impact, time: data.slope.zero(), velocity, time_error: 0.0 });
+        }
+        follower
+    }
+
+    /// The error of `p` and `q`: what cells made, once for each cell on the longest path to here, and what impacts made.
+    pub(super) fn error(&self) -> f64 {
+        self.cell_error * (2.0 * self.pieces.len() as f64 + 8.0) + self.scattered
+    }
+
+    /// The error of `v(0,·)` now.
+    pub(super) fn height_error(&self) -> f64 {
+        self.height_error
+    }
+
+    /// Whether the ground end, at height zero, leaves at once: `y > 0`, or `y = 0` and rising.
+    ///
+    /// What is less than the error counts as zero; Markov's inequality, `‖f′‖ ≤ 2n²‖f‖` on the unit interval, says what that
+    /// is for a derivative.
+    fn rises(&self) -> bool {
+        let mut c = self.medium.trace(&self.state, true);
+        let zero = self.height.zero();
+        let mut noise = self.error();
+        for _ in 0..3 {
+            let value = at_zero(&c, &zero).to_f64();
+            if value.abs() > noise {
+                return value > 0.0;
+            }
+            noise *= 2.0 * (c.len() as f64).powi(2);
+            c = derivative(&c);
+        }
+        false
+    }
+
+    /// Why no impact can follow the flight, if that is certain. Only where gravity does not pull the end back.
+    ///
+    /// In flight the end swings about a stress-free state at height `s = v_s′(0)/2` (top fixed) or about the centre of mass
+    /// (top free, `g = 0`), whose height `h` tends monotonely to `h + h′/2r`. The deviation `d` has an energy `E` that
+    /// cannot grow and `|d(0)| ≤ √ℓ ‖d_x‖`, `‖d_x‖ ≤ √(2E)`, with `ℓ = ½` for a fixed top; `ℓ = ⅙` where the mean of `d`
+    /// vanishes, as then `d(0) = −∫(1 − 2x) d_x dx`. No impact follows once `√(2ℓE)` is less than the least height.
+    fn escapes(&self) -> Option<Ending> {
+        let (medium, data) = (self.medium, self.data);
+        let slope = medium.slope.to_f64();
+        if slope < 0.0 || !data.gravity.is_zero() {
+            return None;
+        }
+        let record = Record { medium, data, pieces: &self.pieces, checkpoints: &self.checkpoints };
+        let t = self.state.time();
+        let nodes = record.line(&t, &t.ratio(1, 2));
+        let sum = |f: &dyn Fn(f64, f64, f64) -> f64| -> f64 {
+            let term = |n: &Node<S>| n.weight.to_f64() * f(n.x.to_f64(), n.z_t.to_f64(), n.z_x.to_f64() + slope);
+            nodes.iter().map(term).sum()
+        };
+        let (least, share) = if medium.free_top {
+            let rate = 2.0 * sum(&|_, v_t, _| v_t);
+            let mean = self.height.to_f64() + 2.0 * sum(&|x, _, v_x| (0.5 - x) * v_x);
+            // h′/2r, where 4κ = 2r.
+            let rise = rate / (4.0 * medium.kappa.to_f64());
+            (mean.min(mean + rise), sum(&|_, v_t, v_x| (v_t - rate).powi(2) + v_x.powi(2)) / 6.0)
+        } else {
+            (slope / 2.0, sum(&|_, v_t, v_x| v_t.powi(2) + v_x.powi(2)) / 2.0)
+        };
+        let swing = share.sqrt() + 8.0 * (self.error() + self.height_error);
+        (least > swing).then(|| {
+            let reason = format!("the end swings by at most {swing:.3e} V t1 about {least:.3e} V t1 or more");
+            Ending::NoFurtherImpact(reason)
+        })
+    }
+
+    /// Goes on until the goal.
+    pub(super) fn run(&mut self, goal: &Goal<S>) -> Result<Ending, Error> {
+        let unit = self.height.log2_roundoff().exp2();
+        let mut landed = u32::from(self.contact);
+        let mut round = i64::MIN;
+        // Whether something happened at this very time already.
+        let mut fresh = true;
+        loop {
+            if self.pieces.len() >= MOST_PIECES || self.state.segments.len() > MOST_SEGMENTS {
+                let time = self.state.time().to_f64();
+                return Err(Error::TooManyPieces { limit: MOST_PIECES, time });
+            }
+            if self.state.round > round {
+                round = self.state.round;
+                self.checkpoints.push((self.pieces.len(), self.state.clone()));
+            }
+            if let (true, Goal::Impacts(_)) = (self.contact, goal)
+                && let Some(ending) = self.stays()
+            {
+                return Ok(ending);
+            }
+            // What the beginning of this strip decides.
+            let first = &self.state.segments[0];
+            let (len, ray_error) = (first.len.clone(), first.time_error);
+            if !fresh && self.contact && self.rises() {
+                self.event(ray_error, false);
+                fresh = true;
+                continue;
+            }
+            let trace = self.medium.trace(&self.state, self.contact);
+            self.pass_ray(&trace, ray_error);
+            let height = self.height_over(&trace, &len);
+            let grounded = !self.contact && self.height.to_f64() <= self.height_error;
+            if !fresh && grounded && !self.rises() {
+                let time_error = ray_error.max(self.event_error(&trace, &len.zero(), &len));
+                if self.land(goal, &mut landed, time_error) {
+                    return Ok(Ending::NextImpact);
+                }
+                fresh = true;
+                continue;
+            }
+            // The next event in this strip.
+            let found = if self.contact {
+                let fall: Vec<S> = trace.iter().map(|term| -term.clone()).collect();
+                first_descent(&self.medium.basis, &fall, self.error().max(unit * 16.0 * bound(&trace, 0)))
+            } else {
+                let noise = self.height_error + self.error() * len.to_f64();
+                first_descent(&self.medium.basis, &height, noise)
+            };
+            let found = found.map(|x| x * &len);
+            let nearby = |x: &S| x.to_f64() <= 32.0 * unit;
+            let at_start = found.as_ref().is_some_and(&nearby);
+            if at_start && !fresh {
+                if self.contact {
+                    self.event(ray_error, false);
+                } else {
+                    let time_error = ray_error.max(self.event_error(&trace, &len.zero(), &len));
+                    if self.land(goal, &mut landed, time_error) {
+                        return Ok(Ending::NextImpact);
+                    }
+                }
+                fresh = true;
+                continue;
+            }
+            if at_start {
+                let time = self.state.time().to_f64();
+                self.warnings.push(format!("at t/t1 = {time} rounding decides between contact and flight"));
+            }
+            let at_end = found.as_ref().is_some_and(|x| nearby(&(len.clone() - x)));
+            let found = found.filter(|_| !at_start && !at_end);
+            if let Goal::Time(end) = goal {
+                let left = end.clone() - self.state.time();
+                if left.to_f64() <= 4.0 * unit * end.to_f64().max(1.0) {
+                    return Ok(Ending::Time);
+                }
+                let ends = left < len && found.as_ref().is_none_or(|x| *x > left);
+                if ends {
+                    self.advance(Some(&left), 0.0, &trace, &height);
+                    return Ok(Ending::Time);
+                }
+            }
+            match found {
+                Some(x) => {
+                    let time_error = self.event_error(&trace, &(x.clone() / &len), &len);
+                    self.advance(Some(&x), time_error, &trace, &height);
+                    if self.contact {
+                        self.event(time_error, true);
+                    } else if self.land(goal, &mut landed, time_error) {
+                        return Ok(Ending::NextImpact);
+                    }
+                    fresh = true;
+                }
+                None => {
+                    self.advance(None, 0.0, &trace, &height);
+                    if at_end && !self.contact {
+                        self.height = self.height.zero();
+                    }
+                    fresh = false;
+                }
+            }
+            let once = self.state.round > round && !self.contact && matches!(goal, Goal::Impacts(_));
+            if once && let Some(ending) = self.escapes() {
+                return Ok(ending);
+            }
+        }
+    }
+
+    /// A ray that may be off in time passes the ground: in flight the height takes its jump at the wrong time.
+    fn pass_ray(&mut self, trace: &[S], ray_error: f64) {
+        if ray_error > 0.0
+            && let Some(last) = &self.last_trace
+        {
+            let jump = at_zero(trace, &self.height.zero()) - last;
+            self.height_error += jump.to_f64().abs() * ray_error;
+        }
+    }
+
+    /// `v(0,·)` over the strip.
+    fn height_over(&self, trace: &[S], len: &S) -> Vec<S> {
+        if self.contact {
+            return Vec::new();
+        }
+        let mut height = trace.to_vec();
+        height.push(len.zero());
+        self.medium.basis.integrate(&mut height);
+        super::cell::scale(&mut height, len);
+        height[0] = height[0].clone() + &self.height;
+        height
+    }
+
+    /// How far a root in the strip may be off: the error of the function over its slope, or the root of twice the error
+    /// over the second derivative if that is less.
+    fn event_error(&self, trace: &[S], x: &S, len: &S) -> f64 {
+        let len = len.to_f64();
+        let at = |c: &[S]| evaluate(c, x).to_f64().abs();
+        let first = derivative(trace);
+        let (error, slope, curvature) = if self.contact {
+            (self.error(), at(&first) / len, at(&derivative(&first)) / (len * len))
+        } else {
+            (self.height_error + self.error() * len * x.to_f64(), at(trace), at(&first) / len)
+        };
+        let unit = 4.0 * x.log2_roundoff().exp2() * (1.0 + self.state.round.unsigned_abs() as f64);
+        (error / slope).min((2.0 * error / curvature).sqrt()).min(1.0) + unit
+    }
+
+    /// Marches over the first segment, or the part of it before `cut`.
+    fn advance(&mut self, cut: Option<&S>, time_error: f64, trace: &[S], height: &[S]) {
+        let from = self.state.time();
+        let whole = self.state.segments[0].len.clone();
+        let (mut trace, mut height) = (trace.to_vec(), height.to_vec());
+        if let Some(cut) = cut {
+            let fraction = cut.clone() / &whole;
+            let part = |c: &[S]| self.medium.basis.restrict(c, &fraction.zero(), &fraction, c.len());
+            trace = part(&trace);
+            height = if height.is_empty() { height } else { part(&height) };
+            self.medium.cut_first(&mut self.state, cut, time_error);
+        }
+        let len = cut.cloned().unwrap_or(whole);
+        let zero = len.zero();
+        if !self.contact {
+            self.height_error += self.error() * len.to_f64();
+            self.height = at_one(&height, &zero);
+        }
+        self.last_trace = Some(at_one(&trace, &zero));
+        self.medium.strip(&mut self.state, self.contact, &mut |_| {});
+        let contact = self.contact;
+        self.pieces.push(Piece { from, len, contact, cut: cut.is_some(), trace, height });
+    }
+
+    /// Turns contact into flight or back, now. A release at a root of the trace has velocity zero. Where the end
+    /// only touches the ground and a ray arrives at that very time, the velocity is the one that the ray brings.
+    fn event(&mut self, time_error: f64, at_root: bool) {
+        let zero = self.height.zero();
+        let kind = if self.contact { EventKind::Release } else { EventKind::Impact };
+        let velocity = match (&self.last_trace, kind) {
+            (Some(last), EventKind::Impact) if last.to_f64() < -self.error() => last.clone(),
+            (_, EventKind::Release) if at_root => zero.clone(),
+            _ => at_zero(&self.medium.trace(&self.state, true), &zero),
+        };
+        if self.contact {
+            self.height_error = velocity.to_f64().abs() * time_error;
+        } else {
+            // The part of the ray that is off has twice the mass of the error of the height, and scatters at rate κ.
+            self.scattered += 4.0 * self.medium.kappa.to_f64() * self.height_error;
+            self.height_error = 0.0;
+        }
+        self.contact = !self.contact;
+        self.height = zero;
+        let time = self.state.time();
+        // A ray of the start is off by no more than the roundings of t₁ and of its own time.
+        let rounding = 4.0 * time.log2_roundoff().exp2() * (1.0 + time.to_f64());
+        self.marks.push(Mark { kind, time, velocity, time_error: time_error.max(rounding) });
+    }
+
+    /// An impact now; whether it is the one after the last that was asked for.
+    fn land(&mut self, goal: &Goal<S>, landed: &mut u32, time_error: f64) -> bool {
+        if let Goal::Impacts(count) = goal
+            && *landed >= *count
+        {
+            return true;
+        }
+        *landed += 1;
+        self.event(time_error, false);
+        false
+    }
+
+    /// Why no release can follow, if that is certain.
+    ///
+    /// In contact `p = −q` at the ground and `p = ±q` at the top, so `|q| ≤ M` on one characteristic gives `|q| ≤ M` for
+    /// ever, and with `M < |v_s′(0)|`, `v_s′(0) < 0`, the stress `q + v_s′(0)` stays negative.
+    fn stays(&self) -> Option<Ending> {
+        let most = self.state.bound() + self.error();
+        let slope = self.medium.slope.to_f64();
+        if slope < 0.0 && most < -slope {
+            let reason = format!(
+                "the deviation from the static stress is at most {:.3} of it on a whole round trip, and can't grow",
+                most / -slope
+            );
+            return Some(if self.marks.len() > 1 { Ending::Rest(reason) } else { Ending::NoBounce(reason) });
+        }
+        if slope == 0.0 && most <= 4.0 * self.error() {
+            let reason =
+                "without a static stress the contact has decayed below the accuracy; more digits follow it further";
+            return Some(Ending::Undecided(reason.into()));
+        }
+        None
+    }
+}

@@ -1,0 +1,423 @@
+//! The solution of the damped problem, and the answers to what is asked of it.
+
+use super::follow::{Follower, Goal, Piece};
+use super::march::{Medium, State};
+use super::record::{Node, Record};
+use super::root::smallest;
+use super::series::{at_one, at_zero, evaluate};
+use super::start::{Data, Units};
+use crate::error::Error;
+use crate::history::{Contact, Ending, Energy, Event, EventKind, Field, History, Scales, Side, StressPiece};
+use crate::number::Analytic;
+use crate::rod::{Parameters, Problem, Run, Top};
+use crate::special::{log_mean, log_rest};
+
+/// The motion of the damped rod through any number of impacts, `r ≥ 0`.
+///
+/// **Source**: the characteristic cells of `v_tt + 2r v_t − c² v_xx = −g` with the contact law (1.3)–(1.6); derivation in
+/// the modules of `damped`. `r → 0` is regular: nothing is divided by `r`.
+///
+/// **Units**: those of the problem.
+///
+/// **Accuracy**: within [`History::error_estimate`] of each quantity's natural scale: `t₁`, `V = max(|data|, g t₁)`, `V t₁`.
+///
+/// ```
+/// use dalembert::damped::Damped;
+/// use dalembert::history::History;
+/// use dalembert::{Number, Problem};
+/// // Without damping a rod with c = L = g = 1 that arrives at μ = 3 leaves after the round trip, t₁ = 2.
+/// let mut problem = Problem::uniform(Number::from(1), Number::from(1), Number::from(1), Number::from(3));
+/// problem.rod.damping = "1e-300".parse().ok();
+/// let history = Damped::<f64>::solve(&problem, &(), 12.0)?;
+/// assert!((history.events()[1].time - 2.0).abs() < 1e-12);
+/// assert!((history.events()[1].end_velocity - 1.0).abs() < 1e-12);
+/// # Ok::<(), dalembert::Error>(())
+/// ```
+#[derive(Clone, Debug)]
+pub struct Damped<S> {
+    medium: Medium<S>,
+    data: Data<S>,
+    pieces: Vec<Piece<S>>,
+    checkpoints: Vec<(usize, State<S>)>,
+    events: Vec<Event<S>>,
+    contacts: Vec<Contact<S>>,
+    end: S,
+    ending: Ending,
+    error: f64,
+    warnings: Vec<String>,
+}
+
+impl<S: Analytic> Damped<S> {
+    /// Follows `problem` as far as its `run` says, to about `digits` decimal digits of the natural scales.
+    ///
+    /// What a cell leaves out is at most `2^{−20} 10^{−digits}`, or the roundoff of the number system where that is more;
+    /// [`History::error_estimate`] says what came of it.
+    ///
+    /// **Errors**: [`Error::TooManyPieces`] beyond 400 000 strips, or where `r t₁` or the number of rays asks for more than
+    /// 4096 segments in a round trip; [`Error::Irrational`] from the parameters.
+    pub fn solve(problem: &Problem, precision: &S::Precision, digits: f64) -> Result<Self, Error> {
+        Self::solve_with(problem, precision, digits, 1)
+    }
+
+    /// [`Self::solve`] with segments `shorten` times shorter than need be.
+    fn solve_with(problem: &Problem, precision: &S::Precision, digits: f64, shorten: i64) -> Result<Self, Error> {
+        let parameters = Parameters::<S>::of(problem, precision)?;
+        let free_top = problem.rod.top == Top::Free;
+        let data = Data::of(problem, &parameters, free_top);
+        let asked = -digits.max(1.0) * std::f64::consts::LOG2_10 - 20.0;
+        let log2_accuracy = asked.max(data.damping.log2_roundoff());
+        if data.damping.to_f64() > 2000.0 {
+            return Err(Error::TooManyPieces { limit: 4096, time: 0.0 });
+        }
+        let medium = Medium::new(&data.damping, data.slope.clone(), free_top, log2_accuracy, shorten);
+        let goal = match &problem.run {
+            Run::Impacts(count) => Goal::Impacts(*count),
+            Run::Time(time) => Goal::Time(S::from_number(time, precision) / &data.units.time),
+        };
+        let mut follower = Follower::new(&medium, &data);
+        let ending = follower.run(&goal)?;
+        let worst = follower.marks.iter().map(|mark| mark.time_error).fold(follower.error(), f64::max);
+        let error = worst.max(follower.height_error());
+        let Follower { pieces, checkpoints, marks, warnings, .. } = follower;
+        let end = match &problem.run {
+            Run::Time(time) if ending == Ending::Time => S::from_number(time, precision),
+            _ => pieces.last().map_or_else(|| data.slope.zero(), Piece::to) * &data.units.time,
+        };
+        let mut history = Damped {
+            contacts: Vec::new(),
+            events: Vec::new(),
+            medium,
+            data,
+            pieces,
+            checkpoints,
+            end,
+            ending,
+            error,
+            warnings,
+        };
+        history.events = marks
+            .into_iter()
+            .map(|mark| {
+                let (centre, centre_velocity) = history.centre_at(&mark.time);
+                let units = &history.data.units;
+                Event {
+                    kind: mark.kind,
+                    time: mark.time * &units.time,
+                    end_velocity: mark.velocity * &units.velocity,
+                    centre,
+                    centre_velocity,
+                    time_error: mark.time_error * units.time.to_f64(),
+                }
+            })
+            .collect();
+        history.contacts = history.find_contacts();
+        Ok(history)
+    }
+
+    /// What the field follows from.
+    fn record(&self) -> Record<'_, S> {
+        Record { medium: &self.medium, data: &self.data, pieces: &self.pieces, checkpoints: &self.checkpoints }
+    }
+
+    /// The dimensionless time.
+    fn time(&self, time: &S) -> Result<S, Error> {
+        if time.is_negative() || *time > self.end || !time.is_finite() {
+            return Err(Error::TimeOutside { found: time.text(), end: self.end.text() });
+        }
+        Ok(time.clone() / &self.data.units.time)
+    }
+
+    /// `v_s(x)`.
+    fn static_state(&self, x: &S) -> S {
+        (self.data.gravity.clone() * x * x.ratio(1, 2) + &self.data.slope) * x
+    }
+
+    /// `c v_s′(x)`.
+    fn static_slope(&self, x: &S) -> S {
+        self.data.gravity.clone() * x + &self.data.slope
+    }
+
+    /// `h` and `h′` from the nodes of the whole rod: `⟨v⟩ = v(0) + (1/L)∫(L−x) z_x dx + ⟨v_s⟩`.
+    fn mean(&self, t: &S, nodes: &[Node<S>]) -> (S, S) {
+        let half = t.ratio(1, 2);
+        let (mut mean, mut rate) = (t.zero(), t.zero());
+        for node in nodes {
+            mean = mean + (half.clone() - &node.x) * &node.z_x * &node.weight;
+            rate = rate + node.z_t.clone() * &node.weight;
+        }
+        let at_rest = self.data.gravity.clone() * t.ratio(1, 24) + self.data.slope.clone() * t.ratio(1, 4);
+        (mean * t.int(2) + at_rest + self.record().height(t), rate * t.int(2))
+    }
+
+    /// `h` and `h′` at a dimensionless time.
+    fn centre_at(&self, t: &S) -> (S, S) {
+        let nodes = self.record().line(t, &t.ratio(1, 2));
+        let (mean, rate) = self.mean(t, &nodes);
+        (mean * &self.data.units.displacement, rate * &self.data.units.velocity)
+    }
+
+    /// `v(x,t)`, dimensionless.
+    fn displacement(&self, x: &S, t: &S) -> S {
+        let mut sum = self.record().height(t) + self.static_state(x);
+        if x.is_positive() {
+            for node in self.record().line(t, x) {
+                sum = sum + node.z_x * &node.weight;
+            }
+        }
+        sum
+    }
+
+    /// Contacts from the events and the trace.
+    fn find_contacts(&self) -> Vec<Contact<S>> {
+        let units = &self.data.units;
+        let mut contacts: Vec<Contact<S>> = Vec::new();
+        for event in &self.events {
+            match (event.kind, contacts.last_mut()) {
+                (EventKind::Release, Some(contact)) => contact.to = Some(event.time.clone()),
+                (EventKind::Release, None) => {}
+                (EventKind::Impact, _) => contacts.push(Contact {
+                    from: event.time.clone(),
+                    to: None,
+                    impulse: event.time.zero(),
+                    peak_stress: event.time.zero(),
+                }),
+            }
+        }
+        let mut index = None;
+        let mut before = false;
+        for piece in &self.pieces {
+            if piece.contact {
+                if !before {
+                    index = Some(index.map_or(0, |k: usize| k + 1));
+                }
+                if let Some(contact) = index.and_then(|k| contacts.get_mut(k)) {
+                    let mut area = piece.trace.clone();
+                    self.medium.basis.integrate(&mut area);
+                    let push = at_one(&area, &piece.len.zero()) * &piece.len * &units.displacement * &units.wave_speed;
+                    contact.impulse = contact.impulse.clone() - push;
+                    if let Some(least) = smallest(&self.medium.basis, &piece.trace) {
+                        let stress = least * &units.velocity / &units.wave_speed;
+                        if stress < contact.peak_stress {
+                            contact.peak_stress = stress;
+                        }
+                    }
+                }
+            }
+            before = piece.contact;
+        }
+        contacts
+    }
+}
+
+impl<S: Analytic> History<S> for Damped<S> {
+    fn end(&self) -> S {
+        self.end.clone()
+    }
+
+    fn ending(&self) -> &Ending {
+        &self.ending
+    }
+
+    fn events(&self) -> &[Event<S>] {
+        &self.events
+    }
+
+    fn contacts(&self) -> &[Contact<S>] {
+        &self.contacts
+    }
+
+    /// Flights are one piece each; in contact a piece ends where a ray arrives.
+    fn stress_pieces(&self) -> Vec<StressPiece<S>> {
+        let units = &self.data.units;
+        let unit = units.velocity.clone() / &units.wave_speed;
+        let mut pieces: Vec<StressPiece<S>> = Vec::new();
+        let mut flying = false;
+        for piece in &self.pieces {
+            let zero = piece.len.zero();
+            let to = piece.to() * &units.time;
+            match pieces.last_mut() {
+                Some(last) if flying && !piece.contact => last.to = to,
+                _ => {
+                    let c: Vec<S> = if piece.contact {
+                        piece.trace.iter().map(|term| term.clone() * &unit).collect()
+                    } else {
+                        Vec::new()
+                    };
+                    pieces.push(StressPiece {
+                        from: piece.from.clone() * &units.time,
+                        to,
+                        left: at_zero(&c, &zero),
+                        right: at_one(&c, &zero),
+                        chebyshev: c,
+                    });
+                }
+            }
+            flying = !piece.contact;
+        }
+        pieces
+    }
+
+    fn stress(&self, time: &S, side: Side) -> Result<S, Error> {
+        let t = self.time(time)?;
+        Ok(match self.record().piece(&t, side) {
+            Some((piece, at)) if piece.contact => {
+                evaluate(&piece.trace, &at) * &self.data.units.velocity / &self.data.units.wave_speed
+            }
+            _ => t.zero(),
+        })
+    }
+
+    fn ground_end(&self, time: &S, side: Side) -> Result<(S, S), Error> {
+        let t = self.time(time)?;
+        Ok(match self.record().piece(&t, side) {
+            Some((piece, at)) if !piece.contact => (
+                evaluate(&piece.height, &at) * &self.data.units.displacement,
+                evaluate(&piece.trace, &at) * &self.data.units.velocity,
+            ),
+            _ => (t.zero(), t.zero()),
+        })
+    }
+
+    fn top_end(&self, time: &S, side: Side) -> Result<(S, S), Error> {
+        let field = self.field(&self.data.units.length, time, side)?;
+        Ok((field.displacement, field.velocity))
+    }
+
+    fn centre(&self, time: &S) -> Result<(S, S), Error> {
+        Ok(self.centre_at(&self.time(time)?))
+    }
+
+    fn energy(&self, time: &S) -> Result<Energy<S>, Error> {
+        let t = self.time(time)?;
+        let units = &self.data.units;
+        let half = t.ratio(1, 2);
+        let nodes = self.record().line(&t, &half);
+        let (mean, rate) = self.mean(&t, &nodes);
+        let mut sum = t.zero();
+        for node in &nodes {
+            let strain = node.z_x.clone() + self.static_slope(&node.x);
+            let motion = node.z_t.clone() - &rate;
+            sum = sum + (motion.square() + strain.square()) * &node.weight;
+        }
+        // dx is c t₁ = 2L times the dimensionless one.
+        let vibrational = sum * &units.length * units.velocity.square();
+        let speed = rate * &units.velocity;
+        let height = mean * &units.displacement;
+        let translational = (speed.square() * &half + units.gravity.clone() * height) * &units.length;
+        Ok(Energy { total: translational.clone() + &vibrational, translational, vibrational })
+    }
+
+    fn field(&self, point: &S, time: &S, side: Side) -> Result<Field<S>, Error> {
+        let t = self.time(time)?;
+        let units = &self.data.units;
+        if point.is_negative() || *point > units.length || !point.is_finite() {
+            return Err(Error::PointOutside { found: point.text(), length: units.length.text() });
+        }
+        if point.is_zero() {
+            let (displacement, velocity) = self.ground_end(time, side)?;
+            return Ok(Field { displacement, velocity, strain: self.stress(time, side)? });
+        }
+        let x = point.clone() / &units.length * t.ratio(1, 2);
+        let (z_t, z_x) = self.record().at(&x, &t, side);
+        Ok(Field {
+            displacement: self.displacement(&x, &t) * &units.displacement,
+            velocity: z_t * &units.velocity,
+            strain: (z_x + self.static_slope(&x)) * &units.velocity / &units.wave_speed,
+        })
+    }
+
+    fn highest(&self, release: &Event<S>) -> Option<(S, S)> {
+        let Units { gravity, time, .. } = &self.data.units;
+        if gravity.is_zero() || !self.medium.free_top || release.centre_velocity.is_negative() {
+            return None;
+        }
+        // Remark 2, with the quotients by 2r and 4r² taken regularly.
+        let damping = self.data.damping.clone() / time;
+        let rise = release.centre_velocity.clone() / gravity;
+        let drag = damping.int(2) * &damping * &rise;
+        let height = log_rest(&drag) * &rise * &release.centre_velocity;
+        Some((release.time.clone() + log_mean(&drag) * &rise, release.centre.clone() + height))
+    }
+
+    fn scales(&self) -> Scales<S> {
+        let Units { time, velocity, length, wave_speed, .. } = self.data.units.clone();
+        Scales { time, velocity, length, wave_speed }
+    }
+
+    fn error_estimate(&self) -> S {
+        self.end.double(self.error)
+    }
+
+    fn warnings(&self) -> &[String] {
+        &self.warnings
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::Number;
+
+    /// A rod with c = L = 1.
+    fn rod(gravity: i64, speed: i64, damping: &str, run: Run) -> Problem {
+        let mut problem =
+            Problem::uniform(Number::from(1), Number::from(1), Number::from(gravity), Number::from(speed));
+        problem.rod.damping = damping.parse().ok();
+        problem.run = run;
+        problem
+    }
+
+    #[test]
+    fn shorter_cells_change_nothing() {
+        for damping in ["0.01", "0.3", "2.6"] {
+            let problem = rod(1, 4, damping, Run::Time(Number::from(14)));
+            let coarse = Damped::<f64>::solve_with(&problem, &(), 12.0, 1).unwrap();
+            let fine = Damped::<f64>::solve_with(&problem, &(), 12.0, 5).unwrap();
+            assert!(fine.pieces.len() > 4 * coarse.pieces.len() / 3);
+            assert_eq!(coarse.events.len(), fine.events.len());
+            for (a, b) in coarse.events.iter().zip(&fine.events) {
+                assert!((a.time - b.time).abs() < 1e-12, "{damping} {a:?} {b:?}");
+                assert!((a.centre - b.centre).abs() < 1e-12 && (a.centre_velocity - b.centre_velocity).abs() < 1e-12);
+            }
+            for k in 0..50 {
+                let t = 0.28 * f64::from(k) + 0.013;
+                for x in [0.0, 0.37, 1.0] {
+                    let (a, b) = (coarse.field(&x, &t, Side::Right).unwrap(), fine.field(&x, &t, Side::Right).unwrap());
+                    let off = [a.displacement - b.displacement, a.velocity - b.velocity, a.strain - b.strain];
+                    assert!(off.iter().all(|d| d.abs() < 1e-12), "{damping} {x} {t} {off:?}");
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn energy_is_lost_to_damping_alone() {
+        // E(t) − E(0) = −2r ∫∫ v_t²: Gauss in time between all times at which rays meet each other or an end.
+        let problem = rod(1, 3, "0.3", Run::Time(Number::from(7)));
+        let history = Damped::<f64>::solve(&problem, &(), 13.0).unwrap();
+        assert!(history.events.len() >= 3);
+        let end = history.end / 2.0;
+        let rays: Vec<f64> = history.pieces.iter().map(|piece| piece.from).collect();
+        let mut times = vec![0.0, end];
+        for a in &rays {
+            times.extend([*a, a + 0.5]);
+            times.extend(rays.iter().filter(|b| (*a - **b).abs() <= 1.0).map(|b| 0.5 * (a + b)));
+        }
+        times.retain(|t| (0.0..=end).contains(t));
+        times.sort_by(f64::total_cmp);
+        let mut lost = 0.0;
+        for pair in times.windows(2).filter(|pair| pair[1] - pair[0] > 1e-12) {
+            for (x, w) in &history.medium.basis.gauss {
+                let t = pair[0] + x * (pair[1] - pair[0]);
+                let motion: f64 =
+                    history.record().line(&t, &0.5).iter().map(|node| node.weight * node.z_t * node.z_t).sum();
+                lost += w * (pair[1] - pair[0]) * motion;
+            }
+        }
+        // V = 3, t₁ = 2, c t₁ = 2.
+        let lost = 2.0 * 0.3 * lost * 9.0 * 2.0 * 2.0;
+        let change = history.energy(&history.end).unwrap().total - history.energy(&0.0).unwrap().total;
+        assert!((change + lost).abs() < 1e-11, "{change} {lost}");
+        assert!((history.energy(&0.0).unwrap().total - 4.5).abs() < 1e-13);
+    }
+}

@@ -1,0 +1,285 @@
+//! Marching: from the data on one upward characteristic to those on the next.
+//!
+//! Dimensionless: time in `t₁`, `x/c` in `t₁` (so that the rod is `0 … ½`), velocities in `V`. The state is `q` on the
+//! characteristic `ξ = b` that leaves the ground at time `b`, for `b ≤ η ≤ b + 1`, in segments between the rays that come
+//! down. A strip takes the first segment to the ground, sends `p` up through the others, reflects it at the top and
+//! appends the result as the last segment, one round trip later.
+//!
+//! A segment knows its place as a fraction of a round trip, which the ray keeps for ever: it is handed on, not computed
+//! again, so that rays return at exactly the same fraction and lengths never drift.
+
+use std::collections::VecDeque;
+
+use super::cell::{Cell, cross, diagonal, scale};
+use super::series::{Basis, at_one, at_zero, bound, evaluate, terms_for};
+use crate::number::Analytic;
+
+/// What stays the same during a run.
+#[derive(Clone, Debug)]
+pub(super) struct Medium<S> {
+    /// Tables.
+    pub(super) basis: Basis<S>,
+    /// `κ = r t₁/2`.
+    pub(super) kappa: S,
+    /// Slope of the static state at the ground, in `V`: contact has `z_x = v_x − slope`, flight `z_x = −slope`.
+    pub(super) slope: S,
+    /// Whether the top is free.
+    pub(super) free_top: bool,
+    /// Truncation of one cell relative to `V`, as `log₂`.
+    pub(super) log2_accuracy: f64,
+    /// The longest segment.
+    pub(super) longest: S,
+}
+
+/// Bounds `a`, `b` of the sides for [`terms_for`]: velocities of a few dozen `V`, slopes `(1 + r t₁)` times that.
+/// They enter as logarithms; the error estimate uses what is found in the run.
+const SIDE_BOUND: f64 = 32.0;
+
+/// `q` on a part of an upward characteristic: `e^{κ(η−η₀)} q` in Chebyshev coefficients.
+#[derive(Clone, Debug)]
+pub(super) struct Segment<S> {
+    /// Where its lower end meets the ground, as a fraction of a round trip in `0 … 1`.
+    pub(super) at: S,
+    /// Length in `η`.
+    pub(super) len: S,
+    /// `e^{−κ len}`.
+    pub(super) decay: S,
+    /// Coefficients.
+    pub(super) q: Vec<S>,
+    /// How far the ray at its lower end may be off.
+    pub(super) time_error: f64,
+}
+
+/// `q` on a whole upward characteristic.
+#[derive(Clone, Debug)]
+pub(super) struct State<S> {
+    /// Whole round trips so far.
+    pub(super) round: i64,
+    /// From the ground up; never empty.
+    pub(super) segments: VecDeque<Segment<S>>,
+}
+
+impl<S: Analytic> Medium<S> {
+    /// The medium for `R = r t₁`, with segments `shorten` times shorter than need be.
+    pub(super) fn new(damping: &S, slope: S, free_top: bool, log2_accuracy: f64, shorten: i64) -> Self {
+        let r = damping.to_f64();
+        // Segments of κ·len ≤ 1: every series stays short, and what e^{κs} costs in digits is nothing.
+        let longest = if r > 2.0 { damping.int(2) / damping } else { damping.one() } / damping.int(shorten);
+        let depth = 0.5 * r.min(2.0);
+        // y = (κ len)² is largest for two longest segments.
+        let powers = super::cell::terms(depth * depth, log2_accuracy) + 1;
+        // The trace times e^{−r τ}, and squares on a line of constant time, grow at most like e^{4κ|s|}.
+        let size = terms_for(SIDE_BOUND, SIDE_BOUND * (1.0 + r) * longest.to_f64(), 4.0 * depth, log2_accuracy);
+        let basis = Basis::new(damping, size, powers);
+        Medium { basis, kappa: damping.clone() * damping.ratio(1, 2), slope, free_top, log2_accuracy, longest }
+    }
+
+    /// Terms for a function that grows like `e^{multiple·κ|s|}` on a segment.
+    fn terms(&self, len: &S, multiple: f64) -> usize {
+        let (kappa, len) = (self.kappa.to_f64(), len.to_f64());
+        let b = SIDE_BOUND * (1.0 + 2.0 * kappa) * len;
+        terms_for(SIDE_BOUND, b, multiple * kappa * len, self.log2_accuracy).min(self.basis.size())
+    }
+
+    /// A segment through values of `q` at the nodes.
+    pub(super) fn segment(&self, at: S, len: S, values: &[S]) -> Segment<S> {
+        let terms = self.terms(&len, 1.0);
+        let depth = self.kappa.clone() * &len;
+        let scaled = self.basis.nodes().iter().zip(values).map(|(x, q)| (depth.clone() * x).exp() * q);
+        let q = self.basis.through(&scaled.collect::<Vec<_>>(), terms);
+        Segment { decay: (-depth).exp(), at, len, q, time_error: 0.0 }
+    }
+
+    /// Cuts a segment at `0 < cut < len`; the new ray starts with `time_error`.
+    fn cut(&self, segment: &Segment<S>, cut: &S, time_error: f64) -> (Segment<S>, Segment<S>) {
+        let (zero, one) = (cut.zero(), cut.one());
+        let fraction = cut.clone() / &segment.len;
+        let rest = segment.len.clone() - cut;
+        let low = self.basis.restrict(&segment.q, &zero, &fraction, self.terms(cut, 1.0));
+        let mut high = self.basis.restrict(&segment.q, &fraction, &one, self.terms(&rest, 1.0));
+        let decay = (-(self.kappa.clone() * cut)).exp();
+        scale(&mut high, &decay);
+        let at = segment.at.clone() + cut;
+        let at = if at >= one { at - &one } else { at };
+        let high_decay = (-(self.kappa.clone() * &rest)).exp();
+        (
+            Segment { at: segment.at.clone(), len: cut.clone(), decay, q: low, time_error: segment.time_error },
+            Segment { at, len: rest, decay: high_decay, q: high, time_error },
+        )
+    }
+
+    /// The data at the ground that are mirrored: `q` in contact, `q + slope` in flight.
+    fn mirrored(&self, segment: &Segment<S>, contact: bool) -> Vec<S> {
+        let mut q = segment.q.clone();
+        if !contact && !self.slope.is_zero() {
+            let growth = self.basis.exponential(&(self.kappa.clone() * &segment.len), q.len());
+            for (term, e) in q.iter_mut().zip(growth) {
+                *term = e * &self.slope + &*term;
+            }
+        }
+        q
+    }
+
+    /// `v_t + c v_x` at the ground while the first segment comes down: the velocity in flight, `c v_x` in contact.
+    ///
+    /// **Source**: [`diagonal`]; in contact `q` of `z` plus the static slope.
+    pub(super) fn trace(&self, state: &State<S>, contact: bool) -> Vec<S> {
+        let segment = &state.segments[0];
+        let depth = self.kappa.clone() * &segment.len;
+        let keep = self.terms(&segment.len, 2.0);
+        let q = self.mirrored(segment, contact);
+        let grown = diagonal(&self.basis, &q, &depth, !contact, (keep, self.log2_accuracy));
+        let mut trace = if depth.is_zero() {
+            grown
+        } else {
+            let terms = self.terms(&segment.len, 4.0);
+            let decay = self.basis.exponential(&(depth * segment.len.int(-2)), self.basis.size());
+            self.basis.product(&grown, &decay, terms)
+        };
+        if contact {
+            trace[0] = trace[0].clone() + &self.slope;
+        }
+        trace
+    }
+
+    /// Marches over the first segment. `visit` sees every cell before it is crossed.
+    pub(super) fn strip(&self, state: &mut State<S>, contact: bool, visit: &mut impl FnMut(&Cell<'_, S>)) {
+        let Some(first) = state.segments.pop_front() else { return };
+        let zero = first.len.zero();
+        let begin = first.at.int(state.round) + &first.at;
+        let depth = self.kappa.clone() * &first.len;
+        let cell = |eta: &S, len: &S| {
+            let size = (first.len.clone(), len.clone());
+            ((begin.clone(), eta.clone()), size, (depth.clone(), self.kappa.clone() * len))
+        };
+        let mut eta = begin.clone();
+        // The ground: the cell and its mirror image.
+        let q = self.mirrored(&first, contact);
+        let mut p = if contact { q.iter().map(|term| -term.clone()).collect() } else { q.clone() };
+        let offset = if contact { zero.clone() } else { self.slope.clone() };
+        let (corner, size, depths) = cell(&eta, &first.len);
+        visit(&Cell { corner, size, depth: depths, p: &p, q: &q, offset: offset.clone() });
+        let mut out = q;
+        self.cross((&mut p, &mut out), (&depth, &depth), (&first.decay, &first.decay));
+        if !offset.is_zero() {
+            let growth = self.basis.exponential(&depth, p.len());
+            for (term, e) in p.iter_mut().zip(growth) {
+                *term = e * &offset + &*term;
+            }
+        }
+        eta = eta + &first.len;
+        for segment in &mut state.segments {
+            let (corner, size, depths) = cell(&eta, &segment.len);
+            let h = depths.1.clone();
+            visit(&Cell { corner, size, depth: depths, p: &p, q: &segment.q, offset: zero.clone() });
+            self.cross((&mut p, &mut segment.q), (&depth, &h), (&first.decay, &segment.decay));
+            eta = eta + &segment.len;
+        }
+        // The top, the same way.
+        let mut q = if self.free_top { p.clone() } else { p.iter().map(|term| -term.clone()).collect() };
+        let (corner, size, depths) = cell(&eta, &first.len);
+        visit(&Cell { corner, size, depth: depths, p: &p, q: &q, offset: zero });
+        self.cross((&mut p, &mut q), (&depth, &depth), (&first.decay, &first.decay));
+        let wraps = state.segments.front().is_none_or(|next| next.at <= first.at);
+        state.round += i64::from(wraps);
+        state.segments.push_back(Segment { q, ..first });
+        self.join_last(state);
+    }
+
+    /// Marches over a first segment that starts from given `p` and `q` instead of the ground, with its lower corner at
+    /// `corner`, up to the end of the state; the segment becomes the first one.
+    pub(super) fn rise(
+        &self,
+        state: &mut State<S>,
+        (p, q): (Segment<S>, Segment<S>),
+        corner: (S, S),
+        visit: &mut impl FnMut(&Cell<'_, S>),
+    ) {
+        let depth = self.kappa.clone() * &p.len;
+        let (mut up, offset) = (p.q.clone(), depth.zero());
+        let mut eta = corner.1.clone();
+        state.segments.push_front(q);
+        for segment in &mut state.segments {
+            let h = self.kappa.clone() * &segment.len;
+            visit(&Cell {
+                corner: (corner.0.clone(), eta.clone()),
+                size: (p.len.clone(), segment.len.clone()),
+                depth: (depth.clone(), h.clone()),
+                p: &up,
+                q: &segment.q,
+                offset: offset.clone(),
+            });
+            self.cross((&mut up, &mut segment.q), (&depth, &h), (&p.decay, &segment.decay));
+            eta = eta + &segment.len;
+        }
+    }
+
+    /// [`cross`] with the tables of this medium.
+    fn cross(&self, sides: (&mut Vec<S>, &mut Vec<S>), depth: (&S, &S), decay: (&S, &S)) {
+        cross(&self.basis, sides, depth, decay, self.log2_accuracy);
+    }
+
+    /// Forgets the ray between the last two segments once they continue each other within the truncation of a cell.
+    ///
+    /// A jump at age `T` is `e^{−rT}` of the one that it started with, and so are its derivatives' (times powers of `r²T`),
+    /// so every ray is forgotten in the end, except those that keep segments short. What is compared is the joined series
+    /// with the two old ones, term by term: the sum of the differences bounds what the joining changes, and by the sup
+    /// norm property it is never amplified.
+    fn join_last(&self, state: &mut State<S>) {
+        let count = state.segments.len();
+        if count < 2 {
+            return;
+        }
+        let (a, b) = (&state.segments[count - 2], &state.segments[count - 1]);
+        let len = a.len.clone() + &b.len;
+        let accuracy = self.log2_accuracy.exp2();
+        let zero = len.zero();
+        let jump = at_one(&a.q, &zero) * &a.decay - at_zero(&b.q, &zero);
+        if len > self.longest || jump.to_f64().abs() > accuracy {
+            return;
+        }
+        let cut = a.len.clone() / &len;
+        let growth = len.one() / &a.decay;
+        let value = |x: &S| {
+            let s = x.clone() * &len;
+            if s < a.len { evaluate(&a.q, &(s / &a.len)) } else { evaluate(&b.q, &((s - &a.len) / &b.len)) * &growth }
+        };
+        let values: Vec<S> = self.basis.nodes().iter().map(value).collect();
+        let q = self.basis.through(&values, self.terms(&len, 1.0));
+        let low = self.basis.restrict(&q, &zero, &cut, a.q.len());
+        let high = self.basis.restrict(&q, &cut, &len.one(), b.q.len());
+        let differs = |old: &[S], new: &[S], factor: &S| -> f64 {
+            let difference = old.iter().zip(new).map(|(x, y)| y.clone() * factor - x).collect::<Vec<_>>();
+            bound(&difference, 0)
+        };
+        if differs(&a.q, &low, &len.one()) + differs(&b.q, &high, &a.decay) > accuracy {
+            return;
+        }
+        let decay = a.decay.clone() * &b.decay;
+        let joined = Segment { at: a.at.clone(), len, decay, q, time_error: a.time_error };
+        state.segments.truncate(count - 2);
+        state.segments.push_back(joined);
+    }
+
+    /// Cuts the first segment, so that the next strip ends there.
+    pub(super) fn cut_first(&self, state: &mut State<S>, cut: &S, time_error: f64) {
+        if let Some(first) = state.segments.pop_front() {
+            let (low, high) = self.cut(&first, cut, time_error);
+            state.segments.push_front(high);
+            state.segments.push_front(low);
+        }
+    }
+}
+
+impl<S: Analytic> State<S> {
+    /// `b`: the time at which this characteristic leaves the ground.
+    pub(super) fn time(&self) -> S {
+        let at = &self.segments[0].at;
+        at.int(self.round) + at
+    }
+
+    /// A bound of `|q|` of `z` on the characteristic, hence of `|q|` at the ground in contact at every later time.
+    pub(super) fn bound(&self) -> f64 {
+        self.segments.iter().map(|segment| bound(&segment.q, 0)).fold(0.0, f64::max)
+    }
+}

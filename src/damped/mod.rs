@@ -1,0 +1,19 @@
+//! The damped rod, any number of impacts: characteristic cells, the contact law, marching.
+//!
+//! In reading order: `series` holds functions, `cell` carries the invariants through one cell, `march` through one
+//! strip, `start` makes the first state, `root` finds events, `follow` decides what happens at the ground,
+//! `record` gets the field back, `history` answers questions, and `joined` puts the closed form of the first
+//! contact before it.
+
+mod cell;
+mod follow;
+mod history;
+mod joined;
+mod march;
+mod record;
+mod root;
+mod series;
+mod start;
+
+pub use history::Damped;
+pub use joined::Joined;

@@ -1,0 +1,136 @@
+//! The first time at which a smooth function turns negative, with earlier times excluded.
+
+use super::series::{Basis, at_one, at_zero, bound, derivative, evaluate};
+use crate::number::Analytic;
+
+/// Intervals shorter than this part of a segment are not cut any further.
+const SMALLEST: f64 = 1e-300;
+
+/// The first `x` in `0 … 1` where the series turns negative, given that it is not negative at 0; `None` if it does not.
+///
+/// The interval is halved until a part is settled: `|c₀| > Σ_{k≥1}|c_k|` fixes the sign on a part, the same for the
+/// derivative makes the function monotone there, and then its end decides. Parts are settled from left to right, so what
+/// is found is the first. A part on which `Σ|c_k| ≤ noise` says nothing and is passed over: if the function does turn
+/// negative in it, the next part is negative from its left end on, and that is the answer.
+pub(super) fn first_descent<S: Analytic>(basis: &Basis<S>, c: &[S], noise: f64) -> Option<S> {
+    let first = c.first()?;
+    let zero = first.zero();
+    let width = first.one();
+    let mut parts = vec![(zero.clone(), width, c.to_vec())];
+    while let Some((from, width, c)) = parts.pop() {
+        let centre = c[0].to_f64();
+        let spread = bound(&c, 1);
+        if centre > spread || centre.abs() + spread <= noise {
+            continue;
+        }
+        if centre < -spread {
+            return Some(from);
+        }
+        let slope = derivative(&c);
+        let (mean, variation) = (slope[0].to_f64(), bound(&slope, 1));
+        if mean > variation {
+            // Rising from a value that is not negative, as far as can be told.
+            if at_zero(&c, &zero).to_f64() < -noise {
+                return Some(from);
+            }
+            continue;
+        }
+        if mean < -variation {
+            if at_zero(&c, &zero).is_negative() {
+                return Some(from);
+            }
+            if at_one(&c, &zero).is_negative() {
+                return Some(from + width * descend(&c, &slope));
+            }
+            continue;
+        }
+        if width.to_f64() < SMALLEST {
+            continue;
+        }
+        let (half, one) = (width.ratio(1, 2), width.one());
+        let width = width * &half;
+        let size = c.len();
+        parts.push((from.clone() + &width, width.clone(), basis.restrict(&c, &half, &one, size)));
+        parts.push((from, width, basis.restrict(&c, &zero, &half, size)));
+    }
+    None
+}
+
+/// The root of a decreasing series that is not negative at 0 and negative at 1: Newton's method inside of a bracket.
+fn descend<S: Analytic>(c: &[S], slope: &[S]) -> S {
+    let (mut low, mut high) = (c[0].zero(), c[0].one());
+    let half = c[0].ratio(1, 2);
+    let unit = c[0].log2_roundoff().exp2().max(f64::MIN_POSITIVE);
+    let mut x = half.clone();
+    for _ in 0..(60 - 2 * c[0].log2_roundoff() as i64).clamp(60, 20_000) {
+        let value = evaluate(c, &x);
+        if value.is_negative() {
+            high = x.clone();
+        } else {
+            low = x.clone();
+        }
+        let newton = x.clone() - value / evaluate(slope, &x);
+        let next = if newton > low && newton < high { newton } else { (low.clone() + &high) * &half };
+        let step = (next.clone() - &x).to_f64().abs();
+        x = next;
+        if step <= 2.0 * unit || (high.clone() - &low).to_f64() <= 2.0 * unit {
+            break;
+        }
+    }
+    x
+}
+
+/// The smallest value on `0 … 1`. **Accuracy**: within `16u Σ|c_k|`: parts are halved until they are monotone, can't fall
+/// below what was found by more than that, or are shorter than `√u`, where the ends are within a few `u` of the least value.
+pub(super) fn smallest<S: Analytic>(basis: &Basis<S>, c: &[S]) -> Option<S> {
+    let zero = c.first()?.zero();
+    let unit = zero.log2_roundoff();
+    let roundoff = 16.0 * unit.exp2() * bound(c, 0);
+    let mut least = at_zero(c, &zero);
+    let mut parts = vec![(0.0, c.to_vec())];
+    while let Some((log2_width, c)) = parts.pop() {
+        for value in [at_zero(&c, &zero), at_one(&c, &zero)] {
+            if value < least {
+                least = value;
+            }
+        }
+        let slope = derivative(&c);
+        // What the part can still fall below the least value found.
+        let above = bound(&c, 1) - (c[0].clone() - &least).to_f64() <= roundoff;
+        if above || slope[0].to_f64().abs() >= bound(&slope, 1) || log2_width < unit / 2.0 {
+            continue;
+        }
+        let (half, one) = (zero.ratio(1, 2), zero.one());
+        parts.push((log2_width - 1.0, basis.restrict(&c, &half, &one, c.len())));
+        parts.push((log2_width - 1.0, basis.restrict(&c, &zero, &half, c.len())));
+    }
+    Some(least)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// `f` on the unit interval.
+    fn series(basis: &Basis<f64>, f: impl Fn(f64) -> f64) -> Vec<f64> {
+        let values: Vec<f64> = basis.nodes().iter().map(|x| f(*x)).collect();
+        basis.through(&values, 24)
+    }
+
+    #[test]
+    fn the_first_of_several_roots_is_found() {
+        let basis = Basis::new(&1.0f64, 24, 1);
+        let c = series(&basis, |x| (0.2 - x) * (0.25 - x) * (0.9 - x));
+        let root = first_descent(&basis, &c, 1e-15).unwrap();
+        assert!((root - 0.2).abs() < 1e-13, "{root}");
+        let touch = series(&basis, |x| (x - 0.3) * (x - 0.3));
+        assert_eq!(first_descent(&basis, &touch, 1e-14), None);
+        let rises = series(&basis, |x| x * (0.5 - x));
+        let root = first_descent(&basis, &rises, 1e-14).unwrap();
+        assert!((root - 0.5).abs() < 1e-14, "{root}");
+        let dip = series(&basis, |x| (x - 0.3) * (x - 0.3) - 1e-10);
+        let root = first_descent(&basis, &dip, 1e-14).unwrap();
+        assert!((root - 0.29999).abs() < 1e-9, "{root}");
+        assert!((smallest(&basis, &dip).unwrap() + 1e-10).abs() < 1e-15);
+    }
+}

@@ -1,0 +1,241 @@
+//! Chebyshev series on the unit interval: integration, products with `x`, restriction, and how many terms are needed.
+
+use crate::number::Analytic;
+
+/// Tables that every series of a solution shares. A series is `c₀ + c₁T₁(2x−1) + c₂T₂(2x−1) + …` on `0 ≤ x ≤ 1`.
+#[derive(Clone, Debug)]
+pub(super) struct Basis<S> {
+    /// Chebyshev nodes in `0 … 1`.
+    nodes: Vec<S>,
+    /// `cos(πm/2N)`, `m = 0 … 4N−1`.
+    cosines: Vec<S>,
+    /// `1/4k`.
+    quarter: Vec<S>,
+    /// The series of `xᵏ`.
+    pub(super) powers: Vec<Vec<S>>,
+    /// Gauss–Legendre nodes and weights on `0 … 1`.
+    pub(super) gauss: Vec<(S, S)>,
+}
+
+impl<S: Analytic> Basis<S> {
+    /// Tables for series of up to `size` terms and powers up to `x^terms`.
+    pub(super) fn new(like: &S, size: usize, terms: usize) -> Self {
+        let size = size.max(4);
+        let whole = |n: usize| like.int(i64::try_from(n).unwrap_or(i64::MAX));
+        let step = like.pi() / whole(2 * size);
+        let cosines: Vec<S> = (0..4 * size).map(|m| (step.clone() * whole(m)).cos()).collect();
+        let nodes = (0..size).map(|j| (cosines[2 * j + 1].clone() + like.one()) * like.ratio(1, 2)).collect();
+        let quarter = (0..=size).map(|k| like.one() / whole(4 * k.max(1))).collect();
+        let mut powers = vec![vec![like.one()]];
+        for k in 0..terms {
+            let mut next = powers[k].clone();
+            next.push(like.zero());
+            times_x(&mut next);
+            powers.push(next);
+        }
+        Basis { nodes, cosines, quarter, powers, gauss: gauss_legendre(like, size / 2 + 2) }
+    }
+
+    /// The most terms that a series has.
+    pub(super) fn size(&self) -> usize {
+        self.nodes.len()
+    }
+
+    /// The Chebyshev nodes.
+    pub(super) fn nodes(&self) -> &[S] {
+        &self.nodes
+    }
+
+    /// The first `terms` coefficients of the interpolant through `values` at the nodes.
+    pub(super) fn through(&self, values: &[S], terms: usize) -> Vec<S> {
+        let size = self.size();
+        let scale = self.nodes[0].ratio(2, i64::try_from(size).unwrap_or(i64::MAX));
+        let coefficient = |k: usize| {
+            let mut sum = self.nodes[0].zero();
+            for (j, value) in values.iter().enumerate() {
+                sum = sum + value.clone() * &self.cosines[k * (2 * j + 1) % (4 * size)];
+            }
+            let sum = sum * &scale;
+            if k == 0 { sum * self.nodes[0].ratio(1, 2) } else { sum }
+        };
+        (0..terms.min(size)).map(coefficient).collect()
+    }
+
+    /// The series on `from ≤ x ≤ to`, as a series on the unit interval.
+    pub(super) fn restrict(&self, c: &[S], from: &S, to: &S, terms: usize) -> Vec<S> {
+        let width = to.clone() - from;
+        let values: Vec<S> = self.nodes.iter().map(|x| evaluate(c, &(width.clone() * x + from))).collect();
+        self.through(&values, terms)
+    }
+
+    /// `∫₀ˣ`, in place; the term that would be one too many is dropped.
+    pub(super) fn integrate(&self, c: &mut [S]) {
+        let Some(first) = c.first() else { return };
+        // 4k·b_k = c_{k−1} − c_{k+1}, with c₀ doubled; b₀ makes the value at x = 0 vanish.
+        let mut below = first.clone() + first;
+        let mut start = first.zero();
+        for k in 1..c.len() {
+            let difference = match c.get(k + 1) {
+                Some(above) => below - above,
+                None => below,
+            };
+            below = std::mem::replace(&mut c[k], difference * &self.quarter[k]);
+            start = if k % 2 == 1 { start + &c[k] } else { start - &c[k] };
+        }
+        c[0] = start;
+    }
+
+    /// The series of `e^{rate·x}` with `terms` terms, for `|rate| ≤ 2` or so.
+    pub(super) fn exponential(&self, rate: &S, terms: usize) -> Vec<S> {
+        let values: Vec<S> = self.nodes.iter().map(|x| (x.clone() * rate).exp()).collect();
+        self.through(&values, terms)
+    }
+
+    /// The product of two series, to `terms` terms.
+    pub(super) fn product(&self, a: &[S], b: &[S], terms: usize) -> Vec<S> {
+        let values: Vec<S> = self.nodes.iter().map(|x| evaluate(a, x) * evaluate(b, x)).collect();
+        self.through(&values, terms)
+    }
+}
+
+/// The product with `x`, in place; the term that would be one too many is dropped.
+pub(super) fn times_x<S: Analytic>(c: &mut [S]) {
+    let Some(first) = c.first() else { return };
+    let (half, quarter) = (first.ratio(1, 2), first.ratio(1, 4));
+    let mut below = first.zero();
+    for k in 0..c.len() {
+        let above = c.get(k + 1).map_or_else(|| below.zero(), Clone::clone);
+        // xT_k = T_k/2 + (T_{k+1} + T_{|k−1|})/4.
+        let from_below = if k == 1 { below.clone() + &below } else { below };
+        let here = c[k].clone() * &half + (from_below + above) * &quarter;
+        below = std::mem::replace(&mut c[k], here);
+    }
+}
+
+/// The value at `x`, by Clenshaw's recurrence.
+pub(super) fn evaluate<S: Analytic>(c: &[S], x: &S) -> S {
+    let two_u = x.clone() * x.int(4) - x.int(2);
+    let (mut b1, mut b2) = (x.zero(), x.zero());
+    for k in (1..c.len()).rev() {
+        let b0 = two_u.clone() * &b1 - &b2 + &c[k];
+        b2 = std::mem::replace(&mut b1, b0);
+    }
+    match c.first() {
+        Some(first) => two_u * x.ratio(1, 2) * b1 - b2 + first,
+        None => b1,
+    }
+}
+
+/// The value at `x = 1`.
+pub(super) fn at_one<S: Analytic>(c: &[S], zero: &S) -> S {
+    c.iter().fold(zero.clone(), |sum, term| sum + term)
+}
+
+/// The value at `x = 0`.
+pub(super) fn at_zero<S: Analytic>(c: &[S], zero: &S) -> S {
+    c.iter().enumerate().fold(zero.clone(), |sum, (k, term)| if k % 2 == 0 { sum + term } else { sum - term })
+}
+
+/// The derivative: `c′_{k−1} = c′_{k+1} + 4k c_k`, `c′₀` halved.
+pub(super) fn derivative<S: Analytic>(c: &[S]) -> Vec<S> {
+    let Some(first) = c.first() else { return Vec::new() };
+    let mut d = vec![first.zero(); c.len().max(2) + 1];
+    for k in (1..c.len()).rev() {
+        d[k - 1] = d[k + 1].clone() + c[k].clone() * first.int(4 * i64::try_from(k).unwrap_or(0));
+    }
+    d[0] = d[0].clone() * first.ratio(1, 2);
+    d.truncate(c.len().saturating_sub(1).max(1));
+    d
+}
+
+/// `Σ|c_k|` from `k = first` on, as a double: a bound of the series on its interval.
+pub(super) fn bound<S: Analytic>(c: &[S], first: usize) -> f64 {
+    c.iter().skip(first).map(|term| term.to_f64().abs()).sum()
+}
+
+/// Gauss–Legendre nodes and weights on `0 … 1`.
+///
+/// **Source**: Newton's method on the three-term recurrence, from `cos(π(i+¾)/(n+½))`.
+///
+/// **Accuracy**: within a few roundings: the iteration stops when a step is below the roundoff.
+fn gauss_legendre<S: Analytic>(like: &S, n: usize) -> Vec<(S, S)> {
+    let whole = |k: usize| like.int(i64::try_from(k).unwrap_or(i64::MAX));
+    let step_limit = like.log2_roundoff() + 2.0;
+    let mut rule = Vec::with_capacity(n);
+    for i in 0..n {
+        let mut x = like.double((std::f64::consts::PI * (i as f64 + 0.75) / (n as f64 + 0.5)).cos());
+        let mut slope = like.one();
+        for _ in 0..100 {
+            let (mut p0, mut p1) = (like.one(), x.clone());
+            for k in 2..=n {
+                let p2 = (whole(2 * k - 1) * &x * &p1 - whole(k - 1) * &p0) / whole(k);
+                p0 = std::mem::replace(&mut p1, p2);
+            }
+            slope = whole(n) * (x.clone() * &p1 - &p0) / (x.square() - like.one());
+            let step = p1 / &slope;
+            x = x - &step;
+            if step.is_zero() || step.to_f64().abs().log2() < step_limit {
+                break;
+            }
+        }
+        let weight = like.one() / ((like.one() - x.square()) * slope.square());
+        rule.push(((like.one() + x) * like.ratio(1, 2), weight));
+    }
+    rule
+}
+
+/// How many Chebyshev terms hold a function that is entire, with `|f(s)| ≤ (a + b|s|) e^{θ|s|}` for every complex `s`,
+/// on `0 ≤ s ≤ 1`, to `2^log2_accuracy`.
+///
+/// On the Bernstein ellipse of parameter `ρ > 1` around the unit interval `|s| ≤ σ = ½ + (ρ + 1/ρ)/4`, hence
+/// `|c_k| ≤ 2F ρ^{−k}` with `F = (a + bσ)e^{θσ}`, and what is left out after `n` terms is at most `2F ρ^{−n}/(1 − 1/ρ)`.
+/// The smallest `n` over a grid of `ρ` is taken: every `ρ` gives a valid bound.
+pub(super) fn terms_for(a: f64, b: f64, theta: f64, log2_accuracy: f64) -> usize {
+    let mut best = f64::INFINITY;
+    for j in 1..=80 {
+        let log2_rho = f64::from(j) * 0.25;
+        let rho = log2_rho.exp2();
+        let sigma = 0.5 + (rho + 1.0 / rho) / 4.0;
+        let log2_f = (a + b * sigma).log2() + theta * sigma * std::f64::consts::LOG2_E;
+        best = best.min((1.0 + log2_f - (1.0 - 1.0 / rho).log2() - log2_accuracy) / log2_rho);
+    }
+    best.ceil().clamp(3.0, 4096.0) as usize
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_integral_of_a_series_is_that_of_its_function() {
+        let basis = Basis::new(&1.0, 20, 4);
+        let mut c = basis.exponential(&0.75, 20);
+        basis.integrate(&mut c);
+        for x in [0.0, 0.3, 1.0] {
+            let exact = (0.75f64 * x).exp_m1() / 0.75;
+            assert!((evaluate(&c, &x) - exact).abs() < 1e-15, "{x}");
+        }
+        assert_eq!(evaluate(&basis.powers[3], &0.5), 0.125);
+        let d = derivative(&basis.powers[3]);
+        assert!((evaluate(&d, &0.5) - 0.75).abs() < 1e-15);
+    }
+
+    #[test]
+    fn gauss_legendre_is_exact_to_its_degree() {
+        let rule = gauss_legendre(&1.0f64, 6);
+        let integral: f64 = rule.iter().map(|(x, w)| w * x.powi(11)).sum();
+        assert!((integral - 1.0 / 12.0).abs() < 1e-16);
+    }
+
+    #[test]
+    fn the_number_of_terms_is_enough() {
+        for theta in [1e-3, 0.1, 1.0, 2.0] {
+            for log2_accuracy in [-10.0, -30.0, -50.0] {
+                let basis = Basis::new(&1.0f64, 40, 1);
+                let c = basis.exponential(&theta, 40);
+                let n = terms_for(1.0, 0.0, theta, log2_accuracy);
+                assert!(bound(&c, n) <= log2_accuracy.exp2() + 4e-14, "{theta} {log2_accuracy} {n}");
+            }
+        }
+    }
+}

@@ -1,0 +1,283 @@
+//! The start: from displacement and velocity at `t = 0` to the characteristic that leaves the ground at `t = 0`.
+//!
+//! The rod is continued through its top by reflection of `z = v − v_s`, so the data live on `0 ≤ x ≤ 1` (in `c t₁`). Between
+//! breaks `z_x` and `z_t` are linear in `x`, and the solution that continues such data to the whole plane is elementary:
+//!
+//! ```text
+//! z_x = b + d (x−x₀) + e τ(t),    z_t = d τ(t) + (a + e (x−x₀)) e^{−2rt},    τ(t) = (1 − e^{−2rt})/2r
+//! ```
+//!
+//! It holds in the triangle above its interval; the square cell around that triangle takes its lower sides from it.
+
+use std::collections::VecDeque;
+
+use super::cell::Cell;
+use super::march::{Medium, State};
+use crate::number::{Analytic, Number};
+use crate::rod::{Parameters, Problem, Profile, Start};
+
+/// Linear data on an interval.
+#[derive(Clone, Debug)]
+pub(super) struct Linear<S> {
+    /// Where it begins.
+    from: S,
+    /// Its length.
+    len: S,
+    /// `z_x` there: `b`.
+    strain: S,
+    /// `z_t` there: `a`.
+    velocity: S,
+    /// `dz_x/dx`: `d`.
+    strain_slope: S,
+    /// `dz_t/dx`: `e`.
+    velocity_slope: S,
+}
+
+impl<S: Analytic> Linear<S> {
+    /// The mirror image about `x = ½`; `z` even or odd.
+    fn mirrored(&self, even: bool) -> Self {
+        let sign = |value: S| if even { value } else { -value };
+        let strain = self.strain.clone() + self.strain_slope.clone() * &self.len;
+        let velocity = self.velocity.clone() + self.velocity_slope.clone() * &self.len;
+        Linear {
+            from: self.from.one() - &self.from - &self.len,
+            len: self.len.clone(),
+            strain: sign(-strain),
+            velocity: sign(velocity),
+            strain_slope: sign(self.strain_slope.clone()),
+            velocity_slope: sign(-self.velocity_slope.clone()),
+        }
+    }
+
+    /// Whether `next` continues this one.
+    fn continues_in(&self, next: &Self) -> bool {
+        self.strain.clone() + self.strain_slope.clone() * &self.len == next.strain
+            && self.velocity.clone() + self.velocity_slope.clone() * &self.len == next.velocity
+            && self.strain_slope == next.strain_slope
+            && self.velocity_slope == next.velocity_slope
+    }
+
+    /// The part that begins `offset` later and is `len` long.
+    fn part(&self, offset: &S, len: S) -> Self {
+        Linear {
+            from: self.from.clone() + offset,
+            len,
+            strain: self.strain.clone() + self.strain_slope.clone() * offset,
+            velocity: self.velocity.clone() + self.velocity_slope.clone() * offset,
+            ..self.clone()
+        }
+    }
+
+    /// `z_t` and `z_x` of the continued solution at `x = from + offset` and time `t`.
+    fn at(&self, damping: &S, offset: &S, t: &S) -> (S, S) {
+        let decay = (damping.clone() * t * t.int(-2)).exp();
+        let tau = t.clone() * phi_one(&(damping.clone() * t * t.int(-2)));
+        let z_t =
+            self.strain_slope.clone() * &tau + (self.velocity.clone() + self.velocity_slope.clone() * offset) * decay;
+        let z_x = self.strain.clone() + self.strain_slope.clone() * offset + self.velocity_slope.clone() * tau;
+        (z_t, z_x)
+    }
+}
+
+/// `φ₁(z) = (eᶻ − 1)/z = Σ zᵏ/(k+1)!` for `|z| ≤ 2`, without a division by `z`.
+fn phi_one<S: Analytic>(z: &S) -> S {
+    let (mut sum, mut term) = (z.one(), z.one());
+    for k in 2..10_000 {
+        term = term * z / z.int(k);
+        let next = sum.clone() + &term;
+        if next == sum {
+            break;
+        }
+        sum = next;
+    }
+    sum
+}
+
+/// The units of a solution.
+#[derive(Clone, Debug)]
+pub(super) struct Units<S> {
+    /// `t₁`.
+    pub(super) time: S,
+    /// `V = max(|data|, g t₁)`, or 1 where all of these vanish.
+    pub(super) velocity: S,
+    /// `V t₁`.
+    pub(super) displacement: S,
+    /// `c`.
+    pub(super) wave_speed: S,
+    /// `L`.
+    pub(super) length: S,
+    /// `g`.
+    pub(super) gravity: S,
+}
+
+/// The start in dimensionless form.
+#[derive(Clone, Debug)]
+pub(super) struct Data<S> {
+    /// Units.
+    pub(super) units: Units<S>,
+    /// `R = r t₁`.
+    pub(super) damping: S,
+    /// `g t₁/V`.
+    pub(super) gravity: S,
+    /// `v_s′(0)`.
+    pub(super) slope: S,
+    /// `v(0,0)`.
+    pub(super) ground: S,
+    /// The data, whole rod only.
+    half: Vec<Linear<S>>,
+}
+
+impl<S: Analytic> Data<S> {
+    /// The data of `problem`.
+    ///
+    /// **Accuracy**: a few roundings.
+    pub(super) fn of(problem: &Problem, parameters: &Parameters<S>, free_top: bool) -> Self {
+        let time = parameters.round_trip();
+        let zero = time.zero();
+        let lift = |n: &Number| S::from_number(n, &time.precision());
+        let empty = Profile::default();
+        let (profile, speed) = match &problem.start {
+            Start::Uniform(_) => (&empty, parameters.speed.clone()),
+            Start::Profile(profile) => (profile, zero.clone()),
+        };
+        let reach = parameters.length.int(2) * &parameters.length;
+        let points = |list: &[(Number, Number)]| -> Vec<(S, S)> {
+            list.iter().map(|(x, v)| (lift(x) / &reach, lift(v))).collect()
+        };
+        let displacement = points(&profile.displacement);
+        let mut velocity = points(&profile.velocity);
+        if velocity.is_empty() {
+            velocity = vec![(zero.clone(), -speed.clone())];
+        }
+        // Breaks of either, from 0 to ½.
+        let half = zero.ratio(1, 2);
+        let mut breaks: Vec<S> = vec![zero.clone(), half.clone()];
+        breaks.extend(displacement.iter().chain(&velocity).map(|(x, _)| x.clone()));
+        breaks.retain(|x| !x.is_negative() && *x <= half);
+        breaks.sort_by(|x, y| x.partial_cmp(y).unwrap_or(std::cmp::Ordering::Equal));
+        breaks.dedup();
+        // V.
+        let gravity_speed = parameters.critical_speed();
+        let mut scale = gravity_speed.clone();
+        let mut raise = |candidate: S| {
+            if candidate > scale {
+                scale = candidate;
+            }
+        };
+        velocity.iter().for_each(|(_, v)| raise(v.magnitude()));
+        for pair in breaks.windows(2) {
+            raise((slope(&displacement, &pair[0], &pair[1]) / &time).magnitude());
+        }
+        if let Some((_, v)) = displacement.first() {
+            raise((v.clone() / &time).magnitude());
+        }
+        if scale.is_zero() {
+            scale = zero.one();
+        }
+        let gravity = gravity_speed / &scale;
+        let displacement_unit = scale.clone() * &time;
+        // v_s = g x²/2 + slope·x, stress-free or at its given height at x = ½.
+        let first = displacement.first().map_or_else(|| zero.clone(), |(_, v)| v.clone() / &displacement_unit);
+        let last = displacement.last().map_or_else(|| zero.clone(), |(_, v)| v.clone() / &displacement_unit);
+        let static_slope = if free_top {
+            gravity.clone() * zero.ratio(-1, 2)
+        } else {
+            last * zero.int(2) - gravity.clone() * zero.ratio(1, 4)
+        };
+        let piece = |pair: &[S]| {
+            let len = pair[1].clone() - &pair[0];
+            let (left, right) = (after(&velocity, &pair[0]) / &scale, before(&velocity, &pair[1]) / &scale);
+            let strain = slope(&displacement, &pair[0], &pair[1]) / &displacement_unit;
+            Linear {
+                from: pair[0].clone(),
+                strain: strain - &static_slope - gravity.clone() * &pair[0],
+                strain_slope: -gravity.clone(),
+                velocity_slope: (right - &left) / &len,
+                velocity: left,
+                len,
+            }
+        };
+        let half = breaks.windows(2).map(piece).collect();
+        let units = Units {
+            displacement: displacement_unit,
+            velocity: scale,
+            wave_speed: parameters.wave_speed.clone(),
+            length: parameters.length.clone(),
+            gravity: parameters.gravity.clone(),
+            time,
+        };
+        let damping = parameters.damping.clone() * &units.time;
+        Data { units, damping, gravity, slope: static_slope, ground: first, half }
+    }
+
+    /// `v_t(0⁺, 0)`.
+    pub(super) fn end_velocity(&self) -> S {
+        self.half.first().map_or_else(|| self.slope.zero(), |piece| piece.velocity.clone())
+    }
+
+    /// Marches from `ξ = −1` to `ξ = 0`. `visit` sees every cell; those beyond `x = ½` are mirror images.
+    pub(super) fn march(&self, medium: &Medium<S>, visit: &mut impl FnMut(&Cell<'_, S>)) -> State<S> {
+        let zero = self.slope.zero();
+        let mirror = self.half.iter().rev().map(|piece| piece.mirrored(medium.free_top));
+        let mut pieces: Vec<Linear<S>> = Vec::new();
+        for piece in self.half.iter().cloned().chain(mirror) {
+            match pieces.last_mut() {
+                Some(last) if last.continues_in(&piece) => last.len = last.len.clone() + &piece.len,
+                _ => pieces.push(piece),
+            }
+        }
+        let pieces = pieces.iter().flat_map(|piece| {
+            let count = (piece.len.clone() / &medium.longest).to_f64().ceil().max(1.0) as i64;
+            let len = piece.len.clone() / zero.int(count);
+            (0..count).map(move |k| piece.part(&(len.clone() * len.int(k)), len.clone())).collect::<Vec<_>>()
+        });
+        let mut state = State { round: 0, segments: VecDeque::new() };
+        for piece in pieces.collect::<Vec<_>>().into_iter().rev() {
+            let half = zero.ratio(1, 2);
+            let side = |sign: i64| -> Vec<S> {
+                let value = |x: &S| {
+                    let shift = (x.clone() * &piece.len) * &half;
+                    let offset = piece.len.clone() * &half + shift.clone() * shift.int(sign);
+                    let t = shift - piece.len.clone() * &half;
+                    let (z_t, z_x) = piece.at(&self.damping, &offset, &t);
+                    if sign > 0 { z_t + z_x } else { z_t - z_x }
+                };
+                medium.basis.nodes().iter().map(value).collect()
+            };
+            let p = medium.segment(piece.from.clone(), piece.len.clone(), &side(-1));
+            let q = medium.segment(piece.from.clone(), piece.len.clone(), &side(1));
+            let end = piece.from.clone() + &piece.len;
+            medium.rise(&mut state, (p, q), (-end, piece.from.clone()), visit);
+        }
+        state
+    }
+}
+
+/// The slope between two neighbouring breaks.
+fn slope<S: Analytic>(points: &[(S, S)], from: &S, to: &S) -> S {
+    (before(points, to) - after(points, from)) / (to.clone() - from)
+}
+
+/// The value just after `x`: linear between points, constant beyond them, zero without any.
+fn after<S: Analytic>(points: &[(S, S)], x: &S) -> S {
+    let next = points.partition_point(|(at, _)| at <= x);
+    between(points, next, x)
+}
+
+/// The value just before `x`.
+fn before<S: Analytic>(points: &[(S, S)], x: &S) -> S {
+    let next = points.partition_point(|(at, _)| at < x);
+    between(points, next, x)
+}
+
+/// The value at `x` on the line that ends at point `next`.
+fn between<S: Analytic>(points: &[(S, S)], next: usize, x: &S) -> S {
+    let low = next.checked_sub(1).and_then(|k| points.get(k));
+    match (low, points.get(next)) {
+        (Some((x0, v0)), Some((x1, v1))) if x1 > x0 => {
+            v0.clone() + (v1.clone() - v0) * (x.clone() - x0) / (x1.clone() - x0)
+        }
+        (Some((_, v)), _) | (None, Some((_, v))) => v.clone(),
+        (None, None) => x.zero(),
+    }
+}

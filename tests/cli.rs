@@ -1,0 +1,481 @@
+//! The command line: what stands on standard output and standard error, and the exit code.
+#![cfg(feature = "cli")]
+#![allow(clippy::unwrap_used, clippy::panic)]
+
+use std::io::Write;
+use std::process::{Command, Stdio};
+
+use serde_json::Value;
+
+/// What a run of the command left.
+struct Run {
+    code: Option<i32>,
+    out: String,
+    err: String,
+}
+
+fn run_with(args: &[&str], input: &str) -> Run {
+    let mut child = Command::new(env!("CARGO_BIN_EXE_dalembert"))
+        .args(args)
+        .stdin(Stdio::piped())
+        .stdout(Stdio::piped())
+        .stderr(Stdio::piped())
+        .spawn()
+        .unwrap();
+    // A command that does not read its input may be gone by now.
+    child.stdin.take().unwrap().write_all(input.as_bytes()).ok();
+    let output = child.wait_with_output().unwrap();
+    let text = |bytes| String::from_utf8(bytes).unwrap();
+    Run { code: output.status.code(), out: text(output.stdout), err: text(output.stderr) }
+}
+
+fn run(args: &[&str]) -> Run {
+    run_with(args, "")
+}
+
+/// The standard output of a run that succeeds without a word on standard error.
+#[track_caller]
+fn quiet(args: &[&str]) -> String {
+    let Run { code, out, err } = run(args);
+    assert_eq!((code, err.as_str()), (Some(0), ""), "{args:?}");
+    assert!(!out.contains('\u{1b}'), "{args:?}: colour off a terminal");
+    out
+}
+
+/// A run that is refused: code 2, nothing on standard output, all of `said` on standard error.
+#[track_caller]
+fn refused(args: &[&str], said: &[&str]) {
+    refused_with(args, "", said);
+}
+
+#[track_caller]
+fn refused_with(args: &[&str], input: &str, said: &[&str]) {
+    let Run { code, out, err } = run_with(args, input);
+    assert_eq!((code, out.as_str()), (Some(2), ""), "{args:?}: {err}");
+    assert!(!err.contains('\u{1b}'), "{args:?}: colour off a terminal");
+    // A report is wrapped to the width of a page.
+    let words = err.replace(['│', '×'], " ").split_whitespace().collect::<Vec<_>>().join(" ");
+    for text in said {
+        assert!(words.contains(text), "{args:?}: no `{text}` in\n{err}");
+    }
+}
+
+fn json(args: &[&str]) -> Value {
+    serde_json::from_str(&quiet(args)).unwrap()
+}
+
+#[track_caller]
+fn keys(value: &Value, expected: &[&str]) {
+    let found: Vec<&str> = value.as_object().unwrap().keys().map(String::as_str).collect();
+    assert_eq!(found, expected);
+}
+
+const SCENE: &str = "[rod]\nlength = 1\nwave_speed = 1\n[impact]\nspeed = 3\n[gravity]\nacceleration = 1\n";
+
+/// Every key of schema 1, and that `is_number` holds of every number.
+#[track_caller]
+fn history_schema(history: &Value, is_number: fn(&Value) -> bool) {
+    keys(
+        history,
+        &[
+            "schema",
+            "title",
+            "number",
+            "effects",
+            "exact_until",
+            "events",
+            "contacts",
+            "flights",
+            "stress",
+            "end",
+            "error_estimate",
+            "warnings",
+        ],
+    );
+    assert_eq!(history["schema"], 1);
+    assert!(history["effects"].as_array().unwrap().iter().all(Value::is_string));
+    for event in history["events"].as_array().unwrap() {
+        keys(event, &["kind", "time", "end_velocity", "centre", "centre_velocity"]);
+        assert!(event["kind"] == "impact" || event["kind"] == "release");
+        assert!(["time", "end_velocity", "centre", "centre_velocity"].iter().all(|key| is_number(&event[*key])));
+    }
+    for contact in history["contacts"].as_array().unwrap() {
+        assert!(["from", "to", "impulse", "peak_stress"].iter().all(|key| is_number(&contact[*key])), "{contact}");
+        assert!(["momentum", "energy_squared"].iter().all(|key| is_number(&contact["restitution"][*key])));
+        keys(&contact["energy"], &["total", "translational", "vibrational"]);
+        assert!(contact["energy"].as_object().unwrap().values().all(is_number));
+    }
+    for piece in history["stress"]["pieces"].as_array().unwrap() {
+        keys(piece, &["from", "to", "left", "right"]);
+        assert!(piece.as_object().unwrap().values().all(is_number));
+    }
+    assert!(is_number(&history["end"]["time"]));
+}
+
+#[test]
+fn json_of_a_history_in_double_precision() {
+    let history = json(&["solve", "doyen-ern-piperno", "--format", "json"]);
+    history_schema(&history, Value::is_number);
+    assert_eq!(history["number"], "double");
+    assert_eq!(history["events"].as_array().unwrap().len(), 12);
+    keys(&history["contacts"][0], &["from", "to", "impulse", "peak_stress", "restitution", "energy", "force"]);
+    assert!((history["contacts"][1]["from"].as_f64().unwrap() - 8.0 / 3.0).abs() < 1e-14);
+}
+
+#[cfg(feature = "mp")]
+#[test]
+fn json_of_a_history_in_fractions() {
+    let history = json(&["solve", "doyen-ern-piperno", "--exact", "--format", "json"]);
+    history_schema(&history, Value::is_string);
+    assert_eq!(history["number"], "exact");
+    assert_eq!((&history["events"][0]["kind"], &history["events"][0]["time"]), (&"impact".into(), &"0".into()));
+    assert_eq!((&history["contacts"][1]["from"], &history["contacts"][1]["to"]), (&"8/3".into(), &"10/3".into()));
+    // −P/P and E_h/E_h of the second contact, its end compared with its own start.
+    assert_eq!(history["contacts"][1]["restitution"]["momentum"], "1");
+    assert_eq!(history["contacts"][1]["restitution"]["energy_squared"], "27/23");
+    assert_eq!(history["contacts"][0]["energy"]["vibrational"], "2000/27");
+}
+
+#[cfg(feature = "mp")]
+#[test]
+fn digits_are_exactly_as_many_as_asked_for() {
+    let significant = |text: &str| {
+        let mantissa = text.split(['e', 'E']).next().unwrap_or_default();
+        mantissa.trim_start_matches(['-', '0', '.']).chars().filter(char::is_ascii_digit).count()
+    };
+    for digits in [5_usize, 38, 200] {
+        let text = digits.to_string();
+        let history = json(&["solve", "doyen-ern-piperno", "--digits", &text, "--format", "json"]);
+        history_schema(&history, Value::is_string);
+        assert_eq!(history["number"], format!("{digits} digits"));
+        for event in history["events"].as_array().unwrap() {
+            for key in ["time", "end_velocity", "centre", "centre_velocity"] {
+                let shown = event[key].as_str().unwrap();
+                assert!(shown == "0" || significant(shown) == digits, "{digits} digits: {shown}");
+            }
+        }
+        // 2/3, correctly rounded.
+        let expected = format!("0.{}7", "6".repeat(digits - 1));
+        assert_eq!(history["events"][1]["time"], expected);
+    }
+}
+
+#[test]
+fn an_undefined_restitution_is_null_with_its_reason() {
+    // The rod starts compressed and at rest: no momentum to compare with.
+    let scene =
+        "rod = { length = 1, wave_speed = 1 }\nstart = { displacement = [[0, 0], [1, -0.25]] }\nrun = { time = 3 }";
+    let out = run_with(&["solve", "-", "--format", "json"], scene);
+    let history: Value = serde_json::from_str(&out.out).unwrap();
+    let restitution = &history["contacts"][0]["restitution"];
+    assert!(restitution["momentum"].is_null() && restitution["energy_squared"].is_null());
+    assert!(restitution["undefined"]["momentum"].as_str().unwrap().contains("no momentum"), "{restitution}");
+    assert!(restitution["undefined"]["energy_squared"].as_str().unwrap().contains("E_h"), "{restitution}");
+    // The table says the same in a line of its own.
+    let table = run_with(&["solve", "-"], scene).out;
+    assert!(table.contains("contact from 0: the centre of mass has no momentum"), "{table}");
+    // A contact without an end has none either.
+    let cut = run_with(&["solve", "-", "--format", "json"], &format!("{SCENE}[run]\ntime = 1\n")).out;
+    let history: Value = serde_json::from_str(&cut).unwrap();
+    assert!(history["contacts"][0]["to"].is_null() && history["contacts"][0]["energy"].is_null());
+    assert!(history["contacts"][0]["restitution"]["undefined"]["momentum"].is_string());
+}
+
+#[cfg(feature = "mp")]
+#[test]
+fn exactness_ends_at_a_surd_and_says_so() {
+    // μ = 1: v(0,t) = 1 − (t − 3)²/2 before the second impact.
+    let out = quiet(&["solve", "mu-1-period-36", "--exact"]);
+    assert!(out.contains("exactness ends before the impact at t = 3 + √2 ≈ 4.41421356237"), "{out}");
+    let history = json(&["solve", "mu-1-period-36", "--exact", "--format", "json"]);
+    assert_eq!((&history["end"]["event"], &history["end"]["surd"]), (&"impact".into(), &"3 + √2".into()));
+    assert_eq!(history["events"].as_array().unwrap().len(), 2);
+
+    // With digits it goes on, and says from where.
+    let Run { code, out, err } = run(&["solve", "mu-1-period-36", "--exact", "--digits", "20", "--format", "json"]);
+    assert_eq!(code, Some(0));
+    assert!(err.starts_with("note: exactness ends before the impact at t = 3 + √2"), "{err}");
+    let history: Value = serde_json::from_str(&out).unwrap();
+    assert_eq!((&history["number"], &history["exact_until"]["surd"]), (&"20 digits".into(), &"3 + √2".into()));
+    assert_eq!(history["events"][2]["time"], "4.4142135623730950488");
+    // The tangential landing at 31, and contact until 34.
+    let times: Vec<&str> = history["events"].as_array().unwrap().iter().filter_map(|e| e["time"].as_str()).collect();
+    for time in ["31.000000000000000000", "34.000000000000000000", "36.000000000000000000"] {
+        assert!(times.contains(&time), "{time} in {times:?}");
+    }
+
+    // A sample beyond the surd is refused by its name, not answered in doubles.
+    let beyond = ["sample", "mu-1-period-36", "--quantity", "end", "--times", "4,5", "--exact"];
+    refused(&beyond, &["found time 5", "exactness ends before the impact at t = 3 + √2", "--digits N"]);
+    let Run { code, err, .. } = run(&[&beyond[..], &["--digits", "12"]].concat());
+    assert_eq!(code, Some(0));
+    assert!(err.contains("the values are in 12 digits"), "{err}");
+}
+
+#[cfg(feature = "mp")]
+#[test]
+fn parameters_that_are_no_fractions() {
+    refused(&["solve", "siconos-impacting-bar", "--exact"], &["the wave speed √(350000000/13)", "--digits N"]);
+    let Run { code, out, err } = run(&["solve", "siconos-impacting-bar", "--exact", "--digits", "12"]);
+    assert_eq!(code, Some(0));
+    assert!(err.contains("the wave speed √(350000000/13) is no fraction; all that follows is in 12 digits"), "{err}");
+    // ρ c S v, and 2L/c.
+    assert!(out.contains("1270.82747846") && out.contains("0.000385449644664") && out.contains("12 digits"), "{out}");
+}
+
+#[cfg(feature = "mp")]
+#[test]
+fn tables_of_fractions() {
+    let out = quiet(&["solve", "doyen-ern-piperno", "--exact"]);
+    let mut settings = insta::Settings::clone_current();
+    settings.set_snapshot_path(concat!(env!("CARGO_MANIFEST_DIR"), "/snapshots"));
+    settings.set_prepend_module_to_snapshot(false);
+    settings.set_omit_expression(true);
+    settings.bind(|| {
+        insta::assert_snapshot!("table_doyen_ern_piperno", out);
+        insta::assert_snapshot!("explain_doyen_ern_piperno", quiet(&["explain", "doyen-ern-piperno"]));
+    });
+}
+
+#[test]
+fn samples() {
+    let out = quiet(&["sample", "paper-strong", "--quantity", "stress", "--times", "1,2", "--side", "left"]);
+    let cells: Vec<Vec<&str>> = out.lines().map(|line| line.split_whitespace().collect()).collect();
+    assert_eq!(cells[0], ["t", "side", "v_x"]);
+    // −(μ + g t)/c.
+    assert_eq!(cells[2..], [["1", "left", "-4"], ["2", "left", "-5"]]);
+
+    for (quantity, names) in [
+        ("stress", &["v_x"][..]),
+        ("end", &["v", "v_t"]),
+        ("top", &["v", "v_t"]),
+        ("centre", &["h", "h_rate"]),
+        ("energy", &["total", "translational", "vibrational"]),
+        ("field", &["v", "v_t", "v_x"]),
+    ] {
+        let args = ["sample", "paper-strong", "--quantity", quantity, "--times", "0..2:3"];
+        let samples = json(&[&args[..], &["--format", "json"]].concat());
+        assert_eq!((&samples["schema"], &samples["quantity"]), (&1.into(), &quantity.into()));
+        let rows = samples["rows"].as_array().unwrap();
+        // The field has two ends and the middle for each time.
+        assert_eq!(rows.len(), if quantity == "field" { 9 } else { 3 });
+        for row in rows {
+            keys(row, &["time", "point", "side", "values"]);
+            keys(&row["values"], names);
+            assert_eq!(row["side"], "right");
+            assert!(row["time"].is_number() && row["values"].as_object().unwrap().values().all(Value::is_number));
+            assert_eq!(row["point"].is_number(), quantity == "field");
+        }
+        assert_eq!(rows[rows.len() - 1]["time"], 2.0);
+        let csv = quiet(&[&args[..], &["--format", "csv"]].concat());
+        assert_eq!(csv.lines().next().unwrap(), format!("time,point,side,{}", names.join(",")));
+        assert_eq!(csv.lines().count(), rows.len() + 1);
+    }
+}
+
+#[cfg(feature = "mp")]
+#[test]
+fn samples_in_fractions_have_two_sides() {
+    let at = |side| {
+        let args = ["sample", "paper-strong", "--quantity", "field", "--times", "2", "--points", "0,1/3", "--exact"];
+        json(&[&args[..], &["--format", "json", "--side", side]].concat())
+    };
+    // At the release: −(μ + 2g)/c before it, nothing after it.
+    assert_eq!(at("left")["rows"][0]["values"]["v_x"], "-5");
+    assert_eq!(at("right")["rows"][0]["values"]["v_x"], "0");
+    assert_eq!(at("right")["rows"][1]["point"], "1/3");
+    // A zero in digits is a zero, not what rounding leaves of it.
+    let args = ["sample", "doyen-ern-piperno", "--quantity", "centre", "--times", "0", "--digits", "38"];
+    assert_eq!(json(&[&args[..], &["--format", "json"]].concat())["rows"][0]["values"]["h"], "0");
+}
+
+#[test]
+fn csv_parts() {
+    let first = |part: &[&str]| {
+        let out = quiet(&[&["solve", "paper-strong", "--format", "csv"], part].concat());
+        (out.lines().next().unwrap().to_string(), out.lines().count())
+    };
+    assert_eq!(first(&[]), ("kind,time,end_velocity,centre,centre_velocity".into(), 3));
+    assert_eq!(first(&["--part", "stress"]), ("from,to,left,right".into(), 3));
+    let (header, lines) = first(&["--part", "contacts"]);
+    assert!(header.starts_with("from,to,impulse,peak_stress,restitution_momentum,"));
+    assert_eq!(lines, 2);
+    refused(&["solve", "paper-strong", "--part", "stress"], &["found --part, expected it with --format csv only"]);
+}
+
+#[test]
+fn the_same_bytes_twice() {
+    for format in ["table", "json", "csv"] {
+        let args = ["solve", "mu-3-2-chaotic", "--format", format];
+        assert_eq!(quiet(&args), quiet(&args));
+    }
+}
+
+#[test]
+fn explain_names_the_line_of_every_effect() {
+    let plan = json(&["explain", "doyen-ern-piperno", "--format", "json"]);
+    assert_eq!(plan["number"], "double");
+    let effects = plan["effects"].as_array().unwrap();
+    let effect = |name: &str| effects.iter().find(|effect| effect["effect"] == name).unwrap();
+    let source = quiet(&["scenes", "doyen-ern-piperno"]);
+    let line = effect("gravity")["line"].as_u64().unwrap();
+    assert!(source.lines().nth(line as usize - 1).unwrap().starts_with("acceleration"));
+    assert_eq!((&effect("damping")["called"], &effect("damping")["line"]), (&false.into(), &Value::Null));
+    refused(&["explain", "doyen-ern-piperno", "--format", "csv"], &["expected table or json"]);
+}
+
+#[test]
+fn scenes_are_printed_and_solve_as_printed() {
+    let names: Vec<String> =
+        quiet(&["scenes"]).lines().skip(2).map(|line| line.split_whitespace().next().unwrap().into()).collect();
+    assert!(names.len() >= 12 && names.contains(&"doyen-ern-piperno".to_string()));
+    for name in &names {
+        let source = quiet(&["scenes", name]);
+        assert_eq!(run_with(&["solve", "-"], &source).out, quiet(&["solve", name]), "{name}");
+    }
+    refused(&["scenes", "nope"], &["no built-in scene called `nope`", "dalembert scenes"]);
+}
+
+#[test]
+fn bad_scenes_are_refused_where_they_are_wrong() {
+    refused_with(&["solve", "-"], "[rod]\nlength = -1\n", &["length = -1", "expected a length above zero", "2:10"]);
+    refused_with(&["sample", "-", "--quantity", "end", "--times", "1"], "", &["no [rod]"]);
+    refused_with(&["explain", "-"], "[rod]\nlength = 1\nwavespeed = 1\n", &["did you mean wave_speed?"]);
+    let damped = SCENE.replace("wave_speed = 1", "wave_speed = 1\ndamping = 0.1");
+    refused_with(&["solve", "-", "--exact"], &damped, &["found damping = 0.1 with --exact", "use --digits N"]);
+    refused_with(&["solve", "-", "--accuracy", "2"], &damped, &["found accuracy 2", "between 1e-300 and 0.1"]);
+    refused(&["solve", "no-such-file.toml"], &["found no file and no built-in scene called `no-such-file.toml`"]);
+    refused(&["solve", "doyen"], &["such as `doyen-ern-piperno`"]);
+    refused(&["solve", env!("CARGO_MANIFEST_DIR")], &["cannot read"]);
+}
+
+#[test]
+fn wrong_usage_is_refused() {
+    for args in [&["solve"][..], &["frobnicate"], &["solve", "paper-weak", "--format", "yaml"], &[]] {
+        let Run { code, out, err } = run(args);
+        assert_eq!((code, out.as_str()), (Some(2), ""), "{args:?}");
+        assert!(err.contains("Usage") || err.contains("possible values"), "{args:?}: {err}");
+    }
+    refused(&["solve", "paper-weak", "--digits", "0"], &[if cfg!(feature = "mp") { "1 to 100000" } else { "found" }]);
+    let sample = |more: &[&'static str]| [&["sample", "paper-weak", "--quantity", "field"][..], more].concat();
+    refused(&sample(&["--times", "1..2"]), &["found `1..2`, expected A..B:N"]);
+    refused(&sample(&["--times", "1..2:1"]), &["found a count of 1"]);
+    refused(&sample(&["--times", "one"]), &["found `one`"]);
+    refused(&sample(&["--times", "-1,2"]), &["found time -1"]);
+    refused(&sample(&["--times", "1", "--points", "3/2"]), &["found point 1.5, expected one between 0 and 1"]);
+    refused(
+        &["sample", "paper-weak", "--quantity", "end", "--times", "1", "--points", "0"],
+        &["--quantity field only"],
+    );
+}
+
+#[cfg(not(feature = "mp"))]
+#[test]
+fn digits_need_the_feature() {
+    refused(&["solve", "paper-weak", "--digits", "20"], &["found a build without arbitrary precision"]);
+    refused(&["solve", "paper-weak", "--exact"], &["found a build without arbitrary precision"]);
+}
+
+/// The damped scenes go through the same commands and formats.
+#[test]
+fn a_damped_history() {
+    let history = json(&["solve", "figure-4-r02", "--format", "json"]);
+    assert_eq!(history["effects"], serde_json::json!(["unilateral_contact", "gravity", "damping"]));
+    let contact = &history["contacts"][0];
+    assert_eq!(contact["to"], 2.0);
+    // e_E² of an independent program, `paper_r02_mu5` in tests/reference/first_contact.json, and its factors (4.73).
+    let value = |key: &str| contact["restitution"][key].as_f64().unwrap();
+    let truth = 0.400_991_089_077_476_9;
+    assert!((value("energy_squared") - truth).abs() < 1e-12, "{}", value("energy_squared"));
+    assert!((value("translational_part") * value("energy_kept") - truth).abs() < 1e-12);
+    // The stress between the ends of a piece is its Chebyshev sum.
+    let piece = &history["stress"]["pieces"][0];
+    let terms: Vec<f64> = piece["chebyshev"].as_array().unwrap().iter().map(|term| term.as_f64().unwrap()).collect();
+    let middle = terms.iter().step_by(2).zip([1.0, -1.0].iter().cycle()).map(|(term, sign)| term * sign).sum::<f64>();
+    let sample = json(&["sample", "figure-4-r02", "--quantity", "stress", "--times", "1", "--format", "json"]);
+    let stress = sample["rows"][0]["values"]["v_x"].as_f64().unwrap();
+    assert!((middle - stress).abs() < 1e-12 * stress.abs(), "{middle} {stress}");
+    let explained = json(&["explain", "figure-4-r02", "--format", "json"]);
+    assert_eq!(explained["engine"], "cells");
+}
+
+#[test]
+fn no_bounce_is_an_answer() {
+    let scene = "[rod]\nlength = 1\nwave_speed = 1\ndamping = 1\n[impact]\nspeed = 1\n[gravity]\nacceleration = 1\n";
+    let Run { code, out, err } = run_with(&["solve", "-", "--format", "json"], scene);
+    assert_eq!((code, err.as_str()), (Some(0), ""));
+    let history: Value = serde_json::from_str(&out).unwrap();
+    assert_eq!(history["events"].as_array().unwrap().len(), 1);
+    assert_eq!((&history["contacts"][0]["to"], &history["contacts"][0]["energy"]), (&Value::Null, &Value::Null));
+    assert!(history["end"]["reason"].as_str().unwrap().starts_with("no bounce: "), "{}", history["end"]);
+}
+
+#[test]
+#[cfg(feature = "mp")]
+fn a_damped_history_in_digits() {
+    let digits = json(&["solve", "figure-1-r26", "--digits", "30", "--format", "json"]);
+    // `figure1_r26` in tests/reference/first_contact.json.
+    assert_eq!(digits["events"][1]["time"], "1.78848103329887545175038380599");
+    assert_eq!(digits["events"][1]["centre_velocity"], "0.00844410807842711928782346527941");
+    let many = json(&["solve", "figure-1-r26", "--digits", "1000", "--format", "json"]);
+    assert!(many["events"][1]["time"].as_str().unwrap().len() == 1001);
+    assert!(many["end"]["reason"].as_str().unwrap().contains("300 digits"), "{}", many["end"]);
+    let rounded = json(&["solve", "figure-1-r26", "--accuracy", "1e-15", "--format", "json"]);
+    assert_eq!(rounded["events"][1]["time"], 1.788_481_033_298_875_5);
+}
+
+#[test]
+fn help_completions_and_version() {
+    for args in
+        [&["--help"][..], &["solve", "--help"], &["sample", "--help"], &["explain", "--help"], &["scenes", "--help"]]
+    {
+        assert!(quiet(args).contains("Usage: dalembert"), "{args:?}");
+    }
+    assert!(quiet(&["--version"]).starts_with("dalembert "));
+    for shell in ["bash", "zsh", "fish", "elvish", "powershell"] {
+        assert!(quiet(&["completions", shell]).contains("dalembert"), "{shell}");
+    }
+}
+
+#[test]
+fn files_are_written_whole_or_not_at_all() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = |name: &str| folder.path().join(name).to_string_lossy().into_owned();
+    let content = |name: &str| std::fs::read_to_string(folder.path().join(name)).unwrap();
+    let names = || std::fs::read_dir(folder.path()).unwrap().count();
+
+    // The ending of the file chooses the format; nothing stands on standard output.
+    for (file, format) in [("a.json", "json"), ("a.csv", "csv"), ("a.txt", "table")] {
+        assert_eq!(quiet(&["solve", "paper-strong", "-o", &path(file)]), "");
+        assert_eq!(content(file), quiet(&["solve", "paper-strong", "--format", format, "-o", "-"]));
+    }
+    assert_eq!(names(), 3);
+
+    // A run that fails leaves an old file as it was.
+    refused(
+        &["sample", "paper-strong", "--quantity", "end", "--times", "-1", "-o", &path("a.txt")],
+        &["found time -1"],
+    );
+    assert_eq!(content("a.txt"), quiet(&["solve", "paper-strong"]));
+    refused(&["solve", "paper-strong", "-o", &path("missing/a.json")], &["cannot write", "no folder"]);
+    refused(&["solve", "paper-strong", "-o", &folder.path().to_string_lossy()], &["cannot write"]);
+    assert_eq!(names(), 3, "nothing is left behind");
+}
+
+/// What the README shows is what the command prints; `…` stands for lines left out.
+#[cfg(feature = "mp")]
+#[test]
+fn the_readme_shows_real_output() {
+    let readme = include_str!("../README.md");
+    let mut shown = 0;
+    for block in readme.split("```text\n").skip(1).filter_map(|rest| rest.split("```").next()) {
+        let (command, lines) = block.split_once('\n').unwrap();
+        let args: Vec<&str> = command.strip_prefix("$ dalembert ").unwrap().split_whitespace().collect();
+        let out = quiet(&args);
+        for line in lines.lines().filter(|line| line.trim() != "…") {
+            assert!(out.lines().any(|real| real.trim_end() == line.trim_end()), "{command}: {line}");
+            shown += 1;
+        }
+    }
+    assert!(shown > 20);
+}

@@ -1,0 +1,263 @@
+//! Damped scenes as a user solves them, against the reference values of independent programs and the table of hard cases.
+#![allow(clippy::unwrap_used, clippy::panic)]
+
+mod common;
+
+use common::{close, number, problem, reference};
+use dalembert::rod::{Parameters, Run};
+use dalembert::scene::{Ask, Plan};
+use dalembert::{Ending, EventKind, History, Number, Problem, Scene, Side, Solution, solve};
+use serde_json::Value;
+
+/// The plan of a damped scene, for the problem that a test has made itself.
+fn plan(problem: &Problem, ask: Ask) -> Plan {
+    let damping = problem.rod.damping.as_ref().map_or(String::new(), |r| format!("damping = \"{r}\""));
+    let scene = format!("[rod]\nlength = 1\nwave_speed = 1\n{damping}\n[impact]\nspeed = 1\n");
+    Plan::of(&Scene::parse(&scene).unwrap(), ask).unwrap()
+}
+
+fn in_doubles(problem: &Problem, accuracy: Option<f64>) -> Box<dyn History<f64>> {
+    match solve(problem, &plan(problem, Ask { accuracy, ..Ask::default() }), |_, _| ()).unwrap() {
+        Solution::Double(history) => history,
+        _ => panic!("doubles were asked for"),
+    }
+}
+
+fn items(value: &Value) -> &Vec<Value> {
+    value.as_array().unwrap()
+}
+
+/// The times, in the order of the reference, at which a first contact is asked about.
+fn last_time(case: &Value) -> Number {
+    let bounce = &case["bounce_time"];
+    if bounce.is_null() { number(&items(&case["stress"])[1][0]) } else { number(bounce) }
+}
+
+/// A run to just beyond the bounce, which may be irrational.
+fn run(case: &Value) -> Run {
+    let last = last_time(case).to_f64() * (1.0 + 1e-9);
+    Run::Time(format!("{last:e}").parse().unwrap())
+}
+
+#[test]
+fn every_first_contact_in_doubles() {
+    for case in reference("first_contact") {
+        let name = case["name"].as_str().unwrap();
+        let problem = problem(&case, run(&case));
+        let history = in_doubles(&problem, None);
+        let rod = Parameters::<f64>::of(&problem, &()).unwrap();
+        let speed = rod.speed.max(rod.critical_speed());
+        let (rise, strain) = (speed * rod.round_trip(), speed / rod.wave_speed);
+        let f = |value: &Value| number(value).to_f64();
+        for row in items(&case["stress"]) {
+            let ours = history.stress(&f(&row[0]), Side::Right).unwrap();
+            close(&format!("{name}: stress at {}", row[0]), ours, f(&row[1]), 0.0, 1e-12);
+        }
+        for row in items(&case["motion"]) {
+            let (h, rate) = history.centre(&f(&row[0])).unwrap();
+            close(&format!("{name}: h at {}", row[0]), h, f(&row[1]), 1e-3 * rise, 1e-12);
+            close(&format!("{name}: h' at {}", row[0]), rate, f(&row[2]), 1e-3 * speed, 1e-12);
+        }
+        for row in items(&case["field"]) {
+            let ours = history.field(&f(&row[0]), &f(&row[1]), Side::Right).unwrap();
+            let place = format!("{name} at x = {}, t = {}", row[0], row[1]);
+            close(&format!("{place}: v"), ours.displacement, f(&row[2]), 1e-2 * rise, 1e-12);
+            close(&format!("{place}: v_t"), ours.velocity, f(&row[3]), 1e-2 * speed, 1e-12);
+            close(&format!("{place}: v_x"), ours.strain, f(&row[4]), 1e-2 * strain, 1e-12);
+        }
+        let bounce = &case["bounce_time"];
+        if bounce.is_null() {
+            assert!(history.events().iter().all(|event| event.kind == EventKind::Impact), "{name}");
+            continue;
+        }
+        let release = &history.events()[1];
+        assert_eq!(release.kind, EventKind::Release, "{name}");
+        close(&format!("{name}: t_b"), release.time, f(bounce), 0.0, 1e-12);
+        close(&format!("{name}: h(t_b)"), release.centre, f(&case["bounce_h"]), 1e-3 * rise, 1e-12);
+        close(&format!("{name}: h'(t_b)"), release.centre_velocity, f(&case["bounce_h_rate"]), 1e-3 * speed, 1e-12);
+        let energy = history.energy(&release.time).unwrap();
+        let truth = &case["bounce_energy"];
+        let start = 0.5 * rod.speed * rod.speed * rod.length;
+        close(&format!("{name}: E"), energy.total, f(&truth["total"]), 1e-3 * start, 1e-12);
+        close(&format!("{name}: E_h"), energy.translational, f(&truth["translational"]), 1e-3 * start, 1e-12);
+        close(&format!("{name}: E_z"), energy.vibrational, f(&truth["vibrational"]), 1e-3 * start, 1e-12);
+    }
+}
+
+/// Thirty digits of everything, each relative to itself.
+#[cfg(feature = "mp")]
+#[test]
+fn every_first_contact_to_thirty_digits() {
+    use rug::{Float, Rational};
+    for case in reference("first_contact") {
+        let name = case["name"].as_str().unwrap();
+        let problem = problem(&case, run(&case));
+        let ask = Ask { digits: Some(30), ..Ask::default() };
+        let Solution::Digits(history, _) = solve(&problem, &plan(&problem, ask), |_, _| ()).unwrap() else {
+            panic!("digits were asked for");
+        };
+        let bits = history.end().prec();
+        let lift = |value: &Value| Float::with_val(bits, number(value).to_rational());
+        // The reference has 34 to 45 digits; its times have 30, its zeros are below 1e-40 of their scale.
+        let same = |what: &str, ours: &Float, truth: &Value| {
+            let truth = number(truth).to_rational();
+            let ours = ours.to_rational().unwrap();
+            let error = Rational::from(&ours - &truth).abs();
+            let scale = truth.clone().abs().max(Rational::from((1, 1_000_000)));
+            let accuracy = number(&Value::from("1e-29")).to_rational();
+            assert!(error <= scale * accuracy, "{name}: {what}: {} against {}", ours.to_f64(), truth.to_f64());
+        };
+        for row in items(&case["stress"]) {
+            same("stress", &history.stress(&lift(&row[0]), Side::Right).unwrap(), &row[1]);
+        }
+        for row in items(&case["motion"]) {
+            let (h, rate) = history.centre(&lift(&row[0])).unwrap();
+            same("h", &h, &row[1]);
+            same("h'", &rate, &row[2]);
+        }
+        for row in items(&case["field"]) {
+            let field = history.field(&lift(&row[0]), &lift(&row[1]), Side::Right).unwrap();
+            same("v", &field.displacement, &row[2]);
+            same("v_t", &field.velocity, &row[3]);
+            same("v_x", &field.strain, &row[4]);
+        }
+        if case["bounce_time"].is_null() {
+            continue;
+        }
+        let release = history.events()[1].clone();
+        same("t_b", &release.time, &case["bounce_time"]);
+        same("h(t_b)", &release.centre, &case["bounce_h"]);
+        same("h'(t_b)", &release.centre_velocity, &case["bounce_h_rate"]);
+        let energy = history.energy(&release.time).unwrap();
+        same("E", &energy.total, &case["bounce_energy"]["total"]);
+        same("E_h", &energy.translational, &case["bounce_energy"]["translational"]);
+        same("E_z", &energy.vibrational, &case["bounce_energy"]["vibrational"]);
+    }
+}
+
+/// Later impacts to 1e-9, for an accuracy of 1e-10; the start is the first event here and not in the file.
+#[test]
+fn later_impacts() {
+    for case in reference("damped_bounces") {
+        let name = case["name"].as_str().unwrap();
+        let history = in_doubles(&problem(&case, Run::Time(number(&case["time"]))), Some(1e-10));
+        let expected = items(&case["events"]);
+        assert_eq!(history.events().len(), expected.len() + 1, "{name}");
+        for (event, truth) in history.events()[1..].iter().zip(expected) {
+            let value = |key: &str| truth[key].as_f64().unwrap();
+            assert_eq!(event.kind == EventKind::Impact, truth["kind"] == "impact", "{name}");
+            close(&format!("{name}: time"), event.time, value("time"), 1.0, 1e-9);
+            close(&format!("{name}: h"), event.centre, value("h"), 1.0, 1e-9);
+            close(&format!("{name}: h'"), event.centre_velocity, value("h_rate"), 1.0, 1e-9);
+        }
+    }
+}
+
+/// The rod of section 4 of the hard cases: g = 0, c = 1, t₁ = 1, μ = 1.
+fn late(damping: &str) -> Problem {
+    let mut problem = common::uniform("1/2", "1", "0", "1", Run::Impacts(1));
+    problem.rod.damping = Some(damping.parse().unwrap());
+    problem
+}
+
+#[cfg(feature = "mp")]
+#[test]
+fn late_bounces_are_no_rounding_noise() {
+    for (damping, truth) in [
+        ("3.13", "11.66136670144388438415940577414071411946"),
+        ("3.135", "15.33318837004014558549067344667885556140"),
+        ("3.14", "31.40409847658940057227989202780933895332"),
+    ] {
+        let release = in_doubles(&late(damping), None).events()[1].clone();
+        assert_eq!(release.kind, EventKind::Release);
+        // Doubles carry r = 3.14 itself only to 1e-16, but the scene's decimal is exact.
+        close(damping, release.time, truth.parse().unwrap(), 0.0, 1e-15);
+    }
+}
+
+#[test]
+fn an_overdamped_rod_without_gravity_never_bounces() {
+    for damping in ["3.15", "3.3", "10", "1e4"] {
+        let history = in_doubles(&late(damping), None);
+        assert!(matches!(history.ending(), Ending::NoBounce(_)), "{damping}: {:?}", history.ending());
+        assert_eq!(history.events().len(), 1);
+        let end = history.end();
+        for k in 1..200 {
+            let time = end * f64::from(k) / 200.0;
+            assert!(history.stress(&time, Side::Right).unwrap() <= 0.0, "{damping} at {time}");
+        }
+    }
+}
+
+/// On either side of the threshold of (2.32): a root just after t₁ = 2 on the left, exactly 2 on the right.
+#[test]
+fn the_threshold_of_the_first_bounce() {
+    let near = |speed: &str| {
+        let mut problem = common::uniform("1", "1", "1", speed, Run::Impacts(1));
+        problem.rod.damping = Some("0.2".parse().unwrap());
+        in_doubles(&problem, None).events()[1].time
+    };
+    let below = near("2.59364495455930337818987448");
+    assert!(below > 2.0 && below < 2.0 + 1e-9, "{below}");
+    let left = near("2.59364495456019330337818987448");
+    assert!((2.0..2.0 + 1e-11).contains(&left), "{left}");
+    assert_eq!(near("2.59364495456019530337818987448"), 2.0);
+}
+
+/// Every accuracy that is asked for is met, by the history in many bits and by what the error estimate says.
+#[cfg(feature = "mp")]
+#[test]
+fn the_ladder_of_accuracies() {
+    let mut problem = common::uniform("1", "1", "1", "3", Run::Time(11.into()));
+    problem.rod.damping = Some("0.1".parse().unwrap());
+    let ask = Ask { digits: Some(25), ..Ask::default() };
+    let Solution::Digits(truth, _) = solve(&problem, &plan(&problem, ask), |_, _| ()).unwrap() else {
+        panic!("digits were asked for");
+    };
+    for exponent in [2, 4, 6, 8, 10, 12, 13] {
+        let accuracy = 10f64.powi(-exponent);
+        let history = in_doubles(&problem, Some(accuracy));
+        let scales = history.scales();
+        assert!(history.error_estimate() <= accuracy, "{accuracy:e}");
+        assert_eq!(history.events().len(), truth.events().len());
+        for (ours, truth) in history.events().iter().zip(truth.events()) {
+            close("time", ours.time, truth.time.to_f64(), scales.time, accuracy);
+            close("h", ours.centre, truth.centre.to_f64(), scales.time * scales.velocity, accuracy);
+            close("h'", ours.centre_velocity, truth.centre_velocity.to_f64(), scales.velocity, accuracy);
+        }
+    }
+}
+
+/// Later impacts to fifty digits: two runs of different precision agree in all of them.
+#[cfg(feature = "mp")]
+#[test]
+fn later_impacts_to_fifty_digits() {
+    let mut problem = common::uniform("1", "1", "1", "1", Run::Time(13.into()));
+    problem.rod.damping = Some("0.05".parse().unwrap());
+    let digits = |n: u32| match solve(&problem, &plan(&problem, Ask { digits: Some(n), ..Ask::default() }), |_, _| ()) {
+        Ok(Solution::Digits(history, _)) => history,
+        _ => panic!("digits were asked for"),
+    };
+    let (a, b) = (digits(50), digits(60));
+    assert_eq!(a.events().len(), 7);
+    for (a, b) in a.events().iter().zip(b.events()) {
+        for (x, y) in [(&a.time, &b.time), (&a.centre, &b.centre), (&a.centre_velocity, &b.centre_velocity)] {
+            let error = (x.clone() - y).abs();
+            assert!(error <= y.clone().abs() * 1e-50, "{} against {}", x, y);
+        }
+    }
+}
+
+/// A thousand digits of the first contact: the closed form at two precisions.
+#[cfg(feature = "mp")]
+#[test]
+fn a_first_contact_to_a_thousand_digits() {
+    let digits =
+        |n: u32| match solve(&late("2.6"), &plan(&late("2.6"), Ask { digits: Some(n), ..Ask::default() }), |_, _| ()) {
+            Ok(Solution::Digits(history, _)) => history.events()[1].time.clone(),
+            _ => panic!("digits were asked for"),
+        };
+    let (a, b) = (digits(1000), digits(1020));
+    let error = (rug::Float::with_val(4000, &a) - &b).abs();
+    assert!(error <= rug::Float::with_val(64, rug::Float::parse("1e-1000").unwrap()), "{error}");
+}
