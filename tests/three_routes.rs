@@ -1,10 +1,11 @@
 //! The same first contact by three routes that share no formula: closed sums over rays, sums over modes, and, without
-//! damping, the lattice. Each value carries a proved bound, and two routes may differ by no more than their bounds.
+//! damping, the lattice; with damping, the cells. Each value carries a proved bound, and two routes may differ by no more than their bounds.
 #![allow(clippy::unwrap_used, clippy::panic)]
 
 mod common;
 
 use common::{number, reference};
+use dalembert::damped::Damped;
 use dalembert::first_contact::{Estimate, FirstContact};
 use dalembert::history::{History, Side};
 use dalembert::lattice::Undamped;
@@ -158,6 +159,53 @@ fn rays_modes_and_the_lattice() {
             let (found, by_modes) = (rays.energy(&time).0.total, modal.energy(&time));
             near("E", energy, found, energy);
             assert!((by_modes.value - energy).abs() <= by_modes.error, "{by_modes:?} {energy}");
+        }
+    }
+}
+
+/// With damping the characteristic cells are the lattice's route: stress, field, centre and energy of the first contact.
+#[test]
+fn rays_modes_and_the_cells() {
+    for (damping, speed, gravity, last) in [
+        ("1e-9", "3", "1", 0.95),
+        ("0.05", "1", "1", 1.4),
+        ("0.2", "5", "1", 0.95),
+        ("0.5", "1", "1", 1.9),
+        ("1.3", "1", "0", 1.7),
+        ("5", "1", "1", 2.2),
+    ] {
+        let time = (2.0 * last * 1.01).to_string().parse().unwrap();
+        let mut problem = common::uniform("1", "1", gravity, speed, Run::Time(time));
+        problem.rod.damping = Some(damping.parse().unwrap());
+        let rod = Parameters::<f64>::of(&problem, &()).unwrap();
+        let (rays, modal) = (FirstContact::new(&rod), Modal::new(&rod, 1024));
+        let cells = Damped::<f64>::solve(&problem, &(), 13.0).unwrap();
+        let scale = rod.speed + rod.critical_speed();
+        let slack = 4.0 * cells.error_estimate() * scale;
+        assert!(slack < 1e-9 * scale, "{damping}: {slack:e}");
+        for part in [0.2, 0.55, 0.8, 1.0] {
+            let time = part * last * rod.round_trip();
+            if cells.contacts()[0].to.is_some_and(|end| end < time) {
+                continue;
+            }
+            let near = |what: &str, truth: f64, a: &Estimate<f64>, b: &Estimate<f64>| {
+                let wrong = [a, b].map(|e| (e.value - truth).abs() - e.error);
+                let name = format!("r = {damping}, t = {time}, {what}: {truth} {a:?} {b:?}");
+                assert!(wrong.iter().all(|w| *w <= slack), "{name}");
+            };
+            let (a, b) = (rays.stress(&time, Side::Right), modal.stress(&time, Side::Right));
+            near("stress", cells.stress(&time, Side::Right).unwrap(), &a, &b);
+            let (h, rate) = cells.centre(&time).unwrap();
+            let ((a, da), (b, db)) = (rays.centre(&time), modal.centre(&time));
+            near("h", h / 2.0, &Estimate { value: a.value / 2.0, ..a }, &Estimate { value: b.value / 2.0, ..b });
+            near("h′", rate, &da, &db);
+            for x in [0.1, 0.6, 0.97] {
+                let truth = cells.field(&x, &time, Side::Right).unwrap();
+                let ((a, e), (b, d)) = (rays.field(&x, &time, Side::Right), modal.field(&x, &time, Side::Right));
+                let estimate = |value: f64, error: f64| Estimate { value, error };
+                near("v_t", truth.velocity, &estimate(a.velocity, e[1]), &estimate(b.velocity, d[1]));
+                near("v_x", truth.strain, &estimate(a.strain, e[2]), &estimate(b.strain, d[2]));
+            }
         }
     }
 }

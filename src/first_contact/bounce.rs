@@ -59,7 +59,7 @@ impl<S: Analytic> FirstContact<S> {
     /// `t_b` (1.10): the end of the first contact.
     ///
     /// **Source**: Theorem 1, with (2.32) in closed form: `t_b = t₁` where `μ (2 − I₀(R)) > μ₀ (I₀(R) + I₁(R))`.
-    /// Later cells are searched one by one on a Chebyshev sum whose rest is bounded, see [`Bounce::Undecided`] for
+    /// Without damping Corollary 1 says all. Later cells are searched one by one on a Chebyshev sum whose rest is bounded, see [`Bounce::Undecided`] for
     /// when that fails. "Never" is shown in one of two ways. For `R ≥ π`: the kernel `H_r` is positive, because its
     /// lowest mode, overdamped, exceeds the sum of all others from `t₁` on. For `R < π`: at some lattice time
     /// `|v_t ∓ c(v_x − v_s′)| < gL/c` throughout the rod; this largest Riemann invariant of the transient cannot
@@ -89,6 +89,9 @@ impl<S: Analytic> FirstContact<S> {
         }
         if total.is_zero() {
             return Bounce::Never { reason: "neither speed nor gravity: nothing moves".into() };
+        }
+        if self.damping.is_zero() && mu.is_positive() {
+            return self.undamped_bounce();
         }
         // By far the most frequent answer.
         let (value, error) = self.force(route, &mu.one(), 1);
@@ -124,6 +127,19 @@ impl<S: Analytic> FirstContact<S> {
             why: format!("no bounce in {MOST_CELLS} round trips, which is the limit"),
             digits: false,
         }
+    }
+
+    /// Corollary 1, which also settles `μ = μ₀`, where the stress is zero just after `t₁` and rises from there.
+    fn undamped_bounce(&self) -> Bounce<S> {
+        let (mu, mu0, t1) = (&self.rod.speed, &self.critical, &self.round_trip);
+        let blur = roundoff(mu) * &mu.int(8);
+        if *mu >= *mu0 {
+            let sure = *mu > mu0.clone() + blur.clone() * mu0 || mu0.is_zero();
+            let error = if sure { 0.0 } else { (blur * t1).to_f64() };
+            return Bounce::At { time: t1.clone(), kind: BounceKind::Jump, error };
+        }
+        let time = t1.int(2) * t1 - mu.clone() / &self.rod.gravity;
+        Bounce::At { error: (blur * &time).to_f64(), time, kind: BounceKind::Root }
     }
 
     /// `(μ e^{−rt}H_r + μ₀ e^{−rt}G_r/t₁)/(μ + μ₀)` with `k` returning rays, positive in contact; and its rounding
