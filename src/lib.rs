@@ -36,6 +36,7 @@ pub mod error;
 pub mod first_contact;
 pub mod history;
 pub mod lattice;
+pub mod modal;
 pub mod number;
 #[cfg(feature = "cli")]
 pub mod output;

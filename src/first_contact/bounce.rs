@@ -1,11 +1,9 @@
 //! The bounce time `t_b`: the first root or jump of the stress, or the reason why there is none.
 
-use super::field::{Estimate, FirstContact, Sum};
-use super::search::{FirstRoot, coefficients, first_root};
+use super::field::{FirstContact, Sum};
 use crate::history::Side;
+use crate::modal::Modal;
 use crate::number::Analytic;
-#[cfg(feature = "mp")]
-use crate::rod::Parameters;
 use crate::special::roundoff;
 
 /// How the contact ends.
@@ -45,6 +43,15 @@ pub enum BounceKind {
     Root,
 }
 
+/// Where the stress comes from.
+#[derive(Clone, Debug)]
+pub(super) enum Route<S> {
+    /// The rays that have returned.
+    Rays,
+    /// The modes.
+    Modes(Modal<S>),
+}
+
 /// Cells `(k t₁, (k+1) t₁)` that are searched.
 const MOST_CELLS: i64 = 256;
 
@@ -52,7 +59,7 @@ impl<S: Analytic> FirstContact<S> {
     /// `t_b` (1.10): the end of the first contact.
     ///
     /// **Source**: Theorem 1, with (2.32) in closed form: `t_b = t₁` where `μ (2 − I₀(R)) > μ₀ (I₀(R) + I₁(R))`.
-    /// Later cells are searched one by one on a Chebyshev sum whose rest is bounded, see [`Bounce::Undecided`] for
+    /// Without damping Corollary 1 says all. Later cells are searched one by one on a Chebyshev sum whose rest is bounded, see [`Bounce::Undecided`] for
     /// when that fails. "Never" is shown in one of two ways. For `R ≥ π`: the kernel `H_r` is positive, because its
     /// lowest mode, overdamped, exceeds the sum of all others from `t₁` on. For `R < π`: at some lattice time
     /// `|v_t ∓ c(v_x − v_s′)| < gL/c` throughout the rod; this largest Riemann invariant of the transient cannot
@@ -69,6 +76,11 @@ impl<S: Analytic> FirstContact<S> {
     /// # Ok::<(), dalembert::Error>(())
     /// ```
     pub fn bounce(&self) -> Bounce<S> {
+        self.bounce_by(&Route::Rays)
+    }
+
+    /// The same, with the stress from `route`.
+    pub(super) fn bounce_by(&self, route: &Route<S>) -> Bounce<S> {
         let (mu, mu0) = (&self.rod.speed, &self.critical);
         let total = mu.clone() + mu0;
         if mu.is_negative() || !total.is_finite() || !self.damping.is_finite() {
@@ -78,8 +90,11 @@ impl<S: Analytic> FirstContact<S> {
         if total.is_zero() {
             return Bounce::Never { reason: "neither speed nor gravity: nothing moves".into() };
         }
+        if self.damping.is_zero() && mu.is_positive() {
+            return self.undamped_bounce();
+        }
         // By far the most frequent answer.
-        let (value, error) = self.force(&mu.one(), 1);
+        let (value, error) = self.force(route, &mu.one(), 1);
         if value < -error {
             return Bounce::At { time: self.round_trip.clone(), kind: BounceKind::Jump, error: 0.0 };
         }
@@ -89,7 +104,7 @@ impl<S: Analytic> FirstContact<S> {
         };
         for k in first..=MOST_CELLS {
             let start = mu.int(k);
-            let (value, error) = self.force(&start, k);
+            let (value, error) = self.force(route, &start, k);
             if value < -error.clone() {
                 let time = start * &self.round_trip;
                 return Bounce::At { time, kind: BounceKind::Jump, error: 0.0 };
@@ -98,7 +113,7 @@ impl<S: Analytic> FirstContact<S> {
                 let why = format!("just after t = {k} t₁ the stress cannot be told from zero");
                 return Bounce::Undecided { until: start * &self.round_trip, why, digits: true };
             }
-            if let Some(end) = self.cell(k) {
+            if let Some(end) = self.cell(route, k) {
                 return end;
             }
             let looked = k <= 4 || k.count_ones() <= 2 && k % 2 == 0;
@@ -114,12 +129,33 @@ impl<S: Analytic> FirstContact<S> {
         }
     }
 
+    /// Corollary 1, which also settles `μ = μ₀`, where the stress is zero just after `t₁` and rises from there.
+    fn undamped_bounce(&self) -> Bounce<S> {
+        let (mu, mu0, t1) = (&self.rod.speed, &self.critical, &self.round_trip);
+        let blur = roundoff(mu) * &mu.int(8);
+        if *mu >= *mu0 {
+            let sure = *mu > mu0.clone() + blur.clone() * mu0 || mu0.is_zero();
+            let error = if sure { 0.0 } else { (blur * t1).to_f64() };
+            return Bounce::At { time: t1.clone(), kind: BounceKind::Jump, error };
+        }
+        let time = t1.int(2) * t1 - mu.clone() / &self.rod.gravity;
+        Bounce::At { error: (blur * &time).to_f64(), time, kind: BounceKind::Root }
+    }
+
     /// `(μ e^{−rt}H_r + μ₀ e^{−rt}G_r/t₁)/(μ + μ₀)` with `k` returning rays, positive in contact; and its rounding
     /// error.
-    fn force(&self, trips: &S, k: i64) -> (S, S) {
-        let parts = self.ground(trips, k);
+    pub(super) fn force(&self, route: &Route<S>, trips: &S, k: i64) -> (S, S) {
         let total = self.rod.speed.clone() + &self.critical;
         let (alpha, beta) = (self.rod.speed.clone() / &total, self.critical.clone() / &total);
+        if let Route::Modes(modal) = route {
+            let side = if *trips == trips.int(k + 1) { Side::Left } else { Side::Right };
+            let [impact, weight] = modal.ground(trips, side);
+            let unit = roundoff(trips).to_f64() * 8.0;
+            let bound = |e: &crate::first_contact::Estimate<S>| e.error + unit * e.value.to_f64().abs();
+            let error = alpha.double(bound(&impact)) * &alpha + beta.double(bound(&weight)) * &beta;
+            return (impact.value * &alpha + weight.value * &beta, error);
+        }
+        let parts = self.ground(trips, k);
         let bound = |sum: &Sum<S>, share: &S| share.double(sum.roundings + 8.0 * sum.value.to_f64().abs()) * share;
         let error = bound(&parts.impact, &alpha) + &bound(&parts.weight, &beta);
         (parts.impact.value * &alpha + parts.weight.value * &beta, error * &roundoff(trips))
@@ -194,251 +230,4 @@ impl<S: Analytic> FirstContact<S> {
         }
         Ok(k)
     }
-
-    /// Whether, at `k t₁`, the transient is below the static stress everywhere in the rod: then it stays so.
-    fn settled(&self, k: i64) -> Option<String> {
-        const NODES: usize = 24;
-        if self.critical.is_zero() {
-            return None;
-        }
-        let trips = self.damping.int(k);
-        let total = self.rod.speed.clone() + &self.critical;
-        let (alpha, beta) = (self.rod.speed.clone() / &total, self.critical.clone() / &total);
-        let (mut upward, mut downward) = (Vec::with_capacity(NODES + 1), Vec::with_capacity(NODES + 1));
-        let mut roundings = 0.0f64;
-        let share = beta.to_f64() / 2.0;
-        for j in 0..=NODES {
-            let node = (std::f64::consts::PI * j as f64 / NODES as f64).cos();
-            // The ends belong to the open interval: their rays are those that have arrived inside.
-            let a = trips.double((0.25 + 0.25 * node).clamp(1e-12, 0.5 - 1e-12));
-            let [_, rate, slope] = self.field_parts(&a, &trips, Side::Right)?;
-            let velocity = rate.impact.value * &alpha + rate.weight.value * &beta;
-            let held = a - trips.ratio(1, 2);
-            let strain = slope.impact.value * &alpha + (slope.weight.value - held) * &beta;
-            let (up, down) = ((velocity.clone() - &strain).to_f64(), (velocity + strain).to_f64());
-            if up.abs().max(down.abs()) > share {
-                return None;
-            }
-            upward.push(up);
-            downward.push(down);
-            roundings +=
-                rate.impact.roundings + rate.weight.roundings + slope.impact.roundings + slope.weight.roundings;
-        }
-        let size = |values: &[f64]| coefficients(values).iter().map(|c| c.abs()).sum::<f64>();
-        // Interpolation in a, from the ellipse ρ = 8 around the rod.
-        let interpolation =
-            4.0 * self.amplitude(k as f64, (8.0 - 1.0 / 8.0) / 8.0, 1.0, 1.0) * 8f64.powi(-(NODES as i32));
-        // Nodes at the ends were moved by 10⁻¹².
-        let rest = interpolation + self.bound(roundings) + 1e-9;
-        let largest = size(&upward).max(size(&downward)) + rest;
-        (largest < share * (1.0 - 1e-9)).then(|| {
-            let part = largest / share;
-            format!(
-                "from t = {k} t₁ on the transient stays below {part:.4} of the static stress gL/c², and the rod settles under its weight"
-            )
-        })
-    }
-
-    /// The first root inside `(k t₁, (k+1) t₁)`, where the stress is compressive at the left end; `None` where there
-    /// is none.
-    ///
-    /// Chebyshev interpolation in n + 1 points is off by at most `4Mρ⁻ⁿ/(ρ−1)`. The ellipse with `ρ + 1/ρ = 4k + 2`
-    /// stays in Re τ ≥ 0, where `|e^{−Rτ}I₀(R√(τ²−j²))| ≤ 1`, because `(Re √(τ²−j²))² ≤ (Re τ)²`; so each ray adds at
-    /// most 1 to the impact's share and, integrated from j, at most 2k + 1 to the weight's: `M ≤ (2k+1)²`.
-    fn cell(&self, k: i64) -> Option<Bounce<S>> {
-        let at = |x: f64| self.damping.int(k) + (self.damping.double(x) + self.damping.one()) / self.damping.int(2);
-        let lost =
-            |why: String| Some(Bounce::Undecided { until: self.damping.int(k) * &self.round_trip, why, digits: true });
-        let probes = [-1.0, 0.0, 1.0].map(|x| self.force(&at(x), k).0.magnitude());
-        let mut scale = probes[0].zero();
-        for probe in probes {
-            if probe > scale {
-                scale = probe;
-            }
-        }
-        if scale.is_zero() {
-            return lost(format!(
-                "between {k} t₁ and {} t₁ the stress is below every number that this precision holds",
-                k + 1
-            ));
-        }
-        let width = 2.0 * k as f64 + 1.0;
-        let rho = width + (width * width - 1.0).sqrt();
-        let log_bound = 2.0 * width.ln() - scale.ln().to_f64() + (4.0 / (rho - 1.0)).ln();
-        let n = ((log_bound + 35.0) / rho.ln()).ceil().clamp(8.0, 4000.0) as usize;
-        let mut values = Vec::with_capacity(n + 1);
-        let mut rounding = 0.0f64;
-        for j in 0..=n {
-            let (value, error) = self.force(&at((std::f64::consts::PI * j as f64 / n as f64).cos()), k);
-            values.push((value / &scale).to_f64());
-            rounding = rounding.max((error / &scale).to_f64());
-        }
-        let sum = coefficients(&values);
-        let steep: f64 = (0u32..).zip(&sum).map(|(n, c)| f64::from(n * n) * c.abs()).sum();
-        let total: f64 = sum.iter().map(|c| c.abs()).sum();
-        let argument = 2f64.powf(self.damping.log2_roundoff().max(-53.0)) * 4.0 * (k as f64 + 1.0) * steep;
-        // The interpolant of errors is at most 1 + (2/π) ln n < 6.3 times as large for n ≤ 4000.
-        let error =
-            (log_bound - n as f64 * rho.ln()).exp() + 6.3 * rounding + argument + 1e-15 * (n as f64 + 4.0) * total;
-        if rounding.is_nan() || rounding > 1e-7 {
-            return lost(format!("between {k} t₁ and {} t₁ rounding reaches {rounding:.1e} of the stress", k + 1));
-        }
-        let sign = |x: f64| {
-            let (value, error) = self.force(&at(x), k);
-            (value.magnitude() > error).then(|| value.is_positive())
-        };
-        match first_root(&sum, error, sign) {
-            FirstRoot::None => None,
-            FirstRoot::Unclear(x) => {
-                lost(format!("near t = {:.9} t₁ the stress cannot be told from zero", at(x).to_f64()))
-            }
-            FirstRoot::Between { lo, hi, slope } => {
-                Some(self.refine(k, at(lo), at(hi), &(scale.double(2.0 * slope) * &scale)))
-            }
-        }
-    }
-
-    /// The root in a bracket on which the force falls at least as fast as `slope`: the Illinois variant of regula
-    /// falsi.
-    fn refine(&self, k: i64, lo: S, hi: S, slope: &S) -> Bounce<S> {
-        let (mut a, mut b) = (lo, hi);
-        let (mut fa, mut fb) = (self.force(&a, k).0, self.force(&b, k).0);
-        let unit = roundoff(&a);
-        let mut best = (b.clone(), fb.magnitude(), self.force(&b, k).1);
-        for _ in 0..400 {
-            let step = fb.clone() * &(b.clone() - &a) / (fb.clone() - &fa);
-            if !step.is_finite() {
-                break;
-            }
-            let c = b.clone() - &step;
-            let (fc, error) = self.force(&c, k);
-            let (size, moved) = (fc.magnitude(), (c.clone() - &b).magnitude());
-            if size <= best.1 {
-                best = (c.clone(), size.clone(), error.clone());
-            }
-            if size <= error.clone() / error.int(16) || moved <= unit.clone() * &c {
-                break;
-            }
-            if fc.is_positive() == fb.is_positive() {
-                fa = fa.clone() / fa.int(2);
-            } else {
-                a = b;
-                fa = fb;
-            }
-            b = c;
-            fb = fc;
-        }
-        let (root, size, error) = best;
-        let off = ((size + &error) / slope + unit * &root.int(4) * &root).to_f64();
-        Bounce::At { error: off * self.round_trip.to_f64(), time: root * &self.round_trip, kind: BounceKind::Root }
-    }
-}
-
-impl FirstContact<f64> {
-    /// `t_b`, with as many digits in between as it takes, up to some thousand, to be sure of `accuracy`, relative.
-    ///
-    /// **Source**: [`FirstContact::bounce`], in doubles first. Without the feature `mp` that is also the last word.
-    ///
-    /// **Accuracy**: `error` says what was reached.
-    ///
-    /// ```
-    /// # use dalembert::{rod::Parameters, first_contact::{Bounce, FirstContact}};
-    /// // g = 0, R = 3.135: the terms are e⁴⁸, their sum is of order one.
-    /// let rod = Parameters { length: 0.5, wave_speed: 1.0, damping: 3.135, gravity: 0.0, speed: 1.0 };
-    /// # #[cfg(feature = "mp")] {
-    /// let Bounce::At { time, .. } = FirstContact::new(&rod).bounce_within(1e-12) else { panic!("it bounces") };
-    /// assert!((time - 15.33318837004014).abs() < 1e-11);
-    /// # }
-    /// ```
-    pub fn bounce_within(&self, accuracy: f64) -> Bounce<f64> {
-        let bounce = self.bounce();
-        #[cfg(feature = "mp")]
-        if !good(&bounce, accuracy) {
-            return escalate(&self.rod, accuracy).unwrap_or(bounce);
-        }
-        let _ = accuracy;
-        bounce
-    }
-
-    /// `v_x(0,t)` to `accuracy`, relative, as far as longer numbers reach; and the bits that were used, 53 for doubles.
-    ///
-    /// **Source**: [`FirstContact::stress`]. Without the feature `mp` doubles are all there is.
-    ///
-    /// **Accuracy**: the estimate's `error` says what was reached.
-    pub fn stress_within(&self, time: f64, side: Side, accuracy: f64) -> (Estimate<f64>, u32) {
-        let stress = self.stress(&time, side);
-        let enough = |found: &Estimate<f64>| found.error <= accuracy * found.value.abs();
-        if enough(&stress) || stress.error.is_infinite() {
-            return (stress, 53);
-        }
-        #[cfg(feature = "mp")]
-        {
-            use crate::number::Scalar;
-            // A lattice time as doubles compute it is meant to be that lattice time.
-            let trips = self.trips(&time);
-            let whole = trips.floor_int().filter(|k| trips == *k as f64);
-            for bits in LADDER {
-                let long = longer(&self.rod, bits);
-                let time = match whole {
-                    Some(k) => long.round_trip() * k,
-                    None => rug::Float::with_val(bits, time),
-                };
-                let found = long.stress(&time, side);
-                let value = found.value.to_f64();
-                let found = Estimate { value, error: found.error + 2f64.powi(-53) * value.abs() };
-                if enough(&found) {
-                    return (found, bits);
-                }
-            }
-        }
-        (stress, 53)
-    }
-}
-
-/// Bits that are tried where doubles do not suffice.
-#[cfg(feature = "mp")]
-const LADDER: [u32; 6] = [128, 256, 512, 1024, 2048, 4096];
-
-/// The same rod, exactly, in longer numbers.
-#[cfg(feature = "mp")]
-fn longer(rod: &Parameters<f64>, bits: u32) -> FirstContact<rug::Float> {
-    let lift = |x: f64| rug::Float::with_val(bits, x);
-    FirstContact::new(&Parameters {
-        length: lift(rod.length),
-        wave_speed: lift(rod.wave_speed),
-        damping: lift(rod.damping),
-        gravity: lift(rod.gravity),
-        speed: lift(rod.speed),
-    })
-}
-
-/// Whether more digits would add nothing.
-#[cfg(feature = "mp")]
-fn good<S: Analytic>(bounce: &Bounce<S>, accuracy: f64) -> bool {
-    match bounce {
-        Bounce::At { time, error, .. } => *error <= accuracy * time.to_f64(),
-        Bounce::Never { .. } => true,
-        Bounce::Undecided { digits, .. } => !digits,
-    }
-}
-
-/// The bounce from the same parameters, exact in longer numbers.
-#[cfg(feature = "mp")]
-fn escalate(rod: &Parameters<f64>, accuracy: f64) -> Option<Bounce<f64>> {
-    let mut last = None;
-    for bits in LADDER {
-        let bounce = longer(rod, bits).bounce();
-        let enough = good(&bounce, accuracy);
-        last = Some(match bounce {
-            Bounce::At { time, kind, error } => {
-                Bounce::At { error: error + 2f64.powi(-53) * time.to_f64(), time: time.to_f64(), kind }
-            }
-            Bounce::Never { reason } => Bounce::Never { reason },
-            Bounce::Undecided { until, why, digits } => Bounce::Undecided { until: until.to_f64(), why, digits },
-        });
-        if enough {
-            break;
-        }
-    }
-    last
 }

@@ -190,6 +190,11 @@ impl<S: Analytic> FirstContact<S> {
 
     /// `V`, `V_t`, `V_x` at the travel time `a` from the ground, `0 ≤ a ≤ 1/2`.
     pub(super) fn field_parts(&self, a: &S, trips: &S, side: Side) -> Option<[Parts<S>; 3]> {
+        self.field_of(a, trips, |travel, _| travel < trips || (travel == trips && side == Side::Right))
+    }
+
+    /// The same with those rays, of a travel time, upwards or downwards, that have `arrived`.
+    pub(super) fn field_of(&self, a: &S, trips: &S, arrived: impl Fn(&S, bool) -> bool) -> Option<[Parts<S>; 3]> {
         let (r, one) = (&self.damping, trips.one());
         let fall = -(r.int(2) * r * trips);
         let (fallen, dropped) = (-(phi1(&fall) * trips), -(phi2(&fall) * &trips.square()));
@@ -201,7 +206,7 @@ impl<S: Analytic> FirstContact<S> {
         let quarter = r.square() / r.int(2);
         for j in 0..=rays {
             for (travel, down) in [(r.int(j) + a, false), (r.int(j + 1) - a, true)] {
-                if travel > *trips || (travel == *trips && side == Side::Left) {
+                if !arrived(&travel, down) {
                     continue;
                 }
                 let ray = Ray::new(r, &travel, trips);
@@ -247,15 +252,20 @@ impl<S: Analytic> FirstContact<S> {
         (Field { displacement: displacement.value, velocity: velocity.value, strain: strain.value }, errors)
     }
 
-    /// A bound of `v_t`, `c v_x` and `v_t − h′` where the travel time a is complex, at most `beyond` from the rod.
+    /// A bound of `v_t`, `c v_x` and `v_t − h′` where the travel time a is complex, at most `δ = beyond` from the rod.
     ///
-    /// Each ray adds at most `e^{Rδ}` times `4μ + 8μ₀ s² (1 + Rs)`, `s = τ + δ`, by `Σ qⁿIₙ = e^{(z/2)(q+1/q)}` and
-    /// `n Iₙ ≤ (z/2) I_{n−1}`, with `|ξ|, |η|` for ξ, η; there are no more than 4τ + 4 terms with what free fall and
-    /// the centre add.
+    /// Let X, Y be `|ξ|`, `|η|` of one ray. The coefficients of every ψ_n are positive, so `|ψ_n(ξ,η)| ≤ ψ_n(X,Y)`, and
+    /// `(R/2)ⁿ ψ_n(X,Y) = qⁿ I_n(z)` with `q² = X/Y`, `z² = R²XY`. As ξ and η are at most δ from real values with the sum
+    /// 2τ, `A = e^{−Rτ} Σ_{n≥0} qⁿI_n ≤ e^{−Rτ} Σ_ℤ qⁿI_n = e^{R(X+Y)/2 − Rτ} ≤ e^{Rδ}`, and X ≤ s = τ + δ. Then
+    /// - the impact adds `I₀ + 2Σ(±q)ⁿI_n` to `v_t` and `I₀` to `c v_x`, at most 2A each;
+    /// - by `2n I_n = z(I_{n−1} − I_{n+1}) ≤ z I_{n−1}`, the weight's `(2/R) Σ n qⁿ I_n` in `c v_x` is at most XA, and
+    ///   `(2/R) Σ n² qⁿ I_n ≤ X(1 + RX/2)A`; in `v_t` no coefficient exceeds `n² + ½`: at most `X(3/2 + RX/2)A`.
+    ///
+    /// No more than 2τ + 2 rays have arrived, free fall is at most μ + μ₀τ, and h′ is a mean of the real `v_t`.
     pub(super) fn amplitude(&self, tau: f64, beyond: f64, mu: f64, mu0: f64) -> f64 {
         let (r, s) = (self.damping.to_f64(), tau + beyond);
-        let each = 4.0 * mu + 8.0 * mu0 * s * s * (1.0 + r * s);
-        ((4.0 * tau + 4.0) * each * (r * beyond).exp()).clamp(1e-150, f64::MAX)
+        let each = 2.0 * mu + 2.0 * mu0 * s * (1.0 + r * s);
+        ((4.0 * tau + 6.0) * each * (r * beyond).exp()).clamp(1e-150, f64::MAX)
     }
 
     /// `h(t)` and `h′(t) = P/L`: the centre of mass, relative to its place in the undeformed rod on the ground.

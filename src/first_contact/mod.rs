@@ -5,11 +5,13 @@
 //! other.
 
 mod bounce;
+mod cells;
 mod energy;
 mod field;
 mod rebound;
 mod search;
 mod undamped;
+mod within;
 
 pub use bounce::{Bounce, BounceKind};
 pub use field::{Estimate, FirstContact};

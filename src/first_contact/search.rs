@@ -40,9 +40,15 @@ fn evaluate(coefficients: &[f64], x: f64) -> (f64, f64) {
 /// `sign` for places where the sum alone does not tell.
 ///
 /// `B = Σ |c_n| n²(n²−1)/3` bounds the sum's second derivative. On an interval of width w the sum stays above its
-/// lesser end minus B w²/8, and its slope keeps its sign where |f′(middle)| > B w/2. By Markov's inequality the slope
-/// of what is left out is below n² `error`; four times that is granted. Intervals are taken from the left, each
-/// begins with a plus, and none is left without proof, so no earlier root is missed.
+/// lesser end minus B w²/8, and its slope keeps its sign where |f′(middle)| > B w/2, less what the slopes of function
+/// and sum differ by, `4(n+1)²·error`. That holds because the difference has two parts, whose bounds add up to
+/// `error`. The one of rounded values is a polynomial of degree n, and Markov's inequality gives its slope n² times its
+/// size. The other, of a function that is at most M on the ellipse ρ ≥ 5.8, is `Σ_{k>n} a_k (T_k − T_m)` with the alias
+/// m ≤ n of k and `|a_k| ≤ 2Mρ^{−k}`: at most `4Mρ^{−n}/(ρ−1) = e`, and for n ≥ 8 its slope is at most
+/// `4M Σ_{k>n} k² ρ^{−k} ≤ 4M(n+1)² ρ^{−n−1}/(1 − 1.27/5.8) < 1.3(n+1)² e`.
+///
+/// Intervals are taken from the left, each begins with a plus, and none is left without proof, so no earlier root is
+/// missed. The one that holds the root is cut until the slope is known within a factor of two.
 pub(super) fn first_root(sum: &[f64], error: f64, sign: impl Fn(f64) -> Sign) -> FirstRoot {
     let bend: f64 = (0u32..).zip(sum).map(|(n, c)| (f64::from(n).powi(4) - f64::from(n).powi(2)) * c.abs() / 3.0).sum();
     let steepness = 4.0 * (sum.len() * sum.len()) as f64 * error;
@@ -64,7 +70,7 @@ pub(super) fn first_root(sum: &[f64], error: f64, sign: impl Fn(f64) -> Sign) ->
         if slope > 0.0 {
             match known(hi) {
                 Some(true) => continue,
-                Some(false) => return FirstRoot::Between { lo, hi, slope },
+                Some(false) => return narrow(sum, lo, hi, slope, bend, steepness, known),
                 // The function falls towards something that cannot be told from zero.
                 None => {}
             }
@@ -78,6 +84,33 @@ pub(super) fn first_root(sum: &[f64], error: f64, sign: impl Fn(f64) -> Sign) ->
         stack.push((lo, cut));
     }
     FirstRoot::None
+}
+
+/// A shorter bracket of the same root, on which the slope is at least half of what it is in the middle.
+fn narrow(
+    sum: &[f64],
+    lo: f64,
+    hi: f64,
+    slope: f64,
+    bend: f64,
+    steepness: f64,
+    known: impl Fn(f64) -> Sign,
+) -> FirstRoot {
+    let (mut a, mut b, mut least) = (lo, hi, slope);
+    for _ in 0..40 {
+        let mid = 0.5 * (a + b);
+        let middle = evaluate(sum, mid).1.abs();
+        least = least.max(middle - bend * (b - a) / 2.0 - steepness);
+        if least >= 0.5 * middle {
+            break;
+        }
+        match known(mid) {
+            Some(true) => a = mid,
+            Some(false) => b = mid,
+            None => break,
+        }
+    }
+    FirstRoot::Between { lo: a, hi: b, slope: least }
 }
 
 #[cfg(test)]

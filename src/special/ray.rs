@@ -152,38 +152,29 @@ impl<S: Analytic> Ray<S> {
     pub fn sums<const K: usize>(&self, first: [i64; K], weight: impl Fn(i64) -> [i64; K]) -> RaySums<S, K> {
         let last = first.iter().copied().max().unwrap_or(1);
         let terms = self.terms(last);
+        let (start, start_roundings) = self.start();
         let mut sums: [S; K] = std::array::from_fn(|_| self.xi.zero());
-        let mut heads: [Option<S>; K] = std::array::from_fn(|_| None);
+        // ψ_n = ψ_0 ρ_1 ⋯ ρ_n: the last factors are at hand when the pass comes down to n₀.
+        let mut heads: [S; K] = std::array::from_fn(|_| start.clone());
         let mut sigma = self.xi.zero();
-        let mut products: Vec<S> = Vec::new();
         for n in (1..=terms).rev() {
             let weights = weight(n);
             for k in 0..K {
                 if n >= first[k] {
-                    let tail = std::mem::replace(&mut sums[k], self.xi.zero());
-                    sums[k] = tail * &sigma + self.xi.int(weights[k]);
+                    sums[k] = sums[k].clone() * &sigma + self.xi.int(weights[k]);
                 }
             }
             let rho = self.ratio(n, &sigma);
             sigma = rho.clone() * &self.half;
             if n <= last {
-                products.push(rho);
-            }
-        }
-        let (start, start_roundings) = self.start();
-        // `products` holds ρ_last … ρ_1: from the end, ψ_n/ψ_0 = ρ_1 ⋯ ρ_n.
-        let mut head = start.clone();
-        for (n, rho) in (1..).zip(products.iter().rev()) {
-            head = head * rho;
-            for k in 0..K {
-                if first[k] == n {
-                    heads[k] = Some(head.clone());
+                for k in 0..K {
+                    if n <= first[k] {
+                        heads[k] = heads[k].clone() * &rho;
+                    }
                 }
             }
         }
-        let scaled = sums.into_iter().zip(heads).map(|(sum, head)| sum * &head.unwrap_or_else(|| self.xi.zero()));
-        let mut scaled = scaled;
-        let sums = std::array::from_fn(|_| scaled.next().unwrap_or_else(|| self.xi.zero()));
+        let sums = std::array::from_fn(|k| sums[k].clone() * &heads[k]);
         let n = terms as f64;
         let sum_roundings = if terms >= MOST_TERMS {
             f64::INFINITY

@@ -1,0 +1,160 @@
+//! One cell between two lattice times: has the transient died away, and where is the first root of the stress.
+
+use super::bounce::{Bounce, BounceKind, Route};
+use super::field::FirstContact;
+use super::search::{FirstRoot, coefficients, first_root};
+use crate::number::Analytic;
+use crate::special::roundoff;
+
+impl<S: Analytic> FirstContact<S> {
+    /// Whether, at `k t₁`, the transient is below the static stress everywhere in the rod: then it stays so.
+    ///
+    /// At a lattice time no ray is inside the rod, so both invariants are analytic in a; with 25 Chebyshev points the
+    /// interpolant is off by at most `4M·8^{−24}/7`, M from [`FirstContact::amplitude`], and it is nowhere larger than the
+    /// sum of its coefficients' magnitudes. Errors of the values add up with `|ℓ_j| ≤ 2`.
+    pub(super) fn settled(&self, k: i64) -> Option<String> {
+        const NODES: usize = 24;
+        if self.critical.is_zero() {
+            return None;
+        }
+        let trips = self.damping.int(k);
+        let total = self.rod.speed.clone() + &self.critical;
+        let (alpha, beta) = (self.rod.speed.clone() / &total, self.critical.clone() / &total);
+        let (mut upward, mut downward) = (Vec::with_capacity(NODES + 1), Vec::with_capacity(NODES + 1));
+        let mut roundings = 0.0f64;
+        let share = beta.to_f64() / 2.0;
+        for j in 0..=NODES {
+            let node = (std::f64::consts::PI * j as f64 / NODES as f64).cos();
+            let a = trips.double((0.25 + 0.25 * node).clamp(0.0, 0.5));
+            // The limit from inside at the ground: the ray that comes down has arrived, the one it starts has not.
+            let [_, rate, slope] =
+                self.field_of(&a, &trips, |travel, down| *travel < trips || (*travel == trips && down))?;
+            let velocity = rate.impact.value * &alpha + rate.weight.value * &beta;
+            let held = a - trips.ratio(1, 2);
+            let strain = slope.impact.value * &alpha + (slope.weight.value - held) * &beta;
+            let (up, down) = ((velocity.clone() - &strain).to_f64(), (velocity + strain).to_f64());
+            if up.abs().max(down.abs()) > share {
+                return None;
+            }
+            upward.push(up);
+            downward.push(down);
+            roundings +=
+                rate.impact.roundings + rate.weight.roundings + slope.impact.roundings + slope.weight.roundings;
+            roundings += 16.0 * (up.abs() + down.abs() + 1.0);
+        }
+        // The largest value and the largest slope of an interpolant, by its coefficients.
+        let size = |values: &[f64]| {
+            let sum = coefficients(values);
+            let steep: f64 = (0u32..).zip(&sum).map(|(n, c)| f64::from(n * n) * c.abs()).sum();
+            (sum.iter().map(|c| c.abs()).sum::<f64>(), steep)
+        };
+        // Interpolation in a, from the ellipse ρ = 8 around the rod.
+        let interpolation =
+            4.0 * self.amplitude(k as f64, (8.0 - 1.0 / 8.0) / 8.0, 1.0, 1.0) * 8f64.powi(-(NODES as i32));
+        let ((up, up_steep), (down, down_steep)) = (size(&upward), size(&downward));
+        // Nodes and coefficients are doubles: the nodes are off by two roundings, the coefficients by n + 4.
+        let doubles = 1e-15 * (up_steep.max(down_steep) + (NODES as f64 + 4.0) * up.max(down));
+        let largest = up.max(down) + interpolation + 2.0 * self.bound(roundings) + doubles;
+        (largest < share * (1.0 - 1e-9)).then(|| {
+            let part = largest / share;
+            format!(
+                "from t = {k} t₁ on the transient stays below {part:.4} of the static stress gL/c², and the rod settles under its weight"
+            )
+        })
+    }
+
+    /// The first root inside `(k t₁, (k+1) t₁)`, where the stress is compressive at the left end; `None` where there
+    /// is none.
+    ///
+    /// Chebyshev interpolation in n + 1 points is off by at most `4Mρ⁻ⁿ/(ρ−1)`. The ellipse with `ρ + 1/ρ = 4k + 2`
+    /// stays in Re τ ≥ 0, where `|e^{−Rτ}I₀(R√(τ²−j²))| ≤ 1`, because `(Re √(τ²−j²))² ≤ (Re τ)²`; so each ray adds at
+    /// most 1 to the impact's share and, integrated from j, at most 2k + 1 to the weight's: `M ≤ (2k+1)²`.
+    pub(super) fn cell(&self, route: &Route<S>, k: i64) -> Option<Bounce<S>> {
+        let at = |x: f64| self.damping.int(k) + (self.damping.double(x) + self.damping.one()) / self.damping.int(2);
+        let lost =
+            |why: String| Some(Bounce::Undecided { until: self.damping.int(k) * &self.round_trip, why, digits: true });
+        let probes = [-1.0, 0.0, 1.0].map(|x| self.force(route, &at(x), k).0.magnitude());
+        let mut scale = probes[0].zero();
+        for probe in probes {
+            if probe > scale {
+                scale = probe;
+            }
+        }
+        if scale.is_zero() {
+            return lost(format!(
+                "between {k} t₁ and {} t₁ the stress is below every number that this precision holds",
+                k + 1
+            ));
+        }
+        let width = 2.0 * k as f64 + 1.0;
+        let rho = width + (width * width - 1.0).sqrt();
+        let log_bound = 2.0 * width.ln() - scale.ln().to_f64() + (4.0 / (rho - 1.0)).ln();
+        let n = ((log_bound + 35.0) / rho.ln()).ceil().clamp(8.0, 4000.0) as usize;
+        let mut values = Vec::with_capacity(n + 1);
+        let mut rounding = 0.0f64;
+        for j in 0..=n {
+            let (value, error) = self.force(route, &at((std::f64::consts::PI * j as f64 / n as f64).cos()), k);
+            values.push((value / &scale).to_f64());
+            rounding = rounding.max((error / &scale).to_f64());
+        }
+        let sum = coefficients(&values);
+        let steep: f64 = (0u32..).zip(&sum).map(|(n, c)| f64::from(n * n) * c.abs()).sum();
+        let total: f64 = sum.iter().map(|c| c.abs()).sum();
+        // Places are off by two roundings of k + 1, at the nodes with the interpolant's factor 6.3.
+        let argument = 2f64.powf(self.damping.log2_roundoff().max(-53.0)) * 16.0 * (k as f64 + 1.0) * steep;
+        // The interpolant of errors is at most 1 + (2/π) ln n < 6.3 times as large for n ≤ 4000.
+        let error =
+            (log_bound - n as f64 * rho.ln()).exp() + 6.3 * rounding + argument + 1e-15 * (n as f64 + 4.0) * total;
+        if rounding.is_nan() || rounding > 1e-7 {
+            return lost(format!("between {k} t₁ and {} t₁ rounding reaches {rounding:.1e} of the stress", k + 1));
+        }
+        let sign = |x: f64| {
+            let (value, error) = self.force(route, &at(x), k);
+            (value.magnitude() > error).then(|| value.is_positive())
+        };
+        match first_root(&sum, error, sign) {
+            FirstRoot::None => None,
+            FirstRoot::Unclear(x) => {
+                lost(format!("near t = {:.9} t₁ the stress cannot be told from zero", at(x).to_f64()))
+            }
+            FirstRoot::Between { lo, hi, slope } => {
+                Some(self.refine(route, k, at(lo), at(hi), &(scale.double(2.0 * slope) * &scale)))
+            }
+        }
+    }
+
+    /// The root in a bracket on which the force falls at least as fast as `slope`: the Illinois variant of regula
+    /// falsi.
+    fn refine(&self, route: &Route<S>, k: i64, lo: S, hi: S, slope: &S) -> Bounce<S> {
+        let (mut a, mut b) = (lo, hi);
+        let (mut fa, mut fb) = (self.force(route, &a, k).0, self.force(route, &b, k).0);
+        let unit = roundoff(&a);
+        let mut best = (b.clone(), fb.magnitude(), self.force(route, &b, k).1);
+        for _ in 0..400 {
+            let step = fb.clone() * &(b.clone() - &a) / (fb.clone() - &fa);
+            if !step.is_finite() {
+                break;
+            }
+            let c = b.clone() - &step;
+            let (fc, error) = self.force(route, &c, k);
+            let (size, moved) = (fc.magnitude(), (c.clone() - &b).magnitude());
+            if size <= best.1 {
+                best = (c.clone(), size.clone(), error.clone());
+            }
+            if size <= error.clone() / error.int(16) || moved <= unit.clone() * &c {
+                break;
+            }
+            if fc.is_positive() == fb.is_positive() {
+                fa = fa.clone() / fa.int(2);
+            } else {
+                a = b;
+                fa = fb;
+            }
+            b = c;
+            fb = fc;
+        }
+        let (root, size, error) = best;
+        let off = ((size + &error) / slope + unit * &root.int(4) * &root).to_f64();
+        Bounce::At { error: off * self.round_trip.to_f64(), time: root * &self.round_trip, kind: BounceKind::Root }
+    }
+}

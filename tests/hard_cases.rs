@@ -1,0 +1,165 @@
+//! The first contact in doubles where it is hard: extremes of every parameter, times on a ray, thresholds, lost digits.
+#![allow(clippy::unwrap_used, clippy::panic, clippy::approx_constant)]
+
+use dalembert::first_contact::{Bounce, BounceKind, Estimate, FirstContact};
+use dalembert::history::Side;
+use dalembert::modal::Modal;
+use dalembert::rod::Parameters;
+
+fn rod(damping: f64, gravity: f64, length: f64, speed: f64) -> Parameters<f64> {
+    Parameters { length, wave_speed: 1.0, damping, gravity, speed }
+}
+
+/// g = 0, R → π: terms of 10⁴⁰ add up to one, and the modes give the root without longer numbers.
+#[test]
+fn late_bounces_without_longer_numbers() {
+    for (damping, truth) in
+        [(3.13, 11.661_366_701_443_884), (3.135, 15.333_188_370_040_146), (3.14, 31.404_098_476_589_4)]
+    {
+        let contact = FirstContact::new(&rod(damping, 0.0, 0.5, 1.0));
+        let Bounce::At { time, kind, error } = contact.bounce_within(1e-9) else { panic!("{damping}") };
+        assert_eq!(kind, BounceKind::Root);
+        // dt_b/dr = (π/Ω³) r and more: the double nearest to r is up to 2.2·10⁻¹⁶ away.
+        let omega = ((std::f64::consts::PI - damping) * (std::f64::consts::PI + damping)).sqrt();
+        let input = 2.3e-16 * damping * std::f64::consts::PI / omega.powi(3);
+        println!("{damping}: {time} {error:e} {:e} {input:e}", time - truth);
+        assert!((time - truth).abs() <= error + input, "{damping}: {time} {error:e}");
+        assert!(error < 1e-9 * truth, "{damping}: {error:e}");
+    }
+}
+
+/// Values with their bounds: finite where the parameters are, and as far from the modes as both bounds allow. `value ±
+/// error` of two routes that share nothing.
+fn same(what: &str, a: &Estimate<f64>, b: &Estimate<f64>) {
+    assert!(a.value.is_finite() && a.error.is_finite(), "{what}: {a:?}");
+    assert!((a.value - b.value).abs() <= a.error + b.error, "{what}: {a:?} {b:?}");
+}
+
+/// R from 10⁻³⁰⁰ to 10⁴ and μ/μ₀ from 10⁻⁸ to 10⁸, on a ray from both sides and off it.
+#[test]
+fn every_size_of_damping_and_speed() {
+    for damping in [0.0, 1e-300, 1e-150, 1e-30, 1e-9, 1e-4, 0.1, 1.0, 3.0, 10.0, 100.0, 1e3, 1e4] {
+        for speed in [1e-8, 1e-4, 1.0, 1e4, 1e8] {
+            let rod = rod(damping, 1.0, 0.5, speed);
+            let (contact, modal) = (FirstContact::new(&rod), Modal::new(&rod, 256));
+            let scale = speed + 1.0;
+            for trips in [1e-8, 0.4, 1.0, 2.0, 2.5, 7.0] {
+                for side in [Side::Left, Side::Right] {
+                    let name = format!("R = {damping:e}, M = {speed:e}, τ = {trips}, {side:?}");
+                    let stress = contact.stress(&trips, side);
+                    same(&name, &stress, &modal.stress(&trips, side));
+                    assert!(stress.error < 1e-11 * scale, "{name}: {stress:?}");
+                    let (field, errors) = contact.field(&0.25, &trips, side);
+                    let values = [field.displacement, field.velocity, field.strain];
+                    assert!(values.iter().all(|v| v.is_finite()), "{name}: {field:?}");
+                    assert!(errors.iter().all(|e| *e < 1e-10 * scale), "{name}: {errors:?}");
+                }
+                let (h, p) = contact.centre(&trips);
+                let (height, rate) = modal.centre(&trips);
+                same("h", &h, &height);
+                same("h′", &p, &rate);
+                let (energy, _) = contact.energy(&trips);
+                assert!(energy.total.is_finite() && energy.vibrational >= 0.0, "{damping} {speed} {trips}");
+            }
+        }
+    }
+}
+
+/// Strong damping, g t₁ = 1: after the first return the rod creeps to its static state; by the diffusion that is left,
+/// `−c v_x → ½ − Σ (4/ω²) e^{−(R−κ)τ}`, the overdamped modes alone.
+#[test]
+fn strong_damping_diffuses() {
+    for damping in [50.0f64, 1e3, 1e4] {
+        let contact = FirstContact::new(&rod(damping, 1.0, 0.5, 1e-8));
+        for tau in [2.5f64, 8.5] {
+            let mut truth = 0.5;
+            for n in 0..4000u32 {
+                let w = std::f64::consts::PI * f64::from(2 * n + 1);
+                if w < 0.9 * damping {
+                    let kappa = (damping * damping - w * w).sqrt();
+                    // C + RS = e^{κτ}(1 + R/κ)/2 up to e^{−2κτ}.
+                    let slow = (-w * w / (damping + kappa) * tau).exp() * (1.0 + damping / kappa) / 2.0;
+                    truth -= 4.0 / (w * w) * slow;
+                }
+            }
+            let stress = contact.stress(&tau, Side::Right);
+            assert!((stress.value + truth).abs() < 2e-8 + stress.error, "{damping} {tau}: {stress:?} {truth}");
+        }
+    }
+}
+
+/// The threshold of (2.32), from both sides, and how the root leaves t₁: `t_b − t₁ ≈ (deficit)/(slope)`.
+#[test]
+fn both_sides_of_the_threshold() {
+    let threshold = 2.593_644_954_560_194_4;
+    let bounce = |speed: f64| FirstContact::new(&rod(0.2, 1.0, 1.0, speed)).bounce_within(1e-10);
+    for step in [1e-12, 1e-9, 1e-6] {
+        let Bounce::At { time, kind, .. } = bounce(threshold + step) else { panic!("{step}") };
+        assert_eq!((time, kind), (2.0, BounceKind::Jump));
+        let Bounce::At { time, kind, error } = bounce(threshold - step) else { panic!("{step}") };
+        assert_eq!(kind, BounceKind::Root);
+        assert!(time > 2.0 && time < 2.0 + 10.0 * step, "{step}: {time}");
+        assert!(error < 2e-10, "{step}: {error:e}");
+    }
+}
+
+/// No bounce from π on; below it the bounce is late, and never a rounding error.
+#[test]
+fn both_sides_of_pi() {
+    for damping in [3.141_593, 3.15, 3.3, 10.0, 1e4] {
+        let never = FirstContact::new(&rod(damping, 0.0, 0.5, 1.0)).bounce_within(1e-9);
+        assert!(matches!(never, Bounce::Never { .. }), "{damping}: {never:?}");
+    }
+    for damping in [2.0, 2.5, 2.9, 3.0, 3.1] {
+        let found = FirstContact::new(&rod(damping, 0.0, 0.5, 1.0)).bounce_within(1e-9);
+        let Bounce::At { time, .. } = found else { panic!("{damping}: {found:?}") };
+        let stress = |t: f64| Modal::new(&rod(damping, 0.0, 0.5, 1.0), 2048).stress(&t, Side::Right);
+        let (before, after) = (stress(time * (1.0 - 1e-7)), stress(time * (1.0 + 1e-7)));
+        assert!(before.value < -before.error && after.value > after.error, "{damping}: {before:?} {after:?}");
+    }
+    // So close to π that it cannot be found: said, not guessed.
+    for damping in [3.141_592, 3.141_592_653_589_793] {
+        let found = FirstContact::new(&rod(damping, 0.0, 0.5, 1.0)).bounce_within(1e-9);
+        assert!(matches!(found, Bounce::Undecided { .. }), "{damping}: {found:?}");
+    }
+}
+
+/// Steel, rubber and a column of water, and each in units that differ by 10^±8: the same rod, t_b in new units.
+#[test]
+fn units_do_not_matter() {
+    // L, c, r, g, μ: a steel bar, a rubber rod, a kilometre of water behind a valve, without weight.
+    for (l, c, r, g, mu) in [
+        (1.0, 5000.0, 12.0, 9.81, 1.0),
+        (0.1, 40.0, 30.0, 9.81, 0.03),
+        (0.1, 40.0, 30.0, 9.81, 3.0),
+        (1000.0, 1200.0, 0.05, 0.0, 2.0),
+    ] {
+        let time = |metre: f64, second: f64| {
+            let rod = Parameters {
+                length: l * metre,
+                wave_speed: c * metre / second,
+                damping: r / second,
+                gravity: g * metre / second / second,
+                speed: mu * metre / second,
+            };
+            let contact = FirstContact::new(&rod);
+            let Bounce::At { time, kind, .. } = contact.bounce_within(1e-11) else { panic!("{l} {c} {r}") };
+            let squared = contact.rebound(&time).energy_restitution_squared();
+            let (energy, errors) = contact.energy(&time);
+            assert!(energy.total.is_finite() && errors[0] <= 1e-10 * rod.speed.powi(2) * rod.length, "{errors:?}");
+            let by_modes = Modal::new(&rod, 512).energy(&time);
+            assert!((by_modes.value - energy.total).abs() <= by_modes.error + errors[0], "{energy:?} {by_modes:?}");
+            (time / second, kind, squared)
+        };
+        let (plain, kind, squared) = time(1.0, 1.0);
+        for (metre, second) in [(1e8, 1.0), (1e-8, 1.0), (1.0, 1e8), (1.0, 1e-8), (1e8, 1e-8), (1e-8, 1e8)] {
+            let (other, same, again) = time(metre, second);
+            assert_eq!(kind, same);
+            assert!((other / plain - 1.0).abs() < 2e-11, "{metre} {second}: {plain} {other}");
+            match (squared, again) {
+                (Some(a), Some(b)) => assert!((a - b).abs() < 1e-10 * a.max(1e-3), "{a} {b}"),
+                (a, b) => assert_eq!(a.is_some(), b.is_some()),
+            }
+        }
+    }
+}

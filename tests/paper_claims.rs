@@ -1,0 +1,182 @@
+//! What the paper says of restitution, and where that is off: every number below follows from a formula that is
+//! evaluated here on its own.
+#![allow(clippy::unwrap_used, clippy::panic)]
+
+use dalembert::first_contact::{Bounce, BounceKind, FirstContact, Undamped};
+use dalembert::history::Side;
+use dalembert::modal::Modal;
+use dalembert::rod::Parameters;
+
+fn rod(damping: f64, gravity: f64, speed: f64) -> Parameters<f64> {
+    Parameters { length: 1.0, wave_speed: 1.0, damping, gravity, speed }
+}
+
+/// `I_n`, by the integral after (2.22), (2.16) for n = 0: the first kind, whatever the text says.
+fn bessel(n: u32, z: f64) -> f64 {
+    let count = 40u32;
+    let angle = |k: u32| 2.0 * std::f64::consts::PI * f64::from(k) / f64::from(count);
+    (0..count).map(|k| (f64::from(n) * angle(k)).cos() * (z * angle(k).cos()).exp()).sum::<f64>() / f64::from(count)
+}
+
+/// The right-hand side of (2.32), in closed form: the black dots of Figure 4.
+fn dot(damping: f64) -> f64 {
+    let r = 2.0 * damping;
+    2.0 * (bessel(0, r) + bessel(1, r)) / (2.0 - bessel(0, r))
+}
+
+fn bounce(damping: f64, speed: f64) -> (f64, BounceKind) {
+    match FirstContact::new(&rod(damping, 1.0, speed)).bounce_within(1e-12) {
+        Bounce::At { time, kind, .. } => (time, kind),
+        other => panic!("{damping} {speed}: {other:?}"),
+    }
+}
+
+/// r, `lim e_E`, `lim E_h/E`, `lim E/E(0) e^{2R}` for `t₁ = 2`.
+const LIMITS: [(f64, f64, f64, f64); 3] = [
+    (0.1, 0.818_990_81, 0.999_966_47, 1.000_668_92),
+    (0.2, 0.671_948_93, 0.999_455_49, 1.005_413_37),
+    (0.3, 0.553_131_36, 0.997_190_65, 1.018_665_83),
+];
+
+/// (4.75): `lim e_E ≃ e^{−r t_b}` is not the limit. It is `2e^{−R}(I₀(R) − I₁(R)) − e^{−2R}`.
+#[test]
+fn the_limit_of_restitution_is_not_an_exponential() {
+    for (damping, limit, _, _) in LIMITS {
+        let r = 2.0 * damping;
+        let exact = 2.0 * (-r).exp() * (bessel(0, r) - bessel(1, r)) - (-2.0 * r).exp();
+        assert!((exact - limit).abs() < 5e-9, "{damping}: {exact}");
+        assert!(exact - (-r).exp() > 2e-4, "{damping}");
+        // Without gravity the limit is reached; with it, the rest falls like μ₀/μ.
+        let weightless = FirstContact::new(&rod(damping, 0.0, 1.0)).rebound(&2.0);
+        assert!((weightless.energy_restitution_squared().unwrap().sqrt() - exact).abs() < 1e-14);
+        let modal = Modal::new(&rod(damping, 0.0, 1.0), 256).centre(&2.0).1;
+        assert!((modal.value - exact).abs() <= modal.error + 1e-15, "{modal:?} {exact}");
+        for speed in [1e3, 1e6] {
+            let found = FirstContact::new(&rod(damping, 1.0, speed)).rebound(&2.0);
+            let off = (found.energy_restitution_squared().unwrap().sqrt() - exact).abs();
+            assert!(off < 4.0 / speed && off > 1e-3 / speed, "{damping} {speed}: {off:e}");
+        }
+    }
+    // e^{−R}(1 + R³/24 + …).
+    for r in [0.02f64, 0.05] {
+        let exact = 2.0 * (-r).exp() * (bessel(0, r) - bessel(1, r)) - (-2.0 * r).exp();
+        let found = (exact * r.exp() - 1.0) / r.powi(3);
+        assert!((found - 1.0 / 24.0).abs() < r / 10.0, "{r}: {found}");
+    }
+}
+
+/// (4.74) is not 1, and "C₀ = 1" of Figure 7 is not 1.
+#[test]
+fn the_factors_do_not_tend_to_one() {
+    for (damping, limit, share, retained) in LIMITS {
+        let weightless = FirstContact::new(&rod(damping, 0.0, 1.0));
+        let (part, left) = weightless.restitution_factors(&2.0).unwrap();
+        assert!((part - share).abs() < 6e-9, "{damping}: {part}");
+        let constant = left * (4.0 * damping).exp();
+        assert!((constant - retained).abs() < 6e-9, "{damping}: {constant}");
+        // (4.73), and its last factor by the modes.
+        assert!((part * left - limit * limit).abs() < 1e-8);
+        let modal = Modal::new(&rod(damping, 0.0, 1.0), 4096).energy(&2.0);
+        assert!((modal.value / 0.5 - left).abs() <= 2.0 * modal.error + 1e-15 && modal.error < 1e-8, "{modal:?}");
+        let (part, left) = FirstContact::new(&rod(damping, 1.0, 1e9)).restitution_factors(&2.0).unwrap();
+        assert!((part - share).abs() < 1e-8 && (left * (4.0 * damping).exp() - retained).abs() < 1e-8);
+    }
+}
+
+/// Figure 4: right of its dots `t_b = t₁`; left of them the curves go on, with `t_b > t₁`, and join continuously in
+/// `t_b`.
+#[test]
+fn figure_4() {
+    assert_eq!(dot(0.0), 2.0);
+    assert!((dot(0.2) - 2.593_644_954_560_194).abs() < 1e-14);
+    for damping in [0.0, 0.1, 0.2, 0.3] {
+        let threshold = dot(damping);
+        assert_eq!(bounce(damping, threshold * (1.0 + 1e-9)), (2.0, BounceKind::Jump));
+        let (time, kind) = bounce(damping, threshold * (1.0 - 1e-9));
+        assert!(kind == BounceKind::Root && time > 2.0 && time < 2.0 + 1e-7, "{damping}: {time}");
+        let mut last = f64::INFINITY;
+        for k in 1..=50 {
+            let speed = 0.25 * f64::from(k);
+            let Bounce::At { time, .. } = FirstContact::new(&rod(damping, 1.0, speed)).bounce_within(1e-12) else {
+                // A slow rod stays on the ground: part (i) of Theorem 1.
+                assert!(damping > 0.0 && speed < threshold);
+                continue;
+            };
+            assert_eq!(time == 2.0, speed >= threshold, "{damping} {speed}");
+            assert!(time <= last, "a faster rod does not stay longer");
+            last = time;
+            // e_E² by the modes, which know nothing of the closed forms.
+            let modal = Modal::new(&rod(damping, 1.0, speed), 512);
+            let (h, rate) = modal.centre(&time);
+            let expected = (rate.value * rate.value + 2.0 * h.value) / (speed * speed);
+            let error = (4.0 * (rate.value.abs() * rate.error + h.error)) / (speed * speed) + 1e-11;
+            match FirstContact::new(&rod(damping, 1.0, speed)).rebound(&time).energy_restitution_squared() {
+                Some(found) => assert!((found - expected).abs() <= error, "{damping} {speed}: {found} {expected}"),
+                // Undefined where E_h < 0.
+                None => assert!(expected < error, "{damping} {speed}: {expected}"),
+            }
+        }
+    }
+}
+
+/// Figures 5 to 7, g = L = c = 1, μ from 3.2 to 12.5: the factors of (4.73) at `t₁`; for r = 0 those of Theorem 2.
+#[test]
+fn figures_5_to_7() {
+    for damping in [0.0, 0.1, 0.2, 0.3] {
+        let mut before = 0.0;
+        for k in 0..20 {
+            let speed = 3.2 + 9.3 * f64::from(k) / 19.0;
+            let rod = rod(damping, 1.0, speed);
+            let (share, retained) = FirstContact::new(&rod).restitution_factors(&2.0).unwrap();
+            let modal = Modal::new(&rod, 1024);
+            let (energy, (h, rate)) = (modal.energy(&2.0), modal.centre(&2.0));
+            let start = 0.5 * speed * speed;
+            assert!((retained - energy.value / start).abs() <= energy.error / start + 1e-13, "{damping} {speed}");
+            let translational = 0.5 * rate.value * rate.value + h.value;
+            assert!((share - translational / energy.value).abs() <= 4.0 * energy.error + 1e-11, "{damping} {speed}");
+            // Figure 5: all curves rise and stay below one.
+            assert!(share > before && share < 1.0, "{damping} {speed}: {share}");
+            before = share;
+            if damping == 0.0 {
+                assert!((share - (1.0 - 4.0 / (3.0 * speed * speed))).abs() < 1e-14 && (retained - 1.0).abs() < 1e-14);
+            }
+        }
+    }
+}
+
+/// Theorem 2, Figures 2 and 3: the least restitution is 5/9, at `2μ₀/3`.
+#[test]
+fn figures_2_and_3() {
+    let least = |speed: f64| Undamped::new(&rod(0.0, 1.0, speed)).unwrap().energy_restitution_squared().unwrap();
+    assert!((least(4.0 / 3.0) - 5.0 / 9.0).abs() < 1e-15);
+    for k in 1..400 {
+        let speed = 0.02 * f64::from(k);
+        assert!(least(speed) >= 5.0 / 9.0 - 1e-15);
+        let (time, _) = bounce(1e-300, speed);
+        let found = FirstContact::new(&rod(1e-300, 1.0, speed)).rebound(&time).energy_restitution_squared().unwrap();
+        assert!((found - least(speed)).abs() < 1e-11, "{speed}: {found}");
+    }
+}
+
+/// After (3.42), "Ψ_r = 0 on (t₁,t_b)": the contact lasts there, and the stress is compressive; it vanishes from t_b on.
+#[test]
+fn the_rod_is_compressed_until_it_leaves() {
+    for (damping, speed) in [(0.1, 1.0), (0.2, 2.0), (0.3, 2.0)] {
+        let (time, _) = bounce(damping, speed);
+        let contact = FirstContact::new(&rod(damping, 1.0, speed));
+        for k in 1..20 {
+            let t = 2.0 + (time - 2.0) * f64::from(k) / 20.0;
+            let stress = contact.stress(&t, Side::Right);
+            assert!(stress.value < -stress.error, "{damping} {t}: {stress:?}");
+        }
+    }
+}
+
+/// Whether Ψ_r must have a root is left open in section 5: it need not, with gravity and without.
+#[test]
+fn not_every_rod_bounces() {
+    for (damping, gravity, speed) in [(1.0, 1.0, 1.0), (1.6, 0.0, 1.0), (5.0, 1.0, 100.0)] {
+        let found = FirstContact::new(&rod(damping, gravity, speed)).bounce_within(1e-12);
+        assert!(matches!(found, Bounce::Never { .. }), "{damping}: {found:?}");
+    }
+}

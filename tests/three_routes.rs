@@ -1,0 +1,211 @@
+//! The same first contact by three routes that share no formula: closed sums over rays, sums over modes, and, without
+//! damping, the lattice; with damping, the cells. Each value carries a proved bound, and two routes may differ by no more than their bounds.
+#![allow(clippy::unwrap_used, clippy::panic)]
+
+mod common;
+
+use common::{number, reference};
+use dalembert::damped::Damped;
+use dalembert::first_contact::{Estimate, FirstContact};
+use dalembert::history::{History, Side};
+use dalembert::lattice::Undamped;
+use dalembert::modal::Modal;
+use dalembert::number::Analytic;
+use dalembert::rod::{Parameters, Run};
+
+/// Two values within their bounds, and bounds that say something: below `useful` of `scale`.
+fn agree<S: Analytic>(what: &str, a: &Estimate<S>, b: &Estimate<S>, scale: f64, useful: f64) {
+    let apart = (a.value.clone() - &b.value).to_f64().abs();
+    assert!(apart <= a.error + b.error, "{what}: {a:?} and {b:?} are {apart:e} apart");
+    assert!(b.error <= useful * scale, "{what}: bound {:e} of {scale:e} says nothing", b.error);
+}
+
+/// All that both routes can be asked, at `trips` round trips.
+fn compare<S: Analytic>(rod: &Parameters<S>, trips: &[f64], modes: u32, useful: f64) {
+    let (rays, modal) = (FirstContact::new(rod), Modal::new(rod, modes));
+    let t1 = rod.round_trip();
+    let speed = rod.speed.to_f64() + rod.critical_speed().to_f64();
+    let strain = speed / rod.wave_speed.to_f64();
+    let length = rod.length.to_f64();
+    for trips in trips {
+        let time = t1.double(*trips) * &t1;
+        let name = format!("R = {:e}, M = {:e}, τ = {trips}", rod.damping.to_f64() * t1.to_f64(), rod.speed.to_f64());
+        for side in [Side::Left, Side::Right] {
+            let (a, b) = (rays.stress(&time, side), modal.stress(&time, side));
+            agree(&format!("{name} stress"), &a, &b, strain, useful);
+            for part in [0.0, 0.25, 0.625, 1.0] {
+                let x = t1.double(part) * &rod.length;
+                let ((f, e), (g, d)) = (rays.field(&x, &time, side), modal.field(&x, &time, side));
+                let pairs = [
+                    (f.displacement, g.displacement, speed * t1.to_f64()),
+                    (f.velocity, g.velocity, speed),
+                    (f.strain, g.strain, strain),
+                ];
+                for (k, (a, b, scale)) in pairs.into_iter().enumerate() {
+                    let (a, b) = (Estimate { value: a, error: e[k] }, Estimate { value: b, error: d[k] });
+                    agree(&format!("{name} x = {part} L field {k}"), &a, &b, scale, useful);
+                }
+            }
+        }
+        let ((h, p), (height, rate)) = (rays.centre(&time), modal.centre(&time));
+        agree(&format!("{name} h"), &h, &height, speed * t1.to_f64(), useful);
+        agree(&format!("{name} h′"), &p, &rate, speed, useful);
+        let (energy, errors) = rays.energy(&time);
+        let closed = Estimate { value: energy.total, error: errors[0] };
+        // The energy falls like N⁻², whatever the numbers hold.
+        agree(
+            &format!("{name} E"),
+            &closed,
+            &modal.energy(&time),
+            speed * speed * length,
+            useful.max(2.0 / f64::from(modes * modes)),
+        );
+    }
+}
+
+fn rod(damping: f64, gravity: f64, speed: f64) -> Parameters<f64> {
+    Parameters { length: 0.5, wave_speed: 1.0, damping, gravity, speed }
+}
+
+/// On rays and between them; R from nothing to well overdamped; either share of (2.28) negligible.
+#[test]
+fn rays_and_modes() {
+    for damping in [0.0, 1e-300, 1e-9, 0.1, 1.0, std::f64::consts::PI, 10.0] {
+        for speed in [1e-8, 1e-4, 0.3, 1.0, 2.5, 1e4, 1e8] {
+            compare(&rod(damping, 1.0, speed), &[0.3, 0.875, 1.0, 1.7, 3.25], 1024, 1e-9);
+        }
+        compare(&rod(damping, 0.0, 1.0), &[0.5, 1.0, 2.0, 2.125], 1024, 1e-9);
+    }
+}
+
+/// The parameters of the reference, in long numbers too: there nothing but the modes left out remains.
+#[test]
+fn the_reference_cases() {
+    fn all<S: Analytic>(precision: &S::Precision, modes: u32, useful: f64) {
+        for case in reference("first_contact") {
+            let read = |key: &str| S::from_number(&number(&case[key]), precision);
+            let rod = Parameters {
+                length: read("length"),
+                wave_speed: read("wave_speed"),
+                damping: read("damping"),
+                gravity: read("gravity"),
+                speed: read("impact_speed"),
+            };
+            compare(&rod, &[0.375, 1.0, 1.5], modes, useful);
+        }
+    }
+    all::<f64>(&(), 1024, 1e-10);
+    #[cfg(feature = "mp")]
+    all::<rug::Float>(&200, 128, 1e-10);
+}
+
+/// The rate that is promised, `N^{1−K−p}`: with K = 8 each doubling divides the bound of the stress by 2⁷.
+#[cfg(feature = "mp")]
+#[test]
+fn the_rate_of_convergence() {
+    let lift = |x: f64| rug::Float::with_val(300, x);
+    let rod = Parameters {
+        length: lift(0.5),
+        wave_speed: lift(1.0),
+        damping: lift(2.0),
+        gravity: lift(0.0),
+        speed: lift(1.0),
+    };
+    let time = lift(1.3);
+    let exact = FirstContact::new(&rod).stress(&time, Side::Right).value;
+    let off = |modes: u32| {
+        let found = Modal::new(&rod, modes).stress(&time, Side::Right);
+        let wrong = (found.value - &exact).to_f64().abs();
+        assert!(wrong <= found.error, "{modes}: {wrong:e} {:e}", found.error);
+        found.error
+    };
+    for modes in [16, 64, 256] {
+        let ratio = off(modes) / off(2 * modes);
+        assert!((ratio / 128.0 - 1.0).abs() < 1e-6, "{modes}: {ratio}");
+    }
+}
+
+/// Without damping the lattice joins in, which marches instead of adding up; all three to 1e-13.
+#[test]
+fn rays_modes_and_the_lattice() {
+    for (speed, gravity, last) in
+        [("3", "1", 0.95), ("1", "1", 1.45), ("0.5", "1", 1.7), ("1e-4", "1", 1.9), ("2", "0", 0.95)]
+    {
+        let problem = common::uniform("1", "1", gravity, speed, Run::Impacts(1));
+        let rod = Parameters::<f64>::of(&problem, &()).unwrap();
+        let (rays, modal) = (FirstContact::new(&rod), Modal::new(&rod, 256));
+        let lattice = Undamped::<f64>::solve(&problem, &()).unwrap();
+        let scale = rod.speed + rod.critical_speed();
+        for part in [0.2, 0.55, 0.8, 1.0] {
+            let time = part * last * rod.round_trip();
+            let near = |what: &str, truth: f64, a: f64, b: f64| {
+                let wrong = (a - truth).abs().max((b - truth).abs());
+                assert!(wrong < 1e-13 * scale.max(scale * scale), "μ = {speed}, t = {time}, {what}: {truth} {a} {b}");
+            };
+            let stress = lattice.stress(&time, Side::Right).unwrap();
+            near("stress", stress, rays.stress(&time, Side::Right).value, modal.stress(&time, Side::Right).value);
+            let (h, rate) = lattice.centre(&time).unwrap();
+            let ((a, da), (b, db)) = (rays.centre(&time), modal.centre(&time));
+            near("h", h, a.value, b.value);
+            near("h′", rate, da.value, db.value);
+            for x in [0.1, 0.6, 0.97] {
+                let truth = lattice.field(&x, &time, Side::Right).unwrap();
+                let ((a, _), (b, _)) = (rays.field(&x, &time, Side::Right), modal.field(&x, &time, Side::Right));
+                near("v", truth.displacement, a.displacement, b.displacement);
+                near("v_t", truth.velocity, a.velocity, b.velocity);
+                near("v_x", truth.strain, a.strain, b.strain);
+            }
+            let energy = lattice.energy(&time).unwrap().total;
+            let (found, by_modes) = (rays.energy(&time).0.total, modal.energy(&time));
+            near("E", energy, found, energy);
+            assert!((by_modes.value - energy).abs() <= by_modes.error, "{by_modes:?} {energy}");
+        }
+    }
+}
+
+/// With damping the characteristic cells are the lattice's route: stress, field, centre and energy of the first contact.
+#[test]
+fn rays_modes_and_the_cells() {
+    for (damping, speed, gravity, last) in [
+        ("1e-9", "3", "1", 0.95),
+        ("0.05", "1", "1", 1.4),
+        ("0.2", "5", "1", 0.95),
+        ("0.5", "1", "1", 1.9),
+        ("1.3", "1", "0", 1.7),
+        ("5", "1", "1", 2.2),
+    ] {
+        let time = (2.0 * last * 1.01).to_string().parse().unwrap();
+        let mut problem = common::uniform("1", "1", gravity, speed, Run::Time(time));
+        problem.rod.damping = Some(damping.parse().unwrap());
+        let rod = Parameters::<f64>::of(&problem, &()).unwrap();
+        let (rays, modal) = (FirstContact::new(&rod), Modal::new(&rod, 1024));
+        let cells = Damped::<f64>::solve(&problem, &(), 13.0).unwrap();
+        let scale = rod.speed + rod.critical_speed();
+        let slack = 4.0 * cells.error_estimate() * scale;
+        assert!(slack < 1e-9 * scale, "{damping}: {slack:e}");
+        for part in [0.2, 0.55, 0.8, 1.0] {
+            let time = part * last * rod.round_trip();
+            if cells.contacts()[0].to.is_some_and(|end| end < time) {
+                continue;
+            }
+            let near = |what: &str, truth: f64, a: &Estimate<f64>, b: &Estimate<f64>| {
+                let wrong = [a, b].map(|e| (e.value - truth).abs() - e.error);
+                let name = format!("r = {damping}, t = {time}, {what}: {truth} {a:?} {b:?}");
+                assert!(wrong.iter().all(|w| *w <= slack), "{name}");
+            };
+            let (a, b) = (rays.stress(&time, Side::Right), modal.stress(&time, Side::Right));
+            near("stress", cells.stress(&time, Side::Right).unwrap(), &a, &b);
+            let (h, rate) = cells.centre(&time).unwrap();
+            let ((a, da), (b, db)) = (rays.centre(&time), modal.centre(&time));
+            near("h", h / 2.0, &Estimate { value: a.value / 2.0, ..a }, &Estimate { value: b.value / 2.0, ..b });
+            near("h′", rate, &da, &db);
+            for x in [0.1, 0.6, 0.97] {
+                let truth = cells.field(&x, &time, Side::Right).unwrap();
+                let ((a, e), (b, d)) = (rays.field(&x, &time, Side::Right), modal.field(&x, &time, Side::Right));
+                let estimate = |value: f64, error: f64| Estimate { value, error };
+                near("v_t", truth.velocity, &estimate(a.velocity, e[1]), &estimate(b.velocity, d[1]));
+                near("v_x", truth.strain, &estimate(a.strain, e[2]), &estimate(b.strain, d[2]));
+            }
+        }
+    }
+}
