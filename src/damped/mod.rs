@@ -2,7 +2,7 @@
 //!
 //! In reading order: `series` holds functions, `cell` carries the invariants through one cell, `march` through one
 //! strip, `start` makes the first state, `root` finds events, `follow` decides what happens at the ground,
-//! `record` gets the field back, `history` answers questions, and `joined` puts the closed form of the first
+//! `rest` when nothing more can happen, `record` gets the field back, `history` answers questions, and `joined` puts the closed form of the first
 //! contact before it.
 
 mod cell;
@@ -11,6 +11,7 @@ mod history;
 mod joined;
 mod march;
 mod record;
+mod rest;
 mod root;
 mod series;
 mod start;
