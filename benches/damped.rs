@@ -25,12 +25,7 @@ fn periodic(trips: i64) -> Problem {
     let n = |k: i64| Number::from(k);
     let displacement = vec![(n(0), "1/2".parse().unwrap()), (n(1), n(0))];
     Problem {
-        rod: Rod {
-            length: n(1),
-            material: Material::WaveSpeed(n(1)),
-            damping: "1e-300".parse().ok(),
-            top: Top::Fixed,
-        },
+        rod: Rod { length: n(1), material: Material::WaveSpeed(n(1)), damping: "1e-300".parse().ok(), top: Top::Fixed },
         gravity: None,
         start: Start::Profile(Profile { displacement, velocity: Vec::new() }),
         run: Run::Time(n(2 * trips)),
@@ -39,7 +34,8 @@ fn periodic(trips: i64) -> Problem {
 
 /// The plan of a damped scene.
 fn plan(ask: Ask) -> Plan {
-    let scene = "rod = { length = 1, wave_speed = 1, damping = 0.1 }\ngravity = { acceleration = 1 }\n[impact]\nspeed = 1\n";
+    let scene =
+        "rod = { length = 1, wave_speed = 1, damping = 0.1 }\ngravity = { acceleration = 1 }\n[impact]\nspeed = 1\n";
     Plan::of(&Scene::parse(scene).unwrap(), ask).unwrap()
 }
 

@@ -164,5 +164,9 @@ impl<S: Analytic> Follower<'_, S> {
 /// A time in words, in the units of the scene.
 fn short<S: Analytic>(unit: &S, time: &S) -> String {
     let time = (time.clone() * unit).to_f64();
-    if time == 0.0 || (1e-3..1e6).contains(&time) { format!("{}", (time * 1e6).round() / 1e6) } else { format!("{time:.6e}") }
+    if time == 0.0 || (1e-3..1e6).contains(&time) {
+        format!("{}", (time * 1e6).round() / 1e6)
+    } else {
+        format!("{time:.6e}")
+    }
 }
