@@ -252,8 +252,12 @@ impl<S: Analytic> History<S> for Damped<S> {
                     } else {
                         Vec::new()
                     };
+                    let from = piece.from.clone() * &units.time;
+                    if let Some(last) = pieces.last_mut() {
+                        last.to = from.clone();
+                    }
                     pieces.push(StressPiece {
-                        from: piece.from.clone() * &units.time,
+                        from,
                         to,
                         left: at_zero(&c, &zero),
                         right: at_one(&c, &zero),
