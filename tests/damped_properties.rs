@@ -78,7 +78,7 @@ fn times(history: &Damped<f64>, count: u32) -> Vec<f64> {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig { cases: 40, failure_persistence: None, ..ProptestConfig::default() })]
+    #![proptest_config(ProptestConfig { cases: 64, failure_persistence: None, ..ProptestConfig::default() })]
 
     /// (1.3)–(1.6): the ground pushes and never pulls, and only what touches it; the top is free or stays.
     #[test]
@@ -138,7 +138,8 @@ proptest! {
     }
 
     /// Without damping in the limit: events where the lattice has them. What `r t₁ = 1e-12` does to the motion in `t` is
-    /// at most `r t · V`, and the history's own bound says by how much its landings magnify an error.
+    /// at most `r t · V`, and the history's own bound says by how much its landings magnify an error. `v(0,·)` is the
+    /// reflection of twice the arriving displacement: a round trip makes an error of it three times as large at most.
     #[test]
     fn the_undamped_lattice_is_the_limit(problem in scene(1e-12, 1.000001e-12)) {
         let Some(history) = solve(&problem) else { return Ok(()) };
@@ -146,8 +147,8 @@ proptest! {
         plain.rod.damping = None;
         let lattice = Undamped::<f64>::solve(&plain, &()).unwrap();
         let scales = history.scales();
-        let transversal = |event: &Event<f64>| event.kind == EventKind::Release
-            || event.end_velocity.abs() > 0.02 * scales.velocity;
+        // Landings without speed, and releases where the stress only comes to zero, may be missed by one of the two.
+        let transversal = |event: &Event<f64>| event.end_velocity.abs() > 0.02 * scales.velocity;
         let magnified = |event: &Event<f64>| {
             (event.time_error / scales.time / f64::EPSILON).max(1.0) * 1e-12 * (1.0 + event.time / scales.time)
         };
@@ -156,12 +157,17 @@ proptest! {
             if !transversal(ours) || !transversal(plain) || magnified(ours) > 1e-5 {
                 break;
             }
-            // Nor from where the end merely touches: a contact that lasts no longer than its bounds.
-            if ours.kind != plain.kind {
-                break;
-            }
+            prop_assert_eq!(ours.kind, plain.kind);
             let off = (ours.time - plain.time).abs() / scales.time;
             prop_assert!(off <= magnified(ours), "{off:e} against {:e}: {ours:?} {plain:?}", magnified(ours));
+        }
+        let rounding = history.error_estimate().min(1e-12);
+        for t in times(&history, 8) {
+            let trips = t / scales.time;
+            let bound = 2.0 * 3f64.powf(trips + 1.0) * (1e-12 * trips + rounding) * scales.velocity * scales.time;
+            let ours = history.ground_end(&t, Side::Right).unwrap().0;
+            let plain = lattice.ground_end(&t, Side::Right).unwrap().0;
+            prop_assert!((ours - plain).abs() <= bound, "{ours:e} and {plain:e} at {t}, bound {bound:e}");
         }
     }
 }
