@@ -102,7 +102,8 @@ pub enum Ending {
     NoFurtherImpact(String),
     /// No release can follow, for the reason that is said.
     NoBounce(String),
-    /// The rod has come to rest, by the criterion that is said.
+    /// The rod has come to rest, by the criterion that is said. Where a time was asked for, the history reaches it: as it
+    /// does with [`Ending::NoBounce`] and [`Ending::NoFurtherImpact`] once the motion has faded below the accuracy.
     Rest(String),
     /// The next event is at no fraction.
     ExactnessEnds {

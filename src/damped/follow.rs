@@ -5,7 +5,6 @@
 //! falling, is none: the flight goes on.
 
 use super::march::{Medium, State};
-use super::record::{Node, Record};
 use super::root::first_descent;
 use super::series::{at_one, at_zero, bound, derivative, evaluate};
 use super::start::Data;
@@ -24,6 +23,8 @@ pub(super) struct Piece<S> {
     pub(super) contact: bool,
     /// Whether the first segment was cut for this strip.
     pub(super) cut: bool,
+    /// Whether the rod is at rest: nothing was marched.
+    pub(super) still: bool,
     /// `v_t + c v_x` in Chebyshev coefficients.
     pub(super) trace: Vec<S>,
     /// `v(0,·)`; empty in contact.
@@ -62,12 +63,12 @@ pub(super) enum Goal<S> {
 /// The rod at the ground, on its way.
 #[derive(Debug)]
 pub(super) struct Follower<'a, S> {
-    medium: &'a Medium<S>,
-    data: &'a Data<S>,
-    state: State<S>,
-    contact: bool,
+    pub(super) medium: &'a Medium<S>,
+    pub(super) data: &'a Data<S>,
+    pub(super) state: State<S>,
+    pub(super) contact: bool,
     /// `v(0,b)`.
-    height: S,
+    pub(super) height: S,
     pub(super) pieces: Vec<Piece<S>>,
     pub(super) marks: Vec<Mark<S>>,
     /// States at the beginning of each round trip, with the number of pieces before them.
@@ -76,9 +77,9 @@ pub(super) struct Follower<'a, S> {
     /// Error of `p`, `q` made in one cell.
     cell_error: f64,
     /// Error of `p`, `q` from impacts that are off in time.
-    scattered: f64,
+    pub(super) scattered: f64,
     /// Error of `v(0,b)`.
-    height_error: f64,
+    pub(super) height_error: f64,
     /// The trace at the end of the last piece.
     last_trace: Option<S>,
 }
@@ -124,11 +125,6 @@ impl<'a, S: Analytic> Follower<'a, S> {
         self.cell_error * (2.0 * self.pieces.len() as f64 + 8.0) + self.scattered
     }
 
-    /// The error of `v(0,·)` now.
-    pub(super) fn height_error(&self) -> f64 {
-        self.height_error
-    }
-
     /// Whether the ground end, at height zero, leaves at once: `y > 0`, or `y = 0` and rising.
     ///
     /// What is less than the error counts as zero; Markov's inequality, `‖f′‖ ≤ 2n²‖f‖` on the unit interval, says what that
@@ -148,58 +144,32 @@ impl<'a, S: Analytic> Follower<'a, S> {
         false
     }
 
-    /// Why no impact can follow the flight, if that is certain. Only where gravity does not pull the end back.
-    ///
-    /// In flight the end swings about a stress-free state at height `s = v_s′(0)/2` (top fixed) or about the centre of mass
-    /// (top free, `g = 0`), whose height `h` tends monotonely to `h + h′/2r`. The deviation `d` has an energy `E` that
-    /// cannot grow and `|d(0)| ≤ √ℓ ‖d_x‖`, `‖d_x‖ ≤ √(2E)`, with `ℓ = ½` for a fixed top; `ℓ = ⅙` where the mean of `d`
-    /// vanishes, as then `d(0) = −∫(1 − 2x) d_x dx`. No impact follows once `√(2ℓE)` is less than the least height.
-    fn escapes(&self) -> Option<Ending> {
-        let (medium, data) = (self.medium, self.data);
-        let slope = medium.slope.to_f64();
-        if slope < 0.0 || !data.gravity.is_zero() {
-            return None;
-        }
-        let record = Record { medium, data, pieces: &self.pieces, checkpoints: &self.checkpoints };
-        let t = self.state.time();
-        let nodes = record.line(&t, &t.ratio(1, 2));
-        let sum = |f: &dyn Fn(f64, f64, f64) -> f64| -> f64 {
-            let term = |n: &Node<S>| n.weight.to_f64() * f(n.x.to_f64(), n.z_t.to_f64(), n.z_x.to_f64() + slope);
-            nodes.iter().map(term).sum()
-        };
-        let (least, share) = if medium.free_top {
-            let rate = 2.0 * sum(&|_, v_t, _| v_t);
-            let mean = self.height.to_f64() + 2.0 * sum(&|x, _, v_x| (0.5 - x) * v_x);
-            // h′/2r, where 4κ = 2r.
-            let rise = rate / (4.0 * medium.kappa.to_f64());
-            (mean.min(mean + rise), sum(&|_, v_t, v_x| (v_t - rate).powi(2) + v_x.powi(2)) / 6.0)
-        } else {
-            (slope / 2.0, sum(&|_, v_t, v_x| v_t.powi(2) + v_x.powi(2)) / 2.0)
-        };
-        let swing = share.sqrt() + 8.0 * (self.error() + self.height_error);
-        (least > swing).then(|| {
-            let reason = format!("the end swings by at most {swing:.3e} V t1 about {least:.3e} V t1 or more");
-            Ending::NoFurtherImpact(reason)
-        })
-    }
-
     /// Goes on until the goal.
     pub(super) fn run(&mut self, goal: &Goal<S>) -> Result<Ending, Error> {
         let unit = self.height.log2_roundoff().exp2();
         let mut landed = u32::from(self.contact);
         let mut round = i64::MIN;
+        let mut calm = None;
         // Whether something happened at this very time already.
         let mut fresh = true;
         loop {
-            if self.pieces.len() >= MOST_PIECES || self.state.segments.len() > MOST_SEGMENTS {
-                let time = self.state.time().to_f64();
-                return Err(Error::TooManyPieces { limit: MOST_PIECES, time });
+            let (pieces, segments) = (self.pieces.len(), self.state.segments.len());
+            if pieces >= MOST_PIECES || segments > MOST_SEGMENTS {
+                let time = (self.state.time() * &self.data.units.time).to_f64();
+                return Err(if pieces >= MOST_PIECES {
+                    Error::TooManyPieces { limit: MOST_PIECES, time }
+                } else {
+                    Error::TooManyRays { limit: MOST_SEGMENTS, time }
+                });
             }
             if self.state.round > round {
                 round = self.state.round;
-                self.checkpoints.push((self.pieces.len(), self.state.clone()));
+                self.checkpoints.push((pieces, self.state.clone()));
+                if let Some(ending) = self.settle(goal, &mut calm) {
+                    return Ok(ending);
+                }
             }
-            if let (true, Goal::Impacts(_)) = (self.contact, goal)
+            if let Goal::Impacts(_) = goal
                 && let Some(ending) = self.stays()
             {
                 return Ok(ending);
@@ -248,8 +218,8 @@ impl<'a, S: Analytic> Follower<'a, S> {
                 continue;
             }
             if at_start {
-                let time = self.state.time().to_f64();
-                self.warnings.push(format!("at t/t1 = {time} rounding decides between contact and flight"));
+                let time = (self.state.time() * &self.data.units.time).to_f64();
+                self.warnings.push(format!("at t = {time} rounding decides between contact and flight"));
             }
             let at_end = found.as_ref().is_some_and(|x| nearby(&(len.clone() - x)));
             let found = found.filter(|_| !at_start && !at_end);
@@ -349,7 +319,7 @@ impl<'a, S: Analytic> Follower<'a, S> {
         self.last_trace = Some(at_one(&trace, &zero));
         self.medium.strip(&mut self.state, self.contact, &mut |_| {});
         let contact = self.contact;
-        self.pieces.push(Piece { from, len, contact, cut: cut.is_some(), trace, height });
+        self.pieces.push(Piece { from, len, contact, cut: cut.is_some(), still: false, trace, height });
     }
 
     /// Turns contact into flight or back, now. A release at a root of the trace has velocity zero. Where the end
@@ -387,27 +357,5 @@ impl<'a, S: Analytic> Follower<'a, S> {
         *landed += 1;
         self.event(time_error, false);
         false
-    }
-
-    /// Why no release can follow, if that is certain.
-    ///
-    /// In contact `p = −q` at the ground and `p = ±q` at the top, so `|q| ≤ M` on one characteristic gives `|q| ≤ M` for
-    /// ever, and with `M < |v_s′(0)|`, `v_s′(0) < 0`, the stress `q + v_s′(0)` stays negative.
-    fn stays(&self) -> Option<Ending> {
-        let most = self.state.bound() + self.error();
-        let slope = self.medium.slope.to_f64();
-        if slope < 0.0 && most < -slope {
-            let reason = format!(
-                "the deviation from the static stress is at most {:.3} of it on a whole round trip, and can't grow",
-                most / -slope
-            );
-            return Some(if self.marks.len() > 1 { Ending::Rest(reason) } else { Ending::NoBounce(reason) });
-        }
-        if slope == 0.0 && most <= 4.0 * self.error() {
-            let reason =
-                "without a static stress the contact has decayed below the accuracy; more digits follow it further";
-            return Some(Ending::Undecided(reason.into()));
-        }
-        None
     }
 }

@@ -47,14 +47,20 @@ pub struct Damped<S> {
     warnings: Vec<String>,
 }
 
+/// Cells are at most `2/r` wide, so that each round trip takes `(r t₁/2)²` of them: millions here.
+const MOST_DAMPING: f64 = 2000.0;
+
 impl<S: Analytic> Damped<S> {
     /// Follows `problem` as far as its `run` says, to about `digits` decimal digits of the natural scales.
     ///
     /// What a cell leaves out is at most `2^{−20} 10^{−digits}`, or the roundoff of the number system where that is more;
     /// [`History::error_estimate`] says what came of it.
     ///
-    /// **Errors**: [`Error::TooManyPieces`] beyond 400 000 strips, or where `r t₁` or the number of rays asks for more than
-    /// 4096 segments in a round trip; [`Error::Irrational`] from the parameters.
+    /// A run up to a time that the motion does not last is answered from the state at rest from where the motion is below
+    /// [`History::error_estimate`], by a bound that it can never pass again; [`History::ending`] then says from when.
+    ///
+    /// **Errors**: [`Error::DampingTooStrong`] for `r t₁ > 2000`; [`Error::TooManyPieces`] beyond 400 000 strips;
+    /// [`Error::TooManyRays`] beyond 4096 segments in a round trip; [`Error::Irrational`] from the parameters.
     pub fn solve(problem: &Problem, precision: &S::Precision, digits: f64) -> Result<Self, Error> {
         Self::solve_with(problem, precision, digits, 1)
     }
@@ -66,8 +72,9 @@ impl<S: Analytic> Damped<S> {
         let data = Data::of(problem, &parameters, free_top);
         let asked = -digits.max(1.0) * std::f64::consts::LOG2_10 - 20.0;
         let log2_accuracy = asked.max(data.damping.log2_roundoff());
-        if data.damping.to_f64() > 2000.0 {
-            return Err(Error::TooManyPieces { limit: 4096, time: 0.0 });
+        let found = data.damping.to_f64();
+        if found > MOST_DAMPING {
+            return Err(Error::DampingTooStrong { found, most: MOST_DAMPING });
         }
         let medium = Medium::new(&data.damping, data.slope.clone(), free_top, log2_accuracy, shorten);
         let goal = match &problem.run {
@@ -77,10 +84,12 @@ impl<S: Analytic> Damped<S> {
         let mut follower = Follower::new(&medium, &data);
         let ending = follower.run(&goal)?;
         let worst = follower.marks.iter().map(|mark| mark.time_error).fold(follower.error(), f64::max);
-        let error = worst.max(follower.height_error());
+        let error = worst.max(follower.height_error);
         let Follower { pieces, checkpoints, marks, warnings, .. } = follower;
         let end = match &problem.run {
-            Run::Time(time) if ending == Ending::Time => S::from_number(time, precision),
+            Run::Time(time) if ending == Ending::Time || pieces.last().is_some_and(|piece| piece.still) => {
+                S::from_number(time, precision)
+            }
             _ => pieces.last().map_or_else(|| data.slope.zero(), Piece::to) * &data.units.time,
         };
         let mut history = Damped {
@@ -243,8 +252,12 @@ impl<S: Analytic> History<S> for Damped<S> {
                     } else {
                         Vec::new()
                     };
+                    let from = piece.from.clone() * &units.time;
+                    if let Some(last) = pieces.last_mut() {
+                        last.to = from.clone();
+                    }
                     pieces.push(StressPiece {
-                        from: piece.from.clone() * &units.time,
+                        from,
                         to,
                         left: at_zero(&c, &zero),
                         right: at_one(&c, &zero),
@@ -253,6 +266,9 @@ impl<S: Analytic> History<S> for Damped<S> {
                 }
             }
             flying = !piece.contact;
+        }
+        if let Some(last) = pieces.last_mut() {
+            last.to = self.end.clone();
         }
         pieces
     }

@@ -1,6 +1,7 @@
 //! The paper's rod from the first contact on: closed form while the contact lasts, cells after it.
 
 use super::history::Damped;
+use super::static_state::{StaticState, faded_after};
 use crate::error::Error;
 use crate::first_contact::{Bounce, FirstContact, Rebound};
 use crate::history::{Contact, Ending, Energy, Event, EventKind, Field, History, Scales, Side, StressPiece};
@@ -21,6 +22,8 @@ pub struct Joined<S> {
     rod: Parameters<S>,
     bounce: Option<Rebound<S>>,
     march: Option<Damped<S>>,
+    /// From when on a contact without end is at rest.
+    rest: Option<S>,
     events: Vec<Event<S>>,
     contacts: Vec<Contact<S>>,
     end: S,
@@ -29,7 +32,8 @@ pub struct Joined<S> {
     digits: f64,
 }
 
-/// A contact without end is kept for this many round trips, and shown for as many where no time is asked for.
+/// A contact without end is followed for this many round trips, and beyond them if it is at rest by then; where no time is asked
+/// for, fewer are shown.
 const MOST_TRIPS: i64 = 256;
 const SHOWN_TRIPS: i64 = 8;
 /// Cells are not marched to more digits than this: their cost grows with the cube of the digits.
@@ -75,6 +79,7 @@ impl<S: Analytic> Joined<S> {
             contacts: Vec::new(),
             bounce: None,
             march: None,
+            rest: None,
             contact,
             rod,
             digits,
@@ -88,11 +93,17 @@ impl<S: Analytic> Joined<S> {
             Bounce::At { .. } => (),
             Bounce::Never { reason } => {
                 let most = round_trip.int(MOST_TRIPS) * &round_trip;
-                if asked.is_none() || joined.end > most {
+                if asked.is_none() {
                     joined.ending = Ending::NoBounce(reason);
-                }
-                if joined.end > most {
-                    joined.end = most;
+                } else if joined.end > most {
+                    joined.ending = Ending::NoBounce(reason);
+                    match faded_after(&joined.rod, MOST_TRIPS) {
+                        Some(trips) => {
+                            joined.rest = Some(round_trip.int(trips) * &round_trip);
+                            joined.error = joined.error + round_trip.roundoff();
+                        }
+                        None => joined.end = most,
+                    }
                 }
             }
             Bounce::Undecided { until, why, .. } => {
@@ -172,12 +183,34 @@ impl<S: Analytic> Joined<S> {
     fn first_contact(&mut self) {
         let to = self.bounce.as_ref().map(|bounce| bounce.time.clone());
         let until = to.clone().unwrap_or_else(|| self.end.clone());
-        let (centre, velocity) = self.contact.centre(&until);
-        let drag = self.rod.damping.int(2) * &self.rod.damping * &centre.value;
-        let gained = velocity.value + &self.rod.speed + drag + self.rod.gravity.clone() * &until;
+        let (centre, velocity) = self.contact_centre(&until);
+        let drag = self.rod.damping.int(2) * &self.rod.damping * &centre;
+        let gained = velocity + &self.rod.speed + drag + self.rod.gravity.clone() * &until;
         let contact =
             Contact { from: until.zero(), to, impulse: gained * &self.rod.length, peak_stress: self.peak(&until) };
         self.contacts.insert(0, contact);
+    }
+
+    /// The rod at rest, if it is at this time of a contact without end.
+    fn at_rest(&self, time: &S) -> Option<StaticState<S>> {
+        self.rest.as_ref().filter(|rest| time > rest).map(|_| StaticState::of(&self.rod))
+    }
+
+    /// `h`, `h′` in the first contact.
+    fn contact_centre(&self, time: &S) -> (S, S) {
+        self.at_rest(time).map_or_else(
+            || {
+                let (centre, velocity) = self.contact.centre(time);
+                (centre.value, velocity.value)
+            },
+            |state| state.centre(),
+        )
+    }
+
+    /// `v_x(0,t)` in the first contact.
+    fn contact_stress(&self, time: &S, side: Side) -> S {
+        self.at_rest(time)
+            .map_or_else(|| self.contact.stress(time, side).value, |state| state.field(&time.zero()).strain)
     }
 
     /// The most compressive stress up to `until`.
@@ -187,7 +220,7 @@ impl<S: Analytic> Joined<S> {
     /// rises with `I₁/I₀` and so has at most one zero, a minimum. An interior maximum is narrowed by golden section
     /// until the square of its width, which is the relative error of the peak, is below the roundoff.
     fn peak(&self, until: &S) -> S {
-        let stress = |time: &S, side: Side| self.contact.stress(time, side).value;
+        let stress = |time: &S, side: Side| self.contact_stress(time, side);
         let mut peak = stress(&until.zero(), Side::Right);
         let better = |peak: &mut S, value: S| {
             let deeper = value < *peak;
@@ -231,7 +264,8 @@ impl<S: Analytic> Joined<S> {
                 break;
             }
             let next = unit.int(k) * &unit;
-            let to = if next < *until { next } else { until.clone() };
+            let still = self.rest.as_ref().is_some_and(|rest| from >= *rest);
+            let to = if next < *until && !still { next } else { until.clone() };
             cells.push((from, to.clone()));
             from = to;
         }
@@ -307,12 +341,12 @@ impl<S: Analytic> History<S> for Joined<S> {
         let mut pieces: Vec<StressPiece<S>> = self
             .cells(until)
             .into_iter()
-            .map(|(from, to)| StressPiece {
-                left: self.contact.stress(&from, Side::Right).value,
-                right: self.contact.stress(&to, Side::Left).value,
-                chebyshev: self.chebyshev(&from, &to),
-                from,
-                to,
+            .map(|(from, to)| {
+                let still = self.rest.as_ref().is_some_and(|rest| from >= *rest);
+                let left = self.contact_stress(if still { &to } else { &from }, Side::Right);
+                let right = self.contact_stress(&to, Side::Left);
+                let chebyshev = if still { vec![right.clone()] } else { self.chebyshev(&from, &to) };
+                StressPiece { left, right, chebyshev, from, to }
             })
             .collect();
         if let Some(march) = &self.march {
@@ -334,7 +368,7 @@ impl<S: Analytic> History<S> for Joined<S> {
             return Ok(time.zero());
         }
         if self.in_contact(time, side)? {
-            return Ok(self.contact.stress(time, side).value);
+            return Ok(self.contact_stress(time, side));
         }
         match (&self.bounce, &self.march) {
             (Some(bounce), _) if *time == bounce.time => Ok(time.zero()),
@@ -362,8 +396,7 @@ impl<S: Analytic> History<S> for Joined<S> {
 
     fn centre(&self, time: &S) -> Result<(S, S), Error> {
         if self.in_contact(time, Side::Left)? {
-            let (centre, velocity) = self.contact.centre(time);
-            return Ok((centre.value, velocity.value));
+            return Ok(self.contact_centre(time));
         }
         // Until the next impact the centre flies freely, whatever the rod does.
         match (&self.bounce, self.events.get(2)) {
@@ -373,7 +406,10 @@ impl<S: Analytic> History<S> for Joined<S> {
     }
 
     fn energy(&self, time: &S) -> Result<Energy<S>, Error> {
-        if self.in_contact(time, Side::Left)? { Ok(self.contact.energy(time).0) } else { self.later()?.energy(time) }
+        if !self.in_contact(time, Side::Left)? {
+            return self.later()?.energy(time);
+        }
+        Ok(self.at_rest(time).map_or_else(|| self.contact.energy(time).0, |state| state.energy()))
     }
 
     fn field(&self, point: &S, time: &S, side: Side) -> Result<Field<S>, Error> {
@@ -381,7 +417,8 @@ impl<S: Analytic> History<S> for Joined<S> {
             return Err(Error::PointOutside { found: point.text(), length: self.rod.length.text() });
         }
         if self.in_contact(time, side)? {
-            return Ok(self.contact.field(point, time, side).0);
+            let state = self.at_rest(time);
+            return Ok(state.map_or_else(|| self.contact.field(point, time, side).0, |state| state.field(point)));
         }
         self.later()?.field(point, time, side)
     }

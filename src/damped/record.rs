@@ -44,7 +44,7 @@ impl<S: Analytic> Record<'_, S> {
         let Some((index, state)) = kept.checked_sub(1).and_then(|k| self.checkpoints.get(k)) else { return };
         let mut state = state.clone();
         for (k, piece) in self.pieces.iter().enumerate().skip(*index) {
-            if piece.from > *to {
+            if piece.still || piece.from > *to {
                 break;
             }
             if piece.cut {
@@ -66,6 +66,13 @@ impl<S: Analytic> Record<'_, S> {
         let zero = t.zero();
         let half = t.ratio(1, 2);
         let mut nodes = Vec::new();
+        if let Some(z_x) = self.at_rest(t) {
+            for (at, weight) in &self.medium.basis.gauss {
+                let (x, weight) = (at.clone() * reach, weight.clone() * reach);
+                nodes.push(Node { weight, x, z_t: zero.clone(), z_x: z_x.clone() });
+            }
+            return nodes;
+        }
         let mut visit = |cell: &Cell<'_, S>| {
             let (xi, eta) = &cell.corner;
             let low = larger(larger(t.clone() - xi - &cell.size.0, eta.clone() - t), zero.clone());
@@ -86,6 +93,12 @@ impl<S: Analytic> Record<'_, S> {
         nodes
     }
 
+    /// `z_x`, the same along the rod, where the rod is at rest at time `t`.
+    fn at_rest(&self, t: &S) -> Option<S> {
+        let last = self.pieces.last().filter(|piece| piece.still && *t > piece.from)?;
+        Some(if last.contact { t.zero() } else { -self.medium.slope.clone() })
+    }
+
     /// `p`, `q` of `z` in a cell.
     fn inside(&self, cell: &Cell<'_, S>, xi: &S, eta: &S) -> (S, S) {
         cell.at(&self.medium.basis, xi, eta, self.medium.log2_accuracy)
@@ -93,6 +106,9 @@ impl<S: Analytic> Record<'_, S> {
 
     /// `z_t` and `z_x` at a point, from the named side in time.
     pub(super) fn at(&self, x: &S, t: &S, side: Side) -> (S, S) {
+        if let Some(z_x) = self.at_rest(t) {
+            return (t.zero(), z_x);
+        }
         let (xi, eta) = (t.clone() - x, t.clone() + x);
         let slack = slack(t);
         // The last cell that has begun; where none has, the first.

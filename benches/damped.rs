@@ -1,0 +1,119 @@
+//! The damped rod: later impacts end to end, cost against simulated time and against damping, many digits, and what the
+//! cells cost where there is no damping, beside the lattice that is used there.
+#![allow(missing_docs, clippy::unwrap_used)]
+
+use std::hint::black_box;
+
+use criterion::{BenchmarkId, Criterion, Throughput, criterion_group, criterion_main};
+use dalembert::damped::Damped;
+use dalembert::lattice::Undamped;
+use dalembert::rod::{Material, Profile, Rod, Run, Start, Top};
+use dalembert::{Ask, History, Number, Plan, Problem, Scene, Solution, solve};
+
+/// A rod with c = L = g = 1, t₁ = 2.
+fn rod(damping: &str, speed: &str, run: Run) -> Problem {
+    let one = || Number::from(1);
+    let mut problem = Problem::uniform(one(), one(), one(), speed.parse().unwrap());
+    problem.rod.damping = damping.parse().ok();
+    problem.run = run;
+    problem
+}
+
+/// A rod under a fixed top, pressed on the ground, without gravity: it lands and leaves every `3 t₁/2` for ever, and has as
+/// many rays after a thousand round trips as at the start.
+fn periodic(trips: i64) -> Problem {
+    let n = |k: i64| Number::from(k);
+    let displacement = vec![(n(0), "1/2".parse().unwrap()), (n(1), n(0))];
+    Problem {
+        rod: Rod { length: n(1), material: Material::WaveSpeed(n(1)), damping: "1e-300".parse().ok(), top: Top::Fixed },
+        gravity: None,
+        start: Start::Profile(Profile { displacement, velocity: Vec::new() }),
+        run: Run::Time(n(2 * trips)),
+    }
+}
+
+/// The plan of a damped scene.
+fn plan(ask: Ask) -> Plan {
+    let scene =
+        "rod = { length = 1, wave_speed = 1, damping = 0.1 }\ngravity = { acceleration = 1 }\n[impact]\nspeed = 1\n";
+    Plan::of(&Scene::parse(scene).unwrap(), ask).unwrap()
+}
+
+fn impacts(c: &mut Criterion) {
+    let mut group = c.benchmark_group("ten impacts to 1e-10");
+    let plan = plan(Ask { accuracy: Some(1e-10), ..Ask::default() });
+    for (damping, speed) in [("0.001", "3"), ("0.01", "3"), ("0.02", "10"), ("0.1", "10")] {
+        let problem = rod(damping, speed, Run::Impacts(10));
+        group.bench_function(format!("r = {damping}, μ = {speed}"), |b| {
+            b.iter(|| match solve(black_box(&problem), &plan, |_, _| ()).unwrap() {
+                Solution::Double(history) => (history.contacts().len(), history.error_estimate()),
+                _ => unreachable!(),
+            });
+        });
+    }
+    group.finish();
+    #[cfg(feature = "mp")]
+    {
+        let plan = self::plan(Ask { digits: Some(50), ..Ask::default() });
+        let problem = rod("0.1", "3", Run::Impacts(2));
+        let mut group = c.benchmark_group("50 digits");
+        group.sample_size(10).bench_function("second contact, r = 0.1, μ = 3", |b| {
+            b.iter(|| match solve(black_box(&problem), &plan, |_, _| ()).unwrap() {
+                Solution::Digits(history, _) => history.contacts().len(),
+                _ => unreachable!(),
+            });
+        });
+        group.finish();
+    }
+}
+
+/// The elements are round trips.
+fn time(c: &mut Criterion) {
+    let mut group = c.benchmark_group("simulated time");
+    group.sample_size(10);
+    let march = |problem: &Problem| Damped::<f64>::solve(black_box(problem), &(), 12.0).unwrap().events().len();
+    for trips in [10, 100, 1000] {
+        group.throughput(Throughput::Elements(trips as u64));
+        let problem = periodic(trips);
+        group.bench_function(BenchmarkId::new("few rays, for ever", trips), |b| b.iter(|| march(&problem)));
+        let problem = rod("0.5", "5", Run::Time(Number::from(2 * trips)));
+        group.bench_function(BenchmarkId::new("settling", trips), |b| b.iter(|| march(&problem)));
+    }
+    group.finish();
+    let mut group = c.benchmark_group("damping, ten round trips");
+    for damping in ["1e-6", "0.01", "0.1", "1", "5", "10", "20", "50"] {
+        let problem = rod(damping, "3", Run::Time(Number::from(20)));
+        group.bench_function(BenchmarkId::new("r t₁ = 2 ×", damping), |b| b.iter(|| march(&problem)));
+    }
+    group.finish();
+}
+
+/// Without damping a plan takes the lattice, whose code knows no damping; this is what cells would take for the same scene.
+fn undamped(c: &mut Criterion) {
+    let mut group = c.benchmark_group("without damping");
+    let plan = |damped: &str| {
+        let scene = format!("rod = {{ length = 1, wave_speed = 1{damped} }}\n[impact]\nspeed = 3\n");
+        Plan::of(&Scene::parse(&scene).unwrap(), Ask::default()).unwrap()
+    };
+    for impacts in [1, 10] {
+        let problem = rod("", "3", Run::Impacts(impacts));
+        assert!(problem.rod.damping.is_none());
+        group.bench_function(BenchmarkId::new("lattice, called directly", impacts), |b| {
+            b.iter(|| Undamped::<f64>::solve(black_box(&problem), &()).unwrap().events().len());
+        });
+        let undamped = plan("");
+        group.bench_function(BenchmarkId::new("scene with no damping, as planned", impacts), |b| {
+            b.iter(|| match solve(black_box(&problem), &undamped, |_, _| ()).unwrap() {
+                Solution::Double(history) => history.events().len(),
+                _ => unreachable!(),
+            });
+        });
+        group.bench_function(BenchmarkId::new("cells with r = 0", impacts), |b| {
+            b.iter(|| Damped::<f64>::solve(black_box(&problem), &(), 12.0).unwrap().events().len());
+        });
+    }
+    group.finish();
+}
+
+criterion_group!(benches, impacts, time, undamped);
+criterion_main!(benches);

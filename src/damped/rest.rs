@@ -1,0 +1,172 @@
+//! What certainly does not happen any more: a release, an impact, any motion at all.
+//!
+//! In units: `d` is the deviation from the state at rest, `p`, `q` its invariants, `B` a bound of them on one upward
+//! characteristic. By the sup norm of [`super::cell`] and the reflections `p = ±q` it is a bound of them everywhere later.
+
+use super::follow::{Follower, Goal, Piece};
+use super::march::Medium;
+use super::record::{Node, Record};
+use super::series::bound;
+use crate::history::Ending;
+use crate::number::Analytic;
+
+/// A motion is over where it is this often the error that it carries.
+const OVER: f64 = 3.0;
+
+impl<S: Analytic> Follower<'_, S> {
+    /// Why no impact can follow the flight, if that is certain. Only where gravity does not pull the end back.
+    ///
+    /// In flight the end swings about a stress-free state at height `s = v_s′(0)/2` (top fixed) or about the centre of mass
+    /// (top free, `g = 0`), whose height `h` tends monotonely to `h + h′/2r`. The deviation `d` has an energy `E` that
+    /// cannot grow and `|d(0)| ≤ √ℓ ‖d_x‖`, `‖d_x‖ ≤ √(2E)`, with `ℓ = ½` for a fixed top; `ℓ = ⅙` where the mean of `d`
+    /// vanishes, as then `d(0) = −∫(1 − 2x) d_x dx`. No impact follows once `√(2ℓE)` is less than the least height.
+    pub(super) fn escapes(&self) -> Option<Ending> {
+        let (medium, data) = (self.medium, self.data);
+        let slope = medium.slope.to_f64();
+        // Under a free top gravity makes the slope negative.
+        if slope < 0.0 {
+            return None;
+        }
+        let record = Record { medium, data, pieces: &self.pieces, checkpoints: &self.checkpoints };
+        let t = self.state.time();
+        let nodes = record.line(&t, &t.ratio(1, 2));
+        let sum = |f: &dyn Fn(f64, f64, f64) -> f64| -> f64 {
+            let term = |n: &Node<S>| n.weight.to_f64() * f(n.x.to_f64(), n.z_t.to_f64(), n.z_x.to_f64() + slope);
+            nodes.iter().map(term).sum()
+        };
+        let (least, share) = if medium.free_top {
+            let rate = 2.0 * sum(&|_, v_t, _| v_t);
+            let mean = self.height.to_f64() + 2.0 * sum(&|x, _, v_x| (0.5 - x) * v_x);
+            // h′/2r, where 4κ = 2r.
+            let rise = rate / (4.0 * medium.kappa.to_f64());
+            (mean.min(mean + rise), sum(&|_, v_t, v_x| (v_t - rate).powi(2) + v_x.powi(2)) / 6.0)
+        } else {
+            (slope / 2.0, sum(&|_, v_t, v_x| v_t.powi(2) + v_x.powi(2)) / 2.0)
+        };
+        let swing = share.sqrt() + 8.0 * (self.error() + self.height_error);
+        (least > swing).then(|| {
+            let unit = data.units.displacement.to_f64();
+            Ending::NoFurtherImpact(format!(
+                "from t = {} on the ground end swings by at most {:.3e}, ever less, about a height that is never below {:.3e}",
+                short(&data.units.time, &t),
+                swing * unit,
+                least * unit
+            ))
+        })
+    }
+
+    /// Why no release can follow, if that is certain.
+    ///
+    /// In contact `p = −q` at the ground and `p = ±q` at the top, so `|q| ≤ B` on one characteristic gives `|q| ≤ B` for
+    /// ever, and with `B < |v_s′(0)|`, `v_s′(0) < 0`, the stress `q + v_s′(0)` stays negative.
+    pub(super) fn stays(&self) -> Option<Ending> {
+        let most = self.state.bound() + self.error();
+        let slope = self.medium.slope.to_f64();
+        (self.contact && slope < 0.0 && most < -slope).then(|| {
+            self.held(format!(
+                "from t = {} on the waves pull with at most {:.3} of what the rod presses with at rest, and they never grow",
+                short(&self.data.units.time, &self.state.time()),
+                most / -slope
+            ))
+        })
+    }
+
+    /// The ending of a contact that does not end.
+    fn held(&self, reason: String) -> Ending {
+        if self.marks.len() > 1 { Ending::Rest(reason) } else { Ending::NoBounce(reason) }
+    }
+
+    /// Bounds of velocities and of displacements from now on, as deviations from the state at rest, if this state is clear.
+    ///
+    /// - Pressed on the ground, `v_s′(0) < 0`, in contact and never to leave: `B` and `B/2`, as `d(0) = 0` and `d_x ≤ B` on
+    ///   a rod of length ½.
+    /// - Hanging from a fixed top, `v_s′(0) > 0`, in flight: `B` and `B/2` from the top, less than the height of the end.
+    /// - Neither, `v_s′(0) = 0`: then `v_s` fits contact and flight, and `B` outlives every event. Under a fixed top
+    ///   displacements are at most `B/2`. Under a free one `(h′ + 2rh)′ = −c²v_x/L` vanishes in flight: from a height of the
+    ///   end now, or in later flights from a contact, in which `|h| ≤ B/4`, the centre moves by at most `B/2r`; the end
+    ///   is at most `B/4` from it, and neither moves faster than `B`, whatever it meets.
+    fn left(&self, time: f64) -> Option<(f64, f64)> {
+        let Medium { slope, kappa, free_top, basis, .. } = self.medium;
+        let value = slope.to_f64();
+        let mut most = self.state.bound();
+        if value > 0.0 && !self.contact {
+            most = 0.0;
+            for segment in &self.state.segments {
+                // q of the deviation from the hanging rod: q + slope.
+                let mut q = segment.q.clone();
+                let growth = basis.exponential(&(kappa.clone() * &segment.len), q.len());
+                for (term, e) in q.iter_mut().zip(growth) {
+                    *term = e * slope + &*term;
+                }
+                most = most.max(bound(&q, 0));
+            }
+        }
+        let velocity = most + self.error();
+        let clear = if self.contact { value <= 0.0 } else { value >= 0.0 };
+        let far = if value == 0.0 && *free_top {
+            (velocity * (1.0 + 1.0 / (4.0 * kappa.to_f64()))).min(velocity * time.max(1.0))
+        } else {
+            velocity / 2.0
+        };
+        let over = most <= OVER * self.error() && (value == 0.0 || velocity < value.abs());
+        (clear && over).then_some((velocity, far))
+    }
+
+    /// Ends a run whose motion is below its own error: the rest of the time belongs to the state at rest.
+    ///
+    /// `since` is when that was first so. A round trip later the bound holds on whole lines of constant time, not only on
+    /// a characteristic, and the field may be answered from the state at rest.
+    pub(super) fn settle(&mut self, goal: &Goal<S>, since: &mut Option<S>) -> Option<Ending> {
+        let now = self.state.time();
+        let time = match goal {
+            Goal::Time(end) => (end.clone() - &now).to_f64(),
+            Goal::Impacts(_) => f64::INFINITY,
+        };
+        let (velocity, far) = self.left(time)?;
+        let neither = self.medium.slope.is_zero();
+        let units = &self.data.units;
+        let still = format!(
+            "from t = {} on nothing moves faster than {:.1e}, which is within the accuracy",
+            short(&units.time, &now),
+            velocity * units.velocity.to_f64()
+        );
+        let Goal::Time(end) = goal else {
+            let reason = format!("{still}: whether the ground end still lets go or lands takes more digits to tell");
+            return neither.then_some(Ending::Undecided(reason));
+        };
+        let since = since.get_or_insert_with(|| now.clone());
+        if (now.clone() - &*since).to_f64() < 1.0 || time < 1.0 {
+            return None;
+        }
+        let zero = now.zero();
+        let rest = if self.medium.free_top { self.height.clone() } else { self.medium.slope.clone() * now.ratio(1, 2) };
+        let ending = if self.contact && !neither {
+            self.held(format!("{still}: the rod presses on the ground as it does at rest"))
+        } else if !self.contact && rest.to_f64() > far + self.height_error {
+            let height = rest.to_f64() * units.displacement.to_f64();
+            Ending::NoFurtherImpact(format!("{still}: the ground end stays at the height {height:.6e}"))
+        } else {
+            Ending::Rest(format!("{still}, and so is every event that may still come"))
+        };
+        let (trace, height) = if self.contact {
+            (vec![self.medium.slope.clone(), zero], Vec::new())
+        } else {
+            (vec![zero.clone(), zero.clone()], vec![rest, zero])
+        };
+        self.scattered += velocity;
+        self.height_error += far;
+        let len = end.clone() - &now;
+        self.pieces.push(Piece { from: now, len, contact: self.contact, cut: false, still: true, trace, height });
+        Some(ending)
+    }
+}
+
+/// A time in words, in the units of the scene.
+fn short<S: Analytic>(unit: &S, time: &S) -> String {
+    let time = (time.clone() * unit).to_f64();
+    if time == 0.0 || (1e-3..1e6).contains(&time) {
+        format!("{}", (time * 1e6).round() / 1e6)
+    } else {
+        format!("{time:.6e}")
+    }
+}

@@ -1,0 +1,157 @@
+//! Damped rods that come to rest: the state at rest is that of statics, the history reaches the time asked for, and it costs
+//! no more to ask for more of it.
+#![allow(clippy::unwrap_used, clippy::panic)]
+
+mod common;
+
+use common::{close, uniform};
+use dalembert::damped::{Damped, Joined};
+use dalembert::first_contact::FirstContact;
+use dalembert::rod::{Parameters, Profile, Run, Start, Top};
+use dalembert::{Ending, Error, History, Number, Problem, Side};
+
+/// `c = L = 1`.
+fn rod(gravity: &str, speed: &str, damping: &str, time: i64) -> Problem {
+    let mut problem = uniform("1", "1", gravity, speed, Run::Time(time.into()));
+    problem.rod.damping = damping.parse().ok();
+    problem
+}
+
+/// Dropped or pressed under a fixed top: linear from `low` at the ground to `high`.
+fn fixed(gravity: &str, low: &str, high: &str, damping: &str, time: i64) -> Problem {
+    let mut problem = rod(gravity, "0", damping, time);
+    let n = |text: &str| text.parse::<Number>().unwrap();
+    problem.rod.top = Top::Fixed;
+    let displacement = vec![(n("0"), n(low)), (n("1"), n(high))];
+    problem.start = Start::Profile(Profile { displacement, velocity: Vec::new() });
+    problem
+}
+
+fn solve(problem: &Problem) -> Damped<f64> {
+    Damped::solve(problem, &(), 13.0).unwrap()
+}
+
+/// Everything that can be asked at the end: the rod rests with `v`, and `v_x(0)` as it is just above the ground.
+fn rests(history: &dyn History<f64>, time: i64, v: impl Fn(f64) -> f64, stress: f64) {
+    let end = time as f64;
+    assert_eq!(history.end(), end);
+    let pieces = history.stress_pieces();
+    let last = pieces.last().unwrap();
+    assert_eq!(last.to, end);
+    assert!(pieces.windows(2).all(|pair| pair[0].to == pair[1].from));
+    for t in [end, 0.9 * end + 0.123] {
+        close("stress", history.stress(&t, Side::Left).unwrap(), stress, 1.0, 1e-11);
+        for x in [0.0, 0.31, 1.0] {
+            let field = history.field(&x, &t, Side::Right).unwrap();
+            close("v", field.displacement, v(x), 1.0, 1e-10);
+            close("v_t", field.velocity, 0.0, 1.0, 1e-10);
+        }
+        // Simpson's rule is exact for v_s.
+        let centre = (v(0.0) + 4.0 * v(0.5) + v(1.0)) / 6.0;
+        close("h", history.centre(&t).unwrap().0, centre, 1.0, 1e-10);
+        close("h'", history.centre(&t).unwrap().1, 0.0, 1.0, 1e-10);
+        let energy = history.energy(&t).unwrap();
+        close("E", energy.total, energy.translational + energy.vibrational, 1.0, 1e-12);
+        close("v(0)", history.ground_end(&t, Side::Left).unwrap().0, v(0.0), 1.0, 1e-10);
+        close("v(L)", history.top_end(&t, Side::Left).unwrap().0, v(1.0), 1.0, 1e-10);
+    }
+    assert!(history.field(&0.5, &(end * 1.01), Side::Right).is_err());
+}
+
+#[test]
+fn a_rod_on_the_ground_rests_on_its_weight() {
+    for (speed, damping, time) in [("3", "0.2", 1_000), ("5", "0.5", 1_000_000), ("1", "1.8", 1_000_000)] {
+        let history = solve(&rod("1", speed, damping, time));
+        match history.ending() {
+            Ending::Rest(_) => assert_ne!(damping, "1.8"),
+            Ending::NoBounce(_) => assert_eq!(damping, "1.8"),
+            other => panic!("{other:?}"),
+        }
+        assert!(history.error_estimate() < 1e-10);
+        rests(&history, time, |x| 0.5 * x * x - x, -1.0);
+        // What came before is as if it had been asked for alone, on both sides of where rest begins.
+        let before = solve(&rod("1", speed, damping, 11));
+        assert_eq!(before.events(), &history.events()[..before.events().len()]);
+        let impulse: f64 = history.contacts().iter().map(|contact| contact.impulse).sum();
+        let (h, rate) = history.centre(&history.end()).unwrap();
+        let change = rate + speed.parse::<f64>().unwrap() + 2.0 * damping.parse::<f64>().unwrap() * h;
+        close("momentum", change, impulse - time as f64, time as f64, 1e-10);
+    }
+}
+
+#[test]
+fn the_field_goes_over_into_rest_without_a_step() {
+    let history = solve(&rod("1", "3", "0.2", 1_000));
+    let pieces = history.stress_pieces();
+    let begin = pieces.last().unwrap().from;
+    assert!(begin < 300.0, "{begin}");
+    for t in [begin - 1e-3, begin, begin + 1e-9, begin + 1e-3] {
+        for x in [0.2, 0.7, 1.0] {
+            let field = history.field(&x, &t, Side::Right).unwrap();
+            close("v", field.displacement, 0.5 * x * x - x, 1.0, 1e-11);
+            close("v_x", field.strain, x - 1.0, 1.0, 1e-11);
+        }
+        close("E_z", history.energy(&t).unwrap().vibrational, 1.0 / 6.0, 1.0, 1e-11);
+    }
+}
+
+#[test]
+fn without_gravity_the_rod_stops_in_the_air() {
+    for (speed, damping) in [("3", "0.2"), ("5", "0.5"), ("5", "1.2")] {
+        let history = solve(&rod("0", speed, damping, 1_000_000));
+        assert!(matches!(history.ending(), Ending::NoFurtherImpact(_)), "{:?}", history.ending());
+        // h′ + 2rh is constant in flight.
+        let release = &history.events()[1];
+        let height = release.centre + release.centre_velocity / (2.0 * damping.parse::<f64>().unwrap());
+        assert!(history.error_estimate() < 1e-10);
+        rests(&history, 1_000_000, |_| height, 0.0);
+    }
+    // r t₁ > π: a contact that decays without end; nothing tells whether it ends.
+    let history = solve(&rod("0", "1", "1.8", 1_000_000));
+    assert!(matches!(history.ending(), Ending::Rest(_)), "{:?}", history.ending());
+    rests(&history, 1_000_000, |_| 0.0, 0.0);
+}
+
+#[test]
+fn a_rod_under_a_fixed_top_hangs_or_stands() {
+    // v_s′(0) = v(L)/L − gL/2c².
+    let hangs = solve(&fixed("1", "3/4", "3/4", "0.4", 100_000));
+    assert!(matches!(hangs.ending(), Ending::NoFurtherImpact(_)), "{:?}", hangs.ending());
+    rests(&hangs, 100_000, |x| 0.25 + 0.5 * x * x, 0.0);
+    let stands = solve(&fixed("1", "1/4", "1/4", "0.4", 100_000));
+    assert!(matches!(stands.ending(), Ending::Rest(_)), "{:?}", stands.ending());
+    rests(&stands, 100_000, |x| 0.5 * x * x - 0.25 * x, -0.25);
+    let pressed = solve(&fixed("0", "0", "-1/2", "0.4", 100_000));
+    rests(&pressed, 100_000, |x| -0.5 * x, -0.5);
+    // It lands for ever, with ever less speed; the times of such landings are not known well.
+    let touches = solve(&fixed("0", "1", "0", "0.4", 100_000));
+    assert!(matches!(touches.ending(), Ending::Rest(_)), "{:?}", touches.ending());
+    rests(&touches, 100_000, |_| 0.0, 0.0);
+}
+
+#[test]
+fn a_contact_without_end_is_known_at_all_times() {
+    for (gravity, damping) in [("1", "1.8"), ("1", "1.2"), ("0", "1.8")] {
+        let problem = rod(gravity, "1/2", damping, 1_000_000);
+        let parameters = Parameters::<f64>::of(&problem, &()).unwrap();
+        let bounce = FirstContact::new(&parameters).bounce_within(1e-12);
+        let history = Joined::<f64>::solve(&problem, &(), 13.0, bounce, true).unwrap();
+        assert!(matches!(history.ending(), Ending::NoBounce(_)), "{:?}", history.ending());
+        let g = parameters.gravity;
+        rests(&history, 1_000_000, |x| g * (0.5 * x * x - x), -g);
+        assert_eq!(history.stress_pieces().last().unwrap().chebyshev, vec![-g]);
+    }
+    // Too slow: after 256 round trips it still moves.
+    let problem = rod("0", "1", "1e4", 1_000_000);
+    let bounce = FirstContact::new(&Parameters::<f64>::of(&problem, &()).unwrap()).bounce_within(1e-12);
+    let history = Joined::<f64>::solve(&problem, &(), 13.0, bounce, true).unwrap();
+    assert_eq!(history.end(), 512.0);
+}
+
+#[test]
+fn damping_that_cells_cannot_follow_is_refused_by_name() {
+    let found = Damped::<f64>::solve(&fixed("0", "0", "-1/2", "2000", 1), &(), 12.0).unwrap_err();
+    assert_eq!(found, Error::DampingTooStrong { found: 4000.0, most: 2000.0 });
+    let text = found.to_string();
+    assert!(text.contains("4000") && text.contains("expected at most 2000"), "{text}");
+}
