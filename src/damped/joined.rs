@@ -220,35 +220,31 @@ impl<S: Analytic> Joined<S> {
     /// rises with `I₁/I₀` and so has at most one zero, a minimum. An interior maximum is narrowed by golden section
     /// until the square of its width, which is the relative error of the peak, is below the roundoff.
     fn peak(&self, until: &S) -> S {
-        let stress = |time: &S, side: Side| self.contact_stress(time, side);
-        let mut peak = stress(&until.zero(), Side::Right);
-        let better = |peak: &mut S, value: S| {
-            let deeper = value < *peak;
-            if deeper {
-                *peak = value;
-            }
-            deeper
-        };
+        let stress = |time: &S| self.contact_stress(time, Side::Left);
+        let mut peak = self.contact_stress(&until.zero(), Side::Right);
+        let deeper = |peak: S, value: S| if value < peak { value } else { peak };
         for (from, to) in self.cells(until) {
-            better(&mut peak, stress(&from, Side::Right));
-            better(&mut peak, stress(&to, Side::Left));
+            let start = self.contact_stress(&from, Side::Right);
             if from.is_zero() {
+                peak = deeper(deeper(peak, start), stress(&to));
                 continue;
             }
             let width = to.clone() - &from;
-            let at = |k: i64| from.clone() + width.clone() * width.ratio(k, 12);
-            for k in 1..12 {
-                let value = stress(&at(k), Side::Left);
-                if better(&mut peak, value) {
-                    let (mut low, mut high) = (at(k - 1), at(k + 1));
-                    let steps = (0.75 * f64::from(peak.bits().unwrap_or(53))).ceil() as u32;
-                    for _ in 0..steps {
-                        let third = (high.clone() - &low) * low.ratio(382, 1000);
-                        let (a, b) = (low.clone() + &third, high.clone() - &third);
-                        if stress(&a, Side::Left) < stress(&b, Side::Left) { high = b } else { low = a }
-                    }
-                    better(&mut peak, stress(&low, Side::Left));
+            let at = |k: usize| from.clone() + width.clone() * width.ratio(k as i64, 12);
+            let mut values = vec![start];
+            values.extend((1..12).map(|k| stress(&at(k))));
+            values.push(stress(&to));
+            let least = (1..=12).fold(0, |least, k| if values[k] < values[least] { k } else { least });
+            peak = deeper(peak, values.swap_remove(least));
+            if (1..12).contains(&least) {
+                let (mut low, mut high) = (at(least - 1), at(least + 1));
+                let steps = (0.75 * f64::from(peak.bits().unwrap_or(53))).ceil() as u32;
+                for _ in 0..steps {
+                    let third = (high.clone() - &low) * low.ratio(382, 1000);
+                    let (a, b) = (low.clone() + &third, high.clone() - &third);
+                    if stress(&a) < stress(&b) { high = b } else { low = a }
                 }
+                peak = deeper(peak, stress(&low));
             }
         }
         peak

@@ -65,8 +65,12 @@ pub fn restitution<S: Scalar>(history: &dyn History<S>, contact: &Contact<S>) ->
     };
     let (_, before) = history.centre(&contact.from)?;
     let (_, after) = history.centre(to)?;
-    // Below its own error bound the momentum is a zero whose digits nobody can give.
-    let bound = before.int(16) * history.error_estimate() * history.scales().velocity;
+    // Below its error bound the momentum is a zero whose digits nobody can give. That bound is of the whole history, whose
+    // late events may be far less certain than this contact: half of the digits at least are its own.
+    let error = history.error_estimate();
+    let half = error.roundoff().try_sqrt().unwrap_or_else(|| error.zero());
+    let error = if error < half { error } else { half };
+    let bound = before.int(16) * error * history.scales().velocity;
     let momentum = if before.magnitude() <= bound { Err(Undefined::NoMomentum) } else { Ok(-(after / &before)) };
     let before = history.energy(&contact.from)?;
     let after = history.energy(to)?;
