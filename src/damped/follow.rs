@@ -187,7 +187,7 @@ impl<'a, S: Analytic> Follower<'a, S> {
             let height = self.height_over(&trace, &len);
             let grounded = !self.contact && self.height.to_f64() <= self.height_error;
             if !fresh && grounded && !self.rises() {
-                let time_error = ray_error.max(self.event_error(&trace, &len.zero(), &len));
+                let time_error = ray_error.max(self.event_error(&trace, &len.zero(), &len, 0.0));
                 if self.land(goal, &mut landed, time_error) {
                     return Ok(Ending::NextImpact);
                 }
@@ -195,21 +195,24 @@ impl<'a, S: Analytic> Follower<'a, S> {
                 continue;
             }
             // The next event in this strip.
-            let found = if self.contact {
+            let (noise, found) = if self.contact {
                 let fall: Vec<S> = trace.iter().map(|term| -term.clone()).collect();
-                first_descent(&self.medium.basis, &fall, self.error().max(unit * 16.0 * bound(&trace, 0)))
+                let noise = self.error().max(unit * 16.0 * bound(&trace, 0));
+                (noise, first_descent(&self.medium.basis, &fall, noise))
             } else {
                 let noise = self.height_error + self.error() * len.to_f64();
-                first_descent(&self.medium.basis, &height, noise)
+                (noise, first_descent(&self.medium.basis, &height, noise))
             };
-            let found = found.map(|x| x * &len);
+            // Where a root is not told from the noise, both the function and what is known of it are off by so much.
+            let vague = if found.as_ref().is_some_and(|(_, vague)| *vague) { 2.0 * noise } else { 0.0 };
+            let found = found.map(|(x, _)| x * &len);
             let nearby = |x: &S| x.to_f64() <= 32.0 * unit;
             let at_start = found.as_ref().is_some_and(&nearby);
             if at_start && !fresh {
                 if self.contact {
                     self.event(ray_error, false);
                 } else {
-                    let time_error = ray_error.max(self.event_error(&trace, &len.zero(), &len));
+                    let time_error = ray_error.max(self.event_error(&trace, &len.zero(), &len, 0.0));
                     if self.land(goal, &mut landed, time_error) {
                         return Ok(Ending::NextImpact);
                     }
@@ -236,7 +239,7 @@ impl<'a, S: Analytic> Follower<'a, S> {
             }
             match found {
                 Some(x) => {
-                    let time_error = self.event_error(&trace, &(x.clone() / &len), &len);
+                    let time_error = self.event_error(&trace, &(x.clone() / &len), &len, vague);
                     self.advance(Some(&x), time_error, &trace, &height);
                     if self.contact {
                         self.event(time_error, true);
@@ -283,9 +286,9 @@ impl<'a, S: Analytic> Follower<'a, S> {
         height
     }
 
-    /// How far a root in the strip may be off: the error of the function over its slope, or the root of twice the error
+    /// How far a root in the strip may be off: the error of the function, and `vague` more, over its slope, or the root of twice the error
     /// over the second derivative if that is less.
-    fn event_error(&self, trace: &[S], x: &S, len: &S) -> f64 {
+    fn event_error(&self, trace: &[S], x: &S, len: &S, vague: f64) -> f64 {
         let len = len.to_f64();
         let at = |c: &[S]| evaluate(c, x).to_f64().abs();
         let first = derivative(trace);
@@ -294,6 +297,7 @@ impl<'a, S: Analytic> Follower<'a, S> {
         } else {
             (self.height_error + self.error() * len * x.to_f64(), at(trace), at(&first) / len)
         };
+        let error = error + vague;
         let unit = 4.0 * x.log2_roundoff().exp2() * (1.0 + self.state.round.unsigned_abs() as f64);
         (error / slope).min((2.0 * error / curvature).sqrt()).min(1.0) + unit
     }
