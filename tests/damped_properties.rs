@@ -7,7 +7,7 @@ use dalembert::damped::Damped;
 use dalembert::history::Event;
 use dalembert::lattice::Undamped;
 use dalembert::rod::{Material, Parameters, Profile, Rod, Run, Speed, Start, Top};
-use dalembert::{Error, EventKind, History, Number, Problem, Side};
+use dalembert::{Error, History, Number, Problem, Side};
 use proptest::prelude::*;
 
 fn number(x: f64) -> Number {

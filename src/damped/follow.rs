@@ -78,6 +78,9 @@ pub(super) struct Follower<'a, S> {
     cell_error: f64,
     /// Error of `p`, `q` from impacts that are off in time.
     pub(super) scattered: f64,
+    /// Error of `h` and `h′` from rays that are off: `Σ |jump| · time error`, fading as the jumps do; and the most it was.
+    shifted: f64,
+    pub(super) most_shifted: f64,
     /// Error of `v(0,b)`.
     pub(super) height_error: f64,
     /// The trace at the end of the last piece.
@@ -109,6 +112,8 @@ impl<'a, S: Analytic> Follower<'a, S> {
             warnings: Vec::new(),
             cell_error,
             scattered: 0.0,
+            shifted: 0.0,
+            most_shifted: 0.0,
             height_error: roundoff,
             last_trace: None,
         };
@@ -320,6 +325,8 @@ impl<'a, S: Analytic> Follower<'a, S> {
             self.height_error += self.error() * len.to_f64();
             self.height = at_one(&height, &zero);
         }
+        // A jump of p fades along its ray like p_η = −κp, and η = 2t there.
+        self.shifted *= (-2.0 * self.medium.kappa.to_f64() * len.to_f64()).exp();
         self.last_trace = Some(at_one(&trace, &zero));
         self.medium.strip(&mut self.state, self.contact, &mut |_| {});
         let contact = self.contact;
@@ -336,6 +343,9 @@ impl<'a, S: Analytic> Follower<'a, S> {
             (_, EventKind::Release) if at_root => zero.clone(),
             _ => at_zero(&self.medium.trace(&self.state, true), &zero),
         };
+        // p goes over from −q to q or back, where q is the velocity.
+        self.shifted += 2.0 * velocity.to_f64().abs() * time_error;
+        self.most_shifted = self.most_shifted.max(self.shifted);
         if self.contact {
             self.height_error = velocity.to_f64().abs() * time_error;
         } else {
