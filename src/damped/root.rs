@@ -11,8 +11,8 @@ const SMALLEST: f64 = 1e-300;
 /// The interval is halved until a part is settled: `|c₀| > Σ_{k≥1}|c_k|` fixes the sign on a part, the same for the
 /// derivative makes the function monotone there, and then its end decides. Parts are settled from left to right, so what
 /// is found is the first. A part on which `Σ|c_k| ≤ noise` says nothing and is passed over: if the function does turn
-/// negative in it, the next part is negative from its left end on, and that is the answer; the second value says so: the root
-/// is then where the function is within the noise, not where it vanishes.
+/// negative in it, the next part is negative from its left end on, and that is the answer; the second value says so, and
+/// also where a descent begins within the noise: the root is then where the function is within the noise, not where it vanishes.
 pub(super) fn first_descent<S: Analytic>(basis: &Basis<S>, c: &[S], noise: f64) -> Option<(S, bool)> {
     let first = c.first()?;
     let zero = first.zero();
@@ -37,11 +37,13 @@ pub(super) fn first_descent<S: Analytic>(basis: &Basis<S>, c: &[S], noise: f64) 
             continue;
         }
         if mean < -variation {
-            if at_zero(&c, &zero).is_negative() {
+            let start = at_zero(&c, &zero);
+            if start.is_negative() {
                 return Some((from, true));
             }
             if at_one(&c, &zero).is_negative() {
-                return Some((from + width * descend(&c, &slope), false));
+                let vague = start.to_f64() <= noise;
+                return Some((from + width * descend(&c, &slope), vague));
             }
             continue;
         }
