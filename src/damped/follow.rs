@@ -78,6 +78,9 @@ pub(super) struct Follower<'a, S> {
     cell_error: f64,
     /// Error of `p`, `q` from impacts that are off in time.
     pub(super) scattered: f64,
+    /// Error of `h` and `h′` from rays that are off: `Σ |jump| · time error`, fading as the jumps do; and the most it was.
+    shifted: f64,
+    pub(super) most_shifted: f64,
     /// Error of `v(0,b)`.
     pub(super) height_error: f64,
     /// The trace at the end of the last piece.
@@ -109,6 +112,8 @@ impl<'a, S: Analytic> Follower<'a, S> {
             warnings: Vec::new(),
             cell_error,
             scattered: 0.0,
+            shifted: 0.0,
+            most_shifted: 0.0,
             height_error: roundoff,
             last_trace: None,
         };
@@ -187,7 +192,7 @@ impl<'a, S: Analytic> Follower<'a, S> {
             let height = self.height_over(&trace, &len);
             let grounded = !self.contact && self.height.to_f64() <= self.height_error;
             if !fresh && grounded && !self.rises() {
-                let time_error = ray_error.max(self.event_error(&trace, &len.zero(), &len));
+                let time_error = ray_error.max(self.event_error(&trace, &len.zero(), &len, 0.0));
                 if self.land(goal, &mut landed, time_error) {
                     return Ok(Ending::NextImpact);
                 }
@@ -195,21 +200,24 @@ impl<'a, S: Analytic> Follower<'a, S> {
                 continue;
             }
             // The next event in this strip.
-            let found = if self.contact {
+            let (noise, found) = if self.contact {
                 let fall: Vec<S> = trace.iter().map(|term| -term.clone()).collect();
-                first_descent(&self.medium.basis, &fall, self.error().max(unit * 16.0 * bound(&trace, 0)))
+                let noise = self.error().max(unit * 16.0 * bound(&trace, 0));
+                (noise, first_descent(&self.medium.basis, &fall, noise))
             } else {
                 let noise = self.height_error + self.error() * len.to_f64();
-                first_descent(&self.medium.basis, &height, noise)
+                (noise, first_descent(&self.medium.basis, &height, noise))
             };
-            let found = found.map(|x| x * &len);
+            // Where a root is not told from the noise, both the function and what is known of it are off by so much.
+            let vague = if found.as_ref().is_some_and(|(_, vague)| *vague) { 2.0 * noise } else { 0.0 };
+            let found = found.map(|(x, _)| x * &len);
             let nearby = |x: &S| x.to_f64() <= 32.0 * unit;
             let at_start = found.as_ref().is_some_and(&nearby);
             if at_start && !fresh {
                 if self.contact {
                     self.event(ray_error, false);
                 } else {
-                    let time_error = ray_error.max(self.event_error(&trace, &len.zero(), &len));
+                    let time_error = ray_error.max(self.event_error(&trace, &len.zero(), &len, 0.0));
                     if self.land(goal, &mut landed, time_error) {
                         return Ok(Ending::NextImpact);
                     }
@@ -236,7 +244,7 @@ impl<'a, S: Analytic> Follower<'a, S> {
             }
             match found {
                 Some(x) => {
-                    let time_error = self.event_error(&trace, &(x.clone() / &len), &len);
+                    let time_error = self.event_error(&trace, &(x.clone() / &len), &len, vague);
                     self.advance(Some(&x), time_error, &trace, &height);
                     if self.contact {
                         self.event(time_error, true);
@@ -283,9 +291,9 @@ impl<'a, S: Analytic> Follower<'a, S> {
         height
     }
 
-    /// How far a root in the strip may be off: the error of the function over its slope, or the root of twice the error
+    /// How far a root in the strip may be off: the error of the function, and `vague` more, over its slope, or the root of twice the error
     /// over the second derivative if that is less.
-    fn event_error(&self, trace: &[S], x: &S, len: &S) -> f64 {
+    fn event_error(&self, trace: &[S], x: &S, len: &S, vague: f64) -> f64 {
         let len = len.to_f64();
         let at = |c: &[S]| evaluate(c, x).to_f64().abs();
         let first = derivative(trace);
@@ -294,6 +302,7 @@ impl<'a, S: Analytic> Follower<'a, S> {
         } else {
             (self.height_error + self.error() * len * x.to_f64(), at(trace), at(&first) / len)
         };
+        let error = error + vague;
         let unit = 4.0 * x.log2_roundoff().exp2() * (1.0 + self.state.round.unsigned_abs() as f64);
         (error / slope).min((2.0 * error / curvature).sqrt()).min(1.0) + unit
     }
@@ -316,6 +325,8 @@ impl<'a, S: Analytic> Follower<'a, S> {
             self.height_error += self.error() * len.to_f64();
             self.height = at_one(&height, &zero);
         }
+        // A jump of p fades along its ray like p_η = −κp, and η = 2t there.
+        self.shifted *= (-2.0 * self.medium.kappa.to_f64() * len.to_f64()).exp();
         self.last_trace = Some(at_one(&trace, &zero));
         self.medium.strip(&mut self.state, self.contact, &mut |_| {});
         let contact = self.contact;
@@ -332,6 +343,9 @@ impl<'a, S: Analytic> Follower<'a, S> {
             (_, EventKind::Release) if at_root => zero.clone(),
             _ => at_zero(&self.medium.trace(&self.state, true), &zero),
         };
+        // p goes over from −q to q or back, where q is the velocity.
+        self.shifted += 2.0 * velocity.to_f64().abs() * time_error;
+        self.most_shifted = self.most_shifted.max(self.shifted);
         if self.contact {
             self.height_error = velocity.to_f64().abs() * time_error;
         } else {

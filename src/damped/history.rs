@@ -84,7 +84,7 @@ impl<S: Analytic> Damped<S> {
         let mut follower = Follower::new(&medium, &data);
         let ending = follower.run(&goal)?;
         let worst = follower.marks.iter().map(|mark| mark.time_error).fold(follower.error(), f64::max);
-        let error = worst.max(follower.height_error);
+        let error = worst.max(follower.height_error) + follower.most_shifted;
         let Follower { pieces, checkpoints, marks, warnings, .. } = follower;
         let end = match &problem.run {
             Run::Time(time) if ending == Ending::Time || pieces.last().is_some_and(|piece| piece.still) => {

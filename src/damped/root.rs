@@ -11,8 +11,9 @@ const SMALLEST: f64 = 1e-300;
 /// The interval is halved until a part is settled: `|c₀| > Σ_{k≥1}|c_k|` fixes the sign on a part, the same for the
 /// derivative makes the function monotone there, and then its end decides. Parts are settled from left to right, so what
 /// is found is the first. A part on which `Σ|c_k| ≤ noise` says nothing and is passed over: if the function does turn
-/// negative in it, the next part is negative from its left end on, and that is the answer.
-pub(super) fn first_descent<S: Analytic>(basis: &Basis<S>, c: &[S], noise: f64) -> Option<S> {
+/// negative in it, the next part is negative from its left end on, and that is the answer; the second value says so, and
+/// also where a descent begins within the noise: the root is then where the function is within the noise, not where it vanishes.
+pub(super) fn first_descent<S: Analytic>(basis: &Basis<S>, c: &[S], noise: f64) -> Option<(S, bool)> {
     let first = c.first()?;
     let zero = first.zero();
     let width = first.one();
@@ -24,23 +25,25 @@ pub(super) fn first_descent<S: Analytic>(basis: &Basis<S>, c: &[S], noise: f64) 
             continue;
         }
         if centre < -spread {
-            return Some(from);
+            return Some((from, true));
         }
         let slope = derivative(&c);
         let (mean, variation) = (slope[0].to_f64(), bound(&slope, 1));
         if mean > variation {
             // Rising from a value that is not negative, as far as can be told.
             if at_zero(&c, &zero).to_f64() < -noise {
-                return Some(from);
+                return Some((from, true));
             }
             continue;
         }
         if mean < -variation {
-            if at_zero(&c, &zero).is_negative() {
-                return Some(from);
+            let start = at_zero(&c, &zero);
+            if start.is_negative() {
+                return Some((from, true));
             }
             if at_one(&c, &zero).is_negative() {
-                return Some(from + width * descend(&c, &slope));
+                let vague = start.to_f64() <= noise;
+                return Some((from + width * descend(&c, &slope), vague));
             }
             continue;
         }
@@ -121,15 +124,15 @@ mod tests {
     fn the_first_of_several_roots_is_found() {
         let basis = Basis::new(&1.0f64, 24, 1);
         let c = series(&basis, |x| (0.2 - x) * (0.25 - x) * (0.9 - x));
-        let root = first_descent(&basis, &c, 1e-15).unwrap();
+        let root = first_descent(&basis, &c, 1e-15).unwrap().0;
         assert!((root - 0.2).abs() < 1e-13, "{root}");
         let touch = series(&basis, |x| (x - 0.3) * (x - 0.3));
         assert_eq!(first_descent(&basis, &touch, 1e-14), None);
         let rises = series(&basis, |x| x * (0.5 - x));
-        let root = first_descent(&basis, &rises, 1e-14).unwrap();
+        let root = first_descent(&basis, &rises, 1e-14).unwrap().0;
         assert!((root - 0.5).abs() < 1e-14, "{root}");
         let dip = series(&basis, |x| (x - 0.3) * (x - 0.3) - 1e-10);
-        let root = first_descent(&basis, &dip, 1e-14).unwrap();
+        let root = first_descent(&basis, &dip, 1e-14).unwrap().0;
         assert!((root - 0.29999).abs() < 1e-9, "{root}");
         assert!((smallest(&basis, &dip).unwrap() + 1e-10).abs() < 1e-15);
     }
