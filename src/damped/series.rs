@@ -1,6 +1,7 @@
 //! Chebyshev series on the unit interval: integration, products with `x`, restriction, and how many terms are needed.
 
 use crate::number::Analytic;
+use crate::special::gauss_legendre;
 
 /// Tables that every series of a solution shares. A series is `c₀ + c₁T₁(2x−1) + c₂T₂(2x−1) + …` on `0 ≤ x ≤ 1`.
 #[derive(Clone, Debug)]
@@ -33,7 +34,7 @@ impl<S: Analytic> Basis<S> {
             times_x(&mut next);
             powers.push(next);
         }
-        Basis { nodes, cosines, quarter, powers, gauss: gauss_legendre(like, size / 2 + 2) }
+        Basis { nodes, cosines, quarter, powers, gauss: unit_rule(like, size / 2 + 2) }
     }
 
     /// The most terms that a series has.
@@ -154,34 +155,9 @@ pub(super) fn bound<S: Analytic>(c: &[S], first: usize) -> f64 {
 }
 
 /// Gauss–Legendre nodes and weights on `0 … 1`.
-///
-/// **Source**: Newton's method on the three-term recurrence, from `cos(π(i+¾)/(n+½))`.
-///
-/// **Accuracy**: within a few roundings: the iteration stops when a step is below the roundoff.
-fn gauss_legendre<S: Analytic>(like: &S, n: usize) -> Vec<(S, S)> {
-    let whole = |k: usize| like.int(i64::try_from(k).unwrap_or(i64::MAX));
-    let step_limit = like.log2_roundoff() + 2.0;
-    let mut rule = Vec::with_capacity(n);
-    for i in 0..n {
-        let mut x = like.double((std::f64::consts::PI * (i as f64 + 0.75) / (n as f64 + 0.5)).cos());
-        let mut slope = like.one();
-        for _ in 0..100 {
-            let (mut p0, mut p1) = (like.one(), x.clone());
-            for k in 2..=n {
-                let p2 = (whole(2 * k - 1) * &x * &p1 - whole(k - 1) * &p0) / whole(k);
-                p0 = std::mem::replace(&mut p1, p2);
-            }
-            slope = whole(n) * (x.clone() * &p1 - &p0) / (x.square() - like.one());
-            let step = p1 / &slope;
-            x = x - &step;
-            if step.is_zero() || step.to_f64().abs().log2() < step_limit {
-                break;
-            }
-        }
-        let weight = like.one() / ((like.one() - x.square()) * slope.square());
-        rule.push(((like.one() + x) * like.ratio(1, 2), weight));
-    }
-    rule
+fn unit_rule<S: Analytic>(like: &S, n: usize) -> Vec<(S, S)> {
+    let half = like.ratio(1, 2);
+    gauss_legendre(like, n).into_iter().map(|(x, weight)| ((x + like.one()) * &half, weight * &half)).collect()
 }
 
 /// How many Chebyshev terms hold a function that is entire, with `|f(s)| ≤ (a + b|s|) e^{θ|s|}` for every complex `s`,
@@ -222,7 +198,7 @@ mod tests {
 
     #[test]
     fn gauss_legendre_is_exact_to_its_degree() {
-        let rule = gauss_legendre(&1.0f64, 6);
+        let rule = unit_rule(&1.0f64, 6);
         let integral: f64 = rule.iter().map(|(x, w)| w * x.powi(11)).sum();
         assert!((integral - 1.0 / 12.0).abs() < 1e-16);
     }

@@ -203,10 +203,11 @@ impl<S: Analytic> FirstContact<S> {
         if overdamped {
             let lowest = if s < 1e-6 { 4.0 } else { 4.0 * s.sinh() / s };
             if lowest > rest(1.0) && 4.0 * s.cosh() > growth {
+                let ratio = lowest / rest(1.0);
+                let times = if ratio < 1000.0 { format!("{ratio:.3}") } else { "more than 1000".into() };
                 let reason = format!(
-                    "r t₁ = {r:.6} ≥ π: the lowest mode is overdamped and has taken over; at t₁ it presses with {lowest:.4} \
-                     where all others pull with less than {:.4}, and it outgrows them from there",
-                    rest(1.0)
+                    "r t₁ = {r:.6} ≥ π: the lowest mode is overdamped; at t₁ it presses {times} times as hard as all \
+                     others together could pull, and it outgrows them from there"
                 );
                 return Err(Bounce::Never { reason });
             }
