@@ -261,3 +261,26 @@ fn a_first_contact_to_a_thousand_digits() {
     let error = (rug::Float::with_val(4000, &a) - &b).abs();
     assert!(error <= rug::Float::with_val(64, rug::Float::parse("1e-1000").unwrap()), "{error}");
 }
+
+/// Where the error bound is too wide, two marches in doubles vouch for each other: their estimate covers what many digits say.
+#[cfg(feature = "mp")]
+#[test]
+fn two_marches_know_how_far_they_are_off() {
+    for (damping, speed) in [("0.001", "3"), ("0.01", "3"), ("0.02", "10"), ("0.1", "10")] {
+        let mut problem = common::uniform("1", "1", "1", speed, Run::Impacts(10));
+        problem.rod.damping = Some(damping.parse().unwrap());
+        let history = in_doubles(&problem, Some(1e-10));
+        let ask = Ask { digits: Some(20), ..Ask::default() };
+        let Ok(Solution::Digits(truth, _)) = solve(&problem, &plan(&problem, ask), |_, _| ()) else {
+            panic!("digits were asked for");
+        };
+        let (scales, estimate) = (history.scales(), history.error_estimate());
+        assert!(estimate <= 1e-10, "{damping} {speed}: {estimate:e}");
+        assert_eq!(history.events().len(), 20);
+        for (ours, truth) in history.events().iter().zip(truth.events()) {
+            close("time", ours.time, truth.time.to_f64(), scales.time, estimate);
+            close("h", ours.centre, truth.centre.to_f64(), scales.time * scales.velocity, estimate);
+            close("h'", ours.centre_velocity, truth.centre_velocity.to_f64(), scales.velocity, estimate);
+        }
+    }
+}

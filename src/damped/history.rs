@@ -65,8 +65,19 @@ impl<S: Analytic> Damped<S> {
         Self::solve_with(problem, precision, digits, 1)
     }
 
+    /// With this error estimate, if it is below the history's own.
+    pub(crate) fn estimated(mut self, estimate: f64) -> Self {
+        self.error = self.error.min(estimate);
+        self
+    }
+
     /// [`Self::solve`] with segments `shorten` times shorter than need be.
-    fn solve_with(problem: &Problem, precision: &S::Precision, digits: f64, shorten: i64) -> Result<Self, Error> {
+    pub(crate) fn solve_with(
+        problem: &Problem,
+        precision: &S::Precision,
+        digits: f64,
+        shorten: i64,
+    ) -> Result<Self, Error> {
         let parameters = Parameters::<S>::of(problem, precision)?;
         let free_top = problem.rod.top == Top::Free;
         let data = Data::of(problem, &parameters, free_top);

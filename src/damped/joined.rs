@@ -117,6 +117,14 @@ impl<S: Analytic> Joined<S> {
         Ok(joined)
     }
 
+    /// With this error estimate, if it is below the history's own.
+    pub(crate) fn estimated(mut self, estimate: f64) -> Self {
+        if self.error.to_f64() > estimate {
+            self.error = self.error.double(estimate);
+        }
+        self
+    }
+
     /// The first release.
     fn release(&mut self, time: S, error: f64) {
         let rebound = self.contact.rebound(&time);

@@ -12,6 +12,7 @@ use crate::scene::{Engine, Plan, System};
 
 #[cfg(feature = "mp")]
 mod digits;
+mod twice;
 #[cfg(feature = "mp")]
 pub use digits::{damped_to_digits, undamped_to_digits};
 
@@ -30,7 +31,8 @@ pub enum Solution {
 /// Solves `problem` by `plan`. `observe` is told the round trip and the number of pieces from time to time.
 ///
 /// **Accuracy**: by `plan.system`. In double precision the error bound that the history carries; where the plan has an
-/// accuracy and the bound is above it, the run is repeated with more bits and read in doubles. Every printed digit with
+/// accuracy and the bound is above it, a damped run is held against a second one with other cells and other last digits,
+/// and where that does not settle it either, the run is repeated with more bits and read in doubles. Every printed digit with
 /// digits; *exact* in fractions.
 ///
 /// **Errors**: [`Error::TooManyPieces`]; [`Error::Irrational`] where a parameter is no fraction and no digits are asked
@@ -114,6 +116,11 @@ const FAINTEST: f64 = 30.0;
 
 fn damped_in_doubles(problem: &Problem, accuracy: Option<f64>) -> Result<Box<dyn History<f64>>, Error> {
     let digits = accuracy.map_or(CELL_DIGITS, |accuracy| -accuracy.log10() + 1.0);
+    let uncertain = |history: &dyn History<f64>| accuracy.is_some_and(|accuracy| history.error_estimate() > accuracy);
+    // The bound of a march adds up every event's error without its sign; two marches side by side know better.
+    let better = |history: &dyn History<f64>| {
+        uncertain(history).then(|| twice::estimate(problem, digits, history)).flatten().unwrap_or(f64::INFINITY)
+    };
     let history: Box<dyn History<f64>> = if Joined::<f64>::fits(problem) {
         let rod = Parameters::<f64>::of(problem, &())?;
         let bounce = FirstContact::new(&rod).bounce_within(1e-13);
@@ -122,12 +129,16 @@ fn damped_in_doubles(problem: &Problem, accuracy: Option<f64>) -> Result<Box<dyn
             let history = digits::damped_unless_faint(problem, digits::of_accuracy(accuracy), FAINTEST)?;
             return Ok(Box::new(crate::rounded::Rounded::new(history)));
         }
-        Box::new(Joined::<f64>::solve(problem, &(), digits, bounce, true)?)
+        let history = Joined::<f64>::solve(problem, &(), digits, bounce, true)?;
+        let estimate = better(&history);
+        Box::new(history.estimated(estimate))
     } else {
-        Box::new(Damped::<f64>::solve(problem, &(), digits)?)
+        let history = Damped::<f64>::solve(problem, &(), digits)?;
+        let estimate = better(&history);
+        Box::new(history.estimated(estimate))
     };
     #[cfg(feature = "mp")]
-    if accuracy.is_some_and(|accuracy| history.error_estimate() > accuracy) {
+    if uncertain(history.as_ref()) {
         let history = damped_to_digits(problem, digits::of_accuracy(accuracy))?;
         return Ok(Box::new(crate::rounded::Rounded::new(history)));
     }
