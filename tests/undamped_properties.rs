@@ -399,3 +399,19 @@ fn long_flights_are_leapt() {
     }
     assert!(rounded.error_estimate() < 1e-12);
 }
+
+/// μ = 1 comes back to its start every 36: a thousand impacts in doubles, most of them at irrational times, and no coincidence
+/// is lost or made up. The bound grows with the number of impacts, not by a factor for each.
+#[test]
+fn a_thousand_impacts_in_doubles() {
+    let problem = common::uniform("1", "1", "1", "1", Run::Impacts(1000));
+    let history = Undamped::<f64>::solve(&problem, &()).unwrap();
+    assert_eq!(history.ending(), &Ending::NextImpact);
+    assert_eq!(history.events().len(), 2000);
+    for (early, late) in history.events().iter().zip(&history.events()[16..]) {
+        assert_eq!(early.kind, late.kind);
+        common::close("36 later", late.time, early.time + 36.0, 1.0, 1e-13);
+        common::close("h", late.centre, early.centre, 1.0, 1e-13);
+    }
+    assert!(history.error_estimate() < 1e-10, "{:e}", history.error_estimate());
+}

@@ -112,6 +112,7 @@ pub fn march<S: Scalar>(
         touch_error: 0.0,
         greatest_error: 0.0,
         relative_error: 0.0,
+        half_digits: (f64::from(problem.gravity.bits().unwrap_or(0)) / 2.0).exp2(),
         greatest_speed: problem.greatest_speed(),
         greatest_height: problem.greatest_speed(),
     };
@@ -131,7 +132,9 @@ pub fn march<S: Scalar>(
             return Err(Error::TooManyPieces { limit: limits.pieces, time });
         }
         observe(trip, state.trace.count());
-        if state.occurrences.len() == events && !state.contact {
+        // A leap wants a rise of two units; the difference of heights tells well enough whether to look closer.
+        let rises = state.height.clone() - &height >= height.int(2);
+        if rises && state.occurrences.len() == events && !state.contact {
             trip += state.leap(trip, until);
         }
         // Two round trips without an event repeat for ever, up to the drift of a rod that flies freely without gravity.
@@ -178,6 +181,8 @@ struct March<S> {
     touch_error: f64,
     greatest_error: f64,
     relative_error: f64,
+    /// `u^{−1/2}`: half of the digits, in roundoffs.
+    half_digits: f64,
     greatest_speed: f64,
     /// At least `greatest_speed`, which is what a round trip lifts.
     greatest_height: f64,
@@ -188,13 +193,19 @@ impl<S: Scalar> March<S> {
     fn sign(&self, x: &S, error: f64) -> Ordering {
         if S::EXACT {
             x.partial_cmp(&x.zero()).unwrap_or(Ordering::Equal)
-        } else if x.magnitude() <= self.unit.double(error) * &self.unit {
+        } else if x.magnitude() <= self.unit.double(error.min(self.widest())) * &self.unit {
             Ordering::Equal
         } else if x.is_negative() {
             Ordering::Less
         } else {
             Ordering::Greater
         }
+    }
+
+    /// The widest coincidence in roundoffs, half of the digits of the greatest value: where the bound has grown beyond that,
+    /// the history is not determined any more, and a decision by the sign alone is as good as any.
+    fn widest(&self) -> f64 {
+        self.half_digits * self.greatest_height
     }
 
     fn negative(&self, x: &S, error: f64) -> bool {
@@ -255,8 +266,7 @@ impl<S: Scalar> March<S> {
 
     /// `√(e u)` in roundoffs: the error of the square root of a number that may be zero.
     fn root_error(&self, error: f64) -> f64 {
-        let half_bits = f64::from(self.unit.bits().unwrap_or(0)) / 2.0;
-        error.sqrt() * half_bits.exp2()
+        error.sqrt() * self.half_digits
     }
 
     /// One round trip: everything that left the ground in the one before comes back.
@@ -299,8 +309,10 @@ impl<S: Scalar> March<S> {
         let piece = &pieces[at];
         let mut value_error = piece.value_error;
         let mut next = at + 1;
-        while next < end && self.continues(piece, value_error, &pieces[next]) {
-            value_error += 2.0 * pieces[next].value_error;
+        while let Some(after) = pieces[..end].get(next)
+            && let Some(error) = self.continued(piece, value_error, after)
+        {
+            value_error = error;
             next += 1;
         }
         let q = self.trace.returned(&piece.value) - fallen;
@@ -321,15 +333,23 @@ impl<S: Scalar> March<S> {
         (incoming, next)
     }
 
-    /// Whether no ray is left between `piece` and `next`: the same line on both sides.
-    fn continues(&self, piece: &Piece<S>, error: f64, next: &Piece<S>) -> bool {
+    /// The error of the line of `piece` on `next` as well, if no ray is left between the two: the same line on both sides.
+    fn continued(&self, piece: &Piece<S>, error: f64, next: &Piece<S>) -> Option<f64> {
         if piece.slope != next.slope {
-            return false;
+            return None;
         }
         let rise = piece.slope.clone() * (next.fraction.clone() - &piece.fraction);
         let rounding = if S::EXACT { 0.0 } else { 2.0 * (rise.to_f64().abs() + next.value.to_f64().abs()) };
         let jump = rise + &piece.value - &next.value;
-        self.vanishes(&jump, error + next.value_error + rounding)
+        if !self.vanishes(&jump, error + next.value_error + rounding) {
+            return None;
+        }
+        if S::EXACT {
+            return Some(0.0);
+        }
+        // The true line of `next` is within its own error of the stored one, which is `jump` away.
+        let apart = (jump.magnitude() / &self.unit).to_f64();
+        Some(error.max(next.value_error + apart + rounding))
     }
 
     /// Contact or flight at the beginning of `incoming`, if the end touches there. True if this is one impact too many.

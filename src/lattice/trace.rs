@@ -120,7 +120,12 @@ impl<S: Scalar> Trace<S> {
 
     /// The slot that stands for trip `index`, and how many trips after its own that is.
     fn slot(&self, index: usize) -> (usize, usize) {
-        let slot = self.slots.partition_point(|slot| slot.first <= index).max(1) - 1;
+        // The march asks for the last two trips only.
+        let last = self.slots.len() - 1;
+        let slot = (last.saturating_sub(1)..=last)
+            .rev()
+            .find(|k| self.slots[*k].first <= index)
+            .unwrap_or_else(|| self.slots.partition_point(|slot| slot.first <= index).max(1) - 1);
         (slot, index - self.slots[slot].first)
     }
 
