@@ -79,7 +79,7 @@ pub(crate) struct Part<S> {
 
 impl<S: Scalar> Trace<S> {
     pub(crate) fn new(before: Vec<(S, S, S)>, top: Top, gravity: S) -> Self {
-        let pieces = before
+        let mut pieces: Vec<Piece<S>> = before
             .into_iter()
             .map(|(fraction, value, slope)| {
                 // A few roundings stand behind each datum of the start.
@@ -89,6 +89,8 @@ impl<S: Scalar> Trace<S> {
                 Piece { fraction, value, slope, height, contact: false, value_error, height_error: 0.0, fraction_error }
             })
             .collect();
+        // A first contact and its flight fit without growing.
+        pieces.reserve(64);
         Trace { pieces, slots: vec![Slot { first: 0, start: 0, rise: None }], end: 1, top, gravity }
     }
 
