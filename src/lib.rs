@@ -13,6 +13,7 @@
 //! | [`first_contact`] | the damped first contact in closed form, the bounce time or why there is none |
 //! | [`damped`] | the damped rod through any number of impacts, in characteristic cells |
 //! | [`history`] | what a solution is, and everything that can be asked of it |
+//! | [`modal`] | the modal sum of the first contact: a third route to the same numbers |
 //! | [`quantity`] | restitution and flights |
 //! | `output`, `cli` | tables, JSON, CSV and the command (feature `cli`) |
 //! | [`special`] | ψ_n, I_n, φ functions, Gauss–Legendre, in any precision |

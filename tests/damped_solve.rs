@@ -19,6 +19,7 @@ fn plan(problem: &Problem, ask: Ask) -> Plan {
 fn in_doubles(problem: &Problem, accuracy: Option<f64>) -> Box<dyn History<f64>> {
     match solve(problem, &plan(problem, Ask { accuracy, ..Ask::default() }), |_, _| ()).unwrap() {
         Solution::Double(history) => history,
+        #[cfg(feature = "mp")]
         _ => panic!("doubles were asked for"),
     }
 }

@@ -11,9 +11,10 @@
 //! `p` is piecewise linear. A break at age `f` of one round trip returns at the same age of every later one, so it is kept
 //! as that fraction and never drifts. There is no time step: the march goes from break to break and from event to event.
 //!
-//! Reading order: `scaled` (units and start), `trace` (what is stored), `march` (contact law and events), `solution` (what
-//! can be asked), `rays` (the jumps of Proposition 2).
+//! Reading order: `scaled` (units and start), `trace` (what is stored), `march` (how far, and what it leaves), `contact`
+//! (contact law and events), `solution` (what can be asked), `rays` (the jumps of Proposition 2).
 
+mod contact;
 mod march;
 mod rays;
 mod scaled;
