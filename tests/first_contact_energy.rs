@@ -2,7 +2,7 @@
 #![allow(clippy::unwrap_used, clippy::panic)]
 
 use dalembert::Number;
-use dalembert::first_contact::{FirstContact, Undamped};
+use dalembert::first_contact::{FirstContact, UndampedContact};
 use dalembert::number::Analytic;
 use dalembert::rod::Parameters;
 use serde_json::Value;
@@ -78,7 +78,7 @@ fn the_smallest_vibrations_keep_their_digits() {
         let steel = Parameters { length: 1.0, wave_speed: 5000.0, damping: 0.0, gravity: 9.81, speed };
         let contact = FirstContact::new(&steel);
         let (energy, errors) = contact.energy(&contact.round_trip());
-        let truth = Undamped::new(&steel).unwrap().vibrational_energy_at_bounce();
+        let truth = UndampedContact::new(&steel).unwrap().vibrational_energy_at_bounce();
         assert!((energy.vibrational - truth).abs() < 1e-13 * truth, "{speed}: {} {truth}", energy.vibrational);
         assert!(errors[2] < 1e-12 * truth, "{speed} {}", errors[2]);
     }
@@ -145,7 +145,8 @@ fn flight_obeys_its_equation() {
     let [(before, _), (now, speed), (after, _)] = [3.0 - step, 3.0, 3.0 + step].map(|t| rebound.flight(&t));
     let second = (after - 2.0 * now + before) / (step * step);
     assert!((second + 2.0 * r * speed + 1.0).abs() < 1e-6);
-    let undamped = Undamped::new(&Parameters { length: 1.0, wave_speed: 1.0, damping: 0.0, gravity: 1.0, speed: 4.0 });
+    let undamped =
+        UndampedContact::new(&Parameters { length: 1.0, wave_speed: 1.0, damping: 0.0, gravity: 1.0, speed: 4.0 });
     let exact = undamped.unwrap();
     let flying = rod(1e-300, 1.0, 4.0).rebound(&2.0);
     for t in [2.0, 3.5, 6.0] {

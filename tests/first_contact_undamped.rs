@@ -2,7 +2,7 @@
 #![allow(clippy::unwrap_used, clippy::panic)]
 #![cfg(feature = "mp")]
 
-use dalembert::first_contact::Undamped;
+use dalembert::first_contact::UndampedContact;
 use dalembert::history::Side;
 use dalembert::number::Scalar;
 use dalembert::rod::Parameters;
@@ -35,7 +35,7 @@ proptest! {
     /// them.
     #[test]
     fn printed_formulas_agree(rod in scenes(), part in 1i64..20) {
-        let exact = Undamped::new(&rod).unwrap();
+        let exact = UndampedContact::new(&rod).unwrap();
         let (t1, tb) = (rod.round_trip(), exact.bounce_time());
         let (l, c, g) = (&rod.length, &rod.wave_speed, &rod.gravity);
         let end = tb.clone() + &t1;
@@ -78,12 +78,12 @@ proptest! {
 
 #[test]
 fn corollary_1_and_the_remarks_of_section_4() {
-    let rod = |mu| Undamped::new(&parameters(q(1, 1), q(1, 1), q(1, 1), mu)).unwrap();
+    let rod = |mu| UndampedContact::new(&parameters(q(1, 1), q(1, 1), q(1, 1), mu)).unwrap();
     assert_eq!(rod(q(3, 2)).bounce_time(), q(5, 2));
     assert_eq!(rod(q(2, 1)).bounce_time(), q(2, 1));
     assert_eq!(rod(q(4, 3)).energy_restitution_squared(), Some(q(5, 9)));
     assert_eq!(rod(q(3, 1)).energy_restitution_squared(), Some(q(23, 27)));
-    let weightless = Undamped::new(&parameters(q(1, 1), q(1, 1), q(0, 1), q(1, 8))).unwrap();
+    let weightless = UndampedContact::new(&parameters(q(1, 1), q(1, 1), q(0, 1), q(1, 8))).unwrap();
     assert_eq!(weightless.bounce_time(), q(2, 1));
     assert_eq!(weightless.highest(), None);
     assert_eq!(weightless.stress(&q(2, 1), Side::Left), q(-1, 8));
@@ -94,5 +94,5 @@ fn corollary_1_and_the_remarks_of_section_4() {
 fn a_damped_rod_is_refused() {
     let mut rod = parameters(q(1, 1), q(1, 1), q(1, 1), q(1, 1));
     rod.damping = q(1, 1000);
-    assert!(Undamped::new(&rod).is_none());
+    assert!(UndampedContact::new(&rod).is_none());
 }

@@ -2,7 +2,7 @@
 //! evaluated here on its own.
 #![allow(clippy::unwrap_used, clippy::panic)]
 
-use dalembert::first_contact::{Bounce, BounceKind, FirstContact, Undamped};
+use dalembert::first_contact::{Bounce, BounceKind, FirstContact, UndampedContact};
 use dalembert::history::Side;
 use dalembert::modal::Modal;
 use dalembert::rod::Parameters;
@@ -147,7 +147,7 @@ fn figures_5_to_7() {
 /// Theorem 2, Figures 2 and 3: the least restitution is 5/9, at `2μ₀/3`.
 #[test]
 fn figures_2_and_3() {
-    let least = |speed: f64| Undamped::new(&rod(0.0, 1.0, speed)).unwrap().energy_restitution_squared().unwrap();
+    let least = |speed: f64| UndampedContact::new(&rod(0.0, 1.0, speed)).unwrap().energy_restitution_squared().unwrap();
     assert!((least(4.0 / 3.0) - 5.0 / 9.0).abs() < 1e-15);
     for k in 1..400 {
         let speed = 0.02 * f64::from(k);

@@ -16,4 +16,4 @@ mod within;
 pub use bounce::{Bounce, BounceKind};
 pub use field::{Estimate, FirstContact};
 pub use rebound::Rebound;
-pub use undamped::Undamped;
+pub use undamped::UndampedContact;

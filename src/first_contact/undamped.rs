@@ -4,7 +4,7 @@
 //! Nothing here is derived anew: each method is the printed formula, so that it can be held against the other engines.
 //! Between the printed formulas themselves the following hold, exactly, in fractions: `P = L h′`, `P` and `h`
 //! continuous at `t₁` and `t_b`, `E_h = P²/2L + L g h`, `E_h + E_z = μ²L/2`. All of them pass; only the case `μ = μ₀`
-//! is left out in print, see [`Undamped::momentum_restitution`].
+//! is left out in print, see [`UndampedContact::momentum_restitution`].
 
 use crate::history::Side;
 use crate::number::Scalar;
@@ -19,29 +19,29 @@ use crate::rod::Parameters;
 /// **Accuracy**: *exact* in fractions; a rounding for each operation otherwise.
 ///
 /// ```
-/// # use dalembert::{Number, Problem, rod::Parameters, first_contact::Undamped};
+/// # use dalembert::{Number, Problem, rod::Parameters, first_contact::UndampedContact};
 /// // L = c = g = 1: μ₀ = 2, so μ = 1 stays on the ground for 2t₁ − μ/g = 3.
 /// let problem = Problem::uniform(Number::from(1), Number::from(1), Number::from(1), Number::from(1));
-/// let rod = Undamped::new(&Parameters::<f64>::of(&problem, &())?).unwrap();
+/// let rod = UndampedContact::new(&Parameters::<f64>::of(&problem, &())?).unwrap();
 /// assert_eq!(rod.bounce_time(), 3.0);
 /// assert_eq!(rod.centre(&3.0), (-1.0 / 6.0 + 1.0 / 3.0, 0.5));
 /// # Ok::<(), dalembert::Error>(())
 /// ```
 #[derive(Clone, Debug)]
-pub struct Undamped<S> {
+pub struct UndampedContact<S> {
     rod: Parameters<S>,
     round_trip: S,
     /// `μ ≥ μ₀`: the case `t_b = t₁`.
     strong: bool,
 }
 
-impl<S: Scalar> Undamped<S> {
+impl<S: Scalar> UndampedContact<S> {
     /// The first contact of the rod that hits the ground undeformed with uniform velocity `−μ`.
     ///
     /// **Errors**: `None` where the rod is damped.
     pub fn new(rod: &Parameters<S>) -> Option<Self> {
         let strong = rod.speed >= rod.critical_speed();
-        rod.damping.is_zero().then(|| Undamped { round_trip: rod.round_trip(), rod: rod.clone(), strong })
+        rod.damping.is_zero().then(|| UndampedContact { round_trip: rod.round_trip(), rod: rod.clone(), strong })
     }
 
     /// `t_b`: `t₁` for `μ ≥ μ₀`, otherwise `2t₁ − μ/g`.
@@ -198,9 +198,9 @@ impl<S: Scalar> Undamped<S> {
     /// **Errors**: `None` where `g = 0`: the flight has no top.
     ///
     /// ```
-    /// # use dalembert::{Number, Problem, rod::Parameters, first_contact::Undamped};
+    /// # use dalembert::{Number, Problem, rod::Parameters, first_contact::UndampedContact};
     /// let problem = Problem::uniform(Number::from(1), Number::from(1), Number::from(1), Number::from(4));
-    /// let rod = Undamped::new(&Parameters::<f64>::of(&problem, &())?).unwrap();
+    /// let rod = UndampedContact::new(&Parameters::<f64>::of(&problem, &())?).unwrap();
     /// assert_eq!(rod.highest(), Some((6.0, 8.0 - 2.0 / 3.0)));
     /// # Ok::<(), dalembert::Error>(())
     /// ```
