@@ -114,6 +114,15 @@ impl Problem {
     }
 }
 
+impl Problem {
+    /// Whether the start is uniform and the top free, as in the paper: then the first contact has a closed form.
+    ///
+    /// **Source**: (1.3), (1.7), (1.8).
+    pub fn has_closed_form(&self) -> bool {
+        self.rod.top == Top::Free && matches!(self.start, Start::Uniform(_))
+    }
+}
+
 /// The parameters of a problem in one number system.
 #[derive(Clone, Debug)]
 pub struct Parameters<S> {

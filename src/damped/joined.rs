@@ -6,7 +6,7 @@ use crate::error::Error;
 use crate::first_contact::{Bounce, FirstContact, Rebound};
 use crate::history::{Contact, Ending, Energy, Event, EventKind, Field, History, Scales, Side, StressPiece};
 use crate::number::Analytic;
-use crate::rod::{Parameters, Problem, Run, Start, Top};
+use crate::rod::{Parameters, Problem, Run};
 
 /// The damped rod that starts as the paper's does, through any number of impacts: [`FirstContact`] as long as the first
 /// contact lasts, [`Damped`] from the bounce on.
@@ -40,11 +40,6 @@ const SHOWN_TRIPS: i64 = 8;
 const MOST_MARCHED: f64 = 300.0;
 
 impl<S: Analytic> Joined<S> {
-    /// Whether `problem` is the paper's: a uniform start, a free top.
-    pub fn fits(problem: &Problem) -> bool {
-        problem.rod.top == Top::Free && matches!(problem.start, Start::Uniform(_))
-    }
-
     /// Follows `problem`, whose first contact ends as `bounce` says, to about `digits` decimal digits of the natural scales;
     /// without `follow`, only to the bounce.
     ///

@@ -3,7 +3,6 @@
 use serde::Serialize;
 
 use super::{Effect, EffectUse, Scene};
-use crate::damped::Joined;
 use crate::error::Error;
 use crate::number::Number;
 use crate::rod::Run;
@@ -114,7 +113,7 @@ impl Plan {
         let engine = if damping.is_some() { Engine::Cells } else { Engine::Lattice };
         let mut reasons = vec![match engine {
             Engine::Lattice => "without damping the solution travels unchanged along its characteristics".to_string(),
-            Engine::Cells if Joined::<f64>::fits(&scene.problem) => {
+            Engine::Cells if scene.problem.has_closed_form() => {
                 "damping couples the characteristics: the first contact has a closed form, and inside a cell between \
                  rays Riemann's formula converges geometrically"
                     .into()

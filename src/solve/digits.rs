@@ -70,7 +70,7 @@ pub(super) fn damped_unless_faint(
     digits: u32,
     faintest: f64,
 ) -> Result<Box<dyn History<Float>>, Error> {
-    let fits = Joined::<Float>::fits(problem);
+    let fits = problem.has_closed_form();
     let faded = if fits {
         let rod = Parameters::<f64>::of(problem, &())?;
         let bounce = FirstContact::new(&rod).bounce_within(1e-10);

@@ -121,7 +121,7 @@ fn damped_in_doubles(problem: &Problem, accuracy: Option<f64>) -> Result<Box<dyn
     let better = |history: &dyn History<f64>| {
         uncertain(history).then(|| twice::estimate(problem, digits, history)).flatten().unwrap_or(f64::INFINITY)
     };
-    let history: Box<dyn History<f64>> = if Joined::<f64>::fits(problem) {
+    let history: Box<dyn History<f64>> = if problem.has_closed_form() {
         let rod = Parameters::<f64>::of(problem, &())?;
         let bounce = FirstContact::new(&rod).bounce_within(1e-13);
         #[cfg(feature = "mp")]
