@@ -200,6 +200,10 @@ fn the_threshold_of_the_first_bounce() {
     };
     let below = near("2.59364495455930337818987448");
     assert!(below > 2.0 && below < 2.0 + 1e-9, "{below}");
+    // Within 1e-12 of the threshold doubles alone say that they cannot tell.
+    if cfg!(not(feature = "mp")) {
+        return;
+    }
     let left = near("2.59364495456019330337818987448");
     assert!((2.0..2.0 + 1e-11).contains(&left), "{left}");
     assert_eq!(near("2.59364495456019530337818987448"), 2.0);
