@@ -17,7 +17,7 @@ use crate::history::EventKind;
 use crate::number::Scalar;
 
 /// More round trips than this are not left out at once: their number must fit the arithmetic.
-const MOST_LEAPT: usize = 1 << 52;
+const MOST_LEAPT: usize = if usize::BITS < 64 { usize::MAX >> 2 } else { usize::MAX >> 12 };
 
 /// What arrives at the ground on `from … to`: `q` is linear, with bounds on its error and on that of both ends.
 struct Incoming<S> {
