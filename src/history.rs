@@ -191,7 +191,8 @@ pub trait History<S: Scalar> {
     /// The natural scales of the motion.
     fn scales(&self) -> Scales<S>;
 
-    /// How far any quantity may be off, relative to its natural scale; zero where all is exact.
+    /// How far any quantity may be off, relative to its natural scale; zero where all is exact. The bound that the run carries,
+    /// or, for a damped run in doubles that an accuracy was asked of, sixteen times what separates it from a second one.
     fn error_estimate(&self) -> S;
 
     /// What a user should know: events decided by rounding, digits lost. Data, for the caller to print.

@@ -66,7 +66,7 @@ pub fn run(cli: Cli) -> Result<(), Failure> {
 /// How exact the numbers are to be.
 #[derive(Args, Clone, Copy, Debug)]
 struct NumberArgs {
-    /// Decimal digits, all of them right; with --exact, from where exactness ends
+    /// Decimal digits, rounded from values known to eight more of their scale; with --exact, from where exactness ends
     #[arg(long, value_name = "N")]
     digits: Option<u32>,
     /// Exact fractions, as far as they reach

@@ -98,6 +98,16 @@ impl<S: Scalar> March<S> {
         let zero = self.height.zero();
         let mut rise = zero.clone();
         let mut size = 0.0;
+        // q is off by its own error everywhere, and by its jump for as long as a break is off.
+        let pieces = self.trace.slice(trip);
+        let mut rise_error = pieces.iter().map(|piece| piece.value_error).fold(0.0, f64::max);
+        if !S::EXACT {
+            for pair in pieces.windows(2) {
+                let width = pair[1].fraction.clone() - &pair[0].fraction;
+                let jump = pair[1].value.clone() - &pair[0].value - pair[0].slope.clone() * width;
+                rise_error += jump.to_f64().abs() * pair[1].fraction_error;
+            }
+        }
         self.trace.window(trip, &zero, &zero.one(), |Part { width, value, slope, .. }| {
             let part = (slope * &width / width.int(2) + &value) * &width;
             if !S::EXACT {
@@ -120,13 +130,14 @@ impl<S: Scalar> March<S> {
         let lift = (rise.clone() - rise.one() - (j.clone() - rise.one()) / two) * &j;
         if !S::EXACT {
             let total = trips as f64;
-            self.height_error += 8.0 * total * (size + total) + self.height.to_f64().abs();
+            rise_error += 8.0 * size;
+            self.height_error += total * (rise_error + 8.0 * total) + self.height.to_f64().abs();
             // The top of the flight is among what is left out: D²/2.
             self.greatest_height = self.greatest_height.max(rise.to_f64() * rise.to_f64() / 2.0);
         }
         self.height = self.height.clone() + lift;
         self.arriving = self.arriving.clone() - &j;
-        self.trace.repeat(rise, trips);
+        self.trace.repeat(rise, rise_error, trips);
         trips
     }
 

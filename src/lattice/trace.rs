@@ -65,8 +65,8 @@ struct Slot<S> {
     first: usize,
     /// Where it begins in the pieces.
     start: usize,
-    /// `D`, if trips that repeat this one follow it.
-    rise: Option<S>,
+    /// `D`, if trips that repeat this one follow it, and a bound on its error in roundoffs.
+    rise: Option<(S, f64)>,
 }
 
 /// A part of a piece that lies in a window: `p = value + slope·s` for `0 ≤ s ≤ width`, `offset` after the window's start.
@@ -140,13 +140,13 @@ impl<S: Scalar> Trace<S> {
     fn piece(&self, index: usize, piece: &Piece<S>) -> Piece<S> {
         let (slot, later) = self.slot(index);
         let mut piece = piece.clone();
-        if let (Some(rise), true) = (&self.slots[slot].rise, later > 0) {
+        if let (Some((rise, rise_error)), true) = (&self.slots[slot].rise, later > 0) {
             let (j, two) = (rise.int(later as i64), rise.int(2));
             let lift = (rise.clone() - &piece.fraction - (j.clone() - rise.one()) / two) * &j;
             if !S::EXACT {
                 piece.value_error += piece.value.to_f64().abs() + later as f64;
-                let size = rise.to_f64().abs() + later as f64;
-                piece.height_error += 8.0 * size * later as f64 + piece.height.to_f64().abs();
+                let (trips, size) = (later as f64, rise.to_f64().abs() + later as f64);
+                piece.height_error += trips * (rise_error + 8.0 * size) + piece.height.to_f64().abs();
             }
             piece.value = piece.value - j;
             piece.height = piece.height + lift;
@@ -175,10 +175,10 @@ impl<S: Scalar> Trace<S> {
         self.slots.last().map_or(0, |slot| slot.start)
     }
 
-    /// Lets `trips` trips that repeat the last one follow it; `rise` is `∫ q dt` over that one.
-    pub(crate) fn repeat(&mut self, rise: S, trips: usize) {
+    /// Lets `trips` trips that repeat the last one follow it; `rise` is `∫ q dt` over that one, within `error` roundoffs.
+    pub(crate) fn repeat(&mut self, rise: S, error: f64, trips: usize) {
         if let Some(slot) = self.slots.last_mut() {
-            slot.rise = Some(rise);
+            slot.rise = Some((rise, error));
             self.end += trips;
         }
     }

@@ -127,7 +127,7 @@ pub fn history_table<S: Show>(record: &Record<S>, head: &Head) -> String {
     if let Some(error) = &record.error
         && head.digits == 0
     {
-        out += &format!("error bound: {:.1e} of the scale of each quantity\n", error.to_f64());
+        out += &format!("error estimate: {:.1e} of the scale of each quantity\n", error.to_f64());
     }
     out
 }

@@ -12,7 +12,7 @@ use crate::rod::Run;
 pub struct Ask {
     /// Exact fractions, as far as they reach.
     pub exact: bool,
-    /// This many correctly rounded decimal digits. With `exact`: from where exactness ends.
+    /// This many decimal digits, rounded once from values known to eight more of their scale. With `exact`: from where exactness ends.
     pub digits: Option<u32>,
     /// The accuracy relative to the natural scales, before that of the scene.
     pub accuracy: Option<f64>,
@@ -133,7 +133,7 @@ impl Plan {
                     .into()
             }
             System::Double(Some(accuracy)) => {
-                format!("accuracy {accuracy:e} is asked for: double precision if its error bound allows, more bits if not")
+                format!("accuracy {accuracy:e} is asked for: double precision if its error estimate allows, more bits if not")
             }
             System::Digits(digits) => {
                 format!("{digits} digits are asked for: bits are added until the error bound leaves that many")

@@ -20,7 +20,7 @@ pub use digits::{damped_to_digits, undamped_to_digits};
 pub enum Solution {
     /// Double precision.
     Double(Box<dyn History<f64>>),
-    /// Decimal digits, this many of them right.
+    /// Decimal digits: this many are to be printed.
     #[cfg(feature = "mp")]
     Digits(Box<dyn History<rug::Float>>, u32),
     /// Fractions; where they end before the run does and digits were asked for, the whole run again in digits.
@@ -32,8 +32,8 @@ pub enum Solution {
 ///
 /// **Accuracy**: by `plan.system`. In double precision the error bound that the history carries; where the plan has an
 /// accuracy and the bound is above it, a damped run is held against a second one with other cells and other last digits,
-/// and where that does not settle it either, the run is repeated with more bits and read in doubles. Every printed digit with
-/// digits; *exact* in fractions.
+/// and where that does not settle it either, the run is repeated with more bits and read in doubles. With
+/// digits, eight digits more of each scale than are printed; *exact* in fractions.
 ///
 /// **Errors**: [`Error::TooManyPieces`]; [`Error::Irrational`] where a parameter is no fraction and no digits are asked
 /// for; [`Error::Unsettled`].
