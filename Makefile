@@ -4,18 +4,24 @@
 # GMP and MPFR are built from source once, which takes minutes; they need m4, which is installed where it is missing.
 
 CARGO ?= cargo
+# Random tests draw the same cases every time, so that one commit has one answer. `make explore` draws others.
+export PROPTEST_RNG_SEED ?= 1878
 
-.PHONY: help demo test m4
+.PHONY: help demo test explore m4
 
 help:
 	@echo "make demo   build the command and solve the bouncing bar of Doyen, Ern and Piperno, exactly"
 	@echo "make test   run all tests, those of the documentation included"
+	@echo "make explore   run the random tests on cases never tried before"
 
 demo: m4
 	$(CARGO) run --quiet -- solve doyen-ern-piperno --exact
 
 test: m4
 	$(CARGO) test --no-fail-fast
+
+explore: m4
+	PROPTEST_RNG_SEED=$$(date +%s) $(CARGO) test --no-fail-fast --test damped_properties --test first_contact_bounce --test scene_properties --test undamped_properties
 
 # Debian and its kin; elsewhere the message says what is missing.
 m4:

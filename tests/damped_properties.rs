@@ -150,7 +150,20 @@ proptest! {
         let magnified = |event: &Event<f64>| {
             (event.time_error / scales.time / f64::EPSILON).max(1.0) * 1e-12 * (1.0 + event.time / scales.time)
         };
-        for (ours, plain) in history.events().iter().zip(lattice.events()) {
+        // A hop or a touch that is shorter than what the damping moves exists in one of the two only.
+        let lasting = |events: &[Event<f64>]| {
+            let mut kept: Vec<Event<f64>> = Vec::new();
+            for event in events {
+                match kept.last() {
+                    Some(last) if event.time - last.time <= magnified(event).max(magnified(last)) * scales.time => {
+                        kept.pop();
+                    }
+                    _ => kept.push(event.clone()),
+                }
+            }
+            kept
+        };
+        for (ours, plain) in lasting(history.events()).iter().zip(&lasting(lattice.events())) {
             // From a landing without speed on, lists of events need not agree.
             if !transversal(ours) || !transversal(plain) || magnified(ours) > 1e-5 {
                 break;
