@@ -57,7 +57,7 @@ pub(super) struct March<S> {
 impl<S: Scalar> March<S> {
     /// The sign of `x`, zero if it lies within `error` roundoffs of zero.
     fn sign(&self, x: &S, error: f64) -> Ordering {
-        if S::EXACT {
+        if S::RIGOROUS {
             x.partial_cmp(&x.zero()).unwrap_or(Ordering::Equal)
         } else if x.magnitude() <= self.unit.double(error.min(self.widest())) * &self.unit {
             Ordering::Equal
@@ -101,7 +101,7 @@ impl<S: Scalar> March<S> {
         // q is off by its own error everywhere, and by its jump for as long as a break is off.
         let pieces = self.trace.slice(trip);
         let mut rise_error = pieces.iter().map(|piece| piece.value_error).fold(0.0, f64::max);
-        if !S::EXACT {
+        if !S::RIGOROUS {
             for pair in pieces.windows(2) {
                 let width = pair[1].fraction.clone() - &pair[0].fraction;
                 let jump = pair[1].value.clone() - &pair[0].value - pair[0].slope.clone() * width;
@@ -110,7 +110,7 @@ impl<S: Scalar> March<S> {
         }
         self.trace.window(trip, &zero, &zero.one(), |Part { width, value, slope, .. }| {
             let part = (slope * &width / width.int(2) + &value) * &width;
-            if !S::EXACT {
+            if !S::RIGOROUS {
                 size += part.to_f64().abs();
             }
             rise = rise.clone() + part;
@@ -128,7 +128,7 @@ impl<S: Scalar> March<S> {
         let (j, two) = (rise.int(trips as i64), rise.int(2));
         // At the beginning of the next trip, j trips after that of this one: v + j (D − 1 − (j − 1)/2).
         let lift = (rise.clone() - rise.one() - (j.clone() - rise.one()) / two) * &j;
-        if !S::EXACT {
+        if !S::RIGOROUS {
             let total = trips as f64;
             rise_error += 8.0 * size;
             self.height_error += total * (rise_error + 8.0 * total) + self.height.to_f64().abs();
@@ -158,7 +158,7 @@ impl<S: Scalar> March<S> {
             {
                 // A stop within rounding of the end of its trip is a stop at the beginning of the next.
                 let stop = &if *last == trip { stop.clone() } else { stop.zero() };
-                let tolerance = if S::EXACT { 0.0 } else { 4.0 * (trip as f64 + 1.0) + incoming.to_error };
+                let tolerance = if S::RIGOROUS { 0.0 } else { 4.0 * (trip as f64 + 1.0) + incoming.to_error };
                 let past = incoming.to.clone() - stop;
                 if self.positive(&past, tolerance) {
                     let rest = incoming.cut(stop);
@@ -193,7 +193,7 @@ impl<S: Scalar> March<S> {
             next += 1;
         }
         let q = self.trace.returned(&piece.value) - fallen;
-        let q_error = if S::EXACT { 0.0 } else { value_error + 2.0 * q.to_f64().abs() + fallen.to_f64() };
+        let q_error = if S::RIGOROUS { 0.0 } else { value_error + 2.0 * q.to_f64().abs() + fallen.to_f64() };
         let (to, to_error) = match pieces[..end].get(next) {
             Some(after) => (after.fraction.clone(), after.fraction_error),
             None => (q.one(), 0.0),
@@ -216,12 +216,12 @@ impl<S: Scalar> March<S> {
             return None;
         }
         let rise = piece.slope.clone() * (next.fraction.clone() - &piece.fraction);
-        let rounding = if S::EXACT { 0.0 } else { 2.0 * (rise.to_f64().abs() + next.value.to_f64().abs()) };
+        let rounding = if S::RIGOROUS { 0.0 } else { 2.0 * (rise.to_f64().abs() + next.value.to_f64().abs()) };
         let jump = rise + &piece.value - &next.value;
         if !self.vanishes(&jump, error + next.value_error + rounding) {
             return None;
         }
-        if S::EXACT {
+        if S::RIGOROUS {
             return Some(0.0);
         }
         // The true line of `next` is within its own error of the stored one, which is `jump` away.
@@ -232,7 +232,7 @@ impl<S: Scalar> March<S> {
     /// Contact or flight at the beginning of `incoming`, if the end touches there. True if this is one impact too many.
     fn decide(&mut self, trip: usize, incoming: &Incoming<S>, until: &Until<S>) -> bool {
         if !self.height.is_zero() {
-            if !S::EXACT {
+            if !S::RIGOROUS {
                 // The break may come earlier or later by its own error, and with it the jump of v_t.
                 let jump = incoming.q.clone() - &self.arriving;
                 self.height_error += jump.to_f64().abs() * incoming.from_error;
@@ -275,7 +275,7 @@ impl<S: Scalar> March<S> {
     /// What leaves the ground from `fraction` on: `−q` in contact, `q` in flight.
     fn leave(&mut self, fraction: &S, q: &S, slope: &S, value_error: f64, fraction_error: f64) {
         let (value, slope) = if self.contact { (-q.clone(), -slope.clone()) } else { (q.clone(), slope.clone()) };
-        if !S::EXACT {
+        if !S::RIGOROUS {
             self.greatest_error = self.greatest_error.max(value_error).max(self.height_error).max(fraction_error);
             self.greatest_height = self.greatest_height.max(self.height.to_f64());
             let of_height = self.height_error / self.greatest_height;
@@ -323,7 +323,7 @@ impl<S: Scalar> March<S> {
                 EventKind::Release => q.zero(),
                 EventKind::Impact => slope.clone() * (age.clone() - &from) + &q,
             };
-            if !S::EXACT {
+            if !S::RIGOROUS {
                 q_error += 2.0 * (q.to_f64().abs() + (slope.to_f64() * (to.to_f64() - from.to_f64())).abs());
             }
             if self.vanishes(&(age.clone() - to), error + to_error) {
@@ -352,12 +352,12 @@ impl<S: Scalar> March<S> {
         q_end: &S,
     ) -> Option<(EventKind, S, f64)> {
         self.touch_error = 0.0;
-        let rounding = if S::EXACT { 0.0 } else { q_end.to_f64().abs() + 2.0 * (q_end.to_f64() - q.to_f64()).abs() };
+        let rounding = if S::RIGOROUS { 0.0 } else { q_end.to_f64().abs() + 2.0 * (q_end.to_f64() - q.to_f64()).abs() };
         if !self.positive(q_end, q_error + rounding) || !incoming.slope.is_positive() {
             return None;
         }
         let age = from.clone() - q.clone() / &incoming.slope;
-        let error = if S::EXACT {
+        let error = if S::RIGOROUS {
             0.0
         } else {
             let slope = incoming.slope.to_f64();
@@ -381,19 +381,19 @@ impl<S: Scalar> March<S> {
         let width = to.clone() - from;
         let mean = (q.clone() + q_end) / q.int(2);
         let end = width.clone() * mean + &self.height;
-        let (size, end_error) = if S::EXACT {
+        let (size, end_error) = if S::RIGOROUS {
             (0.0, 0.0)
         } else {
             let size = self.height.to_f64().abs()
                 + width.to_f64() * (q.to_f64().abs() + slope.to_f64().abs() * width.to_f64());
             (size, self.height_error + width.to_f64() * q_error + 4.0 * size)
         };
-        let break_error = if S::EXACT { 0.0 } else { incoming.to_error * q_end.to_f64().abs() };
+        let break_error = if S::RIGOROUS { 0.0 } else { incoming.to_error * q_end.to_f64().abs() };
         let at_end = self.sign(&end, end_error + break_error);
         // The least height lies inside where v turns from falling to rising.
         let dips = slope.is_positive() && q.is_negative() && q_end.is_positive();
         let disc = q.square() - q.int(2) * slope * &self.height;
-        let (disc_error, dip) = if S::EXACT {
+        let (disc_error, dip) = if S::RIGOROUS {
             (0.0, self.sign(&disc, 0.0))
         } else {
             let (q, slope) = (q.to_f64().abs(), slope.to_f64().abs());
@@ -420,7 +420,7 @@ impl<S: Scalar> March<S> {
         } else {
             q.int(2) * &self.height / (root.clone() - q)
         };
-        let error = if S::EXACT {
+        let error = if S::RIGOROUS {
             0.0
         } else {
             // |√a − √b| = |a − b|/(√a + √b) where √a is well away from zero, at most √|a − b| where it is not.
@@ -448,7 +448,7 @@ impl<S: Scalar> March<S> {
             return;
         }
         self.height = end.zero();
-        self.touch_error = if S::EXACT {
+        self.touch_error = if S::RIGOROUS {
             0.0
         } else {
             let (speed, slope) = (q_end.to_f64().abs(), slope.to_f64().abs());
@@ -463,7 +463,7 @@ impl<S: Scalar> Incoming<S> {
     fn cut(&mut self, stop: &S) -> Self {
         let stop = if *stop > self.from { stop.clone() } else { self.from.clone() };
         let rise = self.slope.clone() * (stop.clone() - &self.from);
-        let rounding = if S::EXACT { 0.0 } else { 2.0 * (rise.to_f64().abs() + self.q.to_f64().abs()) };
+        let rounding = if S::RIGOROUS { 0.0 } else { 2.0 * (rise.to_f64().abs() + self.q.to_f64().abs()) };
         let from_error = if stop > self.from { 0.0 } else { self.from_error };
         let rest = Incoming {
             from: stop.clone(),

@@ -148,7 +148,7 @@ impl<S: Scalar> Undamped<S> {
                 end_velocity: occurrence.end_velocity.clone() * velocity,
                 centre: h.clone() * &rise,
                 centre_velocity: rate.clone() * velocity,
-                time_error: if S::EXACT { 0.0 } else { occurrence.error * unit * round_trip.to_f64() },
+                time_error: if S::RIGOROUS { 0.0 } else { occurrence.error * unit * round_trip.to_f64() },
             });
             last = Some((occurrence, h, rate));
         }
@@ -217,7 +217,7 @@ impl<S: Scalar> Undamped<S> {
     fn tell_warnings(&self) -> Vec<String> {
         let unit = self.problem.gravity.roundoff().to_f64();
         let lost = self.marched.occurrences.iter().find(|event| event.error * unit > LOST);
-        let warning = lost.filter(|_| !S::EXACT).map(|event| {
+        let warning = lost.filter(|_| !S::RIGOROUS).map(|event| {
             let round_trip = self.problem.units.round_trip.to_f64();
             let time = (event.trip as f64 + event.fraction.to_f64()) * round_trip;
             let error = event.error * unit * round_trip;
@@ -262,7 +262,7 @@ impl<S: Scalar> Undamped<S> {
             moment.index == end.index + 1 && moment.fraction.is_zero() && end.fraction == end.fraction.one();
         if later && !after_whole_trip {
             let excess = age.to_f64() - (end.index as f64 - 1.0 + end.fraction.to_f64());
-            if S::EXACT || excess > 8.0 * age.roundoff().to_f64() * age.to_f64() {
+            if S::RIGOROUS || excess > 8.0 * age.roundoff().to_f64() * age.to_f64() {
                 return Err(outside());
             }
         }
@@ -270,7 +270,7 @@ impl<S: Scalar> Undamped<S> {
     }
 
     fn snap(&self, moment: Moment<S>) -> Moment<S> {
-        if S::EXACT {
+        if S::RIGOROUS {
             return moment;
         }
         let Moment { index, fraction } = moment;
@@ -554,7 +554,7 @@ impl<S: Scalar> History<S> for Undamped<S> {
 
     fn error_estimate(&self) -> S {
         let zero = self.problem.gravity.zero();
-        if S::EXACT { zero } else { zero.double(self.marched.relative_error) * zero.roundoff() }
+        if S::RIGOROUS { zero } else { zero.double(self.marched.relative_error) * zero.roundoff() }
     }
 
     fn warnings(&self) -> &[String] {
@@ -576,7 +576,7 @@ impl<S: Scalar> Undamped<S> {
         }
         let age = piece.fraction.int(trip as i64 - begun as i64) + &piece.fraction - &from.fraction;
         let jump = from.slope.clone() * age + &from.value - &piece.value;
-        if S::EXACT {
+        if S::RIGOROUS {
             return jump.is_zero();
         }
         let rounding = 4.0 * (from.value.to_f64().abs() + piece.value.to_f64().abs());

@@ -83,8 +83,8 @@ impl<S: Scalar> Trace<S> {
             .into_iter()
             .map(|(fraction, value, slope)| {
                 // A few roundings stand behind each datum of the start.
-                let value_error = if S::EXACT { 0.0 } else { 8.0 * (value.to_f64().abs() + slope.to_f64().abs()) };
-                let fraction_error = if S::EXACT { 0.0 } else { 4.0 * fraction.to_f64() };
+                let value_error = if S::RIGOROUS { 0.0 } else { 8.0 * (value.to_f64().abs() + slope.to_f64().abs()) };
+                let fraction_error = if S::RIGOROUS { 0.0 } else { 4.0 * fraction.to_f64() };
                 let height = fraction.zero();
                 Piece { fraction, value, slope, height, contact: false, value_error, height_error: 0.0, fraction_error }
             })
@@ -143,7 +143,7 @@ impl<S: Scalar> Trace<S> {
         if let (Some((rise, rise_error)), true) = (&self.slots[slot].rise, later > 0) {
             let (j, two) = (rise.int(later as i64), rise.int(2));
             let lift = (rise.clone() - &piece.fraction - (j.clone() - rise.one()) / two) * &j;
-            if !S::EXACT {
+            if !S::RIGOROUS {
                 piece.value_error += piece.value.to_f64().abs() + later as f64;
                 let (trips, size) = (later as f64, rise.to_f64().abs() + later as f64);
                 piece.height_error += trips * (rise_error + 8.0 * size) + piece.height.to_f64().abs();

@@ -27,8 +27,9 @@ pub trait Scalar:
     + Sync
     + 'static
 {
-    /// Whether every operation of the trait is exact. Error bounds are neither carried nor compared where it is true.
-    const EXACT: bool;
+    /// Whether a number answers for its own error, by having none or by enclosing it. Error bounds are neither carried nor
+    /// compared beside it where that is so.
+    const RIGOROUS: bool;
 
     /// What it takes to make a first number: nothing for `f64` and fractions, the number of bits for a `Float`.
     type Precision: Clone + Debug + Send + Sync;
@@ -79,6 +80,13 @@ pub trait Scalar:
     /// `p/q` in the precision of `self`, for formulas with fractional constants.
     fn ratio(&self, p: i64, q: i64) -> Self {
         self.int(p) / self.int(q)
+    }
+
+    /// The same number, known only up to `by` in either direction. Only enclosures hold that in themselves; elsewhere the
+    /// caller counts it among the roundings.
+    fn widened(self, by: &Self) -> Self {
+        let _ = by;
+        self
     }
 
     /// Zero, in the precision of `self`.

@@ -86,7 +86,7 @@ pub fn record<S: Scalar>(history: &dyn History<S>, head: &Head, stress: bool) ->
     let end = history.end();
     let lift = |number: &Number| S::from_number(number, &end.precision());
     let scales = history.scales();
-    let error = (!S::EXACT).then(|| history.error_estimate());
+    let error = (!S::RIGOROUS).then(|| history.error_estimate());
     let mut contacts = Vec::with_capacity(history.contacts().len());
     for contact in history.contacts() {
         let energy = match &contact.to {
