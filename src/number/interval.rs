@@ -501,6 +501,15 @@ impl Scalar for Interval {
         Interval::checked(down(bits, size.lo.square_ref()), up(bits, size.hi.square_ref()), inside)
     }
 
+    fn same(&self, other: &Self) -> bool {
+        let points = self.lo == self.hi && other.lo == other.hi && self.lo == other.lo;
+        match (&self.inside, &other.inside) {
+            _ if points => true,
+            (Inside::Known(a), Inside::Known(b)) => a.cmp(b) == Some(Ordering::Equal),
+            _ => false,
+        }
+    }
+
     fn is_negative(&self) -> bool {
         // Zero as the upper end is enough to say no more than "not positive".
         if self.lo.cmp0().is_some_and(Ordering::is_ge) {

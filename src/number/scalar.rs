@@ -109,6 +109,11 @@ pub trait Scalar:
         if self.is_negative() { -self.clone() } else { self.clone() }
     }
 
+    /// Whether both are surely the same number; false also where that is not known.
+    fn same(&self, other: &Self) -> bool {
+        self == other
+    }
+
     /// `self < 0`.
     fn is_negative(&self) -> bool {
         *self < self.zero()
