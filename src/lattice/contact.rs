@@ -434,7 +434,7 @@ impl<S: Scalar> March<S> {
             let double = self.root_error(disc_error) / slope;
             simple.min(double) + age.to_f64() + from.to_f64()
         };
-        let landing = from.clone() + age;
+        let landing = (from.clone() + age).named();
         if self.vanishes(&(landing.clone() - to), error + incoming.to_error) || landing > *to {
             self.settle(end, end_error, Ordering::Equal, slope, q_end, break_error);
             self.touch_error = error;

@@ -197,11 +197,7 @@ impl<S: Scalar> Undamped<S> {
             self.marched.trace.window(from.index, &from.fraction, &width, |part| {
                 let rise = part.slope.clone() * &part.width;
                 let at_end = part.value.clone() + &rise;
-                for p in [&part.value, &at_end] {
-                    if *p > peak {
-                        peak = p.clone();
-                    }
-                }
+                peak = peak.clone().larger(part.value.clone()).larger(at_end);
                 sum = sum.clone() + (part.value.clone() + rise / part.value.int(2)) * &part.width;
             });
             contacts.push(Contact {

@@ -89,6 +89,12 @@ pub trait Scalar:
         self
     }
 
+    /// The same number with a name, so that it can be told to be itself where nothing else is known of it. Only enclosures need
+    /// that.
+    fn named(self) -> Self {
+        self
+    }
+
     /// Zero, in the precision of `self`.
     fn zero(&self) -> Self {
         self.int(0)
@@ -112,6 +118,11 @@ pub trait Scalar:
     /// Whether both are surely the same number; false also where that is not known.
     fn same(&self, other: &Self) -> bool {
         self == other
+    }
+
+    /// The greater of both.
+    fn larger(self, other: Self) -> Self {
+        if other > self { other } else { self }
     }
 
     /// `self < 0`.
