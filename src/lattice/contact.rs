@@ -434,6 +434,8 @@ impl<S: Scalar> March<S> {
             let double = self.root_error(disc_error) / slope;
             simple.min(double) + age.to_f64() + from.to_f64()
         };
+        // Where enclosures carry the exact number, the form without a quotient keeps it.
+        let age = if S::RIGOROUS && !slope.is_zero() { age.also(-((root.clone() + q) / slope)) } else { age };
         let landing = (from.clone() + age).named();
         if self.vanishes(&(landing.clone() - to), error + incoming.to_error) || landing > *to {
             self.settle(end, end_error, Ordering::Equal, slope, q_end, break_error);

@@ -493,6 +493,14 @@ impl Scalar for Interval {
         self
     }
 
+    fn also(self, other: Self) -> Self {
+        let inside = if matches!(self.inside, Inside::Known(_)) { self.inside.clone() } else { other.inside.clone() };
+        match self.meet(&other) {
+            Some(Interval { lo, hi, .. }) => Interval { lo, hi, inside },
+            None => self,
+        }
+    }
+
     fn magnitude(&self) -> Self {
         if self.lo.cmp0() != Some(Ordering::Less) {
             return self.clone();
@@ -569,7 +577,9 @@ impl Analytic for Interval {
         let bits = self.lo.prec();
         let zero = Float::with_val(bits, 0);
         let lo = if self.lo.is_sign_negative() { zero } else { down(bits, self.lo.sqrt_ref()) };
-        Interval::checked(lo, up(bits, self.hi.sqrt_ref()), self.inside.map(Radical::sqrt))
+        let known = self.lo.cmp0().is_some_and(Ordering::is_ge) || self.exact_sign().is_some_and(Ordering::is_ge);
+        let inside = self.inside.map(|number| if known { number.sqrt() } else { None });
+        Interval::checked(lo, up(bits, self.hi.sqrt_ref()), inside)
     }
     fn exp(&self) -> Self {
         let bits = self.lo.prec();

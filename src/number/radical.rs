@@ -18,7 +18,7 @@ enum Root {
     Named(u64),
 }
 
-/// A product of different roots, in order; empty for 1.
+/// A product of roots in order, each once, and of named numbers, as often as it takes; empty for 1.
 type Product = Vec<Arc<Root>>;
 
 /// `Σ c_k ρ_i ρ_j …`: fractions times products of roots.
@@ -36,7 +36,7 @@ pub(super) struct Radical {
 const MOST_TERMS: usize = 48;
 const MOST_BITS: u32 = 1 << 12;
 /// Deeper roots are not followed.
-const MOST_DEPTH: u32 = 5;
+const MOST_DEPTH: u32 = 3;
 /// Square factors below this leave the root of a fraction.
 const SMALL_FACTOR: u32 = 200;
 /// Digits of no more bits are asked for a sign.
@@ -154,7 +154,7 @@ impl Radical {
         if let Some(c) = other.as_rational() {
             return self.scaled(&c);
         }
-        if self.terms.len() * other.terms.len() > 4 * MOST_TERMS {
+        if self.terms.len() * other.terms.len() > 16 * MOST_TERMS {
             return None;
         }
         let mut sum = Radical::default();
@@ -167,13 +167,11 @@ impl Radical {
                     while let Some(next) = rest.next_if(|next| next.order(root) == Ordering::Less) {
                         product.push(next.clone());
                     }
-                    if rest.next_if(|next| next.order(root) == Ordering::Equal).is_some() {
-                        match root.as_ref() {
-                            Root::Of(radicand) => radicands.push(radicand),
-                            Root::Named(_) => return None,
+                    match root.as_ref() {
+                        Root::Of(radicand) if rest.next_if(|next| next.order(root) == Ordering::Equal).is_some() => {
+                            radicands.push(radicand);
                         }
-                    } else {
-                        product.push(root.clone());
+                        _ => product.push(root.clone()),
                     }
                 }
                 product.extend(rest.cloned());
@@ -258,13 +256,12 @@ impl Radical {
         self.as_rational().map(|c| Integer::from(c.floor_ref()))
     }
 
-    /// `√self ≥ 0`.
+    /// `√self ≥ 0`, for what is known not to be negative.
     pub(super) fn sqrt(&self) -> Option<Self> {
-        if self.sign()? == Ordering::Less {
-            return None;
-        }
-        if let Some(root) = self.root_within() {
-            return Some(if root.sign()? == Ordering::Less { root.neg() } else { root });
+        if let Some(root) = self.root_within()
+            && let Some(sign) = root.sign()
+        {
+            return Some(if sign == Ordering::Less { root.neg() } else { root });
         }
         // √x = s √(x/s²) with whole coefficients under the root, and no common square in them that is easily seen.
         let below = self.terms.iter().fold(Integer::from(1), |lcm, (_, c)| lcm.lcm(c.denom()));
@@ -361,7 +358,6 @@ mod tests {
         let nested = inner.sqrt().unwrap();
         assert!(equal(&nested.mul(&nested).unwrap(), &inner));
         assert!(equal(&fraction(1, 1).div(&nested).unwrap().mul(&nested).unwrap(), &fraction(1, 1)));
-        assert!(fraction(-1, 1).sqrt().is_none());
         // √(4(1 + √2)) is twice the same root.
         let four = inner.scaled(&Rational::from(4)).unwrap().sqrt().unwrap();
         assert!(equal(&four, &nested.scaled(&Rational::from(2)).unwrap()));
@@ -374,7 +370,13 @@ mod tests {
         assert_eq!(a.cmp(&b), None);
         let shifted = a.add(&fraction(1, 2)).unwrap();
         assert_eq!(shifted.sub(&a).unwrap().cmp(&fraction(1, 2)), Some(Ordering::Equal));
-        assert!(a.mul(&a).is_none());
-        assert!(a.mul(&b).is_some());
+        // (a + b)² − (a − b)² = 4ab
+        let (sum, difference) = (a.add(&b).unwrap(), a.sub(&b).unwrap());
+        let squares = sum.mul(&sum).unwrap().sub(&difference.mul(&difference).unwrap()).unwrap();
+        assert!(equal(&squares, &a.mul(&b).unwrap().scaled(&Rational::from(4)).unwrap()));
+        // √(1 + a²)² = 1 + a²
+        let square = a.mul(&a).unwrap().add(&fraction(1, 1)).unwrap();
+        let root = square.sqrt().unwrap();
+        assert!(equal(&root.mul(&root).unwrap(), &square));
     }
 }

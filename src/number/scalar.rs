@@ -120,6 +120,12 @@ pub trait Scalar:
         self == other
     }
 
+    /// The same number by another formula, for enclosures: what one of them knows is known.
+    fn also(self, other: Self) -> Self {
+        let _ = other;
+        self
+    }
+
     /// The greater of both.
     fn larger(self, other: Self) -> Self {
         if other > self { other } else { self }
