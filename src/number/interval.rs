@@ -523,6 +523,18 @@ impl Scalar for Interval {
         Interval::checked(down(bits, size.lo.square_ref()), up(bits, size.hi.square_ref()), inside)
     }
 
+    fn plain(self) -> Self {
+        Interval { inside: Inside::Off, ..self }
+    }
+
+    fn width(&self) -> f64 {
+        up(53, &self.hi - &self.lo).to_f64_round(Round::Up)
+    }
+
+    fn take_open() -> bool {
+        UNDECIDED.replace(false)
+    }
+
     fn larger(self, other: Self) -> Self {
         if self.lo >= other.hi {
             return self;

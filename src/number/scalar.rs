@@ -126,6 +126,21 @@ pub trait Scalar:
         self
     }
 
+    /// Without what is carried to decide comparisons, for sums that none will be asked of.
+    fn plain(self) -> Self {
+        self
+    }
+
+    /// How wide the number is: zero but for enclosures. **Accuracy**: rounded up.
+    fn width(&self) -> f64 {
+        0.0
+    }
+
+    /// Whether a comparison of enclosures was left open since this was last asked.
+    fn take_open() -> bool {
+        false
+    }
+
     /// The greater of both.
     fn larger(self, other: Self) -> Self {
         if other > self { other } else { self }
