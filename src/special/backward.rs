@@ -56,7 +56,7 @@ impl Backward<'_> {
         let n = self.terms as f64;
         let spread = self.spread(w.to_f64());
         let extra = (spread + 5.0 * n.log2() + 1.0).ceil() + 8.0;
-        if !(extra < f64::from(p)) {
+        if extra.is_nan() || extra >= f64::from(p) {
             return None;
         }
         let full = p + extra as u32;

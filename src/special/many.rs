@@ -91,7 +91,7 @@ pub(super) fn damped_start(half: &Float, xi: &Float, eta: &Float) -> Option<(Flo
     let bits = xi.prec() + GUARD_BITS + 64;
     let time = Float::with_val(bits, xi + eta);
     let damped = -Float::with_val(bits, half * &time);
-    if !(damped.to_f64() > -1e15) {
+    if damped.is_nan() || damped < -1e15 {
         return None;
     }
     let one = Float::with_val(xi.prec(), 1);
