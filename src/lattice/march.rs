@@ -93,7 +93,7 @@ pub fn march<S: Scalar>(
         contact: false,
         contacts: 0,
         height: problem.ground_start.clone(),
-        height_error: if S::EXACT { 0.0 } else { 4.0 * problem.ground_start.to_f64().abs() },
+        height_error: if S::RIGOROUS { 0.0 } else { 4.0 * problem.ground_start.to_f64().abs() },
         arriving: problem.ground_velocity.clone(),
         touch_error: 0.0,
         greatest_error: 0.0,

@@ -148,7 +148,7 @@ impl<S: Scalar> Undamped<S> {
                 end_velocity: occurrence.end_velocity.clone() * velocity,
                 centre: h.clone() * &rise,
                 centre_velocity: rate.clone() * velocity,
-                time_error: if S::EXACT { 0.0 } else { occurrence.error * unit * round_trip.to_f64() },
+                time_error: if S::RIGOROUS { 0.0 } else { occurrence.error * unit * round_trip.to_f64() },
             });
             last = Some((occurrence, h, rate));
         }
@@ -197,11 +197,7 @@ impl<S: Scalar> Undamped<S> {
             self.marched.trace.window(from.index, &from.fraction, &width, |part| {
                 let rise = part.slope.clone() * &part.width;
                 let at_end = part.value.clone() + &rise;
-                for p in [&part.value, &at_end] {
-                    if *p > peak {
-                        peak = p.clone();
-                    }
-                }
+                peak = peak.clone().larger(part.value.clone()).larger(at_end);
                 sum = sum.clone() + (part.value.clone() + rise / part.value.int(2)) * &part.width;
             });
             contacts.push(Contact {
@@ -217,7 +213,7 @@ impl<S: Scalar> Undamped<S> {
     fn tell_warnings(&self) -> Vec<String> {
         let unit = self.problem.gravity.roundoff().to_f64();
         let lost = self.marched.occurrences.iter().find(|event| event.error * unit > LOST);
-        let warning = lost.filter(|_| !S::EXACT).map(|event| {
+        let warning = lost.filter(|_| !S::RIGOROUS).map(|event| {
             let round_trip = self.problem.units.round_trip.to_f64();
             let time = (event.trip as f64 + event.fraction.to_f64()) * round_trip;
             let error = event.error * unit * round_trip;
@@ -262,7 +258,7 @@ impl<S: Scalar> Undamped<S> {
             moment.index == end.index + 1 && moment.fraction.is_zero() && end.fraction == end.fraction.one();
         if later && !after_whole_trip {
             let excess = age.to_f64() - (end.index as f64 - 1.0 + end.fraction.to_f64());
-            if S::EXACT || excess > 8.0 * age.roundoff().to_f64() * age.to_f64() {
+            if S::RIGOROUS || excess > 8.0 * age.roundoff().to_f64() * age.to_f64() {
                 return Err(outside());
             }
         }
@@ -270,7 +266,7 @@ impl<S: Scalar> Undamped<S> {
     }
 
     fn snap(&self, moment: Moment<S>) -> Moment<S> {
-        if S::EXACT {
+        if S::RIGOROUS {
             return moment;
         }
         let Moment { index, fraction } = moment;
@@ -314,7 +310,7 @@ impl<S: Scalar> Undamped<S> {
         }
         let trips = moment.fraction.int(moment.index as i64 - found as i64);
         let age = trips + &moment.fraction - &piece.fraction;
-        let rise = piece.value.clone() + piece.slope.clone() * &age / age.int(2);
+        let rise = piece.at(&piece.fraction) + piece.slope.clone() * &age / age.int(2);
         piece.height.clone() + rise * &age
     }
 
@@ -429,7 +425,7 @@ impl<S: Scalar> History<S> for Undamped<S> {
                 if !from.contact {
                     return age.zero();
                 }
-                -((from.value.clone() + from.slope.clone() * age) * &scale)
+                -(from.at(&(age + &from.fraction)) * &scale)
             };
             let width = to.fraction.int(to.index as i64 - 1 - trip as i64) + &to.fraction - &from.fraction;
             if width.is_positive() {
@@ -554,7 +550,7 @@ impl<S: Scalar> History<S> for Undamped<S> {
 
     fn error_estimate(&self) -> S {
         let zero = self.problem.gravity.zero();
-        if S::EXACT { zero } else { zero.double(self.marched.relative_error) * zero.roundoff() }
+        if S::RIGOROUS { zero } else { zero.double(self.marched.relative_error) * zero.roundoff() }
     }
 
     fn warnings(&self) -> &[String] {
@@ -571,15 +567,15 @@ impl<S: Scalar> Undamped<S> {
         if !piece.contact {
             return true;
         }
-        if from.slope != piece.slope {
+        if !from.slope.same(&piece.slope) {
             return false;
         }
-        let age = piece.fraction.int(trip as i64 - begun as i64) + &piece.fraction - &from.fraction;
-        let jump = from.slope.clone() * age + &from.value - &piece.value;
-        if S::EXACT {
-            return jump.is_zero();
+        let later = from.slope.int(trip as i64 - begun as i64) * &from.slope + &from.intercept;
+        if S::RIGOROUS {
+            return later.same(&piece.intercept);
         }
-        let rounding = 4.0 * (from.value.to_f64().abs() + piece.value.to_f64().abs());
+        let rounding = 4.0 * (later.to_f64().abs() + piece.intercept.to_f64().abs());
+        let jump = later - &piece.intercept;
         let error = from.value_error + piece.value_error + rounding;
         jump.magnitude() <= jump.roundoff() * jump.double(error)
     }

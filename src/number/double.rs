@@ -3,7 +3,7 @@
 use super::{Analytic, Number, Scalar};
 
 impl Scalar for f64 {
-    const EXACT: bool = false;
+    const RIGOROUS: bool = false;
     type Precision = ();
 
     fn from_number(number: &Number, _: &()) -> Self {

@@ -7,7 +7,7 @@ use rug::{Float, Integer, Rational};
 use super::{Analytic, Number, Scalar};
 
 impl Scalar for Float {
-    const EXACT: bool = false;
+    const RIGOROUS: bool = false;
     /// Bits of the significand.
     type Precision = u32;
 

@@ -10,7 +10,7 @@ use super::{Number, Scalar};
 const SMALL_FACTOR: u32 = 10_000;
 
 impl Scalar for Rational {
-    const EXACT: bool = true;
+    const RIGOROUS: bool = true;
     type Precision = ();
 
     fn from_number(number: &Number, _: &()) -> Self {

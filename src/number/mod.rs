@@ -1,10 +1,11 @@
-//! Numbers: two small traits, three number systems, exact text in and rounded text out.
+//! Numbers: two small traits, four number systems, exact text in and rounded text out.
 //!
 //! | type | system | what it promises |
 //! |---|---|---|
 //! | `f64` | double precision | each operation correctly rounded |
 //! | `rug::Float` (feature `mp`) | any number of bits | each operation correctly rounded |
 //! | `rug::Rational` (feature `mp`) | fractions | exact; square roots only where they are rational |
+//! | [`Interval`] (feature `mp`) | enclosures | ends rounded outwards; with them, the exact number where fractions and square roots make it |
 //!
 //! Formulas are written once: undamped code is `impl<S: Scalar>`, damped code is `impl<S: Analytic>`.
 
@@ -13,10 +14,16 @@ mod double;
 mod float;
 #[cfg(feature = "mp")]
 mod fraction;
+#[cfg(feature = "mp")]
+mod interval;
 mod literal;
+#[cfg(feature = "mp")]
+mod radical;
 mod scalar;
 
 #[cfg(feature = "mp")]
 pub use float::{bits_for_digits, decimal};
+#[cfg(feature = "mp")]
+pub use interval::{Interval, IntervalPrecision, decided};
 pub use literal::{Number, NumberError};
 pub use scalar::{Analytic, Scalar};

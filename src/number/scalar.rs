@@ -27,8 +27,9 @@ pub trait Scalar:
     + Sync
     + 'static
 {
-    /// Whether every operation of the trait is exact. Error bounds are neither carried nor compared where it is true.
-    const EXACT: bool;
+    /// Whether a number answers for its own error, by having none or by enclosing it. Error bounds are neither carried nor
+    /// compared beside it where that is so.
+    const RIGOROUS: bool;
 
     /// What it takes to make a first number: nothing for `f64` and fractions, the number of bits for a `Float`.
     type Precision: Clone + Debug + Send + Sync;
@@ -81,6 +82,19 @@ pub trait Scalar:
         self.int(p) / self.int(q)
     }
 
+    /// The same number, known only up to `by` in either direction. Only enclosures hold that in themselves; elsewhere the
+    /// caller counts it among the roundings.
+    fn widened(self, by: &Self) -> Self {
+        let _ = by;
+        self
+    }
+
+    /// The same number with a name, so that it can be told to be itself where nothing else is known of it. Only enclosures need
+    /// that.
+    fn named(self) -> Self {
+        self
+    }
+
     /// Zero, in the precision of `self`.
     fn zero(&self) -> Self {
         self.int(0)
@@ -99,6 +113,22 @@ pub trait Scalar:
     /// `|self|`.
     fn magnitude(&self) -> Self {
         if self.is_negative() { -self.clone() } else { self.clone() }
+    }
+
+    /// Whether both are surely the same number; false also where that is not known.
+    fn same(&self, other: &Self) -> bool {
+        self == other
+    }
+
+    /// The same number by another formula, for enclosures: what one of them knows is known.
+    fn also(self, other: Self) -> Self {
+        let _ = other;
+        self
+    }
+
+    /// The greater of both.
+    fn larger(self, other: Self) -> Self {
+        if other > self { other } else { self }
     }
 
     /// `self < 0`.

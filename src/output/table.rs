@@ -24,7 +24,7 @@ pub fn table(header: &[&str], rows: Vec<Vec<String>>, words: usize) -> String {
 
 /// A number in a table: twelve digits of a double, and zero where it is below what rounding leaves of its scale.
 fn cell<S: Show>(x: &S, scale: f64, digits: u32) -> String {
-    if digits > 0 || S::EXACT {
+    if digits > 0 || S::RIGOROUS {
         return x.show(digits);
     }
     let value = x.to_f64();

@@ -1,0 +1,613 @@
+//! Enclosures: intervals with ends of any number of bits, rounded outwards.
+//!
+//! A comparison of intervals has three answers. Generic code knows two, so the third is remembered: [`decided`] runs a
+//! computation and returns nothing if any comparison in it could not be settled. Whoever wants an answer then tries more
+//! bits. Nothing that [`decided`] lets through rests on a guess.
+
+use std::cell::Cell;
+use std::cmp::Ordering;
+use std::ops::{Add, Div, Mul, Neg, Sub};
+
+use rug::float::{Constant, Round, Special};
+use rug::{Assign, Float, Rational};
+
+use super::radical::Radical;
+use super::{Analytic, Number, Scalar};
+
+thread_local! {
+    static UNDECIDED: Cell<bool> = const { Cell::new(false) };
+}
+
+/// What `compute` returns, unless a comparison of [`Interval`]s in it could not be settled.
+///
+/// ```
+/// use dalembert::number::{Interval, IntervalPrecision, Scalar, decided};
+/// let third = Interval::from_number(&"1/3".parse()?, &IntervalPrecision::bits(64));
+/// let sum = third.clone() + &third + &third;
+/// assert_eq!(decided(|| sum < sum.int(2)), Some(true));
+/// // The sum is 1, but its interval reaches to both sides of it.
+/// assert_eq!(decided(|| sum < sum.one()), None);
+/// # Ok::<(), dalembert::number::NumberError>(())
+/// ```
+pub fn decided<T>(compute: impl FnOnce() -> T) -> Option<T> {
+    let outer = UNDECIDED.replace(false);
+    let result = compute();
+    let undecided = UNDECIDED.replace(outer);
+    (!undecided).then_some(result)
+}
+
+fn undecided() {
+    UNDECIDED.set(true);
+}
+
+/// How an [`Interval`] is carried.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct IntervalPrecision {
+    /// Bits of the significands of both ends.
+    pub bits: u32,
+    /// Whether the exact number inside, made of fractions and square roots, is carried as well, for as long as it is short:
+    /// with it coincidences are decided that no interval can decide.
+    pub exact: bool,
+}
+
+impl IntervalPrecision {
+    /// Intervals alone.
+    pub fn bits(bits: u32) -> Self {
+        IntervalPrecision { bits, exact: false }
+    }
+
+    /// Intervals with the exact number inside, where it is known.
+    pub fn with_exact(bits: u32) -> Self {
+        IntervalPrecision { bits, exact: true }
+    }
+}
+
+/// The exact number inside an interval.
+#[derive(Clone, Debug)]
+enum Inside {
+    /// Not followed.
+    Off,
+    /// Not made of fractions and square roots, or too long.
+    Lost,
+    Known(Box<Radical>),
+}
+
+/// All numbers from `lo` to `hi`, one of which is meant.
+///
+/// **Accuracy**: *enclosure*: every operation rounds its ends outwards.
+///
+/// Comparisons that the ends do not settle are false and make [`decided`] return nothing.
+#[derive(Clone, Debug)]
+pub struct Interval {
+    lo: Float,
+    hi: Float,
+    inside: Inside,
+}
+
+impl Inside {
+    fn of(number: Option<Radical>) -> Self {
+        number.map_or(Inside::Lost, |number| Inside::Known(Box::new(number)))
+    }
+
+    fn map(&self, f: impl FnOnce(&Radical) -> Option<Radical>) -> Self {
+        match self {
+            Inside::Known(number) => Inside::of(f(number)),
+            Inside::Lost => Inside::Lost,
+            Inside::Off => Inside::Off,
+        }
+    }
+
+    fn with(&self, other: &Self, f: impl FnOnce(&Radical, &Radical) -> Option<Radical>) -> Self {
+        match (self, other) {
+            (Inside::Known(a), Inside::Known(b)) => Inside::of(f(a, b)),
+            (Inside::Off, _) | (_, Inside::Off) => Inside::Off,
+            _ => Inside::Lost,
+        }
+    }
+}
+
+fn down<T>(bits: u32, value: T) -> Float
+where
+    Float: rug::ops::AssignRound<T, Round = Round, Ordering = Ordering>,
+{
+    Float::with_val_round(bits, value, Round::Down).0
+}
+
+fn up<T>(bits: u32, value: T) -> Float
+where
+    Float: rug::ops::AssignRound<T, Round = Round, Ordering = Ordering>,
+{
+    Float::with_val_round(bits, value, Round::Up).0
+}
+
+impl Interval {
+    /// From `lo` to `hi`; everything, where one of them is no number.
+    fn checked(lo: Float, hi: Float, inside: Inside) -> Self {
+        if lo.is_nan() || hi.is_nan() {
+            let bits = lo.prec();
+            let ends = (Float::with_val(bits, Special::NegInfinity), Float::with_val(bits, Special::Infinity));
+            return Interval { lo: ends.0, hi: ends.1, inside };
+        }
+        if matches!(&inside, Inside::Known(number) if number.vanishes()) {
+            let zero = Float::with_val(lo.prec(), 0);
+            return Interval { lo: zero.clone(), hi: zero, inside };
+        }
+        Interval { lo, hi, inside }
+    }
+
+    /// All numbers from `lo` to `hi`.
+    ///
+    /// **Errors**: everything from −∞ to ∞ where an end is no number or they are in the wrong order.
+    pub fn between(lo: Float, hi: Float) -> Self {
+        if lo > hi {
+            return Interval::checked(Float::with_val(lo.prec(), Special::Nan), hi, Inside::Off);
+        }
+        Interval::checked(lo, hi, Inside::Off)
+    }
+
+    /// A fraction. **Accuracy**: *enclosure* of one unit in the last place, a point where it fits.
+    pub fn rational(x: &Rational, precision: IntervalPrecision) -> Self {
+        let IntervalPrecision { bits, exact } = precision;
+        let inside = if exact { Inside::of(Radical::rational(x.clone())) } else { Inside::Off };
+        Interval { lo: down(bits, x), hi: up(bits, x), inside }
+    }
+
+    /// The lower end: no number meant is smaller.
+    pub fn lo(&self) -> &Float {
+        &self.lo
+    }
+
+    /// The upper end: no number meant is greater.
+    pub fn hi(&self) -> &Float {
+        &self.hi
+    }
+
+    /// A number in the middle, for starting values and pictures.
+    pub fn mid(&self) -> Float {
+        let bits = self.lo.prec();
+        let mut mid = Float::with_val(bits + 1, &self.lo + &self.hi);
+        mid >>= 1;
+        mid.set_prec(bits);
+        mid
+    }
+
+    /// At least half the width, rounded up.
+    pub fn radius(&self) -> Float {
+        up(53, &self.hi - &self.lo) / 2u32
+    }
+
+    /// Whether `x` is one of the numbers.
+    pub fn contains(&self, x: &Rational) -> bool {
+        self.lo <= *x && self.hi >= *x
+    }
+
+    /// Everything in both, for two enclosures of one number; `None` where they have nothing in common, which proves one of
+    /// them wrong.
+    pub fn meet(&self, other: &Self) -> Option<Self> {
+        let lo = if self.lo >= other.lo { &self.lo } else { &other.lo };
+        let hi = if self.hi <= other.hi { &self.hi } else { &other.hi };
+        (lo <= hi).then(|| Interval { lo: lo.clone(), hi: hi.clone(), inside: self.inside.clone() })
+    }
+
+    /// The least interval around both.
+    pub fn hull(&self, other: &Self) -> Self {
+        let lo = if self.lo <= other.lo { &self.lo } else { &other.lo };
+        let hi = if self.hi >= other.hi { &self.hi } else { &other.hi };
+        Interval { lo: lo.clone(), hi: hi.clone(), inside: Inside::Off }
+    }
+
+    /// Whether the number meant is known to be zero.
+    fn surely_zero(&self) -> bool {
+        (self.lo.is_zero() && self.hi.is_zero()) || matches!(&self.inside, Inside::Known(number) if number.vanishes())
+    }
+
+    fn exact_sign(&self) -> Option<Ordering> {
+        match &self.inside {
+            Inside::Known(number) => number.sign(),
+            _ => None,
+        }
+    }
+
+    /// The sign of the number meant, where it is known.
+    pub fn sign(&self) -> Option<Ordering> {
+        if self.lo.cmp0() == Some(Ordering::Greater) {
+            return Some(Ordering::Greater);
+        }
+        if self.hi.cmp0() == Some(Ordering::Less) {
+            return Some(Ordering::Less);
+        }
+        if self.lo.is_zero() && self.hi.is_zero() {
+            return Some(Ordering::Equal);
+        }
+        self.exact_sign()
+    }
+
+    /// The sign, with whoever listens told where it is not known.
+    fn sign_or_flag(&self) -> Option<Ordering> {
+        let sign = self.sign();
+        if sign.is_none() {
+            undecided();
+        }
+        sign
+    }
+
+    /// The same ends for a monotone function.
+    fn rising(&self, low: impl FnOnce(&Float) -> Float, high: impl FnOnce(&Float) -> Float) -> Self {
+        let inside = self.inside.map(|_| None);
+        Interval::checked(low(&self.lo), high(&self.hi), inside)
+    }
+
+    /// `f` of the middle, give or take the radius, for functions of slope at most 1 and size at most 1.
+    fn lipschitz(&self, f: impl Fn(&Float, Round) -> Float) -> Self {
+        let bits = self.lo.prec();
+        let (mid, one) = (self.mid(), Float::with_val(bits, 1));
+        let above = up(bits, &self.hi - &mid);
+        let below = up(bits, &mid - &self.lo);
+        let radius = if above > below { above } else { below };
+        let (lo, hi) = (down(bits, &f(&mid, Round::Down) - &radius), up(bits, &f(&mid, Round::Up) + &radius));
+        let inside = self.inside.map(|_| None);
+        if lo.is_nan() || hi.is_nan() || lo < -one.clone() && hi > one {
+            return Interval { lo: -one.clone(), hi: one, inside };
+        }
+        let lo = if lo < -one.clone() { -one.clone() } else { lo };
+        let hi = if hi > one { one } else { hi };
+        Interval { lo, hi, inside }
+    }
+}
+
+impl PartialEq for Interval {
+    fn eq(&self, other: &Self) -> bool {
+        self.partial_cmp(other) == Some(Ordering::Equal)
+    }
+}
+
+impl PartialOrd for Interval {
+    fn partial_cmp(&self, other: &Self) -> Option<Ordering> {
+        if self.hi < other.lo {
+            return Some(Ordering::Less);
+        }
+        if self.lo > other.hi {
+            return Some(Ordering::Greater);
+        }
+        if self.lo == self.hi && other.lo == other.hi && self.lo == other.lo {
+            return Some(Ordering::Equal);
+        }
+        if let (Inside::Known(a), Inside::Known(b)) = (&self.inside, &other.inside)
+            && let Some(order) = a.cmp(b)
+        {
+            return Some(order);
+        }
+        undecided();
+        None
+    }
+
+    // Intervals that touch have no order, but are not without one.
+    fn lt(&self, other: &Self) -> bool {
+        self.lo < other.hi && self.partial_cmp(other) == Some(Ordering::Less)
+    }
+
+    fn gt(&self, other: &Self) -> bool {
+        other.lt(self)
+    }
+
+    fn le(&self, other: &Self) -> bool {
+        self.hi <= other.lo || self.partial_cmp(other).is_some_and(Ordering::is_le)
+    }
+
+    fn ge(&self, other: &Self) -> bool {
+        other.le(self)
+    }
+}
+
+impl Neg for Interval {
+    type Output = Interval;
+    fn neg(self) -> Interval {
+        Interval { inside: self.inside.map(|number| Some(number.neg())), lo: -self.hi, hi: -self.lo }
+    }
+}
+
+impl<'a> Add<&'a Interval> for Interval {
+    type Output = Interval;
+    fn add(mut self, other: &'a Interval) -> Interval {
+        let inside = self.inside.with(&other.inside, Radical::add);
+        add_round(&mut self.lo, &other.lo, Round::Down);
+        add_round(&mut self.hi, &other.hi, Round::Up);
+        Interval::checked(self.lo, self.hi, inside)
+    }
+}
+
+fn add_round(to: &mut Float, other: &Float, round: Round) {
+    use rug::ops::AddAssignRound;
+    to.add_assign_round(other, round);
+}
+
+impl<'a> Sub<&'a Interval> for Interval {
+    type Output = Interval;
+    fn sub(mut self, other: &'a Interval) -> Interval {
+        use rug::ops::SubAssignRound;
+        let inside = self.inside.with(&other.inside, Radical::sub);
+        self.lo.sub_assign_round(&other.hi, Round::Down);
+        self.hi.sub_assign_round(&other.lo, Round::Up);
+        Interval::checked(self.lo, self.hi, inside)
+    }
+}
+
+impl<'a> Mul<&'a Interval> for Interval {
+    type Output = Interval;
+    fn mul(self, other: &'a Interval) -> Interval {
+        let bits = self.lo.prec();
+        let inside = self.inside.with(&other.inside, Radical::mul);
+        let (a, b, c, d) = (&self.lo, &self.hi, &other.lo, &other.hi);
+        let positive = |x: &Float| x.cmp0() != Some(Ordering::Less);
+        let negative = |x: &Float| x.cmp0() != Some(Ordering::Greater);
+        if self.lo.is_infinite() || self.hi.is_infinite() || c.is_infinite() || d.is_infinite() {
+            return Interval::checked(Float::with_val(bits, Special::Nan), self.hi, inside);
+        }
+        // The end of one factor that makes each end of the product.
+        let (lo, hi) = match (positive(a), negative(b), positive(c), negative(d)) {
+            (true, _, true, _) => (down(bits, a * c), up(bits, b * d)),
+            (true, _, _, true) => (down(bits, b * c), up(bits, a * d)),
+            (true, _, _, _) => (down(bits, b * c), up(bits, b * d)),
+            (_, true, true, _) => (down(bits, a * d), up(bits, b * c)),
+            (_, true, _, true) => (down(bits, b * d), up(bits, a * c)),
+            (_, true, _, _) => (down(bits, a * d), up(bits, a * c)),
+            (_, _, true, _) => (down(bits, a * d), up(bits, b * d)),
+            (_, _, _, true) => (down(bits, b * c), up(bits, a * c)),
+            _ => {
+                let (lo1, lo2) = (down(bits, a * d), down(bits, b * c));
+                let (hi1, hi2) = (up(bits, a * c), up(bits, b * d));
+                (if lo1 < lo2 { lo1 } else { lo2 }, if hi1 > hi2 { hi1 } else { hi2 })
+            }
+        };
+        Interval::checked(lo, hi, inside)
+    }
+}
+
+impl<'a> Div<&'a Interval> for Interval {
+    type Output = Interval;
+    fn div(self, other: &'a Interval) -> Interval {
+        let bits = self.lo.prec();
+        let inside = self.inside.with(&other.inside, Radical::div);
+        let (a, b, c, d) = (&self.lo, &self.hi, &other.lo, &other.hi);
+        let positive = |x: &Float| x.cmp0() == Some(Ordering::Greater);
+        let negative = |x: &Float| x.cmp0() == Some(Ordering::Less);
+        if !(positive(c) || negative(d)) || [a, b, c, d].iter().any(|end| end.is_infinite()) {
+            return Interval::checked(Float::with_val(bits, Special::Nan), self.hi, inside);
+        }
+        let over = |x: &Float, y: &Float, round| Float::with_val_round(bits, x / y, round).0;
+        let (lo, hi) = if positive(c) {
+            let least = over(a, if negative(a) { c } else { d }, Round::Down);
+            (least, over(b, if negative(b) { d } else { c }, Round::Up))
+        } else {
+            let least = over(b, if negative(b) { c } else { d }, Round::Down);
+            (least, over(a, if negative(a) { d } else { c }, Round::Up))
+        };
+        Interval::checked(lo, hi, inside)
+    }
+}
+
+macro_rules! by_value {
+    ($($op:ident $name:ident),*) => { $(
+        impl $op for Interval {
+            type Output = Interval;
+            fn $name(self, other: Interval) -> Interval {
+                $op::$name(self, &other)
+            }
+        }
+    )* };
+}
+by_value!(Add add, Sub sub, Mul mul, Div div);
+
+impl Scalar for Interval {
+    const RIGOROUS: bool = true;
+    type Precision = IntervalPrecision;
+
+    fn from_number(number: &Number, precision: &IntervalPrecision) -> Self {
+        Interval::rational(&number.to_rational(), *precision)
+    }
+
+    fn precision(&self) -> IntervalPrecision {
+        IntervalPrecision { bits: self.lo.prec(), exact: !matches!(self.inside, Inside::Off) }
+    }
+
+    fn int(&self, n: i64) -> Self {
+        let bits = self.lo.prec();
+        let inside = match self.inside {
+            Inside::Off => Inside::Off,
+            _ => Inside::of(Radical::rational(Rational::from(n))),
+        };
+        Interval { lo: down(bits, n), hi: up(bits, n), inside }
+    }
+
+    fn double(&self, x: f64) -> Self {
+        let bits = self.lo.prec();
+        let inside = match self.inside {
+            Inside::Off => Inside::Off,
+            _ => Inside::of(Rational::from_f64(x).and_then(Radical::rational)),
+        };
+        Interval::checked(down(bits, x), up(bits, x), inside)
+    }
+
+    fn try_sqrt(&self) -> Option<Self> {
+        match self.sign_or_flag() {
+            Some(Ordering::Less) => None,
+            Some(Ordering::Equal) => Some(self.zero()),
+            _ => Some(self.sqrt()),
+        }
+    }
+
+    /// The end that is farther from zero, rounded away from it: what a bound wants.
+    fn to_f64(&self) -> f64 {
+        if self.hi.cmp_abs(&self.lo) == Some(Ordering::Less) {
+            self.lo.to_f64_round(Round::AwayZero)
+        } else {
+            self.hi.to_f64_round(Round::AwayZero)
+        }
+    }
+
+    fn roundoff(&self) -> Self {
+        let unit = Float::with_val(self.lo.prec(), 1) >> self.lo.prec();
+        Interval { lo: unit.clone(), hi: unit, inside: Inside::Off }
+    }
+
+    fn bits(&self) -> Option<u32> {
+        Some(self.lo.prec())
+    }
+
+    fn floor_int(&self) -> Option<i64> {
+        let floor = |x: &Float| x.to_integer_round(Round::Down).and_then(|(n, _)| n.to_i64());
+        let (low, high) = (floor(&self.lo)?, floor(&self.hi)?);
+        if low == high {
+            return Some(low);
+        }
+        if let Inside::Known(number) = &self.inside
+            && let Some(exact) = number.floor()
+        {
+            return exact.to_i64();
+        }
+        undecided();
+        None
+    }
+
+    fn is_finite(&self) -> bool {
+        self.lo.is_finite() && self.hi.is_finite()
+    }
+
+    fn text(&self) -> String {
+        let ends = [(&self.lo, Round::Down), (&self.hi, Round::Up)];
+        let [lo, hi] = ends.map(|(end, round)| end.to_string_radix_round(10, Some(17), round));
+        if lo == hi { lo } else { format!("[{lo}, {hi}]") }
+    }
+
+    fn widened(self, by: &Self) -> Self {
+        let mut by = by.clone().magnitude();
+        by.lo.assign(-&by.hi);
+        by.inside = if matches!(self.inside, Inside::Off) { Inside::Off } else { Inside::Lost };
+        self + by
+    }
+
+    fn named(mut self) -> Self {
+        if matches!(self.inside, Inside::Lost) {
+            self.inside = Inside::Known(Box::new(Radical::named()));
+        }
+        self
+    }
+
+    fn also(self, other: Self) -> Self {
+        let inside = if matches!(self.inside, Inside::Known(_)) { self.inside.clone() } else { other.inside.clone() };
+        match self.meet(&other) {
+            Some(Interval { lo, hi, .. }) => Interval { lo, hi, inside },
+            None => self,
+        }
+    }
+
+    fn magnitude(&self) -> Self {
+        if self.lo.cmp0() != Some(Ordering::Less) {
+            return self.clone();
+        }
+        if self.hi.cmp0() != Some(Ordering::Greater) {
+            return -self.clone();
+        }
+        let low = Float::with_val(self.lo.prec(), -&self.lo);
+        let hi = if low > self.hi { low } else { self.hi.clone() };
+        let inside = self
+            .inside
+            .map(|number| Some(if number.sign()? == Ordering::Less { number.neg() } else { number.clone() }));
+        Interval { lo: Float::with_val(self.lo.prec(), 0), hi, inside }
+    }
+
+    fn square(&self) -> Self {
+        let size = self.magnitude();
+        let bits = size.lo.prec();
+        let inside = size.inside.with(&size.inside, Radical::mul);
+        Interval::checked(down(bits, size.lo.square_ref()), up(bits, size.hi.square_ref()), inside)
+    }
+
+    fn larger(self, other: Self) -> Self {
+        if self.lo >= other.hi {
+            return self;
+        }
+        if other.lo >= self.hi {
+            return other;
+        }
+        let inside = self.inside.with(&other.inside, |a, b| match a.cmp(b)? {
+            Ordering::Less => Some(b.clone()),
+            _ => Some(a.clone()),
+        });
+        let lo = if self.lo > other.lo { self.lo } else { other.lo };
+        let hi = if self.hi > other.hi { self.hi } else { other.hi };
+        Interval { lo, hi, inside }
+    }
+
+    fn same(&self, other: &Self) -> bool {
+        let points = self.lo == self.hi && other.lo == other.hi && self.lo == other.lo;
+        match (&self.inside, &other.inside) {
+            _ if points => true,
+            (Inside::Known(a), Inside::Known(b)) => a.sub(b).is_some_and(|difference| difference.vanishes()),
+            _ => false,
+        }
+    }
+
+    fn is_negative(&self) -> bool {
+        // Zero as the upper end is enough to say no more than "not positive".
+        if self.lo.cmp0().is_some_and(Ordering::is_ge) {
+            return false;
+        }
+        self.sign_or_flag() == Some(Ordering::Less)
+    }
+
+    fn is_positive(&self) -> bool {
+        if self.hi.cmp0().is_some_and(Ordering::is_le) {
+            return false;
+        }
+        self.sign_or_flag() == Some(Ordering::Greater)
+    }
+
+    fn is_zero(&self) -> bool {
+        if self.surely_zero() {
+            return true;
+        }
+        self.sign_or_flag() == Some(Ordering::Equal)
+    }
+}
+
+impl Analytic for Interval {
+    /// Of what is not negative: the part below zero, which only width can make, is left out.
+    fn sqrt(&self) -> Self {
+        let bits = self.lo.prec();
+        let zero = Float::with_val(bits, 0);
+        let lo = if self.lo.is_sign_negative() { zero } else { down(bits, self.lo.sqrt_ref()) };
+        let known = self.lo.cmp0().is_some_and(Ordering::is_ge) || self.exact_sign().is_some_and(Ordering::is_ge);
+        let inside = self.inside.map(|number| if known { number.sqrt() } else { None });
+        Interval::checked(lo, up(bits, self.hi.sqrt_ref()), inside)
+    }
+    fn exp(&self) -> Self {
+        let bits = self.lo.prec();
+        self.rising(|x| down(bits, x.exp_ref()), |x| up(bits, x.exp_ref()))
+    }
+    fn exp_m1(&self) -> Self {
+        let bits = self.lo.prec();
+        self.rising(|x| down(bits, x.exp_m1_ref()), |x| up(bits, x.exp_m1_ref()))
+    }
+    fn ln(&self) -> Self {
+        let bits = self.lo.prec();
+        self.rising(|x| down(bits, x.ln_ref()), |x| up(bits, x.ln_ref()))
+    }
+    fn ln_1p(&self) -> Self {
+        let bits = self.lo.prec();
+        self.rising(|x| down(bits, x.ln_1p_ref()), |x| up(bits, x.ln_1p_ref()))
+    }
+    fn cos(&self) -> Self {
+        let bits = self.lo.prec();
+        self.lipschitz(|x, round| Float::with_val_round(bits, x.cos_ref(), round).0)
+    }
+    fn sin(&self) -> Self {
+        let bits = self.lo.prec();
+        self.lipschitz(|x, round| Float::with_val_round(bits, x.sin_ref(), round).0)
+    }
+    fn pi(&self) -> Self {
+        let bits = self.lo.prec();
+        let inside = self.inside.map(|_| None);
+        Interval { lo: down(bits, Constant::Pi), hi: up(bits, Constant::Pi), inside }
+    }
+}

@@ -1,0 +1,116 @@
+//! Enclosures enclose: every operation, on random fractions in few bits, against the exact result; and comparisons never
+//! guess.
+#![cfg(feature = "mp")]
+#![allow(clippy::unwrap_used)]
+
+use dalembert::number::{Analytic, Interval, IntervalPrecision, Scalar, decided};
+use proptest::prelude::*;
+use rug::{Float, Rational};
+
+fn fraction() -> impl Strategy<Value = Rational> {
+    (-40i64..=40, 1i64..=12).prop_map(|(p, q)| Rational::from((p, q)))
+}
+
+/// An interval of width up to 1 around `x`, which it holds anywhere inside.
+fn around(x: &Rational, before: &Rational, after: &Rational, bits: u32) -> Interval {
+    let precision = IntervalPrecision::bits(bits);
+    let lo = Interval::rational(&(x.clone() - before.clone().abs()), precision);
+    lo.hull(&Interval::rational(&(x.clone() + after.clone().abs()), precision))
+}
+
+fn slack() -> impl Strategy<Value = (Rational, Rational)> {
+    (0i64..=6, 0i64..=6).prop_map(|(a, b)| (Rational::from((a, 12)), Rational::from((b, 12))))
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig { cases: 2000, failure_persistence: None, ..ProptestConfig::default() })]
+
+    #[test]
+    fn arithmetic_encloses(x in fraction(), y in fraction(), (a, b) in slack(), (c, d) in slack(), bits in 3u32..20) {
+        let (ix, iy) = (around(&x, &a, &b, bits), around(&y, &c, &d, bits));
+        prop_assert!((ix.clone() + &iy).contains(&Rational::from(&x + &y)));
+        prop_assert!((ix.clone() - &iy).contains(&Rational::from(&x - &y)));
+        prop_assert!((ix.clone() * &iy).contains(&Rational::from(&x * &y)));
+        prop_assert!(ix.square().contains(&Rational::from(&x * &x)));
+        prop_assert!(ix.magnitude().contains(&x.clone().abs()));
+        prop_assert!((-ix.clone()).contains(&Rational::from(-&x)));
+        prop_assert!(ix.clone().widened(&iy).contains(&Rational::from(&x + &y)));
+        prop_assert!(ix.clone().widened(&iy).contains(&Rational::from(&x - &y)));
+        if y.cmp0().is_ne() {
+            prop_assert!((ix.clone() / &iy).contains(&Rational::from(&x / &y)));
+        }
+        if decided(|| ix < iy) == Some(true) {
+            prop_assert!(x < y);
+        }
+        if let Some(answer) = decided(|| ix < iy) {
+            prop_assert_eq!(answer, x < y);
+        }
+        if let Some(answer) = decided(|| ix <= iy) {
+            prop_assert_eq!(answer, x <= y);
+        }
+        if let Some(answer) = decided(|| ix == iy) {
+            prop_assert_eq!(answer, x == y);
+        }
+        if let Some(answer) = decided(|| (ix.is_positive(), ix.is_negative(), ix.is_zero())) {
+            prop_assert_eq!(answer, (x.cmp0().is_gt(), x.cmp0().is_lt(), x.cmp0().is_eq()));
+        }
+        if let Some(floor) = decided(|| ix.floor_int()) {
+            prop_assert_eq!(floor, x.clone().floor().numer().to_i64());
+        }
+        prop_assert!(ix.to_f64().abs() >= Float::with_val(53, &x).to_f64().abs() * (1.0 - 1e-15));
+    }
+
+    #[test]
+    fn functions_enclose(x in fraction(), (a, b) in slack(), bits in 3u32..30) {
+        let small = x.clone() / 4u32;
+        let wide = around(&small, &a, &b, bits);
+        let exact = Float::with_val(300, &small);
+        // Forty digits stand for the truth: they lie inside by far more than their own error, or on a point.
+        let inside = |found: &Interval, truth: Float| {
+            Float::with_val(300, found.lo() - &truth) <= 1e-80 && Float::with_val(300, &truth - found.hi()) <= 1e-80
+        };
+        prop_assert!(inside(&wide.exp(), exact.clone().exp()));
+        prop_assert!(inside(&wide.exp_m1(), exact.clone().exp_m1()));
+        prop_assert!(inside(&wide.cos(), exact.clone().cos()));
+        prop_assert!(inside(&wide.sin(), exact.clone().sin()));
+        prop_assert!(inside(&wide.pi(), Analytic::pi(&exact)));
+        if small > 0 {
+            prop_assert!(inside(&wide.sqrt(), exact.clone().sqrt()));
+            prop_assert!(inside(&wide.ln(), exact.clone().ln()));
+            prop_assert!(inside(&wide.ln_1p(), exact.clone().ln_1p()));
+        }
+    }
+
+    /// With the exact number inside, `a + b√d`, comparisons that no interval decides are decided rightly.
+    #[test]
+    fn the_exact_number_decides(a in fraction(), b in fraction(), d in 2i64..12, bits in 8u32..40) {
+        let lift = |x: &Rational| Interval::rational(x, IntervalPrecision::with_exact(bits));
+        let root = lift(&Rational::from(d)).sqrt();
+        let number = lift(&a) + &(lift(&b) * &root);
+        // (a + b√d)(a − b√d) = a² − b²d
+        let product = number.clone() * &(lift(&a) - &(lift(&b) * &root));
+        let norm = Rational::from(a.square_ref()) - Rational::from(b.square_ref()) * d;
+        prop_assert_eq!(decided(|| product == lift(&norm)), Some(true));
+        let back = number.square().sqrt();
+        prop_assert_eq!(decided(|| back == number.magnitude()), Some(true));
+        prop_assert_eq!(decided(|| number < number), Some(false));
+        let truth = Float::with_val(200, d).sqrt() * &b + &a;
+        if truth.clone().abs() > 1e-30 {
+            prop_assert_eq!(decided(|| number.is_positive()), Some(truth > 0));
+        }
+    }
+}
+
+#[test]
+fn a_guess_is_never_let_through() {
+    let third = Interval::rational(&Rational::from((1, 3)), IntervalPrecision::bits(20));
+    let one = third.clone() * &third.int(3);
+    assert_eq!(decided(|| one > third), Some(true));
+    assert_eq!(decided(|| one == one.int(1)), None);
+    // A comparison inside that is not settled does not hide behind one that is.
+    assert_eq!(decided(|| (one < one.int(1), third < one)), None);
+    assert_eq!(decided(|| decided(|| one < one.int(1)).is_none()), Some(true));
+    // Division by what may be zero is everything.
+    let nothing = one.clone() - &one.int(1);
+    assert!(!(one / &nothing).is_finite());
+}
