@@ -11,6 +11,7 @@ pub struct Estimate<S> {
     /// The value.
     pub value: S,
     /// A bound of the rounding errors in it, from the magnitudes that were added up; infinite where nothing is known.
+    /// Zero for enclosures, which hold it in themselves.
     pub error: f64,
 }
 
@@ -109,6 +110,9 @@ impl<S: Analytic> FirstContact<S> {
 
     /// The bound that `roundings` stand for.
     pub(super) fn bound(&self, roundings: f64) -> f64 {
+        if S::RIGOROUS {
+            return 0.0;
+        }
         // Below the least double a bound is still no promise of exactness.
         (roundings * negative_power(-self.damping.log2_roundoff())).max(f64::MIN_POSITIVE)
     }
@@ -190,11 +194,11 @@ impl<S: Analytic> FirstContact<S> {
 
     /// `V`, `V_t`, `V_x` at the travel time `a` from the ground, `0 ≤ a ≤ 1/2`.
     pub(super) fn field_parts(&self, a: &S, trips: &S, side: Side) -> Option<[Parts<S>; 3]> {
-        self.field_of(a, trips, |travel, _| travel < trips || (travel == trips && side == Side::Right))
+        self.field_of(a, trips, |_, travel, _| travel < trips || (travel == trips && side == Side::Right))
     }
 
-    /// The same with those rays, of a travel time, upwards or downwards, that have `arrived`.
-    pub(super) fn field_of(&self, a: &S, trips: &S, arrived: impl Fn(&S, bool) -> bool) -> Option<[Parts<S>; 3]> {
+    /// The same with those rays, the j-th of a travel time, upwards or downwards, that have `arrived`.
+    pub(super) fn field_of(&self, a: &S, trips: &S, arrived: impl Fn(i64, &S, bool) -> bool) -> Option<[Parts<S>; 3]> {
         let (r, one) = (&self.damping, trips.one());
         let fall = -(r.int(2) * r * trips);
         let (fallen, dropped) = (-(phi1(&fall) * trips), -(phi2(&fall) * &trips.square()));
@@ -206,7 +210,7 @@ impl<S: Analytic> FirstContact<S> {
         let quarter = r.square() / r.int(2);
         for j in 0..=rays {
             for (travel, down) in [(r.int(j) + a, false), (r.int(j + 1) - a, true)] {
-                if !arrived(&travel, down) {
+                if !arrived(j, &travel, down) {
                     continue;
                 }
                 let ray = Ray::new(r, &travel, trips);
@@ -265,7 +269,7 @@ impl<S: Analytic> FirstContact<S> {
     pub(super) fn amplitude(&self, tau: f64, beyond: f64, mu: f64, mu0: f64) -> f64 {
         let (r, s) = (self.damping.to_f64(), tau + beyond);
         let each = 2.0 * mu + 2.0 * mu0 * s * (1.0 + r * s);
-        ((4.0 * tau + 6.0) * each * (r * beyond).exp()).clamp(1e-150, f64::MAX)
+        ((4.0 * tau + 6.0) * each * (r * beyond).exp()).max(1e-150)
     }
 
     /// `h(t)` and `h′(t) = P/L`: the centre of mass, relative to its place in the undeformed rod on the ground.

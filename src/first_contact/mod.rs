@@ -6,6 +6,8 @@
 
 mod bounce;
 mod cells;
+#[cfg(feature = "mp")]
+mod enclosed;
 mod energy;
 mod field;
 mod rebound;
@@ -14,6 +16,8 @@ mod undamped;
 mod within;
 
 pub use bounce::{Bounce, BounceKind};
+#[cfg(feature = "mp")]
+pub(crate) use bounce::{Bracket, Found};
 pub use field::{Estimate, FirstContact};
 pub use rebound::Rebound;
 pub use undamped::UndampedContact;

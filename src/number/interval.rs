@@ -480,6 +480,12 @@ impl Scalar for Interval {
         self + by
     }
 
+    fn width(&self) -> Self {
+        let width = up(self.lo.prec(), &self.hi - &self.lo);
+        let inside = self.inside.map(|_| None);
+        Interval::checked(width.clone(), width, inside)
+    }
+
     fn magnitude(&self) -> Self {
         if self.lo.cmp0() != Some(Ordering::Less) {
             return self.clone();

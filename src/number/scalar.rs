@@ -89,6 +89,12 @@ pub trait Scalar:
         self
     }
 
+    /// How far the number meant may lie from [`Scalar::to_f64`], but for the rounding of that: the width of an enclosure, zero
+    /// elsewhere.
+    fn width(&self) -> Self {
+        self.zero()
+    }
+
     /// Zero, in the precision of `self`.
     fn zero(&self) -> Self {
         self.int(0)

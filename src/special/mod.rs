@@ -2,7 +2,10 @@
 //! functions, Gauss–Legendre.
 
 mod bessel;
+mod enclosed;
 mod gauss;
+#[cfg(feature = "mp")]
+mod gauss_enclosed;
 mod phi;
 mod precision;
 mod ray;

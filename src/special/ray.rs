@@ -4,7 +4,7 @@
 //! `ρ_n = ψ_n/ψ_{n−1}` obey `ρ_n = ξ/(n + (r²η/4) ρ_{n+1})`, which has no cancellation, is stable downwards, and is
 //! `ξ/n` at `r = 0`: no formula here divides by `r`.
 
-use super::{bits, i0_scaled, negative_power};
+use super::{bits, enclosed, i0_scaled, negative_power};
 use crate::number::Analytic;
 
 /// A ray of travel time `a` at age `t`: `ξ = t − a`, `η = t + a`, damping `r`.
@@ -50,15 +50,26 @@ impl<S: Analytic> Ray<S> {
 
     /// `I_k(z)/I_{k−1}(z) (ξ/η)^{1/2}` for k = 1 … n.
     pub(super) fn ratios(&self, n: i64) -> Vec<S> {
-        let mut sigma = self.half.zero();
+        let (terms, mut sigma, _) = self.cut(n);
         let mut ratios = Vec::new();
-        for k in (1..=self.terms(n).max(n + 2)).rev() {
+        for k in (1..=terms.max(n + 2)).rev() {
             sigma = self.ratio(k, &sigma) * &self.half;
             if k <= n {
                 ratios.push(sigma.clone());
             }
         }
         ratios
+    }
+
+    /// Where the sums that need the terms up to `first` begin: the last term N, `σ_{N+1}`, and what lies beyond; zero but for
+    /// enclosures.
+    fn cut(&self, first: i64) -> (i64, S, S) {
+        let zero = self.xi.zero();
+        if !S::RIGOROUS {
+            return (self.terms(first), zero.clone(), zero);
+        }
+        let cut = enclosed::cut(&self.half, &self.xi, &self.eta, first.max(1) + 1);
+        (cut.terms, zero.clone().widened(&cut.ratio), zero.widened(&cut.rest))
     }
 
     /// `ρ_n` from `σ_{n+1} = (r/2) ρ_{n+1}`; `(r/2) η σ` cannot overflow, since `σ < 1`.
@@ -129,6 +140,9 @@ impl<S: Analytic> Ray<S> {
     /// `e^{−rt} ψ₀`, without overflow: `e^{−r(t−u)} · e^{−ru} I₀(ru)` with `u = √(ξη)`, `t − u = a²/(t+u)`; and its
     /// roundings.
     pub fn start(&self) -> (S, f64) {
+        if S::RIGOROUS {
+            return (enclosed::ray_start(&self.half, &self.xi, &self.eta), 0.0);
+        }
         let two = self.xi.int(2);
         let u = (self.xi.clone() * &self.eta).sqrt();
         let damping = self.half.clone() * &two;
@@ -151,12 +165,11 @@ impl<S: Analytic> Ray<S> {
     /// by `asinh s ≥ 0.88 s` (s ≤ 1) that is at most `4N + 2.3 z (2 + ln 2N)`; Horner adds 3 for each term.
     pub fn sums<const K: usize>(&self, first: [i64; K], weight: impl Fn(i64) -> [i64; K]) -> RaySums<S, K> {
         let last = first.iter().copied().max().unwrap_or(1);
-        let terms = self.terms(last);
+        let (terms, mut sigma, rest) = self.cut(last);
         let (start, start_roundings) = self.start();
-        let mut sums: [S; K] = std::array::from_fn(|_| self.xi.zero());
+        let mut sums: [S; K] = std::array::from_fn(|_| rest.clone());
         // ψ_n = ψ_0 ρ_1 ⋯ ρ_n: the last factors are at hand when the pass comes down to n₀.
         let mut heads: [S; K] = std::array::from_fn(|_| start.clone());
-        let mut sigma = self.xi.zero();
         for n in (1..=terms).rev() {
             let weights = weight(n);
             for k in 0..K {

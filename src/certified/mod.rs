@@ -1,0 +1,8 @@
+//! Proved numbers: histories whose every value is an enclosure.
+
+mod closed_form;
+mod first_contact;
+mod root;
+
+pub use closed_form::ClosedForm;
+pub use first_contact::ProvedContact;
