@@ -4,11 +4,16 @@
 
 use dalembert::Problem;
 use dalembert::certified::ProvedContact;
+use dalembert::first_contact::{Bounce, FirstContact};
 use dalembert::history::{Ending, History, Side};
+use dalembert::modal::Modal;
 use dalembert::number::{Interval, Number, Scalar};
+use dalembert::rod::Parameters;
+use proptest::prelude::*;
 use rug::ops::Pow;
-use rug::{Integer, Rational};
+use rug::{Float, Integer, Rational};
 use serde_json::Value;
+use std::str::FromStr;
 
 fn number(text: &str) -> Number {
     text.parse().unwrap()
@@ -179,4 +184,142 @@ fn the_least_and_the_greatest_damping() {
     assert!(matches!(contact.ending(), Ending::NoBounce(_)), "{:?}", contact.ending());
     let stress = contact.stress(&contact.form().time(&Number::from(3)), Side::Right).unwrap();
     assert!(stress.radius() < 1e-30, "{}", stress.text());
+}
+
+fn holds(found: &Interval, truth: &Float, slack: f64) -> bool {
+    let slack = truth.clone().abs() * slack + 1e-300;
+    Float::with_val(2000, found.lo() - truth) <= slack && Float::with_val(2000, truth - found.hi()) <= slack
+}
+
+/// Every value that can be asked for, at some times of the contact and at its end.
+fn everything(contact: &ProvedContact, times: &[&str]) -> Vec<Interval> {
+    let form = contact.form();
+    let mut times: Vec<Interval> = times.iter().map(|t| form.time(&number(t))).collect();
+    times.retain(|t| t.hi() < contact.end().lo());
+    times.push(contact.end());
+    let mut list = vec![contact.contacts()[0].impulse.clone(), contact.contacts()[0].peak_stress.clone()];
+    for event in contact.events() {
+        list.extend([event.time.clone(), event.end_velocity.clone(), event.centre.clone()]);
+        list.push(event.centre_velocity.clone());
+    }
+    for t in &times {
+        for side in [Side::Left, Side::Right] {
+            list.push(contact.stress(t, side).unwrap());
+            let field = contact.field(&form.time(&number("0.3")), t, side).unwrap();
+            list.extend([field.displacement, field.velocity, field.strain]);
+            let (top, speed) = contact.top_end(t, side).unwrap();
+            list.extend([top, speed]);
+        }
+        let energy = contact.energy(t).unwrap();
+        list.extend([energy.total, energy.translational, energy.vibrational]);
+    }
+    list
+}
+
+const CASES: [[&str; 5]; 10] = [
+    ["1", "1", "0", "1", "3"],
+    ["1", "1", "0", "1", "3/2"],
+    ["1", "1", "0.2", "1", "5"],
+    ["1", "1", "0.3", "1", "2"],
+    ["1/3", "0.7", "0.1", "2", "1/7"],
+    ["1/2", "1", "3", "0", "1"],
+    ["1", "1", "1", "1", "1"],
+    ["1", "1", "2.5", "1", "1/4"],
+    ["1", "1", "25", "1", "1"],
+    ["1", "5000", "12", "9.81", "1"],
+];
+
+/// More bits only narrow what fewer bits have said.
+#[test]
+fn more_bits_lie_within_fewer() {
+    for case in CASES {
+        let times = ["2/3", "2"];
+        let few = everything(&solve(&problem(case), 200), &times);
+        let many = everything(&solve(&problem(case), 400), &times);
+        assert_eq!(few.len(), many.len(), "{case:?}");
+        for (k, (few, many)) in few.iter().zip(&many).enumerate() {
+            assert!(few.meet(many).is_some(), "{case:?} {k}: {} {}", few.text(), many.text());
+            let narrow = many.radius() <= few.radius() && many.radius() <= few.mid().abs() * 1e-60 + 1e-60;
+            assert!(narrow, "{case:?} {k}: {} {}", few.text(), many.text());
+        }
+    }
+}
+
+/// The same closed forms in ordinary numbers of many more bits lie inside.
+#[test]
+fn ordinary_numbers_lie_inside() {
+    for case in CASES {
+        let proved = solve(&problem(case), 200);
+        let rod = Parameters::<Float>::of(&problem(case), &500).unwrap();
+        let contact = FirstContact::new(&rod);
+        match contact.bounce() {
+            Bounce::At { time, .. } => assert!(holds(&proved.events()[1].time, &time, 1e-120), "{case:?}"),
+            Bounce::Never { .. } => assert!(proved.bounce().is_none(), "{case:?}"),
+            Bounce::Undecided { why, .. } => panic!("{case:?}: {why}"),
+        }
+        let mut deepest = contact.stress(&Float::with_val(500, 0), Side::Right).value;
+        let end = proved.end().mid();
+        for k in 1..200u32 {
+            let time = Float::with_val(500, &end * k) / 200u32;
+            let stress = contact.stress(&time, Side::Left).value;
+            if k % 20 == 1 {
+                let at = proved.form().time(&Number::from(0)) + Interval::between(time.clone(), time.clone());
+                assert!(holds(&proved.stress(&at, Side::Left).unwrap(), &stress, 1e-120), "{case:?}");
+                let (height, velocity) = proved.centre(&at).unwrap();
+                assert!(holds(&height, &contact.centre(&time).0.value, 1e-120), "{case:?}");
+                assert!(holds(&velocity, &contact.centre(&time).1.value, 1e-120), "{case:?}");
+            }
+            if stress < deepest {
+                deepest = stress;
+            }
+        }
+        let peak = &proved.contacts()[0].peak_stress;
+        assert!(*peak.lo() <= deepest, "{case:?}: {} {deepest}", peak.text());
+        assert!(Float::with_val(200, peak.hi() - &deepest) < 0.02 * deepest.clone().abs(), "{case:?}: {}", peak.text());
+        assert!(peak.radius() < 1e-50, "{case:?}: {}", peak.text());
+    }
+}
+
+/// Values on both sides of a ray differ by the jump that it carries, and the wrong bits never decide on which side it is.
+#[test]
+fn times_on_rays_are_told_from_times_beside_them() {
+    // t₁ = 20/21, and a ray is at x = 1/6 at t = 5/21 + k t₁.
+    let contact = solve(&problem(["1/3", "0.7", "0.1", "2", "1/7"]), 256);
+    let form = contact.form();
+    let at = |time: &str, side| form.field(&form.time(&number("1/6")), &form.time(&number(time)), side).unwrap();
+    for time in ["5/21", "15/21"] {
+        let (before, after) = (at(time, Side::Left), at(time, Side::Right));
+        let jump = after.velocity.clone() - &before.velocity;
+        assert!(jump.magnitude().mid() > 0.1, "{}", jump.text());
+        // 10⁻¹⁰⁰ beside the ray, where 256 bits do not tell, but the fractions do.
+        let zeros = "0".repeat(100);
+        let ray = time.trim_end_matches("/21");
+        let beside = |sign: &str| {
+            let numerator = Integer::from_str(&format!("{ray}{zeros}")).unwrap();
+            let numerator = if sign == "-" { numerator - 21 } else { numerator + 21 };
+            form.field(&form.time(&number("1/6")), &form.time(&number(&format!("{numerator}/21{zeros}"))), Side::Right)
+        };
+        assert!(beside("-").unwrap().velocity.meet(&before.velocity).is_some());
+        assert!(beside("+").unwrap().velocity.meet(&after.velocity).is_some());
+    }
+    let continuous = at("6/21", Side::Right).velocity - &at("6/21", Side::Left).velocity;
+    assert!(continuous.contains(&Rational::new()));
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig { cases: 24, failure_persistence: None, ..ProptestConfig::default() })]
+
+    /// The modes, another route to (2.28) with proved bounds of its own, agree.
+    #[test]
+    fn modes_agree(r in 0u32..400, g in 0u32..30, mu in 1u32..40, t in 1u32..390) {
+        let texts = [r, g, mu, t].map(|n| format!("{n}/100"));
+        let problem = problem(["1/2", "1", &texts[0], &format!("{g}/10"), &format!("{mu}/10")]);
+        let form = dalembert::certified::ClosedForm::of(&problem, 192).unwrap();
+        let proved = form.stress(&form.time(&number(&texts[3])), Side::Right).unwrap();
+        let rod = Parameters::<Float>::of(&problem, &192).unwrap();
+        let time = Float::with_val(192, &number(&texts[3]).to_rational());
+        let modes = Modal::new(&rod, 256).stress(&time, Side::Right);
+        let off = (modes.value.clone() - proved.mid()).abs();
+        prop_assert!(off <= modes.error * (1.0 + 1e-9) + proved.radius(), "{} {} {}", modes.value, modes.error, proved.text());
+    }
 }

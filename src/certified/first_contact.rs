@@ -175,7 +175,12 @@ impl ProvedContact {
             let rod = &self.form.exact;
             let drag = centre * &rod.damping * &until.int(2);
             let gained = velocity + &rod.speed + drag + rod.gravity.clone() * &until;
-            Ok((gained * &rod.length, self.peak(&until)?))
+            let end = match &self.release {
+                Some(release) => release.trips.clone(),
+                None => self.form.trips(&until)?,
+            };
+            let peak = self.form.settled("which stress is the greatest", || Some(self.form.peak(&end)))??;
+            Ok((gained * &rod.length, peak))
         })();
         let (impulse, peak_stress) = match measured {
             Err(Error::NotDecided { .. }) => return Ok(None),
@@ -184,12 +189,6 @@ impl ProvedContact {
         let to = self.release.as_ref().map(|_| until.clone());
         self.contacts.push(Contact { from: until.zero(), to, impulse, peak_stress });
         Ok(Some(self.clone()))
-    }
-
-    /// The most compressive stress up to `until`.
-    fn peak(&self, until: &Interval) -> Result<Interval, Error> {
-        let _ = until;
-        self.stress(&self.end.zero(), Side::Right)
     }
 
     /// The closed forms behind it.

@@ -2,6 +2,7 @@
 
 mod closed_form;
 mod first_contact;
+mod peak;
 mod root;
 
 pub use closed_form::ClosedForm;

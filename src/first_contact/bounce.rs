@@ -171,7 +171,7 @@ impl<S: Analytic> FirstContact<S> {
         let (mu, mu0, t1) = (&self.rod.speed, &self.critical, &self.round_trip);
         let blur = roundoff(mu) * &mu.int(8);
         if *mu >= *mu0 {
-            let sure = *mu > mu0.clone() + blur.clone() * mu0 || mu0.is_zero();
+            let sure = S::RIGOROUS || *mu > mu0.clone() + blur.clone() * mu0 || mu0.is_zero();
             let error = if sure { 0.0 } else { (blur * t1).to_f64() };
             return Bounce::At { time: t1.clone(), kind: BounceKind::Jump, error };
         }

@@ -6,6 +6,14 @@ use super::search::{FirstRoot, coefficients, first_root};
 use crate::number::Analytic;
 use crate::special::roundoff;
 
+/// The force in a cell, over `scale`: within `error` of a Chebyshev sum.
+pub(super) struct Interpolant<S> {
+    pub(super) scale: S,
+    pub(super) sum: Vec<f64>,
+    /// Includes what the rounding of the sum's own evaluation adds, see [`first_root`] for derivatives.
+    pub(super) error: f64,
+}
+
 impl<S: Analytic> FirstContact<S> {
     /// Whether, at `k t₁`, the transient is below the static stress everywhere in the rod: then it stays so.
     ///
@@ -13,10 +21,23 @@ impl<S: Analytic> FirstContact<S> {
     /// interpolant is off by at most `4M·8^{−24}/7`, M from [`FirstContact::amplitude`], and it is nowhere larger than the
     /// sum of its coefficients' magnitudes. Errors of the values add up with `|ℓ_j| ≤ 2`.
     pub(super) fn settled(&self, k: i64) -> Option<String> {
-        const NODES: usize = 24;
         if self.critical.is_zero() {
             return None;
         }
+        let share = (self.critical.clone() / (self.rod.speed.clone() + &self.critical)).to_f64() / 2.0;
+        let largest = self.transient(k)?;
+        (largest < share * (1.0 - 1e-9)).then(|| {
+            let part = largest / share;
+            format!(
+                "from t = {k} t₁ on the transient stays below {part:.4} of the static stress gL/c², and the rod settles under its weight"
+            )
+        })
+    }
+
+    /// A bound of `|v_t ∓ c(v_x − v_s′)|/(μ + μ₀)` at `k t₁`, and so at all later times; `None` where that is more than the static
+    /// share `gL/c` of it, or not known.
+    pub(super) fn transient(&self, k: i64) -> Option<f64> {
+        const NODES: usize = 24;
         let trips = self.damping.int(k);
         let total = self.rod.speed.clone() + &self.critical;
         let (alpha, beta) = (self.rod.speed.clone() / &total, self.critical.clone() / &total);
@@ -58,16 +79,10 @@ impl<S: Analytic> FirstContact<S> {
         // each coefficient, see `cell`, by 5·10⁻¹⁵ of the largest value, all 25 by 1.3·10⁻¹³.
         let doubles = 4e-15 * up_steep.max(down_steep) + 2e-13 * up.max(down);
         let largest = up.max(down) + interpolation + 3.1 * width + 2.0 * self.bound(roundings) + doubles;
-        (largest < share * (1.0 - 1e-9)).then(|| {
-            let part = largest / share;
-            format!(
-                "from t = {k} t₁ on the transient stays below {part:.4} of the static stress gL/c², and the rod settles under its weight"
-            )
-        })
+        Some(largest)
     }
 
-    /// The first root inside `(k t₁, (k+1) t₁)`, where the stress is compressive at the left end; `None` where there
-    /// is none.
+    /// The force in `(k t₁, (k+1) t₁)` as a Chebyshev sum in doubles, or why there is none.
     ///
     /// Chebyshev interpolation in n + 1 points is off by at most `4Mρ⁻ⁿ/(ρ−1)`. The ellipse with `ρ + 1/ρ = 4k + 2`
     /// stays in Re τ ≥ 0, where `|e^{−Rτ}I₀(R√(τ²−j²))| ≤ 1`, because `(Re √(τ²−j²))² ≤ (Re τ)²`; so each ray adds at
@@ -79,8 +94,8 @@ impl<S: Analytic> FirstContact<S> {
     /// - an error made at index k of Clenshaw's recurrence has the weight `T_k`, at most 1, in its result, and the recurrence's
     ///   terms are at most `Σ (j+1)|c_j|`: together `12 u (n+1) Σ (j+1)|c_j|`. In the slope the weights are at most `n²` and the
     ///   terms `Σ (j+1)³|c_j|`; divided by the `4(n+1)²` that [`first_root`] allows slopes, that is less than `4 u Σ (j+1)³|c_j|`.
-    pub(super) fn cell(&self, route: &Route<S>, k: i64) -> Result<Option<Bracket<S>>, String> {
-        let at = |x: f64| self.damping.int(k) + (self.damping.double(x) + self.damping.one()) / self.damping.int(2);
+    pub(super) fn interpolant(&self, route: &Route<S>, k: i64) -> Result<Interpolant<S>, String> {
+        let at = |x: f64| self.inside(k, x);
         // Any scale will do.
         let scale = [-1.0, 0.0, 1.0]
             .map(|x| self.force(route, &at(x), k).0.magnitude())
@@ -116,7 +131,19 @@ impl<S: Analytic> FirstContact<S> {
         let coefficients = 2.0 * nodes * largest * (1.5e-15 + (nodes + 2.0) * u);
         let recurrence = u * (12.0 * nodes * weighted(1) + 4.0 * weighted(3));
         let interpolation = (log_bound - n as f64 * rho.ln() + 1e-6).exp();
-        let error = interpolation + 6.3 * places + coefficients + recurrence;
+        Ok(Interpolant { error: interpolation + 6.3 * places + coefficients + recurrence, scale, sum })
+    }
+
+    /// The place `x` of `[−1,1]` in the cell after k round trips.
+    pub(super) fn inside(&self, k: i64, x: f64) -> S {
+        self.damping.int(k) + (self.damping.double(x) + self.damping.one()) / self.damping.int(2)
+    }
+
+    /// The first root inside `(k t₁, (k+1) t₁)`, where the stress is compressive at the left end; `None` where there
+    /// is none.
+    pub(super) fn cell(&self, route: &Route<S>, k: i64) -> Result<Option<Bracket<S>>, String> {
+        let Interpolant { scale, sum, error } = self.interpolant(route, k)?;
+        let at = |x: f64| self.inside(k, x);
         let sign = |x: f64| {
             // In doubles, so that nothing is compared that need not be settled.
             let (value, error) = self.force(route, &at(x), k);

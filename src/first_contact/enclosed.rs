@@ -5,6 +5,7 @@ use super::field::{Estimate, FirstContact};
 use super::rebound::{Rebound, translational};
 use crate::history::{Energy, Field};
 use crate::number::Analytic;
+use crate::special::confluent;
 
 impl<S: Analytic> FirstContact<S> {
     /// The search for the bounce, up to a bracket.
@@ -20,6 +21,23 @@ impl<S: Analytic> FirstContact<S> {
     /// What presses on the ground at `t/t₁`, with k returning rays: `−c v_x/(μ + μ₀)`.
     pub(crate) fn force_at(&self, trips: &S, k: i64) -> S {
         self.force(&Route::Rays, trips, k).0
+    }
+
+    /// The derivative of [`FirstContact::force_at`] by round trips: with `(e^{−rt}G_r)′ = e^{−rt}H_r`, and for each ray
+    /// `(e^{−Rτ} ₀F₁(;1;y))′ = e^{−Rτ} (½R²τ ₀F₁(;2;y) − R ₀F₁(;1;y))`, `y = R²(τ² − j²)/4`.
+    pub(crate) fn force_rate_at(&self, trips: &S, k: i64) -> S {
+        let (r, total) = (&self.damping, self.rod.speed.clone() + &self.critical);
+        let quarter = r.square() / r.int(4);
+        let (mut kernel, mut rate) = (r.zero(), r.zero());
+        for j in 0..=k {
+            let y = (trips.clone() - r.int(j)) * &(trips.clone() + r.int(j)) * &quarter;
+            let weight = r.int(if j == 0 { 1 } else { 2 } * if j % 2 == 0 { 1 } else { -1 });
+            let start = confluent(&y, 0);
+            rate = rate + (quarter.clone() * trips * &r.int(2) * confluent(&y, 1) - start.clone() * r) * &weight;
+            kernel = kernel + start * weight;
+        }
+        let fade = (-(r.clone() * trips)).exp();
+        (rate * &self.rod.speed + kernel * &self.critical) * fade / total
     }
 
     /// `v_x(0,t)` at `t/t₁`, with k returning rays.

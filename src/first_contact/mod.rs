@@ -10,6 +10,8 @@ mod cells;
 mod enclosed;
 mod energy;
 mod field;
+#[cfg(feature = "mp")]
+mod peak;
 mod rebound;
 mod search;
 mod undamped;
@@ -19,5 +21,7 @@ pub use bounce::{Bounce, BounceKind};
 #[cfg(feature = "mp")]
 pub(crate) use bounce::{Bracket, Found};
 pub use field::{Estimate, FirstContact};
+#[cfg(feature = "mp")]
+pub(crate) use peak::Summit;
 pub use rebound::Rebound;
 pub use undamped::UndampedContact;

@@ -26,7 +26,7 @@ pub(super) fn coefficients(values: &[f64]) -> Vec<f64> {
 }
 
 /// Clenshaw's sum and its derivative.
-fn evaluate(coefficients: &[f64], x: f64) -> (f64, f64) {
+pub(super) fn evaluate(coefficients: &[f64], x: f64) -> (f64, f64) {
     let (mut b1, mut b2, mut d1, mut d2) = (0.0, 0.0, 0.0, 0.0);
     for &c in coefficients.iter().skip(1).rev() {
         let d = 2.0 * b1 + 2.0 * x * d1 - d2;

@@ -13,7 +13,7 @@ const MOST_TERMS: i64 = 4_000_000;
 ///
 /// **Accuracy**: *enclosure*. The ratio of terms, `|y|/(m(m+n))`, falls with m: once it is below 1/2, all terms from m on are
 /// less than the one before them.
-pub(super) fn confluent<S: Analytic>(y: &S, n: i64) -> S {
+pub(crate) fn confluent<S: Analytic>(y: &S, n: i64) -> S {
     let size = y.to_f64().abs();
     let goal = -(bits(y) + 4.0);
     let (mut term, mut sum, mut log) = (y.one(), y.one(), 0.0f64);

@@ -11,6 +11,8 @@ mod precision;
 mod ray;
 
 pub use bessel::{i0_scaled, i1_scaled, in_scaled};
+#[cfg(feature = "mp")]
+pub(crate) use enclosed::confluent;
 pub use gauss::gauss_legendre;
 pub use phi::{log_mean, log_rest, phi1, phi2};
 use precision::bits;
