@@ -84,7 +84,7 @@ impl<S: Analytic> FirstContact<S> {
     /// The number of nodes that leave less than a roundoff of `size` between two rays, and what they leave.
     ///
     /// n nodes on an interval of half-width w leave less than `(64/15) w M ρ^{−2n}/(1 − ρ⁻²)`, where M bounds the
-    /// integrand on the Bernstein ellipse ρ, which reaches `δ = (ρ − 1/ρ)/8` beyond an interval of half-width 1/4.
+    /// integrand on the Bernstein ellipse ρ, which reaches `δ = (ρ − 1/ρ)w/2` beyond an interval of half-width w.
     pub(super) fn nodes(&self, trips: &S, size: f64) -> (usize, f64) {
         let goal = self.damping.log2_roundoff() * std::f64::consts::LN_2 + size.max(f64::MIN_POSITIVE).ln();
         let best = self.ellipses(trips).map(|[log, step]| (log - goal) / step).fold(f64::INFINITY, f64::min);
@@ -96,7 +96,8 @@ impl<S: Analytic> FirstContact<S> {
         let tau = trips.to_f64();
         let (mu, mu0) = (self.rod.speed.to_f64(), self.critical.to_f64());
         [1.1f64, 1.25, 1.5, 2.0, 4.0, 8.0, 16.0, 32.0, 64.0, 128.0, 256.0].into_iter().map(move |rho| {
-            let beyond = (rho - 1.0 / rho) / 8.0;
+            // No ray has come farther than a = τ, and where none has been the integrand does not depend on a.
+            let beyond = (rho - 1.0 / rho) / 2.0 * (tau / 2.0).min(0.25);
             let amplitude = self.amplitude(tau, beyond, mu, mu0);
             let log = 2.0 * amplitude.ln() + (5.0 / (1.0 - 1.0 / (rho * rho))).ln();
             [log, 2.0 * rho.ln()]
