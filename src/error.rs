@@ -86,6 +86,31 @@ pub enum Error {
     /// Fractions and digits need GMP and MPFR.
     #[error("found a build without arbitrary precision, expected one with the feature `mp` for --digits and --exact")]
     NoMultiprecision,
+    /// Comparisons of enclosures stay open.
+    #[error(
+        "{digits} digits are not proved with {bits} bits: two events cannot be told apart, or a landing from a graze; expected a \
+         run that ends before them"
+    )]
+    Undecided {
+        /// What was asked for.
+        digits: u32,
+        /// What was tried.
+        bits: u32,
+    },
+    /// No engine that works in enclosures.
+    #[error(
+        "found a damped rod with an initial strain, an initial velocity that varies, or a fixed top, expected no damping, or a \
+         uniform start under a free top: only there are digits proved"
+    )]
+    NotCertified,
+    /// Enclosures are asked with a question.
+    #[error(
+        "found a plan of {digits} proved digits, expected it to be solved by `certify`, which takes the question with it"
+    )]
+    AskCertify {
+        /// What was asked for.
+        digits: u32,
+    },
     /// More bits would be needed than are worth trying.
     #[error("{digits} digits are not settled with {bits} bits; expected a shorter run or fewer digits")]
     Unsettled {

@@ -324,3 +324,44 @@ proptest! {
         prop_assert!(off <= modes.error * (1.0 + 1e-9) + proved.radius(), "{} {} {}", modes.value, modes.error, proved.text());
     }
 }
+
+/// Between its points, too, the stress lies where its pieces say.
+#[test]
+fn pieces_hold_the_stress() {
+    for case in [CASES[2], CASES[3], CASES[5], CASES[7]] {
+        let contact = solve(&problem(case), 160);
+        let pieces = contact.stress_pieces();
+        assert_eq!(*pieces[0].from.hi(), 0);
+        assert!(pieces.last().unwrap().to.meet(&contact.end()).is_some());
+        for piece in pieces.iter().take(3) {
+            for part in [1, 4, 9] {
+                let x = piece.from.ratio(part, 5) - piece.from.one();
+                let time = (piece.to.clone() - &piece.from) * &piece.from.ratio(part, 10) + &piece.from;
+                let (mut before, mut value) = (piece.from.zero(), piece.from.zero());
+                for c in piece.chebyshev.iter().skip(1).rev() {
+                    let next = x.clone() * &x.int(2) * &value - &before + c;
+                    before = std::mem::replace(&mut value, next);
+                }
+                let sum = piece.chebyshev[0].clone() + &(x * &value) - &before;
+                let direct = contact.stress(&time, Side::Right).unwrap();
+                assert!(sum.meet(&direct).is_some(), "{case:?}: {} {}", sum.text(), direct.text());
+                assert!(piece.chebyshev.iter().all(|c| c.radius() < 1e-40), "{case:?}");
+            }
+        }
+    }
+}
+
+/// What `--certified` prints: digits for every number of the record, with restitution and flight.
+#[test]
+fn certify_asks_with_as_many_bits_as_it_takes() {
+    let problem = problem(["1", "1", "0.3", "1", "2"]);
+    let numbers = |history: &dyn History<Interval>| {
+        let contact = &history.contacts()[0];
+        let restitution = dalembert::quantity::restitution(history, contact)?;
+        Ok::<_, dalembert::Error>([contact.to.clone().unwrap(), restitution.momentum.unwrap()])
+    };
+    let [time, momentum] =
+        dalembert::solve::certify(&problem, 100, numbers, |n| n.iter().collect(), |_, _| ()).unwrap();
+    check("t_b", &time, &Value::from("3.97277918129047974002999995477923813872379549"), 1.0, 100);
+    check("e_P", &momentum, &Value::from("-0.28693309509651477688219222890632650211"), 1.0, 100);
+}

@@ -160,6 +160,29 @@ fn digits_are_exactly_as_many_as_asked_for() {
     }
 }
 
+#[cfg(feature = "mp")]
+#[test]
+fn proved_digits_come_with_their_bounds() {
+    let history = json(&["solve", "mu-1-period-36", "--certified", "--digits", "40", "--format", "json"]);
+    let bounded = |value: &Value| value["value"].is_string() && value["lo"].is_string() && value["hi"].is_string();
+    history_schema(&json(&["solve", "doyen-ern-piperno", "--certified", "--format", "json"]), bounded);
+    assert_eq!(history["number"], "40 digits, proved");
+    // 3 + √2.
+    let landing = &history["events"][2]["time"];
+    assert_eq!(landing["value"], "4.414213562373095048801688724209698078570");
+    let digits = "414213562373095048801688724209698078569671875376948";
+    for (end, up) in [("lo", false), ("hi", true)] {
+        let text = landing[end].as_str().unwrap();
+        let (whole, rest) = text.split_once('.').unwrap();
+        assert_eq!((whole, rest.len()), ("4", 49));
+        assert!(if up { rest > &digits[..49] } else { rest <= &digits[..49] }, "{text}");
+    }
+    let rows =
+        json(&["sample", "paper-weak", "--quantity", "stress", "--times", "1/3,3", "--certified", "--format", "json"]);
+    assert!(rows["rows"].as_array().unwrap().iter().all(|row| bounded(&row["values"]["v_x"])));
+    refused(&["solve", "paper-weak", "--certified", "--exact"], &["--certified", "--exact"]);
+}
+
 #[test]
 fn an_undefined_restitution_is_null_with_its_reason() {
     // The rod starts compressed and at rest: no momentum to compare with.
@@ -374,6 +397,7 @@ fn wrong_usage_is_refused() {
 fn digits_need_the_feature() {
     refused(&["solve", "paper-weak", "--digits", "20"], &["found a build without arbitrary precision"]);
     refused(&["solve", "paper-weak", "--exact"], &["found a build without arbitrary precision"]);
+    refused(&["solve", "paper-weak", "--certified"], &["found a build without arbitrary precision"]);
 }
 
 /// The damped scenes go through the same commands and formats.

@@ -150,27 +150,22 @@ proptest! {
         let magnified = |event: &Event<f64>| {
             (event.time_error / scales.time / f64::EPSILON).max(1.0) * 1e-12 * (1.0 + event.time / scales.time)
         };
-        // A hop or a touch that is shorter than what the damping moves exists in one of the two only.
-        let lasting = |events: &[Event<f64>]| {
-            let mut kept: Vec<Event<f64>> = Vec::new();
-            for event in events {
-                match kept.last() {
-                    Some(last) if event.time - last.time <= magnified(event).max(magnified(last)) * scales.time => {
-                        kept.pop();
-                    }
-                    _ => kept.push(event.clone()),
-                }
-            }
-            kept
-        };
-        for (ours, plain) in lasting(history.events()).iter().zip(&lasting(lattice.events())) {
+        for (ours, plain) in history.events().iter().zip(lattice.events()) {
             // From a landing without speed on, lists of events need not agree.
             if !transversal(ours) || !transversal(plain) || magnified(ours) > 1e-5 {
                 break;
             }
-            prop_assert_eq!(ours.kind, plain.kind);
             let off = (ours.time - plain.time).abs() / scales.time;
-            prop_assert!(off <= magnified(ours), "{off:e} against {:e}: {ours:?} {plain:?}", magnified(ours));
+            if ours.kind == plain.kind && off <= magnified(ours) {
+                continue;
+            }
+            // Nor from a contact without stress on, which the damping may turn into a flight that hardly leaves the ground:
+            // then the end of the one touches where that of the other lands or leaves.
+            let first = ours.time.min(plain.time);
+            let (a, b) = (history.ground_end(&first, Side::Right).unwrap().0, lattice.ground_end(&first, Side::Right).unwrap().0);
+            let bound = magnified(ours) * scales.velocity * scales.time;
+            prop_assert!(a.max(b) <= bound, "{off:e} against {:e}: {ours:?} {plain:?}", magnified(ours));
+            break;
         }
         let rounding = history.error_estimate().min(1e-12);
         for t in times(&history, 8) {

@@ -3,7 +3,7 @@
 use crate::error::Error;
 use crate::first_contact::FirstContact;
 use crate::history::{Energy, Field, Scales, Side};
-use crate::number::{Interval, IntervalPrecision, Scalar, decided};
+use crate::number::{Interval, IntervalPrecision, Scalar, decided, undecided};
 use crate::rod::{Parameters, Problem};
 
 /// The first contact of a uniform start under a free top, in enclosures of so many bits, whether or not it still lasts at
@@ -90,7 +90,11 @@ impl ClosedForm {
 
     /// What `compute` finds, if all of its comparisons are settled.
     pub(super) fn settled<T>(&self, what: &'static str, compute: impl FnOnce() -> Option<T>) -> Result<T, Error> {
-        decided(compute).flatten().ok_or(Error::NotDecided { what, bits: self.bits })
+        decided(compute).flatten().ok_or_else(|| {
+            // Whoever listens farther out is to know as well.
+            undecided();
+            Error::NotDecided { what, bits: self.bits }
+        })
     }
 
     /// `t/t₁`.

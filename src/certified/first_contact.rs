@@ -175,10 +175,7 @@ impl ProvedContact {
             let rod = &self.form.exact;
             let drag = centre * &rod.damping * &until.int(2);
             let gained = velocity + &rod.speed + drag + rod.gravity.clone() * &until;
-            let end = match &self.release {
-                Some(release) => release.trips.clone(),
-                None => self.form.trips(&until)?,
-            };
+            let end = self.end_trips()?;
             let peak = self.form.settled("which stress is the greatest", || Some(self.form.peak(&end)))??;
             Ok((gained * &rod.length, peak))
         })();
@@ -189,6 +186,14 @@ impl ProvedContact {
         let to = self.release.as_ref().map(|_| until.clone());
         self.contacts.push(Contact { from: until.zero(), to, impulse, peak_stress });
         Ok(Some(self.clone()))
+    }
+
+    /// The end, in round trips.
+    fn end_trips(&self) -> Result<Trips, Error> {
+        match &self.release {
+            Some(release) => Ok(release.trips.clone()),
+            None => self.form.trips(&self.end),
+        }
     }
 
     /// The closed forms behind it.
@@ -271,8 +276,17 @@ impl History<Interval> for ProvedContact {
         &self.contacts
     }
 
+    /// **Errors**: none where these bits do not settle one of them.
     fn stress_pieces(&self) -> Vec<StressPiece<Interval>> {
-        Vec::new()
+        let pieces = self.end_trips().and_then(|end| self.form.pieces(&end));
+        let mut pieces = pieces.unwrap_or_default();
+        if let Some(last) = pieces.last_mut() {
+            last.to = self.end.clone();
+            if self.release.as_ref().is_some_and(|release| release.kind == BounceKind::Root) {
+                last.right = self.end.zero();
+            }
+        }
+        pieces
     }
 
     fn stress(&self, time: &Interval, side: Side) -> Result<Interval, Error> {
@@ -334,7 +348,7 @@ impl History<Interval> for ProvedContact {
             return None;
         }
         let rebound = &self.release.as_ref()?.rebound;
-        decided(|| rebound.velocity.value.is_positive().then(|| rebound.highest()).flatten()).flatten()
+        rebound.velocity.value.is_positive().then(|| rebound.highest()).flatten()
     }
 
     fn scales(&self) -> Scales<Interval> {

@@ -3,6 +3,7 @@
 mod closed_form;
 mod first_contact;
 mod peak;
+mod pieces;
 mod root;
 
 pub use closed_form::ClosedForm;

@@ -13,7 +13,11 @@ use clap::{Args, CommandFactory, Parser, Subcommand, ValueEnum};
 use crate::history::History;
 use crate::output::{Head, Show, write_whole};
 use crate::rod::Material;
+#[cfg(feature = "mp")]
+use crate::scene::System;
 use crate::scene::{Ask, Plan, Scene};
+#[cfg(feature = "mp")]
+use crate::solve::certify;
 use crate::solve::{Solution, solve};
 
 /// Everything that can go wrong, ready to be reported.
@@ -72,6 +76,9 @@ struct NumberArgs {
     /// Exact fractions, as far as they reach
     #[arg(long)]
     exact: bool,
+    /// Proved digits: everything is enclosed, with as many bits as that takes
+    #[arg(long, conflicts_with_all = ["exact", "accuracy"])]
+    certified: bool,
     /// Accuracy relative to the natural scales, such as 1e-10; more bits are taken where doubles do not reach it
     #[arg(long, value_name = "E", conflicts_with_all = ["digits", "exact"])]
     accuracy: Option<f64>,
@@ -79,7 +86,7 @@ struct NumberArgs {
 
 impl NumberArgs {
     fn ask(self) -> Ask {
-        Ask { exact: self.exact, digits: self.digits, accuracy: self.accuracy }
+        Ask { exact: self.exact, certified: self.certified, digits: self.digits, accuracy: self.accuracy }
     }
 }
 
@@ -146,31 +153,55 @@ fn head(scene: &Scene, plan: &Plan) -> Head {
 
 /// What a subcommand prints of a history, in any number system.
 trait Answer {
-    fn print<S: Show>(&self, history: &dyn History<S>, head: &Head) -> Result<(), Failure>;
+    /// What is asked of the history.
+    type Data<S: Show>;
+    fn gather<S: Show>(&self, history: &dyn History<S>, head: &Head) -> Result<Self::Data<S>, Failure>;
+    /// Every number in the data.
+    #[cfg_attr(not(feature = "mp"), allow(dead_code))]
+    fn numbers<'a, S: Show>(&self, data: &'a Self::Data<S>) -> Vec<&'a S>;
+    fn print<S: Show>(&self, data: &Self::Data<S>, head: &Head) -> Result<(), Failure>;
 }
 
 /// Plans and solves `scene` in the numbers asked for, and lets `what` print of the solution.
 fn answer(scene: &Scene, numbers: NumberArgs, what: &impl Answer) -> Result<(), Failure> {
     let plan = Plan::of(scene, numbers.ask())?;
     let head = head(scene, &plan);
+    #[cfg(feature = "mp")]
+    if let System::Certified(digits) = plan.system {
+        let head = Head { digits, ..head };
+        let data = {
+            let progress = source::Progress::of(scene, &plan);
+            let gather = |history: &dyn History<_>| what.gather(history, &head);
+            certify(
+                &scene.problem,
+                digits,
+                gather,
+                |data| what.numbers(data),
+                |trip, pieces| progress.observe(trip, pieces),
+            )?
+        };
+        return what.print(&data, &head);
+    }
     let solution = {
         let progress = source::Progress::of(scene, &plan);
         solve(&scene.problem, &plan, |trip, pieces| progress.observe(trip, pieces))?
     };
     match &solution {
-        Solution::Double(history) => what.print(history.as_ref(), &head),
+        Solution::Double(history) => what.print(&what.gather(history.as_ref(), &head)?, &head),
         #[cfg(feature = "mp")]
         Solution::Digits(history, digits) => {
             source::tell_inexact(&scene.problem, &plan);
-            what.print(history.as_ref(), &Head { number: format!("{digits} digits"), digits: *digits, ..head })
+            let head = Head { number: format!("{digits} digits"), digits: *digits, ..head };
+            what.print(&what.gather(history.as_ref(), &head)?, &head)
         }
         #[cfg(feature = "mp")]
-        Solution::Exact(history, None) => what.print(history.as_ref(), &head),
+        Solution::Exact(history, None) => what.print(&what.gather(history.as_ref(), &head)?, &head),
         #[cfg(feature = "mp")]
         Solution::Exact(exact, Some((history, digits))) => {
             eprintln!("note: {}; what follows is in {digits} digits", exact.ending());
             let (number, exact_until) = (format!("{digits} digits"), Some(exact.ending().clone()));
-            what.print(history.as_ref(), &Head { digits: *digits, number, exact_until, ..head })
+            let head = Head { digits: *digits, number, exact_until, ..head };
+            what.print(&what.gather(history.as_ref(), &head)?, &head)
         }
     }
 }

@@ -6,7 +6,7 @@ use super::{Answer, Failure, Format, NumberArgs, OutputArgs, answer, source};
 use crate::error::Error;
 use crate::history::{Ending, History, Side};
 use crate::number::{Number, Scalar};
-use crate::output::{Head, Quantity, Show, sample, samples_csv, samples_json, samples_table};
+use crate::output::{self, Head, Quantity, Show, sample, samples_csv, samples_json, samples_table};
 use crate::rod::Run;
 
 /// Values of a quantity at chosen times
@@ -104,7 +104,9 @@ impl Sample {
 }
 
 impl Answer for Sample {
-    fn print<S: Show>(&self, history: &dyn History<S>, head: &Head) -> Result<(), Failure> {
+    type Data<S: Show> = (Vec<output::Sample<S>>, Vec<String>);
+
+    fn gather<S: Show>(&self, history: &dyn History<S>, head: &Head) -> Result<Self::Data<S>, Failure> {
         let length = history.scales().length;
         let precision = length.precision();
         let times = self.times.lift::<S>(&precision);
@@ -130,13 +132,21 @@ impl Answer for Sample {
                 _ => error.into(),
             }
         })?;
-        for warning in history.warnings() {
+        Ok((samples, history.warnings().to_vec()))
+    }
+
+    fn numbers<'a, S: Show>(&self, (samples, _): &'a Self::Data<S>) -> Vec<&'a S> {
+        samples.iter().flat_map(|sample| sample.values.iter().chain(&sample.point).chain([&sample.time])).collect()
+    }
+
+    fn print<S: Show>(&self, (samples, warnings): &Self::Data<S>, head: &Head) -> Result<(), Failure> {
+        for warning in warnings {
             eprintln!("warning: {warning}");
         }
         match self.output.format() {
-            Format::Table => self.output.write(&samples_table(&samples, self.quantity, head)),
-            Format::Json => self.output.write_json(&samples_json(&samples, self.quantity, head)),
-            Format::Csv => self.output.write_csv(samples_csv(&samples, self.quantity, head)),
+            Format::Table => self.output.write(&samples_table(samples, self.quantity, head)),
+            Format::Json => self.output.write_json(&samples_json(samples, self.quantity, head)),
+            Format::Csv => self.output.write_csv(samples_csv(samples, self.quantity, head)),
         }
     }
 }

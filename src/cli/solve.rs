@@ -4,7 +4,7 @@ use clap::Args;
 
 use super::{Answer, Failure, Format, NumberArgs, OutputArgs, answer, source};
 use crate::history::History;
-use crate::output::{Head, Part, Show, history_csv, history_json, history_table, record};
+use crate::output::{Head, Part, Record, Show, history_csv, history_json, history_table, record};
 
 /// Solve a scene: events, contacts, restitution, energies, stress history
 #[derive(Args, Debug)]
@@ -34,20 +34,29 @@ impl Solve {
 }
 
 impl Answer for Solve {
-    fn print<S: Show>(&self, history: &dyn History<S>, head: &Head) -> Result<(), Failure> {
+    type Data<S: Show> = Record<S>;
+
+    fn gather<S: Show>(&self, history: &dyn History<S>, head: &Head) -> Result<Record<S>, Failure> {
         let stress = match self.output.format() {
             Format::Table => false,
             Format::Json => true,
             Format::Csv => matches!(self.part, Some(Part::Stress)),
         };
-        let record = record(history, head, stress)?;
+        Ok(record(history, head, stress)?)
+    }
+
+    fn numbers<'a, S: Show>(&self, record: &'a Record<S>) -> Vec<&'a S> {
+        record.numbers()
+    }
+
+    fn print<S: Show>(&self, record: &Record<S>, head: &Head) -> Result<(), Failure> {
         for warning in &record.warnings {
             eprintln!("warning: {warning}");
         }
         match self.output.format() {
-            Format::Table => self.output.write(&history_table(&record, head)),
-            Format::Json => self.output.write_json(&history_json(&record, head)),
-            Format::Csv => self.output.write_csv(history_csv(&record, self.part.unwrap_or_default(), head)),
+            Format::Table => self.output.write(&history_table(record, head)),
+            Format::Json => self.output.write_json(&history_json(record, head)),
+            Format::Csv => self.output.write_csv(history_csv(record, self.part.unwrap_or_default(), head)),
         }
     }
 }

@@ -192,7 +192,7 @@ impl<'a, S: Analytic> Follower<'a, S> {
             let height = self.height_over(&trace, &len);
             let grounded = !self.contact && self.height.to_f64() <= self.height_error;
             if !fresh && grounded && !self.rises() {
-                let time_error = ray_error.max(self.event_error(&trace, &len.zero(), &len, 0.0));
+                let time_error = ray_error.max(self.event_error(&trace, &height, &len.zero(), &len, 0.0));
                 if self.land(goal, &mut landed, time_error) {
                     return Ok(Ending::NextImpact);
                 }
@@ -217,7 +217,7 @@ impl<'a, S: Analytic> Follower<'a, S> {
                 if self.contact {
                     self.event(ray_error, false);
                 } else {
-                    let time_error = ray_error.max(self.event_error(&trace, &len.zero(), &len, 0.0));
+                    let time_error = ray_error.max(self.event_error(&trace, &height, &len.zero(), &len, 0.0));
                     if self.land(goal, &mut landed, time_error) {
                         return Ok(Ending::NextImpact);
                     }
@@ -244,7 +244,7 @@ impl<'a, S: Analytic> Follower<'a, S> {
             }
             match found {
                 Some(x) => {
-                    let time_error = self.event_error(&trace, &(x.clone() / &len), &len, vague);
+                    let time_error = self.event_error(&trace, &height, &(x.clone() / &len), &len, vague);
                     self.advance(Some(&x), time_error, &trace, &height);
                     if self.contact {
                         self.event(time_error, true);
@@ -292,15 +292,18 @@ impl<'a, S: Analytic> Follower<'a, S> {
     }
 
     /// How far a root in the strip may be off: the error of the function, and `vague` more, over its slope, or the root of twice the error
-    /// over the second derivative if that is less.
-    fn event_error(&self, trace: &[S], x: &S, len: &S, vague: f64) -> f64 {
+    /// over the second derivative if that is less. What Clenshaw's sum rounds, at most `(k + 2)u` of each coefficient, counts
+    /// where the strip is long and the hop is short.
+    fn event_error(&self, trace: &[S], height: &[S], x: &S, len: &S, vague: f64) -> f64 {
         let len = len.to_f64();
         let at = |c: &[S]| evaluate(c, x).to_f64().abs();
         let first = derivative(trace);
         let (error, slope, curvature) = if self.contact {
             (self.error(), at(&first) / len, at(&derivative(&first)) / (len * len))
         } else {
-            (self.height_error + self.error() * len * x.to_f64(), at(trace), at(&first) / len)
+            let roundings: f64 = (2u32..).zip(height).map(|(k, c)| f64::from(k) * c.to_f64().abs()).sum();
+            let rounding = x.log2_roundoff().exp2() * roundings;
+            (self.height_error + self.error() * len * x.to_f64() + rounding, at(trace), at(&first) / len)
         };
         let error = error + vague;
         let unit = 4.0 * x.log2_roundoff().exp2() * (1.0 + self.state.round.unsigned_abs() as f64);

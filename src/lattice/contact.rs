@@ -23,8 +23,13 @@ const MOST_LEAPT: usize = if usize::BITS < 64 { usize::MAX >> 2 } else { usize::
 struct Incoming<S> {
     from: S,
     to: S,
+    /// At `from`.
     q: S,
+    intercept: S,
     slope: S,
+    /// Of the line.
+    line_error: f64,
+    /// Of `q` anywhere on the line as it is computed.
     q_error: f64,
     from_error: f64,
     to_error: f64,
@@ -103,8 +108,7 @@ impl<S: Scalar> March<S> {
         let mut rise_error = pieces.iter().map(|piece| piece.value_error).fold(0.0, f64::max);
         if !S::RIGOROUS {
             for pair in pieces.windows(2) {
-                let width = pair[1].fraction.clone() - &pair[0].fraction;
-                let jump = pair[1].value.clone() - &pair[0].value - pair[0].slope.clone() * width;
+                let jump = pair[1].at(&pair[1].fraction) - pair[0].at(&pair[1].fraction);
                 rise_error += jump.to_f64().abs() * pair[1].fraction_error;
             }
         }
@@ -168,7 +172,7 @@ impl<S: Scalar> March<S> {
                         return Some(halt);
                     }
                     self.decide(trip, &rest, until);
-                    self.leave(&rest.from, &rest.q, &rest.slope, rest.q_error, rest.from_error);
+                    self.leave(&rest.from, &rest, rest.from_error);
                     return Some(Halt::Time);
                 }
             }
@@ -192,8 +196,16 @@ impl<S: Scalar> March<S> {
             value_error = error;
             next += 1;
         }
-        let q = self.trace.returned(&piece.value) - fallen;
-        let q_error = if S::RIGOROUS { 0.0 } else { value_error + 2.0 * q.to_f64().abs() + fallen.to_f64() };
+        let intercept = self.trace.returned(&piece.intercept) - fallen;
+        let slope = self.trace.returned_slope(&piece.slope);
+        let q = slope.clone() * &piece.fraction + &intercept;
+        let (line_error, q_error) = if S::RIGOROUS {
+            (0.0, 0.0)
+        } else {
+            let size = intercept.to_f64().abs();
+            let line = value_error + 2.0 * size + fallen.to_f64();
+            (line, line + 2.0 * (size + slope.to_f64().abs()))
+        };
         let (to, to_error) = match pieces[..end].get(next) {
             Some(after) => (after.fraction.clone(), after.fraction_error),
             None => (q.one(), 0.0),
@@ -202,7 +214,9 @@ impl<S: Scalar> March<S> {
             from: piece.fraction.clone(),
             to,
             q,
-            slope: self.trace.returned_slope(&piece.slope),
+            intercept,
+            slope,
+            line_error,
             q_error,
             from_error: piece.fraction_error,
             to_error,
@@ -212,21 +226,19 @@ impl<S: Scalar> March<S> {
 
     /// The error of the line of `piece` on `next` as well, if no ray is left between the two: the same line on both sides.
     fn continued(&self, piece: &Piece<S>, error: f64, next: &Piece<S>) -> Option<f64> {
-        if piece.slope != next.slope {
-            return None;
-        }
-        let rise = piece.slope.clone() * (next.fraction.clone() - &piece.fraction);
-        let rounding = if S::RIGOROUS { 0.0 } else { 2.0 * (rise.to_f64().abs() + next.value.to_f64().abs()) };
-        let jump = rise + &piece.value - &next.value;
-        if !self.vanishes(&jump, error + next.value_error + rounding) {
+        if !piece.slope.same(&next.slope) {
             return None;
         }
         if S::RIGOROUS {
-            return Some(0.0);
+            return piece.intercept.same(&next.intercept).then_some(0.0);
+        }
+        let jump = next.intercept.clone() - &piece.intercept;
+        if !self.vanishes(&jump, error + next.value_error + jump.to_f64().abs()) {
+            return None;
         }
         // The true line of `next` is within its own error of the stored one, which is `jump` away.
         let apart = (jump.magnitude() / &self.unit).to_f64();
-        Some(error.max(next.value_error + apart + rounding))
+        Some(error.max(next.value_error + apart))
     }
 
     /// Contact or flight at the beginning of `incoming`, if the end touches there. True if this is one impact too many.
@@ -273,8 +285,17 @@ impl<S: Scalar> March<S> {
     }
 
     /// What leaves the ground from `fraction` on: `−q` in contact, `q` in flight.
-    fn leave(&mut self, fraction: &S, q: &S, slope: &S, value_error: f64, fraction_error: f64) {
-        let (value, slope) = if self.contact { (-q.clone(), -slope.clone()) } else { (q.clone(), slope.clone()) };
+    fn leave(
+        &mut self,
+        fraction: &S,
+        Incoming { intercept, slope, line_error, .. }: &Incoming<S>,
+        fraction_error: f64,
+    ) {
+        let (intercept, slope, value_error) = if self.contact {
+            (-intercept.clone(), -slope.clone(), *line_error)
+        } else {
+            (intercept.clone(), slope.clone(), *line_error)
+        };
         if !S::RIGOROUS {
             self.greatest_error = self.greatest_error.max(value_error).max(self.height_error).max(fraction_error);
             self.greatest_height = self.greatest_height.max(self.height.to_f64());
@@ -285,7 +306,7 @@ impl<S: Scalar> March<S> {
         }
         self.trace.push(Piece {
             fraction: fraction.clone(),
-            value,
+            intercept,
             slope,
             height: self.height.clone(),
             contact: self.contact,
@@ -300,32 +321,27 @@ impl<S: Scalar> March<S> {
         let Incoming { to, slope, to_error, .. } = incoming;
         let one_too_many = self.decide(trip, incoming, until);
         let (mut from, mut q) = (incoming.from.clone(), incoming.q.clone());
-        let (mut q_error, mut from_error) = (incoming.q_error, incoming.from_error);
+        let (q_error, mut from_error) = (incoming.q_error, incoming.from_error);
+        let q_end = slope.clone() * to + &incoming.intercept;
         loop {
-            self.leave(&from, &q, slope, q_error, from_error);
+            self.leave(&from, incoming, from_error);
             if one_too_many {
                 return Some(Halt::NextImpact(trip, from));
             }
-            let width = to.clone() - &from;
-            let q_end = slope.clone() * &width + &q;
             let event = if self.contact {
-                self.release_in(&from, &q, q_error, incoming, &q_end)
+                self.release_in(incoming, &q_end)
             } else {
                 match self.landing_in(trip, &from, &q, q_error, incoming, &q_end) {
                     Ok(event) => event,
                     Err(halt) => return Some(halt),
                 }
             };
-            self.arriving = q_end;
+            self.arriving = q_end.clone();
             let (kind, age, error) = event?;
-            // The same line, anchored at the event.
             let q_event = match kind {
                 EventKind::Release => q.zero(),
-                EventKind::Impact => slope.clone() * (age.clone() - &from) + &q,
+                EventKind::Impact => slope.clone() * &age + &incoming.intercept,
             };
-            if !S::RIGOROUS {
-                q_error += 2.0 * (q.to_f64().abs() + (slope.to_f64() * (to.to_f64() - from.to_f64())).abs());
-            }
             if self.vanishes(&(age.clone() - to), error + to_error) {
                 // Within the error of the break: what comes after the break decides.
                 self.touch_error = error;
@@ -334,7 +350,7 @@ impl<S: Scalar> March<S> {
             self.height = q.zero();
             if kind == EventKind::Impact && matches!(until, Until::Contacts(most) if *most == self.contacts) {
                 self.contact = true;
-                self.leave(&age, &q_event, slope, q_error, error);
+                self.leave(&age, incoming, error);
                 return Some(Halt::NextImpact(trip, age));
             }
             self.record(kind, trip, &age, q_event.clone(), error);
@@ -343,26 +359,13 @@ impl<S: Scalar> March<S> {
     }
 
     /// The release inside a stretch of contact: the root of `q`.
-    fn release_in(
-        &mut self,
-        from: &S,
-        q: &S,
-        q_error: f64,
-        incoming: &Incoming<S>,
-        q_end: &S,
-    ) -> Option<(EventKind, S, f64)> {
+    fn release_in(&mut self, incoming: &Incoming<S>, q_end: &S) -> Option<(EventKind, S, f64)> {
         self.touch_error = 0.0;
-        let rounding = if S::RIGOROUS { 0.0 } else { q_end.to_f64().abs() + 2.0 * (q_end.to_f64() - q.to_f64()).abs() };
-        if !self.positive(q_end, q_error + rounding) || !incoming.slope.is_positive() {
+        if !self.positive(q_end, incoming.q_error) || !incoming.slope.is_positive() {
             return None;
         }
-        let age = from.clone() - q.clone() / &incoming.slope;
-        let error = if S::RIGOROUS {
-            0.0
-        } else {
-            let slope = incoming.slope.to_f64();
-            (q_error + 2.0 * q.to_f64().abs()) / slope + age.to_f64().abs()
-        };
+        let age = -(incoming.intercept.clone() / &incoming.slope);
+        let error = if S::RIGOROUS { 0.0 } else { incoming.line_error / incoming.slope.to_f64() + age.to_f64().abs() };
         Some((EventKind::Release, age, error))
     }
 
@@ -431,7 +434,9 @@ impl<S: Scalar> March<S> {
             let double = self.root_error(disc_error) / slope;
             simple.min(double) + age.to_f64() + from.to_f64()
         };
-        let landing = from.clone() + age;
+        // Where enclosures carry the exact number, the form without a quotient keeps it.
+        let age = if S::RIGOROUS && !slope.is_zero() { age.also(-((root.clone() + q) / slope)) } else { age };
+        let landing = (from.clone() + age).named();
         if self.vanishes(&(landing.clone() - to), error + incoming.to_error) || landing > *to {
             self.settle(end, end_error, Ordering::Equal, slope, q_end, break_error);
             self.touch_error = error;
@@ -462,15 +467,15 @@ impl<S: Scalar> Incoming<S> {
     /// Ends at `stop`; what comes after it is returned.
     fn cut(&mut self, stop: &S) -> Self {
         let stop = if *stop > self.from { stop.clone() } else { self.from.clone() };
-        let rise = self.slope.clone() * (stop.clone() - &self.from);
-        let rounding = if S::RIGOROUS { 0.0 } else { 2.0 * (rise.to_f64().abs() + self.q.to_f64().abs()) };
         let from_error = if stop > self.from { 0.0 } else { self.from_error };
         let rest = Incoming {
             from: stop.clone(),
             to: self.to.clone(),
-            q: self.q.clone() + rise,
+            q: self.slope.clone() * &stop + &self.intercept,
+            intercept: self.intercept.clone(),
             slope: self.slope.clone(),
-            q_error: self.q_error + rounding,
+            line_error: self.line_error,
+            q_error: self.q_error,
             from_error,
             to_error: self.to_error,
         };

@@ -135,9 +135,7 @@ impl<S: Scalar> Knots<S> {
         let mut greatest = wave_speed.zero();
         for [_, _, va, vb, strain] in self.segments() {
             for candidate in [va.magnitude(), vb.magnitude(), (strain * wave_speed).magnitude()] {
-                if candidate > greatest {
-                    greatest = candidate;
-                }
+                greatest = greatest.larger(candidate);
             }
         }
         if greatest.is_zero() { wave_speed.clone() } else { greatest }

@@ -197,11 +197,7 @@ impl<S: Scalar> Undamped<S> {
             self.marched.trace.window(from.index, &from.fraction, &width, |part| {
                 let rise = part.slope.clone() * &part.width;
                 let at_end = part.value.clone() + &rise;
-                for p in [&part.value, &at_end] {
-                    if *p > peak {
-                        peak = p.clone();
-                    }
-                }
+                peak = peak.clone().larger(part.value.clone()).larger(at_end);
                 sum = sum.clone() + (part.value.clone() + rise / part.value.int(2)) * &part.width;
             });
             contacts.push(Contact {
@@ -314,7 +310,7 @@ impl<S: Scalar> Undamped<S> {
         }
         let trips = moment.fraction.int(moment.index as i64 - found as i64);
         let age = trips + &moment.fraction - &piece.fraction;
-        let rise = piece.value.clone() + piece.slope.clone() * &age / age.int(2);
+        let rise = piece.at(&piece.fraction) + piece.slope.clone() * &age / age.int(2);
         piece.height.clone() + rise * &age
     }
 
@@ -429,7 +425,7 @@ impl<S: Scalar> History<S> for Undamped<S> {
                 if !from.contact {
                     return age.zero();
                 }
-                -((from.value.clone() + from.slope.clone() * age) * &scale)
+                -(from.at(&(age + &from.fraction)) * &scale)
             };
             let width = to.fraction.int(to.index as i64 - 1 - trip as i64) + &to.fraction - &from.fraction;
             if width.is_positive() {
@@ -571,15 +567,15 @@ impl<S: Scalar> Undamped<S> {
         if !piece.contact {
             return true;
         }
-        if from.slope != piece.slope {
+        if !from.slope.same(&piece.slope) {
             return false;
         }
-        let age = piece.fraction.int(trip as i64 - begun as i64) + &piece.fraction - &from.fraction;
-        let jump = from.slope.clone() * age + &from.value - &piece.value;
+        let later = from.slope.int(trip as i64 - begun as i64) * &from.slope + &from.intercept;
         if S::RIGOROUS {
-            return jump.is_zero();
+            return later.same(&piece.intercept);
         }
-        let rounding = 4.0 * (from.value.to_f64().abs() + piece.value.to_f64().abs());
+        let rounding = 4.0 * (later.to_f64().abs() + piece.intercept.to_f64().abs());
+        let jump = later - &piece.intercept;
         let error = from.value_error + piece.value_error + rounding;
         jump.magnitude() <= jump.roundoff() * jump.double(error)
     }

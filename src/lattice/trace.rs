@@ -6,26 +6,37 @@ use crate::rod::Top;
 
 /// A stretch of the ground trace on which `p` is linear and nothing happens.
 ///
+/// The line is kept by its intercept, `p = slope·f + intercept` at age `f`, because that is all that a round trip changes: it
+/// only ever turns its sign and falls by gravity, so events leave no rounding in it, and it stays a fraction between events
+/// at irrational times.
+///
 /// The errors are bounds in units of the roundoff `u` of the number system, zero in exact ones: the true line lies within
 /// `value_error · u` of the stored one, the true height within `height_error · u`.
 #[derive(Clone, Debug)]
 pub struct Piece<S> {
     /// Where it begins, as an age in its round trip.
     pub fraction: S,
-    /// `p` at its beginning.
-    pub value: S,
+    /// `p` where its line passes age 0.
+    pub intercept: S,
     /// `dp/dt`.
     pub slope: S,
     /// `v(0,·)` at its beginning.
     pub height: S,
     /// Whether the end stands on the ground.
     pub contact: bool,
-    /// Bound on the error of `p`, in roundoffs.
+    /// Bound on the error of the line, in roundoffs.
     pub value_error: f64,
     /// Bound on the error of `height`, in roundoffs.
     pub height_error: f64,
     /// Bound on the error of `fraction`, in roundoffs.
     pub fraction_error: f64,
+}
+
+impl<S: Scalar> Piece<S> {
+    /// `p` at age `fraction`.
+    pub fn at(&self, fraction: &S) -> S {
+        self.slope.clone() * fraction + &self.intercept
+    }
 }
 
 /// A change between contact and flight, in lattice units.
@@ -83,10 +94,19 @@ impl<S: Scalar> Trace<S> {
             .into_iter()
             .map(|(fraction, value, slope)| {
                 // A few roundings stand behind each datum of the start.
-                let value_error = if S::RIGOROUS { 0.0 } else { 8.0 * (value.to_f64().abs() + slope.to_f64().abs()) };
+                let value_error = if S::RIGOROUS { 0.0 } else { 10.0 * (value.to_f64().abs() + slope.to_f64().abs()) };
                 let fraction_error = if S::RIGOROUS { 0.0 } else { 4.0 * fraction.to_f64() };
-                let height = fraction.zero();
-                Piece { fraction, value, slope, height, contact: false, value_error, height_error: 0.0, fraction_error }
+                let (height, intercept) = (fraction.zero(), value - slope.clone() * &fraction);
+                Piece {
+                    fraction,
+                    intercept,
+                    slope,
+                    height,
+                    contact: false,
+                    value_error,
+                    height_error: 0.0,
+                    fraction_error,
+                }
             })
             .collect();
         // A first contact and its flight fit without growing.
@@ -144,11 +164,11 @@ impl<S: Scalar> Trace<S> {
             let (j, two) = (rise.int(later as i64), rise.int(2));
             let lift = (rise.clone() - &piece.fraction - (j.clone() - rise.one()) / two) * &j;
             if !S::RIGOROUS {
-                piece.value_error += piece.value.to_f64().abs() + later as f64;
+                piece.value_error += piece.intercept.to_f64().abs() + later as f64;
                 let (trips, size) = (later as f64, rise.to_f64().abs() + later as f64);
                 piece.height_error += trips * (rise_error + 8.0 * size) + piece.height.to_f64().abs();
             }
-            piece.value = piece.value - j;
+            piece.intercept = piece.intercept - j;
             piece.height = piece.height + lift;
         }
         piece
@@ -223,7 +243,7 @@ impl<S: Scalar> Trace<S> {
     pub(crate) fn value(&self, index: usize, fraction: &S, before: bool) -> S {
         let (found, piece) = self.find(index, fraction, before);
         let age = if found == index { fraction.clone() } else { fraction.clone() + fraction.one() };
-        piece.value + piece.slope * (age - &piece.fraction)
+        piece.at(&age)
     }
 
     /// `p` over `width` after age `from` of trip `index` (0: before the start), in parts.
@@ -243,7 +263,7 @@ impl<S: Scalar> Trace<S> {
             let done = room >= left;
             let width = if done { left.clone() } else { room };
             if width.is_positive() {
-                let value = piece.slope.clone() * (from.clone() - &piece.fraction) + &piece.value - &fallen;
+                let value = piece.at(&from) - &fallen;
                 visit(Part { offset: offset.clone(), width: width.clone(), value, slope: piece.slope.clone() });
             }
             if done || (at + 1 == pieces.len() && index + 1 == self.end) {

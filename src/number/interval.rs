@@ -11,7 +11,7 @@ use std::ops::{Add, Div, Mul, Neg, Sub};
 use rug::float::{Constant, Round, Special};
 use rug::{Assign, Float, Rational};
 
-use super::surd::Surd;
+use super::radical::Radical;
 use super::{Analytic, Number, Scalar};
 
 thread_local! {
@@ -36,7 +36,8 @@ pub fn decided<T>(compute: impl FnOnce() -> T) -> Option<T> {
     (!undecided).then_some(result)
 }
 
-fn undecided() {
+/// Remembers that a comparison could not be settled.
+pub(crate) fn undecided() {
     UNDECIDED.set(true);
 }
 
@@ -45,8 +46,8 @@ fn undecided() {
 pub struct IntervalPrecision {
     /// Bits of the significands of both ends.
     pub bits: u32,
-    /// Whether the exact number `a + b√d` inside is carried as well, for as long as there is one: with it coincidences are
-    /// decided that no interval can decide.
+    /// Whether the exact number inside, made of fractions and square roots, is carried as well, for as long as it is short:
+    /// with it coincidences are decided that no interval can decide.
     pub exact: bool,
 }
 
@@ -67,9 +68,9 @@ impl IntervalPrecision {
 enum Inside {
     /// Not followed.
     Off,
-    /// No number of one quadratic field, or too long.
+    /// Not made of fractions and square roots, or too long.
     Lost,
-    Known(Box<Surd>),
+    Known(Box<Radical>),
 }
 
 /// All numbers from `lo` to `hi`, one of which is meant.
@@ -85,19 +86,19 @@ pub struct Interval {
 }
 
 impl Inside {
-    fn of(number: Option<Surd>) -> Self {
-        number.map_or(Inside::Lost, |surd| Inside::Known(Box::new(surd)))
+    fn of(number: Option<Radical>) -> Self {
+        number.map_or(Inside::Lost, |number| Inside::Known(Box::new(number)))
     }
 
-    fn map(&self, f: impl FnOnce(&Surd) -> Option<Surd>) -> Self {
+    fn map(&self, f: impl FnOnce(&Radical) -> Option<Radical>) -> Self {
         match self {
-            Inside::Known(surd) => Inside::of(f(surd)),
+            Inside::Known(number) => Inside::of(f(number)),
             Inside::Lost => Inside::Lost,
             Inside::Off => Inside::Off,
         }
     }
 
-    fn with(&self, other: &Self, f: impl FnOnce(&Surd, &Surd) -> Option<Surd>) -> Self {
+    fn with(&self, other: &Self, f: impl FnOnce(&Radical, &Radical) -> Option<Radical>) -> Self {
         match (self, other) {
             (Inside::Known(a), Inside::Known(b)) => Inside::of(f(a, b)),
             (Inside::Off, _) | (_, Inside::Off) => Inside::Off,
@@ -128,6 +129,10 @@ impl Interval {
             let ends = (Float::with_val(bits, Special::NegInfinity), Float::with_val(bits, Special::Infinity));
             return Interval { lo: ends.0, hi: ends.1, inside };
         }
+        if matches!(&inside, Inside::Known(number) if number.vanishes()) {
+            let zero = Float::with_val(lo.prec(), 0);
+            return Interval { lo: zero.clone(), hi: zero, inside };
+        }
         Interval { lo, hi, inside }
     }
 
@@ -144,7 +149,7 @@ impl Interval {
     /// A fraction. **Accuracy**: *enclosure* of one unit in the last place, a point where it fits.
     pub fn rational(x: &Rational, precision: IntervalPrecision) -> Self {
         let IntervalPrecision { bits, exact } = precision;
-        let inside = if exact { Inside::of(Surd::rational(x.clone())) } else { Inside::Off };
+        let inside = if exact { Inside::of(Radical::rational(x.clone())) } else { Inside::Off };
         Interval { lo: down(bits, x), hi: up(bits, x), inside }
     }
 
@@ -192,14 +197,14 @@ impl Interval {
         Interval { lo: lo.clone(), hi: hi.clone(), inside: Inside::Off }
     }
 
-    /// Whether the number meant is known exactly, and is known to be zero.
+    /// Whether the number meant is known to be zero.
     fn surely_zero(&self) -> bool {
-        (self.lo.is_zero() && self.hi.is_zero()) || self.exact_sign() == Some(Ordering::Equal)
+        (self.lo.is_zero() && self.hi.is_zero()) || matches!(&self.inside, Inside::Known(number) if number.vanishes())
     }
 
     fn exact_sign(&self) -> Option<Ordering> {
         match &self.inside {
-            Inside::Known(surd) => Some(surd.sign()),
+            Inside::Known(number) => number.sign(),
             _ => None,
         }
     }
@@ -298,14 +303,14 @@ impl PartialOrd for Interval {
 impl Neg for Interval {
     type Output = Interval;
     fn neg(self) -> Interval {
-        Interval { inside: self.inside.map(|surd| Some(surd.neg())), lo: -self.hi, hi: -self.lo }
+        Interval { inside: self.inside.map(|number| Some(number.neg())), lo: -self.hi, hi: -self.lo }
     }
 }
 
 impl<'a> Add<&'a Interval> for Interval {
     type Output = Interval;
     fn add(mut self, other: &'a Interval) -> Interval {
-        let inside = self.inside.with(&other.inside, Surd::add);
+        let inside = self.inside.with(&other.inside, Radical::add);
         add_round(&mut self.lo, &other.lo, Round::Down);
         add_round(&mut self.hi, &other.hi, Round::Up);
         Interval::checked(self.lo, self.hi, inside)
@@ -321,7 +326,7 @@ impl<'a> Sub<&'a Interval> for Interval {
     type Output = Interval;
     fn sub(mut self, other: &'a Interval) -> Interval {
         use rug::ops::SubAssignRound;
-        let inside = self.inside.with(&other.inside, Surd::sub);
+        let inside = self.inside.with(&other.inside, Radical::sub);
         self.lo.sub_assign_round(&other.hi, Round::Down);
         self.hi.sub_assign_round(&other.lo, Round::Up);
         Interval::checked(self.lo, self.hi, inside)
@@ -332,7 +337,7 @@ impl<'a> Mul<&'a Interval> for Interval {
     type Output = Interval;
     fn mul(self, other: &'a Interval) -> Interval {
         let bits = self.lo.prec();
-        let inside = self.inside.with(&other.inside, Surd::mul);
+        let inside = self.inside.with(&other.inside, Radical::mul);
         let (a, b, c, d) = (&self.lo, &self.hi, &other.lo, &other.hi);
         let positive = |x: &Float| x.cmp0() != Some(Ordering::Less);
         let negative = |x: &Float| x.cmp0() != Some(Ordering::Greater);
@@ -363,7 +368,7 @@ impl<'a> Div<&'a Interval> for Interval {
     type Output = Interval;
     fn div(self, other: &'a Interval) -> Interval {
         let bits = self.lo.prec();
-        let inside = self.inside.with(&other.inside, Surd::div);
+        let inside = self.inside.with(&other.inside, Radical::div);
         let (a, b, c, d) = (&self.lo, &self.hi, &other.lo, &other.hi);
         let positive = |x: &Float| x.cmp0() == Some(Ordering::Greater);
         let negative = |x: &Float| x.cmp0() == Some(Ordering::Less);
@@ -410,7 +415,7 @@ impl Scalar for Interval {
         let bits = self.lo.prec();
         let inside = match self.inside {
             Inside::Off => Inside::Off,
-            _ => Inside::of(Surd::rational(Rational::from(n))),
+            _ => Inside::of(Radical::rational(Rational::from(n))),
         };
         Interval { lo: down(bits, n), hi: up(bits, n), inside }
     }
@@ -419,7 +424,7 @@ impl Scalar for Interval {
         let bits = self.lo.prec();
         let inside = match self.inside {
             Inside::Off => Inside::Off,
-            _ => Inside::of(Rational::from_f64(x).and_then(Surd::rational)),
+            _ => Inside::of(Rational::from_f64(x).and_then(Radical::rational)),
         };
         Interval::checked(down(bits, x), up(bits, x), inside)
     }
@@ -456,8 +461,8 @@ impl Scalar for Interval {
         if low == high {
             return Some(low);
         }
-        if let Inside::Known(surd) = &self.inside
-            && let Some(exact) = surd.floor()
+        if let Inside::Known(number) = &self.inside
+            && let Some(exact) = number.floor()
         {
             return exact.to_i64();
         }
@@ -470,7 +475,9 @@ impl Scalar for Interval {
     }
 
     fn text(&self) -> String {
-        format!("[{}, {}]", self.lo.to_string_radix(10, None), self.hi.to_string_radix(10, None))
+        let ends = [(&self.lo, Round::Down), (&self.hi, Round::Up)];
+        let [lo, hi] = ends.map(|(end, round)| end.to_string_radix_round(10, Some(17), round));
+        if lo == hi { lo } else { format!("[{lo}, {hi}]") }
     }
 
     fn widened(self, by: &Self) -> Self {
@@ -486,6 +493,21 @@ impl Scalar for Interval {
         Interval::checked(width.clone(), width, inside)
     }
 
+    fn named(mut self) -> Self {
+        if matches!(self.inside, Inside::Lost) {
+            self.inside = Inside::Known(Box::new(Radical::named()));
+        }
+        self
+    }
+
+    fn also(self, other: Self) -> Self {
+        let inside = if matches!(self.inside, Inside::Known(_)) { self.inside.clone() } else { other.inside.clone() };
+        match self.meet(&other) {
+            Some(Interval { lo, hi, .. }) => Interval { lo, hi, inside },
+            None => self,
+        }
+    }
+
     fn magnitude(&self) -> Self {
         if self.lo.cmp0() != Some(Ordering::Less) {
             return self.clone();
@@ -495,16 +517,42 @@ impl Scalar for Interval {
         }
         let low = Float::with_val(self.lo.prec(), -&self.lo);
         let hi = if low > self.hi { low } else { self.hi.clone() };
-        let inside =
-            self.inside.map(|surd| Some(if surd.sign() == Ordering::Less { surd.neg() } else { surd.clone() }));
+        let inside = self
+            .inside
+            .map(|number| Some(if number.sign()? == Ordering::Less { number.neg() } else { number.clone() }));
         Interval { lo: Float::with_val(self.lo.prec(), 0), hi, inside }
     }
 
     fn square(&self) -> Self {
         let size = self.magnitude();
         let bits = size.lo.prec();
-        let inside = size.inside.with(&size.inside, Surd::mul);
+        let inside = size.inside.with(&size.inside, Radical::mul);
         Interval::checked(down(bits, size.lo.square_ref()), up(bits, size.hi.square_ref()), inside)
+    }
+
+    fn larger(self, other: Self) -> Self {
+        if self.lo >= other.hi {
+            return self;
+        }
+        if other.lo >= self.hi {
+            return other;
+        }
+        let inside = self.inside.with(&other.inside, |a, b| match a.cmp(b)? {
+            Ordering::Less => Some(b.clone()),
+            _ => Some(a.clone()),
+        });
+        let lo = if self.lo > other.lo { self.lo } else { other.lo };
+        let hi = if self.hi > other.hi { self.hi } else { other.hi };
+        Interval { lo, hi, inside }
+    }
+
+    fn same(&self, other: &Self) -> bool {
+        let points = self.lo == self.hi && other.lo == other.hi && self.lo == other.lo;
+        match (&self.inside, &other.inside) {
+            _ if points => true,
+            (Inside::Known(a), Inside::Known(b)) => a.sub(b).is_some_and(|difference| difference.vanishes()),
+            _ => false,
+        }
     }
 
     fn is_negative(&self) -> bool {
@@ -536,7 +584,9 @@ impl Analytic for Interval {
         let bits = self.lo.prec();
         let zero = Float::with_val(bits, 0);
         let lo = if self.lo.is_sign_negative() { zero } else { down(bits, self.lo.sqrt_ref()) };
-        Interval::checked(lo, up(bits, self.hi.sqrt_ref()), self.inside.map(Surd::sqrt))
+        let known = self.lo.cmp0().is_some_and(Ordering::is_ge) || self.exact_sign().is_some_and(Ordering::is_ge);
+        let inside = self.inside.map(|number| if known { number.sqrt() } else { None });
+        Interval::checked(lo, up(bits, self.hi.sqrt_ref()), inside)
     }
     fn exp(&self) -> Self {
         let bits = self.lo.prec();

@@ -5,7 +5,7 @@
 //! | `f64` | double precision | each operation correctly rounded |
 //! | `rug::Float` (feature `mp`) | any number of bits | each operation correctly rounded |
 //! | `rug::Rational` (feature `mp`) | fractions | exact; square roots only where they are rational |
-//! | [`Interval`] (feature `mp`) | enclosures | ends rounded outwards; with them, the exact `a + b√d` where it is known |
+//! | [`Interval`] (feature `mp`) | enclosures | ends rounded outwards; with them, the exact number where fractions and square roots make it |
 //!
 //! Formulas are written once: undamped code is `impl<S: Scalar>`, damped code is `impl<S: Analytic>`.
 
@@ -17,12 +17,14 @@ mod fraction;
 #[cfg(feature = "mp")]
 mod interval;
 mod literal;
-mod scalar;
 #[cfg(feature = "mp")]
-mod surd;
+mod radical;
+mod scalar;
 
 #[cfg(feature = "mp")]
 pub use float::{bits_for_digits, decimal};
+#[cfg(feature = "mp")]
+pub(crate) use interval::undecided;
 #[cfg(feature = "mp")]
 pub use interval::{Interval, IntervalPrecision, decided};
 pub use literal::{Number, NumberError};

@@ -95,6 +95,12 @@ pub trait Scalar:
         self.zero()
     }
 
+    /// The same number with a name, so that it can be told to be itself where nothing else is known of it. Only enclosures need
+    /// that.
+    fn named(self) -> Self {
+        self
+    }
+
     /// Zero, in the precision of `self`.
     fn zero(&self) -> Self {
         self.int(0)
@@ -113,6 +119,22 @@ pub trait Scalar:
     /// `|self|`.
     fn magnitude(&self) -> Self {
         if self.is_negative() { -self.clone() } else { self.clone() }
+    }
+
+    /// Whether both are surely the same number; false also where that is not known.
+    fn same(&self, other: &Self) -> bool {
+        self == other
+    }
+
+    /// The same number by another formula, for enclosures: what one of them knows is known.
+    fn also(self, other: Self) -> Self {
+        let _ = other;
+        self
+    }
+
+    /// The greater of both.
+    fn larger(self, other: Self) -> Self {
+        if other > self { other } else { self }
     }
 
     /// `self < 0`.

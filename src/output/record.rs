@@ -34,6 +34,20 @@ impl Show for rug::Rational {
 }
 
 #[cfg(feature = "mp")]
+impl Show for crate::number::Interval {
+    /// Digits that are proved, see [`crate::solve::proved_digits`].
+    fn show(&self, digits: u32) -> String {
+        crate::solve::proved_digits(self, digits)
+    }
+
+    /// `{"value": …, "lo": …, "hi": …}` with `lo ≤ truth ≤ hi`.
+    fn json(&self, digits: u32) -> serde_json::Value {
+        let [lo, hi] = crate::solve::proved_ends(self, digits);
+        serde_json::json!({"value": self.show(digits), "lo": lo, "hi": hi})
+    }
+}
+
+#[cfg(feature = "mp")]
 impl Show for rug::Float {
     fn show(&self, digits: u32) -> String {
         self.to_rational().map_or_else(|| self.to_string(), |value| crate::number::decimal(&value, digits))
@@ -79,6 +93,30 @@ pub struct Record<S> {
     pub error: Option<S>,
     /// What the user should know.
     pub warnings: Vec<String>,
+}
+
+impl<S> Record<S> {
+    /// Every number that is printed.
+    pub fn numbers(&self) -> Vec<&S> {
+        let mut all = vec![&self.end.0];
+        for event in &self.events {
+            all.extend([&event.time, &event.end_velocity, &event.centre, &event.centre_velocity]);
+        }
+        for (contact, restitution, energy) in &self.contacts {
+            all.extend([&contact.from, &contact.impulse, &contact.peak_stress]);
+            all.extend(&contact.to);
+            all.extend(restitution.momentum.iter().chain(&restitution.energy_squared));
+            all.extend(restitution.translational_part.iter().chain(&restitution.energy_kept));
+            all.extend(energy.iter().flat_map(|e| [&e.total, &e.translational, &e.vibrational]));
+        }
+        for flight in &self.flights {
+            all.push(&flight.from);
+            all.extend(&flight.to);
+            all.extend(flight.highest.iter().flat_map(|(time, centre)| [time, centre]));
+        }
+        all.extend(self.stress.iter().flat_map(|piece| [&piece.from, &piece.to, &piece.left, &piece.right]));
+        all
+    }
 }
 
 /// Gathers what is printed of `history`; the stress at the ground only if asked for, as it can cost more than all the rest.
@@ -147,7 +185,7 @@ impl<S: Scalar> Bounds<S> {
     /// `None` for doubles, which are printed as they are, and for fractions.
     fn of(history: &dyn History<S>) -> Option<Self> {
         let (scales, error) = (history.scales(), history.error_estimate());
-        if error.bits()? <= f64::MANTISSA_DIGITS {
+        if S::RIGOROUS || error.bits()? <= f64::MANTISSA_DIGITS {
             return None;
         }
         let ratio = error.int(16) * &error;

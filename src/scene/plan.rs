@@ -14,6 +14,8 @@ pub struct Ask {
     pub exact: bool,
     /// This many decimal digits, rounded once from values known to eight more of their scale. With `exact`: from where exactness ends.
     pub digits: Option<u32>,
+    /// Enclosures: every digit printed is proved. With `digits`, or else 15 of them.
+    pub certified: bool,
     /// The accuracy relative to the natural scales, before that of the scene.
     pub accuracy: Option<f64>,
 }
@@ -46,7 +48,12 @@ pub enum System {
     Digits(u32),
     /// Fractions, and decimal digits from where they end if that is asked for.
     Exact(Option<u32>),
+    /// Decimal digits that are proved, by enclosures.
+    Certified(u32),
 }
+
+/// Digits that are proved where none are asked for.
+const CERTIFIED_DIGITS: u32 = 15;
 
 impl std::fmt::Display for System {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
@@ -54,6 +61,7 @@ impl std::fmt::Display for System {
             System::Double(None) => f.write_str("double"),
             System::Double(Some(accuracy)) => write!(f, "double, accuracy {accuracy:e}"),
             System::Digits(digits) => write!(f, "{digits} digits"),
+            System::Certified(digits) => write!(f, "{digits} digits, proved"),
             System::Exact(None) => f.write_str("exact"),
             System::Exact(Some(digits)) => write!(f, "exact, then {digits} digits"),
         }
@@ -102,10 +110,11 @@ impl Plan {
         if let Some(digits) = ask.digits.filter(|digits| !(1..=MAX_DIGITS).contains(digits)) {
             return Err(Error::Digits { found: digits, most: MAX_DIGITS });
         }
-        if cfg!(not(feature = "mp")) && (ask.exact || ask.digits.is_some()) {
+        if cfg!(not(feature = "mp")) && (ask.exact || ask.certified || ask.digits.is_some()) {
             return Err(Error::NoMultiprecision);
         }
         let system = match (ask.exact, ask.digits) {
+            _ if ask.certified => System::Certified(ask.digits.unwrap_or(CERTIFIED_DIGITS)),
             (true, digits) => System::Exact(digits),
             (false, Some(digits)) => System::Digits(digits),
             (false, None) => System::Double(accuracy),
@@ -137,6 +146,12 @@ impl Plan {
             }
             System::Digits(digits) => {
                 format!("{digits} digits are asked for: bits are added until the error bound leaves that many")
+            }
+            System::Certified(digits) => {
+                format!(
+                    "{digits} proved digits are asked for: enclosures, with bits added until every comparison is settled and \
+                     every digit known"
+                )
             }
             System::Exact(None) => "exact fractions are asked for: the run stops where a root is irrational".into(),
             System::Exact(Some(digits)) => {

@@ -11,8 +11,12 @@ use crate::rod::{Parameters, Problem};
 use crate::scene::{Engine, Plan, System};
 
 #[cfg(feature = "mp")]
+mod certified;
+#[cfg(feature = "mp")]
 mod digits;
 mod twice;
+#[cfg(feature = "mp")]
+pub use certified::{certify, proved_digits, proved_ends};
 #[cfg(feature = "mp")]
 pub use digits::{damped_to_digits, undamped_to_digits};
 
@@ -36,7 +40,7 @@ pub enum Solution {
 /// digits, eight digits more of each scale than are printed; *exact* in fractions.
 ///
 /// **Errors**: [`Error::TooManyPieces`]; [`Error::Irrational`] where a parameter is no fraction and no digits are asked
-/// for; [`Error::Unsettled`].
+/// for; [`Error::Unsettled`]; [`Error::AskCertify`] for a plan of enclosures, which [`certify`] solves.
 ///
 /// ```
 /// use dalembert::{Ask, Plan, Scene, Solution, scene::builtin, solve};
@@ -83,8 +87,11 @@ pub fn solve(problem: &Problem, plan: &Plan, mut observe: impl FnMut(usize, usiz
             };
             Ok(Solution::Exact(Box::new(exact), rest))
         }
+        // An enclosure answers a question, and how many bits it takes depends on the question.
+        #[cfg(feature = "mp")]
+        System::Certified(digits) => Err(Error::AskCertify { digits }),
         #[cfg(not(feature = "mp"))]
-        System::Digits(_) | System::Exact(_) => Err(Error::NoMultiprecision),
+        System::Digits(_) | System::Exact(_) | System::Certified(_) => Err(Error::NoMultiprecision),
     }
 }
 

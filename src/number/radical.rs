@@ -1,0 +1,382 @@
+//! Exact numbers made of fractions and square roots: `3 + √2`, `1/2 + √(5 + 2√3)`.
+
+use std::cmp::Ordering;
+use std::sync::Arc;
+use std::sync::atomic::{self, AtomicU64};
+
+use rug::{Integer, Rational};
+
+use super::Analytic;
+use super::interval::{Interval, IntervalPrecision};
+
+/// A positive square root, or a number of which nothing is known but that it is always the same.
+#[derive(Debug)]
+enum Root {
+    /// `√radicand`.
+    Of(Radical),
+    /// Told from others by this.
+    Named(u64),
+}
+
+/// A product of roots in order, each once, and of named numbers, as often as it takes; empty for 1.
+type Product = Vec<Arc<Root>>;
+
+/// `Σ c_k ρ_i ρ_j …`: fractions times products of roots.
+///
+/// Where all `c_k` are zero the number is zero. Where they are not it may still be, if the roots depend on each other in a
+/// way that was not seen; only the digits then tell, and never say zero. So no sign told is ever wrong.
+///
+/// Operations give `None` where the result outgrows [`MOST_TERMS`] or [`MOST_BITS`].
+#[derive(Clone, Debug, Default)]
+pub(super) struct Radical {
+    terms: Vec<(Product, Rational)>,
+}
+
+/// Longer numbers are not worth carrying.
+const MOST_TERMS: usize = 48;
+const MOST_BITS: u32 = 1 << 12;
+/// Deeper roots are not followed.
+const MOST_DEPTH: u32 = 3;
+/// Square factors below this leave the root of a fraction.
+const SMALL_FACTOR: u32 = 200;
+/// Digits of no more bits are asked for a sign.
+const MOST_SIGN_BITS: u32 = 4096;
+
+impl Root {
+    fn depth(&self) -> u32 {
+        match self {
+            Root::Of(radicand) => radicand.depth() + 1,
+            Root::Named(_) => 1,
+        }
+    }
+
+    /// By depth first, so that a radicand has only roots before its own.
+    fn order(&self, other: &Root) -> Ordering {
+        if std::ptr::eq(self, other) {
+            return Ordering::Equal;
+        }
+        match (self, other) {
+            (Root::Named(a), Root::Named(b)) => a.cmp(b),
+            (Root::Of(a), Root::Of(b)) => self.depth().cmp(&other.depth()).then_with(|| a.order(b)),
+            (Root::Named(_), _) => 1.cmp(&other.depth()).then(Ordering::Less),
+            (_, Root::Named(_)) => self.depth().cmp(&1).then(Ordering::Greater),
+        }
+    }
+}
+
+fn product_order(a: &Product, b: &Product) -> Ordering {
+    a.len()
+        .cmp(&b.len())
+        .then_with(|| a.iter().zip(b).map(|(x, y)| x.order(y)).find(|order| order.is_ne()).unwrap_or(Ordering::Equal))
+}
+
+impl Radical {
+    pub(super) fn rational(x: Rational) -> Option<Self> {
+        Radical::checked(vec![(Vec::new(), x)])
+    }
+
+    /// A number of which nothing else is known.
+    pub(super) fn named() -> Self {
+        static NEXT: AtomicU64 = AtomicU64::new(0);
+        let name = NEXT.fetch_add(1, atomic::Ordering::Relaxed);
+        Radical { terms: vec![(vec![Arc::new(Root::Named(name))], Rational::from(1))] }
+    }
+
+    fn checked(mut terms: Vec<(Product, Rational)>) -> Option<Self> {
+        terms.retain(|(_, c)| !c.is_zero());
+        let long = |c: &Rational| c.numer().significant_bits() + c.denom().significant_bits() > MOST_BITS;
+        (terms.len() <= MOST_TERMS && !terms.iter().any(|(_, c)| long(c))).then_some(Radical { terms })
+    }
+
+    fn depth(&self) -> u32 {
+        self.terms.iter().flat_map(|(product, _)| product.iter().map(|root| root.depth())).max().unwrap_or(0)
+    }
+
+    fn order(&self, other: &Self) -> Ordering {
+        self.terms.len().cmp(&other.terms.len()).then_with(|| {
+            let pairs = self.terms.iter().zip(&other.terms);
+            pairs
+                .map(|((p, c), (q, d))| product_order(p, q).then_with(|| c.cmp(d)))
+                .find(|order| order.is_ne())
+                .unwrap_or(Ordering::Equal)
+        })
+    }
+
+    /// Whether all coefficients are zero, which makes the number zero.
+    pub(super) fn vanishes(&self) -> bool {
+        self.terms.is_empty()
+    }
+
+    /// The number, where it has no roots.
+    fn as_rational(&self) -> Option<Rational> {
+        match self.terms.as_slice() {
+            [] => Some(Rational::new()),
+            [(product, c)] if product.is_empty() => Some(c.clone()),
+            _ => None,
+        }
+    }
+
+    fn scaled(&self, by: &Rational) -> Option<Self> {
+        Radical::checked(self.terms.iter().map(|(p, c)| (p.clone(), Rational::from(c * by))).collect())
+    }
+
+    pub(super) fn neg(&self) -> Self {
+        Radical { terms: self.terms.iter().map(|(p, c)| (p.clone(), Rational::from(-c))).collect() }
+    }
+
+    pub(super) fn add(&self, other: &Self) -> Option<Self> {
+        let mut sum = Vec::with_capacity(self.terms.len() + other.terms.len());
+        let (mut ours, mut theirs) = (self.terms.iter().peekable(), other.terms.iter().peekable());
+        loop {
+            let order = match (ours.peek(), theirs.peek()) {
+                (Some((p, _)), Some((q, _))) => product_order(p, q),
+                (Some(_), None) => Ordering::Less,
+                (None, Some(_)) => Ordering::Greater,
+                (None, None) => return Radical::checked(sum),
+            };
+            let mut term = match order {
+                Ordering::Greater => theirs.next().cloned(),
+                _ => ours.next().cloned(),
+            };
+            if let (Ordering::Equal, Some((_, c)), Some((_, d))) = (order, term.as_mut(), theirs.peek()) {
+                *c += d;
+                theirs.next();
+            }
+            sum.extend(term);
+        }
+    }
+
+    pub(super) fn sub(&self, other: &Self) -> Option<Self> {
+        self.add(&other.neg())
+    }
+
+    pub(super) fn mul(&self, other: &Self) -> Option<Self> {
+        if let Some(c) = other.as_rational() {
+            return self.scaled(&c);
+        }
+        if self.terms.len() * other.terms.len() > 16 * MOST_TERMS {
+            return None;
+        }
+        let mut sum = Radical::default();
+        for (p, c) in &self.terms {
+            for (q, d) in &other.terms {
+                // Roots that both have leave as their radicands.
+                let (mut product, mut radicands) = (Vec::with_capacity(p.len() + q.len()), Vec::new());
+                let mut rest = q.iter().peekable();
+                for root in p {
+                    while let Some(next) = rest.next_if(|next| next.order(root) == Ordering::Less) {
+                        product.push(next.clone());
+                    }
+                    match root.as_ref() {
+                        Root::Of(radicand) if rest.next_if(|next| next.order(root) == Ordering::Equal).is_some() => {
+                            radicands.push(radicand);
+                        }
+                        _ => product.push(root.clone()),
+                    }
+                }
+                product.extend(rest.cloned());
+                let mut term = Radical::checked(vec![(product, Rational::from(c * d))])?;
+                for radicand in radicands {
+                    term = radicand.mul(&term)?;
+                }
+                sum = sum.add(&term)?;
+            }
+        }
+        Some(sum)
+    }
+
+    /// `(A, B, ρ)` with `self = A + Bρ` for the last of its roots.
+    fn split(&self) -> Option<(Self, Self, Arc<Root>)> {
+        let roots = self.terms.iter().filter_map(|(product, _)| product.last());
+        let last = roots.max_by(|a, b| a.order(b))?.clone();
+        let has = |product: &Product| product.last().is_some_and(|root| root.order(&last) == Ordering::Equal);
+        let (with, without): (Vec<_>, Vec<_>) = self.terms.iter().cloned().partition(|(product, _)| has(product));
+        let mut factor: Vec<(Product, Rational)> =
+            with.into_iter().map(|(product, c)| (product[..product.len() - 1].to_vec(), c)).collect();
+        factor.sort_by(|(p, _), (q, _)| product_order(p, q));
+        Some((Radical { terms: without }, Radical { terms: factor }, last))
+    }
+
+    /// `A² − B²ρ²` of [`Radical::split`]; `None` for a root that is only named.
+    fn norm(a: &Self, b: &Self, root: &Root) -> Option<Self> {
+        let Root::Of(radicand) = root else { return None };
+        a.mul(a)?.sub(&b.mul(b)?.mul(radicand)?)
+    }
+
+    /// `None` also for division by zero.
+    pub(super) fn div(&self, other: &Self) -> Option<Self> {
+        self.mul(&other.inverse()?)
+    }
+
+    fn inverse(&self) -> Option<Self> {
+        if let Some(c) = self.as_rational() {
+            return if c.is_zero() { None } else { Radical::rational(c.recip()) };
+        }
+        let (a, b, root) = self.split()?;
+        let conjugate = a.sub(&b.mul(&Radical { terms: vec![(vec![root.clone()], Rational::from(1))] })?)?;
+        conjugate.mul(&Radical::norm(&a, &b, &root)?.inverse()?)
+    }
+
+    /// The sign; `None` where too many digits do not tell.
+    pub(super) fn sign(&self) -> Option<Ordering> {
+        if let Some(c) = self.as_rational() {
+            return Some(c.cmp0());
+        }
+        let mut bits = 64;
+        while bits <= MOST_SIGN_BITS {
+            if let Some(sign) = self.enclosed(bits)?.sign() {
+                return Some(sign);
+            }
+            bits *= 2;
+        }
+        None
+    }
+
+    /// In digits; `None` where something is only named.
+    fn enclosed(&self, bits: u32) -> Option<Interval> {
+        let lift = |c: &Rational| Interval::rational(c, IntervalPrecision::bits(bits));
+        let mut sum = lift(&Rational::new());
+        for (product, c) in &self.terms {
+            let mut term = lift(c);
+            for root in product {
+                let Root::Of(radicand) = root.as_ref() else { return None };
+                term = term * &radicand.enclosed(bits)?.sqrt();
+            }
+            sum = sum + &term;
+        }
+        Some(sum)
+    }
+
+    pub(super) fn cmp(&self, other: &Self) -> Option<Ordering> {
+        self.sub(other)?.sign()
+    }
+
+    /// `⌊self⌋` of a fraction.
+    pub(super) fn floor(&self) -> Option<Integer> {
+        self.as_rational().map(|c| Integer::from(c.floor_ref()))
+    }
+
+    /// `√self ≥ 0`, for what is known not to be negative.
+    pub(super) fn sqrt(&self) -> Option<Self> {
+        if let Some(root) = self.root_within()
+            && let Some(sign) = root.sign()
+        {
+            return Some(if sign == Ordering::Less { root.neg() } else { root });
+        }
+        // √x = s √(x/s²) with whole coefficients under the root, and no common square in them that is easily seen.
+        let below = self.terms.iter().fold(Integer::from(1), |lcm, (_, c)| lcm.lcm(c.denom()));
+        let whole = self.scaled(&Rational::from(Integer::from(below.square_ref())))?;
+        let content = whole.terms.iter().fold(Integer::new(), |gcd, (_, c)| gcd.gcd(c.numer()));
+        let factor = square_factor(&content);
+        let radicand = whole.scaled(&Rational::from(Integer::from(factor.square_ref())).recip())?;
+        let scale = Rational::from((factor, below));
+        if radicand.depth() >= MOST_DEPTH {
+            return None;
+        }
+        Radical::checked(vec![(vec![Arc::new(Root::Of(radicand))], scale)])
+    }
+
+    /// A root of either sign that needs no new one.
+    ///
+    /// `(u + vρ)² = A + Bρ` wants `u² = (A ± n)/2` with `n² = A² − B²ρ²`, and `v = B/2u`.
+    fn root_within(&self) -> Option<Self> {
+        if let Some(c) = self.as_rational() {
+            let square = c.cmp0().is_ge() && c.numer().is_perfect_square() && c.denom().is_perfect_square();
+            return if square {
+                Radical::rational(Rational::from((c.numer().clone().sqrt(), c.denom().clone().sqrt())))
+            } else {
+                None
+            };
+        }
+        let (a, b, root) = self.split()?;
+        let n = Radical::norm(&a, &b, &root)?.root_within()?;
+        let half = Rational::from((1, 2));
+        [a.add(&n)?, a.sub(&n)?].into_iter().find_map(|twice| {
+            let u = twice.scaled(&half)?.root_within()?;
+            let v = b.scaled(&half)?.div(&u)?;
+            u.add(&v.mul(&Radical { terms: vec![(vec![root.clone()], Rational::from(1))] })?)
+        })
+    }
+}
+
+/// The greatest `s` made of small primes with `s² | n`, for `n > 0`.
+fn square_factor(n: &Integer) -> Integer {
+    let (mut rest, mut factor) = (n.clone(), Integer::from(1));
+    for prime in 2..SMALL_FACTOR {
+        let square = prime * prime;
+        while !rest.is_zero() && rest.is_divisible_u(square) {
+            rest.div_exact_u_mut(square);
+            factor *= prime;
+        }
+    }
+    if rest.is_perfect_square() { factor * rest.sqrt() } else { factor }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn fraction(p: i32, q: i32) -> Radical {
+        Radical::rational(Rational::from((p, q))).unwrap()
+    }
+
+    fn root(n: i32) -> Radical {
+        fraction(n, 1).sqrt().unwrap()
+    }
+
+    fn equal(a: &Radical, b: &Radical) -> bool {
+        a.sub(b).unwrap().vanishes()
+    }
+
+    #[test]
+    fn a_field_with_an_order() {
+        let x = fraction(3, 1).add(&root(2)).unwrap();
+        // (3 + √2)(3 − √2) = 7
+        assert!(equal(&x.mul(&fraction(3, 1).sub(&root(2)).unwrap()).unwrap(), &fraction(7, 1)));
+        assert!(equal(&x.div(&x).unwrap(), &fraction(1, 1)));
+        // 7/5 < √2 < 17/12
+        assert_eq!(root(2).cmp(&fraction(7, 5)), Some(Ordering::Greater));
+        assert_eq!(root(2).cmp(&fraction(17, 12)), Some(Ordering::Less));
+        // √8 = 2√2, and several roots side by side.
+        assert!(equal(&root(8), &root(2).scaled(&Rational::from(2)).unwrap()));
+        let sum = root(2).add(&root(3)).unwrap();
+        let square = sum.mul(&sum).unwrap();
+        assert!(equal(
+            &square,
+            &fraction(5, 1).add(&root(2).mul(&root(3)).unwrap().scaled(&Rational::from(2)).unwrap()).unwrap()
+        ));
+        assert!(equal(&sum.div(&sum).unwrap(), &fraction(1, 1)));
+    }
+
+    #[test]
+    fn roots_in_the_field_and_beyond() {
+        // (1 − √2)² = 3 − 2√2, whose root is √2 − 1.
+        let square = fraction(3, 1).sub(&root(8)).unwrap();
+        assert!(equal(&square.sqrt().unwrap(), &root(2).sub(&fraction(1, 1)).unwrap()));
+        // √(1 + √2) is new; its square is not.
+        let inner = fraction(1, 1).add(&root(2)).unwrap();
+        let nested = inner.sqrt().unwrap();
+        assert!(equal(&nested.mul(&nested).unwrap(), &inner));
+        assert!(equal(&fraction(1, 1).div(&nested).unwrap().mul(&nested).unwrap(), &fraction(1, 1)));
+        // √(4(1 + √2)) is twice the same root.
+        let four = inner.scaled(&Rational::from(4)).unwrap().sqrt().unwrap();
+        assert!(equal(&four, &nested.scaled(&Rational::from(2)).unwrap()));
+    }
+
+    #[test]
+    fn a_name_is_the_same_as_itself_only() {
+        let (a, b) = (Radical::named(), Radical::named());
+        assert_eq!(a.cmp(&a), Some(Ordering::Equal));
+        assert_eq!(a.cmp(&b), None);
+        let shifted = a.add(&fraction(1, 2)).unwrap();
+        assert_eq!(shifted.sub(&a).unwrap().cmp(&fraction(1, 2)), Some(Ordering::Equal));
+        // (a + b)² − (a − b)² = 4ab
+        let (sum, difference) = (a.add(&b).unwrap(), a.sub(&b).unwrap());
+        let squares = sum.mul(&sum).unwrap().sub(&difference.mul(&difference).unwrap()).unwrap();
+        assert!(equal(&squares, &a.mul(&b).unwrap().scaled(&Rational::from(4)).unwrap()));
+        // √(1 + a²)² = 1 + a²
+        let square = a.mul(&a).unwrap().add(&fraction(1, 1)).unwrap();
+        let root = square.sqrt().unwrap();
+        assert!(equal(&root.mul(&root).unwrap(), &square));
+    }
+}

@@ -1,0 +1,135 @@
+//! Answers whose digits are proved: enclosures with as many bits as it takes to settle every comparison and every digit.
+
+use rug::Float;
+use rug::float::Round;
+
+use crate::certified::ProvedContact;
+use crate::error::Error;
+use crate::history::History;
+use crate::lattice::{Limits, Undamped};
+use crate::number::{Interval, IntervalPrecision, bits_for_digits, decided, undecided};
+use crate::rod::Problem;
+
+/// Guard bits of the first try.
+const GUARD_BITS: u32 = 64;
+/// Bits beyond which a comparison is called undecided, where the digits asked for do not need more.
+const MAX_BITS: u32 = 1 << 14;
+/// Digits of a number beyond those asked for, so that it is rare that two of its decimals come into question.
+const SPARE_DIGITS: u32 = 8;
+/// A number that is this many digits below the greatest of the answer, beyond those asked for, may stay with fewer digits: where
+/// it is zero in truth, no bits would ever give it any.
+const FLOOR_DIGITS: u32 = 30;
+
+/// The answer to `question`, asked of histories in enclosures with more and more bits, until no comparison on the way is open and
+/// all `numbers` of the answer have `digits` digits that are proved.
+///
+/// **Accuracy**: *enclosure*; each number is known to `10^−digits` of itself, or to `10^−(digits + 30)` of the greatest.
+///
+/// **Errors**: [`Error::Undecided`] where too many bits do not settle it; [`Error::NotCertified`] where no engine works in
+/// enclosures; those of the run and of `question`.
+///
+/// ```
+/// use dalembert::{History, Number, Problem, solve::certify};
+/// // Corollary 1 below the critical speed: t_b = 2t₁ − μ/g = 5/2 for μ = 3/2.
+/// let problem = Problem::uniform(Number::from(1), Number::from(1), Number::from(1), "3/2".parse()?);
+/// let ends = |history: &dyn dalembert::History<_>| Ok::<_, dalembert::Error>(history.contacts()[0].to.clone());
+/// let end = certify(&problem, 50, ends, |end| end.iter().collect(), |_, _| ())?.unwrap();
+/// assert!(end.contains(&(5, 2).into()));
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+pub fn certify<T, E: From<Error>>(
+    problem: &Problem,
+    digits: u32,
+    mut question: impl FnMut(&dyn History<Interval>) -> Result<T, E>,
+    numbers: impl Fn(&T) -> Vec<&Interval>,
+    mut observe: impl FnMut(usize, usize),
+) -> Result<T, E> {
+    let wanted = bits_for_digits(digits);
+    let most = MAX_BITS.max(wanted.saturating_mul(4));
+    let mut bits = wanted + GUARD_BITS;
+    loop {
+        let answer = decided(|| question(&*history(problem, bits, &mut observe)?));
+        // Errors on the way to an open comparison mean nothing, except where no bits can help.
+        let missing = match answer {
+            Some(Ok(answer)) => {
+                let missing = missing_bits(&numbers(&answer), digits);
+                if missing == 0 {
+                    return Ok(answer);
+                }
+                missing
+            }
+            Some(Err(error)) => return Err(error),
+            None => bits,
+        };
+        let next = bits.saturating_add(missing.clamp(32, bits));
+        if next > most {
+            return Err(Error::Undecided { digits, bits }.into());
+        }
+        bits = next;
+    }
+}
+
+/// The history of `problem` in enclosures of `bits` bits. It holds if no comparison was left open, see [`decided`].
+///
+/// **Errors**: [`Error::NotCertified`], and those of the run.
+fn history(
+    problem: &Problem,
+    bits: u32,
+    observe: &mut impl FnMut(usize, usize),
+) -> Result<Box<dyn History<Interval>>, Error> {
+    if problem.rod.damping.is_none() {
+        let precision = IntervalPrecision::with_exact(bits);
+        return Ok(Box::new(Undamped::<Interval>::solve_within(problem, &precision, Limits::default(), observe)?));
+    }
+    if !problem.has_closed_form() {
+        return Err(Error::NotCertified);
+    }
+    match ProvedContact::solve(problem, bits)? {
+        Some(contact) => Ok(Box::new(contact)),
+        None => {
+            undecided();
+            Err(Error::NotDecided { what: "how the contact ends", bits })
+        }
+    }
+}
+
+/// About how many bits more would give each number its digits; zero if all have them.
+fn missing_bits(numbers: &[&Interval], digits: u32) -> u32 {
+    let greatest = numbers.iter().map(|x| exponent(x.lo()).max(exponent(x.hi()))).max().unwrap_or(0);
+    let kept = i64::from(bits_for_digits(digits + SPARE_DIGITS));
+    let floor = greatest - i64::from(bits_for_digits(digits + FLOOR_DIGITS));
+    let missing = numbers.iter().map(|x| {
+        let radius = exponent(&x.radius());
+        let least = match x.sign() {
+            Some(_) => exponent(x.lo()).min(exponent(x.hi())) - kept,
+            None => i64::MIN / 2,
+        };
+        radius - least.max(floor)
+    });
+    u32::try_from(missing.max().unwrap_or(0).max(0)).unwrap_or(u32::MAX)
+}
+
+/// The binary exponent, far down for zero and far up for what is not finite.
+fn exponent(x: &Float) -> i64 {
+    match x.get_exp() {
+        Some(exponent) => i64::from(exponent),
+        None if x.is_zero() => i64::MIN / 4,
+        None => i64::MAX / 4,
+    }
+}
+
+/// `x` to `digits` significant digits, as far as they are proved: correctly rounded unless the enclosure is astride a
+/// rounding boundary, and then within one unit of the last digit. `0` where zero is not excluded.
+pub fn proved_digits(x: &Interval, digits: u32) -> String {
+    let rational = |end: &Float| end.to_rational().unwrap_or_default();
+    if x.sign().is_none_or(std::cmp::Ordering::is_eq) {
+        return "0".into();
+    }
+    crate::number::decimal(&rational(&x.mid()), digits)
+}
+
+/// Both ends to ten digits more, rounded outwards.
+pub fn proved_ends(x: &Interval, digits: u32) -> [String; 2] {
+    let text = |end: &Float, round| end.to_string_radix_round(10, Some(digits as usize + 10), round);
+    [text(x.lo(), Round::Down), text(x.hi(), Round::Up)]
+}

@@ -1,0 +1,191 @@
+//! Proved digits of undamped histories: fifty of every number of the reference, tangential landings by exact arithmetic, and
+//! nothing where nothing can be proved.
+#![cfg(feature = "mp")]
+#![allow(clippy::unwrap_used)]
+
+mod common;
+
+use common::{number, problem, reference};
+use dalembert::lattice::Undamped;
+use dalembert::number::{Interval, IntervalPrecision, Scalar, decided};
+use dalembert::rod::Run;
+use dalembert::solve::certify;
+use dalembert::{Error, EventKind, History, Number, Problem, Side};
+use rug::{Float, Rational};
+use serde_json::Value;
+
+const DIGITS: u32 = 50;
+
+/// What the reference's decimal `text` stands for: itself, give or take one unit of its last digit.
+fn meant(text: &Value) -> (Rational, Rational) {
+    let value = number(text).to_rational();
+    let text = text.as_str().unwrap();
+    if text.contains('/') || !text.contains('.') {
+        return (value.clone(), value);
+    }
+    let (mantissa, exponent) = text.split_once('e').unwrap_or((text, "0"));
+    let places = mantissa.split_once('.').map_or(0, |(_, after)| after.len() as i32);
+    let unit = Rational::from((1, 10)).pow_signed(places - exponent.parse::<i32>().unwrap());
+    (value.clone() - &unit, value + unit)
+}
+
+trait Power {
+    fn pow_signed(self, n: i32) -> Self;
+}
+
+impl Power for Rational {
+    fn pow_signed(self, n: i32) -> Self {
+        use rug::ops::Pow;
+        self.pow(n)
+    }
+}
+
+/// The enclosure has `DIGITS` digits, of itself or, where that is zero, of `scale`; and what the reference says lies in it.
+fn proved(name: &str, ours: &Interval, theirs: &Value, scale: f64) {
+    let size = Float::with_val(64, ours.mid().abs_ref()).to_f64().max(if ours.sign().is_none() { scale } else { 0.0 });
+    assert!(ours.radius() <= size * 1e-50, "{name}: {ours:?}");
+    let (low, high) = meant(theirs);
+    assert!(*ours.hi() >= low && *ours.lo() <= high, "{name}: {ours:?} against {theirs}");
+}
+
+#[test]
+fn fifty_digits_of_every_event_of_the_reference() {
+    for case in reference("undamped_bounces") {
+        let name = case["name"].as_str().unwrap();
+        let expected: Vec<&Value> =
+            case["events"].as_array().unwrap().iter().filter(|event| event["kind"] != "graze").collect();
+        let last = number(&expected.last().unwrap()["time"]).to_f64();
+        let problem = problem(&case, Run::Time((last + 1e-6).to_string().parse().unwrap()));
+        let events = certify(
+            &problem,
+            DIGITS,
+            |history| Ok::<_, Error>(history.events().to_vec()),
+            |events| events.iter().flat_map(|e| [&e.time, &e.end_velocity, &e.centre, &e.centre_velocity]).collect(),
+            |_, _| (),
+        )
+        .unwrap();
+        assert_eq!(events.len(), expected.len(), "{name}");
+        let (speed, length) = (number(&case["impact_speed"]).to_f64(), number(&case["length"]).to_f64());
+        for (event, truth) in events.iter().zip(expected) {
+            let kind = if truth["kind"] == "impact" { EventKind::Impact } else { EventKind::Release };
+            assert_eq!(event.kind, kind, "{name}");
+            for (key, ours, scale) in [
+                ("time", &event.time, 1.0),
+                ("approach", &event.end_velocity, speed),
+                ("h", &event.centre, length),
+                ("h_rate", &event.centre_velocity, speed),
+            ] {
+                if !truth[key].is_null() {
+                    proved(&format!("{name}: {key} at {}", truth["time"]), ours, &truth[key], scale);
+                }
+            }
+        }
+    }
+}
+
+fn rod(speed: &str, time: &str) -> Problem {
+    let mut problem = Problem::uniform(1.into(), 1.into(), 1.into(), speed.parse().unwrap());
+    problem.run = Run::Time(time.parse().unwrap());
+    problem
+}
+
+/// μ = 1 lands at t = 31 with speed zero, after landings at 3 + √2, 7 + √3, …: no interval can tell that from a graze or a
+/// flight over the ground, the exact number can. After t = 36 all is as before.
+#[test]
+fn a_tangential_landing_is_proved_by_exact_arithmetic() {
+    let problem = rod("1", "80");
+    let exact = IntervalPrecision::with_exact(192);
+    let events = decided(|| Undamped::<Interval>::solve(&problem, &exact).unwrap().events().to_vec()).expect("settled");
+    let touch = events.iter().find(|event| event.time.contains(&31.into())).unwrap();
+    assert_eq!(touch.kind, EventKind::Impact);
+    assert!(decided(|| touch.end_velocity.is_zero()).unwrap());
+    // One period later, and everything in between is the same again.
+    let first: Vec<_> = events.iter().filter(|event| *event.time.hi() < 36).collect();
+    for (before, after) in first.iter().zip(&events[first.len()..]) {
+        let later = before.time.clone() + &before.time.int(36);
+        assert_eq!(decided(|| later == after.time), Some(true), "{later:?} {:?}", after.time);
+        assert_eq!(decided(|| before.centre == after.centre), Some(true));
+    }
+    assert_eq!(first.len(), 16);
+    // Intervals alone leave it open, however many bits they have.
+    for bits in [192, 1024] {
+        let alone = IntervalPrecision::bits(bits);
+        assert!(decided(|| Undamped::<Interval>::solve(&problem, &alone).map(|_| ())).is_none());
+    }
+}
+
+/// The steel bar's wave speed √(E/ρ) is no fraction; lattice times are still met exactly.
+#[test]
+fn irrational_wave_speeds_keep_their_coincidences() {
+    let source = dalembert::scene::builtin::get("siconos-impacting-bar").unwrap().source;
+    let scene = dalembert::Scene::parse(source).unwrap();
+    let contact = certify(
+        &scene.problem,
+        DIGITS,
+        |history| Ok::<_, Error>(history.contacts()[0].clone()),
+        |contact| contact.to.iter().chain([&contact.impulse]).collect(),
+        |_, _| (),
+    )
+    .unwrap();
+    let length = Float::with_val(400, 2);
+    let t1 = length / (Float::with_val(400, 210e9) / 7800u32).sqrt();
+    let to = contact.to.unwrap();
+    assert!(*to.lo() <= t1 && *to.hi() >= t1 && to.radius() < 1e-50, "{to:?}");
+}
+
+/// Every enclosure of a run holds the rounded numbers of a run with more bits that knows nothing of intervals.
+#[test]
+fn digits_of_another_run_lie_inside() {
+    for (speed, time) in [("3/2", "60"), ("0.7", "40"), ("1.9", "30"), ("12345.678", "24000")] {
+        let problem = rod(speed, time);
+        let float = Undamped::<Float>::solve(&problem, &700).unwrap();
+        let sample = |history: &dyn History<Interval>| {
+            let mut all: Vec<Interval> = history.events().iter().map(|event| event.time.clone()).collect();
+            for k in 1..8i64 {
+                let end = history.end();
+                let t = end.clone() * &end.ratio(k, 8);
+                let (h, rate) = history.centre(&t)?;
+                let energy = history.energy(&t)?;
+                let end = history.ground_end(&t, Side::Right)?.0;
+                all.extend([h, rate, energy.vibrational, end, history.stress(&t, Side::Left)?]);
+            }
+            Ok::<_, Error>(all)
+        };
+        let proved = certify(&problem, 40, sample, |all| all.iter().collect(), |_, _| ()).unwrap();
+        let mut rounded: Vec<Float> = float.events().iter().map(|event| event.time.clone()).collect();
+        for k in 1..8u32 {
+            let t = float.end() * k / 8u32;
+            let (h, rate) = float.centre(&t).unwrap();
+            let energy = float.energy(&t).unwrap();
+            rounded.extend([h, rate, energy.vibrational, float.ground_end(&t, Side::Right).unwrap().0]);
+            rounded.push(float.stress(&t, Side::Left).unwrap());
+        }
+        assert_eq!(proved.len(), rounded.len());
+        for (k, (interval, x)) in proved.iter().zip(rounded).enumerate() {
+            let inside = *interval.lo() <= x && *interval.hi() >= x;
+            let off = Float::with_val(64, interval.mid() - &x).abs();
+            assert!(inside || off <= interval.radius() + 1e-150, "μ = {speed}, number {k}: {interval:?} {x}");
+        }
+    }
+}
+
+#[test]
+fn what_cannot_be_proved_is_refused() {
+    let ask = |history: &dyn History<Interval>| Ok::<_, Error>(history.end());
+    let mut problem = rod("1", "3");
+    problem.rod.damping = Some("0.1".parse::<Number>().unwrap());
+    problem.rod.top = dalembert::rod::Top::Fixed;
+    let refused = certify(&problem, 20, ask, |end| vec![end], |_, _| ());
+    assert_eq!(refused.unwrap_err(), Error::NotCertified);
+    // A number that is zero in truth and unknown to be so has no digits, but does not hold up the others for ever.
+    let sevenths = |history: &dyn History<Interval>| {
+        let end = history.end();
+        let third = end.clone() / &end.int(7);
+        let unknown = third.hull(&third);
+        Ok::<_, Error>((unknown.clone() - &third.hull(&third), unknown))
+    };
+    let (nothing, some) = certify(&rod("1", "3"), 20, sevenths, |(a, b)| vec![a, b], |_, _| ()).unwrap();
+    assert_eq!(nothing.sign(), None);
+    assert_eq!(dalembert::solve::proved_digits(&nothing, 20), "0");
+    assert_eq!(dalembert::solve::proved_digits(&some, 20), "0.42857142857142857143");
+}
