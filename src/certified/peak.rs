@@ -46,7 +46,7 @@ impl ClosedForm {
             }
             let (to, stop) = if k == last {
                 let inside = (end.plain.clone() - one.int(k)) * one.int(2) - &one;
-                (inside.to_f64().clamp(-1.0, 1.0), end.clone())
+                ((inside.to_f64() + 1e-12).clamp(-1.0, 1.0), end.clone())
             } else {
                 (1.0, self.lattice(k + 1))
             };

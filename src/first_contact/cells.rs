@@ -112,7 +112,7 @@ impl<S: Analytic> FirstContact<S> {
         let log_bound = 2.0 * width.ln() - scale.ln().to_f64() + (4.0 / (rho - 1.0)).ln();
         let n = ((log_bound + 35.0) / rho.ln()).ceil().clamp(8.0, 4000.0) as usize;
         let mut values = Vec::with_capacity(n + 1);
-        let mut rounding = 0.0f64;
+        let mut rounding = (scale.width() / &scale).to_f64();
         for j in 0..=n {
             let (value, error) = self.force(route, &at((std::f64::consts::PI * j as f64 / n as f64).cos()), k);
             let value = value / &scale;

@@ -48,7 +48,7 @@ pub(super) fn ray_start<S: Analytic>(half: &S, xi: &S, eta: &S) -> S {
 pub(super) struct Cut<S> {
     /// The last term N.
     pub(super) terms: i64,
-    /// A bound of `|σ_{N+1}|`, `σ_n = (r/2) ψ_n/ψ_{n−1}`.
+    /// A bound of `σ_{N+1} ≥ 0`, `σ_n = (r/2) ψ_n/ψ_{n−1}`.
     pub(super) ratio: S,
     /// A bound of `Σ_{n>N} c_n σ_{N+2} ⋯ σ_n` for weights `0 ≤ c_n ≤ n³`.
     pub(super) rest: S,
@@ -80,4 +80,56 @@ pub(super) fn cut<S: Analytic>(half: &S, xi: &S, eta: &S, first: i64) -> Cut<S> 
     let ratio = half.int(2) * half * &xi.clone().magnitude() / half.int(2 * terms + 1);
     let rest = if bounded { 16.0 * (terms as f64 + 1.0).powi(3) } else { f64::INFINITY };
     Cut { terms, ratio, rest: xi.double(rest) }
+}
+
+#[cfg(all(test, feature = "mp"))]
+mod tests {
+    use rug::{Float, Rational};
+
+    use crate::number::{Interval, IntervalPrecision, Scalar};
+    use crate::special::{Ray, i0_scaled, i1_scaled, in_scaled};
+
+    /// From few bits, where every cut is coarse, to many; the truth has twice as many.
+    #[test]
+    fn sums_in_many_bits_lie_inside() {
+        let fraction = |p: i64| Rational::from((p, 1000));
+        let holds = |found: &Interval, truth: &Float, bits: u32| {
+            let narrow = found.width().hi().to_f64() <= truth.to_f64().abs() * 2f64.powi(18 - bits as i32);
+            assert!(found.lo() <= truth && truth <= found.hi(), "{} {truth}", found.text());
+            narrow
+        };
+        for bits in [24u32, 53, 200, 700] {
+            for z in [0, 1, 300, 3000, 77_777, 900_000] {
+                let (few, many) = (
+                    Interval::rational(&fraction(z), IntervalPrecision::bits(bits)),
+                    Float::with_val(2 * bits + 300, fraction(z)),
+                );
+                assert!(holds(&i0_scaled(&few), &i0_scaled(&many), bits), "{z} {bits}");
+                assert!(holds(&i1_scaled(&few), &i1_scaled(&many), bits), "{z} {bits}");
+                assert!(holds(&in_scaled(&few, 5), &in_scaled(&many, 5), bits), "{z} {bits}");
+                for (travel, time) in [(0, 700), (1000, 1000), (1000, 1001), (2300, 5000)] {
+                    let few = Ray::new(
+                        &few,
+                        &Interval::rational(&fraction(travel), few.precision()),
+                        &Interval::rational(&fraction(time), few.precision()),
+                    );
+                    let wide = 2 * bits + 300;
+                    let many = Ray::new(
+                        &many,
+                        &Float::with_val(wide, fraction(travel)),
+                        &Float::with_val(wide, fraction(time)),
+                    );
+                    let weights = |n: i64| [n, n * (n * n - 1)];
+                    let (few, many) = (few.sums([1, 2], weights), many.sums([1, 2], weights));
+                    for (few, many) in few.sums.iter().zip(&many.sums).chain([(&few.start, &many.start)]) {
+                        assert!(
+                            few.lo() <= many && many <= few.hi(),
+                            "{z} {bits} {travel} {time} {} {many}",
+                            few.text()
+                        );
+                    }
+                }
+            }
+        }
+    }
 }

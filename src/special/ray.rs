@@ -69,7 +69,9 @@ impl<S: Analytic> Ray<S> {
             return (self.terms(first), zero.clone(), zero);
         }
         let cut = enclosed::cut(&self.half, &self.xi, &self.eta, first.max(1) + 1);
-        (cut.terms, zero.clone().widened(&cut.ratio), zero.widened(&cut.rest))
+        // From zero to the bound: a denominator with less than zero in it could hold a zero.
+        let middle = cut.ratio / zero.int(2);
+        (cut.terms, middle.clone().widened(&middle), zero.widened(&cut.rest))
     }
 
     /// `ρ_n` from `σ_{n+1} = (r/2) ρ_{n+1}`; `(r/2) η σ` cannot overflow, since `σ < 1`.
