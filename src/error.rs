@@ -119,4 +119,17 @@ pub enum Error {
         /// What was tried.
         bits: u32,
     },
+    /// A start or a top for which the first contact has no closed form.
+    #[error(
+        "found a start that is not uniform, or a fixed top; expected a uniform start under a free top, whose first contact has a closed form"
+    )]
+    NoClosedForm,
+    /// A question that this many bits do not settle.
+    #[error("with {bits} bits it is not decided {what}; expected more bits")]
+    NotDecided {
+        /// What is not decided.
+        what: &'static str,
+        /// The bits of the enclosures.
+        bits: u32,
+    },
 }

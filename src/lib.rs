@@ -12,6 +12,7 @@
 //! | [`lattice`] | the undamped rod, from event to event on the characteristic lattice |
 //! | [`first_contact`] | the damped first contact in closed form, the bounce time or why there is none |
 //! | [`damped`] | the damped rod through any number of impacts, in characteristic cells |
+//! | `certified` | enclosures: numbers that are proved (feature `mp`) |
 //! | [`history`] | what a solution is, and everything that can be asked of it |
 //! | [`modal`] | the modal sum of the first contact: a third route to the same numbers |
 //! | [`quantity`] | restitution and flights |
@@ -30,6 +31,8 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
+#[cfg(feature = "mp")]
+pub mod certified;
 #[cfg(feature = "cli")]
 pub mod cli;
 pub mod damped;

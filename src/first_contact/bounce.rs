@@ -1,5 +1,7 @@
 //! The bounce time `t_b`: the first root or jump of the stress, or the reason why there is none.
 
+use std::cmp::Ordering;
+
 use super::field::{FirstContact, Sum};
 use crate::history::Side;
 use crate::modal::Modal;
@@ -43,6 +45,28 @@ pub enum BounceKind {
     Root,
 }
 
+/// How the search for the bounce ends.
+pub(crate) enum Found<S> {
+    /// With an answer.
+    Answer(Bounce<S>),
+    /// At the jump after this many round trips.
+    Jump(i64),
+    /// At a root.
+    Root(Bracket<S>),
+}
+
+/// A part of a cell that holds the first root of the stress, and no other.
+pub(crate) struct Bracket<S> {
+    /// The cell, by the round trips before it.
+    pub(crate) cell: i64,
+    /// Its ends, as numbers of round trips.
+    pub(crate) from: S,
+    /// See `from`.
+    pub(crate) to: S,
+    /// The force falls at least so fast in each round trip.
+    pub(crate) slope: S,
+}
+
 /// Where the stress comes from.
 #[derive(Clone, Debug)]
 pub(super) enum Route<S> {
@@ -81,52 +105,65 @@ impl<S: Analytic> FirstContact<S> {
 
     /// The same, with the stress from `route`.
     pub(super) fn bounce_by(&self, route: &Route<S>) -> Bounce<S> {
+        match self.search(route) {
+            Found::Jump(k) => {
+                let time = self.round_trip.int(k) * &self.round_trip;
+                Bounce::At { time, kind: BounceKind::Jump, error: 0.0 }
+            }
+            Found::Root(bracket) => self.refine(route, bracket),
+            Found::Answer(answer) => answer,
+        }
+    }
+
+    /// The search for the bounce, up to a bracket.
+    pub(super) fn search(&self, route: &Route<S>) -> Found<S> {
         let (mu, mu0) = (&self.rod.speed, &self.critical);
         let total = mu.clone() + mu0;
         if mu.is_negative() || !total.is_finite() || !self.damping.is_finite() {
             let why = "an impact speed below zero, or a number that is not finite".into();
-            return Bounce::Undecided { until: mu.zero(), why, digits: false };
+            return Found::Answer(Bounce::Undecided { until: mu.zero(), why, digits: false });
         }
         if total.is_zero() {
-            return Bounce::Never { reason: "neither speed nor gravity: nothing moves".into() };
+            return Found::Answer(Bounce::Never { reason: "neither speed nor gravity: nothing moves".into() });
         }
         if self.damping.is_zero() && mu.is_positive() {
-            return self.undamped_bounce();
+            return Found::Answer(self.undamped_bounce());
         }
         // By far the most frequent answer.
         let (value, error) = self.force(route, &mu.one(), 1);
         if value < -error {
-            return Bounce::At { time: self.round_trip.clone(), kind: BounceKind::Jump, error: 0.0 };
+            return Found::Jump(1);
         }
         let first = match self.lowest_mode() {
             Ok(first) => first,
-            Err(answer) => return answer,
+            Err(answer) => return Found::Answer(answer),
         };
         for k in first..=MOST_CELLS {
             let start = mu.int(k);
             let (value, error) = self.force(route, &start, k);
             if value < -error.clone() {
-                let time = start * &self.round_trip;
-                return Bounce::At { time, kind: BounceKind::Jump, error: 0.0 };
+                return Found::Jump(k);
             }
-            if value <= error {
+            if value.partial_cmp(&error) != Some(Ordering::Greater) {
                 let why = format!("just after t = {k} t₁ the stress cannot be told from zero");
-                return Bounce::Undecided { until: start * &self.round_trip, why, digits: true };
+                return Found::Answer(Bounce::Undecided { until: start * &self.round_trip, why, digits: true });
             }
-            if let Some(end) = self.cell(route, k) {
-                return end;
+            match self.cell(route, k) {
+                Ok(None) => (),
+                Ok(Some(bracket)) => return Found::Root(bracket),
+                Err(why) => {
+                    let until = start * &self.round_trip;
+                    return Found::Answer(Bounce::Undecided { until, why, digits: true });
+                }
             }
             let looked = k <= 4 || k.count_ones() <= 2 && k % 2 == 0;
             if looked && let Some(reason) = self.settled(k) {
-                return Bounce::Never { reason };
+                return Found::Answer(Bounce::Never { reason });
             }
         }
         let until = mu.int(MOST_CELLS + 1) * &self.round_trip;
-        Bounce::Undecided {
-            until,
-            why: format!("no bounce in {MOST_CELLS} round trips, which is the limit"),
-            digits: false,
-        }
+        let why = format!("no bounce in {MOST_CELLS} round trips, which is the limit");
+        Found::Answer(Bounce::Undecided { until, why, digits: false })
     }
 
     /// Corollary 1, which also settles `μ = μ₀`, where the stress is zero just after `t₁` and rises from there.
@@ -134,7 +171,7 @@ impl<S: Analytic> FirstContact<S> {
         let (mu, mu0, t1) = (&self.rod.speed, &self.critical, &self.round_trip);
         let blur = roundoff(mu) * &mu.int(8);
         if *mu >= *mu0 {
-            let sure = *mu > mu0.clone() + blur.clone() * mu0 || mu0.is_zero();
+            let sure = S::RIGOROUS || *mu > mu0.clone() + blur.clone() * mu0 || mu0.is_zero();
             let error = if sure { 0.0 } else { (blur * t1).to_f64() };
             return Bounce::At { time: t1.clone(), kind: BounceKind::Jump, error };
         }
@@ -156,6 +193,9 @@ impl<S: Analytic> FirstContact<S> {
             return (impact.value * &alpha + weight.value * &beta, error);
         }
         let parts = self.ground(trips, k);
+        if S::RIGOROUS {
+            return (parts.impact.value * &alpha + parts.weight.value * &beta, trips.zero());
+        }
         let bound = |sum: &Sum<S>, share: &S| share.double(sum.roundings + 8.0 * sum.value.to_f64().abs()) * share;
         let error = bound(&parts.impact, &alpha) + &bound(&parts.weight, &beta);
         (parts.impact.value * &alpha + parts.weight.value * &beta, error * &roundoff(trips))
@@ -168,7 +208,8 @@ impl<S: Analytic> FirstContact<S> {
     /// `4 Σ_{all} sin(ω_nτ)/ω_n = ±1`, with `Ω_n² ≥ ¾ω_n²`, `Σ_{n≥N} ω_n⁻² ≤ ω_N⁻² + 1/2πω_N`,
     /// `Σ_{n≥N} ω_n⁻³ ≤ ω_N⁻³ + 1/4πω_N²`. Those between are at most τ and `1/Ω_n`. All others together are at most
     /// `b₀ + b₁τ`. For `R ≥ π`, `S_0` is convex, so one look at τ = 1 is enough for ever; for `R < π` it is concave
-    /// up to `π/Ω_0`, so a look at τ = 1 and at τ = k is enough for all between. Before, `H_r = I₀ > 0`. As long as
+    /// up to `π/Ω_0`, so a look at τ = 1 and at τ = k is enough for all between. The doubles here stand against margins of one part
+    /// in 10⁹: r and π are known to 10⁻¹⁶, so is R − π to `10⁻¹⁶/s²`, and below s = 10⁻⁶ nothing depends on s. Before, `H_r = I₀ > 0`. As long as
     /// H_r > 0, G_r > 0.
     fn lowest_mode(&self) -> Result<i64, Bounce<S>> {
         use std::f64::consts::PI;

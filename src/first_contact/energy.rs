@@ -84,23 +84,28 @@ impl<S: Analytic> FirstContact<S> {
     /// The number of nodes that leave less than a roundoff of `size` between two rays, and what they leave.
     ///
     /// n nodes on an interval of half-width w leave less than `(64/15) w M ρ^{−2n}/(1 − ρ⁻²)`, where M bounds the
-    /// integrand on the Bernstein ellipse ρ, which reaches `δ = (ρ − 1/ρ)/8` beyond an interval of half-width 1/4.
-    fn nodes(&self, trips: &S, size: f64) -> (usize, f64) {
-        let tau = trips.to_f64();
-        let (mu, mu0) = (self.rod.speed.to_f64(), self.critical.to_f64());
+    /// integrand on the Bernstein ellipse ρ, which reaches `δ = (ρ − 1/ρ)w/2` beyond an interval of half-width w.
+    pub(super) fn nodes(&self, trips: &S, size: f64) -> (usize, f64) {
         let goal = self.damping.log2_roundoff() * std::f64::consts::LN_2 + size.max(f64::MIN_POSITIVE).ln();
-        let mut best = f64::INFINITY;
-        for rho in [1.1f64, 1.25, 1.5, 2.0, 4.0, 8.0, 16.0, 32.0, 64.0, 128.0, 256.0] {
-            let beyond = (rho - 1.0 / rho) / 8.0;
-            let amplitude = self.amplitude(tau, beyond, mu, mu0);
-            let log = 2.0 * amplitude.ln() + (5.0 / (1.0 - 1.0 / (rho * rho))).ln();
-            best = best.min((log - goal) / (2.0 * rho.ln()));
-        }
+        let best = self.ellipses(trips).map(|[log, step]| (log - goal) / step).fold(f64::INFINITY, f64::min);
         ((best.ceil().clamp(2.0, MOST_NODES as f64)) as usize, goal.exp())
     }
 
+    /// The logarithms of that bound without nodes, and of what each node takes off, for some ρ.
+    pub(super) fn ellipses(&self, trips: &S) -> impl Iterator<Item = [f64; 2]> {
+        let tau = trips.to_f64();
+        let (mu, mu0) = (self.rod.speed.to_f64(), self.critical.to_f64());
+        [1.1f64, 1.25, 1.5, 2.0, 4.0, 8.0, 16.0, 32.0, 64.0, 128.0, 256.0].into_iter().map(move |rho| {
+            // No ray has come farther than a = τ, and where none has been the integrand does not depend on a.
+            let beyond = (rho - 1.0 / rho) / 2.0 * (tau / 2.0).min(0.25);
+            let amplitude = self.amplitude(tau, beyond, mu, mu0);
+            let log = 2.0 * amplitude.ln() + (5.0 / (1.0 - 1.0 / (rho * rho))).ln();
+            [log, 2.0 * rho.ln()]
+        })
+    }
+
     /// The integral with n nodes between two rays.
-    fn integrate(&self, trips: &S, n: usize) -> Option<Estimate<S>> {
+    pub(super) fn integrate(&self, trips: &S, n: usize) -> Option<Estimate<S>> {
         let nodes = self.sample(trips, n)?;
         let mut sum = trips.zero();
         let mut error = 0.0;
@@ -128,7 +133,7 @@ impl<S: Analytic> FirstContact<S> {
                 places.extend(rule.iter().map(|(x, w)| (mid.clone() * &(x.one() + x) + &from, w.clone() * &mid)));
             }
         }
-        if *trips == trips.one() && self.damping <= trips.one() {
+        if !S::RIGOROUS && *trips == trips.one() && self.damping <= trips.one() {
             return self.sample_first_return(&places);
         }
         let [_, centre] = self.centre_parts(trips)?;

@@ -11,6 +11,7 @@ pub struct Estimate<S> {
     /// The value.
     pub value: S,
     /// A bound of the rounding errors in it, from the magnitudes that were added up; infinite where nothing is known.
+    /// Zero for enclosures, which hold it in themselves.
     pub error: f64,
 }
 
@@ -109,6 +110,9 @@ impl<S: Analytic> FirstContact<S> {
 
     /// The bound that `roundings` stand for.
     pub(super) fn bound(&self, roundings: f64) -> f64 {
+        if S::RIGOROUS {
+            return 0.0;
+        }
         // Below the least double a bound is still no promise of exactness.
         (roundings * negative_power(-self.damping.log2_roundoff())).max(f64::MIN_POSITIVE)
     }
@@ -190,11 +194,11 @@ impl<S: Analytic> FirstContact<S> {
 
     /// `V`, `V_t`, `V_x` at the travel time `a` from the ground, `0 ≤ a ≤ 1/2`.
     pub(super) fn field_parts(&self, a: &S, trips: &S, side: Side) -> Option<[Parts<S>; 3]> {
-        self.field_of(a, trips, |travel, _| travel < trips || (travel == trips && side == Side::Right))
+        self.field_of(a, trips, |_, travel, _| travel < trips || (travel == trips && side == Side::Right))
     }
 
-    /// The same with those rays, of a travel time, upwards or downwards, that have `arrived`.
-    pub(super) fn field_of(&self, a: &S, trips: &S, arrived: impl Fn(&S, bool) -> bool) -> Option<[Parts<S>; 3]> {
+    /// The same with those rays, the j-th of a travel time, upwards or downwards, that have `arrived`.
+    pub(super) fn field_of(&self, a: &S, trips: &S, arrived: impl Fn(i64, &S, bool) -> bool) -> Option<[Parts<S>; 3]> {
         let (r, one) = (&self.damping, trips.one());
         let fall = -(r.int(2) * r * trips);
         let (fallen, dropped) = (-(phi1(&fall) * trips), -(phi2(&fall) * &trips.square()));
@@ -206,7 +210,7 @@ impl<S: Analytic> FirstContact<S> {
         let quarter = r.square() / r.int(2);
         for j in 0..=rays {
             for (travel, down) in [(r.int(j) + a, false), (r.int(j + 1) - a, true)] {
-                if !arrived(&travel, down) {
+                if !arrived(j, &travel, down) {
                     continue;
                 }
                 let ray = Ray::new(r, &travel, trips);
@@ -255,8 +259,14 @@ impl<S: Analytic> FirstContact<S> {
     /// A bound of `v_t`, `c v_x` and `v_t − h′` where the travel time a is complex, at most `δ = beyond` from the rod.
     ///
     /// Let X, Y be `|ξ|`, `|η|` of one ray. The coefficients of every ψ_n are positive, so `|ψ_n(ξ,η)| ≤ ψ_n(X,Y)`, and
-    /// `(R/2)ⁿ ψ_n(X,Y) = qⁿ I_n(z)` with `q² = X/Y`, `z² = R²XY`. As ξ and η are at most δ from real values with the sum
-    /// 2τ, `A = e^{−Rτ} Σ_{n≥0} qⁿI_n ≤ e^{−Rτ} Σ_ℤ qⁿI_n = e^{R(X+Y)/2 − Rτ} ≤ e^{Rδ}`, and X ≤ s = τ + δ. Then
+    /// `(R/2)ⁿ ψ_n(X,Y) = qⁿ I_n(z)` with `q² = X/Y`, `z² = R²XY`. Let `A = e^{−Rτ} Σ_{n≥0} qⁿI_n`; then A is at most `e^{Rκ}`, as
+    /// - `Σ_{n≥0} qⁿI_n ≤ Σ_ℤ qⁿI_n = e^{R(X+Y)/2}`, and ξ and η are at most δ from real values with the sum 2τ: `κ ≤ δ`;
+    /// - `(X+Y)/2` is also at most the root of the mean of X² and Y², `√(τ² + |a|²)`: `κ ≤ √(τ²+2δ²) − τ` where `Re a < 0`;
+    /// - otherwise q ≤ 1 and `Σ_{n≥0} qⁿI_n ≤ (e^z + I₀)/2 ≤ e^z`. For `Im a = y`, `(XY)² = (τ² − x² + y²)² + 4x²y²` is convex in x²,
+    ///   so at most what it is at x = 0, `(τ²+y²)²`, or at x = τ + δ, where X ≤ √2 δ, Y ≤ 2(τ+δ): κ is at most the greater of
+    ///   `√(τ²+δ²) − τ` and `√(3δ(τ+δ)) − τ`.
+    ///
+    /// Further X ≤ s = τ + δ, and
     /// - the impact adds `I₀ + 2Σ(±q)ⁿI_n` to `v_t` and `I₀` to `c v_x`, at most 2A each;
     /// - by `2n I_n = z(I_{n−1} − I_{n+1}) ≤ z I_{n−1}`, the weight's `(2/R) Σ n qⁿ I_n` in `c v_x` is at most XA, and
     ///   `(2/R) Σ n² qⁿ I_n ≤ X(1 + RX/2)A`; in `v_t` no coefficient exceeds `n² + ½`: at most `X(3/2 + RX/2)A`.
@@ -265,7 +275,10 @@ impl<S: Analytic> FirstContact<S> {
     pub(super) fn amplitude(&self, tau: f64, beyond: f64, mu: f64, mu0: f64) -> f64 {
         let (r, s) = (self.damping.to_f64(), tau + beyond);
         let each = 2.0 * mu + 2.0 * mu0 * s * (1.0 + r * s);
-        ((4.0 * tau + 6.0) * each * (r * beyond).exp()).clamp(1e-150, f64::MAX)
+        let square = 2.0 * beyond * beyond;
+        let mean = square / ((tau * tau + square).sqrt() + tau);
+        let growth = beyond.min(mean.max((3.0 * beyond * s).sqrt() - tau));
+        ((4.0 * tau + 6.0) * each * (r * growth).exp()).max(1e-150)
     }
 
     /// `h(t)` and `h′(t) = P/L`: the centre of mass, relative to its place in the undeformed rod on the ground.

@@ -6,14 +6,22 @@
 
 mod bounce;
 mod cells;
+#[cfg(feature = "mp")]
+mod enclosed;
 mod energy;
 mod field;
+#[cfg(feature = "mp")]
+mod peak;
 mod rebound;
 mod search;
 mod undamped;
 mod within;
 
 pub use bounce::{Bounce, BounceKind};
+#[cfg(feature = "mp")]
+pub(crate) use bounce::{Bracket, Found};
 pub use field::{Estimate, FirstContact};
+#[cfg(feature = "mp")]
+pub(crate) use peak::Summit;
 pub use rebound::Rebound;
 pub use undamped::UndampedContact;

@@ -27,7 +27,7 @@ pub struct Rebound<S> {
     pub centre: Estimate<S>,
     /// `h¹ = h′(t_b)`.
     pub velocity: Estimate<S>,
-    rod: Parameters<S>,
+    pub(super) rod: Parameters<S>,
 }
 
 impl<S: Analytic> FirstContact<S> {

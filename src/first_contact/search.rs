@@ -26,7 +26,7 @@ pub(super) fn coefficients(values: &[f64]) -> Vec<f64> {
 }
 
 /// Clenshaw's sum and its derivative.
-fn evaluate(coefficients: &[f64], x: f64) -> (f64, f64) {
+pub(super) fn evaluate(coefficients: &[f64], x: f64) -> (f64, f64) {
     let (mut b1, mut b2, mut d1, mut d2) = (0.0, 0.0, 0.0, 0.0);
     for &c in coefficients.iter().skip(1).rev() {
         let d = 2.0 * b1 + 2.0 * x * d1 - d2;
@@ -50,7 +50,9 @@ fn evaluate(coefficients: &[f64], x: f64) -> (f64, f64) {
 /// Intervals are taken from the left, each begins with a plus, and none is left without proof, so no earlier root is
 /// missed. The one that holds the root is cut until the slope is known within a factor of two.
 pub(super) fn first_root(sum: &[f64], error: f64, sign: impl Fn(f64) -> Sign) -> FirstRoot {
-    let bend: f64 = (0u32..).zip(sum).map(|(n, c)| (f64::from(n).powi(4) - f64::from(n).powi(2)) * c.abs() / 3.0).sum();
+    let bend =
+        (0u32..).zip(sum).map(|(n, c)| (f64::from(n).powi(4) - f64::from(n).powi(2)) * c.abs() / 3.0).sum::<f64>()
+            * (1.0 + 1e-9);
     let steepness = 4.0 * (sum.len() * sum.len()) as f64 * error;
     let known = |x: f64| {
         let (value, _) = evaluate(sum, x);

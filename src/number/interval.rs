@@ -36,7 +36,8 @@ pub fn decided<T>(compute: impl FnOnce() -> T) -> Option<T> {
     (!undecided).then_some(result)
 }
 
-fn undecided() {
+/// Remembers that a comparison could not be settled.
+pub(crate) fn undecided() {
     UNDECIDED.set(true);
 }
 
@@ -486,6 +487,12 @@ impl Scalar for Interval {
         self + by
     }
 
+    fn width(&self) -> Self {
+        let width = up(self.lo.prec(), &self.hi - &self.lo);
+        let inside = self.inside.map(|_| None);
+        Interval::checked(width.clone(), width, inside)
+    }
+
     fn named(mut self) -> Self {
         if matches!(self.inside, Inside::Lost) {
             self.inside = Inside::Known(Box::new(Radical::named()));
@@ -525,10 +532,6 @@ impl Scalar for Interval {
 
     fn plain(self) -> Self {
         Interval { inside: Inside::Off, ..self }
-    }
-
-    fn width(&self) -> f64 {
-        up(53, &self.hi - &self.lo).to_f64_round(Round::Up)
     }
 
     fn take_open() -> bool {

@@ -24,6 +24,8 @@ mod scalar;
 #[cfg(feature = "mp")]
 pub use float::{bits_for_digits, decimal};
 #[cfg(feature = "mp")]
+pub(crate) use interval::undecided;
+#[cfg(feature = "mp")]
 pub use interval::{Interval, IntervalPrecision, decided};
 pub use literal::{Number, NumberError};
 pub use scalar::{Analytic, Scalar};

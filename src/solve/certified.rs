@@ -3,10 +3,11 @@
 use rug::Float;
 use rug::float::Round;
 
+use crate::certified::ProvedContact;
 use crate::error::Error;
 use crate::history::{Ending, History};
 use crate::lattice::{Limits, Undamped};
-use crate::number::{Interval, IntervalPrecision, Scalar, bits_for_digits, decided};
+use crate::number::{Interval, IntervalPrecision, Scalar, bits_for_digits, decided, undecided};
 use crate::rod::Problem;
 
 /// Guard bits of the first try.
@@ -95,7 +96,16 @@ fn history(
         let precision = IntervalPrecision::with_exact(bits);
         return Ok(Box::new(Undamped::<Interval>::solve_within(problem, &precision, Limits::default(), observe)?));
     }
-    Err(Error::NotCertified)
+    if !problem.has_closed_form() {
+        return Err(Error::NotCertified);
+    }
+    match ProvedContact::solve(problem, bits)? {
+        Some(contact) => Ok(Box::new(contact)),
+        None => {
+            undecided();
+            Err(Error::NotDecided { what: "how the contact ends", bits })
+        }
+    }
 }
 
 /// About how many bits more would give each number its digits; zero if all have them.

@@ -2,7 +2,7 @@
 
 use std::any::Any;
 
-use super::{bits, roundoff};
+use super::{bits, enclosed, roundoff};
 use crate::number::Analytic;
 
 /// The double that a generic number is, where it is one: doubles have faster ways.
@@ -102,6 +102,9 @@ fn generic<S: Analytic>(z: &S, n: u32) -> S {
 
 /// The expansion at infinity where it reaches the precision, the series at zero elsewhere.
 fn plain<S: Analytic>(z: &S, n: i64) -> S {
+    if S::RIGOROUS {
+        return enclosed::bessel_scaled(z, n);
+    }
     if z.to_f64() > bits(z) + 64.0 { expansion(z, n) } else { series(z, n) }
 }
 

@@ -8,13 +8,17 @@ use crate::number::Analytic;
 /// **Source**: Newton's method on `P_n`, from Tricomi's `cos(π(4i−1)/(4n+2))`, which lies in the basin of its root for
 /// every `n`; the weight is `2/((1−x²) P_n′(x)²)`.
 ///
-/// **Accuracy**: nodes within a few roundings; weights within `≈ n` roundings, relative.
+/// **Accuracy**: nodes within a few roundings; weights within `≈ n` roundings, relative; both *enclosures* for intervals.
 ///
 /// ```
 /// let rule = dalembert::special::gauss_legendre(&1.0_f64, 2);
 /// assert!((rule[1].0 - 1.0 / 3.0_f64.sqrt()).abs() < 1e-15 && (rule[1].1 - 1.0).abs() < 1e-15);
 /// ```
 pub fn gauss_legendre<S: Analytic>(like: &S, n: usize) -> Vec<(S, S)> {
+    #[cfg(feature = "mp")]
+    if let Some(rule) = super::gauss_enclosed::rule(like, n) {
+        return rule;
+    }
     let one = like.one();
     let half = n.div_ceil(2);
     // Each step doubles the digits; the first guess has four bits or more.
@@ -47,7 +51,7 @@ pub fn gauss_legendre<S: Analytic>(like: &S, n: usize) -> Vec<(S, S)> {
 }
 
 /// `P_n(x)` and `P_n′(x)`, by the three-term recurrence.
-fn legendre<S: Analytic>(x: &S, n: usize) -> (S, S) {
+pub(super) fn legendre<S: Analytic>(x: &S, n: usize) -> (S, S) {
     let (mut before, mut value) = (x.one(), x.clone());
     if n == 0 {
         return (before, x.zero());

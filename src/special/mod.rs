@@ -4,7 +4,10 @@
 #[cfg(feature = "mp")]
 mod backward;
 mod bessel;
+mod enclosed;
 mod gauss;
+#[cfg(feature = "mp")]
+mod gauss_enclosed;
 #[cfg(feature = "mp")]
 mod many;
 mod phi;
@@ -12,6 +15,8 @@ mod precision;
 mod ray;
 
 pub use bessel::{i0_scaled, i1_scaled, in_scaled};
+#[cfg(feature = "mp")]
+pub(crate) use enclosed::confluent;
 pub use gauss::gauss_legendre;
 #[cfg(feature = "mp")]
 pub use many::{in_bounded, in_scaled_bounded, psi_bounded};

@@ -32,7 +32,8 @@ pub fn phi1<S: Analytic>(z: &S) -> S {
 /// ```
 pub fn phi2<S: Analytic>(z: &S) -> S {
     let one = z.one();
-    if z.magnitude() > one {
+    // Both ways are right near the border, so that doubles may tell.
+    if z.to_f64().abs() > 1.0 {
         return (z.exp_m1() - z) / z.square();
     }
     // Σ zᵏ/(k+2)!, by Horner. With |z| ≤ 1 the rest after K terms is below 2/(K+2)!.
@@ -42,7 +43,8 @@ pub fn phi2<S: Analytic>(z: &S) -> S {
         terms += 1;
         left -= ((terms + 1) as f64).log2();
     }
-    let mut sum = one.clone();
+    // What stands in the place of all further terms is between 0 and 2.
+    let mut sum = one.clone().widened(&one);
     for k in (1..=terms).rev() {
         sum = one.clone() + z.clone() * &sum / one.int(k + 2);
     }
@@ -66,12 +68,13 @@ pub fn log_mean<S: Analytic>(y: &S) -> S {
 ///
 /// **Accuracy**: within 32 roundings: at `y = 1/4` the difference is a tenth of `y`.
 pub fn log_rest<S: Analytic>(y: &S) -> S {
-    if *y > y.ratio(1, 4) {
+    if y.to_f64() > 0.25 {
         return (y.clone() - y.ln_1p()) / y.square();
     }
-    // Σ (−y)ᵏ/(k+2): alternating, falling faster than 4⁻ᵏ, so the rest is below the first term left out.
+    // Σ (−y)ᵏ/(k+2): alternating, falling faster than 4⁻ᵏ, so the rest is below the first term left out, and that
+    // below 1.
     let terms = (bits(y) / 2.0) as i64 + 2;
-    let mut sum = y.zero();
+    let mut sum = y.zero().widened(&y.one());
     for k in (0..=terms).rev() {
         sum = y.ratio(1, k + 2) - y.clone() * &sum;
     }

@@ -9,7 +9,7 @@ use std::any::Any;
 
 #[cfg(feature = "mp")]
 use super::{backward::Backward, many::same};
-use super::{bits, i0_scaled, negative_power};
+use super::{bits, enclosed, i0_scaled, negative_power};
 use crate::number::Analytic;
 
 /// A ray of travel time `a` at age `t`: `ξ = t − a`, `η = t + a`, damping `r`.
@@ -55,15 +55,28 @@ impl<S: Analytic> Ray<S> {
 
     /// `I_k(z)/I_{k−1}(z) (ξ/η)^{1/2}` for k = 1 … n.
     pub(super) fn ratios(&self, n: i64) -> Vec<S> {
-        let mut sigma = self.half.zero();
+        let (terms, mut sigma, _) = self.cut(n);
         let mut ratios = Vec::new();
-        for k in (1..=self.terms(n).max(n + 2)).rev() {
+        for k in (1..=terms.max(n + 2)).rev() {
             sigma = self.ratio(k, &sigma) * &self.half;
             if k <= n {
                 ratios.push(sigma.clone());
             }
         }
         ratios
+    }
+
+    /// Where the sums that need the terms up to `first` begin: the last term N, `σ_{N+1}`, and what lies beyond; zero but for
+    /// enclosures.
+    fn cut(&self, first: i64) -> (i64, S, S) {
+        let zero = self.xi.zero();
+        if !S::RIGOROUS {
+            return (self.terms(first), zero.clone(), zero);
+        }
+        let cut = enclosed::cut(&self.half, &self.xi, &self.eta, first.max(1) + 1);
+        // From zero to the bound: a denominator with less than zero in it could hold a zero.
+        let middle = cut.ratio / zero.int(2);
+        (cut.terms, middle.clone().widened(&middle), zero.widened(&cut.rest))
     }
 
     /// `ρ_n` from `σ_{n+1} = (r/2) ρ_{n+1}`; `(r/2) η σ` cannot overflow, since `σ < 1`.
@@ -134,6 +147,9 @@ impl<S: Analytic> Ray<S> {
     /// `e^{−rt} ψ₀`, without overflow: `e^{−r(t−u)} · e^{−ru} I₀(ru)` with `u = √(ξη)`, `t − u = a²/(t+u)`; and its
     /// roundings.
     pub fn start(&self) -> (S, f64) {
+        if S::RIGOROUS {
+            return (enclosed::ray_start(&self.half, &self.xi, &self.eta), 0.0);
+        }
         if let Some(start) = self.long_start() {
             return start;
         }
@@ -160,25 +176,19 @@ impl<S: Analytic> Ray<S> {
     /// recurrence without divisions, with less than that.
     pub fn sums<const K: usize>(&self, first: [i64; K], weight: impl Fn(i64) -> [i64; K]) -> RaySums<S, K> {
         let last = first.iter().copied().max().unwrap_or(1);
-        let terms = self.terms(last);
-        if let Some(sums) = self.long_sums(terms, first, &weight) {
+        if let Some(sums) = self.long_sums(last, first, &weight) {
             return sums;
         }
-        self.sums_by_ratios(terms, first, weight)
+        self.sums_by_ratios(first, weight)
     }
 
-    fn sums_by_ratios<const K: usize>(
-        &self,
-        terms: i64,
-        first: [i64; K],
-        weight: impl Fn(i64) -> [i64; K],
-    ) -> RaySums<S, K> {
+    fn sums_by_ratios<const K: usize>(&self, first: [i64; K], weight: impl Fn(i64) -> [i64; K]) -> RaySums<S, K> {
         let last = first.iter().copied().max().unwrap_or(1);
+        let (terms, mut sigma, rest) = self.cut(last);
         let (start, start_roundings) = self.start();
-        let mut sums: [S; K] = std::array::from_fn(|_| self.xi.zero());
+        let mut sums: [S; K] = std::array::from_fn(|_| rest.clone());
         // ψ_n = ψ_0 ρ_1 ⋯ ρ_n: the last factors are at hand when the pass comes down to n₀.
         let mut heads: [S; K] = std::array::from_fn(|_| start.clone());
-        let mut sigma = self.xi.zero();
         for n in (1..=terms).rev() {
             let weights = weight(n);
             for k in 0..K {
@@ -223,10 +233,14 @@ impl<S: Analytic> Ray<S> {
 
     fn long_sums<const K: usize>(
         &self,
-        terms: i64,
+        last: i64,
         first: [i64; K],
         weight: &impl Fn(i64) -> [i64; K],
     ) -> Option<RaySums<S, K>> {
+        if !(&self.xi as &dyn Any).is::<rug::Float>() {
+            return None;
+        }
+        let terms = self.terms(last);
         let (start, sums, sum_roundings) = self.long(terms)?.sums(first, weight)?;
         let value = rug::Float::with_val(bits(&self.xi) as u32, &start.long);
         Some(RaySums { start: same(value)?, sums: same(sums)?, start_roundings: start.roundings, sum_roundings })
@@ -273,7 +287,7 @@ mod tests {
                     let long = |x: &Float| Float::with_val(2 * p, x);
                     let exact =
                         Ray { xi: long(&ray.xi), eta: long(&ray.eta), half: long(&ray.half), argument: ray.argument };
-                    let (found, sure) = (ray.sums(first, weight), exact.sums_by_ratios(exact.terms(3), first, weight));
+                    let (found, sure) = (ray.sums(first, weight), exact.sums_by_ratios(first, weight));
                     let off = |value: &Float, exact: &Float| {
                         let wrong = Float::with_val(64, value - exact) / exact;
                         (wrong.abs() << p).to_f64()
