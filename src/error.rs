@@ -23,6 +23,14 @@ pub enum Error {
         /// The end of the history.
         end: String,
     },
+    /// A question about a time that the march has gone past and forgotten.
+    #[error("found time {found}, expected one from {start} on: what was before is forgotten")]
+    TimeForgotten {
+        /// The time.
+        found: String,
+        /// The first time that is still known.
+        start: String,
+    },
     /// A question about a point outside of the rod.
     #[error("found point {found}, expected one between 0 and {length}, the rod's length")]
     PointOutside {

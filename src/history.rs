@@ -195,6 +195,12 @@ pub trait History<S: Scalar> {
     /// or, for a damped run in doubles that an accuracy was asked of, sixteen times what separates it from a second one.
     fn error_estimate(&self) -> S;
 
+    /// How many impacts there were and `log₁₀` of the factor by which rounding may have grown over them; `None` where that is
+    /// not followed.
+    fn digits_lost(&self) -> Option<(u32, f64)> {
+        None
+    }
+
     /// What a user should know: events decided by rounding, digits lost. Data, for the caller to print.
     fn warnings(&self) -> &[String];
 }

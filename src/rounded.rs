@@ -155,6 +155,10 @@ impl History<f64> for Rounded {
         self.history.error_estimate().to_f64() + f64::EPSILON
     }
 
+    fn digits_lost(&self) -> Option<(u32, f64)> {
+        self.history.digits_lost()
+    }
+
     fn warnings(&self) -> &[String] {
         &self.warnings
     }

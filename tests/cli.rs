@@ -89,6 +89,7 @@ fn history_schema(history: &Value, is_number: fn(&Value) -> bool) {
             "stress",
             "end",
             "error_estimate",
+            "digits_lost",
             "warnings",
         ],
     );

@@ -357,23 +357,6 @@ fn every_second_contact_undoes_the_vibration() {
     }
 }
 
-/// Two precisions side by side on the chaotic history: the error bound of the lower one covers what separates them.
-#[test]
-fn a_chaotic_history_is_followed_with_enough_digits() {
-    let problem = common::uniform("1", "1", "1", "3/2", Run::Time(160.into()));
-    let history = dalembert::solve::undamped_to_digits(&problem, 15, |_, _| ()).unwrap();
-    let bits = history.end().prec();
-    let check = Undamped::<Float>::solve(&problem, &(2 * bits)).unwrap();
-    assert_eq!(history.events().len(), check.events().len());
-    for (a, b) in history.events().iter().zip(check.events()) {
-        let error = Scalar::to_f64(&(b.time.clone() - &a.time)).abs();
-        assert!(error <= 1e-15 * Scalar::to_f64(&b.time).max(1.0), "{error:e} at {}", b.time);
-    }
-    // Double precision has long lost it by then, and says so.
-    let rounded = Undamped::<f64>::solve(&problem, &()).unwrap();
-    assert!(rounded.warnings().iter().any(|warning| warning.contains("not determined")), "{:?}", rounded.warnings());
-}
-
 /// A long flight is not marched trip by trip: M = 5·10⁷ takes a handful of pieces, and every answer inside is still exact.
 #[test]
 fn long_flights_are_leapt() {

@@ -6,6 +6,8 @@ use serde_json::json;
 use super::{Failure, Format, NumberArgs, OutputArgs, source};
 use crate::output::table;
 use crate::scene::Plan;
+#[cfg(feature = "mp")]
+use crate::scene::{Engine, System};
 
 /// The plan: which effects a scene calls for, which engine and numbers solve it, and what is left out
 #[derive(Args, Debug)]
@@ -21,7 +23,18 @@ pub(super) struct Explain {
 impl Explain {
     pub(super) fn run(&self) -> Result<(), Failure> {
         let scene = source::read(&self.scene)?;
-        let plan = Plan::of(&scene, self.numbers.ask())?;
+        let mut plan = Plan::of(&scene, self.numbers.ask())?;
+        #[cfg(feature = "mp")]
+        if let (Engine::Lattice, System::Digits(digits)) = (plan.engine, plan.system) {
+            let lost = crate::solve::bits_lost(&scene.problem);
+            if lost > 0.0 {
+                plan.reasons.push(format!(
+                    "the impacts up to the end lose about {:.0} digits, so {} are carried",
+                    lost * std::f64::consts::LOG10_2,
+                    (f64::from(digits) + 1.1 * lost * std::f64::consts::LOG10_2).ceil() + 8.0
+                ));
+            }
+        }
         match self.output.format() {
             Format::Json => self.output.write_json(&json!({
                 "schema": 1,

@@ -86,7 +86,7 @@ struct NumberArgs {
 
 impl NumberArgs {
     fn ask(self) -> Ask {
-        Ask { exact: self.exact, certified: self.certified, digits: self.digits, accuracy: self.accuracy }
+        Ask { exact: self.exact, certified: self.certified, digits: self.digits, from: None, accuracy: self.accuracy }
     }
 }
 
@@ -162,9 +162,9 @@ trait Answer {
     fn print<S: Show>(&self, data: &Self::Data<S>, head: &Head) -> Result<(), Failure>;
 }
 
-/// Plans and solves `scene` in the numbers asked for, and lets `what` print of the solution.
-fn answer(scene: &Scene, numbers: NumberArgs, what: &impl Answer) -> Result<(), Failure> {
-    let plan = Plan::of(scene, numbers.ask())?;
+/// Plans and solves `scene` as asked, and lets `what` print of the solution.
+fn answer(scene: &Scene, ask: Ask, what: &impl Answer) -> Result<(), Failure> {
+    let plan = Plan::of(scene, ask)?;
     let head = head(scene, &plan);
     #[cfg(feature = "mp")]
     if let System::Certified(digits) = plan.system {

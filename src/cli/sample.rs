@@ -8,6 +8,7 @@ use crate::history::{Ending, History, Side};
 use crate::number::{Number, Scalar};
 use crate::output::{self, Head, Quantity, Show, sample, samples_csv, samples_json, samples_table};
 use crate::rod::Run;
+use crate::scene::Ask;
 
 /// Values of a quantity at chosen times
 #[derive(Args, Debug)]
@@ -69,6 +70,14 @@ impl List {
         }
     }
 
+    fn least(&self) -> Option<Number> {
+        let less = |a: Number, b: &Number| if b.to_f64() < a.to_f64() { b.clone() } else { a };
+        match self {
+            List::Numbers(numbers) => numbers.iter().cloned().reduce(|a, b| less(a, &b)),
+            List::Range(from, to, _) => Some(less(from.clone(), to)),
+        }
+    }
+
     fn lift<S: Scalar>(&self, precision: &S::Precision) -> Vec<S> {
         match self {
             List::Numbers(numbers) => numbers.iter().map(|number| S::from_number(number, precision)).collect(),
@@ -99,7 +108,8 @@ impl Sample {
             return Err(miette::miette!("found time {last}, expected times from 0 on"));
         }
         scene.problem.run = Run::Time(last);
-        answer(&scene, self.numbers, self)
+        let from = self.times.least().map(|number| number.to_f64());
+        answer(&scene, Ask { from, ..self.numbers.ask() }, self)
     }
 }
 

@@ -29,7 +29,7 @@ impl Solve {
         if self.part.is_some() && self.output.format() != Format::Csv {
             return Err(miette::miette!("found --part, expected it with --format csv only"));
         }
-        answer(&source::read(&self.scene)?, self.numbers, self)
+        answer(&source::read(&self.scene)?, self.numbers.ask(), self)
     }
 }
 

@@ -5,19 +5,30 @@ use super::scaled::Scaled;
 use super::trace::{Occurrence, Trace};
 use crate::error::Error;
 use crate::number::Scalar;
-use crate::rod::Top;
+use crate::rod::{Parameters, Problem, Top};
 
 /// How much a march may take.
 #[derive(Clone, Copy, Debug)]
 pub struct Limits {
     /// The greatest number of pieces that is stored.
     pub pieces: usize,
+    /// The first round trip that will be asked about: what is two trips older is forgotten on the way.
+    pub keep_from: usize,
+}
+
+impl Limits {
+    /// Forgets what no question about `time` or later needs.
+    pub fn keeping_from(problem: &Problem, time: f64) -> Self {
+        let trips = Parameters::<f64>::of(problem, &()).map_or(0.0, |rod| time / rod.round_trip());
+        // One trip more, in case a rounding puts the time into it.
+        Limits { keep_from: (trips.clamp(1.0, 1e15) - 1.0) as usize, ..Limits::default() }
+    }
 }
 
 impl Default for Limits {
     /// Ten million pieces: under a gigabyte in double precision.
     fn default() -> Self {
-        Limits { pieces: 10_000_000 }
+        Limits { pieces: 10_000_000, keep_from: 0 }
     }
 }
 
@@ -69,6 +80,8 @@ pub struct Marched<S> {
     pub grazes: Vec<(usize, S)>,
     /// Why it ended.
     pub halt: Halt<S>,
+    /// How often the end landed, forgotten landings included.
+    pub contacts: u32,
     /// The greatest error bound of any piece, in roundoffs. The time of a tangential landing is not among them: it loses
     /// half the digits, while the motion does not.
     pub greatest_error: f64,
@@ -105,14 +118,16 @@ pub fn march<S: Scalar>(
         greatest_height: problem.greatest_speed(),
     };
     let mut quiet_since = 0;
+    let mut forgotten = 0;
     let mut trip = 0;
     let halt = loop {
-        let (events, height) = (state.occurrences.len(), state.height.clone());
+        let (events, height) = (forgotten + state.occurrences.len(), state.height.clone());
         if let Some(halt) = state.trip(trip, until) {
             break halt;
         }
         trip += 1;
-        if state.occurrences.len() != events {
+        let quiet = forgotten + state.occurrences.len() == events;
+        if !quiet {
             quiet_since = trip;
         }
         if state.trace.count() > limits.pieces {
@@ -120,9 +135,16 @@ pub fn march<S: Scalar>(
             return Err(Error::TooManyPieces { limit: limits.pieces, time });
         }
         observe(trip, state.trace.count());
+        if trip + 1 < limits.keep_from {
+            state.trace.forget();
+            let kept = state.occurrences.partition_point(|occurrence| occurrence.trip + 1 < trip);
+            forgotten += kept;
+            state.occurrences.drain(..kept);
+            state.grazes.clear();
+        }
         // A leap wants a rise of two units; the difference of heights tells well enough whether to look closer.
         let rises = state.height.clone() - &height >= height.int(2);
-        if rises && state.occurrences.len() == events && !state.contact {
+        if rises && quiet && !state.contact {
             trip += state.leap(trip, until);
         }
         // Two round trips without an event repeat for ever, up to the drift of a rod that flies freely without gravity.
@@ -137,6 +159,6 @@ pub fn march<S: Scalar>(
             }
         }
     };
-    let March { trace, occurrences, grazes, greatest_error, relative_error, .. } = state;
-    Ok(Marched { trace, occurrences, grazes, halt, greatest_error, relative_error })
+    let March { trace, occurrences, grazes, contacts, greatest_error, relative_error, .. } = state;
+    Ok(Marched { trace, occurrences, grazes, halt, contacts, greatest_error, relative_error })
 }

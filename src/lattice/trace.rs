@@ -122,7 +122,8 @@ impl<S: Scalar> Trace<S> {
     /// The stored round trips after the start: number (from 0) and pieces. Between them lie flights that repeat the trip
     /// before them but for gravity.
     pub fn stored(&self) -> impl Iterator<Item = (usize, &[Piece<S>])> {
-        self.slots.iter().enumerate().skip(1).map(|(k, slot)| (slot.first - 1, self.pieces_of(k)))
+        let after_start = self.slots.iter().enumerate().filter(|(_, slot)| slot.first > 0);
+        after_start.map(|(k, slot)| (slot.first - 1, self.pieces_of(k)))
     }
 
     /// How many round trips there are, the last perhaps in part.
@@ -132,7 +133,27 @@ impl<S: Scalar> Trace<S> {
 
     /// How many pieces are stored after the start.
     pub fn count(&self) -> usize {
-        self.pieces.len() - self.slots.get(1).map_or(self.pieces.len(), |slot| slot.start)
+        let before = match self.slots.first() {
+            Some(slot) if slot.first == 0 => self.slots.get(1).map_or(self.pieces.len(), |slot| slot.start),
+            _ => 0,
+        };
+        self.pieces.len() - before
+    }
+
+    /// The first trip with another stored before it, which is what questions about it need.
+    pub(crate) fn begin(&self) -> usize {
+        self.slots.first().map_or(0, |slot| slot.first) + 1
+    }
+
+    /// Forgets all but the last two trips that are stored.
+    pub(crate) fn forget(&mut self) {
+        let old = self.slots.len().saturating_sub(2);
+        let from = self.slots[old].start;
+        self.slots.drain(..old);
+        for slot in &mut self.slots {
+            slot.start -= from;
+        }
+        self.pieces.drain(..from);
     }
 
     fn pieces_of(&self, slot: usize) -> &[Piece<S>] {

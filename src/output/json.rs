@@ -84,6 +84,7 @@ pub fn history_json<S: Show>(record: &Record<S>, head: &Head) -> Value {
         "stress": {"pieces": pieces.collect::<Vec<_>>()},
         "end": ending_json(&record.end.1, number(&record.end.0)),
         "error_estimate": record.error.as_ref().map(|error| error.to_f64()),
+        "digits_lost": record.lost.map(|(_, digits)| digits),
         "warnings": record.warnings,
     })
 }

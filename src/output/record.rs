@@ -91,6 +91,8 @@ pub struct Record<S> {
     pub forces: Option<(S, S)>,
     /// Bound on the error relative to the natural scales; `None` where all is exact.
     pub error: Option<S>,
+    /// Impacts, and the digits that rounding may have taken over them; `None` where that is not followed.
+    pub lost: Option<(u32, f64)>,
     /// What the user should know.
     pub warnings: Vec<String>,
 }
@@ -145,6 +147,7 @@ pub fn record<S: Scalar>(history: &dyn History<S>, head: &Head, stress: bool) ->
         end: (end, history.ending().clone()),
         forces,
         error,
+        lost: history.digits_lost(),
         warnings: history.warnings().to_vec(),
     };
     if let Some(Bounds { rise: of_rise, speed: of_speed, strain: of_strain, energy: of_energy, ratio }) =

@@ -129,8 +129,17 @@ pub fn history_table<S: Show>(record: &Record<S>, head: &Head) -> String {
     {
         out += &format!("error estimate: {:.1e} of the scale of each quantity\n", error.to_f64());
     }
+    if let Some((impacts, lost)) = record.lost
+        && lost >= MANY_LOST
+    {
+        let each = lost / f64::from(impacts.max(1));
+        out += &format!("{impacts} impacts may have lost {lost:.1} digits to rounding, {each:.2} each\n");
+    }
     out
 }
+
+/// Below so many digits lost, nobody need be told.
+const MANY_LOST: f64 = 3.0;
 
 /// Samples.
 pub fn samples_table<S: Show>(samples: &[Sample<S>], quantity: Quantity, head: &Head) -> String {

@@ -16,6 +16,8 @@ pub struct Ask {
     pub digits: Option<u32>,
     /// Enclosures: every digit printed is proved. With `digits`, or else 15 of them.
     pub certified: bool,
+    /// Nothing before this time will be asked for, so an undamped march may forget it.
+    pub from: Option<f64>,
     /// The accuracy relative to the natural scales, before that of the scene.
     pub accuracy: Option<f64>,
 }
@@ -77,6 +79,8 @@ pub struct Plan {
     pub engine: Engine,
     /// The numbers.
     pub system: System,
+    /// The first time that will be asked for.
+    pub from: Option<f64>,
     /// Why this engine and these numbers.
     pub reasons: Vec<String>,
     /// What it will take, in words.
@@ -173,7 +177,7 @@ impl Plan {
                 because: format!("{system} asked for"),
             },
         });
-        Ok(Plan { effects, engine, system, reasons, cost })
+        Ok(Plan { effects, engine, system, from: ask.from, reasons, cost })
     }
 
     /// The names of the effects that the scene itself calls for.

@@ -8,7 +8,7 @@ use crate::error::Error;
 use crate::first_contact::{Bounce, FirstContact};
 use crate::history::History;
 use crate::lattice::{Limits, Undamped};
-use crate::number::bits_for_digits;
+use crate::number::{Number, bits_for_digits};
 use crate::rod::{Parameters, Problem, Run};
 
 /// Guard bits of the first try. Few runs need more; the bound of each run tells.
@@ -16,6 +16,8 @@ const GUARD_BITS: u32 = 64;
 /// Digits that must be left beyond those printed, so that a quantity small against its scale still has all of them.
 const SPARE_DIGITS: u32 = 8;
 const MAX_BITS: u32 = 1 << 22;
+/// Bits of a double that may be lost while its history is still one that is near.
+const KNOWN_BITS: f64 = 40.0;
 /// How often a damped run is repeated with more bits.
 const MOST_TRIES: u32 = 6;
 
@@ -32,12 +34,15 @@ pub(super) fn of_accuracy(accuracy: Option<f64>) -> u32 {
 pub fn undamped_to_digits(
     problem: &Problem,
     digits: u32,
+    limits: Limits,
     mut observe: impl FnMut(usize, usize),
 ) -> Result<Undamped<Float>, Error> {
     let (wanted, spare) = (bits_for_digits(digits), bits_for_digits(SPARE_DIGITS));
-    let mut bits = wanted + GUARD_BITS;
+    // A tenth more than foreseen is cheaper than a second run.
+    let foreseen = (1.1 * bits_lost(problem)).min(f64::from(MAX_BITS)) as u32 + spare;
+    let mut bits = wanted + GUARD_BITS.max(foreseen + 8);
     loop {
-        let history = Undamped::<Float>::solve_within(problem, &bits, Limits::default(), &mut observe)?;
+        let history = Undamped::<Float>::solve_within(problem, &bits, limits, &mut observe)?;
         let marched = history.marched();
         let of_values = marched.greatest_error.log2() + f64::from(spare);
         // One bit more for half a unit of the last digit.
@@ -53,6 +58,46 @@ pub fn undamped_to_digits(
             return Err(Error::Unsettled { digits, bits });
         }
         bits += more as u32;
+    }
+}
+
+/// How many bits the history of an undamped rod loses to rounding: `log₂` of the factor by which its error bound grows.
+///
+/// **Source**: marches in double precision, each twice as long as the one before, as far as doubles know the history;
+/// where they do not know its end, the loss goes on at the same rate per round trip. In a chaotic history the impacts
+/// multiply, and the loss of each becomes smaller, but that of a round trip does not.
+///
+/// **Accuracy**: *f64 estimate*; zero where the run is not given by a time.
+///
+/// ```
+/// use dalembert::{Problem, rod::Run, solve::bits_lost};
+/// let mut problem = Problem::uniform(1.into(), 1.into(), 1.into(), "3/2".parse()?);
+/// problem.run = Run::Time(400.into());
+/// // About 48 digits.
+/// assert!((150.0..180.0).contains(&bits_lost(&problem)));
+/// # Ok::<(), dalembert::number::NumberError>(())
+/// ```
+pub fn bits_lost(problem: &Problem) -> f64 {
+    let Run::Time(end) = &problem.run else { return 0.0 };
+    let (Ok(rod), end) = (Parameters::<f64>::of(problem, &()), end.to_f64()) else { return 0.0 };
+    let (mut time, mut lost) = (end.min(4.0 * rod.round_trip()), 0.0);
+    loop {
+        let Ok(number) = time.to_string().parse::<Number>() else { return lost };
+        let part = Problem { run: Run::Time(number), ..problem.clone() };
+        let Ok(history) = Undamped::<f64>::solve_within(&part, &(), Limits::keeping_from(problem, time), |_, _| ())
+        else {
+            return lost;
+        };
+        let found = history.marched().greatest_error.max(1.0).log2();
+        // Beyond that a double decides by signs that it does not know.
+        if found > KNOWN_BITS {
+            return if lost > 0.0 { lost } else { found * end / time };
+        }
+        lost = found * end / time;
+        if time >= end {
+            return lost;
+        }
+        time = (2.0 * time).min(end);
     }
 }
 

@@ -18,7 +18,7 @@ mod twice;
 #[cfg(feature = "mp")]
 pub use certified::{certify, proved_digits, proved_ends};
 #[cfg(feature = "mp")]
-pub use digits::{damped_to_digits, undamped_to_digits};
+pub use digits::{bits_lost, damped_to_digits, undamped_to_digits};
 
 /// A history in the numbers that its plan chose.
 pub enum Solution {
@@ -51,10 +51,11 @@ pub enum Solution {
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 pub fn solve(problem: &Problem, plan: &Plan, mut observe: impl FnMut(usize, usize)) -> Result<Solution, Error> {
+    let limits = plan.from.map_or_else(Limits::default, |time| Limits::keeping_from(problem, time));
     match plan.system {
         System::Double(accuracy) => {
             let history = match plan.engine {
-                Engine::Lattice => undamped_in_doubles(problem, accuracy, &mut observe)?,
+                Engine::Lattice => undamped_in_doubles(problem, accuracy, limits, &mut observe)?,
                 Engine::Cells => damped_in_doubles(problem, accuracy)?,
             };
             Ok(Solution::Double(history))
@@ -62,25 +63,28 @@ pub fn solve(problem: &Problem, plan: &Plan, mut observe: impl FnMut(usize, usiz
         #[cfg(feature = "mp")]
         System::Digits(digits) => {
             let history = match plan.engine {
-                Engine::Lattice => Box::new(undamped_to_digits(problem, digits, &mut observe)?),
+                Engine::Lattice => Box::new(undamped_to_digits(problem, digits, limits, &mut observe)?),
                 Engine::Cells => damped_to_digits(problem, digits)?,
             };
             Ok(Solution::Digits(history, digits))
         }
         #[cfg(feature = "mp")]
         System::Exact(digits) => {
-            let exact = match Undamped::<rug::Rational>::solve_within(problem, &(), Limits::default(), &mut observe) {
+            let exact = match Undamped::<rug::Rational>::solve_within(problem, &(), limits, &mut observe) {
                 // Not even the parameters are fractions: in digits from the beginning.
                 Err(error @ Error::Irrational { .. }) => {
                     let digits = digits.ok_or(error)?;
-                    return Ok(Solution::Digits(Box::new(undamped_to_digits(problem, digits, &mut observe)?), digits));
+                    return Ok(Solution::Digits(
+                        Box::new(undamped_to_digits(problem, digits, limits, &mut observe)?),
+                        digits,
+                    ));
                 }
                 exact => exact?,
             };
             let rest = match digits {
                 Some(digits) if matches!(exact.ending(), Ending::ExactnessEnds { .. }) => {
                     let rest: Box<dyn History<rug::Float>> =
-                        Box::new(undamped_to_digits(problem, digits, &mut observe)?);
+                        Box::new(undamped_to_digits(problem, digits, limits, &mut observe)?);
                     Some((rest, digits))
                 }
                 _ => None,
@@ -98,12 +102,13 @@ pub fn solve(problem: &Problem, plan: &Plan, mut observe: impl FnMut(usize, usiz
 fn undamped_in_doubles(
     problem: &Problem,
     accuracy: Option<f64>,
+    limits: Limits,
     mut observe: impl FnMut(usize, usize),
 ) -> Result<Box<dyn History<f64>>, Error> {
-    let history = Undamped::<f64>::solve_within(problem, &(), Limits::default(), &mut observe)?;
+    let history = Undamped::<f64>::solve_within(problem, &(), limits, &mut observe)?;
     #[cfg(feature = "mp")]
     if accuracy.is_some_and(|accuracy| history.error_estimate() > accuracy) {
-        let history = undamped_to_digits(problem, digits::of_accuracy(accuracy), observe)?;
+        let history = undamped_to_digits(problem, digits::of_accuracy(accuracy), limits, observe)?;
         return Ok(Box::new(crate::rounded::Rounded::new(Box::new(history))));
     }
     let _ = accuracy;

@@ -163,6 +163,10 @@ impl<S: Scalar> History<S> for Undamped<S> {
         if S::RIGOROUS { zero } else { zero.double(self.marched.relative_error) * zero.roundoff() }
     }
 
+    fn digits_lost(&self) -> Option<(u32, f64)> {
+        (!S::RIGOROUS).then(|| (self.marched.contacts, self.marched.greatest_error.max(1.0).log10()))
+    }
+
     fn warnings(&self) -> &[String] {
         &self.warnings
     }

@@ -1,0 +1,88 @@
+//! μ = 3/2 with c = L = g = 1: breaks and impacts multiply, digits are lost, and as many are carried as it takes.
+#![cfg(feature = "mp")]
+#![allow(clippy::unwrap_used)]
+
+mod common;
+
+use dalembert::lattice::{Limits, Undamped};
+use dalembert::rod::Run;
+use dalembert::solve::{bits_lost, undamped_to_digits};
+use dalembert::{Ask, Error, History, Plan, Problem, Scene, Side, Solution, solve};
+use rug::Float;
+
+fn chaotic(time: i64) -> Problem {
+    common::uniform("1", "1", "1", "3/2", Run::Time(time.into()))
+}
+
+/// Two precisions side by side: the error bound of the lower one covers what separates them.
+#[test]
+fn every_event_has_its_digits() {
+    let problem = chaotic(160);
+    let history = undamped_to_digits(&problem, 15, Limits::default(), |_, _| ()).unwrap();
+    let bits = history.end().prec();
+    let check = Undamped::<Float>::solve(&problem, &(2 * bits)).unwrap();
+    assert_eq!(history.events().len(), check.events().len());
+    for (a, b) in history.events().iter().zip(check.events()) {
+        let error = Float::with_val(64, &b.time - &a.time).abs().to_f64();
+        assert!(error <= 1e-15 * b.time.to_f64().max(1.0), "{error:e} at {}", b.time);
+    }
+    // Double precision has long lost it by then, and says so.
+    let rounded = Undamped::<f64>::solve(&problem, &()).unwrap();
+    assert!(rounded.warnings().iter().any(|warning| warning.contains("not determined")), "{:?}", rounded.warnings());
+}
+
+/// The loss that a few doubles foresee is the loss that the bound of the long run has, and the bits that follow from it are
+/// enough at the first try.
+#[test]
+fn the_loss_is_foreseen() {
+    for time in [100, 200, 260] {
+        let problem = chaotic(time);
+        let foreseen = bits_lost(&problem);
+        let history = undamped_to_digits(&problem, 15, Limits::default(), |_, _| ()).unwrap();
+        let (impacts, digits) = history.digits_lost().unwrap();
+        let found = digits * std::f64::consts::LOG2_10;
+        assert!((foreseen / found - 1.0).abs() < 0.25, "t = {time}: {foreseen} foreseen, {found} found");
+        assert!(digits / f64::from(impacts) < 0.3);
+        assert!(f64::from(history.end().prec()) < 50.0 + 27.0 + 1.4 * found + 40.0);
+    }
+    // A periodic history loses next to nothing, however long.
+    let mut periodic = chaotic(2000);
+    periodic.start = dalembert::rod::Start::Uniform(dalembert::rod::Speed::Given(3.into()));
+    assert!(bits_lost(&periodic) < 20.0, "{}", bits_lost(&periodic));
+}
+
+/// 373 019 impacts to t = 400, with what lies long behind forgotten on the way. 48 digits are lost; 15 are right all the same,
+/// by a run with more than twice the bits.
+#[test]
+fn fifteen_digits_at_t_400() {
+    let scene = "rod = { length = 1, wave_speed = 1 }\nimpact = { speed = \"3/2\" }\ngravity = { acceleration = 1 }\n\
+                 run = { time = 400 }";
+    let scene = Scene::parse(scene).unwrap();
+    let plan = Plan::of(&scene, Ask { digits: Some(15), from: Some(400.0), ..Ask::default() }).unwrap();
+    let Solution::Digits(history, 15) = solve(&scene.problem, &plan, |_, _| ()).unwrap() else { unreachable!() };
+    let bits = history.end().prec();
+    assert!(bits < 320, "{bits} bits");
+    let limits = Limits::keeping_from(&scene.problem, 400.0);
+    let check = Undamped::<Float>::solve_within(&scene.problem, &(2 * bits + 64), limits, |_, _| ()).unwrap();
+    assert_eq!(check.marched().contacts, 373_019);
+    let values = |history: &dyn History<Float>| {
+        let end = history.end();
+        let (h, rate) = history.centre(&end).unwrap();
+        let (v, speed) = history.ground_end(&end, Side::Left).unwrap();
+        let energy = history.energy(&end).unwrap();
+        vec![h, rate, v, speed, energy.vibrational, energy.translational, energy.total]
+    };
+    let (ours, truth) = (values(history.as_ref()), values(&check));
+    for (k, (a, b)) in ours.iter().zip(&truth).enumerate() {
+        let error = Float::with_val(64, a - b).abs().to_f64();
+        assert!(error <= 1e-15 * b.to_f64().abs(), "{k}: {a} {b}");
+    }
+    // E = μ²L/2 through all of them.
+    assert!((truth[6].to_f64() - 1.125).abs() < 1e-15);
+    let (impacts, digits) = history.digits_lost().unwrap();
+    assert_eq!(impacts, 373_019);
+    assert!((40.0..60.0).contains(&digits), "{digits}");
+    // What was forgotten is refused, not made up.
+    let early = Float::with_val(bits, 100);
+    assert!(matches!(history.centre(&early), Err(Error::TimeForgotten { .. })));
+}
