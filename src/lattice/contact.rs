@@ -112,7 +112,7 @@ impl<S: Scalar> March<S> {
                 rise_error += jump.to_f64().abs() * pair[1].fraction_error;
             }
         }
-        self.trace.window(trip, &zero, &zero.one(), |Part { width, value, slope, .. }| {
+        self.trace.window((trip, &zero), (trip, &zero.one()), |Part { width, value, slope, .. }| {
             let part = (slope * &width / width.int(2) + &value) * &width;
             if !S::RIGOROUS {
                 size += part.to_f64().abs();
@@ -155,8 +155,15 @@ impl<S: Scalar> March<S> {
         self.trace.begin_trip();
         let ((mut at, fallen), end) = (self.trace.start_of(trip), self.trace.last_start());
         while at < end {
+            let known = (self.occurrences.len(), self.trace.pieces().len());
             let (mut incoming, next) = self.incoming(at, end, &fallen);
             at = next;
+            let open = |march: &mut Self| {
+                S::take_open().then(|| {
+                    march.occurrences.truncate(known.0);
+                    march.trace.truncate(known.1);
+                })
+            };
             if let Until::Age(last, stop) = until
                 && *last <= trip
             {
@@ -173,11 +180,15 @@ impl<S: Scalar> March<S> {
                     }
                     self.decide(trip, &rest, until);
                     self.leave(&rest.from, &rest, rest.from_error);
-                    return Some(Halt::Time);
+                    return Some(if open(self).is_some() { Halt::Open(trip, incoming.from) } else { Halt::Time });
                 }
             }
-            if let Some(halt) = self.stretch(trip, &incoming, until) {
-                return Some(halt);
+            let halt = self.stretch(trip, &incoming, until);
+            if open(self).is_some() {
+                return Some(Halt::Open(trip, incoming.from));
+            }
+            if halt.is_some() {
+                return halt;
             }
         }
         None

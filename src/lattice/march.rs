@@ -41,6 +41,8 @@ pub enum Halt<S> {
     NoFurtherImpact,
     /// In contact, and two round trips have repeated without an event.
     NoBounce,
+    /// A comparison of enclosures is open at or after this trip and age: what is there before it holds.
+    Open(usize, S),
     /// The next landing is at `trip + fraction + (−q − √disc)/slope`, which is no fraction.
     Irrational {
         /// The round trip.

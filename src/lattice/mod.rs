@@ -12,7 +12,7 @@
 //! as that fraction and never drifts. There is no time step: the march goes from break to break and from event to event.
 //!
 //! Reading order: `scaled` (units and start), `trace` (what is stored), `march` (how far, and what it leaves), `contact`
-//! (contact law and events), `solution` (what can be asked), `rays` (the jumps of Proposition 2).
+//! (contact law and events), `solution` (what can be asked, with the answers in a file of their own), `rays` (the jumps of Proposition 2).
 
 mod contact;
 mod march;

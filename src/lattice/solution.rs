@@ -1,4 +1,6 @@
-//! What can be asked of an undamped history.
+//! The history of an undamped rod: from a march to events, contacts, and any place in between.
+
+mod answers;
 
 use std::sync::OnceLock;
 
@@ -6,7 +8,7 @@ use super::march::{Halt, Limits, Marched, Until, march};
 use super::scaled::{Scaled, Units};
 use super::trace::{Occurrence, Part, Piece};
 use crate::error::Error;
-use crate::history::{Contact, Ending, Energy, Event, EventKind, Field, History, Scales, Side, StressPiece};
+use crate::history::{Contact, Ending, Event, EventKind, Field, History, Side};
 use crate::number::Scalar;
 use crate::rod::{Problem, Run, Top};
 
@@ -100,6 +102,22 @@ impl<S: Scalar> Undamped<S> {
                     "the end stays on the ground for two whole round trips, which repeat for ever".into(),
                 );
             }
+            (Halt::Open(trip, fraction), _) => {
+                history.end = moment(*trip, fraction);
+                let Units { round_trip, velocity, .. } = &history.problem.units;
+                let height = if history.end.index > trips { trips } else { history.end.index };
+                let at = Moment {
+                    index: height,
+                    fraction: if height < history.end.index { fraction.one() } else { fraction.clone() },
+                };
+                let apart = history.marched.trace.apart(&history.height_at(&at));
+                history.ending = Ending::Undecided(format!(
+                    "within a round trip comes a touch that {} bits do not tell from a miss; either way v(0,t) is the same up to \
+                     {:.1e} for one round trip, and up to three times more after each one more",
+                    fraction.bits().unwrap_or(0),
+                    apart * (velocity.clone() * round_trip).to_f64(),
+                ));
+            }
             (Halt::Irrational { .. }, _) => history.stop_before_surd(),
         }
         if history.end.index == trips + 1 && history.end.fraction.is_zero() && !matches!(history.ending, Ending::Time) {
@@ -164,9 +182,8 @@ impl<S: Scalar> Undamped<S> {
         let (mut push, mut lift) = (width.zero(), width.zero());
         if before.kind == EventKind::Impact {
             self.marched.trace.window(
-                before.trip + 1,
-                &before.fraction,
-                &width,
+                (before.trip + 1, &before.fraction),
+                (now.trip + 1, &now.fraction),
                 |Part { offset, width: w, value, slope }| {
                     let (first, second) = moments(&w, &value, &slope);
                     push = push.clone() + &first;
@@ -194,7 +211,7 @@ impl<S: Scalar> Undamped<S> {
             let until = released.as_ref().unwrap_or(&end);
             let width = until.fraction.int(until.index as i64 - from.index as i64) + &until.fraction - &from.fraction;
             let (mut sum, mut peak) = (width.zero(), width.zero());
-            self.marched.trace.window(from.index, &from.fraction, &width, |part| {
+            self.marched.trace.window((from.index, &from.fraction), (until.index, &until.fraction), |part| {
                 let rise = part.slope.clone() * &part.width;
                 let at_end = part.value.clone() + &rise;
                 peak = peak.clone().larger(part.value.clone()).larger(at_end);
@@ -322,9 +339,20 @@ impl<S: Scalar> Undamped<S> {
             let fraction = moment.fraction.clone() - width;
             if fraction.is_negative() { (moment.index - 1, fraction + width.one()) } else { (moment.index, fraction) }
         };
-        trace.window(from.0, &from.1, width, |part| upward([part.offset, part.width, part.value, part.slope]));
-        trace.window(moment.index - 1, &moment.fraction, width, |part| {
-            downward([part.offset, part.width, trace.returned(&part.value), trace.returned_slope(&part.slope)]);
+        // Exact sums of many parts outgrow any use.
+        let long = trace.slice(moment.index).len() > MANY_PARTS;
+        let carried = |part: [S; 4]| if long { part.map(S::plain) } else { part };
+        let (at, earlier) = (&moment.fraction, moment.index - 1);
+        trace.window((from.0, &from.1), (moment.index, at), |part| {
+            upward(carried([part.offset, part.width, part.value, part.slope]))
+        });
+        let until = {
+            let (fraction, one) = (at.clone() + width, width.one());
+            if fraction > one { (moment.index, fraction - one) } else { (earlier, fraction) }
+        };
+        trace.window((earlier, at), (until.0, &until.1), |part| {
+            let (q, slope) = (trace.returned(&part.value), trace.returned_slope(&part.slope));
+            downward(carried([part.offset, part.width, q, slope]));
         });
     }
 
@@ -395,188 +423,7 @@ fn moments<S: Scalar>(w: &S, a: &S, m: &S) -> (S, S) {
 
 /// An event whose time may be off by this much of a round trip is no longer determined.
 const LOST: f64 = 1e-3;
+/// Round trips of more pieces are summed without exact numbers.
+const MANY_PARTS: usize = 32;
 /// Parts of a round trip to which the end of an exact history is rounded down.
 const MILLION: i64 = 1_000_000;
-
-impl<S: Scalar> History<S> for Undamped<S> {
-    fn end(&self) -> S {
-        self.time_of(&self.end)
-    }
-
-    fn ending(&self) -> &Ending {
-        &self.ending
-    }
-
-    fn events(&self) -> &[Event<S>] {
-        self.events.get_or_init(|| self.tell_events())
-    }
-
-    fn contacts(&self) -> &[Contact<S>] {
-        self.contacts.get_or_init(|| self.tell_contacts())
-    }
-
-    fn stress_pieces(&self) -> Vec<StressPiece<S>> {
-        let Units { wave_speed, velocity, .. } = &self.problem.units;
-        let scale = velocity.clone() / wave_speed;
-        let mut out: Vec<StressPiece<S>> = Vec::new();
-        let mut last: Option<(&Piece<S>, usize)> = None;
-        let mut close = |from: &Piece<S>, trip: usize, to: &Moment<S>| {
-            let stress = |age: S| {
-                if !from.contact {
-                    return age.zero();
-                }
-                -(from.at(&(age + &from.fraction)) * &scale)
-            };
-            let width = to.fraction.int(to.index as i64 - 1 - trip as i64) + &to.fraction - &from.fraction;
-            if width.is_positive() {
-                let begin = Moment { index: trip + 1, fraction: from.fraction.clone() };
-                out.push(StressPiece {
-                    from: self.time_of(&begin),
-                    to: self.time_of(to),
-                    left: stress(width.zero()),
-                    right: stress(width),
-                    chebyshev: Vec::new(),
-                });
-            }
-        };
-        for (trip, pieces) in self.marched.trace.stored() {
-            for piece in pieces {
-                let here = Moment { index: trip + 1, fraction: piece.fraction.clone() };
-                match last {
-                    Some((from, begun)) if self.continues(from, begun, piece, trip) => continue,
-                    Some((from, begun)) => close(from, begun, &here),
-                    None => (),
-                }
-                last = Some((piece, trip));
-            }
-        }
-        if let Some((from, begun)) = last {
-            close(from, begun, &self.end);
-        }
-        out
-    }
-
-    fn stress(&self, time: &S, side: Side) -> Result<S, Error> {
-        let moment = self.locate(time)?;
-        let (found, piece) = self.piece_at(&moment, side);
-        // Before the start nothing is stressed at the ground.
-        if found == 0 || !piece.contact {
-            return Ok(time.zero());
-        }
-        let p = self.marched.trace.value(moment.index, &moment.fraction, side == Side::Left);
-        Ok(-(p * &self.problem.units.velocity / &self.problem.units.wave_speed))
-    }
-
-    fn ground_end(&self, time: &S, side: Side) -> Result<(S, S), Error> {
-        let moment = self.locate(time)?;
-        let Units { round_trip, velocity, .. } = &self.problem.units;
-        let (found, piece) = self.piece_at(&moment, side);
-        let rate = if found == 0 {
-            self.problem.ground_velocity.clone()
-        } else if piece.contact {
-            time.zero()
-        } else {
-            self.marched.trace.value(moment.index, &moment.fraction, side == Side::Left)
-        };
-        Ok((self.height_at(&moment) * velocity * round_trip, rate * velocity))
-    }
-
-    fn top_end(&self, time: &S, side: Side) -> Result<(S, S), Error> {
-        let top = self.field_at(&self.locate(time)?, &self.problem.units.length, side);
-        Ok((top.displacement, top.velocity))
-    }
-
-    fn centre(&self, time: &S) -> Result<(S, S), Error> {
-        let (h, rate) = self.centre_at(&self.locate(time)?);
-        let Units { round_trip, velocity, .. } = &self.problem.units;
-        Ok((h * velocity * round_trip, rate * velocity))
-    }
-
-    fn energy(&self, time: &S) -> Result<Energy<S>, Error> {
-        let moment = self.locate(time)?;
-        let Units { velocity, length, .. } = &self.problem.units;
-        let gravity = &self.problem.gravity;
-        let (h, rate) = self.centre_at(&moment);
-        let half = h.ratio(1, 2);
-        let (mut up, mut down) = (h.zero(), h.zero());
-        // ∫ (a + m s)² ds over a part, as a sum of squares about its middle.
-        let square = |w: &S, a: S, m: &S| {
-            let rise = m.clone() * w;
-            let middle = a + rise.clone() / w.int(2);
-            (middle.square() + rise.square() / w.int(12)) * w
-        };
-        self.window(
-            &moment,
-            &half,
-            |[offset, w, a, m]| {
-                let lift = gravity.clone() * (half.clone() - &offset);
-                up = up.clone() + square(&w, a - lift - &rate, &(m + gravity));
-            },
-            |[offset, w, a, m]| {
-                let lift = gravity.clone() * &offset;
-                down = down.clone() + square(&w, a + lift - &rate, &(m + gravity));
-            },
-        );
-        let unit = velocity.square() * length;
-        let vibrational = (up + down) / h.int(2) * &unit;
-        let translational = (rate.square() / h.int(2) + gravity.clone() * &h) * &unit;
-        Ok(Energy { total: translational.clone() + &vibrational, translational, vibrational })
-    }
-
-    fn field(&self, point: &S, time: &S, side: Side) -> Result<Field<S>, Error> {
-        let length = &self.problem.units.length;
-        if point.is_negative() || point > length || !point.is_finite() {
-            return Err(Error::PointOutside { found: point.text(), length: length.text() });
-        }
-        Ok(self.field_at(&self.locate(time)?, point, side))
-    }
-
-    fn highest(&self, release: &Event<S>) -> Option<(S, S)> {
-        let Units { round_trip, velocity, .. } = &self.problem.units;
-        if self.problem.gravity.is_zero() || self.problem.top == Top::Fixed || release.centre_velocity.is_negative() {
-            return None;
-        }
-        let gravity = velocity.clone() / round_trip;
-        let rate = &release.centre_velocity;
-        let rise = rate.square() / &gravity / rate.int(2);
-        Some((release.time.clone() + rate.clone() / &gravity, release.centre.clone() + rise))
-    }
-
-    fn scales(&self) -> Scales<S> {
-        let Units { round_trip, velocity, length, wave_speed } = self.problem.units.clone();
-        let velocity = velocity.double(self.problem.greatest_speed()) * velocity;
-        Scales { time: round_trip, velocity, length, wave_speed }
-    }
-
-    fn error_estimate(&self) -> S {
-        let zero = self.problem.gravity.zero();
-        if S::RIGOROUS { zero } else { zero.double(self.marched.relative_error) * zero.roundoff() }
-    }
-
-    fn warnings(&self) -> &[String] {
-        &self.warnings
-    }
-}
-
-impl<S: Scalar> Undamped<S> {
-    /// Whether `piece` of `trip` continues `from` of trip `begun`: the same line (or flight in both).
-    fn continues(&self, from: &Piece<S>, begun: usize, piece: &Piece<S>, trip: usize) -> bool {
-        if from.contact != piece.contact {
-            return false;
-        }
-        if !piece.contact {
-            return true;
-        }
-        if !from.slope.same(&piece.slope) {
-            return false;
-        }
-        let later = from.slope.int(trip as i64 - begun as i64) * &from.slope + &from.intercept;
-        if S::RIGOROUS {
-            return later.same(&piece.intercept);
-        }
-        let rounding = 4.0 * (later.to_f64().abs() + piece.intercept.to_f64().abs());
-        let jump = later - &piece.intercept;
-        let error = from.value_error + piece.value_error + rounding;
-        jump.magnitude() <= jump.roundoff() * jump.double(error)
-    }
-}

@@ -207,6 +207,32 @@ impl<S: Scalar> Trace<S> {
         self.pieces.push(piece);
     }
 
+    /// Forgets all pieces but the first `count`, and the last trip if nothing is left of it.
+    pub(crate) fn truncate(&mut self, count: usize) {
+        self.pieces.truncate(count);
+        if self.slots.last().is_some_and(|slot| slot.start >= count && slot.rise.is_none()) {
+            self.slots.pop();
+            self.end -= 1;
+        }
+    }
+
+    /// How far apart two solutions may be that both go on from here as it is known, in `v(0,·)` and within a round trip: as far
+    /// as the enclosures are wide in which `height`, the lines and the jumps between them lie. The reflection at zero does not
+    /// take two paths further apart than what drives them.
+    pub(crate) fn apart(&self, height: &S) -> f64 {
+        let pieces = self.slice(self.end - 1);
+        let lines = pieces.iter().map(|piece| piece.intercept.width()).fold(0.0, f64::max);
+        let jumps: f64 = pieces
+            .windows(2)
+            .map(|pair| {
+                let at = &pair[1].fraction;
+                (pair[1].at(at) - pair[0].at(at)).to_f64().abs() * at.width()
+            })
+            .sum();
+        // Doubles that were added without looking where they round to.
+        (height.width() + lines + jumps) * (1.0 + 1e-9)
+    }
+
     /// `p → q`: what comes back a round trip later.
     pub(crate) fn returned(&self, p: &S) -> S {
         match self.top {
@@ -246,30 +272,26 @@ impl<S: Scalar> Trace<S> {
         piece.at(&age)
     }
 
-    /// `p` over `width` after age `from` of trip `index` (0: before the start), in parts.
-    pub(crate) fn window(&self, index: usize, from: &S, width: &S, mut visit: impl FnMut(Part<S>)) {
-        let zero = width.zero();
-        if !width.is_positive() {
-            return;
-        }
-        let (mut index, mut from, mut left, mut offset) = (index, from.clone(), width.clone(), zero);
-        let mut at = self.slice(index).partition_point(|piece| piece.fraction <= from).saturating_sub(1);
+    /// `p` from one trip and age to another (0: the trip before the start), in parts.
+    pub(crate) fn window(&self, from: (usize, &S), until: (usize, &S), mut visit: impl FnMut(Part<S>)) {
+        let (mut index, mut from, mut offset) = (from.0, from.1.clone(), from.1.zero());
         let mut pieces = self.slice(index);
+        let mut at = pieces.partition_point(|piece| piece.fraction <= from).saturating_sub(1);
         let mut fallen = self.start_of(index).1;
         loop {
             let piece = &pieces[at];
             let to = pieces.get(at + 1).map_or_else(|| from.one(), |next| next.fraction.clone());
-            let room = to.clone() - &from;
-            let done = room >= left;
-            let width = if done { left.clone() } else { room };
-            if width.is_positive() {
-                let value = piece.at(&from) - &fallen;
+            // Ages are compared, never widths: with themselves they agree in every number system.
+            let done = index > until.0 || (index == until.0 && to >= *until.1);
+            let to = if done { until.1.clone() } else { to };
+            if to > from {
+                let (width, value) = (to.clone() - &from, piece.at(&from) - &fallen);
                 visit(Part { offset: offset.clone(), width: width.clone(), value, slope: piece.slope.clone() });
+                offset = offset + width;
             }
             if done || (at + 1 == pieces.len() && index + 1 == self.end) {
                 return;
             }
-            (left, offset) = (left - &width, offset + &width);
             if at + 1 < pieces.len() {
                 (at, from) = (at + 1, to);
             } else {

@@ -487,7 +487,7 @@ impl Scalar for Interval {
         self + by
     }
 
-    fn width(&self) -> Self {
+    fn spread(&self) -> Self {
         let width = up(self.lo.prec(), &self.hi - &self.lo);
         let inside = self.inside.map(|_| None);
         Interval::checked(width.clone(), width, inside)
@@ -528,6 +528,18 @@ impl Scalar for Interval {
         let bits = size.lo.prec();
         let inside = size.inside.with(&size.inside, Radical::mul);
         Interval::checked(down(bits, size.lo.square_ref()), up(bits, size.hi.square_ref()), inside)
+    }
+
+    fn plain(self) -> Self {
+        Interval { inside: Inside::Off, ..self }
+    }
+
+    fn width(&self) -> f64 {
+        up(53, &self.hi - &self.lo).to_f64_round(Round::Up)
+    }
+
+    fn take_open() -> bool {
+        UNDECIDED.replace(false)
     }
 
     fn larger(self, other: Self) -> Self {

@@ -33,7 +33,7 @@ pub(super) struct Radical {
 }
 
 /// Longer numbers are not worth carrying.
-const MOST_TERMS: usize = 48;
+const MOST_TERMS: usize = 16;
 const MOST_BITS: u32 = 1 << 12;
 /// Deeper roots are not followed.
 const MOST_DEPTH: u32 = 3;

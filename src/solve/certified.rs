@@ -5,15 +5,17 @@ use rug::float::Round;
 
 use crate::certified::ProvedContact;
 use crate::error::Error;
-use crate::history::History;
+use crate::history::{Ending, History};
 use crate::lattice::{Limits, Undamped};
-use crate::number::{Interval, IntervalPrecision, bits_for_digits, decided, undecided};
+use crate::number::{Interval, IntervalPrecision, Scalar, bits_for_digits, decided, undecided};
 use crate::rod::Problem;
 
 /// Guard bits of the first try.
 const GUARD_BITS: u32 = 64;
 /// Bits beyond which a comparison is called undecided, where the digits asked for do not need more.
-const MAX_BITS: u32 = 1 << 14;
+const MAX_BITS: u32 = 1 << 13;
+/// As often a history may end at the same doubt, with more bits each time, before that is the answer.
+const SAME_DOUBT: usize = 3;
 /// Digits of a number beyond those asked for, so that it is rare that two of its decimals come into question.
 const SPARE_DIGITS: u32 = 8;
 /// A number that is this many digits below the greatest of the answer, beyond those asked for, may stay with fewer digits: where
@@ -47,11 +49,24 @@ pub fn certify<T, E: From<Error>>(
     let wanted = bits_for_digits(digits);
     let most = MAX_BITS.max(wanted.saturating_mul(4));
     let mut bits = wanted + GUARD_BITS;
+    let mut ends: Vec<f64> = Vec::new();
     loop {
-        let answer = decided(|| question(&*history(problem, bits, &mut observe)?));
+        let answer = decided(|| {
+            let history = history(problem, bits, &mut observe)?;
+            // A history that ends in doubt may not with more bits; if thrice in the same place, it is no matter of bits.
+            if matches!(history.ending(), Ending::Undecided(_)) {
+                let end = history.end().to_f64();
+                ends.push(end);
+                if ends.iter().filter(|other| (*other - end).abs() <= 1e-9 * end).count() < SAME_DOUBT {
+                    return Ok(None);
+                }
+            }
+            question(&*history).map(Some)
+        });
         // Errors on the way to an open comparison mean nothing, except where no bits can help.
         let missing = match answer {
-            Some(Ok(answer)) => {
+            Some(Ok(None)) => bits,
+            Some(Ok(Some(answer))) => {
                 let missing = missing_bits(&numbers(&answer), digits);
                 if missing == 0 {
                     return Ok(answer);

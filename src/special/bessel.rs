@@ -14,7 +14,7 @@ fn as_double<S: Analytic>(z: &S) -> Option<f64> {
 ///
 /// **Source**: (2.16), the function of the *first* kind; the paper's text says second.
 ///
-/// **Accuracy**: for `f64` within 8 roundings, and within an ulp beyond z = 2; within `4z + 4·bits` roundings, and no more than `16·bits`, otherwise.
+/// **Accuracy**: for `f64` within 8 roundings, and within an ulp beyond z = 2; within 1.1 roundings for long numbers.
 ///
 /// ```
 /// assert_eq!(dalembert::special::i0_scaled(&0.0), 1.0);
@@ -31,7 +31,7 @@ pub fn i0_scaled<S: Analytic>(z: &S) -> S {
 ///
 /// **Source**: after (2.22).
 ///
-/// **Accuracy**: for `f64` within 8 roundings, and within an ulp beyond z = 2; within `4z + 4·bits` roundings, and no more than `16·bits`, otherwise.
+/// **Accuracy**: for `f64` within 8 roundings, and within an ulp beyond z = 2; within 1.1 roundings for long numbers.
 ///
 /// ```
 /// assert_eq!(dalembert::special::i1_scaled(&0.0), 0.0);
@@ -48,8 +48,13 @@ pub fn i1_scaled<S: Analytic>(z: &S) -> S {
 ///
 /// **Source**: `I_n = I_0 Π r_k`, `r_k = I_k/I_{k−1} = z/(2k + z r_{k+1})` downwards, all terms positive.
 ///
-/// **Accuracy**: within `≈ 8n + 2z ln n` roundings.
+/// **Accuracy**: within `≈ 8n + 2z ln n` roundings; for long numbers and `z ≤ bits + 64` within 1.1.
 pub fn in_scaled<S: Analytic>(z: &S, n: u32) -> S {
+    if z.to_f64() <= bits(z) + 64.0
+        && let Some(value) = many(z, n)
+    {
+        return value;
+    }
     let ray = super::Ray::at_source(z);
     let ratios = ray.ratios(i64::from(n));
     ratios.into_iter().fold(i0_scaled(z), |value, ratio| value * &ratio)
@@ -79,8 +84,24 @@ fn short(z: f64, steps: &[f64; 13]) -> f64 {
     steps.iter().rev().fold(1.0, |tail, step| 1.0 + y * step * tail) * (-z).exp()
 }
 
+/// The faster way of long numbers.
+#[cfg(feature = "mp")]
+fn many<S: Analytic>(z: &S, n: u32) -> Option<S> {
+    let z = (z as &dyn Any).downcast_ref::<rug::Float>()?;
+    super::many::same(super::in_scaled_bounded(z, n).0)
+}
+
+#[cfg(not(feature = "mp"))]
+fn many<S: Analytic>(_: &S, _: u32) -> Option<S> {
+    None
+}
+
+fn generic<S: Analytic>(z: &S, n: u32) -> S {
+    many(z, n).unwrap_or_else(|| plain(z, i64::from(n)))
+}
+
 /// The expansion at infinity where it reaches the precision, the series at zero elsewhere.
-fn generic<S: Analytic>(z: &S, n: i64) -> S {
+fn plain<S: Analytic>(z: &S, n: i64) -> S {
     if S::RIGOROUS {
         return enclosed::bessel_scaled(z, n);
     }
@@ -92,7 +113,7 @@ fn generic<S: Analytic>(z: &S, n: i64) -> S {
 /// The rest after ℓ terms is at most `4 χ(ℓ) |a_ℓ| z^{−ℓ} + e^{−2z}` with `χ(ℓ) = √π Γ(ℓ/2+1)/Γ(ℓ/2+1/2) < 2√ℓ + 2`
 /// (DLMF 10.40(ii), (iii), with `|n² − ¼| π/2z < 0.02`). Terms fall until k ≈ 2z, where they are e^{−2z}, beyond the
 /// precision.
-fn expansion<S: Analytic>(z: &S, n: i64) -> S {
+pub(super) fn expansion<S: Analytic>(z: &S, n: i64) -> S {
     let mut term = z.one();
     let mut sum = z.one();
     let enough = roundoff(z);
@@ -166,6 +187,43 @@ mod tests {
                 let (near, far) = (series(&z, n), expansion(&z, n));
                 let wrong: rug::Float = (near - &far) / far;
                 assert!(wrong.is_zero() || wrong.get_exp().unwrap() < 14 - digits as i32, "{digits} {n} {wrong}");
+            }
+        }
+    }
+
+    /// The series and the expansion term by term, with twice the precision, against the fast way and its bound.
+    #[cfg(feature = "mp")]
+    #[test]
+    fn the_fast_way_keeps_its_bound() {
+        use crate::special::{in_bounded, in_scaled_bounded, psi_bounded};
+        use rug::Float;
+        for p in [64u32, 65, 200, 1000, 4096] {
+            for z in [1e-300, 1e-20, 0.1, 0.7, 1.0, 1.99, 3.0, 10.0, 33.3, 120.0, 400.0, 1000.0, 1e5] {
+                for z in [Float::with_val(p, z), Float::with_val(p, z) * Float::with_val(p, 2).sqrt()] {
+                    for n in [0, 1, 2, 7, 40] {
+                        if n > 1 && z > 2000 || p > 3000 && z > 200 && n > 1 {
+                            continue;
+                        }
+                        let long = Float::with_val(2 * p + 64, &z);
+                        let exact = if n > 1 { series(&long, n) } else { plain(&long, n) };
+                        let off = |value: &Float, exact: &Float| {
+                            let wrong = Float::with_val(64, value - exact) / exact;
+                            (wrong.abs() << p).to_f64()
+                        };
+                        let (value, bound) = in_scaled_bounded(&z, n as u32);
+                        let wrong = off(&value, &exact);
+                        assert!(wrong <= bound && bound < 1.1, "{p} {z} {n} {wrong} {bound}");
+                        let (value, bound) = in_bounded(&z, n as u32);
+                        let plain = exact * &long.clone().exp();
+                        assert!(off(&value, &plain) <= bound && bound < 1.1, "{p} {z} {n} {bound}");
+                        if z < 2000 {
+                            // r = 2, ξ = z/2 = η: ψ_n = I_n.
+                            let half = Float::with_val(p, &z >> 1u32);
+                            let (value, bound) = psi_bounded(&Float::with_val(p, 2), &half, &half, n as u32);
+                            assert!(off(&value, &plain) <= bound && bound < 1.1, "{p} {z} {n} {bound}");
+                        }
+                    }
+                }
             }
         }
     }

@@ -1,0 +1,268 @@
+//! Bessel functions of long numbers: few long multiplications, the rest is work with machine words.
+
+use std::any::Any;
+
+use rug::float::Round;
+use rug::ops::Pow;
+use rug::{Float, Integer};
+
+use super::bessel::expansion;
+
+/// What is computed beyond the precision asked for.
+const GUARD_BITS: u32 = 16;
+
+/// The same number, where the two types are one.
+pub(super) fn same<T: 'static, U: 'static>(value: T) -> Option<U> {
+    let mut slot = Some(value);
+    (&mut slot as &mut dyn Any).downcast_mut::<Option<U>>()?.take()
+}
+
+/// `I_n(z)` for the exact number z ≥ 0, and a bound of the relative error in units of `2^{−p}`, p the precision of z.
+///
+/// **Source**: `(z/2)ⁿ/n! ₀F₁(; n+1; z²/4)`; the expansion at infinity, for n = 0, 1, where it reaches the precision.
+///
+/// **Accuracy**: within the second value, less than 1.1, which is infinite for `z ≥ 2²⁴` with n ≥ 2, z < 0, and what is not finite.
+///
+/// ```
+/// use dalembert::special::in_bounded;
+/// let (value, roundings) = in_bounded(&rug::Float::with_val(100, 2), 1);
+/// assert!((value.to_f64() - 1.590636854637329).abs() < 1e-15 && roundings < 1.1);
+/// ```
+pub fn in_bounded(z: &Float, n: u32) -> (Float, f64) {
+    bounded(z, n, false)
+}
+
+/// `e^{−z} I_n(z)` for the exact number z ≥ 0, and a bound of the relative error, as in [`in_bounded`].
+///
+/// **Source**: [`in_bounded`].
+///
+/// **Accuracy**: within the second value, less than 1.1 where it is finite.
+pub fn in_scaled_bounded(z: &Float, n: u32) -> (Float, f64) {
+    bounded(z, n, true)
+}
+
+/// `ψ_n(ξ,η) = (ξⁿ/n!) ₀F₁(; n+1; r²ξη/4)` for exact numbers r, ξ, η ≥ 0, and a bound of the relative error in units of
+/// `2^{−p}`, p the precision of ξ.
+///
+/// **Source**: [`Ray`](super::Ray).
+///
+/// **Accuracy**: within the second value, less than 1.1; infinite where `r²ξη ≥ 2⁴⁸`, or for what is negative or not finite.
+pub fn psi_bounded(damping: &Float, xi: &Float, eta: &Float, n: u32) -> (Float, f64) {
+    // Exact: the series takes of it what matters.
+    let product = Float::with_val(xi.prec() + eta.prec(), xi * eta);
+    let square = Float::with_val(2 * damping.prec(), damping.square_ref());
+    let y = Float::with_val(product.prec() + square.prec(), &product * &square) >> 2;
+    finish(with_power(xi, &y, n, None), xi.prec())
+}
+
+/// The value rounded to p bits, with its roundings: one for that, and what came before in units of `2^{−p−16}`.
+fn finish(value: Option<(Float, f64)>, p: u32) -> (Float, f64) {
+    match value {
+        Some((value, _)) if value.is_zero() => (Float::new(p), 0.0),
+        Some((value, small)) => (Float::with_val(p, &value), 1.0 + 1.01 * small / f64::from(1u32 << GUARD_BITS)),
+        None => (Float::with_val(p, rug::float::Special::Nan), f64::INFINITY),
+    }
+}
+
+/// `(base)ⁿ/n! ₀F₁(; n+1; y) e^{exponent}` to 16 bits more than base has, and its roundings there: one each for the power, n!, the
+/// quotient, the exponential and two products.
+fn with_power(base: &Float, y: &Float, n: u32, exponent: Option<&Float>) -> Option<(Float, f64)> {
+    let bits = base.prec() + GUARD_BITS;
+    let (mut value, error) = hypergeometric(y, n, bits)?;
+    if n > 0 {
+        value *= Float::with_val(bits, base.pow(n)) / Float::with_val(bits, Float::factorial(n));
+    }
+    if let Some(exponent) = exponent {
+        value *= Float::with_val(bits, exponent.exp_ref());
+    }
+    Some((value, error + 6.0))
+}
+
+/// `e^{−rt} ψ₀` for exact r/2, ξ, η with 16 bits to spare, and its roundings there; `None` where the series is no good.
+pub(super) fn damped_start(half: &Float, xi: &Float, eta: &Float) -> Option<(Float, f64)> {
+    let square = Float::with_val(2 * half.prec(), half.square_ref());
+    let product = Float::with_val(xi.prec() + eta.prec(), xi * eta);
+    let y = Float::with_val(square.prec() + product.prec(), &square * &product);
+    let near = f64::from(xi.prec()) + 64.0;
+    if y.to_f64() > 0.25 * near * near {
+        return None;
+    }
+    // As long as the two are of like size this is exact; elsewhere the rest is far below a rounding of the exponential.
+    let bits = xi.prec() + GUARD_BITS + 64;
+    let time = Float::with_val(bits, xi + eta);
+    let damped = -Float::with_val(bits, half * &time);
+    if damped.is_nan() || damped < -1e15 {
+        return None;
+    }
+    let one = Float::with_val(xi.prec(), 1);
+    with_power(&one, &y, 0, Some(&damped)).map(|(value, error)| (value, error + 1.0))
+}
+
+fn bounded(z: &Float, n: u32, scaled: bool) -> (Float, f64) {
+    let p = z.prec();
+    if n <= 1 && z.is_finite() && *z > f64::from(p) + 64.0 {
+        // Term k has 4k roundings, all terms after the first are below 1/8 together, and the rest is below one: all in all less
+        // than 8p + 512, and 32 bits are enough for that.
+        let long = Float::with_val(p + 64, z);
+        let mut value = expansion(&long, i64::from(n));
+        if !scaled {
+            value *= long.exp();
+        }
+        return finish(Some((value, 0.25)), p);
+    }
+    let half = Float::with_val(p, z >> 1u32);
+    let y = Float::with_val(2 * p, half.square_ref());
+    let exponent = Float::with_val(p, -z);
+    finish(with_power(&half, &y, n, scaled.then_some(&exponent)), p)
+}
+
+/// `mantissa · 2^{−shift}`, a number y ≥ 0 rounded down; short numbers stay short.
+struct Factor {
+    mantissa: Integer,
+    shift: u32,
+}
+
+impl Factor {
+    /// y rounded down to a multiple of `2^{−scale}`; not for infinity or NaN.
+    fn of(y: &Float, scale: u32) -> Option<Self> {
+        let (mut mantissa, exponent) = y.to_integer_exp()?;
+        let zeros = mantissa.find_one(0).unwrap_or(0);
+        mantissa >>= zeros;
+        let exponent = i64::from(exponent) + i64::from(zeros);
+        if exponent >= 0 {
+            return Some(Factor { mantissa: mantissa << u32::try_from(exponent).ok()?, shift: 0 });
+        }
+        let mut factor = Factor { mantissa, shift: u32::try_from(-exponent).ok()? };
+        factor.cut(scale);
+        Some(factor)
+    }
+
+    fn cut(&mut self, scale: u32) {
+        if self.shift > scale {
+            self.mantissa >>= self.shift - scale;
+            self.shift = scale;
+        }
+    }
+
+    /// The square, rounded down, times `other` where one is given, rounded down.
+    fn square_times(&self, other: Option<&Factor>, scale: u32) -> Self {
+        let mut result = Factor { mantissa: self.mantissa.clone().square(), shift: 2 * self.shift };
+        result.cut(scale);
+        if let Some(other) = other {
+            result.mantissa *= &other.mantissa;
+            result.shift += other.shift;
+            result.cut(scale);
+        }
+        result
+    }
+
+    /// `yᵏ`, k ≥ 1.
+    fn power(&self, k: u32, scale: u32) -> Self {
+        let mut result = Factor { mantissa: self.mantissa.clone(), shift: self.shift };
+        for bit in (0..k.ilog2()).rev() {
+            result = result.square_times((k >> bit & 1 == 1).then_some(self), scale);
+        }
+        result
+    }
+
+    /// `⌊t y⌋` within two units: of the mantissa only those bits are taken that matter.
+    fn apply(&self, t: &mut Integer) {
+        let skip = self.shift.saturating_sub(t.significant_bits());
+        if skip < 64 {
+            *t *= &self.mantissa;
+            *t >>= self.shift;
+        } else {
+            *t *= Integer::from(&self.mantissa >> skip);
+            *t >>= self.shift - skip;
+        }
+    }
+}
+
+/// `V = ₀F₁(; n+1; y) = Σ_m y^m/(m!(n+1)_m)`, from below, and how far below, relative, in units of `2^{−bits}`: little
+/// more than 1 where the terms are as many as expected. `None` for y not finite, negative, or `2⁴⁸` and more.
+///
+/// **Source**: concurrent summation (Smith 1989): one sum for each residue of m modulo B, so that only every B-th step
+/// multiplies by a long number, `y^B`, and Horner's rule in y puts the sums together. Small divisors `m(m+n)` are taken as many
+/// at a time as a word holds.
+///
+/// **Accuracy**: in integers of unit `2^{−F}`, all rounded down. Let `β = max(1,y)`, and let `T_m` be the exact term but for the powers of
+/// y below B that are put in last. An error e in `T_m` passes on to the result as
+/// `e y^{m mod B} Σ_{k≥m} c_k y^k/(c_m y^m) ≤ e β^{B−1} V`, because the ratios of terms fall with m.
+/// - A division by the product D < 2⁶⁴ of a group is off by less than 1 for the last of its terms, by less than `D/(d₁ ⋯ d_i)` for
+///   the others, which are less than 2·2⁶⁴ together: `(2⁶⁵ + V) β^{B−1} ≤ 2⁶⁶ V β^{B−1}`.
+/// - Each product with `y^B` is off by two for its own roundings, and by what `y^B` is. An addition chain makes `y^B` off by less
+///   than `2B β^B`: for y ≥ 1 that is a part `2B·2^{−F}` of everything that follows; for y < 1, where T ≤ 1, it is 2B at most, times V.
+/// - Horner's rule: 1 for each step, times β^{B−1}, and y itself is off by 1: 2B β^{B−1} V together.
+///
+/// A term that has become zero stays zero, so nothing is cut off beyond these roundings. For N terms all that is at most
+/// `N·2⁶⁶ + 2N + 2N + 2B ≤ N·2⁶⁷` units, times `β^{B−1} V`.
+fn hypergeometric(y: &Float, n: u32, bits: u32) -> Option<(Float, f64)> {
+    if !y.is_finite() || y.is_sign_negative() || *y >= 281_474_976_710_656_u64 {
+        return None;
+    }
+    let size = y.get_exp().map_or(0.0, |exponent| f64::from(exponent.max(0)));
+    let expected = expected_terms(y, n, bits);
+    let short = y
+        .to_integer_exp()
+        .is_some_and(|(mantissa, _)| mantissa.significant_bits() - mantissa.find_one(0).unwrap_or(0) <= 24);
+    let block = if short { 8 } else { ((0.45 * expected).sqrt() as u32).clamp(1, 64) };
+    let lost = 67.0 + expected.log2() + f64::from(block - 1) * size;
+    let scale = bits + lost.ceil() as u32 + 1;
+    let first = Factor::of(y, scale)?;
+    let step = first.power(block, scale);
+
+    let mut term = Integer::from(1) << scale;
+    let mut sums = vec![Integer::new(); block as usize];
+    sums[0].clone_from(&term);
+    let (mut m, mut at) = (0u64, 1usize);
+    loop {
+        while at < sums.len() {
+            let from = at;
+            let mut product = 1u64;
+            let next = |m: u64| (m + 1) * (m + 1 + u64::from(n));
+            let start = m;
+            while at < sums.len() {
+                let Some(more) = product.checked_mul(next(m)) else { break };
+                product = more;
+                (m, at) = (m + 1, at + 1);
+            }
+            term /= product;
+            for (place, sum) in sums[from..at].iter_mut().enumerate() {
+                product /= next(start + place as u64);
+                *sum += &term * product;
+            }
+        }
+        if term.is_zero() {
+            break;
+        }
+        step.apply(&mut term);
+        at = 0;
+    }
+    let mut value = Integer::new();
+    for sum in sums.iter().rev() {
+        value *= &first.mantissa;
+        value >>= first.shift;
+        value += sum;
+    }
+    // Of the value as it is before it is rounded to the bits that are handed back.
+    let error = 67.0 + (m as f64 + 1.0).log2() + f64::from(block - 1) * size - f64::from(scale);
+    let (value, _) = Float::with_val_round(bits + 8, &value, Round::Down);
+    Some((value >> scale, (error + f64::from(bits)).exp2() + 2f64.powi(-7)))
+}
+
+/// Where the terms of `₀F₁` fall below `2^{−bits}`, about.
+fn expected_terms(y: &Float, n: u32, bits: u32) -> f64 {
+    let (y, n) = (y.to_f64().max(1e-300).log2(), f64::from(n));
+    let goal = -f64::from(bits) - 70.0;
+    let log = |m: f64| m * y - m * (m / std::f64::consts::E).log2() - (m + n) * ((m + n) / std::f64::consts::E).log2();
+    let log = |m: f64| log(m) + if n > 0.0 { n * (n / std::f64::consts::E).log2() } else { 0.0 };
+    let (mut low, mut high) = ((y / 2.0).exp2().max(1.0), (y / 2.0).exp2().max(1.0) * 8.0 + 16.0);
+    while log(high) > goal {
+        high *= 2.0;
+    }
+    while high - low > 1.0 + 0.01 * low {
+        let middle = 0.5 * (low + high);
+        if log(middle) > goal { low = middle } else { high = middle }
+    }
+    high + 1.0
+}
