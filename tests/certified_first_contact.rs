@@ -125,7 +125,7 @@ fn a_thousand_digits_of_figure_one() {
         let contact = solve(&problem(["1/2", "1", damping, "0", "1"]), 3400);
         let time = &contact.events()[1].time;
         assert!((time.mid().to_f64() - near).abs() < 1e-14, "{damping}");
-        let width = time.spread();
+        let width = time.width();
         assert!(width.hi().to_rational().unwrap() < power_of_ten(-1001), "{damping}: {}", width.text());
         println!("r = {damping}: {:?}", started.elapsed());
     }
@@ -171,7 +171,7 @@ fn both_sides_of_the_threshold() {
     assert!(*time.lo() > 2 && *time.hi() < 2.00001, "{}", time.text());
     let above = solve(&problem(["1", "1", "0.2", "1", "2.59364495456119430337818987448"]), 128);
     assert_eq!(above.bounce().unwrap().1, Some(1));
-    assert_eq!(above.events()[1].time.spread().to_f64(), 0.0);
+    assert_eq!(above.events()[1].time.width().to_f64(), 0.0);
 }
 
 #[test]

@@ -153,7 +153,7 @@ impl ProvedContact {
             end_velocity,
             centre: motion.0.clone(),
             centre_velocity: motion.1.clone(),
-            time_error: time.spread().to_f64(),
+            time_error: time.width().to_f64(),
         };
         let rebound = form.contact.flight_from(&super::closed_form::plain(&time), motion);
         let mut history = ProvedContact {

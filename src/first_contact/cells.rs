@@ -54,7 +54,7 @@ impl<S: Analytic> FirstContact<S> {
             let held = a - trips.ratio(1, 2);
             let strain = slope.impact.value * &alpha + (slope.weight.value - held) * &beta;
             let (up, down) = (velocity.clone() - &strain, velocity + strain);
-            width = width.max(up.spread().to_f64()).max(down.spread().to_f64());
+            width = width.max(up.width().to_f64()).max(down.width().to_f64());
             let (up, down) = (up.to_f64(), down.to_f64());
             if up.abs().max(down.abs()) > share {
                 return None;
@@ -112,11 +112,11 @@ impl<S: Analytic> FirstContact<S> {
         let log_bound = 2.0 * width.ln() - scale.ln().to_f64() + (4.0 / (rho - 1.0)).ln();
         let n = ((log_bound + 35.0) / rho.ln()).ceil().clamp(8.0, 4000.0) as usize;
         let mut values = Vec::with_capacity(n + 1);
-        let mut rounding = (scale.spread() / &scale).to_f64();
+        let mut rounding = (scale.width() / &scale).to_f64();
         for j in 0..=n {
             let (value, error) = self.force(route, &at((std::f64::consts::PI * j as f64 / n as f64).cos()), k);
             let value = value / &scale;
-            rounding = rounding.max((value.spread() + error / &scale).to_f64());
+            rounding = rounding.max((value.width() + error / &scale).to_f64());
             values.push(value.to_f64());
         }
         if rounding.is_nan() || rounding > 1e-7 {
@@ -147,7 +147,7 @@ impl<S: Analytic> FirstContact<S> {
         let sign = |x: f64| {
             // In doubles, so that nothing is compared that need not be settled.
             let (value, error) = self.force(route, &at(x), k);
-            let (value, off) = (value.clone() / &scale, (value.spread() + error) / &scale);
+            let (value, off) = (value.clone() / &scale, (value.width() + error) / &scale);
             let (value, off) = (value.to_f64(), off.to_f64());
             (value.abs() * (1.0 - 1e-15) > off).then_some(value > 0.0)
         };

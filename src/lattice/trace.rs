@@ -221,16 +221,16 @@ impl<S: Scalar> Trace<S> {
     /// take two paths further apart than what drives them.
     pub(crate) fn apart(&self, height: &S) -> f64 {
         let pieces = self.slice(self.end - 1);
-        let lines = pieces.iter().map(|piece| piece.intercept.width()).fold(0.0, f64::max);
+        let lines = pieces.iter().map(|piece| piece.intercept.width().to_f64()).fold(0.0, f64::max);
         let jumps: f64 = pieces
             .windows(2)
             .map(|pair| {
                 let at = &pair[1].fraction;
-                (pair[1].at(at) - pair[0].at(at)).to_f64().abs() * at.width()
+                (pair[1].at(at) - pair[0].at(at)).to_f64().abs() * at.width().to_f64()
             })
             .sum();
         // Doubles that were added without looking where they round to.
-        (height.width() + lines + jumps) * (1.0 + 1e-9)
+        (height.width().to_f64() + lines + jumps) * (1.0 + 1e-9)
     }
 
     /// `p → q`: what comes back a round trip later.

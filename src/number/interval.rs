@@ -487,7 +487,7 @@ impl Scalar for Interval {
         self + by
     }
 
-    fn spread(&self) -> Self {
+    fn width(&self) -> Self {
         let width = up(self.lo.prec(), &self.hi - &self.lo);
         let inside = self.inside.map(|_| None);
         Interval::checked(width.clone(), width, inside)
@@ -532,10 +532,6 @@ impl Scalar for Interval {
 
     fn plain(self) -> Self {
         Interval { inside: Inside::Off, ..self }
-    }
-
-    fn width(&self) -> f64 {
-        up(53, &self.hi - &self.lo).to_f64_round(Round::Up)
     }
 
     fn take_open() -> bool {

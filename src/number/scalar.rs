@@ -89,9 +89,9 @@ pub trait Scalar:
         self
     }
 
-    /// How far the number meant may lie from [`Scalar::to_f64`], but for the rounding of that: its spread, the width of an enclosure, zero
+    /// How far the number meant may lie from [`Scalar::to_f64`], but for the rounding of that: the width of an enclosure, zero
     /// elsewhere.
-    fn spread(&self) -> Self {
+    fn width(&self) -> Self {
         self.zero()
     }
 
@@ -135,11 +135,6 @@ pub trait Scalar:
     /// Without what is carried to decide comparisons, for sums that none will be asked of.
     fn plain(self) -> Self {
         self
-    }
-
-    /// How wide the number is: zero but for enclosures. **Accuracy**: rounded up.
-    fn width(&self) -> f64 {
-        0.0
     }
 
     /// Whether a comparison of enclosures was left open since this was last asked.

@@ -94,7 +94,7 @@ mod tests {
     fn sums_in_many_bits_lie_inside() {
         let fraction = |p: i64| Rational::from((p, 1000));
         let holds = |found: &Interval, truth: &Float, bits: u32| {
-            let narrow = found.spread().hi().to_f64() <= truth.to_f64().abs() * 2f64.powi(18 - bits as i32);
+            let narrow = found.width().hi().to_f64() <= truth.to_f64().abs() * 2f64.powi(18 - bits as i32);
             assert!(found.lo() <= truth && truth <= found.hi(), "{} {truth}", found.text());
             narrow
         };

@@ -176,20 +176,15 @@ impl<S: Analytic> Ray<S> {
     /// recurrence without divisions, with less than that.
     pub fn sums<const K: usize>(&self, first: [i64; K], weight: impl Fn(i64) -> [i64; K]) -> RaySums<S, K> {
         let last = first.iter().copied().max().unwrap_or(1);
-        let cut = self.cut(last);
-        if let Some(sums) = self.long_sums(cut.0, first, &weight) {
+        if let Some(sums) = self.long_sums(last, first, &weight) {
             return sums;
         }
-        self.sums_by_ratios(cut, first, weight)
+        self.sums_by_ratios(first, weight)
     }
 
-    fn sums_by_ratios<const K: usize>(
-        &self,
-        (terms, mut sigma, rest): (i64, S, S),
-        first: [i64; K],
-        weight: impl Fn(i64) -> [i64; K],
-    ) -> RaySums<S, K> {
+    fn sums_by_ratios<const K: usize>(&self, first: [i64; K], weight: impl Fn(i64) -> [i64; K]) -> RaySums<S, K> {
         let last = first.iter().copied().max().unwrap_or(1);
+        let (terms, mut sigma, rest) = self.cut(last);
         let (start, start_roundings) = self.start();
         let mut sums: [S; K] = std::array::from_fn(|_| rest.clone());
         // ψ_n = ψ_0 ρ_1 ⋯ ρ_n: the last factors are at hand when the pass comes down to n₀.
@@ -238,10 +233,14 @@ impl<S: Analytic> Ray<S> {
 
     fn long_sums<const K: usize>(
         &self,
-        terms: i64,
+        last: i64,
         first: [i64; K],
         weight: &impl Fn(i64) -> [i64; K],
     ) -> Option<RaySums<S, K>> {
+        if !(&self.xi as &dyn Any).is::<rug::Float>() {
+            return None;
+        }
+        let terms = self.terms(last);
         let (start, sums, sum_roundings) = self.long(terms)?.sums(first, weight)?;
         let value = rug::Float::with_val(bits(&self.xi) as u32, &start.long);
         Some(RaySums { start: same(value)?, sums: same(sums)?, start_roundings: start.roundings, sum_roundings })
@@ -288,7 +287,7 @@ mod tests {
                     let long = |x: &Float| Float::with_val(2 * p, x);
                     let exact =
                         Ray { xi: long(&ray.xi), eta: long(&ray.eta), half: long(&ray.half), argument: ray.argument };
-                    let (found, sure) = (ray.sums(first, weight), exact.sums_by_ratios(exact.cut(3), first, weight));
+                    let (found, sure) = (ray.sums(first, weight), exact.sums_by_ratios(first, weight));
                     let off = |value: &Float, exact: &Float| {
                         let wrong = Float::with_val(64, value - exact) / exact;
                         (wrong.abs() << p).to_f64()
