@@ -114,6 +114,8 @@ pub enum Ending {
         /// The nearest double.
         near: f64,
     },
+    /// The first bounce: what follows it is not proved.
+    Bounce,
     /// The asked accuracy or effort does not settle what comes next.
     Undecided(String),
 }
@@ -129,6 +131,7 @@ impl std::fmt::Display for Ending {
             Ending::ExactnessEnds { time, near, .. } => {
                 write!(f, "exactness ends before the impact at t = {time} ≈ {near}, which is no fraction")
             }
+            Ending::Bounce => f.write_str("the first bounce: whether and when the rod lands again is not proved"),
             Ending::Undecided(reason) => write!(f, "undecided: {reason}"),
         }
     }

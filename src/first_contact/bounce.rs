@@ -263,6 +263,10 @@ impl<S: Analytic> FirstContact<S> {
             k += 1;
         }
         if k > MOST_CELLS {
+            // The force is positive up to here, whether or not the transient has died away before.
+            if let Some(reason) = [1, 2, 4, 8, 16].into_iter().find_map(|k| self.settled(k)) {
+                return Err(Bounce::Never { reason });
+            }
             let why = format!(
                 "r t₁ = {r} is just below π: no bounce within the limit of {MOST_CELLS} round trips; without gravity it comes \
                  at about {:.4e} t₁",
