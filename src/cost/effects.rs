@@ -1,0 +1,164 @@
+//! What each effect costs: the same scene with it and without it, run in turns.
+
+use std::time::Instant;
+
+use super::CostError;
+use super::clock::{Timing, batch, quantile, sample};
+use crate::damped::{Damped, Joined};
+use crate::first_contact::FirstContact;
+use crate::history::History;
+use crate::lattice::Undamped;
+use crate::rod::{Parameters, Problem, Run, Speed, Start, Top};
+use crate::scene::{Ask, Effect, Engine, Plan, Scene};
+use crate::solve::{Solution, solve};
+
+/// What one effect costs.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Difference {
+    /// The effect.
+    pub effect: Effect,
+    /// Whether the scene calls for it.
+    pub called: bool,
+    /// The scene as it is planned.
+    pub with: Timing,
+    /// The same without the effect: switched off where it is called for. Where it is not, the engine called directly, past the plan
+    /// that decides what to leave out.
+    pub without: Timing,
+    /// The median of the differences of neighbouring runs, seconds.
+    pub seconds: f64,
+    /// The distance of the quartiles of these differences, seconds.
+    pub spread: f64,
+}
+
+impl Difference {
+    /// Whether the difference is within the noise: not larger than the spread of the single differences.
+    pub fn is_noise(&self) -> bool {
+        self.seconds.abs() <= self.spread
+    }
+}
+
+const MOST_PAIRS: usize = 201;
+
+/// The time that every effect costs `scene`, in about `seconds` in all. The energies of the field count as called for where `energies`
+/// says so: then one energy at the end of the history is part of the scene.
+///
+/// **Accuracy**: medians of differences on this machine, now; [`Difference::is_noise`] says what is not to be told from nothing.
+///
+/// **Errors**: [`CostError::Seconds`], and those of the solver.
+pub fn effects(
+    scene: &Scene,
+    energies: bool,
+    seconds: f64,
+    mut observe: impl FnMut(f64, &str),
+) -> Result<Vec<Difference>, CostError> {
+    if !(seconds > 0.0 && seconds <= 86_400.0) {
+        return Err(CostError::Seconds { found: seconds });
+    }
+    let plan = Plan::of(scene, Ask::default())?;
+    let list = [Effect::Damping, Effect::Gravity, Effect::RepeatedImpacts, Effect::FixedTop, Effect::FieldEnergies];
+    let called = |effect: Effect| match effect {
+        Effect::FieldEnergies => energies,
+        other => plan.effects.iter().any(|used| used.effect == other && used.called),
+    };
+    let slot = seconds / list.len() as f64;
+    let mut rows = Vec::with_capacity(list.len());
+    for (k, effect) in list.iter().copied().enumerate() {
+        observe(k as f64 / list.len() as f64, effect.name());
+        let called = called(effect);
+        let with = || planned(&scene.problem, &plan, energies);
+        let (with, without, differences) = if called {
+            let mut other = scene.clone();
+            other.problem = switched_off(scene, effect)?;
+            let other_plan = Plan::of(&other, Ask::default())?;
+            let energies = energies && effect != Effect::FieldEnergies;
+            in_turns(slot, with, || planned(&other.problem, &other_plan, energies))?
+        } else {
+            in_turns(slot, with, || direct(&scene.problem, plan.engine, energies))?
+        };
+        let (seconds, spread) = differences;
+        rows.push(Difference { effect, called, with, without, seconds, spread });
+    }
+    Ok(rows)
+}
+
+/// The scene's problem without one effect.
+fn switched_off(scene: &Scene, effect: Effect) -> Result<Problem, CostError> {
+    let mut problem = scene.problem.clone();
+    match effect {
+        Effect::Damping => problem.rod.damping = None,
+        Effect::Gravity => {
+            // The speed that a drop gave stays.
+            if let Start::Uniform(Speed::DropHeight(_)) = problem.start {
+                let speed = format!("{:e}", Parameters::<f64>::of(&problem, &())?.speed);
+                let number = speed.parse().map_err(|_| CostError::GaveUp(format!("an impact speed of {speed}")))?;
+                problem.start = Start::Uniform(Speed::Given(number));
+            }
+            problem.gravity = None;
+        }
+        Effect::RepeatedImpacts => problem.run = Run::Impacts(1),
+        Effect::FixedTop => problem.rod.top = Top::Free,
+        _ => (),
+    }
+    Ok(problem)
+}
+
+/// Runs the plan, and asks for an energy at the end if told so.
+fn planned(problem: &Problem, plan: &Plan, energies: bool) -> Result<f64, CostError> {
+    match solve(problem, plan, |_, _| ())? {
+        Solution::Double(history) => finish(history.as_ref(), energies),
+        #[cfg(feature = "mp")]
+        _ => Ok(0.0),
+    }
+}
+
+/// The engine past the plan, as the plan would call it.
+fn direct(problem: &Problem, engine: Engine, energies: bool) -> Result<f64, CostError> {
+    // Boxed as a plan's history is: the allocation is none of an effect's.
+    let history: Box<dyn History<f64>> = match engine {
+        Engine::Lattice => Box::new(Undamped::<f64>::solve(problem, &())?),
+        Engine::Cells if problem.has_closed_form() => {
+            let bounce = FirstContact::new(&Parameters::<f64>::of(problem, &())?).bounce_within(1e-13);
+            Box::new(Joined::<f64>::solve(problem, &(), 13.0, bounce, true)?)
+        }
+        Engine::Cells => Box::new(Damped::<f64>::solve(problem, &(), 13.0)?),
+    };
+    finish(history.as_ref(), energies)
+}
+
+fn finish(history: &dyn History<f64>, energies: bool) -> Result<f64, CostError> {
+    if energies { Ok(history.energy(&history.end())?.total) } else { Ok(history.end()) }
+}
+
+/// Both in turns, so that what slows the machine slows both: their timings, and median and spread of the differences.
+fn in_turns(
+    slot: f64,
+    with: impl Fn() -> Result<f64, CostError>,
+    without: impl Fn() -> Result<f64, CostError>,
+) -> Result<(Timing, Timing, (f64, f64)), CostError> {
+    let start = Instant::now();
+    with()?;
+    without()?;
+    let began = Instant::now();
+    with()?;
+    let batched = batch(began.elapsed().as_secs_f64());
+    let (mut a, mut b, mut differences) = (Vec::new(), Vec::new(), Vec::new());
+    let mut pair = 0.0;
+    while a.len() < 3 || (a.len() < MOST_PAIRS && start.elapsed().as_secs_f64() + pair < slot) {
+        let began = Instant::now();
+        // Who goes first changes, so that going first favours neither.
+        let (x, y) = if a.len() % 2 == 0 {
+            let x = sample(batched, &with);
+            (x, sample(batched, &without))
+        } else {
+            let y = sample(batched, &without);
+            (sample(batched, &with), y)
+        };
+        a.push(x);
+        b.push(y);
+        differences.push(x - y);
+        pair = began.elapsed().as_secs_f64();
+    }
+    differences.sort_by(f64::total_cmp);
+    let spread = quantile(&differences, 0.75) - quantile(&differences, 0.25);
+    Ok((Timing::of(&mut a), Timing::of(&mut b), (quantile(&differences, 0.5), spread)))
+}

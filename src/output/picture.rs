@@ -1,0 +1,149 @@
+//! Pictures: the work–precision diagram as SVG, and any of our SVGs as PNG.
+
+use std::sync::Arc;
+
+use kuva::backend::svg::SvgBackend;
+use kuva::plot::legend::LegendPosition;
+use kuva::plot::scatter::MarkerShape;
+use kuva::plot::{LinePlot, ScatterPlot};
+use kuva::render::layout::{Layout, TickFormat};
+use kuva::render::plots::Plot;
+use kuva::render::render::render_multiple;
+use resvg::{tiny_skia, usvg};
+
+use super::cost::asked;
+use crate::cost::{Route, Row, Table};
+
+/// DejaVu Sans, Latin and Greek letters, digits above and below the line and signs: what our pictures write.
+const FONT: &[u8] = include_bytes!("font/DejaVuSans-subset.ttf");
+const FAMILY: &str = "DejaVu Sans";
+/// Errors below this are drawn on it: beyond, the digits of a double would be a sliver of the picture.
+const DECADES_WITHOUT_LONG: f64 = -18.0;
+const WIDTH: f64 = 640.0;
+const HEIGHT: f64 = 460.0;
+
+/// Colours that stay apart for every kind of sight (Okabe and Ito), and a mark for each route.
+fn look(route: Route) -> (&'static str, MarkerShape) {
+    match route {
+        Route::ClosedForm => ("#0072b2", MarkerShape::Circle),
+        Route::Lattice => ("#009e73", MarkerShape::Square),
+        Route::Joined => ("#009e73", MarkerShape::Square),
+        Route::Cells => ("#d55e00", MarkerShape::Diamond),
+        Route::Modes => ("#cc79a7", MarkerShape::Triangle),
+        Route::Printed => ("#8c6d1f", MarkerShape::TriangleDown),
+        Route::Differences => ("#56b4e9", MarkerShape::Pentagon),
+    }
+}
+
+/// `10⁻¹⁵`.
+fn power_of_ten(exponent: f64) -> String {
+    let digits = format!("{exponent:.0}");
+    let raised = digits.chars().map(|digit| match digit {
+        '-' => '⁻',
+        '1' => '¹',
+        '2' => '²',
+        '3' => '³',
+        digit => digit.to_digit(10).and_then(|d| char::from_u32(0x2070 + d)).unwrap_or(digit),
+    });
+    std::iter::once("10").map(String::from).chain([raised.collect()]).collect()
+}
+
+/// The work–precision diagram: error against time, both by decades, a line for each route and a ring around the plan's choice.
+/// Answers without any error stand on the lowest line, which says so.
+pub fn cost_svg(cost: &Table, title: Option<&str>) -> String {
+    let finite = |row: &&Row| row.log10_error.is_finite();
+    let least = cost.rows.iter().filter(finite).map(|row| row.log10_error).fold(0.0, f64::min);
+    let floor = if least < DECADES_WITHOUT_LONG { least.floor() - 1.0 } else { DECADES_WITHOUT_LONG };
+    let greatest = cost.rows.iter().filter(finite).map(|row| row.log10_error).fold(-1.0, f64::max).ceil();
+    // Many decades get a tick every 2, 5, 10, … of them.
+    let step = tick_step(greatest - floor);
+    let bottom = (floor / step).floor() * step;
+    let place = |row: &Row| {
+        let error = if row.log10_error.is_finite() { row.log10_error.max(bottom) } else { bottom };
+        (row.timing.seconds.max(1e-12).log10(), error)
+    };
+    let times: Vec<f64> = cost.rows.iter().map(|row| place(row).0).collect();
+    let first = times.iter().copied().fold(f64::INFINITY, f64::min).floor();
+    let last = times.iter().copied().fold(f64::NEG_INFINITY, f64::max).ceil().max(first + 1.0);
+    let mut plots: Vec<Plot> = Vec::new();
+    for route in Route::ALL {
+        let points: Vec<(f64, f64)> = cost.rows.iter().filter(|row| row.route == route).map(place).collect();
+        if points.is_empty() {
+            continue;
+        }
+        let (color, marker) = look(route);
+        plots.push(LinePlot::new().with_data(points.clone()).with_color(color).with_stroke_width(1.2).into());
+        let marks = ScatterPlot::new().with_data(points).with_color(color).with_size(4.5).with_marker(marker);
+        plots.push(marks.with_legend(route.name()).into());
+    }
+    let chosen: Vec<(f64, f64)> = cost.rows.iter().filter(|row| row.chosen).map(place).collect();
+    let ring = ScatterPlot::new().with_data(chosen).with_color("#000000").with_size(9.0);
+    let ring = ring.with_marker_opacity(0.0).with_marker_stroke_width(1.8).with_legend("the plan's choice");
+    plots.push(ring.into());
+    let exact = cost.rows.iter().any(|row| !row.log10_error.is_finite());
+    let errors = move |exponent: f64| {
+        if exact && exponent <= bottom { "no error".into() } else { power_of_ten(exponent) }
+    };
+    let name = match title {
+        Some(title) => format!("{title}: {}", asked(cost)),
+        None => asked(cost),
+    };
+    let layout = Layout::auto_from_plots(&plots)
+        .with_width(WIDTH)
+        .with_height(HEIGHT)
+        .with_title(name)
+        .with_title_size(15)
+        .with_x_label("time, seconds")
+        .with_y_label("relative error")
+        .with_label_size(13)
+        .with_tick_size(12)
+        .with_body_size(12)
+        .with_font_family(FAMILY)
+        .with_x_axis_min(first)
+        .with_x_axis_max(last)
+        .with_y_axis_min(bottom)
+        .with_y_axis_max((greatest / step).ceil() * step)
+        .with_x_tick_step(1.0)
+        .with_y_tick_step(step)
+        .with_x_tick_format(TickFormat::Custom(Arc::new(power_of_ten)))
+        .with_y_tick_format(TickFormat::Custom(Arc::new(errors)))
+        .with_legend_position(LegendPosition::OutsideRightTop);
+    SvgBackend::new().render_scene(&render_multiple(plots, layout))
+}
+
+/// 1, 2, 5, 10, 20, … decades between ticks, so that there are at most a dozen.
+fn tick_step(decades: f64) -> f64 {
+    let mut step = 1.0;
+    for factor in [2.0, 2.5, 2.0].into_iter().cycle() {
+        if decades / step <= 12.0 {
+            break;
+        }
+        step *= factor;
+    }
+    step
+}
+
+/// An SVG as a PNG, `scale` pixels for each of its units, on white.
+///
+/// **Errors**: what the SVG reader or the PNG writer says; none for the SVGs that are drawn here.
+pub fn png(svg: &str, scale: f32) -> Result<Vec<u8>, String> {
+    let mut options = usvg::Options { font_family: FAMILY.into(), ..usvg::Options::default() };
+    options.fontdb_mut().load_font_data(FONT.to_vec());
+    let tree = usvg::Tree::from_str(svg, &options).map_err(|error| error.to_string())?;
+    let size = tree.size().to_int_size().scale_by(scale).ok_or("a picture without size")?;
+    let mut pixels = tiny_skia::Pixmap::new(size.width(), size.height()).ok_or("a picture without size")?;
+    pixels.fill(tiny_skia::Color::WHITE);
+    resvg::render(&tree, tiny_skia::Transform::from_scale(scale, scale), &mut pixels.as_mut());
+    pixels.encode_png().map_err(|error| error.to_string())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn labels() {
+        assert_eq!([-15.0, 0.0, 3.0, -1008.0].map(power_of_ten), ["10⁻¹⁵", "10⁰", "10³", "10⁻¹⁰⁰⁸"]);
+        assert_eq!([9.0, 18.0, 40.0, 330.0, 1010.0].map(tick_step), [1.0, 2.0, 5.0, 50.0, 100.0]);
+    }
+}
