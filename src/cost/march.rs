@@ -2,8 +2,8 @@
 //! rule. What a careful programmer without a closed form would write.
 //!
 //! The unknowns stand in the middles of N cells, so that the rays of the lattice run along the edges of cells and a jump is never
-//! smeared. Events are found between two steps by linear interpolation, and act from a step on: where they do not fall on one, the
-//! error is of first order.
+//! smeared; but damping sees it a quarter of a step early or late. Events are found between two steps by linear interpolation, and
+//! act from a step on.
 
 use crate::error::Error;
 use crate::history::EventKind;
@@ -72,7 +72,8 @@ struct Grid<'a> {
 ///
 /// **Units**: those of the problem.
 ///
-/// **Accuracy**: an *f64 estimate*, of second order in `1/cells` while events fall on steps, of first order where they do not.
+/// **Accuracy**: an *f64 estimate*, of first order in `1/cells`; without damping the invariants are exact while events fall on
+/// steps.
 ///
 /// **Errors**: those of the parameters.
 ///

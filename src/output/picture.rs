@@ -6,6 +6,7 @@ use kuva::backend::svg::SvgBackend;
 use kuva::plot::legend::LegendPosition;
 use kuva::plot::scatter::MarkerShape;
 use kuva::plot::{LinePlot, ScatterPlot};
+use kuva::render::annotations::ReferenceLine;
 use kuva::render::layout::{Layout, TickFormat};
 use kuva::render::plots::Plot;
 use kuva::render::render::render_multiple;
@@ -17,8 +18,10 @@ use crate::cost::{Route, Row, Table};
 /// DejaVu Sans, Latin and Greek letters, digits above and below the line and signs: what our pictures write.
 const FONT: &[u8] = include_bytes!("font/DejaVuSans-subset.ttf");
 const FAMILY: &str = "DejaVu Sans";
-/// Errors below this are drawn on it: beyond, the digits of a double would be a sliver of the picture.
-const DECADES_WITHOUT_LONG: f64 = -18.0;
+/// Where the scale of errors is drawn together: the digits of a double get as much of the picture as the thousand beyond them.
+const DOUBLES_END: f64 = 18.0;
+/// Digits at the ticks beyond, equally far apart.
+const BEYOND: [f64; 8] = [DOUBLES_END, 50.0, 100.0, 300.0, 1000.0, 3000.0, 10_000.0, 30_000.0];
 const WIDTH: f64 = 640.0;
 const HEIGHT: f64 = 460.0;
 
@@ -48,18 +51,36 @@ fn power_of_ten(exponent: f64) -> String {
     std::iter::once("10").map(String::from).chain([raised.collect()]).collect()
 }
 
-/// The work–precision diagram: error against time, both by decades, a line for each route and a ring around the plan's choice.
-/// Answers without any error stand on the lowest line, which says so.
+/// The place of an error of `10^−digits` on the scale, upwards; a tick is 1.
+fn place_of(digits: f64, decades: f64) -> f64 {
+    if digits <= DOUBLES_END {
+        return -digits / decades;
+    }
+    let k = BEYOND.iter().rposition(|tick| *tick <= digits).unwrap_or(0).min(BEYOND.len() - 2);
+    let share = (digits / BEYOND[k]).ln() / (BEYOND[k + 1] / BEYOND[k]).ln();
+    -(DOUBLES_END / decades + k as f64 + share)
+}
+
+/// The digits at a place: the inverse at ticks.
+fn digits_at(place: f64, decades: f64) -> f64 {
+    let beyond = -place - DOUBLES_END / decades;
+    if beyond < 0.5 { -place * decades } else { BEYOND[(beyond.round() as usize).min(BEYOND.len() - 1)] }
+}
+
+/// The work–precision diagram: error against time, both by decades, a line for each route and a star on the plan's choice.
+/// Answers without any error stand on the lowest line, which says so; beyond double precision the decades of the error are drawn
+/// together, as the ticks say.
 pub fn cost_svg(cost: &Table, title: Option<&str>) -> String {
     let finite = |row: &&Row| row.log10_error.is_finite();
-    let least = cost.rows.iter().filter(finite).map(|row| row.log10_error).fold(0.0, f64::min);
-    let floor = if least < DECADES_WITHOUT_LONG { least.floor() - 1.0 } else { DECADES_WITHOUT_LONG };
-    let greatest = cost.rows.iter().filter(finite).map(|row| row.log10_error).fold(-1.0, f64::max).ceil();
-    // Many decades get a tick every 2, 5, 10, … of them.
-    let step = tick_step(greatest - floor);
-    let bottom = (floor / step).floor() * step;
+    let digits = cost.rows.iter().filter(finite).map(|row| -row.log10_error);
+    let (least, most) = digits.fold((0.0, 0.0), |(least, most), d| (f64::min(least, d), f64::max(most, d)));
+    let long = most > DOUBLES_END;
+    let decades = if long { 3.0 } else { 2.0 };
+    let exact = cost.rows.iter().any(|row| !row.log10_error.is_finite());
+    // Answers without error have a line of their own below all others.
+    let lowest = place_of(if long { most } else { DOUBLES_END }, decades).floor() - if exact { 1.0 } else { 0.0 };
     let place = |row: &Row| {
-        let error = if row.log10_error.is_finite() { row.log10_error.max(bottom) } else { bottom };
+        let error = if row.log10_error.is_finite() { place_of(-row.log10_error, decades) } else { lowest };
         (row.timing.seconds.max(1e-12).log10(), error)
     };
     let times: Vec<f64> = cost.rows.iter().map(|row| place(row).0).collect();
@@ -77,18 +98,19 @@ pub fn cost_svg(cost: &Table, title: Option<&str>) -> String {
         plots.push(marks.with_legend(route.name()).into());
     }
     let chosen: Vec<(f64, f64)> = cost.rows.iter().filter(|row| row.chosen).map(place).collect();
-    let ring = ScatterPlot::new().with_data(chosen).with_color("#000000").with_size(9.0);
-    let ring = ring.with_marker_opacity(0.0).with_marker_stroke_width(1.8).with_legend("the plan's choice");
-    plots.push(ring.into());
-    let exact = cost.rows.iter().any(|row| !row.log10_error.is_finite());
-    let errors = move |exponent: f64| {
-        if exact && exponent <= bottom { "no error".into() } else { power_of_ten(exponent) }
+    let ring = ScatterPlot::new().with_data(chosen.clone()).with_color("#000000").with_size(9.0);
+    plots.push(ring.with_marker_opacity(0.0).with_marker_stroke_width(1.6).into());
+    let star = ScatterPlot::new().with_data(chosen).with_color("#000000").with_size(4.0);
+    plots.push(star.with_marker(MarkerShape::Star).with_legend("the plan's choice").into());
+    let errors = move |place: f64| match place {
+        place if exact && place <= lowest + 0.5 => "no error".into(),
+        place => power_of_ten(-digits_at(place, decades)),
     };
     let name = match title {
         Some(title) => format!("{title}: {}", asked(cost)),
         None => asked(cost),
     };
-    let layout = Layout::auto_from_plots(&plots)
+    let mut layout = Layout::auto_from_plots(&plots)
         .with_width(WIDTH)
         .with_height(HEIGHT)
         .with_title(name)
@@ -101,26 +123,18 @@ pub fn cost_svg(cost: &Table, title: Option<&str>) -> String {
         .with_font_family(FAMILY)
         .with_x_axis_min(first)
         .with_x_axis_max(last)
-        .with_y_axis_min(bottom)
-        .with_y_axis_max((greatest / step).ceil() * step)
+        .with_y_axis_min(lowest)
+        .with_y_axis_max(place_of(least, decades).ceil() + 0.3)
         .with_x_tick_step(1.0)
-        .with_y_tick_step(step)
+        .with_y_tick_step(1.0)
         .with_x_tick_format(TickFormat::Custom(Arc::new(power_of_ten)))
         .with_y_tick_format(TickFormat::Custom(Arc::new(errors)))
         .with_legend_position(LegendPosition::OutsideRightTop);
-    SvgBackend::new().render_scene(&render_multiple(plots, layout))
-}
-
-/// 1, 2, 5, 10, 20, … decades between ticks, so that there are at most a dozen.
-fn tick_step(decades: f64) -> f64 {
-    let mut step = 1.0;
-    for factor in [2.0, 2.5, 2.0].into_iter().cycle() {
-        if decades / step <= 12.0 {
-            break;
-        }
-        step *= factor;
+    if long {
+        let ends = place_of(DOUBLES_END, decades);
+        layout = layout.with_reference_line(ReferenceLine::horizontal(ends).with_color("#666666"));
     }
-    step
+    SvgBackend::new().render_scene(&render_multiple(plots, layout))
 }
 
 /// An SVG as a PNG, `scale` pixels for each of its units, on white.
@@ -144,6 +158,11 @@ mod tests {
     #[test]
     fn labels() {
         assert_eq!([-15.0, 0.0, 3.0, -1008.0].map(power_of_ten), ["10⁻¹⁵", "10⁰", "10³", "10⁻¹⁰⁰⁸"]);
-        assert_eq!([9.0, 18.0, 40.0, 330.0, 1010.0].map(tick_step), [1.0, 2.0, 5.0, 50.0, 100.0]);
+        for digits in [0.0, 3.0, 18.0, 50.0, 1000.0] {
+            assert!((digits_at(place_of(digits, 3.0), 3.0) - digits).abs() < 1e-9, "{digits}");
+        }
+        // Equal factors of digits are equally far apart between two ticks.
+        let middle = (100.0f64 * 300.0).sqrt();
+        assert!((place_of(middle, 3.0) - place_of(100.0, 3.0) + 0.5).abs() < 1e-12);
     }
 }
