@@ -15,14 +15,14 @@ use crate::solve::{Solution, solve};
 /// What one effect costs.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Difference {
-    /// The effect.
-    pub effect: Effect,
+    /// The effect; `None` for the plan itself, which decides what to leave out.
+    pub effect: Option<Effect>,
     /// Whether the scene calls for it.
     pub called: bool,
     /// The scene as it is planned.
     pub with: Timing,
-    /// The same without the effect: switched off where it is called for. Where it is not, the engine called directly, past the plan
-    /// that decides what to leave out.
+    /// The same with the effect switched off, which changes nothing where the scene does not call for it; for the plan itself, the
+    /// engine called directly.
     pub without: Timing,
     /// The median of the differences of neighbouring runs, seconds.
     pub seconds: f64,
@@ -31,6 +31,11 @@ pub struct Difference {
 }
 
 impl Difference {
+    /// The name in output: `damping`, or `plan`.
+    pub fn name(&self) -> &'static str {
+        self.effect.map_or("plan", Effect::name)
+    }
+
     /// Whether the difference is within the noise: not larger than the spread of the single differences.
     pub fn is_noise(&self) -> bool {
         self.seconds.abs() <= self.spread
@@ -38,8 +43,11 @@ impl Difference {
 }
 
 const MOST_PAIRS: usize = 201;
+/// What can be switched off.
+const LIST: [Effect; 5] =
+    [Effect::Damping, Effect::Gravity, Effect::RepeatedImpacts, Effect::FixedTop, Effect::FieldEnergies];
 
-/// The time that every effect costs `scene`, in about `seconds` in all. The energies of the field count as called for where `energies`
+/// The time that every effect and the plan itself cost `scene`, in about `seconds` in all. The energies of the field count as called for where `energies`
 /// says so: then one energy at the end of the history is part of the scene.
 ///
 /// **Accuracy**: medians of differences on this machine, now; [`Difference::is_noise`] says what is not to be told from nothing.
@@ -55,29 +63,24 @@ pub fn effects(
         return Err(CostError::Seconds { found: seconds });
     }
     let plan = Plan::of(scene, Ask::default())?;
-    let list = [Effect::Damping, Effect::Gravity, Effect::RepeatedImpacts, Effect::FixedTop, Effect::FieldEnergies];
     let called = |effect: Effect| match effect {
         Effect::FieldEnergies => energies,
         other => plan.effects.iter().any(|used| used.effect == other && used.called),
     };
-    let slot = seconds / list.len() as f64;
-    let mut rows = Vec::with_capacity(list.len());
-    for (k, effect) in list.iter().copied().enumerate() {
-        observe(k as f64 / list.len() as f64, effect.name());
-        let called = called(effect);
-        let with = || planned(&scene.problem, &plan, energies);
-        let (with, without, differences) = if called {
-            let mut other = scene.clone();
-            other.problem = switched_off(scene, effect)?;
-            let other_plan = Plan::of(&other, Ask::default())?;
-            let energies = energies && effect != Effect::FieldEnergies;
-            in_turns(slot, with, || planned(&other.problem, &other_plan, energies))?
-        } else {
-            in_turns(slot, with, || direct(&scene.problem, plan.engine, energies))?
-        };
-        let (seconds, spread) = differences;
-        rows.push(Difference { effect, called, with, without, seconds, spread });
+    let slot = seconds / (LIST.len() + 1) as f64;
+    let with = || planned(&scene.problem, &plan, energies);
+    let mut rows = Vec::with_capacity(LIST.len() + 1);
+    for (k, effect) in LIST.into_iter().enumerate() {
+        observe(k as f64 * slot / seconds, effect.name());
+        let mut other = scene.clone();
+        other.problem = switched_off(scene, effect)?;
+        let other_plan = Plan::of(&other, Ask::default())?;
+        let energies = energies && effect != Effect::FieldEnergies;
+        let difference = in_turns(slot, with, || planned(&other.problem, &other_plan, energies))?;
+        rows.push(Difference { effect: Some(effect), called: called(effect), ..difference });
     }
+    observe(1.0 - slot / seconds, "the plan itself");
+    rows.push(in_turns(slot, with, || direct(&scene.problem, plan.engine, energies))?);
     Ok(rows)
 }
 
@@ -129,12 +132,12 @@ fn finish(history: &dyn History<f64>, energies: bool) -> Result<f64, CostError> 
     if energies { Ok(history.energy(&history.end())?.total) } else { Ok(history.end()) }
 }
 
-/// Both in turns, so that what slows the machine slows both: their timings, and median and spread of the differences.
+/// Both in turns, so that what slows the machine slows both.
 fn in_turns(
     slot: f64,
     with: impl Fn() -> Result<f64, CostError>,
     without: impl Fn() -> Result<f64, CostError>,
-) -> Result<(Timing, Timing, (f64, f64)), CostError> {
+) -> Result<Difference, CostError> {
     let start = Instant::now();
     with()?;
     without()?;
@@ -160,5 +163,6 @@ fn in_turns(
     }
     differences.sort_by(f64::total_cmp);
     let spread = quantile(&differences, 0.75) - quantile(&differences, 0.25);
-    Ok((Timing::of(&mut a), Timing::of(&mut b), (quantile(&differences, 0.5), spread)))
+    let (with, without) = (Timing::of(&mut a), Timing::of(&mut b));
+    Ok(Difference { effect: None, called: true, with, without, seconds: quantile(&differences, 0.5), spread })
 }

@@ -144,7 +144,7 @@ pub fn effects_table(rows: &[Difference], title: Option<&str>) -> String {
     let mut out = title.map_or_else(String::new, |title| format!("{title}\n\n"));
     let rows = rows.iter().map(|row| {
         vec![
-            row.effect.to_string(),
+            row.name().into(),
             if row.called { "yes" } else { "no" }.into(),
             duration(row.with.seconds),
             duration(row.without.seconds),
@@ -155,15 +155,15 @@ pub fn effects_table(rows: &[Difference], title: Option<&str>) -> String {
     });
     let header = ["effect", "called for", "with", "without", "costs", "spread", ""];
     out += &table(&header, rows.collect(), 2);
-    out + "\n\nwith:    the scene as planned\nwithout: the effect switched off; where it is not called for, the engine \
-           called past the plan\ncosts:   median of the differences of neighbouring runs, and the distance of their quartiles\n"
+    out + "\n\nwith:    the scene as planned\nwithout: the effect switched off, which changes nothing where it is not called for; for the \
+           plan itself, the engine called directly\ncosts:   median of the differences of neighbouring runs, and the distance of their quartiles\n"
 }
 
 /// What each effect costs, schema 1.
 pub fn effects_json(rows: &[Difference], title: Option<&str>) -> Value {
     let rows = rows.iter().map(|row| {
         json!({
-            "effect": row.effect.name(),
+            "effect": row.name(),
             "called": row.called,
             "with_seconds": row.with.seconds,
             "without_seconds": row.without.seconds,
@@ -183,7 +183,7 @@ pub fn effects_csv(rows: &[Difference]) -> Result<String, csv::Error> {
         let number = |x: f64| x.to_string();
         let (with, without) = (number(row.with.seconds), number(row.without.seconds));
         let (called, noise) = (row.called.to_string(), row.is_noise().to_string());
-        [row.effect.to_string(), called, with, without, number(row.seconds), number(row.spread), noise]
+        [row.name().into(), called, with, without, number(row.seconds), number(row.spread), noise]
     });
     write(&header, rows)
 }

@@ -106,15 +106,12 @@ pub fn cost_svg(cost: &Table, title: Option<&str>) -> String {
         place if exact && place <= lowest + 0.5 => "no error".into(),
         place => power_of_ten(-digits_at(place, decades)),
     };
-    let name = match title {
-        Some(title) => format!("{title}: {}", asked(cost)),
-        None => asked(cost),
-    };
     let mut layout = Layout::auto_from_plots(&plots)
         .with_width(WIDTH)
         .with_height(HEIGHT)
-        .with_title(name)
+        .with_title(title.unwrap_or("What accuracy costs"))
         .with_title_size(15)
+        .with_subtitle(asked(cost))
         .with_x_label("time, seconds")
         .with_y_label("relative error")
         .with_label_size(13)
@@ -123,7 +120,8 @@ pub fn cost_svg(cost: &Table, title: Option<&str>) -> String {
         .with_font_family(FAMILY)
         .with_x_axis_min(first)
         .with_x_axis_max(last)
-        .with_y_axis_min(lowest)
+        // Marks on the lowest line are whole.
+        .with_y_axis_min(if exact { lowest - 0.4 } else { lowest })
         .with_y_axis_max(place_of(least, decades).ceil() + 0.3)
         .with_x_tick_step(1.0)
         .with_y_tick_step(1.0)
