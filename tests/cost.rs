@@ -34,7 +34,7 @@ fn table(scene: &str, quantity: Quantity, time: Option<&str>) -> Table {
 fn schema() {
     for args in [
         &["figure-4-r02", "--seconds", "0.5", "--quantity", "restitution"][..],
-        &["mu-1-period-36", "--seconds", "0.5"],
+        &["doyen-ern-piperno", "--seconds", "0.5"],
         &["getfem-dynamic-contact", "--seconds", "0.5", "--quantity", "energy", "--time", "1.25"],
     ] {
         let found = json(args);
@@ -53,7 +53,7 @@ fn schema() {
         assert_eq!(chosen.len(), 1, "{args:?}");
         assert_eq!(chosen[0]["setting"], "double");
     }
-    let (code, out, _) = cost(&["mu-1-period-36", "--seconds", "0.2", "--format", "csv"]);
+    let (code, out, _) = cost(&["doyen-ern-piperno", "--seconds", "0.2", "--format", "csv"]);
     assert_eq!(code, Some(0));
     assert!(out.starts_with("route,setting,error,seconds,spread_seconds,runs,chosen\n"), "{out}");
 }

@@ -128,9 +128,23 @@ pub fn work_precision(
             }
         }
     }
-    let digits = taken.iter().map(|row| row.0.digits).max().unwrap_or(17) + BEYOND;
-    observe(spent() / seconds, &format!("the truth, to {digits} digits"));
-    let truth = truth(question, plan, digits)?;
+    let truth = loop {
+        let digits = taken.iter().map(|row| row.0.digits).max().unwrap_or(0);
+        observe(spent() / seconds, &format!("the truth, to {} digits", digits + BEYOND));
+        match truth(question, plan, digits + BEYOND) {
+            Ok(truth) => break truth,
+            // What nothing can be held against is left out, down to doubles.
+            Err(error) if taken.iter().any(|row| row.0.digits < digits) => {
+                let (kept, lost) = taken.into_iter().partition(|row| row.0.digits < digits);
+                taken = kept;
+                left_out.extend(lost.into_iter().map(|(candidate, _, _): (Candidate<'_>, _, _)| {
+                    let why = format!("no truth to hold it against: {error}");
+                    LeftOut { route: candidate.route, setting: Some(candidate.setting), why }
+                }));
+            }
+            Err(error) => return Err(error),
+        }
+    };
     let scale = truth.value.to_f64().abs().log10();
     let scale = if scale.is_finite() { scale } else { 0.0 };
     let mut rows: Vec<Row> = taken
