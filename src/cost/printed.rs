@@ -96,6 +96,11 @@ impl Printed {
 
     /// `∫ f` over `[a,b]`, cut at `cuts`, to `tolerance` of `∫|f|`.
     fn integral(&self, a: f64, b: f64, cuts: &[f64], f: &dyn Fn(f64) -> f64) -> f64 {
+        self.integral_above(0.0, a, b, cuts, f)
+    }
+
+    /// The same, but not below `noise`, which f holds where it cancels.
+    fn integral_above(&self, noise: f64, a: f64, b: f64, cuts: &[f64], f: &dyn Fn(f64) -> f64) -> f64 {
         // A cut within rounding of an end would leave a sliver on which f is noise.
         let (least, blur) = (a.min(b), 1e-13 * (a.abs() + b.abs()));
         let inner = |cut: &f64| *cut > least + blur && *cut < b - blur;
@@ -104,7 +109,7 @@ impl Printed {
         let pieces: Vec<Piece> = ends.windows(2).map(|pair| Piece::of(pair[0], pair[1], f)).collect();
         // Halves as good as the whole may be: the estimate is that of the seven-point rule, far above the error of the fifteen. Below
         // the floor it is the noise of the integrals within.
-        let allowed = self.tolerance.max(FLOOR) * pieces.iter().map(|piece| piece.size).sum::<f64>();
+        let allowed = self.tolerance.max(FLOOR) * pieces.iter().map(|piece| piece.size).sum::<f64>() + noise;
         pieces.into_iter().map(|piece| self.halved(piece, allowed, 0, f)).sum()
     }
 
@@ -171,7 +176,9 @@ impl Printed {
             return 0.0;
         }
         let cuts: Vec<f64> = self.lattice(x + self.c * t).iter().map(|y| (y - x).abs() / self.c).collect();
-        self.integral(0.0, t, &cuts, f)
+        // On the ground the cone cancels by symmetry: what is left of it there is rounding.
+        let noise = 16.0 * f64::EPSILON * self.g * t * self.c * t * (self.r * t).exp() * self.i0(self.r * t);
+        self.integral_above(noise, 0.0, t, &cuts, f)
     }
 
     /// `v`, `v_t`, `v_x` at `(x,t)`, with the limits from later times on a ray.
