@@ -5,18 +5,23 @@ use super::printed::Printed;
 use super::value::{Answer, Value};
 use super::{CostError, Quantity, Question};
 use crate::damped::Damped;
+#[cfg(feature = "mp")]
 use crate::first_contact::FirstContact;
-use crate::history::{EventKind, History, Side};
+#[cfg(feature = "mp")]
+use crate::history::History;
+use crate::history::{EventKind, Side};
 use crate::modal::Modal;
 use crate::rod::Parameters;
-use crate::scene::{Engine, Plan, System};
+#[cfg(feature = "mp")]
+use crate::scene::System;
+use crate::scene::{Engine, Plan};
 use crate::solve::{Solution, solve};
 
 /// A way to an answer.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 #[non_exhaustive]
 pub enum Route {
-    /// [`FirstContact`]: the paper's closed forms, summed.
+    /// [`crate::first_contact::FirstContact`]: the paper's closed forms, summed.
     ClosedForm,
     /// [`crate::lattice`]: undamped, from event to event.
     Lattice,
@@ -132,14 +137,10 @@ pub(super) fn planned(question: &Question, plan: &Plan) -> Result<Value, CostErr
     }
 }
 
-fn with_system(plan: &Plan, system: System) -> Plan {
-    Plan { system, ..plan.clone() }
-}
-
 /// The answer to that many digits, by the planned engine.
 #[cfg(feature = "mp")]
 pub(super) fn to_digits(question: &Question, plan: &Plan, digits: u32) -> Result<Value, CostError> {
-    planned(question, &with_system(plan, System::Digits(digits)))
+    planned(question, &Plan { system: System::Digits(digits), ..plan.clone() })
 }
 
 /// The answer in fractions: `None` for a damped rod, an error where they end too early.

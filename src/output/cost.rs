@@ -12,9 +12,8 @@ use crate::cost::{Difference, Row, Table, Timing};
 /// assert_eq!(dalembert::output::duration(0.0), "0 s");
 /// ```
 pub fn duration(seconds: f64) -> String {
-    let size = seconds.abs();
-    let (unit, name) = match size {
-        s if s == 0.0 => return "0 s".into(),
+    let (unit, name) = match seconds.abs() {
+        0.0 => return "0 s".into(),
         s if s < 0.999_5e-6 => (1e-9, "ns"),
         s if s < 0.999_5e-3 => (1e-6, "µs"),
         s if s < 0.999_5 => (1e-3, "ms"),
