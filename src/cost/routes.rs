@@ -12,9 +12,7 @@ use crate::history::History;
 use crate::history::{EventKind, Side};
 use crate::modal::Modal;
 use crate::rod::Parameters;
-#[cfg(feature = "mp")]
-use crate::scene::System;
-use crate::scene::{Engine, Plan};
+use crate::scene::{Engine, Plan, System};
 use crate::solve::{Solution, solve};
 
 /// A way to an answer.
@@ -198,7 +196,11 @@ fn by_plan<'a>(route: Route, question: &'a Question, plan: &'a Plan) -> Ladder<'
         |setting: String, digits: u32, expected: Expected, run: Box<dyn Fn(f64) -> Result<Value, CostError> + 'a>| {
             Candidate { route, setting, digits, chosen: false, expected, run }
         };
-    let chosen = candidate(plan.system.to_string(), DOUBLE, Seconds(0.0), Box::new(|_| planned(question, plan)));
+    let digits = match plan.system {
+        System::Digits(digits) | System::Exact(Some(digits)) => digits + 8,
+        System::Double(_) | System::Exact(None) => DOUBLE,
+    };
+    let chosen = candidate(plan.system.to_string(), digits, Seconds(0.0), Box::new(|_| planned(question, plan)));
     #[cfg_attr(not(feature = "mp"), expect(unused_mut))]
     let mut ladder = vec![Candidate { chosen: true, ..chosen }];
     #[cfg(feature = "mp")]
@@ -210,6 +212,9 @@ fn by_plan<'a>(route: Route, question: &'a Question, plan: &'a Plan) -> Ladder<'
         // Cells cost about the cube of their digits, of which the plan takes eight more than asked; the lattice hardly more for long numbers.
         let growths = if route == Route::Lattice { [3.0, 1.5, 2.0, 4.0] } else { [30.0, 4.0, 15.0, 30.0] };
         for (digits, growth) in LONG.into_iter().zip(growths.map(Times)) {
+            if plan.system == System::Digits(digits) {
+                continue;
+            }
             let run = move |_| to_digits(question, plan, digits);
             ladder.push(candidate(format!("{digits} digits"), digits + 8, growth, Box::new(run)));
         }
