@@ -36,9 +36,14 @@ impl Difference {
         self.effect.map_or("plan", Effect::name)
     }
 
-    /// Whether the difference is within the noise: not larger than the spread of the single differences.
+    /// What the median of the differences may be by chance, seconds: three times `spread/√runs`, near its standard deviation.
+    pub fn noise(&self) -> f64 {
+        3.0 * self.spread / (self.with.runs.max(1) as f64).sqrt()
+    }
+
+    /// Whether the difference cannot be told from nothing.
     pub fn is_noise(&self) -> bool {
-        self.seconds.abs() <= self.spread
+        self.seconds.abs() <= self.noise()
     }
 }
 

@@ -148,14 +148,14 @@ pub fn effects_table(rows: &[Difference], title: Option<&str>) -> String {
             duration(row.with.seconds),
             duration(row.without.seconds),
             duration(row.seconds),
-            duration(row.spread),
+            duration(row.noise()),
             if row.is_noise() { "within the noise" } else { "" }.into(),
         ]
     });
-    let header = ["effect", "called for", "with", "without", "costs", "spread", ""];
+    let header = ["effect", "called for", "with", "without", "costs", "noise", ""];
     out += &table(&header, rows.collect(), 2);
     out + "\n\nwith:    the scene as planned\nwithout: the effect switched off, which changes nothing where it is not called for; for the \
-           plan itself, the engine called directly\ncosts:   median of the differences of neighbouring runs, and the distance of their quartiles\n"
+           plan itself, the engine called directly\ncosts:   median of the differences of neighbouring runs, and what it may be by chance\n"
 }
 
 /// What each effect costs, schema 1.
@@ -168,6 +168,7 @@ pub fn effects_json(rows: &[Difference], title: Option<&str>) -> Value {
             "without_seconds": row.without.seconds,
             "seconds": row.seconds,
             "spread_seconds": row.spread,
+            "noise_seconds": row.noise(),
             "runs": row.with.runs,
             "noise": row.is_noise(),
         })
@@ -177,12 +178,12 @@ pub fn effects_json(rows: &[Difference], title: Option<&str>) -> Value {
 
 /// What each effect costs, as rows.
 pub fn effects_csv(rows: &[Difference]) -> Result<String, csv::Error> {
-    let header = ["effect", "called", "with_seconds", "without_seconds", "seconds", "spread_seconds", "noise"];
+    let header = ["effect", "called", "with_seconds", "without_seconds", "seconds", "noise_seconds", "noise"];
     let rows = rows.iter().map(|row| {
         let number = |x: f64| x.to_string();
         let (with, without) = (number(row.with.seconds), number(row.without.seconds));
         let (called, noise) = (row.called.to_string(), row.is_noise().to_string());
-        [row.name().into(), called, with, without, number(row.seconds), number(row.spread), noise]
+        [row.name().into(), called, with, without, number(row.seconds), number(row.noise()), noise]
     });
     write(&header, rows)
 }
