@@ -16,6 +16,7 @@
 //! | [`history`] | what a solution is, and everything that can be asked of it |
 //! | [`modal`] | the modal sum of the first contact: a third route to the same numbers |
 //! | [`quantity`] | restitution and flights |
+//! | [`cost`] | what accuracy costs in time, by every route |
 //! | `output`, `cli` | tables, JSON, CSV and the command (feature `cli`) |
 //! | [`special`] | ψ_n, I_n, φ functions, Gauss–Legendre, in any precision |
 //!
@@ -35,6 +36,7 @@
 pub mod certified;
 #[cfg(feature = "cli")]
 pub mod cli;
+pub mod cost;
 pub mod damped;
 pub mod error;
 pub mod first_contact;

@@ -1,5 +1,6 @@
 //! The command: one file per subcommand.
 
+mod cost;
 mod explain;
 mod sample;
 mod scenes;
@@ -43,6 +44,8 @@ enum Command {
     Sample(sample::Sample),
     /// The plan: which effects a scene calls for, which engine and numbers solve it, and what is left out
     Explain(explain::Explain),
+    /// What accuracy costs in time: one quantity by every route that can give it
+    Cost(cost::Cost),
     /// List the built-in scenes, or print one
     Scenes(scenes::Scenes),
     /// Print a completion script for a shell
@@ -58,6 +61,7 @@ pub fn run(cli: Cli) -> Result<(), Failure> {
         Command::Solve(command) => command.run(),
         Command::Sample(command) => command.run(),
         Command::Explain(command) => command.run(),
+        Command::Cost(command) => command.run(),
         Command::Scenes(command) => command.run(),
         Command::Completions { shell } => {
             let mut script = Vec::new();

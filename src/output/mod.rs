@@ -1,13 +1,19 @@
-//! Tables, JSON and CSV. Output computes no physics: it asks the history and the quantities.
+//! Tables, JSON, CSV and pictures. Output computes no physics: it asks the history and the quantities.
 
+mod cost;
 mod csv;
 mod file;
 mod json;
+#[cfg(feature = "plot")]
+mod picture;
 mod record;
 mod table;
 
+pub use cost::{cost_csv, cost_json, cost_table, duration, effects_csv, effects_json, effects_table};
 pub use csv::{Part, history_csv, samples_csv};
 pub use file::write_whole;
 pub use json::{history_json, samples_json};
+#[cfg(feature = "plot")]
+pub use picture::{cost_svg, png};
 pub use record::{Finished, Head, Quantity, Record, Sample, Show, record, sample};
 pub use table::{history_table, samples_table, table};

@@ -1,0 +1,165 @@
+//! `dalembert cost`.
+
+use std::path::{Path, PathBuf};
+
+use clap::Args;
+use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
+
+use super::{Failure, Format, NumberArgs, source};
+use crate::cost::{self, Difference, Quantity, Question, Table};
+use crate::number::Number;
+use crate::output::{cost_csv, cost_json, cost_table, effects_csv, effects_json, effects_table, write_whole};
+use crate::scene::{Ask, Plan, Scene};
+
+/// What accuracy costs in time: one quantity by every route that can give it, measured now, on this machine
+#[derive(Args, Debug)]
+#[command(after_help = "Examples:\n  dalembert cost figure-4-r02 --quantity restitution -o cost.svg\n  \
+    dalembert cost figure-4-r02 --quantity energy --time 2 --seconds 60\n  \
+    dalembert cost doyen-ern-piperno --effects")]
+pub(super) struct Cost {
+    /// A scene file, `-`, or a built-in scene
+    scene: String,
+    /// What is asked of every route; by default the bounce time, or the last event of a scene with several impacts
+    #[arg(long, value_enum)]
+    quantity: Option<Quantity>,
+    /// When, for stress, centre and energies; by default three quarters of a round trip
+    #[arg(long, value_name = "T", allow_hyphen_values = true)]
+    time: Option<Number>,
+    /// Instead: what each effect of the scene costs, and that those it does not call for cost nothing
+    #[arg(long)]
+    effects: bool,
+    /// About how long to measure
+    #[arg(long, value_name = "S", default_value_t = 10.0, allow_negative_numbers = true)]
+    seconds: f64,
+    #[command(flatten)]
+    numbers: NumberArgs,
+    /// What to print; by default a table
+    #[arg(long, value_enum)]
+    format: Option<Format>,
+    /// Write to this file, whole or not at all: a picture (.svg, .png), .json, .csv, or a table; `-` is standard output. Can be
+    /// given several times. Beside pictures the rows are printed as well
+    #[arg(short, long, value_name = "FILE")]
+    output: Vec<PathBuf>,
+}
+
+/// What a file holds, by its ending.
+#[derive(Clone, Copy, PartialEq)]
+enum Kind {
+    Rows(Format),
+    Svg,
+    Png,
+}
+
+enum Measured {
+    Work(Table),
+    Effects(Vec<Difference>),
+}
+
+impl Cost {
+    pub(super) fn run(&self) -> Result<(), Failure> {
+        let scene = source::read(&self.scene)?;
+        // Before ten seconds are spent.
+        self.check()?;
+        let measured = self.measure(&scene)?;
+        let title = scene.title.as_deref();
+        let mut printed = false;
+        for path in &self.output {
+            let kind = self.kind(path);
+            printed |= matches!(kind, Kind::Rows(_));
+            write(Some(path), &measured.bytes(kind, title)?)?;
+        }
+        if printed {
+            return Ok(());
+        }
+        write(None, &measured.bytes(Kind::Rows(self.format.unwrap_or(Format::Table)), title)?)
+    }
+
+    fn kind(&self, path: &Path) -> Kind {
+        match path.extension().and_then(|ending| ending.to_str()) {
+            Some("svg") => Kind::Svg,
+            Some("png") => Kind::Png,
+            Some("json") => Kind::Rows(self.format.unwrap_or(Format::Json)),
+            Some("csv") => Kind::Rows(self.format.unwrap_or(Format::Csv)),
+            _ => Kind::Rows(self.format.unwrap_or(Format::Table)),
+        }
+    }
+
+    fn check(&self) -> Result<(), Failure> {
+        let picture = self.output.iter().find(|path| !matches!(self.kind(path), Kind::Rows(_)));
+        let Some(path) = picture else { return Ok(()) };
+        let path = path.display();
+        if self.effects {
+            return Err(miette::miette!("found --effects with {path}, expected a table, JSON or CSV"));
+        }
+        if cfg!(not(feature = "plot")) {
+            return Err(miette::miette!(
+                "found {path} in a build without pictures, expected one with the feature `plot`"
+            ));
+        }
+        Ok(())
+    }
+
+    fn measure(&self, scene: &Scene) -> Result<Measured, Failure> {
+        let bar = progress();
+        let observe = |share: f64, what: &str| {
+            bar.set_message(what.to_string());
+            bar.set_position((1000.0 * share.min(1.0)) as u64);
+        };
+        let measured = if self.effects {
+            let energies =
+                matches!(self.quantity, Some(Quantity::Energy | Quantity::Vibrational | Quantity::Restitution));
+            cost::effects(scene, energies, self.seconds, observe).map(Measured::Effects)
+        } else {
+            let ask: Ask = self.numbers.ask();
+            let plan = Plan::of(scene, ask)?;
+            let question = Question::of(scene, self.quantity, self.time.clone())?;
+            cost::work_precision(&question, &plan, self.seconds, observe).map(Measured::Work)
+        };
+        bar.finish_and_clear();
+        Ok(measured?)
+    }
+}
+
+impl Measured {
+    fn bytes(&self, kind: Kind, title: Option<&str>) -> Result<Vec<u8>, Failure> {
+        let no_csv = |error: csv::Error| miette::miette!("cannot write CSV: {error}");
+        Ok(match (self, kind) {
+            (Measured::Work(table), Kind::Rows(Format::Table)) => cost_table(table, title).into_bytes(),
+            (Measured::Work(table), Kind::Rows(Format::Json)) => {
+                format!("{:#}\n", cost_json(table, title)).into_bytes()
+            }
+            (Measured::Work(table), Kind::Rows(Format::Csv)) => cost_csv(table).map_err(no_csv)?.into_bytes(),
+            #[cfg(feature = "plot")]
+            (Measured::Work(table), Kind::Svg) => crate::output::cost_svg(table, title).into_bytes(),
+            #[cfg(feature = "plot")]
+            (Measured::Work(table), Kind::Png) => crate::output::png(&crate::output::cost_svg(table, title), PNG_SCALE)
+                .map_err(|error| miette::miette!("cannot draw: {error}"))?,
+            (Measured::Effects(rows), Kind::Rows(Format::Json)) => {
+                format!("{:#}\n", effects_json(rows, title)).into_bytes()
+            }
+            (Measured::Effects(rows), Kind::Rows(Format::Csv)) => effects_csv(rows).map_err(no_csv)?.into_bytes(),
+            // Pictures that cannot be drawn are refused before anything is measured.
+            (Measured::Effects(rows), _) => effects_table(rows, title).into_bytes(),
+            #[cfg(not(feature = "plot"))]
+            (Measured::Work(table), _) => cost_table(table, title).into_bytes(),
+        })
+    }
+}
+
+/// Pixels for a unit of the SVG: sharp in print.
+#[cfg(feature = "plot")]
+const PNG_SCALE: f32 = 2.0;
+
+fn write(path: Option<&Path>, bytes: &[u8]) -> Result<(), Failure> {
+    let name = path.map_or("standard output".into(), |path| path.display().to_string());
+    Ok(write_whole(path, bytes).map_err(source::cannot(&format!("write {name}")))?)
+}
+
+/// A bar on standard error, on a terminal only.
+fn progress() -> ProgressBar {
+    let bar = ProgressBar::with_draw_target(Some(1000), ProgressDrawTarget::stderr());
+    if let Ok(style) = ProgressStyle::with_template("{bar:40} {percent} %, {msg}") {
+        bar.set_style(style);
+    }
+    bar
+}
