@@ -197,7 +197,7 @@ fn by_plan<'a>(route: Route, question: &'a Question, plan: &'a Plan) -> Ladder<'
             Candidate { route, setting, digits, chosen: false, expected, run }
         };
     let digits = match plan.system {
-        System::Digits(digits) | System::Exact(Some(digits)) => digits + 8,
+        System::Digits(digits) | System::Exact(Some(digits)) | System::Certified(digits) => digits + 8,
         System::Double(_) | System::Exact(None) => DOUBLE,
     };
     let chosen = candidate(plan.system.to_string(), digits, Seconds(0.0), Box::new(|_| planned(question, plan)));

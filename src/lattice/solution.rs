@@ -268,12 +268,12 @@ impl<S: Scalar> Undamped<S> {
         let age = time.clone() / &self.problem.units.round_trip;
         let trip = age.floor_int().and_then(|trip| usize::try_from(trip).ok()).ok_or_else(outside)?;
         let fraction = age.clone() - age.int(trip as i64);
-        let moment = self.snap(Moment { index: trip + 1, fraction });
         let begin = self.marched.trace.begin();
-        if moment.index < begin {
+        if trip + 1 < begin {
             let start = self.time_of(&Moment { index: begin, fraction: age.zero() });
             return Err(Error::TimeForgotten { found: time.text(), start: start.text() });
         }
+        let moment = self.snap(Moment { index: trip + 1, fraction });
         let end = &self.end;
         let later = moment.index > end.index || (moment.index == end.index && moment.fraction > end.fraction);
         let after_whole_trip =
