@@ -33,11 +33,13 @@ pub enum Route {
     Printed,
     /// [`march`](super::march): finite differences at CFL = 1.
     Differences,
+    /// Intervals with ends rounded outwards.
+    Enclosures,
 }
 
 impl Route {
     /// Every route, in the order in which they are shown.
-    pub const ALL: [Route; 7] = [
+    pub const ALL: [Route; 8] = [
         Route::ClosedForm,
         Route::Lattice,
         Route::Joined,
@@ -45,6 +47,7 @@ impl Route {
         Route::Modes,
         Route::Printed,
         Route::Differences,
+        Route::Enclosures,
     ];
 
     /// The name in output: `closed form`.
@@ -57,6 +60,7 @@ impl Route {
             Route::Modes => "modal sum",
             Route::Printed => "printed integrals",
             Route::Differences => "finite differences",
+            Route::Enclosures => "enclosures",
         }
     }
 }
@@ -112,11 +116,16 @@ pub(super) fn ladders<'a>(question: &'a Question, plan: &'a Plan) -> (Vec<Ladder
         Route::Lattice => take(Route::Joined, Err("the scene has no damping: the plan takes the lattice".into())),
         _ => take(Route::Lattice, Err("the scene has damping, which couples the characteristics".into())),
     }
-    take(planned_route, Ok(by_plan(planned_route, question, plan)));
+    match plan.system {
+        System::Certified(_) => take(planned_route, Err("the plan takes enclosures".into())),
+        _ => take(planned_route, Ok(by_plan(planned_route, question, plan))),
+    }
     take(Route::Cells, Ok(cells(question)));
     take(Route::Modes, first.clone().and_then(|()| modes(question)));
     take(Route::Printed, first.and_then(|()| printed(question)));
     take(Route::Differences, Ok(differences(question)));
+    #[cfg(feature = "mp")]
+    take(Route::Enclosures, enclosures(question, plan));
     (ladders, left_out)
 }
 
@@ -159,6 +168,18 @@ pub(super) fn fractions(question: &Question, plan: &Plan) -> Option<Result<Value
     Some(question.ask(&history))
 }
 
+/// The answer with that many proved digits.
+#[cfg(feature = "mp")]
+pub(super) fn enclosed(question: &Question, digits: u32) -> Result<Value, CostError> {
+    fn numbers(value: &Value) -> Vec<&crate::number::Interval> {
+        match value {
+            Value::Enclosed(interval) => vec![interval],
+            _ => Vec::new(),
+        }
+    }
+    crate::solve::certify(&question.problem, digits, |history| question.ask(history), numbers, |_, _| ())
+}
+
 /// The closed form in numbers of that many bits.
 #[cfg(feature = "mp")]
 pub(super) fn closed_in_bits(question: &Question, bits: u32) -> Result<Value, CostError> {
@@ -197,8 +218,8 @@ fn by_plan<'a>(route: Route, question: &'a Question, plan: &'a Plan) -> Ladder<'
             Candidate { route, setting, digits, chosen: false, expected, run }
         };
     let digits = match plan.system {
-        System::Digits(digits) | System::Exact(Some(digits)) | System::Certified(digits) => digits + 8,
-        System::Double(_) | System::Exact(None) => DOUBLE,
+        System::Digits(digits) | System::Exact(Some(digits)) => digits + 8,
+        System::Double(_) | System::Exact(None) | System::Certified(_) => DOUBLE,
     };
     let chosen = candidate(plan.system.to_string(), digits, Seconds(0.0), Box::new(|_| planned(question, plan)));
     #[cfg_attr(not(feature = "mp"), expect(unused_mut))]
@@ -220,6 +241,30 @@ fn by_plan<'a>(route: Route, question: &'a Question, plan: &'a Plan) -> Ladder<'
         }
     }
     ladder
+}
+
+/// Enclosures, where they reach: an answer that is wrong by more than it says is impossible.
+#[cfg(feature = "mp")]
+fn enclosures<'a>(question: &'a Question, plan: &Plan) -> Result<Ladder<'a>, String> {
+    if question.problem.rod.damping.is_some() {
+        question.of_first_contact().map_err(|why| format!("{why}: only that is proved under damping"))?;
+    }
+    let chosen = match plan.system {
+        System::Certified(digits) => Some(digits),
+        _ => None,
+    };
+    let mut settings: Vec<u32> = LONG.into_iter().chain([15]).chain(chosen).collect();
+    settings.sort_unstable();
+    settings.dedup();
+    let candidate = |(k, digits): (usize, u32)| Candidate {
+        route: Route::Enclosures,
+        setting: format!("{digits} digits"),
+        digits: digits + 9,
+        chosen: chosen == Some(digits),
+        expected: if k == 0 { Seconds(1e-3) } else { Times(4.0) },
+        run: Box::new(move |_| enclosed(question, digits)),
+    };
+    Ok(settings.into_iter().enumerate().map(candidate).collect())
 }
 
 /// Cells from the start, whatever the scene: their error falls geometrically with the nodes.

@@ -9,13 +9,15 @@ use crate::scene::Plan;
 pub struct Truth {
     /// The value.
     pub value: Value,
-    /// `log₁₀` of what it may be off, −∞ where it is exact. Twice what separates two computations with different precision, one far
-    /// beyond the other: an estimate, not yet a proof.
+    /// `log₁₀` of what it may be off, −∞ where it is exact. Where that is not proved it is twice what separates two computations with
+    /// different precision, one far beyond the other.
     pub log10_half_width: f64,
+    /// Whether the value is exact or enclosed, not estimated.
+    pub proved: bool,
 }
 
-/// The answer to `question` with `digits` decimal digits or more: a fraction where the undamped run stays in fractions, else twice in
-/// long numbers, by the closed form where it reaches and by the planned engine elsewhere.
+/// The answer to `question` with `digits` decimal digits or more: a fraction where the undamped run stays in fractions, else an
+/// enclosure where there is one, else twice in long numbers, by the closed form where it reaches and by the planned engine elsewhere.
 ///
 /// **Accuracy**: see [`Truth::log10_half_width`].
 ///
@@ -31,10 +33,14 @@ pub struct Truth {
 /// ```
 #[cfg(feature = "mp")]
 pub fn truth(question: &Question, plan: &Plan, digits: u32) -> Result<Truth, CostError> {
-    use super::routes::{closed_in_bits, fractions, to_digits};
+    use super::routes::{closed_in_bits, enclosed, fractions, to_digits};
     use crate::number::bits_for_digits;
     if let Some(value) = fractions(question, plan).and_then(Result::ok) {
-        return Ok(Truth { value, log10_half_width: f64::NEG_INFINITY });
+        return Ok(Truth { value, log10_half_width: f64::NEG_INFINITY, proved: true });
+    }
+    if let Ok(Value::Enclosed(value)) = enclosed(question, digits) {
+        let log10_half_width = value.radius().log10().to_f64();
+        return Ok(Truth { value: Value::Enclosed(value), log10_half_width, proved: true });
     }
     let by_closed_form = question.of_first_contact().is_ok();
     let run = |digits: u32| {
@@ -53,7 +59,7 @@ pub fn truth(question: &Question, plan: &Plan, digits: u32) -> Result<Truth, Cos
         // Equal to the last bit: no better than the shorter of the two.
         let log10_half_width = log10_half_width.max(scale - f64::from(digits + more) - 12.0);
         if log10_half_width <= scale - f64::from(digits) || more >= 4 * digits.max(50) {
-            return Ok(Truth { value, log10_half_width });
+            return Ok(Truth { value, log10_half_width, proved: false });
         }
         more = (2 * more).max(digits / 2 + 20);
     }
@@ -68,5 +74,5 @@ pub fn truth(question: &Question, plan: &Plan, digits: u32) -> Result<Truth, Cos
 pub fn truth(question: &Question, plan: &Plan, _digits: u32) -> Result<Truth, CostError> {
     let value = super::routes::planned(question, plan)?;
     let log10_half_width = (value.to_f64().abs() * 1e-13).log10();
-    Ok(Truth { value, log10_half_width })
+    Ok(Truth { value, log10_half_width, proved: false })
 }

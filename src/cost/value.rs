@@ -11,6 +11,9 @@ pub enum Value {
     /// A fraction: without any error.
     #[cfg(feature = "mp")]
     Exact(rug::Rational),
+    /// An enclosure; its middle stands for it.
+    #[cfg(feature = "mp")]
+    Enclosed(Box<crate::number::Interval>),
 }
 
 impl Value {
@@ -22,6 +25,8 @@ impl Value {
             Value::Long(value) => value.to_f64(),
             #[cfg(feature = "mp")]
             Value::Exact(value) => crate::number::Scalar::to_f64(value),
+            #[cfg(feature = "mp")]
+            Value::Enclosed(value) => value.mid().to_f64(),
         }
     }
 
@@ -58,6 +63,7 @@ impl Value {
             Value::Double(value) => rug::Rational::from_f64(*value),
             Value::Long(value) => value.to_rational(),
             Value::Exact(value) => Some(value.clone()),
+            Value::Enclosed(value) => value.mid().to_rational(),
         }
     }
 }
@@ -77,6 +83,13 @@ impl Answer for f64 {
 impl Answer for rug::Float {
     fn answer(self) -> Value {
         Value::Long(self)
+    }
+}
+
+#[cfg(feature = "mp")]
+impl Answer for crate::number::Interval {
+    fn answer(self) -> Value {
+        Value::Enclosed(Box::new(self))
     }
 }
 

@@ -70,6 +70,7 @@ pub fn cost_table(cost: &Table, title: Option<&str>) -> String {
     out += "\n\nerror: relative, against ";
     out += &match cost.truth.log10_half_width {
         width if width == f64::NEG_INFINITY => "the exact fraction".into(),
+        width if cost.truth.proved => format!("a value that is proved to 1e{}", width.ceil()),
         width => format!("a value known to about 1e{}", width.ceil()),
     };
     out += "\ntime:  median of the runs, and the distance of their quartiles\n";
@@ -106,6 +107,7 @@ pub fn cost_json(cost: &Table, title: Option<&str>) -> Value {
         "time": cost.time.as_ref().map(crate::Number::to_f64),
         "truth": cost.truth.value.to_f64(),
         "truth_log10_half_width": finite(cost.truth.log10_half_width),
+        "truth_proved": cost.truth.proved,
         "rows": rows.collect::<Vec<_>>(),
         "left_out": left_out.collect::<Vec<_>>(),
     })

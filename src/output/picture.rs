@@ -35,6 +35,7 @@ fn look(route: Route) -> (&'static str, MarkerShape) {
         Route::Modes => ("#cc79a7", MarkerShape::Triangle),
         Route::Printed => ("#8c6d1f", MarkerShape::TriangleDown),
         Route::Differences => ("#56b4e9", MarkerShape::Pentagon),
+        Route::Enclosures => ("#000000", MarkerShape::Cross),
     }
 }
 
