@@ -120,7 +120,9 @@ pub enum Error {
         digits: u32,
     },
     /// More bits would be needed than are worth trying.
-    #[error("{digits} digits are not settled with {bits} bits; expected a shorter run or fewer digits")]
+    #[error(
+        "{digits} digits are not settled with {bits} bits; expected a shorter run, fewer digits, or --certified, which knows exact roots"
+    )]
     Unsettled {
         /// What was asked for.
         digits: u32,

@@ -1,0 +1,88 @@
+//! What a proof costs: the same answers in doubles, in long numbers and in enclosures, with the exact numbers inside and without;
+//! and the march of a chaotic history, a piece at a time.
+#![allow(missing_docs, clippy::unwrap_used, clippy::panic)]
+
+use std::hint::black_box;
+
+use criterion::{Criterion, Throughput, criterion_group, criterion_main};
+use dalembert::certified::{ClosedForm, ProvedContact};
+use dalembert::first_contact::FirstContact;
+use dalembert::lattice::{Limits, Scaled, Undamped, Until, march};
+use dalembert::number::{Interval, IntervalPrecision, Number, decided};
+use dalembert::rod::{Parameters, Run};
+use dalembert::{History, Problem, Side};
+use rug::Float;
+
+fn rod(damping: &str, gravity: &str, length: &str, speed: &str) -> Problem {
+    let number = |text: &str| text.parse::<Number>().unwrap();
+    let mut problem = Problem::uniform(number(length), 1.into(), number(gravity), number(speed));
+    problem.rod.damping = Some(number(damping)).filter(|r| !r.is_zero());
+    problem
+}
+
+/// μ = 1 to t = 36, with a tangential landing and irrational times: events and centre of mass.
+fn undamped(c: &mut Criterion) {
+    let mut group = c.benchmark_group("μ = 1 to t = 36");
+    let mut problem = rod("0", "1", "1", "1");
+    problem.run = Run::Time(36.into());
+    group.bench_function("doubles", |b| {
+        b.iter(|| Undamped::<f64>::solve(black_box(&problem), &()).unwrap().events().len());
+    });
+    for bits in [256, 3400] {
+        group.bench_function(format!("{bits} bits"), |b| {
+            b.iter(|| Undamped::<Float>::solve(black_box(&problem), &bits).unwrap().events().len());
+        });
+        group.bench_function(format!("{bits} bits, proved"), |b| {
+            let exact = IntervalPrecision::with_exact(bits);
+            b.iter(|| {
+                decided(|| Undamped::<Interval>::solve(black_box(&problem), &exact).unwrap().events().len()).unwrap()
+            });
+        });
+    }
+    group.finish();
+}
+
+/// The first contact of Figure 1, r = 3.0, whose bounce comes in the fourth round trip.
+fn first_contact(c: &mut Criterion) {
+    let mut group = c.benchmark_group("first contact, R = 3");
+    let problem = rod("3", "0", "1/2", "1");
+    for bits in [256u32, 3400] {
+        let contact = FirstContact::new(&Parameters::<Float>::of(&problem, &bits).unwrap());
+        let form = ClosedForm::of(&problem, bits).unwrap();
+        let (time, proved) = (Float::with_val(bits, 2.5), form.time(&"5/2".parse().unwrap()));
+        group.bench_function(format!("stress, {bits} bits"), |b| {
+            b.iter(|| contact.stress(black_box(&time), Side::Right).value);
+        });
+        group.bench_function(format!("stress, {bits} bits, proved"), |b| {
+            b.iter(|| form.stress(black_box(&proved), Side::Right).unwrap());
+        });
+        group.bench_function(format!("t_b, {bits} bits"), |b| b.iter(|| black_box(&contact).bounce()));
+        group.bench_function(format!("t_b, {bits} bits, proved"), |b| {
+            b.iter(|| ProvedContact::solve(black_box(&problem), bits).unwrap().unwrap());
+        });
+    }
+    group.finish();
+}
+
+/// A piece of the chaotic march, μ = 3/2 to t = 200, with what is behind forgotten.
+fn chaotic(c: &mut Criterion) {
+    let mut group = c.benchmark_group("chaotic, a piece");
+    let mut problem = rod("0", "1", "1", "3/2");
+    problem.run = Run::Time(200.into());
+    let limits = Limits::keeping_from(&problem, 200.0);
+    let scaled = Scaled::<Float>::of(&problem, &240).unwrap();
+    let until = Until::Age(100, Float::new(240));
+    let mut pieces = 0;
+    march(&scaled, &until, Limits::default(), |_, now| pieces = now).unwrap();
+    group.throughput(Throughput::Elements(pieces as u64));
+    group.bench_function("240 bits", |b| b.iter(|| march(black_box(&scaled), &until, limits, |_, _| ()).unwrap()));
+    let scaled = Scaled::<f64>::of(&problem, &()).unwrap();
+    let until = Until::Age(100, 0.0);
+    group.bench_function("doubles, which lose it at t = 105", |b| {
+        b.iter(|| march(black_box(&scaled), &until, limits, |_, _| ()).unwrap());
+    });
+    group.finish();
+}
+
+criterion_group!(benches, undamped, first_contact, chaotic);
+criterion_main!(benches);
