@@ -17,6 +17,27 @@ fn cost(args: &[&str]) -> (Option<i32>, String, String) {
     (output.status.code(), text(output.stdout), text(output.stderr))
 }
 
+/// Under damping only the first contact is proved: the truth of a later event is not what ends the proof.
+#[cfg(feature = "mp")]
+#[test]
+fn the_truth_of_a_later_event() {
+    use dalembert::{History, Solution, cost::truth, solve};
+    let scene = Scene::parse(builtin::get("figure-4-r02").unwrap().source).unwrap();
+    let mut scene = scene;
+    scene.problem.run = Run::Impacts(2);
+    let plan = Plan::of(&scene, Ask::default()).unwrap();
+    let question = Question::of(&scene, Some(Quantity::LastEvent), None).unwrap();
+    let found = truth(&question, &plan, 20).unwrap();
+    let Solution::Double(history) = solve(&scene.problem, &plan, |_, _| ()).unwrap() else { unreachable!() };
+    let last = history.events().last().unwrap().time;
+    assert!(!found.proved && (found.value.to_f64() - last).abs() < 1e-12 * last, "{found:?} {last}");
+    // Without damping every event is proved.
+    let scene = Scene::parse(builtin::get("mu-1-period-36").unwrap().source).unwrap();
+    let question = Question::of(&scene, Some(Quantity::LastEvent), None).unwrap();
+    let found = truth(&question, &Plan::of(&scene, Ask::default()).unwrap(), 20).unwrap();
+    assert!(found.proved && found.log10_half_width < -19.0, "{found:?}");
+}
+
 fn json(args: &[&str]) -> Value {
     let (code, out, err) = cost(&[args, &["--format", "json"]].concat());
     assert_eq!((code, err.as_str()), (Some(0), ""), "{args:?}");

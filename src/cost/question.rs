@@ -4,7 +4,7 @@ use super::CostError;
 use super::value::{Answer, Value};
 use crate::error::Error;
 use crate::first_contact::{Bounce, FirstContact};
-use crate::history::{EventKind, History, Side};
+use crate::history::{Ending, EventKind, History, Side};
 use crate::number::{Analytic, Number, Scalar};
 use crate::rod::{Parameters, Problem, Run};
 use crate::scene::Scene;
@@ -134,6 +134,10 @@ impl Question {
             Quantity::BounceTime => {
                 let release = history.events().iter().find(|event| event.kind == EventKind::Release);
                 release.map(|event| event.time.clone()).ok_or_else(|| self.none(history.ending().to_string()))?
+            }
+            // The last event before a doubt is not the last of the run.
+            Quantity::LastEvent if matches!(history.ending(), Ending::Undecided(_) | Ending::ExactnessEnds { .. }) => {
+                return Err(CostError::GaveUp(history.ending().to_string()));
             }
             Quantity::LastEvent => {
                 let last = history.events().last();

@@ -8,7 +8,6 @@ use crate::damped::Damped;
 #[cfg(feature = "mp")]
 use crate::first_contact::FirstContact;
 #[cfg(feature = "mp")]
-use crate::history::History;
 use crate::history::{EventKind, Side};
 use crate::modal::Modal;
 use crate::rod::Parameters;
@@ -160,17 +159,17 @@ pub(super) fn fractions(question: &Question, plan: &Plan) -> Option<Result<Value
         Ok(history) => history,
         Err(error) => return Some(Err(error.into())),
     };
-    // The last event before exactness ends is not the last of the run.
-    let ends = matches!(history.ending(), crate::Ending::ExactnessEnds { .. });
-    if ends && question.quantity == Quantity::LastEvent {
-        return Some(Err(CostError::GaveUp(history.ending().to_string())));
-    }
     Some(question.ask(&history))
 }
 
 /// The answer with that many proved digits.
 #[cfg(feature = "mp")]
 pub(super) fn enclosed(question: &Question, digits: u32) -> Result<Value, CostError> {
+    if question.problem.rod.damping.is_some() {
+        question
+            .of_first_contact()
+            .map_err(|why| CostError::GaveUp(format!("{why}: only that is proved under damping")))?;
+    }
     fn numbers(value: &Value) -> Vec<&crate::number::Interval> {
         match value {
             Value::Enclosed(interval) => vec![interval],
