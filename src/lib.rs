@@ -5,7 +5,7 @@
 //!
 //! | module | what it does |
 //! |---|---|
-//! | [`number`] | two traits, three number systems, exact text in and rounded text out |
+//! | [`number`] | two traits, four number systems, exact text in and rounded text out |
 //! | [`rod`] | the problem in exact numbers: rod, gravity, start, run |
 //! | [`scene`] | from a scene file to a problem; which effects it calls for; the plan |
 //! | [`solve`](mod@solve) | the engine that the plan chose, in the numbers that it chose |
