@@ -16,6 +16,7 @@
 //! | [`history`] | what a solution is, and everything that can be asked of it |
 //! | [`modal`] | the modal sum of the first contact: a third route to the same numbers |
 //! | [`quantity`] | restitution and flights |
+//! | [`check`] | hard cases and the paper's claims, each by every route, held against the truth |
 //! | [`cost`] | what accuracy costs in time, by every route |
 //! | `output`, `cli` | tables, JSON, CSV and the command (feature `cli`) |
 //! | [`special`] | ψ_n, I_n, φ functions, Gauss–Legendre, in any precision |
@@ -34,6 +35,7 @@
 
 #[cfg(feature = "mp")]
 pub mod certified;
+pub mod check;
 #[cfg(feature = "cli")]
 pub mod cli;
 pub mod cost;

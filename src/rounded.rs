@@ -4,6 +4,7 @@ use rug::Float;
 
 use crate::error::Error;
 use crate::history::{Contact, Ending, Energy, Event, Field, History, Scales, Side, StressPiece};
+use crate::number::{Number, Scalar};
 
 /// A history that was computed in more bits than doubles have, each answer rounded once at the end.
 pub struct Rounded {
@@ -53,8 +54,12 @@ impl Rounded {
         exact.unwrap_or_else(|| self.lift(time))
     }
 
+    /// A double stands for the shortest decimal that it is the nearest to: `0.6` is 6/10, and meets a ray that comes then.
     fn lift(&self, x: f64) -> Float {
-        Float::with_val(self.bits, x)
+        match x.to_string().parse::<Number>() {
+            Ok(number) => Float::from_number(&number, &self.bits),
+            Err(_) => Float::with_val(self.bits, x),
+        }
     }
 }
 

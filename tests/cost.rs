@@ -21,7 +21,7 @@ fn cost(args: &[&str]) -> (Option<i32>, String, String) {
 #[cfg(feature = "mp")]
 #[test]
 fn the_truth_of_a_later_event() {
-    use dalembert::{History, Solution, cost::truth, solve};
+    use dalembert::{Solution, cost::truth, solve};
     let scene = Scene::parse(builtin::get("figure-4-r02").unwrap().source).unwrap();
     let mut scene = scene;
     scene.problem.run = Run::Impacts(2);

@@ -1,5 +1,6 @@
 //! The command: one file per subcommand.
 
+mod check;
 mod cost;
 mod explain;
 mod sample;
@@ -8,6 +9,7 @@ mod solve;
 mod source;
 
 use std::path::PathBuf;
+use std::process::ExitCode;
 
 use clap::{Args, CommandFactory, Parser, Subcommand, ValueEnum};
 
@@ -46,6 +48,8 @@ enum Command {
     Explain(explain::Explain),
     /// What accuracy costs in time: one quantity by every route that can give it
     Cost(cost::Cost),
+    /// Hard cases and the paper's claims, worked out by every route and held against the truth
+    Check(check::Check),
     /// List the built-in scenes, or print one
     Scenes(scenes::Scenes),
     /// Print a completion script for a shell
@@ -55,20 +59,22 @@ enum Command {
     },
 }
 
-/// Runs the command.
-pub fn run(cli: Cli) -> Result<(), Failure> {
-    match cli.command {
+/// Runs the command. The exit code is 1 where `check` finds a promise that is not kept.
+pub fn run(cli: Cli) -> Result<ExitCode, Failure> {
+    let done = match cli.command {
         Command::Solve(command) => command.run(),
         Command::Sample(command) => command.run(),
         Command::Explain(command) => command.run(),
         Command::Cost(command) => command.run(),
+        Command::Check(command) => return command.run(),
         Command::Scenes(command) => command.run(),
         Command::Completions { shell } => {
             let mut script = Vec::new();
             clap_complete::generate(shell, &mut Cli::command(), "dalembert", &mut script);
             Ok(write_whole(None, &script).map_err(source::cannot("write the script"))?)
         }
-    }
+    };
+    done.map(|()| ExitCode::SUCCESS)
 }
 
 /// How exact the numbers are to be.

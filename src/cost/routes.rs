@@ -7,7 +7,6 @@ use super::{CostError, Quantity, Question};
 use crate::damped::Damped;
 #[cfg(feature = "mp")]
 use crate::first_contact::FirstContact;
-#[cfg(feature = "mp")]
 use crate::history::{EventKind, Side};
 use crate::modal::Modal;
 use crate::rod::Parameters;

@@ -91,12 +91,12 @@ impl<S: Analytic> FirstContact<S> {
         self.round_trip.clone()
     }
 
-    /// `t/t₁`, and exactly k at the k-th lattice time as it is computed from `t₁`.
+    /// `t/t₁`, and exactly k within rounding of the k-th lattice time.
     pub(super) fn trips(&self, time: &S) -> S {
         let trips = time.clone() / &self.round_trip;
         let nearest = (trips.clone() + trips.ratio(1, 2)).floor_int();
         match nearest {
-            Some(k) if *time == self.round_trip.int(k) * &self.round_trip => time.int(k),
+            Some(k) if time.meets(&(self.round_trip.int(k) * &self.round_trip)) => time.int(k),
             _ => trips,
         }
     }
@@ -194,7 +194,8 @@ impl<S: Analytic> FirstContact<S> {
 
     /// `V`, `V_t`, `V_x` at the travel time `a` from the ground, `0 ≤ a ≤ 1/2`.
     pub(super) fn field_parts(&self, a: &S, trips: &S, side: Side) -> Option<[Parts<S>; 3]> {
-        self.field_of(a, trips, |_, travel, _| travel < trips || (travel == trips && side == Side::Right))
+        let arrived = |_, travel: &S, _| if travel.meets(trips) { side == Side::Right } else { travel < trips };
+        self.field_of(a, trips, arrived)
     }
 
     /// The same with those rays, the j-th of a travel time, upwards or downwards, that have `arrived`.

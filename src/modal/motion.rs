@@ -157,7 +157,7 @@ impl<S: Analytic> Modal<S> {
     fn trips(&self, time: &S) -> S {
         let trips = time.clone() / &self.round_trip;
         match (trips.clone() + trips.ratio(1, 2)).floor_int() {
-            Some(k) if *time == self.round_trip.int(k) * &self.round_trip => time.int(k),
+            Some(k) if time.meets(&(self.round_trip.int(k) * &self.round_trip)) => time.int(k),
             _ => trips,
         }
     }

@@ -142,6 +142,14 @@ pub trait Scalar:
         false
     }
 
+    /// Whether both are the same number but for eight roundings: `3 · 0.2` is `0.6`. Exact and enclosed numbers are compared as they are.
+    fn meets(&self, other: &Self) -> bool {
+        if Self::RIGOROUS {
+            return self == other;
+        }
+        (self.clone() - other).magnitude() <= other.magnitude() * &self.roundoff() * &self.int(8)
+    }
+
     /// The greater of both.
     fn larger(self, other: Self) -> Self {
         if other > self { other } else { self }

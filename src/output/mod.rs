@@ -1,5 +1,6 @@
 //! Tables, JSON, CSV and pictures. Output computes no physics: it asks the history and the quantities.
 
+mod check;
 mod cost;
 mod csv;
 mod file;
@@ -9,6 +10,7 @@ mod picture;
 mod record;
 mod table;
 
+pub use check::{check_json, check_page, check_table};
 pub use cost::{cost_csv, cost_json, cost_table, duration, effects_csv, effects_json, effects_table};
 pub use csv::{Part, history_csv, samples_csv};
 pub use file::write_whole;

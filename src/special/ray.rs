@@ -43,6 +43,8 @@ impl<S: Analytic> Ray<S> {
     /// The ray of travel time `a ≤ t`.
     pub fn new(damping: &S, travel: &S, time: &S) -> Self {
         let (xi, eta) = (time.clone() - travel, time.clone() + travel);
+        // A ray that arrives now may do so a rounding later.
+        let xi = if !S::RIGOROUS && xi.is_negative() { xi.zero() } else { xi };
         let half = damping.clone() / damping.int(2);
         let argument = damping.to_f64() * (xi.to_f64().max(0.0) * eta.to_f64()).sqrt();
         Ray { xi, eta, half, argument }

@@ -1,0 +1,72 @@
+//! `dalembert check`.
+
+use std::path::PathBuf;
+use std::process::ExitCode;
+
+use clap::{Args, ValueEnum};
+use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
+
+use super::{Failure, source};
+use crate::check::{Checked, Verdict, catalogue, select};
+use crate::output::{check_json, check_page, check_table, write_whole};
+
+/// The catalogue of hard cases and of the paper's claims, worked out now by every route and held against the truth
+#[derive(Args, Debug)]
+#[command(after_help = "Examples:\n  dalembert check\n  dalembert check --only late --only figure-4\n  \
+    dalembert check --format markdown -o docs/check.md\n\nThe exit code is 1 if any promise is not kept.")]
+pub(super) struct Check {
+    /// A case or a group; can be given several times
+    #[arg(long, value_name = "NAME")]
+    only: Vec<String>,
+    /// What to print
+    #[arg(long, value_enum, default_value_t = Shape::Table)]
+    format: Shape,
+    /// Write to this file, whole or not at all; `-` is standard output
+    #[arg(short, long, value_name = "FILE")]
+    output: Option<PathBuf>,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+enum Shape {
+    /// For a person: answers, digits and times
+    Table,
+    /// For a program
+    Json,
+    /// For a page: nothing that depends on the machine
+    Markdown,
+}
+
+impl Check {
+    pub(super) fn run(&self) -> Result<ExitCode, Failure> {
+        let cases = select(&self.only).map_err(|name| {
+            let mut known: Vec<&str> = catalogue().map(|case| case.group.name()).collect();
+            known.dedup();
+            let names: Vec<&str> = catalogue().map(|case| case.name).collect();
+            miette::miette!(
+                "found --only {name}, expected a group ({}) or a case ({})",
+                known.join(", "),
+                names.join(", ")
+            )
+        })?;
+        // Drawn on a terminal only.
+        let bar = ProgressBar::with_draw_target(Some(cases.len() as u64), ProgressDrawTarget::stderr());
+        if let Ok(style) = ProgressStyle::with_template("{bar:40} {pos}/{len}, {msg}") {
+            bar.set_style(style);
+        }
+        let mut checked: Vec<Checked> = Vec::with_capacity(cases.len());
+        for case in cases {
+            bar.set_message(case.name);
+            checked.push(case.run());
+            bar.inc(1);
+        }
+        bar.finish_and_clear();
+        let text = match self.format {
+            Shape::Table => check_table(&checked),
+            Shape::Json => format!("{:#}\n", check_json(&checked)),
+            Shape::Markdown => check_page(&checked),
+        };
+        write_whole(self.output.as_deref(), text.as_bytes()).map_err(source::cannot("write the catalogue"))?;
+        let failed = checked.iter().any(|checked| checked.verdict == Verdict::Failed);
+        Ok(if failed { ExitCode::from(1) } else { ExitCode::SUCCESS })
+    }
+}

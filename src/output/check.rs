@@ -1,0 +1,123 @@
+//! The catalogue as a page, a table or JSON.
+
+use serde_json::{Value, json};
+
+use super::cost::duration;
+use super::table::table;
+use crate::check::{Asked, Checked, Group, Kept};
+
+/// How many digits are right, in words.
+fn digits(kept: Kept) -> String {
+    match kept {
+        Kept::Words => "–".into(),
+        Kept::All => "all".into(),
+        Kept::Digits(digits) => format!("{digits:.1}"),
+    }
+}
+
+fn by_group(cases: &[Checked]) -> impl Iterator<Item = (Group, Vec<&Checked>)> {
+    Group::ALL.into_iter().filter_map(|group| {
+        let own: Vec<&Checked> = cases.iter().filter(|checked| checked.case.group == group).collect();
+        (!own.is_empty()).then_some((group, own))
+    })
+}
+
+/// How many cases came to each verdict, in the order of their first appearance.
+fn count(cases: &[Checked]) -> String {
+    let mut counts: Vec<(&str, usize)> = Vec::new();
+    for checked in cases {
+        let name = checked.verdict.name();
+        match counts.iter_mut().find(|(known, _)| *known == name) {
+            Some((_, count)) => *count += 1,
+            None => counts.push((name, 1)),
+        }
+    }
+    let counts: Vec<String> = counts.iter().map(|(name, count)| format!("{count} {name}")).collect();
+    format!("{} cases: {}", cases.len(), counts.join(", "))
+}
+
+/// For a person: every route with its answer, the digits that are right, and what it took.
+pub fn check_table(cases: &[Checked]) -> String {
+    let mut out = String::new();
+    for (group, own) in by_group(cases) {
+        out += &format!("{}\n\n", group.title());
+        for checked in own {
+            let case = checked.case;
+            out += &format!("{}: {} ({}): {}\n", case.name, case.about, case.source, checked.verdict.name());
+            for Asked { what, truth, rows } in &checked.asked {
+                let rows = rows.iter().map(|row| {
+                    let (found, kept) = (row.found.to_string(), digits(row.kept));
+                    let outcome = row.outcome.name().to_string();
+                    vec![row.route.clone(), row.promise.to_string(), outcome, found, kept, duration(row.seconds)]
+                });
+                out += &format!("  {what} = {}\n", truth.text);
+                let header = ["route", "promises", "", "answers", "digits", "time"];
+                let text = table(&header, rows.collect(), 3);
+                out += &text.lines().map(|line| format!("    {line}\n")).collect::<String>();
+            }
+            out += "\n";
+        }
+    }
+    out + &count(cases) + "\n"
+}
+
+/// For the repository: nothing in it depends on the machine.
+pub fn check_page(cases: &[Checked]) -> String {
+    let mut out = String::from(
+        "# Hard cases, and what the paper claims\n\n\
+         Made by `dalembert check --format markdown -o docs/check.md`; a test holds it against what the program finds. Each number is \
+         asked of several routes that share as little as they can, and each route is held to what it promises. The truth stands in \
+         the catalogue, to as many digits as are printed; where a row says *proved*, enclosures prove them. `dalembert check` shows the \
+         answers, how many of their digits are right, and what each took on your machine.\n\n",
+    );
+    out += &format!("**{}.**\n\n", count(cases));
+    for (group, own) in by_group(cases) {
+        out += &format!("## {}\n\n{}\n\n", group.title(), group.lesson());
+        for checked in own {
+            let case = checked.case;
+            out += &format!("### `{}`: {}\n\n{}: {}.\n\n", case.name, checked.verdict.name(), case.source, case.about);
+            for Asked { what, truth, rows } in &checked.asked {
+                out += &format!("{what} = **{}**\n\n| route | promises | |\n|---|---|---|\n", truth.text);
+                for row in rows {
+                    out += &format!("| {} | {} | {} |\n", row.route, row.promise, row.outcome.name());
+                }
+                out += "\n";
+            }
+        }
+    }
+    out.trim_end().to_string() + "\n"
+}
+
+/// Schema 1.
+pub fn check_json(cases: &[Checked]) -> Value {
+    let cases = cases.iter().map(|checked| {
+        let asked = checked.asked.iter().map(|asked| {
+            let rows = asked.rows.iter().map(|row| {
+                let right = match row.kept {
+                    Kept::Words => Value::Null,
+                    Kept::All => json!("all"),
+                    Kept::Digits(digits) => json!(digits),
+                };
+                json!({
+                    "route": row.route,
+                    "promise": row.promise.to_string(),
+                    "outcome": row.outcome.name(),
+                    "found": row.found.to_string(),
+                    "digits": right,
+                    "seconds": row.seconds,
+                })
+            });
+            json!({ "what": asked.what, "truth": asked.truth.text, "rows": rows.collect::<Vec<_>>() })
+        });
+        let case = checked.case;
+        json!({
+            "name": case.name,
+            "group": case.group.name(),
+            "source": case.source,
+            "about": case.about,
+            "verdict": checked.verdict.name(),
+            "questions": asked.collect::<Vec<_>>(),
+        })
+    });
+    json!({ "schema": 1, "cases": cases.collect::<Vec<_>>() })
+}
