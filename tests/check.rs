@@ -64,10 +64,10 @@ fn the_catalogue_holds_the_known_truths() {
         "1.0054134",
         "1.0186658",
     ] {
-        let close = |text: &&str| {
+        let close = |text: &str| {
             text.parse::<dalembert::Number>().is_ok_and(|x| (x.to_f64() - start.parse::<f64>().unwrap()).abs() < 2e-7)
         };
-        assert!(truths.iter().any(|text| close(&text)), "{start}");
+        assert!(truths.iter().any(|text| close(text)), "{start}");
     }
     let mut names: Vec<&str> = catalogue().map(|case| case.name).collect();
     let count = names.len();

@@ -94,7 +94,7 @@ pub(super) const CASES: &[Case] = &[
             of: Of::Bounce,
             truth: "31.40409847658940057227989202780933895332",
             routes: &[
-                (Plain(SUM, || plain::first_tension(3.14, 1.0)), Less(3)),
+                (Plain(SUM, || plain::first_tension(314.0 / 100.0, 1.0)), Less(3)),
                 (Rays, Bound(0)),
                 (Modes, Digits(9)),
                 (Within(1e-9), Digits(9)),

@@ -163,6 +163,7 @@ pub(super) fn threshold<S: Analytic>(r: &S) -> S {
     (i0.clone() + i1) * &r.int(2) / (two - i0)
 }
 
+#[cfg(feature = "mp")]
 /// `lim e_E` for `μ → ∞` and `t_b = t₁ = 2`: `2e^{−R}(I₀(R) − I₁(R)) − e^{−2R}`.
 pub(super) fn limit<S: Analytic>(r: &S) -> S {
     let round_trip = r.int(2) * r;

@@ -4,6 +4,7 @@ use super::Promise::{Bound, Digits, Enclosed, Exact, Less};
 #[cfg(feature = "mp")]
 use super::Route::Long;
 use super::Route::{Cells, Enclosures, Fractions, Lattice, LongRays, Modes, Paper, Plain, Rays};
+#[cfg(feature = "mp")]
 use super::plain;
 use super::routes::{Of, Rod, Route};
 use super::{Case, Group, Promise, Question, Verdict};
