@@ -369,6 +369,7 @@ pub(super) const CASES: &[Case] = &[
                         Less(1)
                     ),
                     (Rays, Digits(12)),
+                    (Cells, Digits(9)),
                     (LongRays(50), Digits(36)),
                     (Route::Digits(36), Digits(36)),
                     (Accuracy(1e-12), Digits(12)),
@@ -382,6 +383,7 @@ pub(super) const CASES: &[Case] = &[
                 truth: "-0.0004359175823386076710888355362764279681759",
                 routes: &[
                     (Rays, Digits(12)),
+                    (Cells, Digits(9)),
                     (LongRays(50), Digits(36)),
                     (Route::Digits(36), Digits(36)),
                     (Accuracy(1e-12), Digits(12)),

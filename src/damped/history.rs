@@ -144,7 +144,13 @@ impl<S: Analytic> Damped<S> {
         if time.is_negative() || *time > self.end || !time.is_finite() {
             return Err(Error::TimeOutside { found: time.text(), end: self.end.text() });
         }
-        Ok(time.clone() / &self.data.units.time)
+        let unit = &self.data.units.time;
+        let trips = time.clone() / unit;
+        // A time within rounding of a lattice time is that lattice time.
+        Ok(match (trips.clone() + trips.ratio(1, 2)).floor_int() {
+            Some(k) if time.meets(&(unit.int(k) * unit)) => time.int(k),
+            _ => trips,
+        })
     }
 
     /// `v_s(x)`.

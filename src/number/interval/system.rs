@@ -1,0 +1,238 @@
+//! Enclosures as a number system.
+
+use std::cmp::Ordering;
+
+use rug::float::{Constant, Round};
+use rug::{Assign, Float, Rational};
+
+use super::super::radical::Radical;
+use super::super::{Analytic, Number, Scalar};
+use super::{Inside, Interval, IntervalPrecision, UNDECIDED, down, undecided, up};
+
+impl Scalar for Interval {
+    const RIGOROUS: bool = true;
+    type Precision = IntervalPrecision;
+
+    fn from_number(number: &Number, precision: &IntervalPrecision) -> Self {
+        Interval::rational(&number.to_rational(), *precision)
+    }
+
+    fn precision(&self) -> IntervalPrecision {
+        IntervalPrecision { bits: self.lo.prec(), exact: !matches!(self.inside, Inside::Off) }
+    }
+
+    fn int(&self, n: i64) -> Self {
+        let bits = self.lo.prec();
+        let inside = match self.inside {
+            Inside::Off => Inside::Off,
+            _ => Inside::of(Radical::rational(Rational::from(n))),
+        };
+        Interval { lo: down(bits, n), hi: up(bits, n), inside }
+    }
+
+    fn double(&self, x: f64) -> Self {
+        let bits = self.lo.prec();
+        let inside = match self.inside {
+            Inside::Off => Inside::Off,
+            _ => Inside::of(Rational::from_f64(x).and_then(Radical::rational)),
+        };
+        Interval::checked(down(bits, x), up(bits, x), inside)
+    }
+
+    fn try_sqrt(&self) -> Option<Self> {
+        match self.sign_or_flag() {
+            Some(Ordering::Less) => None,
+            Some(Ordering::Equal) => Some(self.zero()),
+            _ => Some(self.sqrt()),
+        }
+    }
+
+    /// The end that is farther from zero, rounded away from it: what a bound wants.
+    fn to_f64(&self) -> f64 {
+        if self.hi.cmp_abs(&self.lo) == Some(Ordering::Less) {
+            self.lo.to_f64_round(Round::AwayZero)
+        } else {
+            self.hi.to_f64_round(Round::AwayZero)
+        }
+    }
+
+    fn roundoff(&self) -> Self {
+        let unit = Float::with_val(self.lo.prec(), 1) >> self.lo.prec();
+        Interval { lo: unit.clone(), hi: unit, inside: Inside::Off }
+    }
+
+    fn bits(&self) -> Option<u32> {
+        Some(self.lo.prec())
+    }
+
+    fn floor_int(&self) -> Option<i64> {
+        let floor = |x: &Float| x.to_integer_round(Round::Down).and_then(|(n, _)| n.to_i64());
+        let (low, high) = (floor(&self.lo)?, floor(&self.hi)?);
+        if low == high {
+            return Some(low);
+        }
+        if let Inside::Known(number) = &self.inside
+            && let Some(exact) = number.floor()
+        {
+            return exact.to_i64();
+        }
+        undecided();
+        None
+    }
+
+    fn is_finite(&self) -> bool {
+        self.lo.is_finite() && self.hi.is_finite()
+    }
+
+    fn text(&self) -> String {
+        let ends = [(&self.lo, Round::Down), (&self.hi, Round::Up)];
+        let [lo, hi] = ends.map(|(end, round)| end.to_string_radix_round(10, Some(17), round));
+        if lo == hi { lo } else { format!("[{lo}, {hi}]") }
+    }
+
+    fn widened(self, by: &Self) -> Self {
+        let mut by = by.clone().magnitude();
+        by.lo.assign(-&by.hi);
+        by.inside = if matches!(self.inside, Inside::Off) { Inside::Off } else { Inside::Lost };
+        self + by
+    }
+
+    fn width(&self) -> Self {
+        let width = up(self.lo.prec(), &self.hi - &self.lo);
+        let inside = self.inside.map(|_| None);
+        Interval::checked(width.clone(), width, inside)
+    }
+
+    fn named(mut self) -> Self {
+        if matches!(self.inside, Inside::Lost) {
+            self.inside = Inside::Known(Box::new(Radical::named()));
+        }
+        self
+    }
+
+    fn also(self, other: Self) -> Self {
+        let inside = if matches!(self.inside, Inside::Known(_)) { self.inside.clone() } else { other.inside.clone() };
+        match self.meet(&other) {
+            Some(Interval { lo, hi, .. }) => Interval { lo, hi, inside },
+            None => self,
+        }
+    }
+
+    fn magnitude(&self) -> Self {
+        if self.lo.cmp0() != Some(Ordering::Less) {
+            return self.clone();
+        }
+        if self.hi.cmp0() != Some(Ordering::Greater) {
+            return -self.clone();
+        }
+        let low = Float::with_val(self.lo.prec(), -&self.lo);
+        let hi = if low > self.hi { low } else { self.hi.clone() };
+        let inside = self
+            .inside
+            .map(|number| Some(if number.sign()? == Ordering::Less { number.neg() } else { number.clone() }));
+        Interval { lo: Float::with_val(self.lo.prec(), 0), hi, inside }
+    }
+
+    fn square(&self) -> Self {
+        let size = self.magnitude();
+        let bits = size.lo.prec();
+        let inside = size.inside.with(&size.inside, Radical::mul);
+        Interval::checked(down(bits, size.lo.square_ref()), up(bits, size.hi.square_ref()), inside)
+    }
+
+    fn plain(self) -> Self {
+        Interval { inside: Inside::Off, ..self }
+    }
+
+    fn take_open() -> bool {
+        UNDECIDED.replace(false)
+    }
+
+    fn larger(self, other: Self) -> Self {
+        if self.lo >= other.hi {
+            return self;
+        }
+        if other.lo >= self.hi {
+            return other;
+        }
+        let inside = self.inside.with(&other.inside, |a, b| match a.cmp(b)? {
+            Ordering::Less => Some(b.clone()),
+            _ => Some(a.clone()),
+        });
+        let lo = if self.lo > other.lo { self.lo } else { other.lo };
+        let hi = if self.hi > other.hi { self.hi } else { other.hi };
+        Interval { lo, hi, inside }
+    }
+
+    fn same(&self, other: &Self) -> bool {
+        let points = self.lo == self.hi && other.lo == other.hi && self.lo == other.lo;
+        match (&self.inside, &other.inside) {
+            _ if points => true,
+            (Inside::Known(a), Inside::Known(b)) => a.sub(b).is_some_and(|difference| difference.vanishes()),
+            _ => false,
+        }
+    }
+
+    fn is_negative(&self) -> bool {
+        // Zero as the upper end is enough to say no more than "not positive".
+        if self.lo.cmp0().is_some_and(Ordering::is_ge) {
+            return false;
+        }
+        self.sign_or_flag() == Some(Ordering::Less)
+    }
+
+    fn is_positive(&self) -> bool {
+        if self.hi.cmp0().is_some_and(Ordering::is_le) {
+            return false;
+        }
+        self.sign_or_flag() == Some(Ordering::Greater)
+    }
+
+    fn is_zero(&self) -> bool {
+        if self.surely_zero() {
+            return true;
+        }
+        self.sign_or_flag() == Some(Ordering::Equal)
+    }
+}
+
+impl Analytic for Interval {
+    /// Of what is not negative: the part below zero, which only width can make, is left out.
+    fn sqrt(&self) -> Self {
+        let bits = self.lo.prec();
+        let zero = Float::with_val(bits, 0);
+        let lo = if self.lo.is_sign_negative() { zero } else { down(bits, self.lo.sqrt_ref()) };
+        let known = self.lo.cmp0().is_some_and(Ordering::is_ge) || self.exact_sign().is_some_and(Ordering::is_ge);
+        let inside = self.inside.map(|number| if known { number.sqrt() } else { None });
+        Interval::checked(lo, up(bits, self.hi.sqrt_ref()), inside)
+    }
+    fn exp(&self) -> Self {
+        let bits = self.lo.prec();
+        self.rising(|x| down(bits, x.exp_ref()), |x| up(bits, x.exp_ref()))
+    }
+    fn exp_m1(&self) -> Self {
+        let bits = self.lo.prec();
+        self.rising(|x| down(bits, x.exp_m1_ref()), |x| up(bits, x.exp_m1_ref()))
+    }
+    fn ln(&self) -> Self {
+        let bits = self.lo.prec();
+        self.rising(|x| down(bits, x.ln_ref()), |x| up(bits, x.ln_ref()))
+    }
+    fn ln_1p(&self) -> Self {
+        let bits = self.lo.prec();
+        self.rising(|x| down(bits, x.ln_1p_ref()), |x| up(bits, x.ln_1p_ref()))
+    }
+    fn cos(&self) -> Self {
+        let bits = self.lo.prec();
+        self.lipschitz(|x, round| Float::with_val_round(bits, x.cos_ref(), round).0)
+    }
+    fn sin(&self) -> Self {
+        let bits = self.lo.prec();
+        self.lipschitz(|x, round| Float::with_val_round(bits, x.sin_ref(), round).0)
+    }
+    fn pi(&self) -> Self {
+        let bits = self.lo.prec();
+        let inside = self.inside.map(|_| None);
+        Interval { lo: down(bits, Constant::Pi), hi: up(bits, Constant::Pi), inside }
+    }
+}
