@@ -133,14 +133,33 @@ fn exponent(x: &Float) -> i64 {
     }
 }
 
-/// `x` to `digits` significant digits, as far as they are proved: correctly rounded unless the enclosure is astride a
-/// rounding boundary, and then within one unit of the last digit. `0` where zero is not excluded.
+/// `x` to `digits` significant digits, or as many as are proved: correctly rounded unless the enclosure is astride a rounding
+/// boundary, and then within one unit of the last digit. `0` where no digit is known.
+///
+/// **Accuracy**: n digits have a last unit of at least `10⁻ⁿ|x|`; half of it goes to rounding, and the radius is at most the other half.
+///
+/// ```
+/// use dalembert::{number::Interval, solve::proved_digits};
+/// use rug::Float;
+/// let around = |x: f64, by: f64| Interval::between(Float::with_val(99, x - by), Float::with_val(99, x + by));
+/// assert_eq!(proved_digits(&around(2.0, 9e-6), 20), "2.0000");
+/// assert_eq!(proved_digits(&around(2.0, 3.0), 20), "0");
+/// ```
 pub fn proved_digits(x: &Interval, digits: u32) -> String {
-    let rational = |end: &Float| end.to_rational().unwrap_or_default();
     if x.sign().is_none_or(std::cmp::Ordering::is_eq) {
         return "0".into();
     }
-    crate::number::decimal(&rational(&x.mid()), digits)
+    let radius = x.radius();
+    let known = if radius.is_zero() {
+        f64::from(digits)
+    } else {
+        let least = if x.lo().cmp_abs(x.hi()) == Some(std::cmp::Ordering::Less) { x.lo() } else { x.hi() };
+        Float::with_val(64, least / radius).abs().log10().to_f64() - std::f64::consts::LOG10_2
+    };
+    if known < 1.0 {
+        return "0".into();
+    }
+    crate::number::decimal(&x.mid().to_rational().unwrap_or_default(), digits.min(known as u32))
 }
 
 /// Both ends to ten digits more, rounded outwards.
