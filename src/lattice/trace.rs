@@ -241,15 +241,14 @@ impl<S: Scalar> Trace<S> {
     /// as the enclosures are wide in which `height`, the lines and the jumps between them lie. The reflection at zero does not
     /// take two paths further apart than what drives them.
     pub(crate) fn apart(&self, height: &S) -> f64 {
-        let pieces = self.slice(self.end - 1);
-        let lines = pieces.iter().map(|piece| piece.intercept.width().to_f64()).fold(0.0, f64::max);
-        let jumps: f64 = pieces
-            .windows(2)
-            .map(|pair| {
-                let at = &pair[1].fraction;
-                (pair[1].at(at) - pair[0].at(at)).to_f64().abs() * at.width().to_f64()
-            })
-            .sum();
+        // What has left the ground in this trip, and what the one before still brings.
+        let trips = [self.end.saturating_sub(2), self.end - 1].map(|index| self.slice(index));
+        let lines = trips.into_iter().flatten().map(|piece| piece.intercept.width().to_f64()).fold(0.0, f64::max);
+        let jump = |pair: &[Piece<S>]| {
+            let at = &pair[1].fraction;
+            (pair[1].at(at) - pair[0].at(at)).to_f64().abs() * at.width().to_f64()
+        };
+        let jumps: f64 = trips.into_iter().flat_map(|pieces| pieces.windows(2).map(jump)).sum();
         // Doubles that were added without looking where they round to.
         (height.width().to_f64() + lines + jumps) * (1.0 + 1e-9)
     }
