@@ -1,27 +1,35 @@
-# Two commands for a machine with Rust and a C compiler:
-#   make demo   builds and solves a real scene
-#   make test   runs all tests
-# GMP and MPFR are built from source once, which takes minutes; they need m4, which is installed where it is missing.
+# For a machine with Rust and, for fractions and long digits, a C compiler:
+#   make demo         builds the command in pure Rust and solves a real scene in doubles; about a minute
+#   make demo-exact   the same scene in fractions; builds GMP and MPFR once, which takes minutes
+#   make test         runs all tests
+# GMP needs m4, which is installed where it is missing.
 
 CARGO ?= cargo
 # Random tests draw the same cases every time, so that one commit has one answer. `make explore` draws others.
 export PROPTEST_RNG_SEED ?= 1878
 
-.PHONY: help demo test explore m4
+.PHONY: help demo demo-exact test explore m4
 
 help:
-	@echo "make demo   build the command and solve the bouncing bar of Doyen, Ern and Piperno, exactly"
-	@echo "make test   run all tests, those of the documentation included"
-	@echo "make explore   run the random tests on cases never tried before"
+	@echo "make demo         build the command in pure Rust and solve the bouncing bar of Doyen, Ern and Piperno"
+	@echo "make demo-exact   the same in fractions; builds GMP and MPFR first"
+	@echo "make test         run all tests, those of the documentation included"
+	@echo "make explore      run the random tests on cases never tried before"
 
-demo: m4
-	$(CARGO) run --quiet -- solve doyen-ern-piperno --exact
+demo:
+	@echo "building the command without the C libraries; about a minute where nothing is built yet"
+	$(CARGO) run --no-default-features --features cli -- solve doyen-ern-piperno
+	@echo "make demo-exact solves the same scene in fractions"
+
+demo-exact: m4
+	@echo "building GMP and MPFR from source, once, without a word for some two minutes"
+	$(CARGO) run -- solve doyen-ern-piperno --exact
 
 test: m4
 	$(CARGO) test --no-fail-fast
 
 explore: m4
-	PROPTEST_RNG_SEED=$$(date +%s) $(CARGO) test --no-fail-fast --test damped_properties --test first_contact_bounce --test scene_properties --test undamped_properties
+	PROPTEST_RNG_SEED=$$(date +%s) $(CARGO) test --no-fail-fast --test suite -- properties first_contact_bounce
 
 # Debian and its kin; elsewhere the message says what is missing.
 m4:

@@ -1,7 +1,5 @@
 //! Enclosures enclose: every operation, on random fractions in few bits, against the exact result; and comparisons never
 //! guess.
-#![cfg(feature = "mp")]
-#![allow(clippy::unwrap_used)]
 
 use dalembert::number::{Analytic, Interval, IntervalPrecision, Scalar, decided};
 use proptest::prelude::*;

@@ -1,9 +1,6 @@
 //! Damped scenes as a user solves them, against the reference values of independent programs and the table of hard cases.
-#![allow(clippy::unwrap_used, clippy::panic)]
 
-mod common;
-
-use common::{close, number, problem, reference};
+use crate::common::{close, number, problem, reference};
 use dalembert::rod::{Parameters, Run};
 use dalembert::scene::{Ask, Plan};
 use dalembert::{Ending, EventKind, History, Number, Problem, Scene, Side, Solution, solve};
@@ -156,7 +153,7 @@ fn later_impacts() {
 
 /// The rod of section 4 of the hard cases: g = 0, c = 1, t₁ = 1, μ = 1.
 fn late(damping: &str) -> Problem {
-    let mut problem = common::uniform("1/2", "1", "0", "1", Run::Impacts(1));
+    let mut problem = crate::common::uniform("1/2", "1", "0", "1", Run::Impacts(1));
     problem.rod.damping = Some(damping.parse().unwrap());
     problem
 }
@@ -194,7 +191,7 @@ fn an_overdamped_rod_without_gravity_never_bounces() {
 #[test]
 fn the_threshold_of_the_first_bounce() {
     let near = |speed: &str| {
-        let mut problem = common::uniform("1", "1", "1", speed, Run::Impacts(1));
+        let mut problem = crate::common::uniform("1", "1", "1", speed, Run::Impacts(1));
         problem.rod.damping = Some("0.2".parse().unwrap());
         in_doubles(&problem, None).events()[1].time
     };
@@ -213,7 +210,7 @@ fn the_threshold_of_the_first_bounce() {
 #[cfg(feature = "mp")]
 #[test]
 fn the_ladder_of_accuracies() {
-    let mut problem = common::uniform("1", "1", "1", "3", Run::Time(11.into()));
+    let mut problem = crate::common::uniform("1", "1", "1", "3", Run::Time(11.into()));
     problem.rod.damping = Some("0.1".parse().unwrap());
     let ask = Ask { digits: Some(25), ..Ask::default() };
     let Solution::Digits(truth, _) = solve(&problem, &plan(&problem, ask), |_, _| ()).unwrap() else {
@@ -237,7 +234,7 @@ fn the_ladder_of_accuracies() {
 #[cfg(feature = "mp")]
 #[test]
 fn later_impacts_to_fifty_digits() {
-    let mut problem = common::uniform("1", "1", "1", "1", Run::Time(13.into()));
+    let mut problem = crate::common::uniform("1", "1", "1", "1", Run::Time(13.into()));
     problem.rod.damping = Some("0.05".parse().unwrap());
     let digits = |n: u32| match solve(&problem, &plan(&problem, Ask { digits: Some(n), ..Ask::default() }), |_, _| ()) {
         Ok(Solution::Digits(history, _)) => history,
@@ -272,7 +269,7 @@ fn a_first_contact_to_a_thousand_digits() {
 #[test]
 fn two_marches_know_how_far_they_are_off() {
     for (damping, speed) in [("0.001", "3"), ("0.01", "3"), ("0.02", "10"), ("0.1", "10")] {
-        let mut problem = common::uniform("1", "1", "1", speed, Run::Impacts(10));
+        let mut problem = crate::common::uniform("1", "1", "1", speed, Run::Impacts(10));
         problem.rod.damping = Some(damping.parse().unwrap());
         let history = in_doubles(&problem, Some(1e-10));
         let ask = Ask { digits: Some(20), ..Ask::default() };

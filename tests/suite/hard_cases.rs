@@ -1,5 +1,4 @@
 //! The first contact in doubles where it is hard: extremes of every parameter, times on a ray, thresholds, lost digits.
-#![allow(clippy::unwrap_used, clippy::panic, clippy::approx_constant)]
 
 use dalembert::first_contact::{Bounce, BounceKind, Estimate, FirstContact};
 use dalembert::history::Side;

@@ -1,5 +1,4 @@
 //! Energies, restitution and flight.
-#![allow(clippy::unwrap_used, clippy::panic)]
 
 use dalembert::Number;
 use dalembert::first_contact::{FirstContact, UndampedContact};
@@ -12,7 +11,7 @@ fn rod(damping: f64, gravity: f64, speed: f64) -> FirstContact<f64> {
 }
 
 fn reference<S: Analytic>(precision: &S::Precision, accuracy: f64) {
-    let cases: Vec<Value> = serde_json::from_str(include_str!("reference/first_contact.json")).unwrap();
+    let cases: Vec<Value> = serde_json::from_str(include_str!("../reference/first_contact.json")).unwrap();
     for case in cases {
         let Some(tb) = case["bounce_time"].as_str() else { continue };
         let name = case["name"].as_str().unwrap();

@@ -1,6 +1,4 @@
 //! Every example runs, and prints something.
-#![cfg(feature = "mp")]
-#![allow(clippy::unwrap_used)]
 
 use std::process::Command;
 

@@ -1,19 +1,18 @@
 //! What several test files share: reference files, problems made from them, and how far apart two numbers are.
-#![allow(dead_code, unreachable_pub, clippy::unwrap_used, clippy::panic)]
 
 use dalembert::rod::{Run, Speed, Start};
 use dalembert::{Number, Problem};
 use serde_json::Value;
 
 /// A file of `tests/reference/`.
-pub fn reference(name: &str) -> Vec<Value> {
+pub(crate) fn reference(name: &str) -> Vec<Value> {
     let path = format!("{}/tests/reference/{name}.json", env!("CARGO_MANIFEST_DIR"));
     let text = std::fs::read_to_string(&path).unwrap_or_else(|error| panic!("{path}: {error}"));
     serde_json::from_str(&text).unwrap()
 }
 
 /// A string or number of a reference file as a number.
-pub fn number(value: &Value) -> Number {
+pub(crate) fn number(value: &Value) -> Number {
     match value {
         Value::String(text) => text.parse().unwrap(),
         other => other.to_string().parse().unwrap(),
@@ -21,7 +20,7 @@ pub fn number(value: &Value) -> Number {
 }
 
 /// The uniform problem of a reference case, followed through `run`.
-pub fn problem(case: &Value, run: Run) -> Problem {
+pub(crate) fn problem(case: &Value, run: Run) -> Problem {
     let mut problem = Problem::uniform(
         number(&case["length"]),
         number(&case["wave_speed"]),
@@ -36,7 +35,7 @@ pub fn problem(case: &Value, run: Run) -> Problem {
 }
 
 /// A uniform problem from texts, followed to `time`.
-pub fn uniform(length: &str, wave_speed: &str, gravity: &str, speed: &str, run: Run) -> Problem {
+pub(crate) fn uniform(length: &str, wave_speed: &str, gravity: &str, speed: &str, run: Run) -> Problem {
     let number = |text: &str| text.parse::<Number>().unwrap();
     let mut problem = Problem::uniform(number(length), number(wave_speed), number(gravity), number(speed));
     problem.start = Start::Uniform(Speed::Given(number(speed)));
@@ -46,7 +45,7 @@ pub fn uniform(length: &str, wave_speed: &str, gravity: &str, speed: &str, run: 
 
 /// `|a − b|` relative to the greater of `|b|` and `scale`.
 #[track_caller]
-pub fn close(what: &str, a: f64, b: f64, scale: f64, accuracy: f64) {
+pub(crate) fn close(what: &str, a: f64, b: f64, scale: f64, accuracy: f64) {
     let error = (a - b).abs() / b.abs().max(scale);
     assert!(error <= accuracy, "{what}: found {a:e}, expected {b:e}, off by {error:.1e} > {accuracy:.0e}");
 }

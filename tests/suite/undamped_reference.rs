@@ -1,9 +1,6 @@
 //! The undamped lattice against the reference values of an independent program.
-#![allow(clippy::unwrap_used)]
 
-mod common;
-
-use common::{close, number, problem, reference};
+use crate::common::{close, number, problem, reference};
 use dalembert::lattice::Undamped;
 use dalembert::rod::Run;
 use dalembert::{EventKind, History, Side};

@@ -1,9 +1,6 @@
 //! The damped march against values from programs that share no code with it.
-#![allow(clippy::unwrap_used)]
 
-mod common;
-
-use common::{close, number, problem, reference};
+use crate::common::{close, number, problem, reference};
 use dalembert::damped::Damped;
 use dalembert::history::{Ending, EventKind, History, Side};
 use dalembert::rod::Run;

@@ -1,6 +1,4 @@
 //! The paper's undamped formulas, against each other and against the balance laws, in fractions.
-#![allow(clippy::unwrap_used, clippy::panic)]
-#![cfg(feature = "mp")]
 
 use dalembert::first_contact::UndampedContact;
 use dalembert::history::Side;

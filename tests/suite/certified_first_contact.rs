@@ -1,6 +1,4 @@
 //! The first contact in enclosures: what is proved, to how many digits, and that it is the truth.
-#![cfg(feature = "mp")]
-#![allow(clippy::unwrap_used, clippy::panic)]
 
 use dalembert::Problem;
 use dalembert::certified::ProvedContact;
@@ -39,7 +37,7 @@ fn solve(problem: &Problem, bits: u32) -> ProvedContact {
 }
 
 fn cases() -> Vec<Value> {
-    serde_json::from_str(include_str!("reference/first_contact.json")).unwrap()
+    serde_json::from_str(include_str!("../reference/first_contact.json")).unwrap()
 }
 
 fn power_of_ten(n: i32) -> Rational {

@@ -1,10 +1,7 @@
 //! The same first contact by three routes that share no formula: closed sums over rays, sums over modes, and, without
 //! damping, the lattice; with damping, the cells. Each value carries a proved bound, and two routes may differ by no more than their bounds.
-#![allow(clippy::unwrap_used, clippy::panic)]
 
-mod common;
-
-use common::{number, reference};
+use crate::common::{number, reference};
 use dalembert::damped::Damped;
 use dalembert::first_contact::{Estimate, FirstContact};
 use dalembert::history::{History, Side};
@@ -131,7 +128,7 @@ fn rays_modes_and_the_lattice() {
     for (speed, gravity, last) in
         [("3", "1", 0.95), ("1", "1", 1.45), ("0.5", "1", 1.7), ("1e-4", "1", 1.9), ("2", "0", 0.95)]
     {
-        let problem = common::uniform("1", "1", gravity, speed, Run::Impacts(1));
+        let problem = crate::common::uniform("1", "1", gravity, speed, Run::Impacts(1));
         let rod = Parameters::<f64>::of(&problem, &()).unwrap();
         let (rays, modal) = (FirstContact::new(&rod), Modal::new(&rod, 256));
         let lattice = Undamped::<f64>::solve(&problem, &()).unwrap();
@@ -175,7 +172,7 @@ fn rays_modes_and_the_cells() {
         ("5", "1", "1", 2.2),
     ] {
         let time = (2.0 * last * 1.01).to_string().parse().unwrap();
-        let mut problem = common::uniform("1", "1", gravity, speed, Run::Time(time));
+        let mut problem = crate::common::uniform("1", "1", gravity, speed, Run::Time(time));
         problem.rod.damping = Some(damping.parse().unwrap());
         let rod = Parameters::<f64>::of(&problem, &()).unwrap();
         let (rays, modal) = (FirstContact::new(&rod), Modal::new(&rod, 1024));

@@ -1,5 +1,4 @@
 //! The closed forms against the paper's own integrals, done by quadrature that shares no code with them.
-#![allow(clippy::unwrap_used)]
 
 use dalembert::cost::printed::Printed;
 use dalembert::first_contact::FirstContact;

@@ -1,9 +1,5 @@
 //! What holds of every undamped history, tested exactly, in fractions, on random scenes. Speeds that are small multiples of
 //! `g t₁` are common among them, so that rays and events often coincide.
-#![cfg(feature = "mp")]
-#![allow(clippy::unwrap_used, clippy::useless_conversion)]
-
-mod common;
 
 use dalembert::lattice::{Rays, Undamped, reflection};
 use dalembert::number::Scalar;
@@ -320,7 +316,7 @@ proptest! {
 fn complementarity_at_ten_thousand_times() {
     let mut checked = 0;
     for k in 2..=6 {
-        let problem = common::uniform("1", "1", "1", &k.to_string(), Run::Time(400.into()));
+        let problem = crate::common::uniform("1", "1", "1", &k.to_string(), Run::Time(400.into()));
         let history = Exact::solve(&problem, &()).unwrap();
         assert_eq!(history.ending(), &Ending::Time);
         let mut seed = 12345u64 + k;
@@ -341,7 +337,7 @@ fn complementarity_at_ten_thousand_times() {
 #[test]
 fn every_second_contact_undoes_the_vibration() {
     for k in 2..=9i64 {
-        let problem = common::uniform("10", "30", "10", &number(10 * k, 3).to_string(), Run::Impacts(8));
+        let problem = crate::common::uniform("10", "30", "10", &number(10 * k, 3).to_string(), Run::Impacts(8));
         let history = Exact::solve(&problem, &()).unwrap();
         let impacts: Vec<_> = history.events().iter().filter(|event| event.kind == EventKind::Impact).collect();
         let period = Rational::from((4 * (k + 1), 3));
@@ -360,7 +356,7 @@ fn every_second_contact_undoes_the_vibration() {
 /// A long flight is not marched trip by trip: M = 5·10⁷ takes a handful of pieces, and every answer inside is still exact.
 #[test]
 fn long_flights_are_leapt() {
-    let problem = common::uniform("1", "1", "1", "100000000", Run::Impacts(2));
+    let problem = crate::common::uniform("1", "1", "1", "100000000", Run::Impacts(2));
     let history = Exact::solve(&problem, &()).unwrap();
     assert!(history.marched().trace.count() < 40, "{}", history.marched().trace.count());
     let rod = Parameters::<Rational>::of(&problem, &()).unwrap();
@@ -377,8 +373,8 @@ fn long_flights_are_leapt() {
     }
     let rounded = Undamped::<f64>::solve(&problem, &()).unwrap();
     for (ours, truth) in rounded.events().iter().zip(history.events()) {
-        common::close("time", ours.time, Scalar::to_f64(&truth.time), 1.0, 1e-14);
-        common::close("v_t(0,t)", ours.end_velocity, Scalar::to_f64(&truth.end_velocity), 1e8, 1e-14);
+        crate::common::close("time", ours.time, Scalar::to_f64(&truth.time), 1.0, 1e-14);
+        crate::common::close("v_t(0,t)", ours.end_velocity, Scalar::to_f64(&truth.end_velocity), 1e8, 1e-14);
     }
     assert!(rounded.error_estimate() < 1e-12);
 }
@@ -387,14 +383,14 @@ fn long_flights_are_leapt() {
 /// is lost or made up. The bound grows with the number of impacts, not by a factor for each.
 #[test]
 fn a_thousand_impacts_in_doubles() {
-    let problem = common::uniform("1", "1", "1", "1", Run::Impacts(1000));
+    let problem = crate::common::uniform("1", "1", "1", "1", Run::Impacts(1000));
     let history = Undamped::<f64>::solve(&problem, &()).unwrap();
     assert_eq!(history.ending(), &Ending::NextImpact);
     assert_eq!(history.events().len(), 2000);
     for (early, late) in history.events().iter().zip(&history.events()[16..]) {
         assert_eq!(early.kind, late.kind);
-        common::close("36 later", late.time, early.time + 36.0, 1.0, 1e-13);
-        common::close("h", late.centre, early.centre, 1.0, 1e-13);
+        crate::common::close("36 later", late.time, early.time + 36.0, 1.0, 1e-13);
+        crate::common::close("h", late.centre, early.centre, 1.0, 1e-13);
     }
     assert!(history.error_estimate() < 1e-10, "{:e}", history.error_estimate());
 }

@@ -1,6 +1,5 @@
 //! Whatever stands in a scene file, reading it ends in a scene or in an error that points into the file.
 
-#![allow(clippy::expect_used, clippy::unwrap_used, clippy::panic)]
 
 use dalembert::rod::{Material, Run, Speed, Start};
 use dalembert::scene::{SceneErrorKind, builtin};

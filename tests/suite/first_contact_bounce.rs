@@ -1,5 +1,4 @@
 //! The bounce time: the reference, thresholds, and where doubles lose their digits.
-#![allow(clippy::unwrap_used, clippy::panic, clippy::approx_constant)]
 
 use dalembert::Number;
 use dalembert::first_contact::{Bounce, BounceKind, FirstContact};
@@ -13,7 +12,7 @@ fn rod(damping: f64, gravity: f64, length: f64, speed: f64) -> FirstContact<f64>
 }
 
 fn reference<S: Analytic>(precision: &S::Precision, accuracy: f64, bounce: impl Fn(&FirstContact<S>) -> Bounce<S>) {
-    let cases: Vec<Value> = serde_json::from_str(include_str!("reference/first_contact.json")).unwrap();
+    let cases: Vec<Value> = serde_json::from_str(include_str!("../reference/first_contact.json")).unwrap();
     for case in cases {
         let name = case["name"].as_str().unwrap();
         let read = |value: &Value| S::from_number(&value.as_str().unwrap().parse::<Number>().unwrap(), precision);

@@ -1,6 +1,4 @@
 //! What accuracy costs: what is the same on every machine. No test depends on how long anything takes.
-#![cfg(feature = "cli")]
-#![allow(clippy::unwrap_used)]
 
 use std::process::Command;
 

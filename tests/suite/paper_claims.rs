@@ -1,6 +1,5 @@
 //! What the paper says of restitution, and where that is off: every number below follows from a formula that is
 //! evaluated here on its own.
-#![allow(clippy::unwrap_used, clippy::panic)]
 
 use dalembert::first_contact::{Bounce, BounceKind, FirstContact, UndampedContact};
 use dalembert::history::Side;

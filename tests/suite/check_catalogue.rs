@@ -1,6 +1,5 @@
 //! The catalogue of hard cases and of the paper's claims: all promises are kept, and the page in the repository says what the
 //! program finds.
-#![allow(clippy::unwrap_used)]
 
 use dalembert::check::{Case, Outcome, Verdict, catalogue, select};
 

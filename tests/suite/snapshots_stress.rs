@@ -2,12 +2,8 @@
 //!
 //! A snapshot says "unchanged"; that it is right is said by the assertions: those of [`snapshot`] for every case, and
 //! those of the case itself, from a closed form or worked out by hand.
-#![cfg(feature = "mp")]
-#![allow(clippy::unwrap_used, clippy::panic)]
 
-mod common;
-
-use common::uniform;
+use crate::common::uniform;
 use dalembert::first_contact;
 use dalembert::lattice::Undamped;
 use dalembert::rod::{Parameters, Run, Top};

@@ -1,5 +1,4 @@
 //! The reference values of an independent ball-arithmetic program.
-#![allow(clippy::unwrap_used, clippy::panic)]
 
 use dalembert::first_contact::{Estimate, FirstContact};
 use dalembert::history::Side;
@@ -8,7 +7,7 @@ use dalembert::rod::Parameters;
 use serde_json::Value;
 
 fn cases() -> Vec<Value> {
-    serde_json::from_str(include_str!("reference/first_contact.json")).unwrap()
+    serde_json::from_str(include_str!("../reference/first_contact.json")).unwrap()
 }
 
 fn number<S: Scalar>(value: &Value, precision: &S::Precision) -> S {

@@ -1,11 +1,7 @@
 //! Proved digits of undamped histories: fifty of every number of the reference, tangential landings by exact arithmetic, and
 //! nothing where nothing can be proved.
-#![cfg(feature = "mp")]
-#![allow(clippy::unwrap_used)]
 
-mod common;
-
-use common::{number, problem, reference};
+use crate::common::{number, problem, reference};
 use dalembert::lattice::Undamped;
 use dalembert::number::{Interval, IntervalPrecision, Scalar, decided};
 use dalembert::rod::Run;

@@ -1,6 +1,4 @@
 //! The command line: what stands on standard output and standard error, and the exit code.
-#![cfg(feature = "cli")]
-#![allow(clippy::unwrap_used, clippy::panic)]
 
 use std::io::Write;
 use std::process::{Command, Stdio};
@@ -494,7 +492,7 @@ fn files_are_written_whole_or_not_at_all() {
 #[cfg(feature = "mp")]
 #[test]
 fn the_readme_shows_real_output() {
-    let readme = include_str!("../README.md");
+    let readme = include_str!("../../README.md");
     let mut shown = 0;
     for block in readme.split("```text\n").skip(1).filter_map(|rest| rest.split("```").next()) {
         let (command, lines) = block.split_once('\n').unwrap();

@@ -1,8 +1,4 @@
 //! μ = 3/2 with c = L = g = 1: breaks and impacts multiply, digits are lost, and as many are carried as it takes.
-#![cfg(feature = "mp")]
-#![allow(clippy::unwrap_used)]
-
-mod common;
 
 use dalembert::lattice::{Limits, Undamped};
 use dalembert::rod::Run;
@@ -11,7 +7,7 @@ use dalembert::{Ask, Error, History, Plan, Problem, Scene, Side, Solution, solve
 use rug::Float;
 
 fn chaotic(time: i64) -> Problem {
-    common::uniform("1", "1", "1", "3/2", Run::Time(time.into()))
+    crate::common::uniform("1", "1", "1", "3/2", Run::Time(time.into()))
 }
 
 /// Two precisions side by side: the error bound of the lower one covers what separates them.

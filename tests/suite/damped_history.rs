@@ -1,10 +1,7 @@
 //! The damped march against closed forms, limits, balances, another method and itself.
 
-#![allow(clippy::unwrap_used)]
 
-mod common;
-
-use common::{close, number, problem, reference, uniform};
+use crate::common::{close, number, problem, reference, uniform};
 use dalembert::damped::Damped;
 use dalembert::history::{Ending, EventKind, History, Side};
 use dalembert::rod::{Material, Profile, Rod, Run, Start, Top};

@@ -1,10 +1,7 @@
 //! Damped rods that come to rest: the state at rest is that of statics, the history reaches the time asked for, and it costs
 //! no more to ask for more of it.
-#![allow(clippy::unwrap_used, clippy::panic)]
 
-mod common;
-
-use common::{close, uniform};
+use crate::common::{close, uniform};
 use dalembert::damped::{Damped, Joined};
 use dalembert::first_contact::FirstContact;
 use dalembert::rod::{Parameters, Profile, Run, Start, Top};

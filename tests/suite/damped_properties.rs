@@ -1,5 +1,4 @@
 //! What holds of every damped history, on random scenes, each within the error that the history itself claims.
-#![allow(clippy::unwrap_used, clippy::panic)]
 
 use dalembert::damped::Damped;
 use dalembert::history::Event;

@@ -1,0 +1,43 @@
+//! All integration tests, one program: the library is linked once, and what several files need is compiled once.
+//!
+//! `cargo test --test suite lattice` runs the tests whose path holds that word.
+#![allow(clippy::approx_constant, clippy::expect_used, clippy::panic, clippy::unwrap_used, clippy::useless_conversion)]
+
+#[cfg(feature = "mp")]
+mod certified_first_contact;
+#[cfg(feature = "mp")]
+mod certified_undamped;
+mod check_catalogue;
+#[cfg(feature = "cli")]
+mod command;
+mod common;
+#[cfg(feature = "cli")]
+mod cost_measured;
+mod damped_history;
+mod damped_properties;
+mod damped_reference;
+mod damped_settling;
+mod damped_solve;
+#[cfg(feature = "mp")]
+mod examples_run;
+mod first_contact_bounce;
+mod first_contact_energy;
+mod first_contact_paper;
+mod first_contact_reference;
+#[cfg(feature = "mp")]
+mod first_contact_undamped;
+mod hard_cases;
+#[cfg(feature = "mp")]
+mod number_interval;
+mod paper_claims;
+mod scene_builtin;
+mod scene_errors;
+mod scene_properties;
+#[cfg(feature = "mp")]
+mod snapshots_stress;
+mod three_routes;
+#[cfg(feature = "mp")]
+mod undamped_chaotic;
+#[cfg(feature = "mp")]
+mod undamped_properties;
+mod undamped_reference;
