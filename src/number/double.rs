@@ -1,6 +1,8 @@
 //! Double precision.
 
-use super::{Analytic, Number, Scalar};
+use std::cmp::Ordering;
+
+use super::{Analytic, Answer, Estimate, Number, Open, Rounded, Scalar};
 
 impl Scalar for f64 {
     const RIGOROUS: bool = false;
@@ -52,6 +54,17 @@ impl Scalar for f64 {
         f64::is_finite(*self)
     }
 
+    /// Zero for what is no number.
+    #[inline]
+    fn sign(&self) -> Result<Ordering, Open> {
+        Ok(self.partial_cmp(&0.0).unwrap_or(Ordering::Equal))
+    }
+
+    #[inline]
+    fn compare(&self, other: &Self) -> Result<Ordering, Open> {
+        Ok(self.partial_cmp(other).unwrap_or(Ordering::Equal))
+    }
+
     fn text(&self) -> String {
         // Display never uses an exponent; Debug does so for very large and very small values.
         format!("{self:?}")
@@ -90,5 +103,24 @@ impl Analytic for f64 {
     #[inline]
     fn pi(&self) -> Self {
         std::f64::consts::PI
+    }
+}
+
+impl Rounded for f64 {
+    #[inline]
+    fn unit(&self) -> f64 {
+        f64::EPSILON / 2.0
+    }
+}
+
+impl Answer for f64 {
+    type Carried = Estimate<f64>;
+
+    fn carry(&self) -> Estimate<f64> {
+        Estimate::exact(*self)
+    }
+
+    fn strip(carried: Estimate<f64>) -> f64 {
+        *carried.value()
     }
 }

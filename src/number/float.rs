@@ -1,10 +1,12 @@
 //! Any number of bits.
 
+use std::cmp::Ordering;
+
 use rug::float::{Constant, Round};
 use rug::ops::Pow;
 use rug::{Float, Integer, Rational};
 
-use super::{Analytic, Number, Scalar};
+use super::{Analytic, Answer, Estimate, Number, Open, Rounded, Scalar};
 
 impl Scalar for Float {
     const RIGOROUS: bool = false;
@@ -51,6 +53,15 @@ impl Scalar for Float {
         Float::is_finite(self)
     }
 
+    /// Zero for what is no number.
+    fn sign(&self) -> Result<Ordering, Open> {
+        Ok(self.cmp0().unwrap_or(Ordering::Equal))
+    }
+
+    fn compare(&self, other: &Self) -> Result<Ordering, Open> {
+        Ok(self.partial_cmp(other).unwrap_or(Ordering::Equal))
+    }
+
     fn text(&self) -> String {
         self.to_string_radix(10, None)
     }
@@ -92,6 +103,24 @@ impl Analytic for Float {
     }
     fn pi(&self) -> Self {
         Float::with_val(self.prec(), Constant::Pi)
+    }
+}
+
+impl Rounded for Float {
+    fn unit(&self) -> f64 {
+        (-f64::from(self.prec())).exp2()
+    }
+}
+
+impl Answer for Float {
+    type Carried = Estimate<Float>;
+
+    fn carry(&self) -> Estimate<Float> {
+        Estimate::exact(self.clone())
+    }
+
+    fn strip(carried: Estimate<Float>) -> Float {
+        carried.into_value()
     }
 }
 

@@ -1,10 +1,12 @@
 //! Exact fractions.
 
+use std::cmp::Ordering;
+
 use rug::float::Round;
 use rug::ops::DivRounding;
 use rug::{Float, Integer, Rational};
 
-use super::{Number, Scalar};
+use super::{Answer, Number, Open, Scalar};
 
 /// Square factors below this leave the root of a surd that is printed.
 const SMALL_FACTOR: u32 = 10_000;
@@ -55,6 +57,14 @@ impl Scalar for Rational {
         true
     }
 
+    fn sign(&self) -> Result<Ordering, Open> {
+        Ok(self.cmp0())
+    }
+
+    fn compare(&self, other: &Self) -> Result<Ordering, Open> {
+        Ok(self.cmp(other))
+    }
+
     fn text(&self) -> String {
         self.to_string()
     }
@@ -100,6 +110,18 @@ impl Scalar for Rational {
 
     fn is_zero(&self) -> bool {
         self.cmp0().is_eq()
+    }
+}
+
+impl Answer for Rational {
+    type Carried = Rational;
+
+    fn carry(&self) -> Rational {
+        self.clone()
+    }
+
+    fn strip(carried: Rational) -> Rational {
+        carried
     }
 }
 

@@ -10,6 +10,7 @@
 //! Formulas are written once: undamped code is `impl<S: Scalar>`, damped code is `impl<S: Analytic>`.
 
 mod double;
+mod estimate;
 #[cfg(feature = "mp")]
 mod float;
 #[cfg(feature = "mp")]
@@ -21,6 +22,7 @@ mod literal;
 mod radical;
 mod scalar;
 
+pub use estimate::Estimate;
 #[cfg(feature = "mp")]
 pub use float::{bits_for_digits, decimal};
 #[cfg(feature = "mp")]
@@ -28,4 +30,4 @@ pub(crate) use interval::undecided;
 #[cfg(feature = "mp")]
 pub use interval::{Interval, IntervalPrecision, decided};
 pub use literal::{Number, NumberError};
-pub use scalar::{Analytic, Scalar};
+pub use scalar::{Analytic, Answer, Open, Rounded, Scalar};

@@ -1,9 +1,15 @@
 //! What a formula may ask of a number.
 
+use std::cmp::Ordering;
 use std::fmt::Debug;
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
 use super::Number;
+
+/// A comparison that what is known of its operands does not settle: an enclosure reaches to both sides.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
+#[error("a comparison of enclosures is not settled by their ends")]
+pub struct Open;
 
 /// A field with an order: all that the undamped rod needs.
 ///
@@ -57,6 +63,43 @@ pub trait Scalar:
 
     /// Bits of the significand; `None` for exact systems.
     fn bits(&self) -> Option<u32>;
+
+    /// Whether the number is negative, zero or positive. A number that carries a bound is zero within it.
+    ///
+    /// **Errors**: [`Open`] where an enclosure does not tell.
+    fn sign(&self) -> Result<Ordering, Open>;
+
+    /// The sign of `self − other`.
+    ///
+    /// **Errors**: [`Open`], as [`Scalar::sign`].
+    fn compare(&self, other: &Self) -> Result<Ordering, Open> {
+        Scalar::sign(&(self.clone() - other))
+    }
+
+    /// `self > 0`. Decided for an enclosure that touches zero from below. **Errors**: [`Open`].
+    fn positive(&self) -> Result<bool, Open> {
+        Ok(Scalar::sign(self)?.is_gt())
+    }
+
+    /// `self < 0`. Decided for an enclosure that touches zero from above. **Errors**: [`Open`].
+    fn negative(&self) -> Result<bool, Open> {
+        Ok(Scalar::sign(self)?.is_lt())
+    }
+
+    /// `self = 0`. **Errors**: [`Open`].
+    fn vanishes(&self) -> Result<bool, Open> {
+        Ok(Scalar::sign(self)?.is_eq())
+    }
+
+    /// `self < other`. Decided for enclosures that only touch. **Errors**: [`Open`].
+    fn below(&self, other: &Self) -> Result<bool, Open> {
+        (self.clone() - other).negative()
+    }
+
+    /// `log₂` of how far the number meant may lie from the stored one: −∞ where it is exact.
+    fn log2_error(&self) -> f64 {
+        f64::NEG_INFINITY
+    }
 
     /// The largest integer `≤ self`. **Errors**: `None` if it does not fit an `i64` or `self` is not finite.
     fn floor_int(&self) -> Option<i64>;
@@ -169,6 +212,25 @@ pub trait Scalar:
     fn is_zero(&self) -> bool {
         *self == self.zero()
     }
+}
+
+/// A number system that rounds and carries no bound of it: `f64`, `Float`. [`Estimate`](super::Estimate) adds the bound.
+pub trait Rounded: Analytic + PartialOrd {
+    /// The unit roundoff `u` as a double, zero where it is below the least one.
+    fn unit(&self) -> f64;
+}
+
+/// A number system of answers, with the one that computations carry beside it: the bound of a rounded number, nothing for
+/// exact numbers and enclosures.
+pub trait Answer: Scalar {
+    /// What computations are done in.
+    type Carried: Scalar<Precision = Self::Precision>;
+
+    /// The number in the carried system, without an error.
+    fn carry(&self) -> Self::Carried;
+
+    /// The number without what is carried beside it.
+    fn strip(carried: Self::Carried) -> Self;
 }
 
 /// A `Scalar` with the elementary functions: what the damped rod needs. Where a signature asks for it, exactness ends.

@@ -14,11 +14,13 @@ use crate::scene::{Engine, Plan, System};
 mod certified;
 #[cfg(feature = "mp")]
 mod digits;
+mod stripped;
 mod twice;
 #[cfg(feature = "mp")]
 pub use certified::{certify, proved_digits, proved_ends};
 #[cfg(feature = "mp")]
 pub use digits::{bits_lost, damped_to_digits, undamped_to_digits};
+pub use stripped::Stripped;
 
 /// A history in the numbers that its plan chose.
 pub enum Solution {

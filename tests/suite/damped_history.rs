@@ -1,6 +1,5 @@
 //! The damped march against closed forms, limits, balances, another method and itself.
 
-
 use crate::common::{close, number, problem, reference, uniform};
 use dalembert::damped::Damped;
 use dalembert::history::{Ending, EventKind, History, Side};

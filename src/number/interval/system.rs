@@ -6,7 +6,7 @@ use rug::float::{Constant, Round};
 use rug::{Assign, Float, Rational};
 
 use super::super::radical::Radical;
-use super::super::{Analytic, Number, Scalar};
+use super::super::{Analytic, Answer, Number, Open, Scalar};
 use super::{Inside, Interval, IntervalPrecision, UNDECIDED, down, undecided, up};
 
 impl Scalar for Interval {
@@ -63,6 +63,44 @@ impl Scalar for Interval {
 
     fn bits(&self) -> Option<u32> {
         Some(self.lo.prec())
+    }
+
+    fn sign(&self) -> Result<Ordering, Open> {
+        Interval::sign(self).ok_or(Open)
+    }
+
+    fn compare(&self, other: &Self) -> Result<Ordering, Open> {
+        if self.hi < other.lo {
+            return Ok(Ordering::Less);
+        }
+        if self.lo > other.hi {
+            return Ok(Ordering::Greater);
+        }
+        if self.lo == self.hi && other.lo == other.hi && self.lo == other.lo {
+            return Ok(Ordering::Equal);
+        }
+        match (&self.inside, &other.inside) {
+            (Inside::Known(a), Inside::Known(b)) => a.cmp(b).ok_or(Open),
+            _ => Err(Open),
+        }
+    }
+
+    fn positive(&self) -> Result<bool, Open> {
+        if self.hi.cmp0().is_some_and(Ordering::is_le) { Ok(false) } else { Ok(Scalar::sign(self)?.is_gt()) }
+    }
+
+    fn negative(&self) -> Result<bool, Open> {
+        if self.lo.cmp0().is_some_and(Ordering::is_ge) { Ok(false) } else { Ok(Scalar::sign(self)?.is_lt()) }
+    }
+
+    fn below(&self, other: &Self) -> Result<bool, Open> {
+        if self.lo >= other.hi { Ok(false) } else { Ok(self.compare(other)?.is_lt()) }
+    }
+
+    fn log2_error(&self) -> f64 {
+        let radius = self.radius();
+        let exponent = radius.get_exp().map_or(f64::NEG_INFINITY, f64::from);
+        if radius.is_finite() { exponent } else { f64::INFINITY }
     }
 
     fn floor_int(&self) -> Option<i64> {
@@ -234,5 +272,17 @@ impl Analytic for Interval {
         let bits = self.lo.prec();
         let inside = self.inside.map(|_| None);
         Interval { lo: down(bits, Constant::Pi), hi: up(bits, Constant::Pi), inside }
+    }
+}
+
+impl Answer for Interval {
+    type Carried = Interval;
+
+    fn carry(&self) -> Interval {
+        self.clone()
+    }
+
+    fn strip(carried: Interval) -> Interval {
+        carried
     }
 }

@@ -1,0 +1,360 @@
+//! A rounded number with the bound of its own error.
+
+use std::cmp::Ordering;
+use std::ops::{Add, Div, Mul, Neg, Sub};
+
+use super::{Analytic, Number, Open, Rounded, Scalar};
+
+/// A rounded number and how far the number meant may lie from it, carried through every operation.
+///
+/// The error is counted in roundoffs `u` of the number system, so that it neither underflows nor overflows where a number has
+/// thousands of bits: the number meant lies within `error · u` of the value.
+///
+/// **Accuracy**: *within its own bound*. Each operation adds what it makes of the errors of its operands, products of two
+/// errors included, and one rounding of its result; an elementary function, two.
+///
+/// ```
+/// use dalembert::number::{Estimate, Scalar};
+/// let tenth = Estimate::rounded(0.1, 1.0);
+/// let sum = tenth.clone() + &tenth + &tenth;
+/// // 0.1 + 0.1 + 0.1 is no double, and not the double 0.3 either; within the bound it is.
+/// assert_ne!(*sum.value(), 0.3);
+/// assert!((sum - Estimate::rounded(0.3, 1.0)).vanishes()?);
+/// # Ok::<(), dalembert::number::Open>(())
+/// ```
+#[derive(Clone, Debug)]
+pub struct Estimate<S> {
+    value: S,
+    error: f64,
+}
+
+impl<S> Estimate<S> {
+    /// `value`, within `error` roundoffs.
+    #[inline]
+    pub fn new(value: S, error: f64) -> Self {
+        Estimate { value, error }
+    }
+
+    /// `value`, without an error.
+    #[inline]
+    pub fn exact(value: S) -> Self {
+        Estimate { value, error: 0.0 }
+    }
+
+    /// The value.
+    #[inline]
+    pub fn value(&self) -> &S {
+        &self.value
+    }
+
+    /// The value, without its bound.
+    pub fn into_value(self) -> S {
+        self.value
+    }
+
+    /// The bound of the error, in roundoffs.
+    #[inline]
+    pub fn error(&self) -> f64 {
+        self.error
+    }
+}
+
+impl<S: Rounded> Estimate<S> {
+    /// `value`, within so many roundings of itself.
+    #[inline]
+    pub fn rounded(value: S, roundings: f64) -> Self {
+        let error = roundings * value.to_f64().abs();
+        Estimate { value, error }
+    }
+
+    /// The bound of the error as a double: zero where it is below the least one.
+    pub fn bound(&self) -> f64 {
+        self.error * self.value.unit()
+    }
+
+    /// `value`, with `error` from the operands and one rounding.
+    #[inline]
+    fn once(value: S, error: f64) -> Self {
+        let error = error + value.to_f64().abs();
+        Estimate { value, error }
+    }
+
+    /// `f(x)` where `|f′| ≤ slope` within the error of x, with two roundings.
+    fn function(&self, value: S, slope: f64) -> Self {
+        let error = if self.error == 0.0 { 0.0 } else { self.error * slope };
+        Estimate { error: error + 2.0 * value.to_f64().abs(), value }
+    }
+}
+
+impl<S: Rounded> Neg for Estimate<S> {
+    type Output = Self;
+    #[inline]
+    fn neg(self) -> Self {
+        Estimate { value: -self.value, error: self.error }
+    }
+}
+
+impl<'a, S: Rounded> Add<&'a Estimate<S>> for Estimate<S> {
+    type Output = Self;
+    #[inline]
+    fn add(self, other: &'a Self) -> Self {
+        Estimate::once(self.value + &other.value, self.error + other.error)
+    }
+}
+
+impl<'a, S: Rounded> Sub<&'a Estimate<S>> for Estimate<S> {
+    type Output = Self;
+    #[inline]
+    fn sub(self, other: &'a Self) -> Self {
+        Estimate::once(self.value - &other.value, self.error + other.error)
+    }
+}
+
+impl<'a, S: Rounded> Mul<&'a Estimate<S>> for Estimate<S> {
+    type Output = Self;
+    #[inline]
+    fn mul(self, other: &'a Self) -> Self {
+        let (a, b) = (self.value.to_f64().abs(), other.value.to_f64().abs());
+        let both = self.error * other.error * self.value.unit();
+        Estimate::once(self.value * &other.value, a * other.error + b * self.error + both)
+    }
+}
+
+impl<'a, S: Rounded> Div<&'a Estimate<S>> for Estimate<S> {
+    type Output = Self;
+    /// `|a/b − a′/b′| ≤ (|a − a′| + |a/b| |b − b′|)/|b′|`.
+    #[inline]
+    fn div(self, other: &'a Self) -> Self {
+        let least = other.value.to_f64().abs() - other.bound();
+        let value = self.value / &other.value;
+        let error = self.error + value.to_f64().abs() * other.error;
+        // Without an error in the divisor there is none from it, whatever it is.
+        let error = if least > 0.0 {
+            error / least
+        } else if other.error == 0.0 && error == 0.0 {
+            0.0
+        } else {
+            f64::INFINITY
+        };
+        Estimate::once(value, error)
+    }
+}
+
+macro_rules! by_value {
+    ($($trait:ident $method:ident),*) => {$(
+        impl<S: Rounded> $trait for Estimate<S> {
+            type Output = Self;
+            #[inline]
+            fn $method(self, other: Self) -> Self {
+                self.$method(&other)
+            }
+        }
+    )*};
+}
+by_value!(Add add, Sub sub, Mul mul, Div div);
+
+impl<S: Rounded> PartialEq for Estimate<S> {
+    fn eq(&self, other: &Self) -> bool {
+        self.partial_cmp(other) == Some(Ordering::Equal)
+    }
+}
+
+impl<S: Rounded> PartialOrd for Estimate<S> {
+    #[inline]
+    fn partial_cmp(&self, other: &Self) -> Option<Ordering> {
+        self.compare(other).ok()
+    }
+}
+
+impl<S: Rounded> Scalar for Estimate<S> {
+    const RIGOROUS: bool = true;
+    type Precision = S::Precision;
+
+    fn from_number(number: &Number, precision: &S::Precision) -> Self {
+        Estimate::rounded(S::from_number(number, precision), 1.0)
+    }
+
+    fn precision(&self) -> S::Precision {
+        self.value.precision()
+    }
+
+    #[inline]
+    fn int(&self, n: i64) -> Self {
+        let value = self.value.int(n);
+        if n.unsigned_abs() < 1 << 53 { Estimate::exact(value) } else { Estimate::rounded(value, 1.0) }
+    }
+
+    #[inline]
+    fn double(&self, x: f64) -> Self {
+        Estimate::exact(self.value.double(x))
+    }
+
+    /// Zero where the number is zero within its bound.
+    ///
+    /// `|√a − √b| = |a − b|/(√a + √b)`, and at most `√|a − b|`.
+    fn try_sqrt(&self) -> Option<Self> {
+        match self.sign() {
+            Ok(Ordering::Less) => None,
+            _ if self.value.is_negative() => Some(Estimate::new(self.value.zero(), self.root_of_error())),
+            _ => {
+                let value = self.value.try_sqrt()?;
+                let (root, size) = (value.to_f64(), self.value.to_f64());
+                let least = (size - self.bound()).max(0.0).sqrt();
+                let simple = if self.error == 0.0 { 0.0 } else { self.error / (root + least) };
+                Some(Estimate::once(value, simple.min(self.root_of_error())))
+            }
+        }
+    }
+
+    #[inline]
+    fn to_f64(&self) -> f64 {
+        self.value.to_f64()
+    }
+
+    #[inline]
+    fn roundoff(&self) -> Self {
+        Estimate::exact(self.value.roundoff())
+    }
+
+    fn bits(&self) -> Option<u32> {
+        self.value.bits()
+    }
+
+    #[inline]
+    fn sign(&self) -> Result<Ordering, Open> {
+        let size = self.value.to_f64();
+        // One comparison of doubles settles nearly all.
+        if size.abs() > 2.0 * self.bound() && size.is_normal() {
+            return Ok(if size < 0.0 { Ordering::Less } else { Ordering::Greater });
+        }
+        let error = self.value.double(self.error) * &self.value.roundoff();
+        if self.value.magnitude() <= error || self.error.is_nan() {
+            return Ok(Ordering::Equal);
+        }
+        self.value.sign()
+    }
+
+    fn log2_error(&self) -> f64 {
+        self.error.log2() + self.value.log2_roundoff()
+    }
+
+    /// An integer that the number is equal to within its bound is that integer.
+    fn floor_int(&self) -> Option<i64> {
+        let near = (self.value.clone() + self.value.ratio(1, 2)).floor_int()?;
+        let off = self.value.clone() - self.value.int(near);
+        if Estimate::new(off, self.error).sign() == Ok(Ordering::Equal) { Some(near) } else { self.value.floor_int() }
+    }
+
+    fn is_finite(&self) -> bool {
+        self.value.is_finite()
+    }
+
+    fn text(&self) -> String {
+        self.value.text()
+    }
+
+    #[inline]
+    fn magnitude(&self) -> Self {
+        Estimate { value: self.value.magnitude(), error: self.error }
+    }
+
+    #[inline]
+    fn zero(&self) -> Self {
+        Estimate::exact(self.value.zero())
+    }
+
+    #[inline]
+    fn one(&self) -> Self {
+        Estimate::exact(self.value.one())
+    }
+
+    fn widened(self, by: &Self) -> Self {
+        // Both in roundoffs; what is below a roundoff counts as one.
+        let by = (by.value.magnitude() / self.value.roundoff()).to_f64() + by.error;
+        Estimate { error: self.error + by, value: self.value }
+    }
+}
+
+impl<S: Rounded> Estimate<S> {
+    /// `√(e u)` in roundoffs: the error of the square root of a number that may be zero.
+    fn root_of_error(&self) -> f64 {
+        (self.error.log2() / 2.0 - self.value.log2_roundoff() / 2.0).exp2()
+    }
+}
+
+impl<S: Rounded> Analytic for Estimate<S> {
+    fn sqrt(&self) -> Self {
+        self.try_sqrt().unwrap_or_else(|| Estimate::new(self.value.sqrt(), f64::INFINITY))
+    }
+    /// The slope within the error is at most `eˣ⁺ᵉ`.
+    fn exp(&self) -> Self {
+        let value = self.value.exp();
+        let slope = value.to_f64() * self.bound().exp();
+        self.function(value, slope)
+    }
+    fn exp_m1(&self) -> Self {
+        let value = self.value.exp_m1();
+        let slope = (value.to_f64() + 1.0) * self.bound().exp();
+        self.function(value, slope)
+    }
+    fn ln(&self) -> Self {
+        let least = self.value.to_f64() - self.bound();
+        self.function(self.value.ln(), if least > 0.0 { 1.0 / least } else { f64::INFINITY })
+    }
+    fn ln_1p(&self) -> Self {
+        let least = 1.0 + self.value.to_f64() - self.bound();
+        self.function(self.value.ln_1p(), if least > 0.0 { 1.0 / least } else { f64::INFINITY })
+    }
+    fn cos(&self) -> Self {
+        self.function(self.value.cos(), 1.0)
+    }
+    fn sin(&self) -> Self {
+        self.function(self.value.sin(), 1.0)
+    }
+    fn pi(&self) -> Self {
+        Estimate::rounded(self.value.pi(), 1.0)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn zero_is_what_lies_within_the_bound() {
+        let third = Estimate::rounded(1.0 / 3.0, 1.0);
+        let one = third.int(3) * &third;
+        assert_eq!((one.clone() - one.one()).sign(), Ok(Ordering::Equal));
+        let more = Estimate::exact(1.0 + 4.0 * f64::EPSILON);
+        assert_eq!(one.compare(&more), Ok(Ordering::Less));
+        assert_eq!(Estimate::exact(0.0f64).sign(), Ok(Ordering::Equal));
+        assert_eq!(Estimate::exact(f64::MIN_POSITIVE / 2.0).sign(), Ok(Ordering::Greater));
+    }
+
+    #[test]
+    fn a_root_of_what_may_be_zero_loses_half_of_the_digits() {
+        let small = Estimate::new(0.0f64, 1.0);
+        let root = small.try_sqrt().unwrap();
+        assert!((root.bound() - (f64::EPSILON / 2.0).sqrt()).abs() < 1e-12 * root.bound());
+        let four = Estimate::new(4.0f64, 4.0);
+        // (a − b)/(√a + √b) = 4u/4, and one rounding of 2.
+        assert!((four.try_sqrt().unwrap().error() - 3.0).abs() < 1e-9);
+        assert!(Estimate::new(-1.0f64, 4.0).try_sqrt().is_none());
+    }
+
+    #[test]
+    fn a_number_at_an_integer_is_that_integer() {
+        let below = Estimate::rounded(3.0 - f64::EPSILON, 1.0);
+        assert_eq!(below.floor_int(), Some(3));
+        assert_eq!(Estimate::exact(2.999).floor_int(), Some(2));
+        assert_eq!(Estimate::exact(-0.5).floor_int(), Some(-1));
+    }
+
+    #[test]
+    fn quotients_by_what_may_be_zero_have_no_bound() {
+        let zero = Estimate::new(1e-17f64, 1.0);
+        assert_eq!((Estimate::exact(1.0) / &zero).error(), f64::INFINITY);
+        let half = Estimate::exact(1.0f64) / Estimate::exact(2.0);
+        assert_eq!((*half.value(), half.error()), (0.5, 0.5));
+    }
+}
