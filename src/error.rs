@@ -2,6 +2,8 @@
 
 use thiserror::Error;
 
+use crate::number::Open;
+
 /// What was found, where, and what was expected.
 #[derive(Clone, Debug, Error, PartialEq)]
 #[cfg_attr(feature = "cli", derive(miette::Diagnostic))]
@@ -129,6 +131,14 @@ pub enum Error {
         /// What was tried.
         bits: u32,
     },
+    /// A contact that the history does not have.
+    #[error("found contact {contact} asked for, expected one of the {found} that the history has, counted from 0")]
+    NoContact {
+        /// Its number.
+        contact: usize,
+        /// How many there are.
+        found: usize,
+    },
     /// A start or a top for which the first contact has no closed form.
     #[error(
         "found a start that is not uniform, or a fixed top; expected a uniform start under a free top, whose first contact has a closed form"
@@ -142,4 +152,10 @@ pub enum Error {
         /// The bits of the enclosures.
         bits: u32,
     },
+}
+
+impl From<Open> for Error {
+    fn from(_: Open) -> Self {
+        Error::NotDecided { what: "which of two numbers is the greater", bits: 0 }
+    }
 }

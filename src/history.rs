@@ -1,10 +1,37 @@
 //! The answer as an object: what happened, and what can be asked of it.
 
+use std::fmt;
+
+use serde::{Serialize, Serializer};
+
 use crate::error::Error;
 use crate::number::Scalar;
 
+/// Writes a number as JSON has it: a number for a double, a text for all others.
+fn number<S: Scalar, Z: Serializer>(x: &S, z: Z) -> Result<Z::Ok, Z::Error> {
+    x.serialize(z)
+}
+
+fn optional<S: Scalar, Z: Serializer>(x: &Option<S>, z: Z) -> Result<Z::Ok, Z::Error> {
+    match x {
+        Some(x) => x.serialize(z),
+        None => z.serialize_none(),
+    }
+}
+
+fn list<S: Scalar, Z: Serializer>(list: &[S], z: Z) -> Result<Z::Ok, Z::Error> {
+    struct One<'a, S>(&'a S);
+    impl<S: Scalar> Serialize for One<'_, S> {
+        fn serialize<Z: Serializer>(&self, z: Z) -> Result<Z::Ok, Z::Error> {
+            self.0.serialize(z)
+        }
+    }
+    z.collect_seq(list.iter().map(One))
+}
+
 /// Which of two values at a jump: the limit from earlier or from later times.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "snake_case")]
 #[cfg_attr(feature = "cli", derive(clap::ValueEnum))]
 pub enum Side {
     /// The limit from earlier times, `t⁻`.
@@ -15,7 +42,8 @@ pub enum Side {
 }
 
 /// What happens to the ground end.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "snake_case")]
 pub enum EventKind {
     /// It lands: contact begins.
     Impact,
@@ -24,71 +52,251 @@ pub enum EventKind {
 }
 
 /// A change between contact and flight.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize)]
+#[serde(bound = "S: Scalar")]
 pub struct Event<S> {
     /// Landing or leaving.
     pub kind: EventKind,
     /// `t`.
+    #[serde(serialize_with = "number")]
     pub time: S,
     /// `v_t(0,t)`: just before an impact, just after a release. At a landing without speed that a ray turns into an impact,
     /// the `v_t + c v_x < 0` which that ray brings.
+    #[serde(serialize_with = "number")]
     pub end_velocity: S,
     /// `h(t)`: the centre of mass, relative to its place in the undeformed rod on the ground.
+    #[serde(serialize_with = "number")]
     pub centre: S,
     /// `h′(t)`.
+    #[serde(serialize_with = "number")]
     pub centre_velocity: S,
     /// How far `time` may be off, in its own unit: zero where it is exact.
     pub time_error: f64,
 }
 
 /// A time on the ground.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize)]
+#[serde(bound = "S: Scalar")]
 pub struct Contact<S> {
     /// Its beginning.
+    #[serde(serialize_with = "number")]
     pub from: S,
     /// Its end; `None` where the history ends before.
+    #[serde(serialize_with = "optional")]
     pub to: Option<S>,
     /// `−c² ∫ v_x(0,t) dt ≥ 0` over the contact: momentum per linear density that the ground gives.
+    #[serde(serialize_with = "number")]
     pub impulse: S,
     /// The most compressive `v_x(0,t)` of the contact, `≤ 0`.
+    #[serde(serialize_with = "number")]
     pub peak_stress: S,
 }
 
 /// The energies (3.54), (3.61)–(3.63), per linear density.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize)]
+#[serde(bound = "S: Scalar")]
 pub struct Energy<S> {
     /// `E = E_h + E_z`.
+    #[serde(serialize_with = "number")]
     pub total: S,
     /// `E_h = L h′²/2 + L g h`: the motion of the centre of mass.
+    #[serde(serialize_with = "number")]
     pub translational: S,
     /// `E_z = ½ ∫ ((v_t − h′)² + c² v_x²) dx`, a sum of squares.
+    #[serde(serialize_with = "number")]
     pub vibrational: S,
 }
 
 /// The displacement and its derivatives at a point.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize)]
+#[serde(bound = "S: Scalar")]
 pub struct Field<S> {
     /// `v`.
+    #[serde(serialize_with = "number")]
     pub displacement: S,
     /// `v_t`.
+    #[serde(serialize_with = "number")]
     pub velocity: S,
     /// `v_x`.
+    #[serde(serialize_with = "number")]
     pub strain: S,
 }
 
 /// A stretch of the stress history `v_x(0,·)` without jump or kink.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize)]
+#[serde(bound = "S: Scalar")]
 pub struct StressPiece<S> {
     /// Its beginning.
+    #[serde(serialize_with = "number")]
     pub from: S,
     /// Its end.
+    #[serde(serialize_with = "number")]
     pub to: S,
     /// `v_x(0, from⁺)`.
+    #[serde(serialize_with = "number")]
     pub left: S,
     /// `v_x(0, to⁻)`.
+    #[serde(serialize_with = "number")]
     pub right: S,
     /// Chebyshev coefficients of `v_x(0,·)` on the piece (first one whole, not halved); empty where it is linear.
+    #[serde(serialize_with = "list")]
     pub chebyshev: Vec<S>,
+}
+
+impl fmt::Display for EventKind {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.pad(match self {
+            EventKind::Impact => "impact",
+            EventKind::Release => "release",
+        })
+    }
+}
+
+impl fmt::Display for Side {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.pad(match self {
+            Side::Left => "left",
+            Side::Right => "right",
+        })
+    }
+}
+
+impl<S> Event<S> {
+    /// The same event in other numbers.
+    pub(crate) fn map<T>(self, f: impl Fn(S) -> T) -> Event<T> {
+        Event {
+            kind: self.kind,
+            time: f(self.time),
+            end_velocity: f(self.end_velocity),
+            centre: f(self.centre),
+            centre_velocity: f(self.centre_velocity),
+            time_error: self.time_error,
+        }
+    }
+
+    /// Every number in it.
+    pub(crate) fn numbers(&self) -> [&S; 4] {
+        [&self.time, &self.end_velocity, &self.centre, &self.centre_velocity]
+    }
+}
+
+impl<S: Scalar> fmt::Display for Event<S> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let [time, end, centre, rate] = self.numbers().map(Scalar::text);
+        write!(f, "{} at t = {time}: v_t(0,t) = {end}, h = {centre}, h′ = {rate}", self.kind)
+    }
+}
+
+impl<S> Contact<S> {
+    /// The same contact in other numbers.
+    pub(crate) fn map<T>(self, f: impl Fn(S) -> T) -> Contact<T> {
+        Contact { from: f(self.from), to: self.to.map(&f), impulse: f(self.impulse), peak_stress: f(self.peak_stress) }
+    }
+
+    /// Every number in it.
+    pub(crate) fn numbers(&self) -> impl Iterator<Item = &S> {
+        [&self.from, &self.impulse, &self.peak_stress].into_iter().chain(&self.to)
+    }
+}
+
+impl<S: Scalar> fmt::Display for Contact<S> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let to = self.to.as_ref().map_or_else(|| "no end".to_string(), Scalar::text);
+        let [from, impulse, peak] = [&self.from, &self.impulse, &self.peak_stress].map(Scalar::text);
+        write!(f, "contact from t = {from} to {to}: impulse {impulse}, peak v_x(0,t) = {peak}")
+    }
+}
+
+impl<S> Energy<S> {
+    /// The same energies in other numbers.
+    pub(crate) fn map<T>(self, f: impl Fn(S) -> T) -> Energy<T> {
+        Energy { total: f(self.total), translational: f(self.translational), vibrational: f(self.vibrational) }
+    }
+
+    /// Every number in it.
+    pub(crate) fn numbers(&self) -> [&S; 3] {
+        [&self.total, &self.translational, &self.vibrational]
+    }
+}
+
+impl<S> Field<S> {
+    /// The same values in other numbers.
+    pub(crate) fn map<T>(self, f: impl Fn(S) -> T) -> Field<T> {
+        Field { displacement: f(self.displacement), velocity: f(self.velocity), strain: f(self.strain) }
+    }
+
+    /// Every number in it.
+    pub(crate) fn numbers(&self) -> [&S; 3] {
+        [&self.displacement, &self.velocity, &self.strain]
+    }
+}
+
+impl<S> StressPiece<S> {
+    /// The same piece in other numbers.
+    pub(crate) fn map<T>(self, f: impl Fn(S) -> T) -> StressPiece<T> {
+        StressPiece {
+            from: f(self.from),
+            to: f(self.to),
+            left: f(self.left),
+            right: f(self.right),
+            chebyshev: self.chebyshev.into_iter().map(f).collect(),
+        }
+    }
+}
+
+impl<S: Scalar> StressPiece<S> {
+    /// `v_x(0,t)` at a time of the piece: linear between its ends, or the Chebyshev sum.
+    ///
+    /// **Accuracy**: that of the coefficients, and a rounding for each of them.
+    ///
+    /// ```
+    /// let rod = dalembert::Problem::uniform(1.into(), 1.into(), 1.into(), 3.into());
+    /// let pieces = rod.solve()?.stress_history()?.pieces;
+    /// // −(μ + g t)/c until the wave comes back.
+    /// assert_eq!(pieces[0].eval(&0.5), -3.5);
+    /// # Ok::<(), dalembert::Error>(())
+    /// ```
+    pub fn eval(&self, time: &S) -> S {
+        let width = self.to.clone() - &self.from;
+        let share = (time.clone() - &self.from) / &width;
+        if self.chebyshev.is_empty() {
+            return (self.right.clone() - &self.left) * &share + &self.left;
+        }
+        // Clenshaw's recurrence on −1 … 1.
+        let x = share.int(2) * &share - share.one();
+        let (mut b1, mut b2) = (x.zero(), x.zero());
+        for c in self.chebyshev.iter().skip(1).rev() {
+            let b0 = x.int(2) * &x * &b1 - &b2 + c;
+            b2 = std::mem::replace(&mut b1, b0);
+        }
+        match self.chebyshev.first() {
+            Some(first) => x * &b1 - b2 + first,
+            None => b1,
+        }
+    }
+}
+
+/// `v_x(0,·)`: the strain at the ground, piece by piece, from `t = 0` to the end of the history.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+#[serde(bound = "S: Scalar")]
+pub struct StressHistory<S> {
+    /// The pieces, in order and without a gap.
+    pub pieces: Vec<StressPiece<S>>,
+}
+
+/// A piece a line: `from … to: left … right`, with the number of Chebyshev coefficients where it is not linear.
+impl<S: Scalar> fmt::Display for StressHistory<S> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        for piece in &self.pieces {
+            let [from, to, left, right] = [&piece.from, &piece.to, &piece.left, &piece.right].map(Scalar::text);
+            write!(f, "{from} … {to}: {left} … {right}")?;
+            match piece.chebyshev.len() {
+                0 => writeln!(f)?,
+                count => writeln!(f, "  ({count} Chebyshev coefficients)")?,
+            }
+        }
+        Ok(())
+    }
 }
 
 /// Why a history ends where it does.
@@ -120,8 +328,8 @@ pub enum Ending {
     Undecided(String),
 }
 
-impl std::fmt::Display for Ending {
-    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+impl fmt::Display for Ending {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Ending::Time => f.write_str("the time asked for"),
             Ending::NextImpact => f.write_str("the impact after the last contact asked for"),
@@ -149,11 +357,26 @@ pub struct Scales<S> {
     pub length: S,
     /// `c`.
     pub wave_speed: S,
+    /// `g`.
+    pub gravity: S,
+}
+
+impl<S> Scales<S> {
+    /// The same scales in other numbers.
+    pub(crate) fn map<T>(self, f: impl Fn(S) -> T) -> Scales<T> {
+        Scales {
+            time: f(self.time),
+            velocity: f(self.velocity),
+            length: f(self.length),
+            wave_speed: f(self.wave_speed),
+            gravity: f(self.gravity),
+        }
+    }
 }
 
 /// What can be asked of a solution. All times are absolute, in the units of the scene; a time outside of
 /// `0 … end()` is [`Error::TimeOutside`], a point outside of the rod is [`Error::PointOutside`].
-pub trait History<S: Scalar> {
+pub trait History<S: Scalar>: fmt::Debug + Send + Sync {
     /// The last time that is known.
     fn end(&self) -> S;
 

@@ -35,23 +35,22 @@
 
 #[cfg(feature = "mp")]
 pub mod certified;
-pub mod check;
+// pub mod check;
 #[cfg(feature = "cli")]
 pub mod cli;
-pub mod cost;
+// pub mod cost;
 pub mod damped;
 pub mod error;
 pub mod first_contact;
 pub mod history;
 pub mod lattice;
 pub mod modal;
+pub mod motion;
 pub mod number;
 #[cfg(feature = "cli")]
 pub mod output;
 pub mod quantity;
 pub mod rod;
-#[cfg(feature = "mp")]
-pub mod rounded;
 pub mod scene;
 pub mod solve;
 pub mod special;
@@ -59,10 +58,13 @@ pub mod special;
 pub use error::Error;
 pub use glam;
 pub use history::{Ending, EventKind, History, Side};
+pub use motion::Motion;
 pub use number::Number;
 pub use rod::Problem;
-pub use scene::{Ask, Plan, Scene};
-pub use solve::{Solution, solve};
+pub use scene::Scene;
+pub use solve::{
+    CERTIFIED_DIGITS, DEFAULT_ACCURACY, Engine, Numbers, Observer, Plan, Question, Reach, Rung, Solution, Want,
+};
 
 #[cfg(doctest)]
 #[doc = include_str!("../README.md")]

@@ -192,6 +192,7 @@ impl ClosedForm {
             velocity,
             length: self.exact.length.clone(),
             wave_speed: self.exact.wave_speed.clone(),
+            gravity: self.exact.gravity.clone(),
         }
     }
 }

@@ -5,9 +5,8 @@ use serde_json::json;
 
 use super::{Failure, Format, NumberArgs, OutputArgs, source};
 use crate::output::table;
-use crate::scene::Plan;
-#[cfg(feature = "mp")]
-use crate::scene::{Engine, System};
+use crate::scene::{Effect, EffectUse, Scene};
+use crate::solve::{Numbers, Plan, Question};
 
 /// The plan: which effects a scene calls for, which engine and numbers solve it, and what is left out
 #[derive(Args, Debug)]
@@ -23,46 +22,51 @@ pub(super) struct Explain {
 impl Explain {
     pub(super) fn run(&self) -> Result<(), Failure> {
         let scene = source::read(&self.scene)?;
-        let mut plan = Plan::of(&scene, self.numbers.ask())?;
-        #[cfg(feature = "mp")]
-        if let (Engine::Lattice, System::Digits(digits)) = (plan.engine, plan.system) {
-            let lost = crate::solve::bits_lost(&scene.problem);
-            if lost > 0.0 {
-                plan.reasons.push(format!(
-                    "the impacts up to the end lose about {:.0} digits, so {} are carried",
-                    lost * std::f64::consts::LOG10_2,
-                    (f64::from(digits) + 1.1 * lost * std::f64::consts::LOG10_2).ceil() + 8.0
-                ));
-            }
-        }
+        let plan = Plan::of(&scene.problem, &Question::run(self.numbers.numbers(&scene)))?;
+        let effects = effects(&scene, &plan);
         match self.output.format() {
             Format::Json => self.output.write_json(&json!({
                 "schema": 1,
                 "title": scene.title,
-                "effects": plan.effects,
+                "effects": effects,
                 "engine": plan.engine,
-                "number": plan.system.to_string(),
-                "reasons": plan.reasons,
-                "cost": plan.cost,
+                "number": plan.numbers.to_string(),
+                "first_attempt": plan.rung.to_string(),
+                "reach": plan.reach.to_string(),
+                "reasons": plan.reasons(),
             })),
             Format::Csv => {
                 Err(miette::miette!("found --format csv, expected table or json: a plan is no list of numbers"))
             }
-            Format::Table => self.output.write(&Self::text(scene.title.as_deref(), &plan)),
+            Format::Table => self.output.write(&Self::text(scene.title.as_deref(), &effects, &plan)),
         }
     }
 
-    fn text(title: Option<&str>, plan: &Plan) -> String {
-        let rows = plan.effects.iter().map(|used| {
+    fn text(title: Option<&str>, effects: &[EffectUse], plan: &Plan) -> String {
+        let rows = effects.iter().map(|used| {
             let line = used.line.map_or_else(|| "–".to_string(), |line| line.to_string());
             vec![used.effect.to_string(), if used.called { "yes" } else { "no" }.into(), line, used.because.clone()]
         });
         let mut out = title.map_or_else(String::new, |title| format!("{title}\n\n"));
         out += &table(&["effect", "called for", "line", "because"], rows.collect(), 4);
-        out += &format!("\n\nengine:   {}\nnumbers:  {}\n", plan.engine, plan.system);
-        for reason in &plan.reasons {
-            out += &format!("          {reason}\n");
-        }
-        out + &format!("cost:     {}\n", plan.cost)
+        out += &format!("\n\nengine:   {}\nreach:    {}\n", plan.engine, plan.reach);
+        out += &format!("numbers:  {}, at first in {}\n", plan.numbers, plan.rung);
+        plan.reasons().iter().fold(out, |out, reason| out + "          " + reason + "\n")
     }
+}
+
+/// The effects of the scene, and those that the question calls for.
+fn effects(scene: &Scene, plan: &Plan) -> Vec<EffectUse> {
+    let mut effects = scene.effects();
+    effects.push(scene.effect(Effect::FieldEnergies));
+    effects.push(match plan.numbers {
+        Numbers::Double(_) => scene.effect(Effect::ArbitraryPrecision),
+        numbers => EffectUse {
+            effect: Effect::ArbitraryPrecision,
+            called: true,
+            line: None,
+            because: format!("{numbers} asked for"),
+        },
+    });
+    effects
 }

@@ -1,7 +1,7 @@
 //! The command: one file per subcommand.
 
-mod check;
-mod cost;
+// mod check;
+// mod cost;
 mod explain;
 mod sample;
 mod scenes;
@@ -13,15 +13,14 @@ use std::process::ExitCode;
 
 use clap::{Args, CommandFactory, Parser, Subcommand, ValueEnum};
 
-use crate::history::History;
-use crate::output::{Head, Show, write_whole};
+use crate::error::Error;
+use crate::history::{Ending, History};
+use crate::motion::Motion;
+use crate::number::{Number, Scalar};
+use crate::output::{Head, write_whole};
 use crate::rod::Material;
-#[cfg(feature = "mp")]
-use crate::scene::System;
-use crate::scene::{Ask, Plan, Scene};
-#[cfg(feature = "mp")]
-use crate::solve::certify;
-use crate::solve::{Solution, solve};
+use crate::scene::{Effect, Scene};
+use crate::solve::{CERTIFIED_DIGITS, ExactnessEnd, Numbers, Plan, Question, Solution, Target};
 
 /// Everything that can go wrong, ready to be reported.
 pub type Failure = miette::Report;
@@ -47,9 +46,9 @@ enum Command {
     /// The plan: which effects a scene calls for, which engine and numbers solve it, and what is left out
     Explain(explain::Explain),
     /// What accuracy costs in time: one quantity by every route that can give it
-    Cost(cost::Cost),
+    // Cost(cost::Cost),
     /// Hard cases and the paper's claims, worked out by every route and held against the truth
-    Check(check::Check),
+    // Check(check::Check),
     /// List the built-in scenes, or print one
     Scenes(scenes::Scenes),
     /// Print a completion script for a shell
@@ -65,8 +64,8 @@ pub fn run(cli: Cli) -> Result<ExitCode, Failure> {
         Command::Solve(command) => command.run(),
         Command::Sample(command) => command.run(),
         Command::Explain(command) => command.run(),
-        Command::Cost(command) => command.run(),
-        Command::Check(command) => return command.run(),
+        // Command::Cost(command) => command.run(),
+        // Command::Check(command) => return command.run(),
         Command::Scenes(command) => command.run(),
         Command::Completions { shell } => {
             let mut script = Vec::new();
@@ -95,8 +94,15 @@ struct NumberArgs {
 }
 
 impl NumberArgs {
-    fn ask(self) -> Ask {
-        Ask { exact: self.exact, certified: self.certified, digits: self.digits, from: None, accuracy: self.accuracy }
+    /// The numbers that are asked for; without an option, doubles to the accuracy of the scene.
+    fn numbers(self, scene: &Scene) -> Numbers {
+        match self {
+            NumberArgs { certified: true, digits, .. } => Numbers::Certified(digits.unwrap_or(CERTIFIED_DIGITS)),
+            NumberArgs { exact: true, digits: None, .. } => Numbers::Exact,
+            NumberArgs { exact: true, digits: Some(digits), .. } => Numbers::ExactThenDigits(digits),
+            NumberArgs { digits: Some(digits), .. } => Numbers::Digits(digits),
+            NumberArgs { accuracy, .. } => Numbers::Double(accuracy.or(scene.accuracy.as_ref().map(Number::to_f64))),
+        }
     }
 }
 
@@ -151,10 +157,11 @@ fn head(scene: &Scene, plan: &Plan) -> Head {
         Material::Elastic { density, area, .. } => Some((density.clone(), area.clone())),
         Material::WaveSpeed(_) => None,
     };
+    let called = scene.called_effects().into_iter().map(Effect::name).collect();
     Head {
         title: scene.title.clone(),
-        number: plan.system.to_string(),
-        effects: plan.called(),
+        number: plan.numbers.to_string(),
+        effects: called,
         digits: 0,
         line_density,
         exact_until: None,
@@ -162,56 +169,50 @@ fn head(scene: &Scene, plan: &Plan) -> Head {
 }
 
 /// What a subcommand prints of a history, in any number system.
-trait Answer {
+trait Report {
     /// What is asked of the history.
-    type Data<S: Show>;
-    fn gather<S: Show>(&self, history: &dyn History<S>, head: &Head) -> Result<Self::Data<S>, Failure>;
+    type Data<N: Scalar>;
+    fn gather<N: Scalar>(&self, history: &dyn History<N>, head: &Head) -> Result<Self::Data<N>, Error>;
     /// Every number in the data.
-    #[cfg_attr(not(feature = "mp"), allow(dead_code))]
-    fn numbers<'a, S: Show>(&self, data: &'a Self::Data<S>) -> Vec<&'a S>;
-    fn print<S: Show>(&self, data: &Self::Data<S>, head: &Head) -> Result<(), Failure>;
+    fn numbers<'a, N: Scalar>(&self, data: &'a Self::Data<N>) -> Vec<&'a N>;
+    fn print<N: Scalar>(&self, data: &Self::Data<N>, head: &Head) -> Result<(), Failure>;
+    /// An error of `gather`, with what the history ends for.
+    fn refuse(&self, error: Error, ending: &Ending) -> Failure {
+        let _ = ending;
+        error.into()
+    }
 }
 
-/// Plans and solves `scene` as asked, and lets `what` print of the solution.
-fn answer(scene: &Scene, ask: Ask, what: &impl Answer) -> Result<(), Failure> {
-    let plan = Plan::of(scene, ask)?;
+/// Answers `question` of `scene`, and prints what `report` makes of the answer.
+fn answer(scene: &Scene, question: &Question, report: &impl Report) -> Result<(), Failure> {
+    let plan = Plan::of(&scene.problem, question)?;
     let head = head(scene, &plan);
-    #[cfg(feature = "mp")]
-    if let System::Certified(digits) = plan.system {
-        let head = Head { digits, ..head };
-        let data = {
-            let progress = source::Progress::of(scene, &plan);
-            let gather = |history: &dyn History<_>| what.gather(history, &head);
-            certify(
-                &scene.problem,
-                digits,
-                gather,
-                |data| what.numbers(data),
-                |trip, pieces| progress.observe(trip, pieces),
-            )?
-        };
-        return what.print(&data, &head);
-    }
-    let solution = {
-        let progress = source::Progress::of(scene, &plan);
-        solve(&scene.problem, &plan, |trip, pieces| progress.observe(trip, pieces))?
-    };
+    let progress = source::Progress::of(scene, &plan);
+    let solution = plan.solve(&scene.problem, progress.observer())?;
+    let digits = |digits: u32, head: Head| Head { digits, ..head };
     match &solution {
-        Solution::Double(history) => what.print(&what.gather(history.as_ref(), &head)?, &head),
-        #[cfg(feature = "mp")]
-        Solution::Digits(history, digits) => {
-            source::tell_inexact(&scene.problem, &plan);
-            let head = Head { number: format!("{digits} digits"), digits: *digits, ..head };
-            what.print(&what.gather(history.as_ref(), &head)?, &head)
-        }
-        #[cfg(feature = "mp")]
-        Solution::Exact(history, None) => what.print(&what.gather(history.as_ref(), &head)?, &head),
-        #[cfg(feature = "mp")]
-        Solution::Exact(exact, Some((history, digits))) => {
-            eprintln!("note: {}; what follows is in {digits} digits", exact.ending());
-            let (number, exact_until) = (format!("{digits} digits"), Some(exact.ending().clone()));
-            let head = Head { digits: *digits, number, exact_until, ..head };
-            what.print(&what.gather(history.as_ref(), &head)?, &head)
+        Solution::Double(motion) => print(motion, report, &head, progress),
+        Solution::Exact(motion) => print(motion, report, &head, progress),
+        Solution::Certified(motion, n) => print(motion, report, &digits(*n, head), progress),
+        Solution::Digits(motion, n) => print(motion, report, &digits(*n, head), progress),
+        Solution::DigitsAfter(motion, n, end) => {
+            eprintln!("note: {end}; what follows is in {n} digits");
+            let exact_until = match end {
+                ExactnessEnd::Event(ending) => Some(ending.clone()),
+                ExactnessEnd::Parameter { .. } => None,
+            };
+            print(motion, report, &Head { digits: *n, number: format!("{n} digits"), exact_until, ..head }, progress)
         }
     }
+}
+
+fn print<S: Target>(
+    motion: &Motion<S>,
+    report: &impl Report,
+    head: &Head,
+    progress: source::Progress,
+) -> Result<(), Failure> {
+    let gathered = motion.ask(|history| report.gather(history, head), |data| report.numbers(data));
+    drop(progress);
+    report.print(&gathered.map_err(|error| report.refuse(error, motion.ending()))?, head)
 }

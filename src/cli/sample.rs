@@ -2,13 +2,12 @@
 
 use clap::Args;
 
-use super::{Answer, Failure, Format, NumberArgs, OutputArgs, answer, source};
+use super::{Failure, Format, NumberArgs, OutputArgs, Report, answer, source};
 use crate::error::Error;
 use crate::history::{Ending, History, Side};
 use crate::number::{Number, Scalar};
-use crate::output::{self, Head, Quantity, Show, sample, samples_csv, samples_json, samples_table};
-use crate::rod::Run;
-use crate::scene::Ask;
+use crate::output::{self, Head, Quantity, sample, samples_csv, samples_json, samples_table};
+use crate::solve::Question;
 
 /// Values of a quantity at chosen times
 #[derive(Args, Debug)]
@@ -97,8 +96,8 @@ impl List {
 
 impl Sample {
     pub(super) fn run(&self) -> Result<(), Failure> {
-        let mut scene = source::read(&self.scene)?;
-        let Some(last) = self.times.greatest() else {
+        let scene = source::read(&self.scene)?;
+        let (Some(first), Some(last)) = (self.times.least(), self.times.greatest()) else {
             return Err(miette::miette!("found no times, expected at least one"));
         };
         if self.points.is_some() && !matches!(self.quantity, Quantity::Field) {
@@ -107,16 +106,14 @@ impl Sample {
         if last.to_f64() < 0.0 {
             return Err(miette::miette!("found time {last}, expected times from 0 on"));
         }
-        scene.problem.run = Run::Time(last);
-        let from = self.times.least().map(|number| number.to_f64());
-        answer(&scene, Ask { from, ..self.numbers.ask() }, self)
+        answer(&scene, &Question::between(first, last, self.numbers.numbers(&scene)), self)
     }
 }
 
-impl Answer for Sample {
-    type Data<S: Show> = (Vec<output::Sample<S>>, Vec<String>);
+impl Report for Sample {
+    type Data<S: Scalar> = (Vec<output::Sample<S>>, Vec<String>);
 
-    fn gather<S: Show>(&self, history: &dyn History<S>, head: &Head) -> Result<Self::Data<S>, Failure> {
+    fn gather<S: Scalar>(&self, history: &dyn History<S>, _: &Head) -> Result<Self::Data<S>, Error> {
         let length = history.scales().length;
         let precision = length.precision();
         let times = self.times.lift::<S>(&precision);
@@ -124,32 +121,29 @@ impl Answer for Sample {
             Some(points) => points.lift::<S>(&precision),
             None => vec![length.zero(), length.clone() / length.int(2), length],
         };
-        let samples = sample(history, self.quantity, &times, &points, self.side).map_err(|error| {
-            match (history.ending(), &error) {
-                (Ending::ExactnessEnds { .. }, Error::TimeOutside { found, .. }) => {
-                    miette::miette!(
-                        help = "expected times before it, or --digits N as well, to go on from there in digits",
-                        "found time {found}, but {}",
-                        history.ending()
-                    )
-                }
-                (ending, Error::TimeOutside { found, .. }) if !matches!(ending, Ending::Time) => {
-                    miette::miette!(
-                        "found time {found}, expected times up to t = {}: {ending}",
-                        history.end().show(head.digits)
-                    )
-                }
-                _ => error.into(),
-            }
-        })?;
-        Ok((samples, history.warnings().to_vec()))
+        Ok((sample(history, self.quantity, &times, &points, self.side)?, history.warnings().to_vec()))
     }
 
-    fn numbers<'a, S: Show>(&self, (samples, _): &'a Self::Data<S>) -> Vec<&'a S> {
+    fn refuse(&self, error: Error, ending: &Ending) -> Failure {
+        match (ending, &error) {
+            (Ending::ExactnessEnds { .. }, Error::TimeOutside { found, .. }) => {
+                miette::miette!(
+                    help = "expected times before it, or --digits N as well, to go on from there in digits",
+                    "found time {found}, but {ending}"
+                )
+            }
+            (ending, Error::TimeOutside { found, end }) if !matches!(ending, Ending::Time) => {
+                miette::miette!("found time {found}, expected times up to t = {end}: {ending}")
+            }
+            _ => error.into(),
+        }
+    }
+
+    fn numbers<'a, S: Scalar>(&self, (samples, _): &'a Self::Data<S>) -> Vec<&'a S> {
         samples.iter().flat_map(|sample| sample.values.iter().chain(&sample.point).chain([&sample.time])).collect()
     }
 
-    fn print<S: Show>(&self, (samples, warnings): &Self::Data<S>, head: &Head) -> Result<(), Failure> {
+    fn print<S: Scalar>(&self, (samples, warnings): &Self::Data<S>, head: &Head) -> Result<(), Failure> {
         for warning in warnings {
             eprintln!("warning: {warning}");
         }

@@ -2,9 +2,12 @@
 
 use clap::Args;
 
-use super::{Answer, Failure, Format, NumberArgs, OutputArgs, answer, source};
+use super::{Failure, Format, NumberArgs, OutputArgs, Report, answer, source};
+use crate::error::Error;
 use crate::history::History;
-use crate::output::{Head, Part, Record, Show, history_csv, history_json, history_table, record};
+use crate::number::Scalar;
+use crate::output::{Head, Part, Record, history_csv, history_json, history_table, record};
+use crate::solve::Question;
 
 /// Solve a scene: events, contacts, restitution, energies, stress history
 #[derive(Args, Debug)]
@@ -29,27 +32,28 @@ impl Solve {
         if self.part.is_some() && self.output.format() != Format::Csv {
             return Err(miette::miette!("found --part, expected it with --format csv only"));
         }
-        answer(&source::read(&self.scene)?, self.numbers.ask(), self)
+        let scene = source::read(&self.scene)?;
+        answer(&scene, &Question::run(self.numbers.numbers(&scene)), self)
     }
 }
 
-impl Answer for Solve {
-    type Data<S: Show> = Record<S>;
+impl Report for Solve {
+    type Data<S: Scalar> = Record<S>;
 
-    fn gather<S: Show>(&self, history: &dyn History<S>, head: &Head) -> Result<Record<S>, Failure> {
+    fn gather<S: Scalar>(&self, history: &dyn History<S>, head: &Head) -> Result<Record<S>, Error> {
         let stress = match self.output.format() {
             Format::Table => false,
             Format::Json => true,
             Format::Csv => matches!(self.part, Some(Part::Stress)),
         };
-        Ok(record(history, head, stress)?)
+        record(history, head, stress)
     }
 
-    fn numbers<'a, S: Show>(&self, record: &'a Record<S>) -> Vec<&'a S> {
+    fn numbers<'a, S: Scalar>(&self, record: &'a Record<S>) -> Vec<&'a S> {
         record.numbers()
     }
 
-    fn print<S: Show>(&self, record: &Record<S>, head: &Head) -> Result<(), Failure> {
+    fn print<S: Scalar>(&self, record: &Record<S>, head: &Head) -> Result<(), Failure> {
         for warning in &record.warnings {
             eprintln!("warning: {warning}");
         }

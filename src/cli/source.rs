@@ -1,6 +1,7 @@
 //! Where a scene comes from, and how a run shows its progress.
 
 use std::io::Read;
+use std::sync::Arc;
 use std::sync::mpsc::{RecvTimeoutError, Sender, channel};
 use std::thread::JoinHandle;
 use std::time::Duration;
@@ -8,14 +9,9 @@ use std::time::Duration;
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 
 use super::Failure;
-#[cfg(feature = "mp")]
-use crate::error::Error;
-#[cfg(feature = "mp")]
-use crate::rod::Problem;
-use crate::rod::{Parameters, Run};
-#[cfg(feature = "mp")]
-use crate::scene::System;
-use crate::scene::{Engine, Plan, Scene, builtin};
+use crate::rod::Parameters;
+use crate::scene::{Scene, builtin};
+use crate::solve::{Engine, Observer, Plan, Reach};
 
 /// More than any scene: what is read of an endless stream before it is refused.
 const MAX_BYTES: u64 = (16 << 20) + 1;
@@ -67,16 +63,6 @@ fn read_text(from: impl Read, name: &str) -> Result<String, Failure> {
     Ok(text)
 }
 
-/// Says why a run that was to be exact is in digits from its beginning.
-#[cfg(feature = "mp")]
-pub(super) fn tell_inexact(problem: &Problem, plan: &Plan) {
-    if let System::Exact(Some(digits)) = plan.system
-        && let Err(Error::Irrational { quantity, square }) = Parameters::<rug::Rational>::of(problem, &())
-    {
-        eprintln!("note: the {quantity} √({square}) is no fraction; all that follows is in {digits} digits");
-    }
-}
-
 /// A progress bar on standard error: only on a terminal, and only for runs over a second.
 pub(super) struct Progress {
     bar: ProgressBar,
@@ -86,8 +72,8 @@ pub(super) struct Progress {
 
 impl Progress {
     pub(super) fn of(scene: &Scene, plan: &Plan) -> Self {
-        let round_trips = match (&scene.problem.run, plan.engine) {
-            (Run::Time(time), Engine::Lattice) => Parameters::<f64>::of(&scene.problem, &())
+        let round_trips = match (&plan.reach, plan.engine) {
+            (Reach::Time(time), Engine::Lattice) => Parameters::<f64>::of(&scene.problem, &())
                 .ok()
                 .map(|rod| (time.to_f64() / rod.round_trip()).ceil() as u64),
             _ => None,
@@ -95,7 +81,7 @@ impl Progress {
         let template = match (round_trips, plan.engine) {
             (Some(_), _) => "{bar:40} {pos}/{len} round trips, {msg}",
             (None, Engine::Lattice) => "{spinner} {pos} round trips, {msg}",
-            (None, Engine::Cells) => "{spinner} {elapsed}",
+            (None, _) => "{spinner} {elapsed}",
         };
         let bar = ProgressBar::with_draw_target(round_trips, ProgressDrawTarget::hidden());
         if let Ok(style) = ProgressStyle::with_template(template) {
@@ -113,12 +99,16 @@ impl Progress {
         Progress { bar, running: Some(running), watch: Some(watch) }
     }
 
-    pub(super) fn observe(&self, trip: usize, pieces: usize) {
-        // Now and then only: a round trip can take less than a microsecond.
-        if trip.is_multiple_of(64) {
-            self.bar.set_message(format!("{pieces} pieces"));
-            self.bar.set_position(trip as u64);
-        }
+    /// What an engine calls as it goes on.
+    pub(super) fn observer(&self) -> Observer {
+        let bar = self.bar.clone();
+        Arc::new(move |trip, pieces| {
+            // Now and then only: a round trip can take less than a microsecond.
+            if trip.is_multiple_of(64) {
+                bar.set_message(format!("{pieces} pieces"));
+                bar.set_position(trip as u64);
+            }
+        })
     }
 }
 

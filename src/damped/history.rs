@@ -373,8 +373,8 @@ impl<S: Analytic> History<S> for Damped<S> {
     }
 
     fn scales(&self) -> Scales<S> {
-        let Units { time, velocity, length, wave_speed, .. } = self.data.units.clone();
-        Scales { time, velocity, length, wave_speed }
+        let Units { time, velocity, length, wave_speed, gravity, .. } = self.data.units.clone();
+        Scales { time, velocity, length, wave_speed, gravity }
     }
 
     fn error_estimate(&self) -> S {

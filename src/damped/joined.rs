@@ -443,6 +443,7 @@ impl<S: Analytic> History<S> for Joined<S> {
             velocity: if fall > self.rod.speed { fall } else { self.rod.speed.clone() },
             length: self.rod.length.clone(),
             wave_speed: self.rod.wave_speed.clone(),
+            gravity: self.rod.gravity.clone(),
         }
     }
 

@@ -65,6 +65,37 @@ impl Scalar for f64 {
         Ok(self.partial_cmp(other).unwrap_or(Ordering::Equal))
     }
 
+    /// Without trailing zeros.
+    fn decimal(&self, digits: u32) -> String {
+        // Every double is spelt by 17 digits, and most by the fewer that its shortest text has.
+        if digits >= 16 {
+            return self.text();
+        }
+        let digits = digits.max(1) as usize;
+        let text = format!("{self:.*e}", digits - 1);
+        let (mantissa, exponent) = text.split_once('e').unwrap_or((&text, "0"));
+        let exponent: i32 = exponent.parse().unwrap_or(0);
+        let trim = |text: &str| match text.contains('.') {
+            true => text.trim_end_matches('0').trim_end_matches('.').to_string(),
+            false => text.to_string(),
+        };
+        if (-5..16).contains(&exponent) {
+            // From the rounded text, so that 123456 to two digits is 120000.
+            let rounded: f64 = text.parse().unwrap_or(*self);
+            let places = usize::try_from(digits as i32 - 1 - exponent).unwrap_or(0);
+            return trim(&format!("{rounded:.places$}"));
+        }
+        format!("{}e{exponent}", trim(mantissa))
+    }
+
+    fn as_double(&self) -> Option<f64> {
+        Some(*self)
+    }
+
+    fn serialize<Z: serde::Serializer>(&self, serializer: Z) -> Result<Z::Ok, Z::Error> {
+        serializer.serialize_f64(*self)
+    }
+
     fn text(&self) -> String {
         // Display never uses an exponent; Debug does so for very large and very small values.
         format!("{self:?}")

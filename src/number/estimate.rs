@@ -249,6 +249,14 @@ impl<S: Rounded> Scalar for Estimate<S> {
         self.value.is_finite()
     }
 
+    fn decimal(&self, digits: u32) -> String {
+        self.value.decimal(digits)
+    }
+
+    fn as_double(&self) -> Option<f64> {
+        self.value.as_double()
+    }
+
     fn text(&self) -> String {
         self.value.text()
     }

@@ -6,7 +6,7 @@ use rug::float::{Constant, Round};
 use rug::ops::Pow;
 use rug::{Float, Integer, Rational};
 
-use super::{Analytic, Answer, Estimate, Number, Open, Rounded, Scalar};
+use super::{Analytic, Answer, Estimate, Number, Open, Reads, Rounded, Scalar};
 
 impl Scalar for Float {
     const RIGOROUS: bool = false;
@@ -60,6 +60,10 @@ impl Scalar for Float {
 
     fn compare(&self, other: &Self) -> Result<Ordering, Open> {
         Ok(self.partial_cmp(other).unwrap_or(Ordering::Equal))
+    }
+
+    fn decimal(&self, digits: u32) -> String {
+        self.to_rational().map_or_else(|| self.to_string(), |value| decimal(&value, digits))
     }
 
     fn text(&self) -> String {
@@ -121,6 +125,21 @@ impl Answer for Float {
 
     fn strip(carried: Estimate<Float>) -> Float {
         carried.into_value()
+    }
+}
+
+/// Both systems round: the bound of the longer number, and the rounding to a double.
+impl Reads<Estimate<Float>> for Estimate<f64> {
+    fn read(number: Estimate<Float>) -> Self {
+        let (bound, value) = (number.bound(), number.to_f64());
+        Estimate::new(value, bound / value.unit() * (1.0 + f64::EPSILON) + value.abs())
+    }
+
+    fn give(&self, precision: &u32) -> Estimate<Float> {
+        match self.value().to_string().parse::<Number>() {
+            Ok(number) => Estimate::from_number(&number, precision),
+            Err(_) => Estimate::exact(Float::with_val(*precision, self.value())),
+        }
     }
 }
 

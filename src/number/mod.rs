@@ -9,6 +9,8 @@
 //!
 //! Formulas are written once: undamped code is `impl<S: Scalar>`, damped code is `impl<S: Analytic>`.
 
+#[cfg(not(feature = "mp"))]
+mod absent;
 mod double;
 mod estimate;
 #[cfg(feature = "mp")]
@@ -22,6 +24,8 @@ mod literal;
 mod radical;
 mod scalar;
 
+#[cfg(not(feature = "mp"))]
+pub use absent::{Float, Interval, Rational};
 pub use estimate::Estimate;
 #[cfg(feature = "mp")]
 pub use float::{bits_for_digits, decimal};
@@ -30,4 +34,6 @@ pub(crate) use interval::undecided;
 #[cfg(feature = "mp")]
 pub use interval::{Interval, IntervalPrecision, decided};
 pub use literal::{Number, NumberError};
-pub use scalar::{Analytic, Answer, Open, Rounded, Scalar};
+#[cfg(feature = "mp")]
+pub use rug::{Float, Rational};
+pub use scalar::{Analytic, Answer, Open, Reads, Rounded, Scalar};

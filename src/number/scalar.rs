@@ -107,6 +107,28 @@ pub trait Scalar:
     /// Whether the number is finite (fractions always are).
     fn is_finite(&self) -> bool;
 
+    /// The number to so many significant digits, correctly rounded; exact numbers as they are.
+    fn decimal(&self, digits: u32) -> String {
+        let _ = digits;
+        self.text()
+    }
+
+    /// Both ends of an enclosure to ten digits more, rounded outwards; `None` for all other numbers.
+    fn ends(&self, digits: u32) -> Option<[String; 2]> {
+        let _ = digits;
+        None
+    }
+
+    /// The number, if it is a double.
+    fn as_double(&self) -> Option<f64> {
+        None
+    }
+
+    /// Serializes the number: as its text, but a double as a number.
+    fn serialize<Z: serde::Serializer>(&self, serializer: Z) -> Result<Z::Ok, Z::Error> {
+        serializer.serialize_str(&self.text())
+    }
+
     /// The shortest faithful text: `0.1` for a double, `3/2` for a fraction, all digits for a `Float`.
     fn text(&self) -> String;
 
@@ -231,6 +253,16 @@ pub trait Answer: Scalar {
 
     /// The number without what is carried beside it.
     fn strip(carried: Self::Carried) -> Self;
+}
+
+/// A number system in which the numbers of another can be read: each stays within the bound that it carries.
+pub trait Reads<N: Scalar>: Scalar {
+    /// The number in this system, rounded once, its bound with it.
+    fn read(number: N) -> Self;
+
+    /// A number of this system in the other one, where a question about it is answered. A double stands for the shortest decimal
+    /// that spells it.
+    fn give(&self, precision: &N::Precision) -> N;
 }
 
 /// A `Scalar` with the elementary functions: what the damped rod needs. Where a signature asks for it, exactness ends.

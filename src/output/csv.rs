@@ -1,8 +1,7 @@
 //! CSV: one part of the history a file, with a header.
 
-use super::json::side_name;
-use super::record::{Head, Quantity, Record, Sample, Show};
-use crate::history::EventKind;
+use super::record::{DOUBLE_DIGITS, Finished, Head, Quantity, Record, Sample, show};
+use crate::number::Scalar;
 
 /// The part of a history that a CSV file holds.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, clap::ValueEnum)]
@@ -17,21 +16,19 @@ pub enum Part {
 }
 
 /// One part of the history.
-pub fn history_csv<S: Show>(record: &Record<S>, part: Part, head: &Head) -> Result<String, csv::Error> {
-    let show = |x: &S| x.show(head.digits);
+pub fn history_csv<S: Scalar>(record: &Record<S>, part: Part, head: &Head) -> Result<String, csv::Error> {
+    let show = |x: &S| show(x, if head.digits == 0 { DOUBLE_DIGITS } else { head.digits });
     let optional = |x: Option<&S>| x.map_or_else(String::new, show);
     let mut rows: Vec<Vec<String>> = Vec::new();
     let header: &[&str] = match part {
         Part::Events => {
             for event in &record.events {
-                let kind = if event.kind == EventKind::Impact { "impact" } else { "release" };
-                let numbers = [&event.time, &event.end_velocity, &event.centre, &event.centre_velocity].map(show);
-                rows.push(std::iter::once(kind.to_string()).chain(numbers).collect());
+                rows.push(std::iter::once(event.kind.to_string()).chain(event.numbers().map(show)).collect());
             }
             &["kind", "time", "end_velocity", "centre", "centre_velocity"]
         }
         Part::Contacts => {
-            for (contact, restitution, energy) in &record.contacts {
+            for Finished { contact, restitution, energy, .. } in &record.contacts {
                 let energy = energy.as_ref();
                 rows.push(vec![
                     show(&contact.from),
@@ -66,13 +63,12 @@ pub fn history_csv<S: Show>(record: &Record<S>, part: Part, head: &Head) -> Resu
 }
 
 /// Samples.
-pub fn samples_csv<S: Show>(samples: &[Sample<S>], quantity: Quantity, head: &Head) -> Result<String, csv::Error> {
-    let show = |x: &S| x.show(head.digits);
+pub fn samples_csv<S: Scalar>(samples: &[Sample<S>], quantity: Quantity, head: &Head) -> Result<String, csv::Error> {
+    let show = |x: &S| show(x, if head.digits == 0 { DOUBLE_DIGITS } else { head.digits });
     let mut header = vec!["time", "point", "side"];
     header.extend(quantity.names());
     let rows = samples.iter().map(|sample| {
-        let place =
-            [show(&sample.time), sample.point.as_ref().map_or_else(String::new, show), side_name(sample.side).into()];
+        let place = [show(&sample.time), sample.point.as_ref().map_or_else(String::new, show), sample.side.to_string()];
         place.into_iter().chain(sample.values.iter().map(show)).collect()
     });
     write(&header, rows.collect())

@@ -2,23 +2,24 @@
 
 use serde_json::{Value, json};
 
-use super::record::{Head, Quantity, Record, Sample, Show};
-use crate::history::{Ending, EventKind, Side};
+use super::record::{Finished, Head, Quantity, Record, Sample, json as number_json};
+use crate::history::Ending;
+use crate::number::Scalar;
 
 /// The whole history, schema 1.
-pub fn history_json<S: Show>(record: &Record<S>, head: &Head) -> Value {
-    let number = |x: &S| x.json(head.digits);
+pub fn history_json<S: Scalar>(record: &Record<S>, head: &Head) -> Value {
+    let number = |x: &S| number_json(x, head.digits);
     let optional = |x: Option<&S>| x.map_or(Value::Null, number);
     let events = record.events.iter().map(|event| {
         json!({
-            "kind": kind(event.kind),
+            "kind": event.kind,
             "time": number(&event.time),
             "end_velocity": number(&event.end_velocity),
             "centre": number(&event.centre),
             "centre_velocity": number(&event.centre_velocity),
         })
     });
-    let contacts = record.contacts.iter().map(|(contact, restitution, energy)| {
+    let contacts = record.contacts.iter().map(|Finished { contact, restitution, shares, energy }| {
         let mut value = json!({
             "from": number(&contact.from),
             "to": optional(contact.to.as_ref()),
@@ -27,8 +28,8 @@ pub fn history_json<S: Show>(record: &Record<S>, head: &Head) -> Value {
             "restitution": {
                 "momentum": optional(restitution.momentum.as_ref().ok()),
                 "energy_squared": optional(restitution.energy_squared.as_ref().ok()),
-                "translational_part": optional(restitution.translational_part.as_ref()),
-                "energy_kept": optional(restitution.energy_kept.as_ref()),
+                "translational_part": optional(shares.translational.as_ref()),
+                "energy_kept": optional(shares.kept.as_ref()),
             },
             "energy": energy.as_ref().map(|energy| json!({
                 "total": number(&energy.total),
@@ -83,7 +84,7 @@ pub fn history_json<S: Show>(record: &Record<S>, head: &Head) -> Value {
         "flights": flights.collect::<Vec<_>>(),
         "stress": {"pieces": pieces.collect::<Vec<_>>()},
         "end": ending_json(&record.end.1, number(&record.end.0)),
-        "error_estimate": record.error.as_ref().map(|error| error.to_f64()),
+        "error_estimate": record.error,
         "digits_lost": record.lost.map(|(_, digits)| digits),
         "warnings": record.warnings,
     })
@@ -106,36 +107,21 @@ fn ending_json(ending: &Ending, time: Value) -> Value {
 fn exactness_json(ending: &Ending) -> Value {
     match ending {
         Ending::ExactnessEnds { kind: event, time: surd, near } => {
-            json!({"event": kind(*event), "surd": surd, "near": near})
+            json!({"event": event, "surd": surd, "near": near})
         }
         other => json!({"reason": other.to_string()}),
     }
 }
 
-fn kind(kind: EventKind) -> &'static str {
-    match kind {
-        EventKind::Impact => "impact",
-        EventKind::Release => "release",
-    }
-}
-
-/// The name of a side: `left`, `right`.
-pub(super) fn side_name(side: Side) -> &'static str {
-    match side {
-        Side::Left => "left",
-        Side::Right => "right",
-    }
-}
-
 /// Samples, schema 1.
-pub fn samples_json<S: Show>(samples: &[Sample<S>], quantity: Quantity, head: &Head) -> Value {
-    let number = |x: &S| x.json(head.digits);
+pub fn samples_json<S: Scalar>(samples: &[Sample<S>], quantity: Quantity, head: &Head) -> Value {
+    let number = |x: &S| number_json(x, head.digits);
     let rows = samples.iter().map(|sample| {
         let values = quantity.names().iter().zip(&sample.values).map(|(name, x)| (name.to_string(), number(x)));
         json!({
             "time": number(&sample.time),
             "point": sample.point.as_ref().map(number),
-            "side": side_name(sample.side),
+            "side": sample.side,
             "values": values.collect::<serde_json::Map<_, _>>(),
         })
     });

@@ -1,21 +1,21 @@
 //! Tables, JSON, CSV and pictures. Output computes no physics: it asks the history and the quantities.
 
-mod check;
-mod cost;
+// mod check;
+// mod cost;
 mod csv;
 mod file;
 mod json;
-#[cfg(feature = "plot")]
-mod picture;
+// #[cfg(feature = "plot")]
+// mod picture;
 mod record;
 mod table;
 
-pub use check::{check_json, check_page, check_table};
-pub use cost::{cost_csv, cost_json, cost_table, duration, effects_csv, effects_json, effects_table};
+// pub use check::{check_json, check_page, check_table};
+// pub use cost::{cost_csv, cost_json, cost_table, duration, effects_csv, effects_json, effects_table};
 pub use csv::{Part, history_csv, samples_csv};
 pub use file::write_whole;
 pub use json::{history_json, samples_json};
-#[cfg(feature = "plot")]
-pub use picture::{cost_svg, png};
-pub use record::{Finished, Head, Quantity, Record, Sample, Show, record, sample};
+// #[cfg(feature = "plot")]
+// pub use picture::{cost_svg, png};
+pub use record::{Finished, Head, Quantity, Record, Sample, record, sample, show};
 pub use table::{history_table, samples_table, table};

@@ -3,56 +3,35 @@
 use crate::error::Error;
 use crate::history::{Contact, Ending, Energy, Event, History, Side, StressPiece};
 use crate::number::{Number, Scalar};
-use crate::quantity::{Flight, Restitution, flights, restitution};
+use crate::quantity::{EnergyShares, Flight, Restitution, energy_shares, flights, restitution};
 
-/// A number as it is printed. Rounded once, here.
-pub trait Show: Scalar {
-    /// The text: shortest for doubles, `3/2` for fractions, `digits` significant digits for a `Float`.
-    fn show(&self, digits: u32) -> String;
+/// A number that carries its bound, as it is printed: at most so many significant digits, and none beyond the bound; `0` where
+/// no digit is known.
+///
+/// **Accuracy**: *correctly rounded* unless the bound is astride a rounding boundary, and then within one unit of the last digit: a
+/// last unit is at least twice the bound.
+pub fn show<S: Scalar>(x: &S, digits: u32) -> String {
+    let size = x.to_f64().abs();
+    // −1 for the half unit that rounding takes.
+    let known =
+        ((size - 2.0 * x.log2_error().exp2()).max(0.0).log2() - x.log2_error() - 1.0) * std::f64::consts::LOG10_2;
+    if known.is_nan() || known < 1.0 { "0".into() } else { x.decimal(digits.min(known as u32)) }
+}
 
-    /// The JSON value: a number for doubles (null if not finite), a string otherwise.
-    fn json(&self, digits: u32) -> serde_json::Value {
-        self.show(digits).into()
+/// The same as a JSON value: a number for a double (null if not finite), `{"value": …, "lo": …, "hi": …}` with `lo ≤ truth ≤ hi`
+/// for an enclosure, a string otherwise.
+pub fn json<S: Scalar>(x: &S, digits: u32) -> serde_json::Value {
+    let text = show(x, if digits == 0 { DOUBLE_DIGITS } else { digits });
+    match (x.as_double(), x.ends(digits)) {
+        (Some(value), _) if !value.is_finite() => serde_json::Value::Null,
+        (Some(_), _) => text.parse().map_or(serde_json::Value::Null, |value: f64| value.into()),
+        (None, Some([lo, hi])) => serde_json::json!({"value": text, "lo": lo, "hi": hi}),
+        (None, None) => text.into(),
     }
 }
 
-impl Show for f64 {
-    fn show(&self, _: u32) -> String {
-        self.text()
-    }
-
-    fn json(&self, _: u32) -> serde_json::Value {
-        serde_json::Number::from_f64(*self).map_or(serde_json::Value::Null, Into::into)
-    }
-}
-
-#[cfg(feature = "mp")]
-impl Show for rug::Rational {
-    fn show(&self, _: u32) -> String {
-        self.to_string()
-    }
-}
-
-#[cfg(feature = "mp")]
-impl Show for crate::number::Interval {
-    /// Digits that are proved, see [`crate::solve::proved_digits`].
-    fn show(&self, digits: u32) -> String {
-        crate::solve::proved_digits(self, digits)
-    }
-
-    /// `{"value": …, "lo": …, "hi": …}` with `lo ≤ truth ≤ hi`.
-    fn json(&self, digits: u32) -> serde_json::Value {
-        let [lo, hi] = crate::solve::proved_ends(self, digits);
-        serde_json::json!({"value": self.show(digits), "lo": lo, "hi": hi})
-    }
-}
-
-#[cfg(feature = "mp")]
-impl Show for rug::Float {
-    fn show(&self, digits: u32) -> String {
-        self.to_rational().map_or_else(|| self.to_string(), |value| crate::number::decimal(&value, digits))
-    }
-}
+/// Digits that spell every double.
+pub(super) const DOUBLE_DIGITS: u32 = 17;
 
 /// What stands above the numbers.
 #[derive(Clone, Debug, Default)]
@@ -72,7 +51,17 @@ pub struct Head {
 }
 
 /// A contact, its coefficients, and the energies at its end if it has one.
-pub type Finished<S> = (Contact<S>, Restitution<S>, Option<Energy<S>>);
+#[derive(Clone, Debug)]
+pub struct Finished<S> {
+    /// The contact.
+    pub contact: Contact<S>,
+    /// `e_P` and `e_E²`.
+    pub restitution: Restitution<S>,
+    /// The factors of `e_E²`.
+    pub shares: EnergyShares<S>,
+    /// The energies at its end.
+    pub energy: Option<Energy<S>>,
+}
 
 /// A history, ready to be printed.
 #[derive(Clone, Debug)]
@@ -89,8 +78,8 @@ pub struct Record<S> {
     pub end: (S, Ending),
     /// `ρS c²` and `ρS`: newtons per unit strain, kilograms per metre.
     pub forces: Option<(S, S)>,
-    /// Bound on the error relative to the natural scales; `None` where all is exact.
-    pub error: Option<S>,
+    /// Bound on the error relative to the natural scales; zero where all is exact.
+    pub error: f64,
     /// Impacts, and the digits that rounding may have taken over them; `None` where that is not followed.
     pub lost: Option<(u32, f64)>,
     /// What the user should know.
@@ -101,21 +90,14 @@ impl<S> Record<S> {
     /// Every number that is printed.
     pub fn numbers(&self) -> Vec<&S> {
         let mut all = vec![&self.end.0];
-        for event in &self.events {
-            all.extend([&event.time, &event.end_velocity, &event.centre, &event.centre_velocity]);
+        all.extend(self.events.iter().flat_map(Event::numbers));
+        for Finished { contact, restitution, shares, energy } in &self.contacts {
+            all.extend(contact.numbers());
+            all.extend(restitution.numbers());
+            all.extend(shares.numbers());
+            all.extend(energy.iter().flat_map(Energy::numbers));
         }
-        for (contact, restitution, energy) in &self.contacts {
-            all.extend([&contact.from, &contact.impulse, &contact.peak_stress]);
-            all.extend(&contact.to);
-            all.extend(restitution.momentum.iter().chain(&restitution.energy_squared));
-            all.extend(restitution.translational_part.iter().chain(&restitution.energy_kept));
-            all.extend(energy.iter().flat_map(|e| [&e.total, &e.translational, &e.vibrational]));
-        }
-        for flight in &self.flights {
-            all.push(&flight.from);
-            all.extend(&flight.to);
-            all.extend(flight.highest.iter().flat_map(|(time, centre)| [time, centre]));
-        }
+        all.extend(self.flights.iter().flat_map(Flight::numbers));
         all.extend(self.stress.iter().flat_map(|piece| [&piece.from, &piece.to, &piece.left, &piece.right]));
         all
     }
@@ -126,97 +108,30 @@ pub fn record<S: Scalar>(history: &dyn History<S>, head: &Head, stress: bool) ->
     let end = history.end();
     let lift = |number: &Number| S::from_number(number, &end.precision());
     let scales = history.scales();
-    let error = (!S::RIGOROUS).then(|| history.error_estimate());
     let mut contacts = Vec::with_capacity(history.contacts().len());
     for contact in history.contacts() {
-        let energy = match &contact.to {
-            Some(to) => Some(history.energy(to)?),
-            None => None,
-        };
-        contacts.push((contact.clone(), restitution(history, contact)?, energy));
+        contacts.push(Finished {
+            energy: contact.to.as_ref().map(|to| history.energy(to)).transpose()?,
+            restitution: restitution(history, contact)?,
+            shares: energy_shares(history, contact)?,
+            contact: contact.clone(),
+        });
     }
     let forces = head.line_density.as_ref().map(|(density, area)| {
         let line = lift(density) * lift(area);
         (scales.wave_speed.square() * &line, line)
     });
-    let mut record = Record {
+    Ok(Record {
         events: history.events().to_vec(),
         contacts,
-        flights: flights(history),
+        flights: flights(history)?,
         stress: if stress { history.stress_pieces() } else { Vec::new() },
         end: (end, history.ending().clone()),
         forces,
-        error,
+        error: history.error_estimate().to_f64(),
         lost: history.digits_lost(),
         warnings: history.warnings().to_vec(),
-    };
-    if let Some(Bounds { rise: of_rise, speed: of_speed, strain: of_strain, energy: of_energy, ratio }) =
-        Bounds::of(history)
-    {
-        for event in &mut record.events {
-            vanish(&mut event.centre, &of_rise);
-            vanish(&mut event.centre_velocity, &of_speed);
-            vanish(&mut event.end_velocity, &of_speed);
-        }
-        for piece in &mut record.stress {
-            vanish(&mut piece.left, &of_strain);
-            vanish(&mut piece.right, &of_strain);
-        }
-        for (_, restitution, energy) in &mut record.contacts {
-            if let Ok(momentum) = &mut restitution.momentum {
-                vanish(momentum, &ratio);
-            }
-            if let Some(energy) = energy {
-                vanish(&mut energy.vibrational, &of_energy);
-                vanish(&mut energy.translational, &of_energy);
-            }
-        }
-    }
-    Ok(record)
-}
-
-/// What lies below the error bound of a long-digit run is a zero whose digits nobody can give.
-struct Bounds<S> {
-    rise: S,
-    speed: S,
-    strain: S,
-    energy: S,
-    ratio: S,
-}
-
-impl<S: Scalar> Bounds<S> {
-    /// `None` for doubles, which are printed as they are, and for fractions.
-    fn of(history: &dyn History<S>) -> Option<Self> {
-        let (scales, error) = (history.scales(), history.error_estimate());
-        if S::RIGOROUS || error.bits()? <= f64::MANTISSA_DIGITS {
-            return None;
-        }
-        let ratio = error.int(16) * &error;
-        let speed = ratio.clone() * &scales.velocity;
-        Some(Bounds {
-            rise: speed.clone() * &scales.time,
-            strain: speed.clone() / &scales.wave_speed,
-            energy: speed.clone() * &scales.velocity * &scales.length,
-            speed,
-            ratio,
-        })
-    }
-
-    /// In the order of [`Quantity::names`].
-    fn of_values(&self, quantity: Quantity) -> [&S; 3] {
-        let Bounds { rise, speed, strain, energy, .. } = self;
-        match quantity {
-            Quantity::Stress => [strain; 3],
-            Quantity::End | Quantity::Top | Quantity::Centre | Quantity::Field => [rise, speed, strain],
-            Quantity::Energy => [energy; 3],
-        }
-    }
-}
-
-fn vanish<S: Scalar>(value: &mut S, bound: &S) {
-    if value.magnitude() <= *bound {
-        *value = value.zero();
-    }
+    })
 }
 
 /// What `sample` can be asked for.
@@ -283,16 +198,8 @@ pub fn sample<S: Scalar>(
     side: Side,
 ) -> Result<Vec<Sample<S>>, Error> {
     let mut rows = Vec::new();
-    let bounds = Bounds::of(history);
     for time in times {
-        let mut row = |point: Option<S>, mut values: Vec<S>| {
-            if let Some(bounds) = &bounds {
-                for (value, bound) in values.iter_mut().zip(bounds.of_values(quantity)) {
-                    vanish(value, bound);
-                }
-            }
-            rows.push(Sample { time: time.clone(), point, side, values });
-        };
+        let mut row = |point, values| rows.push(Sample { time: time.clone(), point, side, values });
         match quantity {
             Quantity::Stress => row(None, vec![history.stress(time, side)?]),
             Quantity::End => row(None, history.ground_end(time, side).map(|(v, rate)| vec![v, rate])?),

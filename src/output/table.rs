@@ -2,9 +2,9 @@
 
 use comfy_table::{CellAlignment, ContentArrangement, LineStyle, Table, presets};
 
-use super::json::side_name;
-use super::record::{Head, Quantity, Record, Sample, Show};
-use crate::history::{Ending, EventKind};
+use super::record::{Finished, Head, Quantity, Record, Sample, show};
+use crate::history::Ending;
+use crate::number::Scalar;
 
 /// A table with a header; numbers stand to the right.
 pub fn table(header: &[&str], rows: Vec<Vec<String>>, words: usize) -> String {
@@ -22,38 +22,18 @@ pub fn table(header: &[&str], rows: Vec<Vec<String>>, words: usize) -> String {
     table.trim_fmt()
 }
 
-/// A number in a table: twelve digits of a double, and zero where it is below what rounding leaves of its scale.
-fn cell<S: Show>(x: &S, scale: f64, digits: u32) -> String {
-    if digits > 0 || S::RIGOROUS {
-        return x.show(digits);
-    }
-    let value = x.to_f64();
-    if value.abs() <= 1e-13 * scale {
-        return "0".into();
-    }
-    twelve_digits(value)
-}
+/// Significant digits of a double in a table.
+const TABLE_DIGITS: u32 = 12;
 
-/// Twelve significant digits, without trailing zeros.
-fn twelve_digits(value: f64) -> String {
-    let text = format!("{value:.11e}");
-    let (mantissa, exponent) = text.split_once('e').unwrap_or((&text, "0"));
-    let exponent: i32 = exponent.parse().unwrap_or(0);
-    if (-5..12).contains(&exponent) {
-        let places = usize::try_from(11 - exponent).unwrap_or(0);
-        let plain = format!("{value:.places$}");
-        return if plain.contains('.') { plain.trim_end_matches('0').trim_end_matches('.').into() } else { plain };
-    }
-    let mantissa = mantissa.trim_end_matches('0').trim_end_matches('.');
-    format!("{mantissa}e{exponent}")
+/// A number in a table.
+fn cell<S: Scalar>(x: &S, head: &Head) -> String {
+    show(x, if head.digits == 0 { TABLE_DIGITS } else { head.digits })
 }
 
 /// The whole history but for the stress: head, events, contacts, flights, end.
-pub fn history_table<S: Show>(record: &Record<S>, head: &Head) -> String {
-    let speed = record.events.iter().map(|e| e.centre_velocity.to_f64().abs()).fold(0.0, f64::max);
-    let rise = speed * record.end.0.to_f64().abs();
-    let show = |x: &S, scale: f64| cell(x, scale, head.digits);
-    let optional = |x: Option<&S>, scale: f64| x.map_or_else(|| "–".to_string(), |x| show(x, scale));
+pub fn history_table<S: Scalar>(record: &Record<S>, head: &Head) -> String {
+    let show = |x: &S| cell(x, head);
+    let optional = |x: Option<&S>| x.map_or_else(|| "–".to_string(), show);
     let mut out = String::new();
     if let Some(title) = &head.title {
         out += &format!("{title}\n");
@@ -64,16 +44,10 @@ pub fn history_table<S: Show>(record: &Record<S>, head: &Head) -> String {
     }
     out += "\n";
 
-    let events = record.events.iter().map(|event| {
-        let kind = if event.kind == EventKind::Impact { "impact" } else { "release" };
-        vec![
-            kind.to_string(),
-            show(&event.time, 0.0),
-            show(&event.end_velocity, speed),
-            show(&event.centre, rise),
-            show(&event.centre_velocity, speed),
-        ]
-    });
+    let events = record
+        .events
+        .iter()
+        .map(|event| std::iter::once(event.kind.to_string()).chain(event.numbers().map(show)).collect());
     out += &table(&["event", "time", "v_t(0,t)", "h", "h′"], events.collect(), 1);
     out += "\n\n";
 
@@ -81,22 +55,22 @@ pub fn history_table<S: Show>(record: &Record<S>, head: &Head) -> String {
     if record.forces.is_some() {
         header.extend(["peak force", "force impulse"]);
     }
-    let contacts = record.contacts.iter().map(|(contact, restitution, energy)| {
+    let contacts = record.contacts.iter().map(|Finished { contact, restitution, energy, .. }| {
         let energy = energy.as_ref();
         let mut row = vec![
-            show(&contact.from, 0.0),
-            optional(contact.to.as_ref(), 0.0),
-            show(&contact.impulse, 0.0),
-            show(&contact.peak_stress, 0.0),
-            optional(restitution.momentum.as_ref().ok(), 1.0),
-            optional(restitution.energy_squared.as_ref().ok(), 1.0),
-            optional(energy.map(|e| &e.total), 0.0),
-            optional(energy.map(|e| &e.translational), 0.0),
-            optional(energy.map(|e| &e.vibrational), energy.map_or(0.0, |e| 1e-3 * e.total.to_f64())),
+            show(&contact.from),
+            optional(contact.to.as_ref()),
+            show(&contact.impulse),
+            show(&contact.peak_stress),
+            optional(restitution.momentum.as_ref().ok()),
+            optional(restitution.energy_squared.as_ref().ok()),
+            optional(energy.map(|e| &e.total)),
+            optional(energy.map(|e| &e.translational)),
+            optional(energy.map(|e| &e.vibrational)),
         ];
         if let Some((stiffness, line)) = &record.forces {
-            row.push(show(&-(contact.peak_stress.clone() * stiffness), 0.0));
-            row.push(show(&(contact.impulse.clone() * line), 0.0));
+            row.push(show(&-(contact.peak_stress.clone() * stiffness)));
+            row.push(show(&(contact.impulse.clone() * line)));
         }
         row
     });
@@ -105,8 +79,8 @@ pub fn history_table<S: Show>(record: &Record<S>, head: &Head) -> String {
     if record.forces.is_some() && !record.contacts.is_empty() {
         out += "forces are in the units of the scene: newtons where it is written in SI\n";
     }
-    for (contact, restitution, _) in &record.contacts {
-        let from = show(&contact.from, 0.0);
+    for Finished { contact, restitution, .. } in &record.contacts {
+        let from = show(&contact.from);
         let mut reasons = vec![restitution.momentum.as_ref().err(), restitution.energy_squared.as_ref().err()];
         reasons.dedup();
         for reason in reasons.into_iter().flatten() {
@@ -115,19 +89,17 @@ pub fn history_table<S: Show>(record: &Record<S>, head: &Head) -> String {
     }
     for flight in &record.flights {
         if let Some((time, centre)) = &flight.highest {
-            let (from, time, centre) = (show(&flight.from, 0.0), show(time, 0.0), show(centre, rise));
+            let (from, time, centre) = (show(&flight.from), show(time), show(centre));
             out += &format!("flight from {from}: highest at t* = {time}, h_max = {centre}\n");
         }
     }
     let end = match &record.end.1 {
         Ending::ExactnessEnds { .. } => record.end.1.to_string(),
-        reason => format!("ends at t = {}: {reason}", show(&record.end.0, 0.0)),
+        reason => format!("ends at t = {}: {reason}", show(&record.end.0)),
     };
     out += &format!("\n{end}\n");
-    if let Some(error) = &record.error
-        && head.digits == 0
-    {
-        out += &format!("error estimate: {:.1e} of the scale of each quantity\n", error.to_f64());
+    if record.error > 0.0 && head.digits == 0 {
+        out += &format!("error estimate: {:.1e} of the scale of each quantity\n", record.error);
     }
     if let Some((impacts, lost)) = record.lost
         && lost >= MANY_LOST
@@ -142,7 +114,7 @@ pub fn history_table<S: Show>(record: &Record<S>, head: &Head) -> String {
 const MANY_LOST: f64 = 3.0;
 
 /// Samples.
-pub fn samples_table<S: Show>(samples: &[Sample<S>], quantity: Quantity, head: &Head) -> String {
+pub fn samples_table<S: Scalar>(samples: &[Sample<S>], quantity: Quantity, head: &Head) -> String {
     let has_points = samples.iter().any(|sample| sample.point.is_some());
     let mut header = vec!["t"];
     if has_points {
@@ -151,11 +123,10 @@ pub fn samples_table<S: Show>(samples: &[Sample<S>], quantity: Quantity, head: &
     header.push("side");
     header.extend(quantity.names());
     let rows = samples.iter().map(|sample| {
-        let scale = sample.values.iter().map(|x| x.to_f64().abs()).fold(0.0, f64::max);
-        let mut row = vec![cell(&sample.time, 0.0, head.digits)];
-        row.extend(sample.point.as_ref().map(|x| cell(x, 0.0, head.digits)));
-        row.push(side_name(sample.side).into());
-        row.extend(sample.values.iter().map(|x| cell(x, 1e-3 * scale, head.digits)));
+        let mut row = vec![cell(&sample.time, head)];
+        row.extend(sample.point.as_ref().map(|x| cell(x, head)));
+        row.push(sample.side.to_string());
+        row.extend(sample.values.iter().map(|x| cell(x, head)));
         row
     });
     table(&header, rows.collect(), 0) + "\n"

@@ -1,5 +1,6 @@
 //! The flights between the contacts, and how high they go.
 
+use crate::error::Error;
 use crate::history::{EventKind, History};
 use crate::number::Scalar;
 
@@ -14,31 +15,40 @@ pub struct Flight<S> {
     pub highest: Option<(S, S)>,
 }
 
+impl<S> Flight<S> {
+    pub(crate) fn map<T>(self, f: impl Fn(S) -> T) -> Flight<T> {
+        Flight {
+            from: f(self.from),
+            to: self.to.map(&f),
+            highest: self.highest.map(|(time, centre)| (f(time), f(centre))),
+        }
+    }
+
+    /// Every number in it.
+    pub(crate) fn numbers(&self) -> impl Iterator<Item = &S> {
+        let highest = self.highest.iter().flat_map(|(time, centre)| [time, centre]);
+        std::iter::once(&self.from).chain(&self.to).chain(highest)
+    }
+}
+
 /// The flights of a history, in order.
 ///
 /// **Source**: Remark 2, for every flight and not just the first.
 ///
 /// **Accuracy**: *exact* for exact histories, otherwise that of `h` and `h′` at the release.
 ///
-/// ```
-/// use dalembert::{Number, Problem, lattice::Undamped, quantity::flights};
-/// let problem = Problem::uniform(Number::from(1), Number::from(1), Number::from(1), Number::from(4));
-/// let history = Undamped::<f64>::solve(&problem, &())?;
-/// // μ²/2g − 2gL²/3c² = 8 − 2/3, reached at (2gL + μc)/cg = 6.
-/// let (time, height) = flights(&history)[0].highest.unwrap();
-/// assert!((time - 6.0).abs() < 1e-14 && (height - 22.0 / 3.0).abs() < 1e-14);
-/// # Ok::<(), dalembert::Error>(())
-/// ```
-pub fn flights<S: Scalar>(history: &dyn History<S>) -> Vec<Flight<S>> {
+/// **Errors**: [`Error::NotDecided`] where it is not settled whether the centre of mass turns before the flight ends.
+pub fn flights<S: Scalar>(history: &dyn History<S>) -> Result<Vec<Flight<S>>, Error> {
     let events = history.events();
     let end = history.end();
-    let releases = events.iter().enumerate().filter(|(_, event)| event.kind == EventKind::Release);
-    releases
-        .map(|(k, release)| {
-            let to = events.get(k + 1).map(|impact| impact.time.clone());
-            let last = to.as_ref().unwrap_or(&end);
-            let highest = history.highest(release).filter(|(time, _)| time <= last);
-            Flight { from: release.time.clone(), to, highest }
-        })
-        .collect()
+    let mut flights = Vec::new();
+    for (k, release) in events.iter().enumerate().filter(|(_, event)| event.kind == EventKind::Release) {
+        let to = events.get(k + 1).map(|impact| impact.time.clone());
+        let highest = match history.highest(release) {
+            Some((time, _)) if to.as_ref().unwrap_or(&end).below(&time)? => None,
+            highest => highest,
+        };
+        flights.push(Flight { from: release.time.clone(), to, highest });
+    }
+    Ok(flights)
 }

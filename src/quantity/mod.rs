@@ -4,4 +4,4 @@ mod flight;
 mod restitution;
 
 pub use flight::{Flight, flights};
-pub use restitution::{Restitution, Undefined, restitution};
+pub use restitution::{EnergyShares, Restitution, Undefined, energy_shares, restitution};

@@ -4,19 +4,23 @@ use crate::error::Error;
 use crate::history::{Contact, History};
 use crate::number::Scalar;
 
-/// The coefficients of restitution `e_P` and `e_E²` of one contact, its end compared with its own beginning, and the factors
-/// of `e_E²`.
+/// The coefficients of restitution `e_P` and `e_E²` of one contact, its end compared with its own beginning.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Restitution<S> {
     /// `e_P = −P(to)/P(from)`.
     pub momentum: Result<S, Undefined>,
     /// `e_E² = E_h(to)/E_h(from)`.
     pub energy_squared: Result<S, Undefined>,
-    /// The first factor of (4.73), `E_h(to)/E(to)`: what part of the energy that is left moves the centre of mass. `None`
-    /// where the contact does not end or no energy is left.
-    pub translational_part: Option<S>,
-    /// The second factor, `E(to)/E(from)`: what part of the energy damping leaves.
-    pub energy_kept: Option<S>,
+}
+
+/// The two factors of `e_E²` (4.73).
+#[derive(Clone, Debug, PartialEq)]
+pub struct EnergyShares<S> {
+    /// `E_h(to)/E(to)`: what part of the energy that is left moves the centre of mass. `None` where the contact does not end or
+    /// no energy is left.
+    pub translational: Option<S>,
+    /// `E(to)/E(from)`: what part of the energy damping leaves.
+    pub kept: Option<S>,
 }
 
 /// Why a coefficient of restitution is not defined.
@@ -36,53 +40,67 @@ pub enum Undefined {
     NotPositiveBefore,
 }
 
+impl<S> Restitution<S> {
+    pub(crate) fn map<T>(self, f: impl Fn(S) -> T) -> Restitution<T> {
+        Restitution { momentum: self.momentum.map(&f), energy_squared: self.energy_squared.map(&f) }
+    }
+
+    /// Every number in it.
+    pub(crate) fn numbers(&self) -> Vec<&S> {
+        self.momentum.iter().chain(&self.energy_squared).collect()
+    }
+}
+
+impl<S> EnergyShares<S> {
+    pub(crate) fn map<T>(self, f: impl Fn(S) -> T) -> EnergyShares<T> {
+        EnergyShares { translational: self.translational.map(&f), kept: self.kept.map(&f) }
+    }
+
+    /// Every number in it.
+    pub(crate) fn numbers(&self) -> Vec<&S> {
+        self.translational.iter().chain(&self.kept).collect()
+    }
+}
+
 /// The coefficients of restitution of `contact`.
 ///
-/// **Source**: section 4.1, (4.71) and (4.73), with the state at the beginning of the contact for that at `t = 0`: the same for the
-/// first contact. The datum of `E_h` is `h = 0`, the undeformed rod on the ground.
+/// **Source**: section 4.1 and (4.71), with the state at the beginning of the contact for that at `t = 0`: the same for the first
+/// contact. The datum of `E_h` is `h = 0`, the undeformed rod on the ground. `h` and `h′` are all that is asked of the history.
 ///
-/// **Accuracy**: *exact* for exact histories; otherwise that of `h′` and `E_h`.
+/// **Accuracy**: *exact* for exact histories; otherwise that of `h` and `h′`. A momentum or an energy that is zero within its
+/// bound counts as zero.
 ///
-/// **Errors**: what the history cannot answer; coefficients that are not defined are said to be so, with the reason.
-///
-/// ```
-/// use dalembert::{Number, Problem, lattice::Undamped, History, quantity::restitution};
-/// let problem = Problem::uniform(Number::from(1), Number::from(1), Number::from(1), Number::from(4));
-/// let history = Undamped::<f64>::solve(&problem, &())?;
-/// let e = restitution(&history, &history.contacts()[0])?;
-/// // (4.72): 1 − μ₀²/3μ² = 1 − 4/48.
-/// assert!((e.energy_squared.unwrap() - 11.0 / 12.0).abs() < 1e-15);
-/// # Ok::<(), dalembert::Error>(())
-/// ```
+/// **Errors**: what the history cannot answer. A coefficient that is not defined has the reason in its place.
 pub fn restitution<S: Scalar>(history: &dyn History<S>, contact: &Contact<S>) -> Result<Restitution<S>, Error> {
     let Some(to) = &contact.to else {
-        return Ok(Restitution {
-            momentum: Err(Undefined::Unfinished),
-            energy_squared: Err(Undefined::Unfinished),
-            translational_part: None,
-            energy_kept: None,
-        });
+        return Ok(Restitution { momentum: Err(Undefined::Unfinished), energy_squared: Err(Undefined::Unfinished) });
     };
-    let (_, before) = history.centre(&contact.from)?;
-    let (_, after) = history.centre(to)?;
-    // Below its error bound the momentum is a zero whose digits nobody can give. That bound is of the whole history, whose
-    // late events may be far less certain than this contact: half of the digits at least are its own.
-    let error = history.error_estimate();
-    let half = error.roundoff().try_sqrt().unwrap_or_else(|| error.zero());
-    let error = if error < half { error } else { half };
-    let bound = before.int(16) * error * history.scales().velocity;
-    let momentum = if before.magnitude() <= bound { Err(Undefined::NoMomentum) } else { Ok(-(after / &before)) };
-    let before = history.energy(&contact.from)?;
-    let after = history.energy(to)?;
-    let ratio = |part: &S, whole: &S| (!whole.is_zero()).then(|| part.clone() / whole);
-    let (translational_part, energy_kept) =
-        (ratio(&after.translational, &after.total), ratio(&after.total, &before.total));
-    let energy_squared = if !before.translational.is_positive() {
+    let (h0, rate0) = history.centre(&contact.from)?;
+    let (h, rate) = history.centre(to)?;
+    // E_h/L = h′²/2 + g h.
+    let gravity = history.scales().gravity;
+    let energy = |h: &S, rate: &S| rate.square() / rate.int(2) + gravity.clone() * h;
+    let (before, after) = (energy(&h0, &rate0), energy(&h, &rate));
+    let momentum = if rate0.vanishes()? { Err(Undefined::NoMomentum) } else { Ok(-(rate / &rate0)) };
+    let energy_squared = if !before.positive()? {
         Err(Undefined::NotPositiveBefore)
-    } else if after.translational.is_negative() {
+    } else if after.negative()? {
         Err(Undefined::NegativeAfter)
     } else {
-        Ok(after.translational / before.translational)
+        Ok(after / before)
     };
-    Ok(Restitution { momentum, energy_squared, translational_part, energy_kept })
+    Ok(Restitution { momentum, energy_squared })
+}
+
+/// The factors of `e_E²` of `contact`.
+///
+/// **Source**: (4.73). **Accuracy**: that of the energies. **Errors**: what the history cannot answer.
+pub fn energy_shares<S: Scalar>(history: &dyn History<S>, contact: &Contact<S>) -> Result<EnergyShares<S>, Error> {
+    let Some(to) = &contact.to else { return Ok(EnergyShares { translational: None, kept: None }) };
+    let (before, after) = (history.energy(&contact.from)?, history.energy(to)?);
+    let ratio = |part: &S, whole: &S| Ok::<_, Error>((!whole.vanishes()?).then(|| part.clone() / whole));
+    Ok(EnergyShares {
+        translational: ratio(&after.translational, &after.total)?,
+        kept: ratio(&after.total, &before.total)?,
+    })
 }

@@ -106,7 +106,7 @@ impl Scene {
         self.effects().into_iter().filter(|e| e.called).map(|e| e.effect).collect()
     }
 
-    pub(super) fn effect(&self, effect: Effect) -> EffectUse {
+    pub(crate) fn effect(&self, effect: Effect) -> EffectUse {
         let (called, key, because) = match effect {
             Effect::Gravity => self.gravity(),
             Effect::Damping => self.damping(),

@@ -45,12 +45,10 @@
 pub mod builtin;
 mod effects;
 mod error;
-pub mod plan;
 mod read;
 mod start;
 mod table;
 
 pub use effects::{Effect, EffectUse};
 pub use error::{SceneError, SceneErrorKind};
-pub use plan::{Ask, Engine, Plan, System};
 pub use read::Scene;

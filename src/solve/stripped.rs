@@ -119,13 +119,7 @@ impl<S: Answer, H: History<S::Carried>> History<S> for Stripped<S, H> {
     }
 
     fn scales(&self) -> Scales<S> {
-        let Scales { time, velocity, length, wave_speed } = self.history.scales();
-        Scales {
-            time: S::strip(time),
-            velocity: S::strip(velocity),
-            length: S::strip(length),
-            wave_speed: S::strip(wave_speed),
-        }
+        self.history.scales().map(S::strip)
     }
 
     fn error_estimate(&self) -> S {

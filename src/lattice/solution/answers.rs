@@ -155,7 +155,8 @@ impl<S: Scalar> History<S> for Undamped<S> {
     fn scales(&self) -> Scales<S> {
         let Units { round_trip, velocity, length, wave_speed } = self.problem.units.clone();
         let velocity = velocity.double(self.problem.greatest_speed()) * velocity;
-        Scales { time: round_trip, velocity, length, wave_speed }
+        let gravity = self.problem.units.velocity.clone() / &self.problem.units.round_trip * &self.problem.gravity;
+        Scales { time: round_trip, velocity, length, wave_speed, gravity }
     }
 
     fn error_estimate(&self) -> S {

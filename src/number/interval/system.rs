@@ -6,7 +6,7 @@ use rug::float::{Constant, Round};
 use rug::{Assign, Float, Rational};
 
 use super::super::radical::Radical;
-use super::super::{Analytic, Answer, Number, Open, Scalar};
+use super::super::{Analytic, Answer, Estimate, Number, Open, Reads, Scalar};
 use super::{Inside, Interval, IntervalPrecision, UNDECIDED, down, undecided, up};
 
 impl Scalar for Interval {
@@ -120,6 +120,16 @@ impl Scalar for Interval {
 
     fn is_finite(&self) -> bool {
         self.lo.is_finite() && self.hi.is_finite()
+    }
+
+    /// The middle.
+    fn decimal(&self, digits: u32) -> String {
+        self.mid().decimal(digits)
+    }
+
+    fn ends(&self, digits: u32) -> Option<[String; 2]> {
+        let text = |end: &Float, round| end.to_string_radix_round(10, Some(digits as usize + 10), round);
+        Some([text(&self.lo, Round::Down), text(&self.hi, Round::Up)])
     }
 
     fn text(&self) -> String {
@@ -284,5 +294,39 @@ impl Answer for Interval {
 
     fn strip(carried: Interval) -> Interval {
         carried
+    }
+}
+
+/// The middle, within the radius.
+impl Reads<Interval> for Estimate<Float> {
+    fn read(number: Interval) -> Self {
+        let middle = number.mid();
+        let radius = number.radius();
+        let roundoffs = if radius.is_zero() {
+            0.0
+        } else {
+            (Float::with_val_round(53, radius << middle.prec(), Round::Up).0).to_f64()
+        };
+        let size = middle.to_f64().abs();
+        Estimate::new(middle, roundoffs * (1.0 + f64::EPSILON) + size)
+    }
+
+    fn give(&self, precision: &IntervalPrecision) -> Interval {
+        let rational = self.value().to_rational().unwrap_or_default();
+        Interval::rational(&rational, *precision)
+    }
+}
+
+/// The middle, within the radius.
+impl Reads<Interval> for Estimate<f64> {
+    fn read(number: Interval) -> Self {
+        Estimate::<f64>::read(Estimate::<Float>::read(number))
+    }
+
+    fn give(&self, precision: &IntervalPrecision) -> Interval {
+        match self.value().to_string().parse::<Number>() {
+            Ok(number) => Interval::from_number(&number, precision),
+            Err(_) => Interval::rational(&Rational::from_f64(*self.value()).unwrap_or_default(), *precision),
+        }
     }
 }

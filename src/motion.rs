@@ -1,0 +1,271 @@
+//! The answer: what happened, and everything that can be asked of it.
+
+use std::sync::{Arc, Mutex, OnceLock, PoisonError};
+
+use crate::error::Error;
+use crate::history::{Contact, Ending, Energy, Event, Field, History as Engine, Scales, Side, StressHistory};
+use crate::number::Answer;
+use crate::quantity::{EnergyShares, Flight, Restitution, energy_shares, flights, restitution};
+use crate::rod::Problem;
+use crate::solve::{Attempt, Ladder, Numbers, Observer, Plan, Question, Rung, Target, Want};
+
+/// The motion of a rod: its impacts and releases, and the values of every quantity at any time, in numbers `S`.
+///
+/// All times are absolute and in the units of the problem. A question about a time outside of `0 … end()` is
+/// [`Error::TimeOutside`], about a point outside of the rod [`Error::PointOutside`].
+///
+/// **Accuracy**: that of the [`Plan`]. Each answer is computed in more bits where those at hand do not leave the digits that
+/// were asked for.
+///
+/// ```
+/// use dalembert::Problem;
+/// let rod = Problem::uniform(1.into(), 1.into(), 1.into(), 3.into());
+/// let motion = rod.solve()?;
+/// // Corollary 1: μ = 3 ≥ g t₁ = 2, so the contact lasts exactly t₁ = 2L/c.
+/// assert_eq!(motion.contacts()[0].to, Some(2.0));
+/// // d'Alembert: the wave front of the impact is at x = 1/2 at t = 1/2, and below it the rod stands still but for gravity.
+/// assert_eq!(motion.at(0.25, 0.5)?.strain, -3.25);
+/// # Ok::<(), dalembert::Error>(())
+/// ```
+pub struct Motion<S: Target> {
+    ladder: Ladder,
+    attempt: Mutex<Attempt<S>>,
+    events: OnceLock<Vec<Event<S>>>,
+    contacts: OnceLock<Vec<Contact<S>>>,
+    ending: Ending,
+    end: S,
+}
+
+impl<S: Target> Motion<S> {
+    /// Solves `problem` by `plan`.
+    ///
+    /// **Errors**: those of the engine; [`Error::Unsettled`], [`Error::Undecided`] where too many bits do not settle the events.
+    pub(crate) fn solve(problem: &Problem, plan: &Plan, observe: Observer) -> Result<Self, Error> {
+        let ladder = Ladder { problem: problem.clone(), plan: plan.clone(), observe };
+        let ask_events = plan.keep_from.is_none();
+        let query = |engine: &dyn Engine<S::Carried>| {
+            let events = if ask_events { engine.events().to_vec() } else { Vec::new() };
+            let contacts = if ask_events { engine.contacts().to_vec() } else { Vec::new() };
+            Ok((engine.end(), events, contacts))
+        };
+        let (attempt, (end, events, contacts)) = ladder.settle(None, query, |(end, events, contacts)| {
+            let mut all: Vec<&S::Carried> = vec![end];
+            all.extend(events.iter().flat_map(Event::numbers));
+            all.extend(contacts.iter().flat_map(Contact::numbers));
+            all
+        })?;
+        let motion = Motion {
+            ending: attempt.engine.ending().clone(),
+            attempt: Mutex::new(attempt),
+            events: OnceLock::new(),
+            contacts: OnceLock::new(),
+            end: S::strip(end),
+            ladder,
+        };
+        if ask_events {
+            motion.events.get_or_init(|| events.into_iter().map(|event| event.map(S::strip)).collect());
+            motion.contacts.get_or_init(|| contacts.into_iter().map(|contact| contact.map(S::strip)).collect());
+        }
+        Ok(motion)
+    }
+
+    fn current(&self) -> Attempt<S> {
+        // An attempt is replaced whole: one that a panic left behind is as good as any.
+        self.attempt.lock().unwrap_or_else(PoisonError::into_inner).clone()
+    }
+
+    /// The answer to `query`, in numbers that carry their bound, settled to the digits of the plan.
+    pub(crate) fn ask<T>(
+        &self,
+        query: impl Fn(&dyn Engine<S::Carried>) -> Result<T, Error>,
+        numbers: impl Fn(&T) -> Vec<&S::Carried>,
+    ) -> Result<T, Error> {
+        let current = self.current();
+        let rung = current.rung;
+        let (attempt, answer) = self.ladder.settle(Some(current), query, numbers)?;
+        if attempt.rung != rung {
+            *self.attempt.lock().unwrap_or_else(PoisonError::into_inner) = attempt;
+        }
+        Ok(answer)
+    }
+
+    /// The last time that is known.
+    pub fn end(&self) -> &S {
+        &self.end
+    }
+
+    /// Why it is the last.
+    pub fn ending(&self) -> &Ending {
+        &self.ending
+    }
+
+    /// How it was solved.
+    pub fn plan(&self) -> &Plan {
+        &self.ladder.plan
+    }
+
+    /// The numbers that the last answer was computed in.
+    pub fn rung(&self) -> Rung {
+        self.current().rung
+    }
+
+    /// All impacts and releases, in order. The start at `t = 0` is the first impact where the rod stands on the ground.
+    pub fn events(&self) -> &[Event<S>] {
+        self.events
+            .get_or_init(|| self.current().engine.events().iter().map(|event| event.clone().map(S::strip)).collect())
+    }
+
+    /// All times on the ground, in order.
+    pub fn contacts(&self) -> &[Contact<S>] {
+        let strip = |contact: &Contact<S::Carried>| contact.clone().map(S::strip);
+        self.contacts.get_or_init(|| self.current().engine.contacts().iter().map(strip).collect())
+    }
+
+    /// The flights between the contacts, and how high they go.
+    ///
+    /// **Errors**: those of the ladder.
+    pub fn flights(&self) -> Result<Vec<Flight<S>>, Error> {
+        let found = self.ask(flights, |flights| flights.iter().flat_map(Flight::numbers).collect())?;
+        Ok(found.into_iter().map(|flight| flight.map(S::strip)).collect())
+    }
+
+    /// `e_P` and `e_E²` of a contact, counted from 0, with the factors of `e_E²`.
+    ///
+    /// **Errors**: [`Error::NoContact`] where the history has fewer contacts.
+    pub fn restitution(&self, contact: usize) -> Result<Restitution<S>, Error> {
+        let query = |engine: &dyn Engine<S::Carried>| {
+            let found = engine.contacts().len();
+            restitution(engine, engine.contacts().get(contact).ok_or(Error::NoContact { contact, found })?)
+        };
+        Ok(self.ask(query, Restitution::numbers)?.map(S::strip))
+    }
+
+    /// The two factors of `e_E²` of a contact, counted from 0.
+    ///
+    /// **Errors**: [`Error::NoContact`] where the history has fewer contacts.
+    pub fn energy_shares(&self, contact: usize) -> Result<EnergyShares<S>, Error> {
+        let query = |engine: &dyn Engine<S::Carried>| {
+            let found = engine.contacts().len();
+            energy_shares(engine, engine.contacts().get(contact).ok_or(Error::NoContact { contact, found })?)
+        };
+        Ok(self.ask(query, EnergyShares::numbers)?.map(S::strip))
+    }
+
+    /// `v_x(0,·)` piece by piece.
+    ///
+    /// **Errors**: those of the ladder.
+    pub fn stress_history(&self) -> Result<StressHistory<S>, Error> {
+        let pieces = self.ask(
+            |engine| Ok(engine.stress_pieces()),
+            |pieces| pieces.iter().flat_map(|piece| [&piece.from, &piece.to, &piece.left, &piece.right]).collect(),
+        )?;
+        Ok(StressHistory { pieces: pieces.into_iter().map(|piece| piece.map(S::strip)).collect() })
+    }
+
+    /// `v_x(0,t)`: the strain at the ground, which is the stress there divided by the modulus; zero in flight.
+    pub fn strain(&self, time: S, side: Side) -> Result<S, Error> {
+        let time = time.carry();
+        Ok(S::strip(self.ask(|engine| engine.stress(&time, side), |value| vec![value])?))
+    }
+
+    /// `v(0,t)` and `v_t(0,t)`: the end at the ground.
+    pub fn ground_end(&self, time: S, side: Side) -> Result<(S, S), Error> {
+        self.pair(time, |engine, time| engine.ground_end(time, side))
+    }
+
+    /// `v(L,t)` and `v_t(L,t)`: the upper end.
+    pub fn top_end(&self, time: S, side: Side) -> Result<(S, S), Error> {
+        self.pair(time, |engine, time| engine.top_end(time, side))
+    }
+
+    /// `h(t)` and `h′(t)`: the centre of mass, relative to its place in the undeformed rod on the ground.
+    pub fn centre(&self, time: S) -> Result<(S, S), Error> {
+        self.pair(time, |engine, time| engine.centre(time))
+    }
+
+    fn pair(&self, time: S, ask: impl Fn(&dyn Engine<S::Carried>, &S::Carried) -> Pair<S>) -> Result<(S, S), Error> {
+        let time = time.carry();
+        let (a, b) = self.ask(|engine| ask(engine, &time), |(a, b)| vec![a, b])?;
+        Ok((S::strip(a), S::strip(b)))
+    }
+
+    /// `E(t)`, `E_h(t)`, `E_z(t)`: the energies, per linear density.
+    pub fn energy(&self, time: S) -> Result<Energy<S>, Error> {
+        let time = time.carry();
+        Ok(self.ask(|engine| engine.energy(&time), |energy| energy.numbers().to_vec())?.map(S::strip))
+    }
+
+    /// `v`, `v_t`, `v_x` at `(x,t)`; where a ray passes, the limit from later times.
+    pub fn at(&self, point: S, time: S) -> Result<Field<S>, Error> {
+        self.field(&[point], &[time], Side::Right).map(|mut values| values.remove(0))
+    }
+
+    /// `v`, `v_t`, `v_x` at every point of `points` for every time of `times`: time by time, all points of one time together.
+    pub fn field(&self, points: &[S], times: &[S], side: Side) -> Result<Vec<Field<S>>, Error> {
+        let points: Vec<_> = points.iter().map(Answer::carry).collect();
+        let mut values = Vec::with_capacity(points.len() * times.len());
+        for time in times {
+            let time = time.carry();
+            for point in &points {
+                let value = self.ask(|engine| engine.field(point, &time, side), |field| field.numbers().to_vec())?;
+                values.push(value.map(S::strip));
+            }
+        }
+        Ok(values)
+    }
+
+    /// The natural scales of the motion.
+    pub fn scales(&self) -> Scales<S> {
+        self.current().engine.scales().map(S::strip)
+    }
+
+    /// What a user should know of the answer.
+    pub fn warnings(&self) -> Vec<String> {
+        self.current().engine.warnings().to_vec()
+    }
+}
+
+type Pair<S> = Result<(<S as Answer>::Carried, <S as Answer>::Carried), Error>;
+
+impl<S: Target> std::fmt::Debug for Motion<S> {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.debug_struct("Motion").field("ladder", &self.ladder).field("end", &self.end).finish_non_exhaustive()
+    }
+}
+
+impl Problem {
+    /// The motion in doubles. **Accuracy**: [`DEFAULT_ACCURACY`](crate::DEFAULT_ACCURACY) of the natural scales.
+    pub fn solve(&self) -> Result<Motion<f64>, Error> {
+        self.answer(&Question::run(Numbers::Double(None)))
+    }
+
+    /// The motion in fractions, as far as they reach. **Accuracy**: *exact*.
+    ///
+    /// **Errors**: [`Error::DampedExact`]; [`Error::NoMultiprecision`] without the feature `mp`.
+    pub fn exact(&self) -> Result<Motion<crate::number::Rational>, Error> {
+        self.answer(&Question::run(Numbers::Exact))
+    }
+
+    /// The motion in decimal digits. **Accuracy**: so many digits of each number, rounded once.
+    ///
+    /// **Errors**: [`Error::Digits`]; [`Error::Unsettled`]; [`Error::NoMultiprecision`] without the feature `mp`.
+    pub fn digits(&self, digits: u32) -> Result<Motion<crate::number::Float>, Error> {
+        self.answer(&Question::run(Numbers::Digits(digits)))
+    }
+
+    /// The motion in proved decimal digits. **Accuracy**: *enclosure*.
+    ///
+    /// **Errors**: [`Error::NotCertified`]; [`Error::Undecided`]; [`Error::NoMultiprecision`] without the feature `mp`.
+    pub fn certified(&self, digits: u32) -> Result<Motion<crate::number::Interval>, Error> {
+        self.answer(&Question::run(Numbers::Certified(digits)))
+    }
+
+    /// The first contact alone, in doubles: `t_b`, impulse, peak and restitution, without the flight after it.
+    pub fn first_contact(&self) -> Result<Motion<f64>, Error> {
+        self.answer(&Question { want: Want::FirstContact, numbers: Numbers::Double(None) })
+    }
+
+    fn answer<S: Target>(&self, question: &Question) -> Result<Motion<S>, Error> {
+        Motion::solve(self, &Plan::of(self, question)?, Arc::new(|_, _| ()))
+    }
+}

@@ -1,0 +1,108 @@
+//! A history in one number system, read in another.
+
+use std::sync::Arc;
+
+use crate::error::Error;
+use crate::history::{Contact, Ending, Energy, Event, Field, History as Engine, Scales, Side, StressPiece};
+use crate::number::{Reads, Scalar};
+
+/// The history of an engine in numbers `N`, read in numbers `M`.
+#[derive(Debug)]
+pub(super) struct Converted<N: Scalar, M> {
+    engine: Arc<dyn Engine<N>>,
+    precision: N::Precision,
+    events: Vec<Event<M>>,
+    contacts: Vec<Contact<M>>,
+}
+
+impl<N: Scalar, M: Reads<N>> Converted<N, M> {
+    pub(super) fn new(engine: Arc<dyn Engine<N>>) -> Self {
+        Converted {
+            precision: engine.end().precision(),
+            events: engine.events().iter().map(|event| event.clone().map(M::read)).collect(),
+            contacts: engine.contacts().iter().map(|contact| contact.clone().map(M::read)).collect(),
+            engine,
+        }
+    }
+
+    /// A time of this history. One that an event, or the end, was rounded to is that event's own.
+    fn time(&self, time: &M) -> N {
+        let end = self.engine.end();
+        let known = self.engine.events().iter().map(|event| &event.time).chain([&end]);
+        let meant = known.into_iter().find(|known| M::read((*known).clone()).text() == time.text());
+        meant.cloned().unwrap_or_else(|| time.give(&self.precision))
+    }
+
+    fn pair(pair: (N, N)) -> (M, M) {
+        (M::read(pair.0), M::read(pair.1))
+    }
+}
+
+impl<N: Scalar, M: Reads<N>> Engine<M> for Converted<N, M> {
+    fn end(&self) -> M {
+        M::read(self.engine.end())
+    }
+
+    fn ending(&self) -> &Ending {
+        self.engine.ending()
+    }
+
+    fn events(&self) -> &[Event<M>] {
+        &self.events
+    }
+
+    fn contacts(&self) -> &[Contact<M>] {
+        &self.contacts
+    }
+
+    fn stress_pieces(&self) -> Vec<StressPiece<M>> {
+        self.engine.stress_pieces().into_iter().map(|piece| piece.map(M::read)).collect()
+    }
+
+    fn stress(&self, time: &M, side: Side) -> Result<M, Error> {
+        self.engine.stress(&self.time(time), side).map(M::read)
+    }
+
+    fn ground_end(&self, time: &M, side: Side) -> Result<(M, M), Error> {
+        self.engine.ground_end(&self.time(time), side).map(Self::pair)
+    }
+
+    fn top_end(&self, time: &M, side: Side) -> Result<(M, M), Error> {
+        self.engine.top_end(&self.time(time), side).map(Self::pair)
+    }
+
+    fn centre(&self, time: &M) -> Result<(M, M), Error> {
+        self.engine.centre(&self.time(time)).map(Self::pair)
+    }
+
+    fn energy(&self, time: &M) -> Result<Energy<M>, Error> {
+        self.engine.energy(&self.time(time)).map(|energy| energy.map(M::read))
+    }
+
+    fn field(&self, point: &M, time: &M, side: Side) -> Result<Field<M>, Error> {
+        let field = self.engine.field(&point.give(&self.precision), &self.time(time), side)?;
+        Ok(field.map(M::read))
+    }
+
+    fn highest(&self, release: &Event<M>) -> Option<(M, M)> {
+        let time = release.time.text();
+        let known = self.events.iter().position(|event| event.kind == release.kind && event.time.text() == time)?;
+        self.engine.highest(self.engine.events().get(known)?).map(Self::pair)
+    }
+
+    fn scales(&self) -> Scales<M> {
+        self.engine.scales().map(M::read)
+    }
+
+    fn error_estimate(&self) -> M {
+        M::read(self.engine.error_estimate())
+    }
+
+    fn digits_lost(&self) -> Option<(u32, f64)> {
+        self.engine.digits_lost()
+    }
+
+    fn warnings(&self) -> &[String] {
+        self.engine.warnings()
+    }
+}

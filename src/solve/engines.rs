@@ -1,0 +1,54 @@
+//! The planned engine, run in doubles.
+
+use std::borrow::Cow;
+use std::sync::Arc;
+
+use super::ladder::{Engined, Observer, Target};
+use super::long;
+use super::plan::{Engine, Plan, Reach, Rung};
+use super::raised::Raised;
+use crate::damped::{Damped, Joined};
+use crate::error::Error;
+use crate::first_contact::FirstContact;
+use crate::lattice::{Limits, Undamped};
+use crate::rod::{Parameters, Problem, Run};
+
+impl Target for f64 {
+    fn run(problem: &Problem, plan: &Plan, rung: Rung, observe: &Observer) -> Result<Engined<f64>, Error> {
+        if rung != Rung::Double {
+            return long::in_doubles(problem, plan, rung, observe);
+        }
+        let problem = &*reaching(problem, plan);
+        Ok(match plan.engine {
+            Engine::Lattice => {
+                let history = Undamped::<f64>::solve_within(problem, &(), limits(problem, plan), |a, b| observe(a, b))?;
+                Arc::new(Raised::new(history))
+            }
+            Engine::Cells => Arc::new(Raised::new(Damped::<f64>::solve(problem, &(), CELL_DIGITS)?)),
+            Engine::ClosedForm | Engine::ClosedFormThenCells => {
+                let rod = Parameters::<f64>::of(problem, &())?;
+                let bounce = FirstContact::new(&rod).bounce_within(1e-13);
+                let follow = plan.engine == Engine::ClosedFormThenCells;
+                Arc::new(Raised::new(Joined::<f64>::solve(problem, &(), CELL_DIGITS, bounce, follow)?))
+            }
+        })
+    }
+}
+
+/// The decimal digits that cells are marched to in doubles.
+const CELL_DIGITS: f64 = 13.0;
+
+/// The problem with the run that the plan follows.
+pub(super) fn reaching<'a>(problem: &'a Problem, plan: &Plan) -> Cow<'a, Problem> {
+    let run = match &plan.reach {
+        Reach::Contacts(contacts) => Run::Impacts(*contacts),
+        Reach::FirstContact => Run::Impacts(1),
+        Reach::Time(time) => Run::Time(time.clone()),
+    };
+    if problem.run == run { Cow::Borrowed(problem) } else { Cow::Owned(Problem { run, ..problem.clone() }) }
+}
+
+/// What an undamped march may store and forget.
+pub(super) fn limits(problem: &Problem, plan: &Plan) -> Limits {
+    plan.keep_from.map_or_else(Limits::default, |time| Limits::keeping_from(problem, time))
+}

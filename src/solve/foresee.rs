@@ -1,0 +1,38 @@
+//! How many bits a chaotic run is going to lose, foreseen in doubles.
+
+use super::plan::{Engine, Plan, Reach};
+use crate::lattice::{Limits, Undamped};
+use crate::number::Number;
+use crate::rod::{Parameters, Problem, Run};
+
+/// Bits of a double that may be lost while its history is still near the true one.
+const KNOWN_BITS: f64 = 40.0;
+
+/// How many bits the history of an undamped rod loses to rounding: `log₂` of the factor by which its error bound grows.
+///
+/// **Source**: marches in double precision, each twice as long as the one before, as far as doubles determine the history;
+/// where they do not determine its end, the loss goes on at the same rate per round trip. In a chaotic history the impacts
+/// multiply, and the loss of each becomes smaller, but that of a round trip does not.
+///
+/// **Accuracy**: *estimate*; zero where the run is not given by a time. A plan that foresees too little takes more bits later.
+pub(super) fn bits_lost(problem: &Problem, plan: &Plan) -> f64 {
+    let (Engine::Lattice, Reach::Time(end)) = (plan.engine, &plan.reach) else { return 0.0 };
+    let (Ok(rod), end) = (Parameters::<f64>::of(problem, &()), end.to_f64()) else { return 0.0 };
+    let (mut time, mut lost) = (end.min(4.0 * rod.round_trip()), 0.0);
+    loop {
+        let Ok(number) = time.to_string().parse::<Number>() else { return lost };
+        let part = Problem { run: Run::Time(number), ..problem.clone() };
+        let limits = Limits::keeping_from(problem, time);
+        let Ok(history) = Undamped::<f64>::solve_within(&part, &(), limits, |_, _| ()) else { return lost };
+        let found = history.marched().greatest_error.max(1.0).log2();
+        // Beyond that a double decides by signs that rounding may have made.
+        if found > KNOWN_BITS {
+            return if lost > 0.0 { lost } else { found * end / time };
+        }
+        lost = found * end / time;
+        if time >= end {
+            return lost;
+        }
+        time = (2.0 * time).min(end);
+    }
+}

@@ -1,0 +1,135 @@
+//! The precision ladder: an answer is computed in doubles, in longer numbers or in enclosures until its own bound settles it.
+
+use std::fmt;
+use std::sync::Arc;
+
+use super::plan::{Plan, Rung};
+use crate::error::Error;
+use crate::history::{Ending, History as Engine};
+use crate::number::{Answer, Scalar};
+use crate::rod::Problem;
+
+/// Receives the round trip and the number of pieces from time to time.
+pub type Observer = Arc<dyn Fn(usize, usize) + Send + Sync>;
+
+/// An engine that has run.
+pub(crate) type Engined<S> = Arc<dyn Engine<<S as Answer>::Carried>>;
+
+/// A number system of answers, and how an attempt in the numbers of a rung is read in it.
+pub trait Target: Answer {
+    /// Runs the planned engine in the numbers of `rung`.
+    ///
+    /// **Errors**: those of the engine; [`Error::NotDecided`] where these numbers do not settle a comparison.
+    fn run(problem: &Problem, plan: &Plan, rung: Rung, observe: &Observer) -> Result<Engined<Self>, Error>;
+}
+
+/// A problem, its plan and how far up the ladder the attempts are.
+#[derive(Clone)]
+pub(crate) struct Ladder {
+    pub(crate) problem: Problem,
+    pub(crate) plan: Plan,
+    pub(crate) observe: Observer,
+}
+
+impl fmt::Debug for Ladder {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_struct("Ladder").field("problem", &self.problem).field("plan", &self.plan).finish_non_exhaustive()
+    }
+}
+
+/// An attempt: its numbers, and the engine that has run in them.
+pub(crate) struct Attempt<S: Answer> {
+    pub(crate) rung: Rung,
+    pub(crate) engine: Engined<S>,
+}
+
+impl<S: Answer> Clone for Attempt<S> {
+    fn clone(&self) -> Self {
+        Attempt { rung: self.rung, engine: self.engine.clone() }
+    }
+}
+
+/// As often an attempt may end at the same doubt, with more bits each time, before that is the answer.
+const SAME_DOUBT: usize = 3;
+/// No double is known better than this.
+const DOUBLE_DIGITS: f64 = 15.0;
+
+impl Ladder {
+    /// The answer to `query`, settled: asked of `attempt` where there is one, and of attempts in more and more bits until every
+    /// comparison on the way is decided and all `numbers` of the answer have the digits of the plan.
+    ///
+    /// **Accuracy**: each number is known to the digits of the plan, or to so many below the greatest number of the answer as
+    /// the plan says. In doubles the best that could be reached; its own bounds say what that is.
+    ///
+    /// **Errors**: [`Error::Unsettled`] and [`Error::Undecided`] where too many bits do not settle it; those of the run and of
+    /// the query.
+    pub(crate) fn settle<S: Target, T>(
+        &self,
+        attempt: Option<Attempt<S>>,
+        query: impl Fn(&dyn Engine<S::Carried>) -> Result<T, Error>,
+        numbers: impl Fn(&T) -> Vec<&S::Carried>,
+    ) -> Result<(Attempt<S>, T), Error> {
+        let mut rung = attempt.as_ref().map_or(self.plan.rung, |attempt| attempt.rung);
+        let mut known = attempt.map(|attempt| attempt.engine);
+        let mut doubts: Vec<f64> = Vec::new();
+        loop {
+            let answer = match known.take() {
+                Some(engine) => Ok(engine),
+                None => S::run(&self.problem, &self.plan, rung, &self.observe),
+            }
+            .and_then(|engine| query(&*engine).map(|answer| (engine, answer)));
+            // Errors on the way to an open comparison mean nothing, except where no bits can help.
+            let (missing, reached) = match answer {
+                Ok((engine, answer)) => {
+                    let missing = self.missing::<S>(&*engine, &numbers(&answer), &mut doubts);
+                    let attempt = Attempt { rung, engine };
+                    if missing <= 0.0 {
+                        return Ok((attempt, answer));
+                    }
+                    (missing, Some((attempt, answer)))
+                }
+                Err(Error::NotDecided { .. }) => (f64::INFINITY, None),
+                Err(error) => return Err(error),
+            };
+            match (self.plan.next(rung, missing), reached) {
+                (Some(next), _) => rung = next,
+                (None, Some(reached)) if matches!(rung, Rung::Double) => return Ok(reached),
+                (None, _) => return Err(self.unsettled(rung)),
+            }
+        }
+    }
+
+    fn unsettled(&self, rung: Rung) -> Error {
+        let digits = self.plan.goal().0 as u32;
+        match rung {
+            Rung::Enclosures(bits) => Error::Undecided { digits, bits },
+            Rung::Bits(bits) => Error::Unsettled { digits, bits },
+            Rung::Double | Rung::Fractions => Error::NoMultiprecision,
+        }
+    }
+
+    /// About how many bits more would settle the answer; zero or less where it is settled.
+    fn missing<S: Target>(
+        &self,
+        engine: &dyn Engine<S::Carried>,
+        numbers: &[&S::Carried],
+        doubts: &mut Vec<f64>,
+    ) -> f64 {
+        if matches!(engine.ending(), Ending::Undecided(_)) {
+            let end = engine.end().to_f64();
+            doubts.push(end);
+            if doubts.iter().filter(|doubt| (*doubt - end).abs() <= 1e-9 * end).count() < SAME_DOUBT {
+                return f64::INFINITY;
+            }
+        }
+        let (digits, spare) = self.plan.goal();
+        let double = matches!(self.plan.numbers, super::Numbers::Double(_));
+        let digits = if double { digits.min(DOUBLE_DIGITS) } else { digits };
+        let log2 = |x: &S::Carried| x.to_f64().abs().log2();
+        let greatest = numbers.iter().map(|x| log2(x)).fold(f64::NEG_INFINITY, f64::max);
+        let bits = |digits: f64| digits * std::f64::consts::LOG2_10;
+        let floor = greatest - bits(digits + spare);
+        let missing = numbers.iter().map(|x| x.log2_error() - (log2(x) - bits(digits)).max(floor));
+        missing.fold(f64::NEG_INFINITY, f64::max)
+    }
+}

@@ -1,0 +1,94 @@
+//! The planned engine, run in long numbers, fractions and enclosures.
+
+use std::sync::Arc;
+
+use super::converted::Converted;
+use super::engines::{limits, reaching};
+use super::ladder::{Engined, Observer, Target};
+use super::plan::{Engine, Plan, Rung};
+use super::raised::Raised;
+use crate::certified::ProvedContact;
+use crate::damped::{Damped, Joined};
+use crate::error::Error;
+use crate::first_contact::FirstContact;
+use crate::lattice::Undamped;
+use crate::number::{Float, Interval, IntervalPrecision, Rational, decided};
+use crate::rod::{Parameters, Problem};
+
+impl Target for Rational {
+    fn run(problem: &Problem, plan: &Plan, _: Rung, observe: &Observer) -> Result<Engined<Rational>, Error> {
+        let problem = &*reaching(problem, plan);
+        Ok(Arc::new(Undamped::<Rational>::solve_within(problem, &(), limits(problem, plan), |a, b| observe(a, b))?))
+    }
+}
+
+impl Target for Float {
+    fn run(problem: &Problem, plan: &Plan, rung: Rung, observe: &Observer) -> Result<Engined<Float>, Error> {
+        match rung {
+            Rung::Enclosures(bits) => Ok(Arc::new(Converted::new(enclosures(problem, plan, bits, observe)?))),
+            rung => estimates(problem, plan, bits_of(rung), observe),
+        }
+    }
+}
+
+impl Target for Interval {
+    fn run(problem: &Problem, plan: &Plan, rung: Rung, observe: &Observer) -> Result<Engined<Interval>, Error> {
+        enclosures(problem, plan, bits_of(rung), observe)
+    }
+}
+
+/// An attempt in more bits than doubles have, read in doubles.
+pub(super) fn in_doubles(
+    problem: &Problem,
+    plan: &Plan,
+    rung: Rung,
+    observe: &Observer,
+) -> Result<Engined<f64>, Error> {
+    Ok(match rung {
+        Rung::Enclosures(bits) => Arc::new(Converted::new(enclosures(problem, plan, bits, observe)?)),
+        rung => Arc::new(Converted::new(estimates(problem, plan, bits_of(rung), observe)?)),
+    })
+}
+
+fn bits_of(rung: Rung) -> u32 {
+    match rung {
+        Rung::Bits(bits) | Rung::Enclosures(bits) => bits,
+        Rung::Double | Rung::Fractions => f64::MANTISSA_DIGITS,
+    }
+}
+
+fn estimates(problem: &Problem, plan: &Plan, bits: u32, observe: &Observer) -> Result<Engined<Float>, Error> {
+    let problem = &*reaching(problem, plan);
+    let digits = f64::from(bits) * std::f64::consts::LOG10_2 - 19.0;
+    Ok(match plan.engine {
+        Engine::Lattice => {
+            let history = Undamped::<Float>::solve_within(problem, &bits, limits(problem, plan), |a, b| observe(a, b))?;
+            Arc::new(Raised::new(history))
+        }
+        Engine::Cells => Arc::new(Raised::new(Damped::<Float>::solve(problem, &bits, digits)?)),
+        Engine::ClosedForm | Engine::ClosedFormThenCells => {
+            let rod = Parameters::<Float>::of(problem, &bits)?;
+            let bounce = FirstContact::new(&rod).bounce();
+            let follow = plan.engine == Engine::ClosedFormThenCells;
+            Arc::new(Raised::new(Joined::<Float>::solve(problem, &bits, digits, bounce, follow)?))
+        }
+    })
+}
+
+fn enclosures(problem: &Problem, plan: &Plan, bits: u32, observe: &Observer) -> Result<Engined<Interval>, Error> {
+    let problem = &*reaching(problem, plan);
+    let open = || Error::NotDecided { what: "how the motion goes on", bits };
+    match plan.engine {
+        Engine::Lattice => {
+            let precision = IntervalPrecision::with_exact(bits);
+            let run =
+                || Undamped::<Interval>::solve_within(problem, &precision, limits(problem, plan), |a, b| observe(a, b));
+            Ok(Arc::new(decided(run).ok_or_else(open)??))
+        }
+        Engine::Cells => Err(Error::NotCertified),
+        Engine::ClosedForm | Engine::ClosedFormThenCells => {
+            let contact = decided(|| ProvedContact::solve(problem, bits)).ok_or_else(open)??;
+            Ok(Arc::new(contact.ok_or_else(open)?))
+        }
+    }
+}

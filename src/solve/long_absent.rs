@@ -1,0 +1,31 @@
+//! Long numbers, fractions and enclosures in a build without the feature `mp`: an error that names it.
+
+use super::ladder::{Engined, Observer, Target};
+use super::plan::{Plan, Rung};
+use crate::error::Error;
+use crate::number::{Answer, Float, Interval, Rational};
+use crate::rod::Problem;
+
+macro_rules! absent {
+    ($($name:ident),*) => {$(
+        impl Answer for $name {
+            type Carried = $name;
+            fn carry(&self) -> $name {
+                match *self {}
+            }
+            fn strip(carried: $name) -> $name {
+                carried
+            }
+        }
+        impl Target for $name {
+            fn run(_: &Problem, _: &Plan, _: Rung, _: &Observer) -> Result<Engined<$name>, Error> {
+                Err(Error::NoMultiprecision)
+            }
+        }
+    )*};
+}
+absent!(Float, Rational, Interval);
+
+pub(super) fn in_doubles(_: &Problem, _: &Plan, _: Rung, _: &Observer) -> Result<Engined<f64>, Error> {
+    Err(Error::NoMultiprecision)
+}

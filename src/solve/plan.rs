@@ -1,0 +1,296 @@
+//! Everything that is decided before running: engine, numbers, bits, how far.
+
+use serde::Serialize;
+
+use super::foresee;
+use super::question::{Numbers, Question, Want};
+use crate::error::Error;
+use crate::number::Number;
+use crate::rod::{Problem, Run};
+
+/// How a question is going to be answered. No engine and no caller decides any of it again.
+///
+/// **Source**: the cheapest route that answers the question: a first contact alone needs no flight, values between two times
+/// nothing beyond the later one.
+///
+/// ```
+/// use dalembert::{Engine, Numbers, Plan, Problem, Question};
+/// let mut problem = Problem::uniform(1.into(), 1.into(), 1.into(), 3.into());
+/// assert_eq!(Plan::of(&problem, &Question::run(Numbers::default()))?.engine, Engine::Lattice);
+/// problem.rod.damping = "0.1".parse().ok();
+/// assert_eq!(Plan::of(&problem, &Question::first_contact(Numbers::default()))?.engine, Engine::ClosedForm);
+/// # Ok::<(), dalembert::Error>(())
+/// ```
+#[derive(Clone, Debug, PartialEq)]
+pub struct Plan {
+    /// The engine.
+    pub engine: Engine,
+    /// The numbers of the answer.
+    pub numbers: Numbers,
+    /// How far the motion is followed.
+    pub reach: Reach,
+    /// What lies before this time may be forgotten on the way.
+    pub keep_from: Option<f64>,
+    /// The numbers of the first attempt; [`Plan::next`] says what follows where they do not settle the answer.
+    pub rung: Rung,
+    /// Decimal digits that rounding is foreseen to take in a chaotic run; the first rung has as many more.
+    pub foreseen_loss: f64,
+}
+
+/// The engine that a plan chooses.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Engine {
+    /// The undamped rod, event by event on the characteristic lattice.
+    Lattice,
+    /// The damped first contact in closed form, and nothing after it.
+    ClosedForm,
+    /// The damped first contact in closed form, then strips of characteristic cells from the bounce on.
+    ClosedFormThenCells,
+    /// Strips of characteristic cells from the start: a damped rod whose first contact has no closed form.
+    Cells,
+}
+
+/// How far the motion is followed.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Reach {
+    /// Through this many contacts, each with the flight after it.
+    Contacts(u32),
+    /// To the end of the first contact.
+    FirstContact,
+    /// Up to this time, included.
+    Time(Number),
+}
+
+/// The numbers that one attempt is computed in, in the order in which they cost more.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Rung {
+    /// Doubles with their error bound.
+    Double,
+    /// Numbers of so many bits with their error bound.
+    Bits(u32),
+    /// Fractions.
+    Fractions,
+    /// Enclosures of so many bits, with exact roots inside where the rod is undamped.
+    Enclosures(u32),
+}
+
+/// More digits than this are refused: a slip of the hand, not a question.
+pub const MAX_DIGITS: u32 = 100_000;
+/// Digits that are proved where none are asked for.
+pub const CERTIFIED_DIGITS: u32 = 15;
+/// The accuracy that doubles are held to where none is asked for, relative to the natural scales: what it does not leave is
+/// not printed.
+pub const DEFAULT_ACCURACY: f64 = 1e-9;
+/// Bits beyond those of the digits asked for, on the first attempt with error bounds.
+const GUARD_BITS: u32 = 64;
+/// Bits of a rung above which enclosures, which carry exact roots, are tried in place of more bits.
+const DOUBLE_ROOT: u32 = 4;
+/// The most bits of a number with an error bound.
+const MOST_BITS: u32 = 1 << 22;
+/// Bits of an enclosure beyond which a comparison is called undecided, where the digits asked for do not need more.
+const MOST_ENCLOSED: u32 = 1 << 13;
+
+impl Plan {
+    /// The plan for `question` of `problem`.
+    ///
+    /// **Errors**: [`Error::DampedExact`]; [`Error::Accuracy`]; [`Error::Digits`] for none or absurdly many;
+    /// [`Error::NotCertified`]; [`Error::NoMultiprecision`] in a build without the feature `mp`.
+    pub fn of(problem: &Problem, question: &Question) -> Result<Self, Error> {
+        let numbers = question.numbers;
+        check(problem, numbers)?;
+        let reach = match &question.want {
+            Want::Run => match &problem.run {
+                Run::Impacts(contacts) => Reach::Contacts(*contacts),
+                Run::Time(time) => Reach::Time(time.clone()),
+            },
+            Want::FirstContact => Reach::FirstContact,
+            Want::Between(_, to) => Reach::Time(to.clone()),
+        };
+        let keep_from = match &question.want {
+            Want::Between(from, _) => Some(from.to_f64()),
+            _ => None,
+        };
+        let engine = match (&problem.rod.damping, problem.has_closed_form()) {
+            (None, _) => Engine::Lattice,
+            (Some(_), false) => Engine::Cells,
+            (Some(_), true) if reach == Reach::FirstContact => Engine::ClosedForm,
+            // What is proved of a damped rod ends with its first contact.
+            (Some(_), true) if matches!(numbers, Numbers::Certified(_)) => Engine::ClosedForm,
+            (Some(_), true) => Engine::ClosedFormThenCells,
+        };
+        let mut plan = Plan { engine, numbers, reach, keep_from, rung: Rung::Double, foreseen_loss: 0.0 };
+        plan.first_rung(problem);
+        Ok(plan)
+    }
+
+    fn first_rung(&mut self, problem: &Problem) {
+        self.rung = match self.numbers {
+            Numbers::Double(_) => Rung::Double,
+            Numbers::Exact | Numbers::ExactThenDigits(_) => Rung::Fractions,
+            Numbers::Certified(digits) => Rung::Enclosures(bits_for_digits(digits) + GUARD_BITS),
+            Numbers::Digits(digits) => {
+                let lost = foresee::bits_lost(problem, self).min(f64::from(MOST_BITS));
+                self.foreseen_loss = lost * std::f64::consts::LOG10_2;
+                // A tenth more than foreseen is cheaper than a second run.
+                Rung::Bits(bits_for_digits(digits + SPARE_DIGITS) + GUARD_BITS.max((1.1 * lost) as u32 + 8))
+            }
+        };
+    }
+
+    /// The same plan in decimal digits.
+    pub(crate) fn in_digits(&self, problem: &Problem, digits: u32) -> Self {
+        let mut plan = Plan { numbers: Numbers::Digits(digits), ..self.clone() };
+        plan.first_rung(problem);
+        plan
+    }
+
+    /// The digits that the answer is held to, and how many digits below the greatest of its numbers one may lie and still have
+    /// all of them.
+    pub(crate) fn goal(&self) -> (f64, f64) {
+        match self.numbers {
+            Numbers::Double(accuracy) => (-accuracy.unwrap_or(DEFAULT_ACCURACY).log10(), 0.0),
+            Numbers::Exact => (0.0, 0.0),
+            Numbers::Digits(digits) | Numbers::ExactThenDigits(digits) => (f64::from(digits), f64::from(SPARE_DIGITS)),
+            Numbers::Certified(digits) => (f64::from(digits), f64::from(FLOOR_DIGITS)),
+        }
+    }
+
+    /// The rung after `rung`, where the answer lacks about `missing` bits; `None` where no more are worth trying.
+    pub(crate) fn next(&self, rung: Rung, missing: f64) -> Option<Rung> {
+        if cfg!(not(feature = "mp")) {
+            return None;
+        }
+        let (digits, _) = self.goal();
+        let wanted = bits_for_digits(digits.ceil() as u32);
+        match rung {
+            Rung::Fractions => None,
+            Rung::Double => Some(Rung::Bits((wanted + GUARD_BITS).max(128))),
+            Rung::Bits(bits) => {
+                // A double root needs two bits for each that is missing.
+                let more = if missing.is_finite() { (2.0 * missing).ceil() + 8.0 } else { f64::from(bits) };
+                let next = f64::from(bits) + more.max(f64::from(bits / 4));
+                let exact_roots = self.engine == Engine::Lattice && next > f64::from(wanted * DOUBLE_ROOT + 1024);
+                if exact_roots {
+                    Some(Rung::Enclosures(wanted + GUARD_BITS))
+                } else {
+                    (next <= f64::from(MOST_BITS)).then_some(Rung::Bits(next as u32))
+                }
+            }
+            Rung::Enclosures(bits) => {
+                let next = f64::from(bits) + missing.clamp(32.0, f64::from(bits));
+                (next <= f64::from(MOST_ENCLOSED.max(4 * wanted))).then_some(Rung::Enclosures(next as u32))
+            }
+        }
+    }
+
+    /// Why this engine and these numbers, a sentence each.
+    pub fn reasons(&self) -> Vec<String> {
+        let engine = match self.engine {
+            Engine::Lattice => "without damping the solution travels unchanged along its characteristics",
+            Engine::ClosedForm => {
+                "damping couples the characteristics; the first contact has a closed form, and no more is asked for"
+            }
+            Engine::ClosedFormThenCells => {
+                "damping couples the characteristics: the first contact has a closed form, and inside a cell between rays \
+                 Riemann's formula converges geometrically"
+            }
+            Engine::Cells => {
+                "damping couples the characteristics, and this start or top has no closed form: cells from the beginning"
+            }
+        };
+        let numbers = match self.numbers {
+            Numbers::Double(accuracy) => format!(
+                "doubles with an error bound; longer numbers where the bound is above {:e} of the natural scales",
+                accuracy.unwrap_or(DEFAULT_ACCURACY)
+            ),
+            Numbers::Digits(digits) => {
+                format!("{digits} digits are asked for: bits are added until the error bound leaves that many")
+            }
+            Numbers::Certified(digits) => format!(
+                "{digits} proved digits are asked for: enclosures, with bits added until every comparison is settled and every \
+                 digit known"
+            ),
+            Numbers::Exact => "fractions are asked for: the run stops where a root is irrational".into(),
+            Numbers::ExactThenDigits(digits) => {
+                format!("fractions are asked for, and {digits} digits of the whole run where they end")
+            }
+        };
+        let mut reasons = vec![engine.to_string(), numbers];
+        if self.foreseen_loss >= 1.0 {
+            reasons.push(format!(
+                "rounding at the impacts is foreseen to take {:.0} digits, and as many more are carried",
+                self.foreseen_loss
+            ));
+        }
+        reasons
+    }
+}
+
+/// Digits that must be left beyond those printed, so that a quantity small against its scale still has all of them.
+const SPARE_DIGITS: u32 = 8;
+/// A proved number that is this many digits below the greatest of the answer, beyond those asked for, may stay with fewer
+/// digits: where it is zero in truth, no bits would ever give it any.
+const FLOOR_DIGITS: u32 = 30;
+
+fn check(problem: &Problem, numbers: Numbers) -> Result<(), Error> {
+    let digits = match numbers {
+        Numbers::Double(accuracy) => {
+            return match accuracy.filter(|accuracy| !(1e-300..=0.1).contains(accuracy)) {
+                Some(found) => Err(Error::Accuracy { found }),
+                None => Ok(()),
+            };
+        }
+        Numbers::Exact => None,
+        Numbers::Digits(digits) | Numbers::ExactThenDigits(digits) | Numbers::Certified(digits) => Some(digits),
+    };
+    if let (Some(damping), Numbers::Exact | Numbers::ExactThenDigits(_)) = (&problem.rod.damping, numbers) {
+        return Err(Error::DampedExact { damping: damping.to_string() });
+    }
+    if let Some(found) = digits.filter(|digits| !(1..=MAX_DIGITS).contains(digits)) {
+        return Err(Error::Digits { found, most: MAX_DIGITS });
+    }
+    if problem.rod.damping.is_some() && !problem.has_closed_form() && matches!(numbers, Numbers::Certified(_)) {
+        return Err(Error::NotCertified);
+    }
+    if cfg!(feature = "mp") { Ok(()) } else { Err(Error::NoMultiprecision) }
+}
+
+/// Bits that hold `digits` decimal digits: `⌈digits · log₂10⌉`.
+fn bits_for_digits(digits: u32) -> u32 {
+    (f64::from(digits) * std::f64::consts::LOG2_10).ceil() as u32
+}
+
+impl std::fmt::Display for Engine {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.write_str(match self {
+            Engine::Lattice => "characteristic lattice, event by event, without a time step",
+            Engine::ClosedForm => "closed form of the first contact",
+            Engine::ClosedFormThenCells => "closed form of the first contact, then strips of characteristic cells",
+            Engine::Cells => "strips of characteristic cells",
+        })
+    }
+}
+
+impl std::fmt::Display for Reach {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        match self {
+            Reach::Contacts(1) => f.write_str("through the first contact and the flight after it"),
+            Reach::Contacts(contacts) => write!(f, "through {contacts} contacts and the flight after the last"),
+            Reach::FirstContact => f.write_str("to the end of the first contact"),
+            Reach::Time(time) => write!(f, "to t = {time}"),
+        }
+    }
+}
+
+impl std::fmt::Display for Rung {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        match self {
+            Rung::Double => f.write_str("doubles"),
+            Rung::Bits(bits) => write!(f, "numbers of {bits} bits"),
+            Rung::Fractions => f.write_str("fractions"),
+            Rung::Enclosures(bits) => write!(f, "enclosures of {bits} bits"),
+        }
+    }
+}

@@ -1,0 +1,81 @@
+//! What is asked of a problem, and in which numbers.
+
+use crate::number::Number;
+
+/// What is asked of a problem, and in which numbers: all that a [`Plan`](super::Plan) is made from besides the problem.
+///
+/// ```
+/// use dalembert::{Numbers, Question};
+/// let question = Question::run(Numbers::Digits(50));
+/// assert_eq!(question.numbers.to_string(), "50 digits");
+/// ```
+#[derive(Clone, Debug, PartialEq)]
+pub struct Question {
+    /// What.
+    pub want: Want,
+    /// In which numbers.
+    pub numbers: Numbers,
+}
+
+/// What is asked of a problem.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Want {
+    /// Every event and contact up to the end of the problem's own run.
+    Run,
+    /// The first contact, up to the bounce: `t_b`, impulse, peak, restitution. No flight is followed.
+    FirstContact,
+    /// Values between two times, both included. What lies before the first need not be kept.
+    Between(Number, Number),
+}
+
+/// The numbers of an answer.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Numbers {
+    /// Doubles, to this accuracy relative to the natural scales; `None` for [`DEFAULT_ACCURACY`](super::DEFAULT_ACCURACY). Where
+    /// doubles alone do not reach it, longer numbers are computed with and rounded to doubles at the end.
+    Double(Option<f64>),
+    /// This many decimal digits, rounded once.
+    Digits(u32),
+    /// Fractions, without any error, as far as they reach.
+    Exact,
+    /// Fractions as far as they reach, and this many decimal digits of the whole run where they end before it does.
+    ExactThenDigits(u32),
+    /// This many decimal digits, proved by enclosures.
+    Certified(u32),
+}
+
+impl Question {
+    /// The whole run.
+    pub fn run(numbers: Numbers) -> Self {
+        Question { want: Want::Run, numbers }
+    }
+
+    /// The first contact alone.
+    pub fn first_contact(numbers: Numbers) -> Self {
+        Question { want: Want::FirstContact, numbers }
+    }
+
+    /// Values between two times.
+    pub fn between(from: Number, to: Number, numbers: Numbers) -> Self {
+        Question { want: Want::Between(from, to), numbers }
+    }
+}
+
+impl Default for Numbers {
+    fn default() -> Self {
+        Numbers::Double(None)
+    }
+}
+
+impl std::fmt::Display for Numbers {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        match self {
+            Numbers::Double(None) => f.write_str("double"),
+            Numbers::Double(Some(accuracy)) => write!(f, "double, accuracy {accuracy:e}"),
+            Numbers::Digits(digits) => write!(f, "{digits} digits"),
+            Numbers::Exact => f.write_str("exact"),
+            Numbers::ExactThenDigits(digits) => write!(f, "exact, then {digits} digits"),
+            Numbers::Certified(digits) => write!(f, "{digits} digits, proved"),
+        }
+    }
+}

@@ -1,0 +1,91 @@
+//! The answer in the numbers that were asked for.
+
+use super::ladder::Observer;
+use super::plan::Plan;
+use super::question::Numbers;
+use crate::error::Error;
+use crate::history::Ending;
+use crate::motion::Motion;
+use crate::number::{Float, Interval, Rational};
+use crate::rod::Problem;
+
+/// A history in the numbers of its plan. All variants exist in every build; without the feature `mp` only the first has values.
+#[derive(Debug)]
+pub enum Solution {
+    /// Doubles.
+    Double(Motion<f64>),
+    /// Decimal digits: this many are to be printed.
+    Digits(Motion<Float>, u32),
+    /// Fractions.
+    Exact(Motion<Rational>),
+    /// Digits of the whole run, this many of which are to be printed, and what fractions could not hold.
+    DigitsAfter(Motion<Float>, u32, ExactnessEnd),
+    /// Enclosures: this many digits are proved.
+    Certified(Motion<Interval>, u32),
+}
+
+/// What fractions cannot hold.
+#[derive(Clone, Debug, PartialEq)]
+pub enum ExactnessEnd {
+    /// A parameter of the problem.
+    Parameter {
+        /// Its name.
+        quantity: &'static str,
+        /// What stands under its root.
+        square: String,
+    },
+    /// An event, as [`Ending::ExactnessEnds`].
+    Event(Ending),
+}
+
+impl std::fmt::Display for ExactnessEnd {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        match self {
+            ExactnessEnd::Parameter { quantity, square } => write!(f, "the {quantity} √({square}) is no fraction"),
+            ExactnessEnd::Event(ending) => ending.fmt(f),
+        }
+    }
+}
+
+impl Plan {
+    /// Solves `problem`; `observe` receives the round trip and the number of pieces from time to time.
+    ///
+    /// **Accuracy**: that of [`Plan::numbers`].
+    ///
+    /// **Errors**: [`Error::TooManyPieces`]; [`Error::Irrational`] where a parameter is no fraction and no digits are asked for;
+    /// [`Error::Unsettled`], [`Error::Undecided`] where no bits that are worth trying settle the answer.
+    ///
+    /// ```
+    /// use dalembert::{Numbers, Plan, Problem, Question, Solution};
+    /// use std::sync::Arc;
+    /// let problem = Problem::uniform(10.into(), 30.into(), 10.into(), 10.into());
+    /// let plan = Plan::of(&problem, &Question::run(Numbers::default()))?;
+    /// let Solution::Double(motion) = plan.solve(&problem, Arc::new(|_, _| ()))? else { unreachable!() };
+    /// assert!((motion.contacts()[0].to.unwrap() - 2.0 / 3.0).abs() < 1e-15);
+    /// # Ok::<(), dalembert::Error>(())
+    /// ```
+    pub fn solve(&self, problem: &Problem, observe: Observer) -> Result<Solution, Error> {
+        Ok(match self.numbers {
+            Numbers::Double(_) => Solution::Double(Motion::solve(problem, self, observe)?),
+            Numbers::Digits(digits) => Solution::Digits(Motion::solve(problem, self, observe)?, digits),
+            Numbers::Certified(digits) => Solution::Certified(Motion::solve(problem, self, observe)?, digits),
+            Numbers::Exact => Solution::Exact(Motion::solve(problem, self, observe)?),
+            Numbers::ExactThenDigits(digits) => {
+                let in_digits = |end: ExactnessEnd| {
+                    let motion = Motion::solve(problem, &self.in_digits(problem, digits), observe.clone())?;
+                    Ok(Solution::DigitsAfter(motion, digits, end))
+                };
+                match Motion::<Rational>::solve(problem, self, observe.clone()) {
+                    Err(Error::Irrational { quantity, square }) => {
+                        return in_digits(ExactnessEnd::Parameter { quantity, square });
+                    }
+                    Err(error) => return Err(error),
+                    Ok(exact) => match exact.ending() {
+                        Ending::ExactnessEnds { .. } => return in_digits(ExactnessEnd::Event(exact.ending().clone())),
+                        _ => Solution::Exact(exact),
+                    },
+                }
+            }
+        })
+    }
+}
