@@ -4,7 +4,7 @@ use std::sync::{Arc, Mutex, OnceLock, PoisonError};
 
 use crate::error::Error;
 use crate::history::{Contact, Ending, Energy, Event, Field, History as Engine, Scales, Side, StressHistory};
-use crate::number::Answer;
+use crate::number::{Answer, Scalar};
 use crate::quantity::{EnergyShares, Flight, Restitution, energy_shares, flights, restitution};
 use crate::rod::Problem;
 use crate::solve::{Attempt, Ladder, Numbers, Observer, Plan, Question, Rung, Target, Want};
@@ -217,6 +217,17 @@ impl<S: Target> Motion<S> {
     /// The natural scales of the motion.
     pub fn scales(&self) -> Scales<S> {
         self.current().engine.scales().map(S::strip)
+    }
+
+    /// A bound of the error of events and of values at ordinary times, relative to the natural scales; zero where all is exact.
+    pub fn error_estimate(&self) -> f64 {
+        self.current().engine.error_estimate().to_f64()
+    }
+
+    /// How many impacts there were, and `log₁₀` of the factor by which rounding may have grown over them; `None` where that is
+    /// not followed.
+    pub fn digits_lost(&self) -> Option<(u32, f64)> {
+        self.current().engine.digits_lost()
     }
 
     /// What a user should know of the answer.

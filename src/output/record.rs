@@ -24,7 +24,8 @@ pub fn json<S: Scalar>(x: &S, digits: u32) -> serde_json::Value {
     let text = show(x, if digits == 0 { DOUBLE_DIGITS } else { digits });
     match (x.as_double(), x.ends(digits)) {
         (Some(value), _) if !value.is_finite() => serde_json::Value::Null,
-        (Some(_), _) => text.parse().map_or(serde_json::Value::Null, |value: f64| value.into()),
+        (Some(_), _) if text == "0" => 0.0.into(),
+        (Some(value), _) => value.into(),
         (None, Some([lo, hi])) => serde_json::json!({"value": text, "lo": lo, "hi": hi}),
         (None, None) => text.into(),
     }

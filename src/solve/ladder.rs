@@ -115,7 +115,7 @@ impl Ladder {
         numbers: &[&S::Carried],
         doubts: &mut Vec<f64>,
     ) -> f64 {
-        if matches!(engine.ending(), Ending::Undecided(_)) {
+        if self.plan.engine == super::Engine::Lattice && matches!(engine.ending(), Ending::Undecided(_)) {
             let end = engine.end().to_f64();
             doubts.push(end);
             if doubts.iter().filter(|doubt| (*doubt - end).abs() <= 1e-9 * end).count() < SAME_DOUBT {

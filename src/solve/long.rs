@@ -10,7 +10,7 @@ use super::raised::Raised;
 use crate::certified::ProvedContact;
 use crate::damped::{Damped, Joined};
 use crate::error::Error;
-use crate::first_contact::FirstContact;
+use crate::first_contact::{Bounce, FirstContact};
 use crate::lattice::Undamped;
 use crate::number::{Float, Interval, IntervalPrecision, Rational, decided};
 use crate::rod::{Parameters, Problem};
@@ -69,6 +69,9 @@ fn estimates(problem: &Problem, plan: &Plan, bits: u32, observe: &Observer) -> R
         Engine::ClosedForm | Engine::ClosedFormThenCells => {
             let rod = Parameters::<Float>::of(problem, &bits)?;
             let bounce = FirstContact::new(&rod).bounce();
+            if matches!(bounce, Bounce::Undecided { digits: true, .. }) {
+                return Err(Error::NotDecided { what: "how the first contact ends", bits });
+            }
             let follow = plan.engine == Engine::ClosedFormThenCells;
             Arc::new(Raised::new(Joined::<Float>::solve(problem, &bits, digits, bounce, follow)?))
         }

@@ -2,23 +2,16 @@
 
 use crate::common::{close, number, problem, reference};
 use dalembert::rod::{Parameters, Run};
-use dalembert::scene::{Ask, Plan};
-use dalembert::{Ending, EventKind, History, Number, Problem, Scene, Side, Solution, solve};
+use dalembert::{Ending, EventKind, Motion, Number, Numbers, Plan, Problem, Question, Side, Solution};
 use serde_json::Value;
+use std::sync::Arc;
 
-/// The plan of a damped scene, for the problem that a test has made itself.
-fn plan(problem: &Problem, ask: Ask) -> Plan {
-    let damping = problem.rod.damping.as_ref().map_or(String::new(), |r| format!("damping = \"{r}\""));
-    let scene = format!("[rod]\nlength = 1\nwave_speed = 1\n{damping}\n[impact]\nspeed = 1\n");
-    Plan::of(&Scene::parse(&scene).unwrap(), ask).unwrap()
-}
-
-fn in_doubles(problem: &Problem, accuracy: Option<f64>) -> Box<dyn History<f64>> {
-    match solve(problem, &plan(problem, Ask { accuracy, ..Ask::default() }), |_, _| ()).unwrap() {
-        Solution::Double(history) => history,
-        #[cfg(feature = "mp")]
-        _ => panic!("doubles were asked for"),
-    }
+fn in_doubles(problem: &Problem, accuracy: Option<f64>) -> Motion<f64> {
+    let plan = Plan::of(problem, &Question::run(Numbers::Double(accuracy))).unwrap();
+    let Solution::Double(motion) = plan.solve(problem, Arc::new(|_, _| ())).unwrap() else {
+        panic!("doubles were asked for");
+    };
+    motion
 }
 
 fn items(value: &Value) -> &Vec<Value> {
@@ -48,16 +41,16 @@ fn every_first_contact_in_doubles() {
         let (rise, strain) = (speed * rod.round_trip(), speed / rod.wave_speed);
         let f = |value: &Value| number(value).to_f64();
         for row in items(&case["stress"]) {
-            let ours = history.stress(&f(&row[0]), Side::Right).unwrap();
+            let ours = history.strain(f(&row[0]), Side::Right).unwrap();
             close(&format!("{name}: stress at {}", row[0]), ours, f(&row[1]), 0.0, 1e-12);
         }
         for row in items(&case["motion"]) {
-            let (h, rate) = history.centre(&f(&row[0])).unwrap();
+            let (h, rate) = history.centre(f(&row[0])).unwrap();
             close(&format!("{name}: h at {}", row[0]), h, f(&row[1]), 1e-3 * rise, 1e-12);
             close(&format!("{name}: h' at {}", row[0]), rate, f(&row[2]), 1e-3 * speed, 1e-12);
         }
         for row in items(&case["field"]) {
-            let ours = history.field(&f(&row[0]), &f(&row[1]), Side::Right).unwrap();
+            let ours = history.at(f(&row[0]), f(&row[1])).unwrap();
             let place = format!("{name} at x = {}, t = {}", row[0], row[1]);
             close(&format!("{place}: v"), ours.displacement, f(&row[2]), 1e-2 * rise, 1e-12);
             close(&format!("{place}: v_t"), ours.velocity, f(&row[3]), 1e-2 * speed, 1e-12);
@@ -73,7 +66,7 @@ fn every_first_contact_in_doubles() {
         close(&format!("{name}: t_b"), release.time, f(bounce), 0.0, 1e-12);
         close(&format!("{name}: h(t_b)"), release.centre, f(&case["bounce_h"]), 1e-3 * rise, 1e-12);
         close(&format!("{name}: h'(t_b)"), release.centre_velocity, f(&case["bounce_h_rate"]), 1e-3 * speed, 1e-12);
-        let energy = history.energy(&release.time).unwrap();
+        let energy = history.energy(release.time).unwrap();
         let truth = &case["bounce_energy"];
         let start = 0.5 * rod.speed * rod.speed * rod.length;
         close(&format!("{name}: E"), energy.total, f(&truth["total"]), 1e-3 * start, 1e-12);
@@ -90,10 +83,7 @@ fn every_first_contact_to_thirty_digits() {
     for case in reference("first_contact") {
         let name = case["name"].as_str().unwrap();
         let problem = problem(&case, run(&case));
-        let ask = Ask { digits: Some(30), ..Ask::default() };
-        let Solution::Digits(history, _) = solve(&problem, &plan(&problem, ask), |_, _| ()).unwrap() else {
-            panic!("digits were asked for");
-        };
+        let history = problem.digits(30).unwrap();
         let bits = history.end().prec();
         let lift = |value: &Value| Float::with_val(bits, number(value).to_rational());
         // The reference has 34 to 45 digits; its times have 30, its zeros are below 1e-40 of their scale.
@@ -106,15 +96,15 @@ fn every_first_contact_to_thirty_digits() {
             assert!(error <= scale * accuracy, "{name}: {what}: {} against {}", ours.to_f64(), truth.to_f64());
         };
         for row in items(&case["stress"]) {
-            same("stress", &history.stress(&lift(&row[0]), Side::Right).unwrap(), &row[1]);
+            same("stress", &history.strain(lift(&row[0]), Side::Right).unwrap(), &row[1]);
         }
         for row in items(&case["motion"]) {
-            let (h, rate) = history.centre(&lift(&row[0])).unwrap();
+            let (h, rate) = history.centre(lift(&row[0])).unwrap();
             same("h", &h, &row[1]);
             same("h'", &rate, &row[2]);
         }
         for row in items(&case["field"]) {
-            let field = history.field(&lift(&row[0]), &lift(&row[1]), Side::Right).unwrap();
+            let field = history.at(lift(&row[0]), lift(&row[1])).unwrap();
             same("v", &field.displacement, &row[2]);
             same("v_t", &field.velocity, &row[3]);
             same("v_x", &field.strain, &row[4]);
@@ -126,7 +116,7 @@ fn every_first_contact_to_thirty_digits() {
         same("t_b", &release.time, &case["bounce_time"]);
         same("h(t_b)", &release.centre, &case["bounce_h"]);
         same("h'(t_b)", &release.centre_velocity, &case["bounce_h_rate"]);
-        let energy = history.energy(&release.time).unwrap();
+        let energy = history.energy(release.time.clone()).unwrap();
         same("E", &energy.total, &case["bounce_energy"]["total"]);
         same("E_h", &energy.translational, &case["bounce_energy"]["translational"]);
         same("E_z", &energy.vibrational, &case["bounce_energy"]["vibrational"]);
@@ -179,10 +169,10 @@ fn an_overdamped_rod_without_gravity_never_bounces() {
         let history = in_doubles(&late(damping), None);
         assert!(matches!(history.ending(), Ending::NoBounce(_)), "{damping}: {:?}", history.ending());
         assert_eq!(history.events().len(), 1);
-        let end = history.end();
+        let end = *history.end();
         for k in 1..200 {
             let time = end * f64::from(k) / 200.0;
-            assert!(history.stress(&time, Side::Right).unwrap() <= 0.0, "{damping} at {time}");
+            assert!(history.strain(time, Side::Right).unwrap() <= 0.0, "{damping} at {time}");
         }
     }
 }
@@ -212,10 +202,7 @@ fn the_threshold_of_the_first_bounce() {
 fn the_ladder_of_accuracies() {
     let mut problem = crate::common::uniform("1", "1", "1", "3", Run::Time(11.into()));
     problem.rod.damping = Some("0.1".parse().unwrap());
-    let ask = Ask { digits: Some(25), ..Ask::default() };
-    let Solution::Digits(truth, _) = solve(&problem, &plan(&problem, ask), |_, _| ()).unwrap() else {
-        panic!("digits were asked for");
-    };
+    let truth = problem.digits(25).unwrap();
     for exponent in [2, 4, 6, 8, 10, 12, 13] {
         let accuracy = 10f64.powi(-exponent);
         let history = in_doubles(&problem, Some(accuracy));
@@ -236,11 +223,7 @@ fn the_ladder_of_accuracies() {
 fn later_impacts_to_fifty_digits() {
     let mut problem = crate::common::uniform("1", "1", "1", "1", Run::Time(13.into()));
     problem.rod.damping = Some("0.05".parse().unwrap());
-    let digits = |n: u32| match solve(&problem, &plan(&problem, Ask { digits: Some(n), ..Ask::default() }), |_, _| ()) {
-        Ok(Solution::Digits(history, _)) => history,
-        _ => panic!("digits were asked for"),
-    };
-    let (a, b) = (digits(50), digits(60));
+    let (a, b) = (problem.digits(50).unwrap(), problem.digits(60).unwrap());
     assert_eq!(a.events().len(), 7);
     for (a, b) in a.events().iter().zip(b.events()) {
         for (x, y) in [(&a.time, &b.time), (&a.centre, &b.centre), (&a.centre_velocity, &b.centre_velocity)] {
@@ -254,11 +237,7 @@ fn later_impacts_to_fifty_digits() {
 #[cfg(feature = "mp")]
 #[test]
 fn a_first_contact_to_a_thousand_digits() {
-    let digits =
-        |n: u32| match solve(&late("2.6"), &plan(&late("2.6"), Ask { digits: Some(n), ..Ask::default() }), |_, _| ()) {
-            Ok(Solution::Digits(history, _)) => history.events()[1].time.clone(),
-            _ => panic!("digits were asked for"),
-        };
+    let digits = |n: u32| late("2.6").digits(n).unwrap().events()[1].time.clone();
     let (a, b) = (digits(1000), digits(1020));
     let error = (rug::Float::with_val(4000, &a) - &b).abs();
     assert!(error <= rug::Float::with_val(64, rug::Float::parse("1e-1000").unwrap()), "{error}");
@@ -272,10 +251,7 @@ fn two_marches_know_how_far_they_are_off() {
         let mut problem = crate::common::uniform("1", "1", "1", speed, Run::Impacts(10));
         problem.rod.damping = Some(damping.parse().unwrap());
         let history = in_doubles(&problem, Some(1e-10));
-        let ask = Ask { digits: Some(20), ..Ask::default() };
-        let Ok(Solution::Digits(truth, _)) = solve(&problem, &plan(&problem, ask), |_, _| ()) else {
-            panic!("digits were asked for");
-        };
+        let truth = problem.digits(20).unwrap();
         let (scales, estimate) = (history.scales(), history.error_estimate());
         assert!(estimate <= 1e-10, "{damping} {speed}: {estimate:e}");
         assert_eq!(history.events().len(), 20);

@@ -115,7 +115,7 @@ proptest! {
         // The impulse turns the momentum round and carries the weight meanwhile.
         let weight = rod.gravity.clone() * &rod.length * &bounce;
         prop_assert_eq!(&contact.impulse, &(paper.momentum(&bounce) - paper.momentum(&Rational::new()) + weight));
-        if let Some(highest) = flights(&history)[0].highest.clone() {
+        if let Some(highest) = flights(&history).unwrap()[0].highest.clone() {
             prop_assert_eq!(Some(highest), paper.highest());
         }
     }
