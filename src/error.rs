@@ -7,6 +7,9 @@ use thiserror::Error;
 #[cfg_attr(feature = "cli", derive(miette::Diagnostic))]
 #[non_exhaustive]
 pub enum Error {
+    /// A problem that cannot be built.
+    #[error(transparent)]
+    Problem(#[from] crate::problem::ProblemError),
     /// A fraction cannot hold a square root.
     #[error("exact fractions cannot hold the {quantity} √({square}), expected a square or --digits N")]
     Irrational {

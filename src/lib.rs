@@ -6,7 +6,7 @@
 //! | module | what it does |
 //! |---|---|
 //! | [`number`] | two traits, four number systems, exact text in and rounded text out |
-//! | [`rod`] | the problem in exact numbers: rod, gravity, start, run |
+//! | [`problem`] | the problem in exact numbers: rod, gravity, start, run; its builder and its checks |
 //! | [`scene`] | from a scene file to a problem; which effects it calls for; the plan |
 //! | [`solve`](mod@solve) | the engine that the plan chose, in the numbers that it chose |
 //! | [`lattice`] | the undamped rod, from event to event on the characteristic lattice |
@@ -48,8 +48,8 @@ pub mod modal;
 pub mod number;
 #[cfg(feature = "cli")]
 pub mod output;
+pub mod problem;
 pub mod quantity;
-pub mod rod;
 #[cfg(feature = "mp")]
 pub mod rounded;
 pub mod scene;
@@ -60,7 +60,9 @@ pub use error::Error;
 pub use glam;
 pub use history::{Ending, EventKind, History, Side};
 pub use number::Number;
-pub use rod::Problem;
+#[doc(hidden)]
+pub use problem as rod;
+pub use problem::Problem;
 pub use scene::{Ask, Plan, Scene};
 pub use solve::{Solution, solve};
 

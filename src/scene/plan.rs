@@ -5,7 +5,7 @@ use serde::Serialize;
 use super::{Effect, EffectUse, Scene};
 use crate::error::Error;
 use crate::number::Number;
-use crate::rod::Run;
+use crate::problem::Run;
 
 /// What a user asks of a solution, beyond the scene itself.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
