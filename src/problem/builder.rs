@@ -2,7 +2,7 @@
 
 use super::profile::Points;
 use super::validate::Draft;
-use super::{Material, Problem, ProblemError, Run, Speed, Start, Top, Written};
+use super::{Material, Problem, ProblemError, Profile, Run, Speed, Start, Top, Written};
 use crate::number::Number;
 
 /// A problem put together value by value: see [`Problem::builder`]. A number is given as [`Written`] says; nothing is
@@ -12,17 +12,22 @@ use crate::number::Number;
 #[derive(Clone, Debug, Default)]
 pub struct Builder {
     draft: Draft,
-    /// What holds where nothing is set.
-    base: Option<Problem>,
+    /// What holds where nothing is set that excludes it.
+    base: Draft,
 }
+
+const IMPACT: &[&str] = &["impact.speed", "impact.drop_height"];
+/// Of each group a problem has one: in place of the wave speed it can have the three of the material.
+const EXCLUSIVE: [&[&str]; 3] =
+    [&["rod.wave_speed", "rod.modulus", "rod.density", "rod.area"], IMPACT, &["run.time", "run.impacts"]];
 
 /// The setters of single numbers.
 macro_rules! setters {
-    ($($(#[$doc:meta])* $setter:ident => $field:ident),* $(,)?) => {$(
+    ($($(#[$doc:meta])* $setter:ident => $path:literal),* $(,)?) => {$(
         $(#[$doc])*
         #[must_use]
         pub fn $setter(mut self, value: impl Into<Written>) -> Self {
-            self.draft.$field = Some(value.into());
+            self.draft.numbers.insert($path, value.into());
             self
         }
     )*};
@@ -31,19 +36,19 @@ macro_rules! setters {
 impl Builder {
     setters! {
         /// `L > 0`: the length.
-        length => length,
+        length => "rod.length",
         /// `c > 0`: the wave speed. Either this or the [`material`](Builder::material).
-        wave_speed => wave_speed,
+        wave_speed => "rod.wave_speed",
         /// `r ≥ 0`: the damping; without it none.
-        damping => damping,
+        damping => "rod.damping",
         /// `g ≥ 0`: the acceleration of gravity; without it none.
-        gravity => gravity,
+        gravity => "gravity.acceleration",
         /// `μ > 0`: the speed with which the undeformed rod hits the ground.
-        impact_speed => speed,
+        impact_speed => "impact.speed",
         /// `h > 0`: a fall from rest through this height, without air drag or damping: `μ = √(2 g h)`.
-        drop_height => drop_height,
+        drop_height => "impact.drop_height",
         /// The time up to which to follow the motion, which is included.
-        time => time,
+        time => "run.time",
     }
 
     /// Young's modulus `E`, density `ρ` and cross-section `S`, all above zero: `c = √(E/ρ)`.
@@ -54,9 +59,9 @@ impl Builder {
         density: impl Into<Written>,
         area: impl Into<Written>,
     ) -> Self {
-        self.draft.modulus = Some(modulus.into());
-        self.draft.density = Some(density.into());
-        self.draft.area = Some(area.into());
+        self.draft.numbers.insert("rod.modulus", modulus.into());
+        self.draft.numbers.insert("rod.density", density.into());
+        self.draft.numbers.insert("rod.area", area.into());
         self
     }
 
@@ -87,7 +92,7 @@ impl Builder {
         mut self,
         points: impl IntoIterator<Item = (X, V)>,
     ) -> Self {
-        self.draft.displacement = Some(written(points));
+        self.draft.profiles.insert("start.displacement", written(points));
         self
     }
 
@@ -95,14 +100,14 @@ impl Builder {
     /// same `x` twice.
     #[must_use]
     pub fn velocity<X: Into<Written>, V: Into<Written>>(mut self, points: impl IntoIterator<Item = (X, V)>) -> Self {
-        self.draft.velocity = Some(written(points));
+        self.draft.profiles.insert("start.velocity", written(points));
         self
     }
 
     /// How many contacts to follow, each with the flight after it; without it and without a `time`, one.
     #[must_use]
     pub fn impacts(mut self, impacts: u32) -> Self {
-        self.draft.impacts = Some(impacts.into());
+        self.draft.numbers.insert("run.impacts", impacts.into());
         self
     }
 
@@ -118,58 +123,51 @@ impl Builder {
     /// assert_eq!(rod.build().unwrap_err().to_string(), expected);
     /// ```
     pub fn build(self) -> Result<Problem, ProblemError> {
-        match &self.base {
-            Some(base) => over(self.draft, base).check(),
-            None => self.draft.check(),
+        let Builder { mut draft, mut base } = self;
+        for group in EXCLUSIVE.iter().filter(|group| group.iter().any(|path| draft.has(path))) {
+            base.numbers.retain(|path, _| !group.contains(path));
         }
+        if IMPACT.iter().any(|path| draft.has(path)) {
+            base.profiles.clear();
+        }
+        if !draft.profiles.is_empty() {
+            base.numbers.retain(|path, _| !IMPACT.contains(path));
+        }
+        base.numbers.append(&mut draft.numbers);
+        base.profiles.append(&mut draft.profiles);
+        base.top = draft.top.or(base.top);
+        base.check()
     }
 
-    pub(super) fn from_problem(problem: Problem) -> Self {
-        Builder { draft: Draft::default(), base: Some(problem) }
-    }
-}
-
-/// The values of `draft` and, where it has none, those of `base`. Values that exclude each other are replaced together.
-fn over(mut draft: Draft, base: &Problem) -> Draft {
-    fn fill<'a>(field: &mut Option<Written>, number: impl Into<Option<&'a Number>>) {
-        if field.is_none() {
-            *field = number.into().map(Written::from);
+    pub(super) fn from_problem(problem: &Problem) -> Self {
+        let mut base = Draft { top: Some(problem.rod.top), ..Draft::default() };
+        let mut set = |path, number: &Number| base.numbers.insert(path, number.into());
+        set("rod.length", &problem.rod.length);
+        problem.rod.damping.iter().for_each(|r| drop(set("rod.damping", r)));
+        problem.gravity.iter().for_each(|g| drop(set("gravity.acceleration", g)));
+        match &problem.rod.material {
+            Material::WaveSpeed(c) => set("rod.wave_speed", c),
+            Material::Elastic { modulus, density, area } => {
+                set("rod.modulus", modulus);
+                set("rod.density", density);
+                set("rod.area", area)
+            }
+        };
+        match &problem.run {
+            Run::Impacts(impacts) => set("run.impacts", &i64::from(*impacts).into()),
+            Run::Time(time) => set("run.time", time),
+        };
+        match &problem.start {
+            Start::Uniform(Speed::Given(speed)) => drop(set("impact.speed", speed)),
+            Start::Uniform(Speed::DropHeight(height)) => drop(set("impact.drop_height", height)),
+            Start::Profile(Profile { displacement, velocity }) => {
+                let both = [("start.displacement", displacement), ("start.velocity", velocity)];
+                let given = both.into_iter().filter(|(_, points)| !points.is_empty());
+                base.profiles.extend(given.map(|(path, points)| (path, written(points.iter().map(|(x, v)| (x, v))))));
+            }
         }
+        Builder { draft: Draft::default(), base }
     }
-    let points =
-        |points: &[(Number, Number)]| (!points.is_empty()).then(|| written(points.iter().map(|(x, v)| (x, v))));
-    fill(&mut draft.length, &base.rod.length);
-    fill(&mut draft.damping, base.rod.damping.as_ref());
-    fill(&mut draft.gravity, base.gravity.as_ref());
-    draft.top = draft.top.or(Some(base.rod.top));
-    match &base.rod.material {
-        Material::WaveSpeed(c) if draft.modulus.is_none() => fill(&mut draft.wave_speed, c),
-        Material::Elastic { modulus, density, area } if draft.wave_speed.is_none() => {
-            fill(&mut draft.modulus, modulus);
-            fill(&mut draft.density, density);
-            fill(&mut draft.area, area);
-        }
-        _ => {}
-    }
-    let impact = draft.speed.is_some() || draft.drop_height.is_some();
-    match &base.start {
-        _ if impact => {}
-        Start::Uniform(_) if draft.displacement.is_some() || draft.velocity.is_some() => {}
-        Start::Uniform(Speed::Given(speed)) => fill(&mut draft.speed, speed),
-        Start::Uniform(Speed::DropHeight(height)) => fill(&mut draft.drop_height, height),
-        Start::Profile(profile) => {
-            draft.displacement = draft.displacement.or_else(|| points(&profile.displacement));
-            draft.velocity = draft.velocity.or_else(|| points(&profile.velocity));
-        }
-    }
-    match &base.run {
-        Run::Time(time) if draft.impacts.is_none() => fill(&mut draft.time, time),
-        Run::Impacts(impacts) if draft.time.is_none() => {
-            draft.impacts = draft.impacts.or_else(|| Some((*impacts).into()));
-        }
-        _ => {}
-    }
-    draft
 }
 
 fn written<X: Into<Written>, V: Into<Written>>(points: impl IntoIterator<Item = (X, V)>) -> Points {

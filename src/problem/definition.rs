@@ -142,7 +142,7 @@ impl Problem {
     /// # Ok::<(), dalembert::problem::ProblemError>(())
     /// ```
     pub fn to_builder(&self) -> Builder {
-        Builder::from_problem(self.clone())
+        Builder::from_problem(self)
     }
 
     /// The same problem followed through `run`.

@@ -1,6 +1,7 @@
 //! The checks of a start that is linear between points.
 
 use std::cmp::Ordering;
+use std::collections::BTreeMap;
 
 use super::validate::{Given, UNITS, range, within};
 use super::written::short;
@@ -17,22 +18,11 @@ pub(crate) const SHAPE: &str = "points [x, value] from x = 0 to x = length, such
 /// A list of points `(x, value)` that is not checked.
 pub(crate) type Points = Vec<(Written, Written)>;
 
-/// The profile of a rod of this length; what is not given is zero.
-pub(super) fn check(
-    displacement: &Option<Points>,
-    velocity: &Option<Points>,
-    length: &Number,
-) -> Result<Profile, ProblemError> {
-    let read = |key, points: &Option<Points>| points.as_ref().map_or(Ok(Vec::new()), |p| read(key, p, length));
-    let profile = Profile { displacement: read("displacement", displacement)?, velocity: read("velocity", velocity)? };
-    if let (Some((_, v)), Some((_, ground))) = (profile.displacement.first(), displacement.iter().flatten().next())
-        && v.to_f64() < 0.0
-    {
-        let (found, expected) =
-            (format!("the displacement {} at x = 0", ground.shown), "zero or more: the ground is at zero");
-        return Err(ProblemError::new(Kind::OutOfRange, "start.displacement[0].v", found, expected));
-    }
-    Ok(profile)
+/// The profile of a rod of this length, from the points of `start.displacement` and `start.velocity`; what is not given
+/// is zero.
+pub(super) fn check(given: &BTreeMap<&str, Points>, length: &Number) -> Result<Profile, ProblemError> {
+    let read = |key| given.get(&*format!("start.{key}")).map_or(Ok(Vec::new()), |points| read(key, points, length));
+    Ok(Profile { displacement: read("displacement")?, velocity: read("velocity")? })
 }
 
 /// The points of one function on the whole rod.
@@ -44,7 +34,12 @@ fn read(key: &str, points: &Points, length: &Number) -> Result<Vec<(Number, Numb
     let mut kept: Vec<(Number, Number)> = Vec::with_capacity(points.len());
     for (i, (x, v)) in points.iter().enumerate() {
         let before = i.checked_sub(1).map_or("", |before| &points[before].0.shown);
-        let checked = point(key, x, v).and_then(|(number, v)| {
+        let checked = point(key, x, v).and_then(|(number, value)| {
+            if i == 0 && key == "displacement" && value.to_f64() < 0.0 {
+                let (found, expected) =
+                    (format!("the displacement {} at x = 0", v.shown), "zero or more: the ground is at zero");
+                return Err(ProblemError::new(Kind::OutOfRange, "v", found, expected));
+            }
             let place = place(&kept, number, before, key == "velocity", length).and_then(|place| {
                 let ends = i + 1 < points.len() || place.compare(length).is_eq();
                 if ends {
@@ -54,7 +49,7 @@ fn read(key: &str, points: &Points, length: &Number) -> Result<Vec<(Number, Numb
                 }
             });
             let found = || format!("the point x = {} of the {key}", x.shown);
-            Ok((place.map_err(|expected| ProblemError::new(Kind::Profile, "x", found(), expected))?, v.clone()))
+            Ok((place.map_err(|expected| ProblemError::new(Kind::Profile, "x", found(), expected))?, value.clone()))
         });
         kept.push(checked.map_err(|error| ProblemError { path: format!("start.{key}[{i}].{}", error.path), ..error })?);
     }

@@ -1,5 +1,7 @@
 //! The one set of checks that every problem goes through, from a scene file or from the builder.
 
+use std::collections::BTreeMap;
+
 use super::profile::{self, Points};
 use super::written::has_unit;
 use super::{Material, Problem, ProblemError, ProblemErrorKind as Kind, Rod, Run, Speed, Start, Top, Written};
@@ -12,25 +14,31 @@ const SPEED_RATIO: (f64, f64) = (1e-12, 1e12);
 const MAX_ROUND_TRIPS: f64 = 1e12;
 const MAX_IMPACTS: u32 = 10_000_000;
 
-/// The values of a problem before any check.
+/// The numbers that a problem can have, by their path in a scene file.
+pub(crate) const NUMBERS: [&str; 11] = [
+    "rod.length",
+    "rod.wave_speed",
+    "rod.modulus",
+    "rod.density",
+    "rod.area",
+    "rod.damping",
+    "gravity.acceleration",
+    "impact.speed",
+    "impact.drop_height",
+    "run.time",
+    "run.impacts",
+];
+
+/// The values of a problem before any check, by their path in a scene file.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Draft {
     /// Whether messages use the keys of a scene file; otherwise the setters of the builder.
     pub(crate) from_scene: bool,
-    pub(crate) length: Option<Written>,
-    pub(crate) wave_speed: Option<Written>,
-    pub(crate) modulus: Option<Written>,
-    pub(crate) density: Option<Written>,
-    pub(crate) area: Option<Written>,
-    pub(crate) damping: Option<Written>,
+    /// Some of [`NUMBERS`].
+    pub(crate) numbers: BTreeMap<&'static str, Written>,
+    /// `start.displacement` and `start.velocity`.
+    pub(crate) profiles: BTreeMap<&'static str, Points>,
     pub(crate) top: Option<Top>,
-    pub(crate) gravity: Option<Written>,
-    pub(crate) speed: Option<Written>,
-    pub(crate) drop_height: Option<Written>,
-    pub(crate) displacement: Option<Points>,
-    pub(crate) velocity: Option<Points>,
-    pub(crate) time: Option<Written>,
-    pub(crate) impacts: Option<Written>,
 }
 
 /// A value that is a number, with what messages about it need.
@@ -88,10 +96,10 @@ impl<'a> Given<'a> {
 impl Draft {
     /// The problem, if all values and their combinations are within the [limits](crate::problem#limits).
     pub(crate) fn check(&self) -> Result<Problem, ProblemError> {
-        let length = self.required("rod.length", &self.length, "a length")?;
+        let length = self.required("rod.length", "a length")?;
         let material = self.material()?;
-        let damping = self.non_negative("rod.damping", &self.damping, "a damping")?;
-        let gravity = self.non_negative("gravity.acceleration", &self.gravity, "an acceleration")?;
+        let damping = self.non_negative("rod.damping", "a damping")?;
+        let gravity = self.non_negative("gravity.acceleration", "an acceleration")?;
         let number = |given: &Option<Given<'_>>| given.as_ref().map(|given| given.number.clone());
         let (top, damping_number) = (self.top.unwrap_or_default(), number(&damping));
         let rod = Rod { length: length.number.clone(), material, damping: damping_number, top };
@@ -112,30 +120,28 @@ impl Draft {
 
     fn material(&self) -> Result<Material, ProblemError> {
         const EITHER: &str = "wave_speed, or modulus, density and area";
-        let elastic = [("modulus", &self.modulus), ("density", &self.density), ("area", &self.area)];
-        let first = elastic.iter().find(|(_, value)| value.is_some());
-        match (self.positive("rod.wave_speed", &self.wave_speed, "a wave speed")?, first) {
+        let first = ["rod.modulus", "rod.density", "rod.area"].into_iter().find(|path| self.has(path));
+        match (self.positive("rod.wave_speed", "a wave speed")?, first) {
             (Some(c), None) => return Ok(Material::WaveSpeed(c.number.clone())),
-            (Some(_), Some((key, _))) => {
-                let (path, found) = (format!("rod.{key}"), format!("{key} as well as wave_speed"));
-                return Err(ProblemError::new(Kind::Contradiction, &path, found, format!("either {EITHER}")));
+            (Some(_), Some(path)) => {
+                let found = format!("{} as well as wave_speed", self.name(path));
+                return Err(ProblemError::new(Kind::Contradiction, path, found, format!("either {EITHER}")));
             }
             (None, None) => return Err(ProblemError::new(Kind::Missing, "rod", "no wave speed", EITHER)),
             (None, Some(_)) => {}
         }
-        let modulus = self.required("rod.modulus", &self.modulus, "a modulus")?.number.clone();
-        let density = self.required("rod.density", &self.density, "a density")?.number.clone();
-        let area = self.required("rod.area", &self.area, "an area")?.number.clone();
+        let modulus = self.required("rod.modulus", "a modulus")?.number.clone();
+        let density = self.required("rod.density", "a density")?.number.clone();
+        let area = self.required("rod.area", "an area")?.number.clone();
         Ok(Material::Elastic { modulus, density, area })
     }
 
     /// The motion at `t = 0` of a rod with this length and round trip under the gravity `g`.
     fn start(&self, length: &Number, t1: f64, g: f64) -> Result<Start, ProblemError> {
-        let impact = self.speed.is_some() || self.drop_height.is_some();
-        let profile = self.displacement.is_some() || self.velocity.is_some();
-        match (impact, profile) {
+        let impact = self.has("impact.speed") || self.has("impact.drop_height");
+        match (impact, !self.profiles.is_empty()) {
             (true, false) => self.impact(t1, g).map(Start::Uniform),
-            (false, true) => profile::check(&self.displacement, &self.velocity, length).map(Start::Profile),
+            (false, true) => profile::check(&self.profiles, length).map(Start::Profile),
             (true, true) => {
                 let found = self.word("start as well as [impact]", "a displacement or velocity as well as an impact");
                 let expected = self.word(
@@ -157,8 +163,8 @@ impl Draft {
 
     fn impact(&self, t1: f64, g: f64) -> Result<Speed, ProblemError> {
         let key = self.word("speed", "impact_speed");
-        let given = self.positive("impact.speed", &self.speed, "an impact speed")?;
-        let height = self.positive("impact.drop_height", &self.drop_height, "a drop height")?;
+        let given = self.positive("impact.speed", "an impact speed")?;
+        let height = self.positive("impact.drop_height", "a drop height")?;
         let (given, speed) = match (given, height) {
             (Some(given), None) => (Speed::Given(given.number.clone()), given),
             (None, Some(height)) if g > 0.0 => (Speed::DropHeight(height.number.clone()), height),
@@ -183,8 +189,8 @@ impl Draft {
     }
 
     fn run(&self, t1: f64) -> Result<Run, ProblemError> {
-        if let Some(time) = self.positive("run.time", &self.time, "a time")? {
-            if self.impacts.is_some() {
+        if let Some(time) = self.positive("run.time", "a time")? {
+            if self.has("run.impacts") {
                 let (found, expected) = ("impacts as well as time", "either time or impacts");
                 return Err(ProblemError::new(Kind::Contradiction, "run.impacts", found, expected));
             }
@@ -196,7 +202,7 @@ impl Draft {
             }
             return Ok(Run::Time(time.number.clone()));
         }
-        let Some(impacts) = &self.impacts else { return Ok(Run::Impacts(1)) };
+        let Some(impacts) = self.numbers.get("run.impacts") else { return Ok(Run::Impacts(1)) };
         let whole = impacts.number.as_ref().ok().and_then(|number| number.to_string().parse().ok());
         whole.filter(|n| (1..=MAX_IMPACTS).contains(n)).map(Run::Impacts).ok_or_else(|| {
             let expected = format!("a whole number from 1 to {MAX_IMPACTS}");
@@ -204,33 +210,29 @@ impl Draft {
         })
     }
 
-    /// A value above zero, if it is given.
-    fn positive<'a>(
-        &self,
-        path: &'a str,
-        value: &'a Option<Written>,
-        what: &str,
-    ) -> Result<Option<Given<'a>>, ProblemError> {
-        let given = value.as_ref().map(|value| Given::new(path, self.name(path), value)).transpose()?;
-        given.map(|given| given.positive(what)).transpose()
+    pub(super) fn has(&self, path: &str) -> bool {
+        self.numbers.contains_key(path)
     }
 
-    fn required<'a>(&self, path: &'a str, value: &'a Option<Written>, what: &str) -> Result<Given<'a>, ProblemError> {
-        self.positive(path, value, what)?.ok_or_else(|| {
+    fn given(&self, path: &'static str) -> Result<Option<Given<'_>>, ProblemError> {
+        self.numbers.get(path).map(|written| Given::new(path, self.name(path), written)).transpose()
+    }
+
+    /// A value above zero, if it is given.
+    fn positive(&self, path: &'static str, what: &str) -> Result<Option<Given<'_>>, ProblemError> {
+        self.given(path)?.map(|given| given.positive(what)).transpose()
+    }
+
+    fn required(&self, path: &'static str, what: &str) -> Result<Given<'_>, ProblemError> {
+        self.positive(path, what)?.ok_or_else(|| {
             let (found, expected) = (format!("no {}", self.name(path)), format!("{what} above zero"));
             ProblemError::new(Kind::Missing, "rod", found, expected)
         })
     }
 
     /// A value that is not negative, if it is given and not zero.
-    fn non_negative<'a>(
-        &self,
-        path: &'a str,
-        value: &'a Option<Written>,
-        what: &str,
-    ) -> Result<Option<Given<'a>>, ProblemError> {
-        let Some(value) = value else { return Ok(None) };
-        let given = Given::new(path, self.name(path), value)?;
+    fn non_negative(&self, path: &'static str, what: &str) -> Result<Option<Given<'_>>, ProblemError> {
+        let Some(given) = self.given(path)? else { return Ok(None) };
         let x = given.number.to_f64();
         if x < 0.0 {
             return Err(given.error(Kind::OutOfRange, "", format!("{what} of zero or more")));
@@ -243,7 +245,7 @@ impl Draft {
     }
 
     /// The name of a value in messages.
-    fn name<'a>(&self, path: &'a str) -> &'a str {
+    fn name(&self, path: &'static str) -> &'static str {
         match path {
             "gravity.acceleration" => self.word("acceleration", "gravity"),
             "impact.speed" => self.word("speed", "impact_speed"),

@@ -85,28 +85,3 @@ pub(crate) fn has_unit(text: &str) -> bool {
         word.starts_with(is_word) && !other_base && !open_exponent
     })
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn a_number_with_a_unit_is_told_from_other_words() {
-        for text in ["1 m", "1m", "0.5 kg/m3", "1/3 s", "1e2 m", "5 %", "210 GPa", "10 µm"] {
-            assert!(has_unit(text), "{text}");
-        }
-        for text in ["", "1", "one", "0x10", "0b11", "1e", "1e-", "1.2.3", "1e9999999", "nan", "-", "3,5", "µ"] {
-            assert!(!has_unit(text), "{text}");
-        }
-    }
-
-    #[test]
-    fn a_double_stands_for_its_shortest_decimal() {
-        for (x, text) in [(0.1, "0.1"), (3.0, "3"), (1e40, "1e40"), (-2.5e-7, "-2.5e-7"), (0.0, "0")] {
-            assert_eq!(Written::from(x).number.unwrap().to_string(), text);
-        }
-        for x in [f64::NAN, f64::INFINITY, 5e-324] {
-            assert!(Written::from(x).number.is_err(), "{x}");
-        }
-    }
-}

@@ -11,7 +11,7 @@ use super::error::{SceneError, SceneErrorKind as Kind, position};
 use super::suggest;
 use crate::number::Number;
 use crate::problem::profile::{Points, SHAPE};
-use crate::problem::validate::{Draft, Given, within};
+use crate::problem::validate::{Draft, Given, NUMBERS, within};
 use crate::problem::written::{has_unit, short};
 use crate::problem::{Problem, ProblemError, ProblemErrorKind, Top, Written};
 
@@ -76,26 +76,28 @@ impl Scene {
     }
 }
 
-/// What the TOML reader says, with its place.
+/// What the TOML reader says, with its place; a number with a unit and a bare fraction are recognised.
 fn syntax(source: &str, error: &toml::de::Error) -> SceneError {
     let span = error.span().unwrap_or(0..0);
-    let (found, expected) = error.message().split_once(", expected ").unwrap_or((error.message(), ""));
     let value = value_around(source, span.start);
-    let expected = match (found, expected) {
-        _ if has_unit(value) => "a number without a unit",
-        ("duplicate key", "") => "each key once",
-        (_, "") => "a TOML document",
-        (_, expected) => expected,
+    let text = source.get(value.clone()).unwrap_or_default();
+    let (found, expected, span) = match error.message().split_once(", expected ") {
+        _ if has_unit(text) => (short(text), "a number without a unit", value),
+        _ if text.contains('/') && text.parse::<Number>().is_ok() => (short(text), "a fraction in quotes", value),
+        Some((found, expected)) => (found.to_string(), expected, span),
+        None if error.message() == "duplicate key" => ("duplicate key".into(), "each key once", span),
+        None => (error.message().to_string(), "a TOML document", span),
     };
-    let found = if has_unit(value) { short(value) } else { found.to_string() };
     SceneError::new(source, span, Kind::Syntax, format!("text that is not TOML ({found})"), expected)
 }
 
-/// The text between the last `=` or `,` of the line before `at` and the end of that value.
-fn value_around(source: &str, at: usize) -> &str {
+/// From the last `=`, `,` or `[` of the line before `at` to the end of that value.
+fn value_around(source: &str, at: usize) -> Range<usize> {
     let start = source.get(..at).and_then(|before| before.rfind(['=', ',', '[', '\n'])).map_or(0, |found| found + 1);
     let value = &source[start..];
-    value[..value.find([',', ']', '}', '#', '\n']).unwrap_or(value.len())].trim()
+    let value = &value[..value.find([',', ']', '}', '#', '\n']).unwrap_or(value.len())];
+    let start = start + value.len() - value.trim_start().len();
+    start..start + value.trim().len()
 }
 
 type Key<'a> = Spanned<Cow<'a, str>>;
@@ -155,23 +157,23 @@ impl<'a> Reader<'a> {
 
     /// The values of the problem, unchecked.
     fn draft(&self) -> Result<Draft, SceneError> {
-        Ok(Draft {
-            from_scene: true,
-            length: self.number("rod.length")?,
-            wave_speed: self.number("rod.wave_speed")?,
-            modulus: self.number("rod.modulus")?,
-            density: self.number("rod.density")?,
-            area: self.number("rod.area")?,
-            damping: self.number("rod.damping")?,
-            top: self.top()?,
-            gravity: self.number("gravity.acceleration")?,
-            speed: self.number("impact.speed")?,
-            drop_height: self.number("impact.drop_height")?,
-            displacement: self.points("start.displacement")?,
-            velocity: self.points("start.velocity")?,
-            time: self.number("run.time")?,
-            impacts: self.impacts()?,
-        })
+        let mut draft = Draft { from_scene: true, top: self.top()?, ..Draft::default() };
+        for path in NUMBERS {
+            if let Some(number) = self.number(path)? {
+                draft.numbers.insert(path, number);
+            }
+        }
+        for path in ["start.displacement", "start.velocity"] {
+            if let Some(points) = self.points(path)? {
+                draft.profiles.insert(path, points);
+            }
+        }
+        match self.get("run.impacts") {
+            Some((_, value)) if value.get_ref().as_integer().is_none() => {
+                Err(self.wrong_type(value, "impacts", "a whole number"))
+            }
+            _ => Ok(draft),
+        }
     }
 
     /// The error of a problem, at its place.
@@ -199,15 +201,6 @@ impl<'a> Reader<'a> {
                 let (found, expected) = (format!("top = {}", short(self.slice(&span))), "\"free\" or \"fixed\"");
                 Err(self.error(span, Kind::OutOfRange, found, format!("{expected}{hint}")))
             }
-        }
-    }
-
-    fn impacts(&self) -> Result<Option<Written>, SceneError> {
-        match self.get("run.impacts") {
-            Some((_, value)) if value.get_ref().as_integer().is_none() => {
-                Err(self.wrong_type(value, "impacts", "a whole number"))
-            }
-            _ => self.number("run.impacts"),
         }
     }
 
