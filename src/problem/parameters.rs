@@ -80,7 +80,7 @@ impl Problem {
     ///
     /// **Source**: paper (2.32); Corollary 1 with `M = 1` at the critical speed.
     ///
-    /// **Accuracy**: at most seven roundings of doubles, each within half an ulp.
+    /// **Accuracy**: within 1e-14 relative: at most twelve roundings, each within 1.5 ulp.
     ///
     /// ```
     /// use dalembert::Problem;

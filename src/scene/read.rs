@@ -157,6 +157,11 @@ impl<'a> Reader<'a> {
 
     /// The values of the problem, unchecked.
     fn draft(&self) -> Result<Draft, SceneError> {
+        if let Some((_, value)) = self.get("run.impacts")
+            && value.get_ref().as_integer().is_none()
+        {
+            return Err(self.wrong_type(value, "impacts", "a whole number"));
+        }
         let mut draft = Draft { from_scene: true, top: self.top()?, ..Draft::default() };
         for path in NUMBERS {
             if let Some(number) = self.number(path)? {
@@ -168,27 +173,25 @@ impl<'a> Reader<'a> {
                 draft.profiles.insert(path, points);
             }
         }
-        match self.get("run.impacts") {
-            Some((_, value)) if value.get_ref().as_integer().is_none() => {
-                Err(self.wrong_type(value, "impacts", "a whole number"))
-            }
-            _ => Ok(draft),
-        }
+        Ok(draft)
     }
 
-    /// The error of a problem, at its place.
+    /// The error of a problem, at its place: the key where it is about what stands beside it or is missing, or the value.
     fn located(&self, error: ProblemError) -> SceneError {
-        let (path, point) = error.path.split_once('[').unwrap_or((&error.path, ""));
-        let kind = Kind::from(error.kind);
-        let (span, is_table) = match (self.get(path), error.kind) {
-            (None, _) => (0..0, false),
-            (Some((key, value)), ProblemErrorKind::Missing | ProblemErrorKind::Contradiction) => {
-                (key.span(), error.kind == ProblemErrorKind::Missing && value.get_ref().as_table().is_some())
+        use ProblemErrorKind::{Contradiction, Missing};
+        let ProblemError { kind, path, mut found, expected } = error;
+        let (path, point) = path.split_once('[').unwrap_or((&path, ""));
+        let span = match self.get(path) {
+            None => 0..0,
+            Some((key, value)) if matches!(kind, Missing | Contradiction) => {
+                if kind == Missing && value.get_ref().as_table().is_some() {
+                    found += &format!(" in [{path}]");
+                }
+                key.span()
             }
-            (Some((_, value)), _) => (coordinate(value, point).unwrap_or(value).span(), false),
+            Some((_, value)) => coordinate(value, point).unwrap_or(value).span(),
         };
-        let found = if is_table { format!("{} in [{path}]", error.found) } else { error.found.clone() };
-        self.error(span, kind, found, error.expected.clone())
+        self.error(span, kind.into(), found, expected)
     }
 
     fn top(&self) -> Result<Option<Top>, SceneError> {
