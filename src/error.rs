@@ -9,6 +9,9 @@ use crate::number::Open;
 #[cfg_attr(feature = "cli", derive(miette::Diagnostic))]
 #[non_exhaustive]
 pub enum Error {
+    /// A problem that cannot be built.
+    #[error(transparent)]
+    Problem(#[from] crate::problem::ProblemError),
     /// A fraction cannot hold a square root.
     #[error("exact fractions cannot hold the {quantity} √({square}), expected a square or --digits N")]
     Irrational {

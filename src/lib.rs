@@ -6,7 +6,7 @@
 //! | module | what it does |
 //! |---|---|
 //! | [`number`] | two traits, four number systems, exact text in and rounded text out |
-//! | [`rod`] | the problem in exact numbers: rod, gravity, start, run |
+//! | [`problem`] | the problem in exact numbers: rod, gravity, start, run; its builder and its checks |
 //! | [`scene`] | from a scene file to a problem; which effects it calls for; the plan |
 //! | [`solve`](mod@solve) | the engine that the plan chose, in the numbers that it chose |
 //! | [`lattice`] | the undamped rod, from event to event on the characteristic lattice |
@@ -49,8 +49,8 @@ pub mod motion;
 pub mod number;
 #[cfg(feature = "cli")]
 pub mod output;
+pub mod problem;
 pub mod quantity;
-pub mod rod;
 pub mod scene;
 pub mod solve;
 pub mod special;
@@ -60,10 +60,13 @@ pub use glam;
 pub use history::{Ending, EventKind, History, Side};
 pub use motion::Motion;
 pub use number::Number;
-pub use rod::Problem;
+#[doc(hidden)]
+pub use problem as rod;
+pub use problem::Problem;
 pub use scene::Scene;
 pub use solve::{
-    CERTIFIED_DIGITS, DEFAULT_ACCURACY, Engine, Numbers, Observer, Plan, Question, Reach, Rung, Solution, Want,
+    CERTIFIED_DIGITS, DEFAULT_ACCURACY, Engine, ExactnessEnd, Numbers, Observer, Plan, Question, Reach, Rung, Solution,
+    Want,
 };
 
 #[cfg(doctest)]

@@ -227,6 +227,13 @@ impl fmt::Display for Number {
     }
 }
 
+/// As its text: a JSON number would be rounded.
+impl serde::Serialize for Number {
+    fn serialize<S: serde::Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        serializer.serialize_str(&self.text)
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

@@ -3,8 +3,8 @@
 use serde::Serialize;
 
 use super::Scene;
-use super::error::short;
-use crate::rod::{Material, Profile, Run, Start, Top};
+use crate::problem::written::short;
+use crate::problem::{Material, Profile, Run, Start, Top};
 
 /// An effect that the solver knows. One that a scene does not call for costs it nothing.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize)]

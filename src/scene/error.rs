@@ -5,6 +5,8 @@ use std::sync::Arc;
 
 use thiserror::Error;
 
+use crate::problem::ProblemErrorKind;
+
 /// What is wrong with a scene: what was found, where, and what was expected.
 ///
 /// ```
@@ -109,29 +111,21 @@ fn floor_boundary(source: &str, offset: usize) -> usize {
     offset
 }
 
-/// A text for a message: on one line, at most 40 characters.
-pub(super) fn short(text: &str) -> String {
-    const MOST: usize = 40;
-    let mut shown = String::new();
-    for c in text.chars().take(MOST) {
-        if c.is_control() {
-            shown.extend(c.escape_default());
-        } else {
-            shown.push(c);
+impl From<ProblemErrorKind> for SceneErrorKind {
+    fn from(kind: ProblemErrorKind) -> Self {
+        match kind {
+            ProblemErrorKind::Missing => SceneErrorKind::MissingKey,
+            ProblemErrorKind::NotANumber => SceneErrorKind::NotANumber,
+            ProblemErrorKind::OutOfRange => SceneErrorKind::OutOfRange,
+            ProblemErrorKind::Contradiction => SceneErrorKind::Contradiction,
+            ProblemErrorKind::Profile => SceneErrorKind::Profile,
+            ProblemErrorKind::Combination => SceneErrorKind::Combination,
         }
     }
-    if text.chars().nth(MOST).is_some() {
-        shown.push('…');
-    }
-    shown
 }
 
 #[cfg(feature = "cli")]
 impl miette::Diagnostic for SceneError {
-    fn help<'a>(&'a self) -> Option<Box<dyn std::fmt::Display + 'a>> {
-        Some(Box::new(format!("expected {}", self.expected)))
-    }
-
     fn source_code(&self) -> Option<&dyn miette::SourceCode> {
         Some(self)
     }

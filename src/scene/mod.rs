@@ -29,25 +29,13 @@
 //! ```
 //!
 //! # Limits
-//! So that no intermediate result overflows or underflows in double precision:
-//!
-//! | quantity | range |
-//! |---|---|
-//! | every quantity with a unit, `t₁ = 2L/c`, `μ` and `g t₁` among them | 0 where that makes sense, or 1e-40 … 1e40 |
-//! | `R = r t₁` | 0, or 1e-305 … 1e6 |
-//! | `M = μ/(g t₁)` | 1e-12 … 1e12, or no gravity |
-//! | time of the run | at most 1e12 `t₁` |
-//! | impacts | 1 … 10 000 000 |
-//! | accuracy | 1e-300 … 0.1 |
-//! | points of a profile | 2 … 100 000, at least 1e-12 L apart |
-//! | source | at most 16 MiB |
+//! Those of a [problem](crate::problem#limits), an accuracy of 1e-300 … 0.1, and at most 16 MiB of text.
 
 pub mod builtin;
 mod effects;
 mod error;
 mod read;
-mod start;
-mod table;
+mod suggest;
 
 pub use effects::{Effect, EffectUse};
 pub use error::{SceneError, SceneErrorKind};

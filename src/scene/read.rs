@@ -1,29 +1,32 @@
-//! From the text of a scene to a checked problem.
+//! From the text of a scene to a problem: TOML types and keys, and the place of whatever is wrong.
 
+use std::borrow::Cow;
 use std::collections::BTreeMap;
 use std::ops::Range;
 
+use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
 use super::error::{SceneError, SceneErrorKind as Kind, position};
-use super::table::{Quantity, Table};
+use super::suggest;
 use crate::number::Number;
-use crate::rod::{Material, Problem, Rod, Run, Top};
+use crate::problem::profile::{Points, SHAPE};
+use crate::problem::validate::{Draft, Given, NUMBERS, within};
+use crate::problem::written::{has_unit, short};
+use crate::problem::{Problem, ProblemError, ProblemErrorKind, Top, Written};
 
-const SCENE_KEYS: &[&str] = &["title", "rod", "impact", "gravity", "start", "run"];
-const ROD_KEYS: &[&str] = &["length", "wave_speed", "modulus", "density", "area", "damping", "top"];
-const IMPACT_KEYS: &[&str] = &["speed", "drop_height"];
-const GRAVITY_KEYS: &[&str] = &["acceleration"];
-const START_KEYS: &[&str] = &["displacement", "velocity"];
-const RUN_KEYS: &[&str] = &["time", "impacts", "accuracy"];
+/// Every table with its keys; the first is the scene itself.
+const TABLES: [(&str, &[&str]); 6] = [
+    ("", &["title", "rod", "impact", "gravity", "start", "run"]),
+    ("rod", &["length", "wave_speed", "modulus", "density", "area", "damping", "top"]),
+    ("impact", &["speed", "drop_height"]),
+    ("gravity", &["acceleration"]),
+    ("start", &["displacement", "velocity"]),
+    ("run", &["time", "impacts", "accuracy"]),
+];
 
 const MAX_BYTES: usize = 16 << 20;
-const MAX_IMPACTS: u32 = 10_000_000;
-/// Every quantity with a unit: energies are products of at most seven of them and stay within 1e±300.
-pub(super) const UNITS: (f64, f64) = (1e-40, 1e40);
-const MAX_DAMPING: f64 = 1e6;
-const MIN_DAMPING: f64 = 1e-305;
-const MAX_ROUND_TRIPS: f64 = 1e12;
+const ACCURACY: (f64, f64) = (1e-300, 0.1);
 
 /// What a person wrote, checked: a problem in exact numbers, and the line that each value stands on.
 ///
@@ -59,7 +62,7 @@ impl Scene {
             return Err(SceneError::new("", 0..0, Kind::TooLong, found, format!("at most {MAX_BYTES}")));
         }
         let document = DeTable::parse(source).map_err(|error| syntax(source, &error))?;
-        Reader::new(source, document.get_ref())?.scene()
+        Reader { source, document: document.get_ref() }.scene()
     }
 
     /// The line, from 1, of a key such as `rod.damping` or `start`; `None` where the scene does not have it.
@@ -73,248 +76,231 @@ impl Scene {
     }
 }
 
-/// What the TOML reader says, with its place.
+/// What the TOML reader says, with its place; a number with a unit and a bare fraction are recognised.
 fn syntax(source: &str, error: &toml::de::Error) -> SceneError {
     let span = error.span().unwrap_or(0..0);
-    let (found, expected) = error.message().split_once(", expected ").unwrap_or((error.message(), ""));
-    let expected = match (found, expected) {
-        ("duplicate key", "") => "each key once",
-        (_, "") => "a TOML document",
-        (_, expected) => expected,
+    let value = value_around(source, span.start);
+    let text = source.get(value.clone()).unwrap_or_default();
+    let (found, expected, span) = match error.message().split_once(", expected ") {
+        _ if has_unit(text) => (short(text), "a number without a unit", value),
+        _ if text.contains('/') && text.parse::<Number>().is_ok() => (short(text), "a fraction in quotes", value),
+        Some((found, expected)) => (found.to_string(), expected, span),
+        None if error.message() == "duplicate key" => ("duplicate key".into(), "each key once", span),
+        None => (error.message().to_string(), "a TOML document", span),
     };
     SceneError::new(source, span, Kind::Syntax, format!("text that is not TOML ({found})"), expected)
 }
 
-/// The tables of one scene.
-pub(super) struct Reader<'a> {
+/// From the last `=`, `,` or `[` of the line before `at` to the end of that value.
+fn value_around(source: &str, at: usize) -> Range<usize> {
+    let start = source.get(..at).and_then(|before| before.rfind(['=', ',', '[', '\n'])).map_or(0, |found| found + 1);
+    let value = &source[start..];
+    let value = &value[..value.find([',', ']', '}', '#', '\n']).unwrap_or(value.len())];
+    let start = start + value.len() - value.trim_start().len();
+    start..start + value.trim().len()
+}
+
+type Key<'a> = Spanned<Cow<'a, str>>;
+type Value<'a> = Spanned<DeValue<'a>>;
+
+/// A scene as TOML.
+struct Reader<'a> {
     source: &'a str,
-    pub(super) root: Table<'a>,
-    rod: Table<'a>,
-    pub(super) impact: Option<Table<'a>>,
-    gravity: Option<Table<'a>>,
-    pub(super) start: Option<Table<'a>>,
-    run: Option<Table<'a>>,
-}
-
-/// The quantities that decide the size of everything else, each with its place.
-pub(super) struct Scales {
-    pub(super) length: Quantity,
-    /// `c` in double precision.
-    wave_speed: f64,
-    damping: Option<Quantity>,
-    pub(super) gravity: Option<Quantity>,
-}
-
-impl Scales {
-    fn round_trip(&self) -> f64 {
-        2.0 * self.length.number.to_f64() / self.wave_speed
-    }
-
-    /// `μ₀ = g t₁`.
-    pub(super) fn critical_speed(&self) -> Option<f64> {
-        self.gravity.as_ref().map(|g| g.number.to_f64() * self.round_trip())
-    }
+    document: &'a DeTable<'a>,
 }
 
 impl<'a> Reader<'a> {
-    fn new(source: &'a str, document: &'a DeTable<'a>) -> Result<Self, SceneError> {
-        let root = Table::new(source, "the scene", 0..0, document, SCENE_KEYS)?;
-        let rod = root.table("rod", ROD_KEYS)?.ok_or_else(|| {
-            root.error(0..0, Kind::MissingKey, "no [rod]", "the table [rod] with length and wave_speed")
-        })?;
-        let impact = root.table("impact", IMPACT_KEYS)?;
-        let gravity = root.table("gravity", GRAVITY_KEYS)?;
-        let start = root.table("start", START_KEYS)?;
-        let run = root.table("run", RUN_KEYS)?;
-        Ok(Reader { source, root, rod, impact, gravity, start, run })
-    }
-
     fn scene(&self) -> Result<Scene, SceneError> {
-        let title = self.root.string("title")?.map(|(text, _)| text.to_string());
-        let length = required(&self.rod, "length", "a length")?;
-        let (material, wave_speed) = self.material()?;
-        let damping = non_negative(&self.rod, "damping", "a damping")?;
-        let gravity = self.gravity()?;
-        let top = self.top()?;
-        let scales = Scales { length, wave_speed, damping, gravity };
-        self.check_scales(&scales)?;
-        let start = self.start(&scales)?;
-        let run = self.run(&scales)?;
+        for (name, known) in TABLES {
+            self.check_keys(name, known)?;
+        }
+        let title = self.text("title")?.map(|(text, _)| text.to_string());
+        let problem = self.draft()?.check().map_err(|error| self.located(error))?;
         let accuracy = self.accuracy()?;
-        let Scales { length, damping, gravity, .. } = scales;
-        let rod = Rod { length: length.number, material, damping: damping.map(|r| r.number), top };
-        let problem = Problem { rod, gravity: gravity.map(|g| g.number), start, run };
         Ok(Scene { title, problem, accuracy, source: self.source.to_string(), lines: self.lines() })
     }
 
-    /// What sets the wave speed, and the wave speed in double precision.
-    fn material(&self) -> Result<(Material, f64), SceneError> {
-        let rod = &self.rod;
-        const ELASTIC: [&str; 3] = ["modulus", "density", "area"];
-        if let Some(wave_speed) = positive(rod, "wave_speed", "a wave speed")? {
-            for key in ELASTIC {
-                rod.refuse(key, "wave_speed", "either wave_speed, or modulus, density and area")?;
+    /// Refuses a table that is none, has an unknown key, or lacks what it is there for.
+    fn check_keys(&self, name: &str, known: &'static [&'static str]) -> Result<(), SceneError> {
+        let (table, shown, span) = match (name, self.get(name)) {
+            ("", _) => (self.document, "the scene".to_string(), 0..0),
+            ("rod", None) => {
+                let expected = "the table [rod] with length and wave_speed";
+                return Err(self.error(0..0, Kind::MissingKey, "no [rod]", expected));
             }
-            let value = wave_speed.number.to_f64();
-            return Ok((Material::WaveSpeed(wave_speed.number), value));
-        }
-        if ELASTIC.iter().all(|key| rod.get(key).is_none()) {
-            return Err(rod.missing("no wave speed", "wave_speed, or modulus, density and area"));
-        }
-        let modulus = required(rod, "modulus", "a modulus")?.number;
-        let density = required(rod, "density", "a density")?.number;
-        let area = required(rod, "area", "an area")?.number;
-        let wave_speed = (modulus.to_f64() / density.to_f64()).sqrt();
-        Ok((Material::Elastic { modulus, density, area }, wave_speed))
-    }
-
-    fn top(&self) -> Result<Top, SceneError> {
-        match self.rod.string("top")? {
-            None | Some(("free", _)) => Ok(Top::Free),
-            Some(("fixed", _)) => Ok(Top::Fixed),
-            Some((_, span)) => {
-                let found = format!("top = {}", super::error::short(self.rod.slice(&span)));
-                Err(self.rod.error(span, Kind::OutOfRange, found, "\"free\" or \"fixed\""))
-            }
-        }
-    }
-
-    fn gravity(&self) -> Result<Option<Quantity>, SceneError> {
-        let Some(table) = &self.gravity else { return Ok(None) };
-        if table.get("acceleration").is_none() {
-            return Err(table.missing("no acceleration", "acceleration, zero or more"));
-        }
-        non_negative(table, "acceleration", "an acceleration")
-    }
-
-    /// The scales that follow from the rod and gravity, within what double precision holds.
-    fn check_scales(&self, scales: &Scales) -> Result<(), SceneError> {
-        let (t1, length) = (scales.round_trip(), &scales.length);
-        let refuse = |quantity: &Quantity, what: String, expected: String| {
-            let found = format!("{} = {}, which makes {what}", quantity.key, self.shown(quantity));
-            Err(self.root.error(quantity.span.clone(), Kind::Combination, found, expected))
+            (_, None) => return Ok(()),
+            (_, Some((key, value))) => match value.get_ref().as_table() {
+                Some(table) => (table, format!("[{name}]"), key.span()),
+                None => return Err(self.wrong_type(value, name, &format!("a table, [{name}]"))),
+            },
         };
-        if !within(t1, UNITS) {
-            return refuse(length, format!("the round trip 2L/c = {t1:e}"), format!("one {}", range(UNITS)));
+        // toml hands the keys over in alphabetical order; the first one in the file is reported.
+        let unknown = table.keys().filter(|key| !known.contains(&key.get_ref().as_ref()));
+        if let Some(key) = unknown.min_by_key(|key| key.span().start) {
+            let meant = suggest::key(key.get_ref(), name, known);
+            let hint = meant.map_or(String::new(), |meant| format!(" (did you mean {meant}?)"));
+            let found = format!("the unknown key `{}` in {shown}", short(key.get_ref()));
+            let expected = format!("one of {}{hint}", known.join(", "));
+            return Err(self.error(key.span(), Kind::UnknownKey, found, expected));
         }
-        if let (Some(g), Some(speed)) = (&scales.gravity, scales.critical_speed())
-            && !within(speed, UNITS)
-        {
-            return refuse(g, format!("g t₁ = {speed:e}"), format!("a speed {}", range(UNITS)));
-        }
-        if let Some(r) = &scales.damping {
-            let group = r.number.to_f64() * t1;
-            let limits = (MIN_DAMPING, MAX_DAMPING);
-            if !within(group, limits) {
-                return refuse(r, format!("r t₁ = {group:e}"), format!("zero or a value {}", range(limits)));
-            }
+        let (found, expected) = match name {
+            "impact" => ("no speed", "speed or drop_height"),
+            "gravity" => ("no acceleration", "acceleration, zero or more"),
+            "start" => ("no points", "displacement, velocity or both"),
+            _ => return Ok(()),
+        };
+        if table.is_empty() {
+            return Err(self.error(span, Kind::MissingKey, format!("{found} in {shown}"), expected));
         }
         Ok(())
     }
 
-    fn run(&self, scales: &Scales) -> Result<Run, SceneError> {
-        let Some(table) = &self.run else { return Ok(Run::Impacts(1)) };
-        let time = positive(table, "time", "a time")?;
-        let Some(time) = time else { return self.impacts(table) };
-        table.refuse("impacts", "time", "either time or impacts")?;
-        let round_trips = time.number.to_f64() / scales.round_trip();
-        if round_trips > MAX_ROUND_TRIPS {
-            let found = format!("time = {}, which is {round_trips:e} round trips", self.shown(&time));
-            let expected = format!("at most {MAX_ROUND_TRIPS:e} round trips of 2L/c");
-            return Err(table.error(time.span, Kind::Combination, found, expected));
+    /// The values of the problem, unchecked.
+    fn draft(&self) -> Result<Draft, SceneError> {
+        if let Some((_, value)) = self.get("run.impacts")
+            && value.get_ref().as_integer().is_none()
+        {
+            return Err(self.wrong_type(value, "impacts", "a whole number"));
         }
-        Ok(Run::Time(time.number))
+        let mut draft = Draft { from_scene: true, top: self.top()?, ..Draft::default() };
+        for path in NUMBERS {
+            if let Some(number) = self.number(path)? {
+                draft.numbers.insert(path, number);
+            }
+        }
+        for path in ["start.displacement", "start.velocity"] {
+            if let Some(points) = self.points(path)? {
+                draft.profiles.insert(path, points);
+            }
+        }
+        Ok(draft)
     }
 
-    fn impacts(&self, table: &Table<'_>) -> Result<Run, SceneError> {
-        let Some(entry) = table.get("impacts") else { return Ok(Run::Impacts(1)) };
-        let DeValue::Integer(integer) = entry.value.get_ref() else {
-            return Err(table.wrong_type(entry.value, "impacts", "a whole number"));
+    /// The error of a problem, at its place: the key where it is about what stands beside it or is missing, or the value.
+    fn located(&self, error: ProblemError) -> SceneError {
+        use ProblemErrorKind::{Contradiction, Missing};
+        let ProblemError { kind, path, mut found, expected } = error;
+        let (path, point) = path.split_once('[').unwrap_or((&path, ""));
+        let span = match self.get(path) {
+            None => 0..0,
+            Some((key, value)) if matches!(kind, Missing | Contradiction) => {
+                if kind == Missing && value.get_ref().as_table().is_some() {
+                    found += &format!(" in [{path}]");
+                }
+                key.span()
+            }
+            Some((_, value)) => coordinate(value, point).unwrap_or(value).span(),
         };
-        match integer.as_str().parse() {
-            Ok(impacts @ 1..=MAX_IMPACTS) if integer.radix() == 10 => Ok(Run::Impacts(impacts)),
-            _ => {
-                let found = format!("impacts = {}", super::error::short(table.slice(&entry.value.span())));
-                let expected = format!("a whole number from 1 to {MAX_IMPACTS}");
-                Err(table.error(entry.value.span(), Kind::OutOfRange, found, expected))
+        self.error(span, kind.into(), found, expected)
+    }
+
+    fn top(&self) -> Result<Option<Top>, SceneError> {
+        match self.text("rod.top")? {
+            None => Ok(None),
+            Some(("free", _)) => Ok(Some(Top::Free)),
+            Some(("fixed", _)) => Ok(Some(Top::Fixed)),
+            Some((text, span)) => {
+                let hint = suggest::top(text).map_or(String::new(), |top| format!(" (did you mean \"{top}\"?)"));
+                let (found, expected) = (format!("top = {}", short(self.slice(&span))), "\"free\" or \"fixed\"");
+                Err(self.error(span, Kind::OutOfRange, found, format!("{expected}{hint}")))
             }
         }
     }
 
     fn accuracy(&self) -> Result<Option<Number>, SceneError> {
-        let Some(table) = &self.run else { return Ok(None) };
-        let Some(accuracy) = table.number("accuracy")? else { return Ok(None) };
-        if within(accuracy.number.to_f64(), (1e-300, 0.1)) {
-            return Ok(Some(accuracy.number));
+        let Some(written) = self.number("run.accuracy")? else { return Ok(None) };
+        let given = Given::new("run.accuracy", "accuracy", &written).map_err(|error| self.located(error))?;
+        if within(given.number.to_f64(), ACCURACY) {
+            return Ok(Some(given.number.clone()));
         }
-        let found = format!("accuracy = {}", self.shown(&accuracy));
-        Err(table.error(accuracy.span, Kind::OutOfRange, found, "a relative accuracy between 1e-300 and 0.1"))
+        let expected = "a relative accuracy between 1e-300 and 0.1";
+        Err(self.located(given.error(ProblemErrorKind::OutOfRange, "", expected)))
     }
 
-    /// A number as it stands in the source, shortened.
-    pub(super) fn shown(&self, quantity: &Quantity) -> String {
-        super::error::short(self.root.slice(&quantity.span))
+    /// The points of a profile.
+    fn points(&self, path: &str) -> Result<Option<Points>, SceneError> {
+        let Some((key, value)) = self.get(path) else { return Ok(None) };
+        let Some(array) = value.get_ref().as_array() else {
+            return Err(self.wrong_type(value, key.get_ref(), SHAPE));
+        };
+        let point = |point: &Value<'a>| match point.get_ref().as_array().map(|array| array.iter().as_slice()) {
+            Some([x, v]) => Ok((self.written(x, "x")?, self.written(v, key.get_ref())?)),
+            _ => {
+                let found = format!("{} among the points of the {}", short(self.slice(&point.span())), key.get_ref());
+                Err(self.error(point.span(), Kind::WrongType, found, "a point [x, value]"))
+            }
+        };
+        array.iter().map(point).collect::<Result<_, _>>().map(Some)
+    }
+
+    fn text(&self, path: &str) -> Result<Option<(&'a str, Range<usize>)>, SceneError> {
+        let Some((key, value)) = self.get(path) else { return Ok(None) };
+        let text = value.get_ref().as_str().ok_or_else(|| self.wrong_type(value, key.get_ref(), "a string"))?;
+        Ok(Some((text, value.span())))
+    }
+
+    fn number(&self, path: &str) -> Result<Option<Written>, SceneError> {
+        self.get(path).map(|(key, value)| self.written(value, key.get_ref())).transpose()
+    }
+
+    /// The number that a value spells, taken from the source itself so that no digit is lost.
+    fn written(&self, value: &Value<'a>, key: &str) -> Result<Written, SceneError> {
+        let shown = self.slice(&value.span());
+        match value.get_ref() {
+            DeValue::Integer(_) | DeValue::Float(_) => Ok(Written::new(shown, shown)),
+            DeValue::String(text) => Ok(Written::new(text, shown)),
+            _ => Err(self.wrong_type(value, key, "a number such as 3, 0.1, 1e-9 or \"1/3\"")),
+        }
+    }
+
+    /// Key and value at a path such as `rod` or `rod.length`.
+    fn get(&self, path: &str) -> Option<(&'a Key<'a>, &'a Value<'a>)> {
+        match path.split_once('.') {
+            None => self.document.get_key_value(path),
+            Some((table, key)) => self.document.get(table)?.get_ref().as_table()?.get_key_value(key),
+        }
+    }
+
+    fn wrong_type(&self, value: &Value<'_>, key: &str, expected: &str) -> SceneError {
+        let article = if matches!(value.get_ref(), DeValue::Array(_) | DeValue::Integer(_)) { "an" } else { "a" };
+        let found = match value.get_ref() {
+            DeValue::Table(_) => format!("{key}, a table"),
+            other => format!("{key} = {}, {article} {}", short(self.slice(&value.span())), other.type_str()),
+        };
+        self.error(value.span(), Kind::WrongType, found, expected)
+    }
+
+    fn error(
+        &self,
+        span: Range<usize>,
+        kind: Kind,
+        found: impl Into<String>,
+        expected: impl Into<String>,
+    ) -> SceneError {
+        SceneError::new(self.source, span, kind, found, expected)
+    }
+
+    fn slice(&self, span: &Range<usize>) -> &'a str {
+        self.source.get(span.clone()).unwrap_or_default()
     }
 
     /// The line of every key.
     fn lines(&self) -> BTreeMap<String, usize> {
-        let line = |span: &Range<usize>| position(self.source, span.start).0;
-        let tables = [
-            ("rod", Some(&self.rod)),
-            ("impact", self.impact.as_ref()),
-            ("gravity", self.gravity.as_ref()),
-            ("start", self.start.as_ref()),
-            ("run", self.run.as_ref()),
-        ];
-        let mut lines: BTreeMap<String, usize> =
-            self.root.entries().iter().map(|entry| (entry.key.to_string(), line(&entry.key_span))).collect();
-        for (name, table) in tables {
-            let entries = table.map(Table::entries).unwrap_or_default();
-            lines.extend(entries.iter().map(|entry| (format!("{name}.{}", entry.key), line(&entry.key_span))));
+        let line = |key: &Key<'_>| position(self.source, key.span().start).0;
+        let mut lines = BTreeMap::new();
+        for (name, value) in self.document {
+            lines.insert(name.get_ref().to_string(), line(name));
+            for key in value.get_ref().as_table().iter().flat_map(|table| table.keys()) {
+                lines.insert(format!("{}.{}", name.get_ref(), key.get_ref()), line(key));
+            }
         }
         lines
     }
 }
 
-/// A quantity that has to be there.
-fn required(table: &Table<'_>, key: &'static str, what: &str) -> Result<Quantity, SceneError> {
-    positive(table, key, what)?.ok_or_else(|| table.missing(&format!("no {key}"), &format!("{what} above zero")))
-}
-
-/// A quantity above zero, if it is there.
-pub(super) fn positive(table: &Table<'_>, key: &'static str, what: &str) -> Result<Option<Quantity>, SceneError> {
-    let Some(quantity) = table.number(key)? else { return Ok(None) };
-    if quantity.number.to_f64() <= 0.0 {
-        return Err(out_of_range(table, &quantity, &format!("{what} above zero")));
-    }
-    if !within(quantity.number.to_f64(), UNITS) {
-        return Err(out_of_range(table, &quantity, &format!("{what} {}", range(UNITS))));
-    }
-    Ok(Some(quantity))
-}
-
-/// A quantity that is not negative, if it is there and not zero.
-fn non_negative(table: &Table<'_>, key: &'static str, what: &str) -> Result<Option<Quantity>, SceneError> {
-    let Some(quantity) = table.number(key)? else { return Ok(None) };
-    if quantity.number.to_f64() < 0.0 {
-        return Err(out_of_range(table, &quantity, &format!("{what} of zero or more")));
-    }
-    // A damping is held to the range of r t₁ alone: weak ones are asked for on purpose.
-    if !quantity.number.is_zero() && key != "damping" && !within(quantity.number.to_f64(), UNITS) {
-        return Err(out_of_range(table, &quantity, &format!("zero or {what} {}", range(UNITS))));
-    }
-    Ok(Some(quantity).filter(|quantity| !quantity.number.is_zero()))
-}
-
-pub(super) fn out_of_range(table: &Table<'_>, quantity: &Quantity, expected: &str) -> SceneError {
-    let found = format!("{} = {}", quantity.key, super::error::short(table.slice(&quantity.span)));
-    table.error(quantity.span.clone(), Kind::OutOfRange, found, expected)
-}
-
-pub(super) fn within(value: f64, (low, high): (f64, f64)) -> bool {
-    (low..=high).contains(&value)
-}
-
-pub(super) fn range((low, high): (f64, f64)) -> String {
-    format!("between {low:e} and {high:e}")
+/// The coordinate at `3].x` of an array of points.
+fn coordinate<'a>(points: &'a Value<'a>, place: &str) -> Option<&'a Value<'a>> {
+    let (index, coordinate) = place.split_once("].")?;
+    let point = points.get_ref().as_array()?.get(index.parse::<usize>().ok()?)?;
+    point.get_ref().as_array()?.get(usize::from(coordinate != "x"))
 }

@@ -27,6 +27,7 @@ mod hard_cases;
 #[cfg(feature = "mp")]
 mod number_interval;
 mod paper_claims;
+mod problem_builder;
 mod scene_builtin;
 mod scene_errors;
 mod scene_properties;

@@ -295,6 +295,21 @@ const CASES: &[Case] = &[
         (2, 21),
         "\"µ\"",
     ),
+    case("meant_modulus", "rod = { length = 1, youngs_modulus = 1 }\n", Kind::UnknownKey, (1, 21), "youngs_modulus"),
+    case("meant_modulus_symbol", "rod = { length = 1, E = 1 }\n", Kind::UnknownKey, (1, 21), "E"),
+    case("meant_damping_symbol", "rod = { length = 1, wave_speed = 1, r = 1 }\n", Kind::UnknownKey, (1, 37), "r"),
+    case("meant_top", "rod = { length = 1, wave_speed = 1, clamped = true }\n", Kind::UnknownKey, (1, 37), "clamped"),
+    case("meant_drop_height", "rod = {}\nimpact.height = 2\n", Kind::UnknownKey, (2, 8), "height"),
+    case("meant_acceleration", "rod = {}\ngravity.g = 9.81\n", Kind::UnknownKey, (2, 9), "g"),
+    case("meant_another_table", "rod = { speed = 3 }\n", Kind::UnknownKey, (1, 9), "speed"),
+    case("meant_no_table", "length = 1\n", Kind::UnknownKey, (1, 1), "length"),
+    case("meant_a_table", "beam = { length = 1 }\n", Kind::UnknownKey, (1, 1), "beam"),
+    case("meant_fixed", "rod = { length = 1, top = \"Fixed end\" }\n", Kind::OutOfRange, (1, 27), "\"Fixed end\""),
+    case("meant_no_top", "rod = { length = 1, top = \"glued\" }\n", Kind::OutOfRange, (1, 27), "\"glued\""),
+    case("unit", "[rod]\nlength = 1 m\n", Kind::Syntax, (2, 10), "1 m"),
+    case("unit_without_space", "rod = { length = 1.5m, wave_speed = 1 }\n", Kind::Syntax, (1, 18), "1.5m"),
+    case("unit_in_text", "rod = { length = \"1 m\" }\n", Kind::NotANumber, (1, 18), "\"1 m\""),
+    case("fraction_without_quotes", "[rod]\nlength = 1/3 # L\n", Kind::Syntax, (2, 10), "1/3"),
 ];
 
 #[test]
@@ -376,6 +391,6 @@ fn a_report_shows_the_line() {
     let mut report = String::new();
     miette::NarratableReportHandler::new().render_report(&mut report, &error).unwrap();
     for text in ["rod.toml", "length = -1 # L", "expected a length above zero", "found length = -1"] {
-        assert!(report.contains(text), "{text} in {report}");
+        assert_eq!(report.matches(text).count(), 1, "{text} in {report}");
     }
 }

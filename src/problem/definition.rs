@@ -1,0 +1,174 @@
+//! The rod, the ground and the start: what is solved, in exact numbers.
+
+use serde::Serialize;
+
+use super::{Builder, ProblemError};
+use crate::number::Number;
+
+/// The initial-boundary-value problem: `v_tt + 2r v_t − c² v_xx = −g` on `0 < x < L`, unilateral contact at `x = 0`.
+///
+/// It is made by [`Problem::builder`] or read from a [scene](crate::Scene); both end in the same checks.
+///
+/// **Source**: paper (1.2)–(1.8), extended by a fixed top and a piecewise-linear start.
+///
+/// **Units**: any consistent units.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Problem {
+    /// The rod.
+    pub rod: Rod,
+    /// `g ≥ 0`; `None` where the scene has no gravity.
+    pub gravity: Option<Number>,
+    /// Displacement and velocity at `t = 0`.
+    pub start: Start,
+    /// How far to follow the motion.
+    pub run: Run,
+}
+
+/// The rod: geometry, material, damping and what holds its top.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Rod {
+    /// `L > 0`.
+    pub length: Number,
+    /// What sets the wave speed.
+    pub material: Material,
+    /// `r ≥ 0`; `None` where the scene has no damping.
+    pub damping: Option<Number>,
+    /// The end `x = L`.
+    pub top: Top,
+}
+
+/// What sets the wave speed `c`.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Material {
+    /// `c > 0` itself.
+    WaveSpeed(Number),
+    /// `c = √(modulus/density)`; forces and energies can then be given in SI.
+    Elastic {
+        /// Young's modulus `E > 0`.
+        modulus: Number,
+        /// Density `ρ > 0`.
+        density: Number,
+        /// Cross-section `S > 0`.
+        area: Number,
+    },
+}
+
+/// The end `x = L`.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Top {
+    /// `v_x(L,t) = 0`.
+    #[default]
+    Free,
+    /// `v(L,t) = v(L,0)`.
+    Fixed,
+}
+
+/// Displacement and velocity at `t = 0`.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Start {
+    /// Undeformed on the ground, with uniform velocity `−μ`: (1.7), (1.8).
+    Uniform(Speed),
+    /// Piecewise linear along the rod.
+    Profile(Profile),
+}
+
+/// The impact speed `μ > 0`.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Speed {
+    /// `μ` itself.
+    Given(Number),
+    /// `μ = √(2 g h)` after a fall from rest through the height `h`, without air drag.
+    DropHeight(Number),
+}
+
+/// A start that is not uniform: values at points `x` in increasing order from `0` to `L`, linear between them.
+/// An empty list means zero. The velocity may jump: the same `x` twice.
+#[derive(Clone, Debug, Default, PartialEq, Serialize)]
+pub struct Profile {
+    /// Pairs `(x, v)`.
+    pub displacement: Vec<(Number, Number)>,
+    /// Pairs `(x, v_t)`.
+    pub velocity: Vec<(Number, Number)>,
+}
+
+/// How far to follow the motion.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Run {
+    /// This many contacts, each with the flight after it. The default is one.
+    Impacts(u32),
+    /// Up to this time, which is included.
+    Time(Number),
+}
+
+impl Problem {
+    /// The paper's problem without any check: a rod that hits the ground undeformed, with uniform velocity `−μ`,
+    /// followed through the first contact and the flight after it.
+    #[doc(hidden)]
+    pub fn uniform(length: Number, wave_speed: Number, gravity: Number, speed: Number) -> Self {
+        Problem {
+            rod: Rod { length, material: Material::WaveSpeed(wave_speed), damping: None, top: Top::Free },
+            gravity: Some(gravity).filter(|g| !g.is_zero()),
+            start: Start::Uniform(Speed::Given(speed)),
+            run: Run::Impacts(1),
+        }
+    }
+
+    /// A problem to be put together value by value.
+    ///
+    /// ```
+    /// use dalembert::Problem;
+    /// let rod = Problem::builder().length(1).wave_speed(1).gravity("9.81").impact_speed(3).build()?;
+    /// assert!(rod.rod.damping.is_none() && rod.has_closed_form());
+    /// # Ok::<(), dalembert::problem::ProblemError>(())
+    /// ```
+    pub fn builder() -> Builder {
+        Builder::default()
+    }
+
+    /// A builder with the values of this problem. What is set replaces them: a `time` the number of impacts, a
+    /// `displacement` the impact.
+    ///
+    /// ```
+    /// use dalembert::Problem;
+    /// let rod = Problem::builder().length(1).wave_speed(1).impact_speed(3).build()?;
+    /// let damped = rod.to_builder().damping(0.1).time(40).build()?;
+    /// assert_eq!(damped.dimensionless().damping_ratio, 0.2);
+    /// assert_eq!(damped.to_builder().damping(0).impacts(1).build()?, rod);
+    /// # Ok::<(), dalembert::problem::ProblemError>(())
+    /// ```
+    pub fn to_builder(&self) -> Builder {
+        Builder::from_problem(self)
+    }
+
+    /// The same problem followed through `run`.
+    ///
+    /// **Errors**: [`ProblemError`] for a run outside of its [limits](crate::problem#limits).
+    ///
+    /// ```
+    /// use dalembert::{Problem, problem::Run};
+    /// let rod = Problem::builder().length(1).wave_speed(1).impact_speed(3).build()?;
+    /// assert_eq!(rod.with_run(Run::Impacts(3))?.run, Run::Impacts(3));
+    /// assert!(rod.with_run(Run::Impacts(0)).is_err());
+    /// # Ok::<(), dalembert::problem::ProblemError>(())
+    /// ```
+    pub fn with_run(&self, run: Run) -> Result<Self, ProblemError> {
+        let builder = self.to_builder();
+        match run {
+            Run::Impacts(impacts) => builder.impacts(impacts),
+            Run::Time(time) => builder.time(time),
+        }
+        .build()
+    }
+
+    /// Whether the start is uniform and the top free, as in the paper: then the first contact has a closed form.
+    ///
+    /// **Source**: (1.3), (1.7), (1.8).
+    pub fn has_closed_form(&self) -> bool {
+        self.rod.top == Top::Free && matches!(self.start, Start::Uniform(_))
+    }
+}

@@ -1,0 +1,267 @@
+//! The one set of checks that every problem goes through, from a scene file or from the builder.
+
+use std::collections::BTreeMap;
+
+use super::profile::{self, Points};
+use super::written::has_unit;
+use super::{Material, Problem, ProblemError, ProblemErrorKind as Kind, Rod, Run, Speed, Start, Top, Written};
+use crate::number::{Number, NumberError};
+
+/// Every quantity with a unit: energies are products of at most seven of them and stay within 1e±300.
+pub(super) const UNITS: (f64, f64) = (1e-40, 1e40);
+const DAMPING_RATIO: (f64, f64) = (1e-305, 1e6);
+const SPEED_RATIO: (f64, f64) = (1e-12, 1e12);
+const MAX_ROUND_TRIPS: f64 = 1e12;
+const MAX_IMPACTS: u32 = 10_000_000;
+
+/// The numbers that a problem can have, by their path in a scene file.
+pub(crate) const NUMBERS: [&str; 11] = [
+    "rod.length",
+    "rod.wave_speed",
+    "rod.modulus",
+    "rod.density",
+    "rod.area",
+    "rod.damping",
+    "gravity.acceleration",
+    "impact.speed",
+    "impact.drop_height",
+    "run.time",
+    "run.impacts",
+];
+
+/// The values of a problem before any check, by their path in a scene file.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Draft {
+    /// Whether messages use the keys of a scene file; otherwise the setters of the builder.
+    pub(crate) from_scene: bool,
+    /// Some of [`NUMBERS`].
+    pub(crate) numbers: BTreeMap<&'static str, Written>,
+    /// `start.displacement` and `start.velocity`.
+    pub(crate) profiles: BTreeMap<&'static str, Points>,
+    pub(crate) top: Option<Top>,
+}
+
+/// A value that is a number, with what messages about it need.
+pub(crate) struct Given<'a> {
+    pub(super) path: &'a str,
+    pub(super) name: &'a str,
+    pub(super) shown: &'a str,
+    pub(crate) number: &'a Number,
+}
+
+impl<'a> Given<'a> {
+    /// **Errors**: [`Kind::NotANumber`].
+    pub(crate) fn new(path: &'a str, name: &'a str, written: &'a Written) -> Result<Self, ProblemError> {
+        let shown = written.shown.as_str();
+        let error = match &written.number {
+            Ok(number) => return Ok(Given { path, name, shown, number }),
+            Err(error) => error,
+        };
+        let note =
+            if let NumberError::TooLong(count) = error { format!(", {count} characters") } else { String::new() };
+        let expected = match error {
+            NumberError::Unreadable(text) if has_unit(text) => {
+                "a number such as 3, 0.1, 1e-9 or \"1/3\", without a unit"
+            }
+            NumberError::Unreadable(_) => "a number such as 3, 0.1, 1e-9 or \"1/3\", decimal and finite",
+            NumberError::ZeroDenominator(_) => "a fraction whose denominator is not zero",
+            NumberError::Size(_) => "zero or a magnitude between 1e-300 and 1e300",
+            NumberError::TooLong(_) => "a number of at most 20000 characters",
+        };
+        Err(ProblemError::new(Kind::NotANumber, path, format!("{name} = {shown}{note}"), expected))
+    }
+
+    pub(crate) fn error(&self, kind: Kind, note: &str, expected: impl Into<String>) -> ProblemError {
+        ProblemError::new(kind, self.path, format!("{} = {}{note}", self.name, self.shown), expected)
+    }
+
+    fn positive(self, what: &str) -> Result<Self, ProblemError> {
+        match self.number.to_f64() {
+            x if x <= 0.0 => Err(self.error(Kind::OutOfRange, "", format!("{what} above zero"))),
+            x if !within(x, UNITS) => Err(self.error(Kind::OutOfRange, "", format!("{what} {}", range(UNITS)))),
+            _ => Ok(self),
+        }
+    }
+
+    /// `what` of this value is `x`, within `limits`.
+    fn makes(&self, what: &str, x: f64, limits: (f64, f64), expected: &str) -> Result<(), ProblemError> {
+        if within(x, limits) {
+            return Ok(());
+        }
+        let note = format!(", which makes {what}{x:e}");
+        Err(self.error(Kind::Combination, &note, format!("{expected} {}", range(limits))))
+    }
+}
+
+impl Draft {
+    /// The problem, if all values and their combinations are within the [limits](crate::problem#limits).
+    pub(crate) fn check(&self) -> Result<Problem, ProblemError> {
+        let length = self.required("rod.length", "a length")?;
+        let material = self.material()?;
+        let damping = self.non_negative("rod.damping", "a damping")?;
+        let gravity = self.non_negative("gravity.acceleration", "an acceleration")?;
+        let number = |given: &Option<Given<'_>>| given.as_ref().map(|given| given.number.clone());
+        let (top, damping_number) = (self.top.unwrap_or_default(), number(&damping));
+        let rod = Rod { length: length.number.clone(), material, damping: damping_number, top };
+
+        let t1 = rod.round_trip();
+        length.makes("the round trip 2L/c = ", t1, UNITS, "one")?;
+        let g = gravity.as_ref().map_or(0.0, |g| g.number.to_f64());
+        if let Some(gravity) = &gravity {
+            gravity.makes("g t₁ = ", g * t1, UNITS, "a speed")?;
+        }
+        if let Some(damping) = &damping {
+            damping.makes("r t₁ = ", damping.number.to_f64() * t1, DAMPING_RATIO, "zero or a value")?;
+        }
+        let start = self.start(&rod.length, t1, g)?;
+        let run = self.run(t1)?;
+        Ok(Problem { rod, gravity: number(&gravity), start, run })
+    }
+
+    fn material(&self) -> Result<Material, ProblemError> {
+        const EITHER: &str = "wave_speed, or modulus, density and area";
+        let first = ["rod.modulus", "rod.density", "rod.area"].into_iter().find(|path| self.has(path));
+        match (self.positive("rod.wave_speed", "a wave speed")?, first) {
+            (Some(c), None) => return Ok(Material::WaveSpeed(c.number.clone())),
+            (Some(_), Some(path)) => {
+                let found = format!("{} as well as wave_speed", self.name(path));
+                return Err(ProblemError::new(Kind::Contradiction, path, found, format!("either {EITHER}")));
+            }
+            (None, None) => return Err(ProblemError::new(Kind::Missing, "rod", "no wave speed", EITHER)),
+            (None, Some(_)) => {}
+        }
+        let modulus = self.required("rod.modulus", "a modulus")?.number.clone();
+        let density = self.required("rod.density", "a density")?.number.clone();
+        let area = self.required("rod.area", "an area")?.number.clone();
+        Ok(Material::Elastic { modulus, density, area })
+    }
+
+    /// The motion at `t = 0` of a rod with this length and round trip under the gravity `g`.
+    fn start(&self, length: &Number, t1: f64, g: f64) -> Result<Start, ProblemError> {
+        let impact = self.has("impact.speed") || self.has("impact.drop_height");
+        match (impact, !self.profiles.is_empty()) {
+            (true, false) => self.impact(t1, g).map(Start::Uniform),
+            (false, true) => profile::check(&self.profiles, length).map(Start::Profile),
+            (true, true) => {
+                let found = self.word("start as well as [impact]", "a displacement or velocity as well as an impact");
+                let expected = self.word(
+                    "either [impact], for a uniform start, or [start]",
+                    "either impact_speed or drop_height, for a uniform start, or displacement and velocity",
+                );
+                Err(ProblemError::new(Kind::Contradiction, "start", found, expected))
+            }
+            (false, false) => {
+                let found = self.word("neither [impact] nor [start]", "no start");
+                let expected = self.word(
+                    "[impact] with speed or drop_height, or [start]",
+                    "impact_speed, drop_height, displacement or velocity",
+                );
+                Err(ProblemError::new(Kind::Missing, "", found, expected))
+            }
+        }
+    }
+
+    fn impact(&self, t1: f64, g: f64) -> Result<Speed, ProblemError> {
+        let key = self.word("speed", "impact_speed");
+        let given = self.positive("impact.speed", "an impact speed")?;
+        let height = self.positive("impact.drop_height", "a drop height")?;
+        let (given, speed) = match (given, height) {
+            (Some(given), None) => (Speed::Given(given.number.clone()), given),
+            (None, Some(height)) if g > 0.0 => (Speed::DropHeight(height.number.clone()), height),
+            (None, _) => {
+                let gravity = self.word("[gravity] with an acceleration", "a gravity");
+                let expected = format!("{gravity} above zero, or {key} in place of drop_height");
+                let found = "drop_height without gravity";
+                return Err(ProblemError::new(Kind::Missing, "impact.drop_height", found, expected));
+            }
+            (Some(_), Some(_)) => {
+                let (found, expected) =
+                    (format!("drop_height as well as {key}"), format!("either {key} or drop_height"));
+                return Err(ProblemError::new(Kind::Contradiction, "impact.drop_height", found, expected));
+            }
+        };
+        let value = given.value(g);
+        speed.makes("the impact speed ", value, UNITS, "one")?;
+        if g > 0.0 {
+            speed.makes("μ/(g t₁) = ", value / (g * t1), SPEED_RATIO, "a value")?;
+        }
+        Ok(given)
+    }
+
+    fn run(&self, t1: f64) -> Result<Run, ProblemError> {
+        if let Some(time) = self.positive("run.time", "a time")? {
+            if self.has("run.impacts") {
+                let (found, expected) = ("impacts as well as time", "either time or impacts");
+                return Err(ProblemError::new(Kind::Contradiction, "run.impacts", found, expected));
+            }
+            let round_trips = time.number.to_f64() / t1;
+            if round_trips > MAX_ROUND_TRIPS {
+                let note = format!(", which is {round_trips:e} round trips");
+                let expected = format!("at most {MAX_ROUND_TRIPS:e} round trips of 2L/c");
+                return Err(time.error(Kind::Combination, &note, expected));
+            }
+            return Ok(Run::Time(time.number.clone()));
+        }
+        let Some(impacts) = self.numbers.get("run.impacts") else { return Ok(Run::Impacts(1)) };
+        let whole = impacts.number.as_ref().ok().and_then(|number| number.to_string().parse().ok());
+        whole.filter(|n| (1..=MAX_IMPACTS).contains(n)).map(Run::Impacts).ok_or_else(|| {
+            let expected = format!("a whole number from 1 to {MAX_IMPACTS}");
+            ProblemError::new(Kind::OutOfRange, "run.impacts", format!("impacts = {}", impacts.shown), expected)
+        })
+    }
+
+    pub(super) fn has(&self, path: &str) -> bool {
+        self.numbers.contains_key(path)
+    }
+
+    fn given(&self, path: &'static str) -> Result<Option<Given<'_>>, ProblemError> {
+        self.numbers.get(path).map(|written| Given::new(path, self.name(path), written)).transpose()
+    }
+
+    /// A value above zero, if it is given.
+    fn positive(&self, path: &'static str, what: &str) -> Result<Option<Given<'_>>, ProblemError> {
+        self.given(path)?.map(|given| given.positive(what)).transpose()
+    }
+
+    fn required(&self, path: &'static str, what: &str) -> Result<Given<'_>, ProblemError> {
+        self.positive(path, what)?.ok_or_else(|| {
+            let (found, expected) = (format!("no {}", self.name(path)), format!("{what} above zero"));
+            ProblemError::new(Kind::Missing, "rod", found, expected)
+        })
+    }
+
+    /// A value that is not negative, if it is given and not zero.
+    fn non_negative(&self, path: &'static str, what: &str) -> Result<Option<Given<'_>>, ProblemError> {
+        let Some(given) = self.given(path)? else { return Ok(None) };
+        let x = given.number.to_f64();
+        if x < 0.0 {
+            return Err(given.error(Kind::OutOfRange, "", format!("{what} of zero or more")));
+        }
+        // A damping is held to the range of r t₁ alone: weak ones are asked for on purpose.
+        if x > 0.0 && path != "rod.damping" && !within(x, UNITS) {
+            return Err(given.error(Kind::OutOfRange, "", format!("zero or {what} {}", range(UNITS))));
+        }
+        Ok(Some(given).filter(|_| x > 0.0))
+    }
+
+    /// The name of a value in messages.
+    fn name(&self, path: &'static str) -> &'static str {
+        match path {
+            "gravity.acceleration" => self.word("acceleration", "gravity"),
+            "impact.speed" => self.word("speed", "impact_speed"),
+            _ => path.rsplit('.').next().unwrap_or(path),
+        }
+    }
+
+    fn word(&self, scene: &'static str, builder: &'static str) -> &'static str {
+        if self.from_scene { scene } else { builder }
+    }
+}
+
+pub(crate) fn within(value: f64, (low, high): (f64, f64)) -> bool {
+    (low..=high).contains(&value)
+}
+
+pub(super) fn range((low, high): (f64, f64)) -> String {
+    format!("between {low:e} and {high:e}")
+}

@@ -1,0 +1,84 @@
+//! What a person may have meant by a word that no scene has.
+
+/// Common words for a key, in lower case.
+const SYNONYMS: &[(&str, &[&str])] = &[
+    ("title", &["name", "description"]),
+    ("rod", &["bar", "beam", "material", "geometry"]),
+    ("impact", &["drop", "collision"]),
+    ("start", &["initial", "initial_conditions"]),
+    ("run", &["simulation", "solver"]),
+    ("rod.length", &["l", "size"]),
+    ("rod.wave_speed", &["c", "c0", "sound_speed", "speed_of_sound", "wave_velocity"]),
+    ("rod.modulus", &["e", "young", "youngs_modulus", "young_modulus", "elastic_modulus", "stiffness"]),
+    ("rod.density", &["rho", "ρ", "mass_density"]),
+    ("rod.area", &["a", "s", "cross_section", "section"]),
+    ("rod.damping", &["r", "damping_ratio", "friction", "viscosity"]),
+    ("rod.top", &["clamped", "fixed", "fixed_top", "end", "boundary", "support"]),
+    ("impact.speed", &["mu", "μ", "µ", "v0", "impact_speed", "impact_velocity", "initial_velocity"]),
+    ("impact.drop_height", &["h", "height", "fall_height"]),
+    ("gravity.acceleration", &["g"]),
+    ("start.displacement", &["u", "v", "deformation", "position"]),
+    ("run.time", &["t", "t_end", "end_time", "duration", "until"]),
+    ("run.impacts", &["n", "bounces", "contacts", "hits"]),
+    ("run.accuracy", &["tolerance", "tol", "precision"]),
+];
+
+const FIXED: &[&str] = &["clamped", "held", "built-in", "built in", "rigid", "pinned", "dirichlet"];
+const FREE: &[&str] = &["open", "loose", "unclamped", "neumann"];
+
+/// The key meant by `key` in the table of this name, in words: `modulus`, or `drop_height in [impact]`.
+pub(super) fn key(key: &str, table: &str, known: &[&'static str]) -> Option<String> {
+    if let Some(near) = nearest(key, known) {
+        return Some(near.into());
+    }
+    let word = key.to_lowercase().replace('-', "_").replace('\'', "");
+    let meant = |(path, synonyms): &&(&str, &[&str])| {
+        let name = path.rsplit('.').next();
+        name == Some(&word) || synonyms.contains(&word.as_str())
+    };
+    // The table itself comes before others.
+    let is_here = |path: &str| path.rsplit_once('.').map_or("", |(table, _)| table) == table;
+    let found = SYNONYMS.iter().filter(meant).map(|(path, _)| *path);
+    let path = found.clone().find(|path| is_here(path)).or_else(|| found.clone().next())?;
+    Some(match path.split_once('.') {
+        Some((other, key)) if other != table => format!("{key} in [{other}]"),
+        Some((_, key)) => key.into(),
+        None => format!("[{path}]"),
+    })
+}
+
+/// The top meant by `text`.
+pub(super) fn top(text: &str) -> Option<&'static str> {
+    let word = text.trim().to_lowercase();
+    let word = word.strip_suffix("end").unwrap_or(&word).trim();
+    match word {
+        _ if FIXED.contains(&word) => Some("fixed"),
+        _ if FREE.contains(&word) => Some("free"),
+        _ => nearest(word, &["fixed", "free"]),
+    }
+}
+
+/// The known word that is spelled most like `word`, if any is close.
+fn nearest(word: &str, known: &[&'static str]) -> Option<&'static str> {
+    // A word of more than 40 bytes is close to none, and the distance is quadratic.
+    if word.len() > 40 {
+        return None;
+    }
+    let (distance, name) = known.iter().map(|name| (edit_distance(word, name), *name)).min()?;
+    (distance <= 1 + name.len() / 4).then_some(name)
+}
+
+/// The least number of characters to insert, delete or replace that makes `a` into `b`.
+fn edit_distance(a: &str, b: &str) -> usize {
+    let mut row: Vec<usize> = (0..=b.chars().count()).collect();
+    for (i, x) in a.chars().enumerate() {
+        let mut diagonal = i;
+        row[0] = i + 1;
+        for (j, y) in b.chars().enumerate() {
+            let replaced = diagonal + usize::from(!x.eq_ignore_ascii_case(&y));
+            diagonal = row[j + 1];
+            row[j + 1] = replaced.min(row[j] + 1).min(diagonal + 1);
+        }
+    }
+    row[b.chars().count()]
+}
