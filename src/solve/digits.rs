@@ -3,7 +3,7 @@
 
 use rug::Float;
 
-use crate::damped::{Damped, Joined};
+use crate::cells::{Damped, Joined, Reach};
 use crate::error::Error;
 use crate::first_contact::{Bounce, FirstContact};
 use crate::history::History;
@@ -126,7 +126,7 @@ pub(super) fn damped_unless_faint(
     // The rays of a contact that has faded by e⁻ᵏ cancel by e⁻ᵏ.
     let mut kept = f64::from(digits + SPARE_DIGITS) + faded;
     let goal = -(f64::from(digits + 1) + faded);
-    let follow = faded * std::f64::consts::LN_10 <= faintest;
+    let reach = if faded * std::f64::consts::LN_10 <= faintest { Reach::Run } else { Reach::Faint };
     let mut bits = bits_for_digits((kept + faded).ceil() as u32) + GUARD_BITS;
     for _ in 0..MOST_TRIES {
         let history: Box<dyn History<Float>> = if fits {
@@ -136,7 +136,7 @@ pub(super) fn damped_unless_faint(
                 bits *= 2;
                 continue;
             }
-            Box::new(Joined::<Float>::solve(problem, &bits, kept, bounce, follow)?)
+            Box::new(Joined::<Float>::solve(problem, &bits, kept, bounce, reach)?)
         } else {
             Box::new(Damped::<Float>::solve(problem, &bits, kept)?)
         };

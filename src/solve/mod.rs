@@ -1,6 +1,6 @@
 //! From a plan to a solution: the engine run in the planned numbers.
 
-use crate::damped::{Damped, Joined};
+use crate::cells::{Damped, Joined, Reach};
 use crate::error::Error;
 use crate::first_contact::FirstContact;
 #[cfg(feature = "mp")]
@@ -143,7 +143,7 @@ fn damped_in_doubles(problem: &Problem, accuracy: Option<f64>) -> Result<Box<dyn
             let history = digits::damped_unless_faint(problem, digits::of_accuracy(accuracy), FAINTEST)?;
             return Ok(Box::new(crate::rounded::Rounded::new(history)));
         }
-        let history = Joined::<f64>::solve(problem, &(), digits, bounce, true)?;
+        let history = Joined::<f64>::solve(problem, &(), digits, bounce, Reach::Run)?;
         let estimate = better(&history);
         Box::new(history.estimated(estimate))
     } else {

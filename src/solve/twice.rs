@@ -1,6 +1,6 @@
 //! A second march beside the first: what separates them says how far both may be off.
 
-use crate::damped::Damped;
+use crate::cells::Damped;
 use crate::history::{History, Scales, Side};
 use crate::number::Number;
 use crate::rod::{Problem, Speed, Start};

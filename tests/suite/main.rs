@@ -13,6 +13,7 @@ mod command;
 mod common;
 #[cfg(feature = "cli")]
 mod cost_measured;
+mod damped_bounce;
 mod damped_history;
 mod damped_properties;
 mod damped_reference;
