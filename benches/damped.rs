@@ -5,7 +5,7 @@
 use std::hint::black_box;
 
 use criterion::{BenchmarkId, Criterion, Throughput, criterion_group, criterion_main};
-use dalembert::damped::Damped;
+use dalembert::cells::Damped;
 use dalembert::lattice::Undamped;
 use dalembert::rod::{Material, Profile, Rod, Run, Start, Top};
 use dalembert::{Ask, History, Number, Plan, Problem, Scene, Solution, solve};

@@ -11,7 +11,7 @@
 //! | [`solve`](mod@solve) | the engine that the plan chose, in the numbers that it chose |
 //! | [`lattice`] | the undamped rod, from event to event on the characteristic lattice |
 //! | [`first_contact`] | the damped first contact in closed form, the bounce time or why there is none |
-//! | [`damped`] | the damped rod through any number of impacts, in characteristic cells |
+//! | [`cells`] | the damped rod through any number of impacts, in characteristic cells |
 //! | `certified` | enclosures: numbers that are proved (feature `mp`) |
 //! | [`history`] | what a solution is, and everything that can be asked of it |
 //! | [`modal`] | the modal sum of the first contact: a third route to the same numbers |
@@ -33,13 +33,13 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
+pub mod cells;
 #[cfg(feature = "mp")]
 pub mod certified;
 // pub mod check;
 #[cfg(feature = "cli")]
 pub mod cli;
 // pub mod cost;
-pub mod damped;
 pub mod error;
 pub mod first_contact;
 pub mod history;

@@ -1,7 +1,7 @@
 //! Every way to an answer.
 
 use super::value::{Answer, Answers, Trouble};
-use crate::damped::Damped;
+use crate::cells::Damped;
 use crate::first_contact::{Bounce, Estimate, FirstContact, UndampedContact};
 use crate::history::{Ending, EventKind, History, Side};
 use crate::lattice::Undamped;

@@ -4,7 +4,7 @@ use std::time::Instant;
 
 use super::CostError;
 use super::clock::{Timing, batch, quantile, sample};
-use crate::damped::{Damped, Joined};
+use crate::cells::{Damped, Joined, Reach};
 use crate::first_contact::FirstContact;
 use crate::history::History;
 use crate::lattice::Undamped;
@@ -126,7 +126,7 @@ fn direct(problem: &Problem, engine: Engine, energies: bool) -> Result<f64, Cost
         Engine::Lattice => Box::new(Undamped::<f64>::solve(problem, &())?),
         Engine::Cells if problem.has_closed_form() => {
             let bounce = FirstContact::new(&Parameters::<f64>::of(problem, &())?).bounce_within(1e-13);
-            Box::new(Joined::<f64>::solve(problem, &(), 13.0, bounce, true)?)
+            Box::new(Joined::<f64>::solve(problem, &(), 13.0, bounce, Reach::Run)?)
         }
         Engine::Cells => Box::new(Damped::<f64>::solve(problem, &(), 13.0)?),
     };

@@ -4,7 +4,7 @@ use super::march::march;
 use super::printed::Printed;
 use super::value::{Answer, Value};
 use super::{CostError, Quantity, Question};
-use crate::damped::Damped;
+use crate::cells::Damped;
 #[cfg(feature = "mp")]
 use crate::first_contact::FirstContact;
 use crate::history::{EventKind, Side};

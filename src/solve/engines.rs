@@ -7,7 +7,7 @@ use super::ladder::{Engined, Observer, Target};
 use super::long;
 use super::plan::{Engine, Plan, Reach, Rung};
 use super::raised::Raised;
-use crate::damped::{Damped, Joined};
+use crate::cells::{self, Damped, Joined};
 use crate::error::Error;
 use crate::first_contact::FirstContact;
 use crate::lattice::{Limits, Undamped};
@@ -28,8 +28,8 @@ impl Target for f64 {
             Engine::ClosedForm | Engine::ClosedFormThenCells => {
                 let rod = Parameters::<f64>::of(problem, &())?;
                 let bounce = FirstContact::new(&rod).bounce_within(1e-13);
-                let follow = plan.engine == Engine::ClosedFormThenCells;
-                Arc::new(Raised::new(Joined::<f64>::solve(problem, &(), CELL_DIGITS, bounce, follow)?))
+                let reach = if plan.engine == Engine::ClosedForm { cells::Reach::Bounce } else { cells::Reach::Run };
+                Arc::new(Raised::new(Joined::<f64>::solve(problem, &(), CELL_DIGITS, bounce, reach)?))
             }
         })
     }

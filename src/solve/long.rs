@@ -8,7 +8,7 @@ use super::ladder::{Engined, Observer, Target};
 use super::plan::{Engine, Plan, Rung};
 use super::raised::Raised;
 use crate::certified::ProvedContact;
-use crate::damped::{Damped, Joined};
+use crate::cells::{self, Damped, Joined};
 use crate::error::Error;
 use crate::first_contact::{Bounce, FirstContact};
 use crate::lattice::Undamped;
@@ -72,8 +72,8 @@ fn estimates(problem: &Problem, plan: &Plan, bits: u32, observe: &Observer) -> R
             if matches!(bounce, Bounce::Undecided { digits: true, .. }) {
                 return Err(Error::NotDecided { what: "how the first contact ends", bits });
             }
-            let follow = plan.engine == Engine::ClosedFormThenCells;
-            Arc::new(Raised::new(Joined::<Float>::solve(problem, &bits, digits, bounce, follow)?))
+            let reach = if plan.engine == Engine::ClosedForm { cells::Reach::Bounce } else { cells::Reach::Run };
+            Arc::new(Raised::new(Joined::<Float>::solve(problem, &bits, digits, bounce, reach)?))
         }
     })
 }

@@ -1,7 +1,7 @@
 //! The damped march against closed forms, limits, balances, another method and itself.
 
 use crate::common::{close, number, problem, reference, uniform};
-use dalembert::damped::Damped;
+use dalembert::cells::Damped;
 use dalembert::history::{Ending, EventKind, History, Side};
 use dalembert::rod::{Material, Profile, Rod, Run, Start, Top};
 use dalembert::{Error, Number, Problem};

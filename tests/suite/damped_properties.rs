@@ -1,6 +1,6 @@
 //! What holds of every damped history, on random scenes, each within the error that the history itself claims.
 
-use dalembert::damped::Damped;
+use dalembert::cells::Damped;
 use dalembert::history::Event;
 use dalembert::lattice::Undamped;
 use dalembert::rod::{Material, Parameters, Profile, Rod, Run, Speed, Start, Top};

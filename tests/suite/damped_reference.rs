@@ -1,7 +1,7 @@
 //! The damped march against values from programs that share no code with it.
 
 use crate::common::{close, number, problem, reference};
-use dalembert::damped::Damped;
+use dalembert::cells::Damped;
 use dalembert::history::{Ending, EventKind, History, Side};
 use dalembert::rod::Run;
 

@@ -2,7 +2,7 @@
 //! no more to ask for more of it.
 
 use crate::common::{close, uniform};
-use dalembert::damped::{Damped, Joined};
+use dalembert::cells::{Damped, Joined, Reach};
 use dalembert::first_contact::FirstContact;
 use dalembert::rod::{Parameters, Profile, Run, Start, Top};
 use dalembert::{Ending, Error, History, Number, Problem, Side};
@@ -132,7 +132,7 @@ fn a_contact_without_end_is_known_at_all_times() {
         let problem = rod(gravity, "1/2", damping, 1_000_000);
         let parameters = Parameters::<f64>::of(&problem, &()).unwrap();
         let bounce = FirstContact::new(&parameters).bounce_within(1e-12);
-        let history = Joined::<f64>::solve(&problem, &(), 13.0, bounce, true).unwrap();
+        let history = Joined::<f64>::solve(&problem, &(), 13.0, bounce, Reach::Run).unwrap();
         assert!(matches!(history.ending(), Ending::NoBounce(_)), "{:?}", history.ending());
         let g = parameters.gravity;
         rests(&history, 1_000_000, |x| g * (0.5 * x * x - x), -g);
@@ -141,7 +141,7 @@ fn a_contact_without_end_is_known_at_all_times() {
     // Too slow: after 256 round trips it still moves.
     let problem = rod("0", "1", "1e4", 1_000_000);
     let bounce = FirstContact::new(&Parameters::<f64>::of(&problem, &()).unwrap()).bounce_within(1e-12);
-    let history = Joined::<f64>::solve(&problem, &(), 13.0, bounce, true).unwrap();
+    let history = Joined::<f64>::solve(&problem, &(), 13.0, bounce, Reach::Run).unwrap();
     assert_eq!(history.end(), 512.0);
 }
 

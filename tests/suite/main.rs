@@ -10,6 +10,7 @@
 mod command;
 mod common;
 // mod cost_measured;
+mod damped_bounce;
 mod damped_history;
 mod damped_properties;
 mod damped_reference;

@@ -2,7 +2,7 @@
 //! damping, the lattice; with damping, the cells. Each value carries a proved bound, and two routes may differ by no more than their bounds.
 
 use crate::common::{number, reference};
-use dalembert::damped::Damped;
+use dalembert::cells::Damped;
 use dalembert::first_contact::{Estimate, FirstContact};
 use dalembert::history::{History, Side};
 use dalembert::lattice::Undamped;

@@ -4,6 +4,7 @@
 //! `y = v_t`, and it lands when `v(0,·) = ∫ y` returns to zero. A landing at which `y` is not negative, and at `y = 0` not
 //! falling, is none: the flight goes on.
 
+use super::bounce::Held;
 use super::march::{Medium, State};
 use super::root::first_descent;
 use super::series::{at_one, at_zero, bound, derivative, evaluate};
@@ -65,8 +66,11 @@ pub(super) enum Goal<S> {
 pub(super) struct Follower<'a, S> {
     pub(super) medium: &'a Medium<S>,
     pub(super) data: &'a Data<S>,
+    pub(super) held: Option<&'a Held<S>>,
     pub(super) state: State<S>,
     pub(super) contact: bool,
+    /// Contacts so far.
+    landed: u32,
     /// `v(0,b)`.
     pub(super) height: S,
     pub(super) pieces: Vec<Piece<S>>,
@@ -95,34 +99,62 @@ const MOST_SEGMENTS: usize = 4096;
 impl<'a, S: Analytic> Follower<'a, S> {
     /// At `t = 0`.
     pub(super) fn new(medium: &'a Medium<S>, data: &'a Data<S>) -> Self {
-        let state = data.march(medium, &mut |_| {});
+        let mut follower = Self::with(medium, data, data.march(medium, &mut |_| {}));
+        follower.height = data.ground.clone();
+        if !data.ground.is_positive() && !follower.rises() {
+            follower.contact = true;
+            follower.landed = 1;
+            let velocity = data.end_velocity();
+            follower.marks.push(Mark { kind: EventKind::Impact, time: data.slope.zero(), velocity, time_error: 0.0 });
+        }
+        follower
+    }
+
+    /// At the first release, where the end leaves with `velocity` and the time may be off by `time_error`.
+    pub(super) fn released(
+        medium: &'a Medium<S>,
+        data: &'a Data<S>,
+        held: &'a Held<S>,
+        (velocity, time_error): (S, f64),
+    ) -> Self {
+        let (mut state, error) = held.state(medium);
+        state.segments[0].time_error = time_error;
+        let mut follower = Self::with(medium, data, state);
+        follower.held = Some(held);
+        follower.landed = 1;
+        follower.scattered = error;
+        // As in `event`.
+        follower.shifted = 2.0 * velocity.to_f64().abs() * time_error;
+        follower.most_shifted = follower.shifted;
+        follower.height_error += velocity.to_f64().abs() * time_error;
+        follower.marks.push(Mark { kind: EventKind::Release, time: held.release.clone(), velocity, time_error });
+        follower
+    }
+
+    /// In flight at height zero, with no error but that of the first cells.
+    fn with(medium: &'a Medium<S>, data: &'a Data<S>, state: State<S>) -> Self {
         // A cell: what the series of its sides and of its sum leave out, and four roundings of every coefficient: the sum,
         // the correction, the decay and its factor.
         let roundoff = 4.0 * data.slope.log2_roundoff().exp2() * (1.0 + state.bound());
-        let cell_error = 4.0 * medium.log2_accuracy.exp2() + roundoff;
-        let mut follower = Follower {
+        Follower {
             medium,
             data,
+            held: None,
             state,
             contact: false,
-            height: data.ground.clone(),
+            landed: 0,
+            height: data.slope.zero(),
             pieces: Vec::new(),
             marks: Vec::new(),
             checkpoints: Vec::new(),
             warnings: Vec::new(),
-            cell_error,
+            cell_error: 4.0 * medium.log2_accuracy.exp2() + roundoff,
             scattered: 0.0,
             shifted: 0.0,
             most_shifted: 0.0,
             height_error: roundoff,
             last_trace: None,
-        };
-        if !data.ground.is_positive() && !follower.rises() {
-            follower.contact = true;
-            let velocity = data.end_velocity();
-            follower.marks.push(Mark { kind: EventKind::Impact, time: data.slope.zero(), velocity, time_error: 0.0 });
         }
-        follower
     }
 
     /// The error of `p` and `q`: what cells made, once for each cell on the longest path to here, and what impacts made.
@@ -152,7 +184,6 @@ impl<'a, S: Analytic> Follower<'a, S> {
     /// Goes on until the goal.
     pub(super) fn run(&mut self, goal: &Goal<S>) -> Result<Ending, Error> {
         let unit = self.height.log2_roundoff().exp2();
-        let mut landed = u32::from(self.contact);
         let mut round = i64::MIN;
         let mut calm = None;
         // Whether something happened at this very time already.
@@ -193,7 +224,7 @@ impl<'a, S: Analytic> Follower<'a, S> {
             let grounded = !self.contact && self.height.to_f64() <= self.height_error;
             if !fresh && grounded && !self.rises() {
                 let time_error = ray_error.max(self.event_error(&trace, &height, &len.zero(), &len, 0.0));
-                if self.land(goal, &mut landed, time_error) {
+                if self.land(goal, time_error) {
                     return Ok(Ending::NextImpact);
                 }
                 fresh = true;
@@ -218,7 +249,7 @@ impl<'a, S: Analytic> Follower<'a, S> {
                     self.event(ray_error, false);
                 } else {
                     let time_error = ray_error.max(self.event_error(&trace, &height, &len.zero(), &len, 0.0));
-                    if self.land(goal, &mut landed, time_error) {
+                    if self.land(goal, time_error) {
                         return Ok(Ending::NextImpact);
                     }
                 }
@@ -248,7 +279,7 @@ impl<'a, S: Analytic> Follower<'a, S> {
                     self.advance(Some(&x), time_error, &trace, &height);
                     if self.contact {
                         self.event(time_error, true);
-                    } else if self.land(goal, &mut landed, time_error) {
+                    } else if self.land(goal, time_error) {
                         return Ok(Ending::NextImpact);
                     }
                     fresh = true;
@@ -365,13 +396,13 @@ impl<'a, S: Analytic> Follower<'a, S> {
     }
 
     /// An impact now; whether it is the one after the last that was asked for.
-    fn land(&mut self, goal: &Goal<S>, landed: &mut u32, time_error: f64) -> bool {
+    fn land(&mut self, goal: &Goal<S>, time_error: f64) -> bool {
         if let Goal::Impacts(count) = goal
-            && *landed >= *count
+            && self.landed >= *count
         {
             return true;
         }
-        *landed += 1;
+        self.landed += 1;
         self.event(time_error, false);
         false
     }

@@ -1,12 +1,14 @@
 //! The solution of the damped problem, and the answers to what is asked of it.
 
-use super::follow::{Follower, Goal, Piece};
+use super::bounce::Held;
+use super::follow::{Follower, Goal, Mark, Piece};
 use super::march::{Medium, State};
 use super::record::{Node, Record};
 use super::root::smallest;
 use super::series::{at_one, at_zero, evaluate};
 use super::start::{Data, Units};
 use crate::error::Error;
+use crate::first_contact::FirstContact;
 use crate::history::{Contact, Ending, Energy, Event, EventKind, Field, History, Scales, Side, StressPiece};
 use crate::number::Analytic;
 use crate::rod::{Parameters, Problem, Run, Top};
@@ -15,14 +17,14 @@ use crate::special::{log_mean, log_rest};
 /// The motion of the damped rod through any number of impacts, `r ≥ 0`.
 ///
 /// **Source**: the characteristic cells of `v_tt + 2r v_t − c² v_xx = −g` with the contact law (1.3)–(1.6); derivation in
-/// the modules of `damped`. `r → 0` is regular: nothing is divided by `r`.
+/// the modules of `cells`. `r → 0` is regular: nothing is divided by `r`.
 ///
 /// **Units**: those of the problem.
 ///
 /// **Accuracy**: within [`History::error_estimate`] of each quantity's natural scale: `t₁`, `V = max(|data|, g t₁)`, `V t₁`.
 ///
 /// ```
-/// use dalembert::damped::Damped;
+/// use dalembert::cells::Damped;
 /// use dalembert::history::History;
 /// use dalembert::{Number, Problem};
 /// // Without damping a rod with c = L = g = 1 that arrives at μ = 3 leaves after the round trip, t₁ = 2.
@@ -37,6 +39,7 @@ use crate::special::{log_mean, log_rest};
 pub struct Damped<S> {
     medium: Medium<S>,
     data: Data<S>,
+    held: Option<Held<S>>,
     pieces: Vec<Piece<S>>,
     checkpoints: Vec<(usize, State<S>)>,
     events: Vec<Event<S>>,
@@ -49,6 +52,54 @@ pub struct Damped<S> {
 
 /// Cells are at most `2/r` wide, so that each round trip takes `(r t₁/2)²` of them: millions here.
 const MOST_DAMPING: f64 = 2000.0;
+
+/// What a run has found.
+struct Found<S> {
+    pieces: Vec<Piece<S>>,
+    checkpoints: Vec<(usize, State<S>)>,
+    marks: Vec<Mark<S>>,
+    warnings: Vec<String>,
+    error: f64,
+    ending: Ending,
+}
+
+impl<S: Analytic> Found<S> {
+    fn of(follower: Follower<'_, S>, ending: Ending) -> Self {
+        let worst = follower.marks.iter().map(|mark| mark.time_error).fold(follower.error(), f64::max);
+        let error = worst.max(follower.height_error) + follower.most_shifted;
+        let Follower { pieces, checkpoints, marks, warnings, .. } = follower;
+        Found { pieces, checkpoints, marks, warnings, error, ending }
+    }
+}
+
+/// The medium and the data of `problem`, for `digits` digits, with segments `shorten` times shorter than need be.
+///
+/// **Errors**: [`Error::DampingTooStrong`], [`Error::Irrational`].
+fn medium<S: Analytic>(
+    problem: &Problem,
+    precision: &S::Precision,
+    digits: f64,
+    shorten: i64,
+) -> Result<(Medium<S>, Data<S>), Error> {
+    let parameters = Parameters::<S>::of(problem, precision)?;
+    let free_top = problem.rod.top == Top::Free;
+    let data = Data::of(problem, &parameters, free_top);
+    let asked = -digits.max(1.0) * std::f64::consts::LOG2_10 - 20.0;
+    let log2_accuracy = asked.max(data.damping.log2_roundoff());
+    let found = data.damping.to_f64();
+    if found > MOST_DAMPING {
+        return Err(Error::DampingTooStrong { found, most: MOST_DAMPING });
+    }
+    Ok((Medium::new(&data.damping, data.slope.clone(), free_top, log2_accuracy, shorten), data))
+}
+
+/// How far to follow `problem`.
+fn goal<S: Analytic>(problem: &Problem, precision: &S::Precision, data: &Data<S>) -> Goal<S> {
+    match &problem.run {
+        Run::Impacts(count) => Goal::Impacts(*count),
+        Run::Time(time) => Goal::Time(S::from_number(time, precision) / &data.units.time),
+    }
+}
 
 impl<S: Analytic> Damped<S> {
     /// Follows `problem` as far as its `run` says, to about `digits` decimal digits of the natural scales.
@@ -78,36 +129,58 @@ impl<S: Analytic> Damped<S> {
         digits: f64,
         shorten: i64,
     ) -> Result<Self, Error> {
-        let parameters = Parameters::<S>::of(problem, precision)?;
-        let free_top = problem.rod.top == Top::Free;
-        let data = Data::of(problem, &parameters, free_top);
-        let asked = -digits.max(1.0) * std::f64::consts::LOG2_10 - 20.0;
-        let log2_accuracy = asked.max(data.damping.log2_roundoff());
-        let found = data.damping.to_f64();
-        if found > MOST_DAMPING {
-            return Err(Error::DampingTooStrong { found, most: MOST_DAMPING });
-        }
-        let medium = Medium::new(&data.damping, data.slope.clone(), free_top, log2_accuracy, shorten);
-        let goal = match &problem.run {
-            Run::Impacts(count) => Goal::Impacts(*count),
-            Run::Time(time) => Goal::Time(S::from_number(time, precision) / &data.units.time),
-        };
+        let (medium, data) = medium(problem, precision, digits, shorten)?;
+        let goal = goal(problem, precision, &data);
         let mut follower = Follower::new(&medium, &data);
         let ending = follower.run(&goal)?;
-        let worst = follower.marks.iter().map(|mark| mark.time_error).fold(follower.error(), f64::max);
-        let error = worst.max(follower.height_error) + follower.most_shifted;
-        let Follower { pieces, checkpoints, marks, warnings, .. } = follower;
+        let found = Found::of(follower, ending);
+        Ok(Self::record_of(medium, data, None, found, problem, precision))
+    }
+
+    /// The motion after the first release, at `time`, known to `time_error`, with the velocity `leaves` of the end.
+    ///
+    /// The first event is that release; no question may be asked about what came before it.
+    pub(super) fn after_bounce(
+        problem: &Problem,
+        precision: &S::Precision,
+        digits: f64,
+        contact: &FirstContact<S>,
+        (time, time_error, leaves): (&S, f64, &S),
+    ) -> Result<Self, Error> {
+        let (medium, data) = medium(problem, precision, digits, 1)?;
+        let goal = goal(problem, precision, &data);
+        let held = Held::until(contact, &data, time);
+        let leaves = leaves.clone() / &data.units.velocity;
+        let mut follower = Follower::released(&medium, &data, &held, (leaves, time_error / data.units.time.to_f64()));
+        let ending = follower.run(&goal)?;
+        let found = Found::of(follower, ending);
+        Ok(Self::record_of(medium, data, Some(held), found, problem, precision))
+    }
+
+    fn record_of(
+        medium: Medium<S>,
+        data: Data<S>,
+        held: Option<Held<S>>,
+        found: Found<S>,
+        problem: &Problem,
+        precision: &S::Precision,
+    ) -> Self {
+        let Found { pieces, checkpoints, marks, warnings, error, ending } = found;
         let end = match &problem.run {
             Run::Time(time) if ending == Ending::Time || pieces.last().is_some_and(|piece| piece.still) => {
                 S::from_number(time, precision)
             }
-            _ => pieces.last().map_or_else(|| data.slope.zero(), Piece::to) * &data.units.time,
+            _ => {
+                let start = || held.as_ref().map_or_else(|| data.slope.zero(), |held| held.release.clone());
+                pieces.last().map_or_else(start, Piece::to) * &data.units.time
+            }
         };
         let mut history = Damped {
             contacts: Vec::new(),
             events: Vec::new(),
             medium,
             data,
+            held,
             pieces,
             checkpoints,
             end,
@@ -131,12 +204,13 @@ impl<S: Analytic> Damped<S> {
             })
             .collect();
         history.contacts = history.find_contacts();
-        Ok(history)
+        history
     }
 
     /// What the field follows from.
     fn record(&self) -> Record<'_, S> {
-        Record { medium: &self.medium, data: &self.data, pieces: &self.pieces, checkpoints: &self.checkpoints }
+        let Damped { medium, data, held, pieces, checkpoints, .. } = self;
+        Record { medium, data, held: held.as_ref(), pieces, checkpoints }
     }
 
     /// The dimensionless time.

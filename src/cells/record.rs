@@ -3,6 +3,7 @@
 //! Kept are the trace at the ground and one state for every round trip; everything between is the same march once more, with
 //! the cuts that are known. A question costs at most two round trips of cells, and memory is that of a trace.
 
+use super::bounce::Held;
 use super::cell::Cell;
 use super::follow::Piece;
 use super::march::{Medium, State};
@@ -16,6 +17,7 @@ use crate::number::Analytic;
 pub(super) struct Record<'a, S> {
     pub(super) medium: &'a Medium<S>,
     pub(super) data: &'a Data<S>,
+    pub(super) held: Option<&'a Held<S>>,
     pub(super) pieces: &'a [Piece<S>],
     pub(super) checkpoints: &'a [(usize, State<S>)],
 }
@@ -36,7 +38,7 @@ pub(super) struct Node<S> {
 impl<S: Analytic> Record<'_, S> {
     /// Shows every cell of the strips that meet `from ≤ ξ ≤ to`, in order of `ξ`, then of `η`.
     fn sweep(&self, from: &S, to: &S, visit: &mut impl FnMut(&Cell<'_, S>)) {
-        if from.is_negative() {
+        if from.is_negative() && self.held.is_none() {
             self.data.march(self.medium, visit);
         }
         let first = self.pieces.partition_point(|piece| piece.to() < *from);
@@ -90,6 +92,17 @@ impl<S: Analytic> Record<'_, S> {
             }
         };
         self.sweep(&(t.clone() - reach), t, &mut visit);
+        if let Some(held) = self.held {
+            for (from, to) in held.between_rays(t, &larger(t.clone() - &held.release, zero), reach) {
+                let len = to - &from;
+                for (at, weight) in &self.medium.basis.gauss {
+                    let x = len.clone() * at + &from;
+                    let (p, q, _) = held.invariants(&x, t, Side::Right);
+                    let (z_t, z_x) = ((p.clone() + &q) * &half, (q - p) * &half);
+                    nodes.push(Node { weight: weight.clone() * &len, x, z_t, z_x });
+                }
+            }
+        }
         nodes
     }
 
@@ -111,6 +124,15 @@ impl<S: Analytic> Record<'_, S> {
         }
         let (xi, eta) = (t.clone() - x, t.clone() + x);
         let slack = slack(t);
+        let half = x.ratio(1, 2);
+        let before = |held: &&Held<S>| match side {
+            Side::Right => xi < held.release.clone() - &slack,
+            Side::Left => xi <= held.release.clone() + &slack,
+        };
+        if let Some(held) = self.held.filter(before) {
+            let (p, q, _) = held.invariants(x, t, side);
+            return ((p.clone() + &q) * &half, (q - p) * half);
+        }
         // The last cell that has begun; where none has, the first.
         let begun = |corner: &S, at: &S| match side {
             Side::Right => *corner <= at.clone() + &slack,
@@ -126,7 +148,6 @@ impl<S: Analytic> Record<'_, S> {
         let from = xi.clone() - &slack - &slack;
         self.sweep(&from, &(xi.clone() + &slack), &mut visit);
         let (p, q) = best.unwrap_or((x.zero(), x.zero()));
-        let half = x.ratio(1, 2);
         ((p.clone() + &q) * &half, (q - p) * half)
     }
 

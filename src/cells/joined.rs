@@ -11,7 +11,7 @@ use crate::rod::{Parameters, Problem, Run};
 /// The damped rod that starts as the paper's does, through any number of impacts: [`FirstContact`] as long as the first
 /// contact lasts, [`Damped`] from the bounce on.
 ///
-/// **Source**: Theorem 1 and the closed forms of section 3 until `t_b`; the characteristic cells of [`crate::damped`] after it.
+/// **Source**: Theorem 1 and the closed forms of section 3 until `t_b`; the characteristic cells of [`crate::cells`] after it.
 ///
 /// **Units**: those of the problem.
 ///
@@ -32,6 +32,17 @@ pub struct Joined<S> {
     digits: f64,
 }
 
+/// How far a history is to go.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Reach {
+    /// As far as the problem's run says.
+    Run,
+    /// To the first release at most: closed forms alone, no cells.
+    Bounce,
+    /// The same, because what is left of the motion at the release is too faint for doubles.
+    Faint,
+}
+
 /// A contact without end is followed for this many round trips, and beyond them if it is at rest by then; where no time is asked
 /// for, fewer are shown.
 const MOST_TRIPS: i64 = 256;
@@ -40,8 +51,8 @@ const SHOWN_TRIPS: i64 = 8;
 const MOST_MARCHED: f64 = 300.0;
 
 impl<S: Analytic> Joined<S> {
-    /// Follows `problem`, whose first contact ends as `bounce` says, to about `digits` decimal digits of the natural scales;
-    /// without `follow`, only to the bounce.
+    /// Follows `problem`, whose first contact ends as `bounce` says, to about `digits` decimal digits of the natural scales,
+    /// and no farther than `reach`.
     ///
     /// **Errors**: those of [`Damped::solve`].
     pub fn solve(
@@ -49,7 +60,7 @@ impl<S: Analytic> Joined<S> {
         precision: &S::Precision,
         digits: f64,
         bounce: Bounce<S>,
-        follow: bool,
+        reach: Reach,
     ) -> Result<Self, Error> {
         let rod = Parameters::<S>::of(problem, precision)?;
         let contact = FirstContact::new(&rod);
@@ -82,7 +93,7 @@ impl<S: Analytic> Joined<S> {
         match bounce {
             Bounce::At { time, error, .. } if asked.as_ref().is_none_or(|asked| time <= *asked) => {
                 joined.release(time, error);
-                joined.follow(problem, precision, follow)?;
+                joined.follow(problem, precision, reach)?;
             }
             // The contact outlasts the time asked for.
             Bounce::At { .. } => (),
@@ -139,37 +150,31 @@ impl<S: Analytic> Joined<S> {
         self.bounce = Some(rebound);
     }
 
-    /// The flight and all that comes after it, from the cells, if they know the same bounce.
-    fn follow(&mut self, problem: &Problem, precision: &S::Precision, follow: bool) -> Result<(), Error> {
+    /// The flight and all that comes after it, from the cells.
+    fn follow(&mut self, problem: &Problem, precision: &S::Precision, reach: Reach) -> Result<(), Error> {
         let Some(bounce) = &self.bounce else { return Ok(()) };
-        if !follow || self.digits > MOST_MARCHED {
-            self.end = bounce.time.clone();
-            self.ending = Ending::Undecided(if follow {
-                format!("beyond {MOST_MARCHED} digits only the first contact is computed, not the flight after it")
-            } else {
+        let ending = match reach {
+            Reach::Run if self.digits <= MOST_MARCHED => None,
+            Reach::Run => Some(Ending::Undecided(format!(
+                "beyond {MOST_MARCHED} digits only the first contact is computed, not the flight after it"
+            ))),
+            Reach::Bounce => Some(Ending::Bounce),
+            Reach::Faint => {
                 let rest = bounce.velocity.value.to_f64() / self.rod.speed.to_f64();
-                format!("the rod leaves with {rest:.1e} of the impact speed: --digits N follows so faint a motion")
-            });
-            return Ok(());
-        }
-        let march = Damped::<S>::solve(problem, precision, self.digits)?;
-        let near = bounce.time.double(1e-6) * self.contact.round_trip();
-        let after = |time: &S| *time > bounce.time.clone() + &near;
-        // A release and an impact within rounding of the bounce belong to it.
-        let known = march.events().iter().rev().find(|event| !after(&event.time));
-        let same = known.is_some_and(|event| {
-            event.kind == EventKind::Release && (event.time.clone() - &bounce.time).magnitude() <= near
-        });
-        if !same {
+                Some(Ending::Undecided(format!(
+                    "the rod leaves with {rest:.1e} of the impact speed: --digits N follows so faint a motion"
+                )))
+            }
+        };
+        if let Some(ending) = ending {
             self.end = bounce.time.clone();
-            self.ending = Ending::Undecided(format!(
-                "what is left of the motion after the bounce at t = {} is below this precision: ask for more digits",
-                bounce.time.to_f64()
-            ));
+            self.ending = ending;
             return Ok(());
         }
-        self.events.extend(march.events().iter().filter(|event| after(&event.time)).cloned());
-        self.contacts.extend(march.contacts().iter().filter(|contact| after(&contact.from)).cloned());
+        let release = (&bounce.time, self.events[1].time_error, &self.events[1].end_velocity);
+        let march = Damped::after_bounce(problem, precision, self.digits, &self.contact, release)?;
+        self.events.extend(march.events().iter().skip(1).cloned());
+        self.contacts.extend(march.contacts().iter().cloned());
         let error = march.error_estimate();
         if error > self.error {
             self.error = error;
@@ -356,15 +361,7 @@ impl<S: Analytic> History<S> for Joined<S> {
             })
             .collect();
         if let Some(march) = &self.march {
-            let later = march.stress_pieces().into_iter().filter(|piece| piece.to > *until);
-            // The flight begins where the closed form ends.
-            pieces.extend(later.map(|piece| StressPiece {
-                from: if piece.from < *until { until.clone() } else { piece.from },
-                ..piece
-            }));
-            if let Some(flight) = pieces.iter_mut().find(|piece| piece.from >= *until) {
-                flight.from = until.clone();
-            }
+            pieces.extend(march.stress_pieces());
         }
         pieces
     }

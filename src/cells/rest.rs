@@ -27,7 +27,8 @@ impl<S: Analytic> Follower<'_, S> {
         if slope < 0.0 {
             return None;
         }
-        let record = Record { medium, data, pieces: &self.pieces, checkpoints: &self.checkpoints };
+        let held = self.held;
+        let record = Record { medium, data, held, pieces: &self.pieces, checkpoints: &self.checkpoints };
         let t = self.state.time();
         let nodes = record.line(&t, &t.ratio(1, 2));
         let sum = |f: &dyn Fn(f64, f64, f64) -> f64| -> f64 {

@@ -1,0 +1,110 @@
+//! The start from a bounce: the first contact in closed form up to the characteristic that leaves the ground at `t_b`.
+//!
+//! Nothing that happens at the ground after `t_b` reaches a point with `ξ = t − x/c < t_b`, so there the closed form, which
+//! goes on as if the end were held, is the motion, and its limit from `ξ < t_b` is the state from which the cells go on: the
+//! rays that come up jump in `p` alone, and `q` is continuous across them.
+
+use std::collections::VecDeque;
+
+use super::march::{Medium, State};
+use super::start::{Data, Units};
+use crate::first_contact::FirstContact;
+use crate::history::Side;
+use crate::number::Analytic;
+
+/// The motion before the first release, dimensionless.
+#[derive(Clone, Debug)]
+pub(super) struct Held<S> {
+    contact: FirstContact<S>,
+    units: Units<S>,
+    gravity: S,
+    slope: S,
+    /// `t_b`.
+    pub(super) release: S,
+}
+
+impl<S: Analytic> Held<S> {
+    /// The motion up to `release`, in the units of the problem. A release within rounding of a lattice time is there.
+    pub(super) fn until(contact: &FirstContact<S>, data: &Data<S>, release: &S) -> Self {
+        let trips = release.clone() / &data.units.time;
+        let near = (trips.clone() + trips.ratio(1, 2)).floor_int();
+        let lattice = near.filter(|k| (trips.clone() - trips.int(*k)).magnitude() <= rounding(&trips));
+        Held {
+            contact: contact.clone(),
+            units: data.units.clone(),
+            gravity: data.gravity.clone(),
+            slope: data.slope.clone(),
+            release: lattice.map_or_else(|| trips.clone(), |k| trips.int(k)),
+        }
+    }
+
+    /// `p`, `q` of `z` at a point before the release, `ξ ≤ t_b`, and a bound of the error of either.
+    pub(super) fn invariants(&self, x: &S, t: &S, side: Side) -> (S, S, f64) {
+        let point = x.clone() * x.int(2) * &self.units.length;
+        let (field, errors) = self.contact.field(&point, &(t.clone() * &self.units.time), side);
+        let velocity = field.velocity / &self.units.velocity;
+        let strain = field.strain * &self.units.wave_speed / &self.units.velocity;
+        let z_x = strain - self.gravity.clone() * x - &self.slope;
+        let error = (errors[1] + self.units.wave_speed.to_f64() * errors[2]) / self.units.velocity.to_f64();
+        (velocity.clone() - &z_x, velocity + z_x, error)
+    }
+
+    /// The parts of `from ≤ x ≤ to` at time `t` between rays of the first contact, those of more than a rounding.
+    pub(super) fn between_rays(&self, t: &S, from: &S, to: &S) -> Vec<(S, S)> {
+        if to <= from {
+            return Vec::new();
+        }
+        let mut cuts = vec![from.clone()];
+        // Rays go up at ξ = k and come down at η = k; less than a round trip of the rod lies between from and to.
+        let first = (t.clone() - to).floor_int().unwrap_or(0);
+        for k in first..first + 4 {
+            for x in [t.clone() - t.int(k), t.int(k) - t] {
+                if x > *from && x < *to {
+                    cuts.push(x);
+                }
+            }
+        }
+        cuts.push(to.clone());
+        cuts.sort_by(|a, b| a.partial_cmp(b).unwrap_or(std::cmp::Ordering::Equal));
+        let long = |pair: &&[S]| pair[1].clone() - &pair[0] > rounding(t);
+        cuts.windows(2).filter(long).map(|pair| (pair[0].clone(), pair[1].clone())).collect()
+    }
+
+    /// The state on the characteristic that leaves the ground at `t_b`, and a bound of the error of its values.
+    ///
+    /// Between the rays `q` is of the form that the module `cell` says lasts, so the medium's number of terms serves.
+    pub(super) fn state(&self, medium: &Medium<S>) -> (State<S>, f64) {
+        let release = &self.release;
+        let round = release.floor_int().unwrap_or(0);
+        let (from, one) = (release.clone() - release.int(round), release.one());
+        let half = release.ratio(1, 2);
+        let mut pieces = vec![(from.clone(), one.clone() - &from)];
+        if from.is_positive() {
+            pieces.push((from.zero(), from));
+        }
+        let mut state = State { round, segments: VecDeque::new() };
+        let (mut error, mut eta) = (0.0f64, release.clone());
+        for (at, len) in pieces {
+            let count = (len.clone() / &medium.longest).to_f64().ceil().max(1.0) as i64;
+            let len = len / one.int(count);
+            for k in 0..count {
+                let value = |node: &S| {
+                    let x = (node.clone() * &len + &eta - release) * &half;
+                    let (_, q, off) = self.invariants(&x, &(release.clone() + &x), Side::Left);
+                    error = error.max(off);
+                    q
+                };
+                let values: Vec<S> = medium.basis.nodes().iter().map(value).collect();
+                let at = at.clone() + len.clone() * len.int(k);
+                state.segments.push_back(medium.segment(at, len.clone(), &values));
+                eta = eta + &len;
+            }
+        }
+        (state, error)
+    }
+}
+
+/// How close to a lattice time a time is taken to be that time: a few roundings.
+fn rounding<S: Analytic>(t: &S) -> S {
+    (t.magnitude() + t.one()) * &t.roundoff() * &t.int(16)
+}

@@ -1,0 +1,117 @@
+//! Two ways to the same motion: cells from `t = 0`, and the closed form up to the bounce with cells from there.
+
+use crate::common::uniform;
+use dalembert::cells::{Damped, Joined, Reach};
+use dalembert::first_contact::{Bounce, FirstContact};
+use dalembert::rod::{Parameters, Run};
+use dalembert::{Ending, Error, EventKind, History, Number, Problem, Side};
+
+/// A rod of any length, wave speed, damping, gravity and speed that may bounce more than once.
+fn scene(random: &mut impl FnMut() -> f64) -> Problem {
+    let mut spread = |low: f64, high: f64| -> f64 { low * (high / low).powf(random()) };
+    let (length, c) = (spread(0.1, 10.0), spread(0.1, 10.0));
+    let t1 = 2.0 * length / c;
+    let damping = spread(1e-6, 1.7) / t1;
+    let gravity = spread(0.01, 10.0);
+    let speed = gravity * t1 * spread(0.3, 6.0);
+    let text = |x: f64| format!("{x:e}");
+    let mut problem = uniform(&text(length), &text(c), &text(gravity), &text(speed), Run::Impacts(3));
+    if damping > 1e-5 && length > 0.5 {
+        problem.run = Run::Time(text(7.7 * t1).parse::<Number>().unwrap());
+    }
+    problem.rod.damping = text(damping).parse().ok();
+    problem
+}
+
+/// Both histories; `None` where the first contact does not end, or a march is refused as too long.
+fn both(problem: &Problem) -> Option<(Damped<f64>, Joined<f64>)> {
+    let rod = Parameters::<f64>::of(problem, &()).unwrap();
+    let bounce = FirstContact::new(&rod).bounce_within(1e-13);
+    if !matches!(bounce, Bounce::At { .. }) {
+        return None;
+    }
+    let marched = match Damped::<f64>::solve(problem, &(), 13.0) {
+        Ok(history) => history,
+        Err(Error::TooManyPieces { .. } | Error::TooManyRays { .. }) => return None,
+        Err(other) => panic!("{other}"),
+    };
+    Some((marched, Joined::<f64>::solve(problem, &(), 13.0, bounce, Reach::Run).unwrap()))
+}
+
+#[test]
+fn from_the_bounce_and_from_the_start_agree_within_their_bounds() {
+    // splitmix64, to 0 … 1.
+    let mut seed = 7u64;
+    let mut random = || {
+        seed = seed.wrapping_add(0x9e37_79b9_7f4a_7c15);
+        let mixed = (seed ^ (seed >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+        let mixed = (mixed ^ (mixed >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
+        ((mixed ^ (mixed >> 31)) >> 11) as f64 / (1u64 << 53) as f64
+    };
+    let (mut scenes, mut compared, mut settled) = (0, 0, 0);
+    while scenes < 1000 {
+        let problem = scene(&mut random);
+        let Some((marched, joined)) = both(&problem) else { continue };
+        scenes += 1;
+        let scales = joined.scales();
+        let bound = marched.error_estimate() + joined.error_estimate();
+        assert!(bound.is_finite());
+        let mut last = joined.end().min(marched.end());
+        for (k, (ours, theirs)) in joined.events().iter().zip(marched.events()).enumerate() {
+            // Of a landing that hardly moves, or a release without a jump that the next ray may shift, neither bound is small.
+            let apart = (ours.time - theirs.time).abs();
+            let allowed = ours.time_error + theirs.time_error;
+            if ours.kind != theirs.kind || (allowed > 1e-6 * scales.time && apart > allowed) {
+                last = ours.time.min(theirs.time);
+                break;
+            }
+            assert!(apart <= allowed, "{problem:?} event {k}: {ours:?} {theirs:?}");
+            let see = |what: &str, a: f64, b: f64, unit: f64| {
+                assert!((a - b).abs() <= bound * unit, "{problem:?} event {k}, {what}: {a:e} {b:e}, {bound:e}");
+            };
+            see("h", ours.centre, theirs.centre, scales.velocity * scales.time);
+            see("h'", ours.centre_velocity, theirs.centre_velocity, scales.velocity);
+            compared += 1;
+        }
+        settled += i32::from(joined.events().len() == marched.events().len());
+        // Times on either side of the bounce, some with the closed form still in the upper part of the rod.
+        let release = joined.events()[1].time;
+        for share in [0.1, 0.7, 1.0 + 0.2 * scales.time / release, 1.3, 1.9, 2.6] {
+            let t = release * share;
+            if t >= last {
+                continue;
+            }
+            for x in [0.0, 0.41, 1.0] {
+                let x = x * scales.length;
+                let (a, b) = (joined.field(&x, &t, Side::Right).unwrap(), marched.field(&x, &t, Side::Right).unwrap());
+                let off = [
+                    (a.displacement - b.displacement) / (scales.velocity * scales.time),
+                    (a.velocity - b.velocity) / scales.velocity,
+                    (a.strain - b.strain) * scales.wave_speed / scales.velocity,
+                ];
+                assert!(off.iter().all(|off| off.abs() <= bound), "{problem:?} at {x}, {t}: {off:?}, {bound:e}");
+            }
+            let (a, b) = (joined.energy(&t).unwrap(), marched.energy(&t).unwrap());
+            let unit =
+                scales.length * scales.velocity * ((2.0 * a.vibrational / scales.length).sqrt() + scales.velocity);
+            assert!((a.vibrational - b.vibrational).abs() <= 2.0 * bound * unit, "{problem:?} at {t}: {a:?} {b:?}");
+        }
+    }
+    assert!(compared > 3 * scenes && settled > 9 * scenes / 10, "{compared} events, {settled} lists of {scenes}");
+}
+
+#[test]
+fn a_question_about_the_first_contact_needs_no_cells() {
+    let mut problem = uniform("1", "1", "1", "3", Run::Impacts(10));
+    problem.rod.damping = "0.1".parse().ok();
+    let rod = Parameters::<f64>::of(&problem, &()).unwrap();
+    let bounce = FirstContact::new(&rod).bounce();
+    let short = Joined::<f64>::solve(&problem, &(), 13.0, bounce.clone(), Reach::Bounce).unwrap();
+    let long = Joined::<f64>::solve(&problem, &(), 13.0, bounce, Reach::Run).unwrap();
+    assert_eq!(*short.ending(), Ending::Bounce);
+    assert_eq!(short.end(), 2.0);
+    assert_eq!(short.events(), &long.events()[..2]);
+    assert_eq!(short.events()[1].kind, EventKind::Release);
+    assert_eq!(short.contacts(), &long.contacts()[..1]);
+    assert!(matches!(short.centre(&2.5), Err(Error::TimeOutside { .. })));
+}
