@@ -63,6 +63,8 @@ pub use number::Number;
 #[doc(hidden)]
 pub use problem as rod;
 pub use problem::Problem;
+#[cfg(feature = "mp")]
+pub use rug;
 pub use scene::Scene;
 pub use solve::{
     CERTIFIED_DIGITS, DEFAULT_ACCURACY, Engine, ExactnessEnd, Numbers, Observer, Plan, Question, Reach, Rung, Solution,

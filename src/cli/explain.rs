@@ -24,7 +24,7 @@ impl Explain {
         let scene = source::read(&self.scene)?;
         let plan = Plan::of(&scene.problem, &Question::run(self.numbers.numbers(&scene)))?;
         let effects = effects(&scene, &plan);
-        match self.output.format() {
+        match self.output.format()? {
             Format::Json => self.output.write_json(&json!({
                 "schema": 1,
                 "title": scene.title,

@@ -18,7 +18,7 @@ use crate::history::{Ending, History};
 use crate::motion::Motion;
 use crate::number::{Number, Scalar};
 use crate::output::{Head, write_whole};
-use crate::rod::Material;
+use crate::problem::{Material, Parameters};
 use crate::scene::{Effect, Scene};
 use crate::solve::{CERTIFIED_DIGITS, ExactnessEnd, Numbers, Plan, Question, Solution, Target};
 
@@ -115,6 +115,12 @@ struct OutputArgs {
     /// Write to this file, whole or not at all; `-` is standard output
     #[arg(short, long, value_name = "FILE")]
     output: Option<PathBuf>,
+    /// One row for each contact, however wide the table
+    #[arg(long)]
+    wide: bool,
+    /// Explain the symbols of a table in a line each
+    #[arg(long)]
+    legend: bool,
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
@@ -128,13 +134,18 @@ enum Format {
 }
 
 impl OutputArgs {
-    fn format(&self) -> Format {
+    /// What is printed: what is asked for, or what the ending of the file says.
+    fn format(&self) -> Result<Format, Failure> {
         let ending = self.output.as_ref().and_then(|path| path.extension()).and_then(|ending| ending.to_str());
-        self.format.unwrap_or(match ending {
-            Some("json") => Format::Json,
-            Some("csv") => Format::Csv,
-            _ => Format::Table,
-        })
+        match (self.format, ending.map(str::to_lowercase).as_deref()) {
+            (Some(format), _) => Ok(format),
+            (None, Some("json")) => Ok(Format::Json),
+            (None, Some("csv")) => Ok(Format::Csv),
+            (None, Some("txt") | None) => Ok(Format::Table),
+            (None, Some(other)) => Err(miette::miette!(
+                "found the ending .{other}, expected .json, .csv or .txt here, or --format to say what the file holds"
+            )),
+        }
     }
 
     fn write(&self, text: &str) -> Result<(), Failure> {
@@ -152,7 +163,7 @@ impl OutputArgs {
 }
 
 /// What stands above the numbers of a scene.
-fn head(scene: &Scene, plan: &Plan) -> Head {
+fn head(scene: &Scene, plan: &Plan, output: &OutputArgs) -> Head {
     let line_density = match &scene.problem.rod.material {
         Material::Elastic { density, area, .. } => Some((density.clone(), area.clone())),
         Material::WaveSpeed(_) => None,
@@ -162,10 +173,28 @@ fn head(scene: &Scene, plan: &Plan) -> Head {
         title: scene.title.clone(),
         number: plan.numbers.to_string(),
         effects: called,
+        parameters: parameters(scene),
+        wide: output.wide,
+        legend: output.legend,
         digits: 0,
         line_density,
         exact_until: None,
     }
+}
+
+/// `c`, `t₁`, `R` and `M` to six digits.
+fn parameters(scene: &Scene) -> String {
+    let Ok(rod) = Parameters::<f64>::of(&scene.problem, &()) else { return String::new() };
+    let (c, t1) = (rod.wave_speed.decimal(6), rod.round_trip().decimal(6));
+    let mut text = format!("c = {c}    t₁ = {t1}");
+    let groups = scene.problem.dimensionless();
+    if groups.damping_ratio > 0.0 {
+        text += &format!("    R = r t₁ = {}", groups.damping_ratio.decimal(6));
+    }
+    if let Some(ratio) = groups.speed_ratio.filter(|ratio| ratio.is_finite()) {
+        text += &format!("    M = μ/(g t₁) = {}", ratio.decimal(6));
+    }
+    text
 }
 
 /// What a subcommand prints of a history, in any number system.
@@ -184,9 +213,9 @@ trait Report {
 }
 
 /// Answers `question` of `scene`, and prints what `report` makes of the answer.
-fn answer(scene: &Scene, question: &Question, report: &impl Report) -> Result<(), Failure> {
+fn answer(scene: &Scene, question: &Question, output: &OutputArgs, report: &impl Report) -> Result<(), Failure> {
     let plan = Plan::of(&scene.problem, question)?;
-    let head = head(scene, &plan);
+    let head = head(scene, &plan, output);
     let progress = source::Progress::of(scene, &plan);
     let solution = plan.solve(&scene.problem, progress.observer())?;
     let digits = |digits: u32, head: Head| Head { digits, ..head };

@@ -106,7 +106,7 @@ impl Sample {
         if last.to_f64() < 0.0 {
             return Err(miette::miette!("found time {last}, expected times from 0 on"));
         }
-        answer(&scene, &Question::between(first, last, self.numbers.numbers(&scene)), self)
+        answer(&scene, &Question::between(first, last, self.numbers.numbers(&scene)), &self.output, self)
     }
 }
 
@@ -147,7 +147,7 @@ impl Report for Sample {
         for warning in warnings {
             eprintln!("warning: {warning}");
         }
-        match self.output.format() {
+        match self.output.format()? {
             Format::Table => self.output.write(&samples_table(samples, self.quantity, head)),
             Format::Json => self.output.write_json(&samples_json(samples, self.quantity, head)),
             Format::Csv => self.output.write_csv(samples_csv(samples, self.quantity, head)),

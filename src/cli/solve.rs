@@ -29,11 +29,11 @@ pub(super) struct Solve {
 
 impl Solve {
     pub(super) fn run(&self) -> Result<(), Failure> {
-        if self.part.is_some() && self.output.format() != Format::Csv {
+        if self.part.is_some() && self.output.format()? != Format::Csv {
             return Err(miette::miette!("found --part, expected it with --format csv only"));
         }
         let scene = source::read(&self.scene)?;
-        answer(&scene, &Question::run(self.numbers.numbers(&scene)), self)
+        answer(&scene, &Question::run(self.numbers.numbers(&scene)), &self.output, self)
     }
 }
 
@@ -42,9 +42,9 @@ impl Report for Solve {
 
     fn gather<S: Scalar>(&self, history: &dyn History<S>, head: &Head) -> Result<Record<S>, Error> {
         let stress = match self.output.format() {
-            Format::Table => false,
-            Format::Json => true,
-            Format::Csv => matches!(self.part, Some(Part::Stress)),
+            Ok(Format::Json) => true,
+            Ok(Format::Csv) => matches!(self.part, Some(Part::Stress)),
+            _ => false,
         };
         record(history, head, stress)
     }
@@ -57,7 +57,7 @@ impl Report for Solve {
         for warning in &record.warnings {
             eprintln!("warning: {warning}");
         }
-        match self.output.format() {
+        match self.output.format()? {
             Format::Table => self.output.write(&history_table(record, head)),
             Format::Json => self.output.write_json(&history_json(record, head)),
             Format::Csv => self.output.write_csv(history_csv(record, self.part.unwrap_or_default(), head)),

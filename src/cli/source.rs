@@ -50,11 +50,24 @@ pub(super) fn read(name: &str) -> Result<Scene, Failure> {
         let file = std::fs::File::open(name).map_err(cannot(&format!("open {name}")))?;
         (name, read_text(file, name)?)
     } else {
-        let near = builtin::names().find(|known| known.contains(name) || name.contains(*known));
-        let nearest = near.map_or_else(String::new, |near| format!(", such as `{near}`"));
+        let nearest = nearest(name).map_or_else(String::new, |near| format!("; did you mean `{near}`?"));
         return Err(NoScene { name: name.into(), nearest }.into());
     };
     Scene::parse(&text).map_err(|error| error.in_file(shown).into())
+}
+
+/// The scene that a name which is none may mean: a file beside it that only lacks the ending, or the built-in scene whose name is
+/// the same but for hyphens and case, or a part of it.
+fn nearest(name: &str) -> Option<String> {
+    let file = format!("{name}.toml");
+    if std::path::Path::new(&file).is_file() {
+        return Some(file);
+    }
+    let letters =
+        |text: &str| text.chars().filter(|c| c.is_alphanumeric()).flat_map(char::to_lowercase).collect::<String>();
+    let wanted = letters(name);
+    let near = |known: &&str| wanted == letters(known) || (wanted.len() > 3 && letters(known).contains(&wanted));
+    builtin::names().find(near).map(str::to_string)
 }
 
 fn read_text(from: impl Read, name: &str) -> Result<String, Failure> {

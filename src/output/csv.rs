@@ -1,6 +1,6 @@
 //! CSV: one part of the history a file, with a header.
 
-use super::record::{DOUBLE_DIGITS, Finished, Head, Quantity, Record, Sample, show};
+use super::record::{DOUBLE_DIGITS, Finished, Head, Quantity, Record, Sample, bound_text, show};
 use crate::number::Scalar;
 
 /// The part of a history that a CSV file holds.
@@ -23,9 +23,20 @@ pub fn history_csv<S: Scalar>(record: &Record<S>, part: Part, head: &Head) -> Re
     let header: &[&str] = match part {
         Part::Events => {
             for event in &record.events {
-                rows.push(std::iter::once(event.kind.to_string()).chain(event.numbers().map(show)).collect());
+                let numbers = event.numbers().map(show).into_iter().chain(event.numbers().map(bound_text));
+                rows.push(std::iter::once(event.kind.to_string()).chain(numbers).collect());
             }
-            &["kind", "time", "end_velocity", "centre", "centre_velocity"]
+            &[
+                "kind",
+                "time",
+                "end_velocity",
+                "centre",
+                "centre_velocity",
+                "time_uncertainty",
+                "end_velocity_uncertainty",
+                "centre_uncertainty",
+                "centre_velocity_uncertainty",
+            ]
         }
         Part::Contacts => {
             for Finished { contact, restitution, energy, .. } in &record.contacts {
@@ -67,9 +78,11 @@ pub fn samples_csv<S: Scalar>(samples: &[Sample<S>], quantity: Quantity, head: &
     let show = |x: &S| show(x, if head.digits == 0 { DOUBLE_DIGITS } else { head.digits });
     let mut header = vec!["time", "point", "side"];
     header.extend(quantity.names());
+    let bounds: Vec<String> = quantity.names().iter().map(|name| format!("{name}_uncertainty")).collect();
+    header.extend(bounds.iter().map(String::as_str));
     let rows = samples.iter().map(|sample| {
         let place = [show(&sample.time), sample.point.as_ref().map_or_else(String::new, show), sample.side.to_string()];
-        place.into_iter().chain(sample.values.iter().map(show)).collect()
+        place.into_iter().chain(sample.values.iter().map(show)).chain(sample.values.iter().map(bound_text)).collect()
     });
     write(&header, rows.collect())
 }

@@ -2,7 +2,7 @@
 
 use serde_json::{Value, json};
 
-use super::record::{Finished, Head, Quantity, Record, Sample, json as number_json};
+use super::record::{Finished, Head, Quantity, Record, Sample, bound_json, json as number_json};
 use crate::history::Ending;
 use crate::number::Scalar;
 
@@ -17,6 +17,12 @@ pub fn history_json<S: Scalar>(record: &Record<S>, head: &Head) -> Value {
             "end_velocity": number(&event.end_velocity),
             "centre": number(&event.centre),
             "centre_velocity": number(&event.centre_velocity),
+            "uncertainty": {
+                "time": bound_json(&event.time),
+                "end_velocity": bound_json(&event.end_velocity),
+                "centre": bound_json(&event.centre),
+                "centre_velocity": bound_json(&event.centre_velocity),
+            },
         })
     });
     let contacts = record.contacts.iter().map(|Finished { contact, restitution, shares, energy }| {
@@ -117,12 +123,14 @@ fn exactness_json(ending: &Ending) -> Value {
 pub fn samples_json<S: Scalar>(samples: &[Sample<S>], quantity: Quantity, head: &Head) -> Value {
     let number = |x: &S| number_json(x, head.digits);
     let rows = samples.iter().map(|sample| {
+        let bounds = quantity.names().iter().zip(&sample.values).map(|(name, x)| (name.to_string(), bound_json(x)));
         let values = quantity.names().iter().zip(&sample.values).map(|(name, x)| (name.to_string(), number(x)));
         json!({
             "time": number(&sample.time),
             "point": sample.point.as_ref().map(number),
             "side": sample.side,
             "values": values.collect::<serde_json::Map<_, _>>(),
+            "uncertainty": bounds.collect::<serde_json::Map<_, _>>(),
         })
     });
     json!({

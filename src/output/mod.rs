@@ -17,5 +17,5 @@ pub use file::write_whole;
 pub use json::{history_json, samples_json};
 // #[cfg(feature = "plot")]
 // pub use picture::{cost_svg, png};
-pub use record::{Finished, Head, Quantity, Record, Sample, record, sample, show};
-pub use table::{history_table, samples_table, table};
+pub use record::{Finished, Head, Quantity, Record, Sample, record, sample};
+pub use table::{LEGEND, history_table, samples_table, table};

@@ -10,7 +10,7 @@ use crate::quantity::{EnergyShares, Flight, Restitution, energy_shares, flights,
 ///
 /// **Accuracy**: *correctly rounded* unless the bound is astride a rounding boundary, and then within one unit of the last digit: a
 /// last unit is at least twice the bound.
-pub fn show<S: Scalar>(x: &S, digits: u32) -> String {
+pub(super) fn show<S: Scalar>(x: &S, digits: u32) -> String {
     let size = x.to_f64().abs();
     // −1 for the half unit that rounding takes.
     let known =
@@ -20,7 +20,7 @@ pub fn show<S: Scalar>(x: &S, digits: u32) -> String {
 
 /// The same as a JSON value: a number for a double (null if not finite), `{"value": …, "lo": …, "hi": …}` with `lo ≤ truth ≤ hi`
 /// for an enclosure, a string otherwise.
-pub fn json<S: Scalar>(x: &S, digits: u32) -> serde_json::Value {
+pub(super) fn json<S: Scalar>(x: &S, digits: u32) -> serde_json::Value {
     let text = show(x, if digits == 0 { DOUBLE_DIGITS } else { digits });
     match (x.as_double(), x.ends(digits)) {
         (Some(value), _) if !value.is_finite() => serde_json::Value::Null,
@@ -28,6 +28,36 @@ pub fn json<S: Scalar>(x: &S, digits: u32) -> serde_json::Value {
         (Some(value), _) => value.into(),
         (None, Some([lo, hi])) => serde_json::json!({"value": text, "lo": lo, "hi": hi}),
         (None, None) => text.into(),
+    }
+}
+
+/// The bound of a number's error to two digits, rounded up: `3.1e-14`; `0` where it is exact.
+pub(super) fn bound_text<S: Scalar>(x: &S) -> String {
+    let log10 = x.log2_error() * std::f64::consts::LOG10_2;
+    if log10 == f64::NEG_INFINITY {
+        return "0".into();
+    }
+    if !log10.is_finite() {
+        return "unknown".into();
+    }
+    let exponent = log10.floor();
+    let tenths = (10f64.powf(log10 - exponent) * 10.0 * (1.0 + 1e-12)).ceil();
+    match tenths >= 100.0 {
+        true => format!("1e{}", exponent + 1.0),
+        false => format!("{}e{exponent}", tenths / 10.0),
+    }
+}
+
+/// The bound of a number's error as a JSON value: a number where a double holds it, a string otherwise; `null` for an enclosure,
+/// which has it in itself.
+pub(super) fn bound_json<S: Scalar>(x: &S) -> serde_json::Value {
+    if x.ends(1).is_some() {
+        return serde_json::Value::Null;
+    }
+    let text = bound_text(x);
+    match text.parse::<f64>() {
+        Ok(bound) if bound > 0.0 || text == "0" => bound.into(),
+        _ => text.into(),
     }
 }
 
@@ -45,6 +75,12 @@ pub struct Head {
     pub effects: Vec<&'static str>,
     /// Digits that a `Float` shows.
     pub digits: u32,
+    /// `c`, `t₁`, `R` and `M`.
+    pub parameters: String,
+    /// Whether a table may be wider than 80 characters.
+    pub wide: bool,
+    /// Whether the symbols of a table are explained below it.
+    pub legend: bool,
     /// `ρS` where the scene gives it: what turns strains into newtons.
     pub line_density: Option<(Number, Number)>,
     /// Where an exact run ended, if a run in digits stands in for it.

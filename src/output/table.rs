@@ -2,7 +2,7 @@
 
 use comfy_table::{CellAlignment, ContentArrangement, LineStyle, Table, presets};
 
-use super::record::{Finished, Head, Quantity, Record, Sample, show};
+use super::record::{Finished, Head, Quantity, Record, Sample, bound_text, show};
 use crate::history::Ending;
 use crate::number::Scalar;
 
@@ -22,6 +22,53 @@ pub fn table(header: &[&str], rows: Vec<Vec<String>>, words: usize) -> String {
     table.trim_fmt()
 }
 
+/// Characters that a table may be wide where nothing else is asked for.
+const WIDTH: usize = 80;
+
+/// A table of at most [`WIDTH`] characters: columns that do not fit follow in further tables, each with the first column again.
+fn fitted(header: &[&str], rows: &[Vec<String>], words: usize, wide: bool) -> String {
+    let select = |columns: &[usize]| {
+        let header: Vec<&str> = columns.iter().filter_map(|k| header.get(*k).copied()).collect();
+        let pick = |row: &Vec<String>| columns.iter().filter_map(|k| row.get(*k).cloned()).collect();
+        table(&header, rows.iter().map(pick).collect(), words)
+    };
+    if wide {
+        return select(&(0..header.len()).collect::<Vec<_>>());
+    }
+    let mut parts = Vec::new();
+    let mut columns = vec![0];
+    for k in 1..header.len() {
+        columns.push(k);
+        let widest = select(&columns).lines().map(|line| line.chars().count()).max().unwrap_or(0);
+        if widest > WIDTH && columns.len() > 2 {
+            columns.pop();
+            parts.push(select(&columns));
+            columns = vec![0, k];
+        }
+    }
+    parts.push(select(&columns));
+    // Numbers so long that hardly two columns stand side by side: a row is a block, with a line for each number.
+    if parts.len() > 2 && 2 * parts.len() > header.len() {
+        return blocks(header, rows);
+    }
+    parts.join("\n\n")
+}
+
+/// A block for each row, with a line for each of its numbers.
+fn blocks(header: &[&str], rows: &[Vec<String>]) -> String {
+    let widest = header.iter().map(|name| name.chars().count()).max().unwrap_or(0);
+    let block = |row: &Vec<String>| {
+        let lines = header.iter().zip(row).map(|(name, text)| {
+            let space = " ".repeat(widest - name.chars().count());
+            // Aligned at the first digit, so that signs stand out.
+            let sign = if text.starts_with('-') { "" } else { " " };
+            format!(" {name}{space}  {sign}{text}")
+        });
+        lines.collect::<Vec<_>>().join("\n")
+    };
+    rows.iter().map(block).collect::<Vec<_>>().join("\n\n")
+}
+
 /// Significant digits of a double in a table.
 const TABLE_DIGITS: u32 = 12;
 
@@ -29,6 +76,25 @@ const TABLE_DIGITS: u32 = 12;
 fn cell<S: Scalar>(x: &S, head: &Head) -> String {
     show(x, if head.digits == 0 { TABLE_DIGITS } else { head.digits })
 }
+
+/// What the symbols of the tables mean.
+pub const LEGEND: &str = "\
+time           t, from the first touch of the ground
+v_t(0,t)       velocity of the lower end: just before an impact, just after a release
+h, h′          the centre of mass, from where it is in the undeformed rod on the ground, and its velocity
+±              how far the time may be off
+impulse        −c² ∫ v_x(0,t) dt over the contact: momentum from the ground, per linear density ρS
+peak v_x(0,t)  the most compressive strain at the ground
+e_P            −P(to)/P(from): the momentum coefficient of restitution
+e_E²           E_h(to)/E_h(from): the square of the energy coefficient of restitution
+E, E_h, E_z    energy at the end of the contact, that of the centre of mass, that of the vibration, per ρS
+peak force     −ρS c² v_x(0,t) at the peak, in the force unit of the scene
+force impulse  the same, integrated over the contact
+c              wave speed
+t₁ = 2L/c      round trip of a wave
+R = r t₁       damping ratio: from π on an undriven rod never bounces
+M = μ/(g t₁)   speed ratio: from 1 on an undamped rod bounces after t₁ exactly
+";
 
 /// The whole history but for the stress: head, events, contacts, flights, end.
 pub fn history_table<S: Scalar>(record: &Record<S>, head: &Head) -> String {
@@ -39,16 +105,26 @@ pub fn history_table<S: Scalar>(record: &Record<S>, head: &Head) -> String {
         out += &format!("{title}\n");
     }
     out += &format!("numbers: {}    effects: {}\n", head.number, head.effects.join(", "));
+    out += &format!("{}\n", head.parameters);
     if let Some(ending) = &head.exact_until {
         out += &format!("{ending}\n");
     }
     out += "\n";
 
-    let events = record
-        .events
-        .iter()
-        .map(|event| std::iter::once(event.kind.to_string()).chain(event.numbers().map(show)).collect());
-    out += &table(&["event", "time", "v_t(0,t)", "h", "h′"], events.collect(), 1);
+    let uncertain =
+        record.events.iter().any(|event| event.time.ends(1).is_none() && event.time.log2_error().is_finite());
+    let mut header = vec!["event", "time", "v_t(0,t)", "h", "h′"];
+    if uncertain {
+        header.insert(2, "±");
+    }
+    let events = record.events.iter().map(|event| {
+        let mut row: Vec<String> = std::iter::once(event.kind.to_string()).chain(event.numbers().map(show)).collect();
+        if uncertain {
+            row.insert(2, bound_text(&event.time));
+        }
+        row
+    });
+    out += &fitted(&header, &events.collect::<Vec<_>>(), 1, head.wide);
     out += "\n\n";
 
     let mut header = vec!["contact from", "to", "impulse", "peak v_x(0,t)", "e_P", "e_E²", "E", "E_h", "E_z"];
@@ -74,10 +150,13 @@ pub fn history_table<S: Scalar>(record: &Record<S>, head: &Head) -> String {
         }
         row
     });
-    out += &table(&header, contacts.collect(), 0);
+    out += &fitted(&header, &contacts.collect::<Vec<_>>(), 0, head.wide);
     out += "\n\n";
-    if record.forces.is_some() && !record.contacts.is_empty() {
-        out += "forces are in the units of the scene: newtons where it is written in SI\n";
+    if !record.contacts.is_empty() {
+        out += match record.forces {
+            Some(_) => "impulse and energies are per linear density ρS; forces are in the units of the scene\n",
+            None => "impulse and energies are per linear density ρS\n",
+        };
     }
     for Finished { contact, restitution, .. } in &record.contacts {
         let from = show(&contact.from);
@@ -98,19 +177,19 @@ pub fn history_table<S: Scalar>(record: &Record<S>, head: &Head) -> String {
         reason => format!("ends at t = {}: {reason}", show(&record.end.0)),
     };
     out += &format!("\n{end}\n");
-    if record.error > 0.0 && head.digits == 0 {
-        out += &format!("error estimate: {:.1e} of the scale of each quantity\n", record.error);
-    }
     if let Some((impacts, lost)) = record.lost
         && lost >= MANY_LOST
     {
         let each = lost / f64::from(impacts.max(1));
         out += &format!("{impacts} impacts may have lost {lost:.1} digits to rounding, {each:.2} each\n");
     }
+    if head.legend {
+        out += &format!("\n{LEGEND}");
+    }
     out
 }
 
-/// Below so many digits lost, nobody need be told.
+/// Below so many digits lost the table does not mention them.
 const MANY_LOST: f64 = 3.0;
 
 /// Samples.
@@ -129,5 +208,5 @@ pub fn samples_table<S: Scalar>(samples: &[Sample<S>], quantity: Quantity, head:
         row.extend(sample.values.iter().map(|x| cell(x, head)));
         row
     });
-    table(&header, rows.collect(), 0) + "\n"
+    fitted(&header, &rows.collect::<Vec<_>>(), 0, head.wide) + "\n"
 }
