@@ -17,7 +17,7 @@ use crate::error::Error;
 use crate::history::{Ending, History};
 use crate::motion::Motion;
 use crate::number::{Number, Scalar};
-use crate::output::{Head, write_whole};
+use crate::output::{Head, SCHEMA, write_whole};
 use crate::problem::{Material, Parameters};
 use crate::scene::{Effect, Scene};
 use crate::solve::{CERTIFIED_DIGITS, ExactnessEnd, Numbers, Plan, Question, Solution, Target};
@@ -25,9 +25,17 @@ use crate::solve::{CERTIFIED_DIGITS, ExactnessEnd, Numbers, Plan, Question, Solu
 /// Everything that can go wrong, ready to be reported.
 pub type Failure = miette::Report;
 
+/// The version and the features of this build.
+const VERSION: &str = match (cfg!(feature = "mp"), cfg!(feature = "plot")) {
+    (true, true) => concat!(env!("CARGO_PKG_VERSION"), " (features: cli, mp, plot)"),
+    (true, false) => concat!(env!("CARGO_PKG_VERSION"), " (features: cli, mp)"),
+    (false, true) => concat!(env!("CARGO_PKG_VERSION"), " (features: cli, plot)"),
+    (false, false) => concat!(env!("CARGO_PKG_VERSION"), " (features: cli)"),
+};
+
 /// The exact reference for the bouncing elastic rod.
 #[derive(Debug, Parser)]
-#[command(name = "dalembert", version, about, propagate_version = true, arg_required_else_help = true)]
+#[command(name = "dalembert", version = VERSION, about, propagate_version = true, arg_required_else_help = true)]
 #[command(
     after_help = "A scene is a file, `-` for standard input, or one of the built-in scenes that `dalembert scenes` lists.\n\n\
     Start with:  dalembert solve doyen-ern-piperno"
@@ -51,6 +59,10 @@ enum Command {
     // Check(check::Check),
     /// List the built-in scenes, or print one
     Scenes(scenes::Scenes),
+    /// Print the manual page, for `man -l -`
+    Man,
+    /// Print the JSON Schema of what `solve` and `sample` write with --format json
+    Schema,
     /// Print a completion script for a shell
     Completions {
         /// The shell
@@ -67,6 +79,13 @@ pub fn run(cli: Cli) -> Result<ExitCode, Failure> {
         // Command::Cost(command) => command.run(),
         // Command::Check(command) => return command.run(),
         Command::Scenes(command) => command.run(),
+        Command::Man => {
+            let mut page = Vec::new();
+            let done = clap_mangen::Man::new(Cli::command()).render(&mut page);
+            done.and_then(|()| write_whole(None, &page)).map_err(source::cannot("write the page"))?;
+            Ok(())
+        }
+        Command::Schema => Ok(write_whole(None, SCHEMA.as_bytes()).map_err(source::cannot("write the schema"))?),
         Command::Completions { shell } => {
             let mut script = Vec::new();
             clap_complete::generate(shell, &mut Cli::command(), "dalembert", &mut script);

@@ -6,6 +6,9 @@ use super::record::{Finished, Head, Quantity, Record, Sample, bound_json, json a
 use crate::history::Ending;
 use crate::number::Scalar;
 
+/// The JSON Schema of [`history_json`] and [`samples_json`].
+pub const SCHEMA: &str = include_str!("schema.json");
+
 /// The whole history, schema 1.
 pub fn history_json<S: Scalar>(record: &Record<S>, head: &Head) -> Value {
     let number = |x: &S| number_json(x, head.digits);

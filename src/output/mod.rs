@@ -14,7 +14,7 @@ mod table;
 // pub use cost::{cost_csv, cost_json, cost_table, duration, effects_csv, effects_json, effects_table};
 pub use csv::{Part, history_csv, samples_csv};
 pub use file::write_whole;
-pub use json::{history_json, samples_json};
+pub use json::{SCHEMA, history_json, samples_json};
 // #[cfg(feature = "plot")]
 // pub use picture::{cost_svg, png};
 pub use record::{Finished, Head, Quantity, Record, Sample, record, sample};

@@ -94,7 +94,8 @@ fn history_schema(history: &Value, is_number: fn(&Value) -> bool) {
     assert_eq!(history["schema"], 1);
     assert!(history["effects"].as_array().unwrap().iter().all(Value::is_string));
     for event in history["events"].as_array().unwrap() {
-        keys(event, &["kind", "time", "end_velocity", "centre", "centre_velocity"]);
+        keys(event, &["kind", "time", "end_velocity", "centre", "centre_velocity", "uncertainty"]);
+        keys(&event["uncertainty"], &["time", "end_velocity", "centre", "centre_velocity"]);
         assert!(event["kind"] == "impact" || event["kind"] == "release");
         assert!(["time", "end_velocity", "centre", "centre_velocity"].iter().all(|key| is_number(&event[*key])));
     }
@@ -109,6 +110,42 @@ fn history_schema(history: &Value, is_number: fn(&Value) -> bool) {
         assert!(piece.as_object().unwrap().values().all(is_number));
     }
     assert!(is_number(&history["end"]["time"]));
+}
+
+/// What the schema requires is what is written, at every level.
+#[test]
+fn the_schema_is_that_of_the_output() {
+    fn holds(schema: &Value, definitions: &Value, value: &Value, path: &str) {
+        let schema = match schema["$ref"].as_str() {
+            Some(name) => &definitions[name.trim_start_matches("#/$defs/")],
+            None => schema,
+        };
+        if let (Some(required), Some(object)) = (schema["required"].as_array(), value.as_object()) {
+            for key in required {
+                assert!(object.contains_key(key.as_str().unwrap()), "{path}: no {key}");
+            }
+        }
+        if let (Some(properties), Some(object)) = (schema["properties"].as_object(), value.as_object()) {
+            for (key, value) in object {
+                let inner = properties.get(key).unwrap_or_else(|| panic!("{path}: the schema has no {key}"));
+                holds(inner, definitions, value, &format!("{path}.{key}"));
+            }
+        }
+        for item in value.as_array().into_iter().flatten() {
+            holds(&schema["items"], definitions, item, &format!("{path}[]"));
+        }
+        if let (Some(kinds), Some(text)) = (schema["enum"].as_array(), value.as_str()) {
+            assert!(kinds.iter().any(|kind| kind == text), "{path}: {text}");
+        }
+    }
+    let schema: Value = serde_json::from_str(&quiet(&["schema"])).unwrap();
+    let definitions = &schema["$defs"];
+    for scene in ["doyen-ern-piperno", "figure-4-r02", "getfem-dynamic-contact"] {
+        let history = json(&["solve", scene, "--format", "json"]);
+        holds(&definitions["history"], definitions, &history, "history");
+        let samples = json(&["sample", scene, "--quantity", "energy", "--times", "0,1/4", "--format", "json"]);
+        holds(&definitions["samples"], definitions, &samples, "samples");
+    }
 }
 
 #[test]
@@ -240,7 +277,7 @@ fn parameters_that_are_no_fractions() {
     refused(&["solve", "siconos-impacting-bar", "--exact"], &["the wave speed √(350000000/13)", "--digits N"]);
     let Run { code, out, err } = run(&["solve", "siconos-impacting-bar", "--exact", "--digits", "12"]);
     assert_eq!(code, Some(0));
-    assert!(err.contains("the wave speed √(350000000/13) is no fraction; all that follows is in 12 digits"), "{err}");
+    assert!(err.contains("the wave speed √(350000000/13) is no fraction; what follows is in 12 digits"), "{err}");
     // ρ c S v, and 2L/c.
     assert!(out.contains("1270.82747846") && out.contains("0.000385449644664") && out.contains("12 digits"), "{out}");
 }
@@ -282,7 +319,8 @@ fn samples() {
         // The field has two ends and the middle for each time.
         assert_eq!(rows.len(), if quantity == "field" { 9 } else { 3 });
         for row in rows {
-            keys(row, &["time", "point", "side", "values"]);
+            keys(row, &["time", "point", "side", "values", "uncertainty"]);
+            keys(&row["uncertainty"], names);
             keys(&row["values"], names);
             assert_eq!(row["side"], "right");
             assert!(row["time"].is_number() && row["values"].as_object().unwrap().values().all(Value::is_number));
@@ -290,7 +328,8 @@ fn samples() {
         }
         assert_eq!(rows[rows.len() - 1]["time"], 2.0);
         let csv = quiet(&[&args[..], &["--format", "csv"]].concat());
-        assert_eq!(csv.lines().next().unwrap(), format!("time,point,side,{}", names.join(",")));
+        let bounds = names.iter().map(|name| format!("{name}_uncertainty")).collect::<Vec<_>>().join(",");
+        assert_eq!(csv.lines().next().unwrap(), format!("time,point,side,{},{bounds}", names.join(",")));
         assert_eq!(csv.lines().count(), rows.len() + 1);
     }
 }
@@ -317,7 +356,8 @@ fn csv_parts() {
         let out = quiet(&[&["solve", "paper-strong", "--format", "csv"], part].concat());
         (out.lines().next().unwrap().to_string(), out.lines().count())
     };
-    assert_eq!(first(&[]), ("kind,time,end_velocity,centre,centre_velocity".into(), 3));
+    assert_eq!(first(&[]), ("kind,time,end_velocity,centre,centre_velocity,time_uncertainty,end_velocity_uncertainty,centre_uncertainty,\
+             centre_velocity_uncertainty".into(), 3));
     assert_eq!(first(&["--part", "stress"]), ("from,to,left,right".into(), 3));
     let (header, lines) = first(&["--part", "contacts"]);
     assert!(header.starts_with("from,to,impulse,peak_stress,restitution_momentum,"));
@@ -367,7 +407,7 @@ fn bad_scenes_are_refused_where_they_are_wrong() {
     refused_with(&["solve", "-", "--exact"], &damped, &["found damping = 0.1 with --exact", "use --digits N"]);
     refused_with(&["solve", "-", "--accuracy", "2"], &damped, &["found accuracy 2", "between 1e-300 and 0.1"]);
     refused(&["solve", "no-such-file.toml"], &["found no file and no built-in scene called `no-such-file.toml`"]);
-    refused(&["solve", "doyen"], &["such as `doyen-ern-piperno`"]);
+    refused(&["solve", "doyen"], &["did you mean `doyen-ern-piperno`?"]);
     refused(&["solve", env!("CARGO_MANIFEST_DIR")], &["cannot read"]);
 }
 
@@ -422,7 +462,7 @@ fn a_damped_history() {
     let rows = quiet(&["sample", "figure-4-r02", "--quantity", "stress", "--times", "1.1..1.7:20", "--format", "csv"]);
     assert!(rows.lines().count() == 21 && rows.lines().last().unwrap().starts_with("1.7,"));
     let explained = json(&["explain", "figure-4-r02", "--format", "json"]);
-    assert_eq!(explained["engine"], "cells");
+    assert_eq!(explained["engine"], "closed_form_then_cells");
 }
 
 #[test]

@@ -16,6 +16,7 @@ mod damped_properties;
 mod damped_reference;
 mod damped_settling;
 mod damped_solve;
+mod door;
 #[cfg(feature = "mp")]
 mod examples_run;
 mod first_contact_bounce;

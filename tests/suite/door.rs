@@ -1,0 +1,107 @@
+//! One door: what a question is planned as, and that every number system gives the same answer through it.
+
+use dalembert::{DEFAULT_ACCURACY, Engine, Error, Numbers, Plan, Problem, Question, Reach, Rung, Side};
+
+fn rod(speed: &str) -> Problem {
+    Problem::builder().length(1).wave_speed(1).gravity(1).impact_speed(speed).build().unwrap()
+}
+
+fn damped(damping: &str, speed: &str) -> Problem {
+    Problem::builder().length(1).wave_speed(1).damping(damping).gravity(1).impact_speed(speed).build().unwrap()
+}
+
+fn plan(problem: &Problem, question: Question) -> Plan {
+    Plan::of(problem, &question).unwrap()
+}
+
+/// The plan follows the motion no farther than the question needs, by the cheapest engine that gets there.
+#[test]
+fn a_plan_reaches_what_is_asked_and_no_more() {
+    let doubles = Numbers::default();
+    let (undamped, weak) = (rod("3"), damped("0.1", "3"));
+    let whole = plan(&undamped, Question::run(doubles));
+    assert_eq!((whole.engine, whole.reach, whole.rung), (Engine::Lattice, Reach::Contacts(1), Rung::Double));
+    let whole = plan(&weak, Question::run(doubles));
+    assert_eq!((whole.engine, whole.reach), (Engine::ClosedFormThenCells, Reach::Contacts(1)));
+    // The bounce time and the restitution need no flight, and so no cell.
+    let first = plan(&weak, Question::first_contact(doubles));
+    assert_eq!((first.engine, first.reach), (Engine::ClosedForm, Reach::FirstContact));
+    // Values between two times: nothing beyond the later one, and nothing before the earlier one is kept.
+    let between = plan(&undamped, Question::between(5.into(), 7.into(), doubles));
+    assert_eq!((between.reach, between.keep_from), (Reach::Time(7.into()), Some(5.0)));
+    // A fixed top has no closed form.
+    let fixed = weak.to_builder().fixed_top().build().unwrap();
+    assert_eq!(plan(&fixed, Question::run(doubles)).engine, Engine::Cells);
+    // Proofs of a damped rod end with its first contact.
+    if cfg!(feature = "mp") {
+        assert_eq!(plan(&weak, Question::run(Numbers::Certified(20))).engine, Engine::ClosedForm);
+    }
+}
+
+#[test]
+fn what_cannot_be_planned_is_refused_before_it_runs() {
+    let refused = |problem: &Problem, numbers| Plan::of(problem, &Question::run(numbers)).unwrap_err();
+    assert_eq!(refused(&rod("3"), Numbers::Double(Some(0.5))), Error::Accuracy { found: 0.5 });
+    assert_eq!(refused(&rod("3"), Numbers::Digits(0)), Error::Digits { found: 0, most: 100_000 });
+    assert!(matches!(refused(&damped("0.1", "3"), Numbers::Exact), Error::DampedExact { .. }));
+    let fixed = damped("0.1", "3").to_builder().fixed_top().build().unwrap();
+    assert_eq!(refused(&fixed, Numbers::Certified(20)), Error::NotCertified);
+}
+
+/// Without the feature the same program compiles, and what needs it is an error that names it.
+#[cfg(not(feature = "mp"))]
+#[test]
+fn without_long_numbers_they_are_an_error() {
+    assert_eq!(rod("3").exact().unwrap_err(), Error::NoMultiprecision);
+    assert_eq!(rod("3").digits(20).unwrap_err(), Error::NoMultiprecision);
+    assert_eq!(rod("3").certified(20).unwrap_err(), Error::NoMultiprecision);
+    assert_eq!(rod("3").solve().unwrap().contacts()[0].to, Some(2.0));
+}
+
+/// μ = 1 lands without speed at t = 31: a double root, at which 1000 digits need exact roots. `--digits` has them too.
+#[cfg(feature = "mp")]
+#[test]
+fn digits_never_fail_where_proofs_succeed() {
+    let rod = rod("1").to_builder().time(72).build().unwrap();
+    let (digits, proved) = (rod.digits(1000).unwrap(), rod.certified(1000).unwrap());
+    assert_eq!(digits.events().len(), proved.events().len());
+    for (ours, truth) in digits.events().iter().zip(proved.events()) {
+        let apart = rug::Float::with_val(3500, &ours.time - truth.time.mid()).abs();
+        assert!(apart.is_zero() || apart.log10() < -996.0, "{}", truth.time.mid());
+    }
+    let touch = digits.events().iter().find(|event| event.time == 31).unwrap();
+    assert!(touch.end_velocity.is_zero());
+}
+
+/// What a time gives does not depend on which other times are asked, nor in which order.
+#[test]
+fn a_value_is_the_same_alone_and_among_others() {
+    let history = rod("3/2").to_builder().time(20).build().unwrap().solve().unwrap();
+    let times: Vec<f64> = (0..40).map(|k| f64::from(k) / 2.0).collect();
+    let forth: Vec<f64> = times.iter().map(|t| history.strain(*t, Side::Left).unwrap()).collect();
+    let mut back: Vec<f64> = times.iter().rev().map(|t| history.strain(*t, Side::Left).unwrap()).collect();
+    back.reverse();
+    assert_eq!(forth, back);
+    let points = [0.0, 0.25, 1.0];
+    let together = history.field(&points, &times, Side::Right).unwrap();
+    for (k, time) in times.iter().enumerate() {
+        for (j, point) in points.iter().enumerate() {
+            assert_eq!(history.at(*point, *time).unwrap(), together[k * points.len() + j]);
+        }
+    }
+}
+
+/// Doubles whose bound is above the accuracy take longer numbers: μ = 3/2 has lost all digits of a double by t = 120.
+#[cfg(feature = "mp")]
+#[test]
+fn doubles_turn_to_longer_numbers_by_themselves() {
+    let near = rod("3/2").to_builder().time(20).build().unwrap().solve().unwrap();
+    assert_eq!(near.rung(), Rung::Double);
+    let problem = rod("3/2").to_builder().time(120).build().unwrap();
+    let (far, truth) = (problem.solve().unwrap(), problem.digits(20).unwrap());
+    assert!(matches!(far.rung(), Rung::Bits(_)), "{}", far.rung());
+    assert_eq!(far.events().len(), truth.events().len());
+    for (ours, truth) in far.events().iter().zip(truth.events()) {
+        assert!((ours.time - truth.time.to_f64()).abs() <= DEFAULT_ACCURACY * 120.0);
+    }
+}
