@@ -16,8 +16,8 @@
 //! | [`history`] | what a solution is, and everything that can be asked of it |
 //! | [`modal`] | the modal sum of the first contact: a third route to the same numbers |
 //! | [`quantity`] | restitution and flights |
-//! | [`check`] | hard cases and the paper's claims, each by every route, held against the truth |
-//! | [`cost`] | what accuracy costs in time, by every route |
+//! | [`paper`] | the printed formulas, as an independent opinion |
+//! | `compare` | routes held against each other and the truth: `check` and `cost` (feature `cli`) |
 //! | `output`, `cli` | tables, JSON, CSV and the command (feature `cli`) |
 //! | [`special`] | ψ_n, I_n, φ functions, Gauss–Legendre, in any precision |
 //!
@@ -35,10 +35,10 @@
 
 #[cfg(feature = "mp")]
 pub mod certified;
-pub mod check;
 #[cfg(feature = "cli")]
 pub mod cli;
-pub mod cost;
+#[cfg(feature = "cli")]
+mod compare;
 pub mod damped;
 pub mod error;
 pub mod first_contact;
@@ -48,6 +48,7 @@ pub mod modal;
 pub mod number;
 #[cfg(feature = "cli")]
 pub mod output;
+pub mod paper;
 pub mod quantity;
 pub mod rod;
 #[cfg(feature = "mp")]

@@ -7,7 +7,7 @@ use clap::{Args, ValueEnum};
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 
 use super::{Failure, source};
-use crate::check::{Checked, Verdict, catalogue, select};
+use crate::compare::check::{Checked, Verdict, catalogue, select};
 use crate::output::{check_json, check_page, check_table, write_whole};
 
 /// The catalogue of hard cases and of the paper's claims, worked out now by every route and held against the truth

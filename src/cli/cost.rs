@@ -6,7 +6,8 @@ use clap::Args;
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 
 use super::{Failure, Format, NumberArgs, source};
-use crate::cost::{self, Difference, Quantity, Question, Table};
+use crate::compare::cost::{self, Difference, Table};
+use crate::compare::{Quantity, Question};
 use crate::number::Number;
 use crate::output::{cost_csv, cost_json, cost_table, effects_csv, effects_json, effects_table, write_whole};
 use crate::scene::{Ask, Plan, Scene};
@@ -112,7 +113,7 @@ impl Cost {
         } else {
             let ask: Ask = self.numbers.ask();
             let plan = Plan::of(scene, ask)?;
-            let question = Question::of(scene, self.quantity, self.time.clone())?;
+            let question = Question::of_scene(scene, self.quantity, self.time.clone())?;
             cost::work_precision(&question, &plan, self.seconds, observe).map(Measured::Work)
         };
         bar.finish_and_clear();

@@ -4,14 +4,15 @@ use serde_json::{Value, json};
 
 use super::cost::duration;
 use super::table::table;
-use crate::check::{Asked, Checked, Group, Kept};
+use crate::compare::RightDigits;
+use crate::compare::check::{Checked, CheckedQuestion, Group};
 
 /// How many digits are right, in words.
-fn digits(kept: Kept) -> String {
-    match kept {
-        Kept::Words => "–".into(),
-        Kept::All => "all".into(),
-        Kept::Digits(digits) => format!("{digits:.1}"),
+fn digits(right: RightDigits) -> String {
+    match right {
+        RightDigits::NoNumber => "–".into(),
+        RightDigits::All => "all".into(),
+        RightDigits::Digits(digits) => format!("{digits:.1}"),
     }
 }
 
@@ -37,20 +38,20 @@ fn count(cases: &[Checked]) -> String {
 }
 
 /// For a person: every route with its answer, the digits that are right, and what it took.
-pub fn check_table(cases: &[Checked]) -> String {
+pub(crate) fn check_table(cases: &[Checked]) -> String {
     let mut out = String::new();
     for (group, own) in by_group(cases) {
         out += &format!("{}\n\n", group.title());
         for checked in own {
             let case = checked.case;
             out += &format!("{}: {} ({}): {}\n", case.name, case.about, case.source, checked.verdict.name());
-            for Asked { what, truth, rows } in &checked.asked {
+            for CheckedQuestion { what, truth, rows } in &checked.asked {
                 let rows = rows.iter().map(|row| {
-                    let (found, kept) = (row.found.to_string(), digits(row.kept));
+                    let (found, right) = (row.found(), digits(row.digits));
                     let outcome = row.outcome.name().to_string();
-                    vec![row.route.clone(), row.promise.to_string(), outcome, found, kept, duration(row.seconds)]
+                    vec![row.route.clone(), row.promise.to_string(), outcome, found, right, duration(row.seconds)]
                 });
-                out += &format!("  {what} = {}\n", truth.text);
+                out += &format!("  {what} = {}\n", truth);
                 let header = ["route", "promises", "", "answers", "digits", "time"];
                 let text = table(&header, rows.collect(), 3);
                 out += &text.lines().map(|line| format!("    {line}\n")).collect::<String>();
@@ -62,7 +63,7 @@ pub fn check_table(cases: &[Checked]) -> String {
 }
 
 /// For the repository: nothing in it depends on the machine.
-pub fn check_page(cases: &[Checked]) -> String {
+pub(crate) fn check_page(cases: &[Checked]) -> String {
     let mut out = String::from(
         "# Hard cases, and what the paper claims\n\n\
          Made by `dalembert check --format markdown -o docs/check.md`; a test holds it against what the program finds. Each number is \
@@ -76,8 +77,8 @@ pub fn check_page(cases: &[Checked]) -> String {
         for checked in own {
             let case = checked.case;
             out += &format!("### `{}`: {}\n\n{}: {}.\n\n", case.name, checked.verdict.name(), case.source, case.about);
-            for Asked { what, truth, rows } in &checked.asked {
-                out += &format!("{what} = **{}**\n\n| route | promises | |\n|---|---|---|\n", truth.text);
+            for CheckedQuestion { what, truth, rows } in &checked.asked {
+                out += &format!("{what} = **{}**\n\n| route | promises | |\n|---|---|---|\n", truth);
                 for row in rows {
                     out += &format!("| {} | {} | {} |\n", row.route, row.promise, row.outcome.name());
                 }
@@ -89,25 +90,25 @@ pub fn check_page(cases: &[Checked]) -> String {
 }
 
 /// Schema 1.
-pub fn check_json(cases: &[Checked]) -> Value {
+pub(crate) fn check_json(cases: &[Checked]) -> Value {
     let cases = cases.iter().map(|checked| {
         let asked = checked.asked.iter().map(|asked| {
             let rows = asked.rows.iter().map(|row| {
-                let right = match row.kept {
-                    Kept::Words => Value::Null,
-                    Kept::All => json!("all"),
-                    Kept::Digits(digits) => json!(digits),
+                let right = match row.digits {
+                    RightDigits::NoNumber => Value::Null,
+                    RightDigits::All => json!("all"),
+                    RightDigits::Digits(digits) => json!(digits),
                 };
                 json!({
                     "route": row.route,
                     "promise": row.promise.to_string(),
                     "outcome": row.outcome.name(),
-                    "found": row.found.to_string(),
+                    "found": row.found(),
                     "digits": right,
                     "seconds": row.seconds,
                 })
             });
-            json!({ "what": asked.what, "truth": asked.truth.text, "rows": rows.collect::<Vec<_>>() })
+            json!({ "what": asked.what, "truth": asked.truth, "rows": rows.collect::<Vec<_>>() })
         });
         let case = checked.case;
         json!({

@@ -10,12 +10,13 @@ mod picture;
 mod record;
 mod table;
 
-pub use check::{check_json, check_page, check_table};
-pub use cost::{cost_csv, cost_json, cost_table, duration, effects_csv, effects_json, effects_table};
+pub(crate) use check::{check_json, check_page, check_table};
+pub use cost::duration;
+pub(crate) use cost::{cost_csv, cost_json, cost_table, effects_csv, effects_json, effects_table};
 pub use csv::{Part, history_csv, samples_csv};
 pub use file::write_whole;
 pub use json::{history_json, samples_json};
 #[cfg(feature = "plot")]
-pub use picture::{cost_svg, png};
+pub(crate) use picture::{cost_svg, png};
 pub use record::{Finished, Head, Quantity, Record, Sample, Show, record, sample};
 pub use table::{history_table, samples_table, table};

@@ -7,6 +7,7 @@
 mod certified_first_contact;
 #[cfg(feature = "mp")]
 mod certified_undamped;
+#[cfg(feature = "cli")]
 mod check_catalogue;
 #[cfg(feature = "cli")]
 mod command;

@@ -5,13 +5,13 @@ use std::time::{Duration, Instant};
 
 /// How long something took, from repeated runs.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Timing {
+pub(crate) struct Timing {
     /// The median, seconds.
-    pub seconds: f64,
+    pub(crate) seconds: f64,
     /// The distance of the quartiles, seconds; `None` where it ran once.
-    pub spread: Option<f64>,
+    pub(crate) spread: Option<f64>,
     /// How many samples were taken.
-    pub runs: usize,
+    pub(crate) runs: usize,
 }
 
 /// A sample shorter than this is mostly the clock itself: short runs are timed many at a time.

@@ -1,0 +1,327 @@
+//! What a case of the catalogue is, and how it is run.
+
+use std::time::Instant;
+
+use super::group::Group;
+use super::verdict::{Outcome, Promise, Row, Verdict};
+use super::{hard, section_2, section_3, section_4};
+use crate::compare::long;
+use crate::compare::quantity::{Limit, Quantity, Question};
+use crate::compare::route::{LongFormula, Numbers, Route};
+use crate::compare::truth::Truth;
+use crate::compare::value::NoAnswer;
+use crate::history::Side;
+use crate::number::{Number, NumberError};
+use crate::paper::Printed;
+use crate::rod::{Parameters, Problem, Run};
+
+/// The rod of a question.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Rod {
+    /// `L`.
+    pub(super) length: &'static str,
+    /// `c`.
+    pub(super) wave_speed: &'static str,
+    /// `r`.
+    pub(super) damping: &'static str,
+    /// `g`.
+    pub(super) gravity: &'static str,
+    /// `μ`.
+    pub(super) speed: &'static str,
+    /// Followed to this time; empty: through the first contact and the flight after it.
+    pub(super) until: &'static str,
+}
+
+/// `c = L = g = 1`.
+pub(super) const fn unit(damping: &'static str, speed: &'static str) -> Rod {
+    Rod { length: "1", wave_speed: "1", damping, gravity: "1", speed, until: "" }
+}
+
+impl Rod {
+    /// The same rod without gravity.
+    pub(super) const fn weightless(self) -> Rod {
+        Rod { gravity: "0", ..self }
+    }
+
+    /// The same rod followed to a time.
+    pub(super) const fn until(self, until: &'static str) -> Rod {
+        Rod { until, ..self }
+    }
+
+    fn problem(&self) -> Result<Problem, NumberError> {
+        let number = |text: &str| text.parse::<Number>();
+        let (gravity, speed) = (number(self.gravity)?, number(self.speed)?);
+        let mut problem = Problem::uniform(number(self.length)?, number(self.wave_speed)?, gravity, speed);
+        problem.rod.damping = Some(number(self.damping)?).filter(|r| !r.is_zero());
+        if !self.until.is_empty() {
+            problem.run = Run::Time(number(self.until)?);
+        }
+        Ok(problem)
+    }
+}
+
+/// A route and what it promises.
+pub(super) type Promised = (Route, Promise);
+
+/// A question of the catalogue, its truth, and the routes to it.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Entry {
+    /// In words: `t_b`, `h(3)`.
+    what: &'static str,
+    rod: Rod,
+    quantity: Quantity,
+    /// x, and t; `t_b` where it is empty.
+    place: (&'static str, &'static str),
+    limit: Limit,
+    /// See [`Truth::spelt`], or [`NO_BOUNCE`].
+    truth: &'static str,
+    /// What belongs to this question alone.
+    formulas: &'static [Promised],
+    routes: &'static [Promised],
+}
+
+/// The one truth that is no number.
+pub(super) const NO_BOUNCE: &str = "no bounce";
+
+/// A question at `t_b`, or that has no time.
+pub(super) const fn ask(
+    what: &'static str,
+    rod: Rod,
+    quantity: Quantity,
+    truth: &'static str,
+    routes: &'static [Promised],
+) -> Entry {
+    Entry { what, rod, quantity, place: ("", ""), limit: Limit::From(Side::Right), truth, formulas: &[], routes }
+}
+
+/// A question of a number that belongs to no rod.
+pub(super) const fn constant(what: &'static str, truth: &'static str, formulas: &'static [Promised]) -> Entry {
+    ask(what, unit("0", "1"), Quantity::Constant, truth, &[]).formulas(formulas)
+}
+
+impl Entry {
+    /// At this time, in the limit from later times.
+    pub(super) const fn at(self, time: &'static str) -> Entry {
+        Entry { place: ("", time), ..self }
+    }
+
+    /// At this time, in the limit from earlier times.
+    pub(super) const fn before(self, time: &'static str) -> Entry {
+        Entry { place: ("", time), limit: Limit::From(Side::Left), ..self }
+    }
+
+    /// At this point and time.
+    pub(super) const fn at_point(self, point: &'static str, time: &'static str) -> Entry {
+        Entry { place: (point, time), ..self }
+    }
+
+    /// The later limit minus the earlier.
+    pub(super) const fn jump(self) -> Entry {
+        Entry { limit: Limit::Jump, ..self }
+    }
+
+    /// With routes of its own, shown before the others.
+    pub(super) const fn formulas(self, formulas: &'static [Promised]) -> Entry {
+        Entry { formulas, ..self }
+    }
+
+    fn question(&self) -> Result<Question, NumberError> {
+        let number = |text: &str| (!text.is_empty()).then(|| text.parse::<Number>()).transpose();
+        let (problem, quantity, limit) = (self.rod.problem()?, self.quantity, self.limit);
+        let (point, time) = (number(self.place.0)?, number(self.place.1)?);
+        // The centre of mass at the end of a run needs nothing of what lies long before.
+        let end = matches!((&problem.run, quantity), (Run::Time(_), Quantity::Centre));
+        let from = time.as_ref().map(Number::to_f64).filter(|_| end);
+        Ok(Question { problem, quantity, point, time, limit, from })
+    }
+
+    fn check(&self) -> CheckedQuestion {
+        let truth = Truth::spelt(self.truth);
+        let question = self.question().map_err(NoAnswer::from);
+        let routes = self.formulas.iter().chain(self.routes);
+        let rows = routes.filter(|(route, _)| long::AVAILABLE || !route.is_long()).map(|(route, promise)| {
+            let start = Instant::now();
+            let answer = question.as_ref().map_err(Clone::clone).and_then(|asked| route.run(asked, f64::INFINITY));
+            Row::judged(name(*route), *promise, truth.as_ref(), answer, start.elapsed().as_secs_f64())
+        });
+        CheckedQuestion { what: self.what, truth: self.truth, rows: rows.collect() }
+    }
+}
+
+/// The name of a route in the catalogue.
+fn name(route: Route) -> String {
+    match route {
+        Route::Formula(what, _) => format!("{what}, plain doubles"),
+        Route::LongFormula(what, digits, _) => format!("{what}, {digits} digits"),
+        Route::ClosedForm(Numbers::Double(Some(accuracy))) => format!("closed form within {accuracy:e}"),
+        Route::ClosedForm(Numbers::Digits(digits)) => format!("closed form, {digits} digits"),
+        Route::ClosedForm(_) => "closed form, doubles".into(),
+        Route::PrintedForms => "printed form, fractions".into(),
+        Route::PrintedIntegrals(_) => "printed integrals, doubles".into(),
+        Route::Modes(_) => "modal sum, doubles".into(),
+        Route::Lattice(Numbers::Exact(_)) => "lattice, fractions".into(),
+        Route::Lattice(_) => "lattice, doubles".into(),
+        Route::Cells(_) => "cells, doubles".into(),
+        Route::Differences(_) => "finite differences".into(),
+        Route::Planned(Numbers::Double(Some(accuracy))) => format!("--accuracy {accuracy:e}"),
+        Route::Planned(Numbers::Digits(digits)) => format!("--digits {digits}"),
+        Route::Planned(Numbers::Certified(digits)) => format!("--certified --digits {digits}"),
+        Route::Planned(_) => "the plan".into(),
+    }
+}
+
+pub(super) const CLOSED: Route = Route::ClosedForm(Numbers::Double(None));
+pub(super) const CLOSED_50: Promised = (closed(50), Promise::Digits(36));
+pub(super) const MODES: Route = Route::Modes(2048);
+pub(super) const LATTICE: Route = Route::Lattice(Numbers::Double(None));
+pub(super) const FRACTIONS: Route = Route::Lattice(Numbers::Exact(None));
+pub(super) const CELLS: Route = Route::Cells(13);
+pub(super) const PRINTED: Promised = (Route::PrintedForms, Promise::Exact);
+pub(super) const DIGITS: Promised = (Route::Planned(Numbers::Digits(36)), Promise::Digits(36));
+pub(super) const CERTIFIED: Route = Route::Planned(Numbers::Certified(36));
+pub(super) const PROVED: Promised = (CERTIFIED, Promise::Enclosed(36));
+
+/// Values during a contact.
+pub(super) const CONTACT: &[Promised] =
+    &[(CLOSED, Promise::Bound(12)), (MODES, Promise::Bound(9)), (CELLS, Promise::Digits(10)), CLOSED_50, PROVED];
+/// That there is no bounce.
+pub(super) const NEVER: &[Promised] = &[
+    (CLOSED, Promise::Digits(0)),
+    (closed_within(1e-12), Promise::Digits(0)),
+    (closed(50), Promise::Digits(0)),
+    (CERTIFIED, Promise::Digits(0)),
+];
+
+/// The closed form in so many digits.
+pub(super) const fn closed(digits: u32) -> Route {
+    Route::ClosedForm(Numbers::Digits(digits))
+}
+
+/// The closed form in doubles, or in longer numbers where they do not reach this accuracy.
+pub(super) const fn closed_within(accuracy: f64) -> Route {
+    Route::ClosedForm(Numbers::Double(Some(accuracy)))
+}
+
+/// What `--accuracy` does.
+pub(super) const fn accuracy(accuracy: f64) -> Route {
+    Route::Planned(Numbers::Double(Some(accuracy)))
+}
+
+/// A formula in doubles that gives so many digits.
+pub(super) const fn formula(what: &'static str, digits: u32, formula: fn() -> f64) -> Promised {
+    (Route::Formula(what, formula), Promise::Digits(digits))
+}
+
+/// A formula in doubles that gives fewer digits than this.
+pub(super) const fn breaks(what: &'static str, digits: u32, formula: fn() -> f64) -> Promised {
+    (Route::Formula(what, formula), Promise::Fewer(digits))
+}
+
+/// A formula in 36 digits.
+pub(super) const fn long_formula(what: &'static str, formula: LongFormula) -> Promised {
+    (Route::LongFormula(what, 36, formula), Promise::Digits(36))
+}
+
+/// The printed integrals of a rod with `c = L = g = 1`.
+pub(super) fn printed(damping: f64, speed: f64) -> Printed {
+    Printed::new(&Parameters { length: 1.0, wave_speed: 1.0, damping, gravity: 1.0, speed }, 1e-13)
+}
+
+/// A hard case, or a claim of the paper.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Case {
+    pub(crate) name: &'static str,
+    pub(crate) group: Group,
+    /// Where the paper or the theory says it.
+    pub(crate) source: &'static str,
+    /// The rod, or what is claimed.
+    pub(crate) about: &'static str,
+    /// What the case comes to when all promises are kept.
+    pub(super) verdict: Verdict,
+    pub(super) questions: &'static [Entry],
+}
+
+impl Case {
+    /// With these questions.
+    pub(super) const fn questions(self, questions: &'static [Entry]) -> Case {
+        Case { questions, ..self }
+    }
+
+    /// Takes every route to every question. A build without long numbers takes those in doubles only.
+    pub(crate) fn run(&'static self) -> Checked {
+        let asked: Vec<CheckedQuestion> = self.questions.iter().map(Entry::check).collect();
+        let failed = asked.iter().flat_map(|asked| &asked.rows).any(|row| row.outcome == Outcome::Failed);
+        Checked { case: self, asked, verdict: if failed { Verdict::Failed } else { self.verdict } }
+    }
+}
+
+/// The answers to a question.
+#[derive(Clone, Debug)]
+pub(crate) struct CheckedQuestion {
+    /// In words.
+    pub(crate) what: &'static str,
+    /// As the catalogue spells it.
+    pub(crate) truth: &'static str,
+    pub(crate) rows: Vec<Row>,
+}
+
+/// A case that was run.
+#[derive(Clone, Debug)]
+pub(crate) struct Checked {
+    pub(crate) case: &'static Case,
+    pub(crate) asked: Vec<CheckedQuestion>,
+    pub(crate) verdict: Verdict,
+}
+
+/// All cases, in the order in which they are shown.
+pub(crate) fn catalogue() -> impl Iterator<Item = &'static Case> {
+    [hard::CASES, section_2::CASES, section_3::CASES, section_4::CASES].into_iter().flatten()
+}
+
+/// The cases of these names or groups; all of them for none.
+///
+/// **Errors**: the first name that is neither.
+pub(crate) fn select(names: &[String]) -> Result<Vec<&'static Case>, String> {
+    let named = |case: &Case, name: &String| *name == case.name || *name == case.group.name();
+    match names.iter().find(|name| !catalogue().any(|case| named(case, name))) {
+        Some(unknown) => Err(unknown.clone()),
+        None => {
+            let asked = |case: &&Case| names.is_empty() || names.iter().any(|name| named(case, name));
+            Ok(catalogue().filter(asked).collect())
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    #![allow(clippy::unwrap_used)]
+    use super::*;
+
+    #[test]
+    fn cases_are_selected_by_name_or_group() {
+        assert_eq!(select(&["figure-1".into()]).unwrap().len(), 1);
+        assert!(select(&["late".into()]).unwrap().len() > 3);
+        assert_eq!(select(&["never".into()]).unwrap_err(), "never");
+    }
+
+    #[test]
+    fn no_name_stands_twice() {
+        let mut names: Vec<&str> = catalogue().map(|case| case.name).collect();
+        let count = names.len();
+        names.sort_unstable();
+        names.dedup();
+        assert_eq!(names.len(), count);
+    }
+
+    /// The catalogue can fail: a truth that is wrong in its 22nd digit is noticed by every route that promises more.
+    #[test]
+    fn a_wrong_truth_is_noticed() {
+        let asked = select(&["late-3.13".into()]).unwrap()[0].questions[0];
+        assert_eq!(Truth::spelt(asked.truth).unwrap().most_digits(), 39.0);
+        let wrong = Entry { truth: "11.66136670144388438415940577414171411946", ..asked }.check();
+        let failed: Vec<&str> = wrong.rows.iter().filter(|r| r.outcome == Outcome::Failed).map(|r| &*r.route).collect();
+        let expected = ["--digits 36", "--certified --digits 36"];
+        assert_eq!(failed, if long::AVAILABLE { &expected[..] } else { &[] });
+        assert!(asked.check().rows.iter().all(|row| row.outcome != Outcome::Failed));
+    }
+}

@@ -1,0 +1,164 @@
+//! Every route to an answer, and the one function that runs it.
+
+use super::cost::differences::march;
+use super::long;
+use super::motion::{ByClosedForm, ByDifferences, ByHistory, ByModes, ByPrintedIntegrals};
+use super::quantity::{Quantity, Question};
+use super::value::{Answer, NoAnswer, Value};
+use crate::damped::{Damped, Joined};
+use crate::first_contact::{Bounce, FirstContact};
+use crate::history::History;
+use crate::lattice::Undamped;
+use crate::paper::Printed;
+use crate::rod::{Parameters, Problem, Run};
+pub(crate) use crate::scene::System as Numbers;
+use crate::scene::{Engine, Plan};
+use crate::solve::{Solution, solve};
+
+/// A formula in many digits; its argument makes `p/q` in that many.
+pub(crate) type LongFormula = fn(&dyn Fn(i32, i32) -> long::Digits) -> long::Digits;
+
+/// A route at a setting.
+#[derive(Clone, Copy, Debug)]
+pub(crate) enum Route {
+    /// A formula in plain doubles, as it stands in print or as a reader would program it.
+    Formula(&'static str, fn() -> f64),
+    /// A formula in numbers of so many digits.
+    LongFormula(&'static str, u32, LongFormula),
+    /// The closed form of the first contact. In doubles without an accuracy the bounce is searched on the sum over rays alone.
+    ClosedForm(Numbers),
+    /// The paper's closed forms of `r = 0`, in fractions.
+    PrintedForms,
+    /// The paper's integrals by quadrature to this tolerance, in doubles.
+    PrintedIntegrals(f64),
+    /// The sum of so many modes, in doubles.
+    Modes(u32),
+    /// The lattice, in doubles or in fractions.
+    Lattice(Numbers),
+    /// Characteristic cells from the start, to so many digits, in doubles.
+    Cells(u32),
+    /// Finite differences with so many cells.
+    Differences(usize),
+    /// What the plan does when these numbers are asked for.
+    Planned(Numbers),
+}
+
+impl Route {
+    /// Whether it needs numbers longer than doubles.
+    pub(crate) fn is_long(self) -> bool {
+        match self {
+            Route::ClosedForm(numbers) | Route::Lattice(numbers) => !matches!(numbers, Numbers::Double(_)),
+            // An accuracy may take more than doubles.
+            Route::Planned(numbers) => numbers != Numbers::Double(None),
+            Route::LongFormula(..) | Route::PrintedForms => true,
+            _ => false,
+        }
+    }
+
+    /// The answer of this route to `question`, in about so many seconds where it can stop itself.
+    pub(crate) fn run(self, question: &Question, seconds: f64) -> Result<Answer, NoAnswer> {
+        let problem = &question.problem;
+        match self {
+            Route::Formula(_, formula) => Ok(Answer { value: Value::Double(formula()), bound: f64::INFINITY }),
+            Route::ClosedForm(Numbers::Double(None)) => {
+                question.ask(&ByClosedForm::<f64>::of(problem, &(), &FirstContact::bounce)?)
+            }
+            Route::ClosedForm(Numbers::Double(Some(accuracy))) => {
+                question.ask(&ByClosedForm::of(problem, &(), &|contact| contact.bounce_within(accuracy))?)
+            }
+            Route::Lattice(Numbers::Double(_)) => {
+                question.ask(&ByHistory::of(problem, &Undamped::<f64>::solve(problem, &())?)?)
+            }
+            Route::Cells(digits) => {
+                question.ask(&ByHistory::of(problem, &Damped::<f64>::solve(problem, &(), f64::from(digits))?)?)
+            }
+            Route::Modes(modes) => question.ask(&ByModes::of(problem, modes)?),
+            Route::PrintedIntegrals(tolerance) => {
+                let rod = Parameters::of(problem, &())?;
+                let route = ByPrintedIntegrals { printed: Printed::new(&rod, tolerance).limited_to(seconds), rod };
+                let answer = question.ask(&route)?;
+                if route.printed.is_late() {
+                    return Err(NoAnswer::gave_up("the nested integrals take too long"));
+                }
+                Ok(answer)
+            }
+            Route::Differences(cells) => {
+                question.ask(&ByDifferences { rod: Parameters::of(problem, &())?, marched: march(problem, cells)? })
+            }
+            Route::Planned(Numbers::Certified(_)) => {
+                if problem.rod.damping.is_some() {
+                    within_first_contact(question)
+                        .map_err(|why| NoAnswer::GaveUp(format!("{why}: only that is proved under damping")))?;
+                }
+                long::run(self, question)
+            }
+            Route::Planned(numbers) => long::ask_solution(question, &planned(problem, numbers, question.from)?),
+            _ => long::run(self, question),
+        }
+    }
+}
+
+/// The engine that a plan takes.
+pub(crate) fn engine(problem: &Problem) -> Engine {
+    if problem.rod.damping.is_some() { Engine::Cells } else { Engine::Lattice }
+}
+
+/// The solution of `problem` as a plan runs it.
+fn planned(problem: &Problem, system: Numbers, from: Option<f64>) -> Result<Solution, NoAnswer> {
+    let (engine, reasons, cost) = (engine(problem), Vec::new(), String::new());
+    Ok(solve(problem, &Plan { effects: Vec::new(), engine, system, from, reasons, cost }, |_, _| ())?)
+}
+
+/// Whether the first contact alone answers, and if so as long as it lasts.
+///
+/// **Errors**: why not.
+pub(crate) fn within_first_contact(question: &Question) -> Result<(), String> {
+    let problem = &question.problem;
+    if !problem.has_closed_form() {
+        return Err("the start or the top is not the paper's, so the first contact has no closed form".into());
+    }
+    if question.quantity == Quantity::LastEvent {
+        return match problem.run {
+            Run::Impacts(1) => Ok(()),
+            _ => Err("it covers the first contact only".into()),
+        };
+    }
+    let Some(time) = &question.time else { return Ok(()) };
+    let rod = Parameters::<f64>::of(problem, &()).map_err(|error| error.to_string())?;
+    match FirstContact::new(&rod).bounce_within(1e-10) {
+        Bounce::At { time: end, .. } if time.to_f64() > end * (1.0 + 1e-12) => {
+            Err(format!("it covers the first contact only, which ends at t = {end:.6}"))
+        }
+        Bounce::Undecided { until, .. } if time.to_f64() > until => {
+            Err(format!("it is undecided whether the first contact lasts beyond t = {until:.6}"))
+        }
+        _ => Ok(()),
+    }
+}
+
+/// The whole run of `problem` in doubles as its plan does it, with the energy at its end if that is asked for.
+pub(crate) fn run_planned(problem: &Problem, system: Numbers, energies: bool) -> Result<f64, NoAnswer> {
+    match planned(problem, system, None)? {
+        Solution::Double(history) => finish(history.as_ref(), energies),
+        #[cfg(feature = "mp")]
+        _ => Ok(0.0),
+    }
+}
+
+/// The same by calling the engine that the plan calls.
+pub(crate) fn run_engine(problem: &Problem, energies: bool) -> Result<f64, NoAnswer> {
+    // Boxed as a plan's history is: the allocation belongs to no effect.
+    let history: Box<dyn History<f64>> = match engine(problem) {
+        Engine::Lattice => Box::new(Undamped::<f64>::solve(problem, &())?),
+        Engine::Cells if problem.has_closed_form() => {
+            let bounce = FirstContact::new(&Parameters::<f64>::of(problem, &())?).bounce_within(1e-13);
+            Box::new(Joined::<f64>::solve(problem, &(), 13.0, bounce, true)?)
+        }
+        Engine::Cells => Box::new(Damped::<f64>::solve(problem, &(), 13.0)?),
+    };
+    finish(history.as_ref(), energies)
+}
+
+fn finish(history: &dyn History<f64>, energies: bool) -> Result<f64, NoAnswer> {
+    Ok(if energies { history.energy(&history.end())?.total } else { history.end() })
+}
