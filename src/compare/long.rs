@@ -3,7 +3,7 @@
 use rug::ops::Pow;
 use rug::{Float, Rational};
 
-use super::motion::{ByClosedForm, ByHistory, ByPrintedForms};
+use super::motion::ByClosedForm;
 use super::quantity::Question;
 use super::route::Route;
 use super::value::{Answer, NoAnswer, System, Value};
@@ -11,6 +11,8 @@ use crate::first_contact::FirstContact;
 use crate::history::History;
 use crate::lattice::Undamped;
 use crate::number::{Analytic, Interval, Number, Scalar, bits_for_digits};
+use crate::paper::UndampedContact;
+use crate::rod::Parameters;
 use crate::solve::{Solution, certify, proved_digits};
 
 /// Whether this build has such numbers.
@@ -143,14 +145,17 @@ pub(super) fn run(route: Route, question: &Question) -> Result<Answer, NoAnswer>
         }
         Route::ClosedForm(Numbers::Digits(digits)) => {
             let bits = bits_for_digits(digits) + SPARE_BITS;
-            question.ask(&ByClosedForm::<Float>::of(problem, &bits, &FirstContact::bounce)?)
+            let rod = Parameters::<Float>::of(problem, &bits)?;
+            question.ask(&rod, &ByClosedForm::new(&rod, FirstContact::bounce))
         }
-        Route::Lattice(Numbers::Exact(_)) => {
-            question.ask(&ByHistory::of(problem, &Undamped::<Rational>::solve(problem, &())?)?)
+        Route::Lattice(Numbers::Exact(_)) => question.ask_history(&Undamped::<Rational>::solve(problem, &())?),
+        Route::PrintedForms => {
+            let rod = Parameters::<Rational>::of(problem, &())?;
+            let contact = UndampedContact::new(&rod).ok_or_else(|| NoAnswer::gave_up("they are printed for r = 0"))?;
+            question.ask(&rod, &contact)
         }
-        Route::PrintedForms => question.ask(&ByPrintedForms::<Rational>::of(problem, &())?),
         Route::Planned(Numbers::Certified(digits)) => {
-            let ask = |history: &dyn History<Interval>| question.find(&ByHistory::of(problem, history)?);
+            let ask = |history: &dyn History<Interval>| question.find_in_history(history);
             Ok(certify(problem, digits, ask, |found| vec![&found.value], |_, _| ())?.answer())
         }
         _ => Err(NoAnswer::gave_up("this route has no such numbers")),
@@ -159,14 +164,13 @@ pub(super) fn run(route: Route, question: &Question) -> Result<Answer, NoAnswer>
 
 /// The answer of a planned solution: where fractions end too early, that of the digits that follow them.
 pub(super) fn ask_solution(question: &Question, solution: &Solution) -> Result<Answer, NoAnswer> {
-    let problem = &question.problem;
     match solution {
-        Solution::Double(history) => question.ask(&ByHistory::of(problem, history.as_ref())?),
-        Solution::Digits(history, _) => question.ask(&ByHistory::of(problem, history.as_ref())?),
+        Solution::Double(history) => question.ask_history(history.as_ref()),
+        Solution::Digits(history, _) => question.ask_history(history.as_ref()),
         Solution::Exact(exact, digits) => {
-            let answer = question.ask(&ByHistory::of(problem, exact.as_ref())?);
+            let answer = question.ask_history(exact.as_ref());
             match (answer, digits) {
-                (Err(_), Some((history, _))) => question.ask(&ByHistory::of(problem, history.as_ref())?),
+                (Err(_), Some((history, _))) => question.ask_history(history.as_ref()),
                 (answer, _) => answer,
             }
         }

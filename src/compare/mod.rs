@@ -1,4 +1,5 @@
-//! Routes to an answer, held against each other and against the truth: what `dalembert check` and `dalembert cost` share.
+//! Routes to an answer, held against each other and against the truth: what `dalembert check` and `dalembert cost`
+//! share.
 //!
 //! | module | |
 //! |---|---|

@@ -1,5 +1,5 @@
-//! The accounts that a motion is asked of: a history, the closed form of the first contact, the modal sum, the paper's printed
-//! formulas, and finite differences.
+//! The accounts that a motion is asked of: a history, the closed form of the first contact, the modal sum, the paper's
+//! printed formulas, and finite differences.
 
 use std::cell::OnceCell;
 
@@ -7,34 +7,34 @@ use super::cost::differences::Marched;
 use super::value::{Bounded, NoAnswer, System};
 use crate::error::Error;
 use crate::first_contact::{Bounce, Estimate, FirstContact};
-use crate::history::{Ending, EventKind, History, Side};
+use crate::history::{Ending, Event, EventKind, Field, History, Side};
 use crate::modal::Modal;
 use crate::number::Analytic;
 use crate::paper::{Printed, UndampedContact, formulas};
-use crate::rod::{Parameters, Problem};
+use crate::rod::Parameters;
 
 /// One number of a motion, or why it is not given.
 pub(crate) type Found<S> = Result<Bounded<S>, NoAnswer>;
+/// Several at once.
+type All<S, const N: usize> = Result<[Bounded<S>; N], NoAnswer>;
 
-/// An account of the first contact or of a whole run: a few basic quantities, and all others from them where the account has no
-/// formula of its own.
+/// An account of the first contact of `rod`, or of its whole run: a few basic quantities, and all others from them
+/// where the account has no formula of its own.
 pub(crate) trait Motion<S: System> {
-    fn rod(&self) -> &Parameters<S>;
-
     /// `t_b`.
-    fn release(&self) -> Found<S>;
+    fn release(&self, rod: &Parameters<S>) -> Found<S>;
 
     /// `v_x(0,t)`.
     fn stress(&self, time: &S, side: Side) -> Found<S>;
 
     /// `h` and `h′`.
-    fn centre(&self, time: &S) -> Result<[Bounded<S>; 2], NoAnswer>;
+    fn centre(&self, rod: &Parameters<S>, time: &S) -> All<S, 2>;
 
     /// `E`.
     fn total_energy(&self, time: &S) -> Found<S>;
 
     /// `v`, `v_t`, `v_x` at `(x,t)`.
-    fn field(&self, _point: &S, _time: &S, _side: Side) -> Result<[Bounded<S>; 3], NoAnswer> {
+    fn field(&self, _point: &S, _time: &S, _side: Side) -> All<S, 3> {
         not_given()
     }
 
@@ -44,56 +44,55 @@ pub(crate) trait Motion<S: System> {
     }
 
     /// `t*` and `h(t*)`.
-    fn top(&self) -> Result<[Bounded<S>; 2], NoAnswer> {
+    fn top(&self) -> All<S, 2> {
         not_given()
     }
 
     /// The last impact or release.
-    fn last_event(&self) -> Found<S> {
-        self.release()
+    fn last_event(&self, rod: &Parameters<S>) -> Found<S> {
+        self.release(rod)
     }
 
-    fn height(&self, time: &S) -> Found<S> {
-        self.centre(time).map(|[height, _]| height)
+    fn height(&self, rod: &Parameters<S>, time: &S) -> Found<S> {
+        self.centre(rod, time).map(|[height, _]| height)
     }
 
     /// `P = L h′`.
-    fn momentum(&self, time: &S) -> Found<S> {
-        Ok(self.centre(time)?[1].clone().times(&self.rod().length))
+    fn momentum(&self, rod: &Parameters<S>, time: &S) -> Found<S> {
+        self.centre(rod, time).map(|[_, velocity]| velocity.times(&rod.length))
     }
 
-    /// (3.63): `E_h = L h′²/2 + L g h`.
-    fn translational_energy(&self, time: &S) -> Found<S> {
-        Ok(translational(self.rod(), self.centre(time)?))
+    /// (3.63).
+    fn translational_energy(&self, rod: &Parameters<S>, time: &S) -> Found<S> {
+        self.centre(rod, time).map(|centre| translational(rod, centre))
     }
 
-    fn vibrational_energy(&self, time: &S) -> Found<S> {
-        Ok(self.total_energy(time)?.minus(self.translational_energy(time)?))
+    fn vibrational_energy(&self, rod: &Parameters<S>, time: &S) -> Found<S> {
+        Ok(self.total_energy(time)?.minus(self.translational_energy(rod, time)?))
     }
 
     /// `E_h` where the first contact begins: `μ²L/2` for the paper's start.
-    fn first_energy(&self) -> Result<S, NoAnswer> {
-        let Parameters { speed, length, .. } = self.rod();
-        Ok(speed.square() * length / length.int(2))
+    fn first_energy(&self, rod: &Parameters<S>) -> Found<S> {
+        Ok(Bounded::exact(rod.speed.square() * &rod.length / rod.length.int(2)))
     }
 
     /// `e_P = h′(t_b)/μ`.
-    fn momentum_restitution(&self) -> Found<S> {
-        let [_, velocity] = self.centre(&self.release()?.value)?;
-        Ok(velocity.over(Bounded::new(self.rod().speed.clone(), 0.0)))
+    fn momentum_restitution(&self, rod: &Parameters<S>) -> Found<S> {
+        let [_, velocity] = self.centre(rod, &self.release(rod)?.value)?;
+        Ok(velocity.over(Bounded::exact(rod.speed.clone())))
     }
 
     /// (4.71): `e_E² = E_h(t_b)/E_h(0)`.
-    fn restitution(&self) -> Found<S> {
-        let first = self.first_energy()?;
-        if !first.is_positive() {
+    fn restitution(&self, rod: &Parameters<S>) -> Found<S> {
+        let first = self.first_energy(rod)?;
+        if !first.value.is_positive() {
             return Err(NoAnswer::none("E_h ≤ 0 where the contact begins: nothing to compare with"));
         }
-        let last = translational(self.rod(), self.centre(&self.release()?.value)?);
+        let last = translational(rod, self.centre(rod, &self.release(rod)?.value)?);
         if last.value.is_negative() {
             return Err(NoAnswer::none("E_h < 0 where the contact ends"));
         }
-        Ok(last.over(Bounded::new(first, 0.0)))
+        Ok(last.over(first))
     }
 }
 
@@ -101,150 +100,135 @@ fn not_given<T>() -> Result<T, NoAnswer> {
     Err(NoAnswer::gave_up("this route does not give that"))
 }
 
-/// `L h′²/2 + L g h`, the errors of h and h′ carried on.
+/// `E_h = L h′²/2 + L g h`, with the errors of h and h′ and eight roundings of each term.
 fn translational<S: System>(rod: &Parameters<S>, [height, velocity]: [Bounded<S>; 2]) -> Bounded<S> {
     let (length, g, speed) = (rod.length.to_f64(), rod.gravity.to_f64(), velocity.value.to_f64().abs());
-    let carried = length * ((speed + velocity.bound) * velocity.bound + g * height.bound);
-    let rounding =
-        length * (speed * speed + g * height.value.to_f64().abs()) * 2f64.powf(height.value.log2_roundoff() + 3.0);
+    let carried = (speed + velocity.bound) * velocity.bound + g * height.bound;
+    let rounding = (speed * speed + g * height.value.to_f64().abs()) * 2f64.powf(rod.length.log2_roundoff() + 3.0);
     let kinetic = velocity.value.square() / velocity.value.int(2);
-    Bounded::new((kinetic + height.value * &rod.gravity) * &rod.length, carried + rounding)
+    Bounded::new((kinetic + height.value * &rod.gravity) * &rod.length, length * (carried + rounding))
 }
 
 fn bounded<S: System>(estimate: Estimate<S>) -> Bounded<S> {
     Bounded::new(estimate.value, estimate.error)
 }
 
-fn both<S: System>((a, b): (Estimate<S>, Estimate<S>)) -> [Bounded<S>; 2] {
-    [bounded(a), bounded(b)]
+fn of_field<S: System>((field, [v, v_t, v_x]): (Field<S>, [f64; 3])) -> [Bounded<S>; 3] {
+    [Bounded::new(field.displacement, v), Bounded::new(field.velocity, v_t), Bounded::new(field.strain, v_x)]
 }
 
 /// A history.
-pub(crate) struct ByHistory<'a, S> {
-    history: &'a dyn History<S>,
-    rod: Parameters<S>,
-}
+pub(crate) struct ByHistory<'a, S>(pub(crate) &'a dyn History<S>);
 
-impl<'a, S: System> ByHistory<'a, S> {
-    pub(crate) fn of(problem: &Problem, history: &'a dyn History<S>) -> Result<Self, Error> {
-        let rod = Parameters::of(problem, &history.scales().length.precision())?;
-        Ok(ByHistory { history, rod })
+impl<S: System> ByHistory<'_, S> {
+    /// A value with the bound of the history, relative to these powers of velocity, time and length.
+    fn within(&self, value: S, [velocity, time, length]: [i32; 3]) -> Bounded<S> {
+        let scales = self.0.scales();
+        let scale = scales.velocity.to_f64().powi(velocity) * scales.time.to_f64().powi(time);
+        let scale = scale * scales.length.to_f64().powi(length);
+        Bounded::new(value, self.0.error_estimate().to_f64() * scale)
     }
 
-    /// A value with the bound of the history, relative to `scale` of speed, time and length.
-    fn within(&self, value: S, scale: impl Fn(f64, f64, f64) -> f64) -> Bounded<S> {
-        let scales = self.history.scales();
-        let scale = scale(scales.velocity.to_f64(), scales.time.to_f64(), scales.length.to_f64());
-        Bounded::new(value, self.history.error_estimate().to_f64() * scale)
-    }
-
-    /// A history that ends too early says why.
-    fn refused(&self, error: Error) -> NoAnswer {
-        match error {
+    /// The answer of the history; one that ends too early gives the reason.
+    fn asked<T>(&self, answer: Result<T, Error>) -> Result<T, NoAnswer> {
+        answer.map_err(|error| match error {
             Error::TimeOutside { .. } => self.ended(),
             other => other.into(),
-        }
+        })
     }
 
     fn ended(&self) -> NoAnswer {
-        match self.history.ending() {
-            undecided @ (Ending::Undecided(_) | Ending::ExactnessEnds { .. }) => NoAnswer::gave_up(undecided),
+        match self.0.ending() {
+            open @ (Ending::Undecided(_) | Ending::ExactnessEnds { .. }) => NoAnswer::gave_up(open),
             ending => NoAnswer::none(ending.to_string()),
         }
     }
-}
 
-impl<S: System> Motion<S> for ByHistory<'_, S> {
-    fn rod(&self) -> &Parameters<S> {
-        &self.rod
+    fn event(&self, event: Option<&Event<S>>) -> Found<S> {
+        event.map(|event| Bounded::new(event.time.clone(), event.time_error)).ok_or_else(|| self.ended())
     }
 
-    fn release(&self) -> Found<S> {
-        let release = self.history.events().iter().find(|event| event.kind == EventKind::Release);
-        release.map(|event| Bounded::new(event.time.clone(), event.time_error)).ok_or_else(|| self.ended())
+    fn first_release(&self) -> Option<&Event<S>> {
+        self.0.events().iter().find(|event| event.kind == EventKind::Release)
+    }
+}
+
+/// The scale of an energy: `v² L`.
+const ENERGY: [i32; 3] = [2, 0, 1];
+
+impl<S: System> Motion<S> for ByHistory<'_, S> {
+    fn release(&self, _: &Parameters<S>) -> Found<S> {
+        self.event(self.first_release())
     }
 
     fn event_near(&self, kind: EventKind, near: f64) -> Found<S> {
-        let apart = |time: &S| (time.to_f64() - near).abs();
-        let events = self.history.events().iter().filter(|event| event.kind == kind && apart(&event.time) < 0.25);
-        let nearest = events.min_by(|a, b| apart(&a.time).total_cmp(&apart(&b.time)));
-        nearest.map(|event| Bounded::new(event.time.clone(), event.time_error)).ok_or_else(|| self.ended())
+        let apart = |event: &Event<S>| (event.time.to_f64() - near).abs();
+        let events = self.0.events().iter().filter(|event| event.kind == kind && apart(event) < 0.25);
+        self.event(events.min_by(|a, b| apart(a).total_cmp(&apart(b))))
     }
 
-    fn last_event(&self) -> Found<S> {
-        // The last event before a doubt is not the last of the run.
-        if let undecided @ (Ending::Undecided(_) | Ending::ExactnessEnds { .. }) = self.history.ending() {
-            return Err(NoAnswer::gave_up(undecided));
+    fn last_event(&self, _: &Parameters<S>) -> Found<S> {
+        match (self.0.ending(), self.0.events().last()) {
+            // The last event before an open question is not the last of the run.
+            (Ending::Undecided(_) | Ending::ExactnessEnds { .. }, _) => Err(self.ended()),
+            (_, None) => Err(NoAnswer::none("nothing happens in it")),
+            (_, last) => self.event(last),
         }
-        let last = self.history.events().last();
-        last.map(|event| Bounded::new(event.time.clone(), event.time_error))
-            .ok_or_else(|| NoAnswer::none("nothing happens in it"))
     }
 
     fn stress(&self, time: &S, side: Side) -> Found<S> {
-        let stress = self.history.stress(time, side).map_err(|error| self.refused(error))?;
-        Ok(self.within(stress, |speed, _, _| speed / self.rod.wave_speed.to_f64()))
+        let wave_speed = self.0.scales().wave_speed.to_f64();
+        let stress = self.within(self.asked(self.0.stress(time, side))?, [1, 0, 0]);
+        Ok(Bounded { bound: stress.bound / wave_speed, ..stress })
     }
 
-    fn field(&self, point: &S, time: &S, side: Side) -> Result<[Bounded<S>; 3], NoAnswer> {
-        let field = self.history.field(point, time, side).map_err(|error| self.refused(error))?;
-        Ok([
-            self.within(field.displacement, |speed, time, _| speed * time),
-            self.within(field.velocity, |speed, _, _| speed),
-            self.within(field.strain, |speed, _, _| speed / self.rod.wave_speed.to_f64()),
-        ])
+    fn field(&self, point: &S, time: &S, side: Side) -> All<S, 3> {
+        let field = self.asked(self.0.field(point, time, side))?;
+        let strain = self.within(field.strain, [1, 0, 0]);
+        let strain = Bounded { bound: strain.bound / self.0.scales().wave_speed.to_f64(), ..strain };
+        Ok([self.within(field.displacement, [1, 1, 0]), self.within(field.velocity, [1, 0, 0]), strain])
     }
 
-    fn centre(&self, time: &S) -> Result<[Bounded<S>; 2], NoAnswer> {
-        let (height, velocity) = self.history.centre(time).map_err(|error| self.refused(error))?;
-        Ok([self.within(height, |speed, time, _| speed * time), self.within(velocity, |speed, _, _| speed)])
+    fn centre(&self, _: &Parameters<S>, time: &S) -> All<S, 2> {
+        let (height, velocity) = self.asked(self.0.centre(time))?;
+        Ok([self.within(height, [1, 1, 0]), self.within(velocity, [1, 0, 0])])
     }
 
     fn total_energy(&self, time: &S) -> Found<S> {
-        let energy = self.history.energy(time).map_err(|error| self.refused(error))?;
-        Ok(self.within(energy.total, |speed, _, length| speed * speed * length))
+        Ok(self.within(self.asked(self.0.energy(time))?.total, ENERGY))
     }
 
-    fn translational_energy(&self, time: &S) -> Found<S> {
-        let energy = self.history.energy(time).map_err(|error| self.refused(error))?;
-        Ok(self.within(energy.translational, |speed, _, length| speed * speed * length))
+    fn translational_energy(&self, _: &Parameters<S>, time: &S) -> Found<S> {
+        Ok(self.within(self.asked(self.0.energy(time))?.translational, ENERGY))
     }
 
-    fn vibrational_energy(&self, time: &S) -> Found<S> {
-        let energy = self.history.energy(time).map_err(|error| self.refused(error))?;
-        Ok(self.within(energy.vibrational, |speed, _, length| speed * speed * length))
+    fn vibrational_energy(&self, _: &Parameters<S>, time: &S) -> Found<S> {
+        Ok(self.within(self.asked(self.0.energy(time))?.vibrational, ENERGY))
     }
 
-    fn first_energy(&self) -> Result<S, NoAnswer> {
-        let contact = self.history.contacts().first().ok_or_else(|| NoAnswer::none("no contact in it"))?;
-        Ok(translational(&self.rod, self.centre(&contact.from)?).value)
+    fn first_energy(&self, rod: &Parameters<S>) -> Found<S> {
+        let contact = self.0.contacts().first().ok_or_else(|| NoAnswer::none("no contact in it"))?;
+        Ok(translational(rod, self.centre(rod, &contact.from)?))
     }
 
-    fn top(&self) -> Result<[Bounded<S>; 2], NoAnswer> {
-        let release = self.history.events().iter().find(|event| event.kind == EventKind::Release);
-        let top = self.history.highest(release.ok_or_else(|| self.ended())?);
+    fn top(&self) -> All<S, 2> {
+        let top = self.0.highest(self.first_release().ok_or_else(|| self.ended())?);
         let (time, height) = top.ok_or_else(|| NoAnswer::none("no top"))?;
-        Ok([self.within(time, |_, time, _| time), self.within(height, |speed, time, _| speed * time)])
+        Ok([self.within(time, [0, 1, 0]), self.within(height, [1, 1, 0])])
     }
 }
 
 /// The closed form of the first contact, and of the flight after it.
-pub(crate) struct ByClosedForm<'a, S> {
-    rod: Parameters<S>,
+pub(crate) struct ByClosedForm<S, F> {
     contact: FirstContact<S>,
-    search: &'a dyn Fn(&FirstContact<S>) -> Bounce<S>,
+    search: F,
     bounce: OnceCell<Bounce<S>>,
 }
 
-impl<'a, S: System + Analytic> ByClosedForm<'a, S> {
-    /// `search` finds the bounce, if a quantity asks for it.
-    pub(crate) fn of(
-        problem: &Problem,
-        precision: &S::Precision,
-        search: &'a dyn Fn(&FirstContact<S>) -> Bounce<S>,
-    ) -> Result<Self, Error> {
-        let rod = Parameters::of(problem, precision)?;
-        Ok(ByClosedForm { contact: FirstContact::new(&rod), rod, search, bounce: OnceCell::new() })
+impl<S: System + Analytic, F: Fn(&FirstContact<S>) -> Bounce<S>> ByClosedForm<S, F> {
+    /// `search` finds the bounce, if a quantity needs it.
+    pub(crate) fn new(rod: &Parameters<S>, search: F) -> Self {
+        ByClosedForm { contact: FirstContact::new(rod), search, bounce: OnceCell::new() }
     }
 
     fn bounce(&self) -> &Bounce<S> {
@@ -252,12 +236,8 @@ impl<'a, S: System + Analytic> ByClosedForm<'a, S> {
     }
 }
 
-impl<S: System + Analytic> Motion<S> for ByClosedForm<'_, S> {
-    fn rod(&self) -> &Parameters<S> {
-        &self.rod
-    }
-
-    fn release(&self) -> Found<S> {
+impl<S: System + Analytic, F: Fn(&FirstContact<S>) -> Bounce<S>> Motion<S> for ByClosedForm<S, F> {
+    fn release(&self, _: &Parameters<S>) -> Found<S> {
         match self.bounce() {
             Bounce::At { time, error, .. } => Ok(Bounded::new(time.clone(), *error)),
             Bounce::Never { reason } => Err(NoAnswer::none(reason.clone())),
@@ -269,21 +249,21 @@ impl<S: System + Analytic> Motion<S> for ByClosedForm<'_, S> {
         Ok(bounded(self.contact.stress(time, side)))
     }
 
-    fn field(&self, point: &S, time: &S, side: Side) -> Result<[Bounded<S>; 3], NoAnswer> {
-        let (field, [v, v_t, v_x]) = self.contact.field(point, time, side);
-        Ok([Bounded::new(field.displacement, v), Bounded::new(field.velocity, v_t), Bounded::new(field.strain, v_x)])
+    fn field(&self, point: &S, time: &S, side: Side) -> All<S, 3> {
+        Ok(of_field(self.contact.field(point, time, side)))
     }
 
-    fn centre(&self, time: &S) -> Result<[Bounded<S>; 2], NoAnswer> {
+    fn centre(&self, rod: &Parameters<S>, time: &S) -> All<S, 2> {
         // No contact is shorter than a round trip.
-        if *time > self.rod.round_trip()
+        if *time > rod.round_trip()
             && let Bounce::At { time: end, .. } = self.bounce()
             && time > end
         {
             let (height, velocity) = self.contact.rebound(end).flight(time);
             return Ok([Bounded::rounded(height), Bounded::rounded(velocity)]);
         }
-        Ok(both(self.contact.centre(time)))
+        let (height, velocity) = self.contact.centre(time);
+        Ok([bounded(height), bounded(velocity)])
     }
 
     fn total_energy(&self, time: &S) -> Found<S> {
@@ -291,28 +271,15 @@ impl<S: System + Analytic> Motion<S> for ByClosedForm<'_, S> {
         Ok(Bounded::new(energy.total, total))
     }
 
-    fn vibrational_energy(&self, time: &S) -> Found<S> {
+    fn vibrational_energy(&self, _: &Parameters<S>, time: &S) -> Found<S> {
         let (energy, [.., vibrational]) = self.contact.energy(time);
         Ok(Bounded::new(energy.vibrational, vibrational))
     }
 
-    fn top(&self) -> Result<[Bounded<S>; 2], NoAnswer> {
-        let top = self.contact.rebound(&self.release()?.value).highest();
-        let (time, height) = top.ok_or_else(|| NoAnswer::none("no top"))?;
+    fn top(&self) -> All<S, 2> {
+        let Bounce::At { time: end, .. } = self.bounce() else { return Err(NoAnswer::none("no bounce")) };
+        let (time, height) = self.contact.rebound(end).highest().ok_or_else(|| NoAnswer::none("no top"))?;
         Ok([Bounded::rounded(time), Bounded::rounded(height)])
-    }
-}
-
-/// The modal sum of the first contact.
-pub(crate) struct ByModes {
-    rod: Parameters<f64>,
-    modal: Modal<f64>,
-}
-
-impl ByModes {
-    pub(crate) fn of(problem: &Problem, modes: u32) -> Result<Self, Error> {
-        let rod = Parameters::of(problem, &())?;
-        Ok(ByModes { modal: Modal::new(&rod, modes), rod })
     }
 }
 
@@ -320,179 +287,121 @@ impl ByModes {
 const LOOKS: i64 = 8;
 
 fn found(release: Option<f64>) -> Found<f64> {
-    let time = release.ok_or_else(|| NoAnswer::gave_up("no tensile stress in 64 round trips"))?;
-    Ok(Bounded::new(time, f64::INFINITY))
+    release.map(Bounded::unbounded).ok_or_else(|| NoAnswer::gave_up("no tensile stress in 64 round trips"))
 }
 
-impl Motion<f64> for ByModes {
-    fn rod(&self) -> &Parameters<f64> {
-        &self.rod
-    }
-
-    fn release(&self) -> Found<f64> {
-        found(formulas::first_release(self.rod.round_trip(), LOOKS, |t, side| self.modal.stress(&t, side).value))
+impl Motion<f64> for Modal<f64> {
+    fn release(&self, rod: &Parameters<f64>) -> Found<f64> {
+        found(formulas::first_release(rod.round_trip(), LOOKS, |t, side| self.stress(&t, side).value))
     }
 
     fn stress(&self, time: &f64, side: Side) -> Found<f64> {
-        Ok(bounded(self.modal.stress(time, side)))
+        Ok(bounded(self.stress(time, side)))
     }
 
-    fn field(&self, point: &f64, time: &f64, side: Side) -> Result<[Bounded<f64>; 3], NoAnswer> {
-        let (field, [v, v_t, v_x]) = self.modal.field(point, time, side);
-        Ok([Bounded::new(field.displacement, v), Bounded::new(field.velocity, v_t), Bounded::new(field.strain, v_x)])
+    fn field(&self, point: &f64, time: &f64, side: Side) -> All<f64, 3> {
+        Ok(of_field(self.field(point, time, side)))
     }
 
-    fn centre(&self, time: &f64) -> Result<[Bounded<f64>; 2], NoAnswer> {
-        Ok(both(self.modal.centre(time)))
+    fn centre(&self, _: &Parameters<f64>, time: &f64) -> All<f64, 2> {
+        let (height, velocity) = self.centre(time);
+        Ok([bounded(height), bounded(velocity)])
     }
 
     fn total_energy(&self, time: &f64) -> Found<f64> {
-        Ok(bounded(self.modal.energy(time)))
+        Ok(bounded(self.energy(time)))
     }
 }
 
-/// The paper's integrals as printed.
-pub(crate) struct ByPrintedIntegrals {
-    pub(crate) rod: Parameters<f64>,
-    pub(crate) printed: Printed,
-}
-
-impl Motion<f64> for ByPrintedIntegrals {
-    fn rod(&self) -> &Parameters<f64> {
-        &self.rod
-    }
-
-    fn release(&self) -> Found<f64> {
-        found(self.printed.release(self.rod.round_trip(), LOOKS))
+impl Motion<f64> for Printed {
+    fn release(&self, rod: &Parameters<f64>) -> Found<f64> {
+        found(self.release(rod.round_trip(), LOOKS))
     }
 
     fn stress(&self, time: &f64, _: Side) -> Found<f64> {
-        Ok(Bounded::new(self.printed.stress(*time), f64::INFINITY))
+        Ok(Bounded::unbounded(self.stress(*time)))
     }
 
-    fn height(&self, time: &f64) -> Found<f64> {
-        Ok(Bounded::new(self.printed.centre(*time), f64::INFINITY))
+    fn height(&self, _: &Parameters<f64>, time: &f64) -> Found<f64> {
+        Ok(Bounded::unbounded(self.centre(*time)))
     }
 
-    fn centre(&self, time: &f64) -> Result<[Bounded<f64>; 2], NoAnswer> {
-        let velocity = self.printed.momentum(*time) / self.rod.length;
-        Ok([self.height(time)?, Bounded::new(velocity, f64::INFINITY)])
+    fn centre(&self, rod: &Parameters<f64>, time: &f64) -> All<f64, 2> {
+        Ok([self.centre(*time), self.momentum(*time) / rod.length].map(Bounded::unbounded))
     }
 
     fn total_energy(&self, time: &f64) -> Found<f64> {
-        Ok(Bounded::new(self.printed.energy(*time), f64::INFINITY))
+        Ok(Bounded::unbounded(self.energy(*time)))
     }
 }
 
-/// The paper's closed forms of `r = 0`.
-pub(crate) struct ByPrintedForms<S> {
-    rod: Parameters<S>,
-    contact: UndampedContact<S>,
-}
-
-impl<S: System> ByPrintedForms<S> {
-    pub(crate) fn of(problem: &Problem, precision: &S::Precision) -> Result<Self, NoAnswer> {
-        let rod = Parameters::of(problem, precision)?;
-        let contact = UndampedContact::new(&rod).ok_or_else(|| NoAnswer::gave_up("they are printed for r = 0"))?;
-        Ok(ByPrintedForms { rod, contact })
-    }
-}
-
-fn exact<S: System>(value: S) -> Bounded<S> {
-    Bounded::new(value, 0.0)
-}
-
-impl<S: System> Motion<S> for ByPrintedForms<S> {
-    fn rod(&self) -> &Parameters<S> {
-        &self.rod
-    }
-
-    fn release(&self) -> Found<S> {
-        Ok(exact(self.contact.bounce_time()))
+impl<S: System> Motion<S> for UndampedContact<S> {
+    fn release(&self, _: &Parameters<S>) -> Found<S> {
+        Ok(Bounded::exact(self.bounce_time()))
     }
 
     fn stress(&self, time: &S, side: Side) -> Found<S> {
-        Ok(exact(self.contact.stress(time, side)))
+        Ok(Bounded::exact(self.stress(time, side)))
     }
 
-    fn centre(&self, time: &S) -> Result<[Bounded<S>; 2], NoAnswer> {
-        let (height, velocity) = self.contact.centre(time);
-        Ok([exact(height), exact(velocity)])
+    fn centre(&self, _: &Parameters<S>, time: &S) -> All<S, 2> {
+        let (height, velocity) = self.centre(time);
+        Ok([height, velocity].map(Bounded::exact))
     }
 
-    fn momentum(&self, time: &S) -> Found<S> {
-        Ok(exact(self.contact.momentum(time)))
+    fn momentum(&self, _: &Parameters<S>, time: &S) -> Found<S> {
+        Ok(Bounded::exact(self.momentum(time)))
     }
 
     fn total_energy(&self, _: &S) -> Found<S> {
-        Ok(exact(self.contact.total_energy()))
+        Ok(Bounded::exact(self.total_energy()))
     }
 
-    fn translational_energy(&self, time: &S) -> Found<S> {
-        Ok(exact(self.contact.translational_energy(time)))
+    fn translational_energy(&self, _: &Parameters<S>, time: &S) -> Found<S> {
+        Ok(Bounded::exact(self.translational_energy(time)))
     }
 
-    fn vibrational_energy(&self, time: &S) -> Found<S> {
-        if *time == self.contact.bounce_time() {
-            Ok(exact(self.contact.vibrational_energy_at_bounce()))
-        } else {
-            not_given()
-        }
+    fn vibrational_energy(&self, _: &Parameters<S>, time: &S) -> Found<S> {
+        let at_bounce = *time == self.bounce_time();
+        if at_bounce { Ok(Bounded::exact(self.vibrational_energy_at_bounce())) } else { not_given() }
     }
 
-    fn momentum_restitution(&self) -> Found<S> {
-        Ok(exact(self.contact.momentum_restitution()))
+    fn momentum_restitution(&self, _: &Parameters<S>) -> Found<S> {
+        Ok(Bounded::exact(self.momentum_restitution()))
     }
 
-    fn restitution(&self) -> Found<S> {
-        self.contact.energy_restitution_squared().map(exact).ok_or_else(|| NoAnswer::none("nothing moves"))
+    fn restitution(&self, _: &Parameters<S>) -> Found<S> {
+        self.energy_restitution_squared().map(Bounded::exact).ok_or_else(|| NoAnswer::none("nothing moves"))
     }
 
-    fn top(&self) -> Result<[Bounded<S>; 2], NoAnswer> {
-        let (time, height) = self.contact.highest().ok_or_else(|| NoAnswer::none("no top"))?;
-        Ok([exact(time), exact(height)])
+    fn top(&self) -> All<S, 2> {
+        let (time, height) = self.highest().ok_or_else(|| NoAnswer::none("no top"))?;
+        Ok([time, height].map(Bounded::exact))
     }
 }
 
-/// Finite differences, which end at the time that is asked for.
-pub(crate) struct ByDifferences {
-    pub(crate) rod: Parameters<f64>,
-    pub(crate) marched: Marched,
-}
-
-impl ByDifferences {
-    fn event(&self, event: Option<&(EventKind, f64)>) -> Found<f64> {
-        let (_, time) = event.ok_or_else(|| NoAnswer::gave_up("no such event found with so few cells"))?;
-        Ok(Bounded::new(*time, f64::INFINITY))
-    }
-}
-
-impl Motion<f64> for ByDifferences {
-    fn rod(&self) -> &Parameters<f64> {
-        &self.rod
+impl Motion<f64> for Marched {
+    fn release(&self, _: &Parameters<f64>) -> Found<f64> {
+        let release = self.events.iter().find(|event| event.0 == EventKind::Release);
+        release.map(|event| Bounded::unbounded(event.1)).ok_or_else(|| NoAnswer::gave_up("no release found"))
     }
 
-    fn release(&self) -> Found<f64> {
-        self.event(self.marched.events.iter().find(|event| event.0 == EventKind::Release))
-    }
-
-    fn last_event(&self) -> Found<f64> {
-        self.event(self.marched.events.last())
+    fn last_event(&self, _: &Parameters<f64>) -> Found<f64> {
+        let last = self.events.last().map(|event| Bounded::unbounded(event.1));
+        last.ok_or_else(|| NoAnswer::gave_up("no event found"))
     }
 
     fn stress(&self, _: &f64, _: Side) -> Found<f64> {
-        Ok(Bounded::new(self.marched.stress, f64::INFINITY))
+        Ok(Bounded::unbounded(self.stress))
     }
 
-    fn centre(&self, time: &f64) -> Result<[Bounded<f64>; 2], NoAnswer> {
-        let at =
-            self.marched.at(*time).ok_or_else(|| NoAnswer::gave_up("only the first release and the end are kept"))?;
-        Ok([at.centre, at.velocity].map(|value| Bounded::new(value, f64::INFINITY)))
+    fn centre(&self, _: &Parameters<f64>, time: &f64) -> All<f64, 2> {
+        let at = self.at(*time).ok_or_else(|| NoAnswer::gave_up("nothing is kept of that time"))?;
+        Ok([at.centre, at.velocity].map(Bounded::unbounded))
     }
 
     fn total_energy(&self, time: &f64) -> Found<f64> {
-        let at =
-            self.marched.at(*time).ok_or_else(|| NoAnswer::gave_up("only the first release and the end are kept"))?;
-        Ok(Bounded::new(at.energy, f64::INFINITY))
+        let at = self.at(*time).ok_or_else(|| NoAnswer::gave_up("nothing is kept of that time"))?;
+        Ok(Bounded::unbounded(at.energy))
     }
 }

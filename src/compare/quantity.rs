@@ -2,9 +2,9 @@
 
 use clap::ValueEnum;
 
-use super::motion::Motion;
+use super::motion::{ByHistory, Found, Motion};
 use super::value::{Answer, Bounded, NoAnswer, System};
-use crate::history::{EventKind, Side};
+use crate::history::{EventKind, History, Side};
 use crate::number::Number;
 use crate::rod::{Parameters, Problem, Run};
 use crate::scene::Scene;
@@ -79,29 +79,24 @@ use Quantity::*;
 impl Quantity {
     /// The name in output: `bounce_time`.
     pub(crate) fn name(self) -> &'static str {
-        match self {
-            BounceTime => "bounce_time",
-            Stress => "stress",
-            Centre => "centre",
-            Energy => "energy",
-            Vibrational => "vibrational",
-            Restitution => "restitution",
-            LastEvent => "last_event",
-            _ => "quantity",
-        }
+        self.texts().0
     }
 
     /// The symbol: `t_b`.
     pub(crate) fn symbol(self) -> &'static str {
+        self.texts().1
+    }
+
+    fn texts(self) -> (&'static str, &'static str) {
         match self {
-            BounceTime => "t_b",
-            Stress => "v_x(0,t)",
-            Centre => "h(t)",
-            Energy => "E(t)",
-            Vibrational => "E_z(t)",
-            Restitution => "e_E²",
-            LastEvent => "time of the last event",
-            _ => "",
+            BounceTime => ("bounce_time", "t_b"),
+            Stress => ("stress", "v_x(0,t)"),
+            Centre => ("centre", "h(t)"),
+            Energy => ("energy", "E(t)"),
+            Vibrational => ("vibrational", "E_z(t)"),
+            Restitution => ("restitution", "e_E²"),
+            LastEvent => ("last_event", "time of the last event"),
+            _ => ("quantity", ""),
         }
     }
 
@@ -140,8 +135,8 @@ impl Question {
         Question { problem, quantity, point: None, time, limit: Limit::From(Side::Right), from: None }
     }
 
-    /// `quantity` of `scene` at `time`; without one at three quarters of a round trip. Without a quantity it is the bounce time, or,
-    /// where the scene calls for more than one contact, the time of the last event.
+    /// `quantity` of `scene` at `time`; without one at three quarters of a round trip. Without a quantity it is the
+    /// bounce time, or, where the scene calls for more than one contact, the time of the last event.
     ///
     /// **Errors**: [`NoAnswer::Time`] for a time below zero, or for a quantity that is not asked at a time.
     pub(crate) fn of_scene(scene: &Scene, quantity: Option<Quantity>, time: Option<Number>) -> Result<Self, NoAnswer> {
@@ -170,18 +165,28 @@ impl Question {
         Ok(Question::new(problem, quantity, time))
     }
 
-    /// The answer of one account of the motion.
-    pub(crate) fn ask<S: System>(&self, motion: &dyn Motion<S>) -> Result<Answer, NoAnswer> {
-        self.find(motion).map(Bounded::answer)
+    /// The answer of one account of the motion of `rod`.
+    pub(crate) fn ask<S: System>(&self, rod: &Parameters<S>, motion: &dyn Motion<S>) -> Result<Answer, NoAnswer> {
+        self.find(rod, motion).map(Bounded::answer)
     }
 
-    /// The same in the numbers of that account.
-    pub(crate) fn find<S: System>(&self, motion: &dyn Motion<S>) -> Result<Bounded<S>, NoAnswer> {
+    /// The answer of a history.
+    pub(crate) fn ask_history<S: System>(&self, history: &dyn History<S>) -> Result<Answer, NoAnswer> {
+        self.find_in_history(history).map(Bounded::answer)
+    }
+
+    /// The same in the numbers of the history.
+    pub(crate) fn find_in_history<S: System>(&self, history: &dyn History<S>) -> Found<S> {
+        let rod = Parameters::of(&self.problem, &history.scales().length.precision())?;
+        self.find(&rod, &ByHistory(history))
+    }
+
+    fn find<S: System>(&self, rod: &Parameters<S>, motion: &dyn Motion<S>) -> Found<S> {
         let found = match self.limit {
-            Limit::From(side) => self.find_on(motion, side),
+            Limit::From(side) => self.find_on(rod, motion, side),
             Limit::Jump => {
-                let earlier = self.find_on(motion, Side::Left);
-                self.find_on(motion, Side::Right).and_then(|later| Ok(later.minus(earlier?)))
+                let earlier = self.find_on(rod, motion, Side::Left);
+                self.find_on(rod, motion, Side::Right).and_then(|later| Ok(later.minus(earlier?)))
             }
         };
         found.map_err(|error| match error {
@@ -190,15 +195,15 @@ impl Question {
         })
     }
 
-    fn find_on<S: System>(&self, motion: &dyn Motion<S>, side: Side) -> Result<Bounded<S>, NoAnswer> {
-        let precision = motion.rod().length.precision();
+    fn find_on<S: System>(&self, rod: &Parameters<S>, motion: &dyn Motion<S>, side: Side) -> Found<S> {
+        let precision = rod.length.precision();
         let point = || match &self.point {
             Some(point) => Ok(S::from_number(point, &precision)),
             None => Err(NoAnswer::none("no point is given")),
         };
         let time = || match &self.time {
             Some(time) => Ok(S::from_number(time, &precision)),
-            None => motion.release().map(|release| release.value),
+            None => motion.release(rod).map(|release| release.value),
         };
         let field = |k: usize| {
             let [v, v_t, v_x] = motion.field(&point()?, &time()?, side)?;
@@ -212,40 +217,40 @@ impl Question {
         };
         let exponential = |exponent: S| exponent.exponential().ok_or_else(|| NoAnswer::none("no fraction"));
         let left = || {
-            let end = motion.release()?.value;
-            Ok::<_, NoAnswer>((motion.total_energy(&end)?.over(Bounded::new(motion.first_energy()?, 0.0)), end))
+            let end = motion.release(rod)?.value;
+            Ok::<_, NoAnswer>((motion.total_energy(&end)?.over(motion.first_energy(rod)?), end))
         };
         match self.quantity {
-            BounceTime => motion.release(),
-            LastEvent => motion.last_event(),
+            BounceTime => motion.release(rod),
+            LastEvent => motion.last_event(rod),
             Impact => motion.event_near(EventKind::Impact, time()?.to_f64()),
             Release => motion.event_near(EventKind::Release, time()?.to_f64()),
             Stress => motion.stress(&time()?, side),
             Displacement => field(0),
             Velocity => field(1),
             Strain => field(2),
-            Centre => motion.height(&time()?),
-            Momentum => motion.momentum(&time()?),
+            Centre => motion.height(rod, &time()?),
+            Momentum => motion.momentum(rod, &time()?),
             Energy => motion.total_energy(&time()?),
-            Translational => motion.translational_energy(&time()?),
-            Vibrational => motion.vibrational_energy(&time()?),
-            MomentumRestitution => motion.momentum_restitution(),
-            Restitution => motion.restitution(),
+            Translational => motion.translational_energy(rod, &time()?),
+            Vibrational => motion.vibrational_energy(rod, &time()?),
+            MomentumRestitution => motion.momentum_restitution(rod),
+            Restitution => motion.restitution(rod),
             TranslationalShare => {
-                let end = motion.release()?.value;
-                Ok(motion.translational_energy(&end)?.over(motion.total_energy(&end)?))
+                let end = motion.release(rod)?.value;
+                Ok(motion.translational_energy(rod, &end)?.over(motion.total_energy(&end)?))
             }
             EnergyLeft => Ok(left()?.0),
             EnergyLeftUndamped => {
                 let (left, end) = left()?;
-                let lost = end.int(2) * &motion.rod().damping * &end;
+                let lost = end.int(2) * &rod.damping * &end;
                 Ok(left.times(&exponential(lost)?))
             }
             BeyondExponential => {
-                let (squared, end) = (motion.restitution()?, motion.release()?.value);
+                let (squared, end) = (motion.restitution(rod)?, motion.release(rod)?.value);
                 let root = squared.value.try_sqrt().ok_or_else(|| NoAnswer::none("no fraction"))?;
                 let bound = squared.bound / root.to_f64();
-                let decay = exponential(-(end * &motion.rod().damping))?;
+                let decay = exponential(-(end * &rod.damping))?;
                 Ok(Bounded::new(root, bound).minus(Bounded::rounded(decay)))
             }
             TopTime => motion.top().map(|[time, _]| time),

@@ -2,13 +2,14 @@
 
 use super::cost::differences::march;
 use super::long;
-use super::motion::{ByClosedForm, ByDifferences, ByHistory, ByModes, ByPrintedIntegrals};
+use super::motion::ByClosedForm;
 use super::quantity::{Quantity, Question};
 use super::value::{Answer, NoAnswer, Value};
 use crate::damped::{Damped, Joined};
 use crate::first_contact::{Bounce, FirstContact};
 use crate::history::History;
 use crate::lattice::Undamped;
+use crate::modal::Modal;
 use crate::paper::Printed;
 use crate::rod::{Parameters, Problem, Run};
 pub(crate) use crate::scene::System as Numbers;
@@ -25,7 +26,8 @@ pub(crate) enum Route {
     Formula(&'static str, fn() -> f64),
     /// A formula in numbers of so many digits.
     LongFormula(&'static str, u32, LongFormula),
-    /// The closed form of the first contact. In doubles without an accuracy the bounce is searched on the sum over rays alone.
+    /// The closed form of the first contact. In doubles without an accuracy the bounce is searched on the sum over rays
+    /// alone.
     ClosedForm(Numbers),
     /// The paper's closed forms of `r = 0`, in fractions.
     PrintedForms,
@@ -61,30 +63,26 @@ impl Route {
         match self {
             Route::Formula(_, formula) => Ok(Answer { value: Value::Double(formula()), bound: f64::INFINITY }),
             Route::ClosedForm(Numbers::Double(None)) => {
-                question.ask(&ByClosedForm::<f64>::of(problem, &(), &FirstContact::bounce)?)
+                let rod = Parameters::<f64>::of(problem, &())?;
+                question.ask(&rod, &ByClosedForm::new(&rod, FirstContact::bounce))
             }
             Route::ClosedForm(Numbers::Double(Some(accuracy))) => {
-                question.ask(&ByClosedForm::of(problem, &(), &|contact| contact.bounce_within(accuracy))?)
+                let rod = Parameters::of(problem, &())?;
+                question.ask(&rod, &ByClosedForm::new(&rod, |contact| contact.bounce_within(accuracy)))
             }
-            Route::Lattice(Numbers::Double(_)) => {
-                question.ask(&ByHistory::of(problem, &Undamped::<f64>::solve(problem, &())?)?)
+            Route::Lattice(Numbers::Double(_)) => question.ask_history(&Undamped::<f64>::solve(problem, &())?),
+            Route::Cells(digits) => question.ask_history(&Damped::<f64>::solve(problem, &(), f64::from(digits))?),
+            Route::Modes(modes) => {
+                let rod = Parameters::of(problem, &())?;
+                question.ask(&rod, &Modal::<f64>::new(&rod, modes))
             }
-            Route::Cells(digits) => {
-                question.ask(&ByHistory::of(problem, &Damped::<f64>::solve(problem, &(), f64::from(digits))?)?)
-            }
-            Route::Modes(modes) => question.ask(&ByModes::of(problem, modes)?),
             Route::PrintedIntegrals(tolerance) => {
                 let rod = Parameters::of(problem, &())?;
-                let route = ByPrintedIntegrals { printed: Printed::new(&rod, tolerance).limited_to(seconds), rod };
-                let answer = question.ask(&route)?;
-                if route.printed.is_late() {
-                    return Err(NoAnswer::gave_up("the nested integrals take too long"));
-                }
-                Ok(answer)
+                let printed = Printed::new(&rod, tolerance).limited_to(seconds);
+                let answer = question.ask(&rod, &printed);
+                if printed.is_late() { Err(NoAnswer::gave_up("the nested integrals take too long")) } else { answer }
             }
-            Route::Differences(cells) => {
-                question.ask(&ByDifferences { rod: Parameters::of(problem, &())?, marched: march(problem, cells)? })
-            }
+            Route::Differences(cells) => question.ask(&Parameters::<f64>::of(problem, &())?, &march(problem, cells)?),
             Route::Planned(Numbers::Certified(_)) => {
                 if problem.rod.damping.is_some() {
                     within_first_contact(question)

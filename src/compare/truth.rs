@@ -11,8 +11,8 @@ use crate::scene::Engine;
 #[derive(Clone, Debug)]
 pub(crate) struct Truth {
     pub(crate) value: Value,
-    /// `log₁₀` of what it may be off, −∞ where it is exact. Where that is not proved it is twice what separates two computations with
-    /// different precision, one far beyond the other.
+    /// `log₁₀` of what it may be off, −∞ where it is exact. Where that is not proved it is twice what separates two
+    /// computations with different precision, one far beyond the other.
     pub(crate) log10_half_width: f64,
     /// Whether the value is exact or enclosed, not estimated.
     pub(crate) proved: bool,
@@ -43,8 +43,8 @@ impl RightDigits {
 }
 
 impl Truth {
-    /// The truth that `text` spells: an integer or a fraction is exact, a decimal is right to a unit of its last digit. `None` for what
-    /// is no number.
+    /// The truth that `text` spells: an integer or a fraction is exact, a decimal is right to a unit of its last digit.
+    /// `None` for what is no number.
     pub(crate) fn spelt(text: &str) -> Option<Self> {
         let number: Number = text.parse().ok()?;
         let (mantissa, exponent) = text.split_once('e').unwrap_or((text, "0"));
@@ -54,9 +54,9 @@ impl Truth {
         Some(Truth { value: long::exact(&number), log10_half_width, proved: true, last_place })
     }
 
-    /// The answer to `question` with `digits` decimal digits or more: a fraction where the undamped run stays in fractions, else an
-    /// enclosure where there is one, else twice in long numbers, by the closed form where it reaches and by the planned engine
-    /// elsewhere. A build without long numbers has its best doubles.
+    /// The answer to `question` with `digits` decimal digits or more: a fraction where the undamped run stays in
+    /// fractions, else an enclosure where there is one, else twice in long numbers, by the closed form where it reaches
+    /// and by the planned engine elsewhere. A build without long numbers has its best doubles.
     ///
     /// **Errors**: those of the solver; [`NoAnswer::NoSuchQuantity`].
     pub(crate) fn computed(question: &Question, digits: u32) -> Result<Self, NoAnswer> {
@@ -118,8 +118,8 @@ impl Truth {
         self.log10_scale().floor() - self.log10_half_width
     }
 
-    /// How many digits of `value` are right: of an enclosure those that both ends have in common with the truth, none where it lies
-    /// outside.
+    /// How many digits of `value` are right: of an enclosure those that both ends have in common with the truth, none
+    /// where it lies outside.
     pub(crate) fn right_digits(&self, value: &Value) -> RightDigits {
         let log10_error = match value.log10_radius() {
             None => self.log10_error(value),

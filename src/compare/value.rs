@@ -10,6 +10,7 @@ pub(crate) enum Value {
     /// In double precision.
     Double(f64),
     /// In more bits, as a fraction, or enclosed.
+    #[cfg_attr(not(feature = "mp"), expect(dead_code, reason = "there is no such number then"))]
     Long(Long),
 }
 
@@ -22,8 +23,8 @@ impl Value {
         }
     }
 
-    /// `log₁₀ |self − other|`, with the middle of an enclosure: −∞ where the two are equal, ∞ where one is not finite. An error of
-    /// a thousand digits has no double.
+    /// `log₁₀ |self − other|`, with the middle of an enclosure: −∞ where the two are equal, ∞ where one is not finite.
+    /// An error of a thousand digits has no double.
     ///
     /// **Accuracy**: the difference is rounded once, to 53 bits or more.
     pub(crate) fn log10_apart(&self, other: &Value) -> f64 {
@@ -74,7 +75,8 @@ impl System for f64 {
     }
 }
 
-/// A number with the bound that its route gives for its error, in the number's own unit; zero where the route claims to be exact.
+/// A number with the bound that its route gives for its error, in the number's own unit; zero where the route claims to
+/// be exact.
 #[derive(Clone, Debug)]
 pub(crate) struct Bounded<S> {
     pub(crate) value: S,
@@ -86,7 +88,16 @@ impl<S: System> Bounded<S> {
         Bounded { value, bound }
     }
 
-    /// The value with the error of some sixty roundings.
+    pub(crate) fn exact(value: S) -> Self {
+        Bounded { value, bound: 0.0 }
+    }
+
+    /// The value of a route that gives no bound.
+    pub(crate) fn unbounded(value: S) -> Self {
+        Bounded { value, bound: f64::INFINITY }
+    }
+
+    /// The value with the error of 64 roundings.
     pub(crate) fn rounded(value: S) -> Self {
         let bound = value.to_f64().abs() * 2f64.powf(value.log2_roundoff() + 6.0);
         Bounded { value, bound }

@@ -1,4 +1,5 @@
-//! What stands for `long` in a build without multiple precision: no such value exists, and no route that needs one is taken.
+//! What stands for `long` in a build without multiple precision: no such value exists, and no route that needs one is
+//! taken.
 
 use super::quantity::Question;
 use super::route::Route;
@@ -43,11 +44,17 @@ pub(super) fn holds(_: &Value, _: &Value, _: Option<i32>) -> bool {
     false
 }
 
-pub(super) fn run(_: Route, _: &Question) -> Result<Answer, NoAnswer> {
-    Err(Error::NoMultiprecision.into())
+pub(super) fn run(route: Route, _: &Question) -> Result<Answer, NoAnswer> {
+    match route {
+        Route::LongFormula(_, _, formula) => {
+            let value = formula(&|p, q| f64::from(p) / f64::from(q));
+            Ok(Answer { value: Value::Double(value), bound: f64::INFINITY })
+        }
+        _ => Err(Error::NoMultiprecision.into()),
+    }
 }
 
 pub(super) fn ask_solution(question: &Question, solution: &Solution) -> Result<Answer, NoAnswer> {
     let Solution::Double(history) = solution;
-    question.ask(&super::motion::ByHistory::of(&question.problem, history.as_ref())?)
+    question.ask_history(history.as_ref())
 }

@@ -16,17 +16,14 @@ fn digits(right: RightDigits) -> String {
     }
 }
 
-fn by_group(cases: &[Checked]) -> impl Iterator<Item = (Group, Vec<&Checked>)> {
-    Group::ALL.into_iter().filter_map(|group| {
-        let own: Vec<&Checked> = cases.iter().filter(|checked| checked.case.group == group).collect();
-        (!own.is_empty()).then_some((group, own))
-    })
-}
+/// The cases that were run, by group.
+pub(crate) type Groups = [(Group, Vec<Checked>)];
 
 /// How many cases came to each verdict, in the order of their first appearance.
-fn count(cases: &[Checked]) -> String {
+fn count(groups: &Groups) -> String {
+    let cases: Vec<&Checked> = groups.iter().flat_map(|(_, cases)| cases).collect();
     let mut counts: Vec<(&str, usize)> = Vec::new();
-    for checked in cases {
+    for checked in &cases {
         let name = checked.verdict.name();
         match counts.iter_mut().find(|(known, _)| *known == name) {
             Some((_, count)) => *count += 1,
@@ -38,11 +35,11 @@ fn count(cases: &[Checked]) -> String {
 }
 
 /// For a person: every route with its answer, the digits that are right, and what it took.
-pub(crate) fn check_table(cases: &[Checked]) -> String {
+pub(crate) fn check_table(groups: &Groups) -> String {
     let mut out = String::new();
-    for (group, own) in by_group(cases) {
-        out += &format!("{}\n\n", group.title());
-        for checked in own {
+    for (group, cases) in groups {
+        out += &format!("{}\n\n", group.title);
+        for checked in cases {
             let case = checked.case;
             out += &format!("{}: {} ({}): {}\n", case.name, case.about, case.source, checked.verdict.name());
             for CheckedQuestion { what, truth, rows } in &checked.asked {
@@ -59,22 +56,22 @@ pub(crate) fn check_table(cases: &[Checked]) -> String {
             out += "\n";
         }
     }
-    out + &count(cases) + "\n"
+    out + &count(groups) + "\n"
 }
 
 /// For the repository: nothing in it depends on the machine.
-pub(crate) fn check_page(cases: &[Checked]) -> String {
+pub(crate) fn check_page(groups: &Groups) -> String {
     let mut out = String::from(
-        "# Hard cases, and what the paper claims\n\n\
-         Made by `dalembert check --format markdown -o docs/check.md`; a test holds it against what the program finds. Each number is \
-         asked of several routes that share as little as they can, and each route is held to what it promises. The truth stands in \
-         the catalogue, to as many digits as are printed; where a row says *proved*, enclosures prove them. `dalembert check` shows the \
-         answers, how many of their digits are right, and what each took on your machine.\n\n",
+        "# Hard cases, and what the paper claims\n\nMade by `dalembert check --format markdown -o docs/check.md`; a \
+         test holds it against what the program finds. Each number is asked of several routes that share as little as \
+         they can, and each route is held to what it promises. The truth stands in the catalogue, to as many digits \
+         as are printed; where a row says *proved*, enclosures prove them. `dalembert check` shows the answers, how \
+         many of their digits are right, and what each took on your machine.\n\n",
     );
-    out += &format!("**{}.**\n\n", count(cases));
-    for (group, own) in by_group(cases) {
-        out += &format!("## {}\n\n{}\n\n", group.title(), group.lesson());
-        for checked in own {
+    out += &format!("**{}.**\n\n", count(groups));
+    for (group, cases) in groups {
+        out += &format!("## {}\n\n{}\n\n", group.title, group.lesson);
+        for checked in cases {
             let case = checked.case;
             out += &format!("### `{}`: {}\n\n{}: {}.\n\n", case.name, checked.verdict.name(), case.source, case.about);
             for CheckedQuestion { what, truth, rows } in &checked.asked {
@@ -90,8 +87,9 @@ pub(crate) fn check_page(cases: &[Checked]) -> String {
 }
 
 /// Schema 1.
-pub(crate) fn check_json(cases: &[Checked]) -> Value {
-    let cases = cases.iter().map(|checked| {
+pub(crate) fn check_json(groups: &Groups) -> Value {
+    let cases = groups.iter().flat_map(|(group, cases)| cases.iter().map(move |checked| (group, checked)));
+    let cases = cases.map(|(group, checked)| {
         let asked = checked.asked.iter().map(|asked| {
             let rows = asked.rows.iter().map(|row| {
                 let right = match row.digits {
@@ -113,7 +111,7 @@ pub(crate) fn check_json(cases: &[Checked]) -> Value {
         let case = checked.case;
         json!({
             "name": case.name,
-            "group": case.group.name(),
+            "group": group.name,
             "source": case.source,
             "about": case.about,
             "verdict": checked.verdict.name(),

@@ -156,8 +156,10 @@ pub(crate) fn effects_table(rows: &[Difference], title: Option<&str>) -> String 
     });
     let header = ["effect", "called for", "with", "without", "costs", "noise", ""];
     out += &table(&header, rows.collect(), 2);
-    out + "\n\nwith:    the scene as planned\nwithout: the effect switched off, which changes nothing where it is not called for; for the \
-           plan itself, the engine called directly\ncosts:   median of the differences of neighbouring runs, and what it may be by chance\n"
+    out + "\n\nwith:    the scene as planned\n\
+           without: the effect switched off, which changes nothing where it is not called for; for the plan itself, \
+           the engine called directly\n\
+           costs:   median of the differences of neighbouring runs, and what it may be by chance\n"
 }
 
 /// What each effect costs, schema 1.

@@ -12,8 +12,9 @@ use crate::special::{i0_scaled, i1_scaled};
 /// Round trips in which a release is looked for.
 const MOST_TRIPS: i64 = 64;
 
-/// The first time at which a stress is tensile: just after a lattice time, or where it rises through zero between two, if one of
-/// `looks` in each round trip shows that. A search without a proof, for routes that have no other; `None` after 64 round trips.
+/// The first time at which a stress is tensile: just after a lattice time, or where it rises through zero between two,
+/// if one of `looks` in each round trip shows that. A search without a proof, for routes that have no other; `None`
+/// after 64 round trips.
 pub(crate) fn first_release(round_trip: f64, looks: i64, stress: impl Fn(f64, Side) -> f64) -> Option<f64> {
     for k in 1..=MOST_TRIPS {
         let start = k as f64 * round_trip;

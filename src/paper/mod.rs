@@ -1,4 +1,5 @@
-//! The paper's formulas as they are printed: an independent opinion, and the only place where a formula stands a second time.
+//! The paper's formulas as they are printed: an independent opinion, and the only place where a formula stands a second
+//! time.
 //!
 //! | module | |
 //! |---|---|

@@ -1,19 +1,22 @@
 //! The paper's integrals as they are printed, by adaptive quadrature: what a reader would program from the page.
 //!
-//! No code is shared with the closed forms: I₀ is the integral (2.16), not a series; the extension of the data is a square wave;
-//! integrals nest as deep as in print, three for an energy.
+//! No code is shared with the closed forms: I₀ is the integral (2.16), not a series; the extension of the data is a
+//! square wave; integrals nest as deep as in print, three for an energy.
 
 use super::bessel::{i0, i1_over_z};
 use super::quadrature::Quadrature;
 use crate::rod::Parameters;
 
-/// The first contact by (2.22)–(2.28), (3.38), (3.39) and (3.54), and the flight by (3.43), (3.44), as printed, in doubles.
+/// The first contact by (2.22)–(2.28), (3.38), (3.39) and (3.54), and the flight by (3.43), (3.44), as printed, in
+/// doubles.
 ///
-/// **Source**: as named at each method; the reflected data of (2.13) are a square wave, and every integral is cut where it jumps.
+/// **Source**: as named at each method; the reflected data of (2.13) are a square wave, and every integral is cut where
+/// it jumps.
 ///
 /// **Units**: any consistent units; momenta and energies are per linear density.
 ///
-/// **Accuracy**: an *f64 estimate*, from quadrature to about `tolerance` of what each integral weighs. Nothing is proved.
+/// **Accuracy**: an *f64 estimate*, from quadrature to about `tolerance` of what each integral weighs. Nothing is
+/// proved.
 ///
 /// ```
 /// # use dalembert::{paper::Printed, rod::Parameters};

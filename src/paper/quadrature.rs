@@ -66,8 +66,8 @@ impl Quadrature {
         let mut ends: Vec<f64> = cuts.iter().copied().filter(inner).chain([a, b]).collect();
         ends.sort_by(f64::total_cmp);
         let pieces: Vec<Piece> = ends.windows(2).map(|pair| self.piece(pair[0], pair[1], f)).collect();
-        // Halves as good as the whole may be: the estimate is that of the seven-point rule, far above the error of the fifteen. Below
-        // the floor it is the noise of the integrals within.
+        // Halves as good as the whole may be: the estimate is that of the seven-point rule, far above the error of the
+        // fifteen. Below the floor it is the noise of the integrals within.
         let allowed = self.tolerance.max(FLOOR) * pieces.iter().map(|piece| piece.size).sum::<f64>() + noise;
         pieces.into_iter().map(|piece| self.halved(piece, allowed, 0, f)).sum()
     }

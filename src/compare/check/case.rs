@@ -2,7 +2,6 @@
 
 use std::time::Instant;
 
-use super::group::Group;
 use super::verdict::{Outcome, Promise, Row, Verdict};
 use super::{hard, section_2, section_3, section_4};
 use crate::compare::long;
@@ -60,8 +59,11 @@ impl Rod {
     }
 }
 
+pub(super) type Text = &'static str;
 /// A route and what it promises.
 pub(super) type Promised = (Route, Promise);
+
+const MOST_FORMULAS: usize = 4;
 
 /// A question of the catalogue, its truth, and the routes to it.
 #[derive(Clone, Copy, Debug)]
@@ -75,8 +77,8 @@ pub(crate) struct Entry {
     limit: Limit,
     /// See [`Truth::spelt`], or [`NO_BOUNCE`].
     truth: &'static str,
-    /// What belongs to this question alone.
-    formulas: &'static [Promised],
+    /// Routes of this question alone, shown before the others.
+    formulas: [Option<Promised>; MOST_FORMULAS],
     routes: &'static [Promised],
 }
 
@@ -91,12 +93,13 @@ pub(super) const fn ask(
     truth: &'static str,
     routes: &'static [Promised],
 ) -> Entry {
-    Entry { what, rod, quantity, place: ("", ""), limit: Limit::From(Side::Right), truth, formulas: &[], routes }
+    let (place, limit, formulas) = (("", ""), Limit::From(Side::Right), [None; MOST_FORMULAS]);
+    Entry { what, rod, quantity, place, limit, truth, formulas, routes }
 }
 
-/// A question of a number that belongs to no rod.
-pub(super) const fn constant(what: &'static str, truth: &'static str, formulas: &'static [Promised]) -> Entry {
-    ask(what, unit("0", "1"), Quantity::Constant, truth, &[]).formulas(formulas)
+/// A number that belongs to no rod.
+pub(super) const fn constant(what: &'static str, truth: &'static str) -> Entry {
+    ask(what, unit("0", "1"), Quantity::Constant, truth, &[])
 }
 
 impl Entry {
@@ -120,9 +123,28 @@ impl Entry {
         Entry { limit: Limit::Jump, ..self }
     }
 
-    /// With routes of its own, shown before the others.
-    pub(super) const fn formulas(self, formulas: &'static [Promised]) -> Entry {
-        Entry { formulas, ..self }
+    /// A formula in doubles that gives so many digits.
+    pub(super) const fn by(self, what: &'static str, digits: u32, formula: fn() -> f64) -> Entry {
+        self.first_by((Route::Formula(what, formula), Promise::Digits(digits)))
+    }
+
+    /// A formula in doubles that gives fewer digits than this.
+    pub(super) const fn breaks(self, what: &'static str, digits: u32, formula: fn() -> f64) -> Entry {
+        self.first_by((Route::Formula(what, formula), Promise::Fewer(digits)))
+    }
+
+    /// A formula in 36 digits.
+    pub(super) const fn by_digits(self, what: &'static str, formula: LongFormula) -> Entry {
+        self.first_by((Route::LongFormula(what, 36, formula), Promise::Digits(36)))
+    }
+
+    const fn first_by(mut self, formula: Promised) -> Entry {
+        let mut place = 0;
+        while self.formulas[place].is_some() {
+            place += 1;
+        }
+        self.formulas[place] = Some(formula);
+        self
     }
 
     fn question(&self) -> Result<Question, NumberError> {
@@ -138,7 +160,7 @@ impl Entry {
     fn check(&self) -> CheckedQuestion {
         let truth = Truth::spelt(self.truth);
         let question = self.question().map_err(NoAnswer::from);
-        let routes = self.formulas.iter().chain(self.routes);
+        let routes = self.formulas.iter().flatten().chain(self.routes);
         let rows = routes.filter(|(route, _)| long::AVAILABLE || !route.is_long()).map(|(route, promise)| {
             let start = Instant::now();
             let answer = question.as_ref().map_err(Clone::clone).and_then(|asked| route.run(asked, f64::INFINITY));
@@ -207,49 +229,48 @@ pub(super) const fn accuracy(accuracy: f64) -> Route {
     Route::Planned(Numbers::Double(Some(accuracy)))
 }
 
-/// A formula in doubles that gives so many digits.
-pub(super) const fn formula(what: &'static str, digits: u32, formula: fn() -> f64) -> Promised {
-    (Route::Formula(what, formula), Promise::Digits(digits))
-}
-
-/// A formula in doubles that gives fewer digits than this.
-pub(super) const fn breaks(what: &'static str, digits: u32, formula: fn() -> f64) -> Promised {
-    (Route::Formula(what, formula), Promise::Fewer(digits))
-}
-
-/// A formula in 36 digits.
-pub(super) const fn long_formula(what: &'static str, formula: LongFormula) -> Promised {
-    (Route::LongFormula(what, 36, formula), Promise::Digits(36))
-}
-
 /// The printed integrals of a rod with `c = L = g = 1`.
 pub(super) fn printed(damping: f64, speed: f64) -> Printed {
     Printed::new(&Parameters { length: 1.0, wave_speed: 1.0, damping, gravity: 1.0, speed }, 1e-13)
 }
 
+/// What belongs together in the catalogue.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Group {
+    /// The name on the command line.
+    pub(crate) name: Text,
+    pub(crate) title: Text,
+    /// What the cases show.
+    pub(crate) lesson: Text,
+    pub(crate) cases: &'static [Case],
+}
+
+pub(super) const fn group(name: Text, title: Text, lesson: Text, cases: &'static [Case]) -> Group {
+    Group { name, title, lesson, cases }
+}
+
 /// A hard case, or a claim of the paper.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Case {
-    pub(crate) name: &'static str,
-    pub(crate) group: Group,
+    pub(crate) name: Text,
     /// Where the paper or the theory says it.
-    pub(crate) source: &'static str,
+    pub(crate) source: Text,
     /// The rod, or what is claimed.
-    pub(crate) about: &'static str,
+    pub(crate) about: Text,
     /// What the case comes to when all promises are kept.
     pub(super) verdict: Verdict,
-    pub(super) questions: &'static [Entry],
+    pub(super) entries: &'static [Entry],
+}
+
+/// A claim of the paper.
+pub(super) const fn claim(name: Text, verdict: Verdict, source: Text, about: Text, entries: &'static [Entry]) -> Case {
+    Case { name, source, about, verdict, entries }
 }
 
 impl Case {
-    /// With these questions.
-    pub(super) const fn questions(self, questions: &'static [Entry]) -> Case {
-        Case { questions, ..self }
-    }
-
     /// Takes every route to every question. A build without long numbers takes those in doubles only.
     pub(crate) fn run(&'static self) -> Checked {
-        let asked: Vec<CheckedQuestion> = self.questions.iter().map(Entry::check).collect();
+        let asked: Vec<CheckedQuestion> = self.entries.iter().map(Entry::check).collect();
         let failed = asked.iter().flat_map(|asked| &asked.rows).any(|row| row.outcome == Outcome::Failed);
         Checked { case: self, asked, verdict: if failed { Verdict::Failed } else { self.verdict } }
     }
@@ -273,23 +294,36 @@ pub(crate) struct Checked {
     pub(crate) verdict: Verdict,
 }
 
-/// All cases, in the order in which they are shown.
-pub(crate) fn catalogue() -> impl Iterator<Item = &'static Case> {
-    [hard::CASES, section_2::CASES, section_3::CASES, section_4::CASES].into_iter().flatten()
-}
+/// All groups, in the order in which they are shown.
+pub(crate) const CATALOGUE: [Group; 11] = [
+    hard::LATE,
+    hard::WEAK,
+    hard::STRONG,
+    hard::THRESHOLD,
+    hard::LANDINGS,
+    hard::SMALL,
+    hard::RAYS,
+    section_2::SECTION_2,
+    section_3::SECTION_3_1,
+    section_3::SECTION_3_2,
+    section_4::SECTION_4,
+];
 
-/// The cases of these names or groups; all of them for none.
+/// The cases of these names or groups, by group; all of them for none.
 ///
 /// **Errors**: the first name that is neither.
-pub(crate) fn select(names: &[String]) -> Result<Vec<&'static Case>, String> {
-    let named = |case: &Case, name: &String| *name == case.name || *name == case.group.name();
-    match names.iter().find(|name| !catalogue().any(|case| named(case, name))) {
-        Some(unknown) => Err(unknown.clone()),
-        None => {
-            let asked = |case: &&Case| names.is_empty() || names.iter().any(|name| named(case, name));
-            Ok(catalogue().filter(asked).collect())
-        }
+pub(crate) fn select(names: &[String]) -> Result<Vec<(Group, Vec<&'static Case>)>, String> {
+    let named = |name: &String, group: &Group, case: &Case| *name == case.name || *name == group.name;
+    let cases = |group: Group, wanted: &dyn Fn(&Case) -> bool| {
+        (group, group.cases.iter().filter(|case| wanted(case)).collect::<Vec<_>>())
+    };
+    let known = |name: &&String| CATALOGUE.iter().any(|group| group.cases.iter().any(|case| named(name, group, case)));
+    if let Some(unknown) = names.iter().find(|name| !known(name)) {
+        return Err(unknown.clone());
     }
+    let wanted =
+        |group: Group| cases(group, &|case| names.is_empty() || names.iter().any(|name| named(name, &group, case)));
+    Ok(CATALOGUE.into_iter().map(wanted).filter(|(_, cases)| !cases.is_empty()).collect())
 }
 
 #[cfg(test)]
@@ -297,16 +331,20 @@ mod tests {
     #![allow(clippy::unwrap_used)]
     use super::*;
 
+    fn selected(name: &str) -> Vec<&'static Case> {
+        select(&[name.into()]).unwrap().into_iter().flat_map(|(_, cases)| cases).collect()
+    }
+
     #[test]
     fn cases_are_selected_by_name_or_group() {
-        assert_eq!(select(&["figure-1".into()]).unwrap().len(), 1);
-        assert!(select(&["late".into()]).unwrap().len() > 3);
+        assert_eq!(selected("figure-1").len(), 1);
+        assert!(selected("late").len() > 3);
         assert_eq!(select(&["never".into()]).unwrap_err(), "never");
     }
 
     #[test]
     fn no_name_stands_twice() {
-        let mut names: Vec<&str> = catalogue().map(|case| case.name).collect();
+        let mut names: Vec<&str> = CATALOGUE.iter().flat_map(|group| group.cases).map(|case| case.name).collect();
         let count = names.len();
         names.sort_unstable();
         names.dedup();
@@ -316,7 +354,7 @@ mod tests {
     /// The catalogue can fail: a truth that is wrong in its 22nd digit is noticed by every route that promises more.
     #[test]
     fn a_wrong_truth_is_noticed() {
-        let asked = select(&["late-3.13".into()]).unwrap()[0].questions[0];
+        let asked = selected("late-3.13")[0].entries[0];
         assert_eq!(Truth::spelt(asked.truth).unwrap().most_digits(), 39.0);
         let wrong = Entry { truth: "11.66136670144388438415940577414171411946", ..asked }.check();
         let failed: Vec<&str> = wrong.rows.iter().filter(|r| r.outcome == Outcome::Failed).map(|r| &*r.route).collect();

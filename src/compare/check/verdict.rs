@@ -8,8 +8,8 @@ use crate::compare::value::{Answer, NoAnswer, Value};
 pub(crate) enum Promise {
     /// So many right digits.
     Digits(u32),
-    /// That the answer is within the bound that comes with it, and this bound leaves so many digits. With zero digits the route may
-    /// also leave the answer undecided.
+    /// That the answer is within the bound that comes with it, and this bound leaves so many digits. With zero digits
+    /// the route may also leave the answer undecided.
     Bound(u32),
     /// The truth itself.
     Exact,

@@ -1,9 +1,9 @@
-//! Finite differences at CFL = 1: the Riemann invariants on a grid, carried along the characteristics, damping by the trapezoidal
-//! rule. What a careful programmer without a closed form would write.
+//! Finite differences at CFL = 1: the Riemann invariants on a grid, carried along the characteristics, damping by the
+//! trapezoidal rule. What a careful programmer without a closed form would write.
 //!
-//! The unknowns stand in the middles of N cells, so that the rays of the lattice run along the edges of cells and a jump is never
-//! smeared; but damping sees it a quarter of a step early or late. Events are found between two steps by linear interpolation, and
-//! act from a step on.
+//! The unknowns stand in the middles of N cells, so that the rays of the lattice run along the edges of cells and a
+//! jump is never smeared; but damping sees it a quarter of a step early or late. Events are found between two steps by
+//! linear interpolation, and act from a step on.
 
 use crate::error::Error;
 use crate::history::EventKind;
@@ -67,15 +67,16 @@ struct Grid<'a> {
     time: f64,
 }
 
-/// The motion of `problem` with `cells` cells: up to the time that its run asks for, or to the release from its last contact.
+/// The motion of `problem` with `cells` cells: up to the time that its run asks for, or to the release from its last
+/// contact.
 ///
-/// **Source**: `(∂_t + c∂_x) p = −g − r(p + q)`, `(∂_t − c∂_x) q = −g − r(p + q)`; at the ground p = −q in contact, released when q
-/// becomes positive, and p = q in flight.
+/// **Source**: `(∂_t + c∂_x) p = −g − r(p + q)`, `(∂_t − c∂_x) q = −g − r(p + q)`; at the ground p = −q in contact,
+/// released when q becomes positive, and p = q in flight.
 ///
 /// **Units**: those of the problem.
 ///
-/// **Accuracy**: an *f64 estimate*, of first order in `1/cells`; without damping the invariants are exact while events fall on
-/// steps.
+/// **Accuracy**: an *f64 estimate*, of first order in `1/cells`; without damping the invariants are exact while events
+/// fall on steps.
 ///
 /// **Errors**: those of the parameters.
 pub(crate) fn march(problem: &Problem, cells: usize) -> Result<Marched, Error> {
@@ -181,8 +182,8 @@ impl<'a> Grid<'a> {
         Snapshot { time: self.time, centre: self.centre, velocity: rate / cells, energy }
     }
 
-    /// One step. The first number is the stress at the ground half a step on; the second says by how much it was pulled where it
-    /// lets go, and how deep it had fallen where it lands.
+    /// One step. The first number is the stress at the ground half a step on; the second says by how much it was pulled
+    /// where it lets go, and how deep it had fallen where it lands.
     fn advance(&mut self) -> (f64, f64) {
         let Parameters { wave_speed: c, damping: r, gravity: g, .. } = *self.rod;
         let (dt, n) = (self.step, self.p.len());
@@ -272,8 +273,8 @@ mod tests {
         assert!((released.events[1].1 - 2.0).abs() < 1.0 / 16.0, "{released:?}");
     }
 
-    /// With damping its first order shows: the error stays below the `r t dt E` that a ray which damping sees a quarter of a step late
-    /// can add.
+    /// With damping its first order shows: the error stays below the `r t dt E` that a ray which damping sees a quarter
+    /// of a step late can add.
     #[test]
     fn with_damping() {
         let problem = problem(Some("0.2"));

@@ -17,8 +17,8 @@ pub(crate) struct Difference {
     pub(crate) called: bool,
     /// The scene as it is planned.
     pub(crate) with: Timing,
-    /// The same with the effect switched off, which changes nothing where the scene does not call for it; for the plan itself, the
-    /// engine called directly.
+    /// The same with the effect switched off, which changes nothing where the scene does not call for it; for the plan
+    /// itself, the engine called directly.
     pub(crate) without: Timing,
     /// The median of the differences of neighbouring runs, seconds.
     pub(crate) seconds: f64,
@@ -32,7 +32,8 @@ impl Difference {
         self.effect.map_or("plan", Effect::name)
     }
 
-    /// What the median of the differences may be by chance, seconds: three times `spread/√runs`, near its standard deviation.
+    /// What the median of the differences may be by chance, seconds: three times `spread/√runs`, near its standard
+    /// deviation.
     pub(crate) fn noise(&self) -> f64 {
         3.0 * self.spread / (self.with.runs.max(1) as f64).sqrt()
     }
@@ -48,10 +49,11 @@ const MOST_PAIRS: usize = 201;
 const LIST: [Effect; 5] =
     [Effect::Damping, Effect::Gravity, Effect::RepeatedImpacts, Effect::FixedTop, Effect::FieldEnergies];
 
-/// The time that every effect and the plan itself cost `scene`, in about `seconds` in all. The energies of the field count as called for where `energies`
-/// says so: then one energy at the end of the history is part of the scene.
+/// The time that every effect and the plan itself cost `scene`, in about `seconds` in all. The energies of the field
+/// count as called for where `energies` says so: then one energy at the end of the history is part of the scene.
 ///
-/// **Accuracy**: medians of differences on this machine, now; [`Difference::is_noise`] says what is not to be told from nothing.
+/// **Accuracy**: medians of differences on this machine, now; [`Difference::is_noise`] says what is not to be told from
+/// nothing.
 ///
 /// **Errors**: [`NoAnswer::Seconds`], and those of the solver.
 pub(crate) fn effects(

@@ -5,7 +5,7 @@ use crate::compare::quantity::{Quantity, Question};
 use crate::compare::route::{Numbers, Route, within_first_contact};
 use crate::scene::{Engine, Plan};
 
-/// Routes that share a line in a table and a colour in a picture.
+/// Routes that share a name in a table and a colour in a picture, in the order in which they are shown.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub(crate) enum Family {
     /// The closed form of the first contact.
@@ -27,18 +27,6 @@ pub(crate) enum Family {
 }
 
 impl Family {
-    /// All of them, in the order in which they are shown.
-    pub(crate) const ALL: [Family; 8] = [
-        Family::ClosedForm,
-        Family::Lattice,
-        Family::Joined,
-        Family::Cells,
-        Family::Modes,
-        Family::Printed,
-        Family::Differences,
-        Family::Enclosures,
-    ];
-
     /// The name in output: `closed form`.
     pub(crate) fn name(self) -> &'static str {
         match self {
@@ -66,12 +54,17 @@ pub(super) struct Candidate {
     pub(super) expected: Expected,
 }
 
+impl Candidate {
+    fn new(family: Family, route: Route, setting: String, digits: u32, expected: Expected) -> Self {
+        Candidate { family, route, setting, digits, chosen: false, expected }
+    }
+}
+
 /// How long a setting is expected to take.
 #[derive(Clone, Copy)]
 pub(super) enum Expected {
-    /// Seconds.
     Seconds(f64),
-    /// Times as long as the setting before it.
+    /// As long as the setting before it, times this.
     Times(f64),
 }
 use Expected::{Seconds, Times};
@@ -98,22 +91,19 @@ pub(super) fn ladders(question: &Question, plan: &Plan) -> (Vec<Ladder>, Vec<(Fa
         Engine::Lattice => Family::Lattice,
         Engine::Cells => Family::Joined,
     };
-    match family {
-        Family::Lattice => {
-            take(Family::Joined, Err("the scene has no damping: the plan takes the lattice".into()));
-        }
-        _ => take(Family::Lattice, Err("the scene has damping, which couples the characteristics".into())),
+    if family == Family::Lattice {
+        take(Family::Joined, Err("the scene has no damping: the plan takes the lattice".into()));
+    } else {
+        take(Family::Lattice, Err("the scene has damping, which couples the characteristics".into()));
     }
     match plan.system {
         Numbers::Certified(_) => take(family, Err("the plan takes enclosures".into())),
         _ => take(family, Ok(by_plan(family, question, plan.system))),
     }
     let doubles = |family: Family, first: f64, factor: f64, settings: Vec<(String, Route)>| -> Ladder {
-        let step = |(k, (setting, route))| {
-            let expected = if k == 0 { Seconds(first) } else { Times(factor) };
-            Candidate { family, route, setting, digits: DOUBLE, chosen: false, expected }
-        };
-        settings.into_iter().enumerate().map(step).collect()
+        let expected = std::iter::once(Seconds(first)).chain(std::iter::repeat(Times(factor)));
+        let steps = settings.into_iter().zip(expected);
+        steps.map(|((setting, route), expected)| Candidate::new(family, route, setting, DOUBLE, expected)).collect()
     };
     let cells = [1, 3, 5, 7, 9, 11, 13].map(|digits| (format!("to 1e-{digits}"), Route::Cells(digits)));
     take(Family::Cells, Ok(doubles(Family::Cells, 1e-4, 1.5, cells.into())));
@@ -138,46 +128,43 @@ pub(super) fn ladders(question: &Question, plan: &Plan) -> (Vec<Ladder>, Vec<(Fa
     (ladders, left_out)
 }
 
+/// The settings of long numbers, of which a build without them has none.
+fn long_settings(expected: [Expected; 4]) -> impl Iterator<Item = (u32, Expected)> {
+    LONG.into_iter().zip(expected).filter(|_| long::AVAILABLE)
+}
+
 fn closed_form() -> Ladder {
-    let candidate = |setting: String, numbers: Numbers, digits: u32, expected: Expected| {
-        let (family, route) = (Family::ClosedForm, Route::ClosedForm(numbers));
-        Candidate { family, route, setting, digits, chosen: false, expected }
+    let candidate = |numbers: Numbers, setting: String, digits: u32, expected: Expected| {
+        Candidate::new(Family::ClosedForm, Route::ClosedForm(numbers), setting, digits, expected)
     };
-    let doubles = candidate("double".into(), Numbers::Double(Some(ACCURACY)), DOUBLE, Seconds(1e-6));
-    let long = LONG.into_iter().zip([Seconds(0.01), Times(3.0), Times(10.0), Times(20.0)]);
+    let long = long_settings([Seconds(0.01), Times(3.0), Times(10.0), Times(20.0)]);
     let long = long
-        .map(|(digits, expected)| candidate(format!("{digits} digits"), Numbers::Digits(digits), digits + 6, expected));
-    std::iter::once(doubles).chain(long.filter(|_| long::AVAILABLE)).collect()
+        .map(|(digits, expected)| candidate(Numbers::Digits(digits), format!("{digits} digits"), digits + 6, expected));
+    let doubles = candidate(Numbers::Double(Some(ACCURACY)), "double".into(), DOUBLE, Seconds(1e-6));
+    std::iter::once(doubles).chain(long).collect()
 }
 
 fn by_plan(family: Family, question: &Question, system: Numbers) -> Ladder {
-    let candidate = |setting: String, route: Route, digits: u32, expected: Expected| Candidate {
-        family,
-        route,
-        setting,
-        digits,
-        chosen: false,
-        expected,
+    let planned = |numbers: Numbers, setting: String, digits: u32, expected: Expected| {
+        Candidate::new(family, Route::Planned(numbers), setting, digits, expected)
     };
     let digits = match system {
         Numbers::Digits(digits) | Numbers::Exact(Some(digits)) => digits + 8,
         _ => DOUBLE,
     };
-    let chosen = candidate(system.to_string(), Route::Planned(system), digits, Seconds(0.0));
+    let chosen = planned(system, system.to_string(), digits, Seconds(0.0));
     let mut ladder = vec![Candidate { chosen: true, ..chosen }];
-    if !long::AVAILABLE {
-        return ladder;
-    }
     let fractions = Route::Lattice(Numbers::Exact(None));
     if family == Family::Lattice && fractions.run(question, f64::INFINITY).is_ok() {
-        ladder.push(candidate("fractions".into(), fractions, DOUBLE, Times(30.0)));
+        ladder.push(Candidate::new(family, fractions, "fractions".into(), DOUBLE, Times(30.0)));
     }
-    // Cells cost about the cube of their digits, of which the plan takes eight more than asked; the lattice hardly more for long numbers.
+    // Cells cost about the cube of their digits, of which the plan takes eight more than asked; the lattice hardly more
+    // for long numbers.
     let growths = if family == Family::Lattice { [3.0, 1.5, 2.0, 4.0] } else { [30.0, 4.0, 15.0, 30.0] };
-    let others = LONG.into_iter().zip(growths.map(Times)).filter(|(digits, _)| system != Numbers::Digits(*digits));
-    ladder.extend(others.map(|(digits, growth)| {
-        candidate(format!("{digits} digits"), Route::Planned(Numbers::Digits(digits)), digits + 8, growth)
-    }));
+    let others = long_settings(growths.map(Times)).filter(|(digits, _)| system != Numbers::Digits(*digits));
+    ladder.extend(
+        others.map(|(digits, growth)| planned(Numbers::Digits(digits), format!("{digits} digits"), digits + 8, growth)),
+    );
     ladder
 }
 
@@ -193,13 +180,11 @@ fn enclosures(question: &Question, plan: &Plan) -> Result<Ladder, String> {
     let mut settings: Vec<u32> = LONG.into_iter().chain([15]).chain(chosen).collect();
     settings.sort_unstable();
     settings.dedup();
-    let candidate = |(k, digits): (usize, u32)| Candidate {
-        family: Family::Enclosures,
-        route: Route::Planned(Numbers::Certified(digits)),
-        setting: format!("{digits} digits"),
-        digits: digits + 9,
-        chosen: chosen == Some(digits),
-        expected: if k == 0 { Seconds(1e-3) } else { Times(4.0) },
+    let candidate = |(k, digits): (usize, u32)| {
+        let route = Route::Planned(Numbers::Certified(digits));
+        let expected = if k == 0 { Seconds(1e-3) } else { Times(4.0) };
+        let candidate = Candidate::new(Family::Enclosures, route, format!("{digits} digits"), digits + 9, expected);
+        Candidate { chosen: chosen == Some(digits), ..candidate }
     };
     Ok(settings.into_iter().enumerate().map(candidate).collect())
 }

@@ -1,5 +1,5 @@
-//! What accuracy costs in time: one quantity of one scene by every route that can give it, measured on the spot, with the true
-//! error of each; and what each effect of a scene costs.
+//! What accuracy costs in time: one quantity of one scene by every route that can give it, measured on the spot, with
+//! the true error of each; and what each effect of a scene costs.
 //!
 //! | module | |
 //! |---|---|
@@ -17,5 +17,6 @@ mod work;
 
 pub(crate) use clock::Timing;
 pub(crate) use effects::{Difference, effects};
+#[cfg(feature = "plot")]
 pub(crate) use ladder::Family;
 pub(crate) use work::{Row, Table, work_precision};

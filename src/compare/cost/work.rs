@@ -60,16 +60,17 @@ const BEYOND: u32 = 30;
 /// The share of the time that repeated runs may take.
 const SHARE: f64 = 0.5;
 
-/// Measures `question` by every route that can answer it, in about `seconds`. `observe` gets the share of the time that is
-/// spent, and what runs next.
+/// Measures `question` by every route that can answer it, in about `seconds`. `observe` gets the share of the time that
+/// is spent, and what runs next.
 ///
-/// The plan's own run always is among the rows. All others come the cheapest first, by what the setting before took; one that is not
-/// expected to fit is left out, and so are those above it.
+/// The plan's own run always is among the rows. All others come the cheapest first, by what the setting before took;
+/// one that is not expected to fit is left out, and so are those above it.
 ///
-/// **Accuracy**: times are medians on this machine, now; errors are measured against [`Truth::computed`] with thirty digits more than the
-/// most precise row.
+/// **Accuracy**: times are medians on this machine, now; errors are measured against [`Truth::computed`] with thirty
+/// digits more than the most precise row.
 ///
-/// **Errors**: [`NoAnswer::Seconds`]; [`NoAnswer::NoSuchQuantity`] where the scene has no such quantity; those of the solver.
+/// **Errors**: [`NoAnswer::Seconds`]; [`NoAnswer::NoSuchQuantity`] where the scene has no such quantity; those of the
+/// solver.
 pub(crate) fn work_precision(
     question: &Question,
     plan: &Plan,
@@ -97,7 +98,7 @@ pub(crate) fn work_precision(
         if !candidate.chosen && expected * share > left {
             let why = format!("not expected to fit into {seconds} seconds: --seconds gives more");
             left_out.push(LeftOut { family: candidate.family, setting: Some(candidate.setting), why });
-            close(&mut waiting, ladder);
+            waiting[ladder].rest = Vec::new().into_iter().peekable();
             continue;
         }
         let began = Instant::now();
@@ -110,14 +111,14 @@ pub(crate) fn work_precision(
                 // Three samples at least, where that is little of what is left.
                 let room = slot.max((4.0 * once).min(left / 8.0)).min(left);
                 let timing = repeat(once, Duration::from_secs_f64(room), || candidate.route.run(question, left));
-                advance(&mut waiting, ladder, timing.seconds.max(1e-7));
+                waiting[ladder].before = timing.seconds.max(1e-7);
                 taken.push((candidate, value, timing));
             }
             // What the plan cannot answer the scene does not have.
             Err(error) if candidate.chosen => return Err(error),
             Err(error) => {
                 // A coarser setting may fail where a finer one does not.
-                advance(&mut waiting, ladder, once.max(1e-7));
+                waiting[ladder].before = once.max(1e-7);
                 let (family, setting) = (candidate.family, Some(candidate.setting));
                 left_out.push(LeftOut { family, setting, why: error.to_string() });
             }
@@ -181,18 +182,6 @@ impl Waiting {
 fn cheapest(waiting: &mut [Waiting]) -> Option<(Candidate, f64, usize)> {
     let expected = waiting.iter_mut().enumerate().filter_map(|(k, ladder)| Some((k, ladder.expected()?)));
     let (k, expected) = expected.min_by(|a, b| a.1.total_cmp(&b.1))?;
-    let candidate = waiting.get_mut(k)?.rest.next()?;
+    let candidate = waiting[k].rest.next()?;
     Some((candidate, expected, k))
-}
-
-fn advance(waiting: &mut [Waiting], k: usize, seconds: f64) {
-    if let Some(ladder) = waiting.get_mut(k) {
-        ladder.before = seconds;
-    }
-}
-
-fn close(waiting: &mut [Waiting], k: usize) {
-    if let Some(ladder) = waiting.get_mut(k) {
-        ladder.rest = Vec::new().into_iter().peekable();
-    }
 }
