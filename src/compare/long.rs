@@ -6,7 +6,7 @@ use rug::{Float, Rational};
 use super::motion::ByClosedForm;
 use super::quantity::Question;
 use super::route::Route;
-use super::value::{Answer, NoAnswer, System, Value};
+use super::value::{Answer, Bounded, NoAnswer, System, Value};
 use crate::first_contact::FirstContact;
 use crate::history::History;
 use crate::lattice::Undamped;
@@ -141,7 +141,7 @@ pub(super) fn run(route: Route, question: &Question) -> Result<Answer, NoAnswer>
         Route::LongFormula(_, digits, formula) => {
             let bits = bits_for_digits(digits) + SPARE_BITS;
             let lift = |p: i32, q: i32| Float::with_val(bits, Rational::from((p, q)));
-            Ok(Answer { value: formula(&lift).value(), bound: f64::INFINITY })
+            Ok(Bounded::unbounded(formula(&lift).value()))
         }
         Route::ClosedForm(Numbers::Digits(digits)) => {
             let bits = bits_for_digits(digits) + SPARE_BITS;

@@ -7,7 +7,7 @@ use super::cost::differences::Marched;
 use super::value::{Bounded, NoAnswer, System};
 use crate::error::Error;
 use crate::first_contact::{Bounce, Estimate, FirstContact};
-use crate::history::{Ending, Event, EventKind, Field, History, Side};
+use crate::history::{Ending, Event, EventKind, Field, History, Scales, Side};
 use crate::modal::Modal;
 use crate::number::Analytic;
 use crate::paper::{Printed, UndampedContact, formulas};
@@ -121,11 +121,11 @@ fn of_field<S: System>((field, [v, v_t, v_x]): (Field<S>, [f64; 3])) -> [Bounded
 pub(crate) struct ByHistory<'a, S>(pub(crate) &'a dyn History<S>);
 
 impl<S: System> ByHistory<'_, S> {
-    /// A value with the bound of the history, relative to these powers of velocity, time and length.
-    fn within(&self, value: S, [velocity, time, length]: [i32; 3]) -> Bounded<S> {
-        let scales = self.0.scales();
-        let scale = scales.velocity.to_f64().powi(velocity) * scales.time.to_f64().powi(time);
-        let scale = scale * scales.length.to_f64().powi(length);
+    /// A value with the bound of the history, relative to these powers of velocity, time, length and wave speed.
+    fn within(&self, value: S, powers: [i32; 4]) -> Bounded<S> {
+        let Scales { velocity, time, length, wave_speed } = self.0.scales();
+        let scales = [velocity, time, length, wave_speed];
+        let scale: f64 = scales.iter().zip(powers).map(|(scale, power)| scale.to_f64().powi(power)).product();
         Bounded::new(value, self.0.error_estimate().to_f64() * scale)
     }
 
@@ -153,8 +153,11 @@ impl<S: System> ByHistory<'_, S> {
     }
 }
 
-/// The scale of an energy: `v² L`.
-const ENERGY: [i32; 3] = [2, 0, 1];
+const TIME: [i32; 4] = [0, 1, 0, 0];
+const HEIGHT: [i32; 4] = [1, 1, 0, 0];
+const VELOCITY: [i32; 4] = [1, 0, 0, 0];
+const STRAIN: [i32; 4] = [1, 0, 0, -1];
+const ENERGY: [i32; 4] = [2, 0, 1, 0];
 
 impl<S: System> Motion<S> for ByHistory<'_, S> {
     fn release(&self, _: &Parameters<S>) -> Found<S> {
@@ -177,21 +180,18 @@ impl<S: System> Motion<S> for ByHistory<'_, S> {
     }
 
     fn stress(&self, time: &S, side: Side) -> Found<S> {
-        let wave_speed = self.0.scales().wave_speed.to_f64();
-        let stress = self.within(self.asked(self.0.stress(time, side))?, [1, 0, 0]);
-        Ok(Bounded { bound: stress.bound / wave_speed, ..stress })
+        Ok(self.within(self.asked(self.0.stress(time, side))?, STRAIN))
     }
 
     fn field(&self, point: &S, time: &S, side: Side) -> All<S, 3> {
         let field = self.asked(self.0.field(point, time, side))?;
-        let strain = self.within(field.strain, [1, 0, 0]);
-        let strain = Bounded { bound: strain.bound / self.0.scales().wave_speed.to_f64(), ..strain };
-        Ok([self.within(field.displacement, [1, 1, 0]), self.within(field.velocity, [1, 0, 0]), strain])
+        let displacement = self.within(field.displacement, HEIGHT);
+        Ok([displacement, self.within(field.velocity, VELOCITY), self.within(field.strain, STRAIN)])
     }
 
     fn centre(&self, _: &Parameters<S>, time: &S) -> All<S, 2> {
         let (height, velocity) = self.asked(self.0.centre(time))?;
-        Ok([self.within(height, [1, 1, 0]), self.within(velocity, [1, 0, 0])])
+        Ok([self.within(height, HEIGHT), self.within(velocity, VELOCITY)])
     }
 
     fn total_energy(&self, time: &S) -> Found<S> {
@@ -214,7 +214,7 @@ impl<S: System> Motion<S> for ByHistory<'_, S> {
     fn top(&self) -> All<S, 2> {
         let top = self.0.highest(self.first_release().ok_or_else(|| self.ended())?);
         let (time, height) = top.ok_or_else(|| NoAnswer::none("no top"))?;
-        Ok([self.within(time, [0, 1, 0]), self.within(height, [1, 1, 0])])
+        Ok([self.within(time, TIME), self.within(height, HEIGHT)])
     }
 }
 

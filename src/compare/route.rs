@@ -4,7 +4,7 @@ use super::cost::differences::march;
 use super::long;
 use super::motion::ByClosedForm;
 use super::quantity::{Quantity, Question};
-use super::value::{Answer, NoAnswer, Value};
+use super::value::{Answer, Bounded, NoAnswer, Value};
 use crate::damped::{Damped, Joined};
 use crate::first_contact::{Bounce, FirstContact};
 use crate::history::History;
@@ -61,7 +61,7 @@ impl Route {
     pub(crate) fn run(self, question: &Question, seconds: f64) -> Result<Answer, NoAnswer> {
         let problem = &question.problem;
         match self {
-            Route::Formula(_, formula) => Ok(Answer { value: Value::Double(formula()), bound: f64::INFINITY }),
+            Route::Formula(_, formula) => Ok(Bounded::unbounded(Value::Double(formula()))),
             Route::ClosedForm(Numbers::Double(None)) => {
                 let rod = Parameters::<f64>::of(problem, &())?;
                 question.ask(&rod, &ByClosedForm::new(&rod, FirstContact::bounce))

@@ -83,18 +83,20 @@ pub(crate) struct Bounded<S> {
     pub(crate) bound: f64,
 }
 
-impl<S: System> Bounded<S> {
+impl<S> Bounded<S> {
     pub(crate) fn new(value: S, bound: f64) -> Self {
         Bounded { value, bound }
-    }
-
-    pub(crate) fn exact(value: S) -> Self {
-        Bounded { value, bound: 0.0 }
     }
 
     /// The value of a route that gives no bound.
     pub(crate) fn unbounded(value: S) -> Self {
         Bounded { value, bound: f64::INFINITY }
+    }
+}
+
+impl<S: System> Bounded<S> {
+    pub(crate) fn exact(value: S) -> Self {
+        Bounded { value, bound: 0.0 }
     }
 
     /// The value with the error of 64 roundings.
@@ -114,23 +116,19 @@ impl<S: System> Bounded<S> {
         Bounded { value: self.value - &other.value, bound: self.bound + other.bound }
     }
 
-    /// `self · factor`, for an exact factor.
+    /// `self · factor`, for a factor whose own error is of no account.
     pub(crate) fn times(self, factor: &S) -> Self {
         Bounded { bound: self.bound * factor.to_f64().abs(), value: self.value * factor }
     }
 
     /// The same in any number system.
     pub(crate) fn answer(self) -> Answer {
-        Answer { value: self.value.value(), bound: self.bound }
+        Bounded { value: self.value.value(), bound: self.bound }
     }
 }
 
-/// A route's answer, with its own bound for the error.
-#[derive(Clone, Debug)]
-pub(crate) struct Answer {
-    pub(crate) value: Value,
-    pub(crate) bound: f64,
-}
+/// A route's answer in its number system.
+pub(crate) type Answer = Bounded<Value>;
 
 /// Why there is no answer, or nothing can be asked.
 #[derive(Clone, Debug, PartialEq, thiserror::Error, miette::Diagnostic)]

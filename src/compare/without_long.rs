@@ -3,7 +3,7 @@
 
 use super::quantity::Question;
 use super::route::Route;
-use super::value::{Answer, NoAnswer, Value};
+use super::value::{Answer, Bounded, NoAnswer, Value};
 use crate::error::Error;
 use crate::number::Number;
 use crate::solve::Solution;
@@ -47,8 +47,7 @@ pub(super) fn holds(_: &Value, _: &Value, _: Option<i32>) -> bool {
 pub(super) fn run(route: Route, _: &Question) -> Result<Answer, NoAnswer> {
     match route {
         Route::LongFormula(_, _, formula) => {
-            let value = formula(&|p, q| f64::from(p) / f64::from(q));
-            Ok(Answer { value: Value::Double(value), bound: f64::INFINITY })
+            Ok(Bounded::unbounded(Value::Double(formula(&|p, q| f64::from(p) / f64::from(q)))))
         }
         _ => Err(Error::NoMultiprecision.into()),
     }

@@ -1,7 +1,5 @@
 //! Thresholds, limits and the flight: as printed, or in the closed form that follows from the print.
 
-use std::f64::EPSILON;
-
 pub(crate) use super::bessel::i0;
 use super::printed::Printed;
 use super::quadrature::Quadrature;
@@ -39,7 +37,7 @@ pub(crate) fn first_release(round_trip: f64, looks: i64, stress: impl Fn(f64, Si
 fn root(mut low: (f64, f64), mut high: (f64, f64), f: impl Fn(f64) -> f64) -> f64 {
     for _ in 0..60 {
         let time = (low.0 * high.1 - high.0 * low.1) / (high.1 - low.1);
-        if !(time > low.0 && time < high.0) || high.0 - low.0 <= 2.0 * EPSILON * high.0 {
+        if !(time > low.0 && time < high.0) || high.0 - low.0 <= 2.0 * f64::EPSILON * high.0 {
             break;
         }
         let value = f(time);
@@ -61,7 +59,7 @@ impl Printed {
     /// The first release that [`first_release`] finds.
     pub(crate) fn release(&self, round_trip: f64, looks: i64) -> Option<f64> {
         // The limit from earlier times at a lattice time is that without the ray that arrives there.
-        let before = |t: f64, side: Side| if side == Side::Left { t * (1.0 - 4.0 * EPSILON) } else { t };
+        let before = |t: f64, side: Side| if side == Side::Left { t * (1.0 - 4.0 * f64::EPSILON) } else { t };
         first_release(round_trip, looks, |t, side| self.stress(before(t, side)))
     }
 }

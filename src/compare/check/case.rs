@@ -14,25 +14,27 @@ use crate::number::{Number, NumberError};
 use crate::paper::Printed;
 use crate::rod::{Parameters, Problem, Run};
 
+pub(super) type Text = &'static str;
+
 /// The rod of a question.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Rod {
     /// `L`.
-    pub(super) length: &'static str,
+    pub(super) length: Text,
     /// `c`.
-    pub(super) wave_speed: &'static str,
+    pub(super) wave_speed: Text,
     /// `r`.
-    pub(super) damping: &'static str,
+    pub(super) damping: Text,
     /// `g`.
-    pub(super) gravity: &'static str,
+    pub(super) gravity: Text,
     /// `μ`.
-    pub(super) speed: &'static str,
+    pub(super) speed: Text,
     /// Followed to this time; empty: through the first contact and the flight after it.
-    pub(super) until: &'static str,
+    pub(super) until: Text,
 }
 
 /// `c = L = g = 1`.
-pub(super) const fn unit(damping: &'static str, speed: &'static str) -> Rod {
+pub(super) const fn unit(damping: Text, speed: Text) -> Rod {
     Rod { length: "1", wave_speed: "1", damping, gravity: "1", speed, until: "" }
 }
 
@@ -43,7 +45,7 @@ impl Rod {
     }
 
     /// The same rod followed to a time.
-    pub(super) const fn until(self, until: &'static str) -> Rod {
+    pub(super) const fn until(self, until: Text) -> Rod {
         Rod { until, ..self }
     }
 
@@ -59,7 +61,6 @@ impl Rod {
     }
 }
 
-pub(super) type Text = &'static str;
 /// A route and what it promises.
 pub(super) type Promised = (Route, Promise);
 
@@ -69,14 +70,14 @@ const MOST_FORMULAS: usize = 4;
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Entry {
     /// In words: `t_b`, `h(3)`.
-    what: &'static str,
+    what: Text,
     rod: Rod,
     quantity: Quantity,
     /// x, and t; `t_b` where it is empty.
-    place: (&'static str, &'static str),
+    place: (Text, Text),
     limit: Limit,
     /// See [`Truth::spelt`], or [`NO_BOUNCE`].
-    truth: &'static str,
+    truth: Text,
     /// Routes of this question alone, shown before the others.
     formulas: [Option<Promised>; MOST_FORMULAS],
     routes: &'static [Promised],
@@ -86,35 +87,29 @@ pub(crate) struct Entry {
 pub(super) const NO_BOUNCE: &str = "no bounce";
 
 /// A question at `t_b`, or that has no time.
-pub(super) const fn ask(
-    what: &'static str,
-    rod: Rod,
-    quantity: Quantity,
-    truth: &'static str,
-    routes: &'static [Promised],
-) -> Entry {
+pub(super) const fn ask(what: Text, rod: Rod, quantity: Quantity, truth: Text, routes: &'static [Promised]) -> Entry {
     let (place, limit, formulas) = (("", ""), Limit::From(Side::Right), [None; MOST_FORMULAS]);
     Entry { what, rod, quantity, place, limit, truth, formulas, routes }
 }
 
 /// A number that belongs to no rod.
-pub(super) const fn constant(what: &'static str, truth: &'static str) -> Entry {
+pub(super) const fn constant(what: Text, truth: Text) -> Entry {
     ask(what, unit("0", "1"), Quantity::Constant, truth, &[])
 }
 
 impl Entry {
     /// At this time, in the limit from later times.
-    pub(super) const fn at(self, time: &'static str) -> Entry {
+    pub(super) const fn at(self, time: Text) -> Entry {
         Entry { place: ("", time), ..self }
     }
 
     /// At this time, in the limit from earlier times.
-    pub(super) const fn before(self, time: &'static str) -> Entry {
+    pub(super) const fn before(self, time: Text) -> Entry {
         Entry { place: ("", time), limit: Limit::From(Side::Left), ..self }
     }
 
     /// At this point and time.
-    pub(super) const fn at_point(self, point: &'static str, time: &'static str) -> Entry {
+    pub(super) const fn at_point(self, point: Text, time: Text) -> Entry {
         Entry { place: (point, time), ..self }
     }
 
@@ -124,17 +119,17 @@ impl Entry {
     }
 
     /// A formula in doubles that gives so many digits.
-    pub(super) const fn by(self, what: &'static str, digits: u32, formula: fn() -> f64) -> Entry {
+    pub(super) const fn by(self, what: Text, digits: u32, formula: fn() -> f64) -> Entry {
         self.first_by((Route::Formula(what, formula), Promise::Digits(digits)))
     }
 
     /// A formula in doubles that gives fewer digits than this.
-    pub(super) const fn breaks(self, what: &'static str, digits: u32, formula: fn() -> f64) -> Entry {
+    pub(super) const fn breaks(self, what: Text, digits: u32, formula: fn() -> f64) -> Entry {
         self.first_by((Route::Formula(what, formula), Promise::Fewer(digits)))
     }
 
     /// A formula in 36 digits.
-    pub(super) const fn by_digits(self, what: &'static str, formula: LongFormula) -> Entry {
+    pub(super) const fn by_digits(self, what: Text, formula: LongFormula) -> Entry {
         self.first_by((Route::LongFormula(what, 36, formula), Promise::Digits(36)))
     }
 
@@ -249,6 +244,8 @@ pub(super) const fn group(name: Text, title: Text, lesson: Text, cases: &'static
     Group { name, title, lesson, cases }
 }
 
+pub(super) type Entries = &'static [Entry];
+
 /// A hard case, or a claim of the paper.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Case {
@@ -259,7 +256,7 @@ pub(crate) struct Case {
     pub(crate) about: Text,
     /// What the case comes to when all promises are kept.
     pub(super) verdict: Verdict,
-    pub(super) entries: &'static [Entry],
+    pub(super) entries: Entries,
 }
 
 /// A claim of the paper.
@@ -280,9 +277,9 @@ impl Case {
 #[derive(Clone, Debug)]
 pub(crate) struct CheckedQuestion {
     /// In words.
-    pub(crate) what: &'static str,
+    pub(crate) what: Text,
     /// As the catalogue spells it.
-    pub(crate) truth: &'static str,
+    pub(crate) truth: Text,
     pub(crate) rows: Vec<Row>,
 }
 

@@ -8,7 +8,7 @@ use crate::first_contact::FirstContact;
 use crate::paper::{Printed, formulas};
 use crate::rod::Parameters;
 
-const fn hard(name: Text, source: Text, about: Text, entries: &'static [Entry]) -> Case {
+const fn hard(name: Text, source: Text, about: Text, entries: Entries) -> Case {
     Case { name, source, about, verdict: Verdict::Holds, entries }
 }
 

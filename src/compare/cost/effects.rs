@@ -2,7 +2,7 @@
 
 use std::time::Instant;
 
-use super::clock::{Timing, batch, quantile, sample};
+use super::clock::{Timing, batch, check_budget, quantile, sample};
 use crate::compare::route::{run_engine, run_planned};
 use crate::compare::value::NoAnswer;
 use crate::rod::{Parameters, Problem, Run, Speed, Start, Top};
@@ -62,9 +62,7 @@ pub(crate) fn effects(
     seconds: f64,
     mut observe: impl FnMut(f64, &str),
 ) -> Result<Vec<Difference>, NoAnswer> {
-    if !(seconds > 0.0 && seconds <= 86_400.0) {
-        return Err(NoAnswer::Seconds { found: seconds });
-    }
+    check_budget(seconds)?;
     let plan = Plan::of(scene, Ask::default())?;
     let called = |effect: Effect| match effect {
         Effect::FieldEnergies => energies,

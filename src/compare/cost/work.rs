@@ -2,7 +2,7 @@
 
 use std::time::{Duration, Instant};
 
-use super::clock::{Timing, repeat};
+use super::clock::{Timing, check_budget, repeat};
 use super::ladder::{Candidate, Expected, Family, Ladder, ladders};
 use crate::compare::quantity::{Quantity, Question};
 use crate::compare::truth::Truth;
@@ -77,9 +77,7 @@ pub(crate) fn work_precision(
     seconds: f64,
     mut observe: impl FnMut(f64, &str),
 ) -> Result<Table, NoAnswer> {
-    if !(seconds > 0.0 && seconds <= 86_400.0) {
-        return Err(NoAnswer::Seconds { found: seconds });
-    }
+    check_budget(seconds)?;
     let start = Instant::now();
     let spent = || start.elapsed().as_secs_f64();
     let (all, without) = ladders(question, plan);
