@@ -2,9 +2,8 @@
 
 use std::process::Command;
 
-use dalembert::rod::Run;
+#[cfg(any(feature = "mp", feature = "plot"))]
 use dalembert::scene::builtin;
-use dalembert::{Ask, Plan, Scene, Solution, solve};
 use serde_json::Value;
 
 fn cost(args: &[&str]) -> (Option<i32>, String, String) {
@@ -17,13 +16,6 @@ fn json(args: &[&str]) -> Value {
     let (code, out, err) = cost(&[args, &["--format", "json"]].concat());
     assert_eq!((code, err.as_str()), (Some(0), ""), "{args:?}");
     serde_json::from_str(&out).unwrap()
-}
-
-/// The same for a scene of this text.
-fn json_of(scene: &str, args: &[&str]) -> Value {
-    let file = tempfile::NamedTempFile::new().unwrap();
-    std::fs::write(file.path(), scene).unwrap();
-    json(&[&[file.path().to_str().unwrap()], args].concat())
 }
 
 /// The routes that a table can have.
@@ -42,8 +34,12 @@ const ROUTES: [&str; 8] = [
 #[cfg(feature = "mp")]
 #[test]
 fn the_truth_of_a_later_event() {
+    use dalembert::rod::Run;
+    use dalembert::{Ask, Plan, Scene, Solution, solve};
     let source = builtin::get("figure-4-r02").unwrap().source.replace("[impact]", "[run]\nimpacts = 2\n\n[impact]");
-    let found = json_of(&source, &["--quantity", "last_event", "--seconds", "0.5"]);
+    let file = tempfile::NamedTempFile::new().unwrap();
+    std::fs::write(file.path(), &source).unwrap();
+    let found = json(&[file.path().to_str().unwrap(), "--quantity", "last_event", "--seconds", "0.5"]);
     let mut scene = Scene::parse(builtin::get("figure-4-r02").unwrap().source).unwrap();
     scene.problem.run = Run::Impacts(2);
     let plan = Plan::of(&scene, Ask::default()).unwrap();
