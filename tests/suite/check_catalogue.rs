@@ -1,5 +1,5 @@
-//! The catalogue of hard cases and of the paper's claims, run once by the command: all promises are kept, and the page in the
-//! repository is what the program finds.
+//! The catalogue of hard cases and of the paper's claims, run once by the command: all promises are kept, and the page
+//! in the repository is what the program finds.
 
 use std::process::Command;
 
@@ -35,7 +35,8 @@ fn every_promise_is_kept_and_the_page_is_current() {
         let stored = std::fs::read_to_string(concat!(env!("CARGO_MANIFEST_DIR"), "/docs/check.md")).unwrap_or_default();
         assert!(
             page == stored,
-            "docs/check.md is not what the program finds: `dalembert check --format markdown -o docs/check.md`, and read the difference"
+            "docs/check.md is not what the program finds: `dalembert check --format markdown -o docs/check.md`, and \
+             read the difference"
         );
     }
 }

@@ -1,4 +1,5 @@
-//! The first contact in doubles at the extremes of every parameter. Single hard cases stand in the catalogue of `check`.
+//! The first contact in doubles at the extremes of every parameter. Single hard cases stand in the catalogue of
+//! `check`.
 
 use dalembert::first_contact::{Bounce, Estimate, FirstContact};
 use dalembert::history::Side;
@@ -69,8 +70,8 @@ fn strong_damping_diffuses() {
     }
 }
 
-/// Below R = π the bounce is late, and never a rounding error; so close to π that it cannot be found, it is undecided. That there is
-/// none from π on stands in the catalogue of `check`.
+/// Below R = π the bounce is late, and never a rounding error; so close to π that it cannot be found, it is undecided.
+/// That there is none from π on stands in the catalogue of `check`.
 #[test]
 fn below_pi() {
     for damping in [2.0, 2.5, 2.9, 3.0, 3.1] {

@@ -1,5 +1,5 @@
-//! What the paper says of whole curves: each follows from a formula that is evaluated here on its own. Single numbers stand in the
-//! catalogue of `check`.
+//! What the paper says of whole curves: each follows from a formula that is evaluated here on its own. Single numbers
+//! stand in the catalogue of `check`.
 
 use dalembert::first_contact::{Bounce, BounceKind, FirstContact};
 use dalembert::history::Side;
@@ -31,8 +31,8 @@ fn bounce(damping: f64, speed: f64) -> (f64, BounceKind) {
     }
 }
 
-/// (4.75): `lim e_E = 2e^{−R}(I₀(R) − I₁(R)) − e^{−2R}`, which stands in the catalogue, is `e^{−R}(1 + R³/24 + …)`; with gravity the rest
-/// falls like μ₀/μ.
+/// (4.75): `lim e_E = 2e^{−R}(I₀(R) − I₁(R)) − e^{−2R}`, which stands in the catalogue, is `e^{−R}(1 + R³/24 + …)`;
+/// with gravity the rest falls like μ₀/μ.
 #[test]
 fn how_restitution_tends_to_its_limit() {
     let limit = |r: f64| 2.0 * (-r).exp() * (bessel(0, r) - bessel(1, r)) - (-2.0 * r).exp();
@@ -49,7 +49,8 @@ fn how_restitution_tends_to_its_limit() {
     }
 }
 
-/// (4.73): the two factors, whose limits stand in the catalogue, multiply to `e_E²`; at μ = 10⁹ both are at their limits.
+/// (4.73): the two factors, whose limits stand in the catalogue, multiply to `e_E²`; at μ = 10⁹ both are at their
+/// limits.
 #[test]
 fn the_factors_of_restitution() {
     for damping in [0.1, 0.2, 0.3] {
@@ -142,7 +143,8 @@ fn figures_2_and_3() {
     }
 }
 
-/// After (3.42), "Ψ_r = 0 on (t₁,t_b)": the contact lasts there, and the stress is compressive; it vanishes from t_b on.
+/// After (3.42), "Ψ_r = 0 on (t₁,t_b)": the contact lasts there, and the stress is compressive; it vanishes from t_b
+/// on.
 #[test]
 fn the_rod_is_compressed_until_it_leaves() {
     for (damping, speed) in [(0.1, 1.0), (0.2, 2.0), (0.3, 2.0)] {

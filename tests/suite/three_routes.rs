@@ -1,5 +1,6 @@
 //! The same first contact by three routes that share no formula: closed sums over rays, sums over modes, and, without
-//! damping, the lattice; with damping, the cells. Each value carries a proved bound, and two routes may differ by no more than their bounds.
+//! damping, the lattice; with damping, the cells. Each value carries a proved bound, and two routes may differ by no
+//! more than their bounds.
 
 use crate::common::{number, reference};
 use dalembert::damped::Damped;
@@ -161,7 +162,8 @@ fn rays_modes_and_the_lattice() {
     }
 }
 
-/// With damping the characteristic cells are the lattice's route: stress, field, centre and energy of the first contact.
+/// With damping the characteristic cells are the lattice's route: stress, field, centre and energy of the first
+/// contact.
 #[test]
 fn rays_modes_and_the_cells() {
     for (damping, speed, gravity, last) in [
