@@ -16,8 +16,8 @@
 //! | [`history`] | what a solution is, and everything that can be asked of it |
 //! | [`modal`] | the modal sum of the first contact: a third route to the same numbers |
 //! | [`quantity`] | restitution and flights |
-//! | [`check`] | hard cases and the paper's claims, each by every route, held against the truth |
-//! | [`cost`] | what accuracy costs in time, by every route |
+//! | [`paper`] | the printed formulas, as an independent opinion |
+//! | `compare` | routes held against each other and the truth: `check` and `cost` (feature `cli`) |
 //! | `output`, `cli` | tables, JSON, CSV and the command (feature `cli`) |
 //! | [`special`] | ψ_n, I_n, φ functions, Gauss–Legendre, in any precision |
 //!
@@ -36,10 +36,10 @@
 pub mod cells;
 #[cfg(feature = "mp")]
 pub mod certified;
-// pub mod check;
 #[cfg(feature = "cli")]
 pub mod cli;
-// pub mod cost;
+#[cfg(feature = "cli")]
+mod compare;
 pub mod error;
 pub mod first_contact;
 pub mod history;
@@ -49,6 +49,7 @@ pub mod motion;
 pub mod number;
 #[cfg(feature = "cli")]
 pub mod output;
+pub mod paper;
 pub mod problem;
 pub mod quantity;
 pub mod scene;

@@ -1,13 +1,13 @@
 //! The answer: what happened, and everything that can be asked of it.
 
-use std::sync::{Arc, Mutex, OnceLock, PoisonError};
+use std::sync::{Mutex, OnceLock, PoisonError};
 
 use crate::error::Error;
 use crate::history::{Contact, Ending, Energy, Event, Field, History as Engine, Scales, Side, StressHistory};
 use crate::number::{Answer, Scalar};
 use crate::quantity::{EnergyShares, Flight, Restitution, energy_shares, flights, restitution};
 use crate::rod::Problem;
-use crate::solve::{Attempt, Ladder, Numbers, Observer, Plan, Question, Rung, Target, Want};
+use crate::solve::{Attempt, Ladder, Numbers, Observer, Plan, Question, Rung, Target, Want, unobserved};
 
 /// The motion of a rod: its impacts and releases, and the values of every quantity at any time, in numbers `S`.
 ///
@@ -277,6 +277,6 @@ impl Problem {
     }
 
     fn answer<S: Target>(&self, question: &Question) -> Result<Motion<S>, Error> {
-        Motion::solve(self, &Plan::of(self, question)?, Arc::new(|_, _| ()))
+        Motion::solve(self, &Plan::of(self, question)?, unobserved())
     }
 }

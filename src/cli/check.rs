@@ -7,7 +7,7 @@ use clap::{Args, ValueEnum};
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 
 use super::{Failure, source};
-use crate::check::{Checked, Verdict, catalogue, select};
+use crate::compare::check::{CATALOGUE, Case, Checked, Group, Verdict, select};
 use crate::output::{check_json, check_page, check_table, write_whole};
 
 /// The catalogue of hard cases and of the paper's claims, worked out now by every route and held against the truth
@@ -38,27 +38,25 @@ enum Shape {
 
 impl Check {
     pub(super) fn run(&self) -> Result<ExitCode, Failure> {
-        let cases = select(&self.only).map_err(|name| {
-            let mut known: Vec<&str> = catalogue().map(|case| case.group.name()).collect();
-            known.dedup();
-            let names: Vec<&str> = catalogue().map(|case| case.name).collect();
-            miette::miette!(
-                "found --only {name}, expected a group ({}) or a case ({})",
-                known.join(", "),
-                names.join(", ")
-            )
+        let groups = select(&self.only).map_err(|name| {
+            let groups = CATALOGUE.map(|group| group.name).join(", ");
+            let cases: Vec<&str> = CATALOGUE.iter().flat_map(|group| group.cases).map(|case| case.name).collect();
+            miette::miette!("found --only {name}, expected a group ({groups}) or a case ({})", cases.join(", "))
         })?;
         // Drawn on a terminal only.
-        let bar = ProgressBar::with_draw_target(Some(cases.len() as u64), ProgressDrawTarget::stderr());
+        let count = groups.iter().map(|(_, cases)| cases.len() as u64).sum();
+        let bar = ProgressBar::with_draw_target(Some(count), ProgressDrawTarget::stderr());
         if let Ok(style) = ProgressStyle::with_template("{bar:40} {pos}/{len}, {msg}") {
             bar.set_style(style);
         }
-        let mut checked: Vec<Checked> = Vec::with_capacity(cases.len());
-        for case in cases {
+        let run = |case: &'static Case| {
             bar.set_message(case.name);
-            checked.push(case.run());
+            let checked = case.run();
             bar.inc(1);
-        }
+            checked
+        };
+        let groups = groups.into_iter().map(|(group, cases)| (group, cases.into_iter().map(run).collect()));
+        let checked: Vec<(Group, Vec<Checked>)> = groups.collect();
         bar.finish_and_clear();
         let text = match self.format {
             Shape::Table => check_table(&checked),
@@ -66,7 +64,7 @@ impl Check {
             Shape::Markdown => check_page(&checked),
         };
         write_whole(self.output.as_deref(), text.as_bytes()).map_err(source::cannot("write the catalogue"))?;
-        let failed = checked.iter().any(|checked| checked.verdict == Verdict::Failed);
+        let failed = checked.iter().flat_map(|(_, cases)| cases).any(|case| case.verdict == Verdict::Failed);
         Ok(if failed { ExitCode::from(1) } else { ExitCode::SUCCESS })
     }
 }

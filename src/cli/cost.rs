@@ -6,10 +6,11 @@ use clap::Args;
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 
 use super::{Failure, Format, NumberArgs, source};
-use crate::cost::{self, Difference, Quantity, Question, Table};
+use crate::compare::cost::{self, Difference, Table};
+use crate::compare::{Quantity, Question, plan};
 use crate::number::Number;
 use crate::output::{cost_csv, cost_json, cost_table, effects_csv, effects_json, effects_table, write_whole};
-use crate::scene::{Ask, Plan, Scene};
+use crate::scene::Scene;
 
 /// What accuracy costs in time: one quantity by every route that can give it, measured now, on this machine
 #[derive(Args, Debug)]
@@ -36,8 +37,8 @@ pub(super) struct Cost {
     /// What to print; by default a table
     #[arg(long, value_enum)]
     format: Option<Format>,
-    /// Write to this file, whole or not at all: a picture (.svg, .png), .json, .csv, or a table; `-` is standard output. Can be
-    /// given several times. Beside pictures the rows are printed as well
+    /// Write to this file, whole or not at all: a picture (.svg, .png), .json, .csv, or a table; `-` is standard
+    /// output. Can be given several times. Beside pictures the rows are printed as well
     #[arg(short, long, value_name = "FILE")]
     output: Vec<PathBuf>,
 }
@@ -110,9 +111,8 @@ impl Cost {
                 matches!(self.quantity, Some(Quantity::Energy | Quantity::Vibrational | Quantity::Restitution));
             cost::effects(scene, energies, self.seconds, observe).map(Measured::Effects)
         } else {
-            let ask: Ask = self.numbers.ask();
-            let plan = Plan::of(scene, ask)?;
-            let question = Question::of(scene, self.quantity, self.time.clone())?;
+            let question = Question::of_scene(scene, self.quantity, self.time.clone())?;
+            let plan = plan(&question, self.numbers.numbers(scene))?;
             cost::work_precision(&question, &plan, self.seconds, observe).map(Measured::Work)
         };
         bar.finish_and_clear();

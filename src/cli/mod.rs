@@ -1,7 +1,7 @@
 //! The command: one file per subcommand.
 
-// mod check;
-// mod cost;
+mod check;
+mod cost;
 mod explain;
 mod sample;
 mod scenes;
@@ -54,9 +54,9 @@ enum Command {
     /// The plan: which effects a scene calls for, which engine and numbers solve it, and what is left out
     Explain(explain::Explain),
     /// What accuracy costs in time: one quantity by every route that can give it
-    // Cost(cost::Cost),
+    Cost(cost::Cost),
     /// Hard cases and the paper's claims, worked out by every route and held against the truth
-    // Check(check::Check),
+    Check(check::Check),
     /// List the built-in scenes, or print one
     Scenes(scenes::Scenes),
     /// Print the manual page, for `man -l -`
@@ -76,8 +76,8 @@ pub fn run(cli: Cli) -> Result<ExitCode, Failure> {
         Command::Solve(command) => command.run(),
         Command::Sample(command) => command.run(),
         Command::Explain(command) => command.run(),
-        // Command::Cost(command) => command.run(),
-        // Command::Check(command) => return command.run(),
+        Command::Cost(command) => command.run(),
+        Command::Check(command) => return command.run(),
         Command::Scenes(command) => command.run(),
         Command::Man => {
             let mut page = Vec::new();

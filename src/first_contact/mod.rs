@@ -14,7 +14,6 @@ mod field;
 mod peak;
 mod rebound;
 mod search;
-mod undamped;
 mod within;
 
 pub use bounce::{Bounce, BounceKind};
@@ -24,4 +23,3 @@ pub use field::{Estimate, FirstContact};
 #[cfg(feature = "mp")]
 pub(crate) use peak::Summit;
 pub use rebound::Rebound;
-pub use undamped::UndampedContact;

@@ -23,6 +23,7 @@ mod literal;
 #[cfg(feature = "mp")]
 mod radical;
 mod scalar;
+mod text;
 
 #[cfg(not(feature = "mp"))]
 pub use absent::{Float, Interval, Rational};
@@ -37,3 +38,4 @@ pub use literal::{Number, NumberError};
 #[cfg(feature = "mp")]
 pub use rug::{Float, Rational};
 pub use scalar::{Analytic, Answer, Open, Reads, Rounded, Scalar};
+pub(crate) use text::{DOUBLE_DIGITS, bound_text, show};

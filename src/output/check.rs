@@ -4,28 +4,26 @@ use serde_json::{Value, json};
 
 use super::cost::duration;
 use super::table::table;
-use crate::check::{Asked, Checked, Group, Kept};
+use crate::compare::RightDigits;
+use crate::compare::check::{Checked, CheckedQuestion, Group};
 
 /// How many digits are right, in words.
-fn digits(kept: Kept) -> String {
-    match kept {
-        Kept::Words => "–".into(),
-        Kept::All => "all".into(),
-        Kept::Digits(digits) => format!("{digits:.1}"),
+fn digits(right: RightDigits) -> String {
+    match right {
+        RightDigits::NoNumber => "–".into(),
+        RightDigits::All => "all".into(),
+        RightDigits::Digits(digits) => format!("{digits:.1}"),
     }
 }
 
-fn by_group(cases: &[Checked]) -> impl Iterator<Item = (Group, Vec<&Checked>)> {
-    Group::ALL.into_iter().filter_map(|group| {
-        let own: Vec<&Checked> = cases.iter().filter(|checked| checked.case.group == group).collect();
-        (!own.is_empty()).then_some((group, own))
-    })
-}
+/// The cases that were run, by group.
+pub(crate) type Groups = [(Group, Vec<Checked>)];
 
 /// How many cases came to each verdict, in the order of their first appearance.
-fn count(cases: &[Checked]) -> String {
+fn count(groups: &Groups) -> String {
+    let cases: Vec<&Checked> = groups.iter().flat_map(|(_, cases)| cases).collect();
     let mut counts: Vec<(&str, usize)> = Vec::new();
-    for checked in cases {
+    for checked in &cases {
         let name = checked.verdict.name();
         match counts.iter_mut().find(|(known, _)| *known == name) {
             Some((_, count)) => *count += 1,
@@ -37,20 +35,20 @@ fn count(cases: &[Checked]) -> String {
 }
 
 /// For a person: every route with its answer, the digits that are right, and what it took.
-pub fn check_table(cases: &[Checked]) -> String {
+pub(crate) fn check_table(groups: &Groups) -> String {
     let mut out = String::new();
-    for (group, own) in by_group(cases) {
-        out += &format!("{}\n\n", group.title());
-        for checked in own {
+    for (group, cases) in groups {
+        out += &format!("{}\n\n", group.title);
+        for checked in cases {
             let case = checked.case;
             out += &format!("{}: {} ({}): {}\n", case.name, case.about, case.source, checked.verdict.name());
-            for Asked { what, truth, rows } in &checked.asked {
+            for CheckedQuestion { what, truth, rows } in &checked.asked {
                 let rows = rows.iter().map(|row| {
-                    let (found, kept) = (row.found.to_string(), digits(row.kept));
+                    let (found, right) = (row.found(), digits(row.digits));
                     let outcome = row.outcome.name().to_string();
-                    vec![row.route.clone(), row.promise.to_string(), outcome, found, kept, duration(row.seconds)]
+                    vec![row.route.clone(), row.promise.to_string(), outcome, found, right, duration(row.seconds)]
                 });
-                out += &format!("  {what} = {}\n", truth.text);
+                out += &format!("  {what} = {}\n", truth);
                 let header = ["route", "promises", "", "answers", "digits", "time"];
                 let text = table(&header, rows.collect(), 3);
                 out += &text.lines().map(|line| format!("    {line}\n")).collect::<String>();
@@ -58,26 +56,26 @@ pub fn check_table(cases: &[Checked]) -> String {
             out += "\n";
         }
     }
-    out + &count(cases) + "\n"
+    out + &count(groups) + "\n"
 }
 
 /// For the repository: nothing in it depends on the machine.
-pub fn check_page(cases: &[Checked]) -> String {
+pub(crate) fn check_page(groups: &Groups) -> String {
     let mut out = String::from(
-        "# Hard cases, and what the paper claims\n\n\
-         Made by `dalembert check --format markdown -o docs/check.md`; a test holds it against what the program finds. Each number is \
-         asked of several routes that share as little as they can, and each route is held to what it promises. The truth stands in \
-         the catalogue, to as many digits as are printed; where a row says *proved*, enclosures prove them. `dalembert check` shows the \
-         answers, how many of their digits are right, and what each took on your machine.\n\n",
+        "# Hard cases, and what the paper claims\n\nMade by `dalembert check --format markdown -o docs/check.md`; a \
+         test holds it against what the program finds. Each number is asked of several routes that share as little as \
+         they can, and each route is held to what it promises. The truth stands in the catalogue, to as many digits \
+         as are printed; where a row says *proved*, enclosures prove them. `dalembert check` shows the answers, how \
+         many of their digits are right, and what each took on your machine.\n\n",
     );
-    out += &format!("**{}.**\n\n", count(cases));
-    for (group, own) in by_group(cases) {
-        out += &format!("## {}\n\n{}\n\n", group.title(), group.lesson());
-        for checked in own {
+    out += &format!("**{}.**\n\n", count(groups));
+    for (group, cases) in groups {
+        out += &format!("## {}\n\n{}\n\n", group.title, group.lesson);
+        for checked in cases {
             let case = checked.case;
             out += &format!("### `{}`: {}\n\n{}: {}.\n\n", case.name, checked.verdict.name(), case.source, case.about);
-            for Asked { what, truth, rows } in &checked.asked {
-                out += &format!("{what} = **{}**\n\n| route | promises | |\n|---|---|---|\n", truth.text);
+            for CheckedQuestion { what, truth, rows } in &checked.asked {
+                out += &format!("{what} = **{}**\n\n| route | promises | |\n|---|---|---|\n", truth);
                 for row in rows {
                     out += &format!("| {} | {} | {} |\n", row.route, row.promise, row.outcome.name());
                 }
@@ -89,30 +87,31 @@ pub fn check_page(cases: &[Checked]) -> String {
 }
 
 /// Schema 1.
-pub fn check_json(cases: &[Checked]) -> Value {
-    let cases = cases.iter().map(|checked| {
+pub(crate) fn check_json(groups: &Groups) -> Value {
+    let cases = groups.iter().flat_map(|(group, cases)| cases.iter().map(move |checked| (group, checked)));
+    let cases = cases.map(|(group, checked)| {
         let asked = checked.asked.iter().map(|asked| {
             let rows = asked.rows.iter().map(|row| {
-                let right = match row.kept {
-                    Kept::Words => Value::Null,
-                    Kept::All => json!("all"),
-                    Kept::Digits(digits) => json!(digits),
+                let right = match row.digits {
+                    RightDigits::NoNumber => Value::Null,
+                    RightDigits::All => json!("all"),
+                    RightDigits::Digits(digits) => json!(digits),
                 };
                 json!({
                     "route": row.route,
                     "promise": row.promise.to_string(),
                     "outcome": row.outcome.name(),
-                    "found": row.found.to_string(),
+                    "found": row.found(),
                     "digits": right,
                     "seconds": row.seconds,
                 })
             });
-            json!({ "what": asked.what, "truth": asked.truth.text, "rows": rows.collect::<Vec<_>>() })
+            json!({ "what": asked.what, "truth": asked.truth, "rows": rows.collect::<Vec<_>>() })
         });
         let case = checked.case;
         json!({
             "name": case.name,
-            "group": case.group.name(),
+            "group": group.name,
             "source": case.source,
             "about": case.about,
             "verdict": checked.verdict.name(),

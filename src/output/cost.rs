@@ -3,7 +3,7 @@
 use serde_json::{Value, json};
 
 use super::table::table;
-use crate::cost::{Difference, Row, Table, Timing};
+use crate::compare::cost::{Difference, Row, Table, Timing};
 
 /// A time in the unit that suits it, to three digits: `3.21 ms`.
 ///
@@ -42,7 +42,7 @@ fn error(row: &Row) -> String {
     format!("{mantissa}e{exponent}")
 }
 
-/// Who is asked what: `t_b`, or `h(t) at t = 1.5`.
+/// What is asked: `t_b`, or `h(t) at t = 1.5`.
 pub(super) fn asked(table: &Table) -> String {
     match &table.time {
         Some(time) => format!("{} at t = {time}", table.quantity.symbol()),
@@ -51,12 +51,12 @@ pub(super) fn asked(table: &Table) -> String {
 }
 
 /// The table for a person. The plan's choice has an arrow.
-pub fn cost_table(cost: &Table, title: Option<&str>) -> String {
+pub(crate) fn cost_table(cost: &Table, title: Option<&str>) -> String {
     let mut out = title.map_or_else(String::new, |title| format!("{title}\n"));
     out += &format!("{} = {:?}\n\n", asked(cost), cost.truth.value.to_f64());
     let rows = cost.rows.iter().map(|row| {
         vec![
-            row.route.name().into(),
+            row.family.name().into(),
             row.setting.clone(),
             if row.chosen { "← the plan".into() } else { String::new() },
             error(row),
@@ -76,17 +76,17 @@ pub fn cost_table(cost: &Table, title: Option<&str>) -> String {
     out += "\ntime:  median of the runs, and the distance of their quartiles\n";
     for item in &cost.left_out {
         let setting = item.setting.as_ref().map_or_else(String::new, |setting| format!(", {setting}"));
-        out += &format!("not here: {}{setting}: {}\n", item.route.name(), item.why);
+        out += &format!("not here: {}{setting}: {}\n", item.family.name(), item.why);
     }
     out
 }
 
 /// Schema 1.
-pub fn cost_json(cost: &Table, title: Option<&str>) -> Value {
+pub(crate) fn cost_json(cost: &Table, title: Option<&str>) -> Value {
     let finite = |x: f64| if x.is_finite() { json!(x) } else { Value::Null };
     let rows = cost.rows.iter().map(|row| {
         json!({
-            "route": row.route.name(),
+            "route": row.family.name(),
             "setting": row.setting,
             "error": row.error(),
             "log10_error": finite(row.log10_error),
@@ -99,7 +99,7 @@ pub fn cost_json(cost: &Table, title: Option<&str>) -> Value {
     let left_out = cost
         .left_out
         .iter()
-        .map(|item| json!({ "route": item.route.name(), "setting": item.setting, "because": item.why }));
+        .map(|item| json!({ "route": item.family.name(), "setting": item.setting, "because": item.why }));
     json!({
         "schema": 1,
         "title": title,
@@ -114,11 +114,11 @@ pub fn cost_json(cost: &Table, title: Option<&str>) -> Value {
 }
 
 /// The rows.
-pub fn cost_csv(cost: &Table) -> Result<String, csv::Error> {
+pub(crate) fn cost_csv(cost: &Table) -> Result<String, csv::Error> {
     let rows = cost.rows.iter().map(|row| {
         let spread = row.timing.spread.map_or_else(String::new, |spread| spread.to_string());
         [
-            row.route.name().into(),
+            row.family.name().into(),
             row.setting.clone(),
             error(row),
             row.timing.seconds.to_string(),
@@ -141,7 +141,7 @@ fn write<const N: usize>(header: &[&str; N], rows: impl Iterator<Item = [String;
 }
 
 /// What each effect costs, for a person.
-pub fn effects_table(rows: &[Difference], title: Option<&str>) -> String {
+pub(crate) fn effects_table(rows: &[Difference], title: Option<&str>) -> String {
     let mut out = title.map_or_else(String::new, |title| format!("{title}\n\n"));
     let rows = rows.iter().map(|row| {
         vec![
@@ -156,12 +156,14 @@ pub fn effects_table(rows: &[Difference], title: Option<&str>) -> String {
     });
     let header = ["effect", "called for", "with", "without", "costs", "noise", ""];
     out += &table(&header, rows.collect(), 2);
-    out + "\n\nwith:    the scene as planned\nwithout: the effect switched off, which changes nothing where it is not called for; for the \
-           plan itself, the engine called directly\ncosts:   median of the differences of neighbouring runs, and what it may be by chance\n"
+    out + "\n\nwith:    the scene as planned\n\
+           without: the effect switched off, which changes nothing where it is not called for; for the plan itself, \
+           the engine called directly\n\
+           costs:   median of the differences of neighbouring runs, and what it may be by chance\n"
 }
 
 /// What each effect costs, schema 1.
-pub fn effects_json(rows: &[Difference], title: Option<&str>) -> Value {
+pub(crate) fn effects_json(rows: &[Difference], title: Option<&str>) -> Value {
     let rows = rows.iter().map(|row| {
         json!({
             "effect": row.name(),
@@ -179,7 +181,7 @@ pub fn effects_json(rows: &[Difference], title: Option<&str>) -> Value {
 }
 
 /// What each effect costs, as rows.
-pub fn effects_csv(rows: &[Difference]) -> Result<String, csv::Error> {
+pub(crate) fn effects_csv(rows: &[Difference]) -> Result<String, csv::Error> {
     let header = ["effect", "called", "with_seconds", "without_seconds", "seconds", "noise_seconds", "noise"];
     let rows = rows.iter().map(|row| {
         let number = |x: f64| x.to_string();

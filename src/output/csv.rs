@@ -1,7 +1,7 @@
 //! CSV: one part of the history a file, with a header.
 
-use super::record::{DOUBLE_DIGITS, Finished, Head, Quantity, Record, Sample, bound_text, show};
-use crate::number::Scalar;
+use super::record::{Finished, Head, Quantity, Record, Sample};
+use crate::number::{DOUBLE_DIGITS, Scalar, bound_text, show};
 
 /// The part of a history that a CSV file holds.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, clap::ValueEnum)]

@@ -1,21 +1,22 @@
 //! Tables, JSON, CSV and pictures. Output computes no physics: it asks the history and the quantities.
 
-// mod check;
-// mod cost;
+mod check;
+mod cost;
 mod csv;
 mod file;
 mod json;
-// #[cfg(feature = "plot")]
-// mod picture;
+#[cfg(feature = "plot")]
+mod picture;
 mod record;
 mod table;
 
-// pub use check::{check_json, check_page, check_table};
-// pub use cost::{cost_csv, cost_json, cost_table, duration, effects_csv, effects_json, effects_table};
+pub(crate) use check::{check_json, check_page, check_table};
+pub use cost::duration;
+pub(crate) use cost::{cost_csv, cost_json, cost_table, effects_csv, effects_json, effects_table};
 pub use csv::{Part, history_csv, samples_csv};
 pub use file::write_whole;
 pub use json::{SCHEMA, history_json, samples_json};
-// #[cfg(feature = "plot")]
-// pub use picture::{cost_svg, png};
+#[cfg(feature = "plot")]
+pub(crate) use picture::{cost_svg, png};
 pub use record::{Finished, Head, Quantity, Record, Sample, record, sample};
 pub use table::{LEGEND, history_table, samples_table, table};

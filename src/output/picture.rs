@@ -13,7 +13,7 @@ use kuva::render::render::render_multiple;
 use resvg::{tiny_skia, usvg};
 
 use super::cost::asked;
-use crate::cost::{Route, Row, Table};
+use crate::compare::cost::{Family, Row, Table};
 
 /// DejaVu Sans, Latin and Greek letters, digits above and below the line and signs: what our pictures write.
 const FONT: &[u8] = include_bytes!("font/DejaVuSans-subset.ttf");
@@ -26,16 +26,16 @@ const WIDTH: f64 = 640.0;
 const HEIGHT: f64 = 460.0;
 
 /// Colours that stay apart for every kind of sight (Okabe and Ito), and a mark for each route.
-fn look(route: Route) -> (&'static str, MarkerShape) {
-    match route {
-        Route::ClosedForm => ("#0072b2", MarkerShape::Circle),
-        Route::Lattice => ("#009e73", MarkerShape::Square),
-        Route::Joined => ("#009e73", MarkerShape::Square),
-        Route::Cells => ("#d55e00", MarkerShape::Diamond),
-        Route::Modes => ("#cc79a7", MarkerShape::Triangle),
-        Route::Printed => ("#8c6d1f", MarkerShape::TriangleDown),
-        Route::Differences => ("#56b4e9", MarkerShape::Pentagon),
-        Route::Enclosures => ("#000000", MarkerShape::Cross),
+fn look(family: Family) -> (&'static str, MarkerShape) {
+    match family {
+        Family::ClosedForm => ("#0072b2", MarkerShape::Circle),
+        Family::Lattice => ("#009e73", MarkerShape::Square),
+        Family::Joined => ("#009e73", MarkerShape::Square),
+        Family::Cells => ("#d55e00", MarkerShape::Diamond),
+        Family::Modes => ("#cc79a7", MarkerShape::Triangle),
+        Family::Printed => ("#8c6d1f", MarkerShape::TriangleDown),
+        Family::Differences => ("#56b4e9", MarkerShape::Pentagon),
+        Family::Enclosures => ("#000000", MarkerShape::Cross),
     }
 }
 
@@ -71,7 +71,7 @@ fn digits_at(place: f64, decades: f64) -> f64 {
 /// The work–precision diagram: error against time, both by decades, a line for each route and a star on the plan's choice.
 /// Answers without any error stand on the lowest line, which says so; beyond double precision the decades of the error are drawn
 /// together, as the ticks say.
-pub fn cost_svg(cost: &Table, title: Option<&str>) -> String {
+pub(crate) fn cost_svg(cost: &Table, title: Option<&str>) -> String {
     let finite = |row: &&Row| row.log10_error.is_finite();
     let digits = cost.rows.iter().filter(finite).map(|row| -row.log10_error);
     let (least, most) = digits.fold((0.0, 0.0), |(least, most), d| (f64::min(least, d), f64::max(most, d)));
@@ -88,15 +88,14 @@ pub fn cost_svg(cost: &Table, title: Option<&str>) -> String {
     let first = times.iter().copied().fold(f64::INFINITY, f64::min).floor();
     let last = times.iter().copied().fold(f64::NEG_INFINITY, f64::max).ceil().max(first + 1.0);
     let mut plots: Vec<Plot> = Vec::new();
-    for route in Route::ALL {
-        let points: Vec<(f64, f64)> = cost.rows.iter().filter(|row| row.route == route).map(place).collect();
-        if points.is_empty() {
-            continue;
-        }
-        let (color, marker) = look(route);
+    // The rows come by family.
+    for rows in cost.rows.chunk_by(|a, b| a.family == b.family) {
+        let family = rows[0].family;
+        let points: Vec<(f64, f64)> = rows.iter().map(place).collect();
+        let (color, marker) = look(family);
         plots.push(LinePlot::new().with_data(points.clone()).with_color(color).with_stroke_width(1.2).into());
         let marks = ScatterPlot::new().with_data(points).with_color(color).with_size(4.5).with_marker(marker);
-        plots.push(marks.with_legend(route.name()).into());
+        plots.push(marks.with_legend(family.name()).into());
     }
     let chosen: Vec<(f64, f64)> = cost.rows.iter().filter(|row| row.chosen).map(place).collect();
     let ring = ScatterPlot::new().with_data(chosen.clone()).with_color("#000000").with_size(9.0);
@@ -139,7 +138,7 @@ pub fn cost_svg(cost: &Table, title: Option<&str>) -> String {
 /// An SVG as a PNG, `scale` pixels for each of its units, on white.
 ///
 /// **Errors**: what the SVG reader or the PNG writer says; none for the SVGs that are drawn here.
-pub fn png(svg: &str, scale: f32) -> Result<Vec<u8>, String> {
+pub(crate) fn png(svg: &str, scale: f32) -> Result<Vec<u8>, String> {
     let mut options = usvg::Options { font_family: FAMILY.into(), ..usvg::Options::default() };
     options.fontdb_mut().load_font_data(FONT.to_vec());
     let tree = usvg::Tree::from_str(svg, &options).map_err(|error| error.to_string())?;

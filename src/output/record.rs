@@ -2,23 +2,10 @@
 
 use crate::error::Error;
 use crate::history::{Contact, Ending, Energy, Event, History, Side, StressPiece};
-use crate::number::{Number, Scalar};
+use crate::number::{DOUBLE_DIGITS, Number, Scalar, bound_text, show};
 use crate::quantity::{EnergyShares, Flight, Restitution, energy_shares, flights, restitution};
 
-/// A number that carries its bound, as it is printed: at most so many significant digits, and none beyond the bound; `0` where
-/// no digit is known.
-///
-/// **Accuracy**: *correctly rounded* unless the bound is astride a rounding boundary, and then within one unit of the last digit: a
-/// last unit is at least twice the bound.
-pub(super) fn show<S: Scalar>(x: &S, digits: u32) -> String {
-    let size = x.to_f64().abs();
-    // −1 for the half unit that rounding takes.
-    let known =
-        ((size - 2.0 * x.log2_error().exp2()).max(0.0).log2() - x.log2_error() - 1.0) * std::f64::consts::LOG10_2;
-    if known.is_nan() || known < 1.0 { "0".into() } else { x.decimal(digits.min(known as u32)) }
-}
-
-/// The same as a JSON value: a number for a double (null if not finite), `{"value": …, "lo": …, "hi": …}` with `lo ≤ truth ≤ hi`
+/// A number that carries its bound as a JSON value: a number for a double (null if not finite), `{"value": …, "lo": …, "hi": …}` with `lo ≤ truth ≤ hi`
 /// for an enclosure, a string otherwise.
 pub(super) fn json<S: Scalar>(x: &S, digits: u32) -> serde_json::Value {
     let text = show(x, if digits == 0 { DOUBLE_DIGITS } else { digits });
@@ -28,23 +15,6 @@ pub(super) fn json<S: Scalar>(x: &S, digits: u32) -> serde_json::Value {
         (Some(value), _) => value.into(),
         (None, Some([lo, hi])) => serde_json::json!({"value": text, "lo": lo, "hi": hi}),
         (None, None) => text.into(),
-    }
-}
-
-/// The bound of a number's error to two digits, rounded up: `3.1e-14`; `0` where it is exact.
-pub(super) fn bound_text<S: Scalar>(x: &S) -> String {
-    let log10 = x.log2_error() * std::f64::consts::LOG10_2;
-    if log10 == f64::NEG_INFINITY {
-        return "0".into();
-    }
-    if !log10.is_finite() {
-        return "unknown".into();
-    }
-    let exponent = log10.floor();
-    let tenths = (10f64.powf(log10 - exponent) * 10.0 * (1.0 + 1e-12)).ceil();
-    match tenths >= 100.0 {
-        true => format!("1e{}", exponent + 1.0),
-        false => format!("{}e{exponent}", tenths / 10.0),
     }
 }
 
@@ -60,9 +30,6 @@ pub(super) fn bound_json<S: Scalar>(x: &S) -> serde_json::Value {
         _ => text.into(),
     }
 }
-
-/// Digits that spell every double.
-pub(super) const DOUBLE_DIGITS: u32 = 17;
 
 /// What stands above the numbers.
 #[derive(Clone, Debug, Default)]

@@ -2,9 +2,9 @@
 
 use comfy_table::{CellAlignment, ContentArrangement, LineStyle, Table, presets};
 
-use super::record::{Finished, Head, Quantity, Record, Sample, bound_text, show};
+use super::record::{Finished, Head, Quantity, Record, Sample};
 use crate::history::Ending;
-use crate::number::Scalar;
+use crate::number::{Scalar, bound_text, show};
 
 /// A table with a header; numbers stand to the right.
 pub fn table(header: &[&str], rows: Vec<Vec<String>>, words: usize) -> String {

@@ -12,6 +12,12 @@ use crate::rod::Problem;
 /// Receives the round trip and the number of pieces from time to time.
 pub type Observer = Arc<dyn Fn(usize, usize) + Send + Sync>;
 
+/// An observer that does nothing.
+
+pub(crate) fn unobserved() -> Observer {
+    Arc::new(|_, _| ())
+}
+
 /// An engine that has run.
 pub(crate) type Engined<S> = Arc<dyn Engine<<S as Answer>::Carried>>;
 

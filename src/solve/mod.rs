@@ -22,7 +22,7 @@ mod raised;
 mod solution;
 mod stripped;
 
-pub(crate) use ladder::{Attempt, Ladder};
+pub(crate) use ladder::{Attempt, Ladder, unobserved};
 pub use ladder::{Observer, Target};
 pub use plan::{CERTIFIED_DIGITS, DEFAULT_ACCURACY, Engine, MAX_DIGITS, Plan, Reach, Rung};
 pub use question::{Numbers, Question, Want};

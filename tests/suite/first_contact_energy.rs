@@ -1,8 +1,9 @@
 //! Energies, restitution and flight.
 
 use dalembert::Number;
-use dalembert::first_contact::{FirstContact, UndampedContact};
+use dalembert::first_contact::FirstContact;
 use dalembert::number::Analytic;
+use dalembert::paper::UndampedContact;
 use dalembert::rod::Parameters;
 use serde_json::Value;
 

@@ -1,8 +1,8 @@
 //! The closed forms against the paper's own integrals, done by quadrature that shares no code with them.
 
-use dalembert::cost::printed::Printed;
 use dalembert::first_contact::FirstContact;
 use dalembert::history::Side;
+use dalembert::paper::Printed;
 use dalembert::rod::Parameters;
 
 #[test]

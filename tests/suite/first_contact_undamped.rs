@@ -1,8 +1,8 @@
 //! The paper's undamped formulas, against each other and against the balance laws, in fractions.
 
-use dalembert::first_contact::UndampedContact;
 use dalembert::history::Side;
 use dalembert::number::Scalar;
+use dalembert::paper::UndampedContact;
 use dalembert::rod::Parameters;
 use proptest::prelude::*;
 use rug::Rational;

@@ -1,30 +1,13 @@
-//! The first contact in doubles where it is hard: extremes of every parameter, times on a ray, thresholds, lost digits.
+//! The first contact in doubles at the extremes of every parameter. Single hard cases stand in the catalogue of
+//! `check`.
 
-use dalembert::first_contact::{Bounce, BounceKind, Estimate, FirstContact};
+use dalembert::first_contact::{Bounce, Estimate, FirstContact};
 use dalembert::history::Side;
 use dalembert::modal::Modal;
 use dalembert::rod::Parameters;
 
 fn rod(damping: f64, gravity: f64, length: f64, speed: f64) -> Parameters<f64> {
     Parameters { length, wave_speed: 1.0, damping, gravity, speed }
-}
-
-/// g = 0, R → π: terms of 10⁴⁰ add up to one, and the modes give the root without longer numbers.
-#[test]
-fn late_bounces_without_longer_numbers() {
-    for (damping, truth) in
-        [(3.13, 11.661_366_701_443_884), (3.135, 15.333_188_370_040_146), (3.14, 31.404_098_476_589_4)]
-    {
-        let contact = FirstContact::new(&rod(damping, 0.0, 0.5, 1.0));
-        let Bounce::At { time, kind, error } = contact.bounce_within(1e-9) else { panic!("{damping}") };
-        assert_eq!(kind, BounceKind::Root);
-        // dt_b/dr = (π/Ω³) r and more: the double nearest to r is up to 2.2·10⁻¹⁶ away.
-        let omega = ((std::f64::consts::PI - damping) * (std::f64::consts::PI + damping)).sqrt();
-        let input = 2.3e-16 * damping * std::f64::consts::PI / omega.powi(3);
-        println!("{damping}: {time} {error:e} {:e} {input:e}", time - truth);
-        assert!((time - truth).abs() <= error + input, "{damping}: {time} {error:e}");
-        assert!(error < 1e-9 * truth, "{damping}: {error:e}");
-    }
 }
 
 /// Values with their bounds: finite where the parameters are, and as far from the modes as both bounds allow. `value ±
@@ -87,28 +70,10 @@ fn strong_damping_diffuses() {
     }
 }
 
-/// The threshold of (2.32), from both sides, and how the root leaves t₁: `t_b − t₁ ≈ (deficit)/(slope)`.
+/// Below R = π the bounce is late, and never a rounding error; so close to π that it cannot be found, it is undecided.
+/// That there is none from π on stands in the catalogue of `check`.
 #[test]
-fn both_sides_of_the_threshold() {
-    let threshold = 2.593_644_954_560_194_4;
-    let bounce = |speed: f64| FirstContact::new(&rod(0.2, 1.0, 1.0, speed)).bounce_within(1e-10);
-    for step in [1e-12, 1e-9, 1e-6] {
-        let Bounce::At { time, kind, .. } = bounce(threshold + step) else { panic!("{step}") };
-        assert_eq!((time, kind), (2.0, BounceKind::Jump));
-        let Bounce::At { time, kind, error } = bounce(threshold - step) else { panic!("{step}") };
-        assert_eq!(kind, BounceKind::Root);
-        assert!(time > 2.0 && time < 2.0 + 10.0 * step, "{step}: {time}");
-        assert!(error < 2e-10, "{step}: {error:e}");
-    }
-}
-
-/// No bounce from π on; below it the bounce is late, and never a rounding error.
-#[test]
-fn both_sides_of_pi() {
-    for damping in [3.141_593, 3.15, 3.3, 10.0, 1e4] {
-        let never = FirstContact::new(&rod(damping, 0.0, 0.5, 1.0)).bounce_within(1e-9);
-        assert!(matches!(never, Bounce::Never { .. }), "{damping}: {never:?}");
-    }
+fn below_pi() {
     for damping in [2.0, 2.5, 2.9, 3.0, 3.1] {
         let found = FirstContact::new(&rod(damping, 0.0, 0.5, 1.0)).bounce_within(1e-9);
         let Bounce::At { time, .. } = found else { panic!("{damping}: {found:?}") };
@@ -116,7 +81,6 @@ fn both_sides_of_pi() {
         let (before, after) = (stress(time * (1.0 - 1e-7)), stress(time * (1.0 + 1e-7)));
         assert!(before.value < -before.error && after.value > after.error, "{damping}: {before:?} {after:?}");
     }
-    // So close to π that it cannot be found: said, not guessed.
     for damping in [3.141_592, 3.141_592_653_589_793] {
         let found = FirstContact::new(&rod(damping, 0.0, 0.5, 1.0)).bounce_within(1e-9);
         assert!(matches!(found, Bounce::Undecided { .. }), "{damping}: {found:?}");

@@ -5,11 +5,13 @@
 
 // mod certified_first_contact;
 // mod certified_undamped;
-// mod check_catalogue;
+#[cfg(feature = "cli")]
+mod check_catalogue;
 #[cfg(feature = "cli")]
 mod command;
 mod common;
-// mod cost_measured;
+#[cfg(feature = "cli")]
+mod cost_measured;
 mod damped_bounce;
 mod damped_history;
 mod damped_properties;
@@ -21,7 +23,7 @@ mod door;
 mod examples_run;
 mod first_contact_bounce;
 mod first_contact_energy;
-// mod first_contact_paper;
+mod first_contact_paper;
 mod first_contact_reference;
 #[cfg(feature = "mp")]
 mod first_contact_undamped;

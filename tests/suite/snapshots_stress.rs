@@ -4,8 +4,8 @@
 //! those of the case itself, from a closed form or worked out by hand.
 
 use crate::common::uniform;
-use dalembert::first_contact;
 use dalembert::lattice::Undamped;
+use dalembert::paper;
 use dalembert::rod::{Parameters, Run, Top};
 use dalembert::scene::builtin;
 use dalembert::{Ending, History, Problem, Scene, Side};
@@ -76,7 +76,7 @@ fn snapshot(name: &str, problem: &Problem) -> Exact {
 fn first_contact(name: &str, [length, wave_speed, gravity, speed]: [&str; 4]) -> Exact {
     let problem = uniform(length, wave_speed, gravity, speed, Run::Impacts(1));
     let history = snapshot(name, &problem);
-    let closed = first_contact::UndampedContact::new(&Parameters::<Rational>::of(&problem, &()).unwrap()).unwrap();
+    let closed = paper::UndampedContact::new(&Parameters::<Rational>::of(&problem, &()).unwrap()).unwrap();
     let bounce = closed.bounce_time();
     assert_eq!(contacts(&history), [(q(0, 1), bounce.clone())], "{name}: Corollary 1");
     for k in 0..=24 {

@@ -5,7 +5,7 @@ use dalembert::lattice::{Rays, Undamped, reflection};
 use dalembert::number::Scalar;
 use dalembert::quantity::{flights, restitution};
 use dalembert::rod::{Parameters, Profile, Run, Speed, Start, Top};
-use dalembert::{Ending, EventKind, History, Number, Problem, Side, first_contact};
+use dalembert::{Ending, EventKind, History, Number, Problem, Side, paper};
 use proptest::prelude::*;
 use rug::{Float, Rational};
 
@@ -90,7 +90,7 @@ proptest! {
         problem.run = Run::Impacts(1);
         let history = Exact::solve(&problem, &()).unwrap();
         let rod = Parameters::<Rational>::of(&problem, &()).unwrap();
-        let paper = first_contact::UndampedContact::new(&rod).unwrap();
+        let paper = paper::UndampedContact::new(&rod).unwrap();
         let bounce = paper.bounce_time();
         prop_assert_eq!(history.contacts()[0].to.as_ref(), Some(&bounce));
         for time in times(&history, 12) {
@@ -360,7 +360,7 @@ fn long_flights_are_leapt() {
     let history = Exact::solve(&problem, &()).unwrap();
     assert!(history.marched().trace.count() < 40, "{}", history.marched().trace.count());
     let rod = Parameters::<Rational>::of(&problem, &()).unwrap();
-    let paper = first_contact::UndampedContact::new(&rod).unwrap();
+    let paper = paper::UndampedContact::new(&rod).unwrap();
     // μ is a whole multiple of gL/c: the second contact undoes the vibration, and the third begins as the first.
     assert_eq!(history.end(), 4 * (100_000_000 + 1));
     for k in 0..200i64 {

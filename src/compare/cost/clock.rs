@@ -3,15 +3,17 @@
 use std::hint::black_box;
 use std::time::{Duration, Instant};
 
+use crate::compare::value::NoAnswer;
+
 /// How long something took, from repeated runs.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Timing {
+pub(crate) struct Timing {
     /// The median, seconds.
-    pub seconds: f64,
+    pub(crate) seconds: f64,
     /// The distance of the quartiles, seconds; `None` where it ran once.
-    pub spread: Option<f64>,
+    pub(crate) spread: Option<f64>,
     /// How many samples were taken.
-    pub runs: usize,
+    pub(crate) runs: usize,
 }
 
 /// A sample shorter than this is mostly the clock itself: short runs are timed many at a time.
@@ -26,6 +28,11 @@ impl Timing {
         let spread = (samples.len() > 1).then(|| at(0.75) - at(0.25));
         Timing { seconds: at(0.5), spread, runs: samples.len() }
     }
+}
+
+/// **Errors**: [`NoAnswer::Seconds`] for a budget that is no time.
+pub(super) fn check_budget(seconds: f64) -> Result<(), NoAnswer> {
+    if seconds > 0.0 && seconds <= 86_400.0 { Ok(()) } else { Err(NoAnswer::Seconds { found: seconds }) }
 }
 
 /// A quantile of sorted samples, linear between them.

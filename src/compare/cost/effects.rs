@@ -2,47 +2,46 @@
 
 use std::time::Instant;
 
-use super::CostError;
-use super::clock::{Timing, batch, quantile, sample};
-use crate::cells::{Damped, Joined, Reach};
-use crate::first_contact::FirstContact;
-use crate::history::History;
-use crate::lattice::Undamped;
+use super::clock::{Timing, batch, check_budget, quantile, sample};
+use crate::compare::route::{run_engine, run_planned};
+use crate::compare::value::NoAnswer;
+use crate::number::Number;
 use crate::rod::{Parameters, Problem, Run, Speed, Start, Top};
-use crate::scene::{Ask, Effect, Engine, Plan, Scene};
-use crate::solve::{Solution, solve};
+use crate::scene::{Effect, Scene};
+use crate::solve::Numbers;
 
 /// What one effect costs.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Difference {
+pub(crate) struct Difference {
     /// The effect; `None` for the plan itself, which decides what to leave out.
-    pub effect: Option<Effect>,
+    pub(crate) effect: Option<Effect>,
     /// Whether the scene calls for it.
-    pub called: bool,
+    pub(crate) called: bool,
     /// The scene as it is planned.
-    pub with: Timing,
-    /// The same with the effect switched off, which changes nothing where the scene does not call for it; for the plan itself, the
-    /// engine called directly.
-    pub without: Timing,
+    pub(crate) with: Timing,
+    /// The same with the effect switched off, which changes nothing where the scene does not call for it; for the plan
+    /// itself, the engine called directly.
+    pub(crate) without: Timing,
     /// The median of the differences of neighbouring runs, seconds.
-    pub seconds: f64,
+    pub(crate) seconds: f64,
     /// The distance of the quartiles of these differences, seconds.
-    pub spread: f64,
+    pub(crate) spread: f64,
 }
 
 impl Difference {
     /// The name in output: `damping`, or `plan`.
-    pub fn name(&self) -> &'static str {
+    pub(crate) fn name(&self) -> &'static str {
         self.effect.map_or("plan", Effect::name)
     }
 
-    /// What the median of the differences may be by chance, seconds: three times `spread/√runs`, near its standard deviation.
-    pub fn noise(&self) -> f64 {
+    /// What the median of the differences may be by chance, seconds: three times `spread/√runs`, near its standard
+    /// deviation.
+    pub(crate) fn noise(&self) -> f64 {
         3.0 * self.spread / (self.with.runs.max(1) as f64).sqrt()
     }
 
     /// Whether the difference cannot be told from nothing.
-    pub fn is_noise(&self) -> bool {
+    pub(crate) fn is_noise(&self) -> bool {
         self.seconds.abs() <= self.noise()
     }
 }
@@ -52,45 +51,43 @@ const MOST_PAIRS: usize = 201;
 const LIST: [Effect; 5] =
     [Effect::Damping, Effect::Gravity, Effect::RepeatedImpacts, Effect::FixedTop, Effect::FieldEnergies];
 
-/// The time that every effect and the plan itself cost `scene`, in about `seconds` in all. The energies of the field count as called for where `energies`
-/// says so: then one energy at the end of the history is part of the scene.
+/// The time that every effect and the plan itself cost `scene`, in about `seconds` in all. The energies of the field
+/// count as called for where `energies` says so: then one energy at the end of the history is part of the scene.
 ///
-/// **Accuracy**: medians of differences on this machine, now; [`Difference::is_noise`] says what is not to be told from nothing.
+/// **Accuracy**: medians of differences on this machine, now; [`Difference::is_noise`] says what is not to be told from
+/// nothing.
 ///
-/// **Errors**: [`CostError::Seconds`], and those of the solver.
-pub fn effects(
+/// **Errors**: [`NoAnswer::Seconds`], and those of the solver.
+pub(crate) fn effects(
     scene: &Scene,
     energies: bool,
     seconds: f64,
     mut observe: impl FnMut(f64, &str),
-) -> Result<Vec<Difference>, CostError> {
-    if !(seconds > 0.0 && seconds <= 86_400.0) {
-        return Err(CostError::Seconds { found: seconds });
-    }
-    let plan = Plan::of(scene, Ask::default())?;
+) -> Result<Vec<Difference>, NoAnswer> {
+    check_budget(seconds)?;
+    let numbers = Numbers::Double(scene.accuracy.as_ref().map(Number::to_f64));
+    let called_effects = scene.called_effects();
     let called = |effect: Effect| match effect {
         Effect::FieldEnergies => energies,
-        other => plan.effects.iter().any(|used| used.effect == other && used.called),
+        other => called_effects.contains(&other),
     };
     let slot = seconds / (LIST.len() + 1) as f64;
-    let with = || planned(&scene.problem, &plan, energies);
+    let with = || run_planned(&scene.problem, numbers, energies);
     let mut rows = Vec::with_capacity(LIST.len() + 1);
     for (k, effect) in LIST.into_iter().enumerate() {
         observe(k as f64 * slot / seconds, effect.name());
-        let mut other = scene.clone();
-        other.problem = switched_off(scene, effect)?;
-        let other_plan = Plan::of(&other, Ask::default())?;
+        let other = switched_off(scene, effect)?;
         let energies = energies && effect != Effect::FieldEnergies;
-        let difference = in_turns(slot, with, || planned(&other.problem, &other_plan, energies))?;
+        let difference = in_turns(slot, with, || run_planned(&other, numbers, energies))?;
         rows.push(Difference { effect: Some(effect), called: called(effect), ..difference });
     }
     observe(1.0 - slot / seconds, "the plan itself");
-    rows.push(in_turns(slot, with, || direct(&scene.problem, plan.engine, energies))?);
+    rows.push(in_turns(slot, with, || run_engine(&scene.problem, energies))?);
     Ok(rows)
 }
 
 /// The scene's problem without one effect.
-fn switched_off(scene: &Scene, effect: Effect) -> Result<Problem, CostError> {
+fn switched_off(scene: &Scene, effect: Effect) -> Result<Problem, NoAnswer> {
     let mut problem = scene.problem.clone();
     match effect {
         Effect::Damping => problem.rod.damping = None,
@@ -98,7 +95,7 @@ fn switched_off(scene: &Scene, effect: Effect) -> Result<Problem, CostError> {
             // The speed that a drop gave stays.
             if let Start::Uniform(Speed::DropHeight(_)) = problem.start {
                 let speed = format!("{:e}", Parameters::<f64>::of(&problem, &())?.speed);
-                let number = speed.parse().map_err(|_| CostError::GaveUp(format!("an impact speed of {speed}")))?;
+                let number = speed.parse().map_err(|_| NoAnswer::GaveUp(format!("an impact speed of {speed}")))?;
                 problem.start = Start::Uniform(Speed::Given(number));
             }
             problem.gravity = None;
@@ -110,39 +107,12 @@ fn switched_off(scene: &Scene, effect: Effect) -> Result<Problem, CostError> {
     Ok(problem)
 }
 
-/// Runs the plan, and asks for an energy at the end if told so.
-fn planned(problem: &Problem, plan: &Plan, energies: bool) -> Result<f64, CostError> {
-    match solve(problem, plan, |_, _| ())? {
-        Solution::Double(history) => finish(history.as_ref(), energies),
-        #[cfg(feature = "mp")]
-        _ => Ok(0.0),
-    }
-}
-
-/// The engine past the plan, as the plan would call it.
-fn direct(problem: &Problem, engine: Engine, energies: bool) -> Result<f64, CostError> {
-    // Boxed as a plan's history is: the allocation is none of an effect's.
-    let history: Box<dyn History<f64>> = match engine {
-        Engine::Lattice => Box::new(Undamped::<f64>::solve(problem, &())?),
-        Engine::Cells if problem.has_closed_form() => {
-            let bounce = FirstContact::new(&Parameters::<f64>::of(problem, &())?).bounce_within(1e-13);
-            Box::new(Joined::<f64>::solve(problem, &(), 13.0, bounce, Reach::Run)?)
-        }
-        Engine::Cells => Box::new(Damped::<f64>::solve(problem, &(), 13.0)?),
-    };
-    finish(history.as_ref(), energies)
-}
-
-fn finish(history: &dyn History<f64>, energies: bool) -> Result<f64, CostError> {
-    if energies { Ok(history.energy(&history.end())?.total) } else { Ok(history.end()) }
-}
-
 /// Both in turns, so that what slows the machine slows both.
 fn in_turns(
     slot: f64,
-    with: impl Fn() -> Result<f64, CostError>,
-    without: impl Fn() -> Result<f64, CostError>,
-) -> Result<Difference, CostError> {
+    with: impl Fn() -> Result<f64, NoAnswer>,
+    without: impl Fn() -> Result<f64, NoAnswer>,
+) -> Result<Difference, NoAnswer> {
     let start = Instant::now();
     with()?;
     without()?;

@@ -19,7 +19,7 @@ use crate::rod::Parameters;
 /// **Accuracy**: *exact* in fractions; a rounding for each operation otherwise.
 ///
 /// ```
-/// # use dalembert::{Number, Problem, rod::Parameters, first_contact::UndampedContact};
+/// # use dalembert::{Number, Problem, rod::Parameters, paper::UndampedContact};
 /// // L = c = g = 1: μ₀ = 2, so μ = 1 stays on the ground for 2t₁ − μ/g = 3.
 /// let problem = Problem::uniform(Number::from(1), Number::from(1), Number::from(1), Number::from(1));
 /// let rod = UndampedContact::new(&Parameters::<f64>::of(&problem, &())?).unwrap();
@@ -198,7 +198,7 @@ impl<S: Scalar> UndampedContact<S> {
     /// **Errors**: `None` where `g = 0`: the flight has no top.
     ///
     /// ```
-    /// # use dalembert::{Number, Problem, rod::Parameters, first_contact::UndampedContact};
+    /// # use dalembert::{Number, Problem, rod::Parameters, paper::UndampedContact};
     /// let problem = Problem::uniform(Number::from(1), Number::from(1), Number::from(1), Number::from(4));
     /// let rod = UndampedContact::new(&Parameters::<f64>::of(&problem, &())?).unwrap();
     /// assert_eq!(rod.highest(), Some((6.0, 8.0 - 2.0 / 3.0)));

@@ -1,0 +1,22 @@
+//! What accuracy costs in time: one quantity of one scene by every route that can give it, measured on the spot, with
+//! the true error of each; and what each effect of a scene costs.
+//!
+//! | module | |
+//! |---|---|
+//! | `ladder` | every route at every setting, the cheapest first |
+//! | `work` | which of them fit into the time, and the table of what they cost |
+//! | `clock` | medians and spreads |
+//! | `effects` | the same scene with each effect switched off |
+//! | `differences` | finite differences along the characteristics |
+
+mod clock;
+pub(crate) mod differences;
+mod effects;
+mod ladder;
+mod work;
+
+pub(crate) use clock::Timing;
+pub(crate) use effects::{Difference, effects};
+#[cfg(feature = "plot")]
+pub(crate) use ladder::Family;
+pub(crate) use work::{Row, Table, work_precision};

@@ -1,0 +1,30 @@
+//! Routes to an answer, held against each other and against the truth: what `dalembert check` and `dalembert cost`
+//! share.
+//!
+//! | module | |
+//! |---|---|
+//! | `value` | a number in any number system, and what two of them have in common |
+//! | `quantity` | what can be asked of a rod |
+//! | `motion` | the accounts of a motion that can be asked |
+//! | `route` | every route to an answer |
+//! | `truth` | what answers are held against |
+//! | `long` | all that needs numbers longer than doubles |
+//! | [`check`] | the catalogue of hard cases and of the paper's claims |
+//! | [`cost`] | what accuracy and effects cost in time |
+
+pub(crate) mod check;
+pub(crate) mod cost;
+#[cfg(feature = "mp")]
+mod long;
+#[cfg(not(feature = "mp"))]
+#[path = "without_long.rs"]
+mod long;
+mod motion;
+mod quantity;
+mod route;
+mod truth;
+mod value;
+
+pub(crate) use quantity::{Quantity, Question};
+pub(crate) use route::plan;
+pub(crate) use truth::RightDigits;

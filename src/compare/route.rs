@@ -1,0 +1,164 @@
+//! Every route to an answer, and the one function that runs it.
+
+use super::cost::differences::march;
+use super::long;
+use super::motion::ByClosedForm;
+use super::quantity::{Quantity, Question};
+use super::value::{Answer, Bounded, NoAnswer, Value};
+use crate::cells::Damped;
+use crate::first_contact::{Bounce, FirstContact};
+use crate::lattice::Undamped;
+use crate::modal::Modal;
+use crate::number::Scalar;
+use crate::paper::Printed;
+use crate::rod::{Parameters, Problem, Run};
+pub(crate) use crate::solve::Numbers;
+use crate::solve::{self, Plan, Solution, Want};
+
+/// A formula in many digits; its argument makes `p/q` in that many.
+pub(crate) type LongFormula = fn(&dyn Fn(i32, i32) -> long::Digits) -> long::Digits;
+
+/// A route at a setting.
+#[derive(Clone, Copy, Debug)]
+pub(crate) enum Route {
+    /// A formula in plain doubles, as it stands in print or as a reader would program it.
+    Formula(&'static str, fn() -> f64),
+    /// A formula in numbers of so many digits.
+    LongFormula(&'static str, u32, LongFormula),
+    /// The closed form of the first contact. In doubles without an accuracy the bounce is searched on the sum over rays
+    /// alone.
+    ClosedForm(Numbers),
+    /// The paper's closed forms of `r = 0`, in fractions.
+    PrintedForms,
+    /// The paper's integrals by quadrature to this tolerance, in doubles.
+    PrintedIntegrals(f64),
+    /// The sum of so many modes, in doubles.
+    Modes(u32),
+    /// The lattice, in doubles or in fractions.
+    Lattice(Numbers),
+    /// Characteristic cells from the start, to so many digits, in doubles.
+    Cells(u32),
+    /// Finite differences with so many cells.
+    Differences(usize),
+    /// What the plan does when these numbers are asked for.
+    Planned(Numbers),
+}
+
+impl Route {
+    /// Whether it needs numbers longer than doubles.
+    pub(crate) fn is_long(self) -> bool {
+        match self {
+            Route::ClosedForm(numbers) | Route::Lattice(numbers) => !matches!(numbers, Numbers::Double(_)),
+            // An accuracy may take more than doubles.
+            Route::Planned(numbers) => numbers != Numbers::Double(None),
+            Route::LongFormula(..) | Route::PrintedForms => true,
+            _ => false,
+        }
+    }
+
+    /// The answer of this route to `question`, in about so many seconds where it can stop itself.
+    pub(crate) fn run(self, question: &Question, seconds: f64) -> Result<Answer, NoAnswer> {
+        let problem = &question.problem;
+        match self {
+            Route::Formula(_, formula) => Ok(Bounded::unbounded(Value::Double(formula()))),
+            Route::ClosedForm(Numbers::Double(None)) => {
+                let rod = Parameters::<f64>::of(problem, &())?;
+                question.ask(&rod, &ByClosedForm::new(&rod, FirstContact::bounce))
+            }
+            Route::ClosedForm(Numbers::Double(Some(accuracy))) => {
+                let rod = Parameters::of(problem, &())?;
+                question.ask(&rod, &ByClosedForm::new(&rod, |contact| contact.bounce_within(accuracy)))
+            }
+            Route::Lattice(Numbers::Double(_)) => question.ask_history(&Undamped::<f64>::solve(problem, &())?),
+            Route::Cells(digits) => question.ask_history(&Damped::<f64>::solve(problem, &(), f64::from(digits))?),
+            Route::Modes(modes) => {
+                let rod = Parameters::of(problem, &())?;
+                question.ask(&rod, &Modal::<f64>::new(&rod, modes))
+            }
+            Route::PrintedIntegrals(tolerance) => {
+                let rod = Parameters::of(problem, &())?;
+                let printed = Printed::new(&rod, tolerance).limited_to(seconds);
+                let answer = question.ask(&rod, &printed);
+                if printed.is_late() { Err(NoAnswer::gave_up("the nested integrals take too long")) } else { answer }
+            }
+            Route::Differences(cells) => question.ask(&Parameters::<f64>::of(problem, &())?, &march(problem, cells)?),
+            Route::Planned(numbers) => {
+                if matches!(numbers, Numbers::Certified(_)) && problem.rod.damping.is_some() {
+                    within_first_contact(question)
+                        .map_err(|why| NoAnswer::GaveUp(format!("{why}: only that is proved under damping")))?;
+                }
+                question.ask_solution(&planned(question, numbers)?)
+            }
+            _ => long::run(self, question),
+        }
+    }
+}
+
+/// What the solver is asked so that it answers `question`, and no more.
+fn asked(question: &Question, numbers: Numbers) -> solve::Question {
+    let want = match (&question.time, question.quantity) {
+        (_, Quantity::LastEvent | Quantity::Impact | Quantity::Release) => Want::Run,
+        (_, Quantity::TopTime | Quantity::TopHeight) => Want::Run,
+        (Some(time), _) => {
+            let from = question.from.and_then(|from| from.to_string().parse().ok());
+            Want::Between(from.unwrap_or_else(|| time.clone()), time.clone())
+        }
+        (None, _) => Want::FirstContact,
+    };
+    solve::Question { want, numbers }
+}
+
+/// The plan that answers `question` in these numbers.
+pub(crate) fn plan(question: &Question, numbers: Numbers) -> Result<Plan, NoAnswer> {
+    Ok(Plan::of(&question.problem, &asked(question, numbers))?)
+}
+
+/// The solution of `question` as its plan runs it.
+fn planned(question: &Question, numbers: Numbers) -> Result<Solution, NoAnswer> {
+    Ok(plan(question, numbers)?.solve(&question.problem, solve::unobserved())?)
+}
+
+/// Whether the first contact alone answers, and if so as long as it lasts.
+///
+/// **Errors**: why not.
+pub(crate) fn within_first_contact(question: &Question) -> Result<(), String> {
+    let problem = &question.problem;
+    if !problem.has_closed_form() {
+        return Err("the start or the top is not the paper's, so the first contact has no closed form".into());
+    }
+    if question.quantity == Quantity::LastEvent {
+        return match problem.run {
+            Run::Impacts(1) => Ok(()),
+            _ => Err("it covers the first contact only".into()),
+        };
+    }
+    let Some(time) = &question.time else { return Ok(()) };
+    let rod = Parameters::<f64>::of(problem, &()).map_err(|error| error.to_string())?;
+    match FirstContact::new(&rod).bounce_within(1e-10) {
+        Bounce::At { time: end, .. } if time.to_f64() > end * (1.0 + 1e-12) => {
+            Err(format!("it covers the first contact only, which ends at t = {end:.6}"))
+        }
+        Bounce::Undecided { until, .. } if time.to_f64() > until => {
+            Err(format!("it is undecided whether the first contact lasts beyond t = {until:.6}"))
+        }
+        _ => Ok(()),
+    }
+}
+
+/// The whole run of `problem` in doubles as its plan does it, with the energy at its end if that is asked for.
+pub(crate) fn run_planned(problem: &Problem, numbers: Numbers, energies: bool) -> Result<f64, NoAnswer> {
+    let plan = Plan::of(problem, &solve::Question::run(numbers))?;
+    match plan.solve(problem, solve::unobserved())? {
+        Solution::Double(history) if energies => Ok(history.energy(*history.end())?.total),
+        Solution::Double(history) => Ok(*history.end()),
+        _ => Err(NoAnswer::gave_up("effects are measured in doubles")),
+    }
+}
+
+/// The same by calling the engine that the plan calls.
+pub(crate) fn run_engine(problem: &Problem, energies: bool) -> Result<f64, NoAnswer> {
+    let plan = Plan::of(problem, &solve::Question::run(Numbers::Double(None)))?;
+    let engine = <f64 as solve::Target>::run(problem, &plan, plan.rung, &solve::unobserved())?;
+    let end = engine.end();
+    Ok(if energies { engine.energy(&end)?.total.to_f64() } else { end.to_f64() })
+}

@@ -1,0 +1,150 @@
+//! What answers are held against: a number that the catalogue spells, or one that the best route computes.
+
+use super::long;
+use super::quantity::Question;
+use super::route::{Numbers, Route, within_first_contact};
+use super::value::{NoAnswer, Value};
+use crate::number::Number;
+
+/// A number and how far it may be from the truth.
+#[derive(Clone, Debug)]
+pub(crate) struct Truth {
+    pub(crate) value: Value,
+    /// `log₁₀` of what it may be off, −∞ where it is exact. Where that is not proved it is twice what separates two
+    /// computations with different precision, one far beyond the other.
+    pub(crate) log10_half_width: f64,
+    /// Whether the value is exact or enclosed, not estimated.
+    pub(crate) proved: bool,
+    /// The decimal place of the last digit of a truth that is spelt.
+    last_place: Option<i32>,
+}
+
+/// How many digits of an answer are right.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) enum RightDigits {
+    /// None can be counted: there is no number.
+    NoNumber,
+    /// `−log₁₀` of the relative error, as far as the truth is known.
+    Digits(f64),
+    /// The truth itself.
+    All,
+}
+
+impl RightDigits {
+    /// As a number: infinite for the truth itself, zero where there is nothing to count.
+    pub(crate) fn count(self) -> f64 {
+        match self {
+            RightDigits::NoNumber => 0.0,
+            RightDigits::Digits(digits) => digits,
+            RightDigits::All => f64::INFINITY,
+        }
+    }
+}
+
+impl Truth {
+    /// The truth that `text` spells: an integer or a fraction is exact, a decimal is right to a unit of its last digit.
+    /// `None` for what is no number.
+    pub(crate) fn spelt(text: &str) -> Option<Self> {
+        let number: Number = text.parse().ok()?;
+        let (mantissa, exponent) = text.split_once('e').unwrap_or((text, "0"));
+        // A whole unit: the last digit may have been cut instead of rounded.
+        let last_place = mantissa.split_once('.').map(|(_, after)| exponent.parse().unwrap_or(0) - after.len() as i32);
+        let log10_half_width = last_place.map_or(f64::NEG_INFINITY, f64::from);
+        Some(Truth { value: long::exact(&number), log10_half_width, proved: true, last_place })
+    }
+
+    /// The answer to `question` with `digits` decimal digits or more: a fraction where the undamped run stays in
+    /// fractions, else an enclosure where there is one, else twice in long numbers, by the closed form where it reaches
+    /// and by the planned engine elsewhere. A build without long numbers has its best doubles.
+    ///
+    /// **Errors**: those of the solver; [`NoAnswer::NoSuchQuantity`].
+    pub(crate) fn computed(question: &Question, digits: u32) -> Result<Self, NoAnswer> {
+        let of = |value: Value, log10_half_width: f64, proved: bool| {
+            Ok(Truth { value, log10_half_width, proved, last_place: None })
+        };
+        let run = |route: Route| route.run(question, f64::INFINITY).map(|answer| answer.value);
+        if !long::AVAILABLE {
+            let value = run(Route::Planned(Numbers::Double(None)))?;
+            let log10_half_width = (value.to_f64().abs() * 1e-13).log10();
+            return of(value, log10_half_width, false);
+        }
+        if question.problem.rod.damping.is_none()
+            && let Ok(value) = run(Route::Lattice(Numbers::Exact))
+        {
+            return of(value, f64::NEG_INFINITY, true);
+        }
+        if let Ok(value) = run(Route::Planned(Numbers::Certified(digits)))
+            && let Some(log10_half_width) = value.log10_radius()
+        {
+            return of(value, log10_half_width, true);
+        }
+        let by_closed_form = within_first_contact(question).is_ok();
+        let run = |digits: u32| {
+            run(if by_closed_form {
+                Route::ClosedForm(Numbers::Digits(digits + 15))
+            } else {
+                Route::Planned(Numbers::Digits(digits))
+            })
+        };
+        // Rays that cancel, or a root that is double, take digits: each attempt has more of them.
+        let mut more = 0;
+        loop {
+            let (near, value) = (run(digits + more)?, run(digits + more + more / 4 + 12)?);
+            let log10_half_width = near.log10_apart(&value) + std::f64::consts::LOG10_2;
+            let scale = value.to_f64().abs().log10().max(-290.0);
+            // Equal to the last bit: no better than the shorter of the two.
+            let log10_half_width = log10_half_width.max(scale - f64::from(digits + more) - 12.0);
+            if log10_half_width <= scale - f64::from(digits) || more >= 4 * digits.max(50) {
+                return of(value, log10_half_width, false);
+            }
+            more = (2 * more).max(digits / 2 + 20);
+        }
+    }
+
+    /// `log₁₀` of what errors are relative to: the truth itself, or 1 where that is zero.
+    pub(crate) fn log10_scale(&self) -> f64 {
+        let scale = self.value.to_f64().abs().log10();
+        if scale.is_finite() { scale } else { 0.0 }
+    }
+
+    /// `log₁₀` of the relative error of `value`, −∞ where there is none.
+    pub(crate) fn log10_error(&self, value: &Value) -> f64 {
+        value.log10_apart(&self.value) - self.log10_scale()
+    }
+
+    /// Digits to which an answer can be compared with it.
+    pub(crate) fn most_digits(&self) -> f64 {
+        self.log10_scale().floor() - self.log10_half_width
+    }
+
+    /// How many digits of `value` are right: of an enclosure those that both ends have in common with the truth, none
+    /// where it lies outside.
+    pub(crate) fn right_digits(&self, value: &Value) -> RightDigits {
+        let log10_error = match value.log10_radius() {
+            None => self.log10_error(value),
+            Some(_) if !long::holds(value, &self.value, self.last_place) => f64::INFINITY,
+            Some(radius) => radius - self.log10_scale(),
+        };
+        if log10_error == f64::NEG_INFINITY && self.log10_half_width == f64::NEG_INFINITY {
+            return RightDigits::All;
+        }
+        RightDigits::Digits((-log10_error).clamp(0.0, self.most_digits()))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    #![allow(clippy::unwrap_used)]
+    use super::*;
+
+    #[test]
+    fn a_truth_is_as_exact_as_it_is_spelt() {
+        let digits = |truth: &str, value: f64| Truth::spelt(truth).unwrap().right_digits(&Value::Double(value));
+        assert_eq!(digits("2", 2.0), RightDigits::All);
+        assert_eq!(digits("5/2", 2.5), RightDigits::All);
+        assert_eq!(digits("2.500", 2.5), RightDigits::Digits(3.0));
+        assert_eq!(digits("2", f64::NAN), RightDigits::Digits(0.0));
+        assert!((digits("2", 2.002).count() - 3.0).abs() < 1e-12);
+        assert!(Truth::spelt("no bounce").is_none());
+    }
+}
