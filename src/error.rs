@@ -143,3 +143,11 @@ pub enum Error {
         bits: u32,
     },
 }
+
+impl Error {
+    /// [`Error::NotDecided`], which counts as an open comparison.
+    pub(crate) fn not_decided(what: &'static str, bits: Option<u32>) -> Self {
+        crate::number::undecided();
+        Error::NotDecided { what, bits: bits.unwrap_or(0) }
+    }
+}

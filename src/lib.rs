@@ -10,9 +10,8 @@
 //! | [`scene`] | from a scene file to a problem; which effects it calls for; the plan |
 //! | [`solve`](mod@solve) | the engine that the plan chose, in the numbers that it chose |
 //! | [`lattice`] | the undamped rod, from event to event on the characteristic lattice |
-//! | [`first_contact`] | the damped first contact in closed form, the bounce time or why there is none |
+//! | [`first_contact`] | the first contact in closed form, the bounce time or why there is none, in estimates and enclosures |
 //! | [`damped`] | the damped rod through any number of impacts, in characteristic cells |
-//! | `certified` | enclosures: numbers that are proved (feature `mp`) |
 //! | [`history`] | what a solution is, and everything that can be asked of it |
 //! | [`modal`] | the modal sum of the first contact: a third route to the same numbers |
 //! | [`quantity`] | restitution and flights |
@@ -33,8 +32,6 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
-#[cfg(feature = "mp")]
-pub mod certified;
 pub mod check;
 #[cfg(feature = "cli")]
 pub mod cli;

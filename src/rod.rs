@@ -1,7 +1,7 @@
 //! The rod, the ground and the start: what is solved, in exact numbers, and the parameters that follow from it.
 
 use crate::error::Error;
-use crate::number::{Number, Scalar};
+use crate::number::{Answer, Number, Scalar};
 
 /// The initial-boundary-value problem: `v_tt + 2r v_t − c² v_xx = −g` on `0 < x < L`, unilateral contact at `x = 0`.
 ///
@@ -181,5 +181,24 @@ impl<S: Scalar> Parameters<S> {
     /// `μ₀ = g t₁`: the speed that gravity gives in a round trip. At `μ ≥ μ₀` an undamped first contact lasts exactly `t₁`.
     pub fn critical_speed(&self) -> S {
         self.round_trip() * &self.gravity
+    }
+}
+
+impl<S: Answer> Parameters<S> {
+    /// The same parameters, taken for exact, in the numbers that computations carry.
+    ///
+    /// ```
+    /// # use dalembert::rod::Parameters;
+    /// let rod = Parameters { length: 1.0, wave_speed: 1.0, damping: 0.1, gravity: 1.0, speed: 3.0 };
+    /// assert_eq!(rod.carry().damping.error(), 0.0);
+    /// ```
+    pub fn carry(&self) -> Parameters<S::Carried> {
+        Parameters {
+            length: self.length.carry(),
+            wave_speed: self.wave_speed.carry(),
+            damping: self.damping.carry(),
+            gravity: self.gravity.carry(),
+            speed: self.speed.carry(),
+        }
     }
 }

@@ -3,9 +3,9 @@
 
 use crate::first_contact::FirstContact;
 use crate::history::Side;
-use crate::number::Analytic;
+use crate::number::Answer;
 use crate::rod::Parameters;
-use crate::special::{gauss_legendre, i0_scaled, i1_scaled};
+use crate::special::{Special, gauss_legendre, i0_scaled, i1_scaled};
 
 /// `I_n(z)`, n = 0 or 1, by its series.
 pub(super) fn bessel(n: u32, z: f64) -> f64 {
@@ -146,7 +146,7 @@ pub(super) fn second_kind(z: f64) -> f64 {
 }
 
 /// `I₀⁻¹(2)`, by Newton's method.
-pub(super) fn inverse_bessel<S: Analytic>(like: &S) -> S {
+pub(super) fn inverse_bessel<S: Special>(like: &S) -> S {
     let mut z = like.ratio(9, 5);
     for _ in 0..10 {
         let (value, slope) = (i0_scaled(&z), i1_scaled(&z));
@@ -156,7 +156,7 @@ pub(super) fn inverse_bessel<S: Analytic>(like: &S) -> S {
 }
 
 /// The right-hand side of (2.32) in closed form: `μ₀ (I₀(R) + I₁(R))/(2 − I₀(R))` with `μ₀ = 2`.
-pub(super) fn threshold<S: Analytic>(r: &S) -> S {
+pub(super) fn threshold<S: Special>(r: &S) -> S {
     let round_trip = r.int(2) * r;
     let (i0, i1) = (i0_scaled(&round_trip), i1_scaled(&round_trip));
     let two = r.int(2) * &(-round_trip).exp();
@@ -165,7 +165,7 @@ pub(super) fn threshold<S: Analytic>(r: &S) -> S {
 
 #[cfg(feature = "mp")]
 /// `lim e_E` for `μ → ∞` and `t_b = t₁ = 2`: `2e^{−R}(I₀(R) − I₁(R)) − e^{−2R}`.
-pub(super) fn limit<S: Analytic>(r: &S) -> S {
+pub(super) fn limit<S: Special>(r: &S) -> S {
     let round_trip = r.int(2) * r;
     let decay = (-(round_trip.clone() * &r.int(2))).exp();
     (i0_scaled(&round_trip) - i1_scaled(&round_trip)) * &r.int(2) - decay
@@ -180,24 +180,24 @@ pub(super) fn decimal(text: &str, bits: u32) -> rug::Float {
 
 /// `E − E_h` at `t₁`, both summed first.
 pub(super) fn energy_difference(rod: &Parameters<f64>) -> f64 {
-    let contact = FirstContact::new(rod);
+    let contact = FirstContact::new(&rod.carry());
     let end = rod.round_trip();
-    let (height, rate) = contact.centre(&end);
-    let moving = rod.length * (0.5 * rate.value * rate.value + rod.gravity * height.value);
+    let (height, rate) = contact.centre(&end.carry());
+    let moving = rod.length * (0.5 * rate.value() * rate.value() + rod.gravity * height.value());
     let density = |x: f64| {
-        let (field, _) = contact.field(&x, &end, Side::Left);
-        let strain = rod.wave_speed * field.strain;
-        0.5 * (field.velocity * field.velocity + strain * strain) + rod.gravity * field.displacement
+        let field = contact.field(&x.carry(), &end.carry(), Side::Left);
+        let (velocity, strain) = (field.velocity.value(), rod.wave_speed * field.strain.value());
+        0.5 * (velocity * velocity + strain * strain) + rod.gravity * field.displacement.value()
     };
     integral(0.0, rod.length, &[], density) - moving
 }
 
 /// `E(0) − 2r ∫₀ᵗ∫ v_t² dx dt`, c = L = 1, t < 2. **Source**: (3.55), integrated.
 pub(super) fn energy_left(rod: &Parameters<f64>, t: f64) -> f64 {
-    let contact = FirstContact::new(rod);
+    let contact = FirstContact::new(&rod.carry());
     let motion = |time: f64| {
         let ray = if time < 1.0 { time } else { 2.0 - time };
-        integral(0.0, 1.0, &[ray], |x| contact.field(&x, &time, Side::Right).0.velocity.powi(2))
+        integral(0.0, 1.0, &[ray], |x| contact.field(&x.carry(), &time.carry(), Side::Right).velocity.value().powi(2))
     };
     0.5 * rod.speed * rod.speed - 2.0 * rod.damping * integral(0.0, t, &[1.0], motion)
 }

@@ -2,14 +2,15 @@
 
 use super::value::{Answer, Answers, Trouble};
 use crate::damped::Damped;
-use crate::first_contact::{Bounce, Estimate, FirstContact, UndampedContact};
+use crate::first_contact::{Bounce, FirstContact, UndampedContact};
 use crate::history::{Ending, EventKind, History, Side};
 use crate::lattice::Undamped;
 use crate::modal::Modal;
-use crate::number::{Analytic, Number, Scalar};
+use crate::number::{Estimate, Number, Scalar};
 use crate::rod::{Parameters, Problem, Run};
 use crate::scene::{Engine, Plan, System};
-use crate::solve::{Solution, solve};
+use crate::solve::{Solution, bounce_within, solve};
+use crate::special::RoundedSpecial;
 
 /// The rod of a question, as a person would write it: `c = 1` unless said otherwise.
 #[derive(Clone, Copy, Debug)]
@@ -201,7 +202,7 @@ impl Route {
             #[cfg(feature = "mp")]
             Route::Long(..) => not_here("of a rod"),
             Route::Rays => by_rays::<f64>(problem, &(), of, FirstContact::bounce),
-            Route::Within(accuracy) => by_rays::<f64>(problem, &(), of, |contact| contact.bounce_within(accuracy)),
+            Route::Within(accuracy) => by_rays::<f64>(problem, &(), of, |contact| bounce_within(contact, accuracy)),
             Route::Modes => by_modes(problem, of),
             Route::Lattice => answered(of_history(&Undamped::<f64>::solve(problem, &())?, of)),
             Route::Cells => answered(of_history(&Damped::<f64>::solve(problem, &(), CELL_DIGITS)?, of)),
@@ -221,7 +222,7 @@ impl Route {
                     problem,
                     digits,
                     ask,
-                    |found| found.iter().map(|e| &e.value).collect(),
+                    |found| found.iter().map(|e| &e.0).collect(),
                     |_, _| (),
                 );
                 answered(found)
@@ -245,12 +246,12 @@ const SPARE_BITS: u32 = 32;
 /// Modes that are summed.
 const MODES: u32 = 2048;
 
-/// `None`: there is no bounce.
-type Found<S> = Result<Option<Estimate<S>>, Trouble>;
+/// A value and its bound; `None`: there is no bounce.
+type Found<S> = Result<Option<(S, f64)>, Trouble>;
 
 fn answered<S: Answers>(found: Found<S>) -> Result<Answer, Trouble> {
     Ok(match found? {
-        Some(estimate) => estimate.into(),
+        Some((value, bound)) => Answer { value: value.value(), bound },
         None => Answer { value: super::Value::NoBounce, bound: 0.0 },
     })
 }
@@ -264,13 +265,13 @@ fn not_here<T>(what: &str) -> Result<T, Trouble> {
 }
 
 /// By the closed forms over rays.
-fn by_rays<S: Analytic + Answers>(
+fn by_rays<S: RoundedSpecial + Answers>(
     problem: &Problem,
     precision: &S::Precision,
     of: Of,
-    search: impl FnOnce(&FirstContact<S>) -> Bounce<S>,
+    search: impl FnOnce(&FirstContact<Estimate<S>>) -> Bounce<Estimate<S>>,
 ) -> Result<Answer, Trouble> {
-    let rod = Parameters::<S>::of(problem, precision)?;
+    let rod = Parameters::<S>::of(problem, precision)?.carry();
     let contact = FirstContact::new(&rod);
     let bounce = search(&contact);
     if matches!(of, Of::Bounce) {
@@ -281,64 +282,40 @@ fn by_rays<S: Analytic + Answers>(
         _ => None,
     };
     let released = || released.clone().ok_or_else(|| Trouble("no bounce".into()));
-    let at = |time: Time| if time == AT_BOUNCE { released() } else { lift::<S>(time, precision) };
-    let known = |value: S| {
-        let error = value.to_f64().abs() * 2f64.powf(value.log2_roundoff() + 6.0);
-        Estimate { value, error }
+    let exact = |text: &str| Ok::<_, Trouble>(lift::<S>(text, precision)?.carry());
+    let at = |time: Time| if time == AT_BOUNCE { released() } else { exact(time) };
+    let motion = |time: Time| {
+        let time = at(time)?;
+        Ok::<_, Trouble>(match released() {
+            Ok(end) if time > end => contact.rebound(&end).flight(&time),
+            _ => contact.centre(&time),
+        })
     };
     let estimate = match of {
         Of::Bounce | Of::Event(..) | Of::Constant | Of::StressJump(_) | Of::VelocityJump(..) | Of::StrainJump(..) => {
             return not_here("for that");
         }
         Of::Stress(time, side) => contact.stress(&at(time)?, side),
-        Of::Displacement(x, time) => {
-            let (field, errors) = contact.field(&lift(x, precision)?, &at(time)?, Side::Right);
-            Estimate { value: field.displacement, error: errors[0] }
-        }
-        Of::Velocity(x, time, side) => {
-            let (field, errors) = contact.field(&lift(x, precision)?, &at(time)?, side);
-            Estimate { value: field.velocity, error: errors[1] }
-        }
-        Of::Strain(x, time, side) => {
-            let (field, errors) = contact.field(&lift(x, precision)?, &at(time)?, side);
-            Estimate { value: field.strain, error: errors[2] }
-        }
-        Of::Centre(time) => {
-            let time = at(time)?;
-            if released().is_ok_and(|end| time > end) {
-                known(contact.rebound(&released()?).flight(&time).0)
-            } else {
-                contact.centre(&time).0
-            }
-        }
-        Of::Momentum(time) => {
-            let time = at(time)?;
-            let rate = if released().is_ok_and(|end| time > end) {
-                known(contact.rebound(&released()?).flight(&time).1)
-            } else {
-                contact.centre(&time).1
-            };
-            Estimate { error: rate.error * rod.length.to_f64(), value: rate.value * &rod.length }
-        }
-        Of::Energy(time) => {
-            let (energy, errors) = contact.energy(&at(time)?);
-            Estimate { value: energy.total, error: errors[0] }
-        }
-        Of::Translational(time) => {
-            let (energy, errors) = contact.energy(&at(time)?);
-            Estimate { value: energy.translational, error: errors[1] }
-        }
-        Of::Vibrational(time) => {
-            let (energy, errors) = contact.energy(&at(time)?);
-            Estimate { value: energy.vibrational, error: errors[2] }
-        }
-        _ => known(after_bounce(&contact, &rod.damping, &released()?, of)?),
+        Of::Displacement(x, time) => contact.field(&exact(x)?, &at(time)?, Side::Right).displacement,
+        Of::Velocity(x, time, side) => contact.field(&exact(x)?, &at(time)?, side).velocity,
+        Of::Strain(x, time, side) => contact.field(&exact(x)?, &at(time)?, side).strain,
+        Of::Centre(time) => motion(time)?.0,
+        Of::Momentum(time) => motion(time)?.1 * &rod.length,
+        Of::Energy(time) => contact.energy(&at(time)?).total,
+        Of::Translational(time) => contact.energy(&at(time)?).translational,
+        Of::Vibrational(time) => contact.energy(&at(time)?).vibrational,
+        _ => after_bounce(&contact, &rod.damping, &released()?, of)?,
     };
     Ok(estimate.into())
 }
 
 /// What is asked of the bounce as a whole.
-fn after_bounce<S: Analytic>(contact: &FirstContact<S>, damping: &S, end: &S, of: Of) -> Result<S, Trouble> {
+fn after_bounce<S: RoundedSpecial>(
+    contact: &FirstContact<Estimate<S>>,
+    damping: &Estimate<S>,
+    end: &Estimate<S>,
+    of: Of,
+) -> Result<Estimate<S>, Trouble> {
     let none = || Trouble("undefined".into());
     let rebound = contact.rebound(end);
     match of {
@@ -347,6 +324,7 @@ fn after_bounce<S: Analytic>(contact: &FirstContact<S>, damping: &S, end: &S, of
         Of::Share => contact.restitution_factors(end).map(|factors| factors.0).ok_or_else(none),
         Of::Left => contact.restitution_factors(end).map(|factors| factors.1).ok_or_else(none),
         Of::Retained => {
+            use crate::number::Analytic;
             let left = contact.restitution_factors(end).ok_or_else(none)?.1;
             let decay = damping.int(2) * damping * end;
             Ok(left * &decay.exp())
@@ -362,53 +340,27 @@ fn by_modes(problem: &Problem, of: Of) -> Result<Answer, Trouble> {
     let modal = Modal::new(&rod, MODES);
     let end = || released_by_modes(&modal, rod.round_trip());
     let at = |time: Time| if time == AT_BOUNCE { end() } else { lift::<f64>(time, &()) };
+    let exact = Estimate::exact;
+    let start = || exact(0.5) * exact(rod.length) * exact(rod.speed) * exact(rod.speed);
     let estimate = match of {
-        Of::Bounce => Estimate { value: end()?, error: f64::INFINITY },
+        Of::Bounce => Estimate::new(end()?, f64::INFINITY),
         Of::Stress(time, side) => modal.stress(&at(time)?, side),
-        Of::Displacement(x, time) => {
-            let (field, errors) = modal.field(&lift(x, &())?, &at(time)?, Side::Right);
-            Estimate { value: field.displacement, error: errors[0] }
-        }
-        Of::Velocity(x, time, side) => {
-            let (field, errors) = modal.field(&lift(x, &())?, &at(time)?, side);
-            Estimate { value: field.velocity, error: errors[1] }
-        }
-        Of::Strain(x, time, side) => {
-            let (field, errors) = modal.field(&lift(x, &())?, &at(time)?, side);
-            Estimate { value: field.strain, error: errors[2] }
-        }
+        Of::Displacement(x, time) => modal.field(&lift(x, &())?, &at(time)?, Side::Right).displacement,
+        Of::Velocity(x, time, side) => modal.field(&lift(x, &())?, &at(time)?, side).velocity,
+        Of::Strain(x, time, side) => modal.field(&lift(x, &())?, &at(time)?, side).strain,
         Of::Centre(time) => modal.centre(&at(time)?).0,
-        Of::Momentum(time) => {
-            let rate = modal.centre(&at(time)?).1;
-            Estimate { value: rate.value * rod.length, error: rate.error * rod.length }
-        }
+        Of::Momentum(time) => modal.centre(&at(time)?).1 * exact(rod.length),
         Of::Energy(time) => modal.energy(&at(time)?),
         Of::Translational(time) => translational(&modal, &rod, at(time)?),
-        Of::Vibrational(time) => {
-            let (total, moving) = (modal.energy(&at(time)?), translational(&modal, &rod, at(time)?));
-            Estimate { value: total.value - moving.value, error: total.error + moving.error }
-        }
-        Of::MomentumRestitution => {
-            let rate = modal.centre(&end()?).1;
-            Estimate { value: rate.value / rod.speed, error: rate.error / rod.speed }
-        }
-        Of::Restitution => {
-            let (moving, start) = (translational(&modal, &rod, end()?), 0.5 * rod.length * rod.speed * rod.speed);
-            Estimate { value: moving.value / start, error: moving.error / start }
-        }
-        Of::Share => {
-            let (total, moving) = (modal.energy(&end()?), translational(&modal, &rod, end()?));
-            Estimate { value: moving.value / total.value, error: (moving.error + total.error) / total.value }
-        }
-        Of::Left => {
-            let (total, start) = (modal.energy(&end()?), 0.5 * rod.length * rod.speed * rod.speed);
-            Estimate { value: total.value / start, error: total.error / start }
-        }
+        Of::Vibrational(time) => modal.energy(&at(time)?) - translational(&modal, &rod, at(time)?),
+        Of::MomentumRestitution => modal.centre(&end()?).1 / exact(rod.speed),
+        Of::Restitution => translational(&modal, &rod, end()?) / start(),
+        Of::Share => translational(&modal, &rod, end()?) / modal.energy(&end()?),
+        Of::Left => modal.energy(&end()?) / start(),
         Of::Retained => {
+            use crate::number::Analytic;
             let time = end()?;
-            let (total, start) = (modal.energy(&time), 0.5 * rod.length * rod.speed * rod.speed);
-            let growth = (2.0 * rod.damping * time).exp() / start;
-            Estimate { value: total.value * growth, error: total.error * growth }
+            modal.energy(&time) * (exact(2.0) * exact(rod.damping) * exact(time)).exp() / start()
         }
         _ => return not_here("for that"),
     };
@@ -417,18 +369,17 @@ fn by_modes(problem: &Problem, of: Of) -> Result<Answer, Trouble> {
 
 fn translational(modal: &Modal<f64>, rod: &Parameters<f64>, time: f64) -> Estimate<f64> {
     let (height, rate) = modal.centre(&time);
-    let value = rod.length * (0.5 * rate.value * rate.value + rod.gravity * height.value);
-    let error = rod.length * ((rate.value.abs() + rate.error) * rate.error + rod.gravity * height.error);
-    Estimate { value, error: error + 4.0 * f64::EPSILON * rod.length * rate.value * rate.value }
+    let kinetic = rate.square() * Estimate::exact(0.5);
+    (kinetic + height * Estimate::exact(rod.gravity)) * Estimate::exact(rod.length)
 }
 
 /// Where the stress of the modes changes its sign: looked for in steps of an eighth of a round trip, then halved.
 fn released_by_modes(modal: &Modal<f64>, round_trip: f64) -> Result<f64, Trouble> {
-    let tensile = |time: f64| modal.stress(&time, Side::Right).value > 0.0;
+    let tensile = |time: f64| *modal.stress(&time, Side::Right).value() > 0.0;
     for step in 8..8 * 64 {
         let (mut from, mut to) = (f64::from(step - 1) * 0.125 * round_trip, f64::from(step) * 0.125 * round_trip);
         // At a lattice time the two limits differ.
-        let before = if step % 8 == 0 { modal.stress(&to, Side::Left).value > 0.0 } else { tensile(to) };
+        let before = if step % 8 == 0 { *modal.stress(&to, Side::Left).value() > 0.0 } else { tensile(to) };
         if !before && !tensile(to) {
             continue;
         }
@@ -508,18 +459,16 @@ fn of_history<S: Scalar>(history: &dyn History<S>, of: Of) -> Found<S> {
     let (time, velocity) = (scales.time.to_f64(), scales.velocity.to_f64());
     let (length, wave_speed) = (scales.length.to_f64(), scales.wave_speed.to_f64());
     let error = history.error_estimate().to_f64();
-    let up_to = |value: S, scale: f64| Estimate { error: error * scale, value };
+    let up_to = |value: S, scale: f64| (value, error * scale);
     let energy_scale = velocity * velocity * length;
     Ok(Some(match of {
-        Of::Bounce => released().map(|event| Estimate { value: event.time.clone(), error: event.time_error })?,
+        Of::Bounce => released().map(|event| (event.time.clone(), event.time_error))?,
         Of::Event(kind, near) => {
             let apart = |time: &S| (time.to_f64() - near).abs();
             let all = history.events().iter().filter(|event| event.kind == kind);
             let nearest = all.min_by(|a, b| apart(&a.time).total_cmp(&apart(&b.time)));
             match nearest {
-                Some(event) if apart(&event.time) < 0.25 => {
-                    Estimate { value: event.time.clone(), error: event.time_error }
-                }
+                Some(event) if apart(&event.time) < 0.25 => (event.time.clone(), event.time_error),
                 _ => return Err(Trouble(history.ending().to_string())),
             }
         }

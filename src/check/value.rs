@@ -1,7 +1,7 @@
 //! An answer in any number system, and how many of its digits are right.
 
-use crate::first_contact::{Bounce, Estimate};
-use crate::number::{Number, Scalar};
+use crate::first_contact::Bounce;
+use crate::number::{Estimate, Number, Rounded, Scalar};
 
 /// What a route answers.
 #[derive(Clone, Debug)]
@@ -267,18 +267,18 @@ impl Answers for crate::number::Interval {
     }
 }
 
-impl<S: Answers> From<Estimate<S>> for Answer {
+impl<S: Answers + Rounded> From<Estimate<S>> for Answer {
     fn from(estimate: Estimate<S>) -> Self {
-        Answer { value: estimate.value.value(), bound: estimate.error }
+        Answer { bound: estimate.bound(), value: estimate.into_value().value() }
     }
 }
 
-impl<S: Answers> From<Bounce<S>> for Answer {
-    fn from(bounce: Bounce<S>) -> Self {
+impl<S: Answers + Rounded> From<Bounce<Estimate<S>>> for Answer {
+    fn from(bounce: Bounce<Estimate<S>>) -> Self {
         match bounce {
-            Bounce::At { time, error, .. } => Answer { value: time.value(), bound: error },
-            Bounce::Never { .. } => Answer { value: Value::NoBounce, bound: 0.0 },
-            Bounce::Undecided { why, .. } => Answer { value: Value::Undecided(why), bound: f64::INFINITY },
+            Bounce::At { time, .. } => time.into(),
+            Bounce::Never(_) => Answer { value: Value::NoBounce, bound: 0.0 },
+            Bounce::Undecided { why, .. } => Answer { value: Value::Undecided(why.to_string()), bound: f64::INFINITY },
         }
     }
 }

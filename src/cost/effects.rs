@@ -10,7 +10,7 @@ use crate::history::History;
 use crate::lattice::Undamped;
 use crate::rod::{Parameters, Problem, Run, Speed, Start, Top};
 use crate::scene::{Ask, Effect, Engine, Plan, Scene};
-use crate::solve::{Solution, solve};
+use crate::solve::{Solution, bounce_within, solve};
 
 /// What one effect costs.
 #[derive(Clone, Debug, PartialEq)]
@@ -125,7 +125,7 @@ fn direct(problem: &Problem, engine: Engine, energies: bool) -> Result<f64, Cost
     let history: Box<dyn History<f64>> = match engine {
         Engine::Lattice => Box::new(Undamped::<f64>::solve(problem, &())?),
         Engine::Cells if problem.has_closed_form() => {
-            let bounce = FirstContact::new(&Parameters::<f64>::of(problem, &())?).bounce_within(1e-13);
+            let bounce = bounce_within(&FirstContact::new(&Parameters::<f64>::of(problem, &())?.carry()), 1e-13);
             Box::new(Joined::<f64>::solve(problem, &(), 13.0, bounce, true)?)
         }
         Engine::Cells => Box::new(Damped::<f64>::solve(problem, &(), 13.0)?),

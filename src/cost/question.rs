@@ -5,9 +5,11 @@ use super::value::{Answer, Value};
 use crate::error::Error;
 use crate::first_contact::{Bounce, FirstContact};
 use crate::history::{Ending, EventKind, History, Side};
-use crate::number::{Analytic, Number, Scalar};
+use crate::number::{Estimate, Number, Scalar};
 use crate::rod::{Parameters, Problem, Run};
 use crate::scene::Scene;
+use crate::solve::bounce_within;
+use crate::special::RoundedSpecial;
 
 /// What is asked of every route: one number.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -184,29 +186,30 @@ impl Question {
         }
         let Some(time) = &self.time else { return Ok(()) };
         let rod = Parameters::<f64>::of(&self.problem, &()).map_err(|error| error.to_string())?;
-        match FirstContact::new(&rod).bounce_within(1e-10) {
-            Bounce::At { time: end, .. } if time.to_f64() > end * (1.0 + 1e-12) => {
-                Err(format!("it knows the first contact only, which ends at t = {end:.6}"))
+        match bounce_within(&FirstContact::new(&rod.carry()), 1e-10) {
+            Bounce::At { time: end, .. } if time.to_f64() > end.value() * (1.0 + 1e-12) => {
+                Err(format!("it knows the first contact only, which ends at t = {:.6}", end.value()))
             }
-            Bounce::Undecided { until, .. } if time.to_f64() > until => {
-                Err(format!("it is undecided whether the first contact lasts beyond t = {until:.6}"))
+            Bounce::Undecided { until, .. } if time.to_f64() > *until.value() => {
+                Err(format!("it is undecided whether the first contact lasts beyond t = {:.6}", until.value()))
             }
             _ => Ok(()),
         }
     }
 
     /// The answer of the closed forms, with the bounce time that is given.
-    pub(super) fn closed<S: Analytic + Answer>(
+    pub(super) fn closed<S: RoundedSpecial + Answer>(
         &self,
         precision: &S::Precision,
-        bounce: impl FnOnce(&FirstContact<S>) -> Bounce<S>,
+        bounce: impl FnOnce(&FirstContact<Estimate<S>>) -> Bounce<Estimate<S>>,
     ) -> Result<Value, CostError> {
-        let contact = FirstContact::new(&Parameters::<S>::of(&self.problem, precision)?);
-        let released = |contact: &FirstContact<S>| match bounce(contact) {
+        let contact = FirstContact::new(&Parameters::<S>::of(&self.problem, precision)?.carry());
+        let released = |contact: &FirstContact<Estimate<S>>| match bounce(contact) {
             Bounce::At { time, .. } => Ok(time),
-            Bounce::Never { reason } => Err(self.none(reason)),
-            Bounce::Undecided { why, .. } => Err(CostError::GaveUp(why)),
+            Bounce::Never(reason) => Err(self.none(reason.to_string())),
+            Bounce::Undecided { why, .. } => Err(CostError::GaveUp(why.to_string())),
         };
+        let time = || Ok::<_, CostError>(self.time_in::<S>(precision)?.carry());
         let value = match self.quantity {
             Quantity::BounceTime | Quantity::LastEvent => released(&contact)?,
             Quantity::Restitution => {
@@ -214,12 +217,12 @@ impl Question {
                 let squared = contact.rebound(&time).energy_restitution_squared();
                 squared.ok_or_else(|| self.none("E_h < 0 where the contact ends"))?
             }
-            Quantity::Stress => contact.stress(&self.time_in(precision)?, Side::Right).value,
-            Quantity::Centre => contact.centre(&self.time_in(precision)?).0.value,
-            Quantity::Energy => contact.energy(&self.time_in(precision)?).0.total,
-            Quantity::Vibrational => contact.energy(&self.time_in(precision)?).0.vibrational,
+            Quantity::Stress => contact.stress(&time()?, Side::Right),
+            Quantity::Centre => contact.centre(&time()?).0,
+            Quantity::Energy => contact.energy(&time()?).total,
+            Quantity::Vibrational => contact.energy(&time()?).vibrational,
         };
-        Ok(value.answer())
+        Ok(value.into_value().answer())
     }
 }
 

@@ -11,7 +11,7 @@ use crate::history::{EventKind, Side};
 use crate::modal::Modal;
 use crate::rod::Parameters;
 use crate::scene::{Engine, Plan, System};
-use crate::solve::{Solution, solve};
+use crate::solve::{Solution, bounce_within, solve};
 
 /// A way to an answer.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -191,7 +191,7 @@ fn closed_form(question: &Question) -> Ladder<'_> {
         digits: DOUBLE,
         chosen: false,
         expected: Seconds(1e-6),
-        run: Box::new(|_| question.closed::<f64>(&(), |contact| contact.bounce_within(1e-13))),
+        run: Box::new(|_| question.closed::<f64>(&(), |contact| bounce_within(contact, 1e-13))),
     };
     #[cfg_attr(not(feature = "mp"), expect(unused_mut))]
     let mut ladder = vec![in_doubles];
@@ -299,15 +299,15 @@ fn modes(question: &Question) -> Result<Ladder<'_>, String> {
 
 fn by_modes(question: &Question, rod: &Parameters<f64>, modal: &Modal<f64>) -> Result<Value, CostError> {
     let time = question.time.as_ref().map_or(0.0, crate::Number::to_f64);
-    let released = || first_release(rod.round_trip(), &|t, side| modal.stress(&t, side).value);
+    let released = || first_release(rod.round_trip(), &|t, side| *modal.stress(&t, side).value());
     let value = match question.quantity {
-        Quantity::Stress => modal.stress(&time, Side::Right).value,
-        Quantity::Centre => modal.centre(&time).0.value,
-        Quantity::Energy | Quantity::Vibrational => modal.energy(&time).value,
+        Quantity::Stress => *modal.stress(&time, Side::Right).value(),
+        Quantity::Centre => *modal.centre(&time).0.value(),
+        Quantity::Energy | Quantity::Vibrational => *modal.energy(&time).value(),
         Quantity::BounceTime | Quantity::LastEvent => released()?,
         Quantity::Restitution => {
             let (height, velocity) = modal.centre(&released()?);
-            restitution(rod, height.value, velocity.value)
+            restitution(rod, *height.value(), *velocity.value())
         }
     };
     Ok(value.answer())

@@ -3,7 +3,7 @@
 //! In reading order: `series` holds functions, `cell` carries the invariants through one cell, `march` through one
 //! strip, `start` makes the first state, `root` finds events, `follow` decides what happens at the ground,
 //! `rest` when nothing more can happen, `record` gets the field back, `history` answers questions, and `joined` puts the closed form of the first
-//! contact before it, up to the `static_state` if that contact does not end.
+//! contact before it.
 
 mod cell;
 mod follow;
@@ -15,7 +15,6 @@ mod rest;
 mod root;
 mod series;
 mod start;
-mod static_state;
 
 pub use history::Damped;
 pub use joined::Joined;

@@ -31,3 +31,7 @@ pub(crate) use interval::undecided;
 pub use interval::{Interval, IntervalPrecision, decided};
 pub use literal::{Number, NumberError};
 pub use scalar::{Analytic, Answer, Open, Rounded, Scalar};
+
+/// Without enclosures no comparison is open.
+#[cfg(not(feature = "mp"))]
+pub(crate) fn undecided() {}

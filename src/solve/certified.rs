@@ -3,11 +3,11 @@
 use rug::Float;
 use rug::float::Round;
 
-use crate::certified::ProvedContact;
 use crate::error::Error;
+use crate::first_contact::ContactHistory;
 use crate::history::{Ending, History};
 use crate::lattice::{Limits, Undamped};
-use crate::number::{Interval, IntervalPrecision, Scalar, bits_for_digits, decided, undecided};
+use crate::number::{Interval, IntervalPrecision, Scalar, bits_for_digits, decided};
 use crate::rod::Problem;
 
 /// Guard bits of the first try.
@@ -99,13 +99,9 @@ fn history(
     if !problem.has_closed_form() {
         return Err(Error::NotCertified);
     }
-    match ProvedContact::solve(problem, bits)? {
-        Some(contact) => Ok(Box::new(contact)),
-        None => {
-            undecided();
-            Err(Error::NotDecided { what: "how the contact ends", bits })
-        }
-    }
+    // The doubles in the search for the bounce want no less.
+    let precision = IntervalPrecision::with_exact(bits.max(128));
+    Ok(Box::new(ContactHistory::<Interval>::solve(problem, &precision)?))
 }
 
 /// About how many bits more would give each number its digits; zero if all have them.

@@ -8,7 +8,7 @@ use crate::error::Error;
 use crate::first_contact::{Bounce, FirstContact};
 use crate::history::History;
 use crate::lattice::{Limits, Undamped};
-use crate::number::{Number, bits_for_digits};
+use crate::number::{Estimate, Number, bits_for_digits};
 use crate::rod::{Parameters, Problem, Run};
 
 /// Guard bits of the first try. Few runs need more; the bound of each run tells.
@@ -118,7 +118,7 @@ pub(super) fn damped_unless_faint(
     let fits = problem.has_closed_form();
     let faded = if fits {
         let rod = Parameters::<f64>::of(problem, &())?;
-        let bounce = FirstContact::new(&rod).bounce_within(1e-10);
+        let bounce = super::bounce_within(&FirstContact::new(&rod.carry()), 1e-10);
         faded(&rod, &bounce, problem) / std::f64::consts::LN_10
     } else {
         0.0
@@ -131,8 +131,8 @@ pub(super) fn damped_unless_faint(
     for _ in 0..MOST_TRIES {
         let history: Box<dyn History<Float>> = if fits {
             let rod = Parameters::<Float>::of(problem, &bits)?;
-            let bounce = FirstContact::new(&rod).bounce();
-            if matches!(bounce, Bounce::Undecided { digits: true, .. }) {
+            let bounce = FirstContact::new(&rod.carry()).bounce();
+            if matches!(&bounce, Bounce::Undecided { why, .. } if why.needs_bits()) {
                 bits *= 2;
                 continue;
             }
@@ -157,7 +157,7 @@ pub(super) fn damped_unless_faint(
 /// By which power of e the lowest mode has decayed where the first contact ends, or where the run does: underdamped modes
 /// decay like `e^{−rt}`, an overdamped one like `e^{−(r − √(r² − ω²)) t}` with `ω = π/t₁`. Under gravity a contact that
 /// does not end tends to the static state, and nothing that matters fades.
-pub(super) fn faded(rod: &Parameters<f64>, bounce: &Bounce<f64>, problem: &Problem) -> f64 {
+pub(super) fn faded(rod: &Parameters<f64>, bounce: &Bounce<Estimate<f64>>, problem: &Problem) -> f64 {
     let round_trip = rod.round_trip();
     let lowest = std::f64::consts::PI / round_trip;
     let rate = if rod.damping <= lowest {
@@ -171,9 +171,9 @@ pub(super) fn faded(rod: &Parameters<f64>, bounce: &Bounce<f64>, problem: &Probl
         Run::Impacts(_) => f64::INFINITY,
     };
     match bounce {
-        Bounce::At { time, .. } => rate * time.min(run),
-        Bounce::Never { .. } if rod.gravity > 0.0 => 0.0,
-        Bounce::Never { .. } => rate * run.min(8.0 * round_trip),
-        Bounce::Undecided { until, .. } => rate * until.min(run),
+        Bounce::At { time, .. } => rate * time.value().min(run),
+        Bounce::Never(_) if rod.gravity > 0.0 => 0.0,
+        Bounce::Never(_) => rate * run.min(8.0 * round_trip),
+        Bounce::Undecided { until, .. } => rate * until.value().min(run),
     }
 }

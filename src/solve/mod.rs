@@ -14,12 +14,14 @@ use crate::scene::{Engine, Plan, System};
 mod certified;
 #[cfg(feature = "mp")]
 mod digits;
+mod first_contact;
 mod stripped;
 mod twice;
 #[cfg(feature = "mp")]
 pub use certified::{certify, proved_digits, proved_ends};
 #[cfg(feature = "mp")]
 pub use digits::{bits_lost, damped_to_digits, undamped_to_digits};
+pub use first_contact::{bounce_within, stress_within};
 pub use stripped::Stripped;
 
 /// A history in the numbers that its plan chose.
@@ -137,7 +139,7 @@ fn damped_in_doubles(problem: &Problem, accuracy: Option<f64>) -> Result<Box<dyn
     };
     let history: Box<dyn History<f64>> = if problem.has_closed_form() {
         let rod = Parameters::<f64>::of(problem, &())?;
-        let bounce = FirstContact::new(&rod).bounce_within(1e-13);
+        let bounce = bounce_within(&FirstContact::new(&rod.carry()), 1e-13);
         #[cfg(feature = "mp")]
         if digits::faded(&rod, &bounce, problem) > MOST_FADED {
             let history = digits::damped_unless_faint(problem, digits::of_accuracy(accuracy), FAINTEST)?;
