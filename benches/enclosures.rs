@@ -5,10 +5,9 @@
 use std::hint::black_box;
 
 use criterion::{Criterion, Throughput, criterion_group, criterion_main};
-use dalembert::certified::{ClosedForm, ProvedContact};
-use dalembert::first_contact::FirstContact;
+use dalembert::first_contact::{ContactHistory, FirstContact};
 use dalembert::lattice::{Limits, Scaled, Undamped, Until, march};
-use dalembert::number::{Interval, IntervalPrecision, Number, decided};
+use dalembert::number::{Answer, Interval, IntervalPrecision, Number, Scalar, decided};
 use dalembert::rod::{Parameters, Run};
 use dalembert::{History, Problem, Side};
 use rug::Float;
@@ -47,20 +46,29 @@ fn first_contact(c: &mut Criterion) {
     let mut group = c.benchmark_group("first contact, R = 3");
     let problem = rod("3", "0", "1/2", "1");
     for bits in [256u32, 3400] {
-        let contact = FirstContact::new(&Parameters::<Float>::of(&problem, &bits).unwrap());
-        let form = ClosedForm::of(&problem, bits).unwrap();
-        let (time, proved) = (Float::with_val(bits, 2.5), form.time(&"5/2".parse().unwrap()));
+        let precision = IntervalPrecision::with_exact(bits);
+        let contact = FirstContact::new(&Parameters::<Float>::of(&problem, &bits).unwrap().carry());
+        let form = FirstContact::new(&Parameters::<Interval>::of(&problem, &precision).unwrap());
+        let time = Float::with_val(bits, 2.5).carry();
+        let proved = Interval::from_number(&"5/2".parse().unwrap(), &precision);
         group.bench_function(format!("stress, {bits} bits"), |b| {
-            b.iter(|| contact.stress(black_box(&time), Side::Right).value);
+            b.iter(|| contact.stress(black_box(&time), Side::Right));
         });
         group.bench_function(format!("stress, {bits} bits, proved"), |b| {
-            b.iter(|| form.stress(black_box(&proved), Side::Right).unwrap());
+            b.iter(|| form.stress(black_box(&proved), Side::Right));
         });
         group.bench_function(format!("t_b, {bits} bits"), |b| b.iter(|| black_box(&contact).bounce()));
         group.bench_function(format!("t_b, {bits} bits, proved"), |b| {
-            b.iter(|| ProvedContact::solve(black_box(&problem), bits).unwrap().unwrap());
+            b.iter(|| ContactHistory::<Interval>::solve(black_box(&problem), &precision).unwrap());
         });
     }
+    let problem = rod("0.2", "1", "1", "5");
+    let precision = IntervalPrecision::with_exact(3400);
+    let contact = ContactHistory::<Interval>::solve(&problem, &precision).unwrap();
+    group.sample_size(10);
+    group.bench_function("E_z of figure 4, 3400 bits, proved", |b| {
+        b.iter(|| contact.energy(black_box(&contact.end())).unwrap().vibrational);
+    });
     group.finish();
 }
 

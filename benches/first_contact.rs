@@ -6,17 +6,19 @@ use std::hint::black_box;
 use criterion::{Criterion, criterion_group, criterion_main};
 use dalembert::first_contact::{Bounce, FirstContact};
 use dalembert::history::Side;
+use dalembert::number::Estimate;
 use dalembert::rod::Parameters;
+use dalembert::solve::bounce_within;
 use dalembert::special::{i0_scaled, i1_scaled};
 
-fn rod(damping: f64, speed: f64) -> Parameters<f64> {
-    Parameters { length: 1.0, wave_speed: 1.0, damping, gravity: 1.0, speed }
+fn rod(damping: f64, speed: f64) -> Parameters<Estimate<f64>> {
+    Parameters { length: 1.0, wave_speed: 1.0, damping, gravity: 1.0, speed }.carry()
 }
 
 fn restitution(damping: f64, speed: f64) -> Option<f64> {
     let contact = FirstContact::new(&rod(damping, speed));
-    match contact.bounce_within(1e-12) {
-        Bounce::At { time, .. } => contact.rebound(&time).energy_restitution_squared(),
+    match bounce_within(&contact, 1e-12) {
+        Bounce::At { time, .. } => contact.rebound(&time).energy_restitution_squared().map(Estimate::into_value),
         _ => None,
     }
 }
@@ -28,12 +30,16 @@ fn first_contact(criterion: &mut Criterion) {
         b.iter(|| i0_scaled(black_box(&0.26_f64)) + i1_scaled(black_box(&0.26_f64)));
     });
     criterion.bench_function("stress in the first round trip", |b| {
-        b.iter(|| contact.stress(black_box(&1.3), Side::Right));
+        b.iter(|| contact.stress(black_box(&Estimate::exact(1.3)), Side::Right));
     });
     criterion.bench_function("restitution, bounce at t₁", |b| b.iter(|| restitution(black_box(0.2), black_box(5.0))));
     criterion
         .bench_function("restitution, bounce after t₁", |b| b.iter(|| restitution(black_box(0.2), black_box(1.0))));
-    criterion.bench_function("energy at t₁", |b| b.iter(|| contact.energy(black_box(&2.0))));
+    criterion.bench_function("energy at t₁", |b| b.iter(|| contact.energy(black_box(&Estimate::exact(2.0)))));
+    let late = Parameters { length: 0.5, wave_speed: 1.0, damping: 3.0, gravity: 0.0, speed: 1.0 }.carry();
+    criterion.bench_function("t_b to 1e-12, g = 0, R = 3", |b| {
+        b.iter(|| bounce_within(&FirstContact::new(black_box(&late)), 1e-12));
+    });
     criterion.bench_function("figure 4, 4 × 1000 speeds", |b| {
         b.iter(|| {
             let mut sum = 0.0;

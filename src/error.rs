@@ -162,3 +162,10 @@ impl From<Open> for Error {
         Error::NotDecided { what: "which of two numbers is the greater", bits: 0 }
     }
 }
+
+impl Error {
+    /// [`Error::NotDecided`], which counts as an open comparison.
+    pub(crate) fn not_decided(what: &'static str, bits: Option<u32>) -> Self {
+        Error::NotDecided { what, bits: bits.unwrap_or(0) }
+    }
+}

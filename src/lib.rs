@@ -10,9 +10,8 @@
 //! | [`scene`] | from a scene file to a problem; which effects it calls for; the plan |
 //! | [`solve`](mod@solve) | the engine that the plan chose, in the numbers that it chose |
 //! | [`lattice`] | the undamped rod, from event to event on the characteristic lattice |
-//! | [`first_contact`] | the damped first contact in closed form, the bounce time or why there is none |
+//! | [`first_contact`] | the first contact in closed form, the bounce time or why there is none, in estimates and enclosures |
 //! | [`cells`] | the damped rod through any number of impacts, in characteristic cells |
-//! | `certified` | enclosures: numbers that are proved (feature `mp`) |
 //! | [`history`] | what a solution is, and everything that can be asked of it |
 //! | [`modal`] | the modal sum of the first contact: a third route to the same numbers |
 //! | [`quantity`] | restitution and flights |
@@ -34,8 +33,6 @@
 //! ```
 
 pub mod cells;
-#[cfg(feature = "mp")]
-pub mod certified;
 #[cfg(feature = "cli")]
 pub mod cli;
 #[cfg(feature = "cli")]
@@ -63,7 +60,7 @@ pub use motion::Motion;
 pub use number::Number;
 #[doc(hidden)]
 pub use problem as rod;
-pub use problem::Problem;
+pub use problem::{Parameters, Problem};
 #[cfg(feature = "mp")]
 pub use rug;
 pub use scene::Scene;

@@ -10,12 +10,13 @@ use super::march::{Medium, State};
 use super::start::{Data, Units};
 use crate::first_contact::FirstContact;
 use crate::history::Side;
-use crate::number::Analytic;
+use crate::number::{Analytic, Estimate};
+use crate::special::RoundedSpecial;
 
 /// The motion before the first release, dimensionless.
 #[derive(Clone, Debug)]
 pub(super) struct Held<S> {
-    contact: FirstContact<S>,
+    contact: FirstContact<Estimate<S>>,
     units: Units<S>,
     gravity: S,
     slope: S,
@@ -23,9 +24,9 @@ pub(super) struct Held<S> {
     pub(super) release: S,
 }
 
-impl<S: Analytic> Held<S> {
+impl<S: RoundedSpecial> Held<S> {
     /// The motion up to `release`, in the units of the problem. A release within rounding of a lattice time is there.
-    pub(super) fn until(contact: &FirstContact<S>, data: &Data<S>, release: &S) -> Self {
+    pub(super) fn until(contact: &FirstContact<Estimate<S>>, data: &Data<S>, release: &S) -> Self {
         let trips = release.clone() / &data.units.time;
         let near = (trips.clone() + trips.ratio(1, 2)).floor_int();
         let lattice = near.filter(|k| (trips.clone() - trips.int(*k)).magnitude() <= rounding(&trips));
@@ -41,11 +42,14 @@ impl<S: Analytic> Held<S> {
     /// `p`, `q` of `z` at a point before the release, `ξ ≤ t_b`, and a bound of the error of either.
     pub(super) fn invariants(&self, x: &S, t: &S, side: Side) -> (S, S, f64) {
         let point = x.clone() * x.int(2) * &self.units.length;
-        let (field, errors) = self.contact.field(&point, &(t.clone() * &self.units.time), side);
-        let velocity = field.velocity / &self.units.velocity;
-        let strain = field.strain * &self.units.wave_speed / &self.units.velocity;
+        // Within eight roundings of a ray is on it.
+        let time = Estimate::rounded(t.clone() * &self.units.time, 8.0);
+        let field = self.contact.field(&Estimate::rounded(point, 8.0), &time, side);
+        let error = (field.velocity.bound() + self.units.wave_speed.to_f64() * field.strain.bound())
+            / self.units.velocity.to_f64();
+        let velocity = field.velocity.into_value() / &self.units.velocity;
+        let strain = field.strain.into_value() * &self.units.wave_speed / &self.units.velocity;
         let z_x = strain - self.gravity.clone() * x - &self.slope;
-        let error = (errors[1] + self.units.wave_speed.to_f64() * errors[2]) / self.units.velocity.to_f64();
         (velocity.clone() - &z_x, velocity + z_x, error)
     }
 

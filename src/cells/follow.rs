@@ -11,7 +11,7 @@ use super::series::{at_one, at_zero, bound, derivative, evaluate};
 use super::start::Data;
 use crate::error::Error;
 use crate::history::{Ending, EventKind};
-use crate::number::Analytic;
+use crate::special::RoundedSpecial;
 
 /// What happened at the ground during one strip, dimensionless.
 #[derive(Clone, Debug)]
@@ -32,7 +32,7 @@ pub(super) struct Piece<S> {
     pub(super) height: Vec<S>,
 }
 
-impl<S: Analytic> Piece<S> {
+impl<S: RoundedSpecial> Piece<S> {
     /// Its end.
     pub(super) fn to(&self) -> S {
         self.from.clone() + &self.len
@@ -96,7 +96,7 @@ const MOST_PIECES: usize = 400_000;
 /// The most segments of a round trip.
 const MOST_SEGMENTS: usize = 4096;
 
-impl<'a, S: Analytic> Follower<'a, S> {
+impl<'a, S: RoundedSpecial> Follower<'a, S> {
     /// At `t = 0`.
     pub(super) fn new(medium: &'a Medium<S>, data: &'a Data<S>) -> Self {
         let mut follower = Self::with(medium, data, data.march(medium, &mut |_| {}));

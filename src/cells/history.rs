@@ -10,8 +10,9 @@ use super::start::{Data, Units};
 use crate::error::Error;
 use crate::first_contact::FirstContact;
 use crate::history::{Contact, Ending, Energy, Event, EventKind, Field, History, Scales, Side, StressPiece};
-use crate::number::Analytic;
+use crate::number::Estimate;
 use crate::rod::{Parameters, Problem, Run, Top};
+use crate::special::RoundedSpecial;
 use crate::special::{log_mean, log_rest};
 
 /// The motion of the damped rod through any number of impacts, `r ≥ 0`.
@@ -63,7 +64,7 @@ struct Found<S> {
     ending: Ending,
 }
 
-impl<S: Analytic> Found<S> {
+impl<S: RoundedSpecial> Found<S> {
     fn of(follower: Follower<'_, S>, ending: Ending) -> Self {
         let worst = follower.marks.iter().map(|mark| mark.time_error).fold(follower.error(), f64::max);
         let error = worst.max(follower.height_error) + follower.most_shifted;
@@ -75,7 +76,7 @@ impl<S: Analytic> Found<S> {
 /// The medium and the data of `problem`, for `digits` digits, with segments `shorten` times shorter than need be.
 ///
 /// **Errors**: [`Error::DampingTooStrong`], [`Error::Irrational`].
-fn medium<S: Analytic>(
+fn medium<S: RoundedSpecial>(
     problem: &Problem,
     precision: &S::Precision,
     digits: f64,
@@ -94,14 +95,14 @@ fn medium<S: Analytic>(
 }
 
 /// How far to follow `problem`.
-fn goal<S: Analytic>(problem: &Problem, precision: &S::Precision, data: &Data<S>) -> Goal<S> {
+fn goal<S: RoundedSpecial>(problem: &Problem, precision: &S::Precision, data: &Data<S>) -> Goal<S> {
     match &problem.run {
         Run::Impacts(count) => Goal::Impacts(*count),
         Run::Time(time) => Goal::Time(S::from_number(time, precision) / &data.units.time),
     }
 }
 
-impl<S: Analytic> Damped<S> {
+impl<S: RoundedSpecial> Damped<S> {
     /// Follows `problem` as far as its `run` says, to about `digits` decimal digits of the natural scales.
     ///
     /// What a cell leaves out is at most `2^{−20} 10^{−digits}`, or the roundoff of the number system where that is more;
@@ -144,7 +145,7 @@ impl<S: Analytic> Damped<S> {
         problem: &Problem,
         precision: &S::Precision,
         digits: f64,
-        contact: &FirstContact<S>,
+        contact: &FirstContact<Estimate<S>>,
         (time, time_error, leaves): (&S, f64, &S),
     ) -> Result<Self, Error> {
         let (medium, data) = medium(problem, precision, digits, 1)?;
@@ -309,7 +310,7 @@ impl<S: Analytic> Damped<S> {
     }
 }
 
-impl<S: Analytic> History<S> for Damped<S> {
+impl<S: RoundedSpecial> History<S> for Damped<S> {
     fn end(&self) -> S {
         self.end.clone()
     }

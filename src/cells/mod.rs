@@ -3,7 +3,7 @@
 //! In reading order: `series` holds functions, `cell` carries the invariants through one cell, `march` through one
 //! strip, `start` makes the first state from the data at `t = 0` and `bounce` from the closed form of the first contact, `root` finds events, `follow` decides what happens at the ground,
 //! `rest` when nothing more can happen, `record` gets the field back, `history` answers questions, and `joined` puts the closed form of the first
-//! contact before it, up to the `static_state` if that contact does not end.
+//! contact before it.
 
 mod bounce;
 mod cell;
@@ -16,7 +16,6 @@ mod rest;
 mod root;
 mod series;
 mod start;
-mod static_state;
 
 pub use history::Damped;
 pub use joined::{Joined, Reach};

@@ -10,7 +10,7 @@ use super::march::{Medium, State};
 use super::series::evaluate;
 use super::start::Data;
 use crate::history::Side;
-use crate::number::Analytic;
+use crate::special::RoundedSpecial;
 
 /// All that the field follows from.
 #[derive(Debug)]
@@ -35,7 +35,7 @@ pub(super) struct Node<S> {
     pub(super) z_x: S,
 }
 
-impl<S: Analytic> Record<'_, S> {
+impl<S: RoundedSpecial> Record<'_, S> {
     /// Shows every cell of the strips that meet `from ≤ ξ ≤ to`, in order of `ξ`, then of `η`.
     fn sweep(&self, from: &S, to: &S, visit: &mut impl FnMut(&Cell<'_, S>)) {
         if from.is_negative() && self.held.is_none() {
@@ -174,15 +174,15 @@ impl<S: Analytic> Record<'_, S> {
 }
 
 /// How close to a ray a time is taken to be on it: a few roundings.
-fn slack<S: Analytic>(t: &S) -> S {
+fn slack<S: RoundedSpecial>(t: &S) -> S {
     let unit = t.double(t.log2_roundoff().exp2());
     (t.magnitude() + t.one()) * unit * t.int(8)
 }
 
-fn larger<S: Analytic>(a: S, b: S) -> S {
+fn larger<S: RoundedSpecial>(a: S, b: S) -> S {
     if a < b { b } else { a }
 }
 
-fn smaller<S: Analytic>(a: S, b: S) -> S {
+fn smaller<S: RoundedSpecial>(a: S, b: S) -> S {
     if b < a { b } else { a }
 }

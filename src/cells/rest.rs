@@ -8,12 +8,12 @@ use super::march::Medium;
 use super::record::{Node, Record};
 use super::series::bound;
 use crate::history::Ending;
-use crate::number::Analytic;
+use crate::special::RoundedSpecial;
 
 /// A motion is over where it is this often the error that it carries.
 const OVER: f64 = 3.0;
 
-impl<S: Analytic> Follower<'_, S> {
+impl<S: RoundedSpecial> Follower<'_, S> {
     /// Why no impact can follow the flight, if that is certain. Only where gravity does not pull the end back.
     ///
     /// In flight the end swings about a stress-free state at height `s = v_s′(0)/2` (top fixed) or about the centre of mass
@@ -163,7 +163,7 @@ impl<S: Analytic> Follower<'_, S> {
 }
 
 /// A time in words, in the units of the scene.
-fn short<S: Analytic>(unit: &S, time: &S) -> String {
+fn short<S: RoundedSpecial>(unit: &S, time: &S) -> String {
     let time = (time.clone() * unit).to_f64();
     if time == 0.0 || (1e-3..1e6).contains(&time) {
         format!("{}", (time * 1e6).round() / 1e6)

@@ -153,7 +153,7 @@ pub(super) fn run(route: Route, question: &Question) -> Result<Answer, NoAnswer>
         }
         Route::ClosedForm(Numbers::Digits(digits)) => {
             let bits = bits_for_digits(digits) + SPARE_BITS;
-            let rod = Parameters::<Float>::of(problem, &bits)?;
+            let rod = Parameters::<Estimate<Float>>::of(problem, &bits)?;
             question.ask(&rod, &ByClosedForm::new(&rod, FirstContact::bounce))
         }
         Route::Lattice(Numbers::Exact) => question.ask_history(&Undamped::<Rational>::solve(problem, &())?),

@@ -6,12 +6,13 @@ use std::cell::OnceCell;
 use super::cost::differences::Marched;
 use super::value::{Bounded, NoAnswer, System};
 use crate::error::Error;
-use crate::first_contact::{Bounce, Estimate, FirstContact};
+use crate::first_contact::{Bounce, FirstContact};
 use crate::history::{Ending, Event, EventKind, Field, History, Side};
 use crate::modal::Modal;
-use crate::number::Analytic;
+use crate::number::Estimate;
 use crate::paper::{Printed, UndampedContact, formulas};
 use crate::rod::Parameters;
+use crate::special;
 
 /// One number of a motion, or why it is not given.
 pub(crate) type Found<S> = Result<Bounded<S>, NoAnswer>;
@@ -109,24 +110,22 @@ fn translational<S: System>(rod: &Parameters<S>, [height, velocity]: [Bounded<S>
     Bounded::new((kinetic + height.value * &rod.gravity) * &rod.length, length * (carried + rounding))
 }
 
-fn bounded<S: System>(estimate: Estimate<S>) -> Bounded<S> {
-    Bounded::new(estimate.value, estimate.error)
+/// A number with the bound that it carries.
+fn carried<N: System>(value: N) -> Bounded<N> {
+    let bound = value.log2_error().exp2();
+    Bounded::new(value, bound)
 }
 
-fn of_field<S: System>((field, [v, v_t, v_x]): (Field<S>, [f64; 3])) -> [Bounded<S>; 3] {
-    [Bounded::new(field.displacement, v), Bounded::new(field.velocity, v_t), Bounded::new(field.strain, v_x)]
+/// A double with the bound that came with it.
+fn double(estimate: Estimate<f64>) -> Bounded<f64> {
+    let bound = estimate.bound();
+    Bounded::new(estimate.into_value(), bound)
 }
 
 /// A history.
 pub(crate) struct ByHistory<'a, S>(pub(crate) &'a dyn History<S>);
 
 impl<S: System> ByHistory<'_, S> {
-    /// A value with the bound that it carries.
-    fn within(&self, value: S) -> Bounded<S> {
-        let bound = value.log2_error().exp2();
-        Bounded::new(value, bound)
-    }
-
     /// The answer of the history; one that ends too early gives the reason.
     fn asked<T>(&self, answer: Result<T, Error>) -> Result<T, NoAnswer> {
         answer.map_err(|error| match error {
@@ -143,7 +142,7 @@ impl<S: System> ByHistory<'_, S> {
     }
 
     fn event(&self, event: Option<&Event<S>>) -> Found<S> {
-        event.map(|event| self.within(event.time.clone())).ok_or_else(|| self.ended())
+        event.map(|event| carried(event.time.clone())).ok_or_else(|| self.ended())
     }
 
     fn first_release(&self) -> Option<&Event<S>> {
@@ -172,30 +171,30 @@ impl<S: System> Motion<S> for ByHistory<'_, S> {
     }
 
     fn stress(&self, time: &S, side: Side) -> Found<S> {
-        Ok(self.within(self.asked(self.0.stress(time, side))?))
+        Ok(carried(self.asked(self.0.stress(time, side))?))
     }
 
     fn field(&self, point: &S, time: &S, side: Side) -> All<S, 3> {
         let field = self.asked(self.0.field(point, time, side))?;
-        let displacement = self.within(field.displacement);
-        Ok([displacement, self.within(field.velocity), self.within(field.strain)])
+        let displacement = carried(field.displacement);
+        Ok([displacement, carried(field.velocity), carried(field.strain)])
     }
 
     fn centre(&self, _: &Parameters<S>, time: &S) -> All<S, 2> {
         let (height, velocity) = self.asked(self.0.centre(time))?;
-        Ok([self.within(height), self.within(velocity)])
+        Ok([carried(height), carried(velocity)])
     }
 
     fn total_energy(&self, time: &S) -> Found<S> {
-        Ok(self.within(self.asked(self.0.energy(time))?.total))
+        Ok(carried(self.asked(self.0.energy(time))?.total))
     }
 
     fn translational_energy(&self, _: &Parameters<S>, time: &S) -> Found<S> {
-        Ok(self.within(self.asked(self.0.energy(time))?.translational))
+        Ok(carried(self.asked(self.0.energy(time))?.translational))
     }
 
     fn vibrational_energy(&self, _: &Parameters<S>, time: &S) -> Found<S> {
-        Ok(self.within(self.asked(self.0.energy(time))?.vibrational))
+        Ok(carried(self.asked(self.0.energy(time))?.vibrational))
     }
 
     fn first_energy(&self, rod: &Parameters<S>) -> Found<S> {
@@ -206,72 +205,71 @@ impl<S: System> Motion<S> for ByHistory<'_, S> {
     fn top(&self) -> All<S, 2> {
         let top = self.0.highest(self.first_release().ok_or_else(|| self.ended())?);
         let (time, height) = top.ok_or_else(|| NoAnswer::none("no top"))?;
-        Ok([self.within(time), self.within(height)])
+        Ok([carried(time), carried(height)])
     }
 }
 
 /// The closed form of the first contact, and of the flight after it.
-pub(crate) struct ByClosedForm<S, F> {
-    contact: FirstContact<S>,
+pub(crate) struct ByClosedForm<N, F> {
+    contact: FirstContact<N>,
     search: F,
-    bounce: OnceCell<Bounce<S>>,
+    bounce: OnceCell<Bounce<N>>,
 }
 
-impl<S: System + Analytic, F: Fn(&FirstContact<S>) -> Bounce<S>> ByClosedForm<S, F> {
+impl<N: System + special::Bounded, F: Fn(&FirstContact<N>) -> Bounce<N>> ByClosedForm<N, F> {
     /// `search` finds the bounce, if a quantity needs it.
-    pub(crate) fn new(rod: &Parameters<S>, search: F) -> Self {
+    pub(crate) fn new(rod: &Parameters<N>, search: F) -> Self {
         ByClosedForm { contact: FirstContact::new(rod), search, bounce: OnceCell::new() }
     }
 
-    fn bounce(&self) -> &Bounce<S> {
+    fn bounce(&self) -> &Bounce<N> {
         self.bounce.get_or_init(|| (self.search)(&self.contact))
     }
 }
 
-impl<S: System + Analytic, F: Fn(&FirstContact<S>) -> Bounce<S>> Motion<S> for ByClosedForm<S, F> {
-    fn release(&self, _: &Parameters<S>) -> Found<S> {
+impl<N: System + special::Bounded, F: Fn(&FirstContact<N>) -> Bounce<N>> Motion<N> for ByClosedForm<N, F> {
+    fn release(&self, _: &Parameters<N>) -> Found<N> {
         match self.bounce() {
-            Bounce::At { time, error, .. } => Ok(Bounded::new(time.clone(), *error)),
-            Bounce::Never { reason } => Err(NoAnswer::none(reason.clone())),
+            Bounce::At { time, .. } => Ok(carried(time.clone())),
+            Bounce::Never(reason) => Err(NoAnswer::none(reason.to_string())),
             Bounce::Undecided { why, .. } => Err(NoAnswer::gave_up(why)),
         }
     }
 
-    fn stress(&self, time: &S, side: Side) -> Found<S> {
-        Ok(bounded(self.contact.stress(time, side)))
+    fn stress(&self, time: &N, side: Side) -> Found<N> {
+        Ok(carried(self.contact.stress(time, side)))
     }
 
-    fn field(&self, point: &S, time: &S, side: Side) -> All<S, 3> {
-        Ok(of_field(self.contact.field(point, time, side)))
+    fn field(&self, point: &N, time: &N, side: Side) -> All<N, 3> {
+        let Field { displacement, velocity, strain } = self.contact.field(point, time, side);
+        Ok([displacement, velocity, strain].map(carried))
     }
 
-    fn centre(&self, rod: &Parameters<S>, time: &S) -> All<S, 2> {
+    fn centre(&self, rod: &Parameters<N>, time: &N) -> All<N, 2> {
         // No contact is shorter than a round trip.
-        if *time > rod.round_trip()
+        if rod.round_trip().below(time) == Ok(true)
             && let Bounce::At { time: end, .. } = self.bounce()
-            && time > end
+            && end.below(time) == Ok(true)
         {
             let (height, velocity) = self.contact.rebound(end).flight(time);
-            return Ok([Bounded::rounded(height), Bounded::rounded(velocity)]);
+            return Ok([height, velocity].map(carried));
         }
         let (height, velocity) = self.contact.centre(time);
-        Ok([bounded(height), bounded(velocity)])
+        Ok([height, velocity].map(carried))
     }
 
-    fn total_energy(&self, time: &S) -> Found<S> {
-        let (energy, [total, ..]) = self.contact.energy(time);
-        Ok(Bounded::new(energy.total, total))
+    fn total_energy(&self, time: &N) -> Found<N> {
+        Ok(carried(self.contact.energy(time).total))
     }
 
-    fn vibrational_energy(&self, _: &Parameters<S>, time: &S) -> Found<S> {
-        let (energy, [.., vibrational]) = self.contact.energy(time);
-        Ok(Bounded::new(energy.vibrational, vibrational))
+    fn vibrational_energy(&self, _: &Parameters<N>, time: &N) -> Found<N> {
+        Ok(carried(self.contact.energy(time).vibrational))
     }
 
-    fn top(&self) -> All<S, 2> {
+    fn top(&self) -> All<N, 2> {
         let Bounce::At { time: end, .. } = self.bounce() else { return Err(NoAnswer::none("no bounce")) };
         let (time, height) = self.contact.rebound(end).highest().ok_or_else(|| NoAnswer::none("no top"))?;
-        Ok([Bounded::rounded(time), Bounded::rounded(height)])
+        Ok([time, height].map(carried))
     }
 }
 
@@ -284,24 +282,25 @@ fn found(release: Option<f64>) -> Found<f64> {
 
 impl Motion<f64> for Modal<f64> {
     fn release(&self, rod: &Parameters<f64>) -> Found<f64> {
-        found(formulas::first_release(rod.round_trip(), LOOKS, |t, side| self.stress(&t, side).value))
+        found(formulas::first_release(rod.round_trip(), LOOKS, |t, side| *Estimate::value(&self.stress(&t, side))))
     }
 
     fn stress(&self, time: &f64, side: Side) -> Found<f64> {
-        Ok(bounded(self.stress(time, side)))
+        Ok(double(self.stress(time, side)))
     }
 
     fn field(&self, point: &f64, time: &f64, side: Side) -> All<f64, 3> {
-        Ok(of_field(self.field(point, time, side)))
+        let Field { displacement, velocity, strain } = self.field(point, time, side);
+        Ok([displacement, velocity, strain].map(double))
     }
 
     fn centre(&self, _: &Parameters<f64>, time: &f64) -> All<f64, 2> {
         let (height, velocity) = self.centre(time);
-        Ok([bounded(height), bounded(velocity)])
+        Ok([double(height), double(velocity)])
     }
 
     fn total_energy(&self, time: &f64) -> Found<f64> {
-        Ok(bounded(self.energy(time)))
+        Ok(double(self.energy(time)))
     }
 }
 

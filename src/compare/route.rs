@@ -9,11 +9,11 @@ use crate::cells::Damped;
 use crate::first_contact::{Bounce, FirstContact};
 use crate::lattice::Undamped;
 use crate::modal::Modal;
-use crate::number::Scalar;
+use crate::number::{Estimate, Scalar};
 use crate::paper::Printed;
 use crate::rod::{Parameters, Problem, Run};
 pub(crate) use crate::solve::Numbers;
-use crate::solve::{self, Plan, Solution, Want};
+use crate::solve::{self, Plan, Solution, Want, bounce_within};
 
 /// A formula in many digits; its argument makes `p/q` in that many.
 pub(crate) type LongFormula = fn(&dyn Fn(i32, i32) -> long::Digits) -> long::Digits;
@@ -61,13 +61,13 @@ impl Route {
         let problem = &question.problem;
         match self {
             Route::Formula(_, formula) => Ok(Bounded::unbounded(Value::Double(formula()))),
-            Route::ClosedForm(Numbers::Double(None)) => {
-                let rod = Parameters::<f64>::of(problem, &())?;
-                question.ask(&rod, &ByClosedForm::new(&rod, FirstContact::bounce))
-            }
-            Route::ClosedForm(Numbers::Double(Some(accuracy))) => {
-                let rod = Parameters::of(problem, &())?;
-                question.ask(&rod, &ByClosedForm::new(&rod, |contact| contact.bounce_within(accuracy)))
+            Route::ClosedForm(Numbers::Double(accuracy)) => {
+                let rod = Parameters::<Estimate<f64>>::of(problem, &())?;
+                let search = |contact: &FirstContact<_>| match accuracy {
+                    Some(accuracy) => bounce_within(contact, accuracy),
+                    None => contact.bounce(),
+                };
+                question.ask(&rod, &ByClosedForm::new(&rod, search))
             }
             Route::Lattice(Numbers::Double(_)) => question.ask_history(&Undamped::<f64>::solve(problem, &())?),
             Route::Cells(digits) => question.ask_history(&Damped::<f64>::solve(problem, &(), f64::from(digits))?),
@@ -134,12 +134,12 @@ pub(crate) fn within_first_contact(question: &Question) -> Result<(), String> {
     }
     let Some(time) = &question.time else { return Ok(()) };
     let rod = Parameters::<f64>::of(problem, &()).map_err(|error| error.to_string())?;
-    match FirstContact::new(&rod).bounce_within(1e-10) {
-        Bounce::At { time: end, .. } if time.to_f64() > end * (1.0 + 1e-12) => {
-            Err(format!("it covers the first contact only, which ends at t = {end:.6}"))
+    match bounce_within(&FirstContact::new(&rod.carry()), 1e-10) {
+        Bounce::At { time: end, .. } if time.to_f64() > end.value() * (1.0 + 1e-12) => {
+            Err(format!("it covers the first contact only, which ends at t = {:.6}", end.value()))
         }
-        Bounce::Undecided { until, .. } if time.to_f64() > until => {
-            Err(format!("it is undecided whether the first contact lasts beyond t = {until:.6}"))
+        Bounce::Undecided { until, .. } if time.to_f64() > *until.value() => {
+            Err(format!("it is undecided whether the first contact lasts beyond t = {:.6}", until.value()))
         }
         _ => Ok(()),
     }

@@ -1,38 +1,30 @@
 //! The bounce time `t_b`: the first root or jump of the stress, or the reason why there is none.
 
-use std::cmp::Ordering;
-
-use super::field::{FirstContact, Sum};
-use crate::history::Side;
-use crate::modal::Modal;
-use crate::number::Analytic;
-use crate::special::roundoff;
+use super::cells::Search;
+use super::field::{FirstContact, Trips};
+use super::reason::{Doubt, NoBounceReason};
+use crate::special::Bounded;
 
 /// How the contact ends.
-#[derive(Clone, Debug, PartialEq)]
-pub enum Bounce<S> {
+#[derive(Clone, Debug)]
+pub enum Bounce<N> {
     /// The ground lets go.
     At {
         /// `t_b`.
-        time: S,
+        time: N,
+        /// The same in round trips.
+        trips: Trips<N>,
         /// At a jump of the stress or at a root.
         kind: BounceKind,
-        /// How far `time` may be off; zero for a jump, whose time is `k t₁`.
-        error: f64,
     },
     /// The stress never becomes tensile.
-    Never {
-        /// Why.
-        reason: String,
-    },
+    Never(NoBounceReason),
     /// Neither could be shown.
     Undecided {
         /// Up to here there is no bounce.
-        until: S,
+        until: N,
         /// What stands in the way.
-        why: String,
-        /// Whether a longer number could settle it.
-        digits: bool,
+        why: Doubt,
     },
 }
 
@@ -45,160 +37,113 @@ pub enum BounceKind {
     Root,
 }
 
-/// How the search for the bounce ends.
-pub(crate) enum Found<S> {
-    /// With an answer.
-    Answer(Bounce<S>),
-    /// At the jump after this many round trips.
-    Jump(i64),
-    /// At a root.
-    Root(Bracket<S>),
-}
-
-/// A part of a cell that holds the first root of the stress, and no other.
-pub(crate) struct Bracket<S> {
-    /// The cell, by the round trips before it.
-    pub(crate) cell: i64,
-    /// Its ends, as numbers of round trips.
-    pub(crate) from: S,
-    /// See `from`.
-    pub(crate) to: S,
-    /// The force falls at least so fast in each round trip.
-    pub(crate) slope: S,
-}
-
-/// Where the stress comes from.
-#[derive(Clone, Debug)]
-pub(super) enum Route<S> {
-    /// The rays that have returned.
-    Rays,
-    /// The modes.
-    Modes(Modal<S>),
+impl<N> Bounce<N> {
+    /// The same answer in other numbers.
+    pub fn map<M>(&self, f: impl Fn(&N) -> M) -> Bounce<M> {
+        match self {
+            Bounce::At { time, trips, kind } => Bounce::At { time: f(time), trips: trips.map(f), kind: *kind },
+            Bounce::Never(reason) => Bounce::Never(reason.clone()),
+            Bounce::Undecided { until, why } => Bounce::Undecided { until: f(until), why: why.clone() },
+        }
+    }
 }
 
 /// Cells `(k t₁, (k+1) t₁)` that are searched.
 const MOST_CELLS: i64 = 256;
 
-impl<S: Analytic> FirstContact<S> {
+impl<N: Bounded> FirstContact<N> {
     /// `t_b` (1.10): the end of the first contact.
     ///
     /// **Source**: Theorem 1, with (2.32) in closed form: `t_b = t₁` where `μ (2 − I₀(R)) > μ₀ (I₀(R) + I₁(R))`.
-    /// Without damping Corollary 1 says all. Later cells are searched one by one on a Chebyshev sum whose rest is bounded, see [`Bounce::Undecided`] for
-    /// when that fails. "Never" is shown in one of two ways. For `R ≥ π`: the kernel `H_r` is positive, because its
+    /// Without damping Corollary 1 says all. Later cells are searched one by one on a Chebyshev sum whose rest is bounded, see [`Doubt`] for
+    /// what can stand in the way. "Never" is shown in one of two ways. For `R ≥ π`: the kernel `H_r` is positive, because its
     /// lowest mode, overdamped, exceeds the sum of all others from `t₁` on. For `R < π`: at some lattice time
     /// `|v_t ∓ c(v_x − v_s′)| < gL/c` throughout the rod; this largest Riemann invariant of the transient cannot
     /// grow, since `(∂_t ± c∂_x) p_± = −r (p₊ + p₋)`, and so the static stress wins at all later times.
     ///
-    /// **Accuracy**: `error` bounds the rounding errors and the width of the last bracket. No root is reported that
-    /// is not bracketed by signs beyond the rounding errors.
+    /// **Accuracy**: *within its own bound*. No root is reported that is not bracketed by signs beyond the bounds of the stress.
     ///
     /// ```
-    /// # use dalembert::{Number, Problem, rod::Parameters, first_contact::{Bounce, BounceKind, FirstContact}};
+    /// # use dalembert::{Number, Problem, rod::Parameters, first_contact::{Bounce, BounceKind, FirstContact}, number::Estimate};
     /// let problem = Problem::uniform(Number::from(1), Number::from(1), Number::from(1), Number::from(3));
-    /// let contact = FirstContact::new(&Parameters::<f64>::of(&problem, &())?);
-    /// assert_eq!(contact.bounce(), Bounce::At { time: 2.0, kind: BounceKind::Jump, error: 0.0 });
+    /// let contact = FirstContact::new(&Parameters::<Estimate<f64>>::of(&problem, &())?);
+    /// let bounce = contact.bounce();
+    /// assert!(matches!(bounce, Bounce::At { time, kind: BounceKind::Jump, .. } if *time.value() == 2.0));
     /// # Ok::<(), dalembert::Error>(())
     /// ```
-    pub fn bounce(&self) -> Bounce<S> {
-        self.bounce_by(&Route::Rays)
+    pub fn bounce(&self) -> Bounce<N> {
+        self.search(&Search { contact: self, route: None })
     }
 
-    /// The same, with the stress from `route`.
-    pub(super) fn bounce_by(&self, route: &Route<S>) -> Bounce<S> {
-        match self.search(route) {
-            Found::Jump(k) => {
-                let time = self.round_trip.int(k) * &self.round_trip;
-                Bounce::At { time, kind: BounceKind::Jump, error: 0.0 }
-            }
-            Found::Root(bracket) => self.refine(route, bracket),
-            Found::Answer(answer) => answer,
-        }
+    /// The same with `e^{−rt} H_r` and `e^{−rt} G_r/t₁` from another route, after τ round trips of which k have passed.
+    pub fn bounce_by(&self, route: &dyn Fn(&N, i64) -> [N; 2]) -> Bounce<N> {
+        self.search(&Search { contact: self, route: Some(route) })
     }
 
-    /// The search for the bounce, up to a bracket.
-    pub(super) fn search(&self, route: &Route<S>) -> Found<S> {
-        let (mu, mu0) = (&self.rod.speed, &self.critical);
-        let total = mu.clone() + mu0;
-        if mu.is_negative() || !total.is_finite() || !self.damping.is_finite() {
-            let why = "an impact speed below zero, or a number that is not finite".into();
-            return Found::Answer(Bounce::Undecided { until: mu.zero(), why, digits: false });
+    fn search(&self, search: &Search<'_, N>) -> Bounce<N> {
+        let (mu, total) = (&self.speed, self.total_speed());
+        let undecided =
+            |k: i64, why: Doubt| Bounce::Undecided { until: self.round_trip.int(k) * &self.round_trip, why };
+        if mu.negative() == Ok(true) || !total.is_finite() || !self.damping.is_finite() {
+            return undecided(0, Doubt::Parameters);
         }
-        if total.is_zero() {
-            return Found::Answer(Bounce::Never { reason: "neither speed nor gravity: nothing moves".into() });
+        match (total.vanishes(), self.damping.vanishes(), mu.positive()) {
+            (Ok(true), ..) => return Bounce::Never(NoBounceReason::NothingMoves),
+            (_, Ok(true), Ok(true)) => return self.undamped_bounce(),
+            _ => (),
         }
-        if self.damping.is_zero() && mu.is_positive() {
-            return Found::Answer(self.undamped_bounce());
-        }
+        let jump = |k: i64| {
+            let trips = self.lattice(k);
+            Bounce::At { time: trips.exact.clone() * &self.round_trip, trips, kind: BounceKind::Jump }
+        };
         // By far the most frequent answer.
-        let (value, error) = self.force(route, &mu.one(), 1);
-        if value < -error {
-            return Found::Jump(1);
+        if search.force(&mu.one(), 1).negative() == Ok(true) {
+            return jump(1);
         }
         let first = match self.lowest_mode() {
             Ok(first) => first,
-            Err(answer) => return Found::Answer(answer),
+            Err(answer) => return *answer,
         };
         for k in first..=MOST_CELLS {
-            let start = mu.int(k);
-            let (value, error) = self.force(route, &start, k);
-            if value < -error.clone() {
-                return Found::Jump(k);
+            let after = search.force(&mu.int(k), k);
+            if after.negative() == Ok(true) {
+                return jump(k);
             }
-            if value.partial_cmp(&error) != Some(Ordering::Greater) {
-                let why = format!("just after t = {k} t₁ the stress cannot be told from zero");
-                return Found::Answer(Bounce::Undecided { until: start * &self.round_trip, why, digits: true });
+            if after.positive() != Ok(true) {
+                return undecided(k, Doubt::AtLattice(k));
             }
-            match self.cell(route, k) {
+            match search.cell(k) {
                 Ok(None) => (),
-                Ok(Some(bracket)) => return Found::Root(bracket),
-                Err(why) => {
-                    let until = start * &self.round_trip;
-                    return Found::Answer(Bounce::Undecided { until, why, digits: true });
-                }
+                Ok(Some(bracket)) => return search.refine(bracket),
+                Err(why) => return undecided(k, why),
             }
             let looked = k <= 4 || k.count_ones() <= 2 && k % 2 == 0;
             if looked && let Some(reason) = self.settled(k) {
-                return Found::Answer(Bounce::Never { reason });
+                return Bounce::Never(reason);
             }
         }
-        let until = mu.int(MOST_CELLS + 1) * &self.round_trip;
-        let why = format!("no bounce in {MOST_CELLS} round trips, which is the limit");
-        Found::Answer(Bounce::Undecided { until, why, digits: false })
+        undecided(MOST_CELLS + 1, Doubt::NoneFound(MOST_CELLS))
     }
 
     /// Corollary 1, which also settles `μ = μ₀`, where the stress is zero just after `t₁` and rises from there.
-    fn undamped_bounce(&self) -> Bounce<S> {
-        let (mu, mu0, t1) = (&self.rod.speed, &self.critical, &self.round_trip);
-        let blur = roundoff(mu) * &mu.int(8);
-        if *mu >= *mu0 {
-            let sure = S::RIGOROUS || *mu > mu0.clone() + blur.clone() * mu0 || mu0.is_zero();
-            let error = if sure { 0.0 } else { (blur * t1).to_f64() };
-            return Bounce::At { time: t1.clone(), kind: BounceKind::Jump, error };
+    fn undamped_bounce(&self) -> Bounce<N> {
+        let (mu, mu0, t1) = (&self.rod.speed, self.rod.gravity.clone() * &self.round_trip, &self.round_trip);
+        let Ok(order) = mu.compare(&mu0) else {
+            return Bounce::Undecided { until: t1.clone(), why: Doubt::Sizes };
+        };
+        if order.is_lt() {
+            let time = t1.int(2) * t1 - mu.clone() / &self.rod.gravity;
+            return match self.trips(&time) {
+                Some(trips) => Bounce::At { time, trips, kind: BounceKind::Root },
+                None => Bounce::Undecided { until: t1.clone(), why: Doubt::NearZero(2.0) },
+            };
         }
-        let time = t1.int(2) * t1 - mu.clone() / &self.rod.gravity;
-        Bounce::At { error: (blur * &time).to_f64(), time, kind: BounceKind::Root }
-    }
-
-    /// `(μ e^{−rt}H_r + μ₀ e^{−rt}G_r/t₁)/(μ + μ₀)` with `k` returning rays, positive in contact; and its rounding
-    /// error.
-    pub(super) fn force(&self, route: &Route<S>, trips: &S, k: i64) -> (S, S) {
-        let total = self.rod.speed.clone() + &self.critical;
-        let (alpha, beta) = (self.rod.speed.clone() / &total, self.critical.clone() / &total);
-        if let Route::Modes(modal) = route {
-            let side = if *trips == trips.int(k + 1) { Side::Left } else { Side::Right };
-            let [impact, weight] = modal.ground(trips, side);
-            let unit = roundoff(trips).to_f64() * 8.0;
-            let bound = |e: &crate::first_contact::Estimate<S>| e.error + unit * e.value.to_f64().abs();
-            let error = alpha.double(bound(&impact)) * &alpha + beta.double(bound(&weight)) * &beta;
-            return (impact.value * &alpha + weight.value * &beta, error);
+        let mut time = t1.clone();
+        if order.is_eq() {
+            // What is equal within a bound is released later by what the bound leaves open.
+            time = time.widened(&((mu.clone() - mu0) / &self.rod.gravity));
         }
-        let parts = self.ground(trips, k);
-        if S::RIGOROUS {
-            return (parts.impact.value * &alpha + parts.weight.value * &beta, trips.zero());
-        }
-        let bound = |sum: &Sum<S>, share: &S| share.double(sum.roundings + 8.0 * sum.value.to_f64().abs()) * share;
-        let error = bound(&parts.impact, &alpha) + &bound(&parts.weight, &beta);
-        (parts.impact.value * &alpha + parts.weight.value * &beta, error * &roundoff(trips))
+        Bounce::At { time, trips: self.lattice(1), kind: BounceKind::Jump }
     }
 
     /// What the lowest mode settles at once: "never" for `R ≥ π`, and otherwise the first cell that need be searched.
@@ -211,18 +156,17 @@ impl<S: Analytic> FirstContact<S> {
     /// up to `π/Ω_0`, so a look at τ = 1 and at τ = k is enough for all between. The doubles here stand against margins of one part
     /// in 10⁹: r and π are known to 10⁻¹⁶, so is R − π to `10⁻¹⁶/s²`, and below s = 10⁻⁶ nothing depends on s. Before, `H_r = I₀ > 0`. As long as
     /// H_r > 0, G_r > 0.
-    fn lowest_mode(&self) -> Result<i64, Bounce<S>> {
+    fn lowest_mode(&self) -> Result<i64, Box<Bounce<N>>> {
         use std::f64::consts::PI;
+        let answer = |bounce| Err(Box::new(bounce));
         let pi = self.damping.pi();
-        let margin = roundoff(&pi) * &pi.int(16);
-        if (self.damping.clone() - &pi).magnitude() < margin {
-            let why = "r t₁ cannot be told from π, from which on there is no bounce".into();
-            return Err(Bounce::Undecided { until: self.round_trip.clone(), why, digits: true });
-        }
-        let r = self.damping.to_f64();
-        let square = ((self.damping.clone() - &pi) * &(self.damping.clone() + &pi)).to_f64();
-        let s = square.abs().sqrt();
-        let overdamped = self.damping > pi;
+        let apart = self.damping.clone() - &pi;
+        let overdamped = match apart.sign() {
+            Ok(order) if order.is_ne() => order.is_gt(),
+            _ => return answer(Bounce::Undecided { until: self.round_trip.clone(), why: Doubt::NearPi }),
+        };
+        let r = self.damping.near().0;
+        let s = (apart * &(self.damping.clone() + &pi)).near().0.abs().sqrt();
         let (mut others, mut growth, mut square_wave) = (0.0, 0.0, 1.0 + 4.0 / PI);
         let mut omega = 3.0 * PI;
         // With R beyond 3·10⁶, sinh(s)/s overflows long before the modes in question, R/π of them, matter.
@@ -244,13 +188,8 @@ impl<S: Analytic> FirstContact<S> {
         if overdamped {
             let lowest = if s < 1e-6 { 4.0 } else { 4.0 * s.sinh() / s };
             if lowest > rest(1.0) && 4.0 * s.cosh() > growth {
-                let ratio = lowest / rest(1.0);
-                let times = if ratio < 1000.0 { format!("{ratio:.3}") } else { "more than 1000".into() };
-                let reason = format!(
-                    "r t₁ = {r:.6} ≥ π: the lowest mode is overdamped; at t₁ it presses {times} times as hard as all \
-                     others together could pull, and it outgrows them from there"
-                );
-                return Err(Bounce::Never { reason });
+                let margin = lowest / rest(1.0);
+                return answer(Bounce::Never(NoBounceReason::Overdamped { damping_ratio: r, margin }));
             }
             return Ok(1);
         }
@@ -265,14 +204,11 @@ impl<S: Analytic> FirstContact<S> {
         if k > MOST_CELLS {
             // The force is positive up to here, whether or not the transient has died away before.
             if let Some(reason) = [1, 2, 4, 8, 16].into_iter().find_map(|k| self.settled(k)) {
-                return Err(Bounce::Never { reason });
+                return answer(Bounce::Never(reason));
             }
-            let why = format!(
-                "r t₁ = {r} is just below π: no bounce within the limit of {MOST_CELLS} round trips; without gravity it comes \
-                 at about {:.4e} t₁",
-                PI / s
-            );
-            return Err(Bounce::Undecided { until: self.round_trip.int(k) * &self.round_trip, why, digits: false });
+            let why = Doubt::Late { damping_ratio: r, cells: MOST_CELLS, expected: PI / s };
+            let until = self.round_trip.int(k) * &self.round_trip;
+            return answer(Bounce::Undecided { until, why });
         }
         Ok(k)
     }

@@ -1,45 +1,59 @@
 //! The energies during the first contact: `E_z` as a sum of squares, by Gauss–Legendre between the rays.
 
-use super::field::{Estimate, FirstContact, Parts};
+use super::field::{FirstContact, Trips, unknown};
 use super::rebound::translational;
 use crate::history::{Energy, Side};
-use crate::number::Analytic;
-use crate::special::gauss_legendre;
+use crate::number::Scalar;
+use crate::special::Bounded;
 
-/// One node: travel time, weight in `∫ da`, `v_t − h′`, `c v_x`.
-struct Node<S> {
-    weight: S,
-    deviation: Estimate<S>,
-    strain: Estimate<S>,
+/// One node: weight in `∫ da`, `v_t − h′`, `c v_x`.
+struct Node<N> {
+    weight: N,
+    deviation: N,
+    strain: N,
+}
+
+/// A stretch of the rod between two rays, and how many rays have arrived there upwards and downwards.
+struct Stretch<N> {
+    from: N,
+    to: N,
+    arrived: [i64; 2],
 }
 
 /// Most nodes between two rays; only damping far beyond `r t₁ = 100` could ask for more.
 const MOST_NODES: usize = 4000;
+/// `log₂` of the part of its natural size that `E_z` is first taken to be.
+const FIRST_SIZE: f64 = -12.0;
+/// `log₂` of the least part that nodes are added for.
+const LEAST_SIZE: f64 = -960.0;
+/// Numbers up to this length take the sums without cancellation at the first return; longer ones have bits to spare.
+const MOST_BITS_WITHOUT_CANCELLATION: u32 = 64;
 
-impl<S: Analytic> FirstContact<S> {
-    /// `E`, `E_h`, `E_z` at a time of the contact, and a bound for the error of each.
+impl<N: Bounded> FirstContact<N> {
+    /// `E`, `E_h`, `E_z` at a time of the contact.
     ///
     /// **Source**: (3.54), (3.61)–(3.63), with `E_z = ½∫((v_t − h′)² + c²v_x²)dx`, so that `E_z ≪ E` keeps its digits.
     ///
-    /// **Accuracy**: the bounds hold rounding and quadrature. At `t₁` and `R ≤ 1` the parts of `v_t` and `v_x` that
-    /// do not depend on x are left out before they are added up, and `E_z` is relatively accurate however small; at
-    /// other times its error is that of `v_t` and `v_x`, which are known to a part of `μ + μ₀`.
+    /// **Accuracy**: *within its own bound*, which holds rounding and quadrature. In doubles, at `t₁` and `R ≤ 1`, the parts of
+    /// `v_t` and `v_x` that do not depend on x are left out before they are added up, and `E_z` is relatively accurate however
+    /// small; at other times its error is that of `v_t` and `v_x`, which are known to a part of `μ + μ₀`.
     ///
     /// ```
-    /// # use dalembert::{rod::Parameters, first_contact::FirstContact};
+    /// # use dalembert::{rod::Parameters, first_contact::FirstContact, number::Estimate};
     /// // r = 0, μ ≥ μ₀ = 2: E_z(t₁) = μ₀² L/6.
     /// let rod = Parameters { length: 1.0, wave_speed: 1.0, damping: 0.0, gravity: 1.0, speed: 1e6 };
-    /// let (energy, _) = FirstContact::new(&rod).energy(&2.0);
-    /// assert!((energy.vibrational - 2.0_f64 / 3.0).abs() < 1e-14);
+    /// let energy = FirstContact::new(&rod.carry()).energy(&Estimate::exact(2.0));
+    /// assert!((energy.vibrational.value() - 2.0 / 3.0).abs() < 1e-14);
     /// ```
-    pub fn energy(&self, time: &S) -> (Energy<S>, [f64; 3]) {
-        let trips = self.trips(time);
-        let (centre, velocity) = self.centre_at(&trips);
+    pub fn energy(&self, time: &N) -> Energy<N> {
+        self.trips(time).map_or_else(|| nothing(time), |trips| self.energy_at(&trips))
+    }
+
+    pub(super) fn energy_at(&self, trips: &Trips<N>) -> Energy<N> {
+        let (centre, velocity) = self.centre_at(trips);
         let translational = translational(&self.rod, &centre, &velocity);
-        let vibrational = self.vibrational(&trips);
-        let total = translational.value.clone() + &vibrational.value;
-        let errors = [translational.error + vibrational.error, translational.error, vibrational.error];
-        (Energy { total, translational: translational.value, vibrational: vibrational.value }, errors)
+        let vibrational = self.vibrational(trips).unwrap_or_else(|| unknown(&centre));
+        Energy { total: translational.clone() + &vibrational, translational, vibrational }
     }
 
     /// `E_h(t)/E(t)` and `E(t)/E(0)`: the factors of `e_E²` at `t = t_b`.
@@ -47,103 +61,104 @@ impl<S: Analytic> FirstContact<S> {
     /// **Source**: (4.73).
     ///
     /// **Errors**: `None` where `μ = 0`.
-    pub fn restitution_factors(&self, time: &S) -> Option<(S, S)> {
-        if self.rod.speed.is_zero() {
+    pub fn restitution_factors(&self, time: &N) -> Option<(N, N)> {
+        if self.speed.vanishes() == Ok(true) {
             return None;
         }
-        let (energy, _) = self.energy(time);
+        let energy = self.energy(time);
         let start = self.rod.speed.square() * &self.rod.length / self.rod.speed.int(2);
         Some((energy.translational / &energy.total, energy.total / &start))
     }
 
-    /// `E_z` at `t/t₁`.
-    fn vibrational(&self, trips: &S) -> Estimate<S> {
-        let unknown = || Estimate { value: trips.zero(), error: f64::INFINITY };
-        let scale = (self.rod.speed.to_f64() + self.critical.to_f64()).powi(2);
-        // Twice at most: with the number of nodes for an energy of natural size, and with the one for what is found.
-        let mut size = scale;
-        let mut result = unknown();
-        let mut used = 0;
-        for _ in 0..3 {
-            let (n, rest) = self.nodes(trips, size);
-            if n > used {
-                used = n;
-                let Some(found) = self.integrate(trips, n) else { return unknown() };
-                result = found;
-            }
-            let length = self.rod.length.to_f64();
-            size = (result.value.to_f64() / length).max(1e-290 * scale);
-            if n >= used && n < MOST_NODES && self.nodes(trips, size).0 <= used {
-                result.error += rest * length;
-                break;
-            }
+    /// `E_z`: with the number of nodes for a small part of its natural size, and once more where what these leave is more than the
+    /// rounding errors. The impact finds the rod undeformed.
+    fn vibrational(&self, trips: &Trips<N>) -> Option<N> {
+        if trips.lattice() == Some(0) {
+            return Some(self.damping.zero());
         }
-        result
+        let scale = 2.0 * self.total_speed().to_f64().log2() + self.rod.length.to_f64().log2();
+        let ellipses = self.ellipses(trips);
+        let goal = self.damping.log2_roundoff() + FIRST_SIZE + scale;
+        let n = nodes(&ellipses, goal);
+        let (value, rest) = (self.integrate(trips, n)?, rest(&ellipses, n));
+        let (value, rest) = match nodes(&ellipses, value.log2_error().max(goal + LEAST_SIZE)) {
+            more if more > n => (self.integrate(trips, more)?, self::rest(&ellipses, more)),
+            _ => (value, rest),
+        };
+        // A part in a thousand more is for the doubles in it.
+        let two = self.damping.int(2);
+        Some(value.widened(&(two.ln() * &two.double(rest + 1e-3)).exp()))
     }
 
-    /// The number of nodes that leave less than a roundoff of `size` between two rays, and what they leave.
+    /// `log₂` of the bound of what n nodes leave between two rays, without nodes, and of what each node takes off, for some ρ.
     ///
     /// n nodes on an interval of half-width w leave less than `(64/15) w M ρ^{−2n}/(1 − ρ⁻²)`, where M bounds the
-    /// integrand on the Bernstein ellipse ρ, which reaches `δ = (ρ − 1/ρ)w/2` beyond an interval of half-width w.
-    pub(super) fn nodes(&self, trips: &S, size: f64) -> (usize, f64) {
-        let goal = self.damping.log2_roundoff() * std::f64::consts::LN_2 + size.max(f64::MIN_POSITIVE).ln();
-        let best = self.ellipses(trips).map(|[log, step]| (log - goal) / step).fold(f64::INFINITY, f64::min);
-        ((best.ceil().clamp(2.0, MOST_NODES as f64)) as usize, goal.exp())
-    }
-
-    /// The logarithms of that bound without nodes, and of what each node takes off, for some ρ.
-    pub(super) fn ellipses(&self, trips: &S) -> impl Iterator<Item = [f64; 2]> {
-        let tau = trips.to_f64();
-        let (mu, mu0) = (self.rod.speed.to_f64(), self.critical.to_f64());
-        [1.1f64, 1.25, 1.5, 2.0, 4.0, 8.0, 16.0, 32.0, 64.0, 128.0, 256.0].into_iter().map(move |rho| {
+    /// integrand on the Bernstein ellipse ρ, which reaches `δ = (ρ − 1/ρ)w/2` beyond an interval of half-width w. Both stretches
+    /// together are less than `5 L A² ρ^{−2n}/(1 − ρ⁻²)` off.
+    fn ellipses(&self, trips: &Trips<N>) -> Vec<[f64; 2]> {
+        let tau = trips.number.to_f64();
+        let (mu, mu0, length) = (self.speed.to_f64(), self.critical.to_f64(), self.rod.length.to_f64());
+        let radii = [1.1f64, 1.25, 1.5, 2.0, 4.0, 8.0, 16.0, 32.0, 64.0, 128.0, 256.0];
+        let bound = |rho: f64| {
             // No ray has come farther than a = τ, and where none has been the integrand does not depend on a.
             let beyond = (rho - 1.0 / rho) / 2.0 * (tau / 2.0).min(0.25);
             let amplitude = self.amplitude(tau, beyond, mu, mu0);
-            let log = 2.0 * amplitude.ln() + (5.0 / (1.0 - 1.0 / (rho * rho))).ln();
-            [log, 2.0 * rho.ln()]
-        })
+            [2.0 * amplitude.log2() + (5.0 * length / (1.0 - 1.0 / (rho * rho))).log2(), 2.0 * rho.log2()]
+        };
+        radii.map(bound).to_vec()
     }
 
     /// The integral with n nodes between two rays.
-    pub(super) fn integrate(&self, trips: &S, n: usize) -> Option<Estimate<S>> {
-        let nodes = self.sample(trips, n)?;
-        let mut sum = trips.zero();
-        let mut error = 0.0;
-        for node in nodes {
-            let (z, s) = (node.deviation.value.to_f64().abs(), node.strain.value.to_f64().abs());
-            let each = z * node.deviation.error + s * node.strain.error;
-            error += node.weight.to_f64() * (2.0 * each + self.bound((n as f64 + 16.0) * (z * z + s * s)));
-            sum = sum + (node.deviation.value.square() + node.strain.value.square()) * &node.weight;
-        }
-        // dx = c t₁ da = 2L da.
-        let value = sum * &self.rod.length;
-        Some(Estimate { value, error: error * self.rod.length.to_f64() })
-    }
-
-    fn sample(&self, trips: &S, n: usize) -> Option<Vec<Node<S>>> {
-        let rule = gauss_legendre(trips, n);
-        let half = trips.ratio(1, 2);
-        let fraction = trips.clone() - trips.int(trips.floor_int()?);
-        let cut = if fraction > half { trips.one() - fraction } else { fraction };
-        let mut places = Vec::new();
-        for (from, to) in [(trips.zero(), cut.clone()), (cut, half.clone())] {
-            let width = to - &from;
-            if width.is_positive() {
-                let mid = width.clone() / width.int(2);
-                places.extend(rule.iter().map(|(x, w)| (mid.clone() * &(x.one() + x) + &from, w.clone() * &mid)));
+    fn integrate(&self, trips: &Trips<N>, n: usize) -> Option<N> {
+        let rule = self.damping.gauss_legendre(n);
+        let mut sum = self.damping.zero();
+        for stretch in self.stretches(trips)? {
+            let half = (stretch.to.clone() - &stretch.from) / sum.int(2);
+            let places = rule.iter().map(|(x, w)| ((x.one() + x) * &half + &stretch.from, w.clone() * &half));
+            let places: Vec<(N, N)> = places.collect();
+            let short = self.damping.bits().is_some_and(|bits| bits <= MOST_BITS_WITHOUT_CANCELLATION);
+            let nodes = if short && trips.lattice() == Some(1) && self.damping.to_f64() <= 1.0 {
+                self.sample_first_return(places)
+            } else {
+                self.sample(trips, &stretch, places)
+            };
+            for node in nodes {
+                sum = sum + (node.deviation.square() + node.strain.square()) * &node.weight;
             }
         }
-        if !S::RIGOROUS && *trips == trips.one() && self.damping <= trips.one() {
-            return self.sample_first_return(&places);
+        // dx = c t₁ da = 2L da.
+        Some((sum * &self.rod.length).plain())
+    }
+
+    /// The stretches between the rays in the rod, of which there are one upwards and one downwards but at lattice times.
+    fn stretches(&self, trips: &Trips<N>) -> Option<Vec<Stretch<N>>> {
+        let (k, zero, half) = (trips.passed, self.damping.zero(), self.damping.ratio(1, 2));
+        if trips.on_lattice {
+            return Some(vec![Stretch { from: zero, to: half, arrived: [k, k] }]);
         }
-        let [_, centre] = self.centre_parts(trips)?;
-        let one = trips.one();
-        let nodes = places.into_iter().map(|(a, weight)| {
-            let [_, rate, slope] = self.field_parts(&a, trips, Side::Right)?;
-            let deviation = self.combine(&difference(&rate, &centre), &one);
-            Some(Node { weight, deviation, strain: self.combine(&slope, &one) })
-        });
-        nodes.collect()
+        // The upward ray is at this a in the first half of a round trip, the downward one at the mirror image in the second.
+        let late = trips.number.clone() - trips.number.int(k) - &half;
+        let cut = half.clone() - late.magnitude();
+        let upward = match late.sign().ok()? {
+            std::cmp::Ordering::Greater => [k + 1, k + 1],
+            _ => [k, k],
+        };
+        let lower = Stretch { from: zero, to: cut.clone(), arrived: [k + 1, k] };
+        let mut stretches = vec![lower];
+        if late.sign().ok()?.is_ne() {
+            stretches.push(Stretch { from: cut, to: half, arrived: upward });
+        }
+        Some(stretches)
+    }
+
+    fn sample(&self, trips: &Trips<N>, stretch: &Stretch<N>, places: Vec<(N, N)>) -> Vec<Node<N>> {
+        let [_, centre] = self.centre_shares(&trips.number, trips.returned(Side::Left));
+        let free = self.free_fall(&trips.number);
+        let node = |(a, weight): (N, N)| {
+            let [_, rate, slope] = self.field_shares(&a, &trips.number, stretch.arrived, &free);
+            Node { weight, deviation: self.weighted(&rate.minus(&centre)), strain: self.weighted(&slope) }
+        };
+        places.into_iter().map(node).collect()
     }
 
     /// At `t₁`, for R ≤ 1: the impact's share without what is the same along the rod.
@@ -151,54 +166,45 @@ impl<S: Analytic> FirstContact<S> {
     /// Two rays are there, `ξ = 1 ∓ a` and `ξ + η = 2`. In powers of R, `∂_tU₁ − RU₁ = 1 − Rξ + R²ξ/2 + T₃(ξ)`, and
     /// the first three add up to a constant; `T₃` is of order R³, `I₀ − 1` of order R². What is left has no
     /// cancellation but its own zeros.
-    fn sample_first_return(&self, places: &[(S, S)]) -> Option<Vec<Node<S>>> {
-        let trips = self.damping.one();
-        let [_, centre] = self.centre_parts(&trips)?;
-        let damp = (-self.damping.clone()).exp();
-        let rest: Vec<S> =
-            places.iter().map(|(a, _)| self.third_order(a) + self.third_order(&(trips.clone() - a))).collect();
-        let mut mean = trips.zero();
-        for ((_, weight), value) in places.iter().zip(&rest) {
-            mean = mean + weight.clone() * &trips.int(2) * value;
-        }
-        let mut nodes = Vec::with_capacity(places.len());
-        for ((a, weight), value) in places.iter().zip(rest) {
-            let [_, mut rate, mut slope] = self.field_parts(a, &trips, Side::Right)?;
-            let size = value.to_f64().abs() + mean.to_f64().abs();
-            rate = difference(&rate, &centre);
-            rate.impact.value = (value - &mean) * &damp;
-            rate.impact.roundings = 200.0 * size;
-            let (near, far) = (self.bessel_rest(a), self.bessel_rest(&(trips.clone() - a)));
-            slope.impact.roundings = 100.0 * (near.to_f64() + far.to_f64());
-            slope.impact.value = (far - near) * &damp;
-            let (deviation, strain) = (self.combine(&rate, &trips), self.combine(&slope, &trips));
-            nodes.push(Node { weight: weight.clone(), deviation, strain });
-        }
-        Some(nodes)
+    fn sample_first_return(&self, places: Vec<(N, N)>) -> Vec<Node<N>> {
+        let one = self.damping.one();
+        let [_, centre] = self.centre_shares(&one, 0);
+        let (damp, free) = ((-self.damping.clone()).exp(), self.free_fall(&one));
+        let both = |a: &N| self.third_order(a) + self.third_order(&(one.clone() - a));
+        let rest: Vec<N> = places.iter().map(|(a, _)| both(a)).collect();
+        let mean = places
+            .iter()
+            .zip(&rest)
+            .fold(one.zero(), |mean, ((_, weight), value)| mean + weight.clone() * &one.int(2) * value);
+        let node = |((a, weight), value): ((N, N), N)| {
+            let [_, rate, mut slope] = self.field_shares(&a, &one, [1, 1], &free);
+            let mut rate = rate.minus(&centre);
+            rate.impact = (value - &mean) * &damp;
+            let (near, far) = (self.bessel_rest(&a), self.bessel_rest(&(one.clone() - &a)));
+            slope.impact = (far - near) * &damp;
+            Node { weight, deviation: self.weighted(&rate), strain: self.weighted(&slope) }
+        };
+        places.into_iter().zip(rest).map(node).collect()
     }
 
-    /// `I₀(R√(1−a²)) − 1`, for R ≤ 1: terms fall at least fourfold, so the sum ends when one is a roundoff of it.
-    fn bessel_rest(&self, a: &S) -> S {
+    /// `I₀(R√(1−a²)) − 1`, for R ≤ 1: terms fall at least fourfold, and those left out are less than the last one.
+    fn bessel_rest(&self, a: &N) -> N {
         let square = (a.one() - a) * &(a.one() + a) * &self.damping.square() / a.int(4);
-        let terms = (-a.log2_roundoff() / 2.0) as i64 + 2;
+        let terms = (-a.log2_roundoff() / 4.0) as i64 + 2;
         let mut term = a.one();
         let mut sum = a.zero();
         for m in 1..=terms {
             term = term * &square / a.int(m * m);
-            let before = sum.clone();
             sum = sum + &term;
-            if sum == before {
-                break;
-            }
         }
-        sum
+        sum.widened(&term)
     }
 
     /// `T₃(a) = Σ_{p≥3} (R/2)^p Σ_{n+2m=p} ±{1,2} ξ^{n+m}η^m/(m!(n+m)!)`, with `ξ = 1 − a`, `η = 1 + a`.
     ///
-    /// The terms of order p are at most `R^p/p!` together, since `Σ_ℤ qⁿIₙ = e^R`; the sum ends where that is a
-    /// roundoff of R³/48, and each order is one polynomial in ξ, η by Horner in η/ξ-free form.
-    fn third_order(&self, a: &S) -> S {
+    /// The terms of order p are at most `R^p/p!` together, since `Σ_ℤ qⁿIₙ = e^R`; those left out are at most `2^{−bits−8}` of
+    /// `R³/6`, and each order is one polynomial in ξ, η by Horner in η/ξ-free form.
+    fn third_order(&self, a: &N) -> N {
         let (xi, eta) = (a.one() - a, a.one() + a);
         let half = self.damping.clone() / a.int(2);
         let reach = self.damping.to_f64().max(1e-30);
@@ -210,7 +216,7 @@ impl<S: Analytic> FirstContact<S> {
             orders += 1;
             log += (reach / orders as f64).log2();
         }
-        let powers = |step: &S| {
+        let powers = |step: &N| {
             let mut list = vec![a.one()];
             for k in 1..=orders {
                 let next = step.clone() * &list[list.len() - 1] / a.int(k);
@@ -229,16 +235,23 @@ impl<S: Analytic> FirstContact<S> {
             }
             sum = if p % 2 == 0 { sum + &order } else { sum - &order };
         }
-        sum
+        let cube = self.damping.square() * &self.damping * &a.double(goal.exp2() / 6.0);
+        sum.widened(&cube)
     }
 }
 
-/// `a − b`, part by part.
-fn difference<S: Analytic>(a: &Parts<S>, b: &Parts<S>) -> Parts<S> {
-    let mut result = a.clone();
-    for (to, from) in [(&mut result.impact, &b.impact), (&mut result.weight, &b.weight)] {
-        to.value = to.value.clone() - &from.value;
-        to.roundings += from.roundings + 2.0 * from.value.to_f64().abs();
-    }
-    result
+/// Energies of which nothing is known.
+fn nothing<N: Scalar>(like: &N) -> Energy<N> {
+    Energy { total: unknown(like), translational: unknown(like), vibrational: unknown(like) }
+}
+
+/// The number of nodes that leave less than `2^goal`.
+fn nodes(ellipses: &[[f64; 2]], goal: f64) -> usize {
+    let best = ellipses.iter().map(|[log, step]| (log - goal) / step).fold(f64::INFINITY, f64::min);
+    best.ceil().clamp(2.0, MOST_NODES as f64) as usize
+}
+
+/// `log₂` of what n nodes leave.
+fn rest(ellipses: &[[f64; 2]], n: usize) -> f64 {
+    ellipses.iter().map(|[log, step]| log - n as f64 * step).fold(f64::INFINITY, f64::min)
 }

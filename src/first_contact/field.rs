@@ -1,19 +1,9 @@
 //! Stress, field and centre of mass during the first contact, as sums over the rays that have arrived.
 
 use crate::history::{Field, Side};
-use crate::number::{Analytic, Scalar};
+use crate::number::Scalar;
 use crate::rod::Parameters;
-use crate::special::{Ray, i1_scaled, negative_power, phi1, phi2};
-
-/// A value and how far it may be off.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Estimate<S> {
-    /// The value.
-    pub value: S,
-    /// A bound of the rounding errors in it, from the magnitudes that were added up; infinite where nothing is known.
-    /// Zero for enclosures, which hold it in themselves.
-    pub error: f64,
-}
+use crate::special::{Bounded, Ray};
 
 /// The rod that hit the ground undeformed at `t = 0` with uniform velocity `−μ`, while the contact lasts.
 ///
@@ -21,240 +11,276 @@ pub struct Estimate<S> {
 ///
 /// **Units**: any consistent units.
 ///
-/// **Accuracy**: each [`Estimate`] carries the bound of its own rounding errors: the magnitudes of all terms, times the
-/// roundings in each. Where `r t` is large and `R < π` the terms cancel, and the bound says so.
+/// **Accuracy**: *within its own bound*: estimates carry the magnitudes of all terms times the roundings in each, enclosures
+/// their ends. Where `r t` is large and `R < π` the terms cancel, and the bound shows it. A time that is a lattice time `k t₁`
+/// within its bound is taken for that, a point that a ray is reaching for one on the ray. What is not known, because an
+/// enclosure does not tell which rays have arrived, has no finite bound.
 ///
 /// ```
-/// # use dalembert::{Number, Problem, rod::Parameters, first_contact::FirstContact, history::Side};
+/// # use dalembert::{Number, Problem, rod::Parameters, first_contact::FirstContact, history::Side, number::Estimate};
 /// // r = 0: the stress in the first round trip is −(μ + gt)/c.
 /// let problem = Problem::uniform(Number::from(1), Number::from(1), Number::from(1), Number::from(3));
-/// let contact = FirstContact::new(&Parameters::<f64>::of(&problem, &())?);
-/// assert_eq!(contact.stress(&1.0, Side::Right).value, -4.0);
+/// let contact = FirstContact::new(&Parameters::<Estimate<f64>>::of(&problem, &())?);
+/// let stress = contact.stress(&Estimate::exact(1.0), Side::Right);
+/// assert!(*stress.value() == -4.0 && stress.bound() < 1e-14);
 /// # Ok::<(), dalembert::Error>(())
 /// ```
 #[derive(Clone, Debug)]
-pub struct FirstContact<S> {
-    pub(super) rod: Parameters<S>,
-    pub(super) round_trip: S,
+pub struct FirstContact<N> {
+    /// As given: enclosures with the exact numbers inside, which decide comparisons.
+    pub(super) rod: Parameters<N>,
+    pub(super) round_trip: N,
+    /// `μ`, for sums, as all that follow.
+    pub(super) speed: N,
     /// `μ₀`.
-    pub(super) critical: S,
+    pub(super) critical: N,
     /// `R = r t₁`.
-    pub(super) damping: S,
+    pub(super) damping: N,
+    /// Whether `g = 0`.
+    pub(super) weightless: bool,
 }
 
-/// The solutions for `μ = 1, g = 0` and for `μ = 0, g = 1`, and their roundings, in units of the roundoff.
+/// A time of the first contact in round trips.
 #[derive(Clone, Debug)]
-pub(super) struct Parts<S> {
-    pub(super) impact: Sum<S>,
-    pub(super) weight: Sum<S>,
+pub struct Trips<N> {
+    /// `τ = t/t₁`, with an exact number inside where one is known.
+    pub(super) exact: N,
+    /// The same for sums.
+    pub(super) number: N,
+    /// How many round trips have passed.
+    pub(super) passed: i64,
+    /// Whether the last of them just has: `τ` is that number.
+    pub(super) on_lattice: bool,
 }
 
-/// A sum that remembers how much rounding went into it.
-#[derive(Clone, Debug)]
-pub(super) struct Sum<S> {
-    pub(super) value: S,
-    pub(super) roundings: f64,
-}
-
-impl<S: Analytic> Sum<S> {
-    fn new(value: S, roundings: f64) -> Self {
-        let roundings = value.to_f64().abs() * roundings;
-        Sum { value, roundings }
+impl<N> Trips<N> {
+    /// The same time in other numbers.
+    pub fn map<M>(&self, f: impl Fn(&N) -> M) -> Trips<M> {
+        Trips { exact: f(&self.exact), number: f(&self.number), passed: self.passed, on_lattice: self.on_lattice }
     }
 
-    /// Adds `term`, which has `roundings` relative ones; eight more are for what is done with it.
-    fn add(&mut self, term: S, roundings: f64) {
-        let size = term.to_f64().abs();
-        self.value = self.value.clone() + term;
-        self.roundings += size * (roundings + 8.0) + self.value.to_f64().abs();
+    /// `k` where the time is `k t₁`.
+    pub fn lattice(&self) -> Option<i64> {
+        self.on_lattice.then_some(self.passed)
     }
+
+    /// How many rays have returned to the ground.
+    pub(super) fn returned(&self, side: Side) -> i64 {
+        (self.passed - i64::from(self.on_lattice && side == Side::Left)).max(0)
+    }
+}
+
+/// The solutions for `μ = 1, g = 0` and for `μ = 0, μ₀ = 1`.
+#[derive(Clone, Debug)]
+pub(super) struct Shares<N> {
+    pub(super) impact: N,
+    pub(super) weight: N,
+}
+
+impl<N: Scalar> Shares<N> {
+    /// The difference, share by share.
+    pub(super) fn minus(&self, other: &Self) -> Self {
+        Shares { impact: self.impact.clone() - &other.impact, weight: self.weight.clone() - &other.weight }
+    }
+}
+
+/// What all points of the rod have in common: free fall.
+pub(super) struct FreeFall<N> {
+    value: Shares<N>,
+    rate: Shares<N>,
 }
 
 /// More rays than this are not summed.
 const MOST_RAYS: i64 = 1 << 20;
 
-/// `(−1)^j term`.
-fn alternate<S: Scalar>(j: i64, term: S) -> S {
-    if j % 2 == 0 { term } else { -term }
+/// Adds `(−1)^j term`.
+fn alternate<N: Scalar>(sum: &mut N, j: i64, term: &N) {
+    *sum = if j % 2 == 0 { sum.clone() + term } else { sum.clone() - term };
 }
 
-impl<S: Analytic> FirstContact<S> {
+/// A number of which nothing is known.
+pub(super) fn unknown<N: Scalar>(like: &N) -> N {
+    like.zero().widened(&like.double(f64::INFINITY))
+}
+
+impl<N: Bounded> FirstContact<N> {
     /// The first contact of a rod with these parameters.
-    pub fn new(rod: &Parameters<S>) -> Self {
+    pub fn new(rod: &Parameters<N>) -> Self {
         let round_trip = rod.round_trip();
-        let damping = rod.damping.clone() * &round_trip;
-        FirstContact { critical: rod.critical_speed(), rod: rod.clone(), round_trip, damping }
+        let critical = rod.gravity.clone() * &round_trip;
+        FirstContact {
+            speed: rod.speed.clone().plain(),
+            damping: (rod.damping.clone() * &round_trip).plain(),
+            weightless: rod.gravity.vanishes() == Ok(true),
+            critical: critical.plain(),
+            rod: rod.clone(),
+            round_trip,
+        }
+    }
+
+    /// The parameters.
+    pub fn rod(&self) -> &Parameters<N> {
+        &self.rod
     }
 
     /// `t₁ = 2L/c`.
-    pub fn round_trip(&self) -> S {
+    pub fn round_trip(&self) -> N {
         self.round_trip.clone()
     }
 
-    /// `t/t₁`, and exactly k within rounding of the k-th lattice time.
-    pub(super) fn trips(&self, time: &S) -> S {
-        let trips = time.clone() / &self.round_trip;
-        let nearest = (trips.clone() + trips.ratio(1, 2)).floor_int();
-        match nearest {
-            Some(k) if time.meets(&(self.round_trip.int(k) * &self.round_trip)) => time.int(k),
-            _ => trips,
-        }
+    /// `t/t₁`; `None` where it cannot be said how many rays have returned.
+    pub fn trips(&self, time: &N) -> Option<Trips<N>> {
+        let exact = time.clone() / &self.round_trip;
+        let passed = exact.floor_int().filter(|k| *k <= MOST_RAYS)?;
+        let whole = exact.int(passed);
+        let on_lattice = exact.compare(&whole).ok()?.is_eq();
+        let number = if on_lattice { whole.plain() } else { exact.clone().plain() };
+        Some(Trips { exact, number, passed, on_lattice })
     }
 
-    /// How many lattice times `k t₁`, `k ≥ 1`, have passed: `None` beyond what is summed.
-    pub(super) fn passed(trips: &S, side: Side) -> Option<i64> {
-        let whole = trips.floor_int()?;
-        let whole = if side == Side::Left && *trips == trips.int(whole) { whole - 1 } else { whole };
-        (whole <= MOST_RAYS).then_some(whole.max(0))
+    /// The k-th lattice time, in round trips.
+    pub(super) fn lattice(&self, k: i64) -> Trips<N> {
+        let exact = self.round_trip.int(k);
+        Trips { number: exact.clone().plain(), exact, passed: k, on_lattice: true }
     }
 
-    /// The bound that `roundings` stand for.
-    pub(super) fn bound(&self, roundings: f64) -> f64 {
-        if S::RIGOROUS {
-            return 0.0;
-        }
-        // Below the least double a bound is still no promise of exactness.
-        (roundings * negative_power(-self.damping.log2_roundoff())).max(f64::MIN_POSITIVE)
+    /// `μ + μ₀`.
+    pub(super) fn total_speed(&self) -> N {
+        self.speed.clone() + &self.critical
     }
 
     /// `factor (μ impact + μ₀ weight)`.
-    pub(super) fn combine(&self, parts: &Parts<S>, factor: &S) -> Estimate<S> {
-        let impact = parts.impact.value.clone() * &self.rod.speed;
-        let weight = parts.weight.value.clone() * &self.critical;
-        let (mu, mu0) = (self.rod.speed.to_f64().abs(), self.critical.to_f64().abs());
-        let roundings = mu * parts.impact.roundings + mu0 * parts.weight.roundings;
-        let size = impact.to_f64().abs() + weight.to_f64().abs();
-        let error = self.bound((roundings + 6.0 * size) * factor.to_f64().abs());
-        Estimate { value: (impact + weight) * factor, error }
+    pub(super) fn combine(&self, shares: &Shares<N>, factor: &N) -> N {
+        self.weighted(shares) * factor
+    }
+
+    /// `μ impact + μ₀ weight`.
+    pub(super) fn weighted(&self, shares: &Shares<N>) -> N {
+        let impact = shares.impact.clone() * &self.speed;
+        if self.weightless { impact } else { impact + shares.weight.clone() * &self.critical }
     }
 
     /// `e^{−rt} H_r` and `e^{−rt} G_r/t₁` with the first `k` returning rays: `v_x(0,t) = −(μ · + μ₀ ·)/c`.
-    pub(super) fn ground(&self, trips: &S, k: i64) -> Parts<S> {
-        let zero = trips.zero();
-        let mut parts = Parts { impact: Sum::new(zero.clone(), 0.0), weight: Sum::new(zero, 0.0) };
-        for j in 0..=k {
+    pub(super) fn ground(&self, trips: &N, k: i64) -> Shares<N> {
+        let start = Ray::at_source(&self.damping, trips).start();
+        // `G_r = t (I₀ + I₁)` before the first return.
+        let weight = if self.weightless {
+            trips.zero()
+        } else {
+            (start.clone() + (self.damping.clone() * trips).in_scaled(1)) * trips
+        };
+        let mut shares = Shares { impact: start, weight };
+        if k < 1 {
+            return shares;
+        }
+        let mut returned = Shares { impact: trips.zero(), weight: trips.zero() };
+        for j in 1..=k {
             let ray = Ray::new(&self.damping, &trips.int(j), trips);
-            if j == 0 {
-                // `G_r = t (I₀ + I₁)` before the first return.
-                let (start, roundings) = ray.start();
-                if !self.critical.is_zero() {
-                    let both = start.clone() + i1_scaled(&(self.damping.clone() * trips));
-                    parts.weight.add(both * trips, roundings + 4.0);
-                }
-                parts.impact.add(start, roundings);
-                continue;
-            }
-            let twice = trips.int(2);
-            if self.critical.is_zero() {
-                let (start, roundings) = ray.start();
-                parts.impact.add(alternate(j, start * &twice), roundings);
+            if self.weightless {
+                alternate(&mut returned.impact, j, &ray.start());
                 continue;
             }
             let sums = ray.sums([1], |n| [n]);
-            let [force] = sums.sums;
-            parts.impact.add(alternate(j, sums.start * &twice), sums.start_roundings);
-            parts.weight.add(alternate(j, force * &twice), sums.sum_roundings);
+            alternate(&mut returned.impact, j, &sums.start);
+            alternate(&mut returned.weight, j, &sums.sums[0]);
         }
-        parts
+        let two = trips.int(2);
+        shares.impact = shares.impact + returned.impact * &two;
+        shares.weight = shares.weight + returned.weight * &two;
+        shares
     }
 
     /// `v_x(0,t) = e^{−rt} Ψ_r(t)`: the stress at the ground divided by the modulus.
     ///
     /// **Source**: (2.28).
-    pub fn stress(&self, time: &S, side: Side) -> Estimate<S> {
-        let trips = self.trips(time);
-        match Self::passed(&trips, side) {
-            Some(k) => self.combine(&self.ground(&trips, k), &(-(trips.one() / &self.rod.wave_speed))),
-            None => Estimate { value: trips.zero(), error: f64::INFINITY },
-        }
+    pub fn stress(&self, time: &N, side: Side) -> N {
+        self.trips(time).map_or_else(|| unknown(time), |trips| self.stress_at(&trips, side))
+    }
+
+    pub(super) fn stress_at(&self, trips: &Trips<N>, side: Side) -> N {
+        self.stress_in_cell(&trips.number, trips.returned(side))
+    }
+
+    /// The stress with `k` returned rays.
+    pub(super) fn stress_in_cell(&self, trips: &N, k: i64) -> N {
+        -(self.weighted(&self.ground(trips, k)) / &self.rod.wave_speed).plain()
     }
 
     /// `e^{−rt} H_r(t)`, with its sign and jumps as in (2.27): the stress for `μ = c` and `g = 0`, turned around.
-    pub fn impact_kernel(&self, time: &S, side: Side) -> Estimate<S> {
-        self.kernel(time, side, |parts| parts.impact, &time.one())
+    pub fn impact_kernel(&self, time: &N, side: Side) -> N {
+        let at = |trips: Trips<N>| self.ground(&trips.number, trips.returned(side)).impact;
+        self.trips(time).map_or_else(|| unknown(time), at)
     }
 
-    /// `e^{−rt} G_r(t)`, `G_r = ∫₀ᵗ e^{r(t−τ)} H_r(τ) dτ`: the weight's share of (2.28). Zero terms are summed for
-    /// `g = 0`.
-    pub fn weight_kernel(&self, time: &S, side: Side) -> Estimate<S> {
-        self.kernel(time, side, |parts| parts.weight, &self.round_trip)
-    }
-
-    fn kernel(&self, time: &S, side: Side, part: impl Fn(Parts<S>) -> Sum<S>, unit: &S) -> Estimate<S> {
-        let trips = self.trips(time);
-        match Self::passed(&trips, side) {
-            Some(k) => {
-                let sum = part(self.ground(&trips, k));
-                let error = self.bound(sum.roundings * unit.to_f64());
-                Estimate { value: sum.value * unit, error }
-            }
-            None => Estimate { value: trips.zero(), error: f64::INFINITY },
-        }
-    }
-
-    /// `V`, `V_t`, `V_x` at the travel time `a` from the ground, `0 ≤ a ≤ 1/2`.
-    pub(super) fn field_parts(&self, a: &S, trips: &S, side: Side) -> Option<[Parts<S>; 3]> {
-        let arrived = |_, travel: &S, _| if travel.meets(trips) { side == Side::Right } else { travel < trips };
-        self.field_of(a, trips, arrived)
-    }
-
-    /// The same with those rays, the j-th of a travel time, upwards or downwards, that have `arrived`.
-    pub(super) fn field_of(&self, a: &S, trips: &S, arrived: impl Fn(i64, &S, bool) -> bool) -> Option<[Parts<S>; 3]> {
-        let (r, one) = (&self.damping, trips.one());
-        let fall = -(r.int(2) * r * trips);
-        let (fallen, dropped) = (-(phi1(&fall) * trips), -(phi2(&fall) * &trips.square()));
-        let free = 6.0 + 2.0 * fall.to_f64().abs().min(64.0);
-        let mut value = Parts { impact: Sum::new(fallen.clone(), free), weight: Sum::new(dropped, free + 16.0) };
-        let mut rate = Parts { impact: Sum::new(-fall.exp(), free), weight: Sum::new(fallen, free) };
-        let mut slope = Parts { impact: Sum::new(one.zero(), 0.0), weight: Sum::new(one.zero(), 0.0) };
-        let rays = Self::passed(trips, Side::Right)?;
-        let quarter = r.square() / r.int(2);
-        for j in 0..=rays {
+    /// `V`, `V_t`, `V_x` at the travel time `a` from the ground, `0 ≤ a ≤ 1/2`, with so many rays arrived upwards and downwards.
+    pub(super) fn field_shares(&self, a: &N, trips: &N, arrived: [i64; 2], free: &FreeFall<N>) -> [Shares<N>; 3] {
+        let r = &self.damping;
+        let (mut value, mut rate) = (free.value.clone(), free.rate.clone());
+        let mut slope = Shares { impact: r.zero(), weight: r.zero() };
+        let half_square = r.square() / r.int(2);
+        for j in 0..arrived[0].max(arrived[1]) {
             for (travel, down) in [(r.int(j) + a, false), (r.int(j + 1) - a, true)] {
-                if !arrived(j, &travel, down) {
+                if j >= arrived[usize::from(down)] {
                     continue;
                 }
-                let ray = Ray::new(r, &travel, trips);
-                let sums = ray.sums([1, 2, 2, 1, 1], |n| {
+                let sums = Ray::new(r, &travel, trips).sums([1, 2, 2, 1, 1], |n| {
                     let odd = n % 2;
                     [odd, 1 - odd, n * n / 4, n, (n * n + 1) / 2]
                 });
                 let [odd, even, u2, force, rise] = sums.sums;
-                let (near, far) = (sums.start_roundings, sums.sum_roundings);
-                value.impact.add(alternate(j, odd.clone()), far);
-                value.weight.add(alternate(j, u2.clone()), far);
+                alternate(&mut value.impact, j, &odd);
+                alternate(&mut value.weight, j, &u2);
                 // ∂_t U − R U, for both parts.
-                rate.impact.add(alternate(j, sums.start.clone()), near);
-                rate.impact.add(alternate(j, even * &quarter), far);
-                rate.impact.add(alternate(j + 1, odd * r), far);
-                rate.weight.add(alternate(j, rise), far);
-                rate.weight.add(alternate(j + 1, u2 * r), far);
+                alternate(&mut rate.impact, j, &(even * &half_square + &sums.start - odd * r));
+                alternate(&mut rate.weight, j, &(rise - u2 * r));
                 // ∂_a U has the sign of the ray's direction.
                 let turn = if down { j } else { j + 1 };
-                slope.impact.add(alternate(turn, sums.start), near);
-                slope.weight.add(alternate(turn, force), far);
+                alternate(&mut slope.impact, turn, &sums.start);
+                alternate(&mut slope.weight, turn, &force);
             }
         }
-        Some([value, rate, slope])
+        [value, rate, slope]
     }
 
-    /// `v`, `v_t`, `v_x` at `(x,t)`, with one bound for each.
+    /// Free fall at `t/t₁`: `v/t₁` and `v_t`.
+    pub(super) fn free_fall(&self, trips: &N) -> FreeFall<N> {
+        let fall = -(self.damping.int(2) * &self.damping * trips);
+        let (fallen, dropped) = (-(fall.phi1() * trips), -(fall.phi2() * &trips.square()));
+        FreeFall {
+            rate: Shares { impact: -fall.exp(), weight: fallen.clone() },
+            value: Shares { impact: fallen, weight: dropped },
+        }
+    }
+
+    /// `v`, `v_t`, `v_x` at `(x,t)`.
     ///
     /// **Source**: (2.22)–(2.24).
-    pub fn field(&self, point: &S, time: &S, side: Side) -> (Field<S>, [f64; 3]) {
+    pub fn field(&self, point: &N, time: &N, side: Side) -> Field<N> {
         let trips = self.trips(time);
-        let a =
-            if *point == self.rod.length { point.ratio(1, 2) } else { point.clone() / &self.rod.length / point.int(2) };
-        let one = trips.one();
-        let Some([value, rate, slope]) = self.field_parts(&a, &trips, side) else {
-            let zero = || one.zero();
-            return (Field { displacement: zero(), velocity: zero(), strain: zero() }, [f64::INFINITY; 3]);
+        trips.map_or_else(|| nowhere(time), |trips| self.field_at(point, &trips, side))
+    }
+
+    pub(super) fn field_at(&self, point: &N, trips: &Trips<N>, side: Side) -> Field<N> {
+        let top = point.compare(&self.rod.length).is_ok_and(std::cmp::Ordering::is_eq);
+        let a = if top { point.ratio(1, 2) } else { point.clone() / &self.rod.length / point.int(2) };
+        // The j-th ray upwards arrives after j + a round trips, the j-th downwards after j + 1 − a.
+        let count = |reach: N| {
+            let whole = reach.floor_int()?;
+            let just = side == Side::Left && reach.compare(&reach.int(whole)).ok()?.is_eq();
+            Some(whole + i64::from(!just))
         };
-        let displacement = self.combine(&value, &self.round_trip);
-        let velocity = self.combine(&rate, &one);
-        let strain = self.combine(&slope, &(one.clone() / &self.rod.wave_speed));
-        let errors = [displacement.error, velocity.error, strain.error];
-        (Field { displacement: displacement.value, velocity: velocity.value, strain: strain.value }, errors)
+        let lattice = trips.on_lattice.then(|| trips.exact.int(trips.passed));
+        let tau = lattice.as_ref().unwrap_or(&trips.exact);
+        let arrived = (count(tau.clone() - &a), count(tau.clone() - a.one() + &a));
+        let (Some(up), Some(down)) = arrived else { return nowhere(point) };
+        let a = a.plain();
+        let shares = self.field_shares(&a, &trips.number, [up, down], &self.free_fall(&trips.number));
+        let [displacement, velocity, strain] = shares.map(|shares| self.weighted(&shares));
+        Field {
+            displacement: (displacement * &self.round_trip).plain(),
+            velocity,
+            strain: (strain / &self.rod.wave_speed).plain(),
+        }
     }
 
     /// A bound of `v_t`, `c v_x` and `v_t − h′` where the travel time a is complex, at most `δ = beyond` from the rod.
@@ -285,32 +311,21 @@ impl<S: Analytic> FirstContact<S> {
     /// `h(t)` and `h′(t) = P/L`: the centre of mass, relative to its place in the undeformed rod on the ground.
     ///
     /// **Source**: (3.38), (3.39).
-    pub fn centre(&self, time: &S) -> (Estimate<S>, Estimate<S>) {
-        self.centre_at(&self.trips(time))
+    pub fn centre(&self, time: &N) -> (N, N) {
+        self.trips(time).map_or_else(|| (unknown(time), unknown(time)), |trips| self.centre_at(&trips))
     }
 
-    /// The same at `t/t₁`.
-    pub(super) fn centre_at(&self, trips: &S) -> (Estimate<S>, Estimate<S>) {
-        match self.centre_parts(trips) {
-            Some([height, rate]) => (self.combine(&height, &self.round_trip), self.combine(&rate, &trips.one())),
-            None => {
-                let unknown = Estimate { value: trips.zero(), error: f64::INFINITY };
-                (unknown.clone(), unknown)
-            }
-        }
+    pub(super) fn centre_at(&self, trips: &Trips<N>) -> (N, N) {
+        let [height, rate] = self.centre_shares(&trips.number, trips.returned(Side::Left));
+        (self.combine(&height, &self.round_trip).plain(), self.weighted(&rate))
     }
 
-    /// `h/t₁` and `h′` for `μ = 1` and for `μ₀ = 1`.
-    pub(super) fn centre_parts(&self, trips: &S) -> Option<[Parts<S>; 2]> {
+    /// `h/t₁` and `h′`, with `k` returned rays.
+    pub(super) fn centre_shares(&self, trips: &N, k: i64) -> [Shares<N>; 2] {
         let r = &self.damping;
-        let rays = Self::passed(trips, Side::Left)?;
-        let fall = -(r.int(2) * r * trips);
-        let (fallen, dropped) = (-(phi1(&fall) * trips), -(phi2(&fall) * &trips.square()));
-        let free = 6.0 + 2.0 * fall.to_f64().abs().min(64.0);
-        let mut height = Parts { impact: Sum::new(fallen.clone(), free), weight: Sum::new(dropped, free + 16.0) };
-        let mut rate = Parts { impact: Sum::new(-fall.exp(), free), weight: Sum::new(fallen, free) };
-        for j in 0..=rays {
-            let ray = Ray::new(r, &r.int(j), trips);
+        let FreeFall { value: mut height, mut rate } = self.free_fall(trips);
+        for j in 0..=k {
+            let ray = if j == 0 { Ray::at_source(r, trips) } else { Ray::new(r, &r.int(j), trips) };
             let sums = ray.sums([2, 3, 1, 2], |n| {
                 let (even, odd) = ((n + 1) % 2, n % 2);
                 let cube = n * (n * n - 1);
@@ -321,15 +336,16 @@ impl<S: Analytic> FirstContact<S> {
             let [b1, b2, d1, d2] = sums.sums;
             // c/L is 2 in these units; every ray but the first counts twice.
             let factor = r.int(if j == 0 { 2 } else { 4 });
-            let damped = factor.clone() * r;
-            let far = sums.sum_roundings;
-            height.impact.add(alternate(j, b1.clone() * &factor), far);
-            height.weight.add(alternate(j, b2.clone() * &factor), far);
-            rate.impact.add(alternate(j, d1 * &factor), far);
-            rate.impact.add(alternate(j + 1, b1 * &damped), far);
-            rate.weight.add(alternate(j, d2 * &factor), far);
-            rate.weight.add(alternate(j + 1, b2 * &damped), far);
+            alternate(&mut rate.impact, j, &((d1 - b1.clone() * r) * &factor));
+            alternate(&mut rate.weight, j, &((d2 - b2.clone() * r) * &factor));
+            alternate(&mut height.impact, j, &(b1 * &factor));
+            alternate(&mut height.weight, j, &(b2 * &factor));
         }
-        Some([height, rate])
+        [height, rate]
     }
+}
+
+/// A field of which nothing is known.
+fn nowhere<N: Scalar>(like: &N) -> Field<N> {
+    Field { displacement: unknown(like), velocity: unknown(like), strain: unknown(like) }
 }

@@ -1,15 +1,16 @@
-//! Where in a cell the ground presses hardest.
+//! The most compressive stress of a contact.
 
-use super::bounce::Route;
-use super::cells::Interpolant;
-use super::field::FirstContact;
-use super::search::evaluate;
-use crate::number::Analytic;
+use super::cells::{Interpolant, Search};
+use super::field::{FirstContact, Trips};
+use super::first_root::{derivative, evaluate};
+use crate::history::Side;
+use crate::number::Scalar;
+use crate::special::{Bounded, Ray};
 
 /// Where the force may exceed a given one.
-pub(crate) enum Summit<S> {
+enum Excess<N> {
     /// Nowhere.
-    Below,
+    None,
     /// Where it may, it rises towards the end.
     AtEnd,
     /// Where it may, it falls from the beginning.
@@ -17,31 +18,94 @@ pub(crate) enum Summit<S> {
     /// Around so many round trips, where its second derivative, by round trips, is at most `−bend`.
     Inside {
         /// An approximation.
-        at: S,
+        at: N,
         /// Where the bound holds.
-        between: [S; 2],
+        between: [N; 2],
         /// The bound.
-        bend: S,
+        bend: N,
     },
     /// Not known; but it is at most this.
-    AtMost(S),
+    AtMost(N),
 }
 
 /// Pieces that a cell is cut into.
 const PIECES: usize = 128;
+/// Cells that are looked at one by one.
+const MOST_CELLS: i64 = 32;
+/// Steps towards a place where the force is greatest.
+const MOST_STEPS: usize = 60;
 
-impl<S: Analytic> FirstContact<S> {
+impl<N: Bounded> FirstContact<N> {
+    /// The most compressive `v_x(0,·)` up to `end`.
+    ///
+    /// Without gravity it is `−μ/c` at the start: `|v_t ∓ c v_x|` cannot grow. In the first cell only its ends can be it: there
+    /// `−c v_x = e^{−rt}(μ I₀ + g t (I₀ + I₁))` has the derivative `e^{−rt} I₀ (g − μ r (1 − I₁/I₀))`, which rises with `I₁/I₀`
+    /// and so has at most one zero, a minimum. In later cells the force is bounded by its Chebyshev sum; what is left where it
+    /// may be greatest either rises or falls throughout, or is bent by at least κ: then it is at most `f(τ) + f′(τ)²/2κ` for any
+    /// τ. After some cells the static stress and what is left of the transient bound it. Where all of that fails, it is at most
+    /// `μ + g t₁`, and the bound is wide.
+    pub(super) fn peak(&self, end: &Trips<N>) -> N {
+        if self.weightless {
+            return self.stress_at(&self.lattice(0), Side::Right);
+        }
+        let one = self.damping.one();
+        let at = |trips: &Trips<N>, side: Side| self.force(&trips.number, trips.returned(side));
+        let first = if end.passed < 1 { end.clone() } else { self.lattice(1) };
+        let mut most = greater(at(&self.lattice(0), Side::Right), at(&first, Side::Left));
+        let last = if end.on_lattice { end.passed - 1 } else { end.passed };
+        for k in 1..=last {
+            if k.count_ones() == 1 || k > MOST_CELLS {
+                let later = self.most_after(k);
+                if later.as_ref().is_some_and(|later| most.below(later) == Ok(false)) {
+                    break;
+                }
+                if k > MOST_CELLS {
+                    most = at_most(most, &later.unwrap_or(one));
+                    break;
+                }
+            }
+            let (to, stop) = if k == last {
+                let inside = (end.number.clone() - one.int(k)) * one.int(2) - &one;
+                ((inside.near().0 + 1e-12).clamp(-1.0, 1.0), end.clone())
+            } else {
+                (1.0, self.lattice(k + 1))
+            };
+            most = match self.excess(k, to, &most) {
+                Excess::None => most,
+                Excess::AtStart => greater(most, self.force(&one.int(k), k)),
+                Excess::AtEnd => greater(most, self.force(&stop.number, k)),
+                Excess::Inside { at, between: [from, to], bend } => {
+                    let (place, value) = self.summit_near(&at, &bend, k);
+                    let before = |a: &N, b: &N| b.below(a) == Ok(false);
+                    // An end that cuts the summit off leaves its height as a bound only.
+                    if !(before(&from, &place) && before(&place, &to)) {
+                        at_most(greater(most, self.force(&stop.number, k)), &one)
+                    } else if before(&place, &stop.number) && before(&one.int(k), &place) {
+                        greater(most, value)
+                    } else {
+                        at_most(greater(most, self.force(&stop.number, k)), &value)
+                    }
+                }
+                Excess::AtMost(bound) => at_most(most, &bound),
+            };
+        }
+        -(most * &self.total_speed() / &self.rod.wave_speed).plain()
+    }
+
     /// Where between `k t₁` and the place `to` of `[−1,1]` in its cell the force exceeds `known`, if anywhere.
     ///
     /// With the Chebyshev sum p, `|f − p| ≤ e`: on a piece of width w the sum is at most its greater end plus `B₂w²/8`, its
     /// slope is that of the middle within `B₂w/2`, its second derivative that of the middle within `B₃w/2`, where
     /// `B₂ = Σ|c_n| n²(n²−1)/3` and `B₃ = Σ|c_n| n²(n²−1)(n²−4)/15`. The slopes of f and p differ by at most `4(n+1)²e`, as
-    /// there; their second derivatives, by Markov's inequality and the same series with k⁴ for k², by `4(n+1)⁴e`.
-    pub(crate) fn summit(&self, k: i64, to: f64, known: &S) -> Summit<S> {
-        let Ok(Interpolant { scale, sum, error }) = self.interpolant(&Route::Rays, k) else {
-            return Summit::AtMost(known.one());
+    /// in the search for the first root; their second derivatives, by Markov's inequality and the same series with k⁴ for k², by
+    /// `4(n+1)⁴e`.
+    fn excess(&self, k: i64, to: f64, known: &N) -> Excess<N> {
+        let search = Search { contact: self, route: None };
+        let Ok(Interpolant { scale, sum, error }) = search.interpolant(k) else {
+            return Excess::AtMost(known.one());
         };
-        let level = (known.clone() / &scale).to_f64() * (1.0 - 1e-12) - error;
+        let (size, doubt) = (known.clone() / &scale).near();
+        let level = (size - doubt) * (1.0 - 1e-12) - error;
         let (slopes, bends) = (derivative(&sum), derivative(&derivative(&sum)));
         let weighted = |weight: fn(f64) -> f64| {
             (0u32..).zip(&sum).map(|(n, c)| weight(f64::from(n)) * c.abs()).sum::<f64>() * (1.0 + 1e-9)
@@ -62,60 +126,87 @@ impl<S: Analytic> FirstContact<S> {
                 most = most.max(above);
             }
         }
-        let Some(first) = first else { return Summit::Below };
+        let Some(first) = first else { return Excess::None };
         let (mut rising, mut falling, mut bend) = (true, true, f64::INFINITY);
         for i in first..=last {
             let middle = place(i) + 0.5 * width;
-            let (slope, doubt) = (value_of(&slopes, middle), second * width * 0.5 + size);
+            let (slope, doubt) = (evaluate(&slopes, middle).0, second * width * 0.5 + size);
             rising &= slope > doubt;
             falling &= slope < -doubt;
-            bend = bend.min(-value_of(&bends, middle) - third * width * 0.5 - size * (sum.len() * sum.len()) as f64);
+            let bent = evaluate(&bends, middle).0;
+            bend = bend.min(-bent - third * width * 0.5 - size * (sum.len() * sum.len()) as f64);
         }
         if rising && last + 1 == PIECES {
-            return Summit::AtEnd;
+            return Excess::AtEnd;
         }
         if falling && first == 0 {
-            return Summit::AtStart;
+            return Excess::AtStart;
         }
         if bend > 0.0 {
             let highest = (first..=last + 1).max_by(|a, b| value(place(*a)).total_cmp(&value(place(*b))));
             let at = self.inside(k, highest.map_or(0.0, place));
             let between = [self.inside(k, place(first)), self.inside(k, place(last + 1))];
-            return Summit::Inside { at, between, bend: scale.double(4.0 * bend) * &scale };
+            return Excess::Inside { at, between, bend: scale.double(4.0 * bend) * &scale };
         }
-        Summit::AtMost(scale.double(most * (1.0 + 1e-12)) * &scale)
+        Excess::AtMost(scale.double(most * (1.0 + 1e-12)) * &scale)
+    }
+
+    /// A place near a summit and the height of the summit, from the slope there, which Newton's method with the secant makes small.
+    fn summit_near(&self, at: &N, bend: &N, k: i64) -> (N, N) {
+        let mut place = at.middle();
+        let mut slope = self.force_rate(&place, k);
+        let mut next = (place.clone() + slope.clone() / bend).middle();
+        for _ in 0..MOST_STEPS {
+            let found = self.force_rate(&next, k);
+            let less = found.middle().magnitude().below(&slope.middle().magnitude());
+            if !found.is_finite() || less != Ok(true) {
+                break;
+            }
+            let step = found.middle() * &(next.clone() - &place) / (found.middle() - &slope.middle());
+            (place, slope) = (next, found);
+            if !step.is_finite() || !matches!(slope.sign(), Ok(order) if order.is_ne()) {
+                break;
+            }
+            next = (place.clone() - step).middle();
+        }
+        let above = slope.square() / &(bend.clone() * bend.int(2));
+        let value = self.force(&place, k);
+        (place, value.widened(&above))
+    }
+
+    /// The derivative of [`FirstContact::force`] by round trips inside of a cell: with `(e^{−rt}G_r)′ = e^{−rt}H_r`, and for each ray
+    /// `∂_ξψ₀ + ∂_ηψ₀ = (R²/4)(η/ξ + 1) ψ₁ = (R²/2)(τ/ξ) ψ₁`.
+    fn force_rate(&self, trips: &N, k: i64) -> N {
+        let (r, half_square) = (&self.damping, self.damping.square() / self.damping.int(2));
+        let (mut kernel, mut rate) = (r.zero(), r.zero());
+        for j in 0..=k {
+            let sums = Ray::new(r, &r.int(j), trips).sums([1], |n| [i64::from(n == 1)]);
+            let weight = r.int(if j == 0 { 1 } else { 2 } * if j % 2 == 0 { 1 } else { -1 });
+            let lead = half_square.clone() * trips / (trips.clone() - r.int(j));
+            rate = rate + (lead * &sums.sums[0] - sums.start.clone() * r) * &weight;
+            kernel = kernel + sums.start * weight;
+        }
+        (rate * &self.speed + kernel * &self.critical) / self.total_speed()
     }
 
     /// Half the static share of the force and a bound of the transient from `k t₁` on: no later force is greater.
-    pub(crate) fn most_after(&self, k: i64) -> Option<S> {
-        let share = self.critical.clone() / (self.rod.speed.clone() + &self.critical) / self.critical.int(2);
+    fn most_after(&self, k: i64) -> Option<N> {
+        let share = self.critical.clone() / self.total_speed() / self.critical.int(2);
         Some(share.double(self.transient(k)?) + &share)
     }
 }
 
-fn value_of(sum: &[f64], x: f64) -> f64 {
-    evaluate(sum, x).0
+/// The greater of two numbers: `(a + b + |a − b|)/2` where it is not known which it is.
+fn greater<N: Scalar>(a: N, b: N) -> N {
+    match a.compare(&b) {
+        Ok(std::cmp::Ordering::Less) => b,
+        Ok(std::cmp::Ordering::Greater) => a,
+        _ => (a.clone() + &b + (a - &b).magnitude()) / b.int(2),
+    }
 }
 
-/// The Chebyshev coefficients of the derivative: `d_{k−1} = d_{k+1} + 2k c_k`, the first one halved.
-fn derivative(sum: &[f64]) -> Vec<f64> {
-    let mut result = vec![0.0; sum.len() + 1];
-    for k in (1..sum.len()).rev() {
-        result[k - 1] = result[k + 1] + 2.0 * k as f64 * sum[k];
-    }
-    result[0] *= 0.5;
-    result.truncate(sum.len().saturating_sub(1).max(1));
-    result
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn derivative_of_a_cubic() {
-        // T₃ = 4x³ − 3x, T₃′ = 12x² − 3 = 6T₂ + 3.
-        assert_eq!(derivative(&[1.0, 0.0, 0.0, 1.0]), vec![3.0, 0.0, 6.0]);
-        assert_eq!(derivative(&[2.0]), vec![0.0]);
-    }
+/// A number that is at least `a`, and at most `a` or `bound`.
+fn at_most<N: Scalar>(a: N, bound: &N) -> N {
+    let more = bound.clone() - &a;
+    if more.positive() == Ok(false) { a } else { a.widened(&more) }
 }

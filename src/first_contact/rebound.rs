@@ -1,9 +1,9 @@
 //! After the bounce: the free flight of the centre of mass and the coefficients of restitution.
 
-use super::field::{Estimate, FirstContact};
-use crate::number::Analytic;
+use super::field::FirstContact;
+use crate::number::Scalar;
 use crate::rod::Parameters;
-use crate::special::{log_mean, log_rest, phi1, phi2};
+use crate::special::{Bounded, log_mean, log_rest};
 
 /// The motion of the centre of mass from `t_b` on, up to the next impact.
 ///
@@ -12,44 +12,44 @@ use crate::special::{log_mean, log_rest, phi1, phi2};
 /// **Units**: any consistent units; energies are per linear density.
 ///
 /// ```
-/// # use dalembert::{rod::Parameters, first_contact::FirstContact};
+/// # use dalembert::{rod::Parameters, first_contact::FirstContact, number::Estimate};
 /// // r = 0, μ = 4 > μ₀ = 2: h⁰ = −2/3, h¹ = μ, and the top of the flight at t = 6.
 /// let rod = Parameters { length: 1.0, wave_speed: 1.0, damping: 0.0, gravity: 1.0, speed: 4.0 };
-/// let rebound = FirstContact::new(&rod).rebound(&2.0);
+/// let rebound = FirstContact::new(&rod.carry()).rebound(&Estimate::exact(2.0));
 /// let (time, height) = rebound.highest().unwrap();
-/// assert!((time - 6.0_f64).abs() < 1e-14 && (height - 22.0_f64 / 3.0).abs() < 1e-14);
+/// assert!((time.value() - 6.0).abs() < 1e-14 && (height.value() - 22.0 / 3.0).abs() < 1e-14);
 /// ```
 #[derive(Clone, Debug)]
-pub struct Rebound<S> {
+pub struct Rebound<N> {
     /// `t_b`.
-    pub time: S,
+    pub time: N,
     /// `h⁰ = h(t_b)`.
-    pub centre: Estimate<S>,
+    pub centre: N,
     /// `h¹ = h′(t_b)`.
-    pub velocity: Estimate<S>,
-    pub(super) rod: Parameters<S>,
+    pub velocity: N,
+    pub(super) rod: Parameters<N>,
 }
 
-impl<S: Analytic> FirstContact<S> {
+impl<N: Bounded> FirstContact<N> {
     /// What follows when the ground lets go at `time`.
-    pub fn rebound(&self, time: &S) -> Rebound<S> {
+    pub fn rebound(&self, time: &N) -> Rebound<N> {
         let (centre, velocity) = self.centre(time);
         Rebound { time: time.clone(), centre, velocity, rod: self.rod.clone() }
     }
 }
 
-impl<S: Analytic> Rebound<S> {
+impl<N: Bounded> Rebound<N> {
     /// `h(t)` and `h′(t)` in flight.
     ///
     /// **Source**: (3.43), (3.44), with `φ₁` and `φ₂` for the quotients by `2r` and `4r²`.
     ///
-    /// **Accuracy**: that of `h⁰` and `h¹`, and 32 roundings.
-    pub fn flight(&self, time: &S) -> (S, S) {
-        let (start, speed, g) = (&self.centre.value, &self.velocity.value, &self.rod.gravity);
+    /// **Accuracy**: *within its own bound*.
+    pub fn flight(&self, time: &N) -> (N, N) {
+        let (start, speed, g) = (&self.centre, &self.velocity, &self.rod.gravity);
         let since = time.clone() - &self.time;
         let fall = -(self.rod.damping.int(2) * &self.rod.damping * &since);
-        let slowed = phi1(&fall) * &since;
-        let drop = phi2(&fall) * &since.square() * g;
+        let slowed = fall.phi1() * &since;
+        let drop = fall.phi2() * &since.square() * g;
         let height = start.clone() + slowed.clone() * speed - drop;
         (height, fall.exp() * speed - slowed * g)
     }
@@ -58,16 +58,13 @@ impl<S: Analytic> Rebound<S> {
     ///
     /// **Source**: Remark 2, with `λ` and `λ₂` for the quotients by `2r` and `4r²`.
     ///
-    /// **Accuracy**: that of `h⁰` and `h¹`, and 64 roundings.
+    /// **Accuracy**: *within its own bound*.
     ///
-    /// **Errors**: `None` where `g = 0`. Where the centre does not rise, the top is the bounce itself.
-    pub fn highest(&self) -> Option<(S, S)> {
-        let (start, speed, g) = (&self.centre.value, &self.velocity.value, &self.rod.gravity);
-        if g.is_zero() {
+    /// **Errors**: `None` where `g = 0` and where the centre does not rise or may not.
+    pub fn highest(&self) -> Option<(N, N)> {
+        let (start, speed, g) = (&self.centre, &self.velocity, &self.rod.gravity);
+        if g.vanishes() != Ok(false) || speed.positive() != Ok(true) {
             return None;
-        }
-        if !speed.is_positive() {
-            return Some((self.time.clone(), start.clone()));
         }
         let drag = self.rod.damping.int(2) * &self.rod.damping * speed / g;
         let rise = speed.clone() / g;
@@ -78,9 +75,7 @@ impl<S: Analytic> Rebound<S> {
     /// `E_h = L h′²/2 + L g h` at `t_b`: the translational energy.
     ///
     /// **Source**: (3.63).
-    ///
-    /// **Accuracy**: the bound follows from those of `h⁰` and `h¹`.
-    pub fn translational_energy(&self) -> Estimate<S> {
+    pub fn translational_energy(&self) -> N {
         translational(&self.rod, &self.centre, &self.velocity)
     }
 
@@ -89,8 +84,8 @@ impl<S: Analytic> Rebound<S> {
     /// **Source**: section 4.1.
     ///
     /// **Errors**: `None` where `μ = 0`.
-    pub fn momentum_restitution(&self) -> Option<S> {
-        (!self.rod.speed.is_zero()).then(|| self.velocity.value.clone() / &self.rod.speed)
+    pub fn momentum_restitution(&self) -> Option<N> {
+        (self.rod.speed.vanishes() != Ok(true)).then(|| self.velocity.clone() / &self.rod.speed)
     }
 
     /// `e_E² = E_h(t_b)/E_h(0)`: the square of the energy coefficient of restitution.
@@ -99,29 +94,19 @@ impl<S: Analytic> Rebound<S> {
     /// `e^{−R}` of (4.75).
     ///
     /// **Errors**: `None` where `E_h(t_b) < 0`, where the paper leaves it undefined, and where `μ = 0`.
-    pub fn energy_restitution_squared(&self) -> Option<S> {
+    pub fn energy_restitution_squared(&self) -> Option<N> {
         let mu = &self.rod.speed;
-        if mu.is_zero() {
+        if mu.vanishes() == Ok(true) {
             return None;
         }
-        let rise = self.centre.value.int(2) * &self.rod.gravity * &self.centre.value / mu / mu;
-        let squared = (self.velocity.value.clone() / mu).square() + rise;
-        (!squared.is_negative()).then_some(squared)
+        let rise = self.centre.int(2) * &self.rod.gravity * &self.centre / mu / mu;
+        let squared = (self.velocity.clone() / mu).square() + rise;
+        (squared.negative() != Ok(true)).then_some(squared)
     }
 }
 
-/// (3.63), with its bound.
-pub(super) fn translational<S: Analytic>(
-    rod: &Parameters<S>,
-    centre: &Estimate<S>,
-    velocity: &Estimate<S>,
-) -> Estimate<S> {
-    let (length, g) = (&rod.length, &rod.gravity);
-    let kinetic = velocity.value.square() * length / length.int(2);
-    let potential = centre.value.clone() * g * length;
-    let size = kinetic.to_f64().abs() + potential.to_f64().abs();
-    let (l, speed) = (length.to_f64(), velocity.value.to_f64().abs() + velocity.error);
-    let error = l * (speed * velocity.error + g.to_f64() * centre.error);
-    let rounding = 6.0 * size * 2f64.powf(length.log2_roundoff());
-    Estimate { value: kinetic + potential, error: error + rounding }
+/// (3.63).
+pub(super) fn translational<N: Scalar>(rod: &Parameters<N>, centre: &N, velocity: &N) -> N {
+    let kinetic = velocity.square() / velocity.int(2);
+    ((kinetic + centre.clone() * &rod.gravity) * &rod.length).plain()
 }

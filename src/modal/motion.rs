@@ -1,10 +1,9 @@
 //! What is asked of the modes: stress, field, centre of mass, energy.
 
-use crate::first_contact::Estimate;
 use crate::history::{Field, Side};
-use crate::number::Analytic;
+use crate::number::{Estimate, Rounded, Scalar};
 use crate::rod::Parameters;
-use crate::special::{negative_power, phi1};
+use crate::special::phi1;
 
 use super::sums::{MOST_MODES, Motion, Shape, series};
 
@@ -21,7 +20,7 @@ use super::sums::{MOST_MODES, Motion, Shape, series};
 /// // r = 0: the stress in the first round trip is −(μ + gt)/c.
 /// let rod = Parameters { length: 1.0, wave_speed: 1.0, damping: 0.0, gravity: 1.0, speed: 3.0 };
 /// let stress = Modal::new(&rod, 64).stress(&1.0, Side::Right);
-/// assert!((stress.value + 4.0_f64).abs() < 1e-14);
+/// assert!((stress.value() + 4.0_f64).abs() < 1e-14);
 /// ```
 #[derive(Clone, Debug)]
 pub struct Modal<S> {
@@ -34,7 +33,7 @@ pub struct Modal<S> {
     pub(super) modes: i64,
 }
 
-impl<S: Analytic> Modal<S> {
+impl<S: Rounded> Modal<S> {
     /// The sum over at least `modes` modes.
     pub fn new(rod: &Parameters<S>, modes: u32) -> Self {
         let round_trip = rod.round_trip();
@@ -47,11 +46,7 @@ impl<S: Analytic> Modal<S> {
     /// **Source**: (2.28).
     pub fn stress(&self, time: &S, side: Side) -> Estimate<S> {
         let [impact, weight] = self.ground(&self.trips(time), side);
-        let c = &self.rod.wave_speed;
-        let (mu, mu0) = (&self.rod.speed, &self.critical);
-        let value = -(impact.value * mu + weight.value * mu0) / c;
-        let error = (impact.error * mu.to_f64().abs() + weight.error * mu0.to_f64().abs()) / c.to_f64();
-        self.finish(value, error)
+        self.combine(impact, weight, &Estimate::rounded(-self.rod.wave_speed.one() / &self.rod.wave_speed, 1.0))
     }
 
     /// `e^{−rt} H_r` and `e^{−rt} G_r/t₁` at `t/t₁`; the second is left out where nothing weighs.
@@ -60,17 +55,16 @@ impl<S: Analytic> Modal<S> {
         let first = series(0, Motion::Sine, Shape::Cosine);
         if self.critical.is_zero() {
             let [impact] = self.sums(trips, &ground, side, [first]);
-            return [impact, Estimate { value: trips.zero(), error: 0.0 }];
+            return [impact, exact(&trips.zero())];
         }
         let [impact, weight] = self.sums(trips, &ground, side, [first, series(2, Motion::Rising, Shape::Cosine)]);
-        let weight = Estimate { value: trips.ratio(1, 2) - weight.value, error: weight.error };
-        [impact, weight]
+        [impact, exact(&trips.ratio(1, 2)) - weight]
     }
 
-    /// `v`, `v_t`, `v_x` at `(x,t)`, with one bound for each.
+    /// `v`, `v_t`, `v_x` at `(x,t)`.
     ///
     /// **Source**: (2.24).
-    pub fn field(&self, point: &S, time: &S, side: Side) -> (Field<S>, [f64; 3]) {
+    pub fn field(&self, point: &S, time: &S, side: Side) -> Field<Estimate<S>> {
         let trips = self.trips(time);
         let a = point.clone() / &self.rod.length / point.int(2);
         let list = [
@@ -81,14 +75,15 @@ impl<S: Analytic> Modal<S> {
             series(2, Motion::Rising, Shape::Cosine),
         ];
         let [fallen, slowed, force, sag, bend] = self.sums(&trips, &a, side, list);
-        let (one, half) = (a.one(), a.ratio(1, 2));
-        let sag = Estimate { value: sag.value - a.clone() * &(one.clone() - &a) * &half, error: sag.error };
-        let bend = Estimate { value: bend.value + &a - &half, error: bend.error };
-        let displacement = self.combine(&fallen, &sag, &self.round_trip);
-        let velocity = self.combine(&slowed, &negative(fallen), &one);
-        let strain = self.combine(&force, &bend, &(one.clone() / &self.rod.wave_speed));
-        let errors = [displacement.error, velocity.error, strain.error];
-        (Field { displacement: displacement.value, velocity: velocity.value, strain: strain.value }, errors)
+        let (a, one) = (Estimate::rounded(a, 2.0), exact(&trips.one()));
+        let half = one.ratio(1, 2);
+        let sag = sag - a.clone() * &(one.clone() - &a) * &half;
+        let bend = bend + &a - half;
+        Field {
+            displacement: self.combine(-fallen.clone(), sag, &Estimate::rounded(self.round_trip.clone(), 1.0)),
+            velocity: self.combine(-slowed, -fallen, &one),
+            strain: self.combine(-force, bend, &(one.clone() / exact(&self.rod.wave_speed))),
+        }
     }
 
     /// `h(t)` and `h′(t) = P/L`: the centre of mass.
@@ -101,11 +96,11 @@ impl<S: Analytic> Modal<S> {
             series(2, Motion::Falling, Shape::Mean),
             series(4, Motion::Rising, Shape::Mean),
         ];
-        let twice = |e: Estimate<S>| Estimate { value: e.value * &trips.int(2), error: 2.0 * e.error };
-        let [fallen, slowed, sag] = self.sums(&trips, &trips.zero(), Side::Right, list).map(twice);
-        let sag = Estimate { value: sag.value - trips.ratio(1, 12), error: sag.error };
-        let height = self.combine(&fallen, &sag, &self.round_trip);
-        (height, self.combine(&slowed, &negative(fallen), &trips.one()))
+        let two = exact(&trips.int(2));
+        let [fallen, slowed, sag] = self.sums(&trips, &trips.zero(), Side::Right, list).map(|sum| sum * &two);
+        let sag = sag - two.ratio(1, 12);
+        let height = self.combine(-fallen.clone(), sag, &Estimate::rounded(self.round_trip.clone(), 1.0));
+        (height, self.combine(-slowed, -fallen, &two.one()))
     }
 
     /// `E(t)`: the energy, by Parseval's equation `(L/4) Σ (b² + ω²q²) + L g h` for `v_t = Σ b sin`, `c v_x = Σ ωq cos`.
@@ -146,11 +141,8 @@ impl<S: Analytic> Modal<S> {
         let turned = r.to_f64() * trips.to_f64();
         let phases = 160.0 * trips.to_f64() * (m * f + m0).powi(2) * (1.0 + n.ln());
         let each = (largest + 2.0 * m * m * f * f) * (n + 60.0 + 12.0 * turned + 40.0 * turned * turned);
-        let rounding = self.unit() * (each + phases);
-        let (length, gravity) = (&self.rod.length, &self.rod.gravity);
-        let error = length.to_f64() * ((tail + rounding) / 4.0 + gravity.to_f64() * height.error);
-        let value = (sum / &trips.int(4) + height.value * gravity) * length;
-        self.finish(value, error)
+        let elastic = self.within(sum / &trips.int(4), each + phases, tail.ln(), 0.25);
+        (elastic + height * exact(&self.rod.gravity)) * exact(&self.rod.length)
     }
 
     /// `t/t₁`, and exactly k at the k-th lattice time.
@@ -162,23 +154,18 @@ impl<S: Analytic> Modal<S> {
         }
     }
 
-    pub(super) fn unit(&self) -> f64 {
-        negative_power(-self.damping.log2_roundoff())
+    /// `(μ impact + μ₀ weight) factor`.
+    fn combine(&self, impact: Estimate<S>, weight: Estimate<S>, factor: &Estimate<S>) -> Estimate<S> {
+        let critical = Estimate::rounded(self.critical.clone(), 2.0);
+        (impact * exact(&self.rod.speed) + weight * critical) * factor
     }
 
-    /// `−μ impact + μ₀ weight`, times `factor`.
-    fn combine(&self, impact: &Estimate<S>, weight: &Estimate<S>, factor: &S) -> Estimate<S> {
-        let (mu, mu0) = (&self.rod.speed, &self.critical);
-        let value = (weight.value.clone() * mu0 - impact.value.clone() * mu) * factor;
-        let error = impact.error * mu.to_f64().abs() + weight.error * mu0.to_f64().abs();
-        self.finish(value, error * factor.to_f64().abs())
-    }
-
-    /// A value that is no number is not known.
-    fn finish(&self, value: S, error: f64) -> Estimate<S> {
+    /// `value`, within `factor` times so many roundings and `e^log_tail`; a value that is no number is not known.
+    pub(super) fn within(&self, value: S, roundings: f64, log_tail: f64, factor: f64) -> Estimate<S> {
+        let tail = (log_tail - self.damping.log2_roundoff() * std::f64::consts::LN_2).exp();
+        let error = factor * (roundings + tail);
         let known = value.is_finite() && !error.is_nan();
-        let error = if known { error + 8.0 * self.unit() * value.to_f64().abs() } else { f64::INFINITY };
-        Estimate { value, error: error.max(f64::MIN_POSITIVE) }
+        Estimate::new(value, if known { error.max(f64::MIN_POSITIVE) } else { f64::INFINITY })
     }
 
     /// `e^{−Rτ} C` and `e^{−Rτ} S`, regular where `ω = R`.
@@ -203,6 +190,7 @@ impl<S: Analytic> Modal<S> {
     }
 }
 
-fn negative<S: Analytic>(estimate: Estimate<S>) -> Estimate<S> {
-    Estimate { value: -estimate.value, error: estimate.error }
+/// A parameter, which counts as exact.
+fn exact<S: Rounded>(value: &S) -> Estimate<S> {
+    Estimate::exact(value.clone())
 }

@@ -3,9 +3,8 @@
 use std::f64::consts::PI;
 
 use super::Modal;
-use crate::first_contact::Estimate;
 use crate::history::Side;
-use crate::number::Analytic;
+use crate::number::{Analytic, Estimate, Rounded};
 
 /// The function of time in a sum.
 #[derive(Clone, Copy)]
@@ -56,7 +55,7 @@ struct Expansion<S> {
     circle: [f64; 2],
 }
 
-impl<S: Analytic> Modal<S> {
+impl<S: Rounded> Modal<S> {
     /// The sums in `list` at `(τ,a)`, damped, each with its bound.
     ///
     /// With `y = −iε`, `C = Re(X e^{iωτ})` and `S = Re(yΓ e^{iωτ})`, `X = exp(τR² y/(1 + √(1 + R²y²)))`,
@@ -68,11 +67,11 @@ impl<S: Analytic> Modal<S> {
     /// `ε ≤ ρ/2`, and `Σ_{n≥N} ε^q ≤ (2πN)^{1−q}/(2π(q − 1))`, because `ω^{−q}` is convex: the modes from N on add less
     /// than `8 B ρ^{−K} (2πN)^{1−K−p}/(2π(K + p − 1))`.
     pub(super) fn sums<const N: usize>(&self, trips: &S, a: &S, side: Side, list: [Series; N]) -> [Estimate<S>; N] {
-        let unknown = || Estimate { value: trips.zero(), error: f64::INFINITY };
+        let unknown = || Estimate::new(trips.zero(), f64::INFINITY);
         let Some(expansion) = self.expansion(trips) else { return std::array::from_fn(|_| unknown()) };
         let order = expansion.powers[0].len();
         let Some(closed) = closed_sums(trips, a, side, order + 4) else { return std::array::from_fn(|_| unknown()) };
-        let (unit, tau, r) = (self.unit(), trips.to_f64(), self.damping.to_f64());
+        let (tau, r) = (trips.to_f64(), self.damping.to_f64());
         let fade = (-(self.damping.clone() * trips)).exp();
         // To be damped, and damped already.
         let mut bare: [S; N] = std::array::from_fn(|_| trips.zero());
@@ -151,8 +150,9 @@ impl<S: Analytic> Modal<S> {
                 - q * (2.0 * PI * expansion.modes as f64).ln()
                 - (2.0 * PI * q).ln()
                 - r * tau;
-            let rounding = unit * (roundings * shrink + damped_roundings[k]);
-            Estimate { value: sum * &fade + &damped[k], error: log_tail.exp() + rounding }
+            let value = sum * &fade + &damped[k];
+            let last = 2.0 * value.to_f64().abs();
+            self.within(value, roundings * shrink + damped_roundings[k] + last, log_tail, 1.0)
         })
     }
 
@@ -204,7 +204,7 @@ impl<S: Analytic> Modal<S> {
         for order in 2..=MOST_POWERS {
             let taken = order - 1;
             let sizes = [&powers[0][taken], &powers[1][taken]].map(|f| f.to_f64().abs());
-            rounding += 100.0 * self.unit() * (sizes[0] + sizes[1]) / PI.powi(taken as i32);
+            rounding += 100.0 * trips.unit() * (sizes[0] + sizes[1]) / PI.powi(taken as i32);
             for radius in [order as f64 / turn, 0.5 / r].map(|rho| rho.min(0.5 / r).min(1e300)) {
                 let least = 1.0 / (PI * radius) + 1.0;
                 if least.is_nan() || least > MOST_MODES as f64 {

@@ -63,7 +63,7 @@ impl<S: Rounded> Estimate<S> {
     /// `value`, within so many roundings of itself.
     #[inline]
     pub fn rounded(value: S, roundings: f64) -> Self {
-        let error = roundings * value.to_f64().abs();
+        let error = roundings * size(&value);
         Estimate { value, error }
     }
 
@@ -75,15 +75,23 @@ impl<S: Rounded> Estimate<S> {
     /// `value`, with `error` from the operands and one rounding.
     #[inline]
     fn once(value: S, error: f64) -> Self {
-        let error = error + value.to_f64().abs();
+        let error = error + size(&value);
         Estimate { value, error }
     }
 
     /// `f(x)` where `|f′| ≤ slope` within the error of x, with two roundings.
     fn function(&self, value: S, slope: f64) -> Self {
         let error = if self.error == 0.0 { 0.0 } else { self.error * slope };
-        Estimate { error: error + 2.0 * value.to_f64().abs(), value }
+        Estimate { error: error + 2.0 * size(&value), value }
     }
+}
+
+/// What a rounding of `value` is counted as: its size, but at least the least normal double where it is not zero, below which
+/// doubles round by more, and long numbers have no size in doubles.
+#[inline]
+fn size<S: Rounded>(value: &S) -> f64 {
+    let size = value.to_f64().abs();
+    if size >= f64::MIN_POSITIVE || value.sign() == Ok(Ordering::Equal) { size } else { f64::MIN_POSITIVE }
 }
 
 impl<S: Rounded> Neg for Estimate<S> {

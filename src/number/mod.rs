@@ -31,8 +31,6 @@ pub use estimate::Estimate;
 #[cfg(feature = "mp")]
 pub use float::{bits_for_digits, decimal};
 #[cfg(feature = "mp")]
-pub(crate) use interval::undecided;
-#[cfg(feature = "mp")]
 pub use interval::{Interval, IntervalPrecision, decided};
 pub use literal::{Number, NumberError};
 #[cfg(feature = "mp")]

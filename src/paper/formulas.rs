@@ -4,8 +4,7 @@ pub(crate) use super::bessel::i0;
 use super::printed::Printed;
 use super::quadrature::Quadrature;
 use crate::history::Side;
-use crate::number::Analytic;
-use crate::special::{i0_scaled, i1_scaled};
+use crate::special::{Special, i0_scaled, i1_scaled};
 
 /// Round trips in which a release is looked for.
 const MOST_TRIPS: i64 = 64;
@@ -100,12 +99,12 @@ pub(crate) fn k0(z: f64) -> f64 {
 }
 
 /// `I₀(z)`, of the first kind.
-pub(crate) fn i0_first_kind<S: Analytic>(z: &S) -> S {
+pub(crate) fn i0_first_kind<S: Special>(z: &S) -> S {
     i0_scaled(z) * &z.exp()
 }
 
 /// `I₀⁻¹(2)`, by Newton's method from 9/5: ten steps double the digits ten times.
-pub(crate) fn inverse_i0_of_2<S: Analytic>(like: &S) -> S {
+pub(crate) fn inverse_i0_of_2<S: Special>(like: &S) -> S {
     let mut z = like.ratio(9, 5);
     for _ in 0..10 {
         let (value, slope) = (i0_scaled(&z), i1_scaled(&z));
@@ -115,7 +114,7 @@ pub(crate) fn inverse_i0_of_2<S: Analytic>(like: &S) -> S {
 }
 
 /// The right-hand side of (2.32) in closed form, `c = L = g = 1`: `μ₀ (I₀(R) + I₁(R))/(2 − I₀(R))` with `μ₀ = 2`.
-pub(crate) fn threshold<S: Analytic>(r: &S) -> S {
+pub(crate) fn threshold<S: Special>(r: &S) -> S {
     let ratio = r.int(2) * r;
     let (i0, i1) = (i0_scaled(&ratio), i1_scaled(&ratio));
     let two = r.int(2) * &(-ratio).exp();
@@ -123,7 +122,7 @@ pub(crate) fn threshold<S: Analytic>(r: &S) -> S {
 }
 
 /// `lim e_E` for `μ → ∞` and `t_b = t₁ = 2`: `2e^{−R}(I₀(R) − I₁(R)) − e^{−2R}`, where (4.75) has `e^{−R}`.
-pub(crate) fn limit<S: Analytic>(r: &S) -> S {
+pub(crate) fn limit<S: Special>(r: &S) -> S {
     let ratio = r.int(2) * r;
     let decay = (-(ratio.clone() * &r.int(2))).exp();
     (i0_scaled(&ratio) - i1_scaled(&ratio)) * &r.int(2) - decay

@@ -4,7 +4,7 @@ use serde::Serialize;
 
 use super::{Material, Problem, Speed, Start};
 use crate::error::Error;
-use crate::number::{Number, Scalar};
+use crate::number::{Answer, Number, Scalar};
 
 /// The parameters of a problem in one number system.
 #[derive(Clone, Debug)]
@@ -98,6 +98,25 @@ impl Problem {
             Start::Profile(_) => None,
         };
         Dimensionless { damping_ratio: or_zero(&self.rod.damping) * t1, speed_ratio: speed.map(|mu| mu / (g * t1)) }
+    }
+}
+
+impl<S: Answer> Parameters<S> {
+    /// The same parameters, taken for exact, in the numbers that computations carry.
+    ///
+    /// ```
+    /// # use dalembert::Parameters;
+    /// let rod = Parameters { length: 1.0, wave_speed: 1.0, damping: 0.1, gravity: 1.0, speed: 3.0 };
+    /// assert_eq!(rod.carry().damping.error(), 0.0);
+    /// ```
+    pub fn carry(&self) -> Parameters<S::Carried> {
+        Parameters {
+            length: self.length.carry(),
+            wave_speed: self.wave_speed.carry(),
+            damping: self.damping.carry(),
+            gravity: self.gravity.carry(),
+            speed: self.speed.carry(),
+        }
     }
 }
 

@@ -3,14 +3,16 @@
 use std::borrow::Cow;
 use std::sync::Arc;
 
+use super::first_contact::bounce_within;
 use super::ladder::{Engined, Observer, Target};
 use super::long;
 use super::plan::{Engine, Plan, Reach, Rung};
 use super::raised::Raised;
 use crate::cells::{self, Damped, Joined};
 use crate::error::Error;
-use crate::first_contact::FirstContact;
+use crate::first_contact::{Bounce, FirstContact};
 use crate::lattice::{Limits, Undamped};
+use crate::number::Estimate;
 use crate::rod::{Parameters, Problem, Run};
 
 impl Target for f64 {
@@ -26,8 +28,15 @@ impl Target for f64 {
             }
             Engine::Cells => Arc::new(Raised::new(Damped::<f64>::solve(problem, &(), CELL_DIGITS)?)),
             Engine::ClosedForm | Engine::ClosedFormThenCells => {
-                let rod = Parameters::<f64>::of(problem, &())?;
-                let bounce = FirstContact::new(&rod).bounce_within(1e-13);
+                let rod = Parameters::<Estimate<f64>>::of(problem, &())?;
+                let contact = FirstContact::new(&rod);
+                let mut bounce = contact.bounce();
+                if matches!(&bounce, Bounce::Undecided { why, .. } if why.needs_bits()) {
+                    if cfg!(feature = "mp") {
+                        return Err(Error::NotDecided { what: "how the first contact ends", bits: 53 });
+                    }
+                    bounce = bounce_within(&contact, 1e-10);
+                }
                 let reach = if plan.engine == Engine::ClosedForm { cells::Reach::Bounce } else { cells::Reach::Run };
                 Arc::new(Raised::new(Joined::<f64>::solve(problem, &(), CELL_DIGITS, bounce, reach)?))
             }

@@ -8,11 +8,10 @@ use super::ladder::{Engined, Observer, Target};
 use super::plan::{Engine, Plan, Rung};
 use super::raised::Raised;
 use crate::cells::{self, Damped, Joined};
-use crate::certified::ProvedContact;
 use crate::error::Error;
-use crate::first_contact::{Bounce, FirstContact};
+use crate::first_contact::{Bounce, ContactHistory, FirstContact};
 use crate::lattice::Undamped;
-use crate::number::{Float, Interval, IntervalPrecision, Rational, decided};
+use crate::number::{Estimate, Float, Interval, IntervalPrecision, Rational, decided};
 use crate::rod::{Parameters, Problem};
 
 impl Target for Rational {
@@ -67,9 +66,9 @@ fn estimates(problem: &Problem, plan: &Plan, bits: u32, observe: &Observer) -> R
         }
         Engine::Cells => Arc::new(Raised::new(Damped::<Float>::solve(problem, &bits, digits)?)),
         Engine::ClosedForm | Engine::ClosedFormThenCells => {
-            let rod = Parameters::<Float>::of(problem, &bits)?;
+            let rod = Parameters::<Estimate<Float>>::of(problem, &bits)?;
             let bounce = FirstContact::new(&rod).bounce();
-            if matches!(bounce, Bounce::Undecided { digits: true, .. }) {
+            if matches!(&bounce, Bounce::Undecided { why, .. } if why.needs_bits()) {
                 return Err(Error::NotDecided { what: "how the first contact ends", bits });
             }
             let reach = if plan.engine == Engine::ClosedForm { cells::Reach::Bounce } else { cells::Reach::Run };
@@ -90,8 +89,7 @@ fn enclosures(problem: &Problem, plan: &Plan, bits: u32, observe: &Observer) -> 
         }
         Engine::Cells => Err(Error::NotCertified),
         Engine::ClosedForm | Engine::ClosedFormThenCells => {
-            let contact = decided(|| ProvedContact::solve(problem, bits)).ok_or_else(open)??;
-            Ok(Arc::new(contact.ok_or_else(open)?))
+            Ok(Arc::new(ContactHistory::<Interval>::solve(problem, &IntervalPrecision::with_exact(bits))?))
         }
     }
 }

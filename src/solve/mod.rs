@@ -12,6 +12,7 @@
 
 mod converted;
 mod engines;
+mod first_contact;
 mod foresee;
 mod ladder;
 #[cfg_attr(not(feature = "mp"), path = "long_absent.rs")]
@@ -22,6 +23,7 @@ mod raised;
 mod solution;
 mod stripped;
 
+pub use first_contact::{bounce_within, stress_within};
 pub(crate) use ladder::{Attempt, Ladder, unobserved};
 pub use ladder::{Observer, Target};
 pub use plan::{CERTIFIED_DIGITS, DEFAULT_ACCURACY, Engine, MAX_DIGITS, Plan, Reach, Rung};

@@ -2,18 +2,18 @@
 
 use rug::Float;
 
-use super::many::damped_start;
+use super::hypergeometric::{Spare, damped_start};
+use super::ray::Ray;
 
-/// What a ray is, and where its terms end.
+/// A ray, and where its terms end.
 pub(super) struct Backward<'a> {
-    pub(super) xi: &'a Float,
-    pub(super) eta: &'a Float,
+    ray: &'a Ray<Float>,
     /// `r/2`.
-    pub(super) half: &'a Float,
+    half: Float,
     /// `r√(ξη)`.
-    pub(super) argument: f64,
+    argument: f64,
     /// The last term.
-    pub(super) terms: i64,
+    terms: i64,
 }
 
 /// More terms than this are left to the recurrence of the ratios.
@@ -21,8 +21,13 @@ const MOST_TERMS: i64 = 100_000;
 /// The least precision of a term.
 const FEWEST_BITS: u32 = 64;
 
-impl Backward<'_> {
-    /// `e^{−rt} ψ₀`, and `e^{−rt} Σ_{n≥n₀} c_n (r/2)^{n−n₀} ψ_n`, each with its roundings; `None` where this way is not open:
+impl<'a> Backward<'a> {
+    /// `ray` with terms up to `terms`.
+    pub(super) fn new(ray: &'a Ray<Float>, terms: i64) -> Self {
+        Backward { half: ray.half(), argument: ray.argument(), ray, terms }
+    }
+
+    /// `e^{−rt} ψ₀`, and `e^{−rt} Σ_{n≥n₀} c_n (r/2)^{n−n₀} ψ_n`, with fewer than two roundings; `None` where this way is not open:
     /// for `r ξ = 0`, far too many terms, or a first weight below 1.
     ///
     /// **Source**: `f_n = (r/2)ⁿ ψ_n` obeys `f_{n−1} = (n f_n + w f_{n+1})/x` with `x = rξ/2`, `w = rη/2`. It is followed downwards
@@ -38,21 +43,21 @@ impl Backward<'_> {
     /// `c_n f_n/S` with `c_n ≤ n³` and `S ≥ f_{n₀}`: all in all `24·2^{−W} (B N⁵ + N²)`, and W makes that less than a tenth of a
     /// rounding. N is such that the start with `f_{N+1} = 0` and the terms left out are less than another tenth.
     ///
-    /// ξ and η are off by one rounding each. `Σ c_n f_n` grows with at most their powers `N + z/2` and `z/2`, `ψ₀` with `z/2` each,
-    /// and `e^{−rt}` is off by rt of them.
+    /// The number is rounded once more when the spare bits are dropped.
     pub(super) fn sums<const K: usize>(
         &self,
         first: [i64; K],
         weight: impl Fn(i64) -> [i64; K],
-    ) -> Option<(Bounded, [Float; K], f64)> {
-        let p = self.xi.prec();
+    ) -> Option<(Spare, [Float; K])> {
+        let (xi, eta, half) = (&self.ray.xi, &self.ray.eta, &self.half);
+        let p = xi.prec();
         let last = first.iter().copied().max().unwrap_or(1);
-        let x = Float::with_val(p + 64, self.half * self.xi);
+        let x = Float::with_val(p + 64, half * xi);
         let grows = first.iter().enumerate().any(|(k, n)| *n < 1 || weight(*n)[k] < 1);
         if !(x.is_finite() && x > 0) || self.terms >= MOST_TERMS || grows {
             return None;
         }
-        let w = Float::with_val(p + 64, self.half * self.eta);
+        let w = Float::with_val(p + 64, half * eta);
         let n = self.terms as f64;
         let spread = self.spread(w.to_f64());
         let extra = (spread + 5.0 * n.log2() + 1.0).ceil() + 8.0;
@@ -61,9 +66,9 @@ impl Backward<'_> {
         }
         let full = p + extra as u32;
         // One for x or w, one for the quotient, within the τ_n above.
-        let (x, w) = (Float::with_val(full + 8, self.half * self.xi), Float::with_val(full + 8, self.half * self.eta));
+        let (x, w) = (Float::with_val(full + 8, half * xi), Float::with_val(full + 8, half * eta));
         let (by_x, by_w) = (Float::with_val(full + 8, x.recip_ref()), Float::with_val(full + 8, &w / &x));
-        let start = self.start()?;
+        let start = damped_start(half, xi, eta)?;
 
         let mut bits = FEWEST_BITS + extra as u32;
         loop {
@@ -76,12 +81,11 @@ impl Backward<'_> {
             let factor = Float::with_val(full, &start.long / &zeroth);
             let mut k = 0;
             let sums = sums.map(|sum| {
-                let power = Float::with_val(full, rug::ops::Pow::pow(self.half, first[k] as u32));
+                let power = Float::with_val(full, rug::ops::Pow::pow(half, first[k] as u32));
                 k += 1;
                 Float::with_val(p, sum * &factor / power)
             });
-            let roundings = start.roundings + n + self.argument + 4.0;
-            return Some((start, sums, roundings));
+            return Some((start, sums));
         }
     }
 
@@ -124,7 +128,7 @@ impl Backward<'_> {
             }
             let mut next = Float::with_val(precision, &value * &cut_x);
             let grown = i64::from(bits) + i64::from(next.get_exp().unwrap_or(0)) + i64::from(n.ilog2());
-            let grown = grown.clamp(i64::from(bits), i64::from(full)) as u32;
+            let grown = grown.max(i64::from(bits)).min(i64::from(full)) as u32;
             if grown > precision {
                 // Rounded up to whole words; the product is repeated with the bits that it deserves.
                 precision = grown.next_multiple_of(64).min(full);
@@ -138,17 +142,4 @@ impl Backward<'_> {
         }
         (sums, value, reached)
     }
-
-    /// `e^{−rt} ψ₀`.
-    pub(super) fn start(&self) -> Option<Bounded> {
-        let (long, small) = damped_start(self.half, self.xi, self.eta)?;
-        let time = 0.5 * (self.xi.to_f64() + self.eta.to_f64()) * 2.0 * self.half.to_f64();
-        Some(Bounded { long, roundings: 2.0 + small / 65536.0 + (self.argument + time) * (1.0 + 1e-12) })
-    }
-}
-
-/// A number with bits to spare, and the roundings that it has when they are dropped.
-pub(super) struct Bounded {
-    pub(super) long: Float,
-    pub(super) roundings: f64,
 }

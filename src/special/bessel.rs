@@ -1,13 +1,85 @@
-//! Modified Bessel functions of the first kind, scaled by `e^{−z}`, in any precision.
+//! The functions that a number system offers, and those of doubles.
 
-use std::any::Any;
+use super::gauss::gauss_legendre;
+use super::phi;
+use super::ray::{Ray, RaySums, RoundedSums};
+use crate::number::{Analytic, Answer, Estimate, Rounded};
 
-use super::{bits, enclosed, roundoff};
-use crate::number::Analytic;
+/// A number system with the special functions of the first contact.
+///
+/// **Accuracy**: in systems that round, the number of roundings that [`RoundedSpecial`] states; in estimates and enclosures,
+/// within the bound that the result carries.
+pub trait Special: Analytic {
+    /// `e^{−z} I_n(z)` for `z ≥ 0`.
+    fn in_scaled(&self, n: u32) -> Self;
 
-/// The double that a generic number is, where it is one: doubles have faster ways.
-fn as_double<S: Analytic>(z: &S) -> Option<f64> {
-    (z as &dyn Any).downcast_ref::<f64>().copied()
+    /// `e^{−rt} ψ₀` of a ray.
+    fn ray_start(ray: &Ray<Self>) -> Self;
+
+    /// `e^{−rt} Σ_{n≥n₀} c_n (r/2)^{n−n₀} ψ_n` of a ray for K sequences `0 ≤ c_n ≤ n³`, each from its own `n₀ ≥ 1`, in one pass.
+    fn ray_sums<const K: usize>(ray: &Ray<Self>, first: [i64; K], weight: impl Fn(i64) -> [i64; K])
+    -> RaySums<Self, K>;
+
+    /// The nodes of Gauss–Legendre quadrature on `[−1,1]`, ascending, each with its weight.
+    fn gauss_legendre(&self, n: usize) -> Vec<(Self, Self)>;
+
+    /// `φ₁(z) = (eᶻ − 1)/z`.
+    fn phi1(&self) -> Self {
+        phi::phi1(self)
+    }
+
+    /// `φ₂(z) = (eᶻ − 1 − z)/z²`.
+    fn phi2(&self) -> Self {
+        phi::phi2(self)
+    }
+}
+
+/// A number system that rounds, with the special functions of exact arguments and the roundings in their values.
+pub trait RoundedSpecial: Rounded + Answer<Carried = Estimate<Self>> {
+    /// `e^{−z} I_n(z)` for `z ≥ 0`, and its roundings.
+    fn in_scaled_rounded(&self, n: u32) -> (Self, f64);
+
+    /// `e^{−rt} ψ₀` of a ray, and its roundings.
+    fn ray_start_rounded(ray: &Ray<Self>) -> (Self, f64);
+
+    /// The sums of [`Special::ray_sums`], and their roundings.
+    fn ray_sums_rounded<const K: usize>(
+        ray: &Ray<Self>,
+        first: [i64; K],
+        weight: impl Fn(i64) -> [i64; K],
+    ) -> RoundedSums<Self, K>;
+}
+
+impl<S: RoundedSpecial> Special for S {
+    fn in_scaled(&self, n: u32) -> S {
+        self.in_scaled_rounded(n).0
+    }
+
+    fn ray_start(ray: &Ray<S>) -> S {
+        S::ray_start_rounded(ray).0
+    }
+
+    fn ray_sums<const K: usize>(ray: &Ray<S>, first: [i64; K], weight: impl Fn(i64) -> [i64; K]) -> RaySums<S, K> {
+        S::ray_sums_rounded(ray, first, weight).values
+    }
+
+    fn gauss_legendre(&self, n: usize) -> Vec<(S, S)> {
+        gauss_legendre(self, n)
+    }
+}
+
+impl<S: Special> Ray<S> {
+    /// `e^{−rt} ψ₀`, without overflow. **Accuracy**: see [`Special`].
+    pub fn start(&self) -> S {
+        S::ray_start(self)
+    }
+
+    /// `e^{−rt} Σ_{n≥n₀} c_n (r/2)^{n−n₀} ψ_n` for K sequences `0 ≤ c_n ≤ n³`, each from its own `n₀ ≥ 1`, in one pass.
+    ///
+    /// **Accuracy**: see [`Special`].
+    pub fn sums<const K: usize>(&self, first: [i64; K], weight: impl Fn(i64) -> [i64; K]) -> RaySums<S, K> {
+        S::ray_sums(self, first, weight)
+    }
 }
 
 /// `e^{−z} I₀(z)` for `z ≥ 0`.
@@ -19,12 +91,8 @@ fn as_double<S: Analytic>(z: &S) -> Option<f64> {
 /// ```
 /// assert_eq!(dalembert::special::i0_scaled(&0.0), 1.0);
 /// ```
-pub fn i0_scaled<S: Analytic>(z: &S) -> S {
-    match as_double(z) {
-        Some(small) if small <= 2.0 => z.double(short(small, &SQUARES)),
-        Some(large) => z.double(pxfm::f_i0e(large)),
-        None => generic(z, 0),
-    }
+pub fn i0_scaled<S: Special>(z: &S) -> S {
+    z.in_scaled(0)
 }
 
 /// `e^{−z} I₁(z)` for `z ≥ 0`.
@@ -36,28 +104,25 @@ pub fn i0_scaled<S: Analytic>(z: &S) -> S {
 /// ```
 /// assert_eq!(dalembert::special::i1_scaled(&0.0), 0.0);
 /// ```
-pub fn i1_scaled<S: Analytic>(z: &S) -> S {
-    match as_double(z) {
-        Some(small) if small <= 2.0 => z.double(0.5 * small * short(small, &PRODUCTS)),
-        Some(large) => z.double(pxfm::f_i1e(large)),
-        None => generic(z, 1),
-    }
+pub fn i1_scaled<S: Special>(z: &S) -> S {
+    z.in_scaled(1)
 }
 
 /// `e^{−z} I_n(z)` for `z ≥ 0`.
 ///
-/// **Source**: `I_n = I_0 Π r_k`, `r_k = I_k/I_{k−1} = z/(2k + z r_{k+1})` downwards, all terms positive.
+/// **Source**: `I_n = I_0 Π r_k`, `r_k = I_k/I_{k−1} = z/(2k + z r_{k+1})` downwards, all terms positive; for long numbers and
+/// `z ≤ bits + 64` the series.
 ///
 /// **Accuracy**: within `≈ 8n + 2z ln n` roundings; for long numbers and `z ≤ bits + 64` within 1.1.
-pub fn in_scaled<S: Analytic>(z: &S, n: u32) -> S {
-    if z.to_f64() <= bits(z) + 64.0
-        && let Some(value) = many(z, n)
-    {
-        return value;
-    }
-    let ray = super::Ray::at_source(z);
-    let ratios = ray.ratios(i64::from(n));
-    ratios.into_iter().fold(i0_scaled(z), |value, ratio| value * &ratio)
+pub fn in_scaled<S: Special>(z: &S, n: u32) -> S {
+    z.in_scaled(n)
+}
+
+/// `e^{−z} I_n(z)` from `e^{−z} I₀(z)` and the ratios of successive functions.
+pub(super) fn by_ratios<S: Rounded>(z: &S, n: u32, (start, roundings): (S, f64)) -> (S, f64) {
+    let ratios = Ray::at_source(z, &z.one()).ratios(i64::from(n));
+    let m = f64::from(n);
+    (ratios.into_iter().fold(start, |value, ratio| value * &ratio), roundings + 8.0 * m + 2.0 * z.to_f64() * m.ln_1p())
 }
 
 /// `1/m²`, m = 1 … 13.
@@ -84,71 +149,40 @@ fn short(z: f64, steps: &[f64; 13]) -> f64 {
     steps.iter().rev().fold(1.0, |tail, step| 1.0 + y * step * tail) * (-z).exp()
 }
 
-/// The faster way of long numbers.
-#[cfg(feature = "mp")]
-fn many<S: Analytic>(z: &S, n: u32) -> Option<S> {
-    let z = (z as &dyn Any).downcast_ref::<rug::Float>()?;
-    super::many::same(super::in_scaled_bounded(z, n).0)
-}
-
-#[cfg(not(feature = "mp"))]
-fn many<S: Analytic>(_: &S, _: u32) -> Option<S> {
-    None
-}
-
-fn generic<S: Analytic>(z: &S, n: u32) -> S {
-    many(z, n).unwrap_or_else(|| plain(z, i64::from(n)))
-}
-
-/// The expansion at infinity where it reaches the precision, the series at zero elsewhere.
-fn plain<S: Analytic>(z: &S, n: i64) -> S {
-    if S::RIGOROUS {
-        return enclosed::bessel_scaled(z, n);
-    }
-    if z.to_f64() > bits(z) + 64.0 { expansion(z, n) } else { series(z, n) }
-}
-
-/// `(2πz)^{−1/2} Σ_k (−1)ᵏ a_k(n)/zᵏ`, for n = 0, 1 and z > bits + 64; from k = 2 on all terms have one sign.
-///
-/// The rest after ℓ terms is at most `4 χ(ℓ) |a_ℓ| z^{−ℓ} + e^{−2z}` with `χ(ℓ) = √π Γ(ℓ/2+1)/Γ(ℓ/2+1/2) < 2√ℓ + 2`
-/// (DLMF 10.40(ii), (iii), with `|n² − ¼| π/2z < 0.02`). Terms fall until k ≈ 2z, where they are e^{−2z}, beyond the
-/// precision.
-pub(super) fn expansion<S: Analytic>(z: &S, n: i64) -> S {
-    let mut term = z.one();
-    let mut sum = z.one();
-    let enough = roundoff(z);
-    let last = (2.0 * bits(z)) as i64 + 128;
-    for k in 1..=last {
-        term = -(term * &z.int(4 * n * n - (2 * k - 1) * (2 * k - 1))) / (z.int(8 * k) * z);
-        sum = sum + &term;
-        if term.magnitude() * &z.int(16 * (k + 1)) < enough {
-            break;
+impl RoundedSpecial for f64 {
+    fn in_scaled_rounded(&self, n: u32) -> (f64, f64) {
+        let z = *self;
+        match n {
+            0 if z <= 2.0 => (short(z, &SQUARES), 8.0),
+            1 if z <= 2.0 => (0.5 * z * short(z, &PRODUCTS), 8.0),
+            0 => (pxfm::f_i0e(z), 2.0),
+            1 => (pxfm::f_i1e(z), 2.0),
+            _ => by_ratios(self, n, self.in_scaled_rounded(0)),
         }
     }
-    sum / (z.pi() * z * &z.int(2)).sqrt()
-}
 
-/// `e^{−z} Σ_m (z/2)^{2m+n}/(m!(m+n)!)`: all terms positive.
-///
-/// The ratio of terms, `z²/(4m(m+n))`, falls with m. Once it is below 1/2 the rest is smaller than the last term taken,
-/// and the sum stops when that is a roundoff of it.
-fn series<S: Analytic>(z: &S, n: i64) -> S {
-    let half = z.clone() / z.int(2);
-    let square = half.square();
-    let mut term = (1..=n).fold(z.one(), |term, k| term * &half / z.int(k));
-    let mut sum = term.clone();
-    let enough = roundoff(z) / z.int(4);
-    for m in 1i64.. {
-        term = term * &square / z.int(m * (m + n));
-        if term.is_zero() || !term.is_finite() {
-            break;
+    /// `e^{−r(t−u)} · e^{−ru} I₀(ru)` with `u = √(ξη)`, `t − u = a²/(t+u)`.
+    fn ray_start_rounded(ray: &Ray<f64>) -> (f64, f64) {
+        let Ray { xi, eta, damping } = *ray;
+        let xi = xi.max(0.0);
+        let u = (xi * eta).sqrt();
+        let (bessel, _) = (damping * u).in_scaled_rounded(0);
+        if xi == eta {
+            return (bessel, 8.0);
         }
-        sum = sum + &term;
-        if square.clone() * &z.int(2) < z.int(m * (m + n)) && term <= sum.clone() * &enough {
-            break;
-        }
+        let (travel, time) = (0.5 * (eta - xi), 0.5 * (eta + xi));
+        let lag = travel * travel / (time + u) * damping;
+        (bessel * (-lag).exp(), 12.0 + 6.0 * lag)
     }
-    sum * &(-z.clone()).exp()
+
+    fn ray_sums_rounded<const K: usize>(
+        ray: &Ray<f64>,
+        first: [i64; K],
+        weight: impl Fn(i64) -> [i64; K],
+    ) -> RoundedSums<f64, K> {
+        let ray = Ray { xi: ray.xi.max(0.0), ..*ray };
+        ray.sums_by_ratios(first, weight, f64::ray_start_rounded(&ray))
+    }
 }
 
 #[cfg(test)]
@@ -174,56 +208,6 @@ mod tests {
             for n in [1, 2, 3, 8, 20] {
                 let wrong = (in_scaled(&z, n) - by_integral(z, n as i32)).abs();
                 assert!(wrong < 4e-16 + 1e-13 * by_integral(z, n as i32), "{z} {n} {wrong}");
-            }
-        }
-    }
-
-    #[cfg(feature = "mp")]
-    #[test]
-    fn both_expansions_agree() {
-        for digits in [64u32, 300, 2000] {
-            for n in [0, 1] {
-                let z = rug::Float::with_val(digits, digits + 70);
-                let (near, far) = (series(&z, n), expansion(&z, n));
-                let wrong: rug::Float = (near - &far) / far;
-                assert!(wrong.is_zero() || wrong.get_exp().unwrap() < 14 - digits as i32, "{digits} {n} {wrong}");
-            }
-        }
-    }
-
-    /// The series and the expansion term by term, with twice the precision, against the fast way and its bound.
-    #[cfg(feature = "mp")]
-    #[test]
-    fn the_fast_way_keeps_its_bound() {
-        use crate::special::{in_bounded, in_scaled_bounded, psi_bounded};
-        use rug::Float;
-        for p in [64u32, 65, 200, 1000, 4096] {
-            for z in [1e-300, 1e-20, 0.1, 0.7, 1.0, 1.99, 3.0, 10.0, 33.3, 120.0, 400.0, 1000.0, 1e5] {
-                for z in [Float::with_val(p, z), Float::with_val(p, z) * Float::with_val(p, 2).sqrt()] {
-                    for n in [0, 1, 2, 7, 40] {
-                        if n > 1 && z > 2000 || p > 3000 && z > 200 && n > 1 {
-                            continue;
-                        }
-                        let long = Float::with_val(2 * p + 64, &z);
-                        let exact = if n > 1 { series(&long, n) } else { plain(&long, n) };
-                        let off = |value: &Float, exact: &Float| {
-                            let wrong = Float::with_val(64, value - exact) / exact;
-                            (wrong.abs() << p).to_f64()
-                        };
-                        let (value, bound) = in_scaled_bounded(&z, n as u32);
-                        let wrong = off(&value, &exact);
-                        assert!(wrong <= bound && bound < 1.1, "{p} {z} {n} {wrong} {bound}");
-                        let (value, bound) = in_bounded(&z, n as u32);
-                        let plain = exact * &long.clone().exp();
-                        assert!(off(&value, &plain) <= bound && bound < 1.1, "{p} {z} {n} {bound}");
-                        if z < 2000 {
-                            // r = 2, ξ = z/2 = η: ψ_n = I_n.
-                            let half = Float::with_val(p, &z >> 1u32);
-                            let (value, bound) = psi_bounded(&Float::with_val(p, 2), &half, &half, n as u32);
-                            assert!(off(&value, &plain) <= bound && bound < 1.1, "{p} {z} {n} {bound}");
-                        }
-                    }
-                }
             }
         }
     }

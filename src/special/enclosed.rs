@@ -1,93 +1,176 @@
-//! The same series for numbers that answer for their own error: where a sum is cut, its rest is added as a width.
-//!
-//! Nothing here compares one number with another: how many terms are taken is decided on doubles that bound them, and
-//! any choice would give an enclosure.
+//! The special functions of enclosures: those of the middle, in long numbers with a proved bound, and that bound as a width.
 
-use super::bits;
-use crate::number::Analytic;
+use rug::Float;
+use rug::float::{Round, Special as NoNumber};
 
-/// No sum has more terms than this.
-const MOST_TERMS: i64 = 4_000_000;
+use super::bessel::Special;
+use super::estimated::Bounded;
+use super::gauss::{gauss_legendre, step};
+use super::ray::{Ray, RaySums};
+use crate::number::{Estimate, Interval, Scalar};
 
-/// `Σ_m yᵐ n!/(m!(m+n)!)`, the function ₀F₁(; n+1; y).
-///
-/// **Accuracy**: *enclosure*. The ratio of terms, `|y|/(m(m+n))`, falls with m: once it is below 1/2, all terms from m on are
-/// less than the one before them.
-pub(crate) fn confluent<S: Analytic>(y: &S, n: i64) -> S {
-    let size = y.to_f64().abs();
-    let goal = -(bits(y) + 4.0);
-    let (mut term, mut sum, mut log) = (y.one(), y.one(), 0.0f64);
-    for m in 1..=MOST_TERMS {
-        let divisor = m * (m + n);
-        let step = size / divisor as f64;
-        log += step.log2();
-        term = term * y / y.int(divisor);
-        if step < 0.499 && log < goal {
-            return sum.widened(&(term * &y.int(2)));
+/// The middle, with the radius as its bound.
+fn estimate(x: &Interval) -> Estimate<Float> {
+    let (middle, bits) = (x.mid(), x.lo().prec());
+    let far = |end: &Float| Float::with_val_round(64, end - &middle, Round::AwayZero).0.abs();
+    let (low, high) = (far(x.lo()), far(x.hi()));
+    let radius = if low > high { low } else { high };
+    let error = if radius.is_finite() { (radius << bits).to_f64_round(Round::Up) } else { f64::INFINITY };
+    Estimate::new(middle, error)
+}
+
+/// Everything within the bound. A part in 10⁹ and 10⁻³⁰⁰ are for the doubles in it.
+fn enclosure(x: &Estimate<Float>) -> Interval {
+    let (middle, bits) = (x.value(), x.value().prec());
+    if middle.is_zero() && x.error() == 0.0 {
+        return Interval::between(middle.clone(), middle.clone());
+    }
+    let radius = Float::with_val(64, x.error() * (1.0 + 1e-9) + 1e-300) >> bits;
+    if x.error().is_nan() || !radius.is_finite() {
+        return everything(bits);
+    }
+    let end = |round| match round {
+        Round::Down => Float::with_val_round(bits, middle - &radius, round).0,
+        _ => Float::with_val_round(bits, middle + &radius, round).0,
+    };
+    Interval::between(end(Round::Down), end(Round::Up))
+}
+
+fn everything(bits: u32) -> Interval {
+    Interval::between(Float::with_val(bits, NoNumber::NegInfinity), Float::with_val(bits, NoNumber::Infinity))
+}
+
+impl Special for Interval {
+    fn in_scaled(&self, n: u32) -> Self {
+        enclosure(&estimate(self).in_scaled(n))
+    }
+
+    fn ray_start(ray: &Ray<Self>) -> Self {
+        enclosure(&ray.map(estimate).start())
+    }
+
+    fn ray_sums<const K: usize>(
+        ray: &Ray<Self>,
+        first: [i64; K],
+        weight: impl Fn(i64) -> [i64; K],
+    ) -> RaySums<Self, K> {
+        let found = ray.map(estimate).sums(first, weight);
+        RaySums { start: enclosure(&found.start), sums: found.sums.map(|sum| enclosure(&sum)) }
+    }
+
+    fn gauss_legendre(&self, n: usize) -> Vec<(Self, Self)> {
+        enclosed_rule(self.lo().prec(), n)
+    }
+}
+
+impl Bounded for Interval {
+    fn middle(&self) -> Self {
+        let middle = self.mid();
+        Interval::between(middle.clone(), middle)
+    }
+
+    fn near(&self) -> (f64, f64) {
+        let value = self.mid().to_f64();
+        let far = |end: &Float| Float::with_val_round(64, end - value, Round::AwayZero).0.abs().to_f64_round(Round::Up);
+        (value, far(self.lo()).max(far(self.hi())))
+    }
+
+    fn coincides(&self, other: &Self) -> bool {
+        let copies = self.lo() == other.lo() && self.hi() == other.hi();
+        copies && self.compare(other).map_or(true, std::cmp::Ordering::is_eq)
+    }
+}
+
+/// `P_n(x)` and `P_n′(x)` within the returned `2^−q` in absolute terms, for the exact number x inside of (−1,1).
+struct Legendre {
+    value: Interval,
+    slope: Interval,
+}
+
+/// The recurrence is followed in `q` bits. Each step adds less than `9·2^−q` to its value, `|P_k| ≤ 1`, and errors grow as
+/// `e_k ≤ 2e_{k−1} + e_{k−2}`, by less than `1 + √2` with each step: all in all less than `2^{1.28n + 4 − q}`, which is the width.
+fn legendre(x: &Float, n: usize, q: u32) -> Legendre {
+    let (value, before) = step(x, n, q);
+    let off = Float::with_val(64, 1) >> (q - grown(n));
+    let around = |y: &Float| {
+        let (lo, hi) = (Float::with_val(q, y - &off), Float::with_val(q, y + &off));
+        Interval::between(lo, hi)
+    };
+    let (value, before, x) = (around(&value), around(&before), Interval::between(x.clone(), x.clone()));
+    let x = value.zero() + &x;
+    let square = (x.one() - &x) * &(x.one() + &x);
+    let slope = (before - x.clone() * &value) * &x.int(n as i64) / square;
+    Legendre { value, slope }
+}
+
+/// Bits that the recurrence may lose, rounded up.
+fn grown(n: usize) -> u32 {
+    (1.28 * n as f64) as u32 + 6
+}
+
+/// Each node by Newton's method, the last step of which is the proof: with `δ` a bound of the distance to the nearest root, `n |P/P′|`
+/// because `P′/P` is the sum of n fractions `1/(x − x_i)`, Taylor's formula gives
+/// `x_i ∈ x − P/P′ ± δ² max|P″|/2|P′|` and `P′(x_i) ∈ P′ + P″(x)(x_i − x) ± δ² max|P‴|/2`. On [−1,1], `P″` is greatest at 1,
+/// `(n−1)n(n+1)(n+2)/8 < (n+1)⁴/8`, `P‴ < (n+1)⁶/48`; and `(1−x²)P″ = 2xP′ − n(n+1)P`. Nodes that are as many as `P_n` has roots and do
+/// not overlap are its roots, one each. The weight is `2/((1−x²) P′²)`. Where that cannot be shown, node and weight are everything, and so
+/// is every integral by this rule.
+fn enclosed_rule(bits: u32, n: usize) -> Vec<(Interval, Interval)> {
+    let size = (n as f64 + 2.0).log2().ceil() as u32;
+    // Bits before the last step, and before those before it: one step loses `x/(1−x²) < n²` of the square of the error.
+    let mut ladder = vec![bits / 2 + 3 * size + 8];
+    while ladder[ladder.len() - 1] > 90 - 2 * size.min(20) {
+        ladder.push(ladder[ladder.len() - 1] / 2 + size + 4);
+    }
+    let near = gauss_legendre(&1.0f64, n);
+    let upper = near.into_iter().skip(n / 2).map(|(x, _)| {
+        let mut x = Float::with_val(64, x);
+        for digits in ladder.iter().rev() {
+            let q = digits + grown(n) + 2 * size;
+            let (value, before) = step(&x, n, q);
+            let square = Float::with_val(q, 1 - Float::with_val(q, x.square_ref()));
+            let slope = (before - Float::with_val(q, &value * &x)) * n as u32 / square;
+            x = Float::with_val(q, &x - value / slope);
+            x.set_prec(*digits);
         }
-        sum = sum + &term;
-    }
-    sum.widened(&y.double(f64::INFINITY))
+        if n % 2 == 1 && x.to_f64().abs() < 1e-9 {
+            x = Float::new(64);
+        }
+        prove(&x, n, bits)
+    });
+    let upper: Vec<(Interval, Interval)> = upper.collect();
+    let mut rule: Vec<_> = upper.iter().skip(n % 2).rev().map(|(x, w)| (-x.clone(), w.clone())).collect();
+    rule.extend(upper);
+    let apart = |pair: &[(Interval, Interval)]| pair[0].0.hi() < pair[1].0.lo();
+    if rule.windows(2).all(apart) { rule } else { vec![(everything(bits), everything(bits)); n] }
 }
 
-/// `e^{−z} I_n(z) = e^{−z} (z/2)ⁿ/n! ₀F₁(; n+1; z²/4)`. **Accuracy**: *enclosure*.
-pub(super) fn bessel_scaled<S: Analytic>(z: &S, n: i64) -> S {
-    let half = z.clone() / z.int(2);
-    let head = (1..=n).fold((-z.clone()).exp(), |head, k| head * &half / z.int(k));
-    head * &confluent(&half.square(), n)
+fn prove(x: &Float, n: usize, bits: u32) -> (Interval, Interval) {
+    let m = n as i64;
+    let found = legendre(x, n, bits + grown(n) + 5 * (n as u32 + 2).ilog2() + 24);
+    let one = found.value.one();
+    let point = one.zero() + &Interval::between(x.clone(), x.clone());
+    let step = found.value.clone() / &found.slope;
+    let (second, third) = (one.int(m + 1).square().square() / one.int(16), one.int(m + 1).square() / one.int(6));
+    let away = (step.magnitude() * &one.int(m)).square() * &second;
+    let node = (point.clone() - step).widened(&(away.clone() / &found.slope));
+    let square = |x: &Interval| (one.clone() - x) * &(one.clone() + x);
+    let bend = (point.clone() * &found.slope * &one.int(2) - found.value * &one.int(m * (m + 1))) / square(&point);
+    let slope = (found.slope + bend * &(node.clone() - &point)).widened(&(away * third));
+    let weight = one.int(2) / (square(&node) * &slope.square());
+    let rounded = |x: Interval| {
+        let ends =
+            (Float::with_val_round(bits, x.lo(), Round::Down).0, Float::with_val_round(bits, x.hi(), Round::Up).0);
+        Interval::between(ends.0, ends.1)
+    };
+    (rounded(node), rounded(weight))
 }
 
-/// `e^{−rt} ψ₀ = e^{−rt} ₀F₁(; 1; r²ξη/4)`, with `r/2` given. **Accuracy**: *enclosure*, without a root of ξ, which would
-/// cost half of its digits where the ray has just arrived.
-pub(super) fn ray_start<S: Analytic>(half: &S, xi: &S, eta: &S) -> S {
-    let fade = (-(half.clone() * &(xi.clone() + eta))).exp();
-    fade * &confluent(&(half.square() * xi * eta), 0)
-}
-
-/// Where the sums over one ray are cut.
-pub(super) struct Cut<S> {
-    /// The last term N.
-    pub(super) terms: i64,
-    /// A bound of `σ_{N+1} ≥ 0`, `σ_n = (r/2) ψ_n/ψ_{n−1}`.
-    pub(super) ratio: S,
-    /// A bound of `Σ_{n>N} c_n σ_{N+2} ⋯ σ_n` for weights `0 ≤ c_n ≤ n³`.
-    pub(super) rest: S,
-}
-
-/// Where to cut the sums over the ray `ξ`, `η`, damping `2 half`, that need the terms up to `first`.
-///
-/// `σ_n < rξ/(n−½+√((n−½)²+z²)) ≤ rξ/(2n−1)` with `z = r√(ξη)` (Amos 1974, Segura 2011), and both bounds fall with n. With
-/// `γ = σ (1 + 1/n)³` at `n = N+1`, `Σ_{n>N} n³ σ_{N+2} ⋯ σ_n ≤ (N+1)³/(1−γ)`. The numbers here are known to some roundings of
-/// doubles, against which γ ≤ 0.9 and the bound `16 (N+1)³` have room. What the rest weighs in the sum, a product of all σ, is
-/// carried by the enclosures of these.
-pub(super) fn cut<S: Analytic>(half: &S, xi: &S, eta: &S, first: i64) -> Cut<S> {
-    let size = |x: &S| x.to_f64().abs();
-    let reach = 2.0 * size(half) * size(xi) * (1.0 + 1e-12);
-    let z = 2.0 * size(half) * (size(xi) * size(eta)).sqrt() * (1.0 + 1e-12);
-    let goal = -(bits(xi) + 6.0);
-    let (mut product, mut square, mut terms) = (0.0f64, 0.0f64, first);
-    let mut bounded = false;
-    while !bounded && terms < MOST_TERMS && z.is_finite() {
-        terms += 1;
-        let m = terms as f64;
-        // The ratio of the next index is smaller: it is taken for that of N+1.
-        let below = (m - 0.5) + ((m - 0.5) * (m - 0.5) + z * z).sqrt();
-        product += (reach / below).log2();
-        square += 2.0 * (z / below).log2();
-        let growth = reach / below * (1.0 + 1.0 / m).powi(3);
-        bounded = growth <= 0.9 && product + 3.0 * m.log2() < goal && square < goal;
-    }
-    let ratio = half.int(2) * half * &xi.clone().magnitude() / half.int(2 * terms + 1);
-    let rest = if bounded { 16.0 * (terms as f64 + 1.0).powi(3) } else { f64::INFINITY };
-    Cut { terms, ratio, rest: xi.double(rest) }
-}
-
-#[cfg(all(test, feature = "mp"))]
+#[cfg(test)]
 mod tests {
-    use rug::{Float, Rational};
-
-    use crate::number::{Interval, IntervalPrecision, Scalar};
-    use crate::special::{Ray, i0_scaled, i1_scaled, in_scaled};
+    use super::*;
+    use crate::number::IntervalPrecision;
+    use crate::special::{i0_scaled, i1_scaled, in_scaled};
+    use rug::Rational;
 
     /// From few bits, where every cut is coarse, to many; the truth has twice as many.
     #[test]
@@ -129,6 +212,22 @@ mod tests {
                         );
                     }
                 }
+            }
+        }
+    }
+
+    #[test]
+    fn moments_are_enclosed() {
+        for n in [1usize, 2, 7, 40, 151] {
+            let one = Interval::rational(&Rational::from(1), IntervalPrecision::bits(200));
+            let rule = one.gauss_legendre(n);
+            for power in [0, n - 1 + (n - 1) % 2, 2 * n - 2].into_iter().filter(|power| *power <= 2 * n - 2) {
+                let sum = rule
+                    .iter()
+                    .fold(one.zero(), |sum, (x, w)| sum + (0..power).fold(w.clone(), |product, _| product * x));
+                let exact = Rational::from((2, power as u32 + 1));
+                assert!(sum.contains(&exact), "{n} {power} {}", sum.text());
+                assert!(sum.radius() < 1e-50, "{n} {power} {}", sum.radius());
             }
         }
     }

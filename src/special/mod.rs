@@ -1,26 +1,26 @@
-//! Special functions in any precision: scaled Bessel functions, the sums over `ψ_n` that a ray carries, `φ`
-//! functions, Gauss–Legendre.
+//! Special functions, each once by name, with an implementation for each number system by [`Special`]: scaled Bessel functions,
+//! the sums over `ψ_n` that a ray carries, `φ` functions, Gauss–Legendre.
 
 #[cfg(feature = "mp")]
 mod backward;
 mod bessel;
+#[cfg(feature = "mp")]
 mod enclosed;
+mod estimated;
 mod gauss;
 #[cfg(feature = "mp")]
-mod gauss_enclosed;
+mod hypergeometric;
 #[cfg(feature = "mp")]
-mod many;
+mod long;
 mod phi;
 mod precision;
 mod ray;
 
-pub use bessel::{i0_scaled, i1_scaled, in_scaled};
-#[cfg(feature = "mp")]
-pub(crate) use enclosed::confluent;
+pub use bessel::{RoundedSpecial, Special, i0_scaled, i1_scaled, in_scaled};
+pub use estimated::Bounded;
 pub use gauss::gauss_legendre;
 #[cfg(feature = "mp")]
-pub use many::{in_bounded, in_scaled_bounded, psi_bounded};
+pub use hypergeometric::{in_bounded, in_scaled_bounded, psi_bounded};
 pub use phi::{log_mean, log_rest, phi1, phi2};
-use precision::bits;
-pub(crate) use precision::{negative_power, roundoff};
-pub use ray::{Ray, RaySums};
+use precision::{bits, negative_power};
+pub use ray::{Ray, RaySums, RoundedSums};

@@ -15,7 +15,7 @@ use crate::number::Analytic;
 /// assert!((phi1(&1.0_f64) - 1.718281828459045).abs() < 1e-15);
 /// ```
 pub fn phi1<S: Analytic>(z: &S) -> S {
-    if z.is_zero() { z.one() } else { z.exp_m1() / z }
+    if z.vanishes() == Ok(true) { z.one() } else { z.exp_m1() / z }
 }
 
 /// `φ₂(z) = (eᶻ − 1 − z)/z²`, 1/2 at `z = 0`.
@@ -32,7 +32,7 @@ pub fn phi1<S: Analytic>(z: &S) -> S {
 /// ```
 pub fn phi2<S: Analytic>(z: &S) -> S {
     let one = z.one();
-    // Both ways are right near the border, so that doubles may tell.
+    // Both ways are right near the border.
     if z.to_f64().abs() > 1.0 {
         return (z.exp_m1() - z) / z.square();
     }
@@ -59,7 +59,7 @@ pub fn phi2<S: Analytic>(z: &S) -> S {
 ///
 /// **Errors**: not a number for `y ≤ −1`.
 pub fn log_mean<S: Analytic>(y: &S) -> S {
-    if y.is_zero() { y.one() } else { y.ln_1p() / y }
+    if y.vanishes() == Ok(true) { y.one() } else { y.ln_1p() / y }
 }
 
 /// `λ₂(y) = (y − ln(1+y))/y²`, 1/2 at `y = 0`, for `y ≥ 0`: the highest point, `h_max − h⁰ = ((h¹)²/g) λ₂(2rh¹/g)`.

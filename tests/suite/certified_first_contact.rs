@@ -1,12 +1,11 @@
 //! The first contact in enclosures: what is proved, to how many digits, and that it is the truth.
 
-use dalembert::Problem;
-use dalembert::certified::ProvedContact;
-use dalembert::first_contact::{Bounce, FirstContact};
+use dalembert::first_contact::{Bounce, ContactHistory, FirstContact};
 use dalembert::history::{Ending, History, Side};
 use dalembert::modal::Modal;
-use dalembert::number::{Interval, Number, Scalar};
+use dalembert::number::{Answer, Interval, IntervalPrecision, Number, Scalar};
 use dalembert::rod::Parameters;
+use dalembert::{Error, Problem};
 use proptest::prelude::*;
 use rug::ops::Pow;
 use rug::{Float, Integer, Rational};
@@ -25,15 +24,20 @@ fn problem([length, wave_speed, damping, gravity, speed]: [&str; 5]) -> Problem 
 }
 
 /// With as many bits as it takes.
-fn solve(problem: &Problem, bits: u32) -> ProvedContact {
+fn solve(problem: &Problem, bits: u32) -> ContactHistory<Interval> {
     let mut bits = bits;
     loop {
-        if let Some(contact) = ProvedContact::solve(problem, bits).unwrap() {
-            return contact;
+        match ContactHistory::solve(problem, &IntervalPrecision::with_exact(bits)) {
+            Err(Error::NotDecided { .. }) => bits *= 2,
+            contact => return contact.unwrap(),
         }
-        bits *= 2;
         assert!(bits < 20_000, "undecided");
     }
+}
+
+/// A time or a point as a person wrote it, with as many bits as the history.
+fn exactly(contact: &ContactHistory<Interval>, number: &Number) -> Interval {
+    Interval::from_number(number, &IntervalPrecision::with_exact(contact.end().lo().prec()))
 }
 
 fn cases() -> Vec<Value> {
@@ -70,11 +74,10 @@ fn proved(digits: i32, bits: u32) {
         let problem =
             problem([read("length"), read("wave_speed"), read("damping"), read("gravity"), read("impact_speed")]);
         let contact = solve(&problem, bits);
-        let form = contact.form();
         let scales = contact.scales();
         let (time, speed) = (scales.time.to_f64(), scales.velocity.to_f64());
         let strain = speed / scales.wave_speed.to_f64();
-        let at = |value: &Value| form.time(&number(value.as_str().unwrap()));
+        let at = |value: &Value| exactly(&contact, &number(value.as_str().unwrap()));
         for row in case["stress"].as_array().unwrap() {
             let stress = contact.stress(&at(&row[0]), Side::Right).unwrap();
             check(&format!("{name} stress"), &stress, &row[1], strain, digits);
@@ -104,7 +107,7 @@ fn proved(digits: i32, bits: u32) {
         check(&format!("{name} E"), &energy.total, &truth["total"], unit, digits);
         check(&format!("{name} E_h"), &energy.translational, &truth["translational"], unit, digits);
         check(&format!("{name} E_z"), &energy.vibrational, &truth["vibrational"], unit, digits);
-        let start = contact.energy(&form.time(&Number::from(0))).unwrap().translational;
+        let start = contact.energy(&exactly(&contact, &Number::from(0))).unwrap().translational;
         let squared = energy.translational / start;
         check(&format!("{name} e_E²"), &squared, &truth["restitution_energy_squared"], 1.0, digits);
     }
@@ -177,13 +180,13 @@ fn the_least_and_the_greatest_damping() {
     // 1e-300: t_b is 2t₁ − μ/g but for 1e-300.
     for (damping, digits) in [("1e-9", 8), ("1e-300", 280)] {
         let contact = solve(&problem(["1", "1", damping, "1", "3/2"]), 1100);
-        let off = contact.events()[1].time.clone() - contact.form().time(&number("5/2"));
+        let off = contact.events()[1].time.clone() - exactly(&contact, &number("5/2"));
         assert!(off.magnitude().hi().to_rational().unwrap() < power_of_ten(-digits), "{damping}: {}", off.text());
         assert!(contact.events()[1].time.radius() < 1e-250);
     }
     let contact = solve(&problem(["1", "1", "25", "1", "1"]), 256);
     assert!(matches!(contact.ending(), Ending::NoBounce(_)), "{:?}", contact.ending());
-    let stress = contact.stress(&contact.form().time(&Number::from(3)), Side::Right).unwrap();
+    let stress = contact.stress(&exactly(&contact, &Number::from(3)), Side::Right).unwrap();
     assert!(stress.radius() < 1e-30, "{}", stress.text());
 }
 
@@ -193,9 +196,8 @@ fn holds(found: &Interval, truth: &Float, slack: f64) -> bool {
 }
 
 /// Every value that can be asked for, at some times of the contact and at its end.
-fn everything(contact: &ProvedContact, times: &[&str]) -> Vec<Interval> {
-    let form = contact.form();
-    let mut times: Vec<Interval> = times.iter().map(|t| form.time(&number(t))).collect();
+fn everything(contact: &ContactHistory<Interval>, times: &[&str]) -> Vec<Interval> {
+    let mut times: Vec<Interval> = times.iter().map(|t| exactly(contact, &number(t))).collect();
     times.retain(|t| t.hi() < contact.end().lo());
     times.push(contact.end());
     let mut list = vec![contact.contacts()[0].impulse.clone(), contact.contacts()[0].peak_stress.clone()];
@@ -206,7 +208,7 @@ fn everything(contact: &ProvedContact, times: &[&str]) -> Vec<Interval> {
     for t in &times {
         for side in [Side::Left, Side::Right] {
             list.push(contact.stress(t, side).unwrap());
-            let field = contact.field(&form.time(&number("0.3")), t, side).unwrap();
+            let field = contact.field(&exactly(contact, &number("0.3")), t, side).unwrap();
             list.extend([field.displacement, field.velocity, field.strain]);
             let (top, speed) = contact.top_end(t, side).unwrap();
             list.extend([top, speed]);
@@ -253,23 +255,24 @@ fn ordinary_numbers_lie_inside() {
     for case in CASES {
         let proved = solve(&problem(case), 200);
         let rod = Parameters::<Float>::of(&problem(case), &500).unwrap();
-        let contact = FirstContact::new(&rod);
+        let contact = FirstContact::new(&rod.carry());
         match contact.bounce() {
-            Bounce::At { time, .. } => assert!(holds(&proved.events()[1].time, &time, 1e-120), "{case:?}"),
-            Bounce::Never { .. } => assert!(proved.bounce().is_none(), "{case:?}"),
+            Bounce::At { time, .. } => assert!(holds(&proved.events()[1].time, time.value(), 1e-120), "{case:?}"),
+            Bounce::Never(_) => assert!(proved.bounce().is_none(), "{case:?}"),
             Bounce::Undecided { why, .. } => panic!("{case:?}: {why}"),
         }
-        let mut deepest = contact.stress(&Float::with_val(500, 0), Side::Right).value;
+        let stress = |time: &Float, side| contact.stress(&time.carry(), side).into_value();
+        let mut deepest = stress(&Float::with_val(500, 0), Side::Right);
         let end = proved.end().mid();
         for k in 1..200u32 {
             let time = Float::with_val(500, &end * k) / 200u32;
-            let stress = contact.stress(&time, Side::Left).value;
+            let stress = stress(&time, Side::Left);
             if k % 20 == 1 {
-                let at = proved.form().time(&Number::from(0)) + Interval::between(time.clone(), time.clone());
+                let at = exactly(&proved, &Number::from(0)) + Interval::between(time.clone(), time.clone());
                 assert!(holds(&proved.stress(&at, Side::Left).unwrap(), &stress, 1e-120), "{case:?}");
                 let (height, velocity) = proved.centre(&at).unwrap();
-                assert!(holds(&height, &contact.centre(&time).0.value, 1e-120), "{case:?}");
-                assert!(holds(&velocity, &contact.centre(&time).1.value, 1e-120), "{case:?}");
+                assert!(holds(&height, contact.centre(&time.carry()).0.value(), 1e-120), "{case:?}");
+                assert!(holds(&velocity, contact.centre(&time.carry()).1.value(), 1e-120), "{case:?}");
             }
             if stress < deepest {
                 deepest = stress;
@@ -288,7 +291,8 @@ fn times_on_rays_are_told_from_times_beside_them() {
     // t₁ = 20/21, and a ray is at x = 1/6 at t = 5/21 + k t₁.
     let contact = solve(&problem(["1/3", "0.7", "0.1", "2", "1/7"]), 256);
     let form = contact.form();
-    let at = |time: &str, side| form.field(&form.time(&number("1/6")), &form.time(&number(time)), side).unwrap();
+    let point = exactly(&contact, &number("1/6"));
+    let at = |time: &str, side| form.field(&point, &exactly(&contact, &number(time)), side);
     for time in ["5/21", "15/21"] {
         let (before, after) = (at(time, Side::Left), at(time, Side::Right));
         let jump = after.velocity.clone() - &before.velocity;
@@ -299,10 +303,10 @@ fn times_on_rays_are_told_from_times_beside_them() {
         let beside = |sign: &str| {
             let numerator = Integer::from_str(&format!("{ray}{zeros}")).unwrap();
             let numerator = if sign == "-" { numerator - 21 } else { numerator + 21 };
-            form.field(&form.time(&number("1/6")), &form.time(&number(&format!("{numerator}/21{zeros}"))), Side::Right)
+            form.field(&point, &exactly(&contact, &number(&format!("{numerator}/21{zeros}"))), Side::Right)
         };
-        assert!(beside("-").unwrap().velocity.meet(&before.velocity).is_some());
-        assert!(beside("+").unwrap().velocity.meet(&after.velocity).is_some());
+        assert!(beside("-").velocity.meet(&before.velocity).is_some());
+        assert!(beside("+").velocity.meet(&after.velocity).is_some());
     }
     let continuous = at("6/21", Side::Right).velocity - &at("6/21", Side::Left).velocity;
     assert!(continuous.contains(&Rational::new()));
@@ -316,13 +320,14 @@ proptest! {
     fn modes_agree(r in 0u32..400, g in 0u32..30, mu in 1u32..40, t in 1u32..390) {
         let texts = [r, g, mu, t].map(|n| format!("{n}/100"));
         let problem = problem(["1/2", "1", &texts[0], &format!("{g}/10"), &format!("{mu}/10")]);
-        let form = dalembert::certified::ClosedForm::of(&problem, 192).unwrap();
-        let proved = form.stress(&form.time(&number(&texts[3])), Side::Right).unwrap();
+        let precision = IntervalPrecision::with_exact(192);
+        let form = FirstContact::new(&Parameters::<Interval>::of(&problem, &precision).unwrap());
+        let proved = form.stress(&Interval::from_number(&number(&texts[3]), &precision), Side::Right);
         let rod = Parameters::<Float>::of(&problem, &192).unwrap();
         let time = Float::with_val(192, &number(&texts[3]).to_rational());
         let modes = Modal::new(&rod, 256).stress(&time, Side::Right);
-        let off = (modes.value.clone() - proved.mid()).abs();
-        prop_assert!(off <= modes.error * (1.0 + 1e-9) + proved.radius(), "{} {} {}", modes.value, modes.error, proved.text());
+        let off = (modes.value().clone() - proved.mid()).abs();
+        prop_assert!(off <= modes.bound() * (1.0 + 1e-9) + proved.radius(), "{modes:?} {}", proved.text());
     }
 }
 
@@ -354,15 +359,9 @@ fn pieces_hold_the_stress() {
 
 /// What `--certified` prints: digits for every number of the record, with restitution and flight.
 #[test]
-fn certify_asks_with_as_many_bits_as_it_takes() {
-    let problem = problem(["1", "1", "0.3", "1", "2"]);
-    let numbers = |history: &dyn History<Interval>| {
-        let contact = &history.contacts()[0];
-        let restitution = dalembert::quantity::restitution(history, contact)?;
-        Ok::<_, dalembert::Error>([contact.to.clone().unwrap(), restitution.momentum.unwrap()])
-    };
-    let [time, momentum] =
-        dalembert::solve::certify(&problem, 100, numbers, |n| n.iter().collect(), |_, _| ()).unwrap();
+fn every_number_has_its_proved_digits() {
+    let history = problem(["1", "1", "0.3", "1", "2"]).certified(100).unwrap();
+    let (time, e) = (history.contacts()[0].to.clone().unwrap(), history.restitution(0).unwrap());
     check("t_b", &time, &Value::from("3.97277918129047974002999995477923813872379549"), 1.0, 100);
-    check("e_P", &momentum, &Value::from("-0.28693309509651477688219222890632650211"), 1.0, 100);
+    check("e_P", &e.momentum.unwrap(), &Value::from("-0.28693309509651477688219222890632650211"), 1.0, 100);
 }

@@ -34,17 +34,15 @@ const ROUTES: [&str; 8] = [
 #[cfg(feature = "mp")]
 #[test]
 fn the_truth_of_a_later_event() {
+    use dalembert::Scene;
     use dalembert::rod::Run;
-    use dalembert::{Ask, Plan, Scene, Solution, solve};
     let source = builtin::get("figure-4-r02").unwrap().source.replace("[impact]", "[run]\nimpacts = 2\n\n[impact]");
     let file = tempfile::NamedTempFile::new().unwrap();
     std::fs::write(file.path(), &source).unwrap();
     let found = json(&[file.path().to_str().unwrap(), "--quantity", "last_event", "--seconds", "0.5"]);
     let mut scene = Scene::parse(builtin::get("figure-4-r02").unwrap().source).unwrap();
     scene.problem.run = Run::Impacts(2);
-    let plan = Plan::of(&scene, Ask::default()).unwrap();
-    let Solution::Double(history) = solve(&scene.problem, &plan, |_, _| ()).unwrap() else { unreachable!() };
-    let last = history.events().last().unwrap().time;
+    let last = scene.problem.solve().unwrap().events().last().unwrap().time;
     let truth = found["truth"].as_f64().unwrap();
     assert!(found["truth_proved"] == false && (truth - last).abs() < 1e-12 * last, "{found:#} {last}");
     // Without damping every event is proved.

@@ -26,7 +26,7 @@ fn scene(random: &mut impl FnMut() -> f64) -> Problem {
 /// Both histories; `None` where the first contact does not end, or a march is refused as too long.
 fn both(problem: &Problem) -> Option<(Damped<f64>, Joined<f64>)> {
     let rod = Parameters::<f64>::of(problem, &()).unwrap();
-    let bounce = FirstContact::new(&rod).bounce_within(1e-13);
+    let bounce = dalembert::solve::bounce_within(&FirstContact::new(&rod.carry()), 1e-13);
     if !matches!(bounce, Bounce::At { .. }) {
         return None;
     }
@@ -105,7 +105,7 @@ fn a_question_about_the_first_contact_needs_no_cells() {
     let mut problem = uniform("1", "1", "1", "3", Run::Impacts(10));
     problem.rod.damping = "0.1".parse().ok();
     let rod = Parameters::<f64>::of(&problem, &()).unwrap();
-    let bounce = FirstContact::new(&rod).bounce();
+    let bounce = FirstContact::new(&rod.carry()).bounce();
     let short = Joined::<f64>::solve(&problem, &(), 13.0, bounce.clone(), Reach::Bounce).unwrap();
     let long = Joined::<f64>::solve(&problem, &(), 13.0, bounce, Reach::Run).unwrap();
     assert_eq!(*short.ending(), Ending::Bounce);

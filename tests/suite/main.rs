@@ -3,7 +3,8 @@
 //! `cargo test --test suite lattice` runs the tests whose path holds that word.
 #![allow(clippy::approx_constant, clippy::expect_used, clippy::panic, clippy::unwrap_used, clippy::useless_conversion)]
 
-// mod certified_first_contact;
+#[cfg(feature = "mp")]
+mod certified_first_contact;
 // mod certified_undamped;
 #[cfg(feature = "cli")]
 mod check_catalogue;

@@ -4,23 +4,24 @@
 
 use crate::common::{number, reference};
 use dalembert::cells::Damped;
-use dalembert::first_contact::{Estimate, FirstContact};
+use dalembert::first_contact::FirstContact;
 use dalembert::history::{History, Side};
 use dalembert::lattice::Undamped;
 use dalembert::modal::Modal;
-use dalembert::number::Analytic;
+use dalembert::number::{Answer, Estimate, Rounded};
 use dalembert::rod::{Parameters, Run};
+use dalembert::special::RoundedSpecial;
 
 /// Two values within their bounds, and bounds that say something: below `useful` of `scale`.
-fn agree<S: Analytic>(what: &str, a: &Estimate<S>, b: &Estimate<S>, scale: f64, useful: f64) {
-    let apart = (a.value.clone() - &b.value).to_f64().abs();
-    assert!(apart <= a.error + b.error, "{what}: {a:?} and {b:?} are {apart:e} apart");
-    assert!(b.error <= useful * scale, "{what}: bound {:e} of {scale:e} says nothing", b.error);
+fn agree<S: Rounded>(what: &str, a: &Estimate<S>, b: &Estimate<S>, scale: f64, useful: f64) {
+    let apart = (a.value().clone() - b.value()).to_f64().abs();
+    assert!(apart <= a.bound() + b.bound(), "{what}: {a:?} and {b:?} are {apart:e} apart");
+    assert!(b.bound() <= useful * scale, "{what}: bound {:e} of {scale:e} says nothing", b.bound());
 }
 
 /// All that both routes can be asked, at `trips` round trips.
-fn compare<S: Analytic>(rod: &Parameters<S>, trips: &[f64], modes: u32, useful: f64) {
-    let (rays, modal) = (FirstContact::new(rod), Modal::new(rod, modes));
+fn compare<S: RoundedSpecial>(rod: &Parameters<S>, trips: &[f64], modes: u32, useful: f64) {
+    let (rays, modal) = (FirstContact::new(&rod.carry()), Modal::new(rod, modes));
     let t1 = rod.round_trip();
     let speed = rod.speed.to_f64() + rod.critical_speed().to_f64();
     let strain = speed / rod.wave_speed.to_f64();
@@ -29,27 +30,25 @@ fn compare<S: Analytic>(rod: &Parameters<S>, trips: &[f64], modes: u32, useful: 
         let time = t1.double(*trips) * &t1;
         let name = format!("R = {:e}, M = {:e}, τ = {trips}", rod.damping.to_f64() * t1.to_f64(), rod.speed.to_f64());
         for side in [Side::Left, Side::Right] {
-            let (a, b) = (rays.stress(&time, side), modal.stress(&time, side));
+            let (a, b) = (rays.stress(&time.carry(), side), modal.stress(&time, side));
             agree(&format!("{name} stress"), &a, &b, strain, useful);
             for part in [0.0, 0.25, 0.625, 1.0] {
                 let x = t1.double(part) * &rod.length;
-                let ((f, e), (g, d)) = (rays.field(&x, &time, side), modal.field(&x, &time, side));
+                let (f, g) = (rays.field(&x.carry(), &time.carry(), side), modal.field(&x, &time, side));
                 let pairs = [
                     (f.displacement, g.displacement, speed * t1.to_f64()),
                     (f.velocity, g.velocity, speed),
                     (f.strain, g.strain, strain),
                 ];
                 for (k, (a, b, scale)) in pairs.into_iter().enumerate() {
-                    let (a, b) = (Estimate { value: a, error: e[k] }, Estimate { value: b, error: d[k] });
                     agree(&format!("{name} x = {part} L field {k}"), &a, &b, scale, useful);
                 }
             }
         }
-        let ((h, p), (height, rate)) = (rays.centre(&time), modal.centre(&time));
+        let ((h, p), (height, rate)) = (rays.centre(&time.carry()), modal.centre(&time));
         agree(&format!("{name} h"), &h, &height, speed * t1.to_f64(), useful);
         agree(&format!("{name} h′"), &p, &rate, speed, useful);
-        let (energy, errors) = rays.energy(&time);
-        let closed = Estimate { value: energy.total, error: errors[0] };
+        let closed = rays.energy(&time.carry()).total;
         // The energy falls like N⁻², whatever the numbers hold.
         agree(
             &format!("{name} E"),
@@ -79,7 +78,7 @@ fn rays_and_modes() {
 /// The parameters of the reference, in long numbers too: there nothing but the modes left out remains.
 #[test]
 fn the_reference_cases() {
-    fn all<S: Analytic>(precision: &S::Precision, modes: u32, useful: f64) {
+    fn all<S: RoundedSpecial>(precision: &S::Precision, modes: u32, useful: f64) {
         for case in reference("first_contact") {
             let read = |key: &str| S::from_number(&number(&case[key]), precision);
             let rod = Parameters {
@@ -110,12 +109,12 @@ fn the_rate_of_convergence() {
         speed: lift(1.0),
     };
     let time = lift(1.3);
-    let exact = FirstContact::new(&rod).stress(&time, Side::Right).value;
+    let exact = FirstContact::new(&rod.carry()).stress(&time.carry(), Side::Right).into_value();
     let off = |modes: u32| {
         let found = Modal::new(&rod, modes).stress(&time, Side::Right);
-        let wrong = (found.value - &exact).to_f64().abs();
-        assert!(wrong <= found.error, "{modes}: {wrong:e} {:e}", found.error);
-        found.error
+        let wrong = (found.value().clone() - &exact).to_f64().abs();
+        assert!(wrong <= found.bound(), "{modes}: {wrong:e} {:e}", found.bound());
+        found.bound()
     };
     for modes in [16, 64, 256] {
         let ratio = off(modes) / off(2 * modes);
@@ -131,33 +130,36 @@ fn rays_modes_and_the_lattice() {
     {
         let problem = crate::common::uniform("1", "1", gravity, speed, Run::Impacts(1));
         let rod = Parameters::<f64>::of(&problem, &()).unwrap();
-        let (rays, modal) = (FirstContact::new(&rod), Modal::new(&rod, 256));
+        let (rays, modal) = (FirstContact::new(&rod.carry()), Modal::new(&rod, 256));
         let lattice = Undamped::<f64>::solve(&problem, &()).unwrap();
         let scale = rod.speed + rod.critical_speed();
         for part in [0.2, 0.55, 0.8, 1.0] {
             let time = part * last * rod.round_trip();
-            let near = |what: &str, truth: f64, a: f64, b: f64| {
-                let wrong = (a - truth).abs().max((b - truth).abs());
-                assert!(wrong < 1e-13 * scale.max(scale * scale), "μ = {speed}, t = {time}, {what}: {truth} {a} {b}");
+            let near = |what: &str, truth: f64, a: Estimate<f64>, b: Estimate<f64>| {
+                let wrong = (a.value() - truth).abs().max((b.value() - truth).abs());
+                assert!(
+                    wrong < 1e-13 * scale.max(scale * scale),
+                    "μ = {speed}, t = {time}, {what}: {truth} {a:?} {b:?}"
+                );
             };
             let stress = lattice.stress(&time, Side::Right).unwrap();
-            near("stress", stress, rays.stress(&time, Side::Right).value, modal.stress(&time, Side::Right).value);
+            near("stress", stress, rays.stress(&time.carry(), Side::Right), modal.stress(&time, Side::Right));
             let (h, rate) = lattice.centre(&time).unwrap();
-            let ((a, da), (b, db)) = (rays.centre(&time), modal.centre(&time));
-            near("h", h, a.value, b.value);
-            near("h′", rate, da.value, db.value);
+            let ((a, da), (b, db)) = (rays.centre(&time.carry()), modal.centre(&time));
+            near("h", h, a, b);
+            near("h′", rate, da, db);
             for x in [0.1, 0.6, 0.97] {
                 let truth = lattice.field(&x, &time, Side::Right).unwrap();
-                let ((a, _), (b, _)) = (rays.field(&x, &time, Side::Right), modal.field(&x, &time, Side::Right));
+                let a = rays.field(&x.carry(), &time.carry(), Side::Right);
+                let b = modal.field(&x, &time, Side::Right);
                 near("v", truth.displacement, a.displacement, b.displacement);
                 near("v_t", truth.velocity, a.velocity, b.velocity);
                 near("v_x", truth.strain, a.strain, b.strain);
             }
             let energy = lattice.energy(&time).unwrap().total;
-            let (found, by_modes) = (rays.energy(&time).0.total, modal.energy(&time));
-            let apart = (found - energy).abs();
-            assert!(apart < 1e-13 * scale.max(scale * scale), "μ = {speed}, t = {time}, E: {energy} {found}");
-            assert!((by_modes.value - energy).abs() <= by_modes.error, "{by_modes:?} {energy}");
+            let (found, by_modes) = (rays.energy(&time.carry()).total, modal.energy(&time));
+            assert!((found.value() - energy).abs() < 1e-13 * scale.max(scale * scale), "{found:?} {energy}");
+            assert!((by_modes.value() - energy).abs() <= by_modes.bound(), "{by_modes:?} {energy}");
         }
     }
 }
@@ -178,7 +180,7 @@ fn rays_modes_and_the_cells() {
         let mut problem = crate::common::uniform("1", "1", gravity, speed, Run::Time(time));
         problem.rod.damping = Some(damping.parse().unwrap());
         let rod = Parameters::<f64>::of(&problem, &()).unwrap();
-        let (rays, modal) = (FirstContact::new(&rod), Modal::new(&rod, 1024));
+        let (rays, modal) = (FirstContact::new(&rod.carry()), Modal::new(&rod, 1024));
         let cells = Damped::<f64>::solve(&problem, &(), 13.0).unwrap();
         let scale = rod.speed + rod.critical_speed();
         let slack = 4.0 * cells.error_estimate() * scale;
@@ -189,22 +191,23 @@ fn rays_modes_and_the_cells() {
                 continue;
             }
             let near = |what: &str, truth: f64, a: &Estimate<f64>, b: &Estimate<f64>| {
-                let wrong = [a, b].map(|e| (e.value - truth).abs() - e.error);
+                let wrong = [a, b].map(|e| (e.value() - truth).abs() - e.bound());
                 let name = format!("r = {damping}, t = {time}, {what}: {truth} {a:?} {b:?}");
                 assert!(wrong.iter().all(|w| *w <= slack), "{name}");
             };
-            let (a, b) = (rays.stress(&time, Side::Right), modal.stress(&time, Side::Right));
+            let (a, b) = (rays.stress(&time.carry(), Side::Right), modal.stress(&time, Side::Right));
             near("stress", cells.stress(&time, Side::Right).unwrap(), &a, &b);
             let (h, rate) = cells.centre(&time).unwrap();
-            let ((a, da), (b, db)) = (rays.centre(&time), modal.centre(&time));
-            near("h", h / 2.0, &Estimate { value: a.value / 2.0, ..a }, &Estimate { value: b.value / 2.0, ..b });
+            let ((a, da), (b, db)) = (rays.centre(&time.carry()), modal.centre(&time));
+            let halved = |x: Estimate<f64>| x * Estimate::exact(0.5);
+            near("h", h / 2.0, &halved(a), &halved(b));
             near("h′", rate, &da, &db);
             for x in [0.1, 0.6, 0.97] {
                 let truth = cells.field(&x, &time, Side::Right).unwrap();
-                let ((a, e), (b, d)) = (rays.field(&x, &time, Side::Right), modal.field(&x, &time, Side::Right));
-                let estimate = |value: f64, error: f64| Estimate { value, error };
-                near("v_t", truth.velocity, &estimate(a.velocity, e[1]), &estimate(b.velocity, d[1]));
-                near("v_x", truth.strain, &estimate(a.strain, e[2]), &estimate(b.strain, d[2]));
+                let a = rays.field(&x.carry(), &time.carry(), Side::Right);
+                let b = modal.field(&x, &time, Side::Right);
+                near("v_t", truth.velocity, &a.velocity, &b.velocity);
+                near("v_x", truth.strain, &a.strain, &b.strain);
             }
         }
     }

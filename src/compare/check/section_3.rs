@@ -8,6 +8,7 @@ use crate::compare::quantity::Quantity::{
 };
 use crate::first_contact::FirstContact;
 use crate::history::Side;
+use crate::number::Answer;
 use crate::paper::formulas::{self, integral};
 use crate::rod::Parameters;
 
@@ -39,10 +40,13 @@ fn height_of_top() -> f64 {
 /// v_t by the closed form.
 fn energy_left(damping: f64, speed: f64, time: f64) -> f64 {
     let rod = Parameters { length: 1.0, wave_speed: 1.0, damping, gravity: 1.0, speed };
-    let contact = FirstContact::new(&rod);
+    let contact = FirstContact::new(&rod.carry());
     let motion = |t: f64| {
         let ray = if t < 1.0 { t } else { 2.0 - t };
-        integral([0.0, 1.0], ray, &|x| contact.field(&x, &t, Side::Right).0.velocity.powi(2))
+        integral([0.0, 1.0], ray, &|x| {
+            let velocity = contact.field(&x.carry(), &t.carry(), Side::Right).velocity;
+            velocity.value().powi(2)
+        })
     };
     0.5 * speed * speed - 2.0 * damping * integral([0.0, time], 1.0, &motion)
 }

@@ -252,6 +252,7 @@ mod tests {
     #![allow(clippy::unwrap_used)]
     use super::*;
     use crate::first_contact::FirstContact;
+    use crate::number::Answer;
 
     fn problem(damping: Option<&str>) -> Problem {
         let number = |text: &str| text.parse().unwrap();
@@ -279,7 +280,7 @@ mod tests {
     fn with_damping() {
         let problem = problem(Some("0.2"));
         let rod = Parameters::<f64>::of(&problem, &()).unwrap();
-        let truth = FirstContact::new(&rod).energy(&1.5).0.total;
+        let truth = FirstContact::new(&rod.carry()).energy(&1.5.carry()).total.into_value();
         for cells in [16, 64, 256] {
             let wrong = (march(&problem, cells).unwrap().at(1.5).unwrap().energy - truth).abs();
             assert!(wrong < 0.2 * 1.5 / cells as f64 * truth, "{cells}: {wrong:e}");

@@ -25,6 +25,17 @@ pub(super) fn coefficients(values: &[f64]) -> Vec<f64> {
     (0..values.len()).map(|k| (0..values.len()).map(|j| term(k, j)).sum::<f64>() * 2.0 / n as f64 * ends(k)).collect()
 }
 
+/// The Chebyshev coefficients of the derivative: `d_{k−1} = d_{k+1} + 2k c_k`, the first one halved.
+pub(super) fn derivative(sum: &[f64]) -> Vec<f64> {
+    let mut result = vec![0.0; sum.len() + 1];
+    for k in (1..sum.len()).rev() {
+        result[k - 1] = result[k + 1] + 2.0 * k as f64 * sum[k];
+    }
+    result[0] *= 0.5;
+    result.truncate(sum.len().saturating_sub(1).max(1));
+    result
+}
+
 /// Clenshaw's sum and its derivative.
 pub(super) fn evaluate(coefficients: &[f64], x: f64) -> (f64, f64) {
     let (mut b1, mut b2, mut d1, mut d2) = (0.0, 0.0, 0.0, 0.0);
@@ -123,6 +134,13 @@ mod tests {
         let n = 40;
         let values: Vec<f64> = (0..=n).map(|j| f((std::f64::consts::PI * f64::from(j) / f64::from(n)).cos())).collect();
         first_root(&coefficients(&values), 1e-13, |x| (f(x).abs() > 1e-15).then_some(f(x) > 0.0))
+    }
+
+    #[test]
+    fn derivative_of_a_cubic() {
+        // T₃ = 4x³ − 3x, T₃′ = 12x² − 3 = 6T₂ + 3.
+        assert_eq!(derivative(&[1.0, 0.0, 0.0, 1.0]), vec![3.0, 0.0, 6.0]);
+        assert_eq!(derivative(&[2.0]), vec![0.0]);
     }
 
     #[test]

@@ -1,20 +1,29 @@
 //! Bessel functions of long numbers: few long multiplications, the rest is work with machine words.
 
-use std::any::Any;
-
 use rug::float::Round;
 use rug::ops::Pow;
 use rug::{Float, Integer};
 
-use super::bessel::expansion;
+use super::bits;
+use crate::number::{Analytic, Scalar};
 
 /// What is computed beyond the precision asked for.
 const GUARD_BITS: u32 = 16;
 
-/// The same number, where the two types are one.
-pub(super) fn same<T: 'static, U: 'static>(value: T) -> Option<U> {
-    let mut slot = Some(value);
-    (&mut slot as &mut dyn Any).downcast_mut::<Option<U>>()?.take()
+/// A number with 16 bits to spare, and the roundings that it has among these.
+pub(super) struct Spare {
+    pub(super) long: Float,
+    small: f64,
+}
+
+impl Spare {
+    /// Rounded to p bits, with its roundings: one for that, and what came before in units of `2^{−p−16}`.
+    pub(super) fn rounded(&self, p: u32) -> (Float, f64) {
+        if self.long.is_zero() {
+            return (Float::new(p), 0.0);
+        }
+        (Float::with_val(p, &self.long), 1.0 + 1.01 * self.small / f64::from(1u32 << GUARD_BITS))
+    }
 }
 
 /// `I_n(z)` for the exact number z ≥ 0, and a bound of the relative error in units of `2^{−p}`, p the precision of z.
@@ -55,18 +64,13 @@ pub fn psi_bounded(damping: &Float, xi: &Float, eta: &Float, n: u32) -> (Float, 
     finish(with_power(xi, &y, n, None), xi.prec())
 }
 
-/// The value rounded to p bits, with its roundings: one for that, and what came before in units of `2^{−p−16}`.
-fn finish(value: Option<(Float, f64)>, p: u32) -> (Float, f64) {
-    match value {
-        Some((value, _)) if value.is_zero() => (Float::new(p), 0.0),
-        Some((value, small)) => (Float::with_val(p, &value), 1.0 + 1.01 * small / f64::from(1u32 << GUARD_BITS)),
-        None => (Float::with_val(p, rug::float::Special::Nan), f64::INFINITY),
-    }
+fn finish(value: Option<Spare>, p: u32) -> (Float, f64) {
+    value.map_or_else(|| (Float::with_val(p, rug::float::Special::Nan), f64::INFINITY), |value| value.rounded(p))
 }
 
 /// `(base)ⁿ/n! ₀F₁(; n+1; y) e^{exponent}` to 16 bits more than base has, and its roundings there: one each for the power, n!, the
 /// quotient, the exponential and two products.
-fn with_power(base: &Float, y: &Float, n: u32, exponent: Option<&Float>) -> Option<(Float, f64)> {
+fn with_power(base: &Float, y: &Float, n: u32, exponent: Option<&Float>) -> Option<Spare> {
     let bits = base.prec() + GUARD_BITS;
     let (mut value, error) = hypergeometric(y, n, bits)?;
     if n > 0 {
@@ -75,27 +79,49 @@ fn with_power(base: &Float, y: &Float, n: u32, exponent: Option<&Float>) -> Opti
     if let Some(exponent) = exponent {
         value *= Float::with_val(bits, exponent.exp_ref());
     }
-    Some((value, error + 6.0))
+    Some(Spare { long: value, small: error + 6.0 })
 }
 
-/// `e^{−rt} ψ₀` for exact r/2, ξ, η with 16 bits to spare, and its roundings there; `None` where the series is no good.
-pub(super) fn damped_start(half: &Float, xi: &Float, eta: &Float) -> Option<(Float, f64)> {
+/// `e^{−rt} ψ₀` for exact r/2, ξ, η; `None` for what is not finite.
+///
+/// By the series, or, with `z = r√(ξη)` beyond the reach of that, as `e^{−λ} · e^{−z} I₀(z)` with `λ = r(t − √(ξη)) =
+/// (r/2)(η − ξ)²/(η + ξ + 2√(ξη))`: each of the ten operations before the exponential adds a rounding of λ or of z, and both
+/// functions pass on at most λ and one of them; the expansion has fewer than 8p + 512. With `64 + log₂(1 + λ)` bits beyond p that
+/// is far less than one of `2^{−p−16}`.
+pub(super) fn damped_start(half: &Float, xi: &Float, eta: &Float) -> Option<Spare> {
+    let p = xi.prec();
     let square = Float::with_val(2 * half.prec(), half.square_ref());
     let product = Float::with_val(xi.prec() + eta.prec(), xi * eta);
     let y = Float::with_val(square.prec() + product.prec(), &square * &product);
-    let near = f64::from(xi.prec()) + 64.0;
-    if y.to_f64() > 0.25 * near * near {
+    let near = f64::from(p) + 64.0;
+    if y.is_nan() || y.is_infinite() {
         return None;
     }
+    if y.to_f64() > 0.25 * near * near {
+        let lag = |bits: u32| {
+            let root = Float::with_val(bits, product.sqrt_ref());
+            let apart = Float::with_val(bits, eta - xi);
+            let both = Float::with_val(bits, eta + xi) + Float::with_val(bits, &root * 2u32);
+            let square = Float::with_val(bits, apart.square_ref());
+            let lag = Float::with_val(bits, half * &square) / both;
+            (root, lag)
+        };
+        let (_, size) = lag(64);
+        let bits = p + 64 + size.get_exp().unwrap_or(0).clamp(0, 64) as u32;
+        let (root, lag) = lag(bits);
+        let z = Float::with_val(bits, half * 2u32) * root;
+        let value = expansion(&z, 0) * (-lag).exp();
+        return Some(Spare { long: value, small: 1.0 });
+    }
     // As long as the two are of like size this is exact; elsewhere the rest is far below a rounding of the exponential.
-    let bits = xi.prec() + GUARD_BITS + 64;
+    let bits = p + GUARD_BITS + 64;
     let time = Float::with_val(bits, xi + eta);
     let damped = -Float::with_val(bits, half * &time);
     if damped.is_nan() || damped < -1e15 {
         return None;
     }
-    let one = Float::with_val(xi.prec(), 1);
-    with_power(&one, &y, 0, Some(&damped)).map(|(value, error)| (value, error + 1.0))
+    let one = Float::with_val(p, 1);
+    with_power(&one, &y, 0, Some(&damped)).map(|value| Spare { small: value.small + 1.0, ..value })
 }
 
 fn bounded(z: &Float, n: u32, scaled: bool) -> (Float, f64) {
@@ -108,12 +134,32 @@ fn bounded(z: &Float, n: u32, scaled: bool) -> (Float, f64) {
         if !scaled {
             value *= long.exp();
         }
-        return finish(Some((value, 0.25)), p);
+        return finish(Some(Spare { long: value, small: 0.25 }), p);
     }
     let half = Float::with_val(p, z >> 1u32);
     let y = Float::with_val(2 * p, half.square_ref());
     let exponent = Float::with_val(p, -z);
     finish(with_power(&half, &y, n, scaled.then_some(&exponent)), p)
+}
+
+/// `(2πz)^{−1/2} Σ_k (−1)ᵏ a_k(n)/zᵏ`, for n = 0, 1 and z > bits + 64; from k = 2 on all terms have one sign.
+///
+/// The rest after ℓ terms is at most `4 χ(ℓ) |a_ℓ| z^{−ℓ} + e^{−2z}` with `χ(ℓ) = √π Γ(ℓ/2+1)/Γ(ℓ/2+1/2) < 2√ℓ + 2`
+/// (DLMF 10.40(ii), (iii), with `|n² − ¼| π/2z < 0.02`). Terms fall until k ≈ 2z, where they are e^{−2z}, beyond the
+/// precision.
+pub(super) fn expansion(z: &Float, n: i64) -> Float {
+    let mut term = z.one();
+    let mut sum = z.one();
+    let enough = z.roundoff();
+    let last = (2.0 * bits(z)) as i64 + 128;
+    for k in 1..=last {
+        term = -(term * &z.int(4 * n * n - (2 * k - 1) * (2 * k - 1))) / (z.int(8 * k) * z);
+        sum = sum + &term;
+        if term.magnitude() * &z.int(16 * (k + 1)) < enough {
+            break;
+        }
+    }
+    sum / (z.pi() * z * &z.int(2)).sqrt()
 }
 
 /// `mantissa · 2^{−shift}`, a number y ≥ 0 rounded down; short numbers stay short.

@@ -1,0 +1,382 @@
+//! The first contact as a history, from the impact to the bounce.
+
+use super::bounce::{Bounce, BounceKind};
+use super::field::{FirstContact, Trips};
+use super::rebound::Rebound;
+use super::static_state::{StaticState, faded_after};
+use crate::error::Error;
+use crate::history::{Contact, Ending, Energy, Event, EventKind, Field, History, Scales, Side, StressPiece};
+use crate::number::{Open, Scalar};
+use crate::rod::{Parameters, Problem, Run};
+use crate::special::Bounded;
+
+/// The first contact of a uniform start under a free top, damped or not, from the impact to the bounce, or as far as it is followed.
+///
+/// **Source**: [`FirstContact`]; Theorem 1 for its end. The bounce is the first sign change of the stress, with none before it
+/// missed: a jump at `k t₁`, whose number k is exact, or a root between signs beyond their bounds.
+///
+/// **Units**: those of the problem.
+///
+/// **Accuracy**: *within its own bound*: estimates in [`Estimate`](crate::number::Estimate), enclosures in intervals. The
+/// history ends with the contact, because the flight that follows is only known as far as no impact ends it: see
+/// [`ContactHistory::flight`].
+///
+/// ```
+/// use dalembert::{History, Number, Problem, first_contact::ContactHistory, number::Estimate};
+/// // (1.10): g = 0, R = 3: the bounce is a root in the fourth round trip.
+/// let mut problem = Problem::uniform("1/2".parse()?, Number::from(1), Number::from(0), Number::from(1));
+/// problem.rod.damping = Some(Number::from(3));
+/// let contact = ContactHistory::<Estimate<f64>>::solve(&problem, &())?;
+/// let bounce = &contact.events()[1].time;
+/// assert!((bounce.value() - 3.299026051445773).abs() < bounce.bound() && bounce.bound() < 1e-9);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+#[derive(Clone, Debug)]
+pub struct ContactHistory<N> {
+    contact: FirstContact<N>,
+    release: Option<Release<N>>,
+    /// After so many round trips a contact without end is at rest.
+    rest: Option<i64>,
+    events: Vec<Event<N>>,
+    contacts: Vec<Contact<N>>,
+    end: N,
+    ending: Ending,
+}
+
+/// The bounce.
+#[derive(Clone, Debug)]
+struct Release<N> {
+    trips: Trips<N>,
+    kind: BounceKind,
+    rebound: Rebound<N>,
+}
+
+/// A time of the history.
+enum Moment<'a, N> {
+    /// The bounce itself.
+    Bounce(&'a Release<N>),
+    Contact(Trips<N>),
+    /// A contact without end in which nothing moves any more.
+    Rest(StaticState<'a, N>),
+}
+
+/// A contact without end is followed for so many round trips where no time is asked for, and for so many at most, or beyond them if
+/// it is at rest by then.
+const SHOWN_TRIPS: i64 = 8;
+const MOST_TRIPS: i64 = 256;
+
+/// That a comparison of enclosures is open.
+fn open<T>(what: &'static str, like: &impl Scalar, found: Result<T, Open>) -> Result<T, Error> {
+    found.map_err(|_| Error::not_decided(what, like.bits()))
+}
+
+impl<N: Bounded> ContactHistory<N> {
+    /// The first contact of `problem`, up to the time that is asked for.
+    ///
+    /// **Errors**: [`Error::NoClosedForm`]; [`Error::NotDecided`] where more bits may settle how the contact ends.
+    pub fn solve(problem: &Problem, precision: &N::Precision) -> Result<Self, Error> {
+        if !problem.has_closed_form() {
+            return Err(Error::NoClosedForm);
+        }
+        let contact = FirstContact::new(&Parameters::<N>::of(problem, precision)?);
+        let bounce = contact.bounce();
+        if matches!(&bounce, Bounce::Undecided { why, .. } if why.needs_bits()) {
+            return Err(Error::not_decided("how the contact ends", contact.round_trip().bits()));
+        }
+        let asked = match &problem.run {
+            Run::Time(asked) => Some(N::from_number(asked, precision)),
+            Run::Impacts(_) => None,
+        };
+        Self::new(contact, bounce, asked)
+    }
+
+    /// The first contact that ends with `bounce`, up to the time that is `asked` for.
+    ///
+    /// **Errors**: [`Error::NotDecided`] where an enclosure does not tell which of the two comes first.
+    pub fn new(contact: FirstContact<N>, bounce: Bounce<N>, asked: Option<N>) -> Result<Self, Error> {
+        match bounce {
+            Bounce::At { time, trips, kind } => match &asked {
+                Some(asked) if open("whether the contact lasts so long", asked, asked.below(&time))? => {
+                    Self::without_bounce(contact, None, Ending::Time, Some(asked.clone()))
+                }
+                _ => Self::with_bounce(contact, time, trips, kind),
+            },
+            Bounce::Undecided { until, why } => {
+                Self::without_bounce(contact, Some(until), Ending::Undecided(why.to_string()), asked)
+            }
+            Bounce::Never(reason) => Self::without_bounce(contact, None, Ending::NoBounce(reason.to_string()), asked),
+        }
+    }
+
+    /// A contact that does not end before `until`, or the time that is asked for.
+    fn without_bounce(
+        contact: FirstContact<N>,
+        until: Option<N>,
+        ending: Ending,
+        asked: Option<N>,
+    ) -> Result<Self, Error> {
+        let trips = |k: i64| contact.round_trip.int(k) * &contact.round_trip;
+        let (mut end, mut rest) = (until.clone().unwrap_or_else(|| trips(SHOWN_TRIPS)), None);
+        let mut ending = ending;
+        if let Some(asked) = asked {
+            end = until.clone().unwrap_or_else(|| trips(MOST_TRIPS));
+            if !open("whether the contact is followed so long", &asked, end.below(&asked))? {
+                (end, ending) = (asked, Ending::Time);
+            } else if until.is_none()
+                && let Some(faded) = faded_after(&contact.rod, MOST_TRIPS)
+            {
+                (end, rest) = (asked, Some(faded));
+            }
+        }
+        ContactHistory { events: Vec::new(), contacts: Vec::new(), release: None, rest, contact, end, ending }
+            .measured()
+    }
+
+    fn with_bounce(contact: FirstContact<N>, time: N, trips: Trips<N>, kind: BounceKind) -> Result<Self, Error> {
+        let (centre, velocity) = contact.centre_at(&trips);
+        let rebound = Rebound { time: time.clone(), centre, velocity, rod: contact.rod.clone() };
+        let release = Some(Release { trips, kind, rebound });
+        let (events, contacts, ending) = (Vec::new(), Vec::new(), Ending::Bounce);
+        ContactHistory { events, contacts, release, rest: None, contact, end: time, ending }.measured()
+    }
+
+    /// Events, impulse and peak: `−c² ∫ v_x dt = P(t) − P(0) + 2rL h(t) + gLt`, (3.36) integrated.
+    fn measured(mut self) -> Result<Self, Error> {
+        let (zero, rod) = (self.end.zero(), self.contact.rod.clone());
+        self.events.push(Event {
+            kind: EventKind::Impact,
+            end_velocity: -rod.speed.clone(),
+            centre: zero.clone(),
+            centre_velocity: -rod.speed.clone(),
+            time: zero.clone(),
+            time_error: 0.0,
+        });
+        if let Some(Release { trips, kind, rebound }) = &self.release {
+            let end_velocity = match kind {
+                // The rod that were glued on would be pulled: that stress is what the end leaves with.
+                BounceKind::Jump => match (self.contact.stress_at(trips, Side::Right) * &rod.wave_speed).plain() {
+                    none if none.vanishes() == Ok(true) => zero.clone().widened(&none),
+                    pull => pull,
+                },
+                BounceKind::Root => zero.clone(),
+            };
+            self.events.push(Event {
+                kind: EventKind::Release,
+                time: self.end.clone(),
+                end_velocity,
+                centre: rebound.centre.clone(),
+                centre_velocity: rebound.velocity.clone(),
+                time_error: self.end.log2_error().exp2(),
+            });
+        }
+        let (centre, velocity) = self.centre(&self.end)?;
+        let gained = velocity + &rod.speed + centre * &rod.damping * &zero.int(2) + rod.gravity.clone() * &self.end;
+        self.contacts.push(Contact {
+            to: self.release.as_ref().map(|_| self.end.clone()),
+            impulse: (gained * &rod.length).plain(),
+            peak_stress: self.contact.peak(&self.followed()?),
+            from: zero,
+        });
+        Ok(self)
+    }
+
+    /// As far as the closed forms are followed, in round trips.
+    fn followed(&self) -> Result<Trips<N>, Error> {
+        match (&self.release, self.rest) {
+            (Some(release), _) => Ok(release.trips.clone()),
+            (None, Some(rest)) => Ok(self.contact.lattice(rest)),
+            (None, None) => self.trips(&self.end),
+        }
+    }
+
+    fn trips(&self, time: &N) -> Result<Trips<N>, Error> {
+        open("how many rays have returned by that time", time, self.contact.trips(time).ok_or(Open))
+    }
+
+    /// The closed forms behind it, which hold while the contact lasts.
+    pub fn form(&self) -> &FirstContact<N> {
+        &self.contact
+    }
+
+    /// What the stress does at the bounce, and k where that is at `k t₁`; `None` where there is none.
+    pub fn bounce(&self) -> Option<(BounceKind, Option<i64>)> {
+        self.release.as_ref().map(|release| (release.kind, release.trips.lattice()))
+    }
+
+    /// The motion of the centre of mass after the bounce; `None` where there is none.
+    pub fn rebound(&self) -> Option<&Rebound<N>> {
+        self.release.as_ref().map(|release| &release.rebound)
+    }
+
+    /// `h(t)` and `h′(t)` in the flight after the bounce, provided that no impact has come before.
+    ///
+    /// **Source**: (3.43), (3.44). **Accuracy**: *within its own bound*. **Errors**: [`Error::TimeOutside`] before the bounce or
+    /// where there is none.
+    pub fn flight(&self, time: &N) -> Result<(N, N), Error> {
+        let outside = || Error::TimeOutside { found: time.text(), end: self.end.text() };
+        let rebound = self.rebound().ok_or_else(outside)?;
+        if time.coincides(&self.end) {
+            return Ok((rebound.centre.clone(), rebound.velocity.clone()));
+        }
+        if open("whether that time is in the flight", time, time.below(&self.end))? {
+            return Err(outside());
+        }
+        Ok(rebound.flight(&time.clone().plain()))
+    }
+
+    fn moment(&self, time: &N) -> Result<Moment<'_, N>, Error> {
+        let at_end = time.coincides(&self.end);
+        if at_end && let Some(release) = &self.release {
+            return Ok(Moment::Bounce(release));
+        }
+        let outside = || Ok(time.negative()? || !at_end && self.end.below(time)?);
+        if !time.is_finite() || open("whether that time is before the end", time, outside())? {
+            return Err(Error::TimeOutside { found: time.text(), end: self.end.text() });
+        }
+        if let Some(rest) = self.rest {
+            let rest = self.end.int(rest) * &self.contact.round_trip;
+            if open("whether the rod is at rest", time, rest.below(time))? {
+                return Ok(Moment::Rest(StaticState::of(&self.contact.rod)));
+            }
+        }
+        Ok(Moment::Contact(self.trips(time)?))
+    }
+
+    /// Whether that is the state just before the impact.
+    fn before_impact(time: &N, side: Side) -> bool {
+        side == Side::Left && time.vanishes() == Ok(true)
+    }
+}
+
+impl<N: Bounded> History<N> for ContactHistory<N> {
+    fn end(&self) -> N {
+        self.end.clone()
+    }
+
+    fn ending(&self) -> &Ending {
+        &self.ending
+    }
+
+    fn events(&self) -> &[Event<N>] {
+        &self.events
+    }
+
+    fn contacts(&self) -> &[Contact<N>] {
+        &self.contacts
+    }
+
+    /// None where these bits do not settle how many there are.
+    fn stress_pieces(&self) -> Vec<StressPiece<N>> {
+        let Ok(followed) = self.followed() else { return Vec::new() };
+        let mut pieces = self.contact.pieces(&followed);
+        if let Some(last) = pieces.last_mut().filter(|_| self.rest.is_none()) {
+            last.to = self.end.clone();
+            if self.release.as_ref().is_some_and(|release| release.kind == BounceKind::Root) {
+                last.right = self.end.zero();
+            }
+        }
+        if let Some(rest) = self.rest {
+            let still = StaticState::of(&self.contact.rod).field(&self.end.zero()).strain;
+            let from = self.end.int(rest) * &self.contact.round_trip;
+            let (left, chebyshev) = (still.clone(), vec![still.clone()]);
+            pieces.push(StressPiece { from, to: self.end.clone(), left, right: still, chebyshev });
+        }
+        pieces
+    }
+
+    fn stress(&self, time: &N, side: Side) -> Result<N, Error> {
+        if Self::before_impact(time, side) {
+            return Ok(time.zero());
+        }
+        Ok(match self.moment(time)? {
+            // A root, or the limit before the jump.
+            Moment::Bounce(release) if side == Side::Left && release.kind == BounceKind::Jump => {
+                self.contact.stress_at(&release.trips, Side::Left)
+            }
+            Moment::Bounce(_) => time.zero(),
+            Moment::Contact(trips) => self.contact.stress_at(&trips, side),
+            Moment::Rest(state) => state.field(&time.zero()).strain,
+        })
+    }
+
+    fn ground_end(&self, time: &N, side: Side) -> Result<(N, N), Error> {
+        if Self::before_impact(time, side) {
+            return Ok((time.zero(), -self.contact.rod.speed.clone()));
+        }
+        match (self.moment(time)?, self.events.last()) {
+            (Moment::Bounce(_), Some(event)) if side == Side::Right => Ok((time.zero(), event.end_velocity.clone())),
+            _ => Ok((time.zero(), time.zero())),
+        }
+    }
+
+    fn top_end(&self, time: &N, side: Side) -> Result<(N, N), Error> {
+        let field = self.field(&self.contact.rod.length, time, side)?;
+        Ok((field.displacement, field.velocity))
+    }
+
+    fn centre(&self, time: &N) -> Result<(N, N), Error> {
+        Ok(match self.moment(time)? {
+            Moment::Bounce(release) => (release.rebound.centre.clone(), release.rebound.velocity.clone()),
+            Moment::Contact(trips) => self.contact.centre_at(&trips),
+            Moment::Rest(state) => state.centre(),
+        })
+    }
+
+    fn energy(&self, time: &N) -> Result<Energy<N>, Error> {
+        Ok(match self.moment(time)? {
+            Moment::Bounce(release) => self.contact.energy_at(&release.trips),
+            Moment::Contact(trips) => self.contact.energy_at(&trips),
+            Moment::Rest(state) => state.energy(),
+        })
+    }
+
+    fn field(&self, point: &N, time: &N, side: Side) -> Result<Field<N>, Error> {
+        let length = &self.contact.rod.length;
+        let outside = || Ok(point.negative()? || !point.coincides(length) && length.below(point)?);
+        if !point.is_finite() || open("whether the point is in the rod", point, outside())? {
+            return Err(Error::PointOutside { found: point.text(), length: length.text() });
+        }
+        match self.moment(time)? {
+            Moment::Bounce(release) => {
+                let ground =
+                    side == Side::Right && open("whether the point is at the ground", point, point.vanishes())?;
+                if ground {
+                    let (displacement, velocity) = self.ground_end(time, side)?;
+                    return Ok(Field { displacement, velocity, strain: time.zero() });
+                }
+                Ok(self.contact.field_at(point, &release.trips, side))
+            }
+            Moment::Contact(trips) => Ok(self.contact.field_at(point, &trips, side)),
+            Moment::Rest(state) => Ok(state.field(point)),
+        }
+    }
+
+    /// **Errors**: `None` also where these bits do not tell whether the centre of mass rises.
+    fn highest(&self, release: &Event<N>) -> Option<(N, N)> {
+        let at_end = release.kind == EventKind::Release && release.time.coincides(&self.end);
+        self.rebound().filter(|_| at_end)?.highest()
+    }
+
+    fn scales(&self) -> Scales<N> {
+        let rod = &self.contact.rod;
+        let critical = rod.gravity.clone() * &self.contact.round_trip;
+        // Either is a scale where it cannot be told which is greater.
+        let velocity = if rod.speed.near().0 >= critical.near().0 { rod.speed.clone() } else { critical };
+        Scales {
+            time: self.contact.round_trip(),
+            velocity,
+            length: rod.length.clone(),
+            wave_speed: rod.wave_speed.clone(),
+            gravity: rod.gravity.clone(),
+        }
+    }
+
+    /// Zero: every number holds its own.
+    fn error_estimate(&self) -> N {
+        self.end.zero()
+    }
+
+    fn warnings(&self) -> &[String] {
+        &[]
+    }
+}

@@ -1,0 +1,244 @@
+//! The special functions of numbers that carry a bound: those of the rounded numbers, with their roundings and with what the
+//! errors of the arguments add.
+
+use super::bessel::{RoundedSpecial, Special};
+use super::gauss::gauss_legendre;
+use super::phi;
+use super::ray::{Ray, RaySums};
+use crate::number::{Estimate, Rounded, Scalar};
+
+/// A number with a bound of its error, an estimate or an enclosure, in which the first contact is computed.
+pub trait Bounded: Special {
+    /// An exact number near it.
+    fn middle(&self) -> Self;
+
+    /// A double near it, and how far from that the number meant may lie.
+    fn near(&self) -> (f64, f64);
+
+    /// Whether both stand for the same number as far as can be said: equal within their bounds, or copies of one enclosure.
+    fn coincides(&self, other: &Self) -> bool;
+}
+
+impl<S: RoundedSpecial> Bounded for Estimate<S> {
+    fn middle(&self) -> Self {
+        Estimate::exact(self.value().clone())
+    }
+
+    fn near(&self) -> (f64, f64) {
+        let value = self.value().to_f64();
+        let rounding = if self.value().bits() == Some(53) { 0.0 } else { value.abs() * f64::EPSILON / 2.0 };
+        (value, self.bound() + rounding)
+    }
+
+    fn coincides(&self, other: &Self) -> bool {
+        self.compare(other).is_ok_and(std::cmp::Ordering::is_eq)
+    }
+}
+
+/// Where an argument's error is below this, slopes are taken at the argument and enlarged by a hundredth.
+const SMALL: f64 = 1e-3;
+/// Relative errors of a sum up to this are followed to first order.
+const FIRST_ORDER: f64 = 1.0 / 128.0;
+/// What second order adds to them.
+const SECOND_ORDER: f64 = 1.03;
+
+impl<S: RoundedSpecial> Special for Estimate<S> {
+    /// The slope of `e^{−z} I₀` is `e^{−z}(I₀ − I₁) ≤ e^{−z} I₀ · 2/(1+z)`, by `I₁/I₀ ≥ z/(1+√(1+z²))` (Amos 1974); that of
+    /// `e^{−z} I_n`, the half difference of `e^{−z}(I_{n−1} − I_n)` and `e^{−z}(I_n − I_{n+1})`, is at most ½, and for n = 1 at most
+    /// `1/(1+z)`; it is also `e^{−z}(I_{n+1} + (n/z) I_n − I_n)`, at most `(1 + n/z) e^{−z} I_n`.
+    #[inline]
+    fn in_scaled(&self, n: u32) -> Self {
+        let (value, roundings) = self.value().in_scaled_rounded(n);
+        let (z, size) = (self.value().to_f64(), value.to_f64().abs());
+        let slope = match n {
+            _ if self.bound() > SMALL => 1.0,
+            0 => 1.01 * size * (2.0 / (1.0 + z)).min(1.0),
+            1 => 1.01 * (1.0 / (1.0 + z)).min(0.5),
+            _ if self.bound() * f64::from(n) > SMALL * z => 0.5,
+            _ => (1.02 * size * (1.0 + f64::from(n) / z)).min(0.5),
+        };
+        let rounded = Estimate::rounded(value, roundings);
+        Estimate::new(rounded.value().clone(), rounded.error() + slope * self.error())
+    }
+
+    #[inline]
+    fn ray_start(ray: &Ray<Self>) -> Self {
+        let exact = ray.map(|x| x.value().clone());
+        let Some(errors) = Errors::of(ray, &exact) else { return upper(ray, |ray| S::ray_start_rounded(ray).0) };
+        if errors.lag > 0.0 {
+            return errors.spent(&exact, 0);
+        }
+        let (value, roundings) = S::ray_start_rounded(&exact);
+        Estimate::rounded(value, roundings + SECOND_ORDER * errors.start)
+    }
+
+    fn ray_sums<const K: usize>(
+        ray: &Ray<Self>,
+        first: [i64; K],
+        weight: impl Fn(i64) -> [i64; K],
+    ) -> RaySums<Self, K> {
+        let exact = ray.map(|x| x.value().clone());
+        if let Some(errors) = Errors::of(ray, &exact) {
+            if errors.lag > 0.0 {
+                return RaySums { start: errors.spent(&exact, 0), sums: first.map(|n| errors.spent(&exact, n)) };
+            }
+            let found = S::ray_sums_rounded(&exact, first, &weight);
+            let relative = SECOND_ORDER * (errors.start + (found.terms + 1) as f64 * errors.power);
+            if relative * exact.xi.unit() <= FIRST_ORDER {
+                let start = found.start_roundings + SECOND_ORDER * errors.start;
+                return RaySums {
+                    start: Estimate::rounded(found.values.start, start),
+                    sums: found.values.sums.map(|sum| Estimate::rounded(sum, found.sum_roundings + relative)),
+                };
+            }
+        }
+        let sums =
+            std::array::from_fn(|k| upper(ray, |ray| S::ray_sums_rounded(ray, first, &weight).values.sums[k].clone()));
+        RaySums { start: Self::ray_start(ray), sums }
+    }
+
+    /// Nodes within eight roundings of 1, weights within eight of 1 and n + 16 of their own.
+    fn gauss_legendre(&self, n: usize) -> Vec<(Self, Self)> {
+        let rule = gauss_legendre(self.value(), n).into_iter();
+        let own = n as f64 + 16.0;
+        rule.map(|(x, w)| (Estimate::new(x, 8.0), Estimate::new(w.clone(), 8.0 + own * w.to_f64()))).collect()
+    }
+
+    /// `φ₁(z) = ∫₀¹ e^{zs} ds` has a smaller slope than value.
+    fn phi1(&self) -> Self {
+        regular(self, phi::phi1(self.value()), 3.0)
+    }
+
+    /// `φ₂(z) = ∫₀¹ (1−s) e^{zs} ds` has a smaller slope than value.
+    fn phi2(&self) -> Self {
+        regular(self, phi::phi2(self.value()), 16.0)
+    }
+}
+
+fn regular<S: Rounded>(z: &Estimate<S>, value: S, roundings: f64) -> Estimate<S> {
+    let growth = if z.bound() > SMALL { z.bound().exp() } else { 1.01 };
+    Estimate::rounded(value, roundings + growth * z.error())
+}
+
+/// What the errors of ξ, η and r make of the sums of a ray, in roundings.
+struct Errors {
+    /// Of `e^{−rt} ψ₀`.
+    start: f64,
+    /// For each term of the sums beyond the first, besides.
+    power: f64,
+    /// `r(t − √(ξη))`, where it is so great that the ray does not count; otherwise zero.
+    lag: f64,
+}
+
+/// What a ray carries is left out where it is this many bits below a rounding of 1.
+const SPENT_BITS: f64 = 64.0;
+
+impl Errors {
+    /// `None` where they are too large to be followed to first order.
+    ///
+    /// With `h = r/2` the terms are `e^{−h(ξ+η)} ξ^{n+m} η^m h^{n−n₀+2m}` times a constant, `m ≥ 0`; in the sum over m of one n, a
+    /// power series in `ξη`, the mean of m is `(z/2) I_{n+1}/I_n ≤ z/2 = h√(ξη)`, and at most `h²ξη`. So the logarithm of `ψ₀` with
+    /// its exponential has slopes of at most `max(h, min(h²η, h√(η/ξ)))` by ξ, h by η, since `z/2 ≤ hη`, and `ξ + η` by h, since
+    /// `z ≤ h(ξ+η)`; that of a sum over n has `n/ξ` by ξ and `n/h` by h more, and what lies beyond the last term N adds less than one to
+    /// the mean of n.
+    #[inline]
+    fn of<S: Rounded>(ray: &Ray<Estimate<S>>, exact: &Ray<S>) -> Option<Self> {
+        let (x, y, r) = (exact.xi.to_f64(), exact.eta.to_f64(), exact.damping.to_f64());
+        let (mut dx, dy, dr) = (ray.xi.error(), ray.eta.error(), ray.damping.error());
+        if x < 0.0 {
+            dx += (exact.xi.magnitude() / exact.xi.roundoff()).to_f64();
+        }
+        let (x, h) = (x.max(0.0), 0.5 * r);
+        let steep = if h * y > 1.0 { (h * y).min((y / x).sqrt()).max(1.0) } else { 1.0 };
+        let start = h * (dx * steep + dy) + 0.5 * dr * (x + y);
+        let relative = |error: f64, size: f64| if error == 0.0 { 0.0 } else { error / size };
+        let unit = exact.xi.unit();
+        if !(start * unit * SECOND_ORDER <= FIRST_ORDER) {
+            return None;
+        }
+        let mut lag = 0.0;
+        let goal = (exact.xi.bits().map_or(1e6, f64::from) + SPENT_BITS) * std::f64::consts::LN_2;
+        // The lag is at most h η.
+        if h * y > goal {
+            let apart = y.sqrt() - x.sqrt();
+            let found = h * apart * apart * (1.0 - 1e-9) - 1.0;
+            lag = if found > goal && h * (x + y) < 1e12 { found } else { 0.0 };
+        }
+        Some(Errors { start, power: relative(dx, x) + relative(dr, r), lag })
+    }
+
+    /// Zero for a ray that does not count, with a bound of what it carries from `ψ_first` on.
+    ///
+    /// `f_n = hⁿψ_n` obeys `n f_n ≤ hξ f_{n−1}`, so `Σ n³ f_n ≤ (x³ + 3x² + x) Σ f_n` with `x = hξ`, and
+    /// `Σ_{n≥0} f_n = Σ qⁿI_n ≤ e^z` for `q² = ξ/η ≤ 1`.
+    fn spent<S: Rounded>(&self, exact: &Ray<S>, first: i64) -> Estimate<S> {
+        let (h, x) = (0.5 * exact.damping.to_f64(), exact.xi.to_f64().max(0.0));
+        let reach = h * x;
+        let weight =
+            if first == 0 { 0.0 } else { (reach * (reach + 1.0) * (reach + 2.0)).log2() - first as f64 * h.log2() };
+        let log = weight - self.lag * std::f64::consts::LOG2_E - exact.xi.log2_roundoff();
+        Estimate::new(exact.xi.zero(), log.exp2().max(f64::MIN_POSITIVE))
+    }
+}
+
+/// Zero, with the bound that the greatest arguments give: without the exponential a sum rises with all of them.
+fn upper<S: RoundedSpecial>(ray: &Ray<Estimate<S>>, sum: impl Fn(&Ray<S>) -> S) -> Estimate<S> {
+    let most = ray.map(|x| {
+        let value = x.value().clone();
+        let value = if value < value.zero() { value.zero() } else { value };
+        let off = x.value().magnitude() - &value + value.double(2.0 * x.error()) * &value.roundoff();
+        value + off
+    });
+    let size = |ray: &Ray<S>| ray.half() * &(ray.xi.clone() + &ray.eta);
+    // The exponents of the greatest and of the least differ by at most twice that, because a product is convex.
+    let growth = (size(&most) - size(&ray.map(|x| x.value().clone()))).to_f64();
+    let bound = (sum(&most) / most.xi.roundoff()).to_f64() * 2.1 * (2.02 * growth.abs()).exp();
+    let bound = if bound.is_nan() { f64::INFINITY } else { bound };
+    Estimate::new(most.xi.zero(), bound.max(f64::MIN_POSITIVE))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Arguments off by a part in a million, against the sums of the true ones.
+    #[test]
+    fn errors_of_the_arguments_are_covered() {
+        let weight = |n: i64| [n % 2, n, n * n * n];
+        let u = f64::EPSILON / 2.0;
+        for damping in [0.0, 1e-9, 0.3, 2.9, 40.0, 3e3] {
+            for (travel, time) in [(0.0, 1.0), (1.0, 1.0 + 1e-7), (0.5, 0.7), (3.0, 7.3)] {
+                for turn in 0..27 {
+                    let off = |k: i32| f64::from(turn / 3i32.pow(k as u32) % 3 - 1) * 1e-6;
+                    let (xi, eta, r) = (time - travel, time + travel, damping);
+                    let known = |x: f64, off: f64| Estimate::new(x * (1.0 + off), x * (1.0 + 1e-6) * 1e-6 / u);
+                    let ray = Ray { xi: known(xi, off(0)), eta: known(eta, off(1)), damping: known(r, off(2)) };
+                    let sure = Ray { xi, eta, damping: r };
+                    let (found, sure) = (ray.sums([1, 2, 1], weight), sure.sums([1, 2, 1], weight));
+                    let pairs = found.sums.iter().zip(&sure.sums).chain([(&found.start, &sure.start)]);
+                    for (found, sure) in pairs {
+                        let wrong = (found.value() - sure).abs();
+                        assert!(wrong <= found.bound(), "{damping} {travel} {time}: {found:?} {sure}");
+                        assert!(found.bound() <= 0.1 * (1.0 + sure), "{damping} {travel} {time}: {found:?}");
+                    }
+                    for n in 0..4 {
+                        let found = known(damping, off(2)).in_scaled(n);
+                        assert!((found.value() - damping.in_scaled(n)).abs() <= found.bound(), "{damping} {n}");
+                    }
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn nodes_are_within_their_bounds() {
+        #[cfg(feature = "mp")]
+        for n in [1usize, 2, 5, 24, 60, 200] {
+            let rule = Estimate::exact(1.0f64).gauss_legendre(n);
+            for ((x, w), (node, weight)) in rule.iter().zip(gauss_legendre(&rug::Float::with_val(160, 1), n)) {
+                assert!((node - x.value()).abs() <= x.bound(), "{n} {x:?}");
+                assert!((weight - w.value()).abs() <= w.bound(), "{n} {w:?}");
+            }
+        }
+    }
+}
