@@ -6,8 +6,8 @@
 //! * μ ≥ g t₁: exactly when the wave is back, t_b = t₁;
 //! * μ < g t₁: later, t_b = 2t₁ − μ/g.
 
-use dalembert::lattice::Undamped;
 use dalembert::quantity::{flights, restitution};
+use dalembert::solve::undamped;
 use dalembert::{Error, History, Number, Problem};
 
 fn main() -> Result<(), Error> {
@@ -20,7 +20,7 @@ fn main() -> Result<(), Error> {
         let problem = Problem::uniform(Number::from(1), Number::from(1), Number::from(1), mu);
 
         // Solve in double precision: `rug::Rational` instead of `f64` would give fractions.
-        let history = Undamped::<f64>::solve(&problem, &())?;
+        let history = undamped::<f64>(&problem, &())?;
         let contact = &history.contacts()[0];
         let bounce = contact.to.unwrap_or(f64::NAN);
         let expected = if speed >= gravity * round_trip { round_trip } else { 2.0 * round_trip - speed / gravity };

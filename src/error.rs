@@ -134,6 +134,9 @@ pub enum Error {
         "found a start that is not uniform, or a fixed top; expected a uniform start under a free top, whose first contact has a closed form"
     )]
     NoClosedForm,
+    /// A comparison of enclosures that their ends do not settle.
+    #[error(transparent)]
+    Open(#[from] crate::number::Open),
     /// A question that this many bits do not settle.
     #[error("with {bits} bits it is not decided {what}; expected more bits")]
     NotDecided {

@@ -4,7 +4,6 @@ use super::value::{Answer, Answers, Trouble};
 use crate::damped::Damped;
 use crate::first_contact::{Bounce, Estimate, FirstContact, UndampedContact};
 use crate::history::{Ending, EventKind, History, Side};
-use crate::lattice::Undamped;
 use crate::modal::Modal;
 use crate::number::{Analytic, Number, Scalar};
 use crate::rod::{Parameters, Problem, Run};
@@ -203,12 +202,12 @@ impl Route {
             Route::Rays => by_rays::<f64>(problem, &(), of, FirstContact::bounce),
             Route::Within(accuracy) => by_rays::<f64>(problem, &(), of, |contact| contact.bounce_within(accuracy)),
             Route::Modes => by_modes(problem, of),
-            Route::Lattice => answered(of_history(&Undamped::<f64>::solve(problem, &())?, of)),
+            Route::Lattice => answered(of_history(&crate::solve::undamped::<f64>(problem, &())?, of)),
             Route::Cells => answered(of_history(&Damped::<f64>::solve(problem, &(), CELL_DIGITS)?, of)),
             #[cfg(feature = "mp")]
             Route::Paper => by_paper::<rug::Rational>(problem, &(), of),
             #[cfg(feature = "mp")]
-            Route::Fractions => answered(of_history(&Undamped::<rug::Rational>::solve(problem, &())?, of)),
+            Route::Fractions => answered(of_history(&crate::solve::undamped::<rug::Rational>(problem, &())?, of)),
             #[cfg(feature = "mp")]
             Route::LongRays(digits) => {
                 let bits = crate::number::bits_for_digits(digits) + SPARE_BITS;

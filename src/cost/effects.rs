@@ -7,7 +7,6 @@ use super::clock::{Timing, batch, quantile, sample};
 use crate::damped::{Damped, Joined};
 use crate::first_contact::FirstContact;
 use crate::history::History;
-use crate::lattice::Undamped;
 use crate::rod::{Parameters, Problem, Run, Speed, Start, Top};
 use crate::scene::{Ask, Effect, Engine, Plan, Scene};
 use crate::solve::{Solution, solve};
@@ -123,7 +122,7 @@ fn planned(problem: &Problem, plan: &Plan, energies: bool) -> Result<f64, CostEr
 fn direct(problem: &Problem, engine: Engine, energies: bool) -> Result<f64, CostError> {
     // Boxed as a plan's history is: the allocation is none of an effect's.
     let history: Box<dyn History<f64>> = match engine {
-        Engine::Lattice => Box::new(Undamped::<f64>::solve(problem, &())?),
+        Engine::Lattice => Box::new(crate::solve::undamped::<f64>(problem, &())?),
         Engine::Cells if problem.has_closed_form() => {
             let bounce = FirstContact::new(&Parameters::<f64>::of(problem, &())?).bounce_within(1e-13);
             Box::new(Joined::<f64>::solve(problem, &(), 13.0, bounce, true)?)

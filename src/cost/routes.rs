@@ -154,7 +154,7 @@ pub(super) fn fractions(question: &Question, plan: &Plan) -> Option<Result<Value
     if plan.engine != Engine::Lattice {
         return None;
     }
-    let history = match crate::lattice::Undamped::<rug::Rational>::solve(&question.problem, &()) {
+    let history = match crate::solve::undamped::<rug::Rational>(&question.problem, &()) {
         Ok(history) => history,
         Err(error) => return Some(Err(error.into())),
     };

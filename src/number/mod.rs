@@ -9,6 +9,7 @@
 //!
 //! Formulas are written once: undamped code is `impl<S: Scalar>`, damped code is `impl<S: Analytic>`.
 
+mod bounded;
 mod double;
 mod estimate;
 #[cfg(feature = "mp")]
@@ -22,6 +23,8 @@ mod literal;
 mod radical;
 mod scalar;
 
+pub use bounded::Bounded;
+pub(crate) use bounded::sign_within;
 pub use estimate::Estimate;
 #[cfg(feature = "mp")]
 pub use float::{bits_for_digits, decimal};

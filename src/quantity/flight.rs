@@ -21,9 +21,9 @@ pub struct Flight<S> {
 /// **Accuracy**: *exact* for exact histories, otherwise that of `h` and `h′` at the release.
 ///
 /// ```
-/// use dalembert::{Number, Problem, lattice::Undamped, quantity::flights};
+/// use dalembert::{Number, Problem, quantity::flights, solve::undamped};
 /// let problem = Problem::uniform(Number::from(1), Number::from(1), Number::from(1), Number::from(4));
-/// let history = Undamped::<f64>::solve(&problem, &())?;
+/// let history = undamped::<f64>(&problem, &())?;
 /// // μ²/2g − 2gL²/3c² = 8 − 2/3, reached at (2gL + μc)/cg = 6.
 /// let (time, height) = flights(&history)[0].highest.unwrap();
 /// assert!((time - 6.0).abs() < 1e-14 && (height - 22.0 / 3.0).abs() < 1e-14);

@@ -46,9 +46,9 @@ pub enum Undefined {
 /// **Errors**: what the history cannot answer; coefficients that are not defined are said to be so, with the reason.
 ///
 /// ```
-/// use dalembert::{Number, Problem, lattice::Undamped, History, quantity::restitution};
+/// use dalembert::{Number, Problem, History, quantity::restitution, solve::undamped};
 /// let problem = Problem::uniform(Number::from(1), Number::from(1), Number::from(1), Number::from(4));
-/// let history = Undamped::<f64>::solve(&problem, &())?;
+/// let history = undamped::<f64>(&problem, &())?;
 /// let e = restitution(&history, &history.contacts()[0])?;
 /// // (4.72): 1 − μ₀²/3μ² = 1 − 4/48.
 /// assert!((e.energy_squared.unwrap() - 11.0 / 12.0).abs() < 1e-15);

@@ -3,10 +3,11 @@
 use rug::Float;
 use rug::float::Round;
 
+use super::undamped_within;
 use crate::certified::ProvedContact;
 use crate::error::Error;
 use crate::history::{Ending, History};
-use crate::lattice::{Limits, Undamped};
+use crate::lattice::Limits;
 use crate::number::{Interval, IntervalPrecision, Scalar, bits_for_digits, decided, undecided};
 use crate::rod::Problem;
 
@@ -51,8 +52,7 @@ pub fn certify<T, E: From<Error>>(
     let mut bits = wanted + GUARD_BITS;
     let mut ends: Vec<f64> = Vec::new();
     loop {
-        let answer = decided(|| {
-            let history = history(problem, bits, &mut observe)?;
+        let mut ask = |history: &dyn History<Interval>| {
             // A history that ends in doubt may not with more bits; if thrice in the same place, it is no matter of bits.
             if matches!(history.ending(), Ending::Undecided(_)) {
                 let end = history.end().to_f64();
@@ -61,7 +61,21 @@ pub fn certify<T, E: From<Error>>(
                     return Ok(None);
                 }
             }
-            question(&*history).map(Some)
+            question(history).map(Some)
+        };
+        let answer = decided(|| {
+            if problem.rod.damping.is_some() {
+                return ask(&proved_contact(problem, bits)?);
+            }
+            let precision = IntervalPrecision::with_exact(bits);
+            match undamped_within::<Interval>(problem, &precision, Limits::default(), &mut observe) {
+                Ok(history) => {
+                    let answer = ask(&history);
+                    if history.met_open_comparison() { Ok(None) } else { answer }
+                }
+                Err(Error::Open(_)) => Ok(None),
+                Err(error) => Err(error.into()),
+            }
         });
         // Errors on the way to an open comparison mean nothing, except where no bits can help.
         let missing = match answer {
@@ -84,28 +98,17 @@ pub fn certify<T, E: From<Error>>(
     }
 }
 
-/// The history of `problem` in enclosures of `bits` bits. It holds if no comparison was left open, see [`decided`].
+/// The first contact of a damped `problem` in enclosures of `bits` bits. It holds if no comparison was left open, see [`decided`].
 ///
 /// **Errors**: [`Error::NotCertified`], and those of the run.
-fn history(
-    problem: &Problem,
-    bits: u32,
-    observe: &mut impl FnMut(usize, usize),
-) -> Result<Box<dyn History<Interval>>, Error> {
-    if problem.rod.damping.is_none() {
-        let precision = IntervalPrecision::with_exact(bits);
-        return Ok(Box::new(Undamped::<Interval>::solve_within(problem, &precision, Limits::default(), observe)?));
-    }
+fn proved_contact(problem: &Problem, bits: u32) -> Result<ProvedContact, Error> {
     if !problem.has_closed_form() {
         return Err(Error::NotCertified);
     }
-    match ProvedContact::solve(problem, bits)? {
-        Some(contact) => Ok(Box::new(contact)),
-        None => {
-            undecided();
-            Err(Error::NotDecided { what: "how the contact ends", bits })
-        }
-    }
+    ProvedContact::solve(problem, bits)?.ok_or_else(|| {
+        undecided();
+        Error::NotDecided { what: "how the contact ends", bits }
+    })
 }
 
 /// About how many bits more would give each number its digits; zero if all have them.

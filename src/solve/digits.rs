@@ -3,12 +3,13 @@
 
 use rug::Float;
 
+use super::{StrippedUndamped, undamped_within};
 use crate::damped::{Damped, Joined};
 use crate::error::Error;
 use crate::first_contact::{Bounce, FirstContact};
 use crate::history::History;
-use crate::lattice::{Limits, Undamped};
-use crate::number::{Number, bits_for_digits};
+use crate::lattice::Limits;
+use crate::number::{Number, Scalar, bits_for_digits};
 use crate::rod::{Parameters, Problem, Run};
 
 /// Guard bits of the first try. Few runs need more; the bound of each run tells.
@@ -16,8 +17,6 @@ const GUARD_BITS: u32 = 64;
 /// Digits that must be left beyond those printed, so that a quantity small against its scale still has all of them.
 const SPARE_DIGITS: u32 = 8;
 const MAX_BITS: u32 = 1 << 22;
-/// Bits of a double that may be lost while its history is still one that is near.
-const KNOWN_BITS: f64 = 40.0;
 /// How often a damped run is repeated with more bits.
 const MOST_TRIES: u32 = 6;
 
@@ -36,24 +35,28 @@ pub fn undamped_to_digits(
     digits: u32,
     limits: Limits,
     mut observe: impl FnMut(usize, usize),
-) -> Result<Undamped<Float>, Error> {
+) -> Result<StrippedUndamped<Float>, Error> {
     let (wanted, spare) = (bits_for_digits(digits), bits_for_digits(SPARE_DIGITS));
     // A tenth more than foreseen is cheaper than a second run.
     let foreseen = (1.1 * bits_lost(problem)).min(f64::from(MAX_BITS)) as u32 + spare;
     let mut bits = wanted + GUARD_BITS.max(foreseen + 8);
     loop {
-        let history = Undamped::<Float>::solve_within(problem, &bits, limits, &mut observe)?;
-        let marched = history.marched();
-        let of_values = marched.greatest_error.log2() + f64::from(spare);
-        // One bit more for half a unit of the last digit.
-        let of_times = marched.occurrences.iter().map(|event| event.error.log2() + 1.0);
+        let history = undamped_within::<Float>(problem, &bits, limits, &mut observe)?;
+        let carried = history.carried();
+        let of_values = carried.ground().relative_error.log2() + f64::from(spare);
+        // One bit more for half a unit of the last digit; a time scales with itself, or with a round trip.
+        let round_trip = carried.units().round_trip.to_f64();
+        let of_times = carried.events().iter().map(|event| {
+            let scale = event.time.to_f64().max(round_trip);
+            (event.time.error() / scale).log2() + 1.0
+        });
         let lost = of_times.fold(of_values, f64::max);
         let missing = lost + f64::from(wanted) - f64::from(bits);
-        if missing <= 0.0 {
+        if missing <= 0.0 && carried.undetermined_from().is_none() {
             return Ok(history);
         }
         // A double root needs two bits for each that is missing.
-        let more = if missing.is_finite() { 2.0 * missing.ceil() + 8.0 } else { f64::from(bits) };
+        let more = if missing.is_finite() { 2.0 * missing.max(0.0).ceil() + 8.0 } else { f64::from(bits) };
         if f64::from(bits) + more > f64::from(MAX_BITS) {
             return Err(Error::Unsettled { digits, bits });
         }
@@ -63,8 +66,8 @@ pub fn undamped_to_digits(
 
 /// How many bits the history of an undamped rod loses to rounding: `log₂` of the factor by which its error bound grows.
 ///
-/// **Source**: marches in double precision, each twice as long as the one before, as far as doubles know the history;
-/// where they do not know its end, the loss goes on at the same rate per round trip. In a chaotic history the impacts
+/// **Source**: marches in double precision, each twice as long as the one before, as far as doubles determine
+/// the events; where they do not, the loss goes on at the same rate per round trip. In a chaotic history the impacts
 /// multiply, and the loss of each becomes smaller, but that of a round trip does not.
 ///
 /// **Accuracy**: *f64 estimate*; zero where the run is not given by a time.
@@ -84,13 +87,11 @@ pub fn bits_lost(problem: &Problem) -> f64 {
     loop {
         let Ok(number) = time.to_string().parse::<Number>() else { return lost };
         let part = Problem { run: Run::Time(number), ..problem.clone() };
-        let Ok(history) = Undamped::<f64>::solve_within(&part, &(), Limits::keeping_from(problem, time), |_, _| ())
-        else {
+        let Ok(history) = undamped_within::<f64>(&part, &(), Limits::keeping_from(problem, time), |_, _| ()) else {
             return lost;
         };
-        let found = history.marched().greatest_error.max(1.0).log2();
-        // Beyond that a double decides by signs that it does not know.
-        if found > KNOWN_BITS {
+        let found = history.carried().ground().relative_error.max(1.0).log2();
+        if history.carried().undetermined_from().is_some() {
             return if lost > 0.0 { lost } else { found * end / time };
         }
         lost = found * end / time;

@@ -6,7 +6,7 @@ use crate::first_contact::FirstContact;
 #[cfg(feature = "mp")]
 use crate::history::Ending;
 use crate::history::History;
-use crate::lattice::{Limits, Undamped};
+use crate::lattice::Limits;
 use crate::rod::{Parameters, Problem};
 use crate::scene::{Engine, Plan, System};
 
@@ -16,11 +16,13 @@ mod certified;
 mod digits;
 mod stripped;
 mod twice;
+mod undamped;
 #[cfg(feature = "mp")]
 pub use certified::{certify, proved_digits, proved_ends};
 #[cfg(feature = "mp")]
 pub use digits::{bits_lost, damped_to_digits, undamped_to_digits};
 pub use stripped::Stripped;
+pub use undamped::{StrippedUndamped, undamped, undamped_within};
 
 /// A history in the numbers that its plan chose.
 pub enum Solution {
@@ -72,7 +74,7 @@ pub fn solve(problem: &Problem, plan: &Plan, mut observe: impl FnMut(usize, usiz
         }
         #[cfg(feature = "mp")]
         System::Exact(digits) => {
-            let exact = match Undamped::<rug::Rational>::solve_within(problem, &(), limits, &mut observe) {
+            let exact = match undamped_within::<rug::Rational>(problem, &(), limits, &mut observe) {
                 // Not even the parameters are fractions: in digits from the beginning.
                 Err(error @ Error::Irrational { .. }) => {
                     let digits = digits.ok_or(error)?;
@@ -107,7 +109,7 @@ fn undamped_in_doubles(
     limits: Limits,
     mut observe: impl FnMut(usize, usize),
 ) -> Result<Box<dyn History<f64>>, Error> {
-    let history = Undamped::<f64>::solve_within(problem, &(), limits, &mut observe)?;
+    let history = undamped_within::<f64>(problem, &(), limits, &mut observe)?;
     #[cfg(feature = "mp")]
     if accuracy.is_some_and(|accuracy| history.error_estimate() > accuracy) {
         let history = undamped_to_digits(problem, digits::of_accuracy(accuracy), limits, observe)?;

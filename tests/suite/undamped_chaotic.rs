@@ -1,8 +1,8 @@
 //! μ = 3/2 with c = L = g = 1: breaks and impacts multiply, digits are lost, and as many are carried as it takes.
 
-use dalembert::lattice::{Limits, Undamped};
+use dalembert::lattice::Limits;
 use dalembert::rod::Run;
-use dalembert::solve::{bits_lost, undamped_to_digits};
+use dalembert::solve::{bits_lost, undamped, undamped_to_digits, undamped_within};
 use dalembert::{Ask, Error, History, Plan, Problem, Scene, Side, Solution, solve};
 use rug::Float;
 
@@ -16,14 +16,14 @@ fn every_event_has_its_digits() {
     let problem = chaotic(160);
     let history = undamped_to_digits(&problem, 15, Limits::default(), |_, _| ()).unwrap();
     let bits = history.end().prec();
-    let check = Undamped::<Float>::solve(&problem, &(2 * bits)).unwrap();
+    let check = undamped::<Float>(&problem, &(2 * bits)).unwrap();
     assert_eq!(history.events().len(), check.events().len());
     for (a, b) in history.events().iter().zip(check.events()) {
         let error = Float::with_val(64, &b.time - &a.time).abs().to_f64();
         assert!(error <= 1e-15 * b.time.to_f64().max(1.0), "{error:e} at {}", b.time);
     }
     // Double precision has long lost it by then, and says so.
-    let rounded = Undamped::<f64>::solve(&problem, &()).unwrap();
+    let rounded = undamped::<f64>(&problem, &()).unwrap();
     assert!(rounded.warnings().iter().any(|warning| warning.contains("not determined")), "{:?}", rounded.warnings());
 }
 
@@ -59,8 +59,8 @@ fn fifteen_digits_at_t_400() {
     let bits = history.end().prec();
     assert!(bits < 320, "{bits} bits");
     let limits = Limits::keeping_from(&scene.problem, 400.0);
-    let check = Undamped::<Float>::solve_within(&scene.problem, &(2 * bits + 64), limits, |_, _| ()).unwrap();
-    assert_eq!(check.marched().contacts, 373_019);
+    let check = undamped_within::<Float>(&scene.problem, &(2 * bits + 64), limits, |_, _| ()).unwrap();
+    assert_eq!(check.carried().ground().contacts, 373_019);
     let values = |history: &dyn History<Float>| {
         let end = history.end();
         let (h, rate) = history.centre(&end).unwrap();
