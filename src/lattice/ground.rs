@@ -184,7 +184,7 @@ impl<N: Bounded> March<N> {
             Some(Ordering::Less) => false,
             Some(Ordering::Equal) => line.slope.positive()?,
         };
-        let mut age = from.clone();
+        let age = from.clone();
         if flight {
             let before = if self.contact { [&self.zero, &self.zero] } else { [&self.arriving_q, &self.arriving_slope] };
             self.height.cross_break(from, before, [q, &line.slope]);
@@ -200,12 +200,6 @@ impl<N: Bounded> March<N> {
             let velocity = if sign.is_some_and(Ordering::is_eq) { q.zero() } else { q.clone() };
             self.record(EventKind::Release, time, velocity, stretch, until)?;
             return Ok((age, true));
-        }
-        // q jumps at the break itself; what it presses down before, where the touch is early, and behind it, where that is
-        // late, moves the break by no more than this.
-        let speed = (q.clone() + &self.arriving_q).halved();
-        if let Some(moved) = self.height.root_deviation(&speed, &self.arriving_slope) {
-            age = age.widened(&moved);
         }
         self.height = self.zero.clone();
         // A landing without speed is one because of the ray that arrives with it, whose q presses the end down.
@@ -251,7 +245,8 @@ impl<N: Bounded> March<N> {
         let of_line = line.intercept.roundoffs() + line.slope.roundoffs();
         self.greatest_height = self.greatest_height.max(self.height.to_f64());
         let relative = (of_line / self.greatest_speed).max(self.height.roundoffs() / self.greatest_height);
-        self.relative_error = self.relative_error.max(relative);
+        // No number has more digits to lose than all.
+        self.relative_error = self.relative_error.max(relative.min(self.half_digits * self.half_digits));
         self.trace.push(Piece { age, line, height: self.height.clone(), contact: self.contact });
     }
 

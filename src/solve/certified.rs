@@ -116,7 +116,8 @@ fn missing_bits(numbers: &[&Interval], digits: u32) -> u32 {
     let greatest = numbers.iter().map(|x| exponent(x.lo()).max(exponent(x.hi()))).max().unwrap_or(0);
     let kept = i64::from(bits_for_digits(digits + SPARE_DIGITS));
     let floor = greatest - i64::from(bits_for_digits(digits + FLOOR_DIGITS));
-    let missing = numbers.iter().map(|x| {
+    // A number that is a point has all its digits, zero too.
+    let missing = numbers.iter().filter(|x| !x.radius().is_zero()).map(|x| {
         let radius = exponent(&x.radius());
         let least = match x.sign() {
             Some(_) => exponent(x.lo()).min(exponent(x.hi())) - kept,

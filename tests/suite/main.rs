@@ -41,3 +41,4 @@ mod undamped_chaotic;
 #[cfg(feature = "mp")]
 mod undamped_properties;
 mod undamped_reference;
+mod zz_probe;
