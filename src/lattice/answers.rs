@@ -87,9 +87,9 @@ impl<N: Bounded> History<N> for Undamped<N> {
         let trip = self.last_trip(&self.locate(time)?)?;
         let Centre { height, rate } = self.centre_at(&trip)?;
         let mut sum = rate.zero();
-        self.visit_rod(&trip[0], &trip[1], |Part { offset, width, value, slope, shift }| {
-            let value = value - gravity.clone() * (rate.one() - &offset) - &rate;
-            let vibration = Part { offset, width, value, slope: slope + gravity, shift };
+        self.visit_rod(&trip[0], &trip[1], |part| {
+            let value = part.value - gravity.clone() * (rate.one() - &part.offset) - &rate;
+            let vibration = Part { value, slope: part.slope + gravity, ..part };
             sum = sum.clone() + vibration.square_integral();
         })?;
         let unit = velocity.square() * length;

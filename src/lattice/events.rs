@@ -80,9 +80,8 @@ impl<N: Bounded> Undamped<N> {
             };
             let (mut sum, mut peak) = (from.age.zero(), from.age.zero());
             self.ground.trace.window(&from, &until, |part| {
-                let at_end = part.value.clone() + part.slope.clone() * &part.width;
                 sum = sum.clone() + part.integral();
-                peak = peak.clone().larger(part.value).larger(at_end);
+                peak = part.ends().into_iter().fold(peak.clone(), N::larger);
             });
             contacts.push(Contact {
                 from: event.time.clone(),

@@ -15,7 +15,7 @@ use std::cmp::Ordering;
 
 use super::limits::{Halt, Stop, Until};
 use super::march::March;
-use super::trace::{GroundEvent, Line, Piece};
+use super::trace::{GroundEvent, Line, Piece, at_deviating};
 use crate::history::EventKind;
 use crate::number::{Bounded, Open, sign_within};
 
@@ -87,8 +87,8 @@ impl<N: Bounded> March<N> {
         let mut stretch = self.arriving(trip, first, end, fallen)?;
         let next = stretch.incoming.end;
         match until {
-            Until::Time { trip: last, age: stop } if *last <= trip => {
-                if *last < trip || !stretch.from.below(stop)? {
+            Until::Time { trip: last, age: stop } if *last == trip => {
+                if !stretch.from.below(stop)? {
                     let (age, _) = self.meet_break(&stretch, until)?;
                     self.leave(age, &stretch.line);
                     return Err(Stop::Halt(Halt::Time));
@@ -197,14 +197,23 @@ impl<N: Bounded> March<N> {
             None => from.clone(),
         };
         if flight {
-            let velocity = if sign.is_some_and(Ordering::is_eq) { q.zero() } else { q.clone() };
+            let velocity = if sign.is_some_and(Ordering::is_eq) {
+                q.taken_for_zero()
+            } else {
+                at_deviating(q, &line.slope, time.deviation().as_ref())
+            };
             self.record(EventKind::Release, time, velocity, stretch, until)?;
             return Ok((age, true));
         }
         self.height = self.zero.clone();
         // A landing without speed is one because of the ray that arrives with it, whose q presses the end down.
-        let velocity = if self.arriving_q.vanishes()? { q } else { &self.arriving_q };
-        let velocity = if velocity.vanishes()? { q.zero() } else { velocity.clone() };
+        let velocity = if !self.arriving_q.vanishes()? {
+            at_deviating(&self.arriving_q, &self.arriving_slope, time.deviation().as_ref())
+        } else if !q.vanishes()? {
+            at_deviating(q, &line.slope, time.deviation().as_ref())
+        } else {
+            q.taken_for_zero()
+        };
         self.record(EventKind::Impact, time, velocity, stretch, until)?;
         Ok((age, true))
     }

@@ -249,9 +249,9 @@ impl<N: Bounded> Undamped<N> {
         let (gravity, half) = (&self.problem.gravity, until.age.one().halved());
         let now = Moment { index: until.index, age: until.age.clone() };
         let middle = self.place(&self.shifted(&now, &-half.clone())?, Side::Right)?;
-        trace.window(from, &middle, |Part { offset, width, value, slope, shift }| {
-            let shift = shift.map(|(jump, late)| (-jump, late));
-            visit(Part { offset, width, value: gravity.clone() - value, slope: -slope, shift });
+        trace.window(from, &middle, |part| {
+            let shift = part.shift.map(|(jump, late)| (-jump, late));
+            visit(Part { value: gravity.clone() - part.value, slope: -part.slope, shift, ..part });
         });
         trace.window(&middle, until, |part| visit(Part { offset: part.offset + &half, ..part }));
         Ok(())

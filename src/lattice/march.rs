@@ -114,7 +114,10 @@ pub fn march<N: Bounded>(
         }
         // A leap wants a rise of two units.
         if quiet && !state.contact && state.height.to_f64() - height.to_f64() >= 2.0 {
-            trip += state.leap(trip, until);
+            trip += state.leap(trip);
+        }
+        if matches!(until, Until::Time { trip: last, .. } if *last < trip) {
+            break Halt::Time;
         }
         if matches!(until, Until::Contacts(_)) && trip >= quiet_since + 2 {
             match state.repeats(problem, &height) {
@@ -147,7 +150,7 @@ impl<N: Bounded> March<N> {
     /// With `D = ∫ q dt` over that trip, `v(0,·)` at age `f` is `v + j (D − f − (j − 1)/2)` after `j` more trips, `v ≥ 0`: a
     /// concave function of `j`, positive up to `k` for every `f ≤ 1` if `D − 1 − (k − 1)/2 > 0`. One trip is kept in hand,
     /// for the rounding of `D` to a double too.
-    fn leap(&mut self, trip: usize, until: &Until<N>) -> usize {
+    fn leap(&mut self, trip: usize) -> usize {
         if !self.trace.falls_freely() {
             return 0;
         }
@@ -156,12 +159,8 @@ impl<N: Bounded> March<N> {
         let from = Place { index: trip, piece: 0, age: self.zero.clone() };
         let to = Place { index: trip, piece: self.trace.slice(trip).len() - 1, age: one.clone() };
         self.trace.window(&from, &to, |part| rise = rise.clone() + part.integral());
-        let most = match until {
-            Until::Time { trip: last, .. } => last.saturating_sub(trip),
-            Until::Contacts(_) => MOST_LEAPT,
-        };
         let safe = (2.0 * rise.to_f64() * (1.0 - 1e-15) - 2.0).max(0.0) as usize;
-        let trips = safe.min(most).min(MOST_LEAPT);
+        let trips = safe.min(MOST_LEAPT);
         if trips < 2 {
             return 0;
         }

@@ -113,9 +113,23 @@ pub(super) struct Part<N> {
     pub(super) slope: N,
     /// `[p]` at its beginning, and the deviation of that in age, where it is a break whose age is not known exactly.
     pub(super) shift: Option<(N, N)>,
+    /// The deviation in age of its end.
+    pub(super) late_end: Option<N>,
+}
+
+/// A value where the place that it is taken at may deviate.
+pub(super) fn at_deviating<N: Bounded>(value: &N, slope: &N, late: Option<&N>) -> N {
+    late.map_or_else(|| value.clone(), |late| late.clone() * slope + value)
 }
 
 impl<N: Bounded> Part<N> {
+    /// `p` at both ends, wherever they are.
+    pub(super) fn ends(&self) -> [N; 2] {
+        let late = self.shift.as_ref().map(|(_, late)| late);
+        let end = self.slope.clone() * &self.width + &self.value;
+        [at_deviating(&self.value, &self.slope, late), at_deviating(&end, &self.slope, self.late_end.as_ref())]
+    }
+
     /// `∫ p ds`.
     pub(super) fn integral(&self) -> N {
         let mean = self.value.clone() + (self.slope.clone() * &self.width).halved();
@@ -148,9 +162,9 @@ impl<N: Bounded> Part<N> {
 
     /// Without exact numbers inside.
     pub(super) fn without_exact(self) -> Self {
-        let Part { offset, width, value, slope, shift } = self;
+        let Part { offset, width, value, slope, .. } = self;
         let [offset, width, value, slope] = [offset, width, value, slope].map(N::without_exact);
-        Part { offset, width, value, slope, shift }
+        Part { offset, width, value, slope, ..self }
     }
 }
 
@@ -357,15 +371,15 @@ impl<N: Bounded> Trace<N> {
                 Some(fallen) => value - fallen,
                 None => value,
             };
-            visit(Part { offset: offset.clone(), width: width.clone(), value, slope: line.slope.clone(), shift });
+            let late_end = if last { None } else { next.and_then(|next| next.age.deviation()) };
+            let next_shift =
+                late_end.clone().zip(next).map(|(late, next)| (next.line.value_at(&to) - line.value_at(&to), late));
+            let slope = line.slope.clone();
+            visit(Part { offset: offset.clone(), width: width.clone(), value, slope, shift, late_end });
             if last {
                 return;
             }
-            offset = offset + width;
-            shift = next.and_then(|next| {
-                let late = next.age.deviation()?;
-                Some((next.line.value_at(&to) - line.value_at(&to), late))
-            });
+            (offset, shift) = (offset + width, next_shift);
             if next.is_some() {
                 (k, start) = (k + 1, to);
             } else {

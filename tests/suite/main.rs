@@ -37,8 +37,9 @@ mod scene_properties;
 mod snapshots_stress;
 mod three_routes;
 #[cfg(feature = "mp")]
+mod undamped_bounds;
+#[cfg(feature = "mp")]
 mod undamped_chaotic;
 #[cfg(feature = "mp")]
 mod undamped_properties;
 mod undamped_reference;
-mod zz_probe;
