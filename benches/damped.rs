@@ -6,7 +6,6 @@ use std::hint::black_box;
 
 use criterion::{BenchmarkId, Criterion, Throughput, criterion_group, criterion_main};
 use dalembert::cells::Damped;
-use dalembert::lattice::Undamped;
 use dalembert::rod::{Material, Profile, Rod, Run, Start, Top};
 use dalembert::{Ask, History, Number, Plan, Problem, Scene, Solution, solve};
 
@@ -99,7 +98,7 @@ fn undamped(c: &mut Criterion) {
         let problem = rod("", "3", Run::Impacts(impacts));
         assert!(problem.rod.damping.is_none());
         group.bench_function(BenchmarkId::new("lattice, called directly", impacts), |b| {
-            b.iter(|| Undamped::<f64>::solve(black_box(&problem), &()).unwrap().events().len());
+            b.iter(|| dalembert::solve::undamped::<f64>(black_box(&problem), &()).unwrap().events().len());
         });
         let undamped = plan("");
         group.bench_function(BenchmarkId::new("scene with no damping, as planned", impacts), |b| {

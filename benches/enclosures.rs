@@ -6,8 +6,8 @@ use std::hint::black_box;
 
 use criterion::{Criterion, Throughput, criterion_group, criterion_main};
 use dalembert::first_contact::{ContactHistory, FirstContact};
-use dalembert::lattice::{Limits, Scaled, Undamped, Until, march};
-use dalembert::number::{Answer, Interval, IntervalPrecision, Number, Scalar, decided};
+use dalembert::lattice::{Limits, Scaled, Until, march};
+use dalembert::number::{Answer, Estimate, Interval, IntervalPrecision, Number, Scalar};
 use dalembert::rod::{Parameters, Run};
 use dalembert::{History, Problem, Side};
 use rug::Float;
@@ -25,17 +25,15 @@ fn undamped(c: &mut Criterion) {
     let mut problem = rod("0", "1", "1", "1");
     problem.run = Run::Time(36.into());
     group.bench_function("doubles", |b| {
-        b.iter(|| Undamped::<f64>::solve(black_box(&problem), &()).unwrap().events().len());
+        b.iter(|| dalembert::solve::undamped::<f64>(black_box(&problem), &()).unwrap().events().len());
     });
     for bits in [256, 3400] {
         group.bench_function(format!("{bits} bits"), |b| {
-            b.iter(|| Undamped::<Float>::solve(black_box(&problem), &bits).unwrap().events().len());
+            b.iter(|| dalembert::solve::undamped::<Float>(black_box(&problem), &bits).unwrap().events().len());
         });
         group.bench_function(format!("{bits} bits, proved"), |b| {
             let exact = IntervalPrecision::with_exact(bits);
-            b.iter(|| {
-                decided(|| Undamped::<Interval>::solve(black_box(&problem), &exact).unwrap().events().len()).unwrap()
-            });
+            b.iter(|| dalembert::solve::undamped::<Interval>(black_box(&problem), &exact).unwrap().events().len());
         });
     }
     group.finish();
@@ -78,14 +76,14 @@ fn chaotic(c: &mut Criterion) {
     let mut problem = rod("0", "1", "1", "3/2");
     problem.run = Run::Time(200.into());
     let limits = Limits::keeping_from(&problem, 200.0);
-    let scaled = Scaled::<Float>::of(&problem, &240).unwrap();
-    let until = Until::Age(100, Float::new(240));
+    let scaled = Scaled::<Estimate<Float>>::of(&problem, &240).unwrap();
+    let until = Until::Time { trip: 100, age: Estimate::exact(Float::new(240)) };
     let mut pieces = 0;
     march(&scaled, &until, Limits::default(), |_, now| pieces = now).unwrap();
     group.throughput(Throughput::Elements(pieces as u64));
     group.bench_function("240 bits", |b| b.iter(|| march(black_box(&scaled), &until, limits, |_, _| ()).unwrap()));
-    let scaled = Scaled::<f64>::of(&problem, &()).unwrap();
-    let until = Until::Age(100, 0.0);
+    let scaled = Scaled::<Estimate<f64>>::of(&problem, &()).unwrap();
+    let until = Until::Time { trip: 100, age: Estimate::exact(0.0) };
     group.bench_function("doubles, which lose it at t = 105", |b| {
         b.iter(|| march(black_box(&scaled), &until, limits, |_, _| ()).unwrap());
     });

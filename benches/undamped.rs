@@ -7,9 +7,10 @@
 use std::hint::black_box;
 
 use criterion::{BenchmarkId, Criterion, Throughput, criterion_group, criterion_main};
-use dalembert::lattice::{Limits, Scaled, Undamped, Until, march};
-use dalembert::number::Scalar;
+use dalembert::lattice::{Limits, Scaled, Until, march};
+use dalembert::number::{Bounded, Estimate};
 use dalembert::rod::Run;
+use dalembert::solve::undamped;
 use dalembert::{Ask, History, Plan, Problem, Scene, scene::builtin};
 
 fn problem(speed: &str, run: Run) -> Problem {
@@ -24,7 +25,7 @@ fn first_contact(c: &mut Criterion) {
     let scene = Scene::parse(builtin::get("paper-weak").unwrap().source).unwrap();
     group.bench_function("scene to events and contacts, f64", |b| {
         b.iter(|| {
-            let history = Undamped::<f64>::solve(black_box(&scene.problem), &()).unwrap();
+            let history = undamped::<f64>(black_box(&scene.problem), &()).unwrap();
             (history.events().len(), history.contacts()[0].impulse)
         });
     });
@@ -39,7 +40,7 @@ fn first_contact(c: &mut Criterion) {
     group.bench_function("scene to events and contacts, fractions", |b| {
         let problem = problem("3", Run::Impacts(1));
         b.iter(|| {
-            let history = Undamped::<rug::Rational>::solve(black_box(&problem), &()).unwrap();
+            let history = undamped::<rug::Rational>(black_box(&problem), &()).unwrap();
             (history.events().len(), history.contacts().len())
         });
     });
@@ -47,7 +48,7 @@ fn first_contact(c: &mut Criterion) {
 }
 
 /// The march alone: `periodic` keeps few breaks, `general` gains some with every event.
-fn pieces<S: Scalar>(c: &mut Criterion, name: &str, precision: &S::Precision, speeds: &[(&str, &str, &[u32])]) {
+fn pieces<S: Bounded>(c: &mut Criterion, name: &str, precision: &S::Precision, speeds: &[(&str, &str, &[u32])]) {
     let mut group = c.benchmark_group(format!("march, {name}"));
     for (label, speed, impacts) in speeds {
         for impacts in *impacts {
@@ -65,11 +66,16 @@ fn pieces<S: Scalar>(c: &mut Criterion, name: &str, precision: &S::Precision, sp
 
 fn all_pieces(c: &mut Criterion) {
     const ALL: &[u32] = &[10, 100, 1000];
-    pieces::<f64>(c, "f64", &(), &[("periodic", "3", ALL), ("tangential", "1", ALL), ("general", "3/2", ALL)]);
+    pieces::<Estimate<f64>>(
+        c,
+        "f64",
+        &(),
+        &[("periodic", "3", ALL), ("tangential", "1", ALL), ("general", "3/2", ALL)],
+    );
     #[cfg(feature = "mp")]
     {
         pieces::<rug::Rational>(c, "fractions", &(), &[("periodic", "3", ALL)]);
-        pieces::<rug::Float>(c, "256 bits", &256, &[("periodic", "3", ALL), ("general", "3/2", &[10, 100])]);
+        pieces::<Estimate<rug::Float>>(c, "256 bits", &256, &[("periodic", "3", ALL), ("general", "3/2", &[10, 100])]);
     }
 }
 

@@ -5,15 +5,16 @@
 //! Proposition 2 says how large the jumps are: going up [v_t] = −c [v_x], coming down [v_t] = c [v_x].
 
 use dalembert::glam::DVec2;
-use dalembert::lattice::{Rays, Undamped, reflection};
+use dalembert::lattice::{Rays, reflection};
 use dalembert::rod::{Parameters, Run};
+use dalembert::solve::undamped;
 use dalembert::{Error, Number, Problem};
 
 fn main() -> Result<(), Error> {
     // L = c = g = 1 and μ = 3: contact from 0 to 2, then flight until t = 8.
     let mut problem = Problem::uniform(Number::from(1), Number::from(1), Number::from(1), Number::from(3));
     problem.run = Run::Time(Number::from(8));
-    let history = Undamped::<f64>::solve(&problem, &())?;
+    let history = undamped::<f64>(&problem, &())?;
     let c = Parameters::<f64>::of(&problem, &())?.wave_speed;
     // What an end does to a jump ([v_x], [v_t]) is a matrix: a held end turns [v_t] round, a free one [v_x].
     let (ground_in_flight, free_top) = (reflection(false), reflection(false));
@@ -21,9 +22,17 @@ fn main() -> Result<(), Error> {
     println!("leaves  returns   up: [v_x]  [v_t]    down: [v_x]  [v_t]");
     let mut coming_down = DVec2::ZERO;
     for trip in 0..4 {
-        for ray in history.rays(trip) {
+        for ray in history.carried().rays(trip) {
             let (up, down) = (ray.up_vector(), ray.down_vector());
-            println!("{:6.2}  {:7.2}  {:10.3} {:6.3}  {:12.3} {:6.3}", ray.from, ray.to, up.x, up.y, down.x, down.y);
+            println!(
+                "{:6.2}  {:7.2}  {:10.3} {:6.3}  {:12.3} {:6.3}",
+                ray.from.value(),
+                ray.to.value(),
+                up.x,
+                up.y,
+                down.x,
+                down.y
+            );
             // Along x = ct + const nothing may tear the rod: [v_t] + c [v_x] = 0, and the mirror image going down.
             assert_eq!(up.y, -c * up.x);
             assert_eq!(down.y, c * down.x);

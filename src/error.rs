@@ -2,8 +2,6 @@
 
 use thiserror::Error;
 
-use crate::number::Open;
-
 /// What was found, where, and what was expected.
 #[derive(Clone, Debug, Error, PartialEq)]
 #[cfg_attr(feature = "cli", derive(miette::Diagnostic))]
@@ -147,6 +145,9 @@ pub enum Error {
         "found a start that is not uniform, or a fixed top; expected a uniform start under a free top, whose first contact has a closed form"
     )]
     NoClosedForm,
+    /// A comparison of enclosures that their ends do not settle.
+    #[error(transparent)]
+    Open(#[from] crate::number::Open),
     /// A question that this many bits do not settle.
     #[error("with {bits} bits it is not decided {what}; expected more bits")]
     NotDecided {
@@ -155,12 +156,6 @@ pub enum Error {
         /// The bits of the enclosures.
         bits: u32,
     },
-}
-
-impl From<Open> for Error {
-    fn from(_: Open) -> Self {
-        Error::NotDecided { what: "which of two numbers is the greater", bits: 0 }
-    }
 }
 
 impl Error {

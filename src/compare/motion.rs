@@ -216,7 +216,7 @@ pub(crate) struct ByClosedForm<N, F> {
     bounce: OnceCell<Bounce<N>>,
 }
 
-impl<N: System + special::Bounded, F: Fn(&FirstContact<N>) -> Bounce<N>> ByClosedForm<N, F> {
+impl<N: System + special::BoundedSpecial, F: Fn(&FirstContact<N>) -> Bounce<N>> ByClosedForm<N, F> {
     /// `search` finds the bounce, if a quantity needs it.
     pub(crate) fn new(rod: &Parameters<N>, search: F) -> Self {
         ByClosedForm { contact: FirstContact::new(rod), search, bounce: OnceCell::new() }
@@ -227,7 +227,7 @@ impl<N: System + special::Bounded, F: Fn(&FirstContact<N>) -> Bounce<N>> ByClose
     }
 }
 
-impl<N: System + special::Bounded, F: Fn(&FirstContact<N>) -> Bounce<N>> Motion<N> for ByClosedForm<N, F> {
+impl<N: System + special::BoundedSpecial, F: Fn(&FirstContact<N>) -> Bounce<N>> Motion<N> for ByClosedForm<N, F> {
     fn release(&self, _: &Parameters<N>) -> Found<N> {
         match self.bounce() {
             Bounce::At { time, .. } => Ok(carried(time.clone())),

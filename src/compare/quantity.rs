@@ -191,7 +191,7 @@ impl Question {
     fn ask_motion<S: Target<Carried: System>>(&self, history: &crate::motion::Motion<S>) -> Result<Answer, NoAnswer> {
         let query = |engine: &dyn History<S::Carried>| match self.find_in_history(engine) {
             // More bits may settle it.
-            Err(NoAnswer::Solve(error @ Error::NotDecided { .. })) => Err(error),
+            Err(NoAnswer::Solve(error @ (Error::NotDecided { .. } | Error::Open(_)))) => Err(error),
             found => Ok(found),
         };
         history.ask(query, |found| found.iter().map(|found| &found.value).collect())?.map(Bounded::answer)

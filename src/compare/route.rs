@@ -13,7 +13,7 @@ use crate::number::{Estimate, Scalar};
 use crate::paper::Printed;
 use crate::rod::{Parameters, Problem, Run};
 pub(crate) use crate::solve::Numbers;
-use crate::solve::{self, Plan, Solution, Want, bounce_within};
+use crate::solve::{self, Plan, Raised, Solution, Want, bounce_within};
 
 /// A formula in many digits; its argument makes `p/q` in that many.
 pub(crate) type LongFormula = fn(&dyn Fn(i32, i32) -> long::Digits) -> long::Digits;
@@ -69,8 +69,12 @@ impl Route {
                 };
                 question.ask(&rod, &ByClosedForm::new(&rod, search))
             }
-            Route::Lattice(Numbers::Double(_)) => question.ask_history(&Undamped::<f64>::solve(problem, &())?),
-            Route::Cells(digits) => question.ask_history(&Damped::<f64>::solve(problem, &(), f64::from(digits))?),
+            Route::Lattice(Numbers::Double(_)) => {
+                question.ask_history(&Undamped::<Estimate<f64>>::solve(problem, &())?)
+            }
+            Route::Cells(digits) => {
+                question.ask_history(&Raised::new(Damped::<f64>::solve(problem, &(), f64::from(digits))?))
+            }
             Route::Modes(modes) => {
                 let rod = Parameters::of(problem, &())?;
                 question.ask(&rod, &Modal::<f64>::new(&rod, modes))

@@ -3,7 +3,7 @@
 use super::cells::Search;
 use super::field::{FirstContact, Trips};
 use super::reason::{Doubt, NoBounceReason};
-use crate::special::Bounded;
+use crate::special::BoundedSpecial;
 
 /// How the contact ends.
 #[derive(Clone, Debug)]
@@ -51,7 +51,7 @@ impl<N> Bounce<N> {
 /// Cells `(k t₁, (k+1) t₁)` that are searched.
 const MOST_CELLS: i64 = 256;
 
-impl<N: Bounded> FirstContact<N> {
+impl<N: BoundedSpecial> FirstContact<N> {
     /// `t_b` (1.10): the end of the first contact.
     ///
     /// **Source**: Theorem 1, with (2.32) in closed form: `t_b = t₁` where `μ (2 − I₀(R)) > μ₀ (I₀(R) + I₁(R))`.

@@ -4,7 +4,7 @@ use super::bounce::{Bounce, BounceKind};
 use super::field::{FirstContact, Shares, Trips};
 use super::first_root::{FirstRoot, coefficients, first_root};
 use super::reason::{Doubt, NoBounceReason};
-use crate::special::Bounded;
+use crate::special::BoundedSpecial;
 
 /// The shares of the force after τ round trips, of which k have passed, by a route of its own.
 type Route<'a, N> = &'a dyn Fn(&N, i64) -> [N; 2];
@@ -35,7 +35,7 @@ pub(super) struct Bracket<N> {
     slope: N,
 }
 
-impl<N: Bounded> FirstContact<N> {
+impl<N: BoundedSpecial> FirstContact<N> {
     /// Whether, at `k t₁`, the transient is below the static stress everywhere in the rod: then it stays so.
     pub(super) fn settled(&self, k: i64) -> Option<NoBounceReason> {
         if self.weightless {
@@ -106,7 +106,7 @@ impl<N: Bounded> FirstContact<N> {
     }
 }
 
-impl<N: Bounded> Search<'_, N> {
+impl<N: BoundedSpecial> Search<'_, N> {
     /// What presses on the ground, see [`FirstContact::force`].
     pub(super) fn force(&self, trips: &N, k: i64) -> N {
         let Some(route) = self.route else { return self.contact.force(trips, k) };
@@ -213,7 +213,7 @@ impl<N: Bounded> Search<'_, N> {
         }
         let (root, force) = best;
         let root = root.widened(&(force.magnitude() / &slope));
-        let time = (root.clone() * &self.contact.round_trip).plain();
+        let time = (root.clone() * &self.contact.round_trip).without_exact();
         let trips = Trips { exact: root.clone(), number: root, passed: k, on_lattice: false };
         Bounce::At { time, trips, kind: BounceKind::Root }
     }

@@ -4,7 +4,7 @@ use super::field::{FirstContact, Trips, unknown};
 use super::rebound::translational;
 use crate::history::{Energy, Side};
 use crate::number::Scalar;
-use crate::special::Bounded;
+use crate::special::BoundedSpecial;
 
 /// One node: weight in `∫ da`, `v_t − h′`, `c v_x`.
 struct Node<N> {
@@ -29,7 +29,7 @@ const LEAST_SIZE: f64 = -960.0;
 /// Numbers up to this length take the sums without cancellation at the first return; longer ones have bits to spare.
 const MOST_BITS_WITHOUT_CANCELLATION: u32 = 64;
 
-impl<N: Bounded> FirstContact<N> {
+impl<N: BoundedSpecial> FirstContact<N> {
     /// `E`, `E_h`, `E_z` at a time of the contact.
     ///
     /// **Source**: (3.54), (3.61)–(3.63), with `E_z = ½∫((v_t − h′)² + c²v_x²)dx`, so that `E_z ≪ E` keeps its digits.
@@ -127,7 +127,7 @@ impl<N: Bounded> FirstContact<N> {
             }
         }
         // dx = c t₁ da = 2L da.
-        Some((sum * &self.rod.length).plain())
+        Some((sum * &self.rod.length).without_exact())
     }
 
     /// The stretches between the rays in the rod, of which there are one upwards and one downwards but at lattice times.

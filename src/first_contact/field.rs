@@ -3,7 +3,7 @@
 use crate::history::{Field, Side};
 use crate::number::Scalar;
 use crate::rod::Parameters;
-use crate::special::{Bounded, Ray};
+use crate::special::{BoundedSpecial, Ray};
 
 /// The rod that hit the ground undeformed at `t = 0` with uniform velocity `−μ`, while the contact lasts.
 ///
@@ -103,16 +103,16 @@ pub(super) fn unknown<N: Scalar>(like: &N) -> N {
     like.zero().widened(&like.double(f64::INFINITY))
 }
 
-impl<N: Bounded> FirstContact<N> {
+impl<N: BoundedSpecial> FirstContact<N> {
     /// The first contact of a rod with these parameters.
     pub fn new(rod: &Parameters<N>) -> Self {
         let round_trip = rod.round_trip();
         let critical = rod.gravity.clone() * &round_trip;
         FirstContact {
-            speed: rod.speed.clone().plain(),
-            damping: (rod.damping.clone() * &round_trip).plain(),
+            speed: rod.speed.clone().without_exact(),
+            damping: (rod.damping.clone() * &round_trip).without_exact(),
             weightless: rod.gravity.vanishes() == Ok(true),
-            critical: critical.plain(),
+            critical: critical.without_exact(),
             rod: rod.clone(),
             round_trip,
         }
@@ -134,14 +134,14 @@ impl<N: Bounded> FirstContact<N> {
         let passed = exact.floor_int().filter(|k| *k <= MOST_RAYS)?;
         let whole = exact.int(passed);
         let on_lattice = exact.compare(&whole).ok()?.is_eq();
-        let number = if on_lattice { whole.plain() } else { exact.clone().plain() };
+        let number = if on_lattice { whole.without_exact() } else { exact.clone().without_exact() };
         Some(Trips { exact, number, passed, on_lattice })
     }
 
     /// The k-th lattice time, in round trips.
     pub(super) fn lattice(&self, k: i64) -> Trips<N> {
         let exact = self.round_trip.int(k);
-        Trips { number: exact.clone().plain(), exact, passed: k, on_lattice: true }
+        Trips { number: exact.clone().without_exact(), exact, passed: k, on_lattice: true }
     }
 
     /// `μ + μ₀`.
@@ -203,7 +203,7 @@ impl<N: Bounded> FirstContact<N> {
 
     /// The stress with `k` returned rays.
     pub(super) fn stress_in_cell(&self, trips: &N, k: i64) -> N {
-        -(self.weighted(&self.ground(trips, k)) / &self.rod.wave_speed).plain()
+        -(self.weighted(&self.ground(trips, k)) / &self.rod.wave_speed).without_exact()
     }
 
     /// `e^{−rt} H_r(t)`, with its sign and jumps as in (2.27): the stress for `μ = c` and `g = 0`, turned around.
@@ -273,13 +273,13 @@ impl<N: Bounded> FirstContact<N> {
         let tau = lattice.as_ref().unwrap_or(&trips.exact);
         let arrived = (count(tau.clone() - &a), count(tau.clone() - a.one() + &a));
         let (Some(up), Some(down)) = arrived else { return nowhere(point) };
-        let a = a.plain();
+        let a = a.without_exact();
         let shares = self.field_shares(&a, &trips.number, [up, down], &self.free_fall(&trips.number));
         let [displacement, velocity, strain] = shares.map(|shares| self.weighted(&shares));
         Field {
-            displacement: (displacement * &self.round_trip).plain(),
+            displacement: (displacement * &self.round_trip).without_exact(),
             velocity,
-            strain: (strain / &self.rod.wave_speed).plain(),
+            strain: (strain / &self.rod.wave_speed).without_exact(),
         }
     }
 
@@ -317,7 +317,7 @@ impl<N: Bounded> FirstContact<N> {
 
     pub(super) fn centre_at(&self, trips: &Trips<N>) -> (N, N) {
         let [height, rate] = self.centre_shares(&trips.number, trips.returned(Side::Left));
-        (self.combine(&height, &self.round_trip).plain(), self.weighted(&rate))
+        (self.combine(&height, &self.round_trip).without_exact(), self.weighted(&rate))
     }
 
     /// `h/t₁` and `h′`, with `k` returned rays.

@@ -8,7 +8,7 @@ use crate::error::Error;
 use crate::history::{Contact, Ending, Energy, Event, EventKind, Field, History, Scales, Side, StressPiece};
 use crate::number::{Open, Scalar};
 use crate::rod::{Parameters, Problem, Run};
-use crate::special::Bounded;
+use crate::special::BoundedSpecial;
 
 /// The first contact of a uniform start under a free top, damped or not, from the impact to the bounce, or as far as it is followed.
 ///
@@ -70,7 +70,7 @@ fn open<T>(what: &'static str, like: &impl Scalar, found: Result<T, Open>) -> Re
     found.map_err(|_| Error::not_decided(what, like.bits()))
 }
 
-impl<N: Bounded> ContactHistory<N> {
+impl<N: BoundedSpecial> ContactHistory<N> {
     /// The first contact of `problem`, up to the time that is asked for.
     ///
     /// **Errors**: [`Error::NoClosedForm`]; [`Error::NotDecided`] where more bits may settle how the contact ends.
@@ -154,10 +154,12 @@ impl<N: Bounded> ContactHistory<N> {
         if let Some(Release { trips, kind, rebound }) = &self.release {
             let end_velocity = match kind {
                 // The rod that were glued on would be pulled: that stress is what the end leaves with.
-                BounceKind::Jump => match (self.contact.stress_at(trips, Side::Right) * &rod.wave_speed).plain() {
-                    none if none.vanishes() == Ok(true) => zero.clone().widened(&none),
-                    pull => pull,
-                },
+                BounceKind::Jump => {
+                    match (self.contact.stress_at(trips, Side::Right) * &rod.wave_speed).without_exact() {
+                        none if none.vanishes() == Ok(true) => zero.clone().widened(&none),
+                        pull => pull,
+                    }
+                }
                 BounceKind::Root => zero.clone(),
             };
             self.events.push(Event {
@@ -173,7 +175,7 @@ impl<N: Bounded> ContactHistory<N> {
         let gained = velocity + &rod.speed + centre * &rod.damping * &zero.int(2) + rod.gravity.clone() * &self.end;
         self.contacts.push(Contact {
             to: self.release.as_ref().map(|_| self.end.clone()),
-            impulse: (gained * &rod.length).plain(),
+            impulse: (gained * &rod.length).without_exact(),
             peak_stress: self.contact.peak(&self.followed()?),
             from: zero,
         });
@@ -221,7 +223,7 @@ impl<N: Bounded> ContactHistory<N> {
         if open("whether that time is in the flight", time, time.below(&self.end))? {
             return Err(outside());
         }
-        Ok(rebound.flight(&time.clone().plain()))
+        Ok(rebound.flight(&time.clone().without_exact()))
     }
 
     fn moment(&self, time: &N) -> Result<Moment<'_, N>, Error> {
@@ -248,7 +250,7 @@ impl<N: Bounded> ContactHistory<N> {
     }
 }
 
-impl<N: Bounded> History<N> for ContactHistory<N> {
+impl<N: BoundedSpecial> History<N> for ContactHistory<N> {
     fn end(&self) -> N {
         self.end.clone()
     }

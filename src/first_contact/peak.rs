@@ -5,7 +5,7 @@ use super::field::{FirstContact, Trips};
 use super::first_root::{derivative, evaluate};
 use crate::history::Side;
 use crate::number::Scalar;
-use crate::special::{Bounded, Ray};
+use crate::special::{BoundedSpecial, Ray};
 
 /// Where the force may exceed a given one.
 enum Excess<N> {
@@ -35,7 +35,7 @@ const MOST_CELLS: i64 = 32;
 /// Steps towards a place where the force is greatest.
 const MOST_STEPS: usize = 60;
 
-impl<N: Bounded> FirstContact<N> {
+impl<N: BoundedSpecial> FirstContact<N> {
     /// The most compressive `v_x(0,·)` up to `end`.
     ///
     /// Without gravity it is `−μ/c` at the start: `|v_t ∓ c v_x|` cannot grow. In the first cell only its ends can be it: there
@@ -89,7 +89,7 @@ impl<N: Bounded> FirstContact<N> {
                 Excess::AtMost(bound) => at_most(most, &bound),
             };
         }
-        -(most * &self.total_speed() / &self.rod.wave_speed).plain()
+        -(most * &self.total_speed() / &self.rod.wave_speed).without_exact()
     }
 
     /// Where between `k t₁` and the place `to` of `[−1,1]` in its cell the force exceeds `known`, if anywhere.

@@ -2,12 +2,12 @@
 
 use super::field::{FirstContact, Trips};
 use crate::history::{Side, StressPiece};
-use crate::special::Bounded;
+use crate::special::BoundedSpecial;
 
 /// More terms than this are not taken: what they would add is a width.
 const MOST_TERMS: usize = 4000;
 
-impl<N: Bounded> FirstContact<N> {
+impl<N: BoundedSpecial> FirstContact<N> {
     /// `v_x(0,·)` from 0 to `end`, one piece for each round trip.
     pub(super) fn pieces(&self, end: &Trips<N>) -> Vec<StressPiece<N>> {
         let last = if end.on_lattice { end.passed - 1 } else { end.passed };

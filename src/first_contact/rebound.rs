@@ -1,9 +1,9 @@
 //! After the bounce: the free flight of the centre of mass and the coefficients of restitution.
 
 use super::field::FirstContact;
-use crate::number::Scalar;
+use crate::number::Bounded;
 use crate::rod::Parameters;
-use crate::special::{Bounded, log_mean, log_rest};
+use crate::special::{BoundedSpecial, log_mean, log_rest};
 
 /// The motion of the centre of mass from `t_b` on, up to the next impact.
 ///
@@ -30,7 +30,7 @@ pub struct Rebound<N> {
     pub(super) rod: Parameters<N>,
 }
 
-impl<N: Bounded> FirstContact<N> {
+impl<N: BoundedSpecial> FirstContact<N> {
     /// What follows when the ground lets go at `time`.
     pub fn rebound(&self, time: &N) -> Rebound<N> {
         let (centre, velocity) = self.centre(time);
@@ -38,7 +38,7 @@ impl<N: Bounded> FirstContact<N> {
     }
 }
 
-impl<N: Bounded> Rebound<N> {
+impl<N: BoundedSpecial> Rebound<N> {
     /// `h(t)` and `h′(t)` in flight.
     ///
     /// **Source**: (3.43), (3.44), with `φ₁` and `φ₂` for the quotients by `2r` and `4r²`.
@@ -106,7 +106,7 @@ impl<N: Bounded> Rebound<N> {
 }
 
 /// (3.63).
-pub(super) fn translational<N: Scalar>(rod: &Parameters<N>, centre: &N, velocity: &N) -> N {
+pub(super) fn translational<N: Bounded>(rod: &Parameters<N>, centre: &N, velocity: &N) -> N {
     let kinetic = velocity.square() / velocity.int(2);
-    ((kinetic + centre.clone() * &rod.gravity) * &rod.length).plain()
+    ((kinetic + centre.clone() * &rod.gravity) * &rod.length).without_exact()
 }

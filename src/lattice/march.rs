@@ -1,132 +1,102 @@
-//! The march: how far, with what limits, and what it leaves. The contact law itself is in `contact`.
+//! The march: round trip after round trip. The contact law itself is in `ground`.
 
-use super::contact::March;
-use super::scaled::Scaled;
-use super::trace::{Occurrence, Trace};
+use super::limits::{Halt, Limits, Until};
+use super::start::Scaled;
+use super::trace::{GroundEvent, Place, Trace};
 use crate::error::Error;
-use crate::number::Scalar;
-use crate::rod::{Parameters, Problem, Top};
+use crate::number::{Bounded, Open};
+use crate::rod::Top;
 
-/// How much a march may take.
-#[derive(Clone, Copy, Debug)]
-pub struct Limits {
-    /// The greatest number of pieces that is stored.
-    pub pieces: usize,
-    /// The first round trip that will be asked about: what is two trips older is forgotten on the way.
-    pub keep_from: usize,
-}
+/// More round trips than this are not left out at once: their number must fit the arithmetic.
+const MOST_LEAPT: usize = if usize::BITS < 64 { usize::MAX >> 2 } else { usize::MAX >> 12 };
 
-impl Limits {
-    /// Forgets what no question about `time` or later needs.
-    pub fn keeping_from(problem: &Problem, time: f64) -> Self {
-        let trips = Parameters::<f64>::of(problem, &()).map_or(0.0, |rod| time / rod.round_trip());
-        // One trip more, in case a rounding puts the time into it.
-        Limits { keep_from: (trips.clamp(1.0, 1e15) - 1.0) as usize, ..Limits::default() }
-    }
-}
-
-impl Default for Limits {
-    /// Ten million pieces: under a gigabyte in double precision.
-    fn default() -> Self {
-        Limits { pieces: 10_000_000, keep_from: 0 }
-    }
-}
-
-/// How far to march.
+/// The motion of the ground end: what a march leaves.
 #[derive(Clone, Debug)]
-pub enum Until<S> {
-    /// Through this many contacts, each with the flight after it.
-    Contacts(u32),
-    /// To this age of this round trip, included.
-    Age(usize, S),
-}
-
-/// Why a march ended.
-#[derive(Clone, Debug)]
-pub enum Halt<S> {
-    /// The time asked for.
-    Time,
-    /// The impact after the contacts asked for, at this trip and age.
-    NextImpact(usize, S),
-    /// In flight, and two round trips have repeated without an event.
-    NoFurtherImpact,
-    /// In contact, and two round trips have repeated without an event.
-    NoBounce,
-    /// A comparison of enclosures is open at or after this trip and age: what is there before it holds.
-    Open(usize, S),
-    /// The next landing is at `trip + fraction + (−q − √disc)/slope`, which is no fraction.
-    Irrational {
-        /// The round trip.
-        trip: usize,
-        /// The beginning of the piece, as an age in it.
-        fraction: S,
-        /// `q` there.
-        q: S,
-        /// `dq/dt`.
-        slope: S,
-        /// `q² − 2 v dq/dt > 0`, no square.
-        disc: S,
-    },
-}
-
-/// What a march leaves.
-#[derive(Clone, Debug)]
-pub struct Marched<S> {
+pub struct GroundMotion<N> {
     /// The ground trace.
-    pub trace: Trace<S>,
+    pub trace: Trace<N>,
     /// Impacts and releases.
-    pub occurrences: Vec<Occurrence<S>>,
+    pub events: Vec<GroundEvent<N>>,
     /// Touches in flight that start no contact: trip and age.
-    pub grazes: Vec<(usize, S)>,
+    pub grazes: Vec<(usize, N)>,
     /// Why it ended.
-    pub halt: Halt<S>,
+    pub halt: Halt<N>,
     /// How often the end landed, forgotten landings included.
     pub contacts: u32,
-    /// The greatest error bound of any piece, in roundoffs. The time of a tangential landing is not among them: it loses
-    /// half the digits, while the motion does not.
-    pub greatest_error: f64,
-    /// The same, relative to the greatest speed of the start, to the greatest height, and to time itself where it is greater than 1.
+    /// The greatest error bound of any line, relative to the greatest speed of the start, and of any height, relative to the
+    /// greatest height, in roundoffs.
     pub relative_error: f64,
+    /// The round trip in which a decision first lay within a bound of more than half of the digits: from there on, events
+    /// are not determined.
+    pub undetermined: Option<usize>,
+}
+
+/// The march, where it stands.
+pub(super) struct March<N> {
+    pub(super) trace: Trace<N>,
+    pub(super) events: Vec<GroundEvent<N>>,
+    pub(super) grazes: Vec<(usize, N)>,
+    pub(super) contact: bool,
+    pub(super) contacts: u32,
+    /// `v(0,·)`.
+    pub(super) height: N,
+    /// Whether that is zero, in contact or not.
+    pub(super) touches: bool,
+    /// `q` and its slope just before the break.
+    pub(super) arriving_q: N,
+    pub(super) arriving_slope: N,
+    /// How far the touch at the break may be off in time.
+    pub(super) early: Option<N>,
+    pub(super) relative_error: f64,
+    pub(super) undetermined: Option<usize>,
+    /// `u^{−1/2}`: half of the digits, in roundoffs.
+    pub(super) half_digits: f64,
+    pub(super) greatest_speed: f64,
+    /// At least `greatest_speed`, which is what a round trip lifts.
+    pub(super) greatest_height: f64,
+    pub(super) zero: N,
 }
 
 /// Marches `problem` over round trip after round trip. `observe` is told the trip and the number of pieces so far.
 ///
-/// **Accuracy**: *exact* in fractions; otherwise within the bounds that pieces and occurrences carry.
+/// **Accuracy**: *exact* in fractions, *enclosure* in intervals; otherwise within the bounds that the numbers carry.
 ///
-/// **Errors**: [`Error::TooManyPieces`].
-pub fn march<S: Scalar>(
-    problem: &Scaled<S>,
-    until: &Until<S>,
+/// **Errors**: [`Error::TooManyPieces`]; [`Error::Open`] where not even the start is settled.
+pub fn march<N: Bounded>(
+    problem: &Scaled<N>,
+    until: &Until<N>,
     limits: Limits,
     mut observe: impl FnMut(usize, usize),
-) -> Result<Marched<S>, Error> {
+) -> Result<GroundMotion<N>, Error> {
+    let zero = problem.gravity.zero();
     let mut state = March {
-        trace: Trace::new(problem.before.clone(), problem.top, problem.gravity.clone()),
-        unit: problem.gravity.roundoff(),
-        occurrences: Vec::new(),
+        trace: Trace::new(&problem.before, problem.top, problem.gravity.clone()),
+        events: Vec::new(),
         grazes: Vec::new(),
         contact: false,
         contacts: 0,
         height: problem.ground_start.clone(),
-        height_error: if S::RIGOROUS { 0.0 } else { 4.0 * problem.ground_start.to_f64().abs() },
-        arriving: problem.ground_velocity.clone(),
-        touch_error: 0.0,
-        greatest_error: 0.0,
+        touches: problem.ground_start.vanishes()?,
+        arriving_q: problem.ground_velocity.clone(),
+        arriving_slope: zero.clone(),
+        early: None,
         relative_error: 0.0,
-        half_digits: (f64::from(problem.gravity.bits().unwrap_or(0)) / 2.0).exp2(),
+        undetermined: None,
+        half_digits: (-zero.log2_roundoff() / 2.0).exp2(),
         greatest_speed: problem.greatest_speed(),
         greatest_height: problem.greatest_speed(),
+        zero,
     };
     let mut quiet_since = 0;
     let mut forgotten = 0;
     let mut trip = 0;
     let halt = loop {
-        let (events, height) = (forgotten + state.occurrences.len(), state.height.clone());
-        if let Some(halt) = state.trip(trip, until) {
+        let (events, height) = (forgotten + state.events.len(), state.height.clone());
+        if let Err(halt) = state.trip(trip, until) {
             break halt;
         }
         trip += 1;
-        let quiet = forgotten + state.occurrences.len() == events;
+        let quiet = forgotten + state.events.len() == events;
         if !quiet {
             quiet_since = trip;
         }
@@ -137,28 +107,71 @@ pub fn march<S: Scalar>(
         observe(trip, state.trace.count());
         if trip + 1 < limits.keep_from {
             state.trace.forget();
-            let kept = state.occurrences.partition_point(|occurrence| occurrence.trip + 1 < trip);
-            forgotten += kept;
-            state.occurrences.drain(..kept);
+            let old = state.events.partition_point(|event| event.trip + 1 < trip);
+            forgotten += old;
+            state.events.drain(..old);
             state.grazes.clear();
         }
-        // A leap wants a rise of two units; the difference of heights tells well enough whether to look closer.
-        let rises = state.height.clone() - &height >= height.int(2);
-        if rises && quiet && !state.contact {
-            trip += state.leap(trip, until);
+        // A leap wants a rise of two units.
+        if quiet && !state.contact && state.height.to_f64() - height.to_f64() >= 2.0 {
+            trip += state.leap(trip);
         }
-        // Two round trips without an event repeat for ever, up to the drift of a rod that flies freely without gravity.
+        if matches!(until, Until::Time { trip: last, .. } if *last < trip) {
+            break Halt::Time;
+        }
         if matches!(until, Until::Contacts(_)) && trip >= quiet_since + 2 {
-            let drift = state.height.clone() - height;
-            let free_fall = problem.top == Top::Free && !problem.gravity.is_zero();
-            if state.contact {
-                break Halt::NoBounce;
-            }
-            if !free_fall && (problem.top == Top::Fixed || !state.negative(&drift, state.height_error)) {
-                break Halt::NoFurtherImpact;
+            match state.repeats(problem, &height) {
+                Ok(None) => (),
+                Ok(Some(halt)) => break halt,
+                Err(Open) => break Halt::Open { trip, age: height.zero(), spread: state.trace.spread(&state.height) },
             }
         }
     };
-    let March { trace, occurrences, grazes, contacts, greatest_error, relative_error, .. } = state;
-    Ok(Marched { trace, occurrences, grazes, halt, contacts, greatest_error, relative_error })
+    let March { trace, events, grazes, contacts, relative_error, undetermined, .. } = state;
+    Ok(GroundMotion { trace, events, grazes, halt, contacts, relative_error, undetermined })
+}
+
+impl<N: Bounded> March<N> {
+    /// Two round trips without an event repeat for ever, up to the drift of a rod that flies freely without gravity; `height`
+    /// is that of a trip before.
+    fn repeats(&self, problem: &Scaled<N>, height: &N) -> Result<Option<Halt<N>>, Open> {
+        if self.contact {
+            return Ok(Some(Halt::NoBounce));
+        }
+        if self.trace.falls_freely() || (problem.top == Top::Free && self.height.below(height)?) {
+            return Ok(None);
+        }
+        Ok(Some(Halt::NoFurtherImpact))
+    }
+
+    /// Leaves out round trips of a long flight under gravity that only repeat the one before `trip`: as many as end surely in
+    /// flight. Returns how many.
+    ///
+    /// With `D = ∫ q dt` over that trip, `v(0,·)` at age `f` is `v + j (D − f − (j − 1)/2)` after `j` more trips, `v ≥ 0`: a
+    /// concave function of `j`, positive up to `k` for every `f ≤ 1` if `D − 1 − (k − 1)/2 > 0`. One trip is kept in hand,
+    /// for the rounding of `D` to a double too.
+    fn leap(&mut self, trip: usize) -> usize {
+        if !self.trace.falls_freely() {
+            return 0;
+        }
+        let one = self.zero.one();
+        let mut rise = self.zero.clone();
+        let from = Place { index: trip, piece: 0, age: self.zero.clone() };
+        let to = Place { index: trip, piece: self.trace.slice(trip).len() - 1, age: one.clone() };
+        self.trace.window(&from, &to, |part| rise = rise.clone() + part.integral());
+        let safe = (2.0 * rise.to_f64() * (1.0 - 1e-15) - 2.0).max(0.0) as usize;
+        let trips = safe.min(MOST_LEAPT);
+        if trips < 2 {
+            return 0;
+        }
+        // At the beginning of the next trip, j trips after that of this one: v + j (D − 1 − (j − 1)/2).
+        let j = rise.int(trips as i64);
+        let lift = (rise.clone() - &one - (j.clone() - &one).halved()) * &j;
+        // The top of the flight is among what is left out: D²/2.
+        self.greatest_height = self.greatest_height.max(rise.to_f64() * rise.to_f64() / 2.0);
+        self.height = self.height.clone() + lift;
+        self.arriving_q = self.arriving_q.clone() - &j;
+        self.trace.repeat(rise, trips);
+        trips
+    }
 }

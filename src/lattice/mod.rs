@@ -11,18 +11,26 @@
 //! `p` is piecewise linear. A break at age `f` of one round trip returns at the same age of every later one, so it is kept
 //! as that fraction and never drifts. There is no time step: the march goes from break to break and from event to event.
 //!
-//! Reading order: `scaled` (units and start), `trace` (what is stored), `march` (how far, and what it leaves), `contact`
-//! (contact law and events), `solution` (what can be asked, with the answers in a file of their own), `rays` (the jumps of Proposition 2).
+//! All of it is written on numbers that answer for their own error ([`crate::number::Bounded`]): estimates, fractions and
+//! enclosures.
+//!
+//! Reading order: `start` (units and start), `trace` (what is stored), `limits` (how far, and why no farther), `march`
+//! (trip after trip), `ground` (contact law and events), `history` (times on the lattice), `events` and `answers` (what can
+//! be asked), `rays` (the jumps of Proposition 2).
 
-mod contact;
+mod answers;
+mod events;
+mod ground;
+mod history;
+mod limits;
 mod march;
 mod rays;
-mod scaled;
-mod solution;
+mod start;
 mod trace;
 
-pub use march::{Halt, Limits, Marched, Until, march};
+pub use history::Undamped;
+pub use limits::{Halt, Limits, Until};
+pub use march::{GroundMotion, march};
 pub use rays::{Ray, Rays, reflection};
-pub use scaled::{Scaled, Units};
-pub use solution::Undamped;
-pub use trace::{Occurrence, Piece, Trace};
+pub use start::{Scaled, Units};
+pub use trace::{GroundEvent, Line, Piece, Trace};

@@ -2,8 +2,9 @@
 
 use glam::{DMat2, DVec2};
 
-use super::solution::Undamped;
-use crate::number::Scalar;
+use super::history::Undamped;
+use super::trace::Place;
+use crate::number::{Bounded, Scalar};
 use crate::rod::Top;
 
 /// A ray `ct = ±(x − 2kL)` of the lattice over one round trip: up from the ground, back from the top.
@@ -53,31 +54,34 @@ pub trait Rays<S> {
     fn rays(&self, trip: usize) -> Vec<Ray<S>>;
 }
 
-impl<S: Scalar> Rays<S> for Undamped<S> {
-    fn rays(&self, trip: usize) -> Vec<Ray<S>> {
-        let trace = &self.marched().trace;
+impl<N: Bounded> Rays<N> for Undamped<N> {
+    fn rays(&self, trip: usize) -> Vec<Ray<N>> {
+        let trace = &self.ground().trace;
         if trip >= trace.trips() {
             return Vec::new();
         }
         let units = self.units();
         let mut rays = Vec::new();
-        for piece in trace.slice(trip + 1) {
-            let [before, after] = [true, false].map(|before| trace.value(trip + 1, &piece.fraction, before));
-            let (_, earlier) = trace.find(trip + 1, &piece.fraction, true);
-            let jump = after - before;
-            let kink = piece.slope.clone() - &earlier.slope;
-            if jump.is_zero() && kink.is_zero() {
+        for piece in 0..trace.slice(trip + 1).len() {
+            let mut here = Place { index: trip + 1, piece, age: units.length.zero() };
+            let after = trace.piece(&here);
+            here.age = after.age;
+            let left = trace.place_before(here.index, piece, &here.age);
+            let before = trace.piece(&left);
+            let jump = after.line.value_at(&here.age) - before.line.value_at(&left.age);
+            let kink = after.line.slope - &before.line.slope;
+            if jump.vanishes() == Ok(true) && kink.vanishes() == Ok(true) {
                 continue;
             }
-            let half = jump * &units.velocity / units.length.int(2);
+            let half = (jump * &units.velocity).halved();
             let strain = half.clone() / &units.wave_speed;
-            let from = (units.length.int(trip as i64) + &piece.fraction) * &units.round_trip;
+            let from = (here.age.int(trip as i64) + &here.age) * &units.round_trip;
             let up = [-strain.clone(), half.clone()];
             let down = match self.top() {
                 Top::Free => [strain, half],
                 Top::Fixed => [-strain, -half],
             };
-            let kink = kink * &units.velocity / &units.round_trip / units.length.int(2);
+            let kink = (kink * &units.velocity / &units.round_trip).halved();
             rays.push(Ray { to: from.clone() + &units.round_trip, from, up, down, kink });
         }
         rays

@@ -1,69 +1,85 @@
 //! What the march stores: the upward invariant `p` at the ground, piece by piece.
 
-use crate::history::EventKind;
-use crate::number::Scalar;
+use crate::history::{EventKind, Side};
+use crate::number::{Bounded, Open};
 use crate::rod::Top;
 
-/// A stretch of the ground trace on which `p` is linear and nothing happens.
+/// `intercept + slope·f` at age `f`.
 ///
-/// The line is kept by its intercept, `p = slope·f + intercept` at age `f`, because that is all that a round trip changes: it
-/// only ever turns its sign and falls by gravity, so events leave no rounding in it, and it stays a fraction between events
-/// at irrational times.
-///
-/// The errors are bounds in units of the roundoff `u` of the number system, zero in exact ones: the true line lies within
-/// `value_error · u` of the stored one, the true height within `height_error · u`.
+/// The intercept is all that a round trip changes: it only ever turns its sign and falls by gravity, so events leave no
+/// rounding in it, and it stays a fraction between events at irrational times.
 #[derive(Clone, Debug)]
-pub struct Piece<S> {
-    /// Where it begins, as an age in its round trip.
-    pub fraction: S,
-    /// `p` where its line passes age 0.
-    pub intercept: S,
-    /// `dp/dt`.
-    pub slope: S,
-    /// `v(0,·)` at its beginning.
-    pub height: S,
-    /// Whether the end stands on the ground.
-    pub contact: bool,
-    /// Bound on the error of the line, in roundoffs.
-    pub value_error: f64,
-    /// Bound on the error of `height`, in roundoffs.
-    pub height_error: f64,
-    /// Bound on the error of `fraction`, in roundoffs.
-    pub fraction_error: f64,
+pub struct Line<N> {
+    /// The value where the line passes age 0.
+    pub intercept: N,
+    /// The rate of change.
+    pub slope: N,
 }
 
-impl<S: Scalar> Piece<S> {
-    /// `p` at age `fraction`.
-    pub fn at(&self, fraction: &S) -> S {
-        self.slope.clone() * fraction + &self.intercept
+impl<N: Bounded> Line<N> {
+    /// The value at `age`.
+    pub fn value_at(&self, age: &N) -> N {
+        self.slope.clone() * age + &self.intercept
     }
+
+    /// The value at the stored `age`.
+    pub(super) fn value_at_stored(&self, age: &N) -> N {
+        self.slope.clone().times_stored(age) + &self.intercept
+    }
+
+    /// Whether both are surely one line, or one within their bounds.
+    pub(super) fn same(&self, other: &Self) -> bool {
+        self.slope.same(&other.slope) && self.intercept.same(&other.intercept)
+    }
+}
+
+impl<N: Bounded> std::ops::Neg for Line<N> {
+    type Output = Self;
+    fn neg(self) -> Self {
+        Line { intercept: -self.intercept, slope: -self.slope }
+    }
+}
+
+/// A stretch of the ground trace on which `p` is linear and nothing happens.
+#[derive(Clone, Debug)]
+pub struct Piece<N> {
+    /// Where it begins, as an age in its round trip.
+    pub age: N,
+    /// `p`.
+    pub line: Line<N>,
+    /// `v(0,·)` at its stored beginning.
+    pub height: N,
+    /// Whether the end stands on the ground.
+    pub contact: bool,
 }
 
 /// A change between contact and flight, in lattice units.
 #[derive(Clone, Debug)]
-pub struct Occurrence<S> {
+pub struct GroundEvent<N> {
     /// Landing or leaving.
     pub kind: EventKind,
     /// The round trip in which it happens.
     pub trip: usize,
     /// The age in it.
-    pub fraction: S,
+    pub age: N,
+    /// The number of the piece of this trip that begins with it.
+    pub piece: usize,
+    /// The number of the piece of the trip before that comes back meanwhile.
+    pub incoming: usize,
     /// `v_t(0,·)` just before an impact, just after a release; see [`crate::history::Event`].
-    pub end_velocity: S,
-    /// Bound on the error of `fraction`, in roundoffs.
-    pub error: f64,
+    pub end_velocity: N,
 }
 
 /// The trace of `p` at the ground from one round trip before the start to the end of the march.
 #[derive(Clone, Debug)]
-pub struct Trace<S> {
-    pieces: Vec<Piece<S>>,
+pub struct Trace<N> {
+    pieces: Vec<Piece<N>>,
     /// The round trips that are stored, the first being the one before the start.
-    slots: Vec<Slot<S>>,
+    slots: Vec<Slot<N>>,
     /// The index after the last trip.
     end: usize,
     top: Top,
-    gravity: S,
+    gravity: N,
 }
 
 /// A stored round trip, and those after it that only repeat it.
@@ -71,57 +87,108 @@ pub struct Trace<S> {
 /// In flight under gravity `q` falls by `g = 1` from one trip to the next and nothing else changes. With `D = ∫ q dt` over
 /// the stored trip, `j` trips later `p` is lower by `j` and `v(0,·)` at age `f` higher by `j (D − f − (j − 1)/2)`.
 #[derive(Clone, Debug)]
-struct Slot<S> {
+struct Slot<N> {
     /// The index of the trip, 0 being the one before the start.
     first: usize,
     /// Where it begins in the pieces.
     start: usize,
-    /// `D`, if trips that repeat this one follow it, and a bound on its error in roundoffs.
-    rise: Option<(S, f64)>,
+    /// `D`, if trips that repeat this one follow it.
+    rise: Option<N>,
+}
+
+/// An age in a trip, with the piece of that trip in which it lies.
+#[derive(Clone, Debug)]
+pub(super) struct Place<N> {
+    /// 0: the trip before the start.
+    pub(super) index: usize,
+    pub(super) piece: usize,
+    pub(super) age: N,
 }
 
 /// A part of a piece that lies in a window: `p = value + slope·s` for `0 ≤ s ≤ width`, `offset` after the window's start.
-pub(crate) struct Part<S> {
-    pub(crate) offset: S,
-    pub(crate) width: S,
-    pub(crate) value: S,
-    pub(crate) slope: S,
+pub(super) struct Part<N> {
+    pub(super) offset: N,
+    pub(super) width: N,
+    pub(super) value: N,
+    pub(super) slope: N,
+    /// `[p]` at its beginning, and the deviation of that in age, where it is a break whose age is not known exactly.
+    pub(super) shift: Option<(N, N)>,
+    /// The deviation in age of its end.
+    pub(super) late_end: Option<N>,
 }
 
-impl<S: Scalar> Trace<S> {
-    pub(crate) fn new(before: Vec<(S, S, S)>, top: Top, gravity: S) -> Self {
-        let mut pieces: Vec<Piece<S>> = before
-            .into_iter()
-            .map(|(fraction, value, slope)| {
-                // A few roundings stand behind each datum of the start.
-                let value_error = if S::RIGOROUS { 0.0 } else { 10.0 * (value.to_f64().abs() + slope.to_f64().abs()) };
-                let fraction_error = if S::RIGOROUS { 0.0 } else { 4.0 * fraction.to_f64() };
-                let (height, intercept) = (fraction.zero(), value - slope.clone() * &fraction);
-                Piece {
-                    fraction,
-                    intercept,
-                    slope,
-                    height,
-                    contact: false,
-                    value_error,
-                    height_error: 0.0,
-                    fraction_error,
-                }
-            })
-            .collect();
+/// A value where the place that it is taken at may deviate.
+pub(super) fn at_deviating<N: Bounded>(value: &N, slope: &N, late: Option<&N>) -> N {
+    late.map_or_else(|| value.clone(), |late| late.clone() * slope + value)
+}
+
+impl<N: Bounded> Part<N> {
+    /// `p` at both ends, wherever they are.
+    pub(super) fn ends(&self) -> [N; 2] {
+        let late = self.shift.as_ref().map(|(_, late)| late);
+        let end = self.slope.clone() * &self.width + &self.value;
+        [at_deviating(&self.value, &self.slope, late), at_deviating(&end, &self.slope, self.late_end.as_ref())]
+    }
+
+    /// `∫ p ds`.
+    pub(super) fn integral(&self) -> N {
+        let mean = self.value.clone() + (self.slope.clone() * &self.width).halved();
+        let integral = mean * &self.width;
+        match &self.shift {
+            Some((jump, late)) => integral + jump.clone() * late,
+            None => integral,
+        }
+    }
+
+    /// `∫ s p ds`.
+    pub(super) fn moment(&self) -> N {
+        let rise = self.slope.clone() * &self.width;
+        let three = rise.int(3);
+        (self.value.clone().halved() + rise / three) * self.width.square()
+    }
+
+    /// `∫ p² ds`, as a sum of squares about the middle.
+    pub(super) fn square_integral(&self) -> N {
+        let rise = self.slope.clone() * &self.width;
+        let middle = self.value.clone() + rise.clone().halved();
+        let twelve = rise.int(12);
+        let integral = (middle.square() + rise.square() / twelve) * &self.width;
+        match &self.shift {
+            // [p²] = [p] (p₊ + p₋)
+            Some((jump, late)) => integral + (self.value.clone().doubled() - jump) * jump * late,
+            None => integral,
+        }
+    }
+
+    /// Without exact numbers inside.
+    pub(super) fn without_exact(self) -> Self {
+        let Part { offset, width, value, slope, .. } = self;
+        let [offset, width, value, slope] = [offset, width, value, slope].map(N::without_exact);
+        Part { offset, width, value, slope, ..self }
+    }
+}
+
+impl<N: Bounded> Trace<N> {
+    pub(super) fn new(before: &[(N, N, N)], top: Top, gravity: N) -> Self {
+        let piece = |(age, value, slope): &(N, N, N)| {
+            let intercept = value.clone() - slope.clone() * age;
+            let line = Line { intercept, slope: slope.clone() };
+            Piece { age: age.clone(), line, height: age.zero(), contact: false }
+        };
         // A first contact and its flight fit without growing.
-        pieces.reserve(64);
+        let mut pieces = Vec::with_capacity(before.len() + 64);
+        pieces.extend(before.iter().map(piece));
         Trace { pieces, slots: vec![Slot { first: 0, start: 0, rise: None }], end: 1, top, gravity }
     }
 
     /// All pieces that are stored, the round trip before the start included.
-    pub fn pieces(&self) -> &[Piece<S>] {
+    pub fn pieces(&self) -> &[Piece<N>] {
         &self.pieces
     }
 
     /// The stored round trips after the start: number (from 0) and pieces. Between them lie flights that repeat the trip
     /// before them but for gravity.
-    pub fn stored(&self) -> impl Iterator<Item = (usize, &[Piece<S>])> {
+    pub fn stored(&self) -> impl Iterator<Item = (usize, &[Piece<N>])> {
         let after_start = self.slots.iter().enumerate().filter(|(_, slot)| slot.first > 0);
         after_start.map(|(k, slot)| (slot.first - 1, self.pieces_of(k)))
     }
@@ -141,12 +208,12 @@ impl<S: Scalar> Trace<S> {
     }
 
     /// The first trip with another stored before it, which is what questions about it need.
-    pub(crate) fn begin(&self) -> usize {
+    pub(super) fn begin(&self) -> usize {
         self.slots.first().map_or(0, |slot| slot.first) + 1
     }
 
     /// Forgets all but the last two trips that are stored.
-    pub(crate) fn forget(&mut self) {
+    pub(super) fn forget(&mut self) {
         let old = self.slots.len().saturating_sub(2);
         let from = self.slots[old].start;
         self.slots.drain(..old);
@@ -156,7 +223,7 @@ impl<S: Scalar> Trace<S> {
         self.pieces.drain(..from);
     }
 
-    fn pieces_of(&self, slot: usize) -> &[Piece<S>] {
+    fn pieces_of(&self, slot: usize) -> &[Piece<N>] {
         let to = self.slots.get(slot + 1).map_or(self.pieces.len(), |next| next.start);
         &self.pieces[self.slots[slot].start..to]
     }
@@ -173,63 +240,63 @@ impl<S: Scalar> Trace<S> {
     }
 
     /// The pieces that stand for trip `index`: its own, or those of the trip that it repeats.
-    pub(crate) fn slice(&self, index: usize) -> &[Piece<S>] {
+    pub(super) fn slice(&self, index: usize) -> &[Piece<N>] {
         self.pieces_of(self.slot(index).0)
     }
 
-    /// A piece of [`Trace::slice`] as it is in trip `index`.
-    fn piece(&self, index: usize, piece: &Piece<S>) -> Piece<S> {
-        let (slot, later) = self.slot(index);
-        let mut piece = piece.clone();
-        if let (Some((rise, rise_error)), true) = (&self.slots[slot].rise, later > 0) {
-            let (j, two) = (rise.int(later as i64), rise.int(2));
-            let lift = (rise.clone() - &piece.fraction - (j.clone() - rise.one()) / two) * &j;
-            if !S::RIGOROUS {
-                piece.value_error += piece.intercept.to_f64().abs() + later as f64;
-                let (trips, size) = (later as f64, rise.to_f64().abs() + later as f64);
-                piece.height_error += trips * (rise_error + 8.0 * size) + piece.height.to_f64().abs();
-            }
-            piece.intercept = piece.intercept - j;
+    /// Where the pieces that stand for trip `index` begin.
+    pub(super) fn start_of(&self, index: usize) -> usize {
+        self.slots[self.slot(index).0].start
+    }
+
+    /// How far `p` in trip `index` is below the pieces that stand for it, if it is.
+    pub(super) fn fallen(&self, index: usize) -> Option<N> {
+        let later = self.slot(index).1;
+        (later > 0).then(|| self.gravity.int(later as i64))
+    }
+
+    /// The piece at `place`, as it is in that trip.
+    pub(super) fn piece(&self, place: &Place<N>) -> Piece<N> {
+        let (slot, later) = self.slot(place.index);
+        let mut piece = self.pieces_of(slot)[place.piece].clone();
+        if let (Some(rise), true) = (&self.slots[slot].rise, later > 0) {
+            let j = rise.int(later as i64);
+            let lift = (rise.clone().minus_stored(&piece.age) - (j.clone() - rise.one()).halved()) * &j;
+            piece.line.intercept = piece.line.intercept - j;
             piece.height = piece.height + lift;
         }
         piece
     }
 
-    /// Where the pieces that stand for trip `index` begin, and how far `p` has fallen since.
-    pub(crate) fn start_of(&self, index: usize) -> (usize, S) {
-        let (slot, later) = self.slot(index);
-        (self.slots[slot].start, self.gravity.int(later as i64) * &self.gravity)
-    }
-
-    pub(crate) fn begin_trip(&mut self) {
+    pub(super) fn begin_trip(&mut self) {
         self.slots.push(Slot { first: self.end, start: self.pieces.len(), rise: None });
         self.end += 1;
     }
 
     /// Whether a flight repeats itself but for the fall: gravity and a free top.
-    pub(crate) fn falls_freely(&self) -> bool {
-        self.top == Top::Free && !self.gravity.is_zero()
+    pub(super) fn falls_freely(&self) -> bool {
+        self.top == Top::Free && self.gravity.to_f64() > 0.0
     }
 
     /// Where the pieces of the last trip begin.
-    pub(crate) fn last_start(&self) -> usize {
+    pub(super) fn last_start(&self) -> usize {
         self.slots.last().map_or(0, |slot| slot.start)
     }
 
-    /// Lets `trips` trips that repeat the last one follow it; `rise` is `∫ q dt` over that one, within `error` roundoffs.
-    pub(crate) fn repeat(&mut self, rise: S, error: f64, trips: usize) {
+    /// Lets `trips` trips that repeat the last one follow it; `rise` is `∫ q dt` over that one.
+    pub(super) fn repeat(&mut self, rise: N, trips: usize) {
         if let Some(slot) = self.slots.last_mut() {
-            slot.rise = Some((rise, error));
+            slot.rise = Some(rise);
             self.end += trips;
         }
     }
 
-    pub(crate) fn push(&mut self, piece: Piece<S>) {
+    pub(super) fn push(&mut self, piece: Piece<N>) {
         self.pieces.push(piece);
     }
 
     /// Forgets all pieces but the first `count`, and the last trip if nothing is left of it.
-    pub(crate) fn truncate(&mut self, count: usize) {
+    pub(super) fn truncate(&mut self, count: usize) {
         self.pieces.truncate(count);
         if self.slots.last().is_some_and(|slot| slot.start >= count && slot.rise.is_none()) {
             self.slots.pop();
@@ -240,13 +307,13 @@ impl<S: Scalar> Trace<S> {
     /// How far apart two solutions may be that both go on from here as it is known, in `v(0,·)` and within a round trip: as far
     /// as the enclosures are wide in which `height`, the lines and the jumps between them lie. The reflection at zero does not
     /// take two paths further apart than what drives them.
-    pub(crate) fn apart(&self, height: &S) -> f64 {
+    pub(super) fn spread(&self, height: &N) -> f64 {
         // What has left the ground in this trip, and what the one before still brings.
         let trips = [self.end.saturating_sub(2), self.end - 1].map(|index| self.slice(index));
-        let lines = trips.into_iter().flatten().map(|piece| piece.intercept.width().to_f64()).fold(0.0, f64::max);
-        let jump = |pair: &[Piece<S>]| {
-            let at = &pair[1].fraction;
-            (pair[1].at(at) - pair[0].at(at)).to_f64().abs() * at.width().to_f64()
+        let lines = trips.into_iter().flatten().map(|piece| piece.line.intercept.width().to_f64()).fold(0.0, f64::max);
+        let jump = |pair: &[Piece<N>]| {
+            let age = &pair[1].age;
+            (pair[1].line.value_at(age) - pair[0].line.value_at(age)).to_f64().abs() * age.width().to_f64()
         };
         let jumps: f64 = trips.into_iter().flat_map(|pieces| pieces.windows(2).map(jump)).sum();
         // Doubles that were added without looking where they round to.
@@ -254,69 +321,73 @@ impl<S: Scalar> Trace<S> {
     }
 
     /// `p → q`: what comes back a round trip later.
-    pub(crate) fn returned(&self, p: &S) -> S {
+    pub(super) fn returned(&self, line: Line<N>) -> Line<N> {
         match self.top {
-            Top::Free => p.clone() - &self.gravity,
-            Top::Fixed => -p.clone(),
+            Top::Free => Line { intercept: line.intercept - &self.gravity, ..line },
+            Top::Fixed => -line,
         }
     }
 
-    /// The slope of what comes back.
-    pub(crate) fn returned_slope(&self, slope: &S) -> S {
-        match self.top {
-            Top::Free => slope.clone(),
-            Top::Fixed => -slope.clone(),
-        }
-    }
-
-    /// The piece of `index` (0: before the start) in which `fraction` lies; at its very beginning the earlier one if
-    /// `before` is asked for, which may be the last of the round trip before.
-    pub(crate) fn find(&self, index: usize, fraction: &S, before: bool) -> (usize, Piece<S>) {
+    /// The place of `age` in trip `index` (0: before the start): in the piece that begins there, or from the left in the one
+    /// before it, which may be the last of the trip before.
+    pub(super) fn place(&self, index: usize, age: &N, side: Side) -> Result<Place<N>, Open> {
         let pieces = self.slice(index);
-        let behind = pieces
-            .partition_point(|piece| if before { piece.fraction < *fraction } else { piece.fraction <= *fraction });
-        match (behind, index) {
-            (0, 0) => (0, pieces[0].clone()),
-            (0, _) => {
-                let earlier = self.slice(index - 1);
-                (index - 1, self.piece(index - 1, &earlier[earlier.len() - 1]))
-            }
-            _ => (index, self.piece(index, &pieces[behind - 1])),
+        let (mut begun, mut later) = (0, pieces.len());
+        while begun < later {
+            let middle = (begun + later) / 2;
+            let has_begun = match side {
+                Side::Left => pieces[middle].age.below(age)?,
+                Side::Right => !age.below(&pieces[middle].age)?,
+            };
+            if has_begun { begun = middle + 1 } else { later = middle }
+        }
+        Ok(self.place_before(index, begun, age))
+    }
+
+    /// The place of the `age` at which a piece begins, from the left.
+    pub(super) fn place_before(&self, index: usize, piece: usize, age: &N) -> Place<N> {
+        match (piece, index) {
+            (0, 0) => Place { index, piece, age: age.clone() },
+            (0, _) => Place { index: index - 1, piece: self.slice(index - 1).len() - 1, age: age.clone() + age.one() },
+            _ => Place { index, piece: piece - 1, age: age.clone() },
         }
     }
 
-    /// `p` at age `fraction` of trip `index` (0: before the start), from the asked side.
-    pub(crate) fn value(&self, index: usize, fraction: &S, before: bool) -> S {
-        let (found, piece) = self.find(index, fraction, before);
-        let age = if found == index { fraction.clone() } else { fraction.clone() + fraction.one() };
-        piece.at(&age)
-    }
-
-    /// `p` from one trip and age to another (0: the trip before the start), in parts.
-    pub(crate) fn window(&self, from: (usize, &S), until: (usize, &S), mut visit: impl FnMut(Part<S>)) {
-        let (mut index, mut from, mut offset) = (from.0, from.1.clone(), from.1.zero());
-        let mut pieces = self.slice(index);
-        let mut at = pieces.partition_point(|piece| piece.fraction <= from).saturating_sub(1);
-        let mut fallen = self.start_of(index).1;
-        loop {
-            let piece = &pieces[at];
-            let to = pieces.get(at + 1).map_or_else(|| from.one(), |next| next.fraction.clone());
-            // Ages are compared, never widths: with themselves they agree in every number system.
-            let done = index > until.0 || (index == until.0 && to >= *until.1);
-            let to = if done { until.1.clone() } else { to };
-            if to > from {
-                let (width, value) = (to.clone() - &from, piece.at(&from) - &fallen);
-                visit(Part { offset: offset.clone(), width: width.clone(), value, slope: piece.slope.clone() });
-                offset = offset + width;
-            }
-            if done || (at + 1 == pieces.len() && index + 1 == self.end) {
+    /// `p` from one place to another, in parts.
+    pub(super) fn window(&self, from: &Place<N>, until: &Place<N>, mut visit: impl FnMut(Part<N>)) {
+        let (mut index, mut k) = (from.index, from.piece);
+        let (mut start, mut offset, mut shift) = (from.age.clone(), from.age.zero(), None);
+        let (mut pieces, mut fallen) = (self.slice(index), self.fallen(index));
+        while (index, k) <= (until.index, until.piece) {
+            let (line, next) = (&pieces[k].line, pieces.get(k + 1));
+            let last = (index, k) == (until.index, until.piece);
+            let to = match next {
+                _ if last => until.age.clone(),
+                Some(next) => next.age.clone().nominal(),
+                None => start.one(),
+            };
+            let (width, value) = (to.clone() - &start, line.value_at(&start));
+            let value = match &fallen {
+                Some(fallen) => value - fallen,
+                None => value,
+            };
+            let late_end = if last { None } else { next.and_then(|next| next.age.deviation()) };
+            let next_shift =
+                late_end.clone().zip(next).map(|(late, next)| (next.line.value_at(&to) - line.value_at(&to), late));
+            let slope = line.slope.clone();
+            visit(Part { offset: offset.clone(), width: width.clone(), value, slope, shift, late_end });
+            if last {
                 return;
             }
-            if at + 1 < pieces.len() {
-                (at, from) = (at + 1, to);
+            (offset, shift) = (offset + width, next_shift);
+            if next.is_some() {
+                (k, start) = (k + 1, to);
             } else {
-                (index, at, from) = (index + 1, 0, to.zero());
-                (pieces, fallen) = (self.slice(index), self.start_of(index).1);
+                (index, k, start) = (index + 1, 0, to.zero());
+                if index == self.end {
+                    return;
+                }
+                (pieces, fallen) = (self.slice(index), self.fallen(index));
             }
         }
     }

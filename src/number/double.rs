@@ -142,12 +142,21 @@ impl Rounded for f64 {
     fn unit(&self) -> f64 {
         f64::EPSILON / 2.0
     }
+
+    #[inline]
+    fn in_roundoffs(&self) -> f64 {
+        self.abs() / (f64::EPSILON / 2.0)
+    }
 }
 
 impl Answer for f64 {
     type Carried = Estimate<f64>;
 
     fn carry(&self) -> Estimate<f64> {
+        Estimate::rounded(*self, 1.0)
+    }
+
+    fn exactly(&self) -> Estimate<f64> {
         Estimate::exact(*self)
     }
 

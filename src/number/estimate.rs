@@ -47,6 +47,12 @@ impl<S> Estimate<S> {
         &self.value
     }
 
+    /// Adds so many roundoffs to the bound.
+    #[inline]
+    pub(super) fn widen(&mut self, roundoffs: f64) {
+        self.error += roundoffs;
+    }
+
     /// The value, without its bound.
     pub fn into_value(self) -> S {
         self.value
@@ -67,9 +73,16 @@ impl<S: Rounded> Estimate<S> {
         Estimate { value, error }
     }
 
-    /// The bound of the error as a double: zero where it is below the least one.
+    /// The bound of the error as a double.
+    #[inline]
     pub fn bound(&self) -> f64 {
         self.error * self.value.unit()
+    }
+
+    /// The bound of the error, in roundoffs, if zero stands for the number.
+    #[inline]
+    pub(super) fn error_of_zero(&self) -> f64 {
+        self.error + self.value.in_roundoffs()
     }
 
     /// `value`, with `error` from the operands and one rounding.
@@ -206,10 +219,16 @@ impl<S: Rounded> Scalar for Estimate<S> {
             _ if self.value.is_negative() => Some(Estimate::new(self.value.zero(), self.root_of_error())),
             _ => {
                 let value = self.value.try_sqrt()?;
-                let (root, size) = (value.to_f64(), self.value.to_f64());
-                let least = (size - self.bound()).max(0.0).sqrt();
-                let simple = if self.error == 0.0 { 0.0 } else { self.error / (root + least) };
-                Some(Estimate::once(value, simple.min(self.root_of_error())))
+                let least = self.value.to_f64() - self.bound();
+                // From the bound on, the first of both is the smaller one.
+                let error = if self.error == 0.0 {
+                    0.0
+                } else if least > 0.0 {
+                    self.error / (value.to_f64() + least.sqrt())
+                } else {
+                    self.root_of_error()
+                };
+                Some(Estimate::once(value, error))
             }
         }
     }
@@ -240,6 +259,14 @@ impl<S: Rounded> Scalar for Estimate<S> {
             return Ok(Ordering::Equal);
         }
         self.value.sign()
+    }
+
+    /// `|a² − a′²| = |a − a′| |a + a′|`.
+    #[inline]
+    fn square(&self) -> Self {
+        let value = self.value.square();
+        let error = if self.error == 0.0 { 0.0 } else { self.error * (2.0 * self.value.to_f64().abs() + self.bound()) };
+        Estimate::once(value, error)
     }
 
     fn log2_error(&self) -> f64 {
@@ -285,9 +312,7 @@ impl<S: Rounded> Scalar for Estimate<S> {
     }
 
     fn widened(self, by: &Self) -> Self {
-        // Both in roundoffs; what is below a roundoff counts as one.
-        let by = (by.value.magnitude() / self.value.roundoff()).to_f64() + by.error;
-        Estimate { error: self.error + by, value: self.value }
+        Estimate { error: self.error + by.error_of_zero(), value: self.value }
     }
 }
 

@@ -112,7 +112,11 @@ impl Analytic for Float {
 
 impl Rounded for Float {
     fn unit(&self) -> f64 {
-        (-f64::from(self.prec())).exp2()
+        (-f64::from(self.prec())).exp2().max(f64::MIN_POSITIVE)
+    }
+
+    fn in_roundoffs(&self) -> f64 {
+        (self.clone() << self.prec()).to_f64().abs()
     }
 }
 
@@ -120,6 +124,10 @@ impl Answer for Float {
     type Carried = Estimate<Float>;
 
     fn carry(&self) -> Estimate<Float> {
+        Estimate::rounded(self.clone(), 1.0)
+    }
+
+    fn exactly(&self) -> Estimate<Float> {
         Estimate::exact(self.clone())
     }
 

@@ -6,7 +6,7 @@ use rug::float::Round;
 use rug::ops::DivRounding;
 use rug::{Float, Integer, Rational};
 
-use super::{Answer, Number, Open, Scalar};
+use super::{Answer, Bounded, Number, Open, Scalar};
 
 /// Square factors below this leave the root of a surd that is printed.
 const SMALL_FACTOR: u32 = 10_000;
@@ -110,6 +110,12 @@ impl Scalar for Rational {
 
     fn is_zero(&self) -> bool {
         self.cmp0().is_eq()
+    }
+}
+
+impl Bounded for Rational {
+    fn halved(self) -> Self {
+        self >> 1u32
     }
 }
 

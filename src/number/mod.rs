@@ -11,6 +11,7 @@
 
 #[cfg(not(feature = "mp"))]
 mod absent;
+mod bounded;
 mod double;
 mod estimate;
 #[cfg(feature = "mp")]
@@ -27,6 +28,8 @@ mod text;
 
 #[cfg(not(feature = "mp"))]
 pub use absent::{Float, Interval, Rational};
+pub use bounded::Bounded;
+pub(crate) use bounded::sign_within;
 pub use estimate::Estimate;
 #[cfg(feature = "mp")]
 pub use float::{bits_for_digits, decimal};

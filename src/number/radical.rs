@@ -116,7 +116,7 @@ impl Radical {
         }
     }
 
-    fn scaled(&self, by: &Rational) -> Option<Self> {
+    pub(super) fn scaled(&self, by: &Rational) -> Option<Self> {
         Radical::checked(self.terms.iter().map(|(p, c)| (p.clone(), Rational::from(c * by))).collect())
     }
 

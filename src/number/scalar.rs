@@ -4,7 +4,7 @@ use std::cmp::Ordering;
 use std::fmt::Debug;
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
-use super::Number;
+use super::{Bounded, Number};
 
 /// A comparison that what is known of its operands does not settle: an enclosure reaches to both sides.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
@@ -160,12 +160,6 @@ pub trait Scalar:
         self.zero()
     }
 
-    /// The same number with a name, so that it can be told to be itself where nothing else is known of it. Only enclosures need
-    /// that.
-    fn named(self) -> Self {
-        self
-    }
-
     /// Zero, in the precision of `self`.
     fn zero(&self) -> Self {
         self.int(0)
@@ -184,27 +178,6 @@ pub trait Scalar:
     /// `|self|`.
     fn magnitude(&self) -> Self {
         if self.is_negative() { -self.clone() } else { self.clone() }
-    }
-
-    /// Whether both are surely the same number; false also where that is not known.
-    fn same(&self, other: &Self) -> bool {
-        self == other
-    }
-
-    /// The same number by another formula, for enclosures: what one of them knows is known.
-    fn also(self, other: Self) -> Self {
-        let _ = other;
-        self
-    }
-
-    /// Without what is carried to decide comparisons, for sums that none will be asked of.
-    fn plain(self) -> Self {
-        self
-    }
-
-    /// Whether a comparison of enclosures was left open since this was last asked.
-    fn take_open() -> bool {
-        false
     }
 
     /// Whether both are the same number but for eight roundings: `3 · 0.2` is `0.6`. Exact and enclosed numbers are compared as they are.
@@ -238,18 +211,27 @@ pub trait Scalar:
 
 /// A number system that rounds and carries no bound of it: `f64`, `Float`. [`Estimate`](super::Estimate) adds the bound.
 pub trait Rounded: Analytic + PartialOrd {
-    /// The unit roundoff `u` as a double, zero where it is below the least one.
+    /// The unit roundoff `u` as a double, no less than the least normal one.
     fn unit(&self) -> f64;
+
+    /// `|self|/u`.
+    fn in_roundoffs(&self) -> f64;
 }
 
 /// A number system of answers, with the one that computations carry beside it: the bound of a rounded number, nothing for
 /// exact numbers and enclosures.
 pub trait Answer: Scalar {
     /// What computations are done in.
-    type Carried: Scalar<Precision = Self::Precision>;
+    type Carried: Bounded<Precision = Self::Precision>;
 
-    /// The number in the carried system, without an error.
+    /// The number in the carried system. A rounded number stands for all that round to it: `0.6` is 6/10 and meets a ray
+    /// that comes at 3 · 0.2.
     fn carry(&self) -> Self::Carried;
+
+    /// The number in the carried system, taken for exact.
+    fn exactly(&self) -> Self::Carried {
+        self.carry()
+    }
 
     /// The number without what is carried beside it.
     fn strip(carried: Self::Carried) -> Self;

@@ -111,11 +111,11 @@ impl<S: Answer> Parameters<S> {
     /// ```
     pub fn carry(&self) -> Parameters<S::Carried> {
         Parameters {
-            length: self.length.carry(),
-            wave_speed: self.wave_speed.carry(),
-            damping: self.damping.carry(),
-            gravity: self.gravity.carry(),
-            speed: self.speed.carry(),
+            length: self.length.exactly(),
+            wave_speed: self.wave_speed.exactly(),
+            damping: self.damping.exactly(),
+            gravity: self.gravity.exactly(),
+            speed: self.speed.exactly(),
         }
     }
 }

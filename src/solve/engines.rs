@@ -23,8 +23,12 @@ impl Target for f64 {
         let problem = &*reaching(problem, plan);
         Ok(match plan.engine {
             Engine::Lattice => {
-                let history = Undamped::<f64>::solve_within(problem, &(), limits(problem, plan), |a, b| observe(a, b))?;
-                Arc::new(Raised::new(history))
+                let history =
+                    Undamped::<Estimate<f64>>::solve_within(problem, &(), limits(problem, plan), |a, b| observe(a, b))?;
+                if cfg!(feature = "mp") && history.undetermined_from().is_some() {
+                    return Err(Error::NotDecided { what: "in which order the events come", bits: 53 });
+                }
+                Arc::new(history)
             }
             Engine::Cells => Arc::new(Raised::new(Damped::<f64>::solve(problem, &(), CELL_DIGITS)?)),
             Engine::ClosedForm | Engine::ClosedFormThenCells => {

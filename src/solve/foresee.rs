@@ -2,11 +2,8 @@
 
 use super::plan::{Engine, Plan, Reach};
 use crate::lattice::{Limits, Undamped};
-use crate::number::Number;
+use crate::number::{Estimate, Number};
 use crate::rod::{Parameters, Problem, Run};
-
-/// Bits of a double that may be lost while its history is still near the true one.
-const KNOWN_BITS: f64 = 40.0;
 
 /// How many bits the history of an undamped rod loses to rounding: `log₂` of the factor by which its error bound grows.
 ///
@@ -23,10 +20,9 @@ pub(super) fn bits_lost(problem: &Problem, plan: &Plan) -> f64 {
         let Ok(number) = time.to_string().parse::<Number>() else { return lost };
         let part = Problem { run: Run::Time(number), ..problem.clone() };
         let limits = Limits::keeping_from(problem, time);
-        let Ok(history) = Undamped::<f64>::solve_within(&part, &(), limits, |_, _| ()) else { return lost };
-        let found = history.marched().greatest_error.max(1.0).log2();
-        // Beyond that a double decides by signs that rounding may have made.
-        if found > KNOWN_BITS {
+        let Ok(history) = Undamped::<Estimate<f64>>::solve_within(&part, &(), limits, |_, _| ()) else { return lost };
+        let found = history.ground().relative_error.max(1.0).log2();
+        if history.undetermined_from().is_some() {
             return if lost > 0.0 { lost } else { found * end / time };
         }
         lost = found * end / time;

@@ -94,7 +94,7 @@ impl Ladder {
                     }
                     (missing, Some((attempt, answer)))
                 }
-                Err(Error::NotDecided { .. }) => (f64::INFINITY, None),
+                Err(Error::NotDecided { .. } | Error::Open(_)) => (f64::INFINITY, None),
                 Err(error) => return Err(error),
             };
             match (self.plan.next(rung, missing), reached) {

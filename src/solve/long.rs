@@ -11,7 +11,7 @@ use crate::cells::{self, Damped, Joined};
 use crate::error::Error;
 use crate::first_contact::{Bounce, ContactHistory, FirstContact};
 use crate::lattice::Undamped;
-use crate::number::{Estimate, Float, Interval, IntervalPrecision, Rational, decided};
+use crate::number::{Estimate, Float, Interval, IntervalPrecision, Rational};
 use crate::rod::{Parameters, Problem};
 
 impl Target for Rational {
@@ -61,8 +61,12 @@ fn estimates(problem: &Problem, plan: &Plan, bits: u32, observe: &Observer) -> R
     let digits = f64::from(bits) * std::f64::consts::LOG10_2 - 19.0;
     Ok(match plan.engine {
         Engine::Lattice => {
-            let history = Undamped::<Float>::solve_within(problem, &bits, limits(problem, plan), |a, b| observe(a, b))?;
-            Arc::new(Raised::new(history))
+            let limits = limits(problem, plan);
+            let history = Undamped::<Estimate<Float>>::solve_within(problem, &bits, limits, |a, b| observe(a, b))?;
+            if history.undetermined_from().is_some() {
+                return Err(Error::NotDecided { what: "in which order the events come", bits });
+            }
+            Arc::new(history)
         }
         Engine::Cells => Arc::new(Raised::new(Damped::<Float>::solve(problem, &bits, digits)?)),
         Engine::ClosedForm | Engine::ClosedFormThenCells => {
@@ -79,13 +83,11 @@ fn estimates(problem: &Problem, plan: &Plan, bits: u32, observe: &Observer) -> R
 
 fn enclosures(problem: &Problem, plan: &Plan, bits: u32, observe: &Observer) -> Result<Engined<Interval>, Error> {
     let problem = &*reaching(problem, plan);
-    let open = || Error::NotDecided { what: "how the motion goes on", bits };
     match plan.engine {
         Engine::Lattice => {
             let precision = IntervalPrecision::with_exact(bits);
-            let run =
-                || Undamped::<Interval>::solve_within(problem, &precision, limits(problem, plan), |a, b| observe(a, b));
-            Ok(Arc::new(decided(run).ok_or_else(open)??))
+            let limits = limits(problem, plan);
+            Ok(Arc::new(Undamped::<Interval>::solve_within(problem, &precision, limits, |a, b| observe(a, b))?))
         }
         Engine::Cells => Err(Error::NotCertified),
         Engine::ClosedForm | Engine::ClosedFormThenCells => {

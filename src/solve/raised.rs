@@ -4,7 +4,7 @@ use crate::history::{Contact, Ending, Energy, Event, Field, History as Engine, S
 use crate::number::{Estimate, Rounded};
 
 #[derive(Debug)]
-pub(super) struct Raised<S, E> {
+pub(crate) struct Raised<S, E> {
     engine: E,
     events: Vec<Event<Estimate<S>>>,
     contacts: Vec<Contact<Estimate<S>>>,
@@ -12,7 +12,7 @@ pub(super) struct Raised<S, E> {
 }
 
 impl<S: Rounded, E: Engine<S>> Raised<S, E> {
-    pub(super) fn new(engine: E) -> Self {
+    pub(crate) fn new(engine: E) -> Self {
         let sc = engine.scales();
         let relative = (engine.error_estimate() / sc.time.roundoff()).to_f64() + 4.0;
         let (t, v, l, c) = (sc.time.to_f64(), sc.velocity.to_f64(), sc.length.to_f64(), sc.wave_speed.to_f64());

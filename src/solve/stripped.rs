@@ -1,5 +1,7 @@
 //! A history in numbers that carry their bound, read in numbers without it.
 
+use std::sync::atomic::{AtomicBool, Ordering};
+
 use crate::error::Error;
 use crate::history::{Contact, Ending, Energy, Event, Field, History, Scales, Side, StressPiece};
 use crate::number::{Answer, Scalar};
@@ -10,6 +12,7 @@ pub struct Stripped<S: Answer, H> {
     history: H,
     events: Vec<Event<S>>,
     contacts: Vec<Contact<S>>,
+    open: AtomicBool,
 }
 
 impl<S: Answer, H: History<S::Carried>> Stripped<S, H> {
@@ -23,12 +26,24 @@ impl<S: Answer, H: History<S::Carried>> Stripped<S, H> {
             peak_stress: strip(&contact.peak_stress),
         });
         let contacts = contacts.collect();
-        Stripped { events, contacts, history }
+        Stripped { events, contacts, history, open: AtomicBool::new(false) }
     }
 
     /// The history that carries the bounds.
     pub fn carried(&self) -> &H {
         &self.history
+    }
+
+    /// Whether a question has met a comparison that enclosures leave open.
+    pub fn met_open_comparison(&self) -> bool {
+        self.open.load(Ordering::Relaxed)
+    }
+
+    fn noted<T>(&self, answer: Result<T, Error>) -> Result<T, Error> {
+        if matches!(answer, Err(Error::Open(_))) {
+            self.open.store(true, Ordering::Relaxed);
+        }
+        answer
     }
 }
 
@@ -80,23 +95,23 @@ impl<S: Answer, H: History<S::Carried>> History<S> for Stripped<S, H> {
     }
 
     fn stress(&self, time: &S, side: Side) -> Result<S, Error> {
-        self.history.stress(&time.carry(), side).map(S::strip)
+        self.noted(self.history.stress(&time.carry(), side)).map(S::strip)
     }
 
     fn ground_end(&self, time: &S, side: Side) -> Result<(S, S), Error> {
-        self.history.ground_end(&time.carry(), side).map(pair)
+        self.noted(self.history.ground_end(&time.carry(), side)).map(pair)
     }
 
     fn top_end(&self, time: &S, side: Side) -> Result<(S, S), Error> {
-        self.history.top_end(&time.carry(), side).map(pair)
+        self.noted(self.history.top_end(&time.carry(), side)).map(pair)
     }
 
     fn centre(&self, time: &S) -> Result<(S, S), Error> {
-        self.history.centre(&time.carry()).map(pair)
+        self.noted(self.history.centre(&time.carry())).map(pair)
     }
 
     fn energy(&self, time: &S) -> Result<Energy<S>, Error> {
-        let energy = self.history.energy(&time.carry())?;
+        let energy = self.noted(self.history.energy(&time.carry()))?;
         Ok(Energy {
             total: S::strip(energy.total),
             translational: S::strip(energy.translational),
@@ -105,7 +120,7 @@ impl<S: Answer, H: History<S::Carried>> History<S> for Stripped<S, H> {
     }
 
     fn field(&self, point: &S, time: &S, side: Side) -> Result<Field<S>, Error> {
-        let field = self.history.field(&point.carry(), &time.carry(), side)?;
+        let field = self.noted(self.history.field(&point.carry(), &time.carry(), side))?;
         Ok(Field {
             displacement: S::strip(field.displacement),
             velocity: S::strip(field.velocity),

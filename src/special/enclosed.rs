@@ -4,7 +4,7 @@ use rug::Float;
 use rug::float::{Round, Special as NoNumber};
 
 use super::bessel::Special;
-use super::estimated::Bounded;
+use super::estimated::BoundedSpecial;
 use super::gauss::{gauss_legendre, step};
 use super::ray::{Ray, RaySums};
 use crate::number::{Estimate, Interval, Scalar};
@@ -63,7 +63,7 @@ impl Special for Interval {
     }
 }
 
-impl Bounded for Interval {
+impl BoundedSpecial for Interval {
     fn middle(&self) -> Self {
         let middle = self.mid();
         Interval::between(middle.clone(), middle)

@@ -5,10 +5,10 @@ use super::bessel::{RoundedSpecial, Special};
 use super::gauss::gauss_legendre;
 use super::phi;
 use super::ray::{Ray, RaySums};
-use crate::number::{Estimate, Rounded, Scalar};
+use crate::number::{Bounded, Estimate, Rounded, Scalar};
 
 /// A number with a bound of its error, an estimate or an enclosure, in which the first contact is computed.
-pub trait Bounded: Special {
+pub trait BoundedSpecial: Special + Bounded {
     /// An exact number near it.
     fn middle(&self) -> Self;
 
@@ -19,7 +19,7 @@ pub trait Bounded: Special {
     fn coincides(&self, other: &Self) -> bool;
 }
 
-impl<S: RoundedSpecial> Bounded for Estimate<S> {
+impl<S: RoundedSpecial> BoundedSpecial for Estimate<S> {
     fn middle(&self) -> Self {
         Estimate::exact(self.value().clone())
     }

@@ -17,7 +17,7 @@ mod precision;
 mod ray;
 
 pub use bessel::{RoundedSpecial, Special, i0_scaled, i1_scaled, in_scaled};
-pub use estimated::Bounded;
+pub use estimated::BoundedSpecial;
 pub use gauss::gauss_legendre;
 #[cfg(feature = "mp")]
 pub use hypergeometric::{in_bounded, in_scaled_bounded, psi_bounded};

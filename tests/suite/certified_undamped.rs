@@ -5,7 +5,7 @@ use crate::common::{number, problem, reference};
 use dalembert::lattice::Undamped;
 use dalembert::number::{Interval, IntervalPrecision, Scalar, decided};
 use dalembert::rod::Run;
-use dalembert::solve::certify;
+use dalembert::solve::{certify, undamped};
 use dalembert::{Ending, Error, EventKind, History, Number, Problem, Side};
 use rug::{Float, Rational};
 use serde_json::Value;
@@ -144,7 +144,7 @@ fn irrational_wave_speeds_keep_their_coincidences() {
 fn digits_of_another_run_lie_inside() {
     for (speed, time) in [("3/2", "60"), ("0.7", "40"), ("1.9", "30"), ("12345.678", "24000")] {
         let problem = rod(speed, time);
-        let float = Undamped::<Float>::solve(&problem, &700).unwrap();
+        let float = undamped::<Float>(&problem, &700).unwrap();
         let sample = |history: &dyn History<Interval>| {
             let mut all: Vec<Interval> = history.events().iter().map(|event| event.time.clone()).collect();
             for k in 1..8i64 {

@@ -2,8 +2,8 @@
 
 use dalembert::cells::Damped;
 use dalembert::history::Event;
-use dalembert::lattice::Undamped;
 use dalembert::rod::{Material, Parameters, Profile, Rod, Run, Speed, Start, Top};
+use dalembert::solve::undamped;
 use dalembert::{Error, History, Number, Problem, Side};
 use proptest::prelude::*;
 
@@ -142,7 +142,7 @@ proptest! {
         let Some(history) = solve(&problem) else { return Ok(()) };
         let mut plain = problem.clone();
         plain.rod.damping = None;
-        let lattice = Undamped::<f64>::solve(&plain, &()).unwrap();
+        let lattice = undamped::<f64>(&plain, &()).unwrap();
         let scales = history.scales();
         // Landings without speed, and releases where the stress only comes to zero, may be missed by one of the two.
         let transversal = |event: &Event<f64>| event.end_velocity.abs() > 0.02 * scales.velocity;

@@ -39,7 +39,10 @@ mod scene_properties;
 #[cfg(feature = "mp")]
 mod snapshots_stress;
 mod three_routes;
-// mod undamped_chaotic;
+#[cfg(feature = "mp")]
+mod undamped_bounds;
+#[cfg(feature = "mp")]
+mod undamped_chaotic;
 #[cfg(feature = "mp")]
 mod undamped_properties;
 mod undamped_reference;

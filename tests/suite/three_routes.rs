@@ -6,7 +6,6 @@ use crate::common::{number, reference};
 use dalembert::cells::Damped;
 use dalembert::first_contact::FirstContact;
 use dalembert::history::{History, Side};
-use dalembert::lattice::Undamped;
 use dalembert::modal::Modal;
 use dalembert::number::{Answer, Estimate, Rounded};
 use dalembert::rod::{Parameters, Run};
@@ -131,7 +130,7 @@ fn rays_modes_and_the_lattice() {
         let problem = crate::common::uniform("1", "1", gravity, speed, Run::Impacts(1));
         let rod = Parameters::<f64>::of(&problem, &()).unwrap();
         let (rays, modal) = (FirstContact::new(&rod.carry()), Modal::new(&rod, 256));
-        let lattice = Undamped::<f64>::solve(&problem, &()).unwrap();
+        let lattice = dalembert::solve::undamped::<f64>(&problem, &()).unwrap();
         let scale = rod.speed + rod.critical_speed();
         for part in [0.2, 0.55, 0.8, 1.0] {
             let time = part * last * rod.round_trip();

@@ -5,6 +5,7 @@ use dalembert::lattice::{Rays, Undamped, reflection};
 use dalembert::number::Scalar;
 use dalembert::quantity::{flights, restitution};
 use dalembert::rod::{Parameters, Profile, Run, Speed, Start, Top};
+use dalembert::solve::undamped;
 use dalembert::{Ending, EventKind, History, Number, Problem, Side, paper};
 use proptest::prelude::*;
 use rug::{Float, Rational};
@@ -274,7 +275,7 @@ proptest! {
         if let Ending::ExactnessEnds { .. } = exact.ending() {
             problem.run = Run::Time(exact.end().to_string().parse().unwrap());
         }
-        let rounded = Undamped::<f64>::solve(&problem, &()).unwrap();
+        let rounded = undamped::<f64>(&problem, &()).unwrap();
         let rod = Parameters::<Rational>::of(&problem, &()).unwrap();
         let kinds = |events: &[dalembert::history::Event<f64>]| events.iter().map(|e| e.kind).collect::<Vec<_>>();
         prop_assert_eq!(kinds(rounded.events()), exact.events().iter().map(|e| e.kind).collect::<Vec<_>>());
@@ -299,8 +300,8 @@ proptest! {
         let round_trip = Parameters::<Rational>::of(&problem, &()).unwrap().round_trip();
         let mut problem = problem;
         problem.run = Run::Time(Rational::from(round_trip * 9).to_string().parse().unwrap());
-        let low = Undamped::<Float>::solve(&problem, &256).unwrap();
-        let high = Undamped::<Float>::solve(&problem, &512).unwrap();
+        let low = undamped::<Float>(&problem, &256).unwrap();
+        let high = undamped::<Float>(&problem, &512).unwrap();
         prop_assert_eq!(low.events().len(), high.events().len());
         for (a, b) in low.events().iter().zip(high.events()) {
             prop_assert_eq!(a.kind, b.kind);
@@ -358,7 +359,7 @@ fn every_second_contact_undoes_the_vibration() {
 fn long_flights_are_leapt() {
     let problem = crate::common::uniform("1", "1", "1", "100000000", Run::Impacts(2));
     let history = Exact::solve(&problem, &()).unwrap();
-    assert!(history.marched().trace.count() < 40, "{}", history.marched().trace.count());
+    assert!(history.ground().trace.count() < 40, "{}", history.ground().trace.count());
     let rod = Parameters::<Rational>::of(&problem, &()).unwrap();
     let paper = paper::UndampedContact::new(&rod).unwrap();
     // μ is a whole multiple of gL/c: the second contact undoes the vibration, and the third begins as the first.
@@ -371,7 +372,7 @@ fn long_flights_are_leapt() {
         let field = history.field(&Rational::new(), &time, Side::Right).unwrap();
         assert!(v >= 0 && field.displacement == v);
     }
-    let rounded = Undamped::<f64>::solve(&problem, &()).unwrap();
+    let rounded = undamped::<f64>(&problem, &()).unwrap();
     for (ours, truth) in rounded.events().iter().zip(history.events()) {
         crate::common::close("time", ours.time, Scalar::to_f64(&truth.time), 1.0, 1e-14);
         crate::common::close("v_t(0,t)", ours.end_velocity, Scalar::to_f64(&truth.end_velocity), 1e8, 1e-14);
@@ -384,7 +385,7 @@ fn long_flights_are_leapt() {
 #[test]
 fn a_thousand_impacts_in_doubles() {
     let problem = crate::common::uniform("1", "1", "1", "1", Run::Impacts(1000));
-    let history = Undamped::<f64>::solve(&problem, &()).unwrap();
+    let history = undamped::<f64>(&problem, &()).unwrap();
     assert_eq!(history.ending(), &Ending::NextImpact);
     assert_eq!(history.events().len(), 2000);
     for (early, late) in history.events().iter().zip(&history.events()[16..]) {

@@ -1,8 +1,8 @@
 //! The undamped lattice against the reference values of an independent program.
 
 use crate::common::{close, number, problem, reference};
-use dalembert::lattice::Undamped;
 use dalembert::rod::Run;
+use dalembert::solve::undamped;
 use dalembert::{EventKind, History, Side};
 use serde_json::Value;
 
@@ -27,7 +27,7 @@ fn all_events_in_double_precision() {
     for case in reference("undamped_bounces") {
         let name = case["name"].as_str().unwrap();
         let problem = problem(&case, run(&case));
-        let history = Undamped::<f64>::solve(&problem, &()).unwrap();
+        let history = undamped::<f64>(&problem, &()).unwrap();
         let expected = events(&case);
         let speed = number(&case["impact_speed"]).to_f64();
         let length = number(&case["length"]).to_f64();
@@ -68,7 +68,7 @@ fn all_events_to_38_digits() {
         let name = case["name"].as_str().unwrap();
         let expected = events(&case);
         let problem = problem(&case, run(&case));
-        let history = Undamped::<Float>::solve(&problem, &320).unwrap();
+        let history = undamped::<Float>(&problem, &320).unwrap();
         assert_eq!(history.events().len(), expected.len(), "{name}");
         for (event, truth) in history.events().iter().zip(expected) {
             for (key, ours) in [
@@ -105,7 +105,7 @@ fn rational_histories_are_exact() {
         if !["mu_2", "mu_3", "doyen_ern_piperno"].contains(&name) {
             continue;
         }
-        let history = Undamped::<Rational>::solve(&problem(&case, Run::Time(60.into())), &()).unwrap();
+        let history = undamped::<Rational>(&problem(&case, Run::Time(60.into())), &()).unwrap();
         assert_eq!(history.ending(), &dalembert::Ending::Time, "{name}");
         for (event, truth) in history.events().iter().zip(events(&case)) {
             let difference = &event.time - number(&truth["time"]).to_rational();

@@ -6,8 +6,8 @@ use rug::float::{Constant, Round};
 use rug::{Assign, Float, Rational};
 
 use super::super::radical::Radical;
-use super::super::{Analytic, Answer, Estimate, Number, Open, Reads, Scalar};
-use super::{Inside, Interval, IntervalPrecision, UNDECIDED, down, undecided, up};
+use super::super::{Analytic, Answer, Bounded, Estimate, Number, Open, Reads, Scalar};
+use super::{Inside, Interval, IntervalPrecision, down, undecided, up};
 
 impl Scalar for Interval {
     const RIGOROUS: bool = true;
@@ -39,8 +39,9 @@ impl Scalar for Interval {
         Interval::checked(down(bits, x), up(bits, x), inside)
     }
 
+    /// Of what may reach below zero by its width alone, see [`Analytic::sqrt`].
     fn try_sqrt(&self) -> Option<Self> {
-        match self.sign_or_flag() {
+        match Interval::sign(self) {
             Some(Ordering::Less) => None,
             Some(Ordering::Equal) => Some(self.zero()),
             _ => Some(self.sqrt()),
@@ -151,21 +152,6 @@ impl Scalar for Interval {
         Interval::checked(width.clone(), width, inside)
     }
 
-    fn named(mut self) -> Self {
-        if matches!(self.inside, Inside::Lost) {
-            self.inside = Inside::Known(Box::new(Radical::named()));
-        }
-        self
-    }
-
-    fn also(self, other: Self) -> Self {
-        let inside = if matches!(self.inside, Inside::Known(_)) { self.inside.clone() } else { other.inside.clone() };
-        match self.meet(&other) {
-            Some(Interval { lo, hi, .. }) => Interval { lo, hi, inside },
-            None => self,
-        }
-    }
-
     fn magnitude(&self) -> Self {
         if self.lo.cmp0() != Some(Ordering::Less) {
             return self.clone();
@@ -188,14 +174,6 @@ impl Scalar for Interval {
         Interval::checked(down(bits, size.lo.square_ref()), up(bits, size.hi.square_ref()), inside)
     }
 
-    fn plain(self) -> Self {
-        Interval { inside: Inside::Off, ..self }
-    }
-
-    fn take_open() -> bool {
-        UNDECIDED.replace(false)
-    }
-
     fn larger(self, other: Self) -> Self {
         if self.lo >= other.hi {
             return self;
@@ -210,15 +188,6 @@ impl Scalar for Interval {
         let lo = if self.lo > other.lo { self.lo } else { other.lo };
         let hi = if self.hi > other.hi { self.hi } else { other.hi };
         Interval { lo, hi, inside }
-    }
-
-    fn same(&self, other: &Self) -> bool {
-        let points = self.lo == self.hi && other.lo == other.hi && self.lo == other.lo;
-        match (&self.inside, &other.inside) {
-            _ if points => true,
-            (Inside::Known(a), Inside::Known(b)) => a.sub(b).is_some_and(|difference| difference.vanishes()),
-            _ => false,
-        }
     }
 
     fn is_negative(&self) -> bool {
@@ -282,6 +251,46 @@ impl Analytic for Interval {
         let bits = self.lo.prec();
         let inside = self.inside.map(|_| None);
         Interval { lo: down(bits, Constant::Pi), hi: up(bits, Constant::Pi), inside }
+    }
+}
+
+impl Bounded for Interval {
+    fn same(&self, other: &Self) -> bool {
+        let points = self.lo == self.hi && other.lo == other.hi && self.lo == other.lo;
+        match (&self.inside, &other.inside) {
+            _ if points => true,
+            (Inside::Known(a), Inside::Known(b)) => a.sub(b).is_some_and(|difference| difference.vanishes()),
+            _ => false,
+        }
+    }
+
+    fn halved(mut self) -> Self {
+        self.lo >>= 1;
+        self.hi >>= 1;
+        let inside = self.inside.map(|number| number.scaled(&Rational::from((1, 2))));
+        Interval { inside, ..self }
+    }
+
+    fn with_identity(mut self) -> Self {
+        if matches!(self.inside, Inside::Lost) {
+            self.inside = Inside::Known(Box::new(Radical::named()));
+        }
+        self
+    }
+
+    fn or_exactly(self, other: impl FnOnce() -> Self) -> Self {
+        if !matches!(self.inside, Inside::Lost) {
+            return self;
+        }
+        let other = other();
+        match self.meet(&other) {
+            Some(both) => Interval { inside: other.inside, ..both },
+            None => self,
+        }
+    }
+
+    fn without_exact(self) -> Self {
+        Interval { inside: Inside::Off, ..self }
     }
 }
 

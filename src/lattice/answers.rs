@@ -1,0 +1,184 @@
+//! What is answered of an undamped history.
+
+use super::history::{Centre, Moment, Undamped};
+use super::start::Units;
+use super::trace::{Line, Part, Piece};
+use crate::error::Error;
+use crate::history::{Contact, Ending, Energy, Event, Field, History, Scales, Side, StressPiece};
+use crate::number::Bounded;
+
+impl<N: Bounded> History<N> for Undamped<N> {
+    fn end(&self) -> N {
+        self.time_of(&self.end)
+    }
+
+    fn ending(&self) -> &Ending {
+        &self.ending
+    }
+
+    fn events(&self) -> &[Event<N>] {
+        &self.events
+    }
+
+    fn contacts(&self) -> &[Contact<N>] {
+        &self.contacts
+    }
+
+    fn stress_pieces(&self) -> Vec<StressPiece<N>> {
+        let mut out: Vec<StressPiece<N>> = Vec::new();
+        let mut last: Option<(&Piece<N>, usize)> = None;
+        for (trip, pieces) in self.ground.trace.stored() {
+            for piece in pieces {
+                let here = Moment { index: trip + 1, age: piece.age.clone() };
+                match last {
+                    Some((from, begun)) if continues(from, begun, piece, trip) => continue,
+                    Some((from, begun)) => out.extend(self.stress_piece(from, begun, &here)),
+                    None => (),
+                }
+                last = Some((piece, trip));
+            }
+        }
+        out.extend(last.and_then(|(from, begun)| self.stress_piece(from, begun, &self.end)));
+        out
+    }
+
+    fn stress(&self, time: &N, side: Side) -> Result<N, Error> {
+        let place = self.place(&self.locate(time)?, side)?;
+        let piece = self.ground.trace.piece(&place);
+        // Before the start nothing is stressed at the ground.
+        if place.index == 0 || !piece.contact {
+            return Ok(time.zero());
+        }
+        let p = piece.line.value_at(&place.age);
+        Ok(-(p * &self.problem.units.velocity / &self.problem.units.wave_speed))
+    }
+
+    fn ground_end(&self, time: &N, side: Side) -> Result<(N, N), Error> {
+        let moment = self.locate(time)?;
+        let Units { round_trip, velocity, .. } = &self.problem.units;
+        let place = self.place(&moment, side)?;
+        let piece = self.ground.trace.piece(&place);
+        let rate = if place.index == 0 {
+            self.problem.ground_velocity.clone()
+        } else if piece.contact {
+            time.zero()
+        } else {
+            piece.line.value_at(&place.age)
+        };
+        let height = self.height_at(&self.place(&moment, Side::Left)?);
+        Ok((height * velocity * round_trip, rate * velocity))
+    }
+
+    fn top_end(&self, time: &N, side: Side) -> Result<(N, N), Error> {
+        let top = self.field(&self.problem.units.length, time, side)?;
+        Ok((top.displacement, top.velocity))
+    }
+
+    fn centre(&self, time: &N) -> Result<(N, N), Error> {
+        let Centre { height, rate } = self.centre_at(&self.last_trip(&self.locate(time)?)?)?;
+        let Units { round_trip, velocity, .. } = &self.problem.units;
+        Ok((height * velocity * round_trip, rate * velocity))
+    }
+
+    /// `E_z = ½ ∫ (w − h′)² ds` with `w` of [`Undamped::visit_rod`], times `L`.
+    fn energy(&self, time: &N) -> Result<Energy<N>, Error> {
+        let Units { velocity, length, .. } = &self.problem.units;
+        let gravity = &self.problem.gravity;
+        let trip = self.last_trip(&self.locate(time)?)?;
+        let Centre { height, rate } = self.centre_at(&trip)?;
+        let mut sum = rate.zero();
+        self.visit_rod(&trip[0], &trip[1], |part| {
+            let value = part.value - gravity.clone() * (rate.one() - &part.offset) - &rate;
+            let vibration = Part { value, slope: part.slope + gravity, ..part };
+            sum = sum.clone() + vibration.square_integral();
+        })?;
+        let unit = velocity.square() * length;
+        let vibrational = sum.halved() * &unit;
+        let translational = (rate.square().halved() + gravity.clone() * &height) * &unit;
+        Ok(Energy { total: translational.clone() + &vibrational, translational, vibrational })
+    }
+
+    fn field(&self, point: &N, time: &N, side: Side) -> Result<Field<N>, Error> {
+        let units = &self.problem.units;
+        if point.negative()? || units.length.below(point)? || !point.is_finite() {
+            return Err(Error::PointOutside { found: point.text(), length: units.length.text() });
+        }
+        let moment = self.locate(time)?;
+        let height = point.clone().halved() / &units.length;
+        let lift = self.problem.gravity.clone() * &height;
+        let (below, above) = (self.shifted(&moment, &-height.clone())?, self.shifted(&moment, &height)?);
+        let p = self.p_at(&below, side)? - &lift;
+        let p_before = self.p_at(&Moment { index: above.index - 1, ..above }, side)?;
+        // The recursion holds for values as it does for lines.
+        let zero = height.zero();
+        let q = self.ground.trace.returned(Line { intercept: p_before, slope: zero }).intercept + &lift;
+        let v = self.height_at(&self.place(&moment, Side::Left)?) + self.stretched(&moment, &height)?;
+        Ok(Field {
+            displacement: v * &units.velocity * &units.round_trip,
+            velocity: (p.clone() + &q).halved() * &units.velocity,
+            strain: (q - p).halved() * &units.velocity / &units.wave_speed,
+        })
+    }
+
+    fn highest(&self, release: &Event<N>) -> Option<(N, N)> {
+        let Units { round_trip, velocity, .. } = &self.problem.units;
+        let rate = &release.centre_velocity;
+        if !self.ground.trace.falls_freely() || rate.negative() == Ok(true) {
+            return None;
+        }
+        let gravity = velocity.clone() / round_trip;
+        let rise = rate.square() / &gravity;
+        Some((release.time.clone() + rate.clone() / &gravity, release.centre.clone() + rise.halved()))
+    }
+
+    fn scales(&self) -> Scales<N> {
+        let Units { round_trip, velocity, length, wave_speed } = self.problem.units.clone();
+        let velocity = velocity.double(self.problem.greatest_speed()) * velocity;
+        let gravity = self.problem.units.velocity.clone() / &round_trip * &self.problem.gravity;
+        Scales { time: round_trip, velocity, length, wave_speed, gravity }
+    }
+
+    fn error_estimate(&self) -> N {
+        let unit = self.problem.gravity.roundoff();
+        unit.double(self.ground.relative_error) * unit
+    }
+
+    fn digits_lost(&self) -> Option<(u32, f64)> {
+        let lost = self.ground.relative_error;
+        (lost > 0.0).then(|| (self.ground.contacts, lost.max(1.0).log10()))
+    }
+
+    fn warnings(&self) -> &[String] {
+        &self.warnings
+    }
+}
+
+impl<N: Bounded> Undamped<N> {
+    /// The stress from the beginning of a piece of `trip` to a moment; `None` where that is no time within the bounds.
+    fn stress_piece(&self, from: &Piece<N>, trip: usize, to: &Moment<N>) -> Option<StressPiece<N>> {
+        let Units { wave_speed, velocity, .. } = &self.problem.units;
+        let end = to.age.int(to.index as i64 - 1 - trip as i64) + &to.age;
+        if (end.clone() - &from.age).positive() == Ok(false) {
+            return None;
+        }
+        let scale = velocity.clone() / wave_speed;
+        let stress = |age: &N| if from.contact { -(from.line.value_at(age) * &scale) } else { age.zero() };
+        Some(StressPiece {
+            from: self.time_of(&Moment { index: trip + 1, age: from.age.clone() }),
+            to: self.time_of(to),
+            left: stress(&from.age),
+            right: stress(&end),
+            chebyshev: Vec::new(),
+        })
+    }
+}
+
+/// Whether `piece` of `trip` continues `from` of trip `begun`: the same line (or flight in both).
+fn continues<N: Bounded>(from: &Piece<N>, begun: usize, piece: &Piece<N>, trip: usize) -> bool {
+    if !from.contact || !piece.contact {
+        return from.contact == piece.contact;
+    }
+    let Line { intercept, slope } = from.line.clone();
+    let trips = slope.int(trip as i64 - begun as i64);
+    from.line.slope.same(&piece.line.slope) && Line { intercept: trips * &slope + &intercept, slope }.same(&piece.line)
+}

@@ -1,0 +1,313 @@
+//! The history of an undamped rod, and where its times lie on the lattice.
+
+use super::limits::{Halt, Limits, Until};
+use super::march::{GroundMotion, march};
+use super::start::{Scaled, Units};
+use super::trace::{Part, Place};
+use crate::error::Error;
+use crate::history::{Contact, Ending, Event, EventKind, Side};
+use crate::number::{Bounded, Open};
+use crate::rod::{Problem, Run, Top};
+
+/// The history of an undamped rod: [`crate::History`] by the ground trace of the upward invariant.
+///
+/// **Accuracy**: *exact* in fractions, *enclosure* in intervals; otherwise each number within the bound that it carries.
+#[derive(Clone, Debug)]
+pub struct Undamped<N> {
+    pub(super) problem: Scaled<N>,
+    pub(super) ground: GroundMotion<N>,
+    pub(super) end: Moment<N>,
+    pub(super) ending: Ending,
+    pub(super) events: Vec<Event<N>>,
+    pub(super) contacts: Vec<Contact<N>>,
+    pub(super) warnings: Vec<String>,
+}
+
+/// A time as a round trip and an age in it. The trip before the start has `index` 0.
+#[derive(Clone, Debug)]
+pub(super) struct Moment<N> {
+    pub(super) index: usize,
+    pub(super) age: N,
+}
+
+/// `v(0,t)`, `h`, `h′` in lattice units.
+pub(super) struct Centre<N> {
+    pub(super) height: N,
+    pub(super) rate: N,
+}
+
+impl<N: Bounded> Undamped<N> {
+    /// The history of `problem`, whose damping is ignored: see [`crate::scene::plan`] for the choice of engine.
+    ///
+    /// **Errors**: [`Error::Irrational`], [`Error::TooManyPieces`], [`Error::Open`].
+    ///
+    /// ```
+    /// use dalembert::{History, Number, Problem, lattice::Undamped, number::Estimate};
+    /// let problem = Problem::uniform(Number::from(1), Number::from(1), Number::from(1), Number::from(3));
+    /// let history = Undamped::<Estimate<f64>>::solve(&problem, &())?;
+    /// // Corollary 1: at μ = 3 ≥ g t₁ = 2 the contact lasts exactly t₁ = 2.
+    /// let to = history.contacts()[0].to.as_ref().ok_or(dalembert::Error::NoClosedForm)?;
+    /// assert_eq!(*to.value(), 2.0);
+    /// assert!(to.bound() < 1e-14);
+    /// # Ok::<(), dalembert::Error>(())
+    /// ```
+    pub fn solve(problem: &Problem, precision: &N::Precision) -> Result<Self, Error> {
+        Self::solve_within(problem, precision, Limits::default(), |_, _| ())
+    }
+
+    /// [`Undamped::solve`] with a limit of one's own; `observe` is told the round trip and the pieces so far.
+    pub fn solve_within(
+        problem: &Problem,
+        precision: &N::Precision,
+        limits: Limits,
+        observe: impl FnMut(usize, usize),
+    ) -> Result<Self, Error> {
+        let scaled = Scaled::<N>::of(problem, precision)?;
+        let until = match &problem.run {
+            Run::Impacts(contacts) => Until::Contacts(*contacts),
+            Run::Time(time) => {
+                let Some((trip, age)) = trip_and_age(&N::from_number(time, precision), &scaled.units) else {
+                    return Err(Error::TooManyPieces { limit: limits.pieces, time: time.to_f64() });
+                };
+                Until::Time { trip, age }
+            }
+        };
+        let ground = march(&scaled, &until, limits, observe)?;
+        Self::assemble(scaled, ground, until)
+    }
+
+    fn assemble(problem: Scaled<N>, ground: GroundMotion<N>, until: Until<N>) -> Result<Self, Error> {
+        let trips = ground.trace.trips();
+        let Units { round_trip, velocity, .. } = &problem.units;
+        let moment = |trip: usize, age: &N| Moment { index: trip + 1, age: age.clone() };
+        let over = moment(trips, &problem.gravity.zero());
+        let (end, ending) = match (&ground.halt, until) {
+            (Halt::Time, Until::Time { trip, age }) => (moment(trip, &age), Ending::Time),
+            (Halt::Time, Until::Contacts(_)) => (over, Ending::Time),
+            (Halt::NextImpact { trip, age }, _) => (moment(*trip, age), Ending::NextImpact),
+            (Halt::NoFurtherImpact, _) => {
+                let why = "the end does not come down in two whole round trips, which repeat for ever";
+                (over, Ending::NoFurtherImpact(why.into()))
+            }
+            (Halt::NoBounce, _) => {
+                let why = "the end stays on the ground for two whole round trips, which repeat for ever";
+                (over, Ending::NoBounce(why.into()))
+            }
+            (Halt::Open { trip, age, spread }, _) => {
+                let why = format!(
+                    "within a round trip comes a touch that {} bits do not tell from a miss; either way v(0,t) is the same up to \
+                     {:.1e} for one round trip, and up to three times more after each one more",
+                    age.bits().unwrap_or(0),
+                    spread * (velocity.clone() * round_trip).to_f64(),
+                );
+                (moment(*trip, age), Ending::Undecided(why))
+            }
+            (Halt::Irrational { trip, from, q, slope, disc }, _) => {
+                let (below, ending) = before_surd(round_trip, *trip, [from, q, slope, disc])?;
+                (moment(*trip, &below), ending)
+            }
+        };
+        let mut history =
+            Undamped { end, ending, events: Vec::new(), contacts: Vec::new(), warnings: Vec::new(), problem, ground };
+        if history.end.index > trips && !matches!(history.ending, Ending::Time) {
+            // The stored trips end where the next begins: the last instant that is known.
+            history.end = Moment { index: trips, age: history.end.age.one() };
+        }
+        history.events = history.in_scene_units()?;
+        history.contacts = history.summed_contacts();
+        history.warnings = history.undetermined_from().into_iter().map(not_determined).collect();
+        Ok(history)
+    }
+
+    /// The units of the lattice.
+    pub fn units(&self) -> &Units<N> {
+        &self.problem.units
+    }
+
+    /// The end `x = L`.
+    pub fn top(&self) -> Top {
+        self.problem.top
+    }
+
+    /// The motion of the ground end: pieces, events and grazes, in lattice units.
+    pub fn ground(&self) -> &GroundMotion<N> {
+        &self.ground
+    }
+
+    /// The time from which events are not determined in this precision; `None` where all are.
+    pub fn undetermined_from(&self) -> Option<f64> {
+        Some(self.ground.undetermined? as f64 * self.problem.units.round_trip.to_f64())
+    }
+
+    pub(super) fn time_of(&self, moment: &Moment<N>) -> N {
+        let trips = moment.age.int(moment.index as i64 - 1);
+        (trips + &moment.age) * &self.problem.units.round_trip
+    }
+
+    /// Where `time` lies.
+    pub(super) fn locate(&self, time: &N) -> Result<Moment<N>, Error> {
+        let outside = || Error::TimeOutside { found: time.text(), end: self.time_of(&self.end).text() };
+        let (trip, age) = trip_and_age(time, &self.problem.units).ok_or_else(outside)?;
+        let begin = self.ground.trace.begin();
+        if trip + 1 < begin {
+            let start = self.time_of(&Moment { index: begin, age: age.zero() });
+            return Err(Error::TimeForgotten { found: time.text(), start: start.text() });
+        }
+        let (moment, end) = (Moment { index: trip + 1, age }, &self.end);
+        if moment.index < end.index || (moment.index == end.index && !end.age.below(&moment.age)?) {
+            return Ok(moment);
+        }
+        // The end of a whole trip is the beginning of the next.
+        let whole = moment.index == end.index + 1 && moment.age.vanishes()?;
+        if whole && !end.age.below(&end.age.one())? { Ok(end.clone()) } else { Err(outside()) }
+    }
+
+    /// `by` earlier (if negative) or later, less than one round trip.
+    pub(super) fn shifted(&self, moment: &Moment<N>, by: &N) -> Result<Moment<N>, Open> {
+        let (age, one) = (moment.age.clone() + by, by.one());
+        Ok(if age.negative()? {
+            Moment { index: moment.index.saturating_sub(1), age: age + &one }
+        } else if !age.below(&one)? {
+            Moment { index: moment.index + 1, age: age - &one }
+        } else {
+            Moment { index: moment.index, age }
+        })
+    }
+
+    pub(super) fn place(&self, moment: &Moment<N>, side: Side) -> Result<Place<N>, Open> {
+        self.ground.trace.place(moment.index, &moment.age, side)
+    }
+
+    /// `p` at a moment, from the asked side.
+    pub(super) fn p_at(&self, moment: &Moment<N>, side: Side) -> Result<N, Open> {
+        let place = self.place(moment, side)?;
+        Ok(self.ground.trace.piece(&place).line.value_at(&place.age))
+    }
+
+    /// `v(0,t)` in lattice units, at the end of a window.
+    pub(super) fn height_at(&self, place: &Place<N>) -> N {
+        // At the very start there is no piece before.
+        if place.index == 0 {
+            return self.problem.ground_start.clone();
+        }
+        let piece = self.ground.trace.piece(place);
+        if piece.contact {
+            return piece.height.zero();
+        }
+        let age = place.age.clone() - &piece.age;
+        let rise = piece.line.value_at_stored(&piece.age) + (piece.line.slope * &age).halved();
+        piece.height + rise * &age
+    }
+
+    /// `v` at a height `X = x/2L` above the ground less `v(0,t)`: `∫ v_x dx` over `0 < X`, in lattice units.
+    pub(super) fn stretched(&self, moment: &Moment<N>, height: &N) -> Result<N, Open> {
+        let trace = &self.ground.trace;
+        let gravity = &self.problem.gravity;
+        let earlier = Moment { index: moment.index - 1, age: moment.age.clone() };
+        let mut sums = [height.zero(), height.zero()];
+        // p has come up since; what comes down until then has left the ground a round trip before.
+        for (sum, (from, until)) in sums.iter_mut().zip([
+            (self.shifted(moment, &-height.clone())?, moment.clone()),
+            (earlier.clone(), self.shifted(&earlier, height)?),
+        ]) {
+            let (from, until) = (self.place(&from, Side::Right)?, self.place(&until, Side::Left)?);
+            let exact = self.sums_stay_short(moment.index);
+            trace.window(&from, &until, |part| {
+                let part = if exact { part } else { part.without_exact() };
+                *sum = sum.clone() + part.integral();
+            });
+        }
+        let [up, down] = sums;
+        let down = match self.problem.top {
+            Top::Free => down - gravity.clone() * height,
+            Top::Fixed => -down,
+        };
+        Ok((down - up + gravity.clone() * &height.square()).halved())
+    }
+
+    fn sums_stay_short(&self, index: usize) -> bool {
+        self.ground.trace.slice(index).len() <= MANY_PARTS
+    }
+
+    /// What travels in the rod at the end of a window of one round trip: with `s` from 0 to 1 back from there,
+    /// `w(s) = value − g s`, where `w` is `p` at `x = 2Ls` for `s < ½` and `q` at `x = 2L(1 − s)` behind the top.
+    ///
+    /// **Source**: the delay recursion; gravity takes `g s` from what left the ground `s` ago.
+    pub(super) fn visit_rod(
+        &self,
+        from: &Place<N>,
+        until: &Place<N>,
+        mut visit: impl FnMut(Part<N>),
+    ) -> Result<(), Open> {
+        let trace = &self.ground.trace;
+        let exact = self.sums_stay_short(until.index);
+        let mut visit = |part: Part<N>| visit(if exact { part } else { part.without_exact() });
+        if self.problem.top == Top::Free {
+            trace.window(from, until, visit);
+            return Ok(());
+        }
+        let (gravity, half) = (&self.problem.gravity, until.age.one().halved());
+        let now = Moment { index: until.index, age: until.age.clone() };
+        let middle = self.place(&self.shifted(&now, &-half.clone())?, Side::Right)?;
+        trace.window(from, &middle, |part| {
+            let shift = part.shift.map(|(jump, late)| (-jump, late));
+            visit(Part { value: gravity.clone() - part.value, slope: -part.slope, shift, ..part });
+        });
+        trace.window(&middle, until, |part| visit(Part { offset: part.offset + &half, ..part }));
+        Ok(())
+    }
+
+    /// The places a round trip before a moment and just before it.
+    pub(super) fn last_trip(&self, moment: &Moment<N>) -> Result<[Place<N>; 2], Open> {
+        let from = self.ground.trace.place(moment.index - 1, &moment.age, Side::Right)?;
+        Ok([from, self.place(moment, Side::Left)?])
+    }
+
+    /// `h`, `h′` in lattice units at the end of a round trip.
+    ///
+    /// **Source**: with `w` of [`Undamped::visit_rod`] and times in round trips, `h′ = ∫ w ds` and
+    /// `h = v(0,t) + ∫ (s − ½) value ds − g/12`, from `v_x` integrated from the ground up.
+    pub(super) fn centre_at(&self, [from, until]: &[Place<N>; 2]) -> Result<Centre<N>, Open> {
+        let gravity = &self.problem.gravity;
+        let half = gravity.one().halved();
+        let (mut rate, mut height) = (-gravity.clone().halved(), self.height_at(until));
+        height = height - gravity.clone() / gravity.int(12);
+        self.visit_rod(from, until, |part| {
+            let first = part.integral();
+            height = height.clone() + first.clone() * (half.clone() - &part.offset) - part.moment();
+            rate = rate.clone() + first;
+        })?;
+        Ok(Centre { height, rate })
+    }
+}
+
+/// The round trip, from 0, and the age in it; `None` before the start or beyond counting.
+fn trip_and_age<N: Bounded>(time: &N, units: &Units<N>) -> Option<(usize, N)> {
+    let age = time.clone() / &units.round_trip;
+    let trip = age.floor_int()?;
+    Some((usize::try_from(trip).ok()?, age.clone() - age.int(trip)))
+}
+
+/// Everything before an irrational landing is exact; the history ends at a fraction just below it.
+fn before_surd<N: Bounded>(unit: &N, trip: usize, [from, q, slope, disc]: [&N; 4]) -> Result<(N, Ending), Open> {
+    let scale = unit.clone() / slope;
+    let rational = (q.int(trip as i64) + from) * unit - scale.clone() * q;
+    let time = rational.surd(slope.negative()?, &(scale.square() * disc));
+    let (q, slope, disc) = (q.to_f64(), slope.to_f64(), disc.to_f64());
+    let flown = (-q - disc.sqrt()) / slope;
+    let near = (trip as f64 + from.to_f64() + flown) * unit.to_f64();
+    // A short fraction where one fits between the beginning of the piece and the root.
+    let ticks = ((from.to_f64() + flown) * MILLION as f64 - 1e-3).floor();
+    let short = from.int(ticks as i64) / from.int(MILLION);
+    let below = if from.below(&short)? { short } else { from.clone() + from.double(flown * (1.0 - 1e-9)) };
+    Ok((below, Ending::ExactnessEnds { kind: EventKind::Impact, time, near }))
+}
+
+fn not_determined(time: f64) -> String {
+    format!("from t = {time:.6} on, the events are not determined in this precision: ask for more digits")
+}
+
+/// Round trips of more pieces are summed without exact numbers.
+const MANY_PARTS: usize = 32;
+/// Parts of a round trip to which the end of an exact history is rounded down.
+const MILLION: i64 = 1_000_000;

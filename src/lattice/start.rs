@@ -1,0 +1,174 @@
+//! The problem in its own units: one round trip, and the speed that gravity gives in it.
+
+use crate::error::Error;
+use crate::number::{Bounded, Number, Open};
+use crate::rod::{Parameters, Problem, Profile, Start, Top};
+
+/// The units in which the lattice computes: with them a break returns after exactly 1, and gravity is 1 or 0.
+#[derive(Clone, Debug)]
+pub struct Units<N> {
+    /// The unit of time, `t₁ = 2L/c`.
+    pub round_trip: N,
+    /// The unit of velocity: `μ₀ = g t₁` with gravity, `μ` (or the greatest initial speed) without.
+    pub velocity: N,
+    /// `L`, the length of the rod.
+    pub length: N,
+    /// `c`.
+    pub wave_speed: N,
+}
+
+/// The undamped problem in [`Units`].
+#[derive(Clone, Debug)]
+pub struct Scaled<N> {
+    /// What the units are.
+    pub units: Units<N>,
+    /// Gravity: 1 or 0.
+    pub gravity: N,
+    /// The end `x = L`.
+    pub top: Top,
+    /// `v(0,0)`.
+    pub ground_start: N,
+    /// `v_t(0,0)`.
+    pub ground_velocity: N,
+    /// The trace of `p` at the ground that, one round trip before the start, would have sent what the rod carries at
+    /// `t = 0`: `(age, value, slope)` in order of the age, the first at 0.
+    pub before: Vec<(N, N, N)>,
+}
+
+impl<N: Bounded> Scaled<N> {
+    /// `problem` in the units of its own lattice.
+    ///
+    /// **Source**: `q(0,t) = q₀(ct) − g t` until `L/c` and, reflected at the top, `p₀(2L − ct)` after it.
+    ///
+    /// **Accuracy**: *exact* in fractions, a few roundings otherwise.
+    ///
+    /// **Errors**: [`Error::Irrational`] where a fraction cannot hold a parameter.
+    pub fn of(problem: &Problem, precision: &N::Precision) -> Result<Self, Error> {
+        let given = Parameters::<N>::of(problem, precision)?;
+        let round_trip = given.round_trip();
+        let has_gravity = problem.gravity.as_ref().is_some_and(|gravity| !gravity.is_zero());
+        let one = given.length.one();
+        let gravity = if has_gravity { one.clone() } else { one.zero() };
+        let fall = given.critical_speed();
+        let units = |velocity: N| Units {
+            round_trip: round_trip.clone(),
+            velocity,
+            length: given.length.clone(),
+            wave_speed: given.wave_speed.clone(),
+        };
+        match &problem.start {
+            Start::Uniform(_) => {
+                let velocity = if has_gravity { fall } else { given.speed.clone() };
+                let speed = given.speed.clone() / &velocity;
+                let before = match problem.rod.top {
+                    Top::Free => vec![(one.zero(), gravity.clone() - &speed, -gravity.clone())],
+                    Top::Fixed => vec![
+                        (one.zero(), speed.clone(), gravity.clone()),
+                        (one.clone().halved(), gravity.clone().halved() - &speed, -gravity.clone()),
+                    ],
+                };
+                let (top, ground_start, ground_velocity) = (problem.rod.top, one.zero(), -speed);
+                Ok(Scaled { units: units(velocity), gravity, top, ground_start, ground_velocity, before })
+            }
+            Start::Profile(profile) => {
+                let segments = segments(profile, &problem.rod.length, precision);
+                let velocity = if has_gravity { fall } else { greatest_speed(&segments, &given.wave_speed)? };
+                let ground_start = ground_value::<N>(&profile.displacement, precision) / &velocity / &round_trip;
+                let ground_velocity = ground_value::<N>(&profile.velocity, precision) / &velocity;
+                let units = units(velocity);
+                let before = before(&segments, &units, &gravity, problem.rod.top);
+                Ok(Scaled { units, gravity, top: problem.rod.top, ground_start, ground_velocity, before })
+            }
+        }
+    }
+}
+
+impl<N: Bounded> Scaled<N> {
+    /// The greatest of the speeds at the start and of 1, in lattice units.
+    pub fn greatest_speed(&self) -> f64 {
+        self.before.iter().map(|(_, p, _)| p.to_f64().abs()).fold(1.0, f64::max)
+    }
+}
+
+/// A stretch of the rod on which displacement and velocity are linear.
+struct Segment<N> {
+    /// `x_a`, `x_b`.
+    ends: [N; 2],
+    /// `v_t(x_a⁺)`, `v_t(x_b⁻)`.
+    velocities: [N; 2],
+    /// `v_x`.
+    strain: N,
+}
+
+/// The value of a list at `x = 0`.
+fn ground_value<N: Bounded>(list: &[(Number, Number)], precision: &N::Precision) -> N {
+    N::from_number(list.first().map_or(&Number::from(0), |(_, value)| value), precision)
+}
+
+/// The stretches on which both lists of `profile` are linear.
+fn segments<N: Bounded>(profile: &Profile, length: &Number, precision: &N::Precision) -> Vec<Segment<N>> {
+    let rest = [(Number::from(0), Number::from(0)), (length.clone(), Number::from(0))];
+    let or_rest = |list: &'_ [(Number, Number)]| if list.is_empty() { rest.to_vec() } else { list.to_vec() };
+    let (displacement, velocity) = (or_rest(&profile.displacement), or_rest(&profile.velocity));
+    let lift = |number: &Number| N::from_number(number, precision);
+    let mut segments = Vec::new();
+    let (mut i, mut j) = (0, 0);
+    while let (Some([(xa, ya), (xb, yb)]), Some([(sa, va), (sb, vb)])) =
+        (displacement.get(i..i + 2), velocity.get(j..j + 2))
+    {
+        let from = if xa.compare(sa).is_gt() { xa } else { sa };
+        let to = if xb.compare(sb).is_lt() { xb } else { sb };
+        if from.compare(to).is_lt() {
+            let strain = (lift(yb) - lift(ya)) / (lift(xb) - lift(xa));
+            let rate = (lift(vb) - lift(va)) / (lift(sb) - lift(sa));
+            let ends = [from, to].map(lift);
+            let velocities = ends.clone().map(|x| lift(va) + rate.clone() * (x - lift(sa)));
+            segments.push(Segment { ends, velocities, strain });
+        }
+        // Whichever list's segment ends first is left behind; both where they end together.
+        let order = xb.compare(sb);
+        i += usize::from(order.is_le());
+        j += usize::from(order.is_ge());
+    }
+    segments
+}
+
+/// The greatest of the speeds `v_t` and `c v_x`, or `c` where all are zero.
+fn greatest_speed<N: Bounded>(segments: &[Segment<N>], wave_speed: &N) -> Result<N, Open> {
+    let mut greatest = wave_speed.zero();
+    for Segment { velocities: [va, vb], strain, .. } in segments {
+        for candidate in [va.magnitude(), vb.magnitude(), (strain.clone() * wave_speed).magnitude()] {
+            greatest = greatest.larger(candidate);
+        }
+    }
+    Ok(if greatest.vanishes()? { wave_speed.clone() } else { greatest })
+}
+
+/// [`Scaled::before`]: `q₀` arrives on the first half of the trip, `p₀` on the second, after the reflection at the top.
+fn before<N: Bounded>(segments: &[Segment<N>], units: &Units<N>, gravity: &N, top: Top) -> Vec<(N, N, N)> {
+    let one = units.length.one();
+    let twice = units.length.clone().doubled();
+    let mut before = Vec::with_capacity(2 * segments.len());
+    for Segment { ends, velocities, strain } in segments {
+        // q₀ at f = x/2L; the fixed top sends −q₀ + g f where the free one sends q₀ + g (1 − f).
+        let stretch = strain.clone() * &units.wave_speed;
+        let [fa, fb] = ends.clone().map(|x| x / &twice);
+        let [qa, qb] = velocities.clone().map(|v| (v + &stretch) / &units.velocity);
+        let slope = (qb - &qa) / (fb - &fa);
+        let (value, slope) = match top {
+            Top::Free => (qa + gravity.clone() * (one.clone() - &fa), slope - gravity),
+            Top::Fixed => (gravity.clone() * &fa - qa, gravity.clone() - slope),
+        };
+        before.push((fa, value, slope));
+    }
+    for Segment { ends, velocities, strain } in segments.iter().rev() {
+        // p₀ + g (1 − f) at f = 1 − x/2L, from the top downwards.
+        let stretch = strain.clone() * &units.wave_speed;
+        let [to, from] = ends.clone().map(|x| one.clone() - x / &twice);
+        let [pa, pb] = velocities.clone().map(|v| (v - &stretch) / &units.velocity);
+        let slope = (pa - &pb) / (to - &from) - gravity;
+        let value = pb + gravity.clone() * (one.clone() - &from);
+        before.push((from, value, slope));
+    }
+    before
+}

@@ -1,0 +1,195 @@
+//! Numbers that answer for their own error.
+
+use super::{Estimate, Open, Rounded, Scalar};
+
+/// A number that answers for its own error: by having none, by enclosing it, or by carrying a bound of it.
+///
+/// Three kinds of algorithm are written once on it, and each of its methods is the part in which they differ: exact numbers
+/// and enclosures take part in formulas as they are (the defaults), while an [`Estimate`] is a stored value, for which a
+/// formula may be evaluated, and a bound of how far the number meant lies from it, which may be counted where it matters.
+pub trait Bounded: Scalar {
+    /// The bound of the error in roundoffs; zero where the number is exact or an enclosure.
+    fn roundoffs(&self) -> f64 {
+        0.0
+    }
+
+    /// The stored value, without the error: for formulas that count it elsewhere.
+    #[must_use]
+    fn nominal(self) -> Self {
+        self
+    }
+
+    /// The difference of the stored values.
+    #[must_use]
+    fn minus_stored(self, other: &Self) -> Self {
+        self - other
+    }
+
+    /// The product with the stored value of `other`.
+    #[must_use]
+    fn times_stored(self, other: &Self) -> Self {
+        self * other
+    }
+
+    /// Zero, within the error of this number; `None` where it answers for that in its value.
+    fn deviation(&self) -> Option<Self> {
+        None
+    }
+
+    /// Zero, within what this number may differ from zero: for a number that has been taken for zero.
+    #[must_use]
+    fn taken_for_zero(&self) -> Self {
+        self.zero()
+    }
+
+    /// One number for two that are the same within their bounds.
+    #[must_use]
+    fn joined(self, other: &Self) -> Self {
+        let _ = other;
+        self
+    }
+
+    /// Whether both are surely the same number, or the same within their bounds; false also where that is not known.
+    fn same(&self, other: &Self) -> bool {
+        self.compare(other).is_ok_and(std::cmp::Ordering::is_eq)
+    }
+
+    /// For the value of a function at the stored `place` of a break, where its rate and bend change from `before` to `after`:
+    /// counts what it is off where the break lies elsewhere in its bound.
+    fn cross_break(&mut self, place: &Self, before: [&Self; 2], after: [&Self; 2]) {
+        let _ = (place, before, after);
+    }
+
+    /// Zero, within how far a root of `self + rate·s + bend·s²/2` may lie from `s = 0`, where `self` is zero within its
+    /// bound; `None` where it is zero.
+    fn root_deviation(&self, rate: &Self, bend: &Self) -> Option<Self> {
+        let _ = (rate, bend);
+        None
+    }
+
+    /// `self/2`.
+    #[must_use]
+    fn halved(self) -> Self {
+        let two = self.int(2);
+        self / two
+    }
+
+    /// `2 self`.
+    #[must_use]
+    fn doubled(self) -> Self {
+        self.clone() + &self
+    }
+
+    /// With a symbol for the exact number where nothing else is known of it, so that it equals itself. For enclosures.
+    #[must_use]
+    fn with_identity(self) -> Self {
+        self
+    }
+
+    /// The same number by a formula that keeps the exact number where this one has lost it. For enclosures.
+    #[must_use]
+    fn or_exactly(self, other: impl FnOnce() -> Self) -> Self {
+        let _ = other;
+        self
+    }
+
+    /// Without the exact number, which outgrows any use in long sums. For enclosures.
+    #[must_use]
+    fn without_exact(self) -> Self {
+        self
+    }
+}
+
+impl<S: Rounded> Bounded for Estimate<S> {
+    #[inline]
+    fn roundoffs(&self) -> f64 {
+        self.error()
+    }
+
+    #[inline]
+    fn nominal(self) -> Self {
+        Estimate::exact(self.into_value())
+    }
+
+    #[inline]
+    fn minus_stored(self, other: &Self) -> Self {
+        Estimate::rounded(self.into_value() - other.value(), 1.0)
+    }
+
+    /// `|a b − a′ b| = |a − a′| |b|`.
+    #[inline]
+    fn times_stored(self, other: &Self) -> Self {
+        let error = self.error() * other.to_f64().abs();
+        let value = self.into_value() * other.value();
+        let rounding = value.to_f64().abs();
+        Estimate::new(value, error + rounding)
+    }
+
+    #[inline]
+    fn deviation(&self) -> Option<Self> {
+        (self.error() > 0.0).then(|| Estimate::new(self.value().zero(), self.error()))
+    }
+
+    #[inline]
+    fn taken_for_zero(&self) -> Self {
+        Estimate::new(self.value().zero(), self.error_of_zero())
+    }
+
+    /// The bound of the first is widened by how far the second lies off, and by the bound of that.
+    fn joined(self, other: &Self) -> Self {
+        let error = other.error() + (self.clone() - other).nominal().error_of_zero();
+        let error = error.max(self.error());
+        Estimate::new(self.into_value(), error)
+    }
+
+    /// With the break at `b + δ` the value at b is off by `∫ (after − before)` from b to b + δ, which is at most
+    /// `|[rate]| |δ| + |[bend]| δ²/2`.
+    #[inline]
+    fn cross_break(&mut self, place: &Self, before: [&Self; 2], after: [&Self; 2]) {
+        let late = place.error();
+        if late == 0.0 {
+            return;
+        }
+        let unit = self.value().unit();
+        // The jumps are differences of doubles, whose own rounding is counted with the errors of what they are taken of.
+        let jump = |k: usize| {
+            let (a, b) = (before[k].to_f64(), after[k].to_f64());
+            let error = (before[k].error() + after[k].error()) * unit;
+            (a - b).abs() + error + f64::EPSILON * (a.abs() + b.abs())
+        };
+        self.widen(late * (jump(0) + jump(1) * late * unit / 2.0));
+    }
+
+    /// With `|self| ≤ e` the root next to zero lies within `2e/|rate|` where `rate² ≥ 2 |bend| e`, and a double root within
+    /// `√(2e/|bend|)`; where the first does not hold, the second is the smaller one.
+    fn root_deviation(&self, rate: &Self, bend: &Self) -> Option<Self> {
+        let twice = 2.0 * self.error_of_zero();
+        let least = |x: &Self| (x.to_f64().abs() - x.bound()).max(0.0);
+        let simple = twice / least(rate);
+        let double = ((twice / least(bend)).log2() / 2.0 - self.value().log2_roundoff() / 2.0).exp2();
+        (twice > 0.0).then(|| Estimate::new(self.value().zero(), simple.min(double)))
+    }
+
+    #[inline]
+    fn halved(self) -> Self {
+        let (two, error) = (self.value().int(2), self.error() / 2.0);
+        Estimate::new(self.into_value() / two, error)
+    }
+
+    #[inline]
+    fn doubled(self) -> Self {
+        let error = 2.0 * self.error();
+        let value = self.into_value();
+        Estimate::new(value.clone() + &value, error)
+    }
+}
+
+/// `x < 0`, `x = 0` or `x > 0` for a number whose bound is trusted up to `widest` roundoffs, and whether it had to be cut
+/// down to that: then the stored value alone has decided.
+pub(crate) fn sign_within<N: Bounded>(x: &N, widest: f64) -> Result<(std::cmp::Ordering, bool), Open> {
+    let sign = x.sign()?;
+    if sign.is_ne() || x.roundoffs() <= widest {
+        return Ok((sign, false));
+    }
+    Ok((x.clone().nominal().sign()?, true))
+}
