@@ -10,7 +10,7 @@ use super::march::{Medium, State};
 use super::start::{Data, Units};
 use crate::first_contact::FirstContact;
 use crate::history::Side;
-use crate::number::{Analytic, Estimate};
+use crate::number::Estimate;
 use crate::special::RoundedSpecial;
 
 /// The motion before the first release, dimensionless.
@@ -109,6 +109,6 @@ impl<S: RoundedSpecial> Held<S> {
 }
 
 /// How close to a lattice time a time is taken to be that time: a few roundings.
-fn rounding<S: Analytic>(t: &S) -> S {
+fn rounding<S: RoundedSpecial>(t: &S) -> S {
     (t.magnitude() + t.one()) * &t.roundoff() * &t.int(16)
 }

@@ -5,6 +5,8 @@
 //! falling, is none: the flight goes on.
 
 use super::bounce::Held;
+use super::budget::{Budget, Landing, Off};
+use super::flight::Flight;
 use super::march::{Medium, State};
 use super::root::first_descent;
 use super::series::{at_one, at_zero, bound, derivative, evaluate};
@@ -13,7 +15,7 @@ use crate::error::Error;
 use crate::history::{Ending, EventKind};
 use crate::special::RoundedSpecial;
 
-/// What happened at the ground during one strip, dimensionless.
+/// What happened at the ground during one strip, or during a flight that was leapt over, dimensionless.
 #[derive(Clone, Debug)]
 pub(super) struct Piece<S> {
     /// Its beginning.
@@ -22,13 +24,17 @@ pub(super) struct Piece<S> {
     pub(super) len: S,
     /// Whether the ground end is in contact.
     pub(super) contact: bool,
+    /// The flight that it belongs to, where centre of mass and vibration are apart.
+    pub(super) flight: Option<usize>,
     /// Whether the first segment was cut for this strip.
     pub(super) cut: bool,
     /// Whether the rod is at rest: nothing was marched.
     pub(super) still: bool,
-    /// `v_t + c v_x` in Chebyshev coefficients.
+    /// Round trips that were leapt over; zero for a strip.
+    pub(super) leap: i64,
+    /// `v_t + c v_x` in Chebyshev coefficients; empty in a leap.
     pub(super) trace: Vec<S>,
-    /// `v(0,·)`; empty in contact.
+    /// `v(0,·)`; empty in contact and in a leap.
     pub(super) height: Vec<S>,
 }
 
@@ -37,6 +43,18 @@ impl<S: RoundedSpecial> Piece<S> {
     pub(super) fn to(&self) -> S {
         self.from.clone() + &self.len
     }
+}
+
+/// A state that is kept.
+#[derive(Clone, Debug)]
+pub(super) struct Checkpoint<S> {
+    /// How many pieces came before it.
+    pub(super) index: usize,
+    /// The flight whose vibration it holds; the deviation from the static state without one.
+    pub(super) flight: Option<usize>,
+    pub(super) state: State<S>,
+    /// `z(0,b)` in such a flight.
+    pub(super) ground: S,
 }
 
 /// An event, dimensionless.
@@ -67,26 +85,31 @@ pub(super) struct Follower<'a, S> {
     pub(super) medium: &'a Medium<S>,
     pub(super) data: &'a Data<S>,
     pub(super) held: Option<&'a Held<S>>,
+    /// `q` of the deviation from the static state, or of the vibration in a flight that is taken apart.
     pub(super) state: State<S>,
     pub(super) contact: bool,
     /// Contacts so far.
     landed: u32,
+    /// Whether events are in doubt.
+    lost: bool,
+    /// When the last contact began, in whole round trips and the fraction.
+    landing: Option<(i64, S)>,
+    /// The flight that is under way, where it is taken apart.
+    pub(super) flight: Option<usize>,
+    /// All of these flights.
+    pub(super) flights: Vec<Flight<S>>,
     /// `v(0,b)`.
     pub(super) height: S,
+    /// `z(0,b)` of the vibration.
+    ground: S,
     pub(super) pieces: Vec<Piece<S>>,
     pub(super) marks: Vec<Mark<S>>,
-    /// States at the beginning of each round trip, with the number of pieces before them.
-    pub(super) checkpoints: Vec<(usize, State<S>)>,
+    /// States at the beginning of each round trip and on both sides of a leap.
+    pub(super) checkpoints: Vec<Checkpoint<S>>,
     pub(super) warnings: Vec<String>,
     /// Error of `p`, `q` made in one cell.
     cell_error: f64,
-    /// Error of `p`, `q` from impacts that are off in time.
-    pub(super) scattered: f64,
-    /// Error of `h` and `h′` from rays that are off: `Σ |jump| · time error`, fading as the jumps do; and the most it was.
-    shifted: f64,
-    pub(super) most_shifted: f64,
-    /// Error of `v(0,b)`.
-    pub(super) height_error: f64,
+    pub(super) budget: Budget,
     /// The trace at the end of the last piece.
     last_trace: Option<S>,
 }
@@ -95,6 +118,13 @@ pub(super) struct Follower<'a, S> {
 const MOST_PIECES: usize = 400_000;
 /// The most segments of a round trip.
 const MOST_SEGMENTS: usize = 4096;
+/// The fewest round trips that are leapt over: a leap costs about as much as two of them.
+const LEAST_LEAP: f64 = 3.0;
+/// Where times are in doubt by more than this part of a round trip, so are the events.
+const MOST_LATE: f64 = 0.01;
+/// The roundings of a leap, of a separation and of a joining, each of the greatest `|q|`: every coefficient is a sum of some dozen terms,
+/// none greater than it.
+const LEAP_ROUNDINGS: f64 = 64.0;
 
 impl<'a, S: RoundedSpecial> Follower<'a, S> {
     /// At `t = 0`.
@@ -104,8 +134,11 @@ impl<'a, S: RoundedSpecial> Follower<'a, S> {
         if !data.ground.is_positive() && !follower.rises() {
             follower.contact = true;
             follower.landed = 1;
+            follower.landing = Some((0, data.slope.zero()));
             let velocity = data.end_velocity();
             follower.marks.push(Mark { kind: EventKind::Impact, time: data.slope.zero(), velocity, time_error: 0.0 });
+        } else {
+            follower.take_off();
         }
         follower
     }
@@ -118,48 +151,107 @@ impl<'a, S: RoundedSpecial> Follower<'a, S> {
         (velocity, time_error): (S, f64),
     ) -> Self {
         let (mut state, error) = held.state(medium);
-        state.segments[0].time_error = time_error;
+        let off = Off { fixed: time_error, moving: time_error };
+        state.segments[0].off = off;
         let mut follower = Self::with(medium, data, state);
         follower.held = Some(held);
         follower.landed = 1;
-        follower.scattered = error;
-        // As in `event`.
-        follower.shifted = 2.0 * velocity.to_f64().abs() * time_error;
-        follower.most_shifted = follower.shifted;
-        follower.height_error += velocity.to_f64().abs() * time_error;
+        follower.budget.add(error);
+        follower.let_go(&velocity, off);
         follower.marks.push(Mark { kind: EventKind::Release, time: held.release.clone(), velocity, time_error });
         follower
     }
 
     /// In flight at height zero, with no error but that of the first cells.
     fn with(medium: &'a Medium<S>, data: &'a Data<S>, state: State<S>) -> Self {
-        // A cell: what the series of its sides and of its sum leave out, and four roundings of every coefficient: the sum,
-        // the correction, the decay and its factor.
-        let roundoff = 4.0 * data.slope.log2_roundoff().exp2() * (1.0 + state.bound());
-        Follower {
+        let mut follower = Follower {
             medium,
             data,
             held: None,
             state,
             contact: false,
             landed: 0,
+            lost: false,
+            landing: None,
+            flight: None,
+            flights: Vec::new(),
             height: data.slope.zero(),
+            ground: data.slope.zero(),
             pieces: Vec::new(),
             marks: Vec::new(),
             checkpoints: Vec::new(),
             warnings: Vec::new(),
-            cell_error: 4.0 * medium.log2_accuracy.exp2() + roundoff,
-            scattered: 0.0,
-            shifted: 0.0,
-            most_shifted: 0.0,
-            height_error: roundoff,
+            cell_error: 0.0,
+            budget: Budget::default(),
             last_trace: None,
-        }
+        };
+        follower.weigh();
+        follower.budget.add(8.0 * follower.cell_error);
+        follower
     }
 
-    /// The error of `p` and `q`: what cells made, once for each cell on the longest path to here, and what impacts made.
-    pub(super) fn error(&self) -> f64 {
-        self.cell_error * (2.0 * self.pieces.len() as f64 + 8.0) + self.scattered
+    /// The error of a cell: what the series of its sides and of its sum leave out, and four roundings of every coefficient:
+    /// the sum, the correction, the decay and its factor. Both are relative to what moves now.
+    fn weigh(&mut self) {
+        let unit = self.medium.log2_accuracy.exp2() + self.height.log2_roundoff().exp2();
+        self.cell_error = 4.0 * unit * (self.state.bound() + self.medium.slope.to_f64().abs());
+    }
+
+    /// What roundings and truncations make of `p` and `q`: what is smaller decides nothing.
+    pub(super) fn noise(&self) -> f64 {
+        self.budget.noise(self.medium.splits())
+    }
+
+    /// The same of `v(0,·)` up to `len` from now.
+    fn height_noise(&self, len: f64) -> f64 {
+        if self.flight.is_some() {
+            return 2.0 * self.damping().exp() * self.noise();
+        }
+        self.height_error(len).fixed
+    }
+
+    /// `R`.
+    fn damping(&self) -> f64 {
+        2.0 * self.medium.kappa.to_f64()
+    }
+
+    /// The flight that is under way, where it is taken apart.
+    pub(super) fn flying(&self) -> Option<&Flight<S>> {
+        self.flight.and_then(|k| self.flights.get(k))
+    }
+
+    /// `h` and `h′` now, in such a flight.
+    pub(super) fn centre(&self) -> Option<(S, S)> {
+        self.flying().map(|flight| flight.at(&flight.age((self.state.round, &self.state.segments[0].at))))
+    }
+
+    /// The error of `v(0,·)` up to `len` from now.
+    fn height_error(&self, len: f64) -> Off {
+        let age = |flight: &Flight<S>| flight.age((self.state.round, &self.state.segments[0].at)).to_f64() + len;
+        let slowed = self.flying().map_or(0.0, |flight| slowed(self.damping(), age(flight)).1);
+        self.budget.end(self.damping(), slowed, len)
+    }
+
+    /// The better account of it.
+    pub(super) fn least_height_error(&self) -> f64 {
+        let off = self.height_error(0.0);
+        if self.flight.is_some() { off.fixed.min(off.moving) } else { off.fixed }
+    }
+
+    /// Takes the flight that begins here apart.
+    fn take_off(&mut self) {
+        if !self.medium.splits() {
+            return;
+        }
+        self.weigh();
+        let flight = self.medium.take_off(&mut self.state, &self.height);
+        let first = &self.state.segments[0].at;
+        let whole = self.landing.as_ref().is_some_and(|(round, at)| *round + 1 == self.state.round && at == first);
+        self.budget.take_off(self.damping(), whole, LEAP_ROUNDINGS / 4.0 * self.cell_error);
+        self.ground = self.height.clone() - &flight.height;
+        self.flight = Some(self.flights.len());
+        self.flights.push(flight);
+        self.weigh();
     }
 
     /// Whether the ground end, at height zero, leaves at once: `y > 0`, or `y = 0` and rising.
@@ -167,9 +259,9 @@ impl<'a, S: RoundedSpecial> Follower<'a, S> {
     /// What is less than the error counts as zero; Markov's inequality, `‖f′‖ ≤ 2n²‖f‖` on the unit interval, says what that
     /// is for a derivative.
     fn rises(&self) -> bool {
-        let mut c = self.medium.trace(&self.state, true);
+        let mut c = self.held_trace();
         let zero = self.height.zero();
-        let mut noise = self.error();
+        let mut noise = self.noise();
         for _ in 0..3 {
             let value = at_zero(&c, &zero).to_f64();
             if value.abs() > noise {
@@ -179,6 +271,19 @@ impl<'a, S: RoundedSpecial> Follower<'a, S> {
             c = derivative(&c);
         }
         false
+    }
+
+    /// The trace in contact, whatever there is now.
+    fn held_trace(&self) -> Vec<S> {
+        match self.flying() {
+            Some(flight) => {
+                let segments = self.state.segments.iter().take(1).cloned().collect();
+                let mut first = State { round: self.state.round, segments };
+                self.medium.touch_down(&mut first, flight);
+                self.medium.trace(&first, true)
+            }
+            None => self.medium.trace(&self.state, true),
+        }
     }
 
     /// Goes on until the goal.
@@ -200,9 +305,14 @@ impl<'a, S: RoundedSpecial> Follower<'a, S> {
             }
             if self.state.round > round {
                 round = self.state.round;
-                self.checkpoints.push((pieces, self.state.clone()));
+                self.new_round();
                 if let Some(ending) = self.settle(goal, &mut calm) {
                     return Ok(ending);
+                }
+                if let Some(trips) = self.leap_length(goal) {
+                    self.leap(trips);
+                    fresh = false;
+                    continue;
                 }
             }
             if let Goal::Impacts(_) = goal
@@ -212,19 +322,18 @@ impl<'a, S: RoundedSpecial> Follower<'a, S> {
             }
             // What the beginning of this strip decides.
             let first = &self.state.segments[0];
-            let (len, ray_error) = (first.len.clone(), first.time_error);
+            let (len, ray) = (first.len.clone(), first.off);
             if !fresh && self.contact && self.rises() {
-                self.event(ray_error, false);
+                self.event(ray, false);
                 fresh = true;
                 continue;
             }
-            let trace = self.medium.trace(&self.state, self.contact);
-            self.pass_ray(&trace, ray_error);
-            let height = self.height_over(&trace, &len);
-            let grounded = !self.contact && self.height.to_f64() <= self.height_error;
+            let (trace, height) = self.over(&len);
+            self.pass_ray(&trace, ray);
+            let grounded = !self.contact && self.height.to_f64() <= self.height_noise(0.0);
             if !fresh && grounded && !self.rises() {
-                let time_error = ray_error.max(self.event_error(&trace, &height, &len.zero(), &len, 0.0));
-                if self.land(goal, time_error) {
+                let off = ray.max(self.event_error(&trace, &height, &len.zero(), &len, 0.0));
+                if self.land(goal, off) {
                     return Ok(Ending::NextImpact);
                 }
                 fresh = true;
@@ -233,10 +342,10 @@ impl<'a, S: RoundedSpecial> Follower<'a, S> {
             // The next event in this strip.
             let (noise, found) = if self.contact {
                 let fall: Vec<S> = trace.iter().map(|term| -term.clone()).collect();
-                let noise = self.error().max(unit * 16.0 * bound(&trace, 0));
+                let noise = self.noise().max(unit * 16.0 * bound(&trace, 0));
                 (noise, first_descent(&self.medium.basis, &fall, noise))
             } else {
-                let noise = self.height_error + self.error() * len.to_f64();
+                let noise = self.height_noise(len.to_f64()).max(unit * 16.0 * bound(&height, 0));
                 (noise, first_descent(&self.medium.basis, &height, noise))
             };
             // Where a root is not told from the noise, both the function and what is known of it are off by so much.
@@ -246,10 +355,10 @@ impl<'a, S: RoundedSpecial> Follower<'a, S> {
             let at_start = found.as_ref().is_some_and(&nearby);
             if at_start && !fresh {
                 if self.contact {
-                    self.event(ray_error, false);
+                    self.event(ray, false);
                 } else {
-                    let time_error = ray_error.max(self.event_error(&trace, &height, &len.zero(), &len, 0.0));
-                    if self.land(goal, time_error) {
+                    let off = ray.max(self.event_error(&trace, &height, &len.zero(), &len, 0.0));
+                    if self.land(goal, off) {
                         return Ok(Ending::NextImpact);
                     }
                 }
@@ -269,23 +378,23 @@ impl<'a, S: RoundedSpecial> Follower<'a, S> {
                 }
                 let ends = left < len && found.as_ref().is_none_or(|x| *x > left);
                 if ends {
-                    self.advance(Some(&left), 0.0, &trace, &height);
+                    self.advance(Some(&left), Off::default(), &trace, &height);
                     return Ok(Ending::Time);
                 }
             }
             match found {
                 Some(x) => {
-                    let time_error = self.event_error(&trace, &height, &(x.clone() / &len), &len, vague);
-                    self.advance(Some(&x), time_error, &trace, &height);
+                    let off = self.event_error(&trace, &height, &(x.clone() / &len), &len, vague);
+                    self.advance(Some(&x), off, &trace, &height);
                     if self.contact {
-                        self.event(time_error, true);
-                    } else if self.land(goal, time_error) {
+                        self.event(off, true);
+                    } else if self.land(goal, off) {
                         return Ok(Ending::NextImpact);
                     }
                     fresh = true;
                 }
                 None => {
-                    self.advance(None, 0.0, &trace, &height);
+                    self.advance(None, Off::default(), &trace, &height);
                     if at_end && !self.contact {
                         self.height = self.height.zero();
                     }
@@ -299,50 +408,150 @@ impl<'a, S: RoundedSpecial> Follower<'a, S> {
         }
     }
 
-    /// A ray that may be off in time passes the ground: in flight the height takes its jump at the wrong time.
-    fn pass_ray(&mut self, trace: &[S], ray_error: f64) {
-        if ray_error > 0.0
-            && let Some(last) = &self.last_trace
-        {
-            let jump = at_zero(trace, &self.height.zero()) - last;
-            self.height_error += jump.to_f64().abs() * ray_error;
+    /// A round trip begins: the state is kept, and what is summed up in it is computed anew.
+    fn new_round(&mut self) {
+        self.weigh();
+        if self.flight.is_some() {
+            self.ground = self.medium.ground_of(&self.state);
+        }
+        let (index, flight) = (self.pieces.len(), self.flight);
+        self.checkpoints.push(Checkpoint { index, flight, state: self.state.clone(), ground: self.ground.clone() });
+    }
+
+    /// How many round trips can be leapt over: as long as the end surely stays above the ground.
+    ///
+    /// `v(0,t) = h + z(0,t)` with `|z(0,t)| ≤ B e^{−Rτ}` at the age τ from now. For `z` has mean zero, hence `|z(0)| ≤ ‖z_x‖/√6` on a rod
+    /// of length ½; `e^{2Rτ} (|ȧ + Ra|² + ω²|a|²)` is constant in each mode `a`, and lies between `1 ∓ ρ` times
+    /// `e^{2Rτ}(|ȧ|² + (2πk)²|a|²)`, `ρ = R/2π`; and `½ ∫ p² + q² dx ≤ ½ M²` now where `|q| ≤ M` on the characteristic. So
+    /// `B = M √((1 + ρ)/(1 − ρ)/12)`. Where `h′ ≥ −g/2R` the fall is concave, and `h − B e^{−Rτ}` with it: both ends decide. Otherwise h falls
+    /// all the time, and its end does.
+    fn leap_length(&self, goal: &Goal<S>) -> Option<i64> {
+        let flight = self.flying()?;
+        let (damping, gravity) = (self.damping(), self.medium.gravity.to_f64());
+        let age = flight.age((self.state.round, &self.state.segments[0].at));
+        let (height, rate) = flight.at(&age);
+        let most = self.state.bound() + self.noise();
+        let rho = damping / (2.0 * std::f64::consts::PI);
+        let bound = most * ((1.0 + rho) / (1.0 - rho) / 12.0).sqrt();
+        let concave = rate.to_f64() >= -gravity / (2.0 * damping);
+        let clear = |trips: f64| {
+            let later = flight.at(&(age.clone() + age.double(trips))).0.to_f64();
+            let fade = if concave { (-damping * trips).exp() } else { 1.0 };
+            later > bound * fade + 4.0 * self.height_noise(trips)
+        };
+        let mut most = match goal {
+            Goal::Time(end) => (end.clone() - self.state.time()).to_f64().floor() - 1.0,
+            Goal::Impacts(_) if gravity > 0.0 => 1e15,
+            Goal::Impacts(_) => return None,
+        };
+        if self.state.bound() > 0.0 {
+            most = most.min(super::leap::most_trips(damping).floor());
+        }
+        if height.to_f64() <= bound || most < LEAST_LEAP || !clear(LEAST_LEAP) {
+            return None;
+        }
+        let (mut low, mut high) = (LEAST_LEAP, 2.0 * LEAST_LEAP);
+        while high < most && clear(high) {
+            (low, high) = (high, 2.0 * high);
+        }
+        high = high.min(most);
+        if clear(high) {
+            low = high;
+        }
+        while high - low > 1.0 {
+            let middle = (0.5 * (low + high)).floor();
+            if clear(middle) { low = middle } else { high = middle }
+        }
+        Some(low as i64)
+    }
+
+    /// Leaps over so many round trips of a flight.
+    fn leap(&mut self, trips: i64) {
+        let from = self.state.time();
+        let passing = self.medium.passing(&self.state);
+        self.medium.leap(&mut self.state, &self.ground, trips);
+        self.budget.leap(self.damping(), trips as f64, LEAP_ROUNDINGS / 4.0 * self.cell_error, passing);
+        self.pieces.push(Piece {
+            len: from.int(trips),
+            from,
+            contact: false,
+            flight: self.flight,
+            cut: false,
+            still: false,
+            leap: trips,
+            trace: Vec::new(),
+            height: Vec::new(),
+        });
+        self.forget();
+        if let Some((height, _)) = self.centre() {
+            self.height = height + self.medium.ground_of(&self.state);
         }
     }
 
-    /// `v(0,·)` over the strip.
-    fn height_over(&self, trace: &[S], len: &S) -> Vec<S> {
+    /// Forgets rays and vibrations that are below the truncation of a cell.
+    fn forget(&mut self) {
+        let most = self.state.bound();
+        let least = self.medium.log2_accuracy.exp2() * self.medium.gravity.to_f64();
+        if most > 0.0 && most <= least {
+            self.budget.add(most);
+            self.medium.still(&mut self.state);
+        } else {
+            let joined = self.medium.join_all(&mut self.state);
+            self.budget.add(joined as f64 * self.cell_error);
+        }
+    }
+
+    /// A ray that may be off in time passes the ground: in flight the height takes its jump at the wrong time.
+    fn pass_ray(&mut self, trace: &[S], off: Off) {
+        if let Some(last) = &self.last_trace {
+            self.budget.pass((at_zero(trace, &self.height.zero()) - last).to_f64().abs(), off);
+        }
+    }
+
+    /// `v_t + c v_x` at the ground and, in flight, `v(0,·)` over the strip.
+    fn over(&self, len: &S) -> (Vec<S>, Vec<S>) {
+        let mut trace = self.medium.trace(&self.state, self.contact);
         if self.contact {
-            return Vec::new();
+            return (trace, Vec::new());
         }
         let mut height = trace.to_vec();
         height.push(len.zero());
         self.medium.basis.integrate(&mut height);
         super::cell::scale(&mut height, len);
-        height[0] = height[0].clone() + &self.height;
-        height
+        match self.centre() {
+            Some(centre) => {
+                let (rise, rate) = self.medium.rigid(&centre, len);
+                height[0] = height[0].clone() + &self.ground;
+                add(&mut height, rise);
+                add(&mut trace, rate);
+            }
+            None => height[0] = height[0].clone() + &self.height,
+        }
+        (trace, height)
     }
 
     /// How far a root in the strip may be off: the error of the function, and `vague` more, over its slope, or the root of twice the error
     /// over the second derivative if that is less. What Clenshaw's sum rounds, at most `(k + 2)u` of each coefficient, counts
     /// where the strip is long and the hop is short.
-    fn event_error(&self, trace: &[S], height: &[S], x: &S, len: &S, vague: f64) -> f64 {
-        let len = len.to_f64();
+    fn event_error(&self, trace: &[S], height: &[S], x: &S, len: &S, vague: f64) -> Off {
+        let strip = len.to_f64();
         let at = |c: &[S]| evaluate(c, x).to_f64().abs();
         let first = derivative(trace);
-        let (error, slope, curvature) = if self.contact {
-            (self.error(), at(&first) / len, at(&derivative(&first)) / (len * len))
+        let (error, more, slope, curvature) = if self.contact {
+            (self.budget.point(), vague, at(&first) / strip, at(&derivative(&first)) / (strip * strip))
         } else {
             let roundings: f64 = (2u32..).zip(height).map(|(k, c)| f64::from(k) * c.to_f64().abs()).sum();
             let rounding = x.log2_roundoff().exp2() * roundings;
-            (self.height_error + self.error() * len * x.to_f64() + rounding, at(trace), at(&first) / len)
+            (self.height_error(strip * x.to_f64()), vague + rounding, at(trace), at(&first) / strip)
         };
-        let error = error + vague;
-        let unit = 4.0 * x.log2_roundoff().exp2() * (1.0 + self.state.round.unsigned_abs() as f64);
-        (error / slope).min((2.0 * error / curvature).sqrt()).min(1.0) + unit
+        // Where the event is: rounding of the place in the strip.
+        let place = 4.0 * x.log2_roundoff().exp2() * (1.0 + self.state.round.unsigned_abs() as f64);
+        let off = |error: f64| ((error + more) / slope).min((2.0 * (error + more) / curvature).sqrt()) + place;
+        Off { fixed: off(error.fixed), moving: off(error.moving) }
     }
 
     /// Marches over the first segment, or the part of it before `cut`.
-    fn advance(&mut self, cut: Option<&S>, time_error: f64, trace: &[S], height: &[S]) {
+    fn advance(&mut self, cut: Option<&S>, off: Off, trace: &[S], height: &[S]) {
         let from = self.state.time();
         let whole = self.state.segments[0].len.clone();
         let (mut trace, mut height) = (trace.to_vec(), height.to_vec());
@@ -351,59 +560,112 @@ impl<'a, S: RoundedSpecial> Follower<'a, S> {
             let part = |c: &[S]| self.medium.basis.restrict(c, &fraction.zero(), &fraction, c.len());
             trace = part(&trace);
             height = if height.is_empty() { height } else { part(&height) };
-            self.medium.cut_first(&mut self.state, cut, time_error);
+            self.medium.cut_first(&mut self.state, cut, off);
         }
         let len = cut.cloned().unwrap_or(whole);
         let zero = len.zero();
         if !self.contact {
-            self.height_error += self.error() * len.to_f64();
             self.height = at_one(&height, &zero);
         }
-        // A jump of p fades along its ray like p_η = −κp, and η = 2t there.
-        self.shifted *= (-2.0 * self.medium.kappa.to_f64() * len.to_f64()).exp();
         self.last_trace = Some(at_one(&trace, &zero));
         self.medium.strip(&mut self.state, self.contact, &mut |_| {});
-        let contact = self.contact;
-        self.pieces.push(Piece { from, len, contact, cut: cut.is_some(), still: false, trace, height });
+        if let Some((centre, _)) = self.centre() {
+            self.ground = self.height.clone() - centre;
+        }
+        self.budget.strip(self.damping(), len.to_f64(), self.cell_error, self.contact);
+        let (contact, flight) = (self.contact, self.flight);
+        let cut = cut.is_some();
+        self.pieces.push(Piece { from, len, contact, flight, cut, still: false, leap: 0, trace, height });
     }
 
     /// Turns contact into flight or back, now. A release at a root of the trace has velocity zero. Where the end
     /// only touches the ground and a ray arrives at that very time, the velocity is the one that the ray brings.
-    fn event(&mut self, time_error: f64, at_root: bool) {
+    fn event(&mut self, off: Off, at_root: bool) {
         let zero = self.height.zero();
         let kind = if self.contact { EventKind::Release } else { EventKind::Impact };
         let velocity = match (&self.last_trace, kind) {
-            (Some(last), EventKind::Impact) if last.to_f64() < -self.error() => last.clone(),
+            (Some(last), EventKind::Impact) if last.to_f64() < -self.noise() => last.clone(),
             (_, EventKind::Release) if at_root => zero.clone(),
-            _ => at_zero(&self.medium.trace(&self.state, true), &zero),
+            _ => at_zero(&self.held_trace(), &zero),
         };
-        // p goes over from −q to q or back, where q is the velocity.
-        self.shifted += 2.0 * velocity.to_f64().abs() * time_error;
-        self.most_shifted = self.most_shifted.max(self.shifted);
-        if self.contact {
-            self.height_error = velocity.to_f64().abs() * time_error;
-        } else {
-            // The part of the ray that is off has twice the mass of the error of the height, and scatters at rate κ.
-            self.scattered += 4.0 * self.medium.kappa.to_f64() * self.height_error;
-            self.height_error = 0.0;
-        }
-        self.contact = !self.contact;
-        self.height = zero;
         let time = self.state.time();
+        let apart = self.medium.splits();
+        if self.budget.lost(off, apart, MOST_LATE) && !self.lost {
+            self.lost = true;
+            let when = (time.clone() * &self.data.units.time).to_f64();
+            self.warnings.push(format!("from t = {when} on the bound of the error no longer tells events apart"));
+        }
+        self.height = zero;
         // A ray of the start is off by no more than the roundings of t₁ and of its own time.
         let rounding = 4.0 * time.log2_roundoff().exp2() * (1.0 + time.to_f64());
-        self.marks.push(Mark { kind, time, velocity, time_error: time_error.max(rounding) });
+        let time_error = self.budget.time(off, apart).max(rounding);
+        let time_error = if self.lost { f64::INFINITY } else { time_error };
+        self.marks.push(Mark { kind, time, velocity: velocity.clone(), time_error });
+        if self.contact {
+            self.contact = false;
+            self.let_go(&velocity, off);
+        } else {
+            self.touch_down(&velocity, off);
+            self.contact = true;
+            self.weigh();
+        }
+    }
+
+    /// The ground lets go, with this velocity: p goes over from −q to q, too early or too late by what the time is off.
+    fn let_go(&mut self, velocity: &S, off: Off) {
+        self.budget.let_go(velocity.to_f64().abs(), off, self.cell_error);
+        self.take_off();
+    }
+
+    /// The ground is hit. What is off in time is the ray that starts; or, in a flight that is taken apart, where the motion is compared
+    /// with the true one at equal times since the impact, all the rest of the motion.
+    fn touch_down(&mut self, velocity: &S, off: Off) {
+        let speed = velocity.to_f64().abs();
+        self.landing = Some((self.state.round, self.state.segments[0].at.clone()));
+        let (Some(flight), Some((_, rate))) = (self.flying().cloned(), self.centre()) else {
+            self.budget.hit(self.damping(), speed, off);
+            return;
+        };
+        self.budget.hit(self.damping(), speed, off);
+        let (slope, range) = self.medium.variation(&self.state);
+        let damping = self.damping();
+        let age = flight.age((self.state.round, &self.state.segments[0].at)).to_f64();
+        let (kept, slowed) = slowed(damping, age);
+        let fall = -self.medium.gravity.to_f64() - 2.0 * damping * rate.to_f64();
+        self.budget.land(&Landing { speed, off, kept, slowed, fall, range, slope });
+        for segment in &mut self.state.segments {
+            segment.off.moving += off.moving;
+        }
+        self.state.segments[0].off.moving = 0.0;
+        self.medium.touch_down(&mut self.state, &flight);
+        self.flight = None;
     }
 
     /// An impact now; whether it is the one after the last that was asked for.
-    fn land(&mut self, goal: &Goal<S>, time_error: f64) -> bool {
+    fn land(&mut self, goal: &Goal<S>, off: Off) -> bool {
         if let Goal::Impacts(count) = goal
             && self.landed >= *count
         {
             return true;
         }
         self.landed += 1;
-        self.event(time_error, false);
+        self.event(off, false);
         false
+    }
+}
+
+/// `e^{−2Rτ}` and `(1 − e^{−2Rτ})/2R`.
+fn slowed(damping: f64, age: f64) -> (f64, f64) {
+    let fall = -2.0 * damping * age;
+    (fall.exp(), crate::special::phi1(&fall) * age)
+}
+
+/// `target += series`.
+fn add<S: RoundedSpecial>(target: &mut Vec<S>, series: Vec<S>) {
+    if target.len() < series.len() {
+        target.resize(series.len(), series[0].zero());
+    }
+    for (t, s) in target.iter_mut().zip(series) {
+        *t = t.clone() + s;
     }
 }

@@ -1,8 +1,9 @@
 //! The solution of the damped problem, and the answers to what is asked of it.
 
 use super::bounce::Held;
-use super::follow::{Follower, Goal, Mark, Piece};
-use super::march::{Medium, State};
+use super::flight::Flight;
+use super::follow::{Checkpoint, Follower, Goal, Mark, Piece};
+use super::march::Medium;
 use super::record::{Node, Record};
 use super::root::smallest;
 use super::series::{at_one, at_zero, evaluate};
@@ -42,7 +43,8 @@ pub struct Damped<S> {
     data: Data<S>,
     held: Option<Held<S>>,
     pieces: Vec<Piece<S>>,
-    checkpoints: Vec<(usize, State<S>)>,
+    checkpoints: Vec<Checkpoint<S>>,
+    flights: Vec<Flight<S>>,
     events: Vec<Event<S>>,
     contacts: Vec<Contact<S>>,
     end: S,
@@ -57,7 +59,8 @@ const MOST_DAMPING: f64 = 2000.0;
 /// What a run has found.
 struct Found<S> {
     pieces: Vec<Piece<S>>,
-    checkpoints: Vec<(usize, State<S>)>,
+    checkpoints: Vec<Checkpoint<S>>,
+    flights: Vec<Flight<S>>,
     marks: Vec<Mark<S>>,
     warnings: Vec<String>,
     error: f64,
@@ -66,10 +69,13 @@ struct Found<S> {
 
 impl<S: RoundedSpecial> Found<S> {
     fn of(follower: Follower<'_, S>, ending: Ending) -> Self {
-        let worst = follower.marks.iter().map(|mark| mark.time_error).fold(follower.error(), f64::max);
-        let error = worst.max(follower.height_error) + follower.most_shifted;
-        let Follower { pieces, checkpoints, marks, warnings, .. } = follower;
-        Found { pieces, checkpoints, marks, warnings, error, ending }
+        let error = follower
+            .marks
+            .iter()
+            .map(|mark| mark.time_error)
+            .fold(follower.budget.total(follower.medium.splits()), f64::max);
+        let Follower { pieces, checkpoints, flights, marks, warnings, .. } = follower;
+        Found { pieces, checkpoints, flights, marks, warnings, error, ending }
     }
 }
 
@@ -91,7 +97,7 @@ fn medium<S: RoundedSpecial>(
     if found > MOST_DAMPING {
         return Err(Error::DampingTooStrong { found, most: MOST_DAMPING });
     }
-    Ok((Medium::new(&data.damping, data.slope.clone(), free_top, log2_accuracy, shorten), data))
+    Ok((Medium::new(&data.damping, (data.gravity.clone(), data.slope.clone()), free_top, log2_accuracy, shorten), data))
 }
 
 /// How far to follow `problem`.
@@ -166,7 +172,7 @@ impl<S: RoundedSpecial> Damped<S> {
         problem: &Problem,
         precision: &S::Precision,
     ) -> Self {
-        let Found { pieces, checkpoints, marks, warnings, error, ending } = found;
+        let Found { pieces, checkpoints, flights, marks, warnings, error, ending } = found;
         let end = match &problem.run {
             Run::Time(time) if ending == Ending::Time || pieces.last().is_some_and(|piece| piece.still) => {
                 S::from_number(time, precision)
@@ -184,6 +190,7 @@ impl<S: RoundedSpecial> Damped<S> {
             held,
             pieces,
             checkpoints,
+            flights,
             end,
             ending,
             error,
@@ -210,8 +217,8 @@ impl<S: RoundedSpecial> Damped<S> {
 
     /// What the field follows from.
     fn record(&self) -> Record<'_, S> {
-        let Damped { medium, data, held, pieces, checkpoints, .. } = self;
-        Record { medium, data, held: held.as_ref(), pieces, checkpoints }
+        let Damped { medium, data, held, pieces, checkpoints, flights, .. } = self;
+        Record { medium, data, held: held.as_ref(), pieces, checkpoints, flights }
     }
 
     /// The dimensionless time.
@@ -228,41 +235,37 @@ impl<S: RoundedSpecial> Damped<S> {
         })
     }
 
-    /// `v_s(x)`.
-    fn static_state(&self, x: &S) -> S {
-        (self.data.gravity.clone() * x * x.ratio(1, 2) + &self.data.slope) * x
-    }
-
-    /// `c v_s′(x)`.
-    fn static_slope(&self, x: &S) -> S {
-        self.data.gravity.clone() * x + &self.data.slope
-    }
-
-    /// `h` and `h′` from the nodes of the whole rod: `⟨v⟩ = v(0) + (1/L)∫(L−x) z_x dx + ⟨v_s⟩`.
+    /// `h` and `h′` from the nodes of the whole rod: `⟨v⟩ = v(0) + (1/L)∫(L−x) v_x dx`.
     fn mean(&self, t: &S, nodes: &[Node<S>]) -> (S, S) {
         let half = t.ratio(1, 2);
         let (mut mean, mut rate) = (t.zero(), t.zero());
         for node in nodes {
-            mean = mean + (half.clone() - &node.x) * &node.z_x * &node.weight;
-            rate = rate + node.z_t.clone() * &node.weight;
+            mean = mean + (half.clone() - &node.x) * &node.strain * &node.weight;
+            rate = rate + node.velocity() * &node.weight;
         }
-        let at_rest = self.data.gravity.clone() * t.ratio(1, 24) + self.data.slope.clone() * t.ratio(1, 4);
-        (mean * t.int(2) + at_rest + self.record().height(t), rate * t.int(2))
+        (mean * t.int(2) + self.record().height(t), rate * t.int(2))
+    }
+
+    /// `h` and `h′` at a dimensionless time, dimensionless.
+    fn centre_of(&self, t: &S) -> (S, S) {
+        match self.record().flight(t, Side::Left) {
+            Some(flight) => flight.at(&flight.age_at(t)),
+            None => self.mean(t, &self.record().line(t, &t.ratio(1, 2))),
+        }
     }
 
     /// `h` and `h′` at a dimensionless time.
     fn centre_at(&self, t: &S) -> (S, S) {
-        let nodes = self.record().line(t, &t.ratio(1, 2));
-        let (mean, rate) = self.mean(t, &nodes);
+        let (mean, rate) = self.centre_of(t);
         (mean * &self.data.units.displacement, rate * &self.data.units.velocity)
     }
 
     /// `v(x,t)`, dimensionless.
     fn displacement(&self, x: &S, t: &S) -> S {
-        let mut sum = self.record().height(t) + self.static_state(x);
+        let mut sum = self.record().height(t);
         if x.is_positive() {
             for node in self.record().line(t, x) {
-                sum = sum + node.z_x * &node.weight;
+                sum = sum + node.strain * &node.weight;
             }
         }
         sum
@@ -377,13 +380,8 @@ impl<S: RoundedSpecial> History<S> for Damped<S> {
 
     fn ground_end(&self, time: &S, side: Side) -> Result<(S, S), Error> {
         let t = self.time(time)?;
-        Ok(match self.record().piece(&t, side) {
-            Some((piece, at)) if !piece.contact => (
-                evaluate(&piece.height, &at) * &self.data.units.displacement,
-                evaluate(&piece.trace, &at) * &self.data.units.velocity,
-            ),
-            _ => (t.zero(), t.zero()),
-        })
+        let (height, rate) = self.record().end(&t, side);
+        Ok((height * &self.data.units.displacement, rate * &self.data.units.velocity))
     }
 
     fn top_end(&self, time: &S, side: Side) -> Result<(S, S), Error> {
@@ -400,12 +398,15 @@ impl<S: RoundedSpecial> History<S> for Damped<S> {
         let units = &self.data.units;
         let half = t.ratio(1, 2);
         let nodes = self.record().line(&t, &half);
-        let (mean, rate) = self.mean(&t, &nodes);
+        let (mean, rate) = match self.record().flight(&t, Side::Left) {
+            Some(_) => self.centre_of(&t),
+            None => self.mean(&t, &nodes),
+        };
         let mut sum = t.zero();
         for node in &nodes {
-            let strain = node.z_x.clone() + self.static_slope(&node.x);
-            let motion = node.z_t.clone() - &rate;
-            sum = sum + (motion.square() + strain.square()) * &node.weight;
+            // The difference first, so that a vibration in flight loses nothing.
+            let motion = node.rigid.clone() - &rate + &node.motion;
+            sum = sum + (motion.square() + node.strain.square()) * &node.weight;
         }
         // dx is c t₁ = 2L times the dimensionless one.
         let vibrational = sum * &units.length * units.velocity.square();
@@ -426,11 +427,11 @@ impl<S: RoundedSpecial> History<S> for Damped<S> {
             return Ok(Field { displacement, velocity, strain: self.stress(time, side)? });
         }
         let x = point.clone() / &units.length * t.ratio(1, 2);
-        let (z_t, z_x) = self.record().at(&x, &t, side);
+        let (velocity, strain) = self.record().at(&x, &t, side);
         Ok(Field {
             displacement: self.displacement(&x, &t) * &units.displacement,
-            velocity: z_t * &units.velocity,
-            strain: (z_x + self.static_slope(&x)) * &units.velocity / &units.wave_speed,
+            velocity: velocity * &units.velocity,
+            strain: strain * &units.velocity / &units.wave_speed,
         })
     }
 
@@ -518,7 +519,7 @@ mod tests {
             for (x, w) in &history.medium.basis.gauss {
                 let t = pair[0] + x * (pair[1] - pair[0]);
                 let motion: f64 =
-                    history.record().line(&t, &0.5).iter().map(|node| node.weight * node.z_t * node.z_t).sum();
+                    history.record().line(&t, &0.5).iter().map(|node| node.weight * node.velocity().powi(2)).sum();
                 lost += w * (pair[1] - pair[0]) * motion;
             }
         }

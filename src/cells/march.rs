@@ -10,7 +10,9 @@
 
 use std::collections::VecDeque;
 
+use super::budget::Off;
 use super::cell::{Cell, cross, diagonal, scale};
+use super::leap::MOST_DAMPING;
 use super::series::{Basis, at_one, at_zero, bound, evaluate, terms_for};
 use crate::number::Analytic;
 
@@ -21,8 +23,12 @@ pub(super) struct Medium<S> {
     pub(super) basis: Basis<S>,
     /// `κ = r t₁/2`.
     pub(super) kappa: S,
-    /// Slope of the static state at the ground, in `V`: contact has `z_x = v_x − slope`, flight `z_x = −slope`.
+    /// `g t₁/V`.
+    pub(super) gravity: S,
+    /// Slope of the static state at the ground, in `V`: contact has `z_x = v_x − slope`.
     pub(super) slope: S,
+    /// What flight has of it, `z_x = −slope`: nothing where z is the vibration about the centre of mass.
+    pub(super) offset: S,
     /// Whether the top is free.
     pub(super) free_top: bool,
     /// Truncation of one cell relative to `V`, as `log₂`.
@@ -47,7 +53,7 @@ pub(super) struct Segment<S> {
     /// Coefficients.
     pub(super) q: Vec<S>,
     /// How far the ray at its lower end may be off.
-    pub(super) time_error: f64,
+    pub(super) off: Off,
 }
 
 /// `q` on a whole upward characteristic.
@@ -61,8 +67,9 @@ pub(super) struct State<S> {
 
 impl<S: Analytic> Medium<S> {
     /// The medium for `R = r t₁`, with segments `shorten` times shorter than need be.
-    pub(super) fn new(damping: &S, slope: S, free_top: bool, log2_accuracy: f64, shorten: i64) -> Self {
+    pub(super) fn new(damping: &S, (gravity, slope): (S, S), free_top: bool, log2_accuracy: f64, shorten: i64) -> Self {
         let r = damping.to_f64();
+        let offset = if free_top && r <= MOST_DAMPING { slope.zero() } else { slope.clone() };
         // Segments of κ·len ≤ 1: every series stays short, and what e^{κs} costs in digits is nothing.
         let longest = if r > 2.0 { damping.int(2) / damping } else { damping.one() } / damping.int(shorten);
         let depth = 0.5 * r.min(2.0);
@@ -71,7 +78,8 @@ impl<S: Analytic> Medium<S> {
         // The trace times e^{−r τ}, and squares on a line of constant time, grow at most like e^{4κ|s|}.
         let size = terms_for(SIDE_BOUND, SIDE_BOUND * (1.0 + r) * longest.to_f64(), 4.0 * depth, log2_accuracy);
         let basis = Basis::new(damping, size, powers);
-        Medium { basis, kappa: damping.clone() * damping.ratio(1, 2), slope, free_top, log2_accuracy, longest }
+        let kappa = damping.clone() * damping.ratio(1, 2);
+        Medium { basis, kappa, gravity, slope, offset, free_top, log2_accuracy, longest }
     }
 
     /// Terms for a function that grows like `e^{multiple·κ|s|}` on a segment.
@@ -87,11 +95,11 @@ impl<S: Analytic> Medium<S> {
         let depth = self.kappa.clone() * &len;
         let scaled = self.basis.nodes().iter().zip(values).map(|(x, q)| (depth.clone() * x).exp() * q);
         let q = self.basis.through(&scaled.collect::<Vec<_>>(), terms);
-        Segment { decay: (-depth).exp(), at, len, q, time_error: 0.0 }
+        Segment { decay: (-depth).exp(), at, len, q, off: Off::default() }
     }
 
-    /// Cuts a segment at `0 < cut < len`; the new ray starts with `time_error`.
-    fn cut(&self, segment: &Segment<S>, cut: &S, time_error: f64) -> (Segment<S>, Segment<S>) {
+    /// Cuts a segment at `0 < cut < len`; the new ray starts with this error.
+    fn cut(&self, segment: &Segment<S>, cut: &S, off: Off) -> (Segment<S>, Segment<S>) {
         let (zero, one) = (cut.zero(), cut.one());
         let fraction = cut.clone() / &segment.len;
         let rest = segment.len.clone() - cut;
@@ -103,18 +111,18 @@ impl<S: Analytic> Medium<S> {
         let at = if at >= one { at - &one } else { at };
         let high_decay = (-(self.kappa.clone() * &rest)).exp();
         (
-            Segment { at: segment.at.clone(), len: cut.clone(), decay, q: low, time_error: segment.time_error },
-            Segment { at, len: rest, decay: high_decay, q: high, time_error },
+            Segment { at: segment.at.clone(), len: cut.clone(), decay, q: low, off: segment.off },
+            Segment { at, len: rest, decay: high_decay, q: high, off },
         )
     }
 
-    /// The data at the ground that are mirrored: `q` in contact, `q + slope` in flight.
+    /// The data at the ground that are mirrored: `q` in contact, `q + offset` in flight.
     fn mirrored(&self, segment: &Segment<S>, contact: bool) -> Vec<S> {
         let mut q = segment.q.clone();
-        if !contact && !self.slope.is_zero() {
+        if !contact && !self.offset.is_zero() {
             let growth = self.basis.exponential(&(self.kappa.clone() * &segment.len), q.len());
             for (term, e) in q.iter_mut().zip(growth) {
-                *term = e * &self.slope + &*term;
+                *term = e * &self.offset + &*term;
             }
         }
         q
@@ -156,7 +164,7 @@ impl<S: Analytic> Medium<S> {
         // The ground: the cell and its mirror image.
         let q = self.mirrored(&first, contact);
         let mut p = if contact { q.iter().map(|term| -term.clone()).collect() } else { q.clone() };
-        let offset = if contact { zero.clone() } else { self.slope.clone() };
+        let offset = if contact { zero.clone() } else { self.offset.clone() };
         let (corner, size, depths) = cell(&eta, &first.len);
         visit(&Cell { corner, size, depth: depths, p: &p, q: &q, offset: offset.clone() });
         let mut out = q;
@@ -219,20 +227,71 @@ impl<S: Analytic> Medium<S> {
         cross(&self.basis, sides, depth, decay, self.log2_accuracy);
     }
 
-    /// Forgets the ray between the last two segments once they continue each other within the truncation of a cell.
+    /// Forgets the ray between the last two segments.
+    fn join_last(&self, state: &mut State<S>) {
+        if let Some(last) = state.segments.len().checked_sub(2) {
+            self.join(state, last);
+        }
+    }
+
+    /// Forgets all rays that can be, and says how many that were.
+    pub(super) fn join_all(&self, state: &mut State<S>) -> usize {
+        let count = state.segments.len();
+        for k in (0..count.saturating_sub(1)).rev() {
+            self.join(state, k);
+        }
+        count - state.segments.len()
+    }
+
+    /// Puts silence in the place of a vibration.
+    pub(super) fn still(&self, state: &mut State<S>) {
+        let first = state.segments[0].clone();
+        let depth = self.kappa.clone();
+        let q = vec![depth.zero(); first.q.len().max(1)];
+        let whole = Segment { len: depth.one(), decay: (-depth).exp(), q, ..first };
+        state.segments = VecDeque::from([whole]);
+    }
+
+    /// The greatest slope of `q` between rays, and its range.
+    pub(super) fn variation(&self, state: &State<S>) -> (f64, f64) {
+        let (mut slope, mut low, mut high) = (0.0f64, f64::INFINITY, f64::NEG_INFINITY);
+        for segment in &state.segments {
+            let rate = bound(&super::series::derivative(&segment.q), 0) / segment.len.to_f64();
+            slope = slope.max(rate + self.kappa.to_f64() * bound(&segment.q, 0));
+            // e^{−κs} times what lies about c₀.
+            let (mean, spread, decay) = (segment.q[0].to_f64(), bound(&segment.q, 1), segment.decay.to_f64());
+            low = low.min(mean - spread).min((mean - spread) * decay);
+            high = high.max(mean + spread).max((mean + spread) * decay);
+        }
+        (slope, high - low)
+    }
+
+    /// `Σ |jump of q| · time` of the rays that may be off.
+    pub(super) fn passing(&self, state: &State<S>) -> f64 {
+        let mut sum = 0.0;
+        let mut last: Option<S> = None;
+        for segment in &state.segments {
+            let zero = segment.len.zero();
+            let start = at_zero(&segment.q, &zero);
+            // The first ray leaves the ground here: twice its own velocity is the most that it jumps by.
+            let jump = last.map_or_else(|| 2.0 * start.to_f64().abs(), |last| (start.clone() - last).to_f64().abs());
+            sum += jump * segment.off.fixed;
+            last = Some(at_one(&segment.q, &zero) * &segment.decay);
+        }
+        sum
+    }
+
+    /// Forgets the ray between the segments k and k + 1 once they continue each other within the truncation of a cell.
     ///
     /// A jump at age `T` is `e^{−rT}` of the one that it started with, and so are its derivatives' (times powers of `r²T`),
     /// so every ray is forgotten in the end, except those that keep segments short. What is compared is the joined series
     /// with the two old ones, term by term: the sum of the differences bounds what the joining changes, and by the sup
     /// norm property it is never amplified.
-    fn join_last(&self, state: &mut State<S>) {
-        let count = state.segments.len();
-        if count < 2 {
-            return;
-        }
-        let (a, b) = (&state.segments[count - 2], &state.segments[count - 1]);
+    fn join(&self, state: &mut State<S>, k: usize) {
+        let (a, b) = (&state.segments[k], &state.segments[k + 1]);
         let len = a.len.clone() + &b.len;
-        let accuracy = self.log2_accuracy.exp2();
+        let size = bound(&a.q, 0) + bound(&b.q, 0) + self.gravity.to_f64() + self.slope.to_f64().abs();
+        let accuracy = self.log2_accuracy.exp2() * size;
         let zero = len.zero();
         let jump = at_one(&a.q, &zero) * &a.decay - at_zero(&b.q, &zero);
         if len > self.longest || jump.to_f64().abs() > accuracy {
@@ -256,15 +315,15 @@ impl<S: Analytic> Medium<S> {
             return;
         }
         let decay = a.decay.clone() * &b.decay;
-        let joined = Segment { at: a.at.clone(), len, decay, q, time_error: a.time_error };
-        state.segments.truncate(count - 2);
-        state.segments.push_back(joined);
+        let joined = Segment { at: a.at.clone(), len, decay, q, off: a.off };
+        state.segments[k] = joined;
+        state.segments.remove(k + 1);
     }
 
     /// Cuts the first segment, so that the next strip ends there.
-    pub(super) fn cut_first(&self, state: &mut State<S>, cut: &S, time_error: f64) {
+    pub(super) fn cut_first(&self, state: &mut State<S>, cut: &S, off: Off) {
         if let Some(first) = state.segments.pop_front() {
-            let (low, high) = self.cut(&first, cut, time_error);
+            let (low, high) = self.cut(&first, cut, off);
             state.segments.push_front(high);
             state.segments.push_front(low);
         }

@@ -6,10 +6,13 @@
 //! contact before it.
 
 mod bounce;
+mod budget;
 mod cell;
+mod flight;
 mod follow;
 mod history;
 mod joined;
+mod leap;
 mod march;
 mod record;
 mod rest;

@@ -4,9 +4,11 @@
 //! the cuts that are known. A question costs at most two round trips of cells, and memory is that of a trace.
 
 use super::bounce::Held;
+use super::budget::Off;
 use super::cell::Cell;
-use super::follow::Piece;
-use super::march::{Medium, State};
+use super::flight::Flight;
+use super::follow::{Checkpoint, Piece};
+use super::march::Medium;
 use super::series::evaluate;
 use super::start::Data;
 use crate::history::Side;
@@ -19,7 +21,8 @@ pub(super) struct Record<'a, S> {
     pub(super) data: &'a Data<S>,
     pub(super) held: Option<&'a Held<S>>,
     pub(super) pieces: &'a [Piece<S>],
-    pub(super) checkpoints: &'a [(usize, State<S>)],
+    pub(super) checkpoints: &'a [Checkpoint<S>],
+    pub(super) flights: &'a [Flight<S>],
 }
 
 /// A node of a quadrature along the rod.
@@ -29,31 +32,65 @@ pub(super) struct Node<S> {
     pub(super) weight: S,
     /// `x`.
     pub(super) x: S,
-    /// `z_t`.
-    pub(super) z_t: S,
-    /// `z_x`.
-    pub(super) z_x: S,
+    /// `h′` of the flight that the vibration is taken apart from; zero without one.
+    pub(super) rigid: S,
+    /// The rest of `v_t`.
+    pub(super) motion: S,
+    /// `v_x`.
+    pub(super) strain: S,
 }
+
+impl<S: RoundedSpecial> Node<S> {
+    /// `v_t`.
+    pub(super) fn velocity(&self) -> S {
+        self.motion.clone() + &self.rigid
+    }
+}
+
+/// A cell on its way past, with the flight whose vibration it holds.
+type Passing<'a, 'b, S> = (&'a Cell<'b, S>, Option<&'a Flight<S>>);
 
 impl<S: RoundedSpecial> Record<'_, S> {
     /// Shows every cell of the strips that meet `from ≤ ξ ≤ to`, in order of `ξ`, then of `η`.
-    fn sweep(&self, from: &S, to: &S, visit: &mut impl FnMut(&Cell<'_, S>)) {
+    fn sweep(&self, from: &S, to: &S, visit: &mut dyn FnMut(Passing<'_, '_, S>)) {
         if from.is_negative() && self.held.is_none() {
-            self.data.march(self.medium, visit);
+            self.data.march(self.medium, &mut |cell| visit((cell, None)));
         }
         let first = self.pieces.partition_point(|piece| piece.to() < *from);
-        let kept = self.checkpoints.partition_point(|(index, _)| *index <= first);
-        let Some((index, state)) = kept.checked_sub(1).and_then(|k| self.checkpoints.get(k)) else { return };
-        let mut state = state.clone();
-        for (k, piece) in self.pieces.iter().enumerate().skip(*index) {
+        let kept = self.checkpoints.partition_point(|kept| kept.index <= first);
+        let Some(kept) = kept.checked_sub(1).and_then(|k| self.checkpoints.get(k)) else { return };
+        let (mut state, mut flight, mut ground) = (kept.state.clone(), kept.flight, kept.ground.clone());
+        for (k, piece) in self.pieces.iter().enumerate().skip(kept.index) {
             if piece.still || piece.from > *to {
                 break;
             }
+            if piece.flight != flight {
+                let of = |flight: Option<usize>| flight.and_then(|k| self.flights.get(k));
+                self.medium.convert(&mut state, of(flight), of(piece.flight));
+                flight = piece.flight;
+            }
+            let now = flight.and_then(|k| self.flights.get(k));
+            if piece.leap > 0 {
+                // At most two round trips of it are marched.
+                let skipped = (from.clone() - &piece.from).floor_int().unwrap_or(0).clamp(0, piece.leap);
+                let end = state.round + piece.leap;
+                let (fraction, from_start) = (state.segments[0].at.clone(), k > kept.index);
+                if from_start {
+                    ground = self.medium.ground_of(&state);
+                }
+                if skipped > 0 {
+                    self.medium.leap(&mut state, &ground, skipped);
+                }
+                while state.time() <= *to && (state.round < end || state.segments[0].at != fraction) {
+                    self.medium.strip(&mut state, false, &mut |cell| visit((cell, now)));
+                }
+                continue;
+            }
             if piece.cut {
-                self.medium.cut_first(&mut state, &piece.len, 0.0);
+                self.medium.cut_first(&mut state, &piece.len, Off::default());
             }
             if k >= first {
-                self.medium.strip(&mut state, piece.contact, visit);
+                self.medium.strip(&mut state, piece.contact, &mut |cell| visit((cell, now)));
             } else {
                 self.medium.strip(&mut state, piece.contact, &mut |_| {});
             }
@@ -66,72 +103,84 @@ impl<S: RoundedSpecial> Record<'_, S> {
     /// tables hold enough terms, and the rule is exact to twice its nodes.
     pub(super) fn line(&self, t: &S, reach: &S) -> Vec<Node<S>> {
         let zero = t.zero();
-        let half = t.ratio(1, 2);
         let mut nodes = Vec::new();
-        if let Some(z_x) = self.at_rest(t) {
+        let mut add = |from: &S, len: &S, values: &mut dyn FnMut(&S) -> (S, S, S)| {
             for (at, weight) in &self.medium.basis.gauss {
-                let (x, weight) = (at.clone() * reach, weight.clone() * reach);
-                nodes.push(Node { weight, x, z_t: zero.clone(), z_x: z_x.clone() });
+                let x = len.clone() * at + from;
+                let (rigid, motion, strain) = values(&x);
+                nodes.push(Node { weight: weight.clone() * len, x, rigid, motion, strain });
             }
+        };
+        if let Some(contact) = self.at_rest(t) {
+            add(&zero, reach, &mut |x| (zero.clone(), zero.clone(), self.rest_strain(x, contact)));
             return nodes;
         }
-        let mut visit = |cell: &Cell<'_, S>| {
+        self.sweep(&(t.clone() - reach), t, &mut |(cell, flight)| {
             let (xi, eta) = &cell.corner;
             let low = larger(larger(t.clone() - xi - &cell.size.0, eta.clone() - t), zero.clone());
             let high = smaller(smaller(t.clone() - xi, eta.clone() + &cell.size.1 - t), reach.clone());
             let len = high - &low;
-            if !len.is_positive() {
-                return;
+            if len.is_positive() {
+                add(&low, &len, &mut |x| self.inside((cell, flight), x, t));
             }
-            for (at, weight) in &self.medium.basis.gauss {
-                let x = len.clone() * at + &low;
-                let (p, q) = self.inside(cell, &(t.clone() - &x), &(t.clone() + &x));
-                let z_t = (p.clone() + &q) * &half;
-                let z_x = (q - &p) * &half;
-                nodes.push(Node { weight: weight.clone() * &len, x, z_t, z_x });
-            }
-        };
-        self.sweep(&(t.clone() - reach), t, &mut visit);
+        });
         if let Some(held) = self.held {
-            for (from, to) in held.between_rays(t, &larger(t.clone() - &held.release, zero), reach) {
-                let len = to - &from;
-                for (at, weight) in &self.medium.basis.gauss {
-                    let x = len.clone() * at + &from;
-                    let (p, q, _) = held.invariants(&x, t, Side::Right);
-                    let (z_t, z_x) = ((p.clone() + &q) * &half, (q - p) * &half);
-                    nodes.push(Node { weight: weight.clone() * &len, x, z_t, z_x });
-                }
+            for (from, to) in held.between_rays(t, &larger(t.clone() - &held.release, zero.clone()), reach) {
+                add(&from, &(to - &from), &mut |x| self.before(held, x, t, Side::Right));
             }
         }
         nodes
     }
 
-    /// `z_x`, the same along the rod, where the rod is at rest at time `t`.
-    fn at_rest(&self, t: &S) -> Option<S> {
-        let last = self.pieces.last().filter(|piece| piece.still && *t > piece.from)?;
-        Some(if last.contact { t.zero() } else { -self.medium.slope.clone() })
+    /// Whether the rod is at rest at time `t`, and if so whether in contact.
+    fn at_rest(&self, t: &S) -> Option<bool> {
+        self.pieces.last().filter(|piece| piece.still && *t > piece.from).map(|piece| piece.contact)
     }
 
-    /// `p`, `q` of `z` in a cell.
-    fn inside(&self, cell: &Cell<'_, S>, xi: &S, eta: &S) -> (S, S) {
-        cell.at(&self.medium.basis, xi, eta, self.medium.log2_accuracy)
+    /// `v_s′(x)`.
+    fn static_strain(&self, x: &S) -> S {
+        self.data.gravity.clone() * x + &self.data.slope
     }
 
-    /// `z_t` and `z_x` at a point, from the named side in time.
+    /// `v_x` at rest.
+    fn rest_strain(&self, x: &S, contact: bool) -> S {
+        let strain = self.static_strain(x);
+        if contact { strain } else { strain - &self.data.slope }
+    }
+
+    /// `h′` of the flight, the rest of `v_t`, and `v_x`, at a point of a cell.
+    fn inside(&self, (cell, flight): Passing<'_, '_, S>, x: &S, t: &S) -> (S, S, S) {
+        let (xi, eta) = (t.clone() - x, t.clone() + x);
+        let (p, q) = cell.at(&self.medium.basis, &xi, &eta, self.medium.log2_accuracy);
+        let half = x.ratio(1, 2);
+        let (motion, strain) = ((p.clone() + &q) * &half, (q - p) * half);
+        match flight {
+            Some(flight) => (flight.at(&flight.age_at(t)).1, motion, strain),
+            None => (x.zero(), motion, strain + self.static_strain(x)),
+        }
+    }
+
+    /// The same before the first release.
+    fn before(&self, held: &Held<S>, x: &S, t: &S, side: Side) -> (S, S, S) {
+        let (p, q, _) = held.invariants(x, t, side);
+        let half = x.ratio(1, 2);
+        (x.zero(), (p.clone() + &q) * &half, (q - p) * half + self.static_strain(x))
+    }
+
+    /// `v_t` and `v_x` at a point, from the named side in time.
     pub(super) fn at(&self, x: &S, t: &S, side: Side) -> (S, S) {
-        if let Some(z_x) = self.at_rest(t) {
-            return (t.zero(), z_x);
+        if let Some(contact) = self.at_rest(t) {
+            return (t.zero(), self.rest_strain(x, contact));
         }
         let (xi, eta) = (t.clone() - x, t.clone() + x);
         let slack = slack(t);
-        let half = x.ratio(1, 2);
-        let before = |held: &&Held<S>| match side {
+        let first = |held: &&Held<S>| match side {
             Side::Right => xi < held.release.clone() - &slack,
             Side::Left => xi <= held.release.clone() + &slack,
         };
-        if let Some(held) = self.held.filter(before) {
-            let (p, q, _) = held.invariants(x, t, side);
-            return ((p.clone() + &q) * &half, (q - p) * half);
+        if let Some(held) = self.held.filter(first) {
+            let (_, velocity, strain) = self.before(held, x, t, side);
+            return (velocity, strain);
         }
         // The last cell that has begun; where none has, the first.
         let begun = |corner: &S, at: &S| match side {
@@ -139,16 +188,19 @@ impl<S: RoundedSpecial> Record<'_, S> {
             Side::Left => *corner < at.clone() - &slack,
         };
         let mut best = None;
-        let mut visit = |cell: &Cell<'_, S>| {
-            if best.is_none() || (begun(&cell.corner.0, &xi) && begun(&cell.corner.1, &eta)) {
-                best = Some(self.inside(cell, &xi, &eta));
-            }
-        };
         // One strip earlier for the left limit.
         let from = xi.clone() - &slack - &slack;
-        self.sweep(&from, &(xi.clone() + &slack), &mut visit);
-        let (p, q) = best.unwrap_or((x.zero(), x.zero()));
-        ((p.clone() + &q) * &half, (q - p) * half)
+        self.sweep(&from, &(xi.clone() + &slack), &mut |(cell, flight)| {
+            if best.is_none() || (begun(&cell.corner.0, &xi) && begun(&cell.corner.1, &eta)) {
+                best = Some(self.inside((cell, flight), x, t));
+            }
+        });
+        best.map_or_else(|| (x.zero(), x.zero()), |(rigid, motion, strain)| (rigid + motion, strain))
+    }
+
+    /// The flight at time `t`, where it is taken apart.
+    pub(super) fn flight(&self, t: &S, side: Side) -> Option<&Flight<S>> {
+        self.piece(t, side).and_then(|(piece, _)| piece.flight).and_then(|k| self.flights.get(k))
     }
 
     /// The piece of the trace at time `t`, and where in it: `0 … 1`.
@@ -163,13 +215,28 @@ impl<S: RoundedSpecial> Record<'_, S> {
         Some((piece, smaller(larger(at, t.zero()), t.one())))
     }
 
+    /// `v(0,t)` and `v_t(0,t)`.
+    pub(super) fn end(&self, t: &S, side: Side) -> (S, S) {
+        match self.piece(t, side) {
+            Some((piece, _)) if piece.leap > 0 => {
+                // The mean of z vanishes, so v(0,t) is that of h less a mean of z_x.
+                let nodes = self.line(t, &t.ratio(1, 2));
+                let half = t.ratio(1, 2);
+                let lack = nodes
+                    .iter()
+                    .fold(t.zero(), |sum, node| (half.clone() - &node.x) * &node.strain * &node.weight + &sum);
+                let centre = self.flight(t, side).map_or_else(|| t.zero(), |flight| flight.at(&flight.age_at(t)).0);
+                (centre - lack * t.int(2), self.at(&t.zero(), t, side).0)
+            }
+            Some((piece, at)) if !piece.contact => (evaluate(&piece.height, &at), evaluate(&piece.trace, &at)),
+            Some(_) => (t.zero(), t.zero()),
+            None => (self.data.ground.clone(), t.zero()),
+        }
+    }
+
     /// `v(0,t)`.
     pub(super) fn height(&self, t: &S) -> S {
-        match self.piece(t, Side::Left) {
-            Some((piece, at)) if !piece.contact => evaluate(&piece.height, &at),
-            Some(_) => t.zero(),
-            None => self.data.ground.clone(),
-        }
+        self.end(t, Side::Left).0
     }
 }
 

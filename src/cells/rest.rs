@@ -28,11 +28,12 @@ impl<S: RoundedSpecial> Follower<'_, S> {
             return None;
         }
         let held = self.held;
-        let record = Record { medium, data, held, pieces: &self.pieces, checkpoints: &self.checkpoints };
+        let (pieces, checkpoints, flights) = (&self.pieces, &self.checkpoints, &self.flights);
+        let record = Record { medium, data, held, pieces, checkpoints, flights };
         let t = self.state.time();
         let nodes = record.line(&t, &t.ratio(1, 2));
         let sum = |f: &dyn Fn(f64, f64, f64) -> f64| -> f64 {
-            let term = |n: &Node<S>| n.weight.to_f64() * f(n.x.to_f64(), n.z_t.to_f64(), n.z_x.to_f64() + slope);
+            let term = |n: &Node<S>| n.weight.to_f64() * f(n.x.to_f64(), n.velocity().to_f64(), n.strain.to_f64());
             nodes.iter().map(term).sum()
         };
         let (least, share) = if medium.free_top {
@@ -44,7 +45,7 @@ impl<S: RoundedSpecial> Follower<'_, S> {
         } else {
             (slope / 2.0, sum(&|_, v_t, v_x| v_t.powi(2) + v_x.powi(2)) / 2.0)
         };
-        let swing = share.sqrt() + 8.0 * (self.error() + self.height_error);
+        let swing = share.sqrt() + 8.0 * (self.noise() + self.least_height_error());
         (least > swing).then(|| {
             let unit = data.units.displacement.to_f64();
             Ending::NoFurtherImpact(format!(
@@ -61,7 +62,7 @@ impl<S: RoundedSpecial> Follower<'_, S> {
     /// In contact `p = −q` at the ground and `p = ±q` at the top, so `|q| ≤ B` on one characteristic gives `|q| ≤ B` for
     /// ever, and with `B < |v_s′(0)|`, `v_s′(0) < 0`, the stress `q + v_s′(0)` stays negative.
     pub(super) fn stays(&self) -> Option<Ending> {
-        let most = self.state.bound() + self.error();
+        let most = self.state.bound() + self.noise();
         let slope = self.medium.slope.to_f64();
         (self.contact && slope < 0.0 && most < -slope).then(|| {
             self.held(format!(
@@ -89,7 +90,8 @@ impl<S: RoundedSpecial> Follower<'_, S> {
     fn left(&self, time: f64) -> Option<(f64, f64)> {
         let Medium { slope, kappa, free_top, basis, .. } = self.medium;
         let value = slope.to_f64();
-        let mut most = self.state.bound();
+        // In a flight that is taken apart h′ tends to zero where there is no gravity.
+        let mut most = self.state.bound() + self.centre().map_or(0.0, |(_, rate)| rate.to_f64().abs());
         if value > 0.0 && !self.contact {
             most = 0.0;
             for segment in &self.state.segments {
@@ -102,14 +104,14 @@ impl<S: RoundedSpecial> Follower<'_, S> {
                 most = most.max(bound(&q, 0));
             }
         }
-        let velocity = most + self.error();
+        let velocity = most + self.noise();
         let clear = if self.contact { value <= 0.0 } else { value >= 0.0 };
         let far = if value == 0.0 && *free_top {
             (velocity * (1.0 + 1.0 / (4.0 * kappa.to_f64()))).min(velocity * time.max(1.0))
         } else {
             velocity / 2.0
         };
-        let over = most <= OVER * self.error() && (value == 0.0 || velocity < value.abs());
+        let over = most <= OVER * self.noise() && (value == 0.0 || velocity < value.abs());
         (clear && over).then_some((velocity, far))
     }
 
@@ -143,7 +145,7 @@ impl<S: RoundedSpecial> Follower<'_, S> {
         let rest = if self.medium.free_top { self.height.clone() } else { self.medium.slope.clone() * now.ratio(1, 2) };
         let ending = if self.contact && !neither {
             self.held(format!("{still}: the rod presses on the ground as it does at rest"))
-        } else if !self.contact && rest.to_f64() > far + self.height_error {
+        } else if !self.contact && rest.to_f64() > far + self.least_height_error() {
             let height = rest.to_f64() * units.displacement.to_f64();
             Ending::NoFurtherImpact(format!("{still}: the ground end stays at the height {height:.6e}"))
         } else {
@@ -154,10 +156,21 @@ impl<S: RoundedSpecial> Follower<'_, S> {
         } else {
             (vec![zero.clone(), zero.clone()], vec![rest, zero])
         };
-        self.scattered += velocity;
-        self.height_error += far;
+        self.budget.rest(far);
+        self.budget.add(velocity);
         let len = end.clone() - &now;
-        self.pieces.push(Piece { from: now, len, contact: self.contact, cut: false, still: true, trace, height });
+        let contact = self.contact;
+        self.pieces.push(Piece {
+            from: now,
+            len,
+            contact,
+            flight: None,
+            cut: false,
+            still: true,
+            leap: 0,
+            trace,
+            height,
+        });
         Some(ending)
     }
 }

@@ -41,7 +41,8 @@ pub(super) fn first_descent<S: Analytic>(basis: &Basis<S>, c: &[S], noise: f64) 
             if start.is_negative() {
                 return Some((from, true));
             }
-            if at_one(&c, &zero).is_negative() {
+            // An end within the noise is left to the next part, and at the end of all to whoever goes on there.
+            if at_one(&c, &zero).to_f64() < -noise {
                 let vague = start.to_f64() <= noise;
                 return Some((from + width * descend(&c, &slope), vague));
             }

@@ -137,6 +137,13 @@ pub(super) fn at_zero<S: Analytic>(c: &[S], zero: &S) -> S {
     c.iter().enumerate().fold(zero.clone(), |sum, (k, term)| if k % 2 == 0 { sum + term } else { sum - term })
 }
 
+/// `∫₀¹`: an even term of order k has the integral `1/(1 − k²)`.
+pub(super) fn integral<S: Analytic>(c: &[S]) -> S {
+    let first = &c[0];
+    let even = c.iter().zip(0i64..).step_by(2).skip(1);
+    even.fold(first.clone(), |sum, (term, k)| sum - term.clone() / first.int(k * k - 1))
+}
+
 /// The derivative: `c′_{k−1} = c′_{k+1} + 4k c_k`, `c′₀` halved.
 pub(super) fn derivative<S: Analytic>(c: &[S]) -> Vec<S> {
     let Some(first) = c.first() else { return Vec::new() };

@@ -19,6 +19,7 @@ mod damped_properties;
 mod damped_reference;
 mod damped_settling;
 mod damped_solve;
+mod damped_stiff;
 mod door;
 #[cfg(feature = "mp")]
 mod examples_run;

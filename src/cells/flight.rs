@@ -1,0 +1,232 @@
+//! A flight under a free top: the centre of mass and the vibration about it, apart.
+//!
+//! `v = h(t) + z(x,t)` with `h″ + 2Rh′ = −g` alone, and `z` of mean zero with free ends. What separates both on the
+//! characteristic `t = b + x`, `0 ≤ x ≤ ½`, that leaves the ground at b, are two solutions w of the adjoint equation that depend on t alone:
+//! by Green's formula in the triangle between the characteristic and `t = b`, where `q = v_t + v_x`,
+//!
+//! ```text
+//! h′(b) = 2 ∫ e^{2Rx} q + g x φ₁(2Rx) dx                      w = e^{2R(t−b)}
+//! z(0,b) = −2 ∫ (½ − x − x φ₁(2Rx)) (q − h′(b + x)) dx          w = −(t−b) φ₁(2R(t−b))
+//! ```
+//!
+//! The second is what makes the mean of z vanish, and holds on every characteristic of the flight: the height of the end is never
+//! summed up over round trips.
+
+use super::leap::MOST_DAMPING;
+use super::march::{Medium, State};
+use super::series::{integral, times_x};
+use crate::special::RoundedSpecial;
+use crate::special::{phi1, phi2};
+
+/// The centre of mass in a flight.
+#[derive(Clone, Debug)]
+pub(super) struct Flight<S> {
+    /// When it began, in whole round trips and the fraction.
+    pub(super) from: (i64, S),
+    /// `h` there.
+    pub(super) height: S,
+    /// `h′` there.
+    pub(super) rate: S,
+    /// `2R`.
+    drag: S,
+    gravity: S,
+}
+
+impl<S: RoundedSpecial> Flight<S> {
+    /// The age at a time in whole round trips and the fraction.
+    pub(super) fn age(&self, (round, at): (i64, &S)) -> S {
+        at.clone() - &self.from.1 + at.int(round - self.from.0)
+    }
+
+    /// The age at a time.
+    pub(super) fn age_at(&self, t: &S) -> S {
+        t.clone() - t.int(self.from.0) - &self.from.1
+    }
+
+    /// `h` and `h′`.
+    pub(super) fn at(&self, age: &S) -> (S, S) {
+        let fall = -(self.drag.clone() * age);
+        let slowed = phi1(&fall) * age;
+        let drop = phi2(&fall) * &age.square() * &self.gravity;
+        let rate = fall.exp() * &self.rate - slowed.clone() * &self.gravity;
+        (slowed * &self.rate + &self.height - drop, rate)
+    }
+}
+
+impl<S: RoundedSpecial> Medium<S> {
+    /// `h` and `h′` over a strip of this length, as series, from what they are at its beginning.
+    ///
+    /// The Taylor coefficients are `c_{k+1} = −2R c_k/(k+1)` of `h′`, whose first is `−(g + 2Rh′)`.
+    pub(super) fn rigid(&self, (height, rate): &(S, S), len: &S) -> (Vec<S>, Vec<S>) {
+        let zero = len.zero();
+        let drag = self.kappa.clone() * len.int(4);
+        let mut taylor = vec![rate.clone(), -(drag.clone() * rate + &self.gravity) * len];
+        let fall = drag * len;
+        let (mut log2_term, mut k) = (0.0, 2i64);
+        while log2_term > self.log2_accuracy - 2.0 && k < 1000 {
+            let next = -(taylor[taylor.len() - 1].clone() * &fall) / len.int(k);
+            taylor.push(next);
+            log2_term += (fall.to_f64() / k as f64).log2();
+            k += 1;
+        }
+        let mut series = vec![zero; self.basis.size()];
+        for term in taylor.into_iter().rev() {
+            times_x(&mut series);
+            series[0] = series[0].clone() + term;
+        }
+        let mut rise = series.clone();
+        self.basis.integrate(&mut rise);
+        super::cell::scale(&mut rise, len);
+        rise[0] = rise[0].clone() + height;
+        (rise, series)
+    }
+
+    /// Whether flights are followed as centre of mass and vibration.
+    pub(super) fn splits(&self) -> bool {
+        self.free_top && 2.0 * self.kappa.to_f64() <= MOST_DAMPING
+    }
+
+    /// `2 ∫ f(x) q dx` over the characteristic, `q` from the segments, `f` given at `x`.
+    fn weighed(&self, state: &State<S>, weight: &dyn Fn(&S) -> S) -> S {
+        let mut start = self.kappa.zero();
+        let mut sum = start.clone();
+        for segment in &state.segments {
+            let depth = -(self.kappa.clone() * &segment.len);
+            let weights = self.basis.nodes().iter().map(|node| {
+                let x = (node.clone() * &segment.len + &start) * &start.ratio(1, 2);
+                weight(&x) * &(node.clone() * &depth).exp()
+            });
+            let weights = self.basis.through(&weights.collect::<Vec<_>>(), self.basis.size());
+            sum = sum + integral(&self.basis.product(&weights, &segment.q, self.basis.size())) * &segment.len;
+            start = start + &segment.len;
+        }
+        sum
+    }
+
+    /// `z(0,b)` from the `q` of a vibration.
+    pub(super) fn ground_of(&self, state: &State<S>) -> S {
+        let drag = self.kappa.clone() * self.kappa.int(4);
+        -self.weighed(state, &|x| x.ratio(1, 2) - x - phi1(&(drag.clone() * x)) * x)
+    }
+
+    /// Takes `q` of the deviation from the static state apart into centre of mass and vibration, where the end is at `height`.
+    pub(super) fn take_off(&self, state: &mut State<S>, height: &S) -> Flight<S> {
+        let (zero, half) = (self.kappa.zero(), self.kappa.ratio(1, 2));
+        let drag = self.kappa.clone() * self.kappa.int(4);
+        // v_x of the static state and h′ − h′(b) e^{−2Rx} in one.
+        self.shift(state, &|x| self.gravity.clone() * x + &self.slope);
+        let grown = self.weighed(state, &|x| (drag.clone() * x).exp());
+        // 2 ∫₀^½ x φ₁(2Rx) dx = ½ φ₂(R)/2 …: ∫₀ˣ y φ₁(ay) dy = x² φ₂(ax).
+        let weight = phi2(&(drag.clone() * &half)) * &self.gravity * &half;
+        let rate = grown + weight;
+        let segment = &state.segments[0];
+        let mut flight =
+            Flight { from: (state.round, segment.at.clone()), height: zero, rate, drag, gravity: self.gravity.clone() };
+        self.shift(state, &|x| -flight.at(x).1);
+        flight.height = height.clone() - self.ground_of(state);
+        flight
+    }
+
+    /// Puts them together again, at an age of the flight.
+    pub(super) fn touch_down(&self, state: &mut State<S>, flight: &Flight<S>) {
+        let age = flight.age((state.round, &state.segments[0].at));
+        let (_, rate) = flight.at(&age);
+        let now = Flight { rate, ..flight.clone() };
+        self.shift(state, &|x| now.at(x).1 - self.gravity.clone() * x - &self.slope);
+    }
+
+    /// Goes over from one flight, or from the deviation from the static state, to another.
+    pub(super) fn convert(&self, state: &mut State<S>, from: Option<&Flight<S>>, to: Option<&Flight<S>>) {
+        if let Some(from) = from {
+            self.touch_down(state, from);
+        }
+        if let Some(to) = to {
+            let age = to.age((state.round, &state.segments[0].at));
+            let now = Flight { rate: to.at(&age).1, ..to.clone() };
+            self.shift(state, &|x| self.gravity.clone() * x + &self.slope - now.at(x).1);
+        }
+    }
+
+    /// Adds a function of x to `q`.
+    fn shift(&self, state: &mut State<S>, f: &dyn Fn(&S) -> S) {
+        let mut start = self.kappa.zero();
+        for segment in &mut state.segments {
+            let depth = self.kappa.clone() * &segment.len;
+            let values = self.basis.nodes().iter().map(|node| {
+                let x = (node.clone() * &segment.len + &start) * &start.ratio(1, 2);
+                f(&x) * &(node.clone() * &depth).exp()
+            });
+            let added = self.basis.through(&values.collect::<Vec<_>>(), segment.q.len());
+            for (q, added) in segment.q.iter_mut().zip(added) {
+                *q = q.clone() + added;
+            }
+            start = start + &segment.len;
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use std::collections::VecDeque;
+
+    use super::*;
+    use crate::cells::series::evaluate;
+
+    /// A state with jumps, after a few strips of contact, taken apart.
+    fn vibration(damping: f64, gravity: f64) -> (Medium<f64>, State<f64>, Flight<f64>) {
+        let medium = Medium::new(&damping, (gravity, -gravity / 2.0), true, -53.0, 1);
+        let mut segments = VecDeque::new();
+        let cuts = [0.0, 0.21, 0.37, 0.8, 1.0];
+        for (k, pair) in cuts.windows(2).enumerate() {
+            let values: Vec<f64> =
+                medium.basis.nodes().iter().map(|x| (k as f64 - 0.7) * (1.0 - x) + 0.3 * x * x).collect();
+            segments.push_back(medium.segment(pair[0], pair[1] - pair[0], &values));
+        }
+        let mut state = State { round: 0, segments };
+        for _ in 0..6 {
+            medium.strip(&mut state, true, &mut |_| {});
+        }
+        let flight = medium.take_off(&mut state, &0.0);
+        (medium, state, flight)
+    }
+
+    #[test]
+    fn a_leap_is_a_march() {
+        for (damping, trips) in [(1e-9, 5), (0.01, 9), (0.4, 7), (1.0, 5), (2.0, 4)] {
+            let (medium, mut state, _) = vibration(damping, 0.3);
+            let mut leapt = state.clone();
+            let ground = medium.ground_of(&state);
+            medium.leap(&mut leapt, &ground, trips);
+            while state.round < leapt.round || state.segments[0].at != leapt.segments[0].at {
+                medium.strip(&mut state, false, &mut |_| {});
+            }
+            assert_eq!(state.segments.len(), leapt.segments.len());
+            for (a, b) in state.segments.iter().zip(&leapt.segments) {
+                for x in [0.0, 0.3, 1.0] {
+                    let off = evaluate(&a.q, &x) - evaluate(&b.q, &x);
+                    assert!(off.abs() < 2e-14, "{damping}: {off:e} of {}", evaluate(&a.q, &x));
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn the_end_is_where_the_trace_brings_it() {
+        for damping in [1e-9, 0.3, 2.0] {
+            let (medium, mut state, flight) = vibration(damping, 0.3);
+            let mut height = medium.ground_of(&state);
+            assert!((height + flight.height).abs() < 1e-15);
+            for _ in 0..9 {
+                let mut trace = medium.trace(&state, false);
+                medium.basis.integrate(&mut trace);
+                height += crate::cells::series::at_one(&trace, &0.0) * state.segments[0].len;
+                medium.strip(&mut state, false, &mut |_| {});
+                assert!((height - medium.ground_of(&state)).abs() < 1e-14);
+            }
+            // In free fall there is nothing else.
+            let (rise, rate) = medium.rigid(&flight.at(&0.7), &0.25);
+            let (h, dh) = flight.at(&(0.7 + 0.25 * 0.6));
+            assert!((evaluate(&rise, &0.6) - h).abs() < 1e-14 && (evaluate(&rate, &0.6) - dh).abs() < 1e-14);
+        }
+    }
+}

@@ -1,0 +1,358 @@
+//! A flight of many round trips in one step.
+//!
+//! In flight both ends are free. The vibration `z` about the centre of mass, extended evenly, has the period 1 in `x` (in
+//! `c t₁`), and `Z = e^{Rt} z` obeys `Z_tt − Z_xx = R² Z`. Its modes are `cos(2πkx) e^{±iω_k t}`, `ω_k² = (2πk)² − R²`, `k ≥ 1`. Hence
+//! with one real wave that goes down,
+//!
+//! ```text
+//! Z(x,t) = F(x,t) + F(−x,t),    F_t = Ω F,    Ω = D √(1 + R²D⁻²),    D = ∂/∂y,    D⁻¹: the antiderivative of mean zero.
+//! F(y,t) = (e^{tG} F(·,0))(y + t),    G = Ω − D = ½R² D⁻¹ − ⅛R⁴ D⁻³ + …
+//! ```
+//!
+//! A whole number n of round trips is `e^{nG}`, and everything is a power series in `D⁻¹`, which takes piecewise polynomials to
+//! piecewise polynomials: jumps stay on their rays. `G` is skew, so `e^{nG}` keeps the norm.
+//!
+//! On the characteristic `t = x = s/2` that leaves the ground, with `ψ = F_t` at `t = 0`, `H = 1 − (1 + R²D⁻²)^{−½}`,
+//!
+//! ```text
+//! Z_s(s) = ((1 − H/2) e^{sG/2} ψ)(s) + ½ (H e^{sG/2} ψ)(0),    Z(0) = 2 (Ω⁻¹ψ)(0)                       (out)
+//! ψ = Σ_j Gʲ/j! Π[(−s/2)ʲ Z_s] + ½ Σ_j (∫(−s/2)ʲ Z ds)/j! G^{j+1} δ                                      (in)
+//! ```
+//!
+//! where Π takes the mean away and `D⁻¹δ = ½ − s`. The first is the chain rule. For the second, `U Z_t − Z U_t` of two solutions is the
+//! density of a conserved quantity without flux through the free ends, so its integral over `t = 0` is `∫(U Z_s − Z U_s) ds` over the
+//! characteristic; `U = cos(2πkx) e^{−iω_k t}` gives `iω_k a_k/2` of `Z = Σ Re a_k cos(2πkx) e^{iω_k t}`, and
+//! `U = ½ e^{−G_k s/2} (1 + e^{−2πiks})`, `G_k = i(ω_k − 2πk)`, on the characteristic. Integrating the first of its terms by parts,
+//! `iω_k a_k = 2 ∫ e^{−G_k s/2} e^{−2πiks} Z_s ds + G_k ∫ e^{−G_k s/2} Z ds`, which is (in) mode by mode.
+//!
+//! ## What is left out
+//! On mean-free functions `‖D⁻¹‖ ≤ ¼`, `‖D⁻²‖ ≤ 0.0324` in the sup norm: the integrals of `|½ − s|` and of `|s² − s + ⅙|/2`. The
+//! series of `G`, `H` and `e^{nG}` are alternating or have known coefficients, and are cut where what follows is below the
+//! accuracy.
+
+use std::collections::VecDeque;
+
+use super::cell::scale;
+use super::march::{Medium, Segment, State};
+use super::series::{Basis, at_one, at_zero, integral, times_x};
+use crate::special::RoundedSpecial;
+
+/// The strongest damping `R` for which flights are leapt over: `R²‖D⁻²‖ ≤ 0.13`.
+pub(super) const MOST_DAMPING: f64 = 2.0;
+/// The most of `nR²/4π`, the phase by which damping holds the lowest mode back, in one leap: its series loses `e^{nR²/4π}`.
+const MOST_PHASE: f64 = 4.0;
+/// `‖D⁻²‖`.
+const TWICE: f64 = 0.0324;
+
+/// The most round trips of one leap.
+pub(super) fn most_trips(damping: f64) -> f64 {
+    MOST_PHASE * 4.0 * std::f64::consts::PI / (damping * damping)
+}
+
+/// A function on the circle of length 1: one series for each segment.
+type Function<S> = Vec<Vec<S>>;
+
+/// The circle, cut at the rays.
+struct Circle<'a, S> {
+    basis: &'a Basis<S>,
+    /// Where each segment begins, and its length.
+    parts: Vec<(S, S)>,
+    /// Coefficients of `D^{1−2m}` in `G`, and of `D^{−2m}` in `H`, `m ≥ 1`.
+    lag: Vec<S>,
+    turn: Vec<S>,
+}
+
+/// `target += factor · f`.
+fn add<S: RoundedSpecial>(target: &mut [Vec<S>], f: &[Vec<S>], factor: &S) {
+    for (target, f) in target.iter_mut().zip(f) {
+        for (t, c) in target.iter_mut().zip(f) {
+            *t = c.clone() * factor + &*t;
+        }
+    }
+}
+
+impl<S: RoundedSpecial> Circle<'_, S> {
+    /// The mean.
+    fn mean(&self, f: &[Vec<S>]) -> S {
+        let zero = self.parts[0].0.zero();
+        self.parts.iter().zip(f).fold(zero, |sum, ((_, len), c)| integral(c) * len + &sum)
+    }
+
+    /// `D⁻¹`, in place.
+    fn antiderivative(&self, f: &mut [Vec<S>]) {
+        let mut here = self.parts[0].0.zero();
+        for ((_, len), c) in self.parts.iter().zip(f.iter_mut()) {
+            self.basis.integrate(c);
+            scale(c, len);
+            c[0] = c[0].clone() + &here;
+            here = at_one(c, &len.zero());
+        }
+        self.centre(f);
+    }
+
+    /// Takes the mean away.
+    fn centre(&self, f: &mut [Vec<S>]) {
+        let mean = self.mean(f);
+        for c in f {
+            c[0] = c[0].clone() - &mean;
+        }
+    }
+
+    /// `f · s · factor`, in place.
+    fn times_s(&self, f: &mut [Vec<S>], factor: &S) {
+        for ((start, len), c) in self.parts.iter().zip(f) {
+            let mut by_x = c.clone();
+            times_x(&mut by_x);
+            for (c, by_x) in c.iter_mut().zip(by_x) {
+                *c = (by_x * len + c.clone() * start) * factor;
+            }
+        }
+    }
+
+    /// `Σ c_m D^{−2m}` of `f`, and before that `D⁻¹` if `odd`, then with `D^{2−2m}`.
+    fn series(&self, f: &[Vec<S>], coefficients: &[S], odd: bool) -> Function<S> {
+        let mut power = f.to_vec();
+        self.antiderivative(&mut power);
+        if !odd {
+            self.antiderivative(&mut power);
+        }
+        let mut sum = vec![vec![self.parts[0].0.zero(); self.basis.size()]; f.len()];
+        for (m, factor) in coefficients.iter().enumerate() {
+            if m > 0 {
+                self.antiderivative(&mut power);
+                self.antiderivative(&mut power);
+            }
+            add(&mut sum, &power, factor);
+        }
+        sum
+    }
+
+    /// `G f`.
+    fn lagged(&self, f: &[Vec<S>]) -> Function<S> {
+        self.series(f, &self.lag, true)
+    }
+
+    /// `H f`.
+    fn turned(&self, f: &[Vec<S>]) -> Function<S> {
+        self.series(f, &self.turn, false)
+    }
+
+    /// `γ = Gδ`.
+    fn lagged_delta(&self) -> Function<S> {
+        let zero = self.parts[0].0.zero();
+        let mut sawtooth = vec![vec![zero.zero(); self.basis.size()]; self.parts.len()];
+        for ((start, len), c) in self.parts.iter().zip(&mut sawtooth) {
+            let half = zero.ratio(1, 2);
+            c[0] = half.clone() - start - len.clone() * &half;
+            c[1] = -(len.clone() * &half);
+        }
+        let mut sum = vec![vec![zero; self.basis.size()]; self.parts.len()];
+        for (m, factor) in self.lag.iter().enumerate() {
+            if m > 0 {
+                self.antiderivative(&mut sawtooth);
+                self.antiderivative(&mut sawtooth);
+            }
+            add(&mut sum, &sawtooth, factor);
+        }
+        sum
+    }
+}
+
+/// The binomial coefficients `C(p, m) R^{2m}`, `m ≥ 1`, for `p = ±½`, as long as they matter.
+fn binomials<S: RoundedSpecial>(damping: &S, power: i64, log2_accuracy: f64) -> Vec<S> {
+    let square = damping.square();
+    let (ratio, mut size) = ((square.to_f64() * TWICE).log2(), 0.0);
+    let (mut terms, mut term) = (Vec::new(), damping.one());
+    for m in 1i64.. {
+        // C(p,m) = C(p,m−1) (p − m + 1)/m, 2p = power.
+        term = term * &square * &damping.ratio(power - 2 * m + 2, 2 * m);
+        terms.push(term.clone());
+        size += ratio;
+        // |C| ≤ 1, and what follows is at most a sixth of the last term.
+        if size < log2_accuracy || term.is_zero() || m > 2000 {
+            break;
+        }
+    }
+    terms
+}
+
+impl<S: RoundedSpecial> Medium<S> {
+    /// The state of a flight `trips` round trips later.
+    ///
+    /// **Accuracy**: the truncation of a cell and a few dozen roundings, relative to the greatest `|q|`.
+    pub(super) fn leap(&self, state: &mut State<S>, ground: &S, trips: i64) {
+        let damping = self.kappa.clone() + &self.kappa;
+        let (zero, half) = (damping.zero(), damping.ratio(1, 2));
+        let mut start = zero.clone();
+        let mut parts = Vec::with_capacity(state.segments.len());
+        for segment in &state.segments {
+            parts.push((start.clone(), segment.len.clone()));
+            start = start + &segment.len;
+        }
+        let circle = Circle {
+            basis: &self.basis,
+            parts,
+            lag: binomials(&damping, 1, self.log2_accuracy),
+            turn: binomials(&damping, -1, self.log2_accuracy).into_iter().map(|c: S| -c).collect(),
+        };
+        let (value, rate) = self.scaled(state, &circle, ground);
+        let layers = self.layers(&damping);
+        // (in), by Horner's rule.
+        let gamma = circle.lagged_delta();
+        let mut products = vec![(rate, value)];
+        for j in 1..=layers {
+            let (mut rate, mut value) = products[j - 1].clone();
+            let factor = damping.ratio(-1, 2 * j as i64);
+            circle.times_s(&mut rate, &factor);
+            circle.times_s(&mut value, &factor);
+            products.push((rate, value));
+        }
+        let mut wave: Option<Function<S>> = None;
+        for (mut rate, value) in products.into_iter().rev() {
+            circle.centre(&mut rate);
+            add(&mut rate, &gamma, &(circle.mean(&value) * &half));
+            if let Some(wave) = wave {
+                add(&mut rate, &circle.lagged(&wave), &zero.one());
+            }
+            wave = Some(rate);
+        }
+        let Some(mut wave) = wave else { return };
+        self.pass(&circle, &mut wave, &damping, trips);
+        // (out).
+        let mut at_ground = wave.clone();
+        add(&mut at_ground, &circle.turned(&wave), &-zero.one());
+        circle.antiderivative(&mut at_ground);
+        let ground = at_zero(&at_ground[0], &zero) * zero.int(2);
+        let mut terms = Vec::with_capacity(layers + 1);
+        for j in 0..=layers {
+            let mut term = wave.clone();
+            let turned = circle.turned(&wave);
+            add(&mut term, &turned, &-half.clone());
+            let corner = at_zero(&turned[0], &zero) * &half;
+            for c in &mut term {
+                c[0] = c[0].clone() + &corner;
+            }
+            terms.push(term);
+            if j < layers {
+                wave = circle.lagged(&wave);
+            }
+        }
+        let mut rate: Option<Function<S>> = None;
+        for (j, mut term) in terms.into_iter().enumerate().rev() {
+            if let Some(mut above) = rate {
+                circle.times_s(&mut above, &zero.ratio(1, 2 * (j as i64 + 1)));
+                add(&mut term, &above, &zero.one());
+            }
+            rate = Some(term);
+        }
+        if let Some(rate) = rate {
+            self.unscaled(&mut state.segments, &circle, &rate, &ground);
+        }
+        state.round += trips;
+    }
+
+    /// How many powers of `G/2` count on the characteristic.
+    fn layers(&self, damping: &S) -> usize {
+        let size = damping.to_f64().powi(2) / 14.0;
+        let (mut log2_term, mut j) = (0.0, 0usize);
+        while log2_term > self.log2_accuracy && j < 1000 {
+            j += 1;
+            log2_term += (size / j as f64).log2();
+        }
+        j
+    }
+
+    /// `Z` and `Z_s` from `q` and `z(0)`: `Z_s = κZ + ½e^{κs}q`.
+    fn scaled(&self, state: &State<S>, circle: &Circle<'_, S>, ground: &S) -> (Function<S>, Function<S>) {
+        let size = self.basis.size();
+        let (mut here, mut grown) = (ground.clone(), ground.one());
+        let (mut value, mut rate) = (Vec::new(), Vec::new());
+        for (segment, (_, len)) in state.segments.iter().zip(&circle.parts) {
+            let mut push = segment.q.clone();
+            push.resize(size, len.zero());
+            scale(&mut push, &(grown.clone() * len.ratio(1, 2)));
+            grown = grown / &segment.decay;
+            // Z = Z(0) + J(κZ + push): each round adds a power of κ·len ≤ ½.
+            let depth = self.kappa.clone() * len;
+            let mut first = push.clone();
+            self.basis.integrate(&mut first);
+            scale(&mut first, len);
+            first[0] = first[0].clone() + &here;
+            let mut sum = first.clone();
+            for _ in 0..self.rounds(&depth) {
+                self.basis.integrate(&mut sum);
+                scale(&mut sum, &depth);
+                for (s, f) in sum.iter_mut().zip(&first) {
+                    *s = f.clone() + &*s;
+                }
+            }
+            for (p, s) in push.iter_mut().zip(&sum) {
+                *p = s.clone() * &self.kappa + &*p;
+            }
+            here = at_one(&sum, &len.zero());
+            value.push(sum);
+            rate.push(push);
+        }
+        (value, rate)
+    }
+
+    /// How many rounds of `Z = Z(0) + J(κZ + …)` reach the accuracy.
+    fn rounds(&self, depth: &S) -> usize {
+        let (mut log2_term, mut k) = (0.0, 0usize);
+        while log2_term > self.log2_accuracy && k < 1000 {
+            k += 1;
+            log2_term += (depth.to_f64() / k as f64).log2();
+        }
+        k
+    }
+
+    /// `q` from `Z_s` and `Z(0)`.
+    fn unscaled(&self, segments: &mut VecDeque<Segment<S>>, circle: &Circle<'_, S>, rate: &[Vec<S>], ground: &S) {
+        let (mut here, mut shrunk) = (ground.clone(), ground.int(2));
+        for ((segment, rate), (_, len)) in segments.iter_mut().zip(rate).zip(&circle.parts) {
+            let mut value = rate.clone();
+            self.basis.integrate(&mut value);
+            scale(&mut value, len);
+            value[0] = value[0].clone() + &here;
+            here = at_one(&value, &len.zero());
+            for (k, q) in segment.q.iter_mut().enumerate() {
+                *q = (rate[k].clone() - value[k].clone() * &self.kappa) * &shrunk;
+            }
+            shrunk = shrunk * &segment.decay;
+        }
+    }
+
+    /// `e^{−Rn} e^{nG}`.
+    ///
+    /// The coefficients `e_k` of the powers of `D⁻¹` follow from `E′ = nG′E`: `k e_k = n Σ i g_i e_{k−i}` over odd i.
+    fn pass(&self, circle: &Circle<'_, S>, wave: &mut Function<S>, damping: &S, trips: i64) {
+        let n = damping.int(trips);
+        let mut coefficients = vec![damping.one()];
+        let mut power = wave.clone();
+        let mut below = 0usize;
+        for k in 1..4000usize {
+            let mut sum = damping.zero();
+            for (m, g) in circle.lag.iter().enumerate() {
+                let i = 2 * m + 1;
+                if i > k {
+                    break;
+                }
+                sum = sum + g.clone() * damping.int(i as i64) * &coefficients[k - i];
+            }
+            let next = sum * &n / damping.int(k as i64);
+            circle.antiderivative(&mut power);
+            add(wave, &power, &next);
+            let size = next.to_f64().abs().log2() + 0.5 * k as f64 * TWICE.log2();
+            coefficients.push(next);
+            // Two in a row, far down: from there on they fall faster than geometrically.
+            below = if size < self.log2_accuracy - 2.0 { below + 1 } else { 0 };
+            if below >= 4 {
+                break;
+            }
+        }
+        let decay = (-(damping.clone() * &n)).exp();
+        for c in wave {
+            scale(c, &decay);
+        }
+    }
+}

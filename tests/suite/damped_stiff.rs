@@ -1,0 +1,114 @@
+//! Real rods: thousands of round trips in a flight, then hop after hop. In doubles, against thirty digits of a march that goes strip
+//! by strip and does not take flights apart.
+
+use crate::common::{number, reference};
+use dalembert::cells::{Damped, Joined, Reach};
+use dalembert::first_contact::FirstContact;
+use dalembert::rod::{Material, Parameters, Run, Speed, Start};
+use dalembert::{EventKind, History, Number, Problem, Side};
+use serde_json::Value;
+
+/// The rod of a case, dropped.
+fn rod(case: &Value) -> Problem {
+    let of = |key: &str| number(&case[key]);
+    let mut problem = Problem::uniform(of("length"), 1.into(), of("gravity"), 1.into());
+    problem.rod.material =
+        Material::Elastic { modulus: of("modulus"), density: of("density"), area: "1e-4".parse().unwrap() };
+    problem.rod.damping = Some(of("damping"));
+    problem.start = Start::Uniform(Speed::DropHeight(of("drop_height")));
+    problem.run = Run::Impacts(u32::try_from(case["impacts"].as_u64().unwrap()).unwrap());
+    problem
+}
+
+fn solve(problem: &Problem) -> Joined<f64> {
+    let rod = Parameters::<f64>::of(problem, &()).unwrap();
+    Joined::solve(problem, &(), 13.0, FirstContact::new(&rod).bounce_within(1e-13), Reach::Run).unwrap()
+}
+
+#[test]
+fn twenty_impacts_are_right_to_twelve_digits() {
+    for case in reference("stiff_bounces") {
+        let name = case["name"].as_str().unwrap();
+        let history = solve(&rod(&case));
+        let truth = case["events"].as_array().unwrap();
+        assert_eq!(history.events().len(), truth.len(), "{name}");
+        for (k, (event, truth)) in history.events().iter().zip(truth).enumerate() {
+            let value = |k: usize| number(&truth[k]).to_f64();
+            let (time, end, centre) = (value(1), value(2), value(3));
+            assert_eq!(event.kind == EventKind::Impact, truth[0] == "impact", "{name} {k}");
+            let speed = end.abs().max(centre.abs());
+            let off = [
+                (event.time - time) / time.max(1e-300),
+                (event.end_velocity - end) / speed,
+                (event.centre_velocity - centre) / speed,
+            ];
+            // The first velocity has the rounding of √(2gh), and h′ of an impact that of ten round trips.
+            assert!(off[0].abs() < 1e-12 && off[1].abs() < 1e-12 && off[2].abs() < 1e-11, "{name} {k}: {off:?}");
+        }
+    }
+}
+
+/// What r loses in its last digits is not magnified from impact to impact.
+#[test]
+fn the_twentieth_impact_is_as_well_known_as_the_damping() {
+    for case in reference("stiff_bounces").iter().take(3) {
+        let plain = rod(case);
+        let mut other = plain.clone();
+        let damping = plain.rod.damping.as_ref().unwrap().to_f64() * (1.0 + 1e-14);
+        other.rod.damping = Some(format!("{damping:e}").parse::<Number>().unwrap());
+        let (a, b) = (solve(&plain), solve(&other));
+        for (a, b) in a.events().iter().zip(b.events()).filter(|(a, _)| a.kind == EventKind::Impact) {
+            assert!((a.end_velocity / b.end_velocity - 1.0).abs() < 1e-13, "{a:?} {b:?}");
+            assert!((a.time - b.time).abs() <= 1e-13 * a.time, "{a:?} {b:?}");
+        }
+    }
+}
+
+/// What is asked in the middle of a flight that was leapt over obeys the laws of motion.
+#[test]
+fn a_leap_can_be_asked_at_any_time() {
+    let case = &reference("stiff_bounces")[0];
+    let history = solve(&rod(case));
+    let flight = (history.events()[3].time, history.events()[4].time);
+    let (length, c) = (0.5, history.scales().wave_speed);
+    for share in [0.011, 0.3, 0.5, 0.77, 0.993] {
+        let t = flight.0 + share * (flight.1 - flight.0);
+        let (h, rate) = history.centre(&t).unwrap();
+        // Simpson's rule over many points, as v has kinks.
+        let n = 400;
+        let value = |k: usize| history.field(&(length * k as f64 / n as f64), &t, Side::Right).unwrap();
+        let weight = |k: usize| if k == 0 || k == n { 0.5 } else { 1.0 } / n as f64;
+        let (mean, speed) = (0..=n).fold((0.0, 0.0), |(mean, speed), k| {
+            let field = value(k);
+            (mean + weight(k) * field.displacement, speed + weight(k) * field.velocity)
+        });
+        assert!((mean - h).abs() < 1e-6 * rate.abs().max(0.01) * length / c * 1e3, "{mean} {h}");
+        assert!((speed - rate).abs() < 1e-4 * rate.abs().max(0.01), "{speed} {rate}");
+        let end = history.ground_end(&t, Side::Right).unwrap();
+        let field = history.field(&0.0, &t, Side::Right).unwrap();
+        assert_eq!((end.0, end.1), (field.displacement, field.velocity));
+        assert_eq!(history.stress(&t, Side::Right).unwrap(), 0.0);
+        // The end moves as its velocity says.
+        let dt = 1e-3 * length / c;
+        let later = history.ground_end(&(t + dt), Side::Left).unwrap();
+        assert!((later.0 - end.0 - 0.5 * dt * (end.1 + later.1)).abs() < 1e-3 * dt * end.1.abs().max(1e-3), "{share}");
+    }
+}
+
+/// The march in forty digits, and that in doubles, of a rod that flies hundreds of round trips.
+#[cfg(feature = "mp")]
+#[test]
+fn longer_numbers_agree() {
+    use rug::Float;
+    let mut problem = rod(&reference("stiff_bounces")[1]);
+    problem.run = Run::Impacts(4);
+    let double = Damped::<f64>::solve(&problem, &(), 13.0).unwrap();
+    let long = Damped::<Float>::solve(&problem, &200, 40.0).unwrap();
+    let longer = Damped::<Float>::solve(&problem, &300, 60.0).unwrap();
+    assert_eq!(double.events().len(), long.events().len());
+    for ((double, long), longer) in double.events().iter().zip(long.events()).zip(longer.events()) {
+        let gap = Float::with_val(300, &long.time - &longer.time).abs().to_f64();
+        assert!(gap <= long.time_error && long.time_error < 1e-30, "{gap:e} {:e}", long.time_error);
+        assert!((double.time - long.time.to_f64()).abs() <= 1e-14 * double.time);
+    }
+}
