@@ -6,8 +6,8 @@ use std::hint::black_box;
 
 use criterion::{BenchmarkId, Criterion, Throughput, criterion_group, criterion_main};
 use dalembert::cells::Damped;
-use dalembert::rod::{Material, Profile, Rod, Run, Start, Top};
-use dalembert::{Ask, History, Number, Plan, Problem, Scene, Solution, solve};
+use dalembert::problem::{Material, Profile, Rod, Run, Start, Top};
+use dalembert::{Ask, Motion, Number, Plan, Problem, Scene, Solution, solve};
 
 /// A rod with c = L = g = 1, t₁ = 2.
 fn rod(damping: &str, speed: &str, run: Run) -> Problem {

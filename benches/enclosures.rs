@@ -8,8 +8,8 @@ use criterion::{Criterion, Throughput, criterion_group, criterion_main};
 use dalembert::first_contact::{ContactHistory, FirstContact};
 use dalembert::lattice::{Limits, Scaled, Until, march};
 use dalembert::number::{Answer, Estimate, Interval, IntervalPrecision, Number, Scalar};
-use dalembert::rod::{Parameters, Run};
-use dalembert::{History, Problem, Side};
+use dalembert::problem::{Parameters, Run};
+use dalembert::{Motion, Problem, Side};
 use rug::Float;
 
 fn rod(damping: &str, gravity: &str, length: &str, speed: &str) -> Problem {

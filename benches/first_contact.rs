@@ -5,9 +5,9 @@ use std::hint::black_box;
 
 use criterion::{Criterion, criterion_group, criterion_main};
 use dalembert::first_contact::{Bounce, FirstContact};
-use dalembert::history::Side;
+use dalembert::motion::Side;
 use dalembert::number::Estimate;
-use dalembert::rod::Parameters;
+use dalembert::problem::Parameters;
 use dalembert::solve::bounce_within;
 use dalembert::special::{i0_scaled, i1_scaled};
 

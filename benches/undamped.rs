@@ -9,9 +9,9 @@ use std::hint::black_box;
 use criterion::{BenchmarkId, Criterion, Throughput, criterion_group, criterion_main};
 use dalembert::lattice::{Limits, Scaled, Until, march};
 use dalembert::number::{Bounded, Estimate};
-use dalembert::rod::Run;
+use dalembert::problem::Run;
 use dalembert::solve::undamped;
-use dalembert::{Ask, History, Plan, Problem, Scene, scene::builtin};
+use dalembert::{Ask, Motion, Plan, Problem, Scene, scene::builtin};
 
 fn problem(speed: &str, run: Run) -> Problem {
     let one = || "1".parse().unwrap();
@@ -32,7 +32,7 @@ fn first_contact(c: &mut Criterion) {
     group.bench_function("plan", |b| b.iter(|| Plan::of(black_box(&scene), Ask::default()).unwrap()));
     group.bench_function("closed form of the bounce time, f64", |b| {
         b.iter(|| {
-            let rod = dalembert::rod::Parameters::<f64>::of(black_box(&scene.problem), &()).unwrap();
+            let rod = dalembert::problem::Parameters::<f64>::of(black_box(&scene.problem), &()).unwrap();
             dalembert::paper::UndampedContact::new(&rod).unwrap().bounce_time()
         });
     });

@@ -6,7 +6,7 @@
 
 use dalembert::glam::DVec2;
 use dalembert::lattice::{Rays, reflection};
-use dalembert::rod::{Parameters, Run};
+use dalembert::problem::{Parameters, Run};
 use dalembert::solve::undamped;
 use dalembert::{Error, Number, Problem};
 

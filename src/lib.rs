@@ -1,69 +1,86 @@
 //! The exact reference for the bouncing elastic rod: `v_tt + 2r v_t − c² v_xx = −g` on `0 < x < L`, unilateral contact with the
 //! ground at `x = 0`, solved by the method of characteristics.
 //!
-//! The data have one way through, and the modules follow it:
-//!
-//! | module | what it does |
-//! |---|---|
-//! | [`number`] | two traits, four number systems, exact text in and rounded text out |
-//! | [`problem`] | the problem in exact numbers: rod, gravity, start, run; its builder and its checks |
-//! | [`scene`] | from a scene file to a problem; which effects it calls for; the plan |
-//! | [`solve`](mod@solve) | the engine that the plan chose, in the numbers that it chose |
-//! | [`lattice`] | the undamped rod, from event to event on the characteristic lattice |
-//! | [`first_contact`] | the first contact in closed form, the bounce time or why there is none, in estimates and enclosures |
-//! | [`cells`] | the damped rod through any number of impacts, in characteristic cells |
-//! | [`history`] | what a solution is, and everything that can be asked of it |
-//! | [`modal`] | the modal sum of the first contact: a third route to the same numbers |
-//! | [`quantity`] | restitution and flights |
-//! | [`paper`] | the printed formulas, as an independent opinion |
-//! | `compare` | routes held against each other and the truth: `check` and `cost` (feature `cli`) |
-//! | `output`, `cli` | tables, JSON, CSV and the command (feature `cli`) |
-//! | [`special`] | ψ_n, I_n, φ functions, Gauss–Legendre, in any precision |
-//!
 //! ```
-//! use dalembert::{Ask, Plan, Scene, Solution, solve};
+//! use dalembert::{Problem, Side};
 //!
-//! let scene = Scene::parse("rod = { length = 1, wave_speed = 1 }\nimpact = { speed = 3 }\ngravity = { acceleration = 1 }")?;
-//! let plan = Plan::of(&scene, Ask::default())?;
-//! if let Solution::Double(history) = solve(&scene.problem, &plan, |_, _| ())? {
-//!     // Corollary 1: μ = 3 ≥ g t₁ = 2, so the contact lasts exactly t₁ = 2L/c.
-//!     assert_eq!(history.contacts()[0].to, Some(2.0));
-//! }
-//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! let rod = Problem::builder().length(1).wave_speed(1).gravity(1).impact_speed(3).build()?;
+//! let history = rod.solve()?; // in doubles; rod.exact()?, rod.digits(50)?, rod.certified(50)? alike
+//! // Corollary 1: μ = 3 ≥ g t₁ = 2, so the contact lasts exactly t₁ = 2L/c.
+//! assert_eq!(history.contacts()[0].to, Some(2.0));
+//! // Until the wave comes back, v_x(0,t) = −(μ + g t)/c.
+//! assert_eq!(history.strain(1.0, Side::Right)?, -4.0);
+//! # Ok::<(), dalembert::Error>(())
 //! ```
+//!
+//! A [`Problem`] is the physics in exact numbers, from its builder or a [`Scene`] file. A [`Question`] says what is asked of it and in
+//! which [`Numbers`]. The [`Plan`] decides everything before running: engine, numbers, bits, how far. A [`History`] is the answer:
+//! events, contacts, and the value of every quantity at any time, each settled to the digits that were asked for.
+//!
+//! | | in which numbers | what it promises |
+//! |---|---|---|
+//! | [`Problem::solve`] | doubles | the bound of each number is carried, and longer numbers are taken where it is too wide |
+//! | [`Problem::digits`] | decimal digits | rounded once from values known to more |
+//! | [`Problem::exact`] | fractions | no error, as far as they reach; undamped rods |
+//! | [`Problem::certified`] | enclosures | every digit is proved; undamped rods, and the first contact of damped ones |
+//!
+//! The features `mp` (all numbers but doubles), `cli` (the command) and `plot` (its pictures) add to each other and take nothing away.
 
+// The rooms are public for the crate's own tests and benchmarks; what is meant to be used is re-exported below.
+#[doc(hidden)]
 pub mod cells;
 #[cfg(feature = "cli")]
+#[doc(hidden)]
 pub mod cli;
 #[cfg(feature = "cli")]
 mod compare;
-pub mod error;
+mod error;
+#[doc(hidden)]
 pub mod first_contact;
-pub mod history;
+mod history;
+#[doc(hidden)]
 pub mod lattice;
+#[doc(hidden)]
 pub mod modal;
+#[doc(hidden)]
 pub mod motion;
+#[doc(hidden)]
 pub mod number;
 #[cfg(feature = "cli")]
+#[doc(hidden)]
 pub mod output;
+#[doc(hidden)]
 pub mod paper;
+#[doc(hidden)]
 pub mod problem;
+#[doc(hidden)]
 pub mod quantity;
+#[doc(hidden)]
 pub mod scene;
+#[doc(hidden)]
 pub mod solve;
+#[doc(hidden)]
 pub mod special;
 
 pub use error::Error;
+pub use first_contact::{Bounce, BounceKind, FirstContact, NoBounceReason, Rebound};
 pub use glam;
-pub use history::{Ending, EventKind, History, Side};
-pub use motion::Motion;
-pub use number::Number;
-#[doc(hidden)]
-pub use problem as rod;
-pub use problem::{Parameters, Problem};
+pub use history::History;
+pub use lattice::{Ray, reflection};
+pub use modal::Modal;
+pub use motion::{
+    Contact, Ending, Energy, Event, EventKind, Field, Motion, Scales, Side, StressHistory, StressPiece,
+};
+pub use number::{Analytic, Answer, Estimate, Float, Interval, Number, NumberError, Open, Rational, Scalar};
+pub use paper::UndampedContact;
+pub use problem::{
+    Dimensionless, Material, Parameters, Problem, ProblemError, ProblemErrorKind, Profile, Rod, Run,
+    Speed, Start, Top,
+};
+pub use quantity::{EnergyShares, Flight, Restitution, Undefined};
 #[cfg(feature = "mp")]
 pub use rug;
-pub use scene::Scene;
+pub use scene::{Effect, EffectUse, Scene, SceneError, SceneErrorKind};
 pub use solve::{
     CERTIFIED_DIGITS, DEFAULT_ACCURACY, Engine, ExactnessEnd, Numbers, Observer, Plan, Question, Reach, Rung, Solution,
     Want,

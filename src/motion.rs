@@ -1,282 +1,432 @@
-//! The answer: what happened, and everything that can be asked of it.
+//! The answer as an object: what happened, and what can be asked of it.
 
-use std::sync::{Mutex, OnceLock, PoisonError};
+use std::fmt;
+
+use serde::{Serialize, Serializer};
 
 use crate::error::Error;
-use crate::history::{Contact, Ending, Energy, Event, Field, History as Engine, Scales, Side, StressHistory};
-use crate::number::{Answer, Scalar};
-use crate::quantity::{EnergyShares, Flight, Restitution, energy_shares, flights, restitution};
-use crate::rod::Problem;
-use crate::solve::{Attempt, Ladder, Numbers, Observer, Plan, Question, Rung, Target, Want, unobserved};
+use crate::number::Scalar;
 
-/// The motion of a rod: its impacts and releases, and the values of every quantity at any time, in numbers `S`.
-///
-/// All times are absolute and in the units of the problem. A question about a time outside of `0 … end()` is
-/// [`Error::TimeOutside`], about a point outside of the rod [`Error::PointOutside`].
-///
-/// **Accuracy**: that of the [`Plan`]. Each answer is computed in more bits where those at hand do not leave the digits that
-/// were asked for.
-///
-/// ```
-/// use dalembert::Problem;
-/// let rod = Problem::uniform(1.into(), 1.into(), 1.into(), 3.into());
-/// let motion = rod.solve()?;
-/// // Corollary 1: μ = 3 ≥ g t₁ = 2, so the contact lasts exactly t₁ = 2L/c.
-/// assert_eq!(motion.contacts()[0].to, Some(2.0));
-/// // d'Alembert: the wave front of the impact is at x = 1/2 at t = 1/2, and below it the rod stands still but for gravity.
-/// assert_eq!(motion.at(0.25, 0.5)?.strain, -3.25);
-/// # Ok::<(), dalembert::Error>(())
-/// ```
-pub struct Motion<S: Target> {
-    ladder: Ladder,
-    attempt: Mutex<Attempt<S>>,
-    events: OnceLock<Vec<Event<S>>>,
-    contacts: OnceLock<Vec<Contact<S>>>,
-    ending: Ending,
-    end: S,
+/// Writes a number as JSON has it: a number for a double, a text for all others.
+fn number<S: Scalar, Z: Serializer>(x: &S, z: Z) -> Result<Z::Ok, Z::Error> {
+    x.serialize(z)
 }
 
-impl<S: Target> Motion<S> {
-    /// Solves `problem` by `plan`.
-    ///
-    /// **Errors**: those of the engine; [`Error::Unsettled`], [`Error::Undecided`] where too many bits do not settle the events.
-    pub(crate) fn solve(problem: &Problem, plan: &Plan, observe: Observer) -> Result<Self, Error> {
-        let ladder = Ladder { problem: problem.clone(), plan: plan.clone(), observe };
-        let ask_events = plan.keep_from.is_none();
-        let query = |engine: &dyn Engine<S::Carried>| {
-            let events = if ask_events { engine.events().to_vec() } else { Vec::new() };
-            let contacts = if ask_events { engine.contacts().to_vec() } else { Vec::new() };
-            Ok((engine.end(), events, contacts))
-        };
-        let (attempt, (end, events, contacts)) = ladder.settle(None, query, |(end, events, contacts)| {
-            let mut all: Vec<&S::Carried> = vec![end];
-            all.extend(events.iter().flat_map(Event::numbers));
-            all.extend(contacts.iter().flat_map(Contact::numbers));
-            all
-        })?;
-        let motion = Motion {
-            ending: attempt.engine.ending().clone(),
-            attempt: Mutex::new(attempt),
-            events: OnceLock::new(),
-            contacts: OnceLock::new(),
-            end: S::strip(end),
-            ladder,
-        };
-        if ask_events {
-            motion.events.get_or_init(|| events.into_iter().map(|event| event.map(S::strip)).collect());
-            motion.contacts.get_or_init(|| contacts.into_iter().map(|contact| contact.map(S::strip)).collect());
+fn optional<S: Scalar, Z: Serializer>(x: &Option<S>, z: Z) -> Result<Z::Ok, Z::Error> {
+    match x {
+        Some(x) => x.serialize(z),
+        None => z.serialize_none(),
+    }
+}
+
+fn list<S: Scalar, Z: Serializer>(list: &[S], z: Z) -> Result<Z::Ok, Z::Error> {
+    struct One<'a, S>(&'a S);
+    impl<S: Scalar> Serialize for One<'_, S> {
+        fn serialize<Z: Serializer>(&self, z: Z) -> Result<Z::Ok, Z::Error> {
+            self.0.serialize(z)
         }
-        Ok(motion)
     }
+    z.collect_seq(list.iter().map(One))
+}
 
-    fn current(&self) -> Attempt<S> {
-        // An attempt is replaced whole: one that a panic left behind is as good as any.
-        self.attempt.lock().unwrap_or_else(PoisonError::into_inner).clone()
+/// Which of two values at a jump: the limit from earlier or from later times.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "snake_case")]
+#[cfg_attr(feature = "cli", derive(clap::ValueEnum))]
+pub enum Side {
+    /// The limit from earlier times, `t⁻`.
+    Left,
+    /// The limit from later times, `t⁺`.
+    #[default]
+    Right,
+}
+
+/// What happens to the ground end.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum EventKind {
+    /// It lands: contact begins.
+    Impact,
+    /// It leaves: contact ends.
+    Release,
+}
+
+/// A change between contact and flight.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+#[serde(bound = "S: Scalar")]
+pub struct Event<S> {
+    /// Landing or leaving.
+    pub kind: EventKind,
+    /// `t`.
+    #[serde(serialize_with = "number")]
+    pub time: S,
+    /// `v_t(0,t)`: just before an impact, just after a release. At a landing without speed that a ray turns into an impact,
+    /// the `v_t + c v_x < 0` which that ray brings.
+    #[serde(serialize_with = "number")]
+    pub end_velocity: S,
+    /// `h(t)`: the centre of mass, relative to its place in the undeformed rod on the ground.
+    #[serde(serialize_with = "number")]
+    pub centre: S,
+    /// `h′(t)`.
+    #[serde(serialize_with = "number")]
+    pub centre_velocity: S,
+    /// How far `time` may be off, in its own unit: zero where it is exact.
+    pub time_error: f64,
+}
+
+/// A time on the ground.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+#[serde(bound = "S: Scalar")]
+pub struct Contact<S> {
+    /// Its beginning.
+    #[serde(serialize_with = "number")]
+    pub from: S,
+    /// Its end; `None` where the history ends before.
+    #[serde(serialize_with = "optional")]
+    pub to: Option<S>,
+    /// `−c² ∫ v_x(0,t) dt ≥ 0` over the contact: momentum per linear density that the ground gives.
+    #[serde(serialize_with = "number")]
+    pub impulse: S,
+    /// The most compressive `v_x(0,t)` of the contact, `≤ 0`.
+    #[serde(serialize_with = "number")]
+    pub peak_stress: S,
+}
+
+/// The energies (3.54), (3.61)–(3.63), per linear density.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+#[serde(bound = "S: Scalar")]
+pub struct Energy<S> {
+    /// `E = E_h + E_z`.
+    #[serde(serialize_with = "number")]
+    pub total: S,
+    /// `E_h = L h′²/2 + L g h`: the motion of the centre of mass.
+    #[serde(serialize_with = "number")]
+    pub translational: S,
+    /// `E_z = ½ ∫ ((v_t − h′)² + c² v_x²) dx`, a sum of squares.
+    #[serde(serialize_with = "number")]
+    pub vibrational: S,
+}
+
+/// The displacement and its derivatives at a point.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+#[serde(bound = "S: Scalar")]
+pub struct Field<S> {
+    /// `v`.
+    #[serde(serialize_with = "number")]
+    pub displacement: S,
+    /// `v_t`.
+    #[serde(serialize_with = "number")]
+    pub velocity: S,
+    /// `v_x`.
+    #[serde(serialize_with = "number")]
+    pub strain: S,
+}
+
+/// A stretch of the stress history `v_x(0,·)` without jump or kink.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+#[serde(bound = "S: Scalar")]
+pub struct StressPiece<S> {
+    /// Its beginning.
+    #[serde(serialize_with = "number")]
+    pub from: S,
+    /// Its end.
+    #[serde(serialize_with = "number")]
+    pub to: S,
+    /// `v_x(0, from⁺)`.
+    #[serde(serialize_with = "number")]
+    pub left: S,
+    /// `v_x(0, to⁻)`.
+    #[serde(serialize_with = "number")]
+    pub right: S,
+    /// Chebyshev coefficients of `v_x(0,·)` on the piece (first one whole, not halved); empty where it is linear.
+    #[serde(serialize_with = "list")]
+    pub chebyshev: Vec<S>,
+}
+
+impl fmt::Display for EventKind {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.pad(match self {
+            EventKind::Impact => "impact",
+            EventKind::Release => "release",
+        })
     }
+}
 
-    /// The answer to `query`, in numbers that carry their bound, settled to the digits of the plan.
-    pub(crate) fn ask<T>(
-        &self,
-        query: impl Fn(&dyn Engine<S::Carried>) -> Result<T, Error>,
-        numbers: impl Fn(&T) -> Vec<&S::Carried>,
-    ) -> Result<T, Error> {
-        let current = self.current();
-        let rung = current.rung;
-        let (attempt, answer) = self.ladder.settle(Some(current), query, numbers)?;
-        if attempt.rung != rung {
-            *self.attempt.lock().unwrap_or_else(PoisonError::into_inner) = attempt;
+impl fmt::Display for Side {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.pad(match self {
+            Side::Left => "left",
+            Side::Right => "right",
+        })
+    }
+}
+
+impl<S> Event<S> {
+    /// The same event in other numbers.
+    pub(crate) fn map<T>(self, f: impl Fn(S) -> T) -> Event<T> {
+        Event {
+            kind: self.kind,
+            time: f(self.time),
+            end_velocity: f(self.end_velocity),
+            centre: f(self.centre),
+            centre_velocity: f(self.centre_velocity),
+            time_error: self.time_error,
         }
-        Ok(answer)
     }
 
-    /// The last time that is known.
-    pub fn end(&self) -> &S {
-        &self.end
+    /// Every number in it.
+    pub(crate) fn numbers(&self) -> [&S; 4] {
+        [&self.time, &self.end_velocity, &self.centre, &self.centre_velocity]
+    }
+}
+
+impl<S: Scalar> fmt::Display for Event<S> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let [time, end, centre, rate] = self.numbers().map(Scalar::text);
+        write!(f, "{} at t = {time}: v_t(0,t) = {end}, h = {centre}, h′ = {rate}", self.kind)
+    }
+}
+
+impl<S> Contact<S> {
+    /// The same contact in other numbers.
+    pub(crate) fn map<T>(self, f: impl Fn(S) -> T) -> Contact<T> {
+        Contact { from: f(self.from), to: self.to.map(&f), impulse: f(self.impulse), peak_stress: f(self.peak_stress) }
     }
 
-    /// Why it is the last.
-    pub fn ending(&self) -> &Ending {
-        &self.ending
+    /// Every number in it.
+    pub(crate) fn numbers(&self) -> impl Iterator<Item = &S> {
+        [&self.from, &self.impulse, &self.peak_stress].into_iter().chain(&self.to)
+    }
+}
+
+impl<S: Scalar> fmt::Display for Contact<S> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let to = self.to.as_ref().map_or_else(|| "no end".to_string(), Scalar::text);
+        let [from, impulse, peak] = [&self.from, &self.impulse, &self.peak_stress].map(Scalar::text);
+        write!(f, "contact from t = {from} to {to}: impulse {impulse}, peak v_x(0,t) = {peak}")
+    }
+}
+
+impl<S> Energy<S> {
+    /// The same energies in other numbers.
+    pub(crate) fn map<T>(self, f: impl Fn(S) -> T) -> Energy<T> {
+        Energy { total: f(self.total), translational: f(self.translational), vibrational: f(self.vibrational) }
     }
 
-    /// How it was solved.
-    pub fn plan(&self) -> &Plan {
-        &self.ladder.plan
+    /// Every number in it.
+    pub(crate) fn numbers(&self) -> [&S; 3] {
+        [&self.total, &self.translational, &self.vibrational]
+    }
+}
+
+impl<S> Field<S> {
+    /// The same values in other numbers.
+    pub(crate) fn map<T>(self, f: impl Fn(S) -> T) -> Field<T> {
+        Field { displacement: f(self.displacement), velocity: f(self.velocity), strain: f(self.strain) }
     }
 
-    /// The numbers that the last answer was computed in.
-    pub fn rung(&self) -> Rung {
-        self.current().rung
+    /// Every number in it.
+    pub(crate) fn numbers(&self) -> [&S; 3] {
+        [&self.displacement, &self.velocity, &self.strain]
     }
+}
 
-    /// All impacts and releases, in order. The start at `t = 0` is the first impact where the rod stands on the ground.
-    pub fn events(&self) -> &[Event<S>] {
-        self.events
-            .get_or_init(|| self.current().engine.events().iter().map(|event| event.clone().map(S::strip)).collect())
+impl<S> StressPiece<S> {
+    /// The same piece in other numbers.
+    pub(crate) fn map<T>(self, f: impl Fn(S) -> T) -> StressPiece<T> {
+        StressPiece {
+            from: f(self.from),
+            to: f(self.to),
+            left: f(self.left),
+            right: f(self.right),
+            chebyshev: self.chebyshev.into_iter().map(f).collect(),
+        }
     }
+}
 
-    /// All times on the ground, in order.
-    pub fn contacts(&self) -> &[Contact<S>] {
-        let strip = |contact: &Contact<S::Carried>| contact.clone().map(S::strip);
-        self.contacts.get_or_init(|| self.current().engine.contacts().iter().map(strip).collect())
-    }
-
-    /// The flights between the contacts, and how high they go.
+impl<S: Scalar> StressPiece<S> {
+    /// `v_x(0,t)` at a time of the piece: linear between its ends, or the Chebyshev sum.
     ///
-    /// **Errors**: those of the ladder.
-    pub fn flights(&self) -> Result<Vec<Flight<S>>, Error> {
-        let found = self.ask(flights, |flights| flights.iter().flat_map(Flight::numbers).collect())?;
-        Ok(found.into_iter().map(|flight| flight.map(S::strip)).collect())
-    }
-
-    /// `e_P` and `e_E²` of a contact, counted from 0, with the factors of `e_E²`.
+    /// **Accuracy**: that of the coefficients, and a rounding for each of them.
     ///
-    /// **Errors**: [`Error::NoContact`] where the history has fewer contacts.
-    pub fn restitution(&self, contact: usize) -> Result<Restitution<S>, Error> {
-        let query = |engine: &dyn Engine<S::Carried>| {
-            let found = engine.contacts().len();
-            restitution(engine, engine.contacts().get(contact).ok_or(Error::NoContact { contact, found })?)
-        };
-        Ok(self.ask(query, Restitution::numbers)?.map(S::strip))
+    /// ```
+    /// let rod = dalembert::Problem::uniform(1.into(), 1.into(), 1.into(), 3.into());
+    /// let pieces = rod.solve()?.stress_history()?.pieces;
+    /// // −(μ + g t)/c until the wave comes back.
+    /// assert_eq!(pieces[0].eval(&0.5), -3.5);
+    /// # Ok::<(), dalembert::Error>(())
+    /// ```
+    pub fn eval(&self, time: &S) -> S {
+        let width = self.to.clone() - &self.from;
+        let share = (time.clone() - &self.from) / &width;
+        if self.chebyshev.is_empty() {
+            return (self.right.clone() - &self.left) * &share + &self.left;
+        }
+        // Clenshaw's recurrence on −1 … 1.
+        let x = share.int(2) * &share - share.one();
+        let (mut b1, mut b2) = (x.zero(), x.zero());
+        for c in self.chebyshev.iter().skip(1).rev() {
+            let b0 = x.int(2) * &x * &b1 - &b2 + c;
+            b2 = std::mem::replace(&mut b1, b0);
+        }
+        match self.chebyshev.first() {
+            Some(first) => x * &b1 - b2 + first,
+            None => b1,
+        }
     }
+}
 
-    /// The two factors of `e_E²` of a contact, counted from 0.
-    ///
-    /// **Errors**: [`Error::NoContact`] where the history has fewer contacts.
-    pub fn energy_shares(&self, contact: usize) -> Result<EnergyShares<S>, Error> {
-        let query = |engine: &dyn Engine<S::Carried>| {
-            let found = engine.contacts().len();
-            energy_shares(engine, engine.contacts().get(contact).ok_or(Error::NoContact { contact, found })?)
-        };
-        Ok(self.ask(query, EnergyShares::numbers)?.map(S::strip))
-    }
+/// `v_x(0,·)`: the strain at the ground, piece by piece, from `t = 0` to the end of the history.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+#[serde(bound = "S: Scalar")]
+pub struct StressHistory<S> {
+    /// The pieces, in order and without a gap.
+    pub pieces: Vec<StressPiece<S>>,
+}
 
-    /// `v_x(0,·)` piece by piece.
-    ///
-    /// **Errors**: those of the ladder.
-    pub fn stress_history(&self) -> Result<StressHistory<S>, Error> {
-        let pieces = self.ask(
-            |engine| Ok(engine.stress_pieces()),
-            |pieces| pieces.iter().flat_map(|piece| [&piece.from, &piece.to, &piece.left, &piece.right]).collect(),
-        )?;
-        Ok(StressHistory { pieces: pieces.into_iter().map(|piece| piece.map(S::strip)).collect() })
-    }
-
-    /// `v_x(0,t)`: the strain at the ground, which is the stress there divided by the modulus; zero in flight.
-    pub fn strain(&self, time: S, side: Side) -> Result<S, Error> {
-        let time = time.carry();
-        Ok(S::strip(self.ask(|engine| engine.stress(&time, side), |value| vec![value])?))
-    }
-
-    /// `v(0,t)` and `v_t(0,t)`: the end at the ground.
-    pub fn ground_end(&self, time: S, side: Side) -> Result<(S, S), Error> {
-        self.pair(time, |engine, time| engine.ground_end(time, side))
-    }
-
-    /// `v(L,t)` and `v_t(L,t)`: the upper end.
-    pub fn top_end(&self, time: S, side: Side) -> Result<(S, S), Error> {
-        self.pair(time, |engine, time| engine.top_end(time, side))
-    }
-
-    /// `h(t)` and `h′(t)`: the centre of mass, relative to its place in the undeformed rod on the ground.
-    pub fn centre(&self, time: S) -> Result<(S, S), Error> {
-        self.pair(time, |engine, time| engine.centre(time))
-    }
-
-    fn pair(&self, time: S, ask: impl Fn(&dyn Engine<S::Carried>, &S::Carried) -> Pair<S>) -> Result<(S, S), Error> {
-        let time = time.carry();
-        let (a, b) = self.ask(|engine| ask(engine, &time), |(a, b)| vec![a, b])?;
-        Ok((S::strip(a), S::strip(b)))
-    }
-
-    /// `E(t)`, `E_h(t)`, `E_z(t)`: the energies, per linear density.
-    pub fn energy(&self, time: S) -> Result<Energy<S>, Error> {
-        let time = time.carry();
-        Ok(self.ask(|engine| engine.energy(&time), |energy| energy.numbers().to_vec())?.map(S::strip))
-    }
-
-    /// `v`, `v_t`, `v_x` at `(x,t)`; where a ray passes, the limit from later times.
-    pub fn at(&self, point: S, time: S) -> Result<Field<S>, Error> {
-        self.field(&[point], &[time], Side::Right).map(|mut values| values.remove(0))
-    }
-
-    /// `v`, `v_t`, `v_x` at every point of `points` for every time of `times`: time by time, all points of one time together.
-    pub fn field(&self, points: &[S], times: &[S], side: Side) -> Result<Vec<Field<S>>, Error> {
-        let points: Vec<_> = points.iter().map(Answer::carry).collect();
-        let mut values = Vec::with_capacity(points.len() * times.len());
-        for time in times {
-            let time = time.carry();
-            for point in &points {
-                let value = self.ask(|engine| engine.field(point, &time, side), |field| field.numbers().to_vec())?;
-                values.push(value.map(S::strip));
+/// A piece a line: `from … to: left … right`, with the number of Chebyshev coefficients where it is not linear.
+impl<S: Scalar> fmt::Display for StressHistory<S> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        for piece in &self.pieces {
+            let [from, to, left, right] = [&piece.from, &piece.to, &piece.left, &piece.right].map(Scalar::text);
+            write!(f, "{from} … {to}: {left} … {right}")?;
+            match piece.chebyshev.len() {
+                0 => writeln!(f)?,
+                count => writeln!(f, "  ({count} Chebyshev coefficients)")?,
             }
         }
-        Ok(values)
+        Ok(())
     }
+}
+
+/// Why a history ends where it does.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Ending {
+    /// The time that was asked for.
+    Time,
+    /// The next impact after the contacts that were asked for.
+    NextImpact,
+    /// No impact can follow, for the reason that is said.
+    NoFurtherImpact(String),
+    /// No release can follow, for the reason that is said.
+    NoBounce(String),
+    /// The rod has come to rest, by the criterion that is said. Where a time was asked for, the history reaches it: as it
+    /// does with [`Ending::NoBounce`] and [`Ending::NoFurtherImpact`] once the motion has faded below the accuracy.
+    Rest(String),
+    /// The next event is at no fraction.
+    ExactnessEnds {
+        /// The event.
+        kind: EventKind,
+        /// Its time as a surd, `3 + √2`.
+        time: String,
+        /// The nearest double.
+        near: f64,
+    },
+    /// The first bounce: what follows it is not proved.
+    Bounce,
+    /// The asked accuracy or effort does not settle what comes next.
+    Undecided(String),
+}
+
+impl fmt::Display for Ending {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Ending::Time => f.write_str("the time asked for"),
+            Ending::NextImpact => f.write_str("the impact after the last contact asked for"),
+            Ending::NoFurtherImpact(reason) => write!(f, "no further impact: {reason}"),
+            Ending::NoBounce(reason) => write!(f, "no bounce: {reason}"),
+            Ending::Rest(reason) => write!(f, "at rest: {reason}"),
+            Ending::ExactnessEnds { time, near, .. } => {
+                write!(f, "exactness ends before the impact at t = {time} ≈ {near}, which is no fraction")
+            }
+            Ending::Bounce => f.write_str("the first bounce: whether and when the rod lands again is not proved"),
+            Ending::Undecided(reason) => write!(f, "undecided: {reason}"),
+        }
+    }
+}
+
+/// The scales of a motion: what its quantities are to be compared with.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Scales<S> {
+    /// `t₁`, of times; later times scale with themselves.
+    pub time: S,
+    /// About the greatest speed: `μ`, or `g t₁` where that is greater. Displacements scale with `time · velocity`, or with
+    /// the greatest of them.
+    pub velocity: S,
+    /// `L`.
+    pub length: S,
+    /// `c`.
+    pub wave_speed: S,
+    /// `g`.
+    pub gravity: S,
+}
+
+impl<S> Scales<S> {
+    /// The same scales in other numbers.
+    pub(crate) fn map<T>(self, f: impl Fn(S) -> T) -> Scales<T> {
+        Scales {
+            time: f(self.time),
+            velocity: f(self.velocity),
+            length: f(self.length),
+            wave_speed: f(self.wave_speed),
+            gravity: f(self.gravity),
+        }
+    }
+}
+
+/// What can be asked of a solution. All times are absolute, in the units of the scene; a time outside of
+/// `0 … end()` is [`Error::TimeOutside`], a point outside of the rod is [`Error::PointOutside`].
+pub trait Motion<S: Scalar>: fmt::Debug + Send + Sync {
+    /// The last time that is known.
+    fn end(&self) -> S;
+
+    /// Why it is the last.
+    fn ending(&self) -> &Ending;
+
+    /// All impacts and releases, in order. The start at `t = 0` is the first impact where the rod stands on the ground.
+    fn events(&self) -> &[Event<S>];
+
+    /// All contacts, in order.
+    fn contacts(&self) -> &[Contact<S>];
+
+    /// `v_x(0,·)` from 0 to the end, pieces in order, canonical: neighbours that continue each other are one.
+    fn stress_pieces(&self) -> Vec<StressPiece<S>>;
+
+    /// `v_x(0,t)`: the stress at the ground divided by the modulus; zero in flight.
+    fn stress(&self, time: &S, side: Side) -> Result<S, Error>;
+
+    /// `v(0,t)` and `v_t(0,t)`.
+    fn ground_end(&self, time: &S, side: Side) -> Result<(S, S), Error>;
+
+    /// `v(L,t)` and `v_t(L,t)`.
+    fn top_end(&self, time: &S, side: Side) -> Result<(S, S), Error>;
+
+    /// `h(t)` and `h′(t)`.
+    fn centre(&self, time: &S) -> Result<(S, S), Error>;
+
+    /// `E(t)`, `E_h(t)`, `E_z(t)`.
+    fn energy(&self, time: &S) -> Result<Energy<S>, Error>;
+
+    /// `v`, `v_t`, `v_x` at `(x,t)`.
+    fn field(&self, point: &S, time: &S, side: Side) -> Result<Field<S>, Error>;
+
+    /// `t*` and `h(t*)`: where the centre of mass turns in the flight after `release`, if nothing ends the flight before.
+    /// `None` where it does not turn: without gravity, under a fixed top, or already falling at the release.
+    fn highest(&self, release: &Event<S>) -> Option<(S, S)>;
 
     /// The natural scales of the motion.
-    pub fn scales(&self) -> Scales<S> {
-        self.current().engine.scales().map(S::strip)
-    }
+    fn scales(&self) -> Scales<S>;
 
-    /// A bound of the error of events and of values at ordinary times, relative to the natural scales; zero where all is exact.
-    pub fn error_estimate(&self) -> f64 {
-        self.current().engine.error_estimate().to_f64()
-    }
+    /// How far any quantity may be off, relative to its natural scale; zero where all is exact. The bound that the run carries,
+    /// or, for a damped run in doubles that an accuracy was asked of, sixteen times what separates it from a second one.
+    fn error_estimate(&self) -> S;
 
-    /// How many impacts there were, and `log₁₀` of the factor by which rounding may have grown over them; `None` where that is
+    /// How many impacts there were and `log₁₀` of the factor by which rounding may have grown over them; `None` where that is
     /// not followed.
-    pub fn digits_lost(&self) -> Option<(u32, f64)> {
-        self.current().engine.digits_lost()
+    fn digits_lost(&self) -> Option<(u32, f64)> {
+        None
     }
 
-    /// What a user should know of the answer.
-    pub fn warnings(&self) -> Vec<String> {
-        self.current().engine.warnings().to_vec()
-    }
-}
-
-type Pair<S> = Result<(<S as Answer>::Carried, <S as Answer>::Carried), Error>;
-
-impl<S: Target> std::fmt::Debug for Motion<S> {
-    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        f.debug_struct("Motion").field("ladder", &self.ladder).field("end", &self.end).finish_non_exhaustive()
-    }
-}
-
-impl Problem {
-    /// The motion in doubles. **Accuracy**: [`DEFAULT_ACCURACY`](crate::DEFAULT_ACCURACY) of the natural scales.
-    pub fn solve(&self) -> Result<Motion<f64>, Error> {
-        self.answer(&Question::run(Numbers::Double(None)))
-    }
-
-    /// The motion in fractions, as far as they reach. **Accuracy**: *exact*.
-    ///
-    /// **Errors**: [`Error::DampedExact`]; [`Error::NoMultiprecision`] without the feature `mp`.
-    pub fn exact(&self) -> Result<Motion<crate::number::Rational>, Error> {
-        self.answer(&Question::run(Numbers::Exact))
-    }
-
-    /// The motion in decimal digits. **Accuracy**: so many digits of each number, rounded once.
-    ///
-    /// **Errors**: [`Error::Digits`]; [`Error::Unsettled`]; [`Error::NoMultiprecision`] without the feature `mp`.
-    pub fn digits(&self, digits: u32) -> Result<Motion<crate::number::Float>, Error> {
-        self.answer(&Question::run(Numbers::Digits(digits)))
-    }
-
-    /// The motion in proved decimal digits. **Accuracy**: *enclosure*.
-    ///
-    /// **Errors**: [`Error::NotCertified`]; [`Error::Undecided`]; [`Error::NoMultiprecision`] without the feature `mp`.
-    pub fn certified(&self, digits: u32) -> Result<Motion<crate::number::Interval>, Error> {
-        self.answer(&Question::run(Numbers::Certified(digits)))
-    }
-
-    /// The first contact alone, in doubles: `t_b`, impulse, peak and restitution, without the flight after it.
-    pub fn first_contact(&self) -> Result<Motion<f64>, Error> {
-        self.answer(&Question { want: Want::FirstContact, numbers: Numbers::Double(None) })
-    }
-
-    fn answer<S: Target>(&self, question: &Question) -> Result<Motion<S>, Error> {
-        Motion::solve(self, &Plan::of(self, question)?, unobserved())
-    }
+    /// What a user should know: events decided by rounding, digits lost. Data, for the caller to print.
+    fn warnings(&self) -> &[String];
 }

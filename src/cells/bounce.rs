@@ -9,7 +9,7 @@ use std::collections::VecDeque;
 use super::march::{Medium, State};
 use super::start::{Data, Units};
 use crate::first_contact::FirstContact;
-use crate::history::Side;
+use crate::motion::Side;
 use crate::number::Estimate;
 use crate::special::RoundedSpecial;
 

@@ -12,7 +12,7 @@ use super::root::first_descent;
 use super::series::{at_one, at_zero, bound, derivative, evaluate};
 use super::start::Data;
 use crate::error::Error;
-use crate::history::{Ending, EventKind};
+use crate::motion::{Ending, EventKind};
 use crate::special::RoundedSpecial;
 
 /// What happened at the ground during one strip, or during a flight that was leapt over, dimensionless.

@@ -10,9 +10,9 @@ use super::series::{at_one, at_zero, evaluate};
 use super::start::{Data, Units};
 use crate::error::Error;
 use crate::first_contact::FirstContact;
-use crate::history::{Contact, Ending, Energy, Event, EventKind, Field, History, Scales, Side, StressPiece};
+use crate::motion::{Contact, Ending, Energy, Event, EventKind, Field, Motion, Scales, Side, StressPiece};
 use crate::number::Estimate;
-use crate::rod::{Parameters, Problem, Run, Top};
+use crate::problem::{Parameters, Problem, Run, Top};
 use crate::special::RoundedSpecial;
 use crate::special::{log_mean, log_rest};
 
@@ -23,11 +23,11 @@ use crate::special::{log_mean, log_rest};
 ///
 /// **Units**: those of the problem.
 ///
-/// **Accuracy**: within [`History::error_estimate`] of each quantity's natural scale: `t₁`, `V = max(|data|, g t₁)`, `V t₁`.
+/// **Accuracy**: within [`Motion::error_estimate`] of each quantity's natural scale: `t₁`, `V = max(|data|, g t₁)`, `V t₁`.
 ///
 /// ```
 /// use dalembert::cells::Damped;
-/// use dalembert::history::History;
+/// use dalembert::motion::Motion;
 /// use dalembert::{Number, Problem};
 /// // Without damping a rod with c = L = g = 1 that arrives at μ = 3 leaves after the round trip, t₁ = 2.
 /// let mut problem = Problem::uniform(Number::from(1), Number::from(1), Number::from(1), Number::from(3));
@@ -112,10 +112,10 @@ impl<S: RoundedSpecial> Damped<S> {
     /// Follows `problem` as far as its `run` says, to about `digits` decimal digits of the natural scales.
     ///
     /// What a cell leaves out is at most `2^{−20} 10^{−digits}`, or the roundoff of the number system where that is more;
-    /// [`History::error_estimate`] says what came of it.
+    /// [`Motion::error_estimate`] says what came of it.
     ///
     /// A run up to a time that the motion does not last is answered from the state at rest from where the motion is below
-    /// [`History::error_estimate`], by a bound that it can never pass again; [`History::ending`] then says from when.
+    /// [`Motion::error_estimate`], by a bound that it can never pass again; [`Motion::ending`] then says from when.
     ///
     /// **Errors**: [`Error::DampingTooStrong`] for `r t₁ > 2000`; [`Error::TooManyPieces`] beyond 400 000 strips;
     /// [`Error::TooManyRays`] beyond 4096 segments in a round trip; [`Error::Irrational`] from the parameters.
@@ -313,7 +313,7 @@ impl<S: RoundedSpecial> Damped<S> {
     }
 }
 
-impl<S: RoundedSpecial> History<S> for Damped<S> {
+impl<S: RoundedSpecial> Motion<S> for Damped<S> {
     fn end(&self) -> S {
         self.end.clone()
     }

@@ -3,9 +3,9 @@
 use super::history::Damped;
 use crate::error::Error;
 use crate::first_contact::{Bounce, ContactHistory, FirstContact};
-use crate::history::{Contact, Ending, Energy, Event, Field, History, Scales, Side, StressPiece};
+use crate::motion::{Contact, Ending, Energy, Event, Field, Motion, Scales, Side, StressPiece};
 use crate::number::Estimate;
-use crate::rod::{Parameters, Problem, Run};
+use crate::problem::{Parameters, Problem, Run};
 use crate::special::RoundedSpecial;
 
 /// The damped rod that starts as the paper's does, through any number of impacts: [`ContactHistory`] as long as the first
@@ -15,7 +15,7 @@ use crate::special::RoundedSpecial;
 ///
 /// **Units**: those of the problem.
 ///
-/// **Accuracy**: within [`History::error_estimate`] of the natural scales.
+/// **Accuracy**: within [`Motion::error_estimate`] of the natural scales.
 #[derive(Clone, Debug)]
 pub struct Joined<S> {
     contact: ContactHistory<Estimate<S>>,
@@ -129,7 +129,7 @@ impl<S: RoundedSpecial> Joined<S> {
     }
 }
 
-impl<S: RoundedSpecial> History<S> for Joined<S> {
+impl<S: RoundedSpecial> Motion<S> for Joined<S> {
     fn end(&self) -> S {
         self.end.clone()
     }

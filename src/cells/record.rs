@@ -11,7 +11,7 @@ use super::follow::{Checkpoint, Piece};
 use super::march::Medium;
 use super::series::evaluate;
 use super::start::Data;
-use crate::history::Side;
+use crate::motion::Side;
 use crate::special::RoundedSpecial;
 
 /// All that the field follows from.

@@ -7,7 +7,7 @@ use super::follow::{Follower, Goal, Piece};
 use super::march::Medium;
 use super::record::{Node, Record};
 use super::series::bound;
-use crate::history::Ending;
+use crate::motion::Ending;
 use crate::special::RoundedSpecial;
 
 /// A motion is over where it is this often the error that it carries.

@@ -14,7 +14,7 @@ use std::collections::VecDeque;
 use super::cell::Cell;
 use super::march::{Medium, State};
 use crate::number::{Analytic, Number};
-use crate::rod::{Parameters, Problem, Profile, Start};
+use crate::problem::{Parameters, Problem, Profile, Start};
 
 /// Linear data on an interval.
 #[derive(Clone, Debug)]

@@ -14,8 +14,8 @@ use std::process::ExitCode;
 use clap::{Args, CommandFactory, Parser, Subcommand, ValueEnum};
 
 use crate::error::Error;
-use crate::history::{Ending, History};
-use crate::motion::Motion;
+use crate::motion::{Ending, Motion};
+use crate::history::History;
 use crate::number::{Number, Scalar};
 use crate::output::{Head, SCHEMA, write_whole};
 use crate::problem::{Material, Parameters};
@@ -220,7 +220,7 @@ fn parameters(scene: &Scene) -> String {
 trait Report {
     /// What is asked of the history.
     type Data<N: Scalar>;
-    fn gather<N: Scalar>(&self, history: &dyn History<N>, head: &Head) -> Result<Self::Data<N>, Error>;
+    fn gather<N: Scalar>(&self, history: &dyn Motion<N>, head: &Head) -> Result<Self::Data<N>, Error>;
     /// Every number in the data.
     fn numbers<'a, N: Scalar>(&self, data: &'a Self::Data<N>) -> Vec<&'a N>;
     fn print<N: Scalar>(&self, data: &Self::Data<N>, head: &Head) -> Result<(), Failure>;
@@ -255,7 +255,7 @@ fn answer(scene: &Scene, question: &Question, output: &OutputArgs, report: &impl
 }
 
 fn print<S: Target>(
-    motion: &Motion<S>,
+    motion: &History<S>,
     report: &impl Report,
     head: &Head,
     progress: source::Progress,

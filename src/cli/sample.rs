@@ -4,7 +4,7 @@ use clap::Args;
 
 use super::{Failure, Format, NumberArgs, OutputArgs, Report, answer, source};
 use crate::error::Error;
-use crate::history::{Ending, History, Side};
+use crate::motion::{Ending, Motion, Side};
 use crate::number::{Number, Scalar};
 use crate::output::{self, Head, Quantity, sample, samples_csv, samples_json, samples_table};
 use crate::solve::Question;
@@ -113,7 +113,7 @@ impl Sample {
 impl Report for Sample {
     type Data<S: Scalar> = (Vec<output::Sample<S>>, Vec<String>);
 
-    fn gather<S: Scalar>(&self, history: &dyn History<S>, _: &Head) -> Result<Self::Data<S>, Error> {
+    fn gather<S: Scalar>(&self, history: &dyn Motion<S>, _: &Head) -> Result<Self::Data<S>, Error> {
         let length = history.scales().length;
         let precision = length.precision();
         let times = self.times.lift::<S>(&precision);

@@ -4,7 +4,7 @@ use clap::Args;
 
 use super::{Failure, Format, NumberArgs, OutputArgs, Report, answer, source};
 use crate::error::Error;
-use crate::history::History;
+use crate::motion::Motion;
 use crate::number::Scalar;
 use crate::output::{Head, Part, Record, history_csv, history_json, history_table, record};
 use crate::solve::Question;
@@ -40,7 +40,7 @@ impl Solve {
 impl Report for Solve {
     type Data<S: Scalar> = Record<S>;
 
-    fn gather<S: Scalar>(&self, history: &dyn History<S>, head: &Head) -> Result<Record<S>, Error> {
+    fn gather<S: Scalar>(&self, history: &dyn Motion<S>, head: &Head) -> Result<Record<S>, Error> {
         let stress = match self.output.format() {
             Ok(Format::Json) => true,
             Ok(Format::Csv) => matches!(self.part, Some(Part::Stress)),

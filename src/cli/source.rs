@@ -9,7 +9,7 @@ use std::time::Duration;
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 
 use super::Failure;
-use crate::rod::Parameters;
+use crate::problem::Parameters;
 use crate::scene::{Scene, builtin};
 use crate::solve::{Engine, Observer, Plan, Reach};
 

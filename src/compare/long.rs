@@ -3,7 +3,7 @@
 use rug::ops::Pow;
 use rug::{Float, Rational};
 
-use super::motion::ByClosedForm;
+use super::account::ByClosedForm;
 use super::quantity::Question;
 use super::route::Route;
 use super::value::{Answer, Bounded, NoAnswer, System, Value};
@@ -11,7 +11,7 @@ use crate::first_contact::FirstContact;
 use crate::lattice::Undamped;
 use crate::number::{Analytic, Estimate, Interval, Number, Scalar, bits_for_digits};
 use crate::paper::UndampedContact;
-use crate::rod::Parameters;
+use crate::problem::Parameters;
 use crate::solve::Numbers;
 
 /// Whether this build has such numbers.

@@ -5,7 +5,7 @@
 //! |---|---|
 //! | `value` | a number in any number system, and what two of them have in common |
 //! | `quantity` | what can be asked of a rod |
-//! | `motion` | the accounts of a motion that can be asked |
+//! | `account` | the accounts of a motion that can be asked |
 //! | `route` | every route to an answer |
 //! | `truth` | what answers are held against |
 //! | `long` | all that needs numbers longer than doubles |
@@ -19,7 +19,7 @@ mod long;
 #[cfg(not(feature = "mp"))]
 #[path = "without_long.rs"]
 mod long;
-mod motion;
+mod account;
 mod quantity;
 mod route;
 mod truth;

@@ -2,12 +2,12 @@
 
 use clap::ValueEnum;
 
-use super::motion::{ByHistory, Found, Motion};
+use super::account::{ByHistory, Found, Account};
 use super::value::{Answer, Bounded, NoAnswer, System};
 use crate::error::Error;
-use crate::history::{EventKind, History, Side};
+use crate::motion::{EventKind, Motion, Side};
 use crate::number::Number;
-use crate::rod::{Parameters, Problem, Run};
+use crate::problem::{Parameters, Problem, Run};
 use crate::scene::Scene;
 use crate::solve::{Solution, Target};
 
@@ -168,12 +168,12 @@ impl Question {
     }
 
     /// The answer of one account of the motion of `rod`.
-    pub(crate) fn ask<S: System>(&self, rod: &Parameters<S>, motion: &dyn Motion<S>) -> Result<Answer, NoAnswer> {
+    pub(crate) fn ask<S: System>(&self, rod: &Parameters<S>, motion: &dyn Account<S>) -> Result<Answer, NoAnswer> {
         self.find(rod, motion).map(Bounded::answer)
     }
 
     /// The answer of a history.
-    pub(crate) fn ask_history<S: System>(&self, history: &dyn History<S>) -> Result<Answer, NoAnswer> {
+    pub(crate) fn ask_history<S: System>(&self, history: &dyn Motion<S>) -> Result<Answer, NoAnswer> {
         self.find_in_history(history).map(Bounded::answer)
     }
 
@@ -188,8 +188,8 @@ impl Question {
     }
 
     /// The answer of the public history, settled to its digits.
-    fn ask_motion<S: Target<Carried: System>>(&self, history: &crate::motion::Motion<S>) -> Result<Answer, NoAnswer> {
-        let query = |engine: &dyn History<S::Carried>| match self.find_in_history(engine) {
+    fn ask_motion<S: Target<Carried: System>>(&self, history: &crate::history::History<S>) -> Result<Answer, NoAnswer> {
+        let query = |engine: &dyn Motion<S::Carried>| match self.find_in_history(engine) {
             // More bits may settle it.
             Err(NoAnswer::Solve(error @ (Error::NotDecided { .. } | Error::Open(_)))) => Err(error),
             found => Ok(found),
@@ -198,12 +198,12 @@ impl Question {
     }
 
     /// The same in the numbers of the history.
-    fn find_in_history<S: System>(&self, history: &dyn History<S>) -> Found<S> {
+    fn find_in_history<S: System>(&self, history: &dyn Motion<S>) -> Found<S> {
         let rod = Parameters::of(&self.problem, &history.scales().length.precision())?;
         self.find(&rod, &ByHistory(history))
     }
 
-    fn find<S: System>(&self, rod: &Parameters<S>, motion: &dyn Motion<S>) -> Found<S> {
+    fn find<S: System>(&self, rod: &Parameters<S>, motion: &dyn Account<S>) -> Found<S> {
         let found = match self.limit {
             Limit::From(side) => self.find_on(rod, motion, side),
             Limit::Jump => {
@@ -217,7 +217,7 @@ impl Question {
         })
     }
 
-    fn find_on<S: System>(&self, rod: &Parameters<S>, motion: &dyn Motion<S>, side: Side) -> Found<S> {
+    fn find_on<S: System>(&self, rod: &Parameters<S>, motion: &dyn Account<S>, side: Side) -> Found<S> {
         let precision = rod.length.precision();
         let point = || match &self.point {
             Some(point) => Ok(S::from_number(point, &precision)),

@@ -2,7 +2,7 @@
 
 use super::cost::differences::march;
 use super::long;
-use super::motion::ByClosedForm;
+use super::account::ByClosedForm;
 use super::quantity::{Quantity, Question};
 use super::value::{Answer, Bounded, NoAnswer, Value};
 use crate::cells::Damped;
@@ -11,7 +11,7 @@ use crate::lattice::Undamped;
 use crate::modal::Modal;
 use crate::number::{Estimate, Scalar};
 use crate::paper::Printed;
-use crate::rod::{Parameters, Problem, Run};
+use crate::problem::{Parameters, Problem, Run};
 pub(crate) use crate::solve::Numbers;
 use crate::solve::{self, Plan, Raised, Solution, Want, bounce_within};
 

@@ -2,7 +2,7 @@
 
 use super::field::{FirstContact, Trips, unknown};
 use super::rebound::translational;
-use crate::history::{Energy, Side};
+use crate::motion::{Energy, Side};
 use crate::number::Scalar;
 use crate::special::BoundedSpecial;
 

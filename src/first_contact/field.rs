@@ -1,8 +1,8 @@
 //! Stress, field and centre of mass during the first contact, as sums over the rays that have arrived.
 
-use crate::history::{Field, Side};
+use crate::motion::{Field, Side};
 use crate::number::Scalar;
-use crate::rod::Parameters;
+use crate::problem::Parameters;
 use crate::special::{BoundedSpecial, Ray};
 
 /// The rod that hit the ground undeformed at `t = 0` with uniform velocity `−μ`, while the contact lasts.
@@ -17,7 +17,7 @@ use crate::special::{BoundedSpecial, Ray};
 /// enclosure does not tell which rays have arrived, has no finite bound.
 ///
 /// ```
-/// # use dalembert::{Number, Problem, rod::Parameters, first_contact::FirstContact, history::Side, number::Estimate};
+/// # use dalembert::{Number, Problem, problem::Parameters, first_contact::FirstContact, history::Side, number::Estimate};
 /// // r = 0: the stress in the first round trip is −(μ + gt)/c.
 /// let problem = Problem::uniform(Number::from(1), Number::from(1), Number::from(1), Number::from(3));
 /// let contact = FirstContact::new(&Parameters::<Estimate<f64>>::of(&problem, &())?);

@@ -5,9 +5,9 @@ use super::field::{FirstContact, Trips};
 use super::rebound::Rebound;
 use super::static_state::{StaticState, faded_after};
 use crate::error::Error;
-use crate::history::{Contact, Ending, Energy, Event, EventKind, Field, History, Scales, Side, StressPiece};
+use crate::motion::{Contact, Ending, Energy, Event, EventKind, Field, Motion, Scales, Side, StressPiece};
 use crate::number::{Open, Scalar};
-use crate::rod::{Parameters, Problem, Run};
+use crate::problem::{Parameters, Problem, Run};
 use crate::special::BoundedSpecial;
 
 /// The first contact of a uniform start under a free top, damped or not, from the impact to the bounce, or as far as it is followed.
@@ -22,7 +22,7 @@ use crate::special::BoundedSpecial;
 /// [`ContactHistory::flight`].
 ///
 /// ```
-/// use dalembert::{History, Number, Problem, first_contact::ContactHistory, number::Estimate};
+/// use dalembert::{Motion, Number, Problem, first_contact::ContactHistory, number::Estimate};
 /// // (1.10): g = 0, R = 3: the bounce is a root in the fourth round trip.
 /// let mut problem = Problem::uniform("1/2".parse()?, Number::from(1), Number::from(0), Number::from(1));
 /// problem.rod.damping = Some(Number::from(3));
@@ -250,7 +250,7 @@ impl<N: BoundedSpecial> ContactHistory<N> {
     }
 }
 
-impl<N: BoundedSpecial> History<N> for ContactHistory<N> {
+impl<N: BoundedSpecial> Motion<N> for ContactHistory<N> {
     fn end(&self) -> N {
         self.end.clone()
     }

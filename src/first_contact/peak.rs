@@ -3,7 +3,7 @@
 use super::cells::{Interpolant, Search};
 use super::field::{FirstContact, Trips};
 use super::first_root::{derivative, evaluate};
-use crate::history::Side;
+use crate::motion::Side;
 use crate::number::Scalar;
 use crate::special::{BoundedSpecial, Ray};
 

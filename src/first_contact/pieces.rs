@@ -1,7 +1,7 @@
 //! The stress history of a contact as polynomials with a proved distance.
 
 use super::field::{FirstContact, Trips};
-use crate::history::{Side, StressPiece};
+use crate::motion::{Side, StressPiece};
 use crate::special::BoundedSpecial;
 
 /// More terms than this are not taken: what they would add is a width.

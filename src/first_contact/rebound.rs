@@ -2,7 +2,7 @@
 
 use super::field::FirstContact;
 use crate::number::Bounded;
-use crate::rod::Parameters;
+use crate::problem::Parameters;
 use crate::special::{BoundedSpecial, log_mean, log_rest};
 
 /// The motion of the centre of mass from `t_b` on, up to the next impact.
@@ -12,7 +12,7 @@ use crate::special::{BoundedSpecial, log_mean, log_rest};
 /// **Units**: any consistent units; energies are per linear density.
 ///
 /// ```
-/// # use dalembert::{rod::Parameters, first_contact::FirstContact, number::Estimate};
+/// # use dalembert::{problem::Parameters, first_contact::FirstContact, number::Estimate};
 /// // r = 0, μ = 4 > μ₀ = 2: h⁰ = −2/3, h¹ = μ, and the top of the flight at t = 6.
 /// let rod = Parameters { length: 1.0, wave_speed: 1.0, damping: 0.0, gravity: 1.0, speed: 4.0 };
 /// let rebound = FirstContact::new(&rod.carry()).rebound(&Estimate::exact(2.0));

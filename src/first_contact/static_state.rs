@@ -1,8 +1,8 @@
 //! The rod at rest on the ground under a free top, and when a contact without end has become that.
 
-use crate::history::{Energy, Field};
+use crate::motion::{Energy, Field};
 use crate::number::Scalar;
-use crate::rod::Parameters;
+use crate::problem::Parameters;
 
 /// `v_s = (g/2c²)(x² − 2Lx)`: what a contact that never ends tends to, with what is left of the transient by [`faded_after`] as a
 /// bound.
@@ -94,7 +94,7 @@ pub(super) fn faded_after<N: Scalar>(rod: &Parameters<N>, most: i64) -> Option<i
 mod tests {
     use super::*;
     use crate::first_contact::FirstContact;
-    use crate::history::Side;
+    use crate::motion::Side;
     use crate::number::Estimate;
 
     #[test]

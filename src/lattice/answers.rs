@@ -4,10 +4,10 @@ use super::history::{Centre, Moment, Undamped};
 use super::start::Units;
 use super::trace::{Line, Part, Piece};
 use crate::error::Error;
-use crate::history::{Contact, Ending, Energy, Event, Field, History, Scales, Side, StressPiece};
+use crate::motion::{Contact, Ending, Energy, Event, Field, Motion, Scales, Side, StressPiece};
 use crate::number::Bounded;
 
-impl<N: Bounded> History<N> for Undamped<N> {
+impl<N: Bounded> Motion<N> for Undamped<N> {
     fn end(&self) -> N {
         self.time_of(&self.end)
     }

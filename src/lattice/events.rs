@@ -4,9 +4,9 @@ use super::history::{Centre, Moment, Undamped};
 use super::start::Units;
 use super::trace::{GroundEvent, Place};
 use crate::error::Error;
-use crate::history::{Contact, Event, EventKind};
+use crate::motion::{Contact, Event, EventKind};
 use crate::number::{Bounded, Open};
-use crate::rod::Top;
+use crate::problem::Top;
 
 impl<N: Bounded> Undamped<N> {
     pub(super) fn in_scene_units(&self) -> Result<Vec<Event<N>>, Error> {

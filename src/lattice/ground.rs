@@ -16,7 +16,7 @@ use std::cmp::Ordering;
 use super::limits::{Halt, Stop, Until};
 use super::march::March;
 use super::trace::{GroundEvent, Line, Piece, at_deviating};
-use crate::history::EventKind;
+use crate::motion::EventKind;
 use crate::number::{Bounded, Open, sign_within};
 
 /// What arrives at the ground between two breaks, `from … to`.

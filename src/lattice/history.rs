@@ -5,11 +5,11 @@ use super::march::{GroundMotion, march};
 use super::start::{Scaled, Units};
 use super::trace::{Part, Place};
 use crate::error::Error;
-use crate::history::{Contact, Ending, Event, EventKind, Side};
+use crate::motion::{Contact, Ending, Event, EventKind, Side};
 use crate::number::{Bounded, Open};
-use crate::rod::{Problem, Run, Top};
+use crate::problem::{Problem, Run, Top};
 
-/// The history of an undamped rod: [`crate::History`] by the ground trace of the upward invariant.
+/// The history of an undamped rod: [`crate::Motion`] by the ground trace of the upward invariant.
 ///
 /// **Accuracy**: *exact* in fractions, *enclosure* in intervals; otherwise each number within the bound that it carries.
 #[derive(Clone, Debug)]
@@ -42,7 +42,7 @@ impl<N: Bounded> Undamped<N> {
     /// **Errors**: [`Error::Irrational`], [`Error::TooManyPieces`], [`Error::Open`].
     ///
     /// ```
-    /// use dalembert::{History, Number, Problem, lattice::Undamped, number::Estimate};
+    /// use dalembert::{Motion, Number, Problem, lattice::Undamped, number::Estimate};
     /// let problem = Problem::uniform(Number::from(1), Number::from(1), Number::from(1), Number::from(3));
     /// let history = Undamped::<Estimate<f64>>::solve(&problem, &())?;
     /// // Corollary 1: at μ = 3 ≥ g t₁ = 2 the contact lasts exactly t₁ = 2.

@@ -1,6 +1,6 @@
 //! How far a march goes, what it may take, and why it ends.
 
-use crate::rod::{Parameters, Problem};
+use crate::problem::{Parameters, Problem};
 
 /// How much a march may take.
 #[derive(Clone, Copy, Debug)]

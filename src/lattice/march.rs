@@ -5,7 +5,7 @@ use super::start::Scaled;
 use super::trace::{GroundEvent, Place, Trace};
 use crate::error::Error;
 use crate::number::{Bounded, Open};
-use crate::rod::Top;
+use crate::problem::Top;
 
 /// More round trips than this are not left out at once: their number must fit the arithmetic.
 const MOST_LEAPT: usize = if usize::BITS < 64 { usize::MAX >> 2 } else { usize::MAX >> 12 };

@@ -5,7 +5,7 @@ use glam::{DMat2, DVec2};
 use super::history::Undamped;
 use super::trace::Place;
 use crate::number::{Bounded, Scalar};
-use crate::rod::Top;
+use crate::problem::Top;
 
 /// A ray `ct = ±(x − 2kL)` of the lattice over one round trip: up from the ground, back from the top.
 ///

@@ -2,7 +2,7 @@
 
 use crate::error::Error;
 use crate::number::{Bounded, Number, Open};
-use crate::rod::{Parameters, Problem, Profile, Start, Top};
+use crate::problem::{Parameters, Problem, Profile, Start, Top};
 
 /// The units in which the lattice computes: with them a break returns after exactly 1, and gravity is 1 or 0.
 #[derive(Clone, Debug)]

@@ -1,8 +1,8 @@
 //! What the march stores: the upward invariant `p` at the ground, piece by piece.
 
-use crate::history::{EventKind, Side};
+use crate::motion::{EventKind, Side};
 use crate::number::{Bounded, Open};
-use crate::rod::Top;
+use crate::problem::Top;
 
 /// `intercept + slope·f` at age `f`.
 ///
@@ -66,7 +66,7 @@ pub struct GroundEvent<N> {
     pub piece: usize,
     /// The number of the piece of the trip before that comes back meanwhile.
     pub incoming: usize,
-    /// `v_t(0,·)` just before an impact, just after a release; see [`crate::history::Event`].
+    /// `v_t(0,·)` just before an impact, just after a release; see [`crate::motion::Event`].
     pub end_velocity: N,
 }
 

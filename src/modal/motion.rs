@@ -1,11 +1,11 @@
 //! What is asked of the modes: stress, field, centre of mass, energy.
 
-use crate::history::{Field, Side};
+use crate::motion::{Field, Side};
 use crate::number::{Estimate, Rounded, Scalar};
-use crate::rod::Parameters;
+use crate::problem::Parameters;
 use crate::special::phi1;
 
-use super::sums::{MOST_MODES, Motion, Shape, series};
+use super::sums::{MOST_MODES, History, Shape, series};
 
 /// The first contact by its modes.
 ///
@@ -16,7 +16,7 @@ use super::sums::{MOST_MODES, Motion, Shape, series};
 /// **Accuracy**: each [`Estimate`] carries the proved bound of the modes left out and of the rounding errors.
 ///
 /// ```
-/// # use dalembert::{rod::Parameters, modal::Modal, history::Side};
+/// # use dalembert::{problem::Parameters, modal::Modal, history::Side};
 /// // r = 0: the stress in the first round trip is −(μ + gt)/c.
 /// let rod = Parameters { length: 1.0, wave_speed: 1.0, damping: 0.0, gravity: 1.0, speed: 3.0 };
 /// let stress = Modal::new(&rod, 64).stress(&1.0, Side::Right);
@@ -52,12 +52,12 @@ impl<S: Rounded> Modal<S> {
     /// `e^{−rt} H_r` and `e^{−rt} G_r/t₁` at `t/t₁`; the second is left out where nothing weighs.
     pub(crate) fn ground(&self, trips: &S, side: Side) -> [Estimate<S>; 2] {
         let ground = trips.zero();
-        let first = series(0, Motion::Sine, Shape::Cosine);
+        let first = series(0, History::Sine, Shape::Cosine);
         if self.critical.is_zero() {
             let [impact] = self.sums(trips, &ground, side, [first]);
             return [impact, exact(&trips.zero())];
         }
-        let [impact, weight] = self.sums(trips, &ground, side, [first, series(2, Motion::Rising, Shape::Cosine)]);
+        let [impact, weight] = self.sums(trips, &ground, side, [first, series(2, History::Rising, Shape::Cosine)]);
         [impact, exact(&trips.ratio(1, 2)) - weight]
     }
 
@@ -68,11 +68,11 @@ impl<S: Rounded> Modal<S> {
         let trips = self.trips(time);
         let a = point.clone() / &self.rod.length / point.int(2);
         let list = [
-            series(1, Motion::Sine, Shape::Sine),
-            series(1, Motion::Falling, Shape::Sine),
-            series(0, Motion::Sine, Shape::Cosine),
-            series(3, Motion::Rising, Shape::Sine),
-            series(2, Motion::Rising, Shape::Cosine),
+            series(1, History::Sine, Shape::Sine),
+            series(1, History::Falling, Shape::Sine),
+            series(0, History::Sine, Shape::Cosine),
+            series(3, History::Rising, Shape::Sine),
+            series(2, History::Rising, Shape::Cosine),
         ];
         let [fallen, slowed, force, sag, bend] = self.sums(&trips, &a, side, list);
         let (a, one) = (Estimate::rounded(a, 2.0), exact(&trips.one()));
@@ -92,9 +92,9 @@ impl<S: Rounded> Modal<S> {
     pub fn centre(&self, time: &S) -> (Estimate<S>, Estimate<S>) {
         let trips = self.trips(time);
         let list = [
-            series(2, Motion::Sine, Shape::Mean),
-            series(2, Motion::Falling, Shape::Mean),
-            series(4, Motion::Rising, Shape::Mean),
+            series(2, History::Sine, Shape::Mean),
+            series(2, History::Falling, Shape::Mean),
+            series(4, History::Rising, Shape::Mean),
         ];
         let two = exact(&trips.int(2));
         let [fallen, slowed, sag] = self.sums(&trips, &trips.zero(), Side::Right, list).map(|sum| sum * &two);

@@ -3,12 +3,12 @@
 use std::f64::consts::PI;
 
 use super::Modal;
-use crate::history::Side;
+use crate::motion::Side;
 use crate::number::{Analytic, Estimate, Rounded};
 
 /// The function of time in a sum.
 #[derive(Clone, Copy)]
-pub(super) enum Motion {
+pub(super) enum History {
     /// `S`.
     Sine,
     /// `C − RS`.
@@ -32,11 +32,11 @@ pub(super) enum Shape {
 #[derive(Clone, Copy)]
 pub(super) struct Series {
     power: usize,
-    motion: Motion,
+    motion: History,
     shape: Shape,
 }
 
-pub(super) const fn series(power: usize, motion: Motion, shape: Shape) -> Series {
+pub(super) const fn series(power: usize, motion: History, shape: Shape) -> Series {
     Series { power, motion, shape }
 }
 
@@ -47,7 +47,7 @@ pub(super) const MOST_MODES: i64 = 1 << 20;
 
 /// `C` and `S` as power series in `y = −iε` at one time, cut after K powers.
 struct Expansion<S> {
-    /// `F_m` for each [`Motion`], m < K.
+    /// `F_m` for each [`History`], m < K.
     powers: [Vec<S>; 3],
     /// How many modes are summed.
     modes: i64,
@@ -143,7 +143,7 @@ impl<S: Rounded> Modal<S> {
             }
             roundings += sum.to_f64().abs() * (8.0 + 4.0 * r * tau);
             let [log_radius, log_bound] = expansion.circle;
-            let log_bound = if matches!(motion, Motion::Sine) { log_bound + log_radius } else { log_bound };
+            let log_bound = if matches!(motion, History::Sine) { log_bound + log_radius } else { log_bound };
             let q = (order + p) as f64 - 1.0;
             let log_tail = 8f64.ln() + log_bound
                 - order as f64 * log_radius

@@ -3,7 +3,7 @@
 use serde_json::{Value, json};
 
 use super::record::{Finished, Head, Quantity, Record, Sample, bound_json, json as number_json};
-use crate::history::Ending;
+use crate::motion::Ending;
 use crate::number::Scalar;
 
 /// The JSON Schema of [`history_json`] and [`samples_json`].

@@ -1,7 +1,7 @@
 //! What is printed, as plain data: gathered once from the history, formatted in several ways.
 
 use crate::error::Error;
-use crate::history::{Contact, Ending, Energy, Event, History, Side, StressPiece};
+use crate::motion::{Contact, Ending, Energy, Event, Motion, Side, StressPiece};
 use crate::number::{DOUBLE_DIGITS, Number, Scalar, bound_text, show};
 use crate::quantity::{EnergyShares, Flight, Restitution, energy_shares, flights, restitution};
 
@@ -108,7 +108,7 @@ impl<S> Record<S> {
 }
 
 /// Gathers what is printed of `history`; the stress at the ground only if asked for, as it can cost more than all the rest.
-pub fn record<S: Scalar>(history: &dyn History<S>, head: &Head, stress: bool) -> Result<Record<S>, Error> {
+pub fn record<S: Scalar>(history: &dyn Motion<S>, head: &Head, stress: bool) -> Result<Record<S>, Error> {
     let end = history.end();
     let lift = |number: &Number| S::from_number(number, &end.precision());
     let scales = history.scales();
@@ -195,7 +195,7 @@ pub struct Sample<S> {
 
 /// The values of `quantity` at every time and, for the field, at every point.
 pub fn sample<S: Scalar>(
-    history: &dyn History<S>,
+    history: &dyn Motion<S>,
     quantity: Quantity,
     times: &[S],
     points: &[S],

@@ -3,7 +3,7 @@
 use comfy_table::{CellAlignment, ContentArrangement, LineStyle, Table, presets};
 
 use super::record::{Finished, Head, Quantity, Record, Sample};
-use crate::history::Ending;
+use crate::motion::Ending;
 use crate::number::{Scalar, bound_text, show};
 
 /// A table with a header; numbers stand to the right.

@@ -3,7 +3,7 @@
 pub(crate) use super::bessel::i0;
 use super::printed::Printed;
 use super::quadrature::Quadrature;
-use crate::history::Side;
+use crate::motion::Side;
 use crate::special::{Special, i0_scaled, i1_scaled};
 
 /// Round trips in which a release is looked for.

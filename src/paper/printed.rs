@@ -5,7 +5,7 @@
 
 use super::bessel::{i0, i1_over_z};
 use super::quadrature::Quadrature;
-use crate::rod::Parameters;
+use crate::problem::Parameters;
 
 /// The first contact by (2.22)–(2.28), (3.38), (3.39) and (3.54), and the flight by (3.43), (3.44), as printed, in
 /// doubles.
@@ -19,7 +19,7 @@ use crate::rod::Parameters;
 /// proved.
 ///
 /// ```
-/// # use dalembert::{paper::Printed, rod::Parameters};
+/// # use dalembert::{paper::Printed, problem::Parameters};
 /// // r = 0: the stress in the first round trip is −(μ + gt)/c.
 /// let rod = Parameters { length: 1.0, wave_speed: 1.0, damping: 0.0, gravity: 1.0, speed: 3.0 };
 /// assert!((Printed::new(&rod, 1e-10).stress(1.0) + 4.0).abs() < 1e-14);

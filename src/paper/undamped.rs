@@ -6,9 +6,9 @@
 //! continuous at `t₁` and `t_b`, `E_h = P²/2L + L g h`, `E_h + E_z = μ²L/2`. All of them pass; only the case `μ = μ₀`
 //! is left out in print, see [`UndampedContact::momentum_restitution`].
 
-use crate::history::Side;
+use crate::motion::Side;
 use crate::number::Scalar;
-use crate::rod::Parameters;
+use crate::problem::Parameters;
 
 /// The undamped first contact and the flight that follows it, up to the next impact `t₂`.
 ///
@@ -19,7 +19,7 @@ use crate::rod::Parameters;
 /// **Accuracy**: *exact* in fractions; a rounding for each operation otherwise.
 ///
 /// ```
-/// # use dalembert::{Number, Problem, rod::Parameters, paper::UndampedContact};
+/// # use dalembert::{Number, Problem, problem::Parameters, paper::UndampedContact};
 /// // L = c = g = 1: μ₀ = 2, so μ = 1 stays on the ground for 2t₁ − μ/g = 3.
 /// let problem = Problem::uniform(Number::from(1), Number::from(1), Number::from(1), Number::from(1));
 /// let rod = UndampedContact::new(&Parameters::<f64>::of(&problem, &())?).unwrap();
@@ -198,7 +198,7 @@ impl<S: Scalar> UndampedContact<S> {
     /// **Errors**: `None` where `g = 0`: the flight has no top.
     ///
     /// ```
-    /// # use dalembert::{Number, Problem, rod::Parameters, paper::UndampedContact};
+    /// # use dalembert::{Number, Problem, problem::Parameters, paper::UndampedContact};
     /// let problem = Problem::uniform(Number::from(1), Number::from(1), Number::from(1), Number::from(4));
     /// let rod = UndampedContact::new(&Parameters::<f64>::of(&problem, &())?).unwrap();
     /// assert_eq!(rod.highest(), Some((6.0, 8.0 - 2.0 / 3.0)));

@@ -1,7 +1,7 @@
 //! The flights between the contacts, and how high they go.
 
 use crate::error::Error;
-use crate::history::{EventKind, History};
+use crate::motion::{EventKind, Motion};
 use crate::number::Scalar;
 
 /// A flight of the rod.
@@ -38,7 +38,7 @@ impl<S> Flight<S> {
 /// **Accuracy**: *exact* for exact histories, otherwise that of `h` and `h′` at the release.
 ///
 /// **Errors**: [`Error::NotDecided`] where it is not settled whether the centre of mass turns before the flight ends.
-pub fn flights<S: Scalar>(history: &dyn History<S>) -> Result<Vec<Flight<S>>, Error> {
+pub fn flights<S: Scalar>(history: &dyn Motion<S>) -> Result<Vec<Flight<S>>, Error> {
     let events = history.events();
     let end = history.end();
     let mut flights = Vec::new();

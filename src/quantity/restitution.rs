@@ -1,7 +1,7 @@
 //! The coefficients of restitution of a contact.
 
 use crate::error::Error;
-use crate::history::{Contact, History};
+use crate::motion::{Contact, Motion};
 use crate::number::Scalar;
 
 /// The coefficients of restitution `e_P` and `e_E²` of one contact, its end compared with its own beginning.
@@ -71,7 +71,7 @@ impl<S> EnergyShares<S> {
 /// bound counts as zero.
 ///
 /// **Errors**: what the history cannot answer. A coefficient that is not defined has the reason in its place.
-pub fn restitution<S: Scalar>(history: &dyn History<S>, contact: &Contact<S>) -> Result<Restitution<S>, Error> {
+pub fn restitution<S: Scalar>(history: &dyn Motion<S>, contact: &Contact<S>) -> Result<Restitution<S>, Error> {
     let Some(to) = &contact.to else {
         return Ok(Restitution { momentum: Err(Undefined::Unfinished), energy_squared: Err(Undefined::Unfinished) });
     };
@@ -95,7 +95,7 @@ pub fn restitution<S: Scalar>(history: &dyn History<S>, contact: &Contact<S>) ->
 /// The factors of `e_E²` of `contact`.
 ///
 /// **Source**: (4.73). **Accuracy**: that of the energies. **Errors**: what the history cannot answer.
-pub fn energy_shares<S: Scalar>(history: &dyn History<S>, contact: &Contact<S>) -> Result<EnergyShares<S>, Error> {
+pub fn energy_shares<S: Scalar>(history: &dyn Motion<S>, contact: &Contact<S>) -> Result<EnergyShares<S>, Error> {
     let Some(to) = &contact.to else { return Ok(EnergyShares { translational: None, kept: None }) };
     let (before, after) = (history.energy(&contact.from)?, history.energy(to)?);
     let ratio = |part: &S, whole: &S| Ok::<_, Error>((!whole.vanishes()?).then(|| part.clone() / whole));

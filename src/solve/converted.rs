@@ -3,20 +3,20 @@
 use std::sync::Arc;
 
 use crate::error::Error;
-use crate::history::{Contact, Ending, Energy, Event, Field, History as Engine, Scales, Side, StressPiece};
+use crate::motion::{Contact, Ending, Energy, Event, Field, Motion, Scales, Side, StressPiece};
 use crate::number::{Reads, Scalar};
 
 /// The history of an engine in numbers `N`, read in numbers `M`.
 #[derive(Debug)]
 pub(super) struct Converted<N: Scalar, M> {
-    engine: Arc<dyn Engine<N>>,
+    engine: Arc<dyn Motion<N>>,
     precision: N::Precision,
     events: Vec<Event<M>>,
     contacts: Vec<Contact<M>>,
 }
 
 impl<N: Scalar, M: Reads<N>> Converted<N, M> {
-    pub(super) fn new(engine: Arc<dyn Engine<N>>) -> Self {
+    pub(super) fn new(engine: Arc<dyn Motion<N>>) -> Self {
         Converted {
             precision: engine.end().precision(),
             events: engine.events().iter().map(|event| event.clone().map(M::read)).collect(),
@@ -38,7 +38,7 @@ impl<N: Scalar, M: Reads<N>> Converted<N, M> {
     }
 }
 
-impl<N: Scalar, M: Reads<N>> Engine<M> for Converted<N, M> {
+impl<N: Scalar, M: Reads<N>> Motion<M> for Converted<N, M> {
     fn end(&self) -> M {
         M::read(self.engine.end())
     }

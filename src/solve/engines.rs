@@ -13,7 +13,7 @@ use crate::error::Error;
 use crate::first_contact::{Bounce, FirstContact};
 use crate::lattice::{Limits, Undamped};
 use crate::number::Estimate;
-use crate::rod::{Parameters, Problem, Run};
+use crate::problem::{Parameters, Problem, Run};
 
 impl Target for f64 {
     fn run(problem: &Problem, plan: &Plan, rung: Rung, observe: &Observer) -> Result<Engined<f64>, Error> {

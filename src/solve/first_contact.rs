@@ -1,10 +1,10 @@
 //! The first contact in doubles, repeated by its modes or in longer numbers where the bound exceeds what is asked.
 
 use crate::first_contact::{Bounce, FirstContact};
-use crate::history::Side;
+use crate::motion::Side;
 use crate::modal::Modal;
 use crate::number::Estimate;
-use crate::rod::Parameters;
+use crate::problem::Parameters;
 
 /// Modes that are summed where the rays cancel: with them the stress is known to some 10⁻¹¹ of the lowest mode at
 /// `τR² ≈ 300`, which is `R → π` and 30 round trips.
@@ -21,7 +21,7 @@ const MODAL_ACCURACY: f64 = 1e-10;
 /// **Accuracy**: the bound of the time says what was reached.
 ///
 /// ```
-/// # use dalembert::{rod::Parameters, first_contact::{Bounce, FirstContact}, solve::bounce_within};
+/// # use dalembert::{problem::Parameters, first_contact::{Bounce, FirstContact}, solve::bounce_within};
 /// // g = 0, R = 3.135: the terms are e⁴⁸, their sum is of order one.
 /// let rod = Parameters { length: 0.5, wave_speed: 1.0, damping: 3.135, gravity: 0.0, speed: 1.0 };
 /// # #[cfg(feature = "mp")] {

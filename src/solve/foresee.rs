@@ -3,7 +3,7 @@
 use super::plan::{Engine, Plan, Reach};
 use crate::lattice::{Limits, Undamped};
 use crate::number::{Estimate, Number};
-use crate::rod::{Parameters, Problem, Run};
+use crate::problem::{Parameters, Problem, Run};
 
 /// How many bits the history of an undamped rod loses to rounding: `log₂` of the factor by which its error bound grows.
 ///

@@ -5,9 +5,9 @@ use std::sync::Arc;
 
 use super::plan::{Plan, Rung};
 use crate::error::Error;
-use crate::history::{Ending, History as Engine};
+use crate::motion::{Ending, Motion};
 use crate::number::{Answer, Scalar};
-use crate::rod::Problem;
+use crate::problem::Problem;
 
 /// Receives the round trip and the number of pieces from time to time.
 pub type Observer = Arc<dyn Fn(usize, usize) + Send + Sync>;
@@ -19,7 +19,7 @@ pub(crate) fn unobserved() -> Observer {
 }
 
 /// An engine that has run.
-pub(crate) type Engined<S> = Arc<dyn Engine<<S as Answer>::Carried>>;
+pub(crate) type Engined<S> = Arc<dyn Motion<<S as Answer>::Carried>>;
 
 /// A number system of answers, and how an attempt in the numbers of a rung is read in it.
 pub trait Target: Answer {
@@ -72,7 +72,7 @@ impl Ladder {
     pub(crate) fn settle<S: Target, T>(
         &self,
         attempt: Option<Attempt<S>>,
-        query: impl Fn(&dyn Engine<S::Carried>) -> Result<T, Error>,
+        query: impl Fn(&dyn Motion<S::Carried>) -> Result<T, Error>,
         numbers: impl Fn(&T) -> Vec<&S::Carried>,
     ) -> Result<(Attempt<S>, T), Error> {
         let mut rung = attempt.as_ref().map_or(self.plan.rung, |attempt| attempt.rung);
@@ -117,7 +117,7 @@ impl Ladder {
     /// About how many bits more would settle the answer; zero or less where it is settled.
     fn missing<S: Target>(
         &self,
-        engine: &dyn Engine<S::Carried>,
+        engine: &dyn Motion<S::Carried>,
         numbers: &[&S::Carried],
         doubts: &mut Vec<f64>,
     ) -> f64 {

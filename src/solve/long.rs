@@ -12,7 +12,7 @@ use crate::error::Error;
 use crate::first_contact::{Bounce, ContactHistory, FirstContact};
 use crate::lattice::Undamped;
 use crate::number::{Estimate, Float, Interval, IntervalPrecision, Rational};
-use crate::rod::{Parameters, Problem};
+use crate::problem::{Parameters, Problem};
 
 impl Target for Rational {
     fn run(problem: &Problem, plan: &Plan, _: Rung, observe: &Observer) -> Result<Engined<Rational>, Error> {

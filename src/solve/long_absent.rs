@@ -4,7 +4,7 @@ use super::ladder::{Engined, Observer, Target};
 use super::plan::{Plan, Rung};
 use crate::error::Error;
 use crate::number::{Answer, Float, Interval, Rational};
-use crate::rod::Problem;
+use crate::problem::Problem;
 
 macro_rules! absent {
     ($($name:ident),*) => {$(

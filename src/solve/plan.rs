@@ -6,7 +6,7 @@ use super::foresee;
 use super::question::{Numbers, Question, Want};
 use crate::error::Error;
 use crate::number::Number;
-use crate::rod::{Problem, Run};
+use crate::problem::{Problem, Run};
 
 /// How a question is going to be answered. No engine and no caller decides any of it again.
 ///

@@ -1,6 +1,6 @@
 //! An engine that carries one bound for all, read as numbers that carry their own.
 use crate::error::Error;
-use crate::history::{Contact, Ending, Energy, Event, Field, History as Engine, Scales, Side, StressPiece};
+use crate::motion::{Contact, Ending, Energy, Event, Field, Motion, Scales, Side, StressPiece};
 use crate::number::{Estimate, Rounded};
 
 #[derive(Debug)]
@@ -11,7 +11,7 @@ pub(crate) struct Raised<S, E> {
     unit: [f64; 6],
 }
 
-impl<S: Rounded, E: Engine<S>> Raised<S, E> {
+impl<S: Rounded, E: Motion<S>> Raised<S, E> {
     pub(crate) fn new(engine: E) -> Self {
         let sc = engine.scales();
         let relative = (engine.error_estimate() / sc.time.roundoff()).to_f64() + 4.0;
@@ -54,7 +54,7 @@ impl<S: Rounded, E: Engine<S>> Raised<S, E> {
         (self.e(a, 2), self.e(b, 1))
     }
 }
-impl<S: Rounded, E: Engine<S>> Engine<Estimate<S>> for Raised<S, E> {
+impl<S: Rounded, E: Motion<S>> Motion<Estimate<S>> for Raised<S, E> {
     fn end(&self) -> Estimate<S> {
         Estimate::rounded(self.engine.end(), 2.0)
     }

@@ -4,24 +4,24 @@ use super::ladder::Observer;
 use super::plan::Plan;
 use super::question::Numbers;
 use crate::error::Error;
-use crate::history::Ending;
-use crate::motion::Motion;
+use crate::motion::Ending;
+use crate::history::History;
 use crate::number::{Float, Interval, Rational};
-use crate::rod::Problem;
+use crate::problem::Problem;
 
 /// A history in the numbers of its plan. All variants exist in every build; without the feature `mp` only the first has values.
 #[derive(Debug)]
 pub enum Solution {
     /// Doubles.
-    Double(Motion<f64>),
+    Double(History<f64>),
     /// Decimal digits: this many are to be printed.
-    Digits(Motion<Float>, u32),
+    Digits(History<Float>, u32),
     /// Fractions.
-    Exact(Motion<Rational>),
+    Exact(History<Rational>),
     /// Digits of the whole run, this many of which are to be printed, and what fractions could not hold.
-    DigitsAfter(Motion<Float>, u32, ExactnessEnd),
+    DigitsAfter(History<Float>, u32, ExactnessEnd),
     /// Enclosures: this many digits are proved.
-    Certified(Motion<Interval>, u32),
+    Certified(History<Interval>, u32),
 }
 
 /// What fractions cannot hold.
@@ -66,16 +66,16 @@ impl Plan {
     /// ```
     pub fn solve(&self, problem: &Problem, observe: Observer) -> Result<Solution, Error> {
         Ok(match self.numbers {
-            Numbers::Double(_) => Solution::Double(Motion::solve(problem, self, observe)?),
-            Numbers::Digits(digits) => Solution::Digits(Motion::solve(problem, self, observe)?, digits),
-            Numbers::Certified(digits) => Solution::Certified(Motion::solve(problem, self, observe)?, digits),
-            Numbers::Exact => Solution::Exact(Motion::solve(problem, self, observe)?),
+            Numbers::Double(_) => Solution::Double(History::solve(problem, self, observe)?),
+            Numbers::Digits(digits) => Solution::Digits(History::solve(problem, self, observe)?, digits),
+            Numbers::Certified(digits) => Solution::Certified(History::solve(problem, self, observe)?, digits),
+            Numbers::Exact => Solution::Exact(History::solve(problem, self, observe)?),
             Numbers::ExactThenDigits(digits) => {
                 let in_digits = |end: ExactnessEnd| {
-                    let motion = Motion::solve(problem, &self.in_digits(problem, digits), observe.clone())?;
+                    let motion = History::solve(problem, &self.in_digits(problem, digits), observe.clone())?;
                     Ok(Solution::DigitsAfter(motion, digits, end))
                 };
-                match Motion::<Rational>::solve(problem, self, observe.clone()) {
+                match History::<Rational>::solve(problem, self, observe.clone()) {
                     Err(Error::Irrational { quantity, square }) => {
                         return in_digits(ExactnessEnd::Parameter { quantity, square });
                     }

@@ -3,7 +3,7 @@
 use std::sync::atomic::{AtomicBool, Ordering};
 
 use crate::error::Error;
-use crate::history::{Contact, Ending, Energy, Event, Field, History, Scales, Side, StressPiece};
+use crate::motion::{Contact, Ending, Energy, Event, Field, Motion, Scales, Side, StressPiece};
 use crate::number::{Answer, Scalar};
 
 /// A history whose numbers carry their bounds, read without them.
@@ -15,7 +15,7 @@ pub struct Stripped<S: Answer, H> {
     open: AtomicBool,
 }
 
-impl<S: Answer, H: History<S::Carried>> Stripped<S, H> {
+impl<S: Answer, H: Motion<S::Carried>> Stripped<S, H> {
     /// `history`, read without bounds; those of event times stay in [`Event::time_error`].
     pub fn new(history: H) -> Self {
         let events = history.events().iter().map(event).collect();
@@ -66,7 +66,7 @@ fn event<S: Answer>(event: &Event<S::Carried>) -> Event<S> {
     }
 }
 
-impl<S: Answer, H: History<S::Carried>> History<S> for Stripped<S, H> {
+impl<S: Answer, H: Motion<S::Carried>> Motion<S> for Stripped<S, H> {
     fn end(&self) -> S {
         S::strip(self.history.end())
     }

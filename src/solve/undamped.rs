@@ -4,7 +4,7 @@ use super::Stripped;
 use crate::error::Error;
 use crate::lattice::{Limits, Undamped};
 use crate::number::Answer;
-use crate::rod::Problem;
+use crate::problem::Problem;
 
 /// An undamped history, computed in numbers that carry their bounds and read without them.
 pub type StrippedUndamped<S> = Stripped<S, Undamped<<S as Answer>::Carried>>;
@@ -14,7 +14,7 @@ pub type StrippedUndamped<S> = Stripped<S, Undamped<<S as Answer>::Carried>>;
 /// **Errors**: those of [`Undamped::solve`].
 ///
 /// ```
-/// use dalembert::{History, Number, Problem, solve::undamped};
+/// use dalembert::{Motion, Number, Problem, solve::undamped};
 /// let problem = Problem::uniform(Number::from(1), Number::from(1), Number::from(1), Number::from(3));
 /// // Corollary 1: at μ = 3 ≥ g t₁ = 2 the contact lasts exactly t₁ = 2.
 /// assert_eq!(undamped::<f64>(&problem, &())?.contacts()[0].to, Some(2.0));

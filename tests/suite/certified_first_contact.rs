@@ -1,10 +1,10 @@
 //! The first contact in enclosures: what is proved, to how many digits, and that it is the truth.
 
 use dalembert::first_contact::{Bounce, ContactHistory, FirstContact};
-use dalembert::history::{Ending, History, Side};
+use dalembert::motion::{Ending, Motion, Side};
 use dalembert::modal::Modal;
 use dalembert::number::{Answer, Interval, IntervalPrecision, Number, Scalar};
-use dalembert::rod::Parameters;
+use dalembert::problem::Parameters;
 use dalembert::{Error, Problem};
 use proptest::prelude::*;
 use rug::ops::Pow;

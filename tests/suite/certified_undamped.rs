@@ -4,9 +4,9 @@
 use crate::common::{number, problem, reference};
 use dalembert::lattice::Undamped;
 use dalembert::number::{Interval, IntervalPrecision, Scalar, decided};
-use dalembert::rod::Run;
+use dalembert::problem::Run;
 use dalembert::solve::{certify, undamped};
-use dalembert::{Ending, Error, EventKind, History, Number, Problem, Side};
+use dalembert::{Ending, Error, EventKind, Motion, Number, Problem, Side};
 use rug::{Float, Rational};
 use serde_json::Value;
 
@@ -145,7 +145,7 @@ fn digits_of_another_run_lie_inside() {
     for (speed, time) in [("3/2", "60"), ("0.7", "40"), ("1.9", "30"), ("12345.678", "24000")] {
         let problem = rod(speed, time);
         let float = undamped::<Float>(&problem, &700).unwrap();
-        let sample = |history: &dyn History<Interval>| {
+        let sample = |history: &dyn Motion<Interval>| {
             let mut all: Vec<Interval> = history.events().iter().map(|event| event.time.clone()).collect();
             for k in 1..8i64 {
                 let end = history.end();
@@ -177,14 +177,14 @@ fn digits_of_another_run_lie_inside() {
 
 #[test]
 fn what_cannot_be_proved_is_refused() {
-    let ask = |history: &dyn History<Interval>| Ok::<_, Error>(history.end());
+    let ask = |history: &dyn Motion<Interval>| Ok::<_, Error>(history.end());
     let mut problem = rod("1", "3");
     problem.rod.damping = Some("0.1".parse::<Number>().unwrap());
-    problem.rod.top = dalembert::rod::Top::Fixed;
+    problem.rod.top = dalembert::problem::Top::Fixed;
     let refused = certify(&problem, 20, ask, |end| vec![end], |_, _| ());
     assert_eq!(refused.unwrap_err(), Error::NotCertified);
     // A number that is zero in truth and unknown to be so has no digits, but does not hold up the others for ever.
-    let sevenths = |history: &dyn History<Interval>| {
+    let sevenths = |history: &dyn Motion<Interval>| {
         let end = history.end();
         let third = end.clone() / &end.int(7);
         let unknown = third.hull(&third);

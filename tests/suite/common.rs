@@ -1,6 +1,6 @@
 //! What several test files share: reference files, problems made from them, and how far apart two numbers are.
 
-use dalembert::rod::{Run, Speed, Start};
+use dalembert::problem::{Run, Speed, Start};
 use dalembert::{Number, Problem};
 use serde_json::Value;
 

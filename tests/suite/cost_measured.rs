@@ -35,7 +35,7 @@ const ROUTES: [&str; 8] = [
 #[test]
 fn the_truth_of_a_later_event() {
     use dalembert::Scene;
-    use dalembert::rod::Run;
+    use dalembert::problem::Run;
     let source = builtin::get("figure-4-r02").unwrap().source.replace("[impact]", "[run]\nimpacts = 2\n\n[impact]");
     let file = tempfile::NamedTempFile::new().unwrap();
     std::fs::write(file.path(), &source).unwrap();

@@ -3,8 +3,8 @@
 use crate::common::uniform;
 use dalembert::cells::{Damped, Joined, Reach};
 use dalembert::first_contact::{Bounce, FirstContact};
-use dalembert::rod::{Parameters, Run};
-use dalembert::{Ending, Error, EventKind, History, Number, Problem, Side};
+use dalembert::problem::{Parameters, Run};
+use dalembert::{Ending, Error, EventKind, Motion, Number, Problem, Side};
 
 /// A rod of any length, wave speed, damping, gravity and speed that may bounce more than once.
 fn scene(random: &mut impl FnMut() -> f64) -> Problem {

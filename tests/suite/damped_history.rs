@@ -2,8 +2,8 @@
 
 use crate::common::{close, number, problem, reference, uniform};
 use dalembert::cells::Damped;
-use dalembert::history::{Ending, EventKind, History, Side};
-use dalembert::rod::{Material, Profile, Rod, Run, Start, Top};
+use dalembert::motion::{Ending, EventKind, Motion, Side};
+use dalembert::problem::{Material, Profile, Rod, Run, Start, Top};
 use dalembert::{Error, Number, Problem};
 
 fn damped(gravity: &str, speed: &str, damping: &str, run: Run) -> Problem {

@@ -1,10 +1,10 @@
 //! What holds of every damped history, on random scenes, each within the error that the history itself claims.
 
 use dalembert::cells::Damped;
-use dalembert::history::Event;
-use dalembert::rod::{Material, Parameters, Profile, Rod, Run, Speed, Start, Top};
+use dalembert::motion::Event;
+use dalembert::problem::{Material, Parameters, Profile, Rod, Run, Speed, Start, Top};
 use dalembert::solve::undamped;
-use dalembert::{Error, History, Number, Problem, Side};
+use dalembert::{Error, Motion, Number, Problem, Side};
 use proptest::prelude::*;
 
 fn number(x: f64) -> Number {

@@ -2,8 +2,8 @@
 
 use crate::common::{close, number, problem, reference};
 use dalembert::cells::Damped;
-use dalembert::history::{Ending, EventKind, History, Side};
-use dalembert::rod::Run;
+use dalembert::motion::{Ending, EventKind, Motion, Side};
+use dalembert::problem::Run;
 
 /// A string or number as a double.
 fn value(json: &serde_json::Value) -> f64 {

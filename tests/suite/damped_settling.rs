@@ -4,9 +4,9 @@
 use crate::common::{close, uniform};
 use dalembert::cells::{Damped, Joined, Reach};
 use dalembert::first_contact::FirstContact;
-use dalembert::rod::{Parameters, Profile, Run, Start, Top};
+use dalembert::problem::{Parameters, Profile, Run, Start, Top};
 use dalembert::solve::bounce_within;
-use dalembert::{Ending, Error, History, Number, Problem, Side};
+use dalembert::{Ending, Error, Motion, Number, Problem, Side};
 
 /// `c = L = 1`.
 fn rod(gravity: &str, speed: &str, damping: &str, time: i64) -> Problem {
@@ -30,7 +30,7 @@ fn solve(problem: &Problem) -> Damped<f64> {
 }
 
 /// Everything that can be asked at the end: the rod rests with `v`, and `v_x(0)` as it is just above the ground.
-fn rests(history: &dyn History<f64>, time: i64, v: impl Fn(f64) -> f64, stress: f64) {
+fn rests(history: &dyn Motion<f64>, time: i64, v: impl Fn(f64) -> f64, stress: f64) {
     let end = time as f64;
     assert_eq!(history.end(), end);
     let pieces = history.stress_pieces();

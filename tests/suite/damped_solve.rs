@@ -1,12 +1,12 @@
 //! Damped scenes as a user solves them, against the reference values of independent programs and the table of hard cases.
 
 use crate::common::{close, number, problem, reference};
-use dalembert::rod::{Parameters, Run};
-use dalembert::{Ending, EventKind, Motion, Number, Numbers, Plan, Problem, Question, Side, Solution};
+use dalembert::problem::{Parameters, Run};
+use dalembert::{Ending, EventKind, History, Number, Numbers, Plan, Problem, Question, Side, Solution};
 use serde_json::Value;
 use std::sync::Arc;
 
-fn in_doubles(problem: &Problem, accuracy: Option<f64>) -> Motion<f64> {
+fn in_doubles(problem: &Problem, accuracy: Option<f64>) -> History<f64> {
     let plan = Plan::of(problem, &Question::run(Numbers::Double(accuracy))).unwrap();
     let Solution::Double(motion) = plan.solve(problem, Arc::new(|_, _| ())).unwrap() else {
         panic!("doubles were asked for");

@@ -4,8 +4,8 @@
 use crate::common::{number, reference};
 use dalembert::cells::{Damped, Joined, Reach};
 use dalembert::first_contact::FirstContact;
-use dalembert::rod::{Material, Parameters, Run, Speed, Start};
-use dalembert::{EventKind, History, Number, Problem, Side};
+use dalembert::problem::{Material, Parameters, Run, Speed, Start};
+use dalembert::{EventKind, Motion, Number, Problem, Side};
 use serde_json::Value;
 
 /// The rod of a case, dropped.

@@ -2,9 +2,9 @@
 
 use dalembert::Number;
 use dalembert::first_contact::{Bounce, BounceKind, FirstContact, NoBounceReason};
-use dalembert::history::Side;
+use dalembert::motion::Side;
 use dalembert::number::Estimate;
-use dalembert::rod::Parameters;
+use dalembert::problem::Parameters;
 use dalembert::solve::{bounce_within, stress_within};
 use dalembert::special::RoundedSpecial;
 use serde_json::Value;

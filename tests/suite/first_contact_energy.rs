@@ -4,7 +4,7 @@ use dalembert::Number;
 use dalembert::first_contact::FirstContact;
 use dalembert::number::Estimate;
 use dalembert::paper::UndampedContact;
-use dalembert::rod::Parameters;
+use dalembert::problem::Parameters;
 use dalembert::special::RoundedSpecial;
 use serde_json::Value;
 

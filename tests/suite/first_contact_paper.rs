@@ -1,10 +1,10 @@
 //! The closed forms against the paper's own integrals, done by quadrature that shares no code with them.
 
 use dalembert::first_contact::FirstContact;
-use dalembert::history::Side;
+use dalembert::motion::Side;
 use dalembert::number::Estimate;
 use dalembert::paper::Printed;
-use dalembert::rod::Parameters;
+use dalembert::problem::Parameters;
 
 fn known(x: f64) -> Estimate<f64> {
     Estimate::exact(x)

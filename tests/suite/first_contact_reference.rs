@@ -1,9 +1,9 @@
 //! The reference values of an independent ball-arithmetic program.
 
 use dalembert::first_contact::FirstContact;
-use dalembert::history::Side;
+use dalembert::motion::Side;
 use dalembert::number::{Estimate, Number, Scalar};
-use dalembert::rod::Parameters;
+use dalembert::problem::Parameters;
 use dalembert::special::RoundedSpecial;
 use serde_json::Value;
 

@@ -1,9 +1,9 @@
 //! The paper's undamped formulas, against each other and against the balance laws, in fractions.
 
-use dalembert::history::Side;
+use dalembert::motion::Side;
 use dalembert::number::Scalar;
 use dalembert::paper::UndampedContact;
-use dalembert::rod::Parameters;
+use dalembert::problem::Parameters;
 use proptest::prelude::*;
 use rug::Rational;
 

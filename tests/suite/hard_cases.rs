@@ -2,10 +2,10 @@
 //! `check`.
 
 use dalembert::first_contact::{Bounce, BounceKind, FirstContact};
-use dalembert::history::Side;
+use dalembert::motion::Side;
 use dalembert::modal::Modal;
 use dalembert::number::Estimate;
-use dalembert::rod::Parameters;
+use dalembert::problem::Parameters;
 use dalembert::solve;
 
 fn rod(damping: f64, gravity: f64, length: f64, speed: f64) -> Parameters<f64> {

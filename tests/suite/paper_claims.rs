@@ -2,11 +2,11 @@
 //! stand in the catalogue of `check`.
 
 use dalembert::first_contact::{Bounce, BounceKind, FirstContact};
-use dalembert::history::Side;
+use dalembert::motion::Side;
 use dalembert::modal::Modal;
 use dalembert::number::Estimate;
 use dalembert::paper::UndampedContact;
-use dalembert::rod::Parameters;
+use dalembert::problem::Parameters;
 use dalembert::solve::bounce_within;
 
 fn rod(damping: f64, gravity: f64, speed: f64) -> Parameters<f64> {

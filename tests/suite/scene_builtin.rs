@@ -1,6 +1,6 @@
 //! The built-in scenes, and what their comments say as far as it follows from their numbers.
 
-use dalembert::rod::{Material, Parameters, Start, Top};
+use dalembert::problem::{Material, Parameters, Start, Top};
 use dalembert::scene::{Effect, builtin};
 use dalembert::{Number, Scene};
 

@@ -1,6 +1,6 @@
 //! Whatever stands in a scene file, reading it ends in a scene or in an error that points into the file.
 
-use dalembert::rod::{Material, Run, Speed, Start};
+use dalembert::problem::{Material, Run, Speed, Start};
 use dalembert::scene::{SceneErrorKind, builtin};
 use dalembert::{Number, Scene};
 use proptest::prelude::*;

@@ -6,9 +6,9 @@
 use crate::common::uniform;
 use dalembert::lattice::Undamped;
 use dalembert::paper;
-use dalembert::rod::{Parameters, Run, Top};
+use dalembert::problem::{Parameters, Run, Top};
 use dalembert::scene::builtin;
-use dalembert::{Ending, History, Problem, Scene, Side};
+use dalembert::{Ending, Motion, Problem, Scene, Side};
 use rug::Rational;
 
 type Exact = Undamped<Rational>;
@@ -61,7 +61,7 @@ fn snapshot(name: &str, problem: &Problem) -> Exact {
     }
 
     let line =
-        |p: &dalembert::history::StressPiece<Rational>| format!("{} … {}: {} … {}\n", p.from, p.to, p.left, p.right);
+        |p: &dalembert::motion::StressPiece<Rational>| format!("{} … {}: {} … {}\n", p.from, p.to, p.left, p.right);
     let text: String = pieces.iter().map(line).collect();
     let text = format!("{text}ends: {}", history.ending());
     let mut settings = insta::Settings::clone_current();

@@ -5,10 +5,10 @@
 use crate::common::{number, reference};
 use dalembert::cells::Damped;
 use dalembert::first_contact::FirstContact;
-use dalembert::history::{History, Side};
+use dalembert::motion::{Motion, Side};
 use dalembert::modal::Modal;
 use dalembert::number::{Answer, Estimate, Rounded};
-use dalembert::rod::{Parameters, Run};
+use dalembert::problem::{Parameters, Run};
 use dalembert::special::RoundedSpecial;
 
 /// Two values within their bounds, and bounds that say something: below `useful` of `scale`.

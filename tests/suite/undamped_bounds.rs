@@ -1,11 +1,11 @@
 //! The bounds that undamped histories carry, against the same histories in 400 bits; and times on rays and at the end.
 
-use dalembert::history::{Event, Side};
+use dalembert::motion::{Event, Side};
 use dalembert::lattice::{Limits, Undamped};
 use dalembert::number::{Answer, Estimate, Scalar};
-use dalembert::rod::{Profile, Run, Speed, Start, Top};
+use dalembert::problem::{Profile, Run, Speed, Start, Top};
 use dalembert::solve::{undamped, undamped_within};
-use dalembert::{History, Number, Problem, Scene};
+use dalembert::{Motion, Number, Problem, Scene};
 use proptest::prelude::*;
 use rug::{Float, Rational};
 

@@ -1,9 +1,9 @@
 //! μ = 3/2 with c = L = g = 1: breaks and impacts multiply, digits are lost, and as many are carried as it takes.
 
 use dalembert::lattice::Limits;
-use dalembert::rod::Run;
+use dalembert::problem::Run;
 use dalembert::solve::{undamped, undamped_within};
-use dalembert::{Error, History, Numbers, Plan, Problem, Question, Rung, Side, Solution};
+use dalembert::{Error, Motion, Numbers, Plan, Problem, Question, Rung, Side, Solution};
 use rug::Float;
 
 fn chaotic(time: i64) -> Problem {
@@ -43,7 +43,7 @@ fn the_loss_is_foreseen() {
     }
     // A periodic history loses next to nothing, however long.
     let mut periodic = chaotic(2000);
-    periodic.start = dalembert::rod::Start::Uniform(dalembert::rod::Speed::Given(3.into()));
+    periodic.start = dalembert::problem::Start::Uniform(dalembert::problem::Speed::Given(3.into()));
     let plan = Plan::of(&periodic, &Question::run(Numbers::Digits(15))).unwrap();
     assert!(plan.foreseen_loss < 6.0, "{}", plan.foreseen_loss);
 }

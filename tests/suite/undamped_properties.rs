@@ -4,9 +4,9 @@
 use dalembert::lattice::{Rays, Undamped, reflection};
 use dalembert::number::Scalar;
 use dalembert::quantity::{flights, restitution};
-use dalembert::rod::{Parameters, Profile, Run, Speed, Start, Top};
+use dalembert::problem::{Parameters, Profile, Run, Speed, Start, Top};
 use dalembert::solve::undamped;
-use dalembert::{Ending, EventKind, History, Number, Problem, Side, paper};
+use dalembert::{Ending, EventKind, Motion, Number, Problem, Side, paper};
 use proptest::prelude::*;
 use rug::{Float, Rational};
 
@@ -277,7 +277,7 @@ proptest! {
         }
         let rounded = undamped::<f64>(&problem, &()).unwrap();
         let rod = Parameters::<Rational>::of(&problem, &()).unwrap();
-        let kinds = |events: &[dalembert::history::Event<f64>]| events.iter().map(|e| e.kind).collect::<Vec<_>>();
+        let kinds = |events: &[dalembert::motion::Event<f64>]| events.iter().map(|e| e.kind).collect::<Vec<_>>();
         prop_assert_eq!(kinds(rounded.events()), exact.events().iter().map(|e| e.kind).collect::<Vec<_>>());
         for (ours, truth) in rounded.events().iter().zip(exact.events()) {
             let error = (Rational::from_f64(ours.time).unwrap() - &truth.time).abs().to_f64();

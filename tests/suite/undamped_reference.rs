@@ -1,9 +1,9 @@
 //! The undamped lattice against the reference values of an independent program.
 
 use crate::common::{close, number, problem, reference};
-use dalembert::rod::Run;
+use dalembert::problem::Run;
 use dalembert::solve::undamped;
-use dalembert::{EventKind, History, Side};
+use dalembert::{EventKind, Motion, Side};
 use serde_json::Value;
 
 fn kind(event: &Value) -> EventKind {

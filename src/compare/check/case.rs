@@ -9,10 +9,10 @@ use crate::compare::quantity::{Limit, Quantity, Question};
 use crate::compare::route::{LongFormula, Numbers, Route};
 use crate::compare::truth::Truth;
 use crate::compare::value::NoAnswer;
-use crate::history::Side;
+use crate::motion::Side;
 use crate::number::{Number, NumberError};
 use crate::paper::Printed;
-use crate::rod::{Parameters, Problem, Run};
+use crate::problem::{Parameters, Problem, Run};
 
 pub(super) type Text = &'static str;
 

@@ -6,7 +6,7 @@ use super::verdict::Verdict;
 use crate::compare::quantity::Quantity::{BounceTime, Centre, Impact, Release, Stress, TopHeight, Vibrational};
 use crate::first_contact::FirstContact;
 use crate::paper::{Printed, formulas};
-use crate::rod::Parameters;
+use crate::problem::Parameters;
 
 const fn hard(name: Text, source: Text, about: Text, entries: Entries) -> Case {
     Case { name, source, about, verdict: Verdict::Holds, entries }

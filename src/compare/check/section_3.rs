@@ -7,10 +7,10 @@ use crate::compare::quantity::Quantity::{
     Centre, Energy, Momentum, Stress, TopHeight, TopTime, Translational, TranslationalShare, Vibrational,
 };
 use crate::first_contact::FirstContact;
-use crate::history::Side;
+use crate::motion::Side;
 use crate::number::Answer;
 use crate::paper::formulas::{self, integral};
-use crate::rod::Parameters;
+use crate::problem::Parameters;
 
 const DAMPED: Rod = unit("0.2", "4");
 const LATE: Rod = unit("0.1", "1");

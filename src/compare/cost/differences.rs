@@ -6,8 +6,8 @@
 //! linear interpolation, and act from a step on.
 
 use crate::error::Error;
-use crate::history::EventKind;
-use crate::rod::{Parameters, Problem, Profile, Run, Start, Top};
+use crate::motion::EventKind;
+use crate::problem::{Parameters, Problem, Profile, Run, Start, Top};
 
 /// What a march leaves: events, and the motion at the first release and at the end.
 #[derive(Clone, Debug)]

@@ -6,7 +6,7 @@ use super::clock::{Timing, batch, check_budget, quantile, sample};
 use crate::compare::route::{run_engine, run_planned};
 use crate::compare::value::NoAnswer;
 use crate::number::Number;
-use crate::rod::{Parameters, Problem, Run, Speed, Start, Top};
+use crate::problem::{Parameters, Problem, Run, Speed, Start, Top};
 use crate::scene::{Effect, Scene};
 use crate::solve::Numbers;
 

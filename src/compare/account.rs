@@ -7,11 +7,11 @@ use super::cost::differences::Marched;
 use super::value::{Bounded, NoAnswer, System};
 use crate::error::Error;
 use crate::first_contact::{Bounce, FirstContact};
-use crate::history::{Ending, Event, EventKind, Field, History, Side};
+use crate::motion::{Ending, Event, EventKind, Field, Motion, Side};
 use crate::modal::Modal;
 use crate::number::Estimate;
 use crate::paper::{Printed, UndampedContact, formulas};
-use crate::rod::Parameters;
+use crate::problem::Parameters;
 use crate::special;
 
 /// One number of a motion, or why it is not given.
@@ -21,7 +21,7 @@ type All<S, const N: usize> = Result<[Bounded<S>; N], NoAnswer>;
 
 /// An account of the first contact of `rod`, or of its whole run: a few basic quantities, and all others from them
 /// where the account has no formula of its own.
-pub(crate) trait Motion<S: System> {
+pub(crate) trait Account<S: System> {
     /// `t_b`.
     fn release(&self, rod: &Parameters<S>) -> Found<S>;
 
@@ -123,7 +123,7 @@ fn double(estimate: Estimate<f64>) -> Bounded<f64> {
 }
 
 /// A history.
-pub(crate) struct ByHistory<'a, S>(pub(crate) &'a dyn History<S>);
+pub(crate) struct ByHistory<'a, S>(pub(crate) &'a dyn Motion<S>);
 
 impl<S: System> ByHistory<'_, S> {
     /// The answer of the history; one that ends too early gives the reason.
@@ -150,7 +150,7 @@ impl<S: System> ByHistory<'_, S> {
     }
 }
 
-impl<S: System> Motion<S> for ByHistory<'_, S> {
+impl<S: System> Account<S> for ByHistory<'_, S> {
     fn release(&self, _: &Parameters<S>) -> Found<S> {
         self.event(self.first_release())
     }
@@ -227,7 +227,7 @@ impl<N: System + special::BoundedSpecial, F: Fn(&FirstContact<N>) -> Bounce<N>> 
     }
 }
 
-impl<N: System + special::BoundedSpecial, F: Fn(&FirstContact<N>) -> Bounce<N>> Motion<N> for ByClosedForm<N, F> {
+impl<N: System + special::BoundedSpecial, F: Fn(&FirstContact<N>) -> Bounce<N>> Account<N> for ByClosedForm<N, F> {
     fn release(&self, _: &Parameters<N>) -> Found<N> {
         match self.bounce() {
             Bounce::At { time, .. } => Ok(carried(time.clone())),
@@ -280,7 +280,7 @@ fn found(release: Option<f64>) -> Found<f64> {
     release.map(Bounded::unbounded).ok_or_else(|| NoAnswer::gave_up("no tensile stress in 64 round trips"))
 }
 
-impl Motion<f64> for Modal<f64> {
+impl Account<f64> for Modal<f64> {
     fn release(&self, rod: &Parameters<f64>) -> Found<f64> {
         found(formulas::first_release(rod.round_trip(), LOOKS, |t, side| *Estimate::value(&self.stress(&t, side))))
     }
@@ -304,7 +304,7 @@ impl Motion<f64> for Modal<f64> {
     }
 }
 
-impl Motion<f64> for Printed {
+impl Account<f64> for Printed {
     fn release(&self, rod: &Parameters<f64>) -> Found<f64> {
         found(self.release(rod.round_trip(), LOOKS))
     }
@@ -326,7 +326,7 @@ impl Motion<f64> for Printed {
     }
 }
 
-impl<S: System> Motion<S> for UndampedContact<S> {
+impl<S: System> Account<S> for UndampedContact<S> {
     fn release(&self, _: &Parameters<S>) -> Found<S> {
         Ok(Bounded::exact(self.bounce_time()))
     }
@@ -371,7 +371,7 @@ impl<S: System> Motion<S> for UndampedContact<S> {
     }
 }
 
-impl Motion<f64> for Marched {
+impl Account<f64> for Marched {
     fn release(&self, _: &Parameters<f64>) -> Found<f64> {
         let release = self.events.iter().find(|event| event.0 == EventKind::Release);
         release.map(|event| Bounded::unbounded(event.1)).ok_or_else(|| NoAnswer::gave_up("no release found"))
