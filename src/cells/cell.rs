@@ -29,7 +29,7 @@
 //! form, so one number of Chebyshev terms, from [`super::series::terms_for`], serves a side for ever.
 
 use super::series::{Basis, at_one, evaluate, times_x};
-use crate::number::Analytic;
+use crate::number::Rounded;
 
 /// A cell with its incoming data: `e^{κ(ξ−ξ₀)} p` on the side `η = η₀`, `e^{κ(η−η₀)} q` on the side `ξ = ξ₀`.
 #[derive(Debug)]
@@ -65,7 +65,7 @@ pub(super) fn terms(y: f64, log2_accuracy: f64) -> usize {
 }
 
 /// Turns incoming `p` and `q` into outgoing ones, each referred to the new corner.
-pub(super) fn cross<S: Analytic>(
+pub(super) fn cross<S: Rounded>(
     basis: &Basis<S>,
     (p, q): (&mut Vec<S>, &mut Vec<S>),
     (a, h): (&S, &S),
@@ -96,21 +96,21 @@ pub(super) fn cross<S: Analytic>(
 }
 
 /// `target += factor · series`, as far as `target` goes.
-fn add_scaled<S: Analytic>(target: &mut [S], series: &[S], factor: &S) {
+fn add_scaled<S: Rounded>(target: &mut [S], series: &[S], factor: &S) {
     for (t, s) in target.iter_mut().zip(series) {
         *t = s.clone() * factor + &*t;
     }
 }
 
 /// `series *= factor`.
-pub(super) fn scale<S: Analytic>(series: &mut [S], factor: &S) {
+pub(super) fn scale<S: Rounded>(series: &mut [S], factor: &S) {
     for term in series {
         *term = factor.clone() * &*term;
     }
 }
 
 /// `e^{2κτ} q` on the diagonal `ξ = η` of a cell that is its own mirror image, `p = ±q` on its lower sides, in `terms` terms.
-pub(super) fn diagonal<S: Analytic>(
+pub(super) fn diagonal<S: Rounded>(
     basis: &Basis<S>,
     q: &[S],
     depth: &S,
@@ -141,7 +141,7 @@ pub(super) fn diagonal<S: Analytic>(
     sum
 }
 
-impl<S: Analytic> Cell<'_, S> {
+impl<S: Rounded> Cell<'_, S> {
     /// `p` and `q` of `z` at a point of the cell.
     pub(super) fn at(&self, basis: &Basis<S>, xi: &S, eta: &S, log2_accuracy: f64) -> (S, S) {
         let (a, h) = (&self.depth.0, &self.depth.1);

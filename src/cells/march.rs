@@ -14,7 +14,7 @@ use super::budget::Off;
 use super::cell::{Cell, cross, diagonal, scale};
 use super::leap::MOST_DAMPING;
 use super::series::{Basis, at_one, at_zero, bound, evaluate, terms_for};
-use crate::number::Analytic;
+use crate::number::Rounded;
 
 /// What stays the same during a run.
 #[derive(Clone, Debug)]
@@ -65,7 +65,7 @@ pub(super) struct State<S> {
     pub(super) segments: VecDeque<Segment<S>>,
 }
 
-impl<S: Analytic> Medium<S> {
+impl<S: Rounded> Medium<S> {
     /// The medium for `R = r t₁`, with segments `shorten` times shorter than need be.
     pub(super) fn new(damping: &S, (gravity, slope): (S, S), free_top: bool, log2_accuracy: f64, shorten: i64) -> Self {
         let r = damping.to_f64();
@@ -330,7 +330,7 @@ impl<S: Analytic> Medium<S> {
     }
 }
 
-impl<S: Analytic> State<S> {
+impl<S: Rounded> State<S> {
     /// `b`: the time at which this characteristic leaves the ground.
     pub(super) fn time(&self) -> S {
         let at = &self.segments[0].at;

@@ -1,7 +1,7 @@
 //! The first time at which a smooth function turns negative, with earlier times excluded.
 
 use super::series::{Basis, at_one, at_zero, bound, derivative, evaluate};
-use crate::number::Analytic;
+use crate::number::Rounded;
 
 /// Intervals shorter than this part of a segment are not cut any further.
 const SMALLEST: f64 = 1e-300;
@@ -13,7 +13,7 @@ const SMALLEST: f64 = 1e-300;
 /// is found is the first. A part on which `Σ|c_k| ≤ noise` says nothing and is passed over: if the function does turn
 /// negative in it, the next part is negative from its left end on, and that is the answer; the second value says so, and
 /// also where a descent begins within the noise: the root is then where the function is within the noise, not where it vanishes.
-pub(super) fn first_descent<S: Analytic>(basis: &Basis<S>, c: &[S], noise: f64) -> Option<(S, bool)> {
+pub(super) fn first_descent<S: Rounded>(basis: &Basis<S>, c: &[S], noise: f64) -> Option<(S, bool)> {
     let first = c.first()?;
     let zero = first.zero();
     let width = first.one();
@@ -61,7 +61,7 @@ pub(super) fn first_descent<S: Analytic>(basis: &Basis<S>, c: &[S], noise: f64) 
 }
 
 /// The root of a decreasing series that is not negative at 0 and negative at 1: Newton's method inside of a bracket.
-fn descend<S: Analytic>(c: &[S], slope: &[S]) -> S {
+fn descend<S: Rounded>(c: &[S], slope: &[S]) -> S {
     let (mut low, mut high) = (c[0].zero(), c[0].one());
     let half = c[0].ratio(1, 2);
     let unit = c[0].log2_roundoff().exp2().max(f64::MIN_POSITIVE);
@@ -86,7 +86,7 @@ fn descend<S: Analytic>(c: &[S], slope: &[S]) -> S {
 
 /// The smallest value on `0 … 1`. **Accuracy**: within `16u Σ|c_k|`: parts are halved until they are monotone, can't fall
 /// below what was found by more than that, or are shorter than `√u`, where the ends are within a few `u` of the least value.
-pub(super) fn smallest<S: Analytic>(basis: &Basis<S>, c: &[S]) -> Option<S> {
+pub(super) fn smallest<S: Rounded>(basis: &Basis<S>, c: &[S]) -> Option<S> {
     let zero = c.first()?.zero();
     let unit = zero.log2_roundoff();
     let roundoff = 16.0 * unit.exp2() * bound(c, 0);

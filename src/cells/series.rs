@@ -1,6 +1,6 @@
 //! Chebyshev series on the unit interval: integration, products with `x`, restriction, and how many terms are needed.
 
-use crate::number::Analytic;
+use crate::number::Rounded;
 use crate::special::gauss_legendre;
 
 /// Tables that every series of a solution shares. A series is `c₀ + c₁T₁(2x−1) + c₂T₂(2x−1) + …` on `0 ≤ x ≤ 1`.
@@ -18,7 +18,7 @@ pub(super) struct Basis<S> {
     pub(super) gauss: Vec<(S, S)>,
 }
 
-impl<S: Analytic> Basis<S> {
+impl<S: Rounded> Basis<S> {
     /// Tables for series of up to `size` terms and powers up to `x^terms`.
     pub(super) fn new(like: &S, size: usize, terms: usize) -> Self {
         let size = size.max(4);
@@ -100,7 +100,7 @@ impl<S: Analytic> Basis<S> {
 }
 
 /// The product with `x`, in place; the term that would be one too many is dropped.
-pub(super) fn times_x<S: Analytic>(c: &mut [S]) {
+pub(super) fn times_x<S: Rounded>(c: &mut [S]) {
     let Some(first) = c.first() else { return };
     let (half, quarter) = (first.ratio(1, 2), first.ratio(1, 4));
     let mut below = first.zero();
@@ -114,7 +114,7 @@ pub(super) fn times_x<S: Analytic>(c: &mut [S]) {
 }
 
 /// The value at `x`, by Clenshaw's recurrence.
-pub(super) fn evaluate<S: Analytic>(c: &[S], x: &S) -> S {
+pub(super) fn evaluate<S: Rounded>(c: &[S], x: &S) -> S {
     let two_u = x.clone() * x.int(4) - x.int(2);
     let (mut b1, mut b2) = (x.zero(), x.zero());
     for k in (1..c.len()).rev() {
@@ -128,24 +128,24 @@ pub(super) fn evaluate<S: Analytic>(c: &[S], x: &S) -> S {
 }
 
 /// The value at `x = 1`.
-pub(super) fn at_one<S: Analytic>(c: &[S], zero: &S) -> S {
+pub(super) fn at_one<S: Rounded>(c: &[S], zero: &S) -> S {
     c.iter().fold(zero.clone(), |sum, term| sum + term)
 }
 
 /// The value at `x = 0`.
-pub(super) fn at_zero<S: Analytic>(c: &[S], zero: &S) -> S {
+pub(super) fn at_zero<S: Rounded>(c: &[S], zero: &S) -> S {
     c.iter().enumerate().fold(zero.clone(), |sum, (k, term)| if k % 2 == 0 { sum + term } else { sum - term })
 }
 
 /// `∫₀¹`: an even term of order k has the integral `1/(1 − k²)`.
-pub(super) fn integral<S: Analytic>(c: &[S]) -> S {
+pub(super) fn integral<S: Rounded>(c: &[S]) -> S {
     let first = &c[0];
     let even = c.iter().zip(0i64..).step_by(2).skip(1);
     even.fold(first.clone(), |sum, (term, k)| sum - term.clone() / first.int(k * k - 1))
 }
 
 /// The derivative: `c′_{k−1} = c′_{k+1} + 4k c_k`, `c′₀` halved.
-pub(super) fn derivative<S: Analytic>(c: &[S]) -> Vec<S> {
+pub(super) fn derivative<S: Rounded>(c: &[S]) -> Vec<S> {
     let Some(first) = c.first() else { return Vec::new() };
     let mut d = vec![first.zero(); c.len().max(2) + 1];
     for k in (1..c.len()).rev() {
@@ -157,12 +157,12 @@ pub(super) fn derivative<S: Analytic>(c: &[S]) -> Vec<S> {
 }
 
 /// `Σ|c_k|` from `k = first` on, as a double: a bound of the series on its interval.
-pub(super) fn bound<S: Analytic>(c: &[S], first: usize) -> f64 {
+pub(super) fn bound<S: Rounded>(c: &[S], first: usize) -> f64 {
     c.iter().skip(first).map(|term| term.to_f64().abs()).sum()
 }
 
 /// Gauss–Legendre nodes and weights on `0 … 1`.
-fn unit_rule<S: Analytic>(like: &S, n: usize) -> Vec<(S, S)> {
+fn unit_rule<S: Rounded>(like: &S, n: usize) -> Vec<(S, S)> {
     let half = like.ratio(1, 2);
     gauss_legendre(like, n).into_iter().map(|(x, weight)| ((x + like.one()) * &half, weight * &half)).collect()
 }

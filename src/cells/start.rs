@@ -13,7 +13,7 @@ use std::collections::VecDeque;
 
 use super::cell::Cell;
 use super::march::{Medium, State};
-use crate::number::{Analytic, Number};
+use crate::number::{Rounded, Number};
 use crate::problem::{Parameters, Problem, Profile, Start};
 
 /// Linear data on an interval.
@@ -33,7 +33,7 @@ pub(super) struct Linear<S> {
     velocity_slope: S,
 }
 
-impl<S: Analytic> Linear<S> {
+impl<S: Rounded> Linear<S> {
     /// The mirror image about `x = ½`; `z` even or odd.
     fn mirrored(&self, even: bool) -> Self {
         let sign = |value: S| if even { value } else { -value };
@@ -80,7 +80,7 @@ impl<S: Analytic> Linear<S> {
 }
 
 /// `φ₁(z) = (eᶻ − 1)/z = Σ zᵏ/(k+1)!` for `|z| ≤ 2`, without a division by `z`.
-fn phi_one<S: Analytic>(z: &S) -> S {
+fn phi_one<S: Rounded>(z: &S) -> S {
     let (mut sum, mut term) = (z.one(), z.one());
     for k in 2..10_000 {
         term = term * z / z.int(k);
@@ -127,7 +127,7 @@ pub(super) struct Data<S> {
     half: Vec<Linear<S>>,
 }
 
-impl<S: Analytic> Data<S> {
+impl<S: Rounded> Data<S> {
     /// The data of `problem`.
     ///
     /// **Accuracy**: a few roundings.
@@ -254,24 +254,24 @@ impl<S: Analytic> Data<S> {
 }
 
 /// The slope between two neighbouring breaks.
-fn slope<S: Analytic>(points: &[(S, S)], from: &S, to: &S) -> S {
+fn slope<S: Rounded>(points: &[(S, S)], from: &S, to: &S) -> S {
     (before(points, to) - after(points, from)) / (to.clone() - from)
 }
 
 /// The value just after `x`: linear between points, constant beyond them, zero without any.
-fn after<S: Analytic>(points: &[(S, S)], x: &S) -> S {
+fn after<S: Rounded>(points: &[(S, S)], x: &S) -> S {
     let next = points.partition_point(|(at, _)| at <= x);
     between(points, next, x)
 }
 
 /// The value just before `x`.
-fn before<S: Analytic>(points: &[(S, S)], x: &S) -> S {
+fn before<S: Rounded>(points: &[(S, S)], x: &S) -> S {
     let next = points.partition_point(|(at, _)| at < x);
     between(points, next, x)
 }
 
 /// The value at `x` on the line that ends at point `next`.
-fn between<S: Analytic>(points: &[(S, S)], next: usize, x: &S) -> S {
+fn between<S: Rounded>(points: &[(S, S)], next: usize, x: &S) -> S {
     let low = next.checked_sub(1).and_then(|k| points.get(k));
     match (low, points.get(next)) {
         (Some((x0, v0)), Some((x1, v1))) if x1 > x0 => {

@@ -2,6 +2,7 @@
 //! printed formulas, and finite differences.
 
 use std::cell::OnceCell;
+use std::cmp::Ordering;
 
 use super::cost::differences::Marched;
 use super::value::{Bounded, NoAnswer, System};
@@ -86,11 +87,11 @@ pub(crate) trait Account<S: System> {
     /// (4.71): `e_E² = E_h(t_b)/E_h(0)`.
     fn restitution(&self, rod: &Parameters<S>) -> Found<S> {
         let first = self.first_energy(rod)?;
-        if !first.value.is_positive() {
+        if first.value.positive() != Ok(true) {
             return Err(NoAnswer::none("E_h ≤ 0 where the contact begins: nothing to compare with"));
         }
         let last = translational(rod, self.centre(rod, &self.release(rod)?.value)?);
-        if last.value.is_negative() {
+        if last.value.negative() == Ok(true) {
             return Err(NoAnswer::none("E_h < 0 where the contact ends"));
         }
         Ok(last.over(first))
@@ -326,7 +327,7 @@ impl Account<f64> for Printed {
     }
 }
 
-impl<S: System> Account<S> for UndampedContact<S> {
+impl<S: System + PartialOrd> Account<S> for UndampedContact<S> {
     fn release(&self, _: &Parameters<S>) -> Found<S> {
         Ok(Bounded::exact(self.bounce_time()))
     }
@@ -353,7 +354,7 @@ impl<S: System> Account<S> for UndampedContact<S> {
     }
 
     fn vibrational_energy(&self, _: &Parameters<S>, time: &S) -> Found<S> {
-        let at_bounce = *time == self.bounce_time();
+        let at_bounce = time.compare(&self.bounce_time()).is_ok_and(Ordering::is_eq);
         if at_bounce { Ok(Bounded::exact(self.vibrational_energy_at_bounce())) } else { not_given() }
     }
 

@@ -4,7 +4,7 @@ use std::f64::consts::PI;
 
 use super::Modal;
 use crate::motion::Side;
-use crate::number::{Analytic, Estimate, Rounded};
+use crate::number::{Rounded, Estimate};
 
 /// The function of time in a sum.
 #[derive(Clone, Copy)]
@@ -258,7 +258,7 @@ impl<S: Rounded> Modal<S> {
 }
 
 /// `Σ F_m (−iε)^m`, and its roundings.
-fn polynomial<S: Analytic>(powers: &[S], step: &S) -> ([S; 2], f64) {
+fn polynomial<S: Rounded>(powers: &[S], step: &S) -> ([S; 2], f64) {
     let mut parts = [step.zero(), step.zero()];
     let mut size = 0.0;
     let mut power = step.one();
@@ -279,7 +279,7 @@ struct Closed<S> {
     earlier: Vec<S>,
 }
 
-impl<S: Analytic> Closed<S> {
+impl<S: Rounded> Closed<S> {
     /// The closed sum, and a bound of it and of its derivative; none for m = 0, which has no factor.
     fn get(&self, shape: Shape, m: usize) -> Option<(S, f64)> {
         let (later, earlier) = (self.later.get(m)?, self.earlier.get(m)?);
@@ -297,7 +297,7 @@ impl<S: Analytic> Closed<S> {
     }
 }
 
-fn closed_sums<S: Analytic>(trips: &S, a: &S, side: Side, count: usize) -> Option<Closed<S>> {
+fn closed_sums<S: Rounded>(trips: &S, a: &S, side: Side, count: usize) -> Option<Closed<S>> {
     let numbers = euler(trips, count);
     Some(Closed {
         later: lattice(&(trips.clone() + a), side, &numbers)?,
@@ -306,7 +306,7 @@ fn closed_sums<S: Analytic>(trips: &S, a: &S, side: Side, count: usize) -> Optio
 }
 
 /// `c_j = E_j/(2^j j!)` with Euler's numbers, from `Σ c_j z^j = 1/cosh(z/2)`.
-fn euler<S: Analytic>(like: &S, count: usize) -> Vec<S> {
+fn euler<S: Rounded>(like: &S, count: usize) -> Vec<S> {
     // cosh(z/2) = Σ h_j z^j, j even.
     let mut cosh = vec![like.one()];
     for j in 1..=count as i64 {
@@ -328,7 +328,7 @@ fn euler<S: Analytic>(like: &S, count: usize) -> Vec<S> {
 ///
 /// `U_1` is the square wave, `U_m′ = U_{m−1}`, and each changes its sign over a round trip, which fixes the constant:
 /// Euler's polynomials, here by their expansion about 1/2.
-fn lattice<S: Analytic>(alpha: &S, side: Side, numbers: &[S]) -> Option<Vec<S>> {
+fn lattice<S: Rounded>(alpha: &S, side: Side, numbers: &[S]) -> Option<Vec<S>> {
     let mut whole = alpha.floor_int()?;
     if side == Side::Left && *alpha == alpha.int(whole) {
         whole -= 1;

@@ -24,7 +24,6 @@ macro_rules! absent {
         }
 
         impl Scalar for $name {
-            const RIGOROUS: bool = true;
             type Precision = $name;
 
             fn from_number(_: &Number, precision: &Self) -> Self {

@@ -5,7 +5,6 @@ use std::cmp::Ordering;
 use super::{Analytic, Answer, Estimate, Number, Open, Rounded, Scalar};
 
 impl Scalar for f64 {
-    const RIGOROUS: bool = false;
     type Precision = ();
 
     fn from_number(number: &Number, _: &()) -> Self {

@@ -174,21 +174,7 @@ macro_rules! by_value {
 }
 by_value!(Add add, Sub sub, Mul mul, Div div);
 
-impl<S: Rounded> PartialEq for Estimate<S> {
-    fn eq(&self, other: &Self) -> bool {
-        self.partial_cmp(other) == Some(Ordering::Equal)
-    }
-}
-
-impl<S: Rounded> PartialOrd for Estimate<S> {
-    #[inline]
-    fn partial_cmp(&self, other: &Self) -> Option<Ordering> {
-        self.compare(other).ok()
-    }
-}
-
 impl<S: Rounded> Scalar for Estimate<S> {
-    const RIGOROUS: bool = true;
     type Precision = S::Precision;
 
     fn from_number(number: &Number, precision: &S::Precision) -> Self {

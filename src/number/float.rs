@@ -9,7 +9,6 @@ use rug::{Float, Integer, Rational};
 use super::{Analytic, Answer, Estimate, Number, Open, Reads, Rounded, Scalar};
 
 impl Scalar for Float {
-    const RIGOROUS: bool = false;
     /// Bits of the significand.
     type Precision = u32;
 
@@ -70,17 +69,6 @@ impl Scalar for Float {
         self.to_string_radix(10, None)
     }
 
-    fn is_negative(&self) -> bool {
-        self.cmp0().is_some_and(std::cmp::Ordering::is_lt)
-    }
-
-    fn is_positive(&self) -> bool {
-        self.cmp0().is_some_and(std::cmp::Ordering::is_gt)
-    }
-
-    fn is_zero(&self) -> bool {
-        Float::is_zero(self)
-    }
 }
 
 impl Analytic for Float {

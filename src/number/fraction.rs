@@ -12,7 +12,6 @@ use super::{Answer, Bounded, Number, Open, Scalar};
 const SMALL_FACTOR: u32 = 10_000;
 
 impl Scalar for Rational {
-    const RIGOROUS: bool = true;
     type Precision = ();
 
     fn from_number(number: &Number, _: &()) -> Self {
@@ -100,17 +99,6 @@ impl Scalar for Rational {
         Rational::new()
     }
 
-    fn is_negative(&self) -> bool {
-        self.cmp0().is_lt()
-    }
-
-    fn is_positive(&self) -> bool {
-        self.cmp0().is_gt()
-    }
-
-    fn is_zero(&self) -> bool {
-        self.cmp0().is_eq()
-    }
 }
 
 impl Bounded for Rational {

@@ -1,12 +1,10 @@
 //! Enclosures: intervals with ends of any number of bits, rounded outwards.
 //!
-//! A comparison of intervals has three answers. Generic code knows two, so the third is remembered: [`decided`] runs a
-//! computation and returns nothing if any comparison in it could not be settled. Whoever wants an answer then tries more
-//! bits. Nothing that [`decided`] lets through rests on a guess.
+//! A comparison of intervals has three answers. The third is the error [`Open`](super::Open), which is handled where it is asked,
+//! or passed on to where more bits are taken.
 
 mod system;
 
-use std::cell::Cell;
 use std::cmp::Ordering;
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
@@ -14,33 +12,6 @@ use rug::float::{Round, Special};
 use rug::{Float, Rational};
 
 use super::radical::Radical;
-
-thread_local! {
-    static UNDECIDED: Cell<bool> = const { Cell::new(false) };
-}
-
-/// What `compute` returns, unless a comparison of [`Interval`]s in it could not be settled.
-///
-/// ```
-/// use dalembert::number::{Interval, IntervalPrecision, Scalar, decided};
-/// let third = Interval::from_number(&"1/3".parse()?, &IntervalPrecision::bits(64));
-/// let sum = third.clone() + &third + &third;
-/// assert_eq!(decided(|| sum < sum.int(2)), Some(true));
-/// // The sum is 1, but its interval reaches to both sides of it.
-/// assert_eq!(decided(|| sum < sum.one()), None);
-/// # Ok::<(), dalembert::number::NumberError>(())
-/// ```
-pub fn decided<T>(compute: impl FnOnce() -> T) -> Option<T> {
-    let outer = UNDECIDED.replace(false);
-    let result = compute();
-    let undecided = UNDECIDED.replace(outer);
-    (!undecided).then_some(result)
-}
-
-/// Remembers that a comparison could not be settled.
-pub(crate) fn undecided() {
-    UNDECIDED.set(true);
-}
 
 /// How an [`Interval`] is carried.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -78,7 +49,7 @@ enum Inside {
 ///
 /// **Accuracy**: *enclosure*: every operation rounds its ends outwards.
 ///
-/// Comparisons that the ends do not settle are false and make [`decided`] return nothing.
+/// A comparison that the ends do not settle is [`Open`](super::Open).
 #[derive(Clone, Debug)]
 pub struct Interval {
     lo: Float,
@@ -224,15 +195,6 @@ impl Interval {
         self.exact_sign()
     }
 
-    /// The sign, with whoever listens told where it is not known.
-    fn sign_or_flag(&self) -> Option<Ordering> {
-        let sign = self.sign();
-        if sign.is_none() {
-            undecided();
-        }
-        sign
-    }
-
     /// The same ends for a monotone function.
     fn rising(&self, low: impl FnOnce(&Float) -> Float, high: impl FnOnce(&Float) -> Float) -> Self {
         let inside = self.inside.map(|_| None);
@@ -254,50 +216,6 @@ impl Interval {
         let lo = if lo < -one.clone() { -one.clone() } else { lo };
         let hi = if hi > one { one } else { hi };
         Interval { lo, hi, inside }
-    }
-}
-
-impl PartialEq for Interval {
-    fn eq(&self, other: &Self) -> bool {
-        self.partial_cmp(other) == Some(Ordering::Equal)
-    }
-}
-
-impl PartialOrd for Interval {
-    fn partial_cmp(&self, other: &Self) -> Option<Ordering> {
-        if self.hi < other.lo {
-            return Some(Ordering::Less);
-        }
-        if self.lo > other.hi {
-            return Some(Ordering::Greater);
-        }
-        if self.lo == self.hi && other.lo == other.hi && self.lo == other.lo {
-            return Some(Ordering::Equal);
-        }
-        if let (Inside::Known(a), Inside::Known(b)) = (&self.inside, &other.inside)
-            && let Some(order) = a.cmp(b)
-        {
-            return Some(order);
-        }
-        undecided();
-        None
-    }
-
-    // Intervals that touch have no order, but are not without one.
-    fn lt(&self, other: &Self) -> bool {
-        self.lo < other.hi && self.partial_cmp(other) == Some(Ordering::Less)
-    }
-
-    fn gt(&self, other: &Self) -> bool {
-        other.lt(self)
-    }
-
-    fn le(&self, other: &Self) -> bool {
-        self.hi <= other.lo || self.partial_cmp(other).is_some_and(Ordering::is_le)
-    }
-
-    fn ge(&self, other: &Self) -> bool {
-        other.le(self)
     }
 }
 

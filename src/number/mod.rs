@@ -34,7 +34,7 @@ pub use estimate::Estimate;
 #[cfg(feature = "mp")]
 pub use float::{bits_for_digits, decimal};
 #[cfg(feature = "mp")]
-pub use interval::{Interval, IntervalPrecision, decided};
+pub use interval::{Interval, IntervalPrecision};
 pub use literal::{Number, NumberError};
 #[cfg(feature = "mp")]
 pub use rug::{Float, Rational};

@@ -19,7 +19,6 @@ pub struct Open;
 pub trait Scalar:
     Clone
     + Debug
-    + PartialOrd
     + Neg<Output = Self>
     + Add<Output = Self>
     + Sub<Output = Self>
@@ -33,10 +32,6 @@ pub trait Scalar:
     + Sync
     + 'static
 {
-    /// Whether a number answers for its own error, by having none or by enclosing it. Error bounds are neither carried nor
-    /// compared beside it where that is so.
-    const RIGOROUS: bool;
-
     /// What it takes to make a first number: nothing for `f64` and fractions, the number of bits for a `Float`.
     type Precision: Clone + Debug + Send + Sync;
 
@@ -177,20 +172,20 @@ pub trait Scalar:
 
     /// `|self|`.
     fn magnitude(&self) -> Self {
-        if self.is_negative() { -self.clone() } else { self.clone() }
-    }
-
-    /// Whether both are the same number but for eight roundings: `3 · 0.2` is `0.6`. Exact and enclosed numbers are compared as they are.
-    fn meets(&self, other: &Self) -> bool {
-        if Self::RIGOROUS {
-            return self == other;
-        }
-        (self.clone() - other).magnitude() <= other.magnitude() * &self.roundoff() * &self.int(8)
+        if self.negative() == Ok(true) { -self.clone() } else { self.clone() }
     }
 
     /// The greater of both.
     fn larger(self, other: Self) -> Self {
-        if other > self { other } else { self }
+        if self.below(&other) == Ok(true) { other } else { self }
+    }
+}
+
+/// A number system that rounds and carries no bound of it: `f64`, `Float`. [`Estimate`](super::Estimate) adds the bound.
+pub trait Rounded: Analytic + PartialOrd {
+    /// Whether both are the same number but for eight roundings: `3 · 0.2` is `0.6`.
+    fn meets(&self, other: &Self) -> bool {
+        (self.clone() - other).magnitude() <= other.magnitude() * &self.roundoff() * &self.int(8)
     }
 
     /// `self < 0`.
@@ -207,10 +202,7 @@ pub trait Scalar:
     fn is_zero(&self) -> bool {
         *self == self.zero()
     }
-}
 
-/// A number system that rounds and carries no bound of it: `f64`, `Float`. [`Estimate`](super::Estimate) adds the bound.
-pub trait Rounded: Analytic + PartialOrd {
     /// The unit roundoff `u` as a double, no less than the least normal one.
     fn unit(&self) -> f64;
 

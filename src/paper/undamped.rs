@@ -35,13 +35,14 @@ pub struct UndampedContact<S> {
     strong: bool,
 }
 
-impl<S: Scalar> UndampedContact<S> {
+impl<S: Scalar + PartialOrd> UndampedContact<S> {
     /// The first contact of the rod that hits the ground undeformed with uniform velocity `−μ`.
     ///
     /// **Errors**: `None` where the rod is damped.
     pub fn new(rod: &Parameters<S>) -> Option<Self> {
         let strong = rod.speed >= rod.critical_speed();
-        rod.damping.is_zero().then(|| UndampedContact { round_trip: rod.round_trip(), rod: rod.clone(), strong })
+        let undamped = rod.damping == rod.damping.zero();
+        undamped.then(|| UndampedContact { round_trip: rod.round_trip(), rod: rod.clone(), strong })
     }
 
     /// `t_b`: `t₁` for `μ ≥ μ₀`, otherwise `2t₁ − μ/g`.
@@ -185,7 +186,7 @@ impl<S: Scalar> UndampedContact<S> {
         let (mu, mu0) = (&self.rod.speed, self.rod.critical_speed());
         let n = |k: i64| mu.int(k);
         if self.strong {
-            return (!mu.is_zero()).then(|| n(1) - mu0.square() / (n(3) * &mu.square()));
+            return (*mu != mu.zero()).then(|| n(1) - mu0.square() / (n(3) * &mu.square()));
         }
         let form = n(3) * &mu.square() - n(4) * mu * &mu0 + n(3) * &mu0.square();
         Some(form / (n(3) * &mu0.square()))
@@ -207,7 +208,7 @@ impl<S: Scalar> UndampedContact<S> {
     pub fn highest(&self) -> Option<(S, S)> {
         let Parameters { length: l, wave_speed: c, gravity: g, speed: mu, .. } = &self.rod;
         let n = |k: i64| l.int(k);
-        if g.is_zero() {
+        if *g == g.zero() {
             return None;
         }
         let (gl, cm) = (g.clone() * l, c.clone() * mu);

@@ -129,7 +129,7 @@ impl<S: Answer, H: Motion<S::Carried>> Motion<S> for Stripped<S, H> {
     }
 
     fn highest(&self, release: &Event<S>) -> Option<(S, S)> {
-        let known = self.events.iter().position(|event| event == release)?;
+        let known = self.events.iter().position(|event| event.kind == release.kind && event.time.text() == release.time.text())?;
         self.history.highest(self.history.events().get(known)?).map(pair)
     }
 

@@ -22,7 +22,7 @@ fn rod(case: &Value) -> Problem {
 
 fn solve(problem: &Problem) -> Joined<f64> {
     let rod = Parameters::<f64>::of(problem, &()).unwrap();
-    Joined::solve(problem, &(), 13.0, FirstContact::new(&rod).bounce_within(1e-13), Reach::Run).unwrap()
+    Joined::solve(problem, &(), 13.0, FirstContact::new(&rod.carry()).bounce(), Reach::Run).unwrap()
 }
 
 #[test]

@@ -62,7 +62,7 @@ fn jumps_are_those_of_proposition_2() {
     let decay = (-0.5 * r).exp();
     assert!((right.velocity.value() - left.velocity.value() - mu * decay).abs() < 1e-15);
     assert!((right.strain.value() - left.strain.value() + mu * decay).abs() < 1e-15);
-    assert_eq!(right.displacement, left.displacement);
+    assert_eq!(right.displacement.value(), left.displacement.value());
 }
 
 /// Scaled sums stay finite and accurate where `e^{rt}` overflows: the rod settles on `v_s = (g/2c²)(x² − 2Lx)`.

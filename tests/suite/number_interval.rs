@@ -1,7 +1,9 @@
 //! Enclosures enclose: every operation, on random fractions in few bits, against the exact result; and comparisons never
 //! guess.
 
-use dalembert::number::{Analytic, Interval, IntervalPrecision, Scalar, decided};
+use std::cmp::Ordering;
+
+use dalembert::number::{Analytic, Interval, IntervalPrecision, Open, Scalar};
 use proptest::prelude::*;
 use rug::{Float, Rational};
 
@@ -37,23 +39,23 @@ proptest! {
         if y.cmp0().is_ne() {
             prop_assert!((ix.clone() / &iy).contains(&Rational::from(&x / &y)));
         }
-        if decided(|| ix < iy) == Some(true) {
-            prop_assert!(x < y);
-        }
-        if let Some(answer) = decided(|| ix < iy) {
+        if let Ok(answer) = ix.below(&iy) {
             prop_assert_eq!(answer, x < y);
         }
-        if let Some(answer) = decided(|| ix <= iy) {
-            prop_assert_eq!(answer, x <= y);
+        if let Ok(order) = ix.compare(&iy) {
+            prop_assert_eq!(order, x.cmp(&y));
         }
-        if let Some(answer) = decided(|| ix == iy) {
-            prop_assert_eq!(answer, x == y);
+        if let Ok(sign) = Scalar::sign(&ix) {
+            prop_assert_eq!(sign, x.cmp0());
         }
-        if let Some(answer) = decided(|| (ix.is_positive(), ix.is_negative(), ix.is_zero())) {
-            prop_assert_eq!(answer, (x.cmp0().is_gt(), x.cmp0().is_lt(), x.cmp0().is_eq()));
+        if let Ok(answer) = ix.positive() {
+            prop_assert_eq!(answer, x.cmp0().is_gt());
         }
-        if let Some(floor) = decided(|| ix.floor_int()) {
-            prop_assert_eq!(floor, x.clone().floor().numer().to_i64());
+        if let Ok(answer) = ix.negative() {
+            prop_assert_eq!(answer, x.cmp0().is_lt());
+        }
+        if let Some(floor) = ix.floor_int() {
+            prop_assert_eq!(Some(floor), x.clone().floor().numer().to_i64());
         }
         prop_assert!(ix.to_f64().abs() >= Float::with_val(53, &x).to_f64().abs() * (1.0 - 1e-15));
     }
@@ -88,13 +90,13 @@ proptest! {
         // (a + b√d)(a − b√d) = a² − b²d
         let product = number.clone() * &(lift(&a) - &(lift(&b) * &root));
         let norm = Rational::from(a.square_ref()) - Rational::from(b.square_ref()) * d;
-        prop_assert_eq!(decided(|| product == lift(&norm)), Some(true));
+        prop_assert_eq!(product.compare(&lift(&norm)), Ok(Ordering::Equal));
         let back = number.square().sqrt();
-        prop_assert_eq!(decided(|| back == number.magnitude()), Some(true));
-        prop_assert_eq!(decided(|| number < number), Some(false));
+        prop_assert_eq!(back.compare(&number.magnitude()), Ok(Ordering::Equal));
+        prop_assert_eq!(number.below(&number), Ok(false));
         let truth = Float::with_val(200, d).sqrt() * &b + &a;
         if truth.clone().abs() > 1e-30 {
-            prop_assert_eq!(decided(|| number.is_positive()), Some(truth > 0));
+            prop_assert_eq!(number.positive(), Ok(truth > 0));
         }
     }
 }
@@ -103,11 +105,9 @@ proptest! {
 fn a_guess_is_never_let_through() {
     let third = Interval::rational(&Rational::from((1, 3)), IntervalPrecision::bits(20));
     let one = third.clone() * &third.int(3);
-    assert_eq!(decided(|| one > third), Some(true));
-    assert_eq!(decided(|| one == one.int(1)), None);
-    // A comparison inside that is not settled does not hide behind one that is.
-    assert_eq!(decided(|| (one < one.int(1), third < one)), None);
-    assert_eq!(decided(|| decided(|| one < one.int(1)).is_none()), Some(true));
+    assert_eq!(one.compare(&third), Ok(Ordering::Greater));
+    assert_eq!(one.compare(&one.int(1)), Err(Open));
+    assert_eq!(one.below(&one.int(1)), Err(Open));
     // Division by what may be zero is everything.
     let nothing = one.clone() - &one.int(1);
     assert!(!(one / &nothing).is_finite());

@@ -7,10 +7,9 @@ use rug::{Assign, Float, Rational};
 
 use super::super::radical::Radical;
 use super::super::{Analytic, Answer, Bounded, Estimate, Number, Open, Reads, Scalar};
-use super::{Inside, Interval, IntervalPrecision, down, undecided, up};
+use super::{Inside, Interval, IntervalPrecision, down, up};
 
 impl Scalar for Interval {
-    const RIGOROUS: bool = true;
     type Precision = IntervalPrecision;
 
     fn from_number(number: &Number, precision: &IntervalPrecision) -> Self {
@@ -115,7 +114,6 @@ impl Scalar for Interval {
         {
             return exact.to_i64();
         }
-        undecided();
         None
     }
 
@@ -190,27 +188,6 @@ impl Scalar for Interval {
         Interval { lo, hi, inside }
     }
 
-    fn is_negative(&self) -> bool {
-        // Zero as the upper end is enough to say no more than "not positive".
-        if self.lo.cmp0().is_some_and(Ordering::is_ge) {
-            return false;
-        }
-        self.sign_or_flag() == Some(Ordering::Less)
-    }
-
-    fn is_positive(&self) -> bool {
-        if self.hi.cmp0().is_some_and(Ordering::is_le) {
-            return false;
-        }
-        self.sign_or_flag() == Some(Ordering::Greater)
-    }
-
-    fn is_zero(&self) -> bool {
-        if self.surely_zero() {
-            return true;
-        }
-        self.sign_or_flag() == Some(Ordering::Equal)
-    }
 }
 
 impl Analytic for Interval {
