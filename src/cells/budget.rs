@@ -206,6 +206,11 @@ impl Budget {
         self.note();
     }
 
+    /// The better of both accounts of a time that is counted from the last landing.
+    pub(super) fn better(&self, off: Off, apart: bool) -> f64 {
+        if apart { off.fixed.min(off.moving) } else { off.fixed }
+    }
+
     /// Whether both accounts have lost the events.
     pub(super) fn lost(&self, off: Off, apart: bool, most: f64) -> bool {
         off.fixed > most && (!apart || self.late + off.moving > most)

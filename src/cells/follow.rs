@@ -70,6 +70,19 @@ pub(super) struct Mark<S> {
     pub(super) time_error: f64,
 }
 
+/// Hops that are not told apart from contact.
+///
+/// Where events lie on rays exactly, as they often do without damping, there are none in truth: nothing but the bound says that there may be.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Unresolved<S> {
+    /// From this time on.
+    pub from: S,
+    /// How many landings they may belong to.
+    pub count: usize,
+    /// How long each of them may be at most.
+    pub longest: f64,
+}
+
 /// How far to go.
 #[derive(Clone, Debug)]
 pub(super) enum Goal<S> {
@@ -92,6 +105,10 @@ pub(super) struct Follower<'a, S> {
     landed: u32,
     /// Whether events are in doubt.
     lost: bool,
+    /// Whether the landing that is decided is at a ray.
+    at_ray: bool,
+    /// Hops that the bound does not tell apart from contact.
+    pub(super) unresolved: Option<Unresolved<S>>,
     /// When the last contact began, in whole round trips and the fraction.
     landing: Option<(i64, S)>,
     /// The flight that is under way, where it is taken apart.
@@ -172,6 +189,8 @@ impl<'a, S: RoundedSpecial> Follower<'a, S> {
             contact: false,
             landed: 0,
             lost: false,
+            at_ray: false,
+            unresolved: None,
             landing: None,
             flight: None,
             flights: Vec::new(),
@@ -333,6 +352,7 @@ impl<'a, S: RoundedSpecial> Follower<'a, S> {
             let grounded = !self.contact && self.height.to_f64() <= self.height_noise(0.0);
             if !fresh && grounded && !self.rises() {
                 let off = ray.max(self.event_error(&trace, &height, &len.zero(), &len, 0.0));
+                self.at_ray = true;
                 if self.land(goal, off) {
                     return Ok(Ending::NextImpact);
                 }
@@ -358,6 +378,7 @@ impl<'a, S: RoundedSpecial> Follower<'a, S> {
                     self.event(ray, false);
                 } else {
                     let off = ray.max(self.event_error(&trace, &height, &len.zero(), &len, 0.0));
+                    self.at_ray = true;
                     if self.land(goal, off) {
                         return Ok(Ending::NextImpact);
                     }
@@ -388,8 +409,11 @@ impl<'a, S: RoundedSpecial> Follower<'a, S> {
                     self.advance(Some(&x), off, &trace, &height);
                     if self.contact {
                         self.event(off, true);
-                    } else if self.land(goal, off) {
-                        return Ok(Ending::NextImpact);
+                    } else {
+                        self.at_ray = false;
+                        if self.land(goal, off) {
+                            return Ok(Ending::NextImpact);
+                        }
                     }
                     fresh = true;
                 }
@@ -622,6 +646,7 @@ impl<'a, S: RoundedSpecial> Follower<'a, S> {
     fn touch_down(&mut self, velocity: &S, off: Off) {
         let speed = velocity.to_f64().abs();
         self.landing = Some((self.state.round, self.state.segments[0].at.clone()));
+        self.compare_rays(speed, off);
         let (Some(flight), Some((_, rate))) = (self.flying().cloned(), self.centre()) else {
             self.budget.hit(self.damping(), speed, off);
             return;
@@ -639,6 +664,23 @@ impl<'a, S: RoundedSpecial> Follower<'a, S> {
         self.state.segments[0].off.moving = 0.0;
         self.medium.touch_down(&mut self.state, &flight);
         self.flight = None;
+    }
+
+    /// Counts a landing that the bound does not tell apart from a ray that passes: between the two the end may rise for as long, now
+    /// or whenever both return. A landing without speed starts no ray.
+    fn compare_rays(&mut self, speed: f64, off: Off) {
+        let off = self.budget.better(off, self.medium.splits());
+        let segments = &self.state.segments;
+        let last = &segments[segments.len() - 1];
+        // The ray of the release itself does not count.
+        let own = self.flying().is_some_and(|flight| segments[segments.len() - 1].at == flight.from.1);
+        let near = segments[0].len.to_f64() < off || (last.len.to_f64() < off && !own);
+        let speeds = (self.medium.gravity.to_f64() + self.noise()) * off;
+        if speed > speeds && (near || self.at_ray) {
+            let from = self.unresolved.as_ref().map_or_else(|| self.state.time(), |unresolved| unresolved.from.clone());
+            let (count, longest) = self.unresolved.as_ref().map_or((0, 0.0), |old| (old.count, old.longest));
+            self.unresolved = Some(Unresolved { from, count: count + 1, longest: longest.max(off) });
+        }
     }
 
     /// An impact now; whether it is the one after the last that was asked for.

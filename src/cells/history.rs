@@ -2,7 +2,7 @@
 
 use super::bounce::Held;
 use super::flight::Flight;
-use super::follow::{Checkpoint, Follower, Goal, Mark, Piece};
+use super::follow::{Checkpoint, Follower, Goal, Mark, Piece, Unresolved};
 use super::march::Medium;
 use super::record::{Node, Record};
 use super::root::smallest;
@@ -51,6 +51,7 @@ pub struct Damped<S> {
     ending: Ending,
     error: f64,
     warnings: Vec<String>,
+    unresolved: Option<Unresolved<S>>,
 }
 
 /// Cells are at most `2/r` wide, so that each round trip takes `(r t₁/2)²` of them: millions here.
@@ -63,6 +64,7 @@ struct Found<S> {
     flights: Vec<Flight<S>>,
     marks: Vec<Mark<S>>,
     warnings: Vec<String>,
+    unresolved: Option<Unresolved<S>>,
     error: f64,
     ending: Ending,
 }
@@ -74,8 +76,8 @@ impl<S: RoundedSpecial> Found<S> {
             .iter()
             .map(|mark| mark.time_error)
             .fold(follower.budget.total(follower.medium.splits()), f64::max);
-        let Follower { pieces, checkpoints, flights, marks, warnings, .. } = follower;
-        Found { pieces, checkpoints, flights, marks, warnings, error, ending }
+        let Follower { pieces, checkpoints, flights, marks, warnings, unresolved, .. } = follower;
+        Found { pieces, checkpoints, flights, marks, warnings, unresolved, error, ending }
     }
 }
 
@@ -172,7 +174,11 @@ impl<S: RoundedSpecial> Damped<S> {
         problem: &Problem,
         precision: &S::Precision,
     ) -> Self {
-        let Found { pieces, checkpoints, flights, marks, warnings, error, ending } = found;
+        let Found { pieces, checkpoints, flights, marks, warnings, unresolved, error, ending } = found;
+        let unresolved = unresolved.map(|found| {
+            let unit = &data.units.time;
+            Unresolved { from: found.from * unit, longest: found.longest * unit.to_f64(), ..found }
+        });
         let end = match &problem.run {
             Run::Time(time) if ending == Ending::Time || pieces.last().is_some_and(|piece| piece.still) => {
                 S::from_number(time, precision)
@@ -195,6 +201,7 @@ impl<S: RoundedSpecial> Damped<S> {
             ending,
             error,
             warnings,
+            unresolved,
         };
         history.events = marks
             .into_iter()
@@ -213,6 +220,11 @@ impl<S: RoundedSpecial> Damped<S> {
             .collect();
         history.contacts = history.find_contacts();
         history
+    }
+
+    /// Hops that the bound of the error does not tell apart from contact, if there may be any.
+    pub fn unresolved(&self) -> Option<&Unresolved<S>> {
+        self.unresolved.as_ref()
     }
 
     /// What the field follows from.

@@ -1,5 +1,6 @@
 //! The paper's rod from the first contact on: closed form while the contact lasts, cells after it.
 
+use super::follow::Unresolved;
 use super::history::Damped;
 use crate::error::Error;
 use crate::first_contact::{Bounce, ContactHistory, FirstContact};
@@ -107,6 +108,11 @@ impl<S: RoundedSpecial> Joined<S> {
         self.ending = march.ending().clone();
         self.march = Some(march);
         Ok(())
+    }
+
+    /// Hops that the bound of the error does not tell apart from contact, if there may be any.
+    pub fn unresolved(&self) -> Option<&Unresolved<S>> {
+        self.march.as_ref().and_then(Damped::unresolved)
     }
 
     /// Refuses a time that is not known, and says whether it is one of the first contact.

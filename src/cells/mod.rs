@@ -1,9 +1,11 @@
 //! The damped rod, any number of impacts: characteristic cells, the contact law, marching.
 //!
-//! In reading order: `series` holds functions, `cell` carries the invariants through one cell, `march` through one
-//! strip, `start` makes the first state from the data at `t = 0` and `bounce` from the closed form of the first contact, `root` finds events, `follow` decides what happens at the ground,
-//! `rest` when nothing more can happen, `record` gets the field back, `history` answers questions, and `joined` puts the closed form of the first
-//! contact before it.
+//! In reading order: `series` holds functions, `cell` carries the invariants through one cell, `march` through one strip; `start`
+//! makes the first state from the data at `t = 0` and `bounce` from the closed form of the first contact; `flight` takes a
+//! flight apart into centre of mass and vibration, and `leap` goes over many of its round trips at once. `root` finds events,
+//! `follow` decides what happens at the ground, `budget` adds up what all of it may be off by, `rest` says when nothing more
+//! can happen, `record` gets the field back, `history` answers questions, `joined` puts the closed form of the first contact
+//! before it, and `with_bounds` gives answers with their bounds.
 
 mod bounce;
 mod budget;
@@ -19,6 +21,9 @@ mod rest;
 mod root;
 mod series;
 mod start;
+mod with_bounds;
 
+pub use follow::Unresolved;
 pub use history::Damped;
 pub use joined::{Joined, Reach};
+pub use with_bounds::WithBounds;

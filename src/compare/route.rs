@@ -5,7 +5,7 @@ use super::long;
 use super::account::ByClosedForm;
 use super::quantity::{Quantity, Question};
 use super::value::{Answer, Bounded, NoAnswer, Value};
-use crate::cells::Damped;
+use crate::cells::{Damped, WithBounds};
 use crate::first_contact::{Bounce, FirstContact};
 use crate::lattice::Undamped;
 use crate::modal::Modal;
@@ -13,7 +13,7 @@ use crate::number::{Estimate, Scalar};
 use crate::paper::Printed;
 use crate::problem::{Parameters, Problem, Run};
 pub(crate) use crate::solve::Numbers;
-use crate::solve::{self, Plan, Raised, Solution, Want, bounce_within};
+use crate::solve::{self, Plan, Solution, Want, bounce_within};
 
 /// A formula in many digits; its argument makes `p/q` in that many.
 pub(crate) type LongFormula = fn(&dyn Fn(i32, i32) -> long::Digits) -> long::Digits;
@@ -73,7 +73,7 @@ impl Route {
                 question.ask_history(&Undamped::<Estimate<f64>>::solve(problem, &())?)
             }
             Route::Cells(digits) => {
-                question.ask_history(&Raised::new(Damped::<f64>::solve(problem, &(), f64::from(digits))?))
+                question.ask_history(&WithBounds::new(Damped::<f64>::solve(problem, &(), f64::from(digits))?))
             }
             Route::Modes(modes) => {
                 let rod = Parameters::of(problem, &())?;

@@ -6,7 +6,7 @@
 use std::cmp::Ordering;
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
-use super::{Analytic, Number, Open, Rounded, Scalar};
+use super::{Analytic, Bounded, Number, Open, Rounded, Scalar};
 
 macro_rules! absent {
     ($(#[$doc:meta] $name:ident),*) => {$(
@@ -95,7 +95,12 @@ macro_rules! absent {
             fn unit(&self) -> f64 {
                 match *self {}
             }
+            fn in_roundoffs(&self) -> f64 {
+                match *self {}
+            }
         }
+
+        impl Bounded for $name {}
     )*};
     (@operator $name:ident, $($trait:ident $method:ident),*) => {$(
         impl $trait for $name {

@@ -169,11 +169,6 @@ impl Interval {
         Interval { lo: lo.clone(), hi: hi.clone(), inside: Inside::Off }
     }
 
-    /// Whether the number meant is known to be zero.
-    fn surely_zero(&self) -> bool {
-        (self.lo.is_zero() && self.hi.is_zero()) || matches!(&self.inside, Inside::Known(number) if number.vanishes())
-    }
-
     fn exact_sign(&self) -> Option<Ordering> {
         match &self.inside {
             Inside::Known(number) => number.sign(),

@@ -34,3 +34,20 @@ pub(crate) fn bound_text<S: Scalar>(x: &S) -> String {
         false => format!("{}e{exponent}", tenths / 10.0),
     }
 }
+
+#[cfg(all(test, feature = "mp"))]
+mod tests {
+    use super::*;
+    use crate::number::Interval;
+    use rug::Float;
+
+    #[test]
+    fn no_digit_beyond_the_bound_is_printed() {
+        let around = |x: f64, by: f64| Interval::between(Float::with_val(99, x - by), Float::with_val(99, x + by));
+        assert_eq!(show(&around(2.0, 9e-6), 20), "2.0000");
+        assert_eq!(show(&around(2.0, 3.0), 20), "0");
+        assert_eq!(show(&around(0.0, 1e-20), 20), "0");
+        assert_eq!(bound_text(&crate::number::Estimate::new(1.0f64, 3.0)), "3.4e-16");
+        assert_eq!(bound_text(&crate::number::Estimate::exact(1.0f64)), "0");
+    }
+}

@@ -7,8 +7,7 @@ use super::first_contact::bounce_within;
 use super::ladder::{Engined, Observer, Target};
 use super::long;
 use super::plan::{Engine, Plan, Reach, Rung};
-use super::raised::Raised;
-use crate::cells::{self, Damped, Joined};
+use crate::cells::{self, Damped, Joined, WithBounds};
 use crate::error::Error;
 use crate::first_contact::{Bounce, FirstContact};
 use crate::lattice::{Limits, Undamped};
@@ -30,7 +29,7 @@ impl Target for f64 {
                 }
                 Arc::new(history)
             }
-            Engine::Cells => Arc::new(Raised::new(Damped::<f64>::solve(problem, &(), CELL_DIGITS)?)),
+            Engine::Cells => Arc::new(WithBounds::new(Damped::<f64>::solve(problem, &(), CELL_DIGITS)?)),
             Engine::ClosedForm | Engine::ClosedFormThenCells => {
                 let rod = Parameters::<Estimate<f64>>::of(problem, &())?;
                 let contact = FirstContact::new(&rod);
@@ -42,7 +41,7 @@ impl Target for f64 {
                     bounce = bounce_within(&contact, 1e-10);
                 }
                 let reach = if plan.engine == Engine::ClosedForm { cells::Reach::Bounce } else { cells::Reach::Run };
-                Arc::new(Raised::new(Joined::<f64>::solve(problem, &(), CELL_DIGITS, bounce, reach)?))
+                Arc::new(WithBounds::new(Joined::<f64>::solve(problem, &(), CELL_DIGITS, bounce, reach)?))
             }
         })
     }

@@ -6,8 +6,7 @@ use super::converted::Converted;
 use super::engines::{limits, reaching};
 use super::ladder::{Engined, Observer, Target};
 use super::plan::{Engine, Plan, Rung};
-use super::raised::Raised;
-use crate::cells::{self, Damped, Joined};
+use crate::cells::{self, Damped, Joined, WithBounds};
 use crate::error::Error;
 use crate::first_contact::{Bounce, ContactHistory, FirstContact};
 use crate::lattice::Undamped;
@@ -68,7 +67,7 @@ fn estimates(problem: &Problem, plan: &Plan, bits: u32, observe: &Observer) -> R
             }
             Arc::new(history)
         }
-        Engine::Cells => Arc::new(Raised::new(Damped::<Float>::solve(problem, &bits, digits)?)),
+        Engine::Cells => Arc::new(WithBounds::new(Damped::<Float>::solve(problem, &bits, digits)?)),
         Engine::ClosedForm | Engine::ClosedFormThenCells => {
             let rod = Parameters::<Estimate<Float>>::of(problem, &bits)?;
             let bounce = FirstContact::new(&rod).bounce();
@@ -76,7 +75,7 @@ fn estimates(problem: &Problem, plan: &Plan, bits: u32, observe: &Observer) -> R
                 return Err(Error::NotDecided { what: "how the first contact ends", bits });
             }
             let reach = if plan.engine == Engine::ClosedForm { cells::Reach::Bounce } else { cells::Reach::Run };
-            Arc::new(Raised::new(Joined::<Float>::solve(problem, &bits, digits, bounce, reach)?))
+            Arc::new(WithBounds::new(Joined::<Float>::solve(problem, &bits, digits, bounce, reach)?))
         }
     })
 }

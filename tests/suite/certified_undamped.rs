@@ -3,11 +3,12 @@
 
 use crate::common::{number, problem, reference};
 use dalembert::lattice::Undamped;
-use dalembert::number::{Interval, IntervalPrecision, Scalar, decided};
+use dalembert::number::{Interval, IntervalPrecision, Scalar};
 use dalembert::problem::Run;
-use dalembert::solve::{certify, undamped};
+use dalembert::solve::undamped;
 use dalembert::{Ending, Error, EventKind, Motion, Number, Problem, Side};
 use rug::{Float, Rational};
+use std::cmp::Ordering;
 use serde_json::Value;
 
 const DIGITS: u32 = 50;
@@ -52,14 +53,8 @@ fn fifty_digits_of_every_event_of_the_reference() {
             case["events"].as_array().unwrap().iter().filter(|event| event["kind"] != "graze").collect();
         let last = number(&expected.last().unwrap()["time"]).to_f64();
         let problem = problem(&case, Run::Time((last + 1e-6).to_string().parse().unwrap()));
-        let events = certify(
-            &problem,
-            DIGITS,
-            |history| Ok::<_, Error>(history.events().to_vec()),
-            |events| events.iter().flat_map(|e| [&e.time, &e.end_velocity, &e.centre, &e.centre_velocity]).collect(),
-            |_, _| (),
-        )
-        .unwrap();
+        let history = problem.certified(DIGITS).unwrap();
+        let events = history.events();
         assert_eq!(events.len(), expected.len(), "{name}");
         let (speed, length) = (number(&case["impact_speed"]).to_f64(), number(&case["length"]).to_f64());
         for (event, truth) in events.iter().zip(expected) {
@@ -91,23 +86,22 @@ fn rod(speed: &str, time: &str) -> Problem {
 fn a_tangential_landing_is_proved_by_exact_arithmetic() {
     let problem = rod("1", "80");
     let exact = IntervalPrecision::with_exact(192);
-    let events = decided(|| Undamped::<Interval>::solve(&problem, &exact).unwrap().events().to_vec()).expect("settled");
+    let events = Undamped::<Interval>::solve(&problem, &exact).unwrap().events().to_vec();
     let touch = events.iter().find(|event| event.time.contains(&31.into())).unwrap();
     assert_eq!(touch.kind, EventKind::Impact);
-    assert!(decided(|| touch.end_velocity.is_zero()).unwrap());
+    assert_eq!(touch.end_velocity.vanishes(), Ok(true));
     // One period later, and everything in between is the same again.
     let first: Vec<_> = events.iter().filter(|event| *event.time.hi() < 36).collect();
     for (before, after) in first.iter().zip(&events[first.len()..]) {
         let later = before.time.clone() + &before.time.int(36);
-        assert_eq!(decided(|| later == after.time), Some(true), "{later:?} {:?}", after.time);
-        assert_eq!(decided(|| before.centre == after.centre), Some(true));
+        assert_eq!(later.compare(&after.time), Ok(Ordering::Equal), "{later:?} {:?}", after.time);
+        assert_eq!(before.centre.compare(&after.centre), Ok(Ordering::Equal));
     }
     assert_eq!(first.len(), 16);
     // Intervals alone leave it open, however many bits they have.
     for bits in [192, 1024] {
         let alone = IntervalPrecision::bits(bits);
-        let history =
-            decided(|| Undamped::<Interval>::solve(&problem, &alone).unwrap()).expect("settled as far as it goes");
+        let history = Undamped::<Interval>::solve(&problem, &alone).unwrap();
         let end = history.end();
         assert!(matches!(history.ending(), Ending::Undecided(_)) && *end.hi() < 31.0, "{end:?} {}", history.ending());
         // What is there holds, and what may come is the same but for the width of what is known.
@@ -125,14 +119,8 @@ fn a_tangential_landing_is_proved_by_exact_arithmetic() {
 fn irrational_wave_speeds_keep_their_coincidences() {
     let source = dalembert::scene::builtin::get("siconos-impacting-bar").unwrap().source;
     let scene = dalembert::Scene::parse(source).unwrap();
-    let contact = certify(
-        &scene.problem,
-        DIGITS,
-        |history| Ok::<_, Error>(history.contacts()[0].clone()),
-        |contact| contact.to.iter().chain([&contact.impulse]).collect(),
-        |_, _| (),
-    )
-    .unwrap();
+    let history = scene.problem.certified(DIGITS).unwrap();
+    let contact = history.contacts()[0].clone();
     let length = Float::with_val(400, 2);
     let t1 = length / (Float::with_val(400, 210e9) / 7800u32).sqrt();
     let to = contact.to.unwrap();
@@ -145,19 +133,15 @@ fn digits_of_another_run_lie_inside() {
     for (speed, time) in [("3/2", "60"), ("0.7", "40"), ("1.9", "30"), ("12345.678", "24000")] {
         let problem = rod(speed, time);
         let float = undamped::<Float>(&problem, &700).unwrap();
-        let sample = |history: &dyn Motion<Interval>| {
-            let mut all: Vec<Interval> = history.events().iter().map(|event| event.time.clone()).collect();
-            for k in 1..8i64 {
-                let end = history.end();
-                let t = end.clone() * &end.ratio(k, 8);
-                let (h, rate) = history.centre(&t)?;
-                let energy = history.energy(&t)?;
-                let end = history.ground_end(&t, Side::Right)?.0;
-                all.extend([h, rate, energy.vibrational, end, history.stress(&t, Side::Left)?]);
-            }
-            Ok::<_, Error>(all)
-        };
-        let proved = certify(&problem, 40, sample, |all| all.iter().collect(), |_, _| ()).unwrap();
+        let history = problem.certified(40).unwrap();
+        let mut proved: Vec<Interval> = history.events().iter().map(|event| event.time.clone()).collect();
+        for k in 1..8i64 {
+            let t = history.end().clone() * &history.end().ratio(k, 8);
+            let (h, rate) = history.centre(t.clone()).unwrap();
+            let (energy, end) =
+                (history.energy(t.clone()).unwrap(), history.ground_end(t.clone(), Side::Right).unwrap().0);
+            proved.extend([h, rate, energy.vibrational, end, history.strain(t, Side::Left).unwrap()]);
+        }
         let mut rounded: Vec<Float> = float.events().iter().map(|event| event.time.clone()).collect();
         for k in 1..8u32 {
             let t = float.end() * k / 8u32;
@@ -177,21 +161,8 @@ fn digits_of_another_run_lie_inside() {
 
 #[test]
 fn what_cannot_be_proved_is_refused() {
-    let ask = |history: &dyn Motion<Interval>| Ok::<_, Error>(history.end());
     let mut problem = rod("1", "3");
     problem.rod.damping = Some("0.1".parse::<Number>().unwrap());
-    problem.rod.top = dalembert::problem::Top::Fixed;
-    let refused = certify(&problem, 20, ask, |end| vec![end], |_, _| ());
-    assert_eq!(refused.unwrap_err(), Error::NotCertified);
-    // A number that is zero in truth and unknown to be so has no digits, but does not hold up the others for ever.
-    let sevenths = |history: &dyn Motion<Interval>| {
-        let end = history.end();
-        let third = end.clone() / &end.int(7);
-        let unknown = third.hull(&third);
-        Ok::<_, Error>((unknown.clone() - &third.hull(&third), unknown))
-    };
-    let (nothing, some) = certify(&rod("1", "3"), 20, sevenths, |(a, b)| vec![a, b], |_, _| ()).unwrap();
-    assert_eq!(nothing.sign(), None);
-    assert_eq!(dalembert::solve::proved_digits(&nothing, 20), "0");
-    assert_eq!(dalembert::solve::proved_digits(&some, 20), "0.42857142857142857143");
+    problem.rod.top = dalembert::Top::Fixed;
+    assert_eq!(problem.certified(20).unwrap_err(), Error::NotCertified);
 }

@@ -115,3 +115,53 @@ fn a_question_about_the_first_contact_needs_no_cells() {
     assert_eq!(short.contacts(), &long.contacts()[..1]);
     assert!(matches!(short.centre(&2.5), Err(Error::TimeOutside { .. })));
 }
+
+/// Every number within its own bound of what forty digits say.
+#[cfg(feature = "mp")]
+#[test]
+fn answers_carry_their_bounds() {
+    use dalembert::cells::WithBounds;
+    use dalembert::number::{Estimate, Scalar};
+    use rug::Float;
+    for (damping, speed) in [("0.1", "3"), ("0.02", "10"), ("0.3", "5")] {
+        let mut problem = uniform("1", "1", "1", speed, Run::Impacts(4));
+        problem.rod.damping = damping.parse().ok();
+        let rod = Parameters::<f64>::of(&problem, &()).unwrap();
+        let history = Joined::solve(&problem, &(), 13.0, FirstContact::new(&rod.carry()).bounce(), Reach::Run).unwrap();
+        let bounded = WithBounds::new(history);
+        let truth = Damped::<Float>::solve(&problem, &200, 40.0).unwrap();
+        let near = |what: &str, ours: &Estimate<f64>, truth: &Float| {
+            let off = Float::with_val(200, truth - *ours.value()).abs().to_f64();
+            assert!(off <= ours.bound() && ours.bound() < 1e-8, "{damping} {what}: {off:e} {:e}", ours.bound());
+        };
+        for (ours, truth) in bounded.events().iter().zip(truth.events()) {
+            near("time", &ours.time, &truth.time);
+            near("velocity", &ours.end_velocity, &truth.end_velocity);
+            near("h", &ours.centre, &truth.centre);
+            near("h'", &ours.centre_velocity, &truth.centre_velocity);
+        }
+        // A contact without end lasts as long as the history, which may end elsewhere in more digits.
+        for (ours, truth) in bounded.contacts().iter().zip(truth.contacts()).filter(|(ours, _)| ours.to.is_some()) {
+            near("impulse", &ours.impulse, &truth.impulse);
+            near("peak", &ours.peak_stress, &truth.peak_stress);
+        }
+        let release = &truth.events()[1];
+        let (ours, exact) = (bounded.highest(&bounded.events()[1]).unwrap(), truth.highest(release).unwrap());
+        near("t*", &ours.0, &exact.0);
+        near("h(t*)", &ours.1, &exact.1);
+        for k in 0..10 {
+            let t = bounded.end().to_f64() * (f64::from(k) + 0.37) / 10.0;
+            let (time, point) = (Float::with_val(200, t), Float::with_val(200, 0.625));
+            let (ours, exact) = (
+                bounded.field(&Estimate::exact(0.625), &Estimate::exact(t), Side::Right).unwrap(),
+                truth.field(&point, &time, Side::Right).unwrap(),
+            );
+            near("v", &ours.displacement, &exact.displacement);
+            near("v_t", &ours.velocity, &exact.velocity);
+            near("v_x", &ours.strain, &exact.strain);
+            let (ours, exact) = (bounded.energy(&Estimate::exact(t)).unwrap(), truth.energy(&time).unwrap());
+            near("E", &ours.total, &exact.total);
+            near("E_z", &ours.vibrational, &exact.vibrational);
+        }
+    }
+}

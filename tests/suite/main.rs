@@ -5,7 +5,8 @@
 
 #[cfg(feature = "mp")]
 mod certified_first_contact;
-// mod certified_undamped;
+#[cfg(feature = "mp")]
+mod certified_undamped;
 #[cfg(feature = "cli")]
 mod check_catalogue;
 #[cfg(feature = "cli")]
