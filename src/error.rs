@@ -132,6 +132,9 @@ pub enum Error {
         /// What was tried.
         bits: u32,
     },
+    /// The rays of a damped rod.
+    #[error("found the rays of a damped rod asked for, expected an undamped one: only there jumps travel unchanged")]
+    NoRays,
     /// A contact that the history does not have.
     #[error("found contact {contact} asked for, expected one of the {found} that the history has, counted from 0")]
     NoContact {

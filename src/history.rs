@@ -5,8 +5,9 @@ use std::sync::{Mutex, OnceLock, PoisonError};
 use crate::error::Error;
 use crate::motion::{Contact, Ending, Energy, Event, Field, Motion, Scales, Side, StressHistory};
 use crate::number::{Answer, Scalar};
-use crate::quantity::{EnergyShares, Flight, Restitution, energy_shares, flights, restitution};
 use crate::problem::Problem;
+use crate::quantity::{EnergyShares, Flight, Restitution, energy_shares, flights, restitution};
+use crate::ray::Ray;
 use crate::solve::{Attempt, Ladder, Numbers, Observer, Plan, Question, Rung, Target, Want, unobserved};
 
 /// The motion of a rod: its impacts and releases, and the values of every quantity at any time, in numbers `S`.
@@ -212,6 +213,14 @@ impl<S: Target> History<S> {
             }
         }
         Ok(values)
+    }
+
+    /// The rays that leave the ground in round trip `trip`, counted from 0, with the jumps that they carry.
+    ///
+    /// **Errors**: [`Error::NoRays`] under damping.
+    pub fn rays(&self, trip: usize) -> Result<Vec<Ray<S>>, Error> {
+        let rays = self.ask(|motion| motion.rays(trip), |rays| rays.iter().map(|ray| &ray.from).collect())?;
+        Ok(rays.into_iter().map(|ray| ray.map(S::strip)).collect())
     }
 
     /// The natural scales of the motion.

@@ -55,6 +55,7 @@ pub mod paper;
 pub mod problem;
 #[doc(hidden)]
 pub mod quantity;
+mod ray;
 #[doc(hidden)]
 pub mod scene;
 #[doc(hidden)]
@@ -66,18 +67,15 @@ pub use error::Error;
 pub use first_contact::{Bounce, BounceKind, FirstContact, NoBounceReason, Rebound};
 pub use glam;
 pub use history::History;
-pub use lattice::{Ray, reflection};
 pub use modal::Modal;
-pub use motion::{
-    Contact, Ending, Energy, Event, EventKind, Field, Motion, Scales, Side, StressHistory, StressPiece,
-};
+pub use motion::{Contact, Ending, Energy, Event, EventKind, Field, Motion, Scales, Side, StressHistory, StressPiece};
 pub use number::{Analytic, Answer, Estimate, Float, Interval, Number, NumberError, Open, Rational, Scalar};
 pub use paper::UndampedContact;
 pub use problem::{
-    Dimensionless, Material, Parameters, Problem, ProblemError, ProblemErrorKind, Profile, Rod, Run,
-    Speed, Start, Top,
+    Dimensionless, Material, Parameters, Problem, ProblemError, ProblemErrorKind, Profile, Rod, Run, Speed, Start, Top,
 };
 pub use quantity::{EnergyShares, Flight, Restitution, Undefined};
+pub use ray::{Ray, reflection};
 #[cfg(feature = "mp")]
 pub use rug;
 pub use scene::{Effect, EffectUse, Scene, SceneError, SceneErrorKind};

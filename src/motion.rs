@@ -6,6 +6,7 @@ use serde::{Serialize, Serializer};
 
 use crate::error::Error;
 use crate::number::Scalar;
+use crate::ray::Ray;
 
 /// Writes a number as JSON has it: a number for a double, a text for all others.
 fn number<S: Scalar, Z: Serializer>(x: &S, z: Z) -> Result<Z::Ok, Z::Error> {
@@ -414,11 +415,19 @@ pub trait Motion<S: Scalar>: fmt::Debug + Send + Sync {
     /// `None` where it does not turn: without gravity, under a fixed top, or already falling at the release.
     fn highest(&self, release: &Event<S>) -> Option<(S, S)>;
 
+    /// The rays that leave the ground in round trip `trip`, counted from 0, in order: jumps, and mere kinks.
+    ///
+    /// **Errors**: [`Error::NoRays`] where they are not followed: under damping.
+    fn rays(&self, trip: usize) -> Result<Vec<Ray<S>>, Error> {
+        let _ = trip;
+        Err(Error::NoRays)
+    }
+
     /// The natural scales of the motion.
     fn scales(&self) -> Scales<S>;
 
-    /// How far any quantity may be off, relative to its natural scale; zero where all is exact. The bound that the run carries,
-    /// or, for a damped run in doubles that an accuracy was asked of, sixteen times what separates it from a second one.
+    /// How far any quantity may be off, relative to its natural scale; zero where all is exact. The bound that the run
+    /// carries.
     fn error_estimate(&self) -> S;
 
     /// How many impacts there were and `log₁₀` of the factor by which rounding may have grown over them; `None` where that is

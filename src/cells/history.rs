@@ -125,12 +125,6 @@ impl<S: RoundedSpecial> Damped<S> {
         Self::solve_with(problem, precision, digits, 1)
     }
 
-    /// With this error estimate, if it is below the history's own.
-    pub(crate) fn estimated(mut self, estimate: f64) -> Self {
-        self.error = self.error.min(estimate);
-        self
-    }
-
     /// [`Self::solve`] with segments `shorten` times shorter than need be.
     pub(crate) fn solve_with(
         problem: &Problem,

@@ -13,7 +13,7 @@ use std::collections::VecDeque;
 
 use super::cell::Cell;
 use super::march::{Medium, State};
-use crate::number::{Rounded, Number};
+use crate::number::{Number, Rounded};
 use crate::problem::{Parameters, Problem, Profile, Start};
 
 /// Linear data on an interval.

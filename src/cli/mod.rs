@@ -14,8 +14,8 @@ use std::process::ExitCode;
 use clap::{Args, CommandFactory, Parser, Subcommand, ValueEnum};
 
 use crate::error::Error;
-use crate::motion::{Ending, Motion};
 use crate::history::History;
+use crate::motion::{Ending, Motion};
 use crate::number::{Number, Scalar};
 use crate::output::{Head, SCHEMA, write_whole};
 use crate::problem::{Material, Parameters};

@@ -12,6 +12,7 @@
 //! | [`check`] | the catalogue of hard cases and of the paper's claims |
 //! | [`cost`] | what accuracy and effects cost in time |
 
+mod account;
 pub(crate) mod check;
 pub(crate) mod cost;
 #[cfg(feature = "mp")]
@@ -19,7 +20,6 @@ mod long;
 #[cfg(not(feature = "mp"))]
 #[path = "without_long.rs"]
 mod long;
-mod account;
 mod quantity;
 mod route;
 mod truth;

@@ -2,7 +2,7 @@
 
 use clap::ValueEnum;
 
-use super::account::{ByHistory, Found, Account};
+use super::account::{Account, ByHistory, Found};
 use super::value::{Answer, Bounded, NoAnswer, System};
 use crate::error::Error;
 use crate::motion::{EventKind, Motion, Side};

@@ -1,8 +1,8 @@
 //! Every route to an answer, and the one function that runs it.
 
+use super::account::ByClosedForm;
 use super::cost::differences::march;
 use super::long;
-use super::account::ByClosedForm;
 use super::quantity::{Quantity, Question};
 use super::value::{Answer, Bounded, NoAnswer, Value};
 use crate::cells::{Damped, WithBounds};

@@ -1,52 +1,9 @@
 //! The bounce time `t_b`: the first root or jump of the stress, or the reason why there is none.
 
 use super::cells::Search;
-use super::field::{FirstContact, Trips};
-use super::reason::{Doubt, NoBounceReason};
+use super::field::FirstContact;
+use super::outcome::{Bounce, BounceKind, Doubt, NoBounceReason};
 use crate::special::BoundedSpecial;
-
-/// How the contact ends.
-#[derive(Clone, Debug)]
-pub enum Bounce<N> {
-    /// The ground lets go.
-    At {
-        /// `t_b`.
-        time: N,
-        /// The same in round trips.
-        trips: Trips<N>,
-        /// At a jump of the stress or at a root.
-        kind: BounceKind,
-    },
-    /// The stress never becomes tensile.
-    Never(NoBounceReason),
-    /// Neither could be shown.
-    Undecided {
-        /// Up to here there is no bounce.
-        until: N,
-        /// What stands in the way.
-        why: Doubt,
-    },
-}
-
-/// What the stress does at the bounce.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum BounceKind {
-    /// It jumps to a tensile value at a lattice time `k t₁`.
-    Jump,
-    /// It rises through zero.
-    Root,
-}
-
-impl<N> Bounce<N> {
-    /// The same answer in other numbers.
-    pub fn map<M>(&self, f: impl Fn(&N) -> M) -> Bounce<M> {
-        match self {
-            Bounce::At { time, trips, kind } => Bounce::At { time: f(time), trips: trips.map(f), kind: *kind },
-            Bounce::Never(reason) => Bounce::Never(reason.clone()),
-            Bounce::Undecided { until, why } => Bounce::Undecided { until: f(until), why: why.clone() },
-        }
-    }
-}
 
 /// Cells `(k t₁, (k+1) t₁)` that are searched.
 const MOST_CELLS: i64 = 256;

@@ -1,9 +1,8 @@
 //! One cell between two lattice times: has the transient died away, and where is the first root of the stress.
 
-use super::bounce::{Bounce, BounceKind};
 use super::field::{FirstContact, Shares, Trips};
 use super::first_root::{FirstRoot, coefficients, first_root};
-use super::reason::{Doubt, NoBounceReason};
+use super::outcome::{Bounce, BounceKind, Doubt, NoBounceReason};
 use crate::special::BoundedSpecial;
 
 /// The shares of the force after τ round trips, of which k have passed, by a route of its own.
@@ -73,7 +72,7 @@ impl<N: BoundedSpecial> FirstContact<N> {
             let (velocity, strain) = (self.weighted(&rate) / &total, self.weighted(&held) / &total);
             let ((up, up_off), (down, down_off)) = ((velocity.clone() - &strain).near(), (velocity + strain).near());
             error = error.max(up_off).max(down_off);
-            if !(up.abs().max(down.abs()) <= share) {
+            if !(up.is_finite() && down.is_finite()) || up.abs().max(down.abs()) > share {
                 return None;
             }
             upward.push(up);

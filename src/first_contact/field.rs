@@ -36,6 +36,8 @@ pub struct FirstContact<N> {
     pub(super) critical: N,
     /// `R = r t₁`.
     pub(super) damping: N,
+    /// `1/c`.
+    slowness: N,
     /// Whether `g = 0`.
     pub(super) weightless: bool,
 }
@@ -113,6 +115,7 @@ impl<N: BoundedSpecial> FirstContact<N> {
             damping: (rod.damping.clone() * &round_trip).without_exact(),
             weightless: rod.gravity.vanishes() == Ok(true),
             critical: critical.without_exact(),
+            slowness: (rod.wave_speed.one() / &rod.wave_speed).without_exact(),
             rod: rod.clone(),
             round_trip,
         }
@@ -203,7 +206,7 @@ impl<N: BoundedSpecial> FirstContact<N> {
 
     /// The stress with `k` returned rays.
     pub(super) fn stress_in_cell(&self, trips: &N, k: i64) -> N {
-        -(self.weighted(&self.ground(trips, k)) / &self.rod.wave_speed).without_exact()
+        -(self.weighted(&self.ground(trips, k)) * &self.slowness)
     }
 
     /// `e^{−rt} H_r(t)`, with its sign and jumps as in (2.27): the stress for `μ = c` and `g = 0`, turned around.
@@ -279,7 +282,7 @@ impl<N: BoundedSpecial> FirstContact<N> {
         Field {
             displacement: (displacement * &self.round_trip).without_exact(),
             velocity,
-            strain: (strain / &self.rod.wave_speed).without_exact(),
+            strain: strain * &self.slowness,
         }
     }
 
@@ -326,20 +329,20 @@ impl<N: BoundedSpecial> FirstContact<N> {
         let FreeFall { value: mut height, mut rate } = self.free_fall(trips);
         for j in 0..=k {
             let ray = if j == 0 { Ray::at_source(r, trips) } else { Ray::new(r, &r.int(j), trips) };
+            // c/L is 2 in these units; every ray but the first counts twice.
+            let factor = if j == 0 { 2 } else { 4 };
             let sums = ray.sums([2, 3, 1, 2], |n| {
                 let (even, odd) = ((n + 1) % 2, n % 2);
                 let cube = n * (n * n - 1);
                 let b = if n % 2 == 0 { n * (n * n - 4) / 24 } else { cube / 24 };
                 let slope = if n % 2 == 0 { n * (n * n + 2) / 12 } else { cube / 12 };
-                [even * n / 2, b, odd * n, slope]
+                [even * n / 2, b, odd * n, slope].map(|weight| factor * weight)
             });
             let [b1, b2, d1, d2] = sums.sums;
-            // c/L is 2 in these units; every ray but the first counts twice.
-            let factor = r.int(if j == 0 { 2 } else { 4 });
-            alternate(&mut rate.impact, j, &((d1 - b1.clone() * r) * &factor));
-            alternate(&mut rate.weight, j, &((d2 - b2.clone() * r) * &factor));
-            alternate(&mut height.impact, j, &(b1 * &factor));
-            alternate(&mut height.weight, j, &(b2 * &factor));
+            alternate(&mut rate.impact, j, &(d1 - b1.clone() * r));
+            alternate(&mut rate.weight, j, &(d2 - b2.clone() * r));
+            alternate(&mut height.impact, j, &b1);
+            alternate(&mut height.weight, j, &b2);
         }
         [height, rate]
     }

@@ -1,7 +1,7 @@
 //! The first contact as a history, from the impact to the bounce.
 
-use super::bounce::{Bounce, BounceKind};
 use super::field::{FirstContact, Trips};
+use super::outcome::{Bounce, BounceKind};
 use super::rebound::Rebound;
 use super::static_state::{StaticState, faded_after};
 use crate::error::Error;

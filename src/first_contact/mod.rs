@@ -11,14 +11,13 @@ mod energy;
 mod field;
 mod first_root;
 mod history;
+mod outcome;
 mod peak;
 mod pieces;
-mod reason;
 mod rebound;
 mod static_state;
 
-pub use bounce::{Bounce, BounceKind};
 pub use field::{FirstContact, Trips};
 pub use history::ContactHistory;
-pub use reason::{Doubt, NoBounceReason};
+pub use outcome::{Bounce, BounceKind, Doubt, NoBounceReason};
 pub use rebound::Rebound;

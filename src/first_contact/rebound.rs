@@ -99,8 +99,8 @@ impl<N: BoundedSpecial> Rebound<N> {
         if mu.vanishes() == Ok(true) {
             return None;
         }
-        let rise = self.centre.int(2) * &self.rod.gravity * &self.centre / mu / mu;
-        let squared = (self.velocity.clone() / mu).square() + rise;
+        let rise = self.centre.int(2) * &self.rod.gravity * &self.centre;
+        let squared = (self.velocity.square() + rise) / mu.square();
         (squared.negative() != Ok(true)).then_some(squared)
     }
 }

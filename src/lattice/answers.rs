@@ -6,6 +6,7 @@ use super::trace::{Line, Part, Piece};
 use crate::error::Error;
 use crate::motion::{Contact, Ending, Energy, Event, Field, Motion, Scales, Side, StressPiece};
 use crate::number::Bounded;
+use crate::ray::Ray;
 
 impl<N: Bounded> Motion<N> for Undamped<N> {
     fn end(&self) -> N {
@@ -129,6 +130,10 @@ impl<N: Bounded> Motion<N> for Undamped<N> {
         let gravity = velocity.clone() / round_trip;
         let rise = rate.square() / &gravity;
         Some((release.time.clone() + rate.clone() / &gravity, release.centre.clone() + rise.halved()))
+    }
+
+    fn rays(&self, trip: usize) -> Result<Vec<Ray<N>>, Error> {
+        Ok(self.rays_of(trip))
     }
 
     fn scales(&self) -> Scales<N> {

@@ -48,8 +48,8 @@ impl<N: Bounded> Undamped<N> {
         self.centre_at(&[a_trip_before, until])
     }
 
-    /// The centre at the next event of the same round trip: under a free top `h″ = −(c²/L) v_x(0,t) − g`. Started afresh in
-    /// every round trip, this costs a piece once and adds no more than one trip's roundings.
+    /// The centre at the next event of the same round trip: under a free top `h″ = −(c²/L) v_x(0,t) − g`. Started
+    /// afresh in every round trip, this costs a piece once and adds no more than one trip's roundings.
     fn centre_later(&self, before: &GroundEvent<N>, centre: Centre<N>, event: &GroundEvent<N>) -> Centre<N> {
         let width = event.age.clone() - &before.age;
         let fall = self.problem.gravity.clone() * &width;

@@ -11,7 +11,8 @@ use crate::problem::{Problem, Run, Top};
 
 /// The history of an undamped rod: [`crate::Motion`] by the ground trace of the upward invariant.
 ///
-/// **Accuracy**: *exact* in fractions, *enclosure* in intervals; otherwise each number within the bound that it carries.
+/// **Accuracy**: *exact* in fractions, *enclosure* in intervals; otherwise each number within the bound that it
+/// carries.
 #[derive(Clone, Debug)]
 pub struct Undamped<N> {
     pub(super) problem: Scaled<N>,
@@ -30,7 +31,7 @@ pub(super) struct Moment<N> {
     pub(super) age: N,
 }
 
-/// `v(0,t)`, `h`, `h′` in lattice units.
+/// `h` and `h′` in lattice units.
 pub(super) struct Centre<N> {
     pub(super) height: N,
     pub(super) rate: N,
@@ -95,8 +96,8 @@ impl<N: Bounded> Undamped<N> {
             }
             (Halt::Open { trip, age, spread }, _) => {
                 let why = format!(
-                    "within a round trip comes a touch that {} bits do not tell from a miss; either way v(0,t) is the same up to \
-                     {:.1e} for one round trip, and up to three times more after each one more",
+                    "within a round trip comes a touch that {} bits do not tell from a miss; either way v(0,t) is the \
+                     same up to {:.1e} for one round trip, and up to three times more after each one more",
                     age.bits().unwrap_or(0),
                     spread * (velocity.clone() * round_trip).to_f64(),
                 );
@@ -129,7 +130,7 @@ impl<N: Bounded> Undamped<N> {
         self.problem.top
     }
 
-    /// The motion of the ground end: pieces, events and grazes, in lattice units.
+    /// The motion of the ground end: pieces and events, in lattice units.
     pub fn ground(&self) -> &GroundMotion<N> {
         &self.ground
     }
@@ -199,30 +200,29 @@ impl<N: Bounded> Undamped<N> {
         piece.height + rise * &age
     }
 
-    /// `v` at a height `X = x/2L` above the ground less `v(0,t)`: `∫ v_x dx` over `0 < X`, in lattice units.
+    /// `∫ p` from one moment to another.
+    fn integral(&self, from: &Moment<N>, until: &Moment<N>) -> Result<N, Open> {
+        let (mut sum, exact) = (from.age.zero(), self.sums_stay_short(from.index));
+        let (from, until) = (self.place(from, Side::Right)?, self.place(until, Side::Left)?);
+        self.ground.trace.window(&from, &until, |part| {
+            let part = if exact { part } else { part.without_exact() };
+            sum = sum.clone() + part.integral();
+        });
+        Ok(sum)
+    }
+
+    /// `v` at `x = 2LX` less `v(0,t)`, in lattice units: `½ ∫ (q − p) dX`, where `p` has come up since, and what comes
+    /// down until then has left the ground a round trip before.
     pub(super) fn stretched(&self, moment: &Moment<N>, height: &N) -> Result<N, Open> {
-        let trace = &self.ground.trace;
         let gravity = &self.problem.gravity;
         let earlier = Moment { index: moment.index - 1, age: moment.age.clone() };
-        let mut sums = [height.zero(), height.zero()];
-        // p has come up since; what comes down until then has left the ground a round trip before.
-        for (sum, (from, until)) in sums.iter_mut().zip([
-            (self.shifted(moment, &-height.clone())?, moment.clone()),
-            (earlier.clone(), self.shifted(&earlier, height)?),
-        ]) {
-            let (from, until) = (self.place(&from, Side::Right)?, self.place(&until, Side::Left)?);
-            let exact = self.sums_stay_short(moment.index);
-            trace.window(&from, &until, |part| {
-                let part = if exact { part } else { part.without_exact() };
-                *sum = sum.clone() + part.integral();
-            });
-        }
-        let [up, down] = sums;
+        let up = self.integral(&self.shifted(moment, &-height.clone())?, moment)?;
+        let down = self.integral(&earlier, &self.shifted(&earlier, height)?)?;
         let down = match self.problem.top {
             Top::Free => down - gravity.clone() * height,
             Top::Fixed => -down,
         };
-        Ok((down - up + gravity.clone() * &height.square()).halved())
+        Ok((down - up + gravity.clone() * height.square()).halved())
     }
 
     fn sums_stay_short(&self, index: usize) -> bool {

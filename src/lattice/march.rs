@@ -17,17 +17,15 @@ pub struct GroundMotion<N> {
     pub trace: Trace<N>,
     /// Impacts and releases.
     pub events: Vec<GroundEvent<N>>,
-    /// Touches in flight that start no contact: trip and age.
-    pub grazes: Vec<(usize, N)>,
     /// Why it ended.
     pub halt: Halt<N>,
     /// How often the end landed, forgotten landings included.
     pub contacts: u32,
-    /// The greatest error bound of any line, relative to the greatest speed of the start, and of any height, relative to the
-    /// greatest height, in roundoffs.
+    /// The greatest error bound of any line, relative to the greatest speed of the start, and of any height, relative
+    /// to the greatest height, in roundoffs.
     pub relative_error: f64,
-    /// The round trip in which a decision first lay within a bound of more than half of the digits: from there on, events
-    /// are not determined.
+    /// The round trip in which a decision first lay within a bound of more than half of the digits: from there on,
+    /// events are not determined.
     pub undetermined: Option<usize>,
 }
 
@@ -35,7 +33,7 @@ pub struct GroundMotion<N> {
 pub(super) struct March<N> {
     pub(super) trace: Trace<N>,
     pub(super) events: Vec<GroundEvent<N>>,
-    pub(super) grazes: Vec<(usize, N)>,
+    pub(super) until: Until<N>,
     pub(super) contact: bool,
     pub(super) contacts: u32,
     /// `v(0,·)`.
@@ -72,7 +70,7 @@ pub fn march<N: Bounded>(
     let mut state = March {
         trace: Trace::new(&problem.before, problem.top, problem.gravity.clone()),
         events: Vec::new(),
-        grazes: Vec::new(),
+        until: until.clone(),
         contact: false,
         contacts: 0,
         height: problem.ground_start.clone(),
@@ -92,7 +90,7 @@ pub fn march<N: Bounded>(
     let mut trip = 0;
     let halt = loop {
         let (events, height) = (forgotten + state.events.len(), state.height.clone());
-        if let Err(halt) = state.trip(trip, until) {
+        if let Err(halt) = state.trip() {
             break halt;
         }
         trip += 1;
@@ -110,7 +108,6 @@ pub fn march<N: Bounded>(
             let old = state.events.partition_point(|event| event.trip + 1 < trip);
             forgotten += old;
             state.events.drain(..old);
-            state.grazes.clear();
         }
         // A leap wants a rise of two units.
         if quiet && !state.contact && state.height.to_f64() - height.to_f64() >= 2.0 {
@@ -127,13 +124,13 @@ pub fn march<N: Bounded>(
             }
         }
     };
-    let March { trace, events, grazes, contacts, relative_error, undetermined, .. } = state;
-    Ok(GroundMotion { trace, events, grazes, halt, contacts, relative_error, undetermined })
+    let March { trace, events, contacts, relative_error, undetermined, .. } = state;
+    Ok(GroundMotion { trace, events, halt, contacts, relative_error, undetermined })
 }
 
 impl<N: Bounded> March<N> {
-    /// Two round trips without an event repeat for ever, up to the drift of a rod that flies freely without gravity; `height`
-    /// is that of a trip before.
+    /// Two round trips without an event repeat for ever, up to the drift of a rod that flies freely without gravity;
+    /// `height` is that of a trip before.
     fn repeats(&self, problem: &Scaled<N>, height: &N) -> Result<Option<Halt<N>>, Open> {
         if self.contact {
             return Ok(Some(Halt::NoBounce));
@@ -144,12 +141,12 @@ impl<N: Bounded> March<N> {
         Ok(Some(Halt::NoFurtherImpact))
     }
 
-    /// Leaves out round trips of a long flight under gravity that only repeat the one before `trip`: as many as end surely in
-    /// flight. Returns how many.
+    /// Leaves out round trips of a long flight under gravity that only repeat the one before `trip`: as many as end
+    /// surely in flight. Returns how many.
     ///
-    /// With `D = ∫ q dt` over that trip, `v(0,·)` at age `f` is `v + j (D − f − (j − 1)/2)` after `j` more trips, `v ≥ 0`: a
-    /// concave function of `j`, positive up to `k` for every `f ≤ 1` if `D − 1 − (k − 1)/2 > 0`. One trip is kept in hand,
-    /// for the rounding of `D` to a double too.
+    /// With `D = ∫ q dt` over that trip, `v(0,·)` at age `f` is `v + j (D − f − (j − 1)/2)` after `j` more trips, `v ≥
+    /// 0`: a concave function of `j`, positive up to `k` for every `f ≤ 1` if `D − 1 − (k − 1)/2 > 0`. One trip is kept
+    /// in hand, for the rounding of `D` to a double too.
     fn leap(&mut self, trip: usize) -> usize {
         if !self.trace.falls_freely() {
             return 0;

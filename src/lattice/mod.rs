@@ -1,22 +1,23 @@
 //! The undamped rod: rays, jumps and contact on the characteristic lattice, exactly.
 //!
-//! Without damping the Riemann invariants `p = v_t − c v_x` (upward) and `q = v_t + c v_x` (downward) travel unchanged but
-//! for gravity, so the whole solution is the trace of `p` at the ground and a delay recursion:
+//! Without damping the Riemann invariants `p = v_t − c v_x` (upward) and `q = v_t + c v_x` (downward) travel unchanged
+//! but for gravity, so the whole solution is the trace of `p` at the ground and a delay recursion:
 //!
 //! ```text
 //! q(0,t) =  p(0,t−t₁) − g t₁   free top          contact:  v_t = 0,  p = −q,  v_x = q/c ≤ 0
 //! q(0,t) = −p(0,t−t₁)          fixed top         flight:   v_x = 0,  p =  q,  v_t = q
 //! ```
 //!
-//! `p` is piecewise linear. A break at age `f` of one round trip returns at the same age of every later one, so it is kept
-//! as that fraction and never drifts. There is no time step: the march goes from break to break and from event to event.
+//! `p` is piecewise linear. A break at age `f` of one round trip returns at the same age of every later one, so it is
+//! kept as that fraction and never drifts. There is no time step: the march goes from break to break and from event to
+//! event.
 //!
-//! All of it is written on numbers that answer for their own error ([`crate::number::Bounded`]): estimates, fractions and
-//! enclosures.
+//! All of it is written on numbers that answer for their own error ([`crate::number::Bounded`]): estimates, fractions
+//! and enclosures.
 //!
 //! Reading order: `start` (units and start), `trace` (what is stored), `limits` (how far, and why no farther), `march`
-//! (trip after trip), `ground` (contact law and events), `history` (times on the lattice), `events` and `answers` (what can
-//! be asked), `rays` (the jumps of Proposition 2).
+//! (trip after trip), `ground` (contact law and events), `history` (times on the lattice), `events` and `answers` (what
+//! can be asked), `rays` (the jumps of Proposition 2).
 
 mod answers;
 mod events;
@@ -31,6 +32,5 @@ mod trace;
 pub use history::Undamped;
 pub use limits::{Halt, Limits, Until};
 pub use march::{GroundMotion, march};
-pub use rays::{Ray, Rays, reflection};
 pub use start::{Scaled, Units};
 pub use trace::{GroundEvent, Line, Piece, Trace};

@@ -27,6 +27,11 @@ impl<N: Bounded> Line<N> {
         self.slope.clone().times_stored(age) + &self.intercept
     }
 
+    /// One line for two that are the same within their bounds.
+    pub(super) fn joined(self, other: &Self) -> Self {
+        Line { intercept: self.intercept.joined(&other.intercept), slope: self.slope.joined(&other.slope) }
+    }
+
     /// Whether both are surely one line, or one within their bounds.
     pub(super) fn same(&self, other: &Self) -> bool {
         self.slope.same(&other.slope) && self.intercept.same(&other.intercept)
@@ -84,8 +89,8 @@ pub struct Trace<N> {
 
 /// A stored round trip, and those after it that only repeat it.
 ///
-/// In flight under gravity `q` falls by `g = 1` from one trip to the next and nothing else changes. With `D = ∫ q dt` over
-/// the stored trip, `j` trips later `p` is lower by `j` and `v(0,·)` at age `f` higher by `j (D − f − (j − 1)/2)`.
+/// In flight under gravity `q` falls by `g = 1` from one trip to the next and nothing else changes. With `D = ∫ q dt`
+/// over the stored trip, `j` trips later `p` is lower by `j` and `v(0,·)` at age `f` higher by `j (D − f − (j − 1)/2)`.
 #[derive(Clone, Debug)]
 struct Slot<N> {
     /// The index of the trip, 0 being the one before the start.
@@ -105,7 +110,8 @@ pub(super) struct Place<N> {
     pub(super) age: N,
 }
 
-/// A part of a piece that lies in a window: `p = value + slope·s` for `0 ≤ s ≤ width`, `offset` after the window's start.
+/// A part of a piece that lies in a window: `p = value + slope·s` for `0 ≤ s ≤ width`, `offset` after the window's
+/// start.
 pub(super) struct Part<N> {
     pub(super) offset: N,
     pub(super) width: N,
@@ -186,8 +192,8 @@ impl<N: Bounded> Trace<N> {
         &self.pieces
     }
 
-    /// The stored round trips after the start: number (from 0) and pieces. Between them lie flights that repeat the trip
-    /// before them but for gravity.
+    /// The stored round trips after the start: number (from 0) and pieces. Between them lie flights that repeat the
+    /// trip before them but for gravity.
     pub fn stored(&self) -> impl Iterator<Item = (usize, &[Piece<N>])> {
         let after_start = self.slots.iter().enumerate().filter(|(_, slot)| slot.first > 0);
         after_start.map(|(k, slot)| (slot.first - 1, self.pieces_of(k)))
@@ -304,9 +310,9 @@ impl<N: Bounded> Trace<N> {
         }
     }
 
-    /// How far apart two solutions may be that both go on from here as it is known, in `v(0,·)` and within a round trip: as far
-    /// as the enclosures are wide in which `height`, the lines and the jumps between them lie. The reflection at zero does not
-    /// take two paths further apart than what drives them.
+    /// How far apart two solutions may be that both go on from here as it is known, in `v(0,·)` and within a round
+    /// trip: as far as the enclosures are wide in which `height`, the lines and the jumps between them lie. The
+    /// reflection at zero does not take two paths further apart than what drives them.
     pub(super) fn spread(&self, height: &N) -> f64 {
         // What has left the ground in this trip, and what the one before still brings.
         let trips = [self.end.saturating_sub(2), self.end - 1].map(|index| self.slice(index));
@@ -328,8 +334,8 @@ impl<N: Bounded> Trace<N> {
         }
     }
 
-    /// The place of `age` in trip `index` (0: before the start): in the piece that begins there, or from the left in the one
-    /// before it, which may be the last of the trip before.
+    /// The place of `age` in trip `index` (0: before the start): in the piece that begins there, or from the left in
+    /// the one before it, which may be the last of the trip before.
     pub(super) fn place(&self, index: usize, age: &N, side: Side) -> Result<Place<N>, Open> {
         let pieces = self.slice(index);
         let (mut begun, mut later) = (0, pieces.len());

@@ -5,7 +5,7 @@ use crate::number::{Estimate, Rounded, Scalar};
 use crate::problem::Parameters;
 use crate::special::phi1;
 
-use super::sums::{MOST_MODES, History, Shape, series};
+use super::sums::{History, MOST_MODES, Shape, series};
 
 /// The first contact by its modes.
 ///

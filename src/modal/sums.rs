@@ -4,7 +4,7 @@ use std::f64::consts::PI;
 
 use super::Modal;
 use crate::motion::Side;
-use crate::number::{Rounded, Estimate};
+use crate::number::{Estimate, Rounded};
 
 /// The function of time in a sum.
 #[derive(Clone, Copy)]

@@ -1,12 +1,13 @@
 //! Numbers that answer for their own error.
 
-use super::{Estimate, Open, Rounded, Scalar};
+use super::{Estimate, Rounded, Scalar};
 
 /// A number that answers for its own error: by having none, by enclosing it, or by carrying a bound of it.
 ///
-/// Three kinds of algorithm are written once on it, and each of its methods is the part in which they differ: exact numbers
-/// and enclosures take part in formulas as they are (the defaults), while an [`Estimate`] is a stored value, for which a
-/// formula may be evaluated, and a bound of how far the number meant lies from it, which may be counted where it matters.
+/// Three kinds of algorithm are written once on it, and each of its methods is the part in which they differ: exact
+/// numbers and enclosures take part in formulas as they are (the defaults), while an [`Estimate`] is a stored value,
+/// for which a formula may be evaluated, and a bound of how far the number meant lies from it, which may be counted
+/// where it matters.
 pub trait Bounded: Scalar {
     /// The bound of the error in roundoffs; zero where the number is exact or an enclosure.
     fn roundoffs(&self) -> f64 {
@@ -54,8 +55,8 @@ pub trait Bounded: Scalar {
         self.compare(other).is_ok_and(std::cmp::Ordering::is_eq)
     }
 
-    /// For the value of a function at the stored `place` of a break, where its rate and bend change from `before` to `after`:
-    /// counts what it is off where the break lies elsewhere in its bound.
+    /// For the value of a function at the stored `place` of a break, where its rate and bend change from `before` to
+    /// `after`: counts what it is off where the break lies elsewhere in its bound.
     fn cross_break(&mut self, place: &Self, before: [&Self; 2], after: [&Self; 2]) {
         let _ = (place, before, after);
     }
@@ -98,6 +99,25 @@ pub trait Bounded: Scalar {
     fn without_exact(self) -> Self {
         self
     }
+}
+
+/// A number system of answers, with the one that computations carry beside it: the bound of a rounded number, nothing
+/// for exact numbers and enclosures.
+pub trait Answer: Scalar {
+    /// What computations are done in.
+    type Carried: Bounded<Precision = Self::Precision>;
+
+    /// The number in the carried system. A rounded number stands for all that round to it: `0.6` is 6/10 and meets a
+    /// ray that comes at 3 · 0.2.
+    fn carry(&self) -> Self::Carried;
+
+    /// The number in the carried system, taken for exact.
+    fn exactly(&self) -> Self::Carried {
+        self.carry()
+    }
+
+    /// The number without what is carried beside it.
+    fn strip(carried: Self::Carried) -> Self;
 }
 
 impl<S: Rounded> Bounded for Estimate<S> {
@@ -151,7 +171,8 @@ impl<S: Rounded> Bounded for Estimate<S> {
             return;
         }
         let unit = self.value().unit();
-        // The jumps are differences of doubles, whose own rounding is counted with the errors of what they are taken of.
+        // The jumps are differences of doubles, whose own rounding is counted with the errors of what they are taken
+        // of.
         let jump = |k: usize| {
             let (a, b) = (before[k].to_f64(), after[k].to_f64());
             let error = (before[k].error() + after[k].error()) * unit;
@@ -160,14 +181,18 @@ impl<S: Rounded> Bounded for Estimate<S> {
         self.widen(late * (jump(0) + jump(1) * late * unit / 2.0));
     }
 
-    /// With `|self| ≤ e` the root next to zero lies within `2e/|rate|` where `rate² ≥ 2 |bend| e`, and a double root within
-    /// `√(2e/|bend|)`; where the first does not hold, the second is the smaller one.
+    /// With `|self| ≤ e` the root next to zero lies within `2e/|rate|` where `rate² ≥ 2 |bend| e`, and a double root
+    /// within `√(2e/|bend|)`; where the first does not hold, the second is the smaller one.
     fn root_deviation(&self, rate: &Self, bend: &Self) -> Option<Self> {
         let twice = 2.0 * self.error_of_zero();
         let least = |x: &Self| (x.to_f64().abs() - x.bound()).max(0.0);
-        let simple = twice / least(rate);
-        let double = ((twice / least(bend)).log2() / 2.0 - self.value().log2_roundoff() / 2.0).exp2();
-        (twice > 0.0).then(|| Estimate::new(self.value().zero(), simple.min(double)))
+        let (simple, bend) = (twice / least(rate), least(bend));
+        let bound = if simple * simple * bend * self.value().unit() <= twice {
+            simple
+        } else {
+            ((twice / bend).log2() / 2.0 - self.value().log2_roundoff() / 2.0).exp2()
+        };
+        (twice > 0.0).then(|| Estimate::new(self.value().zero(), bound))
     }
 
     #[inline]
@@ -184,12 +209,41 @@ impl<S: Rounded> Bounded for Estimate<S> {
     }
 }
 
-/// `x < 0`, `x = 0` or `x > 0` for a number whose bound is trusted up to `widest` roundoffs, and whether it had to be cut
-/// down to that: then the stored value alone has decided.
-pub(crate) fn sign_within<N: Bounded>(x: &N, widest: f64) -> Result<(std::cmp::Ordering, bool), Open> {
-    let sign = x.sign()?;
-    if sign.is_ne() || x.roundoffs() <= widest {
-        return Ok((sign, false));
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_break_elsewhere_moves_a_value_by_its_jumps() {
+        // [rate] = 3 over 5 roundoffs; [bend] δ²/2 is far below a roundoff.
+        let mut value = Estimate::new(1.0f64, 2.0);
+        let [zero, one, four] = [0.0, 1.0, 4.0].map(Estimate::exact);
+        value.cross_break(&Estimate::new(0.5, 5.0), [&one, &zero], [&four, &one]);
+        assert!((value.error() - 17.0).abs() < 1e-9);
+        // A break that may lie 2⁻²⁰ elsewhere: [bend] δ²/2 alone is 2⁻⁴¹, 2¹² roundoffs.
+        let mut value = Estimate::exact(1.0f64);
+        value.cross_break(&Estimate::new(0.5, 2f64.powi(33)), [&zero, &zero], [&zero, &one]);
+        assert!((value.error() - 2f64.powi(12)).abs() < 1e-9 * value.error());
     }
-    Ok((x.clone().nominal().sign()?, true))
+
+    #[test]
+    fn a_root_next_to_zero() {
+        let (touch, half_digits) = (Estimate::new(0.0f64, 8.0), 2f64.powi(53).sqrt());
+        let deviation = |rate: f64, bend: f64| {
+            let found = touch.root_deviation(&Estimate::exact(rate), &Estimate::exact(bend)).unwrap();
+            found.error()
+        };
+        // 2e/|rate| = 16/2, and √(2e/|bend|) = √(16/4) in units of √u.
+        assert_eq!(deviation(-2.0, 4.0), 8.0);
+        assert!((deviation(0.0, 4.0) / half_digits - 2.0).abs() < 1e-9);
+        assert!(Estimate::exact(0.0f64).root_deviation(&touch, &touch).is_none());
+    }
+
+    #[test]
+    fn one_number_for_two() {
+        let (a, b) = (Estimate::new(1.0f64, 2.0), Estimate::new(1.0 + 2.0 * f64::EPSILON, 3.0));
+        // b is 4 roundoffs away, and 3 more in its bound.
+        assert!(a.same(&b) && a.clone().joined(&b).error() >= 7.0);
+        assert_eq!(a.taken_for_zero().error(), 2.0 + 2f64.powi(53));
+    }
 }

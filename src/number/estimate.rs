@@ -7,11 +7,11 @@ use super::{Analytic, Number, Open, Rounded, Scalar};
 
 /// A rounded number and how far the number meant may lie from it, carried through every operation.
 ///
-/// The error is counted in roundoffs `u` of the number system, so that it neither underflows nor overflows where a number has
-/// thousands of bits: the number meant lies within `error · u` of the value.
+/// The error is counted in roundoffs `u` of the number system, so that it neither underflows nor overflows where a
+/// number has thousands of bits: the number meant lies within `error · u` of the value.
 ///
-/// **Accuracy**: *within its own bound*. Each operation adds what it makes of the errors of its operands, products of two
-/// errors included, and one rounding of its result; an elementary function, two.
+/// **Accuracy**: *within its own bound*. Each operation adds what it makes of the errors of its operands, products of
+/// two errors included, and one rounding of its result; an elementary function, two.
 ///
 /// ```
 /// use dalembert::number::{Estimate, Scalar};
@@ -237,7 +237,7 @@ impl<S: Rounded> Scalar for Estimate<S> {
     fn sign(&self) -> Result<Ordering, Open> {
         let size = self.value.to_f64();
         // One comparison of doubles settles nearly all.
-        if size.abs() > 2.0 * self.bound() && size.is_normal() {
+        if size.abs() > (2.0 * self.bound()).max(f64::MIN_POSITIVE) {
             return Ok(if size < 0.0 { Ordering::Less } else { Ordering::Greater });
         }
         let error = self.value.double(self.error) * &self.value.roundoff();
@@ -260,10 +260,18 @@ impl<S: Rounded> Scalar for Estimate<S> {
     }
 
     /// An integer that the number is equal to within its bound is that integer.
+    #[inline]
     fn floor_int(&self) -> Option<i64> {
-        let near = (self.value.clone() + self.value.ratio(1, 2)).floor_int()?;
-        let off = self.value.clone() - self.value.int(near);
-        if Estimate::new(off, self.error).sign() == Ok(Ordering::Equal) { Some(near) } else { self.value.floor_int() }
+        let floor = self.value.floor_int()?;
+        let past = (self.value.clone() - self.value.int(floor)).to_f64();
+        // One pair of comparisons of doubles settles nearly all.
+        if past.min(1.0 - past) > 2.0 * self.bound() && past.is_normal() {
+            return Some(floor);
+        }
+        let meets =
+            |n: i64| Estimate::new(self.value.clone() - self.value.int(n), self.error).sign() == Ok(Ordering::Equal);
+        let near = if past < 0.5 { floor } else { floor.checked_add(1)? };
+        Some(if meets(near) { near } else { floor })
     }
 
     fn is_finite(&self) -> bool {

@@ -68,7 +68,6 @@ impl Scalar for Float {
     fn text(&self) -> String {
         self.to_string_radix(10, None)
     }
-
 }
 
 impl Analytic for Float {

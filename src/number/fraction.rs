@@ -98,7 +98,6 @@ impl Scalar for Rational {
     fn zero(&self) -> Self {
         Rational::new()
     }
-
 }
 
 impl Bounded for Rational {

@@ -28,8 +28,7 @@ mod text;
 
 #[cfg(not(feature = "mp"))]
 pub use absent::{Float, Interval, Rational};
-pub use bounded::Bounded;
-pub(crate) use bounded::sign_within;
+pub use bounded::{Answer, Bounded};
 pub use estimate::Estimate;
 #[cfg(feature = "mp")]
 pub use float::{bits_for_digits, decimal};
@@ -38,5 +37,5 @@ pub use interval::{Interval, IntervalPrecision};
 pub use literal::{Number, NumberError};
 #[cfg(feature = "mp")]
 pub use rug::{Float, Rational};
-pub use scalar::{Analytic, Answer, Open, Reads, Rounded, Scalar};
+pub use scalar::{Analytic, Open, Reads, Rounded, Scalar};
 pub(crate) use text::{DOUBLE_DIGITS, bound_text, show};

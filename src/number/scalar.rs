@@ -4,7 +4,7 @@ use std::cmp::Ordering;
 use std::fmt::Debug;
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
-use super::{Bounded, Number};
+use super::Number;
 
 /// A comparison that what is known of its operands does not settle: an enclosure reaches to both sides.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
@@ -208,25 +208,6 @@ pub trait Rounded: Analytic + PartialOrd {
 
     /// `|self|/u`.
     fn in_roundoffs(&self) -> f64;
-}
-
-/// A number system of answers, with the one that computations carry beside it: the bound of a rounded number, nothing for
-/// exact numbers and enclosures.
-pub trait Answer: Scalar {
-    /// What computations are done in.
-    type Carried: Bounded<Precision = Self::Precision>;
-
-    /// The number in the carried system. A rounded number stands for all that round to it: `0.6` is 6/10 and meets a ray
-    /// that comes at 3 · 0.2.
-    fn carry(&self) -> Self::Carried;
-
-    /// The number in the carried system, taken for exact.
-    fn exactly(&self) -> Self::Carried {
-        self.carry()
-    }
-
-    /// The number without what is carried beside it.
-    fn strip(carried: Self::Carried) -> Self;
 }
 
 /// A number system in which the numbers of another can be read: each stays within the bound that it carries.

@@ -5,6 +5,7 @@ use std::sync::Arc;
 use crate::error::Error;
 use crate::motion::{Contact, Ending, Energy, Event, Field, Motion, Scales, Side, StressPiece};
 use crate::number::{Reads, Scalar};
+use crate::ray::Ray;
 
 /// The history of an engine in numbers `N`, read in numbers `M`.
 #[derive(Debug)]
@@ -88,6 +89,10 @@ impl<N: Scalar, M: Reads<N>> Motion<M> for Converted<N, M> {
         let time = release.time.text();
         let known = self.events.iter().position(|event| event.kind == release.kind && event.time.text() == time)?;
         self.engine.highest(self.engine.events().get(known)?).map(Self::pair)
+    }
+
+    fn rays(&self, trip: usize) -> Result<Vec<Ray<M>>, Error> {
+        Ok(self.engine.rays(trip)?.into_iter().map(|ray| ray.map(M::read)).collect())
     }
 
     fn scales(&self) -> Scales<M> {

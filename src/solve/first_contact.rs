@@ -1,8 +1,8 @@
 //! The first contact in doubles, repeated by its modes or in longer numbers where the bound exceeds what is asked.
 
 use crate::first_contact::{Bounce, FirstContact};
-use crate::motion::Side;
 use crate::modal::Modal;
+use crate::motion::Side;
 use crate::number::Estimate;
 use crate::problem::Parameters;
 

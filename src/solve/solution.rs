@@ -4,8 +4,8 @@ use super::ladder::Observer;
 use super::plan::Plan;
 use super::question::Numbers;
 use crate::error::Error;
-use crate::motion::Ending;
 use crate::history::History;
+use crate::motion::Ending;
 use crate::number::{Float, Interval, Rational};
 use crate::problem::Problem;
 

@@ -5,6 +5,7 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use crate::error::Error;
 use crate::motion::{Contact, Ending, Energy, Event, Field, Motion, Scales, Side, StressPiece};
 use crate::number::{Answer, Scalar};
+use crate::ray::Ray;
 
 /// A history whose numbers carry their bounds, read without them.
 #[derive(Debug)]
@@ -129,8 +130,15 @@ impl<S: Answer, H: Motion<S::Carried>> Motion<S> for Stripped<S, H> {
     }
 
     fn highest(&self, release: &Event<S>) -> Option<(S, S)> {
-        let known = self.events.iter().position(|event| event.kind == release.kind && event.time.text() == release.time.text())?;
+        let known = self
+            .events
+            .iter()
+            .position(|event| event.kind == release.kind && event.time.text() == release.time.text())?;
         self.history.highest(self.history.events().get(known)?).map(pair)
+    }
+
+    fn rays(&self, trip: usize) -> Result<Vec<Ray<S>>, Error> {
+        Ok(self.noted(self.history.rays(trip))?.into_iter().map(|ray| ray.map(S::strip)).collect())
     }
 
     fn scales(&self) -> Scales<S> {

@@ -16,7 +16,7 @@ pub trait Special: Analytic {
     /// `e^{−rt} ψ₀` of a ray.
     fn ray_start(ray: &Ray<Self>) -> Self;
 
-    /// `e^{−rt} Σ_{n≥n₀} c_n (r/2)^{n−n₀} ψ_n` of a ray for K sequences `0 ≤ c_n ≤ n³`, each from its own `n₀ ≥ 1`, in one pass.
+    /// `e^{−rt} Σ_{n≥n₀} c_n (r/2)^{n−n₀} ψ_n` of a ray for K sequences `0 ≤ c_n ≤ 4n³`, each from its own `n₀ ≥ 1`, in one pass.
     fn ray_sums<const K: usize>(ray: &Ray<Self>, first: [i64; K], weight: impl Fn(i64) -> [i64; K])
     -> RaySums<Self, K>;
 
@@ -74,7 +74,7 @@ impl<S: Special> Ray<S> {
         S::ray_start(self)
     }
 
-    /// `e^{−rt} Σ_{n≥n₀} c_n (r/2)^{n−n₀} ψ_n` for K sequences `0 ≤ c_n ≤ n³`, each from its own `n₀ ≥ 1`, in one pass.
+    /// `e^{−rt} Σ_{n≥n₀} c_n (r/2)^{n−n₀} ψ_n` for K sequences `0 ≤ c_n ≤ 4n³`, each from its own `n₀ ≥ 1`, in one pass.
     ///
     /// **Accuracy**: see [`Special`].
     pub fn sums<const K: usize>(&self, first: [i64; K], weight: impl Fn(i64) -> [i64; K]) -> RaySums<S, K> {
@@ -150,6 +150,7 @@ fn short(z: f64, steps: &[f64; 13]) -> f64 {
 }
 
 impl RoundedSpecial for f64 {
+    #[inline]
     fn in_scaled_rounded(&self, n: u32) -> (f64, f64) {
         let z = *self;
         match n {
@@ -162,6 +163,7 @@ impl RoundedSpecial for f64 {
     }
 
     /// `e^{−r(t−u)} · e^{−ru} I₀(ru)` with `u = √(ξη)`, `t − u = a²/(t+u)`.
+    #[inline]
     fn ray_start_rounded(ray: &Ray<f64>) -> (f64, f64) {
         let Ray { xi, eta, damping } = *ray;
         let xi = xi.max(0.0);
@@ -175,6 +177,7 @@ impl RoundedSpecial for f64 {
         (bessel * (-lag).exp(), 12.0 + 6.0 * lag)
     }
 
+    #[inline]
     fn ray_sums_rounded<const K: usize>(
         ray: &Ray<f64>,
         first: [i64; K],

@@ -153,7 +153,7 @@ impl Errors {
         let start = h * (dx * steep + dy) + 0.5 * dr * (x + y);
         let relative = |error: f64, size: f64| if error == 0.0 { 0.0 } else { error / size };
         let unit = exact.xi.unit();
-        if !(start * unit * SECOND_ORDER <= FIRST_ORDER) {
+        if start.is_nan() || start * unit * SECOND_ORDER > FIRST_ORDER {
             return None;
         }
         let mut lag = 0.0;
@@ -174,8 +174,11 @@ impl Errors {
     fn spent<S: Rounded>(&self, exact: &Ray<S>, first: i64) -> Estimate<S> {
         let (h, x) = (0.5 * exact.damping.to_f64(), exact.xi.to_f64().max(0.0));
         let reach = h * x;
-        let weight =
-            if first == 0 { 0.0 } else { (reach * (reach + 1.0) * (reach + 2.0)).log2() - first as f64 * h.log2() };
+        let weight = if first == 0 {
+            0.0
+        } else {
+            (4.0 * reach * (reach + 1.0) * (reach + 2.0)).log2() - first as f64 * h.log2()
+        };
         let log = weight - self.lag * std::f64::consts::LOG2_E - exact.xi.log2_roundoff();
         Estimate::new(exact.xi.zero(), log.exp2().max(f64::MIN_POSITIVE))
     }

@@ -154,7 +154,7 @@ pub(super) fn expansion(z: &Float, n: i64) -> Float {
     let last = (2.0 * bits(z)) as i64 + 128;
     for k in 1..=last {
         term = -(term * &z.int(4 * n * n - (2 * k - 1) * (2 * k - 1))) / (z.int(8 * k) * z);
-        sum = sum + &term;
+        sum += &term;
         if term.magnitude() * &z.int(16 * (k + 1)) < enough {
             break;
         }

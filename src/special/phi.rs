@@ -18,6 +18,10 @@ pub fn phi1<S: Analytic>(z: &S) -> S {
     if z.vanishes() == Ok(true) { z.one() } else { z.exp_m1() / z }
 }
 
+/// Factorials are counted in bits, so many at a time.
+const STEP_BITS: f64 = 11.0;
+const STEP: f64 = 2048.0;
+
 /// `φ₂(z) = (eᶻ − 1 − z)/z²`, 1/2 at `z = 0`.
 ///
 /// **Source**: (3.38), (3.44) without the division by `4r²`.
@@ -37,16 +41,18 @@ pub fn phi2<S: Analytic>(z: &S) -> S {
         return (z.exp_m1() - z) / z.square();
     }
     // Σ zᵏ/(k+2)!, by Horner. With |z| ≤ 1 the rest after K terms is below 2/(K+2)!.
-    let mut terms = 1i64;
-    let mut left = bits(z) + 2.0;
+    let (mut terms, mut factorial, mut left) = (1i64, 1.0f64, bits(z) + 2.0);
     while left > 0.0 {
         terms += 1;
-        left -= ((terms + 1) as f64).log2();
+        factorial *= (terms + 1) as f64;
+        if factorial >= STEP {
+            (factorial, left) = (factorial / STEP, left - STEP_BITS);
+        }
     }
     // What stands in the place of all further terms is between 0 and 2.
     let mut sum = one.clone().widened(&one);
     for k in (1..=terms).rev() {
-        sum = one.clone() + z.clone() * &sum / one.int(k + 2);
+        sum = one.clone() + z.clone() / one.int(k + 2) * &sum;
     }
     sum / one.int(2)
 }

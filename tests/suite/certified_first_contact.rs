@@ -1,8 +1,8 @@
 //! The first contact in enclosures: what is proved, to how many digits, and that it is the truth.
 
 use dalembert::first_contact::{Bounce, ContactHistory, FirstContact};
-use dalembert::motion::{Ending, Motion, Side};
 use dalembert::modal::Modal;
+use dalembert::motion::{Ending, Motion, Side};
 use dalembert::number::{Answer, Interval, IntervalPrecision, Number, Scalar};
 use dalembert::problem::Parameters;
 use dalembert::{Error, Problem};

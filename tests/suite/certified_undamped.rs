@@ -8,8 +8,8 @@ use dalembert::problem::Run;
 use dalembert::solve::undamped;
 use dalembert::{Ending, Error, EventKind, Motion, Number, Problem, Side};
 use rug::{Float, Rational};
-use std::cmp::Ordering;
 use serde_json::Value;
+use std::cmp::Ordering;
 
 const DIGITS: u32 = 50;
 

@@ -2,8 +2,8 @@
 //! stand in the catalogue of `check`.
 
 use dalembert::first_contact::{Bounce, BounceKind, FirstContact};
-use dalembert::motion::Side;
 use dalembert::modal::Modal;
+use dalembert::motion::Side;
 use dalembert::number::Estimate;
 use dalembert::paper::UndampedContact;
 use dalembert::problem::Parameters;

@@ -5,8 +5,8 @@
 use crate::common::{number, reference};
 use dalembert::cells::Damped;
 use dalembert::first_contact::FirstContact;
-use dalembert::motion::{Motion, Side};
 use dalembert::modal::Modal;
+use dalembert::motion::{Motion, Side};
 use dalembert::number::{Answer, Estimate, Rounded};
 use dalembert::problem::{Parameters, Run};
 use dalembert::special::RoundedSpecial;

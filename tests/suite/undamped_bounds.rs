@@ -1,7 +1,7 @@
 //! The bounds that undamped histories carry, against the same histories in 400 bits; and times on rays and at the end.
 
-use dalembert::motion::{Event, Side};
 use dalembert::lattice::{Limits, Undamped};
+use dalembert::motion::{Event, Side};
 use dalembert::number::{Answer, Estimate, Scalar};
 use dalembert::problem::{Profile, Run, Speed, Start, Top};
 use dalembert::solve::{undamped, undamped_within};
@@ -18,7 +18,8 @@ fn number(thousandths: i64) -> Number {
     format!("{thousandths}e-3").parse().unwrap()
 }
 
-/// Scenes in decimals, which doubles do not hold: uniform impacts and piecewise-linear starts, with and without gravity.
+/// Scenes in decimals, which doubles do not hold: uniform impacts and piecewise-linear starts, with and without
+/// gravity.
 fn scene() -> impl Strategy<Value = Problem> {
     let sizes = (100i64..3000, 100i64..9000, 0i64..12_000, 50i64..20_000);
     (sizes, any::<bool>(), any::<bool>(), 1i64..999, -900i64..900).prop_map(|((l, c, g, mu), fixed, profile, x, v)| {
@@ -60,8 +61,8 @@ fn covered_event(ours: &Event<Estimate<f64>>, truth: &Event<Estimate<Float>>) ->
 proptest! {
     #![proptest_config(ProptestConfig { cases: 256, ..ProptestConfig::default() })]
 
-    /// The bound of each event covers the truth, that of a landing after a release that a ray brings included, whose time
-    /// is as uncertain as the ray; and so does that of each value at a time.
+    /// The bound of each event covers the truth, that of a landing after a release that a ray brings included, whose
+    /// time is as uncertain as the ray; and so does that of each value at a time.
     #[test]
     fn bounds_cover_the_truth(problem in scene()) {
         let (ours, truth) = (Rounded::solve(&problem, &()).unwrap(), Truth::solve(&problem, &TRUTH).unwrap());
@@ -179,8 +180,8 @@ fn determined_up_to_one_and_the_same_time() {
     }
 }
 
-/// A steel bar that lands ten times after thousands of round trips each: the bound covers the truth, and is far below what a
-/// loss of all digits would be.
+/// A steel bar that lands ten times after thousands of round trips each: the bound covers the truth, and is far below
+/// what a loss of all digits would be.
 #[test]
 fn ten_impacts_of_a_steel_bar() {
     let scene = "rod = { length = 0.5, modulus = 210e9, density = 7850, area = 1e-4 }\nimpact = { drop_height = 1 }\n\

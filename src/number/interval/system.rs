@@ -187,7 +187,6 @@ impl Scalar for Interval {
         let hi = if self.hi > other.hi { self.hi } else { other.hi };
         Interval { lo, hi, inside }
     }
-
 }
 
 impl Analytic for Interval {
