@@ -7,7 +7,7 @@ use std::hint::black_box;
 use criterion::{BenchmarkId, Criterion, Throughput, criterion_group, criterion_main};
 use dalembert::cells::Damped;
 use dalembert::problem::{Material, Profile, Rod, Run, Start, Top};
-use dalembert::{Ask, Motion, Number, Plan, Problem, Scene, Solution, solve};
+use dalembert::{Motion, Number, Numbers, Plan, Problem, Question, Solution};
 
 /// A rod with c = L = g = 1, t₁ = 2.
 fn rod(damping: &str, speed: &str, run: Run) -> Problem {
@@ -31,36 +31,29 @@ fn periodic(trips: i64) -> Problem {
     }
 }
 
-/// The plan of a damped scene.
-fn plan(ask: Ask) -> Plan {
-    let scene =
-        "rod = { length = 1, wave_speed = 1, damping = 0.1 }\ngravity = { acceleration = 1 }\n[impact]\nspeed = 1\n";
-    Plan::of(&Scene::parse(scene).unwrap(), ask).unwrap()
+/// The events of a run in doubles, as planned, and their error.
+fn planned(problem: &Problem, plan: &Plan) -> (usize, f64) {
+    match plan.solve(black_box(problem), std::sync::Arc::new(|_, _| ())).unwrap() {
+        Solution::Double(motion) => (motion.events().len(), motion.error_estimate()),
+        _ => unreachable!(),
+    }
 }
 
 fn impacts(c: &mut Criterion) {
     let mut group = c.benchmark_group("ten impacts to 1e-10");
-    let plan = plan(Ask { accuracy: Some(1e-10), ..Ask::default() });
+    let question = Question::run(Numbers::Double(Some(1e-10)));
     for (damping, speed) in [("0.001", "3"), ("0.01", "3"), ("0.02", "10"), ("0.1", "10")] {
         let problem = rod(damping, speed, Run::Impacts(10));
-        group.bench_function(format!("r = {damping}, μ = {speed}"), |b| {
-            b.iter(|| match solve(black_box(&problem), &plan, |_, _| ()).unwrap() {
-                Solution::Double(history) => (history.contacts().len(), history.error_estimate()),
-                _ => unreachable!(),
-            });
-        });
+        let plan = Plan::of(&problem, &question).unwrap();
+        group.bench_function(format!("r = {damping}, μ = {speed}"), |b| b.iter(|| planned(&problem, &plan)));
     }
     group.finish();
     #[cfg(feature = "mp")]
     {
-        let plan = self::plan(Ask { digits: Some(50), ..Ask::default() });
         let problem = rod("0.1", "3", Run::Impacts(2));
         let mut group = c.benchmark_group("50 digits");
         group.sample_size(10).bench_function("second contact, r = 0.1, μ = 3", |b| {
-            b.iter(|| match solve(black_box(&problem), &plan, |_, _| ()).unwrap() {
-                Solution::Digits(history, _) => history.contacts().len(),
-                _ => unreachable!(),
-            });
+            b.iter(|| black_box(&problem).digits(50).unwrap().contacts().len());
         });
         group.finish();
     }
@@ -90,22 +83,16 @@ fn time(c: &mut Criterion) {
 /// Without damping a plan takes the lattice, whose code knows no damping; this is what cells would take for the same scene.
 fn undamped(c: &mut Criterion) {
     let mut group = c.benchmark_group("without damping");
-    let plan = |damped: &str| {
-        let scene = format!("rod = {{ length = 1, wave_speed = 1{damped} }}\n[impact]\nspeed = 3\n");
-        Plan::of(&Scene::parse(&scene).unwrap(), Ask::default()).unwrap()
-    };
+    let question = Question::run(Numbers::default());
     for impacts in [1, 10] {
         let problem = rod("", "3", Run::Impacts(impacts));
         assert!(problem.rod.damping.is_none());
         group.bench_function(BenchmarkId::new("lattice, called directly", impacts), |b| {
             b.iter(|| dalembert::solve::undamped::<f64>(black_box(&problem), &()).unwrap().events().len());
         });
-        let undamped = plan("");
+        let plan = Plan::of(&problem, &question).unwrap();
         group.bench_function(BenchmarkId::new("scene with no damping, as planned", impacts), |b| {
-            b.iter(|| match solve(black_box(&problem), &undamped, |_, _| ()).unwrap() {
-                Solution::Double(history) => history.events().len(),
-                _ => unreachable!(),
-            });
+            b.iter(|| planned(&problem, &plan));
         });
         group.bench_function(BenchmarkId::new("cells with r = 0", impacts), |b| {
             b.iter(|| Damped::<f64>::solve(black_box(&problem), &(), 12.0).unwrap().events().len());

@@ -11,7 +11,7 @@ use dalembert::lattice::{Limits, Scaled, Until, march};
 use dalembert::number::{Bounded, Estimate};
 use dalembert::problem::Run;
 use dalembert::solve::undamped;
-use dalembert::{Ask, Motion, Plan, Problem, Scene, scene::builtin};
+use dalembert::{Motion, Numbers, Plan, Problem, Question, Scene, scene::builtin};
 
 fn problem(speed: &str, run: Run) -> Problem {
     let one = || "1".parse().unwrap();
@@ -29,7 +29,8 @@ fn first_contact(c: &mut Criterion) {
             (history.events().len(), history.contacts()[0].impulse)
         });
     });
-    group.bench_function("plan", |b| b.iter(|| Plan::of(black_box(&scene), Ask::default()).unwrap()));
+    let question = Question::run(Numbers::default());
+    group.bench_function("plan", |b| b.iter(|| Plan::of(black_box(&scene.problem), &question).unwrap()));
     group.bench_function("closed form of the bounce time, f64", |b| {
         b.iter(|| {
             let rod = dalembert::problem::Parameters::<f64>::of(black_box(&scene.problem), &()).unwrap();

@@ -21,7 +21,7 @@ impl<N: BoundedSpecial> FirstContact<N> {
     /// **Accuracy**: *within its own bound*. No root is reported that is not bracketed by signs beyond the bounds of the stress.
     ///
     /// ```
-    /// # use dalembert::{Number, Problem, rod::Parameters, first_contact::{Bounce, BounceKind, FirstContact}, number::Estimate};
+    /// # use dalembert::{Number, Problem, problem::Parameters, first_contact::{Bounce, BounceKind, FirstContact}, number::Estimate};
     /// let problem = Problem::uniform(Number::from(1), Number::from(1), Number::from(1), Number::from(3));
     /// let contact = FirstContact::new(&Parameters::<Estimate<f64>>::of(&problem, &())?);
     /// let bounce = contact.bounce();

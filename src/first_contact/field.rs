@@ -17,7 +17,7 @@ use crate::special::{BoundedSpecial, Ray};
 /// enclosure does not tell which rays have arrived, has no finite bound.
 ///
 /// ```
-/// # use dalembert::{Number, Problem, problem::Parameters, first_contact::FirstContact, history::Side, number::Estimate};
+/// # use dalembert::{Number, Problem, problem::Parameters, first_contact::FirstContact, Side, number::Estimate};
 /// // r = 0: the stress in the first round trip is −(μ + gt)/c.
 /// let problem = Problem::uniform(Number::from(1), Number::from(1), Number::from(1), Number::from(3));
 /// let contact = FirstContact::new(&Parameters::<Estimate<f64>>::of(&problem, &())?);
@@ -132,6 +132,7 @@ impl<N: BoundedSpecial> FirstContact<N> {
     }
 
     /// `t/t₁`; `None` where it cannot be said how many rays have returned.
+    #[inline]
     pub fn trips(&self, time: &N) -> Option<Trips<N>> {
         let exact = time.clone() / &self.round_trip;
         let passed = exact.floor_int().filter(|k| *k <= MOST_RAYS)?;
@@ -165,17 +166,21 @@ impl<N: BoundedSpecial> FirstContact<N> {
 
     /// `e^{−rt} H_r` and `e^{−rt} G_r/t₁` with the first `k` returning rays: `v_x(0,t) = −(μ · + μ₀ ·)/c`.
     pub(super) fn ground(&self, trips: &N, k: i64) -> Shares<N> {
-        let start = Ray::at_source(&self.damping, trips).start();
+        let z = self.damping.clone() * trips;
+        let start = z.in_scaled(0);
         // `G_r = t (I₀ + I₁)` before the first return.
-        let weight = if self.weightless {
-            trips.zero()
-        } else {
-            (start.clone() + (self.damping.clone() * trips).in_scaled(1)) * trips
-        };
-        let mut shares = Shares { impact: start, weight };
+        let weight = if self.weightless { trips.zero() } else { (start.clone() + z.in_scaled(1)) * trips };
+        let shares = Shares { impact: start, weight };
         if k < 1 {
             return shares;
         }
+        let (returned, two) = (self.returned(trips, k), trips.int(2));
+        Shares { impact: shares.impact + returned.impact * &two, weight: shares.weight + returned.weight * &two }
+    }
+
+    /// The returning rays, once. Apart, because the first round trip is the most frequent and needs none.
+    #[inline(never)]
+    fn returned(&self, trips: &N, k: i64) -> Shares<N> {
         let mut returned = Shares { impact: trips.zero(), weight: trips.zero() };
         for j in 1..=k {
             let ray = Ray::new(&self.damping, &trips.int(j), trips);
@@ -187,17 +192,14 @@ impl<N: BoundedSpecial> FirstContact<N> {
             alternate(&mut returned.impact, j, &sums.start);
             alternate(&mut returned.weight, j, &sums.sums[0]);
         }
-        let two = trips.int(2);
-        shares.impact = shares.impact + returned.impact * &two;
-        shares.weight = shares.weight + returned.weight * &two;
-        shares
+        returned
     }
 
     /// `v_x(0,t) = e^{−rt} Ψ_r(t)`: the stress at the ground divided by the modulus.
     ///
     /// **Source**: (2.28).
     pub fn stress(&self, time: &N, side: Side) -> N {
-        self.trips(time).map_or_else(|| unknown(time), |trips| self.stress_at(&trips, side))
+        self.trips(time).as_ref().map_or_else(|| unknown(time), |trips| self.stress_at(trips, side))
     }
 
     pub(super) fn stress_at(&self, trips: &Trips<N>, side: Side) -> N {
@@ -211,8 +213,8 @@ impl<N: BoundedSpecial> FirstContact<N> {
 
     /// `e^{−rt} H_r(t)`, with its sign and jumps as in (2.27): the stress for `μ = c` and `g = 0`, turned around.
     pub fn impact_kernel(&self, time: &N, side: Side) -> N {
-        let at = |trips: Trips<N>| self.ground(&trips.number, trips.returned(side)).impact;
-        self.trips(time).map_or_else(|| unknown(time), at)
+        let at = |trips: &Trips<N>| self.ground(&trips.number, trips.returned(side)).impact;
+        self.trips(time).as_ref().map_or_else(|| unknown(time), at)
     }
 
     /// `V`, `V_t`, `V_x` at the travel time `a` from the ground, `0 ≤ a ≤ 1/2`, with so many rays arrived upwards and downwards.
@@ -315,7 +317,8 @@ impl<N: BoundedSpecial> FirstContact<N> {
     ///
     /// **Source**: (3.38), (3.39).
     pub fn centre(&self, time: &N) -> (N, N) {
-        self.trips(time).map_or_else(|| (unknown(time), unknown(time)), |trips| self.centre_at(&trips))
+        let trips = self.trips(time);
+        trips.as_ref().map_or_else(|| (unknown(time), unknown(time)), |trips| self.centre_at(trips))
     }
 
     pub(super) fn centre_at(&self, trips: &Trips<N>) -> (N, N) {

@@ -38,4 +38,5 @@ pub use literal::{Number, NumberError};
 #[cfg(feature = "mp")]
 pub use rug::{Float, Rational};
 pub use scalar::{Analytic, Open, Reads, Rounded, Scalar};
-pub(crate) use text::{DOUBLE_DIGITS, bound_text, show};
+#[doc(hidden)]
+pub use text::{DOUBLE_DIGITS, bound_text, show};

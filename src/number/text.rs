@@ -3,14 +3,14 @@
 use super::Scalar;
 
 /// Digits that spell every double.
-pub(crate) const DOUBLE_DIGITS: u32 = 17;
+pub const DOUBLE_DIGITS: u32 = 17;
 
 /// A number that carries its bound, as it is printed: at most so many significant digits, and none beyond the bound; `0` where
 /// no digit is known.
 ///
 /// **Accuracy**: *correctly rounded* unless the bound is astride a rounding boundary, and then within one unit of the last digit: a
 /// last unit is at least twice the bound.
-pub(crate) fn show<S: Scalar>(x: &S, digits: u32) -> String {
+pub fn show<S: Scalar>(x: &S, digits: u32) -> String {
     let size = x.to_f64().abs();
     // −1 for the half unit that rounding takes.
     let known =
@@ -19,7 +19,7 @@ pub(crate) fn show<S: Scalar>(x: &S, digits: u32) -> String {
 }
 
 /// The bound of a number's error to two digits, rounded up: `3.1e-14`; `0` where it is exact.
-pub(crate) fn bound_text<S: Scalar>(x: &S) -> String {
+pub fn bound_text<S: Scalar>(x: &S) -> String {
     let log10 = x.log2_error() * std::f64::consts::LOG10_2;
     if log10 == f64::NEG_INFINITY {
         return "0".into();

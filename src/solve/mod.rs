@@ -10,6 +10,7 @@
 //! | `ladder` | more bits until the answer is settled |
 //! | `solution` | the answer in the numbers that were asked for |
 
+#[cfg(feature = "mp")]
 mod converted;
 mod engines;
 mod first_contact;

@@ -70,6 +70,7 @@ impl<S: RoundedSpecial> Special for S {
 
 impl<S: Special> Ray<S> {
     /// `e^{−rt} ψ₀`, without overflow. **Accuracy**: see [`Special`].
+    #[inline]
     pub fn start(&self) -> S {
         S::ray_start(self)
     }
@@ -77,6 +78,7 @@ impl<S: Special> Ray<S> {
     /// `e^{−rt} Σ_{n≥n₀} c_n (r/2)^{n−n₀} ψ_n` for K sequences `0 ≤ c_n ≤ 4n³`, each from its own `n₀ ≥ 1`, in one pass.
     ///
     /// **Accuracy**: see [`Special`].
+    #[inline]
     pub fn sums<const K: usize>(&self, first: [i64; K], weight: impl Fn(i64) -> [i64; K]) -> RaySums<S, K> {
         S::ray_sums(self, first, weight)
     }

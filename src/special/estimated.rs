@@ -64,7 +64,7 @@ impl<S: RoundedSpecial> Special for Estimate<S> {
     #[inline]
     fn ray_start(ray: &Ray<Self>) -> Self {
         let exact = ray.map(|x| x.value().clone());
-        let Some(errors) = Errors::of(ray, &exact) else { return upper(ray, |ray| S::ray_start_rounded(ray).0) };
+        let Some(errors) = Errors::of(ray, &exact) else { return upper(ray, [], &|_| []).start };
         if errors.lag > 0.0 {
             return errors.spent(&exact, 0);
         }
@@ -72,6 +72,7 @@ impl<S: RoundedSpecial> Special for Estimate<S> {
         Estimate::rounded(value, roundings + SECOND_ORDER * errors.start)
     }
 
+    #[inline]
     fn ray_sums<const K: usize>(
         ray: &Ray<Self>,
         first: [i64; K],
@@ -92,9 +93,7 @@ impl<S: RoundedSpecial> Special for Estimate<S> {
                 };
             }
         }
-        let sums =
-            std::array::from_fn(|k| upper(ray, |ray| S::ray_sums_rounded(ray, first, &weight).values.sums[k].clone()));
-        RaySums { start: Self::ray_start(ray), sums }
+        upper(ray, first, &weight)
     }
 
     /// Nodes within eight roundings of 1, weights within eight of 1 and n + 16 of their own.
@@ -171,6 +170,7 @@ impl Errors {
     ///
     /// `f_n = hⁿψ_n` obeys `n f_n ≤ hξ f_{n−1}`, so `Σ n³ f_n ≤ (x³ + 3x² + x) Σ f_n` with `x = hξ`, and
     /// `Σ_{n≥0} f_n = Σ qⁿI_n ≤ e^z` for `q² = ξ/η ≤ 1`.
+    #[cold]
     fn spent<S: Rounded>(&self, exact: &Ray<S>, first: i64) -> Estimate<S> {
         let (h, x) = (0.5 * exact.damping.to_f64(), exact.xi.to_f64().max(0.0));
         let reach = h * x;
@@ -184,8 +184,15 @@ impl Errors {
     }
 }
 
-/// Zero, with the bound that the greatest arguments give: without the exponential a sum rises with all of them.
-fn upper<S: RoundedSpecial>(ray: &Ray<Estimate<S>>, sum: impl Fn(&Ray<S>) -> S) -> Estimate<S> {
+/// Zeros, with the bounds that the greatest arguments give: without the exponential the sums rise with all of them. The start only
+/// where its own errors are too large to be followed.
+#[cold]
+fn upper<S: RoundedSpecial, const K: usize>(
+    ray: &Ray<Estimate<S>>,
+    first: [i64; K],
+    weight: &dyn Fn(i64) -> [i64; K],
+) -> RaySums<Estimate<S>, K> {
+    let exact = ray.map(|x| x.value().clone());
     let most = ray.map(|x| {
         let value = x.value().clone();
         let value = if value < value.zero() { value.zero() } else { value };
@@ -194,10 +201,17 @@ fn upper<S: RoundedSpecial>(ray: &Ray<Estimate<S>>, sum: impl Fn(&Ray<S>) -> S) 
     });
     let size = |ray: &Ray<S>| ray.half() * &(ray.xi.clone() + &ray.eta);
     // The exponents of the greatest and of the least differ by at most twice that, because a product is convex.
-    let growth = (size(&most) - size(&ray.map(|x| x.value().clone()))).to_f64();
-    let bound = (sum(&most) / most.xi.roundoff()).to_f64() * 2.1 * (2.02 * growth.abs()).exp();
-    let bound = if bound.is_nan() { f64::INFINITY } else { bound };
-    Estimate::new(most.xi.zero(), bound.max(f64::MIN_POSITIVE))
+    let growth = 2.1 * (2.02 * (size(&most) - size(&exact)).to_f64().abs()).exp();
+    let within = |most: S| {
+        let bound = (most.clone() / most.roundoff()).to_f64() * growth;
+        let bound = if bound.is_nan() { f64::INFINITY } else { bound.max(f64::MIN_POSITIVE) };
+        Estimate::new(most.zero(), bound)
+    };
+    let start = match Errors::of(ray, &exact) {
+        Some(_) => Estimate::ray_start(ray),
+        None => within(S::ray_start_rounded(&most).0),
+    };
+    RaySums { start, sums: S::ray_sums_rounded(&most, first, weight).values.sums.map(within) }
 }
 
 #[cfg(test)]

@@ -150,6 +150,7 @@ impl<S: Rounded> Ray<S> {
     /// **Accuracy**: the weights are not negative, so the relative error is at most `sum_roundings` roundings. With N
     /// terms, each ratio adds 4 roundings and passes on those of its successor times `I_{n+1}/I_{n−1}`; summed over n
     /// by `asinh s ≥ 0.88 s` (s ≤ 1) that is at most `4N + 2.3 z (2 + ln 2N)`; Horner adds 3 for each term.
+    #[inline]
     pub(super) fn sums_by_ratios<const K: usize>(
         &self,
         first: [i64; K],

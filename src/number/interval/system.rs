@@ -99,8 +99,12 @@ impl Scalar for Interval {
 
     fn log2_error(&self) -> f64 {
         let radius = self.radius();
-        let exponent = radius.get_exp().map_or(f64::NEG_INFINITY, f64::from);
-        if radius.is_finite() { exponent } else { f64::INFINITY }
+        if !radius.is_finite() {
+            return f64::INFINITY;
+        }
+        // In two parts, because the radius of long numbers is below the range of doubles.
+        let (mantissa, exponent) = radius.to_f64_exp_round(Round::Up);
+        mantissa.log2() + f64::from(exponent)
     }
 
     fn floor_int(&self) -> Option<i64> {
