@@ -13,7 +13,6 @@ use crate::problem::Problem;
 pub type Observer = Arc<dyn Fn(usize, usize) + Send + Sync>;
 
 /// An observer that does nothing.
-
 pub(crate) fn unobserved() -> Observer {
     Arc::new(|_, _| ())
 }
