@@ -31,7 +31,7 @@ pub struct Plan {
     pub reach: Reach,
     /// What lies before this time may be forgotten on the way.
     pub keep_from: Option<f64>,
-    /// The numbers of the first attempt; [`Plan::next`] says what follows where they do not settle the answer.
+    /// The numbers of the first attempt; `explain` prints it, and longer numbers follow where they do not settle the answer.
     pub rung: Rung,
     /// Decimal digits that rounding is foreseen to take in a chaotic run; the first rung has as many more.
     pub foreseen_loss: f64,
