@@ -18,8 +18,8 @@ fn rod(damping: &str, speed: &str, run: Run) -> Problem {
     problem
 }
 
-/// A rod under a fixed top, pressed on the ground, without gravity: it lands and leaves every `3 t₁/2` for ever, and has as
-/// many rays after a thousand round trips as at the start.
+/// A rod under a fixed top, pressed on the ground, without gravity: it lands and leaves every `3 t₁/2` for ever, and
+/// has as many rays after a thousand round trips as at the start.
 fn periodic(trips: i64) -> Problem {
     let n = |k: i64| Number::from(k);
     let displacement = vec![(n(0), "1/2".parse().unwrap()), (n(1), n(0))];
@@ -80,7 +80,8 @@ fn time(c: &mut Criterion) {
     group.finish();
 }
 
-/// Without damping a plan takes the lattice, whose code knows no damping; this is what cells would take for the same scene.
+/// Without damping a plan takes the lattice, whose code knows no damping; this is what cells would take for the same
+/// scene.
 fn undamped(c: &mut Criterion) {
     let mut group = c.benchmark_group("without damping");
     let question = Question::run(Numbers::default());

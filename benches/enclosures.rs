@@ -1,5 +1,5 @@
-//! What a proof costs: the same answers in doubles, in long numbers and in enclosures, with the exact numbers inside and without;
-//! and the march of a chaotic history, a piece at a time.
+//! What a proof costs: the same answers in doubles, in long numbers and in enclosures, with the exact numbers inside
+//! and without; and the march of a chaotic history, a piece at a time.
 #![allow(missing_docs, clippy::unwrap_used, clippy::panic)]
 
 use std::hint::black_box;

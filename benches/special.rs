@@ -1,10 +1,11 @@
-//! Bessel functions and the sums of a ray at 50, 300 and 1000 digits, each beside MPFR's `exp` and a product of the same
-//! precision in the same run.
+//! Bessel functions and the sums of a ray at 50, 300 and 1000 digits, each beside MPFR's `exp` and a product of the
+//! same precision in the same run.
 //!
 //! Peers are measured on the same machine, in turns with this: `pip install python-flint mpmath gmpy2`, then
 //! `flint.arb(z).bessel_i(n)`, `bessel_i(0, scaled=True)` and `arb(z*z/4).hypgeom_0f1(n + 1)` with `ctx.prec = 3322`;
-//! `mpmath.besseli(n, z)` and `mpmath.hyp0f1(n + 1, z*z/4)` with `mp.prec = 3322`, and once more with `MPMATH_NOGMPY=1`. A short
-//! argument, `z = 10`, is cheaper than a long one, `10 + √2/1000`, for everyone: compare like with like, and the least of several runs.
+//! `mpmath.besseli(n, z)` and `mpmath.hyp0f1(n + 1, z*z/4)` with `mp.prec = 3322`, and once more with
+//! `MPMATH_NOGMPY=1`. A short argument, `z = 10`, is cheaper than a long one, `10 + √2/1000`, for everyone: compare
+//! like with like, and the least of several runs.
 #![allow(missing_docs)]
 
 use criterion::{Criterion, criterion_group, criterion_main};

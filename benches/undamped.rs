@@ -1,7 +1,7 @@
 //! The undamped lattice: a first contact end to end, and pieces against the number of impacts.
 //!
-//! Each group has its own yardstick in the same run: `sqrt` for the first contact (one square root and a few sums are what
-//! Corollary 1 itself takes), and the elements of `march` are pieces, so that its throughput is pieces per second.
+//! Each group has its own yardstick in the same run: `sqrt` for the first contact (one square root and a few sums are
+//! what Corollary 1 itself takes), and the elements of `march` are pieces, so that its throughput is pieces per second.
 #![allow(missing_docs, clippy::unwrap_used)]
 
 use std::hint::black_box;

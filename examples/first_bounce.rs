@@ -1,7 +1,8 @@
 //! The first bounce of a rod that hits the ground, and the formulas that it must obey.
 //!
-//! A rod of length L, wave speed c, falls with speed μ under gravity g. When its lower end meets the ground a wave runs up
-//! the rod, turns at the free top and comes back after the round trip t₁ = 2L/c. Corollary 1 says when the end leaves:
+//! A rod of length L, wave speed c, falls with speed μ under gravity g. When its lower end meets the ground a wave runs
+//! up the rod, turns at the free top and comes back after the round trip t₁ = 2L/c. Corollary 1 says when the end
+//! leaves:
 //!
 //! * μ ≥ g t₁: exactly when the wave is back, t_b = t₁;
 //! * μ < g t₁: later, t_b = 2t₁ − μ/g.

@@ -1,8 +1,8 @@
 //! How to keep the stress history of a scene of your own in a snapshot test, so that a change in it is seen.
 //!
-//! Put `main` into a test of your own crate. In exact fractions the text is the same on every machine, so a snapshot (crate
-//! `insta`) may hold it. A snapshot says "unchanged", not "right": put an assertion beside it that you can derive with
-//! pencil and paper. Review new snapshots with `cargo insta review`.
+//! Put `main` into a test of your own crate. In exact fractions the text is the same on every machine, so a snapshot
+//! (crate `insta`) may hold it. A snapshot says "unchanged", not "right": put an assertion beside it that you can
+//! derive with pencil and paper. Review new snapshots with `cargo insta review`.
 
 use dalembert::Scene;
 

@@ -1,7 +1,7 @@
 //! The rays of the first round trips in the x-t plane, and the jumps that they carry.
 //!
-//! Where v_t or v_x jumps, the jump travels with the speed c along a ray ct = ±(x − 2kL). A ray starts when the rod hits the
-//! ground or leaves it, runs up, is reflected at the top, comes back down after t₁ = 2L/c, and so on for ever.
+//! Where v_t or v_x jumps, the jump travels with the speed c along a ray ct = ±(x − 2kL). A ray starts when the rod
+//! hits the ground or leaves it, runs up, is reflected at the top, comes back down after t₁ = 2L/c, and so on for ever.
 //! Proposition 2 says how large the jumps are: going up [v_t] = −c [v_x], coming down [v_t] = c [v_x].
 
 use dalembert::glam::DVec2;
@@ -19,7 +19,8 @@ fn main() -> Result<(), Error> {
         for ray in history.rays(trip)? {
             let (up, down) = (ray.up_vector(), ray.down_vector());
             println!("{:6.2}  {:7.2}  {:10.3} {:6.3}  {:12.3} {:6.3}", ray.from, ray.to, up.x, up.y, down.x, down.y);
-            // Along x = ct + const nothing may tear the rod: [v_t] + c [v_x] = 0 with c = 1, and the mirror image going down.
+            // Along x = ct + const nothing may tear the rod: [v_t] + c [v_x] = 0 with c = 1, and the mirror image going
+            // down.
             assert_eq!(up.y, -up.x);
             assert_eq!(down.y, down.x);
             assert_eq!(down, free_top * up);

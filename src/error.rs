@@ -114,14 +114,6 @@ pub enum Error {
          uniform start under a free top: only there are digits proved"
     )]
     NotCertified,
-    /// Enclosures are asked with a question.
-    #[error(
-        "found a plan of {digits} proved digits, expected it to be solved by `certify`, which takes the question with it"
-    )]
-    AskCertify {
-        /// What was asked for.
-        digits: u32,
-    },
     /// More bits would be needed than are worth trying.
     #[error(
         "{digits} digits are not settled with {bits} bits; expected a shorter run, fewer digits, or --certified, which knows exact roots"

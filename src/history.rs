@@ -15,8 +15,8 @@ use crate::solve::{Attempt, Ladder, Numbers, Observer, Plan, Question, Rung, Tar
 /// All times are absolute and in the units of the problem. A question about a time outside of `0 … end()` is
 /// [`Error::TimeOutside`], about a point outside of the rod [`Error::PointOutside`].
 ///
-/// **Accuracy**: that of the [`Plan`]. Each answer is computed in more bits where those at hand do not leave the digits that
-/// were asked for.
+/// **Accuracy**: that of the [`Plan`]. Each answer is computed in more bits where those at hand do not leave the digits
+/// that were asked for.
 ///
 /// ```
 /// use dalembert::Problem;
@@ -40,7 +40,8 @@ pub struct History<S: Target> {
 impl<S: Target> History<S> {
     /// Solves `problem` by `plan`.
     ///
-    /// **Errors**: those of the engine; [`Error::Unsettled`], [`Error::Undecided`] where too many bits do not settle the events.
+    /// **Errors**: those of the engine; [`Error::Unsettled`], [`Error::Undecided`] where too many bits do not settle
+    /// the events.
     pub(crate) fn solve(problem: &Problem, plan: &Plan, observe: Observer) -> Result<Self, Error> {
         let ladder = Ladder { problem: problem.clone(), plan: plan.clone(), observe };
         let ask_events = plan.keep_from.is_none();
@@ -201,7 +202,8 @@ impl<S: Target> History<S> {
         self.field(&[point], &[time], Side::Right).map(|mut values| values.remove(0))
     }
 
-    /// `v`, `v_t`, `v_x` at every point of `points` for every time of `times`: time by time, all points of one time together.
+    /// `v`, `v_t`, `v_x` at every point of `points` for every time of `times`: time by time, all points of one time
+    /// together.
     pub fn field(&self, points: &[S], times: &[S], side: Side) -> Result<Vec<Field<S>>, Error> {
         let points: Vec<_> = points.iter().map(Answer::carry).collect();
         let mut values = Vec::with_capacity(points.len() * times.len());
@@ -228,13 +230,14 @@ impl<S: Target> History<S> {
         self.current().engine.scales().map(S::strip)
     }
 
-    /// A bound of the error of events and of values at ordinary times, relative to the natural scales; zero where all is exact.
+    /// A bound of the error of events and of values at ordinary times, relative to the natural scales; zero where all
+    /// is exact.
     pub fn error_estimate(&self) -> f64 {
         self.current().engine.error_estimate().to_f64()
     }
 
-    /// How many impacts there were, and `log₁₀` of the factor by which rounding may have grown over them; `None` where that is
-    /// not followed.
+    /// How many impacts there were, and `log₁₀` of the factor by which rounding may have grown over them; `None` where
+    /// that is not followed.
     pub fn digits_lost(&self) -> Option<(u32, f64)> {
         self.current().engine.digits_lost()
     }

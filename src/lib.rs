@@ -1,5 +1,5 @@
-//! The exact reference for the bouncing elastic rod: `v_tt + 2r v_t − c² v_xx = −g` on `0 < x < L`, unilateral contact with the
-//! ground at `x = 0`, solved by the method of characteristics.
+//! The exact reference for the bouncing elastic rod: `v_tt + 2r v_t − c² v_xx = −g` on `0 < x < L`, unilateral contact
+//! with the ground at `x = 0`, solved by the method of characteristics.
 //!
 //! ```
 //! use dalembert::{Problem, Side};
@@ -13,9 +13,10 @@
 //! # Ok::<(), dalembert::Error>(())
 //! ```
 //!
-//! A [`Problem`] is the physics in exact numbers, from its builder or a [`Scene`] file. A [`Question`] says what is asked of it and in
-//! which [`Numbers`]. The [`Plan`] decides everything before running: engine, numbers, bits, how far. A [`History`] is the answer:
-//! events, contacts, and the value of every quantity at any time, each settled to the digits that were asked for.
+//! A [`Problem`] is the physics in exact numbers, from its builder or a [`Scene`] file. A [`Question`] says what is
+//! asked of it and in which [`Numbers`]. The [`Plan`] decides everything before running: engine, numbers, bits, how
+//! far. A [`History`] is the answer: events, contacts, and the value of every quantity at any time, each settled to the
+//! digits that were asked for.
 //!
 //! | | in which numbers | what it promises |
 //! |---|---|---|
@@ -24,7 +25,8 @@
 //! | [`Problem::exact`] | fractions | no error, as far as they reach; undamped rods |
 //! | [`Problem::certified`] | enclosures | every digit is proved; undamped rods, and the first contact of damped ones |
 //!
-//! The features `mp` (all numbers but doubles), `cli` (the command) and `plot` (its pictures) add to each other and take nothing away.
+//! The features `mp` (all numbers but doubles), `cli` (the command) and `plot` (its pictures) add to each other and
+//! take nothing away.
 
 // The rooms are public for the crate's own tests and benchmarks; what is meant to be used is re-exported below.
 #[doc(hidden)]

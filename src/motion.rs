@@ -61,8 +61,8 @@ pub struct Event<S> {
     /// `t`.
     #[serde(serialize_with = "number")]
     pub time: S,
-    /// `v_t(0,t)`: just before an impact, just after a release. At a landing without speed that a ray turns into an impact,
-    /// the `v_t + c v_x < 0` which that ray brings.
+    /// `v_t(0,t)`: just before an impact, just after a release. At a landing without speed that a ray turns into an
+    /// impact, the `v_t + c v_x < 0` which that ray brings.
     #[serde(serialize_with = "number")]
     pub end_velocity: S,
     /// `h(t)`: the centre of mass, relative to its place in the undeformed rod on the ground.
@@ -311,8 +311,8 @@ pub enum Ending {
     NoFurtherImpact(String),
     /// No release can follow, for the reason that is said.
     NoBounce(String),
-    /// The rod has come to rest, by the criterion that is said. Where a time was asked for, the history reaches it: as it
-    /// does with [`Ending::NoBounce`] and [`Ending::NoFurtherImpact`] once the motion has faded below the accuracy.
+    /// The rod has come to rest, by the criterion that is said. Where a time was asked for, the history reaches it: as
+    /// it does with [`Ending::NoBounce`] and [`Ending::NoFurtherImpact`] once the motion has faded below the accuracy.
     Rest(String),
     /// The next event is at no fraction.
     ExactnessEnds {
@@ -351,8 +351,8 @@ impl fmt::Display for Ending {
 pub struct Scales<S> {
     /// `t₁`, of times; later times scale with themselves.
     pub time: S,
-    /// About the greatest speed: `μ`, or `g t₁` where that is greater. Displacements scale with `time · velocity`, or with
-    /// the greatest of them.
+    /// About the greatest speed: `μ`, or `g t₁` where that is greater. Displacements scale with `time · velocity`, or
+    /// with the greatest of them.
     pub velocity: S,
     /// `L`.
     pub length: S,
@@ -411,8 +411,8 @@ pub trait Motion<S: Scalar>: fmt::Debug + Send + Sync {
     /// `v`, `v_t`, `v_x` at `(x,t)`.
     fn field(&self, point: &S, time: &S, side: Side) -> Result<Field<S>, Error>;
 
-    /// `t*` and `h(t*)`: where the centre of mass turns in the flight after `release`, if nothing ends the flight before.
-    /// `None` where it does not turn: without gravity, under a fixed top, or already falling at the release.
+    /// `t*` and `h(t*)`: where the centre of mass turns in the flight after `release`, if nothing ends the flight
+    /// before. `None` where it does not turn: without gravity, under a fixed top, or already falling at the release.
     fn highest(&self, release: &Event<S>) -> Option<(S, S)>;
 
     /// The rays that leave the ground in round trip `trip`, counted from 0, in order: jumps, and mere kinks.
@@ -430,8 +430,8 @@ pub trait Motion<S: Scalar>: fmt::Debug + Send + Sync {
     /// carries.
     fn error_estimate(&self) -> S;
 
-    /// How many impacts there were and `log₁₀` of the factor by which rounding may have grown over them; `None` where that is
-    /// not followed.
+    /// How many impacts there were and `log₁₀` of the factor by which rounding may have grown over them; `None` where
+    /// that is not followed.
     fn digits_lost(&self) -> Option<(u32, f64)> {
         None
     }

@@ -1,8 +1,8 @@
 //! The start from a bounce: the first contact in closed form up to the characteristic that leaves the ground at `t_b`.
 //!
-//! Nothing that happens at the ground after `t_b` reaches a point with `ξ = t − x/c < t_b`, so there the closed form, which
-//! goes on as if the end were held, is the motion, and its limit from `ξ < t_b` is the state from which the cells go on: the
-//! rays that come up jump in `p` alone, and `q` is continuous across them.
+//! Nothing that happens at the ground after `t_b` reaches a point with `ξ = t − x/c < t_b`, so there the closed form,
+//! which goes on as if the end were held, is the motion, and its limit from `ξ < t_b` is the state from which the cells
+//! go on: the rays that come up jump in `p` alone, and `q` is continuous across them.
 
 use std::collections::VecDeque;
 

@@ -1,9 +1,9 @@
 //! What the numbers of a run may be off by: one sum, to which every step adds its own term.
 //!
-//! Derivations in `docs/bounds.md`. Dimensionless: velocities in `V`, times in `t₁`. There are two accounts, and the better one holds. One
-//! compares with the true motion at equal times: short where flights are. The other, where flights are taken apart, compares at equal
-//! times since the last landing, and keeps apart by how much that landing may be early or late: a long flight displaces all that follows in
-//! time, but changes little of it.
+//! Derivations in `docs/bounds.md`. Dimensionless: velocities in `V`, times in `t₁`. There are two accounts, and the
+//! better one holds. One compares with the true motion at equal times: short where flights are. The other, where
+//! flights are taken apart, compares at equal times since the last landing, and keeps apart by how much that landing
+//! may be early or late: a long flight displaces all that follows in time, but changes little of it.
 
 /// By how much a time may be off: in itself, and counted from the last landing.
 #[derive(Clone, Copy, Debug, Default)]
@@ -38,7 +38,8 @@ struct Fixed {
 pub(super) struct Budget {
     /// Of `p` and `q`, by truncation and rounding.
     even: f64,
-    /// The range of `∫δq` along a characteristic, by a motion that is displaced in time: twice the error of displacements.
+    /// The range of `∫δq` along a characteristic, by a motion that is displaced in time: twice the error of
+    /// displacements.
     wave: f64,
     /// Of `p` and `q` between rays, by the same.
     point: f64,
@@ -76,8 +77,8 @@ impl Budget {
         self.note();
     }
 
-    /// What is too small to decide anything: what roundings and truncations make of `p` and `q`, and where flights are not taken apart
-    /// also what displaced rays scatter.
+    /// What is too small to decide anything: what roundings and truncations make of `p` and `q`, and where flights are
+    /// not taken apart also what displaced rays scatter.
     pub(super) fn noise(&self, apart: bool) -> f64 {
         if apart { self.even } else { self.fixed.point }
     }
@@ -87,7 +88,8 @@ impl Budget {
         Off { fixed: self.fixed.point, moving: self.even + self.point + self.scatter.min(2.0 * self.wave) }
     }
 
-    /// The error of `v(0,·)` in flight, up to `len` from now; `slowed = (1 − e^{−2Rτ})/2R` of the flight that is taken apart.
+    /// The error of `v(0,·)` in flight, up to `len` from now; `slowed = (1 − e^{−2Rτ})/2R` of the flight that is taken
+    /// apart.
     pub(super) fn end(&self, damping: f64, slowed: f64, len: f64) -> Off {
         Off {
             fixed: self.fixed.height + self.fixed.point * len,
@@ -134,7 +136,8 @@ impl Budget {
         self.fixed.height += jump * off.fixed;
     }
 
-    /// A leap, with this error of its own: what vibrates fades. `passing` is `Σ |jump| · time` of all rays, each time that they pass.
+    /// A leap, with this error of its own: what vibrates fades. `passing` is `Σ |jump| · time` of all rays, each time
+    /// that they pass.
     pub(super) fn leap(&mut self, damping: f64, trips: f64, error: f64, passing: f64) {
         let fade = (damping * (6.0 - 0.75 * trips)).exp().min(1.0);
         self.even = self.even * fade + error;
@@ -161,7 +164,8 @@ impl Budget {
         self.fixed.most_rays = self.fixed.most_rays.max(self.fixed.rays);
     }
 
-    /// The ground is hit. The part of the ray that is off has twice the mass of the error of the height, and scatters at rate κ.
+    /// The ground is hit. The part of the ray that is off has twice the mass of the error of the height, and scatters
+    /// at rate κ.
     pub(super) fn hit(&mut self, damping: f64, velocity: f64, off: Off) {
         self.displace(velocity, off.fixed);
         self.fixed.point += 2.0 * damping * self.fixed.height;

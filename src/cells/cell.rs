@@ -14,19 +14,20 @@
 //! ```
 //!
 //! because `∫ F₀(κ²ξ(η−s)) Q(s) ds = Σ (κ²ξ)ᵏ/k!² ∫ (η−s)ᵏ Q(s) ds` and repeated integration is Cauchy's formula.
-//! In Chebyshev coefficients `J` has two diagonals, so a cell costs as many operations as it has coefficients, times the
-//! few terms of the sum. At `r = 0` the cell hands on what it was given, exactly, and nowhere is anything divided by `r`.
+//! In Chebyshev coefficients `J` has two diagonals, so a cell costs as many operations as it has coefficients, times
+//! the few terms of the sum. At `r = 0` the cell hands on what it was given, exactly, and nowhere is anything divided
+//! by `r`.
 //!
 //! ## Sup norm
-//! `|p|, |q| ≤ M` on the incoming sides gives `|p|, |q| ≤ M` in the cell: the majorant system `P_η = κQ`, `Q_ξ = κP` with
-//! data `M e^{κs}` has the solution `M e^{κ(ξ+η)}`. Reflections `p = ±q` keep it. So errors of `p`, `q` never grow, and
-//! what is made in one cell adds once along a path of cells.
+//! `|p|, |q| ≤ M` on the incoming sides gives `|p|, |q| ≤ M` in the cell: the majorant system `P_η = κQ`, `Q_ξ = κP`
+//! with data `M e^{κs}` has the solution `M e^{κ(ξ+η)}`. Reflections `p = ±q` keep it. So errors of `p`, `q` never
+//! grow, and what is made in one cell adds once along a path of cells.
 //!
 //! ## Entire sides
-//! If moreover `|P̂(s)| ≤ (a + b|s|) e^{κ|s|}` for complex `s` on an incoming side, and `|q| ≤ a`, then the outgoing side
-//! obeys the same bound with the same `a`, `b`: by the majorant, and because data `b ξ e^{κξ}` alone give at most
-//! `b ξ e^{κ(ξ+η)}` (maximum principle for `u_η = κ(w−u)`, `w_ξ = κ(u−w)` on `0 … ξ`). Between breaks the start is of that
-//! form, so one number of Chebyshev terms, from [`super::series::terms_for`], serves a side for ever.
+//! If moreover `|P̂(s)| ≤ (a + b|s|) e^{κ|s|}` for complex `s` on an incoming side, and `|q| ≤ a`, then the outgoing
+//! side obeys the same bound with the same `a`, `b`: by the majorant, and because data `b ξ e^{κξ}` alone give at most
+//! `b ξ e^{κ(ξ+η)}` (maximum principle for `u_η = κ(w−u)`, `w_ξ = κ(u−w)` on `0 … ξ`). Between breaks the start is of
+//! that form, so one number of Chebyshev terms, from [`super::series::terms_for`], serves a side for ever.
 
 use super::series::{Basis, at_one, evaluate, times_x};
 use crate::number::Rounded;
@@ -50,8 +51,8 @@ pub(super) struct Cell<'a, S> {
 
 /// How many terms of `Σ yᵏ/k!²` beyond the first reach `2^log2_accuracy`, `y ≥ 0`.
 ///
-/// `‖Jᵏ‖ ≤ 1/k!` on the unit interval, so the terms of the formula above are at most `yᵏ/k!²` of the data; for `y ≤ 1` each
-/// is less than half of the one before it, so the first one below half the accuracy bounds the rest.
+/// `‖Jᵏ‖ ≤ 1/k!` on the unit interval, so the terms of the formula above are at most `yᵏ/k!²` of the data; for `y ≤ 1`
+/// each is less than half of the one before it, so the first one below half the accuracy bounds the rest.
 pub(super) fn terms(y: f64, log2_accuracy: f64) -> usize {
     if y <= 0.0 {
         return 0;
@@ -109,7 +110,8 @@ pub(super) fn scale<S: Rounded>(series: &mut [S], factor: &S) {
     }
 }
 
-/// `e^{2κτ} q` on the diagonal `ξ = η` of a cell that is its own mirror image, `p = ±q` on its lower sides, in `terms` terms.
+/// `e^{2κτ} q` on the diagonal `ξ = η` of a cell that is its own mirror image, `p = ±q` on its lower sides, in `terms`
+/// terms.
 pub(super) fn diagonal<S: Rounded>(
     basis: &Basis<S>,
     q: &[S],

@@ -1,18 +1,19 @@
 //! A flight under a free top: the centre of mass and the vibration about it, apart.
 //!
 //! `v = h(t) + z(x,t)` with `h″ + 2Rh′ = −g` alone, and `z` of mean zero with free ends. What separates both on the
-//! characteristic `t = b + x`, `0 ≤ x ≤ ½`, that leaves the ground at b, are two solutions w of the adjoint equation that depend on t alone:
-//! by Green's formula in the triangle between the characteristic and `t = b`, where `q = v_t + v_x`,
+//! characteristic `t = b + x`, `0 ≤ x ≤ ½`, that leaves the ground at b, are two solutions w of the adjoint equation
+//! that depend on t alone: by Green's formula in the triangle between the characteristic and `t = b`, where
+//! `q = v_t + v_x`,
 //!
 //! ```text
 //! h′(b) = 2 ∫ e^{2Rx} q + g x φ₁(2Rx) dx                      w = e^{2R(t−b)}
 //! z(0,b) = −2 ∫ (½ − x − x φ₁(2Rx)) (q − h′(b + x)) dx          w = −(t−b) φ₁(2R(t−b))
 //! ```
 //!
-//! The second is what makes the mean of z vanish, and holds on every characteristic of the flight: the height of the end is never
-//! summed up over round trips.
+//! The second is what makes the mean of z vanish, and holds on every characteristic of the flight: the height of the
+//! end is never summed up over round trips.
 
-use super::leap::MOST_DAMPING;
+use super::march::MOST_DAMPING;
 use super::march::{Medium, State};
 use super::series::{integral, times_x};
 use crate::special::RoundedSpecial;
@@ -109,7 +110,8 @@ impl<S: RoundedSpecial> Medium<S> {
         -self.weighed(state, &|x| x.ratio(1, 2) - x - phi1(&(drag.clone() * x)) * x)
     }
 
-    /// Takes `q` of the deviation from the static state apart into centre of mass and vibration, where the end is at `height`.
+    /// Takes `q` of the deviation from the static state apart into centre of mass and vibration, where the end is at
+    /// `height`.
     pub(super) fn take_off(&self, state: &mut State<S>, height: &S) -> Flight<S> {
         let (zero, half) = (self.kappa.zero(), self.kappa.ratio(1, 2));
         let drag = self.kappa.clone() * self.kappa.int(4);

@@ -1,87 +1,21 @@
 //! Following the ground end through contacts and flights.
 //!
 //! With `y = v_t + c v_x` at the ground: in contact `y = c v_x`, and the rod leaves when `y` turns positive; in flight
-//! `y = v_t`, and it lands when `v(0,·) = ∫ y` returns to zero. A landing at which `y` is not negative, and at `y = 0` not
-//! falling, is none: the flight goes on.
+//! `y = v_t`, and it lands when `v(0,·) = ∫ y` returns to zero. A landing at which `y` is not negative, and at `y = 0`
+//! not falling, is none: the flight goes on.
 
 use super::bounce::Held;
-use super::budget::{Budget, Landing, Off};
+use super::budget::{Budget, Off};
+use super::event::slowed;
 use super::flight::Flight;
 use super::march::{Medium, State};
+use super::piece::{Checkpoint, Mark, Piece, Unresolved};
 use super::root::first_descent;
 use super::series::{at_one, at_zero, bound, derivative, evaluate};
 use super::start::Data;
 use crate::error::Error;
 use crate::motion::{Ending, EventKind};
 use crate::special::RoundedSpecial;
-
-/// What happened at the ground during one strip, or during a flight that was leapt over, dimensionless.
-#[derive(Clone, Debug)]
-pub(super) struct Piece<S> {
-    /// Its beginning.
-    pub(super) from: S,
-    /// Its length.
-    pub(super) len: S,
-    /// Whether the ground end is in contact.
-    pub(super) contact: bool,
-    /// The flight that it belongs to, where centre of mass and vibration are apart.
-    pub(super) flight: Option<usize>,
-    /// Whether the first segment was cut for this strip.
-    pub(super) cut: bool,
-    /// Whether the rod is at rest: nothing was marched.
-    pub(super) still: bool,
-    /// Round trips that were leapt over; zero for a strip.
-    pub(super) leap: i64,
-    /// `v_t + c v_x` in Chebyshev coefficients; empty in a leap.
-    pub(super) trace: Vec<S>,
-    /// `v(0,·)`; empty in contact and in a leap.
-    pub(super) height: Vec<S>,
-}
-
-impl<S: RoundedSpecial> Piece<S> {
-    /// Its end.
-    pub(super) fn to(&self) -> S {
-        self.from.clone() + &self.len
-    }
-}
-
-/// A state that is kept.
-#[derive(Clone, Debug)]
-pub(super) struct Checkpoint<S> {
-    /// How many pieces came before it.
-    pub(super) index: usize,
-    /// The flight whose vibration it holds; the deviation from the static state without one.
-    pub(super) flight: Option<usize>,
-    pub(super) state: State<S>,
-    /// `z(0,b)` in such a flight.
-    pub(super) ground: S,
-}
-
-/// An event, dimensionless.
-#[derive(Clone, Debug)]
-pub(super) struct Mark<S> {
-    /// Landing or leaving.
-    pub(super) kind: EventKind,
-    /// Its time.
-    pub(super) time: S,
-    /// `v_t(0,·)`, just before or just after.
-    pub(super) velocity: S,
-    /// How far the time may be off.
-    pub(super) time_error: f64,
-}
-
-/// Hops that are not told apart from contact.
-///
-/// Where events lie on rays exactly, as they often do without damping, there are none in truth: nothing but the bound says that there may be.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Unresolved<S> {
-    /// From this time on.
-    pub from: S,
-    /// How many landings they may belong to.
-    pub count: usize,
-    /// How long each of them may be at most.
-    pub longest: f64,
-}
 
 /// How far to go.
 #[derive(Clone, Debug)]
@@ -104,13 +38,13 @@ pub(super) struct Follower<'a, S> {
     /// Contacts so far.
     landed: u32,
     /// Whether events are in doubt.
-    lost: bool,
+    pub(super) lost: bool,
     /// Whether the landing that is decided is at a ray.
-    at_ray: bool,
+    pub(super) at_ray: bool,
     /// Hops that the bound does not tell apart from contact.
     pub(super) unresolved: Option<Unresolved<S>>,
     /// When the last contact began, in whole round trips and the fraction.
-    landing: Option<(i64, S)>,
+    pub(super) landing: Option<(i64, S)>,
     /// The flight that is under way, where it is taken apart.
     pub(super) flight: Option<usize>,
     /// All of these flights.
@@ -125,10 +59,10 @@ pub(super) struct Follower<'a, S> {
     pub(super) checkpoints: Vec<Checkpoint<S>>,
     pub(super) warnings: Vec<String>,
     /// Error of `p`, `q` made in one cell.
-    cell_error: f64,
+    pub(super) cell_error: f64,
     pub(super) budget: Budget,
     /// The trace at the end of the last piece.
-    last_trace: Option<S>,
+    pub(super) last_trace: Option<S>,
 }
 
 /// The most strips that are followed: some hundred megabytes.
@@ -137,10 +71,8 @@ const MOST_PIECES: usize = 400_000;
 const MOST_SEGMENTS: usize = 4096;
 /// The fewest round trips that are leapt over: a leap costs about as much as two of them.
 const LEAST_LEAP: f64 = 3.0;
-/// Where times are in doubt by more than this part of a round trip, so are the events.
-const MOST_LATE: f64 = 0.01;
-/// The roundings of a leap, of a separation and of a joining, each of the greatest `|q|`: every coefficient is a sum of some dozen terms,
-/// none greater than it.
+/// The roundings of a leap, of a separation and of a joining, each of the greatest `|q|`: every coefficient is a sum of
+/// some dozen terms, none greater than it.
 const LEAP_ROUNDINGS: f64 = 64.0;
 
 impl<'a, S: RoundedSpecial> Follower<'a, S> {
@@ -209,9 +141,9 @@ impl<'a, S: RoundedSpecial> Follower<'a, S> {
         follower
     }
 
-    /// The error of a cell: what the series of its sides and of its sum leave out, and four roundings of every coefficient:
-    /// the sum, the correction, the decay and its factor. Both are relative to what moves now.
-    fn weigh(&mut self) {
+    /// The error of a cell: what the series of its sides and of its sum leave out, and four roundings of every
+    /// coefficient: the sum, the correction, the decay and its factor. Both are relative to what moves now.
+    pub(super) fn weigh(&mut self) {
         let unit = self.medium.log2_accuracy.exp2() + self.height.log2_roundoff().exp2();
         self.cell_error = 4.0 * unit * (self.state.bound() + self.medium.slope.to_f64().abs());
     }
@@ -230,7 +162,7 @@ impl<'a, S: RoundedSpecial> Follower<'a, S> {
     }
 
     /// `R`.
-    fn damping(&self) -> f64 {
+    pub(super) fn damping(&self) -> f64 {
         2.0 * self.medium.kappa.to_f64()
     }
 
@@ -258,7 +190,7 @@ impl<'a, S: RoundedSpecial> Follower<'a, S> {
     }
 
     /// Takes the flight that begins here apart.
-    fn take_off(&mut self) {
+    pub(super) fn take_off(&mut self) {
         if !self.medium.splits() {
             return;
         }
@@ -275,8 +207,8 @@ impl<'a, S: RoundedSpecial> Follower<'a, S> {
 
     /// Whether the ground end, at height zero, leaves at once: `y > 0`, or `y = 0` and rising.
     ///
-    /// What is less than the error counts as zero; Markov's inequality, `‖f′‖ ≤ 2n²‖f‖` on the unit interval, says what that
-    /// is for a derivative.
+    /// What is less than the error counts as zero; Markov's inequality, `‖f′‖ ≤ 2n²‖f‖` on the unit interval, says what
+    /// that is for a derivative.
     fn rises(&self) -> bool {
         let mut c = self.held_trace();
         let zero = self.height.zero();
@@ -293,7 +225,7 @@ impl<'a, S: RoundedSpecial> Follower<'a, S> {
     }
 
     /// The trace in contact, whatever there is now.
-    fn held_trace(&self) -> Vec<S> {
+    pub(super) fn held_trace(&self) -> Vec<S> {
         match self.flying() {
             Some(flight) => {
                 let segments = self.state.segments.iter().take(1).cloned().collect();
@@ -444,11 +376,11 @@ impl<'a, S: RoundedSpecial> Follower<'a, S> {
 
     /// How many round trips can be leapt over: as long as the end surely stays above the ground.
     ///
-    /// `v(0,t) = h + z(0,t)` with `|z(0,t)| ≤ B e^{−Rτ}` at the age τ from now. For `z` has mean zero, hence `|z(0)| ≤ ‖z_x‖/√6` on a rod
-    /// of length ½; `e^{2Rτ} (|ȧ + Ra|² + ω²|a|²)` is constant in each mode `a`, and lies between `1 ∓ ρ` times
-    /// `e^{2Rτ}(|ȧ|² + (2πk)²|a|²)`, `ρ = R/2π`; and `½ ∫ p² + q² dx ≤ ½ M²` now where `|q| ≤ M` on the characteristic. So
-    /// `B = M √((1 + ρ)/(1 − ρ)/12)`. Where `h′ ≥ −g/2R` the fall is concave, and `h − B e^{−Rτ}` with it: both ends decide. Otherwise h falls
-    /// all the time, and its end does.
+    /// `v(0,t) = h + z(0,t)` with `|z(0,t)| ≤ B e^{−Rτ}` at the age τ from now. For `z` has mean zero, hence
+    /// `|z(0)| ≤ ‖z_x‖/√6` on a rod of length ½; `e^{2Rτ} (|ȧ + Ra|² + ω²|a|²)` is constant in each mode `a`, and lies
+    /// between `1 ∓ ρ` times `e^{2Rτ}(|ȧ|² + (2πk)²|a|²)`, `ρ = R/2π`; and `½ ∫ p² + q² dx ≤ ½ M²` now where `|q| ≤ M`
+    /// on the characteristic. So `B = M √((1 + ρ)/(1 − ρ)/12)`. Where `h′ ≥ −g/2R` the fall is concave, and
+    /// `h − B e^{−Rτ}` with it: both ends decide. Otherwise h falls all the time, and its end does.
     fn leap_length(&self, goal: &Goal<S>) -> Option<i64> {
         let flight = self.flying()?;
         let (damping, gravity) = (self.damping(), self.medium.gravity.to_f64());
@@ -554,9 +486,9 @@ impl<'a, S: RoundedSpecial> Follower<'a, S> {
         (trace, height)
     }
 
-    /// How far a root in the strip may be off: the error of the function, and `vague` more, over its slope, or the root of twice the error
-    /// over the second derivative if that is less. What Clenshaw's sum rounds, at most `(k + 2)u` of each coefficient, counts
-    /// where the strip is long and the hop is short.
+    /// How far a root in the strip may be off: the error of the function, and `vague` more, over its slope, or the root
+    /// of twice the error over the second derivative if that is less. What Clenshaw's sum rounds, at most `(k + 2)u` of
+    /// each coefficient, counts where the strip is long and the hop is short.
     fn event_error(&self, trace: &[S], height: &[S], x: &S, len: &S, vague: f64) -> Off {
         let strip = len.to_f64();
         let at = |c: &[S]| evaluate(c, x).to_f64().abs();
@@ -602,87 +534,6 @@ impl<'a, S: RoundedSpecial> Follower<'a, S> {
         self.pieces.push(Piece { from, len, contact, flight, cut, still: false, leap: 0, trace, height });
     }
 
-    /// Turns contact into flight or back, now. A release at a root of the trace has velocity zero. Where the end
-    /// only touches the ground and a ray arrives at that very time, the velocity is the one that the ray brings.
-    fn event(&mut self, off: Off, at_root: bool) {
-        let zero = self.height.zero();
-        let kind = if self.contact { EventKind::Release } else { EventKind::Impact };
-        let velocity = match (&self.last_trace, kind) {
-            (Some(last), EventKind::Impact) if last.to_f64() < -self.noise() => last.clone(),
-            (_, EventKind::Release) if at_root => zero.clone(),
-            _ => at_zero(&self.held_trace(), &zero),
-        };
-        let time = self.state.time();
-        let apart = self.medium.splits();
-        if self.budget.lost(off, apart, MOST_LATE) && !self.lost {
-            self.lost = true;
-            let when = (time.clone() * &self.data.units.time).to_f64();
-            self.warnings.push(format!("from t = {when} on the bound of the error no longer tells events apart"));
-        }
-        self.height = zero;
-        // A ray of the start is off by no more than the roundings of t₁ and of its own time.
-        let rounding = 4.0 * time.log2_roundoff().exp2() * (1.0 + time.to_f64());
-        let time_error = self.budget.time(off, apart).max(rounding);
-        let time_error = if self.lost { f64::INFINITY } else { time_error };
-        self.marks.push(Mark { kind, time, velocity: velocity.clone(), time_error });
-        if self.contact {
-            self.contact = false;
-            self.let_go(&velocity, off);
-        } else {
-            self.touch_down(&velocity, off);
-            self.contact = true;
-            self.weigh();
-        }
-    }
-
-    /// The ground lets go, with this velocity: p goes over from −q to q, too early or too late by what the time is off.
-    fn let_go(&mut self, velocity: &S, off: Off) {
-        self.budget.let_go(velocity.to_f64().abs(), off, self.cell_error);
-        self.take_off();
-    }
-
-    /// The ground is hit. What is off in time is the ray that starts; or, in a flight that is taken apart, where the motion is compared
-    /// with the true one at equal times since the impact, all the rest of the motion.
-    fn touch_down(&mut self, velocity: &S, off: Off) {
-        let speed = velocity.to_f64().abs();
-        self.landing = Some((self.state.round, self.state.segments[0].at.clone()));
-        self.compare_rays(speed, off);
-        let (Some(flight), Some((_, rate))) = (self.flying().cloned(), self.centre()) else {
-            self.budget.hit(self.damping(), speed, off);
-            return;
-        };
-        self.budget.hit(self.damping(), speed, off);
-        let (slope, range) = self.medium.variation(&self.state);
-        let damping = self.damping();
-        let age = flight.age((self.state.round, &self.state.segments[0].at)).to_f64();
-        let (kept, slowed) = slowed(damping, age);
-        let fall = -self.medium.gravity.to_f64() - 2.0 * damping * rate.to_f64();
-        self.budget.land(&Landing { speed, off, kept, slowed, fall, range, slope });
-        for segment in &mut self.state.segments {
-            segment.off.moving += off.moving;
-        }
-        self.state.segments[0].off.moving = 0.0;
-        self.medium.touch_down(&mut self.state, &flight);
-        self.flight = None;
-    }
-
-    /// Counts a landing that the bound does not tell apart from a ray that passes: between the two the end may rise for as long, now
-    /// or whenever both return. A landing without speed starts no ray.
-    fn compare_rays(&mut self, speed: f64, off: Off) {
-        let off = self.budget.better(off, self.medium.splits());
-        let segments = &self.state.segments;
-        let last = &segments[segments.len() - 1];
-        // The ray of the release itself does not count.
-        let own = self.flying().is_some_and(|flight| segments[segments.len() - 1].at == flight.from.1);
-        let near = segments[0].len.to_f64() < off || (last.len.to_f64() < off && !own);
-        let speeds = (self.medium.gravity.to_f64() + self.noise()) * off;
-        if speed > speeds && (near || self.at_ray) {
-            let from = self.unresolved.as_ref().map_or_else(|| self.state.time(), |unresolved| unresolved.from.clone());
-            let (count, longest) = self.unresolved.as_ref().map_or((0, 0.0), |old| (old.count, old.longest));
-            self.unresolved = Some(Unresolved { from, count: count + 1, longest: longest.max(off) });
-        }
-    }
-
     /// An impact now; whether it is the one after the last that was asked for.
     fn land(&mut self, goal: &Goal<S>, off: Off) -> bool {
         if let Goal::Impacts(count) = goal
@@ -694,12 +545,6 @@ impl<'a, S: RoundedSpecial> Follower<'a, S> {
         self.event(off, false);
         false
     }
-}
-
-/// `e^{−2Rτ}` and `(1 − e^{−2Rτ})/2R`.
-fn slowed(damping: f64, age: f64) -> (f64, f64) {
-    let fall = -2.0 * damping * age;
-    (fall.exp(), crate::special::phi1(&fall) * age)
 }
 
 /// `target += series`.

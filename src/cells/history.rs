@@ -2,8 +2,9 @@
 
 use super::bounce::Held;
 use super::flight::Flight;
-use super::follow::{Checkpoint, Follower, Goal, Mark, Piece, Unresolved};
+use super::follow::{Follower, Goal};
 use super::march::Medium;
+use super::piece::{Checkpoint, Mark, Piece, Unresolved};
 use super::record::{Node, Record};
 use super::root::smallest;
 use super::series::{at_one, at_zero, evaluate};
@@ -18,12 +19,13 @@ use crate::special::{log_mean, log_rest};
 
 /// The motion of the damped rod through any number of impacts, `r ≥ 0`.
 ///
-/// **Source**: the characteristic cells of `v_tt + 2r v_t − c² v_xx = −g` with the contact law (1.3)–(1.6); derivation in
-/// the modules of `cells`. `r → 0` is regular: nothing is divided by `r`.
+/// **Source**: the characteristic cells of `v_tt + 2r v_t − c² v_xx = −g` with the contact law (1.3)–(1.6); derivation
+/// in the modules of `cells`. `r → 0` is regular: nothing is divided by `r`.
 ///
 /// **Units**: those of the problem.
 ///
-/// **Accuracy**: within [`Motion::error_estimate`] of each quantity's natural scale: `t₁`, `V = max(|data|, g t₁)`, `V t₁`.
+/// **Accuracy**: within [`Motion::error_estimate`] of each quantity's natural scale: `t₁`, `V = max(|data|, g t₁)`,
+/// `V t₁`.
 ///
 /// ```
 /// use dalembert::cells::Damped;
@@ -113,11 +115,12 @@ fn goal<S: RoundedSpecial>(problem: &Problem, precision: &S::Precision, data: &D
 impl<S: RoundedSpecial> Damped<S> {
     /// Follows `problem` as far as its `run` says, to about `digits` decimal digits of the natural scales.
     ///
-    /// What a cell leaves out is at most `2^{−20} 10^{−digits}`, or the roundoff of the number system where that is more;
-    /// [`Motion::error_estimate`] says what came of it.
+    /// What a cell leaves out is at most `2^{−20} 10^{−digits}`, or the roundoff of the number system where that is
+    /// more; [`Motion::error_estimate`] says what came of it.
     ///
-    /// A run up to a time that the motion does not last is answered from the state at rest from where the motion is below
-    /// [`Motion::error_estimate`], by a bound that it can never pass again; [`Motion::ending`] then says from when.
+    /// A run up to a time that the motion does not last is answered from the state at rest from where the motion is
+    /// below [`Motion::error_estimate`], by a bound that it can never pass again; [`Motion::ending`] then says from
+    /// when.
     ///
     /// **Errors**: [`Error::DampingTooStrong`] for `r t₁ > 2000`; [`Error::TooManyPieces`] beyond 400 000 strips;
     /// [`Error::TooManyRays`] beyond 4096 segments in a round trip; [`Error::Irrational`] from the parameters.

@@ -1,7 +1,7 @@
 //! The paper's rod from the first contact on: closed form while the contact lasts, cells after it.
 
-use super::follow::Unresolved;
 use super::history::Damped;
+use super::piece::Unresolved;
 use crate::error::Error;
 use crate::first_contact::{Bounce, ContactHistory, FirstContact};
 use crate::motion::{Contact, Ending, Energy, Event, Field, Motion, Scales, Side, StressPiece};
@@ -9,10 +9,11 @@ use crate::number::Estimate;
 use crate::problem::{Parameters, Problem, Run};
 use crate::special::RoundedSpecial;
 
-/// The damped rod that starts as the paper's does, through any number of impacts: [`ContactHistory`] as long as the first
-/// contact lasts, [`Damped`] from the bounce on.
+/// The damped rod that starts as the paper's does, through any number of impacts: [`ContactHistory`] as long as the
+/// first contact lasts, [`Damped`] from the bounce on.
 ///
-/// **Source**: Theorem 1 and the closed forms of section 3 until `t_b`; the characteristic cells of [`crate::cells`] after it.
+/// **Source**: Theorem 1 and the closed forms of section 3 until `t_b`; the characteristic cells of [`crate::cells`]
+/// after it.
 ///
 /// **Units**: those of the problem.
 ///
@@ -49,8 +50,8 @@ fn pair<S>((a, b): (Estimate<S>, Estimate<S>)) -> (S, S) {
 }
 
 impl<S: RoundedSpecial> Joined<S> {
-    /// Follows `problem`, whose first contact ends as `bounce` says, to about `digits` decimal digits of the natural scales,
-    /// and no farther than `reach`.
+    /// Follows `problem`, whose first contact ends as `bounce` says, to about `digits` decimal digits of the natural
+    /// scales, and no farther than `reach`.
     ///
     /// **Errors**: those of [`Damped::solve`].
     pub fn solve(

@@ -1,16 +1,16 @@
 //! A flight of many round trips in one step.
 //!
-//! In flight both ends are free. The vibration `z` about the centre of mass, extended evenly, has the period 1 in `x` (in
-//! `c t₁`), and `Z = e^{Rt} z` obeys `Z_tt − Z_xx = R² Z`. Its modes are `cos(2πkx) e^{±iω_k t}`, `ω_k² = (2πk)² − R²`, `k ≥ 1`. Hence
-//! with one real wave that goes down,
+//! In flight both ends are free. The vibration `z` about the centre of mass, extended evenly, has the period 1 in `x`
+//! (in `c t₁`), and `Z = e^{Rt} z` obeys `Z_tt − Z_xx = R² Z`. Its modes are `cos(2πkx) e^{±iω_k t}`,
+//! `ω_k² = (2πk)² − R²`, `k ≥ 1`. Hence with one real wave that goes down,
 //!
 //! ```text
 //! Z(x,t) = F(x,t) + F(−x,t),    F_t = Ω F,    Ω = D √(1 + R²D⁻²),    D = ∂/∂y,    D⁻¹: the antiderivative of mean zero.
 //! F(y,t) = (e^{tG} F(·,0))(y + t),    G = Ω − D = ½R² D⁻¹ − ⅛R⁴ D⁻³ + …
 //! ```
 //!
-//! A whole number n of round trips is `e^{nG}`, and everything is a power series in `D⁻¹`, which takes piecewise polynomials to
-//! piecewise polynomials: jumps stay on their rays. `G` is skew, so `e^{nG}` keeps the norm.
+//! A whole number n of round trips is `e^{nG}`, and everything is a power series in `D⁻¹`, which takes piecewise
+//! polynomials to piecewise polynomials: jumps stay on their rays. `G` is skew, so `e^{nG}` keeps the norm.
 //!
 //! On the characteristic `t = x = s/2` that leaves the ground, with `ψ = F_t` at `t = 0`, `H = 1 − (1 + R²D⁻²)^{−½}`,
 //!
@@ -19,16 +19,17 @@
 //! ψ = Σ_j Gʲ/j! Π[(−s/2)ʲ Z_s] + ½ Σ_j (∫(−s/2)ʲ Z ds)/j! G^{j+1} δ                                      (in)
 //! ```
 //!
-//! where Π takes the mean away and `D⁻¹δ = ½ − s`. The first is the chain rule. For the second, `U Z_t − Z U_t` of two solutions is the
-//! density of a conserved quantity without flux through the free ends, so its integral over `t = 0` is `∫(U Z_s − Z U_s) ds` over the
-//! characteristic; `U = cos(2πkx) e^{−iω_k t}` gives `iω_k a_k/2` of `Z = Σ Re a_k cos(2πkx) e^{iω_k t}`, and
-//! `U = ½ e^{−G_k s/2} (1 + e^{−2πiks})`, `G_k = i(ω_k − 2πk)`, on the characteristic. Integrating the first of its terms by parts,
+//! where Π takes the mean away and `D⁻¹δ = ½ − s`. The first is the chain rule. For the second, `U Z_t − Z U_t` of two
+//! solutions is the density of a conserved quantity without flux through the free ends, so its integral over `t = 0` is
+//! `∫(U Z_s − Z U_s) ds` over the characteristic; `U = cos(2πkx) e^{−iω_k t}` gives `iω_k a_k/2` of
+//! `Z = Σ Re a_k cos(2πkx) e^{iω_k t}`, and `U = ½ e^{−G_k s/2} (1 + e^{−2πiks})`, `G_k = i(ω_k − 2πk)`, on the
+//! characteristic. Integrating the first of its terms by parts,
 //! `iω_k a_k = 2 ∫ e^{−G_k s/2} e^{−2πiks} Z_s ds + G_k ∫ e^{−G_k s/2} Z ds`, which is (in) mode by mode.
 //!
 //! ## What is left out
-//! On mean-free functions `‖D⁻¹‖ ≤ ¼`, `‖D⁻²‖ ≤ 0.0324` in the sup norm: the integrals of `|½ − s|` and of `|s² − s + ⅙|/2`. The
-//! series of `G`, `H` and `e^{nG}` are alternating or have known coefficients, and are cut where what follows is below the
-//! accuracy.
+//! On mean-free functions `‖D⁻¹‖ ≤ ¼`, `‖D⁻²‖ ≤ 0.0324` in the sup norm: the integrals of `|½ − s|` and of
+//! `|s² − s + ⅙|/2`. The series of `G`, `H` and `e^{nG}` are alternating or have known coefficients, and are cut where
+//! what follows is below the accuracy.
 
 use std::collections::VecDeque;
 
@@ -37,9 +38,8 @@ use super::march::{Medium, Segment, State};
 use super::series::{Basis, at_one, at_zero, integral, times_x};
 use crate::special::RoundedSpecial;
 
-/// The strongest damping `R` for which flights are leapt over: `R²‖D⁻²‖ ≤ 0.13`.
-pub(super) const MOST_DAMPING: f64 = 2.0;
-/// The most of `nR²/4π`, the phase by which damping holds the lowest mode back, in one leap: its series loses `e^{nR²/4π}`.
+/// The most of `nR²/4π`, the phase by which damping holds the lowest mode back, in one leap: its series loses
+/// `e^{nR²/4π}`.
 const MOST_PHASE: f64 = 4.0;
 /// `‖D⁻²‖`.
 const TWICE: f64 = 0.0324;

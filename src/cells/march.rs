@@ -1,9 +1,9 @@
 //! Marching: from the data on one upward characteristic to those on the next.
 //!
 //! Dimensionless: time in `t₁`, `x/c` in `t₁` (so that the rod is `0 … ½`), velocities in `V`. The state is `q` on the
-//! characteristic `ξ = b` that leaves the ground at time `b`, for `b ≤ η ≤ b + 1`, in segments between the rays that come
-//! down. A strip takes the first segment to the ground, sends `p` up through the others, reflects it at the top and
-//! appends the result as the last segment, one round trip later.
+//! characteristic `ξ = b` that leaves the ground at time `b`, for `b ≤ η ≤ b + 1`, in segments between the rays that
+//! come down. A strip takes the first segment to the ground, sends `p` up through the others, reflects it at the top
+//! and appends the result as the last segment, one round trip later.
 //!
 //! A segment knows its place as a fraction of a round trip, which the ray keeps for ever: it is handed on, not computed
 //! again, so that rays return at exactly the same fraction and lengths never drift.
@@ -12,9 +12,11 @@ use std::collections::VecDeque;
 
 use super::budget::Off;
 use super::cell::{Cell, cross, diagonal, scale};
-use super::leap::MOST_DAMPING;
 use super::series::{Basis, at_one, at_zero, bound, evaluate, terms_for};
 use crate::number::Rounded;
+
+/// The strongest damping `R` for which flights are leapt over: `R²‖D⁻²‖ ≤ 0.13`.
+pub(super) const MOST_DAMPING: f64 = 2.0;
 
 /// What stays the same during a run.
 #[derive(Clone, Debug)]
@@ -283,10 +285,10 @@ impl<S: Rounded> Medium<S> {
 
     /// Forgets the ray between the segments k and k + 1 once they continue each other within the truncation of a cell.
     ///
-    /// A jump at age `T` is `e^{−rT}` of the one that it started with, and so are its derivatives' (times powers of `r²T`),
-    /// so every ray is forgotten in the end, except those that keep segments short. What is compared is the joined series
-    /// with the two old ones, term by term: the sum of the differences bounds what the joining changes, and by the sup
-    /// norm property it is never amplified.
+    /// A jump at age `T` is `e^{−rT}` of the one that it started with, and so are its derivatives' (times powers of
+    /// `r²T`), so every ray is forgotten in the end, except those that keep segments short. What is compared is the
+    /// joined series with the two old ones, term by term: the sum of the differences bounds what the joining changes,
+    /// and by the sup norm property it is never amplified.
     fn join(&self, state: &mut State<S>, k: usize) {
         let (a, b) = (&state.segments[k], &state.segments[k + 1]);
         let len = a.len.clone() + &b.len;

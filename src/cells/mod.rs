@@ -1,21 +1,24 @@
 //! The damped rod, any number of impacts: characteristic cells, the contact law, marching.
 //!
-//! In reading order: `series` holds functions, `cell` carries the invariants through one cell, `march` through one strip; `start`
-//! makes the first state from the data at `t = 0` and `bounce` from the closed form of the first contact; `flight` takes a
-//! flight apart into centre of mass and vibration, and `leap` goes over many of its round trips at once. `root` finds events,
-//! `follow` decides what happens at the ground, `budget` adds up what all of it may be off by, `rest` says when nothing more
-//! can happen, `record` gets the field back, `history` answers questions, `joined` puts the closed form of the first contact
-//! before it, and `with_bounds` gives answers with their bounds.
+//! In reading order: `series` holds functions, `cell` carries the invariants through one cell, `march` through one
+//! strip; `start` makes the first state from the data at `t = 0` and `bounce` from the closed form of the first
+//! contact; `flight` takes a flight apart into centre of mass and vibration, and `leap` goes over many of its round
+//! trips at once. `root` finds events, `follow` decides what happens at the ground, `event` does it, `piece` is what
+//! remains of it, `budget` adds up what all of it may
+//! be off by, `rest` says when nothing more can happen, `record` gets the field back, `history` answers questions,
+//! `joined` puts the closed form of the first contact before it, and `with_bounds` gives answers with their bounds.
 
 mod bounce;
 mod budget;
 mod cell;
+mod event;
 mod flight;
 mod follow;
 mod history;
 mod joined;
 mod leap;
 mod march;
+mod piece;
 mod record;
 mod rest;
 mod root;
@@ -23,7 +26,7 @@ mod series;
 mod start;
 mod with_bounds;
 
-pub use follow::Unresolved;
 pub use history::Damped;
 pub use joined::{Joined, Reach};
+pub use piece::Unresolved;
 pub use with_bounds::WithBounds;

@@ -1,14 +1,14 @@
 //! From what is kept back to the field: the cells are marched again from the last state that was kept.
 //!
-//! Kept are the trace at the ground and one state for every round trip; everything between is the same march once more, with
-//! the cuts that are known. A question costs at most two round trips of cells, and memory is that of a trace.
+//! Kept are the trace at the ground and one state for every round trip; everything between is the same march once more,
+//! with the cuts that are known. A question costs at most two round trips of cells, and memory is that of a trace.
 
 use super::bounce::Held;
 use super::budget::Off;
 use super::cell::Cell;
 use super::flight::Flight;
-use super::follow::{Checkpoint, Piece};
 use super::march::Medium;
+use super::piece::{Checkpoint, Piece};
 use super::series::evaluate;
 use super::start::Data;
 use crate::motion::Side;
@@ -99,8 +99,8 @@ impl<S: RoundedSpecial> Record<'_, S> {
 
     /// Gauss–Legendre nodes on `0 ≤ x ≤ reach` at time `t`, between all rays.
     ///
-    /// **Accuracy**: that of the cells: between rays the squares of `z_t`, `z_x` grow at most like `e^{4κ|s|}`, for which the
-    /// tables hold enough terms, and the rule is exact to twice its nodes.
+    /// **Accuracy**: that of the cells: between rays the squares of `z_t`, `z_x` grow at most like `e^{4κ|s|}`, for
+    /// which the tables hold enough terms, and the rule is exact to twice its nodes.
     pub(super) fn line(&self, t: &S, reach: &S) -> Vec<Node<S>> {
         let zero = t.zero();
         let mut nodes = Vec::new();

@@ -1,10 +1,12 @@
 //! What certainly does not happen any more: a release, an impact, any motion at all.
 //!
 //! In units: `d` is the deviation from the state at rest, `p`, `q` its invariants, `B` a bound of them on one upward
-//! characteristic. By the sup norm of [`super::cell`] and the reflections `p = ±q` it is a bound of them everywhere later.
+//! characteristic. By the sup norm of [`super::cell`] and the reflections `p = ±q` it is a bound of them everywhere
+//! later.
 
-use super::follow::{Follower, Goal, Piece};
+use super::follow::{Follower, Goal};
 use super::march::Medium;
+use super::piece::Piece;
 use super::record::{Node, Record};
 use super::series::bound;
 use crate::motion::Ending;
@@ -16,10 +18,11 @@ const OVER: f64 = 3.0;
 impl<S: RoundedSpecial> Follower<'_, S> {
     /// Why no impact can follow the flight, if that is certain. Only where gravity does not pull the end back.
     ///
-    /// In flight the end swings about a stress-free state at height `s = v_s′(0)/2` (top fixed) or about the centre of mass
-    /// (top free, `g = 0`), whose height `h` tends monotonely to `h + h′/2r`. The deviation `d` has an energy `E` that
-    /// cannot grow and `|d(0)| ≤ √ℓ ‖d_x‖`, `‖d_x‖ ≤ √(2E)`, with `ℓ = ½` for a fixed top; `ℓ = ⅙` where the mean of `d`
-    /// vanishes, as then `d(0) = −∫(1 − 2x) d_x dx`. No impact follows once `√(2ℓE)` is less than the least height.
+    /// In flight the end swings about a stress-free state at height `s = v_s′(0)/2` (top fixed) or about the centre of
+    /// mass (top free, `g = 0`), whose height `h` tends monotonely to `h + h′/2r`. The deviation `d` has an energy `E`
+    /// that cannot grow and `|d(0)| ≤ √ℓ ‖d_x‖`, `‖d_x‖ ≤ √(2E)`, with `ℓ = ½` for a fixed top; `ℓ = ⅙` where the mean
+    /// of `d` vanishes, as then `d(0) = −∫(1 − 2x) d_x dx`. No impact follows once `√(2ℓE)` is less than the least
+    /// height.
     pub(super) fn escapes(&self) -> Option<Ending> {
         let (medium, data) = (self.medium, self.data);
         let slope = medium.slope.to_f64();
@@ -59,8 +62,8 @@ impl<S: RoundedSpecial> Follower<'_, S> {
 
     /// Why no release can follow, if that is certain.
     ///
-    /// In contact `p = −q` at the ground and `p = ±q` at the top, so `|q| ≤ B` on one characteristic gives `|q| ≤ B` for
-    /// ever, and with `B < |v_s′(0)|`, `v_s′(0) < 0`, the stress `q + v_s′(0)` stays negative.
+    /// In contact `p = −q` at the ground and `p = ±q` at the top, so `|q| ≤ B` on one characteristic gives `|q| ≤ B`
+    /// for ever, and with `B < |v_s′(0)|`, `v_s′(0) < 0`, the stress `q + v_s′(0)` stays negative.
     pub(super) fn stays(&self) -> Option<Ending> {
         let most = self.state.bound() + self.noise();
         let slope = self.medium.slope.to_f64();
@@ -78,15 +81,17 @@ impl<S: RoundedSpecial> Follower<'_, S> {
         if self.marks.len() > 1 { Ending::Rest(reason) } else { Ending::NoBounce(reason) }
     }
 
-    /// Bounds of velocities and of displacements from now on, as deviations from the state at rest, if this state is clear.
+    /// Bounds of velocities and of displacements from now on, as deviations from the state at rest, if this state is
+    /// clear.
     ///
-    /// - Pressed on the ground, `v_s′(0) < 0`, in contact and never to leave: `B` and `B/2`, as `d(0) = 0` and `d_x ≤ B` on
-    ///   a rod of length ½.
-    /// - Hanging from a fixed top, `v_s′(0) > 0`, in flight: `B` and `B/2` from the top, less than the height of the end.
+    /// - Pressed on the ground, `v_s′(0) < 0`, in contact and never to leave: `B` and `B/2`, as `d(0) = 0` and
+    ///   `d_x ≤ B` on a rod of length ½.
+    /// - Hanging from a fixed top, `v_s′(0) > 0`, in flight: `B` and `B/2` from the top, less than the height of the
+    ///   end.
     /// - Neither, `v_s′(0) = 0`: then `v_s` fits contact and flight, and `B` outlives every event. Under a fixed top
-    ///   displacements are at most `B/2`. Under a free one `(h′ + 2rh)′ = −c²v_x/L` vanishes in flight: from a height of the
-    ///   end now, or in later flights from a contact, in which `|h| ≤ B/4`, the centre moves by at most `B/2r`; the end
-    ///   is at most `B/4` from it, and neither moves faster than `B`, whatever it meets.
+    ///   displacements are at most `B/2`. Under a free one `(h′ + 2rh)′ = −c²v_x/L` vanishes in flight: from a height
+    ///   of the end now, or in later flights from a contact, in which `|h| ≤ B/4`, the centre moves by at most `B/2r`;
+    ///   the end is at most `B/4` from it, and neither moves faster than `B`, whatever it meets.
     fn left(&self, time: f64) -> Option<(f64, f64)> {
         let Medium { slope, kappa, free_top, basis, .. } = self.medium;
         let value = slope.to_f64();
@@ -117,8 +122,8 @@ impl<S: RoundedSpecial> Follower<'_, S> {
 
     /// Ends a run whose motion is below its own error: the rest of the time belongs to the state at rest.
     ///
-    /// `since` is when that was first so. A round trip later the bound holds on whole lines of constant time, not only on
-    /// a characteristic, and the field may be answered from the state at rest.
+    /// `since` is when that was first so. A round trip later the bound holds on whole lines of constant time, not only
+    /// on a characteristic, and the field may be answered from the state at rest.
     pub(super) fn settle(&mut self, goal: &Goal<S>, since: &mut Option<S>) -> Option<Ending> {
         let now = self.state.time();
         let time = match goal {

@@ -9,10 +9,11 @@ const SMALLEST: f64 = 1e-300;
 /// The first `x` in `0 … 1` where the series turns negative, given that it is not negative at 0; `None` if it does not.
 ///
 /// The interval is halved until a part is settled: `|c₀| > Σ_{k≥1}|c_k|` fixes the sign on a part, the same for the
-/// derivative makes the function monotone there, and then its end decides. Parts are settled from left to right, so what
-/// is found is the first. A part on which `Σ|c_k| ≤ noise` says nothing and is passed over: if the function does turn
-/// negative in it, the next part is negative from its left end on, and that is the answer; the second value says so, and
-/// also where a descent begins within the noise: the root is then where the function is within the noise, not where it vanishes.
+/// derivative makes the function monotone there, and then its end decides. Parts are settled from left to right, so
+/// what is found is the first. A part on which `Σ|c_k| ≤ noise` says nothing and is passed over: if the function does
+/// turn negative in it, the next part is negative from its left end on, and that is the answer; the second value says
+/// so, and also where a descent begins within the noise: the root is then where the function is within the noise, not
+/// where it vanishes.
 pub(super) fn first_descent<S: Rounded>(basis: &Basis<S>, c: &[S], noise: f64) -> Option<(S, bool)> {
     let first = c.first()?;
     let zero = first.zero();
@@ -84,8 +85,9 @@ fn descend<S: Rounded>(c: &[S], slope: &[S]) -> S {
     x
 }
 
-/// The smallest value on `0 … 1`. **Accuracy**: within `16u Σ|c_k|`: parts are halved until they are monotone, can't fall
-/// below what was found by more than that, or are shorter than `√u`, where the ends are within a few `u` of the least value.
+/// The smallest value on `0 … 1`. **Accuracy**: within `16u Σ|c_k|`: parts are halved until they are monotone, can't
+/// fall below what was found by more than that, or are shorter than `√u`, where the ends are within a few `u` of the
+/// least value.
 pub(super) fn smallest<S: Rounded>(basis: &Basis<S>, c: &[S]) -> Option<S> {
     let zero = c.first()?.zero();
     let unit = zero.log2_roundoff();

@@ -171,8 +171,8 @@ fn unit_rule<S: Rounded>(like: &S, n: usize) -> Vec<(S, S)> {
 /// on `0 ≤ s ≤ 1`, to `2^log2_accuracy`.
 ///
 /// On the Bernstein ellipse of parameter `ρ > 1` around the unit interval `|s| ≤ σ = ½ + (ρ + 1/ρ)/4`, hence
-/// `|c_k| ≤ 2F ρ^{−k}` with `F = (a + bσ)e^{θσ}`, and what is left out after `n` terms is at most `2F ρ^{−n}/(1 − 1/ρ)`.
-/// The smallest `n` over a grid of `ρ` is taken: every `ρ` gives a valid bound.
+/// `|c_k| ≤ 2F ρ^{−k}` with `F = (a + bσ)e^{θσ}`, and what is left out after `n` terms is at most
+/// `2F ρ^{−n}/(1 − 1/ρ)`. The smallest `n` over a grid of `ρ` is taken: every `ρ` gives a valid bound.
 pub(super) fn terms_for(a: f64, b: f64, theta: f64, log2_accuracy: f64) -> usize {
     let mut best = f64::INFINITY;
     for j in 1..=80 {

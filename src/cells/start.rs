@@ -1,7 +1,8 @@
 //! The start: from displacement and velocity at `t = 0` to the characteristic that leaves the ground at `t = 0`.
 //!
-//! The rod is continued through its top by reflection of `z = v − v_s`, so the data live on `0 ≤ x ≤ 1` (in `c t₁`). Between
-//! breaks `z_x` and `z_t` are linear in `x`, and the solution that continues such data to the whole plane is elementary:
+//! The rod is continued through its top by reflection of `z = v − v_s`, so the data live on `0 ≤ x ≤ 1` (in `c t₁`).
+//! Between breaks `z_x` and `z_t` are linear in `x`, and the solution that continues such data to the whole plane is
+//! elementary:
 //!
 //! ```text
 //! z_x = b + d (x−x₀) + e τ(t),    z_t = d τ(t) + (a + e (x−x₀)) e^{−2rt},    τ(t) = (1 − e^{−2rt})/2r

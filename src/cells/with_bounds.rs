@@ -4,10 +4,11 @@ use crate::error::Error;
 use crate::motion::{Contact, Ending, Energy, Event, Field, Motion, Scales, Side, StressPiece};
 use crate::number::{Estimate, Rounded, Scalar};
 
-/// A history, each of whose numbers has the bound that follows from [`Motion::error_estimate`] and its natural scale; times of events have
-/// their own.
+/// A history, each of whose numbers has the bound that follows from [`Motion::error_estimate`] and its natural scale;
+/// times of events have their own.
 ///
-/// **Accuracy**: *within its own bound*, away from rays that are themselves off in time. A time that is asked about is taken as it is stored.
+/// **Accuracy**: *within its own bound*, away from rays that are themselves off in time. A time that is asked about is
+/// taken as it is stored.
 #[derive(Debug)]
 pub struct WithBounds<S, H> {
     history: H,
@@ -122,7 +123,8 @@ impl<S: Rounded, H: Motion<S>> Motion<Estimate<S>> for WithBounds<S, H> {
         Ok((within(&height, self.rise), within(&rate, self.speed)))
     }
 
-    /// Of a mean square `s²`, off by δ in the root, `L s²/2` is off by at most `L (2s + δ) δ`; and `L g h` by that of h.
+    /// Of a mean square `s²`, off by δ in the root, `L s²/2` is off by at most `L (2s + δ) δ`; and `L g h` by that of
+    /// h.
     fn energy(&self, time: &Estimate<S>) -> Result<Energy<Estimate<S>>, Error> {
         let energy = self.history.energy(time.value())?;
         let (_, rate) = self.history.centre(time.value())?;

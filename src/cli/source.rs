@@ -56,8 +56,8 @@ pub(super) fn read(name: &str) -> Result<Scene, Failure> {
     Scene::parse(&text).map_err(|error| error.in_file(shown).into())
 }
 
-/// The scene that a name which is none may mean: a file beside it that only lacks the ending, or the built-in scene whose name is
-/// the same but for hyphens and case, or a part of it.
+/// The scene that a name which is none may mean: a file beside it that only lacks the ending, or the built-in scene
+/// whose name is the same but for hyphens and case, or a part of it.
 fn nearest(name: &str) -> Option<String> {
     let file = format!("{name}.toml");
     if std::path::Path::new(&file).is_file() {

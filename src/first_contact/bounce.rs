@@ -12,13 +12,15 @@ impl<N: BoundedSpecial> FirstContact<N> {
     /// `t_b` (1.10): the end of the first contact.
     ///
     /// **Source**: Theorem 1, with (2.32) in closed form: `t_b = t₁` where `μ (2 − I₀(R)) > μ₀ (I₀(R) + I₁(R))`.
-    /// Without damping Corollary 1 says all. Later cells are searched one by one on a Chebyshev sum whose rest is bounded, see [`Doubt`] for
-    /// what can stand in the way. "Never" is shown in one of two ways. For `R ≥ π`: the kernel `H_r` is positive, because its
-    /// lowest mode, overdamped, exceeds the sum of all others from `t₁` on. For `R < π`: at some lattice time
-    /// `|v_t ∓ c(v_x − v_s′)| < gL/c` throughout the rod; this largest Riemann invariant of the transient cannot
-    /// grow, since `(∂_t ± c∂_x) p_± = −r (p₊ + p₋)`, and so the static stress wins at all later times.
+    /// Without damping Corollary 1 says all. Later cells are searched one by one on a Chebyshev sum whose rest is
+    /// bounded, see [`Doubt`] for what can stand in the way. "Never" is shown in one of two ways. For `R ≥ π`: the
+    /// kernel `H_r` is positive, because its lowest mode, overdamped, exceeds the sum of all others from `t₁` on. For
+    /// `R < π`: at some lattice time `|v_t ∓ c(v_x − v_s′)| < gL/c` throughout the rod; this largest Riemann invariant
+    /// of the transient cannot grow, since `(∂_t ± c∂_x) p_± = −r (p₊ + p₋)`, and so the static stress wins at all
+    /// later times.
     ///
-    /// **Accuracy**: *within its own bound*. No root is reported that is not bracketed by signs beyond the bounds of the stress.
+    /// **Accuracy**: *within its own bound*. No root is reported that is not bracketed by signs beyond the bounds of
+    /// the stress.
     ///
     /// ```
     /// # use dalembert::{Number, Problem, problem::Parameters, first_contact::{Bounce, BounceKind, FirstContact}, number::Estimate};
@@ -110,9 +112,9 @@ impl<N: BoundedSpecial> FirstContact<N> {
     /// `4 Σ_{all} sin(ω_nτ)/ω_n = ±1`, with `Ω_n² ≥ ¾ω_n²`, `Σ_{n≥N} ω_n⁻² ≤ ω_N⁻² + 1/2πω_N`,
     /// `Σ_{n≥N} ω_n⁻³ ≤ ω_N⁻³ + 1/4πω_N²`. Those between are at most τ and `1/Ω_n`. All others together are at most
     /// `b₀ + b₁τ`. For `R ≥ π`, `S_0` is convex, so one look at τ = 1 is enough for ever; for `R < π` it is concave
-    /// up to `π/Ω_0`, so a look at τ = 1 and at τ = k is enough for all between. The doubles here stand against margins of one part
-    /// in 10⁹: r and π are known to 10⁻¹⁶, so is R − π to `10⁻¹⁶/s²`, and below s = 10⁻⁶ nothing depends on s. Before, `H_r = I₀ > 0`. As long as
-    /// H_r > 0, G_r > 0.
+    /// up to `π/Ω_0`, so a look at τ = 1 and at τ = k is enough for all between. The doubles here stand against margins
+    /// of one part in 10⁹: r and π are known to 10⁻¹⁶, so is R − π to `10⁻¹⁶/s²`, and below s = 10⁻⁶ nothing depends on
+    /// s. Before, `H_r = I₀ > 0`. As long as H_r > 0, G_r > 0.
     fn lowest_mode(&self) -> Result<i64, Box<Bounce<N>>> {
         use std::f64::consts::PI;
         let answer = |bounce| Err(Box::new(bounce));

@@ -50,12 +50,13 @@ impl<N: BoundedSpecial> FirstContact<N> {
         (self.critical.clone() / self.total_speed()).near().0 / 2.0
     }
 
-    /// A bound of `|v_t ∓ c(v_x − v_s′)|/(μ + μ₀)` at `k t₁`, and so at all later times; `None` where that is more than the static
-    /// share `gL/c` of it, or not known.
+    /// A bound of `|v_t ∓ c(v_x − v_s′)|/(μ + μ₀)` at `k t₁`, and so at all later times; `None` where that is more than
+    /// the static share `gL/c` of it, or not known.
     ///
     /// At a lattice time no ray is inside the rod, so both invariants are analytic in a; with 25 Chebyshev points the
-    /// interpolant is off by at most `4M·8^{−24}/7`, M from [`FirstContact::amplitude`], and it is nowhere larger than the
-    /// sum of its coefficients' magnitudes. Errors of the values add up to no more than 3.1 times the greatest of them.
+    /// interpolant is off by at most `4M·8^{−24}/7`, M from [`FirstContact::amplitude`], and it is nowhere larger than
+    /// the sum of its coefficients' magnitudes. Errors of the values add up to no more than 3.1 times the greatest of
+    /// them.
     pub(super) fn transient(&self, k: i64) -> Option<f64> {
         const NODES: usize = 24;
         let trips = self.damping.int(k);
@@ -88,8 +89,8 @@ impl<N: BoundedSpecial> FirstContact<N> {
         let interpolation =
             4.0 * self.amplitude(k as f64, (8.0 - 1.0 / 8.0) / 8.0, 1.0, 1.0) * 8f64.powi(-(NODES as i32));
         let ((up, up_steep), (down, down_steep)) = (size(&upward), size(&downward));
-        // Nodes and coefficients are doubles. With the interpolant's factor 3.1 for 25 points: the nodes are off by 10⁻¹⁵, and
-        // each coefficient, see `interpolant`, by 5·10⁻¹⁵ of the largest value, all 25 by 1.3·10⁻¹³.
+        // Nodes and coefficients are doubles. With the interpolant's factor 3.1 for 25 points: the nodes are off by
+        // 10⁻¹⁵, and each coefficient, see `interpolant`, by 5·10⁻¹⁵ of the largest value, all 25 by 1.3·10⁻¹³.
         let doubles = 4e-15 * up_steep.max(down_steep) + 2e-13 * up.max(down);
         Some(up.max(down) + interpolation + 3.1 * error + doubles)
     }
@@ -120,11 +121,13 @@ impl<N: BoundedSpecial> Search<'_, N> {
     /// most 1 to the impact's share and, integrated from j, at most 2k + 1 to the weight's: `M ≤ (2k+1)²`.
     ///
     /// The rest is rounding, with `u = 2⁻⁵³`, for values at most V and coefficients c:
-    /// - the nodes are off by `10⁻¹⁵`, the cosines in the coefficients too; each coefficient by `2V (10⁻¹⁵·1.5 + (n+3)u)`;
+    /// - the nodes are off by `10⁻¹⁵`, the cosines in the coefficients too; each coefficient by
+    ///   `2V (10⁻¹⁵·1.5 + (n+3)u)`;
     /// - a value, which is known to `rounding`, is turned into a double: `2uV` more;
-    /// - an error made at index k of Clenshaw's recurrence has the weight `T_k`, at most 1, in its result, and the recurrence's
-    ///   terms are at most `Σ (j+1)|c_j|`: together `12 u (n+1) Σ (j+1)|c_j|`. In the slope the weights are at most `n²` and the
-    ///   terms `Σ (j+1)³|c_j|`; divided by the `4(n+1)²` that [`first_root`] allows slopes, that is less than `4 u Σ (j+1)³|c_j|`.
+    /// - an error made at index k of Clenshaw's recurrence has the weight `T_k`, at most 1, in its result, and the
+    ///   recurrence's terms are at most `Σ (j+1)|c_j|`: together `12 u (n+1) Σ (j+1)|c_j|`. In the slope the weights
+    ///   are at most `n²` and the terms `Σ (j+1)³|c_j|`; divided by the `4(n+1)²` that [`first_root`] allows slopes,
+    ///   that is less than `4 u Σ (j+1)³|c_j|`.
     pub(super) fn interpolant(&self, k: i64) -> Result<Interpolant<N>, Doubt> {
         let at = |x: f64| self.contact.inside(k, x);
         let zero = self.contact.damping.zero();
@@ -178,8 +181,8 @@ impl<N: BoundedSpecial> Search<'_, N> {
         }
     }
 
-    /// The root in a bracket: the Illinois variant of regula falsi, in exact numbers of round trips, until the force there has no
-    /// sign. In the bracket it falls at least as fast as `slope`: the root is no farther than `|f|/slope`.
+    /// The root in a bracket: the Illinois variant of regula falsi, in exact numbers of round trips, until the force
+    /// there has no sign. In the bracket it falls at least as fast as `slope`: the root is no farther than `|f|/slope`.
     pub(super) fn refine(&self, bracket: Bracket<N>) -> Bounce<N> {
         let Bracket { cell: k, from: mut a, to: mut b, slope } = bracket;
         let force = |x: &N| self.force(x, k);

@@ -34,9 +34,10 @@ impl<N: BoundedSpecial> FirstContact<N> {
     ///
     /// **Source**: (3.54), (3.61)–(3.63), with `E_z = ½∫((v_t − h′)² + c²v_x²)dx`, so that `E_z ≪ E` keeps its digits.
     ///
-    /// **Accuracy**: *within its own bound*, which holds rounding and quadrature. In doubles, at `t₁` and `R ≤ 1`, the parts of
-    /// `v_t` and `v_x` that do not depend on x are left out before they are added up, and `E_z` is relatively accurate however
-    /// small; at other times its error is that of `v_t` and `v_x`, which are known to a part of `μ + μ₀`.
+    /// **Accuracy**: *within its own bound*, which holds rounding and quadrature. In doubles, at `t₁` and `R ≤ 1`, the
+    /// parts of `v_t` and `v_x` that do not depend on x are left out before they are added up, and `E_z` is relatively
+    /// accurate however small; at other times its error is that of `v_t` and `v_x`, which are known to a part of
+    /// `μ + μ₀`.
     ///
     /// ```
     /// # use dalembert::{problem::Parameters, first_contact::FirstContact, number::Estimate};
@@ -70,8 +71,8 @@ impl<N: BoundedSpecial> FirstContact<N> {
         Some((energy.translational / &energy.total, energy.total / &start))
     }
 
-    /// `E_z`: with the number of nodes for a small part of its natural size, and once more where what these leave is more than the
-    /// rounding errors. The impact finds the rod undeformed.
+    /// `E_z`: with the number of nodes for a small part of its natural size, and once more where what these leave is
+    /// more than the rounding errors. The impact finds the rod undeformed.
     fn vibrational(&self, trips: &Trips<N>) -> Option<N> {
         if trips.lattice() == Some(0) {
             return Some(self.damping.zero());
@@ -90,11 +91,12 @@ impl<N: BoundedSpecial> FirstContact<N> {
         Some(value.widened(&(two.ln() * &two.double(rest + 1e-3)).exp()))
     }
 
-    /// `log₂` of the bound of what n nodes leave between two rays, without nodes, and of what each node takes off, for some ρ.
+    /// `log₂` of the bound of what n nodes leave between two rays, without nodes, and of what each node takes off, for
+    /// some ρ.
     ///
     /// n nodes on an interval of half-width w leave less than `(64/15) w M ρ^{−2n}/(1 − ρ⁻²)`, where M bounds the
-    /// integrand on the Bernstein ellipse ρ, which reaches `δ = (ρ − 1/ρ)w/2` beyond an interval of half-width w. Both stretches
-    /// together are less than `5 L A² ρ^{−2n}/(1 − ρ⁻²)` off.
+    /// integrand on the Bernstein ellipse ρ, which reaches `δ = (ρ − 1/ρ)w/2` beyond an interval of half-width w. Both
+    /// stretches together are less than `5 L A² ρ^{−2n}/(1 − ρ⁻²)` off.
     fn ellipses(&self, trips: &Trips<N>) -> Vec<[f64; 2]> {
         let tau = trips.number.to_f64();
         let (mu, mu0, length) = (self.speed.to_f64(), self.critical.to_f64(), self.rod.length.to_f64());
@@ -130,13 +132,15 @@ impl<N: BoundedSpecial> FirstContact<N> {
         Some((sum * &self.rod.length).without_exact())
     }
 
-    /// The stretches between the rays in the rod, of which there are one upwards and one downwards but at lattice times.
+    /// The stretches between the rays in the rod, of which there are one upwards and one downwards but at lattice
+    /// times.
     fn stretches(&self, trips: &Trips<N>) -> Option<Vec<Stretch<N>>> {
         let (k, zero, half) = (trips.passed, self.damping.zero(), self.damping.ratio(1, 2));
         if trips.on_lattice {
             return Some(vec![Stretch { from: zero, to: half, arrived: [k, k] }]);
         }
-        // The upward ray is at this a in the first half of a round trip, the downward one at the mirror image in the second.
+        // The upward ray is at this a in the first half of a round trip, the downward one at the mirror image in the
+        // second.
         let late = trips.number.clone() - trips.number.int(k) - &half;
         let cut = half.clone() - late.magnitude();
         let upward = match late.sign().ok()? {
@@ -202,8 +206,8 @@ impl<N: BoundedSpecial> FirstContact<N> {
 
     /// `T₃(a) = Σ_{p≥3} (R/2)^p Σ_{n+2m=p} ±{1,2} ξ^{n+m}η^m/(m!(n+m)!)`, with `ξ = 1 − a`, `η = 1 + a`.
     ///
-    /// The terms of order p are at most `R^p/p!` together, since `Σ_ℤ qⁿIₙ = e^R`; those left out are at most `2^{−bits−8}` of
-    /// `R³/6`, and each order is one polynomial in ξ, η by Horner in η/ξ-free form.
+    /// The terms of order p are at most `R^p/p!` together, since `Σ_ℤ qⁿIₙ = e^R`; those left out are at most
+    /// `2^{−bits−8}` of `R³/6`, and each order is one polynomial in ξ, η by Horner in η/ξ-free form.
     fn third_order(&self, a: &N) -> N {
         let (xi, eta) = (a.one() - a, a.one() + a);
         let half = self.damping.clone() / a.int(2);

@@ -11,10 +11,10 @@ use crate::special::{BoundedSpecial, Ray};
 ///
 /// **Units**: any consistent units.
 ///
-/// **Accuracy**: *within its own bound*: estimates carry the magnitudes of all terms times the roundings in each, enclosures
-/// their ends. Where `r t` is large and `R < π` the terms cancel, and the bound shows it. A time that is a lattice time `k t₁`
-/// within its bound is taken for that, a point that a ray is reaching for one on the ray. What is not known, because an
-/// enclosure does not tell which rays have arrived, has no finite bound.
+/// **Accuracy**: *within its own bound*: estimates carry the magnitudes of all terms times the roundings in each,
+/// enclosures their ends. Where `r t` is large and `R < π` the terms cancel, and the bound shows it. A time that is a
+/// lattice time `k t₁` within its bound is taken for that, a point that a ray is reaching for one on the ray. What is
+/// not known, because an enclosure does not tell which rays have arrived, has no finite bound.
 ///
 /// ```
 /// # use dalembert::{Number, Problem, problem::Parameters, first_contact::FirstContact, Side, number::Estimate};
@@ -217,7 +217,8 @@ impl<N: BoundedSpecial> FirstContact<N> {
         self.trips(time).as_ref().map_or_else(|| unknown(time), at)
     }
 
-    /// `V`, `V_t`, `V_x` at the travel time `a` from the ground, `0 ≤ a ≤ 1/2`, with so many rays arrived upwards and downwards.
+    /// `V`, `V_t`, `V_x` at the travel time `a` from the ground, `0 ≤ a ≤ 1/2`, with so many rays arrived upwards and
+    /// downwards.
     pub(super) fn field_shares(&self, a: &N, trips: &N, arrived: [i64; 2], free: &FreeFall<N>) -> [Shares<N>; 3] {
         let r = &self.damping;
         let (mut value, mut rate) = (free.value.clone(), free.rate.clone());
@@ -291,12 +292,15 @@ impl<N: BoundedSpecial> FirstContact<N> {
     /// A bound of `v_t`, `c v_x` and `v_t − h′` where the travel time a is complex, at most `δ = beyond` from the rod.
     ///
     /// Let X, Y be `|ξ|`, `|η|` of one ray. The coefficients of every ψ_n are positive, so `|ψ_n(ξ,η)| ≤ ψ_n(X,Y)`, and
-    /// `(R/2)ⁿ ψ_n(X,Y) = qⁿ I_n(z)` with `q² = X/Y`, `z² = R²XY`. Let `A = e^{−Rτ} Σ_{n≥0} qⁿI_n`; then A is at most `e^{Rκ}`, as
-    /// - `Σ_{n≥0} qⁿI_n ≤ Σ_ℤ qⁿI_n = e^{R(X+Y)/2}`, and ξ and η are at most δ from real values with the sum 2τ: `κ ≤ δ`;
-    /// - `(X+Y)/2` is also at most the root of the mean of X² and Y², `√(τ² + |a|²)`: `κ ≤ √(τ²+2δ²) − τ` where `Re a < 0`;
-    /// - otherwise q ≤ 1 and `Σ_{n≥0} qⁿI_n ≤ (e^z + I₀)/2 ≤ e^z`. For `Im a = y`, `(XY)² = (τ² − x² + y²)² + 4x²y²` is convex in x²,
-    ///   so at most what it is at x = 0, `(τ²+y²)²`, or at x = τ + δ, where X ≤ √2 δ, Y ≤ 2(τ+δ): κ is at most the greater of
-    ///   `√(τ²+δ²) − τ` and `√(3δ(τ+δ)) − τ`.
+    /// `(R/2)ⁿ ψ_n(X,Y) = qⁿ I_n(z)` with `q² = X/Y`, `z² = R²XY`. Let `A = e^{−Rτ} Σ_{n≥0} qⁿI_n`; then A is at most
+    /// `e^{Rκ}`, as
+    /// - `Σ_{n≥0} qⁿI_n ≤ Σ_ℤ qⁿI_n = e^{R(X+Y)/2}`, and ξ and η are at most δ from real values with the sum 2τ:
+    ///   `κ ≤ δ`;
+    /// - `(X+Y)/2` is also at most the root of the mean of X² and Y², `√(τ² + |a|²)`: `κ ≤ √(τ²+2δ²) − τ` where
+    ///   `Re a < 0`;
+    /// - otherwise q ≤ 1 and `Σ_{n≥0} qⁿI_n ≤ (e^z + I₀)/2 ≤ e^z`. For `Im a = y`, `(XY)² = (τ² − x² + y²)² + 4x²y²` is
+    ///   convex in x², so at most what it is at x = 0, `(τ²+y²)²`, or at x = τ + δ, where X ≤ √2 δ, Y ≤ 2(τ+δ): κ is at
+    ///   most the greater of `√(τ²+δ²) − τ` and `√(3δ(τ+δ)) − τ`.
     ///
     /// Further X ≤ s = τ + δ, and
     /// - the impact adds `I₀ + 2Σ(±q)ⁿI_n` to `v_t` and `I₀` to `c v_x`, at most 2A each;

@@ -10,15 +10,16 @@ use crate::number::{Open, Scalar};
 use crate::problem::{Parameters, Problem, Run};
 use crate::special::BoundedSpecial;
 
-/// The first contact of a uniform start under a free top, damped or not, from the impact to the bounce, or as far as it is followed.
+/// The first contact of a uniform start under a free top, damped or not, from the impact to the bounce, or as far as it
+/// is followed.
 ///
-/// **Source**: [`FirstContact`]; Theorem 1 for its end. The bounce is the first sign change of the stress, with none before it
-/// missed: a jump at `k t₁`, whose number k is exact, or a root between signs beyond their bounds.
+/// **Source**: [`FirstContact`]; Theorem 1 for its end. The bounce is the first sign change of the stress, with none
+/// before it missed: a jump at `k t₁`, whose number k is exact, or a root between signs beyond their bounds.
 ///
 /// **Units**: those of the problem.
 ///
-/// **Accuracy**: *within its own bound*: estimates in [`Estimate`](crate::number::Estimate), enclosures in intervals. The
-/// history ends with the contact, because the flight that follows is only known as far as no impact ends it: see
+/// **Accuracy**: *within its own bound*: estimates in [`Estimate`](crate::number::Estimate), enclosures in intervals.
+/// The history ends with the contact, because the flight that follows is only known as far as no impact ends it: see
 /// [`ContactHistory::flight`].
 ///
 /// ```
@@ -60,8 +61,8 @@ enum Moment<'a, N> {
     Rest(StaticState<'a, N>),
 }
 
-/// A contact without end is followed for so many round trips where no time is asked for, and for so many at most, or beyond them if
-/// it is at rest by then.
+/// A contact without end is followed for so many round trips where no time is asked for, and for so many at most, or
+/// beyond them if it is at rest by then.
 const SHOWN_TRIPS: i64 = 8;
 const MOST_TRIPS: i64 = 256;
 
@@ -212,8 +213,8 @@ impl<N: BoundedSpecial> ContactHistory<N> {
 
     /// `h(t)` and `h′(t)` in the flight after the bounce, provided that no impact has come before.
     ///
-    /// **Source**: (3.43), (3.44). **Accuracy**: *within its own bound*. **Errors**: [`Error::TimeOutside`] before the bounce or
-    /// where there is none.
+    /// **Source**: (3.43), (3.44). **Accuracy**: *within its own bound*. **Errors**: [`Error::TimeOutside`] before the
+    /// bounce or where there is none.
     pub fn flight(&self, time: &N) -> Result<(N, N), Error> {
         let outside = || Error::TimeOutside { found: time.text(), end: self.end.text() };
         let rebound = self.rebound().ok_or_else(outside)?;

@@ -38,12 +38,12 @@ const MOST_STEPS: usize = 60;
 impl<N: BoundedSpecial> FirstContact<N> {
     /// The most compressive `v_x(0,·)` up to `end`.
     ///
-    /// Without gravity it is `−μ/c` at the start: `|v_t ∓ c v_x|` cannot grow. In the first cell only its ends can be it: there
-    /// `−c v_x = e^{−rt}(μ I₀ + g t (I₀ + I₁))` has the derivative `e^{−rt} I₀ (g − μ r (1 − I₁/I₀))`, which rises with `I₁/I₀`
-    /// and so has at most one zero, a minimum. In later cells the force is bounded by its Chebyshev sum; what is left where it
-    /// may be greatest either rises or falls throughout, or is bent by at least κ: then it is at most `f(τ) + f′(τ)²/2κ` for any
-    /// τ. After some cells the static stress and what is left of the transient bound it. Where all of that fails, it is at most
-    /// `μ + g t₁`, and the bound is wide.
+    /// Without gravity it is `−μ/c` at the start: `|v_t ∓ c v_x|` cannot grow. In the first cell only its ends can be
+    /// it: there `−c v_x = e^{−rt}(μ I₀ + g t (I₀ + I₁))` has the derivative `e^{−rt} I₀ (g − μ r (1 − I₁/I₀))`, which
+    /// rises with `I₁/I₀` and so has at most one zero, a minimum. In later cells the force is bounded by its Chebyshev
+    /// sum; what is left where it may be greatest either rises or falls throughout, or is bent by at least κ: then it
+    /// is at most `f(τ) + f′(τ)²/2κ` for any τ. After some cells the static stress and what is left of the transient
+    /// bound it. Where all of that fails, it is at most `μ + g t₁`, and the bound is wide.
     pub(super) fn peak(&self, end: &Trips<N>) -> N {
         if self.weightless {
             return self.stress_at(&self.lattice(0), Side::Right);
@@ -94,11 +94,11 @@ impl<N: BoundedSpecial> FirstContact<N> {
 
     /// Where between `k t₁` and the place `to` of `[−1,1]` in its cell the force exceeds `known`, if anywhere.
     ///
-    /// With the Chebyshev sum p, `|f − p| ≤ e`: on a piece of width w the sum is at most its greater end plus `B₂w²/8`, its
-    /// slope is that of the middle within `B₂w/2`, its second derivative that of the middle within `B₃w/2`, where
-    /// `B₂ = Σ|c_n| n²(n²−1)/3` and `B₃ = Σ|c_n| n²(n²−1)(n²−4)/15`. The slopes of f and p differ by at most `4(n+1)²e`, as
-    /// in the search for the first root; their second derivatives, by Markov's inequality and the same series with k⁴ for k², by
-    /// `4(n+1)⁴e`.
+    /// With the Chebyshev sum p, `|f − p| ≤ e`: on a piece of width w the sum is at most its greater end plus `B₂w²/8`,
+    /// its slope is that of the middle within `B₂w/2`, its second derivative that of the middle within `B₃w/2`, where
+    /// `B₂ = Σ|c_n| n²(n²−1)/3` and `B₃ = Σ|c_n| n²(n²−1)(n²−4)/15`. The slopes of f and p differ by at most
+    /// `4(n+1)²e`, as in the search for the first root; their second derivatives, by Markov's inequality and the same
+    /// series with k⁴ for k², by `4(n+1)⁴e`.
     fn excess(&self, k: i64, to: f64, known: &N) -> Excess<N> {
         let search = Search { contact: self, route: None };
         let Ok(Interpolant { scale, sum, error }) = search.interpolant(k) else {
@@ -151,7 +151,8 @@ impl<N: BoundedSpecial> FirstContact<N> {
         Excess::AtMost(scale.double(most * (1.0 + 1e-12)) * &scale)
     }
 
-    /// A place near a summit and the height of the summit, from the slope there, which Newton's method with the secant makes small.
+    /// A place near a summit and the height of the summit, from the slope there, which Newton's method with the secant
+    /// makes small.
     fn summit_near(&self, at: &N, bend: &N, k: i64) -> (N, N) {
         let mut place = at.middle();
         let mut slope = self.force_rate(&place, k);
@@ -174,8 +175,8 @@ impl<N: BoundedSpecial> FirstContact<N> {
         (place, value.widened(&above))
     }
 
-    /// The derivative of [`FirstContact::force`] by round trips inside of a cell: with `(e^{−rt}G_r)′ = e^{−rt}H_r`, and for each ray
-    /// `∂_ξψ₀ + ∂_ηψ₀ = (R²/4)(η/ξ + 1) ψ₁ = (R²/2)(τ/ξ) ψ₁`.
+    /// The derivative of [`FirstContact::force`] by round trips inside of a cell: with `(e^{−rt}G_r)′ = e^{−rt}H_r`,
+    /// and for each ray `∂_ξψ₀ + ∂_ηψ₀ = (R²/4)(η/ξ + 1) ψ₁ = (R²/2)(τ/ξ) ψ₁`.
     fn force_rate(&self, trips: &N, k: i64) -> N {
         let (r, half_square) = (&self.damping, self.damping.square() / self.damping.int(2));
         let (mut kernel, mut rate) = (r.zero(), r.zero());

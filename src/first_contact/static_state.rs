@@ -4,8 +4,8 @@ use crate::motion::{Energy, Field};
 use crate::number::Scalar;
 use crate::problem::Parameters;
 
-/// `v_s = (g/2c²)(x² − 2Lx)`: what a contact that never ends tends to, with what is left of the transient by [`faded_after`] as a
-/// bound.
+/// `v_s = (g/2c²)(x² − 2Lx)`: what a contact that never ends tends to, with what is left of the transient by
+/// [`faded_after`] as a bound.
 #[derive(Clone, Debug)]
 pub(super) struct StaticState<'a, N> {
     rod: &'a Parameters<N>,
@@ -47,8 +47,8 @@ impl<'a, N: Scalar> StaticState<'a, N> {
         (height.widened(&self.left_height()), x.zero().widened(&self.left))
     }
 
-    /// `E_h = gLh`, `E_z = g²L³/6c²`; a transient of velocity and `c` times strain δ adds at most `L (gL/c + δ) δ` to the second and
-    /// `L δ²/2` to the first.
+    /// `E_h = gLh`, `E_z = g²L³/6c²`; a transient of velocity and `c` times strain δ adds at most `L (gL/c + δ) δ` to
+    /// the second and `L δ²/2` to the first.
     pub(super) fn energy(&self) -> Energy<N> {
         let Parameters { length, gravity, wave_speed, .. } = self.rod;
         let left = self.left.square() * length;
@@ -60,19 +60,20 @@ impl<'a, N: Scalar> StaticState<'a, N> {
     }
 }
 
-/// The first of `most` round trips after which a contact that lasts from the start on deviates from the static state by less
-/// than the roundoff of `max(μ, g t₁)`, in velocities and `c` times strains, for ever.
+/// The first of `most` round trips after which a contact that lasts from the start on deviates from the static state by
+/// less than the roundoff of `max(μ, g t₁)`, in velocities and `c` times strains, for ever.
 ///
 /// With `R = r t₁`, `τ = t/t₁`, `V = max(μ, g t₁)`; `z = v − v_s` has `p = z_t − c z_x`, `q = z_t + c z_x`.
 ///
-/// *Energy.* In the modes `ω = (2n+1)π/t₁` the flow of `(ωa, ȧ)` is `e^{−rt}` times a matrix with entries `cosh Ωt ± rS`,
-/// `±ωS`, `S = sinh(Ωt)/Ω`, `Ω² = r² − ω²`, so at most `e^{st}(1 + (r+ω)|S|e^{−st})`, `s = Re Ω` at most that of the lowest mode.
-/// `|S|e^{−st} ≤ min(t, 1/|Ω|)` gives `(r+ω)|S|e^{−st} ≤ √3` for `ω ≥ 2r` and `≤ 3rt` below. Modes are orthogonal:
-/// `√E(t) ≤ (1 + max(√3, 3rt)) e^{−ρt} √E(0)` with `ρ = r − s`, and `E(0) = ½(μ²L + g²L³/3c²) ≤ 0.55 L V²`.
+/// *Energy.* In the modes `ω = (2n+1)π/t₁` the flow of `(ωa, ȧ)` is `e^{−rt}` times a matrix with entries
+/// `cosh Ωt ± rS`, `±ωS`, `S = sinh(Ωt)/Ω`, `Ω² = r² − ω²`, so at most `e^{st}(1 + (r+ω)|S|e^{−st})`, `s = Re Ω` at
+/// most that of the lowest mode. `|S|e^{−st} ≤ min(t, 1/|Ω|)` gives `(r+ω)|S|e^{−st} ≤ √3` for `ω ≥ 2r` and `≤ 3rt`
+/// below. Modes are orthogonal: `√E(t) ≤ (1 + max(√3, 3rt)) e^{−ρt} √E(0)` with `ρ = r − s`, and
+/// `E(0) = ½(μ²L + g²L³/3c²) ≤ 0.55 L V²`.
 ///
-/// *Maximum.* Along a characteristic `p′ = −rp − rq`, and `(c/2)∫q² dt ≤ E` over one crossing of the rod, by the energy that
-/// flows through that line; reflections change signs only. Followed from `t/2`, in at most `τ + 2` crossings of `t₁/2`,
-/// from `|p|, |q| ≤ μ + gL/c ≤ 1.5 V`, which never grow:
+/// *Maximum.* Along a characteristic `p′ = −rp − rq`, and `(c/2)∫q² dt ≤ E` over one crossing of the rod, by the energy
+/// that flows through that line; reflections change signs only. Followed from `t/2`, in at most `τ + 2` crossings of
+/// `t₁/2`, from `|p|, |q| ≤ μ + gL/c ≤ 1.5 V`, which never grow:
 /// `|p|/V ≤ 1.5 e^{−Rτ/2} + 0.53 R (τ+2) (1 + max(√3, 1.5Rτ)) e^{−ρt/2}`.
 ///
 /// The right side falls once it is below the roundoff: each of its factors `τ e^{−ρt/4}` does for `ρt > 4`.

@@ -13,10 +13,10 @@
 //! | `h′` | `−Σ 8ε² (C − RS)` | `−Σ 8ε² S` |
 //!
 //! As they stand, `v` and `h` converge absolutely, `h` like `N⁻²` and `v` like `N⁻¹`; `v_t`, `v_x` and the stress of
-//! the impact only conditionally, and not uniformly near a ray. What makes them slow is the lattice itself: as functions
-//! of ε, `C` and `S` are `Re(F(−iε) e^{iωτ})` with F analytic, and the first K powers of ε add up to Euler polynomials
-//! that jump and bend on the rays and nowhere else. They are added up in closed form; what is left converges
-//! absolutely and uniformly, like `N^{1−K−p}` with the power p of the table.
+//! the impact only conditionally, and not uniformly near a ray. What makes them slow is the lattice itself: as
+//! functions of ε, `C` and `S` are `Re(F(−iε) e^{iωτ})` with F analytic, and the first K powers of ε add up to Euler
+//! polynomials that jump and bend on the rays and nowhere else. They are added up in closed form; what is left
+//! converges absolutely and uniformly, like `N^{1−K−p}` with the power p of the table.
 
 mod motion;
 mod sums;

@@ -103,13 +103,14 @@ impl<S: Rounded> Modal<S> {
         (height, self.combine(-slowed, -fallen, &two.one()))
     }
 
-    /// `E(t)`: the energy, by Parseval's equation `(L/4) Σ (b² + ω²q²) + L g h` for `v_t = Σ b sin`, `c v_x = Σ ωq cos`.
+    /// `E(t)`: the energy, by Parseval's equation `(L/4) Σ (b² + ω²q²) + L g h` for `v_t = Σ b sin`,
+    /// `c v_x = Σ ωq cos`.
     ///
     /// **Source**: (3.54).
     ///
-    /// **Accuracy**: the bound falls like `N⁻²`. `b² + ω²q²` is `16ε²μ²e^{−2Rτ}(1 − 2RCS + 2R²S²)` for the impact, whose first
-    /// term has the closed sum 2. Where `ω ≥ 2R`, `ωS` is below 1.16 and `RS` below 0.58, so the rest is at most
-    /// `16ε³ (3.7 R μ² e^{−2Rτ} + 9.7 μμ₀ e^{−Rτ} + 8 μ₀² ε)`, and `Σ_{n≥N} ε³ ≤ 1/(16π³N²)`.
+    /// **Accuracy**: the bound falls like `N⁻²`. `b² + ω²q²` is `16ε²μ²e^{−2Rτ}(1 − 2RCS + 2R²S²)` for the impact,
+    /// whose first term has the closed sum 2. Where `ω ≥ 2R`, `ωS` is below 1.16 and `RS` below 0.58, so the rest is at
+    /// most `16ε³ (3.7 R μ² e^{−2Rτ} + 9.7 μμ₀ e^{−Rτ} + 8 μ₀² ε)`, and `Σ_{n≥N} ε³ ≤ 1/(16π³N²)`.
     pub fn energy(&self, time: &S) -> Estimate<S> {
         let trips = self.trips(time);
         let (height, _) = self.centre(time);

@@ -159,8 +159,8 @@ impl<S: Rounded> Modal<S> {
     /// Damped `S`, `C − RS`, `C + RS` of one mode, and their roundings.
     ///
     /// `q = (ω−R)(ω+R)` is off by less than `8uω(ω+R)`, with the rounding of R, and `|dS/dq| = |τC − S|/2|q|` and
-    /// `|dC/dq| = τ|S|/2` are below `min(τ³/6, (τ + |q|^{−1/2})/2|q|)` and `min(τ²/2, τ|q|^{−1/2}/2)` times the growth, 1
-    /// or `cosh κτ`.
+    /// `|dC/dq| = τ|S|/2` are below `min(τ³/6, (τ + |q|^{−1/2})/2|q|)` and `min(τ²/2, τ|q|^{−1/2}/2)` times the growth,
+    /// 1 or `cosh κτ`.
     fn direct(&self, omega: &S, trips: &S) -> ([[S; 2]; 3], [f64; 3]) {
         let (c, s) = self.pair(omega, trips);
         let (w, r, tau) = (omega.to_f64(), self.damping.to_f64(), trips.to_f64());

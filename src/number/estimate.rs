@@ -99,8 +99,8 @@ impl<S: Rounded> Estimate<S> {
     }
 }
 
-/// What a rounding of `value` is counted as: its size, but at least the least normal double where it is not zero, below which
-/// doubles round by more, and long numbers have no size in doubles.
+/// What a rounding of `value` is counted as: its size, but at least the least normal double where it is not zero, below
+/// which doubles round by more, and long numbers have no size in doubles.
 #[inline]
 fn size<S: Rounded>(value: &S) -> f64 {
     let size = value.to_f64().abs();

@@ -1,7 +1,7 @@
 //! Enclosures: intervals with ends of any number of bits, rounded outwards.
 //!
-//! A comparison of intervals has three answers. The third is the error [`Open`](super::Open), which is handled where it is asked,
-//! or passed on to where more bits are taken.
+//! A comparison of intervals has three answers. The third is the error [`Open`](super::Open), which is handled where it
+//! is asked, or passed on to where more bits are taken.
 
 mod system;
 
@@ -18,8 +18,8 @@ use super::radical::Radical;
 pub struct IntervalPrecision {
     /// Bits of the significands of both ends.
     pub bits: u32,
-    /// Whether the exact number inside, made of fractions and square roots, is carried as well, for as long as it is short:
-    /// with it coincidences are decided that no interval can decide.
+    /// Whether the exact number inside, made of fractions and square roots, is carried as well, for as long as it is
+    /// short: with it coincidences are decided that no interval can decide.
     pub exact: bool,
 }
 
@@ -154,8 +154,8 @@ impl Interval {
         self.lo <= *x && self.hi >= *x
     }
 
-    /// Everything in both, for two enclosures of one number; `None` where they have nothing in common, which proves one of
-    /// them wrong.
+    /// Everything in both, for two enclosures of one number; `None` where they have nothing in common, which proves one
+    /// of them wrong.
     pub fn meet(&self, other: &Self) -> Option<Self> {
         let lo = if self.lo >= other.lo { &self.lo } else { &other.lo };
         let hi = if self.hi <= other.hi { &self.hi } else { &other.hi };

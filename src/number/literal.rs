@@ -6,8 +6,8 @@ use std::str::FromStr;
 
 use thiserror::Error;
 
-/// A number as a person wrote it: `3`, `0.1`, `1e-9`, `1/3`, `2.5/7`. It stands for exactly the rational that it spells:
-/// `0.1` is 1/10, never the nearest double.
+/// A number as a person wrote it: `3`, `0.1`, `1e-9`, `1/3`, `2.5/7`. It stands for exactly the rational that it
+/// spells: `0.1` is 1/10, never the nearest double.
 ///
 /// **Accuracy**: exact; [`Number::to_f64`] rounds once.
 ///

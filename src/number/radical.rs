@@ -23,8 +23,8 @@ type Product = Vec<Arc<Root>>;
 
 /// `Σ c_k ρ_i ρ_j …`: fractions times products of roots.
 ///
-/// Where all `c_k` are zero the number is zero. Where they are not it may still be, if the roots depend on each other in a
-/// way that was not seen; only the digits then tell, and never say zero. So no sign told is ever wrong.
+/// Where all `c_k` are zero the number is zero. Where they are not it may still be, if the roots depend on each other
+/// in a way that was not seen; only the digits then tell, and never say zero. So no sign told is ever wrong.
 ///
 /// Operations give `None` where the result outgrows [`MOST_TERMS`] or [`MOST_BITS`].
 #[derive(Clone, Debug, Default)]

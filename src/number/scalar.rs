@@ -142,15 +142,15 @@ pub trait Scalar:
         self.int(p) / self.int(q)
     }
 
-    /// The same number, known only up to `by` in either direction. Only enclosures hold that in themselves; elsewhere the
-    /// caller counts it among the roundings.
+    /// The same number, known only up to `by` in either direction. Only enclosures hold that in themselves; elsewhere
+    /// the caller counts it among the roundings.
     fn widened(self, by: &Self) -> Self {
         let _ = by;
         self
     }
 
-    /// How far the number meant may lie from [`Scalar::to_f64`], but for the rounding of that: the width of an enclosure, zero
-    /// elsewhere.
+    /// How far the number meant may lie from [`Scalar::to_f64`], but for the rounding of that: the width of an
+    /// enclosure, zero elsewhere.
     fn width(&self) -> Self {
         self.zero()
     }
@@ -181,7 +181,8 @@ pub trait Scalar:
     }
 }
 
-/// A number system that rounds and carries no bound of it: `f64`, `Float`. [`Estimate`](super::Estimate) adds the bound.
+/// A number system that rounds and carries no bound of it: `f64`, `Float`. [`Estimate`](super::Estimate) adds the
+/// bound.
 pub trait Rounded: Analytic + PartialOrd {
     /// Whether both are the same number but for eight roundings: `3 · 0.2` is `0.6`.
     fn meets(&self, other: &Self) -> bool {
@@ -215,8 +216,8 @@ pub trait Reads<N: Scalar>: Scalar {
     /// The number in this system, rounded once, its bound with it.
     fn read(number: N) -> Self;
 
-    /// A number of this system in the other one, where a question about it is answered. A double stands for the shortest decimal
-    /// that spells it.
+    /// A number of this system in the other one, where a question about it is answered. A double stands for the
+    /// shortest decimal that spells it.
     fn give(&self, precision: &N::Precision) -> N;
 }
 

@@ -5,11 +5,11 @@ use super::Scalar;
 /// Digits that spell every double.
 pub const DOUBLE_DIGITS: u32 = 17;
 
-/// A number that carries its bound, as it is printed: at most so many significant digits, and none beyond the bound; `0` where
-/// no digit is known.
+/// A number that carries its bound, as it is printed: at most so many significant digits, and none beyond the bound;
+/// `0` where no digit is known.
 ///
-/// **Accuracy**: *correctly rounded* unless the bound is astride a rounding boundary, and then within one unit of the last digit: a
-/// last unit is at least twice the bound.
+/// **Accuracy**: *correctly rounded* unless the bound is astride a rounding boundary, and then within one unit of the
+/// last digit: a last unit is at least twice the bound.
 pub fn show<S: Scalar>(x: &S, digits: u32) -> String {
     let size = x.to_f64().abs();
     // −1 for the half unit that rounding takes.

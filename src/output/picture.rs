@@ -18,7 +18,8 @@ use crate::compare::cost::{Family, Row, Table};
 /// DejaVu Sans, Latin and Greek letters, digits above and below the line and signs: what our pictures write.
 const FONT: &[u8] = include_bytes!("font/DejaVuSans-subset.ttf");
 const FAMILY: &str = "DejaVu Sans";
-/// Where the scale of errors is drawn together: the digits of a double get as much of the picture as the thousand beyond them.
+/// Where the scale of errors is drawn together: the digits of a double get as much of the picture as the thousand
+/// beyond them.
 const DOUBLES_END: f64 = 18.0;
 /// Digits at the ticks beyond, equally far apart.
 const BEYOND: [f64; 8] = [DOUBLES_END, 50.0, 100.0, 300.0, 1000.0, 3000.0, 10_000.0, 30_000.0];
@@ -68,9 +69,9 @@ fn digits_at(place: f64, decades: f64) -> f64 {
     if beyond < 0.5 { -place * decades } else { BEYOND[(beyond.round() as usize).min(BEYOND.len() - 1)] }
 }
 
-/// The work–precision diagram: error against time, both by decades, a line for each route and a star on the plan's choice.
-/// Answers without any error stand on the lowest line, which says so; beyond double precision the decades of the error are drawn
-/// together, as the ticks say.
+/// The work–precision diagram: error against time, both by decades, a line for each route and a star on the plan's
+/// choice. Answers without any error stand on the lowest line, which says so; beyond double precision the decades of
+/// the error are drawn together, as the ticks say.
 pub(crate) fn cost_svg(cost: &Table, title: Option<&str>) -> String {
     let finite = |row: &&Row| row.log10_error.is_finite();
     let digits = cost.rows.iter().filter(finite).map(|row| -row.log10_error);

@@ -5,8 +5,8 @@ use crate::motion::{Contact, Ending, Energy, Event, Motion, Side, StressPiece};
 use crate::number::{DOUBLE_DIGITS, Number, Scalar, bound_text, show};
 use crate::quantity::{EnergyShares, Flight, Restitution, energy_shares, flights, restitution};
 
-/// A number that carries its bound as a JSON value: a number for a double (null if not finite), `{"value": …, "lo": …, "hi": …}` with `lo ≤ truth ≤ hi`
-/// for an enclosure, a string otherwise.
+/// A number that carries its bound as a JSON value: a number for a double (null if not finite),
+/// `{"value": …, "lo": …, "hi": …}` with `lo ≤ truth ≤ hi` for an enclosure, a string otherwise.
 pub(super) fn json<S: Scalar>(x: &S, digits: u32) -> serde_json::Value {
     let text = show(x, if digits == 0 { DOUBLE_DIGITS } else { digits });
     match (x.as_double(), x.ends(digits)) {
@@ -18,8 +18,8 @@ pub(super) fn json<S: Scalar>(x: &S, digits: u32) -> serde_json::Value {
     }
 }
 
-/// The bound of a number's error as a JSON value: a number where a double holds it, a string otherwise; `null` for an enclosure,
-/// which has it in itself.
+/// The bound of a number's error as a JSON value: a number where a double holds it, a string otherwise; `null` for an
+/// enclosure, which has it in itself.
 pub(super) fn bound_json<S: Scalar>(x: &S) -> serde_json::Value {
     if x.ends(1).is_some() {
         return serde_json::Value::Null;
@@ -107,7 +107,8 @@ impl<S> Record<S> {
     }
 }
 
-/// Gathers what is printed of `history`; the stress at the ground only if asked for, as it can cost more than all the rest.
+/// Gathers what is printed of `history`; the stress at the ground only if asked for, as it can cost more than all the
+/// rest.
 pub fn record<S: Scalar>(history: &dyn Motion<S>, head: &Head, stress: bool) -> Result<Record<S>, Error> {
     let end = history.end();
     let lift = |number: &Number| S::from_number(number, &end.precision());

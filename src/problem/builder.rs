@@ -78,7 +78,8 @@ impl Builder {
         self.top(Top::Fixed)
     }
 
-    /// The displacement at `t = 0` as points `(x, v)` from `x = 0` to `x = L`, linear between them; in place of an impact.
+    /// The displacement at `t = 0` as points `(x, v)` from `x = 0` to `x = L`, linear between them; in place of an
+    /// impact.
     ///
     /// ```
     /// use dalembert::Problem;

@@ -60,7 +60,8 @@ impl<S: Scalar> Parameters<S> {
         self.length.int(2) * &self.length / &self.wave_speed
     }
 
-    /// `μ₀ = g t₁`: the speed that gravity gives in a round trip. At `μ ≥ μ₀` an undamped first contact lasts exactly `t₁`.
+    /// `μ₀ = g t₁`: the speed that gravity gives in a round trip. At `μ ≥ μ₀` an undamped first contact lasts exactly
+    /// `t₁`.
     pub fn critical_speed(&self) -> S {
         self.round_trip() * &self.gravity
     }

@@ -3,7 +3,8 @@
 use crate::number::{Number, NumberError};
 
 /// A number as it was written: an integer, a text such as `"1/3"` or `"0.1"`, a [`Number`], or a double, which stands
-/// for the shortest decimal that spells it: `0.1` is 1/10. With the feature `mp` a `rug::Rational` or `rug::Integer` too.
+/// for the shortest decimal that spells it: `0.1` is 1/10. With the feature `mp` a `rug::Rational` or `rug::Integer`
+/// too.
 ///
 /// **Accuracy**: *exact*.
 #[derive(Clone, Debug)]

@@ -16,8 +16,8 @@ pub struct Restitution<S> {
 /// The two factors of `e_E²` (4.73).
 #[derive(Clone, Debug, PartialEq)]
 pub struct EnergyShares<S> {
-    /// `E_h(to)/E(to)`: what part of the energy that is left moves the centre of mass. `None` where the contact does not end or
-    /// no energy is left.
+    /// `E_h(to)/E(to)`: what part of the energy that is left moves the centre of mass. `None` where the contact does
+    /// not end or no energy is left.
     pub translational: Option<S>,
     /// `E(to)/E(from)`: what part of the energy damping leaves.
     pub kept: Option<S>,
@@ -64,11 +64,12 @@ impl<S> EnergyShares<S> {
 
 /// The coefficients of restitution of `contact`.
 ///
-/// **Source**: section 4.1 and (4.71), with the state at the beginning of the contact for that at `t = 0`: the same for the first
-/// contact. The datum of `E_h` is `h = 0`, the undeformed rod on the ground. `h` and `h′` are all that is asked of the history.
+/// **Source**: section 4.1 and (4.71), with the state at the beginning of the contact for that at `t = 0`: the same for
+/// the first contact. The datum of `E_h` is `h = 0`, the undeformed rod on the ground. `h` and `h′` are all that is
+/// asked of the history.
 ///
-/// **Accuracy**: *exact* for exact histories; otherwise that of `h` and `h′`. A momentum or an energy that is zero within its
-/// bound counts as zero.
+/// **Accuracy**: *exact* for exact histories; otherwise that of `h` and `h′`. A momentum or an energy that is zero
+/// within its bound counts as zero.
 ///
 /// **Errors**: what the history cannot answer. A coefficient that is not defined has the reason in its place.
 pub fn restitution<S: Scalar>(history: &dyn Motion<S>, contact: &Contact<S>) -> Result<Restitution<S>, Error> {

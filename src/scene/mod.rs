@@ -19,8 +19,9 @@
 //! accuracy = 1e-9       # optional
 //! ```
 //!
-//! Instead of `[impact]` a scene may have a `[start]` that is not uniform along the rod, linear between points `[x, value]`
-//! that run from `x = 0` to `x = length`; what is left out is zero. A velocity may jump: the same `x` twice.
+//! Instead of `[impact]` a scene may have a `[start]` that is not uniform along the rod, linear between points
+//! `[x, value]` that run from `x = 0` to `x = length`; what is left out is zero. A velocity may jump: the same `x`
+//! twice.
 //!
 //! ```toml
 //! [start]

@@ -176,7 +176,8 @@ impl<'a> Reader<'a> {
         Ok(draft)
     }
 
-    /// The error of a problem, at its place: the key where it is about what stands beside it or is missing, or the value.
+    /// The error of a problem, at its place: the key where it is about what stands beside it or is missing, or the
+    /// value.
     fn located(&self, error: ProblemError) -> SceneError {
         use ProblemErrorKind::{Contradiction, Missing};
         let ProblemError { kind, path, mut found, expected } = error;

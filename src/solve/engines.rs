@@ -1,29 +1,28 @@
 //! The planned engine, run in doubles.
 
-use std::borrow::Cow;
 use std::sync::Arc;
 
 use super::first_contact::bounce_within;
 use super::ladder::{Engined, Observer, Target};
 use super::long;
-use super::plan::{Engine, Plan, Reach, Rung};
+use super::plan::{Engine, Plan, Rung};
 use crate::cells::{self, Damped, Joined, WithBounds};
 use crate::error::Error;
 use crate::first_contact::{Bounce, FirstContact};
-use crate::lattice::{Limits, Undamped};
+use crate::lattice::Undamped;
 use crate::number::Estimate;
-use crate::problem::{Parameters, Problem, Run};
+use crate::problem::{Parameters, Problem};
 
 impl Target for f64 {
     fn run(problem: &Problem, plan: &Plan, rung: Rung, observe: &Observer) -> Result<Engined<f64>, Error> {
         if rung != Rung::Double {
             return long::in_doubles(problem, plan, rung, observe);
         }
-        let problem = &*reaching(problem, plan);
+        let problem = &*plan.reaching(problem);
         Ok(match plan.engine {
             Engine::Lattice => {
                 let history =
-                    Undamped::<Estimate<f64>>::solve_within(problem, &(), limits(problem, plan), |a, b| observe(a, b))?;
+                    Undamped::<Estimate<f64>>::solve_within(problem, &(), plan.limits(problem), |a, b| observe(a, b))?;
                 if cfg!(feature = "mp") && history.undetermined_from().is_some() {
                     return Err(Error::NotDecided { what: "in which order the events come", bits: 53 });
                 }
@@ -49,18 +48,3 @@ impl Target for f64 {
 
 /// The decimal digits that cells are marched to in doubles.
 const CELL_DIGITS: f64 = 13.0;
-
-/// The problem with the run that the plan follows.
-pub(super) fn reaching<'a>(problem: &'a Problem, plan: &Plan) -> Cow<'a, Problem> {
-    let run = match &plan.reach {
-        Reach::Contacts(contacts) => Run::Impacts(*contacts),
-        Reach::FirstContact => Run::Impacts(1),
-        Reach::Time(time) => Run::Time(time.clone()),
-    };
-    if problem.run == run { Cow::Borrowed(problem) } else { Cow::Owned(Problem { run, ..problem.clone() }) }
-}
-
-/// What an undamped march may store and forget.
-pub(super) fn limits(problem: &Problem, plan: &Plan) -> Limits {
-    plan.keep_from.map_or_else(Limits::default, |time| Limits::keeping_from(problem, time))
-}

@@ -15,8 +15,8 @@ const MODAL_ACCURACY: f64 = 1e-10;
 
 /// `t_b` within `accuracy`, relative, of a rod whose parameters are exactly these doubles.
 ///
-/// **Source**: [`FirstContact::bounce`], in doubles first: by the rays, then, where those cancel, by the modes; then in numbers of up to
-/// 4096 bits. Without the feature `mp` doubles are all there is.
+/// **Source**: [`FirstContact::bounce`], in doubles first: by the rays, then, where those cancel, by the modes; then in
+/// numbers of up to 4096 bits. Without the feature `mp` doubles are all there is.
 ///
 /// **Accuracy**: the bound of the time says what was reached.
 ///
@@ -34,7 +34,8 @@ pub fn bounce_within(contact: &FirstContact<Estimate<f64>>, accuracy: f64) -> Bo
     if good(&bounce, accuracy) {
         return bounce;
     }
-    // Late in the contact it is the rays that cancel, and the modes do not. Longer numbers are as fast and reach farther.
+    // Late in the contact it is the rays that cancel, and the modes do not. Longer numbers are as fast and reach
+    // farther.
     let worth = cfg!(not(feature = "mp")) || accuracy >= MODAL_ACCURACY;
     let late = match &bounce {
         Bounce::Undecided { until: time, .. } | Bounce::At { time, .. } => {

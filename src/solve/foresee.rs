@@ -7,11 +7,12 @@ use crate::problem::{Parameters, Problem, Run};
 
 /// How many bits the history of an undamped rod loses to rounding: `log₂` of the factor by which its error bound grows.
 ///
-/// **Source**: marches in double precision, each twice as long as the one before, as far as doubles determine the history;
-/// where they do not determine its end, the loss goes on at the same rate per round trip. In a chaotic history the impacts
-/// multiply, and the loss of each becomes smaller, but that of a round trip does not.
+/// **Source**: marches in double precision, each twice as long as the one before, as far as doubles determine the
+/// history; where they do not determine its end, the loss goes on at the same rate per round trip. In a chaotic history
+/// the impacts multiply, and the loss of each becomes smaller, but that of a round trip does not.
 ///
-/// **Accuracy**: *estimate*; zero where the run is not given by a time. A plan that foresees too little takes more bits later.
+/// **Accuracy**: *estimate*; zero where the run is not given by a time. A plan that foresees too little takes more bits
+/// later.
 pub(super) fn bits_lost(problem: &Problem, plan: &Plan) -> f64 {
     let (Engine::Lattice, Reach::Time(end)) = (plan.engine, &plan.reach) else { return 0.0 };
     let (Ok(rod), end) = (Parameters::<f64>::of(problem, &()), end.to_f64()) else { return 0.0 };

@@ -1,4 +1,5 @@
-//! The precision ladder: an answer is computed in doubles, in longer numbers or in enclosures until its own bound settles it.
+//! The precision ladder: an answer is computed in doubles, in longer numbers or in enclosures until its own bound
+//! settles it.
 
 use std::fmt;
 use std::sync::Arc;
@@ -60,14 +61,14 @@ const SAME_DOUBT: usize = 3;
 const DOUBLE_DIGITS: f64 = 15.0;
 
 impl Ladder {
-    /// The answer to `query`, settled: asked of `attempt` where there is one, and of attempts in more and more bits until every
-    /// comparison on the way is decided and all `numbers` of the answer have the digits of the plan.
+    /// The answer to `query`, settled: asked of `attempt` where there is one, and of attempts in more and more bits
+    /// until every comparison on the way is decided and all `numbers` of the answer have the digits of the plan.
     ///
-    /// **Accuracy**: each number is known to the digits of the plan, or to so many below the greatest number of the answer as
-    /// the plan says. In doubles the best that could be reached; its own bounds say what that is.
+    /// **Accuracy**: each number is known to the digits of the plan, or to so many below the greatest number of the
+    /// answer as the plan says. In doubles the best that could be reached; its own bounds say what that is.
     ///
-    /// **Errors**: [`Error::Unsettled`] and [`Error::Undecided`] where too many bits do not settle it; those of the run and of
-    /// the query.
+    /// **Errors**: [`Error::Unsettled`] and [`Error::Undecided`] where too many bits do not settle it; those of the run
+    /// and of the query.
     pub(crate) fn settle<S: Target, T>(
         &self,
         attempt: Option<Attempt<S>>,

@@ -3,7 +3,6 @@
 use std::sync::Arc;
 
 use super::converted::Converted;
-use super::engines::{limits, reaching};
 use super::ladder::{Engined, Observer, Target};
 use super::plan::{Engine, Plan, Rung};
 use crate::cells::{self, Damped, Joined, WithBounds};
@@ -15,8 +14,8 @@ use crate::problem::{Parameters, Problem};
 
 impl Target for Rational {
     fn run(problem: &Problem, plan: &Plan, _: Rung, observe: &Observer) -> Result<Engined<Rational>, Error> {
-        let problem = &*reaching(problem, plan);
-        Ok(Arc::new(Undamped::<Rational>::solve_within(problem, &(), limits(problem, plan), |a, b| observe(a, b))?))
+        let problem = &*plan.reaching(problem);
+        Ok(Arc::new(Undamped::<Rational>::solve_within(problem, &(), plan.limits(problem), |a, b| observe(a, b))?))
     }
 }
 
@@ -56,11 +55,11 @@ fn bits_of(rung: Rung) -> u32 {
 }
 
 fn estimates(problem: &Problem, plan: &Plan, bits: u32, observe: &Observer) -> Result<Engined<Float>, Error> {
-    let problem = &*reaching(problem, plan);
+    let problem = &*plan.reaching(problem);
     let digits = f64::from(bits) * std::f64::consts::LOG10_2 - 19.0;
     Ok(match plan.engine {
         Engine::Lattice => {
-            let limits = limits(problem, plan);
+            let limits = plan.limits(problem);
             let history = Undamped::<Estimate<Float>>::solve_within(problem, &bits, limits, |a, b| observe(a, b))?;
             if history.undetermined_from().is_some() {
                 return Err(Error::NotDecided { what: "in which order the events come", bits });
@@ -81,11 +80,11 @@ fn estimates(problem: &Problem, plan: &Plan, bits: u32, observe: &Observer) -> R
 }
 
 fn enclosures(problem: &Problem, plan: &Plan, bits: u32, observe: &Observer) -> Result<Engined<Interval>, Error> {
-    let problem = &*reaching(problem, plan);
+    let problem = &*plan.reaching(problem);
     match plan.engine {
         Engine::Lattice => {
             let precision = IntervalPrecision::with_exact(bits);
-            let limits = limits(problem, plan);
+            let limits = plan.limits(problem);
             Ok(Arc::new(Undamped::<Interval>::solve_within(problem, &precision, limits, |a, b| observe(a, b))?))
         }
         Engine::Cells => Err(Error::NotCertified),

@@ -1,17 +1,20 @@
 //! Everything that is decided before running: engine, numbers, bits, how far.
 
+use std::borrow::Cow;
+
 use serde::Serialize;
 
 use super::foresee;
 use super::question::{Numbers, Question, Want};
 use crate::error::Error;
+use crate::lattice::Limits;
 use crate::number::Number;
 use crate::problem::{Problem, Run};
 
 /// How a question is going to be answered. No engine and no caller decides any of it again.
 ///
-/// **Source**: the cheapest route that answers the question: a first contact alone needs no flight, values between two times
-/// nothing beyond the later one.
+/// **Source**: the cheapest route that answers the question: a first contact alone needs no flight, values between two
+/// times nothing beyond the later one.
 ///
 /// ```
 /// use dalembert::{Engine, Numbers, Plan, Problem, Question};
@@ -31,7 +34,8 @@ pub struct Plan {
     pub reach: Reach,
     /// What lies before this time may be forgotten on the way.
     pub keep_from: Option<f64>,
-    /// The numbers of the first attempt; `explain` prints it, and longer numbers follow where they do not settle the answer.
+    /// The numbers of the first attempt; `explain` prints it, and longer numbers follow where they do not settle the
+    /// answer.
     pub rung: Rung,
     /// Decimal digits that rounding is foreseen to take in a chaotic run; the first rung has as many more.
     pub foreseen_loss: f64,
@@ -80,8 +84,8 @@ pub enum Rung {
 pub const MAX_DIGITS: u32 = 100_000;
 /// Digits that are proved where none are asked for.
 pub const CERTIFIED_DIGITS: u32 = 15;
-/// The accuracy that doubles are held to where none is asked for, relative to the natural scales: what it does not leave is
-/// not printed.
+/// The accuracy that doubles are held to where none is asked for, relative to the natural scales: what it does not
+/// leave is not printed.
 pub const DEFAULT_ACCURACY: f64 = 1e-9;
 /// Bits beyond those of the digits asked for, on the first attempt with error bounds.
 const GUARD_BITS: u32 = 64;
@@ -146,8 +150,8 @@ impl Plan {
         plan
     }
 
-    /// The digits that the answer is held to, and how many digits below the greatest of its numbers one may lie and still have
-    /// all of them.
+    /// The digits that the answer is held to, and how many digits below the greatest of its numbers one may lie and
+    /// still have all of them.
     pub(crate) fn goal(&self) -> (f64, f64) {
         match self.numbers {
             Numbers::Double(accuracy) => (-accuracy.unwrap_or(DEFAULT_ACCURACY).log10(), 0.0),
@@ -226,12 +230,27 @@ impl Plan {
         }
         reasons
     }
+
+    /// The problem with the run that is followed.
+    pub(super) fn reaching<'a>(&self, problem: &'a Problem) -> Cow<'a, Problem> {
+        let run = match &self.reach {
+            Reach::Contacts(contacts) => Run::Impacts(*contacts),
+            Reach::FirstContact => Run::Impacts(1),
+            Reach::Time(time) => Run::Time(time.clone()),
+        };
+        if problem.run == run { Cow::Borrowed(problem) } else { Cow::Owned(Problem { run, ..problem.clone() }) }
+    }
+
+    /// What an undamped march may store and forget.
+    pub(super) fn limits(&self, problem: &Problem) -> Limits {
+        self.keep_from.map_or_else(Limits::default, |time| Limits::keeping_from(problem, time))
+    }
 }
 
 /// Digits that must be left beyond those printed, so that a quantity small against its scale still has all of them.
 const SPARE_DIGITS: u32 = 8;
-/// A proved number that is this many digits below the greatest of the answer, beyond those asked for, may stay with fewer
-/// digits: where it is zero in truth, no bits would ever give it any.
+/// A proved number that is this many digits below the greatest of the answer, beyond those asked for, may stay with
+/// fewer digits: where it is zero in truth, no bits would ever give it any.
 const FLOOR_DIGITS: u32 = 30;
 
 fn check(problem: &Problem, numbers: Numbers) -> Result<(), Error> {

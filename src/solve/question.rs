@@ -31,8 +31,9 @@ pub enum Want {
 /// The numbers of an answer.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Numbers {
-    /// Doubles, to this accuracy relative to the natural scales; `None` for [`DEFAULT_ACCURACY`](super::DEFAULT_ACCURACY). Where
-    /// doubles alone do not reach it, longer numbers are computed with and rounded to doubles at the end.
+    /// Doubles, to this accuracy relative to the natural scales; `None` for
+    /// [`DEFAULT_ACCURACY`](super::DEFAULT_ACCURACY). Where doubles alone do not reach it, longer numbers are computed
+    /// with and rounded to doubles at the end.
     Double(Option<f64>),
     /// This many decimal digits, rounded once.
     Digits(u32),

@@ -9,7 +9,8 @@ use crate::motion::Ending;
 use crate::number::{Float, Interval, Rational};
 use crate::problem::Problem;
 
-/// A history in the numbers of its plan. All variants exist in every build; without the feature `mp` only the first has values.
+/// A history in the numbers of its plan. All variants exist in every build; without the feature `mp` only the first has
+/// values.
 #[derive(Debug)]
 pub enum Solution {
     /// Doubles.
@@ -52,8 +53,8 @@ impl Plan {
     ///
     /// **Accuracy**: that of [`Plan::numbers`].
     ///
-    /// **Errors**: [`Error::TooManyPieces`]; [`Error::Irrational`] where a parameter is no fraction and no digits are asked for;
-    /// [`Error::Unsettled`], [`Error::Undecided`] where no bits that are worth trying settle the answer.
+    /// **Errors**: [`Error::TooManyPieces`]; [`Error::Irrational`] where a parameter is no fraction and no digits are
+    /// asked for; [`Error::Unsettled`], [`Error::Undecided`] where no bits that are worth trying settle the answer.
     ///
     /// ```
     /// use dalembert::{Numbers, Plan, Problem, Question, Solution};

@@ -27,21 +27,23 @@ impl<'a> Backward<'a> {
         Backward { half: ray.half(), argument: ray.argument(), ray, terms }
     }
 
-    /// `e^{−rt} ψ₀`, and `e^{−rt} Σ_{n≥n₀} c_n (r/2)^{n−n₀} ψ_n`, with fewer than two roundings; `None` where this way is not open:
-    /// for `r ξ = 0`, far too many terms, or a first weight below 1.
+    /// `e^{−rt} ψ₀`, and `e^{−rt} Σ_{n≥n₀} c_n (r/2)^{n−n₀} ψ_n`, with fewer than two roundings; `None` where this way
+    /// is not open: for `r ξ = 0`, far too many terms, or a first weight below 1.
     ///
-    /// **Source**: `f_n = (r/2)ⁿ ψ_n` obeys `f_{n−1} = (n f_n + w f_{n+1})/x` with `x = rξ/2`, `w = rη/2`. It is followed downwards
-    /// from `f_N = 1`, `f_{N+1} = 0`, and the sums over f are divided by f₀ once.
+    /// **Source**: `f_n = (r/2)ⁿ ψ_n` obeys `f_{n−1} = (n f_n + w f_{n+1})/x` with `x = rξ/2`, `w = rη/2`. It is
+    /// followed downwards from `f_N = 1`, `f_{N+1} = 0`, and the sums over f are divided by f₀ once.
     ///
-    /// **Accuracy**: the ratios `σ_n = f_n/f_{n−1} = x/(n + wσ_{n+1})` pass on a relative error of their successor times
-    /// `θ_n = wσ_nσ_{n+1}/x = I_{n+1}/I_{n−1} < 1`, and `f_{n−1}` has one of its own, `τ_n ≤ 6·2^{−p_n}`: coefficients cut to `p_n` bits,
-    /// two products, a product with n, a sum. So that of `σ_n` is at most `Σ_{j≥n} τ_j Π_{k=n}^{j−1} θ_k`. The bits grow with the
-    /// terms, `2^{−p_n} ≤ 4·2^{−W} max(1, f_{n₀}/f_{n−1})` for the greatest n₀, and so `τ_j Π θ_k` is at most
-    /// `24·2^{−W} (f_{n₀}/f_{n−1} Π θ_k/σ_k + 1)`. There `θ_k/σ_k = wσ_{k+1}/x < 2w/(k + ½ + √((k+½)² + z²)) = b_k` (Segura 2011), which
-    /// falls with k: with `B = Σ_{j≥1} Π_{k<j} b_k`, the error of `σ_n` is at most `24·2^{−W} (B f_{n₀}/f_{n−1} + N)`. That of `f_n/f₀`,
-    /// a product of n ratios, is at most `24·2^{−W} (B n f_{n₀}/f_n + N²)`, since f falls with n. In the sum it has the weight
-    /// `c_n f_n/S` with `c_n ≤ n³` and `S ≥ f_{n₀}`: all in all `24·2^{−W} (B N⁵ + N²)`, and W makes that less than a tenth of a
-    /// rounding. N is such that the start with `f_{N+1} = 0` and the terms left out are less than another tenth.
+    /// **Accuracy**: the ratios `σ_n = f_n/f_{n−1} = x/(n + wσ_{n+1})` pass on a relative error of their successor
+    /// times `θ_n = wσ_nσ_{n+1}/x = I_{n+1}/I_{n−1} < 1`, and `f_{n−1}` has one of its own, `τ_n ≤ 6·2^{−p_n}`:
+    /// coefficients cut to `p_n` bits, two products, a product with n, a sum. So that of `σ_n` is at most
+    /// `Σ_{j≥n} τ_j Π_{k=n}^{j−1} θ_k`. The bits grow with the terms, `2^{−p_n} ≤ 4·2^{−W} max(1, f_{n₀}/f_{n−1})` for
+    /// the greatest n₀, and so `τ_j Π θ_k` is at most `24·2^{−W} (f_{n₀}/f_{n−1} Π θ_k/σ_k + 1)`. There
+    /// `θ_k/σ_k = wσ_{k+1}/x < 2w/(k + ½ + √((k+½)² + z²)) = b_k` (Segura 2011), which falls with k: with
+    /// `B = Σ_{j≥1} Π_{k<j} b_k`, the error of `σ_n` is at most `24·2^{−W} (B f_{n₀}/f_{n−1} + N)`. That of `f_n/f₀`, a
+    /// product of n ratios, is at most `24·2^{−W} (B n f_{n₀}/f_n + N²)`, since f falls with n. In the sum it has the
+    /// weight `c_n f_n/S` with `c_n ≤ n³` and `S ≥ f_{n₀}`: all in all `24·2^{−W} (B N⁵ + N²)`, and W makes that less
+    /// than a tenth of a rounding. N is such that the start with `f_{N+1} = 0` and the terms left out are less than
+    /// another tenth.
     ///
     /// The number is rounded once more when the spare bits are dropped.
     pub(super) fn sums<const K: usize>(

@@ -7,8 +7,8 @@ use crate::number::{Analytic, Answer, Estimate, Rounded};
 
 /// A number system with the special functions of the first contact.
 ///
-/// **Accuracy**: in systems that round, the number of roundings that [`RoundedSpecial`] states; in estimates and enclosures,
-/// within the bound that the result carries.
+/// **Accuracy**: in systems that round, the number of roundings that [`RoundedSpecial`] states; in estimates and
+/// enclosures, within the bound that the result carries.
 pub trait Special: Analytic {
     /// `e^{−z} I_n(z)` for `z ≥ 0`.
     fn in_scaled(&self, n: u32) -> Self;
@@ -16,7 +16,8 @@ pub trait Special: Analytic {
     /// `e^{−rt} ψ₀` of a ray.
     fn ray_start(ray: &Ray<Self>) -> Self;
 
-    /// `e^{−rt} Σ_{n≥n₀} c_n (r/2)^{n−n₀} ψ_n` of a ray for K sequences `0 ≤ c_n ≤ 4n³`, each from its own `n₀ ≥ 1`, in one pass.
+    /// `e^{−rt} Σ_{n≥n₀} c_n (r/2)^{n−n₀} ψ_n` of a ray for K sequences `0 ≤ c_n ≤ 4n³`, each from its own `n₀ ≥ 1`, in
+    /// one pass.
     fn ray_sums<const K: usize>(ray: &Ray<Self>, first: [i64; K], weight: impl Fn(i64) -> [i64; K])
     -> RaySums<Self, K>;
 
@@ -75,7 +76,8 @@ impl<S: Special> Ray<S> {
         S::ray_start(self)
     }
 
-    /// `e^{−rt} Σ_{n≥n₀} c_n (r/2)^{n−n₀} ψ_n` for K sequences `0 ≤ c_n ≤ 4n³`, each from its own `n₀ ≥ 1`, in one pass.
+    /// `e^{−rt} Σ_{n≥n₀} c_n (r/2)^{n−n₀} ψ_n` for K sequences `0 ≤ c_n ≤ 4n³`, each from its own `n₀ ≥ 1`, in one
+    /// pass.
     ///
     /// **Accuracy**: see [`Special`].
     #[inline]
@@ -112,8 +114,8 @@ pub fn i1_scaled<S: Special>(z: &S) -> S {
 
 /// `e^{−z} I_n(z)` for `z ≥ 0`.
 ///
-/// **Source**: `I_n = I_0 Π r_k`, `r_k = I_k/I_{k−1} = z/(2k + z r_{k+1})` downwards, all terms positive; for long numbers and
-/// `z ≤ bits + 64` the series.
+/// **Source**: `I_n = I_0 Π r_k`, `r_k = I_k/I_{k−1} = z/(2k + z r_{k+1})` downwards, all terms positive; for long
+/// numbers and `z ≤ bits + 64` the series.
 ///
 /// **Accuracy**: within `≈ 8n + 2z ln n` roundings; for long numbers and `z ≤ bits + 64` within 1.1.
 pub fn in_scaled<S: Special>(z: &S, n: u32) -> S {
@@ -144,8 +146,9 @@ const fn reciprocals(n: usize) -> [f64; 13] {
 
 /// `e^{−z} Σ_m yᵐ Π 1/(k(k+n))`, y = z²/4, in doubles, z ≤ 2, ten times as fast as a correctly rounded function.
 ///
-/// With y ≤ 1 the rest after m = 13 is below `2/(14!)² < 2⁻⁷⁰`. In Horner's form the last step has one rounding and weighs 1,
-/// those before add three each times the terms that they stand in, `(I₀ − 1)/I₀ < 0.6`, and the exponential has two.
+/// With y ≤ 1 the rest after m = 13 is below `2/(14!)² < 2⁻⁷⁰`. In Horner's form the last step has one rounding and
+/// weighs 1, those before add three each times the terms that they stand in, `(I₀ − 1)/I₀ < 0.6`, and the exponential
+/// has two.
 fn short(z: f64, steps: &[f64; 13]) -> f64 {
     let y = 0.25 * z * z;
     steps.iter().rev().fold(1.0, |tail, step| 1.0 + y * step * tail) * (-z).exp()

@@ -1,4 +1,5 @@
-//! The special functions of enclosures: those of the middle, in long numbers with a proved bound, and that bound as a width.
+//! The special functions of enclosures: those of the middle, in long numbers with a proved bound, and that bound as a
+//! width.
 
 use rug::Float;
 use rug::float::{Round, Special as NoNumber};
@@ -87,8 +88,9 @@ struct Legendre {
     slope: Interval,
 }
 
-/// The recurrence is followed in `q` bits. Each step adds less than `9·2^−q` to its value, `|P_k| ≤ 1`, and errors grow as
-/// `e_k ≤ 2e_{k−1} + e_{k−2}`, by less than `1 + √2` with each step: all in all less than `2^{1.28n + 4 − q}`, which is the width.
+/// The recurrence is followed in `q` bits. Each step adds less than `9·2^−q` to its value, `|P_k| ≤ 1`, and errors grow
+/// as `e_k ≤ 2e_{k−1} + e_{k−2}`, by less than `1 + √2` with each step: all in all less than `2^{1.28n + 4 − q}`, which
+/// is the width.
 fn legendre(x: &Float, n: usize, q: u32) -> Legendre {
     let (value, before) = step(x, n, q);
     let off = Float::with_val(64, 1) >> (q - grown(n));
@@ -108,12 +110,12 @@ fn grown(n: usize) -> u32 {
     (1.28 * n as f64) as u32 + 6
 }
 
-/// Each node by Newton's method, the last step of which is the proof: with `δ` a bound of the distance to the nearest root, `n |P/P′|`
-/// because `P′/P` is the sum of n fractions `1/(x − x_i)`, Taylor's formula gives
-/// `x_i ∈ x − P/P′ ± δ² max|P″|/2|P′|` and `P′(x_i) ∈ P′ + P″(x)(x_i − x) ± δ² max|P‴|/2`. On [−1,1], `P″` is greatest at 1,
-/// `(n−1)n(n+1)(n+2)/8 < (n+1)⁴/8`, `P‴ < (n+1)⁶/48`; and `(1−x²)P″ = 2xP′ − n(n+1)P`. Nodes that are as many as `P_n` has roots and do
-/// not overlap are its roots, one each. The weight is `2/((1−x²) P′²)`. Where that cannot be shown, node and weight are everything, and so
-/// is every integral by this rule.
+/// Each node by Newton's method, the last step of which is the proof: with `δ` a bound of the distance to the nearest
+/// root, `n |P/P′|` because `P′/P` is the sum of n fractions `1/(x − x_i)`, Taylor's formula gives
+/// `x_i ∈ x − P/P′ ± δ² max|P″|/2|P′|` and `P′(x_i) ∈ P′ + P″(x)(x_i − x) ± δ² max|P‴|/2`. On [−1,1], `P″` is greatest
+/// at 1, `(n−1)n(n+1)(n+2)/8 < (n+1)⁴/8`, `P‴ < (n+1)⁶/48`; and `(1−x²)P″ = 2xP′ − n(n+1)P`. Nodes that are as many as
+/// `P_n` has roots and do not overlap are its roots, one each. The weight is `2/((1−x²) P′²)`. Where that cannot be
+/// shown, node and weight are everything, and so is every integral by this rule.
 fn enclosed_rule(bits: u32, n: usize) -> Vec<(Interval, Interval)> {
     let size = (n as f64 + 2.0).log2().ceil() as u32;
     // Bits before the last step, and before those before it: one step loses `x/(1−x²) < n²` of the square of the error.

@@ -1,5 +1,5 @@
-//! The special functions of numbers that carry a bound: those of the rounded numbers, with their roundings and with what the
-//! errors of the arguments add.
+//! The special functions of numbers that carry a bound: those of the rounded numbers, with their roundings and with
+//! what the errors of the arguments add.
 
 use super::bessel::{RoundedSpecial, Special};
 use super::gauss::gauss_legendre;
@@ -15,7 +15,8 @@ pub trait BoundedSpecial: Special + Bounded {
     /// A double near it, and how far from that the number meant may lie.
     fn near(&self) -> (f64, f64);
 
-    /// Whether both stand for the same number as far as can be said: equal within their bounds, or copies of one enclosure.
+    /// Whether both stand for the same number as far as can be said: equal within their bounds, or copies of one
+    /// enclosure.
     fn coincides(&self, other: &Self) -> bool;
 }
 
@@ -43,9 +44,9 @@ const FIRST_ORDER: f64 = 1.0 / 128.0;
 const SECOND_ORDER: f64 = 1.03;
 
 impl<S: RoundedSpecial> Special for Estimate<S> {
-    /// The slope of `e^{−z} I₀` is `e^{−z}(I₀ − I₁) ≤ e^{−z} I₀ · 2/(1+z)`, by `I₁/I₀ ≥ z/(1+√(1+z²))` (Amos 1974); that of
-    /// `e^{−z} I_n`, the half difference of `e^{−z}(I_{n−1} − I_n)` and `e^{−z}(I_n − I_{n+1})`, is at most ½, and for n = 1 at most
-    /// `1/(1+z)`; it is also `e^{−z}(I_{n+1} + (n/z) I_n − I_n)`, at most `(1 + n/z) e^{−z} I_n`.
+    /// The slope of `e^{−z} I₀` is `e^{−z}(I₀ − I₁) ≤ e^{−z} I₀ · 2/(1+z)`, by `I₁/I₀ ≥ z/(1+√(1+z²))` (Amos 1974);
+    /// that of `e^{−z} I_n`, the half difference of `e^{−z}(I_{n−1} − I_n)` and `e^{−z}(I_n − I_{n+1})`, is at most ½,
+    /// and for n = 1 at most `1/(1+z)`; it is also `e^{−z}(I_{n+1} + (n/z) I_n − I_n)`, at most `(1 + n/z) e^{−z} I_n`.
     #[inline]
     fn in_scaled(&self, n: u32) -> Self {
         let (value, roundings) = self.value().in_scaled_rounded(n);
@@ -135,11 +136,11 @@ const SPENT_BITS: f64 = 64.0;
 impl Errors {
     /// `None` where they are too large to be followed to first order.
     ///
-    /// With `h = r/2` the terms are `e^{−h(ξ+η)} ξ^{n+m} η^m h^{n−n₀+2m}` times a constant, `m ≥ 0`; in the sum over m of one n, a
-    /// power series in `ξη`, the mean of m is `(z/2) I_{n+1}/I_n ≤ z/2 = h√(ξη)`, and at most `h²ξη`. So the logarithm of `ψ₀` with
-    /// its exponential has slopes of at most `max(h, min(h²η, h√(η/ξ)))` by ξ, h by η, since `z/2 ≤ hη`, and `ξ + η` by h, since
-    /// `z ≤ h(ξ+η)`; that of a sum over n has `n/ξ` by ξ and `n/h` by h more, and what lies beyond the last term N adds less than one to
-    /// the mean of n.
+    /// With `h = r/2` the terms are `e^{−h(ξ+η)} ξ^{n+m} η^m h^{n−n₀+2m}` times a constant, `m ≥ 0`; in the sum over m
+    /// of one n, a power series in `ξη`, the mean of m is `(z/2) I_{n+1}/I_n ≤ z/2 = h√(ξη)`, and at most `h²ξη`. So
+    /// the logarithm of `ψ₀` with its exponential has slopes of at most `max(h, min(h²η, h√(η/ξ)))` by ξ, h by η, since
+    /// `z/2 ≤ hη`, and `ξ + η` by h, since `z ≤ h(ξ+η)`; that of a sum over n has `n/ξ` by ξ and `n/h` by h more, and
+    /// what lies beyond the last term N adds less than one to the mean of n.
     #[inline]
     fn of<S: Rounded>(ray: &Ray<Estimate<S>>, exact: &Ray<S>) -> Option<Self> {
         let (x, y, r) = (exact.xi.to_f64(), exact.eta.to_f64(), exact.damping.to_f64());
@@ -184,8 +185,8 @@ impl Errors {
     }
 }
 
-/// Zeros, with the bounds that the greatest arguments give: without the exponential the sums rise with all of them. The start only
-/// where its own errors are too large to be followed.
+/// Zeros, with the bounds that the greatest arguments give: without the exponential the sums rise with all of them. The
+/// start only where its own errors are too large to be followed.
 #[cold]
 fn upper<S: RoundedSpecial, const K: usize>(
     ray: &Ray<Estimate<S>>,

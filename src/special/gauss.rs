@@ -8,8 +8,8 @@ use crate::number::Analytic;
 /// **Source**: Newton's method on `P_n`, from Tricomi's `cos(π(4i−1)/(4n+2))`, which lies in the basin of its root for
 /// every `n`; the weight is `2/((1−x²) P_n′(x)²)`.
 ///
-/// **Accuracy**: nodes within eight roundings of 1, weights within eight of 1 and n + 16 of their own, for numbers that round;
-/// [`Special::gauss_legendre`](super::Special::gauss_legendre) encloses them.
+/// **Accuracy**: nodes within eight roundings of 1, weights within eight of 1 and n + 16 of their own, for numbers that
+/// round; [`Special::gauss_legendre`](super::Special::gauss_legendre) encloses them.
 ///
 /// ```
 /// let rule = dalembert::special::gauss_legendre(&1.0_f64, 2);

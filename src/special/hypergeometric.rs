@@ -30,7 +30,8 @@ impl Spare {
 ///
 /// **Source**: `(z/2)ⁿ/n! ₀F₁(; n+1; z²/4)`; the expansion at infinity, for n = 0, 1, where it reaches the precision.
 ///
-/// **Accuracy**: within the second value, less than 1.1, which is infinite for `z ≥ 2²⁴` with n ≥ 2, z < 0, and what is not finite.
+/// **Accuracy**: within the second value, less than 1.1, which is infinite for `z ≥ 2²⁴` with n ≥ 2, z < 0, and what is
+/// not finite.
 ///
 /// ```
 /// use dalembert::special::in_bounded;
@@ -55,7 +56,8 @@ pub fn in_scaled_bounded(z: &Float, n: u32) -> (Float, f64) {
 ///
 /// **Source**: [`Ray`](super::Ray).
 ///
-/// **Accuracy**: within the second value, less than 1.1; infinite where `r²ξη ≥ 2⁴⁸`, or for what is negative or not finite.
+/// **Accuracy**: within the second value, less than 1.1; infinite where `r²ξη ≥ 2⁴⁸`, or for what is negative or not
+/// finite.
 pub fn psi_bounded(damping: &Float, xi: &Float, eta: &Float, n: u32) -> (Float, f64) {
     // Exact: the series takes of it what matters.
     let product = Float::with_val(xi.prec() + eta.prec(), xi * eta);
@@ -68,8 +70,8 @@ fn finish(value: Option<Spare>, p: u32) -> (Float, f64) {
     value.map_or_else(|| (Float::with_val(p, rug::float::Special::Nan), f64::INFINITY), |value| value.rounded(p))
 }
 
-/// `(base)ⁿ/n! ₀F₁(; n+1; y) e^{exponent}` to 16 bits more than base has, and its roundings there: one each for the power, n!, the
-/// quotient, the exponential and two products.
+/// `(base)ⁿ/n! ₀F₁(; n+1; y) e^{exponent}` to 16 bits more than base has, and its roundings there: one each for the
+/// power, n!, the quotient, the exponential and two products.
 fn with_power(base: &Float, y: &Float, n: u32, exponent: Option<&Float>) -> Option<Spare> {
     let bits = base.prec() + GUARD_BITS;
     let (mut value, error) = hypergeometric(y, n, bits)?;
@@ -84,10 +86,10 @@ fn with_power(base: &Float, y: &Float, n: u32, exponent: Option<&Float>) -> Opti
 
 /// `e^{−rt} ψ₀` for exact r/2, ξ, η; `None` for what is not finite.
 ///
-/// By the series, or, with `z = r√(ξη)` beyond the reach of that, as `e^{−λ} · e^{−z} I₀(z)` with `λ = r(t − √(ξη)) =
-/// (r/2)(η − ξ)²/(η + ξ + 2√(ξη))`: each of the ten operations before the exponential adds a rounding of λ or of z, and both
-/// functions pass on at most λ and one of them; the expansion has fewer than 8p + 512. With `64 + log₂(1 + λ)` bits beyond p that
-/// is far less than one of `2^{−p−16}`.
+/// By the series, or, with `z = r√(ξη)` beyond the reach of that, as `e^{−λ} · e^{−z} I₀(z)` with
+/// `λ = r(t − √(ξη)) = (r/2)(η − ξ)²/(η + ξ + 2√(ξη))`: each of the ten operations before the exponential adds a
+/// rounding of λ or of z, and both functions pass on at most λ and one of them; the expansion has fewer than 8p + 512.
+/// With `64 + log₂(1 + λ)` bits beyond p that is far less than one of `2^{−p−16}`.
 pub(super) fn damped_start(half: &Float, xi: &Float, eta: &Float) -> Option<Spare> {
     let p = xi.prec();
     let square = Float::with_val(2 * half.prec(), half.square_ref());
@@ -127,8 +129,8 @@ pub(super) fn damped_start(half: &Float, xi: &Float, eta: &Float) -> Option<Spar
 fn bounded(z: &Float, n: u32, scaled: bool) -> (Float, f64) {
     let p = z.prec();
     if n <= 1 && z.is_finite() && *z > f64::from(p) + 64.0 {
-        // Term k has 4k roundings, all terms after the first are below 1/8 together, and the rest is below one: all in all less
-        // than 8p + 512, and 32 bits are enough for that.
+        // Term k has 4k roundings, all terms after the first are below 1/8 together, and the rest is below one: all in
+        // all less than 8p + 512, and 32 bits are enough for that.
         let long = Float::with_val(p + 64, z);
         let mut value = expansion(&long, i64::from(n));
         if !scaled {
@@ -228,20 +230,21 @@ impl Factor {
 /// more than 1 where the terms are as many as expected. `None` for y not finite, negative, or `2⁴⁸` and more.
 ///
 /// **Source**: concurrent summation (Smith 1989): one sum for each residue of m modulo B, so that only every B-th step
-/// multiplies by a long number, `y^B`, and Horner's rule in y puts the sums together. Small divisors `m(m+n)` are taken as many
-/// at a time as a word holds.
+/// multiplies by a long number, `y^B`, and Horner's rule in y puts the sums together. Small divisors `m(m+n)` are taken
+/// as many at a time as a word holds.
 ///
-/// **Accuracy**: in integers of unit `2^{−F}`, all rounded down. Let `β = max(1,y)`, and let `T_m` be the exact term but for the powers of
-/// y below B that are put in last. An error e in `T_m` passes on to the result as
+/// **Accuracy**: in integers of unit `2^{−F}`, all rounded down. Let `β = max(1,y)`, and let `T_m` be the exact term
+/// but for the powers of y below B that are put in last. An error e in `T_m` passes on to the result as
 /// `e y^{m mod B} Σ_{k≥m} c_k y^k/(c_m y^m) ≤ e β^{B−1} V`, because the ratios of terms fall with m.
-/// - A division by the product D < 2⁶⁴ of a group is off by less than 1 for the last of its terms, by less than `D/(d₁ ⋯ d_i)` for
-///   the others, which are less than 2·2⁶⁴ together: `(2⁶⁵ + V) β^{B−1} ≤ 2⁶⁶ V β^{B−1}`.
-/// - Each product with `y^B` is off by two for its own roundings, and by what `y^B` is. An addition chain makes `y^B` off by less
-///   than `2B β^B`: for y ≥ 1 that is a part `2B·2^{−F}` of everything that follows; for y < 1, where T ≤ 1, it is 2B at most, times V.
+/// - A division by the product D < 2⁶⁴ of a group is off by less than 1 for the last of its terms, by less than
+///   `D/(d₁ ⋯ d_i)` for the others, which are less than 2·2⁶⁴ together: `(2⁶⁵ + V) β^{B−1} ≤ 2⁶⁶ V β^{B−1}`.
+/// - Each product with `y^B` is off by two for its own roundings, and by what `y^B` is. An addition chain makes `y^B`
+///   off by less than `2B β^B`: for y ≥ 1 that is a part `2B·2^{−F}` of everything that follows; for y < 1, where T ≤
+///   1, it is 2B at most, times V.
 /// - Horner's rule: 1 for each step, times β^{B−1}, and y itself is off by 1: 2B β^{B−1} V together.
 ///
-/// A term that has become zero stays zero, so nothing is cut off beyond these roundings. For N terms all that is at most
-/// `N·2⁶⁶ + 2N + 2N + 2B ≤ N·2⁶⁷` units, times `β^{B−1} V`.
+/// A term that has become zero stays zero, so nothing is cut off beyond these roundings. For N terms all that is at
+/// most `N·2⁶⁶ + 2N + 2N + 2B ≤ N·2⁶⁷` units, times `β^{B−1} V`.
 fn hypergeometric(y: &Float, n: u32, bits: u32) -> Option<(Float, f64)> {
     if !y.is_finite() || y.is_sign_negative() || *y >= 281_474_976_710_656_u64 {
         return None;

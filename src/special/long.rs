@@ -57,7 +57,8 @@ mod tests {
     use crate::special::hypergeometric::expansion;
     use crate::special::{in_bounded, psi_bounded};
 
-    /// `e^{−z} Σ_m (z/2)^{2m+n}/(m!(m+n)!)`, term by term: once a term is half of the one before, the rest is below the last one.
+    /// `e^{−z} Σ_m (z/2)^{2m+n}/(m!(m+n)!)`, term by term: once a term is half of the one before, the rest is below the
+    /// last one.
     fn series(z: &Float, n: i64) -> Float {
         let half = z.clone() / 2u32;
         let square = half.clone().square();

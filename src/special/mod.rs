@@ -1,5 +1,5 @@
-//! Special functions, each once by name, with an implementation for each number system by [`Special`]: scaled Bessel functions,
-//! the sums over `ψ_n` that a ray carries, `φ` functions, Gauss–Legendre.
+//! Special functions, each once by name, with an implementation for each number system by [`Special`]: scaled Bessel
+//! functions, the sums over `ψ_n` that a ray carries, `φ` functions, Gauss–Legendre.
 
 #[cfg(feature = "mp")]
 mod backward;

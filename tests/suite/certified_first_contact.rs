@@ -49,8 +49,8 @@ fn power_of_ten(n: i32) -> Rational {
     if n < 0 { power.recip() } else { power }
 }
 
-/// An enclosure that is narrower than `10^−digits`, relative to itself, or to `scale` where it holds zero, and that reaches
-/// what the printed truth can be: `± 0.6` of its last digit. Zeros are printed as what was left of them.
+/// An enclosure that is narrower than `10^−digits`, relative to itself, or to `scale` where it holds zero, and that
+/// reaches what the printed truth can be: `± 0.6` of its last digit. Zeros are printed as what was left of them.
 fn check(what: &str, found: &Interval, truth: &Value, scale: f64, digits: i32) {
     let text = truth.as_str().unwrap();
     let value = number(text).to_rational();
@@ -285,7 +285,8 @@ fn ordinary_numbers_lie_inside() {
     }
 }
 
-/// Values on both sides of a ray differ by the jump that it carries, and the wrong bits never decide on which side it is.
+/// Values on both sides of a ray differ by the jump that it carries, and the wrong bits never decide on which side it
+/// is.
 #[test]
 fn times_on_rays_are_told_from_times_beside_them() {
     // t₁ = 20/21, and a ray is at x = 1/6 at t = 5/21 + k t₁.

@@ -1,5 +1,5 @@
-//! Proved digits of undamped histories: fifty of every number of the reference, tangential landings by exact arithmetic, and
-//! nothing where nothing can be proved.
+//! Proved digits of undamped histories: fifty of every number of the reference, tangential landings by exact
+//! arithmetic, and nothing where nothing can be proved.
 
 use crate::common::{number, problem, reference};
 use dalembert::lattice::Undamped;
@@ -37,7 +37,8 @@ impl Power for Rational {
     }
 }
 
-/// The enclosure has `DIGITS` digits, of itself or, where that is zero, of `scale`; and what the reference says lies in it.
+/// The enclosure has `DIGITS` digits, of itself or, where that is zero, of `scale`; and what the reference says lies in
+/// it.
 fn proved(name: &str, ours: &Interval, theirs: &Value, scale: f64) {
     let size = Float::with_val(64, ours.mid().abs_ref()).to_f64().max(if ours.sign().is_none() { scale } else { 0.0 });
     assert!(ours.radius() <= size * 1e-50, "{name}: {ours:?}");
@@ -80,8 +81,8 @@ fn rod(speed: &str, time: &str) -> Problem {
     problem
 }
 
-/// μ = 1 lands at t = 31 with speed zero, after landings at 3 + √2, 7 + √3, …: no interval can tell that from a graze or a
-/// flight over the ground, the exact number can. After t = 36 all is as before.
+/// μ = 1 lands at t = 31 with speed zero, after landings at 3 + √2, 7 + √3, …: no interval can tell that from a graze
+/// or a flight over the ground, the exact number can. After t = 36 all is as before.
 #[test]
 fn a_tangential_landing_is_proved_by_exact_arithmetic() {
     let problem = rod("1", "80");

@@ -58,7 +58,8 @@ fn from_the_bounce_and_from_the_start_agree_within_their_bounds() {
         assert!(bound.is_finite());
         let mut last = joined.end().min(marched.end());
         for (k, (ours, theirs)) in joined.events().iter().zip(marched.events()).enumerate() {
-            // Of a landing that hardly moves, or a release without a jump that the next ray may shift, neither bound is small.
+            // Of a landing that hardly moves, or a release without a jump that the next ray may shift, neither bound is
+            // small.
             let apart = (ours.time - theirs.time).abs();
             let allowed = ours.time_error + theirs.time_error;
             if ours.kind != theirs.kind || (allowed > 1e-6 * scales.time && apart > allowed) {

@@ -134,9 +134,10 @@ proptest! {
         }
     }
 
-    /// Without damping in the limit: events where the lattice has them. What `r t₁ = 1e-12` does to the motion in `t` is
-    /// at most `r t · V`, and the history's own bound says by how much its landings magnify an error. `v(0,·)` is the
-    /// reflection of twice the arriving displacement: a round trip makes an error of it three times as large at most.
+    /// Without damping in the limit: events where the lattice has them. What `r t₁ = 1e-12` does to the motion in `t`
+    /// is at most `r t · V`, and the history's own bound says by how much its landings magnify an error. `v(0,·)` is
+    /// the reflection of twice the arriving displacement: a round trip makes an error of it three times as large at
+    /// most.
     #[test]
     fn the_undamped_lattice_is_the_limit(problem in scene(1e-12, 1.000001e-12)) {
         let Some(history) = solve(&problem) else { return Ok(()) };
@@ -158,8 +159,8 @@ proptest! {
             if ours.kind == plain.kind && off <= magnified(ours) {
                 continue;
             }
-            // Nor from a contact without stress on, which the damping may turn into a flight that hardly leaves the ground:
-            // then the end of the one touches where that of the other lands or leaves.
+            // Nor from a contact without stress on, which the damping may turn into a flight that hardly leaves the
+            // ground: then the end of the one touches where that of the other lands or leaves.
             let first = ours.time.min(plain.time);
             let (a, b) = (history.ground_end(&first, Side::Right).unwrap().0, lattice.ground_end(&first, Side::Right).unwrap().0);
             let bound = magnified(ours) * scales.velocity * scales.time;

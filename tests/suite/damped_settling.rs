@@ -1,5 +1,5 @@
-//! Damped rods that come to rest: the state at rest is that of statics, the history reaches the time asked for, and it costs
-//! no more to ask for more of it.
+//! Damped rods that come to rest: the state at rest is that of statics, the history reaches the time asked for, and it
+//! costs no more to ask for more of it.
 
 use crate::common::{close, uniform};
 use dalembert::cells::{Damped, Joined, Reach};

@@ -1,4 +1,5 @@
-//! Damped scenes as a user solves them, against the reference values of independent programs and the table of hard cases.
+//! Damped scenes as a user solves them, against the reference values of independent programs and the table of hard
+//! cases.
 
 use crate::common::{close, number, problem, reference};
 use dalembert::problem::{Parameters, Run};
@@ -243,7 +244,8 @@ fn a_first_contact_to_a_thousand_digits() {
     assert!(error <= rug::Float::with_val(64, rug::Float::parse("1e-1000").unwrap()), "{error}");
 }
 
-/// Where the error bound is too wide, two marches in doubles vouch for each other: their estimate covers what many digits say.
+/// Where the error bound is too wide, two marches in doubles vouch for each other: their estimate covers what many
+/// digits say.
 #[cfg(feature = "mp")]
 #[test]
 fn two_marches_know_how_far_they_are_off() {

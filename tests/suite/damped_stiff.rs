@@ -1,5 +1,5 @@
-//! Real rods: thousands of round trips in a flight, then hop after hop. In doubles, against thirty digits of a march that goes strip
-//! by strip and does not take flights apart.
+//! Real rods: thousands of round trips in a flight, then hop after hop. In doubles, against thirty digits of a march
+//! that goes strip by strip and does not take flights apart.
 
 use crate::common::{number, reference};
 use dalembert::cells::{Damped, Joined, Reach};
@@ -113,7 +113,8 @@ fn longer_numbers_agree() {
     }
 }
 
-/// Ever shorter hops at every second return of a ray: found, with their bound, as far as doubles tell them apart; then said.
+/// Ever shorter hops at every second return of a ray: found, with their bound, as far as doubles tell them apart; then
+/// said.
 #[test]
 fn hops_are_found_or_said() {
     let mut problem =

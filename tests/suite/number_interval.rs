@@ -1,5 +1,5 @@
-//! Enclosures enclose: every operation, on random fractions in few bits, against the exact result; and comparisons never
-//! guess.
+//! Enclosures enclose: every operation, on random fractions in few bits, against the exact result; and comparisons
+//! never guess.
 
 use std::cmp::Ordering;
 

@@ -27,8 +27,8 @@ fn every_event_has_its_digits() {
     assert!(rounded.warnings().iter().any(|warning| warning.contains("not determined")), "{:?}", rounded.warnings());
 }
 
-/// The loss that a few doubles foresee is the loss that the bound of the long run has, and the bits that follow from it are
-/// enough at the first try.
+/// The loss that a few doubles foresee is the loss that the bound of the long run has, and the bits that follow from it
+/// are enough at the first try.
 #[test]
 fn the_loss_is_foreseen() {
     for time in [100, 200, 260] {
@@ -48,8 +48,8 @@ fn the_loss_is_foreseen() {
     assert!(plan.foreseen_loss < 6.0, "{}", plan.foreseen_loss);
 }
 
-/// 373 019 impacts to t = 400, with what lies long behind forgotten on the way. 48 digits are lost; 15 are right all the same,
-/// by a run with more than twice the bits.
+/// 373 019 impacts to t = 400, with what lies long behind forgotten on the way. 48 digits are lost; 15 are right all
+/// the same, by a run with more than twice the bits.
 #[test]
 fn fifteen_digits_at_t_400() {
     let problem = chaotic(400);

@@ -1,5 +1,5 @@
-//! What holds of every undamped history, tested exactly, in fractions, on random scenes. Speeds that are small multiples of
-//! `g t₁` are common among them, so that rays and events often coincide.
+//! What holds of every undamped history, tested exactly, in fractions, on random scenes. Speeds that are small
+//! multiples of `g t₁` are common among them, so that rays and events often coincide.
 
 use dalembert::lattice::Undamped;
 use dalembert::number::Scalar;
@@ -85,7 +85,8 @@ fn times(history: &Exact, count: i64) -> Vec<Rational> {
 proptest! {
     #![proptest_config(ProptestConfig { cases: 96, ..ProptestConfig::default() })]
 
-    /// Corollary 1, (3.47)–(3.53), (3.66)–(3.72), 4.1, (4.72), Remark 2: the paper's formulas and the lattice share no code.
+    /// Corollary 1, (3.47)–(3.53), (3.66)–(3.72), 4.1, (4.72), Remark 2: the paper's formulas and the lattice share no
+    /// code.
     #[test]
     fn the_first_contact_is_the_paper_s(mut problem in uniform()) {
         problem.rod.top = Top::Free;
@@ -134,8 +135,8 @@ proptest! {
         }
     }
 
-    /// (1.3)–(1.6): the end never goes below the ground, is only ever pushed, and never both in the air and pushed; the top
-    /// is free of stress or does not move.
+    /// (1.3)–(1.6): the end never goes below the ground, is only ever pushed, and never both in the air and pushed; the
+    /// top is free of stress or does not move.
     #[test]
     fn boundary_conditions(problem in prop_oneof![uniform(), profile()]) {
         let (problem, history) = solve(problem, 8);
@@ -177,8 +178,8 @@ proptest! {
         }
     }
 
-    /// Proposition 2: across every ray the field jumps by exactly what the ray carries, both jumps together where two rays
-    /// cross, and it is continuous elsewhere.
+    /// Proposition 2: across every ray the field jumps by exactly what the ray carries, both jumps together where two
+    /// rays cross, and it is continuous elsewhere.
     #[test]
     fn jumps_are_carried_by_rays(problem in prop_oneof![uniform(), profile()], place in 0i64..=12) {
         let (problem, history) = solve(problem, 6);
@@ -229,7 +230,8 @@ proptest! {
         }
     }
 
-    /// `h` and `h′` are the means of `v` and `v_t`, integrated between the rays by Simpson's rule, which is exact there.
+    /// `h` and `h′` are the means of `v` and `v_t`, integrated between the rays by Simpson's rule, which is exact
+    /// there.
     #[test]
     fn the_centre_is_the_mean_of_the_field(problem in prop_oneof![uniform(), profile()], part in 1i64..24) {
         let (problem, history) = solve(problem, 6);
@@ -355,7 +357,8 @@ fn every_second_contact_undoes_the_vibration() {
     }
 }
 
-/// A long flight is not marched trip by trip: M = 5·10⁷ takes a handful of pieces, and every answer inside is still exact.
+/// A long flight is not marched trip by trip: M = 5·10⁷ takes a handful of pieces, and every answer inside is still
+/// exact.
 #[test]
 fn long_flights_are_leapt() {
     let problem = crate::common::uniform("1", "1", "1", "100000000", Run::Impacts(2));
@@ -381,8 +384,8 @@ fn long_flights_are_leapt() {
     assert!(rounded.error_estimate() < 1e-12);
 }
 
-/// μ = 1 comes back to its start every 36: a thousand impacts in doubles, most of them at irrational times, and no coincidence
-/// is lost or made up. The bound grows with the number of impacts, not by a factor for each.
+/// μ = 1 comes back to its start every 36: a thousand impacts in doubles, most of them at irrational times, and no
+/// coincidence is lost or made up. The bound grows with the number of impacts, not by a factor for each.
 #[test]
 fn a_thousand_impacts_in_doubles() {
     let problem = crate::common::uniform("1", "1", "1", "1", Run::Impacts(1000));

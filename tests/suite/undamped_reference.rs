@@ -10,8 +10,8 @@ fn kind(event: &Value) -> EventKind {
     if event["kind"] == "impact" { EventKind::Impact } else { EventKind::Release }
 }
 
-/// The impacts and releases of a case. The list of `mu_2` closes with a `graze` at t = 30 where its computation stopped:
-/// by the exact period 12 that is the impact of t = 6 and t = 18 again (see `rational_histories_are_exact`).
+/// The impacts and releases of a case. The list of `mu_2` closes with a `graze` at t = 30 where its computation
+/// stopped: by the exact period 12 that is the impact of t = 6 and t = 18 again (see `rational_histories_are_exact`).
 fn events(case: &Value) -> Vec<&Value> {
     case["events"].as_array().unwrap().iter().filter(|event| event["kind"] != "graze").collect()
 }
