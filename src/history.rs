@@ -244,7 +244,9 @@ impl<S: Target> History<S> {
 
     /// What a user should know of the answer.
     pub fn warnings(&self) -> Vec<String> {
-        self.current().engine.warnings().to_vec()
+        let mut warnings = self.current().engine.warnings().to_vec();
+        warnings.extend(self.ladder.problem.neglected());
+        warnings
     }
 }
 

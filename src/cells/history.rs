@@ -171,11 +171,12 @@ impl<S: RoundedSpecial> Damped<S> {
         problem: &Problem,
         precision: &S::Precision,
     ) -> Self {
-        let Found { pieces, checkpoints, flights, marks, warnings, unresolved, error, ending } = found;
+        let Found { pieces, checkpoints, flights, marks, mut warnings, unresolved, error, ending } = found;
         let unresolved = unresolved.map(|found| {
             let unit = &data.units.time;
             Unresolved { from: found.from * unit, longest: found.longest * unit.to_f64(), ..found }
         });
+        warnings.extend(unresolved.as_ref().map(ToString::to_string));
         let end = match &problem.run {
             Run::Time(time) if ending == Ending::Time || pieces.last().is_some_and(|piece| piece.still) => {
                 S::from_number(time, precision)

@@ -72,3 +72,11 @@ pub struct Unresolved<S> {
     /// How long each of them may be at most.
     pub longest: f64,
 }
+
+impl<S: RoundedSpecial> std::fmt::Display for Unresolved<S> {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        let (from, landings) = (self.from.decimal(9), if self.count == 1 { "landing" } else { "landings" });
+        write!(f, "from t = {from} on hops shorter than {:.1e} are not told apart from contact, ", self.longest)?;
+        write!(f, "at {} {landings}", self.count)
+    }
+}

@@ -8,7 +8,7 @@ use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 
 use super::{Failure, source};
 use crate::compare::check::{CATALOGUE, Case, Checked, Group, Verdict, select};
-use crate::output::{check_json, check_page, check_table, write_whole};
+use crate::output::{check_json, check_page, check_summary, check_table, write_whole};
 
 /// The catalogue of hard cases and of the paper's claims, worked out now by every route and held against the truth
 #[derive(Args, Debug)]
@@ -18,6 +18,9 @@ pub(super) struct Check {
     /// A case or a group; can be given several times
     #[arg(long, value_name = "NAME")]
     only: Vec<String>,
+    /// Print one line a case, and how many came to each verdict
+    #[arg(long, conflicts_with = "format")]
+    summary: bool,
     /// What to print
     #[arg(long, value_enum, default_value_t = Shape::Table)]
     format: Shape,
@@ -59,6 +62,7 @@ impl Check {
         let checked: Vec<(Group, Vec<Checked>)> = groups.collect();
         bar.finish_and_clear();
         let text = match self.format {
+            Shape::Table if self.summary => check_summary(&checked),
             Shape::Table => check_table(&checked),
             Shape::Json => format!("{:#}\n", check_json(&checked)),
             Shape::Markdown => check_page(&checked),

@@ -34,24 +34,26 @@ impl Explain {
                 "first_attempt": plan.rung.to_string(),
                 "reach": plan.reach.to_string(),
                 "reasons": plan.reasons(),
+                "warnings": scene.problem.neglected().into_iter().collect::<Vec<_>>(),
             })),
             Format::Csv => {
                 Err(miette::miette!("found --format csv, expected table or json: a plan is no list of numbers"))
             }
-            Format::Table => self.output.write(&Self::text(scene.title.as_deref(), &effects, &plan)),
+            Format::Table => self.output.write(&Self::text(&scene, &effects, &plan)),
         }
     }
 
-    fn text(title: Option<&str>, effects: &[EffectUse], plan: &Plan) -> String {
+    fn text(scene: &Scene, effects: &[EffectUse], plan: &Plan) -> String {
         let rows = effects.iter().map(|used| {
             let line = used.line.map_or_else(|| "–".to_string(), |line| line.to_string());
             vec![used.effect.to_string(), if used.called { "yes" } else { "no" }.into(), line, used.because.clone()]
         });
-        let mut out = title.map_or_else(String::new, |title| format!("{title}\n\n"));
+        let mut out = scene.title.as_ref().map_or_else(String::new, |title| format!("{title}\n\n"));
         out += &table(&["effect", "called for", "line", "because"], rows.collect(), 4);
         out += &format!("\n\nengine:   {}\nreach:    {}\n", plan.engine, plan.reach);
         out += &format!("numbers:  {}, at first in {}\n", plan.numbers, plan.rung);
-        plan.reasons().iter().fold(out, |out, reason| out + "          " + reason + "\n")
+        out = plan.reasons().iter().fold(out, |out, reason| out + "          " + reason + "\n");
+        scene.problem.neglected().into_iter().fold(out, |out, neglected| out + "warning:  " + &neglected + "\n")
     }
 }
 

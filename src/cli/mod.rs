@@ -197,6 +197,7 @@ fn head(scene: &Scene, plan: &Plan, output: &OutputArgs) -> Head {
         legend: output.legend,
         digits: 0,
         line_density,
+        neglected: scene.problem.neglected(),
         exact_until: None,
     }
 }

@@ -113,7 +113,7 @@ impl Sample {
 impl Report for Sample {
     type Data<S: Scalar> = (Vec<output::Sample<S>>, Vec<String>);
 
-    fn gather<S: Scalar>(&self, history: &dyn Motion<S>, _: &Head) -> Result<Self::Data<S>, Error> {
+    fn gather<S: Scalar>(&self, history: &dyn Motion<S>, head: &Head) -> Result<Self::Data<S>, Error> {
         let length = history.scales().length;
         let precision = length.precision();
         let times = self.times.lift::<S>(&precision);
@@ -121,7 +121,8 @@ impl Report for Sample {
             Some(points) => points.lift::<S>(&precision),
             None => vec![length.zero(), length.clone() / length.int(2), length],
         };
-        Ok((sample(history, self.quantity, &times, &points, self.side)?, history.warnings().to_vec()))
+        let warnings = history.warnings().iter().chain(&head.neglected).cloned().collect();
+        Ok((sample(history, self.quantity, &times, &points, self.side)?, warnings))
     }
 
     fn refuse(&self, error: Error, ending: &Ending) -> Failure {

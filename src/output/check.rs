@@ -59,6 +59,15 @@ pub(crate) fn check_table(groups: &Groups) -> String {
     out + &count(groups) + "\n"
 }
 
+/// A line a case, and the counts.
+pub(crate) fn check_summary(groups: &Groups) -> String {
+    let cases = groups.iter().flat_map(|(group, cases)| cases.iter().map(move |checked| (group, checked)));
+    let rows = cases.map(|(group, checked)| {
+        vec![group.name.to_string(), checked.case.name.to_string(), checked.verdict.name().to_string()]
+    });
+    table(&["group", "case", "verdict"], rows.collect(), 3) + "\n\n" + &count(groups) + "\n"
+}
+
 /// For the repository: nothing in it depends on the machine.
 pub(crate) fn check_page(groups: &Groups) -> String {
     let mut out = String::from(

@@ -10,7 +10,7 @@ mod picture;
 mod record;
 mod table;
 
-pub(crate) use check::{check_json, check_page, check_table};
+pub(crate) use check::{check_json, check_page, check_summary, check_table};
 pub use cost::duration;
 pub(crate) use cost::{cost_csv, cost_json, cost_table, effects_csv, effects_json, effects_table};
 pub use csv::{Part, history_csv, samples_csv};

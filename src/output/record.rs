@@ -50,6 +50,8 @@ pub struct Head {
     pub legend: bool,
     /// `ρS` where the scene gives it: what turns strains into newtons.
     pub line_density: Option<(Number, Number)>,
+    /// What the problem leaves out although it matters.
+    pub neglected: Option<String>,
     /// Where an exact run ended, if a run in digits stands in for it.
     pub exact_until: Option<Ending>,
 }
@@ -135,7 +137,7 @@ pub fn record<S: Scalar>(history: &dyn Motion<S>, head: &Head, stress: bool) -> 
         forces,
         error: history.error_estimate().to_f64(),
         lost: history.digits_lost(),
-        warnings: history.warnings().to_vec(),
+        warnings: history.warnings().iter().chain(&head.neglected).cloned().collect(),
     })
 }
 

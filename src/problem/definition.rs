@@ -171,4 +171,26 @@ impl Problem {
     pub fn has_closed_form(&self) -> bool {
         self.rod.top == Top::Free && matches!(self.start, Start::Uniform(_))
     }
+
+    /// What the problem leaves out although it matters: a rod that falls from `drop_height` is taken to reach
+    /// `√(2 g h)` without drag, but no rod that is damped as it is in flight falls faster than `g/2r`.
+    ///
+    /// ```
+    /// use dalembert::Problem;
+    /// let rod = Problem::builder().length(1).wave_speed(1).gravity(2).drop_height(1).damping(0.1).build()?;
+    /// assert_eq!(rod.neglected(), None); // μ = 2, g/2r = 10
+    /// assert!(rod.to_builder().damping(1).build()?.neglected().is_some()); // g/2r = 1
+    /// # Ok::<(), dalembert::problem::ProblemError>(())
+    /// ```
+    pub fn neglected(&self) -> Option<String> {
+        let (damping, gravity) = (self.rod.damping.as_ref()?.to_f64(), self.gravity.as_ref()?.to_f64());
+        let Start::Uniform(speed @ Speed::DropHeight(_)) = &self.start else { return None };
+        let (speed, terminal) = (speed.value(gravity), gravity / (2.0 * damping));
+        (terminal < speed).then(|| {
+            format!(
+                "the speed at impact, √(2 g drop_height) = {speed:.4e}, takes no account of drag; with this damping no \
+                 fall is faster than g/2r = {terminal:.4e}"
+            )
+        })
+    }
 }
