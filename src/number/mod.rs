@@ -39,4 +39,4 @@ pub use literal::{Number, NumberError};
 pub use rug::{Float, Rational};
 pub use scalar::{Analytic, Open, Reads, Rounded, Scalar};
 #[doc(hidden)]
-pub use text::{DOUBLE_DIGITS, bound_text, show};
+pub use text::{DOUBLE_DIGITS, bound_text, double_bound_text, show, shown_bound_text};

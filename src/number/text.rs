@@ -20,7 +20,37 @@ pub fn show<S: Scalar>(x: &S, digits: u32) -> String {
 
 /// The bound of a number's error to two digits, rounded up: `3.1e-14`; `0` where it is exact.
 pub fn bound_text<S: Scalar>(x: &S) -> String {
-    let log10 = x.log2_error() * std::f64::consts::LOG10_2;
+    bound_of_log2(x.log2_error())
+}
+
+/// The bound of the error of the shortest text that reads as the same double, which may be half a unit of the last bit
+/// off that double; `0` where the double is exact.
+pub fn double_bound_text<S: Scalar>(x: &S) -> String {
+    with_rounding(x, x.to_f64().abs().log2() - f64::from(f64::MANTISSA_DIGITS))
+}
+
+/// The bound of the error of [`show`]'s text, with the rounding to its digits; `0` where the number is exact.
+pub fn shown_bound_text<S: Scalar>(x: &S, digits: u32) -> String {
+    let text = show(x, digits);
+    let (mantissa, exponent) = text.split_once('e').unwrap_or((&text, "0"));
+    let decimals = mantissa.split_once('.').map_or(0, |(_, decimals)| decimals.len());
+    let last = exponent.parse::<f64>().unwrap_or(0.0) - decimals as f64;
+    let half_unit = last / std::f64::consts::LOG10_2 - 1.0;
+    with_rounding(x, if text == "0" { x.to_f64().abs().log2() } else { half_unit })
+}
+
+/// The bound of `x` and of a rounding of the size `2^rounding` together.
+fn with_rounding<S: Scalar>(x: &S, rounding: f64) -> String {
+    let own = x.log2_error();
+    if own == f64::NEG_INFINITY || own == f64::INFINITY {
+        return bound_of_log2(own);
+    }
+    let (least, most) = (own.min(rounding), own.max(rounding));
+    bound_of_log2(most + (least - most).exp2().ln_1p() / std::f64::consts::LN_2)
+}
+
+fn bound_of_log2(log2: f64) -> String {
+    let log10 = log2 * std::f64::consts::LOG10_2;
     if log10 == f64::NEG_INFINITY {
         return "0".into();
     }
@@ -49,5 +79,12 @@ mod tests {
         assert_eq!(show(&around(0.0, 1e-20), 20), "0");
         assert_eq!(bound_text(&crate::number::Estimate::new(1.0f64, 3.0)), "3.4e-16");
         assert_eq!(bound_text(&crate::number::Estimate::exact(1.0f64)), "0");
+        // 1 + ε with a bound of one rounding: ε/2 and, for the text, another.
+        assert_eq!(double_bound_text(&crate::number::Estimate::new(1.0f64 + f64::EPSILON, 1.0)), "2.3e-16");
+        assert_eq!(double_bound_text(&crate::number::Estimate::exact(1.0f64)), "0");
+        // Four decimals are half of 1e-4 off, and the number itself 9e-6.
+        assert_eq!(shown_bound_text(&around(2.0, 9e-6), 20), "5.9e-5");
+        // 0 printed: the end farthest from it, 1e-20, and the radius.
+        assert_eq!(shown_bound_text(&around(0.0, 1e-20), 20), "2.1e-20");
     }
 }

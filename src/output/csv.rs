@@ -1,7 +1,7 @@
 //! CSV: one part of the history a file, with a header.
 
 use super::record::{Finished, Head, Quantity, Record, Sample};
-use crate::number::{DOUBLE_DIGITS, Scalar, bound_text, show};
+use crate::number::{DOUBLE_DIGITS, Scalar, show, shown_bound_text};
 
 /// The part of a history that a CSV file holds.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, clap::ValueEnum)]
@@ -17,13 +17,14 @@ pub enum Part {
 
 /// One part of the history.
 pub fn history_csv<S: Scalar>(record: &Record<S>, part: Part, head: &Head) -> Result<String, csv::Error> {
-    let show = |x: &S| show(x, if head.digits == 0 { DOUBLE_DIGITS } else { head.digits });
+    let digits = if head.digits == 0 { DOUBLE_DIGITS } else { head.digits };
+    let (show, bound) = (|x: &S| show(x, digits), |x: &S| shown_bound_text(x, digits));
     let optional = |x: Option<&S>| x.map_or_else(String::new, show);
     let mut rows: Vec<Vec<String>> = Vec::new();
     let header: &[&str] = match part {
         Part::Events => {
             for event in &record.events {
-                let numbers = event.numbers().map(show).into_iter().chain(event.numbers().map(bound_text));
+                let numbers = event.numbers().map(show).into_iter().chain(event.numbers().map(bound));
                 rows.push(std::iter::once(event.kind.to_string()).chain(numbers).collect());
             }
             &[
@@ -75,14 +76,15 @@ pub fn history_csv<S: Scalar>(record: &Record<S>, part: Part, head: &Head) -> Re
 
 /// Samples.
 pub fn samples_csv<S: Scalar>(samples: &[Sample<S>], quantity: Quantity, head: &Head) -> Result<String, csv::Error> {
-    let show = |x: &S| show(x, if head.digits == 0 { DOUBLE_DIGITS } else { head.digits });
+    let digits = if head.digits == 0 { DOUBLE_DIGITS } else { head.digits };
+    let (show, bound) = (|x: &S| show(x, digits), |x: &S| shown_bound_text(x, digits));
     let mut header = vec!["time", "point", "side"];
     header.extend(quantity.names());
     let bounds: Vec<String> = quantity.names().iter().map(|name| format!("{name}_uncertainty")).collect();
     header.extend(bounds.iter().map(String::as_str));
     let rows = samples.iter().map(|sample| {
         let place = [show(&sample.time), sample.point.as_ref().map_or_else(String::new, show), sample.side.to_string()];
-        place.into_iter().chain(sample.values.iter().map(show)).chain(sample.values.iter().map(bound_text)).collect()
+        place.into_iter().chain(sample.values.iter().map(show)).chain(sample.values.iter().map(bound)).collect()
     });
     write(&header, rows.collect())
 }

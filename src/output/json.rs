@@ -21,10 +21,10 @@ pub fn history_json<S: Scalar>(record: &Record<S>, head: &Head) -> Value {
             "centre": number(&event.centre),
             "centre_velocity": number(&event.centre_velocity),
             "uncertainty": {
-                "time": bound_json(&event.time),
-                "end_velocity": bound_json(&event.end_velocity),
-                "centre": bound_json(&event.centre),
-                "centre_velocity": bound_json(&event.centre_velocity),
+                "time": bound_json(&event.time, head.digits),
+                "end_velocity": bound_json(&event.end_velocity, head.digits),
+                "centre": bound_json(&event.centre, head.digits),
+                "centre_velocity": bound_json(&event.centre_velocity, head.digits),
             },
         })
     });
@@ -126,7 +126,8 @@ fn exactness_json(ending: &Ending) -> Value {
 pub fn samples_json<S: Scalar>(samples: &[Sample<S>], quantity: Quantity, head: &Head) -> Value {
     let number = |x: &S| number_json(x, head.digits);
     let rows = samples.iter().map(|sample| {
-        let bounds = quantity.names().iter().zip(&sample.values).map(|(name, x)| (name.to_string(), bound_json(x)));
+        let bounds =
+            quantity.names().iter().zip(&sample.values).map(|(name, x)| (name.to_string(), bound_json(x, head.digits)));
         let values = quantity.names().iter().zip(&sample.values).map(|(name, x)| (name.to_string(), number(x)));
         json!({
             "time": number(&sample.time),

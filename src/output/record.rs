@@ -2,7 +2,7 @@
 
 use crate::error::Error;
 use crate::motion::{Contact, Ending, Energy, Event, Motion, Side, StressPiece};
-use crate::number::{DOUBLE_DIGITS, Number, Scalar, bound_text, show};
+use crate::number::{DOUBLE_DIGITS, Number, Scalar, double_bound_text, show, shown_bound_text};
 use crate::quantity::{EnergyShares, Flight, Restitution, energy_shares, flights, restitution};
 
 /// A number that carries its bound as a JSON value: a number for a double (null if not finite),
@@ -18,13 +18,16 @@ pub(super) fn json<S: Scalar>(x: &S, digits: u32) -> serde_json::Value {
     }
 }
 
-/// The bound of a number's error as a JSON value: a number where a double holds it, a string otherwise; `null` for an
+/// The bound of the error of a number as it is printed, as a JSON value: a number where a double holds it, a string otherwise; `null` for an
 /// enclosure, which has it in itself.
-pub(super) fn bound_json<S: Scalar>(x: &S) -> serde_json::Value {
+pub(super) fn bound_json<S: Scalar>(x: &S, digits: u32) -> serde_json::Value {
     if x.ends(1).is_some() {
         return serde_json::Value::Null;
     }
-    let text = bound_text(x);
+    let text = match x.as_double() {
+        Some(_) if show(x, DOUBLE_DIGITS) != "0" => double_bound_text(x),
+        _ => shown_bound_text(x, if digits == 0 { DOUBLE_DIGITS } else { digits }),
+    };
     match text.parse::<f64>() {
         Ok(bound) if bound > 0.0 || text == "0" => bound.into(),
         _ => text.into(),

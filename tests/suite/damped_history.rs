@@ -54,9 +54,11 @@ fn without_damping_the_delay_recursion_holds() {
         let events = case["events"].as_array().unwrap();
         let last = number(&events.last().unwrap()["time"]).to_f64();
         let history = solve(&problem(&case, Run::Time(format!("{:?}", last * 0.999).parse().unwrap())));
-        // A tangential landing, as that at t = 31 of mu_1, may be off by the root of the error.
+        // A tangential landing, as that at t = 31 of mu_1, may be off by the root of the error. Landings on rays, as
+        // those of mu_1, cannot be told from hops.
         assert!(
-            history.warnings().is_empty() && history.error_estimate() < 1e-4,
+            history.warnings().iter().all(|warning| warning.contains("hops shorter than"))
+                && history.error_estimate() < 1e-4,
             "{name} {:?} {:e}",
             history.warnings(),
             history.error_estimate()
