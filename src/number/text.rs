@@ -42,7 +42,7 @@ pub fn shown_bound_text<S: Scalar>(x: &S, digits: u32) -> String {
 /// The bound of `x` and of a rounding of the size `2^rounding` together.
 fn with_rounding<S: Scalar>(x: &S, rounding: f64) -> String {
     let own = x.log2_error();
-    if own == f64::NEG_INFINITY || own == f64::INFINITY {
+    if own.is_infinite() {
         return bound_of_log2(own);
     }
     let (least, most) = (own.min(rounding), own.max(rounding));
