@@ -6,6 +6,8 @@ use std::hint::black_box;
 
 use criterion::{BenchmarkId, Criterion, Throughput, criterion_group, criterion_main};
 use dalembert::cells::Damped;
+use dalembert::lattice::Undamped;
+use dalembert::number::Estimate;
 use dalembert::problem::{Material, Profile, Rod, Run, Start, Top};
 use dalembert::{Motion, Number, Numbers, Plan, Problem, Question, Solution};
 
@@ -89,7 +91,7 @@ fn undamped(c: &mut Criterion) {
         let problem = rod("", "3", Run::Impacts(impacts));
         assert!(problem.rod.damping.is_none());
         group.bench_function(BenchmarkId::new("lattice, called directly", impacts), |b| {
-            b.iter(|| dalembert::solve::undamped::<f64>(black_box(&problem), &()).unwrap().events().len());
+            b.iter(|| Undamped::<Estimate<f64>>::solve(black_box(&problem), &()).unwrap().events().len());
         });
         let plan = Plan::of(&problem, &question).unwrap();
         group.bench_function(BenchmarkId::new("scene with no damping, as planned", impacts), |b| {

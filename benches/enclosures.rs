@@ -6,7 +6,7 @@ use std::hint::black_box;
 
 use criterion::{Criterion, Throughput, criterion_group, criterion_main};
 use dalembert::first_contact::{ContactHistory, FirstContact};
-use dalembert::lattice::{Limits, Scaled, Until, march};
+use dalembert::lattice::{Limits, Scaled, Undamped, Until, march};
 use dalembert::number::{Answer, Estimate, Interval, IntervalPrecision, Number, Scalar};
 use dalembert::problem::{Parameters, Run};
 use dalembert::{Motion, Problem, Side};
@@ -25,15 +25,15 @@ fn undamped(c: &mut Criterion) {
     let mut problem = rod("0", "1", "1", "1");
     problem.run = Run::Time(36.into());
     group.bench_function("doubles", |b| {
-        b.iter(|| dalembert::solve::undamped::<f64>(black_box(&problem), &()).unwrap().events().len());
+        b.iter(|| Undamped::<Estimate<f64>>::solve(black_box(&problem), &()).unwrap().events().len());
     });
     for bits in [256, 3400] {
         group.bench_function(format!("{bits} bits"), |b| {
-            b.iter(|| dalembert::solve::undamped::<Float>(black_box(&problem), &bits).unwrap().events().len());
+            b.iter(|| Undamped::<Estimate<Float>>::solve(black_box(&problem), &bits).unwrap().events().len());
         });
         group.bench_function(format!("{bits} bits, proved"), |b| {
             let exact = IntervalPrecision::with_exact(bits);
-            b.iter(|| dalembert::solve::undamped::<Interval>(black_box(&problem), &exact).unwrap().events().len());
+            b.iter(|| Undamped::<Interval>::solve(black_box(&problem), &exact).unwrap().events().len());
         });
     }
     group.finish();

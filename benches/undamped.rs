@@ -7,10 +7,9 @@
 use std::hint::black_box;
 
 use criterion::{BenchmarkId, Criterion, Throughput, criterion_group, criterion_main};
-use dalembert::lattice::{Limits, Scaled, Until, march};
+use dalembert::lattice::{Limits, Scaled, Undamped, Until, march};
 use dalembert::number::{Bounded, Estimate};
 use dalembert::problem::Run;
-use dalembert::solve::undamped;
 use dalembert::{Motion, Numbers, Plan, Problem, Question, Scene, scene::builtin};
 
 fn problem(speed: &str, run: Run) -> Problem {
@@ -25,8 +24,8 @@ fn first_contact(c: &mut Criterion) {
     let scene = Scene::parse(builtin::get("paper-weak").unwrap().source).unwrap();
     group.bench_function("scene to events and contacts, f64", |b| {
         b.iter(|| {
-            let history = undamped::<f64>(black_box(&scene.problem), &()).unwrap();
-            (history.events().len(), history.contacts()[0].impulse)
+            let history = Undamped::<Estimate<f64>>::solve(black_box(&scene.problem), &()).unwrap();
+            (history.events().len(), *history.contacts()[0].impulse.value())
         });
     });
     let question = Question::run(Numbers::default());
@@ -41,7 +40,7 @@ fn first_contact(c: &mut Criterion) {
     group.bench_function("scene to events and contacts, fractions", |b| {
         let problem = problem("3", Run::Impacts(1));
         b.iter(|| {
-            let history = undamped::<rug::Rational>(black_box(&problem), &()).unwrap();
+            let history = Undamped::<rug::Rational>::solve(black_box(&problem), &()).unwrap();
             (history.events().len(), history.contacts().len())
         });
     });

@@ -164,7 +164,7 @@ impl fmt::Display for Side {
 
 impl<S> Event<S> {
     /// The same event in other numbers.
-    pub(crate) fn map<T>(self, f: impl Fn(S) -> T) -> Event<T> {
+    pub fn map<T>(self, f: impl Fn(S) -> T) -> Event<T> {
         Event {
             kind: self.kind,
             time: f(self.time),
@@ -190,7 +190,7 @@ impl<S: Scalar> fmt::Display for Event<S> {
 
 impl<S> Contact<S> {
     /// The same contact in other numbers.
-    pub(crate) fn map<T>(self, f: impl Fn(S) -> T) -> Contact<T> {
+    pub fn map<T>(self, f: impl Fn(S) -> T) -> Contact<T> {
         Contact { from: f(self.from), to: self.to.map(&f), impulse: f(self.impulse), peak_stress: f(self.peak_stress) }
     }
 
@@ -210,7 +210,7 @@ impl<S: Scalar> fmt::Display for Contact<S> {
 
 impl<S> Energy<S> {
     /// The same energies in other numbers.
-    pub(crate) fn map<T>(self, f: impl Fn(S) -> T) -> Energy<T> {
+    pub fn map<T>(self, f: impl Fn(S) -> T) -> Energy<T> {
         Energy { total: f(self.total), translational: f(self.translational), vibrational: f(self.vibrational) }
     }
 
@@ -222,7 +222,7 @@ impl<S> Energy<S> {
 
 impl<S> Field<S> {
     /// The same values in other numbers.
-    pub(crate) fn map<T>(self, f: impl Fn(S) -> T) -> Field<T> {
+    pub fn map<T>(self, f: impl Fn(S) -> T) -> Field<T> {
         Field { displacement: f(self.displacement), velocity: f(self.velocity), strain: f(self.strain) }
     }
 
@@ -234,7 +234,7 @@ impl<S> Field<S> {
 
 impl<S> StressPiece<S> {
     /// The same piece in other numbers.
-    pub(crate) fn map<T>(self, f: impl Fn(S) -> T) -> StressPiece<T> {
+    pub fn map<T>(self, f: impl Fn(S) -> T) -> StressPiece<T> {
         StressPiece {
             from: f(self.from),
             to: f(self.to),
@@ -364,7 +364,7 @@ pub struct Scales<S> {
 
 impl<S> Scales<S> {
     /// The same scales in other numbers.
-    pub(crate) fn map<T>(self, f: impl Fn(S) -> T) -> Scales<T> {
+    pub fn map<T>(self, f: impl Fn(S) -> T) -> Scales<T> {
         Scales {
             time: f(self.time),
             velocity: f(self.velocity),

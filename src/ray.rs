@@ -24,7 +24,7 @@ pub struct Ray<S> {
 
 impl<S> Ray<S> {
     /// The same ray in other numbers.
-    pub(crate) fn map<T>(self, f: impl Fn(S) -> T) -> Ray<T> {
+    pub fn map<T>(self, f: impl Fn(S) -> T) -> Ray<T> {
         Ray { from: f(self.from), to: f(self.to), up: self.up.map(&f), down: self.down.map(&f), kink: f(self.kink) }
     }
 }

@@ -21,8 +21,6 @@ mod long;
 mod plan;
 mod question;
 mod solution;
-mod stripped;
-mod undamped;
 
 pub use first_contact::{bounce_within, stress_within};
 pub(crate) use ladder::{Attempt, Ladder, unobserved};
@@ -30,5 +28,3 @@ pub use ladder::{Observer, Target};
 pub use plan::{CERTIFIED_DIGITS, DEFAULT_ACCURACY, Engine, MAX_DIGITS, Plan, Reach, Rung};
 pub use question::{Numbers, Question, Want};
 pub use solution::{ExactnessEnd, Solution};
-pub use stripped::Stripped;
-pub use undamped::{StrippedUndamped, undamped, undamped_within};

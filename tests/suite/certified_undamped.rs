@@ -2,10 +2,10 @@
 //! arithmetic, and nothing where nothing can be proved.
 
 use crate::common::{number, problem, reference};
+use crate::stripped::undamped;
 use dalembert::lattice::Undamped;
 use dalembert::number::{Interval, IntervalPrecision, Scalar};
 use dalembert::problem::Run;
-use dalembert::solve::undamped;
 use dalembert::{Ending, Error, EventKind, Motion, Number, Problem, Side};
 use rug::{Float, Rational};
 use serde_json::Value;

@@ -1,9 +1,9 @@
 //! What holds of every damped history, on random scenes, each within the error that the history itself claims.
 
+use crate::stripped::undamped;
 use dalembert::cells::Damped;
 use dalembert::motion::Event;
 use dalembert::problem::{Material, Parameters, Profile, Rod, Run, Speed, Start, Top};
-use dalembert::solve::undamped;
 use dalembert::{Error, Motion, Number, Problem, Side};
 use proptest::prelude::*;
 

@@ -130,7 +130,7 @@ fn rays_modes_and_the_lattice() {
         let problem = crate::common::uniform("1", "1", gravity, speed, Run::Impacts(1));
         let rod = Parameters::<f64>::of(&problem, &()).unwrap();
         let (rays, modal) = (FirstContact::new(&rod.carry()), Modal::new(&rod, 256));
-        let lattice = dalembert::solve::undamped::<f64>(&problem, &()).unwrap();
+        let lattice = crate::stripped::undamped::<f64>(&problem, &()).unwrap();
         let scale = rod.speed + rod.critical_speed();
         for part in [0.2, 0.55, 0.8, 1.0] {
             let time = part * last * rod.round_trip();

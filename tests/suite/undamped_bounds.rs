@@ -1,10 +1,10 @@
 //! The bounds that undamped histories carry, against the same histories in 400 bits; and times on rays and at the end.
 
+use crate::stripped::{undamped, undamped_within};
 use dalembert::lattice::{Limits, Undamped};
 use dalembert::motion::{Event, Side};
 use dalembert::number::{Answer, Estimate, Scalar};
 use dalembert::problem::{Profile, Run, Speed, Start, Top};
-use dalembert::solve::{undamped, undamped_within};
 use dalembert::{Motion, Number, Problem, Scene};
 use proptest::prelude::*;
 use rug::{Float, Rational};
@@ -163,7 +163,7 @@ fn determined_up_to_one_and_the_same_time() {
     let run = |until: i64, keep_from: usize| {
         let problem = crate::common::uniform("1", "1", "1", "3/2", Run::Time(until.into()));
         let limits = Limits { keep_from, ..Limits::default() };
-        let history = undamped_within::<f64>(&problem, &(), limits, |_, _| ()).unwrap();
+        let history = undamped_within::<f64>(&problem, &(), limits).unwrap();
         (history.carried().undetermined_from(), history.warnings().to_vec())
     };
     let (time, warnings) = run(160, 0);

@@ -1,8 +1,8 @@
 //! μ = 3/2 with c = L = g = 1: breaks and impacts multiply, digits are lost, and as many are carried as it takes.
 
+use crate::stripped::{undamped, undamped_within};
 use dalembert::lattice::Limits;
 use dalembert::problem::Run;
-use dalembert::solve::{undamped, undamped_within};
 use dalembert::{Error, Motion, Numbers, Plan, Problem, Question, Rung, Side, Solution};
 use rug::Float;
 
@@ -60,7 +60,7 @@ fn fifteen_digits_at_t_400() {
     let Rung::Bits(bits) = history.rung() else { panic!("{}", history.rung()) };
     assert!(bits < 320, "{bits} bits");
     let limits = Limits::keeping_from(&problem, 400.0);
-    let check = undamped_within::<Float>(&problem, &(2 * bits + 64), limits, |_, _| ()).unwrap();
+    let check = undamped_within::<Float>(&problem, &(2 * bits + 64), limits).unwrap();
     assert_eq!(check.carried().ground().contacts, 373_019);
     let end = check.end();
     let ((h, rate), (v, speed)) = (check.centre(&end).unwrap(), check.ground_end(&end, Side::Left).unwrap());

@@ -1,12 +1,12 @@
 //! What holds of every undamped history, tested exactly, in fractions, on random scenes. Speeds that are small
 //! multiples of `g t₁` are common among them, so that rays and events often coincide.
 
+use crate::stripped::undamped;
 use dalembert::lattice::Undamped;
 use dalembert::number::Scalar;
 use dalembert::problem::{Parameters, Profile, Run, Speed, Start, Top};
 use dalembert::quantity::{flights, restitution};
 use dalembert::reflection;
-use dalembert::solve::undamped;
 use dalembert::{Ending, EventKind, Motion, Number, Problem, Side, paper};
 use proptest::prelude::*;
 use rug::{Float, Rational};

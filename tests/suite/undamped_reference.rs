@@ -1,8 +1,8 @@
 //! The undamped lattice against the reference values of an independent program.
 
 use crate::common::{close, number, problem, reference};
+use crate::stripped::undamped;
 use dalembert::problem::Run;
-use dalembert::solve::undamped;
 use dalembert::{EventKind, Motion, Side};
 use serde_json::Value;
 

@@ -1,0 +1,127 @@
+//! The undamped march of one precision, without plan and ladder, read in numbers without their bounds.
+
+use dalembert::lattice::{Limits, Undamped};
+use dalembert::{
+    Answer, Contact, Ending, Energy, Error, Event, Field, Motion, Problem, Ray, Scalar, Scales, Side, StressPiece,
+};
+
+/// An undamped history, computed in numbers that carry their bounds and read without them.
+pub(crate) type StrippedUndamped<S> = Stripped<S, Undamped<<S as Answer>::Carried>>;
+
+/// The history of `problem`, whose damping is ignored, in doubles, long numbers, fractions or enclosures.
+pub(crate) fn undamped<S: Answer>(problem: &Problem, precision: &S::Precision) -> Result<StrippedUndamped<S>, Error> {
+    undamped_within(problem, precision, Limits::default())
+}
+
+/// [`undamped`] with a limit of one's own.
+pub(crate) fn undamped_within<S: Answer>(
+    problem: &Problem,
+    precision: &S::Precision,
+    limits: Limits,
+) -> Result<StrippedUndamped<S>, Error> {
+    Undamped::solve_within(problem, precision, limits, |_, _| ()).map(Stripped::new)
+}
+
+/// A history whose numbers carry their bounds, read without them.
+#[derive(Debug)]
+pub(crate) struct Stripped<S: Answer, H> {
+    history: H,
+    events: Vec<Event<S>>,
+    contacts: Vec<Contact<S>>,
+}
+
+impl<S: Answer, H: Motion<S::Carried>> Stripped<S, H> {
+    /// `history`, read without bounds; those of event times stay in [`Event::time_error`].
+    pub(crate) fn new(history: H) -> Self {
+        let events = history.events().iter().map(event).collect();
+        let contacts = history.contacts().iter().map(|contact| contact.clone().map(S::strip)).collect();
+        Stripped { events, contacts, history }
+    }
+
+    /// The history that carries the bounds.
+    pub(crate) fn carried(&self) -> &H {
+        &self.history
+    }
+}
+
+fn pair<S: Answer>((a, b): (S::Carried, S::Carried)) -> (S, S) {
+    (S::strip(a), S::strip(b))
+}
+
+fn event<S: Answer>(event: &Event<S::Carried>) -> Event<S> {
+    Event { time_error: event.time.log2_error().exp2(), ..event.clone().map(S::strip) }
+}
+
+impl<S: Answer, H: Motion<S::Carried>> Motion<S> for Stripped<S, H> {
+    fn end(&self) -> S {
+        S::strip(self.history.end())
+    }
+
+    fn ending(&self) -> &Ending {
+        self.history.ending()
+    }
+
+    fn events(&self) -> &[Event<S>] {
+        &self.events
+    }
+
+    fn contacts(&self) -> &[Contact<S>] {
+        &self.contacts
+    }
+
+    fn stress_pieces(&self) -> Vec<StressPiece<S>> {
+        self.history.stress_pieces().into_iter().map(|piece| piece.map(S::strip)).collect()
+    }
+
+    fn stress(&self, time: &S, side: Side) -> Result<S, Error> {
+        self.history.stress(&time.carry(), side).map(S::strip)
+    }
+
+    fn ground_end(&self, time: &S, side: Side) -> Result<(S, S), Error> {
+        self.history.ground_end(&time.carry(), side).map(pair)
+    }
+
+    fn top_end(&self, time: &S, side: Side) -> Result<(S, S), Error> {
+        self.history.top_end(&time.carry(), side).map(pair)
+    }
+
+    fn centre(&self, time: &S) -> Result<(S, S), Error> {
+        self.history.centre(&time.carry()).map(pair)
+    }
+
+    fn energy(&self, time: &S) -> Result<Energy<S>, Error> {
+        self.history.energy(&time.carry()).map(|energy| energy.map(S::strip))
+    }
+
+    fn field(&self, point: &S, time: &S, side: Side) -> Result<Field<S>, Error> {
+        self.history.field(&point.carry(), &time.carry(), side).map(|field| field.map(S::strip))
+    }
+
+    fn highest(&self, release: &Event<S>) -> Option<(S, S)> {
+        let known = self
+            .events
+            .iter()
+            .position(|event| event.kind == release.kind && event.time.text() == release.time.text())?;
+        self.history.highest(self.history.events().get(known)?).map(pair)
+    }
+
+    fn rays(&self, trip: usize) -> Result<Vec<Ray<S>>, Error> {
+        Ok(self.history.rays(trip)?.into_iter().map(|ray| ray.map(S::strip)).collect())
+    }
+
+    fn scales(&self) -> Scales<S> {
+        self.history.scales().map(S::strip)
+    }
+
+    fn error_estimate(&self) -> S {
+        S::strip(self.history.error_estimate())
+    }
+
+    fn digits_lost(&self) -> Option<(u32, f64)> {
+        self.history.digits_lost()
+    }
+
+    fn warnings(&self) -> &[String] {
+        self.history.warnings()
+    }
+}
