@@ -8,7 +8,7 @@ use crate::number::{Answer, Scalar};
 use crate::problem::Problem;
 use crate::quantity::{EnergyShares, Flight, Restitution, energy_shares, flights, restitution};
 use crate::ray::Ray;
-use crate::solve::{Attempt, Ladder, Numbers, Observer, Plan, Question, Rung, Target, Want, unobserved};
+use crate::solve::{Attempt, Ladder, Numbers, Observer, Plan, Question, Rung, Target, unobserved};
 
 /// The motion of a rod: its impacts and releases, and the values of every quantity at any time, in numbers `S`.
 ///
@@ -24,7 +24,7 @@ use crate::solve::{Attempt, Ladder, Numbers, Observer, Plan, Question, Rung, Tar
 /// let motion = rod.solve()?;
 /// // Corollary 1: μ = 3 ≥ g t₁ = 2, so the contact lasts exactly t₁ = 2L/c.
 /// assert_eq!(motion.contacts()[0].to, Some(2.0));
-/// // d'Alembert: the wave front of the impact is at x = 1/2 at t = 1/2, and below it the rod stands still but for gravity.
+/// // d'Alembert: at t = 1/2 the wave front of the impact is at x = 1/2; below it v_x = −(μ + g(t − x))/c.
 /// assert_eq!(motion.at(0.25, 0.5)?.strain, -3.25);
 /// # Ok::<(), dalembert::Error>(())
 /// ```
@@ -261,7 +261,7 @@ impl<S: Target> std::fmt::Debug for History<S> {
 impl Problem {
     /// The motion in doubles. **Accuracy**: [`DEFAULT_ACCURACY`](crate::DEFAULT_ACCURACY) of the natural scales.
     pub fn solve(&self) -> Result<History<f64>, Error> {
-        self.answer(&Question::run(Numbers::Double(None)))
+        self.answer(&Question::run(Numbers::default()))
     }
 
     /// The motion in fractions, as far as they reach. **Accuracy**: *exact*.
@@ -287,7 +287,7 @@ impl Problem {
 
     /// The first contact alone, in doubles: `t_b`, impulse, peak and restitution, without the flight after it.
     pub fn first_contact(&self) -> Result<History<f64>, Error> {
-        self.answer(&Question { want: Want::FirstContact, numbers: Numbers::Double(None) })
+        self.answer(&Question::first_contact(Numbers::default()))
     }
 
     fn answer<S: Target>(&self, question: &Question) -> Result<History<S>, Error> {

@@ -283,9 +283,7 @@ impl<'a, S: RoundedSpecial> Follower<'a, S> {
             self.pass_ray(&trace, ray);
             let grounded = !self.contact && self.height.to_f64() <= self.height_noise(0.0);
             if !fresh && grounded && !self.rises() {
-                let off = ray.max(self.event_error(&trace, &height, &len.zero(), &len, 0.0));
-                self.at_ray = true;
-                if self.land(goal, off) {
+                if self.land_at_ray(goal, ray, &trace, &height, &len) {
                     return Ok(Ending::NextImpact);
                 }
                 fresh = true;
@@ -308,12 +306,8 @@ impl<'a, S: RoundedSpecial> Follower<'a, S> {
             if at_start && !fresh {
                 if self.contact {
                     self.event(ray, false);
-                } else {
-                    let off = ray.max(self.event_error(&trace, &height, &len.zero(), &len, 0.0));
-                    self.at_ray = true;
-                    if self.land(goal, off) {
-                        return Ok(Ending::NextImpact);
-                    }
+                } else if self.land_at_ray(goal, ray, &trace, &height, &len) {
+                    return Ok(Ending::NextImpact);
                 }
                 fresh = true;
                 continue;
@@ -532,6 +526,13 @@ impl<'a, S: RoundedSpecial> Follower<'a, S> {
         let (contact, flight) = (self.contact, self.flight);
         let cut = cut.is_some();
         self.pieces.push(Piece { from, len, contact, flight, cut, still: false, leap: 0, trace, height });
+    }
+
+    /// An impact where this strip begins, at a ray that may be off by `ray`; as [`Follower::land`].
+    fn land_at_ray(&mut self, goal: &Goal<S>, ray: Off, trace: &[S], height: &[S], len: &S) -> bool {
+        let off = ray.max(self.event_error(trace, height, &len.zero(), len, 0.0));
+        self.at_ray = true;
+        self.land(goal, off)
     }
 
     /// An impact now; whether it is the one after the last that was asked for.

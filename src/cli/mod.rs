@@ -197,7 +197,7 @@ fn head(scene: &Scene, plan: &Plan, output: &OutputArgs) -> Head {
         legend: output.legend,
         digits: 0,
         line_density,
-        neglected: scene.problem.neglected(),
+        warnings: Vec::new(),
         exact_until: None,
     }
 }
@@ -263,5 +263,10 @@ fn print<S: Target>(
 ) -> Result<(), Failure> {
     let gathered = motion.ask(|history| report.gather(history, head), |data| report.numbers(data));
     drop(progress);
-    report.print(&gathered.map_err(|error| report.refuse(error, motion.ending()))?, head)
+    let data = gathered.map_err(|error| report.refuse(error, motion.ending()))?;
+    let head = Head { warnings: motion.warnings(), ..head.clone() };
+    for warning in &head.warnings {
+        eprintln!("warning: {warning}");
+    }
+    report.print(&data, &head)
 }

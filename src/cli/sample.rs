@@ -111,9 +111,9 @@ impl Sample {
 }
 
 impl Report for Sample {
-    type Data<S: Scalar> = (Vec<output::Sample<S>>, Vec<String>);
+    type Data<S: Scalar> = Vec<output::Sample<S>>;
 
-    fn gather<S: Scalar>(&self, history: &dyn Motion<S>, head: &Head) -> Result<Self::Data<S>, Error> {
+    fn gather<S: Scalar>(&self, history: &dyn Motion<S>, _: &Head) -> Result<Self::Data<S>, Error> {
         let length = history.scales().length;
         let precision = length.precision();
         let times = self.times.lift::<S>(&precision);
@@ -121,8 +121,7 @@ impl Report for Sample {
             Some(points) => points.lift::<S>(&precision),
             None => vec![length.zero(), length.clone() / length.int(2), length],
         };
-        let warnings = history.warnings().iter().chain(&head.neglected).cloned().collect();
-        Ok((sample(history, self.quantity, &times, &points, self.side)?, warnings))
+        sample(history, self.quantity, &times, &points, self.side)
     }
 
     fn refuse(&self, error: Error, ending: &Ending) -> Failure {
@@ -140,14 +139,11 @@ impl Report for Sample {
         }
     }
 
-    fn numbers<'a, S: Scalar>(&self, (samples, _): &'a Self::Data<S>) -> Vec<&'a S> {
+    fn numbers<'a, S: Scalar>(&self, samples: &'a Self::Data<S>) -> Vec<&'a S> {
         samples.iter().flat_map(|sample| sample.values.iter().chain(&sample.point).chain([&sample.time])).collect()
     }
 
-    fn print<S: Scalar>(&self, (samples, warnings): &Self::Data<S>, head: &Head) -> Result<(), Failure> {
-        for warning in warnings {
-            eprintln!("warning: {warning}");
-        }
+    fn print<S: Scalar>(&self, samples: &Self::Data<S>, head: &Head) -> Result<(), Failure> {
         match self.output.format()? {
             Format::Table => self.output.write(&samples_table(samples, self.quantity, head)),
             Format::Json => self.output.write_json(&samples_json(samples, self.quantity, head)),

@@ -54,9 +54,6 @@ impl Report for Solve {
     }
 
     fn print<S: Scalar>(&self, record: &Record<S>, head: &Head) -> Result<(), Failure> {
-        for warning in &record.warnings {
-            eprintln!("warning: {warning}");
-        }
         match self.output.format()? {
             Format::Table => self.output.write(&history_table(record, head)),
             Format::Json => self.output.write_json(&history_json(record, head)),

@@ -18,7 +18,7 @@ pub(crate) mod cost;
 #[cfg(feature = "mp")]
 mod long;
 #[cfg(not(feature = "mp"))]
-#[path = "without_long.rs"]
+#[path = "long_absent.rs"]
 mod long;
 mod quantity;
 mod route;

@@ -138,18 +138,6 @@ impl Reads<Estimate<Float>> for Estimate<f64> {
     }
 }
 
-/// Bits that hold `digits` decimal digits: `⌈digits · log₂10⌉`.
-///
-/// **Accuracy**: exact for every `digits` below 10⁹.
-///
-/// ```
-/// assert_eq!(dalembert::number::bits_for_digits(15), 50);
-/// ```
-pub fn bits_for_digits(digits: u32) -> u32 {
-    let bits = (u64::from(digits) * 3_321_928_095).div_ceil(1_000_000_000);
-    u32::try_from(bits).unwrap_or(u32::MAX)
-}
-
 /// A decimal with exactly `digits` significant digits, rounded to nearest from the exact value of `x`.
 ///
 /// Zero is `0`. Plain notation where the exponent is small (`0.00123`, `31.0000`), otherwise `1.23e-45`.

@@ -1,13 +1,15 @@
-//! Numbers: two small traits, four number systems, exact text in and rounded text out.
+//! Numbers: what they can do, in five systems; exact text in and rounded text out.
 //!
 //! | type | system | what it promises |
 //! |---|---|---|
 //! | `f64` | double precision | each operation correctly rounded |
 //! | `rug::Float` (feature `mp`) | any number of bits | each operation correctly rounded |
 //! | `rug::Rational` (feature `mp`) | fractions | exact; square roots only where they are rational |
-//! | [`Interval`] (feature `mp`) | enclosures | ends rounded outwards; with them, the exact number where fractions and square roots make it |
+//! | [`Interval`] (feature `mp`) | enclosures | ends rounded outwards, with the exact number where it has a root form |
+//! | [`Estimate`] | a rounded number and its error | the bound is carried through every operation |
 //!
-//! Formulas are written once: undamped code is `impl<S: Scalar>`, damped code is `impl<S: Analytic>`.
+//! Formulas are written once: [`Scalar`] has the field operations and the square root, [`Analytic`] the elementary
+//! functions; [`Rounded`] numbers round, and [`Bounded`] ones answer for their own error.
 
 #[cfg(not(feature = "mp"))]
 mod absent;
@@ -31,7 +33,7 @@ pub use absent::{Float, Interval, Rational};
 pub use bounded::{Answer, Bounded};
 pub use estimate::Estimate;
 #[cfg(feature = "mp")]
-pub use float::{bits_for_digits, decimal};
+pub use float::decimal;
 #[cfg(feature = "mp")]
 pub use interval::{Interval, IntervalPrecision};
 pub use literal::{Number, NumberError};
@@ -39,4 +41,4 @@ pub use literal::{Number, NumberError};
 pub use rug::{Float, Rational};
 pub use scalar::{Analytic, Open, Reads, Rounded, Scalar};
 #[doc(hidden)]
-pub use text::{DOUBLE_DIGITS, bound_text, double_bound_text, show, shown_bound_text};
+pub use text::{DOUBLE_DIGITS, bits_for_digits, bound_text, double_bound_text, show, shown_bound_text};

@@ -5,6 +5,18 @@ use super::Scalar;
 /// Digits that spell every double.
 pub const DOUBLE_DIGITS: u32 = 17;
 
+/// Bits that hold `digits` decimal digits: `⌈digits · log₂10⌉`.
+///
+/// **Accuracy**: exact for every `digits` below 10⁹.
+///
+/// ```
+/// assert_eq!(dalembert::number::bits_for_digits(15), 50);
+/// ```
+pub fn bits_for_digits(digits: u32) -> u32 {
+    let bits = (u64::from(digits) * 3_321_928_095).div_ceil(1_000_000_000);
+    u32::try_from(bits).unwrap_or(u32::MAX)
+}
+
 /// A number that carries its bound, as it is printed: at most so many significant digits, and none beyond the bound;
 /// `0` where no digit is known.
 ///

@@ -1,6 +1,6 @@
 //! CSV: one part of the history a file, with a header.
 
-use super::record::{Finished, Head, Quantity, Record, Sample};
+use super::record::{Head, Quantity, Record, Sample};
 use crate::number::{DOUBLE_DIGITS, Scalar, show, shown_bound_text};
 
 /// The part of a history that a CSV file holds.
@@ -40,20 +40,7 @@ pub fn history_csv<S: Scalar>(record: &Record<S>, part: Part, head: &Head) -> Re
             ]
         }
         Part::Contacts => {
-            for Finished { contact, restitution, energy, .. } in &record.contacts {
-                let energy = energy.as_ref();
-                rows.push(vec![
-                    show(&contact.from),
-                    optional(contact.to.as_ref()),
-                    show(&contact.impulse),
-                    show(&contact.peak_stress),
-                    optional(restitution.momentum.as_ref().ok()),
-                    optional(restitution.energy_squared.as_ref().ok()),
-                    optional(energy.map(|e| &e.total)),
-                    optional(energy.map(|e| &e.translational)),
-                    optional(energy.map(|e| &e.vibrational)),
-                ]);
-            }
+            rows.extend(record.contacts.iter().map(|finished| finished.columns().map(optional).to_vec()));
             &[
                 "from",
                 "to",

@@ -67,7 +67,9 @@ pub fn history_json<S: Scalar>(record: &Record<S>, head: &Head) -> Value {
         json!({
             "from": number(&flight.from),
             "to": optional(flight.to.as_ref()),
-            "highest": flight.highest.as_ref().map(|(time, centre)| json!({"time": number(time), "centre": number(centre)})),
+            "highest": flight.highest.as_ref().map(|(time, centre)| {
+                json!({"time": number(time), "centre": number(centre)})
+            }),
         })
     });
     let pieces = record.stress.iter().map(|piece| {
@@ -95,7 +97,7 @@ pub fn history_json<S: Scalar>(record: &Record<S>, head: &Head) -> Value {
         "end": ending_json(&record.end.1, number(&record.end.0)),
         "error_estimate": record.error,
         "digits_lost": record.lost.map(|(_, digits)| digits),
-        "warnings": record.warnings,
+        "warnings": head.warnings,
     })
 }
 

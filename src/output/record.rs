@@ -18,8 +18,8 @@ pub(super) fn json<S: Scalar>(x: &S, digits: u32) -> serde_json::Value {
     }
 }
 
-/// The bound of the error of a number as it is printed, as a JSON value: a number where a double holds it, a string otherwise; `null` for an
-/// enclosure, which has it in itself.
+/// The bound of the error of a number as it is printed, as a JSON value: a number where a double holds it, a string
+/// otherwise; `null` for an enclosure, which has it in itself.
 pub(super) fn bound_json<S: Scalar>(x: &S, digits: u32) -> serde_json::Value {
     if x.ends(1).is_some() {
         return serde_json::Value::Null;
@@ -53,8 +53,8 @@ pub struct Head {
     pub legend: bool,
     /// `ρS` where the scene gives it: what turns strains into newtons.
     pub line_density: Option<(Number, Number)>,
-    /// What the problem leaves out although it matters.
-    pub neglected: Option<String>,
+    /// What the user should know.
+    pub warnings: Vec<String>,
     /// Where an exact run ended, if a run in digits stands in for it.
     pub exact_until: Option<Ending>,
 }
@@ -70,6 +70,25 @@ pub struct Finished<S> {
     pub shares: EnergyShares<S>,
     /// The energies at its end.
     pub energy: Option<Energy<S>>,
+}
+
+impl<S> Finished<S> {
+    /// `from`, `to`, impulse, peak strain, `e_P`, `e_E²`, `E`, `E_h`, `E_z`: the columns of a table of contacts.
+    pub(super) fn columns(&self) -> [Option<&S>; 9] {
+        let Finished { contact, restitution, energy, .. } = self;
+        let energy = energy.as_ref();
+        [
+            Some(&contact.from),
+            contact.to.as_ref(),
+            Some(&contact.impulse),
+            Some(&contact.peak_stress),
+            restitution.momentum.as_ref().ok(),
+            restitution.energy_squared.as_ref().ok(),
+            energy.map(|e| &e.total),
+            energy.map(|e| &e.translational),
+            energy.map(|e| &e.vibrational),
+        ]
+    }
 }
 
 /// A history, ready to be printed.
@@ -91,8 +110,6 @@ pub struct Record<S> {
     pub error: f64,
     /// Impacts, and the digits that rounding may have taken over them; `None` where that is not followed.
     pub lost: Option<(u32, f64)>,
-    /// What the user should know.
-    pub warnings: Vec<String>,
 }
 
 impl<S> Record<S> {
@@ -140,7 +157,6 @@ pub fn record<S: Scalar>(history: &dyn Motion<S>, head: &Head, stress: bool) -> 
         forces,
         error: history.error_estimate().to_f64(),
         lost: history.digits_lost(),
-        warnings: history.warnings().iter().chain(&head.neglected).cloned().collect(),
     })
 }
 

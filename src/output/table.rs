@@ -132,19 +132,9 @@ pub fn history_table<S: Scalar>(record: &Record<S>, head: &Head) -> String {
     if record.forces.is_some() {
         header.extend(["peak force", "force impulse"]);
     }
-    let contacts = record.contacts.iter().map(|Finished { contact, restitution, energy, .. }| {
-        let energy = energy.as_ref();
-        let mut row = vec![
-            show(&contact.from),
-            optional(contact.to.as_ref()),
-            show(&contact.impulse),
-            show(&contact.peak_stress),
-            optional(restitution.momentum.as_ref().ok()),
-            optional(restitution.energy_squared.as_ref().ok()),
-            optional(energy.map(|e| &e.total)),
-            optional(energy.map(|e| &e.translational)),
-            optional(energy.map(|e| &e.vibrational)),
-        ];
+    let contacts = record.contacts.iter().map(|finished| {
+        let mut row = finished.columns().map(optional).to_vec();
+        let contact = &finished.contact;
         if let Some((stiffness, line)) = &record.forces {
             row.push(show(&-(contact.peak_stress.clone() * stiffness)));
             row.push(show(&(contact.impulse.clone() * line)));

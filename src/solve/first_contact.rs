@@ -58,24 +58,6 @@ pub fn bounce_within(contact: &FirstContact<Estimate<f64>>, accuracy: f64) -> Bo
     long::bounce(contact, accuracy).unwrap_or(bounce)
 }
 
-/// `v_x(0,t)` within `accuracy`, relative, as far as longer numbers reach; and the bits that were used, 53 for doubles.
-///
-/// **Source**: [`FirstContact::stress`]. Without the feature `mp` doubles are all there is.
-///
-/// **Accuracy**: the bound of the estimate says what was reached.
-pub fn stress_within(
-    contact: &FirstContact<Estimate<f64>>,
-    time: f64,
-    side: Side,
-    accuracy: f64,
-) -> (Estimate<f64>, u32) {
-    let stress = contact.stress(&Estimate::exact(time), side);
-    if exact_enough(&stress, accuracy) || stress.error().is_infinite() {
-        return (stress, 53);
-    }
-    long::stress(contact, time, side, accuracy).unwrap_or((stress, 53))
-}
-
 fn exact_enough(found: &Estimate<f64>, accuracy: f64) -> bool {
     found.bound() <= accuracy * found.value().abs()
 }
@@ -113,10 +95,6 @@ mod long {
     use super::*;
 
     pub(super) fn bounce(_: &FirstContact<Estimate<f64>>, _: f64) -> Option<Bounce<Estimate<f64>>> {
-        None
-    }
-
-    pub(super) fn stress(_: &FirstContact<Estimate<f64>>, _: f64, _: Side, _: f64) -> Option<(Estimate<f64>, u32)> {
         None
     }
 }
@@ -160,24 +138,5 @@ mod long {
             }
         }
         last
-    }
-
-    pub(super) fn stress(
-        contact: &FirstContact<Estimate<f64>>,
-        time: f64,
-        side: Side,
-        accuracy: f64,
-    ) -> Option<(Estimate<f64>, u32)> {
-        // A lattice time as doubles compute it is meant to be that lattice time.
-        let lattice = contact.trips(&Estimate::exact(time)).and_then(|trips| trips.lattice());
-        LADDER.into_iter().find_map(|bits| {
-            let long = longer(contact, bits);
-            let time = match lattice {
-                Some(k) => long.round_trip().int(k) * long.round_trip(),
-                None => Float::with_val(bits, time).carry(),
-            };
-            let found = shorter(&long.stress(&time, side));
-            exact_enough(&found, accuracy).then_some((found, bits))
-        })
     }
 }

@@ -58,7 +58,7 @@ impl<S: Answer> Clone for Attempt<S> {
 /// As often an attempt may end at the same doubt, with more bits each time, before that is the answer.
 const SAME_DOUBT: usize = 3;
 /// No double is known better than this.
-const DOUBLE_DIGITS: f64 = 15.0;
+const MOST_DOUBLE_DIGITS: f64 = 15.0;
 
 impl Ladder {
     /// The answer to `query`, settled: asked of `attempt` where there is one, and of attempts in more and more bits
@@ -130,7 +130,7 @@ impl Ladder {
         }
         let (digits, spare) = self.plan.goal();
         let double = matches!(self.plan.numbers, super::Numbers::Double(_));
-        let digits = if double { digits.min(DOUBLE_DIGITS) } else { digits };
+        let digits = if double { digits.min(MOST_DOUBLE_DIGITS) } else { digits };
         let log2 = |x: &S::Carried| x.to_f64().abs().log2();
         let greatest = numbers.iter().map(|x| log2(x)).fold(f64::NEG_INFINITY, f64::max);
         let bits = |digits: f64| digits * std::f64::consts::LOG2_10;

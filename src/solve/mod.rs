@@ -22,7 +22,7 @@ mod plan;
 mod question;
 mod solution;
 
-pub use first_contact::{bounce_within, stress_within};
+pub use first_contact::bounce_within;
 pub(crate) use ladder::{Attempt, Ladder, unobserved};
 pub use ladder::{Observer, Target};
 pub use plan::{CERTIFIED_DIGITS, DEFAULT_ACCURACY, Engine, MAX_DIGITS, Plan, Reach, Rung};

@@ -8,7 +8,7 @@ use super::foresee;
 use super::question::{Numbers, Question, Want};
 use crate::error::Error;
 use crate::lattice::Limits;
-use crate::number::Number;
+use crate::number::{Number, bits_for_digits};
 use crate::problem::{Problem, Run};
 
 /// How a question is going to be answered. No engine and no caller decides any of it again.
@@ -89,8 +89,9 @@ pub const CERTIFIED_DIGITS: u32 = 15;
 pub const DEFAULT_ACCURACY: f64 = 1e-9;
 /// Bits beyond those of the digits asked for, on the first attempt with error bounds.
 const GUARD_BITS: u32 = 64;
-/// Bits of a rung above which enclosures, which carry exact roots, are tried in place of more bits.
-const DOUBLE_ROOT: u32 = 4;
+/// At so many times the bits asked for, enclosures are tried in place of more bits: a root that is met exactly takes
+/// any number of bits, and enclosures carry exact roots.
+const EXACT_ROOT: u32 = 4;
 /// The most bits of a number with an error bound.
 const MOST_BITS: u32 = 1 << 22;
 /// Bits of an enclosure beyond which a comparison is called undecided, where the digits asked for do not need more.
@@ -175,7 +176,7 @@ impl Plan {
                 // A double root needs two bits for each that is missing.
                 let more = if missing.is_finite() { (2.0 * missing).ceil() + 8.0 } else { f64::from(bits) };
                 let next = f64::from(bits) + more.max(f64::from(bits / 4));
-                let exact_roots = self.engine == Engine::Lattice && next > f64::from(wanted * DOUBLE_ROOT + 1024);
+                let exact_roots = self.engine == Engine::Lattice && next > f64::from(wanted * EXACT_ROOT + 1024);
                 if exact_roots {
                     Some(Rung::Enclosures(wanted + GUARD_BITS))
                 } else {
@@ -274,11 +275,6 @@ fn check(problem: &Problem, numbers: Numbers) -> Result<(), Error> {
         return Err(Error::NotCertified);
     }
     if cfg!(feature = "mp") { Ok(()) } else { Err(Error::NoMultiprecision) }
-}
-
-/// Bits that hold `digits` decimal digits: `⌈digits · log₂10⌉`.
-fn bits_for_digits(digits: u32) -> u32 {
-    (f64::from(digits) * std::f64::consts::LOG2_10).ceil() as u32
 }
 
 impl std::fmt::Display for Engine {

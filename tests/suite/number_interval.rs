@@ -39,6 +39,9 @@ proptest! {
         if y.cmp0().is_ne() {
             prop_assert!((ix.clone() / &iy).contains(&Rational::from(&x / &y)));
         }
+        // What the ends settle has to be answered, and every answer has to be right.
+        prop_assert!(ix.compare(&iy).is_ok() || (ix.hi() >= iy.lo() && iy.hi() >= ix.lo()));
+        prop_assert!(Scalar::sign(&ix).is_ok() || (*ix.lo() <= 0 && *ix.hi() >= 0));
         if let Ok(answer) = ix.below(&iy) {
             prop_assert_eq!(answer, x < y);
         }
