@@ -375,6 +375,34 @@ impl<S> Scales<S> {
     }
 }
 
+/// How far the values of a run may be off between two events, in natural scales, away from rays that are off in time.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Uncertainty {
+    /// Displacements, in `V t₁`, as far as the events are in time.
+    pub rise: f64,
+    /// Velocities and `c v_x`, in `V`, as far as the events are in time.
+    pub speed: f64,
+    /// How early or late the events may be, in `t₁`.
+    pub late: f64,
+    /// `|dv_t/dt|` between rays, in `V/t₁`: what lateness makes of velocities.
+    pub slope: f64,
+    /// The impulse of a contact, in `c V t₁`, where the balance of momentum bounds it.
+    pub impulse: Option<f64>,
+}
+
+impl Uncertainty {
+    /// The greater in all.
+    pub(crate) fn max(self, other: Self) -> Self {
+        Uncertainty {
+            rise: self.rise.max(other.rise),
+            speed: self.speed.max(other.speed),
+            late: self.late.max(other.late),
+            slope: self.slope.max(other.slope),
+            impulse: None,
+        }
+    }
+}
+
 /// What can be asked of a solution. All times are absolute, in the units of the scene; a time outside of
 /// `0 … end()` is [`Error::TimeOutside`], a point outside of the rod is [`Error::PointOutside`].
 pub trait Motion<S: Scalar>: fmt::Debug + Send + Sync {
@@ -429,6 +457,12 @@ pub trait Motion<S: Scalar>: fmt::Debug + Send + Sync {
     /// How far any quantity may be off, relative to its natural scale; zero where all is exact. The bound that the run
     /// carries.
     fn error_estimate(&self) -> S;
+
+    /// How far values near `time` may be off.
+    fn uncertainty(&self, time: &S) -> Uncertainty {
+        let (_, error) = (time, self.error_estimate().to_f64());
+        Uncertainty { rise: error, speed: error, ..Uncertainty::default() }
+    }
 
     /// How many impacts there were and `log₁₀` of the factor by which rounding may have grown over them; `None` where
     /// that is not followed.

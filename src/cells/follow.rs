@@ -6,7 +6,6 @@
 
 use super::bounce::Held;
 use super::budget::{Budget, Off};
-use super::event::slowed;
 use super::flight::Flight;
 use super::march::{Medium, State};
 use super::piece::{Checkpoint, Mark, Piece, Unresolved};
@@ -14,7 +13,7 @@ use super::root::first_descent;
 use super::series::{at_one, at_zero, bound, derivative, evaluate};
 use super::start::Data;
 use crate::error::Error;
-use crate::motion::{Ending, EventKind};
+use crate::motion::{Ending, EventKind, Uncertainty};
 use crate::special::RoundedSpecial;
 
 /// How far to go.
@@ -52,7 +51,7 @@ pub(super) struct Follower<'a, S> {
     /// `v(0,b)`.
     pub(super) height: S,
     /// `z(0,b)` of the vibration.
-    ground: S,
+    pub(super) ground: S,
     pub(super) pieces: Vec<Piece<S>>,
     pub(super) marks: Vec<Mark<S>>,
     /// States at the beginning of each round trip and on both sides of a leap.
@@ -63,6 +62,8 @@ pub(super) struct Follower<'a, S> {
     pub(super) budget: Budget,
     /// The trace at the end of the last piece.
     pub(super) last_trace: Option<S>,
+    /// How far values may be off before the first event.
+    pub(super) before: Uncertainty,
 }
 
 /// The most strips that are followed: some hundred megabytes.
@@ -73,7 +74,7 @@ const MOST_SEGMENTS: usize = 4096;
 const LEAST_LEAP: f64 = 3.0;
 /// The roundings of a leap, of a separation and of a joining, each of the greatest `|q|`: every coefficient is a sum of
 /// some dozen terms, none greater than it.
-const LEAP_ROUNDINGS: f64 = 64.0;
+pub(super) const LEAP_ROUNDINGS: f64 = 64.0;
 
 impl<'a, S: RoundedSpecial> Follower<'a, S> {
     /// At `t = 0`.
@@ -84,10 +85,17 @@ impl<'a, S: RoundedSpecial> Follower<'a, S> {
             follower.contact = true;
             follower.landed = 1;
             follower.landing = Some((0, data.slope.zero()));
-            let velocity = data.end_velocity();
-            follower.marks.push(Mark { kind: EventKind::Impact, time: data.slope.zero(), velocity, time_error: 0.0 });
+            let (velocity, after) = (data.end_velocity(), Uncertainty::default());
+            follower.marks.push(Mark {
+                kind: EventKind::Impact,
+                time: data.slope.zero(),
+                velocity,
+                time_error: 0.0,
+                after,
+            });
         } else {
-            follower.take_off();
+            let velocity = data.end_velocity();
+            follower.take_off(&velocity, Off::default(), None);
         }
         follower
     }
@@ -100,14 +108,15 @@ impl<'a, S: RoundedSpecial> Follower<'a, S> {
         (velocity, time_error): (S, f64),
     ) -> Self {
         let (mut state, error) = held.state(medium);
-        let off = Off { fixed: time_error, moving: time_error };
+        let off = Off { fixed: time_error, apart: time_error };
         state.segments[0].off = off;
         let mut follower = Self::with(medium, data, state);
         follower.held = Some(held);
         follower.landed = 1;
         follower.budget.add(error);
-        follower.let_go(&velocity, off);
-        follower.marks.push(Mark { kind: EventKind::Release, time: held.release.clone(), velocity, time_error });
+        follower.let_go(&velocity, off, None);
+        let (time, after) = (held.release.clone(), Uncertainty::default());
+        follower.marks.push(Mark { kind: EventKind::Release, time, velocity, time_error, after });
         follower
     }
 
@@ -135,6 +144,7 @@ impl<'a, S: RoundedSpecial> Follower<'a, S> {
             cell_error: 0.0,
             budget: Budget::default(),
             last_trace: None,
+            before: Uncertainty::default(),
         };
         follower.weigh();
         follower.budget.add(8.0 * follower.cell_error);
@@ -166,6 +176,11 @@ impl<'a, S: RoundedSpecial> Follower<'a, S> {
         2.0 * self.medium.kappa.to_f64()
     }
 
+    /// Where on the circle of a round trip this characteristic leaves the ground.
+    pub(super) fn place(&self) -> f64 {
+        self.state.segments[0].at.to_f64()
+    }
+
     /// The flight that is under way, where it is taken apart.
     pub(super) fn flying(&self) -> Option<&Flight<S>> {
         self.flight.and_then(|k| self.flights.get(k))
@@ -178,31 +193,18 @@ impl<'a, S: RoundedSpecial> Follower<'a, S> {
 
     /// The error of `v(0,·)` up to `len` from now.
     fn height_error(&self, len: f64) -> Off {
-        let age = |flight: &Flight<S>| flight.age((self.state.round, &self.state.segments[0].at)).to_f64() + len;
-        let slowed = self.flying().map_or(0.0, |flight| slowed(self.damping(), age(flight)).1);
-        self.budget.end(self.damping(), slowed, len)
+        let then = self.flying().map(|flight| {
+            let age = flight.age((self.state.round, &self.state.segments[0].at)).to_f64() + len;
+            let rate = flight.at(&self.height.double(age)).1.to_f64();
+            (age, rate, (self.place() + len).fract())
+        });
+        self.budget.end(self.damping(), then, len)
     }
 
     /// The better account of it.
     pub(super) fn least_height_error(&self) -> f64 {
         let off = self.height_error(0.0);
-        if self.flight.is_some() { off.fixed.min(off.moving) } else { off.fixed }
-    }
-
-    /// Takes the flight that begins here apart.
-    pub(super) fn take_off(&mut self) {
-        if !self.medium.splits() {
-            return;
-        }
-        self.weigh();
-        let flight = self.medium.take_off(&mut self.state, &self.height);
-        let first = &self.state.segments[0].at;
-        let whole = self.landing.as_ref().is_some_and(|(round, at)| *round + 1 == self.state.round && at == first);
-        self.budget.take_off(self.damping(), whole, LEAP_ROUNDINGS / 4.0 * self.cell_error);
-        self.ground = self.height.clone() - &flight.height;
-        self.flight = Some(self.flights.len());
-        self.flights.push(flight);
-        self.weigh();
+        self.budget.better(off, self.flight.is_some())
     }
 
     /// Whether the ground end, at height zero, leaves at once: `y > 0`, or `y = 0` and rising.
@@ -275,7 +277,7 @@ impl<'a, S: RoundedSpecial> Follower<'a, S> {
             let first = &self.state.segments[0];
             let (len, ray) = (first.len.clone(), first.off);
             if !fresh && self.contact && self.rises() {
-                self.event(ray, false);
+                self.event(ray, None);
                 fresh = true;
                 continue;
             }
@@ -305,7 +307,7 @@ impl<'a, S: RoundedSpecial> Follower<'a, S> {
             let at_start = found.as_ref().is_some_and(&nearby);
             if at_start && !fresh {
                 if self.contact {
-                    self.event(ray, false);
+                    self.event(ray, None);
                 } else if self.land_at_ray(goal, ray, &trace, &height, &len) {
                     return Ok(Ending::NextImpact);
                 }
@@ -332,9 +334,10 @@ impl<'a, S: RoundedSpecial> Follower<'a, S> {
             match found {
                 Some(x) => {
                     let off = self.event_error(&trace, &height, &(x.clone() / &len), &len, vague);
+                    let slope = evaluate(&derivative(&trace), &(x.clone() / &len)).to_f64() / len.to_f64();
                     self.advance(Some(&x), off, &trace, &height);
                     if self.contact {
-                        self.event(off, true);
+                        self.event(off, Some(slope));
                     } else {
                         self.at_ray = false;
                         if self.land(goal, off) {
@@ -436,6 +439,7 @@ impl<'a, S: RoundedSpecial> Follower<'a, S> {
         if let Some((height, _)) = self.centre() {
             self.height = height + self.medium.ground_of(&self.state);
         }
+        self.budget.note_end(self.height_error(0.0));
     }
 
     /// Forgets rays and vibrations that are below the truncation of a cell.
@@ -497,7 +501,9 @@ impl<'a, S: RoundedSpecial> Follower<'a, S> {
         // Where the event is: rounding of the place in the strip.
         let place = 4.0 * x.log2_roundoff().exp2() * (1.0 + self.state.round.unsigned_abs() as f64);
         let off = |error: f64| ((error + more) / slope).min((2.0 * (error + more) / curvature).sqrt()) + place;
-        Off { fixed: off(error.fixed), moving: off(error.moving) }
+        // The clock that times are counted in is off itself.
+        let late = self.budget.clock(self.contact);
+        Off { fixed: off(error.fixed), apart: off(error.apart) + late }
     }
 
     /// Marches over the first segment, or the part of it before `cut`.
@@ -521,6 +527,7 @@ impl<'a, S: RoundedSpecial> Follower<'a, S> {
         self.medium.strip(&mut self.state, self.contact, &mut |_| {});
         if let Some((centre, _)) = self.centre() {
             self.ground = self.height.clone() - centre;
+            self.budget.note_end(self.height_error(0.0));
         }
         self.budget.strip(self.damping(), len.to_f64(), self.cell_error, self.contact);
         let (contact, flight) = (self.contact, self.flight);
@@ -543,7 +550,7 @@ impl<'a, S: RoundedSpecial> Follower<'a, S> {
             return true;
         }
         self.landed += 1;
-        self.event(off, false);
+        self.event(off, None);
         false
     }
 }

@@ -11,7 +11,7 @@ use super::series::{at_one, at_zero, evaluate};
 use super::start::{Data, Units};
 use crate::error::Error;
 use crate::first_contact::FirstContact;
-use crate::motion::{Contact, Ending, Energy, Event, EventKind, Field, Motion, Scales, Side, StressPiece};
+use crate::motion::{Contact, Ending, Energy, Event, EventKind, Field, Motion, Scales, Side, StressPiece, Uncertainty};
 use crate::number::Estimate;
 use crate::problem::{Parameters, Problem, Run, Top};
 use crate::special::RoundedSpecial;
@@ -51,7 +51,8 @@ pub struct Damped<S> {
     contacts: Vec<Contact<S>>,
     end: S,
     ending: Ending,
-    error: f64,
+    /// Before the first event, and after each.
+    uncertain: Vec<Uncertainty>,
     warnings: Vec<String>,
     unresolved: Option<Unresolved<S>>,
 }
@@ -67,19 +68,20 @@ struct Found<S> {
     marks: Vec<Mark<S>>,
     warnings: Vec<String>,
     unresolved: Option<Unresolved<S>>,
-    error: f64,
+    before: Uncertainty,
     ending: Ending,
 }
 
 impl<S: RoundedSpecial> Found<S> {
     fn of(follower: Follower<'_, S>, ending: Ending) -> Self {
-        let error = follower
-            .marks
-            .iter()
-            .map(|mark| mark.time_error)
-            .fold(follower.budget.total(follower.medium.splits()), f64::max);
-        let Follower { pieces, checkpoints, flights, marks, warnings, unresolved, .. } = follower;
-        Found { pieces, checkpoints, flights, marks, warnings, unresolved, error, ending }
+        let Follower { medium, mut budget, mut before, mut marks, .. } = follower;
+        let last = budget.since(medium.splits());
+        match marks.last_mut() {
+            Some(mark) => mark.after = last,
+            None => before = last,
+        }
+        let Follower { pieces, checkpoints, flights, warnings, unresolved, .. } = follower;
+        Found { pieces, checkpoints, flights, marks, warnings, unresolved, before, ending }
     }
 }
 
@@ -171,7 +173,7 @@ impl<S: RoundedSpecial> Damped<S> {
         problem: &Problem,
         precision: &S::Precision,
     ) -> Self {
-        let Found { pieces, checkpoints, flights, marks, mut warnings, unresolved, error, ending } = found;
+        let Found { pieces, checkpoints, flights, marks, mut warnings, unresolved, before, ending } = found;
         let unresolved = unresolved.map(|found| {
             let unit = &data.units.time;
             Unresolved { from: found.from * unit, longest: found.longest * unit.to_f64(), ..found }
@@ -197,7 +199,7 @@ impl<S: RoundedSpecial> Damped<S> {
             flights,
             end,
             ending,
-            error,
+            uncertain: std::iter::once(before).chain(marks.iter().map(|mark| mark.after)).collect(),
             warnings,
             unresolved,
         };
@@ -464,7 +466,22 @@ impl<S: RoundedSpecial> Motion<S> for Damped<S> {
     }
 
     fn error_estimate(&self) -> S {
-        self.end.double(self.error)
+        let most = self.uncertain.iter().fold(Uncertainty::default(), |most, next| most.max(*next));
+        let times = self.events.iter().map(|event| event.time_error / self.data.units.time.to_f64());
+        self.end.double(times.fold(most.rise.max(most.speed).max(most.late), f64::max))
+    }
+
+    fn uncertainty(&self, time: &S) -> Uncertainty {
+        let since = self.events.partition_point(|event| event.time <= *time);
+        let lost = since.checked_sub(1).is_some_and(|last| self.events[last].time_error.is_infinite());
+        let mut found = self.uncertain[since];
+        if self.medium.splits() {
+            // h′ + 2Rh changes by −2∫y dt and by what gravity does in that time.
+            let damping = 2.0 * self.medium.kappa.to_f64();
+            let Uncertainty { rise, speed, late, .. } = found;
+            found.impulse = Some(speed + 2.0 * damping * rise + self.medium.gravity.to_f64() * late);
+        }
+        if lost { Uncertainty { rise: f64::INFINITY, speed: f64::INFINITY, ..found } } else { found }
     }
 
     fn warnings(&self) -> &[String] {

@@ -5,12 +5,13 @@
 //! contact; `flight` takes a flight apart into centre of mass and vibration, and `leap` goes over many of its round
 //! trips at once. `root` finds events, `follow` decides what happens at the ground, `event` does it, `piece` is what
 //! remains of it, `budget` adds up what all of it may
-//! be off by, `rest` says when nothing more can happen, `record` gets the field back, `history` answers questions,
+//! be off by, with the signs that `dependence` follows, `rest` says when nothing more can happen, `record` gets the field back, `history` answers questions,
 //! `joined` puts the closed form of the first contact before it, and `with_bounds` gives answers with their bounds.
 
 mod bounce;
 mod budget;
 mod cell;
+mod dependence;
 mod event;
 mod flight;
 mod follow;

@@ -1,7 +1,7 @@
 //! What a run leaves behind: what the ground felt, strip by strip, events, and states to start again from.
 
 use super::march::State;
-use crate::motion::EventKind;
+use crate::motion::{EventKind, Uncertainty};
 use crate::special::RoundedSpecial;
 
 /// What happened at the ground during one strip, or during a flight that was leapt over, dimensionless.
@@ -57,6 +57,8 @@ pub(super) struct Mark<S> {
     pub(super) velocity: S,
     /// How far the time may be off.
     pub(super) time_error: f64,
+    /// How far values may be off from then to the next event.
+    pub(super) after: Uncertainty,
 }
 
 /// Hops that are not told apart from contact.

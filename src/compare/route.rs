@@ -73,7 +73,7 @@ impl Route {
                 question.ask_history(&Undamped::<Estimate<f64>>::solve(problem, &())?)
             }
             Route::Cells(digits) => {
-                question.ask_history(&WithBounds::new(Damped::<f64>::solve(problem, &(), f64::from(digits))?))
+                question.ask_history(&WithBounds::new(Damped::<f64>::solve(problem, &(), f64::from(digits))?)?)
             }
             Route::Modes(modes) => {
                 let rod = Parameters::of(problem, &())?;

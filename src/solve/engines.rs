@@ -28,7 +28,7 @@ impl Target for f64 {
                 }
                 Arc::new(history)
             }
-            Engine::Cells => Arc::new(WithBounds::new(Damped::<f64>::solve(problem, &(), CELL_DIGITS)?)),
+            Engine::Cells => Arc::new(WithBounds::new(Damped::<f64>::solve(problem, &(), CELL_DIGITS)?)?),
             Engine::ClosedForm | Engine::ClosedFormThenCells => {
                 let rod = Parameters::<Estimate<f64>>::of(problem, &())?;
                 let contact = FirstContact::new(&rod);
@@ -40,7 +40,7 @@ impl Target for f64 {
                     bounce = bounce_within(&contact, 1e-10);
                 }
                 let reach = if plan.engine == Engine::ClosedForm { cells::Reach::Bounce } else { cells::Reach::Run };
-                Arc::new(WithBounds::new(Joined::<f64>::solve(problem, &(), CELL_DIGITS, bounce, reach)?))
+                Arc::new(WithBounds::new(Joined::<f64>::solve(problem, &(), CELL_DIGITS, bounce, reach)?)?)
             }
         })
     }

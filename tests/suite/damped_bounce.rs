@@ -129,7 +129,7 @@ fn answers_carry_their_bounds() {
         problem.rod.damping = damping.parse().ok();
         let rod = Parameters::<f64>::of(&problem, &()).unwrap();
         let history = Joined::solve(&problem, &(), 13.0, FirstContact::new(&rod.carry()).bounce(), Reach::Run).unwrap();
-        let bounded = WithBounds::new(history);
+        let bounded = WithBounds::new(history).unwrap();
         let truth = Damped::<Float>::solve(&problem, &200, 40.0).unwrap();
         let near = |what: &str, ours: &Estimate<f64>, truth: &Float| {
             let off = Float::with_val(200, truth - *ours.value()).abs().to_f64();
