@@ -14,10 +14,11 @@ use crate::problem::profile::{Points, SHAPE};
 use crate::problem::validate::{Draft, Given, NUMBERS, within};
 use crate::problem::written::{has_unit, short};
 use crate::problem::{Problem, ProblemError, ProblemErrorKind, Top, Written};
+use crate::quantity::UnitSystem;
 
 /// Every table with its keys; the first is the scene itself.
 const TABLES: [(&str, &[&str]); 6] = [
-    ("", &["title", "rod", "impact", "gravity", "start", "run"]),
+    ("", &["title", "units", "rod", "impact", "gravity", "start", "run"]),
     ("rod", &["length", "wave_speed", "modulus", "density", "area", "damping", "top"]),
     ("impact", &["speed", "gap", "drop_height"]),
     ("gravity", &["acceleration"]),
@@ -35,6 +36,8 @@ const ACCURACY: (f64, f64) = (1e-300, 0.1);
 pub struct Scene {
     /// `title`.
     pub title: Option<String>,
+    /// `units`: what the numbers are in; SI where nothing is said. It names what is printed and changes no number.
+    pub units: UnitSystem,
     /// What is to be solved.
     pub problem: Problem,
     /// `run.accuracy`: the relative accuracy asked for.
@@ -117,7 +120,14 @@ impl<'a> Reader<'a> {
         let title = self.text("title")?.map(|(text, _)| text.to_string());
         let problem = self.draft()?.check().map_err(|error| self.located(error))?;
         let accuracy = self.accuracy()?;
-        Ok(Scene { title, problem, accuracy, source: self.source.to_string(), lines: self.lines() })
+        Ok(Scene {
+            title,
+            units: self.units()?,
+            problem,
+            accuracy,
+            source: self.source.to_string(),
+            lines: self.lines(),
+        })
     }
 
     /// Refuses a table that is none, has an unknown key, or lacks what it is there for.
@@ -206,6 +216,15 @@ impl<'a> Reader<'a> {
                 Err(self.error(span, Kind::OutOfRange, found, format!("{expected}{hint}")))
             }
         }
+    }
+
+    fn units(&self) -> Result<UnitSystem, SceneError> {
+        let Some((text, span)) = self.text("units")? else { return Ok(UnitSystem::default()) };
+        UnitSystem::ALL.iter().find(|(name, _)| *name == text).map(|(_, units)| *units).ok_or_else(|| {
+            let known = UnitSystem::ALL.map(|(name, _)| format!("\"{name}\"")).join(", ");
+            let found = format!("units = {}", short(self.slice(&span)));
+            self.error(span, Kind::OutOfRange, found, format!("one of {known}"))
+        })
     }
 
     fn accuracy(&self) -> Result<Option<Number>, SceneError> {

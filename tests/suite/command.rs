@@ -80,6 +80,7 @@ fn history_schema(history: &Value, is_number: fn(&Value) -> bool) {
             "title",
             "number",
             "effects",
+            "units",
             "exact_until",
             "events",
             "contacts",
@@ -100,7 +101,7 @@ fn history_schema(history: &Value, is_number: fn(&Value) -> bool) {
         assert!(["time", "end_velocity", "centre", "centre_velocity"].iter().all(|key| is_number(&event[*key])));
     }
     for contact in history["contacts"].as_array().unwrap() {
-        assert!(["from", "to", "impulse", "peak_stress"].iter().all(|key| is_number(&contact[*key])), "{contact}");
+        assert!(["from", "to", "impulse", "peak_strain"].iter().all(|key| is_number(&contact[*key])), "{contact}");
         assert!(["momentum", "energy_squared"].iter().all(|key| is_number(&contact["restitution"][*key])));
         keys(&contact["energy"], &["total", "translational", "vibrational"]);
         assert!(contact["energy"].as_object().unwrap().values().all(is_number));
@@ -154,7 +155,7 @@ fn json_of_a_history_in_double_precision() {
     history_schema(&history, Value::is_number);
     assert_eq!(history["number"], "double");
     assert_eq!(history["events"].as_array().unwrap().len(), 12);
-    keys(&history["contacts"][0], &["from", "to", "impulse", "peak_stress", "restitution", "energy", "force"]);
+    keys(&history["contacts"][0], &["from", "to", "impulse", "peak_strain", "restitution", "energy", "peak_stress", "peak_force"]);
     assert!((history["contacts"][1]["from"].as_f64().unwrap() - 8.0 / 3.0).abs() < 1e-14);
 }
 
@@ -328,8 +329,10 @@ fn samples() {
         }
         assert_eq!(rows[rows.len() - 1]["time"], 2.0);
         let csv = quiet(&[&args[..], &["--format", "csv"]].concat());
-        let bounds = names.iter().map(|name| format!("{name}_uncertainty")).collect::<Vec<_>>().join(",");
-        assert_eq!(csv.lines().next().unwrap(), format!("time,point,side,{},{bounds}", names.join(",")));
+        let unit = if quantity == "energy" { " [per ρS]" } else { "" };
+        let heads = ["", "_uncertainty"].map(|end| names.iter().map(move |name| format!("{name}{end}{unit}")));
+        let heads: Vec<String> = heads.into_iter().flatten().collect();
+        assert_eq!(csv.lines().next().unwrap(), format!("time,point,side,{}", heads.join(",")));
         assert_eq!(csv.lines().count(), rows.len() + 1);
     }
 }
@@ -360,7 +363,7 @@ fn csv_parts() {
              centre_velocity_uncertainty".into(), 3));
     assert_eq!(first(&["--part", "stress"]), ("from,to,left,right".into(), 3));
     let (header, lines) = first(&["--part", "contacts"]);
-    assert!(header.starts_with("from,to,impulse,peak_stress,restitution_momentum,"));
+    assert!(header.starts_with("from,to,impulse [per ρS],peak_strain,restitution_momentum,"));
     assert_eq!(lines, 2);
     refused(&["solve", "paper-strong", "--part", "stress"], &["found --part, expected it with --format csv only"]);
 }
