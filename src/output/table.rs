@@ -28,7 +28,7 @@ const WIDTH: usize = 80;
 
 /// A table of at most [`WIDTH`] characters: columns that do not fit follow in further tables, each with the first `keys`
 /// columns again.
-fn fitted(header: &[&str], rows: &[Vec<String>], words: usize, keys: usize, wide: bool) -> String {
+pub(super) fn fitted(header: &[&str], rows: &[Vec<String>], words: usize, keys: usize, wide: bool) -> String {
     let select = |columns: &[usize]| {
         let header: Vec<&str> = columns.iter().filter_map(|k| header.get(*k).copied()).collect();
         let pick = |row: &Vec<String>| columns.iter().filter_map(|k| row.get(*k).cloned()).collect();
@@ -76,7 +76,7 @@ fn blocks(header: &[&str], rows: &[Vec<String>]) -> String {
 const TABLE_DIGITS: u32 = 12;
 
 /// A number in a table.
-fn cell<S: Scalar>(x: &S, head: &Head) -> String {
+pub(super) fn cell<S: Scalar>(x: &S, head: &Head) -> String {
     show(x, if head.digits == 0 { TABLE_DIGITS } else { head.digits })
 }
 

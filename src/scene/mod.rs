@@ -37,7 +37,9 @@ mod effects;
 mod error;
 mod read;
 mod suggest;
+mod target;
 
 pub use effects::{Effect, EffectUse};
 pub use error::{SceneError, SceneErrorKind};
 pub use read::Scene;
+pub use target::{Target, TargetQuantity};

@@ -155,7 +155,10 @@ fn json_of_a_history_in_double_precision() {
     history_schema(&history, Value::is_number);
     assert_eq!(history["number"], "double");
     assert_eq!(history["events"].as_array().unwrap().len(), 12);
-    keys(&history["contacts"][0], &["from", "to", "impulse", "peak_strain", "restitution", "energy", "peak_stress", "peak_force"]);
+    keys(
+        &history["contacts"][0],
+        &["from", "to", "impulse", "peak_strain", "restitution", "energy", "peak_stress", "peak_force"],
+    );
     assert!((history["contacts"][1]["from"].as_f64().unwrap() - 8.0 / 3.0).abs() < 1e-14);
 }
 
