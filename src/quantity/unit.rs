@@ -74,7 +74,7 @@ impl UnitSystem {
     fn name(self, measure: Measure) -> &'static str {
         let [length, velocity, stress, force, impulse, energy] = match self {
             UnitSystem::Si => ["m", "m/s", "Pa", "N", "N s", "J"],
-            UnitSystem::Inch => ["in", "in/s", "psi", "lbf", "lbf s", "in lbf"],
+            UnitSystem::Inch => ["in", "in/s", "psi", "lbf", "lbf s", "lbf in"],
             UnitSystem::Millimetre => ["mm", "mm/s", "MPa", "N", "N s", "mJ"],
             UnitSystem::Other => return "",
         };
