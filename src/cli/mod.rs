@@ -58,7 +58,7 @@ enum Command {
     Cost(cost::Cost),
     /// Hard cases and the paper's claims, worked out by every route and held against the truth
     Check(check::Check),
-    /// List the built-in scenes, or print one
+    /// List the built-in scenes, print one, or hold it against what others have published
     Scenes(scenes::Scenes),
     /// Print the manual page, for `man -l -`
     Man,

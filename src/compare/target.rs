@@ -61,11 +61,10 @@ impl<S: Scalar> Reached<S> {
         self.ours.clone() - &self.published
     }
 
-    /// Whether the difference is within what the published value may be off.
+    /// Whether the difference is within what the published value may be off, and its own bound.
     pub(crate) fn agrees(&self) -> bool {
         let difference = self.difference();
-        let bound = difference.log2_error().exp2() + 4.0 * f64::EPSILON * self.published.to_f64().abs();
-        difference.to_f64().abs() <= self.target.tolerance() + bound
+        difference.to_f64().abs() <= self.target.tolerance() + difference.log2_error().exp2()
     }
 }
 
@@ -111,4 +110,33 @@ fn ours<S: Scalar>(motion: &dyn Motion<S>, target: &Target, units: &Units) -> Re
         Q::Impulse => scaled(contact.impulse.clone()),
         _ => scaled(contact.peak_stress.clone()),
     })
+}
+
+#[cfg(test)]
+mod tests {
+    #![allow(clippy::unwrap_used)]
+    use super::*;
+
+    /// c = 3: the contact lasts 2/3.
+    #[test]
+    fn a_value_agrees_to_its_last_digit_and_no_further() {
+        for (published, within, agrees) in [
+            ("'2/3'", "", true),
+            ("0.667", "", true),
+            ("0.666", "", false),
+            ("0.66", "within = 0.007", true),
+            ("'2/3'", "within = 1e-9", true),
+            ("'2001/3000'", "", false),
+        ] {
+            let text = format!(
+                "rod = {{ length = 1, wave_speed = 3 }}\nimpact.speed = 1\n[[target]]\nquantity = 'duration'\n\
+                 published = {published}\n{within}\nsource = 'by hand'\n"
+            );
+            let scene = Scene::parse(&text).unwrap();
+            let units = Units::of(&scene.problem, scene.units);
+            let gather = |motion: &dyn Motion<Estimate<f64>>| Reached::all(motion, &scene.targets, &units);
+            let reached = scene.problem.solve().unwrap().ask(gather, |_| Vec::new()).unwrap();
+            assert_eq!(reached[0].agrees(), agrees, "{published} {within}");
+        }
+    }
 }

@@ -26,8 +26,8 @@ pub fn table(header: &[&str], rows: Vec<Vec<String>>, words: usize) -> String {
 /// Characters that a table may be wide where nothing else is asked for.
 const WIDTH: usize = 80;
 
-/// A table of at most [`WIDTH`] characters: columns that do not fit follow in further tables, each with the first `keys`
-/// columns again.
+/// A table of at most [`WIDTH`] characters: columns that do not fit follow in further tables, each with the first
+/// `keys` columns again.
 pub(super) fn fitted(header: &[&str], rows: &[Vec<String>], words: usize, keys: usize, wide: bool) -> String {
     let select = |columns: &[usize]| {
         let header: Vec<&str> = columns.iter().filter_map(|k| header.get(*k).copied()).collect();
