@@ -9,6 +9,7 @@ mod json;
 mod picture;
 mod record;
 mod table;
+mod target;
 
 pub(crate) use check::{check_json, check_page, check_summary, check_table};
 pub use cost::duration;
@@ -20,3 +21,4 @@ pub use json::{SCHEMA, history_json, samples_json};
 pub(crate) use picture::{cost_svg, png};
 pub use record::{Finished, Head, Quantity, Record, Sample, record, sample};
 pub use table::{LEGEND, history_table, samples_table, table};
+pub(crate) use target::{targets_csv, targets_json, targets_table};

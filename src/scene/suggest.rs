@@ -15,6 +15,7 @@ const SYNONYMS: &[(&str, &[&str])] = &[
     ("rod.damping", &["r", "damping_ratio", "friction", "viscosity"]),
     ("rod.top", &["clamped", "fixed", "fixed_top", "end", "boundary", "support"]),
     ("impact.speed", &["mu", "μ", "µ", "v0", "impact_speed", "impact_velocity", "initial_velocity"]),
+    ("impact.gap", &["clearance", "distance", "initial_gap", "jeu", "d0"]),
     ("impact.drop_height", &["h", "height", "fall_height"]),
     ("gravity.acceleration", &["g"]),
     ("start.displacement", &["u", "v", "deformation", "position"]),
@@ -59,7 +60,7 @@ pub(super) fn top(text: &str) -> Option<&'static str> {
 }
 
 /// The known word that is spelled most like `word`, if any is close.
-fn nearest(word: &str, known: &[&'static str]) -> Option<&'static str> {
+pub(super) fn nearest(word: &str, known: &[&'static str]) -> Option<&'static str> {
     // A word of more than 40 bytes is close to none, and the distance is quadratic.
     if word.len() > 40 {
         return None;
