@@ -9,6 +9,7 @@ use crate::problem::Problem;
 use crate::quantity::{self, Column, EnergyShares, Flight, Restitution, energy_shares, flights, restitution};
 use crate::ray::Ray;
 use crate::solve::{Attempt, Ladder, Numbers, Observer, Plan, Question, Rung, Target, unobserved};
+use crate::wave::Waves;
 
 /// The motion of a rod: its impacts and releases, and the values of every quantity at any time, in numbers `S`.
 ///
@@ -248,6 +249,18 @@ impl<S: Target> History<S> {
     pub fn rays(&self, trip: usize) -> Result<Vec<Ray<S>>, Error> {
         let rays = self.ask(|motion| motion.rays(trip), |rays| rays.iter().map(|ray| &ray.from).collect())?;
         Ok(rays.into_iter().map(|ray| ray.map(S::strip)).collect())
+    }
+
+    /// The whole solution as two travelling waves: a piecewise quadratic function of one variable.
+    ///
+    /// **Errors**: [`Error::NoWaves`] under damping; [`Error::TooManyPieces`].
+    pub fn waves(&self) -> Result<Waves<S>, Error> {
+        Ok(self.ask_waves()?.map(S::strip))
+    }
+
+    /// [`History::waves`] in numbers that carry their bound.
+    pub(crate) fn ask_waves(&self) -> Result<Waves<S::Carried>, Error> {
+        self.ask(|engine| engine.waves(), |waves| waves.numbers().collect())
     }
 
     /// The natural scales of the motion.

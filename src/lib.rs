@@ -64,6 +64,7 @@ pub mod scene;
 pub mod solve;
 #[doc(hidden)]
 pub mod special;
+mod wave;
 
 pub use error::Error;
 pub use first_contact::{Bounce, BounceKind, FirstContact, NoBounceReason, Rebound};
@@ -85,6 +86,7 @@ pub use solve::{
     CERTIFIED_DIGITS, DEFAULT_ACCURACY, Engine, ExactnessEnd, Numbers, Observer, Plan, Question, Reach, Rung, Solution,
     Want,
 };
+pub use wave::{WavePiece, Waves};
 
 #[cfg(doctest)]
 #[doc = include_str!("../README.md")]

@@ -7,6 +7,7 @@ use serde::{Serialize, Serializer};
 use crate::error::Error;
 use crate::number::Scalar;
 use crate::ray::Ray;
+use crate::wave::Waves;
 
 /// Writes a number as JSON has it: a number for a double, a text for all others.
 fn number<S: Scalar, Z: Serializer>(x: &S, z: Z) -> Result<Z::Ok, Z::Error> {
@@ -460,6 +461,13 @@ pub trait Motion<S: Scalar>: fmt::Debug + Send + Sync {
     fn rays(&self, trip: usize) -> Result<Vec<Ray<S>>, Error> {
         let _ = trip;
         Err(Error::NoRays)
+    }
+
+    /// The whole solution as two travelling waves.
+    ///
+    /// **Errors**: [`Error::NoWaves`] under damping.
+    fn waves(&self) -> Result<Waves<S>, Error> {
+        Err(Error::NoWaves)
     }
 
     /// The natural scales of the motion.

@@ -7,6 +7,7 @@ use crate::error::Error;
 use crate::motion::{Contact, Ending, Energy, Event, Field, Motion, Scales, Side, StressPiece};
 use crate::number::Bounded;
 use crate::ray::Ray;
+use crate::wave::Waves;
 
 impl<N: Bounded> Motion<N> for Undamped<N> {
     fn end(&self) -> N {
@@ -142,6 +143,10 @@ impl<N: Bounded> Motion<N> for Undamped<N> {
 
     fn rays(&self, trip: usize) -> Result<Vec<Ray<N>>, Error> {
         Ok(self.rays_of(trip))
+    }
+
+    fn waves(&self) -> Result<Waves<N>, Error> {
+        self.travelling()
     }
 
     fn scales(&self) -> Scales<N> {

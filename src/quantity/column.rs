@@ -2,7 +2,7 @@
 
 use super::unit::{Measure, UnitSystem, Units};
 use crate::error::Error;
-use crate::motion::{Contact, Motion, Side, StressPiece};
+use crate::motion::{Ending, EventKind, Motion, Side, StressPiece};
 use crate::number::{Open, Scalar};
 use crate::problem::Problem;
 
@@ -273,11 +273,14 @@ pub fn columns<S: Scalar>(
     let (mut left, mut right) = (Vec::with_capacity(count), Vec::with_capacity(count));
     for time in times {
         let ask = |sources: &[Source], side: Side, limit: i64, row: &mut Vec<S>| {
-            sources.iter().try_for_each(|source| match (source, &pushes) {
-                (Source::Side, _) => Ok(row.push(time.int(limit))),
-                (Source::Impulse, Some(pushes)) => Ok(row.push(pushes.at(time)?)),
-                (source, _) => source.ask(motion, time, side, row),
-            })
+            for source in sources {
+                match (source, &pushes) {
+                    (Source::Side, _) => row.push(time.int(limit)),
+                    (Source::Impulse, Some(pushes)) => row.push(pushes.at(time)?),
+                    (source, _) => source.ask(motion, time, side, row)?,
+                }
+            }
+            Ok::<(), Error>(())
         };
         left.clear();
         right.clear();
@@ -363,7 +366,7 @@ impl Source {
             Source::End => row.extend(pair(motion.ground_end(time, side)?)),
             Source::Strain => row.push(motion.stress(time, side)?),
             Source::Top => row.extend(pair(motion.top_end(time, side)?)),
-            Source::Contact => row.push(time.int(in_contact(motion.contacts(), time, side)?.into())),
+            Source::Contact => row.push(time.int(in_contact(motion, time, side)?.into())),
             Source::Centre => row.extend(pair(motion.centre(time)?)),
             Source::Energy => {
                 let energy = motion.energy(time)?;
@@ -387,16 +390,16 @@ fn partition<T>(list: &[T], passed: impl Fn(&T) -> Result<bool, Open>) -> Result
 }
 
 /// Whether the end is on the ground just before or just after a time.
-fn in_contact<S: Scalar>(contacts: &[Contact<S>], time: &S, side: Side) -> Result<bool, Open> {
-    let begun = partition(contacts, |contact| match side {
-        Side::Left => contact.from.below(time),
-        Side::Right => Ok(!time.below(&contact.from)?),
-    })?;
-    match begun.checked_sub(1).and_then(|last| contacts[last].to.as_ref()) {
-        None => Ok(begun > 0),
-        Some(to) if side == Side::Left => Ok(!to.below(time)?),
-        Some(to) => time.below(to),
+fn in_contact<S: Scalar>(motion: &dyn Motion<S>, time: &S, side: Side) -> Result<bool, Open> {
+    // The impact that ends a history is no event of it.
+    if side == Side::Right && *motion.ending() == Ending::NextImpact && !time.below(&motion.end())? {
+        return Ok(true);
     }
+    let passed = partition(motion.events(), |event| match side {
+        Side::Left => event.time.below(time),
+        Side::Right => Ok(!time.below(&event.time)?),
+    })?;
+    Ok(passed.checked_sub(1).is_some_and(|last| motion.events()[last].kind == EventKind::Impact))
 }
 
 /// `−c² ∫₀ᵗ v_x(0,s) ds`: pieces of the stress, each with what came before it.
