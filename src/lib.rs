@@ -77,7 +77,7 @@ pub use paper::UndampedContact;
 pub use problem::{
     Dimensionless, Material, Parameters, Problem, ProblemError, ProblemErrorKind, Profile, Rod, Run, Speed, Start, Top,
 };
-pub use quantity::{Column, EnergyShares, Flight, Measure, Restitution, Undefined, UnitSystem, Units};
+pub use quantity::{Column, EnergyShares, Flight, Measure, Restitution, Slice, Undefined, UnitSystem, Units};
 pub use ray::{Ray, reflection};
 #[cfg(feature = "mp")]
 pub use rug;
@@ -86,7 +86,7 @@ pub use solve::{
     CERTIFIED_DIGITS, DEFAULT_ACCURACY, Engine, ExactnessEnd, Numbers, Observer, Plan, Question, Reach, Rung, Solution,
     Want,
 };
-pub use wave::{WavePiece, Waves};
+pub use wave::{Stretch, WavePiece, Waves};
 
 #[cfg(doctest)]
 #[doc = include_str!("../README.md")]

@@ -41,6 +41,70 @@ pub struct Waves<S> {
     pub length: S,
 }
 
+/// A stretch of an undamped rod at one time, without a ray inside: velocity and strain are linear along it.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Stretch<S> {
+    /// `x` where it begins.
+    pub from: S,
+    /// Its width.
+    pub width: S,
+    /// `v` where it begins.
+    pub displacement: S,
+    /// `v_t` where it begins, and `v_tx`.
+    pub velocity: [S; 2],
+    /// `v_x` where it begins, and `v_xx`.
+    pub strain: [S; 2],
+}
+
+impl<S> Stretch<S> {
+    /// The same stretch in other numbers.
+    pub(crate) fn map<T>(self, f: impl Fn(S) -> T) -> Stretch<T> {
+        Stretch {
+            from: f(self.from),
+            width: f(self.width),
+            displacement: f(self.displacement),
+            velocity: self.velocity.map(&f),
+            strain: self.strain.map(&f),
+        }
+    }
+}
+
+impl<S: Scalar> Stretch<S> {
+    /// `v` so far behind its beginning.
+    pub(crate) fn displacement_after(&self, way: &S) -> S {
+        let [strain, bend] = &self.strain;
+        (bend.clone() * way / way.int(2) + strain) * way + &self.displacement
+    }
+
+    /// What is left of it behind its first `way`.
+    pub(crate) fn after(&self, way: &S) -> Self {
+        let along = |[value, slope]: &[S; 2]| [slope.clone() * way + value, slope.clone()];
+        Stretch {
+            from: self.from.clone() + way,
+            width: self.width.clone() - way,
+            displacement: self.displacement_after(way),
+            velocity: along(&self.velocity),
+            strain: along(&self.strain),
+        }
+    }
+
+    /// `∫ f dx` and `∫ f (x − from) dx` over its first `way`, for `f` = `v`, `v_t`, `v_x`.
+    pub(crate) fn moments(&self, way: &S) -> [[S; 2]; 3] {
+        let square = way.square();
+        let linear = |[value, slope]: &[S; 2]| {
+            let rise = slope.clone() * way;
+            [(rise.clone() / way.int(2) + value) * way, (rise / way.int(3) + &(value.clone() / way.int(2))) * &square]
+        };
+        let [strain, bend] = &self.strain;
+        let (rise, sag) = (strain.clone() * way, bend.clone() * &square);
+        let displacement = [
+            (rise.clone() / way.int(2) + &(sag.clone() / way.int(6)) + &self.displacement) * way,
+            (rise / way.int(3) + &(sag / way.int(8)) + &(self.displacement.clone() / way.int(2))) * &square,
+        ];
+        [displacement, linear(&self.velocity), linear(&self.strain)]
+    }
+}
+
 /// A piece of `P`: `sum + rate·τ + slope·τ²/2` from `τ = s − from = 0` on.
 #[derive(Clone, Debug, PartialEq)]
 pub struct WavePiece<S> {

@@ -1,18 +1,19 @@
 //! `dalembert reference`.
 
 use std::path::PathBuf;
+use std::sync::mpsc::sync_channel;
 
 use clap::Args;
 
 use super::list::{List, list};
-use super::times::{Times, TimesFile};
+use super::times::{CHUNK, Chunk, Times, TimesFile};
 use super::{Failure, NumberArgs, Visit, refuse_time, solve, source, warned};
 use crate::error::Error;
 use crate::history::History;
 use crate::motion::{Motion, Side};
 use crate::number::{Number, Scalar};
 use crate::output::{Described, Golden, Head, Language, Preamble, Rows, code, write_whole};
-use crate::quantity::{Column, UnitSystem, Units};
+use crate::quantity::{Column, Slice, UnitSystem, Units};
 use crate::scene::Scene;
 use crate::solve::{Question, Target};
 
@@ -45,6 +46,12 @@ pub(super) struct Reference {
     /// The columns, in this order; by default all
     #[arg(long, value_name = "A,B,C", value_delimiter = ',', value_parser = column)]
     columns: Option<Vec<Column>>,
+    /// The field along the rod instead of the columns, on a grid: points in the same form as --times
+    #[arg(long, value_name = "LIST", value_parser = list, allow_hyphen_values = true, conflicts_with = "columns")]
+    points: Option<List>,
+    /// What the field is on the grid
+    #[arg(long, value_enum, default_value_t, requires = "points")]
+    field: Slice,
     /// Only this limit where there are two, one row for each time; by default both
     #[arg(long, value_enum)]
     side: Option<Side>,
@@ -54,7 +61,7 @@ pub(super) struct Reference {
     #[arg(long, value_enum)]
     format: Option<Golden>,
     /// Instead of rows: the exact solution of an undamped rod as a function uExact(x, t, d)
-    #[arg(long = "as", value_enum, value_name = "LANGUAGE", conflicts_with_all = ["when", "columns", "side", "format"])]
+    #[arg(long = "as", value_enum, value_name = "LANGUAGE", conflicts_with_all = ["when", "columns", "points", "side", "format"])]
     language: Option<Language>,
     /// Write to this file, whole or not at all; `-` is standard output
     #[arg(short, long, value_name = "FILE")]
@@ -75,7 +82,10 @@ impl Reference {
         }
         let golden = self.golden()?;
         let times = self.times()?;
-        let columns = self.columns.clone().unwrap_or_else(|| Column::ALL.to_vec());
+        let columns = match &self.points {
+            Some(_) => Vec::new(),
+            None => self.columns.clone().unwrap_or_else(|| Column::ALL.to_vec()),
+        };
         let question = match times.ends()? {
             None => Question::run(numbers),
             // What has happened before the first time is part of these.
@@ -136,19 +146,46 @@ fn event_times<S: Scalar>(motion: &dyn Motion<S>) -> Result<Vec<S>, Error> {
     Ok(times)
 }
 
+impl Series<'_> {
+    /// The rows of some times.
+    fn ask<S: Target>(&self, history: &History<S>, chunk: Option<&Chunk<'_>>) -> Result<Vec<Vec<S::Carried>>, Error> {
+        let times = |motion: &dyn Motion<S::Carried>| match chunk {
+            Some(chunk) => Ok(chunk.lift(&motion.end().precision())),
+            None => event_times(motion),
+        };
+        match &self.asked.points {
+            None => history.ask_columns(&self.columns, self.asked.side, times),
+            Some(points) => history.ask_slices(self.asked.field, self.asked.side, |motion| {
+                Ok((points.lift(&motion.end().precision()), times(motion)?))
+            }),
+        }
+    }
+}
+
 impl Visit for Series<'_> {
+    /// Rows are written while the next ones are asked for.
     fn visit<S: Target>(&self, history: &History<S>, head: Head, progress: source::Progress) -> Result<(), Failure> {
         let units = Units::of(&self.scene.problem, UnitSystem::default());
-        let described = self.columns.iter().map(|column| Described::column(*column, &units)).collect();
-        let write = || source::cannot("write the rows");
-        let mut rows = Rows::new(self.golden, described, head.digits).map_err(write())?;
-        self.times.chunks(|chunk| {
-            let table = history.ask_columns(&self.columns, self.asked.side, |motion| match &chunk {
-                Some(chunk) => Ok(chunk.lift(&motion.end().precision())),
-                None => event_times(motion),
+        let described = match &self.asked.points {
+            Some(_) => Described::slice(&units),
+            None => self.columns.iter().map(|column| Described::column(*column, &units)).collect(),
+        };
+        let keep = || source::cannot("keep the rows");
+        let mut rows = Rows::new(self.golden, described, head.digits).map_err(keep())?;
+        let at_once = CHUNK / self.asked.points.as_ref().map_or(1, List::len).min(CHUNK);
+        std::thread::scope(|scope| {
+            let (send, receive) = sync_channel::<Vec<Vec<S::Carried>>>(2);
+            let rows = &mut rows;
+            let writer = scope.spawn(move || receive.iter().try_for_each(|table| rows.push(&table)));
+            let asked = self.times.chunks(at_once, |chunk| {
+                let table = self.ask(history, chunk.as_ref());
+                // Where nobody receives any more, the writer says why.
+                let _ = send.send(table.map_err(|error| refuse_time(error, history.ending()))?);
+                Ok(())
             });
-            let table = table.map_err(|error| refuse_time(error, history.ending()))?;
-            Ok(rows.push(&table).map_err(write())?)
+            drop(send);
+            let written = writer.join().unwrap_or_else(|panic| std::panic::resume_unwind(panic));
+            asked.and(written.map_err(|error| keep()(error).into()))
         })?;
         drop(progress);
         let head = warned(history, head);

@@ -27,7 +27,7 @@ pub(super) struct TimesFile {
     greatest: Number,
 }
 
-/// Times that are asked about at once.
+/// Rows that are asked about at once.
 pub(super) const CHUNK: usize = 1 << 14;
 
 impl TimesFile {
@@ -64,14 +64,14 @@ impl TimesFile {
         Ok(TimesFile { file, name, least, greatest })
     }
 
-    fn chunks(&self, mut visit: impl FnMut(List) -> Result<(), Failure>) -> Result<(), Failure> {
-        let mut chunk = Vec::with_capacity(CHUNK);
+    fn chunks(&self, at_once: usize, mut visit: impl FnMut(List) -> Result<(), Failure>) -> Result<(), Failure> {
+        let mut chunk = Vec::with_capacity(at_once);
         lines(&self.file, &self.name, |time| {
             chunk.push(time);
-            if chunk.len() < CHUNK {
+            if chunk.len() < at_once {
                 return Ok(());
             }
-            visit(List::Numbers(std::mem::replace(&mut chunk, Vec::with_capacity(CHUNK))))
+            visit(List::Numbers(std::mem::replace(&mut chunk, Vec::with_capacity(at_once))))
         })?;
         if chunk.is_empty() { Ok(()) } else { visit(List::Numbers(chunk)) }
     }
@@ -120,17 +120,20 @@ impl Times {
         }
     }
 
-    /// Hands out all times in their order, some thousand at once; `None` stands for the events.
+    /// Hands out all times in their order, so many at once; `None` stands for the events.
     pub(super) fn chunks(
         &self,
+        at_once: usize,
         mut visit: impl FnMut(Option<Chunk<'_>>) -> Result<(), Failure>,
     ) -> Result<(), Failure> {
         match self {
             Times::Events => visit(None),
-            Times::File(file) => file.chunks(|list| visit(Some(Chunk { from: 0, to: list.len(), list: &list }))),
+            Times::File(file) => {
+                file.chunks(at_once, |list| visit(Some(Chunk { from: 0, to: list.len(), list: &list })))
+            }
             Times::List(list) => (0..list.len())
-                .step_by(CHUNK)
-                .try_for_each(|from| visit(Some(Chunk { list, from, to: (from + CHUNK).min(list.len()) }))),
+                .step_by(at_once)
+                .try_for_each(|from| visit(Some(Chunk { list, from, to: (from + at_once).min(list.len()) }))),
         }
     }
 }

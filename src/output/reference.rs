@@ -12,7 +12,7 @@ use serde_json::{Value, json};
 use super::record::{Head, json as number_json};
 use super::write_filled;
 use crate::number::{DOUBLE_DIGITS, Scalar, bound_of_log2, show};
-use crate::quantity::{Column, Units};
+use crate::quantity::{Column, Measure, Units};
 use crate::solve::Numbers;
 
 /// What a golden file is written as.
@@ -43,6 +43,20 @@ impl Described {
     /// A column of time series.
     pub fn column(column: Column, units: &Units) -> Self {
         Described { name: column.name(), symbol: column.symbol(), meaning: column.meaning(), unit: column.unit(units) }
+    }
+
+    /// The columns of a slice along the rod.
+    pub fn slice(units: &Units) -> Vec<Self> {
+        let one = |name, symbol, meaning, measure| Described { name, symbol, meaning, unit: units.name(measure) };
+        let [time, side] = [Column::Time, Column::Side].map(|column| Described::column(column, units));
+        vec![
+            time,
+            side,
+            one("x", "x", "place along the rod, from the end at the ground", Measure::Length),
+            one("u", "v", "displacement, upwards", Measure::Length),
+            one("v", "v_t", "velocity, upwards", Measure::Velocity),
+            one("strain", "v_x", "strain, positive in tension", Measure::Strain),
+        ]
     }
 
     /// Whether the values are −1, 0 and 1, which stand for the sides of a jump, or 0 and 1 for contact.
@@ -89,10 +103,7 @@ impl Preamble<'_> {
     /// What the numbers are worth.
     fn promise(&self, npz: bool) -> String {
         let promise = match self.numbers {
-            Numbers::Double(_) => {
-                return "each value lies within the bound of its column, which is carried through the computation"
-                    .into();
-            }
+            Numbers::Double(_) => return format!("{} within its bound, carried through the computation", self.each),
             Numbers::Exact => "fractions without any error".to_string(),
             Numbers::Certified(digits) => {
                 format!("{digits} digits, proved by enclosures; fewer where no more are known")

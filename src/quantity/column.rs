@@ -286,7 +286,7 @@ pub fn columns<S: Scalar>(
         right.clear();
         let asked = side.unwrap_or_default();
         ask(&sided, asked, 0, &mut right)?;
-        if side.is_none() && !sided.is_empty() {
+        if side.is_none() && !sided.is_empty() && motion.may_jump(time)? {
             ask(&sided, Side::Left, 0, &mut left)?;
         }
         let jumps = !left.is_empty() && !left.iter().zip(&right).all(|(a, b)| same(a, b));
@@ -312,39 +312,44 @@ pub fn columns<S: Scalar>(
     Ok(table)
 }
 
-/// The values of a table of [`columns`], each column brought to about 1 by a power of two, so that one accuracy holds
-/// for columns of different size: 1 is its natural scale, or its greatest value where that is more.
-pub(crate) fn of_one_size<S: Scalar>(
+/// The natural scale of each column; `None` where its values are no measurements.
+pub(crate) fn natural_scales<S: Scalar>(
     motion: &dyn Motion<S>,
     problem: &Problem,
     columns: &[Column],
-    table: &[Vec<S>],
-) -> Vec<S> {
+) -> Vec<Option<f64>> {
     let units = Units::of(problem, UnitSystem::default());
     let scales = motion.scales().map(|scale| scale.to_f64());
-    let mut all = Vec::with_capacity(table.len() * table.first().map_or(0, Vec::len));
-    for (column, values) in columns.iter().zip(table) {
+    let natural = |column: &Column| {
         let natural = match column.source() {
-            (Source::Time | Source::Side | Source::Contact, _) => continue,
+            (Source::Time | Source::Side | Source::Contact, _) => return None,
             (Source::End | Source::Top | Source::Centre, 0) => scales.velocity * scales.time,
             (Source::End | Source::Top | Source::Centre, _) => scales.velocity,
             (Source::Strain, _) => scales.velocity / scales.wave_speed,
             (Source::Energy | Source::Parts, _) => scales.velocity * scales.velocity * scales.length,
             (Source::Impulse, _) => scales.velocity * scales.length,
         };
-        let natural = natural * column.factor(motion, &units).map_or(1.0, |factor| factor.to_f64().abs());
-        let greatest = values.iter().map(|value| value.to_f64().abs()).fold(natural, f64::max);
-        let power = (-greatest.log2().round()).clamp(-1000.0, 1000.0).exp2();
-        if let Some(unit) = values.first().map(|value| value.double(power)) {
-            all.extend(values.iter().map(|value| value.clone() * &unit));
-        }
+        Some(natural * column.factor(motion, &units).map_or(1.0, |factor| factor.to_f64().abs()))
+    };
+    columns.iter().map(natural).collect()
+}
+
+/// The values of a table, each column brought to about 1 by a power of two, so that one accuracy holds for columns of
+/// different size: 1 is its natural scale, or its greatest value where that is more.
+pub(crate) fn of_one_size<S: Scalar>(table: &[Vec<S>], natural: &[Option<f64>]) -> Vec<S> {
+    let mut all = Vec::with_capacity(table.len() * table.first().map_or(0, Vec::len));
+    for (values, natural) in table.iter().zip(natural) {
+        let (Some(natural), Some(first)) = (natural, values.first()) else { continue };
+        let greatest = values.iter().map(|value| value.to_f64().abs()).fold(*natural, f64::max);
+        let unit = first.double((-greatest.log2().round()).clamp(-1000.0, 1000.0).exp2());
+        all.extend(values.iter().map(|value| value.clone() * &unit));
     }
     all
 }
 
 /// Whether two limits are surely the same. Two enclosures that were computed alike are, although their difference
 /// does not show it.
-fn same<S: Scalar>(a: &S, b: &S) -> bool {
+pub(super) fn same<S: Scalar>(a: &S, b: &S) -> bool {
     a.compare(b).is_ok_and(std::cmp::Ordering::is_eq) || (a.ends(0).is_some() && a.text() == b.text())
 }
 

@@ -3,10 +3,12 @@
 mod column;
 mod flight;
 mod restitution;
+mod slice;
 mod unit;
 
-pub(crate) use column::of_one_size;
 pub use column::{Column, columns};
+pub(crate) use column::{natural_scales, of_one_size};
 pub use flight::{Flight, flights};
 pub use restitution::{EnergyShares, Restitution, Undefined, energy_shares, restitution};
+pub use slice::{Slice, slices};
 pub use unit::{Measure, UnitSystem, Units};
