@@ -1,4 +1,5 @@
-//! What follows from a history: restitution, the top of a flight, columns over time, and units. Nothing here looks back at the scene.
+//! What follows from a history: restitution, the top of a flight, columns over time, slices along the rod, and units.
+//! Nothing here looks back at the scene.
 
 mod column;
 mod flight;
