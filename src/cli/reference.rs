@@ -13,7 +13,7 @@ use crate::history::History;
 use crate::motion::{Motion, Side};
 use crate::number::{Number, Scalar};
 use crate::output::{Described, Golden, Head, Language, Preamble, Rows, code, write_whole};
-use crate::quantity::{Column, Slice, UnitSystem, Units};
+use crate::quantity::{Column, Slice, Units};
 use crate::scene::Scene;
 use crate::solve::{Question, Target};
 
@@ -166,7 +166,7 @@ impl Series<'_> {
 impl Visit for Series<'_> {
     /// Rows are written while the next ones are asked for.
     fn visit<S: Target>(&self, history: &History<S>, head: Head, progress: source::Progress) -> Result<(), Failure> {
-        let units = Units::of(&self.scene.problem, UnitSystem::default());
+        let units = Units::of(&self.scene.problem, self.scene.units);
         let described = match &self.asked.points {
             Some(_) => Described::slice(&units),
             None => self.columns.iter().map(|column| Described::column(*column, &units)).collect(),

@@ -44,6 +44,7 @@ mod scene_errors;
 mod scene_properties;
 #[cfg(feature = "mp")]
 mod snapshots_stress;
+mod start_above;
 mod stripped;
 mod three_routes;
 #[cfg(feature = "mp")]
