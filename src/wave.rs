@@ -58,7 +58,7 @@ pub struct Stretch<S> {
 
 impl<S> Stretch<S> {
     /// The same stretch in other numbers.
-    pub(crate) fn map<T>(self, f: impl Fn(S) -> T) -> Stretch<T> {
+    pub fn map<T>(self, f: impl Fn(S) -> T) -> Stretch<T> {
         Stretch {
             from: f(self.from),
             width: f(self.width),
