@@ -118,6 +118,22 @@ impl<S: Rounded, H: Motion<S>> WithBounds<S, H> {
         (within(&place, near.rise + near.late * rate.to_f64().abs()), within(&rate, near.speed))
     }
 
+    /// How far the root of a mean square may be off: what the ground gives to the centre of mass it takes from the
+    /// vibration, or not, while contact is in doubt.
+    fn root_off(&self, time: &Estimate<S>) -> Result<f64, Error> {
+        let near = self.near(time);
+        Ok(near.speed + self.push(time.value(), near.late)?)
+    }
+
+    /// `L s²/2` of a root mean square s that is `off` by so much: at most `L (2s + off) off`.
+    fn square_off(&self, root: f64, off: f64) -> f64 {
+        self.scales.length * (2.0 * root + off) * off
+    }
+
+    fn energy_off(&self, energy: &S, off: f64) -> f64 {
+        self.square_off((2.0 * energy.to_f64().max(0.0) / self.scales.length).sqrt(), off)
+    }
+
     /// The history without its bounds.
     pub fn plain(&self) -> &H {
         &self.history
@@ -177,23 +193,25 @@ impl<S: Rounded, H: Motion<S>> Motion<Estimate<S>> for WithBounds<S, H> {
         Ok((height, within(rate.value(), bound)))
     }
 
-    /// Of a mean square `s²`, off by δ in the root, `L s²/2` is off by at most `L (2s + δ) δ`; and `L g h` by that of
-    /// h.
+    /// `L g h` is off by that of h.
     fn energy(&self, time: &Estimate<S>) -> Result<Energy<Estimate<S>>, Error> {
         let energy = self.history.energy(time.value())?;
         let (_, rate) = self.history.centre(time.value())?;
-        let (Near { rise, speed, late, .. }, Scales { length, gravity, .. }) = (self.near(time), &self.scales);
-        let vibration = (2.0 * energy.vibrational.to_f64().max(0.0) / length).sqrt();
-        let of = |size: f64, off: f64| length * (2.0 * size + off) * off;
-        let moving = rate.to_f64().abs();
-        // What the ground gives to the centre of mass it takes from the vibration, or not, while contact is in doubt.
-        let off = speed + self.push(time.value(), late)?;
-        let translational = of(moving, off) + length * gravity * (rise + late * moving);
+        let (Near { rise, late, .. }, Scales { length, gravity, .. }) = (self.near(time), &self.scales);
+        let (off, moving) = (self.root_off(time)?, rate.to_f64().abs());
+        let vibration = self.energy_off(&energy.vibrational, off);
+        let translational = self.square_off(moving, off) + length * gravity * (rise + late * moving);
         Ok(Energy {
-            total: within(&energy.total, translational + of(vibration, off)),
+            total: within(&energy.total, translational + vibration),
             translational: within(&energy.translational, translational),
-            vibrational: within(&energy.vibrational, of(vibration, off)),
+            vibrational: within(&energy.vibrational, vibration),
         })
+    }
+
+    /// Of each mean square as in [`Motion::energy`].
+    fn energy_parts(&self, time: &Estimate<S>) -> Result<[Estimate<S>; 2], Error> {
+        let off = self.root_off(time)?;
+        Ok(self.history.energy_parts(time.value())?.map(|part| within(&part, self.energy_off(&part, off))))
     }
 
     fn field(&self, point: &Estimate<S>, time: &Estimate<S>, side: Side) -> Result<Field<Estimate<S>>, Error> {

@@ -9,6 +9,8 @@ mod certified_first_contact;
 mod certified_undamped;
 #[cfg(feature = "cli")]
 mod check_catalogue;
+#[cfg(feature = "mp")]
+mod columns;
 #[cfg(feature = "cli")]
 mod command;
 mod common;
@@ -35,6 +37,8 @@ mod hard_cases;
 mod number_interval;
 mod paper_claims;
 mod problem_builder;
+#[cfg(all(feature = "cli", feature = "mp"))]
+mod reference;
 mod scene_builtin;
 mod scene_errors;
 mod scene_properties;
