@@ -20,7 +20,7 @@
 //!
 //! | | in which numbers | what it promises |
 //! |---|---|---|
-//! | [`Problem::solve`] | doubles | the bound of each number is carried, and longer numbers are taken where it is too wide |
+//! | [`Problem::solve`] | doubles | the bound of each number is carried; longer numbers where it is too wide |
 //! | [`Problem::digits`] | decimal digits | rounded once from values known to more |
 //! | [`Problem::exact`] | fractions | no error, as far as they reach; undamped rods |
 //! | [`Problem::certified`] | enclosures | every digit is proved; undamped rods, and the first contact of damped ones |

@@ -5,7 +5,7 @@
 //! `ω_k² = (2πk)² − R²`, `k ≥ 1`. Hence with one real wave that goes down,
 //!
 //! ```text
-//! Z(x,t) = F(x,t) + F(−x,t),    F_t = Ω F,    Ω = D √(1 + R²D⁻²),    D = ∂/∂y,    D⁻¹: the antiderivative of mean zero.
+//! Z(x,t) = F(x,t) + F(−x,t),    F_t = Ω F,    Ω = D √(1 + R²D⁻²),    D = ∂/∂y,    D⁻¹: antiderivative of mean zero.
 //! F(y,t) = (e^{tG} F(·,0))(y + t),    G = Ω − D = ½R² D⁻¹ − ⅛R⁴ D⁻³ + …
 //! ```
 //!

@@ -52,7 +52,8 @@ impl<S: RoundedSpecial> Follower<'_, S> {
         (least > swing).then(|| {
             let unit = data.units.displacement.to_f64();
             Ending::NoFurtherImpact(format!(
-                "from t = {} on the ground end swings by at most {:.3e}, ever less, about a height that is never below {:.3e}",
+                "from t = {} on the ground end swings by at most {:.3e}, ever less, about a height that is never \
+                below {:.3e}",
                 short(&data.units.time, &t),
                 swing * unit,
                 least * unit
@@ -69,7 +70,8 @@ impl<S: RoundedSpecial> Follower<'_, S> {
         let slope = self.medium.slope.to_f64();
         (self.contact && slope < 0.0 && most < -slope).then(|| {
             self.held(format!(
-                "from t = {} on the waves pull with at most {:.3} of what the rod presses with at rest, and they never grow",
+                "from t = {} on the waves pull with at most {:.3} of what the rod presses with at rest, and they \
+                never grow",
                 short(&self.data.units.time, &self.state.time()),
                 most / -slope
             ))

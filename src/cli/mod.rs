@@ -36,10 +36,9 @@ const VERSION: &str = match (cfg!(feature = "mp"), cfg!(feature = "plot")) {
 /// The exact reference for the bouncing elastic rod.
 #[derive(Debug, Parser)]
 #[command(name = "dalembert", version = VERSION, about, propagate_version = true, arg_required_else_help = true)]
-#[command(
-    after_help = "A scene is a file, `-` for standard input, or one of the built-in scenes that `dalembert scenes` lists.\n\n\
-    Start with:  dalembert solve doyen-ern-piperno"
-)]
+#[command(after_help = "A scene is a file, `-` for standard input, or one of the built-in scenes that \
+    `dalembert scenes` lists.\n\n\
+    Start with:  dalembert solve doyen-ern-piperno")]
 pub struct Cli {
     #[command(subcommand)]
     command: Command,

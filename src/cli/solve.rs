@@ -11,10 +11,9 @@ use crate::solve::Question;
 
 /// Solve a scene: events, contacts, restitution, energies, stress history
 #[derive(Args, Debug)]
-#[command(
-    after_help = "Examples:\n  dalembert solve doyen-ern-piperno --exact\n  dalembert solve rod.toml --digits 38 -o rod.json\n  \
-    dalembert scenes paper-weak | dalembert solve - --format csv --part stress"
-)]
+#[command(after_help = "Examples:\n  dalembert solve doyen-ern-piperno --exact\n  \
+    dalembert solve rod.toml --digits 38 -o rod.json\n  \
+    dalembert scenes paper-weak | dalembert solve - --format csv --part stress")]
 pub(super) struct Solve {
     /// A scene file, `-`, or a built-in scene
     scene: String,

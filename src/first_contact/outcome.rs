@@ -76,14 +76,14 @@ impl Display for NoBounceReason {
                 let times = if *margin < 1000.0 { format!("{margin:.3}") } else { "more than 1000".into() };
                 write!(
                     f,
-                    "r t₁ = {damping_ratio:.6} ≥ π: the lowest mode is overdamped; at t₁ it presses {times} times as hard as all \
-                     others together could pull, and it outgrows them from there"
+                    "r t₁ = {damping_ratio:.6} ≥ π: the lowest mode is overdamped; at t₁ it presses {times} times as \
+                     hard as all others together could pull, and it outgrows them from there"
                 )
             }
             NoBounceReason::SettlesUnderWeight { trips, part } => write!(
                 f,
-                "from t = {trips} t₁ on the transient stays below {part:.4} of the static stress gL/c², and the rod settles under \
-                 its weight"
+                "from t = {trips} t₁ on the transient stays below {part:.4} of the static stress gL/c², and the rod \
+                 settles under its weight"
             ),
         }
     }
@@ -142,8 +142,8 @@ impl Display for Doubt {
             Doubt::NearZero(trips) => write!(f, "near t = {trips:.9} t₁ the stress cannot be told from zero"),
             Doubt::Late { damping_ratio, cells, expected } => write!(
                 f,
-                "r t₁ = {damping_ratio} is just below π: no bounce within the limit of {cells} round trips; without gravity it \
-                 comes at about {expected:.4e} t₁"
+                "r t₁ = {damping_ratio} is just below π: no bounce within the limit of {cells} round trips; without \
+                 gravity it comes at about {expected:.4e} t₁"
             ),
             Doubt::NoneFound(cells) => write!(f, "no bounce in {cells} round trips, which is the limit"),
         }

@@ -198,11 +198,12 @@ impl Plan {
                 "damping couples the characteristics; the first contact has a closed form, and no more is asked for"
             }
             Engine::ClosedFormThenCells => {
-                "damping couples the characteristics: the first contact has a closed form, and inside a cell between rays \
-                 Riemann's formula converges geometrically"
+                "damping couples the characteristics: the first contact has a closed form, and inside a cell between \
+                 rays Riemann's formula converges geometrically"
             }
             Engine::Cells => {
-                "damping couples the characteristics, and this start or top has no closed form: cells from the beginning"
+                "damping couples the characteristics, and this start or top has no closed form: cells from the \
+                beginning"
             }
         };
         let numbers = match self.numbers {
@@ -214,8 +215,8 @@ impl Plan {
                 format!("{digits} digits are asked for: bits are added until the error bound leaves that many")
             }
             Numbers::Certified(digits) => format!(
-                "{digits} proved digits are asked for: enclosures, with bits added until every comparison is settled and every \
-                 digit known"
+                "{digits} proved digits are asked for: enclosures, with bits added until every comparison is settled \
+                 and every digit known"
             ),
             Numbers::Exact => "fractions are asked for: the run stops where a root is irrational".into(),
             Numbers::ExactThenDigits(digits) => {

@@ -162,7 +162,8 @@ proptest! {
             // Nor from a contact without stress on, which the damping may turn into a flight that hardly leaves the
             // ground: then the end of the one touches where that of the other lands or leaves.
             let first = ours.time.min(plain.time);
-            let (a, b) = (history.ground_end(&first, Side::Right).unwrap().0, lattice.ground_end(&first, Side::Right).unwrap().0);
+            let end = |motion: &dyn Motion<f64>| motion.ground_end(&first, Side::Right).unwrap().0;
+            let (a, b) = (end(&history), end(&lattice));
             let bound = magnified(ours) * scales.velocity * scales.time;
             prop_assert!(a.max(b) <= bound, "{off:e} against {:e}: {ours:?} {plain:?}", magnified(ours));
             break;

@@ -262,7 +262,10 @@ proptest! {
         let (mut mean, mut rate) = (Rational::new(), Rational::new());
         for pair in cuts.windows(2) {
             let width = Rational::from(&pair[1] - &pair[0]);
-            let [a, b, c] = [1, 2, 3].map(|k| history.field(&(pair[0].clone() + width.clone() * k / 4), &time, Side::Right).unwrap());
+            let [a, b, c] = [1, 2, 3].map(|k| {
+                let point = pair[0].clone() + width.clone() * k / 4;
+                history.field(&point, &time, Side::Right).unwrap()
+            });
             // Milne's open rule: exact for cubics, and it never asks on a ray.
             mean += (a.displacement * 2 - b.displacement + c.displacement * 2) * width.clone() / 3;
             rate += (a.velocity * 2 - b.velocity + c.velocity * 2) * width / 3;
@@ -284,7 +287,8 @@ proptest! {
         prop_assert_eq!(kinds(rounded.events()), exact.events().iter().map(|e| e.kind).collect::<Vec<_>>());
         for (ours, truth) in rounded.events().iter().zip(exact.events()) {
             let error = (Rational::from_f64(ours.time).unwrap() - &truth.time).abs().to_f64();
-            prop_assert!(error <= ours.time_error.max(4.0 * f64::EPSILON * ours.time), "{} > {}", error, ours.time_error);
+            let bound = ours.time_error.max(4.0 * f64::EPSILON * ours.time);
+            prop_assert!(error <= bound, "{} > {}", error, ours.time_error);
         }
         let bound = 32.0 * rounded.error_estimate();
         let scales = rounded.scales();
