@@ -30,7 +30,7 @@ fn first_contact(criterion: &mut Criterion) {
         b.iter(|| i0_scaled(black_box(&0.26_f64)) + i1_scaled(black_box(&0.26_f64)));
     });
     criterion.bench_function("stress in the first round trip", |b| {
-        b.iter(|| contact.stress(black_box(&Estimate::exact(1.3)), Side::Right));
+        b.iter(|| contact.strain(black_box(&Estimate::exact(1.3)), Side::Right));
     });
     criterion.bench_function("restitution, bounce at t₁", |b| b.iter(|| restitution(black_box(0.2), black_box(5.0))));
     criterion

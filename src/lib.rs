@@ -58,6 +58,7 @@ pub mod problem;
 #[doc(hidden)]
 pub mod quantity;
 mod ray;
+mod reason;
 #[doc(hidden)]
 pub mod scene;
 #[doc(hidden)]
@@ -66,7 +67,7 @@ pub mod solve;
 pub mod special;
 
 pub use error::Error;
-pub use first_contact::{Bounce, BounceKind, FirstContact, NoBounceReason, Rebound};
+pub use first_contact::{Bounce, BounceKind, FirstContact, Rebound};
 pub use glam;
 pub use history::History;
 pub use modal::Modal;
@@ -78,6 +79,7 @@ pub use problem::{
 };
 pub use quantity::{EnergyShares, Flight, Restitution, Undefined};
 pub use ray::{Ray, reflection};
+pub use reason::{Doubt, NoBounceReason, Reason, StillState, Warning};
 #[cfg(feature = "mp")]
 pub use rug;
 pub use scene::{Effect, EffectUse, Scene, SceneError, SceneErrorKind};

@@ -15,6 +15,7 @@ use super::series::{at_one, at_zero, bound, derivative, evaluate};
 use super::start::Data;
 use crate::error::Error;
 use crate::motion::{Ending, EventKind};
+use crate::reason::Warning;
 use crate::special::RoundedSpecial;
 
 /// How far to go.
@@ -57,7 +58,7 @@ pub(super) struct Follower<'a, S> {
     pub(super) marks: Vec<Mark<S>>,
     /// States at the beginning of each round trip and on both sides of a leap.
     pub(super) checkpoints: Vec<Checkpoint<S>>,
-    pub(super) warnings: Vec<String>,
+    pub(super) warnings: Vec<Warning>,
     /// Error of `p`, `q` made in one cell.
     pub(super) cell_error: f64,
     pub(super) budget: Budget,
@@ -314,7 +315,7 @@ impl<'a, S: RoundedSpecial> Follower<'a, S> {
             }
             if at_start {
                 let time = (self.state.time() * &self.data.units.time).to_f64();
-                self.warnings.push(format!("at t = {time} rounding decides between contact and flight"));
+                self.warnings.push(Warning::RoundingDecides { time });
             }
             let at_end = found.as_ref().is_some_and(|x| nearby(&(len.clone() - x)));
             let found = found.filter(|_| !at_start && !at_end);

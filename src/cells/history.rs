@@ -14,6 +14,7 @@ use crate::first_contact::FirstContact;
 use crate::motion::{Contact, Ending, Energy, Event, EventKind, Field, Motion, Scales, Side, StressPiece};
 use crate::number::Estimate;
 use crate::problem::{Parameters, Problem, Run, Top};
+use crate::reason::Warning;
 use crate::special::RoundedSpecial;
 use crate::special::{log_mean, log_rest};
 
@@ -52,7 +53,7 @@ pub struct Damped<S> {
     end: S,
     ending: Ending,
     error: f64,
-    warnings: Vec<String>,
+    warnings: Vec<Warning>,
     unresolved: Option<Unresolved<S>>,
 }
 
@@ -65,7 +66,7 @@ struct Found<S> {
     checkpoints: Vec<Checkpoint<S>>,
     flights: Vec<Flight<S>>,
     marks: Vec<Mark<S>>,
-    warnings: Vec<String>,
+    warnings: Vec<Warning>,
     unresolved: Option<Unresolved<S>>,
     error: f64,
     ending: Ending,
@@ -176,7 +177,7 @@ impl<S: RoundedSpecial> Damped<S> {
             let unit = &data.units.time;
             Unresolved { from: found.from * unit, longest: found.longest * unit.to_f64(), ..found }
         });
-        warnings.extend(unresolved.as_ref().map(ToString::to_string));
+        warnings.extend(unresolved.as_ref().map(Unresolved::warning));
         let end = match &problem.run {
             Run::Time(time) if ending == Ending::Time || pieces.last().is_some_and(|piece| piece.still) => {
                 S::from_number(time, precision)
@@ -378,7 +379,7 @@ impl<S: RoundedSpecial> Motion<S> for Damped<S> {
         pieces
     }
 
-    fn stress(&self, time: &S, side: Side) -> Result<S, Error> {
+    fn strain(&self, time: &S, side: Side) -> Result<S, Error> {
         let t = self.time(time)?;
         Ok(match self.record().piece(&t, side) {
             Some((piece, at)) if piece.contact => {
@@ -434,7 +435,7 @@ impl<S: RoundedSpecial> Motion<S> for Damped<S> {
         }
         if point.is_zero() {
             let (displacement, velocity) = self.ground_end(time, side)?;
-            return Ok(Field { displacement, velocity, strain: self.stress(time, side)? });
+            return Ok(Field { displacement, velocity, strain: self.strain(time, side)? });
         }
         let x = point.clone() / &units.length * t.ratio(1, 2);
         let (velocity, strain) = self.record().at(&x, &t, side);
@@ -467,7 +468,7 @@ impl<S: RoundedSpecial> Motion<S> for Damped<S> {
         self.end.double(self.error)
     }
 
-    fn warnings(&self) -> &[String] {
+    fn warnings(&self) -> &[Warning] {
         &self.warnings
     }
 }

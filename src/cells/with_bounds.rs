@@ -3,6 +3,7 @@
 use crate::error::Error;
 use crate::motion::{Contact, Ending, Energy, Event, Field, Motion, Scales, Side, StressPiece};
 use crate::number::{Estimate, Rounded, Scalar};
+use crate::reason::Warning;
 
 /// A history, each of whose numbers has the bound that follows from [`Motion::error_estimate`] and its natural scale;
 /// times of events have their own.
@@ -104,8 +105,8 @@ impl<S: Rounded, H: Motion<S>> Motion<Estimate<S>> for WithBounds<S, H> {
         self.history.stress_pieces().into_iter().map(piece).collect()
     }
 
-    fn stress(&self, time: &Estimate<S>, side: Side) -> Result<Estimate<S>, Error> {
-        Ok(within(&self.history.stress(time.value(), side)?, self.strain))
+    fn strain(&self, time: &Estimate<S>, side: Side) -> Result<Estimate<S>, Error> {
+        Ok(within(&self.history.strain(time.value(), side)?, self.strain))
     }
 
     fn ground_end(&self, time: &Estimate<S>, side: Side) -> Result<(Estimate<S>, Estimate<S>), Error> {
@@ -168,7 +169,7 @@ impl<S: Rounded, H: Motion<S>> Motion<Estimate<S>> for WithBounds<S, H> {
         self.history.digits_lost()
     }
 
-    fn warnings(&self) -> &[String] {
+    fn warnings(&self) -> &[Warning] {
         self.history.warnings()
     }
 }

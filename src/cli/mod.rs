@@ -20,7 +20,7 @@ use crate::number::{Number, Scalar};
 use crate::output::{Head, SCHEMA, write_whole};
 use crate::problem::{Material, Parameters};
 use crate::scene::{Effect, Scene};
-use crate::solve::{CERTIFIED_DIGITS, ExactnessEnd, Numbers, Plan, Question, Solution, Target};
+use crate::solve::{CERTIFIED_DIGITS, Numbers, Plan, Question, Solution, Target};
 
 /// Everything that can go wrong, ready to be reported.
 pub type Failure = miette::Report;
@@ -239,17 +239,14 @@ fn answer(scene: &Scene, question: &Question, output: &OutputArgs, report: &impl
     let solution = plan.solve(&scene.problem, progress.observer())?;
     let digits = |digits: u32, head: Head| Head { digits, ..head };
     match &solution {
-        Solution::Double(motion) => print(motion, report, &head, progress),
-        Solution::Exact(motion) => print(motion, report, &head, progress),
-        Solution::Certified(motion, n) => print(motion, report, &digits(*n, head), progress),
-        Solution::Digits(motion, n) => print(motion, report, &digits(*n, head), progress),
+        Solution::Double(motion) => print(motion, report, output, &head, progress),
+        Solution::Exact(motion) => print(motion, report, output, &head, progress),
+        Solution::Certified(motion, n) => print(motion, report, output, &digits(*n, head), progress),
+        Solution::Digits(motion, n) => print(motion, report, output, &digits(*n, head), progress),
         Solution::DigitsAfter(motion, n, end) => {
             eprintln!("note: {end}; what follows is in {n} digits");
-            let exact_until = match end {
-                ExactnessEnd::Event(ending) => Some(ending.clone()),
-                ExactnessEnd::Parameter { .. } => None,
-            };
-            print(motion, report, &Head { digits: *n, number: format!("{n} digits"), exact_until, ..head }, progress)
+            let (number, exact_until) = (format!("{n} digits"), Some(end.clone()));
+            print(motion, report, output, &Head { digits: *n, number, exact_until, ..head }, progress)
         }
     }
 }
@@ -257,6 +254,7 @@ fn answer(scene: &Scene, question: &Question, output: &OutputArgs, report: &impl
 fn print<S: Target>(
     motion: &History<S>,
     report: &impl Report,
+    output: &OutputArgs,
     head: &Head,
     progress: source::Progress,
 ) -> Result<(), Failure> {
@@ -264,8 +262,9 @@ fn print<S: Target>(
     drop(progress);
     let data = gathered.map_err(|error| report.refuse(error, motion.ending()))?;
     let head = Head { warnings: motion.warnings(), ..head.clone() };
-    for warning in &head.warnings {
-        eprintln!("warning: {warning}");
+    // A table on the screen has them below it.
+    if output.output.is_some() || output.format()? != Format::Table {
+        head.warnings.iter().for_each(|warning| eprintln!("warning: {warning}"));
     }
     report.print(&data, &head)
 }

@@ -27,7 +27,7 @@ pub(crate) trait Account<S: System> {
     fn release(&self, rod: &Parameters<S>) -> Found<S>;
 
     /// `v_x(0,t)`.
-    fn stress(&self, time: &S, side: Side) -> Found<S>;
+    fn strain(&self, time: &S, side: Side) -> Found<S>;
 
     /// `h` and `h′`.
     fn centre(&self, rod: &Parameters<S>, time: &S) -> All<S, 2>;
@@ -171,8 +171,8 @@ impl<S: System> Account<S> for ByHistory<'_, S> {
         }
     }
 
-    fn stress(&self, time: &S, side: Side) -> Found<S> {
-        Ok(carried(self.asked(self.0.stress(time, side))?))
+    fn strain(&self, time: &S, side: Side) -> Found<S> {
+        Ok(carried(self.asked(self.0.strain(time, side))?))
     }
 
     fn field(&self, point: &S, time: &S, side: Side) -> All<S, 3> {
@@ -237,8 +237,8 @@ impl<N: System + special::BoundedSpecial, F: Fn(&FirstContact<N>) -> Bounce<N>> 
         }
     }
 
-    fn stress(&self, time: &N, side: Side) -> Found<N> {
-        Ok(carried(self.contact.stress(time, side)))
+    fn strain(&self, time: &N, side: Side) -> Found<N> {
+        Ok(carried(self.contact.strain(time, side)))
     }
 
     fn field(&self, point: &N, time: &N, side: Side) -> All<N, 3> {
@@ -283,11 +283,11 @@ fn found(release: Option<f64>) -> Found<f64> {
 
 impl Account<f64> for Modal<f64> {
     fn release(&self, rod: &Parameters<f64>) -> Found<f64> {
-        found(formulas::first_release(rod.round_trip(), LOOKS, |t, side| *Estimate::value(&self.stress(&t, side))))
+        found(formulas::first_release(rod.round_trip(), LOOKS, |t, side| *Estimate::value(&self.strain(&t, side))))
     }
 
-    fn stress(&self, time: &f64, side: Side) -> Found<f64> {
-        Ok(double(self.stress(time, side)))
+    fn strain(&self, time: &f64, side: Side) -> Found<f64> {
+        Ok(double(self.strain(time, side)))
     }
 
     fn field(&self, point: &f64, time: &f64, side: Side) -> All<f64, 3> {
@@ -310,8 +310,8 @@ impl Account<f64> for Printed {
         found(self.release(rod.round_trip(), LOOKS))
     }
 
-    fn stress(&self, time: &f64, _: Side) -> Found<f64> {
-        Ok(Bounded::unbounded(self.stress(*time)))
+    fn strain(&self, time: &f64, _: Side) -> Found<f64> {
+        Ok(Bounded::unbounded(self.strain(*time)))
     }
 
     fn height(&self, _: &Parameters<f64>, time: &f64) -> Found<f64> {
@@ -332,8 +332,8 @@ impl<S: System + PartialOrd> Account<S> for UndampedContact<S> {
         Ok(Bounded::exact(self.bounce_time()))
     }
 
-    fn stress(&self, time: &S, side: Side) -> Found<S> {
-        Ok(Bounded::exact(self.stress(time, side)))
+    fn strain(&self, time: &S, side: Side) -> Found<S> {
+        Ok(Bounded::exact(self.strain(time, side)))
     }
 
     fn centre(&self, _: &Parameters<S>, time: &S) -> All<S, 2> {
@@ -383,7 +383,7 @@ impl Account<f64> for Marched {
         last.ok_or_else(|| NoAnswer::gave_up("no event found"))
     }
 
-    fn stress(&self, _: &f64, _: Side) -> Found<f64> {
+    fn strain(&self, _: &f64, _: Side) -> Found<f64> {
         Ok(Bounded::unbounded(self.stress))
     }
 

@@ -247,7 +247,7 @@ impl Question {
             LastEvent => motion.last_event(rod),
             Impact => motion.event_near(EventKind::Impact, time()?.to_f64()),
             Release => motion.event_near(EventKind::Release, time()?.to_f64()),
-            Stress => motion.stress(&time()?, side),
+            Stress => motion.strain(&time()?, side),
             Displacement => field(0),
             Velocity => field(1),
             Strain => field(2),

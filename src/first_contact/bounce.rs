@@ -2,7 +2,8 @@
 
 use super::cells::Search;
 use super::field::FirstContact;
-use super::outcome::{Bounce, BounceKind, Doubt, NoBounceReason};
+use super::outcome::{Bounce, BounceKind};
+use crate::reason::{Doubt, NoBounceReason};
 use crate::special::BoundedSpecial;
 
 /// Cells `(k t₁, (k+1) t₁)` that are searched.

@@ -30,11 +30,6 @@ pub fn show<S: Scalar>(x: &S, digits: u32) -> String {
     if known.is_nan() || known < 1.0 { "0".into() } else { x.decimal(digits.min(known as u32)) }
 }
 
-/// The bound of a number's error to two digits, rounded up: `3.1e-14`; `0` where it is exact.
-pub fn bound_text<S: Scalar>(x: &S) -> String {
-    bound_of_log2(x.log2_error())
-}
-
 /// The bound of the error of the shortest text that reads as the same double, which may be half a unit of the last bit
 /// off that double; `0` where the double is exact.
 pub fn double_bound_text<S: Scalar>(x: &S) -> String {
@@ -61,6 +56,7 @@ fn with_rounding<S: Scalar>(x: &S, rounding: f64) -> String {
     bound_of_log2(most + (least - most).exp2().ln_1p() / std::f64::consts::LN_2)
 }
 
+/// A bound to two digits, rounded up: `3.1e-14`; `0` where the number is exact.
 fn bound_of_log2(log2: f64) -> String {
     let log10 = log2 * std::f64::consts::LOG10_2;
     if log10 == f64::NEG_INFINITY {
@@ -89,8 +85,7 @@ mod tests {
         assert_eq!(show(&around(2.0, 9e-6), 20), "2.0000");
         assert_eq!(show(&around(2.0, 3.0), 20), "0");
         assert_eq!(show(&around(0.0, 1e-20), 20), "0");
-        assert_eq!(bound_text(&crate::number::Estimate::new(1.0f64, 3.0)), "3.4e-16");
-        assert_eq!(bound_text(&crate::number::Estimate::exact(1.0f64)), "0");
+        assert_eq!(bound_of_log2(crate::number::Estimate::new(1.0f64, 3.0).log2_error()), "3.4e-16");
         // 1 + ε with a bound of one rounding: ε/2 and, for the text, another.
         assert_eq!(double_bound_text(&crate::number::Estimate::new(1.0f64 + f64::EPSILON, 1.0)), "2.3e-16");
         assert_eq!(double_bound_text(&crate::number::Estimate::exact(1.0f64)), "0");

@@ -58,7 +58,7 @@ pub fn history_csv<S: Scalar>(record: &Record<S>, part: Part, head: &Head) -> Re
             &["from", "to", "left", "right"]
         }
     };
-    write(header, rows)
+    write(head, header, rows)
 }
 
 /// Samples.
@@ -73,15 +73,19 @@ pub fn samples_csv<S: Scalar>(samples: &[Sample<S>], quantity: Quantity, head: &
         let place = [show(&sample.time), sample.point.as_ref().map_or_else(String::new, show), sample.side.to_string()];
         place.into_iter().chain(sample.values.iter().map(show)).chain(sample.values.iter().map(bound)).collect()
     });
-    write(&header, rows.collect())
+    write(head, &header, rows.collect())
 }
 
-fn write(header: &[&str], rows: Vec<Vec<String>>) -> Result<String, csv::Error> {
+/// Lines that begin with `#`, which readers of CSV skip, for what the numbers do not say; then header and rows.
+fn write(head: &Head, header: &[&str], rows: Vec<Vec<String>>) -> Result<String, csv::Error> {
+    let end = head.exact_until.as_ref().map(|end| format!("# {end}; the numbers are {}\n", head.number));
+    let warnings = head.warnings.iter().map(|warning| format!("# warning: {warning}\n"));
+    let comments: String = end.into_iter().chain(warnings).collect();
     let mut writer = csv::Writer::from_writer(Vec::new());
     writer.write_record(header)?;
     for row in rows {
         writer.write_record(row)?;
     }
     let bytes = writer.into_inner().map_err(|error| csv::Error::from(error.into_error()))?;
-    Ok(String::from_utf8_lossy(&bytes).into_owned())
+    Ok(comments + &String::from_utf8_lossy(&bytes))
 }

@@ -5,6 +5,7 @@ use serde_json::{Value, json};
 use super::record::{Finished, Head, Quantity, Record, Sample, bound_json, json as number_json};
 use crate::motion::Ending;
 use crate::number::Scalar;
+use crate::solve::ExactnessEnd;
 
 /// The JSON Schema of [`history_json`] and [`samples_json`].
 pub const SCHEMA: &str = include_str!("schema.json");
@@ -89,7 +90,7 @@ pub fn history_json<S: Scalar>(record: &Record<S>, head: &Head) -> Value {
         "title": head.title,
         "number": head.number,
         "effects": head.effects,
-        "exact_until": head.exact_until.as_ref().map(exactness_json),
+        "exact_until": head.exact_until.as_ref().map(exact_until_json),
         "events": events.collect::<Vec<_>>(),
         "contacts": contacts.collect::<Vec<_>>(),
         "flights": flights.collect::<Vec<_>>(),
@@ -97,7 +98,7 @@ pub fn history_json<S: Scalar>(record: &Record<S>, head: &Head) -> Value {
         "end": ending_json(&record.end.1, number(&record.end.0)),
         "error_estimate": record.error,
         "digits_lost": record.lost.map(|(_, digits)| digits),
-        "warnings": head.warnings,
+        "warnings": warnings_json(head),
     })
 }
 
@@ -112,6 +113,17 @@ fn ending_json(ending: &Ending, time: Value) -> Value {
         }
         other => json!({"time": time, "reason": other.to_string()}),
     }
+}
+
+fn exact_until_json(end: &ExactnessEnd) -> Value {
+    match end {
+        ExactnessEnd::Event(ending) => exactness_json(ending),
+        parameter => json!({"reason": parameter.to_string()}),
+    }
+}
+
+fn warnings_json(head: &Head) -> Vec<String> {
+    head.warnings.iter().map(ToString::to_string).collect()
 }
 
 /// The event at no fraction, before which exactness ends.
@@ -144,7 +156,8 @@ pub fn samples_json<S: Scalar>(samples: &[Sample<S>], quantity: Quantity, head: 
         "title": head.title,
         "number": head.number,
         "quantity": quantity.name(),
-        "exact_until": head.exact_until.as_ref().map(exactness_json),
+        "exact_until": head.exact_until.as_ref().map(exact_until_json),
         "rows": rows.collect::<Vec<_>>(),
+        "warnings": warnings_json(head),
     })
 }

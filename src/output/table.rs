@@ -4,7 +4,7 @@ use comfy_table::{CellAlignment, ContentArrangement, LineStyle, Table, presets};
 
 use super::record::{Finished, Head, Quantity, Record, Sample};
 use crate::motion::Ending;
-use crate::number::{Scalar, bound_text, show};
+use crate::number::{Scalar, show, shown_bound_text};
 
 /// A table with a header; numbers stand to the right.
 pub fn table(header: &[&str], rows: Vec<Vec<String>>, words: usize) -> String {
@@ -73,9 +73,14 @@ fn blocks(header: &[&str], rows: &[Vec<String>]) -> String {
 /// Significant digits of a double in a table.
 const TABLE_DIGITS: u32 = 12;
 
+/// Significant digits of a number in a table.
+fn digits(head: &Head) -> u32 {
+    if head.digits == 0 { TABLE_DIGITS } else { head.digits }
+}
+
 /// A number in a table.
 fn cell<S: Scalar>(x: &S, head: &Head) -> String {
-    show(x, if head.digits == 0 { TABLE_DIGITS } else { head.digits })
+    show(x, digits(head))
 }
 
 /// What the symbols of the tables mean.
@@ -83,7 +88,7 @@ pub const LEGEND: &str = "\
 time           t, from the first touch of the ground
 v_t(0,t)       velocity of the lower end: just before an impact, just after a release
 h, h′          the centre of mass, from where it is in the undeformed rod on the ground, and its velocity
-±              how far the time may be off
+±              how far the time may be off as it is printed
 impulse        −c² ∫ v_x(0,t) dt over the contact: momentum from the ground, per linear density ρS
 peak v_x(0,t)  the most compressive strain at the ground
 e_P            −P(to)/P(from): the momentum coefficient of restitution
@@ -121,7 +126,7 @@ pub fn history_table<S: Scalar>(record: &Record<S>, head: &Head) -> String {
     let events = record.events.iter().map(|event| {
         let mut row: Vec<String> = std::iter::once(event.kind.to_string()).chain(event.numbers().map(show)).collect();
         if uncertain {
-            row.insert(2, bound_text(&event.time));
+            row.insert(2, shown_bound_text(&event.time, digits(head)));
         }
         row
     });
@@ -174,10 +179,16 @@ pub fn history_table<S: Scalar>(record: &Record<S>, head: &Head) -> String {
         let each = lost / f64::from(impacts.max(1));
         out += &format!("{impacts} impacts may have lost {lost:.1} digits to rounding, {each:.2} each\n");
     }
+    out += &warnings(head);
     if head.legend {
         out += &format!("\n{LEGEND}");
     }
     out
+}
+
+/// A line for each warning.
+fn warnings(head: &Head) -> String {
+    head.warnings.iter().map(|warning| format!("warning: {warning}\n")).collect()
 }
 
 /// Below so many digits lost the table does not mention them.
@@ -199,5 +210,6 @@ pub fn samples_table<S: Scalar>(samples: &[Sample<S>], quantity: Quantity, head:
         row.extend(sample.values.iter().map(|x| cell(x, head)));
         row
     });
-    fitted(&header, &rows.collect::<Vec<_>>(), 0, head.wide) + "\n"
+    let end = head.exact_until.as_ref().map_or_else(String::new, |end| format!("{end}; these are {}\n", head.number));
+    fitted(&header, &rows.collect::<Vec<_>>(), 0, head.wide) + "\n" + &end + &warnings(head)
 }

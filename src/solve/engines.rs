@@ -6,7 +6,7 @@ use super::first_contact::bounce_within;
 use super::ladder::{Engined, Observer, Target};
 use super::long;
 use super::plan::{Engine, Plan, Rung};
-use crate::cells::{self, Damped, Joined, WithBounds};
+use crate::cells::{self, ContactThenCells, Damped, WithBounds};
 use crate::error::Error;
 use crate::first_contact::{Bounce, FirstContact};
 use crate::lattice::Undamped;
@@ -40,7 +40,7 @@ impl Target for f64 {
                     bounce = bounce_within(&contact, 1e-10);
                 }
                 let reach = if plan.engine == Engine::ClosedForm { cells::Reach::Bounce } else { cells::Reach::Run };
-                Arc::new(WithBounds::new(Joined::<f64>::solve(problem, &(), CELL_DIGITS, bounce, reach)?))
+                Arc::new(WithBounds::new(ContactThenCells::<f64>::solve(problem, &(), CELL_DIGITS, bounce, reach)?))
             }
         })
     }

@@ -5,7 +5,7 @@ use std::sync::Arc;
 use super::converted::Converted;
 use super::ladder::{Engined, Observer, Target};
 use super::plan::{Engine, Plan, Rung};
-use crate::cells::{self, Damped, Joined, WithBounds};
+use crate::cells::{self, ContactThenCells, Damped, WithBounds};
 use crate::error::Error;
 use crate::first_contact::{Bounce, ContactHistory, FirstContact};
 use crate::lattice::Undamped;
@@ -74,7 +74,7 @@ fn estimates(problem: &Problem, plan: &Plan, bits: u32, observe: &Observer) -> R
                 return Err(Error::NotDecided { what: "how the first contact ends", bits });
             }
             let reach = if plan.engine == Engine::ClosedForm { cells::Reach::Bounce } else { cells::Reach::Run };
-            Arc::new(WithBounds::new(Joined::<Float>::solve(problem, &bits, digits, bounce, reach)?))
+            Arc::new(WithBounds::new(ContactThenCells::<Float>::solve(problem, &bits, digits, bounce, reach)?))
         }
     })
 }

@@ -88,7 +88,7 @@ proptest! {
         for t in times(&history, 12) {
             for side in [Side::Left, Side::Right] {
                 let (height, velocity) = history.ground_end(&t, side).unwrap();
-                let stress = history.stress(&t, side).unwrap();
+                let stress = history.strain(&t, side).unwrap();
                 prop_assert!(height >= -error * rise, "v = {height:e} at {t}");
                 prop_assert!(stress <= error * strain, "v_x = {stress:e} at {t}");
                 prop_assert!((height * stress).abs() <= error * rise * strain, "v v_x at {t}");

@@ -1,12 +1,12 @@
 //! The bounce time: the reference, thresholds, and where doubles lose their digits.
 
 use dalembert::Number;
-use dalembert::first_contact::{Bounce, BounceKind, FirstContact, NoBounceReason};
 use dalembert::motion::Side;
 use dalembert::number::Estimate;
 use dalembert::problem::Parameters;
 use dalembert::solve::bounce_within;
 use dalembert::special::RoundedSpecial;
+use dalembert::{Bounce, BounceKind, FirstContact, NoBounceReason};
 use serde_json::Value;
 
 type Contact<S> = FirstContact<Estimate<S>>;
@@ -125,7 +125,7 @@ fn lost_digits_are_noticed_and_fetched() {
             other => panic!("{other:?}"),
         }
     };
-    let plain = rod(3.135, 0.0, 0.5, 1.0).stress(&Estimate::exact(12.5), Side::Right);
+    let plain = rod(3.135, 0.0, 0.5, 1.0).strain(&Estimate::exact(12.5), Side::Right);
     let history = solved("3.135", 1e-14);
     let found = history.strain(12.5, Side::Right).unwrap();
     assert!(matches!(history.rung(), Rung::Bits(_)), "{:?}", history.rung());
@@ -222,7 +222,7 @@ proptest::proptest! {
         let contact = rod(damping.min(1.5), f64::from(u8::from(!weightless)), 1.0, 10f64.powf(speed));
         let end = match bounce_within(&contact, 1e-12) {
             Bounce::At { time, kind, .. } => {
-                let after = contact.stress(&Estimate::exact(time.value() + 1e-7), Side::Right);
+                let after = contact.strain(&Estimate::exact(time.value() + 1e-7), Side::Right);
                 let dull = after.bound() > after.value().abs();
                 proptest::prop_assert!(*after.value() > 0.0 || dull, "{:?} {:?} {:?}", time, kind, after);
                 time.into_value()
@@ -234,7 +234,7 @@ proptest::proptest! {
             }
         };
         for k in 1..1000 {
-            let stress = contact.stress(&Estimate::exact(end * f64::from(k) / 1000.0), Side::Right);
+            let stress = contact.strain(&Estimate::exact(end * f64::from(k) / 1000.0), Side::Right);
             proptest::prop_assert!(*stress.value() <= stress.bound(), "{} {:?}", k, stress);
         }
     }

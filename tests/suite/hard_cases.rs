@@ -48,8 +48,8 @@ fn every_size_of_damping_and_speed() {
             for trips in [1e-8, 0.4, 1.0, 2.0, 2.5, 7.0] {
                 for side in [Side::Left, Side::Right] {
                     let name = format!("R = {damping:e}, M = {speed:e}, τ = {trips}, {side:?}");
-                    let stress = contact.stress(&known(trips), side);
-                    same(&name, &stress, &modal.stress(&trips, side));
+                    let stress = contact.strain(&known(trips), side);
+                    same(&name, &stress, &modal.strain(&trips, side));
                     assert!(stress.bound() < 1e-11 * scale, "{name}: {stress:?}");
                     let field = contact.field(&known(0.25), &known(trips), side);
                     let values = [&field.displacement, &field.velocity, &field.strain];
@@ -85,7 +85,7 @@ fn strong_damping_diffuses() {
                     truth -= 4.0 / (w * w) * slow;
                 }
             }
-            let stress = contact.stress(&known(tau), Side::Right);
+            let stress = contact.strain(&known(tau), Side::Right);
             assert!((stress.value() + truth).abs() < 2e-8 + stress.bound(), "{damping} {tau}: {stress:?} {truth}");
         }
     }
@@ -98,7 +98,7 @@ fn below_pi() {
     for damping in [2.0, 2.5, 2.9, 3.0, 3.1] {
         let found = bounce_within(&rod(damping, 0.0, 0.5, 1.0), 1e-9);
         let (time, _, _) = at(found);
-        let stress = |t: f64| Modal::new(&rod(damping, 0.0, 0.5, 1.0), 2048).stress(&t, Side::Right);
+        let stress = |t: f64| Modal::new(&rod(damping, 0.0, 0.5, 1.0), 2048).strain(&t, Side::Right);
         let (before, after) = (stress(time * (1.0 - 1e-7)), stress(time * (1.0 + 1e-7)));
         assert!(*before.value() < -before.bound() && *after.value() > after.bound(), "{damping}: {before:?} {after:?}");
     }

@@ -174,7 +174,7 @@ fn the_rod_is_compressed_until_it_leaves() {
         let contact = contact(damping, 1.0, speed);
         for k in 1..20 {
             let t = 2.0 + (time - 2.0) * f64::from(k) / 20.0;
-            let stress = contact.stress(&known(t), Side::Right);
+            let stress = contact.strain(&known(t), Side::Right);
             assert!(*stress.value() < -stress.bound(), "{damping} {t}: {stress:?}");
         }
     }

@@ -106,7 +106,7 @@ proptest! {
             for side in [Side::Left, Side::Right] {
                 // Before the start and from the next impact on the paper does not speak.
                 if (time > 0 || side == Side::Right) && (time < history.end() || side == Side::Left) {
-                    prop_assert_eq!(history.stress(&time, side).unwrap(), paper.stress(&time, side), "t = {}", time);
+                    prop_assert_eq!(history.strain(&time, side).unwrap(), paper.strain(&time, side), "t = {}", time);
                 }
             }
         }
@@ -145,7 +145,7 @@ proptest! {
         for time in times(&history, 19) {
             for side in [Side::Left, Side::Right] {
                 let (v, rate) = history.ground_end(&time, side).unwrap();
-                let stress = history.stress(&time, side).unwrap();
+                let stress = history.strain(&time, side).unwrap();
                 prop_assert!(v >= 0, "v = {} at {}", v, time);
                 prop_assert!(stress <= 0, "v_x = {} at {}", stress, time);
                 prop_assert_eq!(Rational::from(&v * &stress), 0);
@@ -332,7 +332,7 @@ fn complementarity_at_ten_thousand_times() {
             seed = seed.wrapping_mul(6364136223846793005).wrapping_add(1442695040888963407);
             let time = Rational::from((seed >> 24, 1u64 << 40)) * 400;
             let (v, _) = history.ground_end(&time, Side::Right).unwrap();
-            let stress = history.stress(&time, Side::Right).unwrap();
+            let stress = history.strain(&time, Side::Right).unwrap();
             assert!(v >= 0 && stress <= 0 && Rational::from(&v * &stress) == 0, "μ = {k}, t = {time}");
             checked += 1;
         }

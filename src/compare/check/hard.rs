@@ -124,7 +124,7 @@ pub(super) const STRONG: Group = group("strong", "Damping that overflows",
     ]),
     hard("strong-1000", "(2.28)", "c = L = g = μ = 1, r = 500: R = 1000", &[
         ask("v_x(0, 5)", unit("500", "1"), Stress, "-0.08776371099830946838336668658955494142548", STRONG_ROUTES)
-            .at("5").breaks(SUM, 1, || printed(500.0, 1.0).stress(5.0)),
+            .at("5").breaks(SUM, 1, || printed(500.0, 1.0).strain(5.0)),
     ]),
 ]);
 

@@ -13,7 +13,7 @@ pub(crate) enum Family {
     /// The lattice: undamped, from event to event.
     Lattice,
     /// What the plan of a damped scene does: the closed form of the first contact, then cells.
-    Joined,
+    ContactThenCells,
     /// Characteristic cells from the start.
     Cells,
     /// The modal sum.
@@ -32,7 +32,7 @@ impl Family {
         match self {
             Family::ClosedForm => "closed form",
             Family::Lattice => "lattice",
-            Family::Joined => "closed form, then cells",
+            Family::ContactThenCells => "closed form, then cells",
             Family::Cells => "cells",
             Family::Modes => "modal sum",
             Family::Printed => "printed integrals",
@@ -90,10 +90,10 @@ pub(super) fn ladders(question: &Question, plan: &Plan) -> (Vec<Ladder>, Vec<(Fa
     let family = match plan.engine {
         Engine::Lattice => Family::Lattice,
         Engine::ClosedForm => Family::ClosedForm,
-        Engine::ClosedFormThenCells | Engine::Cells => Family::Joined,
+        Engine::ClosedFormThenCells | Engine::Cells => Family::ContactThenCells,
     };
     if family == Family::Lattice {
-        take(Family::Joined, Err("the scene has no damping: the plan takes the lattice".into()));
+        take(Family::ContactThenCells, Err("the scene has no damping: the plan takes the lattice".into()));
     } else {
         take(Family::Lattice, Err("the scene has damping, which couples the characteristics".into()));
     }

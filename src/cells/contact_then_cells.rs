@@ -7,6 +7,7 @@ use crate::first_contact::{Bounce, ContactHistory, FirstContact};
 use crate::motion::{Contact, Ending, Energy, Event, Field, Motion, Scales, Side, StressPiece};
 use crate::number::Estimate;
 use crate::problem::{Parameters, Problem, Run};
+use crate::reason::{Reason, Warning};
 use crate::special::RoundedSpecial;
 
 /// The damped rod that starts as the paper's does, through any number of impacts: [`ContactHistory`] as long as the
@@ -19,7 +20,7 @@ use crate::special::RoundedSpecial;
 ///
 /// **Accuracy**: within [`Motion::error_estimate`] of the natural scales.
 #[derive(Clone, Debug)]
-pub struct Joined<S> {
+pub struct ContactThenCells<S> {
     contact: ContactHistory<Estimate<S>>,
     rod: Parameters<S>,
     /// `t_b`.
@@ -49,7 +50,7 @@ fn pair<S>((a, b): (Estimate<S>, Estimate<S>)) -> (S, S) {
     (a.into_value(), b.into_value())
 }
 
-impl<S: RoundedSpecial> Joined<S> {
+impl<S: RoundedSpecial> ContactThenCells<S> {
     /// Follows `problem`, whose first contact ends as `bounce` says, to about `digits` decimal digits of the natural
     /// scales, and no farther than `reach`.
     ///
@@ -72,7 +73,7 @@ impl<S: RoundedSpecial> Joined<S> {
         let bounce = events.get(1).map(|release| release.time.clone());
         let time_error = events.get(1).map_or(0.0, |release| release.time_error);
         let round_trip = rod.round_trip();
-        let mut joined = Joined {
+        let mut history = ContactThenCells {
             error: round_trip.double(17.0) * round_trip.roundoff() + round_trip.double(time_error) / &round_trip,
             end: contact.end().into_value(),
             ending: contact.ending().clone(),
@@ -84,17 +85,15 @@ impl<S: RoundedSpecial> Joined<S> {
             rod,
             digits,
         };
-        joined.follow(problem, precision, reach)?;
-        Ok(joined)
+        history.follow(problem, precision, reach)?;
+        Ok(history)
     }
 
     /// The flight and all that comes after it, from the cells.
     fn follow(&mut self, problem: &Problem, precision: &S::Precision, reach: Reach) -> Result<(), Error> {
         let (Some(bounce), Reach::Run) = (self.bounce.clone(), reach) else { return Ok(()) };
         if self.digits > MOST_MARCHED {
-            self.ending = Ending::Undecided(format!(
-                "beyond {MOST_MARCHED} digits only the first contact is computed, not the flight after it"
-            ));
+            self.ending = Ending::Undecided(Reason::MostDigits(MOST_MARCHED as u32));
             return Ok(());
         }
         let release = (&bounce, self.events[1].time_error, &self.events[1].end_velocity);
@@ -136,7 +135,7 @@ impl<S: RoundedSpecial> Joined<S> {
     }
 }
 
-impl<S: RoundedSpecial> Motion<S> for Joined<S> {
+impl<S: RoundedSpecial> Motion<S> for ContactThenCells<S> {
     fn end(&self) -> S {
         self.end.clone()
     }
@@ -171,11 +170,11 @@ impl<S: RoundedSpecial> Motion<S> for Joined<S> {
         pieces
     }
 
-    fn stress(&self, time: &S, side: Side) -> Result<S, Error> {
+    fn strain(&self, time: &S, side: Side) -> Result<S, Error> {
         if self.in_contact(time, side)? || self.at_bounce(time) {
-            return Ok(self.contact.stress(&time.carry(), side)?.into_value());
+            return Ok(self.contact.strain(&time.carry(), side)?.into_value());
         }
-        self.later()?.stress(time, side)
+        self.later()?.strain(time, side)
     }
 
     fn ground_end(&self, time: &S, side: Side) -> Result<(S, S), Error> {
@@ -233,7 +232,7 @@ impl<S: RoundedSpecial> Motion<S> for Joined<S> {
         self.error.clone()
     }
 
-    fn warnings(&self) -> &[String] {
+    fn warnings(&self) -> &[Warning] {
         self.march.as_ref().map_or(&[], |march| march.warnings())
     }
 }
