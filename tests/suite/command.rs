@@ -6,13 +6,13 @@ use std::process::{Command, Stdio};
 use serde_json::Value;
 
 /// What a run of the command left.
-struct Run {
-    code: Option<i32>,
-    out: String,
-    err: String,
+pub(crate) struct Run {
+    pub(crate) code: Option<i32>,
+    pub(crate) out: String,
+    pub(crate) err: String,
 }
 
-fn run_with(args: &[&str], input: &str) -> Run {
+pub(crate) fn run_with(args: &[&str], input: &str) -> Run {
     let mut child = Command::new(env!("CARGO_BIN_EXE_dalembert"))
         .args(args)
         .stdin(Stdio::piped())
@@ -27,13 +27,13 @@ fn run_with(args: &[&str], input: &str) -> Run {
     Run { code: output.status.code(), out: text(output.stdout), err: text(output.stderr) }
 }
 
-fn run(args: &[&str]) -> Run {
+pub(crate) fn run(args: &[&str]) -> Run {
     run_with(args, "")
 }
 
 /// The standard output of a run that succeeds without a word on standard error.
 #[track_caller]
-fn quiet(args: &[&str]) -> String {
+pub(crate) fn quiet(args: &[&str]) -> String {
     let Run { code, out, err } = run(args);
     assert_eq!((code, err.as_str()), (Some(0), ""), "{args:?}");
     assert!(!out.contains('\u{1b}'), "{args:?}: colour off a terminal");
@@ -42,12 +42,12 @@ fn quiet(args: &[&str]) -> String {
 
 /// A run that is refused: code 2, nothing on standard output, all of `said` on standard error.
 #[track_caller]
-fn refused(args: &[&str], said: &[&str]) {
+pub(crate) fn refused(args: &[&str], said: &[&str]) {
     refused_with(args, "", said);
 }
 
 #[track_caller]
-fn refused_with(args: &[&str], input: &str, said: &[&str]) {
+pub(crate) fn refused_with(args: &[&str], input: &str, said: &[&str]) {
     let Run { code, out, err } = run_with(args, input);
     assert_eq!((code, out.as_str()), (Some(2), ""), "{args:?}: {err}");
     assert!(!err.contains('\u{1b}'), "{args:?}: colour off a terminal");
@@ -58,7 +58,7 @@ fn refused_with(args: &[&str], input: &str, said: &[&str]) {
     }
 }
 
-fn json(args: &[&str]) -> Value {
+pub(crate) fn json(args: &[&str]) -> Value {
     serde_json::from_str(&quiet(args)).unwrap()
 }
 

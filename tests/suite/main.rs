@@ -11,6 +11,8 @@ mod certified_undamped;
 mod check_catalogue;
 #[cfg(feature = "cli")]
 mod command;
+#[cfg(feature = "cli")]
+mod command_data;
 mod common;
 #[cfg(feature = "cli")]
 mod cost_measured;
