@@ -50,6 +50,11 @@ pub(crate) trait Account<S: System> {
         not_given()
     }
 
+    /// The length of the shortest piece of the stress history.
+    fn shortest_piece(&self) -> Found<S> {
+        not_given()
+    }
+
     /// The last impact or release.
     fn last_event(&self, rod: &Parameters<S>) -> Found<S> {
         self.release(rod)
@@ -137,7 +142,7 @@ impl<S: System> ByHistory<'_, S> {
 
     fn ended(&self) -> NoAnswer {
         match self.0.ending() {
-            open @ (Ending::Undecided(_) | Ending::ExactnessEnds { .. }) => NoAnswer::gave_up(open),
+            open @ (Ending::Undecided(_) | Ending::ExactnessEnds { .. } | Ending::Bounce) => NoAnswer::gave_up(open),
             ending => NoAnswer::none(ending.to_string()),
         }
     }
@@ -208,27 +213,31 @@ impl<S: System> Account<S> for ByHistory<'_, S> {
         let (time, height) = top.ok_or_else(|| NoAnswer::none("no top"))?;
         Ok([carried(time), carried(height)])
     }
+
+    fn shortest_piece(&self) -> Found<S> {
+        let lengths = self.0.stress_pieces().into_iter().map(|piece| piece.to - &piece.from);
+        let shortest = lengths.min_by(|a, b| a.to_f64().total_cmp(&b.to_f64()));
+        shortest.map(carried).ok_or_else(|| self.ended())
+    }
 }
 
 /// The closed form of the first contact, and of the flight after it.
-pub(crate) struct ByClosedForm<N, F> {
+pub(crate) struct ByClosedForm<N> {
     contact: FirstContact<N>,
-    search: F,
     bounce: OnceCell<Bounce<N>>,
 }
 
-impl<N: System + special::BoundedSpecial, F: Fn(&FirstContact<N>) -> Bounce<N>> ByClosedForm<N, F> {
-    /// `search` finds the bounce, if a quantity needs it.
-    pub(crate) fn new(rod: &Parameters<N>, search: F) -> Self {
-        ByClosedForm { contact: FirstContact::new(rod), search, bounce: OnceCell::new() }
+impl<N: System + special::BoundedSpecial> ByClosedForm<N> {
+    pub(crate) fn new(rod: &Parameters<N>) -> Self {
+        ByClosedForm { contact: FirstContact::new(rod), bounce: OnceCell::new() }
     }
 
     fn bounce(&self) -> &Bounce<N> {
-        self.bounce.get_or_init(|| (self.search)(&self.contact))
+        self.bounce.get_or_init(|| self.contact.bounce())
     }
 }
 
-impl<N: System + special::BoundedSpecial, F: Fn(&FirstContact<N>) -> Bounce<N>> Account<N> for ByClosedForm<N, F> {
+impl<N: System + special::BoundedSpecial> Account<N> for ByClosedForm<N> {
     fn release(&self, _: &Parameters<N>) -> Found<N> {
         match self.bounce() {
             Bounce::At { time, .. } => Ok(carried(time.clone())),

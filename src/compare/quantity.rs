@@ -71,6 +71,9 @@ pub(crate) enum Quantity {
     /// `h_max = h(t*)`.
     #[value(skip)]
     TopHeight,
+    /// The length of the shortest piece of the stress history.
+    #[value(skip)]
+    ShortestPiece,
     /// A number that belongs to no rod; formulas alone give it.
     #[value(skip)]
     Constant,
@@ -277,6 +280,7 @@ impl Question {
             }
             TopTime => motion.top().map(|[time, _]| time),
             TopHeight => motion.top().map(|[_, height]| height),
+            ShortestPiece => motion.shortest_piece(),
             Constant => Err(NoAnswer::none("it belongs to no rod")),
         }
     }

@@ -26,7 +26,7 @@ fn scene(random: &mut impl FnMut() -> f64) -> Problem {
 /// Both histories; `None` where the first contact does not end, or a march is refused as too long.
 fn both(problem: &Problem) -> Option<(Damped<f64>, ContactThenCells<f64>)> {
     let rod = Parameters::<f64>::of(problem, &()).unwrap();
-    let bounce = dalembert::solve::bounce_within(&FirstContact::new(&rod.carry()), 1e-13);
+    let bounce = FirstContact::new(&rod.carry()).bounce();
     if !matches!(bounce, Bounce::At { .. }) {
         return None;
     }

@@ -5,7 +5,6 @@ use crate::common::{close, uniform};
 use dalembert::cells::{ContactThenCells, Damped, Reach};
 use dalembert::first_contact::FirstContact;
 use dalembert::problem::{Parameters, Profile, Run, Start, Top};
-use dalembert::solve::bounce_within;
 use dalembert::{Ending, Error, Motion, Number, Problem, Side};
 
 /// `c = L = 1`.
@@ -132,7 +131,7 @@ fn a_contact_without_end_is_known_at_all_times() {
     for (gravity, damping) in [("1", "1.8"), ("1", "1.2"), ("0", "1.8")] {
         let problem = rod(gravity, "1/2", damping, 1_000_000);
         let parameters = Parameters::<f64>::of(&problem, &()).unwrap();
-        let bounce = bounce_within(&FirstContact::new(&parameters.carry()), 1e-12);
+        let bounce = FirstContact::new(&parameters.carry()).bounce();
         let history = ContactThenCells::<f64>::solve(&problem, &(), 13.0, bounce, Reach::Run).unwrap();
         assert!(matches!(history.ending(), Ending::NoBounce(_)), "{:?}", history.ending());
         let g = parameters.gravity;
@@ -141,7 +140,7 @@ fn a_contact_without_end_is_known_at_all_times() {
     }
     // Too slow: after 256 round trips it still moves.
     let problem = rod("0", "1", "1e4", 1_000_000);
-    let bounce = bounce_within(&FirstContact::new(&Parameters::<f64>::of(&problem, &()).unwrap().carry()), 1e-12);
+    let bounce = FirstContact::new(&Parameters::<f64>::of(&problem, &()).unwrap().carry()).bounce();
     let history = ContactThenCells::<f64>::solve(&problem, &(), 13.0, bounce, Reach::Run).unwrap();
     assert_eq!(history.end(), 512.0);
 }

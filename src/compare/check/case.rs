@@ -10,9 +10,10 @@ use crate::compare::route::{LongFormula, Numbers, Route};
 use crate::compare::truth::Truth;
 use crate::compare::value::NoAnswer;
 use crate::motion::Side;
-use crate::number::{Number, NumberError};
+use crate::number::Number;
 use crate::paper::Printed;
 use crate::problem::{Parameters, Problem, Run};
+use crate::scene::Scene;
 
 pub(super) type Text = &'static str;
 
@@ -31,11 +32,13 @@ pub(crate) struct Rod {
     pub(super) speed: Text,
     /// Followed to this time; empty: through the first contact and the flight after it.
     pub(super) until: Text,
+    /// A whole scene in place of all that; empty without one.
+    pub(super) scene: Text,
 }
 
 /// `c = L = g = 1`.
 pub(super) const fn unit(damping: Text, speed: Text) -> Rod {
-    Rod { length: "1", wave_speed: "1", damping, gravity: "1", speed, until: "" }
+    Rod { length: "1", wave_speed: "1", damping, gravity: "1", speed, until: "", scene: "" }
 }
 
 impl Rod {
@@ -49,7 +52,15 @@ impl Rod {
         Rod { until, ..self }
     }
 
-    fn problem(&self) -> Result<Problem, NumberError> {
+    /// The rod of a scene.
+    pub(super) const fn of(scene: Text) -> Rod {
+        Rod { scene, ..unit("0", "1") }
+    }
+
+    fn problem(&self) -> Result<Problem, NoAnswer> {
+        if !self.scene.is_empty() {
+            return Scene::parse(self.scene).map(|scene| scene.problem).map_err(NoAnswer::gave_up);
+        }
         let number = |text: &str| text.parse::<Number>();
         let (gravity, speed) = (number(self.gravity)?, number(self.speed)?);
         let mut problem = Problem::uniform(number(self.length)?, number(self.wave_speed)?, gravity, speed);
@@ -142,7 +153,7 @@ impl Entry {
         self
     }
 
-    fn question(&self) -> Result<Question, NumberError> {
+    fn question(&self) -> Result<Question, NoAnswer> {
         let number = |text: &str| (!text.is_empty()).then(|| text.parse::<Number>()).transpose();
         let (problem, quantity, limit) = (self.rod.problem()?, self.quantity, self.limit);
         let (point, time) = (number(self.place.0)?, number(self.place.1)?);
@@ -154,7 +165,7 @@ impl Entry {
 
     fn check(&self) -> CheckedQuestion {
         let truth = Truth::spelt(self.truth);
-        let question = self.question().map_err(NoAnswer::from);
+        let question = self.question();
         let routes = self.formulas.iter().flatten().chain(self.routes);
         let rows = routes.filter(|(route, _)| long::AVAILABLE || !route.is_long()).map(|(route, promise)| {
             let start = Instant::now();
@@ -170,7 +181,6 @@ fn name(route: Route) -> String {
     match route {
         Route::Formula(what, _) => format!("{what}, plain doubles"),
         Route::LongFormula(what, digits, _) => format!("{what}, {digits} digits"),
-        Route::ClosedForm(Numbers::Double(Some(accuracy))) => format!("closed form within {accuracy:e}"),
         Route::ClosedForm(Numbers::Digits(digits)) => format!("closed form, {digits} digits"),
         Route::ClosedForm(_) => "closed form, doubles".into(),
         Route::PrintedForms => "printed form, fractions".into(),
@@ -196,6 +206,7 @@ pub(super) const CELLS: Route = Route::Cells(13);
 pub(super) const PRINTED: Promised = (Route::PrintedForms, Promise::Exact);
 pub(super) const DIGITS: Promised = (Route::Planned(Numbers::Digits(36)), Promise::Digits(36));
 pub(super) const CERTIFIED: Route = Route::Planned(Numbers::Certified(36));
+pub(super) const PLANNED: Route = Route::Planned(Numbers::Double(None));
 pub(super) const PROVED: Promised = (CERTIFIED, Promise::Enclosed(36));
 
 /// Values during a contact.
@@ -204,7 +215,7 @@ pub(super) const CONTACT: &[Promised] =
 /// That there is no bounce.
 pub(super) const NEVER: &[Promised] = &[
     (CLOSED, Promise::Digits(0)),
-    (closed_within(1e-12), Promise::Digits(0)),
+    (accuracy(1e-12), Promise::Digits(0)),
     (closed(50), Promise::Digits(0)),
     (CERTIFIED, Promise::Digits(0)),
 ];
@@ -212,11 +223,6 @@ pub(super) const NEVER: &[Promised] = &[
 /// The closed form in so many digits.
 pub(super) const fn closed(digits: u32) -> Route {
     Route::ClosedForm(Numbers::Digits(digits))
-}
-
-/// The closed form in doubles, or in longer numbers where they do not reach this accuracy.
-pub(super) const fn closed_within(accuracy: f64) -> Route {
-    Route::ClosedForm(Numbers::Double(Some(accuracy)))
 }
 
 /// What `--accuracy` does.
@@ -292,12 +298,13 @@ pub(crate) struct Checked {
 }
 
 /// All groups, in the order in which they are shown.
-pub(crate) const CATALOGUE: [Group; 11] = [
+pub(crate) const CATALOGUE: [Group; 12] = [
     hard::LATE,
     hard::WEAK,
     hard::STRONG,
     hard::THRESHOLD,
     hard::LANDINGS,
+    hard::HOPS,
     hard::SMALL,
     hard::RAYS,
     section_2::SECTION_2,
