@@ -62,6 +62,17 @@ impl<S: RoundedSpecial> ContactThenCells<S> {
         bounce: Bounce<Estimate<S>>,
         reach: Reach,
     ) -> Result<Self, Error> {
+        Self::solve_observed(problem, precision, digits, (bounce, reach), &|_, _| ())
+    }
+
+    /// [`Self::solve`], observed.
+    pub(crate) fn solve_observed(
+        problem: &Problem,
+        precision: &S::Precision,
+        digits: f64,
+        (bounce, reach): (Bounce<Estimate<S>>, Reach),
+        observe: &dyn Fn(usize, usize),
+    ) -> Result<Self, Error> {
         let rod = Parameters::<S>::of(problem, precision)?;
         let asked = match &problem.run {
             Run::Time(time) => Some(S::from_number(time, precision).carry()),
@@ -85,19 +96,25 @@ impl<S: RoundedSpecial> ContactThenCells<S> {
             rod,
             digits,
         };
-        history.follow(problem, precision, reach)?;
+        history.follow(problem, precision, reach, observe)?;
         Ok(history)
     }
 
     /// The flight and all that comes after it, from the cells.
-    fn follow(&mut self, problem: &Problem, precision: &S::Precision, reach: Reach) -> Result<(), Error> {
+    fn follow(
+        &mut self,
+        problem: &Problem,
+        precision: &S::Precision,
+        reach: Reach,
+        observe: &dyn Fn(usize, usize),
+    ) -> Result<(), Error> {
         let (Some(bounce), Reach::Run) = (self.bounce.clone(), reach) else { return Ok(()) };
         if self.digits > MOST_MARCHED {
             self.ending = Ending::Undecided(Reason::MostDigits(MOST_MARCHED as u32));
             return Ok(());
         }
         let release = (&bounce, self.events[1].time_error, &self.events[1].end_velocity);
-        let march = Damped::after_bounce(problem, precision, self.digits, self.contact.form(), release)?;
+        let march = Damped::after_bounce(problem, precision, self.digits, self.contact.form(), release, observe)?;
         self.events.extend(march.events().iter().skip(1).cloned());
         self.contacts.extend(march.contacts().iter().cloned());
         let error = march.error_estimate();

@@ -238,8 +238,9 @@ impl<'a, S: RoundedSpecial> Follower<'a, S> {
         }
     }
 
-    /// Goes on until the goal.
-    pub(super) fn run(&mut self, goal: &Goal<S>) -> Result<Ending, Error> {
+    /// Goes on until the goal; `observe` receives the round trips, or the contacts where so many are asked for, and the
+    /// number of pieces.
+    pub(super) fn run(&mut self, goal: &Goal<S>, observe: &dyn Fn(usize, usize)) -> Result<Ending, Error> {
         let unit = self.height.log2_roundoff().exp2();
         let mut round = i64::MIN;
         let mut calm = None;
@@ -257,6 +258,8 @@ impl<'a, S: RoundedSpecial> Follower<'a, S> {
             }
             if self.state.round > round {
                 round = self.state.round;
+                let done = if matches!(goal, Goal::Impacts(_)) { self.landed as usize } else { round.max(0) as usize };
+                observe(done, pieces);
                 self.new_round();
                 if let Some(ending) = self.settle(goal, &mut calm) {
                     return Ok(ending);

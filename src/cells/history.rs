@@ -126,20 +126,21 @@ impl<S: RoundedSpecial> Damped<S> {
     /// **Errors**: [`Error::DampingTooStrong`] for `r t₁ > 2000`; [`Error::TooManyPieces`] beyond 400 000 strips;
     /// [`Error::TooManyRays`] beyond 4096 segments in a round trip; [`Error::Irrational`] from the parameters.
     pub fn solve(problem: &Problem, precision: &S::Precision, digits: f64) -> Result<Self, Error> {
-        Self::solve_with(problem, precision, digits, 1)
+        Self::solve_observed(problem, precision, digits, 1, &|_, _| ())
     }
 
-    /// [`Self::solve`] with segments `shorten` times shorter than need be.
-    pub(crate) fn solve_with(
+    /// [`Self::solve`] with segments `shorten` times shorter than need be, observed.
+    pub(crate) fn solve_observed(
         problem: &Problem,
         precision: &S::Precision,
         digits: f64,
         shorten: i64,
+        observe: &dyn Fn(usize, usize),
     ) -> Result<Self, Error> {
         let (medium, data) = medium(problem, precision, digits, shorten)?;
         let goal = goal(problem, precision, &data);
         let mut follower = Follower::new(&medium, &data);
-        let ending = follower.run(&goal)?;
+        let ending = follower.run(&goal, observe)?;
         let found = Found::of(follower, ending);
         Ok(Self::record_of(medium, data, None, found, problem, precision))
     }
@@ -153,13 +154,14 @@ impl<S: RoundedSpecial> Damped<S> {
         digits: f64,
         contact: &FirstContact<Estimate<S>>,
         (time, time_error, leaves): (&S, f64, &S),
+        observe: &dyn Fn(usize, usize),
     ) -> Result<Self, Error> {
         let (medium, data) = medium(problem, precision, digits, 1)?;
         let goal = goal(problem, precision, &data);
         let held = Held::until(contact, &data, time);
         let leaves = leaves.clone() / &data.units.velocity;
         let mut follower = Follower::released(&medium, &data, &held, (leaves, time_error / data.units.time.to_f64()));
-        let ending = follower.run(&goal)?;
+        let ending = follower.run(&goal, observe)?;
         let found = Found::of(follower, ending);
         Ok(Self::record_of(medium, data, Some(held), found, problem, precision))
     }
@@ -491,8 +493,8 @@ mod tests {
     fn shorter_cells_change_nothing() {
         for damping in ["0.01", "0.3", "2.6"] {
             let problem = rod(1, 4, damping, Run::Time(Number::from(14)));
-            let coarse = Damped::<f64>::solve_with(&problem, &(), 12.0, 1).unwrap();
-            let fine = Damped::<f64>::solve_with(&problem, &(), 12.0, 5).unwrap();
+            let coarse = Damped::<f64>::solve(&problem, &(), 12.0).unwrap();
+            let fine = Damped::<f64>::solve_observed(&problem, &(), 12.0, 5, &|_, _| ()).unwrap();
             assert!(fine.pieces.len() > 4 * coarse.pieces.len() / 3);
             assert_eq!(coarse.events.len(), fine.events.len());
             for (a, b) in coarse.events.iter().zip(&fine.events) {

@@ -6,7 +6,7 @@
 //! trips at once. `root` finds events, `follow` decides what happens at the ground, `event` does it, `piece` is what
 //! remains of it, `budget` adds up what all of it may
 //! be off by, `rest` says when nothing more can happen, `record` gets the field back, `history` answers questions,
-//! `contact_then_cells` puts the closed form of the first contact before it, and `with_bounds` gives answers with their bounds.
+//! `contact_then_cells` puts the closed form of the first contact before it, `with_bounds` gives answers with bounds.
 
 mod bounce;
 mod budget;

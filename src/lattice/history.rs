@@ -57,7 +57,7 @@ impl<N: Bounded> Undamped<N> {
         Self::solve_within(problem, precision, Limits::default(), |_, _| ())
     }
 
-    /// [`Undamped::solve`] with a limit of one's own; `observe` is told the round trip and the pieces so far.
+    /// [`Undamped::solve`] with a limit of one's own; for `observe` see [`crate::solve::Observer`].
     pub fn solve_within(
         problem: &Problem,
         precision: &N::Precision,

@@ -8,6 +8,7 @@ mod json;
 #[cfg(feature = "plot")]
 mod picture;
 mod record;
+mod straight;
 mod table;
 
 pub(crate) use check::{check_json, check_page, check_summary, check_table};

@@ -29,7 +29,9 @@ impl Target for f64 {
                 }
                 Arc::new(history)
             }
-            Engine::Cells => Arc::new(WithBounds::new(Damped::<f64>::solve(problem, &(), CELL_DIGITS)?)),
+            Engine::Cells => {
+                Arc::new(WithBounds::new(Damped::<f64>::solve_observed(problem, &(), CELL_DIGITS, 1, &**observe)?))
+            }
             Engine::ClosedForm | Engine::ClosedFormThenCells => {
                 let rod = Parameters::<Estimate<f64>>::of(problem, &())?;
                 let contact = FirstContact::new(&rod);
@@ -41,7 +43,13 @@ impl Target for f64 {
                     bounce = by_modes(&contact, problem)?;
                 }
                 let reach = if plan.engine == Engine::ClosedForm { cells::Reach::Bounce } else { cells::Reach::Run };
-                Arc::new(WithBounds::new(ContactThenCells::<f64>::solve(problem, &(), CELL_DIGITS, bounce, reach)?))
+                Arc::new(WithBounds::new(ContactThenCells::<f64>::solve_observed(
+                    problem,
+                    &(),
+                    CELL_DIGITS,
+                    (bounce, reach),
+                    &**observe,
+                )?))
             }
         })
     }

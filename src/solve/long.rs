@@ -66,7 +66,9 @@ fn estimates(problem: &Problem, plan: &Plan, bits: u32, observe: &Observer) -> R
             }
             Arc::new(history)
         }
-        Engine::Cells => Arc::new(WithBounds::new(Damped::<Float>::solve(problem, &bits, digits)?)),
+        Engine::Cells => {
+            Arc::new(WithBounds::new(Damped::<Float>::solve_observed(problem, &bits, digits, 1, &**observe)?))
+        }
         Engine::ClosedForm | Engine::ClosedFormThenCells => {
             let rod = Parameters::<Estimate<Float>>::of(problem, &bits)?;
             let bounce = FirstContact::new(&rod).bounce();
@@ -74,7 +76,13 @@ fn estimates(problem: &Problem, plan: &Plan, bits: u32, observe: &Observer) -> R
                 return Err(Error::NotDecided { what: "how the first contact ends", bits });
             }
             let reach = if plan.engine == Engine::ClosedForm { cells::Reach::Bounce } else { cells::Reach::Run };
-            Arc::new(WithBounds::new(ContactThenCells::<Float>::solve(problem, &bits, digits, bounce, reach)?))
+            Arc::new(WithBounds::new(ContactThenCells::<Float>::solve_observed(
+                problem,
+                &bits,
+                digits,
+                (bounce, reach),
+                &**observe,
+            )?))
         }
     })
 }

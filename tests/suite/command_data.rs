@@ -57,3 +57,58 @@ fn every_format_says_where_fractions_end() {
     assert!(of("csv").starts_with(&format!("# {said}; the numbers are 12 digits\n")), "{}", of("csv"));
     assert!(of("table").ends_with(&format!("{said}; these are 12 digits\n")), "{}", of("table"));
 }
+
+/// The pieces of a CSV of the stress: its comments, and `from, to, left, right` with what stands behind them.
+fn stress(scene: &str, more: &[&str]) -> (String, Vec<([f64; 4], String)>) {
+    let Run { code, out, err } = run(&[&["solve", scene, "--format", "csv", "--part", "stress"], more].concat());
+    assert_eq!((code, err.as_str()), (Some(0), ""));
+    let (comments, rows): (Vec<&str>, Vec<&str>) = out.lines().partition(|line| line.starts_with('#'));
+    let row = |row: &&str| {
+        let cells: Vec<&str> = row.split(',').collect();
+        let numbers = [0, 1, 2, 3].map(|k| cells[k].parse().unwrap());
+        (numbers, cells.get(4).map_or_else(String::new, ToString::to_string))
+    };
+    assert!(rows[0].starts_with("from,to,left,right"));
+    (comments.join("\n"), rows[1..].iter().map(row).collect())
+}
+
+/// Straight lines between the rows, and the Chebyshev sums, against the closed form asked at times of its own.
+#[test]
+fn the_stress_of_a_damped_rod_can_be_drawn_from_its_csv() {
+    let history = dalembert::Scene::parse(dalembert::scene::builtin::get("figure-4-r02").unwrap().source)
+        .unwrap()
+        .problem
+        .solve()
+        .unwrap();
+    let (said, lines) = stress("figure-4-r02", &[]);
+    assert!(said.contains("within 1e-6 of the greatest v_x(0,t); --coefficients"), "{said}");
+    let (said, curves) = stress("figure-4-r02", &["--coefficients"]);
+    assert!(said.contains("T_k(x)"), "{said}");
+    let peak = lines.iter().flat_map(|(row, _)| [row[2].abs(), row[3].abs()]).fold(0.0, f64::max);
+    let end = history.end();
+    let (mut curved, mut off) = (0, 0.0f64);
+    for k in 1..2000 {
+        let time = end * f64::from(k) / 2000.0;
+        let truth = history.strain(time, dalembert::Side::Right).unwrap();
+        let find = |rows: &[([f64; 4], String)]| {
+            let row = rows.iter().find(|([from, to, ..], _)| *from <= time && time < *to).unwrap().clone();
+            let share = (time - row.0[0]) / (row.0[1] - row.0[0]);
+            (row, share)
+        };
+        let (([_, _, left, right], _), share) = find(&lines);
+        off = off.max((left + (right - left) * share - truth).abs());
+        let (([_, _, left, right], series), share) = find(&curves);
+        let (angle, mut sum) = ((2.0 * share - 1.0).clamp(-1.0, 1.0).acos(), left + (right - left) * share);
+        if !series.is_empty() {
+            curved += 1;
+            let terms = series.split(' ').enumerate();
+            sum = terms.map(|(k, c)| c.parse::<f64>().unwrap() * (k as f64 * angle).cos()).sum();
+        }
+        assert!((sum - truth).abs() <= 1e-9 * peak, "{time}: {sum} {truth}");
+    }
+    assert!(curved > 100 && off <= 1e-6 * peak && off > 1e-8 * peak, "{curved} {off:e} {peak}");
+    assert!(lines.len() < 3000, "{}", lines.len());
+    let refused = run(&["solve", "figure-4-r02", "--coefficients"]);
+    assert_eq!(refused.code, Some(2));
+    assert!(refused.err.contains("expected it with --part stress only"), "{}", refused.err);
+}

@@ -37,6 +37,8 @@ mod hard_cases;
 mod number_interval;
 mod paper_claims;
 mod problem_builder;
+#[cfg(feature = "mp")]
+mod same_value;
 mod scene_builtin;
 mod scene_errors;
 mod scene_properties;
