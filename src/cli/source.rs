@@ -118,10 +118,10 @@ impl Progress {
     pub(super) fn observer(&self) -> Observer {
         let (bar, calls) = (self.bar.clone(), AtomicUsize::new(0));
         Arc::new(move |done, pieces| {
+            bar.set_position(done as u64);
             // Now and then only: a round trip can take less than a microsecond.
-            if calls.fetch_add(1, Ordering::Relaxed).is_multiple_of(64) {
+            if calls.fetch_add(1, Ordering::Relaxed).is_multiple_of(16) {
                 bar.set_message(format!("{pieces} pieces"));
-                bar.set_position(done as u64);
             }
         })
     }

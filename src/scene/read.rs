@@ -10,8 +10,9 @@ use toml::de::{DeTable, DeValue};
 use super::error::{SceneError, SceneErrorKind as Kind, position};
 use super::suggest;
 use crate::number::Number;
+use crate::problem::given::{Given, within};
 use crate::problem::profile::{Points, SHAPE};
-use crate::problem::validate::{Draft, Given, NUMBERS, within};
+use crate::problem::validate::{Draft, NUMBERS};
 use crate::problem::written::{has_unit, short};
 use crate::problem::{Problem, ProblemError, ProblemErrorKind, Top, Written};
 

@@ -10,8 +10,8 @@ use crate::motion::{Ending, Motion, Scales};
 use crate::number::{Answer, Scalar};
 use crate::problem::Problem;
 
-/// Receives from time to time how far a run is, in round trips, or in contacts where so many are asked for, and how many
-/// pieces it has.
+/// Receives from time to time how far a run is, in round trips, or in contacts where so many are asked for, and how
+/// many pieces it has.
 pub type Observer = Arc<dyn Fn(usize, usize) + Send + Sync>;
 
 /// An observer that does nothing.

@@ -112,3 +112,31 @@ fn the_stress_of_a_damped_rod_can_be_drawn_from_its_csv() {
     assert_eq!(refused.code, Some(2));
     assert!(refused.err.contains("expected it with --part stress only"), "{}", refused.err);
 }
+
+/// At t = 0 nothing is lost to rounding, and no bits are spent on it.
+#[cfg(feature = "mp")]
+#[test]
+fn the_start_in_digits() {
+    let args =
+        ["sample", "doyen-ern-piperno", "--quantity", "end", "--times", "0", "--digits", "12", "--format", "csv"];
+    assert_eq!(run(&args).out.lines().nth(1).unwrap(), "0,,right,0,-10,0,0");
+}
+
+/// L = c = μ = 1, r = 0.01, g = 0: the rod leaves at t₁ = 2, and the ray of that release comes back at 4. Asked alone
+/// or with a later time, each side is the same.
+#[test]
+fn the_last_time_of_a_damped_rod_has_its_sides() {
+    let scene = "[rod]\nlength = 1\nwave_speed = 1\ndamping = 0.01\n[impact]\nspeed = 1\n";
+    let at = |times: &str, side: &str| {
+        let args = ["sample", "-", "--quantity", "end", "--times", times, "--side", side, "--format", "csv"];
+        let out = run_with(&args, scene).out;
+        let cells: Vec<&str> = out.lines().nth(1).unwrap().split(',').collect();
+        // v_t(0,t) and its uncertainty.
+        [4, 6].map(|k| cells[k].parse::<f64>().unwrap())
+    };
+    for side in ["left", "right"] {
+        let ([alone, a], [among, b]) = (at("4", side), at("4,5", side));
+        assert!((alone - among).abs() <= a + b && a + b < 1e-10, "{side}: {alone} ± {a}, {among} ± {b}");
+    }
+    assert!((at("4", "left")[0] - at("4", "right")[0]).abs() > 1e-4);
+}

@@ -1,6 +1,7 @@
 //! Where double precision breaks.
 
 use super::case::*;
+use super::verdict::NO_BOUNCE;
 use super::verdict::Promise::{Bound, Digits, Exact};
 use super::verdict::Verdict;
 use crate::compare::quantity::Quantity::{

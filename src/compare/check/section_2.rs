@@ -1,6 +1,7 @@
 //! Section 2 of the paper: the contact and how it ends.
 
 use super::case::*;
+use super::verdict::NO_BOUNCE;
 use super::verdict::Promise::{Bound, Digits, Exact};
 use super::verdict::Verdict::{Misprint, Reproduced, Settled};
 use crate::compare::quantity::Quantity::{BounceTime, Displacement, Strain, Stress, Velocity};
