@@ -8,8 +8,8 @@ use crate::number::Scalar;
 /// The pieces cut into straight ones, each within `share` of the greatest `|v_x(0,·)|` at their ends.
 ///
 /// **Source**: between its ends a `T_k` is off its chord by at most 2, and `T₀` and `T₁` are straight. A piece is
-/// halved until `2 Σ_{k≥2} |c_k|` of its own coefficients is at most half of the tolerance; each halving leaves out a 64th of
-/// it, and no piece is halved more than [`MOST_HALVINGS`] times.
+/// halved until `2 Σ_{k≥2} |c_k|` of its own coefficients is at most half of the tolerance; each halving leaves out a
+/// 64th of it, and no piece is halved more than [`MOST_HALVINGS`] times.
 ///
 /// **Accuracy**: the tolerance, and that of the pieces.
 pub(super) fn straight<S: Scalar>(pieces: &[StressPiece<S>], share: f64) -> Vec<StressPiece<S>> {
