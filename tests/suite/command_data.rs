@@ -140,3 +140,13 @@ fn the_last_time_of_a_damped_rod_has_its_sides() {
     }
     assert!((at("4", "left")[0] - at("4", "right")[0]).abs() > 1e-4);
 }
+
+/// L = 1, c = 1/3, r = 1/300, μ = 1: t_b = t₁ = 6, where 2L/c is no finite binary number. After it the rod flies.
+#[cfg(feature = "mp")]
+#[test]
+fn a_proved_release_has_nothing_to_pull_after_it() {
+    let scene = "[rod]\nlength = 1\nwave_speed = \"1/3\"\ndamping = \"1/300\"\n[impact]\nspeed = 1\n";
+    let args = ["sample", "-", "--quantity", "stress", "--times", "6", "--certified", "--format", "json"];
+    let json: Value = serde_json::from_str(&run_with(&args, scene).out).unwrap();
+    assert_eq!(json["rows"][0]["values"]["v_x"]["value"], "0");
+}

@@ -8,12 +8,12 @@ use dalembert::{
 use proptest::prelude::*;
 use std::sync::Arc;
 
-/// A rod in small fractions, so that rays, events and breaks of the start often meet; `R` between 1/50 and 3.
+/// A rod in small fractions, so that rays, events and breaks of the start often meet; `R` between 1/50 and 3. The part
+/// `strained` of them starts bent.
 fn scene(damped: bool, strained: f64) -> impl Strategy<Value = Problem> {
     let rod = ((1i64..=6, 1i64..=5), (1i64..=6, 1i64..=5), any::<bool>());
-    let motion =
-        ((1i64..=12, 1i64..=4), prop::option::weighted(0.8, 1i64..=5), prop::option::weighted(strained, -3i64..=3));
-    (rod, motion, 1i64..=150).prop_map(move |((length, c, fixed), (speed, gravity, strained), tenths)| {
+    let motion = ((1i64..=12, 1i64..=4), prop::option::weighted(0.8, 1i64..=5), (0.0f64..1.0, -3i64..=3));
+    (rod, motion, 1i64..=150).prop_map(move |((length, c, fixed), (speed, gravity, (part, bend)), tenths)| {
         let number = |(p, q): (i64, i64)| format!("{p}/{q}").parse::<Number>().unwrap();
         let mut rod = Problem::builder().length(number(length)).wave_speed(number(c));
         if damped {
@@ -26,7 +26,7 @@ fn scene(damped: bool, strained: f64) -> impl Strategy<Value = Problem> {
         if fixed {
             rod = rod.top(dalembert::Top::Fixed);
         }
-        let rod = match strained {
+        let rod = match (part < strained).then_some(bend) {
             // Bent in its middle, and let go there with a jump of the velocity.
             Some(bend) => {
                 let at = |part: i64| number((part * length.0, 3 * length.1));
@@ -174,7 +174,7 @@ fn in_any_order(problem: &Problem, times: &[Number]) -> Result<(), TestCaseError
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig { cases: 800, failure_persistence: None, ..ProptestConfig::default() })]
+    #![proptest_config(ProptestConfig { cases: 900, failure_persistence: None, ..ProptestConfig::default() })]
 
     #[test]
     fn undamped(problem in scene(false, 0.3)) {
@@ -189,7 +189,7 @@ proptest! {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig { cases: 200, failure_persistence: None, ..ProptestConfig::default() })]
+    #![proptest_config(ProptestConfig { cases: 100, failure_persistence: None, ..ProptestConfig::default() })]
 
     #[test]
     fn damped(problem in scene(true, 0.0)) {
@@ -210,5 +210,7 @@ fn every_number_system_but_fractions(problem: &Problem) -> Result<(), TestCaseEr
     in_numbers::<f64, _>(problem, Numbers::Double(None), &times, &*truth)?;
     in_numbers::<Float, _>(problem, Numbers::Digits(12), &times, &*truth)?;
     in_numbers::<Interval, _>(problem, Numbers::Certified(12), &times, &*truth)?;
-    in_any_order(problem, &times)
+    // A ray at a time that is no double is met in doubles, and missed once a question has called for longer numbers.
+    let doubles = times.into_iter().filter(|time| Rational::from_f64(time.to_f64()) == Some(time.to_rational()));
+    in_any_order(problem, &doubles.collect::<Vec<_>>())
 }
