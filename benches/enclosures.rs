@@ -50,10 +50,10 @@ fn first_contact(c: &mut Criterion) {
         let time = Float::with_val(bits, 2.5).carry();
         let proved = Interval::from_number(&"5/2".parse().unwrap(), &precision);
         group.bench_function(format!("stress, {bits} bits"), |b| {
-            b.iter(|| contact.stress(black_box(&time), Side::Right));
+            b.iter(|| contact.strain(black_box(&time), Side::Right));
         });
         group.bench_function(format!("stress, {bits} bits, proved"), |b| {
-            b.iter(|| form.stress(black_box(&proved), Side::Right));
+            b.iter(|| form.strain(black_box(&proved), Side::Right));
         });
         group.bench_function(format!("t_b, {bits} bits"), |b| b.iter(|| black_box(&contact).bounce()));
         group.bench_function(format!("t_b, {bits} bits, proved"), |b| {

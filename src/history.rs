@@ -8,6 +8,7 @@ use crate::number::{Answer, Scalar};
 use crate::problem::Problem;
 use crate::quantity::{self, Column, EnergyShares, Flight, Restitution, Slice, energy_shares, flights, restitution};
 use crate::ray::Ray;
+use crate::reason::Warning;
 use crate::solve::{Attempt, Ladder, Numbers, Observer, Plan, Question, Rung, Target, unobserved};
 use crate::wave::Waves;
 
@@ -168,7 +169,7 @@ impl<S: Target> History<S> {
     /// `v_x(0,t)`: the strain at the ground, which is the stress there divided by the modulus; zero in flight.
     pub fn strain(&self, time: S, side: Side) -> Result<S, Error> {
         let time = time.carry();
-        Ok(S::strip(self.ask(|engine| engine.stress(&time, side), |value| vec![value])?))
+        Ok(S::strip(self.ask(|engine| engine.strain(&time, side), |value| vec![value])?))
     }
 
     /// `v(0,t)` and `v_t(0,t)`: the end at the ground.
@@ -324,7 +325,7 @@ impl<S: Target> History<S> {
     }
 
     /// What a user should know of the answer.
-    pub fn warnings(&self) -> Vec<String> {
+    pub fn warnings(&self) -> Vec<Warning> {
         let mut warnings = self.current().engine.warnings().to_vec();
         warnings.extend(self.ladder.problem.neglected());
         warnings

@@ -7,6 +7,7 @@ use serde::{Serialize, Serializer};
 use crate::error::Error;
 use crate::number::Scalar;
 use crate::ray::Ray;
+use crate::reason::{Reason, Warning};
 use crate::wave::{Stretch, Waves};
 
 /// Writes a number as JSON has it: a number for a double, a text for all others.
@@ -344,12 +345,12 @@ pub enum Ending {
     /// The next impact after the contacts that were asked for.
     NextImpact,
     /// No impact can follow, for the reason that is said.
-    NoFurtherImpact(String),
+    NoFurtherImpact(Reason),
     /// No release can follow, for the reason that is said.
-    NoBounce(String),
+    NoBounce(Reason),
     /// The rod has come to rest, by the criterion that is said. Where a time was asked for, the history reaches it: as
     /// it does with [`Ending::NoBounce`] and [`Ending::NoFurtherImpact`] once the motion has faded below the accuracy.
-    Rest(String),
+    Rest(Reason),
     /// The next event is at no fraction.
     ExactnessEnds {
         /// The event.
@@ -362,7 +363,7 @@ pub enum Ending {
     /// The first bounce: what follows it is not proved.
     Bounce,
     /// The asked accuracy or effort does not settle what comes next.
-    Undecided(String),
+    Undecided(Reason),
 }
 
 impl fmt::Display for Ending {
@@ -458,7 +459,7 @@ pub trait Motion<S: Scalar>: fmt::Debug + Send + Sync {
     fn stress_pieces(&self) -> Vec<StressPiece<S>>;
 
     /// `v_x(0,t)`: the stress at the ground divided by the modulus; zero in flight.
-    fn stress(&self, time: &S, side: Side) -> Result<S, Error>;
+    fn strain(&self, time: &S, side: Side) -> Result<S, Error>;
 
     /// `v(0,t)` and `v_t(0,t)`.
     fn ground_end(&self, time: &S, side: Side) -> Result<(S, S), Error>;
@@ -531,6 +532,8 @@ pub trait Motion<S: Scalar>: fmt::Debug + Send + Sync {
         None
     }
 
-    /// What a user should know: events decided by rounding, digits lost. Data, for the caller to print.
-    fn warnings(&self) -> &[String];
+    /// What a user should know beside the numbers.
+    fn warnings(&self) -> &[Warning] {
+        &[]
+    }
 }

@@ -5,6 +5,7 @@ use super::follow::{Follower, LEAP_ROUNDINGS};
 use super::piece::{Mark, Unresolved};
 use super::series::at_zero;
 use crate::motion::{EventKind, Uncertainty};
+use crate::reason::Warning;
 use crate::special::RoundedSpecial;
 
 /// Where times are in doubt by more than this part of a round trip, so are the events.
@@ -25,8 +26,8 @@ impl<S: RoundedSpecial> Follower<'_, S> {
         let apart = self.medium.splits();
         if self.budget.lost(off, apart, MOST_LATE) && !self.lost {
             self.lost = true;
-            let when = (time.clone() * &self.data.units.time).to_f64();
-            self.warnings.push(format!("from t = {when} on the bound of the error no longer tells events apart"));
+            let from = (time.clone() * &self.data.units.time).to_f64();
+            self.warnings.push(Warning::EventsOverlap { from });
         }
         self.height = zero;
         // A ray of the start is off by no more than the roundings of t₁ and of its own time.

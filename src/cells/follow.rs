@@ -14,6 +14,7 @@ use super::series::{at_one, at_zero, bound, derivative, evaluate};
 use super::start::Data;
 use crate::error::Error;
 use crate::motion::{Ending, EventKind, Uncertainty};
+use crate::reason::Warning;
 use crate::special::RoundedSpecial;
 
 /// How far to go.
@@ -56,7 +57,7 @@ pub(super) struct Follower<'a, S> {
     pub(super) marks: Vec<Mark<S>>,
     /// States at the beginning of each round trip and on both sides of a leap.
     pub(super) checkpoints: Vec<Checkpoint<S>>,
-    pub(super) warnings: Vec<String>,
+    pub(super) warnings: Vec<Warning>,
     /// Error of `p`, `q` made in one cell.
     pub(super) cell_error: f64,
     pub(super) budget: Budget,
@@ -239,8 +240,9 @@ impl<'a, S: RoundedSpecial> Follower<'a, S> {
         }
     }
 
-    /// Goes on until the goal.
-    pub(super) fn run(&mut self, goal: &Goal<S>) -> Result<Ending, Error> {
+    /// Goes on until the goal; `observe` receives the round trips, or the contacts where so many are asked for, and the
+    /// number of pieces.
+    pub(super) fn run(&mut self, goal: &Goal<S>, observe: &dyn Fn(usize, usize)) -> Result<Ending, Error> {
         let unit = self.height.log2_roundoff().exp2();
         let mut round = i64::MIN;
         let mut calm = None;
@@ -258,6 +260,8 @@ impl<'a, S: RoundedSpecial> Follower<'a, S> {
             }
             if self.state.round > round {
                 round = self.state.round;
+                let done = if matches!(goal, Goal::Impacts(_)) { self.landed as usize } else { round.max(0) as usize };
+                observe(done, pieces);
                 self.new_round();
                 if let Some(ending) = self.settle(goal, &mut calm) {
                     return Ok(ending);
@@ -316,7 +320,7 @@ impl<'a, S: RoundedSpecial> Follower<'a, S> {
             }
             if at_start {
                 let time = (self.state.time() * &self.data.units.time).to_f64();
-                self.warnings.push(format!("at t = {time} rounding decides between contact and flight"));
+                self.warnings.push(Warning::RoundingDecides { time });
             }
             let at_end = found.as_ref().is_some_and(|x| nearby(&(len.clone() - x)));
             let found = found.filter(|_| !at_start && !at_end);

@@ -14,6 +14,7 @@ use crate::first_contact::FirstContact;
 use crate::motion::{Contact, Ending, Energy, Event, EventKind, Field, Motion, Scales, Side, StressPiece, Uncertainty};
 use crate::number::Estimate;
 use crate::problem::{Parameters, Problem, Run, Top};
+use crate::reason::Warning;
 use crate::special::RoundedSpecial;
 use crate::special::{log_mean, log_rest};
 
@@ -53,7 +54,7 @@ pub struct Damped<S> {
     ending: Ending,
     /// Before the first event, and after each.
     uncertain: Vec<Uncertainty>,
-    warnings: Vec<String>,
+    warnings: Vec<Warning>,
     unresolved: Option<Unresolved<S>>,
 }
 
@@ -66,7 +67,7 @@ struct Found<S> {
     checkpoints: Vec<Checkpoint<S>>,
     flights: Vec<Flight<S>>,
     marks: Vec<Mark<S>>,
-    warnings: Vec<String>,
+    warnings: Vec<Warning>,
     unresolved: Option<Unresolved<S>>,
     before: Uncertainty,
     ending: Ending,
@@ -127,20 +128,21 @@ impl<S: RoundedSpecial> Damped<S> {
     /// **Errors**: [`Error::DampingTooStrong`] for `r t₁ > 2000`; [`Error::TooManyPieces`] beyond 400 000 strips;
     /// [`Error::TooManyRays`] beyond 4096 segments in a round trip; [`Error::Irrational`] from the parameters.
     pub fn solve(problem: &Problem, precision: &S::Precision, digits: f64) -> Result<Self, Error> {
-        Self::solve_with(problem, precision, digits, 1)
+        Self::solve_observed(problem, precision, digits, 1, &|_, _| ())
     }
 
-    /// [`Self::solve`] with segments `shorten` times shorter than need be.
-    pub(crate) fn solve_with(
+    /// [`Self::solve`] with segments `shorten` times shorter than need be, observed.
+    pub(crate) fn solve_observed(
         problem: &Problem,
         precision: &S::Precision,
         digits: f64,
         shorten: i64,
+        observe: &dyn Fn(usize, usize),
     ) -> Result<Self, Error> {
         let (medium, data) = medium(problem, precision, digits, shorten)?;
         let goal = goal(problem, precision, &data);
         let mut follower = Follower::new(&medium, &data);
-        let ending = follower.run(&goal)?;
+        let ending = follower.run(&goal, observe)?;
         let found = Found::of(follower, ending);
         Ok(Self::record_of(medium, data, None, found, problem, precision))
     }
@@ -154,13 +156,14 @@ impl<S: RoundedSpecial> Damped<S> {
         digits: f64,
         contact: &FirstContact<Estimate<S>>,
         (time, time_error, leaves): (&S, f64, &S),
+        observe: &dyn Fn(usize, usize),
     ) -> Result<Self, Error> {
         let (medium, data) = medium(problem, precision, digits, 1)?;
         let goal = goal(problem, precision, &data);
         let held = Held::until(contact, &data, time);
         let leaves = leaves.clone() / &data.units.velocity;
         let mut follower = Follower::released(&medium, &data, &held, (leaves, time_error / data.units.time.to_f64()));
-        let ending = follower.run(&goal)?;
+        let ending = follower.run(&goal, observe)?;
         let found = Found::of(follower, ending);
         Ok(Self::record_of(medium, data, Some(held), found, problem, precision))
     }
@@ -178,7 +181,7 @@ impl<S: RoundedSpecial> Damped<S> {
             let unit = &data.units.time;
             Unresolved { from: found.from * unit, longest: found.longest * unit.to_f64(), ..found }
         });
-        warnings.extend(unresolved.as_ref().map(ToString::to_string));
+        warnings.extend(unresolved.as_ref().map(Unresolved::warning));
         let end = match &problem.run {
             Run::Time(time) if ending == Ending::Time || pieces.last().is_some_and(|piece| piece.still) => {
                 S::from_number(time, precision)
@@ -380,7 +383,7 @@ impl<S: RoundedSpecial> Motion<S> for Damped<S> {
         pieces
     }
 
-    fn stress(&self, time: &S, side: Side) -> Result<S, Error> {
+    fn strain(&self, time: &S, side: Side) -> Result<S, Error> {
         let t = self.time(time)?;
         Ok(match self.record().piece(&t, side) {
             Some((piece, at)) if piece.contact => {
@@ -449,7 +452,7 @@ impl<S: RoundedSpecial> Motion<S> for Damped<S> {
         }
         if point.is_zero() {
             let (displacement, velocity) = self.ground_end(time, side)?;
-            return Ok(Field { displacement, velocity, strain: self.stress(time, side)? });
+            return Ok(Field { displacement, velocity, strain: self.strain(time, side)? });
         }
         let x = point.clone() / &units.length * t.ratio(1, 2);
         let (velocity, strain) = self.record().at(&x, &t, side);
@@ -497,7 +500,7 @@ impl<S: RoundedSpecial> Motion<S> for Damped<S> {
         if lost { Uncertainty { rise: f64::INFINITY, speed: f64::INFINITY, ..found } } else { found }
     }
 
-    fn warnings(&self) -> &[String] {
+    fn warnings(&self) -> &[Warning] {
         &self.warnings
     }
 }
@@ -520,8 +523,8 @@ mod tests {
     fn shorter_cells_change_nothing() {
         for damping in ["0.01", "0.3", "2.6"] {
             let problem = rod(1, 4, damping, Run::Time(Number::from(14)));
-            let coarse = Damped::<f64>::solve_with(&problem, &(), 12.0, 1).unwrap();
-            let fine = Damped::<f64>::solve_with(&problem, &(), 12.0, 5).unwrap();
+            let coarse = Damped::<f64>::solve(&problem, &(), 12.0).unwrap();
+            let fine = Damped::<f64>::solve_observed(&problem, &(), 12.0, 5, &|_, _| ()).unwrap();
             assert!(fine.pieces.len() > 4 * coarse.pieces.len() / 3);
             assert_eq!(coarse.events.len(), fine.events.len());
             for (a, b) in coarse.events.iter().zip(&fine.events) {

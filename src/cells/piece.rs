@@ -2,6 +2,7 @@
 
 use super::march::State;
 use crate::motion::{EventKind, Uncertainty};
+use crate::reason::Warning;
 use crate::special::RoundedSpecial;
 
 /// What happened at the ground during one strip, or during a flight that was leapt over, dimensionless.
@@ -75,10 +76,9 @@ pub struct Unresolved<S> {
     pub longest: f64,
 }
 
-impl<S: RoundedSpecial> std::fmt::Display for Unresolved<S> {
-    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        let (from, landings) = (self.from.decimal(9), if self.count == 1 { "landing" } else { "landings" });
-        write!(f, "from t = {from} on hops shorter than {:.1e} are not told apart from contact, ", self.longest)?;
-        write!(f, "at {} {landings}", self.count)
+impl<S: RoundedSpecial> Unresolved<S> {
+    /// The same for a user.
+    pub(super) fn warning(&self) -> Warning {
+        Warning::HopsUnresolved { from: self.from.to_f64(), longest: self.longest, landings: self.count }
     }
 }

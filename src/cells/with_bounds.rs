@@ -3,6 +3,7 @@
 use crate::error::Error;
 use crate::motion::{Contact, Ending, Energy, Event, EventKind, Field, Motion, Scales, Side, StressPiece, Uncertainty};
 use crate::number::{Estimate, Rounded, Scalar};
+use crate::reason::Warning;
 
 /// A history, each of whose numbers has the bound that follows from [`Motion::uncertainty`] and its natural scale;
 /// times of events have their own.
@@ -105,7 +106,7 @@ impl<S: Rounded, H: Motion<S>> WithBounds<S, H> {
     /// What the force of the ground makes of `h′` while events are `late`: `h″ = −c² v_x(0,t)/L`.
     fn push(&self, time: &S, late: f64) -> Result<f64, Error> {
         let Scales { length, wave_speed, .. } = &self.scales;
-        let strain = |side| self.history.stress(time, side).map(|strain| strain.to_f64().abs());
+        let strain = |side| self.history.strain(time, side).map(|strain| strain.to_f64().abs());
         let right = strain(Side::Right)?;
         // Before the start there is nothing.
         let most = strain(Side::Left).map_or(right, |left| left.max(right));
@@ -173,8 +174,8 @@ impl<S: Rounded, H: Motion<S>> Motion<Estimate<S>> for WithBounds<S, H> {
         self.history.stress_pieces().into_iter().map(piece).collect()
     }
 
-    fn stress(&self, time: &Estimate<S>, side: Side) -> Result<Estimate<S>, Error> {
-        Ok(within(&self.history.stress(time.value(), side)?, self.near(time).strain))
+    fn strain(&self, time: &Estimate<S>, side: Side) -> Result<Estimate<S>, Error> {
+        Ok(within(&self.history.strain(time.value(), side)?, self.near(time).strain))
     }
 
     fn ground_end(&self, time: &Estimate<S>, side: Side) -> Result<(Estimate<S>, Estimate<S>), Error> {
@@ -242,7 +243,7 @@ impl<S: Rounded, H: Motion<S>> Motion<Estimate<S>> for WithBounds<S, H> {
         self.history.digits_lost()
     }
 
-    fn warnings(&self) -> &[String] {
+    fn warnings(&self) -> &[Warning] {
         self.history.warnings()
     }
 }

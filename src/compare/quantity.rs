@@ -71,6 +71,9 @@ pub(crate) enum Quantity {
     /// `h_max = h(t*)`.
     #[value(skip)]
     TopHeight,
+    /// The length of the shortest piece of the stress history.
+    #[value(skip)]
+    ShortestPiece,
     /// A number that belongs to no rod; formulas alone give it.
     #[value(skip)]
     Constant,
@@ -247,7 +250,7 @@ impl Question {
             LastEvent => motion.last_event(rod),
             Impact => motion.event_near(EventKind::Impact, time()?.to_f64()),
             Release => motion.event_near(EventKind::Release, time()?.to_f64()),
-            Stress => motion.stress(&time()?, side),
+            Stress => motion.strain(&time()?, side),
             Displacement => field(0),
             Velocity => field(1),
             Strain => field(2),
@@ -277,6 +280,7 @@ impl Question {
             }
             TopTime => motion.top().map(|[time, _]| time),
             TopHeight => motion.top().map(|[_, height]| height),
+            ShortestPiece => motion.shortest_piece(),
             Constant => Err(NoAnswer::none("it belongs to no rod")),
         }
     }

@@ -55,7 +55,8 @@ pub(super) struct March<N> {
     pub(super) zero: N,
 }
 
-/// Marches `problem` over round trip after round trip. `observe` is told the trip and the number of pieces so far.
+/// Marches `problem` over round trip after round trip. `observe` receives the trips, or the contacts where so many are
+/// asked for, and the number of pieces.
 ///
 /// **Accuracy**: *exact* in fractions, *enclosure* in intervals; otherwise within the bounds that the numbers carry.
 ///
@@ -102,7 +103,8 @@ pub fn march<N: Bounded>(
             let time = problem.units.round_trip.to_f64() * trip as f64;
             return Err(Error::TooManyPieces { limit: limits.pieces, time });
         }
-        observe(trip, state.trace.count());
+        let done = if matches!(until, Until::Contacts(_)) { state.contacts as usize } else { trip };
+        observe(done, state.trace.count());
         if trip + 1 < limits.keep_from {
             state.trace.forget();
             let old = state.events.partition_point(|event| event.trip + 1 < trip);

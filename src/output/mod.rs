@@ -10,6 +10,7 @@ mod json;
 mod picture;
 mod record;
 mod reference;
+mod straight;
 mod table;
 mod target;
 

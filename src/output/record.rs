@@ -4,6 +4,8 @@ use crate::error::Error;
 use crate::motion::{Contact, Ending, Energy, Event, Motion, Side, StressPiece};
 use crate::number::{DOUBLE_DIGITS, Scalar, double_bound_text, show, shown_bound_text};
 use crate::quantity::{EnergyShares, Flight, Measure, Restitution, Units, energy_shares, flights, restitution};
+use crate::reason::Warning;
+use crate::solve::ExactnessEnd;
 
 /// A number that carries its bound as a JSON value: a number for a double (null if not finite),
 /// `{"value": …, "lo": …, "hi": …}` with `lo ≤ truth ≤ hi` for an enclosure, a string otherwise.
@@ -54,9 +56,9 @@ pub struct Head {
     /// What gives strains and values per `ρS` a unit.
     pub units: Units,
     /// What the user should know.
-    pub warnings: Vec<String>,
-    /// Where an exact run ended, if a run in digits stands in for it.
-    pub exact_until: Option<Ending>,
+    pub warnings: Vec<Warning>,
+    /// What fractions could not hold, if a run in digits stands in for them.
+    pub exact_until: Option<ExactnessEnd>,
 }
 
 /// A column of numbers.
@@ -327,7 +329,7 @@ pub fn sample<S: Scalar>(
     for time in times {
         let mut row = |point, values| rows.push(Sample { time: time.clone(), point, side, values });
         match quantity {
-            Quantity::Stress => row(None, vec![history.stress(time, side)?]),
+            Quantity::Stress => row(None, vec![history.strain(time, side)?]),
             Quantity::End => row(None, history.ground_end(time, side).map(|(v, rate)| vec![v, rate])?),
             Quantity::Top => row(None, history.top_end(time, side).map(|(v, rate)| vec![v, rate])?),
             Quantity::Centre => row(None, history.centre(time).map(|(h, rate)| vec![h, rate])?),

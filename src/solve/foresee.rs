@@ -16,6 +16,9 @@ use crate::problem::{Parameters, Problem, Run};
 pub(super) fn bits_lost(problem: &Problem, plan: &Plan) -> f64 {
     let (Engine::Lattice, Reach::Time(end)) = (plan.engine, &plan.reach) else { return 0.0 };
     let (Ok(rod), end) = (Parameters::<f64>::of(problem, &()), end.to_f64()) else { return 0.0 };
+    if end <= 0.0 {
+        return 0.0;
+    }
     let (mut time, mut lost) = (end.min(4.0 * rod.round_trip()), 0.0);
     loop {
         let Ok(number) = time.to_string().parse::<Number>() else { return lost };

@@ -49,7 +49,7 @@ impl std::fmt::Display for ExactnessEnd {
 }
 
 impl Plan {
-    /// Solves `problem`; `observe` receives the round trip and the number of pieces from time to time.
+    /// Solves `problem`; see [`Observer`] for what `observe` receives.
     ///
     /// **Accuracy**: that of [`Plan::numbers`].
     ///

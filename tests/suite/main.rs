@@ -13,6 +13,8 @@ mod check_catalogue;
 mod columns;
 #[cfg(feature = "cli")]
 mod command;
+#[cfg(feature = "cli")]
+mod command_data;
 mod common;
 #[cfg(feature = "cli")]
 mod cost_measured;
@@ -39,6 +41,8 @@ mod paper_claims;
 mod problem_builder;
 #[cfg(all(feature = "cli", feature = "mp"))]
 mod reference;
+#[cfg(feature = "mp")]
+mod same_value;
 mod scene_builtin;
 mod scene_errors;
 mod scene_properties;

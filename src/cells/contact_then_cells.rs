@@ -7,6 +7,7 @@ use crate::first_contact::{Bounce, ContactHistory, FirstContact};
 use crate::motion::{Contact, Ending, Energy, Event, Field, Motion, Scales, Side, StressPiece, Uncertainty};
 use crate::number::Estimate;
 use crate::problem::{Parameters, Problem, Run};
+use crate::reason::{Reason, Warning};
 use crate::special::RoundedSpecial;
 
 /// The damped rod that starts as the paper's does, through any number of impacts: [`ContactHistory`] as long as the
@@ -19,7 +20,7 @@ use crate::special::RoundedSpecial;
 ///
 /// **Accuracy**: within [`Motion::error_estimate`] of the natural scales.
 #[derive(Clone, Debug)]
-pub struct Joined<S> {
+pub struct ContactThenCells<S> {
     contact: ContactHistory<Estimate<S>>,
     rod: Parameters<S>,
     /// `t_b`.
@@ -51,7 +52,7 @@ fn pair<S>((a, b): (Estimate<S>, Estimate<S>)) -> (S, S) {
     (a.into_value(), b.into_value())
 }
 
-impl<S: RoundedSpecial> Joined<S> {
+impl<S: RoundedSpecial> ContactThenCells<S> {
     /// Follows `problem`, whose first contact ends as `bounce` says, to about `digits` decimal digits of the natural
     /// scales, and no farther than `reach`.
     ///
@@ -62,6 +63,17 @@ impl<S: RoundedSpecial> Joined<S> {
         digits: f64,
         bounce: Bounce<Estimate<S>>,
         reach: Reach,
+    ) -> Result<Self, Error> {
+        Self::solve_observed(problem, precision, digits, (bounce, reach), &|_, _| ())
+    }
+
+    /// [`Self::solve`], observed.
+    pub(crate) fn solve_observed(
+        problem: &Problem,
+        precision: &S::Precision,
+        digits: f64,
+        (bounce, reach): (Bounce<Estimate<S>>, Reach),
+        observe: &dyn Fn(usize, usize),
     ) -> Result<Self, Error> {
         let rod = Parameters::<S>::of(problem, precision)?;
         let asked = match &problem.run {
@@ -75,7 +87,7 @@ impl<S: RoundedSpecial> Joined<S> {
         let time_error = events.get(1).map_or(0.0, |release| release.time_error);
         let round_trip = rod.round_trip();
         let error = round_trip.double(17.0) * round_trip.roundoff() + round_trip.double(time_error) / &round_trip;
-        let mut joined = Joined {
+        let mut history = ContactThenCells {
             before: error.to_f64(),
             error,
             end: contact.end().into_value(),
@@ -88,21 +100,25 @@ impl<S: RoundedSpecial> Joined<S> {
             rod,
             digits,
         };
-        joined.follow(problem, precision, reach)?;
-        Ok(joined)
+        history.follow(problem, precision, reach, observe)?;
+        Ok(history)
     }
 
     /// The flight and all that comes after it, from the cells.
-    fn follow(&mut self, problem: &Problem, precision: &S::Precision, reach: Reach) -> Result<(), Error> {
+    fn follow(
+        &mut self,
+        problem: &Problem,
+        precision: &S::Precision,
+        reach: Reach,
+        observe: &dyn Fn(usize, usize),
+    ) -> Result<(), Error> {
         let (Some(bounce), Reach::Run) = (self.bounce.clone(), reach) else { return Ok(()) };
         if self.digits > MOST_MARCHED {
-            self.ending = Ending::Undecided(format!(
-                "beyond {MOST_MARCHED} digits only the first contact is computed, not the flight after it"
-            ));
+            self.ending = Ending::Undecided(Reason::MostDigits(MOST_MARCHED as u32));
             return Ok(());
         }
         let release = (&bounce, self.events[1].time_error, &self.events[1].end_velocity);
-        let march = Damped::after_bounce(problem, precision, self.digits, self.contact.form(), release)?;
+        let march = Damped::after_bounce(problem, precision, self.digits, self.contact.form(), release, observe)?;
         self.events.extend(march.events().iter().skip(1).cloned());
         self.contacts.extend(march.contacts().iter().cloned());
         let error = march.error_estimate();
@@ -140,7 +156,7 @@ impl<S: RoundedSpecial> Joined<S> {
     }
 }
 
-impl<S: RoundedSpecial> Motion<S> for Joined<S> {
+impl<S: RoundedSpecial> Motion<S> for ContactThenCells<S> {
     fn end(&self) -> S {
         self.end.clone()
     }
@@ -175,11 +191,11 @@ impl<S: RoundedSpecial> Motion<S> for Joined<S> {
         pieces
     }
 
-    fn stress(&self, time: &S, side: Side) -> Result<S, Error> {
+    fn strain(&self, time: &S, side: Side) -> Result<S, Error> {
         if self.in_contact(time, side)? || self.at_bounce(time) {
-            return Ok(self.contact.stress(&time.carry(), side)?.into_value());
+            return Ok(self.contact.strain(&time.carry(), side)?.into_value());
         }
-        self.later()?.stress(time, side)
+        self.later()?.strain(time, side)
     }
 
     fn ground_end(&self, time: &S, side: Side) -> Result<(S, S), Error> {
@@ -251,7 +267,7 @@ impl<S: RoundedSpecial> Motion<S> for Joined<S> {
         }
     }
 
-    fn warnings(&self) -> &[String] {
+    fn warnings(&self) -> &[Warning] {
         self.march.as_ref().map_or(&[], |march| march.warnings())
     }
 }
@@ -281,11 +297,12 @@ mod tests {
                 let rod = Parameters::<f64>::of(&problem, &())?;
                 let contact = FirstContact::new(&rod.carry());
                 let bounce = contact.bounce();
-                let straight = Joined::<f64>::solve(&problem, &(), 13.0, bounce, Reach::Run)?;
+                let straight = ContactThenCells::<f64>::solve(&problem, &(), 13.0, bounce, Reach::Run)?;
                 let first = straight.events()[1].clone();
                 let release = (first.time + displaced, f64::abs(displaced) + first.time_error, first.end_velocity);
                 let form = straight.contact.form();
-                let off = Damped::after_bounce(&problem, &(), 13.0, form, (&release.0, release.1, &release.2))?;
+                let off =
+                    Damped::after_bounce(&problem, &(), 13.0, form, (&release.0, release.1, &release.2), &|_, _| ())?;
                 Ok((straight, off))
             };
             let (straight, off) = solve().unwrap_or_else(|error| unreachable!("{error}"));
