@@ -36,6 +36,8 @@ pub mod cells;
 pub mod cli;
 #[cfg(feature = "cli")]
 mod compare;
+#[cfg(feature = "cli")]
+mod data;
 mod error;
 #[doc(hidden)]
 pub mod first_contact;

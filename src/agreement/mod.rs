@@ -1,0 +1,176 @@
+//! Other people's data held against a history: the same quantities at the same times, and what follows from them.
+
+mod conventions;
+mod map;
+mod ours;
+mod samples;
+
+use crate::data::{Columns, DataErrorKind};
+use crate::error::Error;
+use crate::history::History;
+use crate::problem::{Problem, Top};
+use crate::quantity::{
+    Audit, Books, Column, Grid, Hint, Measures, Norms, Pair, Touch, gathered, matched, norms, of_contacts, touches,
+};
+
+pub(crate) use conventions::{Axis, Conventions, Compression, Origin};
+pub(crate) use map::{Map, MapError, What};
+use ours::Ours;
+pub(crate) use samples::{Clock, Samples};
+
+/// Data beside a history.
+#[derive(Debug)]
+pub(crate) struct Agreement {
+    pub(crate) grid: Grid,
+    pub(crate) quantities: Vec<Compared>,
+    /// Ours and theirs; either may be missing.
+    pub(crate) contacts: Vec<(Option<Touch>, Option<Touch>)>,
+    pub(crate) audit: Audit,
+    pub(crate) hints: Vec<Hint>,
+    /// The median step of the samples.
+    pub(crate) step: f64,
+    /// How far from a jump a sample counts as away from it.
+    pub(crate) window: f64,
+    /// How many rows are before `t = 0`, or after the end of the history, and are not compared.
+    pub(crate) outside: usize,
+}
+
+/// One quantity: values at the samples of the grid, and how far apart they are.
+#[derive(Debug)]
+pub(crate) struct Compared {
+    pub(crate) what: What,
+    pub(crate) ours: Vec<f64>,
+    pub(crate) theirs: Vec<f64>,
+    pub(crate) norms: Norms,
+}
+
+/// What a comparison may be told besides the data.
+#[derive(Clone, Debug)]
+pub(crate) struct Settings {
+    pub(crate) conventions: Conventions,
+    /// In round trips; by default [`WINDOW`], or two steps where that is more.
+    pub(crate) window: Option<f64>,
+}
+
+/// Round trips that a sample is away from a jump where nothing else is said.
+const WINDOW: f64 = 0.02;
+/// A sample pushes where its force is above this share of our greatest.
+const PUSHES: f64 = 1e-6;
+
+impl Agreement {
+    /// Compares `samples` with `history` of `problem`.
+    ///
+    /// **Source**: each sample of a quantity that jumps is scored against the nearer of its two limits where its time
+    /// is that of the jump, as well as the times tell. Norms, contacts, audit and hints as in `quantity`.
+    ///
+    /// **Accuracy**: that of the history, in doubles.
+    ///
+    /// **Errors**: what the history cannot answer.
+    pub(crate) fn of(
+        problem: &Problem,
+        history: &History<f64>,
+        samples: Samples,
+        settings: &Settings,
+    ) -> Result<Self, Error> {
+        let ours = Ours::of(problem, history)?;
+        let Samples { grid, mut quantities, step, outside, rounding } = samples;
+        let trip = history.scales().time;
+        settings.conventions.apply(&ours, &mut quantities)?;
+        let narrow = 2.0 * step;
+        let window = settings.window.map_or_else(|| narrow.max(WINDOW * trip), |trips| trips * trip);
+        let whats: Vec<What> = quantities.iter().map(|(what, _)| *what).collect();
+        let values = ours.values(&whats, &grid)?;
+        let mut compared: Vec<Compared> = Vec::new();
+        let mut hints = Vec::new();
+        let events: Vec<f64> = history.events().iter().map(|event| event.time).collect();
+        let measures = Measures { grid: &grid, events: &events, step: step / trip, round_trip: trip };
+        for ((what, theirs), mut values) in quantities.into_iter().zip(values) {
+            let on_jumps = ours.nearer(what, &grid, &rounding, &theirs, &mut values)?;
+            let distances = if what.jumps() { ours.distances(what, &grid) } else { Vec::new() };
+            let away = |k: usize, window: f64| distances.get(k).is_none_or(|distance| *distance > window);
+            let norms = norms(&grid, &values, &theirs, on_jumps, |k| away(k, window));
+            if grid.points.is_none() && what.is_hinted() {
+                // Kinks of a displacement are where its velocity jumps.
+                let near = ours.distances(what, &grid);
+                let factors = ours.factors(what);
+                let pair = Pair { name: what.name(), ours: &values, theirs: &theirs, factors: &factors };
+                let away = |k: usize| near[k] > window.max(narrow);
+                let finding = measures.of_pair(&pair, away);
+                hints.extend(finding.map(|finding| Hint { quantity: what.name().into(), finding }));
+            }
+            compared.push(Compared { what, ours: values, theirs, norms });
+        }
+        let mut agreement =
+            Agreement { grid, quantities: compared, contacts: Vec::new(), audit: Audit::default(), hints, step, window, outside };
+        if agreement.grid.points.is_none() {
+            agreement.keep_books(problem, &ours);
+        }
+        Ok(agreement)
+    }
+
+    fn theirs(&self, column: Column) -> Option<&Compared> {
+        self.quantities.iter().find(|compared| compared.what == What::Column(column))
+    }
+
+    /// Contacts, audit, and the hints of both.
+    fn keep_books(&mut self, problem: &Problem, ours: &Ours<'_>) {
+        let times = &self.grid.times;
+        let (Some(first), Some(last)) = (times.first().copied(), times.last().copied()) else { return };
+        // Whatever shows the force: it, or stress or strain with the factor that makes them one.
+        let shown = [Column::Force, Column::Stress, Column::Strain].into_iter().find_map(|column| self.theirs(column));
+        let force: Option<Vec<f64>> = shown.map(|shown| {
+            let factor = ours.force_per(shown.what);
+            shown.theirs.iter().map(|value| value * factor).collect()
+        });
+        let force = force.as_deref();
+        let end = self.theirs(Column::EndDisplacement).map(|compared| compared.theirs.as_slice());
+        let on_ground = self.theirs(Column::Contact).map(|compared| compared.theirs.as_slice());
+        let exact = ours.touches();
+        let most = exact.iter().filter_map(|touch| touch.peak).fold(0.0, f64::max);
+        let height = self.theirs(Column::EndDisplacement);
+        let height = height.map_or(0.0, |end| end.ours.iter().fold(0.0f64, |most, v| most.max(v.abs())));
+        let touching = |k: usize| match (on_ground, force, end) {
+            (Some(flag), ..) => flag[k] > 0.5,
+            (_, Some(force), _) => force[k] > PUSHES * most,
+            (.., Some(v)) => v[k] <= PUSHES * height,
+            _ => false,
+        };
+        let mut missed = (0, 0);
+        let mut hints = Vec::new();
+        if on_ground.is_some() || force.is_some() || end.is_some() {
+            let found = touches(times, touching, force, ours.shortest_separation());
+            let within = |touch: &Touch| touch.from < last && touch.to.is_none_or(|to| to > first);
+            let exact: Vec<Touch> = exact.into_iter().filter(within).collect();
+            self.contacts = matched(&exact, &found);
+            hints = of_contacts(&self.contacts, self.step);
+            let count = |missing: fn(&(Option<Touch>, Option<Touch>)) -> bool| self.contacts.iter().filter(|row| missing(row)).count();
+            missed = (count(|row| row.1.is_none()), count(|row| row.0.is_none()));
+        }
+        let energy = self.theirs(Column::Energy);
+        let books = Books {
+            times,
+            displacement: end,
+            force,
+            energy: energy.map(|energy| [energy.ours.as_slice(), energy.theirs.as_slice()]),
+            centre_velocity: self.theirs(Column::CentreVelocity).map(|compared| compared.theirs.as_slice()),
+            momentum: (problem.rod.top == Top::Free).then(|| ours.momentum()),
+        };
+        self.audit = Audit { missed: missed.0, invented: missed.1, not_covered: books.not_covered(ours.end()), ..books.audit() };
+        hints.append(&mut self.hints);
+        self.hints = gathered(hints);
+    }
+}
+
+/// The samples of `columns`, read by `map`.
+///
+/// **Errors**: times that do not increase, points outside of the rod.
+pub(crate) fn samples(
+    columns: Columns,
+    map: &Map,
+    clock: Option<Clock>,
+    shift: f64,
+    length: f64,
+    end: f64,
+) -> Result<Samples, crate::data::DataError> {
+    Samples::of(columns, map, clock, shift, length, end)
+}
