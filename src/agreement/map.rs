@@ -1,6 +1,6 @@
 //! Which column of a file is which quantity.
 
-use crate::quantity::Column;
+use crate::quantity::{Column, Measure, Units};
 
 /// A quantity that can be compared.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -65,6 +65,25 @@ impl What {
             (true, Column::Strain) => Some(What::Field(Part::Strain)),
             (true, Column::Stress) => Some(What::Field(Part::Stress)),
             (true, _) => None,
+        }
+    }
+
+    /// The unit; empty where there is none.
+    pub(crate) fn unit(self, units: &Units) -> &'static str {
+        match self {
+            What::Column(column) => column.unit(units),
+            What::Field(Part::Displacement) => units.name(Measure::Length),
+            What::Field(Part::Velocity) => units.name(Measure::Velocity),
+            What::Field(Part::Strain) => units.name(Measure::Strain),
+            What::Field(Part::Stress) => Column::Stress.unit(units),
+        }
+    }
+
+    /// The column, for a function of time.
+    pub(crate) fn column(self) -> Option<Column> {
+        match self {
+            What::Column(column) => Some(column),
+            What::Field(_) => None,
         }
     }
 

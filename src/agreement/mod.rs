@@ -1,11 +1,11 @@
 //! Other people's data held against a history: the same quantities at the same times, and what follows from them.
 
 mod conventions;
+mod limit;
 mod map;
 mod ours;
 mod samples;
 
-use crate::data::{Columns, DataErrorKind};
 use crate::error::Error;
 use crate::history::History;
 use crate::problem::{Problem, Top};
@@ -14,8 +14,9 @@ use crate::quantity::{
 };
 
 pub(crate) use conventions::{Axis, Conventions, Compression, Origin};
-pub(crate) use map::{Map, MapError, What};
-use ours::Ours;
+pub(crate) use limit::{Limit, Order, orders};
+pub(crate) use map::{Map, What};
+use ours::{Ours, Place};
 pub(crate) use samples::{Clock, Samples};
 
 /// Data beside a history.
@@ -31,7 +32,7 @@ pub(crate) struct Agreement {
     pub(crate) step: f64,
     /// How far from a jump a sample counts as away from it.
     pub(crate) window: f64,
-    /// How many rows are before `t = 0`, or after the end of the history, and are not compared.
+    /// How many rows are before `t = 0` and are not compared.
     pub(crate) outside: usize,
 }
 
@@ -75,27 +76,27 @@ impl Agreement {
         let ours = Ours::of(problem, history)?;
         let Samples { grid, mut quantities, step, outside, rounding } = samples;
         let trip = history.scales().time;
-        settings.conventions.apply(&ours, &mut quantities)?;
+        settings.conventions.apply(&ours, &mut quantities, grid.points.as_deref())?;
         let narrow = 2.0 * step;
         let window = settings.window.map_or_else(|| narrow.max(WINDOW * trip), |trips| trips * trip);
         let whats: Vec<What> = quantities.iter().map(|(what, _)| *what).collect();
         let values = ours.values(&whats, &grid)?;
-        let mut compared: Vec<Compared> = Vec::new();
-        let mut hints = Vec::new();
         let events: Vec<f64> = history.events().iter().map(|event| event.time).collect();
         let measures = Measures { grid: &grid, events: &events, step: step / trip, round_trip: trip };
+        let (mut compared, mut hints) = (Vec::new(), Vec::new());
+        let mut passing = (Place::Ground, ours.passing(Place::Ground, &grid));
         for ((what, theirs), mut values) in quantities.into_iter().zip(values) {
-            let on_jumps = ours.nearer(what, &grid, &rounding, &theirs, &mut values)?;
-            let distances = if what.jumps() { ours.distances(what, &grid) } else { Vec::new() };
-            let away = |k: usize, window: f64| distances.get(k).is_none_or(|distance| *distance > window);
-            let norms = norms(&grid, &values, &theirs, on_jumps, |k| away(k, window));
+            if Place::of(what) != passing.0 {
+                passing = (Place::of(what), ours.passing(Place::of(what), &grid));
+            }
+            let on_jumps = ours.nearer(what, &grid, (&passing.1, &rounding), &theirs, &mut values)?;
+            let away = |k: usize, window: f64| (passing.1[k] - grid.times[k]).abs() > window;
+            let norms = norms(&grid, &values, &theirs, on_jumps, |k| !what.jumps() || away(k, window));
             if grid.points.is_none() && what.is_hinted() {
-                // Kinks of a displacement are where its velocity jumps.
-                let near = ours.distances(what, &grid);
                 let factors = ours.factors(what);
-                let pair = Pair { name: what.name(), ours: &values, theirs: &theirs, factors: &factors };
-                let away = |k: usize| near[k] > window.max(narrow);
-                let finding = measures.of_pair(&pair, away);
+                let pair = Pair { ours: &values, theirs: &theirs, jumps: what.jumps(), factors: &factors };
+                // Kinks of a displacement are where its velocity jumps.
+                let finding = measures.of_pair(&pair, |k| away(k, window.max(narrow)));
                 hints.extend(finding.map(|finding| Hint { quantity: what.name().into(), finding }));
             }
             compared.push(Compared { what, ours: values, theirs, norms });
@@ -135,16 +136,12 @@ impl Agreement {
             (.., Some(v)) => v[k] <= PUSHES * height,
             _ => false,
         };
-        let mut missed = (0, 0);
-        let mut hints = Vec::new();
+        let mut contacts = Vec::new();
         if on_ground.is_some() || force.is_some() || end.is_some() {
             let found = touches(times, touching, force, ours.shortest_separation());
             let within = |touch: &Touch| touch.from < last && touch.to.is_none_or(|to| to > first);
             let exact: Vec<Touch> = exact.into_iter().filter(within).collect();
-            self.contacts = matched(&exact, &found);
-            hints = of_contacts(&self.contacts, self.step);
-            let count = |missing: fn(&(Option<Touch>, Option<Touch>)) -> bool| self.contacts.iter().filter(|row| missing(row)).count();
-            missed = (count(|row| row.1.is_none()), count(|row| row.0.is_none()));
+            contacts = matched(&exact, &found);
         }
         let energy = self.theirs(Column::Energy);
         let books = Books {
@@ -155,22 +152,15 @@ impl Agreement {
             centre_velocity: self.theirs(Column::CentreVelocity).map(|compared| compared.theirs.as_slice()),
             momentum: (problem.rod.top == Top::Free).then(|| ours.momentum()),
         };
-        self.audit = Audit { missed: missed.0, invented: missed.1, not_covered: books.not_covered(ours.end()), ..books.audit() };
+        self.audit = Audit {
+            missed: contacts.iter().filter(|row| row.1.is_none()).count(),
+            invented: contacts.iter().filter(|row| row.0.is_none()).count(),
+            not_covered: books.not_covered(ours.end()),
+            ..books.audit()
+        };
+        let mut hints = of_contacts(&contacts, self.step);
         hints.append(&mut self.hints);
         self.hints = gathered(hints);
+        self.contacts = contacts;
     }
-}
-
-/// The samples of `columns`, read by `map`.
-///
-/// **Errors**: times that do not increase, points outside of the rod.
-pub(crate) fn samples(
-    columns: Columns,
-    map: &Map,
-    clock: Option<Clock>,
-    shift: f64,
-    length: f64,
-    end: f64,
-) -> Result<Samples, crate::data::DataError> {
-    Samples::of(columns, map, clock, shift, length, end)
 }

@@ -23,6 +23,25 @@ pub(super) struct Ours<'a> {
     leaves: Vec<f64>,
 }
 
+/// Where along the rod a quantity is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Place {
+    Ground,
+    Top,
+    /// The points of the samples.
+    Point,
+}
+
+impl Place {
+    pub(super) fn of(what: What) -> Self {
+        match what {
+            What::Field(_) => Place::Point,
+            What::Column(Column::TopDisplacement | Column::TopVelocity) => Place::Top,
+            What::Column(_) => Place::Ground,
+        }
+    }
+}
+
 /// Values are asked for in lists of this length.
 const AT_ONCE: usize = 1 << 16;
 /// Jumps below this share of the scale of velocities are none, and times within it of the round trip are the same.
@@ -132,24 +151,19 @@ impl<'a> Ours<'a> {
         &self,
         what: What,
         grid: &Grid,
-        rounding: &Rounding,
+        (passing, rounding): (&[f64], &Rounding),
         theirs: &[f64],
         ours: &mut [f64],
     ) -> Result<usize, Error> {
-        if !what.jumps() {
-            return Ok(0);
-        }
         let mut count = 0;
-        for (k, time, jump) in self.meetings(what, grid) {
-            if (jump - time).abs() > rounding.at(time) {
+        for (k, (jump, time)) in passing.iter().zip(&grid.times).enumerate() {
+            if !what.jumps() || (jump - time).abs() > rounding.at(*time) {
                 continue;
             }
-            let [left, right] = [Side::Left, Side::Right].map(|side| self.limit(what, grid, k, jump, side));
-            let (left, right) = (left?, right?);
-            if (left - right).abs() > 0.0 {
-                count += 1;
-                ours[k] = if (theirs[k] - left).abs() < (theirs[k] - right).abs() { left } else { right };
-            }
+            let left = self.limit(what, grid, k, jump.max(0.0), Side::Left)?;
+            let right = self.limit(what, grid, k, jump.max(0.0), Side::Right)?;
+            count += usize::from(left != right);
+            ours[k] = if (theirs[k] - left).abs() < (theirs[k] - right).abs() { left } else { right };
         }
         Ok(count)
     }
@@ -168,38 +182,20 @@ impl<'a> Ours<'a> {
         }
     }
 
-    /// How far each sample is from the nearest jump of the quantity.
-    pub(super) fn distances(&self, what: What, grid: &Grid) -> Vec<f64> {
-        let mut distances = vec![f64::INFINITY; grid.times.len()];
-        for (k, time, jump) in self.meetings(what, grid) {
-            distances[k] = (jump - time).abs();
-        }
-        distances
-    }
-
-    /// Every sample with its time and the nearest time at which a ray passes.
-    fn meetings(&self, what: What, grid: &Grid) -> impl Iterator<Item = (usize, f64, f64)> {
-        let height = match what {
-            What::Column(Column::TopDisplacement | Column::TopVelocity) => self.rod.length,
-            _ => 0.0,
+    /// For each sample the time nearest to it at which a ray passes the point that the quantity is at; infinite where
+    /// none ever does.
+    pub(super) fn passing(&self, place: Place, grid: &Grid) -> Vec<f64> {
+        let trip = self.rod.round_trip();
+        let up_and_down = |travel: f64, time: f64| {
+            let ways = [travel, trip - travel].map(|delay| nearest(&self.leaves, time - delay) + delay);
+            if (ways[0] - time).abs() < (ways[1] - time).abs() { ways[0] } else { ways[1] }
         };
-        let at_ground = what.column().is_some() && height == 0.0;
-        grid.times.iter().enumerate().filter_map(move |(k, time)| {
-            let travel = grid.points.as_ref().map_or(height, |points| points[k]) / self.rod.wave_speed;
-            let nearest = |jumps: &[f64], delay: f64| {
-                let next = jumps.partition_point(|jump| jump + delay < *time);
-                let around = [next.checked_sub(1), Some(next)].into_iter().flatten();
-                let found = around.filter_map(|k| jumps.get(k)).map(|jump| jump + delay);
-                found.min_by(|a, b| (a - time).abs().total_cmp(&(b - time).abs()))
-            };
-            let found = if at_ground {
-                nearest(&self.jumps, 0.0)
-            } else {
-                let ways = [travel, self.rod.round_trip() - travel].map(|delay| nearest(&self.leaves, delay));
-                ways.into_iter().flatten().min_by(|a, b| (a - time).abs().total_cmp(&(b - time).abs()))
-            };
-            found.map(|jump| (k, *time, jump.max(0.0)))
-        })
+        let at = |(k, time): (usize, &f64)| match (place, &grid.points) {
+            (Place::Point, Some(points)) => up_and_down(points[k] / self.rod.wave_speed, *time),
+            (Place::Top, _) => up_and_down(trip / 2.0, *time),
+            _ => nearest(&self.jumps, *time),
+        };
+        grid.times.iter().enumerate().map(at).collect()
     }
 
     /// The displacements at `t = 0`, one for all samples or one each; `None` for what is no displacement.
@@ -278,23 +274,27 @@ impl<'a> Ours<'a> {
     }
 }
 
-/// Times and what comes back every `trip` after them up to `end`, ascending, each once.
-fn repeated(found: Vec<f64>, trip: f64, end: f64) -> Vec<f64> {
-    let mut first: Vec<f64> = Vec::new();
-    let mut phases = found;
-    phases.retain(|time| (0.0..=end).contains(time));
-    phases.sort_by(f64::total_cmp);
-    for time in phases {
-        let whole = |known: &f64| {
-            let trips = (time - known) / trip;
-            (trips - trips.round()).abs() < SMALL
-        };
-        if !first.iter().any(whole) {
-            first.push(time);
-        }
+/// The nearest of ascending times; infinite where there is none.
+fn nearest(times: &[f64], time: f64) -> f64 {
+    let next = times.partition_point(|at| *at < time);
+    let after = times.get(next).copied().unwrap_or(f64::INFINITY);
+    match next.checked_sub(1).map(|before| times[before]) {
+        Some(before) if time - before <= after - time => before,
+        _ => after,
     }
-    let mut all: Vec<f64> =
-        first.into_iter().flat_map(|from| (0..).map(move |k| from + f64::from(k) * trip).take_while(move |t| *t <= end)).collect();
+}
+
+/// Times and what comes back every `trip` after them up to `end`, ascending, each once.
+fn repeated(mut found: Vec<f64>, trip: f64, end: f64) -> Vec<f64> {
+    found.retain(|time| (0.0..=end).contains(time));
+    found.sort_by(f64::total_cmp);
+    // A stable sort: of one phase the earliest is first.
+    let phase = |time: &f64| ((time / trip).fract() / SMALL).round();
+    found.sort_by(|a, b| phase(a).total_cmp(&phase(b)));
+    found.dedup_by(|later, first| phase(later) - phase(first) <= 1.0);
+    let returns = |from: f64| (0..).map(move |k| from + f64::from(k) * trip).take_while(move |time| *time <= end);
+    let mut all: Vec<f64> = found.into_iter().flat_map(returns).collect();
     all.sort_by(f64::total_cmp);
+    all.dedup_by(|later, first| *later - *first <= SMALL * trip);
     all
 }

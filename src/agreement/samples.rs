@@ -11,7 +11,7 @@ pub(crate) struct Clock {
     pub(crate) step: f64,
 }
 
-/// The rows that lie within the history.
+/// The rows from `t = 0` on.
 #[derive(Debug)]
 pub(crate) struct Samples {
     pub(crate) grid: Grid,
@@ -19,7 +19,7 @@ pub(crate) struct Samples {
     pub(crate) quantities: Vec<(What, Vec<f64>)>,
     /// The median step between times.
     pub(crate) step: f64,
-    /// How many rows lie outside of the history.
+    /// How many rows lie before `t = 0`.
     pub(crate) outside: usize,
     pub(crate) rounding: Rounding,
 }
@@ -63,14 +63,13 @@ impl Rounding {
 impl Samples {
     /// The samples in `columns` as `map` reads them, on a clock that is `shift` behind ours.
     ///
-    /// **Errors**: times that do not increase, points outside of the rod, no time from 0 to `end`.
+    /// **Errors**: times that do not increase, points outside of the rod, no time after 0.
     pub(crate) fn of(
         columns: Columns,
         map: &Map,
         clock: Option<Clock>,
         shift: f64,
         length: f64,
-        end: f64,
     ) -> Result<Self, DataError> {
         let rows = columns.rows();
         let place = |k: usize| map.places().get(k).copied().unwrap_or(0);
@@ -102,14 +101,11 @@ impl Samples {
             }
         }
         let from = times.partition_point(|time| *time < 0.0);
-        let to = times.partition_point(|time| *time <= end);
-        if from >= to {
-            let (from, to) = (times.first().copied().unwrap_or(0.0), times.last().copied().unwrap_or(0.0));
-            return Err(columns.whole(DataErrorKind::NoOverlap { from, to, end }));
+        let last = times.last().copied().unwrap_or(0.0);
+        if last <= 0.0 {
+            return Err(columns.whole(DataErrorKind::NoOverlap { last }));
         }
-        let outside = rows - (to - from);
         let cut = |mut values: Vec<f64>| {
-            values.truncate(to);
             values.drain(..from);
             values
         };
@@ -122,7 +118,7 @@ impl Samples {
         let rounding = Rounding::of(&times, step);
         let values = columns.values.into_iter().skip(first);
         let quantities = map.quantities.iter().map(|(what, _)| *what).zip(values.map(&cut)).collect();
-        Ok(Samples { grid: Grid::new(times, points), quantities, step, outside, rounding })
+        Ok(Samples { grid: Grid::new(times, points), quantities, step, outside: from, rounding })
     }
 }
 

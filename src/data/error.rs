@@ -28,16 +28,16 @@ pub(crate) enum DataErrorKind {
     NotIncreasing { before: f64, found: f64 },
     #[error("found point {found}, expected one between 0 and {length}, the rod's length")]
     PointOutside { found: f64, length: f64 },
-    #[error("found no column `{name}`, expected {known}")]
-    NoColumn { name: String, known: String },
+    #[error("found point {found} after {before} at the same time, expected points that increase")]
+    PointsNotIncreasing { before: f64, found: f64 },
     #[error("found an array of type {found}, expected numbers: float64, float32, int64 or int32")]
     ElementType { found: String },
     #[error("found an array of shape {0:?}, expected one column, or rows and columns")]
     Shape(Vec<usize>),
     #[error("found {found} rows, expected {expected} as in `{first}`")]
     Lengths { found: usize, first: String, expected: usize },
-    #[error("found times from {from} to {to}, expected some between 0 and {end}, where this history ends")]
-    NoOverlap { from: f64, to: f64, end: f64 },
+    #[error("found times up to {last}, expected some after 0, where the history begins")]
+    NoOverlap { last: f64 },
 }
 
 impl DataErrorKind {

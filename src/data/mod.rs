@@ -57,12 +57,11 @@ impl Source {
     ///
     /// **Errors**: [`DataError`], for an empty file too.
     pub(crate) fn open(path: &Path) -> Result<Self, DataError> {
-        let file = if path == Path::new("-") { "standard input".to_string() } else { path.display().to_string() };
+        let piped = path == Path::new("-");
+        let file = if piped { "standard input".to_string() } else { path.display().to_string() };
         let read = |error: std::io::Error| DataErrorKind::Unreadable(error.to_string()).at(&file, None);
-        let opened: Box<dyn Read> = match file.as_str() {
-            "standard input" => Box::new(std::io::stdin()),
-            _ => Box::new(File::open(path).map_err(read)?),
-        };
+        let opened: Box<dyn Read> =
+            if piped { Box::new(std::io::stdin()) } else { Box::new(File::open(path).map_err(read)?) };
         let mut reader = BufReader::with_capacity(1 << 16, opened);
         let start = reader.fill_buf().map_err(read)?;
         let (names, width, body) = if numpy::is_array(start) || numpy::is_archive(start) {
@@ -78,6 +77,11 @@ impl Source {
     /// The names of the columns; empty where they have none.
     pub(crate) fn names(&self) -> &[String] {
         &self.names
+    }
+
+    /// What it is called.
+    pub(crate) fn file(&self) -> &str {
+        &self.file
     }
 
     /// How many columns there are.
@@ -120,6 +124,11 @@ impl Columns {
     /// How many rows there are.
     pub(crate) fn rows(&self) -> usize {
         self.values.first().map_or(0, Vec::len)
+    }
+
+    /// `kind`, of the file as a whole.
+    pub(crate) fn whole(&self, kind: DataErrorKind) -> DataError {
+        kind.at(&self.file, None)
     }
 
     /// `kind` at a row and a column, both counted from 0.

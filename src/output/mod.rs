@@ -1,6 +1,9 @@
 //! Tables, JSON, CSV and pictures. Output computes no physics: it asks the history and the quantities.
 
 mod check;
+mod compare;
+#[cfg(feature = "plot")]
+mod compare_picture;
 mod cost;
 mod csv;
 mod file;
@@ -11,11 +14,14 @@ mod record;
 mod table;
 
 pub(crate) use check::{check_json, check_page, check_summary, check_table};
+pub(crate) use compare::{ComparedFile, compare_csv, compare_json, compare_table, orders_table};
 pub use cost::duration;
 pub(crate) use cost::{cost_csv, cost_json, cost_table, effects_csv, effects_json, effects_table};
 pub use csv::{Part, history_csv, samples_csv};
 pub use file::write_whole;
 pub use json::{SCHEMA, history_json, samples_json};
+#[cfg(feature = "plot")]
+pub(crate) use compare_picture::compare_svg;
 #[cfg(feature = "plot")]
 pub(crate) use picture::{cost_svg, png};
 pub use record::{Finished, Head, Quantity, Record, Sample, record, sample};

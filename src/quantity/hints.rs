@@ -148,12 +148,12 @@ impl std::fmt::Display for Hint {
 /// A quantity to be looked at: values at samples, and what is known of it.
 #[derive(Clone, Copy, Debug)]
 pub struct Pair<'a> {
-    /// Its name.
-    pub name: &'a str,
     /// Our values.
     pub ours: &'a [f64],
     /// Their values.
     pub theirs: &'a [f64],
+    /// Whether it has two values where a ray passes; otherwise only its rate has.
+    pub jumps: bool,
     /// Factors that are often forgotten for this quantity, with what to ask.
     pub factors: &'a [(f64, &'static str)],
 }
@@ -232,10 +232,13 @@ impl Measures<'_> {
     /// The hint that one quantity gives, if any.
     ///
     /// **Source**: the three conditions at the head of this module.
+    ///
+    /// Samples that are not `away` from jumps are left out, for all of it or for the rate.
     pub fn of_pair(&self, pair: &Pair<'_>, away: impl Fn(usize) -> bool) -> Option<Finding> {
+        let counts = |k: usize| !pair.jumps || away(k);
         let e: Vec<f64> = pair.theirs.iter().zip(pair.ours).map(|(theirs, ours)| theirs - ours).collect();
         let norm = |values: &[f64]| {
-            let counted = values.iter().zip(&self.grid.weights).enumerate().filter(|(k, _)| away(*k));
+            let counted = values.iter().zip(&self.grid.weights).enumerate().filter(|(k, _)| counts(*k));
             counted.map(|(_, (value, weight))| weight * value * value).sum::<f64>().sqrt()
         };
         let scale = norm(pair.ours);
@@ -252,9 +255,9 @@ impl Measures<'_> {
         let impacts = self.events.len().div_ceil(2).max(1) as f64;
         let loss = (2.0 * impacts * self.step).min(AGREES);
         let holds = |fit: &Fit, gross: bool| fit.left <= LEFT * LEFT && fit.agrees && (fit.tell >= 2 || gross);
-        let multiple = self.fit(&e, |k| away(k).then(|| pair.ours[k]), true);
+        let multiple = self.fit(&e, |k| counts(k).then(|| pair.ours[k]), true);
         let multiple = multiple.filter(|fit| holds(fit, fit.value.abs() >= AGREES) && fit.value.abs() > loss);
-        let constant = self.fit(&e, |k| away(k).then_some(1.0), true);
+        let constant = self.fit(&e, |k| counts(k).then_some(1.0), true);
         let most = pair.ours.iter().fold(0.0f64, |most, value| most.max(value.abs()));
         let constant = constant.filter(|fit| holds(fit, false) && fit.value.abs() > loss * most);
         let late = self.fit(&e, rate, false).filter(|fit| holds(fit, false));
