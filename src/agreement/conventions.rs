@@ -49,7 +49,8 @@ pub(crate) struct Conventions {
 impl Conventions {
     /// The factor that brings a quantity to our convention.
     fn factor(&self, what: What) -> f64 {
-        let flipped = |ours: Compression| if self.compression.is_some_and(|theirs| theirs != ours) { -1.0 } else { 1.0 };
+        let flipped =
+            |ours: Compression| if self.compression.is_some_and(|theirs| theirs != ours) { -1.0 } else { 1.0 };
         let way = if self.axis == Axis::Down { -1.0 } else { 1.0 };
         match what {
             What::Field(Part::Displacement | Part::Velocity) => way,
@@ -77,7 +78,12 @@ impl Conventions {
     /// Brings all quantities to our conventions.
     ///
     /// **Errors**: what the history cannot answer of the start.
-    pub(super) fn apply(&self, ours: &Ours<'_>, quantities: &mut [(What, Vec<f64>)], points: Option<&[f64]>) -> Result<(), Error> {
+    pub(super) fn apply(
+        &self,
+        ours: &Ours<'_>,
+        quantities: &mut [(What, Vec<f64>)],
+        points: Option<&[f64]>,
+    ) -> Result<(), Error> {
         for (what, values) in quantities {
             let factor = self.factor(*what);
             let starts = if self.origin == Origin::Start { ours.start(*what, points)? } else { None };

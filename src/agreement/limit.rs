@@ -22,12 +22,8 @@ enum NormName {
     LinfOffJumps,
 }
 
-const NORMS: [(&str, NormName); 4] = [
-    ("l1", NormName::L1),
-    ("l2", NormName::L2),
-    ("linf", NormName::Linf),
-    ("linf_off_jumps", NormName::LinfOffJumps),
-];
+const NORMS: [(&str, NormName); 4] =
+    [("l1", NormName::L1), ("l2", NormName::L2), ("linf", NormName::Linf), ("linf_off_jumps", NormName::LinfOffJumps)];
 
 impl NormName {
     /// Absolute and relative; `None` where no sample has a say.

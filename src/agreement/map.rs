@@ -1,6 +1,6 @@
 //! Which column of a file is which quantity.
 
-use crate::quantity::{Column, Measure, Units};
+use crate::quantity::{Column, Measure, Rays, Units};
 
 /// A quantity that can be compared.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -56,7 +56,8 @@ impl What {
 
     /// The quantity of this name or alias; with points along the rod `u`, `v`, `strain` and `stress` are those there.
     pub(crate) fn named(name: &str, field: bool) -> Option<What> {
-        let column = Column::named(name).or_else(|| ALIASES.iter().find(|alias| alias.0 == name).map(|alias| alias.1))?;
+        let column =
+            Column::named(name).or_else(|| ALIASES.iter().find(|alias| alias.0 == name).map(|alias| alias.1))?;
         match (field, column) {
             (_, Column::Side | Column::Time) => None,
             (false, column) => Some(What::Column(column)),
@@ -93,8 +94,22 @@ impl What {
             What::Field(part) => part != Part::Displacement,
             What::Column(column) => matches!(
                 column,
-                Column::EndVelocity | Column::Strain | Column::Stress | Column::Force | Column::TopVelocity | Column::Contact
+                Column::EndVelocity
+                    | Column::Strain
+                    | Column::Stress
+                    | Column::Force
+                    | Column::TopVelocity
+                    | Column::Contact
             ),
+        }
+    }
+
+    /// What a ray leaves in it.
+    pub(crate) fn rays(self) -> Rays {
+        match self {
+            _ if self.jumps() => Rays::Jump,
+            What::Column(Column::Centre | Column::Energy | Column::GravityEnergy) => Rays::Smooth,
+            _ => Rays::Kink,
         }
     }
 

@@ -10,10 +10,11 @@ use crate::error::Error;
 use crate::history::History;
 use crate::problem::{Problem, Top};
 use crate::quantity::{
-    Audit, Books, Column, Grid, Hint, Measures, Norms, Pair, Touch, gathered, matched, norms, of_contacts, touches,
+    Audit, Books, Column, Finding, Grid, Hint, Measures, Norms, Pair, Touch, gathered, matched, norms, of_contacts,
+    touches,
 };
 
-pub(crate) use conventions::{Axis, Conventions, Compression, Origin};
+pub(crate) use conventions::{Axis, Compression, Conventions, Origin};
 pub(crate) use limit::{Limit, Order, orders};
 pub(crate) use map::{Map, What};
 use ours::{Ours, Place};
@@ -49,6 +50,8 @@ pub(crate) struct Compared {
 #[derive(Clone, Debug)]
 pub(crate) struct Settings {
     pub(crate) conventions: Conventions,
+    /// How far the data should go: the end of the scene's own run, where that is a time.
+    pub(crate) until: Option<f64>,
     /// In round trips; by default [`WINDOW`], or two steps where that is more.
     pub(crate) window: Option<f64>,
 }
@@ -94,17 +97,40 @@ impl Agreement {
             let norms = norms(&grid, &values, &theirs, on_jumps, |k| !what.jumps() || away(k, window));
             if grid.points.is_none() && what.is_hinted() {
                 let factors = ours.factors(what);
-                let pair = Pair { ours: &values, theirs: &theirs, jumps: what.jumps(), factors: &factors };
+                let pair = Pair { ours: &values, theirs: &theirs, rays: what.rays(), factors: &factors };
                 // Kinks of a displacement are where its velocity jumps.
                 let finding = measures.of_pair(&pair, |k| away(k, window.max(narrow)));
                 hints.extend(finding.map(|finding| Hint { quantity: what.name().into(), finding }));
             }
             compared.push(Compared { what, ours: values, theirs, norms });
         }
-        let mut agreement =
-            Agreement { grid, quantities: compared, contacts: Vec::new(), audit: Audit::default(), hints, step, window, outside };
+        for (of, rate) in [
+            (Column::EndDisplacement, Column::EndVelocity),
+            (Column::TopDisplacement, Column::TopVelocity),
+            (Column::Centre, Column::CentreVelocity),
+        ] {
+            let theirs = |column| {
+                let found = compared.iter().find(|compared: &&Compared| compared.what == What::Column(column))?;
+                Some(found.theirs.as_slice())
+            };
+            let Some((u, velocity)) = theirs(of).zip(theirs(rate)) else { continue };
+            let passing = ours.passing(Place::of(What::Column(of)), &grid);
+            let away = |k: usize| (passing[k] - grid.times[k]).abs() > window.max(narrow);
+            let finding = measures.of_rate(of.name(), [u, velocity], away);
+            hints.extend(finding.map(|finding| Hint { quantity: rate.name().into(), finding }));
+        }
+        let mut agreement = Agreement {
+            grid,
+            quantities: compared,
+            contacts: Vec::new(),
+            audit: Audit::default(),
+            hints,
+            step,
+            window,
+            outside,
+        };
         if agreement.grid.points.is_none() {
-            agreement.keep_books(problem, &ours);
+            agreement.keep_books(problem, &ours, settings.until);
         }
         Ok(agreement)
     }
@@ -114,13 +140,15 @@ impl Agreement {
     }
 
     /// Contacts, audit, and the hints of both.
-    fn keep_books(&mut self, problem: &Problem, ours: &Ours<'_>) {
+    fn keep_books(&mut self, problem: &Problem, ours: &Ours<'_>, until: Option<f64>) {
         let times = &self.grid.times;
         let (Some(first), Some(last)) = (times.first().copied(), times.last().copied()) else { return };
-        // Whatever shows the force: it, or stress or strain with the factor that makes them one.
+        // Whatever shows the force: it, or stress or strain with the factor that makes them one. Where its sign is the
+        // other one, which is a hint, contacts are read from the force that is meant.
         let shown = [Column::Force, Column::Stress, Column::Strain].into_iter().find_map(|column| self.theirs(column));
         let force: Option<Vec<f64>> = shown.map(|shown| {
-            let factor = ours.force_per(shown.what);
+            let sign = |hint: &Hint| hint.quantity == shown.what.name() && hint.finding == Finding::Sign;
+            let factor = ours.force_per(shown.what) * if self.hints.iter().any(sign) { -1.0 } else { 1.0 };
             shown.theirs.iter().map(|value| value * factor).collect()
         });
         let force = force.as_deref();
@@ -138,10 +166,14 @@ impl Agreement {
         };
         let mut contacts = Vec::new();
         if on_ground.is_some() || force.is_some() || end.is_some() {
-            let found = touches(times, touching, force, ours.shortest_separation());
-            let within = |touch: &Touch| touch.from < last && touch.to.is_none_or(|to| to > first);
+            // One that begins just after the last sample may have begun in theirs; it is not missing if not.
+            let separation = ours.shortest_separation();
+            let found = touches(times, touching, force, separation);
+            let within = |touch: &Touch| touch.from < last + separation && touch.to.is_none_or(|to| to > first);
             let exact: Vec<Touch> = exact.into_iter().filter(within).collect();
             contacts = matched(&exact, &found);
+            let later = |touch: &Touch| touch.from > last - 2.0 * self.step;
+            contacts.retain(|(a, b)| b.is_some() || !a.as_ref().is_some_and(later));
         }
         let energy = self.theirs(Column::Energy);
         let books = Books {
@@ -155,7 +187,7 @@ impl Agreement {
         self.audit = Audit {
             missed: contacts.iter().filter(|row| row.1.is_none()).count(),
             invented: contacts.iter().filter(|row| row.0.is_none()).count(),
-            not_covered: books.not_covered(ours.end()),
+            not_covered: books.not_covered(until.unwrap_or(last)),
             ..books.audit()
         };
         let mut hints = of_contacts(&contacts, self.step);

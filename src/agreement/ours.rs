@@ -87,11 +87,6 @@ impl<'a> Ours<'a> {
         Ok(Ours { history, rod, material, pieces, jumps, leaves })
     }
 
-    /// The last time of the run.
-    pub(super) fn end(&self) -> f64 {
-        *self.history.end()
-    }
-
     /// `ρS`, or 1 where forces are per `ρS`.
     fn line(&self) -> f64 {
         self.material[1] * self.material[2]

@@ -111,8 +111,7 @@ impl Samples {
         };
         let first = at + usize::from(at_points);
         let (times, points) = (cut(times), points.map(&cut));
-        let mut steps: Vec<f64> =
-            times.windows(2).map(|pair| pair[1] - pair[0]).filter(|step| *step > 0.0).collect();
+        let mut steps: Vec<f64> = times.windows(2).map(|pair| pair[1] - pair[0]).filter(|step| *step > 0.0).collect();
         let middle = steps.len() / 2;
         let step = if steps.is_empty() { 0.0 } else { *steps.select_nth_unstable_by(middle, f64::total_cmp).1 };
         let rounding = Rounding::of(&times, step);

@@ -19,13 +19,11 @@ use crate::solve::{Numbers, Plan, Question, Solution};
 
 /// Your data against the exact history: norms, contacts, an audit, and hints at what may be wrong
 #[derive(Args, Debug)]
-#[command(
-    after_help = "Examples:\n  dalembert compare doyen-ern-piperno run.csv\n  \
+#[command(after_help = "Examples:\n  dalembert compare doyen-ern-piperno run.csv\n  \
     dalembert compare rod.toml run.dat --map t=0,u=1,v=2,force=3 -o run.svg\n  \
     dalembert compare rod.toml coarse.npz fine.npz --fail-above u.l2=0.01,force.l1=0.05\n\n\
     Quantities are called as in `dalembert reference`; u and v are short for u_end and v_end. With a column x, u, v,\n\
-    strain and stress are those at the point x. The exit code is 1 where --fail-above fails."
-)]
+    strain and stress are those at the point x. The exit code is 1 where --fail-above fails.")]
 pub(super) struct Compare {
     /// A scene file, `-`, or a built-in scene. It is followed as far as the data go
     scene: String,
@@ -97,8 +95,13 @@ impl Compare {
         let rod = Parameters::<f64>::of(&scene.problem, &())?;
         let all = self.data.iter().map(|path| self.read(path, rod.length)).collect::<Result<Vec<Samples>, _>>()?;
         let last = all.iter().filter_map(|samples| samples.grid.times.last()).fold(0.0, |a: f64, b| a.max(*b));
-        let (problem, history) = solve(&scene, last)?;
-        let settings = self.settings();
+        // A round trip more shows a contact that begins in the data a little too early.
+        let (problem, history) = solve(&scene, last + rod.round_trip())?;
+        let until = match &scene.problem.run {
+            Run::Time(time) => Some(time.to_f64()),
+            Run::Impacts(_) => None,
+        };
+        let settings = self.settings(until);
         let mut files = Vec::new();
         for (path, samples) in self.data.iter().zip(all) {
             let file = path.display().to_string();
@@ -132,7 +135,9 @@ impl Compare {
                 ));
             }
             if self.data.len() > 1 && !matches!(kind, Kind::Rows(Format::Table | Format::Json)) {
-                return Err(miette::miette!("found {path} with several files of data, expected one for a picture or CSV"));
+                return Err(miette::miette!(
+                    "found {path} with several files of data, expected one for a picture or CSV"
+                ));
             }
         }
         if self.data.len() > 1 && self.format == Some(Format::Csv) {
@@ -155,7 +160,7 @@ impl Compare {
         self.widths.iter().try_for_each(|width| positive("--widths", width))
     }
 
-    fn settings(&self) -> Settings {
+    fn settings(&self, until: Option<f64>) -> Settings {
         Settings {
             conventions: Conventions {
                 compression: self.compression,
@@ -163,6 +168,7 @@ impl Compare {
                 axis: self.axis,
                 energy_scale: self.energy_scale.to_f64(),
             },
+            until,
             window: self.window.as_ref().map(Number::to_f64),
         }
     }
@@ -239,8 +245,9 @@ impl Report<'_> {
         let Report { files, orders, title, units } = *self;
         Ok(match kind {
             Kind::Rows(Format::Json) => format!("{:#}\n", compare_json(files, orders, title, units)).into_bytes(),
-            Kind::Rows(Format::Csv) => compare_csv(&files[0].agreement)
-                .map_err(|error| miette::miette!("cannot write CSV: {error}"))?,
+            Kind::Rows(Format::Csv) => {
+                compare_csv(&files[0].agreement).map_err(|error| miette::miette!("cannot write CSV: {error}"))?
+            }
             #[cfg(feature = "plot")]
             Kind::Svg => crate::output::compare_svg(&files[0], title, units).into_bytes(),
             #[cfg(feature = "plot")]
@@ -248,8 +255,7 @@ impl Report<'_> {
                 .map_err(|error| miette::miette!("cannot draw: {error}"))?,
             // Pictures that cannot be drawn are refused before anything is compared.
             _ => {
-                let mut tables: Vec<String> =
-                    files.iter().map(|file| compare_table(file, title, units)).collect();
+                let mut tables: Vec<String> = files.iter().map(|file| compare_table(file, title, units)).collect();
                 if files.len() > 1 {
                     tables.push(orders_table(orders));
                 }

@@ -132,7 +132,8 @@ fn audit_lines(agreement: &Agreement, units: &Units) -> String {
     };
     let or = |text: Option<String>, needs: &str| text.unwrap_or_else(|| format!("– (needs {needs})"));
     let energy = audit.energy_change.as_ref().map(|energy| {
-        let relative = energy.relative.map_or_else(String::new, |relative| format!(", {} of it", share(Some(relative.abs()))));
+        let relative =
+            energy.relative.map_or_else(String::new, |relative| format!(", {} of it", share(Some(relative.abs()))));
         let sign = if energy.change < 0.0 { "lost" } else { "gained" };
         let change = size(Some(energy.change.abs()));
         format!("{change} {sign} in all{relative}; most gained {}, most lost {}", at(&energy.gain), at(&energy.loss))
@@ -144,7 +145,10 @@ fn audit_lines(agreement: &Agreement, units: &Units) -> String {
         ("tension in contact", or(audit.tension.as_ref().map(at), "force, stress or strain")),
         ("∫|v F| dt", or(audit.complementarity.map(|x| size(Some(x))), "u_end and force")),
         ("energy", or(energy, "E_total")),
-        ("momentum", or(audit.momentum.map(|x| format!("{} out of balance", size(Some(x)))), "force, h_rate, a free top")),
+        (
+            "momentum",
+            or(audit.momentum.map(|x| format!("{} out of balance", size(Some(x)))), "force, h_rate, a free top"),
+        ),
         ("contacts", format!("{} missed, {} invented", audit.missed, audit.invented)),
         ("not covered", if covered.is_empty() { "nothing".into() } else { covered.join(", ") }),
     ];

@@ -43,7 +43,8 @@ pub(crate) fn compare_svg(compared: &ComparedFile, title: Option<&str>, units: &
             "" | "1" => what.name().to_string(),
             unit => format!("{}, {unit}", what.name()),
         };
-        let drawn = |points, color: &str, width| LinePlot::new().with_data(points).with_color(color).with_stroke_width(width);
+        let drawn =
+            |points, color: &str, width| LinePlot::new().with_data(points).with_color(color).with_stroke_width(width);
         let exact = drawn(line(times, |k| ours[k]), "#000000", 2.2).with_legend("ours");
         let other = drawn(line(times, |k| theirs[k]), "#d55e00", 1.1).with_legend(compared.file.clone());
         let apart = drawn(line(times, |k| theirs[k] - ours[k]), "#0072b2", 1.0);

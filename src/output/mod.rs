@@ -15,13 +15,13 @@ mod table;
 
 pub(crate) use check::{check_json, check_page, check_summary, check_table};
 pub(crate) use compare::{ComparedFile, compare_csv, compare_json, compare_table, orders_table};
+#[cfg(feature = "plot")]
+pub(crate) use compare_picture::compare_svg;
 pub use cost::duration;
 pub(crate) use cost::{cost_csv, cost_json, cost_table, effects_csv, effects_json, effects_table};
 pub use csv::{Part, history_csv, samples_csv};
 pub use file::write_whole;
 pub use json::{SCHEMA, history_json, samples_json};
-#[cfg(feature = "plot")]
-pub(crate) use compare_picture::compare_svg;
 #[cfg(feature = "plot")]
 pub(crate) use picture::{cost_svg, png};
 pub use record::{Finished, Head, Quantity, Record, Sample, record, sample};

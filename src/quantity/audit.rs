@@ -65,10 +65,11 @@ pub struct Books<'a> {
 impl Books<'_> {
     /// The first sample with the greatest `value` above zero.
     fn most(&self, value: impl Fn(usize) -> f64) -> Extreme {
-        (0..self.times.len()).map(|k| Extreme { value: value(k), time: self.times[k] }).fold(
-            Extreme { value: 0.0, time: self.times.first().copied().unwrap_or(0.0) },
-            |most, found| if found.value > most.value { found } else { most },
-        )
+        (0..self.times.len())
+            .map(|k| Extreme { value: value(k), time: self.times[k] })
+            .fold(Extreme { value: 0.0, time: self.times.first().copied().unwrap_or(0.0) }, |most, found| {
+                if found.value > most.value { found } else { most }
+            })
     }
 
     /// `∫ value dt` by the trapezoidal rule.
@@ -151,7 +152,10 @@ mod tests {
         // |−0.5 · 4| = 2, |1 · −1| = 1, 0.
         assert_eq!(audit.complementarity, Some(2.0));
         let energy = audit.energy_change.unwrap();
-        assert_eq!((energy.change, energy.gain.value, energy.loss.value, energy.relative), (-0.5, 1.0, 0.5, Some(-0.25)));
+        assert_eq!(
+            (energy.change, energy.gain.value, energy.loss.value, energy.relative),
+            (-0.5, 1.0, 0.5, Some(-0.25))
+        );
         // 2 (2 + 0 + 3 · 2) − (3/2 − 1/2).
         assert_eq!(audit.momentum, Some(15.0));
         assert_eq!(Books { force: None, ..books }.audit().complementarity, None);

@@ -14,7 +14,7 @@ pub use audit::{Audit, Books, EnergyChange, Extreme};
 pub(crate) use column::of_one_size;
 pub use column::{Column, columns};
 pub use flight::{Flight, flights};
-pub use hints::{Finding, Hint, Measures, Pair, gathered, of_contacts};
+pub use hints::{Finding, Hint, Measures, Pair, Rays, gathered, of_contacts};
 pub use norms::{Greatest, Grid, Norm, Norms, norms, order};
 pub use restitution::{EnergyShares, Restitution, Undefined, energy_shares, restitution};
 pub use touch::{Moments, Touch, matched, touches};

@@ -189,7 +189,8 @@ mod tests {
         let ours: Vec<Touch> = (0..6).map(|k| at(4.0 * f64::from(k))).collect();
         let theirs: Vec<Touch> = [0.0, 4.5, 13.5, 15.2, 18.0, 22.5].map(at).into();
         let rows = matched(&ours, &theirs);
-        let times = |row: &(Option<Touch>, Option<Touch>)| (row.0.as_ref().map(|a| a.from), row.1.as_ref().map(|b| b.from));
+        let times =
+            |row: &(Option<Touch>, Option<Touch>)| (row.0.as_ref().map(|a| a.from), row.1.as_ref().map(|b| b.from));
         let expected = [
             (Some(0.0), Some(0.0)),
             (Some(4.0), Some(4.5)),

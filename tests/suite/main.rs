@@ -15,6 +15,8 @@ mod columns;
 mod command;
 mod common;
 #[cfg(feature = "cli")]
+mod compare_peers;
+#[cfg(feature = "cli")]
 mod cost_measured;
 mod damped_bounce;
 mod damped_history;
@@ -36,6 +38,8 @@ mod hard_cases;
 #[cfg(feature = "mp")]
 mod number_interval;
 mod paper_claims;
+#[cfg(feature = "cli")]
+mod peers;
 mod problem_builder;
 mod scene_builtin;
 mod scene_errors;
