@@ -68,6 +68,7 @@ pub mod scene;
 pub mod solve;
 #[doc(hidden)]
 pub mod special;
+mod wave;
 
 pub use error::Error;
 pub use first_contact::{Bounce, BounceKind, FirstContact, NoBounceReason, Rebound};
@@ -80,7 +81,7 @@ pub use paper::UndampedContact;
 pub use problem::{
     Dimensionless, Material, Parameters, Problem, ProblemError, ProblemErrorKind, Profile, Rod, Run, Speed, Start, Top,
 };
-pub use quantity::{Column, EnergyShares, Flight, Measure, Restitution, Undefined, UnitSystem, Units};
+pub use quantity::{Column, EnergyShares, Flight, Measure, Restitution, Slice, Undefined, UnitSystem, Units};
 pub use ray::{Ray, reflection};
 #[cfg(feature = "mp")]
 pub use rug;
@@ -89,6 +90,7 @@ pub use solve::{
     CERTIFIED_DIGITS, DEFAULT_ACCURACY, Engine, ExactnessEnd, Numbers, Observer, Plan, Question, Reach, Rung, Solution,
     Want,
 };
+pub use wave::{Stretch, WavePiece, Waves};
 
 #[cfg(doctest)]
 #[doc = include_str!("../README.md")]

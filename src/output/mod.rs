@@ -1,6 +1,7 @@
 //! Tables, JSON, CSV and pictures. Output computes no physics: it asks the history and the quantities.
 
 mod check;
+mod code;
 mod compare;
 #[cfg(feature = "plot")]
 mod compare_picture;
@@ -11,18 +12,22 @@ mod json;
 #[cfg(feature = "plot")]
 mod picture;
 mod record;
+mod reference;
 mod table;
 
 pub(crate) use check::{check_json, check_page, check_summary, check_table};
+pub use code::{Language, code};
 pub(crate) use compare::{ComparedFile, compare_csv, compare_json, compare_table, orders_table};
 #[cfg(feature = "plot")]
 pub(crate) use compare_picture::compare_svg;
 pub use cost::duration;
 pub(crate) use cost::{cost_csv, cost_json, cost_table, effects_csv, effects_json, effects_table};
 pub use csv::{Part, history_csv, samples_csv};
+pub(crate) use file::write_filled;
 pub use file::write_whole;
 pub use json::{SCHEMA, history_json, samples_json};
 #[cfg(feature = "plot")]
 pub(crate) use picture::{cost_svg, png};
 pub use record::{Finished, Head, Quantity, Record, Sample, record, sample};
+pub use reference::{Described, Golden, Preamble, Rows};
 pub use table::{LEGEND, history_table, samples_table, table};

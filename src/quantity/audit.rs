@@ -65,11 +65,12 @@ pub struct Books<'a> {
 impl Books<'_> {
     /// The first sample with the greatest `value` above zero.
     fn most(&self, value: impl Fn(usize) -> f64) -> Extreme {
-        (0..self.times.len())
-            .map(|k| Extreme { value: value(k), time: self.times[k] })
-            .fold(Extreme { value: 0.0, time: self.times.first().copied().unwrap_or(0.0) }, |most, found| {
+        (0..self.times.len()).map(|k| Extreme { value: value(k), time: self.times[k] }).fold(
+            Extreme { value: 0.0, time: self.times.first().copied().unwrap_or(0.0) },
+            |most, found| {
                 if found.value > most.value { found } else { most }
-            })
+            },
+        )
     }
 
     /// `∫ value dt` by the trapezoidal rule.

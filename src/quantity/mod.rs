@@ -7,15 +7,17 @@ mod flight;
 mod hints;
 mod norms;
 mod restitution;
+mod slice;
 mod touch;
 mod unit;
 
 pub use audit::{Audit, Books, EnergyChange, Extreme};
-pub(crate) use column::of_one_size;
 pub use column::{Column, columns};
+pub(crate) use column::{natural_scales, of_one_size};
 pub use flight::{Flight, flights};
 pub use hints::{Finding, Hint, Measures, Pair, Rays, gathered, of_contacts};
 pub use norms::{Greatest, Grid, Norm, Norms, norms, order};
 pub use restitution::{EnergyShares, Restitution, Undefined, energy_shares, restitution};
+pub use slice::{Slice, slices};
 pub use touch::{Moments, Touch, matched, touches};
 pub use unit::{Measure, UnitSystem, Units};
