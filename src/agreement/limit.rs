@@ -69,7 +69,7 @@ impl Limit {
             format!("found --fail-above {}, expected one of {}", self.quantity, names.join(", "))
         })?;
         let value = self.norm.of(&compared.norms).map(|(absolute, relative)| relative.unwrap_or(absolute));
-        Ok(value.filter(|value| !(*value <= self.bound)))
+        Ok(value.filter(|value| *value > self.bound || value.is_nan()))
     }
 }
 

@@ -1,5 +1,6 @@
 //! Other people's data held against a history: the same quantities at the same times, and what follows from them.
 
+mod between;
 mod conventions;
 mod limit;
 mod map;

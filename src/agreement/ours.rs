@@ -1,5 +1,6 @@
 //! The exact side: values, jumps and contacts of a history.
 
+use super::between::filled;
 use super::map::{Part, What};
 use super::samples::Rounding;
 use crate::error::Error;
@@ -42,8 +43,8 @@ impl Place {
     }
 }
 
-/// Values are asked for in lists of this length.
-const AT_ONCE: usize = 1 << 16;
+/// With more times than this, most values are interpolated.
+const MANY: usize = 1 << 15;
 /// Jumps below this share of the scale of velocities are none, and times within it of the round trip are the same.
 const SMALL: f64 = 1e-9;
 
@@ -71,17 +72,13 @@ impl<'a> Ours<'a> {
         }
         found.extend(&brought);
         let candidates = repeated(found, trip, end);
-        let differ = |at: &f64| -> Result<bool, Error> {
-            let (left, right) = (history.ground_end(*at, Side::Left)?, history.ground_end(*at, Side::Right)?);
-            let strain = history.strain(*at, Side::Left)? - history.strain(*at, Side::Right)?;
-            Ok((left.1 - right.1).abs().max(strain.abs() * rod.wave_speed) > SMALL * history.scales().velocity)
-        };
-        let mut jumps = Vec::new();
-        for at in candidates {
-            if differ(&at)? {
-                jumps.push(at);
-            }
-        }
+        let seen = [Column::EndVelocity, Column::Strain];
+        let (before, after) =
+            (ask(history, &seen, &candidates, Side::Left)?, ask(history, &seen, &candidates, Side::Right)?);
+        let jump = |column: usize, k: usize| (before[column][k] - after[column][k]).abs();
+        let least = SMALL * history.scales().velocity;
+        let differ = |k: usize| jump(0, k).max(jump(1, k) * rod.wave_speed) > least;
+        let jumps: Vec<f64> = candidates.iter().enumerate().filter(|(k, _)| differ(*k)).map(|(_, at)| *at).collect();
         let mut leaves: Vec<f64> = brought.iter().map(|arrival| arrival - trip).chain(jumps.iter().copied()).collect();
         leaves.sort_by(f64::total_cmp);
         Ok(Ours { history, rod, material, pieces, jumps, leaves })
@@ -111,13 +108,9 @@ impl<'a> Ours<'a> {
     pub(super) fn values(&self, whats: &[What], grid: &Grid) -> Result<Vec<Vec<f64>>, Error> {
         let Some(points) = &grid.points else {
             let columns: Vec<Column> = whats.iter().filter_map(|what| what.column()).collect();
-            let mut all = vec![Vec::with_capacity(grid.times.len()); columns.len()];
-            for times in grid.times.chunks(AT_ONCE) {
-                for (values, more) in all.iter_mut().zip(self.history.columns(&columns, times, Some(Side::Right))?) {
-                    values.extend(more);
-                }
-            }
-            return Ok(all);
+            let at = |times: &[f64]| ask(self.history, &columns, times, Side::Right);
+            let many = grid.times.len() > MANY;
+            return if many { filled(&grid.times, columns.len(), at) } else { at(&grid.times) };
         };
         let mut all = vec![Vec::with_capacity(grid.times.len()); whats.len()];
         for row in grid.times.chunk_by(|a, b| a == b) {
@@ -151,8 +144,9 @@ impl<'a> Ours<'a> {
         ours: &mut [f64],
     ) -> Result<usize, Error> {
         let mut count = 0;
+        let may = if what.jumps() { rounding.most } else { -1.0 };
         for (k, (jump, time)) in passing.iter().zip(&grid.times).enumerate() {
-            if !what.jumps() || (jump - time).abs() > rounding.at(*time) {
+            if (jump - time).abs() > may || (jump - time).abs() > rounding.at(*time) {
                 continue;
             }
             let left = self.limit(what, grid, k, jump.max(0.0), Side::Left)?;
@@ -171,7 +165,7 @@ impl<'a> Ours<'a> {
             }
             (column, _) => {
                 let columns: Vec<Column> = column.into_iter().collect();
-                let values = self.history.columns(&columns, &[time], Some(side))?;
+                let values = ask(self.history, &columns, &[time], side)?;
                 Ok(values.first().and_then(|values| values.first()).copied().unwrap_or(0.0))
             }
         }
@@ -201,7 +195,7 @@ impl<'a> Ours<'a> {
                 Ok(Some(fields.into_iter().map(|field| field.displacement).collect()))
             }
             (What::Column(column @ (Column::EndDisplacement | Column::TopDisplacement | Column::Centre)), _) => {
-                Ok(self.history.columns(&[column], &[0.0], Some(Side::Right))?.into_iter().next())
+                Ok(ask(self.history, &[column], &[0.0], Side::Right)?.into_iter().next())
             }
             _ => Ok(None),
         }
@@ -229,7 +223,8 @@ impl<'a> Ours<'a> {
                 }
             }
             moments.reach(factor * contact.peak_stress);
-            touches.push(moments.touch(contact.from, contact.to));
+            let impulse = Some(self.line() * contact.impulse);
+            touches.push(Touch { impulse, ..moments.touch(contact.from, contact.to) });
         }
         touches
     }
@@ -267,6 +262,14 @@ impl<'a> Ours<'a> {
         known.retain(|(factor, _)| (factor - 1.0).abs() > 0.01);
         known
     }
+}
+
+/// Values of columns at times. The velocity of the top is asked with them: the ladder settles a stress that is zero in
+/// flight by the greatest number beside it.
+fn ask(history: &History<f64>, columns: &[Column], times: &[f64], side: Side) -> Result<Vec<Vec<f64>>, Error> {
+    let mut values = history.columns(&[columns, &[Column::TopVelocity]].concat(), times, Some(side))?;
+    values.truncate(columns.len());
+    Ok(values)
 }
 
 /// The nearest of ascending times; infinite where there is none.

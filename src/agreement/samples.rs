@@ -32,7 +32,7 @@ pub(crate) struct Rounding {
     decimals: i32,
     digits: i32,
     rows: f64,
-    most: f64,
+    pub(crate) most: f64,
 }
 
 /// So many times are looked at for their digits.

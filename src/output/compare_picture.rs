@@ -2,7 +2,6 @@
 
 use kuva::backend::svg::SvgBackend;
 use kuva::plot::LinePlot;
-use kuva::plot::legend::LegendPosition;
 use kuva::render::figure::Figure;
 use kuva::render::layout::Layout;
 use kuva::render::plots::Plot;
@@ -36,6 +35,7 @@ fn line(times: &[f64], values: impl Fn(usize) -> f64) -> Vec<(f64, f64)> {
 /// Two panels for each quantity: ours with theirs over it, and theirs − ours.
 pub(crate) fn compare_svg(compared: &ComparedFile, title: Option<&str>, units: &Units) -> String {
     let times = &compared.agreement.grid.times;
+    let file = std::path::Path::new(&compared.file).file_name().and_then(|name| name.to_str()).unwrap_or("theirs");
     let (mut plots, mut layouts) = (Vec::new(), Vec::new());
     let mut figure = Figure::new(2 * compared.agreement.quantities.len(), 1);
     for (k, Compared { what, ours, theirs, .. }) in compared.agreement.quantities.iter().enumerate() {
@@ -46,7 +46,7 @@ pub(crate) fn compare_svg(compared: &ComparedFile, title: Option<&str>, units: &
         let drawn =
             |points, color: &str, width| LinePlot::new().with_data(points).with_color(color).with_stroke_width(width);
         let exact = drawn(line(times, |k| ours[k]), "#000000", 2.2).with_legend("ours");
-        let other = drawn(line(times, |k| theirs[k]), "#d55e00", 1.1).with_legend(compared.file.clone());
+        let other = drawn(line(times, |k| theirs[k]), "#d55e00", 1.1).with_legend(file);
         let apart = drawn(line(times, |k| theirs[k] - ours[k]), "#0072b2", 1.0);
         let panels: [(Vec<Plot>, String); 2] =
             [(vec![exact.into(), other.into()], name), (vec![apart.into()], "theirs − ours".into())];
@@ -58,8 +58,7 @@ pub(crate) fn compare_svg(compared: &ComparedFile, title: Option<&str>, units: &
                 .with_body_size(12)
                 .with_font_family(FAMILY)
                 .with_x_axis_min(times.first().copied().unwrap_or(0.0))
-                .with_x_axis_max(times.last().copied().unwrap_or(1.0))
-                .with_legend_position(LegendPosition::OutsideRightTop);
+                .with_x_axis_max(times.last().copied().unwrap_or(1.0));
             if row == 1 {
                 layout = layout.with_x_label("t");
             }
@@ -75,7 +74,8 @@ pub(crate) fn compare_svg(compared: &ComparedFile, title: Option<&str>, units: &
         .with_structure(structure)
         .with_plots(plots)
         .with_layouts(layouts)
-        .with_cell_size(WIDTH, HEIGHTS[0]);
+        .with_cell_size(WIDTH, HEIGHTS[0])
+        .with_shared_legend_bottom();
     SvgBackend::new().render_scene(&figure.render())
 }
 

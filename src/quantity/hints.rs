@@ -5,8 +5,8 @@
 //! `‖e‖₂`, so that it is the greater part of what is wrong, and where one of two things holds.
 //!
 //! - *From the first sample on*: the first sample, and both halves of the time up to the first event after it, or of
-//!   half of that time, and so on, say the same within a quarter. A scheme starts from the same data as ours: its errors are nothing at the first sample and
-//!   grow from there. A wrong factor, sign, origin or clock is there at once.
+//!   half of that time, and so on, say the same within a quarter. A scheme starts from the same data as ours: its
+//!   errors are nothing at the first sample and grow from there. A wrong factor, sign, origin or clock is there at once.
 //! - *Everywhere*: every contact and every flight by itself says the same within a quarter, and the first sample with
 //!   them where it has a say. Errors of a scheme grow from impact to impact, or differ from one to the other.
 //!

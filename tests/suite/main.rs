@@ -15,6 +15,8 @@ mod columns;
 mod command;
 mod common;
 #[cfg(feature = "cli")]
+mod compare_command;
+#[cfg(feature = "cli")]
 mod compare_peers;
 #[cfg(feature = "cli")]
 mod cost_measured;
