@@ -128,9 +128,9 @@ pub enum Error {
     #[error("found the rays of a damped rod asked for, expected an undamped one: only there jumps travel unchanged")]
     NoRays,
     /// A grid for averages or projections.
-    #[error("found the point {found}, expected points that increase")]
+    #[error("found {found}, expected a grid of two points or more that increase")]
     Grid {
-        /// The points.
+        /// What is no grid.
         found: String,
     },
     /// The travelling waves of a damped rod.

@@ -85,7 +85,7 @@ pub use quantity::{Column, EnergyShares, Flight, Measure, Restitution, Slice, Un
 pub use ray::{Ray, reflection};
 #[cfg(feature = "mp")]
 pub use rug;
-pub use scene::{Effect, EffectUse, Scene, SceneError, SceneErrorKind};
+pub use scene::{Effect, EffectUse, Scene, SceneError, SceneErrorKind, Target, TargetQuantity};
 pub use solve::{
     CERTIFIED_DIGITS, DEFAULT_ACCURACY, Engine, ExactnessEnd, Numbers, Observer, Plan, Question, Reach, Rung, Solution,
     Want,

@@ -8,8 +8,8 @@ use crate::problem::Top;
 /// `v(x,t) = (P(t − x/c) ± P(t + x/c − t₁))/2 + a + b x + d x²`, with `+` under a free top and `−` under a fixed one,
 /// and a piecewise quadratic, continuous function `P` on `−t₁ … end`.
 ///
-/// **Source**: d'Alembert. `P′` is the upward invariant `v_t − c v_x` that leaves the ground, less `g t₁/2` under a free
-/// top; the polynomial in `x` solves `c² v_xx = g`.
+/// **Source**: d'Alembert. `P′` is the upward invariant `v_t − c v_x` that leaves the ground, less `g t₁/2` under a
+/// free top; the polynomial in `x` solves `c² v_xx = g`.
 ///
 /// **Accuracy**: *exact* in fractions; otherwise that of the numbers in it.
 ///
@@ -58,7 +58,7 @@ pub struct Stretch<S> {
 
 impl<S> Stretch<S> {
     /// The same stretch in other numbers.
-    pub(crate) fn map<T>(self, f: impl Fn(S) -> T) -> Stretch<T> {
+    pub fn map<T>(self, f: impl Fn(S) -> T) -> Stretch<T> {
         Stretch {
             from: f(self.from),
             width: f(self.width),

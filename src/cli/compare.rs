@@ -13,7 +13,7 @@ use crate::data::Source;
 use crate::number::Number;
 use crate::output::{ComparedFile, compare_csv, compare_json, compare_table, orders_table, write_whole};
 use crate::problem::{Parameters, Problem, Run};
-use crate::quantity::{UnitSystem, Units};
+use crate::quantity::Units;
 use crate::scene::Scene;
 use crate::solve::{Numbers, Plan, Question, Solution};
 
@@ -114,7 +114,7 @@ impl Compare {
         };
         let compared: Vec<&Agreement> = files.iter().map(|file| &file.agreement).collect();
         let orders = orders(&compared, &widths);
-        let units = Units::of(&scene.problem, UnitSystem::default());
+        let units = Units::of(&scene.problem, scene.units);
         let report = Report { files: &files, orders: &orders, title: scene.title.as_deref(), units: &units };
         // Before anything is written.
         let failures = self.failures(&files)?;

@@ -22,7 +22,8 @@ use crate::history::History;
 use crate::motion::{Ending, Motion};
 use crate::number::{Number, Scalar};
 use crate::output::{Head, SCHEMA, write_whole};
-use crate::problem::{Material, Parameters};
+use crate::problem::Parameters;
+use crate::quantity::Units;
 use crate::scene::{Effect, Scene};
 use crate::solve::{CERTIFIED_DIGITS, ExactnessEnd, Numbers, Plan, Question, Solution, Target};
 
@@ -65,7 +66,7 @@ enum Command {
     Compare(compare::Compare),
     /// Hard cases and the paper's claims, worked out by every route and held against the truth
     Check(check::Check),
-    /// List the built-in scenes, or print one
+    /// List the built-in scenes, print one, or hold it against what others have published
     Scenes(scenes::Scenes),
     /// Print the manual page, for `man -l -`
     Man,
@@ -194,10 +195,6 @@ impl OutputArgs {
 
 /// What stands above the numbers of a scene.
 fn head(scene: &Scene, plan: &Plan) -> Head {
-    let line_density = match &scene.problem.rod.material {
-        Material::Elastic { density, area, .. } => Some((density.clone(), area.clone())),
-        Material::WaveSpeed(_) => None,
-    };
     let called = scene.called_effects().into_iter().map(Effect::name).collect();
     Head {
         title: scene.title.clone(),
@@ -207,7 +204,7 @@ fn head(scene: &Scene, plan: &Plan) -> Head {
         wide: false,
         legend: false,
         digits: 0,
-        line_density,
+        units: Units::of(&scene.problem, scene.units),
         warnings: Vec::new(),
         exact_until: None,
     }

@@ -13,15 +13,15 @@ use crate::history::History;
 use crate::motion::{Motion, Side};
 use crate::number::{Number, Scalar};
 use crate::output::{Described, Golden, Head, Language, Preamble, Rows, code, write_whole};
-use crate::quantity::{Column, Slice, UnitSystem, Units};
+use crate::quantity::{Column, Slice, Units};
 use crate::scene::Scene;
 use crate::solve::{Question, Target};
 
 /// Golden files: all quantities at chosen times as CSV, JSON or NPZ, or the exact solution as a function
 #[derive(Args, Debug)]
 #[command(
-    after_help = "Without times, the rows are the start, every impact and release, and the end. Where a jump passes, a time \
-    has two rows, the limits from earlier and from later times.\n\n\
+    after_help = "Without times, the rows are the start, every impact and release, and the end. Where a jump passes, a \
+    time has two rows, the limits from earlier and from later times.\n\n\
     Columns: t, side, u_end, v_end, strain, stress, force, u_top, v_top, h, h_rate, E_total, E_h, E_z, kinetic, \
     strain_energy, gravity, contact, impulse; the header of a file explains each.\n\n\
     Examples:\n  dalembert reference doyen-ern-piperno --dt 0.001 --to 5 -o golden.csv\n  \
@@ -29,7 +29,7 @@ use crate::solve::{Question, Target};
     dalembert reference rod.toml --times 0..2:5 --points 0..1:101 -o field.npz"
 )]
 pub(super) struct Reference {
-    /// A scene file, `-`, or a built-in scene. With times it is followed as far as the last one, whatever its own run says
+    /// A scene file, `-`, or a built-in scene. With times it is followed to the last one, whatever its own run says
     scene: String,
     /// Times: numbers such as 0.3 or 1/3 separated by commas, or A..B:N for N times from A to B
     #[arg(long, value_name = "LIST", value_parser = list, allow_hyphen_values = true, group = "when")]
@@ -61,7 +61,8 @@ pub(super) struct Reference {
     #[arg(long, value_enum)]
     format: Option<Golden>,
     /// Instead of rows: the exact solution of an undamped rod as a function uExact(x, t, d)
-    #[arg(long = "as", value_enum, value_name = "LANGUAGE", conflicts_with_all = ["when", "columns", "points", "side", "format"])]
+    #[arg(long = "as", value_enum, value_name = "LANGUAGE")]
+    #[arg(conflicts_with_all = ["when", "columns", "points", "side", "format"])]
     language: Option<Language>,
     /// Write to this file, whole or not at all; `-` is standard output
     #[arg(short, long, value_name = "FILE")]
@@ -165,7 +166,7 @@ impl Series<'_> {
 impl Visit for Series<'_> {
     /// Rows are written while the next ones are asked for.
     fn visit<S: Target>(&self, history: &History<S>, head: Head, progress: source::Progress) -> Result<(), Failure> {
-        let units = Units::of(&self.scene.problem, UnitSystem::default());
+        let units = Units::of(&self.scene.problem, self.scene.units);
         let described = match &self.asked.points {
             Some(_) => Described::slice(&units),
             None => self.columns.iter().map(|column| Described::column(*column, &units)).collect(),

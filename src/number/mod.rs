@@ -40,6 +40,5 @@ pub use literal::{Number, NumberError};
 #[cfg(feature = "mp")]
 pub use rug::{Float, Rational};
 pub use scalar::{Analytic, Open, Reads, Rounded, Scalar};
-pub(crate) use text::bound_of_log2;
 #[doc(hidden)]
-pub use text::{DOUBLE_DIGITS, bits_for_digits, bound_text, double_bound_text, show, shown_bound_text};
+pub use text::{DOUBLE_DIGITS, bits_for_digits, bound_of_log2, bound_text, double_bound_text, show, shown_bound_text};

@@ -5,7 +5,7 @@ use serde_json::{Value, json};
 use super::table::table;
 use crate::agreement::{Agreement, Compared, Order};
 use crate::number::Scalar;
-use crate::quantity::{Extreme, Greatest, Norm, Touch, Units};
+use crate::quantity::{Column, Extreme, Greatest, Norm, Touch, Units};
 
 /// One file that was compared.
 #[derive(Debug)]
@@ -51,7 +51,7 @@ pub(crate) fn compare_table(compared: &ComparedFile, title: Option<&str>, units:
     }
     out += &format!("theirs − ours; norms are {WEIGHTS}\n\n{}\n", norms_table(agreement, units));
     if !agreement.contacts.is_empty() {
-        out += &format!("\n{}\n", contacts_table(&agreement.contacts));
+        out += &format!("\n{}\n", contacts_table(&agreement.contacts, units));
     }
     if agreement.grid.points.is_none() {
         out += &format!("\n{}", audit_lines(agreement, units));
@@ -96,7 +96,7 @@ fn norms_table(agreement: &Agreement, units: &Units) -> String {
     table(&["quantity", "norm", "absolute", "relative", "at t"], rows, 2)
 }
 
-fn contacts_table(contacts: &[(Option<Touch>, Option<Touch>)]) -> String {
+fn contacts_table(contacts: &[(Option<Touch>, Option<Touch>)], units: &Units) -> String {
     let columns = |touch: &Touch| [Some(touch.from), touch.to, touch.impulse, touch.centroid, touch.peak];
     let row = |name: String, whose: String, values: [Option<f64>; 5]| {
         let numbers = values.into_iter().map(|value| value.map_or_else(|| "–".into(), number));
@@ -121,38 +121,44 @@ fn contacts_table(contacts: &[(Option<Touch>, Option<Touch>)]) -> String {
             (None, None) => {}
         }
     }
-    table(&["contact", "", "from", "to", "impulse", "centroid", "peak"], rows, 2)
+    let named = |name: &str, column: Column| match column.unit(units) {
+        "" => name.to_string(),
+        unit => format!("{name}, {unit}"),
+    };
+    let (impulse, peak) = (named("impulse", Column::Impulse), named("peak", Column::Force));
+    table(&["contact", "", "from", "to", &impulse, "centroid", &peak], rows, 2)
 }
 
 fn audit_lines(agreement: &Agreement, units: &Units) -> String {
     let audit = &agreement.audit;
-    let at = |extreme: &Extreme| match extreme.value {
+    let with = |value: f64, unit: &str| format!("{} {unit}", size(Some(value))).trim_end().to_string();
+    let at = |extreme: &Extreme, unit: &str| match extreme.value {
         0.0 => "none".to_string(),
-        value => format!("{} at t = {}", size(Some(value)), number(extreme.time)),
+        value => format!("{} at t = {}", with(value, unit), number(extreme.time)),
     };
     let or = |text: Option<String>, needs: &str| text.unwrap_or_else(|| format!("– (needs {needs})"));
+    let [length, force, impulse, joule] =
+        [Column::EndDisplacement, Column::Force, Column::Impulse, Column::Energy].map(|column| column.unit(units));
     let energy = audit.energy_change.as_ref().map(|energy| {
-        let relative =
-            energy.relative.map_or_else(String::new, |relative| format!(", {} of it", share(Some(relative.abs()))));
-        let sign = if energy.change < 0.0 { "lost" } else { "gained" };
-        let change = size(Some(energy.change.abs()));
-        format!("{change} {sign} in all{relative}; most gained {}, most lost {}", at(&energy.gain), at(&energy.loss))
+        let of_ours =
+            energy.relative.map_or_else(String::new, |share| format!(" ({} of ours)", self::share(Some(share.abs()))));
+        let way = if energy.change < 0.0 { "lost" } else { "gained" };
+        let change = with(energy.change.abs(), joule);
+        let (gain, loss) = (at(&energy.gain, joule), at(&energy.loss, joule));
+        format!("{change} {way} in all{of_ours}\n{:20}most gained: {gain}; most lost: {loss}", "")
     });
     let covered: Vec<String> =
-        audit.not_covered.iter().map(|[from, to]| format!("{} … {}", number(*from), number(*to))).collect();
+        audit.not_covered.iter().map(|[from, to]| format!("t = {} … {}", number(*from), number(*to))).collect();
+    let momentum = audit.momentum.map(|x| format!("{} out of balance", with(x, impulse)));
     let lines = [
-        ("penetration", or(audit.penetration.as_ref().map(at), "u_end")),
-        ("tension in contact", or(audit.tension.as_ref().map(at), "force, stress or strain")),
+        ("penetration", or(audit.penetration.as_ref().map(|x| at(x, length)), "u_end")),
+        ("tension in contact", or(audit.tension.as_ref().map(|x| at(x, force)), "force, stress or strain")),
         ("∫|v F| dt", or(audit.complementarity.map(|x| size(Some(x))), "u_end and force")),
         ("energy", or(energy, "E_total")),
-        (
-            "momentum",
-            or(audit.momentum.map(|x| format!("{} out of balance", size(Some(x)))), "force, h_rate, a free top"),
-        ),
+        ("momentum", or(momentum, "force, h_rate and a free top")),
         ("contacts", format!("{} missed, {} invented", audit.missed, audit.invented)),
         ("not covered", if covered.is_empty() { "nothing".into() } else { covered.join(", ") }),
     ];
-    let _ = units;
     lines.map(|(name, text)| format!("{name:<20}{text}\n")).concat()
 }
 

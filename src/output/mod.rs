@@ -14,6 +14,7 @@ mod picture;
 mod record;
 mod reference;
 mod table;
+mod target;
 
 pub(crate) use check::{check_json, check_page, check_summary, check_table};
 pub use code::{Language, code};
@@ -31,3 +32,4 @@ pub(crate) use picture::{cost_svg, png};
 pub use record::{Finished, Head, Quantity, Record, Sample, record, sample};
 pub use reference::{Described, Golden, Preamble, Rows};
 pub use table::{LEGEND, history_table, samples_table, table};
+pub(crate) use target::{targets_csv, targets_json, targets_table};

@@ -245,7 +245,7 @@ impl Rows {
         write_filled(path, |file| match golden {
             Golden::Csv => {
                 let names: Vec<&str> = columns.iter().map(|column| column.name).collect();
-                write!(file, "{}{}\n", preamble.comments(&columns, &bounds), names.join(","))?;
+                writeln!(file, "{}{}", preamble.comments(&columns, &bounds), names.join(","))?;
                 kept.try_for_each(|rows| io::copy(&mut rows?, file).map(|_| ()))
             }
             Golden::Json => {
@@ -256,7 +256,7 @@ impl Rows {
             }
             Golden::Npz => {
                 let other = |error: WriteNpzError| io::Error::other(error.to_string());
-                let mut npz = NpzWriter::new_compressed(file);
+                let mut npz = NpzWriter::new(file);
                 let header = format!("{:#}", preamble.json(&columns, &bounds, true));
                 npz.add_array("header", &Array1::from(header.into_bytes())).map_err(other)?;
                 for (column, values) in columns.iter().zip(kept) {

@@ -337,7 +337,9 @@ pub(crate) fn natural_scales<S: Scalar>(
 /// The values of a table, each column brought to about 1 by a power of two, so that one accuracy holds for columns of
 /// different size: 1 is its natural scale, or its greatest value where that is more.
 pub(crate) fn of_one_size<S: Scalar>(table: &[Vec<S>], natural: &[Option<f64>]) -> Vec<S> {
-    let mut all = Vec::with_capacity(table.len() * table.first().map_or(0, Vec::len));
+    let mut all = Vec::with_capacity(table.len() * table.first().map_or(0, Vec::len) + 1);
+    // Zeros are held to the natural scale.
+    all.extend(table.iter().find_map(|values| values.first()).map(S::one));
     for (values, natural) in table.iter().zip(natural) {
         let (Some(natural), Some(first)) = (natural, values.first()) else { continue };
         let greatest = values.iter().map(|value| value.to_f64().abs()).fold(*natural, f64::max);

@@ -28,7 +28,8 @@ pub enum Slice {
 /// **Accuracy**: *exact* in fractions; otherwise within the bounds that the numbers carry.
 ///
 /// **Errors**: [`Error::NoWaves`] for averages and projections of a damped rod; [`Error::Grid`] for those on a grid
-/// whose points do not increase.
+/// whose points do not increase, and
+/// [`Error::PointOutside`].
 pub fn slices<S: Scalar>(
     motion: &dyn Motion<S>,
     slice: Slice,
@@ -41,6 +42,9 @@ pub fn slices<S: Scalar>(
         let row = [time.clone(), time.int(limit), x.clone()].into_iter().chain(values);
         table.iter_mut().zip(row).for_each(|(column, value)| column.push(value));
     };
+    if slice != Slice::Points {
+        check(points, &motion.scales().length)?;
+    }
     for time in times {
         if slice != Slice::Points {
             let stretches = motion.stretches(time)?;
@@ -71,6 +75,21 @@ pub fn slices<S: Scalar>(
     Ok(table)
 }
 
+/// Refuses what is no grid in the rod.
+fn check<S: Scalar>(points: &[S], length: &S) -> Result<(), Error> {
+    let (Some(first), Some(last), true) = (points.first(), points.last(), points.len() > 1) else {
+        return Err(Error::Grid { found: "fewer than two points".into() });
+    };
+    for pair in points.windows(2) {
+        if !pair[0].below(&pair[1])? {
+            return Err(Error::Grid { found: format!("the point {} after {}", pair[1].text(), pair[0].text()) });
+        }
+    }
+    let outside =
+        if first.negative()? { Some(first) } else { Some(last).filter(|last| length.below(last) != Ok(false)) };
+    outside.map_or(Ok(()), |point| Err(Error::PointOutside { found: point.text(), length: length.text() }))
+}
+
 /// `∫ f dx` and `∫ f (x − a) dx` over each cell `a … b`, for `f` = `v`, `v_t`, `v_x`.
 fn moments<S: Scalar>(stretches: &[Stretch<S>], points: &[S]) -> Result<Vec<[[S; 2]; 3]>, Error> {
     let mut cells = Vec::with_capacity(points.len());
@@ -78,9 +97,6 @@ fn moments<S: Scalar>(stretches: &[Stretch<S>], points: &[S]) -> Result<Vec<[[S;
     let mut now = rest.next();
     for pair in points.windows(2) {
         let (a, b) = (&pair[0], &pair[1]);
-        if !a.below(b)? {
-            return Err(Error::Grid { found: format!("{} after {}", b.text(), a.text()) });
-        }
         let zero = || [a.zero(), a.zero()];
         let mut sums = [zero(), zero(), zero()];
         while let Some(stretch) = now.take() {
@@ -149,18 +165,16 @@ fn projection<S: Scalar>(moments: &[[[S; 2]; 3]], points: &[S]) -> Vec<[S; 3]> {
     for k in 1..points.len() {
         let share = beside[k - 1].clone() / &diagonal[k - 1];
         diagonal[k] = diagonal[k].clone() - share.clone() * &beside[k - 1];
-        for j in 0..3 {
-            loads[k][j] = loads[k][j].clone() - share.clone() * &loads[k - 1][j];
-        }
+        loads[k] = std::array::from_fn(|j| loads[k][j].clone() - share.clone() * &loads[k - 1][j]);
     }
     for k in (0..points.len()).rev() {
-        for j in 0..3 {
+        loads[k] = std::array::from_fn(|j| {
             let known = match beside.get(k) {
                 Some(beside) => loads[k][j].clone() - beside.clone() * &loads[k + 1][j],
                 None => loads[k][j].clone(),
             };
-            loads[k][j] = known / &diagonal[k];
-        }
+            known / &diagonal[k]
+        });
     }
     loads
 }

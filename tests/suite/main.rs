@@ -43,11 +43,14 @@ mod paper_claims;
 #[cfg(feature = "cli")]
 mod peers;
 mod problem_builder;
+#[cfg(all(feature = "cli", feature = "mp"))]
+mod reference;
 mod scene_builtin;
 mod scene_errors;
 mod scene_properties;
 #[cfg(feature = "mp")]
 mod snapshots_stress;
+mod start_above;
 mod stripped;
 mod three_routes;
 #[cfg(feature = "mp")]
