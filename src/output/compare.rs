@@ -23,9 +23,14 @@ fn number(x: f64) -> String {
     x.decimal(6)
 }
 
-/// `1.234e-5`, or `–`.
+/// `12.34`, `1.234e-5`, or `–`.
 fn size(x: Option<f64>) -> String {
-    x.map_or_else(|| "–".into(), |x| if x == 0.0 { "0".into() } else { format!("{x:.3e}") })
+    match x {
+        None => "–".into(),
+        Some(0.0) => "0".into(),
+        Some(x) if (1e-3..1e5).contains(&x.abs()) => x.decimal(4),
+        Some(x) => format!("{x:.3e}"),
+    }
 }
 
 /// `0.12 %`, or `–`.

@@ -6,7 +6,7 @@
 //!
 //! - *From the first sample on*: the first sample, and both halves of the time up to the first event after it, or of
 //!   half of that time, and so on, say the same within a quarter. A scheme starts from the same data as ours: its
-//!   errors are nothing at the first sample and grow from there. A wrong factor, sign, origin or clock is there at once.
+//!   errors are nothing at the first sample and grow from there; a wrong factor, sign, origin or clock is not.
 //! - *Everywhere*: every contact and every flight by itself says the same within a quarter, and the first sample with
 //!   them where it has a say. Errors of a scheme grow from impact to impact, or differ from one to the other.
 //!
@@ -16,8 +16,8 @@
 //!
 //! The clock of the contacts is read from the first of them, which starts from exact data as well: from how far the
 //! force spreads about its centroid, as the ends of a contact are smeared by every scheme, which changes the spread in
-//! the second order only. A shift of the contacts counts where beginning, end and centroid say the same. Nothing here is
-//! fitted to results.
+//! the second order only. A shift of the contacts counts where beginning, end and centroid say the same. Nothing here
+//! is fitted to results.
 
 use serde::Serialize;
 
@@ -340,8 +340,8 @@ impl Measures<'_> {
         let multiple = multiple.map(|fit| (fit, scaled(1.0 + fit.value, pair.factors)));
         let constant = constant.map(|fit| (fit, Finding::Origin { offset: fit.value }));
         let late = late.map(|fit| (fit, Finding::TimeShift { late: -fit.value, steps: -fit.value / step }));
-        // What holds for longer says more. Where several explain it as well, as with an energy that does not change, it is
-        // the first of them.
+        // What holds for longer says more. Where several explain it as well, as with an energy that does not change, it
+        // is the first of them.
         let better = |best: (Fit, Finding), next: (Fit, Finding)| {
             let as_long = next.0.reach == best.0.reach;
             let closer = next.0.left < LEFT * best.0.left - f64::EPSILON;
@@ -352,8 +352,8 @@ impl Measures<'_> {
 
     /// The hint that a displacement and its velocity, both theirs, are not at the same times.
     ///
-    /// **Source**: `velocity(t) = u′(t − late)`, with `u′` and `u″` as central differences, which are exact where `u` is
-    /// a parabola. A quarter of a step is the least that counts: `v` and `u′` of one scheme are means of each other.
+    /// **Source**: `velocity(t) = u′(t − late)`, with `u′` and `u″` as central differences, which are exact where `u`
+    /// is a parabola. A quarter of a step is the least that counts: `v` and `u′` of one scheme are means of each other.
     pub fn of_rate(
         &self,
         of: &'static str,
@@ -393,9 +393,9 @@ fn agreed(values: &[f64]) -> Option<f64> {
 
 /// What the table of contacts shows: a clock, a shift, contacts that are missing or invented.
 ///
-/// **Source**: of a force that is sampled, each end is known to half a step, and a smear by a share `w` of the duration,
-/// such as that of a penalty, adds at most `12 w²` to the square of the spread: `w` is no more than what the duration is
-/// longer than the spread. A rate beyond both is one of the clock. A shift counts where it is more than a step, and
+/// **Source**: of a force that is sampled, each end is known to half a step, and a smear by a share `w` of the
+/// duration, such as that of a penalty, adds at most `12 w²` to the square of the spread: `w` is no more than what the
+/// duration is longer than the spread. A rate beyond both is one of the clock. A shift counts where it is more than a step, and
 /// beginning, end and centroid of every contact say the same.
 pub fn of_contacts(rows: &[(Option<Touch>, Option<Touch>)], step: f64) -> Vec<Hint> {
     let hint = |finding| Hint { quantity: "contact".into(), finding };

@@ -1,5 +1,5 @@
-//! What follows from a history: restitution, the top of a flight, columns over time, slices along the rod, units, and how
-//! other people's data compare. Nothing here looks back at the scene.
+//! What follows from a history: restitution, the top of a flight, columns over time, slices along the rod, units, and
+//! how other people's data compare. Nothing here looks back at the scene.
 
 mod audit;
 mod column;

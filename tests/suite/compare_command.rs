@@ -139,7 +139,7 @@ fn many_samples() {
     }
 }
 
-/// A field with its points: u = −t (1 − …) of d'Alembert; behind the wave v = −x, v_x = −1.
+/// A field with its points: behind the wave of the impact v = −x and v_x = −1, before it v = −t.
 #[test]
 fn a_field() {
     let folder =
@@ -148,7 +148,7 @@ fn a_field() {
     for quantity in report["quantities"].as_array().unwrap() {
         assert_eq!(quantity["linf"]["absolute"], 0.0, "{quantity}");
     }
-    // At t = 1 the wave is at the top: v_x = 0 before, −1 … 0 after.
+    // At t = 1 the wave is at the top, whose v_x is 0 for ever.
     assert_eq!(report["quantities"][1]["name"], "strain");
     assert_eq!(report["contacts"], serde_json::json!([]));
 }
