@@ -29,6 +29,8 @@
 //! take nothing away.
 
 // The rooms are public for the crate's own tests and benchmarks; what is meant to be used is re-exported below.
+#[cfg(feature = "cli")]
+mod agreement;
 #[doc(hidden)]
 pub mod cells;
 #[cfg(feature = "cli")]
@@ -36,6 +38,8 @@ pub mod cells;
 pub mod cli;
 #[cfg(feature = "cli")]
 mod compare;
+#[cfg(feature = "cli")]
+mod data;
 mod error;
 #[doc(hidden)]
 pub mod first_contact;

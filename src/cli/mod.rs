@@ -1,6 +1,7 @@
 //! The command: one file per subcommand.
 
 mod check;
+mod compare;
 mod cost;
 mod explain;
 mod list;
@@ -60,6 +61,8 @@ enum Command {
     Explain(explain::Explain),
     /// What accuracy costs in time: one quantity by every route that can give it
     Cost(cost::Cost),
+    /// Your data against the exact history: norms, contacts, an audit, and hints at what may be wrong
+    Compare(compare::Compare),
     /// Hard cases and the paper's claims, worked out by every route and held against the truth
     Check(check::Check),
     /// List the built-in scenes, print one, or hold it against what others have published
@@ -75,7 +78,8 @@ enum Command {
     },
 }
 
-/// Runs the command. The exit code is 1 where `check` finds a promise that is not kept.
+/// Runs the command. The exit code is 1 where `check` finds a promise that is not kept, and `compare` a norm above
+/// its bound.
 pub fn run(cli: Cli) -> Result<ExitCode, Failure> {
     let done = match cli.command {
         Command::Solve(command) => command.run(),
@@ -83,6 +87,7 @@ pub fn run(cli: Cli) -> Result<ExitCode, Failure> {
         Command::Reference(command) => command.run(),
         Command::Explain(command) => command.run(),
         Command::Cost(command) => command.run(),
+        Command::Compare(command) => return command.run(),
         Command::Check(command) => return command.run(),
         Command::Scenes(command) => command.run(),
         Command::Man => {

@@ -2,6 +2,9 @@
 
 mod check;
 mod code;
+mod compare;
+#[cfg(feature = "plot")]
+mod compare_picture;
 mod cost;
 mod csv;
 mod file;
@@ -16,6 +19,9 @@ mod target;
 
 pub(crate) use check::{check_json, check_page, check_summary, check_table};
 pub use code::{Language, code};
+pub(crate) use compare::{ComparedFile, compare_csv, compare_json, compare_table, orders_table};
+#[cfg(feature = "plot")]
+pub(crate) use compare_picture::compare_svg;
 pub use cost::duration;
 pub(crate) use cost::{cost_csv, cost_json, cost_table, effects_csv, effects_json, effects_table};
 pub use csv::{Part, history_csv, samples_csv};

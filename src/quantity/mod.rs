@@ -1,15 +1,23 @@
-//! What follows from a history: restitution, the top of a flight, columns over time, slices along the rod, and units.
-//! Nothing here looks back at the scene.
+//! What follows from a history: restitution, the top of a flight, columns over time, slices along the rod, units, and
+//! how other people's data compare. Nothing here looks back at the scene.
 
+mod audit;
 mod column;
 mod flight;
+mod hints;
+mod norms;
 mod restitution;
 mod slice;
+mod touch;
 mod unit;
 
+pub use audit::{Audit, Books, EnergyChange, Extreme};
 pub use column::{Column, columns};
 pub(crate) use column::{natural_scales, of_one_size};
 pub use flight::{Flight, flights};
+pub use hints::{Finding, Hint, Measures, Pair, Rays, gathered, of_contacts};
+pub use norms::{Greatest, Grid, Norm, Norms, norms, order};
 pub use restitution::{EnergyShares, Restitution, Undefined, energy_shares, restitution};
 pub use slice::{Slice, slices};
+pub use touch::{Moments, Touch, matched, touches};
 pub use unit::{Measure, UnitSystem, Units};

@@ -33,6 +33,15 @@ fn xt_lattice() {
     assert_eq!(rows, [vec![0.0, 2.0, -3.0, 3.0, 3.0, 3.0], released(2.0), released(4.0), released(6.0)]);
 }
 
+/// A contact code whose release comes within a step of 2/3.
+#[test]
+fn compare_your_code() {
+    let text = runs("compare_your_code");
+    let rows = text.lines().skip(1).map(|line| line.split(',').map(|x| x.parse::<f64>().unwrap()).collect::<Vec<_>>());
+    let pushed = rows.filter(|row| row[3] > 0.0 && row[0] < 1.0).last().unwrap();
+    assert!((pushed[0] - 2.0 / 3.0).abs() < 10.0 / 400.0 / 30.0, "{pushed:?}");
+}
+
 #[test]
 fn snapshot_your_scene() {
     assert!(runs("snapshot_your_scene").starts_with("0 … 1: -3/4 … -5/4\n"));

@@ -17,6 +17,10 @@ mod command;
 mod command_data;
 mod common;
 #[cfg(feature = "cli")]
+mod compare_command;
+#[cfg(feature = "cli")]
+mod compare_peers;
+#[cfg(feature = "cli")]
 mod cost_measured;
 mod damped_bounce;
 mod damped_history;
@@ -38,6 +42,8 @@ mod hard_cases;
 #[cfg(feature = "mp")]
 mod number_interval;
 mod paper_claims;
+#[cfg(feature = "cli")]
+mod peers;
 mod problem_builder;
 #[cfg(all(feature = "cli", feature = "mp"))]
 mod reference;

@@ -1,0 +1,255 @@
+//! Which column of a file is which quantity.
+
+use crate::quantity::{Column, Measure, Rays, Units};
+
+/// A quantity that can be compared.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum What {
+    /// A function of time.
+    Column(Column),
+    /// A function of point and time.
+    Field(Part),
+}
+
+/// The parts of a field.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Part {
+    /// `v(x,t)`.
+    Displacement,
+    /// `v_t(x,t)`.
+    Velocity,
+    /// `v_x(x,t)`.
+    Strain,
+    /// The same as a stress.
+    Stress,
+}
+
+/// What other people's columns are often called, beside our own names.
+const ALIASES: [(&str, Column); 14] = [
+    ("time", Column::Time),
+    ("u", Column::EndDisplacement),
+    ("v", Column::EndVelocity),
+    ("f", Column::Force),
+    ("contact_force", Column::Force),
+    ("reaction", Column::Force),
+    ("lambda", Column::Force),
+    ("sigma", Column::Stress),
+    ("eps", Column::Strain),
+    ("h'", Column::CentreVelocity),
+    ("h_dot", Column::CentreVelocity),
+    ("E", Column::Energy),
+    ("energy", Column::Energy),
+    ("total", Column::Energy),
+];
+
+impl What {
+    /// The name in tables, JSON and `--fail-above`.
+    pub(crate) fn name(self) -> &'static str {
+        match self {
+            What::Column(column) => column.name(),
+            What::Field(Part::Displacement) => "u",
+            What::Field(Part::Velocity) => "v",
+            What::Field(Part::Strain) => "strain",
+            What::Field(Part::Stress) => "stress",
+        }
+    }
+
+    /// The quantity of this name or alias; with points along the rod `u`, `v`, `strain` and `stress` are those there.
+    pub(crate) fn named(name: &str, field: bool) -> Option<What> {
+        let column =
+            Column::named(name).or_else(|| ALIASES.iter().find(|alias| alias.0 == name).map(|alias| alias.1))?;
+        match (field, column) {
+            (_, Column::Side | Column::Time) => None,
+            (false, column) => Some(What::Column(column)),
+            (true, Column::EndDisplacement) => Some(What::Field(Part::Displacement)),
+            (true, Column::EndVelocity) => Some(What::Field(Part::Velocity)),
+            (true, Column::Strain) => Some(What::Field(Part::Strain)),
+            (true, Column::Stress) => Some(What::Field(Part::Stress)),
+            (true, _) => None,
+        }
+    }
+
+    /// The unit; empty where there is none.
+    pub(crate) fn unit(self, units: &Units) -> &'static str {
+        match self {
+            What::Column(column) => column.unit(units),
+            What::Field(Part::Displacement) => units.name(Measure::Length),
+            What::Field(Part::Velocity) => units.name(Measure::Velocity),
+            What::Field(Part::Strain) => units.name(Measure::Strain),
+            What::Field(Part::Stress) => Column::Stress.unit(units),
+        }
+    }
+
+    /// The column, for a function of time.
+    pub(crate) fn column(self) -> Option<Column> {
+        match self {
+            What::Column(column) => Some(column),
+            What::Field(_) => None,
+        }
+    }
+
+    /// Whether it has two values where a ray passes.
+    pub(crate) fn jumps(self) -> bool {
+        match self {
+            What::Field(part) => part != Part::Displacement,
+            What::Column(column) => matches!(
+                column,
+                Column::EndVelocity
+                    | Column::Strain
+                    | Column::Stress
+                    | Column::Force
+                    | Column::TopVelocity
+                    | Column::Contact
+            ),
+        }
+    }
+
+    /// What a ray leaves in it.
+    pub(crate) fn rays(self) -> Rays {
+        match self {
+            _ if self.jumps() => Rays::Jump,
+            What::Column(Column::Centre | Column::Energy | Column::GravityEnergy) => Rays::Smooth,
+            _ => Rays::Kink,
+        }
+    }
+
+    /// Whether a scale, a sign, an origin and a clock make sense of it.
+    pub(crate) fn is_hinted(self) -> bool {
+        self != What::Column(Column::Contact)
+    }
+}
+
+/// Which places of a file hold what.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) struct Map {
+    /// The column of times; `None` where they are counted.
+    pub(crate) time: Option<usize>,
+    /// The column of points, for a field.
+    pub(crate) point: Option<usize>,
+    /// The quantities.
+    pub(crate) quantities: Vec<(What, usize)>,
+}
+
+/// Why columns cannot be mapped.
+#[derive(Clone, Debug, PartialEq, thiserror::Error, miette::Diagnostic)]
+pub(crate) enum MapError {
+    #[error("found no quantity in the columns {found}, expected some of {}, or --map t=0,u=1,v=2,force=3", known())]
+    Nothing { found: String },
+    #[error("found no names of columns, expected --map t=0,u=1,v=2,force=3 with their numbers, counted from 0")]
+    NoNames,
+    #[error("found `{found}` in --map, expected NAME=COLUMN as in t=0,u=1,force=3")]
+    Form { found: String },
+    #[error("found the name `{found}` in --map, expected t, x, or one of {}", known())]
+    Name { found: String },
+    #[error("found `{found}` in --map twice, expected each quantity once")]
+    Twice { found: String },
+    #[error("found column `{found}` in --map, expected {expected}")]
+    Column { found: String, expected: String },
+    #[error("found no column of times, expected one called t, t=… in --map, or --dt")]
+    NoTime,
+    #[error("found --dt and a column of times, expected one of them")]
+    TwoTimes,
+}
+
+fn known() -> String {
+    let names = Column::ALL.into_iter().filter(|column| !matches!(column, Column::Time | Column::Side));
+    format!("{} (u and v for short)", names.map(Column::name).collect::<Vec<_>>().join(", "))
+}
+
+/// Whether a name is that of the times, or of the points.
+fn is_time(name: &str) -> bool {
+    matches!(name, "t" | "time" | "T" | "Time")
+}
+
+fn is_point(name: &str) -> bool {
+    matches!(name, "x" | "point" | "X")
+}
+
+impl Map {
+    /// The map that `text` asks for, `NAME=COLUMN` separated by commas; without it the names of the columns themselves.
+    /// `counted` says that times come from `--dt`.
+    ///
+    /// **Errors**: [`MapError`].
+    pub(crate) fn of(text: Option<&str>, names: &[String], width: usize, counted: bool) -> Result<Self, MapError> {
+        let entries: Vec<(String, usize)> = match text {
+            Some(text) => text.split(',').map(|entry| entry_of(entry, names, width)).collect::<Result<_, _>>()?,
+            None => names.iter().cloned().zip(0..).collect(),
+        };
+        let find = |is: fn(&str) -> bool| entries.iter().find(|(name, _)| is(name)).map(|(_, place)| *place);
+        let (time, point) = (find(is_time), find(is_point));
+        let mut map = Map { time, point, quantities: Vec::new() };
+        for (name, place) in entries.iter().filter(|(name, _)| !is_time(name) && !is_point(name)) {
+            match What::named(name, point.is_some()) {
+                Some(what) if map.quantities.iter().any(|(other, _)| *other == what) => {
+                    return Err(MapError::Twice { found: name.clone() });
+                }
+                Some(what) => map.quantities.push((what, *place)),
+                // Columns that nobody asked for may be anything.
+                None if text.is_none() => {}
+                None => return Err(MapError::Name { found: name.clone() }),
+            }
+        }
+        match (map.time, counted) {
+            (Some(_), true) if text.is_some() => Err(MapError::TwoTimes),
+            (None, false) if names.is_empty() && text.is_none() => Err(MapError::NoNames),
+            (None, false) => Err(MapError::NoTime),
+            _ if map.quantities.is_empty() && names.is_empty() => Err(MapError::NoNames),
+            _ if map.quantities.is_empty() => Err(MapError::Nothing { found: names.join(", ") }),
+            (time, counted) => Ok(Map { time: time.filter(|_| !counted), ..map }),
+        }
+    }
+
+    /// The places that are read: times, points, quantities.
+    pub(crate) fn places(&self) -> Vec<usize> {
+        self.time.into_iter().chain(self.point).chain(self.quantities.iter().map(|(_, place)| *place)).collect()
+    }
+}
+
+fn entry_of(entry: &str, names: &[String], width: usize) -> Result<(String, usize), MapError> {
+    let (name, column) = entry.split_once('=').ok_or_else(|| MapError::Form { found: entry.trim().into() })?;
+    let (name, column) = (name.trim(), column.trim());
+    let place = names.iter().position(|known| known == column).or_else(|| column.parse().ok());
+    match place.filter(|place| *place < width) {
+        Some(place) => Ok((name.into(), place)),
+        None => {
+            let known = if names.is_empty() { String::new() } else { format!(" or one of {}", names.join(", ")) };
+            Err(MapError::Column { found: column.into(), expected: format!("0 to {}{known}", width - 1) })
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn names(text: &str) -> Vec<String> {
+        text.split_whitespace().map(str::to_string).collect()
+    }
+
+    #[test]
+    fn names_and_numbers() {
+        let u = What::Column(Column::EndDisplacement);
+        let map = Map::of(Some("t=0, u=2,force=lam"), &names("time lam disp"), 3, false).unwrap();
+        assert_eq!((map.time, map.quantities.clone()), (Some(0), vec![(u, 2), (What::Column(Column::Force), 1)]));
+        assert_eq!(map.places(), [0, 2, 1]);
+        // The names of a header, and what is none of ours left alone.
+        let map = Map::of(None, &names("step t u"), 3, false).unwrap();
+        assert_eq!((map.time, map.quantities), (Some(1), vec![(u, 2)]));
+        // With points, u is that there.
+        let map = Map::of(None, &names("t x u"), 3, false).unwrap();
+        assert_eq!((map.point, map.quantities), (Some(1), vec![(What::Field(Part::Displacement), 2)]));
+    }
+
+    #[test]
+    fn what_is_refused() {
+        let of = |text: Option<&str>, header: &str, counted| Map::of(text, &names(header), 3, counted).unwrap_err();
+        assert_eq!(of(None, "", false), MapError::NoNames);
+        assert_eq!(of(Some("u=1"), "", false), MapError::NoTime);
+        assert_eq!(of(Some("t=0,u=1"), "", true), MapError::TwoTimes);
+        assert_eq!(of(Some("t=0,u"), "", false), MapError::Form { found: "u".into() });
+        assert_eq!(of(Some("t=0,w=1"), "", false), MapError::Name { found: "w".into() });
+        assert_eq!(of(Some("t=0,u=1,u_end=2"), "", false), MapError::Twice { found: "u_end".into() });
+        assert_eq!(of(Some("t=0,u=3"), "", false), MapError::Column { found: "3".into(), expected: "0 to 2".into() });
+        assert_eq!(of(None, "t a b", false), MapError::Nothing { found: "t, a, b".into() });
+    }
+}

@@ -1,0 +1,48 @@
+//! What is wrong with data, and where.
+
+/// Data that cannot be used: what was found, where, and what was expected.
+#[derive(Clone, Debug, PartialEq, thiserror::Error, miette::Diagnostic)]
+#[error("{file}{}: {kind}", place.as_ref().map_or_else(String::new, |place| format!(", {place}")))]
+pub(crate) struct DataError {
+    file: String,
+    place: Option<String>,
+    kind: DataErrorKind,
+}
+
+/// What is wrong.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub(crate) enum DataErrorKind {
+    #[error("cannot be read: {0}")]
+    Unreadable(String),
+    #[error("found no row of numbers, expected at least two")]
+    Empty,
+    #[error("found {found} columns, expected {expected} as in the first row")]
+    Ragged { found: usize, expected: usize },
+    #[error("found `{0}`, expected a number")]
+    NotANumber(String),
+    #[error("found {0}, expected a finite number")]
+    NotFinite(f64),
+    #[error("found text that is not UTF-8, expected text, .npy or .npz")]
+    NotText,
+    #[error("found time {found} after {before}, expected times that increase")]
+    NotIncreasing { before: f64, found: f64 },
+    #[error("found point {found}, expected one between 0 and {length}, the rod's length")]
+    PointOutside { found: f64, length: f64 },
+    #[error("found point {found} after {before} at the same time, expected points that increase")]
+    PointsNotIncreasing { before: f64, found: f64 },
+    #[error("found an array of type {found}, expected numbers: float64, float32, int64 or int32")]
+    ElementType { found: String },
+    #[error("found an array of shape {0:?}, expected one column, or rows and columns")]
+    Shape(Vec<usize>),
+    #[error("found {found} rows, expected {expected} as in `{first}`")]
+    Lengths { found: usize, first: String, expected: usize },
+    #[error("found times up to {last}, expected some after 0, where the history begins")]
+    NoOverlap { last: f64 },
+}
+
+impl DataErrorKind {
+    /// The error at a place of a file.
+    pub(crate) fn at(self, file: &str, place: Option<String>) -> DataError {
+        DataError { file: file.into(), place, kind: self }
+    }
+}

@@ -1,0 +1,142 @@
+//! Other people's data: columns of numbers from text, `.npy` and `.npz`.
+
+mod error;
+mod numpy;
+mod text;
+
+use std::fs::File;
+use std::io::{BufRead, BufReader, Read};
+use std::path::Path;
+
+pub(crate) use error::{DataError, DataErrorKind};
+
+/// A source of columns, opened far enough to know how many there are and what they are called.
+#[derive(Debug)]
+pub(crate) struct Source {
+    file: String,
+    names: Vec<String>,
+    width: usize,
+    body: Body,
+}
+
+#[derive(Debug)]
+enum Body {
+    Text(Box<text::Text>),
+    Arrays(Vec<Result<Vec<f64>, DataErrorKind>>),
+}
+
+/// The columns that were asked for, in that order, all of one length.
+#[derive(Debug)]
+pub(crate) struct Columns {
+    file: String,
+    pub(crate) values: Vec<Vec<f64>>,
+    lines: Lines,
+}
+
+/// Where rows stand in a text: the first row of every stretch without empty lines and comments, with its line. Empty
+/// where rows have no lines.
+#[derive(Debug, Default)]
+struct Lines(Vec<(usize, usize)>);
+
+impl Lines {
+    fn note(&mut self, row: usize, line: usize) {
+        if self.of(row) != Some(line) {
+            self.0.push((row, line));
+        }
+    }
+
+    /// The line of a row, counted from 1, the row from 0.
+    fn of(&self, row: usize) -> Option<usize> {
+        let k = self.0.partition_point(|(first, _)| *first <= row).checked_sub(1)?;
+        self.0.get(k).map(|(first, line)| line + row - first)
+    }
+}
+
+impl Source {
+    /// Opens a file, or standard input for `-`: `.npy` and `.npz` by their first bytes, text otherwise.
+    ///
+    /// **Errors**: [`DataError`], for an empty file too.
+    pub(crate) fn open(path: &Path) -> Result<Self, DataError> {
+        let piped = path == Path::new("-");
+        let file = if piped { "standard input".to_string() } else { path.display().to_string() };
+        let read = |error: std::io::Error| DataErrorKind::Unreadable(error.to_string()).at(&file, None);
+        let opened: Box<dyn Read> =
+            if piped { Box::new(std::io::stdin()) } else { Box::new(File::open(path).map_err(read)?) };
+        let mut reader = BufReader::with_capacity(1 << 16, opened);
+        let start = reader.fill_buf().map_err(read)?;
+        let (names, width, body) = if numpy::is_array(start) || numpy::is_archive(start) {
+            let (names, columns) = numpy::read(reader, &file)?;
+            (names, columns.len(), Body::Arrays(columns))
+        } else {
+            let text = text::Text::open(reader, &file)?;
+            (text.names.clone(), text.width(), Body::Text(Box::new(text)))
+        };
+        Ok(Source { file, names, width, body })
+    }
+
+    /// The names of the columns; empty where they have none.
+    pub(crate) fn names(&self) -> &[String] {
+        &self.names
+    }
+
+    /// What it is called.
+    pub(crate) fn file(&self) -> &str {
+        &self.file
+    }
+
+    /// How many columns there are.
+    pub(crate) fn width(&self) -> usize {
+        self.width
+    }
+
+    /// Reads the columns of these places, counted from 0.
+    ///
+    /// **Errors**: [`DataError`] for a ragged row, and for what is no finite number in one of these columns.
+    pub(crate) fn columns(self, which: &[usize]) -> Result<Columns, DataError> {
+        let (values, lines) = match self.body {
+            Body::Text(text) => text.read(which, &self.file)?,
+            Body::Arrays(all) => {
+                let called = |place: usize| self.names.get(place).cloned().unwrap_or_else(|| place.to_string());
+                let mut values: Vec<Vec<f64>> = Vec::with_capacity(which.len());
+                for place in which {
+                    let named = |kind: DataErrorKind| kind.at(&self.file, Some(format!("`{}`", called(*place))));
+                    let column = all[*place].clone().map_err(named)?;
+                    if let Some(expected) = values.first().map(Vec::len).filter(|rows| *rows != column.len()) {
+                        let (found, first) = (column.len(), called(which[0]));
+                        return Err(named(DataErrorKind::Lengths { found, first, expected }));
+                    }
+                    values.push(column);
+                }
+                (values, Lines::default())
+            }
+        };
+        let columns = Columns { file: self.file, values, lines };
+        for (values, place) in columns.values.iter().zip(which) {
+            if let Some(row) = values.iter().position(|value| !value.is_finite()) {
+                return Err(columns.refuse(row, *place, DataErrorKind::NotFinite(values[row])));
+            }
+        }
+        Ok(columns)
+    }
+}
+
+impl Columns {
+    /// How many rows there are.
+    pub(crate) fn rows(&self) -> usize {
+        self.values.first().map_or(0, Vec::len)
+    }
+
+    /// `kind`, of the file as a whole.
+    pub(crate) fn whole(&self, kind: DataErrorKind) -> DataError {
+        kind.at(&self.file, None)
+    }
+
+    /// `kind` at a row and a column, both counted from 0.
+    pub(crate) fn refuse(&self, row: usize, column: usize, kind: DataErrorKind) -> DataError {
+        let place = match self.lines.of(row) {
+            Some(line) => format!("line {line}, column {}", column + 1),
+            None => format!("row {}, column {}", row + 1, column + 1),
+        };
+        kind.at(&self.file, Some(place))
+    }
+}

@@ -1,0 +1,100 @@
+//! Columns in NumPy's arrays.
+
+use std::io::{Cursor, Read};
+
+use ndarray::{ArrayD, Axis, IxDyn, OwnedRepr};
+use ndarray_npy::{NpzReader, ReadNpyError, ReadNpyExt, ReadNpzError, ReadableElement};
+
+use super::{DataError, DataErrorKind};
+
+/// The columns of an array or an archive, with their names where they have any. A column that is no column of numbers
+/// has the reason in its place: it may not be asked for.
+pub(super) type Arrays = (Vec<String>, Vec<Result<Vec<f64>, DataErrorKind>>);
+
+pub(super) fn is_array(start: &[u8]) -> bool {
+    start.starts_with(b"\x93NUMPY")
+}
+
+pub(super) fn is_archive(start: &[u8]) -> bool {
+    start.starts_with(b"PK\x03\x04")
+}
+
+/// Reads an array or an archive of arrays: an array of one axis is a column, one of two axes has a column for each
+/// index of its second. A number alone is no column.
+///
+/// **Errors**: a file that cannot be read.
+pub(super) fn read(mut reader: impl Read, file: &str) -> Result<Arrays, DataError> {
+    let unreadable = |error: &dyn std::fmt::Display| DataErrorKind::Unreadable(error.to_string()).at(file, None);
+    let mut bytes = Vec::new();
+    reader.read_to_end(&mut bytes).map_err(|error| unreadable(&error))?;
+    if is_array(&bytes) {
+        return Ok((Vec::new(), columns(numbers(&mut Array(&bytes)))));
+    }
+    let mut archive = NpzReader::new(Cursor::new(bytes)).map_err(|error| unreadable(&error))?;
+    let (mut names, mut all) = (Vec::new(), Vec::new());
+    for name in archive.names().map_err(|error| unreadable(&error))? {
+        let array = numbers(&mut Entry(&mut archive, &name));
+        let columns = columns(array);
+        let one = columns.len() == 1;
+        names.extend((0..columns.len()).map(|k| if one { name.clone() } else { format!("{name}[{k}]") }));
+        all.extend(columns);
+    }
+    Ok((names, all))
+}
+
+fn columns(array: Result<ArrayD<f64>, DataErrorKind>) -> Vec<Result<Vec<f64>, DataErrorKind>> {
+    match array {
+        Err(kind) => vec![Err(kind)],
+        Ok(array) => match array.shape() {
+            [] => Vec::new(),
+            [_] => vec![Ok(array.into_iter().collect())],
+            [_, _] => array.axis_iter(Axis(1)).map(|column| Ok(column.iter().copied().collect())).collect(),
+            shape => vec![Err(DataErrorKind::Shape(shape.to_vec()))],
+        },
+    }
+}
+
+/// What an array can be read from, whatever its elements.
+trait Fetch {
+    fn fetch<T: ReadableElement>(&mut self) -> Result<ArrayD<T>, ReadNpyError>;
+}
+
+struct Array<'a>(&'a [u8]);
+
+impl Fetch for Array<'_> {
+    fn fetch<T: ReadableElement>(&mut self) -> Result<ArrayD<T>, ReadNpyError> {
+        ArrayD::read_npy(self.0)
+    }
+}
+
+struct Entry<'a>(&'a mut NpzReader<Cursor<Vec<u8>>>, &'a str);
+
+impl Fetch for Entry<'_> {
+    fn fetch<T: ReadableElement>(&mut self) -> Result<ArrayD<T>, ReadNpyError> {
+        self.0.by_name::<OwnedRepr<T>, IxDyn>(self.1).map_err(|error| match error {
+            ReadNpzError::Npy(error) => error,
+            ReadNpzError::Zip(error) => ReadNpyError::Io(std::io::Error::other(error.to_string())),
+        })
+    }
+}
+
+/// The elements as doubles, from whichever of the common types they are.
+fn numbers(array: &mut impl Fetch) -> Result<ArrayD<f64>, DataErrorKind> {
+    fn other(error: ReadNpyError) -> DataErrorKind {
+        match error {
+            ReadNpyError::WrongDescriptor(found) => DataErrorKind::ElementType { found: found.to_string() },
+            error => DataErrorKind::Unreadable(error.to_string()),
+        }
+    }
+    match array.fetch::<f64>() {
+        Err(ReadNpyError::WrongDescriptor(_)) => {}
+        read => return read.map_err(other),
+    }
+    if let Ok(floats) = array.fetch::<f32>() {
+        return Ok(floats.mapv(f64::from));
+    }
+    if let Ok(integers) = array.fetch::<i64>() {
+        return Ok(integers.mapv(|n| n as f64));
+    }
+    array.fetch::<i32>().map(|integers| integers.mapv(f64::from)).map_err(other)
+}

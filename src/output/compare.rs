@@ -1,0 +1,250 @@
+//! Other people's data beside ours, as a table, JSON and CSV.
+
+use serde_json::{Value, json};
+
+use super::table::table;
+use crate::agreement::{Agreement, Compared, Order};
+use crate::number::Scalar;
+use crate::quantity::{Column, Extreme, Greatest, Norm, Touch, Units};
+
+/// One file that was compared.
+#[derive(Debug)]
+pub(crate) struct ComparedFile {
+    /// Its name.
+    pub(crate) file: String,
+    /// What came of it.
+    pub(crate) agreement: Agreement,
+}
+
+/// What the norms are.
+const WEIGHTS: &str = "sums over the samples by the trapezoidal rule: each weighs half the way to its neighbours";
+
+fn number(x: f64) -> String {
+    x.decimal(6)
+}
+
+/// `12.34`, `1.234e-5`, or `–`.
+fn size(x: Option<f64>) -> String {
+    match x {
+        None => "–".into(),
+        Some(0.0) => "0".into(),
+        Some(x) if (1e-3..1e5).contains(&x.abs()) => x.decimal(4),
+        Some(x) => format!("{x:.3e}"),
+    }
+}
+
+/// `0.12 %`, or `–`.
+fn share(x: Option<f64>) -> String {
+    match x {
+        None => "–".into(),
+        Some(0.0) => "0".into(),
+        Some(x) if x < 1e-6 => format!("{x:.1e}"),
+        Some(x) => format!("{} %", (100.0 * x).decimal(3)),
+    }
+}
+
+/// The whole report of one file.
+pub(crate) fn compare_table(compared: &ComparedFile, title: Option<&str>, units: &Units) -> String {
+    let ComparedFile { file, agreement } = compared;
+    let times = &agreement.grid.times;
+    let (first, last) = (times.first().copied().unwrap_or(0.0), times.last().copied().unwrap_or(0.0));
+    let mut out = title.map_or_else(String::new, |title| format!("{title}\n"));
+    let (count, step) = (times.len(), number(agreement.step));
+    out += &format!("{file}: {count} samples from t = {} to {}, step {step}\n", number(first), number(last));
+    if agreement.outside > 0 {
+        out += &format!("{} rows before t = 0 are not compared\n", agreement.outside);
+    }
+    out += &format!("theirs − ours; norms are {WEIGHTS}\n\n{}\n", norms_table(agreement, units));
+    if !agreement.contacts.is_empty() {
+        out += &format!("\n{}\n", contacts_table(&agreement.contacts, units));
+    }
+    if agreement.grid.points.is_none() {
+        out += &format!("\n{}", audit_lines(agreement, units));
+    }
+    out.push('\n');
+    for hint in &agreement.hints {
+        out += &format!("hint: {hint}\n");
+    }
+    if agreement.hints.is_empty() {
+        out += "no hint: nothing systematic found\n";
+    }
+    out
+}
+
+fn norms_table(agreement: &Agreement, units: &Units) -> String {
+    let mut rows = Vec::new();
+    for Compared { what, norms, .. } in &agreement.quantities {
+        let unit = what.unit(units);
+        let plain = |norm: Norm| [size(Some(norm.absolute)), share(norm.relative), String::new()];
+        let greatest = |most: Greatest| {
+            let point = most.point.map_or_else(String::new, |x| format!(", x = {}", number(x)));
+            [size(Some(most.absolute)), share(most.relative), format!("{}{point}", number(most.time))]
+        };
+        let none = || ["–".to_string(), "–".into(), String::new()];
+        let name = if unit.is_empty() { what.name().to_string() } else { format!("{}, {unit}", what.name()) };
+        let on_jumps = match norms.on_jumps {
+            0 => String::new(),
+            1 => "1 sample on a jump".to_string(),
+            count => format!("{count} samples on jumps"),
+        };
+        let jumps = what.jumps();
+        let lines = [
+            (name, "L1", plain(norms.l1)),
+            (on_jumps, "L2", plain(norms.l2)),
+            (String::new(), "L∞", greatest(norms.linf)),
+            (String::new(), "L∞ off jumps", norms.linf_off_jumps.map_or_else(none, greatest)),
+        ];
+        for (name, norm, [absolute, relative, at]) in lines.into_iter().take(if jumps { 4 } else { 3 }) {
+            rows.push(vec![name, norm.into(), absolute, relative, at]);
+        }
+    }
+    table(&["quantity", "norm", "absolute", "relative", "at t"], rows, 2)
+}
+
+fn contacts_table(contacts: &[(Option<Touch>, Option<Touch>)], units: &Units) -> String {
+    let columns = |touch: &Touch| [Some(touch.from), touch.to, touch.impulse, touch.centroid, touch.peak];
+    let row = |name: String, whose: String, values: [Option<f64>; 5]| {
+        let numbers = values.into_iter().map(|value| value.map_or_else(|| "–".into(), number));
+        [name, whose].into_iter().chain(numbers).collect::<Vec<String>>()
+    };
+    let mut rows = Vec::new();
+    for (k, (ours, theirs)) in contacts.iter().enumerate() {
+        let name = (k + 1).to_string();
+        let merged = theirs.as_ref().map_or(0, |touch| touch.merged);
+        let whose = if merged > 0 { format!("theirs, {merged} gaps closed") } else { "theirs".into() };
+        match (ours, theirs) {
+            (Some(a), Some(b)) => {
+                let (a, b) = (columns(a), columns(b));
+                rows.push(row(name, "ours".into(), a));
+                rows.push(row(String::new(), whose, b));
+                let apart: Vec<Option<f64>> = a.iter().zip(b).map(|(a, b)| a.zip(b).map(|(a, b)| b - a)).collect();
+                let apart = apart.try_into().unwrap_or([None; 5]);
+                rows.push(row(String::new(), "difference".into(), apart));
+            }
+            (Some(a), None) => rows.push(row(name, "ours, missing in theirs".into(), columns(a))),
+            (None, Some(b)) => rows.push(row(name, format!("{whose}, not in ours"), columns(b))),
+            (None, None) => {}
+        }
+    }
+    let named = |name: &str, column: Column| match column.unit(units) {
+        "" => name.to_string(),
+        unit => format!("{name}, {unit}"),
+    };
+    let (impulse, peak) = (named("impulse", Column::Impulse), named("peak", Column::Force));
+    table(&["contact", "", "from", "to", &impulse, "centroid", &peak], rows, 2)
+}
+
+fn audit_lines(agreement: &Agreement, units: &Units) -> String {
+    let audit = &agreement.audit;
+    let with = |value: f64, unit: &str| format!("{} {unit}", size(Some(value))).trim_end().to_string();
+    let at = |extreme: &Extreme, unit: &str| match extreme.value {
+        0.0 => "none".to_string(),
+        value => format!("{} at t = {}", with(value, unit), number(extreme.time)),
+    };
+    let or = |text: Option<String>, needs: &str| text.unwrap_or_else(|| format!("– (needs {needs})"));
+    let [length, force, impulse, joule] =
+        [Column::EndDisplacement, Column::Force, Column::Impulse, Column::Energy].map(|column| column.unit(units));
+    let energy = audit.energy_change.as_ref().map(|energy| {
+        let of_ours =
+            energy.relative.map_or_else(String::new, |share| format!(" ({} of ours)", self::share(Some(share.abs()))));
+        let way = if energy.change < 0.0 { "lost" } else { "gained" };
+        let change = with(energy.change.abs(), joule);
+        let (gain, loss) = (at(&energy.gain, joule), at(&energy.loss, joule));
+        format!("{change} {way} in all{of_ours}\n{:20}most gained: {gain}; most lost: {loss}", "")
+    });
+    let covered: Vec<String> =
+        audit.not_covered.iter().map(|[from, to]| format!("t = {} … {}", number(*from), number(*to))).collect();
+    let momentum = audit.momentum.map(|x| format!("{} out of balance", with(x, impulse)));
+    let lines = [
+        ("penetration", or(audit.penetration.as_ref().map(|x| at(x, length)), "u_end")),
+        ("tension in contact", or(audit.tension.as_ref().map(|x| at(x, force)), "force, stress or strain")),
+        ("∫|v F| dt", or(audit.complementarity.map(|x| size(Some(x))), "u_end and force")),
+        ("energy", or(energy, "E_total")),
+        ("momentum", or(momentum, "force, h_rate and a free top")),
+        ("contacts", format!("{} missed, {} invented", audit.missed, audit.invented)),
+        ("not covered", if covered.is_empty() { "nothing".into() } else { covered.join(", ") }),
+    ];
+    lines.map(|(name, text)| format!("{name:<20}{text}\n")).concat()
+}
+
+/// The orders of convergence that several files show, one row for each pair of neighbours.
+pub(crate) fn orders_table(orders: &[Order]) -> String {
+    let order = |x: Option<f64>| x.map_or_else(|| "–".into(), |x| format!("{x:.2}"));
+    let rows = orders.iter().map(|row| {
+        let widths = format!("{} → {}", number(row.widths[0]), number(row.widths[1]));
+        vec![row.quantity.into(), widths, order(row.l1), order(row.l2), order(row.linf), order(row.linf_off_jumps)]
+    });
+    let header = ["observed order", "width", "L1", "L2", "L∞", "L∞ off jumps"];
+    table(&header, rows.collect(), 2) + "\n"
+}
+
+/// One file, schema 1.
+fn file_json(compared: &ComparedFile, units: &Units) -> serde_json::Map<String, Value> {
+    let ComparedFile { file, agreement } = compared;
+    let quantities = agreement.quantities.iter().map(|Compared { what, norms, .. }| {
+        let mut value = json!({"name": what.name(), "unit": what.unit(units)});
+        if let (Some(object), Value::Object(norms)) = (value.as_object_mut(), json!(norms)) {
+            object.extend(norms);
+        }
+        value
+    });
+    let contacts = agreement.contacts.iter().map(|(ours, theirs)| json!({"ours": ours, "theirs": theirs}));
+    let value = json!({
+        "file": file,
+        "weights": WEIGHTS,
+        "step": agreement.step,
+        "window": agreement.window,
+        "outside": agreement.outside,
+        "quantities": quantities.collect::<Vec<_>>(),
+        "contacts": contacts.collect::<Vec<_>>(),
+        "audit": agreement.audit,
+        "hints": agreement.hints,
+    });
+    match value {
+        Value::Object(map) => map,
+        _ => serde_json::Map::new(),
+    }
+}
+
+/// Everything, schema 1: of one file its members stand at the top, of several under `files`, with their `orders`.
+pub(crate) fn compare_json(files: &[ComparedFile], orders: &[Order], title: Option<&str>, units: &Units) -> Value {
+    let mut value = json!({"schema": 1, "title": title});
+    match (files, value.as_object_mut()) {
+        ([one], Some(object)) => object.extend(file_json(one, units)),
+        (several, Some(object)) => {
+            object.insert("files".into(), several.iter().map(|file| Value::Object(file_json(file, units))).collect());
+            object.insert("orders".into(), json!(orders));
+        }
+        (_, None) => {}
+    }
+    value
+}
+
+/// Every sample: time, point of a field, and for each quantity ours, theirs and the difference.
+pub(crate) fn compare_csv(agreement: &Agreement) -> Result<Vec<u8>, csv::Error> {
+    let mut writer = csv::Writer::from_writer(Vec::new());
+    let points = agreement.grid.points.as_ref();
+    writer.write_field("t")?;
+    if points.is_some() {
+        writer.write_field("x")?;
+    }
+    for compared in &agreement.quantities {
+        for whose in ["ours", "theirs", "difference"] {
+            writer.write_field(format!("{}_{whose}", compared.what.name()))?;
+        }
+    }
+    writer.write_record(None::<&[u8]>)?;
+    for (k, time) in agreement.grid.times.iter().enumerate() {
+        writer.write_field(time.to_string())?;
+        if let Some(points) = points {
+            writer.write_field(points[k].to_string())?;
+        }
+        for Compared { ours, theirs, .. } in &agreement.quantities {
+            for value in [ours[k], theirs[k], theirs[k] - ours[k]] {
+                writer.write_field(format!("{value:e}"))?;
+            }
+        }
+        writer.write_record(None::<&[u8]>)?;
+    }
+    writer.into_inner().map_err(|error| csv::Error::from(error.into_error()))
+}

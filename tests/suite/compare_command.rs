@@ -1,0 +1,232 @@
+//! `dalembert compare` as a command: what it reads, prints, writes and refuses.
+
+use std::fs;
+use std::path::Path;
+use std::process::{Command, Output};
+
+use serde_json::Value;
+use tempfile::TempDir;
+
+fn run(folder: &Path, args: &[&str]) -> Output {
+    Command::new(env!("CARGO_BIN_EXE_dalembert")).args(args).current_dir(folder).output().unwrap()
+}
+
+#[track_caller]
+fn text(output: &Output, code: i32) -> String {
+    let error = String::from_utf8_lossy(&output.stderr);
+    assert_eq!(output.status.code(), Some(code), "{error}");
+    String::from_utf8(output.stdout.clone()).unwrap()
+}
+
+#[track_caller]
+fn json(folder: &Path, args: &[&str]) -> Value {
+    serde_json::from_str(&text(&run(folder, &[args, &["--format", "json"]].concat()), 0)).unwrap()
+}
+
+/// c = L = 1, g = 0, μ = 1: contact on [0, 2], u = t − 2 after it; v_x(0,t) = −1 in contact.
+const SCENE: &str = "[rod]\nlength = 1\nwave_speed = 1\n[impact]\nspeed = 1\n[run]\ntime = 4\n";
+
+/// A folder with the scene and `data` in `run.csv`.
+fn folder(data: &str) -> TempDir {
+    let folder = TempDir::new().unwrap();
+    fs::write(folder.path().join("rod.toml"), SCENE).unwrap();
+    fs::write(folder.path().join("run.csv"), data).unwrap();
+    folder
+}
+
+const EXACT: &str = "t,u,v,force\n0,0,0,1\n1,0,0,1\n2,0,0,1\n3,1,1,0\n4,2,1,0\n";
+
+/// Samples on the jump at t = 2 count as the nearer limit, from either side.
+#[test]
+fn samples_on_a_jump() {
+    for data in [EXACT, "t,u,v,force\n0,0,-1,0\n1,0,0,1\n2,0,1,0\n3,1,1,0\n4,2,1,0\n"] {
+        let folder = folder(data);
+        let report = json(folder.path(), &["compare", "rod.toml", "run.csv"]);
+        for quantity in report["quantities"].as_array().unwrap() {
+            assert_eq!(quantity["linf"]["absolute"], 0.0, "{quantity}");
+            let on_jumps = if quantity["name"] == "u_end" { 0 } else { 2 };
+            assert_eq!((&quantity["samples"], &quantity["on_jumps"]), (&5.into(), &on_jumps.into()), "{quantity}");
+        }
+        assert_eq!(report["hints"], serde_json::json!([]));
+    }
+}
+
+/// The keys that other projects read.
+#[test]
+fn the_json() {
+    let folder = folder("t,u,force\n0,0,1\n1,0.5,1\n2,0,1\n3,1,0\n4,2,0\n");
+    let report = json(folder.path(), &["compare", "rod.toml", "run.csv"]);
+    assert_eq!(report["schema"], 1);
+    let u = &report["quantities"][0];
+    // One sample of weight 1 is off by ½; ‖u‖₁ = 1 · 1 + ½ · 2, ‖u‖₂² = 1 + ½ · 4.
+    assert_eq!((&u["l1"]["absolute"], &u["l1"]["relative"]), (&0.5.into(), &0.25.into()));
+    assert_eq!((&u["l2"]["absolute"], u["l2"]["relative"].as_f64()), (&0.5.into(), Some(0.5 / 3f64.sqrt())));
+    assert_eq!((&u["linf"]["absolute"], &u["linf"]["time"]), (&0.5.into(), &1.0.into()));
+    assert!(u["linf_off_jumps"].is_object());
+    let contact = &report["contacts"][0];
+    assert_eq!(
+        (&contact["ours"]["from"], &contact["ours"]["to"], &contact["ours"]["impulse"]),
+        (&0.0.into(), &2.0.into(), &2.0.into())
+    );
+    assert_eq!(
+        (&contact["theirs"]["from"], &contact["theirs"]["to"], &contact["theirs"]["peak"]),
+        (&0.0.into(), &2.5.into(), &1.0.into())
+    );
+    let audit = report["audit"].as_object().unwrap();
+    for key in ["penetration", "tension", "complementarity", "energy_change", "momentum", "missed", "invented"] {
+        assert!(audit.contains_key(key), "{key}");
+    }
+    // |0.5 · 1| over two halves of a step.
+    assert_eq!(audit["complementarity"], 0.5);
+}
+
+/// One data set in every form that is read.
+#[test]
+fn every_form_of_data() {
+    let forms = [
+        ("a.csv", EXACT.to_string(), ""),
+        ("b.csv", EXACT.replace(',', ";").replace("t;", "\"t\";"), ""),
+        ("c.dat", format!("% made by hand\n# {}", EXACT.replace(',', "   ").replace('\n', "\r\n")), ""),
+        (
+            "d.dat",
+            EXACT.split_once('\n').unwrap().1.replace(',', " ").replace("2 0 0 1", "\n2 0 0 1.0D0"),
+            "t=0,u=1,v=2,force=3",
+        ),
+        ("e.txt", "9 0\n9 0\n9 0\n9 1\n9 2\n".into(), "u=1"),
+    ];
+    for (name, data, map) in forms {
+        let folder = folder("");
+        fs::write(folder.path().join(name), data).unwrap();
+        let mut args = vec!["compare", "rod.toml", name];
+        args.extend(if map.is_empty() { vec![] } else { vec!["--map", map] });
+        args.extend(if name == "e.txt" { vec!["--dt", "1"] } else { vec![] });
+        let report = json(folder.path(), &args);
+        assert_eq!(report["quantities"][0]["name"], "u_end", "{name}");
+        assert_eq!(report["quantities"][0]["linf"]["absolute"], 0.0, "{name}");
+    }
+}
+
+/// What `reference` writes is what `compare` holds it against: every column, as CSV and NPZ.
+#[test]
+fn reference_files_agree() {
+    let folder = folder("");
+    for name in ["golden.csv", "golden.npz"] {
+        let columns = "t,u_end,v_end,strain,stress,force,u_top,v_top,h,h_rate,E_total,E_h,E_z,kinetic,impulse";
+        let reference =
+            ["reference", "doyen-ern-piperno", "--columns", columns, "--dt", "1/128", "--to", "8", "-o", name];
+        text(&run(folder.path(), &[&reference[..], &["--side", "right"]].concat()), 0);
+        let report = json(folder.path(), &["compare", "doyen-ern-piperno", name]);
+        assert_eq!(report["quantities"].as_array().unwrap().len(), 14);
+        for quantity in report["quantities"].as_array().unwrap() {
+            assert!(quantity["linf"]["relative"].as_f64().unwrap() <= 1e-12, "{quantity}");
+        }
+        assert_eq!(report["hints"], serde_json::json!([]));
+    }
+}
+
+/// Many samples are interpolated between asked ones: the same as those asked one by one.
+#[test]
+fn many_samples() {
+    let folder = folder("");
+    for scene in ["doyen-ern-piperno", "figure-4-r02"] {
+        let reference = ["reference", scene, "--columns", "t,u_end,v_end,force,E_z", "--dt", "1/16384", "--to", "2.5"];
+        text(&run(folder.path(), &[&reference[..], &["--side", "right", "-o", "many.npz"]].concat()), 0);
+        let report = json(folder.path(), &["compare", scene, "many.npz"]);
+        for quantity in report["quantities"].as_array().unwrap() {
+            assert_eq!(quantity["samples"], 40961);
+            assert!(quantity["linf"]["relative"].as_f64().unwrap() <= 1e-10, "{scene}: {quantity}");
+        }
+    }
+}
+
+/// A field with its points: behind the wave of the impact v = −x and v_x = −1, before it v = −t.
+#[test]
+fn a_field() {
+    let folder =
+        folder("t,x,u,strain\n0.5,0,0,-1\n0.5,0.25,-0.25,-1\n0.5,1,-0.5,0\n1,0,0,-1\n1,0.5,-0.5,-1\n1,1,-1,0\n");
+    let report = json(folder.path(), &["compare", "rod.toml", "run.csv"]);
+    for quantity in report["quantities"].as_array().unwrap() {
+        assert_eq!(quantity["linf"]["absolute"], 0.0, "{quantity}");
+    }
+    // At t = 1 the wave is at the top, whose v_x is 0 for ever.
+    assert_eq!(report["quantities"][1]["name"], "strain");
+    assert_eq!(report["contacts"], serde_json::json!([]));
+}
+
+/// Exit code 1 above a bound, 2 for what cannot be compared.
+#[test]
+fn bounds_for_tests() {
+    let folder = folder("t,u\n0,0\n1,0\n2,0\n3,1.1\n4,2\n");
+    let above = |bound: &str| run(folder.path(), &["compare", "rod.toml", "run.csv", "--fail-above", bound]);
+    assert!(text(&above("u.l2=0.1,u_end.linf=0.5"), 0).contains("u_end"));
+    let failed = above("u.linf=0.04");
+    text(&failed, 1);
+    assert!(String::from_utf8_lossy(&failed.stderr).contains("expected u.linf ≤ 4e-2, found 5.000e-2"));
+    text(&above("v.l2=0.1"), 2);
+    text(&above("u.l3=0.1"), 2);
+}
+
+/// u + h² at steps h: second order in every norm.
+#[test]
+fn several_files_show_the_order() {
+    let folder = folder("");
+    for (name, count) in [("a.csv", 40), ("b.csv", 80), ("c.csv", 160)] {
+        let h = 4.0 / f64::from(count);
+        let row = |k: i32| format!("{},{}\n", f64::from(k) * h, (f64::from(k) * h - 2.0).max(0.0) + h * h);
+        fs::write(folder.path().join(name), format!("t,u\n{}", (0..=count).map(row).collect::<String>())).unwrap();
+    }
+    let report = json(folder.path(), &["compare", "rod.toml", "a.csv", "b.csv", "c.csv"]);
+    assert_eq!(report["files"].as_array().unwrap().len(), 3);
+    let orders = report["orders"].as_array().unwrap();
+    assert_eq!(orders.len(), 2);
+    for order in orders {
+        for norm in ["l1", "l2", "linf"] {
+            assert!((order[norm].as_f64().unwrap() - 2.0).abs() < 1e-9, "{order}");
+        }
+    }
+    // Widths of twice the ratio halve the order.
+    let report = json(folder.path(), &["compare", "rod.toml", "a.csv", "b.csv", "--widths", "0.4,0.1"]);
+    assert!((report["orders"][0]["l2"].as_f64().unwrap() - 1.0).abs() < 1e-9);
+}
+
+#[test]
+fn residuals_and_pictures() {
+    let folder = folder(EXACT);
+    let csv = text(&run(folder.path(), &["compare", "rod.toml", "run.csv", "--format", "csv"]), 0);
+    assert!(csv.starts_with("t,u_end_ours,u_end_theirs,u_end_difference,v_end_ours,"));
+    assert_eq!(csv.lines().count(), 6);
+    if cfg!(feature = "plot") {
+        let table = text(&run(folder.path(), &["compare", "rod.toml", "run.csv", "-o", "a.svg", "-o", "a.png"]), 0);
+        assert!(table.contains("no hint"));
+        let svg = fs::read_to_string(folder.path().join("a.svg")).unwrap();
+        assert!(svg.contains("theirs − ours") && svg.contains("run.csv"));
+        assert!(fs::read(folder.path().join("a.png")).unwrap().starts_with(b"\x89PNG"));
+    }
+}
+
+/// One line each: the file, the place, what was found and what was expected.
+#[test]
+fn what_is_refused() {
+    let cases = [
+        ("", "run.csv: found no row of numbers"),
+        ("t,u\n", "run.csv: found no row of numbers"),
+        ("t,u\n0,0\n1\n", "run.csv, line 3: found 1 columns, expected 2 as in the first row"),
+        ("t,u\n0,0\n\n1,x\n", "run.csv, line 4, column 2: found `x`, expected a number"),
+        ("t,u\n0,0\n1,NaN\n", "run.csv, line 3, column 2: found NaN, expected a finite number"),
+        ("# by hand\nt,u\n0,0\n1,0\n1,0\n", "run.csv, line 5, column 1: found time 1 after 1"),
+        ("t,u\n-2,0\n-1,0\n", "run.csv: found times up to -1, expected some after 0"),
+        ("0,0\n1,0\n", "run.csv: found no names of columns, expected --map"),
+        ("t,w\n0,0\n1,0\n", "run.csv: found no quantity in the columns t, w"),
+        ("t,x,u\n0,0,0\n0,2,0\n", "run.csv, line 3, column 2: found point 2, expected one between 0 and 1"),
+        ("t,x,u\n0,0.5,0\n0,0.5,0\n", "run.csv, line 3, column 2: found point 0.5 after 0.5"),
+    ];
+    for (data, said) in cases {
+        let folder = folder(data);
+        let output = run(folder.path(), &["compare", "rod.toml", "run.csv", "-o", "out.json"]);
+        assert_eq!(text(&output, 2), "", "{said}");
+        let error = String::from_utf8_lossy(&output.stderr).replace(['│', '×'], " ");
+        let words = error.split_whitespace().collect::<Vec<_>>().join(" ");
+        assert!(words.contains(said), "no `{said}` in {words}");
+        assert!(!folder.path().join("out.json").exists());
+    }
+}
