@@ -140,6 +140,9 @@ pub enum Error {
         "found a start that is not uniform, or a fixed top; expected a uniform start under a free top, whose first contact has a closed form"
     )]
     NoClosedForm,
+    /// The observer of a run ended it.
+    #[error("interrupted")]
+    Interrupted,
     /// A comparison of enclosures that their ends do not settle.
     #[error(transparent)]
     Open(#[from] crate::number::Open),

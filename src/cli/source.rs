@@ -1,6 +1,7 @@
 //! Where a scene comes from, and how a run shows its progress.
 
 use std::io::Read;
+use std::ops::ControlFlow;
 use std::sync::Arc;
 use std::sync::mpsc::{RecvTimeoutError, Sender, channel};
 use std::thread::JoinHandle;
@@ -121,6 +122,7 @@ impl Progress {
                 bar.set_message(format!("{pieces} pieces"));
                 bar.set_position(trip as u64);
             }
+            ControlFlow::Continue(())
         })
     }
 }

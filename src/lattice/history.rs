@@ -1,7 +1,9 @@
 //! The history of an undamped rod, and where its times lie on the lattice.
 
+use std::ops::ControlFlow;
+
 use super::limits::{Halt, Limits, Until};
-use super::march::{GroundMotion, march};
+use super::march::{GroundMotion, march, unobserved};
 use super::start::{Scaled, Units};
 use super::trace::{Part, Place};
 use crate::error::Error;
@@ -53,15 +55,16 @@ impl<N: Bounded> Undamped<N> {
     /// # Ok::<(), dalembert::Error>(())
     /// ```
     pub fn solve(problem: &Problem, precision: &N::Precision) -> Result<Self, Error> {
-        Self::solve_within(problem, precision, Limits::default(), |_, _| ())
+        Self::solve_within(problem, precision, Limits::default(), unobserved)
     }
 
-    /// [`Undamped::solve`] with a limit of one's own; `observe` is told the round trip and the pieces so far.
+    /// [`Undamped::solve`] with a limit of one's own; `observe` is told the round trip and the pieces so far, and may
+    /// end the run with [`Error::Interrupted`].
     pub fn solve_within(
         problem: &Problem,
         precision: &N::Precision,
         limits: Limits,
-        observe: impl FnMut(usize, usize),
+        observe: impl FnMut(usize, usize) -> ControlFlow<()>,
     ) -> Result<Self, Error> {
         let scaled = Scaled::<N>::of(problem, precision)?;
         let until = match &problem.run {

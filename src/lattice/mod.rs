@@ -31,6 +31,6 @@ mod trace;
 
 pub use history::Undamped;
 pub use limits::{Halt, Limits, Until};
-pub use march::{GroundMotion, march};
+pub use march::{GroundMotion, march, unobserved};
 pub use start::{Scaled, Units};
 pub use trace::{GroundEvent, Line, Piece, Trace};

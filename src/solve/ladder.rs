@@ -2,6 +2,7 @@
 //! settles it.
 
 use std::fmt;
+use std::ops::ControlFlow;
 use std::sync::Arc;
 
 use super::plan::{Plan, Rung};
@@ -10,12 +11,13 @@ use crate::motion::{Ending, Motion};
 use crate::number::{Answer, Scalar};
 use crate::problem::Problem;
 
-/// Receives the round trip and the number of pieces from time to time.
-pub type Observer = Arc<dyn Fn(usize, usize) + Send + Sync>;
+/// Receives the round trip and the number of pieces from time to time, and may end the run with
+/// [`Error::Interrupted`].
+pub type Observer = Arc<dyn Fn(usize, usize) -> ControlFlow<()> + Send + Sync>;
 
 /// An observer that does nothing.
 pub(crate) fn unobserved() -> Observer {
-    Arc::new(|_, _| ())
+    Arc::new(crate::lattice::unobserved)
 }
 
 /// An engine that has run.

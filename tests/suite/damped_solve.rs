@@ -9,7 +9,7 @@ use std::sync::Arc;
 
 fn in_doubles(problem: &Problem, accuracy: Option<f64>) -> History<f64> {
     let plan = Plan::of(problem, &Question::run(Numbers::Double(accuracy))).unwrap();
-    let Solution::Double(motion) = plan.solve(problem, Arc::new(|_, _| ())).unwrap() else {
+    let Solution::Double(motion) = plan.solve(problem, Arc::new(dalembert::lattice::unobserved)).unwrap() else {
         panic!("doubles were asked for");
     };
     motion

@@ -1,0 +1,378 @@
+"""The exact reference for the bouncing elastic rod, ``v_tt + 2r v_t - c² v_xx = -g`` on ``0 < x < L`` with
+unilateral contact at ``x = 0``.
+
+>>> import dalembert
+>>> m = dalembert.solve("getfem-dynamic-contact", to=12)
+>>> m.strain([0.5, 1.5])
+array([ 0. , -0.5])
+
+Numbers are given as int, float, ``fractions.Fraction``, ``decimal.Decimal`` or str. A float stands for the shortest
+decimal that spells it: 0.1 is 1/10. All units are those of the input.
+"""
+
+from __future__ import annotations
+
+import os
+from decimal import Decimal
+from fractions import Fraction
+from functools import cached_property
+from importlib.metadata import version as _version
+from typing import Any, Literal, NamedTuple, Sequence, Union
+
+import numpy as np
+
+from . import _core
+
+__all__ = ["Energy", "Field", "History", "Motion", "Problem", "scenes", "solve"]
+__version__ = _version("dalembert")
+
+Number = Union[int, float, Fraction, Decimal, str]
+Numbers = Union[Number, Sequence[Any], np.ndarray]
+Points = Union[Sequence["tuple[Number, Number]"], np.ndarray]
+Side = Literal["left", "right"]
+
+
+class Motion(NamedTuple):
+    """A displacement and its rate, ``v`` and ``v_t``."""
+
+    displacement: Any
+    velocity: Any
+
+
+class Energy(NamedTuple):
+    """``E = E_h + E_z``, per linear density: in all, of the centre of mass, of the vibration."""
+
+    total: Any
+    translational: Any
+    vibrational: Any
+
+
+class Field(NamedTuple):
+    """``v``, ``v_t`` and ``v_x``."""
+
+    displacement: Any
+    velocity: Any
+    strain: Any
+
+
+def scenes() -> dict[str, str]:
+    """Names and summaries of the built-in scenes."""
+    return dict(_core.scenes())
+
+
+class Problem:
+    """A rod, the ground and the start, in exact numbers, checked.
+
+    ``length`` and ``wave_speed`` (or ``modulus``, ``density`` and ``area``) are the rod; ``damping`` is the ``r`` of
+    the equation, ``top`` is "free" or "fixed"; the start is an ``impact_speed``, a ``drop_height``, or
+    ``displacement`` and ``velocity`` as points ``(x, value)``. It is followed up to ``time``, or through a number of
+    ``impacts``; without either, through the first contact and the flight after it.
+
+    >>> rod = Problem(length=1, wave_speed=1, gravity=1, impact_speed=3)
+    >>> rod.round_trip, rod.speed_ratio
+    (2.0, 1.5)
+    >>> rod.solve(exact=True).strain("1/3")
+    Fraction(-10, 3)
+
+    A value that is missing or wrong is a ValueError, one of the wrong type a TypeError.
+    """
+
+    def __init__(
+        self,
+        *,
+        length: Number,
+        wave_speed: Number | None = None,
+        modulus: Number | None = None,
+        density: Number | None = None,
+        area: Number | None = None,
+        damping: Number | None = None,
+        gravity: Number | None = None,
+        impact_speed: Number | None = None,
+        drop_height: Number | None = None,
+        top: Literal["free", "fixed"] | None = None,
+        displacement: Points | None = None,
+        velocity: Points | None = None,
+        time: Number | None = None,
+        impacts: int | None = None,
+    ) -> None:
+        given = {name: value for name, value in locals().items() if name != "self" and value is not None}
+        self._core = _core.Problem(given)
+        self._made: tuple[Any, ...] = (given,)
+
+    @classmethod
+    def from_scene(cls, scene: str | os.PathLike[str]) -> Problem:
+        """The problem of a built-in scene, of a scene file, or of a scene as TOML text."""
+        return cls._of(_core.Problem.parse(text := _text(scene)), (text,))
+
+    @classmethod
+    def _of(cls, core: _core.Problem, made: tuple[Any, ...]) -> Problem:
+        problem = cls.__new__(cls)
+        problem._core, problem._made = core, made
+        return problem
+
+    def replace(self, **values: Any) -> Problem:
+        """The same problem with other values: a ``time`` takes the place of ``impacts``, a profile that of an impact.
+
+        >>> Problem(length=1, wave_speed=1, impact_speed=3).replace(damping="0.1").damping_ratio
+        0.2
+        """
+        return self._of(self._core.replace(values), (*self._made, values))
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        return _remake, self._made
+
+    @property
+    def wave_speed(self) -> float:
+        """``c``."""
+        return self._core.parameters()[0]
+
+    @property
+    def round_trip(self) -> float:
+        """``t₁ = 2L/c``."""
+        return self._core.parameters()[1]
+
+    @property
+    def damping_ratio(self) -> float:
+        """``R = r t₁``."""
+        return self._core.parameters()[2]
+
+    @property
+    def speed_ratio(self) -> float | None:
+        """``M = μ/(g t₁)``: infinite without gravity, None where the start is not uniform."""
+        return self._core.parameters()[3]
+
+    def solve(
+        self,
+        *,
+        digits: int | None = None,
+        exact: bool = False,
+        certified: bool = False,
+        accuracy: float | None = None,
+        first_contact: bool = False,
+    ) -> History:
+        """The motion, as :func:`solve` gives it; ``first_contact`` ends it at the bounce, which takes less time."""
+        return History(self._core.solve(digits, exact, certified, accuracy, first_contact), self)
+
+
+def _remake(first: dict[str, Any] | str, *replaced: dict[str, Any]) -> Problem:
+    problem = Problem.from_scene(first) if isinstance(first, str) else Problem(**first)
+    for values in replaced:
+        problem = problem.replace(**values)
+    return problem
+
+
+def _text(scene: str | os.PathLike[str]) -> str:
+    if not isinstance(scene, os.PathLike):
+        if not isinstance(scene, str):
+            kind = type(scene).__name__
+            raise TypeError(f"found a scene of type {kind}, expected a name, a path, TOML text or a Problem")
+        if "\n" in scene or "=" in scene:
+            return scene
+        builtin = None if os.path.isfile(scene) else _core.scene(scene)
+        if builtin is not None:
+            return builtin
+        if not os.path.exists(scene):
+            expected = "a scene file, or a name that `dalembert.scenes()` lists"
+            raise ValueError(f"found no file and no built-in scene called `{scene}`, expected {expected}")
+    with open(scene, encoding="utf-8") as file:
+        return file.read()
+
+
+def solve(
+    scene: str | os.PathLike[str] | Problem,
+    *,
+    to: Number | None = None,
+    impacts: int | None = None,
+    digits: int | None = None,
+    exact: bool = False,
+    certified: bool = False,
+    accuracy: float | None = None,
+) -> History:
+    """The motion of a built-in scene, a scene file, a scene as TOML text, or a :class:`Problem`.
+
+    It is followed up to the time ``to`` or through so many ``impacts``, in place of what the scene says.
+
+    Without an option all values are doubles with a bound of 1e-9 of the natural scales, or ``accuracy``; ``digits=50``
+    gives ``Decimal`` of 50 digits, rounded once; ``exact=True`` gives ``Fraction``; ``certified=True`` gives pairs
+    ``(lo, hi)`` of ``Decimal`` that are proved to enclose the value. ``exact=True, digits=50`` goes on in digits where
+    fractions end.
+
+    No lock of the interpreter is held meanwhile, and Ctrl-C interrupts it.
+
+    >>> solve("doyen-ern-piperno", exact=True).contacts["to"][0]
+    Fraction(2, 3)
+    """
+    problem = scene if isinstance(scene, Problem) else Problem.from_scene(scene)
+    run = {name: value for name, value in (("time", to), ("impacts", impacts)) if value is not None}
+    problem = problem.replace(**run) if run else problem
+    return problem.solve(digits=digits, exact=exact, certified=certified, accuracy=accuracy)
+
+
+def _fraction(text: str) -> Fraction:
+    # By way of Decimal: int() refuses texts of more than 4300 digits.
+    numerator, _, denominator = text.partition("/")
+    return Fraction(int(Decimal(numerator)), int(Decimal(denominator or 1)))
+
+
+_READ = {
+    "double": float,
+    "exact": _fraction,
+    "digits": Decimal,
+    "certified": lambda ends: (Decimal(ends[0]), Decimal(ends[1])),
+}
+
+
+class History:
+    """What happened, and the value of every quantity at any time from 0 to :attr:`end`.
+
+    Arrays are in C order. In numbers other than doubles they hold objects: ``Fraction``, ``Decimal``, or pairs of
+    ``Decimal``; where there is no number they hold None, and nan in doubles. At a jump ``side`` chooses the limit from
+    earlier ("left") or later ("right") times.
+    """
+
+    def __init__(self, core: _core.History, problem: Problem) -> None:
+        self._core = core
+        #: What was solved.
+        self.problem = problem
+        #: "double", "exact", "digits" or "certified".
+        self.numbers: str = core.kind()
+        self._read = _READ[self.numbers]
+
+    def __repr__(self) -> str:
+        return f"<dalembert.History to t = {self.end}, {self._core.plan()[1]}>"
+
+    @property
+    def end(self) -> Any:
+        """The last time that is known."""
+        return self._read(self._core.end())
+
+    @property
+    def ending(self) -> str:
+        """Why it is the last."""
+        return self._core.ending()
+
+    @property
+    def engine(self) -> str:
+        """How it was solved."""
+        return self._core.plan()[0]
+
+    @property
+    def warnings(self) -> list[str]:
+        """What a user should know of the answer."""
+        return self._core.warnings()
+
+    @property
+    def error_estimate(self) -> float:
+        """A bound of the error of events and ordinary values, relative to the natural scales; zero where exact."""
+        return self._core.error_estimate()
+
+    @property
+    def scales(self) -> dict[str, float]:
+        """The natural scales: the round trip, the greatest speed, length, wave speed, gravity."""
+        return dict(zip(("time", "velocity", "length", "wave_speed", "gravity"), self._core.scales()))
+
+    def _table(self, names: Sequence[str], rows: Sequence[Sequence[Any]], extra: Sequence[Any] = ()) -> np.ndarray:
+        absent = float("nan") if self.numbers == "double" else None
+        kind = np.float64 if self.numbers == "double" else object
+        table = np.empty(len(rows), dtype=[*((name, kind) for name in names), *extra])
+        for k, name in enumerate(names):
+            column = table[name]
+            for place, row in enumerate(rows):
+                column[place] = absent if row[k] is None else self._read(row[k])
+        return table
+
+    @cached_property
+    def events(self) -> np.ndarray:
+        """Impacts and releases: ``kind``, ``time``, ``end_velocity``, ``centre``, ``centre_velocity``, and how far the
+        time may be off, ``time_error``.
+
+        >>> solve("paper-strong").events["kind"].tolist()
+        ['impact', 'release']
+        """
+        kinds, errors, rows = zip(*events) if (events := self._core.events()) else ((), (), ())
+        extra = [("kind", "U7"), ("time_error", np.float64)]
+        table = self._table(("time", "end_velocity", "centre", "centre_velocity"), rows, extra)
+        table["kind"], table["time_error"] = kinds, errors
+        return table
+
+    @cached_property
+    def contacts(self) -> np.ndarray:
+        """Times on the ground: ``from``, ``to``, ``impulse`` per linear density, and the ``peak_stress``, which is the
+        most compressive ``v_x(0,t)``."""
+        return self._table(("from", "to", "impulse", "peak_stress"), self._core.table("contacts"))
+
+    @cached_property
+    def restitution(self) -> np.ndarray:
+        """For each contact ``e_P``, ``e_E²`` and its factors ``E_h/E`` and ``E/E(0)`` at its end: ``momentum``,
+        ``energy_squared``, ``translational_part``, ``energy_kept``."""
+        names = ("momentum", "energy_squared", "translational_part", "energy_kept")
+        return self._table(names, self._core.table("restitution"))
+
+    @cached_property
+    def flights(self) -> np.ndarray:
+        """Flights: ``from``, ``to``, and ``top_time`` and ``top``, when and how high the centre of mass turns."""
+        return self._table(("from", "to", "top_time", "top"), self._core.table("flights"))
+
+    @cached_property
+    def stress_history(self) -> np.ndarray:
+        """``v_x(0,·)`` piece by piece: ``from``, ``to``, the values ``left`` and ``right`` at its ends, and the
+        ``chebyshev`` coefficients where it is not linear between them, the first one whole."""
+        rows = self._core.table("stress")
+        table = self._table(("from", "to", "left", "right"), rows, [("chebyshev", object)])
+        for place, row in enumerate(rows):
+            table["chebyshev"][place] = [self._read(x) for x in row[4:]]
+        return table
+
+    def _sample(self, quantity: str, t: Numbers, x: Numbers | None = None, side: str = "right") -> list[Any]:
+        times, points = np.asarray(t), np.asarray([] if x is None else x)
+        shape = times.shape if x is None else times.shape + points.shape
+        if self.numbers == "double" and times.dtype.kind in "fiu" and points.dtype.kind in "fiu":
+            flat = (np.ascontiguousarray(values.ravel(), dtype=np.float64) for values in (times, points))
+            columns = self._core.sample_doubles(quantity, *flat, side)
+        else:
+            raw = self._core.sample(quantity, _flat(t), [] if x is None else _flat(x), side)
+            columns = []
+            for cells in raw:
+                column = np.empty(len(cells), dtype=np.float64 if self.numbers == "double" else object)
+                for place, value in enumerate(cells):
+                    column[place] = self._read(value)
+                columns.append(column)
+        return [column.reshape(shape) if shape else column[0] for column in columns]
+
+    def strain(self, t: Numbers, side: Side = "right") -> Any:
+        """``v_x(0,t)``: the strain at the ground, which is the stress there divided by the modulus; zero in flight."""
+        return self._sample("strain", t, None, side)[0]
+
+    def ground_end(self, t: Numbers, side: Side = "right") -> Motion:
+        """``v(0,t)`` and ``v_t(0,t)``."""
+        return Motion(*self._sample("ground", t, None, side))
+
+    def top_end(self, t: Numbers, side: Side = "right") -> Motion:
+        """``v(L,t)`` and ``v_t(L,t)``."""
+        return Motion(*self._sample("top", t, None, side))
+
+    def centre(self, t: Numbers) -> Motion:
+        """``h(t)`` and ``h′(t)``: the centre of mass, relative to its place in the undeformed rod on the ground."""
+        return Motion(*self._sample("centre", t))
+
+    def h(self, t: Numbers) -> Any:
+        """``h(t)``."""
+        return self.centre(t).displacement
+
+    def energy(self, t: Numbers) -> Energy:
+        """``E``, ``E_h`` and ``E_z``, per linear density."""
+        return Energy(*self._sample("energy", t))
+
+    def field(self, x: Numbers, t: Numbers, side: Side = "right") -> Field:
+        """``v``, ``v_t`` and ``v_x`` at every point of ``x`` for every time of ``t``: arrays of the shape of ``t``
+        followed by that of ``x``.
+
+        >>> solve("paper-strong").field([0.25, 0.5], [1, 1.5]).strain.shape
+        (2, 2)
+        """
+        return Field(*self._sample("field", t, x, side))
+
+
+def _flat(values: Any) -> list[Any]:
+    """All numbers of an array or a nested sequence, or the one number."""
+    return np.asarray(values, dtype=object).ravel().tolist()
