@@ -64,7 +64,7 @@ pub enum Error {
     /// Where the first contact has no closed form, strong damping takes too many cells.
     #[error(
         "found r t₁ = {found} with a start or a top that has no closed form, expected at most {most}: cells must not be wider \
-         than the waves reach; a uniform start under a free top has no such limit"
+         than the waves reach; a uniform start on the ground under a free top has no such limit"
     )]
     DampingTooStrong {
         /// `r t₁`.
@@ -110,8 +110,8 @@ pub enum Error {
     },
     /// No engine that works in enclosures.
     #[error(
-        "found a damped rod with an initial strain, an initial velocity that varies, or a fixed top, expected no damping, or a \
-         uniform start under a free top: only there are digits proved"
+        "found a damped rod with a gap, an initial strain, an initial velocity that varies, or a fixed top, expected no damping, or \
+         a uniform start on the ground under a free top: only there are digits proved"
     )]
     NotCertified,
     /// More bits would be needed than are worth trying.
@@ -137,7 +137,8 @@ pub enum Error {
     },
     /// A start or a top for which the first contact has no closed form.
     #[error(
-        "found a start that is not uniform, or a fixed top; expected a uniform start under a free top, whose first contact has a closed form"
+        "found a gap, a start that is not uniform, or a fixed top; expected a uniform start on the ground under a free top, whose first \
+         contact has a closed form"
     )]
     NoClosedForm,
     /// The observer of a run ended it.

@@ -6,7 +6,7 @@ use crate::error::Error;
 use crate::motion::{Contact, Ending, Energy, Event, Field, Motion, Scales, Side, StressHistory};
 use crate::number::{Answer, Scalar};
 use crate::problem::Problem;
-use crate::quantity::{EnergyShares, Flight, Restitution, energy_shares, flights, restitution};
+use crate::quantity::{self, Column, EnergyShares, Flight, Restitution, energy_shares, flights, restitution};
 use crate::ray::Ray;
 use crate::solve::{Attempt, Ladder, Numbers, Observer, Plan, Question, Rung, Target, unobserved};
 
@@ -215,6 +215,31 @@ impl<S: Target> History<S> {
     pub fn energy(&self, time: S) -> Result<Energy<S>, Error> {
         let time = time.carry();
         Ok(self.ask(|engine| engine.energy(&time), |energy| energy.numbers().to_vec())?.map(S::strip))
+    }
+
+    /// The values of `columns` at every time of `times`, column by column. Where `side` is `None` and the two limits of
+    /// any of them differ, a time has two rows, the limit from earlier times first.
+    ///
+    /// **Accuracy**: that of the [`Plan`], each column by itself.
+    pub fn columns(&self, columns: &[Column], times: &[S], side: Option<Side>) -> Result<Vec<Vec<S>>, Error> {
+        let times: Vec<_> = times.iter().map(Answer::carry).collect();
+        let table = self.ask_columns(columns, side, |_| Ok(times.clone()))?;
+        Ok(table.into_iter().map(|column| column.into_iter().map(S::strip).collect()).collect())
+    }
+
+    /// [`History::columns`] in numbers that carry their bound, at times that may be those of the engine itself.
+    pub(crate) fn ask_columns(
+        &self,
+        columns: &[Column],
+        side: Option<Side>,
+        times: impl Fn(&dyn Motion<S::Carried>) -> Result<Vec<S::Carried>, Error>,
+    ) -> Result<Vec<Vec<S::Carried>>, Error> {
+        let query = |engine: &dyn Motion<S::Carried>| {
+            let table = quantity::columns(engine, &self.ladder.problem, columns, &times(engine)?, side)?;
+            let scaled = quantity::of_one_size(engine, &self.ladder.problem, columns, &table);
+            Ok((table, scaled))
+        };
+        Ok(self.ask(query, |(_, scaled)| scaled.iter().collect())?.0)
     }
 
     /// `v`, `v_t`, `v_x` at `(x,t)`; where a ray passes, the limit from later times.

@@ -76,7 +76,7 @@ pub use paper::UndampedContact;
 pub use problem::{
     Dimensionless, Material, Parameters, Problem, ProblemError, ProblemErrorKind, Profile, Rod, Run, Speed, Start, Top,
 };
-pub use quantity::{EnergyShares, Flight, Restitution, Undefined};
+pub use quantity::{Column, EnergyShares, Flight, Measure, Restitution, Undefined, UnitSystem, Units};
 pub use ray::{Ray, reflection};
 #[cfg(feature = "mp")]
 pub use rug;

@@ -277,6 +277,41 @@ impl<S: Scalar> StressPiece<S> {
     }
 }
 
+impl<S: Scalar> StressPiece<S> {
+    /// `∫ v_x(0,s) ds` from the beginning of the piece to a time of it.
+    ///
+    /// **Source**: `∫ T_k = T_{k+1}/(2(k+1)) − T_{k−1}/(2(k−1))`, from −1 on.
+    ///
+    /// **Accuracy**: that of the coefficients, and a few roundings for each of them.
+    ///
+    /// ```
+    /// let rod = dalembert::Problem::uniform(1.into(), 1.into(), 1.into(), 3.into());
+    /// let pieces = rod.solve()?.stress_history()?.pieces;
+    /// // −∫₀¹ (3 + s) ds.
+    /// assert_eq!(pieces[0].integral(&1.0), -3.5);
+    /// # Ok::<(), dalembert::Error>(())
+    /// ```
+    pub fn integral(&self, time: &S) -> S {
+        let passed = time.clone() - &self.from;
+        if self.chebyshev.is_empty() {
+            return (self.left.clone() + self.eval(time)) * &passed / passed.int(2);
+        }
+        let coefficient = |k: usize| self.chebyshev.get(k).cloned().unwrap_or_else(|| passed.zero());
+        let term = |k: usize| {
+            // The first coefficient is whole.
+            let before = if k == 1 { coefficient(0) * &passed.int(2) } else { coefficient(k - 1) };
+            (before - coefficient(k + 1)) / passed.int(2 * k as i64)
+        };
+        let mut chebyshev: Vec<S> = (1..=self.chebyshev.len()).map(term).collect();
+        // Zero at −1, where T_k = (−1)^k.
+        let start =
+            chebyshev.iter().enumerate().fold(passed.zero(), |sum, (j, c)| if j % 2 == 0 { sum + c } else { sum - c });
+        chebyshev.insert(0, start);
+        let half = (self.to.clone() - &self.from) / passed.int(2);
+        StressPiece { chebyshev, ..self.clone() }.eval(time) * &half
+    }
+}
+
 /// `v_x(0,·)`: the strain at the ground, piece by piece, from `t = 0` to the end of the history.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 #[serde(bound = "S: Scalar")]
@@ -407,6 +442,10 @@ pub trait Motion<S: Scalar>: fmt::Debug + Send + Sync {
 
     /// `E(t)`, `E_h(t)`, `E_z(t)`.
     fn energy(&self, time: &S) -> Result<Energy<S>, Error>;
+
+    /// `½ ∫ v_t² dx` and `½ c² ∫ v_x² dx`, each a sum of squares, per linear density: the kinetic energy of the whole
+    /// motion, and the strain energy.
+    fn energy_parts(&self, time: &S) -> Result<[S; 2], Error>;
 
     /// `v`, `v_t`, `v_x` at `(x,t)`.
     fn field(&self, point: &S, time: &S, side: Side) -> Result<Field<S>, Error>;

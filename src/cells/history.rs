@@ -426,6 +426,19 @@ impl<S: RoundedSpecial> Motion<S> for Damped<S> {
         Ok(Energy { total: translational.clone() + &vibrational, translational, vibrational })
     }
 
+    fn energy_parts(&self, time: &S) -> Result<[S; 2], Error> {
+        let t = self.time(time)?;
+        let mut parts = [t.zero(), t.zero()];
+        for node in self.record().line(&t, &t.ratio(1, 2)) {
+            for (part, square) in parts.iter_mut().zip([node.velocity().square(), node.strain.square()]) {
+                *part = part.clone() + square * &node.weight;
+            }
+        }
+        // As in the sum of both.
+        let unit = self.data.units.velocity.square() * &self.data.units.length;
+        Ok(parts.map(|part| part * &unit))
+    }
+
     fn field(&self, point: &S, time: &S, side: Side) -> Result<Field<S>, Error> {
         let t = self.time(time)?;
         let units = &self.data.units;

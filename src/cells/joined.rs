@@ -208,6 +208,13 @@ impl<S: RoundedSpecial> Motion<S> for Joined<S> {
         Ok(self.contact.energy(&time.carry())?.map(Estimate::into_value))
     }
 
+    fn energy_parts(&self, time: &S) -> Result<[S; 2], Error> {
+        if !self.in_contact(time, Side::Left)? {
+            return self.later()?.energy_parts(time);
+        }
+        Ok(self.contact.energy_parts(&time.carry())?.map(Estimate::into_value))
+    }
+
     fn field(&self, point: &S, time: &S, side: Side) -> Result<Field<S>, Error> {
         if point.is_negative() || *point > self.rod.length || !point.is_finite() {
             return Err(Error::PointOutside { found: point.text(), length: self.rod.length.text() });

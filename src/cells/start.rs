@@ -137,18 +137,19 @@ impl<S: Rounded> Data<S> {
         let zero = time.zero();
         let lift = |n: &Number| S::from_number(n, &time.precision());
         let empty = Profile::default();
-        let (profile, speed) = match &problem.start {
-            Start::Uniform(_) => (&empty, parameters.speed.clone()),
-            Start::Profile(profile) => (profile, zero.clone()),
+        let profile = match &problem.start {
+            Start::Uniform(_) | Start::Above { .. } => &empty,
+            Start::Profile(profile) => profile,
         };
         let reach = parameters.length.int(2) * &parameters.length;
         let points = |list: &[(Number, Number)]| -> Vec<(S, S)> {
             list.iter().map(|(x, v)| (lift(x) / &reach, lift(v))).collect()
         };
-        let displacement = points(&profile.displacement);
+        let mut displacement = points(&profile.displacement);
+        displacement.extend(problem.gap().map(|gap| (zero.clone(), lift(gap))));
         let mut velocity = points(&profile.velocity);
         if velocity.is_empty() {
-            velocity = vec![(zero.clone(), -speed.clone())];
+            velocity = vec![(zero.clone(), -parameters.speed.clone())];
         }
         // Breaks of either, from 0 to ½.
         let half = zero.ratio(1, 2);

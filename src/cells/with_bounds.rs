@@ -64,6 +64,15 @@ impl<S: Rounded, H: Motion<S>> WithBounds<S, H> {
         WithBounds { rise, speed, strain, length, gravity, events, contacts, history }
     }
 
+    /// Of a mean square `s²`, off by δ in the root, `L s²/2` is off by at most `L (2s + δ) δ`.
+    fn speed_bound(&self, speed: f64) -> f64 {
+        self.length * (2.0 * speed + self.speed) * self.speed
+    }
+
+    fn energy_bound(&self, energy: &S) -> f64 {
+        self.speed_bound((2.0 * energy.to_f64().max(0.0) / self.length).sqrt())
+    }
+
     /// The history without its bounds.
     pub fn plain(&self) -> &H {
         &self.history
@@ -123,20 +132,23 @@ impl<S: Rounded, H: Motion<S>> Motion<Estimate<S>> for WithBounds<S, H> {
         Ok((within(&height, self.rise), within(&rate, self.speed)))
     }
 
-    /// Of a mean square `s²`, off by δ in the root, `L s²/2` is off by at most `L (2s + δ) δ`; and `L g h` by that of
-    /// h.
+    /// `L g h` is off by that of h.
     fn energy(&self, time: &Estimate<S>) -> Result<Energy<Estimate<S>>, Error> {
         let energy = self.history.energy(time.value())?;
         let (_, rate) = self.history.centre(time.value())?;
-        let vibration = (2.0 * energy.vibrational.to_f64().max(0.0) / self.length).sqrt();
-        let of = |speed: f64| self.length * (2.0 * speed + self.speed) * self.speed;
+        let vibration = self.energy_bound(&energy.vibrational);
         let weight = self.length * self.gravity * self.rise;
-        let translational = of(rate.to_f64().abs()) + weight;
+        let translational = self.speed_bound(rate.to_f64().abs()) + weight;
         Ok(Energy {
-            total: within(&energy.total, translational + of(vibration)),
+            total: within(&energy.total, translational + vibration),
             translational: within(&energy.translational, translational),
-            vibrational: within(&energy.vibrational, of(vibration)),
+            vibrational: within(&energy.vibrational, vibration),
         })
+    }
+
+    /// Of each mean square as in [`Motion::energy`].
+    fn energy_parts(&self, time: &Estimate<S>) -> Result<[Estimate<S>; 2], Error> {
+        Ok(self.history.energy_parts(time.value())?.map(|part| within(&part, self.energy_bound(&part))))
     }
 
     fn field(&self, point: &Estimate<S>, time: &Estimate<S>, side: Side) -> Result<Field<Estimate<S>>, Error> {

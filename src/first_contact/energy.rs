@@ -53,8 +53,17 @@ impl<N: BoundedSpecial> FirstContact<N> {
     pub(super) fn energy_at(&self, trips: &Trips<N>) -> Energy<N> {
         let (centre, velocity) = self.centre_at(trips);
         let translational = translational(&self.rod, &centre, &velocity);
-        let vibrational = self.vibrational(trips).unwrap_or_else(|| unknown(&centre));
+        let both = |node: &Node<N>| node.deviation.square() + node.strain.square();
+        let vibrational = self.vibrational(trips, &both).unwrap_or_else(|| unknown(&centre));
         Energy { total: translational.clone() + &vibrational, translational, vibrational }
+    }
+
+    /// The kinetic energy `L h′²/2 + ½ ∫ (v_t − h′)² dx` and the strain energy, the parts of one sum.
+    pub(super) fn energy_parts_at(&self, trips: &Trips<N>) -> [N; 2] {
+        let (centre, velocity) = self.centre_at(trips);
+        let part = |square: &dyn Fn(&Node<N>) -> N| self.vibrational(trips, square).unwrap_or_else(|| unknown(&centre));
+        let whole = velocity.square() * &self.rod.length / centre.int(2);
+        [whole + part(&|node| node.deviation.square()), part(&|node| node.strain.square())]
     }
 
     /// `E_h(t)/E(t)` and `E(t)/E(0)`: the factors of `e_E²` at `t = t_b`.
@@ -71,9 +80,9 @@ impl<N: BoundedSpecial> FirstContact<N> {
         Some((energy.translational / &energy.total, energy.total / &start))
     }
 
-    /// `E_z`: with the number of nodes for a small part of its natural size, and once more where what these leave is
+    /// `E_z`, or the part of it that `square` takes of a node: with the number of nodes for a small part of its natural size, and once more where what these leave is
     /// more than the rounding errors. The impact finds the rod undeformed.
-    fn vibrational(&self, trips: &Trips<N>) -> Option<N> {
+    fn vibrational(&self, trips: &Trips<N>, square: &dyn Fn(&Node<N>) -> N) -> Option<N> {
         if trips.lattice() == Some(0) {
             return Some(self.damping.zero());
         }
@@ -81,9 +90,9 @@ impl<N: BoundedSpecial> FirstContact<N> {
         let ellipses = self.ellipses(trips);
         let goal = self.damping.log2_roundoff() + FIRST_SIZE + scale;
         let n = nodes(&ellipses, goal);
-        let (value, rest) = (self.integrate(trips, n)?, rest(&ellipses, n));
+        let (value, rest) = (self.integrate(trips, n, square)?, rest(&ellipses, n));
         let (value, rest) = match nodes(&ellipses, value.log2_error().max(goal + LEAST_SIZE)) {
-            more if more > n => (self.integrate(trips, more)?, self::rest(&ellipses, more)),
+            more if more > n => (self.integrate(trips, more, square)?, self::rest(&ellipses, more)),
             _ => (value, rest),
         };
         // A part in a thousand more is for the doubles in it.
@@ -111,7 +120,7 @@ impl<N: BoundedSpecial> FirstContact<N> {
     }
 
     /// The integral with n nodes between two rays.
-    fn integrate(&self, trips: &Trips<N>, n: usize) -> Option<N> {
+    fn integrate(&self, trips: &Trips<N>, n: usize, square: &dyn Fn(&Node<N>) -> N) -> Option<N> {
         let rule = self.damping.gauss_legendre(n);
         let mut sum = self.damping.zero();
         for stretch in self.stretches(trips)? {
@@ -125,7 +134,7 @@ impl<N: BoundedSpecial> FirstContact<N> {
                 self.sample(trips, &stretch, places)
             };
             for node in nodes {
-                sum = sum + (node.deviation.square() + node.strain.square()) * &node.weight;
+                sum = sum + square(&node) * &node.weight;
             }
         }
         // dx = c t₁ da = 2L da.

@@ -333,6 +333,14 @@ impl<N: BoundedSpecial> Motion<N> for ContactHistory<N> {
         })
     }
 
+    fn energy_parts(&self, time: &N) -> Result<[N; 2], Error> {
+        Ok(match self.moment(time)? {
+            Moment::Bounce(release) => self.contact.energy_parts_at(&release.trips),
+            Moment::Contact(trips) => self.contact.energy_parts_at(&trips),
+            Moment::Rest(state) => state.energy_parts(),
+        })
+    }
+
     fn field(&self, point: &N, time: &N, side: Side) -> Result<Field<N>, Error> {
         let length = &self.contact.rod.length;
         let outside = || Ok(point.negative()? || !point.coincides(length) && length.below(point)?);

@@ -50,13 +50,20 @@ impl<'a, N: Scalar> StaticState<'a, N> {
     /// `E_h = gLh`, `E_z = g²L³/6c²`; a transient of velocity and `c` times strain δ adds at most `L (gL/c + δ) δ` to
     /// the second and `L δ²/2` to the first.
     pub(super) fn energy(&self) -> Energy<N> {
-        let Parameters { length, gravity, wave_speed, .. } = self.rod;
+        let Parameters { length, gravity, .. } = self.rod;
         let left = self.left.square() * length;
         let translational = (self.centre().0 * gravity * length).widened(&left);
-        let pressed = gravity.clone() * length / wave_speed;
-        let vibrational = pressed.square() * length / length.int(6);
-        let vibrational = vibrational.widened(&(left + pressed * &self.left * length));
+        let [_, vibrational] = self.energy_parts();
         Energy { total: translational.clone() + &vibrational, translational, vibrational }
+    }
+
+    /// The kinetic energy, which is that of the transient, and `E_z`, which is the strain energy with the transient.
+    pub(super) fn energy_parts(&self) -> [N; 2] {
+        let Parameters { length, gravity, wave_speed, .. } = self.rod;
+        let left = self.left.square() * length;
+        let pressed = gravity.clone() * length / wave_speed;
+        let strain = pressed.square() * length / length.int(6);
+        [length.zero().widened(&left), strain.widened(&(left + pressed * &self.left * length))]
     }
 }
 

@@ -99,6 +99,14 @@ impl<N: Bounded> Motion<N> for Undamped<N> {
         Ok(Energy { total: translational.clone() + &vibrational, translational, vibrational })
     }
 
+    /// On the rod `v_t = (p + q)/2` and `c v_x = (q − p)/2`, whose breaks are those of both.
+    fn energy_parts(&self, time: &N) -> Result<[N; 2], Error> {
+        let Units { velocity, length, .. } = &self.problem.units;
+        let parts = self.squares(&self.last_trip(&self.locate(time)?)?)?;
+        let unit = velocity.square() * length;
+        Ok(parts.map(|part| part * &unit))
+    }
+
     fn field(&self, point: &N, time: &N, side: Side) -> Result<Field<N>, Error> {
         let units = &self.problem.units;
         if point.negative()? || units.length.below(point)? || !point.is_finite() {

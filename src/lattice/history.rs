@@ -242,21 +242,35 @@ impl<N: Bounded> Undamped<N> {
         until: &Place<N>,
         mut visit: impl FnMut(Part<N>),
     ) -> Result<(), Open> {
+        if self.problem.top == Top::Fixed {
+            return self.visit_ways(from, until, |_, part| visit(part));
+        }
+        let exact = self.sums_stay_short(until.index);
+        self.ground.trace.window(from, until, |part| visit(if exact { part } else { part.without_exact() }));
+        Ok(())
+    }
+
+    /// The same with the parts cut at the top, and whether each is on its way up.
+    pub(super) fn visit_ways(
+        &self,
+        from: &Place<N>,
+        until: &Place<N>,
+        mut visit: impl FnMut(bool, Part<N>),
+    ) -> Result<(), Open> {
         let trace = &self.ground.trace;
         let exact = self.sums_stay_short(until.index);
-        let mut visit = |part: Part<N>| visit(if exact { part } else { part.without_exact() });
-        if self.problem.top == Top::Free {
-            trace.window(from, until, visit);
-            return Ok(());
-        }
+        let mut visit = |up: bool, part: Part<N>| visit(up, if exact { part } else { part.without_exact() });
         let (gravity, half) = (&self.problem.gravity, until.age.one().halved());
         let now = Moment { index: until.index, age: until.age.clone() };
         let middle = self.place(&self.shifted(&now, &-half.clone())?, Side::Right)?;
-        trace.window(from, &middle, |part| {
-            let shift = part.shift.map(|(jump, late)| (-jump, late));
-            visit(Part { value: gravity.clone() - part.value, slope: -part.slope, shift, ..part });
+        trace.window(from, &middle, |part| match self.problem.top {
+            Top::Free => visit(false, part),
+            Top::Fixed => {
+                let shift = part.shift.map(|(jump, late)| (-jump, late));
+                visit(false, Part { value: gravity.clone() - part.value, slope: -part.slope, shift, ..part });
+            }
         });
-        trace.window(&middle, until, |part| visit(Part { offset: part.offset + &half, ..part }));
+        trace.window(&middle, until, |part| visit(true, Part { offset: part.offset + &half, ..part }));
         Ok(())
     }
 

@@ -17,7 +17,7 @@
 //!
 //! Reading order: `start` (units and start), `trace` (what is stored), `limits` (how far, and why no farther), `march`
 //! (trip after trip), `ground` (contact law and events), `history` (times on the lattice), `events` and `answers` (what
-//! can be asked), `rays` (the jumps of Proposition 2).
+//! can be asked), `parts` (kinetic and strain energy apart), `rays` (the jumps of Proposition 2).
 
 mod answers;
 mod events;
@@ -25,6 +25,7 @@ mod ground;
 mod history;
 mod limits;
 mod march;
+mod parts;
 mod rays;
 mod start;
 mod trace;

@@ -57,7 +57,7 @@ impl<N: Bounded> Scaled<N> {
             wave_speed: given.wave_speed.clone(),
         };
         match &problem.start {
-            Start::Uniform(_) => {
+            Start::Uniform(_) | Start::Above { .. } => {
                 let velocity = if has_gravity { fall } else { given.speed.clone() };
                 let speed = given.speed.clone() / &velocity;
                 let before = match problem.rod.top {
@@ -67,7 +67,9 @@ impl<N: Bounded> Scaled<N> {
                         (one.clone().halved(), gravity.clone().halved() - &speed, -gravity.clone()),
                     ],
                 };
-                let (top, ground_start, ground_velocity) = (problem.rod.top, one.zero(), -speed);
+                let gap = problem.gap().map_or_else(|| one.zero(), |gap| N::from_number(gap, precision));
+                let ground_start = gap / &velocity / &round_trip;
+                let (top, ground_velocity) = (problem.rod.top, -speed);
                 Ok(Scaled { units: units(velocity), gravity, top, ground_start, ground_velocity, before })
             }
             Start::Profile(profile) => {

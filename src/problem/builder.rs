@@ -16,10 +16,15 @@ pub struct Builder {
     base: Draft,
 }
 
-const IMPACT: &[&str] = &["impact.speed", "impact.drop_height"];
-/// Of each group a problem has one: in place of the wave speed it can have the three of the material.
-const EXCLUSIVE: [&[&str]; 3] =
-    [&["rod.wave_speed", "rod.modulus", "rod.density", "rod.area"], IMPACT, &["run.time", "run.impacts"]];
+const IMPACT: &[&str] = &["impact.speed", "impact.gap", "impact.drop_height"];
+/// What is set replaces what the base has of its group: in place of the wave speed it can have the three of the
+/// material; a gap goes with a speed, and a drop height with neither.
+const EXCLUSIVE: [&[&str]; 4] = [
+    &["rod.wave_speed", "rod.modulus", "rod.density", "rod.area"],
+    &["impact.speed", "impact.drop_height"],
+    &["impact.gap", "impact.drop_height"],
+    &["run.time", "run.impacts"],
+];
 
 /// The setters of single numbers.
 macro_rules! setters {
@@ -43,9 +48,13 @@ impl Builder {
         damping => "rod.damping",
         /// `g ≥ 0`: the acceleration of gravity; without it none.
         gravity => "gravity.acceleration",
-        /// `μ > 0`: the speed with which the undeformed rod hits the ground.
+        /// `μ > 0`: the speed with which the undeformed rod hits the ground at `t = 0`; with a [`gap`](Builder::gap) its
+        /// speed downwards at `t = 0`, which may be zero under gravity.
         impact_speed => "impact.speed",
-        /// `h > 0`: a fall from rest through this height, without air drag or damping: `μ = √(2 g h)`.
+        /// The undeformed rod starts this far above the ground, and `t = 0` is that start, not the first touch.
+        gap => "impact.gap",
+        /// `h > 0`: a fall from rest through this height, without air drag or damping: `μ = √(2 g h)`. The fall is over at
+        /// `t = 0`, the first touch.
         drop_height => "impact.drop_height",
         /// The time up to which to follow the motion, which is included.
         time => "run.time",
@@ -161,6 +170,10 @@ impl Builder {
         match &problem.start {
             Start::Uniform(Speed::Given(speed)) => drop(set("impact.speed", speed)),
             Start::Uniform(Speed::DropHeight(height)) => drop(set("impact.drop_height", height)),
+            Start::Above { gap, speed } => {
+                set("impact.gap", gap);
+                set("impact.speed", speed);
+            }
             Start::Profile(Profile { displacement, velocity }) => {
                 let both = [("start.displacement", displacement), ("start.velocity", velocity)];
                 let given = both.into_iter().filter(|(_, points)| !points.is_empty());

@@ -71,6 +71,13 @@ pub enum Top {
 pub enum Start {
     /// Undeformed on the ground, with uniform velocity `−μ`: (1.7), (1.8).
     Uniform(Speed),
+    /// Undeformed with its lower end above the ground, with a uniform velocity downwards: it touches later.
+    Above {
+        /// `v(x,0) > 0`: how far the lower end is above the ground.
+        gap: Number,
+        /// `−v_t(x,0) ≥ 0`; zero only under gravity.
+        speed: Number,
+    },
     /// Piecewise linear along the rod.
     Profile(Profile),
 }
@@ -163,6 +170,22 @@ impl Problem {
             Run::Time(time) => builder.time(time),
         }
         .build()
+    }
+
+    /// How far the undeformed rod starts above the ground; `None` where it starts on it, or by a profile.
+    ///
+    /// ```
+    /// use dalembert::Problem;
+    /// let rod = Problem::builder().length(1).wave_speed(1).impact_speed(2).gap("0.5").build()?;
+    /// assert_eq!(rod.gap().map(|gap| gap.to_f64()), Some(0.5));
+    /// assert_eq!(rod.to_builder().gap(0).build()?.gap(), None);
+    /// # Ok::<(), dalembert::problem::ProblemError>(())
+    /// ```
+    pub fn gap(&self) -> Option<&Number> {
+        match &self.start {
+            Start::Above { gap, .. } => Some(gap),
+            Start::Uniform(_) | Start::Profile(_) => None,
+        }
     }
 
     /// Whether the start is uniform and the top free, as in the paper: then the first contact has a closed form.

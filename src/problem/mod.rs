@@ -19,6 +19,7 @@
 //! | `R = r t₁` | 0, or 1e-305 … 1e6 |
 //! | `M = μ/(g t₁)` | 1e-12 … 1e12, or no gravity |
 //! | time of the run | at most 1e12 `t₁` |
+//! | fall of a free rod that starts above the ground | at most 1e6 `t₁` |
 //! | impacts | 1 … 10 000 000 |
 //! | points of a profile | 2 … 100 000, at least 1e-12 L apart |
 

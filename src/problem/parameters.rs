@@ -2,7 +2,7 @@
 
 use serde::Serialize;
 
-use super::{Material, Problem, Speed, Start};
+use super::{Material, Problem, Speed, Start, Top};
 use crate::error::Error;
 use crate::number::{Answer, Number, Scalar};
 
@@ -17,7 +17,7 @@ pub struct Parameters<S> {
     pub damping: S,
     /// `g`.
     pub gravity: S,
-    /// `μ`, zero where the start is not uniform.
+    /// `μ`; where the rod starts above the ground its speed at `t = 0`, and zero where it starts by a profile.
     pub speed: S,
 }
 
@@ -41,7 +41,7 @@ impl<S: Scalar> Parameters<S> {
             Material::Elastic { modulus, density, .. } => root("wave speed", lift(modulus) / lift(density))?,
         };
         let speed = match &problem.start {
-            Start::Uniform(Speed::Given(speed)) => lift(speed),
+            Start::Uniform(Speed::Given(speed)) | Start::Above { speed, .. } => lift(speed),
             Start::Uniform(Speed::DropHeight(h)) => root("impact speed", gravity.int(2) * &gravity * lift(h))?,
             Start::Profile(_) => length.zero(),
         };
@@ -72,7 +72,8 @@ impl<S: Scalar> Parameters<S> {
 pub struct Dimensionless {
     /// `R = r t₁`.
     pub damping_ratio: f64,
-    /// `M = μ/(g t₁)`: infinite without gravity, `None` where the start is not uniform.
+    /// `M = μ/(g t₁)`, with the speed at the first touch: infinite without gravity, `None` where the start is not
+    /// uniform, and where a rod that starts above the ground is damped or held.
     pub speed_ratio: Option<f64>,
 }
 
@@ -96,7 +97,10 @@ impl Problem {
         let (t1, g) = (self.rod.round_trip(), or_zero(&self.gravity));
         let speed = match &self.start {
             Start::Uniform(speed) => Some(speed.value(g)),
-            Start::Profile(_) => None,
+            Start::Above { gap, speed } if self.rod.damping.is_none() && self.rod.top == Top::Free => {
+                Some(touch_speed(gap, speed, g))
+            }
+            Start::Above { .. } | Start::Profile(_) => None,
         };
         Dimensionless { damping_ratio: or_zero(&self.rod.damping) * t1, speed_ratio: speed.map(|mu| mu / (g * t1)) }
     }
@@ -130,6 +134,11 @@ impl super::Rod {
         };
         2.0 * self.length.to_f64() / wave_speed
     }
+}
+
+/// `√(μ² + 2 g gap)`: the speed at the first touch of a free undamped rod, in double precision.
+pub(super) fn touch_speed(gap: &Number, speed: &Number, g: f64) -> f64 {
+    speed.to_f64().hypot((2.0 * g * gap.to_f64()).sqrt())
 }
 
 impl Speed {

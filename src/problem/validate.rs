@@ -2,6 +2,7 @@
 
 use std::collections::BTreeMap;
 
+use super::parameters::touch_speed;
 use super::profile::{self, Points};
 use super::written::has_unit;
 use super::{Material, Problem, ProblemError, ProblemErrorKind as Kind, Rod, Run, Speed, Start, Top, Written};
@@ -13,9 +14,11 @@ const DAMPING_RATIO: (f64, f64) = (1e-305, 1e6);
 const SPEED_RATIO: (f64, f64) = (1e-12, 1e12);
 const MAX_ROUND_TRIPS: f64 = 1e12;
 const MAX_IMPACTS: u32 = 10_000_000;
+/// A fall is followed trip by trip, like every flight that ends in a touch.
+const MAX_FALL: f64 = 1e6;
 
 /// The numbers that a problem can have, by their path in a scene file.
-pub(crate) const NUMBERS: [&str; 11] = [
+pub(crate) const NUMBERS: [&str; 12] = [
     "rod.length",
     "rod.wave_speed",
     "rod.modulus",
@@ -24,6 +27,7 @@ pub(crate) const NUMBERS: [&str; 11] = [
     "rod.damping",
     "gravity.acceleration",
     "impact.speed",
+    "impact.gap",
     "impact.drop_height",
     "run.time",
     "run.impacts",
@@ -138,15 +142,18 @@ impl Draft {
 
     /// The motion at `t = 0` of a rod with this length and round trip under the gravity `g`.
     fn start(&self, length: &Number, t1: f64, g: f64) -> Result<Start, ProblemError> {
-        let impact = self.has("impact.speed") || self.has("impact.drop_height");
+        let impact = ["impact.speed", "impact.gap", "impact.drop_height"].iter().any(|path| self.has(path));
         match (impact, !self.profiles.is_empty()) {
-            (true, false) => self.impact(t1, g).map(Start::Uniform),
+            (true, false) => match self.non_negative("impact.gap", "a gap")? {
+                Some(gap) => self.above(&gap, t1, g),
+                None => self.impact(t1, g).map(Start::Uniform),
+            },
             (false, true) => profile::check(&self.profiles, length).map(Start::Profile),
             (true, true) => {
                 let found = self.word("start as well as [impact]", "a displacement or velocity as well as an impact");
                 let expected = self.word(
                     "either [impact], for a uniform start, or [start]",
-                    "either impact_speed or drop_height, for a uniform start, or displacement and velocity",
+                    "either impact_speed (with a gap or without) or drop_height, for a uniform start, or displacement and velocity",
                 );
                 Err(ProblemError::new(Kind::Contradiction, "start", found, expected))
             }
@@ -161,8 +168,46 @@ impl Draft {
         }
     }
 
+    /// A start above the ground.
+    fn above(&self, gap: &Given<'_>, t1: f64, g: f64) -> Result<Start, ProblemError> {
+        let key = self.name("impact.speed");
+        if self.has("impact.drop_height") {
+            let (found, expected) = (
+                "gap as well as drop_height",
+                format!("gap with {key}; a rod dropped from rest at t = 0 has {key} = 0"),
+            );
+            return Err(ProblemError::new(Kind::Contradiction, "impact.gap", found, expected));
+        }
+        if !self.has("impact.speed") {
+            let expected = format!("{key} at t = 0 as well; zero for a rod dropped from rest");
+            return Err(ProblemError::new(Kind::Missing, "impact.gap", format!("gap without {key}"), expected));
+        }
+        let speed = match self.non_negative("impact.speed", "a speed")? {
+            None if g == 0.0 => {
+                let gravity = self.word("[gravity] with an acceleration above zero", "a gravity above zero");
+                let expected = format!("a speed above zero, or {gravity}: otherwise nothing moves");
+                let found = format!("{key} = 0 without gravity");
+                return Err(ProblemError::new(Kind::OutOfRange, "impact.speed", found, expected));
+            }
+            given => given.map_or(Number::from(0), |given| given.number.clone()),
+        };
+        let touch = touch_speed(gap.number, &speed, g);
+        gap.makes("the speed at the ground ", touch, UNITS, "one")?;
+        if g > 0.0 {
+            gap.makes("μ/(g t₁) at the ground ", touch / (g * t1), SPEED_RATIO, "a value")?;
+        }
+        let trips = 2.0 * gap.number.to_f64() / (speed.to_f64() + touch) / t1;
+        if trips > MAX_FALL && self.top.unwrap_or_default() == Top::Free {
+            let note = format!(", which is {trips:.3e} round trips of falling");
+            let expected =
+                format!("at most {MAX_FALL:e} round trips of 2L/c; or the speed at the ground without a gap");
+            return Err(gap.error(Kind::Combination, &note, expected));
+        }
+        Ok(Start::Above { gap: gap.number.clone(), speed })
+    }
+
     fn impact(&self, t1: f64, g: f64) -> Result<Speed, ProblemError> {
-        let key = self.word("speed", "impact_speed");
+        let key = self.name("impact.speed");
         let given = self.positive("impact.speed", "an impact speed")?;
         let height = self.positive("impact.drop_height", "a drop height")?;
         let (given, speed) = match (given, height) {

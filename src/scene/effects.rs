@@ -21,7 +21,9 @@ pub enum Effect {
     RepeatedImpacts,
     /// The top does not move.
     FixedTop,
-    /// The rod starts deformed or above the ground.
+    /// The undeformed rod starts above the ground, and touches it later.
+    InitialGap,
+    /// The rod starts deformed or above the ground, by a profile.
     InitialStrain,
     /// The rod starts with a velocity of its own at every point.
     InitialVelocity,
@@ -35,12 +37,13 @@ pub enum Effect {
 
 impl Effect {
     /// Every effect that a scene can call for, in the order in which they are explained.
-    pub const ALL: [Effect; 8] = [
+    pub const ALL: [Effect; 9] = [
         Effect::UnilateralContact,
         Effect::Gravity,
         Effect::Damping,
         Effect::RepeatedImpacts,
         Effect::FixedTop,
+        Effect::InitialGap,
         Effect::InitialStrain,
         Effect::InitialVelocity,
         Effect::SiForces,
@@ -58,6 +61,7 @@ impl Effect {
             Effect::UnilateralContact => "unilateral_contact",
             Effect::RepeatedImpacts => "repeated_impacts",
             Effect::FixedTop => "fixed_top",
+            Effect::InitialGap => "initial_gap",
             Effect::InitialStrain => "initial_strain",
             Effect::InitialVelocity => "initial_velocity",
             Effect::SiForces => "si_forces",
@@ -113,6 +117,7 @@ impl Scene {
             Effect::UnilateralContact => (true, None, "the ground is in every scene".into()),
             Effect::RepeatedImpacts => self.repeated_impacts(),
             Effect::FixedTop => self.fixed_top(),
+            Effect::InitialGap => self.initial_gap(),
             Effect::InitialStrain => self.initial_strain(),
             Effect::InitialVelocity => self.initial_velocity(),
             Effect::SiForces => self.si_forces(),
@@ -167,7 +172,18 @@ impl Scene {
     fn profile(&self) -> Option<&Profile> {
         match &self.problem.start {
             Start::Profile(profile) => Some(profile),
-            Start::Uniform(_) => None,
+            Start::Uniform(_) | Start::Above { .. } => None,
+        }
+    }
+
+    fn initial_gap(&self) -> Decision {
+        let key = Some("impact.gap");
+        match (self.problem.gap(), &self.problem.start) {
+            (Some(gap), _) => {
+                (true, key, format!("gap = {}: t = 0 is the start, before the first touch", short(&gap.to_string())))
+            }
+            (None, Start::Profile(_)) => (false, key, "the start is a profile".into()),
+            (None, _) => (false, key, "t = 0 is the first touch: no flight before it is computed".into()),
         }
     }
 
@@ -177,7 +193,7 @@ impl Scene {
         if points.iter().any(|(_, v)| !v.is_zero()) {
             return (true, key, format!("the displacement has {} points", points.len()));
         }
-        (false, key, "the rod starts undeformed on the ground: no initial strain is carried".into())
+        (false, key, "the rod starts undeformed: no initial strain is carried".into())
     }
 
     fn initial_velocity(&self) -> Decision {

@@ -19,7 +19,7 @@ use crate::problem::{Problem, ProblemError, ProblemErrorKind, Top, Written};
 const TABLES: [(&str, &[&str]); 6] = [
     ("", &["title", "rod", "impact", "gravity", "start", "run"]),
     ("rod", &["length", "wave_speed", "modulus", "density", "area", "damping", "top"]),
-    ("impact", &["speed", "drop_height"]),
+    ("impact", &["speed", "gap", "drop_height"]),
     ("gravity", &["acceleration"]),
     ("start", &["displacement", "velocity"]),
     ("run", &["time", "impacts", "accuracy"]),
@@ -144,7 +144,7 @@ impl<'a> Reader<'a> {
             return Err(self.error(key.span(), Kind::UnknownKey, found, expected));
         }
         let (found, expected) = match name {
-            "impact" => ("no speed", "speed or drop_height"),
+            "impact" => ("no speed", "speed, with a gap or without, or drop_height"),
             "gravity" => ("no acceleration", "acceleration, zero or more"),
             "start" => ("no points", "displacement, velocity or both"),
             _ => return Ok(()),

@@ -15,6 +15,7 @@ const SYNONYMS: &[(&str, &[&str])] = &[
     ("rod.damping", &["r", "damping_ratio", "friction", "viscosity"]),
     ("rod.top", &["clamped", "fixed", "fixed_top", "end", "boundary", "support"]),
     ("impact.speed", &["mu", "μ", "µ", "v0", "impact_speed", "impact_velocity", "initial_velocity"]),
+    ("impact.gap", &["clearance", "distance", "initial_gap", "jeu", "d0"]),
     ("impact.drop_height", &["h", "height", "fall_height"]),
     ("gravity.acceleration", &["g"]),
     ("start.displacement", &["u", "v", "deformation", "position"]),

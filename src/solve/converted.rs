@@ -80,6 +80,10 @@ impl<N: Scalar, M: Reads<N>> Motion<M> for Converted<N, M> {
         self.engine.energy(&self.time(time)).map(|energy| energy.map(M::read))
     }
 
+    fn energy_parts(&self, time: &M) -> Result<[M; 2], Error> {
+        self.engine.energy_parts(&self.time(time)).map(|parts| parts.map(M::read))
+    }
+
     fn field(&self, point: &M, time: &M, side: Side) -> Result<Field<M>, Error> {
         let field = self.engine.field(&point.give(&self.precision), &self.time(time), side)?;
         Ok(field.map(M::read))

@@ -9,6 +9,8 @@ mod certified_first_contact;
 mod certified_undamped;
 #[cfg(feature = "cli")]
 mod check_catalogue;
+#[cfg(feature = "mp")]
+mod columns;
 #[cfg(feature = "cli")]
 mod command;
 mod common;

@@ -93,6 +93,10 @@ impl<S: Answer, H: Motion<S::Carried>> Motion<S> for Stripped<S, H> {
         self.history.energy(&time.carry()).map(|energy| energy.map(S::strip))
     }
 
+    fn energy_parts(&self, time: &S) -> Result<[S; 2], Error> {
+        self.history.energy_parts(&time.carry()).map(|parts| parts.map(S::strip))
+    }
+
     fn field(&self, point: &S, time: &S, side: Side) -> Result<Field<S>, Error> {
         self.history.field(&point.carry(), &time.carry(), side).map(|field| field.map(S::strip))
     }

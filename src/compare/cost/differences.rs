@@ -141,13 +141,14 @@ impl<'a> Grid<'a> {
         let width = rod.length / cells as f64;
         let empty = Profile::default();
         let profile = match &problem.start {
-            Start::Uniform(_) => &empty,
+            Start::Uniform(_) | Start::Above { .. } => &empty,
             Start::Profile(profile) => profile,
         };
         let lift = |list: &[(crate::Number, crate::Number)]| -> Vec<(f64, f64)> {
             list.iter().map(|(x, v)| (x.to_f64(), v.to_f64())).collect()
         };
-        let (displacement, velocity) = (lift(&profile.displacement), lift(&profile.velocity));
+        let (mut displacement, velocity) = (lift(&profile.displacement), lift(&profile.velocity));
+        displacement.extend(problem.gap().map(|gap| (0.0, gap.to_f64())));
         let middles: Vec<f64> = (0..cells).map(|k| (k as f64 + 0.5) * width).collect();
         let strain = |x: f64| {
             (between(&displacement, x + 0.5 * width) - between(&displacement, x - 0.5 * width)) * rod.wave_speed / width

@@ -92,11 +92,15 @@ fn switched_off(scene: &Scene, effect: Effect) -> Result<Problem, NoAnswer> {
     match effect {
         Effect::Damping => problem.rod.damping = None,
         Effect::Gravity => {
-            // The speed that a drop gave stays.
-            if let Start::Uniform(Speed::DropHeight(_)) = problem.start {
-                let speed = format!("{:e}", Parameters::<f64>::of(&problem, &())?.speed);
-                let number = speed.parse().map_err(|_| NoAnswer::GaveUp(format!("an impact speed of {speed}")))?;
-                problem.start = Start::Uniform(Speed::Given(number));
+            // The speed that gravity gave stays.
+            let speed = Parameters::<f64>::of(&problem, &())?.speed;
+            match &mut problem.start {
+                start @ Start::Uniform(Speed::DropHeight(_)) => *start = Start::Uniform(Speed::Given(spelt(speed)?)),
+                Start::Above { gap, speed } if speed.is_zero() => {
+                    let gravity = problem.gravity.as_ref().map_or(0.0, Number::to_f64);
+                    *speed = spelt((2.0 * gravity * gap.to_f64()).sqrt())?;
+                }
+                _ => (),
             }
             problem.gravity = None;
         }
@@ -105,6 +109,11 @@ fn switched_off(scene: &Scene, effect: Effect) -> Result<Problem, NoAnswer> {
         _ => (),
     }
     Ok(problem)
+}
+
+/// A speed as a number.
+fn spelt(speed: f64) -> Result<Number, NoAnswer> {
+    format!("{speed:e}").parse().map_err(|_| NoAnswer::GaveUp(format!("an impact speed of {speed}")))
 }
 
 /// Both in turns, so that what slows the machine slows both.

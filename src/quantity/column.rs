@@ -1,0 +1,427 @@
+//! The named columns of a table over time: what contact codes are compared in.
+
+use super::unit::{Measure, UnitSystem, Units};
+use crate::error::Error;
+use crate::motion::{Contact, Motion, Side, StressPiece};
+use crate::number::{Open, Scalar};
+use crate::problem::Problem;
+
+/// A quantity of the rod as a function of time, by name.
+///
+/// Displacements are measured from the undeformed rod that stands on the ground, upwards. Strains and stresses are
+/// positive in tension, the contact force is positive in compression.
+///
+/// **Units**: with a material (`modulus`, `density`, `area`) stresses, forces, impulses and energies are those of the
+/// rod; without one they are divided by `ρ` (stress, then `c² v_x`) or `ρS` (all others): see [`Column::unit`].
+///
+/// ```
+/// use dalembert::{Column, Problem, Side};
+/// let rod = Problem::builder().length(1).wave_speed(1).gravity(1).impact_speed(3).build()?;
+/// let history = rod.solve()?;
+/// // In the first contact v_x(0,t) = −(μ + g t)/c: at t = 1 the force is 4, and ∫(3 + s)ds = 7/2 has been given.
+/// let values = history.columns(&[Column::Force, Column::Impulse], &[1.0], Some(Side::Right))?;
+/// assert_eq!(values, [[4.0], [3.5]]);
+/// // At the impact v_t(0,t) jumps from −μ to 0: two rows.
+/// let values = history.columns(&[Column::Side, Column::EndVelocity], &[0.0, 1.0], None)?;
+/// assert_eq!(values, [[-1.0, 1.0, 0.0], [-3.0, 0.0, 0.0]]);
+/// # Ok::<(), dalembert::Error>(())
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Column {
+    /// `t`.
+    Time,
+    /// Which limit the row holds: −1 from earlier times, 1 from later ones, 0 where both are the same.
+    Side,
+    /// `v(0,t)`.
+    EndDisplacement,
+    /// `v_t(0,t)`.
+    EndVelocity,
+    /// `v_x(0,t)`.
+    Strain,
+    /// `E v_x(0,t)`; `c² v_x(0,t)` without a material.
+    Stress,
+    /// `−E S v_x(0,t) ≥ 0`: what the ground pushes with.
+    Force,
+    /// `v(L,t)`.
+    TopDisplacement,
+    /// `v_t(L,t)`.
+    TopVelocity,
+    /// `h(t) = (1/L) ∫ v dx`: the centre of mass.
+    Centre,
+    /// `h′(t)`.
+    CentreVelocity,
+    /// `E = E_h + E_z`, (3.54).
+    Energy,
+    /// `E_h = ρS (L h′²/2 + L g h)`.
+    TranslationalEnergy,
+    /// `E_z = ½ ρS ∫ ((v_t − h′)² + c² v_x²) dx`.
+    VibrationalEnergy,
+    /// `½ ρS ∫ v_t² dx`.
+    KineticEnergy,
+    /// `½ ρS c² ∫ v_x² dx`.
+    StrainEnergy,
+    /// `ρS g L h`: zero where the centre of mass is where it is in the undeformed rod on the ground. Kinetic, strain
+    /// and gravity energy add up to `E`.
+    GravityEnergy,
+    /// 1 while the end is on the ground, 0 in flight.
+    Contact,
+    /// `∫₀ᵗ force ds`: the momentum that the ground has given since `t = 0`.
+    Impulse,
+}
+
+/// Name, symbol, meaning and measure, in the order of [`Column::ALL`].
+type Facts = (&'static str, &'static str, &'static str, Option<Measure>);
+
+#[rustfmt::skip]
+const FACTS: [Facts; 19] = [
+    ("t", "t", "time", Some(Measure::Time)),
+    ("side", "", "which limit at a jump: from earlier times, from later ones, or both the same", None),
+    ("u_end", "v(0,t)", "displacement of the end at the ground, upwards: its gap", Some(Measure::Length)),
+    ("v_end", "v_t(0,t)", "velocity of the end at the ground, upwards", Some(Measure::Velocity)),
+    ("strain", "v_x(0,t)", "strain at the ground, positive in tension", Some(Measure::Strain)),
+    ("stress", "E v_x(0,t)", "stress at the ground, positive in tension", Some(Measure::Stress)),
+    ("force", "−E S v_x(0,t)", "contact force, positive in compression", Some(Measure::Force)),
+    ("u_top", "v(L,t)", "displacement of the upper end", Some(Measure::Length)),
+    ("v_top", "v_t(L,t)", "velocity of the upper end", Some(Measure::Velocity)),
+    ("h", "h", "centre of mass above its place in the undeformed rod on the ground", Some(Measure::Length)),
+    ("h_rate", "h′", "velocity of the centre of mass", Some(Measure::Velocity)),
+    ("E_total", "E", "energy: E_h + E_z, or kinetic + strain_energy + gravity", Some(Measure::Energy)),
+    ("E_h", "E_h", "energy of the centre of mass: ρSL(h′²/2 + g h)", Some(Measure::Energy)),
+    ("E_z", "E_z", "energy of the vibration: ½ρS∫((v_t − h′)² + c²v_x²)dx", Some(Measure::Energy)),
+    ("kinetic", "½ρS∫v_t²dx", "kinetic energy", Some(Measure::Energy)),
+    ("strain_energy", "½ES∫v_x²dx", "strain energy", Some(Measure::Energy)),
+    ("gravity", "ρSLg h", "energy in gravity, zero at h = 0", Some(Measure::Energy)),
+    ("contact", "", "1 on the ground, 0 in flight", None),
+    ("impulse", "∫force dt", "impulse of the contact force since t = 0", Some(Measure::Impulse)),
+];
+
+/// A question to a history; it may answer several columns.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Source {
+    Time,
+    Side,
+    End,
+    Strain,
+    Top,
+    Contact,
+    Centre,
+    Energy,
+    Parts,
+    Impulse,
+}
+
+impl Source {
+    /// In the order in which they are asked: those with two limits first.
+    const ALL: [Source; 10] = [
+        Source::Time,
+        Source::Side,
+        Source::End,
+        Source::Strain,
+        Source::Top,
+        Source::Contact,
+        Source::Centre,
+        Source::Energy,
+        Source::Parts,
+        Source::Impulse,
+    ];
+
+    fn has_sides(self) -> bool {
+        matches!(self, Source::End | Source::Strain | Source::Top | Source::Contact)
+    }
+}
+
+impl Column {
+    /// All columns, in the order of a table.
+    pub const ALL: [Column; 19] = [
+        Column::Time,
+        Column::Side,
+        Column::EndDisplacement,
+        Column::EndVelocity,
+        Column::Strain,
+        Column::Stress,
+        Column::Force,
+        Column::TopDisplacement,
+        Column::TopVelocity,
+        Column::Centre,
+        Column::CentreVelocity,
+        Column::Energy,
+        Column::TranslationalEnergy,
+        Column::VibrationalEnergy,
+        Column::KineticEnergy,
+        Column::StrainEnergy,
+        Column::GravityEnergy,
+        Column::Contact,
+        Column::Impulse,
+    ];
+
+    /// The name in files: `u_end`.
+    pub fn name(self) -> &'static str {
+        FACTS[self as usize].0
+    }
+
+    /// The column of this name.
+    ///
+    /// ```
+    /// use dalembert::Column;
+    /// assert!(Column::ALL.into_iter().all(|column| Column::named(column.name()) == Some(column)));
+    /// assert_eq!(Column::named("u"), None);
+    /// ```
+    pub fn named(name: &str) -> Option<Column> {
+        Column::ALL.into_iter().find(|column| column.name() == name)
+    }
+
+    /// The symbol: `v(0,t)`; empty where there is none.
+    pub fn symbol(self) -> &'static str {
+        FACTS[self as usize].1
+    }
+
+    /// What it is, in a line.
+    pub fn meaning(self) -> &'static str {
+        FACTS[self as usize].2
+    }
+
+    /// What its values measure; `None` for [`Column::Side`] and [`Column::Contact`].
+    pub fn measure(self) -> Option<Measure> {
+        FACTS[self as usize].3
+    }
+
+    /// The unit: `Pa` with a material, `per ρ` without one; empty where there is none or none is known.
+    ///
+    /// ```
+    /// use dalembert::{Column, Problem, UnitSystem, Units};
+    /// let bare = Problem::builder().length(1).wave_speed(1).impact_speed(3).build()?;
+    /// assert_eq!(Column::Force.unit(&Units::of(&bare, UnitSystem::Si)), "per ρS");
+    /// # Ok::<(), dalembert::Error>(())
+    /// ```
+    pub fn unit(self, units: &Units) -> &'static str {
+        match self.measure() {
+            Some(Measure::Stress) if !units.has_material() => "per ρ",
+            Some(Measure::Force) if !units.has_material() => "per ρS",
+            Some(measure) => units.name(measure),
+            None => "",
+        }
+    }
+
+    /// Where it comes from, and which of the answers there it is.
+    fn source(self) -> (Source, usize) {
+        match self {
+            Column::Time => (Source::Time, 0),
+            Column::Side => (Source::Side, 0),
+            Column::EndDisplacement => (Source::End, 0),
+            Column::EndVelocity => (Source::End, 1),
+            Column::Strain | Column::Stress | Column::Force => (Source::Strain, 0),
+            Column::TopDisplacement => (Source::Top, 0),
+            Column::TopVelocity => (Source::Top, 1),
+            Column::Centre | Column::GravityEnergy => (Source::Centre, 0),
+            Column::CentreVelocity => (Source::Centre, 1),
+            Column::Energy => (Source::Energy, 0),
+            Column::TranslationalEnergy => (Source::Energy, 1),
+            Column::VibrationalEnergy => (Source::Energy, 2),
+            Column::KineticEnergy => (Source::Parts, 0),
+            Column::StrainEnergy => (Source::Parts, 1),
+            Column::Contact => (Source::Contact, 0),
+            Column::Impulse => (Source::Impulse, 0),
+        }
+    }
+
+    /// What the answer is multiplied with; `None` where it is the value itself.
+    fn factor<S: Scalar>(self, motion: &dyn Motion<S>, units: &Units) -> Option<S> {
+        let scales = motion.scales();
+        let square = scales.wave_speed.square();
+        let factor = |measure| units.factor(measure, &square.precision());
+        match self.measure()? {
+            Measure::Stress => factor(Measure::Stress).or(Some(square)),
+            Measure::Force => factor(Measure::Force).or(Some(-square)),
+            Measure::Energy if self == Column::GravityEnergy => {
+                factor(Measure::Energy).map(|mass| mass * &scales.gravity * &scales.length)
+            }
+            measure @ (Measure::Energy | Measure::Impulse) if units.has_material() => factor(measure),
+            _ => None,
+        }
+    }
+}
+
+/// The values of `columns` at every time of `times`, column by column. Where `side` is `None` and the two limits of any
+/// of them differ, a time has two rows, the limit from earlier times first.
+///
+/// **Accuracy**: that of the history's answers, and one rounding for each factor.
+///
+/// **Errors**: what the history cannot answer.
+pub fn columns<S: Scalar>(
+    motion: &dyn Motion<S>,
+    problem: &Problem,
+    columns: &[Column],
+    times: &[S],
+    side: Option<Side>,
+) -> Result<Vec<Vec<S>>, Error> {
+    let units = Units::of(problem, UnitSystem::default());
+    let places: Vec<(Source, usize)> = columns.iter().map(|column| column.source()).collect();
+    let factors: Vec<Option<S>> = columns.iter().map(|column| column.factor(motion, &units)).collect();
+    let sources: Vec<Source> =
+        Source::ALL.into_iter().filter(|source| places.iter().any(|(wanted, _)| wanted == source)).collect();
+    let (sided, plain): (Vec<Source>, Vec<Source>) = sources.into_iter().partition(|source| source.has_sides());
+    let pushes = if plain.contains(&Source::Impulse) { Some(Pushes::of(motion)) } else { None };
+    // The answers of a row, with the place of each source's first one.
+    let mut starts = [0; Source::ALL.len()];
+    let mut count = 0;
+    for source in sided.iter().chain(&plain) {
+        starts[*source as usize] = count;
+        count += source.answers();
+    }
+    let places: Vec<usize> = places.iter().map(|(source, index)| starts[*source as usize] + index).collect();
+    let mut table: Vec<Vec<S>> = columns.iter().map(|_| Vec::with_capacity(times.len())).collect();
+    let (mut left, mut right) = (Vec::with_capacity(count), Vec::with_capacity(count));
+    for time in times {
+        let ask = |sources: &[Source], side: Side, limit: i64, row: &mut Vec<S>| {
+            sources.iter().try_for_each(|source| match (source, &pushes) {
+                (Source::Side, _) => Ok(row.push(time.int(limit))),
+                (Source::Impulse, Some(pushes)) => Ok(row.push(pushes.at(time)?)),
+                (source, _) => source.ask(motion, time, side, row),
+            })
+        };
+        left.clear();
+        right.clear();
+        let asked = side.unwrap_or_default();
+        ask(&sided, asked, 0, &mut right)?;
+        if side.is_none() && !sided.is_empty() {
+            ask(&sided, Side::Left, 0, &mut left)?;
+        }
+        let jumps = !left.is_empty() && !left.iter().zip(&right).all(|(a, b)| same(a, b));
+        let limit = match side {
+            Some(Side::Left) => -1,
+            None if !jumps => 0,
+            _ => 1,
+        };
+        ask(&plain, asked, limit, &mut right)?;
+        if jumps {
+            ask(&plain, Side::Left, -1, &mut left)?;
+        }
+        for row in [&left, &right].into_iter().skip(usize::from(!jumps)) {
+            for ((values, place), factor) in table.iter_mut().zip(&places).zip(&factors) {
+                let value = row[*place].clone();
+                values.push(match factor {
+                    Some(factor) => value * factor,
+                    None => value,
+                });
+            }
+        }
+    }
+    Ok(table)
+}
+
+/// The values of a table of [`columns`], each column brought to about 1 by a power of two, so that one accuracy holds
+/// for columns of different size: 1 is its natural scale, or its greatest value where that is more.
+pub(crate) fn of_one_size<S: Scalar>(
+    motion: &dyn Motion<S>,
+    problem: &Problem,
+    columns: &[Column],
+    table: &[Vec<S>],
+) -> Vec<S> {
+    let units = Units::of(problem, UnitSystem::default());
+    let scales = motion.scales().map(|scale| scale.to_f64());
+    let mut all = Vec::with_capacity(table.len() * table.first().map_or(0, Vec::len));
+    for (column, values) in columns.iter().zip(table) {
+        let natural = match column.source() {
+            (Source::Time | Source::Side | Source::Contact, _) => continue,
+            (Source::End | Source::Top | Source::Centre, 0) => scales.velocity * scales.time,
+            (Source::End | Source::Top | Source::Centre, _) => scales.velocity,
+            (Source::Strain, _) => scales.velocity / scales.wave_speed,
+            (Source::Energy | Source::Parts, _) => scales.velocity * scales.velocity * scales.length,
+            (Source::Impulse, _) => scales.velocity * scales.length,
+        };
+        let natural = natural * column.factor(motion, &units).map_or(1.0, |factor| factor.to_f64().abs());
+        let greatest = values.iter().map(|value| value.to_f64().abs()).fold(natural, f64::max);
+        let power = (-greatest.log2().round()).clamp(-1000.0, 1000.0).exp2();
+        if let Some(unit) = values.first().map(|value| value.double(power)) {
+            all.extend(values.iter().map(|value| value.clone() * &unit));
+        }
+    }
+    all
+}
+
+/// Whether two limits are surely the same. Two enclosures that were computed alike are, although their difference
+/// does not show it.
+fn same<S: Scalar>(a: &S, b: &S) -> bool {
+    a.compare(b).is_ok_and(std::cmp::Ordering::is_eq) || (a.ends(0).is_some() && a.text() == b.text())
+}
+
+impl Source {
+    /// How many numbers it gives.
+    fn answers(self) -> usize {
+        match self {
+            Source::Energy => 3,
+            Source::End | Source::Top | Source::Centre | Source::Parts => 2,
+            _ => 1,
+        }
+    }
+
+    /// Its answers, added to the row.
+    fn ask<S: Scalar>(self, motion: &dyn Motion<S>, time: &S, side: Side, row: &mut Vec<S>) -> Result<(), Error> {
+        let pair = |(a, b): (S, S)| [a, b];
+        match self {
+            Source::Time => row.push(time.clone()),
+            Source::End => row.extend(pair(motion.ground_end(time, side)?)),
+            Source::Strain => row.push(motion.stress(time, side)?),
+            Source::Top => row.extend(pair(motion.top_end(time, side)?)),
+            Source::Contact => row.push(time.int(in_contact(motion.contacts(), time, side)?.into())),
+            Source::Centre => row.extend(pair(motion.centre(time)?)),
+            Source::Energy => {
+                let energy = motion.energy(time)?;
+                row.extend([energy.total, energy.translational, energy.vibrational]);
+            }
+            Source::Parts => row.extend(motion.energy_parts(time)?),
+            Source::Side | Source::Impulse => (),
+        }
+        Ok(())
+    }
+}
+
+/// The first of `list` for which `passed` no longer holds, by bisection.
+fn partition<T>(list: &[T], passed: impl Fn(&T) -> Result<bool, Open>) -> Result<usize, Open> {
+    let (mut from, mut to) = (0, list.len());
+    while from < to {
+        let middle = (from + to) / 2;
+        if passed(&list[middle])? { from = middle + 1 } else { to = middle }
+    }
+    Ok(from)
+}
+
+/// Whether the end is on the ground just before or just after a time.
+fn in_contact<S: Scalar>(contacts: &[Contact<S>], time: &S, side: Side) -> Result<bool, Open> {
+    let begun = partition(contacts, |contact| match side {
+        Side::Left => contact.from.below(time),
+        Side::Right => Ok(!time.below(&contact.from)?),
+    })?;
+    match begun.checked_sub(1).and_then(|last| contacts[last].to.as_ref()) {
+        None => Ok(begun > 0),
+        Some(to) if side == Side::Left => Ok(!to.below(time)?),
+        Some(to) => time.below(to),
+    }
+}
+
+/// `−c² ∫₀ᵗ v_x(0,s) ds`: pieces of the stress, each with what came before it.
+struct Pushes<S> {
+    pieces: Vec<(StressPiece<S>, S)>,
+    stiffness: S,
+}
+
+impl<S: Scalar> Pushes<S> {
+    fn of(motion: &dyn Motion<S>) -> Self {
+        let stiffness = -motion.scales().wave_speed.square();
+        let mut sum = stiffness.zero();
+        let with_sum = |piece: StressPiece<S>| {
+            let before = sum.clone();
+            sum = sum.clone() + piece.integral(&piece.to);
+            (piece, before)
+        };
+        Pushes { pieces: motion.stress_pieces().into_iter().map(with_sum).collect(), stiffness }
+    }
+
+    fn at(&self, time: &S) -> Result<S, Open> {
+        let begun = partition(&self.pieces, |(piece, _)| Ok(!time.below(&piece.from)?))?;
+        Ok(match begun.checked_sub(1).map(|last| &self.pieces[last]) {
+            Some((piece, before)) => (piece.integral(time) + before) * &self.stiffness,
+            None => time.zero(),
+        })
+    }
+}
