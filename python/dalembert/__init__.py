@@ -13,11 +13,12 @@ decimal that spells it: 0.1 is 1/10. All units are those of the input.
 from __future__ import annotations
 
 import os
+from collections import namedtuple
 from decimal import Decimal
 from fractions import Fraction
 from functools import cached_property
 from importlib.metadata import version as _version
-from typing import Any, Literal, NamedTuple, Sequence, Union
+from typing import Any, Literal, Sequence, Union
 
 import numpy as np
 
@@ -32,27 +33,12 @@ Points = Union[Sequence["tuple[Number, Number]"], np.ndarray]
 Side = Literal["left", "right"]
 
 
-class Motion(NamedTuple):
-    """A displacement and its rate, ``v`` and ``v_t``."""
-
-    displacement: Any
-    velocity: Any
-
-
-class Energy(NamedTuple):
-    """``E = E_h + E_z``, per linear density: in all, of the centre of mass, of the vibration."""
-
-    total: Any
-    translational: Any
-    vibrational: Any
-
-
-class Field(NamedTuple):
-    """``v``, ``v_t`` and ``v_x``."""
-
-    displacement: Any
-    velocity: Any
-    strain: Any
+Motion = namedtuple("Motion", "displacement velocity")
+Motion.__doc__ = "A displacement and its rate, ``v`` and ``v_t``."
+Energy = namedtuple("Energy", "total translational vibrational")
+Energy.__doc__ = "``E = E_h + E_z``: in all, of the centre of mass, of the vibration."
+Field = namedtuple("Field", "displacement velocity strain")
+Field.__doc__ = "``v``, ``v_t`` and ``v_x``."
 
 
 def scenes() -> dict[str, str]:
@@ -96,19 +82,18 @@ class Problem:
         impacts: int | None = None,
     ) -> None:
         given = {name: value for name, value in locals().items() if name != "self" and value is not None}
-        self._core = _core.Problem(given)
-        self._made: tuple[Any, ...] = (given,)
+        self._hold(_core.Problem(given), (given,))
+
+    def _hold(self, core: _core.Problem, made: tuple[Any, ...]) -> Problem:
+        self._core, self._made = core, made
+        #: ``c``; ``t₁ = 2L/c``; ``R = r t₁``; ``M = μ/(g t₁)``, infinite without gravity and None without ``μ``.
+        self.wave_speed, self.round_trip, self.damping_ratio, self.speed_ratio = core.parameters()
+        return self
 
     @classmethod
     def from_scene(cls, scene: str | os.PathLike[str]) -> Problem:
         """The problem of a built-in scene, of a scene file, or of a scene as TOML text."""
-        return cls._of(_core.Problem.parse(text := _text(scene)), (text,))
-
-    @classmethod
-    def _of(cls, core: _core.Problem, made: tuple[Any, ...]) -> Problem:
-        problem = cls.__new__(cls)
-        problem._core, problem._made = core, made
-        return problem
+        return cls.__new__(cls)._hold(_core.Problem.parse(text := _text(scene)), (text,))
 
     def replace(self, **values: Any) -> Problem:
         """The same problem with other values: a ``time`` takes the place of ``impacts``, a profile that of an impact.
@@ -116,30 +101,10 @@ class Problem:
         >>> Problem(length=1, wave_speed=1, impact_speed=3).replace(damping="0.1").damping_ratio
         0.2
         """
-        return self._of(self._core.replace(values), (*self._made, values))
+        return type(self).__new__(type(self))._hold(self._core.replace(values), (*self._made, values))
 
     def __reduce__(self) -> tuple[Any, ...]:
         return _remake, self._made
-
-    @property
-    def wave_speed(self) -> float:
-        """``c``."""
-        return self._core.parameters()[0]
-
-    @property
-    def round_trip(self) -> float:
-        """``t₁ = 2L/c``."""
-        return self._core.parameters()[1]
-
-    @property
-    def damping_ratio(self) -> float:
-        """``R = r t₁``."""
-        return self._core.parameters()[2]
-
-    @property
-    def speed_ratio(self) -> float | None:
-        """``M = μ/(g t₁)``: infinite without gravity, None where the start is not uniform."""
-        return self._core.parameters()[3]
 
     def solve(
         self,
@@ -231,137 +196,123 @@ class History:
     """
 
     def __init__(self, core: _core.History, problem: Problem) -> None:
-        self._core = core
-        #: What was solved.
-        self.problem = problem
+        self._core, self.problem = core, problem
         #: "double", "exact", "digits" or "certified".
         self.numbers: str = core.kind()
         self._read = _READ[self.numbers]
+        #: The last time that is known, why it is the last, and how the motion was solved.
+        self.end = self._read(core.end())
+        self.ending, self.engine, self._asked = core.plan()
+        #: What a user should know of the answer.
+        self.warnings: list[str] = core.warnings()
+        #: The natural scales.
+        self.scales = dict(zip(("time", "velocity", "length", "wave_speed", "gravity"), core.scales()))
 
     def __repr__(self) -> str:
-        return f"<dalembert.History to t = {self.end}, {self._core.plan()[1]}>"
-
-    @property
-    def end(self) -> Any:
-        """The last time that is known."""
-        return self._read(self._core.end())
-
-    @property
-    def ending(self) -> str:
-        """Why it is the last."""
-        return self._core.ending()
-
-    @property
-    def engine(self) -> str:
-        """How it was solved."""
-        return self._core.plan()[0]
-
-    @property
-    def warnings(self) -> list[str]:
-        """What a user should know of the answer."""
-        return self._core.warnings()
+        return f"<dalembert.History to t = {self.end}, {self._asked}>"
 
     @property
     def error_estimate(self) -> float:
         """A bound of the error of events and ordinary values, relative to the natural scales; zero where exact."""
         return self._core.error_estimate()
 
-    @property
-    def scales(self) -> dict[str, float]:
-        """The natural scales: the round trip, the greatest speed, length, wave speed, gravity."""
-        return dict(zip(("time", "velocity", "length", "wave_speed", "gravity"), self._core.scales()))
+    def _array(self, raw: Any) -> np.ndarray:
+        if isinstance(raw, np.ndarray):
+            return raw
+        array = np.empty(len(raw), dtype=object)
+        for place, value in enumerate(raw):
+            array[place] = None if value is None else self._read(value)
+        return array
 
-    def _table(self, names: Sequence[str], rows: Sequence[Sequence[Any]], extra: Sequence[Any] = ()) -> np.ndarray:
-        absent = float("nan") if self.numbers == "double" else None
-        kind = np.float64 if self.numbers == "double" else object
-        table = np.empty(len(rows), dtype=[*((name, kind) for name in names), *extra])
-        for k, name in enumerate(names):
-            column = table[name]
-            for place, row in enumerate(rows):
-                column[place] = absent if row[k] is None else self._read(row[k])
+    def _table(self, part: str, names: str, **others: np.ndarray) -> np.ndarray:
+        columns = dict(zip(names.split(), map(self._array, self._core.table(part)))) | others
+        kinds = [(name, column.dtype, column.shape[1:]) for name, column in columns.items()]
+        table = np.empty(len(next(iter(columns.values()))), dtype=kinds)
+        for name, column in columns.items():
+            table[name] = column
         return table
 
     @cached_property
     def events(self) -> np.ndarray:
-        """Impacts and releases: ``kind``, ``time``, ``end_velocity``, ``centre``, ``centre_velocity``, and how far the
-        time may be off, ``time_error``.
+        """Impacts and releases: ``time``, ``end_velocity``, ``centre``, ``centre_velocity``, the ``kind``, and how far
+        the time may be off, ``time_error``.
 
         >>> solve("paper-strong").events["kind"].tolist()
         ['impact', 'release']
         """
-        kinds, errors, rows = zip(*events) if (events := self._core.events()) else ((), (), ())
-        extra = [("kind", "U7"), ("time_error", np.float64)]
-        table = self._table(("time", "end_velocity", "centre", "centre_velocity"), rows, extra)
-        table["kind"], table["time_error"] = kinds, errors
-        return table
+        kinds, errors = np.array(self._core.kinds(), dtype=object).reshape(-1, 2).T
+        names = "time end_velocity centre centre_velocity"
+        return self._table("events", names, kind=kinds.astype("U7"), time_error=errors.astype(float))
 
     @cached_property
     def contacts(self) -> np.ndarray:
         """Times on the ground: ``from``, ``to``, ``impulse`` per linear density, and the ``peak_stress``, which is the
         most compressive ``v_x(0,t)``."""
-        return self._table(("from", "to", "impulse", "peak_stress"), self._core.table("contacts"))
+        return self._table("contacts", "from to impulse peak_stress")
 
     @cached_property
     def restitution(self) -> np.ndarray:
         """For each contact ``e_P``, ``e_E²`` and its factors ``E_h/E`` and ``E/E(0)`` at its end: ``momentum``,
         ``energy_squared``, ``translational_part``, ``energy_kept``."""
-        names = ("momentum", "energy_squared", "translational_part", "energy_kept")
-        return self._table(names, self._core.table("restitution"))
+        return self._table("restitution", "momentum energy_squared translational_part energy_kept")
 
     @cached_property
     def flights(self) -> np.ndarray:
         """Flights: ``from``, ``to``, and ``top_time`` and ``top``, when and how high the centre of mass turns."""
-        return self._table(("from", "to", "top_time", "top"), self._core.table("flights"))
+        return self._table("flights", "from to top_time top")
 
     @cached_property
     def stress_history(self) -> np.ndarray:
-        """``v_x(0,·)`` piece by piece: ``from``, ``to``, the values ``left`` and ``right`` at its ends, and the
-        ``chebyshev`` coefficients where it is not linear between them, the first one whole."""
-        rows = self._core.table("stress")
-        table = self._table(("from", "to", "left", "right"), rows, [("chebyshev", object)])
-        for place, row in enumerate(rows):
-            table["chebyshev"][place] = [self._read(x) for x in row[4:]]
-        return table
+        """``v_x(0,·)`` piece by piece: ``from``, ``to``, and the values ``left`` and ``right`` at its ends. Undamped
+        pieces are linear between them; :meth:`strain` gives the values of all."""
+        return self._table("stress", "from to left right")
 
-    def _sample(self, quantity: str, t: Numbers, x: Numbers | None = None, side: str = "right") -> list[Any]:
-        times, points = np.asarray(t), np.asarray([] if x is None else x)
-        shape = times.shape if x is None else times.shape + points.shape
-        if self.numbers == "double" and times.dtype.kind in "fiu" and points.dtype.kind in "fiu":
-            flat = (np.ascontiguousarray(values.ravel(), dtype=np.float64) for values in (times, points))
-            columns = self._core.sample_doubles(quantity, *flat, side)
-        else:
-            raw = self._core.sample(quantity, _flat(t), [] if x is None else _flat(x), side)
-            columns = []
-            for cells in raw:
-                column = np.empty(len(cells), dtype=np.float64 if self.numbers == "double" else object)
-                for place, value in enumerate(cells):
-                    column[place] = self._read(value)
-                columns.append(column)
+    def _places(self, values: Numbers) -> Any:
+        array = np.asarray(values)
+        if self.numbers == "double" and array.dtype.kind in "fiu":
+            return np.ascontiguousarray(array.ravel(), dtype=np.float64)
+        return np.asarray(values, dtype=object).ravel().tolist()
+
+    def _at(self, names: list[str], t: Numbers, side: str = "right") -> list[Any]:
+        columns = [self._array(raw) for raw in self._core.columns(names, self._places(t), side)]
+        shape = np.shape(t)
         return [column.reshape(shape) if shape else column[0] for column in columns]
+
+    def columns(self, names: Sequence[str], t: Numbers, side: Side | None = None) -> dict[str, np.ndarray]:
+        """Columns by the names of `dalembert reference`: ``u_end``, ``v_end``, ``strain``, ``stress``, ``force``,
+        ``u_top``, ``v_top``, ``h``, ``h_rate``, ``E_total``, ``E_h``, ``E_z``, ``kinetic``, ``strain_energy``,
+        ``gravity``, ``contact``, ``impulse``, ``t`` and ``side``. Without a side a time has two rows where two limits
+        differ, the earlier one first.
+
+        >>> solve("paper-strong").columns(["t", "side", "strain"], [1, 2])["strain"].tolist()
+        [-4.0, -5.0, 0.0]
+        """
+        raw = self._core.columns(list(names), self._places(t), side)
+        return {name: self._array(column) for name, column in zip(names, raw)}
 
     def strain(self, t: Numbers, side: Side = "right") -> Any:
         """``v_x(0,t)``: the strain at the ground, which is the stress there divided by the modulus; zero in flight."""
-        return self._sample("strain", t, None, side)[0]
+        return self._at(["strain"], t, side)[0]
 
     def ground_end(self, t: Numbers, side: Side = "right") -> Motion:
         """``v(0,t)`` and ``v_t(0,t)``."""
-        return Motion(*self._sample("ground", t, None, side))
+        return Motion(*self._at(["u_end", "v_end"], t, side))
 
     def top_end(self, t: Numbers, side: Side = "right") -> Motion:
         """``v(L,t)`` and ``v_t(L,t)``."""
-        return Motion(*self._sample("top", t, None, side))
+        return Motion(*self._at(["u_top", "v_top"], t, side))
 
     def centre(self, t: Numbers) -> Motion:
         """``h(t)`` and ``h′(t)``: the centre of mass, relative to its place in the undeformed rod on the ground."""
-        return Motion(*self._sample("centre", t))
+        return Motion(*self._at(["h", "h_rate"], t))
 
     def h(self, t: Numbers) -> Any:
         """``h(t)``."""
-        return self.centre(t).displacement
+        return self._at(["h"], t)[0]
 
     def energy(self, t: Numbers) -> Energy:
-        """``E``, ``E_h`` and ``E_z``, per linear density."""
-        return Energy(*self._sample("energy", t))
+        """``E``, ``E_h`` and ``E_z``; per linear density where the problem has no material."""
+        return Energy(*self._at(["E_total", "E_h", "E_z"], t))
 
     def field(self, x: Numbers, t: Numbers, side: Side = "right") -> Field:
         """``v``, ``v_t`` and ``v_x`` at every point of ``x`` for every time of ``t``: arrays of the shape of ``t``
@@ -370,9 +321,6 @@ class History:
         >>> solve("paper-strong").field([0.25, 0.5], [1, 1.5]).strain.shape
         (2, 2)
         """
-        return Field(*self._sample("field", t, x, side))
-
-
-def _flat(values: Any) -> list[Any]:
-    """All numbers of an array or a nested sequence, or the one number."""
-    return np.asarray(values, dtype=object).ravel().tolist()
+        columns = map(self._array, self._core.field(self._places(x), self._places(t), side))
+        shape = np.shape(t) + np.shape(x)
+        return Field(*(column.reshape(shape) if shape else column[0] for column in columns))

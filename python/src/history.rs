@@ -1,18 +1,18 @@
 //! Answers: histories, read in columns.
 
 use std::sync::Arc;
-use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::atomic::AtomicBool;
 
 use dalembert::number::{DOUBLE_DIGITS, show};
 use dalembert::quantity::{energy_shares, restitution};
 use dalembert::solve::Target;
-use dalembert::{Answer, Error, Motion, Number, Scalar, Side, Solution};
+use dalembert::{Answer, Column, Error, Motion, Number, Scalar, Side, Solution};
 use numpy::{PyArray1, PyReadonlyArray1};
-use pyo3::exceptions::PyValueError;
+use pyo3::IntoPyObjectExt;
 use pyo3::prelude::*;
 
 use super::problem::number;
-use super::run;
+use super::{refuse, run};
 
 /// A number as Python gets it: a float, the text of a fraction or of a decimal, or both ends of an enclosure.
 #[derive(IntoPyObject)]
@@ -30,8 +30,70 @@ fn cell<N: Scalar>(x: &N, digits: u32) -> Cell {
     }
 }
 
-/// A row of a table: `None` where there is no such number.
-type Row = Vec<Option<Cell>>;
+/// Numbers of one quantity.
+enum Found {
+    /// What is absent is no number.
+    Doubles(Vec<f64>),
+    Cells(Vec<Option<Cell>>),
+}
+
+impl Found {
+    fn of<'a, N: Scalar>(values: impl Iterator<Item = Option<&'a N>>, of: &N, digits: u32) -> Self {
+        if of.as_double().is_some() {
+            return Found::Doubles(values.map(|x| x.and_then(Scalar::as_double).unwrap_or(f64::NAN)).collect());
+        }
+        Found::Cells(values.map(|x| x.map(|x| cell(x, digits))).collect())
+    }
+
+    fn all<N: Scalar>(columns: &[Vec<N>], of: &N, digits: u32) -> Vec<Self> {
+        columns.iter().map(|column| Found::of(column.iter().map(Some), of, digits)).collect()
+    }
+}
+
+impl<'py> IntoPyObject<'py> for Found {
+    type Target = PyAny;
+    type Output = Bound<'py, PyAny>;
+    type Error = PyErr;
+
+    fn into_pyobject(self, py: Python<'py>) -> PyResult<Self::Output> {
+        match self {
+            Found::Doubles(column) => Ok(PyArray1::from_vec(py, column).into_any()),
+            Found::Cells(column) => column.into_bound_py_any(py),
+        }
+    }
+}
+
+/// Times or points as Python gives them: an array, which is for histories in doubles, or numbers of any type.
+#[derive(FromPyObject)]
+pub(crate) enum Given<'py> {
+    Doubles(PyReadonlyArray1<'py, f64>),
+    Numbers(Vec<Bound<'py, PyAny>>),
+}
+
+enum Places {
+    Doubles(Vec<f64>),
+    Numbers(Vec<Number>),
+}
+
+impl Given<'_> {
+    fn read(&self, name: &str) -> PyResult<Places> {
+        Ok(match self {
+            Given::Doubles(list) => Places::Doubles(list.as_slice()?.to_vec()),
+            Given::Numbers(list) => Places::Numbers(list.iter().map(|x| number(name, x)).collect::<PyResult<_>>()?),
+        })
+    }
+}
+
+impl Places {
+    /// In the numbers of an attempt.
+    fn lift<S: Target>(&self, history: &dalembert::History<S>, motion: &dyn Motion<S::Carried>) -> Vec<S::Carried> {
+        let precision = motion.end().precision();
+        match self {
+            Places::Doubles(list) => list.iter().map(|x| history.end().double(*x).carry()).collect(),
+            Places::Numbers(list) => list.iter().map(|x| S::Carried::from_number(x, &precision)).collect(),
+        }
+    }
+}
 
 /// Evaluates `$body` for the history inside `$solution`, whatever its numbers; `$digits` of them are to be given.
 macro_rules! each {
@@ -65,10 +127,10 @@ impl History {
     fn ask<T: Send + 'static>(
         &self,
         py: Python<'_>,
-        query: impl FnOnce(&Solution, &AtomicBool) -> Result<T, Error> + Send + 'static,
+        query: impl FnOnce(&Solution) -> Result<T, Error> + Send + 'static,
     ) -> PyResult<T> {
-        let (solution, stop) = (self.solution.clone(), self.stop.clone());
-        run(py, &self.stop, move || query(&solution, &stop))
+        let solution = self.solution.clone();
+        run(py, &self.stop, move || query(&solution))
     }
 }
 
@@ -88,15 +150,12 @@ impl History {
         each!(&*self.solution, |history, digits| cell(history.end(), digits))
     }
 
-    fn ending(&self) -> String {
-        each!(&*self.solution, |history, _digits| history.ending().to_string())
-    }
-
-    fn plan(&self) -> (String, String) {
-        each!(&*self.solution, |history, _digits| (
-            history.plan().engine.to_string(),
-            history.plan().numbers.to_string()
-        ))
+    /// Why it ends, the engine, and the numbers.
+    fn plan(&self) -> [String; 3] {
+        each!(&*self.solution, |history, _digits| {
+            let plan = history.plan();
+            [history.ending().to_string(), plan.engine.to_string(), plan.numbers.to_string()]
+        })
     }
 
     fn warnings(&self) -> Vec<String> {
@@ -119,96 +178,69 @@ impl History {
         })
     }
 
-    /// Rows of kind, error of the time, and time, end velocity, centre, centre velocity.
-    fn events(&self, py: Python<'_>) -> PyResult<Vec<(String, f64, Row)>> {
-        self.ask(py, |solution, _| each!(solution, |history, digits| events(history, digits)))
+    /// Kind and error of the time of each event.
+    fn kinds(&self) -> Vec<(String, f64)> {
+        each!(&*self.solution, |history, _digits| {
+            history.events().iter().map(|event| (event.kind.to_string(), event.time_error)).collect()
+        })
     }
 
-    /// Rows of `part`.
-    fn table(&self, py: Python<'_>, part: String) -> PyResult<Vec<Row>> {
-        self.ask(py, move |solution, _| {
-            each!(solution, |history, digits| match part.as_str() {
-                "contacts" => contacts(history, digits),
-                "restitution" => coefficients(history, digits),
-                "flights" => flights(history, digits),
-                _ => stress_pieces(history, digits),
+    /// The columns of a table.
+    fn table(&self, py: Python<'_>, part: String) -> PyResult<Vec<Found>> {
+        self.ask(py, move |solution| {
+            each!(solution, |history, digits| {
+                let rows =
+                    history.ask(|motion| rows(motion, &part), |rows| rows.iter().flatten().flatten().collect())?;
+                let of = history.end().carry();
+                let column = |k: usize| Found::of(rows.iter().map(|row| row[k].as_ref()), &of, digits);
+                Ok([0, 1, 2, 3].map(column).into())
             })
         })
     }
 
-    /// Values of `quantity`, one list for each of its numbers, time by time and there point by point.
-    fn sample(
+    /// Values of columns at times. Without a side a time has two rows where two limits differ.
+    fn columns(
         &self,
         py: Python<'_>,
-        quantity: &str,
-        times: Vec<Bound<'_, PyAny>>,
-        points: Vec<Bound<'_, PyAny>>,
-        side: &str,
-    ) -> PyResult<Vec<Vec<Cell>>> {
-        let (quantity, side) = (Quantity::of(quantity)?, side_of(side)?);
-        let times = times.iter().map(|time| number("time", time)).collect::<PyResult<Vec<_>>>()?;
-        let points = points.iter().map(|point| number("point", point)).collect::<PyResult<Vec<_>>>()?;
-        self.ask(py, move |solution, stop| {
+        names: Vec<String>,
+        times: Given<'_>,
+        side: Option<&str>,
+    ) -> PyResult<Vec<Found>> {
+        let column = |name: &String| {
+            let known = || Column::ALL.map(Column::name).join(", ");
+            Column::named(name).ok_or_else(|| refuse(format!("found column {name}, expected one of {}", known())))
+        };
+        let columns = names.iter().map(column).collect::<PyResult<Vec<_>>>()?;
+        let (times, side) = (times.read("time")?, side.map(side_of).transpose()?);
+        self.ask(py, move |solution| {
             each!(solution, |history, digits| {
-                let columns = sample(history, (quantity, side), (&times, &points), stop, exactly)?;
-                Ok(columns.iter().map(|column| column.iter().map(|x| cell(x, digits)).collect()).collect())
+                let found = history.ask_columns(&columns, side, |motion| Ok(times.lift(history, motion)))?;
+                Ok(Found::all(&found, &history.end().carry(), digits))
             })
         })
     }
 
-    /// The same of a history in doubles.
-    fn sample_doubles<'py>(
-        &self,
-        py: Python<'py>,
-        quantity: &str,
-        times: PyReadonlyArray1<'py, f64>,
-        points: PyReadonlyArray1<'py, f64>,
-        side: &str,
-    ) -> PyResult<Vec<Bound<'py, PyArray1<f64>>>> {
-        let (quantity, side) = (Quantity::of(quantity)?, side_of(side)?);
-        let (times, points) = (times.as_slice()?.to_vec(), points.as_slice()?.to_vec());
-        let columns = self.ask(py, move |solution, stop| {
-            let Solution::Double(history) = solution else { return Err(Error::NoMultiprecision) };
-            let lift = |x: &f64, _: &dyn Motion<_>| x.carry();
-            let columns = sample(history, (quantity, side), (&times, &points), stop, lift)?;
-            Ok(columns
-                .into_iter()
-                .map(|column| column.into_iter().map(f64::strip).collect())
-                .collect::<Vec<Vec<f64>>>())
-        })?;
-        Ok(columns.into_iter().map(|column| PyArray1::from_vec(py, column)).collect())
-    }
-}
-
-#[derive(Clone, Copy)]
-enum Quantity {
-    Strain,
-    Ground,
-    Top,
-    Centre,
-    Energy,
-    Field,
-}
-
-impl Quantity {
-    fn of(name: &str) -> PyResult<Self> {
-        Ok(match name {
-            "strain" => Quantity::Strain,
-            "ground" => Quantity::Ground,
-            "top" => Quantity::Top,
-            "centre" => Quantity::Centre,
-            "energy" => Quantity::Energy,
-            "field" => Quantity::Field,
-            _ => return Err(PyValueError::new_err(format!("found no quantity called {name}"))),
+    /// `v`, `v_t`, `v_x` time by time, and there point by point.
+    fn field(&self, py: Python<'_>, points: Given<'_>, times: Given<'_>, side: &str) -> PyResult<Vec<Found>> {
+        let (points, times, side) = (points.read("point")?, times.read("time")?, side_of(side)?);
+        self.ask(py, move |solution| {
+            each!(solution, |history, digits| {
+                let query = |motion: &dyn Motion<_>| {
+                    let points = points.lift(history, motion);
+                    let mut columns = vec![Vec::new(); 3];
+                    for time in times.lift(history, motion) {
+                        for point in &points {
+                            let field = motion.field(point, &time, side)?;
+                            let values = [field.displacement, field.velocity, field.strain];
+                            columns.iter_mut().zip(values).for_each(|(column, value)| column.push(value));
+                        }
+                    }
+                    Ok(columns)
+                };
+                let found = history.ask(query, |columns| columns.iter().flatten().collect())?;
+                Ok(Found::all(&found, &history.end().carry(), digits))
+            })
         })
-    }
-
-    fn width(self) -> usize {
-        match self {
-            Quantity::Strain => 1,
-            Quantity::Ground | Quantity::Top | Quantity::Centre => 2,
-            Quantity::Energy | Quantity::Field => 3,
-        }
     }
 }
 
@@ -216,118 +248,39 @@ fn side_of(side: &str) -> PyResult<Side> {
     match side {
         "left" => Ok(Side::Left),
         "right" => Ok(Side::Right),
-        _ => Err(PyValueError::new_err(format!("found side = '{side}', expected 'left' or 'right'"))),
+        _ => Err(refuse(format!("found side = '{side}', expected 'left' or 'right'"))),
     }
 }
 
-/// A number in the precision of an attempt.
-fn exactly<N: Scalar>(number: &Number, motion: &dyn Motion<N>) -> N {
-    N::from_number(number, &motion.end().precision())
-}
-
-/// Values of a quantity, one list for each of its numbers, settled together.
-fn sample<S: Target, T>(
-    history: &dalembert::History<S>,
-    (quantity, side): (Quantity, Side),
-    (times, points): (&[T], &[T]),
-    stop: &AtomicBool,
-    lift: impl Fn(&T, &dyn Motion<S::Carried>) -> S::Carried,
-) -> Result<Vec<Vec<S::Carried>>, Error> {
-    let query = |motion: &dyn Motion<S::Carried>| {
-        let mut columns: Vec<Vec<S::Carried>> = vec![Vec::new(); quantity.width()];
-        let mut take = |values: &[&S::Carried]| {
-            columns.iter_mut().zip(values).for_each(|(column, value)| column.push((*value).clone()));
-        };
-        for time in times {
-            if stop.load(Ordering::Relaxed) {
-                return Err(Error::Interrupted);
-            }
-            let time = lift(time, motion);
-            let pair = |(a, b)| [a, b];
-            match quantity {
-                Quantity::Strain => take(&[&motion.stress(&time, side)?]),
-                Quantity::Ground => take(&pair(motion.ground_end(&time, side)?).each_ref()),
-                Quantity::Top => take(&pair(motion.top_end(&time, side)?).each_ref()),
-                Quantity::Centre => take(&pair(motion.centre(&time)?).each_ref()),
-                Quantity::Energy => {
-                    let energy = motion.energy(&time)?;
-                    take(&[&energy.total, &energy.translational, &energy.vibrational]);
-                }
-                Quantity::Field => {
-                    for point in points {
-                        let field = motion.field(&lift(point, motion), &time, side)?;
-                        take(&[&field.displacement, &field.velocity, &field.strain]);
-                    }
-                }
-            }
+/// The rows of a table.
+fn rows<N: Scalar>(motion: &dyn Motion<N>, part: &str) -> Result<Vec<[Option<N>; 4]>, Error> {
+    Ok(match part {
+        "events" => {
+            let numbers = |e: dalembert::Event<N>| [e.time, e.end_velocity, e.centre, e.centre_velocity];
+            motion.events().iter().map(|event| numbers(event.clone()).map(Some)).collect()
         }
-        Ok(columns)
-    };
-    history.ask(query, |columns| columns.iter().flatten().collect())
-}
-
-fn events<S: Target>(history: &dalembert::History<S>, digits: u32) -> Result<Vec<(String, f64, Row)>, Error> {
-    let found = history.ask(
-        |motion| Ok(motion.events().to_vec()),
-        |events| events.iter().flat_map(|e| [&e.time, &e.end_velocity, &e.centre, &e.centre_velocity]).collect(),
-    )?;
-    let row = |e: &dalembert::Event<S::Carried>| {
-        [&e.time, &e.end_velocity, &e.centre, &e.centre_velocity].map(|x| Some(cell(x, digits))).into()
-    };
-    Ok(found.iter().map(|event| (event.kind.to_string(), event.time_error, row(event))).collect())
-}
-
-/// Settles and shows rows of numbers.
-fn rows<S: Target>(
-    history: &dalembert::History<S>,
-    digits: u32,
-    query: impl Fn(&dyn Motion<S::Carried>) -> Result<Vec<Vec<Option<S::Carried>>>, Error>,
-) -> Result<Vec<Row>, Error> {
-    let found = history.ask(query, |rows| rows.iter().flatten().flatten().collect())?;
-    Ok(found.iter().map(|row| row.iter().map(|x| x.as_ref().map(|x| cell(x, digits))).collect()).collect())
-}
-
-/// `from`, `to`, impulse, peak strain.
-fn contacts<S: Target>(history: &dalembert::History<S>, digits: u32) -> Result<Vec<Row>, Error> {
-    rows(history, digits, |motion| {
-        let row = |c: &dalembert::Contact<S::Carried>| {
-            let c = c.clone();
-            vec![Some(c.from), c.to, Some(c.impulse), Some(c.peak_stress)]
-        };
-        Ok(motion.contacts().iter().map(row).collect())
-    })
-}
-
-/// `e_P`, `e_E²` and the two factors of the latter, of every contact.
-fn coefficients<S: Target>(history: &dalembert::History<S>, digits: u32) -> Result<Vec<Row>, Error> {
-    rows(history, digits, |motion| {
-        let row = |contact: &dalembert::Contact<S::Carried>| {
-            let (e, shares) = (restitution(motion, contact)?, energy_shares(motion, contact)?);
-            Ok(vec![e.momentum.ok(), e.energy_squared.ok(), shares.translational, shares.kept])
-        };
-        motion.contacts().iter().map(row).collect()
-    })
-}
-
-/// `from`, `to`, and where and how high the centre of mass turns.
-fn flights<S: Target>(history: &dalembert::History<S>, digits: u32) -> Result<Vec<Row>, Error> {
-    rows(history, digits, |motion| {
-        let flights = dalembert::quantity::flights(motion)?.into_iter();
-        let row = |flight: dalembert::Flight<S::Carried>| {
-            let (time, height) = flight.highest.unzip();
-            vec![Some(flight.from), flight.to, time, height]
-        };
-        Ok(flights.map(row).collect())
-    })
-}
-
-/// `from`, `to`, the strain at both, and the Chebyshev coefficients where it is not linear.
-fn stress_pieces<S: Target>(history: &dalembert::History<S>, digits: u32) -> Result<Vec<Row>, Error> {
-    rows(history, digits, |motion| {
-        let row = |piece: dalembert::StressPiece<S::Carried>| {
-            let ends = [piece.from, piece.to, piece.left, piece.right].into_iter();
-            ends.chain(piece.chebyshev).map(Some).collect()
-        };
-        Ok(motion.stress_pieces().into_iter().map(row).collect())
+        "contacts" => {
+            let numbers = |c: dalembert::Contact<N>| [Some(c.from), c.to, Some(c.impulse), Some(c.peak_stress)];
+            motion.contacts().iter().cloned().map(numbers).collect()
+        }
+        "restitution" => {
+            let numbers = |contact| {
+                let (e, shares) = (restitution(motion, contact)?, energy_shares(motion, contact)?);
+                Ok([e.momentum.ok(), e.energy_squared.ok(), shares.translational, shares.kept])
+            };
+            motion.contacts().iter().map(numbers).collect::<Result<_, Error>>()?
+        }
+        "flights" => {
+            let flights = dalembert::quantity::flights(motion)?.into_iter();
+            let row = |flight: dalembert::Flight<N>| {
+                let (time, height) = flight.highest.unzip();
+                [Some(flight.from), flight.to, time, height]
+            };
+            flights.map(row).collect()
+        }
+        _ => {
+            let numbers = |piece: dalembert::StressPiece<N>| [piece.from, piece.to, piece.left, piece.right];
+            motion.stress_pieces().into_iter().map(|piece| numbers(piece).map(Some)).collect()
+        }
     })
 }
