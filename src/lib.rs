@@ -64,6 +64,8 @@ pub mod scene;
 pub mod solve;
 #[doc(hidden)]
 pub mod special;
+#[cfg(feature = "cli")]
+mod sweep;
 
 pub use error::Error;
 pub use first_contact::{Bounce, BounceKind, FirstContact, NoBounceReason, Rebound};

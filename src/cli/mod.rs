@@ -7,6 +7,7 @@ mod sample;
 mod scenes;
 mod solve;
 mod source;
+mod sweep;
 
 use std::path::PathBuf;
 use std::process::ExitCode;
@@ -55,6 +56,8 @@ enum Command {
     Explain(explain::Explain),
     /// What accuracy costs in time: one quantity by every route that can give it
     Cost(cost::Cost),
+    /// Numbers of a scene over a grid of its values, on all cores
+    Sweep(sweep::Sweep),
     /// Hard cases and the paper's claims, worked out by every route and held against the truth
     Check(check::Check),
     /// List the built-in scenes, or print one
@@ -77,6 +80,7 @@ pub fn run(cli: Cli) -> Result<ExitCode, Failure> {
         Command::Sample(command) => command.run(),
         Command::Explain(command) => command.run(),
         Command::Cost(command) => command.run(),
+        Command::Sweep(command) => command.run(),
         Command::Check(command) => return command.run(),
         Command::Scenes(command) => command.run(),
         Command::Man => {

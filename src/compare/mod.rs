@@ -26,5 +26,6 @@ mod truth;
 mod value;
 
 pub(crate) use quantity::{Quantity, Question};
-pub(crate) use route::plan;
+pub(crate) use route::{asked, plan};
 pub(crate) use truth::RightDigits;
+pub(crate) use value::{NoAnswer, System};

@@ -76,7 +76,7 @@ pub fn samples_csv<S: Scalar>(samples: &[Sample<S>], quantity: Quantity, head: &
     write(&header, rows.collect())
 }
 
-fn write(header: &[&str], rows: Vec<Vec<String>>) -> Result<String, csv::Error> {
+pub(super) fn write(header: &[&str], rows: Vec<Vec<String>>) -> Result<String, csv::Error> {
     let mut writer = csv::Writer::from_writer(Vec::new());
     writer.write_record(header)?;
     for row in rows {

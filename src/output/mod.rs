@@ -8,6 +8,7 @@ mod json;
 #[cfg(feature = "plot")]
 mod picture;
 mod record;
+mod sweep;
 mod table;
 
 pub(crate) use check::{check_json, check_page, check_summary, check_table};
@@ -19,4 +20,6 @@ pub use json::{SCHEMA, history_json, samples_json};
 #[cfg(feature = "plot")]
 pub(crate) use picture::{cost_svg, png};
 pub use record::{Finished, Head, Quantity, Record, Sample, record, sample};
+pub(crate) use record::{bound_json, json as number_json};
+pub(crate) use sweep::{sweep_csv, sweep_json, sweep_npz, sweep_table};
 pub use table::{LEGEND, history_table, samples_table, table};

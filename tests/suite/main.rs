@@ -43,6 +43,8 @@ mod scene_properties;
 #[cfg(feature = "mp")]
 mod snapshots_stress;
 mod stripped;
+#[cfg(feature = "cli")]
+mod sweep;
 mod three_routes;
 #[cfg(feature = "mp")]
 mod undamped_bounds;
