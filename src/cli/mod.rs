@@ -3,6 +3,7 @@
 mod check;
 mod cost;
 mod explain;
+mod regimes;
 mod sample;
 mod scenes;
 mod solve;
@@ -58,6 +59,8 @@ enum Command {
     Cost(cost::Cost),
     /// Numbers of a scene over a grid of its values, on all cores
     Sweep(sweep::Sweep),
+    /// When and whether the first contact ends, over all dampings and impact speeds
+    Regimes(regimes::Regimes),
     /// Hard cases and the paper's claims, worked out by every route and held against the truth
     Check(check::Check),
     /// List the built-in scenes, or print one
@@ -81,6 +84,7 @@ pub fn run(cli: Cli) -> Result<ExitCode, Failure> {
         Command::Explain(command) => command.run(),
         Command::Cost(command) => command.run(),
         Command::Sweep(command) => command.run(),
+        Command::Regimes(command) => command.run(),
         Command::Check(command) => return command.run(),
         Command::Scenes(command) => command.run(),
         Command::Man => {

@@ -8,6 +8,7 @@ mod json;
 #[cfg(feature = "plot")]
 mod picture;
 mod record;
+mod regimes;
 mod sweep;
 mod table;
 
@@ -21,5 +22,6 @@ pub use json::{SCHEMA, history_json, samples_json};
 pub(crate) use picture::{cost_svg, png};
 pub use record::{Finished, Head, Quantity, Record, Sample, record, sample};
 pub(crate) use record::{bound_json, json as number_json};
+pub(crate) use regimes::{regimes_csv, regimes_npz, regimes_svg, regimes_text, threshold_csv};
 pub(crate) use sweep::{sweep_csv, sweep_json, sweep_npz, sweep_table};
 pub use table::{LEGEND, history_table, samples_table, table};

@@ -5,14 +5,17 @@
 //! | `grid` | which values are varied, and the problem of each point |
 //! | `point` | what is asked of a point, and its answer |
 //! | `journal` | finished points on disk, so that an interrupted sweep goes on |
+//! | `regimes` | how the first contact ends, over all dampings and speeds |
 
 mod grid;
 mod journal;
 mod point;
+mod regimes;
 
 pub(crate) use grid::{Axis, Grid, SweepError};
 pub(crate) use journal::Journal;
 pub(crate) use point::{Asked, Cell, Point};
+pub(crate) use regimes::{Map, Regime, threshold};
 
 use rayon::prelude::*;
 use std::ops::Range;

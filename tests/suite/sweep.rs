@@ -8,7 +8,11 @@ use serde_json::Value;
 
 /// Standard output, or what standard error says in one line of a run that is refused with code 2.
 fn run(args: &[&str]) -> Result<String, String> {
-    let output = Command::new(env!("CARGO_BIN_EXE_dalembert")).arg("sweep").args(args).output().unwrap();
+    dalembert(&[&["sweep"], args].concat())
+}
+
+fn dalembert(args: &[&str]) -> Result<String, String> {
+    let output = Command::new(env!("CARGO_BIN_EXE_dalembert")).args(args).output().unwrap();
     let text = |bytes| String::from_utf8(bytes).unwrap();
     if output.status.success() {
         return Ok(text(output.stdout));
@@ -111,4 +115,34 @@ fn what_is_no_sweep_is_said() {
     assert!(said(&["--vary", "rod.damping=0", "--shard", "3/2"]).contains("expected I/N such as 3/8"));
     assert!(said(&["--vary", "rod.damping=0", "--time", "-1"]).contains("time"));
     assert!(said(&["--vary", "rod.damping=0", "-o", "x.xlsx"]).contains("found the ending .xlsx"));
+}
+
+#[test]
+fn the_map_of_regimes_is_the_same_from_any_number_of_threads() {
+    let folder = tempfile::tempdir().unwrap();
+    let map = |threads: &str, ending: &str| {
+        let path = folder.path().join(format!("map-{threads}.{ending}")).to_str().unwrap().to_string();
+        let range = ["regimes", "--damping-ratio", "0..4:21", "--speed-ratio", "0.1..10:17:log", "--threads", threads];
+        dalembert(&[&range[..], &["-o", &path]].concat()).unwrap();
+        std::fs::read(path).unwrap()
+    };
+    let csv = String::from_utf8(map("1", "csv")).unwrap();
+    // R = π and more: none; the last M at R = 0: (2.32) with I₀ = 1, I₁ = 0 says M > 1.
+    assert_eq!(csv.lines().filter(|line| line.starts_with("3.2,") && line.ends_with(",,no bounce")).count(), 17);
+    assert!(
+        csv.contains("\n0,10,1.0,bounce\n")
+            && csv.starts_with("damping_ratio,speed_ratio,bounce_ratio,regime\n0,0.1,1.9")
+    );
+    for ending in ["csv", "npz", "svg"] {
+        assert_eq!(map("1", ending), map("3", ending), "{ending}");
+    }
+    #[cfg(feature = "plot")]
+    assert!(map("2", "png").starts_with(b"\x89PNG"));
+    let curve = dalembert(&["regimes", "--curve", "--damping-ratio", "0..2:3"]).unwrap();
+    // (I₀(1) + I₁(1))/(2 − I₀(1)) = (1.2660658777520084 + 0.5651591039924851)/0.7339341222479916.
+    assert!(curve.starts_with("damping_ratio,threshold\n0,1.0\n1,2.495080") && curve.ends_with("\n2,\n"), "{curve}");
+    let said = |args: &[&str]| dalembert(&[&["regimes"], args].concat()).unwrap_err();
+    assert!(said(&["--damping-ratio", "1"]).contains("expected two values or more that increase"));
+    assert!(said(&["--speed-ratio", "0..1:5"]).contains("M from above zero"));
+    assert!(said(&["-o", "map.txt"]).contains("expected a file that ends in .svg, .png, .csv or .npz"));
 }
