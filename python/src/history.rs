@@ -159,7 +159,8 @@ impl History {
     }
 
     fn warnings(&self) -> Vec<String> {
-        let mut warnings = each!(&*self.solution, |history, _digits| history.warnings());
+        let warnings = each!(&*self.solution, |history, _digits| history.warnings());
+        let mut warnings: Vec<String> = warnings.iter().map(ToString::to_string).collect();
         if let Solution::DigitsAfter(_, digits, end) = &*self.solution {
             warnings.insert(0, format!("{end}; what follows is in {digits} digits"));
         }
