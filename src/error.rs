@@ -127,6 +127,15 @@ pub enum Error {
     /// The rays of a damped rod.
     #[error("found the rays of a damped rod asked for, expected an undamped one: only there jumps travel unchanged")]
     NoRays,
+    /// A grid for averages or projections.
+    #[error("found {found}, expected a grid of two points or more that increase")]
+    Grid {
+        /// What is no grid.
+        found: String,
+    },
+    /// The travelling waves of a damped rod.
+    #[error("found a damped rod, expected an undamped one: only there the solution is piecewise polynomial")]
+    NoWaves,
     /// A contact that the history does not have.
     #[error("found contact {contact} asked for, expected one of the {found} that the history has, counted from 0")]
     NoContact {

@@ -6,9 +6,10 @@ use crate::error::Error;
 use crate::motion::{Contact, Ending, Energy, Event, Field, Motion, Scales, Side, StressHistory};
 use crate::number::{Answer, Scalar};
 use crate::problem::Problem;
-use crate::quantity::{self, Column, EnergyShares, Flight, Restitution, energy_shares, flights, restitution};
+use crate::quantity::{self, Column, EnergyShares, Flight, Restitution, Slice, energy_shares, flights, restitution};
 use crate::ray::Ray;
 use crate::solve::{Attempt, Ladder, Numbers, Observer, Plan, Question, Rung, Target, unobserved};
+use crate::wave::Waves;
 
 /// The motion of a rod: its impacts and releases, and the values of every quantity at any time, in numbers `S`.
 ///
@@ -237,7 +238,50 @@ impl<S: Target> History<S> {
     ) -> Result<Vec<Vec<S::Carried>>, Error> {
         let query = |engine: &dyn Motion<S::Carried>| {
             let table = quantity::columns(engine, &self.ladder.problem, columns, &times(engine)?, side)?;
-            let scaled = quantity::of_one_size(engine, &self.ladder.problem, columns, &table);
+            let natural = quantity::natural_scales(engine, &self.ladder.problem, columns);
+            let scaled = quantity::of_one_size(&table, &natural);
+            Ok((table, scaled))
+        };
+        Ok(self.ask(query, |(_, scaled)| scaled.iter().collect())?.0)
+    }
+
+    /// `t`, `side`, `x`, `v`, `v_t`, `v_x` on the grid `points` at every time of `times`, column by column: values at
+    /// the points, means over the cells between them, or nodal values of a projection. Sides as in
+    /// [`History::columns`].
+    ///
+    /// **Accuracy**: that of the [`Plan`], each column by itself.
+    ///
+    /// **Errors**: [`Error::NoWaves`] for means and projections of a damped rod; [`Error::Grid`].
+    ///
+    /// ```
+    /// use dalembert::{Problem, Slice};
+    /// let rod = Problem::builder().length(1).wave_speed(1).impact_speed(2).build()?;
+    /// // At t = 1/4 the strain is −2 below x = 1/4 and 0 above.
+    /// let slice = rod.solve()?.slices(Slice::Averages, &[0.0, 0.5, 1.0], &[0.25], None)?;
+    /// assert_eq!(slice[5], [-1.0, 0.0]);
+    /// # Ok::<(), dalembert::Error>(())
+    /// ```
+    pub fn slices(&self, slice: Slice, points: &[S], times: &[S], side: Option<Side>) -> Result<Vec<Vec<S>>, Error> {
+        let carry = |list: &[S]| list.iter().map(Answer::carry).collect::<Vec<_>>();
+        let (points, times) = (carry(points), carry(times));
+        let table = self.ask_slices(slice, side, |_| Ok((points.clone(), times.clone())))?;
+        Ok(table.into_iter().map(|column| column.into_iter().map(S::strip).collect()).collect())
+    }
+
+    /// [`History::slices`] in numbers that carry their bound, at points and times in the numbers of the engine.
+    pub(crate) fn ask_slices(
+        &self,
+        slice: Slice,
+        side: Option<Side>,
+        grid: impl Fn(&dyn Motion<S::Carried>) -> Result<(Vec<S::Carried>, Vec<S::Carried>), Error>,
+    ) -> Result<Vec<Vec<S::Carried>>, Error> {
+        let columns =
+            [Column::Time, Column::Side, Column::Time, Column::EndDisplacement, Column::EndVelocity, Column::Strain];
+        let query = |engine: &dyn Motion<S::Carried>| {
+            let (points, times) = grid(engine)?;
+            let table = quantity::slices(engine, slice, &points, &times, side)?;
+            let natural = quantity::natural_scales(engine, &self.ladder.problem, &columns);
+            let scaled = quantity::of_one_size(&table, &natural);
             Ok((table, scaled))
         };
         Ok(self.ask(query, |(_, scaled)| scaled.iter().collect())?.0)
@@ -269,6 +313,18 @@ impl<S: Target> History<S> {
     pub fn rays(&self, trip: usize) -> Result<Vec<Ray<S>>, Error> {
         let rays = self.ask(|motion| motion.rays(trip), |rays| rays.iter().map(|ray| &ray.from).collect())?;
         Ok(rays.into_iter().map(|ray| ray.map(S::strip)).collect())
+    }
+
+    /// The whole solution as two travelling waves: a piecewise quadratic function of one variable.
+    ///
+    /// **Errors**: [`Error::NoWaves`] under damping; [`Error::TooManyPieces`].
+    pub fn waves(&self) -> Result<Waves<S>, Error> {
+        Ok(self.ask_waves()?.map(S::strip))
+    }
+
+    /// [`History::waves`] in numbers that carry their bound.
+    pub(crate) fn ask_waves(&self) -> Result<Waves<S::Carried>, Error> {
+        self.ask(|engine| engine.waves(), |waves| waves.numbers().collect())
     }
 
     /// The natural scales of the motion.

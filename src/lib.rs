@@ -66,6 +66,7 @@ pub mod solve;
 pub mod special;
 #[cfg(feature = "cli")]
 mod sweep;
+mod wave;
 
 pub use error::Error;
 pub use first_contact::{Bounce, BounceKind, FirstContact, NoBounceReason, Rebound};
@@ -78,15 +79,16 @@ pub use paper::UndampedContact;
 pub use problem::{
     Dimensionless, Material, Parameters, Problem, ProblemError, ProblemErrorKind, Profile, Rod, Run, Speed, Start, Top,
 };
-pub use quantity::{Column, EnergyShares, Flight, Measure, Restitution, Undefined, UnitSystem, Units};
+pub use quantity::{Column, EnergyShares, Flight, Measure, Restitution, Slice, Undefined, UnitSystem, Units};
 pub use ray::{Ray, reflection};
 #[cfg(feature = "mp")]
 pub use rug;
-pub use scene::{Effect, EffectUse, Scene, SceneError, SceneErrorKind};
+pub use scene::{Effect, EffectUse, Scene, SceneError, SceneErrorKind, Target, TargetQuantity};
 pub use solve::{
     CERTIFIED_DIGITS, DEFAULT_ACCURACY, Engine, ExactnessEnd, Numbers, Observer, Plan, Question, Reach, Rung, Solution,
     Want,
 };
+pub use wave::{Stretch, WavePiece, Waves};
 
 #[cfg(doctest)]
 #[doc = include_str!("../README.md")]

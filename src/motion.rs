@@ -7,6 +7,7 @@ use serde::{Serialize, Serializer};
 use crate::error::Error;
 use crate::number::Scalar;
 use crate::ray::Ray;
+use crate::wave::{Stretch, Waves};
 
 /// Writes a number as JSON has it: a number for a double, a text for all others.
 fn number<S: Scalar, Z: Serializer>(x: &S, z: Z) -> Result<Z::Ok, Z::Error> {
@@ -460,6 +461,27 @@ pub trait Motion<S: Scalar>: fmt::Debug + Send + Sync {
     fn rays(&self, trip: usize) -> Result<Vec<Ray<S>>, Error> {
         let _ = trip;
         Err(Error::NoRays)
+    }
+
+    /// The rod at a time, in stretches between the rays.
+    ///
+    /// **Errors**: [`Error::NoWaves`] under damping.
+    fn stretches(&self, time: &S) -> Result<Vec<Stretch<S>>, Error> {
+        let _ = time;
+        Err(Error::NoWaves)
+    }
+
+    /// Whether the two limits in time of anything at the ends may differ: `false` where no ray is there.
+    fn may_jump(&self, time: &S) -> Result<bool, Error> {
+        let _ = time;
+        Ok(true)
+    }
+
+    /// The whole solution as two travelling waves.
+    ///
+    /// **Errors**: [`Error::NoWaves`] under damping.
+    fn waves(&self) -> Result<Waves<S>, Error> {
+        Err(Error::NoWaves)
     }
 
     /// The natural scales of the motion.

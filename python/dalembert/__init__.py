@@ -24,7 +24,7 @@ import numpy as np
 
 from . import _core
 
-__all__ = ["Energy", "Field", "History", "Motion", "Problem", "scenes", "solve"]
+__all__ = ["Energy", "Field", "History", "Motion", "Problem", "reference", "scenes", "solve"]
 __version__ = _version("dalembert")
 
 Number = Union[int, float, Fraction, Decimal, str]
@@ -50,7 +50,7 @@ class Problem:
     """A rod, the ground and the start, in exact numbers, checked.
 
     ``length`` and ``wave_speed`` (or ``modulus``, ``density`` and ``area``) are the rod; ``damping`` is the ``r`` of
-    the equation, ``top`` is "free" or "fixed"; the start is an ``impact_speed``, a ``drop_height``, or
+    the equation, ``top`` is "free" or "fixed"; the start is an ``impact_speed`` (above a ``gap`` or none), a ``drop_height``, or
     ``displacement`` and ``velocity`` as points ``(x, value)``. It is followed up to ``time``, or through a number of
     ``impacts``; without either, through the first contact and the flight after it.
 
@@ -74,6 +74,7 @@ class Problem:
         damping: Number | None = None,
         gravity: Number | None = None,
         impact_speed: Number | None = None,
+        gap: Number | None = None,
         drop_height: Number | None = None,
         top: Literal["free", "fixed"] | None = None,
         displacement: Points | None = None,
@@ -173,6 +174,29 @@ def solve(
     return problem.solve(digits=digits, exact=exact, certified=certified, accuracy=accuracy)
 
 
+def reference(
+    scene: str | os.PathLike[str] | Problem,
+    times: Numbers,
+    columns: Sequence[str] = ("t", "side", "u_end", "v_end", "strain", "force", "h", "h_rate", "E_total"),
+    side: Side | None = None,
+    **numbers: Any,
+) -> Any:
+    """Columns at ``times`` by the names of :meth:`History.columns`, as a DataFrame where pandas is there, and as a
+    dict of arrays elsewhere; ``numbers`` are the options of :func:`solve`.
+
+    >>> list(reference("paper-strong", [0.5, 2], ["t", "strain"])["strain"])
+    [-3.5, -5.0, 0.0]
+    """
+    last = max(map(Fraction, np.asarray(times, dtype=object).ravel().tolist()))
+    history = solve(scene, to=last if last > 0 else None, **numbers)
+    table = history.columns(columns, times, side)
+    try:
+        from pandas import DataFrame
+    except ImportError:
+        return table
+    return DataFrame(table)
+
+
 def _fraction(text: str) -> Fraction:
     # By way of Decimal: int() refuses texts of more than 4300 digits.
     numerator, _, denominator = text.partition("/")
@@ -246,9 +270,9 @@ class History:
 
     @cached_property
     def contacts(self) -> np.ndarray:
-        """Times on the ground: ``from``, ``to``, ``impulse`` per linear density, and the ``peak_stress``, which is the
+        """Times on the ground: ``from``, ``to``, ``impulse`` per linear density, and the ``peak_strain``, which is the
         most compressive ``v_x(0,t)``."""
-        return self._table("contacts", "from to impulse peak_stress")
+        return self._table("contacts", "from to impulse peak_strain")
 
     @cached_property
     def restitution(self) -> np.ndarray:

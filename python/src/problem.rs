@@ -147,6 +147,7 @@ fn set(mut builder: Builder, values: &Bound<'_, PyDict>) -> PyResult<Builder> {
             "damping" => builder.damping(number()?),
             "gravity" => builder.gravity(number()?),
             "impact_speed" => builder.impact_speed(number()?),
+            "gap" => builder.gap(number()?),
             "drop_height" => builder.drop_height(number()?),
             "time" => builder.time(number()?),
             "impacts" => builder.impacts(whole(name, &value)?),
@@ -172,5 +173,5 @@ fn set(mut builder: Builder, values: &Bound<'_, PyDict>) -> PyResult<Builder> {
     }
 }
 
-const KNOWN: &str = "one of length, wave_speed, modulus, density, area, damping, gravity, impact_speed, drop_height, top, \
+const KNOWN: &str = "one of length, wave_speed, modulus, density, area, damping, gravity, impact_speed, gap, drop_height, top, \
     displacement, velocity, time, impacts";

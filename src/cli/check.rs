@@ -8,6 +8,7 @@ use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 
 use super::{Failure, source};
 use crate::compare::check::{CATALOGUE, Case, Checked, Group, Verdict, select};
+use crate::compare::published;
 use crate::output::{check_json, check_page, check_summary, check_table, write_whole};
 
 /// The catalogue of hard cases and of the paper's claims, worked out now by every route and held against the truth
@@ -15,7 +16,7 @@ use crate::output::{check_json, check_page, check_summary, check_table, write_wh
 #[command(after_help = "Examples:\n  dalembert check\n  dalembert check --only late --only figure-4\n  \
     dalembert check --format markdown -o docs/check.md\n\nThe exit code is 1 if any promise is not kept.")]
 pub(super) struct Check {
-    /// A case or a group; can be given several times
+    /// A case or a group, or `targets` for the published values of the built-in scenes; can be given several times
     #[arg(long, value_name = "NAME")]
     only: Vec<String>,
     /// Print one line a case, and how many came to each verdict
@@ -29,6 +30,9 @@ pub(super) struct Check {
     output: Option<PathBuf>,
 }
 
+/// The published values among the names of groups.
+const TARGETS: &str = "targets";
+
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 enum Shape {
     /// For a person: answers, digits and times
@@ -41,8 +45,12 @@ enum Shape {
 
 impl Check {
     pub(super) fn run(&self) -> Result<ExitCode, Failure> {
-        let groups = select(&self.only).map_err(|name| {
-            let groups = CATALOGUE.map(|group| group.name).join(", ");
+        let (targets, cases): (Vec<&String>, Vec<&String>) = self.only.iter().partition(|name| *name == TARGETS);
+        let everything = self.only.is_empty();
+        let cases: Vec<String> = cases.into_iter().cloned().collect();
+        let groups = if everything || !cases.is_empty() { select(&cases) } else { Ok(Vec::new()) };
+        let groups = groups.map_err(|name| {
+            let groups = CATALOGUE.map(|group| group.name).join(", ") + ", " + TARGETS;
             let cases: Vec<&str> = CATALOGUE.iter().flat_map(|group| group.cases).map(|case| case.name).collect();
             miette::miette!("found --only {name}, expected a group ({groups}) or a case ({})", cases.join(", "))
         })?;
@@ -61,14 +69,17 @@ impl Check {
         let groups = groups.into_iter().map(|(group, cases)| (group, cases.into_iter().map(run).collect()));
         let checked: Vec<(Group, Vec<Checked>)> = groups.collect();
         bar.finish_and_clear();
+        let published = if everything || !targets.is_empty() { published()? } else { Vec::new() };
         let text = match self.format {
-            Shape::Table if self.summary => check_summary(&checked),
-            Shape::Table => check_table(&checked),
-            Shape::Json => format!("{:#}\n", check_json(&checked)),
-            Shape::Markdown => check_page(&checked),
+            Shape::Table if self.summary => check_summary(&checked, &published),
+            Shape::Table => check_table(&checked, &published),
+            Shape::Json => format!("{:#}\n", check_json(&checked, &published)),
+            Shape::Markdown => check_page(&checked, &published),
         };
         write_whole(self.output.as_deref(), text.as_bytes()).map_err(source::cannot("write the catalogue"))?;
         let failed = checked.iter().flat_map(|(_, cases)| cases).any(|case| case.verdict == Verdict::Failed);
+        let failed =
+            failed || published.iter().flat_map(|published| &published.reached).any(|reached| !reached.agrees());
         Ok(if failed { ExitCode::from(1) } else { ExitCode::SUCCESS })
     }
 }

@@ -3,12 +3,15 @@
 mod check;
 mod cost;
 mod explain;
+mod list;
+mod reference;
 mod regimes;
 mod sample;
 mod scenes;
 mod solve;
 mod source;
 mod sweep;
+mod times;
 
 use std::path::PathBuf;
 use std::process::ExitCode;
@@ -20,7 +23,8 @@ use crate::history::History;
 use crate::motion::{Ending, Motion};
 use crate::number::{Number, Scalar};
 use crate::output::{Head, SCHEMA, write_whole};
-use crate::problem::{Material, Parameters};
+use crate::problem::Parameters;
+use crate::quantity::Units;
 use crate::scene::{Effect, Scene};
 use crate::solve::{CERTIFIED_DIGITS, ExactnessEnd, Numbers, Plan, Question, Solution, Target};
 
@@ -53,6 +57,8 @@ enum Command {
     Solve(solve::Solve),
     /// Values of a quantity at chosen times
     Sample(sample::Sample),
+    /// Golden files: all quantities at chosen times as CSV, JSON or NPZ, or the exact solution as a function
+    Reference(reference::Reference),
     /// The plan: which effects a scene calls for, which engine and numbers solve it, and what is left out
     Explain(explain::Explain),
     /// What accuracy costs in time: one quantity by every route that can give it
@@ -63,7 +69,7 @@ enum Command {
     Regimes(regimes::Regimes),
     /// Hard cases and the paper's claims, worked out by every route and held against the truth
     Check(check::Check),
-    /// List the built-in scenes, or print one
+    /// List the built-in scenes, print one, or hold it against what others have published
     Scenes(scenes::Scenes),
     /// Print the manual page, for `man -l -`
     Man,
@@ -81,6 +87,7 @@ pub fn run(cli: Cli) -> Result<ExitCode, Failure> {
     let done = match cli.command {
         Command::Solve(command) => command.run(),
         Command::Sample(command) => command.run(),
+        Command::Reference(command) => command.run(),
         Command::Explain(command) => command.run(),
         Command::Cost(command) => command.run(),
         Command::Sweep(command) => command.run(),
@@ -190,21 +197,17 @@ impl OutputArgs {
 }
 
 /// What stands above the numbers of a scene.
-fn head(scene: &Scene, plan: &Plan, output: &OutputArgs) -> Head {
-    let line_density = match &scene.problem.rod.material {
-        Material::Elastic { density, area, .. } => Some((density.clone(), area.clone())),
-        Material::WaveSpeed(_) => None,
-    };
+fn head(scene: &Scene, plan: &Plan) -> Head {
     let called = scene.called_effects().into_iter().map(Effect::name).collect();
     Head {
         title: scene.title.clone(),
         number: plan.numbers.to_string(),
         effects: called,
         parameters: parameters(scene),
-        wide: output.wide,
-        legend: output.legend,
+        wide: false,
+        legend: false,
         digits: 0,
-        line_density,
+        units: Units::of(&scene.problem, scene.units),
         warnings: Vec::new(),
         exact_until: None,
     }
@@ -240,41 +243,77 @@ trait Report {
     }
 }
 
+/// An error of a question about a time, with what the history ends for.
+fn refuse_time(error: Error, ending: &Ending) -> Failure {
+    match (ending, &error) {
+        (Ending::ExactnessEnds { .. }, Error::TimeOutside { found, .. }) => {
+            miette::miette!(
+                help = "expected times before it, or --digits N as well, to go on from there in digits",
+                "found time {found}, but {ending}"
+            )
+        }
+        (ending, Error::TimeOutside { found, end }) if !matches!(ending, Ending::Time) => {
+            miette::miette!("found time {found}, expected times up to t = {end}: {ending}")
+        }
+        _ => error.into(),
+    }
+}
+
+/// What is done with a history, in any number system.
+trait Visit {
+    fn visit<S: Target>(&self, history: &History<S>, head: Head, progress: source::Progress) -> Result<(), Failure>;
+}
+
+/// A report, and what it looks like.
+struct Printed<'a, R>(&'a R, &'a OutputArgs);
+
+impl<R: Report> Visit for Printed<'_, R> {
+    fn visit<S: Target>(&self, history: &History<S>, head: Head, progress: source::Progress) -> Result<(), Failure> {
+        let Printed(report, OutputArgs { wide, legend, .. }) = *self;
+        let head = Head { wide: *wide, legend: *legend, ..head };
+        let gathered = history.ask(|motion| report.gather(motion, &head), |data| report.numbers(data));
+        drop(progress);
+        let data = gathered.map_err(|error| report.refuse(error, history.ending()))?;
+        report.print(&data, &warned(history, head))
+    }
+}
+
+/// The head with the warnings of the history, which are printed.
+fn warned<S: Target>(history: &History<S>, head: Head) -> Head {
+    let head = Head { warnings: history.warnings(), ..head };
+    for warning in &head.warnings {
+        eprintln!("warning: {warning}");
+    }
+    head
+}
+
 /// Answers `question` of `scene`, and prints what `report` makes of the answer.
 fn answer(scene: &Scene, question: &Question, output: &OutputArgs, report: &impl Report) -> Result<(), Failure> {
+    solve(scene, question, &Printed(report, output))
+}
+
+/// Solves `scene` for `question`, and hands the history over.
+fn solve(scene: &Scene, question: &Question, visit: &impl Visit) -> Result<(), Failure> {
     let plan = Plan::of(&scene.problem, question)?;
-    let head = head(scene, &plan, output);
+    let head = head(scene, &plan);
     let progress = source::Progress::of(scene, &plan);
     let solution = plan.solve(&scene.problem, progress.observer())?;
-    let digits = |digits: u32, head: Head| Head { digits, ..head };
     match &solution {
-        Solution::Double(motion) => print(motion, report, &head, progress),
-        Solution::Exact(motion) => print(motion, report, &head, progress),
-        Solution::Certified(motion, n) => print(motion, report, &digits(*n, head), progress),
-        Solution::Digits(motion, n) => print(motion, report, &digits(*n, head), progress),
-        Solution::DigitsAfter(motion, n, end) => {
-            eprintln!("note: {end}; what follows is in {n} digits");
+        Solution::Double(motion) => visit.visit(motion, head, progress),
+        Solution::Exact(motion) => visit.visit(motion, head, progress),
+        Solution::Certified(motion, digits) => visit.visit(motion, Head { digits: *digits, ..head }, progress),
+        Solution::Digits(motion, digits) => visit.visit(motion, Head { digits: *digits, ..head }, progress),
+        Solution::DigitsAfter(motion, digits, end) => {
+            eprintln!("note: {end}; what follows is in {digits} digits");
             let exact_until = match end {
                 ExactnessEnd::Event(ending) => Some(ending.clone()),
                 ExactnessEnd::Parameter { .. } => None,
             };
-            print(motion, report, &Head { digits: *n, number: format!("{n} digits"), exact_until, ..head }, progress)
+            visit.visit(
+                motion,
+                Head { digits: *digits, number: format!("{digits} digits"), exact_until, ..head },
+                progress,
+            )
         }
     }
-}
-
-fn print<S: Target>(
-    motion: &History<S>,
-    report: &impl Report,
-    head: &Head,
-    progress: source::Progress,
-) -> Result<(), Failure> {
-    let gathered = motion.ask(|history| report.gather(history, head), |data| report.numbers(data));
-    drop(progress);
-    let data = gathered.map_err(|error| report.refuse(error, motion.ending()))?;
-    let head = Head { warnings: motion.warnings(), ..head.clone() };
-    for warning in &head.warnings {
-        eprintln!("warning: {warning}");
-    }
-    report.print(&data, &head)
 }

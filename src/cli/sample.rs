@@ -2,10 +2,11 @@
 
 use clap::Args;
 
-use super::{Failure, Format, NumberArgs, OutputArgs, Report, answer, source};
+use super::list::{List, list};
+use super::{Failure, Format, NumberArgs, OutputArgs, Report, answer, refuse_time, source};
 use crate::error::Error;
 use crate::motion::{Ending, Motion, Side};
-use crate::number::{Number, Scalar};
+use crate::number::Scalar;
 use crate::output::{self, Head, Quantity, sample, samples_csv, samples_json, samples_table};
 use crate::solve::Question;
 
@@ -35,63 +36,6 @@ pub(super) struct Sample {
     numbers: NumberArgs,
     #[command(flatten)]
     output: OutputArgs,
-}
-
-/// The most values that one range may hold.
-const MAX_VALUES: u32 = 10_000_000;
-
-/// Numbers, or equally spaced ones.
-#[derive(Clone, Debug)]
-enum List {
-    Numbers(Vec<Number>),
-    Range(Number, Number, u32),
-}
-
-fn list(text: &str) -> Result<List, String> {
-    let number = |text: &str| text.parse::<Number>().map_err(|error| error.to_string());
-    let Some((from, rest)) = text.split_once("..") else {
-        return Ok(List::Numbers(text.split(',').map(number).collect::<Result<_, _>>()?));
-    };
-    let (to, count) = rest.split_once(':').ok_or_else(|| format!("found `{text}`, expected A..B:N"))?;
-    let count: u32 = count.trim().parse().map_err(|_| format!("found a count `{count}`, expected a whole number"))?;
-    if !(2..=MAX_VALUES).contains(&count) {
-        return Err(format!("found a count of {count}, expected 2 to {MAX_VALUES}"));
-    }
-    Ok(List::Range(number(from)?, number(to)?, count))
-}
-
-impl List {
-    fn greatest(&self) -> Option<Number> {
-        let greater = |a: Number, b: &Number| if b.to_f64() > a.to_f64() { b.clone() } else { a };
-        match self {
-            List::Numbers(numbers) => numbers.iter().cloned().reduce(|a, b| greater(a, &b)),
-            List::Range(from, to, _) => Some(greater(from.clone(), to)),
-        }
-    }
-
-    fn least(&self) -> Option<Number> {
-        let less = |a: Number, b: &Number| if b.to_f64() < a.to_f64() { b.clone() } else { a };
-        match self {
-            List::Numbers(numbers) => numbers.iter().cloned().reduce(|a, b| less(a, &b)),
-            List::Range(from, to, _) => Some(less(from.clone(), to)),
-        }
-    }
-
-    fn lift<S: Scalar>(&self, precision: &S::Precision) -> Vec<S> {
-        match self {
-            List::Numbers(numbers) => numbers.iter().map(|number| S::from_number(number, precision)).collect(),
-            List::Range(from, to, count) => {
-                let (from, to) = (S::from_number(from, precision), S::from_number(to, precision));
-                let steps = i64::from(*count) - 1;
-                let inner = |k: i64| (from.clone() * from.int(steps - k) + to.clone() * to.int(k)) / from.int(steps);
-                // Both ends are met exactly: the last is where the history ends.
-                let mut times: Vec<S> = (0..steps).map(inner).collect();
-                times[0] = from.clone();
-                times.push(to.clone());
-                times
-            }
-        }
-    }
 }
 
 impl Sample {
@@ -125,18 +69,7 @@ impl Report for Sample {
     }
 
     fn refuse(&self, error: Error, ending: &Ending) -> Failure {
-        match (ending, &error) {
-            (Ending::ExactnessEnds { .. }, Error::TimeOutside { found, .. }) => {
-                miette::miette!(
-                    help = "expected times before it, or --digits N as well, to go on from there in digits",
-                    "found time {found}, but {ending}"
-                )
-            }
-            (ending, Error::TimeOutside { found, end }) if !matches!(ending, Ending::Time) => {
-                miette::miette!("found time {found}, expected times up to t = {end}: {ending}")
-            }
-            _ => error.into(),
-        }
+        refuse_time(error, ending)
     }
 
     fn numbers<'a, S: Scalar>(&self, samples: &'a Self::Data<S>) -> Vec<&'a S> {

@@ -2,19 +2,41 @@
 
 use clap::Args;
 
-use super::{Failure, source};
-use crate::output::{table, write_whole};
-use crate::scene::builtin;
+use super::{Failure, Format, OutputArgs, Report, answer, source};
+use crate::compare::Reached;
+use crate::error::Error;
+use crate::motion::Motion;
+use crate::number::{Number, Scalar};
+use crate::output::{Head, table, targets_csv, targets_json, targets_table};
+use crate::scene::{Target, builtin};
+use crate::solve::{Numbers, Question};
 
-/// List the built-in scenes, or print one
+/// List the built-in scenes, print one, or hold it against what others have published
 #[derive(Args, Debug)]
+#[command(
+    after_help = "Examples:\n  dalembert scenes ansys-vm265\n  dalembert scenes ansys-vm265 --targets --format json"
+)]
 pub(super) struct Scenes {
-    /// The scene to print
+    /// The scene to print; with --targets also a scene file, or `-`
     name: Option<String>,
+    /// Print the published values of the scene, its [[target]]s, beside ours
+    #[arg(long, requires = "name")]
+    targets: bool,
+    #[command(flatten)]
+    output: OutputArgs,
 }
 
 impl Scenes {
     pub(super) fn run(&self) -> Result<(), Failure> {
+        if let (true, Some(name)) = (self.targets, &self.name) {
+            let scene = source::read(name)?;
+            let report = Published { targets: &scene.targets, output: &self.output };
+            let numbers = Numbers::Double(scene.accuracy.as_ref().map(Number::to_f64));
+            return answer(&scene, &Question::run(numbers), &self.output, &report);
+        }
+        if self.output.format.is_some_and(|format| format != Format::Table) {
+            return Err(miette::miette!("found --format, expected it with --targets: a list of scenes is a text"));
+        }
         let text = match &self.name {
             None => {
                 let rows = builtin::ALL.iter().map(|scene| vec![scene.name.to_string(), scene.summary.to_string()]);
@@ -30,6 +52,33 @@ impl Scenes {
                 }
             },
         };
-        Ok(write_whole(None, text.as_bytes()).map_err(source::cannot("write to standard output"))?)
+        self.output.write(&text)
+    }
+}
+
+/// The published values of a scene beside ours.
+struct Published<'a> {
+    targets: &'a [Target],
+    output: &'a OutputArgs,
+}
+
+impl Report for Published<'_> {
+    type Data<S: Scalar> = Vec<Reached<S>>;
+
+    fn gather<S: Scalar>(&self, history: &dyn Motion<S>, head: &Head) -> Result<Self::Data<S>, Error> {
+        Reached::all(history, self.targets, &head.units)
+    }
+
+    /// None: values of very different size would be held to the digits of the greatest.
+    fn numbers<'a, S: Scalar>(&self, _: &'a Self::Data<S>) -> Vec<&'a S> {
+        Vec::new()
+    }
+
+    fn print<S: Scalar>(&self, reached: &Self::Data<S>, head: &Head) -> Result<(), Failure> {
+        match self.output.format()? {
+            Format::Table => self.output.write(&targets_table(reached, head)),
+            Format::Json => self.output.write_json(&targets_json(reached, head)),
+            Format::Csv => self.output.write_csv(targets_csv(reached, head)),
+        }
     }
 }

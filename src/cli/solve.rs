@@ -40,13 +40,13 @@ impl Solve {
 impl Report for Solve {
     type Data<S: Scalar> = Record<S>;
 
-    fn gather<S: Scalar>(&self, history: &dyn Motion<S>, head: &Head) -> Result<Record<S>, Error> {
+    fn gather<S: Scalar>(&self, history: &dyn Motion<S>, _: &Head) -> Result<Record<S>, Error> {
         let stress = match self.output.format() {
             Ok(Format::Json) => true,
             Ok(Format::Csv) => matches!(self.part, Some(Part::Stress)),
             _ => false,
         };
-        record(history, head, stress)
+        record(history, stress)
     }
 
     fn numbers<'a, S: Scalar>(&self, record: &'a Record<S>) -> Vec<&'a S> {

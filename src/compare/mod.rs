@@ -8,6 +8,7 @@
 //! | `account` | the accounts of a motion that can be asked |
 //! | `route` | every route to an answer |
 //! | `truth` | what answers are held against |
+//! | `target` | what others have published of a scene |
 //! | `long` | all that needs numbers longer than doubles |
 //! | [`check`] | the catalogue of hard cases and of the paper's claims |
 //! | [`cost`] | what accuracy and effects cost in time |
@@ -22,10 +23,12 @@ mod long;
 mod long;
 mod quantity;
 mod route;
+mod target;
 mod truth;
 mod value;
 
 pub(crate) use quantity::{Quantity, Question};
 pub(crate) use route::{asked, plan};
+pub(crate) use target::{Published, Reached, published};
 pub(crate) use truth::RightDigits;
 pub(crate) use value::{NoAnswer, System};

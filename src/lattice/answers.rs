@@ -7,6 +7,7 @@ use crate::error::Error;
 use crate::motion::{Contact, Ending, Energy, Event, Field, Motion, Scales, Side, StressPiece};
 use crate::number::Bounded;
 use crate::ray::Ray;
+use crate::wave::{Stretch, Waves};
 
 impl<N: Bounded> Motion<N> for Undamped<N> {
     fn end(&self) -> N {
@@ -142,6 +143,30 @@ impl<N: Bounded> Motion<N> for Undamped<N> {
 
     fn rays(&self, trip: usize) -> Result<Vec<Ray<N>>, Error> {
         Ok(self.rays_of(trip))
+    }
+
+    fn stretches(&self, time: &N) -> Result<Vec<Stretch<N>>, Error> {
+        let moment = self.locate(time)?;
+        let Units { round_trip, velocity, .. } = &self.problem.units;
+        let height = self.height_at(&self.place(&moment, Side::Left)?) * velocity * round_trip;
+        Ok(self.stretches_at(&self.last_trip(&moment)?, height)?)
+    }
+
+    /// What is at the top has left the ground half a round trip before.
+    fn may_jump(&self, time: &N) -> Result<bool, Error> {
+        let now = self.locate(time)?;
+        let before = self.shifted(&now, &-now.age.one().halved())?;
+        for moment in [now, before] {
+            let [left, right] = [self.place(&moment, Side::Left)?, self.place(&moment, Side::Right)?];
+            if (left.index, left.piece) != (right.index, right.piece) {
+                return Ok(true);
+            }
+        }
+        Ok(false)
+    }
+
+    fn waves(&self) -> Result<Waves<N>, Error> {
+        self.travelling()
     }
 
     fn scales(&self) -> Scales<N> {

@@ -17,7 +17,8 @@
 //!
 //! Reading order: `start` (units and start), `trace` (what is stored), `limits` (how far, and why no farther), `march`
 //! (trip after trip), `ground` (contact law and events), `history` (times on the lattice), `events` and `answers` (what
-//! can be asked), `parts` (kinetic and strain energy apart), `rays` (the jumps of Proposition 2).
+//! can be asked), `parts` (kinetic and strain energy apart), `rays` (the jumps of Proposition 2),
+//! `waves` (the whole solution as two travelling waves).
 
 mod answers;
 mod events;
@@ -29,6 +30,7 @@ mod parts;
 mod rays;
 mod start;
 mod trace;
+mod waves;
 
 pub use history::Undamped;
 pub use limits::{Halt, Limits, Until};

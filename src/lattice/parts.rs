@@ -3,11 +3,13 @@
 use std::cmp::Ordering;
 
 use super::history::Undamped;
+use super::start::Units;
 use super::trace::{Part, Place};
 use crate::number::{Bounded, Open};
+use crate::wave::Stretch;
 
 /// A stretch of the rod on which one invariant is linear, in the order of `x`.
-struct Stretch<N> {
+struct One<N> {
     /// What is left of its width, in parts of `2L`.
     width: N,
     /// The value where what is left begins.
@@ -17,17 +19,68 @@ struct Stretch<N> {
     shift: Option<(N, N)>,
 }
 
-impl<N: Bounded> Stretch<N> {
+impl<N: Bounded> One<N> {
     /// What is left of it after `width`.
     fn after(self, width: &N) -> Self {
         let value = self.slope.clone() * width + &self.value;
-        Stretch { width: self.width - width, value, slope: self.slope, shift: None }
+        One { width: self.width - width, value, slope: self.slope, shift: None }
     }
+}
+
+/// A stretch of the rod on which both invariants are linear.
+struct Both<N> {
+    width: N,
+    /// `(p + q)/2` and `(q − p)/2` where it begins, and their slopes.
+    values: [N; 2],
+    slopes: [N; 2],
+    /// Jumps across its beginning, each with the deviation in place.
+    shifts: Vec<(N, N)>,
 }
 
 impl<N: Bounded> Undamped<N> {
     /// `∫ ((p + q)/2)²` and `∫ ((q − p)/2)²` over the rod at the end of a round trip, in parts of `2L`.
-    pub(super) fn squares(&self, [from, until]: &[Place<N>; 2]) -> Result<[N; 2], Open> {
+    pub(super) fn squares(&self, trip: &[Place<N>; 2]) -> Result<[N; 2], Open> {
+        let zero = self.problem.gravity.zero();
+        let mut sums = [zero.clone(), zero.clone()];
+        self.visit_both(trip, |both| {
+            for ((sum, value), slope) in sums.iter_mut().zip(both.values).zip(both.slopes) {
+                let reach = value.magnitude().doubled();
+                let (offset, width) = (zero.clone(), both.width.clone());
+                let part = Part { offset, width, value, slope, shift: None, late_end: None };
+                let mut area = part.square_integral();
+                // [f²] is at most (2|f| + |[f]|) |[f]|; only its size matters, as the deviation has no sign.
+                for (jump, late) in &both.shifts {
+                    let jump = jump.clone().halved().magnitude();
+                    area = area + (reach.clone() + &jump) * jump * late;
+                }
+                *sum = sum.clone() + area;
+            }
+        })?;
+        Ok(sums)
+    }
+
+    /// The rod at a moment, in the units of the scene; `height` is `v(0,t)`.
+    pub(super) fn stretches_at(&self, trip: &[Place<N>; 2], height: N) -> Result<Vec<Stretch<N>>, Open> {
+        let Units { velocity, length, wave_speed, .. } = &self.problem.units;
+        let twice = length.clone().doubled();
+        let rates = [velocity.clone(), velocity.clone() / wave_speed];
+        let (mut from, mut displacement) = (length.zero(), height);
+        let mut stretches = Vec::new();
+        self.visit_both(trip, |both| {
+            let width = both.width * &twice;
+            let [velocity, strain] = std::array::from_fn(|k| {
+                let slope = both.slopes[k].clone() * &rates[k] / &twice;
+                [both.values[k].clone() * &rates[k], slope]
+            });
+            let stretch = Stretch { from: from.clone(), width, displacement: displacement.clone(), velocity, strain };
+            from = from.clone() + &stretch.width;
+            displacement = stretch.displacement_after(&stretch.width);
+            stretches.push(stretch);
+        })?;
+        Ok(stretches)
+    }
+
+    fn visit_both(&self, [from, until]: &[Place<N>; 2], visit: impl FnMut(Both<N>)) -> Result<(), Open> {
         let (gravity, one) = (&self.problem.gravity, until.age.one());
         let (mut down, mut up) = (Vec::new(), Vec::new());
         self.visit_ways(from, until, |rises, part| {
@@ -39,47 +92,39 @@ impl<N: Bounded> Undamped<N> {
         // What goes up is met from its last part on: x falls with the age.
         let mut edges: Vec<_> = up.iter_mut().map(|part| part.shift.take()).collect();
         edges.rotate_left(1);
-        let up = up.into_iter().zip(edges).rev().map(|(part, shift)| Stretch {
+        let up = up.into_iter().zip(edges).rev().map(|(part, shift)| One {
             value: part.slope.clone() * &part.width + &part.value,
             slope: -part.slope,
             width: part.width,
             shift,
         });
-        let stretch = |Part { width, value, slope, shift, .. }| Stretch { width, value, slope, shift };
-        Self::integrate(up.collect(), down.into_iter().map(stretch).collect(), &one.zero())
+        let one = |Part { width, value, slope, shift, .. }| One { width, value, slope, shift };
+        join(up, down.into_iter().map(one), visit)
     }
+}
 
-    /// The integrals over two lists of stretches that end together.
-    fn integrate(up: Vec<Stretch<N>>, down: Vec<Stretch<N>>, zero: &N) -> Result<[N; 2], Open> {
-        let mut sums = [zero.clone(), zero.clone()];
-        let (mut up, mut down) = (up.into_iter().peekable(), down.into_iter().peekable());
-        let (mut p, mut q) = (up.next(), down.next());
-        while let (Some(rising), Some(falling)) = (&p, &q) {
-            // Both lists end at the top, whatever is known of their widths.
-            let last = up.peek().is_none() && down.peek().is_none();
-            let order = if last { Ordering::Equal } else { rising.width.compare(&falling.width)? };
-            let width = if order.is_le() { rising.width.clone() } else { falling.width.clone() };
-            let half = |a: &N, b: &N, minus: bool| (if minus { a.clone() - b } else { a.clone() + b }).halved();
-            for (sum, minus) in sums.iter_mut().zip([false, true]) {
-                let part = Part {
-                    offset: zero.clone(),
-                    width: width.clone(),
-                    value: half(&falling.value, &rising.value, minus),
-                    slope: half(&falling.slope, &rising.slope, minus),
-                    shift: None,
-                    late_end: None,
-                };
-                // [f²] is at most (2|f| + |[f]|) |[f]|; only its size matters, as the deviation has no sign.
-                let mut area = part.square_integral();
-                for (jump, late) in rising.shift.iter().chain(&falling.shift) {
-                    let jump = jump.clone().halved().magnitude();
-                    area = area + (part.value.magnitude().doubled() + &jump) * jump * late;
-                }
-                *sum = sum.clone() + area;
-            }
-            p = if order.is_le() { up.next() } else { p.map(|stretch| stretch.after(&width)) };
-            q = if order.is_ge() { down.next() } else { q.map(|stretch| stretch.after(&width)) };
-        }
-        Ok(sums)
+/// Two lists that end together, cut where either is.
+fn join<N: Bounded>(
+    up: impl Iterator<Item = One<N>>,
+    down: impl Iterator<Item = One<N>>,
+    mut visit: impl FnMut(Both<N>),
+) -> Result<(), Open> {
+    let (mut up, mut down) = (up.peekable(), down.peekable());
+    let (mut p, mut q) = (up.next(), down.next());
+    while let (Some(rising), Some(falling)) = (p, q) {
+        // Both lists end at the top, whatever is known of their widths.
+        let last = up.peek().is_none() && down.peek().is_none();
+        let order = if last { Ordering::Equal } else { rising.width.compare(&falling.width)? };
+        let width = if order.is_le() { rising.width.clone() } else { falling.width.clone() };
+        let halves = |p: &N, q: &N| [(q.clone() + p).halved(), (q.clone() - p).halved()];
+        visit(Both {
+            width: width.clone(),
+            values: halves(&rising.value, &falling.value),
+            slopes: halves(&rising.slope, &falling.slope),
+            shifts: rising.shift.iter().chain(&falling.shift).cloned().collect(),
+        });
+        p = if order.is_le() { up.next() } else { Some(rising.after(&width)) };
+        q = if order.is_ge() { down.next() } else { Some(falling.after(&width)) };
     }
+    Ok(())
 }

@@ -61,7 +61,8 @@ fn with_rounding<S: Scalar>(x: &S, rounding: f64) -> String {
     bound_of_log2(most + (least - most).exp2().ln_1p() / std::f64::consts::LN_2)
 }
 
-fn bound_of_log2(log2: f64) -> String {
+/// A bound, given by its `log₂`, to two digits, rounded up.
+pub fn bound_of_log2(log2: f64) -> String {
     let log10 = log2 * std::f64::consts::LOG10_2;
     if log10 == f64::NEG_INFINITY {
         return "0".into();

@@ -4,6 +4,8 @@ use serde_json::{Value, json};
 
 use super::cost::duration;
 use super::table::table;
+use super::target::{published_json, published_page, published_table};
+use crate::compare::Published;
 use crate::compare::RightDigits;
 use crate::compare::check::{Checked, CheckedQuestion, Group};
 
@@ -35,7 +37,7 @@ fn count(groups: &Groups) -> String {
 }
 
 /// For a person: every route with its answer, the digits that are right, and what it took.
-pub(crate) fn check_table(groups: &Groups) -> String {
+pub(crate) fn check_table(groups: &Groups, published: &[Published]) -> String {
     let mut out = String::new();
     for (group, cases) in groups {
         out += &format!("{}\n\n", group.title);
@@ -56,20 +58,36 @@ pub(crate) fn check_table(groups: &Groups) -> String {
             out += "\n";
         }
     }
-    out + &count(groups) + "\n"
+    out + &below(groups, published)
+}
+
+/// The published values, and the counts.
+fn below(groups: &Groups, published: &[Published]) -> String {
+    let agreed = published.iter().flat_map(|published| &published.reached).filter(|reached| reached.agrees()).count();
+    let all: usize = published.iter().map(|published| published.reached.len()).sum();
+    let mut out = String::new();
+    if all > 0 {
+        out += &(published_table(published) + "\n\n");
+        out += &format!("{all} published values: {agreed} agree, {} differ\n", all - agreed);
+    }
+    if !groups.is_empty() {
+        out += &(count(groups) + "\n");
+    }
+    out
 }
 
 /// A line a case, and the counts.
-pub(crate) fn check_summary(groups: &Groups) -> String {
+pub(crate) fn check_summary(groups: &Groups, published: &[Published]) -> String {
     let cases = groups.iter().flat_map(|(group, cases)| cases.iter().map(move |checked| (group, checked)));
     let rows = cases.map(|(group, checked)| {
         vec![group.name.to_string(), checked.case.name.to_string(), checked.verdict.name().to_string()]
     });
-    table(&["group", "case", "verdict"], rows.collect(), 3) + "\n\n" + &count(groups) + "\n"
+    let cases = table(&["group", "case", "verdict"], rows.collect(), 3) + "\n\n";
+    if groups.is_empty() { below(groups, published) } else { cases + &below(groups, published) }
 }
 
 /// For the repository: nothing in it depends on the machine.
-pub(crate) fn check_page(groups: &Groups) -> String {
+pub(crate) fn check_page(groups: &Groups, published: &[Published]) -> String {
     let mut out = String::from(
         "# Hard cases, and what the paper claims\n\nMade by `dalembert check --format markdown -o docs/check.md`; a \
          test holds it against what the program finds. Each number is asked of several routes that share as little as \
@@ -77,7 +95,9 @@ pub(crate) fn check_page(groups: &Groups) -> String {
          as are printed; where a row says *proved*, enclosures prove them. `dalembert check` shows the answers, how \
          many of their digits are right, and what each took on your machine.\n\n",
     );
-    out += &format!("**{}.**\n\n", count(groups));
+    if !groups.is_empty() {
+        out += &format!("**{}.**\n\n", count(groups));
+    }
     for (group, cases) in groups {
         out += &format!("## {}\n\n{}\n\n", group.title, group.lesson);
         for checked in cases {
@@ -92,11 +112,14 @@ pub(crate) fn check_page(groups: &Groups) -> String {
             }
         }
     }
+    if !published.is_empty() {
+        out += &published_page(published);
+    }
     out.trim_end().to_string() + "\n"
 }
 
 /// Schema 1.
-pub(crate) fn check_json(groups: &Groups) -> Value {
+pub(crate) fn check_json(groups: &Groups, published: &[Published]) -> Value {
     let cases = groups.iter().flat_map(|(group, cases)| cases.iter().map(move |checked| (group, checked)));
     let cases = cases.map(|(group, checked)| {
         let asked = checked.asked.iter().map(|asked| {
@@ -127,5 +150,5 @@ pub(crate) fn check_json(groups: &Groups) -> Value {
             "questions": asked.collect::<Vec<_>>(),
         })
     });
-    json!({ "schema": 1, "cases": cases.collect::<Vec<_>>() })
+    json!({ "schema": 1, "cases": cases.collect::<Vec<_>>(), "targets": published_json(published) })
 }

@@ -1,18 +1,42 @@
 //! Files written whole or not at all.
 
-use std::io::{ErrorKind, Write};
+use std::fs::File;
+use std::io::{self, ErrorKind, Seek, Write};
 use std::path::Path;
 
 /// Writes `bytes` to `path`, or to standard output for `-` or none. A file appears complete or not at all.
-pub fn write_whole(path: Option<&Path>, bytes: &[u8]) -> std::io::Result<()> {
-    let Some(path) = path.filter(|path| *path != Path::new("-")) else {
-        let mut out = std::io::stdout().lock();
-        return match out.write_all(bytes).and_then(|()| out.flush()) {
-            // A reader that has seen enough, such as `head`.
-            Err(error) if error.kind() == ErrorKind::BrokenPipe => Ok(()),
-            other => other,
-        };
+pub fn write_whole(path: Option<&Path>, bytes: &[u8]) -> io::Result<()> {
+    match named(path) {
+        Some(path) => write_file(path, |file| file.write_all(bytes)),
+        None => to_stdout(|out| out.write_all(bytes)),
+    }
+}
+
+/// Lets `fill` write a file, and gives it its name, or copies it to standard output, when it is complete.
+pub(crate) fn write_filled(path: Option<&Path>, fill: impl FnOnce(&mut File) -> io::Result<()>) -> io::Result<()> {
+    let Some(path) = named(path) else {
+        let mut file = tempfile::tempfile()?;
+        fill(&mut file)?;
+        file.rewind()?;
+        return to_stdout(|out| io::copy(&mut file, out).map(|_| ()));
     };
+    write_file(path, fill)
+}
+
+fn named(path: Option<&Path>) -> Option<&Path> {
+    path.filter(|path| *path != Path::new("-"))
+}
+
+fn to_stdout(write: impl FnOnce(&mut io::StdoutLock<'_>) -> io::Result<()>) -> io::Result<()> {
+    let mut out = io::stdout().lock();
+    match write(&mut out).and_then(|()| out.flush()) {
+        // A reader that has seen enough, such as `head`.
+        Err(error) if error.kind() == ErrorKind::BrokenPipe => Ok(()),
+        other => other,
+    }
+}
+
+fn write_file(path: &Path, fill: impl FnOnce(&mut File) -> io::Result<()>) -> io::Result<()> {
     let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
     let mut builder = tempfile::Builder::new();
     builder.prefix(".dalembert-");
@@ -23,12 +47,12 @@ pub fn write_whole(path: Option<&Path>, bytes: &[u8]) -> std::io::Result<()> {
         builder.permissions(std::fs::Permissions::from_mode(0o666))
     };
     // The name of the temporary file, which the error would carry, is nobody's business.
-    let plain = |error: std::io::Error| match error.kind() {
-        ErrorKind::NotFound => std::io::Error::new(ErrorKind::NotFound, format!("no folder {}", folder.display())),
+    let plain = |error: io::Error| match error.kind() {
+        ErrorKind::NotFound => io::Error::new(ErrorKind::NotFound, format!("no folder {}", folder.display())),
         kind => kind.into(),
     };
     let mut file = builder.tempfile_in(folder).map_err(plain)?;
-    file.write_all(bytes).map_err(|error| std::io::Error::from(error.kind()))?;
+    fill(file.as_file_mut()).map_err(|error| io::Error::from(error.kind()))?;
     file.persist(path)?;
     Ok(())
 }

@@ -1,10 +1,13 @@
 //! JSON: numbers in double precision, strings otherwise.
 
+use std::collections::BTreeMap;
+
 use serde_json::{Value, json};
 
-use super::record::{Finished, Head, Quantity, Record, Sample, bound_json, json as number_json};
+use super::record::{CONTACT, Finished, Head, Quantity, Record, Sample, bound_json, json as number_json, sampled};
 use crate::motion::Ending;
 use crate::number::Scalar;
+use crate::quantity::{Measure, Units};
 
 /// The JSON Schema of [`history_json`] and [`samples_json`].
 pub const SCHEMA: &str = include_str!("schema.json");
@@ -28,24 +31,34 @@ pub fn history_json<S: Scalar>(record: &Record<S>, head: &Head) -> Value {
             },
         })
     });
-    let contacts = record.contacts.iter().map(|Finished { contact, restitution, shares, energy }| {
+    let contacts = record.contacts.iter().map(|finished| {
+        let Finished { restitution, shares, energy, .. } = finished;
+        let present = CONTACT.iter().filter(|column| column.is_present(&head.units));
+        let values = finished.columns(&head.units);
+        let columns: BTreeMap<&str, Value> =
+            present.zip(&values).map(|(column, value)| (column.name, optional(value.as_ref()))).collect();
+        let get = |name| columns.get(name).cloned().unwrap_or(Value::Null);
         let mut value = json!({
-            "from": number(&contact.from),
-            "to": optional(contact.to.as_ref()),
-            "impulse": number(&contact.impulse),
-            "peak_stress": number(&contact.peak_stress),
+            "from": get("from"),
+            "to": get("to"),
+            "impulse": get("impulse"),
+            "peak_strain": get("peak_strain"),
             "restitution": {
-                "momentum": optional(restitution.momentum.as_ref().ok()),
-                "energy_squared": optional(restitution.energy_squared.as_ref().ok()),
+                "momentum": get("restitution_momentum"),
+                "energy_squared": get("restitution_energy_squared"),
                 "translational_part": optional(shares.translational.as_ref()),
                 "energy_kept": optional(shares.kept.as_ref()),
             },
-            "energy": energy.as_ref().map(|energy| json!({
-                "total": number(&energy.total),
-                "translational": number(&energy.translational),
-                "vibrational": number(&energy.vibrational),
+            "energy": energy.as_ref().map(|_| json!({
+                "total": get("total"),
+                "translational": get("translational"),
+                "vibrational": get("vibrational"),
             })),
         });
+        if head.units.has_material() {
+            value["peak_stress"] = get("peak_stress");
+            value["peak_force"] = get("peak_force");
+        }
         let reasons = [
             ("momentum", restitution.momentum.as_ref().err()),
             ("energy_squared", restitution.energy_squared.as_ref().err()),
@@ -54,12 +67,6 @@ pub fn history_json<S: Scalar>(record: &Record<S>, head: &Head) -> Value {
             if let Some(reason) = reason {
                 value["restitution"]["undefined"][name] = reason.to_string().into();
             }
-        }
-        if let Some((stiffness, line)) = &record.forces {
-            value["force"] = json!({
-                "peak": number(&-(contact.peak_stress.clone() * stiffness)),
-                "impulse": number(&(contact.impulse.clone() * line)),
-            });
         }
         value
     });
@@ -89,6 +96,7 @@ pub fn history_json<S: Scalar>(record: &Record<S>, head: &Head) -> Value {
         "title": head.title,
         "number": head.number,
         "effects": head.effects,
+        "units": units_json(&head.units),
         "exact_until": head.exact_until.as_ref().map(exactness_json),
         "events": events.collect::<Vec<_>>(),
         "contacts": contacts.collect::<Vec<_>>(),
@@ -99,6 +107,15 @@ pub fn history_json<S: Scalar>(record: &Record<S>, head: &Head) -> Value {
         "digits_lost": record.lost.map(|(_, digits)| digits),
         "warnings": head.warnings,
     })
+}
+
+/// The name of each unit, null where it is not known; impulse and energy are per `ρS` without a material.
+fn units_json(units: &Units) -> Value {
+    use Measure::{Energy, Force, Impulse, Length, Stress, Time, Velocity};
+    let measures = [Time, Length, Velocity, Stress, Force, Impulse, Energy];
+    let name = |measure: Measure| Some(units.name(measure)).filter(|name| !name.is_empty());
+    let names = measures.map(|measure| (measure.name().to_string(), json!(name(measure))));
+    Value::Object(names.into_iter().collect())
 }
 
 fn ending_json(ending: &Ending, time: Value) -> Value {
@@ -127,10 +144,11 @@ fn exactness_json(ending: &Ending) -> Value {
 /// Samples, schema 1.
 pub fn samples_json<S: Scalar>(samples: &[Sample<S>], quantity: Quantity, head: &Head) -> Value {
     let number = |x: &S| number_json(x, head.digits);
-    let rows = samples.iter().map(|sample| {
-        let bounds =
-            quantity.names().iter().zip(&sample.values).map(|(name, x)| (name.to_string(), bound_json(x, head.digits)));
-        let values = quantity.names().iter().zip(&sample.values).map(|(name, x)| (name.to_string(), number(x)));
+    let (columns, values) = sampled(samples, quantity, &head.units);
+    let rows = samples.iter().zip(&values).map(|(sample, values)| {
+        let named = columns.iter().map(|column| column.name.to_string());
+        let bounds = named.clone().zip(values.iter().map(|x| bound_json(x, head.digits)));
+        let values = named.zip(values.iter().map(number));
         json!({
             "time": number(&sample.time),
             "point": sample.point.as_ref().map(number),
@@ -144,6 +162,7 @@ pub fn samples_json<S: Scalar>(samples: &[Sample<S>], quantity: Quantity, head: 
         "title": head.title,
         "number": head.number,
         "quantity": quantity.name(),
+        "units": units_json(&head.units),
         "exact_until": head.exact_until.as_ref().map(exactness_json),
         "rows": rows.collect::<Vec<_>>(),
     })

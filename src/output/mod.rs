@@ -1,6 +1,7 @@
 //! Tables, JSON, CSV and pictures. Output computes no physics: it asks the history and the quantities.
 
 mod check;
+mod code;
 mod cost;
 mod csv;
 mod file;
@@ -8,20 +9,26 @@ mod json;
 #[cfg(feature = "plot")]
 mod picture;
 mod record;
+mod reference;
 mod regimes;
 mod sweep;
 mod table;
+mod target;
 
 pub(crate) use check::{check_json, check_page, check_summary, check_table};
+pub use code::{Language, code};
 pub use cost::duration;
 pub(crate) use cost::{cost_csv, cost_json, cost_table, effects_csv, effects_json, effects_table};
 pub use csv::{Part, history_csv, samples_csv};
+pub(crate) use file::write_filled;
 pub use file::write_whole;
 pub use json::{SCHEMA, history_json, samples_json};
 #[cfg(feature = "plot")]
 pub(crate) use picture::{cost_svg, png};
 pub use record::{Finished, Head, Quantity, Record, Sample, record, sample};
 pub(crate) use record::{bound_json, json as number_json};
+pub use reference::{Described, Golden, Preamble, Rows};
 pub(crate) use regimes::{regimes_csv, regimes_npz, regimes_svg, regimes_text, threshold_csv};
 pub(crate) use sweep::{sweep_csv, sweep_json, sweep_npz, sweep_table};
 pub use table::{LEGEND, history_table, samples_table, table};
+pub(crate) use target::{targets_csv, targets_json, targets_table};

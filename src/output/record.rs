@@ -2,8 +2,8 @@
 
 use crate::error::Error;
 use crate::motion::{Contact, Ending, Energy, Event, Motion, Side, StressPiece};
-use crate::number::{DOUBLE_DIGITS, Number, Scalar, double_bound_text, show, shown_bound_text};
-use crate::quantity::{EnergyShares, Flight, Restitution, energy_shares, flights, restitution};
+use crate::number::{DOUBLE_DIGITS, Scalar, double_bound_text, show, shown_bound_text};
+use crate::quantity::{EnergyShares, Flight, Measure, Restitution, Units, energy_shares, flights, restitution};
 
 /// A number that carries its bound as a JSON value: a number for a double (null if not finite),
 /// `{"value": …, "lo": …, "hi": …}` with `lo ≤ truth ≤ hi` for an enclosure, a string otherwise.
@@ -51,13 +51,90 @@ pub struct Head {
     pub wide: bool,
     /// Whether the symbols of a table are explained below it.
     pub legend: bool,
-    /// `ρS` where the scene gives it: what turns strains into newtons.
-    pub line_density: Option<(Number, Number)>,
+    /// What gives strains and values per `ρS` a unit.
+    pub units: Units,
     /// What the user should know.
     pub warnings: Vec<String>,
     /// Where an exact run ended, if a run in digits stands in for it.
     pub exact_until: Option<Ending>,
 }
+
+/// A column of numbers.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) struct Column {
+    /// The head in a table.
+    pub(super) head: &'static str,
+    /// The name in CSV and JSON.
+    pub(super) name: &'static str,
+    /// What it measures; `None` for a ratio.
+    pub(super) measure: Option<Measure>,
+}
+
+/// A column whose head is its name.
+pub(super) const fn column(name: &'static str, measure: Measure) -> Column {
+    headed(name, name, measure)
+}
+
+const fn headed(head: &'static str, name: &'static str, measure: Measure) -> Column {
+    Column { head, name, measure: Some(measure) }
+}
+
+impl Column {
+    /// Whether it is there: stress and force are with a material only.
+    pub(super) fn is_present(&self, units: &Units) -> bool {
+        units.has_material() || !matches!(self.measure, Some(Measure::Stress | Measure::Force))
+    }
+
+    /// The name with its unit where one is known: `impulse [N s]`.
+    pub(super) fn with_unit(&self, units: &Units) -> String {
+        self.with_suffix("", units)
+    }
+
+    /// The name with something after it, and its unit.
+    pub(super) fn with_suffix(&self, suffix: &str, units: &Units) -> String {
+        match self.measure.map_or("", |measure| units.name(measure)) {
+            "" => format!("{}{suffix}", self.name),
+            unit => format!("{}{suffix} [{unit}]", self.name),
+        }
+    }
+}
+
+/// What turns the numbers of a history into those of columns, where they are not the same.
+pub(super) struct Factors<S>(Vec<Option<S>>);
+
+impl<S: Scalar> Factors<S> {
+    /// One for each column, in the precision of `number`.
+    pub(super) fn new<'a>(columns: impl Iterator<Item = &'a Column>, units: &Units, number: &S) -> Self {
+        let scaled = |measure: &Measure| {
+            let kept = matches!(measure, Measure::Time | Measure::Length | Measure::Velocity | Measure::Strain);
+            units.has_material() && !kept
+        };
+        let factor = |column: &Column| units.factor(column.measure.filter(scaled)?, &number.precision());
+        Factors(columns.map(factor).collect())
+    }
+
+    pub(super) fn scale(&self, column: usize, value: &S) -> S {
+        match self.0.get(column) {
+            Some(Some(factor)) => value.clone() * factor,
+            _ => value.clone(),
+        }
+    }
+}
+
+/// The columns of a table of contacts.
+pub(super) const CONTACT: [Column; 11] = [
+    headed("contact from", "from", Measure::Time),
+    column("to", Measure::Time),
+    column("impulse", Measure::Impulse),
+    headed("peak v_x(0,t)", "peak_strain", Measure::Strain),
+    headed("peak stress", "peak_stress", Measure::Stress),
+    headed("peak force", "peak_force", Measure::Force),
+    Column { head: "e_P", name: "restitution_momentum", measure: None },
+    Column { head: "e_E²", name: "restitution_energy_squared", measure: None },
+    headed("E", "total", Measure::Energy),
+    headed("E_h", "translational", Measure::Energy),
+    headed("E_z", "vibrational", Measure::Energy),
+];
 
 /// A contact, its coefficients, and the energies at its end if it has one.
 #[derive(Clone, Debug)]
@@ -72,22 +149,28 @@ pub struct Finished<S> {
     pub energy: Option<Energy<S>>,
 }
 
-impl<S> Finished<S> {
-    /// `from`, `to`, impulse, peak strain, `e_P`, `e_E²`, `E`, `E_h`, `E_z`: the columns of a table of contacts.
-    pub(super) fn columns(&self) -> [Option<&S>; 9] {
+impl<S: Scalar> Finished<S> {
+    /// The numbers of the columns [`CONTACT`] that these units have.
+    pub(super) fn columns(&self, units: &Units) -> Vec<Option<S>> {
         let Finished { contact, restitution, energy, .. } = self;
-        let energy = energy.as_ref();
-        [
+        let (energy, peak) = (energy.as_ref(), Some(&contact.peak_stress));
+        let values = [
             Some(&contact.from),
             contact.to.as_ref(),
             Some(&contact.impulse),
-            Some(&contact.peak_stress),
+            peak,
+            peak,
+            peak,
             restitution.momentum.as_ref().ok(),
             restitution.energy_squared.as_ref().ok(),
             energy.map(|e| &e.total),
             energy.map(|e| &e.translational),
             energy.map(|e| &e.vibrational),
-        ]
+        ];
+        let factors = Factors::new(CONTACT.iter(), units, &contact.from);
+        let scaled = values.iter().enumerate().map(|(k, value)| value.map(|value| factors.scale(k, value)));
+        let present = scaled.zip(&CONTACT).filter(|(_, column)| column.is_present(units));
+        present.map(|(value, _)| value).collect()
     }
 }
 
@@ -104,8 +187,6 @@ pub struct Record<S> {
     pub stress: Vec<StressPiece<S>>,
     /// The last time that is known, and why.
     pub end: (S, Ending),
-    /// `ρS c²` and `ρS`: newtons per unit strain, kilograms per metre.
-    pub forces: Option<(S, S)>,
     /// Bound on the error relative to the natural scales; zero where all is exact.
     pub error: f64,
     /// Impacts, and the digits that rounding may have taken over them; `None` where that is not followed.
@@ -131,10 +212,8 @@ impl<S> Record<S> {
 
 /// Gathers what is printed of `history`; the stress at the ground only if asked for, as it can cost more than all the
 /// rest.
-pub fn record<S: Scalar>(history: &dyn Motion<S>, head: &Head, stress: bool) -> Result<Record<S>, Error> {
+pub fn record<S: Scalar>(history: &dyn Motion<S>, stress: bool) -> Result<Record<S>, Error> {
     let end = history.end();
-    let lift = |number: &Number| S::from_number(number, &end.precision());
-    let scales = history.scales();
     let mut contacts = Vec::with_capacity(history.contacts().len());
     for contact in history.contacts() {
         contacts.push(Finished {
@@ -144,17 +223,12 @@ pub fn record<S: Scalar>(history: &dyn Motion<S>, head: &Head, stress: bool) -> 
             contact: contact.clone(),
         });
     }
-    let forces = head.line_density.as_ref().map(|(density, area)| {
-        let line = lift(density) * lift(area);
-        (scales.wave_speed.square() * &line, line)
-    });
     Ok(Record {
         events: history.events().to_vec(),
         contacts,
         flights: flights(history)?,
         stress: if stress { history.stress_pieces() } else { Vec::new() },
         end: (end, history.ending().clone()),
-        forces,
         error: history.error_estimate().to_f64(),
         lost: history.digits_lost(),
     })
@@ -190,15 +264,24 @@ impl Quantity {
         }
     }
 
-    /// The names of its values.
-    pub fn names(self) -> &'static [&'static str] {
-        match self {
-            Quantity::Stress => &["v_x"],
-            Quantity::End | Quantity::Top => &["v", "v_t"],
-            Quantity::Centre => &["h", "h_rate"],
-            Quantity::Energy => &["total", "translational", "vibrational"],
-            Quantity::Field => &["v", "v_t", "v_x"],
-        }
+    /// What is printed of it, each with the place of its number in [`Sample::values`].
+    pub(super) fn columns(self, units: &Units) -> Vec<(Column, usize)> {
+        const STRAIN: Column = column("v_x", Measure::Strain);
+        const STRESS: Column = column("stress", Measure::Stress);
+        const V: Column = column("v", Measure::Length);
+        const V_T: Column = column("v_t", Measure::Velocity);
+        let all: &[(Column, usize)] = match self {
+            Quantity::Stress => &[(STRAIN, 0), (STRESS, 0), (column("force", Measure::Force), 0)],
+            Quantity::End | Quantity::Top => &[(V, 0), (V_T, 1)],
+            Quantity::Centre => &[(column("h", Measure::Length), 0), (column("h_rate", Measure::Velocity), 1)],
+            Quantity::Energy => &[
+                (column("total", Measure::Energy), 0),
+                (column("translational", Measure::Energy), 1),
+                (column("vibrational", Measure::Energy), 2),
+            ],
+            Quantity::Field => &[(V, 0), (V_T, 1), (STRAIN, 2), (STRESS, 2)],
+        };
+        all.iter().filter(|(column, _)| column.is_present(units)).copied().collect()
     }
 }
 
@@ -211,8 +294,25 @@ pub struct Sample<S> {
     pub point: Option<S>,
     /// Which limit.
     pub side: Side,
-    /// In the order of [`Quantity::names`].
+    /// As the history answers them: see [`Motion`].
     pub values: Vec<S>,
+}
+
+/// The columns of `quantity`, and their numbers for every sample.
+pub(super) fn sampled<S: Scalar>(
+    samples: &[Sample<S>],
+    quantity: Quantity,
+    units: &Units,
+) -> (Vec<Column>, Vec<Vec<S>>) {
+    let (columns, places): (Vec<Column>, Vec<usize>) = quantity.columns(units).into_iter().unzip();
+    let factors = samples.first().map(|sample| Factors::new(columns.iter(), units, &sample.time));
+    let row = |sample: &Sample<S>| {
+        let values = places.iter().enumerate();
+        let scaled = |(k, place): (usize, &usize)| Some(factors.as_ref()?.scale(k, sample.values.get(*place)?));
+        values.filter_map(scaled).collect()
+    };
+    let rows = samples.iter().map(row).collect();
+    (columns, rows)
 }
 
 /// The values of `quantity` at every time and, for the field, at every point.

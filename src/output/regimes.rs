@@ -43,7 +43,7 @@ pub(crate) fn regimes_csv(map: &Map) -> Result<String, csv::Error> {
         vec![r.to_string(), m.to_string(), time, word.to_string()]
     };
     let rows = map.regimes.iter().enumerate().map(row).collect();
-    super::csv::write(&["damping_ratio", "speed_ratio", "bounce_ratio", "regime"], rows)
+    super::csv::write(["damping_ratio", "speed_ratio", "bounce_ratio", "regime"].map(String::from).into(), rows)
 }
 
 /// `R` of each column and the `M` above which the bounce comes at `t₁`; empty where no M is high enough.
@@ -52,7 +52,7 @@ pub(crate) fn threshold_csv(map: &Map) -> Result<String, csv::Error> {
         let m = threshold(r.to_f64());
         vec![r.to_string(), if m.is_finite() { m.text() } else { String::new() }]
     };
-    super::csv::write(&["damping_ratio", "threshold"], map.damping.iter().map(row).collect())
+    super::csv::write(["damping_ratio", "threshold"].map(String::from).into(), map.damping.iter().map(row).collect())
 }
 
 /// How often each regime comes, in words.
@@ -166,8 +166,14 @@ pub(crate) fn regimes_svg(map: &Map) -> String {
         "<clipPath id=\"map\"><rect x=\"{LEFT}\" y=\"{TOP}\" width=\"{WIDTH}\" height=\"{HEIGHT}\"/></clipPath>\n\
          <g clip-path=\"url(#map)\" fill=\"none\" stroke=\"#ffffff\" stroke-width=\"2\">\n<polyline points=\""
     ));
-    for k in 0..=1800 {
-        let r = 1e-3 * f64::from(k);
+    // Closer and closer to I₀(R) = 2, where it is infinite.
+    let (mut below, mut above) = (1.8, 1.81);
+    for _ in 0..60 {
+        let middle: f64 = (below + above) / 2.0;
+        *(if threshold(middle).is_finite() { &mut below } else { &mut above }) = middle;
+    }
+    for k in 0..=800 {
+        let r = below * (1.0 - (-f64::from(k) / 20.0).exp2());
         let (x, y) = (x(r), y(threshold(r)));
         if x.is_finite() && y.is_finite() {
             put(format_args!("{x:.2},{:.2} ", y.clamp(-1e4, 1e4)));

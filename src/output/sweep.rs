@@ -66,7 +66,7 @@ pub(crate) fn sweep_table(sweep: &Sweep, points: &[Point]) -> String {
 /// CSV with a header.
 pub(crate) fn sweep_csv(sweep: &Sweep, points: &[Point]) -> Result<String, csv::Error> {
     let (header, rows) = rows(sweep, points, true);
-    super::csv::write(&header.iter().map(String::as_str).collect::<Vec<_>>(), rows)
+    super::csv::write(header, rows)
 }
 
 /// JSON, schema 1.

@@ -2,9 +2,10 @@
 
 use comfy_table::{CellAlignment, ContentArrangement, LineStyle, Table, presets};
 
-use super::record::{Finished, Head, Quantity, Record, Sample};
+use super::record::{CONTACT, Finished, Head, Quantity, Record, Sample, sampled};
 use crate::motion::Ending;
 use crate::number::{Scalar, bound_text, show};
+use crate::quantity::{Measure, Units};
 
 /// A table with a header; numbers stand to the right.
 pub fn table(header: &[&str], rows: Vec<Vec<String>>, words: usize) -> String {
@@ -26,8 +27,8 @@ pub fn table(header: &[&str], rows: Vec<Vec<String>>, words: usize) -> String {
 const WIDTH: usize = 80;
 
 /// A table of at most [`WIDTH`] characters: columns that do not fit follow in further tables, each with the first
-/// column again.
-fn fitted(header: &[&str], rows: &[Vec<String>], words: usize, wide: bool) -> String {
+/// `keys` columns again.
+pub(super) fn fitted(header: &[&str], rows: &[Vec<String>], words: usize, keys: usize, wide: bool) -> String {
     let select = |columns: &[usize]| {
         let header: Vec<&str> = columns.iter().filter_map(|k| header.get(*k).copied()).collect();
         let pick = |row: &Vec<String>| columns.iter().filter_map(|k| row.get(*k).cloned()).collect();
@@ -37,14 +38,15 @@ fn fitted(header: &[&str], rows: &[Vec<String>], words: usize, wide: bool) -> St
         return select(&(0..header.len()).collect::<Vec<_>>());
     }
     let mut parts = Vec::new();
-    let mut columns = vec![0];
-    for k in 1..header.len() {
+    let keys: Vec<usize> = (0..keys).collect();
+    let mut columns = keys.clone();
+    for k in keys.len()..header.len() {
         columns.push(k);
         let widest = select(&columns).lines().map(|line| line.chars().count()).max().unwrap_or(0);
-        if widest > WIDTH && columns.len() > 2 {
+        if widest > WIDTH && columns.len() > keys.len() + 1 {
             columns.pop();
             parts.push(select(&columns));
-            columns = vec![0, k];
+            columns = [&keys[..], &[k]].concat();
         }
     }
     parts.push(select(&columns));
@@ -74,23 +76,24 @@ fn blocks(header: &[&str], rows: &[Vec<String>]) -> String {
 const TABLE_DIGITS: u32 = 12;
 
 /// A number in a table.
-fn cell<S: Scalar>(x: &S, head: &Head) -> String {
+pub(super) fn cell<S: Scalar>(x: &S, head: &Head) -> String {
     show(x, if head.digits == 0 { TABLE_DIGITS } else { head.digits })
 }
 
 /// What the symbols of the tables mean.
 pub const LEGEND: &str = "\
-time           t, from the first touch of the ground
+time           t, from the start of the scene: the first touch of the ground, or before it with a gap
 v_t(0,t)       velocity of the lower end: just before an impact, just after a release
 h, h′          the centre of mass, from where it is in the undeformed rod on the ground, and its velocity
 ±              how far the time may be off
-impulse        −c² ∫ v_x(0,t) dt over the contact: momentum from the ground, per linear density ρS
+impulse        −E S ∫ v_x(0,t) dt over the contact: momentum from the ground; −c² ∫ v_x(0,t) dt is that per ρS
 peak v_x(0,t)  the most compressive strain at the ground
+peak stress    E v_x(0,t) there, below zero
+peak force     −E S v_x(0,t) there: the force of the ground, above zero
 e_P            −P(to)/P(from): the momentum coefficient of restitution
 e_E²           E_h(to)/E_h(from): the square of the energy coefficient of restitution
-E, E_h, E_z    energy at the end of the contact, that of the centre of mass, that of the vibration, per ρS
-peak force     −ρS c² v_x(0,t) at the peak, in the force unit of the scene
-force impulse  the same, integrated over the contact
+E, E_h, E_z    energy at the end of the contact, that of the centre of mass, that of the vibration
+per ρS         divided by the linear density: without modulus, density and area it is not known
 c              wave speed
 t₁ = 2L/c      round trip of a wave
 R = r t₁       damping ratio: from π on an undriven rod never bounces
@@ -125,29 +128,19 @@ pub fn history_table<S: Scalar>(record: &Record<S>, head: &Head) -> String {
         }
         row
     });
-    out += &fitted(&header, &events.collect::<Vec<_>>(), 1, head.wide);
+    out += &fitted(&header, &events.collect::<Vec<_>>(), 1, 1, head.wide);
     out += "\n\n";
 
-    let mut header = vec!["contact from", "to", "impulse", "peak v_x(0,t)", "e_P", "e_E²", "E", "E_h", "E_z"];
-    if record.forces.is_some() {
-        header.extend(["peak force", "force impulse"]);
-    }
-    let contacts = record.contacts.iter().map(|finished| {
-        let mut row = finished.columns().map(optional).to_vec();
-        let contact = &finished.contact;
-        if let Some((stiffness, line)) = &record.forces {
-            row.push(show(&-(contact.peak_stress.clone() * stiffness)));
-            row.push(show(&(contact.impulse.clone() * line)));
-        }
-        row
-    });
-    out += &fitted(&header, &contacts.collect::<Vec<_>>(), 0, head.wide);
+    let units = &head.units;
+    let header: Vec<&str> =
+        CONTACT.iter().filter(|column| column.is_present(units)).map(|column| column.head).collect();
+    let row = |finished: &Finished<S>| finished.columns(units).iter().map(|x| optional(x.as_ref())).collect();
+    let contacts = record.contacts.iter().map(row);
+    out += &fitted(&header, &contacts.collect::<Vec<_>>(), 0, 1, head.wide);
     out += "\n\n";
     if !record.contacts.is_empty() {
-        out += match record.forces {
-            Some(_) => "impulse and energies are per linear density ρS; forces are in the units of the scene\n",
-            None => "impulse and energies are per linear density ρS\n",
-        };
+        let measures = [Measure::Impulse, Measure::Stress, Measure::Force, Measure::Energy];
+        out += &named_units(&measures, units);
     }
     for Finished { contact, restitution, .. } in &record.contacts {
         let from = show(&contact.from);
@@ -180,6 +173,27 @@ pub fn history_table<S: Scalar>(record: &Record<S>, head: &Head) -> String {
     out
 }
 
+/// The units of what the scene's own do not tell, in a line: `impulse in N s, energies in J`.
+fn named_units(measures: &[Measure], units: &Units) -> String {
+    let word = |measure: &Measure| match measure {
+        Measure::Impulse => Some("impulse"),
+        Measure::Stress => Some("stress").filter(|_| units.has_material()),
+        Measure::Force => Some("force").filter(|_| units.has_material()),
+        Measure::Energy => Some("energies"),
+        Measure::Time | Measure::Length | Measure::Velocity | Measure::Strain => None,
+    };
+    let known = measures.iter().filter_map(|measure| Some((word(measure)?, units.name(*measure))));
+    let mut texts: Vec<String> = known
+        .map(|(word, unit)| match unit {
+            "" => format!("{word} in the units of the scene"),
+            unit if unit.starts_with("per") => format!("{word} {unit}"),
+            unit => format!("{word} in {unit}"),
+        })
+        .collect();
+    texts.dedup();
+    if texts.is_empty() { String::new() } else { texts.join(", ") + "\n" }
+}
+
 /// Below so many digits lost the table does not mention them.
 const MANY_LOST: f64 = 3.0;
 
@@ -191,13 +205,18 @@ pub fn samples_table<S: Scalar>(samples: &[Sample<S>], quantity: Quantity, head:
         header.push("x");
     }
     header.push("side");
-    header.extend(quantity.names());
-    let rows = samples.iter().map(|sample| {
+    let keys = header.len();
+    let (columns, values) = sampled(samples, quantity, &head.units);
+    header.extend(columns.iter().map(|column| column.head));
+    let rows = samples.iter().zip(&values).map(|(sample, values)| {
         let mut row = vec![cell(&sample.time, head)];
         row.extend(sample.point.as_ref().map(|x| cell(x, head)));
         row.push(sample.side.to_string());
-        row.extend(sample.values.iter().map(|x| cell(x, head)));
+        row.extend(values.iter().map(|x| cell(x, head)));
         row
     });
-    fitted(&header, &rows.collect::<Vec<_>>(), 0, head.wide) + "\n"
+    let measures: Vec<Measure> = columns.iter().filter_map(|column| column.measure).collect();
+    let units = named_units(&measures, &head.units);
+    let space = if units.is_empty() { "" } else { "\n" };
+    fitted(&header, &rows.collect::<Vec<_>>(), 0, keys, head.wide) + "\n" + space + &units
 }

@@ -48,13 +48,13 @@ impl Builder {
         damping => "rod.damping",
         /// `g ≥ 0`: the acceleration of gravity; without it none.
         gravity => "gravity.acceleration",
-        /// `μ > 0`: the speed with which the undeformed rod hits the ground at `t = 0`; with a [`gap`](Builder::gap) its
-        /// speed downwards at `t = 0`, which may be zero under gravity.
+        /// `μ > 0`: the speed with which the undeformed rod hits the ground at `t = 0`; with a [`gap`](Builder::gap)
+        /// its speed downwards at `t = 0`, which may be zero under gravity.
         impact_speed => "impact.speed",
         /// The undeformed rod starts this far above the ground, and `t = 0` is that start, not the first touch.
         gap => "impact.gap",
-        /// `h > 0`: a fall from rest through this height, without air drag or damping: `μ = √(2 g h)`. The fall is over at
-        /// `t = 0`, the first touch.
+        /// `h > 0`: a fall from rest through this height, without air drag or damping: `μ = √(2 g h)`. The fall is over
+        /// at `t = 0`, the first touch.
         drop_height => "impact.drop_height",
         /// The time up to which to follow the motion, which is included.
         time => "run.time",

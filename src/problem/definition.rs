@@ -71,7 +71,7 @@ pub enum Top {
 pub enum Start {
     /// Undeformed on the ground, with uniform velocity `−μ`: (1.7), (1.8).
     Uniform(Speed),
-    /// Undeformed with its lower end above the ground, with a uniform velocity downwards: it touches later.
+    /// Undeformed with its lower end above the ground, with a uniform velocity downwards.
     Above {
         /// `v(x,0) > 0`: how far the lower end is above the ground.
         gap: Number,

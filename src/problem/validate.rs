@@ -153,7 +153,7 @@ impl Draft {
                 let found = self.word("start as well as [impact]", "a displacement or velocity as well as an impact");
                 let expected = self.word(
                     "either [impact], for a uniform start, or [start]",
-                    "either impact_speed (with a gap or without) or drop_height, for a uniform start, or displacement and velocity",
+                    "either impact_speed or drop_height, for a uniform start, or displacement and velocity",
                 );
                 Err(ProblemError::new(Kind::Contradiction, "start", found, expected))
             }

@@ -2,7 +2,7 @@
 
 use super::unit::{Measure, UnitSystem, Units};
 use crate::error::Error;
-use crate::motion::{Contact, Motion, Side, StressPiece};
+use crate::motion::{Ending, EventKind, Motion, Side, StressPiece};
 use crate::number::{Open, Scalar};
 use crate::problem::Problem;
 
@@ -273,17 +273,20 @@ pub fn columns<S: Scalar>(
     let (mut left, mut right) = (Vec::with_capacity(count), Vec::with_capacity(count));
     for time in times {
         let ask = |sources: &[Source], side: Side, limit: i64, row: &mut Vec<S>| {
-            sources.iter().try_for_each(|source| match (source, &pushes) {
-                (Source::Side, _) => Ok(row.push(time.int(limit))),
-                (Source::Impulse, Some(pushes)) => Ok(row.push(pushes.at(time)?)),
-                (source, _) => source.ask(motion, time, side, row),
-            })
+            for source in sources {
+                match (source, &pushes) {
+                    (Source::Side, _) => row.push(time.int(limit)),
+                    (Source::Impulse, Some(pushes)) => row.push(pushes.at(time)?),
+                    (source, _) => source.ask(motion, time, side, row)?,
+                }
+            }
+            Ok::<(), Error>(())
         };
         left.clear();
         right.clear();
         let asked = side.unwrap_or_default();
         ask(&sided, asked, 0, &mut right)?;
-        if side.is_none() && !sided.is_empty() {
+        if side.is_none() && !sided.is_empty() && motion.may_jump(time)? {
             ask(&sided, Side::Left, 0, &mut left)?;
         }
         let jumps = !left.is_empty() && !left.iter().zip(&right).all(|(a, b)| same(a, b));
@@ -309,39 +312,46 @@ pub fn columns<S: Scalar>(
     Ok(table)
 }
 
-/// The values of a table of [`columns`], each column brought to about 1 by a power of two, so that one accuracy holds
-/// for columns of different size: 1 is its natural scale, or its greatest value where that is more.
-pub(crate) fn of_one_size<S: Scalar>(
+/// The natural scale of each column; `None` where its values are no measurements.
+pub(crate) fn natural_scales<S: Scalar>(
     motion: &dyn Motion<S>,
     problem: &Problem,
     columns: &[Column],
-    table: &[Vec<S>],
-) -> Vec<S> {
+) -> Vec<Option<f64>> {
     let units = Units::of(problem, UnitSystem::default());
     let scales = motion.scales().map(|scale| scale.to_f64());
-    let mut all = Vec::with_capacity(table.len() * table.first().map_or(0, Vec::len));
-    for (column, values) in columns.iter().zip(table) {
+    let natural = |column: &Column| {
         let natural = match column.source() {
-            (Source::Time | Source::Side | Source::Contact, _) => continue,
+            (Source::Time | Source::Side | Source::Contact, _) => return None,
             (Source::End | Source::Top | Source::Centre, 0) => scales.velocity * scales.time,
             (Source::End | Source::Top | Source::Centre, _) => scales.velocity,
             (Source::Strain, _) => scales.velocity / scales.wave_speed,
             (Source::Energy | Source::Parts, _) => scales.velocity * scales.velocity * scales.length,
             (Source::Impulse, _) => scales.velocity * scales.length,
         };
-        let natural = natural * column.factor(motion, &units).map_or(1.0, |factor| factor.to_f64().abs());
-        let greatest = values.iter().map(|value| value.to_f64().abs()).fold(natural, f64::max);
-        let power = (-greatest.log2().round()).clamp(-1000.0, 1000.0).exp2();
-        if let Some(unit) = values.first().map(|value| value.double(power)) {
-            all.extend(values.iter().map(|value| value.clone() * &unit));
-        }
+        Some(natural * column.factor(motion, &units).map_or(1.0, |factor| factor.to_f64().abs()))
+    };
+    columns.iter().map(natural).collect()
+}
+
+/// The values of a table, each column brought to about 1 by a power of two, so that one accuracy holds for columns of
+/// different size: 1 is its natural scale, or its greatest value where that is more.
+pub(crate) fn of_one_size<S: Scalar>(table: &[Vec<S>], natural: &[Option<f64>]) -> Vec<S> {
+    let mut all = Vec::with_capacity(table.len() * table.first().map_or(0, Vec::len) + 1);
+    // Zeros are held to the natural scale.
+    all.extend(table.iter().find_map(|values| values.first()).map(S::one));
+    for (values, natural) in table.iter().zip(natural) {
+        let (Some(natural), Some(first)) = (natural, values.first()) else { continue };
+        let greatest = values.iter().map(|value| value.to_f64().abs()).fold(*natural, f64::max);
+        let unit = first.double((-greatest.log2().round()).clamp(-1000.0, 1000.0).exp2());
+        all.extend(values.iter().map(|value| value.clone() * &unit));
     }
     all
 }
 
 /// Whether two limits are surely the same. Two enclosures that were computed alike are, although their difference
 /// does not show it.
-fn same<S: Scalar>(a: &S, b: &S) -> bool {
+pub(super) fn same<S: Scalar>(a: &S, b: &S) -> bool {
     a.compare(b).is_ok_and(std::cmp::Ordering::is_eq) || (a.ends(0).is_some() && a.text() == b.text())
 }
 
@@ -363,7 +373,7 @@ impl Source {
             Source::End => row.extend(pair(motion.ground_end(time, side)?)),
             Source::Strain => row.push(motion.stress(time, side)?),
             Source::Top => row.extend(pair(motion.top_end(time, side)?)),
-            Source::Contact => row.push(time.int(in_contact(motion.contacts(), time, side)?.into())),
+            Source::Contact => row.push(time.int(in_contact(motion, time, side)?.into())),
             Source::Centre => row.extend(pair(motion.centre(time)?)),
             Source::Energy => {
                 let energy = motion.energy(time)?;
@@ -387,16 +397,16 @@ fn partition<T>(list: &[T], passed: impl Fn(&T) -> Result<bool, Open>) -> Result
 }
 
 /// Whether the end is on the ground just before or just after a time.
-fn in_contact<S: Scalar>(contacts: &[Contact<S>], time: &S, side: Side) -> Result<bool, Open> {
-    let begun = partition(contacts, |contact| match side {
-        Side::Left => contact.from.below(time),
-        Side::Right => Ok(!time.below(&contact.from)?),
-    })?;
-    match begun.checked_sub(1).and_then(|last| contacts[last].to.as_ref()) {
-        None => Ok(begun > 0),
-        Some(to) if side == Side::Left => Ok(!to.below(time)?),
-        Some(to) => time.below(to),
+fn in_contact<S: Scalar>(motion: &dyn Motion<S>, time: &S, side: Side) -> Result<bool, Open> {
+    // The impact that ends a history is no event of it.
+    if side == Side::Right && *motion.ending() == Ending::NextImpact && !time.below(&motion.end())? {
+        return Ok(true);
     }
+    let passed = partition(motion.events(), |event| match side {
+        Side::Left => event.time.below(time),
+        Side::Right => Ok(!time.below(&event.time)?),
+    })?;
+    Ok(passed.checked_sub(1).is_some_and(|last| motion.events()[last].kind == EventKind::Impact))
 }
 
 /// `−c² ∫₀ᵗ v_x(0,s) ds`: pieces of the stress, each with what came before it.

@@ -1,12 +1,15 @@
-//! What follows from a history: restitution, the top of a flight, columns over time, and units. Nothing here looks back at the scene.
+//! What follows from a history: restitution, the top of a flight, columns over time, slices along the rod, and units.
+//! Nothing here looks back at the scene.
 
 mod column;
 mod flight;
 mod restitution;
+mod slice;
 mod unit;
 
-pub(crate) use column::of_one_size;
 pub use column::{Column, columns};
+pub(crate) use column::{natural_scales, of_one_size};
 pub use flight::{Flight, flights};
 pub use restitution::{EnergyShares, Restitution, Undefined, energy_shares, restitution};
+pub use slice::{Slice, slices};
 pub use unit::{Measure, UnitSystem, Units};

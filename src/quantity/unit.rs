@@ -27,6 +27,22 @@ pub enum Measure {
     Energy,
 }
 
+impl Measure {
+    /// The name in output: `impulse`.
+    pub fn name(self) -> &'static str {
+        match self {
+            Measure::Time => "time",
+            Measure::Length => "length",
+            Measure::Velocity => "velocity",
+            Measure::Strain => "strain",
+            Measure::Stress => "stress",
+            Measure::Force => "force",
+            Measure::Impulse => "impulse",
+            Measure::Energy => "energy",
+        }
+    }
+}
+
 /// The units that the numbers of a scene are in. They name what is printed; no number depends on them.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
 pub enum UnitSystem {
@@ -58,7 +74,7 @@ impl UnitSystem {
     fn name(self, measure: Measure) -> &'static str {
         let [length, velocity, stress, force, impulse, energy] = match self {
             UnitSystem::Si => ["m", "m/s", "Pa", "N", "N s", "J"],
-            UnitSystem::Inch => ["in", "in/s", "psi", "lbf", "lbf s", "in lbf"],
+            UnitSystem::Inch => ["in", "in/s", "psi", "lbf", "lbf s", "lbf in"],
             UnitSystem::Millimetre => ["mm", "mm/s", "MPa", "N", "N s", "mJ"],
             UnitSystem::Other => return "",
         };
@@ -97,6 +113,13 @@ impl UnitSystem {
 pub struct Units {
     material: Material,
     system: UnitSystem,
+}
+
+/// Those of a problem without a material.
+impl Default for Units {
+    fn default() -> Self {
+        Units { material: Material::WaveSpeed(1.into()), system: UnitSystem::default() }
+    }
 }
 
 impl Units {

@@ -21,7 +21,7 @@ pub enum Effect {
     RepeatedImpacts,
     /// The top does not move.
     FixedTop,
-    /// The undeformed rod starts above the ground, and touches it later.
+    /// The undeformed rod starts above the ground.
     InitialGap,
     /// The rod starts deformed or above the ground, by a profile.
     InitialStrain,

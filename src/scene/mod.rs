@@ -5,13 +5,15 @@
 //!
 //! ```toml
 //! title = "A rod dropped on the ground"
+//! units = "SI"          # or "in-lbf-s", "mm-N-s", "other": names what is printed, with modulus, density and area
 //! [rod]
 //! length = 1            # L
 //! wave_speed = 1        # c; or modulus, density and area: then c = √(modulus/density)
 //! damping = 0           # r; absent or 0: no damping
 //! top = "free"          # or "fixed"
 //! [impact]
-//! speed = 3             # μ; or drop_height, with gravity
+//! speed = 3             # μ at the touch, which is t = 0; or drop_height, with gravity
+//! gap = 0               # the rod starts so far above the ground, at t = 0, with its speed; absent or 0: at the touch
 //! [gravity]
 //! acceleration = 1      # g; absent or 0: no gravity
 //! [run]
@@ -29,6 +31,44 @@
 //! velocity = [[0, 0], ["1/3", 0], ["1/3", -1], [1, -1]]
 //! ```
 //!
+//! # Where the clock starts
+//! Every time is counted from the start of the scene. With `speed` or `drop_height` alone that is the first touch of
+//! the ground: the fall from `drop_height` is over by then. With a `gap` the undeformed rod is that far above the
+//! ground at `t = 0`, every point of it moving down with `speed` (which may be zero under gravity); gravity and damping
+//! act while it falls, `h″ + 2r h′ = −g`, and the first impact is the touch. Under a fixed top the rod is stopped there at
+//! `t = 0`, and hangs from `v(L,t) = gap`: its lower end may touch or not.
+//!
+//! ```
+//! use dalembert::Scene;
+//! let scene = Scene::parse("rod = { length = 1, wave_speed = 1 }\nimpact = { speed = 2, gap = 3 }\n")?;
+//! let history = scene.problem.solve()?;
+//! assert_eq!((history.contacts()[0].from, history.contacts()[0].to), (1.5, Some(3.5))); // gap/μ, and 2L/c more
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
+//!
+//! # Published values
+//! A scene may list what others have published of it; `dalembert scenes NAME --targets` prints it beside ours. With a
+//! `time` the quantity is one of `u_end`, `v_end`, `u_top`, `v_top` (displacement and velocity of the two ends),
+//! `strain`, `stress`, `force` (at the ground), `h`, `h_rate`, `E_total`, `E_h`, `E_z`; without a time one of a
+//! contact: `impact` and `release` (times), `duration`, `impact_velocity`, `release_velocity`, `impulse`, `peak_stress`,
+//! `peak_force`.
+//!
+//! ```toml
+//! [[target]]
+//! quantity = "u_top"
+//! time = 8e-5
+//! side = "right"        # the limit, where there are two
+//! origin = "start"      # displacements are counted from the ground, or from where the rod starts
+//! published = -4.0e-3
+//! within = 1e-9         # how far it may be off; absent: half a unit of its last digit
+//! source = "deck sdnv100a"
+//! [[target]]
+//! quantity = "release"
+//! contact = 2           # absent: the first
+//! published = 3.3333
+//! source = "by hand"
+//! ```
+//!
 //! # Limits
 //! Those of a [problem](crate::problem#limits), an accuracy of 1e-300 … 0.1, and at most 16 MiB of text.
 
@@ -37,7 +77,9 @@ mod effects;
 mod error;
 mod read;
 mod suggest;
+mod target;
 
 pub use effects::{Effect, EffectUse};
 pub use error::{SceneError, SceneErrorKind};
 pub use read::Scene;
+pub use target::{Target, TargetQuantity};

@@ -9,15 +9,17 @@ use toml::de::{DeTable, DeValue};
 
 use super::error::{SceneError, SceneErrorKind as Kind, position};
 use super::suggest;
+use super::target::Target;
 use crate::number::Number;
 use crate::problem::profile::{Points, SHAPE};
 use crate::problem::validate::{Draft, Given, NUMBERS, within};
 use crate::problem::written::{has_unit, short};
-use crate::problem::{Problem, ProblemError, ProblemErrorKind, Top, Written};
+use crate::problem::{Material, Problem, ProblemError, ProblemErrorKind, Top, Written};
+use crate::quantity::UnitSystem;
 
 /// Every table with its keys; the first is the scene itself.
 const TABLES: [(&str, &[&str]); 6] = [
-    ("", &["title", "rod", "impact", "gravity", "start", "run"]),
+    ("", &["title", "units", "rod", "impact", "gravity", "start", "run", "target"]),
     ("rod", &["length", "wave_speed", "modulus", "density", "area", "damping", "top"]),
     ("impact", &["speed", "gap", "drop_height"]),
     ("gravity", &["acceleration"]),
@@ -35,10 +37,14 @@ const ACCURACY: (f64, f64) = (1e-300, 0.1);
 pub struct Scene {
     /// `title`.
     pub title: Option<String>,
+    /// `units`: what the numbers are in; SI where nothing is said. It names what is printed and changes no number.
+    pub units: UnitSystem,
     /// What is to be solved.
     pub problem: Problem,
     /// `run.accuracy`: the relative accuracy asked for.
     pub accuracy: Option<Number>,
+    /// `[[target]]`: what others have published of this scene.
+    pub targets: Vec<Target>,
     source: String,
     lines: BTreeMap<String, usize>,
 }
@@ -104,7 +110,7 @@ type Key<'a> = Spanned<Cow<'a, str>>;
 type Value<'a> = Spanned<DeValue<'a>>;
 
 /// A scene as TOML.
-struct Reader<'a> {
+pub(super) struct Reader<'a> {
     source: &'a str,
     document: &'a DeTable<'a>,
 }
@@ -117,7 +123,16 @@ impl<'a> Reader<'a> {
         let title = self.text("title")?.map(|(text, _)| text.to_string());
         let problem = self.draft()?.check().map_err(|error| self.located(error))?;
         let accuracy = self.accuracy()?;
-        Ok(Scene { title, problem, accuracy, source: self.source.to_string(), lines: self.lines() })
+        let targets = self.targets(matches!(problem.rod.material, Material::Elastic { .. }))?;
+        Ok(Scene {
+            title,
+            units: self.units()?,
+            problem,
+            accuracy,
+            targets,
+            source: self.source.to_string(),
+            lines: self.lines(),
+        })
     }
 
     /// Refuses a table that is none, has an unknown key, or lacks what it is there for.
@@ -208,6 +223,15 @@ impl<'a> Reader<'a> {
         }
     }
 
+    fn units(&self) -> Result<UnitSystem, SceneError> {
+        let Some((text, span)) = self.text("units")? else { return Ok(UnitSystem::default()) };
+        UnitSystem::ALL.iter().find(|(name, _)| *name == text).map(|(_, units)| *units).ok_or_else(|| {
+            let known = UnitSystem::ALL.map(|(name, _)| format!("\"{name}\"")).join(", ");
+            let found = format!("units = {}", short(self.slice(&span)));
+            self.error(span, Kind::OutOfRange, found, format!("one of {known}"))
+        })
+    }
+
     fn accuracy(&self) -> Result<Option<Number>, SceneError> {
         let Some(written) = self.number("run.accuracy")? else { return Ok(None) };
         let given = Given::new("run.accuracy", "accuracy", &written).map_err(|error| self.located(error))?;
@@ -254,15 +278,22 @@ impl<'a> Reader<'a> {
         }
     }
 
+    /// The number that a value outside of the problem spells.
+    pub(super) fn plain_number(&self, value: &Value<'a>, key: &str) -> Result<Number, SceneError> {
+        let written = self.written(value, key)?;
+        let number = Given::new("", key, &written).map(|given| given.number.clone());
+        number.map_err(|error| self.error(value.span(), error.kind.into(), error.found, error.expected))
+    }
+
     /// Key and value at a path such as `rod` or `rod.length`.
-    fn get(&self, path: &str) -> Option<(&'a Key<'a>, &'a Value<'a>)> {
+    pub(super) fn get(&self, path: &str) -> Option<(&'a Key<'a>, &'a Value<'a>)> {
         match path.split_once('.') {
             None => self.document.get_key_value(path),
             Some((table, key)) => self.document.get(table)?.get_ref().as_table()?.get_key_value(key),
         }
     }
 
-    fn wrong_type(&self, value: &Value<'_>, key: &str, expected: &str) -> SceneError {
+    pub(super) fn wrong_type(&self, value: &Value<'_>, key: &str, expected: &str) -> SceneError {
         let article = if matches!(value.get_ref(), DeValue::Array(_) | DeValue::Integer(_)) { "an" } else { "a" };
         let found = match value.get_ref() {
             DeValue::Table(_) => format!("{key}, a table"),
@@ -271,7 +302,7 @@ impl<'a> Reader<'a> {
         self.error(value.span(), Kind::WrongType, found, expected)
     }
 
-    fn error(
+    pub(super) fn error(
         &self,
         span: Range<usize>,
         kind: Kind,
@@ -281,7 +312,7 @@ impl<'a> Reader<'a> {
         SceneError::new(self.source, span, kind, found, expected)
     }
 
-    fn slice(&self, span: &Range<usize>) -> &'a str {
+    pub(super) fn slice(&self, span: &Range<usize>) -> &'a str {
         self.source.get(span.clone()).unwrap_or_default()
     }
 

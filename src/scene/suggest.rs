@@ -60,7 +60,7 @@ pub(super) fn top(text: &str) -> Option<&'static str> {
 }
 
 /// The known word that is spelled most like `word`, if any is close.
-fn nearest(word: &str, known: &[&'static str]) -> Option<&'static str> {
+pub(super) fn nearest(word: &str, known: &[&'static str]) -> Option<&'static str> {
     // A word of more than 40 bytes is close to none, and the distance is quadratic.
     if word.len() > 40 {
         return None;

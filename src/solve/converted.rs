@@ -6,6 +6,7 @@ use crate::error::Error;
 use crate::motion::{Contact, Ending, Energy, Event, Field, Motion, Scales, Side, StressPiece};
 use crate::number::{Reads, Scalar};
 use crate::ray::Ray;
+use crate::wave::{Stretch, Waves};
 
 /// The history of an engine in numbers `N`, read in numbers `M`.
 #[derive(Debug)]
@@ -97,6 +98,14 @@ impl<N: Scalar, M: Reads<N>> Motion<M> for Converted<N, M> {
 
     fn rays(&self, trip: usize) -> Result<Vec<Ray<M>>, Error> {
         Ok(self.engine.rays(trip)?.into_iter().map(|ray| ray.map(M::read)).collect())
+    }
+
+    fn stretches(&self, time: &M) -> Result<Vec<Stretch<M>>, Error> {
+        Ok(self.engine.stretches(&self.time(time))?.into_iter().map(|stretch| stretch.map(M::read)).collect())
+    }
+
+    fn waves(&self) -> Result<Waves<M>, Error> {
+        Ok(self.engine.waves()?.map(M::read))
     }
 
     fn scales(&self) -> Scales<M> {

@@ -124,6 +124,8 @@ fn irrational_wave_speeds_keep_their_coincidences() {
     let contact = history.contacts()[0].clone();
     let length = Float::with_val(400, 2);
     let t1 = length / (Float::with_val(400, 210e9) / 7800u32).sqrt();
+    // After the touch at gap/μ = 5e-5/0.1.
+    let t1 = t1 + Float::with_val(400, 1) / 2000;
     let to = contact.to.unwrap();
     assert!(*to.lo() <= t1 && *to.hi() >= t1 && to.radius() < 1e-50, "{to:?}");
 }

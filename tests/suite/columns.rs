@@ -12,9 +12,8 @@ fn fraction(p: i64, q: i64) -> Rational {
     Rational::from((p, q))
 }
 
-/// `½ ∫ v_t² dx` and `½ c² ∫ v_x² dx` from values of the field: between rays both squares are quadratic, for which the
-/// rule with the weights 2/3, −1/3, 2/3 at the quarters is exact.
-fn from_field(rod: &Problem, history: &dalembert::History<Rational>, time: &Rational) -> [Rational; 2] {
+/// Where rays are in the rod, its ends included.
+pub(crate) fn cuts(rod: &Problem, history: &dalembert::History<Rational>, time: &Rational) -> Vec<Rational> {
     let length = rod.rod.length.to_rational();
     let trip = history.rays(0).unwrap()[0].clone();
     let c = length.clone() * 2 / (trip.to.clone() - trip.from);
@@ -35,8 +34,16 @@ fn from_field(rod: &Problem, history: &dalembert::History<Rational>, time: &Rati
     cuts.retain(|x| *x >= 0 && *x <= length);
     cuts.sort();
     cuts.dedup();
+    cuts
+}
+
+/// `½ ∫ v_t² dx` and `½ c² ∫ v_x² dx` from values of the field: between rays both squares are quadratic, for which the
+/// rule with the weights 2/3, −1/3, 2/3 at the quarters is exact.
+fn from_field(rod: &Problem, history: &dalembert::History<Rational>, time: &Rational) -> [Rational; 2] {
+    let trip = history.rays(0).unwrap()[0].clone();
+    let c = rod.rod.length.to_rational() * 2 / (trip.to.clone() - trip.from);
     let mut sums = [Rational::new(), Rational::new()];
-    for pair in cuts.windows(2) {
+    for pair in cuts(rod, history, time).windows(2) {
         let width = pair[1].clone() - &pair[0];
         for (quarter, weight) in [(1, fraction(2, 3)), (2, fraction(-1, 3)), (3, fraction(2, 3))] {
             let x = width.clone() * fraction(quarter, 4) + &pair[0];

@@ -6,13 +6,13 @@ use std::process::{Command, Stdio};
 use serde_json::Value;
 
 /// What a run of the command left.
-struct Run {
-    code: Option<i32>,
-    out: String,
-    err: String,
+pub(crate) struct Run {
+    pub(crate) code: Option<i32>,
+    pub(crate) out: String,
+    pub(crate) err: String,
 }
 
-fn run_with(args: &[&str], input: &str) -> Run {
+pub(crate) fn run_with(args: &[&str], input: &str) -> Run {
     let mut child = Command::new(env!("CARGO_BIN_EXE_dalembert"))
         .args(args)
         .stdin(Stdio::piped())
@@ -33,7 +33,7 @@ fn run(args: &[&str]) -> Run {
 
 /// The standard output of a run that succeeds without a word on standard error.
 #[track_caller]
-fn quiet(args: &[&str]) -> String {
+pub(crate) fn quiet(args: &[&str]) -> String {
     let Run { code, out, err } = run(args);
     assert_eq!((code, err.as_str()), (Some(0), ""), "{args:?}");
     assert!(!out.contains('\u{1b}'), "{args:?}: colour off a terminal");
@@ -42,12 +42,12 @@ fn quiet(args: &[&str]) -> String {
 
 /// A run that is refused: code 2, nothing on standard output, all of `said` on standard error.
 #[track_caller]
-fn refused(args: &[&str], said: &[&str]) {
+pub(crate) fn refused(args: &[&str], said: &[&str]) {
     refused_with(args, "", said);
 }
 
 #[track_caller]
-fn refused_with(args: &[&str], input: &str, said: &[&str]) {
+pub(crate) fn refused_with(args: &[&str], input: &str, said: &[&str]) {
     let Run { code, out, err } = run_with(args, input);
     assert_eq!((code, out.as_str()), (Some(2), ""), "{args:?}: {err}");
     assert!(!err.contains('\u{1b}'), "{args:?}: colour off a terminal");
@@ -58,7 +58,7 @@ fn refused_with(args: &[&str], input: &str, said: &[&str]) {
     }
 }
 
-fn json(args: &[&str]) -> Value {
+pub(crate) fn json(args: &[&str]) -> Value {
     serde_json::from_str(&quiet(args)).unwrap()
 }
 
@@ -80,6 +80,7 @@ fn history_schema(history: &Value, is_number: fn(&Value) -> bool) {
             "title",
             "number",
             "effects",
+            "units",
             "exact_until",
             "events",
             "contacts",
@@ -100,7 +101,7 @@ fn history_schema(history: &Value, is_number: fn(&Value) -> bool) {
         assert!(["time", "end_velocity", "centre", "centre_velocity"].iter().all(|key| is_number(&event[*key])));
     }
     for contact in history["contacts"].as_array().unwrap() {
-        assert!(["from", "to", "impulse", "peak_stress"].iter().all(|key| is_number(&contact[*key])), "{contact}");
+        assert!(["from", "to", "impulse", "peak_strain"].iter().all(|key| is_number(&contact[*key])), "{contact}");
         assert!(["momentum", "energy_squared"].iter().all(|key| is_number(&contact["restitution"][*key])));
         keys(&contact["energy"], &["total", "translational", "vibrational"]);
         assert!(contact["energy"].as_object().unwrap().values().all(is_number));
@@ -154,7 +155,10 @@ fn json_of_a_history_in_double_precision() {
     history_schema(&history, Value::is_number);
     assert_eq!(history["number"], "double");
     assert_eq!(history["events"].as_array().unwrap().len(), 12);
-    keys(&history["contacts"][0], &["from", "to", "impulse", "peak_stress", "restitution", "energy", "force"]);
+    keys(
+        &history["contacts"][0],
+        &["from", "to", "impulse", "peak_strain", "restitution", "energy", "peak_stress", "peak_force"],
+    );
     assert!((history["contacts"][1]["from"].as_f64().unwrap() - 8.0 / 3.0).abs() < 1e-14);
 }
 
@@ -278,8 +282,8 @@ fn parameters_that_are_no_fractions() {
     let Run { code, out, err } = run(&["solve", "siconos-impacting-bar", "--exact", "--digits", "12"]);
     assert_eq!(code, Some(0));
     assert!(err.contains("the wave speed √(350000000/13) is no fraction; what follows is in 12 digits"), "{err}");
-    // ρ c S v, and 2L/c.
-    assert!(out.contains("1270.82747846") && out.contains("0.000385449644664") && out.contains("12 digits"), "{out}");
+    // ρ c S v, and gap/v + 2L/c.
+    assert!(out.contains("1270.82747846") && out.contains("0.000885449644664") && out.contains("12 digits"), "{out}");
 }
 
 #[cfg(feature = "mp")]
@@ -328,8 +332,10 @@ fn samples() {
         }
         assert_eq!(rows[rows.len() - 1]["time"], 2.0);
         let csv = quiet(&[&args[..], &["--format", "csv"]].concat());
-        let bounds = names.iter().map(|name| format!("{name}_uncertainty")).collect::<Vec<_>>().join(",");
-        assert_eq!(csv.lines().next().unwrap(), format!("time,point,side,{},{bounds}", names.join(",")));
+        let unit = if quantity == "energy" { " [per ρS]" } else { "" };
+        let heads = ["", "_uncertainty"].map(|end| names.iter().map(move |name| format!("{name}{end}{unit}")));
+        let heads: Vec<String> = heads.into_iter().flatten().collect();
+        assert_eq!(csv.lines().next().unwrap(), format!("time,point,side,{}", heads.join(",")));
         assert_eq!(csv.lines().count(), rows.len() + 1);
     }
 }
@@ -360,7 +366,7 @@ fn csv_parts() {
              centre_velocity_uncertainty".into(), 3));
     assert_eq!(first(&["--part", "stress"]), ("from,to,left,right".into(), 3));
     let (header, lines) = first(&["--part", "contacts"]);
-    assert!(header.starts_with("from,to,impulse,peak_stress,restitution_momentum,"));
+    assert!(header.starts_with("from,to,impulse [per ρS],peak_strain,restitution_momentum,"));
     assert_eq!(lines, 2);
     refused(&["solve", "paper-strong", "--part", "stress"], &["found --part, expected it with --format csv only"]);
 }
@@ -544,4 +550,66 @@ fn the_readme_shows_real_output() {
         }
     }
     assert!(shown > 20);
+}
+
+/// The published values of the built-in scenes: ours round to them, or are within what the scene says.
+#[test]
+fn published_values_beside_ours() {
+    let rows = json(&["scenes", "ansys-vm265", "--targets", "--format", "json"]);
+    let rows = rows.as_array().unwrap();
+    for row in rows {
+        keys(row, &["quantity", "time", "published", "ours", "difference", "source"]);
+    }
+    // gap/μ, and 2L/c after it.
+    let close = |value: &Value, truth: f64| assert!((value.as_f64().unwrap() - truth).abs() < 1e-12 * truth, "{value}");
+    close(&rows[0]["ours"], 0.01 / 202.2);
+    close(&rows[2]["ours"], 0.01 / 202.2 + 20.0 / (3e7f64 / 0.73e-3).sqrt());
+    assert_eq!((&rows[0]["quantity"], &rows[0]["time"]), (&"impact".into(), &Value::Null));
+
+    let table = quiet(&["scenes", "code-aster-sdnv100", "--targets"]);
+    assert!(table.lines().all(|line| line.chars().count() <= 80), "{table}");
+    assert!(table.contains("E_total                J        2e-6      3200.0     3200            0   (2)"), "{table}");
+    let csv = quiet(&["scenes", "ansys-vm85", "--targets", "--format", "csv"]);
+    assert!(
+        csv.starts_with("quantity,unit,time,published,ours,difference,source\nimpact,s,,0.0064,0.0064,0,"),
+        "{csv}"
+    );
+
+    // One half off is seen as that.
+    let scene = "rod = { length = 1, wave_speed = 1 }\nimpact.speed = 1\n[[target]]\nquantity = 'release'\n\
+                 published = 2.5\nsource = 'nowhere'\n";
+    let Run { out, .. } = run_with(&["scenes", "-", "--targets", "--format", "json"], scene);
+    let rows: Value = serde_json::from_str(&out).unwrap();
+    assert_eq!((&rows[0]["ours"], &rows[0]["difference"]), (&2.0.into(), &(-0.5).into()));
+    let missing = scene.replace("published = 2.5", "contact = 3\npublished = 2.5");
+    refused_with(&["scenes", "-", "--targets"], &missing, &["found contact 2 asked for"]);
+    assert_eq!(quiet(&["scenes", "figure-2", "--targets"]).lines().count(), 3);
+    refused(&["scenes", "--targets"], &["<NAME>"]);
+    refused(&["scenes", "ansys-vm85", "--format", "json"], &["found --format, expected it with --targets"]);
+}
+
+#[test]
+fn a_material_gives_its_units() {
+    let history = json(&["solve", "code-aster-sdnv100", "--format", "json"]);
+    assert_eq!((&history["units"]["stress"], &history["units"]["energy"]), (&"Pa".into(), &"J".into()));
+    let contact = &history["contacts"][0];
+    // ρ c μ, ρ c S μ, 2 ρ S L μ, ρ S L μ²/2.
+    let expected = [
+        (&contact["peak_strain"], -0.02),
+        (&contact["peak_stress"], -4e9),
+        (&contact["peak_force"], 1.6e6),
+        (&contact["impulse"], 128.0),
+        (&contact["energy"]["total"], 3200.0),
+    ];
+    for (value, truth) in expected {
+        assert!((value.as_f64().unwrap() / truth - 1.0).abs() < 1e-12, "{value} against {truth}");
+    }
+    let sampled = json(&["sample", "ansys-vm85", "--quantity", "stress", "--times", "0.01", "--format", "json"]);
+    keys(&sampled["rows"][0]["values"], &["v_x", "stress", "force"]);
+    assert_eq!(sampled["units"]["stress"], "psi");
+    let energy = quiet(&["sample", "ansys-vm85", "--quantity", "energy", "--times", "0"]);
+    assert!(energy.contains("energies in lbf in"), "{energy}");
+    assert!(quiet(&["solve", "paper-strong"]).contains("impulse per ρS, energies per ρS\n"));
+    let unknown = json(&["solve", "paper-strong", "--format", "json"]);
+    assert_eq!((&unknown["units"]["time"], &unknown["units"]["impulse"]), (&Value::Null, &"per ρS".into()));
 }

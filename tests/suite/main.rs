@@ -37,11 +37,14 @@ mod hard_cases;
 mod number_interval;
 mod paper_claims;
 mod problem_builder;
+#[cfg(all(feature = "cli", feature = "mp"))]
+mod reference;
 mod scene_builtin;
 mod scene_errors;
 mod scene_properties;
 #[cfg(feature = "mp")]
 mod snapshots_stress;
+mod start_above;
 mod stripped;
 #[cfg(feature = "cli")]
 mod sweep;

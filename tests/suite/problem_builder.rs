@@ -318,6 +318,7 @@ const ELASTIC: [Setter; 3] = [("modulus", "rod", "modulus"), ("density", "rod", 
 const DAMPING: Setter = ("damping", "rod", "damping");
 const GRAVITY: Setter = ("gravity", "gravity", "acceleration");
 const SPEED: Setter = ("impact_speed", "impact", "speed");
+const GAP: Setter = ("gap", "impact", "gap");
 const DROP_HEIGHT: Setter = ("drop_height", "impact", "drop_height");
 const TIME: Setter = ("time", "run", "time");
 
@@ -358,6 +359,7 @@ impl Draft {
                 "damping" => builder.damping(value),
                 "gravity" => builder.gravity(value),
                 "impact_speed" => builder.impact_speed(value),
+                "gap" => builder.gap(value),
                 "drop_height" => builder.drop_height(value),
                 "time" => builder.time(value),
                 _ => builder,
@@ -470,15 +472,15 @@ fn draft() -> impl Strategy<Value = Draft> {
     ])
     .prop_flat_map(move |(speed, drop, profile)| {
         let profile = || percent(profile, points());
-        (set(SPEED, speed), set(DROP_HEIGHT, drop), profile(), profile())
+        (set(SPEED, speed), set(GAP, speed / 3), set(DROP_HEIGHT, drop), profile(), profile())
     });
     let run = chances(&[(0, 50, 0), (0, 50, 0), (100, 0, 0), (100, 0, 0), (50, 50, 0)])
         .prop_flat_map(move |(time, impacts, _)| (set(TIME, time), percent(impacts, 0_u32..40)));
     let rest = (set(DAMPING, 50), set(GRAVITY, 80), any::<bool>());
     (length, material, rest, start, run).prop_map(
-        |(length, (c, elastic), (r, g, fixed), (mu, h, u, v), (t, impacts))| {
+        |(length, (c, elastic), (r, g, fixed), (mu, gap, h, u, v), (t, impacts))| {
             let elastic = elastic.into_iter().flat_map(|values| ELASTIC.into_iter().zip(values));
-            let numbers = [length, c, r, g, mu, h, t].into_iter().flatten().chain(elastic).collect();
+            let numbers = [length, c, r, g, mu, gap, h, t].into_iter().flatten().chain(elastic).collect();
             let profiles = [("displacement", u), ("velocity", v)];
             let profiles = profiles.into_iter().filter_map(|(key, points)| Some((key, points?))).collect();
             Draft { numbers, fixed, profiles, impacts }

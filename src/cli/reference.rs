@@ -1,0 +1,216 @@
+//! `dalembert reference`.
+
+use std::path::PathBuf;
+use std::sync::mpsc::sync_channel;
+
+use clap::Args;
+
+use super::list::{List, list};
+use super::times::{CHUNK, Chunk, Times, TimesFile};
+use super::{Failure, NumberArgs, Visit, refuse_time, solve, source, warned};
+use crate::error::Error;
+use crate::history::History;
+use crate::motion::{Motion, Side};
+use crate::number::{Number, Scalar};
+use crate::output::{Described, Golden, Head, Language, Preamble, Rows, code, write_whole};
+use crate::quantity::{Column, Slice, Units};
+use crate::scene::Scene;
+use crate::solve::{Question, Target};
+
+/// Golden files: all quantities at chosen times as CSV, JSON or NPZ, or the exact solution as a function
+#[derive(Args, Debug)]
+#[command(
+    after_help = "Without times, the rows are the start, every impact and release, and the end. Where a jump passes, a \
+    time has two rows, the limits from earlier and from later times.\n\n\
+    Columns: t, side, u_end, v_end, strain, stress, force, u_top, v_top, h, h_rate, E_total, E_h, E_z, kinetic, \
+    strain_energy, gravity, contact, impulse; the header of a file explains each.\n\n\
+    Examples:\n  dalembert reference doyen-ern-piperno --dt 0.001 --to 5 -o golden.csv\n  \
+    my_code --print-times | dalembert reference rod.toml --times-from - --columns t,u_end,force\n  \
+    dalembert reference rod.toml --times 0..2:5 --points 0..1:101 -o field.npz"
+)]
+pub(super) struct Reference {
+    /// A scene file, `-`, or a built-in scene. With times it is followed to the last one, whatever its own run says
+    scene: String,
+    /// Times: numbers such as 0.3 or 1/3 separated by commas, or A..B:N for N times from A to B
+    #[arg(long, value_name = "LIST", value_parser = list, allow_hyphen_values = true, group = "when")]
+    times: Option<List>,
+    /// Times from a file, `-` for standard input: one a line, `#` begins a comment
+    #[arg(long, value_name = "FILE", group = "when")]
+    times_from: Option<PathBuf>,
+    /// Times 0, DT, 2 DT … up to --to
+    #[arg(long, value_name = "DT", requires = "to", group = "when", allow_hyphen_values = true)]
+    dt: Option<Number>,
+    /// The last time of --dt
+    #[arg(long, value_name = "T", requires = "dt", allow_hyphen_values = true)]
+    to: Option<Number>,
+    /// The columns, in this order; by default all
+    #[arg(long, value_name = "A,B,C", value_delimiter = ',', value_parser = column)]
+    columns: Option<Vec<Column>>,
+    /// The field along the rod instead of the columns, on a grid: points in the same form as --times
+    #[arg(long, value_name = "LIST", value_parser = list, allow_hyphen_values = true, conflicts_with = "columns")]
+    points: Option<List>,
+    /// What the field is on the grid
+    #[arg(long, value_enum, default_value_t, requires = "points")]
+    field: Slice,
+    /// Only this limit where there are two, one row for each time; by default both
+    #[arg(long, value_enum)]
+    side: Option<Side>,
+    #[command(flatten)]
+    numbers: NumberArgs,
+    /// What to write; by default what the ending of FILE says, or CSV
+    #[arg(long, value_enum)]
+    format: Option<Golden>,
+    /// Instead of rows: the exact solution of an undamped rod as a function uExact(x, t, d)
+    #[arg(long = "as", value_enum, value_name = "LANGUAGE")]
+    #[arg(conflicts_with_all = ["when", "columns", "points", "side", "format"])]
+    language: Option<Language>,
+    /// Write to this file, whole or not at all; `-` is standard output
+    #[arg(short, long, value_name = "FILE")]
+    output: Option<PathBuf>,
+}
+
+fn column(name: &str) -> Result<Column, String> {
+    let known = || Column::ALL.map(Column::name).join(", ");
+    Column::named(name.trim()).ok_or_else(|| format!("found no column of this name, expected one of {}", known()))
+}
+
+impl Reference {
+    pub(super) fn run(&self) -> Result<(), Failure> {
+        let scene = source::read(&self.scene)?;
+        let numbers = self.numbers.numbers(&scene);
+        if let Some(language) = self.language {
+            return solve(&scene, &Question::run(numbers), &Function { asked: self, scene: &scene, language });
+        }
+        let golden = self.golden()?;
+        let times = self.times()?;
+        let columns = match &self.points {
+            Some(_) => Vec::new(),
+            None => self.columns.clone().unwrap_or_else(|| Column::ALL.to_vec()),
+        };
+        let question = match times.ends()? {
+            None => Question::run(numbers),
+            // What has happened before the first time is part of these.
+            Some((_, last)) if columns.iter().any(|c| matches!(c, Column::Contact | Column::Impulse)) => {
+                Question::between(0.into(), last, numbers)
+            }
+            Some((first, last)) => Question::between(first, last, numbers),
+        };
+        solve(&scene, &question, &Series { asked: self, scene: &scene, golden, times, columns })
+    }
+
+    fn golden(&self) -> Result<Golden, Failure> {
+        let ending = self.output.as_ref().and_then(|path| path.extension()).and_then(|ending| ending.to_str());
+        match (self.format, ending.map(str::to_lowercase).as_deref()) {
+            (Some(golden), _) => Ok(golden),
+            (None, Some("csv") | None) => Ok(Golden::Csv),
+            (None, Some("json")) => Ok(Golden::Json),
+            (None, Some("npz")) => Ok(Golden::Npz),
+            (None, Some(other)) => Err(miette::miette!(
+                "found the ending .{other}, expected .csv, .json or .npz here, or --format to say what the file holds"
+            )),
+        }
+    }
+
+    fn cannot_write(&self) -> impl FnOnce(std::io::Error) -> source::Io + use<> {
+        let name = self.output.as_ref().map_or("standard output".into(), |path| path.display().to_string());
+        source::cannot(&format!("write {name}"))
+    }
+
+    fn times(&self) -> Result<Times, Failure> {
+        Ok(match (&self.times, &self.times_from, &self.dt, &self.to) {
+            (Some(list), ..) => Times::List(list.clone()),
+            (_, Some(path), ..) => Times::File(TimesFile::open(path)?),
+            (_, _, Some(dt), Some(to)) => Times::List(List::steps(dt, to).map_err(|error| miette::miette!("{error}"))?),
+            _ => Times::Events,
+        })
+    }
+}
+
+/// Columns over time.
+struct Series<'a> {
+    asked: &'a Reference,
+    scene: &'a Scene,
+    golden: Golden,
+    times: Times,
+    columns: Vec<Column>,
+}
+
+/// The start, the events and the end, each once.
+fn event_times<S: Scalar>(motion: &dyn Motion<S>) -> Result<Vec<S>, Error> {
+    let end = motion.end();
+    let mut times = vec![end.zero()];
+    for time in motion.events().iter().map(|event| &event.time).chain([&end]) {
+        if times.last().map_or(Ok(true), |last| last.below(time))? {
+            times.push(time.clone());
+        }
+    }
+    Ok(times)
+}
+
+impl Series<'_> {
+    /// The rows of some times.
+    fn ask<S: Target>(&self, history: &History<S>, chunk: Option<&Chunk<'_>>) -> Result<Vec<Vec<S::Carried>>, Error> {
+        let times = |motion: &dyn Motion<S::Carried>| match chunk {
+            Some(chunk) => Ok(chunk.lift(&motion.end().precision())),
+            None => event_times(motion),
+        };
+        match &self.asked.points {
+            None => history.ask_columns(&self.columns, self.asked.side, times),
+            Some(points) => history.ask_slices(self.asked.field, self.asked.side, |motion| {
+                Ok((points.lift(&motion.end().precision()), times(motion)?))
+            }),
+        }
+    }
+}
+
+impl Visit for Series<'_> {
+    /// Rows are written while the next ones are asked for.
+    fn visit<S: Target>(&self, history: &History<S>, head: Head, progress: source::Progress) -> Result<(), Failure> {
+        let units = Units::of(&self.scene.problem, self.scene.units);
+        let described = match &self.asked.points {
+            Some(_) => Described::slice(&units),
+            None => self.columns.iter().map(|column| Described::column(*column, &units)).collect(),
+        };
+        let keep = || source::cannot("keep the rows");
+        let mut rows = Rows::new(self.golden, described, head.digits).map_err(keep())?;
+        let at_once = CHUNK / self.asked.points.as_ref().map_or(1, List::len).min(CHUNK);
+        std::thread::scope(|scope| {
+            let (send, receive) = sync_channel::<Vec<Vec<S::Carried>>>(2);
+            let rows = &mut rows;
+            let writer = scope.spawn(move || receive.iter().try_for_each(|table| rows.push(&table)));
+            let asked = self.times.chunks(at_once, |chunk| {
+                let table = self.ask(history, chunk.as_ref());
+                // Where nobody receives any more, the writer says why.
+                let _ = send.send(table.map_err(|error| refuse_time(error, history.ending()))?);
+                Ok(())
+            });
+            drop(send);
+            let written = writer.join().unwrap_or_else(|panic| std::panic::resume_unwind(panic));
+            asked.and(written.map_err(|error| keep()(error).into()))
+        })?;
+        drop(progress);
+        let head = warned(history, head);
+        let numbers = history.plan().numbers;
+        let preamble = Preamble { head: &head, scene: self.scene.source(), numbers, each: "each column" };
+        Ok(rows.finish(&preamble, self.asked.output.as_deref()).map_err(self.asked.cannot_write())?)
+    }
+}
+
+/// The exact solution as a function.
+struct Function<'a> {
+    asked: &'a Reference,
+    scene: &'a Scene,
+    language: Language,
+}
+
+impl Visit for Function<'_> {
+    fn visit<S: Target>(&self, history: &History<S>, head: Head, progress: source::Progress) -> Result<(), Failure> {
+        let waves = history.ask_waves()?;
+        drop(progress);
+        let head = warned(history, head);
+        let numbers = history.plan().numbers;
+        let preamble = Preamble { head: &head, scene: self.scene.source(), numbers, each: "each coefficient" };
+        let text = code(&waves, &S::carry(history.end()), self.language, &preamble);
+        Ok(write_whole(self.asked.output.as_deref(), text.as_bytes()).map_err(self.asked.cannot_write())?)
+    }
+}

@@ -1,0 +1,142 @@
+//! What others have published of a scene, held against its history.
+
+use crate::error::Error;
+use crate::motion::{Contact, EventKind, Motion};
+use crate::number::{Estimate, Scalar};
+use crate::quantity::Units;
+use crate::scene::{Scene, Target, TargetQuantity as Q, builtin};
+
+/// A scene with its published values and ours.
+#[derive(Clone, Debug)]
+pub(crate) struct Published {
+    pub(crate) scene: &'static str,
+    pub(crate) reached: Vec<Reached<Estimate<f64>>>,
+}
+
+/// Every built-in scene that has published values, in doubles.
+///
+/// **Errors**: those of scene and run; no built-in scene has any.
+pub(crate) fn published() -> Result<Vec<Published>, Error> {
+    let mut all = Vec::new();
+    for builtin in builtin::ALL {
+        let Ok(scene) = Scene::parse(builtin.source) else { continue };
+        if scene.targets.is_empty() {
+            continue;
+        }
+        let units = Units::of(&scene.problem, scene.units);
+        let gather = |motion: &dyn Motion<Estimate<f64>>| Reached::all(motion, &scene.targets, &units);
+        let reached = scene.problem.solve()?.ask(gather, |_| Vec::new())?;
+        all.push(Published { scene: builtin.name, reached });
+    }
+    Ok(all)
+}
+
+/// A published value and ours.
+#[derive(Clone, Debug)]
+pub(crate) struct Reached<S> {
+    pub(crate) target: Target,
+    /// As a number of the history.
+    pub(crate) published: S,
+    pub(crate) ours: S,
+}
+
+impl<S: Scalar> Reached<S> {
+    /// What `motion` has for each of `targets`.
+    ///
+    /// **Errors**: [`Error::NoContact`], and those of the history.
+    pub(crate) fn all(motion: &dyn Motion<S>, targets: &[Target], units: &Units) -> Result<Vec<Self>, Error> {
+        let precision = motion.end().precision();
+        let reached = |target: &Target| {
+            Ok(Reached {
+                target: target.clone(),
+                published: S::from_number(&target.published, &precision),
+                ours: ours(motion, target, units)?,
+            })
+        };
+        targets.iter().map(reached).collect()
+    }
+
+    /// Ours less the published value.
+    pub(crate) fn difference(&self) -> S {
+        self.ours.clone() - &self.published
+    }
+
+    /// Whether the difference is within what the published value may be off, and its own bound.
+    pub(crate) fn agrees(&self) -> bool {
+        let difference = self.difference();
+        difference.to_f64().abs() <= self.target.tolerance() + difference.log2_error().exp2()
+    }
+}
+
+fn ours<S: Scalar>(motion: &dyn Motion<S>, target: &Target, units: &Units) -> Result<S, Error> {
+    let end = motion.end();
+    let precision = end.precision();
+    let scaled = |value: S| match units.factor::<S>(target.quantity.measure(), &precision) {
+        Some(factor) => value * factor,
+        None => value,
+    };
+    if let Some(time) = &target.time {
+        let (time, side) = (S::from_number(time, &precision), target.side);
+        let from_start = |asked: &dyn Fn(&S) -> Result<S, Error>| {
+            let value = asked(&time)?;
+            Ok(if target.from_start { value - asked(&time.zero())? } else { value })
+        };
+        return match target.quantity {
+            Q::EndDisplacement => from_start(&|t| Ok(motion.ground_end(t, side)?.0)),
+            Q::TopDisplacement => from_start(&|t| Ok(motion.top_end(t, side)?.0)),
+            Q::Centre => from_start(&|t| Ok(motion.centre(t)?.0)),
+            Q::EndVelocity => Ok(motion.ground_end(&time, side)?.1),
+            Q::TopVelocity => Ok(motion.top_end(&time, side)?.1),
+            Q::CentreVelocity => Ok(motion.centre(&time)?.1),
+            Q::Energy => motion.energy(&time).map(|energy| scaled(energy.total)),
+            Q::TranslationalEnergy => motion.energy(&time).map(|energy| scaled(energy.translational)),
+            Q::VibrationalEnergy => motion.energy(&time).map(|energy| scaled(energy.vibrational)),
+            _ => motion.stress(&time, side).map(scaled),
+        };
+    }
+    let none = || Error::NoContact { contact: target.contact - 1, found: motion.contacts().len() };
+    let contact: &Contact<S> = motion.contacts().get(target.contact - 1).ok_or_else(none)?;
+    let to = contact.to.as_ref().ok_or_else(none);
+    let velocity = |kind: EventKind| {
+        let mut events = motion.events().iter().filter(|event| event.kind == kind);
+        events.nth(target.contact - 1).map(|event| event.end_velocity.clone()).ok_or_else(none)
+    };
+    Ok(match target.quantity {
+        Q::Impact => contact.from.clone(),
+        Q::Release => to?.clone(),
+        Q::Duration => to?.clone() - &contact.from,
+        Q::ImpactVelocity => velocity(EventKind::Impact)?,
+        Q::ReleaseVelocity => velocity(EventKind::Release)?,
+        Q::Impulse => scaled(contact.impulse.clone()),
+        _ => scaled(contact.peak_stress.clone()),
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    #![allow(clippy::unwrap_used)]
+    use super::*;
+
+    /// c = 3: the contact lasts 2/3.
+    #[test]
+    fn a_value_agrees_to_its_last_digit_and_no_further() {
+        for (published, within, agrees) in [
+            ("'2/3'", "", true),
+            ("0.667", "", true),
+            ("0.666", "", false),
+            ("0.66", "within = 0.007", true),
+            ("'2/3'", "within = 1e-9", true),
+            ("'2001/3000'", "", false),
+        ] {
+            let text = format!(
+                "rod = {{ length = 1, wave_speed = 3 }}\nimpact.speed = 1\n[[target]]\nquantity = 'duration'\n\
+                 published = {published}\n{within}\nsource = 'by hand'\n"
+            );
+            let scene = Scene::parse(&text).unwrap();
+            let units = Units::of(&scene.problem, scene.units);
+            let gather = |motion: &dyn Motion<Estimate<f64>>| Reached::all(motion, &scene.targets, &units);
+            let reached = scene.problem.solve().unwrap().ask(gather, |_| Vec::new()).unwrap();
+            assert_eq!(reached[0].agrees(), agrees, "{published} {within}");
+        }
+    }
+}

@@ -1,0 +1,341 @@
+//! Golden files: rows of named columns as CSV, JSON or NPZ, written as they come, below a header that says what they
+//! are worth.
+
+use std::fs::File;
+use std::io::{self, BufReader, BufWriter, Read, Seek, Write};
+use std::path::Path;
+
+use ndarray::Array1;
+use ndarray_npy::{NpzWriter, WriteNpzError};
+use serde_json::{Value, json};
+
+use super::record::{Head, json as number_json};
+use super::write_filled;
+use crate::number::{DOUBLE_DIGITS, Scalar, bound_of_log2, show};
+use crate::quantity::{Column, Measure, Units};
+use crate::solve::Numbers;
+
+/// What a golden file is written as.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, clap::ValueEnum)]
+pub enum Golden {
+    /// Rows below a header of comments
+    Csv,
+    /// An object with the header's entries and the rows
+    Json,
+    /// One array for each column, for NumPy
+    Npz,
+}
+
+/// A column of a golden file.
+#[derive(Clone, Debug)]
+pub struct Described {
+    /// The name in the file.
+    pub name: &'static str,
+    /// The symbol; empty where there is none.
+    pub symbol: &'static str,
+    /// What it is.
+    pub meaning: &'static str,
+    /// The unit; empty where there is none.
+    pub unit: &'static str,
+}
+
+impl Described {
+    /// A column of time series.
+    pub fn column(column: Column, units: &Units) -> Self {
+        Described { name: column.name(), symbol: column.symbol(), meaning: column.meaning(), unit: column.unit(units) }
+    }
+
+    /// The columns of a slice along the rod.
+    pub fn slice(units: &Units) -> Vec<Self> {
+        let one = |name, symbol, meaning, measure| Described { name, symbol, meaning, unit: units.name(measure) };
+        let [time, side] = [Column::Time, Column::Side].map(|column| Described::column(column, units));
+        vec![
+            time,
+            side,
+            one("x", "x", "place along the rod, from the end at the ground", Measure::Length),
+            one("u", "v", "displacement, upwards", Measure::Length),
+            one("v", "v_t", "velocity, upwards", Measure::Velocity),
+            one("strain", "v_x", "strain, positive in tension", Measure::Strain),
+        ]
+    }
+
+    /// Whether the values are −1, 0 and 1, which stand for the sides of a jump, or 0 and 1 for contact.
+    fn is_flag(&self) -> bool {
+        self.is_side() || self.name == Column::Contact.name()
+    }
+
+    fn is_side(&self) -> bool {
+        self.name == Column::Side.name()
+    }
+
+    /// `v(0,t): displacement of the end [m]`.
+    fn line(&self) -> String {
+        let symbol = if self.symbol.is_empty() { String::new() } else { format!("{}: ", self.symbol) };
+        let unit = if self.unit.is_empty() { String::new() } else { format!(" [{}]", self.unit) };
+        format!("{symbol}{}{unit}", self.meaning)
+    }
+}
+
+/// What a golden file says of itself.
+#[derive(Debug)]
+pub struct Preamble<'a> {
+    /// Title, numbers, warnings.
+    pub head: &'a Head,
+    /// The text of the scene.
+    pub scene: &'a str,
+    /// The numbers that were asked for.
+    pub numbers: Numbers,
+    /// What has a bound.
+    pub each: &'a str,
+}
+
+/// The sign conventions of all golden files.
+const SIGNS: &str = "x and displacements upwards from the undeformed rod on the ground; strain and stress positive in \
+                     tension, force positive in compression";
+const SIDE: &str = "left is the limit from earlier times, right from later ones; both: they are the same";
+const CITE: &str = concat!(
+    "The dalembert developers, dalembert ",
+    env!("CARGO_PKG_VERSION"),
+    ": exact reference solutions for the bouncing elastic rod; with the scene above"
+);
+
+impl Preamble<'_> {
+    /// What the numbers are worth.
+    fn promise(&self, npz: bool) -> String {
+        let promise = match self.numbers {
+            Numbers::Double(_) => return format!("{} within its bound, carried through the computation", self.each),
+            Numbers::Exact => "fractions without any error".to_string(),
+            Numbers::Certified(digits) => {
+                format!("{digits} digits, proved by enclosures; fewer where no more are known")
+            }
+            Numbers::Digits(digits) | Numbers::ExactThenDigits(digits) => {
+                format!("{digits} digits, rounded once from values known to more")
+            }
+        };
+        if npz { format!("{promise}; here rounded to the nearest double") } else { promise }
+    }
+
+    /// The scene without comments.
+    fn scene_lines(&self) -> impl Iterator<Item = &str> {
+        self.scene.lines().map(str::trim_end).filter(|line| !line.is_empty() && !line.trim_start().starts_with('#'))
+    }
+
+    /// Everything as JSON.
+    fn json(&self, columns: &[Described], bounds: &[f64], npz: bool) -> Value {
+        let columns = columns.iter().zip(bounds).map(|(column, bound)| {
+            let mut value = json!({
+                "name": column.name, "symbol": column.symbol, "meaning": column.meaning, "unit": column.unit,
+            });
+            if self.has_bounds() && !column.is_flag() {
+                value["bound"] = bound_of_log2(*bound).parse::<f64>().map_or(Value::Null, Value::from);
+            }
+            value
+        });
+        json!({
+            "schema": 1,
+            "kind": "reference",
+            "dalembert": env!("CARGO_PKG_VERSION"),
+            "title": self.head.title,
+            "scene": self.scene_lines().collect::<Vec<_>>().join("\n"),
+            "effects": self.head.effects,
+            "numbers": self.head.number,
+            "proved": self.proved(),
+            "promise": self.promise(npz),
+            "signs": SIGNS,
+            "side": SIDE,
+            "warnings": self.head.warnings,
+            "cite": CITE,
+            "columns": columns.collect::<Vec<_>>(),
+        })
+    }
+
+    fn proved(&self) -> bool {
+        matches!(self.numbers, Numbers::Exact | Numbers::Certified(_))
+    }
+
+    fn has_bounds(&self) -> bool {
+        matches!(self.numbers, Numbers::Double(_))
+    }
+
+    /// What stands above a CSV or a function, line by line.
+    pub(super) fn lines(&self) -> impl Iterator<Item = String> {
+        let proved = if self.proved() { "" } else { " (not proved)" };
+        let line = |key: &str, value: &str| format!("{key}: {value}");
+        let mut lines = vec![format!("dalembert {}: reference", env!("CARGO_PKG_VERSION"))];
+        lines.extend(self.head.title.iter().map(|title| line("title", title)));
+        lines.extend(self.scene_lines().map(|scene| line("scene", scene)));
+        lines.push(line("numbers", &format!("{}: {}{proved}", self.head.number, self.promise(false))));
+        lines.push(line("signs", SIGNS));
+        lines.extend(self.head.warnings.iter().map(|warning| line("warning", &warning.replace('\n', " "))));
+        lines.push(line("cite", CITE));
+        lines.into_iter()
+    }
+
+    /// Everything as comments above the rows of a CSV.
+    fn comments(&self, columns: &[Described], bounds: &[f64]) -> String {
+        let mut text: String = self.lines().map(|line| format!("# {line}\n")).collect();
+        for (column, bound) in columns.iter().zip(bounds) {
+            let within = match self.has_bounds() && !column.is_flag() {
+                true => format!("; within {}", bound_of_log2(*bound)),
+                false => String::new(),
+            };
+            text += &format!("# column {}: {}{within}\n", column.name, column.line());
+        }
+        text
+    }
+}
+
+/// The rows of a golden file, kept aside until their bounds are known.
+#[derive(Debug)]
+pub struct Rows {
+    golden: Golden,
+    columns: Vec<Described>,
+    digits: u32,
+    /// One file with the text of all rows, or one with the doubles of each column.
+    kept: Vec<BufWriter<File>>,
+    /// `log₂` of the bound of each column.
+    bounds: Vec<f64>,
+    count: usize,
+}
+
+const BUFFER: usize = 1 << 16;
+
+impl Rows {
+    /// No rows yet. `digits` is how many a long number has, 0 for doubles and fractions.
+    pub fn new(golden: Golden, columns: Vec<Described>, digits: u32) -> io::Result<Self> {
+        let files = if golden == Golden::Npz { columns.len() } else { 1 };
+        let kept = (0..files).map(|_| tempfile::tempfile().map(|file| BufWriter::with_capacity(BUFFER, file)));
+        let (kept, bounds) = (kept.collect::<Result<_, _>>()?, vec![f64::NEG_INFINITY; columns.len()]);
+        Ok(Rows { golden, columns, digits, kept, bounds, count: 0 })
+    }
+
+    /// Adds rows, given column by column.
+    pub fn push<S: Scalar>(&mut self, table: &[Vec<S>]) -> io::Result<()> {
+        for (bound, values) in self.bounds.iter_mut().zip(table) {
+            *bound = values.iter().map(|value| written_error(value)).fold(*bound, f64::max);
+        }
+        let count = table.first().map_or(0, Vec::len);
+        if self.golden == Golden::Npz {
+            for (file, values) in self.kept.iter_mut().zip(table) {
+                values.iter().try_for_each(|value| file.write_all(&written(value).to_le_bytes()))?;
+            }
+        } else if let Some(file) = self.kept.first_mut() {
+            let mut writer = Writer { golden: self.golden, digits: self.digits, text: Vec::with_capacity(BUFFER) };
+            for row in 0..count {
+                writer.row(&self.columns, table, row, self.count + row == 0);
+                if writer.text.len() > BUFFER / 2 {
+                    file.write_all(&writer.text)?;
+                    writer.text.clear();
+                }
+            }
+            file.write_all(&writer.text)?;
+        }
+        self.count += count;
+        Ok(())
+    }
+
+    /// Writes the file, or to standard output.
+    pub fn finish(self, preamble: &Preamble<'_>, path: Option<&Path>) -> io::Result<()> {
+        let Rows { golden, columns, kept, bounds, count, .. } = self;
+        let mut kept = kept.into_iter().map(|file| {
+            let mut file = file.into_inner().map_err(io::IntoInnerError::into_error)?;
+            file.rewind()?;
+            Ok::<_, io::Error>(file)
+        });
+        write_filled(path, |file| match golden {
+            Golden::Csv => {
+                let names: Vec<&str> = columns.iter().map(|column| column.name).collect();
+                writeln!(file, "{}{}", preamble.comments(&columns, &bounds), names.join(","))?;
+                kept.try_for_each(|rows| io::copy(&mut rows?, file).map(|_| ()))
+            }
+            Golden::Json => {
+                let header = format!("{:#}", preamble.json(&columns, &bounds, false));
+                write!(file, "{},\n  \"rows\": [", header.trim_end_matches("\n}"))?;
+                kept.try_for_each(|rows| io::copy(&mut rows?, file).map(|_| ()))?;
+                file.write_all(b"\n  ]\n}\n")
+            }
+            Golden::Npz => {
+                let other = |error: WriteNpzError| io::Error::other(error.to_string());
+                let mut npz = NpzWriter::new(file);
+                let header = format!("{:#}", preamble.json(&columns, &bounds, true));
+                npz.add_array("header", &Array1::from(header.into_bytes())).map_err(other)?;
+                for (column, values) in columns.iter().zip(kept) {
+                    let mut values = BufReader::new(values?);
+                    let mut next = || {
+                        let mut bytes = [0; 8];
+                        values.read_exact(&mut bytes).map(|()| f64::from_le_bytes(bytes))
+                    };
+                    let values = (0..count).map(|_| next()).collect::<Result<Vec<f64>, _>>()?;
+                    match column.is_flag() {
+                        true => npz.add_array(column.name, &Array1::from_iter(values.iter().map(|x| *x as i8))),
+                        false => npz.add_array(column.name, &Array1::from(values)),
+                    }
+                    .map_err(other)?;
+                }
+                npz.finish().map_err(other).map(|_| ())
+            }
+        })
+    }
+}
+
+/// The double that is written: zero for what is zero within its bound, and never a negative zero.
+fn written<S: Scalar>(value: &S) -> f64 {
+    if value.vanishes() == Ok(true) { 0.0 } else { value.to_f64() }
+}
+
+/// `log₂` of how far the number meant may lie from what is written.
+fn written_error<S: Scalar>(value: &S) -> f64 {
+    let own = value.log2_error();
+    // What is zero within its bound is at most that bound.
+    if value.vanishes() == Ok(true) { own + 1.0 } else { own }
+}
+
+/// Rows as text.
+struct Writer {
+    golden: Golden,
+    digits: u32,
+    text: Vec<u8>,
+}
+
+impl Writer {
+    fn row<S: Scalar>(&mut self, columns: &[Described], table: &[Vec<S>], row: usize, first: bool) {
+        let json = self.golden == Golden::Json;
+        if json {
+            self.text.extend_from_slice(if first { b"\n    [" } else { b",\n    [" });
+        }
+        for (k, (column, values)) in columns.iter().zip(table).enumerate() {
+            if k > 0 {
+                self.text.extend_from_slice(if json { b", " } else { b"," });
+            }
+            self.value(column, &values[row]);
+        }
+        self.text.extend_from_slice(if json { b"]" } else { b"\n" });
+    }
+
+    fn value<S: Scalar>(&mut self, column: &Described, value: &S) {
+        let json = self.golden == Golden::Json;
+        if column.is_side() {
+            let word: &[u8] = match (value.to_f64(), json) {
+                (x, true) if x < 0.0 => b"\"left\"",
+                (x, false) if x < 0.0 => b"left",
+                (x, true) if x > 0.0 => b"\"right\"",
+                (x, false) if x > 0.0 => b"right",
+                (_, true) => b"\"both\"",
+                (_, false) => b"both",
+            };
+            return self.text.extend_from_slice(word);
+        }
+        if column.is_flag() {
+            return self.text.push(if value.to_f64() > 0.0 { b'1' } else { b'0' });
+        }
+        match value.as_double() {
+            // The shortest text that reads as the same double; no negative zero.
+            Some(_) => self.text.extend_from_slice(ryu::Buffer::new().format(written(value)).as_bytes()),
+            None if json => self.text.extend_from_slice(number_json(value, self.digits).to_string().as_bytes()),
+            None => {
+                let digits = if self.digits == 0 { DOUBLE_DIGITS } else { self.digits };
+                self.text.extend_from_slice(show(value, digits).as_bytes());
+            }
+        }
+    }
+}

@@ -1,0 +1,180 @@
+//! The field along the rod at chosen times: at points, averaged over cells, or projected on linear elements.
+
+use super::column::same;
+use crate::error::Error;
+use crate::motion::{Motion, Side};
+use crate::number::Scalar;
+use crate::wave::Stretch;
+
+/// How the field is given on a grid.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[cfg_attr(feature = "cli", derive(clap::ValueEnum))]
+pub enum Slice {
+    /// The values at the points
+    #[default]
+    Points,
+    /// The mean values over the cells between neighbouring points; x is the middle of the cell
+    Averages,
+    /// The nodal values of the L² projection on the continuous, piecewise linear functions on the grid
+    P1,
+}
+
+/// `t`, `side`, `x`, `v`, `v_t`, `v_x` for every time of `times` on the grid `points`, column by column, with the sides
+/// as in [`columns`](super::columns). Averages and projections do not jump.
+///
+/// **Source**: between rays `v_t` and `v_x` are linear in `x` and `v` quadratic: all integrals are those of
+/// polynomials.
+///
+/// **Accuracy**: *exact* in fractions; otherwise within the bounds that the numbers carry.
+///
+/// **Errors**: [`Error::NoWaves`] for averages and projections of a damped rod; [`Error::Grid`] for those on a grid
+/// whose points do not increase, and
+/// [`Error::PointOutside`].
+pub fn slices<S: Scalar>(
+    motion: &dyn Motion<S>,
+    slice: Slice,
+    points: &[S],
+    times: &[S],
+    side: Option<Side>,
+) -> Result<Vec<Vec<S>>, Error> {
+    let mut table: Vec<Vec<S>> = (0..6).map(|_| Vec::with_capacity(points.len() * times.len())).collect();
+    let mut add = |time: &S, limit: i64, x: &S, values: [S; 3]| {
+        let row = [time.clone(), time.int(limit), x.clone()].into_iter().chain(values);
+        table.iter_mut().zip(row).for_each(|(column, value)| column.push(value));
+    };
+    if slice != Slice::Points {
+        check(points, &motion.scales().length)?;
+    }
+    for time in times {
+        if slice != Slice::Points {
+            let stretches = motion.stretches(time)?;
+            let (places, values) = match slice {
+                Slice::P1 => (points.to_vec(), projection(&moments(&stretches, points)?, points)),
+                _ => averages(&moments(&stretches, points)?, points),
+            };
+            places.iter().zip(values).for_each(|(x, values)| add(time, 0, x, values));
+            continue;
+        }
+        let ask = |side: Side| {
+            let field = |x: &S| motion.field(x, time, side).map(|f| [f.displacement, f.velocity, f.strain]);
+            points.iter().map(field).collect::<Result<Vec<_>, _>>()
+        };
+        let right = ask(side.unwrap_or_default())?;
+        let left = if side.is_none() { ask(Side::Left)? } else { Vec::new() };
+        let jumps = left.iter().flatten().zip(right.iter().flatten()).any(|(a, b)| !same(a, b));
+        let limit = match side {
+            Some(Side::Left) => -1,
+            None if !jumps => 0,
+            _ => 1,
+        };
+        if jumps {
+            points.iter().zip(left).for_each(|(x, values)| add(time, -1, x, values));
+        }
+        points.iter().zip(right).for_each(|(x, values)| add(time, limit, x, values));
+    }
+    Ok(table)
+}
+
+/// Refuses what is no grid in the rod.
+fn check<S: Scalar>(points: &[S], length: &S) -> Result<(), Error> {
+    let (Some(first), Some(last), true) = (points.first(), points.last(), points.len() > 1) else {
+        return Err(Error::Grid { found: "fewer than two points".into() });
+    };
+    for pair in points.windows(2) {
+        if !pair[0].below(&pair[1])? {
+            return Err(Error::Grid { found: format!("the point {} after {}", pair[1].text(), pair[0].text()) });
+        }
+    }
+    let outside =
+        if first.negative()? { Some(first) } else { Some(last).filter(|last| length.below(last) != Ok(false)) };
+    outside.map_or(Ok(()), |point| Err(Error::PointOutside { found: point.text(), length: length.text() }))
+}
+
+/// `∫ f dx` and `∫ f (x − a) dx` over each cell `a … b`, for `f` = `v`, `v_t`, `v_x`.
+fn moments<S: Scalar>(stretches: &[Stretch<S>], points: &[S]) -> Result<Vec<[[S; 2]; 3]>, Error> {
+    let mut cells = Vec::with_capacity(points.len());
+    let mut rest = stretches.iter().cloned();
+    let mut now = rest.next();
+    for pair in points.windows(2) {
+        let (a, b) = (&pair[0], &pair[1]);
+        let zero = || [a.zero(), a.zero()];
+        let mut sums = [zero(), zero(), zero()];
+        while let Some(stretch) = now.take() {
+            let end = stretch.from.clone() + &stretch.width;
+            // Before the grid, in the cell, and beyond it.
+            let skipped = a.clone() - &stretch.from;
+            let stretch = match skipped.positive()? {
+                true if !a.below(&end)? => {
+                    now = rest.next();
+                    if now.is_none() {
+                        break;
+                    }
+                    continue;
+                }
+                true => stretch.after(&skipped),
+                false => stretch,
+            };
+            let within = end.below(b)?;
+            let way = if within { stretch.width.clone() } else { b.clone() - &stretch.from };
+            let offset = stretch.from.clone() - a;
+            for (sum, [area, moment]) in sums.iter_mut().zip(stretch.moments(&way)) {
+                sum[1] = sum[1].clone() + moment + &(offset.clone() * &area);
+                sum[0] = sum[0].clone() + area;
+            }
+            if within {
+                now = rest.next();
+            } else {
+                now = Some(stretch.after(&way));
+                break;
+            }
+        }
+        cells.push(sums);
+    }
+    Ok(cells)
+}
+
+/// The middles of the cells, and the means over them.
+fn averages<S: Scalar>(moments: &[[[S; 2]; 3]], points: &[S]) -> (Vec<S>, Vec<[S; 3]>) {
+    let cells = points.windows(2).zip(moments).map(|(pair, moments)| {
+        let width = pair[1].clone() - &pair[0];
+        let middle = (pair[1].clone() + &pair[0]) / width.int(2);
+        (middle, moments.each_ref().map(|[area, _]| area.clone() / &width))
+    });
+    cells.unzip()
+}
+
+/// The nodal values: the mass matrix of linear elements, `h/3` and `h/6` from each cell, by elimination.
+fn projection<S: Scalar>(moments: &[[[S; 2]; 3]], points: &[S]) -> Vec<[S; 3]> {
+    let Some(first) = points.first() else { return Vec::new() };
+    let zero = || first.zero();
+    let mut diagonal: Vec<S> = points.iter().map(|_| zero()).collect();
+    let mut loads: Vec<[S; 3]> = points.iter().map(|_| [zero(), zero(), zero()]).collect();
+    let mut beside = Vec::with_capacity(moments.len());
+    for (k, (pair, moments)) in points.windows(2).zip(moments).enumerate() {
+        let width = pair[1].clone() - &pair[0];
+        for (j, [area, moment]) in moments.iter().enumerate() {
+            let upper = moment.clone() / &width;
+            loads[k][j] = loads[k][j].clone() + area - &upper;
+            loads[k + 1][j] = loads[k + 1][j].clone() + upper;
+        }
+        let third = width.clone() / width.int(3);
+        diagonal[k] = diagonal[k].clone() + &third;
+        diagonal[k + 1] = diagonal[k + 1].clone() + third;
+        beside.push(width.clone() / width.int(6));
+    }
+    for k in 1..points.len() {
+        let share = beside[k - 1].clone() / &diagonal[k - 1];
+        diagonal[k] = diagonal[k].clone() - share.clone() * &beside[k - 1];
+        loads[k] = std::array::from_fn(|j| loads[k][j].clone() - share.clone() * &loads[k - 1][j]);
+    }
+    for k in (0..points.len()).rev() {
+        loads[k] = std::array::from_fn(|j| {
+            let known = match beside.get(k) {
+                Some(beside) => loads[k][j].clone() - beside.clone() * &loads[k + 1][j],
+                None => loads[k][j].clone(),
+            };
+            known / &diagonal[k]
+        });
+    }
+    loads
+}

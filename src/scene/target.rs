@@ -1,0 +1,276 @@
+//! Values that others have published for a scene: data beside it, in `[[target]]`.
+
+use toml::de::{DeTable, DeValue};
+
+use super::error::{SceneError, SceneErrorKind as Kind};
+use super::read::Reader;
+use super::suggest;
+use crate::motion::Side;
+use crate::number::Number;
+use crate::problem::written::short;
+use crate::quantity::Measure;
+
+/// A value that others have published for a scene.
+///
+/// **Units**: those of the scene.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Target {
+    /// What was published.
+    pub quantity: TargetQuantity,
+    /// `t`, for what has a value at every time.
+    pub time: Option<Number>,
+    /// Which limit, where there are two.
+    pub side: Side,
+    /// Which contact, from 1, for what belongs to a contact.
+    pub contact: usize,
+    /// Whether a displacement is counted from where the rod starts, and not from where it is undeformed on the ground.
+    pub from_start: bool,
+    /// The published value, with the digits that were published.
+    pub published: Number,
+    /// How far the published value may be off; without it, half a unit of its last digit, or nothing for a fraction.
+    pub within: Option<Number>,
+    /// Where it was published.
+    pub source: String,
+}
+
+/// What can be published of a scene.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum TargetQuantity {
+    /// The time at which a contact begins.
+    Impact,
+    /// The time at which a contact ends.
+    Release,
+    /// How long a contact lasts.
+    Duration,
+    /// `v_t(0,t)` just before a contact.
+    ImpactVelocity,
+    /// `v_t(0,t)` just after a contact.
+    ReleaseVelocity,
+    /// The impulse of a contact.
+    Impulse,
+    /// The most compressive stress at the ground in a contact.
+    PeakStress,
+    /// The greatest force of the ground in a contact.
+    PeakForce,
+    /// `v(0,t)`.
+    EndDisplacement,
+    /// `v_t(0,t)`.
+    EndVelocity,
+    /// `v(L,t)`.
+    TopDisplacement,
+    /// `v_t(L,t)`.
+    TopVelocity,
+    /// `v_x(0,t)`.
+    Strain,
+    /// `E v_x(0,t)`.
+    Stress,
+    /// `−E S v_x(0,t)`.
+    Force,
+    /// `h(t)`.
+    Centre,
+    /// `h′(t)`.
+    CentreVelocity,
+    /// `E(t)`.
+    Energy,
+    /// `E_h(t)`.
+    TranslationalEnergy,
+    /// `E_z(t)`.
+    VibrationalEnergy,
+}
+
+use TargetQuantity as Q;
+
+/// Every quantity, with the word that a scene has for it and what it measures.
+const QUANTITIES: [(Q, &str, Measure); 20] = [
+    (Q::Impact, "impact", Measure::Time),
+    (Q::Release, "release", Measure::Time),
+    (Q::Duration, "duration", Measure::Time),
+    (Q::ImpactVelocity, "impact_velocity", Measure::Velocity),
+    (Q::ReleaseVelocity, "release_velocity", Measure::Velocity),
+    (Q::Impulse, "impulse", Measure::Impulse),
+    (Q::PeakStress, "peak_stress", Measure::Stress),
+    (Q::PeakForce, "peak_force", Measure::Force),
+    (Q::EndDisplacement, "u_end", Measure::Length),
+    (Q::EndVelocity, "v_end", Measure::Velocity),
+    (Q::TopDisplacement, "u_top", Measure::Length),
+    (Q::TopVelocity, "v_top", Measure::Velocity),
+    (Q::Strain, "strain", Measure::Strain),
+    (Q::Stress, "stress", Measure::Stress),
+    (Q::Force, "force", Measure::Force),
+    (Q::Centre, "h", Measure::Length),
+    (Q::CentreVelocity, "h_rate", Measure::Velocity),
+    (Q::Energy, "E_total", Measure::Energy),
+    (Q::TranslationalEnergy, "E_h", Measure::Energy),
+    (Q::VibrationalEnergy, "E_z", Measure::Energy),
+];
+
+impl TargetQuantity {
+    fn row(self) -> &'static (Q, &'static str, Measure) {
+        QUANTITIES.iter().find(|(quantity, ..)| *quantity == self).unwrap_or(&QUANTITIES[0])
+    }
+
+    /// The word that a scene has for it: `u_top`.
+    pub fn name(self) -> &'static str {
+        self.row().1
+    }
+
+    /// What it measures.
+    pub fn measure(self) -> Measure {
+        self.row().2
+    }
+
+    /// Whether it belongs to a contact, and not to a time.
+    pub fn is_of_contact(self) -> bool {
+        let of_contact = [Q::Impact, Q::Release, Q::Duration, Q::ImpactVelocity, Q::ReleaseVelocity];
+        of_contact.contains(&self) || matches!(self, Q::Impulse | Q::PeakStress | Q::PeakForce)
+    }
+}
+
+impl Target {
+    /// What was published, in words: `u_top from the start`, `release 2`.
+    pub fn label(&self) -> String {
+        let mut label = self.quantity.name().to_string();
+        if self.contact > 1 {
+            label += &format!(" {}", self.contact);
+        }
+        if self.side == Side::Left {
+            label += " from the left";
+        }
+        if self.from_start {
+            label += " from the start";
+        }
+        label
+    }
+
+    /// How far the published value may be off: what is said, or half a unit of its last digit; zero for a fraction.
+    ///
+    /// ```
+    /// use dalembert::Scene;
+    /// let scene = "[rod]\nlength = 1\nwave_speed = 3\n[impact]\nspeed = 1\n\
+    ///              [[target]]\nquantity = 'release'\npublished = 6.67e-1\nsource = 'by hand'\n";
+    /// assert!((Scene::parse(scene)?.targets[0].tolerance() - 0.0005).abs() < 1e-15);
+    /// # Ok::<(), dalembert::scene::SceneError>(())
+    /// ```
+    pub fn tolerance(&self) -> f64 {
+        if let Some(within) = &self.within {
+            return within.to_f64();
+        }
+        let text = self.published.to_string();
+        if text.contains('/') {
+            return 0.0;
+        }
+        let (mantissa, exponent) = text.split_once(['e', 'E']).unwrap_or((&text, "0"));
+        let decimals = mantissa.split_once('.').map_or(0, |(_, decimals)| decimals.len());
+        0.5 * 10f64.powi(exponent.parse::<i32>().unwrap_or(0) - decimals as i32)
+    }
+}
+
+const KEYS: &[&str] = &["quantity", "time", "side", "contact", "origin", "published", "within", "source"];
+
+impl<'a> Reader<'a> {
+    /// The published values of the scene; `has_material` says whether stress and force have a value.
+    pub(super) fn targets(&self, has_material: bool) -> Result<Vec<Target>, SceneError> {
+        let Some((_, value)) = self.get("target") else { return Ok(Vec::new()) };
+        let Some(array) = value.get_ref().as_array() else {
+            return Err(self.wrong_type(value, "target", "tables, [[target]]"));
+        };
+        let table = |value: &'a toml::Spanned<DeValue<'a>>| match value.get_ref().as_table() {
+            Some(table) => self.target(&One { reader: self, table, span: value.span() }, has_material),
+            None => Err(self.wrong_type(value, "target", "a table, [[target]]")),
+        };
+        array.iter().map(table).collect()
+    }
+
+    fn target(&self, one: &One<'_, 'a>, has_material: bool) -> Result<Target, SceneError> {
+        let unknown = one.table.keys().filter(|key| !KEYS.contains(&key.get_ref().as_ref()));
+        if let Some(key) = unknown.min_by_key(|key| key.span().start) {
+            let hint =
+                suggest::nearest(key.get_ref(), KEYS).map_or(String::new(), |near| format!(" (did you mean {near}?)"));
+            let found = format!("the unknown key `{}` in [[target]]", short(key.get_ref()));
+            return Err(self.error(key.span(), Kind::UnknownKey, found, format!("one of {}{hint}", KEYS.join(", "))));
+        }
+        let names = QUANTITIES.map(|(_, name, _)| name);
+        let place = one.choice("quantity", &names)?.ok_or_else(|| one.missing("quantity", &names.join(", ")))?;
+        let quantity = QUANTITIES[place].0;
+        let refuse = |key: &str, expected: &str| match one.table.get_key_value(key) {
+            None => Ok(()),
+            Some((key, _)) => {
+                let found = format!("{} of the {} in [[target]]", key.get_ref(), quantity.name());
+                Err(self.error(key.span(), Kind::Contradiction, found, expected))
+            }
+        };
+        let time = one.number("time")?;
+        let (side, origin) = (one.choice("side", &["left", "right"])?, one.choice("origin", &["ground", "start"])?);
+        let contact = match one.table.get("contact") {
+            None => 1,
+            Some(value) => {
+                let whole = value.get_ref().as_integer().and_then(|whole| whole.as_str().parse::<usize>().ok());
+                let expected = "the number of a contact, from 1 on";
+                whole.filter(|n| *n > 0).ok_or_else(|| self.wrong_type(value, "contact", expected))?
+            }
+        };
+        if quantity.is_of_contact() {
+            refuse("time", "no time: it belongs to a contact")?;
+            refuse("side", "no side: it belongs to a contact")?;
+        } else {
+            refuse("contact", "a time: it has a value at every time")?;
+            if time.is_none() {
+                return Err(one.missing("time", &format!("the time of the {}", quantity.name())));
+            }
+        }
+        if !matches!(quantity, Q::EndDisplacement | Q::TopDisplacement | Q::Centre) {
+            refuse("origin", "an origin of u_end, u_top or h only")?;
+        }
+        if !has_material && matches!(quantity.measure(), Measure::Stress | Measure::Force) {
+            let found = format!("the {} in [[target]]", quantity.name());
+            let expected = "modulus, density and area in [rod], or strain";
+            return Err(self.error(one.span.clone(), Kind::MissingKey, found, expected));
+        }
+        Ok(Target {
+            quantity,
+            time,
+            side: if side == Some(0) { Side::Left } else { Side::Right },
+            contact,
+            from_start: origin == Some(1),
+            published: one.number("published")?.ok_or_else(|| one.missing("published", "the published value"))?,
+            within: one.number("within")?,
+            source: one.text("source")?.ok_or_else(|| one.missing("source", "where it was published"))?.0.to_string(),
+        })
+    }
+}
+
+/// One `[[target]]`.
+struct One<'r, 'a> {
+    reader: &'r Reader<'a>,
+    table: &'a DeTable<'a>,
+    span: std::ops::Range<usize>,
+}
+
+impl<'a> One<'_, 'a> {
+    fn missing(&self, key: &str, expected: &str) -> SceneError {
+        self.reader.error(self.span.clone(), Kind::MissingKey, format!("no {key} in [[target]]"), expected)
+    }
+
+    fn text(&self, key: &str) -> Result<Option<(&'a str, std::ops::Range<usize>)>, SceneError> {
+        let Some(value) = self.table.get(key) else { return Ok(None) };
+        let text = value.get_ref().as_str().ok_or_else(|| self.reader.wrong_type(value, key, "a string"))?;
+        Ok(Some((text, value.span())))
+    }
+
+    /// The place of a word among `known`.
+    fn choice(&self, key: &str, known: &[&'static str]) -> Result<Option<usize>, SceneError> {
+        let Some((text, span)) = self.text(key)? else { return Ok(None) };
+        let place = known.iter().position(|name| *name == text);
+        place.map(Some).ok_or_else(|| {
+            let hint = suggest::nearest(text, known).map_or(String::new(), |near| format!(" (did you mean {near}?)"));
+            let (found, expected) = (format!("{key} = {}", short(self.reader.slice(&span))), known.join(", "));
+            self.reader.error(span, Kind::OutOfRange, found, format!("one of {expected}{hint}"))
+        })
+    }
+
+    fn number(&self, key: &'static str) -> Result<Option<Number>, SceneError> {
+        let Some(value) = self.table.get(key) else { return Ok(None) };
+        self.reader.plain_number(value, key).map(Some)
+    }
+}
