@@ -152,6 +152,9 @@ pub enum Error {
          top, whose first contact has a closed form"
     )]
     NoClosedForm,
+    /// The observer of a run ended it.
+    #[error("interrupted")]
+    Interrupted,
     /// A comparison of enclosures that their ends do not settle.
     #[error(transparent)]
     Open(#[from] crate::number::Open),

@@ -78,8 +78,28 @@ impl<S: Target> History<S> {
         self.attempt.lock().unwrap_or_else(PoisonError::into_inner).clone()
     }
 
-    /// The answer to `query`, in numbers that carry their bound, settled to the digits of the plan.
-    pub(crate) fn ask<T>(
+    /// The answer to any `query`, in numbers that carry their bound; `numbers` are those of the answer that are settled
+    /// to the digits of the plan.
+    ///
+    /// **Accuracy**: that of the [`Plan`]. The query is repeated in more bits where those at hand do not settle it.
+    ///
+    /// **Errors**: those of the query; [`Error::Unsettled`], [`Error::Undecided`] where too many bits do not settle it.
+    ///
+    /// ```
+    /// use dalembert::{Number, Problem, Scalar, Side};
+    /// let rod = Problem::builder().length(1).wave_speed(1).gravity(1).impact_speed(3).build()?;
+    /// // A time that no double holds, in the precision of each attempt.
+    /// let third: Number = "1/3".parse()?;
+    /// let history = rod.solve()?;
+    /// let strain = history.ask(
+    ///     |motion| motion.stress(&Scalar::from_number(&third, &motion.end().precision()), Side::Right),
+    ///     |strain| vec![strain],
+    /// )?;
+    /// assert_eq!(*strain.value(), -10.0 / 3.0); // −(μ + g t)/c
+    /// assert!(strain.bound() < 1e-14);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    pub fn ask<T>(
         &self,
         query: impl Fn(&dyn Motion<S::Carried>) -> Result<T, Error>,
         numbers: impl Fn(&T) -> Vec<&S::Carried>,
@@ -209,8 +229,9 @@ impl<S: Target> History<S> {
         Ok(table.into_iter().map(|column| column.into_iter().map(S::strip).collect()).collect())
     }
 
-    /// [`History::columns`] in numbers that carry their bound, at times that may be those of the engine itself.
-    pub(crate) fn ask_columns(
+    /// [`History::columns`] in numbers that carry their bound, at times that may be those of the engine itself, or lifted
+    /// to the precision of each attempt.
+    pub fn ask_columns(
         &self,
         columns: &[Column],
         side: Option<Side>,

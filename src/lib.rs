@@ -69,6 +69,8 @@ pub mod scene;
 pub mod solve;
 #[doc(hidden)]
 pub mod special;
+#[cfg(feature = "cli")]
+mod sweep;
 mod wave;
 
 pub use error::Error;

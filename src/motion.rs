@@ -1,5 +1,7 @@
 //! The answer as an object: what happened, and what can be asked of it.
 
+use std::ops::ControlFlow;
+
 use std::fmt;
 
 use serde::{Serialize, Serializer};
@@ -536,4 +538,9 @@ pub trait Motion<S: Scalar>: fmt::Debug + Send + Sync {
     fn warnings(&self) -> &[Warning] {
         &[]
     }
+}
+
+/// An observer that does nothing.
+pub fn unobserved(_: usize, _: usize) -> ControlFlow<()> {
+    ControlFlow::Continue(())
 }

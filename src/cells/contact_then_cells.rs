@@ -1,9 +1,12 @@
 //! The paper's rod from the first contact on: closed form while the contact lasts, cells after it.
 
+use std::ops::ControlFlow;
+
 use super::history::Damped;
 use super::piece::Unresolved;
 use crate::error::Error;
 use crate::first_contact::{Bounce, ContactHistory, FirstContact};
+use crate::motion::unobserved;
 use crate::motion::{Contact, Ending, Energy, Event, Field, Motion, Scales, Side, StressPiece, Uncertainty};
 use crate::number::Estimate;
 use crate::problem::{Parameters, Problem, Run};
@@ -64,7 +67,7 @@ impl<S: RoundedSpecial> ContactThenCells<S> {
         bounce: Bounce<Estimate<S>>,
         reach: Reach,
     ) -> Result<Self, Error> {
-        Self::solve_observed(problem, precision, digits, (bounce, reach), &|_, _| ())
+        Self::solve_observed(problem, precision, digits, (bounce, reach), &unobserved)
     }
 
     /// [`Self::solve`], observed.
@@ -73,7 +76,7 @@ impl<S: RoundedSpecial> ContactThenCells<S> {
         precision: &S::Precision,
         digits: f64,
         (bounce, reach): (Bounce<Estimate<S>>, Reach),
-        observe: &dyn Fn(usize, usize),
+        observe: &dyn Fn(usize, usize) -> ControlFlow<()>,
     ) -> Result<Self, Error> {
         let rod = Parameters::<S>::of(problem, precision)?;
         let asked = match &problem.run {
@@ -110,7 +113,7 @@ impl<S: RoundedSpecial> ContactThenCells<S> {
         problem: &Problem,
         precision: &S::Precision,
         reach: Reach,
-        observe: &dyn Fn(usize, usize),
+        observe: &dyn Fn(usize, usize) -> ControlFlow<()>,
     ) -> Result<(), Error> {
         let (Some(bounce), Reach::Run) = (self.bounce.clone(), reach) else { return Ok(()) };
         if self.digits > MOST_MARCHED {
@@ -302,7 +305,7 @@ mod tests {
                 let release = (first.time + displaced, f64::abs(displaced) + first.time_error, first.end_velocity);
                 let form = straight.contact.form();
                 let off =
-                    Damped::after_bounce(&problem, &(), 13.0, form, (&release.0, release.1, &release.2), &|_, _| ())?;
+                    Damped::after_bounce(&problem, &(), 13.0, form, (&release.0, release.1, &release.2), &unobserved)?;
                 Ok((straight, off))
             };
             let (straight, off) = solve().unwrap_or_else(|error| unreachable!("{error}"));

@@ -4,6 +4,8 @@
 //! `y = v_t`, and it lands when `v(0,·) = ∫ y` returns to zero. A landing at which `y` is not negative, and at `y = 0`
 //! not falling, is none: the flight goes on.
 
+use std::ops::ControlFlow;
+
 use super::bounce::Held;
 use super::budget::{Budget, Off};
 use super::flight::Flight;
@@ -242,7 +244,11 @@ impl<'a, S: RoundedSpecial> Follower<'a, S> {
 
     /// Goes on until the goal; `observe` receives the round trips, or the contacts where so many are asked for, and the
     /// number of pieces.
-    pub(super) fn run(&mut self, goal: &Goal<S>, observe: &dyn Fn(usize, usize)) -> Result<Ending, Error> {
+    pub(super) fn run(
+        &mut self,
+        goal: &Goal<S>,
+        observe: &dyn Fn(usize, usize) -> ControlFlow<()>,
+    ) -> Result<Ending, Error> {
         let unit = self.height.log2_roundoff().exp2();
         let mut round = i64::MIN;
         let mut calm = None;
@@ -261,7 +267,9 @@ impl<'a, S: RoundedSpecial> Follower<'a, S> {
             if self.state.round > round {
                 round = self.state.round;
                 let done = if matches!(goal, Goal::Impacts(_)) { self.landed as usize } else { round.max(0) as usize };
-                observe(done, pieces);
+                if observe(done, pieces).is_break() {
+                    return Err(Error::Interrupted);
+                }
                 self.new_round();
                 if let Some(ending) = self.settle(goal, &mut calm) {
                     return Ok(ending);

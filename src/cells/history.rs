@@ -1,5 +1,7 @@
 //! The solution of the damped problem, and the answers to what is asked of it.
 
+use std::ops::ControlFlow;
+
 use super::bounce::Held;
 use super::flight::Flight;
 use super::follow::{Follower, Goal};
@@ -11,6 +13,7 @@ use super::series::{at_one, at_zero, evaluate};
 use super::start::{Data, Units};
 use crate::error::Error;
 use crate::first_contact::FirstContact;
+use crate::motion::unobserved;
 use crate::motion::{Contact, Ending, Energy, Event, EventKind, Field, Motion, Scales, Side, StressPiece, Uncertainty};
 use crate::number::Estimate;
 use crate::problem::{Parameters, Problem, Run, Top};
@@ -128,7 +131,7 @@ impl<S: RoundedSpecial> Damped<S> {
     /// **Errors**: [`Error::DampingTooStrong`] for `r t₁ > 2000`; [`Error::TooManyPieces`] beyond 400 000 strips;
     /// [`Error::TooManyRays`] beyond 4096 segments in a round trip; [`Error::Irrational`] from the parameters.
     pub fn solve(problem: &Problem, precision: &S::Precision, digits: f64) -> Result<Self, Error> {
-        Self::solve_observed(problem, precision, digits, 1, &|_, _| ())
+        Self::solve_observed(problem, precision, digits, 1, &unobserved)
     }
 
     /// [`Self::solve`] with segments `shorten` times shorter than need be, observed.
@@ -137,7 +140,7 @@ impl<S: RoundedSpecial> Damped<S> {
         precision: &S::Precision,
         digits: f64,
         shorten: i64,
-        observe: &dyn Fn(usize, usize),
+        observe: &dyn Fn(usize, usize) -> ControlFlow<()>,
     ) -> Result<Self, Error> {
         let (medium, data) = medium(problem, precision, digits, shorten)?;
         let goal = goal(problem, precision, &data);
@@ -156,7 +159,7 @@ impl<S: RoundedSpecial> Damped<S> {
         digits: f64,
         contact: &FirstContact<Estimate<S>>,
         (time, time_error, leaves): (&S, f64, &S),
-        observe: &dyn Fn(usize, usize),
+        observe: &dyn Fn(usize, usize) -> ControlFlow<()>,
     ) -> Result<Self, Error> {
         let (medium, data) = medium(problem, precision, digits, 1)?;
         let goal = goal(problem, precision, &data);
@@ -524,7 +527,7 @@ mod tests {
         for damping in ["0.01", "0.3", "2.6"] {
             let problem = rod(1, 4, damping, Run::Time(Number::from(14)));
             let coarse = Damped::<f64>::solve(&problem, &(), 12.0).unwrap();
-            let fine = Damped::<f64>::solve_observed(&problem, &(), 12.0, 5, &|_, _| ()).unwrap();
+            let fine = Damped::<f64>::solve_observed(&problem, &(), 12.0, 5, &unobserved).unwrap();
             assert!(fine.pieces.len() > 4 * coarse.pieces.len() / 3);
             assert_eq!(coarse.events.len(), fine.events.len());
             for (a, b) in coarse.events.iter().zip(&fine.events) {

@@ -6,10 +6,12 @@ mod cost;
 mod explain;
 mod list;
 mod reference;
+mod regimes;
 mod sample;
 mod scenes;
 mod solve;
 mod source;
+mod sweep;
 mod times;
 
 use std::path::PathBuf;
@@ -63,6 +65,10 @@ enum Command {
     Cost(cost::Cost),
     /// Your data against the exact history: norms, contacts, an audit, and hints at what may be wrong
     Compare(compare::Compare),
+    /// Numbers of a scene over a grid of its values, on all cores
+    Sweep(sweep::Sweep),
+    /// When and whether the first contact ends, over all dampings and impact speeds
+    Regimes(regimes::Regimes),
     /// Hard cases and the paper's claims, worked out by every route and held against the truth
     Check(check::Check),
     /// List the built-in scenes, print one, or hold it against what others have published
@@ -88,6 +94,8 @@ pub fn run(cli: Cli) -> Result<ExitCode, Failure> {
         Command::Explain(command) => command.run(),
         Command::Cost(command) => command.run(),
         Command::Compare(command) => return command.run(),
+        Command::Sweep(command) => command.run(),
+        Command::Regimes(command) => command.run(),
         Command::Check(command) => return command.run(),
         Command::Scenes(command) => command.run(),
         Command::Man => {

@@ -1,6 +1,7 @@
 //! Where a scene comes from, and how a run shows its progress.
 
 use std::io::Read;
+use std::ops::ControlFlow;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::mpsc::{RecvTimeoutError, Sender, channel};
@@ -123,6 +124,7 @@ impl Progress {
             if calls.fetch_add(1, Ordering::Relaxed).is_multiple_of(16) {
                 bar.set_message(format!("{pieces} pieces"));
             }
+            ControlFlow::Continue(())
         })
     }
 }

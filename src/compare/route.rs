@@ -93,7 +93,7 @@ impl Route {
 }
 
 /// What the solver is asked so that it answers `question`, and no more.
-fn asked(question: &Question, numbers: Numbers) -> solve::Question {
+pub(crate) fn asked(question: &Question, numbers: Numbers) -> solve::Question {
     let want = match (&question.time, question.quantity) {
         (_, Quantity::LastEvent | Quantity::Impact | Quantity::Release) => Want::Run,
         (_, Quantity::TopTime | Quantity::TopHeight | Quantity::ShortestPiece) => Want::Run,

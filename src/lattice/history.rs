@@ -1,10 +1,13 @@
 //! The history of an undamped rod, and where its times lie on the lattice.
 
+use std::ops::ControlFlow;
+
 use super::limits::{Halt, Limits, Until};
 use super::march::{GroundMotion, march};
 use super::start::{Scaled, Units};
 use super::trace::{Part, Place};
 use crate::error::Error;
+use crate::motion::unobserved;
 use crate::motion::{Contact, Ending, Event, EventKind, Side};
 use crate::number::{Bounded, Open};
 use crate::problem::{Problem, Run, Top};
@@ -54,7 +57,7 @@ impl<N: Bounded> Undamped<N> {
     /// # Ok::<(), dalembert::Error>(())
     /// ```
     pub fn solve(problem: &Problem, precision: &N::Precision) -> Result<Self, Error> {
-        Self::solve_within(problem, precision, Limits::default(), |_, _| ())
+        Self::solve_within(problem, precision, Limits::default(), unobserved)
     }
 
     /// [`Undamped::solve`] with a limit of one's own; for `observe` see [`crate::solve::Observer`].
@@ -62,7 +65,7 @@ impl<N: Bounded> Undamped<N> {
         problem: &Problem,
         precision: &N::Precision,
         limits: Limits,
-        observe: impl FnMut(usize, usize),
+        observe: impl FnMut(usize, usize) -> ControlFlow<()>,
     ) -> Result<Self, Error> {
         let scaled = Scaled::<N>::of(problem, precision)?;
         let until = match &problem.run {

@@ -1,5 +1,7 @@
 //! The march: round trip after round trip. The contact law itself is in `ground`.
 
+use std::ops::ControlFlow;
+
 use super::limits::{Halt, Limits, Until};
 use super::start::Scaled;
 use super::trace::{GroundEvent, Place, Trace};
@@ -56,16 +58,17 @@ pub(super) struct March<N> {
 }
 
 /// Marches `problem` over round trip after round trip. `observe` receives the trips, or the contacts where so many are
-/// asked for, and the number of pieces.
+/// asked for, and the number of pieces, and may end the march.
 ///
 /// **Accuracy**: *exact* in fractions, *enclosure* in intervals; otherwise within the bounds that the numbers carry.
 ///
-/// **Errors**: [`Error::TooManyPieces`]; [`Error::Open`] where not even the start is settled.
+/// **Errors**: [`Error::TooManyPieces`]; [`Error::Interrupted`] by `observe`; [`Error::Open`] where not even the start
+/// is settled.
 pub fn march<N: Bounded>(
     problem: &Scaled<N>,
     until: &Until<N>,
     limits: Limits,
-    mut observe: impl FnMut(usize, usize),
+    mut observe: impl FnMut(usize, usize) -> ControlFlow<()>,
 ) -> Result<GroundMotion<N>, Error> {
     let zero = problem.gravity.zero();
     let mut state = March {
@@ -104,7 +107,9 @@ pub fn march<N: Bounded>(
             return Err(Error::TooManyPieces { limit: limits.pieces, time });
         }
         let done = if matches!(until, Until::Contacts(_)) { state.contacts as usize } else { trip };
-        observe(done, state.trace.count());
+        if observe(done, state.trace.count()).is_break() {
+            return Err(Error::Interrupted);
+        }
         if trip + 1 < limits.keep_from {
             state.trace.forget();
             let old = state.events.partition_point(|event| event.trip + 1 < trip);

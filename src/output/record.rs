@@ -9,7 +9,7 @@ use crate::solve::ExactnessEnd;
 
 /// A number that carries its bound as a JSON value: a number for a double (null if not finite),
 /// `{"value": …, "lo": …, "hi": …}` with `lo ≤ truth ≤ hi` for an enclosure, a string otherwise.
-pub(super) fn json<S: Scalar>(x: &S, digits: u32) -> serde_json::Value {
+pub(crate) fn json<S: Scalar>(x: &S, digits: u32) -> serde_json::Value {
     let text = show(x, if digits == 0 { DOUBLE_DIGITS } else { digits });
     match (x.as_double(), x.ends(digits)) {
         (Some(value), _) if !value.is_finite() => serde_json::Value::Null,
@@ -22,7 +22,7 @@ pub(super) fn json<S: Scalar>(x: &S, digits: u32) -> serde_json::Value {
 
 /// The bound of the error of a number as it is printed, as a JSON value: a number where a double holds it, a string
 /// otherwise; `null` for an enclosure, which has it in itself.
-pub(super) fn bound_json<S: Scalar>(x: &S, digits: u32) -> serde_json::Value {
+pub(crate) fn bound_json<S: Scalar>(x: &S, digits: u32) -> serde_json::Value {
     if x.ends(1).is_some() {
         return serde_json::Value::Null;
     }

@@ -2,6 +2,7 @@
 //! settles it.
 
 use std::fmt;
+use std::ops::ControlFlow;
 use std::sync::Arc;
 
 use super::plan::{Plan, Rung};
@@ -11,12 +12,12 @@ use crate::number::{Answer, Scalar};
 use crate::problem::Problem;
 
 /// Receives from time to time how far a run is, in round trips, or in contacts where so many are asked for, and how
-/// many pieces it has.
-pub type Observer = Arc<dyn Fn(usize, usize) + Send + Sync>;
+/// many pieces it has; may end the run with [`Error::Interrupted`].
+pub type Observer = Arc<dyn Fn(usize, usize) -> ControlFlow<()> + Send + Sync>;
 
 /// An observer that does nothing.
 pub(crate) fn unobserved() -> Observer {
-    Arc::new(|_, _| ())
+    Arc::new(crate::lattice::unobserved)
 }
 
 /// An engine that has run.

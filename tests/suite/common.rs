@@ -62,7 +62,7 @@ pub(crate) fn first_contact(rod: &Parameters<f64>, accuracy: f64) -> History<f64
 /// The first contact of `problem` in doubles to `accuracy`.
 pub(crate) fn to_accuracy(problem: &Problem, accuracy: f64) -> History<f64> {
     let plan = Plan::of(problem, &Question::first_contact(Numbers::Double(Some(accuracy)))).unwrap();
-    match plan.solve(problem, std::sync::Arc::new(|_, _| ())).unwrap() {
+    match plan.solve(problem, std::sync::Arc::new(dalembert::lattice::unobserved)).unwrap() {
         Solution::Double(history) => history,
         other => panic!("{other:?}"),
     }

@@ -9,7 +9,7 @@ use std::sync::Arc;
 
 fn in_doubles(problem: &Problem, accuracy: Option<f64>) -> History<f64> {
     let plan = Plan::of(problem, &Question::run(Numbers::Double(accuracy))).unwrap();
-    let Solution::Double(motion) = plan.solve(problem, Arc::new(|_, _| ())).unwrap() else {
+    let Solution::Double(motion) = plan.solve(problem, Arc::new(dalembert::lattice::unobserved)).unwrap() else {
         panic!("doubles were asked for");
     };
     motion
@@ -273,7 +273,11 @@ fn a_damped_run_is_observed() {
         let seen = Arc::new(Mutex::new(Vec::new()));
         let plan = Plan::of(problem, &Question::run(Numbers::Double(Some(1e-2)))).unwrap();
         let note = seen.clone();
-        plan.solve(problem, Arc::new(move |done, _| note.lock().unwrap().push(done))).unwrap();
+        let observe = move |done, _| {
+            note.lock().unwrap().push(done);
+            std::ops::ControlFlow::Continue(())
+        };
+        plan.solve(problem, Arc::new(observe)).unwrap();
         let seen = seen.lock().unwrap();
         seen.clone()
     };

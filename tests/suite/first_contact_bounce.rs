@@ -139,7 +139,7 @@ fn lost_digits_are_noticed_and_fetched() {
     let solved = |damping: &str, accuracy: f64| -> History<f64> {
         let problem = Problem::builder().length("1/2").wave_speed(1).damping(damping).impact_speed(1).build().unwrap();
         let plan = Plan::of(&problem, &Question::first_contact(Numbers::Double(Some(accuracy)))).unwrap();
-        match plan.solve(&problem, std::sync::Arc::new(|_, _| ())).unwrap() {
+        match plan.solve(&problem, std::sync::Arc::new(dalembert::lattice::unobserved)).unwrap() {
             Solution::Double(history) => history,
             other => panic!("{other:?}"),
         }

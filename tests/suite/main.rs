@@ -56,6 +56,8 @@ mod scene_properties;
 mod snapshots_stress;
 mod start_above;
 mod stripped;
+#[cfg(feature = "cli")]
+mod sweep;
 mod three_routes;
 #[cfg(feature = "mp")]
 mod undamped_bounds;

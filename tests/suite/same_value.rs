@@ -50,7 +50,7 @@ fn run<S: Target>(problem: &Problem, question: &Question) -> Option<Arc<dyn Moti
             (Rung::Enclosures(_), Rung::Bits(bits)) => Rung::Enclosures(bits),
             _ => rung,
         };
-        match S::run(problem, &plan, rung, &(Arc::new(|_, _| ()) as dalembert::Observer)) {
+        match S::run(problem, &plan, rung, &(Arc::new(dalembert::lattice::unobserved) as dalembert::Observer)) {
             Err(Error::Open(_) | Error::NotDecided { .. }) => (),
             Err(Error::TooManyPieces { .. } | Error::TooManyRays { .. } | Error::NotCertified) => return None,
             found => return Some(found.unwrap()),

@@ -1,6 +1,6 @@
 //! The undamped march of one precision, without plan and ladder, read in numbers without their bounds.
 
-use dalembert::lattice::{Limits, Undamped};
+use dalembert::lattice::{Limits, Undamped, unobserved};
 use dalembert::{
     Answer, Contact, Ending, Energy, Error, Event, Field, Motion, Problem, Ray, Scalar, Scales, Side, StressPiece,
     Warning,
@@ -20,7 +20,7 @@ pub(crate) fn undamped_within<S: Answer>(
     precision: &S::Precision,
     limits: Limits,
 ) -> Result<StrippedUndamped<S>, Error> {
-    Undamped::solve_within(problem, precision, limits, |_, _| ()).map(Stripped::new)
+    Undamped::solve_within(problem, precision, limits, unobserved).map(Stripped::new)
 }
 
 /// A history whose numbers carry their bounds, read without them.

@@ -54,7 +54,9 @@ fn the_loss_is_foreseen() {
 fn fifteen_digits_at_t_400() {
     let problem = chaotic(400);
     let plan = Plan::of(&problem, &Question::between(400.into(), 400.into(), Numbers::Digits(15))).unwrap();
-    let Solution::Digits(history, 15) = plan.solve(&problem, std::sync::Arc::new(|_, _| ())).unwrap() else {
+    let Solution::Digits(history, 15) =
+        plan.solve(&problem, std::sync::Arc::new(dalembert::lattice::unobserved)).unwrap()
+    else {
         panic!("digits were asked for")
     };
     let Rung::Bits(bits) = history.rung() else { panic!("{}", history.rung()) };
