@@ -50,7 +50,8 @@ class Problem:
     """A rod, the ground and the start, in exact numbers, checked.
 
     ``length`` and ``wave_speed`` (or ``modulus``, ``density`` and ``area``) are the rod; ``damping`` is the ``r`` of
-    the equation, ``top`` is "free" or "fixed"; the start is an ``impact_speed`` (above a ``gap`` or none), a ``drop_height``, or
+    the equation, ``top`` is "free" or "fixed"; the start is an ``impact_speed`` (with a ``gap`` or without), a
+    ``drop_height``, or
     ``displacement`` and ``velocity`` as points ``(x, value)``. It is followed up to ``time``, or through a number of
     ``impacts``; without either, through the first contact and the flight after it.
 

@@ -173,5 +173,5 @@ fn set(mut builder: Builder, values: &Bound<'_, PyDict>) -> PyResult<Builder> {
     }
 }
 
-const KNOWN: &str = "one of length, wave_speed, modulus, density, area, damping, gravity, impact_speed, gap, drop_height, top, \
-    displacement, velocity, time, impacts";
+const KNOWN: &str = "one of length, wave_speed, modulus, density, area, damping, gravity, impact_speed, gap, drop_height, \
+    top, displacement, velocity, time, impacts";

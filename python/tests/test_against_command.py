@@ -31,7 +31,8 @@ def values(rng: random.Random, damped: bool) -> dict:
 
 def toml(rod: dict, impacts: int) -> str:
     text = lambda value: f'"{value}"' if isinstance(value, Fraction) else str(value)
-    line = lambda *names: "".join(f"{name.removeprefix('impact_')} = {text(rod[name])}\n" for name in names if name in rod)
+    entry = lambda name: f"{name.removeprefix('impact_')} = {text(rod[name])}\n"
+    line = lambda *names: "".join(entry(name) for name in names if name in rod)
     scene = "[rod]\n" + line("length", "wave_speed", "damping") + "[impact]\n" + line("impact_speed")
     if "gravity" in rod:
         scene += f"[gravity]\nacceleration = {text(rod['gravity'])}\n"
@@ -125,7 +126,8 @@ def test_values_at_times(command, scene, side):
     }
     for quantity, columns in ours.items():
         points = ("--points", ",".join(map(str, x))) if quantity == "field" else ()
-        run = command("sample", scene, "--quantity", quantity, "--times", listed, "--side", side, *points, "--format", "json")
+        asked = ("--quantity", quantity, "--times", listed, "--side", side, *points)
+        run = command("sample", scene, *asked, "--format", "json")
         rows = json.loads(run.stdout)["rows"]
         for column, name in zip(columns, rows[0]["values"]):  # with a material there are stresses too
             for value, row in zip(column.ravel(), rows, strict=True):

@@ -12,9 +12,9 @@ use crate::sweep::Map;
 /// When and whether the first contact ends, over all dampings and impact speeds
 #[derive(Args, Debug)]
 #[command(after_help = "Examples:\n  dalembert regimes -o regimes.png\n  dalembert regimes --damping-ratio 0..4:1000 \
-    --speed-ratio 0.05..1e4:1000:log -o regimes.npz\n\nAll first contacts are those of two numbers, R = r t₁ and M = μ/(g t₁), \
-    with the round trip t₁ = 2L/c. The bounce comes\nat t₁ above the curve M = (I₀(R) + I₁(R))/(2 − I₀(R)); from R = π on there is \
-    none.")]
+    --speed-ratio 0.05..1e4:1000:log -o regimes.npz\n\nAll first contacts are those of two numbers, R = r t₁ and \
+    M = μ/(g t₁), with the round trip t₁ = 2L/c. The bounce comes\nat t₁ above the curve \
+    M = (I₀(R) + I₁(R))/(2 − I₀(R)); from R = π on there is none.")]
 pub(super) struct Regimes {
     /// R: A..B:N for N values from A to B, with :log in geometric progression, or V1,V2,…
     #[arg(long, value_name = "VALUES", default_value = "0..4:400", allow_hyphen_values = true)]

@@ -16,12 +16,10 @@ use crate::sweep::{Asked, Axis, Grid, Journal, Point, Sweep as Plan, SweepError}
 
 /// Numbers of a scene over a grid of its values, on all cores
 #[derive(Args, Debug)]
-#[command(
-    after_help = "Examples:\n  dalembert sweep figure-4-r02 --vary impact.speed=0.05..12.5:500:log --vary rod.damping=0,0.1,0.2,0.3 \
-    --quantity bounce_time,restitution -o figure-4.csv\n  dalembert sweep rod.toml --vary rod.damping=0..1:1001 --quantity energy \
-    --shard 3/8 -o part-3.npz\n\nThe last --vary changes fastest. With -o FILE, finished points are kept in FILE.unfinished \
-    until all are;\nafter an interruption, the same command with --resume goes on from there and writes the same bytes."
-)]
+#[command(after_help = "Examples:\n  dalembert sweep figure-4-r02 --vary impact.speed=0.05..12.5:500:log \
+    --vary rod.damping=0,0.1,0.2,0.3 --quantity bounce_time,restitution -o figure-4.csv\n  dalembert sweep rod.toml \
+    --vary rod.damping=0..1:1001 --quantity energy --shard 3/8 -o part-3.npz\n\nThe last --vary changes fastest. \
+    With -o FILE, finished points are kept in FILE.unfinished until all are;\nafter an interruption, the same command with --resume goes on from there and writes the same bytes.")]
 pub(super) struct Sweep {
     /// A scene file, `-`, or a built-in scene
     scene: String,
@@ -107,11 +105,12 @@ impl Sweep {
         let asked = Asked { quantities, time: self.time.clone(), numbers: self.numbers.numbers(&scene) };
         let sweep = Plan { grid: Grid::new(scene.problem.clone(), axes)?, asked };
         let points = self.shard.map_or(0..sweep.grid.len(), |shard| shard.points(sweep.grid.len()));
+        let vary = |axis: &Axis| json!({"path": axis.path, "values": axis.values});
         // All that the points depend on.
         let identity = json!({
             "dalembert": env!("CARGO_PKG_VERSION"),
             "scene": scene.source(),
-            "vary": sweep.grid.axes.iter().map(|axis| json!({"path": axis.path, "values": axis.values})).collect::<Vec<_>>(),
+            "vary": sweep.grid.axes.iter().map(vary).collect::<Vec<_>>(),
             "quantity": sweep.asked.quantities.iter().map(|quantity| quantity.name()).collect::<Vec<_>>(),
             "time": sweep.asked.time,
             "number": sweep.asked.numbers.to_string(),
@@ -174,7 +173,8 @@ impl Sweep {
             (None, Some("npz")) => Ok(Shape::Npz),
             (None, Some("txt") | None) => Ok(Shape::Table),
             (None, Some(other)) => Err(miette::miette!(
-                "found the ending .{other}, expected .csv, .json, .npz or .txt here, or --format to say what the file holds"
+                "found the ending .{other}, expected .csv, .json, .npz or .txt here, or --format to say what the file \
+                 holds"
             )),
         }
     }

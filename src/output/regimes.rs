@@ -64,7 +64,8 @@ pub(crate) fn regimes_text(map: &Map) -> String {
     let count = map.regimes.len() as f64;
     let share = |is: fn(&Regime) -> bool| 100.0 * map.regimes.iter().filter(|regime| is(regime)).count() as f64 / count;
     format!(
-        "{} × {} points\nbounce at t₁:  {:5.1} %\nlater:         {:5.1} %\nno bounce:     {:5.1} %\nnot decided:   {:5.1} %\n",
+        "{} × {} points\nbounce at t₁:  {:5.1} %\n\
+         later:         {:5.1} %\nno bounce:     {:5.1} %\nnot decided:   {:5.1} %\n",
         map.damping.len(),
         map.speed.len(),
         share(|regime| *regime == Regime::Bounce(1.0)),
@@ -185,7 +186,8 @@ pub(crate) fn regimes_svg(map: &Map) -> String {
     }
     let pi = x(std::f64::consts::PI);
     put(format_args!(
-        "\"/>\n<line x1=\"{pi:.2}\" y1=\"{TOP}\" x2=\"{pi:.2}\" y2=\"{}\" stroke=\"#000000\" stroke-dasharray=\"6 4\"/>\n</g>\n\
+        "\"/>\n<line x1=\"{pi:.2}\" y1=\"{TOP}\" x2=\"{pi:.2}\" y2=\"{}\" stroke=\"#000000\" \
+         stroke-dasharray=\"6 4\"/>\n</g>\n\
          <rect x=\"{LEFT}\" y=\"{TOP}\" width=\"{WIDTH}\" height=\"{HEIGHT}\" fill=\"none\" stroke=\"#000000\"/>\n",
         TOP + HEIGHT
     ));
@@ -210,7 +212,8 @@ pub(crate) fn regimes_svg(map: &Map) -> String {
     put(format_args!(
         "<text x=\"{middle}\" y=\"24\" text-anchor=\"middle\" font-size=\"15\">When the first contact ends</text>\n\
          <text x=\"{middle}\" y=\"{}\" text-anchor=\"middle\" font-size=\"13\">R = r t₁</text>\n\
-         <text transform=\"translate(20 {half}) rotate(-90)\" text-anchor=\"middle\" font-size=\"13\">M = μ/(g t₁)</text>\n",
+         <text transform=\"translate(20 {half}) rotate(-90)\" text-anchor=\"middle\" \
+         font-size=\"13\">M = μ/(g t₁)</text>\n",
         bottom + 42.0
     ));
     let undecided = map.regimes.contains(&Regime::Undecided).then_some(UNDECIDED);

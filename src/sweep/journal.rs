@@ -1,7 +1,8 @@
 //! Finished points on disk, so that an interrupted sweep goes on where it was.
 //!
 //! A journal is a text of lines: what the sweep is, then a finished point a line, in the order in which they were
-//! finished. A last line that is not whole is that of a sweep that was killed while it wrote; its point is solved again.
+//! finished. A last line that is not whole is that of a sweep that was killed while it wrote; its point is solved
+//! again.
 
 use std::fs::{File, OpenOptions};
 use std::io::{Error, ErrorKind, Write};
