@@ -35,7 +35,7 @@ fn periodic(trips: i64) -> Problem {
 
 /// The events of a run in doubles, as planned, and their error.
 fn planned(problem: &Problem, plan: &Plan) -> (usize, f64) {
-    match plan.solve(black_box(problem), std::sync::Arc::new(|_, _| ())).unwrap() {
+    match plan.solve(black_box(problem), std::sync::Arc::new(dalembert::lattice::unobserved)).unwrap() {
         Solution::Double(motion) => (motion.events().len(), motion.error_estimate()),
         _ => unreachable!(),
     }

@@ -3,10 +3,11 @@
 #![allow(missing_docs, clippy::unwrap_used, clippy::panic)]
 
 use std::hint::black_box;
+use std::ops::ControlFlow;
 
 use criterion::{Criterion, Throughput, criterion_group, criterion_main};
 use dalembert::first_contact::{ContactHistory, FirstContact};
-use dalembert::lattice::{Limits, Scaled, Undamped, Until, march};
+use dalembert::lattice::{Limits, Scaled, Undamped, Until, march, unobserved};
 use dalembert::number::{Answer, Estimate, Interval, IntervalPrecision, Number, Scalar};
 use dalembert::problem::{Parameters, Run};
 use dalembert::{Motion, Problem, Side};
@@ -50,10 +51,10 @@ fn first_contact(c: &mut Criterion) {
         let time = Float::with_val(bits, 2.5).carry();
         let proved = Interval::from_number(&"5/2".parse().unwrap(), &precision);
         group.bench_function(format!("stress, {bits} bits"), |b| {
-            b.iter(|| contact.stress(black_box(&time), Side::Right));
+            b.iter(|| contact.strain(black_box(&time), Side::Right));
         });
         group.bench_function(format!("stress, {bits} bits, proved"), |b| {
-            b.iter(|| form.stress(black_box(&proved), Side::Right));
+            b.iter(|| form.strain(black_box(&proved), Side::Right));
         });
         group.bench_function(format!("t_b, {bits} bits"), |b| b.iter(|| black_box(&contact).bounce()));
         group.bench_function(format!("t_b, {bits} bits, proved"), |b| {
@@ -79,13 +80,17 @@ fn chaotic(c: &mut Criterion) {
     let scaled = Scaled::<Estimate<Float>>::of(&problem, &240).unwrap();
     let until = Until::Time { trip: 100, age: Estimate::exact(Float::new(240)) };
     let mut pieces = 0;
-    march(&scaled, &until, Limits::default(), |_, now| pieces = now).unwrap();
+    march(&scaled, &until, Limits::default(), |_, now| {
+        pieces = now;
+        ControlFlow::Continue(())
+    })
+    .unwrap();
     group.throughput(Throughput::Elements(pieces as u64));
-    group.bench_function("240 bits", |b| b.iter(|| march(black_box(&scaled), &until, limits, |_, _| ()).unwrap()));
+    group.bench_function("240 bits", |b| b.iter(|| march(black_box(&scaled), &until, limits, unobserved).unwrap()));
     let scaled = Scaled::<Estimate<f64>>::of(&problem, &()).unwrap();
     let until = Until::Time { trip: 100, age: Estimate::exact(0.0) };
     group.bench_function("doubles, which lose it at t = 105", |b| {
-        b.iter(|| march(black_box(&scaled), &until, limits, |_, _| ()).unwrap());
+        b.iter(|| march(black_box(&scaled), &until, limits, unobserved).unwrap());
     });
     group.finish();
 }

@@ -7,7 +7,7 @@
 use std::hint::black_box;
 
 use criterion::{BenchmarkId, Criterion, Throughput, criterion_group, criterion_main};
-use dalembert::lattice::{Limits, Scaled, Undamped, Until, march};
+use dalembert::lattice::{Limits, Scaled, Undamped, Until, march, unobserved};
 use dalembert::number::{Bounded, Estimate};
 use dalembert::problem::Run;
 use dalembert::{Motion, Numbers, Plan, Problem, Question, Scene, scene::builtin};
@@ -53,7 +53,7 @@ fn pieces<S: Bounded>(c: &mut Criterion, name: &str, precision: &S::Precision, s
     for (label, speed, impacts) in speeds {
         for impacts in *impacts {
             let scaled = Scaled::<S>::of(&problem(speed, Run::Impacts(*impacts)), precision).unwrap();
-            let run = || march(&scaled, &Until::Contacts(*impacts), Limits::default(), |_, _| ()).unwrap();
+            let run = || march(&scaled, &Until::Contacts(*impacts), Limits::default(), unobserved).unwrap();
             let count = run().trace.count();
             group.throughput(Throughput::Elements(count as u64));
             group.bench_function(BenchmarkId::new(*label, format!("{impacts} impacts, {count} pieces")), |b| {

@@ -52,8 +52,8 @@ pub enum Error {
     },
     /// Rays of earlier impacts and releases that have not faded yet are more than the limit allows.
     #[error(
-        "the rod carries {limit} rays at t = {time}, two for each bounce that has not faded; expected fewer: ask for a shorter \
-         time or fewer impacts"
+        "the rod carries {limit} rays at t = {time}, two for each bounce that has not faded; expected fewer: ask for \
+         a shorter time or fewer impacts"
     )]
     TooManyRays {
         /// The limit.
@@ -63,8 +63,8 @@ pub enum Error {
     },
     /// Where the first contact has no closed form, strong damping takes too many cells.
     #[error(
-        "found r t₁ = {found} with a start or a top that has no closed form, expected at most {most}: cells must not be wider \
-         than the waves reach; a uniform start on the ground under a free top has no such limit"
+        "found r t₁ = {found} with a start or a top that has no closed form, expected at most {most}: cells must not \
+         be wider than the waves reach; a uniform start on the ground under a free top has no such limit"
     )]
     DampingTooStrong {
         /// `r t₁`.
@@ -74,7 +74,8 @@ pub enum Error {
     },
     /// A damped scene has no exact fractions.
     #[error(
-        "found damping = {damping} with --exact, expected an undamped scene: Bessel functions are no fractions; use --digits N"
+        "found damping = {damping} with --exact, expected an undamped scene: Bessel functions are no fractions; use \
+        --digits N"
     )]
     DampedExact {
         /// The damping.
@@ -99,8 +100,8 @@ pub enum Error {
     NoMultiprecision,
     /// Comparisons of enclosures stay open.
     #[error(
-        "{digits} digits are not proved with {bits} bits: two events cannot be told apart, or a landing from a graze; expected a \
-         run that ends before them"
+        "{digits} digits are not proved with {bits} bits: two events cannot be told apart, or a landing from a graze; \
+         expected a run that ends before them"
     )]
     Undecided {
         /// What was asked for.
@@ -110,13 +111,14 @@ pub enum Error {
     },
     /// No engine that works in enclosures.
     #[error(
-        "found a damped rod with a gap, an initial strain, an initial velocity that varies, or a fixed top, expected no damping, or \
-         a uniform start on the ground under a free top: only there are digits proved"
+        "found a damped rod with a gap, an initial strain, an initial velocity that varies, or a fixed top, expected no \
+         damping, or a uniform start on the ground under a free top: only there are digits proved"
     )]
     NotCertified,
     /// More bits would be needed than are worth trying.
     #[error(
-        "{digits} digits are not settled with {bits} bits; expected a shorter run, fewer digits, or --certified, which knows exact roots"
+        "{digits} digits are not settled with {bits} bits; expected a shorter run, fewer digits, or --certified, \
+        which knows exact roots"
     )]
     Unsettled {
         /// What was asked for.
@@ -146,10 +148,13 @@ pub enum Error {
     },
     /// A start or a top for which the first contact has no closed form.
     #[error(
-        "found a gap, a start that is not uniform, or a fixed top; expected a uniform start on the ground under a free top, whose first \
-         contact has a closed form"
+        "found a gap, a start that is not uniform, or a fixed top; expected a uniform start on the ground under a free \
+         top, whose first contact has a closed form"
     )]
     NoClosedForm,
+    /// The observer of a run ended it.
+    #[error("interrupted")]
+    Interrupted,
     /// A comparison of enclosures that their ends do not settle.
     #[error(transparent)]
     Open(#[from] crate::number::Open),

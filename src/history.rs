@@ -8,6 +8,7 @@ use crate::number::{Answer, Scalar};
 use crate::problem::Problem;
 use crate::quantity::{self, Column, EnergyShares, Flight, Restitution, Slice, energy_shares, flights, restitution};
 use crate::ray::Ray;
+use crate::reason::Warning;
 use crate::solve::{Attempt, Ladder, Numbers, Observer, Plan, Question, Rung, Target, unobserved};
 use crate::wave::Waves;
 
@@ -77,8 +78,28 @@ impl<S: Target> History<S> {
         self.attempt.lock().unwrap_or_else(PoisonError::into_inner).clone()
     }
 
-    /// The answer to `query`, in numbers that carry their bound, settled to the digits of the plan.
-    pub(crate) fn ask<T>(
+    /// The answer to any `query`, in numbers that carry their bound; `numbers` are those of the answer that are settled
+    /// to the digits of the plan.
+    ///
+    /// **Accuracy**: that of the [`Plan`]. The query is repeated in more bits where those at hand do not settle it.
+    ///
+    /// **Errors**: those of the query; [`Error::Unsettled`], [`Error::Undecided`] where too many bits do not settle it.
+    ///
+    /// ```
+    /// use dalembert::{Number, Problem, Scalar, Side};
+    /// let rod = Problem::builder().length(1).wave_speed(1).gravity(1).impact_speed(3).build()?;
+    /// // A time that no double holds, in the precision of each attempt.
+    /// let third: Number = "1/3".parse()?;
+    /// let history = rod.solve()?;
+    /// let strain = history.ask(
+    ///     |motion| motion.stress(&Scalar::from_number(&third, &motion.end().precision()), Side::Right),
+    ///     |strain| vec![strain],
+    /// )?;
+    /// assert_eq!(*strain.value(), -10.0 / 3.0); // −(μ + g t)/c
+    /// assert!(strain.bound() < 1e-14);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    pub fn ask<T>(
         &self,
         query: impl Fn(&dyn Motion<S::Carried>) -> Result<T, Error>,
         numbers: impl Fn(&T) -> Vec<&S::Carried>,
@@ -168,7 +189,7 @@ impl<S: Target> History<S> {
     /// `v_x(0,t)`: the strain at the ground, which is the stress there divided by the modulus; zero in flight.
     pub fn strain(&self, time: S, side: Side) -> Result<S, Error> {
         let time = time.carry();
-        Ok(S::strip(self.ask(|engine| engine.stress(&time, side), |value| vec![value])?))
+        Ok(S::strip(self.ask(|engine| engine.strain(&time, side), |value| vec![value])?))
     }
 
     /// `v(0,t)` and `v_t(0,t)`: the end at the ground.
@@ -208,8 +229,9 @@ impl<S: Target> History<S> {
         Ok(table.into_iter().map(|column| column.into_iter().map(S::strip).collect()).collect())
     }
 
-    /// [`History::columns`] in numbers that carry their bound, at times that may be those of the engine itself.
-    pub(crate) fn ask_columns(
+    /// [`History::columns`] in numbers that carry their bound, at times that may be those of the engine itself, or lifted
+    /// to the precision of each attempt.
+    pub fn ask_columns(
         &self,
         columns: &[Column],
         side: Option<Side>,
@@ -324,7 +346,7 @@ impl<S: Target> History<S> {
     }
 
     /// What a user should know of the answer.
-    pub fn warnings(&self) -> Vec<String> {
+    pub fn warnings(&self) -> Vec<Warning> {
         let mut warnings = self.current().engine.warnings().to_vec();
         warnings.extend(self.ladder.problem.neglected());
         warnings

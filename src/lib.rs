@@ -20,7 +20,7 @@
 //!
 //! | | in which numbers | what it promises |
 //! |---|---|---|
-//! | [`Problem::solve`] | doubles | the bound of each number is carried, and longer numbers are taken where it is too wide |
+//! | [`Problem::solve`] | doubles | the bound of each number is carried; longer numbers where it is too wide |
 //! | [`Problem::digits`] | decimal digits | rounded once from values known to more |
 //! | [`Problem::exact`] | fractions | no error, as far as they reach; undamped rods |
 //! | [`Problem::certified`] | enclosures | every digit is proved; undamped rods, and the first contact of damped ones |
@@ -62,16 +62,19 @@ pub mod problem;
 #[doc(hidden)]
 pub mod quantity;
 mod ray;
+mod reason;
 #[doc(hidden)]
 pub mod scene;
 #[doc(hidden)]
 pub mod solve;
 #[doc(hidden)]
 pub mod special;
+#[cfg(feature = "cli")]
+mod sweep;
 mod wave;
 
 pub use error::Error;
-pub use first_contact::{Bounce, BounceKind, FirstContact, NoBounceReason, Rebound};
+pub use first_contact::{Bounce, BounceKind, FirstContact, Rebound};
 pub use glam;
 pub use history::History;
 pub use modal::Modal;
@@ -83,6 +86,7 @@ pub use problem::{
 };
 pub use quantity::{Column, EnergyShares, Flight, Measure, Restitution, Slice, Undefined, UnitSystem, Units};
 pub use ray::{Ray, reflection};
+pub use reason::{Doubt, NoBounceReason, Reason, StillState, Warning};
 #[cfg(feature = "mp")]
 pub use rug;
 pub use scene::{Effect, EffectUse, Scene, SceneError, SceneErrorKind, Target, TargetQuantity};

@@ -1,5 +1,7 @@
 //! The answer as an object: what happened, and what can be asked of it.
 
+use std::ops::ControlFlow;
+
 use std::fmt;
 
 use serde::{Serialize, Serializer};
@@ -7,6 +9,7 @@ use serde::{Serialize, Serializer};
 use crate::error::Error;
 use crate::number::Scalar;
 use crate::ray::Ray;
+use crate::reason::{Reason, Warning};
 use crate::wave::{Stretch, Waves};
 
 /// Writes a number as JSON has it: a number for a double, a text for all others.
@@ -344,12 +347,12 @@ pub enum Ending {
     /// The next impact after the contacts that were asked for.
     NextImpact,
     /// No impact can follow, for the reason that is said.
-    NoFurtherImpact(String),
+    NoFurtherImpact(Reason),
     /// No release can follow, for the reason that is said.
-    NoBounce(String),
+    NoBounce(Reason),
     /// The rod has come to rest, by the criterion that is said. Where a time was asked for, the history reaches it: as
     /// it does with [`Ending::NoBounce`] and [`Ending::NoFurtherImpact`] once the motion has faded below the accuracy.
-    Rest(String),
+    Rest(Reason),
     /// The next event is at no fraction.
     ExactnessEnds {
         /// The event.
@@ -362,7 +365,7 @@ pub enum Ending {
     /// The first bounce: what follows it is not proved.
     Bounce,
     /// The asked accuracy or effort does not settle what comes next.
-    Undecided(String),
+    Undecided(Reason),
 }
 
 impl fmt::Display for Ending {
@@ -411,6 +414,34 @@ impl<S> Scales<S> {
     }
 }
 
+/// How far the values of a run may be off between two events, in natural scales, away from rays that are off in time.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Uncertainty {
+    /// Displacements, in `V t₁`, as far as the events are in time.
+    pub rise: f64,
+    /// Velocities and `c v_x`, in `V`, as far as the events are in time.
+    pub speed: f64,
+    /// How early or late the events may be, in `t₁`.
+    pub late: f64,
+    /// `|dv_t/dt|` between rays, in `V/t₁`: what lateness makes of velocities.
+    pub slope: f64,
+    /// The impulse of a contact, in `c V t₁`, where the balance of momentum bounds it.
+    pub impulse: Option<f64>,
+}
+
+impl Uncertainty {
+    /// The greater in all.
+    pub(crate) fn max(self, other: Self) -> Self {
+        Uncertainty {
+            rise: self.rise.max(other.rise),
+            speed: self.speed.max(other.speed),
+            late: self.late.max(other.late),
+            slope: self.slope.max(other.slope),
+            impulse: None,
+        }
+    }
+}
+
 /// What can be asked of a solution. All times are absolute, in the units of the scene; a time outside of
 /// `0 … end()` is [`Error::TimeOutside`], a point outside of the rod is [`Error::PointOutside`].
 pub trait Motion<S: Scalar>: fmt::Debug + Send + Sync {
@@ -430,7 +461,7 @@ pub trait Motion<S: Scalar>: fmt::Debug + Send + Sync {
     fn stress_pieces(&self) -> Vec<StressPiece<S>>;
 
     /// `v_x(0,t)`: the stress at the ground divided by the modulus; zero in flight.
-    fn stress(&self, time: &S, side: Side) -> Result<S, Error>;
+    fn strain(&self, time: &S, side: Side) -> Result<S, Error>;
 
     /// `v(0,t)` and `v_t(0,t)`.
     fn ground_end(&self, time: &S, side: Side) -> Result<(S, S), Error>;
@@ -491,12 +522,25 @@ pub trait Motion<S: Scalar>: fmt::Debug + Send + Sync {
     /// carries.
     fn error_estimate(&self) -> S;
 
+    /// How far values near `time` may be off.
+    fn uncertainty(&self, time: &S) -> Uncertainty {
+        let (_, error) = (time, self.error_estimate().to_f64());
+        Uncertainty { rise: error, speed: error, ..Uncertainty::default() }
+    }
+
     /// How many impacts there were and `log₁₀` of the factor by which rounding may have grown over them; `None` where
     /// that is not followed.
     fn digits_lost(&self) -> Option<(u32, f64)> {
         None
     }
 
-    /// What a user should know: events decided by rounding, digits lost. Data, for the caller to print.
-    fn warnings(&self) -> &[String];
+    /// What a user should know beside the numbers.
+    fn warnings(&self) -> &[Warning] {
+        &[]
+    }
+}
+
+/// An observer that does nothing.
+pub fn unobserved(_: usize, _: usize) -> ControlFlow<()> {
+    ControlFlow::Continue(())
 }

@@ -1,21 +1,28 @@
 //! What the numbers of a run may be off by: one sum, to which every step adds its own term.
 //!
 //! Derivations in `docs/bounds.md`. Dimensionless: velocities in `V`, times in `t₁`. There are two accounts, and the
-//! better one holds. One compares with the true motion at equal times: short where flights are. The other, where
-//! flights are taken apart, compares at equal times since the last landing, and keeps apart by how much that landing
-//! may be early or late: a long flight displaces all that follows in time, but changes little of it.
+//! better one holds. One bounds `v` at equal times, and takes every ray that is off for itself: it serves any start and
+//! any damping. The other, where flights are taken apart, compares the vibration at equal times and the centre of mass
+//! at equal times since the last event, and follows with their signs what the time of that event and the velocity of
+//! the centre owe to each source of error.
 
-/// By how much a time may be off: in itself, and counted from the last landing.
+use super::dependence::{Dependence, Form};
+use crate::motion::Uncertainty;
+use crate::special::{phi1, phi2};
+
+/// What either account says of an error.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Off {
+    /// The account that takes `v` as one.
     pub(super) fixed: f64,
-    pub(super) moving: f64,
+    /// The account of flights that are taken apart.
+    pub(super) apart: f64,
 }
 
 impl Off {
     /// The greater in both.
     pub(super) fn max(self, other: Off) -> Off {
-        Off { fixed: self.fixed.max(other.fixed), moving: self.moving.max(other.moving) }
+        Off { fixed: self.fixed.max(other.fixed), apart: self.apart.max(other.apart) }
     }
 }
 
@@ -24,9 +31,8 @@ impl Off {
 struct Fixed {
     /// Of `p` and `q`, but next to rays that are off.
     point: f64,
-    /// `Σ |jump| · time` of rays that are off, fading as the jumps do; and the most it was.
+    /// `Σ |jump| · time` of rays that are off, fading as the jumps do.
     rays: f64,
-    most_rays: f64,
     /// Of `v(0,b)`.
     height: f64,
     /// The most that `point`, `height` and the times of events were.
@@ -34,39 +40,97 @@ struct Fixed {
 }
 
 /// The errors that the state carries.
-#[derive(Clone, Copy, Debug, Default)]
+#[derive(Clone, Debug, Default)]
 pub(super) struct Budget {
     /// Of `p` and `q`, by truncation and rounding.
     even: f64,
-    /// The range of `∫δq` along a characteristic, by a motion that is displaced in time: twice the error of
-    /// displacements.
-    wave: f64,
-    /// Of `p` and `q` between rays, by the same.
-    point: f64,
-    /// Of `p` and `q`, by what damping scatters from displaced rays.
-    scatter: f64,
-    /// Of `v(0,·)` in flight by the vibration, now and at the beginning; and of `h′` then, or when the contact began.
-    centre: (f64, f64),
-    /// By how much the last landing may be early or late.
-    pub(super) late: f64,
-    /// The most that any of them was.
-    worst: f64,
+    /// What events that are off in time do, to first order.
+    events: Dependence,
+    vibration: Vibration,
+    /// Of `v(0,·)` in flight by the vibration, now and at the beginning.
+    swing: f64,
+    flight: TakeOff,
+    landing: Option<Landing>,
+    /// The most that was off since the last event.
+    worst: Uncertainty,
     fixed: Fixed,
 }
 
-/// How a landing depends on the flight before it.
+/// What events that are off in time make of the vibration besides stripes, in its own clock.
+#[derive(Clone, Copy, Debug, Default)]
+struct Vibration {
+    /// The range of `∫δq` along a characteristic: twice the error of displacements.
+    wave: f64,
+    /// Of `p` and `q` between rays.
+    point: f64,
+    /// Of `p` and `q`, by what damping scatters from displaced rays.
+    scatter: f64,
+}
+
+/// How a contact ends and a flight begins.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct TakeOff {
+    /// Where on the circle.
+    pub(super) at: f64,
+    /// How long the contact was.
+    pub(super) len: f64,
+    /// Whether that was a round trip, as between one ray's start and return.
+    pub(super) whole: bool,
+    /// How far the time may be off.
+    pub(super) off: f64,
+    /// The slope of the stress, where it has a root.
+    pub(super) slope: Option<f64>,
+    /// The jump of `q` on the ray that arrives, and that of `p` on the ray that starts.
+    pub(super) jump: (f64, f64),
+    /// `z_t(0,·)` of the vibration.
+    pub(super) end_rate: f64,
+    /// `h″`.
+    pub(super) fall: f64,
+    /// The greatest slope of `q` between rays.
+    pub(super) steepest: f64,
+}
+
+/// How a landing depends on the flight before it, and the contact after it on the landing.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Landing {
-    /// `|v_t|` of the end, and how far the time of the landing may be off in all.
-    pub(super) speed: f64,
+    /// Where on the circle.
+    pub(super) at: f64,
+    /// `v_t` of the end, its greatest rate of change, and how far the time of the landing may be off in all.
+    pub(super) velocity: f64,
+    pub(super) curvature: f64,
     pub(super) off: Off,
-    /// `e^{−2Rτ}` and `(1 − e^{−2Rτ})/2R` at the age τ, and `h″`.
-    pub(super) kept: f64,
-    pub(super) slowed: f64,
+    /// The age of the flight, `h′`, and `h″`.
+    pub(super) age: f64,
+    pub(super) rate: f64,
     pub(super) fall: f64,
     /// The range of `q` of the vibration, and its greatest slope between rays.
     pub(super) range: f64,
     pub(super) slope: f64,
+    /// By how much `∫y` of a contact of one round trip changes with the phase of the vibration, and how far that may be
+    /// off.
+    pub(super) phase: (f64, f64),
+}
+
+/// `e^{−2Rτ}` and `(1 − e^{−2Rτ})/2R` at the age τ.
+fn aged(damping: f64, age: f64) -> (f64, f64) {
+    let fall = -2.0 * damping * age;
+    (fall.exp(), phi1(&fall) * age)
+}
+
+/// Stripes that pass within so much of a landing may do so before or after it.
+const NEAR: f64 = 1e-13;
+/// Where `|v̇| δt` is more than this part of `|v|`, a landing is not taken for a linear function of what is off.
+const MOST_BENT: f64 = 0.01;
+
+/// How far `w′` may be off `−κe^{−κs} − κ`, where `∫₀¹ y dt = ∫₀¹ w(s) q(s) ds` over a contact of one round trip: every
+/// factor of [`weight_slope`] but κ itself bounds something that lies between it and its reciprocal.
+pub(super) fn weight_rest(kappa: f64) -> f64 {
+    weight_slope(kappa) - 2.0 * kappa
+}
+
+/// `|w′|` at most.
+fn weight_slope(kappa: f64) -> f64 {
+    kappa * (1.0 + (1.0 + kappa) * (1.0 + kappa * kappa.exp() + kappa * kappa) * (2.0 * kappa).exp())
 }
 
 impl Budget {
@@ -83,38 +147,68 @@ impl Budget {
         if apart { self.even } else { self.fixed.point }
     }
 
-    /// The error of `p` and `q`, but next to rays that are off.
+    /// The error of `p` and `q`, but next to rays that are off; in contact at equal times since the landing.
     pub(super) fn point(&self) -> Off {
-        Off { fixed: self.fixed.point, moving: self.even + self.point + self.scatter.min(2.0 * self.wave) }
+        let Vibration { wave, point, scatter } = self.vibration;
+        let displaced = self.landing.map_or(0.0, |landing| landing.slope * self.events.late());
+        let scatter = scatter.min(2.0 * (wave + self.events.mass())) + self.events.level();
+        Off { fixed: self.fixed.point, apart: self.even + point + scatter + displaced + self.events.rate() }
     }
 
-    /// The error of `v(0,·)` in flight, up to `len` from now; `slowed = (1 − e^{−2Rτ})/2R` of the flight that is taken
-    /// apart.
-    pub(super) fn end(&self, damping: f64, slowed: f64, len: f64) -> Off {
-        Off {
-            fixed: self.fixed.height + self.fixed.point * len,
-            moving: self.centre.0 + slowed * self.centre.1 + 0.5 * damping.exp() * self.even,
+    /// By how much the clock may be late that counts from the landing in contact, and in which the vibration is compared
+    /// in flight.
+    pub(super) fn clock(&self, contact: bool) -> f64 {
+        if contact { self.events.time() } else { self.events.clock() }
+    }
+
+    /// The time of the last event, by the better of both accounts.
+    pub(super) fn last(&self, off: Off, apart: bool) -> f64 {
+        if apart { off.fixed.min(off.apart).min(self.events.time()) } else { off.fixed }
+    }
+
+    /// The error of `v(0,·)` in flight, up to `len` from now; `flown` is the age, `h′` and the place on the circle then,
+    /// in a flight that is taken apart.
+    pub(super) fn end(&self, damping: f64, flown: Option<(f64, f64, f64)>, len: f64) -> Off {
+        let apart = flown.map_or(0.0, |(age, rate, at)| {
+            let (form, more) = self.flown(damping, (age, rate, at), 0.0);
+            form.bound() + more
+        });
+        Off { fixed: self.fixed.height + self.fixed.point * len, apart }
+    }
+
+    /// The same as a linear function of what the flight began with, and what comes to it, in the clock of the vibration.
+    fn flown(&self, damping: f64, (age, rate, at): (f64, f64, f64), near: f64) -> (Form, f64) {
+        let (_, slowed) = aged(damping, age);
+        let TakeOff { at: from, end_rate, .. } = self.flight;
+        let fade = (-damping * age).exp();
+        let (form, unclear) = self.events.height((-(end_rate + rate), slowed), (from, at), fade, near);
+        let scattered = self.scattered(damping, age);
+        (form, self.swing + 0.5 * damping.exp() * self.even + unclear + scattered)
+    }
+
+    /// What damping makes of the displacements of stripes besides letting them fade, at this age: no more than they are.
+    fn scattered(&self, damping: f64, age: f64) -> f64 {
+        let left = (damping * (6.0 - 0.75 * age)).exp() + (-damping * age).exp();
+        let turned = (damping * damping * age / 8.0).exp_m1() * (2.0 * damping).exp();
+        self.events.mass() * left.min(2.0 * damping + turned)
+    }
+
+    /// What has been off since this was last asked, of a run whose flights are taken apart or are not.
+    pub(super) fn since(&mut self, apart: bool) -> Uncertainty {
+        let fixed = self.fixed.worst + self.fixed.rays;
+        self.fixed.worst = self.fixed.point.max(self.fixed.height);
+        let worst = std::mem::take(&mut self.worst);
+        self.note();
+        if apart && worst.rise.max(worst.speed) < fixed {
+            return worst;
         }
-    }
-
-    /// The error of all of the run relative to its units, of a run whose flights are taken apart or are not.
-    pub(super) fn total(&self, apart: bool) -> f64 {
-        let fixed = self.fixed.worst + self.fixed.most_rays;
-        if apart { fixed.min(self.worst) } else { fixed }
-    }
-
-    /// The better of both accounts of the time of an event.
-    pub(super) fn time(&mut self, off: Off, apart: bool) -> f64 {
-        let moving = self.late + off.moving;
-        self.fixed.worst = self.fixed.worst.max(off.fixed);
-        self.worst = self.worst.max(moving);
-        if apart { off.fixed.min(moving) } else { off.fixed }
+        Uncertainty { rise: fixed, speed: fixed, ..Uncertainty::default() }
     }
 
     /// The error of the height at the end of a piece of rest.
     pub(super) fn rest(&mut self, far: f64) {
         self.fixed.height += far;
-        self.worst = self.worst.max(far);
+        self.worst.rise = self.worst.rise.max(far);
         self.note();
     }
 
@@ -124,11 +218,21 @@ impl Budget {
             self.fixed.height += self.fixed.point * len;
         }
         self.even += 2.0 * cell;
-        self.scatter += 2.0 * damping * len * self.wave;
+        self.vibration.scatter += 2.0 * damping * len * (self.vibration.wave + self.events.mass());
         self.fixed.point += 2.0 * cell;
         // A jump of p fades along its ray like p_η = −κp, and η = 2t there.
         self.fixed.rays *= (-damping * len).exp();
         self.note();
+    }
+
+    /// The end has flown so far, with this error; any other point swings about the centre of mass as well.
+    pub(super) fn note_end(&mut self, off: Off) {
+        self.worst.rise = self.worst.rise.max(off.apart + self.swing + 2.0 * self.events.mass());
+    }
+
+    /// The greatest slope of `q` between rays, from now on.
+    fn note_slope(&mut self, slope: f64) {
+        self.worst.slope = self.worst.slope.max(slope);
     }
 
     /// A ray that may be off passes the ground in flight, which takes its jump at the wrong time.
@@ -141,9 +245,8 @@ impl Budget {
     pub(super) fn leap(&mut self, damping: f64, trips: f64, error: f64, passing: f64) {
         let fade = (damping * (6.0 - 0.75 * trips)).exp().min(1.0);
         self.even = self.even * fade + error;
-        self.wave *= fade;
-        self.point *= fade;
-        self.scatter *= fade;
+        let Vibration { wave, point, scatter } = self.vibration;
+        self.vibration = Vibration { wave: wave * fade, point: point * fade, scatter: scatter * fade };
         self.fixed.height += trips * (self.fixed.point + error + passing);
         self.fixed.point += error;
         self.fixed.rays *= (-damping * trips).exp();
@@ -152,7 +255,6 @@ impl Budget {
 
     /// The ground lets go, with this velocity.
     pub(super) fn let_go(&mut self, velocity: f64, off: Off, cell: f64) {
-        self.wave += 2.0 * (velocity + 2.0 * self.point().moving) * off.moving;
         self.displace(velocity, off.fixed);
         self.fixed.height = velocity * off.fixed + cell;
         self.note();
@@ -161,7 +263,6 @@ impl Budget {
     /// A ray that starts off: p goes over from −q to q or back.
     fn displace(&mut self, velocity: f64, fixed: f64) {
         self.fixed.rays += 2.0 * velocity * fixed;
-        self.fixed.most_rays = self.fixed.most_rays.max(self.fixed.rays);
     }
 
     /// The ground is hit. The part of the ray that is off has twice the mass of the error of the height, and scatters
@@ -173,57 +274,125 @@ impl Budget {
         self.note();
     }
 
-    /// Centre of mass and vibration are taken apart, after a contact of one round trip if `whole`.
-    pub(super) fn take_off(&mut self, damping: f64, whole: bool, rounding: f64) {
-        let (r, kappa) = (damping, 0.5 * damping);
+    /// Centre of mass and vibration are taken apart after a release.
+    pub(super) fn take_off(&mut self, damping: f64, flight: TakeOff, rounding: f64) {
+        let r = damping;
         self.even += rounding;
         self.fixed.point += rounding;
-        let weights = kappa * (1.0 + (1.0 + kappa) * (1.0 + kappa * kappa.exp() + kappa * kappa) * (2.0 * kappa).exp());
         let kept = ((-0.5 * r).exp() * (1.0 + r * r * (r * r).exp())).max(1.0);
-        let before = self.wave;
-        let from_wave = if whole {
-            self.wave = kept * (before + self.centre.1);
-            2.0 * (-(-r).exp_m1() + weights)
-        } else {
-            self.wave = 3.0 * kept * (before + self.centre.1);
-            4.0 * r.exp()
+        let rest = match self.landing.take() {
+            Some(landing) if flight.whole => self.after_round_trip(r, kept, &landing, &flight),
+            Some(landing) => self.after_contact(r, kept, &landing, &flight),
+            None => {
+                self.events.add_late(flight.off);
+                self.events.start_stripe(flight.at, flight.jump.1);
+                4.0 * r.exp() * self.events.mass()
+            }
         };
-        let rest = 2.0 * r * r.exp() * (before + self.wave + self.even);
-        self.centre.1 += from_wave * before + rest + 2.0 * r.exp() * self.even;
-        self.wave += self.centre.1;
-        self.centre.0 = (4.0 * r).exp() * self.wave + 0.5 * r.exp() * self.even;
+        self.events.add_rate(rest + 2.0 * r.exp() * (1.0 + r) * self.even);
+        self.vibration.wave += self.events.thin();
+        self.swing = (4.0 * r).exp() * self.vibration.wave;
+        self.note_slope(flight.steepest);
+        self.flight = flight;
         self.note();
+    }
+
+    /// After a contact of one round trip, which the true motion makes as well: what it makes of the vibration depends on
+    /// when it began by no more than damping and gravity do in that time. What is left of `δh′`.
+    fn after_round_trip(&mut self, r: f64, kept: f64, landing: &Landing, flight: &TakeOff) -> f64 {
+        let kappa = 0.5 * r;
+        let (late, rate, mass) = (self.events.late(), self.events.rate(), self.events.mass());
+        // The ray of the landing comes back to the release with e^{−R} of its mass, and what it has lost is scattered.
+        let scattered = 2.0 * r * (landing.velocity.abs() * late + mass);
+        let rigid = (5.0 * r).min(2.0) * rate;
+        let before = self.vibration.wave;
+        self.vibration.wave = kept * before + 2.0 * scattered + rigid;
+        self.vibration.point += 2.0 * scattered + rigid;
+        // h′ + 2Rh changes by −2∫y, and h = −z(0,·) at both ends of the contact.
+        let (phase, phase_rest) = landing.phase;
+        let heights = 2.0 * r * (flight.end_rate - (landing.velocity - landing.rate));
+        let by_rigid = phi1(&-(r + kappa)) + kappa * phi2(&-r);
+        let keeps = (1.0 - 2.0 * by_rigid).clamp(-1.0, 1.0);
+        let by_mass = |at: f64| {
+            let s = (at - landing.at).rem_euclid(1.0);
+            -2.0 * ((-kappa * s).exp() + kappa * (1.0 - s) - (r * s).exp() * by_rigid)
+        };
+        self.events.round_trip((keeps, heights - 2.0 * phase), (-r).exp(), by_mass);
+        self.events.start_stripe(flight.at, flight.jump.1);
+        let weights = (-r).exp_m1().abs() + weight_slope(kappa);
+        2.0 * weights * before
+            + 2.0 * r * r.exp() * (before + self.vibration.wave + 2.0 * mass)
+            + 2.0 * phase_rest * late
+            + weight_rest(kappa) * rate
+            + 2.0 * (weight_rest(kappa) + r * r) * r.exp() * mass
+    }
+
+    /// After any other contact: what passes turns round, and what is not followed mixes two parts of the range. What is
+    /// left of `δh′`.
+    fn after_contact(&mut self, r: f64, kept: f64, landing: &Landing, flight: &TakeOff) -> f64 {
+        let time = self.events.time();
+        let Vibration { wave: before, point, scatter } = self.vibration;
+        let fade = (-r * flight.len).exp();
+        self.events.contact((landing.at, flight.len), (landing.velocity, landing.fall), fade);
+        let mass = self.events.mass();
+        let unknown = flight.slope.map_or(0.0, |slope| (self.even + point + scatter) / slope.abs());
+        let more = unknown + 4.0 * f64::EPSILON;
+        self.events.release((flight.at, flight.fall), flight.jump, flight.slope, (more, flight.off + time));
+        // A path crosses each ray twice in a round trip, and each time a part κ of its mass is scattered; what is between
+        // rays changes by 2κ of it on each of the two ways.
+        let scattered = (flight.len + 1.0) * r * (mass + self.events.level()) + r.exp_m1() * mass;
+        let rest = 2.0 * r.exp() * before + scattered;
+        self.vibration.wave = 3.0 * kept * before + 2.0 * scattered;
+        self.vibration.point += 2.0 * scattered + rest;
+        rest + 2.0 * r * r.exp() * (before + self.vibration.wave)
     }
 
     /// The landing of a flight that is taken apart. From here on times count from it.
-    pub(super) fn land(&mut self, landing: &Landing) {
-        let Landing { speed, off, kept, slowed, fall, range, slope } = *landing;
-        let time_error = off.moving;
-        let by_rate = slowed * self.centre.1 / speed;
-        // What h′ makes of itself: the end comes later, and falls faster for it.
-        let own = (kept + fall * slowed / speed).abs() * self.centre.1;
-        let others = fall.abs() * (time_error - by_rate).max(0.0);
-        self.centre.1 = (own + others).min(kept * self.centre.1 + fall.abs() * time_error);
-        self.wave += range * time_error;
-        self.point += slope * time_error;
-        self.late += time_error;
+    pub(super) fn land(&mut self, damping: f64, landing: Landing) {
+        let Landing { at, velocity, curvature, off, age, rate, fall, range, .. } = landing;
+        let (speed, clock) = (velocity.abs(), self.events.clock());
+        let (kept, _) = aged(damping, age);
+        let fade = (-damping * age).exp();
+        let (form, more) = self.flown(damping, (age, rate, at), off.apart.max(NEAR));
+        let scattered = self.scattered(damping, age);
+        let bent = curvature * off.apart / speed;
+        let linear = bent <= MOST_BENT;
+        // δt = −δv/v, in the clock of the vibration; more than that from what is not linear.
+        let mut late = Form::default();
+        let others = if linear {
+            late.add(-1.0 / velocity, &form);
+            bent * off.apart + (off.apart - clock - form.bound() / speed).max(more / speed)
+        } else {
+            off.apart + clock
+        };
+        self.events.land((late, others), (kept, fall), fade);
+        self.vibration.wave += scattered;
+        // A vibration that has died out takes its clock from what the landing makes.
+        if range <= damping * speed {
+            self.vibration.wave += range * self.events.late();
+            self.vibration.point += landing.slope * self.events.late();
+            self.events.reset_clock();
+        }
+        self.note_slope(curvature);
+        self.landing = Some(landing);
         self.note();
     }
 
-    /// The better of both accounts of a time that is counted from the last landing.
+    /// The better of both accounts.
     pub(super) fn better(&self, off: Off, apart: bool) -> f64 {
-        if apart { off.fixed.min(off.moving) } else { off.fixed }
+        if apart { off.fixed.min(off.apart) } else { off.fixed }
     }
 
     /// Whether both accounts have lost the events.
     pub(super) fn lost(&self, off: Off, apart: bool, most: f64) -> bool {
-        off.fixed > most && (!apart || self.late + off.moving > most)
+        off.fixed > most && (!apart || off.apart > most)
     }
 
     /// Keeps the greatest.
     fn note(&mut self) {
-        let now = self.point().moving + self.wave;
-        self.worst = self.worst.max(now).max(self.late).max(self.centre.0).max(self.centre.1);
+        let rise = self.swing + self.vibration.wave + self.events.mass();
+        let (speed, late) = (self.point().apart, self.events.time());
+        self.worst = self.worst.max(Uncertainty { rise, speed, late, ..Uncertainty::default() });
         self.fixed.worst = self.fixed.worst.max(self.fixed.point).max(self.fixed.height);
     }
 }

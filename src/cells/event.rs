@@ -1,76 +1,128 @@
 //! What an event does to the state, and to the bound of its error.
 
-use super::budget::{Landing, Off};
-use super::follow::Follower;
+use super::budget::{Landing, Off, TakeOff, weight_rest};
+use super::follow::{Follower, LEAP_ROUNDINGS};
 use super::piece::{Mark, Unresolved};
 use super::series::at_zero;
-use crate::motion::EventKind;
+use crate::motion::{EventKind, Uncertainty};
+use crate::reason::Warning;
 use crate::special::RoundedSpecial;
 
 /// Where times are in doubt by more than this part of a round trip, so are the events.
 const MOST_LATE: f64 = 0.01;
 
 impl<S: RoundedSpecial> Follower<'_, S> {
-    /// Turns contact into flight or back, now. A release at a root of the trace has velocity zero. Where the end
+    /// Turns contact into flight or back, now. A release at a root of the trace, which has this `slope` there, has velocity zero. Where the end
     /// only touches the ground and a ray arrives at that very time, the velocity is the one that the ray brings.
-    pub(super) fn event(&mut self, off: Off, at_root: bool) {
+    pub(super) fn event(&mut self, off: Off, slope: Option<f64>) {
         let zero = self.height.zero();
         let kind = if self.contact { EventKind::Release } else { EventKind::Impact };
         let velocity = match (&self.last_trace, kind) {
             (Some(last), EventKind::Impact) if last.to_f64() < -self.noise() => last.clone(),
-            (_, EventKind::Release) if at_root => zero.clone(),
+            (_, EventKind::Release) if slope.is_some() => zero.clone(),
             _ => at_zero(&self.held_trace(), &zero),
         };
         let time = self.state.time();
         let apart = self.medium.splits();
         if self.budget.lost(off, apart, MOST_LATE) && !self.lost {
             self.lost = true;
-            let when = (time.clone() * &self.data.units.time).to_f64();
-            self.warnings.push(format!("from t = {when} on the bound of the error no longer tells events apart"));
+            let from = (time.clone() * &self.data.units.time).to_f64();
+            self.warnings.push(Warning::EventsOverlap { from });
         }
         self.height = zero;
         // A ray of the start is off by no more than the roundings of t₁ and of its own time.
         let rounding = 4.0 * time.log2_roundoff().exp2() * (1.0 + time.to_f64());
-        let time_error = self.budget.time(off, apart).max(rounding);
-        let time_error = if self.lost { f64::INFINITY } else { time_error };
-        self.marks.push(Mark { kind, time, velocity: velocity.clone(), time_error });
+        let since = self.budget.since(apart);
+        match self.marks.last_mut() {
+            Some(last) => last.after = since,
+            None => self.before = since,
+        }
+        let mark = self.marks.len();
+        self.marks.push(Mark {
+            kind,
+            time,
+            velocity: velocity.clone(),
+            time_error: f64::INFINITY,
+            after: Uncertainty::default(),
+        });
         if self.contact {
             self.contact = false;
-            self.let_go(&velocity, off);
+            self.let_go(&velocity, off, slope);
         } else {
             self.touch_down(&velocity, off);
             self.contact = true;
             self.weigh();
         }
+        if !self.lost {
+            self.marks[mark].time_error = self.budget.last(off, apart).max(rounding);
+        }
     }
 
-    /// The ground lets go, with this velocity: p goes over from −q to q, too early or too late by what the time is off.
-    pub(super) fn let_go(&mut self, velocity: &S, off: Off) {
+    /// The ground lets go, with this velocity, at a root of the stress with this slope or at a ray: p goes over from −q to q, too early
+    /// or too late by what the time is off.
+    pub(super) fn let_go(&mut self, velocity: &S, off: Off, slope: Option<f64>) {
         self.budget.let_go(velocity.to_f64().abs(), off, self.cell_error);
-        self.take_off();
+        self.take_off(velocity, off, slope);
     }
 
-    /// The ground is hit. What is off in time is the ray that starts; or, in a flight that is taken apart, where the
-    /// motion is compared with the true one at equal times since the impact, all the rest of the motion.
+    /// Takes the flight that begins here apart.
+    pub(super) fn take_off(&mut self, velocity: &S, off: Off, slope: Option<f64>) {
+        if !self.medium.splits() {
+            return;
+        }
+        self.weigh();
+        let flight = self.medium.take_off(&mut self.state, &self.height);
+        let (round, first) = (self.state.round, self.state.segments[0].at.clone());
+        let since = |(landing, at): &(i64, S)| ((round - landing) as f64) + (first.clone() - at).to_f64();
+        let whole = self.landing.as_ref().is_some_and(|(landing, at)| *landing + 1 == round && *at == first);
+        self.ground = self.height.clone() - &flight.height;
+        let (velocity, rate) = (velocity.to_f64(), flight.rate.to_f64());
+        // In contact p = −q, and the last q is the last trace.
+        let last = self.last_trace.as_ref().map_or(self.state.bound(), S::to_f64);
+        let fall = -self.medium.gravity.to_f64() - 2.0 * self.damping() * rate;
+        let begins = TakeOff {
+            at: self.place(),
+            len: self.landing.as_ref().map_or(0.0, since),
+            whole,
+            off: off.apart,
+            slope,
+            jump: (velocity - last, velocity + last),
+            end_rate: velocity - rate,
+            steepest: self.medium.variation(&self.state).0 + fall.abs(),
+            fall,
+        };
+        let rounding = LEAP_ROUNDINGS / 4.0 * self.cell_error;
+        self.budget.take_off(self.damping(), begins, rounding);
+        self.flight = Some(self.flights.len());
+        self.flights.push(flight);
+        self.weigh();
+    }
+
+    /// The ground is hit: what is off in time is the ray that starts.
     fn touch_down(&mut self, velocity: &S, off: Off) {
         let speed = velocity.to_f64().abs();
         self.landing = Some((self.state.round, self.state.segments[0].at.clone()));
         self.compare_rays(speed, off);
-        let (Some(flight), Some((_, rate))) = (self.flying().cloned(), self.centre()) else {
-            self.budget.hit(self.damping(), speed, off);
-            return;
-        };
-        self.budget.hit(self.damping(), speed, off);
-        let (slope, range) = self.medium.variation(&self.state);
         let damping = self.damping();
+        self.budget.hit(damping, speed, off);
+        let (Some(flight), Some((_, rate))) = (self.flying().cloned(), self.centre()) else { return };
+        let (slope, range) = self.medium.variation(&self.state);
+        let (phase, sup) = (self.medium.phase(&self.state), self.state.bound());
         let age = flight.age((self.state.round, &self.state.segments[0].at)).to_f64();
-        let (kept, slowed) = slowed(damping, age);
         let fall = -self.medium.gravity.to_f64() - 2.0 * damping * rate.to_f64();
-        self.budget.land(&Landing { speed, off, kept, slowed, fall, range, slope });
-        for segment in &mut self.state.segments {
-            segment.off.moving += off.moving;
-        }
-        self.state.segments[0].off.moving = 0.0;
+        let landing = Landing {
+            at: self.place(),
+            velocity: velocity.to_f64(),
+            curvature: slope + fall.abs(),
+            off,
+            rate: rate.to_f64(),
+            age,
+            fall,
+            range,
+            slope,
+            phase: (phase, weight_rest(0.5 * damping) * sup),
+        };
+        self.budget.land(damping, landing);
         self.medium.touch_down(&mut self.state, &flight);
         self.flight = None;
     }
@@ -91,10 +143,4 @@ impl<S: RoundedSpecial> Follower<'_, S> {
             self.unresolved = Some(Unresolved { from, count: count + 1, longest: longest.max(off) });
         }
     }
-}
-
-/// `e^{−2Rτ}` and `(1 − e^{−2Rτ})/2R`.
-pub(super) fn slowed(damping: f64, age: f64) -> (f64, f64) {
-    let fall = -2.0 * damping * age;
-    (fall.exp(), crate::special::phi1(&fall) * age)
 }

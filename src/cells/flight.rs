@@ -15,7 +15,7 @@
 
 use super::march::MOST_DAMPING;
 use super::march::{Medium, State};
-use super::series::{integral, times_x};
+use super::series::{at_one, at_zero, integral, times_x};
 use crate::special::RoundedSpecial;
 use crate::special::{phi1, phi2};
 
@@ -102,6 +102,17 @@ impl<S: RoundedSpecial> Medium<S> {
             start = start + &segment.len;
         }
         sum
+    }
+
+    /// `∫ w dq` of a vibration over a round trip, `w = e^{−κs} + κ(1 − s)`, by parts: what `∫y` of a contact of one round
+    /// trip changes by when the vibration comes earlier.
+    pub(super) fn phase(&self, state: &State<S>) -> f64 {
+        let (kappa, zero) = (self.kappa.to_f64(), self.kappa.zero());
+        let last = &state.segments[state.segments.len() - 1];
+        let after = (at_one(&last.q, &zero) * &last.decay).to_f64();
+        let before = at_zero(&state.segments[0].q, &zero).to_f64();
+        let weight = |x: &S| (-(self.kappa.int(2) * x * &self.kappa)).exp() * &self.kappa + &self.kappa;
+        (-kappa).exp() * after - (1.0 + kappa) * before + self.weighed(state, &weight).to_f64()
     }
 
     /// `z(0,b)` from the `q` of a vibration.

@@ -4,9 +4,10 @@
 //! `y = v_t`, and it lands when `v(0,·) = ∫ y` returns to zero. A landing at which `y` is not negative, and at `y = 0`
 //! not falling, is none: the flight goes on.
 
+use std::ops::ControlFlow;
+
 use super::bounce::Held;
 use super::budget::{Budget, Off};
-use super::event::slowed;
 use super::flight::Flight;
 use super::march::{Medium, State};
 use super::piece::{Checkpoint, Mark, Piece, Unresolved};
@@ -14,7 +15,8 @@ use super::root::first_descent;
 use super::series::{at_one, at_zero, bound, derivative, evaluate};
 use super::start::Data;
 use crate::error::Error;
-use crate::motion::{Ending, EventKind};
+use crate::motion::{Ending, EventKind, Uncertainty};
+use crate::reason::Warning;
 use crate::special::RoundedSpecial;
 
 /// How far to go.
@@ -52,17 +54,19 @@ pub(super) struct Follower<'a, S> {
     /// `v(0,b)`.
     pub(super) height: S,
     /// `z(0,b)` of the vibration.
-    ground: S,
+    pub(super) ground: S,
     pub(super) pieces: Vec<Piece<S>>,
     pub(super) marks: Vec<Mark<S>>,
     /// States at the beginning of each round trip and on both sides of a leap.
     pub(super) checkpoints: Vec<Checkpoint<S>>,
-    pub(super) warnings: Vec<String>,
+    pub(super) warnings: Vec<Warning>,
     /// Error of `p`, `q` made in one cell.
     pub(super) cell_error: f64,
     pub(super) budget: Budget,
     /// The trace at the end of the last piece.
     pub(super) last_trace: Option<S>,
+    /// How far values may be off before the first event.
+    pub(super) before: Uncertainty,
 }
 
 /// The most strips that are followed: some hundred megabytes.
@@ -73,7 +77,7 @@ const MOST_SEGMENTS: usize = 4096;
 const LEAST_LEAP: f64 = 3.0;
 /// The roundings of a leap, of a separation and of a joining, each of the greatest `|q|`: every coefficient is a sum of
 /// some dozen terms, none greater than it.
-const LEAP_ROUNDINGS: f64 = 64.0;
+pub(super) const LEAP_ROUNDINGS: f64 = 64.0;
 
 impl<'a, S: RoundedSpecial> Follower<'a, S> {
     /// At `t = 0`.
@@ -84,10 +88,17 @@ impl<'a, S: RoundedSpecial> Follower<'a, S> {
             follower.contact = true;
             follower.landed = 1;
             follower.landing = Some((0, data.slope.zero()));
-            let velocity = data.end_velocity();
-            follower.marks.push(Mark { kind: EventKind::Impact, time: data.slope.zero(), velocity, time_error: 0.0 });
+            let (velocity, after) = (data.end_velocity(), Uncertainty::default());
+            follower.marks.push(Mark {
+                kind: EventKind::Impact,
+                time: data.slope.zero(),
+                velocity,
+                time_error: 0.0,
+                after,
+            });
         } else {
-            follower.take_off();
+            let velocity = data.end_velocity();
+            follower.take_off(&velocity, Off::default(), None);
         }
         follower
     }
@@ -100,14 +111,15 @@ impl<'a, S: RoundedSpecial> Follower<'a, S> {
         (velocity, time_error): (S, f64),
     ) -> Self {
         let (mut state, error) = held.state(medium);
-        let off = Off { fixed: time_error, moving: time_error };
+        let off = Off { fixed: time_error, apart: time_error };
         state.segments[0].off = off;
         let mut follower = Self::with(medium, data, state);
         follower.held = Some(held);
         follower.landed = 1;
         follower.budget.add(error);
-        follower.let_go(&velocity, off);
-        follower.marks.push(Mark { kind: EventKind::Release, time: held.release.clone(), velocity, time_error });
+        follower.let_go(&velocity, off, None);
+        let (time, after) = (held.release.clone(), Uncertainty::default());
+        follower.marks.push(Mark { kind: EventKind::Release, time, velocity, time_error, after });
         follower
     }
 
@@ -135,6 +147,7 @@ impl<'a, S: RoundedSpecial> Follower<'a, S> {
             cell_error: 0.0,
             budget: Budget::default(),
             last_trace: None,
+            before: Uncertainty::default(),
         };
         follower.weigh();
         follower.budget.add(8.0 * follower.cell_error);
@@ -166,6 +179,11 @@ impl<'a, S: RoundedSpecial> Follower<'a, S> {
         2.0 * self.medium.kappa.to_f64()
     }
 
+    /// Where on the circle of a round trip this characteristic leaves the ground.
+    pub(super) fn place(&self) -> f64 {
+        self.state.segments[0].at.to_f64()
+    }
+
     /// The flight that is under way, where it is taken apart.
     pub(super) fn flying(&self) -> Option<&Flight<S>> {
         self.flight.and_then(|k| self.flights.get(k))
@@ -178,31 +196,18 @@ impl<'a, S: RoundedSpecial> Follower<'a, S> {
 
     /// The error of `v(0,·)` up to `len` from now.
     fn height_error(&self, len: f64) -> Off {
-        let age = |flight: &Flight<S>| flight.age((self.state.round, &self.state.segments[0].at)).to_f64() + len;
-        let slowed = self.flying().map_or(0.0, |flight| slowed(self.damping(), age(flight)).1);
-        self.budget.end(self.damping(), slowed, len)
+        let then = self.flying().map(|flight| {
+            let age = flight.age((self.state.round, &self.state.segments[0].at)).to_f64() + len;
+            let rate = flight.at(&self.height.double(age)).1.to_f64();
+            (age, rate, (self.place() + len).fract())
+        });
+        self.budget.end(self.damping(), then, len)
     }
 
     /// The better account of it.
     pub(super) fn least_height_error(&self) -> f64 {
         let off = self.height_error(0.0);
-        if self.flight.is_some() { off.fixed.min(off.moving) } else { off.fixed }
-    }
-
-    /// Takes the flight that begins here apart.
-    pub(super) fn take_off(&mut self) {
-        if !self.medium.splits() {
-            return;
-        }
-        self.weigh();
-        let flight = self.medium.take_off(&mut self.state, &self.height);
-        let first = &self.state.segments[0].at;
-        let whole = self.landing.as_ref().is_some_and(|(round, at)| *round + 1 == self.state.round && at == first);
-        self.budget.take_off(self.damping(), whole, LEAP_ROUNDINGS / 4.0 * self.cell_error);
-        self.ground = self.height.clone() - &flight.height;
-        self.flight = Some(self.flights.len());
-        self.flights.push(flight);
-        self.weigh();
+        self.budget.better(off, self.flight.is_some())
     }
 
     /// Whether the ground end, at height zero, leaves at once: `y > 0`, or `y = 0` and rising.
@@ -237,8 +242,13 @@ impl<'a, S: RoundedSpecial> Follower<'a, S> {
         }
     }
 
-    /// Goes on until the goal.
-    pub(super) fn run(&mut self, goal: &Goal<S>) -> Result<Ending, Error> {
+    /// Goes on until the goal; `observe` receives the round trips, or the contacts where so many are asked for, and the
+    /// number of pieces.
+    pub(super) fn run(
+        &mut self,
+        goal: &Goal<S>,
+        observe: &dyn Fn(usize, usize) -> ControlFlow<()>,
+    ) -> Result<Ending, Error> {
         let unit = self.height.log2_roundoff().exp2();
         let mut round = i64::MIN;
         let mut calm = None;
@@ -256,6 +266,10 @@ impl<'a, S: RoundedSpecial> Follower<'a, S> {
             }
             if self.state.round > round {
                 round = self.state.round;
+                let done = if matches!(goal, Goal::Impacts(_)) { self.landed as usize } else { round.max(0) as usize };
+                if observe(done, pieces).is_break() {
+                    return Err(Error::Interrupted);
+                }
                 self.new_round();
                 if let Some(ending) = self.settle(goal, &mut calm) {
                     return Ok(ending);
@@ -275,7 +289,7 @@ impl<'a, S: RoundedSpecial> Follower<'a, S> {
             let first = &self.state.segments[0];
             let (len, ray) = (first.len.clone(), first.off);
             if !fresh && self.contact && self.rises() {
-                self.event(ray, false);
+                self.event(ray, None);
                 fresh = true;
                 continue;
             }
@@ -305,7 +319,7 @@ impl<'a, S: RoundedSpecial> Follower<'a, S> {
             let at_start = found.as_ref().is_some_and(&nearby);
             if at_start && !fresh {
                 if self.contact {
-                    self.event(ray, false);
+                    self.event(ray, None);
                 } else if self.land_at_ray(goal, ray, &trace, &height, &len) {
                     return Ok(Ending::NextImpact);
                 }
@@ -314,7 +328,7 @@ impl<'a, S: RoundedSpecial> Follower<'a, S> {
             }
             if at_start {
                 let time = (self.state.time() * &self.data.units.time).to_f64();
-                self.warnings.push(format!("at t = {time} rounding decides between contact and flight"));
+                self.warnings.push(Warning::RoundingDecides { time });
             }
             let at_end = found.as_ref().is_some_and(|x| nearby(&(len.clone() - x)));
             let found = found.filter(|_| !at_start && !at_end);
@@ -332,9 +346,10 @@ impl<'a, S: RoundedSpecial> Follower<'a, S> {
             match found {
                 Some(x) => {
                     let off = self.event_error(&trace, &height, &(x.clone() / &len), &len, vague);
+                    let slope = evaluate(&derivative(&trace), &(x.clone() / &len)).to_f64() / len.to_f64();
                     self.advance(Some(&x), off, &trace, &height);
                     if self.contact {
-                        self.event(off, true);
+                        self.event(off, Some(slope));
                     } else {
                         self.at_ray = false;
                         if self.land(goal, off) {
@@ -436,6 +451,7 @@ impl<'a, S: RoundedSpecial> Follower<'a, S> {
         if let Some((height, _)) = self.centre() {
             self.height = height + self.medium.ground_of(&self.state);
         }
+        self.budget.note_end(self.height_error(0.0));
     }
 
     /// Forgets rays and vibrations that are below the truncation of a cell.
@@ -497,7 +513,9 @@ impl<'a, S: RoundedSpecial> Follower<'a, S> {
         // Where the event is: rounding of the place in the strip.
         let place = 4.0 * x.log2_roundoff().exp2() * (1.0 + self.state.round.unsigned_abs() as f64);
         let off = |error: f64| ((error + more) / slope).min((2.0 * (error + more) / curvature).sqrt()) + place;
-        Off { fixed: off(error.fixed), moving: off(error.moving) }
+        // The clock that times are counted in is off itself.
+        let late = self.budget.clock(self.contact);
+        Off { fixed: off(error.fixed), apart: off(error.apart) + late }
     }
 
     /// Marches over the first segment, or the part of it before `cut`.
@@ -521,6 +539,7 @@ impl<'a, S: RoundedSpecial> Follower<'a, S> {
         self.medium.strip(&mut self.state, self.contact, &mut |_| {});
         if let Some((centre, _)) = self.centre() {
             self.ground = self.height.clone() - centre;
+            self.budget.note_end(self.height_error(0.0));
         }
         self.budget.strip(self.damping(), len.to_f64(), self.cell_error, self.contact);
         let (contact, flight) = (self.contact, self.flight);
@@ -543,7 +562,7 @@ impl<'a, S: RoundedSpecial> Follower<'a, S> {
             return true;
         }
         self.landed += 1;
-        self.event(off, false);
+        self.event(off, None);
         false
     }
 }

@@ -1,5 +1,7 @@
 //! The solution of the damped problem, and the answers to what is asked of it.
 
+use std::ops::ControlFlow;
+
 use super::bounce::Held;
 use super::flight::Flight;
 use super::follow::{Follower, Goal};
@@ -11,9 +13,11 @@ use super::series::{at_one, at_zero, evaluate};
 use super::start::{Data, Units};
 use crate::error::Error;
 use crate::first_contact::FirstContact;
-use crate::motion::{Contact, Ending, Energy, Event, EventKind, Field, Motion, Scales, Side, StressPiece};
+use crate::motion::unobserved;
+use crate::motion::{Contact, Ending, Energy, Event, EventKind, Field, Motion, Scales, Side, StressPiece, Uncertainty};
 use crate::number::Estimate;
 use crate::problem::{Parameters, Problem, Run, Top};
+use crate::reason::Warning;
 use crate::special::RoundedSpecial;
 use crate::special::{log_mean, log_rest};
 
@@ -51,8 +55,9 @@ pub struct Damped<S> {
     contacts: Vec<Contact<S>>,
     end: S,
     ending: Ending,
-    error: f64,
-    warnings: Vec<String>,
+    /// Before the first event, and after each.
+    uncertain: Vec<Uncertainty>,
+    warnings: Vec<Warning>,
     unresolved: Option<Unresolved<S>>,
 }
 
@@ -65,21 +70,22 @@ struct Found<S> {
     checkpoints: Vec<Checkpoint<S>>,
     flights: Vec<Flight<S>>,
     marks: Vec<Mark<S>>,
-    warnings: Vec<String>,
+    warnings: Vec<Warning>,
     unresolved: Option<Unresolved<S>>,
-    error: f64,
+    before: Uncertainty,
     ending: Ending,
 }
 
 impl<S: RoundedSpecial> Found<S> {
     fn of(follower: Follower<'_, S>, ending: Ending) -> Self {
-        let error = follower
-            .marks
-            .iter()
-            .map(|mark| mark.time_error)
-            .fold(follower.budget.total(follower.medium.splits()), f64::max);
-        let Follower { pieces, checkpoints, flights, marks, warnings, unresolved, .. } = follower;
-        Found { pieces, checkpoints, flights, marks, warnings, unresolved, error, ending }
+        let Follower { medium, mut budget, mut before, mut marks, .. } = follower;
+        let last = budget.since(medium.splits());
+        match marks.last_mut() {
+            Some(mark) => mark.after = last,
+            None => before = last,
+        }
+        let Follower { pieces, checkpoints, flights, warnings, unresolved, .. } = follower;
+        Found { pieces, checkpoints, flights, marks, warnings, unresolved, before, ending }
     }
 }
 
@@ -125,20 +131,21 @@ impl<S: RoundedSpecial> Damped<S> {
     /// **Errors**: [`Error::DampingTooStrong`] for `r t₁ > 2000`; [`Error::TooManyPieces`] beyond 400 000 strips;
     /// [`Error::TooManyRays`] beyond 4096 segments in a round trip; [`Error::Irrational`] from the parameters.
     pub fn solve(problem: &Problem, precision: &S::Precision, digits: f64) -> Result<Self, Error> {
-        Self::solve_with(problem, precision, digits, 1)
+        Self::solve_observed(problem, precision, digits, 1, &unobserved)
     }
 
-    /// [`Self::solve`] with segments `shorten` times shorter than need be.
-    pub(crate) fn solve_with(
+    /// [`Self::solve`] with segments `shorten` times shorter than need be, observed.
+    pub(crate) fn solve_observed(
         problem: &Problem,
         precision: &S::Precision,
         digits: f64,
         shorten: i64,
+        observe: &dyn Fn(usize, usize) -> ControlFlow<()>,
     ) -> Result<Self, Error> {
         let (medium, data) = medium(problem, precision, digits, shorten)?;
         let goal = goal(problem, precision, &data);
         let mut follower = Follower::new(&medium, &data);
-        let ending = follower.run(&goal)?;
+        let ending = follower.run(&goal, observe)?;
         let found = Found::of(follower, ending);
         Ok(Self::record_of(medium, data, None, found, problem, precision))
     }
@@ -152,13 +159,14 @@ impl<S: RoundedSpecial> Damped<S> {
         digits: f64,
         contact: &FirstContact<Estimate<S>>,
         (time, time_error, leaves): (&S, f64, &S),
+        observe: &dyn Fn(usize, usize) -> ControlFlow<()>,
     ) -> Result<Self, Error> {
         let (medium, data) = medium(problem, precision, digits, 1)?;
         let goal = goal(problem, precision, &data);
         let held = Held::until(contact, &data, time);
         let leaves = leaves.clone() / &data.units.velocity;
         let mut follower = Follower::released(&medium, &data, &held, (leaves, time_error / data.units.time.to_f64()));
-        let ending = follower.run(&goal)?;
+        let ending = follower.run(&goal, observe)?;
         let found = Found::of(follower, ending);
         Ok(Self::record_of(medium, data, Some(held), found, problem, precision))
     }
@@ -171,12 +179,12 @@ impl<S: RoundedSpecial> Damped<S> {
         problem: &Problem,
         precision: &S::Precision,
     ) -> Self {
-        let Found { pieces, checkpoints, flights, marks, mut warnings, unresolved, error, ending } = found;
+        let Found { pieces, checkpoints, flights, marks, mut warnings, unresolved, before, ending } = found;
         let unresolved = unresolved.map(|found| {
             let unit = &data.units.time;
             Unresolved { from: found.from * unit, longest: found.longest * unit.to_f64(), ..found }
         });
-        warnings.extend(unresolved.as_ref().map(ToString::to_string));
+        warnings.extend(unresolved.as_ref().map(Unresolved::warning));
         let end = match &problem.run {
             Run::Time(time) if ending == Ending::Time || pieces.last().is_some_and(|piece| piece.still) => {
                 S::from_number(time, precision)
@@ -197,7 +205,7 @@ impl<S: RoundedSpecial> Damped<S> {
             flights,
             end,
             ending,
-            error,
+            uncertain: std::iter::once(before).chain(marks.iter().map(|mark| mark.after)).collect(),
             warnings,
             unresolved,
         };
@@ -378,7 +386,7 @@ impl<S: RoundedSpecial> Motion<S> for Damped<S> {
         pieces
     }
 
-    fn stress(&self, time: &S, side: Side) -> Result<S, Error> {
+    fn strain(&self, time: &S, side: Side) -> Result<S, Error> {
         let t = self.time(time)?;
         Ok(match self.record().piece(&t, side) {
             Some((piece, at)) if piece.contact => {
@@ -447,7 +455,7 @@ impl<S: RoundedSpecial> Motion<S> for Damped<S> {
         }
         if point.is_zero() {
             let (displacement, velocity) = self.ground_end(time, side)?;
-            return Ok(Field { displacement, velocity, strain: self.stress(time, side)? });
+            return Ok(Field { displacement, velocity, strain: self.strain(time, side)? });
         }
         let x = point.clone() / &units.length * t.ratio(1, 2);
         let (velocity, strain) = self.record().at(&x, &t, side);
@@ -477,10 +485,25 @@ impl<S: RoundedSpecial> Motion<S> for Damped<S> {
     }
 
     fn error_estimate(&self) -> S {
-        self.end.double(self.error)
+        let most = self.uncertain.iter().fold(Uncertainty::default(), |most, next| most.max(*next));
+        let times = self.events.iter().map(|event| event.time_error / self.data.units.time.to_f64());
+        self.end.double(times.fold(most.rise.max(most.speed).max(most.late), f64::max))
     }
 
-    fn warnings(&self) -> &[String] {
+    fn uncertainty(&self, time: &S) -> Uncertainty {
+        let since = self.events.partition_point(|event| event.time <= *time);
+        let lost = since.checked_sub(1).is_some_and(|last| self.events[last].time_error.is_infinite());
+        let mut found = self.uncertain[since];
+        if self.medium.splits() {
+            // h′ + 2Rh changes by −2∫y dt and by what gravity does in that time.
+            let damping = 2.0 * self.medium.kappa.to_f64();
+            let Uncertainty { rise, speed, late, .. } = found;
+            found.impulse = Some(speed + 2.0 * damping * rise + self.medium.gravity.to_f64() * late);
+        }
+        if lost { Uncertainty { rise: f64::INFINITY, speed: f64::INFINITY, ..found } } else { found }
+    }
+
+    fn warnings(&self) -> &[Warning] {
         &self.warnings
     }
 }
@@ -503,8 +526,8 @@ mod tests {
     fn shorter_cells_change_nothing() {
         for damping in ["0.01", "0.3", "2.6"] {
             let problem = rod(1, 4, damping, Run::Time(Number::from(14)));
-            let coarse = Damped::<f64>::solve_with(&problem, &(), 12.0, 1).unwrap();
-            let fine = Damped::<f64>::solve_with(&problem, &(), 12.0, 5).unwrap();
+            let coarse = Damped::<f64>::solve(&problem, &(), 12.0).unwrap();
+            let fine = Damped::<f64>::solve_observed(&problem, &(), 12.0, 5, &unobserved).unwrap();
             assert!(fine.pieces.len() > 4 * coarse.pieces.len() / 3);
             assert_eq!(coarse.events.len(), fine.events.len());
             for (a, b) in coarse.events.iter().zip(&fine.events) {

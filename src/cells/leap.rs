@@ -5,7 +5,7 @@
 //! `ω_k² = (2πk)² − R²`, `k ≥ 1`. Hence with one real wave that goes down,
 //!
 //! ```text
-//! Z(x,t) = F(x,t) + F(−x,t),    F_t = Ω F,    Ω = D √(1 + R²D⁻²),    D = ∂/∂y,    D⁻¹: the antiderivative of mean zero.
+//! Z(x,t) = F(x,t) + F(−x,t),    F_t = Ω F,    Ω = D √(1 + R²D⁻²),    D = ∂/∂y,    D⁻¹: antiderivative of mean zero.
 //! F(y,t) = (e^{tG} F(·,0))(y + t),    G = Ω − D = ½R² D⁻¹ − ⅛R⁴ D⁻³ + …
 //! ```
 //!
@@ -42,7 +42,7 @@ use crate::special::RoundedSpecial;
 /// `e^{nR²/4π}`.
 const MOST_PHASE: f64 = 4.0;
 /// `‖D⁻²‖`.
-const TWICE: f64 = 0.0324;
+const INVERSE_SQUARE: f64 = 0.0324;
 
 /// The most round trips of one leap.
 pub(super) fn most_trips(damping: f64) -> f64 {
@@ -161,7 +161,7 @@ impl<S: RoundedSpecial> Circle<'_, S> {
 /// The binomial coefficients `C(p, m) R^{2m}`, `m ≥ 1`, for `p = ±½`, as long as they matter.
 fn binomials<S: RoundedSpecial>(damping: &S, power: i64, log2_accuracy: f64) -> Vec<S> {
     let square = damping.square();
-    let (ratio, mut size) = ((square.to_f64() * TWICE).log2(), 0.0);
+    let (ratio, mut size) = ((square.to_f64() * INVERSE_SQUARE).log2(), 0.0);
     let (mut terms, mut term) = (Vec::new(), damping.one());
     for m in 1i64.. {
         // C(p,m) = C(p,m−1) (p − m + 1)/m, 2p = power.
@@ -342,7 +342,7 @@ impl<S: RoundedSpecial> Medium<S> {
             let next = sum * &n / damping.int(k as i64);
             circle.antiderivative(&mut power);
             add(wave, &power, &next);
-            let size = next.to_f64().abs().log2() + 0.5 * k as f64 * TWICE.log2();
+            let size = next.to_f64().abs().log2() + 0.5 * k as f64 * INVERSE_SQUARE.log2();
             coefficients.push(next);
             // Two in a row, far down: from there on they fall faster than geometrically.
             below = if size < self.log2_accuracy - 2.0 { below + 1 } else { 0 };

@@ -5,17 +5,19 @@
 //! contact; `flight` takes a flight apart into centre of mass and vibration, and `leap` goes over many of its round
 //! trips at once. `root` finds events, `follow` decides what happens at the ground, `event` does it, `piece` is what
 //! remains of it, `budget` adds up what all of it may
-//! be off by, `rest` says when nothing more can happen, `record` gets the field back, `history` answers questions,
-//! `joined` puts the closed form of the first contact before it, and `with_bounds` gives answers with their bounds.
+//! be off by, with the signs that `dependence` follows, `rest` says when nothing more can happen, `record` gets the
+//! field back, `history` answers questions, `contact_then_cells` puts the closed form of the first contact before it,
+//! `with_bounds` gives answers with bounds.
 
 mod bounce;
 mod budget;
 mod cell;
+mod contact_then_cells;
+mod dependence;
 mod event;
 mod flight;
 mod follow;
 mod history;
-mod joined;
 mod leap;
 mod march;
 mod piece;
@@ -26,7 +28,7 @@ mod series;
 mod start;
 mod with_bounds;
 
+pub use contact_then_cells::{ContactThenCells, Reach};
 pub use history::Damped;
-pub use joined::{Joined, Reach};
 pub use piece::Unresolved;
 pub use with_bounds::WithBounds;

@@ -1,7 +1,8 @@
 //! What a run leaves behind: what the ground felt, strip by strip, events, and states to start again from.
 
 use super::march::State;
-use crate::motion::EventKind;
+use crate::motion::{EventKind, Uncertainty};
+use crate::reason::Warning;
 use crate::special::RoundedSpecial;
 
 /// What happened at the ground during one strip, or during a flight that was leapt over, dimensionless.
@@ -57,6 +58,8 @@ pub(super) struct Mark<S> {
     pub(super) velocity: S,
     /// How far the time may be off.
     pub(super) time_error: f64,
+    /// How far values may be off from then to the next event.
+    pub(super) after: Uncertainty,
 }
 
 /// Hops that are not told apart from contact.
@@ -73,10 +76,9 @@ pub struct Unresolved<S> {
     pub longest: f64,
 }
 
-impl<S: RoundedSpecial> std::fmt::Display for Unresolved<S> {
-    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        let (from, landings) = (self.from.decimal(9), if self.count == 1 { "landing" } else { "landings" });
-        write!(f, "from t = {from} on hops shorter than {:.1e} are not told apart from contact, ", self.longest)?;
-        write!(f, "at {} {landings}", self.count)
+impl<S: RoundedSpecial> Unresolved<S> {
+    /// The same for a user.
+    pub(super) fn warning(&self) -> Warning {
+        Warning::HopsUnresolved { from: self.from.to_f64(), longest: self.longest, landings: self.count }
     }
 }

@@ -10,6 +10,7 @@ use super::piece::Piece;
 use super::record::{Node, Record};
 use super::series::bound;
 use crate::motion::Ending;
+use crate::reason::{Reason, StillState};
 use crate::special::RoundedSpecial;
 
 /// A motion is over where it is this often the error that it carries.
@@ -51,12 +52,8 @@ impl<S: RoundedSpecial> Follower<'_, S> {
         let swing = share.sqrt() + 8.0 * (self.noise() + self.least_height_error());
         (least > swing).then(|| {
             let unit = data.units.displacement.to_f64();
-            Ending::NoFurtherImpact(format!(
-                "from t = {} on the ground end swings by at most {:.3e}, ever less, about a height that is never below {:.3e}",
-                short(&data.units.time, &t),
-                swing * unit,
-                least * unit
-            ))
+            let from = (t * &data.units.time).to_f64();
+            Ending::NoFurtherImpact(Reason::StaysAbove { from, swing: swing * unit, height: least * unit })
         })
     }
 
@@ -68,16 +65,13 @@ impl<S: RoundedSpecial> Follower<'_, S> {
         let most = self.state.bound() + self.noise();
         let slope = self.medium.slope.to_f64();
         (self.contact && slope < 0.0 && most < -slope).then(|| {
-            self.held(format!(
-                "from t = {} on the waves pull with at most {:.3} of what the rod presses with at rest, and they never grow",
-                short(&self.data.units.time, &self.state.time()),
-                most / -slope
-            ))
+            let from = (self.state.time() * &self.data.units.time).to_f64();
+            self.held(Reason::StaysPressed { from, part: most / -slope })
         })
     }
 
     /// The ending of a contact that does not end.
-    fn held(&self, reason: String) -> Ending {
+    fn held(&self, reason: Reason) -> Ending {
         if self.marks.len() > 1 { Ending::Rest(reason) } else { Ending::NoBounce(reason) }
     }
 
@@ -133,14 +127,10 @@ impl<S: RoundedSpecial> Follower<'_, S> {
         let (velocity, far) = self.left(time)?;
         let neither = self.medium.slope.is_zero();
         let units = &self.data.units;
-        let still = format!(
-            "from t = {} on nothing moves faster than {:.1e}, which is within the accuracy",
-            short(&units.time, &now),
-            velocity * units.velocity.to_f64()
-        );
+        let (from, speed) = ((now.clone() * &units.time).to_f64(), velocity * units.velocity.to_f64());
+        let still = |state| Reason::Still { from, speed, state };
         let Goal::Time(end) = goal else {
-            let reason = format!("{still}: whether the ground end still lets go or lands takes more digits to tell");
-            return neither.then_some(Ending::Undecided(reason));
+            return neither.then(|| Ending::Undecided(still(StillState::Open)));
         };
         let since = since.get_or_insert_with(|| now.clone());
         if (now.clone() - &*since).to_f64() < 1.0 || time < 1.0 {
@@ -149,12 +139,11 @@ impl<S: RoundedSpecial> Follower<'_, S> {
         let zero = now.zero();
         let rest = if self.medium.free_top { self.height.clone() } else { self.medium.slope.clone() * now.ratio(1, 2) };
         let ending = if self.contact && !neither {
-            self.held(format!("{still}: the rod presses on the ground as it does at rest"))
+            self.held(still(StillState::Pressed))
         } else if !self.contact && rest.to_f64() > far + self.least_height_error() {
-            let height = rest.to_f64() * units.displacement.to_f64();
-            Ending::NoFurtherImpact(format!("{still}: the ground end stays at the height {height:.6e}"))
+            Ending::NoFurtherImpact(still(StillState::Above(rest.to_f64() * units.displacement.to_f64())))
         } else {
-            Ending::Rest(format!("{still}, and so is every event that may still come"))
+            Ending::Rest(still(StillState::Faint))
         };
         let (trace, height) = if self.contact {
             (vec![self.medium.slope.clone(), zero], Vec::new())
@@ -177,15 +166,5 @@ impl<S: RoundedSpecial> Follower<'_, S> {
             height,
         });
         Some(ending)
-    }
-}
-
-/// A time in words, in the units of the scene.
-fn short<S: RoundedSpecial>(unit: &S, time: &S) -> String {
-    let time = (time.clone() * unit).to_f64();
-    if time == 0.0 || (1e-3..1e6).contains(&time) {
-        format!("{}", (time * 1e6).round() / 1e6)
-    } else {
-        format!("{time:.6e}")
     }
 }

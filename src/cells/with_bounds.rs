@@ -1,23 +1,19 @@
 //! A history whose answers carry their bounds.
 
 use crate::error::Error;
-use crate::motion::{Contact, Ending, Energy, Event, Field, Motion, Scales, Side, StressPiece};
+use crate::motion::{Contact, Ending, Energy, Event, EventKind, Field, Motion, Scales, Side, StressPiece, Uncertainty};
 use crate::number::{Estimate, Rounded, Scalar};
+use crate::reason::Warning;
 
-/// A history, each of whose numbers has the bound that follows from [`Motion::error_estimate`] and its natural scale;
+/// A history, each of whose numbers has the bound that follows from [`Motion::uncertainty`] and its natural scale;
 /// times of events have their own.
 ///
 /// **Accuracy**: *within its own bound*, away from rays that are themselves off in time. A time that is asked about is
-/// taken as it is stored.
+/// taken as it is stored; one that carries the bound of an event stands for the event, whenever that is.
 #[derive(Debug)]
 pub struct WithBounds<S, H> {
     history: H,
-    /// Bounds of displacements, velocities, strains, and energies for each unit of speed.
-    rise: f64,
-    speed: f64,
-    strain: f64,
-    length: f64,
-    gravity: f64,
+    scales: Scales<f64>,
     events: Vec<Event<Estimate<S>>>,
     contacts: Vec<Contact<Estimate<S>>>,
 }
@@ -27,50 +23,116 @@ fn within<S: Rounded>(value: &S, bound: f64) -> Estimate<S> {
     Estimate::new(value.clone(), bound / value.unit() + value.to_f64().abs())
 }
 
+/// Bounds near a time, in the units of the problem: displacements as far as the events are in time, velocities, strains,
+/// and how late the events may be.
+struct Near {
+    rise: f64,
+    speed: f64,
+    strain: f64,
+    late: f64,
+}
+
 impl<S: Rounded, H: Motion<S>> WithBounds<S, H> {
     /// `history` with its bounds.
-    pub fn new(history: H) -> Self {
-        let Scales { time, velocity, length, wave_speed, gravity } = history.scales();
-        let error = history.error_estimate().to_f64();
-        let speed = error * velocity.to_f64();
-        let (rise, strain) = (speed * time.to_f64(), speed / wave_speed.to_f64());
-        let event = |event: &Event<S>| Event {
-            kind: event.kind,
-            time: within(&event.time, event.time_error),
-            end_velocity: within(&event.end_velocity, speed),
-            centre: within(&event.centre, rise),
-            centre_velocity: within(&event.centre_velocity, speed),
-            time_error: event.time_error,
+    ///
+    /// **Errors**: those of a question at an event.
+    pub fn new(history: H) -> Result<Self, Error> {
+        let scales = history.scales().map(|scale| scale.to_f64());
+        let bounded = WithBounds { scales, events: Vec::new(), contacts: Vec::new(), history };
+        let given = bounded.history.events();
+        let event = |(k, event): (usize, &Event<S>)| {
+            let Near { rise, speed, late, .. } = bounded.at_event(k);
+            let (rate, push) = (event.centre_velocity.to_f64().abs(), bounded.push(&event.time, late)?);
+            Ok(Event {
+                kind: event.kind,
+                time: within(&event.time, event.time_error),
+                end_velocity: within(&event.end_velocity, speed),
+                centre: within(&event.centre, rise + late * (rate + push)),
+                centre_velocity: within(&event.centre_velocity, speed + push),
+                time_error: event.time_error,
+            })
         };
-        let events: Vec<_> = history.events().iter().map(event).collect();
+        let events: Vec<_> = given.iter().enumerate().map(event).collect::<Result<_, Error>>()?;
         let time_of = |time: &S| {
             let known = events.iter().find(|event| event.time.value() == time);
             known.map_or_else(|| within(time, 0.0), |event| event.time.clone())
         };
         let contact = |contact: &Contact<S>| {
             let (from, to) = (time_of(&contact.from), contact.to.as_ref().map(&time_of));
-            let last = to.as_ref().map_or_else(|| history.end().to_f64(), Estimate::to_f64);
-            // −c² ∫ v_x dt.
-            let push = (last - from.to_f64()) * strain * wave_speed.to_f64().powi(2);
+            let last = to.as_ref().map_or_else(|| bounded.history.end().to_f64(), Estimate::to_f64);
+            let Near { rise, speed, strain, .. } = bounded.scaled(bounded.history.uncertainty(&contact.from));
+            let Scales { time, velocity, wave_speed: c, .. } = bounded.scales;
+            // −c² ∫ v_x dt; rays that are off within the contact move the end by their masses.
+            let by_stress = (last - from.to_f64()) * speed * c + 2.0 * rise * c;
+            let by_momentum = bounded.history.uncertainty(&contact.from).impulse;
+            let push = by_momentum.map_or(by_stress, |impulse| impulse * c * velocity * time);
             Contact {
-                impulse: within(&contact.impulse, push + 2.0 * rise * wave_speed.to_f64()),
+                impulse: within(&contact.impulse, push),
                 peak_stress: within(&contact.peak_stress, strain),
                 from,
                 to,
             }
         };
-        let contacts = history.contacts().iter().map(contact).collect();
-        let (length, gravity) = (length.to_f64(), gravity.to_f64());
-        WithBounds { rise, speed, strain, length, gravity, events, contacts, history }
+        let contacts = bounded.history.contacts().iter().map(contact).collect();
+        Ok(WithBounds { events, contacts, ..bounded })
     }
 
-    /// Of a mean square `s²`, off by δ in the root, `L s²/2` is off by at most `L (2s + δ) δ`.
-    fn speed_bound(&self, speed: f64) -> f64 {
-        self.length * (2.0 * speed + self.speed) * self.speed
+    /// The bounds near a time; at that of an event, which has the bound of the event, those of the event itself.
+    fn near(&self, time: &Estimate<S>) -> Near {
+        let event = self.events.iter().position(|event| event.time.value() == time.value());
+        match event.filter(|_| time.bound() > 0.0) {
+            Some(event) => self.at_event(event),
+            None => self.scaled(self.history.uncertainty(time.value())),
+        }
     }
 
-    fn energy_bound(&self, energy: &S) -> f64 {
-        self.speed_bound((2.0 * energy.to_f64().max(0.0) / self.length).sqrt())
+    /// The bounds at an event: those of the contact that it begins or ends, whenever that is; but its time is rounded.
+    fn at_event(&self, event: usize) -> Near {
+        let events = self.history.events();
+        let contact = event - usize::from(event > 0 && events[event].kind == EventKind::Release);
+        let found = self.history.uncertainty(&events[contact].time);
+        let time = &events[event].time;
+        let late = if found.late == 0.0 { 0.0 } else { 8.0 * time.unit() * time.to_f64() / self.scales.time };
+        self.scaled(Uncertainty { late, ..found })
+    }
+
+    fn scaled(&self, found: Uncertainty) -> Near {
+        let Uncertainty { rise, speed, late, slope, .. } = found;
+        let Scales { time, velocity, wave_speed, .. } = self.scales;
+        let speed = (speed + slope * late) * velocity;
+        Near { rise: rise * velocity * time, speed, strain: speed / wave_speed, late: late * time }
+    }
+
+    /// What the force of the ground makes of `h′` while events are `late`: `h″ = −c² v_x(0,t)/L`.
+    fn push(&self, time: &S, late: f64) -> Result<f64, Error> {
+        let Scales { length, wave_speed, .. } = &self.scales;
+        let strain = |side| self.history.strain(time, side).map(|strain| strain.to_f64().abs());
+        let right = strain(Side::Right)?;
+        // Before the start there is nothing.
+        let most = strain(Side::Left).map_or(right, |left| left.max(right));
+        Ok(late * wave_speed * wave_speed * most / length)
+    }
+
+    /// A displacement and its rate of change.
+    fn moved(&self, time: &Estimate<S>, (place, rate): (S, S)) -> (Estimate<S>, Estimate<S>) {
+        let near = self.near(time);
+        (within(&place, near.rise + near.late * rate.to_f64().abs()), within(&rate, near.speed))
+    }
+
+    /// How far the root of a mean square may be off: what the ground gives to the centre of mass it takes from the
+    /// vibration, or not, while contact is in doubt.
+    fn root_off(&self, time: &Estimate<S>) -> Result<f64, Error> {
+        let near = self.near(time);
+        Ok(near.speed + self.push(time.value(), near.late)?)
+    }
+
+    /// `L s²/2` of a root mean square s that is `off` by so much: at most `L (2s + off) off`.
+    fn square_off(&self, root: f64, off: f64) -> f64 {
+        self.scales.length * (2.0 * root + off) * off
+    }
+
+    fn energy_off(&self, energy: &S, off: f64) -> f64 {
+        self.square_off((2.0 * energy.to_f64().max(0.0) / self.scales.length).sqrt(), off)
     }
 
     /// The history without its bounds.
@@ -97,48 +159,49 @@ impl<S: Rounded, H: Motion<S>> Motion<Estimate<S>> for WithBounds<S, H> {
     }
 
     fn stress_pieces(&self) -> Vec<StressPiece<Estimate<S>>> {
-        let piece = |piece: StressPiece<S>| StressPiece {
-            from: within(&piece.from, 0.0),
-            to: within(&piece.to, 0.0),
-            left: within(&piece.left, self.strain),
-            right: within(&piece.right, self.strain),
+        let piece = |piece: StressPiece<S>| {
+            let strain = self.scaled(self.history.uncertainty(&piece.from)).strain;
             // The bound is that of the whole; the first coefficient carries it.
-            chebyshev: piece
-                .chebyshev
-                .iter()
-                .enumerate()
-                .map(|(k, c)| within(c, if k == 0 { self.strain } else { 0.0 }))
-                .collect(),
+            let coefficient = |(k, c)| within(c, if k == 0 { strain } else { 0.0 });
+            StressPiece {
+                from: within(&piece.from, 0.0),
+                to: within(&piece.to, 0.0),
+                left: within(&piece.left, strain),
+                right: within(&piece.right, strain),
+                chebyshev: piece.chebyshev.iter().enumerate().map(coefficient).collect(),
+            }
         };
         self.history.stress_pieces().into_iter().map(piece).collect()
     }
 
-    fn stress(&self, time: &Estimate<S>, side: Side) -> Result<Estimate<S>, Error> {
-        Ok(within(&self.history.stress(time.value(), side)?, self.strain))
+    fn strain(&self, time: &Estimate<S>, side: Side) -> Result<Estimate<S>, Error> {
+        Ok(within(&self.history.strain(time.value(), side)?, self.near(time).strain))
     }
 
     fn ground_end(&self, time: &Estimate<S>, side: Side) -> Result<(Estimate<S>, Estimate<S>), Error> {
-        let (height, rate) = self.history.ground_end(time.value(), side)?;
-        Ok((within(&height, self.rise), within(&rate, self.speed)))
+        Ok(self.moved(time, self.history.ground_end(time.value(), side)?))
     }
 
     fn top_end(&self, time: &Estimate<S>, side: Side) -> Result<(Estimate<S>, Estimate<S>), Error> {
-        let (height, rate) = self.history.top_end(time.value(), side)?;
-        Ok((within(&height, self.rise), within(&rate, self.speed)))
+        Ok(self.moved(time, self.history.top_end(time.value(), side)?))
     }
 
     fn centre(&self, time: &Estimate<S>) -> Result<(Estimate<S>, Estimate<S>), Error> {
-        let (height, rate) = self.history.centre(time.value())?;
-        Ok((within(&height, self.rise), within(&rate, self.speed)))
+        let centre = self.history.centre(time.value())?;
+        let push = self.push(time.value(), self.near(time).late)?;
+        let (height, rate) = self.moved(time, centre);
+        let bound = rate.bound() + push;
+        Ok((height, within(rate.value(), bound)))
     }
 
     /// `L g h` is off by that of h.
     fn energy(&self, time: &Estimate<S>) -> Result<Energy<Estimate<S>>, Error> {
         let energy = self.history.energy(time.value())?;
         let (_, rate) = self.history.centre(time.value())?;
-        let vibration = self.energy_bound(&energy.vibrational);
-        let weight = self.length * self.gravity * self.rise;
-        let translational = self.speed_bound(rate.to_f64().abs()) + weight;
+        let (Near { rise, late, .. }, Scales { length, gravity, .. }) = (self.near(time), &self.scales);
+        let (off, moving) = (self.root_off(time)?, rate.to_f64().abs());
+        let vibration = self.energy_off(&energy.vibrational, off);
+        let translational = self.square_off(moving, off) + length * gravity * (rise + late * moving);
         Ok(Energy {
             total: within(&energy.total, translational + vibration),
             translational: within(&energy.translational, translational),
@@ -148,24 +211,24 @@ impl<S: Rounded, H: Motion<S>> Motion<Estimate<S>> for WithBounds<S, H> {
 
     /// Of each mean square as in [`Motion::energy`].
     fn energy_parts(&self, time: &Estimate<S>) -> Result<[Estimate<S>; 2], Error> {
-        Ok(self.history.energy_parts(time.value())?.map(|part| within(&part, self.energy_bound(&part))))
+        let off = self.root_off(time)?;
+        Ok(self.history.energy_parts(time.value())?.map(|part| within(&part, self.energy_off(&part, off))))
     }
 
     fn field(&self, point: &Estimate<S>, time: &Estimate<S>, side: Side) -> Result<Field<Estimate<S>>, Error> {
         let field = self.history.field(point.value(), time.value(), side)?;
-        Ok(Field {
-            displacement: within(&field.displacement, self.rise),
-            velocity: within(&field.velocity, self.speed),
-            strain: within(&field.strain, self.strain),
-        })
+        let strain = within(&field.strain, self.near(time).strain);
+        let (displacement, velocity) = self.moved(time, (field.displacement, field.velocity));
+        Ok(Field { displacement, velocity, strain })
     }
 
     fn highest(&self, release: &Event<Estimate<S>>) -> Option<(Estimate<S>, Estimate<S>)> {
         let known = self.events.iter().position(|event| event.time.value() == release.time.value())?;
         let (time, height) = self.history.highest(self.history.events().get(known)?)?;
         // dt*/dh′ = 1/(g + 2rh′); and what the height loses there is of second order.
-        let late = release.time_error + self.speed / self.gravity;
-        Some((within(&time, late), within(&height, self.rise + self.gravity * late * late)))
+        let (Near { rise, speed, .. }, gravity) = (self.near(&within(&time, 0.0)), self.scales.gravity);
+        let late = release.time_error + speed / gravity;
+        Some((within(&time, late), within(&height, rise + gravity * late * late)))
     }
 
     fn scales(&self) -> Scales<Estimate<S>> {
@@ -180,7 +243,7 @@ impl<S: Rounded, H: Motion<S>> Motion<Estimate<S>> for WithBounds<S, H> {
         self.history.digits_lost()
     }
 
-    fn warnings(&self) -> &[String] {
+    fn warnings(&self) -> &[Warning] {
         self.history.warnings()
     }
 }

@@ -34,7 +34,7 @@ impl Explain {
                 "first_attempt": plan.rung.to_string(),
                 "reach": plan.reach.to_string(),
                 "reasons": plan.reasons(),
-                "warnings": scene.problem.neglected().into_iter().collect::<Vec<_>>(),
+                "warnings": scene.problem.neglected().iter().map(ToString::to_string).collect::<Vec<_>>(),
             })),
             Format::Csv => {
                 Err(miette::miette!("found --format csv, expected table or json: a plan is no list of numbers"))
@@ -53,7 +53,7 @@ impl Explain {
         out += &format!("\n\nengine:   {}\nreach:    {}\n", plan.engine, plan.reach);
         out += &format!("numbers:  {}, at first in {}\n", plan.numbers, plan.rung);
         out = plan.reasons().iter().fold(out, |out, reason| out + "          " + reason + "\n");
-        scene.problem.neglected().into_iter().fold(out, |out, neglected| out + "warning:  " + &neglected + "\n")
+        scene.problem.neglected().into_iter().fold(out, |out, neglected| out + &format!("warning:  {neglected}\n"))
     }
 }
 

@@ -6,10 +6,12 @@ mod cost;
 mod explain;
 mod list;
 mod reference;
+mod regimes;
 mod sample;
 mod scenes;
 mod solve;
 mod source;
+mod sweep;
 mod times;
 
 use std::path::PathBuf;
@@ -25,7 +27,7 @@ use crate::output::{Head, SCHEMA, write_whole};
 use crate::problem::Parameters;
 use crate::quantity::Units;
 use crate::scene::{Effect, Scene};
-use crate::solve::{CERTIFIED_DIGITS, ExactnessEnd, Numbers, Plan, Question, Solution, Target};
+use crate::solve::{CERTIFIED_DIGITS, Numbers, Plan, Question, Solution, Target};
 
 /// Everything that can go wrong, ready to be reported.
 pub type Failure = miette::Report;
@@ -41,10 +43,9 @@ const VERSION: &str = match (cfg!(feature = "mp"), cfg!(feature = "plot")) {
 /// The exact reference for the bouncing elastic rod.
 #[derive(Debug, Parser)]
 #[command(name = "dalembert", version = VERSION, about, propagate_version = true, arg_required_else_help = true)]
-#[command(
-    after_help = "A scene is a file, `-` for standard input, or one of the built-in scenes that `dalembert scenes` lists.\n\n\
-    Start with:  dalembert solve doyen-ern-piperno"
-)]
+#[command(after_help = "A scene is a file, `-` for standard input, or one of the built-in scenes that \
+    `dalembert scenes` lists.\n\n\
+    Start with:  dalembert solve doyen-ern-piperno")]
 pub struct Cli {
     #[command(subcommand)]
     command: Command,
@@ -64,6 +65,10 @@ enum Command {
     Cost(cost::Cost),
     /// Your data against the exact history: norms, contacts, an audit, and hints at what may be wrong
     Compare(compare::Compare),
+    /// Numbers of a scene over a grid of its values, on all cores
+    Sweep(sweep::Sweep),
+    /// When and whether the first contact ends, over all dampings and impact speeds
+    Regimes(regimes::Regimes),
     /// Hard cases and the paper's claims, worked out by every route and held against the truth
     Check(check::Check),
     /// List the built-in scenes, print one, or hold it against what others have published
@@ -89,6 +94,8 @@ pub fn run(cli: Cli) -> Result<ExitCode, Failure> {
         Command::Explain(command) => command.run(),
         Command::Cost(command) => command.run(),
         Command::Compare(command) => return command.run(),
+        Command::Sweep(command) => command.run(),
+        Command::Regimes(command) => command.run(),
         Command::Check(command) => return command.run(),
         Command::Scenes(command) => command.run(),
         Command::Man => {
@@ -271,15 +278,17 @@ impl<R: Report> Visit for Printed<'_, R> {
         let gathered = history.ask(|motion| report.gather(motion, &head), |data| report.numbers(data));
         drop(progress);
         let data = gathered.map_err(|error| report.refuse(error, history.ending()))?;
-        report.print(&data, &warned(history, head))
+        let shown = self.1.output.is_none() && self.1.format()? == Format::Table;
+        report.print(&data, &warned(history, head, shown))
     }
 }
 
 /// The head with the warnings of the history, which are printed.
-fn warned<S: Target>(history: &History<S>, head: Head) -> Head {
+fn warned<S: Target>(history: &History<S>, head: Head, shown: bool) -> Head {
     let head = Head { warnings: history.warnings(), ..head };
-    for warning in &head.warnings {
-        eprintln!("warning: {warning}");
+    // A table on the screen has them below it.
+    if !shown {
+        head.warnings.iter().for_each(|warning| eprintln!("warning: {warning}"));
     }
     head
 }
@@ -295,22 +304,16 @@ fn solve(scene: &Scene, question: &Question, visit: &impl Visit) -> Result<(), F
     let head = head(scene, &plan);
     let progress = source::Progress::of(scene, &plan);
     let solution = plan.solve(&scene.problem, progress.observer())?;
+    let digits = |digits: u32, head: Head| Head { digits, ..head };
     match &solution {
         Solution::Double(motion) => visit.visit(motion, head, progress),
         Solution::Exact(motion) => visit.visit(motion, head, progress),
-        Solution::Certified(motion, digits) => visit.visit(motion, Head { digits: *digits, ..head }, progress),
-        Solution::Digits(motion, digits) => visit.visit(motion, Head { digits: *digits, ..head }, progress),
-        Solution::DigitsAfter(motion, digits, end) => {
-            eprintln!("note: {end}; what follows is in {digits} digits");
-            let exact_until = match end {
-                ExactnessEnd::Event(ending) => Some(ending.clone()),
-                ExactnessEnd::Parameter { .. } => None,
-            };
-            visit.visit(
-                motion,
-                Head { digits: *digits, number: format!("{digits} digits"), exact_until, ..head },
-                progress,
-            )
+        Solution::Certified(motion, n) => visit.visit(motion, digits(*n, head), progress),
+        Solution::Digits(motion, n) => visit.visit(motion, digits(*n, head), progress),
+        Solution::DigitsAfter(motion, n, end) => {
+            eprintln!("note: {end}; what follows is in {n} digits");
+            let (number, exact_until) = (format!("{n} digits"), Some(end.clone()));
+            visit.visit(motion, Head { digits: *n, number, exact_until, ..head }, progress)
         }
     }
 }

@@ -189,7 +189,7 @@ impl Visit for Series<'_> {
             asked.and(written.map_err(|error| keep()(error).into()))
         })?;
         drop(progress);
-        let head = warned(history, head);
+        let head = warned(history, head, false);
         let numbers = history.plan().numbers;
         let preamble = Preamble { head: &head, scene: self.scene.source(), numbers, each: "each column" };
         Ok(rows.finish(&preamble, self.asked.output.as_deref()).map_err(self.asked.cannot_write())?)
@@ -207,7 +207,7 @@ impl Visit for Function<'_> {
     fn visit<S: Target>(&self, history: &History<S>, head: Head, progress: source::Progress) -> Result<(), Failure> {
         let waves = history.ask_waves()?;
         drop(progress);
-        let head = warned(history, head);
+        let head = warned(history, head, false);
         let numbers = history.plan().numbers;
         let preamble = Preamble { head: &head, scene: self.scene.source(), numbers, each: "each coefficient" };
         let text = code(&waves, &S::carry(history.end()), self.language, &preamble);

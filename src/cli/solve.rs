@@ -11,10 +11,9 @@ use crate::solve::Question;
 
 /// Solve a scene: events, contacts, restitution, energies, stress history
 #[derive(Args, Debug)]
-#[command(
-    after_help = "Examples:\n  dalembert solve doyen-ern-piperno --exact\n  dalembert solve rod.toml --digits 38 -o rod.json\n  \
-    dalembert scenes paper-weak | dalembert solve - --format csv --part stress"
-)]
+#[command(after_help = "Examples:\n  dalembert solve doyen-ern-piperno --exact\n  \
+    dalembert solve rod.toml --digits 38 -o rod.json\n  \
+    dalembert scenes paper-weak | dalembert solve - --format csv --part stress")]
 pub(super) struct Solve {
     /// A scene file, `-`, or a built-in scene
     scene: String,
@@ -25,12 +24,18 @@ pub(super) struct Solve {
     /// What a CSV holds; by default the events
     #[arg(long, value_enum)]
     part: Option<Part>,
+    /// With --part stress: the Chebyshev coefficients of curved pieces, not straight lines within 1e-6 of the peak
+    #[arg(long)]
+    coefficients: bool,
 }
 
 impl Solve {
     pub(super) fn run(&self) -> Result<(), Failure> {
         if self.part.is_some() && self.output.format()? != Format::Csv {
             return Err(miette::miette!("found --part, expected it with --format csv only"));
+        }
+        if self.coefficients && self.part != Some(Part::Stress) {
+            return Err(miette::miette!("found --coefficients, expected it with --part stress only"));
         }
         let scene = source::read(&self.scene)?;
         answer(&scene, &Question::run(self.numbers.numbers(&scene)), &self.output, self)
@@ -57,7 +62,9 @@ impl Report for Solve {
         match self.output.format()? {
             Format::Table => self.output.write(&history_table(record, head)),
             Format::Json => self.output.write_json(&history_json(record, head)),
-            Format::Csv => self.output.write_csv(history_csv(record, self.part.unwrap_or_default(), head)),
+            Format::Csv => {
+                self.output.write_csv(history_csv(record, self.part.unwrap_or_default(), self.coefficients, head))
+            }
         }
     }
 }

@@ -1,7 +1,9 @@
 //! Where a scene comes from, and how a run shows its progress.
 
 use std::io::Read;
+use std::ops::ControlFlow;
 use std::sync::Arc;
+use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::mpsc::{RecvTimeoutError, Sender, channel};
 use std::thread::JoinHandle;
 use std::time::Duration;
@@ -11,7 +13,7 @@ use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use super::Failure;
 use crate::problem::Parameters;
 use crate::scene::{Scene, builtin};
-use crate::solve::{Engine, Observer, Plan, Reach};
+use crate::solve::{Observer, Plan, Reach};
 
 /// More than any scene: what is read of an endless stream before it is refused.
 const MAX_BYTES: u64 = (16 << 20) + 1;
@@ -85,19 +87,20 @@ pub(super) struct Progress {
 
 impl Progress {
     pub(super) fn of(scene: &Scene, plan: &Plan) -> Self {
-        let round_trips = match (&plan.reach, plan.engine) {
-            (Reach::Time(time), Engine::Lattice) => Parameters::<f64>::of(&scene.problem, &())
-                .ok()
-                .map(|rod| (time.to_f64() / rod.round_trip()).ceil() as u64),
-            _ => None,
+        let (total, unit) = match &plan.reach {
+            Reach::Time(time) => {
+                let round_trip = Parameters::<f64>::of(&scene.problem, &()).map(|rod| rod.round_trip());
+                (round_trip.ok().map(|trip| (time.to_f64() / trip).ceil() as u64), "round trips")
+            }
+            Reach::Contacts(contacts) => (Some(u64::from(*contacts)), "contacts"),
+            Reach::FirstContact => (None, "contacts"),
         };
-        let template = match (round_trips, plan.engine) {
-            (Some(_), _) => "{bar:40} {pos}/{len} round trips, {msg}",
-            (None, Engine::Lattice) => "{spinner} {pos} round trips, {msg}",
-            (None, _) => "{spinner} {elapsed}",
+        let template = match total {
+            Some(_) => format!("{{bar:40}} {{pos}}/{{len}} {unit}, {{msg}}, {{eta}} left"),
+            None => "{spinner} {elapsed}".into(),
         };
-        let bar = ProgressBar::with_draw_target(round_trips, ProgressDrawTarget::hidden());
-        if let Ok(style) = ProgressStyle::with_template(template) {
+        let bar = ProgressBar::with_draw_target(total, ProgressDrawTarget::hidden());
+        if let Ok(style) = ProgressStyle::with_template(&template) {
             bar.set_style(style);
         }
         // A thread of its own shows it: a single step of a run in many digits can take longer than a second.
@@ -114,13 +117,14 @@ impl Progress {
 
     /// What an engine calls as it goes on.
     pub(super) fn observer(&self) -> Observer {
-        let bar = self.bar.clone();
-        Arc::new(move |trip, pieces| {
+        let (bar, calls) = (self.bar.clone(), AtomicUsize::new(0));
+        Arc::new(move |done, pieces| {
+            bar.set_position(done as u64);
             // Now and then only: a round trip can take less than a microsecond.
-            if trip.is_multiple_of(64) {
+            if calls.fetch_add(1, Ordering::Relaxed).is_multiple_of(16) {
                 bar.set_message(format!("{pieces} pieces"));
-                bar.set_position(trip as u64);
             }
+            ControlFlow::Continue(())
         })
     }
 }

@@ -27,7 +27,7 @@ pub(crate) trait Account<S: System> {
     fn release(&self, rod: &Parameters<S>) -> Found<S>;
 
     /// `v_x(0,t)`.
-    fn stress(&self, time: &S, side: Side) -> Found<S>;
+    fn strain(&self, time: &S, side: Side) -> Found<S>;
 
     /// `h` and `h′`.
     fn centre(&self, rod: &Parameters<S>, time: &S) -> All<S, 2>;
@@ -47,6 +47,11 @@ pub(crate) trait Account<S: System> {
 
     /// `t*` and `h(t*)`.
     fn top(&self) -> All<S, 2> {
+        not_given()
+    }
+
+    /// The length of the shortest piece of the stress history.
+    fn shortest_piece(&self) -> Found<S> {
         not_given()
     }
 
@@ -137,7 +142,7 @@ impl<S: System> ByHistory<'_, S> {
 
     fn ended(&self) -> NoAnswer {
         match self.0.ending() {
-            open @ (Ending::Undecided(_) | Ending::ExactnessEnds { .. }) => NoAnswer::gave_up(open),
+            open @ (Ending::Undecided(_) | Ending::ExactnessEnds { .. } | Ending::Bounce) => NoAnswer::gave_up(open),
             ending => NoAnswer::none(ending.to_string()),
         }
     }
@@ -171,8 +176,8 @@ impl<S: System> Account<S> for ByHistory<'_, S> {
         }
     }
 
-    fn stress(&self, time: &S, side: Side) -> Found<S> {
-        Ok(carried(self.asked(self.0.stress(time, side))?))
+    fn strain(&self, time: &S, side: Side) -> Found<S> {
+        Ok(carried(self.asked(self.0.strain(time, side))?))
     }
 
     fn field(&self, point: &S, time: &S, side: Side) -> All<S, 3> {
@@ -208,27 +213,31 @@ impl<S: System> Account<S> for ByHistory<'_, S> {
         let (time, height) = top.ok_or_else(|| NoAnswer::none("no top"))?;
         Ok([carried(time), carried(height)])
     }
+
+    fn shortest_piece(&self) -> Found<S> {
+        let lengths = self.0.stress_pieces().into_iter().map(|piece| piece.to - &piece.from);
+        let shortest = lengths.min_by(|a, b| a.to_f64().total_cmp(&b.to_f64()));
+        shortest.map(carried).ok_or_else(|| self.ended())
+    }
 }
 
 /// The closed form of the first contact, and of the flight after it.
-pub(crate) struct ByClosedForm<N, F> {
+pub(crate) struct ByClosedForm<N> {
     contact: FirstContact<N>,
-    search: F,
     bounce: OnceCell<Bounce<N>>,
 }
 
-impl<N: System + special::BoundedSpecial, F: Fn(&FirstContact<N>) -> Bounce<N>> ByClosedForm<N, F> {
-    /// `search` finds the bounce, if a quantity needs it.
-    pub(crate) fn new(rod: &Parameters<N>, search: F) -> Self {
-        ByClosedForm { contact: FirstContact::new(rod), search, bounce: OnceCell::new() }
+impl<N: System + special::BoundedSpecial> ByClosedForm<N> {
+    pub(crate) fn new(rod: &Parameters<N>) -> Self {
+        ByClosedForm { contact: FirstContact::new(rod), bounce: OnceCell::new() }
     }
 
     fn bounce(&self) -> &Bounce<N> {
-        self.bounce.get_or_init(|| (self.search)(&self.contact))
+        self.bounce.get_or_init(|| self.contact.bounce())
     }
 }
 
-impl<N: System + special::BoundedSpecial, F: Fn(&FirstContact<N>) -> Bounce<N>> Account<N> for ByClosedForm<N, F> {
+impl<N: System + special::BoundedSpecial> Account<N> for ByClosedForm<N> {
     fn release(&self, _: &Parameters<N>) -> Found<N> {
         match self.bounce() {
             Bounce::At { time, .. } => Ok(carried(time.clone())),
@@ -237,8 +246,8 @@ impl<N: System + special::BoundedSpecial, F: Fn(&FirstContact<N>) -> Bounce<N>> 
         }
     }
 
-    fn stress(&self, time: &N, side: Side) -> Found<N> {
-        Ok(carried(self.contact.stress(time, side)))
+    fn strain(&self, time: &N, side: Side) -> Found<N> {
+        Ok(carried(self.contact.strain(time, side)))
     }
 
     fn field(&self, point: &N, time: &N, side: Side) -> All<N, 3> {
@@ -283,11 +292,11 @@ fn found(release: Option<f64>) -> Found<f64> {
 
 impl Account<f64> for Modal<f64> {
     fn release(&self, rod: &Parameters<f64>) -> Found<f64> {
-        found(formulas::first_release(rod.round_trip(), LOOKS, |t, side| *Estimate::value(&self.stress(&t, side))))
+        found(formulas::first_release(rod.round_trip(), LOOKS, |t, side| *Estimate::value(&self.strain(&t, side))))
     }
 
-    fn stress(&self, time: &f64, side: Side) -> Found<f64> {
-        Ok(double(self.stress(time, side)))
+    fn strain(&self, time: &f64, side: Side) -> Found<f64> {
+        Ok(double(self.strain(time, side)))
     }
 
     fn field(&self, point: &f64, time: &f64, side: Side) -> All<f64, 3> {
@@ -310,8 +319,8 @@ impl Account<f64> for Printed {
         found(self.release(rod.round_trip(), LOOKS))
     }
 
-    fn stress(&self, time: &f64, _: Side) -> Found<f64> {
-        Ok(Bounded::unbounded(self.stress(*time)))
+    fn strain(&self, time: &f64, _: Side) -> Found<f64> {
+        Ok(Bounded::unbounded(self.strain(*time)))
     }
 
     fn height(&self, _: &Parameters<f64>, time: &f64) -> Found<f64> {
@@ -332,8 +341,8 @@ impl<S: System + PartialOrd> Account<S> for UndampedContact<S> {
         Ok(Bounded::exact(self.bounce_time()))
     }
 
-    fn stress(&self, time: &S, side: Side) -> Found<S> {
-        Ok(Bounded::exact(self.stress(time, side)))
+    fn strain(&self, time: &S, side: Side) -> Found<S> {
+        Ok(Bounded::exact(self.strain(time, side)))
     }
 
     fn centre(&self, _: &Parameters<S>, time: &S) -> All<S, 2> {
@@ -383,7 +392,7 @@ impl Account<f64> for Marched {
         last.ok_or_else(|| NoAnswer::gave_up("no event found"))
     }
 
-    fn stress(&self, _: &f64, _: Side) -> Found<f64> {
+    fn strain(&self, _: &f64, _: Side) -> Found<f64> {
         Ok(Bounded::unbounded(self.stress))
     }
 

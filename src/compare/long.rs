@@ -7,7 +7,6 @@ use super::account::ByClosedForm;
 use super::quantity::Question;
 use super::route::Route;
 use super::value::{Answer, Bounded, NoAnswer, System, Value};
-use crate::first_contact::FirstContact;
 use crate::lattice::Undamped;
 use crate::number::{Analytic, Estimate, Interval, Number, Scalar, bits_for_digits};
 use crate::paper::UndampedContact;
@@ -154,7 +153,7 @@ pub(super) fn run(route: Route, question: &Question) -> Result<Answer, NoAnswer>
         Route::ClosedForm(Numbers::Digits(digits)) => {
             let bits = bits_for_digits(digits) + SPARE_BITS;
             let rod = Parameters::<Estimate<Float>>::of(problem, &bits)?;
-            question.ask(&rod, &ByClosedForm::new(&rod, FirstContact::bounce))
+            question.ask(&rod, &ByClosedForm::new(&rod))
         }
         Route::Lattice(Numbers::Exact) => question.ask_history(&Undamped::<Rational>::solve(problem, &())?),
         Route::PrintedForms => {

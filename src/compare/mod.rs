@@ -28,6 +28,7 @@ mod truth;
 mod value;
 
 pub(crate) use quantity::{Quantity, Question};
-pub(crate) use route::plan;
+pub(crate) use route::{asked, plan};
 pub(crate) use target::{Published, Reached, published};
 pub(crate) use truth::RightDigits;
+pub(crate) use value::{NoAnswer, System};

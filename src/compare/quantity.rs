@@ -71,6 +71,9 @@ pub(crate) enum Quantity {
     /// `h_max = h(t*)`.
     #[value(skip)]
     TopHeight,
+    /// The length of the shortest piece of the stress history.
+    #[value(skip)]
+    ShortestPiece,
     /// A number that belongs to no rod; formulas alone give it.
     #[value(skip)]
     Constant,
@@ -189,15 +192,23 @@ impl Question {
 
     /// The answer of the public history, settled to its digits.
     fn ask_motion<S: Target<Carried: System>>(&self, history: &crate::history::History<S>) -> Result<Answer, NoAnswer> {
+        self.find_settled(history).map(Bounded::answer)
+    }
+
+    /// The same in the numbers of the history.
+    pub(crate) fn find_settled<S: Target<Carried: System>>(
+        &self,
+        history: &crate::history::History<S>,
+    ) -> Found<S::Carried> {
         let query = |engine: &dyn Motion<S::Carried>| match self.find_in_history(engine) {
             // More bits may settle it.
             Err(NoAnswer::Solve(error @ (Error::NotDecided { .. } | Error::Open(_)))) => Err(error),
             found => Ok(found),
         };
-        history.ask(query, |found| found.iter().map(|found| &found.value).collect())?.map(Bounded::answer)
+        history.ask(query, |found| found.iter().map(|found| &found.value).collect())?
     }
 
-    /// The same in the numbers of the history.
+    /// The answer of an engine in its numbers.
     fn find_in_history<S: System>(&self, history: &dyn Motion<S>) -> Found<S> {
         let rod = Parameters::of(&self.problem, &history.scales().length.precision())?;
         self.find(&rod, &ByHistory(history))
@@ -247,7 +258,7 @@ impl Question {
             LastEvent => motion.last_event(rod),
             Impact => motion.event_near(EventKind::Impact, time()?.to_f64()),
             Release => motion.event_near(EventKind::Release, time()?.to_f64()),
-            Stress => motion.stress(&time()?, side),
+            Stress => motion.strain(&time()?, side),
             Displacement => field(0),
             Velocity => field(1),
             Strain => field(2),
@@ -277,6 +288,7 @@ impl Question {
             }
             TopTime => motion.top().map(|[time, _]| time),
             TopHeight => motion.top().map(|[_, height]| height),
+            ShortestPiece => motion.shortest_piece(),
             Constant => Err(NoAnswer::none("it belongs to no rod")),
         }
     }

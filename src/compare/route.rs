@@ -6,14 +6,14 @@ use super::long;
 use super::quantity::{Quantity, Question};
 use super::value::{Answer, Bounded, NoAnswer, Value};
 use crate::cells::{Damped, WithBounds};
-use crate::first_contact::{Bounce, FirstContact};
 use crate::lattice::Undamped;
 use crate::modal::Modal;
+use crate::motion::Ending;
 use crate::number::{Estimate, Scalar};
 use crate::paper::Printed;
 use crate::problem::{Parameters, Problem, Run};
 pub(crate) use crate::solve::Numbers;
-use crate::solve::{self, Plan, Solution, Want, bounce_within};
+use crate::solve::{self, Plan, Solution, Want};
 
 /// A formula in many digits; its argument makes `p/q` in that many.
 pub(crate) type LongFormula = fn(&dyn Fn(i32, i32) -> long::Digits) -> long::Digits;
@@ -25,8 +25,7 @@ pub(crate) enum Route {
     Formula(&'static str, fn() -> f64),
     /// A formula in numbers of so many digits.
     LongFormula(&'static str, u32, LongFormula),
-    /// The closed form of the first contact. In doubles without an accuracy the bounce is searched on the sum over rays
-    /// alone.
+    /// The closed form of the first contact, in these numbers alone.
     ClosedForm(Numbers),
     /// The paper's closed forms of `r = 0`, in fractions.
     PrintedForms,
@@ -61,19 +60,15 @@ impl Route {
         let problem = &question.problem;
         match self {
             Route::Formula(_, formula) => Ok(Bounded::unbounded(Value::Double(formula()))),
-            Route::ClosedForm(Numbers::Double(accuracy)) => {
+            Route::ClosedForm(Numbers::Double(_)) => {
                 let rod = Parameters::<Estimate<f64>>::of(problem, &())?;
-                let search = |contact: &FirstContact<_>| match accuracy {
-                    Some(accuracy) => bounce_within(contact, accuracy),
-                    None => contact.bounce(),
-                };
-                question.ask(&rod, &ByClosedForm::new(&rod, search))
+                question.ask(&rod, &ByClosedForm::new(&rod))
             }
             Route::Lattice(Numbers::Double(_)) => {
                 question.ask_history(&Undamped::<Estimate<f64>>::solve(problem, &())?)
             }
             Route::Cells(digits) => {
-                question.ask_history(&WithBounds::new(Damped::<f64>::solve(problem, &(), f64::from(digits))?))
+                question.ask_history(&WithBounds::new(Damped::<f64>::solve(problem, &(), f64::from(digits))?)?)
             }
             Route::Modes(modes) => {
                 let rod = Parameters::of(problem, &())?;
@@ -88,8 +83,7 @@ impl Route {
             Route::Differences(cells) => question.ask(&Parameters::<f64>::of(problem, &())?, &march(problem, cells)?),
             Route::Planned(numbers) => {
                 if matches!(numbers, Numbers::Certified(_)) && problem.rod.damping.is_some() {
-                    within_first_contact(question)
-                        .map_err(|why| NoAnswer::GaveUp(format!("{why}: only that is proved under damping")))?;
+                    of_first_contact(question).map_err(|why| NoAnswer::GaveUp(only_proved(&why)))?;
                 }
                 question.ask_solution(&planned(question, numbers)?)
             }
@@ -99,10 +93,10 @@ impl Route {
 }
 
 /// What the solver is asked so that it answers `question`, and no more.
-fn asked(question: &Question, numbers: Numbers) -> solve::Question {
+pub(crate) fn asked(question: &Question, numbers: Numbers) -> solve::Question {
     let want = match (&question.time, question.quantity) {
         (_, Quantity::LastEvent | Quantity::Impact | Quantity::Release) => Want::Run,
-        (_, Quantity::TopTime | Quantity::TopHeight) => Want::Run,
+        (_, Quantity::TopTime | Quantity::TopHeight | Quantity::ShortestPiece) => Want::Run,
         (Some(time), _) => {
             let from = question.from.and_then(|from| from.to_string().parse().ok());
             Want::Between(from.unwrap_or_else(|| time.clone()), time.clone())
@@ -122,31 +116,39 @@ fn planned(question: &Question, numbers: Numbers) -> Result<Solution, NoAnswer> 
     Ok(plan(question, numbers)?.solve(&question.problem, solve::unobserved())?)
 }
 
-/// Whether the first contact alone answers, and if so as long as it lasts.
+/// Whether the first contact alone answers, if it lasts long enough.
 ///
 /// **Errors**: why not.
-pub(crate) fn within_first_contact(question: &Question) -> Result<(), String> {
-    let problem = &question.problem;
-    if !problem.has_closed_form() {
+fn of_first_contact(question: &Question) -> Result<(), String> {
+    if !question.problem.has_closed_form() {
         return Err("the start or the top is not the paper's, so the first contact has no closed form".into());
     }
-    if question.quantity == Quantity::LastEvent {
-        return match problem.run {
-            Run::Impacts(1) => Ok(()),
-            _ => Err("it covers the first contact only".into()),
-        };
+    match question.problem.run {
+        Run::Impacts(1) => Ok(()),
+        _ if question.quantity == Quantity::LastEvent => Err("it covers the first contact only".into()),
+        _ => Ok(()),
     }
+}
+
+/// The same, and whether it lasts as long as the question asks.
+pub(crate) fn within_first_contact(question: &Question) -> Result<(), String> {
+    of_first_contact(question)?;
     let Some(time) = &question.time else { return Ok(()) };
-    let rod = Parameters::<f64>::of(problem, &()).map_err(|error| error.to_string())?;
-    match bounce_within(&FirstContact::new(&rod.carry()), 1e-10) {
-        Bounce::At { time: end, .. } if time.to_f64() > end.value() * (1.0 + 1e-12) => {
-            Err(format!("it covers the first contact only, which ends at t = {:.6}", end.value()))
+    let first = question.problem.first_contact().map_err(|error| error.to_string())?;
+    match (first.contacts().first().and_then(|contact| contact.to), first.ending()) {
+        (Some(end), _) if time.to_f64() > end * (1.0 + 1e-12) => {
+            Err(format!("it covers the first contact only, which ends at t = {end:.6}"))
         }
-        Bounce::Undecided { until, .. } if time.to_f64() > *until.value() => {
-            Err(format!("it is undecided whether the first contact lasts beyond t = {:.6}", until.value()))
+        (None, Ending::Undecided(_)) if time.to_f64() > *first.end() => {
+            Err(format!("it is undecided whether the first contact lasts beyond t = {:.6}", first.end()))
         }
         _ => Ok(()),
     }
+}
+
+/// Why enclosures do not answer.
+pub(crate) fn only_proved(why: &str) -> String {
+    format!("{why}: only that is proved under damping")
 }
 
 /// The whole run of `problem` in doubles as its plan does it, with the energy at its end if that is asked for.

@@ -91,7 +91,7 @@ fn ours<S: Scalar>(motion: &dyn Motion<S>, target: &Target, units: &Units) -> Re
             Q::Energy => motion.energy(&time).map(|energy| scaled(energy.total)),
             Q::TranslationalEnergy => motion.energy(&time).map(|energy| scaled(energy.translational)),
             Q::VibrationalEnergy => motion.energy(&time).map(|energy| scaled(energy.vibrational)),
-            _ => motion.stress(&time, side).map(scaled),
+            _ => motion.strain(&time, side).map(scaled),
         };
     }
     let none = || Error::NoContact { contact: target.contact - 1, found: motion.contacts().len() };

@@ -2,7 +2,7 @@
 
 use super::long;
 use super::quantity::Question;
-use super::route::{Numbers, Route, within_first_contact};
+use super::route::{Numbers, Route};
 use super::value::{NoAnswer, Value};
 use crate::number::Number;
 
@@ -54,8 +54,8 @@ impl Truth {
     }
 
     /// The answer to `question` with `digits` decimal digits or more: a fraction where the undamped run stays in
-    /// fractions, else an enclosure where there is one, else twice in long numbers, by the closed form where it reaches
-    /// and by the planned engine elsewhere. A build without long numbers has its best doubles.
+    /// fractions, else an enclosure where there is one, else twice in long numbers by the
+    /// planned engine. A build without long numbers has its best doubles.
     ///
     /// **Errors**: those of the solver; [`NoAnswer::NoSuchQuantity`].
     pub(crate) fn computed(question: &Question, digits: u32) -> Result<Self, NoAnswer> {
@@ -78,14 +78,7 @@ impl Truth {
         {
             return of(value, log10_half_width, true);
         }
-        let by_closed_form = within_first_contact(question).is_ok();
-        let run = |digits: u32| {
-            run(if by_closed_form {
-                Route::ClosedForm(Numbers::Digits(digits + 15))
-            } else {
-                Route::Planned(Numbers::Digits(digits))
-            })
-        };
+        let run = |digits: u32| run(Route::Planned(Numbers::Digits(digits)));
         // Rays that cancel, or a root that is double, take digits: each attempt has more of them.
         let mut more = 0;
         loop {

@@ -2,7 +2,8 @@
 
 use super::cells::Search;
 use super::field::FirstContact;
-use super::outcome::{Bounce, BounceKind, Doubt, NoBounceReason};
+use super::outcome::{Bounce, BounceKind};
+use crate::reason::{Doubt, NoBounceReason};
 use crate::special::BoundedSpecial;
 
 /// Cells `(k t₁, (k+1) t₁)` that are searched.
@@ -23,7 +24,7 @@ impl<N: BoundedSpecial> FirstContact<N> {
     /// the stress.
     ///
     /// ```
-    /// # use dalembert::{Number, Problem, problem::Parameters, first_contact::{Bounce, BounceKind, FirstContact}, number::Estimate};
+    /// # use dalembert::{Bounce, BounceKind, Estimate, FirstContact, Number, Parameters, Problem};
     /// let problem = Problem::uniform(Number::from(1), Number::from(1), Number::from(1), Number::from(3));
     /// let contact = FirstContact::new(&Parameters::<Estimate<f64>>::of(&problem, &())?);
     /// let bounce = contact.bounce();

@@ -2,7 +2,8 @@
 
 use super::field::{FirstContact, Shares, Trips};
 use super::first_root::{FirstRoot, coefficients, first_root};
-use super::outcome::{Bounce, BounceKind, Doubt, NoBounceReason};
+use super::outcome::{Bounce, BounceKind};
+use crate::reason::{Doubt, NoBounceReason};
 use crate::special::BoundedSpecial;
 
 /// The shares of the force after τ round trips, of which k have passed, by a route of its own.

@@ -21,7 +21,7 @@ use crate::special::{BoundedSpecial, Ray};
 /// // r = 0: the stress in the first round trip is −(μ + gt)/c.
 /// let problem = Problem::uniform(Number::from(1), Number::from(1), Number::from(1), Number::from(3));
 /// let contact = FirstContact::new(&Parameters::<Estimate<f64>>::of(&problem, &())?);
-/// let stress = contact.stress(&Estimate::exact(1.0), Side::Right);
+/// let stress = contact.strain(&Estimate::exact(1.0), Side::Right);
 /// assert!(*stress.value() == -4.0 && stress.bound() < 1e-14);
 /// # Ok::<(), dalembert::Error>(())
 /// ```
@@ -198,7 +198,7 @@ impl<N: BoundedSpecial> FirstContact<N> {
     /// `v_x(0,t) = e^{−rt} Ψ_r(t)`: the stress at the ground divided by the modulus.
     ///
     /// **Source**: (2.28).
-    pub fn stress(&self, time: &N, side: Side) -> N {
+    pub fn strain(&self, time: &N, side: Side) -> N {
         self.trips(time).as_ref().map_or_else(|| unknown(time), |trips| self.stress_at(trips, side))
     }
 

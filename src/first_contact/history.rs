@@ -8,6 +8,7 @@ use crate::error::Error;
 use crate::motion::{Contact, Ending, Energy, Event, EventKind, Field, Motion, Scales, Side, StressPiece};
 use crate::number::{Open, Scalar};
 use crate::problem::{Parameters, Problem, Run};
+use crate::reason::Reason;
 use crate::special::BoundedSpecial;
 
 /// The first contact of a uniform start under a free top, damped or not, from the impact to the bounce, or as far as it
@@ -103,9 +104,11 @@ impl<N: BoundedSpecial> ContactHistory<N> {
                 _ => Self::with_bounce(contact, time, trips, kind),
             },
             Bounce::Undecided { until, why } => {
-                Self::without_bounce(contact, Some(until), Ending::Undecided(why.to_string()), asked)
+                Self::without_bounce(contact, Some(until), Ending::Undecided(Reason::Doubt(why)), asked)
             }
-            Bounce::Never(reason) => Self::without_bounce(contact, None, Ending::NoBounce(reason.to_string()), asked),
+            Bounce::Never(reason) => {
+                Self::without_bounce(contact, None, Ending::NoBounce(Reason::NoBounce(reason)), asked)
+            }
         }
     }
 
@@ -287,7 +290,7 @@ impl<N: BoundedSpecial> Motion<N> for ContactHistory<N> {
         pieces
     }
 
-    fn stress(&self, time: &N, side: Side) -> Result<N, Error> {
+    fn strain(&self, time: &N, side: Side) -> Result<N, Error> {
         if Self::before_impact(time, side) {
             return Ok(time.zero());
         }
@@ -385,9 +388,5 @@ impl<N: BoundedSpecial> Motion<N> for ContactHistory<N> {
     /// Zero: every number holds its own.
     fn error_estimate(&self) -> N {
         self.end.zero()
-    }
-
-    fn warnings(&self) -> &[String] {
-        &[]
     }
 }

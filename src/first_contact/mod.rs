@@ -19,5 +19,5 @@ mod static_state;
 
 pub use field::{FirstContact, Trips};
 pub use history::ContactHistory;
-pub use outcome::{Bounce, BounceKind, Doubt, NoBounceReason};
+pub use outcome::{Bounce, BounceKind};
 pub use rebound::Rebound;

@@ -7,6 +7,7 @@ use crate::error::Error;
 use crate::motion::{Contact, Ending, Energy, Event, Field, Motion, Scales, Side, StressPiece};
 use crate::number::Bounded;
 use crate::ray::Ray;
+use crate::reason::Warning;
 use crate::wave::{Stretch, Waves};
 
 impl<N: Bounded> Motion<N> for Undamped<N> {
@@ -44,7 +45,7 @@ impl<N: Bounded> Motion<N> for Undamped<N> {
         out
     }
 
-    fn stress(&self, time: &N, side: Side) -> Result<N, Error> {
+    fn strain(&self, time: &N, side: Side) -> Result<N, Error> {
         let place = self.place(&self.locate(time)?, side)?;
         let piece = self.ground.trace.piece(&place);
         // Before the start nothing is stressed at the ground.
@@ -186,7 +187,7 @@ impl<N: Bounded> Motion<N> for Undamped<N> {
         (lost > 0.0).then(|| (self.ground.contacts, lost.max(1.0).log10()))
     }
 
-    fn warnings(&self) -> &[String] {
+    fn warnings(&self) -> &[Warning] {
         &self.warnings
     }
 }

@@ -1,13 +1,17 @@
 //! The history of an undamped rod, and where its times lie on the lattice.
 
+use std::ops::ControlFlow;
+
 use super::limits::{Halt, Limits, Until};
 use super::march::{GroundMotion, march};
 use super::start::{Scaled, Units};
 use super::trace::{Part, Place};
 use crate::error::Error;
+use crate::motion::unobserved;
 use crate::motion::{Contact, Ending, Event, EventKind, Side};
 use crate::number::{Bounded, Open};
 use crate::problem::{Problem, Run, Top};
+use crate::reason::{Reason, Warning};
 
 /// The history of an undamped rod: [`crate::Motion`] by the ground trace of the upward invariant.
 ///
@@ -21,7 +25,7 @@ pub struct Undamped<N> {
     pub(super) ending: Ending,
     pub(super) events: Vec<Event<N>>,
     pub(super) contacts: Vec<Contact<N>>,
-    pub(super) warnings: Vec<String>,
+    pub(super) warnings: Vec<Warning>,
 }
 
 /// A time as a round trip and an age in it. The trip before the start has `index` 0.
@@ -53,15 +57,15 @@ impl<N: Bounded> Undamped<N> {
     /// # Ok::<(), dalembert::Error>(())
     /// ```
     pub fn solve(problem: &Problem, precision: &N::Precision) -> Result<Self, Error> {
-        Self::solve_within(problem, precision, Limits::default(), |_, _| ())
+        Self::solve_within(problem, precision, Limits::default(), unobserved)
     }
 
-    /// [`Undamped::solve`] with a limit of one's own; `observe` is told the round trip and the pieces so far.
+    /// [`Undamped::solve`] with a limit of one's own; for `observe` see [`crate::solve::Observer`].
     pub fn solve_within(
         problem: &Problem,
         precision: &N::Precision,
         limits: Limits,
-        observe: impl FnMut(usize, usize),
+        observe: impl FnMut(usize, usize) -> ControlFlow<()>,
     ) -> Result<Self, Error> {
         let scaled = Scaled::<N>::of(problem, precision)?;
         let until = match &problem.run {
@@ -86,21 +90,11 @@ impl<N: Bounded> Undamped<N> {
             (Halt::Time, Until::Time { trip, age }) => (moment(trip, &age), Ending::Time),
             (Halt::Time, Until::Contacts(_)) => (over, Ending::Time),
             (Halt::NextImpact { trip, age }, _) => (moment(*trip, age), Ending::NextImpact),
-            (Halt::NoFurtherImpact, _) => {
-                let why = "the end does not come down in two whole round trips, which repeat for ever";
-                (over, Ending::NoFurtherImpact(why.into()))
-            }
-            (Halt::NoBounce, _) => {
-                let why = "the end stays on the ground for two whole round trips, which repeat for ever";
-                (over, Ending::NoBounce(why.into()))
-            }
+            (Halt::NoFurtherImpact, _) => (over, Ending::NoFurtherImpact(Reason::Repeats { contact: false })),
+            (Halt::NoBounce, _) => (over, Ending::NoBounce(Reason::Repeats { contact: true })),
             (Halt::Open { trip, age, spread }, _) => {
-                let why = format!(
-                    "within a round trip comes a touch that {} bits do not tell from a miss; either way v(0,t) is the \
-                     same up to {:.1e} for one round trip, and up to three times more after each one more",
-                    age.bits().unwrap_or(0),
-                    spread * (velocity.clone() * round_trip).to_f64(),
-                );
+                let spread = spread * (velocity.clone() * round_trip).to_f64();
+                let why = Reason::Touch { bits: age.bits().unwrap_or(0), spread };
                 (moment(*trip, age), Ending::Undecided(why))
             }
             (Halt::Irrational { trip, from, q, slope, disc }, _) => {
@@ -116,7 +110,8 @@ impl<N: Bounded> Undamped<N> {
         }
         history.events = history.in_scene_units()?;
         history.contacts = history.summed_contacts();
-        history.warnings = history.undetermined_from().into_iter().map(not_determined).collect();
+        history.warnings =
+            history.undetermined_from().into_iter().map(|from| Warning::NotDetermined { from }).collect();
         Ok(history)
     }
 
@@ -315,10 +310,6 @@ fn before_surd<N: Bounded>(unit: &N, trip: usize, [from, q, slope, disc]: [&N; 4
     let short = from.int(ticks as i64) / from.int(MILLION);
     let below = if from.below(&short)? { short } else { from.clone() + from.double(flown * (1.0 - 1e-9)) };
     Ok((below, Ending::ExactnessEnds { kind: EventKind::Impact, time, near }))
-}
-
-fn not_determined(time: f64) -> String {
-    format!("from t = {time:.6} on, the events are not determined in this precision: ask for more digits")
 }
 
 /// Round trips of more pieces are summed without exact numbers.

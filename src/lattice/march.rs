@@ -1,5 +1,7 @@
 //! The march: round trip after round trip. The contact law itself is in `ground`.
 
+use std::ops::ControlFlow;
+
 use super::limits::{Halt, Limits, Until};
 use super::start::Scaled;
 use super::trace::{GroundEvent, Place, Trace};
@@ -55,16 +57,18 @@ pub(super) struct March<N> {
     pub(super) zero: N,
 }
 
-/// Marches `problem` over round trip after round trip. `observe` is told the trip and the number of pieces so far.
+/// Marches `problem` over round trip after round trip. `observe` receives the trips, or the contacts where so many are
+/// asked for, and the number of pieces, and may end the march.
 ///
 /// **Accuracy**: *exact* in fractions, *enclosure* in intervals; otherwise within the bounds that the numbers carry.
 ///
-/// **Errors**: [`Error::TooManyPieces`]; [`Error::Open`] where not even the start is settled.
+/// **Errors**: [`Error::TooManyPieces`]; [`Error::Interrupted`] by `observe`; [`Error::Open`] where not even the start
+/// is settled.
 pub fn march<N: Bounded>(
     problem: &Scaled<N>,
     until: &Until<N>,
     limits: Limits,
-    mut observe: impl FnMut(usize, usize),
+    mut observe: impl FnMut(usize, usize) -> ControlFlow<()>,
 ) -> Result<GroundMotion<N>, Error> {
     let zero = problem.gravity.zero();
     let mut state = March {
@@ -102,7 +106,10 @@ pub fn march<N: Bounded>(
             let time = problem.units.round_trip.to_f64() * trip as f64;
             return Err(Error::TooManyPieces { limit: limits.pieces, time });
         }
-        observe(trip, state.trace.count());
+        let done = if matches!(until, Until::Contacts(_)) { state.contacts as usize } else { trip };
+        if observe(done, state.trace.count()).is_break() {
+            return Err(Error::Interrupted);
+        }
         if trip + 1 < limits.keep_from {
             state.trace.forget();
             let old = state.events.partition_point(|event| event.trip + 1 < trip);

@@ -19,7 +19,7 @@ use super::sums::{History, MOST_MODES, Shape, series};
 /// # use dalembert::{problem::Parameters, modal::Modal, Side};
 /// // r = 0: the stress in the first round trip is −(μ + gt)/c.
 /// let rod = Parameters { length: 1.0, wave_speed: 1.0, damping: 0.0, gravity: 1.0, speed: 3.0 };
-/// let stress = Modal::new(&rod, 64).stress(&1.0, Side::Right);
+/// let stress = Modal::new(&rod, 64).strain(&1.0, Side::Right);
 /// assert!((stress.value() + 4.0_f64).abs() < 1e-14);
 /// ```
 #[derive(Clone, Debug)]
@@ -44,7 +44,7 @@ impl<S: Rounded> Modal<S> {
     /// `v_x(0,t)`: the stress at the ground divided by the modulus.
     ///
     /// **Source**: (2.28).
-    pub fn stress(&self, time: &S, side: Side) -> Estimate<S> {
+    pub fn strain(&self, time: &S, side: Side) -> Estimate<S> {
         let [impact, weight] = self.ground(&self.trips(time), side);
         self.combine(impact, weight, &Estimate::rounded(-self.rod.wave_speed.one() / &self.rod.wave_speed, 1.0))
     }

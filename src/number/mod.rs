@@ -41,4 +41,4 @@ pub use literal::{Number, NumberError};
 pub use rug::{Float, Rational};
 pub use scalar::{Analytic, Open, Reads, Rounded, Scalar};
 #[doc(hidden)]
-pub use text::{DOUBLE_DIGITS, bits_for_digits, bound_of_log2, bound_text, double_bound_text, show, shown_bound_text};
+pub use text::{DOUBLE_DIGITS, bits_for_digits, bound_of_log2, double_bound_text, show, shown_bound_text};

@@ -23,16 +23,16 @@ pub fn bits_for_digits(digits: u32) -> u32 {
 /// **Accuracy**: *correctly rounded* unless the bound is astride a rounding boundary, and then within one unit of the
 /// last digit: a last unit is at least twice the bound.
 pub fn show<S: Scalar>(x: &S, digits: u32) -> String {
+    shown_digits(x, digits).map_or_else(|| "0".into(), |digits| x.decimal(digits))
+}
+
+/// How many digits are printed: at most so many, and none beyond the bound; `None` where no digit is known.
+fn shown_digits<S: Scalar>(x: &S, digits: u32) -> Option<u32> {
     let size = x.to_f64().abs();
     // −1 for the half unit that rounding takes.
     let known =
         ((size - 2.0 * x.log2_error().exp2()).max(0.0).log2() - x.log2_error() - 1.0) * std::f64::consts::LOG10_2;
-    if known.is_nan() || known < 1.0 { "0".into() } else { x.decimal(digits.min(known as u32)) }
-}
-
-/// The bound of a number's error to two digits, rounded up: `3.1e-14`; `0` where it is exact.
-pub fn bound_text<S: Scalar>(x: &S) -> String {
-    bound_of_log2(x.log2_error())
+    (known >= 1.0).then(|| digits.min(known as u32))
 }
 
 /// The bound of the error of the shortest text that reads as the same double, which may be half a unit of the last bit
@@ -41,14 +41,16 @@ pub fn double_bound_text<S: Scalar>(x: &S) -> String {
     with_rounding(x, x.to_f64().abs().log2() - f64::from(f64::MANTISSA_DIGITS))
 }
 
-/// The bound of the error of [`show`]'s text, with the rounding to its digits; `0` where the number is exact.
+/// The bound of the error of [`show`]'s text, with the rounding to its digits; `0` where the text is exact.
 pub fn shown_bound_text<S: Scalar>(x: &S, digits: u32) -> String {
-    let text = show(x, digits);
-    let (mantissa, exponent) = text.split_once('e').unwrap_or((&text, "0"));
-    let decimals = mantissa.split_once('.').map_or(0, |(_, decimals)| decimals.len());
-    let last = exponent.parse::<f64>().unwrap_or(0.0) - decimals as f64;
-    let half_unit = last / std::f64::consts::LOG10_2 - 1.0;
-    with_rounding(x, if text == "0" { x.to_f64().abs().log2() } else { half_unit })
+    let size = x.to_f64().abs();
+    let rounding = shown_digits(x, digits).map_or(size.log2(), |digits| {
+        // A power of ten whose logarithm is rounded down keeps its decade.
+        let last = (size.log10() + 1e-9).floor() + 1.0 - f64::from(digits);
+        last / std::f64::consts::LOG10_2 - 1.0
+    });
+    let rounded = || show(x, digits).parse::<f64>().is_ok_and(|read| read != x.to_f64());
+    if x.log2_error() == f64::NEG_INFINITY && rounded() { bound_of_log2(rounding) } else { with_rounding(x, rounding) }
 }
 
 /// The bound of `x` and of a rounding of the size `2^rounding` together.
@@ -61,7 +63,7 @@ fn with_rounding<S: Scalar>(x: &S, rounding: f64) -> String {
     bound_of_log2(most + (least - most).exp2().ln_1p() / std::f64::consts::LN_2)
 }
 
-/// A bound, given by its `log₂`, to two digits, rounded up.
+/// A bound, given by its `log₂`, to two digits, rounded up: `3.1e-14`; `0` where the number is exact.
 pub fn bound_of_log2(log2: f64) -> String {
     let log10 = log2 * std::f64::consts::LOG10_2;
     if log10 == f64::NEG_INFINITY {
@@ -90,13 +92,17 @@ mod tests {
         assert_eq!(show(&around(2.0, 9e-6), 20), "2.0000");
         assert_eq!(show(&around(2.0, 3.0), 20), "0");
         assert_eq!(show(&around(0.0, 1e-20), 20), "0");
-        assert_eq!(bound_text(&crate::number::Estimate::new(1.0f64, 3.0)), "3.4e-16");
-        assert_eq!(bound_text(&crate::number::Estimate::exact(1.0f64)), "0");
+        assert_eq!(bound_of_log2(crate::number::Estimate::new(1.0f64, 3.0).log2_error()), "3.4e-16");
         // 1 + ε with a bound of one rounding: ε/2 and, for the text, another.
         assert_eq!(double_bound_text(&crate::number::Estimate::new(1.0f64 + f64::EPSILON, 1.0)), "2.3e-16");
         assert_eq!(double_bound_text(&crate::number::Estimate::exact(1.0f64)), "0");
         // Four decimals are half of 1e-4 off, and the number itself 9e-6.
         assert_eq!(shown_bound_text(&around(2.0, 9e-6), 20), "5.9e-5");
+        assert_eq!(shown_bound_text(&crate::number::Estimate::exact(0.2f64 + 0.1), 12), "5.1e-13");
+        assert_eq!(shown_bound_text(&crate::number::Estimate::exact(0.25f64), 12), "0");
+        // Zeros at the end are digits, whether they are printed or not.
+        assert_eq!(shown_bound_text(&crate::number::Estimate::new(6.0f64, 1.0), 12), "5.1e-12");
+        assert_eq!(shown_bound_text(&crate::number::Estimate::new(1000.0f64, 1.0), 4), "5.1e-1");
         // 0 printed: the end farthest from it, 1e-20, and the radius.
         assert_eq!(shown_bound_text(&around(0.0, 1e-20), 20), "2.1e-20");
     }

@@ -1,6 +1,8 @@
 //! CSV: one part of the history a file, with a header.
 
 use super::record::{CONTACT, Column, Factors, Head, Quantity, Record, Sample, column, sampled};
+use super::straight::straight;
+use crate::motion::StressPiece;
 use crate::number::{DOUBLE_DIGITS, Scalar, show, shown_bound_text};
 use crate::quantity::Measure;
 
@@ -12,17 +14,34 @@ pub enum Part {
     Events,
     /// Contacts.
     Contacts,
-    /// The pieces of the stress at the ground.
+    /// The stress at the ground in straight pieces.
     Stress,
 }
 
-/// One part of the history.
-pub fn history_csv<S: Scalar>(record: &Record<S>, part: Part, head: &Head) -> Result<String, csv::Error> {
+/// How far the straight pieces of a curved stress history may be off, as a part of its peak.
+const STRAIGHT: f64 = 1e-6;
+
+/// One part of the history; the stress in straight pieces, or with the `coefficients` of its Chebyshev series.
+pub fn history_csv<S: Scalar>(
+    record: &Record<S>,
+    part: Part,
+    coefficients: bool,
+    head: &Head,
+) -> Result<String, csv::Error> {
     let digits = if head.digits == 0 { DOUBLE_DIGITS } else { head.digits };
     let (show, bound) = (|x: &S| show(x, digits), |x: &S| shown_bound_text(x, digits));
     let optional = |x: &Option<S>| x.as_ref().map_or_else(String::new, show);
     let names = |columns: &[Column]| columns.iter().map(|column| column.with_unit(&head.units)).collect::<Vec<_>>();
+    // The strain at both ends of a piece, and where there is a material the stress.
+    let present: Vec<Column> = STRESS.into_iter().filter(|column| column.is_present(&head.units)).collect();
+    let ends = |piece: &StressPiece<S>| {
+        let factors = Factors::new(present.iter(), &head.units, &piece.from);
+        let values = [&piece.from, &piece.to, &piece.left, &piece.right, &piece.left, &piece.right];
+        let values = values.iter().take(present.len()).enumerate();
+        values.map(|(k, value)| show(&factors.scale(k, value))).collect::<Vec<String>>()
+    };
     let mut rows: Vec<Vec<String>> = Vec::new();
+    let mut comments = comments(head);
     let header = match part {
         Part::Events => {
             for event in &record.events {
@@ -36,18 +55,27 @@ pub fn history_csv<S: Scalar>(record: &Record<S>, part: Part, head: &Head) -> Re
             let present = CONTACT.iter().filter(|column| column.is_present(&head.units));
             names(&present.copied().collect::<Vec<_>>())
         }
+        Part::Stress if coefficients => {
+            rows.extend(record.stress.iter().map(|piece| {
+                let series: Vec<String> = piece.chebyshev.iter().map(show).collect();
+                ends(piece).into_iter().chain([series.join(" ")]).collect()
+            }));
+            comments += "# v_x(0,t) is linear from left to right, or the sum of chebyshev[k] T_k(x), \
+                x = 2(t - from)/(to - from) - 1\n";
+            names(&present).into_iter().chain(["chebyshev".to_string()]).collect()
+        }
         Part::Stress => {
-            let columns: Vec<Column> = STRESS.into_iter().filter(|column| column.is_present(&head.units)).collect();
-            for piece in &record.stress {
-                let factors = Factors::new(columns.iter(), &head.units, &piece.from);
-                let values = [&piece.from, &piece.to, &piece.left, &piece.right, &piece.left, &piece.right];
-                let values = values.iter().take(columns.len()).enumerate();
-                rows.push(values.map(|(k, value)| show(&factors.scale(k, value))).collect());
+            rows.extend(straight(&record.stress, STRAIGHT).iter().map(ends));
+            if record.stress.iter().any(|piece| piece.chebyshev.len() > 2) {
+                comments += &format!(
+                    "# straight lines from left to right are within {STRAIGHT:e} of the greatest v_x(0,t); \
+                     --coefficients gives the exact form\n"
+                );
             }
-            names(&columns)
+            names(&present)
         }
     };
-    write(header, rows)
+    write(&comments, header, rows)
 }
 
 const EVENT: [Column; 8] = [
@@ -84,15 +112,22 @@ pub fn samples_csv<S: Scalar>(samples: &[Sample<S>], quantity: Quantity, head: &
         let place = [show(&sample.time), sample.point.as_ref().map_or_else(String::new, show), sample.side.to_string()];
         place.into_iter().chain(values.iter().map(show)).chain(values.iter().map(bound)).collect()
     });
-    write(header, rows.collect())
+    write(&comments(head), header, rows.collect())
 }
 
-pub(super) fn write(header: Vec<String>, rows: Vec<Vec<String>>) -> Result<String, csv::Error> {
+/// What the numbers do not say, in lines that begin with `#`, which readers of CSV skip.
+fn comments(head: &Head) -> String {
+    let end = head.exact_until.as_ref().map(|end| format!("# {end}; the numbers are {}\n", head.number));
+    let warnings = head.warnings.iter().map(|warning| format!("# warning: {warning}\n"));
+    end.into_iter().chain(warnings).collect()
+}
+
+pub(super) fn write(comments: &str, header: Vec<String>, rows: Vec<Vec<String>>) -> Result<String, csv::Error> {
     let mut writer = csv::Writer::from_writer(Vec::new());
     writer.write_record(header)?;
     for row in rows {
         writer.write_record(row)?;
     }
     let bytes = writer.into_inner().map_err(|error| csv::Error::from(error.into_error()))?;
-    Ok(String::from_utf8_lossy(&bytes).into_owned())
+    Ok(comments.to_string() + &String::from_utf8_lossy(&bytes))
 }

@@ -8,6 +8,7 @@ use super::record::{CONTACT, Finished, Head, Quantity, Record, Sample, bound_jso
 use crate::motion::Ending;
 use crate::number::Scalar;
 use crate::quantity::{Measure, Units};
+use crate::solve::ExactnessEnd;
 
 /// The JSON Schema of [`history_json`] and [`samples_json`].
 pub const SCHEMA: &str = include_str!("schema.json");
@@ -97,7 +98,7 @@ pub fn history_json<S: Scalar>(record: &Record<S>, head: &Head) -> Value {
         "number": head.number,
         "effects": head.effects,
         "units": units_json(&head.units),
-        "exact_until": head.exact_until.as_ref().map(exactness_json),
+        "exact_until": head.exact_until.as_ref().map(exact_until_json),
         "events": events.collect::<Vec<_>>(),
         "contacts": contacts.collect::<Vec<_>>(),
         "flights": flights.collect::<Vec<_>>(),
@@ -105,7 +106,7 @@ pub fn history_json<S: Scalar>(record: &Record<S>, head: &Head) -> Value {
         "end": ending_json(&record.end.1, number(&record.end.0)),
         "error_estimate": record.error,
         "digits_lost": record.lost.map(|(_, digits)| digits),
-        "warnings": head.warnings,
+        "warnings": warnings_json(head),
     })
 }
 
@@ -129,6 +130,17 @@ fn ending_json(ending: &Ending, time: Value) -> Value {
         }
         other => json!({"time": time, "reason": other.to_string()}),
     }
+}
+
+fn exact_until_json(end: &ExactnessEnd) -> Value {
+    match end {
+        ExactnessEnd::Event(ending) => exactness_json(ending),
+        parameter => json!({"reason": parameter.to_string()}),
+    }
+}
+
+fn warnings_json(head: &Head) -> Vec<String> {
+    head.warnings.iter().map(ToString::to_string).collect()
 }
 
 /// The event at no fraction, before which exactness ends.
@@ -163,7 +175,8 @@ pub fn samples_json<S: Scalar>(samples: &[Sample<S>], quantity: Quantity, head: 
         "number": head.number,
         "quantity": quantity.name(),
         "units": units_json(&head.units),
-        "exact_until": head.exact_until.as_ref().map(exactness_json),
+        "exact_until": head.exact_until.as_ref().map(exact_until_json),
         "rows": rows.collect::<Vec<_>>(),
+        "warnings": warnings_json(head),
     })
 }

@@ -31,7 +31,7 @@ fn look(family: Family) -> (&'static str, MarkerShape) {
     match family {
         Family::ClosedForm => ("#0072b2", MarkerShape::Circle),
         Family::Lattice => ("#009e73", MarkerShape::Square),
-        Family::Joined => ("#009e73", MarkerShape::Square),
+        Family::ContactThenCells => ("#009e73", MarkerShape::Square),
         Family::Cells => ("#d55e00", MarkerShape::Diamond),
         Family::Modes => ("#cc79a7", MarkerShape::Triangle),
         Family::Printed => ("#8c6d1f", MarkerShape::TriangleDown),

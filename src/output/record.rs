@@ -4,10 +4,12 @@ use crate::error::Error;
 use crate::motion::{Contact, Ending, Energy, Event, Motion, Side, StressPiece};
 use crate::number::{DOUBLE_DIGITS, Scalar, double_bound_text, show, shown_bound_text};
 use crate::quantity::{EnergyShares, Flight, Measure, Restitution, Units, energy_shares, flights, restitution};
+use crate::reason::Warning;
+use crate::solve::ExactnessEnd;
 
 /// A number that carries its bound as a JSON value: a number for a double (null if not finite),
 /// `{"value": …, "lo": …, "hi": …}` with `lo ≤ truth ≤ hi` for an enclosure, a string otherwise.
-pub(super) fn json<S: Scalar>(x: &S, digits: u32) -> serde_json::Value {
+pub(crate) fn json<S: Scalar>(x: &S, digits: u32) -> serde_json::Value {
     let text = show(x, if digits == 0 { DOUBLE_DIGITS } else { digits });
     match (x.as_double(), x.ends(digits)) {
         (Some(value), _) if !value.is_finite() => serde_json::Value::Null,
@@ -20,7 +22,7 @@ pub(super) fn json<S: Scalar>(x: &S, digits: u32) -> serde_json::Value {
 
 /// The bound of the error of a number as it is printed, as a JSON value: a number where a double holds it, a string
 /// otherwise; `null` for an enclosure, which has it in itself.
-pub(super) fn bound_json<S: Scalar>(x: &S, digits: u32) -> serde_json::Value {
+pub(crate) fn bound_json<S: Scalar>(x: &S, digits: u32) -> serde_json::Value {
     if x.ends(1).is_some() {
         return serde_json::Value::Null;
     }
@@ -54,9 +56,9 @@ pub struct Head {
     /// What gives strains and values per `ρS` a unit.
     pub units: Units,
     /// What the user should know.
-    pub warnings: Vec<String>,
-    /// Where an exact run ended, if a run in digits stands in for it.
-    pub exact_until: Option<Ending>,
+    pub warnings: Vec<Warning>,
+    /// What fractions could not hold, if a run in digits stands in for them.
+    pub exact_until: Option<ExactnessEnd>,
 }
 
 /// A column of numbers.
@@ -327,7 +329,7 @@ pub fn sample<S: Scalar>(
     for time in times {
         let mut row = |point, values| rows.push(Sample { time: time.clone(), point, side, values });
         match quantity {
-            Quantity::Stress => row(None, vec![history.stress(time, side)?]),
+            Quantity::Stress => row(None, vec![history.strain(time, side)?]),
             Quantity::End => row(None, history.ground_end(time, side).map(|(v, rate)| vec![v, rate])?),
             Quantity::Top => row(None, history.top_end(time, side).map(|(v, rate)| vec![v, rate])?),
             Quantity::Centre => row(None, history.centre(time).map(|(h, rate)| vec![h, rate])?),

@@ -143,7 +143,7 @@ impl Preamble<'_> {
             "promise": self.promise(npz),
             "signs": SIGNS,
             "side": SIDE,
-            "warnings": self.head.warnings,
+            "warnings": self.head.warnings.iter().map(ToString::to_string).collect::<Vec<_>>(),
             "cite": CITE,
             "columns": columns.collect::<Vec<_>>(),
         })
@@ -166,7 +166,7 @@ impl Preamble<'_> {
         lines.extend(self.scene_lines().map(|scene| line("scene", scene)));
         lines.push(line("numbers", &format!("{}: {}{proved}", self.head.number, self.promise(false))));
         lines.push(line("signs", SIGNS));
-        lines.extend(self.head.warnings.iter().map(|warning| line("warning", &warning.replace('\n', " "))));
+        lines.extend(self.head.warnings.iter().map(|warning| line("warning", &warning.to_string().replace('\n', " "))));
         lines.push(line("cite", CITE));
         lines.into_iter()
     }

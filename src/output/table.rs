@@ -4,7 +4,7 @@ use comfy_table::{CellAlignment, ContentArrangement, LineStyle, Table, presets};
 
 use super::record::{CONTACT, Finished, Head, Quantity, Record, Sample, sampled};
 use crate::motion::Ending;
-use crate::number::{Scalar, bound_text, show};
+use crate::number::{Scalar, show, shown_bound_text};
 use crate::quantity::{Measure, Units};
 
 /// A table with a header; numbers stand to the right.
@@ -75,9 +75,14 @@ fn blocks(header: &[&str], rows: &[Vec<String>]) -> String {
 /// Significant digits of a double in a table.
 const TABLE_DIGITS: u32 = 12;
 
+/// Significant digits of a number in a table.
+fn digits(head: &Head) -> u32 {
+    if head.digits == 0 { TABLE_DIGITS } else { head.digits }
+}
+
 /// A number in a table.
 pub(super) fn cell<S: Scalar>(x: &S, head: &Head) -> String {
-    show(x, if head.digits == 0 { TABLE_DIGITS } else { head.digits })
+    show(x, digits(head))
 }
 
 /// What the symbols of the tables mean.
@@ -85,7 +90,7 @@ pub const LEGEND: &str = "\
 time           t, from the start of the scene: the first touch of the ground, or before it with a gap
 v_t(0,t)       velocity of the lower end: just before an impact, just after a release
 h, h′          the centre of mass, from where it is in the undeformed rod on the ground, and its velocity
-±              how far the time may be off
+±              how far the time may be off as it is printed
 impulse        −E S ∫ v_x(0,t) dt over the contact: momentum from the ground; −c² ∫ v_x(0,t) dt is that per ρS
 peak v_x(0,t)  the most compressive strain at the ground
 peak stress    E v_x(0,t) there, below zero
@@ -124,7 +129,7 @@ pub fn history_table<S: Scalar>(record: &Record<S>, head: &Head) -> String {
     let events = record.events.iter().map(|event| {
         let mut row: Vec<String> = std::iter::once(event.kind.to_string()).chain(event.numbers().map(show)).collect();
         if uncertain {
-            row.insert(2, bound_text(&event.time));
+            row.insert(2, shown_bound_text(&event.time, digits(head)));
         }
         row
     });
@@ -167,6 +172,7 @@ pub fn history_table<S: Scalar>(record: &Record<S>, head: &Head) -> String {
         let each = lost / f64::from(impacts.max(1));
         out += &format!("{impacts} impacts may have lost {lost:.1} digits to rounding, {each:.2} each\n");
     }
+    out += &warnings(head);
     if head.legend {
         out += &format!("\n{LEGEND}");
     }
@@ -194,6 +200,11 @@ fn named_units(measures: &[Measure], units: &Units) -> String {
     if texts.is_empty() { String::new() } else { texts.join(", ") + "\n" }
 }
 
+/// A line for each warning.
+fn warnings(head: &Head) -> String {
+    head.warnings.iter().map(|warning| format!("warning: {warning}\n")).collect()
+}
+
 /// Below so many digits lost the table does not mention them.
 const MANY_LOST: f64 = 3.0;
 
@@ -215,8 +226,9 @@ pub fn samples_table<S: Scalar>(samples: &[Sample<S>], quantity: Quantity, head:
         row.extend(values.iter().map(|x| cell(x, head)));
         row
     });
+    let end = head.exact_until.as_ref().map_or_else(String::new, |end| format!("{end}; these are {}\n", head.number));
     let measures: Vec<Measure> = columns.iter().filter_map(|column| column.measure).collect();
-    let units = named_units(&measures, &head.units);
-    let space = if units.is_empty() { "" } else { "\n" };
-    fitted(&header, &rows.collect::<Vec<_>>(), 0, keys, head.wide) + "\n" + space + &units
+    let below = end + &named_units(&measures, &head.units) + &warnings(head);
+    let space = if below.is_empty() { "" } else { "\n" };
+    fitted(&header, &rows.collect::<Vec<_>>(), 0, keys, head.wide) + "\n" + space + &below
 }

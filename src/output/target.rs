@@ -76,7 +76,7 @@ pub(crate) fn targets_csv<S: Scalar>(reached: &[Reached<S>], head: &Head) -> Res
             target.source.clone(),
         ]
     };
-    super::csv::write(header.into(), reached.iter().map(row).collect())
+    super::csv::write("", header.into(), reached.iter().map(row).collect())
 }
 
 /// The published values of the built-in scenes: a line each.

@@ -59,7 +59,7 @@ impl Printed {
     pub(crate) fn release(&self, round_trip: f64, looks: i64) -> Option<f64> {
         // The limit from earlier times at a lattice time is that without the ray that arrives there.
         let before = |t: f64, side: Side| if side == Side::Left { t * (1.0 - 4.0 * f64::EPSILON) } else { t };
-        first_release(round_trip, looks, |t, side| self.stress(before(t, side)))
+        first_release(round_trip, looks, |t, side| self.strain(before(t, side)))
     }
 }
 

@@ -22,7 +22,7 @@ use crate::problem::Parameters;
 /// # use dalembert::{paper::Printed, problem::Parameters};
 /// // r = 0: the stress in the first round trip is −(μ + gt)/c.
 /// let rod = Parameters { length: 1.0, wave_speed: 1.0, damping: 0.0, gravity: 1.0, speed: 3.0 };
-/// assert!((Printed::new(&rod, 1e-10).stress(1.0) + 4.0).abs() < 1e-14);
+/// assert!((Printed::new(&rod, 1e-10).strain(1.0) + 4.0).abs() < 1e-14);
 /// ```
 #[derive(Debug)]
 pub struct Printed {
@@ -147,7 +147,7 @@ impl Printed {
     }
 
     /// `v_x(0,t) = e^{−rt} Ψ_r(t)`, the limit from later times. **Source**: (2.28).
-    pub fn stress(&self, t: f64) -> f64 {
+    pub fn strain(&self, t: f64) -> f64 {
         (-self.r * t).exp() * self.psi(t)
     }
 

@@ -58,7 +58,7 @@ impl<S: Scalar + PartialOrd> UndampedContact<S> {
     /// `v_x(0,t) = Ψ₀(t)`: piecewise linear, zero in flight.
     ///
     /// **Source**: (2.28) with `r = 0`, as integrated before (3.52).
-    pub fn stress(&self, time: &S, side: Side) -> S {
+    pub fn strain(&self, time: &S, side: Side) -> S {
         let (Parameters { wave_speed: c, gravity: g, speed: mu, .. }, t1) = (&self.rod, &self.round_trip);
         let before = |t: &S| time < t || (time == t && side == Side::Left);
         if before(t1) {

@@ -121,6 +121,14 @@ impl Builder {
         self
     }
 
+    /// The value at a path of a scene file, one of [`NUMBERS`](super::validate::NUMBERS).
+    #[cfg(feature = "cli")]
+    pub(crate) fn at(mut self, path: &'static str, value: &Number) -> Self {
+        self.draft.numbers.insert(path, value.into());
+        self.base.from_scene = true;
+        self
+    }
+
     /// The problem.
     ///
     /// **Errors**: [`ProblemError`] for the first value that is missing, is no number, or is outside of its

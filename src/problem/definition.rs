@@ -4,6 +4,7 @@ use serde::Serialize;
 
 use super::{Builder, ProblemError};
 use crate::number::Number;
+use crate::reason::Warning;
 
 /// The initial-boundary-value problem: `v_tt + 2r v_t − c² v_xx = −g` on `0 < x < L`, unilateral contact at `x = 0`.
 ///
@@ -205,15 +206,10 @@ impl Problem {
     /// assert!(rod.to_builder().damping(1).build()?.neglected().is_some()); // g/2r = 1
     /// # Ok::<(), dalembert::problem::ProblemError>(())
     /// ```
-    pub fn neglected(&self) -> Option<String> {
+    pub fn neglected(&self) -> Option<Warning> {
         let (damping, gravity) = (self.rod.damping.as_ref()?.to_f64(), self.gravity.as_ref()?.to_f64());
         let Start::Uniform(speed @ Speed::DropHeight(_)) = &self.start else { return None };
         let (speed, terminal) = (speed.value(gravity), gravity / (2.0 * damping));
-        (terminal < speed).then(|| {
-            format!(
-                "the speed at impact, √(2 g drop_height) = {speed:.4e}, takes no account of drag; with this damping no \
-                 fall is faster than g/2r = {terminal:.4e}"
-            )
-        })
+        (terminal < speed).then_some(Warning::DragNeglected { speed, terminal })
     }
 }

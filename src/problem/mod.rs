@@ -26,6 +26,7 @@
 mod builder;
 mod definition;
 mod error;
+pub(crate) mod given;
 mod parameters;
 pub(crate) mod profile;
 pub(crate) mod validate;

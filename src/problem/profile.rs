@@ -3,7 +3,7 @@
 use std::cmp::Ordering;
 use std::collections::BTreeMap;
 
-use super::validate::{Given, UNITS, range, within};
+use super::given::{Given, UNITS, range, within};
 use super::written::short;
 use super::{ProblemError, ProblemErrorKind as Kind, Profile, Written};
 use crate::number::Number;

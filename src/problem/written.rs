@@ -19,6 +19,13 @@ impl Written {
     pub(crate) fn new(text: &str, shown: &str) -> Self {
         Written { shown: short(shown), number: text.parse() }
     }
+
+    /// The number that it spells.
+    ///
+    /// **Errors**: [`NumberError`] where it spells none.
+    pub fn number(&self) -> Result<&Number, &NumberError> {
+        self.number.as_ref()
+    }
 }
 
 impl From<&str> for Written {

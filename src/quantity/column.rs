@@ -371,7 +371,7 @@ impl Source {
         match self {
             Source::Time => row.push(time.clone()),
             Source::End => row.extend(pair(motion.ground_end(time, side)?)),
-            Source::Strain => row.push(motion.stress(time, side)?),
+            Source::Strain => row.push(motion.strain(time, side)?),
             Source::Top => row.extend(pair(motion.top_end(time, side)?)),
             Source::Contact => row.push(time.int(in_contact(motion, time, side)?.into())),
             Source::Centre => row.extend(pair(motion.centre(time)?)),

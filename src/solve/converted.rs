@@ -6,6 +6,7 @@ use crate::error::Error;
 use crate::motion::{Contact, Ending, Energy, Event, Field, Motion, Scales, Side, StressPiece};
 use crate::number::{Reads, Scalar};
 use crate::ray::Ray;
+use crate::reason::Warning;
 use crate::wave::{Stretch, Waves};
 
 /// The history of an engine in numbers `N`, read in numbers `M`.
@@ -61,8 +62,8 @@ impl<N: Scalar, M: Reads<N>> Motion<M> for Converted<N, M> {
         self.engine.stress_pieces().into_iter().map(|piece| piece.map(M::read)).collect()
     }
 
-    fn stress(&self, time: &M, side: Side) -> Result<M, Error> {
-        self.engine.stress(&self.time(time), side).map(M::read)
+    fn strain(&self, time: &M, side: Side) -> Result<M, Error> {
+        self.engine.strain(&self.time(time), side).map(M::read)
     }
 
     fn ground_end(&self, time: &M, side: Side) -> Result<(M, M), Error> {
@@ -120,7 +121,7 @@ impl<N: Scalar, M: Reads<N>> Motion<M> for Converted<N, M> {
         self.engine.digits_lost()
     }
 
-    fn warnings(&self) -> &[String] {
+    fn warnings(&self) -> &[Warning] {
         self.engine.warnings()
     }
 }

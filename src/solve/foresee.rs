@@ -1,7 +1,7 @@
 //! How many bits a chaotic run is going to lose, foreseen in doubles.
 
 use super::plan::{Engine, Plan, Reach};
-use crate::lattice::{Limits, Undamped};
+use crate::lattice::{Limits, Undamped, unobserved};
 use crate::number::{Estimate, Number};
 use crate::problem::{Parameters, Problem, Run};
 
@@ -16,12 +16,15 @@ use crate::problem::{Parameters, Problem, Run};
 pub(super) fn bits_lost(problem: &Problem, plan: &Plan) -> f64 {
     let (Engine::Lattice, Reach::Time(end)) = (plan.engine, &plan.reach) else { return 0.0 };
     let (Ok(rod), end) = (Parameters::<f64>::of(problem, &()), end.to_f64()) else { return 0.0 };
+    if end <= 0.0 {
+        return 0.0;
+    }
     let (mut time, mut lost) = (end.min(4.0 * rod.round_trip()), 0.0);
     loop {
         let Ok(number) = time.to_string().parse::<Number>() else { return lost };
         let part = Problem { run: Run::Time(number), ..problem.clone() };
         let limits = Limits::keeping_from(problem, time);
-        let Ok(history) = Undamped::<Estimate<f64>>::solve_within(&part, &(), limits, |_, _| ()) else { return lost };
+        let Ok(history) = Undamped::<Estimate<f64>>::solve_within(&part, &(), limits, unobserved) else { return lost };
         let found = history.ground().relative_error.max(1.0).log2();
         if history.undetermined_from().is_some() {
             return if lost > 0.0 { lost } else { found * end / time };

@@ -2,20 +2,22 @@
 //! settles it.
 
 use std::fmt;
+use std::ops::ControlFlow;
 use std::sync::Arc;
 
 use super::plan::{Plan, Rung};
 use crate::error::Error;
-use crate::motion::{Ending, Motion};
+use crate::motion::{Ending, Motion, Scales};
 use crate::number::{Answer, Scalar};
 use crate::problem::Problem;
 
-/// Receives the round trip and the number of pieces from time to time.
-pub type Observer = Arc<dyn Fn(usize, usize) + Send + Sync>;
+/// Receives from time to time how far a run is, in round trips, or in contacts where so many are asked for, and how
+/// many pieces it has; may end the run with [`Error::Interrupted`].
+pub type Observer = Arc<dyn Fn(usize, usize) -> ControlFlow<()> + Send + Sync>;
 
 /// An observer that does nothing.
 pub(crate) fn unobserved() -> Observer {
-    Arc::new(|_, _| ())
+    Arc::new(crate::lattice::unobserved)
 }
 
 /// An engine that has run.
@@ -135,7 +137,22 @@ impl Ladder {
         let greatest = numbers.iter().map(|x| log2(x)).fold(f64::NEG_INFINITY, f64::max);
         let bits = |digits: f64| digits * std::f64::consts::LOG2_10;
         let floor = greatest - bits(digits + spare);
-        let missing = numbers.iter().map(|x| x.log2_error() - (log2(x) - bits(digits)).max(floor));
+        // What is not told from zero has no digits that bits could settle: its natural scale says when it is small.
+        let faint = least_scale(engine) - bits(if double { digits } else { digits + FAINT_DIGITS });
+        let missing = numbers.iter().map(|x| {
+            let (size, error) = (log2(x), x.log2_error());
+            error - (size - bits(digits)).max(floor).max(if size <= error { faint } else { f64::NEG_INFINITY })
+        });
         missing.fold(f64::NEG_INFINITY, f64::max)
     }
+}
+
+/// Digits below those asked for, and below its natural scale, from which on a number that is not told from zero is
+/// settled.
+const FAINT_DIGITS: f64 = 30.0;
+
+/// `log₂` of the least of the natural scales of displacement, velocity, strain and energy.
+fn least_scale<S: Scalar>(engine: &dyn Motion<S>) -> f64 {
+    let Scales { time, velocity, length, wave_speed, .. } = engine.scales().map(|scale| scale.to_f64().log2());
+    velocity + time.min(0.0).min(-wave_speed).min(velocity + length)
 }

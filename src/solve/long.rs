@@ -5,7 +5,7 @@ use std::sync::Arc;
 use super::converted::Converted;
 use super::ladder::{Engined, Observer, Target};
 use super::plan::{Engine, Plan, Rung};
-use crate::cells::{self, Damped, Joined, WithBounds};
+use crate::cells::{self, ContactThenCells, Damped, WithBounds};
 use crate::error::Error;
 use crate::first_contact::{Bounce, ContactHistory, FirstContact};
 use crate::lattice::Undamped;
@@ -66,7 +66,9 @@ fn estimates(problem: &Problem, plan: &Plan, bits: u32, observe: &Observer) -> R
             }
             Arc::new(history)
         }
-        Engine::Cells => Arc::new(WithBounds::new(Damped::<Float>::solve(problem, &bits, digits)?)),
+        Engine::Cells => {
+            Arc::new(WithBounds::new(Damped::<Float>::solve_observed(problem, &bits, digits, 1, &**observe)?)?)
+        }
         Engine::ClosedForm | Engine::ClosedFormThenCells => {
             let rod = Parameters::<Estimate<Float>>::of(problem, &bits)?;
             let bounce = FirstContact::new(&rod).bounce();
@@ -74,7 +76,13 @@ fn estimates(problem: &Problem, plan: &Plan, bits: u32, observe: &Observer) -> R
                 return Err(Error::NotDecided { what: "how the first contact ends", bits });
             }
             let reach = if plan.engine == Engine::ClosedForm { cells::Reach::Bounce } else { cells::Reach::Run };
-            Arc::new(WithBounds::new(Joined::<Float>::solve(problem, &bits, digits, bounce, reach)?))
+            Arc::new(WithBounds::new(ContactThenCells::<Float>::solve_observed(
+                problem,
+                &bits,
+                digits,
+                (bounce, reach),
+                &**observe,
+            )?)?)
         }
     })
 }

@@ -13,7 +13,6 @@
 #[cfg(feature = "mp")]
 mod converted;
 mod engines;
-mod first_contact;
 mod foresee;
 mod ladder;
 #[cfg_attr(not(feature = "mp"), path = "long_absent.rs")]
@@ -22,7 +21,6 @@ mod plan;
 mod question;
 mod solution;
 
-pub use first_contact::bounce_within;
 pub(crate) use ladder::{Attempt, Ladder, unobserved};
 pub use ladder::{Observer, Target};
 pub use plan::{CERTIFIED_DIGITS, DEFAULT_ACCURACY, Engine, MAX_DIGITS, Plan, Reach, Rung};

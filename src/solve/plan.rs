@@ -9,7 +9,7 @@ use super::question::{Numbers, Question, Want};
 use crate::error::Error;
 use crate::lattice::Limits;
 use crate::number::{Number, bits_for_digits};
-use crate::problem::{Problem, Run};
+use crate::problem::{Parameters, Problem, Run};
 
 /// How a question is going to be answered. No engine and no caller decides any of it again.
 ///
@@ -111,6 +111,7 @@ impl Plan {
                 Run::Time(time) => Reach::Time(time.clone()),
             },
             Want::FirstContact => Reach::FirstContact,
+            Want::Between(_, to) if problem.rod.damping.is_some() => Reach::Time(beyond(problem, to)),
             Want::Between(_, to) => Reach::Time(to.clone()),
         };
         let keep_from = match &question.want {
@@ -198,11 +199,12 @@ impl Plan {
                 "damping couples the characteristics; the first contact has a closed form, and no more is asked for"
             }
             Engine::ClosedFormThenCells => {
-                "damping couples the characteristics: the first contact has a closed form, and inside a cell between rays \
-                 Riemann's formula converges geometrically"
+                "damping couples the characteristics: the first contact has a closed form, and inside a cell between \
+                 rays Riemann's formula converges geometrically"
             }
             Engine::Cells => {
-                "damping couples the characteristics, and this start or top has no closed form: cells from the beginning"
+                "damping couples the characteristics, and this start or top has no closed form: cells from the \
+                beginning"
             }
         };
         let numbers = match self.numbers {
@@ -214,8 +216,8 @@ impl Plan {
                 format!("{digits} digits are asked for: bits are added until the error bound leaves that many")
             }
             Numbers::Certified(digits) => format!(
-                "{digits} proved digits are asked for: enclosures, with bits added until every comparison is settled and every \
-                 digit known"
+                "{digits} proved digits are asked for: enclosures, with bits added until every comparison is settled \
+                 and every digit known"
             ),
             Numbers::Exact => "fractions are asked for: the run stops where a root is irrational".into(),
             Numbers::ExactThenDigits(digits) => {
@@ -246,6 +248,13 @@ impl Plan {
     pub(super) fn limits(&self, problem: &Problem) -> Limits {
         self.keep_from.map_or_else(Limits::default, |time| Limits::keeping_from(problem, time))
     }
+}
+
+/// A quarter of a round trip after `to`: where a ray arrives at the end of a damped march, the limit from later times
+/// is that of the strip after it.
+fn beyond(problem: &Problem, to: &Number) -> Number {
+    let quarter = Parameters::<f64>::of(problem, &()).map_or(0.0, |rod| rod.round_trip() / 4.0);
+    format!("{:e}", to.to_f64() + quarter).parse().unwrap_or_else(|_| to.clone())
 }
 
 /// Digits that must be left beyond those printed, so that a quantity small against its scale still has all of them.

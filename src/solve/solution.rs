@@ -49,19 +49,20 @@ impl std::fmt::Display for ExactnessEnd {
 }
 
 impl Plan {
-    /// Solves `problem`; `observe` receives the round trip and the number of pieces from time to time.
+    /// Solves `problem`; see [`Observer`] for what `observe` receives.
     ///
     /// **Accuracy**: that of [`Plan::numbers`].
     ///
     /// **Errors**: [`Error::TooManyPieces`]; [`Error::Irrational`] where a parameter is no fraction and no digits are
-    /// asked for; [`Error::Unsettled`], [`Error::Undecided`] where no bits that are worth trying settle the answer.
+    /// asked for; [`Error::Unsettled`], [`Error::Undecided`] where no bits that are worth trying settle the answer;
+    /// [`Error::Interrupted`] by `observe`.
     ///
     /// ```
     /// use dalembert::{Numbers, Plan, Problem, Question, Solution};
-    /// use std::sync::Arc;
+    /// use std::{ops::ControlFlow, sync::Arc};
     /// let problem = Problem::uniform(10.into(), 30.into(), 10.into(), 10.into());
     /// let plan = Plan::of(&problem, &Question::run(Numbers::default()))?;
-    /// let Solution::Double(motion) = plan.solve(&problem, Arc::new(|_, _| ()))? else { unreachable!() };
+    /// let Solution::Double(motion) = plan.solve(&problem, Arc::new(|_, _| ControlFlow::Continue(())))? else { unreachable!() };
     /// assert!((motion.contacts()[0].to.unwrap() - 2.0 / 3.0).abs() < 1e-15);
     /// # Ok::<(), dalembert::Error>(())
     /// ```

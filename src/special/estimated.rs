@@ -85,8 +85,9 @@ impl<S: RoundedSpecial> Special for Estimate<S> {
                 return RaySums { start: errors.spent(&exact, 0), sums: first.map(|n| errors.spent(&exact, n)) };
             }
             let found = S::ray_sums_rounded(&exact, first, &weight);
-            let relative = SECOND_ORDER * (errors.start + (found.terms + 1) as f64 * errors.power);
-            if relative * exact.xi.unit() <= FIRST_ORDER {
+            let of = |index: f64| SECOND_ORDER * (errors.start + (index + 1.0) * errors.power);
+            if of(found.terms as f64) * exact.xi.unit() <= FIRST_ORDER {
+                let relative = of(found.mean);
                 let start = found.start_roundings + SECOND_ORDER * errors.start;
                 return RaySums {
                     start: Estimate::rounded(found.values.start, start),

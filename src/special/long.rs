@@ -44,7 +44,7 @@ impl RoundedSpecial for Float {
         if let Some((start, sums)) = Backward::new(&ray, terms).sums(first, &weight) {
             let (start, start_roundings) = start.rounded(ray.xi.prec());
             let values = RaySums { start, sums };
-            return RoundedSums { values, start_roundings, sum_roundings: SUM_ROUNDINGS, terms };
+            return RoundedSums { values, start_roundings, sum_roundings: SUM_ROUNDINGS, terms, mean: terms as f64 };
         }
         ray.sums_by_ratios(first, weight, Float::ray_start_rounded(&ray))
     }

@@ -35,6 +35,8 @@ pub struct RoundedSums<S, const K: usize> {
     pub sum_roundings: f64,
     /// The last term that is summed; all after it are below a roundoff.
     pub terms: i64,
+    /// The mean index, weighed by the terms of a sum, is at most this.
+    pub mean: f64,
 }
 
 /// No ray asks for more terms than this; only damping beyond `r t ≈ 10¹⁰` could.
@@ -145,11 +147,22 @@ impl<S: Rounded> Ray<S> {
         }
     }
 
+    /// A bound of the mean index over the terms of a sum from index `first` on, whose weights obey
+    /// `c_n ≤ 1.2 (n/n₀)³ c_{n₀}`, as all here do.
+    ///
+    /// `(r/2)ρ_n < rξ/(2n − 1)`, so with `x = rξ ≤ 1` the terms are, relative to the first of them,
+    /// `T_j ≤ 1.2 (1 + j/n₀)³ x/((2n₀+1)(2n₀+3)⋯(2n₀+2j−1))`, and `Σ j T_j` is greatest for `n₀ = 1`: less than `10.6 x`.
+    fn mean_index(&self, first: i64, terms: i64) -> f64 {
+        let reach = self.damping.to_f64() * self.xi.to_f64().max(0.0);
+        if reach <= 1.0 { (first as f64 + 10.6 * reach).min(terms as f64) } else { terms as f64 }
+    }
+
     /// The sums by the ratios, from `e^{−rt} ψ₀` with its roundings.
     ///
-    /// **Accuracy**: the weights are not negative, so the relative error is at most `sum_roundings` roundings. With N
-    /// terms, each ratio adds 4 roundings and passes on those of its successor times `I_{n+1}/I_{n−1}`; summed over n
-    /// by `asinh s ≥ 0.88 s` (s ≤ 1) that is at most `4N + 2.3 z (2 + ln 2N)`; Horner adds 3 for each term.
+    /// **Accuracy**: the weights are not negative, so the relative error is at most `sum_roundings` roundings. In the n-th
+    /// term each ratio adds 4 roundings and passes on those of its successor times `I_{n+1}/I_{n−1}`; summed over all N
+    /// by `asinh s ≥ 0.88 s` (s ≤ 1) that is at most `4n + 2.3 z (2 + ln 2N)`; Horner adds 3n. What counts is the mean of
+    /// n.
     #[inline]
     pub(super) fn sums_by_ratios<const K: usize>(
         &self,
@@ -181,12 +194,12 @@ impl<S: Rounded> Ray<S> {
             }
         }
         let sums = std::array::from_fn(|k| sums[k].clone() * &heads[k]);
-        let n = terms as f64;
+        let (n, mean) = (terms as f64, self.mean_index(last, terms));
         let sum_roundings = if terms >= MOST_TERMS {
             f64::INFINITY
         } else {
-            start_roundings + 16.0 + 7.0 * n + 2.3 * self.argument() * (2.0 + (2.0 * n).ln())
+            start_roundings + 16.0 + 7.0 * mean + 2.3 * self.argument() * (2.0 + (2.0 * n).ln())
         };
-        RoundedSums { values: RaySums { start, sums }, start_roundings, sum_roundings, terms }
+        RoundedSums { values: RaySums { start, sums }, start_roundings, sum_roundings, terms, mean }
     }
 }

@@ -5,7 +5,7 @@ use dalembert::modal::Modal;
 use dalembert::motion::{Ending, Motion, Side};
 use dalembert::number::{Answer, Interval, IntervalPrecision, Number, Scalar};
 use dalembert::problem::Parameters;
-use dalembert::{Error, Problem};
+use dalembert::{Error, NoBounceReason, Problem, Reason};
 use proptest::prelude::*;
 use rug::ops::Pow;
 use rug::{Float, Integer, Rational};
@@ -79,7 +79,7 @@ fn proved(digits: i32, bits: u32) {
         let strain = speed / scales.wave_speed.to_f64();
         let at = |value: &Value| exactly(&contact, &number(value.as_str().unwrap()));
         for row in case["stress"].as_array().unwrap() {
-            let stress = contact.stress(&at(&row[0]), Side::Right).unwrap();
+            let stress = contact.strain(&at(&row[0]), Side::Right).unwrap();
             check(&format!("{name} stress"), &stress, &row[1], strain, digits);
         }
         for row in case["motion"].as_array().unwrap() {
@@ -136,9 +136,9 @@ fn damped([damping, gravity, speed]: [&str; 3]) -> Problem {
     problem(["1/2", "1", damping, gravity, speed])
 }
 
-fn no_bounce(problem: &Problem) -> String {
+fn no_bounce(problem: &Problem) -> NoBounceReason {
     match solve(problem, 128).ending() {
-        Ending::NoBounce(reason) => reason.clone(),
+        Ending::NoBounce(Reason::NoBounce(reason)) => reason.clone(),
         other => panic!("{other:?}"),
     }
 }
@@ -148,11 +148,11 @@ fn no_bounce(problem: &Problem) -> String {
 fn bounce_or_none_on_both_sides_of_pi() {
     for damping in ["3.15", "3.3", "3.1415926535897932384626433832795028842"] {
         let reason = no_bounce(&damped([damping, "0", "1"]));
-        assert!(reason.contains("overdamped"), "{reason}");
+        assert!(matches!(reason, NoBounceReason::Overdamped { .. }), "{reason}");
     }
     // With gravity the static stress wins, however near to π.
     let reason = no_bounce(&damped(["3.14159265358979323846264338327950288419716939937510", "1", "1"]));
-    assert!(reason.contains("static stress"), "{reason}");
+    assert!(matches!(reason, NoBounceReason::SettlesUnderWeight { .. }), "{reason}");
     for (damping, truth) in [
         ("3.13", "11.66136670144388438415940577414071411946"),
         ("3.135", "15.33318837004014558549067344667885556140"),
@@ -186,7 +186,7 @@ fn the_least_and_the_greatest_damping() {
     }
     let contact = solve(&problem(["1", "1", "25", "1", "1"]), 256);
     assert!(matches!(contact.ending(), Ending::NoBounce(_)), "{:?}", contact.ending());
-    let stress = contact.stress(&exactly(&contact, &Number::from(3)), Side::Right).unwrap();
+    let stress = contact.strain(&exactly(&contact, &Number::from(3)), Side::Right).unwrap();
     assert!(stress.radius() < 1e-30, "{}", stress.text());
 }
 
@@ -207,7 +207,7 @@ fn everything(contact: &ContactHistory<Interval>, times: &[&str]) -> Vec<Interva
     }
     for t in &times {
         for side in [Side::Left, Side::Right] {
-            list.push(contact.stress(t, side).unwrap());
+            list.push(contact.strain(t, side).unwrap());
             let field = contact.field(&exactly(contact, &number("0.3")), t, side).unwrap();
             list.extend([field.displacement, field.velocity, field.strain]);
             let (top, speed) = contact.top_end(t, side).unwrap();
@@ -261,7 +261,7 @@ fn ordinary_numbers_lie_inside() {
             Bounce::Never(_) => assert!(proved.bounce().is_none(), "{case:?}"),
             Bounce::Undecided { why, .. } => panic!("{case:?}: {why}"),
         }
-        let stress = |time: &Float, side| contact.stress(&time.carry(), side).into_value();
+        let stress = |time: &Float, side| contact.strain(&time.carry(), side).into_value();
         let mut deepest = stress(&Float::with_val(500, 0), Side::Right);
         let end = proved.end().mid();
         for k in 1..200u32 {
@@ -269,7 +269,7 @@ fn ordinary_numbers_lie_inside() {
             let stress = stress(&time, Side::Left);
             if k % 20 == 1 {
                 let at = exactly(&proved, &Number::from(0)) + Interval::between(time.clone(), time.clone());
-                assert!(holds(&proved.stress(&at, Side::Left).unwrap(), &stress, 1e-120), "{case:?}");
+                assert!(holds(&proved.strain(&at, Side::Left).unwrap(), &stress, 1e-120), "{case:?}");
                 let (height, velocity) = proved.centre(&at).unwrap();
                 assert!(holds(&height, contact.centre(&time.carry()).0.value(), 1e-120), "{case:?}");
                 assert!(holds(&velocity, contact.centre(&time.carry()).1.value(), 1e-120), "{case:?}");
@@ -323,10 +323,10 @@ proptest! {
         let problem = problem(["1/2", "1", &texts[0], &format!("{g}/10"), &format!("{mu}/10")]);
         let precision = IntervalPrecision::with_exact(192);
         let form = FirstContact::new(&Parameters::<Interval>::of(&problem, &precision).unwrap());
-        let proved = form.stress(&Interval::from_number(&number(&texts[3]), &precision), Side::Right);
+        let proved = form.strain(&Interval::from_number(&number(&texts[3]), &precision), Side::Right);
         let rod = Parameters::<Float>::of(&problem, &192).unwrap();
         let time = Float::with_val(192, &number(&texts[3]).to_rational());
-        let modes = Modal::new(&rod, 256).stress(&time, Side::Right);
+        let modes = Modal::new(&rod, 256).strain(&time, Side::Right);
         let off = (modes.value().clone() - proved.mid()).abs();
         prop_assert!(off <= modes.bound() * (1.0 + 1e-9) + proved.radius(), "{modes:?} {}", proved.text());
     }
@@ -350,7 +350,7 @@ fn pieces_hold_the_stress() {
                     before = std::mem::replace(&mut value, next);
                 }
                 let sum = piece.chebyshev[0].clone() + &(x * &value) - &before;
-                let direct = contact.stress(&time, Side::Right).unwrap();
+                let direct = contact.strain(&time, Side::Right).unwrap();
                 assert!(sum.meet(&direct).is_some(), "{case:?}: {} {}", sum.text(), direct.text());
                 assert!(piece.chebyshev.iter().all(|c| c.radius() < 1e-40), "{case:?}");
             }

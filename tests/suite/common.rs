@@ -1,7 +1,7 @@
 //! What several test files share: reference files, problems made from them, and how far apart two numbers are.
 
 use dalembert::problem::{Run, Speed, Start};
-use dalembert::{Number, Problem};
+use dalembert::{History, Number, Numbers, Parameters, Plan, Problem, Question, Solution};
 use serde_json::Value;
 
 /// A file of `tests/reference/`.
@@ -48,4 +48,27 @@ pub(crate) fn uniform(length: &str, wave_speed: &str, gravity: &str, speed: &str
 pub(crate) fn close(what: &str, a: f64, b: f64, scale: f64, accuracy: f64) {
     let error = (a - b).abs() / b.abs().max(scale);
     assert!(error <= accuracy, "{what}: found {a:e}, expected {b:e}, off by {error:.1e} > {accuracy:.0e}");
+}
+
+/// The first contact of the rod that these doubles spell, in doubles to `accuracy`.
+pub(crate) fn first_contact(rod: &Parameters<f64>, accuracy: f64) -> History<f64> {
+    let number = |x: f64| format!("{x:e}").parse::<Number>().unwrap();
+    let mut problem =
+        Problem::uniform(number(rod.length), number(rod.wave_speed), number(rod.gravity), number(rod.speed));
+    problem.rod.damping = Some(number(rod.damping)).filter(|r| !r.is_zero());
+    to_accuracy(&problem, accuracy)
+}
+
+/// The first contact of `problem` in doubles to `accuracy`.
+pub(crate) fn to_accuracy(problem: &Problem, accuracy: f64) -> History<f64> {
+    let plan = Plan::of(problem, &Question::first_contact(Numbers::Double(Some(accuracy)))).unwrap();
+    match plan.solve(problem, std::sync::Arc::new(dalembert::lattice::unobserved)).unwrap() {
+        Solution::Double(history) => history,
+        other => panic!("{other:?}"),
+    }
+}
+
+/// `t_b` and its bound, where the rod bounces.
+pub(crate) fn bounce_time(history: &History<f64>) -> Option<(f64, f64)> {
+    history.events().get(1).map(|release| (release.time, release.time_error))
 }

@@ -1,7 +1,7 @@
 //! Two ways to the same motion: cells from `t = 0`, and the closed form up to the bounce with cells from there.
 
 use crate::common::uniform;
-use dalembert::cells::{Damped, Joined, Reach};
+use dalembert::cells::{ContactThenCells, Damped, Reach};
 use dalembert::first_contact::{Bounce, FirstContact};
 use dalembert::problem::{Parameters, Run};
 use dalembert::{Ending, Error, EventKind, Motion, Number, Problem, Side};
@@ -24,9 +24,9 @@ fn scene(random: &mut impl FnMut() -> f64) -> Problem {
 }
 
 /// Both histories; `None` where the first contact does not end, or a march is refused as too long.
-fn both(problem: &Problem) -> Option<(Damped<f64>, Joined<f64>)> {
+fn both(problem: &Problem) -> Option<(Damped<f64>, ContactThenCells<f64>)> {
     let rod = Parameters::<f64>::of(problem, &()).unwrap();
-    let bounce = dalembert::solve::bounce_within(&FirstContact::new(&rod.carry()), 1e-13);
+    let bounce = FirstContact::new(&rod.carry()).bounce();
     if !matches!(bounce, Bounce::At { .. }) {
         return None;
     }
@@ -35,7 +35,7 @@ fn both(problem: &Problem) -> Option<(Damped<f64>, Joined<f64>)> {
         Err(Error::TooManyPieces { .. } | Error::TooManyRays { .. }) => return None,
         Err(other) => panic!("{other}"),
     };
-    Some((marched, Joined::<f64>::solve(problem, &(), 13.0, bounce, Reach::Run).unwrap()))
+    Some((marched, ContactThenCells::<f64>::solve(problem, &(), 13.0, bounce, Reach::Run).unwrap()))
 }
 
 #[test]
@@ -51,13 +51,13 @@ fn from_the_bounce_and_from_the_start_agree_within_their_bounds() {
     let (mut scenes, mut compared, mut settled) = (0, 0, 0);
     while scenes < 1000 {
         let problem = scene(&mut random);
-        let Some((marched, joined)) = both(&problem) else { continue };
+        let Some((marched, history)) = both(&problem) else { continue };
         scenes += 1;
-        let scales = joined.scales();
-        let bound = marched.error_estimate() + joined.error_estimate();
+        let scales = history.scales();
+        let bound = marched.error_estimate() + history.error_estimate();
         assert!(bound.is_finite());
-        let mut last = joined.end().min(marched.end());
-        for (k, (ours, theirs)) in joined.events().iter().zip(marched.events()).enumerate() {
+        let mut last = history.end().min(marched.end());
+        for (k, (ours, theirs)) in history.events().iter().zip(marched.events()).enumerate() {
             // Of a landing that hardly moves, or a release without a jump that the next ray may shift, neither bound is
             // small.
             let apart = (ours.time - theirs.time).abs();
@@ -74,9 +74,9 @@ fn from_the_bounce_and_from_the_start_agree_within_their_bounds() {
             see("h'", ours.centre_velocity, theirs.centre_velocity, scales.velocity);
             compared += 1;
         }
-        settled += i32::from(joined.events().len() == marched.events().len());
+        settled += i32::from(history.events().len() == marched.events().len());
         // Times on either side of the bounce, some with the closed form still in the upper part of the rod.
-        let release = joined.events()[1].time;
+        let release = history.events()[1].time;
         for share in [0.1, 0.7, 1.0 + 0.2 * scales.time / release, 1.3, 1.9, 2.6] {
             let t = release * share;
             if t >= last {
@@ -84,7 +84,7 @@ fn from_the_bounce_and_from_the_start_agree_within_their_bounds() {
             }
             for x in [0.0, 0.41, 1.0] {
                 let x = x * scales.length;
-                let (a, b) = (joined.field(&x, &t, Side::Right).unwrap(), marched.field(&x, &t, Side::Right).unwrap());
+                let (a, b) = (history.field(&x, &t, Side::Right).unwrap(), marched.field(&x, &t, Side::Right).unwrap());
                 let off = [
                     (a.displacement - b.displacement) / (scales.velocity * scales.time),
                     (a.velocity - b.velocity) / scales.velocity,
@@ -92,7 +92,7 @@ fn from_the_bounce_and_from_the_start_agree_within_their_bounds() {
                 ];
                 assert!(off.iter().all(|off| off.abs() <= bound), "{problem:?} at {x}, {t}: {off:?}, {bound:e}");
             }
-            let (a, b) = (joined.energy(&t).unwrap(), marched.energy(&t).unwrap());
+            let (a, b) = (history.energy(&t).unwrap(), marched.energy(&t).unwrap());
             let unit =
                 scales.length * scales.velocity * ((2.0 * a.vibrational / scales.length).sqrt() + scales.velocity);
             assert!((a.vibrational - b.vibrational).abs() <= 2.0 * bound * unit, "{problem:?} at {t}: {a:?} {b:?}");
@@ -107,8 +107,8 @@ fn a_question_about_the_first_contact_needs_no_cells() {
     problem.rod.damping = "0.1".parse().ok();
     let rod = Parameters::<f64>::of(&problem, &()).unwrap();
     let bounce = FirstContact::new(&rod.carry()).bounce();
-    let short = Joined::<f64>::solve(&problem, &(), 13.0, bounce.clone(), Reach::Bounce).unwrap();
-    let long = Joined::<f64>::solve(&problem, &(), 13.0, bounce, Reach::Run).unwrap();
+    let short = ContactThenCells::<f64>::solve(&problem, &(), 13.0, bounce.clone(), Reach::Bounce).unwrap();
+    let long = ContactThenCells::<f64>::solve(&problem, &(), 13.0, bounce, Reach::Run).unwrap();
     assert_eq!(*short.ending(), Ending::Bounce);
     assert_eq!(short.end(), 2.0);
     assert_eq!(short.events(), &long.events()[..2]);
@@ -128,8 +128,9 @@ fn answers_carry_their_bounds() {
         let mut problem = uniform("1", "1", "1", speed, Run::Impacts(4));
         problem.rod.damping = damping.parse().ok();
         let rod = Parameters::<f64>::of(&problem, &()).unwrap();
-        let history = Joined::solve(&problem, &(), 13.0, FirstContact::new(&rod.carry()).bounce(), Reach::Run).unwrap();
-        let bounded = WithBounds::new(history);
+        let history =
+            ContactThenCells::solve(&problem, &(), 13.0, FirstContact::new(&rod.carry()).bounce(), Reach::Run).unwrap();
+        let bounded = WithBounds::new(history).unwrap();
         let truth = Damped::<Float>::solve(&problem, &200, 40.0).unwrap();
         let near = |what: &str, ours: &Estimate<f64>, truth: &Float| {
             let off = Float::with_val(200, truth - *ours.value()).abs().to_f64();

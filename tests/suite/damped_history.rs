@@ -4,7 +4,7 @@ use crate::common::{close, number, problem, reference, uniform};
 use dalembert::cells::Damped;
 use dalembert::motion::{Ending, EventKind, Motion, Side};
 use dalembert::problem::{Material, Profile, Rod, Run, Start, Top};
-use dalembert::{Error, Number, Problem};
+use dalembert::{Error, Number, Problem, Warning};
 
 fn damped(gravity: &str, speed: &str, damping: &str, run: Run) -> Problem {
     let mut problem = uniform("1", "1", gravity, speed, run);
@@ -41,7 +41,7 @@ fn without_damping_the_corollary_holds() {
             let mu = number(&speed.into()).to_f64();
             close("t_b", history.events()[1].time, bounce, 1.0, accuracy);
             for t in [0.3, 1.9] {
-                close("stress", history.stress(&t, Side::Right).unwrap(), -mu - t, 1.0, accuracy);
+                close("stress", history.strain(&t, Side::Right).unwrap(), -mu - t, 1.0, accuracy);
             }
         }
     }
@@ -57,7 +57,7 @@ fn without_damping_the_delay_recursion_holds() {
         // A tangential landing, as that at t = 31 of mu_1, may be off by the root of the error. Landings on rays, as
         // those of mu_1, cannot be told from hops.
         assert!(
-            history.warnings().iter().all(|warning| warning.contains("hops shorter than"))
+            history.warnings().iter().all(|warning| matches!(warning, Warning::HopsUnresolved { .. }))
                 && history.error_estimate() < 1e-4,
             "{name} {:?} {:e}",
             history.warnings(),
@@ -102,7 +102,7 @@ fn a_fixed_top_with_prestrain_repeats_after_three() {
             let period = 3.0 * f64::from(k);
             for (t, height, stress) in [(0.4, 0.3, 0.0), (1.5, 0.0, -0.5), (2.6, 0.3, 0.0)] {
                 close("height", history.ground_end(&(period + t), Side::Right).unwrap().0, height, 1.0, 1e-10);
-                close("stress", history.stress(&(period + t), Side::Right).unwrap(), stress, 1.0, 1e-10);
+                close("stress", history.strain(&(period + t), Side::Right).unwrap(), stress, 1.0, 1e-10);
             }
             let start = history.field(&0.25, &(period + 0.1), Side::Right).unwrap();
             close("v", start.displacement, 0.375, 1.0, 1e-10);
@@ -199,7 +199,7 @@ fn what_cannot_leave_is_at_rest() {
         let end = history.end() as i64 + 20;
         let longer = solve(&damped("1", speed, damping, until(end)));
         assert_eq!(longer.events().len(), history.events().len());
-        let stress = longer.stress(&(end as f64), Side::Left).unwrap();
+        let stress = longer.strain(&(end as f64), Side::Left).unwrap();
         assert!(stress < 0.0 && stress > -2.0, "{stress}");
     }
 }
@@ -209,7 +209,7 @@ fn a_settled_rod_costs_little() {
     // 500 round trips: rays are forgotten as they fade, and one cell a round trip is left.
     let history = solve(&damped("1", "3", "0.2", until(1000)));
     assert!(history.stress_pieces().len() < 2000, "{}", history.stress_pieces().len());
-    close("stress", history.stress(&999.5, Side::Left).unwrap(), -1.0, 1.0, 1e-12);
+    close("stress", history.strain(&999.5, Side::Left).unwrap(), -1.0, 1.0, 1e-12);
     close("h", history.centre(&1000.0).unwrap().0, -1.0 / 3.0, 1.0, 1e-10);
 }
 
@@ -228,13 +228,13 @@ fn without_gravity_the_rod_flies_off() {
 #[test]
 fn questions_outside_are_refused() {
     let history = solve(&damped("1", "3", "0.1", until(3)));
-    assert!(matches!(history.stress(&3.5, Side::Right), Err(Error::TimeOutside { .. })));
-    assert!(matches!(history.stress(&f64::NAN, Side::Right), Err(Error::TimeOutside { .. })));
+    assert!(matches!(history.strain(&3.5, Side::Right), Err(Error::TimeOutside { .. })));
+    assert!(matches!(history.strain(&f64::NAN, Side::Right), Err(Error::TimeOutside { .. })));
     assert!(matches!(history.field(&1.5, &1.0, Side::Right), Err(Error::PointOutside { .. })));
     assert!(history.field(&1.0, &3.0, Side::Right).is_ok());
     // On the ray that arrives at t₁ the stress has two values, which differ by the jump 2μe^{−rt₁}.
     let history = solve(&damped("1", "1", "0.3", Run::Impacts(1)));
-    let jump = history.stress(&2.0, Side::Right).unwrap() - history.stress(&2.0, Side::Left).unwrap();
+    let jump = history.strain(&2.0, Side::Right).unwrap() - history.strain(&2.0, Side::Left).unwrap();
     close("jump", jump, 2.0 * (-0.6f64).exp(), 1.0, 1e-12);
 }
 

@@ -88,7 +88,7 @@ proptest! {
         for t in times(&history, 12) {
             for side in [Side::Left, Side::Right] {
                 let (height, velocity) = history.ground_end(&t, side).unwrap();
-                let stress = history.stress(&t, side).unwrap();
+                let stress = history.strain(&t, side).unwrap();
                 prop_assert!(height >= -error * rise, "v = {height:e} at {t}");
                 prop_assert!(stress <= error * strain, "v_x = {stress:e} at {t}");
                 prop_assert!((height * stress).abs() <= error * rise * strain, "v v_x at {t}");
@@ -162,7 +162,8 @@ proptest! {
             // Nor from a contact without stress on, which the damping may turn into a flight that hardly leaves the
             // ground: then the end of the one touches where that of the other lands or leaves.
             let first = ours.time.min(plain.time);
-            let (a, b) = (history.ground_end(&first, Side::Right).unwrap().0, lattice.ground_end(&first, Side::Right).unwrap().0);
+            let end = |motion: &dyn Motion<f64>| motion.ground_end(&first, Side::Right).unwrap().0;
+            let (a, b) = (end(&history), end(&lattice));
             let bound = magnified(ours) * scales.velocity * scales.time;
             prop_assert!(a.max(b) <= bound, "{off:e} against {:e}: {ours:?} {plain:?}", magnified(ours));
             break;

@@ -58,7 +58,7 @@ fn the_first_contact_is_that_of_the_series() {
             None => assert_eq!(history.events().len(), 1, "{name}"),
         }
         for row in stress {
-            near("stress", history.stress(&row[0], Side::Right).unwrap(), row[1], unit / c);
+            near("stress", history.strain(&row[0], Side::Right).unwrap(), row[1], unit / c);
         }
         for row in motion {
             let (h, rate) = history.centre(&row[0]).unwrap();

@@ -9,7 +9,7 @@ use std::sync::Arc;
 
 fn in_doubles(problem: &Problem, accuracy: Option<f64>) -> History<f64> {
     let plan = Plan::of(problem, &Question::run(Numbers::Double(accuracy))).unwrap();
-    let Solution::Double(motion) = plan.solve(problem, Arc::new(|_, _| ())).unwrap() else {
+    let Solution::Double(motion) = plan.solve(problem, Arc::new(dalembert::lattice::unobserved)).unwrap() else {
         panic!("doubles were asked for");
     };
     motion
@@ -263,4 +263,27 @@ fn two_marches_know_how_far_they_are_off() {
             close("h'", ours.centre_velocity, truth.centre_velocity.to_f64(), scales.velocity, estimate);
         }
     }
+}
+
+/// A run says how far it is, from its beginning to its end and never backwards: in round trips, or in contacts.
+#[test]
+fn a_damped_run_is_observed() {
+    use std::sync::{Arc, Mutex};
+    let observed = |problem: &Problem| -> Vec<usize> {
+        let seen = Arc::new(Mutex::new(Vec::new()));
+        let plan = Plan::of(problem, &Question::run(Numbers::Double(Some(1e-2)))).unwrap();
+        let note = seen.clone();
+        let observe = move |done, _| {
+            note.lock().unwrap().push(done);
+            std::ops::ControlFlow::Continue(())
+        };
+        plan.solve(problem, Arc::new(observe)).unwrap();
+        let seen = seen.lock().unwrap();
+        seen.clone()
+    };
+    let rod = || Problem::builder().length(1).wave_speed(1).damping("0.01").gravity(1).impact_speed(3);
+    let trips = observed(&rod().time(40).build().unwrap());
+    assert!(trips.is_sorted() && [19, 20].contains(trips.last().unwrap()) && trips.len() > 5, "{trips:?}");
+    let contacts = observed(&rod().impacts(3).build().unwrap());
+    assert!(contacts.is_sorted() && contacts[0] == 1 && *contacts.last().unwrap() == 3, "{contacts:?}");
 }

@@ -2,7 +2,7 @@
 //! that goes strip by strip and does not take flights apart.
 
 use crate::common::{number, reference};
-use dalembert::cells::{Damped, Joined, Reach};
+use dalembert::cells::{ContactThenCells, Damped, Reach};
 use dalembert::first_contact::FirstContact;
 use dalembert::problem::{Material, Parameters, Run, Speed, Start};
 use dalembert::{EventKind, Motion, Number, Problem, Side};
@@ -20,9 +20,9 @@ fn rod(case: &Value) -> Problem {
     problem
 }
 
-fn solve(problem: &Problem) -> Joined<f64> {
+fn solve(problem: &Problem) -> ContactThenCells<f64> {
     let rod = Parameters::<f64>::of(problem, &()).unwrap();
-    Joined::solve(problem, &(), 13.0, FirstContact::new(&rod.carry()).bounce(), Reach::Run).unwrap()
+    ContactThenCells::solve(problem, &(), 13.0, FirstContact::new(&rod.carry()).bounce(), Reach::Run).unwrap()
 }
 
 #[test]
@@ -87,7 +87,7 @@ fn a_leap_can_be_asked_at_any_time() {
         let end = history.ground_end(&t, Side::Right).unwrap();
         let field = history.field(&0.0, &t, Side::Right).unwrap();
         assert_eq!((end.0, end.1), (field.displacement, field.velocity));
-        assert_eq!(history.stress(&t, Side::Right).unwrap(), 0.0);
+        assert_eq!(history.strain(&t, Side::Right).unwrap(), 0.0);
         // The end moves as its velocity says.
         let dt = 1e-3 * length / c;
         let later = history.ground_end(&(t + dt), Side::Left).unwrap();

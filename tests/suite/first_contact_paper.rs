@@ -30,8 +30,8 @@ fn closed_forms_are_the_paper_s_integrals() {
                     assert!(found[k].bound() < 1e-12 * scale, "{k} {:?}", found[k]);
                 }
             }
-            let stress = contact.stress(&known(t), Side::Right).into_value();
-            let truth = paper.stress(t);
+            let stress = contact.strain(&known(t), Side::Right).into_value();
+            let truth = paper.strain(t);
             assert!((stress - truth).abs() < 1e-11 * speed / c, "r = {r}, t = {t}: {stress} {truth}");
             let kernel = contact.impact_kernel(&known(t), Side::Right).into_value();
             assert!((kernel - (-r * t).exp() * paper.impact_kernel(t)).abs() < 1e-12);
@@ -54,7 +54,7 @@ fn jumps_are_those_of_proposition_2() {
         FirstContact::new(&Parameters { length: 1.0, wave_speed: 1.0, damping: r, gravity: 0.6, speed: mu }.carry());
     // At the ground both families cross: a jump of 2μ/c at t₁, upwards; downwards at 2t₁.
     for (t, sign) in [(2.0f64, 1.0), (4.0, -1.0), (6.0, 1.0)] {
-        let jump = contact.stress(&known(t), Side::Right).value() - contact.stress(&known(t), Side::Left).value();
+        let jump = contact.strain(&known(t), Side::Right).value() - contact.strain(&known(t), Side::Left).value();
         assert!((jump - sign * 2.0 * mu * (-r * t).exp()).abs() < 1e-14, "{t} {jump}");
     }
     // On the first ray up, x = ct: v_t from −μ's share to that of the ground.
@@ -78,7 +78,7 @@ fn strong_damping() {
         let (i0e, i1e) =
             (leading * (1.0 + 0.125 / z + 0.0703125 / (z * z)), leading * (1.0 - 0.375 / z - 0.1171875 / (z * z)));
         let expected = -(i0e + 1.9 * (i0e + i1e));
-        let stress = contact.stress(&known(1.9), Side::Right);
+        let stress = contact.strain(&known(1.9), Side::Right);
         assert!((stress.value() / expected - 1.0).abs() < 0.2 / z.powi(3) + 1e-12, "{r} {stress:?} {expected}");
         let field = contact.field(&known(0.7), &known(1.9), Side::Right);
         let all = [&field.displacement, &field.velocity, &field.strain];

@@ -48,7 +48,7 @@ fn values<S: RoundedSpecial>(precision: &S::Precision, accuracy: f64) {
         let read = |value: &Value| number::<S>(value, precision);
         let exactly = |value: &Value| read(value).carry();
         for row in case["stress"].as_array().unwrap() {
-            let found = contact.stress(&exactly(&row[0]), Side::Right);
+            let found = contact.strain(&exactly(&row[0]), Side::Right);
             check(&format!("{name} stress"), found, &read(&row[1]), strain * 1e-3, accuracy);
         }
         for row in case["motion"].as_array().unwrap() {

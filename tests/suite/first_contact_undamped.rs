@@ -46,7 +46,7 @@ proptest! {
                 let to = cell[0].clone() + (cell[1].clone() - &cell[0]) * &fraction;
                 let stress = |t: &Rational| {
                     let side = if *t == cell[0] { Side::Right } else { Side::Left };
-                    exact.stress(t, side)
+                    exact.strain(t, side)
                 };
                 let force = integral(&cell[0], &to, |t| -(c.square() * stress(t)) - g.clone() * l);
                 let momentum = integral(&cell[0], &to, |t| exact.momentum(t));
@@ -61,7 +61,7 @@ proptest! {
             h = exact.centre(&cell[1]).0;
         }
         // The stress is never tensile, and the ground lets go where it vanishes or jumps.
-        prop_assert!(exact.stress(&(tb.clone() * q(part, 20)), Side::Left) <= q(0, 1));
+        prop_assert!(exact.strain(&(tb.clone() * q(part, 20)), Side::Left) <= q(0, 1));
         let e_z = exact.total_energy() - exact.translational_energy(&tb);
         prop_assert_eq!(&exact.vibrational_energy_at_bounce(), &e_z);
         let ratio = exact.translational_energy(&tb) / exact.total_energy();
@@ -84,8 +84,8 @@ fn corollary_1_and_the_remarks_of_section_4() {
     let weightless = UndampedContact::new(&parameters(q(1, 1), q(1, 1), q(0, 1), q(1, 8))).unwrap();
     assert_eq!(weightless.bounce_time(), q(2, 1));
     assert_eq!(weightless.highest(), None);
-    assert_eq!(weightless.stress(&q(2, 1), Side::Left), q(-1, 8));
-    assert_eq!(weightless.stress(&q(2, 1), Side::Right), q(0, 1));
+    assert_eq!(weightless.strain(&q(2, 1), Side::Left), q(-1, 8));
+    assert_eq!(weightless.strain(&q(2, 1), Side::Right), q(0, 1));
 }
 
 #[test]

@@ -13,6 +13,8 @@ mod check_catalogue;
 mod columns;
 #[cfg(feature = "cli")]
 mod command;
+#[cfg(feature = "cli")]
+mod command_data;
 mod common;
 #[cfg(feature = "cli")]
 mod compare_command;
@@ -45,6 +47,8 @@ mod peers;
 mod problem_builder;
 #[cfg(all(feature = "cli", feature = "mp"))]
 mod reference;
+#[cfg(feature = "mp")]
+mod same_value;
 mod scene_builtin;
 mod scene_errors;
 mod scene_properties;
@@ -52,6 +56,8 @@ mod scene_properties;
 mod snapshots_stress;
 mod start_above;
 mod stripped;
+#[cfg(feature = "cli")]
+mod sweep;
 mod three_routes;
 #[cfg(feature = "mp")]
 mod undamped_bounds;

@@ -7,7 +7,6 @@ use dalembert::motion::Side;
 use dalembert::number::Estimate;
 use dalembert::paper::UndampedContact;
 use dalembert::problem::Parameters;
-use dalembert::solve::bounce_within;
 
 fn rod(damping: f64, gravity: f64, speed: f64) -> Parameters<f64> {
     Parameters { length: 1.0, wave_speed: 1.0, damping, gravity, speed }
@@ -41,7 +40,7 @@ fn dot(damping: f64) -> f64 {
 }
 
 fn bounce(damping: f64, speed: f64) -> (f64, BounceKind) {
-    match bounce_within(&contact(damping, 1.0, speed), 1e-12) {
+    match contact(damping, 1.0, speed).bounce() {
         Bounce::At { time, kind, .. } => (time.into_value(), kind),
         other => panic!("{damping} {speed}: {other:?}"),
     }
@@ -93,7 +92,7 @@ fn figure_4() {
         let mut last = f64::INFINITY;
         for k in 1..=50 {
             let speed = 0.25 * f64::from(k);
-            let time = match bounce_within(&contact(damping, 1.0, speed), 1e-12) {
+            let time = match contact(damping, 1.0, speed).bounce() {
                 Bounce::At { time, .. } => time,
                 // A slow rod stays on the ground: part (i) of Theorem 1.
                 Bounce::Never(_) if damping > 0.0 && speed < threshold => continue,
@@ -174,7 +173,7 @@ fn the_rod_is_compressed_until_it_leaves() {
         let contact = contact(damping, 1.0, speed);
         for k in 1..20 {
             let t = 2.0 + (time - 2.0) * f64::from(k) / 20.0;
-            let stress = contact.stress(&known(t), Side::Right);
+            let stress = contact.strain(&known(t), Side::Right);
             assert!(*stress.value() < -stress.bound(), "{damping} {t}: {stress:?}");
         }
     }

@@ -109,9 +109,15 @@ fn every_mistake_is_answered_with_its_value() {
             Problem::builder().length(1).wave_speed(1).drop_height(1),
             Kind::Missing,
             "impact.drop_height",
-            "found drop_height without gravity, expected a gravity above zero, or impact_speed in place of drop_height".into(),
+            "found drop_height without gravity, expected a gravity above zero, or impact_speed in place of \
+            drop_height".into(),
         ),
-        (rod().length("1 m"), Kind::NotANumber, "rod.length", format!("found length = \"1 m\", {number}, without a unit")),
+        (
+            rod().length("1 m"),
+            Kind::NotANumber,
+            "rod.length",
+            format!("found length = \"1 m\", {number}, without a unit"),
+        ),
         (
             rod().gravity("heavy"),
             Kind::NotANumber,
@@ -143,7 +149,12 @@ fn every_mistake_is_answered_with_its_value() {
             "rod.density",
             "found density = 0, expected a density above zero".into(),
         ),
-        (rod().damping(-0.5), Kind::OutOfRange, "rod.damping", "found damping = -0.5, expected a damping of zero or more".into()),
+        (
+            rod().damping(-0.5),
+            Kind::OutOfRange,
+            "rod.damping",
+            "found damping = -0.5, expected a damping of zero or more".into(),
+        ),
         (
             rod().gravity(1e41),
             Kind::OutOfRange,
@@ -192,7 +203,8 @@ fn every_mistake_is_answered_with_its_value() {
             rod().impact_speed(1e13),
             Kind::Combination,
             "impact.speed",
-            "found impact_speed = 10000000000000, which makes μ/(g t₁) = 5e12, expected a value between 1e-12 and 1e12".into(),
+            "found impact_speed = 10000000000000, which makes μ/(g t₁) = 5e12, expected a value between 1e-12 and \
+            1e12".into(),
         ),
         (
             rod().time("1e13"),

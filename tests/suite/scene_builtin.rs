@@ -114,6 +114,30 @@ fn getfem_starts_compressed_under_a_fixed_top() {
     assert!(scene.source().lines().nth(strain.line.unwrap() - 1).unwrap().starts_with("displacement"));
 }
 
+/// The solution that GetFEM's demonstration compares itself with, `uExact`, in three phases of length 1: fractions at
+/// 5000 points of the x–t plane.
+#[cfg(feature = "mp")]
+#[test]
+fn getfem_is_its_own_exact_solution() {
+    use rug::Rational;
+    let history = scene("getfem-dynamic-contact").problem.exact().unwrap();
+    let points: Vec<Rational> = (0..50).map(|k| Rational::from((k, 49))).collect();
+    let times: Vec<Rational> = (0..100).map(|k| Rational::from((k, 11))).filter(|t| *t <= 9).collect();
+    let field = history.field(&points, &times, dalembert::Side::Right).unwrap();
+    assert_eq!(field.len(), 50 * 100);
+    let places = times.iter().flat_map(|t| points.iter().map(move |x| (x, t)));
+    for ((x, t), found) in places.zip(&field) {
+        let (age, phase) = t.clone().fract_floor(rug::Integer::new());
+        let [up, later] = [x, &age].map(|value| Rational::from(1 - value));
+        let twice = match phase.mod_u(3) {
+            0 => up.min(later),
+            1 => -x.clone().min(age).min(up).min(later),
+            _ => age.min(up),
+        };
+        assert_eq!(found.displacement, twice / 2, "x = {x}, t = {t}");
+    }
+}
+
 /// Corollary 1: the first contact lasts `t₁` from the critical speed on, and `2t₁ − μ/g` below it.
 #[test]
 fn first_contacts_without_damping() {

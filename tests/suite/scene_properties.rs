@@ -123,7 +123,8 @@ proptest! {
         length in number(), c in number(), speed in number(), g in number(), time in number(),
     ) {
         let source = format!(
-            "[rod]\nlength = {}\nwave_speed = {}\n[impact]\nspeed = {}\n[gravity]\nacceleration = {}\n[run]\ntime = {}\n",
+            "[rod]\nlength = {}\nwave_speed = {}\n[impact]\nspeed = {}\n[gravity]\nacceleration = {}\n[run]\ntime = \
+            {}\n",
             length.0, c.0, speed.0, g.0, time.0
         );
         let scene = match Scene::parse(&source) {

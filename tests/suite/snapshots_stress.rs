@@ -86,7 +86,7 @@ fn first_contact(name: &str, [length, wave_speed, gravity, speed]: [&str; 4]) ->
         }
         for side in [Side::Left, Side::Right] {
             if k > 0 || side == Side::Right {
-                assert_eq!(history.stress(&time, side).unwrap(), closed.stress(&time, side), "{name} at {time}");
+                assert_eq!(history.strain(&time, side).unwrap(), closed.strain(&time, side), "{name} at {time}");
             }
         }
         assert_eq!(history.centre(&time).unwrap(), closed.centre(&time), "{name} at {time}: (3.51), (3.53)");
@@ -106,7 +106,7 @@ fn periodic(k: i64) {
     for (n, (from, _)) in contacts(&history).iter().enumerate() {
         for age in [q(1, 4), q(1, 1), q(7, 4)] {
             let down = if n % 2 == 0 { age.clone() } else { q(2, 1) - &age };
-            let stress = history.stress(&Rational::from(from + &age), Side::Right).unwrap();
+            let stress = history.strain(&Rational::from(from + &age), Side::Right).unwrap();
             assert_eq!(stress, -(q(k, 1) + down), "μ = {k}: −(μ + g t)/c, or its mirror image");
         }
     }
@@ -176,7 +176,7 @@ fn without_gravity_the_stress_is_constant() {
     let history = snapshot("no_gravity", &problem);
     // −μ/c for 2L/c; the rod leaves undeformed, at the speed of its arrival, and never comes back.
     assert_eq!(contacts(&history), [(q(0, 1), q(1, 1))]);
-    assert_eq!(history.stress(&q(1, 2), Side::Right).unwrap(), q(-1, 6));
+    assert_eq!(history.strain(&q(1, 2), Side::Right).unwrap(), q(-1, 6));
     assert_eq!(history.field(&q(1, 3), &q(5, 1), Side::Right).unwrap().velocity, q(1, 3));
 }
 
@@ -234,7 +234,7 @@ fn fixed_top_above_the_ground_with_gravity() {
     let impact = &history.events()[0];
     assert_eq!((&impact.time, &impact.end_velocity), (&q(2, 3), &q(-1, 1)));
     // Contact begins with −μ/c for the speed of arrival.
-    assert_eq!(history.stress(&q(2, 3), Side::Right).unwrap(), -1);
+    assert_eq!(history.strain(&q(2, 3), Side::Right).unwrap(), -1);
 }
 
 #[test]
@@ -248,7 +248,7 @@ fn lower_half_moving() {
     assert_eq!(contacts(&history), [(q(0, 1), q(2, 1))]);
     let stress = [(1, 4, -1), (1, 1, 0), (7, 4, -1)];
     for (n, d, expected) in stress {
-        assert_eq!(history.stress(&q(n, d), Side::Right).unwrap(), expected);
+        assert_eq!(history.strain(&q(n, d), Side::Right).unwrap(), expected);
     }
     // −1/2 becomes +1/2; an impulse of one.
     assert_eq!(history.centre(&q(2, 1)).unwrap().1, q(1, 2));
@@ -261,7 +261,7 @@ fn linear_velocity() {
     let history = snapshot("linear_velocity", &problem);
     // What arrives at t is v_t(ct, 0) = −1 + 2t: stress −(1 − 2t) until t = 1/2.
     assert_eq!(contacts(&history), [(q(0, 1), q(1, 2))]);
-    assert_eq!(history.stress(&q(1, 8), Side::Right).unwrap(), q(-3, 4));
+    assert_eq!(history.strain(&q(1, 8), Side::Right).unwrap(), q(-3, 4));
     assert_eq!(history.contacts()[0].impulse, q(1, 4));
 }
 
@@ -273,7 +273,7 @@ fn compressed_at_rest() {
     let history = snapshot("compressed", &problem);
     // The free top unloads the rod, which stays until that is known below: L/c. Then it flies undeformed at c·1/4.
     assert_eq!(contacts(&history), [(q(0, 1), q(1, 1))]);
-    assert_eq!(history.stress(&q(1, 2), Side::Right).unwrap(), q(-1, 4));
+    assert_eq!(history.strain(&q(1, 2), Side::Right).unwrap(), q(-1, 4));
     let energy = history.energy(&q(3, 1)).unwrap();
     assert_eq!((energy.translational, energy.vibrational), (q(1, 32), q(0, 1)));
 }
@@ -289,7 +289,7 @@ fn dropped_from_above() {
     let later = Exact::solve(&uniform("1", "1", "1", "2", Run::Time(24.into())), &()).unwrap();
     for k in 0..96 {
         let time = q(k, 4) + q(1, 8);
-        let stress = later.stress(&time, Side::Right).unwrap();
-        assert_eq!(history.stress(&(time.clone() + 2), Side::Right).unwrap(), stress, "{time}");
+        let stress = later.strain(&time, Side::Right).unwrap();
+        assert_eq!(history.strain(&(time.clone() + 2), Side::Right).unwrap(), stress, "{time}");
     }
 }

@@ -1,8 +1,9 @@
 //! The undamped march of one precision, without plan and ladder, read in numbers without their bounds.
 
-use dalembert::lattice::{Limits, Undamped};
+use dalembert::lattice::{Limits, Undamped, unobserved};
 use dalembert::{
     Answer, Contact, Ending, Energy, Error, Event, Field, Motion, Problem, Ray, Scalar, Scales, Side, StressPiece,
+    Warning,
 };
 
 /// An undamped history, computed in numbers that carry their bounds and read without them.
@@ -19,7 +20,7 @@ pub(crate) fn undamped_within<S: Answer>(
     precision: &S::Precision,
     limits: Limits,
 ) -> Result<StrippedUndamped<S>, Error> {
-    Undamped::solve_within(problem, precision, limits, |_, _| ()).map(Stripped::new)
+    Undamped::solve_within(problem, precision, limits, unobserved).map(Stripped::new)
 }
 
 /// A history whose numbers carry their bounds, read without them.
@@ -73,8 +74,8 @@ impl<S: Answer, H: Motion<S::Carried>> Motion<S> for Stripped<S, H> {
         self.history.stress_pieces().into_iter().map(|piece| piece.map(S::strip)).collect()
     }
 
-    fn stress(&self, time: &S, side: Side) -> Result<S, Error> {
-        self.history.stress(&time.carry(), side).map(S::strip)
+    fn strain(&self, time: &S, side: Side) -> Result<S, Error> {
+        self.history.strain(&time.carry(), side).map(S::strip)
     }
 
     fn ground_end(&self, time: &S, side: Side) -> Result<(S, S), Error> {
@@ -125,7 +126,7 @@ impl<S: Answer, H: Motion<S::Carried>> Motion<S> for Stripped<S, H> {
         self.history.digits_lost()
     }
 
-    fn warnings(&self) -> &[String] {
+    fn warnings(&self) -> &[Warning] {
         self.history.warnings()
     }
 }

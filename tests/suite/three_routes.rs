@@ -29,7 +29,7 @@ fn compare<S: RoundedSpecial>(rod: &Parameters<S>, trips: &[f64], modes: u32, us
         let time = t1.double(*trips) * &t1;
         let name = format!("R = {:e}, M = {:e}, τ = {trips}", rod.damping.to_f64() * t1.to_f64(), rod.speed.to_f64());
         for side in [Side::Left, Side::Right] {
-            let (a, b) = (rays.stress(&time.carry(), side), modal.stress(&time, side));
+            let (a, b) = (rays.strain(&time.carry(), side), modal.strain(&time, side));
             agree(&format!("{name} stress"), &a, &b, strain, useful);
             for part in [0.0, 0.25, 0.625, 1.0] {
                 let x = t1.double(part) * &rod.length;
@@ -108,9 +108,9 @@ fn the_rate_of_convergence() {
         speed: lift(1.0),
     };
     let time = lift(1.3);
-    let exact = FirstContact::new(&rod.carry()).stress(&time.carry(), Side::Right).into_value();
+    let exact = FirstContact::new(&rod.carry()).strain(&time.carry(), Side::Right).into_value();
     let off = |modes: u32| {
-        let found = Modal::new(&rod, modes).stress(&time, Side::Right);
+        let found = Modal::new(&rod, modes).strain(&time, Side::Right);
         let wrong = (found.value().clone() - &exact).to_f64().abs();
         assert!(wrong <= found.bound(), "{modes}: {wrong:e} {:e}", found.bound());
         found.bound()
@@ -141,8 +141,8 @@ fn rays_modes_and_the_lattice() {
                     "μ = {speed}, t = {time}, {what}: {truth} {a:?} {b:?}"
                 );
             };
-            let stress = lattice.stress(&time, Side::Right).unwrap();
-            near("stress", stress, rays.stress(&time.carry(), Side::Right), modal.stress(&time, Side::Right));
+            let stress = lattice.strain(&time, Side::Right).unwrap();
+            near("stress", stress, rays.strain(&time.carry(), Side::Right), modal.strain(&time, Side::Right));
             let (h, rate) = lattice.centre(&time).unwrap();
             let ((a, da), (b, db)) = (rays.centre(&time.carry()), modal.centre(&time));
             near("h", h, a, b);
@@ -194,8 +194,8 @@ fn rays_modes_and_the_cells() {
                 let name = format!("r = {damping}, t = {time}, {what}: {truth} {a:?} {b:?}");
                 assert!(wrong.iter().all(|w| *w <= slack), "{name}");
             };
-            let (a, b) = (rays.stress(&time.carry(), Side::Right), modal.stress(&time, Side::Right));
-            near("stress", cells.stress(&time, Side::Right).unwrap(), &a, &b);
+            let (a, b) = (rays.strain(&time.carry(), Side::Right), modal.strain(&time, Side::Right));
+            near("stress", cells.strain(&time, Side::Right).unwrap(), &a, &b);
             let (h, rate) = cells.centre(&time).unwrap();
             let ((a, da), (b, db)) = (rays.centre(&time.carry()), modal.centre(&time));
             let halved = |x: Estimate<f64>| x * Estimate::exact(0.5);

@@ -90,7 +90,7 @@ proptest! {
             let (a, b) = (ours.energy(&time).unwrap(), truth.energy(&exact).unwrap());
             covered("E", &a.total, &b.total)?;
             covered("E_z", &a.vibrational, &b.vibrational)?;
-            covered("stress", &ours.stress(&time, Side::Left).unwrap(), &truth.stress(&exact, Side::Left).unwrap())?;
+            covered("stress", &ours.strain(&time, Side::Left).unwrap(), &truth.strain(&exact, Side::Left).unwrap())?;
         }
     }
 
@@ -108,7 +108,7 @@ proptest! {
             let alone = undamped::<f64>(&Problem { run, ..problem.clone() }, &()).unwrap();
             for side in [Side::Left, Side::Right] {
                 let place = format!("{side:?} of {time}");
-                prop_assert_eq!(alone.stress(&time, side), whole.stress(&time, side), "stress, {}", place);
+                prop_assert_eq!(alone.strain(&time, side), whole.strain(&time, side), "stress, {}", place);
                 prop_assert_eq!(alone.ground_end(&time, side), whole.ground_end(&time, side), "ground, {}", place);
                 prop_assert_eq!(alone.top_end(&time, side), whole.top_end(&time, side), "top, {}", place);
                 prop_assert_eq!(alone.centre(&time), whole.centre(&time), "centre, {}", place);
@@ -124,7 +124,7 @@ fn sampled<S: Answer>(problem: &Problem, precision: &S::Precision, time: &str, u
     let time = S::from_number(&number(time), precision);
     [Side::Left, Side::Right].map(|side| {
         let field = history.field(&history.scales().length, &time, side).unwrap();
-        [history.stress(&time, side).unwrap(), history.top_end(&time, side).unwrap().1, field.strain]
+        [history.strain(&time, side).unwrap(), history.top_end(&time, side).unwrap().1, field.strain]
     })
 }
 

@@ -106,7 +106,7 @@ proptest! {
             for side in [Side::Left, Side::Right] {
                 // Before the start and from the next impact on the paper does not speak.
                 if (time > 0 || side == Side::Right) && (time < history.end() || side == Side::Left) {
-                    prop_assert_eq!(history.stress(&time, side).unwrap(), paper.stress(&time, side), "t = {}", time);
+                    prop_assert_eq!(history.strain(&time, side).unwrap(), paper.strain(&time, side), "t = {}", time);
                 }
             }
         }
@@ -145,7 +145,7 @@ proptest! {
         for time in times(&history, 19) {
             for side in [Side::Left, Side::Right] {
                 let (v, rate) = history.ground_end(&time, side).unwrap();
-                let stress = history.stress(&time, side).unwrap();
+                let stress = history.strain(&time, side).unwrap();
                 prop_assert!(v >= 0, "v = {} at {}", v, time);
                 prop_assert!(stress <= 0, "v_x = {} at {}", stress, time);
                 prop_assert_eq!(Rational::from(&v * &stress), 0);
@@ -262,7 +262,10 @@ proptest! {
         let (mut mean, mut rate) = (Rational::new(), Rational::new());
         for pair in cuts.windows(2) {
             let width = Rational::from(&pair[1] - &pair[0]);
-            let [a, b, c] = [1, 2, 3].map(|k| history.field(&(pair[0].clone() + width.clone() * k / 4), &time, Side::Right).unwrap());
+            let [a, b, c] = [1, 2, 3].map(|k| {
+                let point = pair[0].clone() + width.clone() * k / 4;
+                history.field(&point, &time, Side::Right).unwrap()
+            });
             // Milne's open rule: exact for cubics, and it never asks on a ray.
             mean += (a.displacement * 2 - b.displacement + c.displacement * 2) * width.clone() / 3;
             rate += (a.velocity * 2 - b.velocity + c.velocity * 2) * width / 3;
@@ -284,7 +287,8 @@ proptest! {
         prop_assert_eq!(kinds(rounded.events()), exact.events().iter().map(|e| e.kind).collect::<Vec<_>>());
         for (ours, truth) in rounded.events().iter().zip(exact.events()) {
             let error = (Rational::from_f64(ours.time).unwrap() - &truth.time).abs().to_f64();
-            prop_assert!(error <= ours.time_error.max(4.0 * f64::EPSILON * ours.time), "{} > {}", error, ours.time_error);
+            let bound = ours.time_error.max(4.0 * f64::EPSILON * ours.time);
+            prop_assert!(error <= bound, "{} > {}", error, ours.time_error);
         }
         let bound = 32.0 * rounded.error_estimate();
         let scales = rounded.scales();
@@ -328,7 +332,7 @@ fn complementarity_at_ten_thousand_times() {
             seed = seed.wrapping_mul(6364136223846793005).wrapping_add(1442695040888963407);
             let time = Rational::from((seed >> 24, 1u64 << 40)) * 400;
             let (v, _) = history.ground_end(&time, Side::Right).unwrap();
-            let stress = history.stress(&time, Side::Right).unwrap();
+            let stress = history.strain(&time, Side::Right).unwrap();
             assert!(v >= 0 && stress <= 0 && Rational::from(&v * &stress) == 0, "μ = {k}, t = {time}");
             checked += 1;
         }

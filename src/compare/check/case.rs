@@ -3,16 +3,16 @@
 use std::time::Instant;
 
 use super::verdict::{Outcome, Promise, Row, Verdict};
-use super::{hard, section_2, section_3, section_4};
 use crate::compare::long;
 use crate::compare::quantity::{Limit, Quantity, Question};
 use crate::compare::route::{LongFormula, Numbers, Route};
 use crate::compare::truth::Truth;
 use crate::compare::value::NoAnswer;
 use crate::motion::Side;
-use crate::number::{Number, NumberError};
+use crate::number::Number;
 use crate::paper::Printed;
 use crate::problem::{Parameters, Problem, Run};
+use crate::scene::Scene;
 
 pub(super) type Text = &'static str;
 
@@ -31,11 +31,13 @@ pub(crate) struct Rod {
     pub(super) speed: Text,
     /// Followed to this time; empty: through the first contact and the flight after it.
     pub(super) until: Text,
+    /// A whole scene in place of all that; empty without one.
+    pub(super) scene: Text,
 }
 
 /// `c = L = g = 1`.
 pub(super) const fn unit(damping: Text, speed: Text) -> Rod {
-    Rod { length: "1", wave_speed: "1", damping, gravity: "1", speed, until: "" }
+    Rod { length: "1", wave_speed: "1", damping, gravity: "1", speed, until: "", scene: "" }
 }
 
 impl Rod {
@@ -49,7 +51,15 @@ impl Rod {
         Rod { until, ..self }
     }
 
-    fn problem(&self) -> Result<Problem, NumberError> {
+    /// The rod of a scene.
+    pub(super) const fn of(scene: Text) -> Rod {
+        Rod { scene, ..unit("0", "1") }
+    }
+
+    fn problem(&self) -> Result<Problem, NoAnswer> {
+        if !self.scene.is_empty() {
+            return Scene::parse(self.scene).map(|scene| scene.problem).map_err(NoAnswer::gave_up);
+        }
         let number = |text: &str| text.parse::<Number>();
         let (gravity, speed) = (number(self.gravity)?, number(self.speed)?);
         let mut problem = Problem::uniform(number(self.length)?, number(self.wave_speed)?, gravity, speed);
@@ -76,15 +86,12 @@ pub(crate) struct Entry {
     /// x, and t; `t_b` where it is empty.
     place: (Text, Text),
     limit: Limit,
-    /// See [`Truth::spelt`], or [`NO_BOUNCE`].
-    truth: Text,
+    /// See [`Truth::spelt`], or [`super::verdict::NO_BOUNCE`].
+    pub(super) truth: Text,
     /// Routes of this question alone, shown before the others.
     formulas: [Option<Promised>; MOST_FORMULAS],
     routes: &'static [Promised],
 }
-
-/// The one truth that is no number.
-pub(super) const NO_BOUNCE: &str = "no bounce";
 
 /// A question at `t_b`, or that has no time.
 pub(super) const fn ask(what: Text, rod: Rod, quantity: Quantity, truth: Text, routes: &'static [Promised]) -> Entry {
@@ -142,7 +149,7 @@ impl Entry {
         self
     }
 
-    fn question(&self) -> Result<Question, NumberError> {
+    fn question(&self) -> Result<Question, NoAnswer> {
         let number = |text: &str| (!text.is_empty()).then(|| text.parse::<Number>()).transpose();
         let (problem, quantity, limit) = (self.rod.problem()?, self.quantity, self.limit);
         let (point, time) = (number(self.place.0)?, number(self.place.1)?);
@@ -152,9 +159,9 @@ impl Entry {
         Ok(Question { problem, quantity, point, time, limit, from })
     }
 
-    fn check(&self) -> CheckedQuestion {
+    pub(super) fn check(&self) -> CheckedQuestion {
         let truth = Truth::spelt(self.truth);
-        let question = self.question().map_err(NoAnswer::from);
+        let question = self.question();
         let routes = self.formulas.iter().flatten().chain(self.routes);
         let rows = routes.filter(|(route, _)| long::AVAILABLE || !route.is_long()).map(|(route, promise)| {
             let start = Instant::now();
@@ -170,7 +177,6 @@ fn name(route: Route) -> String {
     match route {
         Route::Formula(what, _) => format!("{what}, plain doubles"),
         Route::LongFormula(what, digits, _) => format!("{what}, {digits} digits"),
-        Route::ClosedForm(Numbers::Double(Some(accuracy))) => format!("closed form within {accuracy:e}"),
         Route::ClosedForm(Numbers::Digits(digits)) => format!("closed form, {digits} digits"),
         Route::ClosedForm(_) => "closed form, doubles".into(),
         Route::PrintedForms => "printed form, fractions".into(),
@@ -196,6 +202,7 @@ pub(super) const CELLS: Route = Route::Cells(13);
 pub(super) const PRINTED: Promised = (Route::PrintedForms, Promise::Exact);
 pub(super) const DIGITS: Promised = (Route::Planned(Numbers::Digits(36)), Promise::Digits(36));
 pub(super) const CERTIFIED: Route = Route::Planned(Numbers::Certified(36));
+pub(super) const PLANNED: Route = Route::Planned(Numbers::Double(None));
 pub(super) const PROVED: Promised = (CERTIFIED, Promise::Enclosed(36));
 
 /// Values during a contact.
@@ -204,7 +211,7 @@ pub(super) const CONTACT: &[Promised] =
 /// That there is no bounce.
 pub(super) const NEVER: &[Promised] = &[
     (CLOSED, Promise::Digits(0)),
-    (closed_within(1e-12), Promise::Digits(0)),
+    (accuracy(1e-12), Promise::Digits(0)),
     (closed(50), Promise::Digits(0)),
     (CERTIFIED, Promise::Digits(0)),
 ];
@@ -212,11 +219,6 @@ pub(super) const NEVER: &[Promised] = &[
 /// The closed form in so many digits.
 pub(super) const fn closed(digits: u32) -> Route {
     Route::ClosedForm(Numbers::Digits(digits))
-}
-
-/// The closed form in doubles, or in longer numbers where they do not reach this accuracy.
-pub(super) const fn closed_within(accuracy: f64) -> Route {
-    Route::ClosedForm(Numbers::Double(Some(accuracy)))
 }
 
 /// What `--accuracy` does.
@@ -289,74 +291,4 @@ pub(crate) struct Checked {
     pub(crate) case: &'static Case,
     pub(crate) asked: Vec<CheckedQuestion>,
     pub(crate) verdict: Verdict,
-}
-
-/// All groups, in the order in which they are shown.
-pub(crate) const CATALOGUE: [Group; 11] = [
-    hard::LATE,
-    hard::WEAK,
-    hard::STRONG,
-    hard::THRESHOLD,
-    hard::LANDINGS,
-    hard::SMALL,
-    hard::RAYS,
-    section_2::SECTION_2,
-    section_3::SECTION_3_1,
-    section_3::SECTION_3_2,
-    section_4::SECTION_4,
-];
-
-/// The cases of these names or groups, by group; all of them for none.
-///
-/// **Errors**: the first name that is neither.
-pub(crate) fn select(names: &[String]) -> Result<Vec<(Group, Vec<&'static Case>)>, String> {
-    let named = |name: &String, group: &Group, case: &Case| *name == case.name || *name == group.name;
-    let cases = |group: Group, wanted: &dyn Fn(&Case) -> bool| {
-        (group, group.cases.iter().filter(|case| wanted(case)).collect::<Vec<_>>())
-    };
-    let known = |name: &&String| CATALOGUE.iter().any(|group| group.cases.iter().any(|case| named(name, group, case)));
-    if let Some(unknown) = names.iter().find(|name| !known(name)) {
-        return Err(unknown.clone());
-    }
-    let wanted =
-        |group: Group| cases(group, &|case| names.is_empty() || names.iter().any(|name| named(name, &group, case)));
-    Ok(CATALOGUE.into_iter().map(wanted).filter(|(_, cases)| !cases.is_empty()).collect())
-}
-
-#[cfg(test)]
-mod tests {
-    #![allow(clippy::unwrap_used)]
-    use super::*;
-
-    fn selected(name: &str) -> Vec<&'static Case> {
-        select(&[name.into()]).unwrap().into_iter().flat_map(|(_, cases)| cases).collect()
-    }
-
-    #[test]
-    fn cases_are_selected_by_name_or_group() {
-        assert_eq!(selected("figure-1").len(), 1);
-        assert!(selected("late").len() > 3);
-        assert_eq!(select(&["never".into()]).unwrap_err(), "never");
-    }
-
-    #[test]
-    fn no_name_stands_twice() {
-        let mut names: Vec<&str> = CATALOGUE.iter().flat_map(|group| group.cases).map(|case| case.name).collect();
-        let count = names.len();
-        names.sort_unstable();
-        names.dedup();
-        assert_eq!(names.len(), count);
-    }
-
-    /// The catalogue can fail: a truth that is wrong in its 22nd digit is noticed by every route that promises more.
-    #[test]
-    fn a_wrong_truth_is_noticed() {
-        let asked = selected("late-3.13")[0].entries[0];
-        assert_eq!(Truth::spelt(asked.truth).unwrap().most_digits(), 39.0);
-        let wrong = Entry { truth: "11.66136670144388438415940577414171411946", ..asked }.check();
-        let failed: Vec<&str> = wrong.rows.iter().filter(|r| r.outcome == Outcome::Failed).map(|r| &*r.route).collect();
-        let expected = ["--digits 36", "--certified --digits 36"];
-        assert_eq!(failed, if long::AVAILABLE { &expected[..] } else { &[] });
-        assert!(asked.check().rows.iter().all(|row| row.outcome != Outcome::Failed));
-    }
 }

@@ -1,6 +1,7 @@
 //! Section 2 of the paper: the contact and how it ends.
 
 use super::case::*;
+use super::verdict::NO_BOUNCE;
 use super::verdict::Promise::{Bound, Digits, Exact};
 use super::verdict::Verdict::{Misprint, Reproduced, Settled};
 use crate::compare::quantity::Quantity::{BounceTime, Displacement, Strain, Stress, Velocity};
@@ -66,9 +67,9 @@ pub(super) const SECTION_2: Group = group("section-2", "Section 2: the contact a
     ]),
     claim("stress", Reproduced, "(2.28)", "the stress at the ground: c = L = g = μ = 1, r = 0.1", &[
         ask("v_x(0, 1.5)", SLOW, Stress, "-2.260992914622576187804116950191671018820", CONTACT).at("1.5")
-            .by("(2.28) by quadrature", 12, || printed(0.1, 1.0).stress(1.5)),
+            .by("(2.28) by quadrature", 12, || printed(0.1, 1.0).strain(1.5)),
         ask("v_x(0, 2.5)", SLOW, Stress, "-0.6467207086033466335609605663018219594747", CONTACT).at("2.5")
-            .by("(2.28) by quadrature", 12, || printed(0.1, 1.0).stress(2.5)),
+            .by("(2.28) by quadrature", 12, || printed(0.1, 1.0).strain(2.5)),
     ]),
     claim("condition-2.31", Reproduced, "(2.31), (2.33)", "r t₁ < I₀⁻¹(2) ≃ 1.8 is necessary for a bounce at t₁", &[
         constant("I₀⁻¹(2)", "1.807896751069102721755315274677652009584")

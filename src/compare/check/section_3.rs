@@ -79,7 +79,7 @@ pub(super) const SECTION_3_1: Group = group("section-3.1", "Section 3.1: momentu
         "\"Ψ_r = 0 on (t₁, t_b)\": the rod is pressed to the ground there; (t_b, t₂) is meant", &[
         ask("v_x(0, 2.5)", LATE, Stress, "-0.6467207086033466335609605663018219594747", CONTACT).at("2.5")
             .breaks("0 as printed", 1, || 0.0)
-            .by("(2.28) by quadrature", 11, || printed(0.1, 1.0).stress(2.5)),
+            .by("(2.28) by quadrature", 11, || printed(0.1, 1.0).strain(2.5)),
     ]),
     claim("undamped-fast", Reproduced, "(3.47)–(3.51)", "r = 0, c = L = g = 1, μ = 4 ≥ g t₁", &[
         ask("P(1/3)", FAST, Momentum, "-53/18", EXACT).at("1/3"),

@@ -3,6 +3,9 @@
 use crate::compare::truth::{RightDigits, Truth};
 use crate::compare::value::{Answer, NoAnswer, Value};
 
+/// The one truth that is no number.
+pub(super) const NO_BOUNCE: &str = "no bounce";
+
 /// What a route promises of its answer.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum Promise {
@@ -124,7 +127,7 @@ impl Row {
     pub(crate) fn found(&self) -> String {
         match &self.found {
             Ok(value) => value.to_string(),
-            Err(NoAnswer::NoSuchQuantity { .. }) => super::case::NO_BOUNCE.into(),
+            Err(NoAnswer::NoSuchQuantity { .. }) => NO_BOUNCE.into(),
             Err(_) => "undecided".into(),
         }
     }

@@ -2,7 +2,7 @@
 
 use crate::compare::long;
 use crate::compare::quantity::{Quantity, Question};
-use crate::compare::route::{Numbers, Route, within_first_contact};
+use crate::compare::route::{Numbers, Route, only_proved, within_first_contact};
 use crate::solve::{Engine, Plan};
 
 /// Routes that share a name in a table and a colour in a picture, in the order in which they are shown.
@@ -13,7 +13,7 @@ pub(crate) enum Family {
     /// The lattice: undamped, from event to event.
     Lattice,
     /// What the plan of a damped scene does: the closed form of the first contact, then cells.
-    Joined,
+    ContactThenCells,
     /// Characteristic cells from the start.
     Cells,
     /// The modal sum.
@@ -32,7 +32,7 @@ impl Family {
         match self {
             Family::ClosedForm => "closed form",
             Family::Lattice => "lattice",
-            Family::Joined => "closed form, then cells",
+            Family::ContactThenCells => "closed form, then cells",
             Family::Cells => "cells",
             Family::Modes => "modal sum",
             Family::Printed => "printed integrals",
@@ -75,8 +75,6 @@ pub(super) type Ladder = Vec<Candidate>;
 /// Digits that a double holds.
 const DOUBLE: u32 = 17;
 const LONG: [u32; 4] = [50, 100, 300, 1000];
-/// The accuracy that the closed form in doubles is asked for; longer numbers come in where doubles do not reach it.
-const ACCURACY: f64 = 1e-13;
 
 /// Every route that can answer, and why the others cannot.
 pub(super) fn ladders(question: &Question, plan: &Plan) -> (Vec<Ladder>, Vec<(Family, String)>) {
@@ -90,10 +88,10 @@ pub(super) fn ladders(question: &Question, plan: &Plan) -> (Vec<Ladder>, Vec<(Fa
     let family = match plan.engine {
         Engine::Lattice => Family::Lattice,
         Engine::ClosedForm => Family::ClosedForm,
-        Engine::ClosedFormThenCells | Engine::Cells => Family::Joined,
+        Engine::ClosedFormThenCells | Engine::Cells => Family::ContactThenCells,
     };
     if family == Family::Lattice {
-        take(Family::Joined, Err("the scene has no damping: the plan takes the lattice".into()));
+        take(Family::ContactThenCells, Err("the scene has no damping: the plan takes the lattice".into()));
     } else {
         take(Family::Lattice, Err("the scene has damping, which couples the characteristics".into()));
     }
@@ -110,7 +108,7 @@ pub(super) fn ladders(question: &Question, plan: &Plan) -> (Vec<Ladder>, Vec<(Fa
     take(Family::Cells, Ok(doubles(Family::Cells, 1e-4, 1.5, cells.into())));
     let whole = match question.quantity {
         Quantity::Vibrational => Err("gives the whole energy; E_z would be the difference of two".into()),
-        _ => first,
+        _ => first.clone(),
     };
     let modes = (0..8).map(|k| 4 << (2 * k)).map(|count| (format!("N = {count}"), Route::Modes(count)));
     take(Family::Modes, whole.clone().map(|()| doubles(Family::Modes, 1e-4, 4.0, modes.collect())));
@@ -124,7 +122,7 @@ pub(super) fn ladders(question: &Question, plan: &Plan) -> (Vec<Ladder>, Vec<(Fa
     let differences = (0..7).map(|k| 8 << (2 * k)).map(|count| (format!("{count} cells"), Route::Differences(count)));
     take(Family::Differences, Ok(doubles(Family::Differences, 1e-4, 16.0, differences.collect())));
     if long::AVAILABLE {
-        take(Family::Enclosures, enclosures(question, plan));
+        take(Family::Enclosures, enclosures(question, plan, first));
     }
     (ladders, left_out)
 }
@@ -141,7 +139,7 @@ fn closed_form() -> Ladder {
     let long = long_settings([Seconds(0.01), Times(3.0), Times(10.0), Times(20.0)]);
     let long = long
         .map(|(digits, expected)| candidate(Numbers::Digits(digits), format!("{digits} digits"), digits + 6, expected));
-    let doubles = candidate(Numbers::Double(Some(ACCURACY)), "double".into(), DOUBLE, Seconds(1e-6));
+    let doubles = candidate(Numbers::Double(None), "double".into(), DOUBLE, Seconds(1e-6));
     std::iter::once(doubles).chain(long).collect()
 }
 
@@ -170,9 +168,9 @@ fn by_plan(family: Family, question: &Question, system: Numbers) -> Ladder {
 }
 
 /// Enclosures, where they reach: an answer that is wrong by more than it says is impossible.
-fn enclosures(question: &Question, plan: &Plan) -> Result<Ladder, String> {
+fn enclosures(question: &Question, plan: &Plan, first: Result<(), String>) -> Result<Ladder, String> {
     if question.problem.rod.damping.is_some() {
-        within_first_contact(question).map_err(|why| format!("{why}: only that is proved under damping"))?;
+        first.map_err(|why| only_proved(&why))?;
     }
     let chosen = match plan.numbers {
         Numbers::Certified(digits) => Some(digits),

@@ -1,0 +1,350 @@
+"""The exact reference for the bouncing elastic rod, ``v_tt + 2r v_t - c² v_xx = -g`` on ``0 < x < L`` with
+unilateral contact at ``x = 0``.
+
+>>> import dalembert
+>>> m = dalembert.solve("getfem-dynamic-contact", to=12)
+>>> m.strain([0.5, 1.5])
+array([ 0. , -0.5])
+
+Numbers are given as int, float, ``fractions.Fraction``, ``decimal.Decimal`` or str. A float stands for the shortest
+decimal that spells it: 0.1 is 1/10. All units are those of the input.
+"""
+
+from __future__ import annotations
+
+import os
+from collections import namedtuple
+from decimal import Decimal
+from fractions import Fraction
+from functools import cached_property
+from importlib.metadata import version as _version
+from typing import Any, Literal, Sequence, Union
+
+import numpy as np
+
+from . import _core
+
+__all__ = ["Energy", "Field", "History", "Motion", "Problem", "reference", "scenes", "solve"]
+__version__ = _version("dalembert")
+
+Number = Union[int, float, Fraction, Decimal, str]
+Numbers = Union[Number, Sequence[Any], np.ndarray]
+Points = Union[Sequence["tuple[Number, Number]"], np.ndarray]
+Side = Literal["left", "right"]
+
+
+Motion = namedtuple("Motion", "displacement velocity")
+Motion.__doc__ = "A displacement and its rate, ``v`` and ``v_t``."
+Energy = namedtuple("Energy", "total translational vibrational")
+Energy.__doc__ = "``E = E_h + E_z``: in all, of the centre of mass, of the vibration."
+Field = namedtuple("Field", "displacement velocity strain")
+Field.__doc__ = "``v``, ``v_t`` and ``v_x``."
+
+
+def scenes() -> dict[str, str]:
+    """Names and summaries of the built-in scenes."""
+    return dict(_core.scenes())
+
+
+class Problem:
+    """A rod, the ground and the start, in exact numbers, checked.
+
+    ``length`` and ``wave_speed`` (or ``modulus``, ``density`` and ``area``) are the rod; ``damping`` is the ``r`` of
+    the equation, ``top`` is "free" or "fixed"; the start is an ``impact_speed`` (above a ``gap`` or none), a ``drop_height``, or
+    ``displacement`` and ``velocity`` as points ``(x, value)``. It is followed up to ``time``, or through a number of
+    ``impacts``; without either, through the first contact and the flight after it.
+
+    >>> rod = Problem(length=1, wave_speed=1, gravity=1, impact_speed=3)
+    >>> rod.round_trip, rod.speed_ratio
+    (2.0, 1.5)
+    >>> rod.solve(exact=True).strain("1/3")
+    Fraction(-10, 3)
+
+    A value that is missing or wrong is a ValueError, one of the wrong type a TypeError.
+    """
+
+    def __init__(
+        self,
+        *,
+        length: Number,
+        wave_speed: Number | None = None,
+        modulus: Number | None = None,
+        density: Number | None = None,
+        area: Number | None = None,
+        damping: Number | None = None,
+        gravity: Number | None = None,
+        impact_speed: Number | None = None,
+        gap: Number | None = None,
+        drop_height: Number | None = None,
+        top: Literal["free", "fixed"] | None = None,
+        displacement: Points | None = None,
+        velocity: Points | None = None,
+        time: Number | None = None,
+        impacts: int | None = None,
+    ) -> None:
+        given = {name: value for name, value in locals().items() if name != "self" and value is not None}
+        self._hold(_core.Problem(given), (given,))
+
+    def _hold(self, core: _core.Problem, made: tuple[Any, ...]) -> Problem:
+        self._core, self._made = core, made
+        #: ``c``; ``t₁ = 2L/c``; ``R = r t₁``; ``M = μ/(g t₁)``, infinite without gravity and None without ``μ``.
+        self.wave_speed, self.round_trip, self.damping_ratio, self.speed_ratio = core.parameters()
+        return self
+
+    @classmethod
+    def from_scene(cls, scene: str | os.PathLike[str]) -> Problem:
+        """The problem of a built-in scene, of a scene file, or of a scene as TOML text."""
+        return cls.__new__(cls)._hold(_core.Problem.parse(text := _text(scene)), (text,))
+
+    def replace(self, **values: Any) -> Problem:
+        """The same problem with other values: a ``time`` takes the place of ``impacts``, a profile that of an impact.
+
+        >>> Problem(length=1, wave_speed=1, impact_speed=3).replace(damping="0.1").damping_ratio
+        0.2
+        """
+        return type(self).__new__(type(self))._hold(self._core.replace(values), (*self._made, values))
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        return _remake, self._made
+
+    def solve(
+        self,
+        *,
+        digits: int | None = None,
+        exact: bool = False,
+        certified: bool = False,
+        accuracy: float | None = None,
+        first_contact: bool = False,
+    ) -> History:
+        """The motion, as :func:`solve` gives it; ``first_contact`` ends it at the bounce, which takes less time."""
+        return History(self._core.solve(digits, exact, certified, accuracy, first_contact), self)
+
+
+def _remake(first: dict[str, Any] | str, *replaced: dict[str, Any]) -> Problem:
+    problem = Problem.from_scene(first) if isinstance(first, str) else Problem(**first)
+    for values in replaced:
+        problem = problem.replace(**values)
+    return problem
+
+
+def _text(scene: str | os.PathLike[str]) -> str:
+    if not isinstance(scene, os.PathLike):
+        if not isinstance(scene, str):
+            kind = type(scene).__name__
+            raise TypeError(f"found a scene of type {kind}, expected a name, a path, TOML text or a Problem")
+        if "\n" in scene or "=" in scene:
+            return scene
+        builtin = None if os.path.isfile(scene) else _core.scene(scene)
+        if builtin is not None:
+            return builtin
+        if not os.path.exists(scene):
+            expected = "a scene file, or a name that `dalembert.scenes()` lists"
+            raise ValueError(f"found no file and no built-in scene called `{scene}`, expected {expected}")
+    with open(scene, encoding="utf-8") as file:
+        return file.read()
+
+
+def solve(
+    scene: str | os.PathLike[str] | Problem,
+    *,
+    to: Number | None = None,
+    impacts: int | None = None,
+    digits: int | None = None,
+    exact: bool = False,
+    certified: bool = False,
+    accuracy: float | None = None,
+) -> History:
+    """The motion of a built-in scene, a scene file, a scene as TOML text, or a :class:`Problem`.
+
+    It is followed up to the time ``to`` or through so many ``impacts``, in place of what the scene says.
+
+    Without an option all values are doubles with a bound of 1e-9 of the natural scales, or ``accuracy``; ``digits=50``
+    gives ``Decimal`` of 50 digits, rounded once; ``exact=True`` gives ``Fraction``; ``certified=True`` gives pairs
+    ``(lo, hi)`` of ``Decimal`` that are proved to enclose the value. ``exact=True, digits=50`` goes on in digits where
+    fractions end.
+
+    No lock of the interpreter is held meanwhile, and Ctrl-C interrupts it.
+
+    >>> solve("doyen-ern-piperno", exact=True).contacts["to"][0]
+    Fraction(2, 3)
+    """
+    problem = scene if isinstance(scene, Problem) else Problem.from_scene(scene)
+    run = {name: value for name, value in (("time", to), ("impacts", impacts)) if value is not None}
+    problem = problem.replace(**run) if run else problem
+    return problem.solve(digits=digits, exact=exact, certified=certified, accuracy=accuracy)
+
+
+def reference(
+    scene: str | os.PathLike[str] | Problem,
+    times: Numbers,
+    columns: Sequence[str] = ("t", "side", "u_end", "v_end", "strain", "force", "h", "h_rate", "E_total"),
+    side: Side | None = None,
+    **numbers: Any,
+) -> Any:
+    """Columns at ``times`` by the names of :meth:`History.columns`, as a DataFrame where pandas is there, and as a
+    dict of arrays elsewhere; ``numbers`` are the options of :func:`solve`.
+
+    >>> list(reference("paper-strong", [0.5, 2], ["t", "strain"])["strain"])
+    [-3.5, -5.0, 0.0]
+    """
+    last = max(map(Fraction, np.asarray(times, dtype=object).ravel().tolist()))
+    history = solve(scene, to=last if last > 0 else None, **numbers)
+    table = history.columns(columns, times, side)
+    try:
+        from pandas import DataFrame
+    except ImportError:
+        return table
+    return DataFrame(table)
+
+
+def _fraction(text: str) -> Fraction:
+    # By way of Decimal: int() refuses texts of more than 4300 digits.
+    numerator, _, denominator = text.partition("/")
+    return Fraction(int(Decimal(numerator)), int(Decimal(denominator or 1)))
+
+
+_READ = {
+    "double": float,
+    "exact": _fraction,
+    "digits": Decimal,
+    "certified": lambda ends: (Decimal(ends[0]), Decimal(ends[1])),
+}
+
+
+class History:
+    """What happened, and the value of every quantity at any time from 0 to :attr:`end`.
+
+    Arrays are in C order. In numbers other than doubles they hold objects: ``Fraction``, ``Decimal``, or pairs of
+    ``Decimal``; where there is no number they hold None, and nan in doubles. At a jump ``side`` chooses the limit from
+    earlier ("left") or later ("right") times.
+    """
+
+    def __init__(self, core: _core.History, problem: Problem) -> None:
+        self._core, self.problem = core, problem
+        #: "double", "exact", "digits" or "certified".
+        self.numbers: str = core.kind()
+        self._read = _READ[self.numbers]
+        #: The last time that is known, why it is the last, and how the motion was solved.
+        self.end = self._read(core.end())
+        self.ending, self.engine, self._asked = core.plan()
+        #: What a user should know of the answer.
+        self.warnings: list[str] = core.warnings()
+        #: The natural scales.
+        self.scales = dict(zip(("time", "velocity", "length", "wave_speed", "gravity"), core.scales()))
+
+    def __repr__(self) -> str:
+        return f"<dalembert.History to t = {self.end}, {self._asked}>"
+
+    @property
+    def error_estimate(self) -> float:
+        """A bound of the error of events and ordinary values, relative to the natural scales; zero where exact."""
+        return self._core.error_estimate()
+
+    def _array(self, raw: Any) -> np.ndarray:
+        if isinstance(raw, np.ndarray):
+            return raw
+        array = np.empty(len(raw), dtype=object)
+        for place, value in enumerate(raw):
+            array[place] = None if value is None else self._read(value)
+        return array
+
+    def _table(self, part: str, names: str, **others: np.ndarray) -> np.ndarray:
+        columns = dict(zip(names.split(), map(self._array, self._core.table(part)))) | others
+        kinds = [(name, column.dtype, column.shape[1:]) for name, column in columns.items()]
+        table = np.empty(len(next(iter(columns.values()))), dtype=kinds)
+        for name, column in columns.items():
+            table[name] = column
+        return table
+
+    @cached_property
+    def events(self) -> np.ndarray:
+        """Impacts and releases: ``time``, ``end_velocity``, ``centre``, ``centre_velocity``, the ``kind``, and how far
+        the time may be off, ``time_error``.
+
+        >>> solve("paper-strong").events["kind"].tolist()
+        ['impact', 'release']
+        """
+        kinds, errors = np.array(self._core.kinds(), dtype=object).reshape(-1, 2).T
+        names = "time end_velocity centre centre_velocity"
+        return self._table("events", names, kind=kinds.astype("U7"), time_error=errors.astype(float))
+
+    @cached_property
+    def contacts(self) -> np.ndarray:
+        """Times on the ground: ``from``, ``to``, ``impulse`` per linear density, and the ``peak_strain``, which is the
+        most compressive ``v_x(0,t)``."""
+        return self._table("contacts", "from to impulse peak_strain")
+
+    @cached_property
+    def restitution(self) -> np.ndarray:
+        """For each contact ``e_P``, ``e_E²`` and its factors ``E_h/E`` and ``E/E(0)`` at its end: ``momentum``,
+        ``energy_squared``, ``translational_part``, ``energy_kept``."""
+        return self._table("restitution", "momentum energy_squared translational_part energy_kept")
+
+    @cached_property
+    def flights(self) -> np.ndarray:
+        """Flights: ``from``, ``to``, and ``top_time`` and ``top``, when and how high the centre of mass turns."""
+        return self._table("flights", "from to top_time top")
+
+    @cached_property
+    def stress_history(self) -> np.ndarray:
+        """``v_x(0,·)`` piece by piece: ``from``, ``to``, and the values ``left`` and ``right`` at its ends. Undamped
+        pieces are linear between them; :meth:`strain` gives the values of all."""
+        return self._table("stress", "from to left right")
+
+    def _places(self, values: Numbers) -> Any:
+        array = np.asarray(values)
+        if self.numbers == "double" and array.dtype.kind in "fiu":
+            return np.ascontiguousarray(array.ravel(), dtype=np.float64)
+        return np.asarray(values, dtype=object).ravel().tolist()
+
+    def _at(self, names: list[str], t: Numbers, side: str = "right") -> list[Any]:
+        columns = [self._array(raw) for raw in self._core.columns(names, self._places(t), side)]
+        shape = np.shape(t)
+        return [column.reshape(shape) if shape else column[0] for column in columns]
+
+    def columns(self, names: Sequence[str], t: Numbers, side: Side | None = None) -> dict[str, np.ndarray]:
+        """Columns by the names of `dalembert reference`: ``u_end``, ``v_end``, ``strain``, ``stress``, ``force``,
+        ``u_top``, ``v_top``, ``h``, ``h_rate``, ``E_total``, ``E_h``, ``E_z``, ``kinetic``, ``strain_energy``,
+        ``gravity``, ``contact``, ``impulse``, ``t`` and ``side``. Without a side a time has two rows where two limits
+        differ, the earlier one first.
+
+        >>> solve("paper-strong").columns(["t", "side", "strain"], [1, 2])["strain"].tolist()
+        [-4.0, -5.0, 0.0]
+        """
+        raw = self._core.columns(list(names), self._places(t), side)
+        return {name: self._array(column) for name, column in zip(names, raw)}
+
+    def strain(self, t: Numbers, side: Side = "right") -> Any:
+        """``v_x(0,t)``: the strain at the ground, which is the stress there divided by the modulus; zero in flight."""
+        return self._at(["strain"], t, side)[0]
+
+    def ground_end(self, t: Numbers, side: Side = "right") -> Motion:
+        """``v(0,t)`` and ``v_t(0,t)``."""
+        return Motion(*self._at(["u_end", "v_end"], t, side))
+
+    def top_end(self, t: Numbers, side: Side = "right") -> Motion:
+        """``v(L,t)`` and ``v_t(L,t)``."""
+        return Motion(*self._at(["u_top", "v_top"], t, side))
+
+    def centre(self, t: Numbers) -> Motion:
+        """``h(t)`` and ``h′(t)``: the centre of mass, relative to its place in the undeformed rod on the ground."""
+        return Motion(*self._at(["h", "h_rate"], t))
+
+    def h(self, t: Numbers) -> Any:
+        """``h(t)``."""
+        return self._at(["h"], t)[0]
+
+    def energy(self, t: Numbers) -> Energy:
+        """``E``, ``E_h`` and ``E_z``; per linear density where the problem has no material."""
+        return Energy(*self._at(["E_total", "E_h", "E_z"], t))
+
+    def field(self, x: Numbers, t: Numbers, side: Side = "right") -> Field:
+        """``v``, ``v_t`` and ``v_x`` at every point of ``x`` for every time of ``t``: arrays of the shape of ``t``
+        followed by that of ``x``.
+
+        >>> solve("paper-strong").field([0.25, 0.5], [1, 1.5]).strain.shape
+        (2, 2)
+        """
+        columns = map(self._array, self._core.field(self._places(x), self._places(t), side))
+        shape = np.shape(t) + np.shape(x)
+        return Field(*(column.reshape(shape) if shape else column[0] for column in columns))

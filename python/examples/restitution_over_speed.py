@@ -1,0 +1,32 @@
+"""The coefficient of restitution over the impact speed, for several dampings: the curves of the paper's Figure 4, to
+the left of its dots too. Where the rod has no energy left to come back to h = 0, e_E is not defined: nan.
+
+    python restitution_over_speed.py [restitution.png]
+"""
+
+import sys
+
+import numpy as np
+
+import dalembert
+
+speeds = np.geomspace(0.05, 12.5, 120)
+curves = {}
+for damping in (0, 0.1, 0.2, 0.3):
+    rod = dalembert.Problem(length=1, wave_speed=1, gravity=1, damping=damping, impact_speed=1)
+    contacts = [rod.replace(impact_speed=speed).solve(first_contact=True).restitution[0] for speed in speeds]
+    curves[damping] = np.sqrt([contact["energy_squared"] for contact in contacts])
+
+print("    μ  " + "".join(f"   r = {damping}" for damping in curves))
+for k in range(0, len(speeds), 17):
+    print(f"{speeds[k]:7.3f}" + "".join(f"{curve[k]:10.6f}" for curve in curves.values()))
+
+if len(sys.argv) > 1:
+    import matplotlib.pyplot as plt
+
+    for damping, curve in curves.items():
+        plt.semilogx(speeds, curve, label=f"r = {damping}")
+    plt.xlabel("μ")
+    plt.ylabel("e_E")
+    plt.legend()
+    plt.savefig(sys.argv[1], dpi=150)

@@ -1,0 +1,73 @@
+//! The wheel: Python values in, Python values out. All physics is in the crate `dalembert`.
+
+mod history;
+mod problem;
+
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::mpsc::{RecvTimeoutError, channel};
+use std::time::Duration;
+
+use pyo3::exceptions::{PyRuntimeError, PyValueError};
+use pyo3::prelude::*;
+
+/// How often Python is asked whether Ctrl-C was pressed.
+const POLL: Duration = Duration::from_millis(50);
+
+/// A refusal, with the text of the command.
+fn refuse(error: impl std::fmt::Display) -> PyErr {
+    PyValueError::new_err(error.to_string())
+}
+
+/// Runs `work` on a thread of its own, without the interpreter's lock. Ctrl-C sets `stop` and returns at once; work
+/// that does not look at `stop` ends unseen.
+fn run<T: Send + 'static>(
+    py: Python<'_>,
+    stop: &Arc<AtomicBool>,
+    work: impl FnOnce() -> Result<T, dalembert::Error> + Send + 'static,
+) -> PyResult<T> {
+    stop.store(false, Ordering::Relaxed);
+    let (sender, receiver) = channel();
+    // Where nobody waits any more, the answer is dropped.
+    let worker = std::thread::Builder::new().spawn(move || drop(sender.send(work())));
+    worker.map_err(|error| PyRuntimeError::new_err(format!("cannot start a thread: {error}")))?;
+    let mut waiting = receiver;
+    loop {
+        let (receiver, answer) = py.detach(move || {
+            let answer = waiting.recv_timeout(POLL);
+            (waiting, answer)
+        });
+        waiting = receiver;
+        match answer {
+            Ok(answer) => return answer.map_err(refuse),
+            Err(RecvTimeoutError::Timeout) => {
+                py.check_signals().inspect_err(|_| stop.store(true, Ordering::Relaxed))?;
+            }
+            Err(RecvTimeoutError::Disconnected) => {
+                return Err(PyRuntimeError::new_err("the solver ended unexpectedly"));
+            }
+        }
+    }
+}
+
+#[pymodule]
+mod _core {
+    use pyo3::prelude::*;
+
+    #[pymodule_export]
+    use super::history::History;
+    #[pymodule_export]
+    use super::problem::Problem;
+
+    /// The text of a built-in scene; `None` where there is none of this name.
+    #[pyfunction]
+    fn scene(name: &str) -> Option<&'static str> {
+        dalembert::scene::builtin::get(name).map(|builtin| builtin.source)
+    }
+
+    /// Names and summaries of the built-in scenes.
+    #[pyfunction]
+    fn scenes() -> Vec<(&'static str, &'static str)> {
+        dalembert::scene::builtin::ALL.iter().map(|builtin| (builtin.name, builtin.summary)).collect()
+    }
+}

@@ -1,0 +1,144 @@
+"""Every number that the module gives is the one that the command prints, bit for bit, where both take the same numbers.
+The command settles together all that it prints, and the module each table by itself: where that takes longer numbers
+on one side, which the bound of the run shows, both are the same within the accuracy of 1e-9 that they promise."""
+
+import json
+import math
+import random
+from decimal import Decimal
+from fractions import Fraction
+
+import numpy as np
+import pytest
+
+import dalembert
+
+EVENTS = ("time", "end_velocity", "centre", "centre_velocity")
+CONTACTS = ("from", "to", "impulse", "peak_strain")
+COEFFICIENTS = ("momentum", "energy_squared", "translational_part", "energy_kept")
+
+
+def values(rng: random.Random, damped: bool) -> dict:
+    """A problem; numbers of every type."""
+    small = lambda: rng.choice([Fraction(rng.randint(1, 40), rng.randint(1, 12)), Decimal(rng.randint(1, 400)) / 100])
+    rod = {"length": small(), "wave_speed": small(), "impact_speed": small()}
+    if rng.random() < 0.8:
+        rod["gravity"] = rng.choice([small(), rng.randint(1, 10), round(rng.uniform(0.1, 10), 3)])
+    if damped:
+        rod["damping"] = round(rng.uniform(0.01, 1) * float(rod["wave_speed"]) / float(rod["length"]), 4)
+    return rod
+
+
+def toml(rod: dict, impacts: int) -> str:
+    text = lambda value: f'"{value}"' if isinstance(value, Fraction) else str(value)
+    line = lambda *names: "".join(f"{name.removeprefix('impact_')} = {text(rod[name])}\n" for name in names if name in rod)
+    scene = "[rod]\n" + line("length", "wave_speed", "damping") + "[impact]\n" + line("impact_speed")
+    if "gravity" in rod:
+        scene += f"[gravity]\nacceleration = {text(rod['gravity'])}\n"
+    return scene + f"[run]\nimpacts = {impacts}\n"
+
+
+def same(ours, theirs, bound=math.inf) -> None:
+    """The same double; where the bound leaves no digit the command prints 0."""
+    if theirs is None:
+        assert ours is None or math.isnan(ours)
+    elif ours != theirs:
+        assert theirs == 0 and abs(ours) <= bound, (ours, theirs)
+
+
+def near(ours, theirs, scale) -> None:
+    assert ours == pytest.approx(math.nan if theirs is None else theirs, rel=1e-9, abs=1e-9 * scale, nan_ok=True)
+
+
+def compare(rod: dict, impacts: int, command) -> int:
+    """Holds a problem against the command; returns how many numbers were compared bit for bit."""
+    scene = toml(rod, impacts)
+    run = command("solve", "-", "--format", "json", scene=scene)
+    problem = dalembert.Problem(**rod, impacts=impacts)
+    assert run.returncode == 0, run.stderr
+    expected, count = json.loads(run.stdout), 0
+    tables = {
+        "events": (expected["events"], EVENTS),
+        "contacts": (expected["contacts"], CONTACTS),
+        "stress_history": (expected["stress"]["pieces"], ("from", "to", "left", "right")),
+        "restitution": ([contact["restitution"] for contact in expected["contacts"]], COEFFICIENTS),
+    }
+    for table, (rows, names) in tables.items():
+        history = problem.solve()
+        ours = getattr(history, table)
+        assert len(ours) == len(rows)
+        exactly = history.error_estimate == expected["error_estimate"]
+        for name in names:
+            scale = np.nanmax(np.abs(ours[name]), initial=1)
+            for value, row in zip(ours[name], rows, strict=True):
+                if exactly:
+                    same(value, row[name], 1e-9 * scale)
+                    count += 1
+                else:
+                    near(value, row[name], scale)
+    kinds = [event["kind"] for event in expected["events"]]
+    assert problem.solve().events["kind"].tolist() == kinds
+    return count
+
+
+@pytest.mark.parametrize("damped", [False, True])
+def test_random_problems_in_doubles(command, damped):
+    rng = random.Random(1878 + damped)
+    counts = [compare(values(rng, damped), rng.randint(1, 4), command) for _ in range(500)]
+    assert sum(count > 0 for count in counts) > 400, counts
+
+
+def test_random_problems_in_fractions_and_digits(command):
+    rng = random.Random(1746)
+    for _ in range(60):
+        rod = values(rng, False)
+        run = command("solve", "-", "--exact", "--format", "json", scene=toml(rod, 3))
+        exact = dalembert.Problem(**rod, impacts=3).solve(exact=True)
+        for ours, theirs in zip(exact.events, json.loads(run.stdout)["events"], strict=True):
+            assert [ours[name] for name in EVENTS] == [Fraction(theirs[name]) for name in EVENTS]
+        run = command("solve", "-", "--digits", "50", "--format", "json", scene=toml(rod, 3))
+        long = dalembert.Problem(**rod, impacts=3).solve(digits=50)
+        for ours, theirs in zip(long.events, json.loads(run.stdout)["events"], strict=True):
+            assert [str(ours[name]) for name in EVENTS] == [str(Decimal(theirs[name])) for name in EVENTS]
+        run = command("solve", "-", "--certified", "--format", "json", scene=toml(rod, 3))
+        proved = dalembert.Problem(**rod, impacts=3).solve(certified=True)
+        for ours, theirs in zip(proved.events, json.loads(run.stdout)["events"], strict=True):
+            for name in EVENTS:
+                assert ours[name] == (Decimal(theirs[name]["lo"]), Decimal(theirs[name]["hi"]))
+
+
+@pytest.mark.parametrize("scene", ["doyen-ern-piperno", "getfem-dynamic-contact", "figure-4-r02"])
+@pytest.mark.parametrize("side", ["left", "right"])
+def test_values_at_times(command, scene, side):
+    times = np.linspace(0.05, 1.9, 38)
+    listed = ",".join(map(repr, times.tolist()))
+    # As the command does, a history for each quantity: an answer may leave longer numbers for those after it.
+    history = lambda: dalembert.solve(scene, to=times[-1])
+    x = [0, history().scales["length"] / 2]
+    ours = {
+        "stress": [history().strain(times, side)],
+        "end": history().ground_end(times, side),
+        "top": history().top_end(times, side),
+        "centre": history().centre(times),
+        "energy": history().energy(times),
+        "field": history().field(x, times, side),
+    }
+    for quantity, columns in ours.items():
+        points = ("--points", ",".join(map(str, x))) if quantity == "field" else ()
+        run = command("sample", scene, "--quantity", quantity, "--times", listed, "--side", side, *points, "--format", "json")
+        rows = json.loads(run.stdout)["rows"]
+        for column, name in zip(columns, rows[0]["values"]):  # with a material there are stresses too
+            for value, row in zip(column.ravel(), rows, strict=True):
+                same(value, row["values"][name], row["uncertainty"][name])
+
+
+def test_refusals_have_the_text_of_the_command(command):
+    scene = "[rod]\nlength = {}\nwave_speed = 1\n[impact]\nspeed = 3\n"
+    for length in (-1, '"1 m"', "nan", '"1/0"', "1e99", "[1]", "true"):
+        run = command("solve", "-", scene=scene.format(length))
+        with pytest.raises(ValueError) as refused:
+            dalembert.solve(scene.format(length))
+        said = " ".join(run.stderr.replace("│", " ").replace("×", " ").split())
+        assert str(refused.value).split(": ", 1)[1] in said or str(refused.value) in said
+    with pytest.raises(ValueError, match="found length = -1, expected a length above zero"):
+        dalembert.Problem(length=-1, wave_speed=1, impact_speed=3)

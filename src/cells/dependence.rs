@@ -1,0 +1,328 @@
+//! How a run depends, to first order, on what it was off by before, where flights are taken apart.
+//!
+//! Each error that an event adds is a source. What later events make of it keeps its sign, so that what one source does
+//! in two ways cancels where it does in truth.
+//!
+//! Without damping the rod hands on `q` unchanged in flight and with the other sign in contact, so the error of the
+//! vibration in its own clock is constant between rays, and a mass on each ray that is off in time: the stripe between
+//! where it is and where it should be. What damping changes of that is of the order `R`, and counted as a bound.
+
+/// A linear function of the sources, each between −1 and 1.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Form(Vec<f64>);
+
+impl Form {
+    /// The most that it can be.
+    pub(super) fn bound(&self) -> f64 {
+        self.0.iter().map(|x| x.abs()).sum()
+    }
+
+    /// Adds a multiple of another.
+    pub(super) fn add(&mut self, factor: f64, other: &Form) {
+        if self.0.len() < other.0.len() {
+            self.0.resize(other.0.len(), 0.0);
+        }
+        for (x, y) in self.0.iter_mut().zip(&other.0) {
+            *x += factor * y;
+        }
+    }
+
+    /// A multiple of it.
+    fn times(&self, factor: f64) -> Form {
+        Form(self.0.iter().map(|x| factor * x).collect())
+    }
+
+    /// Adds to the coefficient of a source.
+    fn depend(&mut self, source: usize, size: f64) {
+        if self.0.len() <= source {
+            self.0.resize(source + 1, 0.0);
+        }
+        self.0[source] += size;
+    }
+}
+
+/// A ray on its way: where on the circle of a round trip it passes the ground, its mass, and the error of `q` from it
+/// to the next, besides what makes the mean of all vanish.
+#[derive(Clone, Debug)]
+struct Stripe {
+    at: f64,
+    mass: Form,
+    level: Form,
+}
+
+/// What depends on the sources.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Dependence {
+    sources: usize,
+    /// By how much the clock that the vibration is compared in is late.
+    clock: Form,
+    /// By how much the last event is late in that clock.
+    late: Form,
+    /// `δh′` at equal times since.
+    rate: Form,
+    /// By their places.
+    stripes: Vec<Stripe>,
+}
+
+/// So many stripes and sources are followed one by one.
+const MOST_STRIPES: usize = 32;
+const MOST_SOURCES: usize = 200;
+/// Rays are one where they are so close.
+const SAME: f64 = 1e-13;
+
+/// What a mass brings to the ground, in displacements, a part `x` of a round trip after it passed: mean-free.
+fn sawtooth(x: f64) -> f64 {
+    0.5 - (x - x.floor())
+}
+
+/// Its integral.
+fn arch(x: f64) -> f64 {
+    let x = x - x.floor();
+    0.5 * x * (1.0 - x)
+}
+
+/// How far apart two places are.
+fn distance(a: f64, b: f64) -> f64 {
+    0.5 - sawtooth(a - b).abs()
+}
+
+impl Dependence {
+    /// At most so much is the last event late in the clock of the vibration.
+    pub(super) fn late(&self) -> f64 {
+        self.late.bound()
+    }
+
+    /// At most so much is this clock late.
+    pub(super) fn clock(&self) -> f64 {
+        self.clock.bound()
+    }
+
+    /// At most so much is the last event late.
+    pub(super) fn time(&self) -> f64 {
+        let mut time = self.clock.clone();
+        time.add(1.0, &self.late);
+        time.bound()
+    }
+
+    /// At most so much is `|δh′|`.
+    pub(super) fn rate(&self) -> f64 {
+        self.rate.bound()
+    }
+
+    /// At most so much are all masses, and what is between them, in all.
+    pub(super) fn mass(&self) -> f64 {
+        let masses: f64 = self.stripes.iter().map(|stripe| stripe.mass.bound()).sum();
+        masses + self.level()
+    }
+
+    /// At most so much is between the rays.
+    pub(super) fn level(&self) -> f64 {
+        self.stripes.iter().map(|stripe| stripe.level.bound()).fold(0.0, f64::max)
+    }
+
+    /// The places at which the interval after each ray begins and ends.
+    fn intervals(&self) -> impl Iterator<Item = (&Stripe, f64, f64)> {
+        let count = self.stripes.len();
+        self.stripes.iter().enumerate().map(move |(k, stripe)| {
+            let next = self.stripes[(k + 1) % count].at;
+            let len = if count == 1 { 1.0 } else { (next - stripe.at).rem_euclid(1.0) };
+            (stripe, stripe.at, len)
+        })
+    }
+
+    /// The error of `v(0,·)`, where the end moves with `by_time` late and `by_rate` per `δh′`, at the place `to` on the
+    /// circle in a flight that began at `from` and has let the vibration fade by `fade`; and what rays may add that pass
+    /// within `near`.
+    pub(super) fn height(
+        &self,
+        (by_time, by_rate): (f64, f64),
+        (from, to): (f64, f64),
+        fade: f64,
+        near: f64,
+    ) -> (Form, f64) {
+        let mut form = Form::default();
+        form.add(by_time, &self.late);
+        form.add(by_rate, &self.rate);
+        let mut unclear = 0.0;
+        for (stripe, at, len) in self.intervals() {
+            // The stripe of the release itself has been passed then.
+            let first = if distance(at, from) < SAME { 0.5 } else { sawtooth(from - at) };
+            form.add(fade * sawtooth(to - at) - first, &stripe.mass);
+            let between = |place: f64| arch(place - at) - arch(place - at - len);
+            form.add(fade * between(to) - between(from), &stripe.level);
+            if distance(at, to) <= near {
+                unclear += stripe.mass.bound();
+            }
+        }
+        (form, unclear)
+    }
+
+    /// A landing, late by `late` and by `more` from a new source; `h″ = fall`, and of `δh′` is kept `kept`, of the
+    /// vibration `fade`.
+    pub(super) fn land(&mut self, (late, more): (Form, f64), (kept, fall): (f64, f64), fade: f64) {
+        self.rate = self.rate.times(kept);
+        self.rate.add(-fall, &self.late);
+        self.late = late;
+        let source = self.source();
+        self.late.depend(source, more);
+        self.rate.add(fall, &self.late);
+        self.scale_stripes(fade);
+    }
+
+    fn scale_stripes(&mut self, factor: f64) {
+        for stripe in &mut self.stripes {
+            stripe.mass = stripe.mass.times(factor);
+            stripe.level = stripe.level.times(factor);
+        }
+    }
+
+    /// A contact of one round trip: `h′` keeps so much of itself and gains so much from the lateness of the landing, and
+    /// `by_mass` of each mass by the place where it passes. All of the vibration turns round.
+    pub(super) fn round_trip(&mut self, (keeps, by_late): (f64, f64), fade: f64, by_mass: impl Fn(f64) -> f64) {
+        let mut rate = self.rate.times(keeps);
+        rate.add(by_late, &self.late);
+        for (stripe, at, len) in self.intervals() {
+            rate.add(by_mass(at), &stripe.mass);
+            rate.add(by_mass(at + 0.5 * len) * len, &stripe.level);
+        }
+        self.rate = rate;
+        self.scale_stripes(-fade);
+    }
+
+    /// Any contact that lasts `len` from a landing at the place `at` with `velocity`, where `h″ = fall`: what passes the
+    /// ground turns round, and fades by `fade`.
+    pub(super) fn contact(&mut self, (at, len): (f64, f64), (velocity, fall): (f64, f64), fade: f64) {
+        // At equal times `δh′` is a constant of `q`, and the vibration is what has no mean.
+        let mut all = self.rate.clone();
+        all.add(-fall, &self.late);
+        all.add(-1.0, &self.mean());
+        self.cut(at);
+        self.cut(at + len);
+        let turns = |place: f64| {
+            let after = (place - at).rem_euclid(1.0);
+            let after = if distance(place, at) < SAME { 1.0 } else { after };
+            // What arrives at the release has not turned.
+            let passed = (len - after - SAME).ceil().max(0.0);
+            if passed % 2.0 == 1.0 { -fade } else { fade }
+        };
+        let middles: Vec<f64> = self.intervals().map(|(_, from, len)| from + 0.5 * len).collect();
+        for (stripe, middle) in self.stripes.iter_mut().zip(middles) {
+            stripe.level.add(1.0, &all);
+            stripe.level = stripe.level.times(turns(middle));
+            stripe.mass = stripe.mass.times(turns(stripe.at));
+        }
+        // Where the true end still flies, or lies already, p is q and not −q.
+        let landing = self.cut(at);
+        let late = self.late.times(2.0 * velocity * turns(at));
+        self.stripes[landing].mass.add(1.0, &late);
+    }
+
+    /// A release after [`Self::contact`] at the place `at`: where a ray arrives, with which `q` jumps by `jump.0` and after
+    /// which p has jumped by `jump.1`, or at a root of the stress with this slope. It is late by `more` besides, or by
+    /// `most` in all; in flight `h″ = fall`.
+    pub(super) fn release(
+        &mut self,
+        (at, fall): (f64, f64),
+        jump: (f64, f64),
+        slope: Option<f64>,
+        (more, most): (f64, f64),
+    ) {
+        let k = self.cut(at);
+        let before = (k + self.stripes.len() - 1) % self.stripes.len();
+        let mut late = match slope {
+            // The stress that brings the root has turned round.
+            Some(slope) => self.stripes[before].level.times(1.0 / slope),
+            None => self.stripes[k].mass.times(-1.0 / jump.0),
+        };
+        let (source, known) = (self.source(), late.bound() + more);
+        if known <= most {
+            late.depend(source, more);
+        } else {
+            late = Form::default();
+            late.depend(source, most);
+        }
+        self.stripes[k].mass = late.times(-jump.1);
+        self.late = late;
+        self.rate = self.mean();
+        self.rate.add(fall, &self.late);
+    }
+
+    /// What the vibration lacks to have the mean zero.
+    fn mean(&self) -> Form {
+        let mut mean = Form::default();
+        for (stripe, _, len) in self.intervals() {
+            mean.add(1.0, &stripe.mass);
+            mean.add(len, &stripe.level);
+        }
+        mean
+    }
+
+    /// The index of the ray at a place, which is put there if there is none.
+    fn cut(&mut self, at: f64) -> usize {
+        let at = at.rem_euclid(1.0);
+        if let Some(k) = self.stripes.iter().position(|stripe| distance(stripe.at, at) < SAME) {
+            return k;
+        }
+        let k = self.stripes.partition_point(|stripe| stripe.at < at);
+        let count = self.stripes.len();
+        let level = if count == 0 { Form::default() } else { self.stripes[(k + count - 1) % count].level.clone() };
+        self.stripes.insert(k, Stripe { at, mass: Form::default(), level });
+        k
+    }
+
+    /// The vibration is compared from here on at equal times since the last event.
+    pub(super) fn reset_clock(&mut self) {
+        self.clock.add(1.0, &self.late);
+        self.late = Form::default();
+    }
+
+    /// Another source of `δh′`.
+    pub(super) fn add_rate(&mut self, size: f64) {
+        let source = self.source();
+        self.rate.depend(source, size);
+    }
+
+    /// Another source of the time of the last event.
+    pub(super) fn add_late(&mut self, size: f64) {
+        let source = self.source();
+        self.late.depend(source, size);
+    }
+
+    /// A ray starts at the place `at` with the last event, on which p jumps by `jump`.
+    pub(super) fn start_stripe(&mut self, at: f64, jump: f64) {
+        let mass = self.late.times(-jump);
+        let k = self.cut(at);
+        self.stripes[k].mass.add(1.0, &mass);
+    }
+
+    /// Gives up stripes where there are too many: what they were at most.
+    pub(super) fn thin(&mut self) -> f64 {
+        if self.stripes.len() <= MOST_STRIPES {
+            return 0.0;
+        }
+        let mass = self.mass();
+        self.stripes.clear();
+        mass
+    }
+
+    /// A new source. Where there are too many, the older half of those of each quantity become one.
+    fn source(&mut self) -> usize {
+        if self.sources >= MOST_SOURCES {
+            let half = self.sources / 2;
+            let forms = [&mut self.clock, &mut self.late, &mut self.rate].into_iter();
+            let stripes = self.stripes.iter_mut().flat_map(|stripe| [&mut stripe.mass, &mut stripe.level]);
+            let mut count = self.sources - half;
+            for form in forms.chain(stripes) {
+                let old: f64 = form.0.iter().take(half).map(|x| x.abs()).sum();
+                form.0.drain(..half.min(form.0.len()));
+                if old > 0.0 {
+                    form.depend(count, old);
+                    count += 1;
+                }
+            }
+            self.sources = count;
+        }
+        self.sources += 1;
+        self.sources - 1
+    }
+}

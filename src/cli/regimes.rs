@@ -1,0 +1,117 @@
+//! `dalembert regimes`.
+
+use std::path::{Path, PathBuf};
+
+use clap::Args;
+use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
+
+use super::{Failure, source};
+use crate::output::{regimes_csv, regimes_npz, regimes_svg, regimes_text, threshold_csv, write_whole};
+use crate::sweep::Map;
+
+/// When and whether the first contact ends, over all dampings and impact speeds
+#[derive(Args, Debug)]
+#[command(after_help = "Examples:\n  dalembert regimes -o regimes.png\n  dalembert regimes --damping-ratio 0..4:1000 \
+    --speed-ratio 0.05..1e4:1000:log -o regimes.npz\n\nAll first contacts are those of two numbers, R = r t₁ and M = μ/(g t₁), \
+    with the round trip t₁ = 2L/c. The bounce comes\nat t₁ above the curve M = (I₀(R) + I₁(R))/(2 − I₀(R)); from R = π on there is \
+    none.")]
+pub(super) struct Regimes {
+    /// R: A..B:N for N values from A to B, with :log in geometric progression, or V1,V2,…
+    #[arg(long, value_name = "VALUES", default_value = "0..4:400", allow_hyphen_values = true)]
+    damping_ratio: String,
+    /// M, in the same form
+    #[arg(long, value_name = "VALUES", default_value = "0.05..1e4:400:log", allow_hyphen_values = true)]
+    speed_ratio: String,
+    /// In place of the map, M of the curve at each R, as CSV
+    #[arg(long)]
+    curve: bool,
+    /// How many points are solved at the same time; by default one for each core
+    #[arg(long, value_name = "N")]
+    threads: Option<usize>,
+    /// Write to this file, whole or not at all: a picture (.svg, .png), .csv, or .npz; `-` is standard output, for CSV.
+    /// Can be given several times. Without it the share of each regime is printed
+    #[arg(short, long, value_name = "FILE")]
+    output: Vec<PathBuf>,
+}
+
+/// What a file holds, by its ending.
+#[derive(Clone, Copy, PartialEq)]
+enum Kind {
+    Csv,
+    Npz,
+    Svg,
+    Png,
+}
+
+impl Regimes {
+    pub(super) fn run(&self) -> Result<(), Failure> {
+        // Before anything is solved.
+        let kinds = self.output.iter().map(|path| self.kind(path)).collect::<Result<Vec<_>, Failure>>()?;
+        let bar = ProgressBar::with_draw_target(None, ProgressDrawTarget::stderr());
+        if let Ok(style) = ProgressStyle::with_template("{spinner} {pos} points, {elapsed}") {
+            bar.set_style(style);
+        }
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(self.threads.unwrap_or(0)).build();
+        let pool = pool.map_err(|error| miette::miette!("cannot start threads: {error}"))?;
+        // The curve takes R alone.
+        let speeds = if self.curve { "1,2" } else { &self.speed_ratio };
+        let map = pool.install(|| Map::new(&self.damping_ratio, speeds, || bar.inc(1)))?;
+        bar.finish_and_clear();
+        for (path, kind) in self.output.iter().zip(kinds) {
+            write(Some(path), &self.bytes(&map, kind)?)?;
+        }
+        match (self.output.is_empty(), self.curve) {
+            (false, _) => Ok(()),
+            (true, true) => write(None, &self.bytes(&map, Kind::Csv)?),
+            (true, false) => write(None, regimes_text(&map).as_bytes()),
+        }
+    }
+
+    fn kind(&self, path: &Path) -> Result<Kind, Failure> {
+        let kind = match path.extension().and_then(|ending| ending.to_str()) {
+            Some("npz") => Kind::Npz,
+            Some("svg") => Kind::Svg,
+            Some("png") => Kind::Png,
+            Some("csv") => Kind::Csv,
+            _ if path == Path::new("-") => Kind::Csv,
+            _ => {
+                let path = path.display();
+                return Err(miette::miette!("found {path}, expected a file that ends in .svg, .png, .csv or .npz"));
+            }
+        };
+        if kind == Kind::Png && cfg!(not(feature = "plot")) {
+            return Err(miette::miette!(
+                "found .png in a build without pictures, expected one with the feature `plot`"
+            ));
+        }
+        if self.curve && kind != Kind::Csv {
+            return Err(miette::miette!("found --curve with {}, expected CSV", path.display()));
+        }
+        Ok(kind)
+    }
+
+    fn bytes(&self, map: &Map, kind: Kind) -> Result<Vec<u8>, Failure> {
+        let no_csv = |error: csv::Error| miette::miette!("cannot write CSV: {error}");
+        Ok(match kind {
+            Kind::Csv if self.curve => threshold_csv(map).map_err(no_csv)?.into_bytes(),
+            Kind::Csv => regimes_csv(map).map_err(no_csv)?.into_bytes(),
+            Kind::Npz => regimes_npz(map).map_err(|error| miette::miette!("cannot write NPZ: {error}"))?,
+            Kind::Svg => regimes_svg(map).into_bytes(),
+            #[cfg(feature = "plot")]
+            Kind::Png => crate::output::png(&regimes_svg(map), PNG_SCALE)
+                .map_err(|error| miette::miette!("cannot draw: {error}"))?,
+            // Refused before anything is solved.
+            #[cfg(not(feature = "plot"))]
+            Kind::Png => Vec::new(),
+        })
+    }
+}
+
+/// Pixels for a unit of the SVG: sharp in print.
+#[cfg(feature = "plot")]
+const PNG_SCALE: f32 = 2.0;
+
+fn write(path: Option<&Path>, bytes: &[u8]) -> Result<(), Failure> {
+    let name = path.map_or("standard output".into(), |path| path.display().to_string());
+    Ok(write_whole(path, bytes).map_err(source::cannot(&format!("write {name}")))?)
+}

@@ -1,0 +1,196 @@
+//! `dalembert sweep`.
+
+use std::io::ErrorKind;
+use std::ops::Range;
+use std::path::{Path, PathBuf};
+
+use clap::{Args, ValueEnum};
+use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
+use serde_json::json;
+
+use super::{Failure, NumberArgs, source};
+use crate::compare::Quantity;
+use crate::number::Number;
+use crate::output::{sweep_csv, sweep_json, sweep_npz, sweep_table, write_whole};
+use crate::sweep::{Asked, Axis, Grid, Journal, Point, Sweep as Plan, SweepError};
+
+/// Numbers of a scene over a grid of its values, on all cores
+#[derive(Args, Debug)]
+#[command(
+    after_help = "Examples:\n  dalembert sweep figure-4-r02 --vary impact.speed=0.05..12.5:500:log --vary rod.damping=0,0.1,0.2,0.3 \
+    --quantity bounce_time,restitution -o figure-4.csv\n  dalembert sweep rod.toml --vary rod.damping=0..1:1001 --quantity energy \
+    --shard 3/8 -o part-3.npz\n\nThe last --vary changes fastest. With -o FILE, finished points are kept in FILE.unfinished \
+    until all are;\nafter an interruption, the same command with --resume goes on from there and writes the same bytes."
+)]
+pub(super) struct Sweep {
+    /// A scene file, `-`, or a built-in scene
+    scene: String,
+    /// What is varied: PATH=V1,V2,… or PATH=A..B:N, with :log in geometric progression; several times for a grid
+    #[arg(long, value_name = "PATH=VALUES", required = true, allow_hyphen_values = true)]
+    vary: Vec<String>,
+    /// What is asked of each point, separated by commas
+    #[arg(long, value_enum, value_delimiter = ',', required = true)]
+    quantity: Vec<Quantity>,
+    /// When, for stress, centre and energies; by default at the first bounce
+    #[arg(long, value_name = "T", allow_hyphen_values = true)]
+    time: Option<Number>,
+    #[command(flatten)]
+    numbers: NumberArgs,
+    /// Only the i-th of n consecutive parts of the points, for job arrays
+    #[arg(long, value_name = "I/N")]
+    shard: Option<Shard>,
+    /// Go on with the sweep that FILE.unfinished holds
+    #[arg(long, requires = "output")]
+    resume: bool,
+    /// How many points are solved at the same time; by default one for each core
+    #[arg(long, value_name = "N")]
+    threads: Option<usize>,
+    /// What to print; by default a table, or what the ending of FILE says
+    #[arg(long, value_enum)]
+    format: Option<Shape>,
+    /// Write to this file, whole or not at all: .csv, .json, .npz, or a table
+    #[arg(short, long, value_name = "FILE")]
+    output: Option<PathBuf>,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+enum Shape {
+    /// For a person
+    Table,
+    /// For a program
+    Json,
+    /// For a spreadsheet
+    Csv,
+    /// For numpy
+    Npz,
+}
+
+#[derive(Clone, Copy, Debug)]
+struct Shard {
+    part: usize,
+    parts: usize,
+}
+
+impl std::str::FromStr for Shard {
+    type Err = String;
+
+    fn from_str(text: &str) -> Result<Self, String> {
+        let numbers = text.split_once('/').and_then(|(i, n)| Some((i.parse().ok()?, n.parse().ok()?)));
+        let shard = numbers.map(|(part, parts)| Shard { part, parts });
+        let known = shard.filter(|shard| (1..=shard.parts).contains(&shard.part));
+        known.ok_or_else(|| format!("found `{text}`, expected I/N such as 3/8, the third of eight parts"))
+    }
+}
+
+impl Shard {
+    fn points(self, count: usize) -> Range<usize> {
+        let start = |part: usize| (count as u128 * part as u128 / self.parts as u128) as usize;
+        start(self.part - 1)..start(self.part)
+    }
+}
+
+impl Sweep {
+    pub(super) fn run(&self) -> Result<(), Failure> {
+        let shape = self.shape()?;
+        let scene = source::read(&self.scene)?;
+        let axes = self.vary.iter().map(|text| text.parse::<Axis>()).collect::<Result<Vec<_>, SweepError>>()?;
+        if let Some(time) = self.time.as_ref().filter(|time| time.to_f64() < 0.0) {
+            return Err(SweepError::new(format!("time {time}"), "one from 0 on").into());
+        }
+        let mut quantities: Vec<Quantity> = Vec::new();
+        for quantity in &self.quantity {
+            if quantities.contains(quantity) {
+                return Err(SweepError::new(format!("{} asked twice", quantity.name()), "each quantity once").into());
+            }
+            quantities.push(*quantity);
+        }
+        let asked = Asked { quantities, time: self.time.clone(), numbers: self.numbers.numbers(&scene) };
+        let sweep = Plan { grid: Grid::new(scene.problem.clone(), axes)?, asked };
+        let points = self.shard.map_or(0..sweep.grid.len(), |shard| shard.points(sweep.grid.len()));
+        // All that the points depend on.
+        let identity = json!({
+            "dalembert": env!("CARGO_PKG_VERSION"),
+            "scene": scene.source(),
+            "vary": sweep.grid.axes.iter().map(|axis| json!({"path": axis.path, "values": axis.values})).collect::<Vec<_>>(),
+            "quantity": sweep.asked.quantities.iter().map(|quantity| quantity.name()).collect::<Vec<_>>(),
+            "time": sweep.asked.time,
+            "number": sweep.asked.numbers.to_string(),
+            "points": [points.start, points.end],
+        });
+        let file = self.output.as_deref().filter(|path| *path != Path::new("-"));
+        let (journal, known) = match file {
+            Some(path) => {
+                let opened = Journal::open(path, &identity, self.resume).map_err(|error| unopened(path, error))?;
+                (Some(opened.0), opened.1)
+            }
+            None => (None, Vec::new()),
+        };
+        let found = self.solve(&sweep, points, known, journal.as_ref())?;
+        let bytes = match shape {
+            Shape::Table => sweep_table(&sweep, &found).into_bytes(),
+            Shape::Json => format!("{:#}\n", sweep_json(&sweep, &found, scene.title.as_deref())).into_bytes(),
+            Shape::Csv => {
+                sweep_csv(&sweep, &found).map_err(|error| miette::miette!("cannot write CSV: {error}"))?.into_bytes()
+            }
+            Shape::Npz => sweep_npz(&sweep, &found).map_err(|error| miette::miette!("cannot write NPZ: {error}"))?,
+        };
+        let name = file.map_or("standard output".into(), |path| path.display().to_string());
+        write_whole(file, &bytes).map_err(source::cannot(&format!("write {name}")))?;
+        journal.map_or(Ok(()), Journal::remove).map_err(source::cannot(&format!("remove {name}.unfinished")))?;
+        Ok(())
+    }
+
+    fn solve(
+        &self,
+        sweep: &Plan,
+        points: Range<usize>,
+        known: Vec<Point>,
+        journal: Option<&Journal>,
+    ) -> Result<Vec<Point>, Failure> {
+        // Drawn on a terminal only.
+        let bar = ProgressBar::with_draw_target(Some(points.len() as u64), ProgressDrawTarget::stderr());
+        if let Ok(style) = ProgressStyle::with_template("{bar:40} {pos}/{len} points, {eta} left") {
+            bar.set_style(style);
+        }
+        bar.inc(known.len() as u64);
+        bar.reset_eta();
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(self.threads.unwrap_or(0)).build();
+        let pool = pool.map_err(|error| miette::miette!("cannot start threads: {error}"))?;
+        let done = |point: &Point| {
+            bar.inc(1);
+            journal.map_or(Ok(()), |journal| journal.add(point))
+        };
+        let found = pool.install(|| sweep.run(points, known, done));
+        bar.finish_and_clear();
+        Ok(found.map_err(source::cannot("keep finished points"))?)
+    }
+
+    fn shape(&self) -> Result<Shape, Failure> {
+        let ending = self.output.as_ref().and_then(|path| path.extension()).and_then(|ending| ending.to_str());
+        match (self.format, ending.map(str::to_lowercase).as_deref()) {
+            (Some(shape), _) => Ok(shape),
+            (None, Some("json")) => Ok(Shape::Json),
+            (None, Some("csv")) => Ok(Shape::Csv),
+            (None, Some("npz")) => Ok(Shape::Npz),
+            (None, Some("txt") | None) => Ok(Shape::Table),
+            (None, Some(other)) => Err(miette::miette!(
+                "found the ending .{other}, expected .csv, .json, .npz or .txt here, or --format to say what the file holds"
+            )),
+        }
+    }
+}
+
+fn unopened(output: &Path, error: std::io::Error) -> Failure {
+    let journal = format!("{}.unfinished", output.display());
+    match error.kind() {
+        ErrorKind::AlreadyExists => SweepError::new(
+            format!("{journal}, which an interrupted sweep left"),
+            "--resume to go on with it, or the file removed",
+        )
+        .into(),
+        ErrorKind::InvalidData => {
+            SweepError::new(format!("{journal} of another sweep"), "the same command, or the file removed").into()
+        }
+        _ => source::cannot(&format!("write {journal}"))(error).into(),
+    }
+}

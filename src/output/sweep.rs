@@ -1,0 +1,117 @@
+//! Sweeps: a row for each point.
+
+use std::io::Cursor;
+
+use ndarray::Array1;
+use ndarray_npy::{NpzWriter, WriteNpzError};
+use serde_json::{Map, Value, json};
+
+use super::table::table;
+use crate::problem::written::short;
+use crate::sweep::{Point, Sweep};
+
+/// A value as text: that of an enclosure is its middle.
+fn text(value: &Value) -> String {
+    match value {
+        Value::Null => String::new(),
+        Value::String(text) => text.clone(),
+        Value::Object(parts) => parts.get("value").map(text).unwrap_or_default(),
+        other => other.to_string(),
+    }
+}
+
+fn double(value: &Value) -> f64 {
+    text(value).parse().unwrap_or(f64::NAN)
+}
+
+/// Why numbers of a point are missing, each reason once.
+fn notes(point: &Point) -> String {
+    let mut notes: Vec<&str> = Vec::new();
+    for note in point.cells.iter().filter_map(|cell| cell.note.as_deref()) {
+        if !notes.contains(&note) {
+            notes.push(note);
+        }
+    }
+    notes.join("; ")
+}
+
+fn rows(sweep: &Sweep, points: &[Point], uncertainty: bool) -> (Vec<String>, Vec<Vec<String>>) {
+    let mut header = vec!["point".to_string()];
+    header.extend(sweep.grid.axes.iter().map(|axis| axis.path.to_string()));
+    for quantity in &sweep.asked.quantities {
+        header.push(quantity.name().into());
+        header.extend(uncertainty.then(|| format!("{}_uncertainty", quantity.name())));
+    }
+    header.push("note".into());
+    let row = |point: &Point| {
+        let mut row = vec![point.index.to_string()];
+        row.extend(sweep.grid.values(point.index).iter().map(ToString::to_string));
+        for cell in &point.cells {
+            row.push(text(&cell.value));
+            row.extend(uncertainty.then(|| text(&cell.uncertainty)));
+        }
+        row.push(notes(point));
+        row
+    };
+    (header, points.iter().map(row).collect())
+}
+
+/// A table for a person, with the beginnings of the notes.
+pub(crate) fn sweep_table(sweep: &Sweep, points: &[Point]) -> String {
+    let (header, mut rows) = rows(sweep, points, false);
+    rows.iter_mut().flat_map(|row| row.last_mut()).for_each(|note| *note = short(note));
+    table(&header.iter().map(String::as_str).collect::<Vec<_>>(), rows, 0) + "\n"
+}
+
+/// CSV with a header.
+pub(crate) fn sweep_csv(sweep: &Sweep, points: &[Point]) -> Result<String, csv::Error> {
+    let (header, rows) = rows(sweep, points, true);
+    super::csv::write("", header, rows)
+}
+
+/// JSON, schema 1.
+pub(crate) fn sweep_json(sweep: &Sweep, points: &[Point], title: Option<&str>) -> Value {
+    let names = || sweep.asked.quantities.iter().map(|quantity| quantity.name().to_string());
+    let vary = sweep.grid.axes.iter().map(|axis| json!({"path": axis.path, "values": axis.values}));
+    let rows = points.iter().map(|point| {
+        let at = sweep.grid.axes.iter().zip(sweep.grid.values(point.index));
+        let of =
+            |value: fn(&crate::sweep::Cell) -> Value| names().zip(point.cells.iter().map(value)).collect::<Map<_, _>>();
+        json!({
+            "point": point.index,
+            "at": at.map(|(axis, value)| (axis.path.to_string(), value.to_string().into())).collect::<Map<_, _>>(),
+            "values": of(|cell| cell.value.clone()),
+            "uncertainty": of(|cell| cell.uncertainty.clone()),
+            "notes": of(|cell| cell.note.clone().into()),
+        })
+    });
+    json!({
+        "schema": 1,
+        "title": title,
+        "number": sweep.asked.numbers.to_string(),
+        "time": sweep.asked.time,
+        "vary": vary.collect::<Vec<_>>(),
+        "points": rows.collect::<Vec<_>>(),
+    })
+}
+
+/// NPZ: doubles, a list for each column; `shape` is that of the whole grid, and numbers that are missing are NaN.
+pub(crate) fn sweep_npz(sweep: &Sweep, points: &[Point]) -> Result<Vec<u8>, WriteNpzError> {
+    let mut bytes = Cursor::new(Vec::new());
+    let mut npz = NpzWriter::new_compressed(&mut bytes);
+    let shape: Array1<i64> = sweep.grid.axes.iter().map(|axis| axis.values.len() as i64).collect();
+    npz.add_array("shape", &shape)?;
+    npz.add_array("point", &points.iter().map(|point| point.index as i64).collect::<Array1<_>>())?;
+    for (k, axis) in sweep.grid.axes.iter().enumerate() {
+        let values = points.iter().map(|point| sweep.grid.values(point.index)[k].to_f64());
+        npz.add_array(axis.path, &values.collect::<Array1<_>>())?;
+    }
+    for (k, quantity) in sweep.asked.quantities.iter().enumerate() {
+        let values = points.iter().map(|point| double(&point.cells[k].value));
+        npz.add_array(quantity.name(), &values.collect::<Array1<_>>())?;
+        let bounds = points.iter().map(|point| double(&point.cells[k].uncertainty));
+        npz.add_array(format!("{}_uncertainty", quantity.name()), &bounds.collect::<Array1<_>>())?;
+    }
+    npz.finish()?;
+    Ok(bytes.into_inner())
+}

@@ -1,0 +1,288 @@
+//! Why a history ends where it does, and what a user should know of it, as data.
+
+use std::fmt::{Display, Formatter, Result};
+
+use crate::number::Scalar;
+
+/// Why nothing follows the end of a history, or why what follows is not known. Times, speeds and heights are in the
+/// units of the problem.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Reason {
+    /// The first contact has no bounce.
+    NoBounce(NoBounceReason),
+    /// Whether the first contact ends could not be shown.
+    Doubt(Doubt),
+    /// Two whole round trips on the ground, or off it, repeat for ever.
+    Repeats {
+        /// Whether on the ground.
+        contact: bool,
+    },
+    /// From a time on the ground end swings above the ground without ever reaching it.
+    StaysAbove {
+        /// From this time on.
+        from: f64,
+        /// A bound of the swing.
+        swing: f64,
+        /// What it swings about is never below this height.
+        height: f64,
+    },
+    /// From a time on the waves pull less than the rod presses with at rest.
+    StaysPressed {
+        /// From this time on.
+        from: f64,
+        /// A bound of the pull, as a part of that pressure.
+        part: f64,
+    },
+    /// From a time on no part of the rod moves faster than the accuracy resolves.
+    Still {
+        /// From this time on.
+        from: f64,
+        /// A bound of all velocities.
+        speed: f64,
+        /// What follows from it.
+        state: StillState,
+    },
+    /// The next touch is not told from a miss.
+    Touch {
+        /// Bits of the numbers.
+        bits: u32,
+        /// By how much `v(0,t)` can differ in the round trip that follows.
+        spread: f64,
+    },
+    /// More digits than the motion after a damped first contact is computed to.
+    MostDigits(u32),
+}
+
+/// What follows from a motion below the accuracy.
+#[derive(Clone, Debug, PartialEq)]
+pub enum StillState {
+    /// The rod stands on the ground and presses as at rest.
+    Pressed,
+    /// The ground end stays at a height.
+    Above(f64),
+    /// Later events are below the accuracy too.
+    Faint,
+    /// Whether another event comes takes more digits to tell.
+    Open,
+}
+
+/// Why the stress of a first contact never becomes tensile.
+#[derive(Clone, Debug, PartialEq)]
+pub enum NoBounceReason {
+    /// Neither speed nor gravity.
+    NothingMoves,
+    /// `R ≥ π`: the lowest mode is overdamped and outweighs all others from `t₁` on.
+    Overdamped {
+        /// `R = r t₁`.
+        damping_ratio: f64,
+        /// How many times as hard as all others could pull the lowest mode presses at `t₁`.
+        margin: f64,
+    },
+    /// The transient can no longer lift what the static stress holds down.
+    SettlesUnderWeight {
+        /// From this many round trips on.
+        trips: i64,
+        /// A bound of the transient, as a part of the static stress `gL/c²`.
+        part: f64,
+    },
+}
+
+/// Why neither a bounce nor its absence could be shown.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Doubt {
+    /// An impact speed below zero, or a parameter that is not finite.
+    Parameters,
+    /// Whether gravity or damping vanish, or which speed is greater, is not settled.
+    Sizes,
+    /// `r t₁` may be on either side of π.
+    NearPi,
+    /// Just after this lattice time the stress may have either sign.
+    AtLattice(i64),
+    /// In the cell after this lattice time the stress is below every number that the precision holds.
+    Faint(i64),
+    /// In the cell after this lattice time rounding reaches so much of the stress.
+    Rounding(i64, f64),
+    /// Near this many round trips the stress may have either sign.
+    NearZero(f64),
+    /// `r t₁` is so close below π that the bounce comes after the cells that are searched.
+    Late {
+        /// `R = r t₁`.
+        damping_ratio: f64,
+        /// Cells that are searched.
+        cells: i64,
+        /// About when it would come without gravity, in round trips.
+        expected: f64,
+    },
+    /// No bounce in so many cells, which is all that are searched.
+    NoneFound(i64),
+}
+
+/// What a user should know of an answer beside its numbers. Times are in the units of the problem.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Warning {
+    /// Rounding decides between contact and flight.
+    RoundingDecides {
+        /// At this time.
+        time: f64,
+    },
+    /// The bound of the error no longer tells events apart.
+    EventsOverlap {
+        /// From this time on.
+        from: f64,
+    },
+    /// Events are not determined in the numbers that were asked for.
+    NotDetermined {
+        /// From this time on.
+        from: f64,
+    },
+    /// Hops that are not told apart from contact.
+    HopsUnresolved {
+        /// From this time on.
+        from: f64,
+        /// How long each of them may be at most.
+        longest: f64,
+        /// How many landings they may belong to.
+        landings: usize,
+    },
+    /// A fall from `drop_height` that the damping would not let become so fast.
+    DragNeglected {
+        /// `μ = √(2 g drop_height)`.
+        speed: f64,
+        /// `g/2r`.
+        terminal: f64,
+    },
+}
+
+impl Doubt {
+    /// Whether more bits could settle it.
+    pub fn needs_bits(&self) -> bool {
+        !matches!(self, Doubt::Parameters | Doubt::Late { .. } | Doubt::NoneFound(_))
+    }
+}
+
+impl Display for Reason {
+    fn fmt(&self, f: &mut Formatter<'_>) -> Result {
+        match self {
+            Reason::NoBounce(reason) => reason.fmt(f),
+            Reason::Doubt(doubt) => doubt.fmt(f),
+            Reason::Repeats { contact: true } => {
+                f.write_str("the end stays on the ground for two whole round trips, which repeat for ever")
+            }
+            Reason::Repeats { contact: false } => {
+                f.write_str("the end does not come down in two whole round trips, which repeat for ever")
+            }
+            Reason::StaysAbove { from, swing, height } => write!(
+                f,
+                "from t = {} on the ground end swings by at most {swing:.3e}, ever less, about a height that is never \
+                 below {height:.3e}",
+                short(*from)
+            ),
+            Reason::StaysPressed { from, part } => write!(
+                f,
+                "from t = {} on the waves pull with at most {part:.3} of what the rod presses with at rest, and they \
+                 never grow",
+                short(*from)
+            ),
+            Reason::Still { from, speed, state } => {
+                let from = short(*from);
+                write!(f, "from t = {from} on nothing moves faster than {speed:.1e}, which is within the accuracy")?;
+                match state {
+                    StillState::Pressed => f.write_str(": the rod presses on the ground as it does at rest"),
+                    StillState::Above(height) => write!(f, ": the ground end stays at the height {height:.6e}"),
+                    StillState::Faint => f.write_str(", and so is every event that may still come"),
+                    StillState::Open => {
+                        f.write_str(": whether the ground end still lets go or lands takes more digits to tell")
+                    }
+                }
+            }
+            Reason::Touch { bits, spread } => write!(
+                f,
+                "within a round trip comes a touch that {bits} bits do not tell from a miss; either way v(0,t) is the \
+                 same up to {spread:.1e} for one round trip, and up to three times more after each one more"
+            ),
+            Reason::MostDigits(most) => {
+                write!(f, "beyond {most} digits only the first contact is computed, not the flight after it")
+            }
+        }
+    }
+}
+
+/// A time in words.
+fn short(time: f64) -> String {
+    if time == 0.0 || (1e-3..1e6).contains(&time) {
+        format!("{}", (time * 1e6).round() / 1e6)
+    } else {
+        format!("{time:.6e}")
+    }
+}
+
+impl Display for NoBounceReason {
+    fn fmt(&self, f: &mut Formatter<'_>) -> Result {
+        match self {
+            NoBounceReason::NothingMoves => f.write_str("neither speed nor gravity: nothing moves"),
+            NoBounceReason::Overdamped { damping_ratio, margin } => {
+                let times = if *margin < 1000.0 { format!("{margin:.3}") } else { "more than 1000".into() };
+                write!(
+                    f,
+                    "r t₁ = {damping_ratio:.6} ≥ π: the lowest mode is overdamped; at t₁ it presses {times} times as \
+                     hard as all others together could pull, and it outgrows them from there"
+                )
+            }
+            NoBounceReason::SettlesUnderWeight { trips, part } => write!(
+                f,
+                "from t = {trips} t₁ on the transient stays below {part:.4} of the static stress gL/c², and the rod \
+                 settles under its weight"
+            ),
+        }
+    }
+}
+
+impl Display for Doubt {
+    fn fmt(&self, f: &mut Formatter<'_>) -> Result {
+        match self {
+            Doubt::Parameters => f.write_str("an impact speed below zero, or a number that is not finite"),
+            Doubt::Sizes => f.write_str("whether a parameter is zero or greater than another one cannot be told"),
+            Doubt::NearPi => f.write_str("r t₁ cannot be told from π, from which on there is no bounce"),
+            Doubt::AtLattice(k) => write!(f, "just after t = {k} t₁ the stress cannot be told from zero"),
+            Doubt::Faint(k) => {
+                write!(f, "between {k} t₁ and {} t₁ the stress is below every number that this precision holds", k + 1)
+            }
+            Doubt::Rounding(k, part) => {
+                write!(f, "between {k} t₁ and {} t₁ rounding reaches {part:.1e} of the stress", k + 1)
+            }
+            Doubt::NearZero(trips) => write!(f, "near t = {trips:.9} t₁ the stress cannot be told from zero"),
+            Doubt::Late { damping_ratio, cells, expected } => write!(
+                f,
+                "r t₁ = {damping_ratio} is just below π: no bounce within the limit of {cells} round trips; without \
+                 gravity it comes at about {expected:.4e} t₁"
+            ),
+            Doubt::NoneFound(cells) => write!(f, "no bounce in {cells} round trips, which is the limit"),
+        }
+    }
+}
+
+impl Display for Warning {
+    fn fmt(&self, f: &mut Formatter<'_>) -> Result {
+        match self {
+            Warning::RoundingDecides { time } => {
+                write!(f, "at t = {time} rounding decides between contact and flight")
+            }
+            Warning::EventsOverlap { from } => {
+                write!(f, "from t = {from} on the bound of the error no longer tells events apart")
+            }
+            Warning::NotDetermined { from } => {
+                write!(f, "from t = {from:.6} on, the events are not determined in this precision: ask for more digits")
+            }
+            Warning::HopsUnresolved { from, longest, landings } => {
+                let (from, word) = (from.decimal(9), if *landings == 1 { "landing" } else { "landings" });
+                write!(f, "from t = {from} on hops shorter than {longest:.1e} are not told apart from contact, ")?;
+                write!(f, "at {landings} {word}")
+            }
+            Warning::DragNeglected { speed, terminal } => write!(
+                f,
+                "the speed at impact, √(2 g drop_height) = {speed:.4e}, takes no account of drag; with this damping no \
+                 fall is faster than g/2r = {terminal:.4e}"
+            ),
+        }
+    }
+}

@@ -1,0 +1,168 @@
+//! Which values of a scene are varied, and the problem of each point.
+
+use crate::number::{Number, NumberError};
+use crate::problem::validate::NUMBERS;
+use crate::problem::{Problem, ProblemError};
+
+/// The most points of a sweep.
+const MOST_POINTS: usize = 10_000_000;
+
+/// What is wrong with a sweep.
+#[derive(Debug, thiserror::Error, miette::Diagnostic)]
+#[error("found {found}, expected {expected}")]
+pub(crate) struct SweepError {
+    pub(crate) found: String,
+    pub(crate) expected: String,
+}
+
+impl SweepError {
+    pub(crate) fn new(found: impl Into<String>, expected: impl Into<String>) -> Self {
+        SweepError { found: found.into(), expected: expected.into() }
+    }
+}
+
+/// One value that is varied: its path in a scene file, and what it takes in turn.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) struct Axis {
+    pub(crate) path: &'static str,
+    pub(crate) values: Vec<Number>,
+}
+
+impl std::str::FromStr for Axis {
+    type Err = SweepError;
+
+    /// `PATH=V1,V2,…`, `PATH=A..B:N` for N values from A to B, or `PATH=A..B:N:log` for N in geometric progression.
+    ///
+    /// **Accuracy**: listed values and both ends of a range as they are written; what lies between is the shortest
+    /// decimal of the double.
+    fn from_str(text: &str) -> Result<Self, SweepError> {
+        const EXPECTED: &str = "PATH=V1,V2,…, PATH=A..B:N or PATH=A..B:N:log";
+        let (path, values) = text.split_once('=').ok_or_else(|| SweepError::new(format!("`{text}`"), EXPECTED))?;
+        let known = NUMBERS.into_iter().find(|known| *known == path.trim());
+        let path = known.ok_or_else(|| {
+            let expected = format!("a number of a scene: {}", NUMBERS.join(", "));
+            SweepError::new(format!("the path `{}`", path.trim()), expected)
+        })?;
+        let number = |text: &str| text.parse::<Number>().map_err(refused);
+        let Some((from, rest)) = values.split_once("..") else {
+            return Ok(Axis { path, values: values.split(',').map(number).collect::<Result<_, _>>()? });
+        };
+        let mut rest = rest.split(':');
+        let (to, count, log) = match (rest.next(), rest.next(), rest.next(), rest.next()) {
+            (Some(to), Some(count), log @ (None | Some("log")), None) => (to, count, log.is_some()),
+            _ => return Err(SweepError::new(format!("`{values}`"), EXPECTED)),
+        };
+        let (from, to) = (number(from)?, number(to)?);
+        let count = count.trim().parse::<usize>().ok().filter(|count| (2..=MOST_POINTS).contains(count));
+        let count =
+            count.ok_or_else(|| SweepError::new(format!("`{values}`"), format!("a count of 2 to {MOST_POINTS}")))?;
+        if log && !(from.to_f64() > 0.0 && to.to_f64() > 0.0) {
+            return Err(SweepError::new(format!("`{values}`"), "two ends above zero for :log"));
+        }
+        let (a, b, steps) = (from.to_f64(), to.to_f64(), (count - 1) as f64);
+        let inner = |k: usize| {
+            let k = k as f64;
+            let value = if log { a * (b / a).powf(k / steps) } else { (a * (steps - k) + b * k) / steps };
+            // Both spellings are the shortest; the second keeps small numbers short.
+            number(&if (1e-5..1e16).contains(&value.abs()) { value.to_string() } else { format!("{value:e}") })
+        };
+        let between = (1..count - 1).map(inner).collect::<Result<Vec<_>, _>>()?;
+        Ok(Axis { path, values: std::iter::once(from).chain(between).chain([to]).collect() })
+    }
+}
+
+fn refused(error: NumberError) -> SweepError {
+    match error.to_string().trim_start_matches("found ").split_once(", expected ") {
+        Some((found, expected)) => SweepError::new(found, expected),
+        None => SweepError::new(error.to_string(), "a number"),
+    }
+}
+
+/// Every combination of the values of some axes, the last one varying fastest.
+#[derive(Clone, Debug)]
+pub(crate) struct Grid {
+    problem: Problem,
+    pub(crate) axes: Vec<Axis>,
+}
+
+impl Grid {
+    /// The points of `problem` with the values of `axes` in place of its own.
+    ///
+    /// **Errors**: [`SweepError`] for an axis that comes twice, or for too many points.
+    pub(crate) fn new(problem: Problem, axes: Vec<Axis>) -> Result<Self, SweepError> {
+        for (k, axis) in axes.iter().enumerate() {
+            if axes[..k].iter().any(|other| other.path == axis.path) {
+                return Err(SweepError::new(format!("{} varied twice", axis.path), "each value once"));
+            }
+        }
+        let count = axes.iter().try_fold(1usize, |count, axis| count.checked_mul(axis.values.len()));
+        if count.is_none_or(|count| count > MOST_POINTS) {
+            return Err(SweepError::new("more points than that", format!("at most {MOST_POINTS} points")));
+        }
+        Ok(Grid { problem, axes })
+    }
+
+    /// How many points there are.
+    pub(crate) fn len(&self) -> usize {
+        self.axes.iter().map(|axis| axis.values.len()).product()
+    }
+
+    /// What is varied, as it is at a point.
+    pub(crate) fn values(&self, index: usize) -> Vec<&Number> {
+        let mut rest = index;
+        let mut values: Vec<&Number> = Vec::with_capacity(self.axes.len());
+        for axis in self.axes.iter().rev() {
+            values.push(&axis.values[rest % axis.values.len()]);
+            rest /= axis.values.len();
+        }
+        values.reverse();
+        values
+    }
+
+    /// The problem of a point.
+    ///
+    /// **Errors**: [`ProblemError`] where its values do not go together.
+    pub(crate) fn problem(&self, index: usize) -> Result<Problem, ProblemError> {
+        let values = self.axes.iter().zip(self.values(index));
+        values.fold(self.problem.to_builder(), |builder, (axis, value)| builder.at(axis.path, value)).build()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn values(text: &str) -> Vec<String> {
+        text.parse::<Axis>().unwrap().values.iter().map(Number::to_string).collect()
+    }
+
+    #[test]
+    fn values_are_spelt_as_a_person_would() {
+        assert_eq!(values("rod.damping=0, 0.1,1/3"), ["0", "0.1", "1/3"]);
+        assert_eq!(values("impact.speed=0.1..0.5:5"), ["0.1", "0.2", "0.3", "0.4", "0.5"]);
+        assert_eq!(values("impact.speed=1e-2..100:5:log"), ["1e-2", "0.1", "1", "10", "100"]);
+        assert_eq!(values("rod.length=2..1/3:2"), ["2", "1/3"]);
+    }
+
+    #[test]
+    fn what_is_no_axis_is_said() {
+        let said = |text: &str| text.parse::<Axis>().unwrap_err().to_string();
+        assert!(
+            said("rod.dampin=1").starts_with("found the path `rod.dampin`, expected a number of a scene: rod.length")
+        );
+        assert!(said("rod.damping").contains("expected PATH=V1,V2"));
+        assert!(said("rod.damping=0..1:1").contains("a count of 2"));
+        assert!(said("rod.damping=0..1:5:log").contains("above zero"));
+        assert!(said("rod.damping=1 m").contains("found `1 m`, expected a number such as"));
+    }
+
+    #[test]
+    fn the_last_axis_varies_fastest() {
+        let axes = ["rod.damping=1,2", "impact.speed=3,4,5"].map(|text| text.parse().unwrap());
+        let grid = Grid::new(Problem::uniform(1.into(), 1.into(), 1.into(), 1.into()), axes.into()).unwrap();
+        assert_eq!(grid.len(), 6);
+        let values = |k| grid.values(k).iter().map(|x| x.to_f64()).collect::<Vec<_>>();
+        assert_eq!((values(0), values(2), values(3)), (vec![1.0, 3.0], vec![1.0, 5.0], vec![2.0, 3.0]));
+        assert_eq!(grid.problem(5).unwrap().rod.damping.unwrap().to_f64(), 2.0);
+    }
+}

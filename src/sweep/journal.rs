@@ -1,0 +1,112 @@
+//! Finished points on disk, so that an interrupted sweep goes on where it was.
+//!
+//! A journal is a text of lines: what the sweep is, then a finished point a line, in the order in which they were
+//! finished. A last line that is not whole is that of a sweep that was killed while it wrote; its point is solved again.
+
+use std::fs::{File, OpenOptions};
+use std::io::{Error, ErrorKind, Write};
+use std::path::{Path, PathBuf};
+use std::sync::{Mutex, PoisonError};
+
+use serde_json::Value;
+
+use super::Point;
+
+/// The journal of a sweep that writes to a file.
+#[derive(Debug)]
+pub(crate) struct Journal {
+    path: PathBuf,
+    file: Mutex<File>,
+}
+
+impl Journal {
+    /// The journal beside `output`, and the points that it holds. `sweep` says all that the points depend on.
+    ///
+    /// **Errors**: those of the file system; [`ErrorKind::AlreadyExists`] where there is a journal and none is to be
+    /// resumed; [`ErrorKind::InvalidData`] for one of another sweep.
+    pub(crate) fn open(output: &Path, sweep: &Value, resume: bool) -> Result<(Self, Vec<Point>), Error> {
+        let path = journal_of(output);
+        if !resume && path.exists() {
+            return Err(ErrorKind::AlreadyExists.into());
+        }
+        let mut bytes = match std::fs::read(&path) {
+            Err(error) if error.kind() == ErrorKind::NotFound => Vec::new(),
+            other => other?,
+        };
+        // What follows the last end of a line was not finished.
+        bytes.truncate(bytes.iter().rposition(|byte| *byte == b'\n').map_or(0, |end| end + 1));
+        let whole = String::from_utf8(bytes).map_err(|_| ErrorKind::InvalidData)?;
+        let mut lines = whole.lines();
+        let points = match lines.next() {
+            None => Some(Vec::new()),
+            Some(head) if serde_json::from_str(head).is_ok_and(|head: Value| head == *sweep) => {
+                lines.map(serde_json::from_str).collect::<Result<Vec<Point>, _>>().ok()
+            }
+            Some(_) => None,
+        };
+        let points = points.ok_or(ErrorKind::InvalidData)?;
+        let mut file = OpenOptions::new().create(true).truncate(false).write(true).open(&path)?;
+        file.set_len(whole.len() as u64)?;
+        std::io::Seek::seek(&mut file, std::io::SeekFrom::End(0))?;
+        if whole.is_empty() {
+            file.write_all(format!("{sweep}\n").as_bytes())?;
+        }
+        Ok((Journal { path, file: Mutex::new(file) }, points))
+    }
+
+    /// Adds a finished point.
+    pub(crate) fn add(&self, point: &Point) -> Result<(), Error> {
+        let line = serde_json::to_string(point)? + "\n";
+        self.file.lock().unwrap_or_else(PoisonError::into_inner).write_all(line.as_bytes())
+    }
+
+    /// Removes the journal of a sweep whose output is written.
+    pub(crate) fn remove(self) -> Result<(), Error> {
+        std::fs::remove_file(&self.path)
+    }
+}
+
+/// `FILE.unfinished`.
+pub(crate) fn journal_of(output: &Path) -> PathBuf {
+    let mut name = output.as_os_str().to_os_string();
+    name.push(".unfinished");
+    name.into()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::sweep::Cell;
+
+    #[test]
+    fn a_journal_cut_anywhere_gives_back_what_was_whole_and_goes_on() {
+        let folder = tempfile::tempdir().unwrap();
+        let output = folder.path().join("sweep.csv");
+        let sweep = serde_json::json!({"scene": "μ", "points": [0, 3]});
+        let cell = |x: f64| Cell { value: x.into(), uncertainty: 1e-17.into(), note: None };
+        let point = |index| Point {
+            index,
+            cells: vec![cell(0.1 + index as f64), Cell { note: Some("none".into()), ..Cell::default() }],
+        };
+        let all: Vec<Point> = [2, 0, 1].map(point).into();
+        let (journal, known) = Journal::open(&output, &sweep, false).unwrap();
+        assert!(known.is_empty());
+        all.iter().for_each(|point| journal.add(point).unwrap());
+        let whole = std::fs::read(journal_of(&output)).unwrap();
+        for end in 0..=whole.len() {
+            std::fs::write(journal_of(&output), &whole[..end]).unwrap();
+            let (journal, known) = Journal::open(&output, &sweep, true).unwrap();
+            let lines = whole[..end].iter().filter(|byte| **byte == b'\n').count();
+            assert_eq!(known, all[..lines.saturating_sub(1)]);
+            all[known.len()..].iter().for_each(|point| journal.add(point).unwrap());
+            assert_eq!(std::fs::read(journal_of(&output)).unwrap(), whole);
+        }
+        let refused = |sweep: &Value, resume| Journal::open(&output, sweep, resume).unwrap_err().kind();
+        assert_eq!(refused(&sweep, false), ErrorKind::AlreadyExists);
+        assert_eq!(refused(&serde_json::json!({}), true), ErrorKind::InvalidData);
+        let (journal, known) = Journal::open(&output, &sweep, true).unwrap();
+        assert_eq!(known, all);
+        journal.remove().unwrap();
+        assert!(!journal_of(&output).exists());
+    }
+}

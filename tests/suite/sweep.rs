@@ -1,0 +1,148 @@
+//! Sweeps: their numbers against closed forms, and the same bytes from any number of threads, parts and interruptions.
+
+use std::path::Path;
+use std::process::{Command, Stdio};
+use std::time::{Duration, Instant};
+
+use serde_json::Value;
+
+/// Standard output, or what standard error says in one line of a run that is refused with code 2.
+fn run(args: &[&str]) -> Result<String, String> {
+    dalembert(&[&["sweep"], args].concat())
+}
+
+fn dalembert(args: &[&str]) -> Result<String, String> {
+    let output = Command::new(env!("CARGO_BIN_EXE_dalembert")).args(args).output().unwrap();
+    let text = |bytes| String::from_utf8(bytes).unwrap();
+    if output.status.success() {
+        return Ok(text(output.stdout));
+    }
+    assert_eq!((output.status.code(), output.stdout.len()), (Some(2), 0));
+    Err(text(output.stderr).replace(['│', '×'], " ").split_whitespace().collect::<Vec<_>>().join(" "))
+}
+
+/// c = L = g = 1: t₁ = μ₀ = 2.
+const SCENE: &str = "paper-strong";
+
+#[test]
+fn undamped_points_are_those_of_corollary_1() {
+    let vary = ["--vary", "rod.wave_speed=1,2", "--vary", "impact.speed=0.25..4:16"];
+    let text = run(&[&[SCENE][..], &vary, &["--vary", "gravity.acceleration=1", "--vary", "rod.length=1"]].concat());
+    assert!(text.unwrap_err().contains("--quantity"));
+    let args = [SCENE, "--quantity", "bounce_time,restitution", "--format", "json"];
+    let json: Value = serde_json::from_str(&run(&[&args[..], &vary].concat()).unwrap()).unwrap();
+    let points = json["points"].as_array().unwrap();
+    assert_eq!(points.len(), 32);
+    for (k, point) in points.iter().enumerate() {
+        let (c, mu) = (if k < 16 { 1.0 } else { 2.0 }, 0.25 * (k % 16 + 1) as f64);
+        assert_eq!(point["at"]["impact.speed"], mu.to_string());
+        // t_b = 2t₁ − μ/g below the critical speed g t₁, and t₁ above it.
+        let trip = 2.0 / c;
+        let bounce = if mu < trip { 2.0 * trip - mu } else { trip };
+        let within = |name: &str, truth: f64| {
+            let (value, bound) = (&point["values"][name], &point["uncertainty"][name]);
+            assert!((value.as_f64().unwrap() - truth).abs() <= bound.as_f64().unwrap(), "{point}: {name} = {truth}");
+        };
+        within("bounce_time", bounce);
+        if mu >= trip {
+            // E_z/E = μ₀²/3μ².
+            within("restitution", 1.0 - trip * trip / (3.0 * mu * mu));
+        }
+    }
+}
+
+const VARY: [&str; 7] = [
+    SCENE,
+    "--vary",
+    "impact.speed=0.05..12.5:23:log",
+    "--vary",
+    "rod.damping=0,0.1,-1,4",
+    "--quantity",
+    "bounce_time,energy",
+];
+
+#[test]
+fn parts_and_threads_give_the_bytes_of_one() {
+    let whole = run(&[&VARY[..], &["--format", "csv", "--threads", "1"]].concat()).unwrap();
+    assert_eq!(whole, run(&[&VARY[..], &["--format", "csv", "--threads", "3"]].concat()).unwrap());
+    let mut parts = String::new();
+    for part in ["1/5", "2/5", "3/5", "4/5", "5/5"] {
+        let text = run(&[&VARY[..], &["--format", "csv", "--shard", part]].concat()).unwrap();
+        parts += text.split_once('\n').filter(|_| !parts.is_empty()).map_or(text.as_str(), |(_, rows)| rows);
+    }
+    assert_eq!(whole, parts);
+    // A point that fails is a row that says why.
+    let row = |k: usize| whole.lines().nth(k + 1).unwrap();
+    assert_eq!(row(2), "2,0.05,-1,,,,,\"found damping = -1, expected a damping of zero or more\"");
+    assert!(row(3).starts_with("3,0.05,4,,,,,\"no bounce: r t₁ = 8.000000 ≥ π"), "{}", row(3));
+    assert_eq!(whole.lines().count(), 1 + 23 * 4);
+}
+
+#[test]
+fn a_killed_sweep_resumes_to_the_same_bytes() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = |name: &str| folder.path().join(name).to_str().unwrap().to_string();
+    let (whole, killed, journal) = (path("whole.npz"), path("killed.npz"), path("killed.npz.unfinished"));
+    let vary = ["figure-4-r02", "--vary", "impact.speed=0.5..9:120", "--quantity", "bounce_time", "--digits", "60"];
+    run(&[&vary[..], &["-o", &whole]].concat()).unwrap();
+    let killing = [&vary[..], &["-o", &killed]].concat();
+    let mut child = Command::new(env!("CARGO_BIN_EXE_dalembert"));
+    let mut child = child.arg("sweep").args(&killing).stdout(Stdio::null()).spawn().unwrap();
+    // Until some points are kept, and not yet all.
+    let start = Instant::now();
+    while std::fs::read_to_string(&journal).map_or(0, |text| text.lines().count()) < 5 {
+        assert!(start.elapsed() < Duration::from_secs(60));
+        std::thread::sleep(Duration::from_millis(1));
+    }
+    child.kill().unwrap();
+    child.wait().unwrap();
+    assert!(Path::new(&journal).exists() && !Path::new(&killed).exists(), "the sweep was over before it was killed");
+    assert!(run(&killing).unwrap_err().contains("expected --resume to go on with it, or the file removed"));
+    let other = ["figure-4-r02", "--vary", "impact.speed=1,2", "--quantity", "bounce_time", "-o", &killed, "--resume"];
+    assert!(run(&other).unwrap_err().contains("killed.npz.unfinished of another sweep, expected the same command"));
+    run(&[&killing[..], &["--resume"]].concat()).unwrap();
+    assert_eq!(std::fs::read(&whole).unwrap(), std::fs::read(&killed).unwrap());
+    assert!(!Path::new(&journal).exists());
+}
+
+#[test]
+fn what_is_no_sweep_is_said() {
+    let said = |args: &[&str]| run(&[&[SCENE, "--quantity", "bounce_time"], args].concat()).unwrap_err();
+    assert!(said(&["--vary", "rod.dampin=1"]).contains("found the path `rod.dampin`, expected a number of a scene"));
+    assert!(said(&["--vary", "rod.damping=1", "--vary", "rod.damping=2"]).contains("expected each value once"));
+    assert!(said(&["--vary", "rod.damping=1 m"]).contains("found `1 m`, expected a number such as"));
+    assert!(said(&["--vary", "rod.damping=0..1:5000", "--vary", "rod.length=1..2:5000"]).contains("10000000 points"));
+    assert!(said(&["--vary", "rod.damping=0", "--shard", "3/2"]).contains("expected I/N such as 3/8"));
+    assert!(said(&["--vary", "rod.damping=0", "--time", "-1"]).contains("time"));
+    assert!(said(&["--vary", "rod.damping=0", "-o", "x.xlsx"]).contains("found the ending .xlsx"));
+}
+
+#[test]
+fn the_map_of_regimes_is_the_same_from_any_number_of_threads() {
+    let folder = tempfile::tempdir().unwrap();
+    let map = |threads: &str, ending: &str| {
+        let path = folder.path().join(format!("map-{threads}.{ending}")).to_str().unwrap().to_string();
+        let range = ["regimes", "--damping-ratio", "0..4:21", "--speed-ratio", "0.1..10:17:log", "--threads", threads];
+        dalembert(&[&range[..], &["-o", &path]].concat()).unwrap();
+        std::fs::read(path).unwrap()
+    };
+    let csv = String::from_utf8(map("1", "csv")).unwrap();
+    // R = π and more: none; the last M at R = 0: (2.32) with I₀ = 1, I₁ = 0 says M > 1.
+    assert_eq!(csv.lines().filter(|line| line.starts_with("3.2,") && line.ends_with(",,no bounce")).count(), 17);
+    assert!(
+        csv.contains("\n0,10,1.0,bounce\n")
+            && csv.starts_with("damping_ratio,speed_ratio,bounce_ratio,regime\n0,0.1,1.9")
+    );
+    for ending in ["csv", "npz", "svg"] {
+        assert_eq!(map("1", ending), map("3", ending), "{ending}");
+    }
+    #[cfg(feature = "plot")]
+    assert!(map("2", "png").starts_with(b"\x89PNG"));
+    let curve = dalembert(&["regimes", "--curve", "--damping-ratio", "0..2:3"]).unwrap();
+    // (I₀(1) + I₁(1))/(2 − I₀(1)) = (1.2660658777520084 + 0.5651591039924851)/0.7339341222479916.
+    assert!(curve.starts_with("damping_ratio,threshold\n0,1.0\n1,2.495080") && curve.ends_with("\n2,\n"), "{curve}");
+    let said = |args: &[&str]| dalembert(&[&["regimes"], args].concat()).unwrap_err();
+    assert!(said(&["--damping-ratio", "1"]).contains("expected two values or more that increase"));
+    assert!(said(&["--speed-ratio", "0..1:5"]).contains("M from above zero"));
+    assert!(said(&["-o", "map.txt"]).contains("expected a file that ends in .svg, .png, .csv or .npz"));
+}
