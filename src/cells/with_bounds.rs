@@ -9,7 +9,7 @@ use crate::reason::Warning;
 /// times of events have their own.
 ///
 /// **Accuracy**: *within its own bound*, away from rays that are themselves off in time. A time that is asked about is
-/// taken as it is stored.
+/// taken as it is stored, or as that of an event beside it.
 #[derive(Debug)]
 pub struct WithBounds<S, H> {
     history: H,
@@ -65,6 +65,18 @@ impl<S: Rounded, H: Motion<S>> WithBounds<S, H> {
         WithBounds { rise, speed, strain, length, gravity, events, contacts, history }
     }
 
+    /// The time that is asked about: that of an event from which roundings alone set it apart.
+    fn meant(&self, time: &Estimate<S>) -> S {
+        let next = self.events.partition_point(|event| event.time.value() < time.value());
+        let near = self.events[next.saturating_sub(1)..].iter().take(2);
+        let roundings = 4.0 * time.value().unit() * time.value().to_f64().abs();
+        let same = |event: &&Event<Estimate<S>>| {
+            let apart = (event.time.value().clone() - time.value()).to_f64().abs();
+            apart <= time.bound() + event.time.bound().min(roundings)
+        };
+        near.filter(same).map(|event| &event.time).next().unwrap_or(time).value().clone()
+    }
+
     /// The history without its bounds.
     pub fn plain(&self) -> &H {
         &self.history
@@ -106,29 +118,29 @@ impl<S: Rounded, H: Motion<S>> Motion<Estimate<S>> for WithBounds<S, H> {
     }
 
     fn strain(&self, time: &Estimate<S>, side: Side) -> Result<Estimate<S>, Error> {
-        Ok(within(&self.history.strain(time.value(), side)?, self.strain))
+        Ok(within(&self.history.strain(&self.meant(time), side)?, self.strain))
     }
 
     fn ground_end(&self, time: &Estimate<S>, side: Side) -> Result<(Estimate<S>, Estimate<S>), Error> {
-        let (height, rate) = self.history.ground_end(time.value(), side)?;
+        let (height, rate) = self.history.ground_end(&self.meant(time), side)?;
         Ok((within(&height, self.rise), within(&rate, self.speed)))
     }
 
     fn top_end(&self, time: &Estimate<S>, side: Side) -> Result<(Estimate<S>, Estimate<S>), Error> {
-        let (height, rate) = self.history.top_end(time.value(), side)?;
+        let (height, rate) = self.history.top_end(&self.meant(time), side)?;
         Ok((within(&height, self.rise), within(&rate, self.speed)))
     }
 
     fn centre(&self, time: &Estimate<S>) -> Result<(Estimate<S>, Estimate<S>), Error> {
-        let (height, rate) = self.history.centre(time.value())?;
+        let (height, rate) = self.history.centre(&self.meant(time))?;
         Ok((within(&height, self.rise), within(&rate, self.speed)))
     }
 
     /// Of a mean square `s²`, off by δ in the root, `L s²/2` is off by at most `L (2s + δ) δ`; and `L g h` by that of
     /// h.
     fn energy(&self, time: &Estimate<S>) -> Result<Energy<Estimate<S>>, Error> {
-        let energy = self.history.energy(time.value())?;
-        let (_, rate) = self.history.centre(time.value())?;
+        let energy = self.history.energy(&self.meant(time))?;
+        let (_, rate) = self.history.centre(&self.meant(time))?;
         let vibration = (2.0 * energy.vibrational.to_f64().max(0.0) / self.length).sqrt();
         let of = |speed: f64| self.length * (2.0 * speed + self.speed) * self.speed;
         let weight = self.length * self.gravity * self.rise;
@@ -141,7 +153,7 @@ impl<S: Rounded, H: Motion<S>> Motion<Estimate<S>> for WithBounds<S, H> {
     }
 
     fn field(&self, point: &Estimate<S>, time: &Estimate<S>, side: Side) -> Result<Field<Estimate<S>>, Error> {
-        let field = self.history.field(point.value(), time.value(), side)?;
+        let field = self.history.field(point.value(), &self.meant(time), side)?;
         Ok(Field {
             displacement: within(&field.displacement, self.rise),
             velocity: within(&field.velocity, self.speed),
