@@ -9,7 +9,7 @@ use crate::reason::Warning;
 /// times of events have their own.
 ///
 /// **Accuracy**: *within its own bound*, away from rays that are themselves off in time. A time that is asked about is
-/// taken as it is stored; one that carries the bound of an event stands for the event, whenever that is.
+/// taken as it is stored; one within rounding of an event stands for the event, whenever that is.
 #[derive(Debug)]
 pub struct WithBounds<S, H> {
     history: H,
@@ -135,6 +135,18 @@ impl<S: Rounded, H: Motion<S>> WithBounds<S, H> {
         self.square_off((2.0 * energy.to_f64().max(0.0) / self.scales.length).sqrt(), off)
     }
 
+    /// The time that is asked about: that of an event from which roundings alone set it apart.
+    fn meant<'a>(&'a self, time: &'a Estimate<S>) -> &'a Estimate<S> {
+        let next = self.events.partition_point(|event| event.time.value() < time.value());
+        let mut near = self.events[next.saturating_sub(1)..].iter().take(2).map(|event| &event.time);
+        let roundings = 4.0 * time.value().unit() * time.value().to_f64().abs();
+        let same = |event: &&Estimate<S>| {
+            let apart = (event.value().clone() - time.value()).to_f64().abs();
+            apart <= time.bound() + event.bound().min(roundings)
+        };
+        near.find(same).unwrap_or(time)
+    }
+
     /// The history without its bounds.
     pub fn plain(&self) -> &H {
         &self.history
@@ -175,18 +187,22 @@ impl<S: Rounded, H: Motion<S>> Motion<Estimate<S>> for WithBounds<S, H> {
     }
 
     fn strain(&self, time: &Estimate<S>, side: Side) -> Result<Estimate<S>, Error> {
+        let time = self.meant(time);
         Ok(within(&self.history.strain(time.value(), side)?, self.near(time).strain))
     }
 
     fn ground_end(&self, time: &Estimate<S>, side: Side) -> Result<(Estimate<S>, Estimate<S>), Error> {
+        let time = self.meant(time);
         Ok(self.moved(time, self.history.ground_end(time.value(), side)?))
     }
 
     fn top_end(&self, time: &Estimate<S>, side: Side) -> Result<(Estimate<S>, Estimate<S>), Error> {
+        let time = self.meant(time);
         Ok(self.moved(time, self.history.top_end(time.value(), side)?))
     }
 
     fn centre(&self, time: &Estimate<S>) -> Result<(Estimate<S>, Estimate<S>), Error> {
+        let time = self.meant(time);
         let centre = self.history.centre(time.value())?;
         let push = self.push(time.value(), self.near(time).late)?;
         let (height, rate) = self.moved(time, centre);
@@ -196,6 +212,7 @@ impl<S: Rounded, H: Motion<S>> Motion<Estimate<S>> for WithBounds<S, H> {
 
     /// `L g h` is off by that of h.
     fn energy(&self, time: &Estimate<S>) -> Result<Energy<Estimate<S>>, Error> {
+        let time = self.meant(time);
         let energy = self.history.energy(time.value())?;
         let (_, rate) = self.history.centre(time.value())?;
         let (Near { rise, late, .. }, Scales { length, gravity, .. }) = (self.near(time), &self.scales);
@@ -211,11 +228,13 @@ impl<S: Rounded, H: Motion<S>> Motion<Estimate<S>> for WithBounds<S, H> {
 
     /// Of each mean square as in [`Motion::energy`].
     fn energy_parts(&self, time: &Estimate<S>) -> Result<[Estimate<S>; 2], Error> {
+        let time = self.meant(time);
         let off = self.root_off(time)?;
         Ok(self.history.energy_parts(time.value())?.map(|part| within(&part, self.energy_off(&part, off))))
     }
 
     fn field(&self, point: &Estimate<S>, time: &Estimate<S>, side: Side) -> Result<Field<Estimate<S>>, Error> {
+        let time = self.meant(time);
         let field = self.history.field(point.value(), time.value(), side)?;
         let strain = within(&field.strain, self.near(time).strain);
         let (displacement, velocity) = self.moved(time, (field.displacement, field.velocity));
