@@ -73,8 +73,10 @@ impl<'a> Ours<'a> {
         found.extend(&brought);
         let candidates = repeated(found, trip, end);
         let seen = [Column::EndVelocity, Column::Strain];
-        let (before, after) =
-            (ask(history, &seen, &candidates, Side::Left)?, ask(history, &seen, &candidates, Side::Right)?);
+        let (before, after) = (
+            history.columns(&seen, &candidates, Some(Side::Left))?,
+            history.columns(&seen, &candidates, Some(Side::Right))?,
+        );
         let jump = |column: usize, k: usize| (before[column][k] - after[column][k]).abs();
         let least = SMALL * history.scales().velocity;
         let differ = |k: usize| jump(0, k).max(jump(1, k) * rod.wave_speed) > least;
@@ -108,7 +110,7 @@ impl<'a> Ours<'a> {
     pub(super) fn values(&self, whats: &[What], grid: &Grid) -> Result<Vec<Vec<f64>>, Error> {
         let Some(points) = &grid.points else {
             let columns: Vec<Column> = whats.iter().filter_map(|what| what.column()).collect();
-            let at = |times: &[f64]| ask(self.history, &columns, times, Side::Right);
+            let at = |times: &[f64]| self.history.columns(&columns, times, Some(Side::Right));
             let many = grid.times.len() > MANY;
             return if many { filled(&grid.times, columns.len(), at) } else { at(&grid.times) };
         };
@@ -165,7 +167,7 @@ impl<'a> Ours<'a> {
             }
             (column, _) => {
                 let columns: Vec<Column> = column.into_iter().collect();
-                let values = ask(self.history, &columns, &[time], side)?;
+                let values = self.history.columns(&columns, &[time], Some(side))?;
                 Ok(values.first().and_then(|values| values.first()).copied().unwrap_or(0.0))
             }
         }
@@ -195,7 +197,7 @@ impl<'a> Ours<'a> {
                 Ok(Some(fields.into_iter().map(|field| field.displacement).collect()))
             }
             (What::Column(column @ (Column::EndDisplacement | Column::TopDisplacement | Column::Centre)), _) => {
-                Ok(ask(self.history, &[column], &[0.0], Side::Right)?.into_iter().next())
+                Ok(self.history.columns(&[column], &[0.0], Some(Side::Right))?.into_iter().next())
             }
             _ => Ok(None),
         }
@@ -262,14 +264,6 @@ impl<'a> Ours<'a> {
         known.retain(|(factor, _)| (factor - 1.0).abs() > 0.01);
         known
     }
-}
-
-/// Values of columns at times. The velocity of the top is asked with them: the ladder settles a stress that is zero in
-/// flight by the greatest number beside it.
-fn ask(history: &History<f64>, columns: &[Column], times: &[f64], side: Side) -> Result<Vec<Vec<f64>>, Error> {
-    let mut values = history.columns(&[columns, &[Column::TopVelocity]].concat(), times, Some(side))?;
-    values.truncate(columns.len());
-    Ok(values)
 }
 
 /// The nearest of ascending times; infinite where there is none.
