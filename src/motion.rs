@@ -89,7 +89,7 @@ pub struct Contact<S> {
     /// `−c² ∫ v_x(0,t) dt ≥ 0` over the contact: momentum per linear density that the ground gives.
     #[serde(serialize_with = "number")]
     pub impulse: S,
-    /// The most compressive `v_x(0,t)` of the contact, `≤ 0`.
+    /// The most compressive `v_x(0,t)` of the contact, `≤ 0`: the stress divided by the modulus.
     #[serde(serialize_with = "number")]
     pub peak_stress: S,
 }
@@ -278,7 +278,8 @@ impl<S: Scalar> StressPiece<S> {
     }
 }
 
-/// `v_x(0,·)`: the strain at the ground, piece by piece, from `t = 0` to the end of the history.
+/// `v_x(0,·)`: the strain at the ground, piece by piece, from `t = 0` to the end of the history. The paper calls it the
+/// stress: it is the stress divided by the modulus.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 #[serde(bound = "S: Scalar")]
 pub struct StressHistory<S> {
