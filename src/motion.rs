@@ -316,7 +316,8 @@ impl<S: Scalar> StressPiece<S> {
     }
 }
 
-/// `v_x(0,·)`: the strain at the ground, piece by piece, from `t = 0` to the end of the history.
+/// `v_x(0,·)`: the strain at the ground, piece by piece, from `t = 0` to the end of the history. The paper calls it the
+/// stress: it is the stress divided by the modulus.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 #[serde(bound = "S: Scalar")]
 pub struct StressHistory<S> {
