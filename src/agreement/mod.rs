@@ -95,10 +95,11 @@ impl Agreement {
             }
             let on_jumps = ours.nearer(what, &grid, (&passing.1, &rounding), &theirs, &mut values)?;
             let away = |k: usize, window: f64| (passing.1[k] - grid.times[k]).abs() > window;
-            let norms = norms(&grid, &values, &theirs, on_jumps, |k| !what.jumps() || away(k, window));
+            let scale = ours.scale(what);
+            let norms = norms(&grid, &values, &theirs, scale, on_jumps, |k| !what.jumps() || away(k, window));
             if grid.points.is_none() && what.is_hinted() {
                 let factors = ours.factors(what);
-                let pair = Pair { ours: &values, theirs: &theirs, rays: what.rays(), factors: &factors };
+                let pair = Pair { ours: &values, theirs: &theirs, scale, rays: what.rays(), factors: &factors };
                 // Kinks of a displacement are where its velocity jumps.
                 let finding = measures.of_pair(&pair, |k| away(k, window.max(narrow)));
                 hints.extend(finding.map(|finding| Hint { quantity: what.name().into(), finding }));

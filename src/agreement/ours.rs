@@ -154,7 +154,12 @@ impl<'a> Ours<'a> {
             let left = self.limit(what, grid, k, jump.max(0.0), Side::Left)?;
             let right = self.limit(what, grid, k, jump.max(0.0), Side::Right)?;
             count += usize::from(left != right);
-            ours[k] = if (theirs[k] - left).abs() < (theirs[k] - right).abs() { left } else { right };
+            // Or the sample is just beside the jump, whatever its time is worth.
+            for limit in [left, right] {
+                if (theirs[k] - limit).abs() < (theirs[k] - ours[k]).abs() {
+                    ours[k] = limit;
+                }
+            }
         }
         Ok(count)
     }
@@ -187,6 +192,20 @@ impl<'a> Ours<'a> {
             _ => nearest(&self.jumps, *time),
         };
         grid.times.iter().enumerate().map(at).collect()
+    }
+
+    /// What a displacement or a velocity is compared with; zero for what is not told from zero by it.
+    pub(super) fn scale(&self, what: What) -> f64 {
+        let scales = self.history.scales();
+        match what {
+            What::Field(Part::Displacement)
+            | What::Column(Column::EndDisplacement | Column::TopDisplacement | Column::Centre) => {
+                scales.velocity * scales.time
+            }
+            What::Field(Part::Velocity)
+            | What::Column(Column::EndVelocity | Column::TopVelocity | Column::CentreVelocity) => scales.velocity,
+            _ => 0.0,
+        }
     }
 
     /// The displacements at `t = 0`, one for all samples or one each; `None` for what is no displacement.

@@ -190,6 +190,8 @@ pub struct Pair<'a> {
     pub ours: &'a [f64],
     /// Their values.
     pub theirs: &'a [f64],
+    /// Its natural scale; zero where there is none.
+    pub scale: f64,
     /// Whether it has a jump or a kink where a ray passes.
     pub rays: Rays,
     /// Factors that are often forgotten for this quantity, with what to ask.
@@ -316,7 +318,8 @@ impl Measures<'_> {
     pub fn of_pair(&self, pair: &Pair<'_>, away: impl Fn(usize) -> bool) -> Option<Finding> {
         let counts = |k: usize| pair.rays != Rays::Jump || away(k);
         let e: Vec<f64> = pair.theirs.iter().zip(pair.ours).map(|(theirs, ours)| theirs - ours).collect();
-        if self.square(&e, counts) <= ACCURACY * ACCURACY * self.square(pair.ours, counts) {
+        let natural = pair.scale * pair.scale * self.grid.weights.iter().sum::<f64>();
+        if self.square(&e, counts) <= ACCURACY * ACCURACY * self.square(pair.ours, counts).max(natural) {
             return None;
         }
         let times = &self.grid.times;
@@ -469,7 +472,7 @@ mod tests {
         let grid = Grid::new(times.clone(), None);
         let measures = Measures { grid: &grid, events: &[1.0], step: 0.005, round_trip: 2.0 };
         let of = |theirs: Vec<f64>| {
-            let pair = Pair { ours: &ours, theirs: &theirs, rays: Rays::Smooth, factors: &[(2.0, "half")] };
+            let pair = Pair { ours: &ours, theirs: &theirs, scale: 0.0, rays: Rays::Smooth, factors: &[(2.0, "half")] };
             measures.of_pair(&pair, |_| true)
         };
         let map = |f: &dyn Fn(f64, f64) -> f64| times.iter().zip(&ours).map(|(t, v)| f(*t, *v)).collect::<Vec<_>>();

@@ -106,11 +106,22 @@ fn ratio(a: f64, b: f64) -> Option<f64> {
     (b > 0.0).then(|| a / b)
 }
 
+/// Values below this share of their natural scale are rounding of zero, such as that of a top that is held.
+const NOTHING: f64 = 1e-12;
+
 /// The norms of `theirs − ours` over `grid`, with `on_jumps` of the samples on a jump; `away` says which samples count
-/// as away from jumps. There must be a sample.
+/// as away from jumps. Where ours is below 1e-12 of its scale `natural` throughout there is no relative norm. There
+/// must be a sample.
 ///
 /// **Accuracy**: *exact* but for rounding, as sums over samples; what happens between them is not seen.
-pub fn norms(grid: &Grid, ours: &[f64], theirs: &[f64], on_jumps: usize, away: impl Fn(usize) -> bool) -> Norms {
+pub fn norms(
+    grid: &Grid,
+    ours: &[f64],
+    theirs: &[f64],
+    natural: f64,
+    on_jumps: usize,
+    away: impl Fn(usize) -> bool,
+) -> Norms {
     let (mut sums, mut own, mut scale) = ([0.0; 2], [0.0; 2], [0.0f64; 2]);
     let mut greatest: [Option<(usize, f64)>; 2] = [None; 2];
     for (k, (weight, (a, b))) in grid.weights.iter().zip(ours.iter().zip(theirs)).enumerate() {
@@ -125,6 +136,9 @@ pub fn norms(grid: &Grid, ours: &[f64], theirs: &[f64], on_jumps: usize, away: i
                 }
             }
         }
+    }
+    if scale[0] <= NOTHING * natural {
+        (own, scale) = ([0.0; 2], [0.0; 2]);
     }
     let norm = |absolute: f64, own: f64| Norm { absolute, relative: ratio(absolute, own) };
     let none = Greatest { absolute: 0.0, relative: None, time: 0.0, point: None };
@@ -156,7 +170,7 @@ mod tests {
     #[test]
     fn by_hand() {
         let grid = Grid::new(vec![0.0, 1.0, 3.0], None);
-        let norms = norms(&grid, &[2.0, 2.0, 2.0], &[2.0, 3.0, -1.0], 1, |k| k < 2);
+        let norms = norms(&grid, &[2.0, 2.0, 2.0], &[2.0, 3.0, -1.0], 1.0, 1, |k| k < 2);
         // Weights ½, 3/2, 1; differences 0, 1, 3; ‖ours‖₁ = 6, ‖ours‖₂² = 12.
         assert_eq!((norms.l1.absolute, norms.l1.relative), (4.5, Some(0.75)));
         assert_eq!((norms.l2.absolute, norms.l2.relative), (10.5f64.sqrt(), Some(10.5f64.sqrt() / 12f64.sqrt())));
@@ -168,7 +182,9 @@ mod tests {
     #[test]
     fn against_zero() {
         let grid = Grid::new(vec![1.0], None);
-        let norms = norms(&grid, &[0.0], &[2.0], 0, |_| false);
-        assert_eq!((norms.l1.absolute, norms.l1.relative, norms.linf_off_jumps), (2.0, None, None));
+        for rounding in [0.0, 1e-13] {
+            let norms = norms(&grid, &[rounding], &[2.0], 1.0, 0, |_| false);
+            assert_eq!((norms.l1.absolute, norms.l1.relative, norms.linf_off_jumps), (2.0 - rounding, None, None));
+        }
     }
 }

@@ -124,6 +124,21 @@ fn reference_files_agree() {
     }
 }
 
+/// A top that is held, and samples just beside a jump at an irrational time: nothing to find either.
+#[test]
+fn nothing_to_find() {
+    let folder = folder("");
+    for (scene, columns) in [("getfem-dynamic-contact", "t,u_end,u_top"), ("mu-3-2-chaotic", "t,v_end,force")] {
+        let reference = ["reference", scene, "--columns", columns, "--dt", "0.01", "--to", "6", "--side", "right"];
+        text(&run(folder.path(), &[&reference[..], &["-o", "golden.csv"]].concat()), 0);
+        let report = json(folder.path(), &["compare", scene, "golden.csv"]);
+        for quantity in report["quantities"].as_array().unwrap() {
+            assert!(quantity["linf"]["relative"].as_f64().unwrap_or(0.0) <= 1e-12, "{quantity}");
+        }
+        assert_eq!(report["hints"], serde_json::json!([]));
+    }
+}
+
 /// Many samples are interpolated between asked ones: the same as those asked one by one.
 #[test]
 fn many_samples() {
