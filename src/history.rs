@@ -92,7 +92,7 @@ impl<S: Target> History<S> {
     /// let third: Number = "1/3".parse()?;
     /// let history = rod.solve()?;
     /// let strain = history.ask(
-    ///     |motion| motion.stress(&Scalar::from_number(&third, &motion.end().precision()), Side::Right),
+    ///     |motion| motion.strain(&Scalar::from_number(&third, &motion.end().precision()), Side::Right),
     ///     |strain| vec![strain],
     /// )?;
     /// assert_eq!(*strain.value(), -10.0 / 3.0); // −(μ + g t)/c
