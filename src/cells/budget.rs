@@ -390,7 +390,8 @@ impl Budget {
 
     /// Keeps the greatest.
     fn note(&mut self) {
-        let rise = self.swing + self.vibration.wave + self.events.mass();
+        // ½e^R of an error of `p` and `q` is the most that displacements about the centre of mass are off by.
+        let rise = self.swing + self.vibration.wave + self.events.mass() + 4.0 * self.even;
         let (speed, late) = (self.point().apart, self.events.time());
         self.worst = self.worst.max(Uncertainty { rise, speed, late, ..Uncertainty::default() });
         self.fixed.worst = self.fixed.worst.max(self.fixed.point).max(self.fixed.height);

@@ -106,6 +106,9 @@ impl<S: Rounded, H: Motion<S>> WithBounds<S, H> {
     /// What the force of the ground makes of `h′` while events are `late`: `h″ = −c² v_x(0,t)/L`.
     fn push(&self, time: &S, late: f64) -> Result<f64, Error> {
         let Scales { length, wave_speed, .. } = &self.scales;
+        // The last event may be a rounding beyond the end.
+        let end = self.history.end();
+        let time = if *time > end { &end } else { time };
         let strain = |side| self.history.strain(time, side).map(|strain| strain.to_f64().abs());
         let right = strain(Side::Right)?;
         // Before the start there is nothing.
