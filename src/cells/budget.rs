@@ -76,8 +76,9 @@ pub(super) struct TakeOff {
     pub(super) len: f64,
     /// Whether that was a round trip, as between one ray's start and return.
     pub(super) whole: bool,
-    /// How far the time may be off.
+    /// How far the time may be off, and what it is rounded by.
     pub(super) off: f64,
+    pub(super) rounding: f64,
     /// The slope of the stress, where it has a root.
     pub(super) slope: Option<f64>,
     /// The jump of `q` on the ray that arrives, and that of `p` on the ray that starts.
@@ -86,8 +87,6 @@ pub(super) struct TakeOff {
     pub(super) end_rate: f64,
     /// `h″`.
     pub(super) fall: f64,
-    /// The greatest slope of `q` between rays.
-    pub(super) steepest: f64,
 }
 
 /// How a landing depends on the flight before it, and the contact after it on the landing.
@@ -155,8 +154,7 @@ impl Budget {
         Off { fixed: self.fixed.point, apart: self.even + point + scatter + displaced + self.events.rate() }
     }
 
-    /// By how much the clock may be late that counts from the landing in contact, and in which the vibration is compared
-    /// in flight.
+    /// By how much the clock may be late: in contact that of the landing, in flight that of the vibration.
     pub(super) fn clock(&self, contact: bool) -> f64 {
         if contact { self.events.time() } else { self.events.clock() }
     }
@@ -166,8 +164,8 @@ impl Budget {
         if apart { off.fixed.min(off.apart).min(self.events.time()) } else { off.fixed }
     }
 
-    /// The error of `v(0,·)` in flight, up to `len` from now; `flown` is the age, `h′` and the place on the circle then,
-    /// in a flight that is taken apart.
+    /// The error of `v(0,·)` in flight, up to `len` from now; in a flight that is taken apart `flown` is the age, `h′` and
+    /// the place on the circle then.
     pub(super) fn end(&self, damping: f64, flown: Option<(f64, f64, f64)>, len: f64) -> Off {
         let apart = flown.map_or(0.0, |(age, rate, at)| {
             let (form, more) = self.flown(damping, (age, rate, at), 0.0);
@@ -176,7 +174,7 @@ impl Budget {
         Off { fixed: self.fixed.height + self.fixed.point * len, apart }
     }
 
-    /// The same as a linear function of what the flight began with, and what comes to it, in the clock of the vibration.
+    /// The same in the clock of the vibration: as a linear function of the sources, and what is not followed that way.
     fn flown(&self, damping: f64, (age, rate, at): (f64, f64, f64), near: f64) -> (Form, f64) {
         let (_, slowed) = aged(damping, age);
         let TakeOff { at: from, end_rate, .. } = self.flight;
@@ -186,7 +184,7 @@ impl Budget {
         (form, self.swing + 0.5 * damping.exp() * self.even + unclear + scattered)
     }
 
-    /// What damping makes of the displacements of stripes besides letting them fade, at this age: no more than they are.
+    /// What damping makes of the displacements of stripes at this age, besides letting them fade: no more than they are.
     fn scattered(&self, damping: f64, age: f64) -> f64 {
         let left = (damping * (6.0 - 0.75 * age)).exp() + (-damping * age).exp();
         let turned = (damping * damping * age / 8.0).exp_m1() * (2.0 * damping).exp();
@@ -202,7 +200,12 @@ impl Budget {
         if apart && worst.rise.max(worst.speed) < fixed {
             return worst;
         }
-        Uncertainty { rise: fixed, speed: fixed, ..Uncertainty::default() }
+        Uncertainty { rise: fixed, speed: fixed, slope: worst.slope, ..Uncertainty::default() }
+    }
+
+    /// The time of an event may be off so far.
+    pub(super) fn note_event(&mut self, off: Off) {
+        self.fixed.worst = self.fixed.worst.max(off.fixed);
     }
 
     /// The error of the height at the end of a piece of rest.
@@ -230,8 +233,8 @@ impl Budget {
         self.worst.rise = self.worst.rise.max(off.apart + self.swing + 2.0 * self.events.mass());
     }
 
-    /// The greatest slope of `q` between rays, from now on.
-    fn note_slope(&mut self, slope: f64) {
+    /// Velocities change no faster than this between rays, since the last event.
+    pub(super) fn note_slope(&mut self, slope: f64) {
         self.worst.slope = self.worst.slope.max(slope);
     }
 
@@ -290,15 +293,16 @@ impl Budget {
             }
         };
         self.events.add_rate(rest + 2.0 * r.exp() * (1.0 + r) * self.even);
-        self.vibration.wave += self.events.thin();
+        let (mass, level) = self.events.thin();
+        self.vibration.wave += mass;
+        self.vibration.point += level;
         self.swing = (4.0 * r).exp() * self.vibration.wave;
-        self.note_slope(flight.steepest);
         self.flight = flight;
         self.note();
     }
 
-    /// After a contact of one round trip, which the true motion makes as well: what it makes of the vibration depends on
-    /// when it began by no more than damping and gravity do in that time. What is left of `δh′`.
+    /// After a contact of one round trip, which the true motion makes as well: without damping and gravity it turns the
+    /// vibration round whenever it begins. What is not followed of `δh′`.
     fn after_round_trip(&mut self, r: f64, kept: f64, landing: &Landing, flight: &TakeOff) -> f64 {
         let kappa = 0.5 * r;
         let (late, rate, mass) = (self.events.late(), self.events.rate(), self.events.mass());
@@ -327,20 +331,20 @@ impl Budget {
             + 2.0 * (weight_rest(kappa) + r * r) * r.exp() * mass
     }
 
-    /// After any other contact: what passes turns round, and what is not followed mixes two parts of the range. What is
-    /// left of `δh′`.
+    /// After any other contact: what passes turns round; of what is not followed, two parts of the range are mixed. What
+    /// is not followed of `δh′`.
     fn after_contact(&mut self, r: f64, kept: f64, landing: &Landing, flight: &TakeOff) -> f64 {
         let time = self.events.time();
         let Vibration { wave: before, point, scatter } = self.vibration;
         let fade = (-r * flight.len).exp();
         self.events.contact((landing.at, flight.len), (landing.velocity, landing.fall), fade);
         let mass = self.events.mass();
-        let unknown = flight.slope.map_or(0.0, |slope| (self.even + point + scatter) / slope.abs());
-        let more = unknown + 4.0 * f64::EPSILON;
-        self.events.release((flight.at, flight.fall), flight.jump, flight.slope, (more, flight.off + time));
         // A path crosses each ray twice in a round trip, and each time a part κ of its mass is scattered; what is between
         // rays changes by 2κ of it on each of the two ways.
         let scattered = (flight.len + 1.0) * r * (mass + self.events.level()) + r.exp_m1() * mass;
+        let unknown = flight.slope.map_or(0.0, |slope| (self.even + point + scatter + scattered) / slope.abs());
+        let limits = (unknown + flight.rounding, flight.off + time);
+        self.events.release((flight.at, flight.fall), flight.jump, flight.slope, limits);
         let rest = 2.0 * r.exp() * before + scattered;
         self.vibration.wave = 3.0 * kept * before + 2.0 * scattered;
         self.vibration.point += 2.0 * scattered + rest;
@@ -373,7 +377,6 @@ impl Budget {
             self.vibration.point += landing.slope * self.events.late();
             self.events.reset_clock();
         }
-        self.note_slope(curvature);
         self.landing = Some(landing);
         self.note();
     }

@@ -130,9 +130,9 @@ impl Dependence {
         })
     }
 
-    /// The error of `v(0,·)`, where the end moves with `by_time` late and `by_rate` per `δh′`, at the place `to` on the
-    /// circle in a flight that began at `from` and has let the vibration fade by `fade`; and what rays may add that pass
-    /// within `near`.
+    /// The error of `v(0,·)` at the place `to` on the circle, in a flight that began at `from` and has let the vibration
+    /// fade by `fade`: so much by the time of the last event and by `δh′`, and what the stripes bring. Besides, what rays
+    /// may add that pass within `near`.
     pub(super) fn height(
         &self,
         (by_time, by_rate): (f64, f64),
@@ -176,8 +176,8 @@ impl Dependence {
         }
     }
 
-    /// A contact of one round trip: `h′` keeps so much of itself and gains so much from the lateness of the landing, and
-    /// `by_mass` of each mass by the place where it passes. All of the vibration turns round.
+    /// A contact of one round trip: `δh′` keeps so much of itself, gains so much by the time of the landing, and `by_mass`
+    /// of each mass by the place where it passes. All of the vibration turns round.
     pub(super) fn round_trip(&mut self, (keeps, by_late): (f64, f64), fade: f64, by_mass: impl Fn(f64) -> f64) {
         let mut rate = self.rate.times(keeps);
         rate.add(by_late, &self.late);
@@ -190,7 +190,7 @@ impl Dependence {
     }
 
     /// Any contact that lasts `len` from a landing at the place `at` with `velocity`, where `h″ = fall`: what passes the
-    /// ground turns round, and fades by `fade`.
+    /// ground turns round, and all fades by `fade`.
     pub(super) fn contact(&mut self, (at, len): (f64, f64), (velocity, fall): (f64, f64), fade: f64) {
         // At equal times `δh′` is a constant of `q`, and the vibration is what has no mean.
         let mut all = self.rate.clone();
@@ -217,9 +217,9 @@ impl Dependence {
         self.stripes[landing].mass.add(1.0, &late);
     }
 
-    /// A release after [`Self::contact`] at the place `at`: where a ray arrives, with which `q` jumps by `jump.0` and after
-    /// which p has jumped by `jump.1`, or at a root of the stress with this slope. It is late by `more` besides, or by
-    /// `most` in all; in flight `h″ = fall`.
+    /// A release after [`Self::contact`] at the place `at`, where `h″ = fall` in flight: at a root of the stress with this
+    /// slope, or where a ray arrives, on which `q` jumps by `jump.0`. On the ray that starts p jumps by `jump.1`. The
+    /// release is late by `more` besides, and by no more than `most` in all.
     pub(super) fn release(
         &mut self,
         (at, fall): (f64, f64),
@@ -227,15 +227,15 @@ impl Dependence {
         slope: Option<f64>,
         (more, most): (f64, f64),
     ) {
-        let k = self.cut(at);
+        // A new source may put the coefficients of all forms in other places.
+        let (source, k) = (self.source(), self.cut(at));
         let before = (k + self.stripes.len() - 1) % self.stripes.len();
         let mut late = match slope {
             // The stress that brings the root has turned round.
             Some(slope) => self.stripes[before].level.times(1.0 / slope),
             None => self.stripes[k].mass.times(-1.0 / jump.0),
         };
-        let (source, known) = (self.source(), late.bound() + more);
-        if known <= most {
+        if late.bound() + more <= most {
             late.depend(source, more);
         } else {
             late = Form::default();
@@ -295,14 +295,14 @@ impl Dependence {
         self.stripes[k].mass.add(1.0, &mass);
     }
 
-    /// Gives up stripes where there are too many: what they were at most.
-    pub(super) fn thin(&mut self) -> f64 {
+    /// Gives up stripes where there are too many: at most so much were all of them, and what is between them.
+    pub(super) fn thin(&mut self) -> (f64, f64) {
         if self.stripes.len() <= MOST_STRIPES {
-            return 0.0;
+            return (0.0, 0.0);
         }
-        let mass = self.mass();
+        let given_up = (self.mass(), self.level());
         self.stripes.clear();
-        mass
+        given_up
     }
 
     /// A new source. Where there are too many, the older half of those of each quantity become one.

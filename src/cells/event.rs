@@ -12,8 +12,9 @@ use crate::special::RoundedSpecial;
 const MOST_LATE: f64 = 0.01;
 
 impl<S: RoundedSpecial> Follower<'_, S> {
-    /// Turns contact into flight or back, now. A release at a root of the trace, which has this `slope` there, has velocity zero. Where the end
-    /// only touches the ground and a ray arrives at that very time, the velocity is the one that the ray brings.
+    /// Turns contact into flight or back, now. A release at a root of the trace, which has this `slope` there, has
+    /// velocity zero. Where the end only touches the ground and a ray arrives at that very time, the velocity is the one
+    /// that the ray brings.
     pub(super) fn event(&mut self, off: Off, slope: Option<f64>) {
         let zero = self.height.zero();
         let kind = if self.contact { EventKind::Release } else { EventKind::Impact };
@@ -32,7 +33,9 @@ impl<S: RoundedSpecial> Follower<'_, S> {
         self.height = zero;
         // A ray of the start is off by no more than the roundings of t₁ and of its own time.
         let rounding = 4.0 * time.log2_roundoff().exp2() * (1.0 + time.to_f64());
+        self.budget.note_event(off);
         let since = self.budget.since(apart);
+        self.budget.note_event(off);
         match self.marks.last_mut() {
             Some(last) => last.after = since,
             None => self.before = since,
@@ -50,6 +53,7 @@ impl<S: RoundedSpecial> Follower<'_, S> {
             self.let_go(&velocity, off, slope);
         } else {
             self.touch_down(&velocity, off);
+            self.note_slope();
             self.contact = true;
             self.weigh();
         }
@@ -58,11 +62,20 @@ impl<S: RoundedSpecial> Follower<'_, S> {
         }
     }
 
-    /// The ground lets go, with this velocity, at a root of the stress with this slope or at a ray: p goes over from −q to q, too early
-    /// or too late by what the time is off.
+    /// The ground lets go, with this velocity, at a root of the stress with this slope or at a ray: p goes over from −q
+    /// to q, too early or too late by what the time is off.
     pub(super) fn let_go(&mut self, velocity: &S, off: Off, slope: Option<f64>) {
         self.budget.let_go(velocity.to_f64().abs(), off, self.cell_error);
         self.take_off(velocity, off, slope);
+        self.note_slope();
+    }
+
+    /// How fast velocities change between rays: `q` by its slope and by damping, and the static state by gravity.
+    fn note_slope(&mut self) {
+        let rate = self.centre().map_or(0.0, |(_, rate)| rate.to_f64().abs());
+        let moving = self.state.bound() + rate;
+        let slope = self.medium.variation(&self.state).0 + self.medium.gravity.to_f64() + 2.0 * self.damping() * moving;
+        self.budget.note_slope(slope);
     }
 
     /// Takes the flight that begins here apart.
@@ -85,10 +98,10 @@ impl<S: RoundedSpecial> Follower<'_, S> {
             len: self.landing.as_ref().map_or(0.0, since),
             whole,
             off: off.apart,
+            rounding: 8.0 * self.height.log2_roundoff().exp2(),
             slope,
             jump: (velocity - last, velocity + last),
             end_rate: velocity - rate,
-            steepest: self.medium.variation(&self.state).0 + fall.abs(),
             fall,
         };
         let rounding = LEAP_ROUNDINGS / 4.0 * self.cell_error;

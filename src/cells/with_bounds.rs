@@ -23,12 +23,14 @@ fn within<S: Rounded>(value: &S, bound: f64) -> Estimate<S> {
     Estimate::new(value.clone(), bound / value.unit() + value.to_f64().abs())
 }
 
-/// Bounds near a time, in the units of the problem: displacements as far as the events are in time, velocities, strains,
-/// and how late the events may be.
+/// Bounds near a time, in the units of the problem.
 struct Near {
+    /// Of displacements, as far as the events are in time.
     rise: f64,
+    /// Of velocities.
     speed: f64,
     strain: f64,
+    /// Of the times of events.
     late: f64,
 }
 
@@ -87,13 +89,16 @@ impl<S: Rounded, H: Motion<S>> WithBounds<S, H> {
     }
 
     /// The bounds at an event: those of the contact that it begins or ends, whenever that is; but its time is rounded.
+    /// Where they are those of equal times, the event itself is off.
     fn at_event(&self, event: usize) -> Near {
         let events = self.history.events();
         let contact = event - usize::from(event > 0 && events[event].kind == EventKind::Release);
         let found = self.history.uncertainty(&events[contact].time);
-        let time = &events[event].time;
-        let late = if found.late == 0.0 { 0.0 } else { 8.0 * time.unit() * time.to_f64() / self.scales.time };
-        self.scaled(Uncertainty { late, ..found })
+        let Event { time, time_error, .. } = &events[event];
+        let rounding = 8.0 * time.unit() * time.to_f64();
+        // Where the time may be off without bound, so may all else already.
+        let off = if found.late == 0.0 && time_error.is_finite() { *time_error } else { 0.0 };
+        self.scaled(Uncertainty { late: (off + rounding) / self.scales.time, ..found })
     }
 
     fn scaled(&self, found: Uncertainty) -> Near {
