@@ -2,9 +2,11 @@
 
 use std::sync::Arc;
 
+use super::rays::Rays;
 use crate::error::Error;
 use crate::motion::{Contact, Ending, Energy, Event, Field, Motion, Scales, Side, StressPiece};
 use crate::number::{Reads, Scalar};
+use crate::problem::Problem;
 use crate::ray::Ray;
 use crate::reason::Warning;
 use crate::wave::{Stretch, Waves};
@@ -14,14 +16,16 @@ use crate::wave::{Stretch, Waves};
 pub(super) struct Converted<N: Scalar, M> {
     engine: Arc<dyn Motion<N>>,
     precision: N::Precision,
+    rays: Rays<N>,
     events: Vec<Event<M>>,
     contacts: Vec<Contact<M>>,
 }
 
 impl<N: Scalar, M: Reads<N>> Converted<N, M> {
-    pub(super) fn new(engine: Arc<dyn Motion<N>>) -> Self {
+    pub(super) fn new(engine: Arc<dyn Motion<N>>, problem: &Problem) -> Self {
         Converted {
             precision: engine.end().precision(),
+            rays: Rays::of(&*engine, problem),
             events: engine.events().iter().map(|event| event.clone().map(M::read)).collect(),
             contacts: engine.contacts().iter().map(|contact| contact.clone().map(M::read)).collect(),
             engine,
@@ -30,10 +34,23 @@ impl<N: Scalar, M: Reads<N>> Converted<N, M> {
 
     /// A time of this history. One that an event, or the end, was rounded to is that event's own.
     fn time(&self, time: &M) -> N {
+        self.known(time).unwrap_or_else(|| time.give(&self.precision))
+    }
+
+    fn known(&self, time: &M) -> Option<N> {
         let end = self.engine.end();
         let known = self.engine.events().iter().map(|event| &event.time).chain([&end]);
-        let meant = known.into_iter().find(|known| M::read((*known).clone()).text() == time.text());
-        meant.cloned().unwrap_or_else(|| time.give(&self.precision))
+        known.into_iter().find(|known| M::read((*known).clone()).text() == time.text()).cloned()
+    }
+
+    /// A time at which `point` is asked about: that of a ray there, where the roundings of `M` alone set it apart.
+    fn time_at(&self, point: &N, time: &M) -> N {
+        let roundings = 8.0 * time.log2_roundoff().exp2() * time.to_f64();
+        self.known(time).unwrap_or_else(|| self.rays.meant(point, time.give(&self.precision), roundings))
+    }
+
+    fn time_at_ground(&self, time: &M) -> N {
+        self.time_at(&self.engine.end().zero(), time)
     }
 
     fn pair(pair: (N, N)) -> (M, M) {
@@ -63,15 +80,15 @@ impl<N: Scalar, M: Reads<N>> Motion<M> for Converted<N, M> {
     }
 
     fn strain(&self, time: &M, side: Side) -> Result<M, Error> {
-        self.engine.strain(&self.time(time), side).map(M::read)
+        self.engine.strain(&self.time_at_ground(time), side).map(M::read)
     }
 
     fn ground_end(&self, time: &M, side: Side) -> Result<(M, M), Error> {
-        self.engine.ground_end(&self.time(time), side).map(Self::pair)
+        self.engine.ground_end(&self.time_at_ground(time), side).map(Self::pair)
     }
 
     fn top_end(&self, time: &M, side: Side) -> Result<(M, M), Error> {
-        self.engine.top_end(&self.time(time), side).map(Self::pair)
+        self.engine.top_end(&self.time_at(&self.engine.scales().length, time), side).map(Self::pair)
     }
 
     fn centre(&self, time: &M) -> Result<(M, M), Error> {
@@ -87,7 +104,8 @@ impl<N: Scalar, M: Reads<N>> Motion<M> for Converted<N, M> {
     }
 
     fn field(&self, point: &M, time: &M, side: Side) -> Result<Field<M>, Error> {
-        let field = self.engine.field(&point.give(&self.precision), &self.time(time), side)?;
+        let point = point.give(&self.precision);
+        let field = self.engine.field(&point, &self.time_at(&point, time), side)?;
         Ok(field.map(M::read))
     }
 

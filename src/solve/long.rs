@@ -22,7 +22,7 @@ impl Target for Rational {
 impl Target for Float {
     fn run(problem: &Problem, plan: &Plan, rung: Rung, observe: &Observer) -> Result<Engined<Float>, Error> {
         match rung {
-            Rung::Enclosures(bits) => Ok(Arc::new(Converted::new(enclosures(problem, plan, bits, observe)?))),
+            Rung::Enclosures(bits) => Ok(Arc::new(Converted::new(enclosures(problem, plan, bits, observe)?, problem))),
             rung => estimates(problem, plan, bits_of(rung), observe),
         }
     }
@@ -42,8 +42,8 @@ pub(super) fn in_doubles(
     observe: &Observer,
 ) -> Result<Engined<f64>, Error> {
     Ok(match rung {
-        Rung::Enclosures(bits) => Arc::new(Converted::new(enclosures(problem, plan, bits, observe)?)),
-        rung => Arc::new(Converted::new(estimates(problem, plan, bits_of(rung), observe)?)),
+        Rung::Enclosures(bits) => Arc::new(Converted::new(enclosures(problem, plan, bits, observe)?, problem)),
+        rung => Arc::new(Converted::new(estimates(problem, plan, bits_of(rung), observe)?, problem)),
     })
 }
 

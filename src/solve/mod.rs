@@ -6,7 +6,7 @@
 //! | `plan` | everything that is decided before running |
 //! | `foresee` | the digits that a chaotic run is going to lose |
 //! | `engines`, `long` | the planned engine in the numbers of one attempt |
-//! | `converted` | a history in one number system, read in another |
+//! | `converted`, `rays` | a history in one number system, read in another, and when rays pass a point of it |
 //! | `ladder` | more bits until the answer is settled |
 //! | `solution` | the answer in the numbers that were asked for |
 
@@ -19,6 +19,8 @@ mod ladder;
 mod long;
 mod plan;
 mod question;
+#[cfg(feature = "mp")]
+mod rays;
 mod solution;
 
 pub(crate) use ladder::{Attempt, Ladder, unobserved};

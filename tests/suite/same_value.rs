@@ -147,7 +147,8 @@ fn times(problem: &Problem) -> Vec<Number> {
         .collect()
 }
 
-/// Asked in one order and in the other, each time of a history of its own: settled to the same digits.
+/// Asked in one order and in the other, each time of a history of its own: settled to the same digits, on rays at times
+/// that no double holds, too, although a question before may have called for longer numbers.
 fn in_any_order(problem: &Problem, times: &[Number]) -> Result<(), TestCaseError> {
     let ask = |history: &History<f64>, time: &Number| -> Vec<f64> {
         let t = time.to_f64();
@@ -210,7 +211,38 @@ fn every_number_system_but_fractions(problem: &Problem) -> Result<(), TestCaseEr
     in_numbers::<f64, _>(problem, Numbers::Double(None), &times, &*truth)?;
     in_numbers::<Float, _>(problem, Numbers::Digits(12), &times, &*truth)?;
     in_numbers::<Interval, _>(problem, Numbers::Certified(12), &times, &*truth)?;
-    // A ray at a time that is no double is met in doubles, and missed once a question has called for longer numbers.
-    let doubles = times.into_iter().filter(|time| Rational::from_f64(time.to_f64()) == Some(time.to_rational()));
-    in_any_order(problem, &doubles.collect::<Vec<_>>())
+    in_any_order(problem, &times)
+}
+
+/// A run in doubles and the same run in longer numbers, both asked by doubles: rays at times that no double holds are
+/// met in both.
+#[test]
+fn rays_are_met_by_rounded_times() {
+    for (rod, damping, fixed) in [(("4", "3/4"), Some("39/200"), false), (("3/7", "1/3"), None, true)] {
+        let number = |text: &str| text.parse::<Number>().unwrap();
+        let mut problem = Problem::builder().length(number(rod.0)).wave_speed(number(rod.1)).gravity(number("1"));
+        problem = problem.impact_speed(number("3")).time(number("30"));
+        if let Some(r) = damping {
+            problem = problem.damping(number(r));
+        }
+        if fixed {
+            problem = problem.top(dalembert::Top::Fixed);
+        }
+        let problem = problem.build().unwrap();
+        let plan = Plan::of(&problem, &Question::run(Numbers::Double(None))).unwrap();
+        let observe = Arc::new(dalembert::lattice::unobserved) as dalembert::Observer;
+        let [double, long] = [Rung::Double, Rung::Bits(192)].map(|rung| f64::run(&problem, &plan, rung, &observe).unwrap());
+        let mut jumps = 0;
+        for time in times(&problem).iter().map(|time| <f64 as dalembert::Answer>::carry(&time.to_f64())) {
+            let found = [Side::Left, Side::Right].map(|side| {
+                let (ours, theirs) = (values(&*double, &time, side).ok()?, values(&*long, &time, side).ok()?);
+                same(&format!("{side:?} of {time:?}"), &ours, &theirs).unwrap();
+                Some(ours)
+            });
+            if let [Some(left), Some(right)] = found {
+                jumps += left.iter().zip(&right).filter(|(a, b)| (a.1.to_f64() - b.1.to_f64()).abs() > 1e-3).count();
+            }
+        }
+        assert!(jumps >= 4, "{jumps}");
+    }
 }
