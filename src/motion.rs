@@ -39,7 +39,7 @@ fn list<S: Scalar, Z: Serializer>(list: &[S], z: Z) -> Result<Z::Ok, Z::Error> {
 #[serde(rename_all = "snake_case")]
 #[cfg_attr(feature = "cli", derive(clap::ValueEnum))]
 pub enum Side {
-    /// The limit from earlier times, `t⁻`.
+    /// The limit from earlier times, `t⁻`; at the start the given data.
     Left,
     /// The limit from later times, `t⁺`.
     #[default]

@@ -233,6 +233,12 @@ impl<S: RoundedSpecial> Damped<S> {
         self.unresolved.as_ref()
     }
 
+    /// The data, where `time` is the start seen from before it.
+    fn given_at(&self, point: &S, time: &S, side: Side) -> Result<Option<Field<S>>, Error> {
+        let before = side == Side::Left && time.is_zero() && self.held.is_none();
+        Ok(if before { Some(self.data.given.at(point)?) } else { None })
+    }
+
     /// What the field follows from.
     fn record(&self) -> Record<'_, S> {
         let Damped { medium, data, held, pieces, checkpoints, flights, .. } = self;
@@ -387,6 +393,9 @@ impl<S: RoundedSpecial> Motion<S> for Damped<S> {
     }
 
     fn strain(&self, time: &S, side: Side) -> Result<S, Error> {
+        if let Some(given) = self.given_at(&time.zero(), time, side)? {
+            return Ok(given.strain);
+        }
         let t = self.time(time)?;
         Ok(match self.record().piece(&t, side) {
             Some((piece, at)) if piece.contact => {
@@ -397,6 +406,9 @@ impl<S: RoundedSpecial> Motion<S> for Damped<S> {
     }
 
     fn ground_end(&self, time: &S, side: Side) -> Result<(S, S), Error> {
+        if let Some(given) = self.given_at(&time.zero(), time, side)? {
+            return Ok((given.displacement, given.velocity));
+        }
         let t = self.time(time)?;
         let (height, rate) = self.record().end(&t, side);
         Ok((height * &self.data.units.displacement, rate * &self.data.units.velocity))
@@ -452,6 +464,9 @@ impl<S: RoundedSpecial> Motion<S> for Damped<S> {
         let units = &self.data.units;
         if point.is_negative() || *point > units.length || !point.is_finite() {
             return Err(Error::PointOutside { found: point.text(), length: units.length.text() });
+        }
+        if let Some(given) = self.given_at(point, time, side)? {
+            return Ok(given);
         }
         if point.is_zero() {
             let (displacement, velocity) = self.ground_end(time, side)?;

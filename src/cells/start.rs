@@ -15,7 +15,7 @@ use std::collections::VecDeque;
 use super::cell::Cell;
 use super::march::{Medium, State};
 use crate::number::{Number, Rounded};
-use crate::problem::{Parameters, Problem, Profile, Start};
+use crate::problem::{AtStart, Parameters, Problem, Profile, Start};
 
 /// Linear data on an interval.
 #[derive(Clone, Debug)]
@@ -122,6 +122,8 @@ pub(super) struct Data<S> {
     pub(super) gravity: S,
     /// `v_s′(0)`.
     pub(super) slope: S,
+    /// The data in the units of the problem.
+    pub(super) given: AtStart<S>,
     /// `v(0,0)`.
     pub(super) ground: S,
     /// The data, whole rod only.
@@ -209,7 +211,8 @@ impl<S: Rounded> Data<S> {
             time,
         };
         let damping = parameters.damping.clone() * &units.time;
-        Data { units, damping, gravity, slope: static_slope, ground: first, half }
+        let given = AtStart::of(problem, parameters);
+        Data { units, damping, given, gravity, slope: static_slope, ground: first, half }
     }
 
     /// `v_t(0⁺, 0)`.

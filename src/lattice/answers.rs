@@ -48,8 +48,10 @@ impl<N: Bounded> Motion<N> for Undamped<N> {
     fn strain(&self, time: &N, side: Side) -> Result<N, Error> {
         let place = self.place(&self.locate(time)?, side)?;
         let piece = self.ground.trace.piece(&place);
-        // Before the start nothing is stressed at the ground.
-        if place.index == 0 || !piece.contact {
+        if place.index == 0 {
+            return Ok(self.problem.data.at(&time.zero())?.strain);
+        }
+        if !piece.contact {
             return Ok(time.zero());
         }
         let p = piece.line.value_at(&place.age);
@@ -113,6 +115,9 @@ impl<N: Bounded> Motion<N> for Undamped<N> {
         let units = &self.problem.units;
         if point.negative()? || units.length.below(point)? || !point.is_finite() {
             return Err(Error::PointOutside { found: point.text(), length: units.length.text() });
+        }
+        if side == Side::Left && time.vanishes()? {
+            return Ok(self.problem.data.at(point)?);
         }
         let moment = self.locate(time)?;
         let height = point.clone().halved() / &units.length;

@@ -2,7 +2,7 @@
 
 use crate::error::Error;
 use crate::number::{Bounded, Number, Open};
-use crate::problem::{Parameters, Problem, Profile, Start, Top};
+use crate::problem::{AtStart, Parameters, Problem, Profile, Start, Top};
 
 /// The units in which the lattice computes: with them a break returns after exactly 1, and gravity is 1 or 0.
 #[derive(Clone, Debug)]
@@ -26,6 +26,8 @@ pub struct Scaled<N> {
     pub gravity: N,
     /// The end `x = L`.
     pub top: Top,
+    /// The data, in the units of the problem.
+    pub(crate) data: AtStart<N>,
     /// `v(0,0)`.
     pub ground_start: N,
     /// `v_t(0,0)`.
@@ -50,6 +52,7 @@ impl<N: Bounded> Scaled<N> {
         let one = given.length.one();
         let gravity = if has_gravity { one.clone() } else { one.zero() };
         let fall = given.critical_speed();
+        let data = AtStart::of(problem, &given);
         let units = |velocity: N| Units {
             round_trip: round_trip.clone(),
             velocity,
@@ -70,7 +73,7 @@ impl<N: Bounded> Scaled<N> {
                 let gap = problem.gap().map_or_else(|| one.zero(), |gap| N::from_number(gap, precision));
                 let ground_start = gap / &velocity / &round_trip;
                 let (top, ground_velocity) = (problem.rod.top, -speed);
-                Ok(Scaled { units: units(velocity), gravity, top, ground_start, ground_velocity, before })
+                Ok(Scaled { units: units(velocity), gravity, top, data, ground_start, ground_velocity, before })
             }
             Start::Profile(profile) => {
                 let segments = segments(profile, &problem.rod.length, precision);
@@ -79,7 +82,7 @@ impl<N: Bounded> Scaled<N> {
                 let ground_velocity = ground_value::<N>(&profile.velocity, precision) / &velocity;
                 let units = units(velocity);
                 let before = before(&segments, &units, &gravity, problem.rod.top);
-                Ok(Scaled { units, gravity, top: problem.rod.top, ground_start, ground_velocity, before })
+                Ok(Scaled { units, gravity, top: problem.rod.top, data, ground_start, ground_velocity, before })
             }
         }
     }

@@ -23,6 +23,7 @@
 //! | impacts | 1 … 10 000 000 |
 //! | points of a profile | 2 … 100 000, at least 1e-12 L apart |
 
+mod at_start;
 mod builder;
 mod definition;
 mod error;
@@ -32,6 +33,7 @@ pub(crate) mod profile;
 pub(crate) mod validate;
 pub(crate) mod written;
 
+pub(crate) use at_start::AtStart;
 pub use builder::Builder;
 pub use definition::{Material, Problem, Profile, Rod, Run, Speed, Start, Top};
 pub use error::{ProblemError, ProblemErrorKind};
