@@ -25,8 +25,8 @@
 //! | [`Problem::exact`] | fractions | no error, as far as they reach; undamped rods |
 //! | [`Problem::certified`] | enclosures | every digit is proved; undamped rods, and the first contact of damped ones |
 //!
-//! The features `mp` (all numbers but doubles), `cli` (the command) and `plot` (its pictures) add to each other and
-//! take nothing away.
+//! The features `mp` (all numbers but doubles), `cli` (the command), `compare` (what it shares with the wheel) and
+//! `plot` (its pictures) add to each other and take nothing away.
 
 // The rooms are public for the crate's own tests and benchmarks; what is meant to be used is re-exported below.
 #[cfg(feature = "compare")]

@@ -279,8 +279,8 @@ def compare(
 
     Data that cannot be compared are a ValueError with the text of the command.
     """
-    others = ("scene", "data", "values", "quantity", "x")
-    given = {name: value for name, value in locals().items() if name not in others and value is not None}
+    given = {name: value for name, value in locals().items() if value is not None}
+    given = {name: value for name, value in given.items() if name not in ("scene", "data", "values", "quantity", "x")}
     if values is not None:
         if not hasattr(values, "keys"):
             if quantity is None:

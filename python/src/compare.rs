@@ -11,7 +11,7 @@ use pyo3::prelude::*;
 use pyo3::types::PyDict;
 
 use super::problem::{Problem, number as read_number};
-use super::{observer, refuse, run};
+use super::{observer, one_of, refuse, run};
 
 /// A column: doubles, or the type or the shape that makes it none.
 #[derive(FromPyObject)]
@@ -37,15 +37,6 @@ pub(crate) struct Comparison {
     compared: Compared,
     title: Option<String>,
     units: Units,
-}
-
-/// The one of `known` that is called `found`.
-fn one_of<T: Copy>(name: &str, found: &Bound<'_, PyAny>, known: &[(&str, T)]) -> PyResult<T> {
-    let text: Option<String> = found.extract().ok();
-    known.iter().find(|(word, _)| text.as_deref() == Some(word)).map(|(_, value)| *value).ok_or_else(|| {
-        let words: Vec<&str> = known.iter().map(|(word, _)| *word).collect();
-        refuse(format!("found {name} = {found}, expected {}", words.join(" or ")))
-    })
 }
 
 fn options(given: &Bound<'_, PyDict>) -> PyResult<Options> {

@@ -21,6 +21,15 @@ fn refuse(error: impl std::fmt::Display) -> PyErr {
     PyValueError::new_err(error.to_string())
 }
 
+/// The one of `known` that is called `found`.
+fn one_of<T: Copy>(name: &str, found: &Bound<'_, PyAny>, known: &[(&str, T)]) -> PyResult<T> {
+    let text: Option<String> = found.extract().ok();
+    known.iter().find(|(word, _)| text.as_deref() == Some(word)).map(|(_, value)| *value).ok_or_else(|| {
+        let words: Vec<&str> = known.iter().map(|(word, _)| *word).collect();
+        refuse(format!("found {name} = {found}, expected {}", words.join(" or ")))
+    })
+}
+
 /// What ends a solution when `stop` is set.
 fn observer(stop: &Arc<AtomicBool>) -> dalembert::Observer {
     let stop = stop.clone();

@@ -10,7 +10,7 @@ use pyo3::prelude::*;
 use pyo3::types::{PyBool, PyDict, PyFloat, PyInt, PyString};
 
 use super::history::History;
-use super::{observer, refuse, run};
+use super::{observer, one_of, refuse, run};
 
 /// A number: exactly what an int, a `Fraction`, a `Decimal` or a text spells; a float is the shortest decimal that
 /// spells it.
@@ -133,42 +133,23 @@ fn whole(name: &str, value: &Bound<'_, PyAny>) -> PyResult<u32> {
 
 /// The builder with all of `values` set.
 fn set(mut builder: Builder, values: &Bound<'_, PyDict>) -> PyResult<Builder> {
-    let mut material = [None, None, None];
     for (key, value) in values {
         let key: String = key.extract()?;
         let name = key.as_str();
-        let number = || written(name, &value);
         builder = match name {
-            "length" => builder.length(number()?),
-            "wave_speed" => builder.wave_speed(number()?),
-            "damping" => builder.damping(number()?),
-            "gravity" => builder.gravity(number()?),
-            "impact_speed" => builder.impact_speed(number()?),
-            "gap" => builder.gap(number()?),
-            "drop_height" => builder.drop_height(number()?),
-            "time" => builder.time(number()?),
             "impacts" => builder.impacts(whole(name, &value)?),
             "displacement" => builder.displacement(points(name, &value)?),
             "velocity" => builder.velocity(points(name, &value)?),
-            "top" => match value.extract::<&str>() {
-                Ok("free") => builder.top(Top::Free),
-                Ok("fixed") => builder.top(Top::Fixed),
-                _ => return Err(refuse(format!("found top = {}, expected \"free\" or \"fixed\"", value.repr()?))),
+            "top" => builder.top(one_of(name, &value, &[("free", Top::Free), ("fixed", Top::Fixed)])?),
+            _ => match Builder::numbers().any(|known| known == name) {
+                true => builder.named(name, written(name, &value)?),
+                false => {
+                    let known = Builder::numbers().collect::<Vec<_>>().join(", ");
+                    let expected = format!("one of {known}, impacts, displacement, velocity, top");
+                    return Err(PyTypeError::new_err(format!("found the unknown value `{name}`, expected {expected}")));
+                }
             },
-            "modulus" | "density" | "area" => {
-                let place = ["modulus", "density", "area"].iter().position(|known| *known == name).unwrap_or(0);
-                material[place] = Some(number()?);
-                builder
-            }
-            _ => return Err(PyTypeError::new_err(format!("found the unknown value `{name}`, expected {KNOWN}"))),
         };
     }
-    match material {
-        [None, None, None] => Ok(builder),
-        [Some(modulus), Some(density), Some(area)] => Ok(builder.material(modulus, density, area)),
-        _ => Err(PyValueError::new_err("found a part of modulus, density and area, expected all three, or wave_speed")),
-    }
+    Ok(builder)
 }
-
-const KNOWN: &str = "one of length, wave_speed, modulus, density, area, damping, gravity, impact_speed, gap, drop_height, \
-    top, displacement, velocity, time, impacts";

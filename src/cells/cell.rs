@@ -29,6 +29,8 @@
 //! `b ξ e^{κ(ξ+η)}` (maximum principle for `u_η = κ(w−u)`, `w_ξ = κ(u−w)` on `0 … ξ`). Between breaks the start is of
 //! that form, so one number of Chebyshev terms, from [`super::series::terms_for`], serves a side for ever.
 
+use std::sync::LazyLock;
+
 use super::series::{Basis, at_one, evaluate_all, times_x};
 use crate::number::Rounded;
 
@@ -57,10 +59,11 @@ pub(super) fn terms(y: f64, log2_accuracy: f64) -> usize {
     if y <= 0.0 {
         return 0;
     }
+    static SQUARES: LazyLock<[f64; 1001]> = LazyLock::new(|| std::array::from_fn(|k| 2.0 * (k as f64).log2()));
     let (log2_y, mut log2_term, mut k) = (y.log2(), 0.0, 0usize);
     while log2_term > log2_accuracy - 1.0 && k < 1000 {
         k += 1;
-        log2_term += log2_y - 2.0 * (k as f64).log2();
+        log2_term += log2_y - SQUARES[k];
     }
     k.saturating_sub(1)
 }

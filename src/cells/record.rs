@@ -104,18 +104,17 @@ impl<S: RoundedSpecial> Record<'_, S> {
     pub(super) fn line(&self, t: &S, reach: &S) -> Vec<Node<S>> {
         let zero = t.zero();
         let mut nodes = Vec::new();
-        let mut add = |from: &S, len: &S, values: &dyn Fn(&[S]) -> Vec<(S, S, S)>| {
-            let gauss = &self.medium.basis.gauss;
-            let places: Vec<S> = gauss.iter().map(|(at, _)| len.clone() * at + from).collect();
-            let values = values(&places);
-            for ((weight, x), (rigid, motion, strain)) in gauss.iter().map(|(_, weight)| weight).zip(places).zip(values)
-            {
+        let gauss = &self.medium.basis.gauss;
+        let places = |from: &S, len: &S| gauss.iter().map(|(at, _)| len.clone() * at + from).collect::<Vec<S>>();
+        let mut add = |len: &S, places: Vec<S>, values: Vec<(S, S, S)>| {
+            for (((_, weight), x), (rigid, motion, strain)) in gauss.iter().zip(places).zip(values) {
                 nodes.push(Node { weight: weight.clone() * len, x, rigid, motion, strain });
             }
         };
         if let Some(contact) = self.at_rest(t) {
-            let rest = |x: &S| (zero.clone(), zero.clone(), self.rest_strain(x, contact));
-            add(&zero, reach, &|places| places.iter().map(rest).collect());
+            let places = places(&zero, reach);
+            let values = places.iter().map(|x| (zero.clone(), zero.clone(), self.rest_strain(x, contact))).collect();
+            add(reach, places, values);
             return nodes;
         }
         self.sweep(&(t.clone() - reach), t, &mut |(cell, flight)| {
@@ -124,13 +123,17 @@ impl<S: RoundedSpecial> Record<'_, S> {
             let high = smaller(smaller(t.clone() - xi, eta.clone() + &cell.size.1 - t), reach.clone());
             let len = high - &low;
             if len.is_positive() {
-                add(&low, &len, &|places| self.inside((cell, flight), places, t));
+                let places = places(&low, &len);
+                let values = self.inside((cell, flight), &places, t);
+                add(&len, places, values);
             }
         });
         if let Some(held) = self.held {
             for (from, to) in held.between_rays(t, &larger(t.clone() - &held.release, zero.clone()), reach) {
-                let before = |x: &S| self.before(held, x, t, Side::Right);
-                add(&from, &(to - &from), &|places| places.iter().map(before).collect());
+                let len = to - &from;
+                let places = places(&from, &len);
+                let values = places.iter().map(|x| self.before(held, x, t, Side::Right)).collect();
+                add(&len, places, values);
             }
         }
         nodes

@@ -60,7 +60,7 @@ impl Source {
         let piped = path == Path::new("-");
         let file = if piped { "standard input".to_string() } else { path.display().to_string() };
         let read = |error: std::io::Error| DataErrorKind::Unreadable(error.to_string()).at(&file, None);
-        let opened: Box<dyn Read> =
+        let opened: Box<dyn Read + Send> =
             if piped { Box::new(std::io::stdin()) } else { Box::new(File::open(path).map_err(read)?) };
         let mut reader = BufReader::with_capacity(1 << 16, opened);
         let start = reader.fill_buf().map_err(read)?;

@@ -7,7 +7,7 @@ use crate::number::Number;
 
 /// A text, read up to its first row.
 pub(super) struct Text {
-    reader: BufReader<Box<dyn Read>>,
+    reader: BufReader<Box<dyn Read + Send>>,
     separator: Option<char>,
     /// The names of the columns; empty where there are none.
     pub(super) names: Vec<String>,
@@ -65,7 +65,7 @@ impl Text {
     /// row where it has as many words as the row has numbers.
     ///
     /// **Errors**: a file that cannot be read, is not text, or holds no row.
-    pub(super) fn open(reader: BufReader<Box<dyn Read>>, file: &str) -> Result<Self, DataError> {
+    pub(super) fn open(reader: BufReader<Box<dyn Read + Send>>, file: &str) -> Result<Self, DataError> {
         let (line, number) = (Vec::new(), 0);
         let mut text = Text { reader, separator: None, names: Vec::new(), line, number, width: 0 };
         let mut comment = String::new();

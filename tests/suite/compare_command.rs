@@ -129,11 +129,13 @@ fn reference_files_agree() {
 #[test]
 fn both_limits_of_a_reference_file() {
     let folder = folder("");
+    // Impacts and releases at 0, 2/3, 8/3, 10/3, … , 8: both rows of those that are asked for; 13 of them in the whole run.
+    // GetFEM's strain jumps on t = x, then on both diagonals but where they cross, then on t = 1 − x: at 15 of the points.
     let cases: [(&str, &[&str], usize, u64); 5] = [
-        ("doyen-ern-piperno", &["--dt", "1/128", "--to", "8"], 17, 16),
-        ("doyen-ern-piperno", &[], 17, 14),
-        ("doyen-ern-piperno", &["--columns", "t,v_end,force", "--times", "0..4:13"], 2, 6),
-        ("getfem-dynamic-contact", &["--points", "0..1:5", "--times", "0..3:13"], 3, 24),
+        ("doyen-ern-piperno", &["--dt", "1/128", "--to", "8"], 17, 6),
+        ("doyen-ern-piperno", &[], 17, 26),
+        ("doyen-ern-piperno", &["--columns", "t,v_end,force", "--times", "0..4:13"], 2, 8),
+        ("getfem-dynamic-contact", &["--points", "0..1:5", "--times", "0..3:13"], 3, 30),
         ("paper-strong", &["--times", "0,1/3,1,2,3"], 17, 4),
     ];
     for (scene, asked, count, on_jumps) in cases {
@@ -144,8 +146,8 @@ fn both_limits_of_a_reference_file() {
             let report = json(folder.path(), &["compare", scene, name]);
             assert_eq!(report["quantities"].as_array().unwrap().len(), count, "{scene} {asked:?}");
             for quantity in report["quantities"].as_array().unwrap() {
-                // Fractions are rounded once, and ours at the rounded times.
-                let most = if numbers.is_empty() { 0.0 } else { 1e-14 };
+                // Times such as 1/3 are rounded in the file, where ours are asked at them.
+                let most = if asked == ["--dt", "1/128", "--to", "8"] { f64::EPSILON } else { 8.0 * f64::EPSILON };
                 let off = quantity["linf"]["relative"].as_f64().unwrap_or(0.0);
                 assert!(off <= most, "{scene} {name} {numbers:?} {asked:?}: {quantity}");
                 if matches!(quantity["name"].as_str(), Some("force" | "strain")) {
