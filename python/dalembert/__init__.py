@@ -242,7 +242,8 @@ class _Compared:
         self.contacts, self.audit, self.hints = report["contacts"], report["audit"], report["hints"]
         self.norms = {norms["name"]: norms for norms in report["quantities"]}
         self.t, self.x = arrays["t"], arrays.get("x")
-        self.ours, self.theirs = ({name: arrays[f"{name}_{whose}"] for name in self.norms} for whose in ("ours", "theirs"))
+        self.ours = {name: arrays[f"{name}_ours"] for name in self.norms}
+        self.theirs = {name: arrays[f"{name}_theirs"] for name in self.norms}
         self.difference = {name: self.theirs[name] - self.ours[name] for name in self.norms}
 
 

@@ -76,19 +76,23 @@ def test_a_field_and_several_sources():
     assert dalembert.compare(ROD, runs, widths=[0.4, 0.1]).orders[0]["l2"] == pytest.approx(1, abs=1e-9)
 
 
+def of(values, **options):
+    return lambda: dalembert.compare(ROD, T, values, **{"quantity": "u", **options})
+
+
 @pytest.mark.parametrize(
     ("error", "said", "act"),
     [
-        (TypeError, "found values without a quantity", lambda: dalembert.compare(ROD, T, T)),
+        (TypeError, "found values without a quantity", of(T, quantity=None)),
         (ValueError, "found no column of times", lambda: dalembert.compare(ROD, {"u": T})),
         (ValueError, "row 2, column 1: found time 0 after 1", lambda: dalembert.compare(ROD, {"t": [1, 0], "u": [0, 0]})),
-        (ValueError, "row 5, column 2: found NaN", lambda: dalembert.compare(ROD, T, [0, 0, 0, 1, np.nan], quantity="u")),
-        (ValueError, "`u`: found 4 rows, expected 5", lambda: dalembert.compare(ROD, T, T[1:], quantity="u")),
-        (ValueError, r"`u`: found an array of shape \[5, 1\]", lambda: dalembert.compare(ROD, T, T[:, None], quantity="u")),
-        (ValueError, "array of type <U1, expected numbers", lambda: dalembert.compare(ROD, T, [*"abcde"], quantity="u")),
-        (ValueError, "array of type complex128", lambda: dalembert.compare(ROD, T, T * 1j, quantity="u")),
-        (ValueError, "found no quantity in the columns t, w", lambda: dalembert.compare(ROD, T, T, quantity="w")),
-        (ValueError, "found axis = left, expected up or down", lambda: dalembert.compare(ROD, T, T, quantity="u", axis="left")),
+        (ValueError, "row 5, column 2: found NaN", of([0, 0, 0, 1, np.nan])),
+        (ValueError, "`u`: found 4 rows, expected 5", of(T[1:])),
+        (ValueError, r"`u`: found an array of shape \[5, 1\]", of(T[:, None])),
+        (ValueError, "array of type <U1, expected numbers", of([*"abcde"])),
+        (ValueError, "array of type complex128", of(T * 1j)),
+        (ValueError, "found no quantity in the columns t, w", of(T, quantity="w")),
+        (ValueError, "found axis = left, expected up or down", of(T, axis="left")),
         (ValueError, "found --dt 0, expected more than zero", lambda: dalembert.compare(ROD, {"u": T}, dt=0)),
         (ValueError, "cannot be read", lambda: dalembert.compare(ROD, "nowhere.csv")),
         (AttributeError, "one of files", lambda: dalembert.compare(ROD, [{"t": T, "u": T}] * 2).norms),

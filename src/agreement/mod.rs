@@ -72,7 +72,8 @@ impl Agreement {
     /// Compares `samples` with `history` of `problem`.
     ///
     /// **Source**: each sample of a quantity that jumps is scored against the nearer of its two limits where its time
-    /// is that of the jump, as well as the times tell, or against the limit that its row is said to hold. Norms, contacts, audit and hints as in `quantity`.
+    /// is that of the jump, as well as the times tell, or against the limit that its row is said to hold. Norms,
+    /// contacts, audit and hints as in `quantity`.
     ///
     /// **Accuracy**: that of the history, in doubles.
     ///
