@@ -124,7 +124,7 @@ fn reference_files_agree() {
     }
 }
 
-/// A file of `reference` as it is written, with both limits at a jump: no difference at all, whether the limits are told
+/// A file of `reference` as it is written, with both limits at a jump: no difference beyond a rounding, whether the limits are told
 /// by the column of sides or by the order of the rows, in doubles or in fractions, for a field too.
 #[test]
 fn both_limits_of_a_reference_file() {
@@ -146,8 +146,9 @@ fn both_limits_of_a_reference_file() {
             let report = json(folder.path(), &["compare", scene, name]);
             assert_eq!(report["quantities"].as_array().unwrap().len(), count, "{scene} {asked:?}");
             for quantity in report["quantities"].as_array().unwrap() {
-                // Times such as 1/3 are rounded in the file, where ours are asked at them.
-                let most = if asked == ["--dt", "1/128", "--to", "8"] { f64::EPSILON } else { 8.0 * f64::EPSILON };
+                // Times such as 1/3 are rounded in the file, where ours are asked at them; fractions show what ours has
+                // lost, which is far within the 1e-9 that it promises.
+                let most = if numbers.is_empty() { 8.0 * f64::EPSILON } else { 1e-12 };
                 let off = quantity["linf"]["relative"].as_f64().unwrap_or(0.0);
                 assert!(off <= most, "{scene} {name} {numbers:?} {asked:?}: {quantity}");
                 if matches!(quantity["name"].as_str(), Some("force" | "strain")) {
