@@ -25,12 +25,15 @@
 //! | [`Problem::exact`] | fractions | no error, as far as they reach; undamped rods |
 //! | [`Problem::certified`] | enclosures | every digit is proved; undamped rods, and the first contact of damped ones |
 //!
-//! The features `mp` (all numbers but doubles), `cli` (the command) and `plot` (its pictures) add to each other and
-//! take nothing away.
+//! The features `mp` (all numbers but doubles), `cli` (the command), `compare` (what it shares with the wheel) and
+//! `plot` (its pictures) add to each other and take nothing away.
 
 // The rooms are public for the crate's own tests and benchmarks; what is meant to be used is re-exported below.
-#[cfg(feature = "cli")]
-mod agreement;
+#[cfg(feature = "compare")]
+#[doc(hidden)]
+pub mod agreement;
+#[cfg(feature = "compare")]
+mod aligned;
 #[doc(hidden)]
 pub mod cells;
 #[cfg(feature = "cli")]
@@ -38,8 +41,9 @@ pub mod cells;
 pub mod cli;
 #[cfg(feature = "cli")]
 mod compare;
-#[cfg(feature = "cli")]
-mod data;
+#[cfg(feature = "compare")]
+#[doc(hidden)]
+pub mod data;
 mod error;
 #[doc(hidden)]
 pub mod first_contact;

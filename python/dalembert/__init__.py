@@ -12,6 +12,7 @@ decimal that spells it: 0.1 is 1/10. All units are those of the input.
 
 from __future__ import annotations
 
+import json
 import os
 from collections import namedtuple
 from decimal import Decimal
@@ -24,7 +25,7 @@ import numpy as np
 
 from . import _core
 
-__all__ = ["Energy", "Field", "History", "Motion", "Problem", "reference", "scenes", "solve"]
+__all__ = ["Comparison", "Energy", "Field", "History", "Motion", "Problem", "compare", "reference", "scenes", "solve"]
 __version__ = _version("dalembert")
 
 Number = Union[int, float, Fraction, Decimal, str]
@@ -188,7 +189,10 @@ def reference(
     >>> list(reference("paper-strong", [0.5, 2], ["t", "strain"])["strain"])
     [-3.5, -5.0, 0.0]
     """
-    last = max(map(Fraction, np.asarray(times, dtype=object).ravel().tolist()))
+    # By way of text: 0.7 is 7/10 here too, where Fraction(0.7) is a little less, and the last time would be beyond it.
+    given = np.asarray(times)
+    given = given.astype(float if given.dtype.kind == "f" else object)
+    last = max(Fraction(str(time)) for time in given.ravel().tolist())
     history = solve(scene, to=last if last > 0 else None, **numbers)
     table = history.columns(columns, times, side)
     try:
@@ -196,6 +200,131 @@ def reference(
     except ImportError:
         return table
     return DataFrame(table)
+
+
+class Comparison:
+    """Data beside the exact history: what ``dalembert compare`` reports. With several sources what follows is that of
+    each of :attr:`files`, and :attr:`orders` are those of convergence.
+
+    ``norms`` of each quantity by name, as ``norms["u_end"]["l2"]["relative"]``; ``contacts``, each with "ours" and
+    "theirs" (or None); ``audit``; ``hints``; the median ``step``; and at the times ``t``, and points ``x`` of a field,
+    ``ours``, ``theirs`` and ``difference``, arrays by name.
+    """
+
+    def __init__(self, core: _core.Comparison) -> None:
+        self._core = core
+        #: Everything, as ``--format json`` gives it.
+        self.report: dict[str, Any] = json.loads(core.json())
+        self.orders: list[dict[str, Any]] = self.report.get("orders", [])
+        #: What a user should know of the history.
+        self.warnings: list[str] = core.warnings()
+        reports = self.report.get("files", [self.report])
+        self.files = [_Compared(report, core.columns(k)) for k, report in enumerate(reports)]
+
+    def table(self) -> str:
+        """The text that the command prints."""
+        return self._core.table()
+
+    __repr__ = table
+
+    def __getattr__(self, name: str) -> Any:
+        if name.startswith("_") or len(self.files) > 1:
+            raise AttributeError(f"found {name}, expected it of one of files")
+        return getattr(self.files[0], name)
+
+
+class _Compared:
+    """One source of a :class:`Comparison`."""
+
+    def __init__(self, report: dict[str, Any], columns: list[tuple[str, np.ndarray]]) -> None:
+        arrays = dict(columns)
+        self.file, self.step, self.window, self.outside = (report[k] for k in ("file", "step", "window", "outside"))
+        self.contacts, self.audit, self.hints = report["contacts"], report["audit"], report["hints"]
+        self.norms = {norms["name"]: norms for norms in report["quantities"]}
+        self.t, self.x = arrays["t"], arrays.get("x")
+        self.ours = {name: arrays[f"{name}_ours"] for name in self.norms}
+        self.theirs = {name: arrays[f"{name}_theirs"] for name in self.norms}
+        self.difference = {name: self.theirs[name] - self.ours[name] for name in self.norms}
+
+
+def compare(
+    scene: str | os.PathLike[str] | Problem,
+    data: Any,
+    values: Any = None,
+    *,
+    quantity: str | None = None,
+    x: Numbers | None = None,
+    map: str | None = None,
+    dt: Number | None = None,
+    t0: Number | None = None,
+    shift: Number | None = None,
+    compression: Literal["+", "-"] | None = None,
+    u_origin: Literal["ground", "start"] = "ground",
+    axis: Literal["up", "down"] = "up",
+    energy_scale: Number = 1,
+    window: Number | None = None,
+    widths: Sequence[Number] = (),
+) -> Comparison:
+    """Holds data against the exact history of a scene or problem, as ``dalembert compare`` does.
+
+    The data are times with the ``values`` of a ``quantity``, or of several as a dict or a DataFrame; with points ``x``
+    along the rod, values of shape ``(len(t), len(x))`` are a field. Without values, the data are a DataFrame, a dict or
+    a structured array that has a column ``t``, or a file as the command takes it; a list of them gives the order of
+    convergence. Quantities are called as in :meth:`History.columns`, ``u`` and ``v`` for short. Two rows at one time
+    are the limits at a jump. The options are those of the command.
+
+    >>> t = [0, 1, 2, 3, 4]     # one contact of two time units, and v = t - 2 after it
+    >>> c = compare(Problem(length=1, wave_speed=1, impact_speed=1), t, [0, 0, 0, 1, 2.25], quantity="u_end")
+    >>> c.difference["u_end"].tolist(), c.norms["u_end"]["linf"]["time"]
+    ([0.0, 0.0, 0.0, 0.0, 0.25], 4.0)
+
+    Data that cannot be compared are a ValueError with the text of the command.
+    """
+    given = {name: value for name, value in locals().items() if value is not None}
+    given = {name: value for name, value in given.items() if name not in ("scene", "data", "values", "quantity", "x")}
+    if values is not None:
+        if not hasattr(values, "keys"):
+            if quantity is None:
+                raise TypeError("found values without a quantity, expected quantity='u_end' or another column's name")
+            values = {quantity: values}
+        columns = {name: np.asarray(values[name]) for name in values.keys()}
+        times = {"t": data} if x is None else {"t": data, "x": x}
+        if x is not None and any(column.ndim == 2 for column in columns.values()):
+            times = dict(zip("tx", np.meshgrid(data, x, indexing="ij")))
+            times, columns = ({name: np.ravel(array) for name, array in part.items()} for part in (times, columns))
+        data = times | columns
+    sources = data if isinstance(data, list) else [data]
+    problem = scene if isinstance(scene, Problem) else Problem.from_scene(scene)
+    return Comparison(_core.Comparison(problem._core, [_source(source) for source in sources], given))
+
+
+def _source(data: Any) -> tuple[str, list[str], list[Any] | None]:
+    if isinstance(data, (str, os.PathLike)):
+        return os.fspath(data), [], None
+    names = getattr(getattr(data, "dtype", None), "names", None) or (data.keys() if hasattr(data, "keys") else None)
+    if names is None:
+        array = np.asarray(data)
+        names, columns = [], list(array.T) if array.ndim == 2 else [array]
+    else:
+        names = list(names)
+        columns = [data[name] for name in names]
+    return type(data).__name__, [str(name) for name in names], [_doubles(column) for column in columns]
+
+
+_SIDES = {"left": -1, "both": 0, "right": 1}
+
+
+def _doubles(column: Any) -> np.ndarray | str | list[int]:
+    """The column as doubles, or the type or the shape that makes it none."""
+    array = np.asarray(column)
+    if array.ndim != 1:
+        return list(array.shape)
+    if array.dtype.kind in "OU":
+        array = np.array([_SIDES.get(value, value) for value in array.tolist()], dtype=object)
+    try:
+        return np.ascontiguousarray(array, dtype=np.float64) if array.dtype.kind in "biufO" else str(array.dtype)
+    except (TypeError, ValueError):
+        return str(np.asarray(column).dtype)
 
 
 def _fraction(text: str) -> Fraction:

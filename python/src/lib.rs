@@ -1,8 +1,10 @@
 //! The wheel: Python values in, Python values out. All physics is in the crate `dalembert`.
 
+mod compare;
 mod history;
 mod problem;
 
+use std::ops::ControlFlow;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::mpsc::{RecvTimeoutError, channel};
@@ -19,12 +21,27 @@ fn refuse(error: impl std::fmt::Display) -> PyErr {
     PyValueError::new_err(error.to_string())
 }
 
+/// The one of `known` that is called `found`.
+fn one_of<T: Copy>(name: &str, found: &Bound<'_, PyAny>, known: &[(&str, T)]) -> PyResult<T> {
+    let text: Option<String> = found.extract().ok();
+    known.iter().find(|(word, _)| text.as_deref() == Some(word)).map(|(_, value)| *value).ok_or_else(|| {
+        let words: Vec<&str> = known.iter().map(|(word, _)| *word).collect();
+        refuse(format!("found {name} = {found}, expected {}", words.join(" or ")))
+    })
+}
+
+/// What ends a solution when `stop` is set.
+fn observer(stop: &Arc<AtomicBool>) -> dalembert::Observer {
+    let stop = stop.clone();
+    Arc::new(move |_, _| if stop.load(Ordering::Relaxed) { ControlFlow::Break(()) } else { ControlFlow::Continue(()) })
+}
+
 /// Runs `work` on a thread of its own, without the interpreter's lock. Ctrl-C sets `stop` and returns at once; work
 /// that does not look at `stop` ends unseen.
-fn run<T: Send + 'static>(
+fn run<T: Send + 'static, E: std::fmt::Display + Send + 'static>(
     py: Python<'_>,
     stop: &Arc<AtomicBool>,
-    work: impl FnOnce() -> Result<T, dalembert::Error> + Send + 'static,
+    work: impl FnOnce() -> Result<T, E> + Send + 'static,
 ) -> PyResult<T> {
     stop.store(false, Ordering::Relaxed);
     let (sender, receiver) = channel();
@@ -54,6 +71,8 @@ fn run<T: Send + 'static>(
 mod _core {
     use pyo3::prelude::*;
 
+    #[pymodule_export]
+    use super::compare::Comparison;
     #[pymodule_export]
     use super::history::History;
     #[pymodule_export]

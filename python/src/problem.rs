@@ -1,18 +1,16 @@
 //! Problems, and numbers as Python has them.
 
-use std::ops::ControlFlow;
 use std::sync::Arc;
-use std::sync::atomic::{AtomicBool, Ordering};
 
 use dalembert::problem::{Builder, Parameters, Top, Written};
 use dalembert::solve::MAX_DIGITS;
-use dalembert::{Number, Numbers, Plan, Question, Scene};
+use dalembert::{Number, Numbers, Plan, Question, Scene, UnitSystem};
 use pyo3::exceptions::{PyTypeError, PyValueError};
 use pyo3::prelude::*;
 use pyo3::types::{PyBool, PyDict, PyFloat, PyInt, PyString};
 
 use super::history::History;
-use super::{refuse, run};
+use super::{observer, one_of, refuse, run};
 
 /// A number: exactly what an int, a `Fraction`, a `Decimal` or a text spells; a float is the shortest decimal that
 /// spells it.
@@ -56,8 +54,10 @@ fn points(name: &str, value: &Bound<'_, PyAny>) -> PyResult<Vec<(Written, Writte
 /// The physics in exact numbers, checked.
 #[pyclass(frozen, module = "dalembert._core")]
 pub(crate) struct Problem {
-    problem: dalembert::Problem,
-    accuracy: Option<f64>,
+    pub(crate) problem: dalembert::Problem,
+    pub(crate) accuracy: Option<f64>,
+    pub(crate) title: Option<String>,
+    pub(crate) units: UnitSystem,
 }
 
 #[pymethods]
@@ -66,20 +66,21 @@ impl Problem {
     #[new]
     fn new(values: &Bound<'_, PyDict>) -> PyResult<Self> {
         let problem = set(dalembert::Problem::builder(), values)?.build().map_err(refuse)?;
-        Ok(Problem { problem, accuracy: None })
+        Ok(Problem { problem, accuracy: None, title: None, units: UnitSystem::default() })
     }
 
     /// The problem of a scene in TOML.
     #[staticmethod]
     fn parse(text: &str) -> PyResult<Self> {
         let scene = Scene::parse(text).map_err(refuse)?;
-        Ok(Problem { problem: scene.problem, accuracy: scene.accuracy.as_ref().map(Number::to_f64) })
+        let Scene { problem, accuracy, title, units, .. } = scene;
+        Ok(Problem { problem, accuracy: accuracy.as_ref().map(Number::to_f64), title, units })
     }
 
     /// The same problem with other values in place of some.
     fn replace(&self, values: &Bound<'_, PyDict>) -> PyResult<Self> {
         let problem = set(self.problem.to_builder(), values)?.build().map_err(refuse)?;
-        Ok(Problem { problem, accuracy: self.accuracy })
+        Ok(Problem { problem, accuracy: self.accuracy, title: self.title.clone(), units: self.units })
     }
 
     /// `c`, `t₁`, `R`, `M`, in doubles; `M` is infinite without gravity and `None` where the start is not uniform.
@@ -115,12 +116,8 @@ impl Problem {
             (.., accuracy) => Numbers::Double(accuracy.or(self.accuracy)),
         };
         let question = if first_contact { Question::first_contact(numbers) } else { Question::run(numbers) };
-        let (problem, stop) = (self.problem.clone(), Arc::new(AtomicBool::new(false)));
-        let observed = stop.clone();
-        let observe = Arc::new(move |_, _| match observed.load(Ordering::Relaxed) {
-            true => ControlFlow::Break(()),
-            false => ControlFlow::Continue(()),
-        });
+        let (problem, stop) = (self.problem.clone(), Arc::default());
+        let observe = observer(&stop);
         // The plan may already take long: it foresees the digits that a chaotic run loses.
         let solution = run(py, &stop, move || Plan::of(&problem, &question)?.solve(&problem, observe))?;
         Ok(History::new(solution, stop))
@@ -136,42 +133,23 @@ fn whole(name: &str, value: &Bound<'_, PyAny>) -> PyResult<u32> {
 
 /// The builder with all of `values` set.
 fn set(mut builder: Builder, values: &Bound<'_, PyDict>) -> PyResult<Builder> {
-    let mut material = [None, None, None];
     for (key, value) in values {
         let key: String = key.extract()?;
         let name = key.as_str();
-        let number = || written(name, &value);
         builder = match name {
-            "length" => builder.length(number()?),
-            "wave_speed" => builder.wave_speed(number()?),
-            "damping" => builder.damping(number()?),
-            "gravity" => builder.gravity(number()?),
-            "impact_speed" => builder.impact_speed(number()?),
-            "gap" => builder.gap(number()?),
-            "drop_height" => builder.drop_height(number()?),
-            "time" => builder.time(number()?),
             "impacts" => builder.impacts(whole(name, &value)?),
             "displacement" => builder.displacement(points(name, &value)?),
             "velocity" => builder.velocity(points(name, &value)?),
-            "top" => match value.extract::<&str>() {
-                Ok("free") => builder.top(Top::Free),
-                Ok("fixed") => builder.top(Top::Fixed),
-                _ => return Err(refuse(format!("found top = {}, expected \"free\" or \"fixed\"", value.repr()?))),
+            "top" => builder.top(one_of(name, &value, &[("free", Top::Free), ("fixed", Top::Fixed)])?),
+            _ => match Builder::numbers().any(|known| known == name) {
+                true => builder.named(name, written(name, &value)?),
+                false => {
+                    let known = Builder::numbers().collect::<Vec<_>>().join(", ");
+                    let expected = format!("one of {known}, impacts, displacement, velocity, top");
+                    return Err(PyTypeError::new_err(format!("found the unknown value `{name}`, expected {expected}")));
+                }
             },
-            "modulus" | "density" | "area" => {
-                let place = ["modulus", "density", "area"].iter().position(|known| *known == name).unwrap_or(0);
-                material[place] = Some(number()?);
-                builder
-            }
-            _ => return Err(PyTypeError::new_err(format!("found the unknown value `{name}`, expected {KNOWN}"))),
         };
     }
-    match material {
-        [None, None, None] => Ok(builder),
-        [Some(modulus), Some(density), Some(area)] => Ok(builder.material(modulus, density, area)),
-        _ => Err(PyValueError::new_err("found a part of modulus, density and area, expected all three, or wave_speed")),
-    }
+    Ok(builder)
 }
-
-const KNOWN: &str = "one of length, wave_speed, modulus, density, area, damping, gravity, impact_speed, gap, drop_height, \
-    top, displacement, velocity, time, impacts";

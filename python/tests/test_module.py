@@ -62,6 +62,14 @@ def test_tables():
     assert "getfem-dynamic-contact" in dalembert.scenes()
 
 
+def test_a_reference_ends_where_its_last_time_is_spelt():
+    # 0.7 is 7/10, and the nearest double is less: v_x(0,t) = -(3 + t) at both.
+    for times in ([0.5, 0.7], np.array([0.7]), np.float32([0.5]), ["7/10", Decimal("0.25")]):
+        table = dalembert.reference("paper-strong", times, ["t", "strain"], "right", exact=True)
+        assert [-3 - t for t in table["t"]] == list(table["strain"])
+    assert list(dalembert.reference("paper-strong", [0.7], ["t"], "right", exact=True)["t"]) == [Fraction(7, 10)]
+
+
 def test_pickles():
     rod = dalembert.Problem(**ROD).replace(damping=Decimal("0.1"), time=4)
     again = pickle.loads(pickle.dumps(rod))

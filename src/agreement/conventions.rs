@@ -6,19 +6,21 @@ use crate::error::Error;
 use crate::quantity::Column;
 
 /// The sign of forces, stresses and strains where the rod is compressed.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, clap::ValueEnum)]
-pub(crate) enum Compression {
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "cli", derive(clap::ValueEnum))]
+pub enum Compression {
     /// Forces, stresses and strains are positive in compression
-    #[value(name = "+", alias = "positive")]
+    #[cfg_attr(feature = "cli", value(name = "+", alias = "positive"))]
     Positive,
     /// They are negative
-    #[value(name = "-", alias = "negative")]
+    #[cfg_attr(feature = "cli", value(name = "-", alias = "negative"))]
     Negative,
 }
 
 /// Where displacements are zero.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, clap::ValueEnum)]
-pub(crate) enum Origin {
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[cfg_attr(feature = "cli", derive(clap::ValueEnum))]
+pub enum Origin {
     /// Where the undeformed rod stands on the ground
     #[default]
     Ground,
@@ -27,8 +29,9 @@ pub(crate) enum Origin {
 }
 
 /// Which way displacements and velocities count.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, clap::ValueEnum)]
-pub(crate) enum Axis {
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[cfg_attr(feature = "cli", derive(clap::ValueEnum))]
+pub enum Axis {
     /// Away from the ground
     #[default]
     Up,

@@ -8,7 +8,7 @@ use crate::quantity::{Norms, order};
 
 /// A bound of a norm: `u.l2=0.1`.
 #[derive(Clone, Debug, PartialEq)]
-pub(crate) struct Limit {
+pub struct Limit {
     quantity: String,
     norm: NormName,
     bound: f64,

@@ -126,20 +126,23 @@ pub(crate) struct Map {
     pub(crate) time: Option<usize>,
     /// The column of points, for a field.
     pub(crate) point: Option<usize>,
+    /// The column of sides: which limit a row holds at a jump.
+    pub(crate) side: Option<usize>,
     /// The quantities.
     pub(crate) quantities: Vec<(What, usize)>,
 }
 
 /// Why columns cannot be mapped.
-#[derive(Clone, Debug, PartialEq, thiserror::Error, miette::Diagnostic)]
-pub(crate) enum MapError {
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[cfg_attr(feature = "cli", derive(miette::Diagnostic))]
+pub enum MapError {
     #[error("found no quantity in the columns {found}, expected some of {}, or --map t=0,u=1,v=2,force=3", known())]
     Nothing { found: String },
     #[error("found no names of columns, expected --map t=0,u=1,v=2,force=3 with their numbers, counted from 0")]
     NoNames,
     #[error("found `{found}` in --map, expected NAME=COLUMN as in t=0,u=1,force=3")]
     Form { found: String },
-    #[error("found the name `{found}` in --map, expected t, x, or one of {}", known())]
+    #[error("found the name `{found}` in --map, expected t, x, side, or one of {}", known())]
     Name { found: String },
     #[error("found `{found}` in --map twice, expected each quantity once")]
     Twice { found: String },
@@ -165,6 +168,10 @@ fn is_point(name: &str) -> bool {
     matches!(name, "x" | "point" | "X")
 }
 
+fn is_side(name: &str) -> bool {
+    name == Column::Side.name()
+}
+
 impl Map {
     /// The map that `text` asks for, `NAME=COLUMN` separated by commas; without it the names of the columns themselves.
     /// `counted` says that times come from `--dt`.
@@ -176,9 +183,10 @@ impl Map {
             None => names.iter().cloned().zip(0..).collect(),
         };
         let find = |is: fn(&str) -> bool| entries.iter().find(|(name, _)| is(name)).map(|(_, place)| *place);
-        let (time, point) = (find(is_time), find(is_point));
-        let mut map = Map { time, point, quantities: Vec::new() };
-        for (name, place) in entries.iter().filter(|(name, _)| !is_time(name) && !is_point(name)) {
+        let (time, point, side) = (find(is_time), find(is_point), find(is_side));
+        let mut map = Map { time, point, side, quantities: Vec::new() };
+        let is_place = |name: &str| is_time(name) || is_point(name) || is_side(name);
+        for (name, place) in entries.iter().filter(|(name, _)| !is_place(name)) {
             match What::named(name, point.is_some()) {
                 Some(what) if map.quantities.iter().any(|(other, _)| *other == what) => {
                     return Err(MapError::Twice { found: name.clone() });
@@ -199,9 +207,10 @@ impl Map {
         }
     }
 
-    /// The places that are read: times, points, quantities.
+    /// The places that are read: times, points, sides, quantities.
     pub(crate) fn places(&self) -> Vec<usize> {
-        self.time.into_iter().chain(self.point).chain(self.quantities.iter().map(|(_, place)| *place)).collect()
+        let quantities = self.quantities.iter().map(|(_, place)| *place);
+        self.time.into_iter().chain(self.point).chain(self.side).chain(quantities).collect()
     }
 }
 

@@ -1,10 +1,12 @@
 //! Other people's data held against a history: the same quantities at the same times, and what follows from them.
 
 mod between;
+mod comparison;
 mod conventions;
 mod limit;
 mod map;
 mod ours;
+mod report;
 mod samples;
 
 use crate::error::Error;
@@ -15,8 +17,12 @@ use crate::quantity::{
     touches,
 };
 
-pub(crate) use conventions::{Axis, Compression, Conventions, Origin};
-pub(crate) use limit::{Limit, Order, orders};
+pub use comparison::{CompareError, ComparedFile, Comparison, Options, Prepared};
+use conventions::Conventions;
+pub use conventions::{Axis, Compression, Origin};
+pub use limit::Limit;
+pub(crate) use limit::{Order, orders};
+pub use map::MapError;
 pub(crate) use map::{Map, What};
 use ours::{Ours, Place};
 pub(crate) use samples::{Clock, Samples};
@@ -66,7 +72,8 @@ impl Agreement {
     /// Compares `samples` with `history` of `problem`.
     ///
     /// **Source**: each sample of a quantity that jumps is scored against the nearer of its two limits where its time
-    /// is that of the jump, as well as the times tell. Norms, contacts, audit and hints as in `quantity`.
+    /// is that of the jump, as well as the times tell, or against the limit that its row is said to hold. Norms,
+    /// contacts, audit and hints as in `quantity`.
     ///
     /// **Accuracy**: that of the history, in doubles.
     ///
@@ -78,7 +85,7 @@ impl Agreement {
         settings: &Settings,
     ) -> Result<Self, Error> {
         let ours = Ours::of(problem, history)?;
-        let Samples { grid, mut quantities, step, outside, rounding } = samples;
+        let Samples { grid, mut quantities, step, outside, rounding, sides } = samples;
         let trip = history.scales().time;
         settings.conventions.apply(&ours, &mut quantities, grid.points.as_deref())?;
         let narrow = 2.0 * step;
@@ -93,7 +100,7 @@ impl Agreement {
             if Place::of(what) != passing.0 {
                 passing = (Place::of(what), ours.passing(Place::of(what), &grid));
             }
-            let on_jumps = ours.nearer(what, &grid, (&passing.1, &rounding), &theirs, &mut values)?;
+            let on_jumps = ours.nearer(what, &grid, (&passing.1, &rounding, &sides), &theirs, &mut values)?;
             let away = |k: usize, window: f64| (passing.1[k] - grid.times[k]).abs() > window;
             let scale = ours.scale(what);
             let norms = norms(&grid, &values, &theirs, scale, on_jumps, |k| !what.jumps() || away(k, window));

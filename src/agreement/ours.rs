@@ -115,10 +115,8 @@ impl<'a> Ours<'a> {
             return if many { filled(&grid.times, columns.len(), at) } else { at(&grid.times) };
         };
         let mut all = vec![Vec::with_capacity(grid.times.len()); whats.len()];
-        for row in grid.times.chunk_by(|a, b| a == b) {
-            let start = all[0].len();
-            let points = &points[start..start + row.len()];
-            for field in self.history.field(points, &row[..1], Side::Right)? {
+        for row in grid.rows() {
+            for field in self.history.field(&points[row.clone()], &[grid.times[row.start]], Side::Right)? {
                 for (values, what) in all.iter_mut().zip(whats) {
                     values.push(self.part(*what, &field));
                 }
@@ -136,12 +134,13 @@ impl<'a> Ours<'a> {
         }
     }
 
-    /// Replaces our values at samples on a jump by the limit that is nearer to theirs, and counts those samples.
+    /// Replaces our values at samples on a jump by the limit that their row holds, or the one that is nearer to theirs
+    /// where that is not known, and counts those samples.
     pub(super) fn nearer(
         &self,
         what: What,
         grid: &Grid,
-        (passing, rounding): (&[f64], &Rounding),
+        (passing, rounding, sides): (&[f64], &Rounding, &[Option<Side>]),
         theirs: &[f64],
         ours: &mut [f64],
     ) -> Result<usize, Error> {
@@ -151,9 +150,21 @@ impl<'a> Ours<'a> {
             if (jump - time).abs() > may || (jump - time).abs() > rounding.at(*time) {
                 continue;
             }
-            let left = self.limit(what, grid, k, jump.max(0.0), Side::Left)?;
-            let right = self.limit(what, grid, k, jump.max(0.0), Side::Right)?;
+            let limits = |time: f64| {
+                Ok::<_, Error>((
+                    self.limit(what, grid, k, time, Side::Left)?,
+                    self.limit(what, grid, k, time, Side::Right)?,
+                ))
+            };
+            let (left, right) = limits(jump.max(0.0))?;
             count += usize::from(left != right);
+            if let Some(side) = sides[k] {
+                // The jump is where the row says, or a rounding of its time away.
+                let own = limits(*time)?;
+                let (left, right) = if own.0 == own.1 { (left, right) } else { own };
+                ours[k] = if side == Side::Left { left } else { right };
+                continue;
+            }
             // Or the sample is just beside the jump, whatever its time is worth.
             for limit in [left, right] {
                 if (theirs[k] - limit).abs() < (theirs[k] - ours[k]).abs() {

@@ -2,6 +2,7 @@
 
 use super::map::{Map, What};
 use crate::data::{Columns, DataError, DataErrorKind};
+use crate::motion::Side;
 use crate::quantity::Grid;
 
 /// Times that are counted, and not in the file: `start + k step`.
@@ -22,6 +23,8 @@ pub(crate) struct Samples {
     /// How many rows lie before `t = 0`.
     pub(crate) outside: usize,
     pub(crate) rounding: Rounding,
+    /// Which limit each row holds at a jump, where that is known.
+    pub(crate) sides: Vec<Option<Side>>,
 }
 
 /// How far a time may be from what is meant by it: half a unit of its last written digit, and what adding up steps
@@ -61,7 +64,8 @@ impl Rounding {
 }
 
 impl Samples {
-    /// The samples in `columns` as `map` reads them, on a clock that is `shift` behind ours.
+    /// The samples in `columns` as `map` reads them, on a clock that is `shift` behind ours. Two rows at one time are
+    /// the limits of a jump, the earlier first; a field needs the column of sides for that.
     ///
     /// **Errors**: times that do not increase, points outside of the rod, no time after 0.
     pub(crate) fn of(
@@ -83,9 +87,25 @@ impl Samples {
             (None, Some(Clock { start, step })) => (0..rows).map(|k| start + k as f64 * step).collect(),
             (None, None) => Vec::new(),
         };
+        let side_at = at + usize::from(at_points);
+        let mut sides = vec![None; times.len()];
+        let said = map.side.map(|_| &columns.values[side_at]);
+        for (k, found) in said.into_iter().flatten().enumerate() {
+            sides[k] = match *found {
+                -1.0 => Some(Side::Left),
+                0.0 => None,
+                1.0 => Some(Side::Right),
+                other => return Err(columns.refuse(k, place(side_at), DataErrorKind::Side(other.to_string()))),
+            };
+        }
+        let limits = [Some(Side::Left), Some(Side::Right)];
         for k in 1..times.len() {
             let (before, found) = (times[k - 1], times[k]);
-            if !(found > before || (at_points && found == before)) {
+            if found == before && !at_points && said.is_none() && sides[k - 1].is_none() {
+                sides[k - 1..=k].copy_from_slice(&limits);
+            }
+            let follows = found > before || (found == before && (at_points || sides[k - 1..=k] == limits));
+            if !follows {
                 return Err(columns.refuse(k, place(0), DataErrorKind::NotIncreasing { before, found }));
             }
         }
@@ -95,7 +115,8 @@ impl Samples {
             if !(0.0..=length).contains(found) {
                 return Err(columns.refuse(k, place(at), DataErrorKind::PointOutside { found: *found, length }));
             }
-            let before = k.checked_sub(1).filter(|before| times[*before] == times[k]);
+            let same = |before: &usize| times[*before] == times[k] && sides[*before..=k] != limits;
+            let before = k.checked_sub(1).filter(same);
             if let Some(before) = before.and_then(|k| points.as_ref().map(|points| points[k])).filter(|x| x >= found) {
                 return Err(columns.refuse(k, place(at), DataErrorKind::PointsNotIncreasing { before, found: *found }));
             }
@@ -105,19 +126,16 @@ impl Samples {
         if last <= 0.0 {
             return Err(columns.whole(DataErrorKind::NoOverlap { last }));
         }
-        let cut = |mut values: Vec<f64>| {
-            values.drain(..from);
-            values
-        };
-        let first = at + usize::from(at_points);
-        let (times, points) = (cut(times), points.map(&cut));
+        let cut = |mut values: Vec<f64>| values.split_off(from);
+        let first = side_at + usize::from(map.side.is_some());
+        let (times, points, sides) = (cut(times), points.map(&cut), sides.split_off(from));
         let mut steps: Vec<f64> = times.windows(2).map(|pair| pair[1] - pair[0]).filter(|step| *step > 0.0).collect();
         let middle = steps.len() / 2;
         let step = if steps.is_empty() { 0.0 } else { *steps.select_nth_unstable_by(middle, f64::total_cmp).1 };
         let rounding = Rounding::of(&times, step);
         let values = columns.values.into_iter().skip(first);
         let quantities = map.quantities.iter().map(|(what, _)| *what).zip(values.map(&cut)).collect();
-        Ok(Samples { grid: Grid::new(times, points), quantities, step, outside: from, rounding })
+        Ok(Samples { grid: Grid::new(times, points), quantities, step, outside: from, rounding, sides })
     }
 }
 

@@ -29,7 +29,9 @@
 //! `b ξ e^{κ(ξ+η)}` (maximum principle for `u_η = κ(w−u)`, `w_ξ = κ(u−w)` on `0 … ξ`). Between breaks the start is of
 //! that form, so one number of Chebyshev terms, from [`super::series::terms_for`], serves a side for ever.
 
-use super::series::{Basis, at_one, evaluate, times_x};
+use std::sync::LazyLock;
+
+use super::series::{Basis, at_one, evaluate_all, times_x};
 use crate::number::Rounded;
 
 /// A cell with its incoming data: `e^{κ(ξ−ξ₀)} p` on the side `η = η₀`, `e^{κ(η−η₀)} q` on the side `ξ = ξ₀`.
@@ -57,10 +59,11 @@ pub(super) fn terms(y: f64, log2_accuracy: f64) -> usize {
     if y <= 0.0 {
         return 0;
     }
+    static SQUARES: LazyLock<[f64; 1001]> = LazyLock::new(|| std::array::from_fn(|k| 2.0 * (k as f64).log2()));
     let (log2_y, mut log2_term, mut k) = (y.log2(), 0.0, 0usize);
     while log2_term > log2_accuracy - 1.0 && k < 1000 {
         k += 1;
-        log2_term += log2_y - 2.0 * (k as f64).log2();
+        log2_term += log2_y - SQUARES[k];
     }
     k.saturating_sub(1)
 }
@@ -144,35 +147,44 @@ pub(super) fn diagonal<S: Rounded>(
 }
 
 impl<S: Rounded> Cell<'_, S> {
-    /// `p` and `q` of `z` at a point of the cell.
-    pub(super) fn at(&self, basis: &Basis<S>, xi: &S, eta: &S, log2_accuracy: f64) -> (S, S) {
+    /// `p` and `q` of `z` at points `ξ`, `η` of the cell.
+    pub(super) fn at(&self, basis: &Basis<S>, points: &[(S, S)], log2_accuracy: f64) -> Vec<(S, S)> {
         let (a, h) = (&self.depth.0, &self.depth.1);
-        let x = (xi.clone() - &self.corner.0) / &self.size.0;
-        let e = (eta.clone() - &self.corner.1) / &self.size.1;
+        let place = |(xi, eta): &(S, S)| {
+            ((xi.clone() - &self.corner.0) / &self.size.0, (eta.clone() - &self.corner.1) / &self.size.1)
+        };
+        let (xs, es): (Vec<S>, Vec<S>) = points.iter().map(place).unzip();
         let y = a.clone() * h;
         let count = terms(y.to_f64(), log2_accuracy).min(basis.powers.len() - 1);
         let (mut u, mut w) = (self.p.to_vec(), self.q.to_vec());
-        let (mut p, mut q) = (y.zero(), y.zero());
-        let (mut by_x, mut by_e) = (y.one(), y.one());
+        // p, q, and (κ²ξ)ᵏ/k!, (κ²η)ᵏ/k!.
+        let mut sums = vec![[y.zero(), y.zero(), y.one(), y.one()]; points.len()];
+        let (mut at_x, mut at_e) = (evaluate_all(&u, &xs), evaluate_all(&w, &es));
         for k in 0..=count {
-            p = evaluate(&u, &x) * &by_e + &p;
-            q = evaluate(&w, &e) * &by_x + &q;
             basis.integrate(&mut u);
             basis.integrate(&mut w);
-            p = p - evaluate(&w, &e) * h * &by_x;
-            q = q - evaluate(&u, &x) * a * &by_e;
+            let (next_x, next_e) = (evaluate_all(&u, &xs), evaluate_all(&w, &es));
             let next = y.clone() / y.int(i64::try_from(k + 1).unwrap_or(1));
-            by_x = by_x * &x * &next;
-            by_e = by_e * &e * &next;
+            for (i, [p, q, by_x, by_e]) in sums.iter_mut().enumerate() {
+                *p = at_x[i].clone() * &*by_e + &*p - next_e[i].clone() * h * &*by_x;
+                *q = at_e[i].clone() * &*by_x + &*q - next_x[i].clone() * a * &*by_e;
+                *by_x = by_x.clone() * &xs[i] * &next;
+                *by_e = by_e.clone() * &es[i] * &next;
+            }
+            (at_x, at_e) = (next_x, next_e);
         }
-        let decay = (-(a.clone() * &x + h.clone() * &e)).exp();
-        (p * &decay + &self.offset, q * &decay - &self.offset)
+        let value = |([p, q, ..], (x, e)): ([S; 4], (&S, &S))| {
+            let decay = (-(a.clone() * x + h.clone() * e)).exp();
+            (p * &decay + &self.offset, q * &decay - &self.offset)
+        };
+        sums.into_iter().zip(xs.iter().zip(&es)).map(value).collect()
     }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::cells::series::evaluate;
 
     #[test]
     fn a_constant_velocity_decays() {
@@ -182,7 +194,7 @@ mod tests {
         let (mut p, mut q) = (basis.exponential(&-a, 16), basis.exponential(&-h, 16));
         let (p0, q0) = (p.clone(), q.clone());
         let cell = Cell { corner: (0.0, 0.0), size: (1.0, 1.0), depth: (a, h), p: &p0, q: &q0, offset: 0.0 };
-        let (at_p, at_q) = cell.at(&basis, &0.5, &0.25, -60.0);
+        let (at_p, at_q) = cell.at(&basis, &[(0.5, 0.25)], -60.0)[0];
         let exact = (-2.0 * (0.5 * a + 0.25 * h)).exp();
         assert!((at_p - exact).abs() < 4e-15 && (at_q - exact).abs() < 4e-15);
         cross(&basis, (&mut p, &mut q), (&a, &h), (&(-a).exp(), &(-h).exp()), -60.0);

@@ -104,15 +104,17 @@ impl<S: RoundedSpecial> Record<'_, S> {
     pub(super) fn line(&self, t: &S, reach: &S) -> Vec<Node<S>> {
         let zero = t.zero();
         let mut nodes = Vec::new();
-        let mut add = |from: &S, len: &S, values: &mut dyn FnMut(&S) -> (S, S, S)| {
-            for (at, weight) in &self.medium.basis.gauss {
-                let x = len.clone() * at + from;
-                let (rigid, motion, strain) = values(&x);
+        let gauss = &self.medium.basis.gauss;
+        let places = |from: &S, len: &S| gauss.iter().map(|(at, _)| len.clone() * at + from).collect::<Vec<S>>();
+        let mut add = |len: &S, places: Vec<S>, values: Vec<(S, S, S)>| {
+            for (((_, weight), x), (rigid, motion, strain)) in gauss.iter().zip(places).zip(values) {
                 nodes.push(Node { weight: weight.clone() * len, x, rigid, motion, strain });
             }
         };
         if let Some(contact) = self.at_rest(t) {
-            add(&zero, reach, &mut |x| (zero.clone(), zero.clone(), self.rest_strain(x, contact)));
+            let places = places(&zero, reach);
+            let values = places.iter().map(|x| (zero.clone(), zero.clone(), self.rest_strain(x, contact))).collect();
+            add(reach, places, values);
             return nodes;
         }
         self.sweep(&(t.clone() - reach), t, &mut |(cell, flight)| {
@@ -121,12 +123,17 @@ impl<S: RoundedSpecial> Record<'_, S> {
             let high = smaller(smaller(t.clone() - xi, eta.clone() + &cell.size.1 - t), reach.clone());
             let len = high - &low;
             if len.is_positive() {
-                add(&low, &len, &mut |x| self.inside((cell, flight), x, t));
+                let places = places(&low, &len);
+                let values = self.inside((cell, flight), &places, t);
+                add(&len, places, values);
             }
         });
         if let Some(held) = self.held {
             for (from, to) in held.between_rays(t, &larger(t.clone() - &held.release, zero.clone()), reach) {
-                add(&from, &(to - &from), &mut |x| self.before(held, x, t, Side::Right));
+                let len = to - &from;
+                let places = places(&from, &len);
+                let values = places.iter().map(|x| self.before(held, x, t, Side::Right)).collect();
+                add(&len, places, values);
             }
         }
         nodes
@@ -148,16 +155,19 @@ impl<S: RoundedSpecial> Record<'_, S> {
         if contact { strain } else { strain - &self.data.slope }
     }
 
-    /// `h′` of the flight, the rest of `v_t`, and `v_x`, at a point of a cell.
-    fn inside(&self, (cell, flight): Passing<'_, '_, S>, x: &S, t: &S) -> (S, S, S) {
-        let (xi, eta) = (t.clone() - x, t.clone() + x);
-        let (p, q) = cell.at(&self.medium.basis, &xi, &eta, self.medium.log2_accuracy);
-        let half = x.ratio(1, 2);
-        let (motion, strain) = ((p.clone() + &q) * &half, (q - p) * half);
-        match flight {
-            Some(flight) => (flight.at(&flight.age_at(t)).1, motion, strain),
-            None => (x.zero(), motion, strain + self.static_strain(x)),
-        }
+    /// `h′` of the flight, the rest of `v_t`, and `v_x`, at places in a cell.
+    fn inside(&self, (cell, flight): Passing<'_, '_, S>, places: &[S], t: &S) -> Vec<(S, S, S)> {
+        let points: Vec<(S, S)> = places.iter().map(|x| (t.clone() - x, t.clone() + x)).collect();
+        let found = cell.at(&self.medium.basis, &points, self.medium.log2_accuracy);
+        let (rigid, half) = (flight.map(|flight| flight.at(&flight.age_at(t)).1), t.ratio(1, 2));
+        let values = |((p, q), x): ((S, S), &S)| {
+            let (motion, strain) = ((p.clone() + &q) * &half, (q - p) * &half);
+            match &rigid {
+                Some(rigid) => (rigid.clone(), motion, strain),
+                None => (x.zero(), motion, strain + self.static_strain(x)),
+            }
+        };
+        found.into_iter().zip(places).map(values).collect()
     }
 
     /// The same before the first release.
@@ -192,7 +202,7 @@ impl<S: RoundedSpecial> Record<'_, S> {
         let from = xi.clone() - &slack - &slack;
         self.sweep(&from, &(xi.clone() + &slack), &mut |(cell, flight)| {
             if best.is_none() || (begun(&cell.corner.0, &xi) && begun(&cell.corner.1, &eta)) {
-                best = Some(self.inside((cell, flight), x, t));
+                best = self.inside((cell, flight), std::slice::from_ref(x), t).pop();
             }
         });
         best.map_or_else(|| (x.zero(), x.zero()), |(rigid, motion, strain)| (rigid + motion, strain))

@@ -127,6 +127,20 @@ pub(super) fn evaluate<S: Rounded>(c: &[S], x: &S) -> S {
     }
 }
 
+/// The values at several points as [`evaluate`] has them: the recurrences go side by side, which doubles do several at
+/// once.
+pub(super) fn evaluate_all<S: Rounded>(c: &[S], xs: &[S]) -> Vec<S> {
+    let Some(first) = c.first() else { return xs.iter().map(S::zero).collect() };
+    let mut states: Vec<[S; 3]> = xs.iter().map(|x| [x.clone() * x.int(4) - x.int(2), x.zero(), x.zero()]).collect();
+    for term in c[1..].iter().rev() {
+        for [two_u, b1, b2] in &mut states {
+            let b0 = two_u.clone() * &*b1 - &*b2 + term;
+            *b2 = std::mem::replace(b1, b0);
+        }
+    }
+    states.into_iter().map(|[two_u, b1, b2]| two_u * first.ratio(1, 2) * b1 - b2 + first).collect()
+}
+
 /// The value at `x = 1`.
 pub(super) fn at_one<S: Rounded>(c: &[S], zero: &S) -> S {
     c.iter().fold(zero.clone(), |sum, term| sum + term)

@@ -6,16 +6,11 @@ use std::process::ExitCode;
 use clap::Args;
 
 use super::{Failure, Format, source};
-use crate::agreement::{
-    Agreement, Axis, Clock, Compression, Conventions, Limit, Map, Order, Origin, Samples, Settings, orders,
-};
+use crate::agreement::{Axis, Comparison, Compression, Limit, Options, Origin, Prepared};
 use crate::data::Source;
 use crate::number::Number;
-use crate::output::{ComparedFile, compare_csv, compare_json, compare_table, orders_table, write_whole};
-use crate::problem::{Parameters, Problem, Run};
+use crate::output::{compare_csv, write_whole};
 use crate::quantity::Units;
-use crate::scene::Scene;
-use crate::solve::{Numbers, Plan, Question, Solution};
 
 /// Your data against the exact history: norms, contacts, an audit, and hints at what may be wrong
 #[derive(Args, Debug)]
@@ -23,7 +18,8 @@ use crate::solve::{Numbers, Plan, Question, Solution};
     dalembert compare rod.toml run.dat --map t=0,u=1,v=2,force=3 -o run.svg\n  \
     dalembert compare rod.toml coarse.npz fine.npz --fail-above u.l2=0.01,force.l1=0.05\n\n\
     Quantities are called as in `dalembert reference`; u and v are short for u_end and v_end. With a column x, u, v,\n\
-    strain and stress are those at the point x. The exit code is 1 where --fail-above fails.")]
+    strain and stress are those at the point x. Two rows at one time are the limits at a jump, as `reference` writes\n\
+    them; a column side (left, right, both) says which. The exit code is 1 where --fail-above fails.")]
 pub(super) struct Compare {
     /// A scene file, `-`, or a built-in scene. It is followed as far as the data go
     scene: String,
@@ -82,8 +78,7 @@ enum Kind {
 
 /// What is printed.
 struct Report<'a> {
-    files: &'a [ComparedFile],
-    orders: &'a [Order],
+    comparison: &'a Comparison,
     title: Option<&'a str>,
     units: &'a Units,
 }
@@ -92,37 +87,39 @@ impl Compare {
     pub(super) fn run(&self) -> Result<ExitCode, Failure> {
         self.check()?;
         let scene = source::read(&self.scene)?;
-        let rod = Parameters::<f64>::of(&scene.problem, &())?;
-        let all = self.data.iter().map(|path| self.read(path, rod.length)).collect::<Result<Vec<Samples>, _>>()?;
-        let last = all.iter().filter_map(|samples| samples.grid.times.last()).fold(0.0, |a: f64, b| a.max(*b));
-        // A round trip more shows a contact that begins in the data a little too early.
-        let (problem, history) = solve(&scene, last + rod.round_trip())?;
-        let until = match &scene.problem.run {
-            Run::Time(time) => Some(time.to_f64()),
-            Run::Impacts(_) => None,
-        };
-        let settings = self.settings(until);
-        let mut files = Vec::new();
-        for (path, samples) in self.data.iter().zip(all) {
-            let file = path.display().to_string();
-            files.push(ComparedFile { file, agreement: Agreement::of(&problem, &history, samples, &settings)? });
+        let sources = self.data.iter().map(|path| Source::open(path)).collect::<Result<Vec<_>, _>>()?;
+        let accuracy = scene.accuracy.as_ref().map(Number::to_f64);
+        let prepared = Prepared::new(&scene.problem, accuracy, sources, &self.options())?;
+        let progress = source::Progress::of(&scene, &prepared.plan);
+        let comparison = prepared.compare(progress.observer())?;
+        drop(progress);
+        for warning in &comparison.warnings {
+            eprintln!("warning: {warning}");
         }
-        let widths: Vec<f64> = if self.widths.is_empty() {
-            files.iter().map(|file| file.agreement.step).collect()
-        } else {
-            self.widths.iter().map(Number::to_f64).collect()
-        };
-        let compared: Vec<&Agreement> = files.iter().map(|file| &file.agreement).collect();
-        let orders = orders(&compared, &widths);
         let units = Units::of(&scene.problem, scene.units);
-        let report = Report { files: &files, orders: &orders, title: scene.title.as_deref(), units: &units };
+        let report = Report { comparison: &comparison, title: scene.title.as_deref(), units: &units };
         // Before anything is written.
-        let failures = self.failures(&files)?;
+        let failures = comparison.above(&self.fail_above).map_err(|error| miette::miette!("{error}"))?;
         self.write(&report)?;
         for failure in &failures {
             eprintln!("failed: {failure}");
         }
         Ok(if failures.is_empty() { ExitCode::SUCCESS } else { ExitCode::from(1) })
+    }
+
+    fn options(&self) -> Options {
+        Options {
+            map: self.map.clone(),
+            dt: self.dt.clone(),
+            t0: self.t0.clone(),
+            shift: self.shift.clone(),
+            compression: self.compression,
+            origin: self.u_origin,
+            axis: self.axis,
+            energy_scale: Some(self.energy_scale.clone()),
+            window: self.window.clone(),
+            widths: self.widths.clone(),
+        }
     }
 
     fn check(&self) -> Result<(), Failure> {
@@ -146,54 +143,7 @@ impl Compare {
         if self.data.iter().filter(|path| *path == Path::new("-")).count() + usize::from(self.scene == "-") > 1 {
             return Err(miette::miette!("found `-` twice, expected standard input to be read once"));
         }
-        if !self.widths.is_empty() && self.widths.len() != self.data.len() {
-            let (found, expected) = (self.widths.len(), self.data.len());
-            return Err(miette::miette!("found {found} --widths, expected {expected}, one for each file"));
-        }
-        let positive = |name: &str, number: &Number| match number.to_f64() > 0.0 {
-            true => Ok(()),
-            false => Err(miette::miette!("found {name} {number}, expected more than zero")),
-        };
-        for (name, number) in [("--dt", &self.dt), ("--window", &self.window)] {
-            number.iter().try_for_each(|number| positive(name, number))?;
-        }
-        self.widths.iter().try_for_each(|width| positive("--widths", width))
-    }
-
-    fn settings(&self, until: Option<f64>) -> Settings {
-        Settings {
-            conventions: Conventions {
-                compression: self.compression,
-                origin: self.u_origin,
-                axis: self.axis,
-                energy_scale: self.energy_scale.to_f64(),
-            },
-            until,
-            window: self.window.as_ref().map(Number::to_f64),
-        }
-    }
-
-    fn read(&self, path: &Path, length: f64) -> Result<Samples, Failure> {
-        let of = |number: &Option<Number>| number.as_ref().map_or(0.0, Number::to_f64);
-        let source = Source::open(path)?;
-        let counted = self.dt.is_some();
-        let map = Map::of(self.map.as_deref(), source.names(), source.width(), counted)
-            .map_err(|error| miette::miette!("{}: {error}", source.file()))?;
-        let clock = counted.then(|| Clock { start: of(&self.t0), step: of(&self.dt) });
-        let columns = source.columns(&map.places())?;
-        Ok(Samples::of(columns, &map, clock, of(&self.shift), length)?)
-    }
-
-    /// What --fail-above finds, a line each.
-    fn failures(&self, files: &[ComparedFile]) -> Result<Vec<String>, Failure> {
-        let mut failures = Vec::new();
-        for ComparedFile { file, agreement } in files {
-            for limit in &self.fail_above {
-                let found = limit.above(agreement).map_err(|error| miette::miette!("{file}: {error}"))?;
-                failures.extend(found.map(|found| format!("{file}: {limit}, found {found:.3e}")));
-            }
-        }
-        Ok(failures)
+        Ok(())
     }
 
     fn kind(&self, path: &Path) -> Kind {
@@ -220,47 +170,21 @@ impl Compare {
     }
 }
 
-/// The problem followed as far as its own run and the data go, and its history.
-fn solve(scene: &Scene, last: f64) -> Result<(Problem, crate::History<f64>), Failure> {
-    let problem = match &scene.problem.run {
-        Run::Time(time) if time.to_f64() >= last => scene.problem.clone(),
-        _ => scene.problem.to_builder().time(last).build().map_err(crate::Error::from)?,
-    };
-    let accuracy = scene.accuracy.as_ref().map(Number::to_f64);
-    let plan = Plan::of(&problem, &Question::run(Numbers::Double(accuracy)))?;
-    let progress = source::Progress::of(scene, &plan);
-    let solution = plan.solve(&problem, progress.observer())?;
-    drop(progress);
-    let Solution::Double(history) = solution else {
-        return Err(miette::miette!("found no answer in doubles, expected one"));
-    };
-    for warning in history.warnings() {
-        eprintln!("warning: {warning}");
-    }
-    Ok((problem, history))
-}
-
 impl Report<'_> {
     fn bytes(&self, kind: Kind) -> Result<Vec<u8>, Failure> {
-        let Report { files, orders, title, units } = *self;
+        let Report { comparison, title, units } = *self;
         Ok(match kind {
-            Kind::Rows(Format::Json) => format!("{:#}\n", compare_json(files, orders, title, units)).into_bytes(),
+            Kind::Rows(Format::Json) => format!("{:#}\n", comparison.json(title, units)).into_bytes(),
             Kind::Rows(Format::Csv) => {
-                compare_csv(&files[0].agreement).map_err(|error| miette::miette!("cannot write CSV: {error}"))?
+                compare_csv(&comparison.files[0]).map_err(|error| miette::miette!("cannot write CSV: {error}"))?
             }
             #[cfg(feature = "plot")]
-            Kind::Svg => crate::output::compare_svg(&files[0], title, units).into_bytes(),
+            Kind::Svg => crate::output::compare_svg(&comparison.files[0], title, units).into_bytes(),
             #[cfg(feature = "plot")]
-            Kind::Png => crate::output::png(&crate::output::compare_svg(&files[0], title, units), 2.0)
+            Kind::Png => crate::output::png(&crate::output::compare_svg(&comparison.files[0], title, units), 2.0)
                 .map_err(|error| miette::miette!("cannot draw: {error}"))?,
             // Pictures that cannot be drawn are refused before anything is compared.
-            _ => {
-                let mut tables: Vec<String> = files.iter().map(|file| compare_table(file, title, units)).collect();
-                if files.len() > 1 {
-                    tables.push(orders_table(orders));
-                }
-                tables.join("\n").into_bytes()
-            }
+            _ => comparison.table(title, units).into_bytes(),
         })
     }
 }

@@ -4,7 +4,7 @@ use clap::Args;
 use serde_json::json;
 
 use super::{Failure, Format, NumberArgs, OutputArgs, source};
-use crate::output::table;
+use crate::aligned::table;
 use crate::scene::{Effect, EffectUse, Scene};
 use crate::solve::{Numbers, Plan, Question};
 

@@ -75,7 +75,7 @@ enum Command {
     Scenes(scenes::Scenes),
     /// Print the manual page, for `man -l -`
     Man,
-    /// Print the JSON Schema of what `solve` and `sample` write with --format json
+    /// Print the JSON Schema of what `solve`, `sample`, `reference`, `compare` and `sweep` write with --format json
     Schema,
     /// Print a completion script for a shell
     Completions {

@@ -3,11 +3,12 @@
 use clap::Args;
 
 use super::{Failure, Format, OutputArgs, Report, answer, source};
+use crate::aligned::table;
 use crate::compare::Reached;
 use crate::error::Error;
 use crate::motion::Motion;
 use crate::number::{Number, Scalar};
-use crate::output::{Head, table, targets_csv, targets_json, targets_table};
+use crate::output::{Head, targets_csv, targets_json, targets_table};
 use crate::scene::{Target, builtin};
 use crate::solve::{Numbers, Question};
 

@@ -1,9 +1,10 @@
 //! What is wrong with data, and where.
 
 /// Data that cannot be used: what was found, where, and what was expected.
-#[derive(Clone, Debug, PartialEq, thiserror::Error, miette::Diagnostic)]
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[cfg_attr(feature = "cli", derive(miette::Diagnostic))]
 #[error("{file}{}: {kind}", place.as_ref().map_or_else(String::new, |place| format!(", {place}")))]
-pub(crate) struct DataError {
+pub struct DataError {
     file: String,
     place: Option<String>,
     kind: DataErrorKind,
@@ -11,7 +12,7 @@ pub(crate) struct DataError {
 
 /// What is wrong.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
-pub(crate) enum DataErrorKind {
+pub enum DataErrorKind {
     #[error("cannot be read: {0}")]
     Unreadable(String),
     #[error("found no row of numbers, expected at least two")]
@@ -24,13 +25,15 @@ pub(crate) enum DataErrorKind {
     NotFinite(f64),
     #[error("found text that is not UTF-8, expected text, .npy or .npz")]
     NotText,
-    #[error("found time {found} after {before}, expected times that increase")]
+    #[error("found time {found} after {before}, expected times that increase, or two rows at a jump, left and right")]
     NotIncreasing { before: f64, found: f64 },
+    #[error("found `{0}`, expected left, right or both (−1, 1 or 0 as numbers): the limit that the row holds")]
+    Side(String),
     #[error("found point {found}, expected one between 0 and {length}, the rod's length")]
     PointOutside { found: f64, length: f64 },
     #[error("found point {found} after {before} at the same time, expected points that increase")]
     PointsNotIncreasing { before: f64, found: f64 },
-    #[error("found an array of type {found}, expected numbers: float64, float32, int64 or int32")]
+    #[error("found an array of type {found}, expected numbers: float64, float32, int64, int32, int8 or bool")]
     ElementType { found: String },
     #[error("found an array of shape {0:?}, expected one column, or rows and columns")]
     Shape(Vec<usize>),

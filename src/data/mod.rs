@@ -8,11 +8,11 @@ use std::fs::File;
 use std::io::{BufRead, BufReader, Read};
 use std::path::Path;
 
-pub(crate) use error::{DataError, DataErrorKind};
+pub use error::{DataError, DataErrorKind};
 
 /// A source of columns, opened far enough to know how many there are and what they are called.
 #[derive(Debug)]
-pub(crate) struct Source {
+pub struct Source {
     file: String,
     names: Vec<String>,
     width: usize,
@@ -56,11 +56,11 @@ impl Source {
     /// Opens a file, or standard input for `-`: `.npy` and `.npz` by their first bytes, text otherwise.
     ///
     /// **Errors**: [`DataError`], for an empty file too.
-    pub(crate) fn open(path: &Path) -> Result<Self, DataError> {
+    pub fn open(path: &Path) -> Result<Self, DataError> {
         let piped = path == Path::new("-");
         let file = if piped { "standard input".to_string() } else { path.display().to_string() };
         let read = |error: std::io::Error| DataErrorKind::Unreadable(error.to_string()).at(&file, None);
-        let opened: Box<dyn Read> =
+        let opened: Box<dyn Read + Send> =
             if piped { Box::new(std::io::stdin()) } else { Box::new(File::open(path).map_err(read)?) };
         let mut reader = BufReader::with_capacity(1 << 16, opened);
         let start = reader.fill_buf().map_err(read)?;
@@ -80,7 +80,7 @@ impl Source {
     }
 
     /// What it is called.
-    pub(crate) fn file(&self) -> &str {
+    pub fn file(&self) -> &str {
         &self.file
     }
 
@@ -89,12 +89,18 @@ impl Source {
         self.width
     }
 
-    /// Reads the columns of these places, counted from 0.
+    /// Columns that are held in memory, with their names or without; one that is no column of numbers has the reason in
+    /// its place.
+    pub fn arrays(file: &str, names: Vec<String>, columns: Vec<Result<Vec<f64>, DataErrorKind>>) -> Self {
+        Source { file: file.into(), names, width: columns.len(), body: Body::Arrays(columns) }
+    }
+
+    /// Reads the columns of these places, counted from 0; in that at `side` a text has words for −1, 0 and 1.
     ///
     /// **Errors**: [`DataError`] for a ragged row, and for what is no finite number in one of these columns.
-    pub(crate) fn columns(self, which: &[usize]) -> Result<Columns, DataError> {
+    pub(crate) fn columns(self, which: &[usize], side: Option<usize>) -> Result<Columns, DataError> {
         let (values, lines) = match self.body {
-            Body::Text(text) => text.read(which, &self.file)?,
+            Body::Text(text) => text.read(which, side, &self.file)?,
             Body::Arrays(all) => {
                 let called = |place: usize| self.names.get(place).cloned().unwrap_or_else(|| place.to_string());
                 let mut values: Vec<Vec<f64>> = Vec::with_capacity(which.len());

@@ -96,5 +96,11 @@ fn numbers(array: &mut impl Fetch) -> Result<ArrayD<f64>, DataErrorKind> {
     if let Ok(integers) = array.fetch::<i64>() {
         return Ok(integers.mapv(|n| n as f64));
     }
-    array.fetch::<i32>().map(|integers| integers.mapv(f64::from)).map_err(other)
+    if let Ok(integers) = array.fetch::<i32>() {
+        return Ok(integers.mapv(f64::from));
+    }
+    if let Ok(flags) = array.fetch::<bool>() {
+        return Ok(flags.mapv(|flag| f64::from(u8::from(flag))));
+    }
+    array.fetch::<i8>().map(|integers| integers.mapv(f64::from)).map_err(other)
 }

@@ -3,10 +3,11 @@
 use std::io::{BufRead, BufReader, Read};
 
 use super::{DataError, DataErrorKind, Lines};
+use crate::number::Number;
 
 /// A text, read up to its first row.
 pub(super) struct Text {
-    reader: BufReader<Box<dyn Read>>,
+    reader: BufReader<Box<dyn Read + Send>>,
     separator: Option<char>,
     /// The names of the columns; empty where there are none.
     pub(super) names: Vec<String>,
@@ -34,9 +35,21 @@ fn fields(row: &str, separator: Option<char>) -> impl Iterator<Item = &str> {
     separated.into_iter().flatten().chain(spaced.into_iter().flatten())
 }
 
-/// A number as any language prints it: Fortran's `1.5D-3` too.
+/// A number as any language prints it: Fortran's `1.5D-3` too, and fractions.
 fn number(text: &str) -> Option<f64> {
-    text.parse().ok().or_else(|| text.replace(['d', 'D'], "e").parse().ok())
+    let fraction = || text.contains('/').then(|| text.parse::<Number>().ok()).flatten();
+    let number = text.parse().ok().or_else(|| text.replace(['d', 'D'], "e").parse().ok());
+    number.or_else(|| fraction().map(|number| number.to_f64()))
+}
+
+/// Which limit a row holds, as a word or a number.
+fn side(text: &str) -> Option<f64> {
+    match text.trim_matches('"') {
+        "left" => Some(-1.0),
+        "both" => Some(0.0),
+        "right" => Some(1.0),
+        other => number(other),
+    }
 }
 
 fn separator(row: &str) -> Option<char> {
@@ -52,7 +65,7 @@ impl Text {
     /// row where it has as many words as the row has numbers.
     ///
     /// **Errors**: a file that cannot be read, is not text, or holds no row.
-    pub(super) fn open(reader: BufReader<Box<dyn Read>>, file: &str) -> Result<Self, DataError> {
+    pub(super) fn open(reader: BufReader<Box<dyn Read + Send>>, file: &str) -> Result<Self, DataError> {
         let (line, number) = (Vec::new(), 0);
         let mut text = Text { reader, separator: None, names: Vec::new(), line, number, width: 0 };
         let mut comment = String::new();
@@ -64,7 +77,7 @@ impl Text {
                 continue;
             }
             text.separator = separator(&row);
-            if header.is_none() && fields(&row, text.separator).any(|field| self::number(field).is_none()) {
+            if header.is_none() && fields(&row, text.separator).any(|field| side(field).is_none()) {
                 header = Some(row);
                 continue;
             }
@@ -107,10 +120,15 @@ impl Text {
         Ok(text.trim_start_matches('\u{feff}').trim())
     }
 
-    /// Reads all rows, of each the fields at `which`.
+    /// Reads all rows, of each the fields at `which`, and that at `words` as a side.
     ///
     /// **Errors**: a row of another width, a field that is no number.
-    pub(super) fn read(mut self, which: &[usize], file: &str) -> Result<(Vec<Vec<f64>>, Lines), DataError> {
+    pub(super) fn read(
+        mut self,
+        which: &[usize],
+        words: Option<usize>,
+        file: &str,
+    ) -> Result<(Vec<Vec<f64>>, Lines), DataError> {
         let mut values: Vec<Vec<f64>> = vec![Vec::new(); which.len()];
         let mut lines = Lines::default();
         let mut rows = 0;
@@ -124,9 +142,11 @@ impl Text {
                 let mut found = 0;
                 for field in fields(row, self.separator) {
                     for taker in takers.get(found).into_iter().flatten() {
-                        let Some(value) = number(field) else {
+                        let is_side = words == Some(found);
+                        let Some(value) = (if is_side { side(field) } else { number(field) }) else {
                             let place = Some(format!("line {}, column {}", self.number, found + 1));
-                            return Err(DataErrorKind::NotANumber(field.into()).at(file, place));
+                            let kind = if is_side { DataErrorKind::Side } else { DataErrorKind::NotANumber };
+                            return Err(kind(field.into()).at(file, place));
                         };
                         values[*taker].push(value);
                     }

@@ -3,8 +3,8 @@
 use serde_json::{Value, json};
 
 use super::cost::duration;
-use super::table::table;
 use super::target::{published_json, published_page, published_table};
+use crate::aligned::table;
 use crate::compare::Published;
 use crate::compare::RightDigits;
 use crate::compare::check::{Checked, CheckedQuestion, Group};

@@ -6,9 +6,8 @@ use kuva::render::figure::Figure;
 use kuva::render::layout::Layout;
 use kuva::render::plots::Plot;
 
-use super::compare::ComparedFile;
 use super::picture::FAMILY;
-use crate::agreement::Compared;
+use crate::agreement::{Compared, ComparedFile};
 use crate::quantity::Units;
 
 const WIDTH: f64 = 760.0;

@@ -2,7 +2,7 @@
 
 use serde_json::{Value, json};
 
-use super::table::table;
+use crate::aligned::table;
 use crate::compare::cost::{Difference, Row, Table, Timing};
 
 /// A time in the unit that suits it, to three digits: `3.21 ms`.

@@ -2,6 +2,7 @@
 
 use super::record::{CONTACT, Column, Factors, Head, Quantity, Record, Sample, column, sampled};
 use super::straight::straight;
+use crate::agreement::{Compared, ComparedFile};
 use crate::motion::StressPiece;
 use crate::number::{DOUBLE_DIGITS, Scalar, show, shown_bound_text};
 use crate::quantity::Measure;
@@ -130,4 +131,33 @@ pub(super) fn write(comments: &str, header: Vec<String>, rows: Vec<Vec<String>>)
     }
     let bytes = writer.into_inner().map_err(|error| csv::Error::from(error.into_error()))?;
     Ok(comments.to_string() + &String::from_utf8_lossy(&bytes))
+}
+
+/// Every sample: time, point of a field, and for each quantity ours, theirs and the difference.
+pub(crate) fn compare_csv(ComparedFile { agreement, .. }: &ComparedFile) -> Result<Vec<u8>, csv::Error> {
+    let mut writer = csv::Writer::from_writer(Vec::new());
+    let points = agreement.grid.points.as_ref();
+    writer.write_field("t")?;
+    if points.is_some() {
+        writer.write_field("x")?;
+    }
+    for compared in &agreement.quantities {
+        for whose in ["ours", "theirs", "difference"] {
+            writer.write_field(format!("{}_{whose}", compared.what.name()))?;
+        }
+    }
+    writer.write_record(None::<&[u8]>)?;
+    for (k, time) in agreement.grid.times.iter().enumerate() {
+        writer.write_field(time.to_string())?;
+        if let Some(points) = points {
+            writer.write_field(points[k].to_string())?;
+        }
+        for Compared { ours, theirs, .. } in &agreement.quantities {
+            for value in [ours[k], theirs[k], theirs[k] - ours[k]] {
+                writer.write_field(format!("{value:e}"))?;
+            }
+        }
+        writer.write_record(None::<&[u8]>)?;
+    }
+    writer.into_inner().map_err(|error| csv::Error::from(error.into_error()))
 }

@@ -10,7 +10,7 @@ use crate::number::Scalar;
 use crate::quantity::{Measure, Units};
 use crate::solve::ExactnessEnd;
 
-/// The JSON Schema of [`history_json`] and [`samples_json`].
+/// The JSON Schema of histories, samples, golden files, comparisons and sweeps.
 pub const SCHEMA: &str = include_str!("schema.json");
 
 /// The whole history, schema 1.

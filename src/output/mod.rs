@@ -2,7 +2,6 @@
 
 mod check;
 mod code;
-mod compare;
 #[cfg(feature = "plot")]
 mod compare_picture;
 mod cost;
@@ -21,11 +20,11 @@ mod target;
 
 pub(crate) use check::{check_json, check_page, check_summary, check_table};
 pub use code::{Language, code};
-pub(crate) use compare::{ComparedFile, compare_csv, compare_json, compare_table, orders_table};
 #[cfg(feature = "plot")]
 pub(crate) use compare_picture::compare_svg;
 pub use cost::duration;
 pub(crate) use cost::{cost_csv, cost_json, cost_table, effects_csv, effects_json, effects_table};
+pub(crate) use csv::compare_csv;
 pub use csv::{Part, history_csv, samples_csv};
 pub(crate) use file::write_filled;
 pub use file::write_whole;
@@ -37,5 +36,5 @@ pub(crate) use record::{bound_json, json as number_json};
 pub use reference::{Described, Golden, Preamble, Rows};
 pub(crate) use regimes::{regimes_csv, regimes_npz, regimes_svg, regimes_text, threshold_csv};
 pub(crate) use sweep::{sweep_csv, sweep_json, sweep_npz, sweep_table};
-pub use table::{LEGEND, history_table, samples_table, table};
+pub use table::{LEGEND, history_table, samples_table};
 pub(crate) use target::{targets_csv, targets_json, targets_table};

@@ -6,7 +6,7 @@ use ndarray::Array1;
 use ndarray_npy::{NpzWriter, WriteNpzError};
 use serde_json::{Map, Value, json};
 
-use super::table::table;
+use crate::aligned::table;
 use crate::problem::written::short;
 use crate::sweep::{Point, Sweep};
 

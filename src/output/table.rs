@@ -1,27 +1,10 @@
 //! Tables for a person.
 
-use comfy_table::{CellAlignment, ContentArrangement, LineStyle, Table, presets};
-
 use super::record::{CONTACT, Finished, Head, Quantity, Record, Sample, sampled};
+use crate::aligned::table;
 use crate::motion::Ending;
 use crate::number::{Scalar, show, shown_bound_text};
 use crate::quantity::{Measure, Units};
-
-/// A table with a header; numbers stand to the right.
-pub fn table(header: &[&str], rows: Vec<Vec<String>>, words: usize) -> String {
-    let mut table = Table::new();
-    table
-        .load_style(presets::NOTHING.header_separator(LineStyle::none().fill('─').junction('─')))
-        .set_content_arrangement(ContentArrangement::Disabled);
-    table.set_header(header.to_vec());
-    for row in rows {
-        table.add_row(row);
-    }
-    for (k, column) in table.column_iter_mut().enumerate() {
-        column.set_cell_alignment(if k < words { CellAlignment::Left } else { CellAlignment::Right });
-    }
-    table.trim_fmt()
-}
 
 /// Characters that a table may be wide where nothing else is asked for.
 const WIDTH: usize = 80;

@@ -3,7 +3,8 @@
 use serde_json::{Value, json};
 
 use super::record::{Head, json as number_json};
-use super::table::{cell, fitted, table};
+use super::table::{cell, fitted};
+use crate::aligned::table;
 use crate::compare::{Published, Reached};
 use crate::number::{DOUBLE_DIGITS, Scalar, show};
 use crate::scene::Target;

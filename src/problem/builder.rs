@@ -26,9 +26,11 @@ const EXCLUSIVE: [&[&str]; 4] = [
     &["run.time", "run.impacts"],
 ];
 
-/// The setters of single numbers.
+/// The setters of single numbers, and their names.
 macro_rules! setters {
-    ($($(#[$doc:meta])* $setter:ident => $path:literal),* $(,)?) => {$(
+    ($($(#[$doc:meta])* $setter:ident => $path:literal),* $(,)?) => {
+        const NAMED: &[(&str, &str)] = &[$((stringify!($setter), $path)),*];
+        $(
         $(#[$doc])*
         #[must_use]
         pub fn $setter(mut self, value: impl Into<Written>) -> Self {
@@ -37,6 +39,8 @@ macro_rules! setters {
         }
     )*};
 }
+
+const MATERIAL: [(&str, &str); 3] = [("modulus", "rod.modulus"), ("density", "rod.density"), ("area", "rod.area")];
 
 impl Builder {
     setters! {
@@ -58,6 +62,22 @@ impl Builder {
         drop_height => "impact.drop_height",
         /// The time up to which to follow the motion, which is included.
         time => "run.time",
+    }
+
+    /// The names of single numbers: the setters', and the parts of the material.
+    #[doc(hidden)]
+    pub fn numbers() -> impl Iterator<Item = &'static str> {
+        Self::NAMED.iter().chain(&MATERIAL).map(|(name, _)| *name)
+    }
+
+    /// The number of this name, one of [`Builder::numbers`]; any other changes nothing.
+    #[doc(hidden)]
+    #[must_use]
+    pub fn named(mut self, name: &str, value: impl Into<Written>) -> Self {
+        if let Some((_, path)) = Self::NAMED.iter().chain(&MATERIAL).find(|(known, _)| *known == name) {
+            self.draft.numbers.insert(path, value.into());
+        }
+        self
     }
 
     /// Young's modulus `E`, density `ρ` and cross-section `S`, all above zero: `c = √(E/ρ)`.

@@ -117,7 +117,8 @@ impl Books<'_> {
     /// Times between 0 and `end` that the samples leave out.
     pub fn not_covered(&self, end: f64) -> Vec<[f64; 2]> {
         let (Some(first), Some(last)) = (self.times.first(), self.times.last()) else { return vec![[0.0, end]] };
-        let mut steps: Vec<f64> = self.times.windows(2).map(|pair| pair[1] - pair[0]).collect();
+        let steps = self.times.windows(2).map(|pair| pair[1] - pair[0]);
+        let mut steps: Vec<f64> = steps.filter(|step| *step > 0.0).collect();
         let middle = steps.len() / 2;
         let median = if steps.is_empty() { 0.0 } else { *steps.select_nth_unstable_by(middle, f64::total_cmp).1 };
         let long = |from: &f64, to: &f64| to - from > HOLE * median;

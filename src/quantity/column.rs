@@ -269,47 +269,78 @@ pub fn columns<S: Scalar>(
         count += source.answers();
     }
     let places: Vec<usize> = places.iter().map(|(source, index)| starts[*source as usize] + index).collect();
-    let mut table: Vec<Vec<S>> = columns.iter().map(|_| Vec::with_capacity(times.len())).collect();
-    let (mut left, mut right) = (Vec::with_capacity(count), Vec::with_capacity(count));
-    for time in times {
-        let ask = |sources: &[Source], side: Side, limit: i64, row: &mut Vec<S>| {
-            for source in sources {
-                match (source, &pushes) {
-                    (Source::Side, _) => row.push(time.int(limit)),
-                    (Source::Impulse, Some(pushes)) => row.push(pushes.at(time)?),
-                    (source, _) => source.ask(motion, time, side, row)?,
+    side_by_side(times, |times| {
+        let mut table: Vec<Vec<S>> = columns.iter().map(|_| Vec::with_capacity(times.len())).collect();
+        let (mut left, mut right) = (Vec::with_capacity(count), Vec::with_capacity(count));
+        for time in times {
+            let ask = |sources: &[Source], side: Side, limit: i64, row: &mut Vec<S>| {
+                for source in sources {
+                    match (source, &pushes) {
+                        (Source::Side, _) => row.push(time.int(limit)),
+                        (Source::Impulse, Some(pushes)) => row.push(pushes.at(time)?),
+                        (source, _) => source.ask(motion, time, side, row)?,
+                    }
+                }
+                Ok::<(), Error>(())
+            };
+            left.clear();
+            right.clear();
+            let asked = side.unwrap_or_default();
+            ask(&sided, asked, 0, &mut right)?;
+            if side.is_none() && !sided.is_empty() && motion.may_jump(time)? {
+                ask(&sided, Side::Left, 0, &mut left)?;
+            }
+            let jumps = !left.is_empty() && !left.iter().zip(&right).all(|(a, b)| same(a, b));
+            let limit = match side {
+                Some(Side::Left) => -1,
+                None if !jumps => 0,
+                _ => 1,
+            };
+            ask(&plain, asked, limit, &mut right)?;
+            if jumps {
+                ask(&plain, Side::Left, -1, &mut left)?;
+            }
+            for row in [&left, &right].into_iter().skip(usize::from(!jumps)) {
+                for ((values, place), factor) in table.iter_mut().zip(&places).zip(&factors) {
+                    let value = row[*place].clone();
+                    values.push(match factor {
+                        Some(factor) => value * factor,
+                        None => value,
+                    });
                 }
             }
-            Ok::<(), Error>(())
-        };
-        left.clear();
-        right.clear();
-        let asked = side.unwrap_or_default();
-        ask(&sided, asked, 0, &mut right)?;
-        if side.is_none() && !sided.is_empty() && motion.may_jump(time)? {
-            ask(&sided, Side::Left, 0, &mut left)?;
         }
-        let jumps = !left.is_empty() && !left.iter().zip(&right).all(|(a, b)| same(a, b));
-        let limit = match side {
-            Some(Side::Left) => -1,
-            None if !jumps => 0,
-            _ => 1,
-        };
-        ask(&plain, asked, limit, &mut right)?;
-        if jumps {
-            ask(&plain, Side::Left, -1, &mut left)?;
-        }
-        for row in [&left, &right].into_iter().skip(usize::from(!jumps)) {
-            for ((values, place), factor) in table.iter_mut().zip(&places).zip(&factors) {
-                let value = row[*place].clone();
-                values.push(match factor {
-                    Some(factor) => value * factor,
-                    None => value,
-                });
-            }
-        }
+        Ok(table)
+    })
+}
+
+/// Times that a thread is worth.
+const WORTH: usize = 2048;
+
+/// The tables of parts of `times`, in one: as many parts as there are cores.
+fn side_by_side<S: Scalar>(
+    times: &[S],
+    rows: impl Fn(&[S]) -> Result<Vec<Vec<S>>, Error> + Sync,
+) -> Result<Vec<Vec<S>>, Error> {
+    let cores = std::thread::available_parallelism().map_or(1, std::num::NonZero::get);
+    let size = times.len().div_ceil(cores).max(WORTH);
+    if times.len() <= size {
+        return rows(times);
     }
-    Ok(table)
+    let rows = &rows;
+    let tables = std::thread::scope(|scope| {
+        let parts: Vec<_> = times.chunks(size).map(|part| scope.spawn(move || rows(part))).collect();
+        let join = |part: std::thread::ScopedJoinHandle<'_, _>| {
+            part.join().unwrap_or_else(|panic| std::panic::resume_unwind(panic))
+        };
+        parts.into_iter().map(join).collect::<Vec<_>>()
+    });
+    let mut tables = tables.into_iter();
+    let mut all = tables.next().unwrap_or_else(|| rows(&[]))?;
+    for table in tables {
+        all.iter_mut().zip(table?).for_each(|(column, values)| column.extend(values));
+    }
+    Ok(all)
 }
 
 /// The natural scale of each column; `None` where its values are no measurements.

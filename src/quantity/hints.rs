@@ -286,7 +286,7 @@ impl Measures<'_> {
             }
             let Some(b) = basis(k) else { continue };
             square += weight * e * e;
-            for sums in [&mut stretches[if k == 0 { 0 } else { own }], &mut all] {
+            for sums in [&mut stretches[if self.grid.times[k] == self.grid.times[0] { 0 } else { own }], &mut all] {
                 (sums.eb, sums.bb, sums.weight) =
                     (sums.eb + weight * e * b, sums.bb + weight * b * b, sums.weight + weight);
             }
@@ -325,7 +325,7 @@ impl Measures<'_> {
         let times = &self.grid.times;
         let rate = |k: usize| {
             let (before, after) = (k.saturating_sub(1), (k + 1).min(times.len() - 1));
-            let inner = before < after && (pair.rays == Rays::Smooth || (before..=after).all(&away));
+            let inner = times[before] < times[after] && (pair.rays == Rays::Smooth || (before..=after).all(&away));
             inner.then(|| (pair.ours[after] - pair.ours[before]) / (times[after] - times[before]))
         };
         // What impacts may take in all; no scheme loses a quarter.
@@ -364,7 +364,8 @@ impl Measures<'_> {
         away: impl Fn(usize) -> bool,
     ) -> Option<Finding> {
         let times = &self.grid.times;
-        let inner = |k: usize| k > 0 && k + 1 < times.len() && (k - 1..=k + 1).all(&away);
+        let apart = |k: usize| times[k - 1] < times[k] && times[k] < times[k + 1];
+        let inner = |k: usize| k > 0 && k + 1 < times.len() && apart(k) && (k - 1..=k + 1).all(&away);
         let slope = |k: usize| (u[k + 1] - u[k]) / (times[k + 1] - times[k]);
         // u′ and u″ where steps may differ.
         let rates = |k: usize| {

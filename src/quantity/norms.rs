@@ -1,5 +1,7 @@
 //! How far other people's data are from ours, in L¹, L² and L∞.
 
+use std::ops::Range;
+
 use serde::Serialize;
 
 /// A norm of the difference `theirs − ours`.
@@ -58,7 +60,8 @@ impl Grid {
     ///
     /// **Source**: the trapezoidal rule. A sample weighs half the way to each of its neighbours in time, and for a
     /// field in `x` at its time as well; where there is but one time, or one point at a time, that direction weighs 1.
-    /// Nothing is interpolated: the integrals are sums over samples, whatever is between them.
+    /// Nothing is interpolated: the integrals are sums over samples, whatever is between them. Two rows at one time, the
+    /// limits at a jump, share what one would weigh.
     ///
     /// ```
     /// use dalembert::quantity::Grid;
@@ -70,17 +73,20 @@ impl Grid {
         let weights = match &points {
             None => trapezoid(&times),
             Some(points) => {
-                let rows: Vec<&[f64]> = times.chunk_by(|a, b| a == b).collect();
-                let of_rows = trapezoid(&rows.iter().map(|row| row[0]).collect::<Vec<_>>());
-                let mut weights = Vec::with_capacity(times.len());
-                for (row, of_row) in rows.iter().zip(of_rows) {
-                    let start = weights.len();
-                    weights.extend(trapezoid(&points[start..start + row.len()]).iter().map(|weight| weight * of_row));
-                }
-                weights
+                let rows = rows(&times, points);
+                let of_rows = trapezoid(&rows.iter().map(|row| times[row.start]).collect::<Vec<_>>());
+                let weigh = |(row, of_row): (&Range<usize>, f64)| {
+                    trapezoid(&points[row.clone()]).into_iter().map(move |weight| weight * of_row)
+                };
+                rows.iter().zip(of_rows).flat_map(weigh).collect()
             }
         };
         Grid { times, points, weights }
+    }
+
+    /// The rows of a field: the samples of one time, or of one limit of it, with points that increase.
+    pub fn rows(&self) -> Vec<Range<usize>> {
+        self.points.as_ref().map_or_else(Vec::new, |points| rows(&self.times, points))
     }
 
     fn greatest(&self, found: Option<(usize, f64)>, scale: f64) -> Option<Greatest> {
@@ -93,10 +99,17 @@ impl Grid {
     }
 }
 
+fn rows(times: &[f64], points: &[f64]) -> Vec<Range<usize>> {
+    let ends =
+        (1..=times.len()).filter(|k| *k == times.len() || times[*k] > times[k - 1] || points[*k] <= points[k - 1]);
+    let mut start = 0;
+    ends.map(|end| std::mem::replace(&mut start, end)..end).collect()
+}
+
 /// The weights of the trapezoidal rule at ascending places; 1 where there is only one.
 fn trapezoid(places: &[f64]) -> Vec<f64> {
     let last = places.len().saturating_sub(1);
-    if last == 0 {
+    if places.first() == places.last() {
         return vec![1.0; places.len()];
     }
     (0..=last).map(|k| (places[(k + 1).min(last)] - places[k.saturating_sub(1)]) / 2.0).collect()

@@ -124,6 +124,60 @@ fn reference_files_agree() {
     }
 }
 
+/// A file of `reference` as it is written, with both limits at a jump: no difference beyond a rounding, whether the limits are told
+/// by the column of sides or by the order of the rows, in doubles or in fractions, for a field too.
+#[test]
+fn both_limits_of_a_reference_file() {
+    let folder = folder("");
+    // Impacts and releases at 0, 2/3, 8/3, 10/3, … , 8: both rows of those that are asked for; 13 of them in the whole run.
+    // GetFEM's strain jumps on t = x, then on both diagonals but where they cross, then on t = 1 − x: at 15 of the points.
+    let cases: [(&str, &[&str], usize, u64); 5] = [
+        ("doyen-ern-piperno", &["--dt", "1/128", "--to", "8"], 17, 6),
+        ("doyen-ern-piperno", &[], 17, 26),
+        ("doyen-ern-piperno", &["--columns", "t,v_end,force", "--times", "0..4:13"], 2, 8),
+        ("getfem-dynamic-contact", &["--points", "0..1:5", "--times", "0..3:13"], 3, 30),
+        ("paper-strong", &["--times", "0,1/3,1,2,3"], 17, 4),
+    ];
+    for (scene, asked, count, on_jumps) in cases {
+        let numbers = if cfg!(feature = "mp") { ["", "--exact"] } else { ["", ""] };
+        for (name, numbers) in [("a.csv", numbers[0]), ("a.npz", numbers[0]), ("a.csv", numbers[1])] {
+            let numbers = if numbers.is_empty() { &[][..] } else { &[numbers] };
+            text(&run(folder.path(), &[&["reference", scene, "-o", name][..], asked, numbers].concat()), 0);
+            let report = json(folder.path(), &["compare", scene, name]);
+            assert_eq!(report["quantities"].as_array().unwrap().len(), count, "{scene} {asked:?}");
+            for quantity in report["quantities"].as_array().unwrap() {
+                // Times such as 1/3 are rounded in the file, where ours are asked at them; fractions show what ours has
+                // lost, which is far within the 1e-9 that it promises.
+                let most = if numbers.is_empty() { 8.0 * f64::EPSILON } else { 1e-12 };
+                let off = quantity["linf"]["relative"].as_f64().unwrap_or(0.0);
+                assert!(off <= most, "{scene} {name} {numbers:?} {asked:?}: {quantity}");
+                if matches!(quantity["name"].as_str(), Some("force" | "strain")) {
+                    assert_eq!(quantity["on_jumps"], on_jumps, "{scene} {asked:?}: {quantity}");
+                }
+            }
+            assert_eq!(report["hints"], serde_json::json!([]), "{scene} {asked:?}");
+        }
+    }
+    text(&run(folder.path(), &["reference", "figure-4-r02", "--times", "0..6:61", "-o", "a.csv"]), 0);
+    for quantity in json(folder.path(), &["compare", "figure-4-r02", "a.csv"])["quantities"].as_array().unwrap() {
+        assert!(quantity["linf"]["relative"].as_f64().unwrap_or(0.0) <= 1e-12, "{quantity}");
+    }
+}
+
+/// A limit that is said to be the other one is wrong, although the nearer one would do.
+#[test]
+fn the_side_that_is_said_counts() {
+    let folder = folder("t,side,force\n0,right,1\n1,both,1\n2,right,1\n3,both,0\n4,both,0\n");
+    let report = json(folder.path(), &["compare", "rod.toml", "run.csv"]);
+    assert_eq!(report["quantities"][0]["linf"], serde_json::json!({"absolute": 1.0, "relative": 1.0, "time": 2.0}));
+    // Two rows, each with half of the weight: ∫F over them is exact.
+    fs::write(folder.path().join("run.csv"), "t,force\n0,0\n0,1\n2,1\n2,0\n4,0\n").unwrap();
+    let report = json(folder.path(), &["compare", "rod.toml", "run.csv"]);
+    let contact = &report["contacts"][0];
+    assert_eq!(contact["ours"], contact["theirs"]);
+    assert_eq!(report["audit"]["not_covered"], serde_json::json!([]));
+}
+
 /// A top that is held, and samples just beside a jump at an irrational time: nothing to find either.
 #[test]
 fn nothing_to_find() {
@@ -228,7 +282,9 @@ fn what_is_refused() {
         ("t,u\n0,0\n1\n", "run.csv, line 3: found 1 columns, expected 2 as in the first row"),
         ("t,u\n0,0\n\n1,x\n", "run.csv, line 4, column 2: found `x`, expected a number"),
         ("t,u\n0,0\n1,NaN\n", "run.csv, line 3, column 2: found NaN, expected a finite number"),
-        ("# by hand\nt,u\n0,0\n1,0\n1,0\n", "run.csv, line 5, column 1: found time 1 after 1"),
+        ("# by hand\nt,u\n0,0\n1,0\n1,0\n1,0\n", "run.csv, line 6, column 1: found time 1 after 1"),
+        ("t,side,u\n0,both,0\n1,right,0\n1,left,0\n", "run.csv, line 4, column 1: found time 1 after 1"),
+        ("t,side,u\n0,both,0\n1,up,0\n", "run.csv, line 3, column 2: found `up`, expected left, right or both"),
         ("t,u\n-2,0\n-1,0\n", "run.csv: found times up to -1, expected some after 0"),
         ("0,0\n1,0\n", "run.csv: found no names of columns, expected --map"),
         ("t,w\n0,0\n1,0\n", "run.csv: found no quantity in the columns t, w"),

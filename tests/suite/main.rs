@@ -52,6 +52,8 @@ mod same_value;
 mod scene_builtin;
 mod scene_errors;
 mod scene_properties;
+#[cfg(feature = "cli")]
+mod schema;
 #[cfg(feature = "mp")]
 mod snapshots_stress;
 mod start_above;

@@ -1,20 +1,11 @@
-//! Other people's data beside ours, as a table, JSON and CSV.
+//! Other people's data beside ours, as a table and JSON.
 
 use serde_json::{Value, json};
 
-use super::table::table;
-use crate::agreement::{Agreement, Compared, Order};
+use super::{Agreement, Compared, ComparedFile, Comparison, Order};
+use crate::aligned::table;
 use crate::number::Scalar;
 use crate::quantity::{Column, Extreme, Greatest, Norm, Touch, Units};
-
-/// One file that was compared.
-#[derive(Debug)]
-pub(crate) struct ComparedFile {
-    /// Its name.
-    pub(crate) file: String,
-    /// What came of it.
-    pub(crate) agreement: Agreement,
-}
 
 /// What the norms are.
 const WEIGHTS: &str = "sums over the samples by the trapezoidal rule: each weighs half the way to its neighbours";
@@ -44,7 +35,7 @@ fn share(x: Option<f64>) -> String {
 }
 
 /// The whole report of one file.
-pub(crate) fn compare_table(compared: &ComparedFile, title: Option<&str>, units: &Units) -> String {
+fn file_table(compared: &ComparedFile, title: Option<&str>, units: &Units) -> String {
     let ComparedFile { file, agreement } = compared;
     let times = &agreement.grid.times;
     let (first, last) = (times.first().copied().unwrap_or(0.0), times.last().copied().unwrap_or(0.0));
@@ -168,7 +159,7 @@ fn audit_lines(agreement: &Agreement, units: &Units) -> String {
 }
 
 /// The orders of convergence that several files show, one row for each pair of neighbours.
-pub(crate) fn orders_table(orders: &[Order]) -> String {
+fn orders_table(orders: &[Order]) -> String {
     let order = |x: Option<f64>| x.map_or_else(|| "–".into(), |x| format!("{x:.2}"));
     let rows = orders.iter().map(|row| {
         let widths = format!("{} → {}", number(row.widths[0]), number(row.widths[1]));
@@ -206,45 +197,23 @@ fn file_json(compared: &ComparedFile, units: &Units) -> serde_json::Map<String, 
     }
 }
 
-/// Everything, schema 1: of one file its members stand at the top, of several under `files`, with their `orders`.
-pub(crate) fn compare_json(files: &[ComparedFile], orders: &[Order], title: Option<&str>, units: &Units) -> Value {
-    let mut value = json!({"schema": 1, "title": title});
-    match (files, value.as_object_mut()) {
-        ([one], Some(object)) => object.extend(file_json(one, units)),
-        (several, Some(object)) => {
-            object.insert("files".into(), several.iter().map(|file| Value::Object(file_json(file, units))).collect());
-            object.insert("orders".into(), json!(orders));
-        }
-        (_, None) => {}
+impl Comparison {
+    /// Everything as tables.
+    pub fn table(&self, title: Option<&str>, units: &Units) -> String {
+        let mut tables: Vec<String> = self.files.iter().map(|file| file_table(file, title, units)).collect();
+        tables.extend((self.files.len() > 1).then(|| orders_table(&self.orders)));
+        tables.join("\n")
     }
-    value
-}
 
-/// Every sample: time, point of a field, and for each quantity ours, theirs and the difference.
-pub(crate) fn compare_csv(agreement: &Agreement) -> Result<Vec<u8>, csv::Error> {
-    let mut writer = csv::Writer::from_writer(Vec::new());
-    let points = agreement.grid.points.as_ref();
-    writer.write_field("t")?;
-    if points.is_some() {
-        writer.write_field("x")?;
-    }
-    for compared in &agreement.quantities {
-        for whose in ["ours", "theirs", "difference"] {
-            writer.write_field(format!("{}_{whose}", compared.what.name()))?;
+    /// Everything, schema 1: of one file its members stand at the top, of several under `files`, with their `orders`.
+    pub fn json(&self, title: Option<&str>, units: &Units) -> Value {
+        let mut value = serde_json::Map::from_iter([("schema".into(), 1.into()), ("title".into(), title.into())]);
+        if let [one] = self.files.as_slice() {
+            value.extend(file_json(one, units));
+        } else {
+            let files = self.files.iter().map(|file| Value::Object(file_json(file, units))).collect();
+            value.extend([("files".into(), files), ("orders".into(), json!(self.orders))]);
         }
+        Value::Object(value)
     }
-    writer.write_record(None::<&[u8]>)?;
-    for (k, time) in agreement.grid.times.iter().enumerate() {
-        writer.write_field(time.to_string())?;
-        if let Some(points) = points {
-            writer.write_field(points[k].to_string())?;
-        }
-        for Compared { ours, theirs, .. } in &agreement.quantities {
-            for value in [ours[k], theirs[k], theirs[k] - ours[k]] {
-                writer.write_field(format!("{value:e}"))?;
-            }
-        }
-        writer.write_record(None::<&[u8]>)?;
-    }
-    writer.into_inner().map_err(|error| csv::Error::from(error.into_error()))
 }

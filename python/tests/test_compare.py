@@ -1,0 +1,103 @@
+"""`compare` gives what the command reports, bit for bit, whatever form the data have."""
+
+import json
+
+import numpy as np
+import pytest
+
+import dalembert
+
+SCENE = "doyen-ern-piperno"
+ROD = dalembert.Problem(length=1, wave_speed=1, impact_speed=1, time=4)  # contact on [0, 2], v = t - 2 after it
+T = np.arange(5.0)
+
+
+@pytest.fixture(scope="module")
+def run(tmp_path_factory):
+    """A scheme's data, off in clock and size: in a file, and as columns."""
+    t = np.linspace(0, 6, 401)
+    data = dalembert.solve(SCENE, to=7).columns(["u_end", "v_end", "force", "E_total"], t * 0.99, "right")
+    data = {"t": t} | {name: values * 1.01 for name, values in data.items()}
+    path = tmp_path_factory.mktemp("data") / "run.csv"
+    rows = zip(*(values.tolist() for values in data.values()))
+    path.write_text("\n".join([",".join(data), *(",".join(map(repr, row)) for row in rows)]) + "\n")
+    return path, data
+
+
+def test_the_report_is_that_of_the_command(command, run, tmp_path):
+    path, data = run
+    np.savez(tmp_path / "run.npz", **data)
+    for file in (path, tmp_path / "run.npz"):
+        ours = dalembert.compare(SCENE, file, axis="down", energy_scale="1/2", window=0.1)
+        asked = ("compare", SCENE, str(file), "--axis", "down", "--energy-scale", "1/2", "--window", "0.1")
+        assert ours.report == json.loads(command(*asked, "--format", "json").stdout)
+        assert ours.table() == repr(ours) == command(*asked).stdout
+    assert ours.hints and ours.contacts[0]["theirs"]["peak"] > ours.contacts[0]["ours"]["peak"]
+
+
+def test_every_form_of_data_is_the_same(run):
+    path, data = run
+    pandas = pytest.importorskip("pandas")
+    expected = dalembert.compare(SCENE, path).report
+    names = list(data)
+    table = np.rec.fromarrays(list(data.values()), names=names)
+    given = {
+        "dict": (data,),
+        "recarray": (table,),
+        "DataFrame": (pandas.DataFrame(data | {"note": "text"}),),
+        "ndarray": (np.column_stack(list(data.values())),),
+        "values": (data["t"], {name: data[name] for name in names[1:]}),
+    }
+    for form, arguments in given.items():
+        columns = ",".join(f"{name}={k}" for k, name in enumerate(names)) if form == "ndarray" else None
+        report = dalembert.compare(SCENE, *arguments, map=columns).report
+        assert report | {"file": 0} == expected | {"file": 0}, form
+    alone = dalembert.compare(SCENE, data["t"], data["u_end"], quantity="u")
+    assert alone.norms["u_end"] == expected["quantities"][0]
+    np.testing.assert_array_equal(alone.difference["u_end"], data["u_end"] - alone.ours["u_end"])
+
+
+def test_both_limits_of_a_reference():
+    for numbers in ({}, {"exact": True}):
+        golden = dalembert.reference(SCENE, np.linspace(0, 4, 13), **numbers)
+        for norms in dalembert.compare(SCENE, golden).norms.values():
+            assert (norms["linf"]["relative"] or 0) <= (1e-15 if numbers else 0), norms
+
+
+def test_a_field_and_several_sources():
+    x = np.linspace(0, 1, 5)
+    field = ROD.solve().field(x, T)
+    c = dalembert.compare(ROD, T, {"u": field.displacement, "v": field.velocity}, x=x)
+    assert c.x.tolist() == [*x] * 5 and c.norms["u"]["linf"]["absolute"] == 0
+    steps = [4 / n * np.arange(n + 1) for n in (40, 80)]
+    runs = [{"t": t, "u": np.maximum(t - 2, 0) + t[1] ** 2} for t in steps]
+    orders = dalembert.compare(ROD, runs).orders
+    assert orders[0]["l2"] == pytest.approx(2, abs=1e-9)
+    assert dalembert.compare(ROD, runs, widths=[0.4, 0.1]).orders[0]["l2"] == pytest.approx(1, abs=1e-9)
+
+
+def of(values, **options):
+    return lambda: dalembert.compare(ROD, T, values, **{"quantity": "u", **options})
+
+
+@pytest.mark.parametrize(
+    ("error", "said", "act"),
+    [
+        (TypeError, "found values without a quantity", of(T, quantity=None)),
+        (ValueError, "found no column of times", lambda: dalembert.compare(ROD, {"u": T})),
+        (ValueError, "row 2, column 1: found time 0 after 1", lambda: dalembert.compare(ROD, {"t": [1, 0], "u": [0, 0]})),
+        (ValueError, "row 5, column 2: found NaN", of([0, 0, 0, 1, np.nan])),
+        (ValueError, "`u`: found 4 rows, expected 5", of(T[1:])),
+        (ValueError, r"`u`: found an array of shape \[5, 1\]", of(T[:, None])),
+        (ValueError, "array of type <U1, expected numbers", of([*"abcde"])),
+        (ValueError, "array of type complex128", of(T * 1j)),
+        (ValueError, "found no quantity in the columns t, w", of(T, quantity="w")),
+        (ValueError, "found axis = left, expected up or down", of(T, axis="left")),
+        (ValueError, "found --dt 0, expected more than zero", lambda: dalembert.compare(ROD, {"u": T}, dt=0)),
+        (ValueError, "cannot be read", lambda: dalembert.compare(ROD, "nowhere.csv")),
+        (AttributeError, "one of files", lambda: dalembert.compare(ROD, [{"t": T, "u": T}] * 2).norms),
+    ],
+)
+def test_refusals(error, said, act):
+    with pytest.raises(error, match=said):
+        act()
