@@ -5,6 +5,8 @@ mod compare;
 mod cost;
 mod explain;
 mod list;
+mod picture;
+mod plot;
 mod reference;
 mod regimes;
 mod sample;
@@ -57,6 +59,8 @@ enum Command {
     Solve(solve::Solve),
     /// Values of a quantity at chosen times
     Sample(sample::Sample),
+    /// Pictures of a scene, or of several to compare: the rod over time, stress, motion, energy, restitution
+    Plot(plot::Plot),
     /// Golden files: all quantities at chosen times as CSV, JSON or NPZ, or the exact solution as a function
     Reference(reference::Reference),
     /// The plan: which effects a scene calls for, which engine and numbers solve it, and what is left out
@@ -90,6 +94,7 @@ pub fn run(cli: Cli) -> Result<ExitCode, Failure> {
     let done = match cli.command {
         Command::Solve(command) => command.run(),
         Command::Sample(command) => command.run(),
+        Command::Plot(command) => command.run(),
         Command::Reference(command) => command.run(),
         Command::Explain(command) => command.run(),
         Command::Cost(command) => command.run(),

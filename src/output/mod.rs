@@ -7,10 +7,12 @@ mod compare;
 mod compare_picture;
 mod cost;
 mod csv;
+mod draw;
 mod file;
 mod json;
 #[cfg(feature = "plot")]
 mod picture;
+mod plot;
 mod record;
 mod reference;
 mod regimes;
@@ -27,11 +29,13 @@ pub(crate) use compare_picture::compare_svg;
 pub use cost::duration;
 pub(crate) use cost::{cost_csv, cost_json, cost_table, effects_csv, effects_json, effects_table};
 pub use csv::{Part, history_csv, samples_csv};
+pub(crate) use draw::{Size, plain};
 pub(crate) use file::write_filled;
 pub use file::write_whole;
 pub use json::{SCHEMA, history_json, samples_json};
 #[cfg(feature = "plot")]
 pub(crate) use picture::{cost_svg, png};
+pub(crate) use plot::{Along, Asked, Gathered, Picture, sheet};
 pub use record::{Finished, Head, Quantity, Record, Sample, record, sample};
 pub(crate) use record::{bound_json, json as number_json};
 pub use reference::{Described, Golden, Preamble, Rows};

@@ -17,7 +17,7 @@ use crate::compare::cost::{Family, Row, Table};
 
 /// DejaVu Sans, Latin and Greek letters, digits above and below the line and signs: what our pictures write.
 const FONT: &[u8] = include_bytes!("font/DejaVuSans-subset.ttf");
-pub(super) const FAMILY: &str = "DejaVu Sans";
+pub(super) use super::draw::FAMILY;
 /// Where the scale of errors is drawn together: the digits of a double get as much of the picture as the thousand
 /// beyond them.
 const DOUBLES_END: f64 = 18.0;
