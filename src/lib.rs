@@ -41,6 +41,8 @@ mod compare;
 #[cfg(feature = "cli")]
 mod data;
 mod error;
+#[cfg(feature = "cli")]
+mod figures;
 #[doc(hidden)]
 pub mod first_contact;
 mod history;

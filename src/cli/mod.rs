@@ -4,6 +4,7 @@ mod check;
 mod compare;
 mod cost;
 mod explain;
+mod figures;
 mod list;
 mod picture;
 mod plot;
@@ -73,6 +74,8 @@ enum Command {
     Sweep(sweep::Sweep),
     /// When and whether the first contact ends, over all dampings and impact speeds
     Regimes(regimes::Regimes),
+    /// The figures of the paper from its parameters, and two more: SVG, PNG and CSV, with an index
+    Figures(figures::Figures),
     /// Hard cases and the paper's claims, worked out by every route and held against the truth
     Check(check::Check),
     /// List the built-in scenes, print one, or hold it against what others have published
@@ -101,6 +104,7 @@ pub fn run(cli: Cli) -> Result<ExitCode, Failure> {
         Command::Compare(command) => return command.run(),
         Command::Sweep(command) => command.run(),
         Command::Regimes(command) => command.run(),
+        Command::Figures(command) => command.run(),
         Command::Check(command) => return command.run(),
         Command::Scenes(command) => command.run(),
         Command::Man => {

@@ -8,7 +8,7 @@ use clap::Args;
 use super::{Failure, NumberArgs, Visit, parameters, picture, solve, source, warned};
 use crate::history::History;
 use crate::motion::Ending;
-use crate::number::Number;
+use crate::number::{Number, Scalar};
 use crate::output::{Along, Asked, Gathered, Head, Picture, Size, plain, sheet};
 use crate::quantity::{Column, Units};
 use crate::scene::Scene;
@@ -97,7 +97,9 @@ impl Plot {
             gathered.push(self.gather(name, scene, &asked)?);
         }
         let title = match scenes.as_slice() {
-            [scene] => vec![plain(scene.title.as_deref().unwrap_or(&self.scenes[0])), parameters(scene)],
+            [scene] => {
+                vec![plain(scene.title.as_deref().unwrap_or(&self.scenes[0])), parameters(scene).replace("    ", ", ")]
+            }
             _ => Vec::new(),
         };
         let sheet = sheet(&asked, &gathered, title).map_err(|found| miette::miette!("{found}, expected one unit"))?;
@@ -140,13 +142,19 @@ impl Visit for Gather<'_> {
         warned(history, head, false);
         let found = found.map_err(|error| super::refuse_time(error, history.ending()))?;
         let (name, [from, to], end) = (self.name, found.span, found.end);
+        let short = |time: f64| time.decimal(6);
         let asked_to = self.asked.to.unwrap_or(end);
         if asked_to > end * (1.0 + 1e-12) {
-            eprintln!("note: {name}: the history ends at t = {end}: {}", history.ending());
+            eprintln!("note: {name}: the history ends at t = {}: {}", short(end), history.ending());
         } else if self.asked.to.is_none() && (to < end || from > self.asked.from.unwrap_or(0.0)) {
-            eprintln!("note: {name}: drawn from t = {from} to {to} of {end}; --from and --to draw another span");
+            eprintln!(
+                "note: {name}: drawn from t = {} to {} of {}; --from and --to draw another span",
+                short(from),
+                short(to),
+                short(end)
+            );
         } else if !matches!(history.ending(), Ending::Time | Ending::NextImpact) && self.asked.to.is_none() {
-            eprintln!("note: {name}: the history ends at t = {end}: {}", history.ending());
+            eprintln!("note: {name}: the history ends at t = {}: {}", short(end), history.ending());
         }
         self.found.replace(Some(found));
         Ok(())

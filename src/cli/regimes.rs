@@ -6,7 +6,7 @@ use clap::Args;
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 
 use super::{Failure, source};
-use crate::output::{regimes_csv, regimes_npz, regimes_svg, regimes_text, threshold_csv, write_whole};
+use crate::output::{Size, regimes_csv, regimes_npz, regimes_svg, regimes_text, threshold_csv, write_whole};
 use crate::sweep::Map;
 
 /// When and whether the first contact ends, over all dampings and impact speeds
@@ -97,19 +97,10 @@ impl Regimes {
             Kind::Csv => regimes_csv(map).map_err(no_csv)?.into_bytes(),
             Kind::Npz => regimes_npz(map).map_err(|error| miette::miette!("cannot write NPZ: {error}"))?,
             Kind::Svg => regimes_svg(map).into_bytes(),
-            #[cfg(feature = "plot")]
-            Kind::Png => crate::output::png(&regimes_svg(map), PNG_SCALE)
-                .map_err(|error| miette::miette!("cannot draw: {error}"))?,
-            // Refused before anything is solved.
-            #[cfg(not(feature = "plot"))]
-            Kind::Png => Vec::new(),
+            Kind::Png => super::picture::png(&regimes_svg(map), Size::Page)?,
         })
     }
 }
-
-/// Pixels for a unit of the SVG: sharp in print.
-#[cfg(feature = "plot")]
-const PNG_SCALE: f32 = 2.0;
 
 fn write(path: Option<&Path>, bytes: &[u8]) -> Result<(), Failure> {
     let name = path.map_or("standard output".into(), |path| path.display().to_string());

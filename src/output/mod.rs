@@ -8,6 +8,7 @@ mod compare_picture;
 mod cost;
 mod csv;
 mod draw;
+mod figures;
 mod file;
 mod json;
 #[cfg(feature = "plot")]
@@ -30,8 +31,9 @@ pub use cost::duration;
 pub(crate) use cost::{cost_csv, cost_json, cost_table, effects_csv, effects_json, effects_table};
 pub use csv::{Part, history_csv, samples_csv};
 pub(crate) use draw::{Size, plain};
-pub(crate) use file::write_filled;
+pub(crate) use figures::{figure_csv, figure_sheet, figures_index};
 pub use file::write_whole;
+pub(crate) use file::{write_files, write_filled};
 pub use json::{SCHEMA, history_json, samples_json};
 #[cfg(feature = "plot")]
 pub(crate) use picture::{cost_svg, png};

@@ -58,8 +58,7 @@ impl Axis {
             return [0.0, 1.0];
         }
         let space = 0.06 * if to > from { to - from } else { spread(from) };
-        // Where zero is an end it stays one.
-        [if zero && from == 0.0 { 0.0 } else { from - space }, if zero && to == 0.0 { 0.0 } else { to + space }]
+        [from - space, to + space]
     }
 
     /// A value to three digits, in the unit of the label.

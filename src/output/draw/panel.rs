@@ -95,14 +95,14 @@ impl Key {
             Key::Line(..) => 2.4,
             Key::Area(..) => 1.7,
             Key::Mark(..) => 1.4,
-            Key::Colors(_, ends) => COLORS + 1.5 + ends.iter().map(|end| width(end)).sum::<f64>(),
+            Key::Colors(_, [least, _, most]) => COLORS + 1.4 + width(least) + width(most),
         };
         sign + width(self.text()) + 1.2
     }
 }
 
 /// Widths and heights in those of a letter.
-const COLORS: f64 = 9.0;
+const COLORS: f64 = 7.0;
 const LINE: f64 = 1.55;
 const TICK: f64 = 0.4;
 const GRID: Stroke = Stroke::new("#e4e4e4", 0.12);
@@ -134,11 +134,11 @@ impl Panel {
 
     /// Above the frame: the title and the legend.
     pub(super) fn head(&self, wide: f64, em: f64) -> f64 {
-        em * (LINE * (1 + self.rows(wide / em).len()) as f64 + 0.2)
+        em * (LINE * (1 + self.rows(wide / em).len()) as f64 + 0.4)
     }
 
     /// Draws it with its frame between two corners; all else is outside of the frame.
-    pub(super) fn draw(&self, svg: &mut Svg, [from, to]: [DVec2; 2], left: f64) {
+    pub(super) fn draw(&self, svg: &mut Svg, [from, to]: [DVec2; 2], left: f64, wide: f64) {
         let (em, size) = (svg.em, to - from);
         let place = |point: DVec2| {
             let share = DVec2::new(self.x.share(point.x), 1.0 - self.y.share(point.y));
@@ -146,7 +146,7 @@ impl Panel {
             from + share.clamp(DVec2::splat(-20.0), DVec2::splat(20.0)) * size
         };
         svg.open("panel", "");
-        self.draw_head(svg, DVec2::new(left, from.y), to.x - left);
+        self.draw_head(svg, DVec2::new(left, from.y), wide);
         let across = self.x.ticks(size.x / em / 4.5);
         let up = self.y.ticks(size.y / em / 2.4);
         svg.open("grid", "");
@@ -161,7 +161,9 @@ impl Panel {
         svg.close();
         let clip = svg.clip([from, to]);
         for layer in &self.layers {
-            svg.open(layer.class, if layer.over { "" } else { &clip });
+            // Neighbours of a field meet without a seam.
+            let edges = if layer.class == "cells" { " shape-rendering=\"crispEdges\"" } else { "" };
+            svg.open(layer.class, &format!("{}{edges}", if layer.over { "" } else { &clip }));
             draw_shape(svg, &layer.shape, &place);
             svg.close();
         }
@@ -189,7 +191,7 @@ impl Panel {
     fn draw_head(&self, svg: &mut Svg, at: DVec2, wide: f64) {
         let em = svg.em;
         let rows = self.rows(wide / em);
-        let top = at.y - em * (0.55 + LINE * rows.len() as f64);
+        let top = at.y - em * (0.75 + LINE * rows.len() as f64);
         svg.text(DVec2::new(at.x, top), Anchor::Start, &self.title);
         if rows.is_empty() {
             return;

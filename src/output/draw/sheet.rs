@@ -30,7 +30,7 @@ const TITLE: f64 = 1.6;
 const FOOT: f64 = 3.1;
 /// Left of the numbers: the label.
 const LABEL: f64 = 1.5;
-const GAP: f64 = 1.4;
+const GAP: f64 = 0.9;
 
 impl Size {
     fn width(self) -> f64 {
@@ -69,10 +69,10 @@ impl Sheet {
         let across = if size == Size::Column || self.panels.len() < 2 { 1 } else { 2 };
         let rows: Vec<&[Panel]> = self.panels.chunks(across).collect();
         let title: Vec<&str> = self.title.iter().flat_map(|line| wrapped(line, (wide - 2.0 * em) / em)).collect();
-        let above = em * (0.4 + TITLE * title.len() as f64);
+        let above = em * (0.9 + TITLE * title.len() as f64);
         let cell = wide / across as f64;
         // A frame of this height, and the legends that its width leaves room for.
-        let head = |row: &[Panel]| row.iter().map(|panel| panel.head(cell - 2.0 * em, em)).fold(0.0, f64::max);
+        let head = |row: &[Panel]| row.iter().map(|panel| panel.head(cell - 1.5 * em, em)).fold(0.0, f64::max);
         let around: f64 = rows.iter().map(|row| head(row) + em * (FOOT + GAP)).sum();
         let frame = match size {
             Size::Slide => (wide * 9.0 / 16.0 - above - around) / rows.len().max(1) as f64,
@@ -93,7 +93,7 @@ impl Sheet {
             for (column, panel) in row.iter().enumerate() {
                 let left = column as f64 * cell + em;
                 let corners = [DVec2::new(left + margin(column), y), DVec2::new(left + cell - 2.2 * em, y + frame)];
-                panel.draw(&mut svg, corners, left);
+                panel.draw(&mut svg, corners, left, cell - 1.5 * em);
             }
             y += frame + em * (FOOT + GAP);
         }

@@ -104,12 +104,12 @@ const LOW: (f64, f64) = (0.72, 0.18);
 pub(crate) fn width(text: &str) -> f64 {
     let letter = |letter: char| match letter {
         'i' | 'j' | 'l' | '\'' | '.' | ',' | ':' | ';' | '|' | '·' => 0.32,
-        ' ' | 'f' | 't' | 'r' | '(' | ')' | '[' | ']' | '/' | '-' | 'I' | '′' => 0.42,
+        ' ' | 'f' | 't' | 'r' | '(' | ')' | '[' | ']' | '/' | '-' | 'I' | '′' => 0.4,
         'm' | 'w' | 'M' | 'W' | '%' => 0.98,
         '=' | '+' | '−' | '≥' | '≤' | '≈' | '→' | '∞' => 0.84,
         '₀'..='₉' | '⁰'..='⁹' | '²' | '³' | '¹' | '⁻' => 0.42,
-        letter if letter.is_uppercase() => 0.74,
-        _ => 0.62,
+        letter if letter.is_uppercase() => 0.7,
+        _ => 0.61,
     };
     parts(text).iter().map(|(part, low)| part.chars().map(letter).sum::<f64>() * if *low { LOW.0 } else { 1.0 }).sum()
 }

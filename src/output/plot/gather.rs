@@ -47,9 +47,9 @@ pub(crate) struct Gathered {
 }
 
 /// Round trips that are drawn where nothing is said: as many as can be told apart.
-const TRIPS: f64 = 24.0;
+const TRIPS: f64 = 12.0;
 /// After the last event that is drawn.
-const TRIPS_AFTER: f64 = 2.0;
+const TRIPS_AFTER: f64 = 1.0;
 /// Points of a line, besides those at rays.
 const POINTS: usize = 400;
 /// Where rays are more than this, a line is drawn through [`DENSE`] points.

@@ -244,7 +244,7 @@ fn energy(scene: &Gathered) -> Panel {
     let space = if most > base { 0.06 * (most - base) } else { 1.0 };
     let unit = scene.units.name(Measure::Energy);
     let y = Axis::new("E", unit, [base, most + space]);
-    let names = ["ρSLg h, gravity", "½ρSL h′², centre of mass", "E_z, vibration"];
+    let names = ["gravity", "motion of the centre", "vibration E_z"];
     let mut below: Vec<DVec2> = edges[0].iter().map(|(t, _)| DVec2::new(*t, base)).collect();
     let (mut layers, mut legend) = (Vec::new(), Vec::new());
     // Without gravity its layer is empty.
