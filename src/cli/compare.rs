@@ -5,13 +5,15 @@ use std::process::ExitCode;
 
 use clap::Args;
 
-use super::{Failure, Format, source};
+use super::{Failure, Format, picture, source};
 use crate::agreement::{
     Agreement, Axis, Clock, Compression, Conventions, Limit, Map, Order, Origin, Samples, Settings, orders,
 };
 use crate::data::Source;
 use crate::number::Number;
-use crate::output::{ComparedFile, compare_csv, compare_json, compare_table, orders_table, write_whole};
+use crate::output::{
+    ComparedFile, Size, compare_csv, compare_json, compare_svg, compare_table, orders_table, write_whole,
+};
 use crate::problem::{Parameters, Problem, Run};
 use crate::quantity::Units;
 use crate::scene::Scene;
@@ -128,12 +130,10 @@ impl Compare {
     fn check(&self) -> Result<(), Failure> {
         let kinds = self.output.iter().map(|path| (path, self.kind(path)));
         for (path, kind) in kinds {
-            let path = path.display();
-            if !matches!(kind, Kind::Rows(_)) && cfg!(not(feature = "plot")) {
-                return Err(miette::miette!(
-                    "found {path} in a build without pictures, expected one with the feature `plot`"
-                ));
+            if !matches!(kind, Kind::Rows(_)) {
+                picture::Kind::of(path)?;
             }
+            let path = path.display();
             if self.data.len() > 1 && !matches!(kind, Kind::Rows(Format::Table | Format::Json)) {
                 return Err(miette::miette!(
                     "found {path} with several files of data, expected one for a picture or CSV"
@@ -248,13 +248,9 @@ impl Report<'_> {
             Kind::Rows(Format::Csv) => {
                 compare_csv(&files[0].agreement).map_err(|error| miette::miette!("cannot write CSV: {error}"))?
             }
-            #[cfg(feature = "plot")]
-            Kind::Svg => crate::output::compare_svg(&files[0], title, units).into_bytes(),
-            #[cfg(feature = "plot")]
-            Kind::Png => crate::output::png(&crate::output::compare_svg(&files[0], title, units), 2.0)
-                .map_err(|error| miette::miette!("cannot draw: {error}"))?,
-            // Pictures that cannot be drawn are refused before anything is compared.
-            _ => {
+            Kind::Svg => compare_svg(&files[0], title, units).into_bytes(),
+            Kind::Png => picture::png(&compare_svg(&files[0], title, units), Size::Page)?,
+            Kind::Rows(Format::Table) => {
                 let mut tables: Vec<String> = files.iter().map(|file| compare_table(file, title, units)).collect();
                 if files.len() > 1 {
                     tables.push(orders_table(orders));

@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use clap::Args;
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 
-use super::{Failure, source};
+use super::{Failure, picture, source};
 use crate::output::{Size, regimes_csv, regimes_npz, regimes_svg, regimes_text, threshold_csv, write_whole};
 use crate::sweep::Map;
 
@@ -79,10 +79,8 @@ impl Regimes {
                 return Err(miette::miette!("found {path}, expected a file that ends in .svg, .png, .csv or .npz"));
             }
         };
-        if kind == Kind::Png && cfg!(not(feature = "plot")) {
-            return Err(miette::miette!(
-                "found .png in a build without pictures, expected one with the feature `plot`"
-            ));
+        if kind == Kind::Png {
+            picture::Kind::of(path)?;
         }
         if self.curve && kind != Kind::Csv {
             return Err(miette::miette!("found --curve with {}, expected CSV", path.display()));
@@ -97,7 +95,7 @@ impl Regimes {
             Kind::Csv => regimes_csv(map).map_err(no_csv)?.into_bytes(),
             Kind::Npz => regimes_npz(map).map_err(|error| miette::miette!("cannot write NPZ: {error}"))?,
             Kind::Svg => regimes_svg(map).into_bytes(),
-            Kind::Png => super::picture::png(&regimes_svg(map), Size::Page)?,
+            Kind::Png => picture::png(&regimes_svg(map), Size::Page)?,
         })
     }
 }

@@ -107,7 +107,7 @@ pub(crate) const ALL: [Figure; 10] = [
         of: Of::Tenth,
         shown: "e_E² of the tenth bounce over μ for r = 0 and c = L = g = 1, beside that of the first.",
         corrected: "Not in the paper, whose coefficient is that of a first bounce: a later one may give back what the \
-                    rod kept as vibration, e_E² > 1.",
+                    rod kept as vibration, e_E² > 1. It is empty where the centre of mass never comes back to h = 0.",
     },
 ];
 
@@ -205,7 +205,7 @@ impl Figure {
                 Data { columns: Vec::new(), rows: Vec::new(), map: Some(map) }
             }
             Of::Tenth => {
-                let grid = grid("0", "0.0125..10:800")?;
+                let grid = grid("0", "0.005..10:2000")?;
                 let speeds = first::speeds(&grid);
                 let (tenth, first) = (first::tenth(&grid), first::contacts(&grid, Wanted::Restitution)?);
                 let rows =

@@ -12,7 +12,7 @@ const THIN: f64 = 0.2;
 const BLACK: &str = "#000000";
 /// That of `r = 0` in the paper.
 const UNDAMPED: &str = "#d55e00";
-/// Of A, B, C: where `g^e = −g` and where it is `g`.
+/// Of A, B, C: where the odd continuation of `g` is `−g` and where it is `g`.
 const REGIONS: [&str; 3] = ["#d9c3dd", "#bfdcc4", "#d9c3dd"];
 
 /// The numbers of a figure.
@@ -39,7 +39,7 @@ pub(crate) fn figures_index(figures: &[&Figure], data: &[Data]) -> Result<String
             if figure.name.parse::<u32>().is_ok() { format!("Figure {}", figure.name) } else { figure.name.into() };
         let (file, count) = (figure.file(), data.map.as_ref().map_or(data.rows.len(), |map| map.regimes.len()));
         text += &format!(
-            "\n## {title}\n\n![{title}]({file}.png)\n\n{} {}\n\n[SVG]({file}.svg), [PNG]({file}.png), \
+            "\n## {title}\n\n![{title}]({file}.png)\n\nReproduced: {}\n\nCorrected: {}\n\n[SVG]({file}.svg), [PNG]({file}.png), \
              [CSV]({file}.csv): {count} rows\n",
             figure.shown, figure.corrected
         );
@@ -217,7 +217,7 @@ fn regions(data: &Data) -> Panel {
         layers.push(Layer::new("note", Shape::Note(middle, Anchor::Middle, name.into())));
     }
     layers.push(marks(vec![DVec2::new(0.5, 2.0)], BLACK));
-    let legend = vec![Key::Area("g^e = −g".into(), REGIONS[0]), Key::Area("g^e = g".into(), REGIONS[1])];
+    let legend = vec![Key::Area("g continued as −g".into(), REGIONS[0]), Key::Area("as g".into(), REGIONS[1])];
     Panel { title: "regions of integration for the point (x, t₁), x = L/2".into(), x, y, layers, legend }
 }
 
@@ -225,13 +225,12 @@ fn tenth(data: &Data) -> Panel {
     let x = Axis::new("μ", "", [0.0, 10.0]);
     let y = Axis::new("e_E²", "", [0.0, 2.0]);
     let mut layers = vec![level(&x, 1.0, Stroke::new("#808080", THIN))];
-    let mut legend = Vec::new();
-    for (column, name, stroke) in
-        [(1, "first bounce", Stroke::new(UNDAMPED, LINE)), (2, "tenth bounce", Stroke::new(LINES[0], 0.25))]
-    {
-        layers.push(lines("curve", stretches(data.rows.iter(), 0, column), stroke));
-        legend.push(Key::Line(name.into(), stroke));
-    }
+    let first = Stroke::new(UNDAMPED, LINE);
+    // It jumps wherever an earlier landing comes or goes: points, without lines between them.
+    let tenth = stretches(data.rows.iter(), 0, 2).concat();
+    layers.push(Layer::new("marks", Shape::Marks(tenth, Mark::Point, LINES[0])));
+    layers.push(lines("curve", stretches(data.rows.iter(), 0, 1), first));
+    let legend = vec![Key::Line("first bounce".into(), first), Key::Mark("tenth bounce".into(), Mark::Point, LINES[0])];
     Panel {
         title: "restitution of the first and of the tenth bounce: r = 0, c = L = g = 1".into(),
         x,

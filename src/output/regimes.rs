@@ -114,8 +114,8 @@ fn axis(label: &str, values: &[Number]) -> (Axis, Vec<f64>) {
     let half = (scaled[last] - scaled[0]) / (2.0 * last as f64);
     let borders = (0..=scaled.len()).map(|k| scaled[0] + half * (2.0 * k as f64 - 1.0));
     let borders: Vec<f64> = borders.map(|x| if log { x.exp() } else { x }).collect();
-    let axis = Axis::new(label, "", [borders[0], borders[scaled.len()]]);
-    (if log { axis.log() } else { axis }, borders)
+    let ends = [borders[0], borders[scaled.len()]];
+    (if log { Axis::log(label, ends) } else { Axis::new(label, "", ends) }, borders)
 }
 
 /// The map: a rectangle for each run of points of one colour, the threshold and `R = π` as lines.

@@ -44,9 +44,9 @@ impl Axis {
         Axis { label, from, to, log: false, factor: 10f64.powi(-power), ticks: None }
     }
 
-    /// The same by factors.
-    pub(crate) fn log(self) -> Self {
-        Axis { log: true, factor: 1.0, ..self }
+    /// The axis of a number without a unit, by factors.
+    pub(crate) fn log(label: &str, [from, to]: [f64; 2]) -> Self {
+        Axis { label: label.into(), from, to, log: true, factor: 1.0, ticks: None }
     }
 
     /// The range that holds all values, and zero where `zero` says so, with a little space.
@@ -159,7 +159,7 @@ mod tests {
         assert_eq!(Axis::new("u", "in", [0.0, 2e-3]).label, "u [10⁻³ in]");
         assert_eq!(Axis::new("u", "", [0.0, 2e-3]).label, "u [10⁻³]");
         assert_eq!(Axis::new("u", "", [0.0, 3.0]).label, "u");
-        assert_eq!(texts(&Axis::new("M", "", [0.1, 20.0]).log()), ["0.1", "0.2", "0.5", "1", "2", "5", "10", "20"]);
+        assert_eq!(texts(&Axis::log("M", [0.1, 20.0])), ["0.1", "0.2", "0.5", "1", "2", "5", "10", "20"]);
         assert_eq!(power_of_ten(-15), "10⁻¹⁵");
         // A value that does not change is in the middle.
         let axis = Axis::new("E", "J", Axis::range([2.0, 2.0].into_iter(), false));

@@ -57,6 +57,8 @@ pub(crate) struct Piece {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum Mark {
     Dot,
+    /// One of many.
+    Point,
     Ring,
     Square,
     Diamond,
@@ -290,6 +292,7 @@ fn draw_mark(svg: &mut Svg, at: DVec2, mark: Mark, color: &'static str) {
     let thin = Stroke::new(color, 0.07 * svg.em);
     match mark {
         Mark::Dot => svg.circle(at, r, color, Stroke::new(color, 0.0)),
+        Mark::Point => svg.circle(at, 0.4 * r, color, Stroke::new(color, 0.0)),
         Mark::Ring => svg.circle(at, 2.0 * r, "none", thin),
         Mark::Square => svg.polygon(&ring(4, 0.125, &|_| 1.2 * r), &fill),
         Mark::Diamond => svg.polygon(&ring(4, 0.0, &|_| 1.25 * r), &fill),
@@ -302,5 +305,40 @@ fn draw_mark(svg: &mut Svg, at: DVec2, mark: Mark, color: &'static str) {
                 svg.line(&[at - way * 0.85 * r, at + way * 0.85 * r], Stroke { width: 0.12 * svg.em, ..thin });
             }
         }
+    }
+}
+
+/// Places of a line across a picture: more points are drawn as the least and the greatest of each.
+const PLACES: usize = 2000;
+
+/// A line through at most two points a place: the least and the greatest.
+pub(crate) fn thinned(points: Vec<DVec2>) -> Vec<DVec2> {
+    let step = points.len().div_ceil(PLACES);
+    if step <= 2 {
+        return points;
+    }
+    let ends = |chunk: &[DVec2]| {
+        let order = |a: &&DVec2, b: &&DVec2| a.y.total_cmp(&b.y);
+        let mut ends: Vec<DVec2> =
+            chunk.iter().min_by(order).into_iter().chain(chunk.iter().max_by(order)).copied().collect();
+        ends.sort_by(|a, b| a.x.total_cmp(&b.x));
+        ends
+    };
+    points.chunks(step).flat_map(ends).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A spike survives, and the ends do.
+    #[test]
+    fn extremes_are_kept() {
+        let line = |count: i32, value: &dyn Fn(i32) -> f64| {
+            thinned((0..count).map(|k| DVec2::new(f64::from(k), value(k))).collect())
+        };
+        let points = line(10_000, &|k| if k == 4321 { 5.0 } else { 0.0 });
+        assert!(points.len() <= 2 * PLACES && points.contains(&DVec2::new(4321.0, 5.0)) && points[0].x == 0.0);
+        assert_eq!(line(3, &|k| f64::from(k)).len(), 3);
     }
 }

@@ -4,7 +4,9 @@ use glam::DVec2;
 
 use super::cells::{Cells, Values};
 use super::{Along, Asked, Gathered, Picture};
-use crate::output::draw::{AREAS, Axis, Key, LINES, Layer, Mark, Panel, Piece, Shape, Sheet, Stroke, diverging, plain};
+use crate::output::draw::{
+    AREAS, Axis, Key, LINES, Layer, Mark, Panel, Piece, Shape, Sheet, Stroke, diverging, plain, thinned,
+};
 use crate::quantity::{Column, Measure};
 
 const CONTACT: &str = "#dcdcdc";
@@ -17,8 +19,8 @@ const LINE: f64 = 0.4;
 const DASHES: [&str; 3] = ["", "2 0.9", "0.5 0.7"];
 /// More rays than this are not drawn.
 const MOST_RAYS: usize = 300;
-/// Places of a line across a picture: more points are drawn as the least and the greatest of each.
-const PLACES: usize = 2000;
+/// More jumps than this are not drawn.
+const MOST_JUMPS: usize = 2000;
 
 /// The pictures asked for, of all scenes.
 ///
@@ -50,22 +52,6 @@ fn time_axis(scenes: &[Gathered]) -> Axis {
 
 fn points(line: &[(f64, f64)]) -> Vec<DVec2> {
     thinned(line.iter().map(|(t, value)| DVec2::new(*t, *value)).collect())
-}
-
-/// A line through at most two points a place: the least and the greatest.
-pub(crate) fn thinned(points: Vec<DVec2>) -> Vec<DVec2> {
-    let step = points.len().div_ceil(PLACES);
-    if step <= 2 {
-        return points;
-    }
-    let ends = |chunk: &[DVec2]| {
-        let order = |a: &&DVec2, b: &&DVec2| a.y.total_cmp(&b.y);
-        let mut ends: Vec<DVec2> =
-            chunk.iter().min_by(order).into_iter().chain(chunk.iter().max_by(order)).copied().collect();
-        ends.sort_by(|a, b| a.x.total_cmp(&b.x));
-        ends
-    };
-    points.chunks(step).flat_map(ends).collect()
 }
 
 /// The times on the ground, over the whole height of a picture.
@@ -141,7 +127,7 @@ fn lines(picture: Picture, scenes: &[Gathered]) -> Result<Panel, String> {
             Some(ends.map(|(t, value)| DVec2::new(*t, *value)).to_vec())
         });
         let jumps: Vec<Vec<DVec2>> = jumps.collect();
-        if !jumps.is_empty() && jumps.len() <= PLACES {
+        if !jumps.is_empty() && jumps.len() <= MOST_JUMPS {
             layers.push(Layer::new("jumps", Shape::Lines(jumps, Stroke { width: 0.15, dash: JUMP, ..look })));
         }
         let stretches = curve.stretches.iter().filter(|stretch| stretch.len() > 1);
