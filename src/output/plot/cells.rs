@@ -23,7 +23,7 @@ pub(crate) struct Break {
 pub(crate) struct Cells {
     pub(crate) breaks: Vec<Break>,
     pub(crate) values: Values,
-    /// The greatest absolute value, to which the colours belong.
+    /// A round number that no absolute value is above: where the colours end.
     pub(crate) greatest: f64,
 }
 
@@ -39,9 +39,8 @@ pub(crate) enum Values {
 const MOST_CELLS: usize = 6000;
 /// Where a field is curved a cell is cut into parts that are no wider than this share of a round trip.
 const PARTS: f64 = 10.0;
-/// The grid.
-const ACROSS: usize = 480;
-const UP: usize = 96;
+/// The grid, of undamped and of damped rods, whose values take longer.
+const GRID: [[usize; 2]; 2] = [[480, 96], [200, 40]];
 
 /// The polygons of a field and its values.
 ///
@@ -59,11 +58,12 @@ pub(crate) fn of<S: Target>(
     let damped = drawn.rod.damping > 0.0;
     let fine =
         damped.then(|| strip.trip / PARTS.min((4.0 * MOST_CELLS as f64 / (strip.trips() * 16.0)).sqrt()).max(2.0));
-    let [up, down] = [0.0, strip.trip].map(|late| strip.knots(&breaks, late, fine));
-    let polygons = strip.polygons(&up, &down);
+    let [rising, falling] = [0.0, strip.trip].map(|late| strip.knots(&breaks, late, fine));
+    let polygons = strip.polygons(&rising, &falling);
+    let [across, up] = GRID[usize::from(damped)];
     let pixels = || {
         let middle = |k: usize, count: usize| (k as f64 + 0.5) / count as f64;
-        (0..ACROSS * UP).map(|k| strip.place(middle(k % ACROSS, ACROSS), middle(k / ACROSS, UP))).collect()
+        (0..across * up).map(|k| strip.place(middle(k % across, across), middle(k / across, up))).collect()
     };
     let points: Vec<DVec2> = match &polygons {
         Some(polygons) => polygons.iter().flat_map(|polygon| samples(polygon)).collect(),
@@ -84,10 +84,20 @@ pub(crate) fn of<S: Target>(
         }
         None => {
             greatest = values.iter().fold(0.0, |greatest, value| greatest.max(value.abs()));
-            Values::Grid(ACROSS, values)
+            Values::Grid(across, values)
         }
     };
-    Ok(Cells { breaks, values, greatest })
+    Ok(Cells { breaks, values, greatest: round_above(greatest) })
+}
+
+/// The next number with one or two digits from which colours can begin; 0 for 0.
+fn round_above(value: f64) -> f64 {
+    if value == 0.0 {
+        return 0.0;
+    }
+    let power = 10f64.powf(value.log10().floor());
+    let steps = [1.0, 1.2, 1.5, 2.0, 2.5, 3.0, 4.0, 5.0, 6.0, 8.0, 10.0];
+    steps.into_iter().map(|step| step * power).find(|step| *step >= value * (1.0 - 1e-9)).unwrap_or(value)
 }
 
 fn ask<S: Target>(history: &History<S>, along: Along, drawn: &Gathered, points: &[DVec2]) -> Result<Vec<f64>, Error> {
@@ -177,6 +187,9 @@ impl Strip {
 
     /// What of each cell lies in the strip; `None` where there are too many.
     fn polygons(&self, up: &[f64], down: &[f64]) -> Option<Vec<Vec<DVec2>>> {
+        if up.len() > MOST_CELLS {
+            return None;
+        }
         let mut polygons = Vec::new();
         for xi in up.windows(2) {
             let first = down.partition_point(|eta| *eta <= xi[0]).saturating_sub(1);
@@ -239,6 +252,11 @@ mod tests {
             let whole: f64 = polygons.iter().map(area).sum();
             assert!((whole - 4.8 * 2.0).abs() < 1e-9, "{whole}");
         }
+    }
+
+    #[test]
+    fn colours_end_at_round_numbers() {
+        assert_eq!([0.0, 5.15, 0.5, 2.74, 1.21, 9.06].map(round_above), [0.0, 6.0, 0.5, 3.0, 1.5, 10.0]);
     }
 
     #[test]

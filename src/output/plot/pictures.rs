@@ -100,7 +100,7 @@ fn lines(picture: Picture, scenes: &[Gathered]) -> Result<Panel, String> {
             ("stress at the ground", "E v_x(0,t)")
         }
         Picture::Stress => ("strain at the ground", "v_x(0,t)"),
-        Picture::Column(column) => (column.meaning(), symbol(column)),
+        Picture::Column(column) => (short(column), symbol(column)),
         _ => ("both ends and the centre of mass", "displacement"),
     };
     let x = time_axis(scenes);
@@ -148,10 +148,21 @@ fn lines(picture: Picture, scenes: &[Gathered]) -> Result<Panel, String> {
     Ok(Panel { title: title.into(), x, y, layers, legend })
 }
 
-/// The symbol of a column in pictures.
+/// What a column is, in a few words.
+fn short(column: Column) -> &'static str {
+    let meaning = column.meaning();
+    [",", ":", " above"]
+        .iter()
+        .filter_map(|end| meaning.split_once(end))
+        .map(|cut| cut.0)
+        .min_by_key(|cut| cut.len())
+        .unwrap_or(meaning)
+}
+
+/// The symbol of a column, as long as it fits beside an axis.
 fn symbol(column: Column) -> &'static str {
     match column {
-        Column::EndDisplacement => "v(0,t)",
+        Column::KineticEnergy | Column::StrainEnergy | Column::GravityEnergy => "E",
         Column::Contact => "contact",
         column => column.symbol(),
     }
@@ -199,11 +210,15 @@ fn restitution(scenes: &[Gathered]) -> Panel {
     for (s, scene) in scenes.iter().enumerate() {
         for (q, (name, mark)) in series.into_iter().enumerate() {
             let color = LINES[if scenes.len() == 1 { q } else { s } % LINES.len()];
-            let known = scene.restitution.iter().enumerate();
-            let known = known.filter_map(|(k, pair)| Some(DVec2::new((k + 1) as f64, pair[q]?)));
-            let dots: Vec<DVec2> = known.collect();
+            let numbered = scene.restitution.iter().enumerate().collect::<Vec<_>>();
+            // No line over a bounce for which it is not defined.
+            let stretches = numbered.split(|(_, pair)| pair[q].is_none()).map(|known| {
+                known.iter().filter_map(|(k, pair)| Some(DVec2::new((k + 1) as f64, pair[q]?))).collect::<Vec<_>>()
+            });
+            let lines: Vec<Vec<DVec2>> = stretches.filter(|line| !line.is_empty()).collect();
+            let dots = lines.concat();
             let line = Stroke { dash: DASHES[q], ..Stroke::new(color, 0.15) };
-            layers.push(Layer::new("curve", Shape::Lines(vec![dots.clone()], line)));
+            layers.push(Layer::new("curve", Shape::Lines(lines, line)));
             layers.push(Layer::new("marks", Shape::Marks(dots, mark, color)));
             legend.push(Key::Mark(
                 if scenes.len() == 1 { name.into() } else { format!("{name}, {}", plain(&scene.name)) },
@@ -229,8 +244,10 @@ fn energy(scene: &Gathered) -> Panel {
     let most = edges[2].iter().map(|(_, value)| *value).fold(base, f64::max);
     let space = if most > base { 0.06 * (most - base) } else { 1.0 };
     let unit = scene.units.name(Measure::Energy);
-    let y = Axis::new("E", unit, [base, most + space]);
-    let names = ["gravity", "motion of the centre", "vibration E_z"];
+    // Below them the times on the ground.
+    let floor = base - 0.05 * (most + space - base);
+    let y = Axis::new("E", unit, [floor, most + space]);
+    let names = ["gravity", "centre of mass", "vibration E_z"];
     let mut below: Vec<DVec2> = edges[0].iter().map(|(t, _)| DVec2::new(*t, base)).collect();
     let (mut layers, mut legend) = (Vec::new(), Vec::new());
     // Without gravity its layer is empty.
@@ -244,7 +261,7 @@ fn energy(scene: &Gathered) -> Panel {
     }
     layers.push(Layer::new("curve", Shape::Lines(vec![thinned(below)], Stroke::new("#000000", 0.25))));
     layers.push(zero(&x));
-    layers.push(bars(scene, [base, base + 0.03 * (most + space - base)]));
+    layers.push(bars(scene, [floor, base]));
     Panel { title: "energy: the upper edge is E".into(), x, y, layers, legend }
 }
 
@@ -278,13 +295,10 @@ fn along(asked: &Asked, scene: &Gathered) -> Panel {
     Panel { title, x, y, layers, legend }
 }
 
-/// The key to the colours, with the greatest value to three digits.
+/// The key to the colours.
 fn colors(along: Along, cells: &Cells, scene: &Gathered) -> Key {
-    let axis = Axis::new(
-        along.symbol(&scene.units),
-        scene.units.name(along.measure(&scene.units)),
-        [-cells.greatest, cells.greatest],
-    );
+    let unit = scene.units.name(along.measure(&scene.units));
+    let axis = Axis::new(along.symbol(&scene.units), unit, [-cells.greatest, cells.greatest]);
     let most = axis.shown(cells.greatest);
     Key::Colors(axis.label, [format!("−{most}"), "0".into(), most])
 }
