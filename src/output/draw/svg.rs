@@ -194,10 +194,10 @@ impl Svg {
     /// Rectangles of one colour, each from one corner to the opposite one.
     pub(crate) fn rectangles(&mut self, corners: &[[DVec2; 2]], fill: &str) {
         self.put(format_args!("<path fill=\"{fill}\" d=\""));
-        for [from, to] in corners {
-            let (size, [x, y]) = (*to - *from, [from.x, from.y].map(length));
-            let [w, h, back] = [size.x, size.y, -size.x].map(length);
-            self.put(format_args!("M{x} {y}h{w}v{h}h{back}z"));
+        for ends in corners {
+            // Rounded as places, so that neighbours meet.
+            let [left, top, right, bottom] = [ends[0].x, ends[0].y, ends[1].x, ends[1].y].map(length);
+            self.put(format_args!("M{left} {top}H{right}V{bottom}H{left}z"));
         }
         self.put(format_args!("\"/>\n"));
     }

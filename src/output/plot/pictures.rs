@@ -350,7 +350,7 @@ fn rays(cells: &Cells, scene: &Gathered) -> Vec<Layer> {
     let of = |jump: bool| -> Vec<Vec<DVec2>> {
         cells.breaks.iter().filter(|ray| ray.jump == jump).map(|ray| path(ray.time)).collect()
     };
-    let few = |lines: &Vec<Vec<DVec2>>| !lines.is_empty() && lines.len() <= MOST_RAYS;
+    let few = |lines: &Vec<Vec<DVec2>>| !lines.is_empty() && cells.breaks.len() <= MOST_RAYS;
     let kinks = Some(of(false)).filter(few).map(|lines| Layer::new("kinks", Shape::Lines(lines, KINK)));
     let jumps = Some(of(true)).filter(few).map(|lines| Layer::new("rays", Shape::Lines(lines, RAY)));
     kinks.into_iter().chain(jumps).collect()
