@@ -180,7 +180,7 @@ fn figures_1_to_4_hold_what_the_theory_says() {
     for row in rows(folder.path(), "figure-1.csv") {
         let [r, t, psi, bounce] = [0, 1, 3, 4].map(|k| row[k].unwrap());
         assert!(psi <= 0.0 || t > bounce, "r = {r}, t = {t}: {psi}");
-        let truth = [(2.6, 1.788_481_033_298_875_45), (2.9, 2.553_022_499_313_244_47), (3.0, 3.299_026_051_445_772_72)];
+        let truth = [(2.6, 1.788_481_033_298_875), (2.9, 2.553_022_499_313_244), (3.0, 3.299_026_051_445_773)];
         close("t_b", bounce, truth.iter().find(|known| known.0 == r).unwrap().1, 1.0, 1e-13);
     }
     // Figures 2 and 3: Theorem 2 with μ₀ = 2.

@@ -8,6 +8,7 @@ use crate::error::Error;
 use crate::history::History;
 use crate::motion::{Field, Side};
 use crate::number::Scalar;
+use crate::output::draw::Piece;
 use crate::solve::Target;
 
 /// A ray, by the time at which it leaves the ground.
@@ -29,8 +30,8 @@ pub(crate) struct Cells {
 
 #[derive(Clone, Debug)]
 pub(crate) enum Values {
-    /// Polygons in `(t, x)`, in each of which the field is taken as linear: a point, the value there, and its slope.
-    Linear(Vec<(Vec<DVec2>, DVec2, f64, DVec2)>),
+    /// Polygons in `(t, x)`, in each of which the field is taken as linear.
+    Linear(Vec<Piece>),
     /// Values at the middles of rectangles, so many along the time, from the ground up, row by row.
     Grid(usize, Vec<f64>),
 }
@@ -78,7 +79,7 @@ pub(crate) fn of<S: Target>(
                     let slope = slope([at[1] - at[0], at[2] - at[0]], [values[1] - values[0], values[2] - values[0]]);
                     let ends = corners.iter().map(|corner| (values[0] + slope.dot(*corner - at[0])).abs());
                     greatest = ends.fold(greatest, f64::max);
-                    (corners, at[0], values[0], slope)
+                    Piece { corners, at: at[0], middle: values[0], slope }
                 });
             Values::Linear(linear.collect())
         }

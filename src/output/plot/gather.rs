@@ -24,6 +24,9 @@ pub(crate) struct Asked {
     pub(crate) to: Option<f64>,
 }
 
+/// Times and values.
+pub(crate) type Line = Vec<(f64, f64)>;
+
 /// A scene, ready to be drawn.
 #[derive(Clone, Debug)]
 pub(crate) struct Gathered {
@@ -37,14 +40,14 @@ pub(crate) struct Gathered {
     /// Those that the span meets.
     pub(crate) contacts: Vec<[f64; 2]>,
     /// The columns asked for: times and values, in stretches without a jump.
-    pub(crate) columns: Vec<(Column, Vec<Vec<(f64, f64)>>)>,
+    pub(crate) columns: Vec<(Column, Vec<Line>)>,
     /// `v_x(0,·)` in straight pieces.
     pub(crate) stress: Vec<StressPiece<f64>>,
     /// `e_P` and `e_E²` of each contact, where they are defined.
     pub(crate) restitution: Vec<[Option<f64>; 2]>,
     pub(crate) cells: Option<Cells>,
     /// The world lines of points along the rod: `v(x,t)` of each.
-    pub(crate) world: Vec<(f64, Vec<(f64, f64)>)>,
+    pub(crate) world: Vec<(f64, Line)>,
 }
 
 /// Round trips that are drawn where nothing is said: as many as can be told apart.
@@ -141,8 +144,8 @@ impl Asked {
             return Err(Error::TimeOutside { found: from.to_string(), end: end.to_string() });
         }
         let to = self.to.unwrap_or_else(|| {
-            let near = events.iter().copied().filter(|event| *event > from && *event <= from + TRIPS * trip);
-            match near.last() {
+            let mut near = events.iter().copied().filter(|event| *event > from && *event <= from + TRIPS * trip);
+            match near.next_back() {
                 _ if end <= from + TRIPS * trip => end,
                 // A long flight is cut; a rod that stays on the ground is seen to come to rest.
                 Some(last) if in_flight(history, last) => last + TRIPS_AFTER * trip,
@@ -286,11 +289,7 @@ fn times<S: Scalar>(motion: &dyn Motion<S>, drawn: &Gathered, breaks: &[Break]) 
 }
 
 /// `v(x,t)` of points along the rod.
-fn world_lines<S: Target>(
-    history: &History<S>,
-    drawn: &Gathered,
-    breaks: &[Break],
-) -> Result<Vec<(f64, Vec<(f64, f64)>)>, Error> {
+fn world_lines<S: Target>(history: &History<S>, drawn: &Gathered, breaks: &[Break]) -> Result<Vec<(f64, Line)>, Error> {
     let inner: Vec<f64> = (0..WORLD).map(|k| k as f64 / (WORLD - 1) as f64).collect();
     let found = history.ask(
         |motion| {

@@ -3,6 +3,7 @@
 use glam::DVec2;
 
 use super::cells::{Cells, Values};
+use super::gather::Line;
 use super::{Along, Asked, Gathered, Picture};
 use crate::output::draw::{
     AREAS, Axis, Key, LINES, Layer, Mark, Panel, Piece, Shape, Sheet, Stroke, diverging, plain, thinned,
@@ -14,7 +15,7 @@ const GROUND: &str = "#000000";
 const RAY: Stroke = Stroke::new("#000000", 0.12);
 const KINK: Stroke = Stroke::new("#707070", 0.1).dashed("0.8 0.6");
 const JUMP: &str = "0.5 0.5";
-const LINE: f64 = 0.4;
+const WIDTH: f64 = 0.4;
 /// Lines of scenes and of quantities in one picture.
 const DASHES: [&str; 3] = ["", "2 0.9", "0.5 0.7"];
 /// More rays than this are not drawn.
@@ -71,7 +72,7 @@ fn zero(x: &Axis) -> Layer {
 struct Curve<'a> {
     symbol: &'static str,
     scene: &'a Gathered,
-    stretches: Vec<Vec<(f64, f64)>>,
+    stretches: Vec<Line>,
 }
 
 /// Lines over time, or over bounces, of all scenes.
@@ -119,8 +120,8 @@ fn lines(picture: Picture, scenes: &[Gathered]) -> Result<Panel, String> {
         let (of_scene, of_quantity) = (k / each.max(1), k % each.max(1));
         // One scene has a colour for each quantity, several a colour for each scene.
         let look = match scenes.len() {
-            1 => Stroke::new(LINES[of_quantity % LINES.len()], LINE),
-            _ => Stroke::new(LINES[of_scene % LINES.len()], LINE).dashed(DASHES[of_quantity % DASHES.len()]),
+            1 => Stroke::new(LINES[of_quantity % LINES.len()], WIDTH),
+            _ => Stroke::new(LINES[of_scene % LINES.len()], WIDTH).dashed(DASHES[of_quantity % DASHES.len()]),
         };
         let jumps = curve.stretches.windows(2).filter_map(|pair| {
             let ends = [pair[0].last()?, pair[1].first()?];
@@ -142,7 +143,7 @@ fn lines(picture: Picture, scenes: &[Gathered]) -> Result<Panel, String> {
     if scenes.len() > 1 && each > 1 {
         let keys = curves.iter().take(each).zip(DASHES.iter().cycle());
         legend.extend(
-            keys.map(|(curve, dash)| Key::Line(curve.symbol.into(), Stroke::new("#000000", LINE).dashed(dash))),
+            keys.map(|(curve, dash)| Key::Line(curve.symbol.into(), Stroke::new("#000000", WIDTH).dashed(dash))),
         );
     }
     Ok(Panel { title: title.into(), x, y, layers, legend })
@@ -181,7 +182,7 @@ fn stress(scene: &Gathered) -> Curve<'_> {
     let factor = scene.units.factor::<f64>(Measure::Stress, &()).unwrap_or(1.0);
     let peak =
         scene.stress.iter().flat_map(|piece| [piece.left, piece.right]).fold(0.0, |peak, v| f64::max(peak, v.abs()));
-    let mut stretches: Vec<Vec<(f64, f64)>> = Vec::new();
+    let mut stretches: Vec<Line> = Vec::new();
     for piece in &scene.stress {
         let [from, to] = [piece.from.max(scene.span[0]), piece.to.min(scene.span[1])];
         let ends = [from, to].map(|t| (t, factor * piece.eval(&t)));
@@ -306,17 +307,11 @@ fn colors(along: Along, cells: &Cells, scene: &Gathered) -> Key {
 fn field(cells: &Cells, scene: &Gathered) -> Shape {
     let unit = if cells.greatest > 0.0 { cells.greatest } else { 1.0 };
     match &cells.values {
-        Values::Linear(pieces) => Shape::Pieces(
-            pieces
-                .iter()
-                .map(|(corners, at, middle, slope)| Piece {
-                    corners: corners.clone(),
-                    at: *at,
-                    middle: middle / unit,
-                    slope: *slope / unit,
-                })
-                .collect(),
-        ),
+        Values::Linear(pieces) => {
+            let share =
+                |piece: &Piece| Piece { middle: piece.middle / unit, slope: piece.slope / unit, ..piece.clone() };
+            Shape::Pieces(pieces.iter().map(share).collect())
+        }
         Values::Grid(across, values) => {
             let rows = values.len() / across;
             let [from, to] = scene.span;
@@ -366,9 +361,8 @@ fn world(scene: &Gathered, x: Axis) -> Panel {
         share if share > 0.0 && share < 0.05 => 10f64.powf((0.3 / share).log10().floor()),
         _ => 1.0,
     };
-    let line = |(point, line): &(f64, Vec<(f64, f64)>)| {
-        thinned(line.iter().map(|(t, v)| DVec2::new(*t, point + times * v)).collect())
-    };
+    let line =
+        |(point, line): &(f64, Line)| thinned(line.iter().map(|(t, v)| DVec2::new(*t, point + times * v)).collect());
     let lines: Vec<Vec<DVec2>> = scene.world.iter().map(line).collect();
     let heights = || lines.iter().flatten().map(|point| point.y);
     let [_, high] = Axis::range(heights(), true);
@@ -385,7 +379,7 @@ fn world(scene: &Gathered, x: Axis) -> Panel {
         Layer::new("area", Shape::Areas(vec![body], AREAS[1])),
         zero(&x),
         Layer::new("curve", Shape::Lines(inner, Stroke::new("#000000", 0.12))),
-        Layer::new("curve", Shape::Lines(ends, Stroke::new(LINES[0], LINE))),
+        Layer::new("curve", Shape::Lines(ends, Stroke::new(LINES[0], WIDTH))),
         bars(scene, [floor, 0.0]),
     ];
     let legend = vec![Key::Area("rod".into(), AREAS[1]), Key::Area("contact".into(), GROUND)];
