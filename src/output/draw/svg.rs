@@ -4,9 +4,8 @@ use std::fmt::{self, Write};
 
 use glam::DVec2;
 
-/// The font of all pictures; other programs put their own sans-serif one in its place.
-pub(crate) const FAMILY: &str = "DejaVu Sans";
-const FALLBACK: &str = "DejaVu Sans, Verdana, sans-serif";
+/// The font of all pictures; where it is not known another one without serifs takes its place.
+const FAMILY: &str = "DejaVu Sans, Verdana, sans-serif";
 
 /// How a line is drawn: colour, width in mm, dashes in mm.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -121,7 +120,7 @@ impl Svg {
         let [w, h] = [width, height].map(length);
         svg.put(format_args!(
             "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{w}mm\" height=\"{h}mm\" viewBox=\"0 0 {w} {h}\" \
-             font-family=\"{FALLBACK}\" font-size=\"{}\" fill=\"#000000\" stroke-linejoin=\"round\">\n\
+             font-family=\"{FAMILY}\" font-size=\"{}\" fill=\"#000000\" stroke-linejoin=\"round\">\n\
              <rect width=\"{w}\" height=\"{h}\" fill=\"#ffffff\"/>\n",
             length(em)
         ));
