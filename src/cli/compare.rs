@@ -5,11 +5,11 @@ use std::process::ExitCode;
 
 use clap::Args;
 
-use super::{Failure, Format, source};
+use super::{Failure, Format, picture, source};
 use crate::agreement::{Axis, Comparison, Compression, Limit, Options, Origin, Prepared};
 use crate::data::Source;
 use crate::number::Number;
-use crate::output::{compare_csv, write_whole};
+use crate::output::{Size, compare_csv, compare_svg, write_whole};
 use crate::quantity::Units;
 
 /// Your data against the exact history: norms, contacts, an audit, and hints at what may be wrong
@@ -125,12 +125,10 @@ impl Compare {
     fn check(&self) -> Result<(), Failure> {
         let kinds = self.output.iter().map(|path| (path, self.kind(path)));
         for (path, kind) in kinds {
-            let path = path.display();
-            if !matches!(kind, Kind::Rows(_)) && cfg!(not(feature = "plot")) {
-                return Err(miette::miette!(
-                    "found {path} in a build without pictures, expected one with the feature `plot`"
-                ));
+            if !matches!(kind, Kind::Rows(_)) {
+                picture::Kind::of(path)?;
             }
+            let path = path.display();
             if self.data.len() > 1 && !matches!(kind, Kind::Rows(Format::Table | Format::Json)) {
                 return Err(miette::miette!(
                     "found {path} with several files of data, expected one for a picture or CSV"
@@ -178,13 +176,9 @@ impl Report<'_> {
             Kind::Rows(Format::Csv) => {
                 compare_csv(&comparison.files[0]).map_err(|error| miette::miette!("cannot write CSV: {error}"))?
             }
-            #[cfg(feature = "plot")]
-            Kind::Svg => crate::output::compare_svg(&comparison.files[0], title, units).into_bytes(),
-            #[cfg(feature = "plot")]
-            Kind::Png => crate::output::png(&crate::output::compare_svg(&comparison.files[0], title, units), 2.0)
-                .map_err(|error| miette::miette!("cannot draw: {error}"))?,
-            // Pictures that cannot be drawn are refused before anything is compared.
-            _ => comparison.table(title, units).into_bytes(),
+            Kind::Svg => compare_svg(&comparison.files[0], title, units).into_bytes(),
+            Kind::Png => picture::png(&compare_svg(&comparison.files[0], title, units), Size::Page)?,
+            Kind::Rows(Format::Table) => comparison.table(title, units).into_bytes(),
         })
     }
 }

@@ -5,11 +5,13 @@ use std::path::{Path, PathBuf};
 use clap::Args;
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 
-use super::{Failure, Format, NumberArgs, source};
+use super::{Failure, Format, NumberArgs, picture, source};
 use crate::compare::cost::{self, Difference, Table};
 use crate::compare::{Quantity, Question, plan};
 use crate::number::Number;
-use crate::output::{cost_csv, cost_json, cost_table, effects_csv, effects_json, effects_table, write_whole};
+use crate::output::{
+    Size, cost_csv, cost_json, cost_svg, cost_table, effects_csv, effects_json, effects_table, write_whole,
+};
 use crate::scene::Scene;
 
 /// What accuracy costs in time: one quantity by every route that can give it, measured now, on this machine
@@ -86,18 +88,11 @@ impl Cost {
     }
 
     fn check(&self) -> Result<(), Failure> {
-        let picture = self.output.iter().find(|path| !matches!(self.kind(path), Kind::Rows(_)));
-        let Some(path) = picture else { return Ok(()) };
-        let path = path.display();
-        if self.effects {
-            return Err(miette::miette!("found --effects with {path}, expected a table, JSON or CSV"));
-        }
-        if cfg!(not(feature = "plot")) {
-            return Err(miette::miette!(
-                "found {path} in a build without pictures, expected one with the feature `plot`"
-            ));
-        }
-        Ok(())
+        let mut pictures = self.output.iter().filter(|path| !matches!(self.kind(path), Kind::Rows(_)));
+        pictures.try_for_each(|path| match self.effects {
+            true => Err(miette::miette!("found --effects with {}, expected a table, JSON or CSV", path.display())),
+            false => picture::Kind::of(path).map(|_| ()),
+        })
     }
 
     fn measure(&self, scene: &Scene) -> Result<Measured, Failure> {
@@ -129,26 +124,17 @@ impl Measured {
                 format!("{:#}\n", cost_json(table, title)).into_bytes()
             }
             (Measured::Work(table), Kind::Rows(Format::Csv)) => cost_csv(table).map_err(no_csv)?.into_bytes(),
-            #[cfg(feature = "plot")]
-            (Measured::Work(table), Kind::Svg) => crate::output::cost_svg(table, title).into_bytes(),
-            #[cfg(feature = "plot")]
-            (Measured::Work(table), Kind::Png) => crate::output::png(&crate::output::cost_svg(table, title), PNG_SCALE)
-                .map_err(|error| miette::miette!("cannot draw: {error}"))?,
+            (Measured::Work(table), Kind::Svg) => cost_svg(table, title).into_bytes(),
+            (Measured::Work(table), Kind::Png) => picture::png(&cost_svg(table, title), Size::Page)?,
             (Measured::Effects(rows), Kind::Rows(Format::Json)) => {
                 format!("{:#}\n", effects_json(rows, title)).into_bytes()
             }
             (Measured::Effects(rows), Kind::Rows(Format::Csv)) => effects_csv(rows).map_err(no_csv)?.into_bytes(),
             // Pictures that cannot be drawn are refused before anything is measured.
             (Measured::Effects(rows), _) => effects_table(rows, title).into_bytes(),
-            #[cfg(not(feature = "plot"))]
-            (Measured::Work(table), _) => cost_table(table, title).into_bytes(),
         })
     }
 }
-
-/// Pixels for a unit of the SVG: sharp in print.
-#[cfg(feature = "plot")]
-const PNG_SCALE: f32 = 2.0;
 
 fn write(path: Option<&Path>, bytes: &[u8]) -> Result<(), Failure> {
     let name = path.map_or("standard output".into(), |path| path.display().to_string());

@@ -4,7 +4,10 @@ mod check;
 mod compare;
 mod cost;
 mod explain;
+mod figures;
 mod list;
+mod picture;
+mod plot;
 mod reference;
 mod regimes;
 mod sample;
@@ -57,6 +60,8 @@ enum Command {
     Solve(solve::Solve),
     /// Values of a quantity at chosen times
     Sample(sample::Sample),
+    /// Pictures of a scene, or of several to compare: the rod over time, stress, motion, energy, restitution
+    Plot(plot::Plot),
     /// Golden files: all quantities at chosen times as CSV, JSON or NPZ, or the exact solution as a function
     Reference(reference::Reference),
     /// The plan: which effects a scene calls for, which engine and numbers solve it, and what is left out
@@ -69,6 +74,8 @@ enum Command {
     Sweep(sweep::Sweep),
     /// When and whether the first contact ends, over all dampings and impact speeds
     Regimes(regimes::Regimes),
+    /// The figures of the paper from its parameters, and two more: SVG, PNG and CSV, with an index
+    Figures(figures::Figures),
     /// Hard cases and the paper's claims, worked out by every route and held against the truth
     Check(check::Check),
     /// List the built-in scenes, print one, or hold it against what others have published
@@ -90,12 +97,14 @@ pub fn run(cli: Cli) -> Result<ExitCode, Failure> {
     let done = match cli.command {
         Command::Solve(command) => command.run(),
         Command::Sample(command) => command.run(),
+        Command::Plot(command) => command.run(),
         Command::Reference(command) => command.run(),
         Command::Explain(command) => command.run(),
         Command::Cost(command) => command.run(),
         Command::Compare(command) => return command.run(),
         Command::Sweep(command) => command.run(),
         Command::Regimes(command) => command.run(),
+        Command::Figures(command) => command.run(),
         Command::Check(command) => return command.run(),
         Command::Scenes(command) => command.run(),
         Command::Man => {

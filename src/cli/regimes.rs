@@ -5,8 +5,8 @@ use std::path::{Path, PathBuf};
 use clap::Args;
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 
-use super::{Failure, source};
-use crate::output::{regimes_csv, regimes_npz, regimes_svg, regimes_text, threshold_csv, write_whole};
+use super::{Failure, picture, source};
+use crate::output::{Size, regimes_csv, regimes_npz, regimes_svg, regimes_text, threshold_csv, write_whole};
 use crate::sweep::Map;
 
 /// When and whether the first contact ends, over all dampings and impact speeds
@@ -79,10 +79,8 @@ impl Regimes {
                 return Err(miette::miette!("found {path}, expected a file that ends in .svg, .png, .csv or .npz"));
             }
         };
-        if kind == Kind::Png && cfg!(not(feature = "plot")) {
-            return Err(miette::miette!(
-                "found .png in a build without pictures, expected one with the feature `plot`"
-            ));
+        if kind == Kind::Png {
+            picture::Kind::of(path)?;
         }
         if self.curve && kind != Kind::Csv {
             return Err(miette::miette!("found --curve with {}, expected CSV", path.display()));
@@ -97,19 +95,10 @@ impl Regimes {
             Kind::Csv => regimes_csv(map).map_err(no_csv)?.into_bytes(),
             Kind::Npz => regimes_npz(map).map_err(|error| miette::miette!("cannot write NPZ: {error}"))?,
             Kind::Svg => regimes_svg(map).into_bytes(),
-            #[cfg(feature = "plot")]
-            Kind::Png => crate::output::png(&regimes_svg(map), PNG_SCALE)
-                .map_err(|error| miette::miette!("cannot draw: {error}"))?,
-            // Refused before anything is solved.
-            #[cfg(not(feature = "plot"))]
-            Kind::Png => Vec::new(),
+            Kind::Png => picture::png(&regimes_svg(map), Size::Page)?,
         })
     }
 }
-
-/// Pixels for a unit of the SVG: sharp in print.
-#[cfg(feature = "plot")]
-const PNG_SCALE: f32 = 2.0;
 
 fn write(path: Option<&Path>, bytes: &[u8]) -> Result<(), Failure> {
     let name = path.map_or("standard output".into(), |path| path.display().to_string());

@@ -56,3 +56,22 @@ fn write_file(path: &Path, fill: impl FnOnce(&mut File) -> io::Result<()>) -> io
     file.persist(path)?;
     Ok(())
 }
+
+/// Writes files into a folder, which is made where there is none. All are complete beside it before any is moved to
+/// its place.
+pub(crate) fn write_files(folder: &Path, files: &[(String, Vec<u8>)]) -> io::Result<()> {
+    let parent = folder.parent().filter(|parent| !parent.as_os_str().is_empty()).unwrap_or(Path::new("."));
+    let beside = if folder.is_dir() { folder } else { parent };
+    let whole =
+        tempfile::Builder::new().prefix(".dalembert-").tempdir_in(beside).map_err(|error| match error.kind() {
+            ErrorKind::NotFound => io::Error::new(ErrorKind::NotFound, format!("no folder {}", parent.display())),
+            kind => kind.into(),
+        })?;
+    for (name, bytes) in files {
+        std::fs::write(whole.path().join(name), bytes)?;
+    }
+    if !folder.is_dir() {
+        std::fs::create_dir(folder)?;
+    }
+    files.iter().try_for_each(|(name, _)| std::fs::rename(whole.path().join(name), folder.join(name)))
+}

@@ -2,14 +2,15 @@
 
 mod check;
 mod code;
-#[cfg(feature = "plot")]
 mod compare_picture;
 mod cost;
+mod cost_picture;
 mod csv;
+mod draw;
+mod figures;
 mod file;
 mod json;
-#[cfg(feature = "plot")]
-mod picture;
+mod plot;
 mod record;
 mod reference;
 mod regimes;
@@ -20,17 +21,21 @@ mod target;
 
 pub(crate) use check::{check_json, check_page, check_summary, check_table};
 pub use code::{Language, code};
-#[cfg(feature = "plot")]
 pub(crate) use compare_picture::compare_svg;
 pub use cost::duration;
 pub(crate) use cost::{cost_csv, cost_json, cost_table, effects_csv, effects_json, effects_table};
+pub(crate) use cost_picture::cost_svg;
 pub(crate) use csv::compare_csv;
 pub use csv::{Part, history_csv, samples_csv};
-pub(crate) use file::write_filled;
-pub use file::write_whole;
-pub use json::{SCHEMA, history_json, samples_json};
 #[cfg(feature = "plot")]
-pub(crate) use picture::{cost_svg, png};
+pub(crate) use draw::png;
+pub(crate) use draw::{Size, plain};
+pub(crate) use figures::{figure_csv, figure_sheet, figures_index};
+pub use file::write_whole;
+pub(crate) use file::{write_files, write_filled};
+pub use json::{SCHEMA, history_json, samples_json};
+pub use plot::scene_svg;
+pub(crate) use plot::{Along, Asked, Gathered, Picture, sheet};
 pub use record::{Finished, Head, Quantity, Record, Sample, record, sample};
 pub(crate) use record::{bound_json, json as number_json};
 pub use reference::{Described, Golden, Preamble, Rows};

@@ -1,0 +1,71 @@
+//! `dalembert figures`.
+
+use std::path::PathBuf;
+
+use clap::Args;
+use rayon::prelude::*;
+
+use super::{Failure, picture, source};
+use crate::figures::{ALL, Failed, Figure};
+use crate::output::{Size, figure_csv, figure_sheet, figures_index, write_files};
+
+/// The figures of the paper from its parameters, and two more: SVG, PNG and CSV, with an index
+#[derive(Args, Debug)]
+#[command(
+    after_help = "Figures: 1 to 8 of the paper, `regimes` and `tenth-bounce`. README.md in DIR says of each what is \
+    reproduced and what is corrected.\n\n\
+    Examples:\n  dalembert figures -o figures\n  dalembert figures --only 4,7 --size column -o figures"
+)]
+pub(super) struct Figures {
+    /// Only these, separated by commas
+    #[arg(long, value_name = "A,B,C", value_delimiter = ',', value_parser = named)]
+    only: Vec<&'static str>,
+    /// What the pictures are made for
+    #[arg(long, value_enum, default_value_t)]
+    size: Size,
+    /// How many are worked out at the same time; by default one for each core
+    #[arg(long, value_name = "N")]
+    threads: Option<usize>,
+    /// Write into this folder, which is made where there is none; all files or none
+    #[arg(short, long, value_name = "DIR")]
+    output: PathBuf,
+}
+
+fn named(name: &str) -> Result<&'static str, String> {
+    let known = ALL.iter().map(|figure| figure.name).find(|known| *known == name.trim());
+    let names = || ALL.map(|figure| figure.name).join(", ");
+    known.ok_or_else(|| format!("found no figure of this name, expected one of {}", names()))
+}
+
+impl Figures {
+    pub(super) fn run(&self) -> Result<(), Failure> {
+        if self.output.exists() && !self.output.is_dir() {
+            return Err(miette::miette!("found the file {}, expected a folder", self.output.display()));
+        }
+        let chosen = |figure: &&Figure| self.only.is_empty() || self.only.contains(&figure.name);
+        let figures: Vec<&Figure> = ALL.iter().filter(chosen).collect();
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(self.threads.unwrap_or(0)).build();
+        let pool = pool.map_err(|error| miette::miette!("cannot start threads: {error}"))?;
+        let files = pool.install(|| self.files(&figures))?;
+        write_files(&self.output, &files).map_err(source::cannot(&format!("write {}", self.output.display())))?;
+        Ok(())
+    }
+
+    fn files(&self, figures: &[&Figure]) -> Result<Vec<(String, Vec<u8>)>, Failure> {
+        let failed = |error: Failed| miette::miette!("{error}");
+        let drawn = figures.par_iter().map(|figure| {
+            let data = figure.data().map_err(failed)?;
+            let svg = figure_sheet(figure, &data).map_err(failed)?.svg(self.size);
+            let csv = figure_csv(figure, &data).map_err(|error| miette::miette!("cannot write CSV: {error}"))?;
+            let mut files = vec![(".csv", csv.into_bytes())];
+            if cfg!(feature = "plot") {
+                files.push((".png", picture::png(&svg, self.size)?));
+            }
+            files.push((".svg", svg.into_bytes()));
+            Ok((data, files.into_iter().map(|(ending, bytes)| (figure.file() + ending, bytes)).collect::<Vec<_>>()))
+        });
+        let (data, files): (Vec<_>, Vec<_>) = drawn.collect::<Result<Vec<_>, Failure>>()?.into_iter().unzip();
+        let index = figures_index(figures, &data).map_err(failed)?;
+        Ok(files.into_iter().flatten().chain([("README.md".to_string(), index.into_bytes())]).collect())
+    }
+}

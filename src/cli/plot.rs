@@ -1,0 +1,164 @@
+//! `dalembert plot`.
+
+use std::cell::RefCell;
+use std::path::{Path, PathBuf};
+
+use clap::Args;
+
+use super::{Failure, NumberArgs, Visit, parameters, picture, solve, source, warned};
+use crate::history::History;
+use crate::motion::Ending;
+use crate::number::{Number, Scalar};
+use crate::output::{Along, Asked, Gathered, Head, Picture, Size, plain, sheet};
+use crate::quantity::{Column, Units};
+use crate::scene::Scene;
+use crate::solve::{Numbers, Question, Target};
+
+/// Pictures of a scene, or of several to compare: the rod over time, stress, motion, energy, restitution
+#[derive(Args, Debug)]
+#[command(
+    after_help = "Without --quantity, one scene is told in four pictures: the field along the rod with its rays and \
+    contacts, the stress at the ground, the motion of both ends and of the centre of mass, and the energy; several \
+    scenes are drawn over each other.\n\n\
+    Quantities: xt, stress, motion, energy, restitution, or a column as `dalembert reference` has it: u_end, v_end, \
+    strain, force, u_top, v_top, h, h_rate, E_total, E_h, E_z, kinetic, strain_energy, gravity, contact, impulse.\n\n\
+    Examples:\n  dalembert plot doyen-ern-piperno -o bounces.png\n  \
+    dalembert plot rod.toml --quantity xt --field velocity --to 12 -o xt.svg\n  \
+    dalembert plot figure-4-r01 figure-4-r03 --quantity stress,h --size column -o damping.svg"
+)]
+pub(super) struct Plot {
+    /// Scene files, `-`, or built-in scenes
+    #[arg(required = true, value_name = "SCENE")]
+    scenes: Vec<String>,
+    /// What to draw, separated by commas; by default what tells the scene
+    #[arg(long, value_name = "A,B,C", value_delimiter = ',', value_parser = named)]
+    quantity: Vec<Picture>,
+    /// What the colours of xt show
+    #[arg(long, value_enum, default_value_t)]
+    field: Along,
+    /// In xt, where points of the rod are in place of the field
+    #[arg(long)]
+    deformed: bool,
+    /// The first time to draw; by default the start, or shortly before the first impact
+    #[arg(long, value_name = "T", allow_hyphen_values = true)]
+    from: Option<Number>,
+    /// The last time to draw, whatever the scene's own run says; by default what shows the first contacts
+    #[arg(long, value_name = "T", allow_hyphen_values = true)]
+    to: Option<Number>,
+    /// What the picture is made for
+    #[arg(long, value_enum, default_value_t)]
+    size: Size,
+    #[command(flatten)]
+    numbers: NumberArgs,
+    /// Write to this file, whole or not at all: .svg or .png; `-` is standard output, for SVG
+    #[arg(short, long, value_name = "FILE", required = true)]
+    output: Vec<PathBuf>,
+}
+
+/// The accuracy of a picture where none is asked for: finer than any line.
+const ACCURACY: f64 = 1e-6;
+
+fn named(name: &str) -> Result<Picture, String> {
+    let columns = Column::ALL.into_iter().map(Column::name).filter(|name| Picture::named(name).is_some());
+    let known = || Picture::NAMES.iter().map(|known| known.0).chain(columns).collect::<Vec<_>>().join(", ");
+    Picture::named(name.trim()).ok_or_else(|| format!("found no picture of this name, expected one of {}", known()))
+}
+
+impl Plot {
+    pub(super) fn run(&self) -> Result<(), Failure> {
+        // Before anything is solved.
+        let kinds = self.output.iter().map(|path| picture::Kind::of(path)).collect::<Result<Vec<_>, Failure>>()?;
+        let time = |time: &Option<Number>| time.as_ref().map(Number::to_f64);
+        let (from, to) = (time(&self.from), time(&self.to));
+        if let Some(from) = from.filter(|from| *from < 0.0) {
+            return Err(miette::miette!("found --from {from}, expected a time from 0 on"));
+        }
+        if let Some(to) = to.filter(|to| *to <= from.unwrap_or(0.0)) {
+            let from = from.unwrap_or(0.0);
+            return Err(miette::miette!("found --to {to}, expected a time after {from}, where the picture begins"));
+        }
+        let pictures = match (self.quantity.is_empty(), self.scenes.len()) {
+            (false, _) => self.quantity.clone(),
+            (true, 1) => Picture::SHEET.to_vec(),
+            (true, _) => Picture::COMPARED.to_vec(),
+        };
+        let along = pictures.contains(&Picture::Along);
+        if !along && (self.deformed || self.field != Along::default()) {
+            let option = if self.deformed { "--deformed" } else { "--field" };
+            return Err(miette::miette!("found {option} without xt, expected it with --quantity xt"));
+        }
+        if self.deformed && self.field != Along::default() {
+            return Err(miette::miette!("found --deformed with --field, expected one of them"));
+        }
+        let asked = Asked { pictures, along: self.field, deformed: self.deformed, from, to };
+        let scenes = self.scenes.iter().map(|name| source::read(name)).collect::<Result<Vec<_>, Failure>>()?;
+        let mut gathered = Vec::new();
+        for (name, scene) in self.scenes.iter().zip(&scenes) {
+            gathered.push(self.gather(name, scene, &asked)?);
+        }
+        let title = match scenes.as_slice() {
+            [scene] => {
+                vec![plain(scene.title.as_deref().unwrap_or(&self.scenes[0])), parameters(scene).replace("    ", ", ")]
+            }
+            _ => Vec::new(),
+        };
+        let sheet = sheet(&asked, &gathered, title).map_err(|found| miette::miette!("{found}, expected one unit"))?;
+        let svg = sheet.svg(self.size);
+        for (path, kind) in self.output.iter().zip(kinds) {
+            picture::write(path, kind, &svg, self.size)?;
+        }
+        Ok(())
+    }
+
+    fn gather(&self, name: &str, scene: &Scene, asked: &Asked) -> Result<Gathered, Failure> {
+        let numbers = match self.numbers.numbers(scene) {
+            Numbers::Double(None) => Numbers::Double(Some(ACCURACY)),
+            numbers => numbers,
+        };
+        let question = match &self.to {
+            Some(to) => Question::between(0.into(), to.clone(), numbers),
+            None => Question::run(numbers),
+        };
+        let file = Path::new(name).file_stem().and_then(|stem| stem.to_str()).unwrap_or(name);
+        let gather = Gather { name: file, scene, asked, found: RefCell::new(None) };
+        solve(scene, &question, &gather)?;
+        gather.found.into_inner().ok_or_else(|| miette::miette!("found no history of {name}"))
+    }
+}
+
+/// Asks a history for what the pictures show.
+struct Gather<'a> {
+    name: &'a str,
+    scene: &'a Scene,
+    asked: &'a Asked,
+    found: RefCell<Option<Gathered>>,
+}
+
+impl Visit for Gather<'_> {
+    fn visit<S: Target>(&self, history: &History<S>, head: Head, progress: source::Progress) -> Result<(), Failure> {
+        let units = Units::of(&self.scene.problem, self.scene.units);
+        let found = self.asked.gather(self.name.into(), &self.scene.problem, units, history);
+        drop(progress);
+        warned(history, head, false);
+        let found = found.map_err(|error| super::refuse_time(error, history.ending()))?;
+        let (name, [from, to], end) = (self.name, found.span, found.end);
+        let short = |time: f64| time.decimal(6);
+        let asked_to = self.asked.to.unwrap_or(end);
+        if end < history.end().to_f64() {
+            eprintln!("note: {name}: drawn up to t = {}, as far as the events are settled", short(to));
+        } else if asked_to > end * (1.0 + 1e-12) {
+            eprintln!("note: {name}: the history ends at t = {}: {}", short(end), history.ending());
+        } else if self.asked.to.is_none() && (to < end || from > self.asked.from.unwrap_or(0.0)) {
+            eprintln!(
+                "note: {name}: drawn from t = {} to {} of {}; --from and --to draw another span",
+                short(from),
+                short(to),
+                short(end)
+            );
+        } else if !matches!(history.ending(), Ending::Time | Ending::NextImpact) && self.asked.to.is_none() {
+            eprintln!("note: {name}: the history ends at t = {}: {}", short(end), history.ending());
+        }
+        self.found.replace(Some(found));
+        Ok(())
+    }
+}

@@ -1,0 +1,219 @@
+//! Which figures there are, what is reproduced and corrected in each, and their numbers.
+
+use super::Failed;
+use super::first::{self, DAMPINGS, Wanted, grid};
+use crate::motion::Side;
+use crate::sweep::Map;
+
+/// A figure of the paper, or one that it could not have.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Figure {
+    /// `4`; in files `figure-4`.
+    pub(crate) name: &'static str,
+    pub(crate) of: Of,
+    /// What is shown, in a sentence.
+    pub(crate) shown: &'static str,
+    /// What is corrected or added, in a sentence.
+    pub(crate) corrected: &'static str,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) enum Of {
+    Kernel,
+    Vibration,
+    Shares,
+    Restitution,
+    Translational,
+    Kept,
+    Decay,
+    Regions,
+    Regimes,
+    Tenth,
+}
+
+/// The numbers of a figure: columns by name, rows in order; a number that is not defined is none.
+#[derive(Debug)]
+pub(crate) struct Data {
+    pub(crate) columns: Vec<&'static str>,
+    pub(crate) rows: Vec<Vec<Option<f64>>>,
+    /// Of [`Of::Regimes`], in place of rows.
+    pub(crate) map: Option<Map>,
+}
+
+/// All figures.
+pub(crate) const ALL: [Figure; 10] = [
+    Figure {
+        name: "1",
+        of: Of::Kernel,
+        shown: "Ψ_r(t) for r = 2.6, 2.9, 3.0 with g = 0 and t₁ = μ = c = 1, the stress at the ground if the end were \
+                held for ever.",
+        corrected: "The bounce times are numbers: t_b = 1.78848103329888, 2.55302249931324 and 3.29902605144577.",
+    },
+    Figure {
+        name: "2",
+        of: Of::Vibration,
+        shown: "E_z(t_b) over μ for r = 0 and c = L = g = 1, with the dot at μ = μ₀ = 2.",
+        corrected: "Nothing: from μ₀ on it is μ₀²L/6 = 2/3.",
+    },
+    Figure {
+        name: "3",
+        of: Of::Shares,
+        shown: "E_h(t_b)/E(0) and E_z(t_b)/E(0) over μ for r = 0 and c = L = g = 1, with dots at μ = μ₀.",
+        corrected: "Nothing: E_z/E(0) is greatest at 2μ₀/3, where it is 4/9.",
+    },
+    Figure {
+        name: "4",
+        of: Of::Restitution,
+        shown: "e_E² over μ for r = 0, 0.1, 0.2, 0.3 and c = L = g = 1, with black dots where t_b = t₁ begins.",
+        corrected: "The curves go on to the left of the dots, where t_b > t₁, down to e_E² = 0; and the limits for \
+                    μ → ∞ are true ones.",
+    },
+    Figure {
+        name: "5",
+        of: Of::Translational,
+        shown: "E_h(t₁)/E(t₁) over μ from 3.2 to 12.5 for r = 0, 0.1, 0.2, 0.3 and c = L = g = 1.",
+        corrected: "To 1e-12 instead of about 1e-2, and the limit is not 1 as (4.74) supposes but 0.99996647, \
+                    0.99945549, 0.99719065 for r = 0.1, 0.2, 0.3.",
+    },
+    Figure {
+        name: "6",
+        of: Of::Kept,
+        shown: "E(t₁)/E(0) over μ from 3.2 to 12.5 for r = 0, 0.1, 0.2, 0.3 and c = L = g = 1.",
+        corrected: "To 1e-12 instead of about 1e-2, with the limits for μ → ∞ beside e^{−2rt₁}.",
+    },
+    Figure {
+        name: "7",
+        of: Of::Decay,
+        shown: "E(t₁)/E(0) divided by e^{−2rt₁} over μ from 3.2 to 12.5 for r = 0, 0.1, 0.2, 0.3 and c = L = g = 1.",
+        corrected: "To 1e-12 instead of about 1e-2; there is no common limit C₀ = 1, but 1.00066892, 1.00541337, \
+                    1.01866583 for r = 0.1, 0.2, 0.3, so that (4.75) fails as well.",
+    },
+    Figure {
+        name: "8",
+        of: Of::Regions,
+        shown: "The regions A, B, C of the integrals in the appendix, for the point (L/2, t₁): their borders are the \
+                characteristics through it and the lines y = 0 and y = 2L.",
+        corrected: "Nothing; no integral over them is needed any more.",
+    },
+    Figure {
+        name: "regimes",
+        of: Of::Regimes,
+        shown: "When and whether the first contact ends, over R = r t₁ and M = μ/(g t₁): t_b = t₁ above the curve \
+                M = (I₀(R) + I₁(R))/(2 − I₀(R)).",
+        corrected: "Not in the paper, which leaves open whether Ψ must have a root: from R = π on it has none.",
+    },
+    Figure {
+        name: "tenth-bounce",
+        of: Of::Tenth,
+        shown: "e_E² of the tenth bounce over μ for r = 0 and c = L = g = 1, beside that of the first.",
+        corrected: "Not in the paper, whose coefficient is that of a first bounce: a later one may give back what the \
+                    rod kept as vibration, e_E² > 1. It is empty where the centre of mass never comes back to h = 0.",
+    },
+];
+
+/// `r` of Figure 1.
+pub(crate) const STRONG: [&str; 3] = ["2.6", "2.9", "3.0"];
+const SHORT_OF_T1: i32 = 100;
+
+impl Figure {
+    /// The name of its files, without the ending.
+    pub(crate) fn file(&self) -> String {
+        if self.name.parse::<u32>().is_ok() { format!("figure-{}", self.name) } else { self.name.into() }
+    }
+
+    /// Its numbers.
+    ///
+    /// **Accuracy**: 1e-13, relative to the numbers or to 1; of the tenth bounce 1e-9.
+    ///
+    /// **Errors**: those of the histories.
+    pub(crate) fn data(&self) -> Result<Data, Failed> {
+        let plain = |columns: &[&'static str], rows| Data { columns: columns.to_vec(), rows, map: None };
+        Ok(match self.of {
+            Of::Kernel => {
+                let mut rows = Vec::new();
+                for damping in STRONG {
+                    let (values, bounce) = first::kernel(damping, SHORT_OF_T1)?;
+                    let bounce = bounce.map(|bounce| bounce.0);
+                    rows.extend(values.into_iter().map(|(time, side, value)| {
+                        let side = if side == Side::Left { -1.0 } else { 1.0 };
+                        vec![damping.parse().ok(), Some(time), Some(side), Some(value), bounce]
+                    }));
+                }
+                plain(&["damping", "t", "side", "psi", "bounce_time"], rows)
+            }
+            Of::Vibration | Of::Shares => {
+                let grid = grid("0", "0.01..8:800")?;
+                let speeds = first::speeds(&grid);
+                let found = first::contacts(&grid, Wanted::Energies)?;
+                let rows = speeds.iter().zip(found).map(|(speed, ended)| {
+                    let (time, energies) = ended.unzip();
+                    let energies = energies.unwrap_or_else(|| vec![None, None]);
+                    let whole = speed * speed / 2.0;
+                    let shares = energies.iter().map(|energy| energy.map(|energy| energy / whole));
+                    [Some(*speed), time].into_iter().chain(energies.iter().copied()).chain(shares).collect()
+                });
+                plain(&["speed", "bounce_time", "E_h", "E_z", "E_h_share", "E_z_share"], rows.collect())
+            }
+            Of::Restitution => {
+                let grid = grid(&DAMPINGS.join(","), "0.0125..12.5:1000")?;
+                let found = first::contacts(&grid, Wanted::Restitution)?;
+                let rows = found.into_iter().enumerate().map(|(k, ended)| {
+                    let (time, restitution) = ended.unzip();
+                    let point = grid.values(k).into_iter().map(|value| Some(value.to_f64()));
+                    point.chain([time, restitution.and_then(|values| values[0])]).collect()
+                });
+                plain(&["damping", "speed", "bounce_time", "restitution_squared"], rows.collect())
+            }
+            Of::Translational | Of::Kept | Of::Decay => {
+                let grid = grid(&DAMPINGS.join(","), "3.2..12.5:373")?;
+                let found = first::contacts(&grid, Wanted::Shares)?;
+                let each = first::speeds(&grid).len().max(1);
+                let limits = DAMPINGS.iter().map(|damping| first::limits(damping)).collect::<Result<Vec<_>, _>>()?;
+                let rows = found.into_iter().enumerate().map(|(k, ended)| {
+                    let limits = &limits[k / each];
+                    let decay = (2.0 * limits.ratio).exp();
+                    let shares = ended.map_or(vec![None, None], |ended| ended.1);
+                    let (value, limit, supposed) = match self.of {
+                        Of::Translational => (shares[0], limits.translational, 1.0),
+                        Of::Kept => (shares[1], limits.kept, 1.0 / decay),
+                        _ => (shares[1].map(|kept| kept * decay), limits.kept * decay, 1.0),
+                    };
+                    let point = grid.values(k).into_iter().map(|value| Some(value.to_f64()));
+                    point.chain([value, Some(limit), Some(supposed)]).collect()
+                });
+                let value = match self.of {
+                    Of::Translational => "translational_part",
+                    Of::Kept => "energy_kept",
+                    _ => "energy_kept_over_decay",
+                };
+                plain(&["damping", "speed", value, "limit", "supposed_limit"], rows.collect())
+            }
+            Of::Regions => {
+                // The corners of each region for L = c = 1, x = 1/2, t₁ = 2: where y and t are.
+                let corners = [
+                    (1.0, [[-1.5, 0.0], [0.0, 0.0], [0.0, 1.5]].to_vec()),
+                    (2.0, [[0.0, 0.0], [2.0, 0.0], [2.0, 0.5], [0.5, 2.0], [0.0, 1.5]].to_vec()),
+                    (3.0, [[2.0, 0.0], [2.5, 0.0], [2.0, 0.5]].to_vec()),
+                ];
+                let rows = corners.iter().flat_map(|(region, corners)| {
+                    corners.iter().map(move |[y, t]| vec![Some(*region), Some(*y), Some(*t)])
+                });
+                plain(&["region", "y", "t"], rows.collect())
+            }
+            Of::Regimes => {
+                let map = Map::new("0..4:240", "0.05..1e4:240:log", || ())?;
+                Data { columns: Vec::new(), rows: Vec::new(), map: Some(map) }
+            }
+            Of::Tenth => {
+                let grid = grid("0", "0.005..10:2000")?;
+                let speeds = first::speeds(&grid);
+                let (tenth, first) = (first::tenth(&grid), first::contacts(&grid, Wanted::Restitution)?);
+                let rows =
+                    speeds.iter().zip(tenth).zip(first).map(|((speed, tenth), first)| {
+                        vec![Some(*speed), first.and_then(|(_, values)| values[0]), tenth]
+                    });
+                plain(&["speed", "first_restitution_squared", "tenth_restitution_squared"], rows.collect())
+            }
+        })
+    }
+}

@@ -1,0 +1,113 @@
+//! The work–precision diagram.
+
+use glam::DVec2;
+
+use super::cost::asked;
+use super::draw::{Axis, Key, Layer, Mark, Panel, Shape, Sheet, Size, Stroke, plain, power_of_ten};
+use crate::compare::cost::{Family, Row, Table};
+
+/// Where the scale of errors is drawn together: the digits of a double get as much of the picture as the thousand
+/// beyond them.
+const DOUBLES_END: f64 = 18.0;
+/// Digits at the ticks beyond, equally far apart.
+const BEYOND: [f64; 8] = [DOUBLES_END, 50.0, 100.0, 300.0, 1000.0, 3000.0, 10_000.0, 30_000.0];
+
+/// Colours that stay apart for every kind of sight (Okabe and Ito), and a mark for each route.
+fn look(family: Family) -> (&'static str, Mark) {
+    match family {
+        Family::ClosedForm => ("#0072b2", Mark::Dot),
+        Family::Lattice => ("#009e73", Mark::Square),
+        Family::ContactThenCells => ("#009e73", Mark::Square),
+        Family::Cells => ("#d55e00", Mark::Diamond),
+        Family::Modes => ("#cc79a7", Mark::Triangle),
+        Family::Printed => ("#8c6d1f", Mark::TriangleDown),
+        Family::Differences => ("#56b4e9", Mark::Pentagon),
+        Family::Enclosures => ("#000000", Mark::Cross),
+    }
+}
+
+/// The place of an error of `10^−digits` on the scale, upwards; a tick is 1.
+fn place_of(digits: f64, decades: f64) -> f64 {
+    if digits <= DOUBLES_END {
+        return -digits / decades;
+    }
+    let k = BEYOND.iter().rposition(|tick| *tick <= digits).unwrap_or(0).min(BEYOND.len() - 2);
+    let share = (digits / BEYOND[k]).ln() / (BEYOND[k + 1] / BEYOND[k]).ln();
+    -(DOUBLES_END / decades + k as f64 + share)
+}
+
+/// The digits at a place: the inverse at ticks.
+fn digits_at(place: f64, decades: f64) -> f64 {
+    let beyond = -place - DOUBLES_END / decades;
+    if beyond < 0.5 { -place * decades } else { BEYOND[(beyond.round() as usize).min(BEYOND.len() - 1)] }
+}
+
+/// Ticks at all whole numbers of a range.
+fn whole(from: f64, to: f64, text: impl Fn(f64) -> String) -> Vec<(f64, String)> {
+    (from.ceil() as i32..=to.floor() as i32).map(|place| (place.into(), text(place.into()))).collect()
+}
+
+/// The work–precision diagram: error against time, both by decades, a line for each route and a star on the plan's
+/// choice. Answers without any error stand on the lowest line, which says so; beyond double precision the decades of
+/// the error are drawn together, as the ticks say.
+pub(crate) fn cost_svg(cost: &Table, title: Option<&str>) -> String {
+    let finite = |row: &&Row| row.log10_error.is_finite();
+    let digits = cost.rows.iter().filter(finite).map(|row| -row.log10_error);
+    let (least, most) = digits.fold((0.0, 0.0), |(least, most), d| (f64::min(least, d), f64::max(most, d)));
+    let long = most > DOUBLES_END;
+    let decades = if long { 3.0 } else { 2.0 };
+    let exact = cost.rows.iter().any(|row| !row.log10_error.is_finite());
+    // Answers without error have a line of their own below all others.
+    let lowest = place_of(if long { most } else { DOUBLES_END }, decades).floor() - if exact { 1.0 } else { 0.0 };
+    let place = |row: &Row| {
+        let error = if row.log10_error.is_finite() { place_of(-row.log10_error, decades) } else { lowest };
+        DVec2::new(row.timing.seconds.max(1e-12).log10(), error)
+    };
+    let times: Vec<f64> = cost.rows.iter().map(|row| place(row).x).collect();
+    let first = times.iter().copied().fold(f64::INFINITY, f64::min).floor();
+    let last = times.iter().copied().fold(f64::NEG_INFINITY, f64::max).ceil().max(first + 1.0);
+    let mut x = Axis::new("time [s]", "", [first, last]);
+    x.ticks = Some(whole(first, last, |power| power_of_ten(power as i32)));
+    // Marks on the lowest line are whole.
+    let low = if exact { lowest - 0.4 } else { lowest };
+    let mut y = Axis::new("relative error", "", [low, place_of(least, decades).ceil() + 0.3]);
+    y.ticks = Some(whole(y.from, y.to, |place| match place {
+        place if exact && place <= lowest + 0.5 => "no error".into(),
+        place => power_of_ten(-digits_at(place, decades) as i32),
+    }));
+    let (mut layers, mut legend) = (Vec::new(), Vec::new());
+    if long {
+        let ends = [first, last].map(|time| DVec2::new(time, place_of(DOUBLES_END, decades))).to_vec();
+        layers.push(Layer::new("doubles-end", Shape::Lines(vec![ends], Stroke::new("#666666", 0.2).dashed("1.5 1"))));
+    }
+    // The rows come by family.
+    for rows in cost.rows.chunk_by(|a, b| a.family == b.family) {
+        let points: Vec<DVec2> = rows.iter().map(place).collect();
+        let (color, mark) = look(rows[0].family);
+        layers.push(Layer::new("curve", Shape::Lines(vec![points.clone()], Stroke::new(color, 0.3))));
+        layers.push(Layer::new("marks", Shape::Marks(points, mark, color)));
+        legend.push(Key::Mark(rows[0].family.name().into(), mark, color));
+    }
+    let chosen: Vec<DVec2> = cost.rows.iter().filter(|row| row.chosen).map(place).collect();
+    for mark in [Mark::Ring, Mark::Star] {
+        layers.push(Layer::new("chosen", Shape::Marks(chosen.clone(), mark, "#000000")));
+    }
+    legend.push(Key::Mark("the plan's choice".into(), Mark::Star, "#000000"));
+    let panel = Panel { title: format!("{}: error against time", asked(cost)), x, y, layers, legend };
+    Sheet { title: vec![plain(title.unwrap_or("What accuracy costs"))], panels: vec![panel] }.svg(Size::Page)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn labels() {
+        for digits in [0.0, 3.0, 18.0, 50.0, 1000.0] {
+            assert!((digits_at(place_of(digits, 3.0), 3.0) - digits).abs() < 1e-9, "{digits}");
+        }
+        // Equal factors of digits are equally far apart between two ticks.
+        let middle = (100.0f64 * 300.0).sqrt();
+        assert!((place_of(middle, 3.0) - place_of(100.0, 3.0) + 0.5).abs() < 1e-12);
+    }
+}

@@ -1,0 +1,168 @@
+//! Axes: from where to where, in which unit, with which numbers.
+
+use std::fmt::Write;
+
+/// An axis: what it measures, from where to where.
+#[derive(Clone, Debug)]
+pub(crate) struct Axis {
+    /// The symbol with its unit: `t [ms]`.
+    pub(crate) label: String,
+    pub(crate) from: f64,
+    pub(crate) to: f64,
+    /// By factors, not by differences.
+    pub(crate) log: bool,
+    /// What the numbers beside it are multiplied with.
+    factor: f64,
+    /// Places and texts other than round numbers.
+    pub(crate) ticks: Option<Vec<(f64, String)>>,
+}
+
+/// Units that take prefixes.
+const PREFIXED: [&str; 7] = ["s", "m", "m/s", "Pa", "N", "N s", "J"];
+const PREFIXES: [(i32, &str); 9] =
+    [(-12, "p"), (-9, "n"), (-6, "μ"), (-3, "m"), (0, ""), (3, "k"), (6, "M"), (9, "G"), (12, "T")];
+
+impl Axis {
+    /// The axis of a quantity with this symbol and unit over a range of its values: the unit has the prefix, or the
+    /// power of ten, that leaves short numbers.
+    pub(crate) fn new(symbol: &str, unit: &str, [from, to]: [f64; 2]) -> Self {
+        let (from, to) = if to > from { (from, to) } else { (from - 0.5 * spread(from), from + 0.5 * spread(from)) };
+        let most = from.abs().max(to.abs());
+        let power = match most {
+            0.05..5000.0 => 0,
+            most => 3 * (most.log10() / 3.0).floor() as i32,
+        };
+        let prefix = PREFIXES.iter().find(|prefix| prefix.0 == power).filter(|_| PREFIXED.contains(&unit));
+        let unit = match (prefix, power, unit) {
+            (_, 0, "") => String::new(),
+            (Some((_, prefix)), ..) => format!(" [{prefix}{unit}]"),
+            (None, 0, unit) => format!(" [{unit}]"),
+            (None, power, "") => format!(" [{}]", power_of_ten(power)),
+            (None, power, unit) => format!(" [{} {unit}]", power_of_ten(power)),
+        };
+        let label = format!("{symbol}{unit}");
+        Axis { label, from, to, log: false, factor: 10f64.powi(-power), ticks: None }
+    }
+
+    /// The axis of a number without a unit, by factors.
+    pub(crate) fn log(label: &str, [from, to]: [f64; 2]) -> Self {
+        Axis { label: label.into(), from, to, log: true, factor: 1.0, ticks: None }
+    }
+
+    /// The range that holds all values, and zero where `zero` says so, with a little space.
+    pub(crate) fn range(values: impl Iterator<Item = f64>, zero: bool) -> [f64; 2] {
+        let start = if zero { [0.0, 0.0] } else { [f64::INFINITY, f64::NEG_INFINITY] };
+        let finite = values.filter(|value| value.is_finite());
+        let [from, to] = finite.fold(start, |[from, to], value| [from.min(value), to.max(value)]);
+        if from > to {
+            return [0.0, 1.0];
+        }
+        let space = 0.06 * if to > from { to - from } else { spread(from) };
+        [from - space, to + space]
+    }
+
+    /// A value to three digits, in the unit of the label.
+    pub(crate) fn shown(&self, value: f64) -> String {
+        signed(&crate::number::Scalar::decimal(&(value * self.factor), 3))
+    }
+
+    /// The place of a value as a share of the axis.
+    pub(crate) fn share(&self, value: f64) -> f64 {
+        let scale = |x: f64| if self.log { x.ln() } else { x };
+        (scale(value) - scale(self.from)) / (scale(self.to) - scale(self.from))
+    }
+
+    /// Places and texts of some `about` numbers.
+    pub(crate) fn ticks(&self, about: f64) -> Vec<(f64, String)> {
+        if let Some(ticks) = &self.ticks {
+            return ticks.clone();
+        }
+        if self.log {
+            return self.log_ticks();
+        }
+        let [from, to] = [self.from, self.to].map(|end| end * self.factor);
+        let step = step((to - from) / about.max(1.0));
+        let places = usize::try_from(-(step.log10() + 1e-9).floor() as i32).unwrap_or(0);
+        let first = (from / step - 1e-6).ceil() as i64;
+        (first..)
+            .map(|k| k as f64 * step)
+            .take_while(|value| *value <= to + 1e-6 * step)
+            .map(|value| (value / self.factor, signed(&format!("{value:.places$}"))))
+            .collect()
+    }
+
+    fn log_ticks(&self) -> Vec<(f64, String)> {
+        let steps = if self.to / self.from > 300.0 { &[1.0][..] } else { &[1.0, 2.0, 5.0] };
+        let decades = self.from.log10().floor() as i32..=self.to.log10().ceil() as i32;
+        let ticks = decades.flat_map(|decade| steps.iter().map(move |step| (decade, *step)));
+        let within = ticks.map(|(decade, step)| (decade, step, step * 10f64.powi(decade)));
+        within
+            .filter(|(.., value)| (self.from * (1.0 - 1e-9)..=self.to * (1.0 + 1e-9)).contains(value))
+            .map(|(decade, step, value)| match decade {
+                -2..=3 => (value, format!("{value}")),
+                _ if step == 1.0 => (value, power_of_ten(decade)),
+                _ => (value, format!("{step}·{}", power_of_ten(decade))),
+            })
+            .collect()
+    }
+}
+
+/// A width to show about a lone value.
+fn spread(value: f64) -> f64 {
+    if value == 0.0 { 1.0 } else { 0.2 * value.abs() }
+}
+
+/// 1, 2 or 5 times a power of ten, at least this.
+fn step(least: f64) -> f64 {
+    let power = 10f64.powf(least.log10().floor());
+    [1.0, 2.0, 5.0, 10.0].map(|step| step * power).into_iter().find(|step| *step >= least * 0.999).unwrap_or(least)
+}
+
+/// A number with the sign that print has for minus; zero has none.
+pub(crate) fn signed(text: &str) -> String {
+    match text.strip_prefix('-') {
+        Some(digits) if digits.chars().all(|digit| matches!(digit, '0' | '.')) => digits.into(),
+        Some(digits) => format!("−{digits}"),
+        None => text.into(),
+    }
+}
+
+/// `10⁻³`.
+pub(crate) fn power_of_ten(exponent: i32) -> String {
+    let mut text = String::from("10");
+    for digit in exponent.to_string().chars() {
+        let raised = match digit {
+            '-' => '⁻',
+            '1' => '¹',
+            '2' => '²',
+            '3' => '³',
+            digit => digit.to_digit(10).and_then(|digit| char::from_u32(0x2070 + digit)).unwrap_or(digit),
+        };
+        // Writing to a text does not fail.
+        let _ = text.write_char(raised);
+    }
+    text
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn units_have_prefixes_and_ticks_are_round() {
+        let texts = |axis: &Axis| axis.ticks(5.0).into_iter().map(|tick| tick.1).collect::<Vec<_>>();
+        let axis = Axis::new("t", "s", [0.0, 1.2e-3]);
+        assert_eq!((axis.label.as_str(), texts(&axis)), ("t [ms]", ["0.0", "0.5", "1.0"].map(String::from).to_vec()));
+        let axis = Axis::new("E v_x", "Pa", [-4.1e7, 0.0]);
+        assert_eq!(axis.label, "E v_x [MPa]");
+        assert_eq!(texts(&axis), ["−40", "−30", "−20", "−10", "0"]);
+        assert_eq!(Axis::new("u", "in", [0.0, 2e-3]).label, "u [10⁻³ in]");
+        assert_eq!(Axis::new("u", "", [0.0, 2e-3]).label, "u [10⁻³]");
+        assert_eq!(Axis::new("u", "", [0.0, 3.0]).label, "u");
+        assert_eq!(texts(&Axis::log("M", [0.1, 20.0])), ["0.1", "0.2", "0.5", "1", "2", "5", "10", "20"]);
+        assert_eq!(power_of_ten(-15), "10⁻¹⁵");
+        // A value that does not change is in the middle.
+        let axis = Axis::new("E", "J", Axis::range([2.0, 2.0].into_iter(), false));
+        assert!((axis.share(2.0) - 0.5).abs() < 1e-12);
+    }
+}

@@ -1,0 +1,64 @@
+//! Colours that stay apart for every kind of sight.
+
+/// Of lines and areas, after Okabe and Ito, the darker ones first.
+pub(crate) const LINES: [&str; 7] = ["#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9", "#000000"];
+
+/// Light ones of the same for stacked areas, with black lines over them.
+pub(crate) const AREAS: [&str; 3] = ["#cfcfcf", "#7fb8d8", "#f0a860"];
+
+/// From blue over white to red, as ColorBrewer has it: −1 to 1 in equal steps.
+const DIVERGING: [[u8; 3]; 11] = [
+    [5, 48, 97],
+    [33, 102, 172],
+    [67, 147, 195],
+    [146, 197, 222],
+    [209, 229, 240],
+    [247, 247, 247],
+    [253, 219, 199],
+    [244, 165, 130],
+    [214, 96, 77],
+    [178, 24, 43],
+    [103, 0, 31],
+];
+
+fn hex([r, g, b]: [u8; 3]) -> String {
+    format!("#{r:02x}{g:02x}{b:02x}")
+}
+
+/// The colour of a value from −1 to 1.
+pub(crate) fn diverging(value: f64) -> String {
+    let last = DIVERGING.len() - 1;
+    let place = (value.clamp(-1.0, 1.0) + 1.0) / 2.0 * last as f64;
+    let below = (place.floor() as usize).min(last - 1);
+    let share = place - below as f64;
+    let mix = |k: usize| {
+        let [a, b] = [below, below + 1].map(|color| f64::from(DIVERGING[color][k]));
+        (a + (b - a) * share).round() as u8
+    };
+    hex([mix(0), mix(1), mix(2)])
+}
+
+/// Shares of the way from one value to another at which the colours change their course, with the colours: linear
+/// between them.
+pub(crate) fn diverging_stops(from: f64, to: f64) -> Vec<(f64, String)> {
+    let last = DIVERGING.len() as i32 - 1;
+    let inner = (0..=last).map(|k| 2.0 * f64::from(k) / f64::from(last) - 1.0);
+    let mut shares: Vec<f64> = inner.map(|node| (node - from) / (to - from)).collect();
+    shares.retain(|share| *share > 1e-4 && *share < 1.0 - 1e-4);
+    shares.extend([0.0, 1.0]);
+    shares.sort_by(f64::total_cmp);
+    shares.into_iter().map(|share| (share, diverging(from + (to - from) * share))).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn zero_is_white_and_gradients_bend_at_the_colours() {
+        assert_eq!([-1.0, 0.0, 2.0].map(diverging), ["#053061", "#f7f7f7", "#67001f"]);
+        let stops = diverging_stops(-0.3, 0.1);
+        assert_eq!(stops.len(), 4); // the ends, −0.2 and 0
+        assert!((stops[2].0 - 0.75).abs() < 1e-12 && stops[2].1 == "#f7f7f7");
+    }
+}

@@ -1,0 +1,344 @@
+//! One picture with its axes: layers over each other, a title, and a legend above the frame, where no data is.
+
+use glam::DVec2;
+
+use super::axis::Axis;
+use super::color::{diverging, diverging_stops};
+use super::svg::{Anchor, Fill, Stroke, Svg, width};
+
+/// A picture with axes.
+#[derive(Clone, Debug)]
+pub(crate) struct Panel {
+    pub(crate) title: String,
+    pub(crate) x: Axis,
+    pub(crate) y: Axis,
+    /// The first one lies lowest.
+    pub(crate) layers: Vec<Layer>,
+    /// What stands in the legend, in order.
+    pub(crate) legend: Vec<Key>,
+}
+
+/// Something in the coordinates of the axes.
+#[derive(Clone, Debug)]
+pub(crate) struct Layer {
+    /// What a reader of the SVG finds it by.
+    pub(crate) class: &'static str,
+    pub(crate) shape: Shape,
+    /// Whether it may reach over the frame.
+    pub(crate) over: bool,
+}
+
+#[derive(Clone, Debug)]
+pub(crate) enum Shape {
+    /// Lines of one look.
+    Lines(Vec<Vec<DVec2>>, Stroke),
+    /// Areas of one colour.
+    Areas(Vec<Vec<DVec2>>, &'static str),
+    /// Pieces of a field whose values are linear on each.
+    Pieces(Vec<Piece>),
+    /// Rows of equal colour: rectangles from corner to corner.
+    Runs(Vec<(String, Vec<[DVec2; 2]>)>),
+    /// Marks.
+    Marks(Vec<DVec2>, Mark, &'static str),
+    /// A text beside a point.
+    Note(DVec2, Anchor, String),
+}
+
+/// A convex polygon, on which a value is `middle` at `at` and changes by `slope` with the place.
+#[derive(Clone, Debug)]
+pub(crate) struct Piece {
+    pub(crate) corners: Vec<DVec2>,
+    pub(crate) at: DVec2,
+    /// From −1 to 1 where it is drawn.
+    pub(crate) middle: f64,
+    pub(crate) slope: DVec2,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) enum Mark {
+    Dot,
+    /// One of many.
+    Point,
+    Ring,
+    Square,
+    Diamond,
+    Triangle,
+    TriangleDown,
+    Pentagon,
+    Cross,
+    Star,
+}
+
+/// An entry of the legend.
+#[derive(Clone, Debug)]
+pub(crate) enum Key {
+    Line(String, Stroke),
+    Area(String, &'static str),
+    Mark(String, Mark, &'static str),
+    /// The colours of a field, with the texts of its ends.
+    Colors(String, [String; 3]),
+}
+
+impl Layer {
+    pub(crate) fn new(class: &'static str, shape: Shape) -> Self {
+        Layer { class, shape, over: false }
+    }
+}
+
+impl Key {
+    fn text(&self) -> &str {
+        let (Key::Line(text, _) | Key::Area(text, _) | Key::Mark(text, ..) | Key::Colors(text, _)) = self;
+        text
+    }
+
+    /// In heights of a letter.
+    fn width(&self) -> f64 {
+        let sign = match self {
+            Key::Line(..) => 2.4,
+            Key::Area(..) => 1.7,
+            Key::Mark(..) => 1.4,
+            Key::Colors(_, [least, _, most]) => COLORS + 1.4 + width(least) + width(most),
+        };
+        sign + width(self.text()) + 1.2
+    }
+}
+
+/// Widths and heights in those of a letter.
+const COLORS: f64 = 7.0;
+const LINE: f64 = 1.55;
+const TICK: f64 = 0.4;
+const GRID: Stroke = Stroke::new("#e4e4e4", 0.12);
+const FRAME: Stroke = Stroke::new("#000000", 0.2);
+
+impl Panel {
+    /// The rows of the legend in a width of so many letters.
+    fn rows(&self, most: f64) -> Vec<Vec<&Key>> {
+        let mut rows: Vec<Vec<&Key>> = Vec::new();
+        let mut used = f64::INFINITY;
+        for key in &self.legend {
+            used += key.width();
+            match rows.last_mut() {
+                Some(row) if used <= most => row.push(key),
+                _ => {
+                    used = key.width();
+                    rows.push(vec![key]);
+                }
+            }
+        }
+        rows
+    }
+
+    /// How many numbers fit beside an axis of a height, and how wide the widest of them is, in letters.
+    pub(super) fn margin(&self, height: f64, em: f64) -> f64 {
+        let ticks = self.y.ticks(height / em / 2.4);
+        ticks.iter().map(|tick| width(&tick.1)).fold(0.0, f64::max) + TICK + 0.5
+    }
+
+    /// Above the frame: the title and the legend.
+    pub(super) fn head(&self, wide: f64, em: f64) -> f64 {
+        em * (LINE * (1 + self.rows(wide / em).len()) as f64 + 0.4)
+    }
+
+    /// Draws it with its frame between two corners; all else is outside of the frame.
+    pub(super) fn draw(&self, svg: &mut Svg, [from, to]: [DVec2; 2], left: f64, wide: f64) {
+        let (em, size) = (svg.em, to - from);
+        let place = |point: DVec2| {
+            let share = DVec2::new(self.x.share(point.x), 1.0 - self.y.share(point.y));
+            // What lies far away is cut without a trace.
+            from + share.clamp(DVec2::splat(-20.0), DVec2::splat(20.0)) * size
+        };
+        svg.open("panel", "");
+        self.draw_head(svg, DVec2::new(left, from.y), wide);
+        let across = self.x.ticks(size.x / em / 4.5);
+        let up = self.y.ticks(size.y / em / 2.4);
+        svg.open("grid", "");
+        for (value, _) in &across {
+            let x = from.x + self.x.share(*value) * size.x;
+            svg.line(&[DVec2::new(x, from.y), DVec2::new(x, to.y)], GRID);
+        }
+        for (value, _) in &up {
+            let y = to.y - self.y.share(*value) * size.y;
+            svg.line(&[DVec2::new(from.x, y), DVec2::new(to.x, y)], GRID);
+        }
+        svg.close();
+        let clip = svg.clip([from, to]);
+        for layer in &self.layers {
+            // Neighbours of a field meet without a seam.
+            let edges = if layer.class == "cells" { " shape-rendering=\"crispEdges\"" } else { "" };
+            svg.open(layer.class, &format!("{}{edges}", if layer.over { "" } else { &clip }));
+            draw_shape(svg, &layer.shape, &place);
+            svg.close();
+        }
+        svg.frame([from, to], FRAME);
+        svg.open("axis-x", "");
+        for (value, text) in &across {
+            let x = from.x + self.x.share(*value) * size.x;
+            svg.line(&[DVec2::new(x, to.y), DVec2::new(x, to.y + TICK * em)], FRAME);
+            svg.text(DVec2::new(x, to.y + (TICK + 1.0) * em), Anchor::Middle, text);
+        }
+        svg.text(DVec2::new(from.x + size.x / 2.0, to.y + (TICK + 2.35) * em), Anchor::Middle, &self.x.label);
+        svg.close();
+        svg.open("axis-y", "");
+        for (value, text) in &up {
+            let y = to.y - self.y.share(*value) * size.y;
+            svg.line(&[DVec2::new(from.x - TICK * em, y), DVec2::new(from.x, y)], FRAME);
+            svg.text(DVec2::new(from.x - (TICK + 0.3) * em, y + 0.36 * em), Anchor::End, text);
+        }
+        let label = DVec2::new(left + 0.85 * em, from.y + size.y / 2.0);
+        svg.text_upwards(label, Anchor::Middle, &self.y.label);
+        svg.close();
+        svg.close();
+    }
+
+    fn draw_head(&self, svg: &mut Svg, at: DVec2, wide: f64) {
+        let em = svg.em;
+        let rows = self.rows(wide / em);
+        let top = at.y - em * (0.75 + LINE * rows.len() as f64);
+        svg.text(DVec2::new(at.x, top), Anchor::Start, &self.title);
+        if rows.is_empty() {
+            return;
+        }
+        svg.open("legend", "");
+        for (k, row) in rows.iter().enumerate() {
+            let mut x = at.x;
+            let base = top + em * LINE * (k + 1) as f64;
+            for key in row {
+                draw_key(svg, key, DVec2::new(x, base));
+                x += em * key.width();
+            }
+        }
+        svg.close();
+    }
+}
+
+fn draw_key(svg: &mut Svg, key: &Key, at: DVec2) {
+    let em = svg.em;
+    let to = |x: f64, y: f64| at + DVec2::new(x, y) * em;
+    match key {
+        Key::Line(text, stroke) => {
+            svg.line(&[to(0.0, -0.35), to(1.9, -0.35)], *stroke);
+            svg.text(to(2.3, 0.0), Anchor::Start, text);
+        }
+        Key::Area(text, fill) => {
+            svg.rectangles(&[[to(0.0, -0.8), to(1.2, 0.05)]], fill);
+            svg.text(to(1.6, 0.0), Anchor::Start, text);
+        }
+        Key::Mark(text, mark, color) => {
+            draw_mark(svg, to(0.5, -0.35), *mark, color);
+            svg.text(to(1.3, 0.0), Anchor::Start, text);
+        }
+        Key::Colors(text, [least, middle, most]) => {
+            svg.text(at, Anchor::Start, text);
+            let mut x = width(text) + 0.9;
+            svg.text(to(x, 0.0), Anchor::Start, least);
+            x += width(least) + 0.3;
+            let corners = [to(x, -0.8), to(x + COLORS, -0.8), to(x + COLORS, 0.05), to(x, 0.05)];
+            svg.polygon(&corners, &Fill::Gradient([corners[0], corners[1]], diverging_stops(-1.0, 1.0)));
+            svg.text(to(x + COLORS / 2.0, 0.0), Anchor::Middle, middle);
+            svg.text(to(x + COLORS + 0.3, 0.0), Anchor::Start, most);
+        }
+    }
+}
+
+fn draw_shape(svg: &mut Svg, shape: &Shape, place: &impl Fn(DVec2) -> DVec2) {
+    let placed = |points: &[DVec2]| points.iter().map(|point| place(*point)).collect::<Vec<_>>();
+    match shape {
+        Shape::Lines(lines, stroke) => lines.iter().for_each(|line| svg.line(&placed(line), *stroke)),
+        Shape::Areas(areas, color) => {
+            areas.iter().for_each(|area| svg.polygon(&placed(area), &Fill::Flat((*color).into())));
+        }
+        Shape::Pieces(pieces) => pieces.iter().for_each(|piece| draw_piece(svg, piece, place)),
+        Shape::Runs(runs) => {
+            for (color, corners) in runs {
+                let corners: Vec<_> = corners.iter().map(|ends| ends.map(place)).collect();
+                svg.rectangles(&corners, color);
+            }
+        }
+        Shape::Marks(points, mark, color) => {
+            points.iter().for_each(|point| draw_mark(svg, place(*point), *mark, color));
+        }
+        Shape::Note(at, anchor, text) => svg.text(place(*at), *anchor, text),
+    }
+}
+
+/// Colours closer than this share of the greatest value are one.
+const ONE_COLOR: f64 = 1.0 / 200.0;
+
+/// A polygon in the colours of its values: exact where they are linear, as the steps of the palette are.
+fn draw_piece(svg: &mut Svg, piece: &Piece, place: &impl Fn(DVec2) -> DVec2) {
+    let corners: Vec<DVec2> = piece.corners.iter().map(|corner| place(*corner)).collect();
+    let value = |corner: &DVec2| piece.middle + piece.slope.dot(*corner - piece.at);
+    let values: Vec<f64> = piece.corners.iter().map(value).collect();
+    let (least, most) = values.iter().fold((f64::INFINITY, f64::NEG_INFINITY), |(a, b), v| (a.min(*v), b.max(*v)));
+    if most - least < ONE_COLOR {
+        return svg.polygon(&corners, &Fill::Flat(diverging(piece.middle)));
+    }
+    // The slope on paper: unit steps of the axes are stretched there.
+    let origin = place(piece.at);
+    let [right, up] = [DVec2::X, DVec2::Y].map(|step| place(piece.at + step) - origin);
+    let slope = DVec2::new(piece.slope.x / right.x, piece.slope.y / up.y);
+    let along = slope / slope.length_squared();
+    let end = |value: f64| origin + along * (value - piece.middle);
+    svg.polygon(&corners, &Fill::Gradient([end(least), end(most)], diverging_stops(least, most)));
+}
+
+fn draw_mark(svg: &mut Svg, at: DVec2, mark: Mark, color: &'static str) {
+    let r = 0.28 * svg.em;
+    let ring = |count: i32, turn: f64, radius: &dyn Fn(i32) -> f64| -> Vec<DVec2> {
+        let corner = |k: i32| DVec2::from_angle((f64::from(k) / f64::from(count) + turn) * std::f64::consts::TAU);
+        (0..count).map(|k| at + corner(k) * radius(k)).collect()
+    };
+    let fill = Fill::Flat(color.into());
+    let thin = Stroke::new(color, 0.07 * svg.em);
+    match mark {
+        Mark::Dot => svg.circle(at, r, color, Stroke::new(color, 0.0)),
+        Mark::Point => svg.circle(at, 0.4 * r, color, Stroke::new(color, 0.0)),
+        Mark::Ring => svg.circle(at, 2.0 * r, "none", thin),
+        Mark::Square => svg.polygon(&ring(4, 0.125, &|_| 1.2 * r), &fill),
+        Mark::Diamond => svg.polygon(&ring(4, 0.0, &|_| 1.25 * r), &fill),
+        Mark::Triangle => svg.polygon(&ring(3, -0.25, &|_| 1.25 * r), &fill),
+        Mark::TriangleDown => svg.polygon(&ring(3, 0.25, &|_| 1.25 * r), &fill),
+        Mark::Pentagon => svg.polygon(&ring(5, -0.25, &|_| 1.15 * r), &fill),
+        Mark::Star => svg.polygon(&ring(10, -0.25, &|k| if k % 2 == 0 { 1.3 * r } else { 0.55 * r }), &fill),
+        Mark::Cross => {
+            for way in [DVec2::ONE, DVec2::new(1.0, -1.0)] {
+                svg.line(&[at - way * 0.85 * r, at + way * 0.85 * r], Stroke { width: 0.12 * svg.em, ..thin });
+            }
+        }
+    }
+}
+
+/// Places of a line across a picture: more points are drawn as the least and the greatest of each.
+const PLACES: usize = 2000;
+
+/// A line through at most two points a place: the least and the greatest.
+pub(crate) fn thinned(points: Vec<DVec2>) -> Vec<DVec2> {
+    let step = points.len().div_ceil(PLACES);
+    if step <= 2 {
+        return points;
+    }
+    let ends = |chunk: &[DVec2]| {
+        let order = |a: &&DVec2, b: &&DVec2| a.y.total_cmp(&b.y);
+        let mut ends: Vec<DVec2> =
+            chunk.iter().min_by(order).into_iter().chain(chunk.iter().max_by(order)).copied().collect();
+        ends.sort_by(|a, b| a.x.total_cmp(&b.x));
+        ends
+    };
+    points.chunks(step).flat_map(ends).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A spike survives, and the ends do.
+    #[test]
+    fn extremes_are_kept() {
+        let line = |count: i32, value: &dyn Fn(i32) -> f64| {
+            thinned((0..count).map(|k| DVec2::new(f64::from(k), value(k))).collect())
+        };
+        let points = line(10_000, &|k| if k == 4321 { 5.0 } else { 0.0 });
+        assert!(points.len() <= 2 * PLACES && points.contains(&DVec2::new(4321.0, 5.0)) && points[0].x == 0.0);
+        assert_eq!(line(3, &|k| f64::from(k)).len(), 3);
+    }
+}

@@ -1,0 +1,128 @@
+//! A sheet of pictures, as large as what it is made for.
+
+use glam::DVec2;
+
+use super::panel::Panel;
+use super::svg::{Anchor, Svg, width};
+
+/// What a picture is made for.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, clap::ValueEnum)]
+pub(crate) enum Size {
+    /// One column of a journal, 85 mm
+    Column,
+    /// The width of a page, 170 mm
+    #[default]
+    Page,
+    /// A slide, 16:9
+    Slide,
+}
+
+/// Pictures with a title above all.
+#[derive(Clone, Debug)]
+pub(crate) struct Sheet {
+    pub(crate) title: Vec<String>,
+    pub(crate) panels: Vec<Panel>,
+}
+
+/// Heights in those of a letter.
+const TITLE: f64 = 1.6;
+/// Below a frame: numbers and label.
+const FOOT: f64 = 3.1;
+/// Left of the numbers: the label.
+const LABEL: f64 = 1.5;
+const GAP: f64 = 0.9;
+
+impl Size {
+    fn width(self) -> f64 {
+        match self {
+            Size::Column => 85.0,
+            Size::Page => 170.0,
+            Size::Slide => 254.0,
+        }
+    }
+
+    /// The height of letters, mm: 8 points; on a slide what is as large on a screen as 18 points on a page.
+    fn em(self) -> f64 {
+        if self == Size::Slide { 4.4 } else { 2.82 }
+    }
+
+    /// Of the frame of one of so many pictures in a column.
+    fn frame(self, across: usize) -> f64 {
+        match (self, across) {
+            (Size::Column, _) => 38.0,
+            (_, 1) => 80.0,
+            _ => 46.0,
+        }
+    }
+
+    /// Pixels of a PNG for one of an SVG, of which 96 are an inch: 300 for an inch; a slide is as wide as a screen.
+    #[cfg(feature = "plot")]
+    pub(crate) fn scale(self) -> f32 {
+        if self == Size::Slide { 2.0 } else { 3.125 }
+    }
+}
+
+impl Sheet {
+    /// The sheet as SVG.
+    pub(crate) fn svg(&self, size: Size) -> String {
+        let (em, wide) = (size.em(), size.width());
+        let across = if size == Size::Column || self.panels.len() < 2 { 1 } else { 2 };
+        let rows: Vec<&[Panel]> = self.panels.chunks(across).collect();
+        let title: Vec<&str> = self.title.iter().flat_map(|line| wrapped(line, (wide - 2.0 * em) / em)).collect();
+        let above = em * (0.9 + TITLE * title.len() as f64);
+        let cell = wide / across as f64;
+        // A frame of this height, and the legends that its width leaves room for.
+        let head = |row: &[Panel]| row.iter().map(|panel| panel.head(cell - 1.5 * em, em)).fold(0.0, f64::max);
+        let around: f64 = rows.iter().map(|row| head(row) + em * (FOOT + GAP)).sum();
+        let frame = match size {
+            Size::Slide => (wide * 9.0 / 16.0 - above - around) / rows.len().max(1) as f64,
+            _ => size.frame(across),
+        };
+        let mut svg = Svg::new(wide, above + around + frame * rows.len() as f64, em);
+        for (k, line) in title.iter().enumerate() {
+            svg.text(DVec2::new(em, em * (0.1 + TITLE * (k + 1) as f64)), Anchor::Start, line);
+        }
+        // Frames in a column begin at one place.
+        let margin = |column: usize| {
+            let panels = rows.iter().filter_map(|row| row.get(column));
+            em * (LABEL + panels.map(|panel| panel.margin(frame, em)).fold(0.0, f64::max))
+        };
+        let mut y = above;
+        for row in &rows {
+            y += head(row);
+            for (column, panel) in row.iter().enumerate() {
+                let left = column as f64 * cell + em;
+                let corners = [DVec2::new(left + margin(column), y), DVec2::new(left + cell - 2.2 * em, y + frame)];
+                panel.draw(&mut svg, corners, left, cell - 1.5 * em);
+            }
+            y += frame + em * (FOOT + GAP);
+        }
+        svg.finish()
+    }
+}
+
+/// A text in lines of at most so many letters.
+fn wrapped(text: &str, most: f64) -> Vec<&str> {
+    let (mut lines, mut start, mut end) = (Vec::new(), 0, 0);
+    for (space, _) in text.match_indices(' ').chain([(text.len(), "")]) {
+        if width(&text[start..space]) > most && end > start {
+            lines.push(&text[start..end]);
+            start = end + 1;
+        }
+        end = space;
+    }
+    lines.push(&text[start..]);
+    lines
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn long_titles_are_wrapped() {
+        assert_eq!(wrapped("one two three", 5.5), ["one two", "three"]);
+        assert_eq!(wrapped("one", 0.1), ["one"]);
+        assert_eq!(wrapped("", 3.0), [""]);
+    }
+}

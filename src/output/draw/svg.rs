@@ -1,0 +1,287 @@
+//! An SVG as it is written, in millimetres.
+
+use std::fmt::{self, Write};
+
+use glam::DVec2;
+
+/// The font of all pictures; where it is not known another one without serifs takes its place.
+const FAMILY: &str = "DejaVu Sans, Verdana, sans-serif";
+
+/// How a line is drawn: colour, width in mm, dashes in mm.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Stroke {
+    pub(crate) color: &'static str,
+    pub(crate) width: f64,
+    pub(crate) dash: &'static str,
+}
+
+impl Stroke {
+    pub(crate) const fn new(color: &'static str, width: f64) -> Self {
+        Stroke { color, width, dash: "" }
+    }
+
+    pub(crate) const fn dashed(self, dash: &'static str) -> Self {
+        Stroke { dash, ..self }
+    }
+}
+
+/// Where a text stands relative to its place.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) enum Anchor {
+    Start,
+    Middle,
+    End,
+}
+
+/// What is inside of a closed line.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) enum Fill {
+    Flat(String),
+    /// From one point to another, with shares of the way and colours in order.
+    Gradient([DVec2; 2], Vec<(f64, String)>),
+}
+
+/// A picture that is being written.
+#[derive(Debug)]
+pub(crate) struct Svg {
+    text: String,
+    /// The height of letters, mm.
+    pub(crate) em: f64,
+    gradients: usize,
+    clips: usize,
+}
+
+/// A length: a hundredth of a millimetre, without zeros at the end.
+pub(super) fn length(x: f64) -> String {
+    let text = format!("{x:.2}");
+    match text.trim_end_matches('0').trim_end_matches('.') {
+        "-0" => "0".into(),
+        short => short.into(),
+    }
+}
+
+/// The characters that XML keeps for itself.
+pub(super) fn escaped(text: &str) -> String {
+    text.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;").replace('"', "&quot;")
+}
+
+/// A text of a user, in which `_` is no subscript.
+pub(crate) fn plain(text: &str) -> String {
+    text.replace('_', "__")
+}
+
+/// A text in parts, each with whether it is a subscript: `v_x` or `μ_{12}`; `__` is `_` itself.
+fn parts(text: &str) -> Vec<(String, bool)> {
+    let mut parts = vec![(String::new(), false)];
+    let mut letters = text.chars().peekable();
+    while let Some(letter) = letters.next() {
+        let low = match (letter, letters.peek()) {
+            ('_', Some('_')) => {
+                letters.next();
+                None
+            }
+            ('_', Some('{')) => {
+                letters.next();
+                Some(letters.by_ref().take_while(|letter| *letter != '}').collect::<String>())
+            }
+            ('_', Some(_)) => letters.next().map(String::from),
+            _ => None,
+        };
+        match low {
+            Some(low) => parts.extend([(low, true), (String::new(), false)]),
+            None => parts.last_mut().map_or((), |last| last.0.push(letter)),
+        }
+    }
+    parts.retain(|part| !part.0.is_empty());
+    parts
+}
+
+/// The size of a subscript, and how far below the line it stands.
+const LOW: (f64, f64) = (0.72, 0.18);
+
+/// About how wide a text is, in heights of its letters. Rather more than less.
+pub(crate) fn width(text: &str) -> f64 {
+    let letter = |letter: char| match letter {
+        'i' | 'j' | 'l' | '\'' | '.' | ',' | ':' | ';' | '|' | '·' => 0.32,
+        ' ' | 'f' | 't' | 'r' | '(' | ')' | '[' | ']' | '/' | '-' | 'I' | '′' => 0.4,
+        'm' | 'w' | 'M' | 'W' | '%' => 0.98,
+        '=' | '+' | '−' | '≥' | '≤' | '≈' | '→' | '∞' => 0.84,
+        '₀'..='₉' | '⁰'..='⁹' | '²' | '³' | '¹' | '⁻' => 0.42,
+        letter if letter.is_uppercase() => 0.7,
+        _ => 0.61,
+    };
+    parts(text).iter().map(|(part, low)| part.chars().map(letter).sum::<f64>() * if *low { LOW.0 } else { 1.0 }).sum()
+}
+
+impl Svg {
+    /// An empty page of this size with letters of the height `em`, all in mm.
+    pub(crate) fn new(width: f64, height: f64, em: f64) -> Self {
+        let mut svg = Svg { text: String::new(), em, gradients: 0, clips: 0 };
+        let [w, h] = [width, height].map(length);
+        svg.put(format_args!(
+            "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{w}mm\" height=\"{h}mm\" viewBox=\"0 0 {w} {h}\" \
+             font-family=\"{FAMILY}\" font-size=\"{}\" fill=\"#000000\" stroke-linejoin=\"round\">\n\
+             <rect width=\"{w}\" height=\"{h}\" fill=\"#ffffff\"/>\n",
+            length(em)
+        ));
+        svg
+    }
+
+    fn put(&mut self, text: fmt::Arguments<'_>) {
+        // Writing to a text does not fail.
+        let _ = self.text.write_fmt(text);
+    }
+
+    /// Begins a group that [`Svg::close`] ends: its class, and other attributes.
+    pub(crate) fn open(&mut self, class: &str, attributes: &str) {
+        self.put(format_args!("<g class=\"{}\"{attributes}>\n", escaped(class)));
+    }
+
+    pub(crate) fn close(&mut self) {
+        self.put(format_args!("</g>\n"));
+    }
+
+    /// A rectangle beyond which nothing is drawn in a group: its attribute.
+    pub(crate) fn clip(&mut self, [from, to]: [DVec2; 2]) -> String {
+        self.clips += 1;
+        let (id, size) = (self.clips, to - from);
+        let [x, y, w, h] = [from.x, from.y, size.x, size.y].map(length);
+        self.put(format_args!(
+            "<clipPath id=\"clip{id}\"><rect x=\"{x}\" y=\"{y}\" width=\"{w}\" height=\"{h}\"/></clipPath>\n"
+        ));
+        format!(" clip-path=\"url(#clip{id})\"")
+    }
+
+    fn points(&mut self, points: &[DVec2]) {
+        for (k, point) in points.iter().enumerate() {
+            let space = if k == 0 { "" } else { " " };
+            self.put(format_args!("{space}{},{}", length(point.x), length(point.y)));
+        }
+    }
+
+    /// A line through points.
+    pub(crate) fn line(&mut self, points: &[DVec2], stroke: Stroke) {
+        self.put(format_args!("<polyline points=\""));
+        self.points(points);
+        self.put(format_args!("\" fill=\"none\"{}/>\n", stroke_of(stroke)));
+    }
+
+    /// What is inside of a line through points.
+    pub(crate) fn polygon(&mut self, points: &[DVec2], fill: &Fill) {
+        let paint = match fill {
+            Fill::Flat(color) => color.clone(),
+            Fill::Gradient([from, to], stops) => {
+                self.gradients += 1;
+                let id = self.gradients;
+                let [x1, y1, x2, y2] = [from.x, from.y, to.x, to.y].map(length);
+                self.put(format_args!(
+                    "<linearGradient id=\"fill{id}\" gradientUnits=\"userSpaceOnUse\" x1=\"{x1}\" y1=\"{y1}\" \
+                     x2=\"{x2}\" y2=\"{y2}\">"
+                ));
+                for (share, color) in stops {
+                    self.put(format_args!("<stop offset=\"{share:.4}\" stop-color=\"{color}\"/>"));
+                }
+                self.put(format_args!("</linearGradient>\n"));
+                format!("url(#fill{id})")
+            }
+        };
+        self.put(format_args!("<polygon points=\""));
+        self.points(points);
+        self.put(format_args!("\" fill=\"{paint}\"/>\n"));
+    }
+
+    /// Rectangles of one colour, each from one corner to the opposite one.
+    pub(crate) fn rectangles(&mut self, corners: &[[DVec2; 2]], fill: &str) {
+        self.put(format_args!("<path fill=\"{fill}\" d=\""));
+        for ends in corners {
+            // Rounded as places, so that neighbours meet.
+            let [left, top, right, bottom] = [ends[0].x, ends[0].y, ends[1].x, ends[1].y].map(length);
+            self.put(format_args!("M{left} {top}H{right}V{bottom}H{left}z"));
+        }
+        self.put(format_args!("\"/>\n"));
+    }
+
+    /// A frame.
+    pub(crate) fn frame(&mut self, [from, to]: [DVec2; 2], stroke: Stroke) {
+        let (size, [x, y]) = (to - from, [from.x, from.y].map(length));
+        let [w, h] = [size.x, size.y].map(length);
+        let look = stroke_of(stroke);
+        self.put(format_args!("<rect x=\"{x}\" y=\"{y}\" width=\"{w}\" height=\"{h}\" fill=\"none\"{look}/>\n"));
+    }
+
+    /// A closed mark about a point, or a ring where it has no fill.
+    pub(crate) fn circle(&mut self, at: DVec2, radius: f64, fill: &str, stroke: Stroke) {
+        let [x, y, r] = [at.x, at.y, radius].map(length);
+        let look = stroke_of(stroke);
+        self.put(format_args!("<circle cx=\"{x}\" cy=\"{y}\" r=\"{r}\" fill=\"{fill}\"{look}/>\n"));
+    }
+
+    /// A text on its base line, with subscripts.
+    pub(crate) fn text(&mut self, at: DVec2, anchor: Anchor, text: &str) {
+        self.place_text(at, anchor, "", text);
+    }
+
+    /// A text that is read upwards.
+    pub(crate) fn text_upwards(&mut self, at: DVec2, anchor: Anchor, text: &str) {
+        let [x, y] = [at.x, at.y].map(length);
+        self.place_text(at, anchor, &format!(" transform=\"rotate(-90 {x} {y})\""), text);
+    }
+
+    fn place_text(&mut self, at: DVec2, anchor: Anchor, turned: &str, text: &str) {
+        let anchor = match anchor {
+            Anchor::Start => "",
+            Anchor::Middle => " text-anchor=\"middle\"",
+            Anchor::End => " text-anchor=\"end\"",
+        };
+        let [x, y] = [at.x, at.y].map(length);
+        self.put(format_args!("<text x=\"{x}\" y=\"{y}\"{anchor}{turned}>"));
+        let mut low = false;
+        for (part, lower) in parts(text) {
+            let shift = match (low, lower) {
+                (false, true) => LOW.1 * self.em,
+                (true, false) => -LOW.1 * self.em,
+                _ => 0.0,
+            };
+            low = lower;
+            let part = escaped(&part);
+            match (shift == 0.0, lower) {
+                (true, _) => self.put(format_args!("{part}")),
+                (false, true) => self.put(format_args!(
+                    "<tspan dy=\"{}\" font-size=\"{}\">{part}</tspan>",
+                    length(shift),
+                    length(LOW.0 * self.em)
+                )),
+                (false, false) => self.put(format_args!("<tspan dy=\"{}\">{part}</tspan>", length(shift))),
+            }
+        }
+        self.put(format_args!("</text>\n"));
+    }
+
+    /// The whole picture.
+    pub(crate) fn finish(mut self) -> String {
+        self.text += "</svg>\n";
+        self.text
+    }
+}
+
+fn stroke_of(stroke: Stroke) -> String {
+    let dash = if stroke.dash.is_empty() { String::new() } else { format!(" stroke-dasharray=\"{}\"", stroke.dash) };
+    format!(" stroke=\"{}\" stroke-width=\"{}\"{dash}", stroke.color, length(stroke.width))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn texts_and_lengths() {
+        assert_eq!([1.0, -0.001, 12.345, 0.1].map(length), ["1", "0", "12.35", "0.1"]);
+        let low = |text: &str| parts(text).into_iter().map(|(part, low)| format!("{part}{low}")).collect::<String>();
+        assert_eq!(low("v_x(0,t)"), "vfalsextrue(0,t)false");
+        assert_eq!(low("t_{12}"), "tfalse12true");
+        assert_eq!(low(&plain("my_rod")), "my_rodfalse");
+        let mut svg = Svg::new(10.0, 10.0, 3.0);
+        svg.text(DVec2::ZERO, Anchor::Start, "E_h < 1");
+        assert!(svg.finish().contains(">E<tspan dy=\"0.54\" font-size=\"2.16\">h</tspan><tspan dy=\"-0.54\"> &lt; 1<"));
+    }
+}

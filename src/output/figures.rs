@@ -1,0 +1,241 @@
+//! The figures of the paper as pictures, as CSV, and the index beside them.
+
+use glam::DVec2;
+
+use super::draw::{Anchor, Axis, Key, LINES, Layer, Mark, Panel, Shape, Sheet, Stroke};
+use super::regimes::{regimes_csv, regimes_panel};
+use crate::figures::{DAMPINGS, Data, Failed, Figure, Of, STRONG, dot, limits};
+use crate::number::Scalar;
+
+const LINE: f64 = 0.4;
+const THIN: f64 = 0.2;
+const BLACK: &str = "#000000";
+/// That of `r = 0` in the paper.
+const UNDAMPED: &str = "#d55e00";
+/// Of A, B, C: where the odd continuation of `g` is `−g` and where it is `g`.
+const REGIONS: [&str; 3] = ["#d9c3dd", "#bfdcc4", "#d9c3dd"];
+
+/// The numbers of a figure.
+pub(crate) fn figure_csv(figure: &Figure, data: &Data) -> Result<String, csv::Error> {
+    if let Some(map) = &data.map {
+        return regimes_csv(map);
+    }
+    let cell = |value: &Option<f64>| value.as_ref().map_or_else(String::new, Scalar::text);
+    let rows = data.rows.iter().map(|row| row.iter().map(cell).collect()).collect();
+    let comments = format!("# {}\n# {}\n", figure.shown, figure.corrected);
+    super::csv::write(&comments, data.columns.iter().map(ToString::to_string).collect(), rows)
+}
+
+/// What stands beside the files.
+pub(crate) fn figures_index(figures: &[&Figure], data: &[Data]) -> Result<String, Failed> {
+    let mut text = format!(
+        "# Figures\n\nOf *Explicit solutions and coefficient of restitution for an elastic rod with viscous damping*, \
+         worked out by dalembert {}: `dalembert figures`.\nEach is there as SVG, as PNG and as numbers (CSV), in which \
+         what is not defined is empty.\n",
+        env!("CARGO_PKG_VERSION")
+    );
+    for (figure, data) in figures.iter().zip(data) {
+        let title =
+            if figure.name.parse::<u32>().is_ok() { format!("Figure {}", figure.name) } else { figure.name.into() };
+        let (file, count) = (figure.file(), data.map.as_ref().map_or(data.rows.len(), |map| map.regimes.len()));
+        text += &format!(
+            "\n## {title}\n\n![{title}]({file}.png)\n\nReproduced: {}\n\nCorrected: {}\n\n[SVG]({file}.svg), [PNG]({file}.png), \
+             [CSV]({file}.csv): {count} rows\n",
+            figure.shown, figure.corrected
+        );
+    }
+    if figures.iter().any(|figure| matches!(figure.of, Of::Restitution | Of::Translational | Of::Kept | Of::Decay)) {
+        text += "\n## Limits\n\nFor μ → ∞ and t_b = t₁ (R = r t₁), where (4.75) has e^{−R}:\n\n\
+                 | r | lim e_E = 2e^{−R}(I₀(R) − I₁(R)) − e^{−2R} | e^{−R} | lim E_h/E | lim E/E(0) |\n\
+                 |---|---|---|---|---|\n";
+        for damping in DAMPINGS {
+            let limits = limits(damping)?;
+            let numbers = [limits.restitution, (-limits.ratio).exp(), limits.translational, limits.kept];
+            let cells: Vec<String> = numbers.iter().map(|number| format!("{number:.12}")).collect();
+            text += &format!("| {damping} | {} |\n", cells.join(" | "));
+        }
+    }
+    Ok(text)
+}
+
+/// A figure as a sheet of one panel.
+pub(crate) fn figure_sheet(figure: &Figure, data: &Data) -> Result<Sheet, Failed> {
+    let panel = match figure.of {
+        Of::Kernel => kernel(data),
+        Of::Vibration => energies(data, "E_z(t_b)", &[(3, "E_z")]),
+        Of::Shares => energies(data, "share of E(0)", &[(4, "E_h(t_b)/E(0)"), (5, "E_z(t_b)/E(0)")]),
+        Of::Restitution => restitution(data)?,
+        Of::Translational => shares(data, "E_h(t_1)/E(t_1)"),
+        Of::Kept => shares(data, "E(t_1)/E(0)"),
+        Of::Decay => shares(data, "E(t_1)/E(0) over e^{−2rt₁}"),
+        Of::Regions => regions(data),
+        Of::Regimes => data.map.as_ref().map(regimes_panel).ok_or("no map")?,
+        Of::Tenth => tenth(data),
+    };
+    Ok(Sheet { title: Vec::new(), panels: vec![panel] })
+}
+
+/// The points of two columns, in stretches where both are defined.
+fn stretches<'a>(rows: impl Iterator<Item = &'a Vec<Option<f64>>>, x: usize, y: usize) -> Vec<Vec<DVec2>> {
+    let mut lines = vec![Vec::new()];
+    for row in rows {
+        match (row[x], row[y], lines.last_mut()) {
+            (Some(x), Some(y), Some(line)) => line.push(DVec2::new(x, y)),
+            (.., Some(line)) if !line.is_empty() => lines.push(Vec::new()),
+            _ => (),
+        }
+    }
+    lines.retain(|line| !line.is_empty());
+    lines
+}
+
+fn of<'a>(data: &'a Data, damping: &str) -> impl Iterator<Item = &'a Vec<Option<f64>>> + use<'a> {
+    let damping: Option<f64> = damping.parse().ok();
+    data.rows.iter().filter(move |row| row[0] == damping)
+}
+
+/// The colour of a damping of Figures 4–7.
+fn color(k: usize) -> &'static str {
+    [UNDAMPED, LINES[0], LINES[2], LINES[3]][k % 4]
+}
+
+fn lines(class: &'static str, lines: Vec<Vec<DVec2>>, stroke: Stroke) -> Layer {
+    Layer::new(class, Shape::Lines(lines, stroke))
+}
+
+fn level(x: &Axis, y: f64, stroke: Stroke) -> Layer {
+    lines("limit", vec![vec![DVec2::new(x.from, y), DVec2::new(x.to, y)]], stroke)
+}
+
+fn marks(points: Vec<DVec2>, color: &'static str) -> Layer {
+    Layer { over: true, ..Layer::new("marks", Shape::Marks(points, Mark::Dot, color)) }
+}
+
+fn kernel(data: &Data) -> Panel {
+    let x = Axis::new("t", "", [0.0, 4.0]);
+    let y = Axis::new("Ψ_r(t)", "", Axis::range(data.rows.iter().filter_map(|row| row[3]), true));
+    let (mut layers, mut legend) = (vec![level(&x, 0.0, Stroke::new("#808080", THIN))], Vec::new());
+    for (k, damping) in STRONG.into_iter().enumerate() {
+        let (rows, stroke) = (of(data, damping).collect::<Vec<_>>(), Stroke::new(LINES[k], LINE));
+        // A jump lies between two rows of one time.
+        let stretches: Vec<Vec<DVec2>> = rows
+            .chunk_by(|a, b| a[1] != b[1])
+            .map(|rows| rows.iter().filter_map(|row| Some(DVec2::new(row[1]?, row[3]?))).collect())
+            .collect();
+        let jumps = stretches.windows(2).filter_map(|pair| Some(vec![*pair[0].last()?, *pair[1].first()?])).collect();
+        layers.push(lines("jumps", jumps, Stroke::new(LINES[k], 0.15).dashed("0.5 0.5")));
+        layers.push(lines("curve", stretches, stroke));
+        legend.push(Key::Line(format!("r = {damping}"), stroke));
+        layers.extend(rows.first().and_then(|row| row[4]).map(|time| marks(vec![DVec2::new(time, 0.0)], LINES[k])));
+    }
+    legend.push(Key::Mark("first bounce, t_b".into(), Mark::Dot, BLACK));
+    Panel { title: "the stress of a rod that is held: g = 0, t₁ = μ = c = 1".into(), x, y, layers, legend }
+}
+
+fn energies(data: &Data, label: &str, columns: &[(usize, &str)]) -> Panel {
+    let x = Axis::new("μ", "", [0.0, 8.0]);
+    let values = columns.iter().flat_map(|(column, _)| data.rows.iter().filter_map(|row| row[*column]));
+    let y = Axis::new(label, "", Axis::range(values, true));
+    let (mut layers, mut legend) = (Vec::new(), Vec::new());
+    for (k, (column, name)) in columns.iter().enumerate() {
+        let stroke = Stroke::new(LINES[k], LINE);
+        layers.push(lines("curve", stretches(data.rows.iter(), 0, *column), stroke));
+        let dot = data.rows.iter().filter(|row| row[0] == Some(2.0)).filter_map(|row| row[*column]);
+        layers.push(marks(dot.map(|value| DVec2::new(2.0, value)).collect(), UNDAMPED));
+        if columns.len() > 1 {
+            legend.push(Key::Line((*name).into(), stroke));
+        }
+    }
+    legend.push(Key::Mark("μ = μ₀".into(), Mark::Dot, UNDAMPED));
+    Panel { title: "energy at the first bounce: r = 0, c = L = g = 1".into(), x, y, layers, legend }
+}
+
+fn restitution(data: &Data) -> Result<Panel, Failed> {
+    let x = Axis::new("μ", "", [0.0, 12.5]);
+    let y = Axis::new("e_E²", "", [0.0, 1.05]);
+    let (mut layers, mut legend, mut dots) = (Vec::new(), Vec::new(), Vec::new());
+    for (k, damping) in DAMPINGS.into_iter().enumerate() {
+        let stroke = Stroke::new(color(k), LINE);
+        let limit = limits(damping)?.restitution.powi(2);
+        layers.push(level(&x, limit, Stroke { width: THIN, ..stroke.dashed("1.6 0.9") }));
+        let curve = stretches(of(data, damping), 1, 3);
+        // Where t_b = t₁ begins: between two points of the curve.
+        let at = dot(damping);
+        dots.extend(
+            curve
+                .iter()
+                .flat_map(|line| line.windows(2))
+                .filter(|pair| (pair[0].x..pair[1].x).contains(&at))
+                .map(|pair| pair[0].lerp(pair[1], (at - pair[0].x) / (pair[1].x - pair[0].x))),
+        );
+        layers.push(lines("curve", curve, stroke));
+        legend.push(Key::Line(format!("r = {damping}"), stroke));
+    }
+    layers.push(marks(dots, BLACK));
+    legend.push(Key::Mark("t_b = t₁ from here on".into(), Mark::Dot, BLACK));
+    legend.push(Key::Line("limit for μ → ∞".into(), Stroke::new(BLACK, THIN).dashed("1.6 0.9")));
+    Ok(Panel { title: "restitution of the first bounce: c = L = g = 1".into(), x, y, layers, legend })
+}
+
+fn shares(data: &Data, label: &str) -> Panel {
+    let x = Axis::new("μ", "", [3.2, 12.5]);
+    let y =
+        Axis::new(label, "", Axis::range(data.rows.iter().flat_map(|row| [row[2], row[3], row[4]]).flatten(), false));
+    let (mut layers, mut legend) = (Vec::new(), Vec::new());
+    let supposed = Stroke::new("#808080", THIN).dashed("0.4 0.6");
+    for (k, damping) in DAMPINGS.into_iter().enumerate() {
+        let stroke = Stroke::new(color(k), LINE);
+        if let Some(row) = of(data, damping).next() {
+            layers.extend(row[4].map(|value| level(&x, value, supposed)));
+            layers.extend(row[3].map(|value| level(&x, value, Stroke { width: THIN, ..stroke.dashed("1.6 0.9") })));
+        }
+        layers.push(lines("curve", stretches(of(data, damping), 1, 2), stroke));
+        legend.push(Key::Line(format!("r = {damping}"), stroke));
+    }
+    legend.push(Key::Line("limit for μ → ∞".into(), Stroke::new(BLACK, THIN).dashed("1.6 0.9")));
+    legend.push(Key::Line("as the paper supposes".into(), supposed));
+    Panel { title: "energy at the first bounce, t_b = t₁: c = L = g = 1".into(), x, y, layers, legend }
+}
+
+fn regions(data: &Data) -> Panel {
+    let mut x = Axis::new("y", "", [-2.0, 3.0]);
+    x.ticks = Some(
+        [(-1.5, "x − c t₁"), (0.0, "0"), (0.5, "x"), (2.0, "2L"), (2.5, "x + c t₁")]
+            .map(|(y, text)| (y, text.into()))
+            .into(),
+    );
+    let mut y = Axis::new("time", "", [0.0, 2.2]);
+    y.ticks = Some(vec![(0.0, "0".into()), (2.0, "t₁".into())]);
+    let mut layers = Vec::new();
+    for ((region, color), name) in [1.0, 2.0, 3.0].into_iter().zip(REGIONS).zip(["A", "B", "C"]) {
+        let rows = data.rows.iter().filter(|row| row[0] == Some(region));
+        let corners: Vec<DVec2> = rows.filter_map(|row| Some(DVec2::new(row[1]?, row[2]?))).collect();
+        let middle = corners.iter().sum::<DVec2>() / corners.len().max(1) as f64;
+        let edge = corners.iter().chain(corners.first()).copied().collect();
+        layers.push(Layer::new("area", Shape::Areas(vec![corners], color)));
+        layers.push(lines("curve", vec![edge], Stroke::new(BLACK, THIN)));
+        layers.push(Layer::new("note", Shape::Note(middle, Anchor::Middle, name.into())));
+    }
+    layers.push(marks(vec![DVec2::new(0.5, 2.0)], BLACK));
+    let legend = vec![Key::Area("g continued as −g".into(), REGIONS[0]), Key::Area("as g".into(), REGIONS[1])];
+    Panel { title: "regions of integration for the point (x, t₁), x = L/2".into(), x, y, layers, legend }
+}
+
+fn tenth(data: &Data) -> Panel {
+    let x = Axis::new("μ", "", [0.0, 10.0]);
+    let y = Axis::new("e_E²", "", [0.0, 2.0]);
+    let mut layers = vec![level(&x, 1.0, Stroke::new("#808080", THIN))];
+    let first = Stroke::new(UNDAMPED, LINE);
+    // It jumps wherever an earlier landing comes or goes: points, without lines between them.
+    let tenth = stretches(data.rows.iter(), 0, 2).concat();
+    layers.push(Layer::new("marks", Shape::Marks(tenth, Mark::Point, LINES[0])));
+    layers.push(lines("curve", stretches(data.rows.iter(), 0, 1), first));
+    let legend = vec![Key::Line("first bounce".into(), first), Key::Mark("tenth bounce".into(), Mark::Point, LINES[0])];
+    Panel {
+        title: "restitution of the first and of the tenth bounce: r = 0, c = L = g = 1".into(),
+        x,
+        y,
+        layers,
+        legend,
+    }
+}

@@ -1,0 +1,270 @@
+//! The field along the rod over time: polygons of characteristic cells, in which nothing jumps.
+
+use glam::DVec2;
+
+use super::Along;
+use super::gather::Gathered;
+use crate::error::Error;
+use crate::history::History;
+use crate::motion::{Field, Side};
+use crate::number::Scalar;
+use crate::output::draw::Piece;
+use crate::solve::Target;
+
+/// A ray, by the time at which it leaves the ground.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Break {
+    pub(crate) time: f64,
+    /// Whether the field jumps across it; otherwise only its slope.
+    pub(crate) jump: bool,
+}
+
+/// A field over the span.
+#[derive(Clone, Debug)]
+pub(crate) struct Cells {
+    pub(crate) breaks: Vec<Break>,
+    pub(crate) values: Values,
+    /// A round number that no absolute value is above: where the colours end.
+    pub(crate) greatest: f64,
+}
+
+#[derive(Clone, Debug)]
+pub(crate) enum Values {
+    /// Polygons in `(t, x)`, in each of which the field is taken as linear.
+    Linear(Vec<Piece>),
+    /// Values at the middles of rectangles, so many along the time, from the ground up, row by row.
+    Grid(usize, Vec<f64>),
+}
+
+/// More polygons are not drawn: a grid takes their place.
+const MOST_CELLS: usize = 6000;
+/// Where a field is curved a cell is cut into parts that are no wider than this share of a round trip.
+const PARTS: f64 = 10.0;
+/// The grid, of undamped and of damped rods, whose values take longer.
+const GRID: [[usize; 2]; 2] = [[480, 96], [200, 40]];
+
+/// The polygons of a field and its values.
+///
+/// **Source**: between the rays of an undamped rod velocity and strain are linear in `x` and `t` (d'Alembert), and a
+/// cell is one polygon. Between those of a damped rod they are smooth, and a cell is cut into parts.
+///
+/// **Accuracy**: that of the history at three points of each polygon; linear between them.
+pub(crate) fn of<S: Target>(
+    history: &History<S>,
+    along: Along,
+    drawn: &Gathered,
+    breaks: Vec<Break>,
+) -> Result<Cells, Error> {
+    let strip = Strip::of(drawn);
+    let damped = drawn.rod.damping > 0.0;
+    let fine =
+        damped.then(|| strip.trip / PARTS.min((4.0 * MOST_CELLS as f64 / (strip.trips() * 16.0)).sqrt()).max(2.0));
+    let [rising, falling] = [0.0, strip.trip].map(|late| strip.knots(&breaks, late, fine));
+    let polygons = strip.polygons(&rising, &falling);
+    let [across, up] = GRID[usize::from(damped)];
+    let pixels = || {
+        let middle = |k: usize, count: usize| (k as f64 + 0.5) / count as f64;
+        (0..across * up).map(|k| strip.place(middle(k % across, across), middle(k / across, up))).collect()
+    };
+    let points: Vec<DVec2> = match &polygons {
+        Some(polygons) => polygons.iter().flat_map(|polygon| samples(polygon)).collect(),
+        None => pixels(),
+    };
+    let values = ask(history, along, drawn, &points)?;
+    let mut greatest = 0.0f64;
+    let values = match polygons {
+        Some(polygons) => {
+            let linear =
+                polygons.into_iter().zip(values.chunks(3)).zip(points.chunks(3)).map(|((corners, values), at)| {
+                    let slope = slope([at[1] - at[0], at[2] - at[0]], [values[1] - values[0], values[2] - values[0]]);
+                    let ends = corners.iter().map(|corner| (values[0] + slope.dot(*corner - at[0])).abs());
+                    greatest = ends.fold(greatest, f64::max);
+                    Piece { corners, at: at[0], middle: values[0], slope }
+                });
+            Values::Linear(linear.collect())
+        }
+        None => {
+            greatest = values.iter().fold(0.0, |greatest, value| greatest.max(value.abs()));
+            Values::Grid(across, values)
+        }
+    };
+    Ok(Cells { breaks, values, greatest: round_above(greatest) })
+}
+
+/// The next number with one or two digits from which colours can begin; 0 for 0.
+fn round_above(value: f64) -> f64 {
+    if value == 0.0 {
+        return 0.0;
+    }
+    let power = 10f64.powf(value.log10().floor());
+    let steps = [1.0, 1.2, 1.5, 2.0, 2.5, 3.0, 4.0, 5.0, 6.0, 8.0, 10.0];
+    steps.into_iter().map(|step| step * power).find(|step| *step >= value * (1.0 - 1e-9)).unwrap_or(value)
+}
+
+fn ask<S: Target>(history: &History<S>, along: Along, drawn: &Gathered, points: &[DVec2]) -> Result<Vec<f64>, Error> {
+    let factor = along.factor(&drawn.units);
+    if drawn.rod.damping == 0.0 {
+        let waves = history.waves()?.map(|x| x.to_f64());
+        return Ok(points.iter().map(|point| factor * along.part(waves.at(&point.y, &point.x))).collect());
+    }
+    let values = history.ask(
+        |motion| {
+            let like = motion.end();
+            let value = |point: &DVec2| {
+                Ok(along.part(motion.field(&like.double(point.y), &like.double(point.x), Side::Right)?))
+            };
+            points.iter().map(value).collect::<Result<Vec<_>, Error>>()
+        },
+        |values| values.iter().collect(),
+    )?;
+    Ok(values.iter().map(|value| factor * value.to_f64()).collect())
+}
+
+impl Along {
+    fn part<S>(self, field: Field<S>) -> S {
+        match self {
+            Along::Stress | Along::Strain => field.strain,
+            Along::Velocity => field.velocity,
+        }
+    }
+}
+
+/// Three points inside of a convex polygon that are not on one line.
+fn samples(corners: &[DVec2]) -> [DVec2; 3] {
+    let middle = corners.iter().sum::<DVec2>() / corners.len() as f64;
+    let first = corners[0] - middle;
+    let apart = |corner: &&DVec2| first.perp_dot(**corner - middle).abs();
+    let other = corners.iter().max_by(|a, b| apart(a).total_cmp(&apart(b))).copied().unwrap_or(middle);
+    [middle, middle + 0.5 * first, middle.lerp(other, 0.5)]
+}
+
+/// The slope of a linear function with these differences in these directions.
+fn slope([a, b]: [DVec2; 2], [da, db]: [f64; 2]) -> DVec2 {
+    DVec2::new(da * b.y - db * a.y, a.x * db - b.x * da) / a.perp_dot(b)
+}
+
+/// The rod over the span: `from ≤ t ≤ to`, `0 ≤ x ≤ L`.
+struct Strip {
+    from: f64,
+    to: f64,
+    length: f64,
+    speed: f64,
+    trip: f64,
+}
+
+impl Strip {
+    fn of(drawn: &Gathered) -> Self {
+        let ([from, to], rod) = (drawn.span, &drawn.rod);
+        Strip { from, to, length: rod.length, speed: rod.wave_speed, trip: rod.round_trip() }
+    }
+
+    fn trips(&self) -> f64 {
+        (self.to - self.from) / self.trip
+    }
+
+    fn place(&self, across: f64, up: f64) -> DVec2 {
+        DVec2::new(self.from + (self.to - self.from) * across, self.length * up)
+    }
+
+    /// The values of `t ∓ x/c` at the rays, so much `late`, and at the ends of the strip; no two farther apart than
+    /// `fine`.
+    fn knots(&self, breaks: &[Break], late: f64, fine: Option<f64>) -> Vec<f64> {
+        let half = 0.5 * self.trip;
+        let (least, most) = match late {
+            0.0 => (self.from - half, self.to),
+            _ => (self.from, self.to + half),
+        };
+        let inner = breaks.iter().map(|ray| ray.time + late).filter(|knot| *knot > least && *knot < most);
+        let mut knots: Vec<f64> = [least].into_iter().chain(inner).chain([most]).collect();
+        knots.dedup_by(|b, a| *b - *a < 1e-9 * self.trip);
+        let Some(fine) = fine else { return knots };
+        let parts = |pair: &[f64]| {
+            let (from, width) = (pair[0], pair[1] - pair[0]);
+            let count = (width / fine - 1e-9).ceil().max(1.0) as usize;
+            (0..count).map(move |k| from + width * k as f64 / count as f64)
+        };
+        knots.windows(2).flat_map(parts).chain(knots.last().copied()).collect()
+    }
+
+    /// What of each cell lies in the strip; `None` where there are too many.
+    fn polygons(&self, up: &[f64], down: &[f64]) -> Option<Vec<Vec<DVec2>>> {
+        if up.len() > MOST_CELLS {
+            return None;
+        }
+        let mut polygons = Vec::new();
+        for xi in up.windows(2) {
+            let first = down.partition_point(|eta| *eta <= xi[0]).saturating_sub(1);
+            for eta in down[first..].windows(2).take_while(|eta| eta[0] < xi[1] + self.trip) {
+                let corner = |xi: f64, eta: f64| DVec2::new(0.5 * (xi + eta), 0.5 * self.speed * (eta - xi));
+                let cell = [(0, 0), (1, 0), (1, 1), (0, 1)].map(|(a, b)| corner(xi[a], eta[b]));
+                let inside = self.clipped(cell.to_vec());
+                if !inside.is_empty() {
+                    polygons.push(inside);
+                }
+                if polygons.len() > MOST_CELLS {
+                    return None;
+                }
+            }
+        }
+        Some(polygons)
+    }
+
+    /// What of a convex polygon lies in the strip; empty where that is nothing.
+    fn clipped(&self, mut polygon: Vec<DVec2>) -> Vec<DVec2> {
+        let sides = [(DVec2::X, self.from), (-DVec2::X, -self.to), (DVec2::Y, 0.0), (-DVec2::Y, -self.length)];
+        for (inwards, least) in sides {
+            let depth = |point: &DVec2| inwards.dot(*point) - least;
+            let mut kept = Vec::with_capacity(polygon.len() + 1);
+            for (k, b) in polygon.iter().enumerate() {
+                let a = &polygon[(k + polygon.len() - 1) % polygon.len()];
+                let (before, after) = (depth(a), depth(b));
+                if (before < 0.0) != (after < 0.0) {
+                    kept.push(a.lerp(*b, before / (before - after)));
+                }
+                if after >= 0.0 {
+                    kept.push(*b);
+                }
+            }
+            polygon = kept;
+        }
+        let area: f64 =
+            (2..polygon.len()).map(|k| (polygon[k - 1] - polygon[0]).perp_dot(polygon[k] - polygon[0])).sum();
+        if area.abs() < 1e-9 * self.length * self.trip { Vec::new() } else { polygon }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// The polygons cover the strip once.
+    #[test]
+    fn cells_cover_the_strip() {
+        let strip = Strip { from: 0.3, to: 5.1, length: 2.0, speed: 3.0, trip: 4.0 / 3.0 };
+        let breaks: Vec<Break> = (-3..40).map(|k| Break { time: 0.17 * f64::from(k * k) - 1.0, jump: true }).collect();
+        for fine in [None, Some(0.2)] {
+            let [up, down] = [0.0, strip.trip].map(|late| strip.knots(&breaks, late, fine));
+            let polygons = strip.polygons(&up, &down).unwrap();
+            let area = |polygon: &Vec<DVec2>| -> f64 {
+                (2..polygon.len())
+                    .map(|k| 0.5 * (polygon[k - 1] - polygon[0]).perp_dot(polygon[k] - polygon[0]).abs())
+                    .sum()
+            };
+            let whole: f64 = polygons.iter().map(area).sum();
+            assert!((whole - 4.8 * 2.0).abs() < 1e-9, "{whole}");
+        }
+    }
+
+    #[test]
+    fn colours_end_at_round_numbers() {
+        assert_eq!([0.0, 5.15, 0.5, 2.74, 1.21, 9.06].map(round_above), [0.0, 6.0, 0.5, 3.0, 1.5, 10.0]);
+    }
+
+    #[test]
+    fn slopes_are_those_of_linear_functions() {
+        let value = |point: DVec2| 3.0 - 2.0 * point.x + 0.5 * point.y;
+        let at = samples(&[DVec2::ZERO, DVec2::new(2.0, 1.0), DVec2::new(3.0, 5.0), DVec2::new(0.0, 4.0)]);
+        let found = slope([at[1] - at[0], at[2] - at[0]], [1, 2].map(|k| value(at[k]) - value(at[0])));
+        assert!((found - DVec2::new(-2.0, 0.5)).length() < 1e-12);
+    }
+}

@@ -1,0 +1,310 @@
+//! What pictures of a scene are drawn from: answers of its history in doubles, over the span that is drawn.
+
+use super::cells::{self, Break, Cells};
+use super::{Along, Picture};
+use crate::error::Error;
+use crate::history::History;
+use crate::motion::{EventKind, Motion, Side, StressPiece};
+use crate::number::Scalar;
+use crate::output::straight::straight;
+use crate::problem::{Parameters, Problem, Start};
+use crate::quantity::{Column, Units};
+use crate::reason::Warning;
+use crate::solve::Target;
+
+/// What is asked of every scene.
+#[derive(Clone, Debug)]
+pub(crate) struct Asked {
+    pub(crate) pictures: Vec<Picture>,
+    pub(crate) along: Along,
+    /// World lines of points in place of the field.
+    pub(crate) deformed: bool,
+    /// The span; by default what shows the first contacts.
+    pub(crate) from: Option<f64>,
+    pub(crate) to: Option<f64>,
+}
+
+/// Times and values.
+pub(crate) type Line = Vec<(f64, f64)>;
+
+/// A scene, ready to be drawn.
+#[derive(Clone, Debug)]
+pub(crate) struct Gathered {
+    pub(crate) name: String,
+    pub(crate) units: Units,
+    pub(crate) rod: Parameters<f64>,
+    /// The span that is drawn.
+    pub(crate) span: [f64; 2],
+    /// Where the history ends, or what is known of it.
+    pub(crate) end: f64,
+    /// Those that the span meets.
+    pub(crate) contacts: Vec<[f64; 2]>,
+    /// The columns asked for: times and values, in stretches without a jump.
+    pub(crate) columns: Vec<(Column, Vec<Line>)>,
+    /// `v_x(0,·)` in straight pieces.
+    pub(crate) stress: Vec<StressPiece<f64>>,
+    /// `e_P` and `e_E²` of each contact, where they are defined.
+    pub(crate) restitution: Vec<[Option<f64>; 2]>,
+    pub(crate) cells: Option<Cells>,
+    /// The world lines of points along the rod: `v(x,t)` of each.
+    pub(crate) world: Vec<(f64, Line)>,
+}
+
+/// Round trips that are drawn where nothing is said: as many as can be told apart.
+const TRIPS: f64 = 12.0;
+/// After the last event that is drawn.
+const TRIPS_AFTER: f64 = 1.0;
+/// Points of a line, besides those at rays.
+const POINTS: usize = 400;
+/// Where rays are more than this, a line is drawn through [`DENSE`] points.
+const MOST_BREAKS: usize = 4000;
+const DENSE: usize = 8000;
+/// How far a straight piece of the stress may be off, as a share of the greatest.
+const STRAIGHT: f64 = 1e-3;
+/// Contacts whose restitution is drawn.
+const MOST_CONTACTS: usize = 400;
+/// Points of the rod whose world lines are drawn.
+const WORLD: usize = 5;
+
+impl Asked {
+    /// Whether a picture is among those asked for.
+    fn wants(&self, picture: Picture) -> bool {
+        self.pictures.contains(&picture)
+    }
+
+    fn columns(&self) -> Vec<Column> {
+        let mut columns: Vec<Column> = Vec::new();
+        let pictures = self.pictures.iter().flat_map(|picture| picture.columns());
+        pictures.for_each(|column| {
+            if !columns.contains(&column) {
+                columns.push(column)
+            }
+        });
+        columns
+    }
+
+    /// Asks a history for all that the pictures show.
+    ///
+    /// **Errors**: those of the history; [`Error::TimeOutside`] for a span that it does not reach.
+    pub(crate) fn gather<S: Target>(
+        &self,
+        name: String,
+        problem: &Problem,
+        units: Units,
+        history: &History<S>,
+    ) -> Result<Gathered, Error> {
+        let rod = Parameters::<f64>::of(problem, &())?;
+        let end = known_until(history);
+        let span = self.span(history, end, rod.round_trip())?;
+        let contacts = history.contacts().iter();
+        let contacts = contacts
+            .map(|contact| [contact.from.to_f64(), contact.to.as_ref().map_or(end, Scalar::to_f64)])
+            .filter(|[from, to]| *to >= span[0] && *from <= span[1]);
+        let mut gathered = Gathered {
+            name,
+            units,
+            span,
+            end,
+            contacts: contacts.collect(),
+            columns: Vec::new(),
+            stress: Vec::new(),
+            restitution: Vec::new(),
+            cells: None,
+            world: Vec::new(),
+            rod,
+        };
+        let breaks = breaks(history, problem, &gathered)?;
+        self.gather_columns(history, &breaks, &mut gathered)?;
+        if self.wants(Picture::Stress) {
+            let pieces = history.stress_history()?.pieces.into_iter().map(|piece| piece.map(|x| x.to_f64()));
+            let inside = pieces.filter(|piece| piece.to >= span[0] && piece.from <= span[1]);
+            gathered.stress = straight(&inside.collect::<Vec<_>>(), STRAIGHT);
+        }
+        if self.wants(Picture::Restitution) {
+            for contact in 0..history.contacts().len().min(MOST_CONTACTS) {
+                let found = history.restitution(contact)?;
+                let value = |x: &Result<S, _>| x.as_ref().ok().map(Scalar::to_f64);
+                gathered.restitution.push([value(&found.momentum), value(&found.energy_squared)]);
+            }
+        }
+        if self.wants(Picture::Along) && self.deformed {
+            gathered.world = world_lines(history, &gathered, &breaks)?;
+        } else if self.wants(Picture::Along) {
+            gathered.cells = Some(cells::of(history, self.along, &gathered, breaks)?);
+        }
+        Ok(gathered)
+    }
+
+    /// The span to be drawn: what is asked for, or so much of the history as shows its first contacts.
+    fn span<S: Target>(&self, history: &History<S>, end: f64, trip: f64) -> Result<[f64; 2], Error> {
+        let events: Vec<f64> = history.events().iter().map(|event| event.time.to_f64()).collect();
+        let first = events.first().copied().filter(|first| *first > TRIPS * trip && self.to.is_none());
+        let from = self.from.or(first.map(|first| first - TRIPS_AFTER * trip)).unwrap_or(0.0);
+        if from >= end {
+            return Err(Error::TimeOutside { found: from.to_string(), end: end.to_string() });
+        }
+        let to = self.to.unwrap_or_else(|| {
+            let mut near = events.iter().copied().filter(|event| *event > from && *event <= from + TRIPS * trip);
+            match near.next_back() {
+                _ if end <= from + TRIPS * trip => end,
+                // A long flight is cut; a rod that stays on the ground is seen to come to rest.
+                Some(last) if in_flight(history, last) => last + TRIPS_AFTER * trip,
+                _ => from + TRIPS * trip,
+            }
+        });
+        Ok([from, to.min(end)])
+    }
+
+    fn gather_columns<S: Target>(
+        &self,
+        history: &History<S>,
+        breaks: &[Break],
+        gathered: &mut Gathered,
+    ) -> Result<(), Error> {
+        let columns = self.columns();
+        if columns.is_empty() {
+            return Ok(());
+        }
+        let all: Vec<Column> = [Column::Time, Column::Side].into_iter().chain(columns.iter().copied()).collect();
+        let table = history.ask_columns(&all, None, |motion| times(motion, gathered, breaks))?;
+        let table: Vec<Vec<f64>> = table.iter().map(|column| column.iter().map(Scalar::to_f64).collect()).collect();
+        let (times, sides) = (&table[0], &table[1]);
+        gathered.columns = columns
+            .into_iter()
+            .zip(&table[2..])
+            .map(|(column, values)| {
+                let rows: Vec<usize> = (0..times.len()).collect();
+                // A jump lies between two rows of one time.
+                let stretches =
+                    rows.chunk_by(|a, b| !(sides[*a] < 0.0 && times[*a] == times[*b] && values[*a] != values[*b]));
+                (column, stretches.map(|rows| rows.iter().map(|k| (times[*k], values[*k])).collect()).collect())
+            })
+            .collect();
+        Ok(())
+    }
+}
+
+/// Up to where values are settled: the end, or where the events are no longer told apart.
+fn known_until<S: Target>(history: &History<S>) -> f64 {
+    let open = history.warnings().into_iter().filter_map(|warning| match warning {
+        Warning::RoundingDecides { time: from } | Warning::EventsOverlap { from } | Warning::NotDetermined { from } => {
+            Some(from)
+        }
+        Warning::HopsUnresolved { .. } | Warning::DragNeglected { .. } => None,
+    });
+    open.fold(history.end().to_f64(), f64::min)
+}
+
+/// Whether a flight begins with the event at this time.
+fn in_flight<S: Target>(history: &History<S>, time: f64) -> bool {
+    history.events().iter().any(|event| event.time.to_f64() == time && event.kind == EventKind::Release)
+}
+
+/// The rays of a history, by the time at which each leaves the ground: every ray that is in the rod during the span.
+fn breaks<S: Target>(history: &History<S>, problem: &Problem, drawn: &Gathered) -> Result<Vec<Break>, Error> {
+    let trip = drawn.rod.round_trip();
+    let [from, to] = drawn.span;
+    let inside = |time: &f64| *time >= from - 1.001 * trip && *time <= to;
+    let mut breaks: Vec<Break> = Vec::new();
+    if drawn.rod.damping == 0.0 {
+        let waves = history.waves()?.map(|x| x.to_f64());
+        let greatest = waves.pieces.iter().map(|piece| piece.rate.abs()).fold(f64::MIN_POSITIVE, f64::max);
+        breaks.extend(waves.pieces.windows(2).filter(|pair| inside(&pair[1].from)).map(|pair| {
+            let jump = pair[1].rate - pair[0].at(&pair[1].from).1;
+            Break { time: pair[1].from, jump: jump.abs() > 1e-9 * greatest }
+        }));
+        return Ok(breaks);
+    }
+    // A ray of a damped rod comes back for ever, and fades.
+    let faded = drawn.rod.damping.recip() * -FADED.ln();
+    let mut every = |first: f64, jump: bool| {
+        let trips = ((from - trip - first) / trip).floor().max(0.0);
+        let times = (0..).map(|k| first + (trips + f64::from(k)) * trip);
+        let times = times.take_while(|time| *time <= to && *time <= first + faded);
+        breaks.extend(times.filter(inside).map(|time| Break { time, jump }));
+    };
+    for event in history.events() {
+        every(event.time.to_f64(), event.kind == EventKind::Impact && event.end_velocity.to_f64() != 0.0);
+    }
+    if let Start::Profile(profile) = &problem.start {
+        let inner = profile.displacement.iter().chain(&profile.velocity);
+        let points = inner.map(|(x, _)| x.to_f64() / drawn.rod.wave_speed).chain([0.0, trip / 2.0]);
+        points.for_each(|late| {
+            every(-late, true);
+            every(late - trip, true);
+        });
+    }
+    breaks.sort_by(|a, b| a.time.total_cmp(&b.time).then(b.jump.cmp(&a.jump)));
+    breaks.dedup_by(|b, a| b.time - a.time < 1e-9 * trip);
+    Ok(breaks)
+}
+
+/// What is left of a ray that is drawn no more.
+const FADED: f64 = 1e-3;
+
+/// Times at which lines are drawn: evenly spaced, at events, and where rays are at the ends.
+fn times<S: Scalar>(motion: &dyn Motion<S>, drawn: &Gathered, breaks: &[Break]) -> Result<Vec<S>, Error> {
+    let (end, [from, to]) = (motion.end(), drawn.span);
+    let (trip, half) = (drawn.rod.round_trip(), 0.5 * drawn.rod.round_trip());
+    let count = if breaks.len() > MOST_BREAKS { DENSE } else { POINTS };
+    let even = (0..=count).map(|k| from + (to - from) * k as f64 / count as f64);
+    // The numbers of the engine itself where two limits may differ: they meet the rays.
+    let mut times: Vec<(f64, S)> =
+        motion.events().iter().map(|event| (event.time.to_f64(), event.time.clone())).collect();
+    let trips = motion.scales().time;
+    if breaks.len() <= MOST_BREAKS {
+        match motion.waves() {
+            Ok(waves) => {
+                let late = trips.clone() / trips.int(2);
+                for piece in waves.pieces {
+                    let top = piece.from.clone() + &late;
+                    times.extend([piece.from, top].map(|time| (time.to_f64(), time)));
+                }
+            }
+            Err(Error::NoWaves) => {
+                let returns = |(first, event): (f64, S)| {
+                    let begin = ((from - first) / trip).floor().max(0.0) as i64;
+                    let last = ((to - first) / half).floor().max(0.0) as i64;
+                    let trips = &trips;
+                    (2 * begin..=last).map(move |k| {
+                        let time = trips.int(k) * trips / trips.int(2) + &event;
+                        (time.to_f64(), time)
+                    })
+                };
+                let events = std::mem::take(&mut times);
+                times.extend(events.into_iter().flat_map(returns));
+            }
+            Err(error) => return Err(error),
+        }
+    }
+    times.extend(even.map(|time| (time, end.double(time))));
+    times.retain(|(time, _)| *time >= from && *time <= to);
+    times.sort_by(|a, b| a.0.total_cmp(&b.0));
+    // Of neighbours within rounding the one from the engine, which comes first where they are equal.
+    times.dedup_by(|b, a| b.0 - a.0 <= 1e-12 * to.abs().max(trip));
+    if let Some(last) = times.last_mut().filter(|(time, _)| *time >= end.to_f64()) {
+        last.1 = end;
+    }
+    Ok(times.into_iter().map(|(_, time)| time).collect())
+}
+
+/// `v(x,t)` of points along the rod.
+fn world_lines<S: Target>(history: &History<S>, drawn: &Gathered, breaks: &[Break]) -> Result<Vec<(f64, Line)>, Error> {
+    let inner: Vec<f64> = (0..WORLD).map(|k| k as f64 / (WORLD - 1) as f64).collect();
+    let found = history.ask(
+        |motion| {
+            let length = motion.scales().length;
+            let mut rows = Vec::new();
+            for time in times(motion, drawn, breaks)? {
+                for share in &inner {
+                    let point = length.double(*share) * &length;
+                    rows.push((time.clone(), motion.field(&point, &time, Side::Right)?.displacement));
+                }
+            }
+            Ok(rows)
+        },
+        |rows| rows.iter().map(|row| &row.1).collect(),
+    )?;
+    let line = |k: usize| found.iter().skip(k).step_by(WORLD).map(|(t, v)| (t.to_f64(), v.to_f64())).collect();
+    Ok(inner.iter().enumerate().map(|(k, share)| (share * drawn.rod.length, line(k))).collect())
+}

@@ -1,0 +1,387 @@
+//! Panels of what a history answers.
+
+use glam::DVec2;
+
+use super::cells::{Cells, Values};
+use super::gather::Line;
+use super::{Along, Asked, Gathered, Picture};
+use crate::output::draw::{
+    AREAS, Axis, Key, LINES, Layer, Mark, Panel, Piece, Shape, Sheet, Stroke, diverging, plain, thinned,
+};
+use crate::quantity::{Column, Measure};
+
+const CONTACT: &str = "#dcdcdc";
+const GROUND: &str = "#000000";
+const RAY: Stroke = Stroke::new("#000000", 0.12);
+const KINK: Stroke = Stroke::new("#707070", 0.1).dashed("0.8 0.6");
+const JUMP: &str = "0.5 0.5";
+const WIDTH: f64 = 0.4;
+/// Lines of scenes and of quantities in one picture.
+const DASHES: [&str; 3] = ["", "2 0.9", "0.5 0.7"];
+/// More rays than this are not drawn.
+const MOST_RAYS: usize = 300;
+/// More jumps than this are not drawn.
+const MOST_JUMPS: usize = 2000;
+
+/// The pictures asked for, of all scenes.
+///
+/// **Errors**: the pictures of scenes whose units differ, as the symbol and both units.
+pub(crate) fn sheet(asked: &Asked, scenes: &[Gathered], title: Vec<String>) -> Result<Sheet, String> {
+    let mut panels = Vec::new();
+    for picture in &asked.pictures {
+        match picture {
+            Picture::Along | Picture::Energy => {
+                for scene in scenes {
+                    let mut panel = if *picture == Picture::Energy { energy(scene) } else { along(asked, scene) };
+                    if scenes.len() > 1 {
+                        panel.title = format!("{}: {}", plain(&scene.name), panel.title);
+                    }
+                    panels.push(panel);
+                }
+            }
+            _ => panels.push(lines(*picture, scenes)?),
+        }
+    }
+    Ok(Sheet { title, panels })
+}
+
+fn time_axis(scenes: &[Gathered]) -> Axis {
+    let from = scenes.iter().map(|scene| scene.span[0]).fold(f64::INFINITY, f64::min);
+    let to = scenes.iter().map(|scene| scene.span[1]).fold(0.0, f64::max);
+    Axis::new("t", scenes.first().map_or("", |scene| scene.units.name(Measure::Time)), [from, to])
+}
+
+fn points(line: &[(f64, f64)]) -> Vec<DVec2> {
+    thinned(line.iter().map(|(t, value)| DVec2::new(*t, *value)).collect())
+}
+
+/// The times on the ground, over the whole height of a picture.
+fn contacts(scene: &Gathered, y: &Axis) -> Layer {
+    let area = |[from, to]: &[f64; 2]| {
+        [(*from, y.from), (*to, y.from), (*to, y.to), (*from, y.to)].map(|(t, value)| DVec2::new(t, value)).to_vec()
+    };
+    Layer::new("contacts", Shape::Areas(scene.contacts.iter().map(area).collect(), CONTACT))
+}
+
+fn zero(x: &Axis) -> Layer {
+    let line = vec![DVec2::new(x.from, 0.0), DVec2::new(x.to, 0.0)];
+    Layer::new("zero", Shape::Lines(vec![line], Stroke::new("#808080", 0.15)))
+}
+
+/// One line of a scene: its smooth stretches, with the symbol of the quantity.
+struct Curve<'a> {
+    symbol: &'static str,
+    scene: &'a Gathered,
+    stretches: Vec<Line>,
+}
+
+/// Lines over time, or over bounces, of all scenes.
+fn lines(picture: Picture, scenes: &[Gathered]) -> Result<Panel, String> {
+    if picture == Picture::Restitution {
+        return Ok(restitution(scenes));
+    }
+    let mut curves: Vec<Curve<'_>> = Vec::new();
+    for scene in scenes {
+        match picture {
+            Picture::Stress => curves.push(stress(scene)),
+            picture => curves.extend(picture.columns().into_iter().map(|column| {
+                let found = scene.columns.iter().find(|found| found.0 == column);
+                let stretches = found.map_or_else(Vec::new, |found| found.1.clone());
+                Curve { symbol: symbol(column), scene, stretches }
+            })),
+        }
+    }
+    let units: Vec<&str> = scenes.iter().map(|scene| unit(picture, scene)).collect();
+    if let Some(other) = units.iter().find(|unit| **unit != units[0]) {
+        let name = |unit: &str| if unit.is_empty() { "none".into() } else { format!("`{unit}`") };
+        return Err(format!("found scenes in different units, {} and {}", name(units[0]), name(other)));
+    }
+    let (title, label) = match picture {
+        Picture::Stress if scenes.iter().all(|scene| scene.units.has_material()) => {
+            ("stress at the ground", "E v_x(0,t)")
+        }
+        Picture::Stress => ("strain at the ground", "v_x(0,t)"),
+        Picture::Column(column) => (short(column), symbol(column)),
+        _ => ("both ends and the centre of mass", "displacement"),
+    };
+    let x = time_axis(scenes);
+    let values = curves.iter().flat_map(|curve| curve.stretches.iter().flatten()).map(|(_, value)| *value);
+    let y = Axis::new(label, units.first().copied().unwrap_or(""), Axis::range(values, true));
+    let (mut layers, mut legend) = (Vec::new(), Vec::new());
+    if let [scene] = scenes {
+        layers.push(contacts(scene, &y));
+        if !scene.contacts.is_empty() {
+            legend.push(Key::Area("contact".into(), CONTACT));
+        }
+    }
+    layers.push(zero(&x));
+    let each = curves.len() / scenes.len().max(1);
+    for (k, curve) in curves.iter().enumerate() {
+        let (of_scene, of_quantity) = (k / each.max(1), k % each.max(1));
+        // One scene has a colour for each quantity, several a colour for each scene.
+        let look = match scenes.len() {
+            1 => Stroke::new(LINES[of_quantity % LINES.len()], WIDTH),
+            _ => Stroke::new(LINES[of_scene % LINES.len()], WIDTH).dashed(DASHES[of_quantity % DASHES.len()]),
+        };
+        let jumps = curve.stretches.windows(2).filter_map(|pair| {
+            let ends = [pair[0].last()?, pair[1].first()?];
+            Some(ends.map(|(t, value)| DVec2::new(*t, *value)).to_vec())
+        });
+        let jumps: Vec<Vec<DVec2>> = jumps.collect();
+        if !jumps.is_empty() && jumps.len() <= MOST_JUMPS {
+            layers.push(Layer::new("jumps", Shape::Lines(jumps, Stroke { width: 0.15, dash: JUMP, ..look })));
+        }
+        let stretches = curve.stretches.iter().filter(|stretch| stretch.len() > 1);
+        layers.push(Layer::new("curve", Shape::Lines(stretches.map(|stretch| points(stretch)).collect(), look)));
+        match (scenes.len(), each) {
+            (1, 1) => (),
+            (1, _) => legend.push(Key::Line(curve.symbol.into(), look)),
+            _ if of_quantity == 0 => legend.push(Key::Line(plain(&curve.scene.name), look)),
+            _ => (),
+        }
+    }
+    if scenes.len() > 1 && each > 1 {
+        let keys = curves.iter().take(each).zip(DASHES.iter().cycle());
+        legend.extend(
+            keys.map(|(curve, dash)| Key::Line(curve.symbol.into(), Stroke::new("#000000", WIDTH).dashed(dash))),
+        );
+    }
+    Ok(Panel { title: title.into(), x, y, layers, legend })
+}
+
+/// What a column is, in a few words.
+fn short(column: Column) -> &'static str {
+    let meaning = column.meaning();
+    [",", ":", " above"]
+        .iter()
+        .filter_map(|end| meaning.split_once(end))
+        .map(|cut| cut.0)
+        .min_by_key(|cut| cut.len())
+        .unwrap_or(meaning)
+}
+
+/// The symbol of a column, as long as it fits beside an axis.
+fn symbol(column: Column) -> &'static str {
+    match column {
+        Column::KineticEnergy | Column::StrainEnergy | Column::GravityEnergy => "E",
+        Column::Contact => "contact",
+        column => column.symbol(),
+    }
+}
+
+fn unit(picture: Picture, scene: &Gathered) -> &'static str {
+    match picture {
+        Picture::Stress if scene.units.has_material() => scene.units.name(Measure::Stress),
+        Picture::Motion => scene.units.name(Measure::Length),
+        Picture::Column(column) => column.unit(&scene.units),
+        Picture::Along | Picture::Stress | Picture::Energy | Picture::Restitution => "",
+    }
+}
+
+fn stress(scene: &Gathered) -> Curve<'_> {
+    let factor = scene.units.factor::<f64>(Measure::Stress, &()).unwrap_or(1.0);
+    let peak =
+        scene.stress.iter().flat_map(|piece| [piece.left, piece.right]).fold(0.0, |peak, v| f64::max(peak, v.abs()));
+    let mut stretches: Vec<Line> = Vec::new();
+    for piece in &scene.stress {
+        let [from, to] = [piece.from.max(scene.span[0]), piece.to.min(scene.span[1])];
+        let ends = [from, to].map(|t| (t, factor * piece.eval(&t)));
+        match stretches.last_mut() {
+            Some(last) if last.last().is_some_and(|end| (end.1 - ends[0].1).abs() <= 1e-6 * factor * peak) => {
+                last.push(ends[1]);
+            }
+            _ => stretches.push(ends.to_vec()),
+        }
+    }
+    Curve { symbol: "v_x(0,t)", scene, stretches }
+}
+
+fn restitution(scenes: &[Gathered]) -> Panel {
+    let series = [("e_P", Mark::Diamond), ("e_E²", Mark::Dot)];
+    let values = scenes.iter().flat_map(|scene| scene.restitution.iter().flatten().flatten().copied());
+    let most = scenes.iter().map(|scene| scene.restitution.len()).max().unwrap_or(0);
+    let mut x = Axis::new("bounce", "", [0.5, most.max(1) as f64 + 0.5]);
+    if most <= 12 {
+        x.ticks = Some((1..=most).map(|k| (k as f64, k.to_string())).collect());
+    }
+    let y = Axis::new("restitution", "", Axis::range(values.chain([1.0]), true));
+    let one = vec![DVec2::new(x.from, 1.0), DVec2::new(x.to, 1.0)];
+    let mut layers = vec![Layer::new("zero", Shape::Lines(vec![one], Stroke::new("#808080", 0.15)))];
+    let mut legend = Vec::new();
+    for (s, scene) in scenes.iter().enumerate() {
+        for (q, (name, mark)) in series.into_iter().enumerate() {
+            let color = LINES[if scenes.len() == 1 { q } else { s } % LINES.len()];
+            let numbered = scene.restitution.iter().enumerate().collect::<Vec<_>>();
+            // No line over a bounce for which it is not defined.
+            let stretches = numbered.split(|(_, pair)| pair[q].is_none()).map(|known| {
+                known.iter().filter_map(|(k, pair)| Some(DVec2::new((k + 1) as f64, pair[q]?))).collect::<Vec<_>>()
+            });
+            let lines: Vec<Vec<DVec2>> = stretches.filter(|line| !line.is_empty()).collect();
+            let dots = lines.concat();
+            let line = Stroke { dash: DASHES[q], ..Stroke::new(color, 0.15) };
+            layers.push(Layer::new("curve", Shape::Lines(lines, line)));
+            layers.push(Layer::new("marks", Shape::Marks(dots, mark, color)));
+            legend.push(Key::Mark(
+                if scenes.len() == 1 { name.into() } else { format!("{name}, {}", plain(&scene.name)) },
+                mark,
+                color,
+            ));
+        }
+    }
+    Panel { title: "restitution of each bounce".into(), x, y, layers, legend }
+}
+
+/// Energies on top of each other: gravity from its least, the motion of the centre of mass, the vibration. The upper
+/// edge is `E`.
+fn energy(scene: &Gathered) -> Panel {
+    let column = |column: Column| {
+        let found = scene.columns.iter().find(|found| found.0 == column);
+        found.map_or_else(Vec::new, |found| found.1.concat())
+    };
+    let edges = [Column::GravityEnergy, Column::TranslationalEnergy, Column::Energy].map(column);
+    let least = edges[0].iter().map(|(_, value)| *value).fold(f64::INFINITY, f64::min);
+    let base = if least.is_finite() { least.min(0.0) } else { 0.0 };
+    let x = time_axis(std::slice::from_ref(scene));
+    let most = edges[2].iter().map(|(_, value)| *value).fold(base, f64::max);
+    let space = if most > base { 0.06 * (most - base) } else { 1.0 };
+    let unit = scene.units.name(Measure::Energy);
+    // Below them the times on the ground.
+    let floor = base - 0.05 * (most + space - base);
+    let y = Axis::new("E", unit, [floor, most + space]);
+    let names = ["gravity", "centre of mass", "vibration E_z"];
+    let mut below: Vec<DVec2> = edges[0].iter().map(|(t, _)| DVec2::new(*t, base)).collect();
+    let (mut layers, mut legend) = (Vec::new(), Vec::new());
+    // Without gravity its layer is empty.
+    let weightless = scene.rod.gravity == 0.0;
+    for ((edge, name), color) in edges.iter().zip(names).zip(AREAS).skip(usize::from(weightless)) {
+        let edge: Vec<DVec2> = edge.iter().map(|(t, value)| DVec2::new(*t, *value)).collect();
+        let area = [thinned(edge.clone()), thinned(below).into_iter().rev().collect()].concat();
+        layers.push(Layer::new("area", Shape::Areas(vec![area], color)));
+        legend.push(Key::Area(name.into(), color));
+        below = edge;
+    }
+    layers.push(Layer::new("curve", Shape::Lines(vec![thinned(below)], Stroke::new("#000000", 0.25))));
+    layers.push(zero(&x));
+    layers.push(bars(scene, [floor, base]));
+    Panel { title: "energy: the upper edge is E".into(), x, y, layers, legend }
+}
+
+/// The times on the ground as bars between two heights.
+fn bars(scene: &Gathered, [low, high]: [f64; 2]) -> Layer {
+    let bar = |[from, to]: &[f64; 2]| {
+        [(*from, low), (*to, low), (*to, high), (*from, high)].map(|(t, x)| DVec2::new(t, x)).to_vec()
+    };
+    Layer::new("contacts", Shape::Areas(scene.contacts.iter().map(bar).collect(), GROUND))
+}
+
+/// The rod over time.
+fn along(asked: &Asked, scene: &Gathered) -> Panel {
+    let x = time_axis(std::slice::from_ref(scene));
+    let unit = scene.units.name(Measure::Length);
+    if asked.deformed {
+        return world(scene, x);
+    }
+    let length = scene.rod.length;
+    let floor = -0.05 * length;
+    let y = Axis::new("x", unit, [floor, length]);
+    let (mut layers, mut legend) = (Vec::new(), Vec::new());
+    if let Some(cells) = &scene.cells {
+        layers.push(Layer::new("cells", field(cells, scene)));
+        layers.extend(rays(cells, scene));
+        legend.push(colors(asked.along, cells, scene));
+    }
+    layers.push(bars(scene, [floor, 0.0]));
+    legend.push(Key::Area("contact".into(), GROUND));
+    let title = format!("{} along the rod", asked.along.name(&scene.units));
+    Panel { title, x, y, layers, legend }
+}
+
+/// The key to the colours.
+fn colors(along: Along, cells: &Cells, scene: &Gathered) -> Key {
+    let unit = scene.units.name(along.measure(&scene.units));
+    let axis = Axis::new(along.symbol(&scene.units), unit, [-cells.greatest, cells.greatest]);
+    let most = axis.shown(cells.greatest);
+    Key::Colors(axis.label, [format!("−{most}"), "0".into(), most])
+}
+
+fn field(cells: &Cells, scene: &Gathered) -> Shape {
+    let unit = if cells.greatest > 0.0 { cells.greatest } else { 1.0 };
+    match &cells.values {
+        Values::Linear(pieces) => {
+            let share =
+                |piece: &Piece| Piece { middle: piece.middle / unit, slope: piece.slope / unit, ..piece.clone() };
+            Shape::Pieces(pieces.iter().map(share).collect())
+        }
+        Values::Grid(across, values) => {
+            let rows = values.len() / across;
+            let [from, to] = scene.span;
+            let place = |column: usize, row: usize| {
+                DVec2::new(
+                    from + (to - from) * column as f64 / *across as f64,
+                    scene.rod.length * row as f64 / rows as f64,
+                )
+            };
+            // Few colours, so that neighbours are often one rectangle.
+            let color = |value: &f64| (value / unit * 24.0).round() as i32;
+            let mut runs: std::collections::BTreeMap<i32, Vec<[DVec2; 2]>> = std::collections::BTreeMap::new();
+            for (row, values) in values.chunks(*across).enumerate() {
+                let mut column = 0;
+                for run in values.chunk_by(|a, b| color(a) == color(b)) {
+                    let ends = [place(column, row + 1), place(column + run.len(), row)];
+                    runs.entry(color(&run[0])).or_default().push(ends);
+                    column += run.len();
+                }
+            }
+            Shape::Runs(runs.into_iter().map(|(color, ends)| (diverging(f64::from(color) / 24.0), ends)).collect())
+        }
+    }
+}
+
+/// Lines up from the ground and back: jumps, and what only bends the field.
+fn rays(cells: &Cells, scene: &Gathered) -> Vec<Layer> {
+    let (length, trip) = (scene.rod.length, scene.rod.round_trip());
+    let path =
+        |from: f64| vec![DVec2::new(from, 0.0), DVec2::new(from + 0.5 * trip, length), DVec2::new(from + trip, 0.0)];
+    let of = |jump: bool| -> Vec<Vec<DVec2>> {
+        cells.breaks.iter().filter(|ray| ray.jump == jump).map(|ray| path(ray.time)).collect()
+    };
+    let few = |lines: &Vec<Vec<DVec2>>| !lines.is_empty() && cells.breaks.len() <= MOST_RAYS;
+    let kinks = Some(of(false)).filter(few).map(|lines| Layer::new("kinks", Shape::Lines(lines, KINK)));
+    let jumps = Some(of(true)).filter(few).map(|lines| Layer::new("rays", Shape::Lines(lines, RAY)));
+    kinks.into_iter().chain(jumps).collect()
+}
+
+/// World lines of points along the rod, with displacements as large as they can be seen.
+fn world(scene: &Gathered, x: Axis) -> Panel {
+    let length = scene.rod.length;
+    let all = || scene.world.iter().flat_map(|(_, line)| line.iter().map(|(_, v)| v.abs()));
+    let most = all().fold(0.0, f64::max);
+    // Displacements below a twentieth of the rod are drawn larger, by a power of ten.
+    let times = match most / length {
+        share if share > 0.0 && share < 0.05 => 10f64.powf((0.3 / share).log10().floor()),
+        _ => 1.0,
+    };
+    let line =
+        |(point, line): &(f64, Line)| thinned(line.iter().map(|(t, v)| DVec2::new(*t, point + times * v)).collect());
+    let lines: Vec<Vec<DVec2>> = scene.world.iter().map(line).collect();
+    let heights = || lines.iter().flatten().map(|point| point.y);
+    let [_, high] = Axis::range(heights(), true);
+    let floor = heights().fold(0.0, f64::min) - 0.05 * (high - heights().fold(0.0, f64::min));
+    let label = if times == 1.0 { "x + v".into() } else { format!("x + {times} v") };
+    let y = Axis::new(&label, scene.units.name(Measure::Length), [floor, high]);
+    let body = match (lines.first(), lines.last()) {
+        (Some(low), Some(top)) => [low.clone(), top.iter().rev().copied().collect()].concat(),
+        _ => Vec::new(),
+    };
+    let ends = [lines.first(), lines.last()].into_iter().flatten().cloned().collect();
+    let inner = lines.iter().skip(1).take(lines.len().saturating_sub(2)).cloned().collect();
+    let layers = vec![
+        Layer::new("area", Shape::Areas(vec![body], AREAS[1])),
+        zero(&x),
+        Layer::new("curve", Shape::Lines(inner, Stroke::new("#000000", 0.12))),
+        Layer::new("curve", Shape::Lines(ends, Stroke::new(LINES[0], WIDTH))),
+        bars(scene, [floor, 0.0]),
+    ];
+    let legend = vec![Key::Area("rod".into(), AREAS[1]), Key::Area("contact".into(), GROUND)];
+    Panel { title: "the rod where it is".into(), x, y, layers, legend }
+}
