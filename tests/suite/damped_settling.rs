@@ -157,7 +157,7 @@ fn damping_that_cells_cannot_follow_is_refused_by_name() {
 /// sum over modes, which does not.
 #[test]
 fn late_in_a_contact_every_value_is_within_its_bound() {
-    for (gravity, speed, damping) in [("1", "0.001", "0.01"), ("1", "1/2", "0.05"), ("3", "1", "1.5")] {
+    for (gravity, speed, damping) in [("1", "0.001", "0.01"), ("1", "0.01", "0.1"), ("3", "1", "1.5")] {
         let mut problem = uniform("1/2", "1", gravity, speed, Run::Time(250.into()));
         problem.rod.damping = damping.parse().ok();
         let history = problem.solve().unwrap();

@@ -129,7 +129,7 @@ fn what_is_no_sweep_is_said() {
     assert!(said(&["--vary", "rod.damping=1 m"]).contains("found `1 m`, expected a number such as"));
     assert!(
         said(&["--vary", "rod.damping=0..1:5000", "--vary", "rod.length=1..2:5000"])
-            .contains("found 5000 × 5000 points, expected at most 10000000")
+            .contains("5000 points, expected at most 10000000")
     );
     assert!(said(&["--vary", "rod.damping=0", "--shard", "3/2"]).contains("expected I/N such as 3/8"));
     assert!(said(&["--vary", "rod.damping=0", "--time", "-1"]).contains("time"));
@@ -164,4 +164,17 @@ fn the_map_of_regimes_is_the_same_from_any_number_of_threads() {
     assert!(said(&["--damping-ratio", "1"]).contains("expected two values or more that increase"));
     assert!(said(&["--speed-ratio", "0..1:5"]).contains("M from above zero"));
     assert!(said(&["-o", "map.txt"]).contains("expected a file that ends in .svg, .png, .csv or .npz"));
+}
+
+/// c = L = g = 1: μ = 1 lands first at 3 + √2, which is no fraction.
+#[cfg(feature = "mp")]
+#[test]
+fn notes_say_where_exactness_ends_and_a_time_must_be_of_use() {
+    let vary = ["paper-weak", "--vary", "impact.speed=1,4", "--vary", "run.impacts=2", "--format", "json"];
+    let asked = ["--quantity", "last_event", "--exact", "--digits", "20"];
+    let json: Value = serde_json::from_str(&run(&[&vary[..], &asked].concat()).unwrap()).unwrap();
+    let note = json["points"][0]["notes"]["last_event"].as_str().unwrap();
+    assert!(note.contains("t = 3 + √2") && note.ends_with("the number is in 20 digits"), "{note}");
+    let said = run(&[&vary[..], &["--quantity", "bounce_time", "--time", "1"]].concat()).unwrap_err();
+    assert!(said.contains("found time 1, expected none: bounce_time is not asked at a time"), "{said}");
 }
