@@ -4,7 +4,7 @@ use std::ops::ControlFlow;
 
 use super::history::Damped;
 use super::piece::Unresolved;
-use super::with_bounds::Bounding;
+use super::with_bounds::{Bounding, Pair};
 use crate::error::Error;
 use crate::first_contact::{Bounce, ContactHistory, FirstContact};
 use crate::motion::{
@@ -279,7 +279,7 @@ impl<S: RoundedSpecial> Bounding<S> for ContactThenCells<S> {
         first.then_some(&self.contact as &dyn Motion<Estimate<S>>)
     }
 
-    fn bounded_centre(&self, time: &S) -> Option<Result<(Estimate<S>, Estimate<S>), Error>> {
+    fn bounded_centre(&self, time: &S) -> Option<Pair<S>> {
         match (self.in_contact(time, Side::Left).ok()?, self.events.get(2)) {
             (true, _) => Some(self.contact.centre(&time.carry())),
             // Until the next impact the centre flies freely, whatever the rod does.

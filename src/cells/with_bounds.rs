@@ -18,6 +18,9 @@ pub struct WithBounds<S, H> {
     contacts: Vec<Contact<Estimate<S>>>,
 }
 
+/// Two numbers with their bounds.
+pub(super) type Pair<S> = Result<(Estimate<S>, Estimate<S>), Error>;
+
 /// A history, parts of which carry their own bounds.
 pub trait Bounding<S: Rounded>: Motion<S> {
     /// What answers with bounds of its own at this limit of this time; `None` where [`Motion::uncertainty`] bounds it.
@@ -26,7 +29,7 @@ pub trait Bounding<S: Rounded>: Motion<S> {
     }
 
     /// `h` and `h′` with their bounds, where they are known better than the rest.
-    fn bounded_centre(&self, time: &S) -> Option<Result<(Estimate<S>, Estimate<S>), Error>> {
+    fn bounded_centre(&self, time: &S) -> Option<Pair<S>> {
         self.bounded(time, Side::Left).map(|form| form.centre(&rounded(time)))
     }
 }

@@ -23,8 +23,8 @@ use crate::sweep::{self, Asked, Axis, Grid, Journal, Point, SweepError, journal_
 pub(super) struct Sweep {
     /// A scene file, `-`, or a built-in scene
     scene: String,
-    /// What is varied: PATH=V1,V2,… or PATH=A..B:N, with :log in geometric progression; several times for a grid. Values
-    /// between A and B are the shortest decimals of doubles, as the rows spell them
+    /// What is varied: PATH=V1,V2,… or PATH=A..B:N, with :log in geometric progression; several times for a grid.
+    /// Values between A and B are the shortest decimals of doubles, as the rows spell them
     #[arg(long, value_name = "PATH=VALUES", required = true, allow_hyphen_values = true)]
     vary: Vec<String>,
     /// What is asked of each point, separated by commas
