@@ -271,7 +271,8 @@ impl Display for Warning {
                 write!(f, "from t = {from} on the bound of the error no longer tells events apart")
             }
             Warning::NotDetermined { from } => {
-                write!(f, "from t = {from:.6} on, the events are not determined in this precision: ask for more digits")
+                let from = short(*from);
+                write!(f, "from t = {from} on, the events are not determined in this precision: ask for more digits")
             }
             Warning::HopsUnresolved { from, longest, landings } => {
                 let (from, word) = (from.decimal(9), if *landings == 1 { "landing" } else { "landings" });

@@ -4,10 +4,12 @@ use std::ops::ControlFlow;
 
 use super::history::Damped;
 use super::piece::Unresolved;
+use super::with_bounds::{Bounding, Pair};
 use crate::error::Error;
 use crate::first_contact::{Bounce, ContactHistory, FirstContact};
-use crate::motion::unobserved;
-use crate::motion::{Contact, Ending, Energy, Event, Field, Motion, Scales, Side, StressPiece, Uncertainty};
+use crate::motion::{
+    Contact, Ending, Energy, Event, Field, Motion, Scales, Side, StressPiece, Uncertainty, unobserved,
+};
 use crate::number::Estimate;
 use crate::problem::{Parameters, Problem, Run};
 use crate::reason::{Reason, Warning};
@@ -83,7 +85,7 @@ impl<S: RoundedSpecial> ContactThenCells<S> {
             Run::Time(time) => Some(S::from_number(time, precision).carry()),
             Run::Impacts(_) => None,
         };
-        let contact = ContactHistory::new(FirstContact::new(&rod.carry()), bounce, asked)?;
+        let contact = ContactHistory::new(FirstContact::new(&Parameters::of(problem, precision)?), bounce, asked)?;
         let events: Vec<Event<S>> =
             contact.events().iter().map(|event| event.clone().map(Estimate::into_value)).collect();
         let bounce = events.get(1).map(|release| release.time.clone());
@@ -121,7 +123,9 @@ impl<S: RoundedSpecial> ContactThenCells<S> {
             return Ok(());
         }
         let release = (&bounce, self.events[1].time_error, &self.events[1].end_velocity);
-        let march = Damped::after_bounce(problem, precision, self.digits, self.contact.form(), release, observe)?;
+        // The cells account for the roundings of the parameters themselves.
+        let form = FirstContact::new(&self.rod.carry());
+        let march = Damped::after_bounce(problem, precision, self.digits, &form, release, observe)?;
         self.events.extend(march.events().iter().skip(1).cloned());
         self.contacts.extend(march.contacts().iter().cloned());
         let error = march.error_estimate();
@@ -214,14 +218,7 @@ impl<S: RoundedSpecial> Motion<S> for ContactThenCells<S> {
     }
 
     fn centre(&self, time: &S) -> Result<(S, S), Error> {
-        if self.in_contact(time, Side::Left)? {
-            return self.contact.centre(&time.carry()).map(pair);
-        }
-        // Until the next impact the centre flies freely, whatever the rod does.
-        if self.events.get(2).is_none_or(|next| *time <= next.time) {
-            return self.contact.flight(&time.carry()).map(pair);
-        }
-        self.later()?.centre(time)
+        self.bounded_centre(time).map_or_else(|| self.later()?.centre(time), |centre| centre.map(pair))
     }
 
     fn energy(&self, time: &S) -> Result<Energy<S>, Error> {
@@ -272,6 +269,23 @@ impl<S: RoundedSpecial> Motion<S> for ContactThenCells<S> {
 
     fn warnings(&self) -> &[Warning] {
         self.march.as_ref().map_or(&[], |march| march.warnings())
+    }
+}
+
+/// The first contact, whose closed forms carry their own bounds: late in it the rays cancel.
+impl<S: RoundedSpecial> Bounding<S> for ContactThenCells<S> {
+    fn bounded(&self, time: &S, side: Side) -> Option<&dyn Motion<Estimate<S>>> {
+        let first = self.in_contact(time, side).is_ok_and(|is| is) || self.at_bounce(time);
+        first.then_some(&self.contact as &dyn Motion<Estimate<S>>)
+    }
+
+    fn bounded_centre(&self, time: &S) -> Option<Pair<S>> {
+        match (self.in_contact(time, Side::Left).ok()?, self.events.get(2)) {
+            (true, _) => Some(self.contact.centre(&time.carry())),
+            // Until the next impact the centre flies freely, whatever the rod does.
+            (false, next) if next.is_none_or(|next| *time <= next.time) => Some(self.contact.flight(&time.carry())),
+            _ => None,
+        }
     }
 }
 

@@ -11,15 +11,16 @@ use super::record::{Node, Record};
 use super::root::smallest;
 use super::series::{at_one, at_zero, evaluate};
 use super::start::{Data, Units};
+use super::with_bounds::Bounding;
 use crate::error::Error;
 use crate::first_contact::FirstContact;
-use crate::motion::unobserved;
-use crate::motion::{Contact, Ending, Energy, Event, EventKind, Field, Motion, Scales, Side, StressPiece, Uncertainty};
+use crate::motion::{
+    Contact, Ending, Energy, Event, EventKind, Field, Motion, Scales, Side, StressPiece, Uncertainty, unobserved,
+};
 use crate::number::Estimate;
 use crate::problem::{Parameters, Problem, Run, Top};
 use crate::reason::Warning;
-use crate::special::RoundedSpecial;
-use crate::special::{log_mean, log_rest};
+use crate::special::{RoundedSpecial, log_mean, log_rest};
 
 /// The motion of the damped rod through any number of impacts, `r ≥ 0`.
 ///
@@ -336,6 +337,8 @@ impl<S: RoundedSpecial> Damped<S> {
         contacts
     }
 }
+
+impl<S: RoundedSpecial> Bounding<S> for Damped<S> {}
 
 impl<S: RoundedSpecial> Motion<S> for Damped<S> {
     fn end(&self) -> S {

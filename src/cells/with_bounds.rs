@@ -18,6 +18,27 @@ pub struct WithBounds<S, H> {
     contacts: Vec<Contact<Estimate<S>>>,
 }
 
+/// Two numbers with their bounds.
+pub(super) type Pair<S> = Result<(Estimate<S>, Estimate<S>), Error>;
+
+/// A history, parts of which carry their own bounds.
+pub trait Bounding<S: Rounded>: Motion<S> {
+    /// What answers with bounds of its own at this limit of this time; `None` where [`Motion::uncertainty`] bounds it.
+    fn bounded(&self, _time: &S, _side: Side) -> Option<&dyn Motion<Estimate<S>>> {
+        None
+    }
+
+    /// `h` and `h′` with their bounds, where they are known better than the rest.
+    fn bounded_centre(&self, time: &S) -> Option<Pair<S>> {
+        self.bounded(time, Side::Left).map(|form| form.centre(&rounded(time)))
+    }
+}
+
+/// `value` as it is stored.
+fn rounded<S: Rounded>(value: &S) -> Estimate<S> {
+    Estimate::rounded(value.clone(), 1.0)
+}
+
 /// `value` within `bound`.
 fn within<S: Rounded>(value: &S, bound: f64) -> Estimate<S> {
     Estimate::new(value.clone(), bound / value.unit() + value.to_f64().abs())
@@ -34,7 +55,7 @@ struct Near {
     late: f64,
 }
 
-impl<S: Rounded, H: Motion<S>> WithBounds<S, H> {
+impl<S: Rounded, H: Bounding<S>> WithBounds<S, H> {
     /// `history` with its bounds.
     ///
     /// **Errors**: those of a question at an event.
@@ -43,6 +64,10 @@ impl<S: Rounded, H: Motion<S>> WithBounds<S, H> {
         let bounded = WithBounds { scales, events: Vec::new(), contacts: Vec::new(), history };
         let given = bounded.history.events();
         let event = |(k, event): (usize, &Event<S>)| {
+            let form = bounded.history.bounded(&event.time, Side::Left);
+            if let Some(own) = form.and_then(|form| form.events().get(k)) {
+                return Ok(own.clone());
+            }
             let Near { rise, speed, late, .. } = bounded.at_event(k);
             let (rate, push) = (event.centre_velocity.to_f64().abs(), bounded.push(&event.time, late)?);
             Ok(Event {
@@ -59,7 +84,13 @@ impl<S: Rounded, H: Motion<S>> WithBounds<S, H> {
             let known = events.iter().find(|event| event.time.value() == time);
             known.map_or_else(|| within(time, 0.0), |event| event.time.clone())
         };
-        let contact = |contact: &Contact<S>| {
+        let contact = |(k, contact): (usize, &Contact<S>)| {
+            let form = bounded.history.bounded(&contact.from, Side::Left);
+            if let Some(own) = form.and_then(|form| form.contacts().get(k)) {
+                // A peak that is only approached has no bound of its own that falls with more bits.
+                let Near { strain, .. } = bounded.scaled(bounded.history.uncertainty(&contact.from));
+                return Contact { peak_stress: within(&contact.peak_stress, strain), ..own.clone() };
+            }
             let (from, to) = (time_of(&contact.from), contact.to.as_ref().map(&time_of));
             let last = to.as_ref().map_or_else(|| bounded.history.end().to_f64(), Estimate::to_f64);
             let Near { rise, speed, strain, .. } = bounded.scaled(bounded.history.uncertainty(&contact.from));
@@ -75,7 +106,7 @@ impl<S: Rounded, H: Motion<S>> WithBounds<S, H> {
                 to,
             }
         };
-        let contacts = bounded.history.contacts().iter().map(contact).collect();
+        let contacts = bounded.history.contacts().iter().enumerate().map(contact).collect();
         Ok(WithBounds { events, contacts, ..bounded })
     }
 
@@ -161,7 +192,7 @@ impl<S: Rounded, H: Motion<S>> WithBounds<S, H> {
     }
 }
 
-impl<S: Rounded, H: Motion<S>> Motion<Estimate<S>> for WithBounds<S, H> {
+impl<S: Rounded, H: Bounding<S>> Motion<Estimate<S>> for WithBounds<S, H> {
     fn end(&self) -> Estimate<S> {
         within(&self.history.end(), 0.0)
     }
@@ -179,8 +210,15 @@ impl<S: Rounded, H: Motion<S>> Motion<Estimate<S>> for WithBounds<S, H> {
     }
 
     fn stress_pieces(&self) -> Vec<StressPiece<Estimate<S>>> {
+        let own = |time: &S, side| {
+            let strain = self.history.bounded(time, side)?.strain(&rounded(time), side).ok()?;
+            Some(strain.bound())
+        };
         let piece = |piece: StressPiece<S>| {
             let strain = self.scaled(self.history.uncertainty(&piece.from)).strain;
+            // Between the rays those of a closed form hardly change.
+            let ends = [own(&piece.from, Side::Right), own(&piece.to, Side::Left)];
+            let strain = ends.into_iter().flatten().fold(strain, f64::max);
             // The bound is that of the whole; the first coefficient carries it.
             let coefficient = |(k, c)| within(c, if k == 0 { strain } else { 0.0 });
             StressPiece {
@@ -196,21 +234,33 @@ impl<S: Rounded, H: Motion<S>> Motion<Estimate<S>> for WithBounds<S, H> {
 
     fn strain(&self, time: &Estimate<S>, side: Side) -> Result<Estimate<S>, Error> {
         let time = self.meant(time);
+        if let Some(form) = self.history.bounded(time.value(), side) {
+            return form.strain(&rounded(time.value()), side);
+        }
         Ok(within(&self.history.strain(time.value(), side)?, self.near(time).strain))
     }
 
     fn ground_end(&self, time: &Estimate<S>, side: Side) -> Result<(Estimate<S>, Estimate<S>), Error> {
         let time = self.meant(time);
+        if let Some(form) = self.history.bounded(time.value(), side) {
+            return form.ground_end(&rounded(time.value()), side);
+        }
         Ok(self.moved(time, self.history.ground_end(time.value(), side)?))
     }
 
     fn top_end(&self, time: &Estimate<S>, side: Side) -> Result<(Estimate<S>, Estimate<S>), Error> {
         let time = self.meant(time);
+        if let Some(form) = self.history.bounded(time.value(), side) {
+            return form.top_end(&rounded(time.value()), side);
+        }
         Ok(self.moved(time, self.history.top_end(time.value(), side)?))
     }
 
     fn centre(&self, time: &Estimate<S>) -> Result<(Estimate<S>, Estimate<S>), Error> {
         let time = self.meant(time);
+        if let Some(centre) = self.history.bounded_centre(time.value()) {
+            return centre;
+        }
         let centre = self.history.centre(time.value())?;
         let push = self.push(time.value(), self.near(time).late)?;
         let (height, rate) = self.moved(time, centre);
@@ -221,12 +271,14 @@ impl<S: Rounded, H: Motion<S>> Motion<Estimate<S>> for WithBounds<S, H> {
     /// `L g h` is off by that of h.
     fn energy(&self, time: &Estimate<S>) -> Result<Energy<Estimate<S>>, Error> {
         let time = self.meant(time);
+        if let Some(form) = self.history.bounded(time.value(), Side::Left) {
+            return form.energy(&rounded(time.value()));
+        }
         let energy = self.history.energy(time.value())?;
-        let (_, rate) = self.history.centre(time.value())?;
-        let (Near { rise, late, .. }, Scales { length, gravity, .. }) = (self.near(time), &self.scales);
-        let (off, moving) = (self.root_off(time)?, rate.to_f64().abs());
-        let vibration = self.energy_off(&energy.vibrational, off);
-        let translational = self.square_off(moving, off) + length * gravity * (rise + late * moving);
+        let (height, rate) = self.centre(time)?;
+        let Scales { length, gravity, .. } = &self.scales;
+        let vibration = self.energy_off(&energy.vibrational, self.root_off(time)?);
+        let translational = self.square_off(rate.to_f64().abs(), rate.bound()) + length * gravity * height.bound();
         Ok(Energy {
             total: within(&energy.total, translational + vibration),
             translational: within(&energy.translational, translational),
@@ -237,12 +289,18 @@ impl<S: Rounded, H: Motion<S>> Motion<Estimate<S>> for WithBounds<S, H> {
     /// Of each mean square as in [`Motion::energy`].
     fn energy_parts(&self, time: &Estimate<S>) -> Result<[Estimate<S>; 2], Error> {
         let time = self.meant(time);
+        if let Some(form) = self.history.bounded(time.value(), Side::Left) {
+            return form.energy_parts(&rounded(time.value()));
+        }
         let off = self.root_off(time)?;
         Ok(self.history.energy_parts(time.value())?.map(|part| within(&part, self.energy_off(&part, off))))
     }
 
     fn field(&self, point: &Estimate<S>, time: &Estimate<S>, side: Side) -> Result<Field<Estimate<S>>, Error> {
         let time = self.meant(time);
+        if let Some(form) = self.history.bounded(time.value(), side) {
+            return form.field(&rounded(point.value()), &rounded(time.value()), side);
+        }
         let field = self.history.field(point.value(), time.value(), side)?;
         let strain = within(&field.strain, self.near(time).strain);
         let (displacement, velocity) = self.moved(time, (field.displacement, field.velocity));
@@ -250,6 +308,9 @@ impl<S: Rounded, H: Motion<S>> Motion<Estimate<S>> for WithBounds<S, H> {
     }
 
     fn highest(&self, release: &Event<Estimate<S>>) -> Option<(Estimate<S>, Estimate<S>)> {
+        if let Some(form) = self.history.bounded(release.time.value(), Side::Left) {
+            return form.highest(release);
+        }
         let known = self.events.iter().position(|event| event.time.value() == release.time.value())?;
         let (time, height) = self.history.highest(self.history.events().get(known)?)?;
         // dt*/dh′ = 1/(g + 2rh′); and what the height loses there is of second order.

@@ -12,7 +12,7 @@ use super::{Failure, NumberArgs, source};
 use crate::compare::Quantity;
 use crate::number::Number;
 use crate::output::{sweep_csv, sweep_json, sweep_npz, sweep_table, write_whole};
-use crate::sweep::{Asked, Axis, Grid, Journal, Point, Sweep as Plan, SweepError};
+use crate::sweep::{self, Asked, Axis, Grid, Journal, Point, SweepError, journal_of};
 
 /// Numbers of a scene over a grid of its values, on all cores
 #[derive(Args, Debug)]
@@ -23,7 +23,8 @@ use crate::sweep::{Asked, Axis, Grid, Journal, Point, Sweep as Plan, SweepError}
 pub(super) struct Sweep {
     /// A scene file, `-`, or a built-in scene
     scene: String,
-    /// What is varied: PATH=V1,V2,… or PATH=A..B:N, with :log in geometric progression; several times for a grid
+    /// What is varied: PATH=V1,V2,… or PATH=A..B:N, with :log in geometric progression; several times for a grid.
+    /// Values between A and B are the shortest decimals of doubles, as the rows spell them
     #[arg(long, value_name = "PATH=VALUES", required = true, allow_hyphen_values = true)]
     vary: Vec<String>,
     /// What is asked of each point, separated by commas
@@ -97,13 +98,17 @@ impl Sweep {
         }
         let mut quantities: Vec<Quantity> = Vec::new();
         for quantity in &self.quantity {
+            if let Some(time) = self.time.as_ref().filter(|_| !quantity.is_at_a_time()) {
+                let expected = format!("none: {} is not asked at a time", quantity.name());
+                return Err(SweepError::new(format!("time {time}"), expected).into());
+            }
             if quantities.contains(quantity) {
                 return Err(SweepError::new(format!("{} asked twice", quantity.name()), "each quantity once").into());
             }
             quantities.push(*quantity);
         }
         let asked = Asked { quantities, time: self.time.clone(), numbers: self.numbers.numbers(&scene) };
-        let sweep = Plan { grid: Grid::new(scene.problem.clone(), axes)?, asked };
+        let sweep = sweep::Sweep { grid: Grid::new(scene.problem.clone(), axes)?, asked };
         let points = self.shard.map_or(0..sweep.grid.len(), |shard| shard.points(sweep.grid.len()));
         let vary = |axis: &Axis| json!({"path": axis.path, "values": axis.values});
         // All that the points depend on.
@@ -135,13 +140,13 @@ impl Sweep {
         };
         let name = file.map_or("standard output".into(), |path| path.display().to_string());
         write_whole(file, &bytes).map_err(source::cannot(&format!("write {name}")))?;
-        journal.map_or(Ok(()), Journal::remove).map_err(source::cannot(&format!("remove {name}.unfinished")))?;
-        Ok(())
+        let Some((journal, path)) = journal.zip(file) else { return Ok(()) };
+        Ok(journal.remove().map_err(source::cannot(&format!("remove {}", journal_of(path).display())))?)
     }
 
     fn solve(
         &self,
-        sweep: &Plan,
+        sweep: &sweep::Sweep,
         points: Range<usize>,
         known: Vec<Point>,
         journal: Option<&Journal>,
@@ -181,7 +186,7 @@ impl Sweep {
 }
 
 fn unopened(output: &Path, error: std::io::Error) -> Failure {
-    let journal = format!("{}.unfinished", output.display());
+    let journal = journal_of(output).display().to_string();
     match error.kind() {
         ErrorKind::AlreadyExists => SweepError::new(
             format!("{journal}, which an interrupted sweep left"),

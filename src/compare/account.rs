@@ -12,7 +12,7 @@ use crate::modal::Modal;
 use crate::motion::{Ending, Event, EventKind, Field, Motion, Side};
 use crate::number::Estimate;
 use crate::paper::{Printed, UndampedContact, formulas};
-use crate::problem::Parameters;
+use crate::problem::{Parameters, Run};
 use crate::special;
 
 /// One number of a motion, or why it is not given.
@@ -128,8 +128,8 @@ fn double(estimate: Estimate<f64>) -> Bounded<f64> {
     Bounded::new(estimate.into_value(), bound)
 }
 
-/// A history.
-pub(crate) struct ByHistory<'a, S>(pub(crate) &'a dyn Motion<S>);
+/// A history, and the run that is asked about.
+pub(crate) struct ByHistory<'a, S>(pub(crate) &'a dyn Motion<S>, pub(crate) &'a Run);
 
 impl<S: System> ByHistory<'_, S> {
     /// The answer of the history; one that ends too early gives the reason.
@@ -171,6 +171,7 @@ impl<S: System> Account<S> for ByHistory<'_, S> {
         match (self.0.ending(), self.0.events().last()) {
             // The last event before an open question is not the last of the run.
             (Ending::Undecided(_) | Ending::ExactnessEnds { .. }, _) => Err(self.ended()),
+            (Ending::Bounce, _) if *self.1 != Run::Impacts(1) => Err(self.ended()),
             (_, None) => Err(NoAnswer::none("nothing happens in it")),
             (_, last) => self.event(last),
         }

@@ -211,7 +211,7 @@ impl Question {
     /// The answer of an engine in its numbers.
     fn find_in_history<S: System>(&self, history: &dyn Motion<S>) -> Found<S> {
         let rod = Parameters::of(&self.problem, &history.scales().length.precision())?;
-        self.find(&rod, &ByHistory(history))
+        self.find(&rod, &ByHistory(history, &self.problem.run))
     }
 
     fn find<S: System>(&self, rod: &Parameters<S>, motion: &dyn Account<S>) -> Found<S> {

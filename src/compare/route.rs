@@ -81,12 +81,7 @@ impl Route {
                 if printed.is_late() { Err(NoAnswer::gave_up("the nested integrals take too long")) } else { answer }
             }
             Route::Differences(cells) => question.ask(&Parameters::<f64>::of(problem, &())?, &march(problem, cells)?),
-            Route::Planned(numbers) => {
-                if matches!(numbers, Numbers::Certified(_)) && problem.rod.damping.is_some() {
-                    of_first_contact(question).map_err(|why| NoAnswer::GaveUp(only_proved(&why)))?;
-                }
-                question.ask_solution(&planned(question, numbers)?)
-            }
+            Route::Planned(numbers) => question.ask_solution(&planned(question, numbers)?),
             _ => long::run(self, question),
         }
     }
@@ -116,23 +111,16 @@ fn planned(question: &Question, numbers: Numbers) -> Result<Solution, NoAnswer> 
     Ok(plan(question, numbers)?.solve(&question.problem, solve::unobserved())?)
 }
 
-/// Whether the first contact alone answers, if it lasts long enough.
+/// Whether the first contact alone answers, and lasts as long as the question asks.
 ///
 /// **Errors**: why not.
-fn of_first_contact(question: &Question) -> Result<(), String> {
+pub(crate) fn within_first_contact(question: &Question) -> Result<(), String> {
     if !question.problem.has_closed_form() {
         return Err("the start or the top is not the paper's, so the first contact has no closed form".into());
     }
-    match question.problem.run {
-        Run::Impacts(1) => Ok(()),
-        _ if question.quantity == Quantity::LastEvent => Err("it covers the first contact only".into()),
-        _ => Ok(()),
+    if question.quantity == Quantity::LastEvent && question.problem.run != Run::Impacts(1) {
+        return Err("it covers the first contact only".into());
     }
-}
-
-/// The same, and whether it lasts as long as the question asks.
-pub(crate) fn within_first_contact(question: &Question) -> Result<(), String> {
-    of_first_contact(question)?;
     let Some(time) = &question.time else { return Ok(()) };
     let first = question.problem.first_contact().map_err(|error| error.to_string())?;
     match (first.contacts().first().and_then(|contact| contact.to), first.ending()) {
@@ -144,11 +132,6 @@ pub(crate) fn within_first_contact(question: &Question) -> Result<(), String> {
         }
         _ => Ok(()),
     }
-}
-
-/// Why enclosures do not answer.
-pub(crate) fn only_proved(why: &str) -> String {
-    format!("{why}: only that is proved under damping")
 }
 
 /// The whole run of `problem` in doubles as its plan does it, with the energy at its end if that is asked for.

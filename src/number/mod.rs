@@ -22,6 +22,8 @@ mod float;
 mod fraction;
 #[cfg(feature = "mp")]
 mod interval;
+#[cfg(feature = "cli")]
+mod json;
 mod literal;
 #[cfg(feature = "mp")]
 mod radical;
@@ -36,6 +38,8 @@ pub use estimate::Estimate;
 pub use float::decimal;
 #[cfg(feature = "mp")]
 pub use interval::{Interval, IntervalPrecision};
+#[cfg(feature = "cli")]
+pub(crate) use json::{bound_json, number_json};
 pub use literal::{Number, NumberError};
 #[cfg(feature = "mp")]
 pub use rug::{Float, Rational};

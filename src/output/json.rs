@@ -4,9 +4,9 @@ use std::collections::BTreeMap;
 
 use serde_json::{Value, json};
 
-use super::record::{CONTACT, Finished, Head, Quantity, Record, Sample, bound_json, json as number_json, sampled};
+use super::record::{CONTACT, Finished, Head, Quantity, Record, Sample, sampled};
 use crate::motion::Ending;
-use crate::number::Scalar;
+use crate::number::{Scalar, bound_json, number_json};
 use crate::quantity::{Measure, Units};
 use crate::solve::ExactnessEnd;
 

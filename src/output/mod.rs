@@ -37,7 +37,6 @@ pub use json::{SCHEMA, history_json, samples_json};
 pub use plot::scene_svg;
 pub(crate) use plot::{Along, Asked, Gathered, Picture, sheet};
 pub use record::{Finished, Head, Quantity, Record, Sample, record, sample};
-pub(crate) use record::{bound_json, json as number_json};
 pub use reference::{Described, Golden, Preamble, Rows};
 pub(crate) use regimes::{regimes_csv, regimes_npz, regimes_svg, regimes_text, threshold_csv};
 pub(crate) use sweep::{sweep_csv, sweep_json, sweep_npz, sweep_table};

@@ -9,9 +9,9 @@ use ndarray::Array1;
 use ndarray_npy::{NpzWriter, WriteNpzError};
 use serde_json::{Value, json};
 
-use super::record::{Head, json as number_json};
+use super::record::Head;
 use super::write_filled;
-use crate::number::{DOUBLE_DIGITS, Scalar, bound_of_log2, show};
+use crate::number::{DOUBLE_DIGITS, Scalar, bound_of_log2, number_json, show};
 use crate::quantity::{Column, Measure, Units};
 use crate::solve::Numbers;
 

@@ -24,7 +24,7 @@ fn double(value: &Value) -> f64 {
     text(value).parse().unwrap_or(f64::NAN)
 }
 
-/// Why numbers of a point are missing, each reason once.
+/// What is said of the numbers of a point, each once.
 fn notes(point: &Point) -> String {
     let mut notes: Vec<&str> = Vec::new();
     for note in point.cells.iter().filter_map(|cell| cell.note.as_deref()) {

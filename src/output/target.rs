@@ -2,11 +2,11 @@
 
 use serde_json::{Value, json};
 
-use super::record::{Head, json as number_json};
+use super::record::Head;
 use super::table::{cell, fitted};
 use crate::aligned::table;
 use crate::compare::{Published, Reached};
-use crate::number::{DOUBLE_DIGITS, Scalar, show};
+use crate::number::{DOUBLE_DIGITS, Scalar, number_json, show};
 use crate::scene::Target;
 
 /// Significant digits of a difference in a table.

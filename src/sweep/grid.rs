@@ -2,6 +2,7 @@
 
 use crate::number::{Number, NumberError};
 use crate::problem::validate::NUMBERS;
+use crate::problem::written::Written;
 use crate::problem::{Problem, ProblemError};
 
 /// The most points of a sweep.
@@ -9,15 +10,18 @@ const MOST_POINTS: usize = 10_000_000;
 
 /// What is wrong with a sweep.
 #[derive(Debug, thiserror::Error, miette::Diagnostic)]
-#[error("found {found}, expected {expected}")]
-pub(crate) struct SweepError {
-    pub(crate) found: String,
-    pub(crate) expected: String,
+pub(crate) enum SweepError {
+    /// What was found, and what was expected.
+    #[error("found {found}, expected {expected}")]
+    Refused { found: String, expected: String },
+    /// A value that is no number.
+    #[error(transparent)]
+    Number(#[from] NumberError),
 }
 
 impl SweepError {
     pub(crate) fn new(found: impl Into<String>, expected: impl Into<String>) -> Self {
-        SweepError { found: found.into(), expected: expected.into() }
+        SweepError::Refused { found: found.into(), expected: expected.into() }
     }
 }
 
@@ -31,51 +35,53 @@ pub(crate) struct Axis {
 impl std::str::FromStr for Axis {
     type Err = SweepError;
 
-    /// `PATH=V1,V2,…`, `PATH=A..B:N` for N values from A to B, or `PATH=A..B:N:log` for N in geometric progression.
-    ///
-    /// **Accuracy**: listed values and both ends of a range as they are written; what lies between is the shortest
-    /// decimal of the double.
+    /// `PATH=VALUES`, with the values as [`values`] has them.
     fn from_str(text: &str) -> Result<Self, SweepError> {
-        const EXPECTED: &str = "PATH=V1,V2,…, PATH=A..B:N or PATH=A..B:N:log";
-        let (path, values) = text.split_once('=').ok_or_else(|| SweepError::new(format!("`{text}`"), EXPECTED))?;
+        let found = |found: &str| format!("`{found}`");
+        let (path, list) =
+            text.split_once('=').ok_or_else(|| SweepError::new(found(text), format!("PATH={VALUES}")))?;
         let known = NUMBERS.into_iter().find(|known| *known == path.trim());
         let path = known.ok_or_else(|| {
             let expected = format!("a number of a scene: {}", NUMBERS.join(", "));
             SweepError::new(format!("the path `{}`", path.trim()), expected)
         })?;
-        let number = |text: &str| text.parse::<Number>().map_err(refused);
-        let Some((from, rest)) = values.split_once("..") else {
-            return Ok(Axis { path, values: values.split(',').map(number).collect::<Result<_, _>>()? });
-        };
-        let mut rest = rest.split(':');
-        let (to, count, log) = match (rest.next(), rest.next(), rest.next(), rest.next()) {
-            (Some(to), Some(count), log @ (None | Some("log")), None) => (to, count, log.is_some()),
-            _ => return Err(SweepError::new(format!("`{values}`"), EXPECTED)),
-        };
-        let (from, to) = (number(from)?, number(to)?);
-        let count = count.trim().parse::<usize>().ok().filter(|count| (2..=MOST_POINTS).contains(count));
-        let count =
-            count.ok_or_else(|| SweepError::new(format!("`{values}`"), format!("a count of 2 to {MOST_POINTS}")))?;
-        if log && !(from.to_f64() > 0.0 && to.to_f64() > 0.0) {
-            return Err(SweepError::new(format!("`{values}`"), "two ends above zero for :log"));
-        }
-        let (a, b, steps) = (from.to_f64(), to.to_f64(), (count - 1) as f64);
-        let inner = |k: usize| {
-            let k = k as f64;
-            let value = if log { a * (b / a).powf(k / steps) } else { (a * (steps - k) + b * k) / steps };
-            // Both spellings are the shortest; the second keeps small numbers short.
-            number(&if (1e-5..1e16).contains(&value.abs()) { value.to_string() } else { format!("{value:e}") })
-        };
-        let between = (1..count - 1).map(inner).collect::<Result<Vec<_>, _>>()?;
-        Ok(Axis { path, values: std::iter::once(from).chain(between).chain([to]).collect() })
+        Ok(Axis { path, values: values(list)? })
     }
 }
 
-fn refused(error: NumberError) -> SweepError {
-    match error.to_string().trim_start_matches("found ").split_once(", expected ") {
-        Some((found, expected)) => SweepError::new(found, expected),
-        None => SweepError::new(error.to_string(), "a number"),
+/// What values are written as.
+const VALUES: &str = "V1,V2,…, A..B:N or A..B:N:log";
+
+/// `V1,V2,…`, `A..B:N` for N values from A to B, or `A..B:N:log` for N in geometric progression.
+///
+/// **Accuracy**: listed values and both ends of a range as they are written; what lies between is the shortest decimal
+/// of the double.
+///
+/// **Errors**: [`SweepError`] for what is written otherwise.
+pub(super) fn values(text: &str) -> Result<Vec<Number>, SweepError> {
+    let Some((from, rest)) = text.split_once("..") else {
+        return Ok(text.split(',').map(str::parse).collect::<Result<_, _>>()?);
+    };
+    let refused = |expected: String| SweepError::new(format!("`{text}`"), expected);
+    let mut rest = rest.split(':');
+    let (to, count, log) = match (rest.next(), rest.next(), rest.next(), rest.next()) {
+        (Some(to), Some(count), log @ (None | Some("log")), None) => (to, count, log.is_some()),
+        _ => return Err(refused(VALUES.into())),
+    };
+    let (from, to): (Number, Number) = (from.parse()?, to.parse()?);
+    let count = count.trim().parse::<usize>().ok().filter(|count| (2..=MOST_POINTS).contains(count));
+    let count = count.ok_or_else(|| refused(format!("a count of 2 to {MOST_POINTS}")))?;
+    let (a, b, steps) = (from.to_f64(), to.to_f64(), (count - 1) as f64);
+    if log && !(a > 0.0 && b > 0.0) {
+        return Err(refused("two ends above zero for :log".into()));
     }
+    let inner = |k: usize| {
+        let k = k as f64;
+        let value = if log { a * (b / a).powf(k / steps) } else { (a * (steps - k) + b * k) / steps };
+        Written::from(value).number().cloned().map_err(NumberError::clone)
+    };
+    let between = (1..count - 1).map(inner).collect::<Result<Vec<_>, _>>()?;
+    Ok(std::iter::once(from).chain(between).chain([to]).collect())
 }
 
 /// Every combination of the values of some axes, the last one varying fastest.
@@ -97,7 +103,8 @@ impl Grid {
         }
         let count = axes.iter().try_fold(1usize, |count, axis| count.checked_mul(axis.values.len()));
         if count.is_none_or(|count| count > MOST_POINTS) {
-            return Err(SweepError::new("more points than that", format!("at most {MOST_POINTS} points")));
+            let sizes = axes.iter().map(|axis| axis.values.len().to_string()).collect::<Vec<_>>().join(" × ");
+            return Err(SweepError::new(format!("{sizes} points"), format!("at most {MOST_POINTS}")));
         }
         Ok(Grid { problem, axes })
     }

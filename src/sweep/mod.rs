@@ -13,7 +13,7 @@ mod point;
 mod regimes;
 
 pub(crate) use grid::{Axis, Grid, SweepError};
-pub(crate) use journal::Journal;
+pub(crate) use journal::{Journal, journal_of};
 pub(crate) use point::{Asked, Cell, Point};
 pub(crate) use regimes::{Map, Regime, threshold};
 

@@ -6,8 +6,7 @@ use serde_json::Value;
 use super::Grid;
 use crate::compare::{NoAnswer, Quantity, Question, asked};
 use crate::history::History;
-use crate::number::{Number, Scalar, shown_bound_text};
-use crate::output::{bound_json, number_json};
+use crate::number::{Number, Scalar, bound_json, number_json, shown_bound_text};
 use crate::problem::Problem;
 use crate::solve::{self, Numbers, Plan, Solution, Target, unobserved};
 
@@ -34,7 +33,7 @@ pub(crate) struct Cell {
     pub(crate) value: Value,
     /// How far it may be off.
     pub(crate) uncertainty: Value,
-    /// Why there is no value.
+    /// Why there is no value, or what a user should know of it: where exactness ends, and warnings of the history.
     #[serde(skip_serializing_if = "Option::is_none", default)]
     pub(crate) note: Option<String>,
 }
@@ -42,6 +41,10 @@ pub(crate) struct Cell {
 impl Cell {
     fn none(why: impl std::fmt::Display) -> Self {
         Cell { note: Some(why.to_string()), ..Cell::default() }
+    }
+
+    fn noted(self, note: String) -> Self {
+        Cell { note: Some(self.note.map_or_else(|| note.clone(), |before| format!("{before}; {note}"))), ..self }
     }
 }
 
@@ -83,13 +86,16 @@ fn in_solution(question: &Question, solution: &Solution) -> Cell {
     match solution {
         Solution::Double(history) => cell(question, history, 0),
         Solution::Exact(history) => cell(question, history, 0),
-        Solution::Digits(history, n) | Solution::DigitsAfter(history, n, _) => cell(question, history, *n),
+        Solution::Digits(history, n) => cell(question, history, *n),
+        Solution::DigitsAfter(history, n, end) => {
+            cell(question, history, *n).noted(format!("{end}; the number is in {n} digits"))
+        }
         Solution::Certified(history, n) => cell(question, history, *n),
     }
 }
 
 fn cell<S: Target<Carried: crate::compare::System>>(question: &Question, history: &History<S>, digits: u32) -> Cell {
-    match question.find_settled(history) {
+    let cell = match question.find_settled(history) {
         Ok(found) if !found.value.is_finite() => Cell::none("no finite number"),
         Ok(found) => Cell {
             value: number_json(&found.value, digits),
@@ -101,5 +107,6 @@ fn cell<S: Target<Carried: crate::compare::System>>(question: &Question, history
         },
         Err(NoAnswer::NoSuchQuantity { why, .. }) => Cell::none(why),
         Err(error) => Cell::none(error),
-    }
+    };
+    history.warnings().iter().fold(cell, |cell, warning| cell.noted(warning.to_string()))
 }

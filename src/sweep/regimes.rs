@@ -2,6 +2,7 @@
 
 use rayon::prelude::*;
 
+use super::grid::values;
 use super::{Axis, Grid, SweepError};
 use crate::first_contact::{Bounce, FirstContact};
 use crate::motion::Ending;
@@ -41,8 +42,8 @@ impl Map {
     pub(crate) fn new(damping: &str, speed: &str, done: impl Fn() + Sync) -> Result<Self, SweepError> {
         let half: Number = "1/2".parse().map_err(|_| SweepError::new("1/2", "a number"))?;
         let rod = Problem::uniform(half, 1.into(), 1.into(), 1.into());
-        let axes = [format!("impact.speed={speed}"), format!("rod.damping={damping}")];
-        let grid = Grid::new(rod, axes.iter().map(|axis| axis.parse::<Axis>()).collect::<Result<_, _>>()?)?;
+        let axis = |path, text| Ok::<_, SweepError>(Axis { path, values: values(text)? });
+        let grid = Grid::new(rod, vec![axis("impact.speed", speed)?, axis("rod.damping", damping)?])?;
         // Before any point is solved.
         for (axis, least) in grid.axes.iter().zip([f64::MIN_POSITIVE, 0.0]) {
             let values: Vec<f64> = axis.values.iter().map(Number::to_f64).collect();
@@ -64,7 +65,7 @@ impl Map {
 }
 
 /// The bounce alone, of the closed form in doubles: the impulse, the peak and the rest of a [`History`](crate::History)
-/// take ten times as long. Where doubles do not settle it, the history does.
+/// take two to three times as long. Where doubles do not settle it, the history does.
 fn regime(grid: &Grid, index: usize) -> Regime {
     let Ok(problem) = grid.problem(index) else { return Regime::Undecided };
     let rod = Parameters::<Estimate<f64>>::of(&problem, &());

@@ -5,7 +5,7 @@ use crate::common::{close, uniform};
 use dalembert::cells::{ContactThenCells, Damped, Reach};
 use dalembert::first_contact::FirstContact;
 use dalembert::problem::{Parameters, Profile, Run, Start, Top};
-use dalembert::{Ending, Error, Motion, Number, Problem, Side};
+use dalembert::{Ending, Error, Estimate, Modal, Motion, Number, Problem, Side};
 
 /// `c = L = 1`.
 fn rod(gravity: &str, speed: &str, damping: &str, time: i64) -> Problem {
@@ -151,4 +151,28 @@ fn damping_that_cells_cannot_follow_is_refused_by_name() {
     assert_eq!(found, Error::DampingTooStrong { found: 4000.0, most: 2000.0 });
     let text = found.to_string();
     assert!(text.contains("4000") && text.contains("expected at most 2000"), "{text}");
+}
+
+/// Late in a contact that lasts, the rays of the closed form cancel: what is printed of it is within its bound of the
+/// sum over modes, which does not.
+#[test]
+fn late_in_a_contact_every_value_is_within_its_bound() {
+    for (gravity, speed, damping) in [("1", "0.001", "0.01"), ("1", "0.01", "0.1"), ("3", "1", "1.5")] {
+        let mut problem = uniform("1/2", "1", gravity, speed, Run::Time(250.into()));
+        problem.rod.damping = damping.parse().ok();
+        let history = problem.solve().unwrap();
+        let modal = Modal::new(&Parameters::<f64>::of(&problem, &()).unwrap(), 4096);
+        for t in [0.7, 3.3, 20.3, 50.7, 100.2, 249.3] {
+            let time = Estimate::exact(t);
+            let centre = history.ask(|motion| motion.centre(&time), |(h, rate)| vec![h, rate]).unwrap();
+            let strain = history.ask(|motion| motion.strain(&time, Side::Right), |strain| vec![strain]).unwrap();
+            let (h, rate) = modal.centre(&t);
+            let truths = [h, rate, modal.strain(&t, Side::Right)];
+            for (ours, truth) in [centre.0, centre.1, strain].iter().zip(truths) {
+                let apart = (ours.value() - truth.value()).abs();
+                assert!(apart <= ours.bound() + truth.bound(), "r = {damping}, t = {t}: {ours:?} {truth:?}");
+                assert!(ours.bound() <= 1e-8 && truth.bound() <= 1e-8, "r = {damping}, t = {t}: {ours:?} {truth:?}");
+            }
+        }
+    }
 }

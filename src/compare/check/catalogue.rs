@@ -64,7 +64,7 @@ mod tests {
         assert_eq!(names.len(), count);
     }
 
-    /// The catalogue can fail: a truth that is wrong in its 22nd digit is noticed by every route that promises more.
+    /// The catalogue can fail: a truth that is wrong in its 32nd digit is noticed by every route that promises more.
     #[test]
     fn a_wrong_truth_is_noticed() {
         let asked = selected("late-3.13")[0].entries[0];

@@ -2,7 +2,7 @@
 
 use crate::compare::long;
 use crate::compare::quantity::{Quantity, Question};
-use crate::compare::route::{Numbers, Route, only_proved, within_first_contact};
+use crate::compare::route::{Numbers, Route, within_first_contact};
 use crate::solve::{Engine, Plan};
 
 /// Routes that share a name in a table and a colour in a picture, in the order in which they are shown.
@@ -170,7 +170,7 @@ fn by_plan(family: Family, question: &Question, system: Numbers) -> Ladder {
 /// Enclosures, where they reach: an answer that is wrong by more than it says is impossible.
 fn enclosures(question: &Question, plan: &Plan, first: Result<(), String>) -> Result<Ladder, String> {
     if question.problem.rod.damping.is_some() {
-        first.map_err(|why| only_proved(&why))?;
+        first.map_err(|why| format!("{why}: only that is proved under damping"))?;
     }
     let chosen = match plan.numbers {
         Numbers::Certified(digits) => Some(digits),
