@@ -2,18 +2,21 @@
 #   make demo         builds the command in pure Rust and solves a real scene in doubles; about a minute
 #   make demo-exact   the same scene in fractions; builds GMP and MPFR once, which takes minutes
 #   make test         runs all tests
+#   make page         builds the page, one HTML file that opens from disk, and make page-test tries it in Chromium
 # GMP needs m4, which is installed where it is missing.
 
 CARGO ?= cargo
 # Random tests draw the same cases every time, so that one commit has one answer. `make explore` draws others.
 export PROPTEST_RNG_SEED ?= 1878
 
-.PHONY: help demo demo-exact test explore m4
+.PHONY: help demo demo-exact test explore page page-test m4
 
 help:
 	@echo "make demo         build the command in pure Rust and solve the bouncing bar of Doyen, Ern and Piperno"
 	@echo "make demo-exact   the same in fractions; builds GMP and MPFR first"
 	@echo "make test         run all tests, those of the documentation included"
+	@echo "make page         build the page: target/page/dalembert.html, one file that opens from disk"
+	@echo "make page-test    try the page in Chromium; needs node"
 	@echo "make explore      run the random tests on cases never tried before"
 
 demo:
@@ -30,6 +33,21 @@ test: m4
 
 explore: m4
 	PROPTEST_RNG_SEED=$$(date +%s) $(CARGO) test --no-fail-fast --test suite -- properties first_contact_bounce
+
+WASM = wasm32-unknown-unknown
+PACKED = --manifest-path web/Cargo.toml --target-dir target/web
+
+page:
+	@rustc --print target-libdir --target $(WASM) | xargs test -d || rustup target add $(WASM)
+	$(CARGO) build $(PACKED) --release --target $(WASM) --lib
+	@mkdir -p target/page
+	$(CARGO) run --quiet $(PACKED) --package pack -- \
+		target/web/$(WASM)/release/dalembert_web.wasm web/page target/page/dalembert.html
+
+page-test: page
+	$(CARGO) build
+	@command -v chromium >/dev/null || apt-get install -y --no-install-recommends chromium
+	cd web/test && npm ci --silent && node page.mjs
 
 # Debian and its kin; elsewhere the message says what is missing.
 m4:
