@@ -249,6 +249,19 @@ impl<S: Rounded, H: Motion<S>> Motion<Estimate<S>> for WithBounds<S, H> {
         Ok(Field { displacement, velocity, strain })
     }
 
+    fn rates(&self, points: &[Estimate<S>], times: &[Estimate<S>]) -> Result<Vec<[Estimate<S>; 2]>, Error> {
+        let plain = |numbers: &mut dyn Iterator<Item = &Estimate<S>>| numbers.map(|x| x.value().clone()).collect();
+        let times: Vec<_> = times.iter().map(|time| self.meant(time)).collect();
+        let points: Vec<S> = plain(&mut points.iter());
+        let rates = self.history.rates(&points, &plain(&mut times.iter().copied()) as &Vec<S>)?;
+        let bounds = times
+            .iter()
+            .map(|time| self.near(time))
+            .flat_map(|near| points.iter().map(move |_| (near.speed, near.strain)));
+        let bounded = rates.iter().zip(bounds);
+        Ok(bounded.map(|([v_t, v_x], (speed, strain))| [within(v_t, speed), within(v_x, strain)]).collect())
+    }
+
     fn highest(&self, release: &Event<Estimate<S>>) -> Option<(Estimate<S>, Estimate<S>)> {
         let known = self.events.iter().position(|event| event.time.value() == release.time.value())?;
         let (time, height) = self.history.highest(self.history.events().get(known)?)?;

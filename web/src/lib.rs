@@ -97,8 +97,10 @@ impl Run {
     pub fn doubts(&self) -> Vec<String> {
         let bound = self.history.error_estimate();
         let wide = bound > DEFAULT_ACCURACY || bound.is_nan();
-        let wide = wide.then(|| format!("the bound of the error is {} of the natural scales", bound_of_log2(bound.log2())));
-        let undecided = matches!(self.history.ending(), Ending::Undecided(_)).then(|| self.history.ending().to_string());
+        let wide =
+            wide.then(|| format!("the bound of the error is {} of the natural scales", bound_of_log2(bound.log2())));
+        let undecided =
+            matches!(self.history.ending(), Ending::Undecided(_)).then(|| self.history.ending().to_string());
         let settled = |warning: &Warning| matches!(warning, Warning::DragNeglected { .. });
         let warnings = self.history.warnings().into_iter().filter(|warning| !settled(warning));
         wide.into_iter().chain(undecided).chain(warnings.map(|warning| warning.to_string())).collect()
@@ -144,16 +146,19 @@ impl Run {
         Ok(found.map_err(refuse)?.iter().map(text).collect())
     }
 
-    /// `v` and `v_x` at so many points from the ground to the top: all `v`, then all `v_x`.
+    /// `v` and `v_x` at so many points from the ground to the top: all `v`, then all `v_x`. `v` is drawn as `v(0,t)` and
+    /// the sum of trapezoids under `v_x`.
     pub fn rod(&self, time: f64, points: u32) -> Result<Vec<f64>, JsError> {
         let time = time.carry();
         self.draw(|motion| {
-            let (mut displacements, mut strains) = (Vec::new(), Vec::new());
-            for k in 0..points {
-                let point = share(&motion.scales().length, f64::from(k) / f64::from(points - 1));
-                let field = motion.field(&point, &time, Side::Right)?;
-                displacements.push(field.displacement.to_f64());
-                strains.push(field.strain.to_f64());
+            let points = grid(motion, f64::from(points - 1), |k| k, points);
+            let rates = motion.rates(&points, std::slice::from_ref(&time))?;
+            let mut strains: Vec<f64> = rates.iter().map(|[_, strain]| strain.to_f64()).collect();
+            let mut displacement = motion.ground_end(&time, Side::Right)?.0.to_f64();
+            let mut displacements = vec![displacement];
+            for (ends, strains) in points.windows(2).zip(strains.windows(2)) {
+                displacement += (ends[1].to_f64() - ends[0].to_f64()) * (strains[0] + strains[1]) / 2.0;
+                displacements.push(displacement);
             }
             displacements.append(&mut strains);
             Ok(displacements)
@@ -163,16 +168,9 @@ impl Run {
     /// `v_x` in the middle of each cell of a grid: column by column in time, from the ground to the top.
     pub fn strains(&self, from: f64, to: f64, columns: u32, rows: u32) -> Result<Vec<f64>, JsError> {
         self.draw(|motion| {
-            let length = motion.scales().length;
-            let point = |k: u32| share(&length, (f64::from(k) + 0.5) / f64::from(rows));
-            let points: Vec<_> = (0..rows).map(point).collect();
-            let mut strains = Vec::with_capacity((columns * rows) as usize);
-            for time in middles(from, to, columns) {
-                for point in &points {
-                    strains.push(motion.field(point, &time.carry(), Side::Right)?.strain.to_f64());
-                }
-            }
-            Ok(strains)
+            let points = grid(motion, f64::from(rows), |k| k + 0.5, rows);
+            let times: Vec<_> = middles(from, to, columns).map(|time| time.carry()).collect();
+            Ok(motion.rates(&points, &times)?.iter().map(|[_, strain]| strain.to_f64()).collect())
         })
     }
 
@@ -230,13 +228,13 @@ fn numbers<S>(energy: Energy<S>) -> [S; 3] {
     [energy.total, energy.translational, energy.vibrational]
 }
 
-/// So much of a length.
-fn share<S: Scalar>(length: &S, part: f64) -> S {
-    length.clone() * &length.double(part)
+/// The points `x = at(k) L/parts` for so many k from 0 on.
+fn grid(motion: &dyn Motion<Carried>, parts: f64, at: fn(f64) -> f64, count: u32) -> Vec<Carried> {
+    let length = motion.scales().length;
+    (0..count).map(|k| length.clone() * &length.double(at(f64::from(k)) / parts)).collect()
 }
 
 /// The middles of `count` equal parts.
 fn middles(from: f64, to: f64, count: u32) -> impl Iterator<Item = f64> {
     (0..count).map(move |k| from + (to - from) * (f64::from(k) + 0.5) / f64::from(count))
 }
-

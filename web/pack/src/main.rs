@@ -16,7 +16,9 @@ const MOST_BYTES: usize = 600_000;
 fn main() -> Result<()> {
     let arguments: Vec<String> = std::env::args().skip(1).collect();
     let [wasm, page, out] = &arguments[..] else { bail!("found {arguments:?}, expected WASM PAGE OUT") };
-    let mut bound = Bindgen::new().input_path(wasm).no_modules(true)?.typescript(false).generate_output()?;
+    let mut bindgen = Bindgen::new();
+    bindgen.input_path(wasm).no_modules(true)?.typescript(false).remove_name_section(true);
+    let mut bound = bindgen.generate_output()?;
     let module = bound.wasm_mut().emit_wasm();
     let mut packed = GzEncoder::new(Vec::new(), Compression::best());
     packed.write_all(&module)?;
