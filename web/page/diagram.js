@@ -127,19 +127,17 @@ export class Diagram {
 
   axes() {
     const { pen, panels, view } = this;
-    const { field, stress } = panels;
+    const { field } = panels;
     this.labels(field, [[0, "0"], [1, "L"]], (part) => field.top + field.height * (1 - part), "x");
     pen.fillStyle = colour.ink;
     pen.textAlign = "center";
-    for (const time of ticks(view.from, view.to, Math.max(field.width / 90, 2))) {
-      const x = this.place(time);
-      pen.fillText(String(time), x, this.canvas.clientHeight - 8);
-      pen.fillStyle = colour.line;
-      pen.fillRect(x - 0.5, stress.top, 1, 4);
-      pen.fillStyle = colour.ink;
-    }
+    for (const time of this.times()) pen.fillText(String(time), this.place(time), this.canvas.clientHeight - 6);
     pen.textAlign = "left";
-    pen.fillText("t", 6, this.canvas.clientHeight - 8);
+    pen.fillText("t", 2, this.canvas.clientHeight - 6);
+  }
+
+  times() {
+    return ticks(this.view.from, this.view.to, Math.max(this.panels.field.width / 90, 2));
   }
 
   /** A frame with values at its left. */
@@ -152,7 +150,7 @@ export class Diagram {
     pen.textAlign = "right";
     for (const [value, text] of values) pen.fillText(text, panel.left - 6, place(value) + 4);
     pen.textAlign = "left";
-    pen.fillText(name, 2, panel.top + panel.height / 2 + 4);
+    pen.fillText(name, 2, panel.top + 5);
   }
 
   drawStress() {
@@ -174,11 +172,11 @@ export class Diagram {
   }
 
   drawEnergies() {
-    const { pen, energies, panels, shot } = this;
+    const { pen, energies, panels } = this;
     const panel = panels.energy;
     pen.clearRect(0, panel.top - 5, this.canvas.clientWidth, panel.height + 9);
     const low = Math.min(0, ...energies);
-    const high = 1.08 * Math.max(shot.sizes.energy, ...energies) || 1;
+    const high = 1.08 * Math.max(0, ...energies) || 1;
     const place = (value) => panel.top + (panel.height * (high - value)) / (high - low);
     const count = energies.length / 2;
     const x = (k) => panel.left + (panel.width * (k + 0.5)) / count;
@@ -198,7 +196,7 @@ export class Diagram {
     pen.textAlign = "left";
     [["E_h", "translation"], ["E_z", "vibration"]].forEach(([text, name], k) => {
       pen.fillStyle = colour[name];
-      pen.fillText(text, 2, panel.top + panel.height / 2 + 20 + 16 * k);
+      pen.fillText(text, 2, panel.top + 22 + 16 * k);
     });
   }
 
@@ -206,6 +204,7 @@ export class Diagram {
     const { pen } = this;
     pen.fillStyle = colour.faint;
     for (const value of values) pen.fillRect(panel.left, place(value) - 0.5, panel.width, 1);
+    for (const time of this.times()) pen.fillRect(this.place(time) - 0.5, panel.top, 1, panel.height);
     this.labels(panel, values.map((value) => [value, String(value).replace("-", "−")]), place, name);
   }
 

@@ -3,7 +3,7 @@ import { PRESETS } from "./presets.js";
 import { command, fragment, read, scene, toml, value } from "./scene.js";
 import { colour, readColours } from "./colours.js";
 import { drawRod, enlargement } from "./rod.js";
-import { Diagram, ticks } from "./diagram.js";
+import { Diagram } from "./diagram.js";
 import { Sliders } from "./sliders.js";
 
 /** Milliseconds that a scene may take. */
@@ -34,10 +34,12 @@ function solve() {
   const whole = !view || !shot || (view.from === 0 && view.to === shot.end);
   shot?.run.free();
   shot = fresh;
-  now = Math.min(now, shot.end);
+  now = within(now);
   if (whole || view.to > shot.end) view = { from: 0, to: shot.end };
   sliders.ratios(shot.parameters);
   $("status").textContent = `c = ${shot.parameters[0]}, t₁ = ${shot.parameters[1]}; ${shot.run.ending()}`;
+  const strain = Number(shot.sizes.strain.toPrecision(3));
+  [$("least").textContent, $("most").textContent] = [`compressed v_x = −${strain}`, `${strain} stretched`];
   fillContacts();
   redraw();
 }
@@ -48,9 +50,9 @@ function solved(text) {
   try {
     performance.mark("asked");
     run = new wasm_bindgen.Run(text, MOST);
-    const [strain, rise, length, energy] = run.sizes();
+    const [strain, rise, length, least, most] = run.sizes();
     const fresh = {
-      run, sizes: { strain, rise, length, energy }, fixed: scene.top === "fixed", end: run.end(), events: run.events(),
+      run, sizes: { strain, rise, length, least, most }, fixed: scene.top === "fixed", end: run.end(), events: run.events(),
       parameters: run.parameters(), contacts: run.contacts(), stress: run.stress(),
     };
     fresh.round = (2 * value(scene.L)) / value(scene.c);
@@ -89,11 +91,12 @@ function schedule() {
 function tick(time) {
   frame = 0;
   if (playing) {
-    const passed = Math.min(time - last, 100) / 1000;
+    // A frame's time may be that of its beginning, before the key was pressed.
+    const passed = Math.min(Math.max(time - last, 0), 100) / 1000;
     const next = now + passed * Number($("speed").value) * 0.75 * shot.round;
     if (next >= shot.end) play(false);
-    follow(Math.min(next, shot.end));
-    moveTo(Math.min(next, shot.end));
+    follow(within(next));
+    moveTo(next);
   }
   last = time;
   if (diagram.work(DRAWING) || playing) schedule();
@@ -110,7 +113,10 @@ function follow(time) {
 }
 
 function play(on) {
-  if (on && now >= shot.end) moveTo(0);
+  if (on && now > 0.999 * shot.end) {
+    now = 0;
+    follow(now);
+  }
   playing = on;
   last = performance.now();
   $("play").textContent = on ? "❚❚ Pause" : "▶ Play";
@@ -118,9 +124,11 @@ function play(on) {
   else settle();
 }
 
+const within = (time) => Math.max(0, Math.min(time, shot.end));
+
 /** Puts the cursor at a time. */
 function moveTo(time) {
-  now = time;
+  now = within(time);
   const [h, E, E_h, E_z, end, strain] = shot.run.at(now);
   $("now").value = now.toFixed(places());
   fill($("values"), { h, E_h, E_z, E, "v(0,t)": end, "v_x(0,t)": strain });
@@ -137,7 +145,10 @@ function moveTo(time) {
 const places = () => Math.max(0, Math.min(12, 4 - Math.floor(Math.log10(shot.end))));
 
 /** A time as it is shown, so that the link and the command can repeat it. */
-const rounded = (time) => Math.min(Number(time.toFixed(places())), shot.end);
+const rounded = (time) => Number(time.toFixed(places()));
+
+/** The first time from an event on that is shown as it is. */
+const justAfter = (time) => rounded(time + (rounded(time) < time - 1e-12 * shot.end ? 10 ** -places() : 0));
 
 /** After the cursor has come to rest: the link, and a word for those who listen. */
 function settle() {
@@ -149,8 +160,8 @@ function settle() {
 
 function stepTo(time) {
   play(false);
-  follow(Math.max(0, Math.min(time, shot.end)));
-  moveTo(rounded(Math.max(0, Math.min(time, shot.end))));
+  follow(within(time));
+  now = within(time);
   schedule();
   settle();
 }
@@ -202,7 +213,7 @@ function fillContacts() {
   const go = (k) => {
     const button = Object.assign(document.createElement("button"), { type: "button", textContent: k + 1 });
     button.setAttribute("aria-label", `Go to contact ${k + 1}`);
-    button.addEventListener("click", () => stepTo(shot.events[2 * k]));
+    button.addEventListener("click", () => stepTo(justAfter(shot.events[2 * k])));
     return button;
   };
   const table = $("contacts");
@@ -288,8 +299,8 @@ function save() {
   });
 }
 
-const nextEvent = () => stepTo(shot.events.find((time) => time > now + 1e-9 * shot.end) ?? shot.end);
-const eventBefore = () => stepTo(shot.events.findLast((time) => time < now - 1e-9 * shot.end) ?? 0);
+const nextEvent = () => stepTo(shot.events.map(justAfter).find((time) => time > now) ?? shot.end);
+const eventBefore = () => stepTo(shot.events.map(justAfter).findLast((time) => time < now) ?? 0);
 const KEYS = {
   " ": () => play(!playing), n: nextEvent, p: eventBefore, "+": () => zoom(0.5), "-": () => zoom(2),
   0: () => zoom(Infinity), d: () => $("theme").click(), Home: () => stepTo(0), End: () => stepTo(shot.end),
@@ -342,7 +353,8 @@ function open() {
   sliders.refit();
   mark();
   solve();
-  if (shot) moveTo(Math.max(0, Math.min(time ?? 0.15 * shot.end, shot.end)));
+  if (shot) moveTo(time ?? rounded(0.3 * shot.round));
+  performance.mark("shown");
 }
 
 setTheme(matchMedia("(prefers-color-scheme: dark)").matches);

@@ -4,13 +4,13 @@ export const PRESETS = [
     name: "A rod dropped on the ground",
     scene: { L: "1", c: "1", mu: "2.5", r: "0", g: "1", top: "free", n: 4 },
     story: "A wave of compression starts at the ground, runs up, comes back as tension and lifts the rod off after exactly "
-      + "one round trip t₁ = 2L/c. The centre of mass leaves more slowly than it came, because the rod now vibrates. "
-      + "Each later landing meets this vibration in another phase, and so each bounce is different.",
+      + "one round trip t₁ = 2L/c. The centre of mass leaves as fast as it came, but from a lower place: what it lacks "
+      + "is the energy of the vibration. Each later landing meets this vibration in another phase, and so no two are alike.",
   },
   {
     name: "The bounce that takes its energy back",
     scene: { L: "10", c: "30", mu: "10", r: "0", g: "10", top: "free", n: 4 },
-    story: "The bar of Doyen, Ern and Piperno: the first bounce leaves 2000/27 of the energy as vibration E_z. The second "
+    story: "The bar of Doyen, Ern and Piperno: the first bounce leaves 4/27 of the energy as vibration E_z. The second "
       + "landing comes just when the vibration has the opposite phase, and undoes all of it. So every second contact "
       + "gives back what the one before it took, and the motion repeats for ever.",
   },
@@ -32,7 +32,7 @@ export const PRESETS = [
     name: "A landing without speed",
     scene: { L: "1", c: "1", mu: "1", r: "0", g: "1", top: "free", n: 9 },
     story: "At t = 31 the end touches the ground with the speed zero, and stays until t = 34. Such a landing is a double "
-      + "root, which no number of digits can tell from a near miss, and exact roots can. After it the rod bounces once "
+      + "root, which no number of digits can tell from a near miss, and exact roots can. Then the rod flies "
       + "without any vibration, and at t = 36 the whole motion begins anew.",
   },
 ];

@@ -24,13 +24,13 @@ export function prepare(canvas) {
 /** Draws the rod of `run` at `time`; energies are `[E_h, E_z]`, `sizes` the greatest of all in the run. */
 export function drawRod(canvas, { run, sizes, fixed }, time, factor, [translation, vibration], centre) {
   const { pen, width, height } = prepare(canvas);
-  const { length, strain: most, rise, energy } = sizes;
+  const { length, strain: most, rise } = sizes;
   const ground = height - 46;
   // The upper end swings about the centre of mass.
   const reach = 1.12 * length + factor * rise;
   const place = (y) => ground - (y / reach) * (ground - 14);
   const narrow = width < 120;
-  const [left, thick] = narrow ? [8, 26] : [22, 44];
+  const [left, thick] = narrow ? [4, 22] : [22, 44];
 
   const found = run.rod(time, POINTS);
   for (let k = 0; k + 1 < POINTS; k += 1) {
@@ -44,24 +44,26 @@ export function drawRod(canvas, { run, sizes, fixed }, time, factor, [translatio
   pen.strokeRect(left, high, thick, low - high);
   pen.lineWidth = 2;
   line(pen, left - 6, place(length / 2 + factor * centre), left + thick + 6, place(length / 2 + factor * centre));
-  hatch(pen, 0, left + thick + 16, ground, 1);
-  if (fixed) hatch(pen, 0, left + thick + 16, high, -1);
+  const edge = left + thick + (narrow ? 4 : 16);
+  hatch(pen, 0, edge, ground, 1);
+  if (fixed) hatch(pen, 0, edge, high, -1);
 
-  // E_h below the line of the ground where the centre of mass is deeper than it can fall freely.
-  const bar = narrow ? 12 : 22;
-  const from = width - 2 * bar - (narrow ? 6 : 14);
-  const tall = (ground - 14) / Math.max(energy, Number.MIN_VALUE);
+  // E_h is below zero where the centre of mass is deeper than its speed can lift it.
+  const [bar, apart] = narrow ? [16, 9] : [22, 4];
+  const from = width - 2 * bar - (narrow ? 11 : 14);
+  const scale = (ground - 14) / (sizes.most - sizes.least || 1);
+  const zero = ground + scale * sizes.least;
+  pen.textAlign = "center";
   [[translation, "translation", "E_h"], [vibration, "vibration", "E_z"]].forEach(([size, name, label], k) => {
-    const x = from + k * (bar + 4);
+    const x = from + k * (bar + apart);
+    const end = Math.max(Math.min(zero - size * scale, ground + 12), 2);
     pen.fillStyle = colour[name];
-    const end = ground - Math.max(Math.min(size * tall, ground - 14), -40);
-    pen.fillRect(x, Math.min(end, ground), bar, Math.abs(end - ground));
+    pen.fillRect(x, Math.min(end, zero), bar, Math.abs(end - zero));
     pen.fillStyle = colour.ink;
-    pen.textAlign = "center";
     pen.fillText(label, x + bar / 2, height - 6);
   });
   pen.lineWidth = 1;
-  line(pen, from - 3, ground, width - 2, ground);
+  line(pen, from - 3, zero, width - 2, zero);
   pen.fillText("h", left + thick + 13, place(length / 2 + factor * centre) + 4);
 }
 

@@ -3,9 +3,9 @@ import { scene, short, value } from "./scene.js";
 
 /** What a slider sets, its unit in the scene, and from which `g t₁`, `t₁` its other number follows. */
 const VALUES = [
-  { name: "mu", label: "μ, impact speed", ratio: "M", title: "M = μ/(g t₁)" },
-  { name: "r", label: "r, damping", ratio: "R", title: "R = r t₁" },
-  { name: "g", label: "g, gravity" },
+  { name: "mu", symbol: "μ", label: "μ, impact speed", ratio: "M", title: "M = μ/(g t₁)" },
+  { name: "r", symbol: "r", label: "r, damping", ratio: "R", title: "R = r t₁" },
+  { name: "g", symbol: "g", label: "g, gravity", hint: "gravity" },
 ];
 const NOTCHES = 400;
 
@@ -35,15 +35,16 @@ export class Sliders {
       made.append(...children);
       return made;
     };
-    for (const { name, label, ratio, title } of VALUES) {
+    for (const { name, symbol, label, ratio, title, hint } of VALUES) {
       const slider = element("input", { type: "range", min: 0, max: NOTCHES, step: 1, id: `${name}-slider` });
       slider.setAttribute("aria-label", label);
-      const field = this.field(name, label);
-      const parts = [element("label", { htmlFor: `${name}-field` }, label), field, slider];
+      const parts = [element("label", { htmlFor: `${name}-field`, title: label }, symbol), this.field(name, label)];
       if (ratio) {
-        this.fields[ratio] = element("input", { type: "text", inputMode: "decimal", title, id: `${ratio}-field` });
+        this.fields[ratio] = element("input", { type: "text", inputMode: "decimal", id: `${ratio}-field` });
         this.fields[ratio].addEventListener("change", () => this.setRatio(ratio));
         parts.push(element("label", { htmlFor: `${ratio}-field` }, title), this.fields[ratio]);
+      } else {
+        parts.push(element("span", {}, hint));
       }
       slider.addEventListener("input", () => {
         scene[name] = short((slider.value / NOTCHES) * this.ranges[name]);
@@ -51,18 +52,17 @@ export class Sliders {
         changed();
       });
       this.fields[`${name}-slider`] = slider;
-      place.append(element("div", { className: "row" }, ...parts));
+      place.append(element("div", { className: "row" }, ...parts, slider));
     }
-    const bounces = element("input", { type: "range", min: 1, max: 20, step: 1, id: "n-slider" });
-    const count = element("output", { htmlFor: "n-slider" });
-    Object.assign(this, { bounces, count });
-    bounces.addEventListener("input", () => this.set("n", Number(bounces.value)));
-    place.append(element("div", { className: "row" }, element("label", { htmlFor: "n-slider" }, "bounces"), count, bounces));
+    this.bounces = element("input", { type: "range", min: 1, max: 20, step: 1, id: "n-slider" });
+    this.count = element("output", { htmlFor: "n-slider" });
+    this.bounces.addEventListener("input", () => this.set("n", Number(this.bounces.value)));
+    const bounces = [element("label", { htmlFor: "n-slider" }, "bounces"), this.bounces, this.count];
     this.top = element("select", { id: "top" }, new Option("free", "free"), new Option("held", "fixed"));
     this.top.addEventListener("change", () => this.set("top", this.top.value));
-    place.append(element("div", { className: "row" }, element("label", { htmlFor: "top" }, "upper end"), this.top));
-    const pair = ["L", "c"].map((name) => element("label", {}, name, this.field(name, name)));
-    place.append(element("div", { className: "row pair" }, ...pair));
+    const rest = ["L", "c"].map((name) => element("label", {}, name, this.field(name, name)));
+    rest.push(element("label", {}, "top", this.top));
+    place.append(element("div", { className: "line" }, ...bounces), element("div", { className: "line" }, ...rest));
     this.refit();
   }
 

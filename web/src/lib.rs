@@ -6,8 +6,8 @@ use std::sync::Arc;
 use dalembert::number::{bound_of_log2, show};
 use dalembert::quantity::{flights, restitution};
 use dalembert::{
-    Answer, DEFAULT_ACCURACY, Ending, Energy, Error, History, Motion, Number, Numbers, Parameters, Plan, Question,
-    Scalar, Scene, Side, Solution, Warning,
+    Answer, Ending, Energy, Error, History, Motion, Numbers, Parameters, Plan, Question, Scalar, Scene, Side, Solution,
+    Warning,
 };
 use wasm_bindgen::prelude::*;
 
@@ -20,6 +20,8 @@ extern "C" {
 
 /// Significant digits of a double, as in the tables of the command.
 const DIGITS: u32 = 12;
+/// What doubles are to be known to, relative to the natural scales: six digits, more than a picture shows.
+const ACCURACY: f64 = 1e-6;
 /// Significant digits of `c`, `t₁`, `R` and `M`, as in the tables of the command.
 const FEW_DIGITS: u32 = 6;
 /// Straight pieces that a curved piece of the stress is drawn with.
@@ -58,7 +60,7 @@ impl Run {
     #[wasm_bindgen(constructor)]
     pub fn new(toml: &str, milliseconds: f64) -> Result<Run, JsError> {
         let scene = Scene::parse(toml).map_err(refuse)?;
-        let numbers = Numbers::Double(scene.accuracy.as_ref().map(Number::to_f64));
+        let numbers = Numbers::Double(Some(ACCURACY));
         let plan = Plan::of(&scene.problem, &Question::run(numbers)).map_err(refuse)?;
         let until = now() + milliseconds;
         let observe = Arc::new(move |_, _| match now() > until {
@@ -88,17 +90,18 @@ impl Run {
         *self.history.end()
     }
 
-    /// Where the history ends, and why, as the command says it.
+    /// Where the history ends and why, as the command says it, and the bound of its error.
     pub fn ending(&self) -> String {
-        format!("ends at t = {}: {}", self.history.end().decimal(DIGITS), self.history.ending())
+        let (end, why) = (self.history.end().decimal(DIGITS), self.history.ending());
+        let bound = bound_of_log2(self.history.error_estimate().log2());
+        format!("ends at t = {end}: {why}; error at most {bound} of the natural scales")
     }
 
     /// What doubles do not settle, a sentence each; empty where they settle all.
     pub fn doubts(&self) -> Vec<String> {
         let bound = self.history.error_estimate();
-        let wide = bound > DEFAULT_ACCURACY || bound.is_nan();
-        let wide =
-            wide.then(|| format!("the bound of the error is {} of the natural scales", bound_of_log2(bound.log2())));
+        let wide = (bound > ACCURACY || bound.is_nan())
+            .then(|| format!("the bound of the error is {} of the natural scales", bound_of_log2(bound.log2())));
         let undecided =
             matches!(self.history.ending(), Ending::Undecided(_)).then(|| self.history.ending().to_string());
         let settled = |warning: &Warning| matches!(warning, Warning::DragNeglected { .. });
@@ -174,7 +177,8 @@ impl Run {
         })
     }
 
-    /// The greatest `|v_x(0,t)|`, the greatest height of the centre of mass in a flight, `L`, and the energy at the start.
+    /// For scales: the greatest `|v_x(0,t)|`, the greatest height of the centre of mass in a flight, `L`, the least and the
+    /// greatest of energies at some times of the first contacts.
     pub fn sizes(&self) -> Result<Vec<f64>, JsError> {
         self.draw(|motion| {
             let strains = motion.contacts().iter().map(|contact| contact.peak_stress.to_f64().abs());
@@ -182,8 +186,17 @@ impl Run {
             for flight in flights(motion)? {
                 rise = flight.highest.iter().map(|(_, height)| height.to_f64()).fold(rise, f64::max);
             }
-            let energy = motion.energy(&0.0.carry())?.total.to_f64();
-            Ok(vec![strains.fold(0.0, f64::max), rise.max(0.0), motion.scales().length.to_f64(), energy])
+            let (mut least, mut most) = (0.0f64, 0.0f64);
+            for contact in motion.contacts().iter().take(3) {
+                let (from, to) = (contact.from.to_f64(), contact.to.as_ref().unwrap_or(&motion.end()).to_f64());
+                for time in [from].into_iter().chain(middles(from, to, 5)) {
+                    for energy in numbers(motion.energy(&time.carry())?) {
+                        (least, most) = (least.min(energy.to_f64()), most.max(energy.to_f64()));
+                    }
+                }
+            }
+            let strain = strains.fold(0.0, f64::max);
+            Ok(vec![strain, rise.max(0.0), motion.scales().length.to_f64(), least, most])
         })
     }
 
