@@ -45,6 +45,7 @@ mod paper_claims;
 #[cfg(feature = "cli")]
 mod peers;
 mod problem_builder;
+mod rates;
 #[cfg(all(feature = "cli", feature = "mp"))]
 mod reference;
 #[cfg(feature = "mp")]

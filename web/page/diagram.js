@@ -1,8 +1,9 @@
 // The pictures over time: the x–t diagram, the stress at the ground and the energies, on one axis.
 import { colour, ramp, shade } from "./colours.js";
-import { prepare } from "./rod.js";
+import { prepare, zoomed } from "./rod.js";
 
-const MARGIN = { left: 58, right: 12, top: 8, bottom: 26, gap: 14 };
+/** To the left, right, top and bottom of the panels, and between them. */
+const MARGIN = [58, 12, 8, 26, 14];
 /** Points and columns of the first, quick picture; and points of the last one, whose columns are those of the screen. */
 const COARSE = { columns: 90, rows: 24 };
 const ROWS = 160;
@@ -27,19 +28,20 @@ export class Diagram {
   show(shot, view) {
     Object.assign(this, { shot, view, energies: [] });
     const { pen, width, height, ratio } = prepare(this.canvas);
-    const inner = height - MARGIN.top - MARGIN.bottom - 2 * MARGIN.gap;
-    const panel = (top, tall) => ({ left: MARGIN.left, top, width: width - MARGIN.left - MARGIN.right, height: tall });
-    const third = MARGIN.top + 0.77 * inner + 2 * MARGIN.gap;
+    this.em = zoomed();
+    const [left, right, top, bottom, gap] = MARGIN.map((space) => space * this.em);
+    const inner = height - top - bottom - 2 * gap;
+    const panel = (top, tall) => ({ left, top, width: width - left - right, height: tall });
     this.panels = {
-      field: panel(MARGIN.top, 0.52 * inner),
-      stress: panel(MARGIN.top + 0.52 * inner + MARGIN.gap, 0.25 * inner),
-      energy: panel(third, 0.23 * inner),
+      field: panel(top, 0.52 * inner),
+      stress: panel(top + 0.52 * inner + gap, 0.25 * inner),
+      energy: panel(top + 0.77 * inner + 2 * gap, 0.23 * inner),
     };
     this.pen = pen;
     this.drawStress();
     this.axes();
     const fine = Math.min(Math.round(this.panels.field.width * ratio), 1200);
-    this.jobs = [this.fieldJob(COARSE.columns, COARSE.rows), this.energyJob(60), this.energyJob(Math.round(fine / 3)),
+    this.jobs = [this.fieldJob(COARSE.columns, COARSE.rows), this.energyJob(60), this.energyJob(Math.round(fine / 2)),
       this.fieldJob(fine, ROWS)];
   }
 
@@ -131,13 +133,13 @@ export class Diagram {
     this.labels(field, [[0, "0"], [1, "L"]], (part) => field.top + field.height * (1 - part), "x");
     pen.fillStyle = colour.ink;
     pen.textAlign = "center";
-    for (const time of this.times()) pen.fillText(String(time), this.place(time), this.canvas.clientHeight - 6);
+    for (const time of this.times()) pen.fillText(String(time), this.place(time), this.canvas.clientHeight - 6 * this.em);
     pen.textAlign = "left";
-    pen.fillText("t", 2, this.canvas.clientHeight - 6);
+    pen.fillText("t", 2, this.canvas.clientHeight - 6 * this.em);
   }
 
   times() {
-    return ticks(this.view.from, this.view.to, Math.max(this.panels.field.width / 90, 2));
+    return ticks(this.view.from, this.view.to, Math.max(this.panels.field.width / (90 * this.em), 2));
   }
 
   /** A frame with values at its left. */
@@ -148,9 +150,9 @@ export class Diagram {
     pen.strokeRect(panel.left - 0.5, panel.top - 0.5, panel.width + 1, panel.height + 1);
     pen.fillStyle = colour.ink;
     pen.textAlign = "right";
-    for (const [value, text] of values) pen.fillText(text, panel.left - 6, place(value) + 4);
+    for (const [value, text] of values) pen.fillText(text, panel.left - 6, place(value) + 4 * this.em);
     pen.textAlign = "left";
-    pen.fillText(name, 2, panel.top + 5);
+    pen.fillText(name, 2, panel.top + 5 * this.em);
   }
 
   drawStress() {
@@ -180,7 +182,7 @@ export class Diagram {
     const place = (value) => panel.top + (panel.height * (high - value)) / (high - low);
     const count = energies.length / 2;
     const x = (k) => panel.left + (panel.width * (k + 0.5)) / count;
-    this.grid(panel, ticks(low, high, 2), place, "E");
+    this.grid(panel, ticks(low, high, 3), place, "E");
     const curve = (of, name, wide) => {
       pen.beginPath();
       for (let k = 0; k < count; k += 1) pen.lineTo(x(k), place(of(k)));
@@ -196,7 +198,7 @@ export class Diagram {
     pen.textAlign = "left";
     [["E_h", "translation"], ["E_z", "vibration"]].forEach(([text, name], k) => {
       pen.fillStyle = colour[name];
-      pen.fillText(text, 2, panel.top + 22 + 16 * k);
+      pen.fillText(text, 2, panel.top + (22 + 16 * k) * this.em);
     });
   }
 

@@ -60,6 +60,10 @@ function solved(text) {
     say("", run.doubts());
     return fresh;
   } catch (error) {
+    if (error instanceof WebAssembly.RuntimeError) {
+      say("The engine has failed at this scene; please report it, and load the page again", []);
+      return null;
+    }
     run?.free();
     const [, beyond] = error.message.match(/^beyond doubles: ([^]*)/) ?? [];
     say(beyond ? "" : error.message, beyond ? [beyond] : []);
@@ -124,6 +128,9 @@ function play(on) {
   else settle();
 }
 
+/** How many times displacements are enlarged. */
+const factor = () => ($("drawn").value === "true" ? 1 : Number($("drawn").value) * enlargement(shot.sizes));
+
 const within = (time) => Math.max(0, Math.min(time, shot.end));
 
 /** Puts the cursor at a time. */
@@ -132,7 +139,7 @@ function moveTo(time) {
   const [h, E, E_h, E_z, end, strain] = shot.run.at(now);
   $("now").value = now.toFixed(places());
   fill($("values"), { h, E_h, E_z, E, "v(0,t)": end, "v_x(0,t)": strain });
-  drawRod($("rod"), shot, now, enlargement(shot.sizes), [E_h, E_z].map(Number), Number(h));
+  drawRod($("rod"), shot, now, factor(), [E_h, E_z].map(Number), Number(h));
   const place = diagram.place(now);
   $("cursor").style.transform = `translateX(${place - 1}px)`;
   $("cursor").hidden = now < view.from || now > view.to;
@@ -326,6 +333,7 @@ function listen() {
   $("in").addEventListener("click", () => zoom(0.5));
   $("out").addEventListener("click", () => zoom(2));
   $("whole").addEventListener("click", () => zoom(Infinity));
+  $("drawn").addEventListener("change", () => moveTo(now));
   $("time").addEventListener("input", () => stepTo($("time").value * shot.end));
   const scrub = (event) => {
     if (event.buttons) stepTo(Math.min(Math.max(diagram.time(event.offsetX), view.from), view.to));

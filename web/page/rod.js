@@ -6,6 +6,9 @@ const POINTS = 121;
 /** How many times displacements are enlarged where nothing else is chosen: strains and heights stay in the picture. */
 export const enlargement = ({ strain, rise, length }) => Math.min(0.6 / strain, (0.9 * length) / rise) || 1;
 
+/** How much greater than usual the letters are: on a projector, or as the reader has set them. */
+export const zoomed = () => parseFloat(getComputedStyle(document.documentElement).fontSize) / 16;
+
 /** A canvas ready to be drawn on in CSS pixels, sharp on every screen. */
 export function prepare(canvas) {
   const ratio = window.devicePixelRatio || 1;
@@ -17,7 +20,7 @@ export function prepare(canvas) {
   const pen = canvas.getContext("2d");
   pen.setTransform(ratio, 0, 0, ratio, 0, 0);
   pen.clearRect(0, 0, width, height);
-  pen.font = "13px system-ui, 'DejaVu Sans', sans-serif";
+  pen.font = `${13 * zoomed()}px system-ui, 'DejaVu Sans', sans-serif`;
   return { pen, width, height, ratio };
 }
 
@@ -25,12 +28,13 @@ export function prepare(canvas) {
 export function drawRod(canvas, { run, sizes, fixed }, time, factor, [translation, vibration], centre) {
   const { pen, width, height } = prepare(canvas);
   const { length, strain: most, rise } = sizes;
-  const ground = height - 46;
+  const em = zoomed();
+  const ground = height - 46 * em;
   // The upper end swings about the centre of mass.
   const reach = 1.12 * length + factor * rise;
   const place = (y) => ground - (y / reach) * (ground - 14);
-  const narrow = width < 120;
-  const [left, thick] = narrow ? [4, 22] : [22, 44];
+  const narrow = width < 120 * em;
+  const [left, thick] = (narrow ? [4, 22] : [22, 44]).map((x) => x * em);
 
   const found = run.rod(time, POINTS);
   for (let k = 0; k + 1 < POINTS; k += 1) {
@@ -49,8 +53,8 @@ export function drawRod(canvas, { run, sizes, fixed }, time, factor, [translatio
   if (fixed) hatch(pen, 0, edge, high, -1);
 
   // E_h is below zero where the centre of mass is deeper than its speed can lift it.
-  const [bar, apart] = narrow ? [16, 9] : [22, 4];
-  const from = width - 2 * bar - (narrow ? 11 : 14);
+  const [bar, apart] = (narrow ? [16, 9] : [22, 4]).map((x) => x * em);
+  const from = width - 2 * bar - (narrow ? 11 : 14) * em;
   const scale = (ground - 14) / (sizes.most - sizes.least || 1);
   const zero = ground + scale * sizes.least;
   pen.textAlign = "center";
@@ -64,7 +68,7 @@ export function drawRod(canvas, { run, sizes, fixed }, time, factor, [translatio
   });
   pen.lineWidth = 1;
   line(pen, from - 3, zero, width - 2, zero);
-  pen.fillText("h", left + thick + 13, place(length / 2 + factor * centre) + 4);
+  pen.fillText("h", left + thick + 13 * em, place(length / 2 + factor * centre) + 4);
 }
 
 function line(pen, x0, y0, x1, y1) {
