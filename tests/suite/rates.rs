@@ -1,5 +1,5 @@
-//! `Motion::rates`, velocity and strain on a grid at once, against the field point by point: two ways to the same numbers
-//! in every engine, at both ends, at rest, and across flights that are leapt over.
+//! `Motion::rates`, velocity and strain on a grid at once, against the field point by point: two ways to the same
+//! numbers in every engine, at both ends, at rest, and across flights that are leapt over.
 
 use dalembert::{Answer, Error, Estimate, Problem, Scalar, Side};
 

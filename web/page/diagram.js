@@ -4,7 +4,7 @@ import { prepare, zoomed } from "./rod.js";
 
 /** To the left, right, top and bottom of the panels, and between them. */
 const MARGIN = [58, 12, 8, 26, 14];
-/** Points and columns of the first, quick picture; and points of the last one, whose columns are those of the screen. */
+/** Points and columns of the first, quick picture; points of the last one, whose columns are those of the screen. */
 const COARSE = { columns: 90, rows: 24 };
 const ROWS = 160;
 
@@ -133,9 +133,10 @@ export class Diagram {
     this.labels(field, [[0, "0"], [1, "L"]], (part) => field.top + field.height * (1 - part), "x");
     pen.fillStyle = colour.ink;
     pen.textAlign = "center";
-    for (const time of this.times()) pen.fillText(String(time), this.place(time), this.canvas.clientHeight - 6 * this.em);
+    const low = this.canvas.clientHeight - 6 * this.em;
+    for (const time of this.times()) pen.fillText(String(time), this.place(time), low);
     pen.textAlign = "left";
-    pen.fillText("t", 2, this.canvas.clientHeight - 6 * this.em);
+    pen.fillText("t", 2, low);
   }
 
   times() {

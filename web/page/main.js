@@ -50,12 +50,13 @@ function solved(text) {
   try {
     performance.mark("asked");
     run = new wasm_bindgen.Run(text, MOST);
+    // What is asked at once; pictures come in the frames that follow.
     const [strain, rise, length, least, most] = run.sizes();
     const fresh = {
-      run, sizes: { strain, rise, length, least, most }, fixed: scene.top === "fixed", end: run.end(), events: run.events(),
-      parameters: run.parameters(), contacts: run.contacts(), stress: run.stress(),
+      run, sizes: { strain, rise, length, least, most }, fixed: scene.top === "fixed", end: run.end(),
+      round: (2 * value(scene.L)) / value(scene.c), events: run.events(), parameters: run.parameters(),
+      contacts: run.contacts(), stress: run.stress(),
     };
-    fresh.round = (2 * value(scene.L)) / value(scene.c);
     performance.measure("solve", "asked");
     say("", run.doubts());
     return fresh;
@@ -161,8 +162,8 @@ const justAfter = (time) => rounded(time + (rounded(time) < time - 1e-12 * shot.
 function settle() {
   moveTo(rounded(now));
   history.replaceState(null, "", fragment($("now").value));
-  const row = $("bounce").textContent && [...$("bounce").children].map((part) => part.textContent).join(" ");
-  $("spoken").textContent = `t = ${$("now").value}. ${[...$("values").children].map((part) => part.textContent).join(" ")}. ${row}`;
+  const words = (id) => [...$(id).children].map((part) => part.textContent).join(" ");
+  $("spoken").textContent = `t = ${$("now").value}. ${words("values")}. ${$("which").textContent}: ${words("bounce")}`;
 }
 
 function stepTo(time) {
@@ -292,15 +293,17 @@ function save() {
   pen.drawImage(rod, 8 * ratio, 8 * ratio);
   pen.drawImage(pictures, rod.width + 16 * ratio, 8 * ratio);
   pen.fillStyle = colour.accent;
-  if (!$("cursor").hidden) pen.fillRect(rod.width + 16 * ratio + diagram.place(now) * ratio, 8 * ratio, 2 * ratio, pictures.height);
+  const cursor = rod.width + (16 + diagram.place(now)) * ratio;
+  if (!$("cursor").hidden) pen.fillRect(cursor, 8 * ratio, 2 * ratio, pictures.height);
   pen.fillStyle = colour.ink;
   pen.font = `${14 * ratio}px system-ui, sans-serif`;
   const { L, c, mu, r, g, top } = scene;
-  const text = `L = ${L}, c = ${c}, μ = ${mu}, r = ${r}, g = ${g}${top === "fixed" ? ", upper end held" : ""}; t = ${$("now").value}`;
+  const held = top === "fixed" ? ", upper end held" : "";
+  const text = `L = ${L}, c = ${c}, μ = ${mu}, r = ${r}, g = ${g}${held}; t = ${$("now").value}`;
   pen.fillText(text, 12 * ratio, sheet.height - 14 * ratio);
   sheet.convertToBlob({ type: "image/png" }).then((blob) => {
-    const link = Object.assign(document.createElement("a"), { href: URL.createObjectURL(blob), download: "dalembert.png" });
-    link.click();
+    const link = document.createElement("a");
+    Object.assign(link, { href: URL.createObjectURL(blob), download: "dalembert.png" }).click();
     URL.revokeObjectURL(link.href);
     $("done").value = "picture saved";
   });
@@ -376,6 +379,10 @@ PRESETS.forEach(({ name }, k) => {
   button.addEventListener("click", () => choose(k));
   $("presets").append(button);
 });
-await loadEngine();
-open();
-listen();
+try {
+  await loadEngine();
+  open();
+  listen();
+} catch (error) {
+  say(`This browser cannot run the page, which needs WebAssembly and DecompressionStream: ${error.message}`, []);
+}

@@ -67,7 +67,8 @@ export class Sliders {
   }
 
   field(name, label) {
-    const field = Object.assign(document.createElement("input"), { type: "text", inputMode: "decimal", id: `${name}-field` });
+    const field = document.createElement("input");
+    Object.assign(field, { type: "text", inputMode: "decimal", id: `${name}-field` });
     field.setAttribute("aria-label", label);
     field.addEventListener("change", () => this.set(name, field.value.trim()));
     this.fields[name] = field;

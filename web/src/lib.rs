@@ -149,8 +149,8 @@ impl Run {
         Ok(found.map_err(refuse)?.iter().map(text).collect())
     }
 
-    /// `v` and `v_x` at so many points from the ground to the top: all `v`, then all `v_x`. `v` is drawn as `v(0,t)` and
-    /// the sum of trapezoids under `v_x`.
+    /// `v` and `v_x` at so many points from the ground to the top: all `v`, then all `v_x`. Drawn is `v(0,t)` and the
+    /// sum of trapezoids under `v_x`.
     pub fn rod(&self, time: f64, points: u32) -> Result<Vec<f64>, JsError> {
         let time = time.carry();
         self.draw(|motion| {
@@ -177,8 +177,8 @@ impl Run {
         })
     }
 
-    /// For scales: the greatest `|v_x(0,t)|`, the greatest height of the centre of mass in a flight, `L`, the least and the
-    /// greatest of energies at some times of the first contacts.
+    /// For scales: the greatest `|v_x(0,t)|`, the greatest height of the centre of mass in a flight, `L`, and the least
+    /// and the greatest of energies at some times of the first contacts.
     pub fn sizes(&self) -> Result<Vec<f64>, JsError> {
         self.draw(|motion| {
             let strains = motion.contacts().iter().map(|contact| contact.peak_stress.to_f64().abs());

@@ -42,11 +42,13 @@ async function open(fragment) {
 const unit = (shown) => 10 ** -(shown.match(/\.(\d+)$/)?.[1] ?? "").length;
 
 /**
- * Whether a number as it is shown is the given one, to the digits shown, and to the 1e-6 that the page promises; `off` is
- * what the given one may be off.
+ * Whether a number as it is shown is the given one, to the digits shown, and to the 1e-6 that the page promises;
+ * `off` is what the given one may be off.
  */
 function agrees(shown, given, scale, what, off = 0) {
-  if (given === "" || shown === "–") return assert.ok(given === "" && shown === "–", `${what}: ${shown} and ${given}`);
+  if (given === "" || shown === "–") {
+    return assert.ok(given === "" && shown === "–", `${what}: ${shown} and ${given}`);
+  }
   const apart = Math.abs(Number(plain(shown)) - Number(given));
   assert.ok(apart <= Math.min(unit(shown), 1e-6 * scale) + off, `${what}: ${shown} on the page, ${given} by the command`);
 }
@@ -120,9 +122,9 @@ for (const colorScheme of ["dark", "light"]) {
 }
 
 // The same numbers as the command, undamped and damped, free and held, and at a time in between.
-for (const scene of ["mu=2.5&g=1&n=10&t=9.5", "mu=1.5&g=1&n=20&t=30.1", "mu=2&g=1&r=0.1&n=10&t=7.3", "mu=20&r=0.01&n=10&t=50",
-  "mu=1&g=0&r=0.3&n=1&t=1.5", "mu=1&g=1&top=fixed&n=6&t=5", "mu=1&g=1&r=0.1&top=fixed&n=4&t=3", "L=10&c=30&mu=10&g=10&n=4&t=4",
-  "mu=1/3&g=0.1&L=2&c=3&n=5&t=1"]) {
+for (const scene of ["mu=2.5&g=1&n=10&t=9.5", "mu=1.5&g=1&n=20&t=30.1", "mu=2&g=1&r=0.1&n=10&t=7.3",
+  "mu=20&r=0.01&n=10&t=50", "mu=1&g=0&r=0.3&n=1&t=1.5", "mu=1&g=1&top=fixed&n=6&t=5",
+  "mu=1&g=1&r=0.1&top=fixed&n=4&t=3", "L=10&c=30&mu=10&g=10&n=4&t=4", "mu=1/3&g=0.1&L=2&c=3&n=5&t=1"]) {
   await compare(`#${scene}`);
 }
 
@@ -135,7 +137,8 @@ for (let k = 1; k <= 5; k += 1) {
   assert.equal((await text("play")).slice(-5), "Pause");
   stories.push(await text("story"));
   assert.equal(stories.at(-1).split(/[.:] /).length >= 3, true, stories.at(-1));
-  const rows = await page.$$eval("#contacts tbody tr", (rows) => rows.map((row) => [...row.cells].map((cell) => cell.textContent)));
+  const rows = await page.$$eval("#contacts tbody tr", (rows) => rows.map(
+    (row) => [...row.cells].map((cell) => cell.textContent)));
   if (k === 2) assert.deepEqual([rows[0][2], rows[0][8], rows[1][8]], ["0.666666666667", "74.0740740741", "0"]);
   if (k === 3) assert.match(await text("status"), /no bounce: r t₁ = 3\.2.* ≥ π/);
   if (k === 4) assert.deepEqual([rows[0][2], rows.length], ["2.5", 20]);
@@ -218,8 +221,10 @@ await page.setViewportSize({ width: 360, height: 740 });
 await open("#mu=3&r=0.1&n=10");
 assert.equal(await page.evaluate(() => document.documentElement.scrollWidth), 360);
 await page.screenshot({ path: join(ROOT, "target/page/phone.png"), fullPage: true });
-const nameless = await page.$$eval("button, input, select, canvas", (all) => all
-  .filter((part) => !(part.getAttribute("aria-label") || part.textContent.trim() || part.labels?.length)).map((part) => part.id));
+const nameless = await page.$$eval("button, input, select, canvas", (all) => {
+  const named = (part) => part.getAttribute("aria-label") || part.textContent.trim() || part.labels?.length;
+  return all.filter((part) => !named(part)).map((part) => part.id);
+});
 assert.deepEqual(nameless, []);
 
 // Frames while playing.
