@@ -123,7 +123,7 @@ export class Diagram {
     for (let k = 0; k < events.length; k += 2) {
       const from = Math.max(this.place(events[k]), left);
       const to = Math.min(this.place(events[k + 1] ?? end), left + width);
-      if (to > from) this.pen.fillRect(from, top + height - 1, to - from, 4);
+      if (to > from) this.pen.fillRect(from, Math.round(top + height), to - from, 4);
     }
   }
 

@@ -39,7 +39,7 @@ function solve() {
   sliders.ratios(shot.parameters);
   $("status").textContent = `c = ${shot.parameters[0]}, t₁ = ${shot.parameters[1]}; ${shot.run.ending()}`;
   const strain = Number(shot.sizes.strain.toPrecision(3));
-  [$("least").textContent, $("most").textContent] = [`compressed v_x = −${strain}`, `${strain} stretched`];
+  [$("least").textContent, $("most").textContent] = [`compressed −${strain}`, `${strain} stretched`];
   fillContacts();
   redraw();
 }
