@@ -2,18 +2,21 @@
 #   make demo         builds the command in pure Rust and solves a real scene in doubles; about a minute
 #   make demo-exact   the same scene in fractions; builds GMP and MPFR once, which takes minutes
 #   make test         runs all tests
-# GMP needs m4, which is installed where it is missing.
+#   make page         builds the page, one HTML file that opens from disk, and make page-test tries it in Chromium
+# GMP needs m4, and page-test Chromium; both are installed where they are missing. page-test needs Node 20 with npm too.
 
 CARGO ?= cargo
 # Random tests draw the same cases every time, so that one commit has one answer. `make explore` draws others.
 export PROPTEST_RNG_SEED ?= 1878
 
-.PHONY: help demo demo-exact test explore m4
+.PHONY: help demo demo-exact test explore page page-test m4 chromium
 
 help:
 	@echo "make demo         build the command in pure Rust and solve the bouncing bar of Doyen, Ern and Piperno"
 	@echo "make demo-exact   the same in fractions; builds GMP and MPFR first"
 	@echo "make test         run all tests, those of the documentation included"
+	@echo "make page         build the page: target/page/dalembert.html, one file that opens from disk"
+	@echo "make page-test    try the page in Chromium; needs Node 20 and npm"
 	@echo "make explore      run the random tests on cases never tried before"
 
 demo:
@@ -31,14 +34,28 @@ test: m4
 explore: m4
 	PROPTEST_RNG_SEED=$$(date +%s) $(CARGO) test --no-fail-fast --test suite -- properties first_contact_bounce
 
+WASM = wasm32-unknown-unknown
+PACKED = --manifest-path web/Cargo.toml --target-dir target/web
+
+page:
+	@rustc --print target-libdir --target $(WASM) | xargs test -d || rustup target add $(WASM)
+	$(CARGO) build $(PACKED) --release --target $(WASM) --lib
+	@mkdir -p target/page
+	$(CARGO) run --quiet $(PACKED) --package pack -- \
+		target/web/$(WASM)/release/dalembert_web.wasm web/page target/page/dalembert.html
+
+page-test: page chromium
+	$(CARGO) build
+	cd web/test && npm ci --silent --no-fund && node page.mjs
+
 # Debian and its kin; elsewhere the message says what is missing.
-m4:
-	@command -v m4 >/dev/null 2>&1 && exit 0; \
-	missing="m4 is missing; GMP needs it to build. Install m4 (Debian: apt-get install m4) and try again."; \
+m4 chromium:
+	@command -v $@ >/dev/null 2>&1 && exit 0; \
+	missing="$@ is missing. Install it (Debian: apt-get install $@) and try again."; \
 	command -v apt-get >/dev/null 2>&1 || { echo "$$missing" >&2; exit 1; }; \
 	if [ "$$(id -u)" = 0 ]; then root=; \
 	elif command -v sudo >/dev/null 2>&1; then root=sudo; \
 	else echo "$$missing" >&2; echo "This account is not root and there is no sudo." >&2; exit 1; fi; \
-	echo "installing m4"; \
-	{ $$root apt-get install -y m4 || { $$root apt-get update && $$root apt-get install -y m4; }; } >&2 \
-	&& command -v m4 >/dev/null 2>&1 || { echo "$$missing" >&2; exit 1; }
+	echo "installing $@"; install="$$root apt-get install -y --no-install-recommends $@"; \
+	{ $$install || { $$root apt-get update && $$install; }; } >&2 \
+	&& command -v $@ >/dev/null 2>&1 || { echo "$$missing" >&2; exit 1; }

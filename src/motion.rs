@@ -483,6 +483,19 @@ pub trait Motion<S: Scalar>: fmt::Debug + Send + Sync {
     /// `v`, `v_t`, `v_x` at `(x,t)`.
     fn field(&self, point: &S, time: &S, side: Side) -> Result<Field<S>, Error>;
 
+    /// `v_t` and `v_x` at every point of `points` for every time of `times`, both in increasing order: time by time, all
+    /// points of one time together. Where a ray passes, the value on one of its sides.
+    fn rates(&self, points: &[S], times: &[S]) -> Result<Vec<[S; 2]>, Error> {
+        let mut rates = Vec::with_capacity(points.len() * times.len());
+        for time in times {
+            for point in points {
+                let Field { velocity, strain, .. } = self.field(point, time, Side::Right)?;
+                rates.push([velocity, strain]);
+            }
+        }
+        Ok(rates)
+    }
+
     /// `t*` and `h(t*)`: where the centre of mass turns in the flight after `release`, if nothing ends the flight
     /// before. `None` where it does not turn: without gravity, under a fixed top, or already falling at the release.
     fn highest(&self, release: &Event<S>) -> Option<(S, S)>;

@@ -245,6 +245,21 @@ impl<S: RoundedSpecial> Motion<S> for ContactThenCells<S> {
         Ok(self.contact.field(&point.carry(), &time.carry(), side)?.map(Estimate::into_value))
     }
 
+    fn rates(&self, points: &[S], times: &[S]) -> Result<Vec<[S; 2]>, Error> {
+        let mut first = 0;
+        while first < times.len() && self.in_contact(&times[first], Side::Right)? {
+            first += 1;
+        }
+        let (contact, later) = times.split_at(first);
+        let carry = |numbers: &[S]| numbers.iter().map(|x| x.carry()).collect::<Vec<_>>();
+        let rates = self.contact.rates(&carry(points), &carry(contact))?;
+        let mut rates: Vec<_> = rates.into_iter().map(|pair| pair.map(Estimate::into_value)).collect();
+        if !later.is_empty() {
+            rates.extend(self.later()?.rates(points, later)?);
+        }
+        Ok(rates)
+    }
+
     fn highest(&self, release: &Event<S>) -> Option<(S, S)> {
         if self.at_bounce(&release.time) {
             return self.contact.rebound()?.highest().map(pair);

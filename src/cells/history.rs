@@ -484,6 +484,19 @@ impl<S: RoundedSpecial> Motion<S> for Damped<S> {
         })
     }
 
+    fn rates(&self, points: &[S], times: &[S]) -> Result<Vec<[S; 2]>, Error> {
+        let units = &self.data.units;
+        let outside = |x: &&S| x.is_negative() || **x > units.length || !x.is_finite();
+        if let Some(point) = points.iter().find(outside) {
+            return Err(Error::PointOutside { found: point.text(), length: units.length.text() });
+        }
+        let points: Vec<S> = points.iter().map(|x| x.clone() / &units.length * x.ratio(1, 2)).collect();
+        let times = times.iter().map(|time| self.time(time)).collect::<Result<Vec<S>, Error>>()?;
+        let scaled =
+            |(velocity, strain): (S, S)| [velocity * &units.velocity, strain * &units.velocity / &units.wave_speed];
+        Ok(self.record().grid(&points, &times).into_iter().map(scaled).collect())
+    }
+
     fn highest(&self, release: &Event<S>) -> Option<(S, S)> {
         let Units { gravity, time, .. } = &self.data.units;
         if gravity.is_zero() || !self.medium.free_top || release.centre_velocity.is_negative() {

@@ -208,6 +208,45 @@ impl<S: RoundedSpecial> Record<'_, S> {
         best.map_or_else(|| (x.zero(), x.zero()), |(rigid, motion, strain)| (rigid + motion, strain))
     }
 
+    /// `v_t` and `v_x` at every one of `points` for every one of `times`, both in increasing order, from later times:
+    /// what [`Record::at`] gives, in one march for all of them.
+    pub(super) fn grid(&self, points: &[S], times: &[S]) -> Vec<(S, S)> {
+        let (Some(first), Some(last), Some(reach)) = (times.first(), times.last(), points.last()) else {
+            return Vec::new();
+        };
+        let slack = slack(last);
+        let mut values = vec![(slack.zero(), slack.zero()); points.len() * times.len()];
+        self.sweep(&(first.clone() - reach - &slack), &(last.clone() + &slack), &mut |(cell, flight)| {
+            let (xi, eta) = (cell.corner.0.clone() - &slack, cell.corner.1.clone() - &slack);
+            let (xi_end, eta_end) = (xi.clone() + &cell.size.0 + &slack, eta.clone() + &cell.size.1 + &slack);
+            let begun = times.partition_point(|t| t.int(2) * t < xi.clone() + &eta);
+            for (k, t) in times.iter().enumerate().skip(begun) {
+                if t.int(2) * t > xi_end.clone() + &eta_end {
+                    break;
+                }
+                let low = larger(t.clone() - &xi_end, eta.clone() - t);
+                let high = smaller(t.clone() - &xi, eta_end.clone() - t);
+                let from = points.partition_point(|x| *x < low);
+                let len = points[from..].partition_point(|x| *x <= high);
+                let met = values[k * points.len() + from..].iter_mut();
+                let found = self.inside((cell, flight), &points[from..from + len], t);
+                for (value, (rigid, motion, strain)) in met.zip(found) {
+                    *value = (rigid + motion, strain);
+                }
+            }
+        });
+        for (t, values) in times.iter().zip(values.chunks_mut(points.len())) {
+            let rests = self.at_rest(t).is_some();
+            for (x, value) in points.iter().zip(values) {
+                let held = self.held.filter(|held| t.clone() - x < held.release.clone() - &slack);
+                if rests || held.is_some() {
+                    *value = self.at(x, t, Side::Right);
+                }
+            }
+        }
+        values
+    }
+
     /// The flight at time `t`, where it is taken apart.
     pub(super) fn flight(&self, t: &S, side: Side) -> Option<&Flight<S>> {
         self.piece(t, side).and_then(|(piece, _)| piece.flight).and_then(|k| self.flights.get(k))

@@ -307,6 +307,23 @@ impl<S: Rounded, H: Bounding<S>> Motion<Estimate<S>> for WithBounds<S, H> {
         Ok(Field { displacement, velocity, strain })
     }
 
+    fn rates(&self, points: &[Estimate<S>], times: &[Estimate<S>]) -> Result<Vec<[Estimate<S>; 2]>, Error> {
+        let times: Vec<&Estimate<S>> = times.iter().map(|time| self.meant(time)).collect();
+        let own = |time: &&Estimate<S>| self.history.bounded(time.value(), Side::Right);
+        let (first, later) = times.split_at(times.partition_point(|time| own(time).is_some()));
+        let mut rates = match first.first().and_then(own) {
+            Some(form) => form.rates(points, &first.iter().map(|time| rounded(time.value())).collect::<Vec<_>>())?,
+            None => Vec::new(),
+        };
+        let plain: Vec<S> = points.iter().map(|x| x.value().clone()).collect();
+        let found = self.history.rates(&plain, &later.iter().map(|time| time.value().clone()).collect::<Vec<_>>())?;
+        for (time, of_time) in later.iter().zip(found.chunks(plain.len().max(1))) {
+            let Near { speed, strain, .. } = self.near(time);
+            rates.extend(of_time.iter().map(|[v_t, v_x]| [within(v_t, speed), within(v_x, strain)]));
+        }
+        Ok(rates)
+    }
+
     fn highest(&self, release: &Event<Estimate<S>>) -> Option<(Estimate<S>, Estimate<S>)> {
         if let Some(form) = self.history.bounded(release.time.value(), Side::Left) {
             return form.highest(release);

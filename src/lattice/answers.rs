@@ -136,6 +136,29 @@ impl<N: Bounded> Motion<N> for Undamped<N> {
         })
     }
 
+    /// From the stretches of each time, on which both are linear.
+    fn rates(&self, points: &[N], times: &[N]) -> Result<Vec<[N; 2]>, Error> {
+        let length = &self.problem.units.length;
+        let mut rates = Vec::with_capacity(points.len() * times.len());
+        for time in times {
+            let stretches = self.stretches(time)?;
+            let mut k = 0;
+            for point in points {
+                if point.negative()? || length.below(point)? || !point.is_finite() {
+                    return Err(Error::PointOutside { found: point.text(), length: length.text() });
+                }
+                // What lies at the edge of two stretches within rounding is the end of the lower one.
+                while k + 1 < stretches.len() && stretches[k + 1].from.below(point) == Ok(true) {
+                    k += 1;
+                }
+                let Stretch { from, velocity, strain, .. } = &stretches[k];
+                let at = |[value, slope]: &[N; 2]| slope.clone() * &(point.clone() - from) + value;
+                rates.push([at(velocity), at(strain)]);
+            }
+        }
+        Ok(rates)
+    }
+
     fn highest(&self, release: &Event<N>) -> Option<(N, N)> {
         let Units { round_trip, velocity, .. } = &self.problem.units;
         let rate = &release.centre_velocity;

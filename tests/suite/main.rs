@@ -47,6 +47,7 @@ mod peers;
 #[cfg(feature = "cli")]
 mod pictures;
 mod problem_builder;
+mod rates;
 #[cfg(all(feature = "cli", feature = "mp"))]
 mod reference;
 #[cfg(feature = "mp")]

@@ -1,0 +1,79 @@
+//! `Motion::rates`, velocity and strain on a grid at once, against the field point by point: two ways to the same
+//! numbers in every engine, at both ends, at rest, and across flights that are leapt over.
+
+use dalembert::{Answer, Error, Estimate, Problem, Scalar, Side};
+
+/// What differs by more than the bounds.
+fn differences(name: &str, problem: &Problem, parts: usize) -> Vec<String> {
+    let history = problem.solve().unwrap();
+    let end = *history.end();
+    let (length, round) = (problem.rod.length.to_f64(), history.scales().time);
+    // Points and times of rays among them: halves of the rod, quarters of round trips, events.
+    let mut times: Vec<f64> = (0..=parts).map(|k| end * k as f64 / parts as f64).collect();
+    times.extend((1..12).map(|k| 0.25 * round * f64::from(k)).filter(|time| *time < end));
+    times.extend(history.events().iter().map(|event| event.time));
+    // At the end itself there are no later times, and a ray may arrive there.
+    times.retain(|time| *time < end * (1.0 - 1e-9));
+    times.sort_by(f64::total_cmp);
+    let points = [0.0, 0.013, 0.25, 0.5, 0.77, 1.0].map(|x| (x * length).carry());
+    let carried: Vec<_> = times.iter().map(Answer::carry).collect();
+    let rates = history.ask(|motion| motion.rates(&points, &carried), |_| Vec::new()).unwrap();
+    assert_eq!(rates.len(), points.len() * times.len());
+    let (scale, c) = (history.scales().velocity, history.scales().wave_speed);
+    let (mut compared, mut found) = (0, Vec::new());
+    for (time, row) in carried.iter().zip(rates.chunks(points.len())) {
+        for (point, [velocity, strain]) in points.iter().zip(row) {
+            let at = |side| history.ask(|motion| motion.field(point, time, side), |_| Vec::new()).unwrap();
+            let (left, right) = (at(Side::Left), at(Side::Right));
+            let off = |x: &Estimate<f64>, y: &Estimate<f64>| (x.to_f64() - y.to_f64()).abs() / scale;
+            // On a ray there are several values.
+            if off(&left.velocity, &right.velocity).max(c * off(&left.strain, &right.strain)) > 1e-12 {
+                continue;
+            }
+            compared += 1;
+            let (x, t) = (point.to_f64(), time.to_f64());
+            for (ours, fields, speed) in [(velocity, &right.velocity, 1.0), (strain, &right.strain, c)] {
+                let apart = speed * off(ours, fields);
+                let most = speed * (ours.bound() + fields.bound()) / scale + 1e-12;
+                if apart.is_nan() || apart > most {
+                    found.push(format!("{name}: x = {x}, t = {t}: {apart:e} {most:e}"));
+                }
+            }
+        }
+    }
+    assert!(10 * compared > 8 * rates.len(), "{name}: {compared} of {}", rates.len());
+    found
+}
+
+#[test]
+fn grids_have_the_values_of_the_field() {
+    let rod = || Problem::builder().length(2).wave_speed(3).gravity(1).impact_speed("1.7");
+    let scenes = [
+        ("undamped", rod().impacts(6)),
+        ("undamped, from above", rod().gap("0.4").impacts(2)),
+        ("held", rod().fixed_top().impacts(4)),
+        ("damped", rod().damping("0.3").impacts(4)),
+        ("damped, long flights", rod().damping("0.01").impact_speed(40).impacts(2)),
+        ("damped and held", rod().damping("0.2").fixed_top().impacts(3)),
+        ("damped, at rest in the end", rod().damping(2).time(60)),
+        ("damped, from above", rod().damping("0.1").gap("0.4").impacts(2)),
+    ];
+    let found = scenes.into_iter().flat_map(|(name, problem)| differences(name, &problem.build().unwrap(), 40));
+    assert_eq!(found.collect::<Vec<_>>(), Vec::<String>::new());
+}
+
+#[test]
+fn a_point_or_a_time_outside_is_refused() {
+    for damping in ["0", "0.1"] {
+        let rod = Problem::builder().length(1).wave_speed(1).impact_speed(1).gravity(1).damping(damping).impacts(2);
+        let history = rod.build().unwrap().solve().unwrap();
+        let ask = |point: f64, time: f64| {
+            history.ask(|motion| motion.rates(&[point.carry()], &[time.carry()]), |_| Vec::new()).unwrap_err()
+        };
+        for time in [1.0, *history.end() * 0.9] {
+            assert!(matches!(ask(1.5, time), Error::PointOutside { .. }), "{damping} {time}");
+        }
+        assert!(matches!(ask(0.5, -1.0), Error::TimeOutside { .. }));
+        assert!(matches!(ask(0.5, 1e9), Error::TimeOutside { .. }));
+    }
+}

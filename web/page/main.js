@@ -1,0 +1,388 @@
+// The page: what its parts do together.
+import { PRESETS } from "./presets.js";
+import { command, fragment, read, scene, toml, value } from "./scene.js";
+import { colour, readColours } from "./colours.js";
+import { drawRod, enlargement } from "./rod.js";
+import { Diagram } from "./diagram.js";
+import { Sliders } from "./sliders.js";
+
+/** Milliseconds that a scene may take. */
+const MOST = 1000;
+/** Milliseconds of each frame in which the pictures are drawn on. */
+const DRAWING = 7;
+const COLUMNS = ["contact from", "to", "t_b", "e_P", "e_E²", "E", "E_h", "E_z"];
+
+const $ = (id) => document.getElementById(id);
+const diagram = new Diagram($("diagram"));
+/** The solved scene, the time of the cursor, the times that are shown, and what goes on. */
+let [shot, now, view, playing, last, frame] = [null, 0, null, false, 0, 0];
+
+async function loadEngine() {
+  const packed = Uint8Array.from(atob($("engine").textContent), (c) => c.charCodeAt(0));
+  const stream = new Blob([packed]).stream().pipeThrough(new DecompressionStream("gzip"));
+  await wasm_bindgen({ module_or_path: await new Response(stream).arrayBuffer() });
+}
+
+/** Solves the scene and shows it. */
+function solve() {
+  const text = toml();
+  $("scene").textContent = text;
+  $("command").textContent = command();
+  const fresh = solved(text);
+  document.querySelector("main").classList.toggle("stale", !fresh);
+  if (!fresh) return;
+  const whole = !view || !shot || (view.from === 0 && view.to === shot.end);
+  shot?.run.free();
+  shot = fresh;
+  now = within(now);
+  if (whole || view.to > shot.end) view = { from: 0, to: shot.end };
+  sliders.ratios(shot.parameters);
+  $("status").textContent = `c = ${shot.parameters[0]}, t₁ = ${shot.parameters[1]}; ${shot.run.ending()}`;
+  const strain = Number(shot.sizes.strain.toPrecision(3));
+  [$("least").textContent, $("most").textContent] = [`compressed −${strain}`, `${strain} stretched`];
+  fillContacts();
+  redraw();
+}
+
+/** The answer to a scene; null, with the reason shown, where there is none. */
+function solved(text) {
+  let run;
+  try {
+    performance.mark("asked");
+    run = new wasm_bindgen.Run(text, MOST);
+    // What is asked at once; pictures come in the frames that follow.
+    const [strain, rise, length, least, most] = run.sizes();
+    const fresh = {
+      run, sizes: { strain, rise, length, least, most }, fixed: scene.top === "fixed", end: run.end(),
+      round: (2 * value(scene.L)) / value(scene.c), events: run.events(), parameters: run.parameters(),
+      contacts: run.contacts(), stress: run.stress(),
+    };
+    performance.measure("solve", "asked");
+    say("", run.doubts());
+    return fresh;
+  } catch (error) {
+    if (error instanceof WebAssembly.RuntimeError) {
+      say("The engine has failed at this scene; please report it, and load the page again", []);
+      return null;
+    }
+    run?.free();
+    const [, beyond] = error.message.match(/^beyond doubles: ([^]*)/) ?? [];
+    say(beyond ? "" : error.message, beyond ? [beyond] : []);
+    return null;
+  }
+}
+
+/** Shows a mistake, or what doubles do not settle. */
+function say(mistake, doubts) {
+  const text = mistake || doubts.map((doubt) => `Not settled by doubles: ${doubt}.`).join(" ");
+  $("doubt").textContent = text;
+  $("doubt").hidden = text === "";
+  $("beyond").hidden = doubts.length === 0;
+}
+
+/** Draws all again. */
+function redraw() {
+  readColours();
+  diagram.show(shot, view);
+  diagram.work(DRAWING);
+  moveTo(now);
+  schedule();
+}
+
+function schedule() {
+  frame ||= requestAnimationFrame(tick);
+}
+
+function tick(time) {
+  frame = 0;
+  if (playing) {
+    // A frame's time may be that of its beginning, before the key was pressed.
+    const passed = Math.min(Math.max(time - last, 0), 100) / 1000;
+    const next = now + passed * Number($("speed").value) * 0.75 * shot.round;
+    if (next >= shot.end) play(false);
+    follow(within(next));
+    moveTo(next);
+  }
+  last = time;
+  if (diagram.work(DRAWING) || playing) schedule();
+  else performance.mark("drawn");
+}
+
+/** Turns the pages of the pictures where the cursor leaves them. */
+function follow(time) {
+  const wide = view.to - view.from;
+  if (time <= view.to && time >= view.from) return;
+  const from = Math.max(0, Math.min(time - 0.1 * wide, shot.end - wide));
+  view = { from, to: from + wide };
+  diagram.show(shot, view);
+}
+
+function play(on) {
+  if (on && now > 0.999 * shot.end) {
+    now = 0;
+    follow(now);
+  }
+  playing = on;
+  last = performance.now();
+  $("play").textContent = on ? "❚❚ Pause" : "▶ Play";
+  if (on) schedule();
+  else settle();
+}
+
+/** How many times displacements are enlarged. */
+const factor = () => ($("drawn").value === "true" ? 1 : Number($("drawn").value) * enlargement(shot.sizes));
+
+const within = (time) => Math.max(0, Math.min(time, shot.end));
+
+/** Puts the cursor at a time. */
+function moveTo(time) {
+  now = within(time);
+  const [h, E, E_h, E_z, end, strain] = shot.run.at(now);
+  $("now").value = now.toFixed(places());
+  fill($("values"), { h, E_h, E_z, E, "v(0,t)": end, "v_x(0,t)": strain });
+  drawRod($("rod"), shot, now, factor(), [E_h, E_z].map(Number), Number(h));
+  const place = diagram.place(now);
+  $("cursor").style.transform = `translateX(${place - 1}px)`;
+  $("cursor").hidden = now < view.from || now > view.to;
+  $("time").value = now / shot.end;
+  $("time").setAttribute("aria-valuetext", `t = ${$("now").value}`);
+  showContact();
+}
+
+/** Decimals that tell two thousand times of the run apart. */
+const places = () => Math.max(0, Math.min(12, 4 - Math.floor(Math.log10(shot.end))));
+
+/** A time as it is shown, so that the link and the command can repeat it. */
+const rounded = (time) => Number(time.toFixed(places()));
+
+/** The first time from an event on that is shown as it is. */
+const justAfter = (time) => rounded(time + (rounded(time) < time - 1e-12 * shot.end ? 10 ** -places() : 0));
+
+/** After the cursor has come to rest: the link, and a word for those who listen. */
+function settle() {
+  moveTo(rounded(now));
+  history.replaceState(null, "", fragment($("now").value));
+  const words = (id) => [...$(id).children].map((part) => part.textContent).join(" ");
+  $("spoken").textContent = `t = ${$("now").value}. ${words("values")}. ${$("which").textContent}: ${words("bounce")}`;
+}
+
+function stepTo(time) {
+  play(false);
+  follow(within(time));
+  now = within(time);
+  schedule();
+  settle();
+}
+
+function fill(list, values) {
+  const texts = Object.entries(values);
+  if (list.children.length !== 2 * texts.length) {
+    list.replaceChildren(...texts.flatMap(([name]) => {
+      const term = document.createElement("dt");
+      const swatch = { E_h: "translation", E_z: "vibration" }[name];
+      if (swatch) {
+        const box = document.createElement("span");
+        box.className = "swatch";
+        box.style.background = `var(--${swatch})`;
+        term.append(box);
+      }
+      term.append(name);
+      return [term, document.createElement("dd")];
+    }));
+  }
+  texts.forEach(([, text], k) => { list.children[2 * k + 1].textContent = text.replace("-", "−"); });
+}
+
+/** The contact that the cursor is in, or the one before it. */
+function showContact() {
+  let k = 0;
+  while (shot.events[2 * k + 2] <= now) k += 1;
+  const rows = [...$("contacts").tBodies[0].rows];
+  rows.forEach((row, j) => (j === k ? row.setAttribute("aria-current", "true") : row.removeAttribute("aria-current")));
+  if (rows.length === 0) {
+    $("which").textContent = "No contact";
+    return fill($("bounce"), {});
+  }
+  const [, , t_b, e_P, e_E] = shot.contacts.slice(k * COLUMNS.length);
+  $("which").textContent = `Contact ${k + 1} of ${rows.length}`;
+  fill($("bounce"), { t_b, e_P, "e_E²": e_E });
+}
+
+function fillContacts() {
+  const row = (cells, tag) => {
+    const made = document.createElement("tr");
+    made.append(...cells.map((cell) => {
+      const place = document.createElement(tag);
+      place.append(cell);
+      return place;
+    }));
+    return made;
+  };
+  const go = (k) => {
+    const button = Object.assign(document.createElement("button"), { type: "button", textContent: k + 1 });
+    button.setAttribute("aria-label", `Go to contact ${k + 1}`);
+    button.addEventListener("click", () => stepTo(justAfter(shot.events[2 * k])));
+    return button;
+  };
+  const table = $("contacts");
+  table.createTHead().replaceChildren(row(["", ...COLUMNS], "th"));
+  const body = table.tBodies[0] ?? table.createTBody();
+  const count = shot.contacts.length / COLUMNS.length;
+  body.replaceChildren(...Array.from({ length: count }, (_, k) => {
+    const cells = shot.contacts.slice(k * COLUMNS.length, (k + 1) * COLUMNS.length);
+    return row([go(k), ...cells.map((text) => text.replace("-", "−"))], "td");
+  }));
+}
+
+/** Shows less or more of the time, around the cursor or a place. */
+function zoom(factor, around = now) {
+  const wide = Math.min(Math.max((view.to - view.from) * factor, shot.end / 1000), shot.end);
+  const part = (around - view.from) / (view.to - view.from);
+  const from = Math.max(0, Math.min(around - wide * Math.min(Math.max(part, 0), 1), shot.end - wide));
+  view = { from, to: from + wide };
+  redraw();
+}
+
+function choose(k) {
+  Object.assign(scene, PRESETS[k].scene);
+  $("story").textContent = PRESETS[k].story;
+  [now, view] = [0, null];
+  sliders.refit();
+  solve();
+  mark();
+  const still = matchMedia("(prefers-reduced-motion: reduce)").matches;
+  if (shot) play(!still);
+}
+
+/** Marks the story whose scene is shown, if one is. */
+function mark() {
+  const same = ({ scene: told }) => Object.entries(told).every(([name, text]) => String(scene[name]) === String(text));
+  const found = PRESETS.findIndex(same);
+  [...$("presets").children].forEach((button, k) => button.setAttribute("aria-pressed", String(k === found)));
+  if (found >= 0) $("story").textContent = PRESETS[found].story;
+}
+
+function setTheme(dark) {
+  document.documentElement.dataset.theme = dark ? "dark" : "light";
+  $("theme").textContent = dark ? "Light" : "Dark";
+  if (shot) redraw();
+}
+
+async function copy(text, what) {
+  try {
+    await navigator.clipboard.writeText(text);
+  } catch {
+    const field = document.createElement("textarea");
+    field.value = text;
+    document.body.append(field);
+    field.select();
+    document.execCommand("copy");
+    field.remove();
+  }
+  $("done").value = `${what} copied`;
+}
+
+/** The pictures as a PNG. */
+function save() {
+  const [rod, pictures] = [$("rod"), $("diagram")];
+  const ratio = pictures.width / pictures.clientWidth;
+  const sheet = new OffscreenCanvas(rod.width + pictures.width + 24 * ratio, pictures.height + 48 * ratio);
+  const pen = sheet.getContext("2d");
+  pen.fillStyle = colour.page;
+  pen.fillRect(0, 0, sheet.width, sheet.height);
+  pen.drawImage(rod, 8 * ratio, 8 * ratio);
+  pen.drawImage(pictures, rod.width + 16 * ratio, 8 * ratio);
+  pen.fillStyle = colour.accent;
+  const cursor = rod.width + (16 + diagram.place(now)) * ratio;
+  if (!$("cursor").hidden) pen.fillRect(cursor, 8 * ratio, 2 * ratio, pictures.height);
+  pen.fillStyle = colour.ink;
+  pen.font = `${14 * ratio}px system-ui, sans-serif`;
+  const { L, c, mu, r, g, top } = scene;
+  const held = top === "fixed" ? ", upper end held" : "";
+  const text = `L = ${L}, c = ${c}, μ = ${mu}, r = ${r}, g = ${g}${held}; t = ${$("now").value}`;
+  pen.fillText(text, 12 * ratio, sheet.height - 14 * ratio);
+  sheet.convertToBlob({ type: "image/png" }).then((blob) => {
+    const link = document.createElement("a");
+    Object.assign(link, { href: URL.createObjectURL(blob), download: "dalembert.png" }).click();
+    URL.revokeObjectURL(link.href);
+    $("done").value = "picture saved";
+  });
+}
+
+const nextEvent = () => stepTo(shot.events.map(justAfter).find((time) => time > now) ?? shot.end);
+const eventBefore = () => stepTo(shot.events.map(justAfter).findLast((time) => time < now) ?? 0);
+const KEYS = {
+  " ": () => play(!playing), n: nextEvent, p: eventBefore, "+": () => zoom(0.5), "-": () => zoom(2),
+  0: () => zoom(Infinity), d: () => $("theme").click(), Home: () => stepTo(0), End: () => stepTo(shot.end),
+  ArrowLeft: (wide) => stepTo(now - step(wide)), ArrowRight: (wide) => stepTo(now + step(wide)),
+};
+const step = (wide) => ((view.to - view.from) / 200) * (wide ? 10 : 1);
+
+function listen() {
+  document.addEventListener("keydown", (event) => {
+    const { target, key } = event;
+    if (event.ctrlKey || event.altKey || event.metaKey || !shot) return;
+    if (target.matches("input[type=text], select")) return;
+    if (target.matches("input[type=range]:not(#time)") && /^(Arrow|Home|End)/.test(key)) return;
+    if (target.matches("button, summary") && key === " ") return;
+    const act = KEYS[key] ?? (PRESETS[key - 1] && (() => choose(key - 1)));
+    if (!act) return;
+    event.preventDefault();
+    act(event.shiftKey);
+  });
+  $("play").addEventListener("click", () => play(!playing));
+  $("before").addEventListener("click", eventBefore);
+  $("after").addEventListener("click", nextEvent);
+  $("in").addEventListener("click", () => zoom(0.5));
+  $("out").addEventListener("click", () => zoom(2));
+  $("whole").addEventListener("click", () => zoom(Infinity));
+  $("drawn").addEventListener("change", () => moveTo(now));
+  $("time").addEventListener("input", () => stepTo($("time").value * shot.end));
+  const scrub = (event) => {
+    if (event.buttons) stepTo(Math.min(Math.max(diagram.time(event.offsetX), view.from), view.to));
+  };
+  $("diagram").addEventListener("pointerdown", scrub);
+  $("diagram").addEventListener("pointermove", scrub);
+  $("diagram").addEventListener("wheel", (event) => {
+    event.preventDefault();
+    zoom(event.deltaY > 0 ? 1.25 : 0.8, diagram.time(event.offsetX));
+  }, { passive: false });
+  $("theme").addEventListener("click", () => setTheme(document.documentElement.dataset.theme === "light"));
+  matchMedia("(prefers-color-scheme: dark)").addEventListener("change", (event) => setTheme(event.matches));
+  $("copy-scene").addEventListener("click", () => copy(toml(), "scene"));
+  $("copy-command").addEventListener("click", () => copy(command(), "command"));
+  $("copy-link").addEventListener("click", () => copy(location.href.split("#")[0] + fragment($("now").value), "link"));
+  $("save").addEventListener("click", save);
+  addEventListener("hashchange", open);
+  new ResizeObserver(() => shot && redraw()).observe($("pictures"));
+}
+
+/** Takes scene and time from the link. */
+function open() {
+  const time = read(location.hash);
+  view = null;
+  sliders.refit();
+  mark();
+  solve();
+  if (shot) moveTo(time ?? rounded(0.3 * shot.round));
+  performance.mark("shown");
+}
+
+setTheme(matchMedia("(prefers-color-scheme: dark)").matches);
+const sliders = new Sliders($("sliders"), () => {
+  mark();
+  solve();
+  if (shot && !playing) settle();
+});
+PRESETS.forEach(({ name }, k) => {
+  const button = Object.assign(document.createElement("button"), { type: "button", textContent: name });
+  button.addEventListener("click", () => choose(k));
+  $("presets").append(button);
+});
+try {
+  await loadEngine();
+  open();
+  listen();
+} catch (error) {
+  say(`This browser cannot run the page, which needs WebAssembly and DecompressionStream: ${error.message}`, []);
+}

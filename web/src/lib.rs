@@ -1,0 +1,253 @@
+//! The page: the text of a scene in, numbers and texts out. All physics is in the crate `dalembert`.
+
+use std::ops::ControlFlow;
+use std::sync::Arc;
+
+use dalembert::number::{bound_of_log2, show};
+use dalembert::quantity::{flights, restitution};
+use dalembert::{
+    Answer, Ending, Energy, Error, History, Motion, Numbers, Parameters, Plan, Question, Scalar, Scene, Side, Solution,
+    Warning,
+};
+use wasm_bindgen::prelude::*;
+
+#[wasm_bindgen]
+extern "C" {
+    /// Milliseconds since the page was opened.
+    #[wasm_bindgen(js_namespace = performance)]
+    fn now() -> f64;
+}
+
+/// Significant digits of a double, as in the tables of the command.
+const DIGITS: u32 = 12;
+/// What doubles are to be known to, relative to the natural scales: six digits, more than a picture shows.
+const ACCURACY: f64 = 1e-6;
+/// Significant digits of `c`, `t₁`, `R` and `M`, as in the tables of the command.
+const FEW_DIGITS: u32 = 6;
+/// Straight pieces that a curved piece of the stress is drawn with.
+const CHORDS: i64 = 12;
+
+/// What has no value.
+const NONE: &str = "–";
+
+fn refuse(error: impl std::fmt::Display) -> JsError {
+    JsError::new(&error.to_string())
+}
+
+/// A refusal of what longer numbers or more time can settle.
+fn beyond(error: impl std::fmt::Display) -> JsError {
+    JsError::new(&format!("beyond doubles: {error}"))
+}
+
+fn text<S: Scalar>(x: &S) -> String {
+    show(x, DIGITS)
+}
+
+fn optional<S: Scalar>(x: Option<&S>) -> String {
+    x.map_or(NONE.into(), text)
+}
+
+/// A solved scene.
+#[wasm_bindgen]
+pub struct Run {
+    scene: Scene,
+    history: History<f64>,
+}
+
+#[wasm_bindgen]
+impl Run {
+    /// Solves the scene of `toml` in doubles, in at most so many milliseconds.
+    #[wasm_bindgen(constructor)]
+    pub fn new(toml: &str, milliseconds: f64) -> Result<Run, JsError> {
+        let scene = Scene::parse(toml).map_err(refuse)?;
+        let numbers = Numbers::Double(Some(ACCURACY));
+        let plan = Plan::of(&scene.problem, &Question::run(numbers)).map_err(refuse)?;
+        let until = now() + milliseconds;
+        let observe = Arc::new(move |_, _| match now() > until {
+            true => ControlFlow::Break(()),
+            false => ControlFlow::Continue(()),
+        });
+        match plan.solve(&scene.problem, observe) {
+            Ok(Solution::Double(history)) => Ok(Run { scene, history }),
+            Ok(_) => Err(refuse("found numbers other than doubles")),
+            Err(Error::Interrupted) => Err(beyond(format!("no answer within {milliseconds} ms"))),
+            Err(error @ (Error::NotDecided { .. } | Error::NoMultiprecision | Error::Open(_))) => Err(beyond(error)),
+            Err(error) => Err(refuse(error)),
+        }
+    }
+
+    /// `c`, `t₁`, `R`, `M` as the command prints them.
+    pub fn parameters(&self) -> Result<Vec<String>, JsError> {
+        let rod = Parameters::<f64>::of(&self.scene.problem, &()).map_err(refuse)?;
+        let groups = self.scene.problem.dimensionless();
+        let ratio = groups.speed_ratio.filter(|ratio| ratio.is_finite());
+        let known = [rod.wave_speed, rod.round_trip(), groups.damping_ratio].map(|x| x.decimal(FEW_DIGITS));
+        Ok(known.into_iter().chain([ratio.map_or("∞".into(), |ratio| ratio.decimal(FEW_DIGITS))]).collect())
+    }
+
+    /// The last time that is known.
+    pub fn end(&self) -> f64 {
+        *self.history.end()
+    }
+
+    /// Where the history ends and why, as the command says it, and the bound of its error.
+    pub fn ending(&self) -> String {
+        let (end, why) = (self.history.end().decimal(DIGITS), self.history.ending());
+        let bound = bound_of_log2(self.history.error_estimate().log2());
+        format!("ends at t = {end}: {why}; error at most {bound} of the natural scales")
+    }
+
+    /// What doubles do not settle, a sentence each; empty where they settle all.
+    pub fn doubts(&self) -> Vec<String> {
+        let bound = self.history.error_estimate();
+        let wide = (bound > ACCURACY || bound.is_nan())
+            .then(|| format!("the bound of the error is {} of the natural scales", bound_of_log2(bound.log2())));
+        let undecided =
+            matches!(self.history.ending(), Ending::Undecided(_)).then(|| self.history.ending().to_string());
+        let settled = |warning: &Warning| matches!(warning, Warning::DragNeglected { .. });
+        let warnings = self.history.warnings().into_iter().filter(|warning| !settled(warning));
+        wide.into_iter().chain(undecided).chain(warnings.map(|warning| warning.to_string())).collect()
+    }
+
+    /// Times of impacts and releases, in turns, an impact first.
+    pub fn events(&self) -> Vec<f64> {
+        self.history.events().iter().map(|event| event.time).collect()
+    }
+
+    /// Contact by contact: beginning, end, duration, `e_P`, `e_E²`, and `E`, `E_h`, `E_z` at the end.
+    pub fn contacts(&self) -> Result<Vec<String>, JsError> {
+        let rows = self.history.ask(
+            |motion| {
+                let row = |contact: &_| {
+                    let e = restitution(motion, contact)?;
+                    let energy = contact.to.as_ref().map(|to| motion.energy(to)).transpose()?;
+                    let time = contact.to.clone().map(|to| to - &contact.from);
+                    let mut row = vec![Some(contact.from.clone()), contact.to.clone(), time];
+                    row.extend([e.momentum.ok(), e.energy_squared.ok()]);
+                    row.extend(energy.map_or([None, None, None], |e| numbers(e).map(Some)));
+                    Ok(row)
+                };
+                motion.contacts().iter().map(row).collect::<Result<Vec<_>, Error>>()
+            },
+            |rows| rows.iter().flatten().flatten().collect(),
+        );
+        Ok(rows.map_err(refuse)?.iter().flatten().map(|x| optional(x.as_ref())).collect())
+    }
+
+    /// `h`, `E`, `E_h`, `E_z`, `v(0,t)` and `v_x(0,t)` at a time.
+    pub fn at(&self, time: f64) -> Result<Vec<String>, JsError> {
+        let time = time.carry();
+        let found = self.history.ask(
+            |motion| {
+                let [total, translational, vibrational] = numbers(motion.energy(&time)?);
+                let (end, _) = motion.ground_end(&time, Side::Right)?;
+                let strain = motion.strain(&time, Side::Right)?;
+                Ok([motion.centre(&time)?.0, total, translational, vibrational, end, strain])
+            },
+            |found| found.iter().collect(),
+        );
+        Ok(found.map_err(refuse)?.iter().map(text).collect())
+    }
+
+    /// `v` and `v_x` at so many points from the ground to the top: all `v`, then all `v_x`. Drawn is `v(0,t)` and the
+    /// sum of trapezoids under `v_x`.
+    pub fn rod(&self, time: f64, points: u32) -> Result<Vec<f64>, JsError> {
+        let time = time.carry();
+        self.draw(|motion| {
+            let points = grid(motion, f64::from(points - 1), |k| k, points);
+            let rates = motion.rates(&points, std::slice::from_ref(&time))?;
+            let mut strains: Vec<f64> = rates.iter().map(|[_, strain]| strain.to_f64()).collect();
+            let mut displacement = motion.ground_end(&time, Side::Right)?.0.to_f64();
+            let mut displacements = vec![displacement];
+            for (ends, strains) in points.windows(2).zip(strains.windows(2)) {
+                displacement += (ends[1].to_f64() - ends[0].to_f64()) * (strains[0] + strains[1]) / 2.0;
+                displacements.push(displacement);
+            }
+            displacements.append(&mut strains);
+            Ok(displacements)
+        })
+    }
+
+    /// `v_x` in the middle of each cell of a grid: column by column in time, from the ground to the top.
+    pub fn strains(&self, from: f64, to: f64, columns: u32, rows: u32) -> Result<Vec<f64>, JsError> {
+        self.draw(|motion| {
+            let points = grid(motion, f64::from(rows), |k| k + 0.5, rows);
+            let times: Vec<_> = middles(from, to, columns).map(|time| time.carry()).collect();
+            Ok(motion.rates(&points, &times)?.iter().map(|[_, strain]| strain.to_f64()).collect())
+        })
+    }
+
+    /// For scales: the greatest `|v_x(0,t)|`, the greatest height of the centre of mass in a flight, `L`, and the least
+    /// and the greatest of energies at some times of the first contacts.
+    pub fn sizes(&self) -> Result<Vec<f64>, JsError> {
+        self.draw(|motion| {
+            let strains = motion.contacts().iter().map(|contact| contact.peak_stress.to_f64().abs());
+            let mut rise = motion.centre(&motion.end())?.0.to_f64();
+            for flight in flights(motion)? {
+                rise = flight.highest.iter().map(|(_, height)| height.to_f64()).fold(rise, f64::max);
+            }
+            let (mut least, mut most) = (0.0f64, 0.0f64);
+            for contact in motion.contacts().iter().take(3) {
+                let (from, to) = (contact.from.to_f64(), contact.to.as_ref().unwrap_or(&motion.end()).to_f64());
+                for time in [from].into_iter().chain(middles(from, to, 5)) {
+                    for energy in numbers(motion.energy(&time.carry())?) {
+                        (least, most) = (least.min(energy.to_f64()), most.max(energy.to_f64()));
+                    }
+                }
+            }
+            let strain = strains.fold(0.0, f64::max);
+            Ok(vec![strain, rise.max(0.0), motion.scales().length.to_f64(), least, most])
+        })
+    }
+
+    /// `v_x(0,t)` as points `t, v_x` of a line that is drawn through: two of them where it jumps.
+    pub fn stress(&self) -> Result<Vec<f64>, JsError> {
+        let mut line = Vec::new();
+        for piece in self.history.stress_history().map_err(refuse)?.pieces {
+            line.extend([piece.from, piece.left]);
+            if !piece.chebyshev.is_empty() {
+                for k in 1..CHORDS {
+                    let time = piece.from + (piece.to - piece.from) * k as f64 / CHORDS as f64;
+                    line.extend([time, piece.eval(&time)]);
+                }
+            }
+            line.extend([piece.to, piece.right]);
+        }
+        Ok(line)
+    }
+
+    /// `E_h` and `E_z` in the middle of so many equal parts of the time between two.
+    pub fn energies(&self, from: f64, to: f64, count: u32) -> Result<Vec<f64>, JsError> {
+        self.draw(|motion| {
+            let mut energies = Vec::with_capacity(2 * count as usize);
+            for time in middles(from, to, count) {
+                let Energy { translational, vibrational, .. } = motion.energy(&time.carry())?;
+                energies.extend([translational.to_f64(), vibrational.to_f64()]);
+            }
+            Ok(energies)
+        })
+    }
+
+    /// Numbers for a picture: as doubles, without their bounds.
+    fn draw(&self, query: impl Fn(&dyn Motion<Carried>) -> Result<Vec<f64>, Error>) -> Result<Vec<f64>, JsError> {
+        self.history.ask(query, |_| Vec::new()).map_err(refuse)
+    }
+}
+
+/// A double with its bound.
+type Carried = <f64 as Answer>::Carried;
+
+fn numbers<S>(energy: Energy<S>) -> [S; 3] {
+    [energy.total, energy.translational, energy.vibrational]
+}
+
+/// The points `x = at(k) L/parts` for so many k from 0 on.
+fn grid(motion: &dyn Motion<Carried>, parts: f64, at: fn(f64) -> f64, count: u32) -> Vec<Carried> {
+    let length = motion.scales().length;
+    (0..count).map(|k| length.clone() * &length.double(at(f64::from(k)) / parts)).collect()
+}
+
+/// The middles of `count` equal parts.
+fn middles(from: f64, to: f64, count: u32) -> impl Iterator<Item = f64> {
+    (0..count).map(move |k| from + (to - from) * (f64::from(k) + 0.5) / f64::from(count))
+}

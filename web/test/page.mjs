@@ -1,0 +1,249 @@
+// The page in headless Chromium: node page.mjs, after make page. Its numbers are held against those of the command.
+import assert from "node:assert/strict";
+import { execFileSync } from "node:child_process";
+import { mkdtempSync, rmSync, statSync } from "node:fs";
+import { tmpdir } from "node:os";
+import { join, resolve } from "node:path";
+import { chromium } from "playwright-core";
+
+const ROOT = resolve(import.meta.dirname, "../..");
+const FILE = join(ROOT, "target/page/dalembert.html");
+const URL = `file://${FILE}`;
+const FLAGS = ["--no-sandbox", "--disable-gpu", "--disable-quic", "--no-first-run", "--disable-background-networking",
+  "--disable-component-update", "--disable-sync"];
+const command = (args, input) => execFileSync(join(ROOT, "target/debug/dalembert"), args, { input, encoding: "utf8" });
+
+const profile = mkdtempSync(join(tmpdir(), "page-"));
+const browser = await chromium.launchPersistentContext(profile, {
+  executablePath: "/usr/bin/chromium", headless: true, args: FLAGS, viewport: { width: 1280, height: 720 },
+});
+await browser.grantPermissions(["clipboard-read", "clipboard-write"]);
+const page = browser.pages()[0] ?? (await browser.newPage());
+const complaints = [];
+page.on("console", (message) => complaints.push(message.text()));
+page.on("pageerror", (error) => complaints.push(`${error.message} ${error.stack}`));
+page.on("request", (request) => /^(data|blob):/.test(request.url()) || request.url().split("#")[0] === URL
+  || complaints.push(`request ${request.url()}`));
+
+const text = (id) => page.textContent(`#${id}`);
+const field = (id) => page.inputValue(`#${id}`);
+const marked = (name) => page.waitForFunction((name) => performance.getEntriesByName(name).length > 0, name);
+const settled = () => page.waitForTimeout(200);
+const plain = (shown) => shown.replace("−", "-");
+const terms = (id) => page.$eval(`#${id}`, (list) => Object.fromEntries(
+  [...list.querySelectorAll("dt")].map((term) => [term.textContent, term.nextSibling.textContent])));
+
+async function open(fragment) {
+  await page.goto("about:blank");
+  await page.goto(URL + fragment);
+  await marked("shown");
+}
+
+const unit = (shown) => 10 ** -(shown.match(/\.(\d+)$/)?.[1] ?? "").length;
+
+/**
+ * Whether a number as it is shown is the given one, to the digits shown, and to the 1e-6 that the page promises;
+ * `off` is what the given one may be off.
+ */
+function agrees(shown, given, scale, what, off = 0) {
+  if (given === "" || shown === "–") {
+    return assert.ok(given === "" && shown === "–", `${what}: ${shown} and ${given}`);
+  }
+  const apart = Math.abs(Number(plain(shown)) - Number(given));
+  assert.ok(apart <= Math.min(unit(shown), 1e-6 * scale) + off, `${what}: ${shown} on the page, ${given} by the command`);
+}
+
+/** The contacts and the values at the cursor, against the command. */
+async function compare(fragment) {
+  await open(fragment);
+  const scene = await text("scene");
+  const [, ...lines] = command(["solve", "-", "--format", "csv", "--part", "contacts"], scene).trim().split("\n")
+    .filter((line) => !line.startsWith("#"));
+  const given = lines.map((line) => line.split(","));
+  const shown = await page.$$eval("#contacts tbody tr", (rows) => rows.map(
+    (row) => [...row.cells].slice(1).map((cell) => cell.textContent)));
+  assert.equal(shown.length, given.length, fragment);
+  // from, to, duration, e_P, e_E², E, E_h, E_z here; from, to, impulse, peak, e_P, e_E², E, E_h, E_z there.
+  const energy = Math.max(...given.map((row) => Math.abs(Number(row[6]))));
+  given.forEach((row, k) => {
+    const span = row[1] === "" ? "" : String(Number(row[1]) - Number(row[0]));
+    const there = [row[0], row[1], span, row[4], row[5], row[6], row[7], row[8]];
+    const scales = [row[0], row[1], row[1], row[4], row[5]].map((x) => Math.abs(Number(x)) || 1);
+    // The command has no durations; those here are of times that are rounded as they are printed.
+    const off = [0, 0, unit(row[0]) + unit(row[1])];
+    there.forEach((x, j) => agrees(shown[k][j], x, scales[j] ?? energy, `${fragment}, contact ${k + 1}, ${j}`, off[j]));
+  });
+  const time = await text("now");
+  const columns = ["h", "E_h", "E_z", "E_total", "u_end", "strain"];
+  const values = command(["reference", "-", "--times", time, "--columns", columns.join(","), "--side", "right"], scene)
+    .trim().split("\n").at(-1).split(",");
+  const at = Object.values(await terms("values"));
+  values.forEach((x, k) => agrees(at[k], x, Math.max(Math.abs(Number(x)), energy || 1), `${fragment}, ${columns[k]}`));
+  return shown;
+}
+
+// It opens from disk, with a scene, and draws it.
+await open("");
+await marked("drawn");
+const times = await page.evaluate(() => ({
+  paint: performance.getEntriesByName("first-contentful-paint")[0].startTime,
+  shown: performance.getEntriesByName("shown")[0].startTime,
+  drawn: performance.getEntriesByName("drawn")[0].startTime,
+}));
+const size = statSync(FILE).size;
+assert.ok(size < 600_000, `${size} bytes`);
+
+// Ahead of the wave the rod is undeformed, behind it compressed: x = t is where that changes.
+const pixel = (x, t) => page.evaluate(([x, t]) => {
+  const canvas = document.getElementById("diagram");
+  const ratio = canvas.width / canvas.clientWidth;
+  // The margins of the picture, and its share of the height.
+  const [left, top, right, bottom, gap] = [58, 8, 12, 26, 14];
+  const high = 0.52 * (canvas.clientHeight - top - bottom - 2 * gap);
+  const end = Number(document.getElementById("status").textContent.match(/ends at t = ([\d.]+)/)[1]);
+  const place = [left + ((canvas.clientWidth - left - right) * t) / end, top + high * (1 - x)];
+  const copy = new OffscreenCanvas(canvas.width, canvas.height).getContext("2d", { willReadFrequently: true });
+  copy.drawImage(canvas, 0, 0);
+  return [...copy.getImageData(place[0] * ratio, place[1] * ratio, 1, 1).data];
+}, [x, t]);
+const [ahead, behind] = [await pixel(0.75, 0.6), await pixel(0.45, 0.6)];
+assert.ok(Math.max(...ahead.slice(0, 3)) - Math.min(...ahead.slice(0, 3)) < 12, `undeformed: ${ahead}`);
+assert.ok(behind[0] > behind[2] + 60, `compressed: ${behind}`);
+
+await page.emulateMedia({ colorScheme: "light" });
+await page.screenshot({ path: join(ROOT, "target/page/light.png") });
+await page.click("#theme");
+await settled();
+await page.screenshot({ path: join(ROOT, "target/page/dark.png") });
+for (const colorScheme of ["dark", "light"]) {
+  await page.emulateMedia({ colorScheme });
+  await settled();
+  await page.waitForFunction((theme) => document.documentElement.dataset.theme === theme, colorScheme);
+}
+
+// The same numbers as the command, undamped and damped, free and held, and at a time in between.
+for (const scene of ["mu=2.5&g=1&n=10&t=9.5", "mu=1.5&g=1&n=20&t=30.1", "mu=2&g=1&r=0.1&n=10&t=7.3",
+  "mu=20&r=0.01&n=10&t=50", "mu=1&g=0&r=0.3&n=1&t=1.5", "mu=1&g=1&top=fixed&n=6&t=5",
+  "mu=1&g=1&r=0.1&top=fixed&n=4&t=3", "L=10&c=30&mu=10&g=10&n=4&t=4", "mu=1/3&g=0.1&L=2&c=3&n=5&t=1"]) {
+  await compare(`#${scene}`);
+}
+
+// The stories, each with what is known of it by hand.
+await open("");
+const stories = [];
+for (let k = 1; k <= 5; k += 1) {
+  await page.keyboard.press(String(k));
+  assert.equal(await page.getAttribute(`#presets button:nth-child(${k})`, "aria-pressed"), "true");
+  assert.equal((await text("play")).slice(-5), "Pause");
+  stories.push(await text("story"));
+  assert.equal(stories.at(-1).split(/[.:] /).length >= 3, true, stories.at(-1));
+  const rows = await page.$$eval("#contacts tbody tr", (rows) => rows.map(
+    (row) => [...row.cells].map((cell) => cell.textContent)));
+  if (k === 2) assert.deepEqual([rows[0][2], rows[0][8], rows[1][8]], ["0.666666666667", "74.0740740741", "0"]);
+  if (k === 3) assert.match(await text("status"), /no bounce: r t₁ = 3\.2.* ≥ π/);
+  if (k === 4) assert.deepEqual([rows[0][2], rows.length], ["2.5", 20]);
+  if (k === 5) assert.deepEqual([rows[7][1], rows[7][2]], ["31", "34"]);
+}
+assert.equal(new Set(stories).size, 5);
+
+// Keys.
+await page.keyboard.press(" ");
+assert.match(await text("play"), /Play/);
+await page.keyboard.press("Home");
+assert.equal(Number(await text("now")), 0);
+await page.keyboard.press("n");
+assert.equal(Number(await text("now")), 3);
+const [before, spoken] = [await text("now"), await text("spoken")];
+await page.keyboard.press("Shift+ArrowRight");
+assert.ok(Number(await text("now")) > Number(before));
+assert.notEqual(await text("spoken"), spoken);
+await page.keyboard.press("p");
+assert.equal(await text("now"), "4.415");
+assert.match(await text("which"), /Contact 2 of 9/);
+await page.keyboard.press("p");
+assert.equal(Number(await text("now")), 3);
+await page.keyboard.press("End");
+assert.equal(await page.getAttribute("#time", "aria-valuetext"), `t = ${await text("now")}`);
+
+// Sliders, by keyboard, and how long each movement takes.
+await open("#mu=3&r=0.1&g=1&n=10");
+await page.evaluate(() => performance.clearMeasures());
+await page.focus("#mu-slider");
+const mu = await field("mu-field");
+for (let k = 0; k < 20; k += 1) await page.keyboard.press("ArrowLeft");
+assert.ok(Number(await field("mu-field")) < Number(mu));
+await page.focus("#r-slider");
+for (let k = 0; k < 20; k += 1) await page.keyboard.press(k < 10 ? "ArrowLeft" : "ArrowRight");
+const damped = await page.evaluate(() => performance.getEntriesByName("solve").map((entry) => entry.duration));
+assert.equal(damped.length, 40);
+await page.focus("#n-slider");
+await page.keyboard.press("ArrowLeft");
+assert.equal((await page.$$("#contacts tbody tr")).length, 9);
+await page.selectOption("#top", "fixed");
+assert.match(await text("scene"), /top = "fixed"/);
+await page.fill("#R-field", "0.5");
+await page.press("#R-field", "Enter");
+assert.equal(await field("r-field"), "0.25");
+
+// The link holds everything.
+const link = page.url();
+const shown = [await field("mu-field"), await field("r-field"), await text("now"), await text("scene")];
+await open(`#${link.split("#")[1]}`);
+assert.deepEqual([await field("mu-field"), await field("r-field"), await text("now"), await text("scene")], shown);
+await page.click("#copy-link");
+await settled();
+assert.equal(await page.evaluate(() => navigator.clipboard.readText()), link);
+await page.click("#copy-scene");
+await settled();
+assert.equal(await page.evaluate(() => navigator.clipboard.readText()), await text("scene"));
+const [download] = await Promise.all([page.waitForEvent("download"), page.click("#save")]);
+await download.saveAs(join(ROOT, "target/page/saved.png"));
+assert.ok(statSync(join(ROOT, "target/page/saved.png")).size > 10_000);
+
+// A mistake is said where it is; then all goes on.
+await page.fill("#g-field", "-1");
+await page.press("#g-field", "Enter");
+assert.match(await text("doubt"), /line 11, column 16: found acceleration = -1, expected/);
+await page.fill("#g-field", "1");
+await page.press("#g-field", "Enter");
+assert.ok(await page.isHidden("#doubt"));
+
+// Beyond doubles, and settled by the command that is shown. The bounce is at 31.404098476589400572 t₁.
+await open("#mu=1&r=1.57&g=0&n=1");
+assert.ok(await page.isVisible("#beyond"));
+const line = (await text("command")).replace(/^dalembert/, join(ROOT, "target/debug/dalembert"));
+const found = execFileSync("sh", ["-c", line], { encoding: "utf8" });
+assert.match(found, /62\.80819695/);
+assert.doesNotMatch(found, /undecided/);
+
+// A phone; and names for those who do not see.
+await page.setViewportSize({ width: 360, height: 740 });
+await open("#mu=3&r=0.1&n=10");
+assert.equal(await page.evaluate(() => document.documentElement.scrollWidth), 360);
+await page.screenshot({ path: join(ROOT, "target/page/phone.png"), fullPage: true });
+const nameless = await page.$$eval("button, input, select, canvas", (all) => {
+  const named = (part) => part.getAttribute("aria-label") || part.textContent.trim() || part.labels?.length;
+  return all.filter((part) => !named(part)).map((part) => part.id);
+});
+assert.deepEqual(nameless, []);
+
+// Frames while playing.
+await page.setViewportSize({ width: 1280, height: 720 });
+await open("#mu=3&r=0.1&n=10&t=0");
+await marked("drawn");
+await page.keyboard.press(" ");
+const frames = await page.evaluate(() => new Promise((done) => {
+  const times = [];
+  const tick = (time) => (times.push(time) < 121 ? requestAnimationFrame(tick) : done(times));
+  requestAnimationFrame(tick);
+}));
+assert.ok(Number(await text("now")) > 0.5);
+
+assert.deepEqual(complaints, []);
+await browser.close();
+rmSync(profile, { recursive: true });
+const sorted = damped.toSorted((a, b) => a - b);
+const ms = (x) => `${x.toFixed(1)} ms`;
+console.log(`${size} bytes; first paint ${ms(times.paint)}, first scene ${ms(times.shown)}, all drawn ${ms(times.drawn)}`);
+console.log(`ten damped bounces for each movement of a slider: median ${ms(sorted[20])}, most ${ms(sorted[39])}`);
+console.log(`${(120_000 / (frames[120] - frames[0])).toFixed(1)} frames a second while playing`);
