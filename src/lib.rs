@@ -45,6 +45,7 @@ mod compare;
 #[doc(hidden)]
 pub mod data;
 mod error;
+mod field;
 #[cfg(feature = "cli")]
 mod figures;
 #[doc(hidden)]

@@ -1,12 +1,12 @@
 //! The answer as an object: what happened, and what can be asked of it.
 
-use std::ops::ControlFlow;
-
 use std::fmt;
+use std::ops::ControlFlow;
 
 use serde::{Serialize, Serializer};
 
 use crate::error::Error;
+pub use crate::field::Field;
 use crate::number::Scalar;
 use crate::ray::Ray;
 use crate::reason::{Reason, Warning};
@@ -112,21 +112,6 @@ pub struct Energy<S> {
     pub vibrational: S,
 }
 
-/// The displacement and its derivatives at a point.
-#[derive(Clone, Debug, PartialEq, Serialize)]
-#[serde(bound = "S: Scalar")]
-pub struct Field<S> {
-    /// `v`.
-    #[serde(serialize_with = "number")]
-    pub displacement: S,
-    /// `v_t`.
-    #[serde(serialize_with = "number")]
-    pub velocity: S,
-    /// `v_x`.
-    #[serde(serialize_with = "number")]
-    pub strain: S,
-}
-
 /// A stretch of the stress history `v_x(0,·)` without jump or kink.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 #[serde(bound = "S: Scalar")]
@@ -221,18 +206,6 @@ impl<S> Energy<S> {
     /// Every number in it.
     pub(crate) fn numbers(&self) -> [&S; 3] {
         [&self.total, &self.translational, &self.vibrational]
-    }
-}
-
-impl<S> Field<S> {
-    /// The same values in other numbers.
-    pub fn map<T>(self, f: impl Fn(S) -> T) -> Field<T> {
-        Field { displacement: f(self.displacement), velocity: f(self.velocity), strain: f(self.strain) }
-    }
-
-    /// Every number in it.
-    pub(crate) fn numbers(&self) -> [&S; 3] {
-        [&self.displacement, &self.velocity, &self.strain]
     }
 }
 

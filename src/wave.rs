@@ -1,6 +1,6 @@
 //! An undamped motion as two travelling waves.
 
-use crate::motion::Field;
+use crate::field::Field;
 use crate::number::Scalar;
 use crate::problem::Top;
 

@@ -1,7 +1,7 @@
 //! The data at `t = 0`, in the numbers of an engine.
 
 use super::{Parameters, Problem, Start};
-use crate::motion::Field;
+use crate::field::Field;
 use crate::number::{Number, Open, Scalar};
 
 /// The given displacement and velocity: the limit `t → 0⁻` of the motion.

@@ -1,21 +1,18 @@
 //! How many bits a chaotic run is going to lose, foreseen in doubles.
 
-use super::plan::{Engine, Plan, Reach};
 use crate::lattice::{Limits, Undamped, unobserved};
 use crate::number::{Estimate, Number};
 use crate::problem::{Parameters, Problem, Run};
 
-/// How many bits the history of an undamped rod loses to rounding: `log₂` of the factor by which its error bound grows.
+/// How many bits the history of an undamped rod loses to rounding until `end`: `log₂` of the factor by which its error bound grows.
 ///
 /// **Source**: marches in double precision, each twice as long as the one before, as far as doubles determine the
 /// history; where they do not determine its end, the loss goes on at the same rate per round trip. In a chaotic history
 /// the impacts multiply, and the loss of each becomes smaller, but that of a round trip does not.
 ///
-/// **Accuracy**: *estimate*; zero where the run is not given by a time. A plan that foresees too little takes more bits
-/// later.
-pub(super) fn bits_lost(problem: &Problem, plan: &Plan) -> f64 {
-    let (Engine::Lattice, Reach::Time(end)) = (plan.engine, &plan.reach) else { return 0.0 };
-    let (Ok(rod), end) = (Parameters::<f64>::of(problem, &()), end.to_f64()) else { return 0.0 };
+/// **Accuracy**: *estimate*. A plan that foresees too little takes more bits later.
+pub(super) fn bits_lost(problem: &Problem, end: f64) -> f64 {
+    let Ok(rod) = Parameters::<f64>::of(problem, &()) else { return 0.0 };
     if end <= 0.0 {
         return 0.0;
     }

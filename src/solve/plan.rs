@@ -137,7 +137,11 @@ impl Plan {
             Numbers::Exact | Numbers::ExactThenDigits(_) => Rung::Fractions,
             Numbers::Certified(digits) => Rung::Enclosures(bits_for_digits(digits) + GUARD_BITS),
             Numbers::Digits(digits) => {
-                let lost = foresee::bits_lost(problem, self).min(f64::from(MOST_BITS));
+                let lost = match (self.engine, &self.reach) {
+                    (Engine::Lattice, Reach::Time(end)) => foresee::bits_lost(problem, end.to_f64()),
+                    _ => 0.0,
+                };
+                let lost = lost.min(f64::from(MOST_BITS));
                 self.foreseen_loss = lost * std::f64::consts::LOG10_2;
                 // A tenth more than foreseen is cheaper than a second run.
                 Rung::Bits(bits_for_digits(digits + SPARE_DIGITS) + GUARD_BITS.max((1.1 * lost) as u32 + 8))
