@@ -144,7 +144,8 @@ impl Asked {
             return Err(Error::TimeOutside { found: from.to_string(), end: end.to_string() });
         }
         let to = self.to.unwrap_or_else(|| {
-            let mut near = events.iter().copied().filter(|event| *event > from && *event <= from + TRIPS * trip);
+            let last = from + (TRIPS + 2.0 * TRIPS_AFTER) * trip;
+            let mut near = events.iter().copied().filter(|event| *event > from && *event <= last);
             match near.next_back() {
                 _ if end <= from + TRIPS * trip => end,
                 // A long flight is cut; a rod that stays on the ground is seen to come to rest.
