@@ -271,6 +271,12 @@ impl<'a, S: RoundedSpecial> Follower<'a, S> {
                     return Err(Error::Interrupted);
                 }
                 self.new_round();
+                if !(self.height.is_finite() && self.cell_error.is_finite()) {
+                    return Err(Error::not_decided(
+                        "how the rod moves beyond the range of these numbers",
+                        self.height.bits(),
+                    ));
+                }
                 if let Some(ending) = self.settle(goal, &mut calm) {
                     return Ok(ending);
                 }

@@ -181,6 +181,11 @@ impl<S: RoundedSpecial> Medium<S> {
     ///
     /// **Accuracy**: the truncation of a cell and a few dozen roundings, relative to the greatest `|q|`.
     pub(super) fn leap(&self, state: &mut State<S>, ground: &S, trips: i64) {
+        if state.bound() == 0.0 {
+            // Only the centre of mass moves; over any number of round trips the series below would overflow.
+            state.round += trips;
+            return;
+        }
         let damping = self.kappa.clone() + &self.kappa;
         let (zero, half) = (damping.zero(), damping.ratio(1, 2));
         let mut start = zero.clone();
