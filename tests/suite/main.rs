@@ -58,6 +58,8 @@ mod start_above;
 mod stripped;
 #[cfg(feature = "cli")]
 mod sweep;
+#[cfg(all(feature = "cli", target_os = "linux"))]
+mod terminal;
 mod three_routes;
 #[cfg(feature = "mp")]
 mod undamped_bounds;
