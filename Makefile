@@ -2,18 +2,20 @@
 #   make demo         builds the command in pure Rust and solves a real scene in doubles; about a minute
 #   make demo-exact   the same scene in fractions; builds GMP and MPFR once, which takes minutes
 #   make test         runs all tests
+#   make docs         works out docs/guide and docs/check.md anew
 # GMP needs m4, which is installed where it is missing.
 
 CARGO ?= cargo
 # Random tests draw the same cases every time, so that one commit has one answer. `make explore` draws others.
 export PROPTEST_RNG_SEED ?= 1878
 
-.PHONY: help demo demo-exact test explore m4
+.PHONY: help demo demo-exact test docs explore m4
 
 help:
 	@echo "make demo         build the command in pure Rust and solve the bouncing bar of Doyen, Ern and Piperno"
 	@echo "make demo-exact   the same in fractions; builds GMP and MPFR first"
 	@echo "make test         run all tests, those of the documentation included"
+	@echo "make docs         write the outputs and pictures of docs/guide, and docs/check.md, anew"
 	@echo "make explore      run the random tests on cases never tried before"
 
 demo:
@@ -27,6 +29,10 @@ demo-exact: m4
 
 test: m4
 	$(CARGO) test --no-fail-fast
+
+docs: m4
+	REBUILD_GUIDE=1 $(CARGO) test --test suite guide::
+	$(CARGO) run -- check --format markdown -o docs/check.md
 
 explore: m4
 	PROPTEST_RNG_SEED=$$(date +%s) $(CARGO) test --no-fail-fast --test suite -- properties first_contact_bounce

@@ -38,6 +38,8 @@ mod first_contact_paper;
 mod first_contact_reference;
 #[cfg(feature = "mp")]
 mod first_contact_undamped;
+#[cfg(all(feature = "cli", feature = "mp", target_os = "linux"))]
+mod guide;
 mod hard_cases;
 #[cfg(feature = "mp")]
 mod number_interval;
