@@ -25,7 +25,7 @@
 //! | [`Problem::exact`] | fractions | no error, as far as they reach; undamped rods |
 //! | [`Problem::certified`] | enclosures | every digit is proved; undamped rods, and the first contact of damped ones |
 //!
-//! The features `mp` (all numbers but doubles), `cli` (the command) and `plot` (its pictures) add to each other and
+//! The features `mp` (all numbers but doubles), `cli` (the command) and `plot` (its pictures as PNG) add to each other and
 //! take nothing away.
 
 // The rooms are public for the crate's own tests and benchmarks; what is meant to be used is re-exported below.

@@ -22,6 +22,11 @@ impl Kind {
             Some("png") => {
                 Err(miette::miette!("found {} in a build without the feature `plot`, expected .svg", path.display()))
             }
+            Some("pdf") => Err(miette::miette!(
+                help = "programs such as rsvg-convert and Inkscape turn an SVG into PDF",
+                "found {}, expected a file that ends in .svg or .png: PDF is not written",
+                path.display()
+            )),
             _ if path == Path::new("-") => Ok(Kind::Svg),
             _ => Err(miette::miette!("found {}, expected a file that ends in .svg or .png", path.display())),
         }

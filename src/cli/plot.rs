@@ -144,7 +144,9 @@ impl Visit for Gather<'_> {
         let (name, [from, to], end) = (self.name, found.span, found.end);
         let short = |time: f64| time.decimal(6);
         let asked_to = self.asked.to.unwrap_or(end);
-        if asked_to > end * (1.0 + 1e-12) {
+        if end < history.end().to_f64() {
+            eprintln!("note: {name}: drawn up to t = {}, as far as the events are settled", short(to));
+        } else if asked_to > end * (1.0 + 1e-12) {
             eprintln!("note: {name}: the history ends at t = {}: {}", short(end), history.ending());
         } else if self.asked.to.is_none() && (to < end || from > self.asked.from.unwrap_or(0.0)) {
             eprintln!(

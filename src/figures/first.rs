@@ -18,6 +18,8 @@ const ACCURACY: f64 = 1e-13;
 
 /// A first contact that ends with a bounce: `t_b`, and what is asked there.
 pub(crate) type Ended = Option<(f64, Vec<Option<f64>>)>;
+/// `t`, which limit, and the value.
+type Sided = (f64, Side, f64);
 type Double = Estimate<f64>;
 
 /// What is asked of a first contact at its bounce.
@@ -131,7 +133,7 @@ pub(crate) fn dot(damping: &str) -> f64 {
 /// `Ψ_r(t)` of Figure 1: `g = 0`, `t₁ = μ = c = 1`, with two values at whole `t`, and `t_b`.
 ///
 /// **Source**: (2.28), `Ψ_r = e^{rt} v_x(0,t)` while the end is held.
-pub(crate) fn kernel(damping: &str, per_trip: i32) -> Result<(Vec<(f64, Side, f64)>, Ended), Failed> {
+pub(crate) fn kernel(damping: &str, per_trip: i32) -> Result<(Vec<Sided>, Ended), Failed> {
     let rod = Problem::builder().length("1/2").wave_speed(1).damping(damping).impact_speed(1).build()?;
     let form = FirstContact::new(&Parameters::<Double>::of(&rod, &())?);
     let r: f64 = damping.parse()?;

@@ -37,6 +37,7 @@ pub use file::write_whole;
 pub(crate) use file::{write_files, write_filled};
 pub use json::{SCHEMA, history_json, samples_json};
 pub(crate) use outline::outline;
+pub use plot::scene_svg;
 pub(crate) use plot::{Along, Asked, Gathered, Picture, sheet};
 pub use record::{Finished, Head, Quantity, Record, Sample, record, sample};
 pub(crate) use record::{bound_json, json as number_json};

@@ -157,5 +157,6 @@ fn pictures() {
     assert_eq!(&png[..8], b"\x89PNG\r\n\x1a\n");
     let side = |at: usize| u32::from_be_bytes(png[at..at + 4].try_into().unwrap());
     let (width, height) = (side(16), side(20));
-    assert!((1200..1400).contains(&width) && (860..1000).contains(&height), "{width} × {height}");
+    // 170 mm at 300 pixels an inch.
+    assert!((2000..2015).contains(&width) && (900..1600).contains(&height), "{width} × {height}");
 }

@@ -46,6 +46,8 @@ mod number_interval;
 mod paper_claims;
 #[cfg(feature = "cli")]
 mod peers;
+#[cfg(feature = "cli")]
+mod pictures;
 mod problem_builder;
 #[cfg(all(feature = "cli", feature = "mp"))]
 mod reference;

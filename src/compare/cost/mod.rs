@@ -17,6 +17,5 @@ mod work;
 
 pub(crate) use clock::Timing;
 pub(crate) use effects::{Difference, effects};
-#[cfg(feature = "plot")]
 pub(crate) use ladder::Family;
 pub(crate) use work::{Row, Table, work_precision};

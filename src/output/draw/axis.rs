@@ -20,7 +20,7 @@ pub(crate) struct Axis {
 /// Units that take prefixes.
 const PREFIXED: [&str; 7] = ["s", "m", "m/s", "Pa", "N", "N s", "J"];
 const PREFIXES: [(i32, &str); 9] =
-    [(-12, "p"), (-9, "n"), (-6, "µ"), (-3, "m"), (0, ""), (3, "k"), (6, "M"), (9, "G"), (12, "T")];
+    [(-12, "p"), (-9, "n"), (-6, "μ"), (-3, "m"), (0, ""), (3, "k"), (6, "M"), (9, "G"), (12, "T")];
 
 impl Axis {
     /// The axis of a quantity with this symbol and unit over a range of its values: the unit has the prefix, or the

@@ -49,7 +49,7 @@ pub(crate) enum Shape {
 pub(crate) struct Piece {
     pub(crate) corners: Vec<DVec2>,
     pub(crate) at: DVec2,
-    /// As a share of the greatest one of the picture, −1 to 1.
+    /// From −1 to 1 where it is drawn.
     pub(crate) middle: f64,
     pub(crate) slope: DVec2,
 }

@@ -2,10 +2,9 @@
 
 use resvg::{tiny_skia, usvg};
 
-use super::svg::FAMILY;
-
 /// DejaVu Sans, Latin and Greek letters, digits above and below the line and signs: what our pictures write.
 const FONT: &[u8] = include_bytes!("font/DejaVuSans-subset.ttf");
+const FAMILY: &str = "DejaVu Sans";
 
 /// An SVG as a PNG on white; `scale` pixels are one of the SVG, of which 96 are an inch.
 ///

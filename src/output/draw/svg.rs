@@ -4,9 +4,8 @@ use std::fmt::{self, Write};
 
 use glam::DVec2;
 
-/// The font of all pictures; other programs put their own sans-serif one in its place.
-pub(crate) const FAMILY: &str = "DejaVu Sans";
-const FALLBACK: &str = "DejaVu Sans, Verdana, sans-serif";
+/// The font of all pictures; where it is not known another one without serifs takes its place.
+const FAMILY: &str = "DejaVu Sans, Verdana, sans-serif";
 
 /// How a line is drawn: colour, width in mm, dashes in mm.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -121,7 +120,7 @@ impl Svg {
         let [w, h] = [width, height].map(length);
         svg.put(format_args!(
             "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{w}mm\" height=\"{h}mm\" viewBox=\"0 0 {w} {h}\" \
-             font-family=\"{FALLBACK}\" font-size=\"{}\" fill=\"#000000\" stroke-linejoin=\"round\">\n\
+             font-family=\"{FAMILY}\" font-size=\"{}\" fill=\"#000000\" stroke-linejoin=\"round\">\n\
              <rect width=\"{w}\" height=\"{h}\" fill=\"#ffffff\"/>\n",
             length(em)
         ));
@@ -194,10 +193,10 @@ impl Svg {
     /// Rectangles of one colour, each from one corner to the opposite one.
     pub(crate) fn rectangles(&mut self, corners: &[[DVec2; 2]], fill: &str) {
         self.put(format_args!("<path fill=\"{fill}\" d=\""));
-        for [from, to] in corners {
-            let (size, [x, y]) = (*to - *from, [from.x, from.y].map(length));
-            let [w, h, back] = [size.x, size.y, -size.x].map(length);
-            self.put(format_args!("M{x} {y}h{w}v{h}h{back}z"));
+        for ends in corners {
+            // Rounded as places, so that neighbours meet.
+            let [left, top, right, bottom] = [ends[0].x, ends[0].y, ends[1].x, ends[1].y].map(length);
+            self.put(format_args!("M{left} {top}H{right}V{bottom}H{left}z"));
         }
         self.put(format_args!("\"/>\n"));
     }

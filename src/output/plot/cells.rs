@@ -8,6 +8,7 @@ use crate::error::Error;
 use crate::history::History;
 use crate::motion::{Field, Side};
 use crate::number::Scalar;
+use crate::output::draw::Piece;
 use crate::solve::Target;
 
 /// A ray, by the time at which it leaves the ground.
@@ -23,14 +24,14 @@ pub(crate) struct Break {
 pub(crate) struct Cells {
     pub(crate) breaks: Vec<Break>,
     pub(crate) values: Values,
-    /// The greatest absolute value, to which the colours belong.
+    /// A round number that no absolute value is above: where the colours end.
     pub(crate) greatest: f64,
 }
 
 #[derive(Clone, Debug)]
 pub(crate) enum Values {
-    /// Polygons in `(t, x)`, in each of which the field is taken as linear: a point, the value there, and its slope.
-    Linear(Vec<(Vec<DVec2>, DVec2, f64, DVec2)>),
+    /// Polygons in `(t, x)`, in each of which the field is taken as linear.
+    Linear(Vec<Piece>),
     /// Values at the middles of rectangles, so many along the time, from the ground up, row by row.
     Grid(usize, Vec<f64>),
 }
@@ -39,9 +40,8 @@ pub(crate) enum Values {
 const MOST_CELLS: usize = 6000;
 /// Where a field is curved a cell is cut into parts that are no wider than this share of a round trip.
 const PARTS: f64 = 10.0;
-/// The grid.
-const ACROSS: usize = 480;
-const UP: usize = 96;
+/// The grid, of undamped and of damped rods, whose values take longer.
+const GRID: [[usize; 2]; 2] = [[480, 96], [200, 40]];
 
 /// The polygons of a field and its values.
 ///
@@ -59,11 +59,12 @@ pub(crate) fn of<S: Target>(
     let damped = drawn.rod.damping > 0.0;
     let fine =
         damped.then(|| strip.trip / PARTS.min((4.0 * MOST_CELLS as f64 / (strip.trips() * 16.0)).sqrt()).max(2.0));
-    let [up, down] = [0.0, strip.trip].map(|late| strip.knots(&breaks, late, fine));
-    let polygons = strip.polygons(&up, &down);
+    let [rising, falling] = [0.0, strip.trip].map(|late| strip.knots(&breaks, late, fine));
+    let polygons = strip.polygons(&rising, &falling);
+    let [across, up] = GRID[usize::from(damped)];
     let pixels = || {
         let middle = |k: usize, count: usize| (k as f64 + 0.5) / count as f64;
-        (0..ACROSS * UP).map(|k| strip.place(middle(k % ACROSS, ACROSS), middle(k / ACROSS, UP))).collect()
+        (0..across * up).map(|k| strip.place(middle(k % across, across), middle(k / across, up))).collect()
     };
     let points: Vec<DVec2> = match &polygons {
         Some(polygons) => polygons.iter().flat_map(|polygon| samples(polygon)).collect(),
@@ -78,16 +79,26 @@ pub(crate) fn of<S: Target>(
                     let slope = slope([at[1] - at[0], at[2] - at[0]], [values[1] - values[0], values[2] - values[0]]);
                     let ends = corners.iter().map(|corner| (values[0] + slope.dot(*corner - at[0])).abs());
                     greatest = ends.fold(greatest, f64::max);
-                    (corners, at[0], values[0], slope)
+                    Piece { corners, at: at[0], middle: values[0], slope }
                 });
             Values::Linear(linear.collect())
         }
         None => {
             greatest = values.iter().fold(0.0, |greatest, value| greatest.max(value.abs()));
-            Values::Grid(ACROSS, values)
+            Values::Grid(across, values)
         }
     };
-    Ok(Cells { breaks, values, greatest })
+    Ok(Cells { breaks, values, greatest: round_above(greatest) })
+}
+
+/// The next number with one or two digits from which colours can begin; 0 for 0.
+fn round_above(value: f64) -> f64 {
+    if value == 0.0 {
+        return 0.0;
+    }
+    let power = 10f64.powf(value.log10().floor());
+    let steps = [1.0, 1.2, 1.5, 2.0, 2.5, 3.0, 4.0, 5.0, 6.0, 8.0, 10.0];
+    steps.into_iter().map(|step| step * power).find(|step| *step >= value * (1.0 - 1e-9)).unwrap_or(value)
 }
 
 fn ask<S: Target>(history: &History<S>, along: Along, drawn: &Gathered, points: &[DVec2]) -> Result<Vec<f64>, Error> {
@@ -177,6 +188,9 @@ impl Strip {
 
     /// What of each cell lies in the strip; `None` where there are too many.
     fn polygons(&self, up: &[f64], down: &[f64]) -> Option<Vec<Vec<DVec2>>> {
+        if up.len() > MOST_CELLS {
+            return None;
+        }
         let mut polygons = Vec::new();
         for xi in up.windows(2) {
             let first = down.partition_point(|eta| *eta <= xi[0]).saturating_sub(1);
@@ -239,6 +253,11 @@ mod tests {
             let whole: f64 = polygons.iter().map(area).sum();
             assert!((whole - 4.8 * 2.0).abs() < 1e-9, "{whole}");
         }
+    }
+
+    #[test]
+    fn colours_end_at_round_numbers() {
+        assert_eq!([0.0, 5.15, 0.5, 2.74, 1.21, 9.06].map(round_above), [0.0, 6.0, 0.5, 3.0, 1.5, 10.0]);
     }
 
     #[test]

@@ -9,6 +9,7 @@ use crate::number::Scalar;
 use crate::output::straight::straight;
 use crate::problem::{Parameters, Problem, Start};
 use crate::quantity::{Column, Units};
+use crate::reason::Warning;
 use crate::solve::Target;
 
 /// What is asked of every scene.
@@ -23,6 +24,9 @@ pub(crate) struct Asked {
     pub(crate) to: Option<f64>,
 }
 
+/// Times and values.
+pub(crate) type Line = Vec<(f64, f64)>;
+
 /// A scene, ready to be drawn.
 #[derive(Clone, Debug)]
 pub(crate) struct Gathered {
@@ -31,19 +35,19 @@ pub(crate) struct Gathered {
     pub(crate) rod: Parameters<f64>,
     /// The span that is drawn.
     pub(crate) span: [f64; 2],
-    /// Where the history ends.
+    /// Where the history ends, or what is known of it.
     pub(crate) end: f64,
     /// Those that the span meets.
     pub(crate) contacts: Vec<[f64; 2]>,
     /// The columns asked for: times and values, in stretches without a jump.
-    pub(crate) columns: Vec<(Column, Vec<Vec<(f64, f64)>>)>,
+    pub(crate) columns: Vec<(Column, Vec<Line>)>,
     /// `v_x(0,·)` in straight pieces.
     pub(crate) stress: Vec<StressPiece<f64>>,
     /// `e_P` and `e_E²` of each contact, where they are defined.
     pub(crate) restitution: Vec<[Option<f64>; 2]>,
     pub(crate) cells: Option<Cells>,
     /// The world lines of points along the rod: `v(x,t)` of each.
-    pub(crate) world: Vec<(f64, Vec<(f64, f64)>)>,
+    pub(crate) world: Vec<(f64, Line)>,
 }
 
 /// Round trips that are drawn where nothing is said: as many as can be told apart.
@@ -54,7 +58,7 @@ const TRIPS_AFTER: f64 = 1.0;
 const POINTS: usize = 400;
 /// Where rays are more than this, a line is drawn through [`DENSE`] points.
 const MOST_BREAKS: usize = 4000;
-const DENSE: usize = 20_000;
+const DENSE: usize = 8000;
 /// How far a straight piece of the stress may be off, as a share of the greatest.
 const STRAIGHT: f64 = 1e-3;
 /// Contacts whose restitution is drawn.
@@ -90,8 +94,8 @@ impl Asked {
         history: &History<S>,
     ) -> Result<Gathered, Error> {
         let rod = Parameters::<f64>::of(problem, &())?;
-        let end = history.end().to_f64();
-        let span = self.span(history, rod.round_trip())?;
+        let end = known_until(history);
+        let span = self.span(history, end, rod.round_trip())?;
         let contacts = history.contacts().iter();
         let contacts = contacts
             .map(|contact| [contact.from.to_f64(), contact.to.as_ref().map_or(end, Scalar::to_f64)])
@@ -132,8 +136,7 @@ impl Asked {
     }
 
     /// The span to be drawn: what is asked for, or so much of the history as shows its first contacts.
-    fn span<S: Target>(&self, history: &History<S>, trip: f64) -> Result<[f64; 2], Error> {
-        let end = history.end().to_f64();
+    fn span<S: Target>(&self, history: &History<S>, end: f64, trip: f64) -> Result<[f64; 2], Error> {
         let events: Vec<f64> = history.events().iter().map(|event| event.time.to_f64()).collect();
         let first = events.first().copied().filter(|first| *first > TRIPS * trip && self.to.is_none());
         let from = self.from.or(first.map(|first| first - TRIPS_AFTER * trip)).unwrap_or(0.0);
@@ -141,11 +144,13 @@ impl Asked {
             return Err(Error::TimeOutside { found: from.to_string(), end: end.to_string() });
         }
         let to = self.to.unwrap_or_else(|| {
-            let near = events.iter().copied().filter(|event| *event > from && *event <= from + TRIPS * trip);
-            match near.last() {
+            let last = from + (TRIPS + 2.0 * TRIPS_AFTER) * trip;
+            let mut near = events.iter().copied().filter(|event| *event > from && *event <= last);
+            match near.next_back() {
                 _ if end <= from + TRIPS * trip => end,
-                Some(last) => last + TRIPS_AFTER * trip,
-                None => from + TRIPS * trip,
+                // A long flight is cut; a rod that stays on the ground is seen to come to rest.
+                Some(last) if in_flight(history, last) => last + TRIPS_AFTER * trip,
+                _ => from + TRIPS * trip,
             }
         });
         Ok([from, to.min(end)])
@@ -178,6 +183,22 @@ impl Asked {
             .collect();
         Ok(())
     }
+}
+
+/// Up to where values are settled: the end, or where the events are no longer told apart.
+fn known_until<S: Target>(history: &History<S>) -> f64 {
+    let open = history.warnings().into_iter().filter_map(|warning| match warning {
+        Warning::RoundingDecides { time: from } | Warning::EventsOverlap { from } | Warning::NotDetermined { from } => {
+            Some(from)
+        }
+        Warning::HopsUnresolved { .. } | Warning::DragNeglected { .. } => None,
+    });
+    open.fold(history.end().to_f64(), f64::min)
+}
+
+/// Whether a flight begins with the event at this time.
+fn in_flight<S: Target>(history: &History<S>, time: f64) -> bool {
+    history.events().iter().any(|event| event.time.to_f64() == time && event.kind == EventKind::Release)
 }
 
 /// The rays of a history, by the time at which each leaves the ground: every ray that is in the rod during the span.
@@ -258,22 +279,18 @@ fn times<S: Scalar>(motion: &dyn Motion<S>, drawn: &Gathered, breaks: &[Break]) 
         }
     }
     times.extend(even.map(|time| (time, end.double(time))));
-    times.retain(|(time, _)| *time >= from && *time <= to && *time <= drawn.end);
+    times.retain(|(time, _)| *time >= from && *time <= to);
     times.sort_by(|a, b| a.0.total_cmp(&b.0));
     // Of neighbours within rounding the one from the engine, which comes first where they are equal.
     times.dedup_by(|b, a| b.0 - a.0 <= 1e-12 * to.abs().max(trip));
-    if let Some(last) = times.last_mut().filter(|(time, _)| *time >= drawn.end * (1.0 - 1e-15)) {
+    if let Some(last) = times.last_mut().filter(|(time, _)| *time >= end.to_f64()) {
         last.1 = end;
     }
     Ok(times.into_iter().map(|(_, time)| time).collect())
 }
 
 /// `v(x,t)` of points along the rod.
-fn world_lines<S: Target>(
-    history: &History<S>,
-    drawn: &Gathered,
-    breaks: &[Break],
-) -> Result<Vec<(f64, Vec<(f64, f64)>)>, Error> {
+fn world_lines<S: Target>(history: &History<S>, drawn: &Gathered, breaks: &[Break]) -> Result<Vec<(f64, Line)>, Error> {
     let inner: Vec<f64> = (0..WORLD).map(|k| k as f64 / (WORLD - 1) as f64).collect();
     let found = history.ask(
         |motion| {

@@ -13,7 +13,32 @@ mod pictures;
 pub(crate) use gather::{Asked, Gathered};
 pub(crate) use pictures::sheet;
 
+use crate::error::Error;
+use crate::history::History;
+use crate::output::draw::Size;
+use crate::problem::Problem;
 use crate::quantity::{Column, Measure, Units};
+use crate::solve::Target;
+
+/// The sheet that tells a scene, as SVG for the width of a page.
+///
+/// **Errors**: those of the history.
+///
+/// ```
+/// # use dalembert::{Problem, Units, output::scene_svg};
+/// let rod = Problem::builder().length(1).wave_speed(1).gravity(1).impact_speed(3).build()?;
+/// let svg = scene_svg(&rod.solve()?, &rod, Units::default())?;
+/// // The field, stress, motion and energy.
+/// assert_eq!(svg.matches("class=\"panel\"").count(), 4);
+/// # Ok::<(), dalembert::Error>(())
+/// ```
+pub fn scene_svg<S: Target>(history: &History<S>, problem: &Problem, units: Units) -> Result<String, Error> {
+    let pictures = Picture::SHEET.to_vec();
+    let asked = Asked { pictures, along: Along::default(), deformed: false, from: None, to: None };
+    let scene = asked.gather(String::new(), problem, units, history)?;
+    // The units of one scene do not differ.
+    Ok(sheet(&asked, &[scene], Vec::new()).map_or_else(|_| String::new(), |sheet| sheet.svg(Size::Page)))
+}
 
 /// A picture of a scene.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -3,6 +3,7 @@
 use glam::DVec2;
 
 use super::cells::{Cells, Values};
+use super::gather::Line;
 use super::{Along, Asked, Gathered, Picture};
 use crate::output::draw::{
     AREAS, Axis, Key, LINES, Layer, Mark, Panel, Piece, Shape, Sheet, Stroke, diverging, plain, thinned,
@@ -14,7 +15,7 @@ const GROUND: &str = "#000000";
 const RAY: Stroke = Stroke::new("#000000", 0.12);
 const KINK: Stroke = Stroke::new("#707070", 0.1).dashed("0.8 0.6");
 const JUMP: &str = "0.5 0.5";
-const LINE: f64 = 0.4;
+const WIDTH: f64 = 0.4;
 /// Lines of scenes and of quantities in one picture.
 const DASHES: [&str; 3] = ["", "2 0.9", "0.5 0.7"];
 /// More rays than this are not drawn.
@@ -71,7 +72,7 @@ fn zero(x: &Axis) -> Layer {
 struct Curve<'a> {
     symbol: &'static str,
     scene: &'a Gathered,
-    stretches: Vec<Vec<(f64, f64)>>,
+    stretches: Vec<Line>,
 }
 
 /// Lines over time, or over bounces, of all scenes.
@@ -100,7 +101,7 @@ fn lines(picture: Picture, scenes: &[Gathered]) -> Result<Panel, String> {
             ("stress at the ground", "E v_x(0,t)")
         }
         Picture::Stress => ("strain at the ground", "v_x(0,t)"),
-        Picture::Column(column) => (column.meaning(), symbol(column)),
+        Picture::Column(column) => (short(column), symbol(column)),
         _ => ("both ends and the centre of mass", "displacement"),
     };
     let x = time_axis(scenes);
@@ -119,8 +120,8 @@ fn lines(picture: Picture, scenes: &[Gathered]) -> Result<Panel, String> {
         let (of_scene, of_quantity) = (k / each.max(1), k % each.max(1));
         // One scene has a colour for each quantity, several a colour for each scene.
         let look = match scenes.len() {
-            1 => Stroke::new(LINES[of_quantity % LINES.len()], LINE),
-            _ => Stroke::new(LINES[of_scene % LINES.len()], LINE).dashed(DASHES[of_quantity % DASHES.len()]),
+            1 => Stroke::new(LINES[of_quantity % LINES.len()], WIDTH),
+            _ => Stroke::new(LINES[of_scene % LINES.len()], WIDTH).dashed(DASHES[of_quantity % DASHES.len()]),
         };
         let jumps = curve.stretches.windows(2).filter_map(|pair| {
             let ends = [pair[0].last()?, pair[1].first()?];
@@ -142,16 +143,27 @@ fn lines(picture: Picture, scenes: &[Gathered]) -> Result<Panel, String> {
     if scenes.len() > 1 && each > 1 {
         let keys = curves.iter().take(each).zip(DASHES.iter().cycle());
         legend.extend(
-            keys.map(|(curve, dash)| Key::Line(curve.symbol.into(), Stroke::new("#000000", LINE).dashed(dash))),
+            keys.map(|(curve, dash)| Key::Line(curve.symbol.into(), Stroke::new("#000000", WIDTH).dashed(dash))),
         );
     }
     Ok(Panel { title: title.into(), x, y, layers, legend })
 }
 
-/// The symbol of a column in pictures.
+/// What a column is, in a few words.
+fn short(column: Column) -> &'static str {
+    let meaning = column.meaning();
+    [",", ":", " above"]
+        .iter()
+        .filter_map(|end| meaning.split_once(end))
+        .map(|cut| cut.0)
+        .min_by_key(|cut| cut.len())
+        .unwrap_or(meaning)
+}
+
+/// The symbol of a column, as long as it fits beside an axis.
 fn symbol(column: Column) -> &'static str {
     match column {
-        Column::EndDisplacement => "v(0,t)",
+        Column::KineticEnergy | Column::StrainEnergy | Column::GravityEnergy => "E",
         Column::Contact => "contact",
         column => column.symbol(),
     }
@@ -170,7 +182,7 @@ fn stress(scene: &Gathered) -> Curve<'_> {
     let factor = scene.units.factor::<f64>(Measure::Stress, &()).unwrap_or(1.0);
     let peak =
         scene.stress.iter().flat_map(|piece| [piece.left, piece.right]).fold(0.0, |peak, v| f64::max(peak, v.abs()));
-    let mut stretches: Vec<Vec<(f64, f64)>> = Vec::new();
+    let mut stretches: Vec<Line> = Vec::new();
     for piece in &scene.stress {
         let [from, to] = [piece.from.max(scene.span[0]), piece.to.min(scene.span[1])];
         let ends = [from, to].map(|t| (t, factor * piece.eval(&t)));
@@ -199,11 +211,15 @@ fn restitution(scenes: &[Gathered]) -> Panel {
     for (s, scene) in scenes.iter().enumerate() {
         for (q, (name, mark)) in series.into_iter().enumerate() {
             let color = LINES[if scenes.len() == 1 { q } else { s } % LINES.len()];
-            let known = scene.restitution.iter().enumerate();
-            let known = known.filter_map(|(k, pair)| Some(DVec2::new((k + 1) as f64, pair[q]?)));
-            let dots: Vec<DVec2> = known.collect();
+            let numbered = scene.restitution.iter().enumerate().collect::<Vec<_>>();
+            // No line over a bounce for which it is not defined.
+            let stretches = numbered.split(|(_, pair)| pair[q].is_none()).map(|known| {
+                known.iter().filter_map(|(k, pair)| Some(DVec2::new((k + 1) as f64, pair[q]?))).collect::<Vec<_>>()
+            });
+            let lines: Vec<Vec<DVec2>> = stretches.filter(|line| !line.is_empty()).collect();
+            let dots = lines.concat();
             let line = Stroke { dash: DASHES[q], ..Stroke::new(color, 0.15) };
-            layers.push(Layer::new("curve", Shape::Lines(vec![dots.clone()], line)));
+            layers.push(Layer::new("curve", Shape::Lines(lines, line)));
             layers.push(Layer::new("marks", Shape::Marks(dots, mark, color)));
             legend.push(Key::Mark(
                 if scenes.len() == 1 { name.into() } else { format!("{name}, {}", plain(&scene.name)) },
@@ -229,8 +245,10 @@ fn energy(scene: &Gathered) -> Panel {
     let most = edges[2].iter().map(|(_, value)| *value).fold(base, f64::max);
     let space = if most > base { 0.06 * (most - base) } else { 1.0 };
     let unit = scene.units.name(Measure::Energy);
-    let y = Axis::new("E", unit, [base, most + space]);
-    let names = ["gravity", "motion of the centre", "vibration E_z"];
+    // Below them the times on the ground.
+    let floor = base - 0.05 * (most + space - base);
+    let y = Axis::new("E", unit, [floor, most + space]);
+    let names = ["gravity", "centre of mass", "vibration E_z"];
     let mut below: Vec<DVec2> = edges[0].iter().map(|(t, _)| DVec2::new(*t, base)).collect();
     let (mut layers, mut legend) = (Vec::new(), Vec::new());
     // Without gravity its layer is empty.
@@ -244,7 +262,7 @@ fn energy(scene: &Gathered) -> Panel {
     }
     layers.push(Layer::new("curve", Shape::Lines(vec![thinned(below)], Stroke::new("#000000", 0.25))));
     layers.push(zero(&x));
-    layers.push(bars(scene, [base, base + 0.03 * (most + space - base)]));
+    layers.push(bars(scene, [floor, base]));
     Panel { title: "energy: the upper edge is E".into(), x, y, layers, legend }
 }
 
@@ -278,13 +296,10 @@ fn along(asked: &Asked, scene: &Gathered) -> Panel {
     Panel { title, x, y, layers, legend }
 }
 
-/// The key to the colours, with the greatest value to three digits.
+/// The key to the colours.
 fn colors(along: Along, cells: &Cells, scene: &Gathered) -> Key {
-    let axis = Axis::new(
-        along.symbol(&scene.units),
-        scene.units.name(along.measure(&scene.units)),
-        [-cells.greatest, cells.greatest],
-    );
+    let unit = scene.units.name(along.measure(&scene.units));
+    let axis = Axis::new(along.symbol(&scene.units), unit, [-cells.greatest, cells.greatest]);
     let most = axis.shown(cells.greatest);
     Key::Colors(axis.label, [format!("−{most}"), "0".into(), most])
 }
@@ -292,17 +307,11 @@ fn colors(along: Along, cells: &Cells, scene: &Gathered) -> Key {
 fn field(cells: &Cells, scene: &Gathered) -> Shape {
     let unit = if cells.greatest > 0.0 { cells.greatest } else { 1.0 };
     match &cells.values {
-        Values::Linear(pieces) => Shape::Pieces(
-            pieces
-                .iter()
-                .map(|(corners, at, middle, slope)| Piece {
-                    corners: corners.clone(),
-                    at: *at,
-                    middle: middle / unit,
-                    slope: *slope / unit,
-                })
-                .collect(),
-        ),
+        Values::Linear(pieces) => {
+            let share =
+                |piece: &Piece| Piece { middle: piece.middle / unit, slope: piece.slope / unit, ..piece.clone() };
+            Shape::Pieces(pieces.iter().map(share).collect())
+        }
         Values::Grid(across, values) => {
             let rows = values.len() / across;
             let [from, to] = scene.span;
@@ -336,7 +345,7 @@ fn rays(cells: &Cells, scene: &Gathered) -> Vec<Layer> {
     let of = |jump: bool| -> Vec<Vec<DVec2>> {
         cells.breaks.iter().filter(|ray| ray.jump == jump).map(|ray| path(ray.time)).collect()
     };
-    let few = |lines: &Vec<Vec<DVec2>>| !lines.is_empty() && lines.len() <= MOST_RAYS;
+    let few = |lines: &Vec<Vec<DVec2>>| !lines.is_empty() && cells.breaks.len() <= MOST_RAYS;
     let kinks = Some(of(false)).filter(few).map(|lines| Layer::new("kinks", Shape::Lines(lines, KINK)));
     let jumps = Some(of(true)).filter(few).map(|lines| Layer::new("rays", Shape::Lines(lines, RAY)));
     kinks.into_iter().chain(jumps).collect()
@@ -352,9 +361,8 @@ fn world(scene: &Gathered, x: Axis) -> Panel {
         share if share > 0.0 && share < 0.05 => 10f64.powf((0.3 / share).log10().floor()),
         _ => 1.0,
     };
-    let line = |(point, line): &(f64, Vec<(f64, f64)>)| {
-        thinned(line.iter().map(|(t, v)| DVec2::new(*t, point + times * v)).collect())
-    };
+    let line =
+        |(point, line): &(f64, Line)| thinned(line.iter().map(|(t, v)| DVec2::new(*t, point + times * v)).collect());
     let lines: Vec<Vec<DVec2>> = scene.world.iter().map(line).collect();
     let heights = || lines.iter().flatten().map(|point| point.y);
     let [_, high] = Axis::range(heights(), true);
@@ -371,7 +379,7 @@ fn world(scene: &Gathered, x: Axis) -> Panel {
         Layer::new("area", Shape::Areas(vec![body], AREAS[1])),
         zero(&x),
         Layer::new("curve", Shape::Lines(inner, Stroke::new("#000000", 0.12))),
-        Layer::new("curve", Shape::Lines(ends, Stroke::new(LINES[0], LINE))),
+        Layer::new("curve", Shape::Lines(ends, Stroke::new(LINES[0], WIDTH))),
         bars(scene, [floor, 0.0]),
     ];
     let legend = vec![Key::Area("rod".into(), AREAS[1]), Key::Area("contact".into(), GROUND)];

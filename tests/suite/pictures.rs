@@ -1,0 +1,249 @@
+//! `dalembert plot` and `dalembert figures`: the structure of what they draw, and the numbers of the figures.
+
+use std::fs;
+
+#[cfg(feature = "mp")]
+use dalembert::{History, Numbers, Plan, Problem, Question, Solution};
+
+use crate::command::{quiet, refused, run};
+use crate::common::close;
+
+/// How many shapes each class of a picture has, in the order in which they come, and the labels of its axes.
+fn structure(svg: &str) -> String {
+    let (mut lines, mut classes) = (Vec::new(), Vec::<(String, usize)>::new());
+    for line in svg.lines() {
+        if let Some(class) = line.strip_prefix("<g class=\"").and_then(|rest| rest.split('"').next()) {
+            classes.push((class.to_string(), 0));
+        } else if line.starts_with("<text") {
+            let mut text = line.split('>').skip(1).filter_map(|part| part.split('<').next()).collect::<String>();
+            // Numbers beside the axes are no structure.
+            if text.trim_start_matches('−').parse::<f64>().is_ok() {
+                text = String::new();
+            }
+            if !text.is_empty() {
+                lines.push(format!("text {text}"));
+            }
+        } else if line == "</g>" {
+            match classes.pop() {
+                Some((class, count)) if count > 0 => lines.push(format!("{class}: {count}")),
+                _ => (),
+            }
+        } else if ["<polyline", "<polygon", "<path", "<circle"].iter().any(|shape| line.starts_with(shape)) {
+            classes.last_mut().into_iter().for_each(|class| class.1 += 1);
+        }
+    }
+    lines.retain(|line| !line.starts_with("grid") && !line.starts_with("axis"));
+    lines.join("\n")
+}
+
+fn count(svg: &str, class: &str) -> Option<usize> {
+    let prefix = format!("{class}: ");
+    structure(svg).lines().find_map(|line| line.strip_prefix(&prefix)?.parse().ok())
+}
+
+#[test]
+fn a_scene_is_told_in_four_pictures() {
+    let svg = quiet(&["plot", "doyen-ern-piperno", "--to", "26/3", "-o", "-"]);
+    // Contacts [0, 2/3], [8/3, 10/3], [16/3, 6], [8, 26/3]. The ray of an impact is in the rod until the next contact
+    // has undone it: it leaves the ground at 0, 2/3, 4/3, 2 and 8/3, and the same again 16/3 later.
+    assert_eq!((count(&svg, "rays"), count(&svg, "contacts")), (Some(10), Some(4)));
+    // The stress jumps where each contact begins and ends, but for the two ends of the picture.
+    assert_eq!(count(&svg, "jumps"), Some(6));
+    assert_eq!(svg, quiet(&["plot", "doyen-ern-piperno", "--to", "26/3", "-o", "-"]), "the same bytes");
+    insta::with_settings!({snapshot_path => concat!(env!("CARGO_MANIFEST_DIR"), "/snapshots"), prepend_module_to_snapshot => false}, {
+        insta::assert_snapshot!("picture_doyen_ern_piperno", structure(&svg));
+    });
+    // Between the rays of an undamped rod each cell is one polygon; a damped one is cut finer.
+    assert!(count(&svg, "cells") < Some(60), "{}", structure(&svg));
+    let damped = quiet(&["plot", "figure-4-r02", "--quantity", "xt", "-o", "-"]);
+    assert!(count(&damped, "cells") > Some(200) && count(&damped, "contacts") == Some(1));
+}
+
+#[test]
+fn units_stand_on_the_axes() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("rod.toml");
+    let rod = "rod = { length = 0.5, modulus = 210e9, density = 7850, area = 1e-4 }\nimpact = { speed = 4 }\n";
+    fs::write(&path, rod).unwrap();
+    let path = path.to_str().unwrap();
+    let svg = quiet(&["plot", path, "--quantity", "stress,force,u_end,E_total", "--to", "1e-3", "-o", "-"]);
+    let found = structure(&svg);
+    for label in ["text t [ms]", "text E vx(0,t) [MPa]", "text −E S vx(0,t) [kN]", "text v(0,t) [mm]", "text E [J]"] {
+        assert!(found.contains(label), "{label}: {found}");
+    }
+    // ρ c v = 7850 · 5172 · 4 = 162 MPa: the number beside the last tick below it.
+    assert!(svg.contains(">−150<"));
+    refused(&["plot", path, "paper-strong", "--quantity", "u_end", "-o", "-"], &["different units, `m` and none"]);
+}
+
+#[test]
+fn several_scenes_are_lines_with_a_legend() {
+    let svg = quiet(&["plot", "figure-4-r01", "figure-4-r03", "--quantity", "h", "-o", "-"]);
+    let found = structure(&svg);
+    assert!(found.contains("text figure-4-r01\ntext figure-4-r03"), "{found}");
+    assert_eq!(found.matches("curve: 1").count(), 2);
+}
+
+#[test]
+fn long_histories_are_cut_and_said() {
+    // The flight after the first contact is 350 round trips long.
+    let said = run(&["plot", "steel-bar", "-o", "-"]);
+    assert!(said.err.contains("note: steel-bar: drawn from t = 0 to 0.0008 of 0.138"), "{}", said.err);
+    assert!(said.code == Some(0) && said.out.len() < 300_000);
+    let said = run(&["plot", "figure-1-r30", "--quantity", "motion", "-o", "-"]);
+    assert!(said.err.contains("the history ends at t = 4: no further impact"), "{}", said.err);
+}
+
+#[test]
+fn mistakes_are_answered_with_what_was_expected() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = |name: &str| folder.path().join(name).to_str().unwrap().to_string();
+    refused(&["plot", "paper-weak", "--quantity", "stres", "-o", "-"], &["found no picture of this name", "stress"]);
+    refused(&["plot", "paper-weak", "-o", &path("a.pdf")], &["a.pdf, expected a file that ends in .svg or .png"]);
+    refused(&["plot", "paper-weak", "--from", "2", "--to", "1", "-o", "-"], &["found --to 1, expected a time after 2"]);
+    refused(&["plot", "paper-weak", "--from", "99", "-o", &path("a.svg")], &["found time 99"]);
+    refused(&["plot", "paper-weak", "--quantity", "h", "--deformed", "-o", "-"], &["--deformed without xt"]);
+    refused(&["figures", "--only", "9", "-o", &path("f")], &["found no figure of this name", "tenth-bounce"]);
+    refused(&["figures", "--only", "8", "-o", &path("none/f")], &["no folder"]);
+    assert_eq!(fs::read_dir(folder.path()).unwrap().count(), 0, "nothing is left behind");
+}
+
+/// The rows of a figure's CSV.
+fn rows(folder: &std::path::Path, name: &str) -> Vec<Vec<Option<f64>>> {
+    let text = fs::read_to_string(folder.join(name)).unwrap();
+    let numbers = text.lines().filter(|line| !line.starts_with('#')).skip(1);
+    numbers.map(|line| line.split(',').map(|cell| cell.parse().ok()).collect()).collect()
+}
+
+fn figures(only: &str) -> tempfile::TempDir {
+    let folder = tempfile::tempdir().unwrap();
+    quiet(&["figures", "--only", only, "-o", folder.path().to_str().unwrap()]);
+    folder
+}
+
+/// `I_n(x)` by its series.
+fn bessel(n: i32, x: f64) -> f64 {
+    let term = |k: i32| {
+        let steps = (1..=k).map(|j| x * x / 4.0 / f64::from(j * (j + n)));
+        (x / 2.0).powi(n) * steps.product::<f64>()
+    };
+    (0..40).map(term).sum()
+}
+
+/// Figures 5–7 against characteristic cells from data, which share nothing with the closed form that the figures are
+/// drawn from: no formula of the contact, no bounce, no energy.
+#[cfg(feature = "mp")]
+#[test]
+fn figures_5_to_7_agree_with_cells_from_data() {
+    let folder = figures("5,6,7");
+    let [part, kept, over] = ["figure-5.csv", "figure-6.csv", "figure-7.csv"].map(|name| rows(folder.path(), name));
+    assert_eq!(part.len(), 4 * 373);
+    for (k, row) in part.iter().enumerate() {
+        let (r, mu) = (row[0].unwrap(), row[1].unwrap());
+        let what = format!("r = {r}, μ = {mu}");
+        let (translational, left) = (row[2].unwrap(), kept[k][2].unwrap());
+        // Figure 7 is Figure 6 over e^{−2rt₁}.
+        close(&what, over[k][2].unwrap(), left * (4.0 * r).exp(), 1.0, 1e-13);
+        // The limits: e_E² of the true limit is the product of those of Figures 5 and 6.
+        let ratio = 2.0 * r;
+        let limit = 2.0 * (-ratio).exp() * (bessel(0, ratio) - bessel(1, ratio)) - (-2.0 * ratio).exp();
+        close(&what, row[3].unwrap() * kept[k][3].unwrap(), limit * limit, 1.0, 1e-12);
+        if r == 0.0 {
+            // (4.72): 1 − μ₀²/3μ², and nothing is lost.
+            close(&what, translational, 1.0 - 4.0 / (3.0 * mu * mu), 1.0, 1e-13);
+            close(&what, left, 1.0, 1.0, 1e-13);
+        } else if k % 93 == 0 {
+            let speed = format!("{}", -mu);
+            let data = [("0", speed.as_str()), ("1", speed.as_str())];
+            let rod = Problem::builder().length(1).wave_speed(1).gravity(1).damping(r).velocity(data);
+            let shares = cells(&rod.time(3).build().unwrap()).energy_shares(0).unwrap();
+            close(&what, translational, shares.translational.unwrap(), 1.0, 1e-12);
+            close(&what, left, shares.kept.unwrap(), 1.0, 1e-12);
+        }
+    }
+}
+
+#[cfg(feature = "mp")]
+fn cells(rod: &Problem) -> History<f64> {
+    let plan = Plan::of(rod, &Question::run(Numbers::Double(Some(1e-13)))).unwrap();
+    assert_eq!(plan.engine, dalembert::Engine::Cells);
+    match plan.solve(rod, std::sync::Arc::new(dalembert::lattice::unobserved)).unwrap() {
+        Solution::Double(history) => history,
+        other => panic!("{other:?}"),
+    }
+}
+
+#[test]
+fn figures_1_to_4_hold_what_the_theory_says() {
+    let folder = figures("1,2,3,4,8");
+    // Figure 1: the root of Ψ is where t_b says, and nothing was positive before.
+    for row in rows(folder.path(), "figure-1.csv") {
+        let [r, t, psi, bounce] = [0, 1, 3, 4].map(|k| row[k].unwrap());
+        assert!(psi <= 0.0 || t > bounce, "r = {r}, t = {t}: {psi}");
+        let truth = [(2.6, 1.788_481_033_298_875), (2.9, 2.553_022_499_313_244), (3.0, 3.299_026_051_445_773)];
+        close("t_b", bounce, truth.iter().find(|known| known.0 == r).unwrap().1, 1.0, 1e-13);
+    }
+    // Figures 2 and 3: Theorem 2 with μ₀ = 2.
+    for row in rows(folder.path(), "figure-3.csv") {
+        let (mu, z) = (row[0].unwrap(), row[3].unwrap());
+        let truth = if mu < 2.0 { mu.powi(3) * (8.0 - 3.0 * mu) / 24.0 } else { 2.0 / 3.0 };
+        close(&format!("E_z at μ = {mu}"), z, truth, 0.1, 1e-13);
+        close("shares", row[4].unwrap() + row[5].unwrap(), 1.0, 1.0, 1e-13);
+    }
+    // Figure 4: left of the dots the bounce comes later, and the red curve is (4.72).
+    let four = rows(folder.path(), "figure-4.csv");
+    assert_eq!(four.len(), 4000);
+    for row in &four {
+        let (r, mu) = (row[0].unwrap(), row[1].unwrap());
+        let (i0, i1) = (bessel(0, 2.0 * r), bessel(1, 2.0 * r));
+        let dot = 2.0 * (i0 + i1) / (2.0 - i0);
+        if (mu - dot).abs() > 1e-9 {
+            assert_eq!(row[2] == Some(2.0), mu > dot, "r = {r}, μ = {mu}");
+        }
+        if r == 0.0 {
+            let truth = if mu < 2.0 { (3.0 * mu * mu - 8.0 * mu + 12.0) / 12.0 } else { 1.0 - 4.0 / (3.0 * mu * mu) };
+            close(&format!("e_E² at μ = {mu}"), row[3].unwrap(), truth, 1.0, 1e-13);
+        }
+    }
+    assert!(four.iter().any(|row| row[0] == Some(0.3) && row[2] > Some(2.0) && row[3].is_some()));
+    // All files, and an index that names them.
+    let index = fs::read_to_string(folder.path().join("README.md")).unwrap();
+    for name in ["figure-1", "figure-2", "figure-3", "figure-4", "figure-8"] {
+        for ending in [".svg", ".csv"].into_iter().chain(cfg!(feature = "plot").then_some(".png")) {
+            let file = format!("{name}{ending}");
+            assert!(index.contains(&file) && folder.path().join(&file).is_file(), "{file}");
+        }
+    }
+    assert!(index.contains("| 0.3 | 0.55313"), "{index}");
+    let svg = fs::read_to_string(folder.path().join("figure-4.svg")).unwrap();
+    assert_eq!(count(&svg, "marks"), Some(4), "a dot for each damping");
+}
+
+/// The numbers in the sentences are those of the figures.
+#[test]
+fn sentences_hold_the_numbers_of_the_figures() {
+    let folder = figures("1,5,6,7");
+    let index = fs::read_to_string(folder.path().join("README.md")).unwrap();
+    for row in rows(folder.path(), "figure-1.csv") {
+        assert!(index.contains(&format!("{:.14}", row[4].unwrap())), "{row:?}");
+    }
+    for name in ["figure-5.csv", "figure-7.csv"] {
+        for row in rows(folder.path(), name).iter().filter(|row| row[0] != Some(0.0)) {
+            assert!(index.contains(&format!("{:.8}", row[3].unwrap())), "{name} {row:?}");
+        }
+    }
+}
+
+/// The tenth bounce of the periodic bar of Doyen, Ern and Piperno, μ = kg L/c: every second one gives back.
+#[test]
+fn the_tenth_bounce_of_a_periodic_rod() {
+    let folder = figures("tenth-bounce");
+    let rows = rows(folder.path(), "tenth-bounce.csv");
+    for mu in [3.0, 4.0, 5.0] {
+        let row = rows.iter().find(|row| row[0] == Some(mu)).unwrap();
+        // E_z/E = μ₀²/3μ² after the odd ones, 0 after the even ones.
+        let first = 1.0 - 4.0 / (3.0 * mu * mu);
+        close("first", row[1].unwrap(), first, 1.0, 1e-13);
+        close("tenth", row[2].unwrap(), 1.0 / first, 1.0, 1e-9);
+    }
+}
