@@ -1,8 +1,8 @@
 //! Contact as a switch: the recursion of the guide's chapter 3, held against the library.
 //!
 //! What arrives at the ground is q = v_t + c v_x. What leaves is p = −q in contact and p = q in flight, and it is back
-//! after the round trip t₁, less g t₁. With c = L = g = 1 and μ = 3 (t₁ = 2) all events are at whole times, and all sums
-//! here are exact in doubles, since the step is a power of two.
+//! after the round trip t₁, less g t₁. With c = L = g = 1 and μ = 3 (t₁ = 2) all events are at whole times, and all
+//! sums here are exact in doubles, since the step is a power of two.
 
 use dalembert::{Error, EventKind, Problem};
 

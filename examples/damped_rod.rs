@@ -7,12 +7,8 @@ use std::f64::consts::PI;
 
 /// `I_n(z) = Σ (z/2)^{n+2k}/(k!(n+k)!)` for n = 0, 1.
 fn bessel(n: u32, z: f64) -> f64 {
-    let next = |(sum, term): (f64, f64), k: u32| {
-        let term = term * z * z / 4.0 / f64::from(k * (n + k));
-        (sum + term, term)
-    };
-    let first = (z / 2.0).powi(n as i32);
-    (1..40).fold((first, first), next).0
+    let nested = (1..40).rev().fold(1.0, |sum, k| 1.0 + sum * z * z / 4.0 / f64::from(k * (n + k)));
+    nested * (z / 2.0).powi(n as i32)
 }
 
 fn solved(damping: &str) -> Result<History<f64>, Error> {

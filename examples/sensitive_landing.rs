@@ -1,7 +1,7 @@
 //! A landing without speed costs half of the digits.
 //!
-//! c = L = g = 1. With μ = 1 the rod comes down at t = 31 so that its end touches without speed: the height has a double
-//! root there. Where μ = 1 − ε the landing comes earlier by 4√ε, up to terms of the order of ε.
+//! c = L = g = 1. With μ = 1 the rod comes down at t = 31 so that its end touches without speed: its height has a
+//! double root there. Where μ = 1 − ε the landing comes earlier by 4√ε, up to terms of the order of ε.
 
 use dalembert::{Error, Problem};
 

@@ -39,9 +39,8 @@ fn parts(pieces: &[StressPiece<f64>], end: f64) -> Vec<f64> {
     if least.iter().all(|value| *value == 0.0) { Vec::new() } else { least }
 }
 
-/// The line, below what it spans and its scale.
-pub(super) fn sparkline(outline: &[f64], end: f64, head: &Head) -> String {
-    let peak = outline.iter().copied().fold(0.0, f64::min);
+/// The line, below what it spans and its scale: the `peak` of all contacts.
+pub(super) fn sparkline(outline: &[f64], end: f64, peak: f64, head: &Head) -> String {
     let block = |value: &f64| match (8.0 * value / peak).ceil() as usize {
         0 => FLIGHT,
         height => HEIGHTS[height.min(8) - 1],
@@ -54,13 +53,23 @@ pub(super) fn sparkline(outline: &[f64], end: f64, head: &Head) -> String {
     let scale = head.units.factor(measure, &()).unwrap_or(1.0);
     let unit = head.units.name(measure);
     let space = if unit.is_empty() { "" } else { " " };
-    let (end, peak) = (end.decimal(4), (scale * peak).decimal(4));
+    let (end, peak) = (short(end), short(scale * peak));
     format!("{symbol} at the ground, t = 0 … {end}, peak {peak}{space}{unit}, {FLIGHT} flight\n {line}\n\n")
+}
+
+/// Four digits.
+fn short(x: f64) -> String {
+    if (1e-3..1e4).contains(&x.abs()) { x.decimal(4) } else { format!("{x:.3e}") }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn four_digits_are_right() {
+        assert_eq!([-5.0, 2.0 / 3.0, -1.798e8, 1.93342e-4].map(short), ["-5", "0.6667", "-1.798e8", "1.933e-4"]);
+    }
 
     /// A contact of a thousandth of the history is seen, in its own place.
     #[test]

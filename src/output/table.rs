@@ -113,16 +113,17 @@ pub fn history_table<S: Scalar>(record: &Record<S>, head: &Head) -> String {
     let optional = |x: Option<&S>| x.map_or_else(|| "–".to_string(), show);
     let mut out = String::new();
     if let Some(title) = &head.title {
-        out += &format!("{title}\n");
+        out += &line(title, head);
     }
     out += &line(&format!("numbers: {}    effects: {}", head.number, head.effects.join(", ")), head);
-    out += &format!("{}\n", head.parameters);
+    out += &line(&head.parameters, head);
     if let Some(ending) = &head.exact_until {
         out += &line(&ending.to_string(), head);
     }
     out += "\n";
     if !record.outline.is_empty() {
-        out += &sparkline(&record.outline, record.end.0.to_f64(), head);
+        let peaks = record.contacts.iter().map(|finished| finished.contact.peak_stress.to_f64());
+        out += &sparkline(&record.outline, record.end.0.to_f64(), peaks.fold(0.0, f64::min), head);
     }
 
     let uncertain =
