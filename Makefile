@@ -3,13 +3,14 @@
 #   make demo-exact   the same scene in fractions; builds GMP and MPFR once, which takes minutes
 #   make test         runs all tests
 #   make page         builds the page, one HTML file that opens from disk, and make page-test tries it in Chromium
+#   make docs         works out docs/guide and docs/check.md anew
 # GMP needs m4, and page-test Chromium; both are installed where they are missing. page-test needs Node 20 with npm too.
 
 CARGO ?= cargo
 # Random tests draw the same cases every time, so that one commit has one answer. `make explore` draws others.
 export PROPTEST_RNG_SEED ?= 1878
 
-.PHONY: help demo demo-exact test explore page page-test m4 chromium
+.PHONY: help demo demo-exact test docs explore page page-test m4 chromium
 
 help:
 	@echo "make demo         build the command in pure Rust and solve the bouncing bar of Doyen, Ern and Piperno"
@@ -17,6 +18,7 @@ help:
 	@echo "make test         run all tests, those of the documentation included"
 	@echo "make page         build the page: target/page/dalembert.html, one file that opens from disk"
 	@echo "make page-test    try the page in Chromium; needs Node 20 and npm"
+	@echo "make docs         write the outputs and pictures of docs/guide, and docs/check.md, anew"
 	@echo "make explore      run the random tests on cases never tried before"
 
 demo:
@@ -30,6 +32,10 @@ demo-exact: m4
 
 test: m4
 	$(CARGO) test --no-fail-fast
+
+docs: m4
+	REBUILD_GUIDE=1 $(CARGO) test --test suite guide::
+	$(CARGO) run -- check --format markdown -o docs/check.md
 
 explore: m4
 	PROPTEST_RNG_SEED=$$(date +%s) $(CARGO) test --no-fail-fast --test suite -- properties first_contact_bounce

@@ -1,19 +1,23 @@
 //! `dalembert solve`.
 
+use std::io::IsTerminal;
+
 use clap::Args;
 
 use super::{Failure, Format, NumberArgs, OutputArgs, Report, answer, source};
 use crate::error::Error;
 use crate::motion::Motion;
 use crate::number::Scalar;
-use crate::output::{Head, Part, Record, history_csv, history_json, history_table, record};
+use crate::output::{Head, LEGEND, Part, Record, history_csv, history_json, history_table, outline, record};
 use crate::solve::Question;
+
+const EXAMPLES: &str = "Examples:\n  dalembert solve doyen-ern-piperno --exact\n  \
+    dalembert solve rod.toml --digits 38 -o rod.json\n  \
+    dalembert scenes paper-weak | dalembert solve - --format csv --part stress";
 
 /// Solve a scene: events, contacts, restitution, energies, stress history
 #[derive(Args, Debug)]
-#[command(after_help = "Examples:\n  dalembert solve doyen-ern-piperno --exact\n  \
-    dalembert solve rod.toml --digits 38 -o rod.json\n  \
-    dalembert scenes paper-weak | dalembert solve - --format csv --part stress")]
+#[command(after_help = EXAMPLES, after_long_help = format!("{EXAMPLES}\n\nSymbols:\n{LEGEND}"))]
 pub(super) struct Solve {
     /// A scene file, `-`, or a built-in scene
     scene: String,
@@ -40,6 +44,13 @@ impl Solve {
         let scene = source::read(&self.scene)?;
         answer(&scene, &Question::run(self.numbers.numbers(&scene)), &self.output, self)
     }
+
+    /// Whether the stress is drawn above the table: for a person at a terminal that has more than plain letters. It has
+    /// no colour, so that NO_COLOR changes nothing.
+    fn draws(&self) -> bool {
+        let table = self.output.output.is_none() && matches!(self.output.format(), Ok(Format::Table));
+        table && std::io::stdout().is_terminal() && std::env::var_os("TERM").is_none_or(|term| term != "dumb")
+    }
 }
 
 impl Report for Solve {
@@ -51,7 +62,11 @@ impl Report for Solve {
             Ok(Format::Csv) => matches!(self.part, Some(Part::Stress)),
             _ => false,
         };
-        record(history, stress)
+        let mut found = record(history, stress)?;
+        if self.draws() {
+            found.outline = outline(history);
+        }
+        Ok(found)
     }
 
     fn numbers<'a, S: Scalar>(&self, record: &'a Record<S>) -> Vec<&'a S> {

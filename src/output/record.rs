@@ -158,6 +158,8 @@ pub struct Record<S> {
     pub flights: Vec<Flight<S>>,
     /// The stress at the ground, where it is asked for.
     pub stress: Vec<StressPiece<S>>,
+    /// The stress at the ground in equal parts of the history, where a line of blocks shows it.
+    pub outline: Vec<f64>,
     /// The last time that is known, and why.
     pub end: (S, Ending),
     /// Bound on the error relative to the natural scales; zero where all is exact.
@@ -201,6 +203,7 @@ pub fn record<S: Scalar>(history: &dyn Motion<S>, stress: bool) -> Result<Record
         contacts,
         flights: flights(history)?,
         stress: if stress { history.stress_pieces() } else { Vec::new() },
+        outline: Vec::new(),
         end: (end, history.ending().clone()),
         error: history.error_estimate().to_f64(),
         lost: history.digits_lost(),

@@ -1,5 +1,6 @@
 //! Tables for a person.
 
+use super::outline::sparkline;
 use super::record::{CONTACT, Finished, Head, Quantity, Record, Sample, sampled};
 use crate::aligned::table;
 use crate::motion::Ending;
@@ -70,18 +71,19 @@ pub(super) fn cell<S: Scalar>(x: &S, head: &Head) -> String {
 
 /// What the symbols of the tables mean.
 pub const LEGEND: &str = "\
-time           t, from the start of the scene: the first touch of the ground, or before it with a gap
-v_t(0,t)       velocity of the lower end: just before an impact, just after a release
-h, h′          the centre of mass, from where it is in the undeformed rod on the ground, and its velocity
+time           t, from the first touch or, where there is a gap, from before it
+v_t(0,t)       velocity of the end, just before an impact, just after a release
+h, h′          the centre of mass above that of the undeformed rod, and its rate
 ±              how far the time may be off as it is printed
-impulse        −E S ∫ v_x(0,t) dt over the contact: momentum from the ground; −c² ∫ v_x(0,t) dt is that per ρS
+impulse        −E S ∫ v_x(0,t) dt over the contact; per ρS −c² ∫ v_x(0,t) dt
 peak v_x(0,t)  the most compressive strain at the ground
 peak stress    E v_x(0,t) there, below zero
 peak force     −E S v_x(0,t) there: the force of the ground, above zero
 e_P            −P(to)/P(from): the momentum coefficient of restitution
-e_E²           E_h(to)/E_h(from): the square of the energy coefficient of restitution
-E, E_h, E_z    energy at the end of the contact, that of the centre of mass, that of the vibration
-per ρS         divided by the linear density: without modulus, density and area it is not known
+e_E²           E_h(to)/E_h(from): the square of the energy coefficient
+E, E_h, E_z    energy at the end of the contact, of the centre, of the vibration
+highest at     when the centre of mass is highest in a flight; h_max is its h
+per ρS         divided by the linear density, known with a material only
 c              wave speed
 t₁ = 2L/c      round trip of a wave
 R = r t₁       damping ratio: from π on an undriven rod never bounces
@@ -94,14 +96,18 @@ pub fn history_table<S: Scalar>(record: &Record<S>, head: &Head) -> String {
     let optional = |x: Option<&S>| x.map_or_else(|| "–".to_string(), show);
     let mut out = String::new();
     if let Some(title) = &head.title {
-        out += &format!("{title}\n");
+        out += &line(title, head);
     }
-    out += &format!("numbers: {}    effects: {}\n", head.number, head.effects.join(", "));
-    out += &format!("{}\n", head.parameters);
+    out += &line(&format!("numbers: {}    effects: {}", head.number, head.effects.join(", ")), head);
+    out += &line(&head.parameters, head);
     if let Some(ending) = &head.exact_until {
-        out += &format!("{ending}\n");
+        out += &line(&ending.to_string(), head);
     }
     out += "\n";
+    if !record.outline.is_empty() {
+        let peaks = record.contacts.iter().map(|finished| finished.contact.peak_stress.to_f64());
+        out += &sparkline(&record.outline, record.end.0.to_f64(), peaks.fold(0.0, f64::min), head);
+    }
 
     let uncertain =
         record.events.iter().any(|event| event.time.ends(1).is_none() && event.time.log2_error().is_finite());
@@ -135,20 +141,23 @@ pub fn history_table<S: Scalar>(record: &Record<S>, head: &Head) -> String {
         let mut reasons = vec![restitution.momentum.as_ref().err(), restitution.energy_squared.as_ref().err()];
         reasons.dedup();
         for reason in reasons.into_iter().flatten() {
-            out += &format!("contact from {from}: {reason}\n");
+            out += &line(&format!("contact from {from}: {reason}"), head);
         }
     }
-    for flight in &record.flights {
-        if let Some((time, centre)) = &flight.highest {
-            let (from, time, centre) = (show(&flight.from), show(time), show(centre));
-            out += &format!("flight from {from}: highest at t* = {time}, h_max = {centre}\n");
-        }
+    let flights = record.flights.iter().filter_map(|flight| {
+        let (time, centre) = flight.highest.as_ref()?;
+        Some([&flight.from, time, centre].map(show).to_vec())
+    });
+    let flights: Vec<Vec<String>> = flights.collect();
+    if !flights.is_empty() {
+        let header = ["flight from", "highest at", "h_max"];
+        out += &format!("\n{}\n", fitted(&header, &flights, 0, 1, head.wide));
     }
     let end = match &record.end.1 {
         Ending::ExactnessEnds { .. } => record.end.1.to_string(),
         reason => format!("ends at t = {}: {reason}", show(&record.end.0)),
     };
-    out += &format!("\n{end}\n");
+    out += &format!("\n{}", line(&end, head));
     if let Some((impacts, lost)) = record.lost
         && lost >= MANY_LOST
     {
@@ -160,6 +169,19 @@ pub fn history_table<S: Scalar>(record: &Record<S>, head: &Head) -> String {
         out += &format!("\n{LEGEND}");
     }
     out
+}
+
+/// A line of prose, in several where it is wider than a table may be.
+fn line(text: &str, head: &Head) -> String {
+    if head.wide {
+        return format!("{text}\n");
+    }
+    let options = textwrap::Options::new(WIDTH)
+        .subsequent_indent("    ")
+        .word_separator(textwrap::WordSeparator::AsciiSpace)
+        .word_splitter(textwrap::WordSplitter::NoHyphenation)
+        .wrap_algorithm(textwrap::WrapAlgorithm::FirstFit);
+    textwrap::fill(text, options) + "\n"
 }
 
 /// The units of what the scene's own do not tell, in a line: `impulse in N s, energies in J`.
@@ -185,7 +207,7 @@ fn named_units(measures: &[Measure], units: &Units) -> String {
 
 /// A line for each warning.
 fn warnings(head: &Head) -> String {
-    head.warnings.iter().map(|warning| format!("warning: {warning}\n")).collect()
+    head.warnings.iter().map(|warning| line(&format!("warning: {warning}"), head)).collect()
 }
 
 /// Below so many digits lost the table does not mention them.

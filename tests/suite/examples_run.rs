@@ -46,3 +46,28 @@ fn compare_your_code() {
 fn snapshot_your_scene() {
     assert!(runs("snapshot_your_scene").starts_with("0 … 1: -3/4 … -5/4\n"));
 }
+
+/// The events of μ = 3, period 16.
+#[test]
+fn contact_switch() {
+    let text = runs("contact_switch");
+    let times: Vec<&str> = text.lines().filter_map(|line| line.split_whitespace().nth(1)).collect();
+    assert_eq!(times, ["0", "2", "8", "10", "16", "18"]);
+}
+
+/// Chapter 6's limit, and no bounce from π on.
+#[test]
+fn damped_rod() {
+    let text = runs("damped_rod");
+    assert!(text.starts_with("R = 1: e_P = 0.380363101, in closed form 0.380363101,"), "{text}");
+    assert!(
+        text.contains("r = 3.14: leaves at Some(31.404098476") && text.contains("r = 3.15: leaves at None"),
+        "{text}"
+    );
+}
+
+#[test]
+fn sensitive_landing() {
+    let text = runs("sensitive_landing");
+    assert!(text.starts_with("μ = 1: t = 31") && text.ends_with("4√ε = 4.0000e-5\n"), "{text}");
+}

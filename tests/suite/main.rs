@@ -38,6 +38,8 @@ mod first_contact_paper;
 mod first_contact_reference;
 #[cfg(feature = "mp")]
 mod first_contact_undamped;
+#[cfg(all(feature = "cli", feature = "mp", target_os = "linux"))]
+mod guide;
 mod hard_cases;
 #[cfg(feature = "mp")]
 mod number_interval;
@@ -63,6 +65,8 @@ mod start_above;
 mod stripped;
 #[cfg(feature = "cli")]
 mod sweep;
+#[cfg(all(feature = "cli", target_os = "linux"))]
+mod terminal;
 mod three_routes;
 #[cfg(feature = "mp")]
 mod undamped_bounds;

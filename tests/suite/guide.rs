@@ -1,0 +1,208 @@
+//! The guide: what its commands print, the pictures they draw, and the answers of its exercises.
+//!
+//! `make docs` sets REBUILD_GUIDE, and what differs is written instead of reported.
+
+use std::path::{Path, PathBuf};
+use std::process::Command;
+
+use dalembert::rug::Rational;
+use dalembert::{History, Problem, Side};
+
+fn folder() -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("docs/guide")
+}
+
+fn chapter(name: &str) -> String {
+    std::fs::read_to_string(folder().join(name)).unwrap_or_else(|error| panic!("{name}: {error}"))
+}
+
+/// What a command of a chapter prints, run in `work` by a shell.
+fn output(line: &str, work: &Path) -> String {
+    let here = Path::new(env!("CARGO_BIN_EXE_dalembert")).parent().unwrap();
+    let path = std::env::join_paths(
+        std::iter::once(here.to_path_buf()).chain(std::env::split_paths(&std::env::var_os("PATH").unwrap())),
+    );
+    let run = Command::new("sh").args(["-c", line]).current_dir(work).env("PATH", path.unwrap()).output().unwrap();
+    let [out, err] = [run.stdout, run.stderr].map(|bytes| String::from_utf8(bytes).unwrap());
+    assert!(run.status.success() && err.is_empty(), "{line}: {err}");
+    let lines: Vec<&str> = out.trim_end().lines().map(str::trim_end).collect();
+    lines.iter().map(|line| format!("{line}\n")).collect()
+}
+
+/// The chapter with what its commands print now. Its scenes are written into `work` first, where its pictures are then.
+fn rebuilt(text: &str, work: &Path) -> String {
+    let mut out = String::new();
+    for (k, block) in text.split("```").enumerate() {
+        let fence = if k > 0 { "```" } else { "" };
+        if let Some(scene) = block.strip_prefix("toml\n# ") {
+            let (name, lines) = scene.split_once('\n').unwrap();
+            std::fs::write(work.join(name), lines).unwrap();
+        }
+        match block.strip_prefix("console\n") {
+            Some(session) => {
+                let commands = session.lines().filter_map(|line| line.strip_prefix("$ "));
+                let shown: String = commands.map(|line| format!("$ {line}\n{}", output(line, work))).collect();
+                out += &format!("{fence}console\n{shown}");
+            }
+            None => out += &format!("{fence}{block}"),
+        }
+    }
+    out
+}
+
+/// Holds a chapter and its pictures against what its commands give.
+#[track_caller]
+fn holds(name: &str) {
+    let work = tempfile::tempdir().unwrap();
+    let text = chapter(name);
+    let now = rebuilt(&text, work.path());
+    let rebuild = std::env::var_os("REBUILD_GUIDE").is_some();
+    if rebuild {
+        std::fs::write(folder().join(name), &now).unwrap();
+    }
+    assert!(text.contains("console\n$ dalembert "), "{name} has a command");
+    for (ours, theirs) in now.lines().zip(text.lines()).filter(|_| !rebuild) {
+        assert_eq!(ours, theirs, "{name}; `make docs` writes it anew");
+    }
+    assert!(rebuild || now == text, "{name}");
+    let pictures: Vec<&str> =
+        text.split("](").skip(1).filter_map(|rest| rest.split_once(')')).map(|end| end.0).collect();
+    let pictures: Vec<&&str> = pictures.iter().filter(|path| path.ends_with(".svg")).collect();
+    assert_eq!(pictures.len(), 1, "{name} has one picture");
+    for picture in pictures {
+        let drawn = [work.path().join(picture), work.path().join("figures").join(picture)];
+        let drawn = drawn.iter().find_map(|path| std::fs::read(path).ok()).expect("a command draws it");
+        let kept = folder().join(picture);
+        if rebuild {
+            std::fs::write(&kept, &drawn).unwrap();
+        }
+        assert!(drawn.len() < 100_000, "{picture}: {} bytes", drawn.len());
+        let same = std::fs::read(&kept).unwrap() == drawn;
+        assert!(same, "{name}: {picture} is not what its command draws; `make docs` draws it anew");
+    }
+}
+
+/// The answer of a chapter's exercise, on one line, has all of `parts`.
+#[track_caller]
+fn answers(name: &str, parts: &[String]) {
+    let text = chapter(name);
+    assert!(text.contains("**Exercise.**") && text.contains("**In class:**"), "{name}");
+    let (_, rest) = text.split_once("<details><summary>Answer</summary>").unwrap();
+    let answer = rest.split_once("</details>").unwrap().0.split_whitespace().collect::<Vec<_>>().join(" ");
+    for part in parts {
+        assert!(answer.contains(part), "{name}: found no `{part}` in: {answer}");
+    }
+}
+
+/// `c = L = g = 1` in fractions, with enough impacts for every question here.
+fn unit(speed: &str, impacts: u32) -> History<Rational> {
+    let rod = Problem::builder().length(1).wave_speed(1).gravity(1).impact_speed(speed);
+    rod.impacts(impacts).build().unwrap().exact().unwrap()
+}
+
+#[test]
+fn chapter_1() {
+    holds("01-fall.md");
+    let rod = Problem::builder().length("0.5").material("210e9", 7850, "1e-4").gravity("9.81");
+    let history = rod.drop_height(1).build().unwrap().solve().unwrap();
+    let (contact, wave_speed) = (&history.contacts()[0], (210e9f64 / 7850.0).sqrt());
+    let strain = history.strain(0.0, Side::Right).unwrap();
+    let force = -contact.peak_stress * 210e9 * 1e-4;
+    answers(
+        "01-fall.md",
+        &[
+            format!("c = √(E/ρ) = {wave_speed:.0} m/s"),
+            format!("t₁ = 2L/c = {:.5} ms", 1e3 * contact.to.unwrap()),
+            format!("= {:.4} m/s. The speed", -strain * wave_speed),
+            format!("M = {:.0},", -strain * wave_speed / 9.81 / contact.to.unwrap()),
+            format!("{:.3} kN", force / 1e3),
+            format!("weighs {:.2} N", 7850.0 * 1e-4 * 0.5 * 9.81),
+        ],
+    );
+}
+
+#[test]
+fn chapter_2() {
+    holds("02-lattice.md");
+    let [before, after] = [Side::Left, Side::Right].map(|side| unit("3", 1).top_end(1.into(), side).unwrap().1);
+    answers("02-lattice.md", &[format!("= {before}, free fall").replace('-', "−"), format!("Just after: +{after},")]);
+}
+
+#[test]
+fn chapter_3() {
+    holds("03-switch.md");
+    let strain = unit("1", 1).strain(Rational::from((5, 2)), Side::Right).unwrap();
+    answers("03-switch.md", &[format!("1 + 5/2 − 4 = {strain},").replace('-', "−")]);
+}
+
+#[test]
+fn chapter_4() {
+    holds("04-first-bounce.md");
+    let history = unit("3/2", 1);
+    assert_eq!(history.contacts()[0].to, Some(Rational::from((5, 2))));
+    let found = history.restitution(0).unwrap();
+    let [momentum, energy] = [found.momentum, found.energy_squared].map(Result::unwrap);
+    assert_eq!(Rational::from(&momentum * &momentum), energy);
+    // The centre of mass is back where it was, and only there.
+    assert_eq!(history.centre(Rational::from((5, 2))).unwrap().0, 0);
+    assert_ne!(unit("1", 1).centre(3.into()).unwrap().0, 0);
+    answers(
+        "04-first-bounce.md",
+        &[format!("e_P = μ/μ₀ = {momentum} "), format!(" = {energy} = e_P²"), "μ = 3/2".into()],
+    );
+}
+
+#[test]
+fn chapter_5() {
+    holds("05-energy-back.md");
+    let history = unit("2", 4);
+    let times: Vec<String> = history.events().iter().map(|event| event.time.to_string()).collect();
+    let energy = history.energy(Rational::from(4)).unwrap();
+    let [from, to, again, end, period] = [0, 1, 2, 3, 4].map(|k| times[k].as_str());
+    answers(
+        "05-energy-back.md",
+        &[
+            format!("contacts are from {from} to {to} and"),
+            format!("from {again} to {end};"),
+            format!("= {period}. The share is μ₀²/3μ² = {},", energy.vibrational / energy.total),
+        ],
+    );
+    assert_eq!(history.energy(Rational::from(9)).unwrap().vibrational, 0);
+}
+
+#[test]
+fn chapter_6() {
+    holds("06-damping.md");
+    let rod = Problem::builder().length(1).wave_speed(1).damping("1/2").impact_speed(1).build().unwrap();
+    let found = rod.solve().unwrap().restitution(0).unwrap();
+    let [momentum, energy] = [found.momentum, found.energy_squared].map(Result::unwrap);
+    let parts = [format!("= {momentum:.6}, against"), format!("= {:.6}:", (-1f64).exp()), format!("is {energy:.6},")];
+    answers("06-damping.md", &parts);
+}
+
+#[test]
+fn chapter_7() {
+    holds("07-never.md");
+    let bounce = |damping: &str| {
+        let rod = Problem::builder().length("1/2").wave_speed(1).damping(damping).impact_speed(1).build().unwrap();
+        rod.solve().unwrap().contacts()[0].to.unwrap()
+    };
+    let swing = |r: f64| (std::f64::consts::PI.powi(2) - r * r).sqrt();
+    let half = |r: f64| std::f64::consts::PI / swing(r);
+    let off = 100.0 * (half(3.1) / bounce("3.1") - 1.0);
+    assert!((half(3.13) / bounce("3.13") - 1.0).abs() < 1.5e-3);
+    let parts = [
+        format!("= {:.5}, so t ≈ π/ω₀ = {:.3}.", swing(3.13), half(3.13)),
+        format!("truth is {:.3}:", bounce("3.13")),
+        format!("estimate {:.3} is off by {off:.0} %", half(3.1)),
+    ];
+    answers("07-never.md", &parts);
+}
+
+#[test]
+fn chapter_8() {
+    holds("08-accuracy.md");
+    let rod = Problem::builder().length(1).wave_speed(1).gravity(1).impact_speed("0.999999999999").time(32);
+    let history = rod.build().unwrap().solve().unwrap();
+    answers("08-accuracy.md", &[format!("to {:.6}.", history.events().last().unwrap().time)]);
+}
