@@ -60,10 +60,8 @@ fn contact_switch() {
 fn damped_rod() {
     let text = runs("damped_rod");
     assert!(text.starts_with("R = 1: e_P = 0.380363101, in closed form 0.380363101,"), "{text}");
-    assert!(
-        text.contains("r = 3.14: leaves at Some(31.404098476") && text.contains("r = 3.15: leaves at None"),
-        "{text}"
-    );
+    assert!(text.contains("r = 3.14: leaves at 31.404098,"), "{text}");
+    assert!(text.ends_with("r = 3.15: never leaves\n"), "{text}");
 }
 
 #[test]
