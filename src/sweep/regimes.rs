@@ -65,7 +65,7 @@ impl Map {
 }
 
 /// The bounce alone, of the closed form in doubles: the impulse, the peak and the rest of a [`History`](crate::History)
-/// take two to three times as long. Where doubles do not settle it, the history does.
+/// take several times as long. Where doubles do not settle it, the history does.
 fn regime(grid: &Grid, index: usize) -> Regime {
     let Ok(problem) = grid.problem(index) else { return Regime::Undecided };
     let rod = Parameters::<Estimate<f64>>::of(&problem, &());
