@@ -7,6 +7,7 @@ use ndarray_npy::{NpzWriter, WriteNpzError};
 use serde_json::{Map, Value, json};
 
 use crate::aligned::table;
+use crate::number::{DOUBLE_DIGITS, Estimate, Rounded, show};
 use crate::problem::written::short;
 use crate::sweep::{Point, Sweep};
 
@@ -56,10 +57,18 @@ fn rows(sweep: &Sweep, points: &[Point], uncertainty: bool) -> (Vec<String>, Vec
     (header, points.iter().map(row).collect())
 }
 
-/// A table for a person, with the beginnings of the notes.
+/// A table for a person, with the beginnings of the notes, and no digit of a double beyond its uncertainty.
 pub(crate) fn sweep_table(sweep: &Sweep, points: &[Point]) -> String {
     let (header, mut rows) = rows(sweep, points, false);
-    rows.iter_mut().flat_map(|row| row.last_mut()).for_each(|note| *note = short(note));
+    for (row, point) in rows.iter_mut().zip(points) {
+        let first = 1 + sweep.grid.axes.len();
+        for (text, cell) in row.iter_mut().skip(first).zip(&point.cells) {
+            if let (Some(value), Some(bound)) = (cell.value.as_f64(), cell.uncertainty.as_f64()) {
+                *text = show(&Estimate::new(value, bound / value.unit()), DOUBLE_DIGITS);
+            }
+        }
+        row.last_mut().into_iter().for_each(|note| *note = short(note));
+    }
     table(&header.iter().map(String::as_str).collect::<Vec<_>>(), rows, 0) + "\n"
 }
 

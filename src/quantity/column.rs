@@ -40,7 +40,7 @@ pub enum Column {
     Strain,
     /// `E v_x(0,t)`; `c² v_x(0,t)` without a material.
     Stress,
-    /// `−E S v_x(0,t) ≥ 0`: what the ground pushes with.
+    /// `−E S v_x(0,t)`: what the ground pushes with, and never less than zero from `t = 0⁺` on.
     Force,
     /// `v(L,t)`.
     TopDisplacement,

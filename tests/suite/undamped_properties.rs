@@ -144,14 +144,15 @@ proptest! {
         let top = history.field(&length, &Rational::new(), Side::Right).unwrap().displacement;
         for time in times(&history, 19) {
             for side in [Side::Left, Side::Right] {
+                // Before the start there are the data, which need not obey the contact law.
+                if time == 0 && side == Side::Left {
+                    continue;
+                }
                 let (v, rate) = history.ground_end(&time, side).unwrap();
                 let stress = history.strain(&time, side).unwrap();
                 prop_assert!(v >= 0, "v = {} at {}", v, time);
                 prop_assert!(stress <= 0, "v_x = {} at {}", stress, time);
                 prop_assert_eq!(Rational::from(&v * &stress), 0);
-                if time == 0 && side == Side::Left {
-                    continue;
-                }
                 let at_top = history.field(&length, &time, side).unwrap();
                 let ground = history.field(&Rational::new(), &time, side).unwrap();
                 prop_assert_eq!((&ground.displacement, &ground.velocity, &ground.strain), (&v, &rate, &stress));
