@@ -229,8 +229,8 @@ impl<S: Target> History<S> {
         Ok(table.into_iter().map(|column| column.into_iter().map(S::strip).collect()).collect())
     }
 
-    /// [`History::columns`] in numbers that carry their bound, at times that may be those of the engine itself, or lifted
-    /// to the precision of each attempt.
+    /// [`History::columns`] in numbers that carry their bound, at times that may be those of the engine itself, or
+    /// lifted to the precision of each attempt.
     pub fn ask_columns(
         &self,
         columns: &[Column],

@@ -456,8 +456,8 @@ pub trait Motion<S: Scalar>: fmt::Debug + Send + Sync {
     /// `v`, `v_t`, `v_x` at `(x,t)`.
     fn field(&self, point: &S, time: &S, side: Side) -> Result<Field<S>, Error>;
 
-    /// `v_t` and `v_x` at every point of `points` for every time of `times`, both in increasing order: time by time, all
-    /// points of one time together. Where a ray passes, the value on one of its sides.
+    /// `v_t` and `v_x` at every point of `points` for every time of `times`, both in increasing order: time by time,
+    /// all points of one time together. Where a ray passes, the value on one of its sides.
     fn rates(&self, points: &[S], times: &[S]) -> Result<Vec<[S; 2]>, Error> {
         let mut rates = Vec::with_capacity(points.len() * times.len());
         for time in times {

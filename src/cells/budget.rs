@@ -164,8 +164,8 @@ impl Budget {
         if apart { off.fixed.min(off.apart).min(self.events.time()) } else { off.fixed }
     }
 
-    /// The error of `v(0,·)` in flight, up to `len` from now; in a flight that is taken apart `flown` is the age, `h′` and
-    /// the place on the circle then.
+    /// The error of `v(0,·)` in flight, up to `len` from now; in a flight that is taken apart `flown` is the age, `h′`
+    /// and the place on the circle then.
     pub(super) fn end(&self, damping: f64, flown: Option<(f64, f64, f64)>, len: f64) -> Off {
         let apart = flown.map_or(0.0, |(age, rate, at)| {
             let (form, more) = self.flown(damping, (age, rate, at), 0.0);
@@ -184,7 +184,8 @@ impl Budget {
         (form, self.swing + 0.5 * damping.exp() * self.even + unclear + scattered)
     }
 
-    /// What damping makes of the displacements of stripes at this age, besides letting them fade: no more than they are.
+    /// What damping makes of the displacements of stripes at this age, besides letting them fade: no more than they
+    /// are.
     fn scattered(&self, damping: f64, age: f64) -> f64 {
         let left = (damping * (6.0 - 0.75 * age)).exp() + (-damping * age).exp();
         let turned = (damping * damping * age / 8.0).exp_m1() * (2.0 * damping).exp();
@@ -331,16 +332,16 @@ impl Budget {
             + 2.0 * (weight_rest(kappa) + r * r) * r.exp() * mass
     }
 
-    /// After any other contact: what passes turns round; of what is not followed, two parts of the range are mixed. What
-    /// is not followed of `δh′`.
+    /// After any other contact: what passes turns round; of what is not followed, two parts of the range are mixed.
+    /// What is not followed of `δh′`.
     fn after_contact(&mut self, r: f64, kept: f64, landing: &Landing, flight: &TakeOff) -> f64 {
         let time = self.events.time();
         let Vibration { wave: before, point, scatter } = self.vibration;
         let fade = (-r * flight.len).exp();
         self.events.contact((landing.at, flight.len), (landing.velocity, landing.fall), fade);
         let mass = self.events.mass();
-        // A path crosses each ray twice in a round trip, and each time a part κ of its mass is scattered; what is between
-        // rays changes by 2κ of it on each of the two ways.
+        // A path crosses each ray twice in a round trip, and each time a part κ of its mass is scattered; what is
+        // between rays changes by 2κ of it on each of the two ways.
         let scattered = (flight.len + 1.0) * r * (mass + self.events.level()) + r.exp_m1() * mass;
         let unknown = flight.slope.map_or(0.0, |slope| (self.even + point + scatter + scattered) / slope.abs());
         let limits = (unknown + flight.rounding, flight.off + time);

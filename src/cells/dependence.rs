@@ -130,9 +130,9 @@ impl Dependence {
         })
     }
 
-    /// The error of `v(0,·)` at the place `to` on the circle, in a flight that began at `from` and has let the vibration
-    /// fade by `fade`: so much by the time of the last event and by `δh′`, and what the stripes bring. Besides, what rays
-    /// may add that pass within `near`.
+    /// The error of `v(0,·)` at the place `to` on the circle, in a flight that began at `from` and has let the
+    /// vibration fade by `fade`: so much by the time of the last event and by `δh′`, and what the stripes bring.
+    /// Besides, what rays may add that pass within `near`.
     pub(super) fn height(
         &self,
         (by_time, by_rate): (f64, f64),
@@ -176,8 +176,8 @@ impl Dependence {
         }
     }
 
-    /// A contact of one round trip: `δh′` keeps so much of itself, gains so much by the time of the landing, and `by_mass`
-    /// of each mass by the place where it passes. All of the vibration turns round.
+    /// A contact of one round trip: `δh′` keeps so much of itself, gains so much by the time of the landing, and
+    /// `by_mass` of each mass by the place where it passes. All of the vibration turns round.
     pub(super) fn round_trip(&mut self, (keeps, by_late): (f64, f64), fade: f64, by_mass: impl Fn(f64) -> f64) {
         let mut rate = self.rate.times(keeps);
         rate.add(by_late, &self.late);
@@ -189,8 +189,8 @@ impl Dependence {
         self.scale_stripes(-fade);
     }
 
-    /// Any contact that lasts `len` from a landing at the place `at` with `velocity`, where `h″ = fall`: what passes the
-    /// ground turns round, and all fades by `fade`.
+    /// Any contact that lasts `len` from a landing at the place `at` with `velocity`, where `h″ = fall`: what passes
+    /// the ground turns round, and all fades by `fade`.
     pub(super) fn contact(&mut self, (at, len): (f64, f64), (velocity, fall): (f64, f64), fade: f64) {
         // At equal times `δh′` is a constant of `q`, and the vibration is what has no mean.
         let mut all = self.rate.clone();
@@ -217,9 +217,9 @@ impl Dependence {
         self.stripes[landing].mass.add(1.0, &late);
     }
 
-    /// A release after [`Self::contact`] at the place `at`, where `h″ = fall` in flight: at a root of the stress with this
-    /// slope, or where a ray arrives, on which `q` jumps by `jump.0`. On the ray that starts p jumps by `jump.1`. The
-    /// release is late by `more` besides, and by no more than `most` in all.
+    /// A release after [`Self::contact`] at the place `at`, where `h″ = fall` in flight: at a root of the stress with
+    /// this slope, or where a ray arrives, on which `q` jumps by `jump.0`. On the ray that starts p jumps by `jump.1`.
+    /// The release is late by `more` besides, and by no more than `most` in all.
     pub(super) fn release(
         &mut self,
         (at, fall): (f64, f64),

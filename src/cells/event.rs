@@ -13,8 +13,8 @@ const MOST_LATE: f64 = 0.01;
 
 impl<S: RoundedSpecial> Follower<'_, S> {
     /// Turns contact into flight or back, now. A release at a root of the trace, which has this `slope` there, has
-    /// velocity zero. Where the end only touches the ground and a ray arrives at that very time, the velocity is the one
-    /// that the ray brings.
+    /// velocity zero. Where the end only touches the ground and a ray arrives at that very time, the velocity is the
+    /// one that the ray brings.
     pub(super) fn event(&mut self, off: Off, slope: Option<f64>) {
         let zero = self.height.zero();
         let kind = if self.contact { EventKind::Release } else { EventKind::Impact };

@@ -104,8 +104,8 @@ impl<S: RoundedSpecial> Medium<S> {
         sum
     }
 
-    /// `∫ w dq` of a vibration over a round trip, `w = e^{−κs} + κ(1 − s)`, by parts: what `∫y` of a contact of one round
-    /// trip changes by when the vibration comes earlier.
+    /// `∫ w dq` of a vibration over a round trip, `w = e^{−κs} + κ(1 − s)`, by parts: what `∫y` of a contact of one
+    /// round trip changes by when the vibration comes earlier.
     pub(super) fn phase(&self, state: &State<S>) -> f64 {
         let (kappa, zero) = (self.kappa.to_f64(), self.kappa.zero());
         let last = &state.segments[state.segments.len() - 1];

@@ -5,11 +5,12 @@ use std::process::ExitCode;
 
 use clap::Args;
 
-use super::{Failure, Format, picture, source};
+use super::file::{self, Kind};
+use super::{Failure, Format, source};
 use crate::agreement::{Axis, Comparison, Compression, Limit, Options, Origin, Prepared};
 use crate::data::Source;
 use crate::number::Number;
-use crate::output::{Size, compare_csv, compare_svg, write_whole};
+use crate::output::{Size, compare_csv, compare_svg};
 use crate::quantity::Units;
 
 /// Your data against the exact history: norms, contacts, an audit, and hints at what may be wrong
@@ -68,14 +69,6 @@ pub(super) struct Compare {
     output: Vec<PathBuf>,
 }
 
-/// What a file holds, by its ending.
-#[derive(Clone, Copy, Debug, PartialEq)]
-enum Kind {
-    Rows(Format),
-    Svg,
-    Png,
-}
-
 /// What is printed.
 struct Report<'a> {
     comparison: &'a Comparison,
@@ -123,11 +116,8 @@ impl Compare {
     }
 
     fn check(&self) -> Result<(), Failure> {
-        let kinds = self.output.iter().map(|path| (path, self.kind(path)));
-        for (path, kind) in kinds {
-            if !matches!(kind, Kind::Rows(_)) {
-                picture::Kind::of(path)?;
-            }
+        for path in &self.output {
+            let kind = Kind::of(path, self.format)?;
             let path = path.display();
             if self.data.len() > 1 && !matches!(kind, Kind::Rows(Format::Table | Format::Json)) {
                 return Err(miette::miette!(
@@ -144,27 +134,17 @@ impl Compare {
         Ok(())
     }
 
-    fn kind(&self, path: &Path) -> Kind {
-        match path.extension().and_then(|ending| ending.to_str()) {
-            Some("svg") => Kind::Svg,
-            Some("png") => Kind::Png,
-            Some("json") => Kind::Rows(self.format.unwrap_or(Format::Json)),
-            Some("csv") => Kind::Rows(self.format.unwrap_or(Format::Csv)),
-            _ => Kind::Rows(self.format.unwrap_or(Format::Table)),
-        }
-    }
-
     fn write(&self, report: &Report<'_>) -> Result<(), Failure> {
         let mut printed = false;
         for path in &self.output {
-            let kind = self.kind(path);
+            let kind = Kind::of(path, self.format)?;
             printed |= matches!(kind, Kind::Rows(_));
-            write(Some(path), &report.bytes(kind)?)?;
+            file::write(Some(path), &report.bytes(kind)?)?;
         }
         if printed {
             return Ok(());
         }
-        write(None, &report.bytes(Kind::Rows(self.format.unwrap_or(Format::Table)))?)
+        file::write(None, &report.bytes(Kind::Rows(self.format.unwrap_or(Format::Table)))?)
     }
 }
 
@@ -176,14 +156,8 @@ impl Report<'_> {
             Kind::Rows(Format::Csv) => {
                 compare_csv(&comparison.files[0]).map_err(|error| miette::miette!("cannot write CSV: {error}"))?
             }
-            Kind::Svg => compare_svg(&comparison.files[0], title, units).into_bytes(),
-            Kind::Png => picture::png(&compare_svg(&comparison.files[0], title, units), Size::Page)?,
+            Kind::Picture(kind) => file::picture(kind, compare_svg(&comparison.files[0], title, units), Size::Page)?,
             Kind::Rows(Format::Table) => comparison.table(title, units).into_bytes(),
         })
     }
-}
-
-fn write(path: Option<&Path>, bytes: &[u8]) -> Result<(), Failure> {
-    let name = path.map_or("standard output".into(), |path| path.display().to_string());
-    Ok(write_whole(path, bytes).map_err(source::cannot(&format!("write {name}")))?)
 }

@@ -1,17 +1,16 @@
 //! `dalembert cost`.
 
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 use clap::Args;
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 
-use super::{Failure, Format, NumberArgs, picture, source};
+use super::file::{self, Kind};
+use super::{Failure, Format, NumberArgs, source};
 use crate::compare::cost::{self, Difference, Table};
 use crate::compare::{Quantity, Question, plan};
 use crate::number::Number;
-use crate::output::{
-    Size, cost_csv, cost_json, cost_svg, cost_table, effects_csv, effects_json, effects_table, write_whole,
-};
+use crate::output::{Size, cost_csv, cost_json, cost_svg, cost_table, effects_csv, effects_json, effects_table};
 use crate::scene::Scene;
 
 /// What accuracy costs in time: one quantity by every route that can give it, measured now, on this machine
@@ -45,14 +44,6 @@ pub(super) struct Cost {
     output: Vec<PathBuf>,
 }
 
-/// What a file holds, by its ending.
-#[derive(Clone, Copy, PartialEq)]
-enum Kind {
-    Rows(Format),
-    Svg,
-    Png,
-}
-
 enum Measured {
     Work(Table),
     Effects(Vec<Difference>),
@@ -67,31 +58,22 @@ impl Cost {
         let title = scene.title.as_deref();
         let mut printed = false;
         for path in &self.output {
-            let kind = self.kind(path);
+            let kind = Kind::of(path, self.format)?;
             printed |= matches!(kind, Kind::Rows(_));
-            write(Some(path), &measured.bytes(kind, title)?)?;
+            file::write(Some(path), &measured.bytes(kind, title)?)?;
         }
         if printed {
             return Ok(());
         }
-        write(None, &measured.bytes(Kind::Rows(self.format.unwrap_or(Format::Table)), title)?)
-    }
-
-    fn kind(&self, path: &Path) -> Kind {
-        match path.extension().and_then(|ending| ending.to_str()) {
-            Some("svg") => Kind::Svg,
-            Some("png") => Kind::Png,
-            Some("json") => Kind::Rows(self.format.unwrap_or(Format::Json)),
-            Some("csv") => Kind::Rows(self.format.unwrap_or(Format::Csv)),
-            _ => Kind::Rows(self.format.unwrap_or(Format::Table)),
-        }
+        file::write(None, &measured.bytes(Kind::Rows(self.format.unwrap_or(Format::Table)), title)?)
     }
 
     fn check(&self) -> Result<(), Failure> {
-        let mut pictures = self.output.iter().filter(|path| !matches!(self.kind(path), Kind::Rows(_)));
-        pictures.try_for_each(|path| match self.effects {
-            true => Err(miette::miette!("found --effects with {}, expected a table, JSON or CSV", path.display())),
-            false => picture::Kind::of(path).map(|_| ()),
+        self.output.iter().try_for_each(|path| match Kind::of(path, self.format)? {
+            Kind::Picture(_) if self.effects => {
+                Err(miette::miette!("found --effects with {}, expected a table, JSON or CSV", path.display()))
+            }
+            _ => Ok(()),
         })
     }
 
@@ -124,8 +106,7 @@ impl Measured {
                 format!("{:#}\n", cost_json(table, title)).into_bytes()
             }
             (Measured::Work(table), Kind::Rows(Format::Csv)) => cost_csv(table).map_err(no_csv)?.into_bytes(),
-            (Measured::Work(table), Kind::Svg) => cost_svg(table, title).into_bytes(),
-            (Measured::Work(table), Kind::Png) => picture::png(&cost_svg(table, title), Size::Page)?,
+            (Measured::Work(table), Kind::Picture(kind)) => file::picture(kind, cost_svg(table, title), Size::Page)?,
             (Measured::Effects(rows), Kind::Rows(Format::Json)) => {
                 format!("{:#}\n", effects_json(rows, title)).into_bytes()
             }
@@ -134,11 +115,6 @@ impl Measured {
             (Measured::Effects(rows), _) => effects_table(rows, title).into_bytes(),
         })
     }
-}
-
-fn write(path: Option<&Path>, bytes: &[u8]) -> Result<(), Failure> {
-    let name = path.map_or("standard output".into(), |path| path.display().to_string());
-    Ok(write_whole(path, bytes).map_err(source::cannot(&format!("write {name}")))?)
 }
 
 /// A bar on standard error, on a terminal only.

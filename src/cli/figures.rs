@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use clap::Args;
 use rayon::prelude::*;
 
-use super::{Failure, picture, source};
+use super::{Failure, file, source};
 use crate::figures::{ALL, Failed, Figure};
 use crate::output::{Size, figure_csv, figure_sheet, figures_index, write_files};
 
@@ -59,7 +59,7 @@ impl Figures {
             let csv = figure_csv(figure, &data).map_err(|error| miette::miette!("cannot write CSV: {error}"))?;
             let mut files = vec![(".csv", csv.into_bytes())];
             if cfg!(feature = "plot") {
-                files.push((".png", picture::png(&svg, self.size)?));
+                files.push((".png", file::picture(file::Picture::Png, svg.clone(), self.size)?));
             }
             files.push((".svg", svg.into_bytes()));
             Ok((data, files.into_iter().map(|(ending, bytes)| (figure.file() + ending, bytes)).collect::<Vec<_>>()))

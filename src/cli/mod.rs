@@ -5,8 +5,8 @@ mod compare;
 mod cost;
 mod explain;
 mod figures;
+mod file;
 mod list;
-mod picture;
 mod plot;
 mod reference;
 mod regimes;
@@ -183,8 +183,8 @@ enum Format {
 impl OutputArgs {
     /// What is printed: what is asked for, or what the ending of the file says.
     fn format(&self) -> Result<Format, Failure> {
-        let ending = self.output.as_ref().and_then(|path| path.extension()).and_then(|ending| ending.to_str());
-        match (self.format, ending.map(str::to_lowercase).as_deref()) {
+        let ending = self.output.as_deref().and_then(file::ending);
+        match (self.format, ending.as_deref()) {
             (Some(format), _) => Ok(format),
             (None, Some("json")) => Ok(Format::Json),
             (None, Some("csv")) => Ok(Format::Csv),

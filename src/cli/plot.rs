@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 
 use clap::Args;
 
-use super::{Failure, NumberArgs, Visit, parameters, picture, solve, source, warned};
+use super::{Failure, NumberArgs, Visit, file, parameters, solve, source, warned};
 use crate::history::History;
 use crate::motion::Ending;
 use crate::number::{Number, Scalar};
@@ -67,7 +67,7 @@ fn named(name: &str) -> Result<Picture, String> {
 impl Plot {
     pub(super) fn run(&self) -> Result<(), Failure> {
         // Before anything is solved.
-        let kinds = self.output.iter().map(|path| picture::Kind::of(path)).collect::<Result<Vec<_>, Failure>>()?;
+        let kinds = self.output.iter().map(|path| file::Picture::of(path)).collect::<Result<Vec<_>, Failure>>()?;
         let time = |time: &Option<Number>| time.as_ref().map(Number::to_f64);
         let (from, to) = (time(&self.from), time(&self.to));
         if let Some(from) = from.filter(|from| *from < 0.0) {
@@ -105,7 +105,7 @@ impl Plot {
         let sheet = sheet(&asked, &gathered, title).map_err(|found| miette::miette!("{found}, expected one unit"))?;
         let svg = sheet.svg(self.size);
         for (path, kind) in self.output.iter().zip(kinds) {
-            picture::write(path, kind, &svg, self.size)?;
+            file::write(Some(path), &file::picture(kind, svg.clone(), self.size)?)?;
         }
         Ok(())
     }

@@ -7,7 +7,7 @@ use clap::Args;
 
 use super::list::{List, list};
 use super::times::{CHUNK, Chunk, Times, TimesFile};
-use super::{Failure, NumberArgs, Visit, refuse_time, solve, source, warned};
+use super::{Failure, NumberArgs, Visit, file, refuse_time, solve, source, warned};
 use crate::error::Error;
 use crate::history::History;
 use crate::motion::{Motion, Side};
@@ -99,8 +99,8 @@ impl Reference {
     }
 
     fn golden(&self) -> Result<Golden, Failure> {
-        let ending = self.output.as_ref().and_then(|path| path.extension()).and_then(|ending| ending.to_str());
-        match (self.format, ending.map(str::to_lowercase).as_deref()) {
+        let ending = self.output.as_deref().and_then(file::ending);
+        match (self.format, ending.as_deref()) {
             (Some(golden), _) => Ok(golden),
             (None, Some("csv") | None) => Ok(Golden::Csv),
             (None, Some("json")) => Ok(Golden::Json),

@@ -5,8 +5,9 @@ use std::path::{Path, PathBuf};
 use clap::Args;
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 
-use super::{Failure, picture, source};
-use crate::output::{Size, regimes_csv, regimes_npz, regimes_svg, regimes_text, threshold_csv, write_whole};
+use super::Failure;
+use super::file::{self, Picture};
+use crate::output::{Size, regimes_csv, regimes_npz, regimes_svg, regimes_text, threshold_csv};
 use crate::sweep::Map;
 
 /// When and whether the first contact ends, over all dampings and impact speeds
@@ -39,8 +40,7 @@ pub(super) struct Regimes {
 enum Kind {
     Csv,
     Npz,
-    Svg,
-    Png,
+    Picture(Picture),
 }
 
 impl Regimes {
@@ -58,20 +58,19 @@ impl Regimes {
         let map = pool.install(|| Map::new(&self.damping_ratio, speeds, || bar.inc(1)))?;
         bar.finish_and_clear();
         for (path, kind) in self.output.iter().zip(kinds) {
-            write(Some(path), &self.bytes(&map, kind)?)?;
+            file::write(Some(path), &self.bytes(&map, kind)?)?;
         }
         match (self.output.is_empty(), self.curve) {
             (false, _) => Ok(()),
-            (true, true) => write(None, &self.bytes(&map, Kind::Csv)?),
-            (true, false) => write(None, regimes_text(&map).as_bytes()),
+            (true, true) => file::write(None, &self.bytes(&map, Kind::Csv)?),
+            (true, false) => file::write(None, regimes_text(&map).as_bytes()),
         }
     }
 
     fn kind(&self, path: &Path) -> Result<Kind, Failure> {
-        let kind = match path.extension().and_then(|ending| ending.to_str()) {
+        let kind = match file::ending(path).as_deref() {
             Some("npz") => Kind::Npz,
-            Some("svg") => Kind::Svg,
-            Some("png") => Kind::Png,
+            Some("svg" | "png" | "pdf") => Kind::Picture(Picture::of(path)?),
             Some("csv") => Kind::Csv,
             _ if path == Path::new("-") => Kind::Csv,
             _ => {
@@ -79,9 +78,6 @@ impl Regimes {
                 return Err(miette::miette!("found {path}, expected a file that ends in .svg, .png, .csv or .npz"));
             }
         };
-        if kind == Kind::Png {
-            picture::Kind::of(path)?;
-        }
         if self.curve && kind != Kind::Csv {
             return Err(miette::miette!("found --curve with {}, expected CSV", path.display()));
         }
@@ -94,13 +90,7 @@ impl Regimes {
             Kind::Csv if self.curve => threshold_csv(map).map_err(no_csv)?.into_bytes(),
             Kind::Csv => regimes_csv(map).map_err(no_csv)?.into_bytes(),
             Kind::Npz => regimes_npz(map).map_err(|error| miette::miette!("cannot write NPZ: {error}"))?,
-            Kind::Svg => regimes_svg(map).into_bytes(),
-            Kind::Png => picture::png(&regimes_svg(map), Size::Page)?,
+            Kind::Picture(kind) => file::picture(kind, regimes_svg(map), Size::Page)?,
         })
     }
-}
-
-fn write(path: Option<&Path>, bytes: &[u8]) -> Result<(), Failure> {
-    let name = path.map_or("standard output".into(), |path| path.display().to_string());
-    Ok(write_whole(path, bytes).map_err(source::cannot(&format!("write {name}")))?)
 }

@@ -8,7 +8,7 @@ use clap::{Args, ValueEnum};
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use serde_json::json;
 
-use super::{Failure, NumberArgs, source};
+use super::{Failure, NumberArgs, file, source};
 use crate::compare::Quantity;
 use crate::number::Number;
 use crate::output::{sweep_csv, sweep_json, sweep_npz, sweep_table, write_whole};
@@ -170,8 +170,8 @@ impl Sweep {
     }
 
     fn shape(&self) -> Result<Shape, Failure> {
-        let ending = self.output.as_ref().and_then(|path| path.extension()).and_then(|ending| ending.to_str());
-        match (self.format, ending.map(str::to_lowercase).as_deref()) {
+        let ending = self.output.as_deref().and_then(file::ending);
+        match (self.format, ending.as_deref()) {
             (Some(shape), _) => Ok(shape),
             (None, Some("json")) => Ok(Shape::Json),
             (None, Some("csv")) => Ok(Shape::Csv),

@@ -14,7 +14,7 @@ use crate::sweep::{Axis, Grid, threshold};
 pub(crate) const DAMPINGS: [&str; 4] = ["0", "0.1", "0.2", "0.3"];
 
 /// How far a number of a figure may be off, relative to it or to 1.
-const ACCURACY: f64 = 1e-12;
+const ACCURACY: f64 = 1e-13;
 
 /// A first contact that ends with a bounce: `t_b`, and what is asked there.
 pub(crate) type Ended = Option<(f64, Vec<Option<f64>>)>;
@@ -35,7 +35,7 @@ pub(crate) enum Wanted {
 
 /// The first contacts of a grid over `impact.speed` and `rod.damping`, the speed varying fastest, on all cores.
 ///
-/// **Accuracy**: 1e-12 of the numbers, or of 1 where they are less: the closed form in doubles where its bound says so,
+/// **Accuracy**: 1e-13 of the numbers, or of 1 where they are less: the closed form in doubles where its bound says so,
 /// otherwise a history in longer numbers.
 ///
 /// **Errors**: those of the history.

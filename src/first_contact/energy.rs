@@ -80,8 +80,9 @@ impl<N: BoundedSpecial> FirstContact<N> {
         Some((energy.translational / &energy.total, energy.total / &start))
     }
 
-    /// `E_z`, or the part of it that `square` takes of a node: with the number of nodes for a small part of its natural size, and once more where what these leave is
-    /// more than the rounding errors. The impact finds the rod undeformed.
+    /// `E_z`, or the part of it that `square` takes of a node: with the number of nodes for a small part of its natural
+    /// size, and once more where what these leave is more than the rounding errors. The impact finds the rod
+    /// undeformed.
     fn vibrational(&self, trips: &Trips<N>, square: &dyn Fn(&Node<N>) -> N) -> Option<N> {
         if trips.lattice() == Some(0) {
             return Some(self.damping.zero());

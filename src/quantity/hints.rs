@@ -399,8 +399,8 @@ fn agreed(values: &[f64]) -> Option<f64> {
 ///
 /// **Source**: of a force that is sampled, each end is known to half a step, and a smear by a share `w` of the
 /// duration, such as that of a penalty, adds at most `12 w²` to the square of the spread: `w` is no more than what the
-/// duration is longer than the spread. A rate beyond both is one of the clock. A shift counts where it is more than a step, and
-/// beginning, end and centroid of every contact say the same.
+/// duration is longer than the spread. A rate beyond both is one of the clock. A shift counts where it is more than a
+/// step, and beginning, end and centroid of every contact say the same.
 pub fn of_contacts(rows: &[(Option<Touch>, Option<Touch>)], step: f64) -> Vec<Hint> {
     let hint = |finding| Hint { quantity: "contact".into(), finding };
     let mut hints = Vec::new();

@@ -60,8 +60,8 @@ impl Grid {
     ///
     /// **Source**: the trapezoidal rule. A sample weighs half the way to each of its neighbours in time, and for a
     /// field in `x` at its time as well; where there is but one time, or one point at a time, that direction weighs 1.
-    /// Nothing is interpolated: the integrals are sums over samples, whatever is between them. Two rows at one time, the
-    /// limits at a jump, share what one would weigh.
+    /// Nothing is interpolated: the integrals are sums over samples, whatever is between them. Two rows at one time,
+    /// the limits at a jump, share what one would weigh.
     ///
     /// ```
     /// use dalembert::quantity::Grid;

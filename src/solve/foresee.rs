@@ -4,7 +4,8 @@ use crate::lattice::{Limits, Undamped, unobserved};
 use crate::number::{Estimate, Number};
 use crate::problem::{Parameters, Problem, Run};
 
-/// How many bits the history of an undamped rod loses to rounding until `end`: `log₂` of the factor by which its error bound grows.
+/// How many bits the history of an undamped rod loses to rounding until `end`: `log₂` of the factor by which its error
+/// bound grows.
 ///
 /// **Source**: marches in double precision, each twice as long as the one before, as far as doubles determine the
 /// history; where they do not determine its end, the loss goes on at the same rate per round trip. In a chaotic history

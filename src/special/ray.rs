@@ -151,7 +151,8 @@ impl<S: Rounded> Ray<S> {
     /// `c_n ≤ 1.2 (n/n₀)³ c_{n₀}`, as all here do.
     ///
     /// `(r/2)ρ_n < rξ/(2n − 1)`, so with `x = rξ ≤ 1` the terms are, relative to the first of them,
-    /// `T_j ≤ 1.2 (1 + j/n₀)³ x/((2n₀+1)(2n₀+3)⋯(2n₀+2j−1))`, and `Σ j T_j` is greatest for `n₀ = 1`: less than `10.6 x`.
+    /// `T_j ≤ 1.2 (1 + j/n₀)³ x/((2n₀+1)(2n₀+3)⋯(2n₀+2j−1))`, and `Σ j T_j` is greatest for `n₀ = 1`: less than `10.6
+    /// x`.
     fn mean_index(&self, first: i64, terms: i64) -> f64 {
         let reach = self.damping.to_f64() * self.xi.to_f64().max(0.0);
         if reach <= 1.0 { (first as f64 + 10.6 * reach).min(terms as f64) } else { terms as f64 }
@@ -159,10 +160,10 @@ impl<S: Rounded> Ray<S> {
 
     /// The sums by the ratios, from `e^{−rt} ψ₀` with its roundings.
     ///
-    /// **Accuracy**: the weights are not negative, so the relative error is at most `sum_roundings` roundings. In the n-th
-    /// term each ratio adds 4 roundings and passes on those of its successor times `I_{n+1}/I_{n−1}`; summed over all N
-    /// by `asinh s ≥ 0.88 s` (s ≤ 1) that is at most `4n + 2.3 z (2 + ln 2N)`; Horner adds 3n. What counts is the mean of
-    /// n.
+    /// **Accuracy**: the weights are not negative, so the relative error is at most `sum_roundings` roundings. In the
+    /// n-th term each ratio adds 4 roundings and passes on those of its successor times `I_{n+1}/I_{n−1}`; summed over
+    /// all N by `asinh s ≥ 0.88 s` (s ≤ 1) that is at most `4n + 2.3 z (2 + ln 2N)`; Horner adds 3n. What counts is the
+    /// mean of n.
     #[inline]
     pub(super) fn sums_by_ratios<const K: usize>(
         &self,

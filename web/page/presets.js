@@ -27,8 +27,8 @@ export const PRESETS = [
     name: "Chaos at μ = 3/2",
     scene: { L: "1", c: "1", mu: "1.5", r: "0", g: "1", top: "free", n: 20 },
     story: "Here every bounce starts new rays, none of which ever ends, and so the x–t picture breaks into finer and "
-      + "finer pieces. Each impact multiplies the rounding of the one before, so that doubles and sixty digits "
-      + "part ways by about t = 200. Change μ in its third digit, and compare the last bounces.",
+      + "finer pieces. The impacts multiply with them, 373 019 up to t = 400, and by then a change of μ in its tenth "
+      + "digit has moved the centre of mass in its sixth. Change μ in its third digit, and compare the last bounces.",
   },
   {
     name: "A landing without speed",
