@@ -10,7 +10,7 @@ use super::piece::{Checkpoint, Mark, Piece, Unresolved};
 use super::record::{Node, Record};
 use super::root::smallest;
 use super::series::{at_one, at_zero, evaluate};
-use super::start::{Data, Units};
+use super::start::{Data, Units, medium};
 use super::with_bounds::Bounding;
 use crate::error::Error;
 use crate::first_contact::FirstContact;
@@ -18,7 +18,7 @@ use crate::motion::{
     Contact, Ending, Energy, Event, EventKind, Field, Motion, Scales, Side, StressPiece, Uncertainty, unobserved,
 };
 use crate::number::Estimate;
-use crate::problem::{Parameters, Problem, Run, Top};
+use crate::problem::{Problem, Run};
 use crate::reason::Warning;
 use crate::special::{RoundedSpecial, log_mean, log_rest};
 
@@ -62,9 +62,6 @@ pub struct Damped<S> {
     unresolved: Option<Unresolved<S>>,
 }
 
-/// Cells are at most `2/r` wide, so that each round trip takes `(r t₁/2)²` of them: millions here.
-const MOST_DAMPING: f64 = 2000.0;
-
 /// What a run has found.
 struct Found<S> {
     pieces: Vec<Piece<S>>,
@@ -88,27 +85,6 @@ impl<S: RoundedSpecial> Found<S> {
         let Follower { pieces, checkpoints, flights, warnings, unresolved, .. } = follower;
         Found { pieces, checkpoints, flights, marks, warnings, unresolved, before, ending }
     }
-}
-
-/// The medium and the data of `problem`, for `digits` digits, with segments `shorten` times shorter than need be.
-///
-/// **Errors**: [`Error::DampingTooStrong`], [`Error::Irrational`].
-fn medium<S: RoundedSpecial>(
-    problem: &Problem,
-    precision: &S::Precision,
-    digits: f64,
-    shorten: i64,
-) -> Result<(Medium<S>, Data<S>), Error> {
-    let parameters = Parameters::<S>::of(problem, precision)?;
-    let free_top = problem.rod.top == Top::Free;
-    let data = Data::of(problem, &parameters, free_top);
-    let asked = -digits.max(1.0) * std::f64::consts::LOG2_10 - 20.0;
-    let log2_accuracy = asked.max(data.damping.log2_roundoff());
-    let found = data.damping.to_f64();
-    if found > MOST_DAMPING {
-        return Err(Error::DampingTooStrong { found, most: MOST_DAMPING });
-    }
-    Ok((Medium::new(&data.damping, (data.gravity.clone(), data.slope.clone()), free_top, log2_accuracy, shorten), data))
 }
 
 /// How far to follow `problem`.

@@ -14,8 +14,13 @@ use std::collections::VecDeque;
 
 use super::cell::Cell;
 use super::march::{Medium, State};
+use crate::error::Error;
 use crate::number::{Number, Rounded};
-use crate::problem::{AtStart, Parameters, Problem, Profile, Start};
+use crate::problem::{AtStart, Parameters, Problem, Profile, Start, Top};
+use crate::special::RoundedSpecial;
+
+/// Cells are at most `2/r` wide, so that each round trip takes `(r t₁/2)²` of them: millions here.
+const MOST_DAMPING: f64 = 2000.0;
 
 /// Linear data on an interval.
 #[derive(Clone, Debug)]
@@ -256,6 +261,27 @@ impl<S: Rounded> Data<S> {
         }
         state
     }
+}
+
+/// The medium and the data of `problem`, for `digits` digits, with segments `shorten` times shorter than need be.
+///
+/// **Errors**: [`Error::DampingTooStrong`], [`Error::Irrational`].
+pub(super) fn medium<S: RoundedSpecial>(
+    problem: &Problem,
+    precision: &S::Precision,
+    digits: f64,
+    shorten: i64,
+) -> Result<(Medium<S>, Data<S>), Error> {
+    let parameters = Parameters::<S>::of(problem, precision)?;
+    let free_top = problem.rod.top == Top::Free;
+    let data = Data::of(problem, &parameters, free_top);
+    let asked = -digits.max(1.0) * std::f64::consts::LOG2_10 - 20.0;
+    let log2_accuracy = asked.max(data.damping.log2_roundoff());
+    let found = data.damping.to_f64();
+    if found > MOST_DAMPING {
+        return Err(Error::DampingTooStrong { found, most: MOST_DAMPING });
+    }
+    Ok((Medium::new(&data.damping, (data.gravity.clone(), data.slope.clone()), free_top, log2_accuracy, shorten), data))
 }
 
 /// The slope between two neighbouring breaks.

@@ -44,8 +44,7 @@ impl Figures {
         }
         let chosen = |figure: &&Figure| self.only.is_empty() || self.only.contains(&figure.name);
         let figures: Vec<&Figure> = ALL.iter().filter(chosen).collect();
-        let pool = rayon::ThreadPoolBuilder::new().num_threads(self.threads.unwrap_or(0)).build();
-        let pool = pool.map_err(|error| miette::miette!("cannot start threads: {error}"))?;
+        let pool = super::pool(self.threads)?;
         let files = pool.install(|| self.files(&figures))?;
         write_files(&self.output, &files).map_err(source::cannot(&format!("write {}", self.output.display())))?;
         Ok(())

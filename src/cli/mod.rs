@@ -180,6 +180,12 @@ enum Format {
     Csv,
 }
 
+/// So many threads; by default one for each core.
+fn pool(threads: Option<usize>) -> Result<rayon::ThreadPool, Failure> {
+    let pool = rayon::ThreadPoolBuilder::new().num_threads(threads.unwrap_or(0)).build();
+    pool.map_err(|error| miette::miette!("cannot start threads: {error}"))
+}
+
 impl OutputArgs {
     /// What is printed: what is asked for, or what the ending of the file says.
     fn format(&self) -> Result<Format, Failure> {

@@ -51,8 +51,7 @@ impl Regimes {
         if let Ok(style) = ProgressStyle::with_template("{spinner} {pos} points, {elapsed}") {
             bar.set_style(style);
         }
-        let pool = rayon::ThreadPoolBuilder::new().num_threads(self.threads.unwrap_or(0)).build();
-        let pool = pool.map_err(|error| miette::miette!("cannot start threads: {error}"))?;
+        let pool = super::pool(self.threads)?;
         // The curve takes R alone.
         let speeds = if self.curve { "1,2" } else { &self.speed_ratio };
         let map = pool.install(|| Map::new(&self.damping_ratio, speeds, || bar.inc(1)))?;

@@ -11,7 +11,7 @@ use serde_json::json;
 use super::{Failure, NumberArgs, file, source};
 use crate::compare::Quantity;
 use crate::number::Number;
-use crate::output::{sweep_csv, sweep_json, sweep_npz, sweep_table, write_whole};
+use crate::output::{sweep_csv, sweep_json, sweep_npz, sweep_table};
 use crate::sweep::{self, Asked, Axis, Grid, Journal, Point, SweepError, journal_of};
 
 /// Numbers of a scene over a grid of its values, on all cores
@@ -19,7 +19,8 @@ use crate::sweep::{self, Asked, Axis, Grid, Journal, Point, SweepError, journal_
 #[command(after_help = "Examples:\n  dalembert sweep figure-4-r02 --vary impact.speed=0.05..12.5:500:log \
     --vary rod.damping=0,0.1,0.2,0.3 --quantity bounce_time,restitution -o figure-4.csv\n  dalembert sweep rod.toml \
     --vary rod.damping=0..1:1001 --quantity energy --shard 3/8 -o part-3.npz\n\nThe last --vary changes fastest. \
-    With -o FILE, finished points are kept in FILE.unfinished until all are;\nafter an interruption, the same command with --resume goes on from there and writes the same bytes.")]
+    With -o FILE, finished points are kept in FILE.unfinished until all are;\nafter an interruption, the same command \
+    with --resume goes on from there and writes the same bytes.")]
 pub(super) struct Sweep {
     /// A scene file, `-`, or a built-in scene
     scene: String,
@@ -121,8 +122,8 @@ impl Sweep {
             "number": sweep.asked.numbers.to_string(),
             "points": [points.start, points.end],
         });
-        let file = self.output.as_deref().filter(|path| *path != Path::new("-"));
-        let (journal, known) = match file {
+        let path = self.output.as_deref().filter(|path| *path != Path::new("-"));
+        let (journal, known) = match path {
             Some(path) => {
                 let opened = Journal::open(path, &identity, self.resume).map_err(|error| unopened(path, error))?;
                 (Some(opened.0), opened.1)
@@ -138,9 +139,8 @@ impl Sweep {
             }
             Shape::Npz => sweep_npz(&sweep, &found).map_err(|error| miette::miette!("cannot write NPZ: {error}"))?,
         };
-        let name = file.map_or("standard output".into(), |path| path.display().to_string());
-        write_whole(file, &bytes).map_err(source::cannot(&format!("write {name}")))?;
-        let Some((journal, path)) = journal.zip(file) else { return Ok(()) };
+        file::write(path, &bytes)?;
+        let Some((journal, path)) = journal.zip(path) else { return Ok(()) };
         Ok(journal.remove().map_err(source::cannot(&format!("remove {}", journal_of(path).display())))?)
     }
 
@@ -158,8 +158,7 @@ impl Sweep {
         }
         bar.inc(known.len() as u64);
         bar.reset_eta();
-        let pool = rayon::ThreadPoolBuilder::new().num_threads(self.threads.unwrap_or(0)).build();
-        let pool = pool.map_err(|error| miette::miette!("cannot start threads: {error}"))?;
+        let pool = super::pool(self.threads)?;
         let done = |point: &Point| {
             bar.inc(1);
             journal.map_or(Ok(()), |journal| journal.add(point))

@@ -35,8 +35,8 @@
 //! Every time is counted from the start of the scene. With `speed` or `drop_height` alone that is the first touch of
 //! the ground: the fall from `drop_height` is over by then. With a `gap` the undeformed rod is that far above the
 //! ground at `t = 0`, every point of it moving down with `speed` (which may be zero under gravity); gravity and damping
-//! act while it falls, `h″ + 2r h′ = −g`, and the first impact is the touch. Under a fixed top the rod is stopped there at
-//! `t = 0`, and hangs from `v(L,t) = gap`: its lower end may touch or not.
+//! act while it falls, `h″ + 2r h′ = −g`, and the first impact is the touch. Under a fixed top the rod is stopped there
+//! at `t = 0`, and hangs from `v(L,t) = gap`: its lower end may touch or not.
 //!
 //! ```
 //! use dalembert::Scene;
@@ -50,8 +50,8 @@
 //! A scene may list what others have published of it; `dalembert scenes NAME --targets` prints it beside ours. With a
 //! `time` the quantity is one of `u_end`, `v_end`, `u_top`, `v_top` (displacement and velocity of the two ends),
 //! `strain`, `stress`, `force` (at the ground), `h`, `h_rate`, `E_total`, `E_h`, `E_z`; without a time one of a
-//! contact: `impact` and `release` (times), `duration`, `impact_velocity`, `release_velocity`, `impulse`, `peak_stress`,
-//! `peak_force`.
+//! contact: `impact` and `release` (times), `duration`, `impact_velocity`, `release_velocity`, `impulse`,
+//! `peak_stress`, `peak_force`.
 //!
 //! ```toml
 //! [[target]]

@@ -124,13 +124,14 @@ fn reference_files_agree() {
     }
 }
 
-/// A file of `reference` as it is written, with both limits at a jump: no difference beyond a rounding, whether the limits are told
-/// by the column of sides or by the order of the rows, in doubles or in fractions, for a field too.
+/// A file of `reference` as it is written, with both limits at a jump: no difference beyond a rounding, whether the
+/// limits are told by the column of sides or by the order of the rows, in doubles or in fractions, for a field too.
 #[test]
 fn both_limits_of_a_reference_file() {
     let folder = folder("");
-    // Impacts and releases at 0, 2/3, 8/3, 10/3, … , 8: both rows of those that are asked for; 13 of them in the whole run.
-    // GetFEM's strain jumps on t = x, then on both diagonals but where they cross, then on t = 1 − x: at 15 of the points.
+    // Impacts and releases at 0, 2/3, 8/3, 10/3, … , 8: both rows of those that are asked for; 13 of them in the whole
+    // run. GetFEM's strain jumps on t = x, then on both diagonals but where they cross, then on t = 1 − x: at 15 of the
+    // points.
     let cases: [(&str, &[&str], usize, u64); 5] = [
         ("doyen-ern-piperno", &["--dt", "1/128", "--to", "8"], 17, 6),
         ("doyen-ern-piperno", &[], 17, 26),

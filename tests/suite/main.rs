@@ -30,6 +30,8 @@ mod damped_settling;
 mod damped_solve;
 mod damped_stiff;
 mod door;
+#[cfg(feature = "cli")]
+mod endings;
 #[cfg(feature = "mp")]
 mod examples_run;
 mod first_contact_bounce;

@@ -75,7 +75,8 @@ fn every_output_is_what_the_schema_says() {
     };
     let folder = tempfile::tempdir().unwrap();
     let [run, fine] = ["run.csv", "fine.csv"].map(|name| folder.path().join(name).to_str().unwrap().to_string());
-    // Penetration, a pull, energy that is twice theirs, a contact that is missing: as much of the report as there may be.
+    // Penetration, a pull, energy that is twice theirs, a contact that is missing: as much of the report as there may
+    // be.
     let row = |k: i32, n: i32| {
         let t = 10.0 * f64::from(k) / f64::from(n);
         format!("{t},{},{},{},{}\n", -t.sin(), (3.0 * t).cos(), 900.0 + t, t)

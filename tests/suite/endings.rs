@@ -1,0 +1,25 @@
+//! What a file holds, by its ending.
+
+use crate::command::run;
+
+/// No table under another name: an ending is honoured, in capitals too, or refused before anything is computed.
+#[test]
+fn a_file_holds_what_its_ending_says() {
+    let folder = tempfile::tempdir().unwrap();
+    let at = |name: &str| folder.path().join(name).to_str().unwrap().to_owned();
+    for args in [
+        &["cost", "figure-4-r02", "--seconds", "0.1"][..],
+        &["regimes", "--damping-ratio", "0.1,1", "--speed-ratio", "1,2"],
+        &["sample", "figure-4-r02", "--quantity", "centre", "--times", "1"],
+        &["reference", "figure-4-r02", "--times", "1"],
+    ] {
+        let run_to = |file: &str| run(&[args, &["-o", file]].concat());
+        let refused = run_to(&at("x.xlsx"));
+        assert_eq!(refused.code, Some(2), "{args:?}: {}", refused.out);
+        assert!(refused.err.contains("xlsx"), "{}", refused.err);
+        assert_eq!(run_to(&at("x.CSV")).code, Some(0), "{args:?}");
+        assert!(std::fs::read_to_string(at("x.CSV")).unwrap().contains(','), "{args:?}");
+        std::fs::remove_file(at("x.CSV")).unwrap();
+        assert_eq!(std::fs::read_dir(folder.path()).unwrap().count(), 0);
+    }
+}
