@@ -25,6 +25,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     insta::assert_snapshot!(stress, @r"
     0 … 1: -3/4 … -5/4
     1 … 4: 0 … 0
+    ends: the impact after the last contact asked for
     ");
     Ok(())
 }

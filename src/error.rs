@@ -2,6 +2,8 @@
 
 use thiserror::Error;
 
+use crate::motion::Ending;
+
 /// What was found, where, and what was expected.
 #[derive(Clone, Debug, Error, PartialEq)]
 #[cfg_attr(feature = "cli", derive(miette::Diagnostic))]
@@ -11,7 +13,9 @@ pub enum Error {
     #[error(transparent)]
     Problem(#[from] crate::problem::ProblemError),
     /// A fraction cannot hold a square root.
-    #[error("exact fractions cannot hold the {quantity} √({square}), expected a square or --digits N")]
+    #[error(
+        "exact fractions cannot hold the {quantity} √({square}), expected a square, or digits in place of fractions"
+    )]
     Irrational {
         /// The quantity that needs the root.
         quantity: &'static str,
@@ -25,6 +29,25 @@ pub enum Error {
         found: String,
         /// The end of the history.
         end: String,
+    },
+    /// A question about a time after the end of a history that ends for a reason of its own.
+    #[error("found time {found}, expected times up to t = {end}: {ending}")]
+    BeyondEnd {
+        /// The time.
+        found: String,
+        /// The end of the history.
+        end: String,
+        /// Why it is the end.
+        ending: Ending,
+    },
+    /// A question about a time after the last one that fractions reach.
+    #[error("found time {found}, expected an earlier one, or digits where fractions end: {ending}")]
+    #[cfg_attr(feature = "cli", diagnostic(help("--digits N as well goes on from there in digits")))]
+    BeyondExactness {
+        /// The time.
+        found: String,
+        /// The event before which exactness ends.
+        ending: Ending,
     },
     /// A question about a time that the march has gone past and forgotten.
     #[error("found time {found}, expected one from {start} on: what was before is forgotten")]
@@ -74,8 +97,8 @@ pub enum Error {
     },
     /// A damped scene has no exact fractions.
     #[error(
-        "found damping = {damping} with --exact, expected an undamped scene: Bessel functions are no fractions; use \
-        --digits N"
+        "found damping = {damping} in fractions, expected an undamped rod: Bessel functions are no fractions; ask for \
+        digits"
     )]
     DampedExact {
         /// The damping.
@@ -88,7 +111,7 @@ pub enum Error {
         found: f64,
     },
     /// No digits, or absurdly many.
-    #[error("found --digits {found}, expected 1 to {most}")]
+    #[error("found {found} digits asked for, expected 1 to {most}")]
     Digits {
         /// What was asked for.
         found: u32,
@@ -96,7 +119,7 @@ pub enum Error {
         most: u32,
     },
     /// Fractions and digits need GMP and MPFR.
-    #[error("found a build without arbitrary precision, expected one with the feature `mp` for --digits and --exact")]
+    #[error("found a build without arbitrary precision, expected one with the feature `mp` for digits and fractions")]
     NoMultiprecision,
     /// Comparisons of enclosures stay open.
     #[error(
@@ -117,8 +140,8 @@ pub enum Error {
     NotCertified,
     /// More bits would be needed than are worth trying.
     #[error(
-        "{digits} digits are not settled with {bits} bits; expected a shorter run, fewer digits, or --certified, \
-        which knows exact roots"
+        "{digits} digits are not settled with {bits} bits; expected a shorter run, fewer digits, or certified ones, \
+        which come with exact roots"
     )]
     Unsettled {
         /// What was asked for.

@@ -4,9 +4,11 @@ use std::sync::{Mutex, OnceLock, PoisonError};
 
 use crate::error::Error;
 use crate::motion::{Contact, Ending, Energy, Event, Field, Motion, Scales, Side, StressHistory};
-use crate::number::{Answer, Scalar};
+use crate::number::{Answer, Number, Scalar, show};
 use crate::problem::Problem;
-use crate::quantity::{self, Column, EnergyShares, Flight, Restitution, Slice, energy_shares, flights, restitution};
+use crate::quantity::{
+    self, Column, EnergyShares, Flight, Restitution, Slice, UnitSystem, Units, energy_shares, flights, restitution,
+};
 use crate::ray::Ray;
 use crate::reason::Warning;
 use crate::solve::{Attempt, Ladder, Numbers, Observer, Plan, Question, Rung, Target, unobserved};
@@ -15,7 +17,8 @@ use crate::wave::Waves;
 /// The motion of a rod: its impacts and releases, and the values of every quantity at any time, in numbers `S`.
 ///
 /// All times are absolute and in the units of the problem. A question about a time outside of `0 … end()` is
-/// [`Error::TimeOutside`], about a point outside of the rod [`Error::PointOutside`].
+/// [`Error::TimeOutside`], or [`Error::BeyondEnd`] and [`Error::BeyondExactness`] where the history ends for a reason
+/// of its own; about a point outside of the rod [`Error::PointOutside`].
 ///
 /// **Accuracy**: that of the [`Plan`]. Each answer is computed in more bits where those at hand do not leave the digits
 /// that were asked for.
@@ -106,14 +109,26 @@ impl<S: Target> History<S> {
     ) -> Result<T, Error> {
         let current = self.current();
         let rung = current.rung;
-        let (attempt, answer) = self.ladder.settle(Some(current), query, numbers)?;
+        let settled = self.ladder.settle(Some(current), query, numbers);
+        let (attempt, answer) = settled.map_err(|error| self.explained(error))?;
         if attempt.rung != rung {
             *self.attempt.lock().unwrap_or_else(PoisonError::into_inner) = attempt;
         }
         Ok(answer)
     }
 
-    /// The last time that is known.
+    /// An error of a question, with why the history ends before the time that was asked for.
+    pub(crate) fn explained(&self, error: Error) -> Error {
+        let Error::TimeOutside { found, end } = error else { return error };
+        let after = found.parse::<Number>().is_ok_and(|time| time.to_f64() > 0.0);
+        match &self.ending {
+            ending @ Ending::ExactnessEnds { .. } if after => Error::BeyondExactness { found, ending: ending.clone() },
+            ending if after && *ending != Ending::Time => Error::BeyondEnd { found, end, ending: ending.clone() },
+            _ => Error::TimeOutside { found, end },
+        }
+    }
+
+    /// The last time that is known: before an event at no fraction, a fraction just below its time.
     pub fn end(&self) -> &S {
         &self.end
     }
@@ -121,6 +136,46 @@ impl<S: Target> History<S> {
     /// Why it is the last.
     pub fn ending(&self) -> &Ending {
         &self.ending
+    }
+
+    /// A number of an answer as text, with the digits that the [`Plan`] promises and no more: a `Float` and an
+    /// enclosure carry further ones.
+    ///
+    /// **Accuracy**: *correctly rounded* to the digits asked for; the shortest text of a double, and a fraction whole.
+    ///
+    /// ```
+    /// # #[cfg(feature = "mp")] {
+    /// let rod = dalembert::Problem::builder().length(12).wave_speed(30).gravity(10).impact_speed(40).build()?;
+    /// let history = rod.digits(50)?;
+    /// // t_b = t₁ = 2L/c = 4/5, and the peak is −(μ + g t₁)/c = −8/5.
+    /// assert_eq!(history.text(history.contacts()[0].to.as_ref().unwrap()), format!("0.8{}", "0".repeat(49)));
+    /// assert_eq!(rod.certified(5)?.text(&rod.certified(5)?.contacts()[0].peak_strain), "-1.6000");
+    /// # }
+    /// # Ok::<(), dalembert::Error>(())
+    /// ```
+    pub fn text(&self, number: &S) -> String {
+        match self.plan().numbers {
+            Numbers::Digits(digits) | Numbers::ExactThenDigits(digits) | Numbers::Certified(digits) => {
+                show(&number.exactly(), digits)
+            }
+            Numbers::Double(_) | Numbers::Exact => number.text(),
+        }
+    }
+
+    /// What turns strains into stress and force, and values per `ρS` into impulse and energy.
+    ///
+    /// ```
+    /// use dalembert::{Measure, Problem};
+    /// // c = √(E/ρ) = 2, and nothing but the momentum ρS L μ turns round: an impulse of 2ρS L μ, of which ρS = 2.
+    /// let rod = Problem::builder().length(2).material(4, 1, 2).impact_speed(1).build()?;
+    /// let history = rod.solve()?;
+    /// let impulse = history.contacts()[0].impulse;
+    /// assert_eq!(impulse, 4.0);
+    /// assert_eq!(history.units().factor::<f64>(Measure::Impulse, &()).map(|factor| factor * impulse), Some(8.0));
+    /// # Ok::<(), dalembert::Error>(())
+    /// ```
+    pub fn units(&self) -> Units {
+        Units::of(&self.ladder.problem, UnitSystem::default())
     }
 
     /// How it was solved.
@@ -175,7 +230,7 @@ impl<S: Target> History<S> {
         Ok(self.ask(query, EnergyShares::numbers)?.map(S::strip))
     }
 
-    /// `v_x(0,·)` piece by piece.
+    /// `v_x(0,·)` piece by piece: strains, as [`StressHistory`] says.
     ///
     /// **Errors**: those of the ladder.
     pub fn stress_history(&self) -> Result<StressHistory<S>, Error> {
@@ -183,7 +238,8 @@ impl<S: Target> History<S> {
             |engine| Ok(engine.stress_pieces()),
             |pieces| pieces.iter().flat_map(|piece| [&piece.from, &piece.to, &piece.left, &piece.right]).collect(),
         )?;
-        Ok(StressHistory { pieces: pieces.into_iter().map(|piece| piece.map(S::strip)).collect() })
+        let pieces = pieces.into_iter().map(|piece| piece.map(S::strip)).collect();
+        Ok(StressHistory { pieces, ending: self.ending.clone() })
     }
 
     /// `v_x(0,t)`: the strain at the ground, which is the stress there divided by the modulus; zero in flight.
@@ -374,7 +430,8 @@ impl Problem {
         self.answer(&Question::run(Numbers::Exact))
     }
 
-    /// The motion in decimal digits. **Accuracy**: so many digits of each number, rounded once.
+    /// The motion in decimal digits. **Accuracy**: so many digits of each number, rounded once, as [`History::text`]
+    /// prints them; the `Float` itself carries more, which are not promised.
     ///
     /// **Errors**: [`Error::Digits`]; [`Error::Unsettled`]; [`Error::NoMultiprecision`] without the feature `mp`.
     pub fn digits(&self, digits: u32) -> Result<History<crate::number::Float>, Error> {

@@ -25,6 +25,10 @@
 //! | [`Problem::exact`] | fractions | no error, as far as they reach; undamped rods |
 //! | [`Problem::certified`] | enclosures | every digit is proved; undamped rods, and the first contact of damped ones |
 //!
+//! [`History::text`] is a number with the digits that were asked for. An [`Interval`] has its ends, `lo()` and `hi()`,
+//! and `{}` prints the digits that both prove. [`History::units`] turns strains and values per `ρS` into those of the
+//! material.
+//!
 //! The features `mp` (all numbers but doubles), `cli` (the command), `compare` (what it shares with the wheel) and
 //! `plot` (its pictures as PNG) add to each other and take nothing away.
 

@@ -89,15 +89,18 @@ pub struct Contact<S> {
     /// Its end; `None` where the history ends before.
     #[serde(serialize_with = "optional")]
     pub to: Option<S>,
-    /// `−c² ∫ v_x(0,t) dt ≥ 0` over the contact: momentum per linear density that the ground gives.
+    /// `−c² ∫ v_x(0,t) dt ≥ 0` over the contact: momentum per linear density `ρS` that the ground gives;
+    /// [`History::units`](crate::History::units) has the factor that makes it that of the rod.
     #[serde(serialize_with = "number")]
     pub impulse: S,
-    /// The most compressive `v_x(0,t)` of the contact, `≤ 0`.
+    /// The most compressive strain `v_x(0,t)` of the contact, `≤ 0`; [`History::units`](crate::History::units) has the
+    /// factors that make it a stress and a force.
     #[serde(serialize_with = "number")]
-    pub peak_stress: S,
+    pub peak_strain: S,
 }
 
-/// The energies (3.54), (3.61)–(3.63), per linear density.
+/// The energies (3.54), (3.61)–(3.63), per linear density `ρS`; [`History::units`](crate::History::units) has the
+/// factor that makes them those of the rod.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 #[serde(bound = "S: Scalar")]
 pub struct Energy<S> {
@@ -112,7 +115,8 @@ pub struct Energy<S> {
     pub vibrational: S,
 }
 
-/// A stretch of the stress history `v_x(0,·)` without jump or kink.
+/// A stretch of the stress history without jump or kink. Its values are strains `v_x(0,·)`, stress divided by the
+/// modulus: see [`StressHistory`].
 #[derive(Clone, Debug, PartialEq, Serialize)]
 #[serde(bound = "S: Scalar")]
 pub struct StressPiece<S> {
@@ -180,19 +184,19 @@ impl<S: Scalar> fmt::Display for Event<S> {
 impl<S> Contact<S> {
     /// The same contact in other numbers.
     pub fn map<T>(self, f: impl Fn(S) -> T) -> Contact<T> {
-        Contact { from: f(self.from), to: self.to.map(&f), impulse: f(self.impulse), peak_stress: f(self.peak_stress) }
+        Contact { from: f(self.from), to: self.to.map(&f), impulse: f(self.impulse), peak_strain: f(self.peak_strain) }
     }
 
     /// Every number in it.
     pub(crate) fn numbers(&self) -> impl Iterator<Item = &S> {
-        [&self.from, &self.impulse, &self.peak_stress].into_iter().chain(&self.to)
+        [&self.from, &self.impulse, &self.peak_strain].into_iter().chain(&self.to)
     }
 }
 
 impl<S: Scalar> fmt::Display for Contact<S> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let to = self.to.as_ref().map_or_else(|| "no end".to_string(), Scalar::text);
-        let [from, impulse, peak] = [&self.from, &self.impulse, &self.peak_stress].map(Scalar::text);
+        let [from, impulse, peak] = [&self.from, &self.impulse, &self.peak_strain].map(Scalar::text);
         write!(f, "contact from t = {from} to {to}: impulse {impulse}, peak v_x(0,t) = {peak}")
     }
 }
@@ -296,20 +300,27 @@ impl<S: Scalar> StressPiece<S> {
 pub struct StressHistory<S> {
     /// The pieces, in order and without a gap.
     pub pieces: Vec<StressPiece<S>>,
+    /// Why the last one ends where it does. Before an event at no fraction that is a fraction just below its time.
+    pub ending: Ending,
 }
 
-/// A piece a line: `from … to: left … right`, with the number of Chebyshev coefficients where it is not linear.
+/// A piece a line: `from … to: left … right`, with the number of Chebyshev coefficients where it is not linear; below
+/// them why the last one ends.
 impl<S: Scalar> fmt::Display for StressHistory<S> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        for piece in &self.pieces {
+        for (k, piece) in self.pieces.iter().enumerate() {
             let [from, to, left, right] = [&piece.from, &piece.to, &piece.left, &piece.right].map(Scalar::text);
+            let to = match &self.ending {
+                Ending::ExactnessEnds { time, .. } if k + 1 == self.pieces.len() => format!("just before {time}"),
+                _ => to,
+            };
             write!(f, "{from} … {to}: {left} … {right}")?;
             match piece.chebyshev.len() {
                 0 => writeln!(f)?,
                 count => writeln!(f, "  ({count} Chebyshev coefficients)")?,
             }
         }
-        Ok(())
+        writeln!(f, "ends: {}", self.ending)
     }
 }
 
@@ -333,13 +344,35 @@ pub enum Ending {
         kind: EventKind,
         /// Its time as a surd, `3 + √2`.
         time: String,
-        /// The nearest double.
+        /// The double nearest to it, or next to that.
         near: f64,
     },
     /// The first bounce: what follows it is not proved.
     Bounce,
     /// The asked accuracy or effort does not settle what comes next.
     Undecided(Reason),
+}
+
+impl Ending {
+    /// Whether the history may be shorter than what was asked for, because what follows is not known.
+    pub(crate) fn is_open(&self) -> bool {
+        matches!(self, Ending::ExactnessEnds { .. } | Ending::Undecided(_) | Ending::Bounce)
+    }
+
+    /// The reason with the time that it holds for: `ends at t = 12: …`.
+    #[cfg(feature = "cli")]
+    pub(crate) fn at(&self, end: &str) -> String {
+        match self {
+            Ending::ExactnessEnds { .. } => self.to_string(),
+            reason => format!("ends at t = {end}: {reason}"),
+        }
+    }
+}
+
+impl Serialize for Ending {
+    fn serialize<Z: Serializer>(&self, z: Z) -> Result<Z::Ok, Z::Error> {
+        z.collect_str(self)
+    }
 }
 
 impl fmt::Display for Ending {

@@ -281,8 +281,10 @@ impl Display for Warning {
             }
             Warning::DragNeglected { speed, terminal } => write!(
                 f,
-                "the speed at impact, √(2 g drop_height) = {speed:.4e}, takes no account of drag; with this damping no \
-                 fall is faster than g/2r = {terminal:.4e}"
+                "the speed at impact, √(2 g drop_height) = {}, takes no account of drag; with this damping no fall is \
+                 faster than g/2r = {}: a gap of this height with speed = 0 falls with the damping",
+                speed.decimal(3),
+                terminal.decimal(3)
             ),
         }
     }

@@ -400,9 +400,17 @@ class History:
 
     @cached_property
     def contacts(self) -> np.ndarray:
-        """Times on the ground: ``from``, ``to``, ``impulse`` per linear density, and the ``peak_strain``, which is the
-        most compressive ``v_x(0,t)``."""
-        return self._table("contacts", "from to impulse peak_strain")
+        """Times on the ground: ``from``, ``to``, ``impulse``, and the ``peak_strain``, which is the most compressive
+        ``v_x(0,t)``; with a material ``peak_stress`` and ``peak_force`` as well, all in its units. Without one the
+        impulse is per linear density.
+
+        >>> rod = Problem(length=2, modulus=4, density=1, area=2, impact_speed=1)
+        >>> rod.solve(exact=True).contacts[["impulse", "peak_stress", "peak_force"]].tolist()
+        [(Fraction(8, 1), Fraction(-2, 1), Fraction(4, 1))]
+        """
+        names = ("peak_stress", "peak_force") if self._core.has_material() else ()
+        peaks = dict(zip(names, map(self._array, self._core.table("peaks")))) if names else {}
+        return self._table("contacts", "from to impulse peak_strain", **peaks)
 
     @cached_property
     def restitution(self) -> np.ndarray:

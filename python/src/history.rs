@@ -6,7 +6,7 @@ use std::sync::atomic::AtomicBool;
 use dalembert::number::{DOUBLE_DIGITS, show};
 use dalembert::quantity::{energy_shares, restitution};
 use dalembert::solve::Target;
-use dalembert::{Answer, Column, Error, Motion, Number, Scalar, Side, Solution};
+use dalembert::{Answer, Column, Error, Measure, Motion, Number, Scalar, Side, Solution, Units};
 use numpy::{PyArray1, PyReadonlyArray1};
 use pyo3::IntoPyObjectExt;
 use pyo3::prelude::*;
@@ -179,6 +179,11 @@ impl History {
         })
     }
 
+    /// Whether stresses and forces have a unit.
+    fn has_material(&self) -> bool {
+        each!(&*self.solution, |history, _digits| history.units().has_material())
+    }
+
     /// Kind and error of the time of each event.
     fn kinds(&self) -> Vec<(String, f64)> {
         each!(&*self.solution, |history, _digits| {
@@ -190,8 +195,10 @@ impl History {
     fn table(&self, py: Python<'_>, part: String) -> PyResult<Vec<Found>> {
         self.ask(py, move |solution| {
             each!(solution, |history, digits| {
-                let rows =
-                    history.ask(|motion| rows(motion, &part), |rows| rows.iter().flatten().flatten().collect())?;
+                let rows = history.ask(
+                    |motion| rows(motion, &part, &history.units()),
+                    |rows| rows.iter().flatten().flatten().collect(),
+                )?;
                 let of = history.end().carry();
                 let column = |k: usize| Found::of(rows.iter().map(|row| row[k].as_ref()), &of, digits);
                 Ok([0, 1, 2, 3].map(column).into())
@@ -254,15 +261,22 @@ fn side_of(side: &str) -> PyResult<Side> {
 }
 
 /// The rows of a table.
-fn rows<N: Scalar>(motion: &dyn Motion<N>, part: &str) -> Result<Vec<[Option<N>; 4]>, Error> {
+fn rows<N: Scalar>(motion: &dyn Motion<N>, part: &str, units: &Units) -> Result<Vec<[Option<N>; 4]>, Error> {
+    let measured = |measure, x: &N| units.factor::<N>(measure, &x.precision()).map(|factor| x.clone() * factor);
     Ok(match part {
         "events" => {
             let numbers = |e: dalembert::Event<N>| [e.time, e.end_velocity, e.centre, e.centre_velocity];
             motion.events().iter().map(|event| numbers(event.clone()).map(Some)).collect()
         }
         "contacts" => {
-            let numbers = |c: dalembert::Contact<N>| [Some(c.from), c.to, Some(c.impulse), Some(c.peak_stress)];
+            let numbers = |c: dalembert::Contact<N>| {
+                [Some(c.from), c.to, measured(Measure::Impulse, &c.impulse), Some(c.peak_strain)]
+            };
             motion.contacts().iter().cloned().map(numbers).collect()
+        }
+        "peaks" => {
+            let peaks = |peak: &N| [measured(Measure::Stress, peak), measured(Measure::Force, peak), None, None];
+            motion.contacts().iter().map(|contact| peaks(&contact.peak_strain)).collect()
         }
         "restitution" => {
             let numbers = |contact| {

@@ -101,7 +101,8 @@ impl Problem {
         first_contact: bool,
     ) -> PyResult<History> {
         let digits = digits.map(|digits| {
-            u32::try_from(digits).map_err(|_| refuse(format!("found --digits {digits}, expected 1 to {MAX_DIGITS}")))
+            u32::try_from(digits)
+                .map_err(|_| refuse(format!("found {digits} digits asked for, expected 1 to {MAX_DIGITS}")))
         });
         let digits = digits.transpose()?;
         let numbers = match (certified, exact, digits, accuracy) {

@@ -25,7 +25,7 @@ pub(crate) enum Part {
 }
 
 /// What other people's columns are often called, beside our own names.
-const ALIASES: [(&str, Column); 14] = [
+const ALIASES: &[(&str, Column)] = &[
     ("time", Column::Time),
     ("u", Column::EndDisplacement),
     ("v", Column::EndVelocity),

@@ -7,7 +7,7 @@ use crate::error::Error;
 use crate::history::History;
 use crate::motion::{Field, Side, StressPiece};
 use crate::problem::{Material, Parameters, Problem, Start};
-use crate::quantity::{Column, Grid, Moments, Touch};
+use crate::quantity::{Column, Grid, Measure, Moments, Touch};
 use crate::special::gauss_legendre;
 
 /// A history with the times at which the end at the ground sees a ray.
@@ -208,14 +208,17 @@ impl<'a> Ours<'a> {
     /// What a displacement or a velocity is compared with; zero for what is not told from zero by it.
     pub(super) fn scale(&self, what: What) -> f64 {
         let scales = self.history.scales();
-        match what {
-            What::Field(Part::Displacement)
-            | What::Column(Column::EndDisplacement | Column::TopDisplacement | Column::Centre) => {
-                scales.velocity * scales.time
-            }
-            What::Field(Part::Velocity)
-            | What::Column(Column::EndVelocity | Column::TopVelocity | Column::CentreVelocity) => scales.velocity,
-            _ => 0.0,
+        let measure = match what {
+            What::Field(Part::Displacement) => Some(Measure::Length),
+            What::Field(Part::Velocity) => Some(Measure::Velocity),
+            What::Field(Part::Strain | Part::Stress) => None,
+            What::Column(column) => column.measure(),
+        };
+        match measure {
+            Some(Measure::Length) => scales.velocity * scales.time,
+            Some(Measure::Velocity) => scales.velocity,
+            Some(Measure::Strain | Measure::Stress | Measure::Force | Measure::Impulse | Measure::Energy) => 0.0,
+            Some(Measure::Time) | None => 0.0,
         }
     }
 
@@ -254,7 +257,7 @@ impl<'a> Ours<'a> {
                     moments.add(time, factor * piece.eval(&time), half * weight);
                 }
             }
-            moments.reach(factor * contact.peak_stress);
+            moments.reach(factor * contact.peak_strain);
             let impulse = Some(self.line() * contact.impulse);
             touches.push(Touch { impulse, ..moments.touch(contact.from, contact.to) });
         }

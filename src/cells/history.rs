@@ -284,7 +284,7 @@ impl<S: RoundedSpecial> Damped<S> {
                     from: event.time.clone(),
                     to: None,
                     impulse: event.time.zero(),
-                    peak_stress: event.time.zero(),
+                    peak_strain: event.time.zero(),
                 }),
             }
         }
@@ -302,8 +302,8 @@ impl<S: RoundedSpecial> Damped<S> {
                     contact.impulse = contact.impulse.clone() - push;
                     if let Some(least) = smallest(&self.medium.basis, &piece.trace) {
                         let stress = least * &units.velocity / &units.wave_speed;
-                        if stress < contact.peak_stress {
-                            contact.peak_stress = stress;
+                        if stress < contact.peak_strain {
+                            contact.peak_strain = stress;
                         }
                     }
                 }

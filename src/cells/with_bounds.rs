@@ -89,7 +89,7 @@ impl<S: Rounded, H: Bounding<S>> WithBounds<S, H> {
             if let Some(own) = form.and_then(|form| form.contacts().get(k)) {
                 // A peak that is only approached has no bound of its own that falls with more bits.
                 let Near { strain, .. } = bounded.scaled(bounded.history.uncertainty(&contact.from));
-                return Contact { peak_stress: within(&contact.peak_stress, strain), ..own.clone() };
+                return Contact { peak_strain: within(&contact.peak_strain, strain), ..own.clone() };
             }
             let (from, to) = (time_of(&contact.from), contact.to.as_ref().map(&time_of));
             let last = to.as_ref().map_or_else(|| bounded.history.end().to_f64(), Estimate::to_f64);
@@ -101,7 +101,7 @@ impl<S: Rounded, H: Bounding<S>> WithBounds<S, H> {
             let push = by_momentum.map_or(by_stress, |impulse| impulse * c * velocity * time);
             Contact {
                 impulse: within(&contact.impulse, push),
-                peak_stress: within(&contact.peak_stress, strain),
+                peak_strain: within(&contact.peak_strain, strain),
                 from,
                 to,
             }

@@ -15,7 +15,7 @@ use crate::scene::Scene;
 
 /// What accuracy costs in time: one quantity by every route that can give it, measured now, on this machine
 #[derive(Args, Debug)]
-#[command(after_help = "Examples:\n  dalembert cost figure-4-r02 --quantity restitution -o cost.svg\n  \
+#[command(after_help = "Examples:\n  dalembert cost figure-4-r02 --quantity e_E2 -o cost.svg\n  \
     dalembert cost figure-4-r02 --quantity energy --time 2 --seconds 60\n  \
     dalembert cost doyen-ern-piperno --effects")]
 pub(super) struct Cost {

@@ -25,7 +25,7 @@ use clap::{Args, CommandFactory, Parser, Subcommand, ValueEnum};
 use crate::error::Error;
 use crate::history::History;
 use crate::motion::{Ending, Motion};
-use crate::number::{Number, Scalar};
+use crate::number::{DOUBLE_DIGITS, Number, Scalar, show};
 use crate::output::{Head, SCHEMA, write_whole};
 use crate::problem::Parameters;
 use crate::quantity::Units;
@@ -91,8 +91,8 @@ enum Command {
     },
 }
 
-/// Runs the command. The exit code is 1 where `check` finds a promise that is not kept, and `compare` a norm above
-/// its bound.
+/// Runs the command. The exit code is 1 where `check` finds a promise that is not kept, `compare` a norm above its
+/// bound, and no point of a `sweep` has a number.
 pub fn run(cli: Cli) -> Result<ExitCode, Failure> {
     let done = match cli.command {
         Command::Solve(command) => command.run(),
@@ -102,7 +102,7 @@ pub fn run(cli: Cli) -> Result<ExitCode, Failure> {
         Command::Explain(command) => command.run(),
         Command::Cost(command) => command.run(),
         Command::Compare(command) => return command.run(),
-        Command::Sweep(command) => command.run(),
+        Command::Sweep(command) => return command.run(),
         Command::Regimes(command) => command.run(),
         Command::Figures(command) => command.run(),
         Command::Check(command) => return command.run(),
@@ -127,7 +127,7 @@ pub fn run(cli: Cli) -> Result<ExitCode, Failure> {
 #[derive(Args, Clone, Copy, Debug)]
 struct NumberArgs {
     /// Decimal digits, rounded from values known to eight more of their scale; with --exact, from where exactness ends
-    #[arg(long, value_name = "N")]
+    #[arg(long, value_name = "N", value_parser = digits)]
     digits: Option<u32>,
     /// Exact fractions, as far as they reach
     #[arg(long)]
@@ -136,8 +136,16 @@ struct NumberArgs {
     #[arg(long, conflicts_with_all = ["exact", "accuracy"])]
     certified: bool,
     /// Accuracy relative to the natural scales, such as 1e-10; more bits are taken where doubles do not reach it
-    #[arg(long, value_name = "E", conflicts_with_all = ["digits", "exact"])]
+    #[arg(long, value_name = "E", value_parser = accuracy, conflicts_with_all = ["digits", "exact"])]
     accuracy: Option<f64>,
+}
+
+fn digits(text: &str) -> Result<u32, String> {
+    text.parse().map_err(|_| "expected a whole number of digits, such as 50".into())
+}
+
+fn accuracy(text: &str) -> Result<f64, String> {
+    text.parse().map_err(|_| "expected a number such as 1e-10".into())
 }
 
 impl NumberArgs {
@@ -255,27 +263,6 @@ trait Report {
     /// Every number in the data.
     fn numbers<'a, N: Scalar>(&self, data: &'a Self::Data<N>) -> Vec<&'a N>;
     fn print<N: Scalar>(&self, data: &Self::Data<N>, head: &Head) -> Result<(), Failure>;
-    /// An error of `gather`, with what the history ends for.
-    fn refuse(&self, error: Error, ending: &Ending) -> Failure {
-        let _ = ending;
-        error.into()
-    }
-}
-
-/// An error of a question about a time, with what the history ends for.
-fn refuse_time(error: Error, ending: &Ending) -> Failure {
-    match (ending, &error) {
-        (Ending::ExactnessEnds { .. }, Error::TimeOutside { found, .. }) => {
-            miette::miette!(
-                help = "expected times before it, or --digits N as well, to go on from there in digits",
-                "found time {found}, but {ending}"
-            )
-        }
-        (ending, Error::TimeOutside { found, end }) if !matches!(ending, Ending::Time) => {
-            miette::miette!("found time {found}, expected times up to t = {end}: {ending}")
-        }
-        _ => error.into(),
-    }
 }
 
 /// What is done with a history, in any number system.
@@ -292,7 +279,7 @@ impl<R: Report> Visit for Printed<'_, R> {
         let head = Head { wide: *wide, legend: *legend, ..head };
         let gathered = history.ask(|motion| report.gather(motion, &head), |data| report.numbers(data));
         drop(progress);
-        let data = gathered.map_err(|error| report.refuse(error, history.ending()))?;
+        let data = gathered?;
         let shown = self.1.output.is_none() && self.1.format()? == Format::Table;
         report.print(&data, &warned(history, head, shown))
     }
@@ -306,6 +293,14 @@ fn warned<S: Target>(history: &History<S>, head: Head, shown: bool) -> Head {
         head.warnings.iter().for_each(|warning| eprintln!("warning: {warning}"));
     }
     head
+}
+
+/// Why the history ends where it does, which is printed where that may be before what was asked for.
+fn noted_end<S: Scalar>(ending: &Ending, end: &S, digits: u32) -> String {
+    if ending.is_open() {
+        eprintln!("note: {}", ending.at(&show(end, DOUBLE_DIGITS)));
+    }
+    ending.at(&show(end, if digits == 0 { DOUBLE_DIGITS } else { digits }))
 }
 
 /// Answers `question` of `scene`, and prints what `report` makes of the answer.

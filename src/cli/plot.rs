@@ -16,16 +16,16 @@ use crate::solve::{Numbers, Question, Target};
 
 /// Pictures of a scene, or of several to compare: the rod over time, stress, motion, energy, restitution
 #[derive(Args, Debug)]
-#[command(
-    after_help = "Without --quantity, one scene is told in four pictures: the field along the rod with its rays and \
-    contacts, the stress at the ground, the motion of both ends and of the centre of mass, and the energy; several \
-    scenes are drawn over each other.\n\n\
-    Quantities: xt, stress, motion, energy, restitution, or a column as `dalembert reference` has it: u_end, v_end, \
-    strain, force, u_top, v_top, h, h_rate, E_total, E_h, E_z, kinetic, strain_energy, gravity, contact, impulse.\n\n\
+#[command(after_help = format!("\
+    Without --quantity, one scene is told in four pictures: the field along the rod with its rays and contacts, the \
+    stress at the ground, the motion of both ends and of the centre of mass, and the energy; several scenes are drawn \
+    over each other.\n\n\
+    Quantities: {}; the columns are those of `dalembert reference`.\n\n\
     Examples:\n  dalembert plot doyen-ern-piperno -o bounces.png\n  \
     dalembert plot rod.toml --quantity xt --field velocity --to 12 -o xt.svg\n  \
-    dalembert plot figure-4-r01 figure-4-r03 --quantity stress,h --size column -o damping.svg"
-)]
+    dalembert plot figure-4-r01 figure-4-r03 --quantity stress,h --size column -o damping.svg",
+    known()
+))]
 pub(super) struct Plot {
     /// Scene files, `-`, or built-in scenes
     #[arg(required = true, value_name = "SCENE")]
@@ -58,9 +58,13 @@ pub(super) struct Plot {
 /// The accuracy of a picture where none is asked for: finer than any line.
 const ACCURACY: f64 = 1e-6;
 
+fn known() -> String {
+    let columns = Column::ALL.into_iter().map(Column::name);
+    let columns = columns.filter(|name| matches!(Picture::named(name), Some(Picture::Column(_))));
+    Picture::NAMES.iter().map(|known| known.0).chain(columns).collect::<Vec<_>>().join(", ")
+}
+
 fn named(name: &str) -> Result<Picture, String> {
-    let columns = Column::ALL.into_iter().map(Column::name).filter(|name| Picture::named(name).is_some());
-    let known = || Picture::NAMES.iter().map(|known| known.0).chain(columns).collect::<Vec<_>>().join(", ");
     Picture::named(name.trim()).ok_or_else(|| format!("found no picture of this name, expected one of {}", known()))
 }
 
@@ -137,10 +141,9 @@ struct Gather<'a> {
 impl Visit for Gather<'_> {
     fn visit<S: Target>(&self, history: &History<S>, head: Head, progress: source::Progress) -> Result<(), Failure> {
         let units = Units::of(&self.scene.problem, self.scene.units);
-        let found = self.asked.gather(self.name.into(), &self.scene.problem, units, history);
+        let found = self.asked.gather(self.name.into(), &self.scene.problem, units, history)?;
         drop(progress);
         warned(history, head, false);
-        let found = found.map_err(|error| super::refuse_time(error, history.ending()))?;
         let (name, [from, to], end) = (self.name, found.span, found.end);
         let short = |time: f64| time.decimal(6);
         let asked_to = self.asked.to.unwrap_or(end);

@@ -7,7 +7,7 @@ use clap::Args;
 
 use super::list::{List, list};
 use super::times::{CHUNK, Chunk, Times, TimesFile};
-use super::{Failure, NumberArgs, Visit, file, refuse_time, solve, source, warned};
+use super::{Failure, NumberArgs, Visit, file, noted_end, solve, source, warned};
 use crate::error::Error;
 use crate::history::History;
 use crate::motion::{Motion, Side};
@@ -19,15 +19,15 @@ use crate::solve::{Question, Target};
 
 /// Golden files: all quantities at chosen times as CSV, JSON or NPZ, or the exact solution as a function
 #[derive(Args, Debug)]
-#[command(
-    after_help = "Without times, the rows are the start, every impact and release, and the end. Where a jump passes, a \
-    time has two rows, the limits from earlier and from later times.\n\n\
-    Columns: t, side, u_end, v_end, strain, stress, force, u_top, v_top, h, h_rate, E_total, E_h, E_z, kinetic, \
-    strain_energy, gravity, contact, impulse; the header of a file explains each.\n\n\
+#[command(after_help = format!("\
+    Without times, the rows are the start, every impact and release, and the end. Where a jump passes, a time has two \
+    rows, the limits from earlier and from later times.\n\n\
+    Columns: {}; the header of a file explains each.\n\n\
     Examples:\n  dalembert reference doyen-ern-piperno --dt 0.001 --to 5 -o golden.csv\n  \
     my_code --print-times | dalembert reference rod.toml --times-from - --columns t,u_end,force\n  \
-    dalembert reference rod.toml --times 0..2:5 --points 0..1:101 -o field.npz"
-)]
+    dalembert reference rod.toml --times 0..2:5 --points 0..1:101 -o field.npz",
+    known()
+))]
 pub(super) struct Reference {
     /// A scene file, `-`, or a built-in scene. With times it is followed to the last one, whatever its own run says
     scene: String,
@@ -69,8 +69,11 @@ pub(super) struct Reference {
     output: Option<PathBuf>,
 }
 
+fn known() -> String {
+    Column::ALL.map(Column::name).join(", ")
+}
+
 fn column(name: &str) -> Result<Column, String> {
-    let known = || Column::ALL.map(Column::name).join(", ");
     Column::named(name.trim()).ok_or_else(|| format!("found no column of this name, expected one of {}", known()))
 }
 
@@ -181,7 +184,7 @@ impl Visit for Series<'_> {
             let asked = self.times.chunks(at_once, |chunk| {
                 let table = self.ask(history, chunk.as_ref());
                 // Where nobody receives any more, the writer says why.
-                let _ = send.send(table.map_err(|error| refuse_time(error, history.ending()))?);
+                let _ = send.send(table?);
                 Ok(())
             });
             drop(send);
@@ -191,7 +194,9 @@ impl Visit for Series<'_> {
         drop(progress);
         let head = warned(history, head, false);
         let numbers = history.plan().numbers;
-        let preamble = Preamble { head: &head, scene: self.scene.source(), numbers, each: "each column" };
+        let ends = matches!(self.times, Times::Events)
+            .then(|| noted_end(history.ending(), &S::carry(history.end()), head.digits));
+        let preamble = Preamble { head: &head, scene: self.scene.source(), numbers, each: "each column", ends };
         Ok(rows.finish(&preamble, self.asked.output.as_deref()).map_err(self.asked.cannot_write())?)
     }
 }
@@ -209,7 +214,8 @@ impl Visit for Function<'_> {
         drop(progress);
         let head = warned(history, head, false);
         let numbers = history.plan().numbers;
-        let preamble = Preamble { head: &head, scene: self.scene.source(), numbers, each: "each coefficient" };
+        let ends = Some(noted_end(history.ending(), &S::carry(history.end()), head.digits));
+        let preamble = Preamble { head: &head, scene: self.scene.source(), numbers, each: "each coefficient", ends };
         let text = code(&waves, &S::carry(history.end()), self.language, &preamble);
         Ok(write_whole(self.asked.output.as_deref(), text.as_bytes()).map_err(self.asked.cannot_write())?)
     }

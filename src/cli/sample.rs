@@ -3,9 +3,9 @@
 use clap::Args;
 
 use super::list::{List, list};
-use super::{Failure, Format, NumberArgs, OutputArgs, Report, answer, refuse_time, source};
+use super::{Failure, Format, NumberArgs, OutputArgs, Report, answer, source};
 use crate::error::Error;
-use crate::motion::{Ending, Motion, Side};
+use crate::motion::{Motion, Side};
 use crate::number::Scalar;
 use crate::output::{self, Head, Quantity, sample, samples_csv, samples_json, samples_table};
 use crate::solve::Question;
@@ -66,10 +66,6 @@ impl Report for Sample {
             None => vec![length.zero(), length.clone() / length.int(2), length],
         };
         sample(history, self.quantity, &times, &points, self.side)
-    }
-
-    fn refuse(&self, error: Error, ending: &Ending) -> Failure {
-        refuse_time(error, ending)
     }
 
     fn numbers<'a, S: Scalar>(&self, samples: &'a Self::Data<S>) -> Vec<&'a S> {

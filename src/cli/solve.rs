@@ -4,7 +4,7 @@ use std::io::IsTerminal;
 
 use clap::Args;
 
-use super::{Failure, Format, NumberArgs, OutputArgs, Report, answer, source};
+use super::{Failure, Format, NumberArgs, OutputArgs, Report, answer, noted_end, source};
 use crate::error::Error;
 use crate::motion::Motion;
 use crate::number::Scalar;
@@ -36,7 +36,9 @@ pub(super) struct Solve {
 impl Solve {
     pub(super) fn run(&self) -> Result<(), Failure> {
         if self.part.is_some() && self.output.format()? != Format::Csv {
-            return Err(miette::miette!("found --part, expected it with --format csv only"));
+            return Err(miette::miette!(
+                "found --part, expected it with --format csv only: JSON holds all parts, and a table all but the stress"
+            ));
         }
         if self.coefficients && self.part != Some(Part::Stress) {
             return Err(miette::miette!("found --coefficients, expected it with --part stress only"));
@@ -74,6 +76,10 @@ impl Report for Solve {
     }
 
     fn print<S: Scalar>(&self, record: &Record<S>, head: &Head) -> Result<(), Failure> {
+        // A table on the screen says it.
+        if self.output.output.is_some() || self.output.format()? != Format::Table {
+            noted_end(&record.end.1, &record.end.0, head.digits);
+        }
         match self.output.format()? {
             Format::Table => self.output.write(&history_table(record, head)),
             Format::Json => self.output.write_json(&history_json(record, head)),

@@ -48,6 +48,9 @@ pub(super) fn read(name: &str) -> Result<Scene, Failure> {
         (name, read_text(file, name)?)
     } else if let Some(builtin) = builtin::get(name) {
         (name, builtin.source.to_string())
+    } else if std::path::Path::new(name).is_dir() {
+        let scenes = "a scene file in it, such as `FOLDER/rod.toml`, or a name that `dalembert scenes` lists";
+        return Err(miette::miette!(help = format!("expected {scenes}"), "found the folder `{name}` as a scene"));
     } else if std::path::Path::new(name).exists() {
         let file = std::fs::File::open(name).map_err(cannot(&format!("open {name}")))?;
         (name, read_text(file, name)?)

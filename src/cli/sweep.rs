@@ -3,6 +3,7 @@
 use std::io::ErrorKind;
 use std::ops::Range;
 use std::path::{Path, PathBuf};
+use std::process::ExitCode;
 
 use clap::{Args, ValueEnum};
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
@@ -17,10 +18,10 @@ use crate::sweep::{self, Asked, Axis, Grid, Journal, Point, SweepError, journal_
 /// Numbers of a scene over a grid of its values, on all cores
 #[derive(Args, Debug)]
 #[command(after_help = "Examples:\n  dalembert sweep figure-4-r02 --vary impact.speed=0.05..12.5:500:log \
-    --vary rod.damping=0,0.1,0.2,0.3 --quantity bounce_time,restitution -o figure-4.csv\n  dalembert sweep rod.toml \
+    --vary rod.damping=0,0.1,0.2,0.3 --quantity bounce_time,e_E2 -o figure-4.csv\n  dalembert sweep rod.toml \
     --vary rod.damping=0..1:1001 --quantity energy --shard 3/8 -o part-3.npz\n\nThe last --vary changes fastest. \
     With -o FILE, finished points are kept in FILE.unfinished until all are;\nafter an interruption, the same command \
-    with --resume goes on from there and writes the same bytes.")]
+    with --resume goes on from there and writes the same bytes.\n\nThe exit code is 1 where no point has a number.")]
 pub(super) struct Sweep {
     /// A scene file, `-`, or a built-in scene
     scene: String,
@@ -90,7 +91,8 @@ impl Shard {
 }
 
 impl Sweep {
-    pub(super) fn run(&self) -> Result<(), Failure> {
+    /// The exit code is 1 where no point has a number.
+    pub(super) fn run(&self) -> Result<ExitCode, Failure> {
         let shape = self.shape()?;
         let scene = source::read(&self.scene)?;
         let axes = self.vary.iter().map(|text| text.parse::<Axis>()).collect::<Result<Vec<_>, SweepError>>()?;
@@ -140,8 +142,12 @@ impl Sweep {
             Shape::Npz => sweep_npz(&sweep, &found).map_err(|error| miette::miette!("cannot write NPZ: {error}"))?,
         };
         file::write(path, &bytes)?;
-        let Some((journal, path)) = journal.zip(path) else { return Ok(()) };
-        Ok(journal.remove().map_err(source::cannot(&format!("remove {}", journal_of(path).display())))?)
+        if let Some((journal, path)) = journal.zip(path) {
+            journal.remove().map_err(source::cannot(&format!("remove {}", journal_of(path).display())))?;
+        }
+        let mut cells = found.iter().flat_map(|point| &point.cells);
+        let fails = !found.is_empty() && cells.all(|cell| cell.value.is_null());
+        Ok(if fails { ExitCode::FAILURE } else { ExitCode::SUCCESS })
     }
 
     fn solve(

@@ -142,7 +142,7 @@ impl<S: System> ByHistory<'_, S> {
 
     fn ended(&self) -> NoAnswer {
         match self.0.ending() {
-            open @ (Ending::Undecided(_) | Ending::ExactnessEnds { .. } | Ending::Bounce) => NoAnswer::gave_up(open),
+            open if open.is_open() => NoAnswer::gave_up(open),
             ending => NoAnswer::none(ending.to_string()),
         }
     }

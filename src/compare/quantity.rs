@@ -17,7 +17,7 @@ use crate::solve::{Solution, Target};
 pub(crate) enum Quantity {
     /// `t_b`: the first release.
     BounceTime,
-    /// `v_x(0,t)`: the stress at the ground.
+    /// `v_x(0,t)`: the strain at the ground, which is the stress divided by the modulus.
     Stress,
     /// `h(t)`: the centre of mass.
     Centre,
@@ -25,7 +25,11 @@ pub(crate) enum Quantity {
     Energy,
     /// `E_z(t)`: the vibrational part of the energy.
     Vibrational,
-    /// `e_E²` of the first contact.
+    /// `e_P` of the first contact: the ratio of momenta.
+    #[value(name = "e_P")]
+    MomentumRestitution,
+    /// `e_E²` of the first contact: the ratio of the energies of the centre of mass.
+    #[value(name = "e_E2", alias = "restitution")]
     Restitution,
     /// The time of the last impact or release of the run.
     LastEvent,
@@ -50,9 +54,6 @@ pub(crate) enum Quantity {
     /// `E_h(t)`.
     #[value(skip)]
     Translational,
-    /// `e_P`.
-    #[value(skip)]
-    MomentumRestitution,
     /// `E_h(t_b)/E(t_b)`.
     #[value(skip)]
     TranslationalShare,
@@ -99,7 +100,8 @@ impl Quantity {
             Centre => ("centre", "h(t)"),
             Energy => ("energy", "E(t)"),
             Vibrational => ("vibrational", "E_z(t)"),
-            Restitution => ("restitution", "e_E²"),
+            MomentumRestitution => ("e_P", "e_P"),
+            Restitution => ("e_E2", "e_E²"),
             LastEvent => ("last_event", "time of the last event"),
             _ => ("quantity", ""),
         }
@@ -164,7 +166,7 @@ impl Question {
         };
         match (&time, quantity) {
             (Some(time), _) => problem.run = Run::Time(time.clone()),
-            (None, BounceTime | Restitution) => problem.run = Run::Impacts(1),
+            (None, BounceTime | MomentumRestitution | Restitution) => problem.run = Run::Impacts(1),
             (None, _) => (),
         }
         Ok(Question::new(problem, quantity, time))

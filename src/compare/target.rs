@@ -108,7 +108,7 @@ fn ours<S: Scalar>(motion: &dyn Motion<S>, target: &Target, units: &Units) -> Re
         Q::ImpactVelocity => velocity(EventKind::Impact)?,
         Q::ReleaseVelocity => velocity(EventKind::Release)?,
         Q::Impulse => scaled(contact.impulse.clone()),
-        _ => scaled(contact.peak_stress.clone()),
+        _ => scaled(contact.peak_strain.clone()),
     })
 }
 

@@ -180,7 +180,7 @@ impl<N: BoundedSpecial> ContactHistory<N> {
         self.contacts.push(Contact {
             to: self.release.as_ref().map(|_| self.end.clone()),
             impulse: (gained * &rod.length).without_exact(),
-            peak_stress: self.contact.peak(&self.followed()?),
+            peak_strain: self.contact.peak(&self.followed()?),
             from: zero,
         });
         Ok(self)

@@ -87,7 +87,7 @@ impl<N: Bounded> Undamped<N> {
                 from: event.time.clone(),
                 to: self.events.get(k + 1).map(|release| release.time.clone()),
                 impulse: sum.doubled() * length * velocity,
-                peak_stress: -(peak * velocity / wave_speed),
+                peak_strain: -(peak * velocity / wave_speed),
             });
         }
         contacts

@@ -301,10 +301,14 @@ fn trip_and_age<N: Bounded>(time: &N, units: &Units<N>) -> Option<(usize, N)> {
 fn before_surd<N: Bounded>(unit: &N, trip: usize, [from, q, slope, disc]: [&N; 4]) -> Result<(N, Ending), Open> {
     let scale = unit.clone() / slope;
     let rational = (q.int(trip as i64) + from) * unit - scale.clone() * q;
-    let time = rational.surd(slope.negative()?, &(scale.square() * disc));
+    let (later, square) = (slope.negative()?, scale.square() * disc);
+    let time = rational.surd(later, &square);
+    // A step of Newton's makes of the 53 bits of a root twice as many.
+    let root = square.double(square.to_f64().sqrt());
+    let root = (root.clone() + square / &root).halved();
+    let near = (if later { rational + root } else { rational - root }).to_f64();
     let (q, slope, disc) = (q.to_f64(), slope.to_f64(), disc.to_f64());
     let flown = (-q - disc.sqrt()) / slope;
-    let near = (trip as f64 + from.to_f64() + flown) * unit.to_f64();
     // A short fraction where one fits between the beginning of the piece and the root.
     let ticks = ((from.to_f64() + flown) * MILLION as f64 - 1e-3).floor();
     let short = from.int(ticks as i64) / from.int(MILLION);

@@ -126,6 +126,16 @@ impl Interval {
     }
 
     /// The lower end: no number meant is smaller.
+    ///
+    /// ```
+    /// let rod = dalembert::Problem::builder().length(1).wave_speed(3).impact_speed(1).build()?;
+    /// let history = rod.certified(20)?;
+    /// // t_b = 2L/c = 2/3, which no binary number is.
+    /// let end = history.contacts()[0].to.clone().unwrap();
+    /// assert!(end.lo().clone() * 3 < 2 && end.hi().clone() * 3 > 2);
+    /// assert_eq!(format!("{end:.20}"), "0.66666666666666666667");
+    /// # Ok::<(), dalembert::Error>(())
+    /// ```
     pub fn lo(&self) -> &Float {
         &self.lo
     }

@@ -3,7 +3,7 @@
 use super::record::{CONTACT, Column, Factors, Head, Quantity, Record, Sample, column, sampled};
 use super::straight::straight;
 use crate::agreement::{Compared, ComparedFile};
-use crate::motion::StressPiece;
+use crate::motion::{Ending, StressPiece};
 use crate::number::{DOUBLE_DIGITS, Scalar, show, shown_bound_text};
 use crate::quantity::Measure;
 
@@ -43,6 +43,9 @@ pub fn history_csv<S: Scalar>(
     };
     let mut rows: Vec<Vec<String>> = Vec::new();
     let mut comments = comments(head);
+    if !matches!(record.end.1, Ending::Time | Ending::NextImpact) {
+        comments += &format!("# {}\n", record.end.1.at(&show(&record.end.0)));
+    }
     let header = match part {
         Part::Events => {
             for event in &record.events {

@@ -46,15 +46,21 @@ fn write_file(path: &Path, fill: impl FnOnce(&mut File) -> io::Result<()>) -> io
         use std::os::unix::fs::PermissionsExt;
         builder.permissions(std::fs::Permissions::from_mode(0o666))
     };
-    // The name of the temporary file, which the error would carry, is nobody's business.
-    let plain = |error: io::Error| match error.kind() {
-        ErrorKind::NotFound => io::Error::new(ErrorKind::NotFound, format!("no folder {}", folder.display())),
-        kind => kind.into(),
-    };
-    let mut file = builder.tempfile_in(folder).map_err(plain)?;
+    let mut file = builder.tempfile_in(folder).map_err(|error| plain(&error, folder))?;
     fill(file.as_file_mut()).map_err(|error| io::Error::from(error.kind()))?;
     file.persist(path)?;
     Ok(())
+}
+
+/// The error of making a temporary file in `folder`, without the name of that file.
+fn plain(error: &io::Error, folder: &Path) -> io::Error {
+    let what = match error.kind() {
+        // Some folders of the system hold no files of others, and say the same.
+        ErrorKind::NotFound if folder.is_dir() => "no file can be made in",
+        ErrorKind::NotFound => "no folder",
+        kind => return kind.into(),
+    };
+    io::Error::new(ErrorKind::NotFound, format!("{what} {}", folder.display()))
 }
 
 /// Writes files into a folder, which is made where there is none. All are complete beside it before any is moved to
@@ -63,10 +69,7 @@ pub(crate) fn write_files(folder: &Path, files: &[(String, Vec<u8>)]) -> io::Res
     let parent = folder.parent().filter(|parent| !parent.as_os_str().is_empty()).unwrap_or(Path::new("."));
     let beside = if folder.is_dir() { folder } else { parent };
     let whole =
-        tempfile::Builder::new().prefix(".dalembert-").tempdir_in(beside).map_err(|error| match error.kind() {
-            ErrorKind::NotFound => io::Error::new(ErrorKind::NotFound, format!("no folder {}", parent.display())),
-            kind => kind.into(),
-        })?;
+        tempfile::Builder::new().prefix(".dalembert-").tempdir_in(beside).map_err(|error| plain(&error, parent))?;
     for (name, bytes) in files {
         std::fs::write(whole.path().join(name), bytes)?;
     }

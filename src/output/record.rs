@@ -126,7 +126,7 @@ impl<S: Scalar> Finished<S> {
     /// The numbers of the columns [`CONTACT`] that these units have.
     pub(super) fn columns(&self, units: &Units) -> Vec<Option<S>> {
         let Finished { contact, restitution, energy, .. } = self;
-        let (energy, peak) = (energy.as_ref(), Some(&contact.peak_stress));
+        let (energy, peak) = (energy.as_ref(), Some(&contact.peak_strain));
         let values = [
             Some(&contact.from),
             contact.to.as_ref(),
@@ -213,17 +213,17 @@ pub fn record<S: Scalar>(history: &dyn Motion<S>, stress: bool) -> Result<Record
 /// What `sample` can be asked for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, clap::ValueEnum)]
 pub enum Quantity {
-    /// `v_x(0,t)`.
+    /// The strain at the ground `v_x(0,t)`, and with a material the stress and the force there
     Stress,
-    /// `v(0,t)`, `v_t(0,t)`.
+    /// The end at the ground: `v(0,t)`, `v_t(0,t)`
     End,
-    /// `v(L,t)`, `v_t(L,t)`.
+    /// The upper end: `v(L,t)`, `v_t(L,t)`
     Top,
-    /// `h`, `h′`.
+    /// The centre of mass: `h`, `h′`
     Centre,
-    /// `E`, `E_h`, `E_z`.
+    /// The energies `E`, `E_h`, `E_z`
     Energy,
-    /// `v`, `v_t`, `v_x` at points.
+    /// `v`, `v_t`, `v_x` at points
     Field,
 }
 

@@ -87,6 +87,8 @@ pub struct Preamble<'a> {
     pub numbers: Numbers,
     /// What has a bound.
     pub each: &'a str,
+    /// Why the history ends, where its end is among the rows.
+    pub ends: Option<String>,
 }
 
 /// The sign conventions of all golden files.
@@ -143,6 +145,7 @@ impl Preamble<'_> {
             "promise": self.promise(npz),
             "signs": SIGNS,
             "side": SIDE,
+            "ends": self.ends,
             "warnings": self.head.warnings.iter().map(ToString::to_string).collect::<Vec<_>>(),
             "cite": CITE,
             "columns": columns.collect::<Vec<_>>(),
@@ -166,6 +169,8 @@ impl Preamble<'_> {
         lines.extend(self.scene_lines().map(|scene| line("scene", scene)));
         lines.push(line("numbers", &format!("{}: {}{proved}", self.head.number, self.promise(false))));
         lines.push(line("signs", SIGNS));
+        lines.extend(self.head.exact_until.iter().map(|end| line("note", &format!("{end}; all is in digits"))));
+        lines.extend(self.ends.clone());
         lines.extend(self.head.warnings.iter().map(|warning| line("warning", &warning.to_string().replace('\n', " "))));
         lines.push(line("cite", CITE));
         lines.into_iter()

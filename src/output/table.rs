@@ -3,7 +3,6 @@
 use super::outline::sparkline;
 use super::record::{CONTACT, Finished, Head, Quantity, Record, Sample, sampled};
 use crate::aligned::table;
-use crate::motion::Ending;
 use crate::number::{Scalar, show, shown_bound_text};
 use crate::quantity::{Measure, Units};
 
@@ -79,8 +78,8 @@ impulse        −E S ∫ v_x(0,t) dt over the contact; per ρS −c² ∫ v_x(0
 peak v_x(0,t)  the most compressive strain at the ground
 peak stress    E v_x(0,t) there, below zero
 peak force     −E S v_x(0,t) there: the force of the ground, above zero
-e_P            −P(to)/P(from): the momentum coefficient of restitution
-e_E²           E_h(to)/E_h(from): the square of the energy coefficient
+e_P            −P(to)/P(from), P = ρSL h′; below zero if h still falls at the end
+e_E²           E_h(to)/E_h(from): above 1 where the vibration gives energy back
 E, E_h, E_z    energy at the end of the contact, of the centre, of the vibration
 highest at     when the centre of mass is highest in a flight; h_max is its h
 per ρS         divided by the linear density, known with a material only
@@ -105,7 +104,7 @@ pub fn history_table<S: Scalar>(record: &Record<S>, head: &Head) -> String {
     }
     out += "\n";
     if !record.outline.is_empty() {
-        let peaks = record.contacts.iter().map(|finished| finished.contact.peak_stress.to_f64());
+        let peaks = record.contacts.iter().map(|finished| finished.contact.peak_strain.to_f64());
         out += &sparkline(&record.outline, record.end.0.to_f64(), peaks.fold(0.0, f64::min), head);
     }
 
@@ -153,16 +152,11 @@ pub fn history_table<S: Scalar>(record: &Record<S>, head: &Head) -> String {
         let header = ["flight from", "highest at", "h_max"];
         out += &format!("\n{}\n", fitted(&header, &flights, 0, 1, head.wide));
     }
-    let end = match &record.end.1 {
-        Ending::ExactnessEnds { .. } => record.end.1.to_string(),
-        reason => format!("ends at t = {}: {reason}", show(&record.end.0)),
-    };
-    out += &format!("\n{}", line(&end, head));
+    out += &format!("\n{}", line(&record.end.1.at(&show(&record.end.0)), head));
     if let Some((impacts, lost)) = record.lost
         && lost >= MANY_LOST
     {
-        let each = lost / f64::from(impacts.max(1));
-        out += &format!("{impacts} impacts may have lost {lost:.1} digits to rounding, {each:.2} each\n");
+        out += &format!("{impacts} impacts may have lost {lost:.1} of the digits carried, none of those printed\n");
     }
     out += &warnings(head);
     if head.legend {

@@ -69,7 +69,7 @@ impl Draft {
     }
 
     fn material(&self) -> Result<Material, ProblemError> {
-        const EITHER: &str = "wave_speed, or modulus, density and area";
+        const EITHER: &str = "wave_speed, or a material: modulus, density and area";
         let first = ["rod.modulus", "rod.density", "rod.area"].into_iter().find(|path| self.has(path));
         match (self.positive("rod.wave_speed", "a wave speed")?, first) {
             (Some(c), None) => return Ok(Material::WaveSpeed(c.number.clone())),

@@ -69,34 +69,47 @@ pub enum Column {
     Impulse,
 }
 
-/// Name, symbol, meaning and measure, in the order of [`Column::ALL`].
-type Facts = (&'static str, &'static str, &'static str, Option<Measure>);
+/// The columns in the order of a table, with name, symbol, meaning and measure of each.
+macro_rules! columns {
+    ($($column:ident: $name:literal, $symbol:literal, $meaning:literal, $measure:expr;)+) => {
+        impl Column {
+            /// All columns, in the order of a table.
+            pub const ALL: [Column; [$(Column::$column),+].len()] = [$(Column::$column),+];
 
-#[rustfmt::skip]
-const FACTS: [Facts; 19] = [
-    ("t", "t", "time", Some(Measure::Time)),
-    ("side", "", "which limit at a jump: from earlier times, from later ones, or both the same", None),
-    ("u_end", "v(0,t)", "displacement of the end at the ground, upwards: its gap", Some(Measure::Length)),
-    ("v_end", "v_t(0,t)", "velocity of the end at the ground, upwards", Some(Measure::Velocity)),
-    ("strain", "v_x(0,t)", "strain at the ground, positive in tension", Some(Measure::Strain)),
-    ("stress", "E v_x(0,t)", "stress at the ground, positive in tension", Some(Measure::Stress)),
-    ("force", "−E S v_x(0,t)", "contact force, positive in compression", Some(Measure::Force)),
-    ("u_top", "v(L,t)", "displacement of the upper end", Some(Measure::Length)),
-    ("v_top", "v_t(L,t)", "velocity of the upper end", Some(Measure::Velocity)),
-    ("h", "h", "centre of mass above its place in the undeformed rod on the ground", Some(Measure::Length)),
-    ("h_rate", "h′", "velocity of the centre of mass", Some(Measure::Velocity)),
-    ("E_total", "E", "energy: E_h + E_z, or kinetic + strain_energy + gravity", Some(Measure::Energy)),
-    ("E_h", "E_h", "energy of the centre of mass: ρSL(h′²/2 + g h)", Some(Measure::Energy)),
-    ("E_z", "E_z", "energy of the vibration: ½ρS∫((v_t − h′)² + c²v_x²)dx", Some(Measure::Energy)),
-    ("kinetic", "½ρS∫v_t²dx", "kinetic energy", Some(Measure::Energy)),
-    ("strain_energy", "½ES∫v_x²dx", "strain energy", Some(Measure::Energy)),
-    ("gravity", "ρSLg h", "energy in gravity, zero at h = 0", Some(Measure::Energy)),
-    ("contact", "", "1 on the ground, 0 in flight", None),
-    ("impulse", "∫force dt", "impulse of the contact force since t = 0", Some(Measure::Impulse)),
-];
+            fn facts(self) -> (&'static str, &'static str, &'static str, Option<Measure>) {
+                match self {
+                    $(Column::$column => ($name, $symbol, $meaning, $measure),)+
+                }
+            }
+        }
+    };
+}
+
+columns! {
+    Time: "t", "t", "time", Some(Measure::Time);
+    Side: "side", "", "which limit at a jump: from earlier times, from later ones, or both the same", None;
+    EndDisplacement: "u_end", "v(0,t)", "displacement of the end at the ground, upwards: its gap",
+        Some(Measure::Length);
+    EndVelocity: "v_end", "v_t(0,t)", "velocity of the end at the ground, upwards", Some(Measure::Velocity);
+    Strain: "strain", "v_x(0,t)", "strain at the ground, positive in tension", Some(Measure::Strain);
+    Stress: "stress", "E v_x(0,t)", "stress at the ground, positive in tension", Some(Measure::Stress);
+    Force: "force", "−E S v_x(0,t)", "contact force, positive in compression", Some(Measure::Force);
+    TopDisplacement: "u_top", "v(L,t)", "displacement of the upper end", Some(Measure::Length);
+    TopVelocity: "v_top", "v_t(L,t)", "velocity of the upper end", Some(Measure::Velocity);
+    Centre: "h", "h", "centre of mass above its place in the undeformed rod on the ground", Some(Measure::Length);
+    CentreVelocity: "h_rate", "h′", "velocity of the centre of mass", Some(Measure::Velocity);
+    Energy: "E_total", "E", "energy: E_h + E_z, or kinetic + strain_energy + gravity", Some(Measure::Energy);
+    TranslationalEnergy: "E_h", "E_h", "energy of the centre of mass: ρSL(h′²/2 + g h)", Some(Measure::Energy);
+    VibrationalEnergy: "E_z", "E_z", "energy of the vibration: ½ρS∫((v_t − h′)² + c²v_x²)dx", Some(Measure::Energy);
+    KineticEnergy: "kinetic", "½ρS∫v_t²dx", "kinetic energy", Some(Measure::Energy);
+    StrainEnergy: "strain_energy", "½ES∫v_x²dx", "strain energy", Some(Measure::Energy);
+    GravityEnergy: "gravity", "ρSLg h", "energy in gravity, zero at h = 0", Some(Measure::Energy);
+    Contact: "contact", "", "1 on the ground, 0 in flight", None;
+    Impulse: "impulse", "∫force dt", "impulse of the contact force since t = 0", Some(Measure::Impulse);
+}
 
 /// A question to a history; it may answer several columns.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 enum Source {
     Time,
     Side,
@@ -111,52 +124,15 @@ enum Source {
 }
 
 impl Source {
-    /// In the order in which they are asked: those with two limits first.
-    const ALL: [Source; 10] = [
-        Source::Time,
-        Source::Side,
-        Source::End,
-        Source::Strain,
-        Source::Top,
-        Source::Contact,
-        Source::Centre,
-        Source::Energy,
-        Source::Parts,
-        Source::Impulse,
-    ];
-
     fn has_sides(self) -> bool {
         matches!(self, Source::End | Source::Strain | Source::Top | Source::Contact)
     }
 }
 
 impl Column {
-    /// All columns, in the order of a table.
-    pub const ALL: [Column; 19] = [
-        Column::Time,
-        Column::Side,
-        Column::EndDisplacement,
-        Column::EndVelocity,
-        Column::Strain,
-        Column::Stress,
-        Column::Force,
-        Column::TopDisplacement,
-        Column::TopVelocity,
-        Column::Centre,
-        Column::CentreVelocity,
-        Column::Energy,
-        Column::TranslationalEnergy,
-        Column::VibrationalEnergy,
-        Column::KineticEnergy,
-        Column::StrainEnergy,
-        Column::GravityEnergy,
-        Column::Contact,
-        Column::Impulse,
-    ];
-
     /// The name in files: `u_end`.
     pub fn name(self) -> &'static str {
-        FACTS[self as usize].0
+        self.facts().0
     }
 
     /// The column of this name.
@@ -172,17 +148,17 @@ impl Column {
 
     /// The symbol: `v(0,t)`; empty where there is none.
     pub fn symbol(self) -> &'static str {
-        FACTS[self as usize].1
+        self.facts().1
     }
 
     /// What it is, in a line.
     pub fn meaning(self) -> &'static str {
-        FACTS[self as usize].2
+        self.facts().2
     }
 
     /// What its values measure; `None` for [`Column::Side`] and [`Column::Contact`].
     pub fn measure(self) -> Option<Measure> {
-        FACTS[self as usize].3
+        self.facts().3
     }
 
     /// The unit: `Pa` with a material, `per ρ` without one; empty where there is none or none is known.
@@ -257,18 +233,16 @@ pub fn columns<S: Scalar>(
     let units = Units::of(problem, UnitSystem::default());
     let places: Vec<(Source, usize)> = columns.iter().map(|column| column.source()).collect();
     let factors: Vec<Option<S>> = columns.iter().map(|column| column.factor(motion, &units)).collect();
-    let sources: Vec<Source> =
-        Source::ALL.into_iter().filter(|source| places.iter().any(|(wanted, _)| wanted == source)).collect();
+    let mut sources: Vec<Source> = places.iter().map(|(source, _)| *source).collect();
+    sources.sort_unstable();
+    sources.dedup();
+    // Those with two limits are asked first, and their answers stand first in a row.
     let (sided, plain): (Vec<Source>, Vec<Source>) = sources.into_iter().partition(|source| source.has_sides());
     let pushes = if plain.contains(&Source::Impulse) { Some(Pushes::of(motion)) } else { None };
-    // The answers of a row, with the place of each source's first one.
-    let mut starts = [0; Source::ALL.len()];
-    let mut count = 0;
-    for source in sided.iter().chain(&plain) {
-        starts[*source as usize] = count;
-        count += source.answers();
-    }
-    let places: Vec<usize> = places.iter().map(|(source, index)| starts[*source as usize] + index).collect();
+    let asked = || sided.iter().chain(&plain);
+    let count = asked().map(|source| source.answers()).sum();
+    let start = |of: Source| asked().take_while(|source| **source != of).map(|source| source.answers()).sum::<usize>();
+    let places: Vec<usize> = places.iter().map(|(source, index)| start(*source) + index).collect();
     side_by_side(times, |times| {
         let mut table: Vec<Vec<S>> = columns.iter().map(|_| Vec::with_capacity(times.len())).collect();
         let (mut left, mut right) = (Vec::with_capacity(count), Vec::with_capacity(count));
@@ -392,7 +366,7 @@ impl Source {
         match self {
             Source::Energy => 3,
             Source::End | Source::Top | Source::Centre | Source::Parts => 2,
-            _ => 1,
+            Source::Time | Source::Side | Source::Strain | Source::Contact | Source::Impulse => 1,
         }
     }
 

@@ -200,7 +200,7 @@ fn everything(contact: &ContactHistory<Interval>, times: &[&str]) -> Vec<Interva
     let mut times: Vec<Interval> = times.iter().map(|t| exactly(contact, &number(t))).collect();
     times.retain(|t| t.hi() < contact.end().lo());
     times.push(contact.end());
-    let mut list = vec![contact.contacts()[0].impulse.clone(), contact.contacts()[0].peak_stress.clone()];
+    let mut list = vec![contact.contacts()[0].impulse.clone(), contact.contacts()[0].peak_strain.clone()];
     for event in contact.events() {
         list.extend([event.time.clone(), event.end_velocity.clone(), event.centre.clone()]);
         list.push(event.centre_velocity.clone());
@@ -278,7 +278,7 @@ fn ordinary_numbers_lie_inside() {
                 deepest = stress;
             }
         }
-        let peak = &proved.contacts()[0].peak_stress;
+        let peak = &proved.contacts()[0].peak_strain;
         assert!(*peak.lo() <= deepest, "{case:?}: {} {deepest}", peak.text());
         assert!(Float::with_val(200, peak.hi() - &deepest) < 0.02 * deepest.clone().abs(), "{case:?}: {}", peak.text());
         assert!(peak.radius() < 1e-50, "{case:?}: {}", peak.text());

@@ -214,7 +214,9 @@ fn exactness_ends_at_a_surd_and_says_so() {
     // μ = 1: v(0,t) = 1 − (t − 3)²/2 before the second impact.
     let out = quiet(&["solve", "mu-1-period-36", "--exact"]);
     assert!(out.contains("exactness ends before the impact at t = 3 + √2 ≈ 4.41421356237"), "{out}");
-    let history = json(&["solve", "mu-1-period-36", "--exact", "--format", "json"]);
+    let Run { out, err, .. } = run(&["solve", "mu-1-period-36", "--exact", "--format", "json"]);
+    let history: Value = serde_json::from_str(&out).unwrap();
+    assert!(err.starts_with("note: exactness ends before the impact at t = 3 + √2"), "{err}");
     assert_eq!((&history["end"]["event"], &history["end"]["surd"]), (&"impact".into(), &"3 + √2".into()));
     assert_eq!(history["events"].as_array().unwrap().len(), 2);
 
@@ -239,10 +241,44 @@ fn exactness_ends_at_a_surd_and_says_so() {
     assert!(err.contains("what follows is in 12 digits"), "{err}");
 }
 
+/// L = 2, c = 50, g = 9.81, μ = 2 lands at a root of no square. Whatever is written of a run in fractions says so.
+#[cfg(feature = "mp")]
+#[test]
+fn no_file_ends_in_silence() {
+    let scene = "rod = { length = 2, wave_speed = 50 }\nimpact.speed = 2\ngravity.acceleration = 9.81\nrun.time = 1\n";
+    let said = "exactness ends before the impact at t = 18544/24525 − 22√90901/24525 ≈ ";
+    let json = ["reference", "-", "--exact", "--format", "json"];
+    for (args, mark) in [
+        (&["solve", "-", "--exact", "--format", "csv"][..], "# "),
+        (&["solve", "-", "--exact", "--format", "csv", "--part", "stress"], "# "),
+        (&["reference", "-", "--exact"], "# "),
+        (&json, "  \"ends\": \""),
+        (&["reference", "-", "--exact", "--as", "python"], "# "),
+        (&["reference", "-", "--exact", "--as", "c"], "// "),
+        (&["reference", "-", "--exact", "--as", "matlab"], "% "),
+    ] {
+        let Run { code, out, err } = run_with(args, scene);
+        assert_eq!(code, Some(0), "{args:?}");
+        let line = out.lines().find_map(|line| line.strip_prefix(mark)?.strip_prefix(said)).unwrap_or_default();
+        // The double next to that root, and that of the run in doubles.
+        let near = (18544.0 - 22.0 * 90901f64.sqrt()) / 24525.0;
+        assert_eq!(line.split(',').next().and_then(|near| near.parse::<f64>().ok()), Some(near), "{args:?}: {out}");
+        assert!(err.starts_with(&format!("note: {said}")) && err.lines().count() == 1, "{args:?}: {err}");
+    }
+    // Times that are chosen have no end to explain, and a run that gets as far as it was asked to has nothing to note.
+    let Run { out, err, .. } = run_with(&[&json[..], &["--times", "0,1/10"]].concat(), scene);
+    assert!(out.contains("\n  \"ends\": null,\n") && err.is_empty(), "{out}{err}");
+    let whole = quiet(&["reference", "doyen-ern-piperno", "--exact"]);
+    assert!(whole.contains("\n# ends at t = 16: the impact after the last contact asked for\n"), "{whole}");
+}
+
 #[cfg(feature = "mp")]
 #[test]
 fn parameters_that_are_no_fractions() {
-    refused(&["solve", "siconos-impacting-bar", "--exact"], &["the wave speed √(350000000/13)", "--digits N"]);
+    refused(
+        &["solve", "siconos-impacting-bar", "--exact"],
+        &["the wave speed √(350000000/13)", "or digits in place of fractions"],
+    );
     let Run { code, out, err } = run(&["solve", "siconos-impacting-bar", "--exact", "--digits", "12"]);
     assert_eq!(code, Some(0));
     assert!(err.contains("the wave speed √(350000000/13) is no fraction; what follows is in 12 digits"), "{err}");
@@ -333,7 +369,10 @@ fn csv_parts() {
     let (header, lines) = first(&["--part", "contacts"]);
     assert!(header.starts_with("from,to,impulse [per ρS],peak_strain,restitution_momentum,"));
     assert_eq!(lines, 2);
-    refused(&["solve", "paper-strong", "--part", "stress"], &["found --part, expected it with --format csv only"]);
+    refused(
+        &["solve", "paper-strong", "--part", "stress"],
+        &["found --part, expected it with --format csv only", "JSON holds all parts"],
+    );
 }
 
 #[test]
@@ -375,11 +414,11 @@ fn bad_scenes_are_refused_where_they_are_wrong() {
     refused_with(&["sample", "-", "--quantity", "end", "--times", "1"], "", &["no [rod]"]);
     refused_with(&["explain", "-"], "[rod]\nlength = 1\nwavespeed = 1\n", &["did you mean wave_speed?"]);
     let damped = SCENE.replace("wave_speed = 1", "wave_speed = 1\ndamping = 0.1");
-    refused_with(&["solve", "-", "--exact"], &damped, &["found damping = 0.1 with --exact", "use --digits N"]);
+    refused_with(&["solve", "-", "--exact"], &damped, &["found damping = 0.1 in fractions", "ask for digits"]);
     refused_with(&["solve", "-", "--accuracy", "2"], &damped, &["found accuracy 2", "between 1e-300 and 0.1"]);
     refused(&["solve", "no-such-file.toml"], &["found no file and no built-in scene called `no-such-file.toml`"]);
     refused(&["solve", "doyen"], &["did you mean `doyen-ern-piperno`?"]);
-    refused(&["solve", env!("CARGO_MANIFEST_DIR")], &["cannot read"]);
+    refused(&["solve", env!("CARGO_MANIFEST_DIR")], &["found the folder", "as a scene", "a scene file in it"]);
 }
 
 #[test]
@@ -454,7 +493,9 @@ fn a_damped_history_in_digits() {
     // `figure1_r26` in tests/reference/first_contact.json.
     assert_eq!(digits["events"][1]["time"], "1.78848103329887545175038380599");
     assert_eq!(digits["events"][1]["centre_velocity"], "0.00844410807842711928782346527941");
-    let many = json(&["solve", "figure-1-r26", "--digits", "310", "--format", "json"]);
+    let Run { out, err, .. } = run(&["solve", "figure-1-r26", "--digits", "310", "--format", "json"]);
+    let many: Value = serde_json::from_str(&out).unwrap();
+    assert!(err.starts_with("note: ends at t = 1.7884810332988755: undecided: beyond 300 digits"), "{err}");
     assert!(many["events"][1]["time"].as_str().unwrap().len() == 311);
     assert!(many["end"]["reason"].as_str().unwrap().contains("300 digits"), "{}", many["end"]);
     let rounded = json(&["solve", "figure-1-r26", "--accuracy", "1e-15", "--format", "json"]);
@@ -472,6 +513,19 @@ fn help_completions_and_version() {
     for shell in ["bash", "zsh", "fish", "elvish", "powershell"] {
         assert!(quiet(&["completions", shell]).contains("dalembert"), "{shell}");
     }
+}
+
+#[test]
+fn what_was_expected_is_said() {
+    refused(&["solve", "paper-strong", "--digits", "abc"], &["expected a whole number of digits, such as 50"]);
+    refused(&["solve", "paper-strong", "--accuracy", "abc"], &["expected a number such as 1e-10"]);
+    #[cfg(target_os = "linux")]
+    refused(&["solve", "paper-strong", "-o", "/proc/x.csv"], &["cannot write", "no file can be made in /proc"]);
+    // μ = √(2 · 9.81 · 0.5), and g/2r.
+    let scene =
+        "rod = { length = 1, wave_speed = 10, damping = 2 }\nimpact.drop_height = 0.5\ngravity.acceleration = 9.81\n";
+    let Run { out, .. } = run_with(&["solve", "-", "--wide"], scene);
+    assert!(out.contains("= 3.13, takes no account") && out.contains("g/2r = 2.45: a gap of this height"), "{out}");
 }
 
 #[test]

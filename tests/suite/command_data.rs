@@ -20,7 +20,7 @@ fn every_format_carries_the_warnings() {
         let (json, err) = run("json");
         let json: Value = serde_json::from_str(&json).unwrap();
         let warning = json["warnings"][0].as_str().unwrap();
-        assert!(warning.contains("drop_height) = 2.0000e0") && warning.contains("g/2r = 1.0000e0"), "{warning}");
+        assert!(warning.contains("drop_height) = 2, takes") && warning.contains("g/2r = 1: a gap"), "{warning}");
         assert_eq!(err, format!("warning: {warning}\n"));
         let (csv, err) = run("csv");
         assert_eq!(csv.lines().next().unwrap(), format!("# warning: {warning}"));

@@ -151,7 +151,7 @@ fn answers_carry_their_bounds() {
         // A contact without end lasts as long as the history, which may end elsewhere in more digits.
         for (ours, truth) in bounded.contacts().iter().zip(truth.contacts()).filter(|(ours, _)| ours.to.is_some()) {
             near("impulse", &ours.impulse, &truth.impulse);
-            near("peak", &ours.peak_stress, &truth.peak_stress);
+            near("peak", &ours.peak_strain, &truth.peak_strain);
         }
         let release = &truth.events()[1];
         let (ours, exact) = (bounded.highest(&bounded.events()[1]).unwrap(), truth.highest(release).unwrap());

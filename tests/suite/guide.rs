@@ -107,7 +107,7 @@ fn chapter_1() {
     let history = rod.drop_height(1).build().unwrap().solve().unwrap();
     let (contact, wave_speed) = (&history.contacts()[0], (210e9f64 / 7850.0).sqrt());
     let strain = history.strain(0.0, Side::Right).unwrap();
-    let force = -contact.peak_stress * 210e9 * 1e-4;
+    let force = -contact.peak_strain * 210e9 * 1e-4;
     answers(
         "01-fall.md",
         &[

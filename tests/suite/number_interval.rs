@@ -5,6 +5,7 @@ use std::cmp::Ordering;
 
 use dalembert::number::{Analytic, Interval, IntervalPrecision, Open, Scalar};
 use proptest::prelude::*;
+use rug::ops::Pow;
 use rug::{Float, Rational};
 
 fn fraction() -> impl Strategy<Value = Rational> {
@@ -24,6 +25,29 @@ fn slack() -> impl Strategy<Value = (Rational, Rational)> {
 
 proptest! {
     #![proptest_config(ProptestConfig { cases: 2000, failure_persistence: None, ..ProptestConfig::default() })]
+
+    /// Each number inside is within a unit of the last digit that is printed.
+    #[test]
+    fn printed_digits_are_proved(x in fraction(), places in 0u32..40, bits in 8u32..160, asked in 1usize..30) {
+        let slack = Rational::from((1, rug::Integer::from(10).pow(places)));
+        let inside = around(&x, &slack, &slack, bits);
+        for text in [inside.to_string(), format!("{inside:.asked$}")] {
+            if text.starts_with('[') {
+                prop_assert!(places < 4 || bits < 16 || x.cmp0().is_eq(), "{}", text);
+                continue;
+            }
+            let printed = Float::with_val(400, Float::parse(&text).unwrap());
+            let mantissa = text.split('e').next().unwrap();
+            // Zeros before the point may only hold the place of digits.
+            let digits = if mantissa.contains('.') { mantissa } else { mantissa.trim_end_matches('0') };
+            let count = digits.replace(['-', '.'], "").trim_start_matches('0').len().max(1) as i32;
+            let leading = (printed.to_f64().abs().log10() + 1e-12).floor() as i32;
+            let unit = Float::with_val(400, 10).pow(leading + 1 - count);
+            for end in [inside.lo(), inside.hi()] {
+                prop_assert!(Float::with_val(400, &printed - end).abs() <= unit, "{} for {:?}", text, inside);
+            }
+        }
+    }
 
     #[test]
     fn arithmetic_encloses(x in fraction(), y in fraction(), (a, b) in slack(), (c, d) in slack(), bits in 3u32..20) {

@@ -97,7 +97,7 @@ fn every_mistake_is_answered_with_its_value() {
             Problem::builder().length(1),
             Kind::Missing,
             "rod",
-            "found no wave speed, expected wave_speed, or modulus, density and area".into(),
+            "found no wave speed, expected wave_speed, or a material: modulus, density and area".into(),
         ),
         (
             Problem::builder().length(1).wave_speed(1),
@@ -171,7 +171,9 @@ fn every_mistake_is_answered_with_its_value() {
             rod().material(1, 1, 1),
             Kind::Contradiction,
             "rod.modulus",
-            "found modulus as well as wave_speed, expected either wave_speed, or modulus, density and area".into(),
+            "found modulus as well as wave_speed, expected either wave_speed, or a material: modulus, density and \
+             area"
+                .into(),
         ),
         (
             rod().drop_height(1),

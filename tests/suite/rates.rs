@@ -74,6 +74,6 @@ fn a_point_or_a_time_outside_is_refused() {
             assert!(matches!(ask(1.5, time), Error::PointOutside { .. }), "{damping} {time}");
         }
         assert!(matches!(ask(0.5, -1.0), Error::TimeOutside { .. }));
-        assert!(matches!(ask(0.5, 1e9), Error::TimeOutside { .. }));
+        assert!(matches!(ask(0.5, 1e9), Error::BeyondEnd { .. }));
     }
 }

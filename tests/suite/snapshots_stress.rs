@@ -8,7 +8,7 @@ use dalembert::lattice::Undamped;
 use dalembert::paper;
 use dalembert::problem::{Parameters, Run, Top};
 use dalembert::scene::builtin;
-use dalembert::{Ending, Motion, Problem, Scene, Side};
+use dalembert::{Ending, Error, Motion, Problem, Scene, Side, StressHistory};
 use rug::Rational;
 
 type Exact = Undamped<Rational>;
@@ -60,15 +60,12 @@ fn snapshot(name: &str, problem: &Problem) -> Exact {
         assert_eq!(history.ground_end(&middle, Side::Right).unwrap(), (q(0, 1), q(0, 1)), "{name}");
     }
 
-    let line =
-        |p: &dalembert::motion::StressPiece<Rational>| format!("{} … {}: {} … {}\n", p.from, p.to, p.left, p.right);
-    let text: String = pieces.iter().map(line).collect();
-    let text = format!("{text}ends: {}", history.ending());
+    let stress = StressHistory { pieces, ending: history.ending().clone() };
     let mut settings = insta::Settings::clone_current();
     settings.set_snapshot_path(concat!(env!("CARGO_MANIFEST_DIR"), "/snapshots"));
     settings.set_prepend_module_to_snapshot(false);
     settings.set_omit_expression(true);
-    settings.bind(|| insta::assert_snapshot!(format!("stress_{name}"), text));
+    settings.bind(|| insta::assert_snapshot!(format!("stress_{name}"), stress));
     history
 }
 
@@ -142,6 +139,21 @@ fn mu_1_stays_for_three() {
     assert_eq!(time, "3 + √2");
 }
 
+/// What is asked beyond the end has the reason of the end; before the start there is none.
+#[test]
+fn questions_beyond_the_end() {
+    let rod = Problem::builder().length(1).wave_speed(1).impact_speed(1);
+    let weak = rod.clone().gravity(1).time(5).build().unwrap().exact().unwrap();
+    let asked = |time: i32| weak.strain(q(time.into(), 1), Side::Right).unwrap_err();
+    let Error::BeyondExactness { found, ending } = asked(5) else { panic!("{}", asked(5)) };
+    assert_eq!((found.as_str(), &ending), ("5", weak.ending()));
+    assert!(matches!(asked(-1), Error::TimeOutside { .. }));
+    // Without gravity nothing follows the first bounce.
+    let free = rod.build().unwrap().solve().unwrap();
+    let beyond = free.energy(1e6).unwrap_err();
+    assert!(matches!(&beyond, Error::BeyondEnd { ending: Ending::NoFurtherImpact(_), .. }), "{beyond}");
+}
+
 #[test]
 fn mu_4_3_has_the_least_restitution() {
     let history = first_contact("mu_4_3", ["1", "1", "1", "4/3"]);
@@ -186,7 +198,7 @@ fn doyen_ern_piperno() {
     let starts = [q(0, 1), q(8, 3), q(16, 3), q(8, 1), q(32, 3), q(40, 3)];
     assert_eq!(contacts(&history), starts.map(|start| (start.clone(), start + q(2, 3))));
     // −(μ + g t)/c at t₁ = 2/3: −(10 + 20/3)/30.
-    assert!(history.contacts().iter().all(|contact| contact.peak_stress == q(-5, 9)));
+    assert!(history.contacts().iter().all(|contact| contact.peak_strain == q(-5, 9)));
 }
 
 #[test]
@@ -217,7 +229,7 @@ fn fixed_top_with_gravity() {
     let history = snapshot("fixed_top_gravity", &problem);
     // −(μ + g t)/c until the top, which stopped at t = 0, pulls the end up: at L/c, not at 2L/c.
     assert_eq!(contacts(&history), [(q(0, 1), q(1, 1))]);
-    assert_eq!(history.contacts()[0].peak_stress, -2);
+    assert_eq!(history.contacts()[0].peak_strain, -2);
     assert_eq!(history.contacts()[0].impulse, q(3, 2));
     // The top is held where it was.
     assert_eq!(history.top_end(&q(3, 2), Side::Right).unwrap(), (q(0, 1), q(0, 1)));

@@ -60,7 +60,7 @@ fn a_flight_without_gravity_by_hand() {
 fn a_rod_that_is_stopped_at_its_top_by_hand() {
     let history = above("0", "1", "1/2").fixed_top().time(2).build().unwrap().solve().unwrap();
     let contact = &history.contacts()[0];
-    assert_eq!((contact.from, contact.to, contact.impulse, contact.peak_stress), (0.5, Some(1.0), 0.5, -1.0));
+    assert_eq!((contact.from, contact.to, contact.impulse, contact.peak_strain), (0.5, Some(1.0), 0.5, -1.0));
     assert_eq!(history.events()[1].end_velocity, 1.0);
     assert_eq!(history.top_end(0.75, Side::Right).unwrap(), (0.5, 0.0));
     let field = history.at(0.75, 0.5).unwrap();
@@ -148,7 +148,7 @@ mod shifted {
             }
             let ended = touching.contacts().iter().filter(|contact| contact.to.as_ref().is_some_and(|to| *to < reach));
             for (ours, contact) in above.contacts().iter().zip(ended) {
-                prop_assert_eq!((&ours.impulse, &ours.peak_stress), (&contact.impulse, &contact.peak_stress));
+                prop_assert_eq!((&ours.impulse, &ours.peak_strain), (&contact.impulse, &contact.peak_strain));
             }
             let length = touching.scales().length;
             for (k, share) in shares.into_iter().enumerate() {

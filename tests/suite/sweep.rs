@@ -29,7 +29,7 @@ fn undamped_points_are_those_of_corollary_1() {
     let vary = ["--vary", "rod.wave_speed=1,2", "--vary", "impact.speed=0.25..4:16"];
     let text = run(&[&[SCENE][..], &vary, &["--vary", "gravity.acceleration=1", "--vary", "rod.length=1"]].concat());
     assert!(text.unwrap_err().contains("--quantity"));
-    let args = [SCENE, "--quantity", "bounce_time,restitution", "--format", "json"];
+    let args = [SCENE, "--quantity", "bounce_time,restitution,e_P", "--format", "json"];
     let json: Value = serde_json::from_str(&run(&[&args[..], &vary].concat()).unwrap()).unwrap();
     let points = json["points"].as_array().unwrap();
     assert_eq!(points.len(), 32);
@@ -44,9 +44,10 @@ fn undamped_points_are_those_of_corollary_1() {
             assert!((value.as_f64().unwrap() - truth).abs() <= bound.as_f64().unwrap(), "{point}: {name} = {truth}");
         };
         within("bounce_time", bounce);
+        within("e_P", (mu / trip).min(1.0));
         if mu >= trip {
             // E_z/E = μ₀²/3μ².
-            within("restitution", 1.0 - trip * trip / (3.0 * mu * mu));
+            within("e_E2", 1.0 - trip * trip / (3.0 * mu * mu));
         }
     }
 }
@@ -164,6 +165,18 @@ fn the_map_of_regimes_is_the_same_from_any_number_of_threads() {
     assert!(said(&["--damping-ratio", "1"]).contains("expected two values or more that increase"));
     assert!(said(&["--speed-ratio", "0..1:5"]).contains("M from above zero"));
     assert!(said(&["-o", "map.txt"]).contains("expected a file that ends in .svg, .png, .csv or .npz"));
+}
+
+/// R = r t₁ ≥ π: no bounce at any of the points.
+#[test]
+fn a_sweep_without_any_number_fails() {
+    let sweep = |dampings: &str| {
+        let args = ["sweep", SCENE, "--vary", dampings, "--quantity", "bounce_time"];
+        Command::new(env!("CARGO_BIN_EXE_dalembert")).args(args).output().unwrap()
+    };
+    let (none, some) = (sweep("rod.damping=2,3"), sweep("rod.damping=0,2"));
+    assert_eq!((none.status.code(), some.status.code()), (Some(1), Some(0)));
+    assert!(String::from_utf8(none.stdout).unwrap().contains("no bounce: r t₁ = 4.000000 ≥ π"));
 }
 
 /// c = L = g = 1: μ = 1 lands first at 3 + √2, which is no fraction.

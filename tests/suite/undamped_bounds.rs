@@ -73,7 +73,7 @@ proptest! {
         }
         for (a, b) in ours.contacts().iter().zip(truth.contacts()) {
             covered("impulse", &a.impulse, &b.impulse)?;
-            covered("peak", &a.peak_stress, &b.peak_stress)?;
+            covered("peak", &a.peak_strain, &b.peak_strain)?;
         }
         for k in 1..12 {
             // The same number in both, and far from any ray, on which a double would be taken to lie.

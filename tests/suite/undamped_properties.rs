@@ -175,7 +175,7 @@ proptest! {
             let gained = history.centre(&to).unwrap().1 - history.centre(&contact.from).unwrap().1;
             let weight = Rational::from(&to - &contact.from) * &rod.gravity;
             prop_assert_eq!(contact.impulse.clone() / &rod.length, gained + weight);
-            prop_assert!(contact.peak_stress <= 0);
+            prop_assert!(contact.peak_strain <= 0);
         }
     }
 

@@ -181,7 +181,7 @@ impl Run {
     /// and the greatest of energies at some times of the first contacts.
     pub fn sizes(&self) -> Result<Vec<f64>, JsError> {
         self.draw(|motion| {
-            let strains = motion.contacts().iter().map(|contact| contact.peak_stress.to_f64().abs());
+            let strains = motion.contacts().iter().map(|contact| contact.peak_strain.to_f64().abs());
             let mut rise = motion.centre(&motion.end())?.0.to_f64();
             for flight in flights(motion)? {
                 rise = flight.highest.iter().map(|(_, height)| height.to_f64()).fold(rise, f64::max);

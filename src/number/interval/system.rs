@@ -1,13 +1,26 @@
 //! Enclosures as a number system.
 
 use std::cmp::Ordering;
+use std::fmt;
 
 use rug::float::{Constant, Round};
 use rug::{Assign, Float, Rational};
 
 use super::super::radical::Radical;
-use super::super::{Analytic, Answer, Bounded, Estimate, Number, Open, Reads, Scalar};
+use super::super::{Analytic, Answer, Bounded, Estimate, Number, Open, Reads, Scalar, show};
 use super::{Inside, Interval, IntervalPrecision, down, up};
+
+/// The digits that both ends prove, or so many of them as a precision asks for; both ends where they prove none.
+impl fmt::Display for Interval {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let held = (f64::from(self.lo.prec()) * std::f64::consts::LOG10_2) as u32;
+        let asked = f.precision().and_then(|digits| u32::try_from(digits).ok()).unwrap_or(held);
+        match show(self, asked.clamp(1, held)) {
+            text if text == "0" && self.vanishes() != Ok(true) => f.write_str(&self.text()),
+            text => f.write_str(&text),
+        }
+    }
+}
 
 impl Scalar for Interval {
     type Precision = IntervalPrecision;

@@ -141,7 +141,7 @@ impl Asked {
         let first = events.first().copied().filter(|first| *first > TRIPS * trip && self.to.is_none());
         let from = self.from.or(first.map(|first| first - TRIPS_AFTER * trip)).unwrap_or(0.0);
         if from >= end {
-            return Err(Error::TimeOutside { found: from.to_string(), end: end.to_string() });
+            return Err(history.explained(Error::TimeOutside { found: from.to_string(), end: end.to_string() }));
         }
         let to = self.to.unwrap_or_else(|| {
             let last = from + (TRIPS + 2.0 * TRIPS_AFTER) * trip;
