@@ -1,5 +1,5 @@
 # For a machine with Rust and, for fractions and long digits, a C compiler:
-#   make demo         builds the command in pure Rust and solves a real scene in doubles; about a minute
+#   make demo         builds the command in pure Rust and solves a real scene in doubles; a minute or two
 #   make demo-exact   the same scene in fractions; builds GMP and MPFR once, which takes minutes
 #   make test         runs all tests
 #   make page         builds the page, one HTML file that opens from disk, and make page-test tries it in Chromium
@@ -22,7 +22,7 @@ help:
 	@echo "make explore      run the random tests on cases never tried before"
 
 demo:
-	@echo "building the command without the C libraries; about a minute where nothing is built yet"
+	@echo "building the command without the C libraries; a minute or two where nothing is built yet"
 	$(CARGO) run --no-default-features --features cli -- solve doyen-ern-piperno
 	@echo "make demo-exact solves the same scene in fractions"
 
