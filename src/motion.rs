@@ -353,6 +353,7 @@ pub enum Ending {
     Undecided(Reason),
 }
 
+#[cfg(feature = "cli")]
 impl Ending {
     /// Whether the history may be shorter than what was asked for, because what follows is not known.
     pub(crate) fn is_open(&self) -> bool {
@@ -360,7 +361,6 @@ impl Ending {
     }
 
     /// The reason with the time that it holds for: `ends at t = 12: …`.
-    #[cfg(feature = "cli")]
     pub(crate) fn at(&self, end: &str) -> String {
         match self {
             Ending::ExactnessEnds { .. } => self.to_string(),

@@ -78,7 +78,7 @@ impulse        −E S ∫ v_x(0,t) dt over the contact; per ρS −c² ∫ v_x(0
 peak v_x(0,t)  the most compressive strain at the ground
 peak stress    E v_x(0,t) there, below zero
 peak force     −E S v_x(0,t) there: the force of the ground, above zero
-e_P            −P(to)/P(from), P = ρSL h′; below zero if h still falls at the end
+e_P            −P(to)/P(from), P = ρSL h′; below zero if h falls at the end
 e_E²           E_h(to)/E_h(from): above 1 where the vibration gives energy back
 E, E_h, E_z    energy at the end of the contact, of the centre, of the vibration
 highest at     when the centre of mass is highest in a flight; h_max is its h
