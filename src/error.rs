@@ -50,17 +50,6 @@ pub enum Error {
         /// The time at which it was passed.
         time: f64,
     },
-    /// Rays of earlier impacts and releases that have not faded yet are more than the limit allows.
-    #[error(
-        "the rod carries {limit} rays at t = {time}, two for each bounce that has not faded; expected fewer: ask for \
-         a shorter time or fewer impacts"
-    )]
-    TooManyRays {
-        /// The limit.
-        limit: usize,
-        /// The time at which it was passed.
-        time: f64,
-    },
     /// Where the first contact has no closed form, strong damping takes too many cells.
     #[error(
         "found r t₁ = {found} with a start or a top that has no closed form, expected at most {most}: cells must not \

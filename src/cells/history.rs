@@ -4,7 +4,7 @@ use std::ops::ControlFlow;
 
 use super::bounce::Held;
 use super::flight::Flight;
-use super::follow::{Follower, Goal};
+use super::follow::{Effort, Follower, Goal};
 use super::march::Medium;
 use super::piece::{Checkpoint, Mark, Piece, Unresolved};
 use super::record::{Node, Record};
@@ -105,24 +105,25 @@ impl<S: RoundedSpecial> Damped<S> {
     /// below [`Motion::error_estimate`], by a bound that it can never pass again; [`Motion::ending`] then says from
     /// when.
     ///
-    /// **Errors**: [`Error::DampingTooStrong`] for `r t₁ > 2000`; [`Error::TooManyPieces`] beyond 400 000 strips;
-    /// [`Error::TooManyRays`] beyond 4096 segments in a round trip; [`Error::Irrational`] from the parameters.
+    /// The history ends before that, and says so, beyond 400 000 strips and 4096 segments in a round trip.
+    ///
+    /// **Errors**: [`Error::DampingTooStrong`] for `r t₁ > 2000`; [`Error::Irrational`] from the parameters.
     pub fn solve(problem: &Problem, precision: &S::Precision, digits: f64) -> Result<Self, Error> {
-        Self::solve_observed(problem, precision, digits, 1, &unobserved)
+        Self::solve_observed(problem, precision, Effort::of(digits), 1, &unobserved)
     }
 
     /// [`Self::solve`] with segments `shorten` times shorter than need be, observed.
     pub(crate) fn solve_observed(
         problem: &Problem,
         precision: &S::Precision,
-        digits: f64,
+        effort: Effort,
         shorten: i64,
         observe: &dyn Fn(usize, usize) -> ControlFlow<()>,
     ) -> Result<Self, Error> {
-        let (medium, data) = medium(problem, precision, digits, shorten)?;
+        let (medium, data) = medium(problem, precision, effort.digits, shorten)?;
         let goal = goal(problem, precision, &data);
         let mut follower = Follower::new(&medium, &data);
-        let ending = follower.run(&goal, observe)?;
+        let ending = follower.run(&goal, effort, observe)?;
         let found = Found::of(follower, ending);
         Ok(Self::record_of(medium, data, None, found, problem, precision))
     }
@@ -133,17 +134,17 @@ impl<S: RoundedSpecial> Damped<S> {
     pub(super) fn after_bounce(
         problem: &Problem,
         precision: &S::Precision,
-        digits: f64,
+        effort: Effort,
         contact: &FirstContact<Estimate<S>>,
         (time, time_error, leaves): (&S, f64, &S),
         observe: &dyn Fn(usize, usize) -> ControlFlow<()>,
     ) -> Result<Self, Error> {
-        let (medium, data) = medium(problem, precision, digits, 1)?;
+        let (medium, data) = medium(problem, precision, effort.digits, 1)?;
         let goal = goal(problem, precision, &data);
         let held = Held::until(contact, &data, time);
         let leaves = leaves.clone() / &data.units.velocity;
         let mut follower = Follower::released(&medium, &data, &held, (leaves, time_error / data.units.time.to_f64()));
-        let ending = follower.run(&goal, observe)?;
+        let ending = follower.run(&goal, effort, observe)?;
         let found = Found::of(follower, ending);
         Ok(Self::record_of(medium, data, Some(held), found, problem, precision))
     }
@@ -518,7 +519,7 @@ impl<S: RoundedSpecial> Motion<S> for Damped<S> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::Number;
+    use crate::{Number, Reason};
 
     /// A rod with c = L = 1.
     fn rod(gravity: i64, speed: i64, damping: &str, run: Run) -> Problem {
@@ -534,7 +535,7 @@ mod tests {
         for damping in ["0.01", "0.3", "2.6"] {
             let problem = rod(1, 4, damping, Run::Time(Number::from(14)));
             let coarse = Damped::<f64>::solve(&problem, &(), 12.0).unwrap();
-            let fine = Damped::<f64>::solve_observed(&problem, &(), 12.0, 5, &unobserved).unwrap();
+            let fine = Damped::<f64>::solve_observed(&problem, &(), Effort::of(12.0), 5, &unobserved).unwrap();
             assert!(fine.pieces.len() > 4 * coarse.pieces.len() / 3);
             assert_eq!(coarse.events.len(), fine.events.len());
             for (a, b) in coarse.events.iter().zip(&fine.events) {
@@ -550,6 +551,20 @@ mod tests {
                 }
             }
         }
+    }
+
+    #[test]
+    fn a_run_that_takes_too_much_ends_where_it_is() {
+        let problem = rod(1, 4, "0.01", Run::Time(Number::from(40)));
+        let whole = Damped::<f64>::solve(&problem, &(), 12.0).unwrap();
+        let effort = Effort { cells: 100, ..Effort::of(12.0) };
+        let part = Damped::<f64>::solve_observed(&problem, &(), effort, 1, &unobserved).unwrap();
+        let Ending::Undecided(Reason::Effort { cells, rays }) = part.ending else { panic!("{}", part.ending) };
+        assert!(cells > 100 && rays > 1 && part.end < whole.end);
+        assert!(part.events.len() > 2 && part.events.len() < whole.events.len());
+        assert_eq!(part.events, whole.events[..part.events.len()]);
+        assert_eq!(part.centre(&part.end).unwrap(), whole.centre(&part.end).unwrap());
+        assert!(matches!(part.centre(&whole.end), Err(Error::TimeOutside { .. })));
     }
 
     #[test]

@@ -29,6 +29,7 @@ mod start;
 mod with_bounds;
 
 pub use contact_then_cells::{ContactThenCells, Reach};
+pub use follow::Effort;
 pub use history::Damped;
 pub use piece::Unresolved;
 pub use with_bounds::WithBounds;

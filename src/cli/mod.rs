@@ -141,6 +141,11 @@ struct NumberArgs {
 }
 
 impl NumberArgs {
+    /// Whether the answers are doubles.
+    fn in_doubles(self) -> bool {
+        self.digits.is_none() && !self.certified && !self.exact
+    }
+
     /// The numbers that are asked for; without an option, doubles to the accuracy of the scene.
     fn numbers(self, scene: &Scene) -> Numbers {
         match self {

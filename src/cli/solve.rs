@@ -70,7 +70,7 @@ impl Report for Solve {
     }
 
     fn numbers<'a, S: Scalar>(&self, record: &'a Record<S>) -> Vec<&'a S> {
-        record.numbers()
+        record.numbers(!self.numbers.in_doubles())
     }
 
     fn print<S: Scalar>(&self, record: &Record<S>, head: &Head) -> Result<(), Failure> {

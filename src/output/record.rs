@@ -169,14 +169,16 @@ pub struct Record<S> {
 }
 
 impl<S> Record<S> {
-    /// Every number that is printed.
-    pub fn numbers(&self) -> Vec<&S> {
+    /// Every number that is printed, with or without those that are ratios of others.
+    pub fn numbers(&self, ratios: bool) -> Vec<&S> {
         let mut all = vec![&self.end.0];
         all.extend(self.events.iter().flat_map(Event::numbers));
         for Finished { contact, restitution, shares, energy } in &self.contacts {
             all.extend(contact.numbers());
-            all.extend(restitution.numbers());
-            all.extend(shares.numbers());
+            if ratios {
+                all.extend(restitution.numbers());
+                all.extend(shares.numbers());
+            }
             all.extend(energy.iter().flat_map(Energy::numbers));
         }
         all.extend(self.flights.iter().flat_map(Flight::numbers));
