@@ -85,12 +85,12 @@ impl Comparison {
         };
         let sources = data.into_iter().map(source).collect::<PyResult<Vec<_>>>()?;
         let (rod, accuracy) = (problem.problem.clone(), problem.accuracy);
-        let stop = Arc::default();
+        let units = Units::of(&rod, problem.units);
+        let (stop, in_run) = (Arc::default(), units.clone());
         let observe = observer(&stop);
         let compared = run(py, &stop, move || {
-            Prepared::new(&rod, accuracy, sources, &options)?.compare(observe).map_err(CompareError::from)
+            Prepared::new(&rod, &in_run, accuracy, sources, &options)?.compare(observe).map_err(CompareError::from)
         })?;
-        let units = Units::of(&problem.problem, problem.units);
         Ok(Comparison { compared, title: problem.title.clone(), units })
     }
 

@@ -6,7 +6,6 @@ mod cost;
 mod explain;
 mod figures;
 mod file;
-mod list;
 mod plot;
 mod reference;
 mod regimes;
