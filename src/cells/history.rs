@@ -11,6 +11,7 @@ use super::record::{Node, Record};
 use super::root::smallest;
 use super::series::{at_one, at_zero, evaluate};
 use super::start::{Data, Units, medium};
+use super::strips::Pool;
 use super::with_bounds::Bounding;
 use crate::error::Error;
 use crate::first_contact::FirstContact;
@@ -60,6 +61,8 @@ pub struct Damped<S> {
     uncertain: Vec<Uncertainty>,
     warnings: Vec<Warning>,
     unresolved: Option<Unresolved<S>>,
+    /// Cells that were asked about lately.
+    pool: Pool<S>,
 }
 
 /// What a run has found.
@@ -185,6 +188,7 @@ impl<S: RoundedSpecial> Damped<S> {
             uncertain: std::iter::once(before).chain(marks.iter().map(|mark| mark.after)).collect(),
             warnings,
             unresolved,
+            pool: Pool::default(),
         };
         history.events = marks
             .into_iter()
@@ -218,8 +222,8 @@ impl<S: RoundedSpecial> Damped<S> {
 
     /// What the field follows from.
     fn record(&self) -> Record<'_, S> {
-        let Damped { medium, data, held, pieces, checkpoints, flights, .. } = self;
-        Record { medium, data, held: held.as_ref(), pieces, checkpoints, flights }
+        let Damped { medium, data, held, pieces, checkpoints, flights, pool, .. } = self;
+        Record { medium, data, held: held.as_ref(), pieces, checkpoints, flights, pool }
     }
 
     /// The dimensionless time.
