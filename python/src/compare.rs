@@ -4,7 +4,7 @@ use std::path::Path;
 use std::sync::Arc;
 
 use dalembert::Units;
-use dalembert::agreement::{Axis, CompareError, Comparison as Compared, Compression, Options, Origin, Prepared};
+use dalembert::agreement::{Axis, CompareError, Comparison as Compared, Compression, Limit, Options, Origin, Prepared};
 use dalembert::data::{DataErrorKind, Source};
 use numpy::{PyArray1, PyReadonlyArray1};
 use pyo3::prelude::*;
@@ -100,6 +100,12 @@ impl Comparison {
 
     fn json(&self) -> String {
         self.compared.json(self.title.as_deref(), &self.units).to_string()
+    }
+
+    /// The norms that are above limits such as `u.l2=0.1`, a line each.
+    fn above(&self, limits: Vec<String>) -> PyResult<Vec<String>> {
+        let limits = limits.iter().map(|limit| limit.parse()).collect::<Result<Vec<Limit>, _>>().map_err(refuse)?;
+        self.compared.above(&limits).map_err(refuse)
     }
 
     fn warnings(&self) -> Vec<String> {
