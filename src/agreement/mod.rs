@@ -199,7 +199,7 @@ impl Agreement {
             not_covered: books.not_covered(until.unwrap_or(last)),
             ..books.audit()
         };
-        let mut hints = of_contacts(&contacts, self.step);
+        let mut hints = of_contacts(&contacts, times, self.step);
         hints.append(&mut self.hints);
         self.hints = gathered(hints);
         self.contacts = contacts;
