@@ -255,7 +255,7 @@ impl<S: RoundedSpecial> Damped<S> {
     fn centre_of(&self, t: &S) -> (S, S) {
         match self.record().flight(t, Side::Left) {
             Some(flight) => flight.at(&flight.age_at(t)),
-            None => self.mean(t, &self.record().line(t, &t.ratio(1, 2))),
+            None => self.mean(t, &self.record().whole_line(t)),
         }
     }
 
@@ -268,6 +268,10 @@ impl<S: RoundedSpecial> Damped<S> {
     /// `v(x,t)`, dimensionless.
     fn displacement(&self, x: &S, t: &S) -> S {
         let mut sum = self.record().height(t);
+        if *x == x.ratio(1, 2) {
+            // The upper end.
+            return self.record().whole_line(t).iter().fold(sum, |sum, node| sum + node.strain.clone() * &node.weight);
+        }
         if x.is_positive() {
             for node in self.record().line(t, x) {
                 sum = sum + node.strain * &node.weight;
@@ -410,13 +414,13 @@ impl<S: RoundedSpecial> Motion<S> for Damped<S> {
         let t = self.time(time)?;
         let units = &self.data.units;
         let half = t.ratio(1, 2);
-        let nodes = self.record().line(&t, &half);
+        let nodes = self.record().whole_line(&t);
         let (mean, rate) = match self.record().flight(&t, Side::Left) {
             Some(_) => self.centre_of(&t),
             None => self.mean(&t, &nodes),
         };
         let mut sum = t.zero();
-        for node in &nodes {
+        for node in nodes.iter() {
             // The difference first, so that a vibration in flight loses nothing.
             let motion = node.rigid.clone() - &rate + &node.motion;
             sum = sum + (motion.square() + node.strain.square()) * &node.weight;
@@ -432,7 +436,7 @@ impl<S: RoundedSpecial> Motion<S> for Damped<S> {
     fn energy_parts(&self, time: &S) -> Result<[S; 2], Error> {
         let t = self.time(time)?;
         let mut parts = [t.zero(), t.zero()];
-        for node in self.record().line(&t, &t.ratio(1, 2)) {
+        for node in self.record().whole_line(&t).iter() {
             for (part, square) in parts.iter_mut().zip([node.velocity().square(), node.strain.square()]) {
                 *part = part.clone() + square * &node.weight;
             }

@@ -11,7 +11,7 @@ use super::march::Medium;
 use super::piece::{Checkpoint, Piece};
 use super::series::evaluate;
 use super::start::Data;
-use super::strips::{Kept, Pool, Strips};
+use super::strips::{Kept, Line, Pool, Strips};
 use crate::motion::Side;
 use crate::special::RoundedSpecial;
 
@@ -116,6 +116,11 @@ impl<S: RoundedSpecial> Record<'_, S> {
                 ahead.strip(self.medium, piece, &mut |_| {});
             }
         }
+    }
+
+    /// [`Record::line`] along the whole rod.
+    pub(super) fn whole_line(&self, t: &S) -> Line<S> {
+        self.pool.line(t, || self.line(t, &t.ratio(1, 2)))
     }
 
     /// Gauss–Legendre nodes on `0 ≤ x ≤ reach` at time `t`, between all rays.
@@ -292,9 +297,9 @@ impl<S: RoundedSpecial> Record<'_, S> {
         match self.piece(t, side) {
             Some((piece, _)) if piece.leap > 0 => {
                 // The mean of z vanishes, so v(0,t) is that of h less a mean of z_x.
-                let nodes = self.line(t, &t.ratio(1, 2));
                 let half = t.ratio(1, 2);
-                let lack = nodes
+                let lack = self
+                    .whole_line(t)
                     .iter()
                     .fold(t.zero(), |sum, node| (half.clone() - &node.x) * &node.strain * &node.weight + &sum);
                 let centre = self.flight(t, side).map_or_else(|| t.zero(), |flight| flight.at(&flight.age_at(t)).0);

@@ -3,12 +3,14 @@
 //! Strips are kept as they are marched from their checkpoint, so that a question meets the same cells, bit for bit,
 //! whatever was asked before it.
 
-use std::sync::{Mutex, PoisonError};
+use std::num::NonZero;
+use std::sync::{Arc, LazyLock, Mutex, PoisonError};
 
 use super::cell::Cell;
 use super::flight::Flight;
 use super::march::{Medium, State};
 use super::piece::{Checkpoint, Piece};
+use super::record::Node;
 use crate::special::RoundedSpecial;
 
 /// A cell, and the data that come into it.
@@ -107,13 +109,38 @@ impl<S: RoundedSpecial> Strips<S> {
     }
 }
 
-/// The strips that were asked for last: each question takes those that it needs, and puts them back.
+/// What was asked for last: each question takes the strips that it needs, and puts them back. The nodes of a line along
+/// the whole rod serve all that is asked about one time.
 #[derive(Debug)]
-pub(super) struct Pool<S>(Mutex<Vec<Strips<S>>>);
+pub(super) struct Pool<S> {
+    strips: Mutex<Vec<Strips<S>>>,
+    lines: Mutex<Vec<(S, Line<S>)>>,
+}
+
+/// The nodes along the whole rod at a time.
+pub(super) type Line<S> = Arc<Vec<Node<S>>>;
+
+/// Each core goes from one checkpoint to the next.
+static MOST_KEPT: LazyLock<usize> = LazyLock::new(|| 2 * std::thread::available_parallelism().map_or(1, NonZero::get));
+
+/// Work on a list that is complete whenever it is here.
+fn with<T, R>(list: &Mutex<Vec<T>>, work: impl FnOnce(&mut Vec<T>) -> R) -> R {
+    work(&mut list.lock().unwrap_or_else(PoisonError::into_inner))
+}
+
+/// Puts `item` last, and drops the first where there are too many.
+fn push<T>(list: &Mutex<Vec<T>>, item: T) {
+    with(list, |all| {
+        if all.len() >= *MOST_KEPT {
+            all.remove(0);
+        }
+        all.push(item);
+    });
+}
 
 impl<S> Default for Pool<S> {
     fn default() -> Self {
-        Pool(Mutex::default())
+        Pool { strips: Mutex::default(), lines: Mutex::default() }
     }
 }
 
@@ -124,26 +151,26 @@ impl<S> Clone for Pool<S> {
     }
 }
 
-impl<S> Pool<S> {
-    fn with<T>(&self, work: impl FnOnce(&mut Vec<Strips<S>>) -> T) -> T {
-        // Strips are complete whenever they are here.
-        work(&mut self.0.lock().unwrap_or_else(PoisonError::into_inner))
-    }
-
+impl<S: PartialEq> Pool<S> {
     /// The strips after checkpoint `start`, if they are kept.
     pub(super) fn take(&self, start: usize) -> Option<Strips<S>> {
-        self.with(|all| all.iter().position(|strips| strips.start == start).map(|k| all.remove(k)))
+        with(&self.strips, |all| all.iter().position(|strips| strips.start == start).map(|k| all.remove(k)))
     }
 
-    /// Keeps strips: for each core those of two checkpoints, which times in order go between.
     pub(super) fn put(&self, strips: Strips<S>) {
-        static MOST: std::sync::LazyLock<usize> =
-            std::sync::LazyLock::new(|| 2 * std::thread::available_parallelism().map_or(1, std::num::NonZero::get));
-        self.with(|all| {
-            all.push(strips);
-            if all.len() > *MOST {
-                all.remove(0);
-            }
-        });
+        push(&self.strips, strips);
+    }
+
+    /// The nodes at `time`: those that are kept, or those that `find` gives.
+    pub(super) fn line(&self, time: &S, find: impl FnOnce() -> Vec<Node<S>>) -> Line<S>
+    where
+        S: Clone,
+    {
+        let known = with(&self.lines, |all| all.iter().find(|(at, _)| at == time).map(|(_, line)| line.clone()));
+        known.unwrap_or_else(|| {
+            let line = Arc::new(find());
+            push(&self.lines, (time.clone(), line.clone()));
+            line
+        })
     }
 }

@@ -401,11 +401,15 @@ fn agreed(values: &[f64]) -> Option<f64> {
 /// duration, such as that of a penalty, adds at most `12 w²` to the square of the spread: `w` is no more than what the
 /// duration is longer than the spread. A rate beyond both is one of the clock. A shift counts where it is more than a
 /// step, and beginning, end and centroid of every contact say the same. A step is the longest between the samples at
-/// `times` that a contact lies between; `typical` is that which a shift is counted in.
+/// `times` that a contact lies between; `typical` is that which a shift is counted in. A contact that had begun before
+/// the first sample shows nothing.
 pub fn of_contacts(rows: &[(Option<Touch>, Option<Touch>)], times: &[f64], typical: f64) -> Vec<Hint> {
     let hint = |finding| Hint { quantity: "contact".into(), finding };
     let mut hints = Vec::new();
     let longest = |touch: &Touch| {
+        if times.first().is_none_or(|first| touch.from < first - typical) {
+            return f64::INFINITY;
+        }
         let first = times.partition_point(|time| *time <= touch.from).saturating_sub(1);
         let last = touch.to.map_or(times.len(), |to| times.partition_point(|time| *time < to) + 1);
         let within = &times[first..last.clamp(first, times.len())];
@@ -416,9 +420,10 @@ pub fn of_contacts(rows: &[(Option<Touch>, Option<Touch>)], times: &[f64], typic
     let invented = rows.iter().filter(|(a, b)| a.is_none() && b.as_ref().is_some_and(resolved)).count();
     hints.extend((missing > 0).then(|| hint(Finding::Missing(missing))));
     hints.extend((invented > 0).then(|| hint(Finding::Invented(invented))));
-    let pairs: Vec<(&Touch, &Touch)> = rows.iter().filter_map(|(a, b)| a.as_ref().zip(b.as_ref())).collect();
+    let both = rows.iter().filter_map(|(a, b)| a.as_ref().zip(b.as_ref()));
+    let pairs: Vec<(&Touch, &Touch)> = both.filter(|(a, _)| longest(a).is_finite()).collect();
     let ratio = |a: Option<f64>, b: Option<f64>| a.zip(b).map(|(a, b)| b / a - 1.0).filter(|rate| rate.is_finite());
-    let first = rows.first().and_then(|(a, b)| a.as_ref().zip(b.as_ref()));
+    let first = rows.first().and_then(|(a, b)| a.as_ref().zip(b.as_ref())).filter(|(a, _)| longest(a).is_finite());
     let clock = first.and_then(|(a, b)| {
         let (rate, longer) = (ratio(a.spread, b.spread)?, ratio(a.duration(), b.duration())?);
         let open = longest(a).max(longest(b)) / a.duration()? + 6.0 * (longer - rate).powi(2);

@@ -122,6 +122,30 @@ fn every_form_of_data() {
     }
 }
 
+/// A held top stops at t = 0; a release without a jump of the stress ends contact; and a few samples at random, between
+/// which whole contacts pass, are no reason for a hint, nor are data that begin within a contact.
+#[test]
+fn nothing_is_wrong_with_exact_data() {
+    let held = SCENE.replace("wave_speed = 1", "wave_speed = 1\ntop = \"fixed\"").replace("time = 4", "time = 9");
+    let soft = "[rod]\nlength = 1\nwave_speed = 1\ndamping = 0.1\n[impact]\nspeed = 1.2\n[gravity]\nacceleration = 1\n\
+                [run]\ntime = 30\n";
+    let folder = folder("");
+    for scene in [held.as_str(), soft] {
+        fs::write(folder.path().join("rod.toml"), scene).unwrap();
+        let few = "0.1,0.4,1.9,2.3,2.35,4,5.6,6.1,7.7,7.9,8.2";
+        for times in [&[][..], &["--times", few], &["--times", "0.5..8:300"]] {
+            text(&run(folder.path(), &[&["reference", "rod.toml", "-o", "golden.csv"], times].concat()), 0);
+            let report = json(folder.path(), &["compare", "rod.toml", "golden.csv"]);
+            for quantity in report["quantities"].as_array().unwrap() {
+                let relative = quantity["linf"]["relative"].as_f64();
+                let most = relative.unwrap_or_else(|| quantity["linf"]["absolute"].as_f64().unwrap());
+                assert!(most <= 1e-12, "{scene} {times:?}: {quantity}");
+            }
+            assert_eq!(report["hints"], serde_json::json!([]), "{scene} {times:?}");
+        }
+    }
+}
+
 /// What `reference` writes is what `compare` holds it against: every column, as CSV and NPZ.
 #[test]
 fn reference_files_agree() {
