@@ -43,7 +43,9 @@ pub enum Error {
         length: String,
     },
     /// The history has more pieces than the limit allows.
-    #[error("the history passed {limit} pieces at t = {time}; expected fewer: ask for a shorter time or fewer impacts")]
+    #[error(
+        "the history passed {limit} pieces at t = {time:?}; expected fewer: ask for a shorter time or fewer impacts"
+    )]
     TooManyPieces {
         /// The limit.
         limit: usize,

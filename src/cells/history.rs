@@ -11,6 +11,7 @@ use super::record::{Node, Record};
 use super::root::smallest;
 use super::series::{at_one, at_zero, evaluate};
 use super::start::{Data, Units, medium};
+use super::strips::Pool;
 use super::with_bounds::Bounding;
 use crate::error::Error;
 use crate::first_contact::FirstContact;
@@ -60,6 +61,8 @@ pub struct Damped<S> {
     uncertain: Vec<Uncertainty>,
     warnings: Vec<Warning>,
     unresolved: Option<Unresolved<S>>,
+    /// Cells that were asked about lately.
+    pool: Pool<S>,
 }
 
 /// What a run has found.
@@ -186,6 +189,7 @@ impl<S: RoundedSpecial> Damped<S> {
             uncertain: std::iter::once(before).chain(marks.iter().map(|mark| mark.after)).collect(),
             warnings,
             unresolved,
+            pool: Pool::default(),
         };
         history.events = marks
             .into_iter()
@@ -219,8 +223,8 @@ impl<S: RoundedSpecial> Damped<S> {
 
     /// What the field follows from.
     fn record(&self) -> Record<'_, S> {
-        let Damped { medium, data, held, pieces, checkpoints, flights, .. } = self;
-        Record { medium, data, held: held.as_ref(), pieces, checkpoints, flights }
+        let Damped { medium, data, held, pieces, checkpoints, flights, pool, .. } = self;
+        Record { medium, data, held: held.as_ref(), pieces, checkpoints, flights, pool }
     }
 
     /// The dimensionless time.
@@ -252,7 +256,7 @@ impl<S: RoundedSpecial> Damped<S> {
     fn centre_of(&self, t: &S) -> (S, S) {
         match self.record().flight(t, Side::Left) {
             Some(flight) => flight.at(&flight.age_at(t)),
-            None => self.mean(t, &self.record().line(t, &t.ratio(1, 2))),
+            None => self.mean(t, &self.record().whole_line(t)),
         }
     }
 
@@ -265,6 +269,10 @@ impl<S: RoundedSpecial> Damped<S> {
     /// `v(x,t)`, dimensionless.
     fn displacement(&self, x: &S, t: &S) -> S {
         let mut sum = self.record().height(t);
+        if *x == x.ratio(1, 2) {
+            // The upper end.
+            return self.record().whole_line(t).iter().fold(sum, |sum, node| sum + node.strain.clone() * &node.weight);
+        }
         if x.is_positive() {
             for node in self.record().line(t, x) {
                 sum = sum + node.strain * &node.weight;
@@ -407,13 +415,13 @@ impl<S: RoundedSpecial> Motion<S> for Damped<S> {
         let t = self.time(time)?;
         let units = &self.data.units;
         let half = t.ratio(1, 2);
-        let nodes = self.record().line(&t, &half);
+        let nodes = self.record().whole_line(&t);
         let (mean, rate) = match self.record().flight(&t, Side::Left) {
             Some(_) => self.centre_of(&t),
             None => self.mean(&t, &nodes),
         };
         let mut sum = t.zero();
-        for node in &nodes {
+        for node in nodes.iter() {
             // The difference first, so that a vibration in flight loses nothing.
             let motion = node.rigid.clone() - &rate + &node.motion;
             sum = sum + (motion.square() + node.strain.square()) * &node.weight;
@@ -429,7 +437,7 @@ impl<S: RoundedSpecial> Motion<S> for Damped<S> {
     fn energy_parts(&self, time: &S) -> Result<[S; 2], Error> {
         let t = self.time(time)?;
         let mut parts = [t.zero(), t.zero()];
-        for node in self.record().line(&t, &t.ratio(1, 2)) {
+        for node in self.record().whole_line(&t).iter() {
             for (part, square) in parts.iter_mut().zip([node.velocity().square(), node.strain.square()]) {
                 *part = part.clone() + square * &node.weight;
             }

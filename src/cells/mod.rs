@@ -26,6 +26,7 @@ mod rest;
 mod root;
 mod series;
 mod start;
+mod strips;
 mod with_bounds;
 
 pub use contact_then_cells::{ContactThenCells, Reach};

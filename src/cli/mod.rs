@@ -6,7 +6,6 @@ mod cost;
 mod explain;
 mod figures;
 mod file;
-mod list;
 mod plot;
 mod reference;
 mod regimes;
@@ -170,9 +169,6 @@ struct OutputArgs {
     /// One row for each contact, however wide the table
     #[arg(long)]
     wide: bool,
-    /// Explain the symbols of a table in a line each
-    #[arg(long)]
-    legend: bool,
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
@@ -229,7 +225,6 @@ fn head(scene: &Scene, plan: &Plan) -> Head {
         effects: called,
         parameters: parameters(scene),
         wide: false,
-        legend: false,
         digits: 0,
         units: Units::of(&scene.problem, scene.units),
         warnings: Vec::new(),
@@ -293,12 +288,12 @@ struct Printed<'a, R>(&'a R, &'a OutputArgs);
 
 impl<R: Report> Visit for Printed<'_, R> {
     fn visit<S: Target>(&self, history: &History<S>, head: Head, progress: source::Progress) -> Result<(), Failure> {
-        let Printed(report, OutputArgs { wide, legend, .. }) = *self;
-        let head = Head { wide: *wide, legend: *legend, ..head };
+        let Printed(report, output) = *self;
+        let head = Head { wide: output.wide, ..head };
         let gathered = history.ask(|motion| report.gather(motion, &head), |data| report.numbers(data));
         drop(progress);
         let data = gathered.map_err(|error| report.refuse(error, history.ending()))?;
-        let shown = self.1.output.is_none() && self.1.format()? == Format::Table;
+        let shown = output.output.is_none() && output.format()? == Format::Table;
         report.print(&data, &warned(history, head, shown))
     }
 }

@@ -25,6 +25,9 @@ pub(super) struct Solve {
     numbers: NumberArgs,
     #[command(flatten)]
     output: OutputArgs,
+    /// Explain the symbols of the table in a line each
+    #[arg(long)]
+    legend: bool,
     /// What a CSV holds; by default the events
     #[arg(long, value_enum)]
     part: Option<Part>,
@@ -75,6 +78,7 @@ impl Report for Solve {
 
     fn print<S: Scalar>(&self, record: &Record<S>, head: &Head) -> Result<(), Failure> {
         match self.output.format()? {
+            Format::Table if self.legend => self.output.write(&format!("{}\n{LEGEND}", history_table(record, head))),
             Format::Table => self.output.write(&history_table(record, head)),
             Format::Json => self.output.write_json(&history_json(record, head)),
             Format::Csv => {

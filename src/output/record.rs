@@ -22,8 +22,6 @@ pub struct Head {
     pub parameters: String,
     /// Whether a table may be wider than 80 characters.
     pub wide: bool,
-    /// Whether the symbols of a table are explained below it.
-    pub legend: bool,
     /// What gives strains and values per `ρS` a unit.
     pub units: Units,
     /// What the user should know.

@@ -165,17 +165,16 @@ pub fn history_table<S: Scalar>(record: &Record<S>, head: &Head) -> String {
         out += &format!("{impacts} impacts may have lost {lost:.1} digits to rounding, {each:.2} each\n");
     }
     out += &warnings(head);
-    if head.legend {
-        out += &format!("\n{LEGEND}");
-    }
     out
 }
 
 /// A line of prose, in several where it is wider than a table may be.
 fn line(text: &str, head: &Head) -> String {
-    if head.wide {
-        return format!("{text}\n");
-    }
+    if head.wide { format!("{text}\n") } else { wrapped(text) }
+}
+
+/// Prose in lines of at most [`WIDTH`] characters.
+pub(super) fn wrapped(text: &str) -> String {
     let options = textwrap::Options::new(WIDTH)
         .subsequent_indent("    ")
         .word_separator(textwrap::WordSeparator::AsciiSpace)

@@ -122,6 +122,15 @@ fn in_numbers<S: Target, T: Scalar>(
             }
         }
     }
+    // As many events before either history ends, and as many in all where they end alike.
+    let known = whole.end().to_f64().min(truth.end().to_f64()) * (1.0 - 1e-9);
+    let before = |time: f64| time < known;
+    let ours = whole.events().iter().filter(|event| before(event.time.to_f64())).count();
+    let exact = truth.events().iter().filter(|event| before(event.time.to_f64())).count();
+    prop_assert_eq!(ours, exact, "{}: events before {}", numbers, known);
+    if whole.ending() == truth.ending() {
+        prop_assert_eq!(whole.events().len(), truth.events().len(), "{}", numbers);
+    }
     // At each event by the time that this history has for it.
     for (ours, exact) in whole.events().iter().zip(truth.events()) {
         prop_assert_eq!(ours.kind, exact.kind, "{}: {} {}", numbers, ours, exact);
