@@ -29,7 +29,7 @@ pub(crate) use cost_picture::cost_svg;
 pub(crate) use csv::compare_csv;
 pub use csv::{Part, history_csv, samples_csv};
 #[cfg(feature = "plot")]
-pub(crate) use draw::png;
+pub(crate) use draw::Rendered;
 pub(crate) use draw::{Size, plain};
 pub(crate) use figures::{figure_csv, figure_sheet, figures_index};
 pub use file::write_whole;
