@@ -89,7 +89,7 @@ mod tests {
     #[test]
     fn lines_are_cut_at_the_border() {
         // In, out over the top, in again, along the border.
-        let zigzag = points(&[[-0.5, 0.5], [0.25, 0.5], [0.5, 1.5], [0.75, 0.5], [0.75, 0.0], [1.0, 0.0]]);
+        let zigzag = points(&[[-0.25, 0.5], [0.25, 0.5], [0.5, 1.5], [0.75, 0.5], [0.75, 0.0], [1.0, 0.0]]);
         let cut = [
             points(&[[0.0, 0.5], [0.25, 0.5], [0.375, 1.0]]),
             points(&[[0.625, 1.0], [0.75, 0.5], [0.75, 0.0], [1.0, 0.0]]),
