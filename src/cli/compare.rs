@@ -63,7 +63,7 @@ pub(super) struct Compare {
     /// What to print; by default a table
     #[arg(long, value_enum)]
     format: Option<Format>,
-    /// Write to this file, whole or not at all: a picture (.svg, .png), .json, .csv with every sample, or a table; `-`
+    /// Write to this file, whole or not at all: .svg, .png or .pdf, .json, .csv with every sample, or a table; `-`
     /// is standard output. Can be given several times. Beside pictures the table is printed as well
     #[arg(short, long, value_name = "FILE")]
     output: Vec<PathBuf>,

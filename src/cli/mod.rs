@@ -166,7 +166,7 @@ struct OutputArgs {
     /// Write to this file, whole or not at all; `-` is standard output
     #[arg(short, long, value_name = "FILE")]
     output: Option<PathBuf>,
-    /// One row for each contact, however wide the table
+    /// One row for each contact or effect, however wide the table
     #[arg(long)]
     wide: bool,
 }

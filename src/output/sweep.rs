@@ -6,7 +6,7 @@ use ndarray::Array1;
 use ndarray_npy::{NpzWriter, WriteNpzError};
 use serde_json::{Map, Value, json};
 
-use super::table::wrapped;
+use super::table::{WIDTH, wrapped};
 use crate::aligned::table;
 use crate::number::{DOUBLE_DIGITS, Estimate, Rounded, show};
 use crate::sweep::{Point, Sweep};
@@ -81,7 +81,7 @@ pub(crate) fn sweep_table(sweep: &Sweep, points: &[Point]) -> String {
         rows.iter_mut().for_each(|row| row.truncate(header.len()));
     }
     let table = table(&header.iter().map(String::as_str).collect::<Vec<_>>(), rows, 0);
-    let notes = below.iter().enumerate().map(|(k, note)| wrapped(&format!("[{}] {note}", k + 1)));
+    let notes = below.iter().enumerate().map(|(k, note)| wrapped(&format!("[{}] {note}", k + 1), WIDTH, "    ") + "\n");
     let space = if below.is_empty() { "" } else { "\n" };
     format!("{table}\n{space}{}", notes.collect::<String>())
 }

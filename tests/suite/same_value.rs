@@ -1,6 +1,7 @@
 //! A value is the same whether it is asked alone or with others, in any order, and in every number system: on rays, at
 //! events and at ordinary times, from both sides, of random rods with and without damping.
 
+use dalembert::problem::Run;
 use dalembert::solve::Target;
 use dalembert::{
     Error, Float, History, Interval, Motion, Number, Numbers, Plan, Problem, Question, Rational, Rung, Scalar, Side,

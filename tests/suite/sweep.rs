@@ -163,7 +163,7 @@ fn the_map_of_regimes_is_the_same_from_any_number_of_threads() {
     let said = |args: &[&str]| dalembert(&[&["regimes"], args].concat()).unwrap_err();
     assert!(said(&["--damping-ratio", "1"]).contains("expected two values or more that increase"));
     assert!(said(&["--speed-ratio", "0..1:5"]).contains("M from above zero"));
-    assert!(said(&["-o", "map.txt"]).contains("expected a file that ends in .svg, .png, .csv or .npz"));
+    assert!(said(&["-o", "map.txt"]).contains("expected a file that ends in .svg, .png, .pdf, .csv or .npz"));
 }
 
 /// A note stands below the table, in full, once for all points that have it.
