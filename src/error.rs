@@ -66,19 +66,10 @@ pub enum Error {
         length: String,
     },
     /// The history has more pieces than the limit allows.
-    #[error("the history passed {limit} pieces at t = {time}; expected fewer: ask for a shorter time or fewer impacts")]
-    TooManyPieces {
-        /// The limit.
-        limit: usize,
-        /// The time at which it was passed.
-        time: f64,
-    },
-    /// Rays of earlier impacts and releases that have not faded yet are more than the limit allows.
     #[error(
-        "the rod carries {limit} rays at t = {time}, two for each bounce that has not faded; expected fewer: ask for \
-         a shorter time or fewer impacts"
+        "the history passed {limit} pieces at t = {time:?}; expected fewer: ask for a shorter time or fewer impacts"
     )]
-    TooManyRays {
+    TooManyPieces {
         /// The limit.
         limit: usize,
         /// The time at which it was passed.

@@ -208,26 +208,47 @@ impl<S: Target> History<S> {
         Ok(found.into_iter().map(|flight| flight.map(S::strip)).collect())
     }
 
-    /// `e_P` and `e_E²` of a contact, counted from 0, with the factors of `e_E²`.
+    /// `e_P` and `e_E²` of a contact, counted from 0.
+    ///
+    /// **Accuracy**: in doubles that of `h` and `h′` at both ends, of which these are ratios; otherwise their own.
     ///
     /// **Errors**: [`Error::NoContact`] where the history has fewer contacts.
     pub fn restitution(&self, contact: usize) -> Result<Restitution<S>, Error> {
-        let query = |engine: &dyn Motion<S::Carried>| {
-            let found = engine.contacts().len();
-            restitution(engine, engine.contacts().get(contact).ok_or(Error::NoContact { contact, found })?)
-        };
-        Ok(self.ask(query, Restitution::numbers)?.map(S::strip))
+        let centre = |engine: &dyn Motion<S::Carried>, time: &_| engine.centre(time).map(|(h, rate)| vec![h, rate]);
+        Ok(self.ask_ratios(contact, restitution, Restitution::numbers, centre)?.map(S::strip))
     }
 
     /// The two factors of `e_E²` of a contact, counted from 0.
     ///
+    /// **Accuracy**: in doubles that of the energies at both ends, of which these are ratios; otherwise their own.
+    ///
     /// **Errors**: [`Error::NoContact`] where the history has fewer contacts.
     pub fn energy_shares(&self, contact: usize) -> Result<EnergyShares<S>, Error> {
+        let energy = |engine: &dyn Motion<S::Carried>, time: &_| {
+            let Energy { total, translational, vibrational } = engine.energy(time)?;
+            Ok(vec![total, translational, vibrational])
+        };
+        Ok(self.ask_ratios(contact, energy_shares, EnergyShares::numbers, energy)?.map(S::strip))
+    }
+
+    /// Ratios of what there is at both ends of a contact. Where one of these is next to nothing, no double is as
+    /// accurate as its ratio would need: doubles are held to the accuracy of the `parts`.
+    fn ask_ratios<T>(
+        &self,
+        contact: usize,
+        ratios: impl Fn(&dyn Motion<S::Carried>, &Contact<S::Carried>) -> Result<T, Error>,
+        numbers: impl Fn(&T) -> Vec<&S::Carried>,
+        parts: impl Fn(&dyn Motion<S::Carried>, &S::Carried) -> Result<Vec<S::Carried>, Error>,
+    ) -> Result<T, Error> {
+        let doubles = matches!(self.plan().numbers, Numbers::Double(_));
         let query = |engine: &dyn Motion<S::Carried>| {
             let found = engine.contacts().len();
-            energy_shares(engine, engine.contacts().get(contact).ok_or(Error::NoContact { contact, found })?)
+            let contact = engine.contacts().get(contact).ok_or(Error::NoContact { contact, found })?;
+            let ends = std::iter::once(&contact.from).chain(&contact.to);
+            let whole = ends.map(|time| parts(engine, time)).collect::<Result<Vec<_>, Error>>()?;
+            Ok((ratios(engine, contact)?, whole))
         };
-        Ok(self.ask(query, EnergyShares::numbers)?.map(S::strip))
+        Ok(self.ask(query, |(found, whole)| if doubles { whole.iter().flatten().collect() } else { numbers(found) })?.0)
     }
 
     /// `v_x(0,·)` piece by piece: strains, as [`StressHistory`] says.

@@ -30,7 +30,7 @@
 //! material.
 //!
 //! The features `mp` (all numbers but doubles), `cli` (the command), `compare` (what it shares with the wheel) and
-//! `plot` (its pictures as PNG) add to each other and take nothing away.
+//! `plot` (its pictures as PNG and PDF) add to each other and take nothing away.
 
 // The rooms are public for the crate's own tests and benchmarks; what is meant to be used is re-exported below.
 #[cfg(feature = "compare")]

@@ -49,6 +49,13 @@ pub enum Reason {
         /// By how much `v(0,t)` can differ in the round trip that follows.
         spread: f64,
     },
+    /// The motion takes more than is computed of it.
+    Effort {
+        /// Cells that were crossed.
+        cells: u64,
+        /// Rays that the rod carries.
+        rays: usize,
+    },
     /// More digits than the motion after a damped first contact is computed to.
     MostDigits(u32),
 }
@@ -199,6 +206,11 @@ impl Display for Reason {
                 f,
                 "within a round trip comes a touch that {bits} bits do not tell from a miss; either way v(0,t) is the \
                  same up to {spread:.1e} for one round trip, and up to three times more after each one more"
+            ),
+            Reason::Effort { cells, rays } => write!(
+                f,
+                "after {cells} cells the motion is followed no farther: the rod carries {rays} rays, two for each \
+                 bounce that has not faded"
             ),
             Reason::MostDigits(most) => {
                 write!(f, "beyond {most} digits only the first contact is computed, not the flight after it")

@@ -19,7 +19,7 @@ from decimal import Decimal
 from fractions import Fraction
 from functools import cached_property
 from importlib.metadata import version as _version
-from typing import Any, Literal, Sequence, Union
+from typing import Any, Literal, Mapping, Sequence, Union
 
 import numpy as np
 
@@ -52,9 +52,8 @@ class Problem:
 
     ``length`` and ``wave_speed`` (or ``modulus``, ``density`` and ``area``) are the rod; ``damping`` is the ``r`` of
     the equation, ``top`` is "free" or "fixed"; the start is an ``impact_speed`` (with a ``gap`` or without), a
-    ``drop_height``, or
-    ``displacement`` and ``velocity`` as points ``(x, value)``. It is followed up to ``time``, or through a number of
-    ``impacts``; without either, through the first contact and the flight after it.
+    ``drop_height``, or ``displacement`` and ``velocity`` as points ``(x, value)``. It is followed up to ``time``, or
+    through a number of ``impacts``; without either, through the first contact and the flight after it.
 
     >>> rod = Problem(length=1, wave_speed=1, gravity=1, impact_speed=3)
     >>> rod.round_trip, rod.speed_ratio
@@ -221,6 +220,30 @@ class Comparison:
         reports = self.report.get("files", [self.report])
         self.files = [_Compared(report, core.columns(k)) for k, report in enumerate(reports)]
 
+    def fails_above(self, limits: Mapping[str, Mapping[str, float]]) -> list[str]:
+        """The norms above ``limits``, as ``--fail-above`` reports them, a line each; an empty list where none is.
+
+        Limits are those of the norms ``l1``, ``l2``, ``linf``, ``linf_off_jumps`` of each quantity, relative to ours,
+        or absolute where ours is zero. With several sources all of them have to keep within.
+
+        >>> c = compare(Problem(length=1, wave_speed=1, impact_speed=1), [0, 2, 4], [0, 0, 2.5], quantity="u")
+        >>> c.fails_above({"u": {"l2": 0.3, "linf": 0.1}})
+        ['dict: expected u.linf ≤ 1e-1, found 2.500e-1']
+
+        A quantity that the data do not have, or a norm of another name, is a ValueError.
+        """
+        given = ((name, norm, bound) for name, norms in limits.items() for norm, bound in norms.items())
+        return self._core.above([f"{name}.{norm}={float(bound)!r}" for name, norm, bound in given])
+
+    def assert_below(self, limits: Mapping[str, Mapping[str, float]]) -> None:
+        """Raises an AssertionError with the lines of :meth:`fails_above` where there are any: one line for a test.
+
+        >>> compare("paper-strong", reference("paper-strong", [0, 1, 2, 3])).assert_below({"u": {"linf": 1e-12}})
+        """
+        failures = self.fails_above(limits)
+        if failures:
+            raise AssertionError("\n".join(failures))
+
     def table(self) -> str:
         """The text that the command prints."""
         return self._core.table()
@@ -347,20 +370,19 @@ class History:
     Arrays are in C order. In numbers other than doubles they hold objects: ``Fraction``, ``Decimal``, or pairs of
     ``Decimal``; where there is no number they hold None, and nan in doubles. At a jump ``side`` chooses the limit from
     earlier ("left") or later ("right") times.
+
+    ``numbers`` is "double", "exact", "digits" or "certified"; ``end`` the last time that is known, ``ending`` why it is
+    the last; ``engine`` how the motion was solved; ``warnings`` what a user should know of the answer; ``scales`` are
+    the natural scales by name.
     """
 
     def __init__(self, core: _core.History, problem: Problem) -> None:
         self._core, self.problem = core, problem
-        #: "double", "exact", "digits" or "certified".
-        self.numbers: str = core.kind()
+        self.numbers, end, about, self.warnings, scales = core.facts()
         self._read = _READ[self.numbers]
-        #: The last time that is known, why it is the last, and how the motion was solved.
-        self.end = self._read(core.end())
-        self.ending, self.engine, self._asked = core.plan()
-        #: What a user should know of the answer.
-        self.warnings: list[str] = core.warnings()
-        #: The natural scales.
-        self.scales = dict(zip(("time", "velocity", "length", "wave_speed", "gravity"), core.scales()))
+        self.end = self._read(end)
+        self.ending, self.engine, self._asked = about
+        self.scales = dict(zip(("time", "velocity", "length", "wave_speed", "gravity"), scales))
 
     def __repr__(self) -> str:
         return f"<dalembert.History to t = {self.end}, {self._asked}>"

@@ -4,7 +4,7 @@ use std::path::Path;
 use std::sync::Arc;
 
 use dalembert::Units;
-use dalembert::agreement::{Axis, CompareError, Comparison as Compared, Compression, Options, Origin, Prepared};
+use dalembert::agreement::{Axis, CompareError, Comparison as Compared, Compression, Limit, Options, Origin, Prepared};
 use dalembert::data::{DataErrorKind, Source};
 use numpy::{PyArray1, PyReadonlyArray1};
 use pyo3::prelude::*;
@@ -85,12 +85,12 @@ impl Comparison {
         };
         let sources = data.into_iter().map(source).collect::<PyResult<Vec<_>>>()?;
         let (rod, accuracy) = (problem.problem.clone(), problem.accuracy);
-        let stop = Arc::default();
+        let units = Units::of(&rod, problem.units);
+        let (stop, in_run) = (Arc::default(), units.clone());
         let observe = observer(&stop);
         let compared = run(py, &stop, move || {
-            Prepared::new(&rod, accuracy, sources, &options)?.compare(observe).map_err(CompareError::from)
+            Prepared::new(&rod, &in_run, accuracy, sources, &options)?.compare(observe).map_err(CompareError::from)
         })?;
-        let units = Units::of(&problem.problem, problem.units);
         Ok(Comparison { compared, title: problem.title.clone(), units })
     }
 
@@ -100,6 +100,12 @@ impl Comparison {
 
     fn json(&self) -> String {
         self.compared.json(self.title.as_deref(), &self.units).to_string()
+    }
+
+    /// The norms that are above limits such as `u.l2=0.1`, a line each.
+    fn above(&self, limits: Vec<String>) -> PyResult<Vec<String>> {
+        let limits = limits.iter().map(|limit| limit.parse()).collect::<Result<Vec<Limit>, _>>().map_err(refuse)?;
+        self.compared.above(&limits).map_err(refuse)
     }
 
     fn warnings(&self) -> Vec<String> {

@@ -4,7 +4,7 @@ use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
 
 use dalembert::number::{DOUBLE_DIGITS, show};
-use dalembert::quantity::{energy_shares, restitution};
+use dalembert::quantity::{energy_shares, flights, restitution};
 use dalembert::solve::Target;
 use dalembert::{Answer, Column, Error, Measure, Motion, Number, Scalar, Side, Solution, Units};
 use numpy::{PyArray1, PyReadonlyArray1};
@@ -136,47 +136,27 @@ impl History {
 
 #[pymethods]
 impl History {
-    /// `double`, `exact`, `digits` or `certified`.
-    fn kind(&self) -> &'static str {
-        match &*self.solution {
-            Solution::Double(_) => "double",
-            Solution::Exact(_) => "exact",
-            Solution::Digits(..) | Solution::DigitsAfter(..) => "digits",
-            Solution::Certified(..) => "certified",
-        }
-    }
-
-    fn end(&self) -> Cell {
-        each!(&*self.solution, |history, digits| cell(history.end(), digits))
-    }
-
-    /// Why it ends, the engine, and the numbers.
-    fn plan(&self) -> [String; 3] {
-        each!(&*self.solution, |history, _digits| {
-            let plan = history.plan();
-            [history.ending().to_string(), plan.engine.to_string(), plan.numbers.to_string()]
+    /// `double`, `exact`, `digits` or `certified`; the end; why it is the end, the engine, and what was asked; warnings;
+    /// `t₁`, the greatest speed, `L`, `c` and `g`.
+    fn facts(&self) -> (&'static str, Cell, [String; 3], Vec<String>, [f64; 5]) {
+        let (kind, first) = match &*self.solution {
+            Solution::Double(_) => ("double", None),
+            Solution::Exact(_) => ("exact", None),
+            Solution::Digits(..) => ("digits", None),
+            Solution::DigitsAfter(_, n, end) => ("digits", Some(format!("{end}; what follows is in {n} digits"))),
+            Solution::Certified(..) => ("certified", None),
+        };
+        each!(&*self.solution, |history, digits| {
+            let (plan, scales) = (history.plan(), history.scales());
+            let about = [history.ending().to_string(), plan.engine.to_string(), plan.numbers.to_string()];
+            let warnings = first.into_iter().chain(history.warnings().iter().map(ToString::to_string)).collect();
+            let scales = [scales.time, scales.velocity, scales.length, scales.wave_speed, scales.gravity];
+            (kind, cell(history.end(), digits), about, warnings, scales.map(|x| x.to_f64()))
         })
-    }
-
-    fn warnings(&self) -> Vec<String> {
-        let warnings = each!(&*self.solution, |history, _digits| history.warnings());
-        let mut warnings: Vec<String> = warnings.iter().map(ToString::to_string).collect();
-        if let Solution::DigitsAfter(_, digits, end) = &*self.solution {
-            warnings.insert(0, format!("{end}; what follows is in {digits} digits"));
-        }
-        warnings
     }
 
     fn error_estimate(&self) -> f64 {
         each!(&*self.solution, |history, _digits| history.error_estimate())
-    }
-
-    /// `t₁`, the greatest speed, `L`, `c` and `g`.
-    fn scales(&self) -> [f64; 5] {
-        each!(&*self.solution, |history, _digits| {
-            let scales = history.scales();
-            [scales.time, scales.velocity, scales.length, scales.wave_speed, scales.gravity].map(|x| x.to_f64())
-        })
     }
 
     /// Whether stresses and forces have a unit.
@@ -262,40 +242,29 @@ fn side_of(side: &str) -> PyResult<Side> {
 
 /// The rows of a table.
 fn rows<N: Scalar>(motion: &dyn Motion<N>, part: &str, units: &Units) -> Result<Vec<[Option<N>; 4]>, Error> {
+    let (events, contacts) = (motion.events().iter().cloned(), motion.contacts().iter().cloned());
     let measured = |measure, x: &N| units.factor::<N>(measure, &x.precision()).map(|factor| x.clone() * factor);
     Ok(match part {
-        "events" => {
-            let numbers = |e: dalembert::Event<N>| [e.time, e.end_velocity, e.centre, e.centre_velocity];
-            motion.events().iter().map(|event| numbers(event.clone()).map(Some)).collect()
-        }
+        "events" => events.map(|e| [e.time, e.end_velocity, e.centre, e.centre_velocity].map(Some)).collect(),
         "contacts" => {
-            let numbers = |c: dalembert::Contact<N>| {
-                [Some(c.from), c.to, measured(Measure::Impulse, &c.impulse), Some(c.peak_strain)]
-            };
-            motion.contacts().iter().cloned().map(numbers).collect()
+            let impulse = |x: &N| measured(Measure::Impulse, x);
+            contacts.map(|c| [Some(c.from), c.to, impulse(&c.impulse), Some(c.peak_strain)]).collect()
         }
         "peaks" => {
             let peaks = |peak: &N| [measured(Measure::Stress, peak), measured(Measure::Force, peak), None, None];
-            motion.contacts().iter().map(|contact| peaks(&contact.peak_strain)).collect()
+            contacts.map(|c| peaks(&c.peak_strain)).collect()
         }
         "restitution" => {
-            let numbers = |contact| {
-                let (e, shares) = (restitution(motion, contact)?, energy_shares(motion, contact)?);
+            let of = |contact| {
+                let (e, shares) = (restitution(motion, &contact)?, energy_shares(motion, &contact)?);
                 Ok([e.momentum.ok(), e.energy_squared.ok(), shares.translational, shares.kept])
             };
-            motion.contacts().iter().map(numbers).collect::<Result<_, Error>>()?
+            contacts.map(of).collect::<Result<_, Error>>()?
         }
         "flights" => {
-            let flights = dalembert::quantity::flights(motion)?.into_iter();
-            let row = |flight: dalembert::Flight<N>| {
-                let (time, height) = flight.highest.unzip();
-                [Some(flight.from), flight.to, time, height]
-            };
-            flights.map(row).collect()
+            let flights = flights(motion)?.into_iter().map(|f| (f.from, f.to, f.highest.unzip()));
+            flights.map(|(from, to, (time, height))| [Some(from), to, time, height]).collect()
         }
-        _ => {
-            let numbers = |piece: dalembert::StressPiece<N>| [piece.from, piece.to, piece.left, piece.right];
-            motion.stress_pieces().into_iter().map(|piece| numbers(piece).map(Some)).collect()
-        }
+        _ => motion.stress_pieces().into_iter().map(|p| [p.from, p.to, p.left, p.right].map(Some)).collect(),
     })
 }

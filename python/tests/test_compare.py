@@ -76,6 +76,27 @@ def test_a_field_and_several_sources():
     assert dalembert.compare(ROD, runs, widths=[0.4, 0.1]).orders[0]["l2"] == pytest.approx(1, abs=1e-9)
 
 
+def test_limits_are_those_of_the_command(command, run, tmp_path):
+    path, _ = run
+    c = dalembert.compare(SCENE, path)
+    limits = {"u": {"l2": 0.001, "linf_off_jumps": 10}, "force": {"l1": 1e-6}}
+    asked = ",".join(f"{name}.{norm}={bound!r}" for name, norms in limits.items() for norm, bound in norms.items())
+    said = command("compare", SCENE, str(path), "--fail-above", asked).stderr
+    failures = c.fails_above(limits)
+    assert [f"failed: {line}" for line in failures] == said.splitlines() and len(failures) == 2
+    with pytest.raises(AssertionError, match="expected u.l2 ≤ 1e-3, found"):
+        c.assert_below(limits)
+    assert c.fails_above({"u": {"l2": 10}}) == [] and c.assert_below({}) is None
+    for limits, said in [
+        ({"w": {"l2": 1}}, "found --fail-above w, expected one of u_end"),
+        ({"u": {"l3": 1}}, "found `u.l3=1.0`, expected QUANTITY.NORM=BOUND"),
+        ({"u": {"l2": -1}}, "expected QUANTITY.NORM=BOUND"),
+        ({"u": {"l2": float("nan")}}, "expected QUANTITY.NORM=BOUND"),
+    ]:
+        with pytest.raises(ValueError, match=said):
+            c.fails_above(limits)
+
+
 def of(values, **options):
     return lambda: dalembert.compare(ROD, T, values, **{"quantity": "u", **options})
 

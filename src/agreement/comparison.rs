@@ -7,6 +7,7 @@ use crate::data::{DataError, Source};
 use crate::error::Error;
 use crate::number::Number;
 use crate::problem::{Parameters, Problem, Run};
+use crate::quantity::Units;
 use crate::reason::Warning;
 use crate::solve::{Numbers, Observer, Plan, Question, Solution};
 
@@ -73,7 +74,7 @@ impl Options {
         if self.t0.is_some() && self.dt.is_none() {
             return refuse("--t0 without --dt".into(), "both, or a column of times".into());
         }
-        let named = [("--dt", &self.dt), ("--window", &self.window)];
+        let named = [("--dt", &self.dt), ("--window", &self.window), ("--energy-scale", &self.energy_scale)];
         let lengths = named.into_iter().flat_map(|(name, number)| number.iter().map(move |number| (name, number)));
         for (name, number) in lengths.chain(self.widths.iter().map(|width| ("--widths", width))) {
             if number.to_f64() <= 0.0 {
@@ -97,11 +98,18 @@ impl Options {
         Settings { conventions, until, window: self.window.as_ref().map(Number::to_f64) }
     }
 
-    fn samples(&self, source: Source, length: f64) -> Result<Samples, CompareError> {
+    fn samples(&self, source: Source, length: f64, units: &Units) -> Result<Samples, CompareError> {
         let of = |number: &Option<Number>| number.as_ref().map_or(0.0, Number::to_f64);
         let counted = self.dt.is_some();
-        let map = Map::of(self.map.as_deref(), source.names(), source.width(), counted)
-            .map_err(|error| CompareError::Map { file: source.file().into(), error })?;
+        let map = Map::of(self.map.as_deref(), source.names(), source.width(), counted).and_then(|map| {
+            let by_name = self.map.is_none();
+            if by_name { map.check_units(source.names(), units) } else { Ok(()) }.map(|()| map)
+        });
+        let map = map.map_err(|error| match (error, source.misnamed()) {
+            (MapError::NoNames, Some(found)) => MapError::Names { found, expected: source.width() },
+            (error, _) => error,
+        });
+        let map = map.map_err(|error| CompareError::Map { file: source.file().into(), error })?;
         let clock = counted.then(|| Clock { start: of(&self.t0), step: of(&self.dt) });
         let columns = source.columns(&map.places(), map.side)?;
         Ok(Samples::of(columns, &map, clock, of(&self.shift), length)?)
@@ -140,19 +148,20 @@ pub struct ComparedFile {
 }
 
 impl Prepared {
-    /// Reads `sources`, which are to be compared with `problem`, solved in doubles to `accuracy`. It is followed as far
+    /// Reads `sources`, which are to be compared with `problem` in its `units`, solved in doubles to `accuracy`. It is followed as far
     /// as its own run and the data go.
     ///
     /// **Errors**: [`CompareError`].
     pub fn new(
         problem: &Problem,
+        units: &Units,
         accuracy: Option<f64>,
         sources: Vec<Source>,
         options: &Options,
     ) -> Result<Self, CompareError> {
         options.check(sources.len())?;
         let rod = Parameters::<f64>::of(problem, &())?;
-        let read = |source: Source| Ok((source.file().to_string(), options.samples(source, rod.length)?));
+        let read = |source: Source| Ok((source.file().to_string(), options.samples(source, rod.length, units)?));
         let data = sources.into_iter().map(read).collect::<Result<Vec<_>, CompareError>>()?;
         let last = data.iter().filter_map(|(_, samples)| samples.grid.times.last()).fold(0.0, |a: f64, b| a.max(*b));
         // A round trip more shows a contact that begins in the data a little too early.

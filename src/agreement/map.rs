@@ -56,9 +56,10 @@ impl What {
 
     /// The quantity of this name or alias; with points along the rod `u`, `v`, `strain` and `stress` are those there.
     pub(crate) fn named(name: &str, field: bool) -> Option<What> {
-        let column =
-            Column::named(name).or_else(|| ALIASES.iter().find(|alias| alias.0 == name).map(|alias| alias.1))?;
-        match (field, column) {
+        let column = |name: &str| {
+            Column::named(name).or_else(|| ALIASES.iter().find(|alias| alias.0 == name).map(|alias| alias.1))
+        };
+        match (field, column(name).or_else(|| column(&name.to_lowercase()))?) {
             (_, Column::Side | Column::Time) => None,
             (false, column) => Some(What::Column(column)),
             (true, Column::EndDisplacement) => Some(What::Field(Part::Displacement)),
@@ -77,6 +78,17 @@ impl What {
             What::Field(Part::Velocity) => units.name(Measure::Velocity),
             What::Field(Part::Strain) => units.name(Measure::Strain),
             What::Field(Part::Stress) => Column::Stress.unit(units),
+        }
+    }
+
+    /// What it measures.
+    fn measure(self) -> Option<Measure> {
+        match self {
+            What::Column(column) => column.measure(),
+            What::Field(Part::Displacement) => Some(Measure::Length),
+            What::Field(Part::Velocity) => Some(Measure::Velocity),
+            What::Field(Part::Strain) => Some(Measure::Strain),
+            What::Field(Part::Stress) => Some(Measure::Stress),
         }
     }
 
@@ -136,40 +148,56 @@ pub(crate) struct Map {
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[cfg_attr(feature = "cli", derive(miette::Diagnostic))]
 pub enum MapError {
-    #[error("found no quantity in the columns {found}, expected some of {}, or --map t=0,u=1,v=2,force=3", known())]
-    Nothing { found: String },
+    #[error("found no quantity in the columns {found}, expected some of {}, or --map t=0,u=1", known(*field))]
+    Nothing { found: String, field: bool },
     #[error("found no names of columns, expected --map t=0,u=1,v=2,force=3 with their numbers, counted from 0")]
     NoNames,
     #[error("found `{found}` in --map, expected NAME=COLUMN as in t=0,u=1,force=3")]
     Form { found: String },
-    #[error("found the name `{found}` in --map, expected t, x, side, or one of {}", known())]
-    Name { found: String },
-    #[error("found `{found}` in --map twice, expected each quantity once")]
+    #[error("found {found} names above rows of {expected} columns, expected as many, or --map t=0,u=1,v=2,force=3")]
+    Names { found: usize, expected: usize },
+    #[error("found the name `{found}` in --map, expected t, x, side, or one of {}", known(*field))]
+    Name { found: String, field: bool },
+    #[error("found `{found}` twice, expected each quantity once, as --map t=0,u=1 can say it")]
     Twice { found: String },
+    #[error("found the column `{found}`, expected it {expected} as in the scene; --map t=0,u=1 takes it as it is")]
+    Unit { found: String, expected: String },
     #[error("found column `{found}` in --map, expected {expected}")]
     Column { found: String, expected: String },
-    #[error("found no column of times, expected one called t, t=… in --map, or --dt")]
-    NoTime,
+    #[error("found no column of times{found}, expected one called t, t=… in --map, or --dt")]
+    NoTime { found: String },
     #[error("found --dt and a column of times, expected one of them")]
     TwoTimes,
 }
 
-fn known() -> String {
+fn known(field: bool) -> String {
+    if field {
+        return "u, v, strain, stress at the points x".into();
+    }
     let names = Column::ALL.into_iter().filter(|column| !matches!(column, Column::Time | Column::Side));
     format!("{} (u and v for short)", names.map(Column::name).collect::<Vec<_>>().join(", "))
 }
 
-/// Whether a name is that of the times, or of the points.
+/// Whether a name is that of the times, of the points, or of the sides.
 fn is_time(name: &str) -> bool {
-    matches!(name, "t" | "time" | "T" | "Time")
+    matches!(name.to_lowercase().as_str(), "t" | "time")
 }
 
 fn is_point(name: &str) -> bool {
-    matches!(name, "x" | "point" | "X")
+    matches!(name.to_lowercase().as_str(), "x" | "point")
 }
 
 fn is_side(name: &str) -> bool {
-    name == Column::Side.name()
+    name.to_lowercase() == Column::Side.name()
+}
+
+/// The name and the unit of `force [N]`, `t (s)`; `u[0]` is a name.
+fn name_and_unit(header: &str) -> (&str, Option<&str>) {
+    let bracketed = [('[', ']'), ('(', ')')].into_iter().find_map(|(open, close)| {
+        let (name, unit) = header.strip_suffix(close)?.rsplit_once(open)?;
+        Some((name.trim(), unit.trim())).filter(|(name, unit)| !name.is_empty() && unit.parse::<usize>().is_err())
+    });
+    bracketed.map_or((header, None), |(name, unit)| (name, Some(unit)))
 }
 
 impl Map {
@@ -180,31 +208,63 @@ impl Map {
     pub(crate) fn of(text: Option<&str>, names: &[String], width: usize, counted: bool) -> Result<Self, MapError> {
         let entries: Vec<(String, usize)> = match text {
             Some(text) => text.split(',').map(|entry| entry_of(entry, names, width)).collect::<Result<_, _>>()?,
-            None => names.iter().cloned().zip(0..).collect(),
+            None => names.iter().map(|name| name_and_unit(name).0.to_string()).zip(0..).collect(),
         };
-        let find = |is: fn(&str) -> bool| entries.iter().find(|(name, _)| is(name)).map(|(_, place)| *place);
-        let (time, point, side) = (find(is_time), find(is_point), find(is_side));
+        let find = |is: fn(&str) -> bool| {
+            let mut found = entries.iter().filter(|(name, _)| is(name));
+            match (found.next(), found.next()) {
+                (_, Some((name, _))) => Err(MapError::Twice { found: name.clone() }),
+                (first, None) => Ok(first.map(|(_, place)| *place)),
+            }
+        };
+        let (time, point, side) = (find(is_time)?, find(is_point)?, find(is_side)?);
+        let field = point.is_some();
         let mut map = Map { time, point, side, quantities: Vec::new() };
         let is_place = |name: &str| is_time(name) || is_point(name) || is_side(name);
         for (name, place) in entries.iter().filter(|(name, _)| !is_place(name)) {
-            match What::named(name, point.is_some()) {
+            match What::named(name, field) {
                 Some(what) if map.quantities.iter().any(|(other, _)| *other == what) => {
                     return Err(MapError::Twice { found: name.clone() });
                 }
                 Some(what) => map.quantities.push((what, *place)),
                 // Columns that nobody asked for may be anything.
                 None if text.is_none() => {}
-                None => return Err(MapError::Name { found: name.clone() }),
+                None => return Err(MapError::Name { found: name.clone(), field }),
             }
         }
         match (map.time, counted) {
             (Some(_), true) if text.is_some() => Err(MapError::TwoTimes),
             (None, false) if names.is_empty() && text.is_none() => Err(MapError::NoNames),
-            (None, false) => Err(MapError::NoTime),
+            (None, false) if names.is_empty() => Err(MapError::NoTime { found: String::new() }),
+            (None, false) => Err(MapError::NoTime { found: format!(" in {}", names.join(", ")) }),
             _ if map.quantities.is_empty() && names.is_empty() => Err(MapError::NoNames),
-            _ if map.quantities.is_empty() => Err(MapError::Nothing { found: names.join(", ") }),
+            _ if map.quantities.is_empty() => Err(MapError::Nothing { found: names.join(", "), field }),
             (time, counted) => Ok(Map { time: time.filter(|_| !counted), ..map }),
         }
+    }
+
+    /// Refuses a header whose unit is not that of the scene.
+    ///
+    /// **Errors**: [`MapError::Unit`].
+    pub(crate) fn check_units(&self, names: &[String], units: &Units) -> Result<(), MapError> {
+        let plain = |unit: &str| unit.replace([' ', '·', '*', '.'], "");
+        let times = self.time.map(|place| (place, Some(Measure::Time), units.name(Measure::Time)));
+        let points = self.point.map(|place| (place, Some(Measure::Length), units.name(Measure::Length)));
+        let quantities = self.quantities.iter().map(|(what, place)| (*place, what.measure(), what.unit(units)));
+        for (place, measure, expected) in times.into_iter().chain(points).chain(quantities) {
+            let Some((header, Some(unit))) = names.get(place).map(|header| (header, name_and_unit(header).1)) else {
+                continue;
+            };
+            let (met, expected) = match measure {
+                Some(Measure::Strain) => (matches!(unit, "-" | "–" | "1" | "m/m"), "without a unit".to_string()),
+                _ if expected.starts_with("per") => (plain(unit) == plain(expected), expected.to_string()),
+                _ => (expected.is_empty() || plain(unit) == plain(expected), format!("in {expected}")),
+            };
+            if !met {
+                return Err(MapError::Unit { found: header.clone(), expected });
+            }
+        }
+        Ok(())
     }
 
     /// The places that are read: times, points, sides, quantities.
@@ -217,12 +277,13 @@ impl Map {
 fn entry_of(entry: &str, names: &[String], width: usize) -> Result<(String, usize), MapError> {
     let (name, column) = entry.split_once('=').ok_or_else(|| MapError::Form { found: entry.trim().into() })?;
     let (name, column) = (name.trim(), column.trim());
-    let place = names.iter().position(|known| known == column).or_else(|| column.parse().ok());
+    let named = |known: &String| known == column || name_and_unit(known).0 == column;
+    let place = names.iter().position(named).or_else(|| column.parse().ok());
     match place.filter(|place| *place < width) {
         Some(place) => Ok((name.into(), place)),
         None => {
             let known = if names.is_empty() { String::new() } else { format!(" or one of {}", names.join(", ")) };
-            Err(MapError::Column { found: column.into(), expected: format!("0 to {}{known}", width - 1) })
+            Err(MapError::Column { found: column.into(), expected: format!("0 to {}{known}", width.saturating_sub(1)) })
         }
     }
 }
@@ -253,12 +314,14 @@ mod tests {
     fn what_is_refused() {
         let of = |text: Option<&str>, header: &str, counted| Map::of(text, &names(header), 3, counted).unwrap_err();
         assert_eq!(of(None, "", false), MapError::NoNames);
-        assert_eq!(of(Some("u=1"), "", false), MapError::NoTime);
+        assert_eq!(of(Some("u=1"), "", false), MapError::NoTime { found: String::new() });
         assert_eq!(of(Some("t=0,u=1"), "", true), MapError::TwoTimes);
         assert_eq!(of(Some("t=0,u"), "", false), MapError::Form { found: "u".into() });
-        assert_eq!(of(Some("t=0,w=1"), "", false), MapError::Name { found: "w".into() });
+        assert_eq!(of(Some("t=0,w=1"), "", false), MapError::Name { found: "w".into(), field: false });
         assert_eq!(of(Some("t=0,u=1,u_end=2"), "", false), MapError::Twice { found: "u_end".into() });
         assert_eq!(of(Some("t=0,u=3"), "", false), MapError::Column { found: "3".into(), expected: "0 to 2".into() });
-        assert_eq!(of(None, "t a b", false), MapError::Nothing { found: "t, a, b".into() });
+        assert_eq!(of(None, "t a b", false), MapError::Nothing { found: "t, a, b".into(), field: false });
+        assert_eq!(of(None, "t x force", false), MapError::Nothing { found: "t, x, force".into(), field: true });
+        assert_eq!(of(None, "t time u", false), MapError::Twice { found: "time".into() });
     }
 }

@@ -113,6 +113,11 @@ impl Agreement {
             }
             compared.push(Compared { what, ours: values, theirs, norms });
         }
+        // Half a step is one where steps are alike.
+        let steps = grid.times.windows(2).map(|pair| pair[1] - pair[0]).filter(|way| *way > 0.0);
+        let (alike, all) = steps
+            .fold((0, 0), |(alike, all), way| (alike + usize::from((step / 2.0..=2.0 * step).contains(&way)), all + 1));
+        let even = 10 * alike >= 9 * all;
         for (of, rate) in [
             (Column::EndDisplacement, Column::EndVelocity),
             (Column::TopDisplacement, Column::TopVelocity),
@@ -122,7 +127,7 @@ impl Agreement {
                 let found = compared.iter().find(|compared: &&Compared| compared.what == What::Column(column))?;
                 Some(found.theirs.as_slice())
             };
-            let Some((u, velocity)) = theirs(of).zip(theirs(rate)) else { continue };
+            let Some((u, velocity)) = theirs(of).zip(theirs(rate)).filter(|_| even) else { continue };
             let passing = ours.passing(Place::of(What::Column(of)), &grid);
             let away = |k: usize| (passing[k] - grid.times[k]).abs() > window.max(narrow);
             let finding = measures.of_rate(of.name(), [u, velocity], away);
@@ -199,7 +204,7 @@ impl Agreement {
             not_covered: books.not_covered(until.unwrap_or(last)),
             ..books.audit()
         };
-        let mut hints = of_contacts(&contacts, self.step);
+        let mut hints = of_contacts(&contacts, times, self.step);
         hints.append(&mut self.hints);
         self.hints = gathered(hints);
         self.contacts = contacts;

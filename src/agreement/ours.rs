@@ -6,7 +6,7 @@ use super::samples::Rounding;
 use crate::error::Error;
 use crate::history::History;
 use crate::motion::{Field, Side, StressPiece};
-use crate::problem::{Material, Parameters, Problem, Start};
+use crate::problem::{Material, Parameters, Problem, Start, Top};
 use crate::quantity::{Column, Grid, Measure, Moments, Touch};
 use crate::special::gauss_legendre;
 
@@ -19,6 +19,8 @@ pub(super) struct Ours<'a> {
     pieces: Vec<StressPiece<f64>>,
     /// Times at which `v_t(0,·)` or `v_x(0,·)` jumps, ascending.
     jumps: Vec<f64>,
+    /// Times at which contact begins or ends, and the start.
+    switches: Vec<f64>,
     /// Times at which rays leave the ground: the jumps, and for a start that is not uniform rays that have not been
     /// there yet.
     leaves: Vec<f64>,
@@ -28,6 +30,8 @@ pub(super) struct Ours<'a> {
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Place {
     Ground,
+    /// The ground, as a switch: contact begins and ends without a jump of the stress too.
+    Switch,
     Top,
     /// The points of the samples.
     Point,
@@ -38,6 +42,7 @@ impl Place {
         match what {
             What::Field(_) => Place::Point,
             What::Column(Column::TopDisplacement | Column::TopVelocity) => Place::Top,
+            What::Column(Column::Contact) => Place::Switch,
             What::Column(_) => Place::Ground,
         }
     }
@@ -65,11 +70,17 @@ impl<'a> Ours<'a> {
         found.extend(history.events().iter().map(|event| event.time));
         found.extend(pieces.windows(2).filter(|pair| pair[0].right != pair[1].left).map(|pair| pair[1].from));
         let mut brought = Vec::new();
-        if let Start::Profile(profile) = &problem.start {
-            let edges = profile.displacement.iter().chain(&profile.velocity).map(|(x, _)| x.to_f64());
-            let arrivals = edges.chain([0.0, rod.length]).map(|x| x / rod.wave_speed);
-            brought.extend(arrivals.flat_map(|arrival| [arrival, trip - arrival]));
-        }
+        // What holds the top stops it at t = 0.
+        let held = (problem.rod.top == Top::Fixed).then_some(rod.length);
+        let edges: Vec<f64> = match &problem.start {
+            Start::Profile(profile) => {
+                let corners = profile.displacement.iter().chain(&profile.velocity).map(|(x, _)| x.to_f64());
+                corners.chain([0.0, rod.length]).collect()
+            }
+            Start::Uniform(_) | Start::Above { .. } => held.into_iter().collect(),
+        };
+        let arrivals = edges.into_iter().map(|x| x / rod.wave_speed);
+        brought.extend(arrivals.flat_map(|arrival| [arrival, trip - arrival]));
         found.extend(&brought);
         let candidates = repeated(found, trip, end);
         let seen = [Column::EndVelocity, Column::Strain];
@@ -83,7 +94,9 @@ impl<'a> Ours<'a> {
         let jumps: Vec<f64> = candidates.iter().enumerate().filter(|(k, _)| differ(*k)).map(|(_, at)| *at).collect();
         let mut leaves: Vec<f64> = brought.iter().map(|arrival| arrival - trip).chain(jumps.iter().copied()).collect();
         leaves.sort_by(f64::total_cmp);
-        Ok(Ours { history, rod, material, pieces, jumps, leaves })
+        let events = history.events().iter().map(|event| event.time);
+        let switches = std::iter::once(0.0).chain(events).collect();
+        Ok(Ours { history, rod, material, pieces, jumps, switches, leaves })
     }
 
     /// `ρS`, or 1 where forces are per `ρS`.
@@ -200,6 +213,7 @@ impl<'a> Ours<'a> {
         let at = |(k, time): (usize, &f64)| match (place, &grid.points) {
             (Place::Point, Some(points)) => up_and_down(points[k] / self.rod.wave_speed, *time),
             (Place::Top, _) => up_and_down(trip / 2.0, *time),
+            (Place::Switch, _) => nearest(&self.switches, *time),
             _ => nearest(&self.jumps, *time),
         };
         grid.times.iter().enumerate().map(at).collect()

@@ -76,6 +76,9 @@ impl Samples {
         length: f64,
     ) -> Result<Self, DataError> {
         let rows = columns.rows();
+        if rows == 0 {
+            return Err(columns.whole(DataErrorKind::Empty));
+        }
         let place = |k: usize| map.places().get(k).copied().unwrap_or(0);
         let at_points = map.point.is_some();
         let mut at = 0;
@@ -125,6 +128,9 @@ impl Samples {
         let last = times.last().copied().unwrap_or(0.0);
         if last <= 0.0 {
             return Err(columns.whole(DataErrorKind::NoOverlap { last }));
+        }
+        if !at_points && times[from] == last {
+            return Err(columns.whole(DataErrorKind::OneTime(last)));
         }
         let cut = |mut values: Vec<f64>| values.split_off(from);
         let first = side_at + usize::from(map.side.is_some());

@@ -7,6 +7,7 @@
 //! the centre owe to each source of error.
 
 use super::dependence::{Dependence, Form};
+use super::follow::LEAST_LEAP;
 use crate::motion::Uncertainty;
 use crate::special::{phi1, phi2};
 
@@ -46,9 +47,9 @@ pub(super) struct Budget {
     even: f64,
     /// What events that are off in time do, to first order.
     events: Dependence,
-    vibration: Vibration,
-    /// Of `v(0,·)` in flight by the vibration, now and at the beginning.
-    swing: f64,
+    rest: Rest,
+    /// `even`, and the rest, when the flight began.
+    began: (f64, Rest),
     flight: TakeOff,
     landing: Option<Landing>,
     /// The most that was off since the last event.
@@ -56,15 +57,20 @@ pub(super) struct Budget {
     fixed: Fixed,
 }
 
-/// What events that are off in time make of the vibration besides stripes, in its own clock.
+/// What events that are off in time make besides what is followed: a motion of its own, its mean included. Neither norm
+/// of it grows, in flight or in contact.
 #[derive(Clone, Copy, Debug, Default)]
-struct Vibration {
-    /// The range of `∫δq` along a characteristic: twice the error of displacements.
+struct Rest {
+    /// `∫|δq|` along a characteristic.
     wave: f64,
     /// Of `p` and `q` between rays.
     point: f64,
     /// Of `p` and `q`, by what damping scatters from displaced rays.
     scatter: f64,
+    /// The part of `wave` that is stripes whose places are given up.
+    lumps: f64,
+    /// `|δh′|` at a take-off by what `wave` bounds.
+    mean: f64,
 }
 
 /// How a contact ends and a flight begins.
@@ -102,8 +108,9 @@ pub(super) struct Landing {
     pub(super) age: f64,
     pub(super) rate: f64,
     pub(super) fall: f64,
-    /// The range of `q` of the vibration, and its greatest slope between rays.
+    /// The range of `q` of the vibration, its total variation, and its greatest slope between rays.
     pub(super) range: f64,
+    pub(super) variation: f64,
     pub(super) slope: f64,
     /// By how much `∫y` of a contact of one round trip changes with the phase of the vibration, and how far that may be
     /// off.
@@ -148,10 +155,10 @@ impl Budget {
 
     /// The error of `p` and `q`, but next to rays that are off; in contact at equal times since the landing.
     pub(super) fn point(&self) -> Off {
-        let Vibration { wave, point, scatter } = self.vibration;
+        let Rest { wave, point, scatter, lumps, .. } = self.rest;
         let displaced = self.landing.map_or(0.0, |landing| landing.slope * self.events.late());
         let scatter = scatter.min(2.0 * (wave + self.events.mass())) + self.events.level();
-        Off { fixed: self.fixed.point, apart: self.even + point + scatter + displaced + self.events.rate() }
+        Off { fixed: self.fixed.point, apart: self.even + point + lumps + scatter + displaced + self.events.rate() }
     }
 
     /// By how much the clock may be late: in contact that of the landing, in flight that of the vibration.
@@ -180,16 +187,29 @@ impl Budget {
         let TakeOff { at: from, end_rate, .. } = self.flight;
         let fade = (-damping * age).exp();
         let (form, unclear) = self.events.height((-(end_rate + rate), slowed), (from, at), fade, near);
-        let scattered = self.scattered(damping, age);
-        (form, self.swing + 0.5 * damping.exp() * self.even + unclear + scattered)
+        (form, self.not_followed(damping, age) + unclear + self.scattered(damping, age))
     }
 
-    /// What damping makes of the displacements of stripes at this age, besides letting them fade: no more than they
-    /// are.
+    /// What is not followed adds to `v(0,·)` at this age: by its centre of mass and its vibration, or, in a flight that
+    /// is not leapt over, by what passes the end in each round trip.
+    fn not_followed(&self, damping: f64, age: f64) -> f64 {
+        let ((even, Rest { wave, mean, .. }), grown) = (self.began, damping.exp());
+        let (_, slowed) = aged(damping, age);
+        let apart = slowed * (grown * even + mean) + grown * (1.0 + grown) * wave + 0.5 * grown * even;
+        let left = 1.0 - 0.5 * damping;
+        let passed = if age < LEAST_LEAP && left > 0.0 {
+            grown * (even * age + wave * age.ceil() / left)
+        } else {
+            f64::INFINITY
+        };
+        apart.min(passed) + 0.5 * grown * self.even
+    }
+
+    /// What damping makes of stripes at this age, besides letting them fade: no more than they are.
     fn scattered(&self, damping: f64, age: f64) -> f64 {
         let left = (damping * (6.0 - 0.75 * age)).exp() + (-damping * age).exp();
-        let turned = (damping * damping * age / 8.0).exp_m1() * (2.0 * damping).exp();
-        self.events.mass() * left.min(2.0 * damping + turned)
+        let turned = (0.5 * damping * damping * age).exp_m1() * (2.0 * damping).exp();
+        self.events.mass() * left.min(2.0 * damping + turned).min(2.0 * damping * age)
     }
 
     /// What has been off since this was last asked, of a run whose flights are taken apart or are not.
@@ -222,7 +242,7 @@ impl Budget {
             self.fixed.height += self.fixed.point * len;
         }
         self.even += 2.0 * cell;
-        self.vibration.scatter += 2.0 * damping * len * (self.vibration.wave + self.events.mass());
+        self.rest.scatter += 2.0 * damping * len * (self.rest.wave + self.events.mass());
         self.fixed.point += 2.0 * cell;
         // A jump of p fades along its ray like p_η = −κp, and η = 2t there.
         self.fixed.rays *= (-damping * len).exp();
@@ -231,7 +251,7 @@ impl Budget {
 
     /// The end has flown so far, with this error; any other point swings about the centre of mass as well.
     pub(super) fn note_end(&mut self, off: Off) {
-        self.worst.rise = self.worst.rise.max(off.apart + self.swing + 2.0 * self.events.mass());
+        self.worst.rise = self.worst.rise.max(off.apart + self.rest.wave + 2.0 * self.events.mass());
     }
 
     /// Velocities change no faster than this between rays, since the last event.
@@ -247,10 +267,17 @@ impl Budget {
     /// A leap, with this error of its own: what vibrates fades. `passing` is `Σ |jump| · time` of all rays, each time
     /// that they pass.
     pub(super) fn leap(&mut self, damping: f64, trips: f64, error: f64, passing: f64) {
-        let fade = (damping * (6.0 - 0.75 * trips)).exp().min(1.0);
+        // The centre of mass fades by e^{−2R} in each round trip, and is at most e^R of all.
+        let fade = ((2.0 + damping.exp()) * (damping * (6.0 - 0.75 * trips)).exp()).min(1.0);
         self.even = self.even * fade + error;
-        let Vibration { wave, point, scatter } = self.vibration;
-        self.vibration = Vibration { wave: wave * fade, point: point * fade, scatter: scatter * fade };
+        let Rest { wave, point, scatter, lumps, mean } = self.rest;
+        self.rest = Rest {
+            wave: wave * fade,
+            point: point * fade,
+            scatter: scatter * fade,
+            lumps: lumps * fade,
+            mean: mean * fade,
+        };
         self.fixed.height += trips * (self.fixed.point + error + passing);
         self.fixed.point += error;
         self.fixed.rays *= (-damping * trips).exp();
@@ -283,36 +310,43 @@ impl Budget {
         let r = damping;
         self.even += rounding;
         self.fixed.point += rounding;
-        let kept = ((-0.5 * r).exp() * (1.0 + r * r * (r * r).exp())).max(1.0);
-        let rest = match self.landing.take() {
-            Some(landing) if flight.whole => self.after_round_trip(r, kept, &landing, &flight),
-            Some(landing) => self.after_contact(r, kept, &landing, &flight),
+        let more = match self.landing.take() {
+            Some(landing) if flight.whole => self.after_round_trip(r, &landing, &flight),
+            Some(landing) => {
+                self.after_contact(r, &landing, &flight);
+                0.0
+            }
             None => {
                 self.events.add_late(flight.off);
                 self.events.start_stripe(flight.at, flight.jump.1);
                 4.0 * r.exp() * self.events.mass()
             }
         };
-        self.events.add_rate(rest + 2.0 * r.exp() * (1.0 + r) * self.even);
+        self.events.add_rate(more);
         let (mass, level) = self.events.thin();
-        self.vibration.wave += mass;
-        self.vibration.point += level;
-        self.swing = (4.0 * r).exp() * self.vibration.wave;
+        self.rest.wave += 2.0 * mass;
+        self.rest.lumps += mass;
+        self.rest.point += level;
+        self.began = (self.even, self.rest);
         self.flight = flight;
         self.note();
     }
 
     /// After a contact of one round trip, which the true motion makes as well: without damping and gravity it turns the
-    /// vibration round whenever it begins. What is not followed of `δh′`.
-    fn after_round_trip(&mut self, r: f64, kept: f64, landing: &Landing, flight: &TakeOff) -> f64 {
+    /// vibration round whenever it begins. What is not followed of `δh′` as it was.
+    fn after_round_trip(&mut self, r: f64, landing: &Landing, flight: &TakeOff) -> f64 {
         let kappa = 0.5 * r;
         let (late, rate, mass) = (self.events.late(), self.events.rate(), self.events.mass());
         // The ray of the landing comes back to the release with e^{−R} of its mass, and what it has lost is scattered.
-        let scattered = 2.0 * r * (landing.velocity.abs() * late + mass);
+        let scattered = r * (2.0 * landing.velocity.abs() * late + mass);
         let rigid = (5.0 * r).min(2.0) * rate;
-        let before = self.vibration.wave;
-        self.vibration.wave = kept * before + 2.0 * scattered + rigid;
-        self.vibration.point += 2.0 * scattered + rigid;
+        let new = scattered + rigid;
+        // All of the rest turns round, and next to nothing of what has no mean becomes one.
+        let weights = (-r).exp_m1().abs() + weight_slope(kappa);
+        let grown = (weights + 2.0 * r * r.exp()) * 2.0 * self.rest.wave;
+        self.rest.mean = (self.rest.mean + grown).min(r.exp() * self.rest.wave);
+        self.rest.wave += new;
+        self.rest.point += new + scattered;
         // h′ + 2Rh changes by −2∫y, and h = −z(0,·) at both ends of the contact.
         let (phase, phase_rest) = landing.phase;
         let heights = 2.0 * r * (flight.end_rate - (landing.velocity - landing.rate));
@@ -324,32 +358,27 @@ impl Budget {
         };
         self.events.round_trip((keeps, heights - 2.0 * phase), (-r).exp(), by_mass);
         self.events.start_stripe(flight.at, flight.jump.1);
-        let weights = (-r).exp_m1().abs() + weight_slope(kappa);
-        2.0 * weights * before
-            + 2.0 * r * r.exp() * (before + self.vibration.wave + 2.0 * mass)
+        2.0 * r * r.exp() * (new + 2.0 * mass)
             + 2.0 * phase_rest * late
             + weight_rest(kappa) * rate
             + 2.0 * (weight_rest(kappa) + r * r) * r.exp() * mass
     }
 
-    /// After any other contact: what passes turns round; of what is not followed, two parts of the range are mixed.
-    /// What is not followed of `δh′`.
-    fn after_contact(&mut self, r: f64, kept: f64, landing: &Landing, flight: &TakeOff) -> f64 {
+    /// After any other contact: what passes turns round.
+    fn after_contact(&mut self, r: f64, landing: &Landing, flight: &TakeOff) {
         let time = self.events.time();
-        let Vibration { wave: before, point, scatter } = self.vibration;
-        let fade = (-r * flight.len).exp();
+        let (fade, faded) = ((-r * flight.len).exp(), r * flight.len);
         self.events.contact((landing.at, flight.len), (landing.velocity, landing.fall), fade);
-        let mass = self.events.mass();
-        // A path crosses each ray twice in a round trip, and each time a part κ of its mass is scattered; what is
-        // between rays changes by 2κ of it on each of the two ways.
-        let scattered = (flight.len + 1.0) * r * (mass + self.events.level()) + r.exp_m1() * mass;
-        let unknown = flight.slope.map_or(0.0, |slope| (self.even + point + scatter + scattered) / slope.abs());
+        let (mass, level) = (self.events.mass(), self.events.level());
+        // A path crosses a ray twice in a round trip, each time at the cost of κ of its mass.
+        let most = (faded + r) * mass + faded * level;
+        let Rest { point, scatter, .. } = self.rest;
+        let unknown = flight.slope.map_or(0.0, |slope| (self.even + point + scatter + most) / slope.abs());
         let limits = (unknown + flight.rounding, flight.off + time);
         self.events.release((flight.at, flight.fall), flight.jump, flight.slope, limits);
-        let rest = 2.0 * r.exp() * before + scattered;
-        self.vibration.wave = 3.0 * kept * before + 2.0 * scattered;
-        self.vibration.point += 2.0 * scattered + rest;
-        rest + 2.0 * r * r.exp() * (before + self.vibration.wave)
+        self.rest.wave += faded / fade * (mass + level);
+        self.rest.mean = r.exp() * self.rest.wave;
+        self.rest.point += most / fade;
     }
 
     /// The landing of a flight that is taken apart. From here on times count from it.
@@ -371,11 +400,12 @@ impl Budget {
             off.apart + clock
         };
         self.events.land((late, others), (kept, fall), fade);
-        self.vibration.wave += scattered;
+        self.rest.wave += scattered;
+        self.rest.point += scattered;
         // A vibration that has died out takes its clock from what the landing makes.
         if range <= damping * speed {
-            self.vibration.wave += range * self.events.late();
-            self.vibration.point += landing.slope * self.events.late();
+            self.rest.wave += landing.variation * self.events.late();
+            self.rest.point += landing.slope * self.events.late();
             self.events.reset_clock();
         }
         self.landing = Some(landing);
@@ -395,7 +425,7 @@ impl Budget {
     /// Keeps the greatest.
     fn note(&mut self) {
         // ½e^R of an error of `p` and `q` is the most that displacements about the centre of mass are off by.
-        let rise = self.swing + self.vibration.wave + self.events.mass() + 4.0 * self.even;
+        let rise = 2.0 * self.rest.wave + self.events.mass() + 4.0 * self.even;
         let (speed, late) = (self.point().apart, self.events.time());
         self.worst = self.worst.max(Uncertainty { rise, speed, late, ..Uncertainty::default() });
         self.fixed.worst = self.fixed.worst.max(self.fixed.point).max(self.fixed.height);

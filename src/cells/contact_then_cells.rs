@@ -2,6 +2,7 @@
 
 use std::ops::ControlFlow;
 
+use super::follow::Effort;
 use super::history::Damped;
 use super::piece::Unresolved;
 use super::with_bounds::{Bounding, Pair};
@@ -38,7 +39,7 @@ pub struct ContactThenCells<S> {
     error: S,
     /// The same of the first contact.
     before: f64,
-    digits: f64,
+    effort: Effort,
 }
 
 /// How far a history is to go.
@@ -69,14 +70,14 @@ impl<S: RoundedSpecial> ContactThenCells<S> {
         bounce: Bounce<Estimate<S>>,
         reach: Reach,
     ) -> Result<Self, Error> {
-        Self::solve_observed(problem, precision, digits, (bounce, reach), &unobserved)
+        Self::solve_observed(problem, precision, Effort::of(digits), (bounce, reach), &unobserved)
     }
 
     /// [`Self::solve`], observed.
     pub(crate) fn solve_observed(
         problem: &Problem,
         precision: &S::Precision,
-        digits: f64,
+        effort: Effort,
         (bounce, reach): (Bounce<Estimate<S>>, Reach),
         observe: &dyn Fn(usize, usize) -> ControlFlow<()>,
     ) -> Result<Self, Error> {
@@ -103,7 +104,7 @@ impl<S: RoundedSpecial> ContactThenCells<S> {
             bounce,
             contact,
             rod,
-            digits,
+            effort,
         };
         history.follow(problem, precision, reach, observe)?;
         Ok(history)
@@ -118,14 +119,14 @@ impl<S: RoundedSpecial> ContactThenCells<S> {
         observe: &dyn Fn(usize, usize) -> ControlFlow<()>,
     ) -> Result<(), Error> {
         let (Some(bounce), Reach::Run) = (self.bounce.clone(), reach) else { return Ok(()) };
-        if self.digits > MOST_MARCHED {
+        if self.effort.digits > MOST_MARCHED {
             self.ending = Ending::Undecided(Reason::MostDigits(MOST_MARCHED as u32));
             return Ok(());
         }
         let release = (&bounce, self.events[1].time_error, &self.events[1].end_velocity);
         // The cells account for the roundings of the parameters themselves.
         let form = FirstContact::new(&self.rod.carry());
-        let march = Damped::after_bounce(problem, precision, self.digits, &form, release, observe)?;
+        let march = Damped::after_bounce(problem, precision, self.effort, &form, release, observe)?;
         self.events.extend(march.events().iter().skip(1).cloned());
         self.contacts.extend(march.contacts().iter().cloned());
         let error = march.error_estimate();
@@ -333,8 +334,14 @@ mod tests {
                 let first = straight.events()[1].clone();
                 let release = (first.time + displaced, f64::abs(displaced) + first.time_error, first.end_velocity);
                 let form = straight.contact.form();
-                let off =
-                    Damped::after_bounce(&problem, &(), 13.0, form, (&release.0, release.1, &release.2), &unobserved)?;
+                let off = Damped::after_bounce(
+                    &problem,
+                    &(),
+                    Effort::of(13.0),
+                    form,
+                    (&release.0, release.1, &release.2),
+                    &unobserved,
+                )?;
                 Ok((straight, off))
             };
             let (straight, off) = solve().unwrap_or_else(|error| unreachable!("{error}"));

@@ -119,7 +119,7 @@ impl<S: RoundedSpecial> Follower<'_, S> {
         let damping = self.damping();
         self.budget.hit(damping, speed, off);
         let (Some(flight), Some((_, rate))) = (self.flying().cloned(), self.centre()) else { return };
-        let (slope, range) = self.medium.variation(&self.state);
+        let (slope, range, variation) = self.medium.variation(&self.state);
         let (phase, sup) = (self.medium.phase(&self.state), self.state.bound());
         let age = flight.age((self.state.round, &self.state.segments[0].at)).to_f64();
         let fall = -self.medium.gravity.to_f64() - 2.0 * damping * rate.to_f64();
@@ -132,6 +132,7 @@ impl<S: RoundedSpecial> Follower<'_, S> {
             age,
             fall,
             range,
+            variation,
             slope,
             phase: (phase, weight_rest(0.5 * damping) * sup),
         };

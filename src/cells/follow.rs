@@ -16,7 +16,7 @@ use super::series::{at_one, at_zero, bound, derivative, evaluate};
 use super::start::Data;
 use crate::error::Error;
 use crate::motion::{Ending, EventKind, Uncertainty};
-use crate::reason::Warning;
+use crate::reason::{Reason, Warning};
 use crate::special::RoundedSpecial;
 
 /// How far to go.
@@ -26,6 +26,24 @@ pub(super) enum Goal<S> {
     Impacts(u32),
     /// Up to this time, dimensionless.
     Time(S),
+}
+
+/// How much is computed of a run at most.
+#[derive(Clone, Copy, Debug)]
+pub struct Effort {
+    /// Decimal digits of the natural scales that cells are marched to.
+    pub digits: f64,
+    /// Cells that are crossed.
+    pub cells: u64,
+    /// Whether a run that has lost its events is worth nothing.
+    pub until_lost: bool,
+}
+
+impl Effort {
+    /// So many digits, however many cells they take.
+    pub fn of(digits: f64) -> Self {
+        Effort { digits, cells: u64::MAX, until_lost: false }
+    }
 }
 
 /// The rod at the ground, on its way.
@@ -60,6 +78,8 @@ pub(super) struct Follower<'a, S> {
     /// States at the beginning of each round trip and on both sides of a leap.
     pub(super) checkpoints: Vec<Checkpoint<S>>,
     pub(super) warnings: Vec<Warning>,
+    /// Cells that have been crossed.
+    crossed: u64,
     /// Error of `p`, `q` made in one cell.
     pub(super) cell_error: f64,
     pub(super) budget: Budget,
@@ -74,7 +94,7 @@ const MOST_PIECES: usize = 400_000;
 /// The most segments of a round trip.
 const MOST_SEGMENTS: usize = 4096;
 /// The fewest round trips that are leapt over: a leap costs about as much as two of them.
-const LEAST_LEAP: f64 = 3.0;
+pub(super) const LEAST_LEAP: f64 = 3.0;
 /// The roundings of a leap, of a separation and of a joining, each of the greatest `|q|`: every coefficient is a sum of
 /// some dozen terms, none greater than it.
 pub(super) const LEAP_ROUNDINGS: f64 = 64.0;
@@ -144,6 +164,7 @@ impl<'a, S: RoundedSpecial> Follower<'a, S> {
             marks: Vec::new(),
             checkpoints: Vec::new(),
             warnings: Vec::new(),
+            crossed: 0,
             cell_error: 0.0,
             budget: Budget::default(),
             last_trace: None,
@@ -247,6 +268,7 @@ impl<'a, S: RoundedSpecial> Follower<'a, S> {
     pub(super) fn run(
         &mut self,
         goal: &Goal<S>,
+        effort: Effort,
         observe: &dyn Fn(usize, usize) -> ControlFlow<()>,
     ) -> Result<Ending, Error> {
         let unit = self.height.log2_roundoff().exp2();
@@ -256,13 +278,11 @@ impl<'a, S: RoundedSpecial> Follower<'a, S> {
         let mut fresh = true;
         loop {
             let (pieces, segments) = (self.pieces.len(), self.state.segments.len());
-            if pieces >= MOST_PIECES || segments > MOST_SEGMENTS {
-                let time = (self.state.time() * &self.data.units.time).to_f64();
-                return Err(if pieces >= MOST_PIECES {
-                    Error::TooManyPieces { limit: MOST_PIECES, time }
-                } else {
-                    Error::TooManyRays { limit: MOST_SEGMENTS, time }
-                });
+            if pieces >= MOST_PIECES || segments > MOST_SEGMENTS || self.crossed > effort.cells {
+                return Ok(Ending::Undecided(Reason::Effort { cells: self.crossed, rays: segments }));
+            }
+            if self.lost && effort.until_lost {
+                return Err(Error::not_decided("in which order the events come", self.height.bits()));
             }
             if self.state.round > round {
                 round = self.state.round;
@@ -300,7 +320,10 @@ impl<'a, S: RoundedSpecial> Follower<'a, S> {
                 continue;
             }
             let (trace, height) = self.over(&len);
-            self.pass_ray(&trace, ray);
+            // At a release the end starts with the ray that lets it go: the height counts that already.
+            if !fresh {
+                self.pass_ray(&trace, ray);
+            }
             let grounded = !self.contact && self.height.to_f64() <= self.height_noise(0.0);
             if !fresh && grounded && !self.rises() {
                 if self.land_at_ray(goal, ray, &trace, &height, &len) {
@@ -542,6 +565,7 @@ impl<'a, S: RoundedSpecial> Follower<'a, S> {
             self.height = at_one(&height, &zero);
         }
         self.last_trace = Some(at_one(&trace, &zero));
+        self.crossed += self.state.segments.len() as u64 + 2;
         self.medium.strip(&mut self.state, self.contact, &mut |_| {});
         if let Some((centre, _)) = self.centre() {
             self.ground = self.height.clone() - centre;

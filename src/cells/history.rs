@@ -4,13 +4,14 @@ use std::ops::ControlFlow;
 
 use super::bounce::Held;
 use super::flight::Flight;
-use super::follow::{Follower, Goal};
+use super::follow::{Effort, Follower, Goal};
 use super::march::Medium;
 use super::piece::{Checkpoint, Mark, Piece, Unresolved};
 use super::record::{Node, Record};
 use super::root::smallest;
 use super::series::{at_one, at_zero, evaluate};
 use super::start::{Data, Units, medium};
+use super::strips::Pool;
 use super::with_bounds::Bounding;
 use crate::error::Error;
 use crate::first_contact::FirstContact;
@@ -60,6 +61,8 @@ pub struct Damped<S> {
     uncertain: Vec<Uncertainty>,
     warnings: Vec<Warning>,
     unresolved: Option<Unresolved<S>>,
+    /// Cells that were asked about lately.
+    pool: Pool<S>,
 }
 
 /// What a run has found.
@@ -105,24 +108,25 @@ impl<S: RoundedSpecial> Damped<S> {
     /// below [`Motion::error_estimate`], by a bound that it can never pass again; [`Motion::ending`] then says from
     /// when.
     ///
-    /// **Errors**: [`Error::DampingTooStrong`] for `r t₁ > 2000`; [`Error::TooManyPieces`] beyond 400 000 strips;
-    /// [`Error::TooManyRays`] beyond 4096 segments in a round trip; [`Error::Irrational`] from the parameters.
+    /// The history ends before that, and says so, beyond 400 000 strips and 4096 segments in a round trip.
+    ///
+    /// **Errors**: [`Error::DampingTooStrong`] for `r t₁ > 2000`; [`Error::Irrational`] from the parameters.
     pub fn solve(problem: &Problem, precision: &S::Precision, digits: f64) -> Result<Self, Error> {
-        Self::solve_observed(problem, precision, digits, 1, &unobserved)
+        Self::solve_observed(problem, precision, Effort::of(digits), 1, &unobserved)
     }
 
     /// [`Self::solve`] with segments `shorten` times shorter than need be, observed.
     pub(crate) fn solve_observed(
         problem: &Problem,
         precision: &S::Precision,
-        digits: f64,
+        effort: Effort,
         shorten: i64,
         observe: &dyn Fn(usize, usize) -> ControlFlow<()>,
     ) -> Result<Self, Error> {
-        let (medium, data) = medium(problem, precision, digits, shorten)?;
+        let (medium, data) = medium(problem, precision, effort.digits, shorten)?;
         let goal = goal(problem, precision, &data);
         let mut follower = Follower::new(&medium, &data);
-        let ending = follower.run(&goal, observe)?;
+        let ending = follower.run(&goal, effort, observe)?;
         let found = Found::of(follower, ending);
         Ok(Self::record_of(medium, data, None, found, problem, precision))
     }
@@ -133,17 +137,17 @@ impl<S: RoundedSpecial> Damped<S> {
     pub(super) fn after_bounce(
         problem: &Problem,
         precision: &S::Precision,
-        digits: f64,
+        effort: Effort,
         contact: &FirstContact<Estimate<S>>,
         (time, time_error, leaves): (&S, f64, &S),
         observe: &dyn Fn(usize, usize) -> ControlFlow<()>,
     ) -> Result<Self, Error> {
-        let (medium, data) = medium(problem, precision, digits, 1)?;
+        let (medium, data) = medium(problem, precision, effort.digits, 1)?;
         let goal = goal(problem, precision, &data);
         let held = Held::until(contact, &data, time);
         let leaves = leaves.clone() / &data.units.velocity;
         let mut follower = Follower::released(&medium, &data, &held, (leaves, time_error / data.units.time.to_f64()));
-        let ending = follower.run(&goal, observe)?;
+        let ending = follower.run(&goal, effort, observe)?;
         let found = Found::of(follower, ending);
         Ok(Self::record_of(medium, data, Some(held), found, problem, precision))
     }
@@ -185,6 +189,7 @@ impl<S: RoundedSpecial> Damped<S> {
             uncertain: std::iter::once(before).chain(marks.iter().map(|mark| mark.after)).collect(),
             warnings,
             unresolved,
+            pool: Pool::default(),
         };
         history.events = marks
             .into_iter()
@@ -218,8 +223,8 @@ impl<S: RoundedSpecial> Damped<S> {
 
     /// What the field follows from.
     fn record(&self) -> Record<'_, S> {
-        let Damped { medium, data, held, pieces, checkpoints, flights, .. } = self;
-        Record { medium, data, held: held.as_ref(), pieces, checkpoints, flights }
+        let Damped { medium, data, held, pieces, checkpoints, flights, pool, .. } = self;
+        Record { medium, data, held: held.as_ref(), pieces, checkpoints, flights, pool }
     }
 
     /// The dimensionless time.
@@ -251,7 +256,7 @@ impl<S: RoundedSpecial> Damped<S> {
     fn centre_of(&self, t: &S) -> (S, S) {
         match self.record().flight(t, Side::Left) {
             Some(flight) => flight.at(&flight.age_at(t)),
-            None => self.mean(t, &self.record().line(t, &t.ratio(1, 2))),
+            None => self.mean(t, &self.record().whole_line(t)),
         }
     }
 
@@ -264,6 +269,10 @@ impl<S: RoundedSpecial> Damped<S> {
     /// `v(x,t)`, dimensionless.
     fn displacement(&self, x: &S, t: &S) -> S {
         let mut sum = self.record().height(t);
+        if *x == x.ratio(1, 2) {
+            // The upper end.
+            return self.record().whole_line(t).iter().fold(sum, |sum, node| sum + node.strain.clone() * &node.weight);
+        }
         if x.is_positive() {
             for node in self.record().line(t, x) {
                 sum = sum + node.strain * &node.weight;
@@ -406,13 +415,13 @@ impl<S: RoundedSpecial> Motion<S> for Damped<S> {
         let t = self.time(time)?;
         let units = &self.data.units;
         let half = t.ratio(1, 2);
-        let nodes = self.record().line(&t, &half);
+        let nodes = self.record().whole_line(&t);
         let (mean, rate) = match self.record().flight(&t, Side::Left) {
             Some(_) => self.centre_of(&t),
             None => self.mean(&t, &nodes),
         };
         let mut sum = t.zero();
-        for node in &nodes {
+        for node in nodes.iter() {
             // The difference first, so that a vibration in flight loses nothing.
             let motion = node.rigid.clone() - &rate + &node.motion;
             sum = sum + (motion.square() + node.strain.square()) * &node.weight;
@@ -428,7 +437,7 @@ impl<S: RoundedSpecial> Motion<S> for Damped<S> {
     fn energy_parts(&self, time: &S) -> Result<[S; 2], Error> {
         let t = self.time(time)?;
         let mut parts = [t.zero(), t.zero()];
-        for node in self.record().line(&t, &t.ratio(1, 2)) {
+        for node in self.record().whole_line(&t).iter() {
             for (part, square) in parts.iter_mut().zip([node.velocity().square(), node.strain.square()]) {
                 *part = part.clone() + square * &node.weight;
             }
@@ -518,7 +527,7 @@ impl<S: RoundedSpecial> Motion<S> for Damped<S> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::Number;
+    use crate::{Number, Reason};
 
     /// A rod with c = L = 1.
     fn rod(gravity: i64, speed: i64, damping: &str, run: Run) -> Problem {
@@ -534,7 +543,7 @@ mod tests {
         for damping in ["0.01", "0.3", "2.6"] {
             let problem = rod(1, 4, damping, Run::Time(Number::from(14)));
             let coarse = Damped::<f64>::solve(&problem, &(), 12.0).unwrap();
-            let fine = Damped::<f64>::solve_observed(&problem, &(), 12.0, 5, &unobserved).unwrap();
+            let fine = Damped::<f64>::solve_observed(&problem, &(), Effort::of(12.0), 5, &unobserved).unwrap();
             assert!(fine.pieces.len() > 4 * coarse.pieces.len() / 3);
             assert_eq!(coarse.events.len(), fine.events.len());
             for (a, b) in coarse.events.iter().zip(&fine.events) {
@@ -550,6 +559,20 @@ mod tests {
                 }
             }
         }
+    }
+
+    #[test]
+    fn a_run_that_takes_too_much_ends_where_it_is() {
+        let problem = rod(1, 4, "0.01", Run::Time(Number::from(40)));
+        let whole = Damped::<f64>::solve(&problem, &(), 12.0).unwrap();
+        let effort = Effort { cells: 100, ..Effort::of(12.0) };
+        let part = Damped::<f64>::solve_observed(&problem, &(), effort, 1, &unobserved).unwrap();
+        let Ending::Undecided(Reason::Effort { cells, rays }) = part.ending else { panic!("{}", part.ending) };
+        assert!(cells > 100 && rays > 1 && part.end < whole.end);
+        assert!(part.events.len() > 2 && part.events.len() < whole.events.len());
+        assert_eq!(part.events, whole.events[..part.events.len()]);
+        assert_eq!(part.centre(&part.end).unwrap(), whole.centre(&part.end).unwrap());
+        assert!(matches!(part.centre(&whole.end), Err(Error::TimeOutside { .. })));
     }
 
     #[test]

@@ -254,18 +254,24 @@ impl<S: Rounded> Medium<S> {
         state.segments = VecDeque::from([whole]);
     }
 
-    /// The greatest slope of `q` between rays, and its range.
-    pub(super) fn variation(&self, state: &State<S>) -> (f64, f64) {
+    /// The greatest slope of `q` between rays, its range, and its total variation around the circle.
+    pub(super) fn variation(&self, state: &State<S>) -> (f64, f64, f64) {
         let (mut slope, mut low, mut high) = (0.0f64, f64::INFINITY, f64::NEG_INFINITY);
+        let (mut variation, mut ends) = (0.0, Vec::new());
         for segment in &state.segments {
-            let rate = bound(&super::series::derivative(&segment.q), 0) / segment.len.to_f64();
-            slope = slope.max(rate + self.kappa.to_f64() * bound(&segment.q, 0));
+            let (len, zero) = (segment.len.to_f64(), segment.len.zero());
+            let rate =
+                bound(&super::series::derivative(&segment.q), 0) / len + self.kappa.to_f64() * bound(&segment.q, 0);
+            slope = slope.max(rate);
+            variation += rate * len;
+            ends.push((at_zero(&segment.q, &zero).to_f64(), (at_one(&segment.q, &zero) * &segment.decay).to_f64()));
             // e^{−κs} times what lies about c₀.
             let (mean, spread, decay) = (segment.q[0].to_f64(), bound(&segment.q, 1), segment.decay.to_f64());
             low = low.min(mean - spread).min((mean - spread) * decay);
             high = high.max(mean + spread).max((mean + spread) * decay);
         }
-        (slope, high - low)
+        let jumps = ends.iter().zip(ends.iter().cycle().skip(1)).map(|((_, end), (start, _))| (start - end).abs());
+        (slope, high - low, variation + jumps.sum::<f64>())
     }
 
     /// `Σ |jump of q| · time` of the rays that may be off.

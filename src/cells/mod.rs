@@ -26,9 +26,11 @@ mod rest;
 mod root;
 mod series;
 mod start;
+mod strips;
 mod with_bounds;
 
 pub use contact_then_cells::{ContactThenCells, Reach};
+pub use follow::Effort;
 pub use history::Damped;
 pub use piece::Unresolved;
 pub use with_bounds::WithBounds;

@@ -1,16 +1,17 @@
 //! From what is kept back to the field: the cells are marched again from the last state that was kept.
 //!
 //! Kept are the trace at the ground and one state for every round trip; everything between is the same march once more,
-//! with the cuts that are known. A question costs at most two round trips of cells, and memory is that of a trace.
+//! with the cuts that are known. A question costs at most two round trips of cells, less where it follows one about a
+//! time nearby, and memory is that of a trace.
 
 use super::bounce::Held;
-use super::budget::Off;
 use super::cell::Cell;
 use super::flight::Flight;
 use super::march::Medium;
 use super::piece::{Checkpoint, Piece};
 use super::series::evaluate;
 use super::start::Data;
+use super::strips::{Kept, Line, Pool, Strips};
 use crate::motion::Side;
 use crate::special::RoundedSpecial;
 
@@ -23,6 +24,7 @@ pub(super) struct Record<'a, S> {
     pub(super) pieces: &'a [Piece<S>],
     pub(super) checkpoints: &'a [Checkpoint<S>],
     pub(super) flights: &'a [Flight<S>],
+    pub(super) pool: &'a Pool<S>,
 }
 
 /// A node of a quadrature along the rod.
@@ -48,53 +50,77 @@ impl<S: RoundedSpecial> Node<S> {
 }
 
 /// A cell on its way past, with the flight whose vibration it holds.
-type Passing<'a, 'b, S> = (&'a Cell<'b, S>, Option<&'a Flight<S>>);
+type Passing<'a, 'b, 'c, S> = (&'a Cell<'b, S>, Option<&'c Flight<S>>);
 
 impl<S: RoundedSpecial> Record<'_, S> {
     /// Shows every cell of the strips that meet `from ≤ ξ ≤ to`, in order of `ξ`, then of `η`.
-    fn sweep(&self, from: &S, to: &S, visit: &mut dyn FnMut(Passing<'_, '_, S>)) {
+    fn sweep<'c>(&'c self, from: &S, to: &S, visit: &mut dyn FnMut(Passing<'_, '_, 'c, S>)) {
         if from.is_negative() && self.held.is_none() {
             self.data.march(self.medium, &mut |cell| visit((cell, None)));
         }
         let first = self.pieces.partition_point(|piece| piece.to() < *from);
         let kept = self.checkpoints.partition_point(|kept| kept.index <= first);
-        let Some(kept) = kept.checked_sub(1).and_then(|k| self.checkpoints.get(k)) else { return };
-        let (mut state, mut flight, mut ground) = (kept.state.clone(), kept.flight, kept.ground.clone());
-        for (k, piece) in self.pieces.iter().enumerate().skip(kept.index) {
-            if piece.still || piece.from > *to {
-                break;
+        let Some((start, kept)) = kept.checked_sub(1).and_then(|k| Some((k, self.checkpoints.get(k)?))) else { return };
+        let mut strips = self.pool.take(start).unwrap_or_else(|| Strips::after(start, kept));
+        // Nothing is marched while the rod is at rest.
+        let marched = self.pieces.len() - usize::from(self.pieces.last().is_some_and(|piece| piece.still));
+        let until = self.pieces[..marched].partition_point(|piece| piece.from <= *to);
+        let mut next = kept.index;
+        for (strip, piece) in self.pieces[..until].iter().skip(kept.index).enumerate() {
+            if strip == strips.count() {
+                if piece.leap > 0 || strips.is_full() {
+                    break;
+                }
+                strips.keep(self.medium, self.flights, piece);
             }
-            if piece.flight != flight {
-                let of = |flight: Option<usize>| flight.and_then(|k| self.flights.get(k));
-                self.medium.convert(&mut state, of(flight), of(piece.flight));
-                flight = piece.flight;
+            if next >= first {
+                let flight = piece.flight.and_then(|k| self.flights.get(k));
+                strips.show(strip, &mut |cell| visit((cell, flight)));
             }
-            let now = flight.and_then(|k| self.flights.get(k));
+            next += 1;
+        }
+        if next < until {
+            self.sweep_on((next, first, until), strips.ahead(), (from, to, kept.index), visit);
+        }
+        self.pool.put(strips);
+    }
+
+    /// The same from piece `next` on, without keeping anything: flights that are leapt over, and many rays.
+    fn sweep_on<'c>(
+        &'c self,
+        (next, first, until): (usize, usize, usize),
+        mut ahead: Strips<S>,
+        (from, to, begun): (&S, &S, usize),
+        visit: &mut dyn FnMut(Passing<'_, '_, 'c, S>),
+    ) {
+        for (k, piece) in self.pieces[..until].iter().enumerate().skip(next) {
+            ahead.fly(self.medium, self.flights, piece.flight);
+            let now = piece.flight.and_then(|k| self.flights.get(k));
             if piece.leap > 0 {
                 // At most two round trips of it are marched.
                 let skipped = (from.clone() - &piece.from).floor_int().unwrap_or(0).clamp(0, piece.leap);
-                let end = state.round + piece.leap;
-                let (fraction, from_start) = (state.segments[0].at.clone(), k > kept.index);
-                if from_start {
-                    ground = self.medium.ground_of(&state);
+                let end = ahead.state.round + piece.leap;
+                let fraction = ahead.state.segments[0].at.clone();
+                if k > begun {
+                    ahead.ground = self.medium.ground_of(&ahead.state);
                 }
                 if skipped > 0 {
-                    self.medium.leap(&mut state, &ground, skipped);
+                    self.medium.leap(&mut ahead.state, &ahead.ground, skipped);
                 }
-                while state.time() <= *to && (state.round < end || state.segments[0].at != fraction) {
-                    self.medium.strip(&mut state, false, &mut |cell| visit((cell, now)));
+                while ahead.state.time() <= *to && (ahead.state.round < end || ahead.state.segments[0].at != fraction) {
+                    self.medium.strip(&mut ahead.state, false, &mut |cell| visit((cell, now)));
                 }
-                continue;
-            }
-            if piece.cut {
-                self.medium.cut_first(&mut state, &piece.len, Off::default());
-            }
-            if k >= first {
-                self.medium.strip(&mut state, piece.contact, &mut |cell| visit((cell, now)));
+            } else if k >= first {
+                ahead.strip(self.medium, piece, &mut |cell| visit((cell, now)));
             } else {
-                self.medium.strip(&mut state, piece.contact, &mut |_| {});
+                ahead.strip(self.medium, piece, &mut |_| {});
             }
         }
+    }
+
+    /// [`Record::line`] along the whole rod.
+    pub(super) fn whole_line(&self, t: &S) -> Line<S> {
+        self.pool.line(t, || self.line(t, &t.ratio(1, 2)))
     }
 
     /// Gauss–Legendre nodes on `0 ≤ x ≤ reach` at time `t`, between all rays.
@@ -156,7 +182,7 @@ impl<S: RoundedSpecial> Record<'_, S> {
     }
 
     /// `h′` of the flight, the rest of `v_t`, and `v_x`, at places in a cell.
-    fn inside(&self, (cell, flight): Passing<'_, '_, S>, places: &[S], t: &S) -> Vec<(S, S, S)> {
+    fn inside(&self, (cell, flight): Passing<'_, '_, '_, S>, places: &[S], t: &S) -> Vec<(S, S, S)> {
         let points: Vec<(S, S)> = places.iter().map(|x| (t.clone() - x, t.clone() + x)).collect();
         let found = cell.at(&self.medium.basis, &points, self.medium.log2_accuracy);
         let (rigid, half) = (flight.map(|flight| flight.at(&flight.age_at(t)).1), t.ratio(1, 2));
@@ -202,10 +228,12 @@ impl<S: RoundedSpecial> Record<'_, S> {
         let from = xi.clone() - &slack - &slack;
         self.sweep(&from, &(xi.clone() + &slack), &mut |(cell, flight)| {
             if best.is_none() || (begun(&cell.corner.0, &xi) && begun(&cell.corner.1, &eta)) {
-                best = self.inside((cell, flight), std::slice::from_ref(x), t).pop();
+                best = Some((Kept::of(cell), flight));
             }
         });
-        best.map_or_else(|| (x.zero(), x.zero()), |(rigid, motion, strain)| (rigid + motion, strain))
+        let found =
+            best.and_then(|(kept, flight)| self.inside((&kept.cell(), flight), std::slice::from_ref(x), t).pop());
+        found.map_or_else(|| (x.zero(), x.zero()), |(rigid, motion, strain)| (rigid + motion, strain))
     }
 
     /// `v_t` and `v_x` at every one of `points` for every one of `times`, both in increasing order, from later times:
@@ -269,9 +297,9 @@ impl<S: RoundedSpecial> Record<'_, S> {
         match self.piece(t, side) {
             Some((piece, _)) if piece.leap > 0 => {
                 // The mean of z vanishes, so v(0,t) is that of h less a mean of z_x.
-                let nodes = self.line(t, &t.ratio(1, 2));
                 let half = t.ratio(1, 2);
-                let lack = nodes
+                let lack = self
+                    .whole_line(t)
                     .iter()
                     .fold(t.zero(), |sum, node| (half.clone() - &node.x) * &node.strain * &node.weight + &sum);
                 let centre = self.flight(t, side).map_or_else(|| t.zero(), |flight| flight.at(&flight.age_at(t)).0);

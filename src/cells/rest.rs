@@ -9,6 +9,7 @@ use super::march::Medium;
 use super::piece::Piece;
 use super::record::{Node, Record};
 use super::series::bound;
+use super::strips::Pool;
 use crate::motion::Ending;
 use crate::reason::{Reason, StillState};
 use crate::special::RoundedSpecial;
@@ -33,7 +34,8 @@ impl<S: RoundedSpecial> Follower<'_, S> {
         }
         let held = self.held;
         let (pieces, checkpoints, flights) = (&self.pieces, &self.checkpoints, &self.flights);
-        let record = Record { medium, data, held, pieces, checkpoints, flights };
+        let pool = &Pool::default();
+        let record = Record { medium, data, held, pieces, checkpoints, flights, pool };
         let t = self.state.time();
         let nodes = record.line(&t, &t.ratio(1, 2));
         let sum = |f: &dyn Fn(f64, f64, f64) -> f64| -> f64 {

@@ -31,7 +31,7 @@ pub(super) struct Compare {
     #[arg(long, value_name = "NAME=COLUMN,…")]
     map: Option<String>,
     /// Step between rows, where no column holds the time
-    #[arg(long, value_name = "DT")]
+    #[arg(long, value_name = "DT", allow_hyphen_values = true)]
     dt: Option<Number>,
     /// Time of the first row, with --dt
     #[arg(long, value_name = "T", requires = "dt", allow_hyphen_values = true)]
@@ -49,10 +49,10 @@ pub(super) struct Compare {
     #[arg(long, value_enum, default_value_t)]
     axis: Axis,
     /// Factor that brings the energies of the data to those of the rod
-    #[arg(long, value_name = "FACTOR", default_value = "1")]
+    #[arg(long, value_name = "FACTOR", default_value = "1", allow_hyphen_values = true)]
     energy_scale: Number,
     /// Round trips from a jump where `L∞ off jumps` begins; by default 0.02, or two steps where that is more
-    #[arg(long, value_name = "TRIPS")]
+    #[arg(long, value_name = "TRIPS", allow_hyphen_values = true)]
     window: Option<Number>,
     /// Width of the mesh of each file, for the order of convergence; by default the step of its times
     #[arg(long, value_name = "LIST", value_delimiter = ',')]
@@ -63,7 +63,7 @@ pub(super) struct Compare {
     /// What to print; by default a table
     #[arg(long, value_enum)]
     format: Option<Format>,
-    /// Write to this file, whole or not at all: a picture (.svg, .png), .json, .csv with every sample, or a table; `-`
+    /// Write to this file, whole or not at all: .svg, .png or .pdf, .json, .csv with every sample, or a table; `-`
     /// is standard output. Can be given several times. Beside pictures the table is printed as well
     #[arg(short, long, value_name = "FILE")]
     output: Vec<PathBuf>,
@@ -82,14 +82,14 @@ impl Compare {
         let scene = source::read(&self.scene)?;
         let sources = self.data.iter().map(|path| Source::open(path)).collect::<Result<Vec<_>, _>>()?;
         let accuracy = scene.accuracy.as_ref().map(Number::to_f64);
-        let prepared = Prepared::new(&scene.problem, accuracy, sources, &self.options())?;
+        let units = Units::of(&scene.problem, scene.units);
+        let prepared = Prepared::new(&scene.problem, &units, accuracy, sources, &self.options())?;
         let progress = source::Progress::of(&scene, &prepared.plan);
         let comparison = prepared.compare(progress.observer())?;
         drop(progress);
         for warning in &comparison.warnings {
             eprintln!("warning: {warning}");
         }
-        let units = Units::of(&scene.problem, scene.units);
         let report = Report { comparison: &comparison, title: scene.title.as_deref(), units: &units };
         // Before anything is written.
         let failures = comparison.above(&self.fail_above).map_err(|error| miette::miette!("{error}"))?;

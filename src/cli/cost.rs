@@ -38,7 +38,7 @@ pub(super) struct Cost {
     /// What to print; by default a table
     #[arg(long, value_enum)]
     format: Option<Format>,
-    /// Write to this file, whole or not at all: a picture (.svg, .png), .json, .csv, or a table; `-` is standard
+    /// Write to this file, whole or not at all: a picture (.svg, .png, .pdf), .json, .csv, or a table; `-` is standard
     /// output. Can be given several times. Beside pictures the rows are printed as well
     #[arg(short, long, value_name = "FILE")]
     output: Vec<PathBuf>,

@@ -5,6 +5,7 @@ use serde_json::json;
 
 use super::{Failure, Format, NumberArgs, OutputArgs, source};
 use crate::aligned::table;
+use crate::output::{WIDTH, wrapped};
 use crate::scene::{Effect, EffectUse, Scene};
 use crate::solve::{Numbers, Plan, Question};
 
@@ -39,23 +40,35 @@ impl Explain {
             Format::Csv => {
                 Err(miette::miette!("found --format csv, expected table or json: a plan is no list of numbers"))
             }
-            Format::Table => self.output.write(&Self::text(&scene, &effects, &plan)),
+            Format::Table => self.output.write(&self.text(&scene, &effects, &plan)),
         }
     }
 
-    fn text(scene: &Scene, effects: &[EffectUse], plan: &Plan) -> String {
+    fn text(&self, scene: &Scene, effects: &[EffectUse], plan: &Plan) -> String {
+        let fold = |text: &str, left: usize| match self.output.wide {
+            true => text.to_string(),
+            false => wrapped(text, WIDTH - left, ""),
+        };
         let rows = effects.iter().map(|used| {
             let line = used.line.map_or_else(|| "–".to_string(), |line| line.to_string());
-            vec![used.effect.to_string(), if used.called { "yes" } else { "no" }.into(), line, used.because.clone()]
+            let because = fold(&used.because, BECAUSE);
+            vec![used.effect.to_string(), if used.called { "yes" } else { "no" }.into(), line, because]
         });
-        let mut out = scene.title.as_ref().map_or_else(String::new, |title| format!("{title}\n\n"));
-        out += &table(&["effect", "called for", "line", "because"], rows.collect(), 4);
-        out += &format!("\n\nengine:   {}\nreach:    {}\n", plan.engine, plan.reach);
-        out += &format!("numbers:  {}, at first in {}\n", plan.numbers, plan.rung);
-        out = plan.reasons().iter().fold(out, |out, reason| out + "          " + reason + "\n");
-        scene.problem.neglected().into_iter().fold(out, |out, neglected| out + &format!("warning:  {neglected}\n"))
+        let mut out = scene.title.as_ref().map_or_else(String::new, |title| fold(title, 0) + "\n\n");
+        out += &(table(&["effect", "called", "line", "because"], rows.collect(), 4) + "\n\n");
+        let number = format!("{}, at first in {}", plan.numbers, plan.rung);
+        let lines = [("engine:", plan.engine.to_string()), ("reach:", plan.reach.to_string()), ("numbers:", number)];
+        let reasons = plan.reasons().into_iter().map(|reason| ("", reason));
+        let warnings = scene.problem.neglected().into_iter().map(|neglected| ("warning:", neglected.to_string()));
+        for (name, text) in lines.into_iter().chain(reasons).chain(warnings) {
+            out += &(format!("{name:10}") + &fold(&text, 10).replace('\n', "\n          ") + "\n");
+        }
+        out
     }
 }
+
+/// Characters to the left of the reasons in the table.
+const BECAUSE: usize = 40;
 
 /// The effects of the scene, and those that the question calls for.
 fn effects(scene: &Scene, plan: &Plan) -> Vec<EffectUse> {

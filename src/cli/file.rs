@@ -3,6 +3,8 @@
 use std::path::Path;
 
 use super::{Failure, Format, source};
+#[cfg(feature = "plot")]
+use crate::output::Rendered;
 use crate::output::{Size, write_whole};
 
 /// What a picture is written as, by the ending of its file.
@@ -10,6 +12,7 @@ use crate::output::{Size, write_whole};
 pub(super) enum Picture {
     Svg,
     Png,
+    Pdf,
 }
 
 /// What a file holds.
@@ -33,7 +36,9 @@ impl Kind {
         };
         let path = path.display();
         format.or(by_ending).map(Kind::Rows).ok_or_else(|| {
-            miette::miette!("found {path}, expected .svg, .png, .json, .csv or .txt, or --format to say what it holds")
+            miette::miette!(
+                "found {path}, expected .svg, .png, .pdf, .json, .csv or .txt, or --format to say what it holds"
+            )
         })
     }
 }
@@ -51,21 +56,17 @@ pub(super) fn write(path: Option<&Path>, bytes: &[u8]) -> Result<(), Failure> {
 }
 
 impl Picture {
-    /// **Errors**: an ending of no picture; a PNG in a build that draws none.
+    /// **Errors**: an ending of no picture; a PNG or PDF in a build that draws none.
     pub(super) fn of(path: &Path) -> Result<Self, Failure> {
         match ending(path).as_deref() {
             Some("svg") => Ok(Picture::Svg),
             Some("png") if cfg!(feature = "plot") => Ok(Picture::Png),
-            Some("png") => {
+            Some("pdf") if cfg!(feature = "plot") => Ok(Picture::Pdf),
+            Some("png" | "pdf") => {
                 Err(miette::miette!("found {} in a build without the feature `plot`, expected .svg", path.display()))
             }
-            Some("pdf") => Err(miette::miette!(
-                help = "programs such as rsvg-convert and Inkscape turn an SVG into PDF",
-                "found {}, expected a file that ends in .svg or .png: PDF is not written",
-                path.display()
-            )),
             _ if path == Path::new("-") => Ok(Picture::Svg),
-            _ => Err(miette::miette!("found {}, expected a file that ends in .svg or .png", path.display())),
+            _ => Err(miette::miette!("found {}, expected a file that ends in .svg, .png or .pdf", path.display())),
         }
     }
 }
@@ -74,17 +75,24 @@ impl Picture {
 pub(super) fn picture(kind: Picture, svg: String, size: Size) -> Result<Vec<u8>, Failure> {
     match kind {
         Picture::Svg => Ok(svg.into_bytes()),
-        Picture::Png => png(&svg, size),
+        Picture::Png | Picture::Pdf => rendered(kind, &svg, size),
     }
 }
 
 #[cfg(feature = "plot")]
-pub(super) fn png(svg: &str, size: Size) -> Result<Vec<u8>, Failure> {
-    crate::output::png(svg, size.scale()).map_err(|error| miette::miette!("cannot draw: {error}"))
+fn rendered(kind: Picture, svg: &str, size: Size) -> Result<Vec<u8>, Failure> {
+    let drawn = Rendered::of(svg).and_then(|rendered| {
+        let missing = rendered.missing();
+        if !missing.is_empty() {
+            eprintln!("note: the font of PNG and PDF has no {missing}, which stay empty; an SVG has all letters");
+        }
+        if kind == Picture::Pdf { rendered.pdf() } else { rendered.png(size.scale()) }
+    });
+    drawn.map_err(|error| miette::miette!("cannot draw: {error}"))
 }
 
 /// Refused before anything is solved.
 #[cfg(not(feature = "plot"))]
-pub(super) fn png(_: &str, _: Size) -> Result<Vec<u8>, Failure> {
+fn rendered(_: Picture, _: &str, _: Size) -> Result<Vec<u8>, Failure> {
     Ok(Vec::new())
 }

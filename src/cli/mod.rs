@@ -6,7 +6,6 @@ mod cost;
 mod explain;
 mod figures;
 mod file;
-mod list;
 mod plot;
 mod reference;
 mod regimes;
@@ -149,6 +148,11 @@ fn accuracy(text: &str) -> Result<f64, String> {
 }
 
 impl NumberArgs {
+    /// Whether the answers are doubles.
+    fn in_doubles(self) -> bool {
+        self.digits.is_none() && !self.certified && !self.exact
+    }
+
     /// The numbers that are asked for; without an option, doubles to the accuracy of the scene.
     fn numbers(self, scene: &Scene) -> Numbers {
         match self {
@@ -170,12 +174,9 @@ struct OutputArgs {
     /// Write to this file, whole or not at all; `-` is standard output
     #[arg(short, long, value_name = "FILE")]
     output: Option<PathBuf>,
-    /// One row for each contact, however wide the table
+    /// One row for each contact or effect, however wide the table
     #[arg(long)]
     wide: bool,
-    /// Explain the symbols of a table in a line each
-    #[arg(long)]
-    legend: bool,
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
@@ -232,7 +233,6 @@ fn head(scene: &Scene, plan: &Plan) -> Head {
         effects: called,
         parameters: parameters(scene),
         wide: false,
-        legend: false,
         digits: 0,
         units: Units::of(&scene.problem, scene.units),
         warnings: Vec::new(),
@@ -275,12 +275,12 @@ struct Printed<'a, R>(&'a R, &'a OutputArgs);
 
 impl<R: Report> Visit for Printed<'_, R> {
     fn visit<S: Target>(&self, history: &History<S>, head: Head, progress: source::Progress) -> Result<(), Failure> {
-        let Printed(report, OutputArgs { wide, legend, .. }) = *self;
-        let head = Head { wide: *wide, legend: *legend, ..head };
+        let Printed(report, output) = *self;
+        let head = Head { wide: output.wide, ..head };
         let gathered = history.ask(|motion| report.gather(motion, &head), |data| report.numbers(data));
         drop(progress);
         let data = gathered?;
-        let shown = self.1.output.is_none() && self.1.format()? == Format::Table;
+        let shown = output.output.is_none() && output.format()? == Format::Table;
         report.print(&data, &warned(history, head, shown))
     }
 }

@@ -50,7 +50,7 @@ pub(super) struct Plot {
     size: Size,
     #[command(flatten)]
     numbers: NumberArgs,
-    /// Write to this file, whole or not at all: .svg or .png; `-` is standard output, for SVG
+    /// Write to this file, whole or not at all: .svg, .png or .pdf; `-` is standard output, for SVG
     #[arg(short, long, value_name = "FILE", required = true)]
     output: Vec<PathBuf>,
 }
@@ -160,6 +160,13 @@ impl Visit for Gather<'_> {
             );
         } else if !matches!(history.ending(), Ending::Time | Ending::NextImpact) && self.asked.to.is_none() {
             eprintln!("note: {name}: the history ends at t = {}: {}", short(end), history.ending());
+        }
+        if let Some(columns) = found.coarse() {
+            let columns = columns.decimal(2);
+            eprintln!(
+                "note: {name}: xt has {columns} columns for a round trip, too few for its waves; --from and --to draw \
+                 another span"
+            );
         }
         self.found.replace(Some(found));
         Ok(())

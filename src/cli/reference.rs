@@ -5,13 +5,12 @@ use std::sync::mpsc::sync_channel;
 
 use clap::Args;
 
-use super::list::{List, list};
 use super::times::{CHUNK, Chunk, Times, TimesFile};
 use super::{Failure, NumberArgs, Visit, file, noted_end, solve, source, warned};
 use crate::error::Error;
 use crate::history::History;
 use crate::motion::{Motion, Side};
-use crate::number::{Number, Scalar};
+use crate::number::{List, Number, Scalar};
 use crate::output::{Described, Golden, Head, Language, Preamble, Rows, code, write_whole};
 use crate::quantity::{Column, Slice, Units};
 use crate::scene::Scene;
@@ -32,7 +31,7 @@ pub(super) struct Reference {
     /// A scene file, `-`, or a built-in scene. With times it is followed to the last one, whatever its own run says
     scene: String,
     /// Times: numbers such as 0.3 or 1/3 separated by commas, or A..B:N for N times from A to B
-    #[arg(long, value_name = "LIST", value_parser = list, allow_hyphen_values = true, group = "when")]
+    #[arg(long, value_name = "LIST", value_parser = List::equally_spaced, allow_hyphen_values = true, group = "when")]
     times: Option<List>,
     /// Times from a file, `-` for standard input: one a line, `#` begins a comment
     #[arg(long, value_name = "FILE", group = "when")]
@@ -47,7 +46,7 @@ pub(super) struct Reference {
     #[arg(long, value_name = "A,B,C", value_delimiter = ',', value_parser = column)]
     columns: Option<Vec<Column>>,
     /// The field along the rod instead of the columns, on a grid: points in the same form as --times
-    #[arg(long, value_name = "LIST", value_parser = list, allow_hyphen_values = true, conflicts_with = "columns")]
+    #[arg(long, value_name = "LIST", value_parser = List::equally_spaced, allow_hyphen_values = true, conflicts_with = "columns")]
     points: Option<List>,
     /// What the field is on the grid
     #[arg(long, value_enum, default_value_t, requires = "points")]
@@ -90,6 +89,9 @@ impl Reference {
             Some(_) => Vec::new(),
             None => self.columns.clone().unwrap_or_else(|| Column::ALL.to_vec()),
         };
+        if let Some(twice) = (1..columns.len()).find(|k| columns[..*k].contains(&columns[*k])) {
+            return Err(miette::miette!("found the column {} twice, expected each once", columns[twice].name()));
+        }
         let question = match times.ends()? {
             None => Question::run(numbers),
             // What has happened before the first time is part of these.

@@ -29,7 +29,7 @@ pub(super) struct Regimes {
     /// How many points are solved at the same time; by default one for each core
     #[arg(long, value_name = "N")]
     threads: Option<usize>,
-    /// Write to this file, whole or not at all: a picture (.svg, .png), .csv, or .npz; `-` is standard output, for CSV.
+    /// Write to this file, whole or not at all: .svg, .png, .pdf, .csv, or .npz; `-` is standard output, for CSV.
     /// Can be given several times. Without it the share of each regime is printed
     #[arg(short, long, value_name = "FILE")]
     output: Vec<PathBuf>,
@@ -74,7 +74,9 @@ impl Regimes {
             _ if path == Path::new("-") => Kind::Csv,
             _ => {
                 let path = path.display();
-                return Err(miette::miette!("found {path}, expected a file that ends in .svg, .png, .csv or .npz"));
+                return Err(miette::miette!(
+                    "found {path}, expected a file that ends in .svg, .png, .pdf, .csv or .npz"
+                ));
             }
         };
         if self.curve && kind != Kind::Csv {

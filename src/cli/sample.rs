@@ -2,11 +2,10 @@
 
 use clap::Args;
 
-use super::list::{List, list};
 use super::{Failure, Format, NumberArgs, OutputArgs, Report, answer, source};
 use crate::error::Error;
 use crate::motion::{Motion, Side};
-use crate::number::Scalar;
+use crate::number::{List, Scalar};
 use crate::output::{self, Head, Quantity, sample, samples_csv, samples_json, samples_table};
 use crate::solve::Question;
 
@@ -24,10 +23,10 @@ pub(super) struct Sample {
     #[arg(long, value_enum)]
     quantity: Quantity,
     /// Times: numbers such as 0.3 or 1/3 separated by commas, or A..B:N for N times from A to B
-    #[arg(long, value_name = "LIST", value_parser = list, allow_hyphen_values = true)]
+    #[arg(long, value_name = "LIST", value_parser = List::equally_spaced, allow_hyphen_values = true)]
     times: List,
     /// Points of the rod for the field, in the same form; by default its two ends and its middle
-    #[arg(long, value_name = "LIST", value_parser = list, allow_hyphen_values = true)]
+    #[arg(long, value_name = "LIST", value_parser = List::equally_spaced, allow_hyphen_values = true)]
     points: Option<List>,
     /// Which limit where there are two
     #[arg(long, value_enum, default_value_t)]

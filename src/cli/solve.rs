@@ -25,6 +25,9 @@ pub(super) struct Solve {
     numbers: NumberArgs,
     #[command(flatten)]
     output: OutputArgs,
+    /// Explain the symbols of the table in a line each
+    #[arg(long)]
+    legend: bool,
     /// What a CSV holds; by default the events
     #[arg(long, value_enum)]
     part: Option<Part>,
@@ -72,7 +75,7 @@ impl Report for Solve {
     }
 
     fn numbers<'a, S: Scalar>(&self, record: &'a Record<S>) -> Vec<&'a S> {
-        record.numbers()
+        record.numbers(!self.numbers.in_doubles())
     }
 
     fn print<S: Scalar>(&self, record: &Record<S>, head: &Head) -> Result<(), Failure> {
@@ -81,6 +84,7 @@ impl Report for Solve {
             noted_end(&record.end.1, &record.end.0, head.digits);
         }
         match self.output.format()? {
+            Format::Table if self.legend => self.output.write(&format!("{}\n{LEGEND}", history_table(record, head))),
             Format::Table => self.output.write(&history_table(record, head)),
             Format::Json => self.output.write_json(&history_json(record, head)),
             Format::Csv => {

@@ -5,9 +5,8 @@ use std::io::{BufRead, BufReader, Seek};
 use std::path::Path;
 
 use super::Failure;
-use super::list::List;
 use super::source::cannot;
-use crate::number::{Number, Scalar};
+use crate::number::{List, Number, Scalar};
 
 /// Where the times come from.
 #[derive(Debug)]
@@ -89,7 +88,7 @@ fn lines(mut file: &File, name: &str, mut visit: impl FnMut(Number) -> Result<()
         if reader.read_line(&mut line).map_err(read())? == 0 {
             return Ok(());
         }
-        let text = line.split('#').next().unwrap_or_default().trim();
+        let text = line.split('#').next().unwrap_or_default().trim_start_matches('\u{feff}').trim();
         if text.is_empty() {
             continue;
         }

@@ -1,5 +1,7 @@
 //! What is wrong with data, and where.
 
+use crate::number::short;
+
 /// Data that cannot be used: what was found, where, and what was expected.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[cfg_attr(feature = "cli", derive(miette::Diagnostic))]
@@ -21,6 +23,8 @@ pub enum DataErrorKind {
     Ragged { found: usize, expected: usize },
     #[error("found `{0}`, expected a number")]
     NotANumber(String),
+    #[error("found `{0}`, expected a number with a point, not a comma, before its decimals")]
+    DecimalComma(String),
     #[error("found {0}, expected a finite number")]
     NotFinite(f64),
     #[error("found text that is not UTF-8, expected text, .npy or .npz")]
@@ -33,7 +37,7 @@ pub enum DataErrorKind {
     PointOutside { found: f64, length: f64 },
     #[error("found point {found} after {before} at the same time, expected points that increase")]
     PointsNotIncreasing { before: f64, found: f64 },
-    #[error("found an array of type {found}, expected numbers: float64, float32, int64, int32, int8 or bool")]
+    #[error("found an array of type {found}, expected numbers: float64, float32, integers or bool")]
     ElementType { found: String },
     #[error("found an array of shape {0:?}, expected one column, or rows and columns")]
     Shape(Vec<usize>),
@@ -41,9 +45,17 @@ pub enum DataErrorKind {
     Lengths { found: usize, first: String, expected: usize },
     #[error("found times up to {last}, expected some after 0, where the history begins")]
     NoOverlap { last: f64 },
+    #[error("found one time from 0 on, {0}, expected at least two")]
+    OneTime(f64),
 }
 
 impl DataErrorKind {
+    /// A field that is no number.
+    pub(crate) fn not_a_number(field: &str) -> Self {
+        let kind = if field.contains(',') { DataErrorKind::DecimalComma } else { DataErrorKind::NotANumber };
+        kind(short(field))
+    }
+
     /// The error at a place of a file.
     pub(crate) fn at(self, file: &str, place: Option<String>) -> DataError {
         DataError { file: file.into(), place, kind: self }

@@ -79,6 +79,14 @@ impl Source {
         &self.names
     }
 
+    /// How many names a header has, where they are not as many as the columns.
+    pub(crate) fn misnamed(&self) -> Option<usize> {
+        match &self.body {
+            Body::Text(text) => text.misnamed,
+            Body::Arrays(_) => None,
+        }
+    }
+
     /// What it is called.
     pub fn file(&self) -> &str {
         &self.file

@@ -6,6 +6,7 @@ use ndarray::{ArrayD, Axis, IxDyn, OwnedRepr};
 use ndarray_npy::{NpzReader, ReadNpyError, ReadNpyExt, ReadNpzError, ReadableElement};
 
 use super::{DataError, DataErrorKind};
+use crate::number::short;
 
 /// The columns of an array or an archive, with their names where they have any. A column that is no column of numbers
 /// has the reason in its place: it may not be asked for.
@@ -28,13 +29,17 @@ pub(super) fn read(mut reader: impl Read, file: &str) -> Result<Arrays, DataErro
     let mut bytes = Vec::new();
     reader.read_to_end(&mut bytes).map_err(|error| unreadable(&error))?;
     if is_array(&bytes) {
-        return Ok((Vec::new(), columns(numbers(&mut Array(&bytes)))));
+        let refuse = |kind: DataErrorKind| kind.at(file, None);
+        let array = numbers(&mut Array(&bytes)).map_err(refuse)?;
+        let shape = array.shape().to_vec();
+        let columns = columns(array);
+        let none = columns.is_empty() || columns.iter().any(Result::is_err);
+        return if none { Err(refuse(DataErrorKind::Shape(shape))) } else { Ok((Vec::new(), columns)) };
     }
     let mut archive = NpzReader::new(Cursor::new(bytes)).map_err(|error| unreadable(&error))?;
     let (mut names, mut all) = (Vec::new(), Vec::new());
     for name in archive.names().map_err(|error| unreadable(&error))? {
-        let array = numbers(&mut Entry(&mut archive, &name));
-        let columns = columns(array);
+        let columns = numbers(&mut Entry(&mut archive, &name)).map_or_else(|kind| vec![Err(kind)], columns);
         let one = columns.len() == 1;
         names.extend((0..columns.len()).map(|k| if one { name.clone() } else { format!("{name}[{k}]") }));
         all.extend(columns);
@@ -42,15 +47,12 @@ pub(super) fn read(mut reader: impl Read, file: &str) -> Result<Arrays, DataErro
     Ok((names, all))
 }
 
-fn columns(array: Result<ArrayD<f64>, DataErrorKind>) -> Vec<Result<Vec<f64>, DataErrorKind>> {
-    match array {
-        Err(kind) => vec![Err(kind)],
-        Ok(array) => match array.shape() {
-            [] => Vec::new(),
-            [_] => vec![Ok(array.into_iter().collect())],
-            [_, _] => array.axis_iter(Axis(1)).map(|column| Ok(column.iter().copied().collect())).collect(),
-            shape => vec![Err(DataErrorKind::Shape(shape.to_vec()))],
-        },
+fn columns(array: ArrayD<f64>) -> Vec<Result<Vec<f64>, DataErrorKind>> {
+    match array.shape() {
+        [] => Vec::new(),
+        [_] => vec![Ok(array.into_iter().collect())],
+        [_, _] => array.axis_iter(Axis(1)).map(|column| Ok(column.iter().copied().collect())).collect(),
+        shape => vec![Err(DataErrorKind::Shape(shape.to_vec()))],
     }
 }
 
@@ -80,27 +82,17 @@ impl Fetch for Entry<'_> {
 
 /// The elements as doubles, from whichever of the common types they are.
 fn numbers(array: &mut impl Fetch) -> Result<ArrayD<f64>, DataErrorKind> {
-    fn other(error: ReadNpyError) -> DataErrorKind {
-        match error {
-            ReadNpyError::WrongDescriptor(found) => DataErrorKind::ElementType { found: found.to_string() },
-            error => DataErrorKind::Unreadable(error.to_string()),
-        }
+    macro_rules! of {
+        ($($element:ty),*) => {$(
+            if let Ok(found) = array.fetch::<$element>() {
+                return Ok(found.mapv(|x| x as f64));
+            }
+        )*};
     }
-    match array.fetch::<f64>() {
-        Err(ReadNpyError::WrongDescriptor(_)) => {}
-        read => return read.map_err(other),
-    }
-    if let Ok(floats) = array.fetch::<f32>() {
-        return Ok(floats.mapv(f64::from));
-    }
-    if let Ok(integers) = array.fetch::<i64>() {
-        return Ok(integers.mapv(|n| n as f64));
-    }
-    if let Ok(integers) = array.fetch::<i32>() {
-        return Ok(integers.mapv(f64::from));
-    }
-    if let Ok(flags) = array.fetch::<bool>() {
-        return Ok(flags.mapv(|flag| f64::from(u8::from(flag))));
-    }
-    array.fetch::<i8>().map(|integers| integers.mapv(f64::from)).map_err(other)
+    let refused = match array.fetch::<f64>() {
+        Err(ReadNpyError::WrongDescriptor(found)) => DataErrorKind::ElementType { found: short(&found.to_string()) },
+        read => return read.map_err(|error| DataErrorKind::Unreadable(error.to_string())),
+    };
+    of!(f32, i64, i32, i16, i8, u64, u32, u16, u8);
+    array.fetch::<bool>().map(|flags| flags.mapv(|flag| f64::from(u8::from(flag)))).map_err(|_| refused)
 }

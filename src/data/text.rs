@@ -3,14 +3,18 @@
 use std::io::{BufRead, BufReader, Read};
 
 use super::{DataError, DataErrorKind, Lines};
-use crate::number::Number;
+use crate::number::{Number, short};
 
 /// A text, read up to its first row.
 pub(super) struct Text {
     reader: BufReader<Box<dyn Read + Send>>,
+    /// What a line ends with: `\n`, before which a `\r` is white space, or `\r` alone.
+    end: u8,
     separator: Option<char>,
     /// The names of the columns; empty where there are none.
     pub(super) names: Vec<String>,
+    /// How many names a header has, where they are not as many as the columns.
+    pub(super) misnamed: Option<usize>,
     /// The line that was read last, and its number.
     line: Vec<u8>,
     number: usize,
@@ -35,11 +39,21 @@ fn fields(row: &str, separator: Option<char>) -> impl Iterator<Item = &str> {
     separated.into_iter().flatten().chain(spaced.into_iter().flatten())
 }
 
-/// A number as any language prints it: Fortran's `1.5D-3` too, and fractions.
+/// A number as any language prints it: Fortran's `1.5D-3` and `1.5-103` too, in quotes, and fractions.
 fn number(text: &str) -> Option<f64> {
-    let fraction = || text.contains('/').then(|| text.parse::<Number>().ok()).flatten();
-    let number = text.parse().ok().or_else(|| text.replace(['d', 'D'], "e").parse().ok());
-    number.or_else(|| fraction().map(|number| number.to_f64()))
+    text.parse().ok().or_else(|| {
+        let text = text.trim_matches('"').trim();
+        let fraction = || text.contains('/').then(|| text.parse::<Number>().ok()).flatten();
+        let number = text.replace(['d', 'D'], "e").parse().ok().or_else(|| without_letter(text));
+        number.or_else(|| fraction().map(|number| number.to_f64()))
+    })
+}
+
+/// `1.5-103`: beside three digits of an exponent Fortran has no room for its letter.
+fn without_letter(text: &str) -> Option<f64> {
+    let (mantissa, exponent) = text.split_at_checked(text.len().checked_sub(4)?)?;
+    let has_sign = exponent.starts_with(['+', '-']) && mantissa.contains('.');
+    has_sign.then(|| format!("{mantissa}e{exponent}").parse().ok()).flatten()
 }
 
 /// Which limit a row holds, as a word or a number.
@@ -52,8 +66,14 @@ fn side(text: &str) -> Option<f64> {
     }
 }
 
+/// What separates the fields; `None` for white space. Commas that all stand between two digits, in a row with white
+/// space, are those of decimals.
 fn separator(row: &str) -> Option<char> {
-    [';', ','].into_iter().find(|separator| row.contains(*separator))
+    let bytes = row.as_bytes();
+    let digit = |at: Option<usize>| at.and_then(|at| bytes.get(at)).is_some_and(u8::is_ascii_digit);
+    let decimal = |(at, _): (usize, &str)| digit(at.checked_sub(1)) && digit(Some(at + 1));
+    let decimals = || row.contains([' ', '\t']) && row.match_indices(',').all(decimal);
+    [';', ','].into_iter().find(|separator| row.contains(*separator)).filter(|found| *found == ';' || !decimals())
 }
 
 fn names(header: &str, separator: Option<char>) -> Vec<String> {
@@ -61,13 +81,15 @@ fn names(header: &str, separator: Option<char>) -> Vec<String> {
 }
 
 impl Text {
-    /// Reads up to the first row. A first line that holds a word is the header; so is the last comment before the first
-    /// row where it has as many words as the row has numbers.
+    /// Reads up to the first row. A first line that begins with a word is the header; so is the last comment before
+    /// the first row where it has as many words as the row has numbers.
     ///
     /// **Errors**: a file that cannot be read, is not text, or holds no row.
-    pub(super) fn open(reader: BufReader<Box<dyn Read + Send>>, file: &str) -> Result<Self, DataError> {
-        let (line, number) = (Vec::new(), 0);
-        let mut text = Text { reader, separator: None, names: Vec::new(), line, number, width: 0 };
+    pub(super) fn open(mut reader: BufReader<Box<dyn Read + Send>>, file: &str) -> Result<Self, DataError> {
+        let start = reader.fill_buf().map_err(|error| DataErrorKind::Unreadable(error.to_string()).at(file, None))?;
+        let end = if start.contains(&b'\r') && !start.contains(&b'\n') { b'\r' } else { b'\n' };
+        let (line, none) = (Vec::new(), Vec::new());
+        let mut text = Text { reader, end, separator: None, names: none, misnamed: None, line, number: 0, width: 0 };
         let mut comment = String::new();
         let mut header: Option<String> = None;
         while text.next(file)? {
@@ -77,16 +99,16 @@ impl Text {
                 continue;
             }
             text.separator = separator(&row);
-            if header.is_none() && fields(&row, text.separator).any(|field| side(field).is_none()) {
+            let first = fields(&row, text.separator).find(|field| !field.is_empty());
+            if header.is_none() && first.is_some_and(|field| side(field).is_none()) {
                 header = Some(row);
                 continue;
             }
             text.width = fields(&row, text.separator).count();
-            text.names = match header {
-                Some(header) => names(&header, separator(&header)),
-                None => names(&comment, separator(&comment)),
-            };
+            let words = header.as_ref().unwrap_or(&comment);
+            text.names = names(words, separator(words));
             if text.names.len() != text.width {
+                text.misnamed = header.map(|_| text.names.len());
                 text.names.clear();
             }
             return Ok(text);
@@ -103,7 +125,7 @@ impl Text {
     fn next(&mut self, file: &str) -> Result<bool, DataError> {
         loop {
             self.line.clear();
-            let read = self.reader.read_until(b'\n', &mut self.line);
+            let read = self.reader.read_until(self.end, &mut self.line);
             self.number += 1;
             match read {
                 Ok(0) => return Ok(false),
@@ -116,7 +138,9 @@ impl Text {
 
     fn row(&self, file: &str) -> Result<&str, DataError> {
         let place = || Some(format!("line {}", self.number));
-        let text = std::str::from_utf8(&self.line).map_err(|_| DataErrorKind::NotText.at(file, place()))?;
+        // A zero is half of a character of UTF-16.
+        let text = std::str::from_utf8(&self.line).ok().filter(|text| !text.contains('\0'));
+        let text = text.ok_or_else(|| DataErrorKind::NotText.at(file, place()))?;
         Ok(text.trim_start_matches('\u{feff}').trim())
     }
 
@@ -145,8 +169,11 @@ impl Text {
                         let is_side = words == Some(found);
                         let Some(value) = (if is_side { side(field) } else { number(field) }) else {
                             let place = Some(format!("line {}, column {}", self.number, found + 1));
-                            let kind = if is_side { DataErrorKind::Side } else { DataErrorKind::NotANumber };
-                            return Err(kind(field.into()).at(file, place));
+                            let kind = match is_side {
+                                true => DataErrorKind::Side(short(field)),
+                                false => DataErrorKind::not_a_number(field),
+                            };
+                            return Err(kind.at(file, place));
                         };
                         values[*taker].push(value);
                     }

@@ -82,6 +82,28 @@ impl Number {
         if self.value < 0.0 { order.reverse() } else { order }
     }
 
+    /// Numerator and denominator as integers below 2⁵³; `None` where they are greater.
+    #[cfg(feature = "cli")]
+    pub(crate) fn integers(&self) -> Option<(i128, i128)> {
+        let integers = |decimal: &str| {
+            let (mantissa, exponent) = decimal.split_once(['e', 'E']).unwrap_or((decimal, "0"));
+            let (whole, fraction) = mantissa.split_once('.').unwrap_or((mantissa, ""));
+            let digits: i128 = format!("{whole}{fraction}").parse().ok()?;
+            let power = exponent.parse::<i32>().ok()? - i32::try_from(fraction.len()).ok()?;
+            let ten = 10i128.checked_pow(power.unsigned_abs())?;
+            if power < 0 { Some((digits, ten)) } else { Some((digits.checked_mul(ten)?, 1)) }
+        };
+        let (numerator, denominator) = self.parts();
+        let ((a, b), (c, d)) = (integers(numerator)?, integers(denominator)?);
+        let (top, bottom) = (a.checked_mul(d)?, b.checked_mul(c)?);
+        let (mut divisor, mut rest) = (top.abs(), bottom.abs());
+        while rest != 0 {
+            (divisor, rest) = (rest, divisor % rest);
+        }
+        let parts = (top / divisor * bottom.signum(), bottom.abs() / divisor);
+        (parts.0.abs().max(parts.1) < 1 << 53).then_some(parts)
+    }
+
     /// Numerator and denominator, each a decimal.
     fn parts(&self) -> (&str, &str) {
         self.text.split_once('/').unwrap_or((&self.text, "1"))
@@ -170,24 +192,41 @@ impl FromStr for Number {
             Some((a, b)) => (a.trim(), b.trim()),
             None => (text.as_str(), "1"),
         };
-        let unreadable = || NumberError::Unreadable(source.trim().to_string());
+        let unreadable = || NumberError::Unreadable(short(source.trim()));
         if !is_decimal(numerator) || !is_decimal(denominator) {
             return Err(unreadable());
         }
         let top: f64 = numerator.parse().map_err(|_| unreadable())?;
         let bottom: f64 = denominator.parse().map_err(|_| unreadable())?;
         if spells_zero(denominator) {
-            return Err(NumberError::ZeroDenominator(source.trim().to_string()));
+            return Err(NumberError::ZeroDenominator(short(source.trim())));
         }
         let fits = |value: f64| (1e-300..=1e300).contains(&value.abs());
         let usable = spells_zero(numerator) || (fits(top) && fits(bottom) && fits(top / bottom));
         if !usable {
-            return Err(NumberError::Size(source.trim().to_string()));
+            return Err(NumberError::Size(short(source.trim())));
         }
         let text = if denominator == "1" { numerator.to_string() } else { format!("{numerator}/{denominator}") };
         // Adding zero turns −0 into 0.
         Ok(Number { text, value: top / bottom + 0.0 })
     }
+}
+
+/// A text for a message: on one line, at most 40 characters.
+pub(crate) fn short(text: &str) -> String {
+    const MOST: usize = 40;
+    let mut shown = String::new();
+    for c in text.chars().take(MOST) {
+        if c.is_control() {
+            shown.extend(c.escape_default());
+        } else {
+            shown.push(c);
+        }
+    }
+    if text.chars().nth(MOST).is_some() {
+        shown.push('…');
+    }
+    shown
 }
 
 /// Whether no digit of the mantissa is other than 0.

@@ -24,6 +24,8 @@ mod fraction;
 mod interval;
 #[cfg(feature = "cli")]
 mod json;
+#[cfg(feature = "cli")]
+mod list;
 mod literal;
 #[cfg(feature = "mp")]
 mod radical;
@@ -40,6 +42,9 @@ pub use float::decimal;
 pub use interval::{Interval, IntervalPrecision};
 #[cfg(feature = "cli")]
 pub(crate) use json::{bound_json, number_json};
+#[cfg(feature = "cli")]
+pub(crate) use list::{List, Spelled};
+pub(crate) use literal::short;
 pub use literal::{Number, NumberError};
 #[cfg(feature = "mp")]
 pub use rug::{Float, Rational};

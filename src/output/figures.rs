@@ -5,7 +5,7 @@ use glam::DVec2;
 use super::draw::{Anchor, Axis, Key, LINES, Layer, Mark, Panel, Shape, Sheet, Stroke};
 use super::regimes::{regimes_csv, regimes_panel};
 use crate::figures::{DAMPINGS, Data, Failed, Figure, Of, STRONG, dot, limits};
-use crate::number::Scalar;
+use crate::number::{Analytic, DOUBLE_DIGITS, show};
 
 const LINE: f64 = 0.4;
 const THIN: f64 = 0.2;
@@ -15,12 +15,12 @@ const UNDAMPED: &str = "#d55e00";
 /// Of A, B, C: where the odd continuation of `g` is `−g` and where it is `g`.
 const REGIONS: [&str; 3] = ["#d9c3dd", "#bfdcc4", "#d9c3dd"];
 
-/// The numbers of a figure.
+/// The numbers of a figure, none with a digit beyond its bound.
 pub(crate) fn figure_csv(figure: &Figure, data: &Data) -> Result<String, csv::Error> {
     if let Some(map) = &data.map {
         return regimes_csv(map);
     }
-    let cell = |value: &Option<f64>| value.as_ref().map_or_else(String::new, Scalar::text);
+    let cell = |value: &Option<_>| value.as_ref().map_or_else(String::new, |value| show(value, DOUBLE_DIGITS));
     let rows = data.rows.iter().map(|row| row.iter().map(cell).collect()).collect();
     let comments = format!("# {}\n# {}\n", figure.shown, figure.corrected);
     super::csv::write(&comments, data.columns.iter().map(ToString::to_string).collect(), rows)
@@ -31,7 +31,7 @@ pub(crate) fn figures_index(figures: &[&Figure], data: &[Data]) -> Result<String
     let mut text = format!(
         "# Figures\n\nOf *Explicit solutions and coefficient of restitution for an elastic rod with viscous damping*, \
          worked out by dalembert {}: `dalembert figures`.\nEach is there as SVG, as PNG and as numbers (CSV), in which \
-         what is not defined is empty.\n",
+         what is not defined is empty and no number has a digit beyond the bound of its error.\n",
         env!("CARGO_PKG_VERSION")
     );
     for (figure, data) in figures.iter().zip(data) {
@@ -50,33 +50,37 @@ pub(crate) fn figures_index(figures: &[&Figure], data: &[Data]) -> Result<String
                  |---|---|---|---|---|\n";
         for damping in DAMPINGS {
             let limits = limits(damping)?;
-            let numbers = [limits.restitution, (-limits.ratio).exp(), limits.translational, limits.kept];
-            let cells: Vec<String> = numbers.iter().map(|number| format!("{number:.12}")).collect();
+            let numbers = [Some(limits.restitution), Some(limits.decay.sqrt()), limits.translational, limits.kept];
+            let cells: Vec<String> = numbers.iter().flatten().map(|number| format!("{:.12}", number.value())).collect();
             text += &format!("| {damping} | {} |\n", cells.join(" | "));
         }
     }
     Ok(text)
 }
 
+/// Values of the columns of a figure.
+type Row = Vec<Option<f64>>;
+
 /// A figure as a sheet of one panel.
 pub(crate) fn figure_sheet(figure: &Figure, data: &Data) -> Result<Sheet, Failed> {
+    let rows = &data.values();
     let panel = match figure.of {
-        Of::Kernel => kernel(data),
-        Of::Vibration => energies(data, "E_z(t_b)", &[(3, "E_z")]),
-        Of::Shares => energies(data, "share of E(0)", &[(4, "E_h(t_b)/E(0)"), (5, "E_z(t_b)/E(0)")]),
-        Of::Restitution => restitution(data)?,
-        Of::Translational => shares(data, "E_h(t₁)/E(t₁)"),
-        Of::Kept => shares(data, "E(t₁)/E(0)"),
-        Of::Decay => shares(data, "E(t₁)/(E(0) exp(−2r t₁))"),
-        Of::Regions => regions(data),
+        Of::Kernel => kernel(rows),
+        Of::Vibration => energies(rows, "E_z(t_b)", &[(3, "E_z")]),
+        Of::Shares => energies(rows, "share of E(0)", &[(4, "E_h(t_b)/E(0)"), (5, "E_z(t_b)/E(0)")]),
+        Of::Restitution => restitution(rows)?,
+        Of::Translational => shares(rows, "E_h(t₁)/E(t₁)"),
+        Of::Kept => shares(rows, "E(t₁)/E(0)"),
+        Of::Decay => shares(rows, "E(t₁)/(E(0) exp(−2r t₁))"),
+        Of::Regions => regions(rows),
         Of::Regimes => data.map.as_ref().map(regimes_panel).ok_or("no map")?,
-        Of::Tenth => tenth(data),
+        Of::Tenth => tenth(rows),
     };
     Ok(Sheet { title: Vec::new(), panels: vec![panel] })
 }
 
 /// The points of two columns, in stretches where both are defined.
-fn stretches<'a>(rows: impl Iterator<Item = &'a Vec<Option<f64>>>, x: usize, y: usize) -> Vec<Vec<DVec2>> {
+fn stretches<'a>(rows: impl Iterator<Item = &'a Row>, x: usize, y: usize) -> Vec<Vec<DVec2>> {
     let mut lines = vec![Vec::new()];
     for row in rows {
         match (row[x], row[y], lines.last_mut()) {
@@ -89,9 +93,9 @@ fn stretches<'a>(rows: impl Iterator<Item = &'a Vec<Option<f64>>>, x: usize, y: 
     lines
 }
 
-fn of<'a>(data: &'a Data, damping: &str) -> impl Iterator<Item = &'a Vec<Option<f64>>> + use<'a> {
+fn of<'a>(rows: &'a [Row], damping: &str) -> impl Iterator<Item = &'a Row> + use<'a> {
     let damping: Option<f64> = damping.parse().ok();
-    data.rows.iter().filter(move |row| row[0] == damping)
+    rows.iter().filter(move |row| row[0] == damping)
 }
 
 /// The colour of a damping of Figures 4–7.
@@ -111,12 +115,12 @@ fn marks(points: Vec<DVec2>, color: &'static str) -> Layer {
     Layer { over: true, ..Layer::new("marks", Shape::Marks(points, Mark::Dot, color)) }
 }
 
-fn kernel(data: &Data) -> Panel {
+fn kernel(rows: &[Row]) -> Panel {
     let x = Axis::new("t", "", [0.0, 4.0]);
-    let y = Axis::new("Ψ_r(t)", "", Axis::range(data.rows.iter().filter_map(|row| row[3]), true));
+    let y = Axis::new("Ψ_r(t)", "", Axis::range(rows.iter().filter_map(|row| row[3]), true));
     let (mut layers, mut legend) = (vec![level(&x, 0.0, Stroke::new("#808080", THIN))], Vec::new());
     for (k, damping) in STRONG.into_iter().enumerate() {
-        let (rows, stroke) = (of(data, damping).collect::<Vec<_>>(), Stroke::new(LINES[k], LINE));
+        let (rows, stroke) = (of(rows, damping).collect::<Vec<_>>(), Stroke::new(LINES[k], LINE));
         // A jump lies between two rows of one time.
         let stretches: Vec<Vec<DVec2>> = rows
             .chunk_by(|a, b| a[1] != b[1])
@@ -132,15 +136,15 @@ fn kernel(data: &Data) -> Panel {
     Panel { title: "the stress of a rod that is held: g = 0, t₁ = μ = c = 1".into(), x, y, layers, legend }
 }
 
-fn energies(data: &Data, label: &str, columns: &[(usize, &str)]) -> Panel {
+fn energies(rows: &[Row], label: &str, columns: &[(usize, &str)]) -> Panel {
     let x = Axis::new("μ", "", [0.0, 8.0]);
-    let values = columns.iter().flat_map(|(column, _)| data.rows.iter().filter_map(|row| row[*column]));
+    let values = columns.iter().flat_map(|(column, _)| rows.iter().filter_map(|row| row[*column]));
     let y = Axis::new(label, "", Axis::range(values, true));
     let (mut layers, mut legend) = (Vec::new(), Vec::new());
     for (k, (column, name)) in columns.iter().enumerate() {
         let stroke = Stroke::new(LINES[k], LINE);
-        layers.push(lines("curve", stretches(data.rows.iter(), 0, *column), stroke));
-        let dot = data.rows.iter().filter(|row| row[0] == Some(2.0)).filter_map(|row| row[*column]);
+        layers.push(lines("curve", stretches(rows.iter(), 0, *column), stroke));
+        let dot = rows.iter().filter(|row| row[0] == Some(2.0)).filter_map(|row| row[*column]);
         layers.push(marks(dot.map(|value| DVec2::new(2.0, value)).collect(), UNDAMPED));
         if columns.len() > 1 {
             legend.push(Key::Line((*name).into(), stroke));
@@ -150,15 +154,15 @@ fn energies(data: &Data, label: &str, columns: &[(usize, &str)]) -> Panel {
     Panel { title: "energy at the first bounce: r = 0, c = L = g = 1".into(), x, y, layers, legend }
 }
 
-fn restitution(data: &Data) -> Result<Panel, Failed> {
+fn restitution(rows: &[Row]) -> Result<Panel, Failed> {
     let x = Axis::new("μ", "", [0.0, 12.5]);
     let y = Axis::new("e_E²", "", [0.0, 1.05]);
     let (mut layers, mut legend, mut dots) = (Vec::new(), Vec::new(), Vec::new());
     for (k, damping) in DAMPINGS.into_iter().enumerate() {
         let stroke = Stroke::new(color(k), LINE);
-        let limit = limits(damping)?.restitution.powi(2);
+        let limit = limits(damping)?.restitution.value().powi(2);
         layers.push(level(&x, limit, Stroke { width: THIN, ..stroke.dashed("1.6 0.9") }));
-        let curve = stretches(of(data, damping), 1, 3);
+        let curve = stretches(of(rows, damping), 1, 3);
         // Where t_b = t₁ begins: between two points of the curve.
         let at = dot(damping);
         dots.extend(
@@ -177,19 +181,18 @@ fn restitution(data: &Data) -> Result<Panel, Failed> {
     Ok(Panel { title: "restitution of the first bounce: c = L = g = 1".into(), x, y, layers, legend })
 }
 
-fn shares(data: &Data, label: &str) -> Panel {
+fn shares(rows: &[Row], label: &str) -> Panel {
     let x = Axis::new("μ", "", [3.2, 12.5]);
-    let y =
-        Axis::new(label, "", Axis::range(data.rows.iter().flat_map(|row| [row[2], row[3], row[4]]).flatten(), false));
+    let y = Axis::new(label, "", Axis::range(rows.iter().flat_map(|row| [row[2], row[3], row[4]]).flatten(), false));
     let (mut layers, mut legend) = (Vec::new(), Vec::new());
     let supposed = Stroke::new("#808080", THIN).dashed("0.4 0.6");
     for (k, damping) in DAMPINGS.into_iter().enumerate() {
         let stroke = Stroke::new(color(k), LINE);
-        if let Some(row) = of(data, damping).next() {
+        if let Some(row) = of(rows, damping).next() {
             layers.extend(row[4].map(|value| level(&x, value, supposed)));
             layers.extend(row[3].map(|value| level(&x, value, Stroke { width: THIN, ..stroke.dashed("1.6 0.9") })));
         }
-        layers.push(lines("curve", stretches(of(data, damping), 1, 2), stroke));
+        layers.push(lines("curve", stretches(of(rows, damping), 1, 2), stroke));
         legend.push(Key::Line(format!("r = {damping}"), stroke));
     }
     legend.push(Key::Line("limit for μ → ∞".into(), Stroke::new(BLACK, THIN).dashed("1.6 0.9")));
@@ -197,7 +200,7 @@ fn shares(data: &Data, label: &str) -> Panel {
     Panel { title: "energy at the first bounce, t_b = t₁: c = L = g = 1".into(), x, y, layers, legend }
 }
 
-fn regions(data: &Data) -> Panel {
+fn regions(rows: &[Row]) -> Panel {
     let mut x = Axis::new("y", "", [-2.0, 3.0]);
     x.ticks = Some(
         [(-1.5, "x − c t₁"), (0.0, "0"), (0.5, "x"), (2.0, "2L"), (2.5, "x + c t₁")]
@@ -208,7 +211,7 @@ fn regions(data: &Data) -> Panel {
     y.ticks = Some(vec![(0.0, "0".into()), (2.0, "t₁".into())]);
     let mut layers = Vec::new();
     for ((region, color), name) in [1.0, 2.0, 3.0].into_iter().zip(REGIONS).zip(["A", "B", "C"]) {
-        let rows = data.rows.iter().filter(|row| row[0] == Some(region));
+        let rows = rows.iter().filter(|row| row[0] == Some(region));
         let corners: Vec<DVec2> = rows.filter_map(|row| Some(DVec2::new(row[1]?, row[2]?))).collect();
         let middle = corners.iter().sum::<DVec2>() / corners.len().max(1) as f64;
         let edge = corners.iter().chain(corners.first()).copied().collect();
@@ -221,15 +224,15 @@ fn regions(data: &Data) -> Panel {
     Panel { title: "regions of integration for the point (x, t₁), x = L/2".into(), x, y, layers, legend }
 }
 
-fn tenth(data: &Data) -> Panel {
+fn tenth(rows: &[Row]) -> Panel {
     let x = Axis::new("μ", "", [0.0, 10.0]);
     let y = Axis::new("e_E²", "", [0.0, 2.0]);
     let mut layers = vec![level(&x, 1.0, Stroke::new("#808080", THIN))];
     let first = Stroke::new(UNDAMPED, LINE);
     // It jumps wherever an earlier landing comes or goes: points, without lines between them.
-    let tenth = stretches(data.rows.iter(), 0, 2).concat();
+    let tenth = stretches(rows.iter(), 0, 2).concat();
     layers.push(Layer::new("marks", Shape::Marks(tenth, Mark::Point, LINES[0])));
-    layers.push(lines("curve", stretches(data.rows.iter(), 0, 1), first));
+    layers.push(lines("curve", stretches(rows.iter(), 0, 1), first));
     let legend = vec![Key::Line("first bounce".into(), first), Key::Mark("tenth bounce".into(), Mark::Point, LINES[0])];
     Panel {
         title: "restitution of the first and of the tenth bounce: r = 0, c = L = g = 1".into(),

@@ -29,7 +29,7 @@ pub(crate) use cost_picture::cost_svg;
 pub(crate) use csv::compare_csv;
 pub use csv::{Part, history_csv, samples_csv};
 #[cfg(feature = "plot")]
-pub(crate) use draw::png;
+pub(crate) use draw::Rendered;
 pub(crate) use draw::{Size, plain};
 pub(crate) use figures::{figure_csv, figure_sheet, figures_index};
 pub use file::write_whole;
@@ -43,4 +43,5 @@ pub use reference::{Described, Golden, Preamble, Rows};
 pub(crate) use regimes::{regimes_csv, regimes_npz, regimes_svg, regimes_text, threshold_csv};
 pub(crate) use sweep::{sweep_csv, sweep_json, sweep_npz, sweep_table};
 pub use table::{LEGEND, history_table, samples_table};
+pub(crate) use table::{WIDTH, wrapped};
 pub(crate) use target::{targets_csv, targets_json, targets_table};

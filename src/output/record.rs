@@ -22,8 +22,6 @@ pub struct Head {
     pub parameters: String,
     /// Whether a table may be wider than 80 characters.
     pub wide: bool,
-    /// Whether the symbols of a table are explained below it.
-    pub legend: bool,
     /// What gives strains and values per `ρS` a unit.
     pub units: Units,
     /// What the user should know.
@@ -169,14 +167,16 @@ pub struct Record<S> {
 }
 
 impl<S> Record<S> {
-    /// Every number that is printed.
-    pub fn numbers(&self) -> Vec<&S> {
+    /// Every number that is printed, with or without those that are ratios of others.
+    pub fn numbers(&self, ratios: bool) -> Vec<&S> {
         let mut all = vec![&self.end.0];
         all.extend(self.events.iter().flat_map(Event::numbers));
         for Finished { contact, restitution, shares, energy } in &self.contacts {
             all.extend(contact.numbers());
-            all.extend(restitution.numbers());
-            all.extend(shares.numbers());
+            if ratios {
+                all.extend(restitution.numbers());
+                all.extend(shares.numbers());
+            }
             all.extend(energy.iter().flat_map(Energy::numbers));
         }
         all.extend(self.flights.iter().flat_map(Flight::numbers));

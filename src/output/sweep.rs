@@ -6,9 +6,9 @@ use ndarray::Array1;
 use ndarray_npy::{NpzWriter, WriteNpzError};
 use serde_json::{Map, Value, json};
 
+use super::table::{WIDTH, wrapped};
 use crate::aligned::table;
 use crate::number::{DOUBLE_DIGITS, Estimate, Rounded, show};
-use crate::problem::written::short;
 use crate::sweep::{Point, Sweep};
 
 /// A value as text: that of an enclosure is its middle.
@@ -57,9 +57,10 @@ fn rows(sweep: &Sweep, points: &[Point], uncertainty: bool) -> (Vec<String>, Vec
     (header, points.iter().map(row).collect())
 }
 
-/// A table for a person, with the beginnings of the notes, and no digit of a double beyond its uncertainty.
+/// A table for a person, with the notes below it, each once, and no digit of a double beyond its uncertainty.
 pub(crate) fn sweep_table(sweep: &Sweep, points: &[Point]) -> String {
-    let (header, mut rows) = rows(sweep, points, false);
+    let (mut header, mut rows) = rows(sweep, points, false);
+    let mut below: Vec<String> = Vec::new();
     for (row, point) in rows.iter_mut().zip(points) {
         let first = 1 + sweep.grid.axes.len();
         for (text, cell) in row.iter_mut().skip(first).zip(&point.cells) {
@@ -67,9 +68,22 @@ pub(crate) fn sweep_table(sweep: &Sweep, points: &[Point]) -> String {
                 *text = show(&Estimate::new(value, bound / value.unit()), DOUBLE_DIGITS);
             }
         }
-        row.last_mut().into_iter().for_each(|note| *note = short(note));
+        for note in row.last_mut().into_iter().filter(|note| !note.is_empty()) {
+            let known = below.iter().position(|other| other == note).unwrap_or(below.len());
+            if known == below.len() {
+                below.push(note.clone());
+            }
+            *note = format!("[{}]", known + 1);
+        }
     }
-    table(&header.iter().map(String::as_str).collect::<Vec<_>>(), rows, 0) + "\n"
+    if below.is_empty() {
+        header.pop();
+        rows.iter_mut().for_each(|row| row.truncate(header.len()));
+    }
+    let table = table(&header.iter().map(String::as_str).collect::<Vec<_>>(), rows, 0);
+    let notes = below.iter().enumerate().map(|(k, note)| wrapped(&format!("[{}] {note}", k + 1), WIDTH, "    ") + "\n");
+    let space = if below.is_empty() { "" } else { "\n" };
+    format!("{table}\n{space}{}", notes.collect::<String>())
 }
 
 /// CSV with a header.

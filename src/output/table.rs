@@ -7,7 +7,7 @@ use crate::number::{Scalar, show, shown_bound_text};
 use crate::quantity::{Measure, Units};
 
 /// Characters that a table may be wide where nothing else is asked for.
-const WIDTH: usize = 80;
+pub(crate) const WIDTH: usize = 80;
 
 /// A table of at most [`WIDTH`] characters: columns that do not fit follow in further tables, each with the first
 /// `keys` columns again.
@@ -159,23 +159,22 @@ pub fn history_table<S: Scalar>(record: &Record<S>, head: &Head) -> String {
         out += &format!("{impacts} impacts may have lost {lost:.1} of the digits carried, none of those printed\n");
     }
     out += &warnings(head);
-    if head.legend {
-        out += &format!("\n{LEGEND}");
-    }
     out
 }
 
 /// A line of prose, in several where it is wider than a table may be.
 fn line(text: &str, head: &Head) -> String {
-    if head.wide {
-        return format!("{text}\n");
-    }
-    let options = textwrap::Options::new(WIDTH)
-        .subsequent_indent("    ")
+    if head.wide { format!("{text}\n") } else { wrapped(text, WIDTH, "    ") + "\n" }
+}
+
+/// A text in lines of so many characters, those after the first indented.
+pub(crate) fn wrapped(text: &str, width: usize, indent: &str) -> String {
+    let options = textwrap::Options::new(width)
+        .subsequent_indent(indent)
         .word_separator(textwrap::WordSeparator::AsciiSpace)
         .word_splitter(textwrap::WordSplitter::NoHyphenation)
         .wrap_algorithm(textwrap::WrapAlgorithm::FirstFit);
-    textwrap::fill(text, options) + "\n"
+    textwrap::fill(text, options)
 }
 
 /// The units of what the scene's own do not tell, in a line: `impulse in N s, energies in J`.

@@ -1,5 +1,6 @@
 //! A number as it was written, before it is checked.
 
+pub(crate) use crate::number::short;
 use crate::number::{Number, NumberError};
 
 /// A number as it was written: an integer, a text such as `"1/3"` or `"0.1"`, a [`Number`], or a double, which stands
@@ -63,23 +64,6 @@ macro_rules! written {
 written!(i32, i64, u32, u64, usize, &Number);
 #[cfg(feature = "mp")]
 written!(rug::Integer, rug::Rational);
-
-/// A text for a message: on one line, at most 40 characters.
-pub(crate) fn short(text: &str) -> String {
-    const MOST: usize = 40;
-    let mut shown = String::new();
-    for c in text.chars().take(MOST) {
-        if c.is_control() {
-            shown.extend(c.escape_default());
-        } else {
-            shown.push(c);
-        }
-    }
-    if text.chars().nth(MOST).is_some() {
-        shown.push('…');
-    }
-    shown
-}
 
 /// Whether a text is a number followed by a word: `1 m`, `5 kg/m3`.
 pub(crate) fn has_unit(text: &str) -> bool {

@@ -400,21 +400,33 @@ fn agreed(values: &[f64]) -> Option<f64> {
 /// **Source**: of a force that is sampled, each end is known to half a step, and a smear by a share `w` of the
 /// duration, such as that of a penalty, adds at most `12 w²` to the square of the spread: `w` is no more than what the
 /// duration is longer than the spread. A rate beyond both is one of the clock. A shift counts where it is more than a
-/// step, and beginning, end and centroid of every contact say the same.
-pub fn of_contacts(rows: &[(Option<Touch>, Option<Touch>)], step: f64) -> Vec<Hint> {
+/// step, and beginning, end and centroid of every contact say the same. A step is the longest between the samples at
+/// `times` that a contact lies between; `typical` is that which a shift is counted in. A contact that had begun before
+/// the first sample shows nothing.
+pub fn of_contacts(rows: &[(Option<Touch>, Option<Touch>)], times: &[f64], typical: f64) -> Vec<Hint> {
     let hint = |finding| Hint { quantity: "contact".into(), finding };
     let mut hints = Vec::new();
-    let resolved = |touch: &Touch| touch.duration().is_some_and(|duration| duration > 2.0 * step);
+    let longest = |touch: &Touch| {
+        if times.first().is_none_or(|first| touch.from < first - typical) {
+            return f64::INFINITY;
+        }
+        let first = times.partition_point(|time| *time <= touch.from).saturating_sub(1);
+        let last = touch.to.map_or(times.len(), |to| times.partition_point(|time| *time < to) + 1);
+        let within = &times[first..last.clamp(first, times.len())];
+        within.windows(2).map(|pair| pair[1] - pair[0]).reduce(f64::max).unwrap_or(f64::INFINITY)
+    };
+    let resolved = |touch: &Touch| touch.duration().is_some_and(|duration| duration > 2.0 * longest(touch));
     let missing = rows.iter().filter(|(a, b)| b.is_none() && a.as_ref().is_some_and(resolved)).count();
     let invented = rows.iter().filter(|(a, b)| a.is_none() && b.as_ref().is_some_and(resolved)).count();
     hints.extend((missing > 0).then(|| hint(Finding::Missing(missing))));
     hints.extend((invented > 0).then(|| hint(Finding::Invented(invented))));
-    let pairs: Vec<(&Touch, &Touch)> = rows.iter().filter_map(|(a, b)| a.as_ref().zip(b.as_ref())).collect();
+    let both = rows.iter().filter_map(|(a, b)| a.as_ref().zip(b.as_ref()));
+    let pairs: Vec<(&Touch, &Touch)> = both.filter(|(a, _)| longest(a).is_finite()).collect();
     let ratio = |a: Option<f64>, b: Option<f64>| a.zip(b).map(|(a, b)| b / a - 1.0).filter(|rate| rate.is_finite());
-    let first = rows.first().and_then(|(a, b)| a.as_ref().zip(b.as_ref()));
+    let first = rows.first().and_then(|(a, b)| a.as_ref().zip(b.as_ref())).filter(|(a, _)| longest(a).is_finite());
     let clock = first.and_then(|(a, b)| {
         let (rate, longer) = (ratio(a.spread, b.spread)?, ratio(a.duration(), b.duration())?);
-        let open = step / a.duration()? + 6.0 * (longer - rate).powi(2);
+        let open = longest(a).max(longest(b)) / a.duration()? + 6.0 * (longer - rate).powi(2);
         (rate.abs() > open).then(|| Finding::Clock { rate, impulse: ratio(a.impulse, b.impulse) })
     });
     if let Some(clock) = clock {
@@ -427,8 +439,9 @@ pub fn of_contacts(rows: &[(Option<Touch>, Option<Touch>)], step: f64) -> Vec<Hi
         std::iter::once(b.from - a.from).chain(to).chain(centroid)
     });
     let agree = agreed(&shifts.collect::<Vec<_>>()).is_some();
+    let step = pairs.iter().map(|(a, b)| longest(a).max(longest(b))).fold(0.0, f64::max);
     let late = first.map(|(a, b)| b.from - a.from).filter(|late| agree && late.abs() > step);
-    hints.extend(late.map(|late| hint(Finding::TimeShift { late, steps: late / step })));
+    hints.extend(late.map(|late| hint(Finding::TimeShift { late, steps: late / typical })));
     hints
 }
 

@@ -27,9 +27,9 @@ pub enum Slice {
 ///
 /// **Accuracy**: *exact* in fractions; otherwise within the bounds that the numbers carry.
 ///
-/// **Errors**: [`Error::NoWaves`] for averages and projections of a damped rod; [`Error::Grid`] for those on a grid
-/// whose points do not increase, and
-/// [`Error::PointOutside`].
+/// **Errors**: [`Error::NoWaves`] for averages and projections of a damped rod: the bounds of its velocities hold away
+/// from rays that are off in time, and a mean takes these in; [`Error::Grid`] for those on a grid whose points do not
+/// increase, and [`Error::PointOutside`].
 pub fn slices<S: Scalar>(
     motion: &dyn Motion<S>,
     slice: Slice,

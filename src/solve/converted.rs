@@ -43,6 +43,12 @@ impl<N: Scalar, M: Reads<N>> Converted<N, M> {
         known.into_iter().find(|known| M::read((*known).clone()).text() == time.text()).cloned()
     }
 
+    /// A point of this rod. The one that its length was rounded to is its top.
+    fn point(&self, point: &M) -> N {
+        let length = self.engine.scales().length;
+        if M::read(length.clone()).text() == point.text() { length } else { point.give(&self.precision) }
+    }
+
     /// A time at which `point` is asked about: that of a ray there, where the roundings of `M` alone set it apart.
     fn time_at(&self, point: &N, time: &M) -> N {
         let roundings = 8.0 * time.log2_roundoff().exp2() * time.to_f64();
@@ -104,7 +110,7 @@ impl<N: Scalar, M: Reads<N>> Motion<M> for Converted<N, M> {
     }
 
     fn field(&self, point: &M, time: &M, side: Side) -> Result<Field<M>, Error> {
-        let point = point.give(&self.precision);
+        let point = self.point(point);
         let field = self.engine.field(&point, &self.time_at(&point, time), side)?;
         Ok(field.map(M::read))
     }

@@ -5,7 +5,7 @@ use std::sync::Arc;
 use super::converted::Converted;
 use super::ladder::{Engined, Observer, Target};
 use super::plan::{Engine, Plan, Rung};
-use crate::cells::{self, ContactThenCells, Damped, WithBounds};
+use crate::cells::{self, ContactThenCells, Damped, Effort, WithBounds};
 use crate::error::Error;
 use crate::first_contact::{Bounce, ContactHistory, FirstContact};
 use crate::lattice::Undamped;
@@ -57,6 +57,7 @@ fn bits_of(rung: Rung) -> u32 {
 fn estimates(problem: &Problem, plan: &Plan, bits: u32, observe: &Observer) -> Result<Engined<Float>, Error> {
     let problem = &*plan.reaching(problem);
     let digits = f64::from(bits) * std::f64::consts::LOG10_2 - 19.0;
+    let effort = Effort { digits, cells: plan.most_cells(bits), until_lost: true };
     Ok(match plan.engine {
         Engine::Lattice => {
             let limits = plan.limits(problem);
@@ -67,7 +68,7 @@ fn estimates(problem: &Problem, plan: &Plan, bits: u32, observe: &Observer) -> R
             Arc::new(history)
         }
         Engine::Cells => {
-            Arc::new(WithBounds::new(Damped::<Float>::solve_observed(problem, &bits, digits, 1, &**observe)?)?)
+            Arc::new(WithBounds::new(Damped::<Float>::solve_observed(problem, &bits, effort, 1, &**observe)?)?)
         }
         Engine::ClosedForm | Engine::ClosedFormThenCells => {
             let rod = Parameters::<Estimate<Float>>::of(problem, &bits)?;
@@ -79,7 +80,7 @@ fn estimates(problem: &Problem, plan: &Plan, bits: u32, observe: &Observer) -> R
             Arc::new(WithBounds::new(ContactThenCells::<Float>::solve_observed(
                 problem,
                 &bits,
-                digits,
+                effort,
                 (bounce, reach),
                 &**observe,
             )?)?)

@@ -1,6 +1,6 @@
 //! Which values of a scene are varied, and the problem of each point.
 
-use crate::number::{Number, NumberError};
+use crate::number::{Number, Spelled};
 use crate::problem::validate::NUMBERS;
 use crate::problem::written::Written;
 use crate::problem::{Problem, ProblemError};
@@ -14,9 +14,9 @@ pub(crate) enum SweepError {
     /// What was found, and what was expected.
     #[error("found {found}, expected {expected}")]
     Refused { found: String, expected: String },
-    /// A value that is no number.
-    #[error(transparent)]
-    Number(#[from] NumberError),
+    /// What is no list of numbers.
+    #[error("{0}")]
+    List(String),
 }
 
 impl SweepError {
@@ -35,11 +35,12 @@ pub(crate) struct Axis {
 impl std::str::FromStr for Axis {
     type Err = SweepError;
 
-    /// `PATH=VALUES`, with the values as [`values`] has them.
+    /// `PATH=VALUES`, with the values as [`Spelled`] reads them.
     fn from_str(text: &str) -> Result<Self, SweepError> {
         let found = |found: &str| format!("`{found}`");
-        let (path, list) =
-            text.split_once('=').ok_or_else(|| SweepError::new(found(text), format!("PATH={VALUES}")))?;
+        let (path, list) = text
+            .split_once('=')
+            .ok_or_else(|| SweepError::new(found(text), "PATH=V1,V2,…, PATH=A..B:N or PATH=A..B:N:log"))?;
         let known = NUMBERS.into_iter().find(|known| *known == path.trim());
         let path = known.ok_or_else(|| {
             let expected = format!("a number of a scene: {}", NUMBERS.join(", "));
@@ -49,36 +50,22 @@ impl std::str::FromStr for Axis {
     }
 }
 
-/// What values are written as.
-const VALUES: &str = "V1,V2,…, A..B:N or A..B:N:log";
-
-/// `V1,V2,…`, `A..B:N` for N values from A to B, or `A..B:N:log` for N in geometric progression.
+/// The values that a list spells.
 ///
 /// **Accuracy**: listed values and both ends of a range as they are written; what lies between is the shortest decimal
 /// of the double.
 ///
 /// **Errors**: [`SweepError`] for what is written otherwise.
 pub(super) fn values(text: &str) -> Result<Vec<Number>, SweepError> {
-    let Some((from, rest)) = text.split_once("..") else {
-        return Ok(text.split(',').map(str::parse).collect::<Result<_, _>>()?);
+    let (from, to, count, geometric) = match Spelled::of(text, true).map_err(SweepError::List)? {
+        Spelled::Numbers(numbers) => return Ok(numbers),
+        Spelled::Range { from, to, count, geometric } => (from, to, count, geometric),
     };
-    let refused = |expected: String| SweepError::new(format!("`{text}`"), expected);
-    let mut rest = rest.split(':');
-    let (to, count, log) = match (rest.next(), rest.next(), rest.next(), rest.next()) {
-        (Some(to), Some(count), log @ (None | Some("log")), None) => (to, count, log.is_some()),
-        _ => return Err(refused(VALUES.into())),
-    };
-    let (from, to): (Number, Number) = (from.parse()?, to.parse()?);
-    let count = count.trim().parse::<usize>().ok().filter(|count| (2..=MOST_POINTS).contains(count));
-    let count = count.ok_or_else(|| refused(format!("a count of 2 to {MOST_POINTS}")))?;
-    let (a, b, steps) = (from.to_f64(), to.to_f64(), (count - 1) as f64);
-    if log && !(a > 0.0 && b > 0.0) {
-        return Err(refused("two ends above zero for :log".into()));
-    }
-    let inner = |k: usize| {
-        let k = k as f64;
-        let value = if log { a * (b / a).powf(k / steps) } else { (a * (steps - k) + b * k) / steps };
-        Written::from(value).number().cloned().map_err(NumberError::clone)
+    let (a, b, steps) = (from.to_f64(), to.to_f64(), f64::from(count - 1));
+    let inner = |k: u32| {
+        let k = f64::from(k);
+        let value = if geometric { a * (b / a).powf(k / steps) } else { (a * (steps - k) + b * k) / steps };
+        Written::from(value).number().cloned().map_err(|error| SweepError::List(error.to_string()))
     };
     let between = (1..count - 1).map(inner).collect::<Result<Vec<_>, _>>()?;
     Ok(std::iter::once(from).chain(between).chain([to]).collect())

@@ -196,3 +196,49 @@ fn both_limits_at_a_jump() {
         assert_eq!(found, expected);
     }
 }
+
+/// Times in order take one march; each value is, bit for bit, that of a history that is asked for this time alone, in
+/// any order: random scenes, times at random, at events, where rays meet the ends, and twice, from both sides.
+#[test]
+fn one_march_has_the_values_of_many() {
+    let mut state = 1878u64;
+    let mut random = move || {
+        state = state.wrapping_mul(6364136223846793005).wrapping_add(1442695040888963407);
+        (state >> 11) as f64 / (1u64 << 53) as f64
+    };
+    let any = || Problem::builder().length(2).wave_speed(3).gravity(1);
+    let rod = || any().impacts(4);
+    let mut problems = vec![
+        rod().damping("0.01").impact_speed(40).impacts(2),
+        rod().damping("0.2").fixed_top().impact_speed("1.7"),
+        any().damping("1.5").impact_speed(3).time(20),
+        rod().damping("0.1").gap("0.4").impact_speed(1),
+        any().damping("0.3").displacement([(0, "0.1"), (1, "-0.2"), (2, "0")]).time(9),
+    ];
+    for _ in 0..5 {
+        let (damping, speed) = (10f64.powf(2.5 * random() - 2.0), 0.3 + 4.0 * random());
+        problems.push(rod().damping(damping).impact_speed(speed));
+    }
+    for (name, problem) in problems.into_iter().map(|problem| problem.build().unwrap()).enumerate() {
+        let history = problem.solve().unwrap();
+        let (end, trip) = (*history.end(), history.scales().time);
+        let mut times: Vec<f64> = (0..60).map(|_| end * random()).collect();
+        times.extend((0..40).map(|k| 0.25 * trip * f64::from(k)));
+        times.extend(history.events().iter().flat_map(|event| [event.time, event.time + 0.5 * trip]));
+        times.extend([0.0, end, end]);
+        times.retain(|time| *time <= end);
+        times.sort_by(f64::total_cmp);
+        let bits =
+            |table: &[Vec<f64>], row: usize| table.iter().map(|values| values[row].to_bits()).collect::<Vec<_>>();
+        for side in [Side::Left, Side::Right] {
+            let table = history.columns(&Column::ALL, &times, Some(side)).unwrap();
+            let alone = problem.solve().unwrap();
+            for (row, time) in times.iter().enumerate().rev() {
+                // The first ones of a history that has been asked nothing yet.
+                let fresh = (row % 16 == 0).then(|| problem.solve().unwrap());
+                let found = fresh.as_ref().unwrap_or(&alone).columns(&Column::ALL, &[*time], Some(side)).unwrap();
+                assert_eq!(bits(&table, row), bits(&found, 0), "problem {name} at {time}, {side:?}");
+            }
+        }
+    }
+}

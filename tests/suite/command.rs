@@ -431,7 +431,7 @@ fn wrong_usage_is_refused() {
     refused(&["solve", "paper-weak", "--digits", "0"], &[if cfg!(feature = "mp") { "1 to 100000" } else { "found" }]);
     let sample = |more: &[&'static str]| [&["sample", "paper-weak", "--quantity", "field"][..], more].concat();
     refused(&sample(&["--times", "1..2"]), &["found `1..2`, expected A..B:N"]);
-    refused(&sample(&["--times", "1..2:1"]), &["found a count of 1"]);
+    refused(&sample(&["--times", "1..2:1"]), &["found `1..2:1`, expected a count of 2"]);
     refused(&sample(&["--times", "one"]), &["found `one`"]);
     refused(&sample(&["--times", "-1,2"]), &["found time -1"]);
     refused(&sample(&["--times", "1", "--points", "3/2"]), &["found point 1.5, expected one between 0 and 1"]);

@@ -93,6 +93,22 @@ fn every_form_of_data() {
             "t=0,u=1,v=2,force=3",
         ),
         ("e.txt", "9 0\n9 0\n9 0\n9 1\n9 2\n".into(), "u=1"),
+        // Line ends of old, a mark of byte order, quotes everywhere, other programs' names and units.
+        ("f.csv", EXACT.replace('\n', "\r"), ""),
+        ("g.csv", format!("\u{feff}{EXACT}"), ""),
+        ("h.csv", EXACT.lines().map(|line| format!("\"{}\"\n", line.replace(',', "\",\""))).collect(), ""),
+        ("i.csv", EXACT.replace("t,u,v,force", "Time (s),U [m],V [m/s],Force [per ρS]"), ""),
+        // Three digits of exponent leave no room for Fortran's letter.
+        ("j.csv", EXACT.replace("3,1,1,0", "0.3D+001,1.0+000,1,0.0-105"), ""),
+        (
+            "k.csv",
+            EXACT
+                .replace("t,u,v,force", "t,side,u,v,force")
+                .replace(",0,0,1", ",both,0,0,1")
+                .replace(",1,1,0", ",both,1,1,0")
+                .replace("4,2", "4,both,2"),
+            "",
+        ),
     ];
     for (name, data, map) in forms {
         let folder = folder("");
@@ -103,6 +119,30 @@ fn every_form_of_data() {
         let report = json(folder.path(), &args);
         assert_eq!(report["quantities"][0]["name"], "u_end", "{name}");
         assert_eq!(report["quantities"][0]["linf"]["absolute"], 0.0, "{name}");
+    }
+}
+
+/// A held top stops at t = 0; a release without a jump of the stress ends contact; and a few samples at random, between
+/// which whole contacts pass, are no reason for a hint, nor are data that begin within a contact.
+#[test]
+fn nothing_is_wrong_with_exact_data() {
+    let held = SCENE.replace("wave_speed = 1", "wave_speed = 1\ntop = \"fixed\"").replace("time = 4", "time = 9");
+    let soft = "[rod]\nlength = 1\nwave_speed = 1\ndamping = 0.1\n[impact]\nspeed = 1.2\n[gravity]\nacceleration = 1\n\
+                [run]\ntime = 30\n";
+    let folder = folder("");
+    for scene in [held.as_str(), soft] {
+        fs::write(folder.path().join("rod.toml"), scene).unwrap();
+        let few = "0.1,0.4,1.9,2.3,2.35,4,5.6,6.1,7.7,7.9,8.2";
+        for times in [&[][..], &["--times", few], &["--times", "0.5..8:300"]] {
+            text(&run(folder.path(), &[&["reference", "rod.toml", "-o", "golden.csv"], times].concat()), 0);
+            let report = json(folder.path(), &["compare", "rod.toml", "golden.csv"]);
+            for quantity in report["quantities"].as_array().unwrap() {
+                let relative = quantity["linf"]["relative"].as_f64();
+                let most = relative.unwrap_or_else(|| quantity["linf"]["absolute"].as_f64().unwrap());
+                assert!(most <= 1e-12, "{scene} {times:?}: {quantity}");
+            }
+            assert_eq!(report["hints"], serde_json::json!([]), "{scene} {times:?}");
+        }
     }
 }
 
@@ -284,6 +324,21 @@ fn what_is_refused() {
         ("t,u\n", "run.csv: found no row of numbers"),
         ("t,u\n0,0\n1\n", "run.csv, line 3: found 1 columns, expected 2 as in the first row"),
         ("t,u\n0,0\n\n1,x\n", "run.csv, line 4, column 2: found `x`, expected a number"),
+        ("t,u\n0,0\n1,\n", "run.csv, line 3: found 1 columns"),
+        ("0,,0\n1,0,0\n", "run.csv: found no names of columns"),
+        ("t,u,v\n0,,0\n1,0,0\n", "run.csv, line 2, column 2: found ``, expected a number"),
+        ("t;u\n0;0\n1,5;0\n", "run.csv, line 3, column 1: found `1,5`, expected a number with a point"),
+        ("t\tu\n0,0\t0,0\n1,0\t0,5\n", "run.csv, line 2, column 1: found `0,0`, expected a number with a point"),
+        ("t u\n0 0\n1 0\0\n", "run.csv, line 3: found text that is not UTF-8"),
+        ("t,u\n0,0\n1,1e400\n", "run.csv, line 3, column 2: found inf"),
+        ("t,u\n1,0\n", "run.csv: found one time from 0 on, 1, expected at least two"),
+        ("t,u\n-1,0\n1,0\n1,0\n", "run.csv: found one time from 0 on"),
+        ("t [s]  u [m]\n0 0\n1 0\n", "run.csv: found 4 names above rows of 2 columns"),
+        ("t,force [N]\n0,1\n1,1\n", "run.csv: found the column `force [N]`, expected it per ρS"),
+        ("t,strain [%]\n0,1\n1,1\n", "run.csv: found the column `strain [%]`, expected it without a unit"),
+        ("t,T,u\n0,0,0\n1,1,0\n", "run.csv: found `T` twice, expected each quantity once"),
+        ("zeit,u\n0,0\n1,0\n", "run.csv: found no column of times in zeit, u, expected one called t"),
+        ("t,x,force\n0,0,0\n1,0,0\n", "found no quantity in the columns t, x, force, expected some of u, v, strain"),
         ("t,u\n0,0\n1,NaN\n", "run.csv, line 3, column 2: found NaN, expected a finite number"),
         ("# by hand\nt,u\n0,0\n1,0\n1,0\n1,0\n", "run.csv, line 6, column 1: found time 1 after 1"),
         ("t,side,u\n0,both,0\n1,right,0\n1,left,0\n", "run.csv, line 4, column 1: found time 1 after 1"),
@@ -303,4 +358,51 @@ fn what_is_refused() {
         assert!(words.contains(said), "no `{said}` in {words}");
         assert!(!folder.path().join("out.json").exists());
     }
+}
+
+/// Arrays of NumPy: each kind of number is read, and what is no table of numbers is said at once, never a panic.
+#[test]
+fn every_kind_of_array() {
+    use ndarray::{Array0, Array2, Array3, ShapeBuilder};
+    use ndarray_npy::{WritableElement, WriteNpyExt};
+
+    let folder = folder("");
+    let table = EXACT.lines().skip(1).flat_map(|line| line.split(',').map(|x| x.parse::<f64>().unwrap()));
+    let table = Array2::from_shape_vec((5, 4), table.collect()).unwrap();
+    let path = folder.path().join("a.npy");
+    let args = ["compare", "rod.toml", "a.npy", "--map", "t=0,u=1,v=2,force=3"];
+    let exact = || {
+        let report = json(folder.path(), &args);
+        assert!(report["quantities"].as_array().unwrap().iter().all(|found| found["linf"]["absolute"] == 0.0));
+    };
+    fn write<T: WritableElement>(path: &Path, array: &Array2<T>) {
+        array.write_npy(fs::File::create(path).unwrap()).unwrap();
+    }
+    macro_rules! of {
+        ($($kind:ty),*) => {$( write(&path, &table.mapv(|x| x as $kind)); exact(); )*};
+    }
+    of!(f64, f32, i64, i32, i16, i8, u64, u32, u16, u8);
+    let mut columns_first = Array2::zeros((5, 4).f());
+    columns_first.assign(&table);
+    write(&path, &columns_first);
+    exact();
+    let refused = |said: &str| {
+        let output = run(folder.path(), &args);
+        text(&output, 2);
+        let error = String::from_utf8_lossy(&output.stderr).replace(['│', '×'], " ");
+        let words = error.split_whitespace().collect::<Vec<_>>().join(" ");
+        assert!(words.contains(said), "no `{said}` in {words}");
+    };
+    Array0::from_elem((), 1.0).write_npy(fs::File::create(&path).unwrap()).unwrap();
+    refused("a.npy: found an array of shape [], expected one column");
+    Array3::<f64>::zeros((1, 5, 4)).write_npy(fs::File::create(&path).unwrap()).unwrap();
+    refused("a.npy: found an array of shape [1, 5, 4]");
+    write(&path, &Array2::<f64>::zeros((5, 0)));
+    refused("a.npy: found an array of shape [5, 0]");
+    write(&path, &Array2::<f64>::zeros((0, 4)));
+    refused("a.npy: found no row of numbers");
+    write(&path, &table);
+    let bytes = fs::read(&path).unwrap();
+    fs::write(&path, &bytes[..bytes.len() - 8]).unwrap();
+    refused("a.npy: cannot be read");
 }

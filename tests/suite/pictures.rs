@@ -90,6 +90,13 @@ fn long_histories_are_cut_and_said() {
     let said = run(&["plot", "steel-bar", "-o", "-"]);
     assert!(said.err.contains("note: steel-bar: drawn from t = 0 to 0.0008 of 0.138"), "{}", said.err);
     assert!(said.code == Some(0) && said.out.len() < 300_000);
+    // Over 2000 round trips the field is a grid of 480 columns, which does not show them.
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("long.toml");
+    let rod = "rod = { length = 1, wave_speed = 1, damping = 1e-4 }\nimpact.speed = 3000\ngravity.acceleration = 1\n";
+    fs::write(&path, rod).unwrap();
+    let said = run(&["plot", path.to_str().unwrap(), "--quantity", "xt", "--to", "4000", "-o", "-"]);
+    assert!(said.err.contains("note: long: xt has 0.24 columns for a round trip"), "{}", said.err);
     let said = run(&["plot", "figure-1-r30", "--quantity", "motion", "-o", "-"]);
     assert!(said.err.contains("the history ends at t = 4: no further impact"), "{}", said.err);
 }
@@ -99,7 +106,7 @@ fn mistakes_are_answered_with_what_was_expected() {
     let folder = tempfile::tempdir().unwrap();
     let path = |name: &str| folder.path().join(name).to_str().unwrap().to_string();
     refused(&["plot", "paper-weak", "--quantity", "stres", "-o", "-"], &["found no picture of this name", "stress"]);
-    refused(&["plot", "paper-weak", "-o", &path("a.pdf")], &["a.pdf, expected a file that ends in .svg or .png"]);
+    refused(&["plot", "paper-weak", "-o", &path("a.gif")], &["a.gif, expected a file that ends in .svg, .png or .pdf"]);
     refused(&["plot", "paper-weak", "--from", "2", "--to", "1", "-o", "-"], &["found --to 1, expected a time after 2"]);
     refused(&["plot", "paper-weak", "--from", "99", "-o", &path("a.svg")], &["found time 99"]);
     refused(&["plot", "paper-weak", "--quantity", "h", "--deformed", "-o", "-"], &["--deformed without xt"]);
@@ -108,11 +115,92 @@ fn mistakes_are_answered_with_what_was_expected() {
     assert_eq!(fs::read_dir(folder.path()).unwrap().count(), 0, "nothing is left behind");
 }
 
+/// Enclosures leave the energy open where a ray is at an end; nothing is drawn there, and all else is.
+#[cfg(feature = "mp")]
+#[test]
+fn what_is_open_is_not_drawn() {
+    let said = run(&["plot", "steel-bar", "--certified", "--quantity", "energy,E_total", "-o", "-"]);
+    assert!(said.code == Some(0) && !said.out.contains("NaN") && !said.out.contains("inf"), "{}", said.err);
+    assert_eq!(structure(&said.out).matches("curve: 1").count(), 2, "{}", structure(&said.out));
+}
+
+/// The number after a name in a PDF's text.
+#[cfg(feature = "plot")]
+fn numbers_after(pdf: &str, name: &str) -> Vec<f64> {
+    let rest = pdf.split(name).nth(1).unwrap();
+    let numbers = rest.split([' ', '[', ']', '/', '\n']).filter(|word| !word.is_empty());
+    numbers.map_while(|word| word.parse().ok()).collect()
+}
+
+/// The parts of a PDF are where its table says, it is one page of the size of the SVG, and its texts are texts in the
+/// embedded font. The same picture has the same bytes.
+#[cfg(feature = "plot")]
+#[test]
+fn a_pdf_is_one_page_with_texts() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = |name: &str| folder.path().join(name).to_str().unwrap().to_string();
+    for (size, millimetres) in [("column", 85.0), ("page", 170.0), ("slide", 254.0)] {
+        let (one, other) = (path("one.pdf"), path("other.pdf"));
+        quiet(&["plot", "paper-strong", "--size", size, "-o", &one, "-o", &other]);
+        let bytes = fs::read(&one).unwrap();
+        assert_eq!(bytes, fs::read(&other).unwrap());
+        let pdf: String = bytes.iter().map(|byte| char::from(*byte)).collect();
+        assert!(pdf.starts_with("%PDF-1.") && pdf.ends_with("%%EOF"));
+        let table = numbers_after(&pdf, "startxref")[0] as usize;
+        let chars: Vec<char> = pdf.chars().collect();
+        let at = |place: usize| chars[place..chars.len().min(place + 40)].iter().collect::<String>();
+        let entries: String = chars[table..].iter().collect();
+        assert!(entries.starts_with("xref\n0 "));
+        let places = entries.lines().filter(|line| line.ends_with(" n") || line.ends_with(" n "));
+        let parts = places.map(|line| at(line[..10].parse().unwrap())).collect::<Vec<_>>();
+        assert!(parts.len() > 8 && parts.iter().all(|part| part.contains(" 0 obj")), "{parts:?}");
+        assert_eq!(numbers_after(&pdf, "/Type/Pages/Count"), [1.0]);
+        let [left, low, width, height] = numbers_after(&pdf, "/MediaBox")[..] else { panic!("no MediaBox") };
+        let svg = quiet(&["plot", "paper-strong", "--size", size, "-o", "-"]);
+        let high: f64 = svg.split("height=\"").nth(1).unwrap().split("mm").next().unwrap().parse().unwrap();
+        assert_eq!((left, low), (0.0, 0.0));
+        // 72 points are 25.4 mm.
+        close("width", width / 72.0 * 25.4, millimetres, 1.0, 1e-3);
+        close("height", height / 72.0 * 25.4, high, 1.0, 1e-3);
+        for part in ["/Subtype/Type0", "+DejaVuSans", "/ToUnicode", "/FontFile2"] {
+            assert!(pdf.contains(part), "{part}");
+        }
+        // No clock, and no path of this machine.
+        assert!(!pdf.contains("Date") && !pdf.contains("/tmp"));
+    }
+}
+
+/// Letters that the embedded font does not have are named.
+#[cfg(feature = "plot")]
+#[test]
+fn letters_without_a_sign_are_said() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = |name: &str| folder.path().join(name).to_str().unwrap().to_string();
+    let rod = "title = \"μ of 竹\"\nrod = { length = 1, wave_speed = 1 }\nimpact = { speed = 3 }\n";
+    fs::write(path("rod.toml"), rod).unwrap();
+    for (file, note) in [("a.png", true), ("a.pdf", true), ("a.svg", false)] {
+        let said = run(&["plot", &path("rod.toml"), "--quantity", "h", "-o", &path(file)]);
+        assert_eq!(said.err.contains("the font of PNG and PDF has no 竹, which stay empty"), note, "{}", said.err);
+    }
+}
+
 /// The rows of a figure's CSV.
-fn rows(folder: &std::path::Path, name: &str) -> Vec<Vec<Option<f64>>> {
+fn texts(folder: &std::path::Path, name: &str) -> Vec<Vec<String>> {
     let text = fs::read_to_string(folder.join(name)).unwrap();
-    let numbers = text.lines().filter(|line| !line.starts_with('#')).skip(1);
-    numbers.map(|line| line.split(',').map(|cell| cell.parse().ok()).collect()).collect()
+    let rows = text.lines().filter(|line| !line.starts_with('#')).skip(1);
+    rows.map(|line| line.split(',').map(String::from).collect()).collect()
+}
+
+fn rows(folder: &std::path::Path, name: &str) -> Vec<Vec<Option<f64>>> {
+    let numbers = |row: &Vec<String>| row.iter().map(|cell| cell.parse().ok()).collect();
+    texts(folder, name).iter().map(numbers).collect()
+}
+
+/// How far a printed number may be off: a unit of its last digit, where zeros at the end are not printed.
+fn unit(number: &str) -> f64 {
+    let (mantissa, exponent) = number.split_once('e').unwrap_or((number, "0"));
+    let places = mantissa.split_once('.').map_or(0, |parts| parts.1.len() as i32);
+    10f64.powi(exponent.parse::<i32>().unwrap() - places).min(1e-8)
 }
 
 fn figures(only: &str) -> tempfile::TempDir {
@@ -142,16 +230,17 @@ fn figures_5_to_7_agree_with_cells_from_data() {
         let (r, mu) = (row[0].unwrap(), row[1].unwrap());
         let what = format!("r = {r}, μ = {mu}");
         let (translational, left) = (row[2].unwrap(), kept[k][2].unwrap());
-        // Figure 7 is Figure 6 over e^{−2rt₁}.
-        close(&what, over[k][2].unwrap(), left * (4.0 * r).exp(), 1.0, 1e-13);
+        // Figure 7 is Figure 6 over e^{−2rt₁}; each is right to 1e-12.
+        let decay = (4.0 * r).exp();
+        close(&what, over[k][2].unwrap(), left * decay, 1.0, 1e-12 * (1.0 + decay));
         // The limits: e_E² of the true limit is the product of those of Figures 5 and 6.
         let ratio = 2.0 * r;
         let limit = 2.0 * (-ratio).exp() * (bessel(0, ratio) - bessel(1, ratio)) - (-2.0 * ratio).exp();
-        close(&what, row[3].unwrap() * kept[k][3].unwrap(), limit * limit, 1.0, 1e-12);
+        close(&what, row[3].unwrap() * kept[k][3].unwrap(), limit * limit, 1.0, 2e-12);
         if r == 0.0 {
             // (4.72): 1 − μ₀²/3μ², and nothing is lost.
-            close(&what, translational, 1.0 - 4.0 / (3.0 * mu * mu), 1.0, 1e-13);
-            close(&what, left, 1.0, 1.0, 1e-13);
+            close(&what, translational, 1.0 - 4.0 / (3.0 * mu * mu), 1.0, 1e-12);
+            close(&what, left, 1.0, 1.0, 1e-12);
         } else if k % 93 == 0 {
             let speed = format!("{}", -mu);
             let data = [("0", speed.as_str()), ("1", speed.as_str())];
@@ -184,16 +273,16 @@ fn figures_1_to_4_hold_what_the_theory_says() {
         close("t_b", bounce, truth.iter().find(|known| known.0 == r).unwrap().1, 1.0, 1e-13);
     }
     // Figures 2 and 3: Theorem 2 with μ₀ = 2.
-    for row in rows(folder.path(), "figure-3.csv") {
+    for (row, text) in rows(folder.path(), "figure-3.csv").iter().zip(texts(folder.path(), "figure-3.csv")) {
         let (mu, z) = (row[0].unwrap(), row[3].unwrap());
         let truth = if mu < 2.0 { mu.powi(3) * (8.0 - 3.0 * mu) / 24.0 } else { 2.0 / 3.0 };
-        close(&format!("E_z at μ = {mu}"), z, truth, 0.1, 1e-13);
-        close("shares", row[4].unwrap() + row[5].unwrap(), 1.0, 1.0, 1e-13);
+        close(&format!("E_z at μ = {mu}"), z, truth, 1.0, 1e-12);
+        close("shares", row[4].unwrap() + row[5].unwrap(), 1.0, 1.0, unit(&text[4]) + unit(&text[5]));
     }
     // Figure 4: left of the dots the bounce comes later, and the red curve is (4.72).
     let four = rows(folder.path(), "figure-4.csv");
     assert_eq!(four.len(), 4000);
-    for row in &four {
+    for (row, text) in four.iter().zip(texts(folder.path(), "figure-4.csv")) {
         let (r, mu) = (row[0].unwrap(), row[1].unwrap());
         let (i0, i1) = (bessel(0, 2.0 * r), bessel(1, 2.0 * r));
         let dot = 2.0 * (i0 + i1) / (2.0 - i0);
@@ -202,10 +291,12 @@ fn figures_1_to_4_hold_what_the_theory_says() {
         }
         if r == 0.0 {
             let truth = if mu < 2.0 { (3.0 * mu * mu - 8.0 * mu + 12.0) / 12.0 } else { 1.0 - 4.0 / (3.0 * mu * mu) };
-            close(&format!("e_E² at μ = {mu}"), row[3].unwrap(), truth, 1.0, 1e-13);
+            close(&format!("e_E² at μ = {mu}"), row[3].unwrap(), truth, 1.0, unit(&text[3]) + 1e-14);
         }
     }
     assert!(four.iter().any(|row| row[0] == Some(0.3) && row[2] > Some(2.0) && row[3].is_some()));
+    #[cfg(feature = "mp")]
+    no_digit_is_beyond_its_bound(folder.path());
     // All files, and an index that names them.
     let index = fs::read_to_string(folder.path().join("README.md")).unwrap();
     for name in ["figure-1", "figure-2", "figure-3", "figure-4", "figure-8"] {
@@ -217,6 +308,27 @@ fn figures_1_to_4_hold_what_the_theory_says() {
     assert!(index.contains("| 0.3 | 0.55313"), "{index}");
     let svg = fs::read_to_string(folder.path().join("figure-4.svg")).unwrap();
     assert_eq!(count(&svg, "marks"), Some(4), "a dot for each damping");
+}
+
+/// The numbers of Figure 4 that doubles know worst are printed with fewer digits, and all of these are those of twenty.
+#[cfg(feature = "mp")]
+fn no_digit_is_beyond_its_bound(folder: &std::path::Path) {
+    let rows = texts(folder, "figure-4.csv").into_iter();
+    let few = rows.filter(|row| !row[3].is_empty() && row[0] != "0" && unit(&row[3]) > 1e-12).collect::<Vec<_>>();
+    assert!((100..1000).contains(&few.len()), "{}", few.len());
+    for row in few.iter().step_by(40) {
+        let rod = Problem::builder().length(1).wave_speed(1).gravity(1);
+        let rod = rod.damping(row[0].as_str()).impact_speed(row[1].as_str());
+        let history = rod.build().unwrap().digits(20).unwrap();
+        let time = history.contacts()[0].to.clone().unwrap();
+        let restitution = history.restitution(0).unwrap().energy_squared.unwrap();
+        for (number, truth) in [(&row[2], time), (&row[3], restitution)] {
+            // Rounded within its bound, at most half a unit of the last digit.
+            let printed = dalembert::rug::Float::parse(number).unwrap();
+            let apart = (dalembert::rug::Float::with_val(100, printed) - truth).abs();
+            assert!(apart <= unit(number), "{row:?}: {apart}");
+        }
+    }
 }
 
 /// The numbers in the sentences are those of the figures.

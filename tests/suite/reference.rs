@@ -344,6 +344,15 @@ fn without_times_the_rows_are_the_events() {
     assert_eq!(right.lines().filter(|line| !line.starts_with('#')).count(), 14);
 }
 
+/// Steps of a decimal are the doubles that a program writes for them.
+#[test]
+fn steps_are_decimals() {
+    let text =
+        quiet(&["reference", "doyen-ern-piperno", "--columns", "t", "--dt", "0.1", "--to", "0.7", "--side", "right"]);
+    let times: Vec<&str> = text.lines().skip_while(|line| line.starts_with('#')).skip(1).collect();
+    assert_eq!(times, ["0.0", "0.1", "0.2", "0.3", "0.4", "0.5", "0.6", "0.7"]);
+}
+
 #[test]
 fn times_come_from_files() {
     // 120,001 times, as a code that writes every step has them.
@@ -365,7 +374,7 @@ fn times_come_from_files() {
     // Comments, empty lines, any order, fractions.
     let found = run_with(
         &["reference", "getfem-dynamic-contact", "--times-from", "-", "--columns", "t,u_end", "--exact"],
-        "# times\n1/2 # half\n\n0.25\r\n",
+        "\u{feff}# times\n1/2 # half\n\n0.25\r\n",
     );
     assert_eq!(
         found.out.lines().skip_while(|line| line.starts_with('#')).collect::<Vec<_>>(),
@@ -380,6 +389,7 @@ fn times_come_from_files() {
     bad("0\n\nNaN\n", &["standard input, row 3: found `NaN`, expected a number"]);
     bad("0\n-1\n", &["row 2: found time -1, expected times from 0 on"]);
     bad("# nothing\n", &["standard input: found no times, expected one a line"]);
+    bad(&"9".repeat(4000), &["row 1: found `9999999999999999999999999999999999999999…`"]);
     refused(&["reference", "doyen-ern-piperno", "--times-from", "no/such/file"], &["cannot read no/such/file"]);
 }
 
@@ -387,6 +397,7 @@ fn times_come_from_files() {
 fn what_cannot_be_is_refused() {
     let asked = |more: &[&str], said: &[&str]| refused(&[&["reference", "doyen-ern-piperno"], more].concat(), said);
     asked(&["--columns", "t,u"], &["found no column of this name, expected one of t, side, u_end"]);
+    asked(&["--columns", "t,u_end,t", "--times", "1"], &["found the column t twice, expected each once"]);
     asked(&["--dt", "0.1"], &["--to <T>"]);
     asked(&["--dt", "0", "--to", "1"], &["expected a step above 0"]);
     asked(&["--dt", "1e-9", "--to", "5"], &["found 5000000000 steps"]);

@@ -1,6 +1,7 @@
 //! A value is the same whether it is asked alone or with others, in any order, and in every number system: on rays, at
 //! events and at ordinary times, from both sides, of random rods with and without damping.
 
+use dalembert::problem::Run;
 use dalembert::solve::Target;
 use dalembert::{
     Error, Float, History, Interval, Motion, Number, Numbers, Plan, Problem, Question, Rational, Rung, Scalar, Side,
@@ -52,7 +53,7 @@ fn run<S: Target>(problem: &Problem, question: &Question) -> Option<Arc<dyn Moti
         };
         match S::run(problem, &plan, rung, &(Arc::new(dalembert::lattice::unobserved) as dalembert::Observer)) {
             Err(Error::Open(_) | Error::NotDecided { .. }) => (),
-            Err(Error::TooManyPieces { .. } | Error::TooManyRays { .. } | Error::NotCertified) => return None,
+            Err(Error::TooManyPieces { .. } | Error::NotCertified) => return None,
             found => return Some(found.unwrap()),
         }
     }
@@ -121,6 +122,15 @@ fn in_numbers<S: Target, T: Scalar>(
                 same(&format!("{place}, alone"), &ours, &truth)?;
             }
         }
+    }
+    // As many events before either history ends, and as many in all where they end alike.
+    let known = whole.end().to_f64().min(truth.end().to_f64()) * (1.0 - 1e-9);
+    let before = |time: f64| time < known;
+    let ours = whole.events().iter().filter(|event| before(event.time.to_f64())).count();
+    let exact = truth.events().iter().filter(|event| before(event.time.to_f64())).count();
+    prop_assert_eq!(ours, exact, "{}: events before {}", numbers, known);
+    if whole.ending() == truth.ending() {
+        prop_assert_eq!(whole.events().len(), truth.events().len(), "{}", numbers);
     }
     // At each event by the time that this history has for it.
     for (ours, exact) in whole.events().iter().zip(truth.events()) {
@@ -287,5 +297,20 @@ fn before_the_start_there_is_what_is_given() {
             (history.ground_end(0.0, Side::Left).unwrap().1, history.strain(0.0, Side::Left).unwrap()),
             (-1.0, 0.0)
         );
+    }
+}
+
+/// The top of a rod whose length no double holds is its top in longer numbers as well.
+#[cfg(feature = "mp")]
+#[test]
+fn the_top_is_the_top_in_longer_numbers() {
+    let number = |text: &str| text.parse::<Number>().unwrap();
+    let mut problem = Problem::uniform(number("1/3"), 1.into(), 1.into(), number("2.433"));
+    problem.run = Run::Time(80.into());
+    let motion = problem.solve().unwrap();
+    assert!(matches!(motion.rung(), Rung::Bits(_)), "{:?}", motion.rung());
+    for k in 1..40 {
+        // A free top has no strain.
+        assert_eq!(motion.at(1.0 / 3.0, 2.0 * f64::from(k) - 0.3217).unwrap().strain, 0.0);
     }
 }

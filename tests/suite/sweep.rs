@@ -164,7 +164,20 @@ fn the_map_of_regimes_is_the_same_from_any_number_of_threads() {
     let said = |args: &[&str]| dalembert(&[&["regimes"], args].concat()).unwrap_err();
     assert!(said(&["--damping-ratio", "1"]).contains("expected two values or more that increase"));
     assert!(said(&["--speed-ratio", "0..1:5"]).contains("M from above zero"));
-    assert!(said(&["-o", "map.txt"]).contains("expected a file that ends in .svg, .png, .csv or .npz"));
+    assert!(said(&["-o", "map.txt"]).contains("expected a file that ends in .svg, .png, .pdf, .csv or .npz"));
+}
+
+/// A note stands below the table, in full, once for all points that have it.
+#[test]
+fn notes_stand_below_the_table() {
+    let text = run(&["figure-1-r30", "--vary", "rod.damping=2.6,3.2,3.2", "--quantity", "bounce_time"]).unwrap();
+    let (table, notes) = text.split_once("\n\n").unwrap();
+    let last: Vec<&str> = table.lines().map(|line| line.split_whitespace().last().unwrap()).collect();
+    assert_eq!((last[0], &last[3..]), ("note", &["[1]", "[1]"][..]));
+    // r t₁ = 6.4 is above π.
+    assert!(notes.starts_with("[1] no bounce: r t₁ = 6.4") && notes.trim_end().ends_with("overdamped"), "{notes}");
+    assert!(!text.contains('…') && text.lines().all(|line| line.chars().count() <= 80), "{text}");
+    assert!(!run(&["paper-strong", "--vary", "impact.speed=3,4"]).unwrap().contains("note"));
 }
 
 /// R = r t₁ ≥ π: no bounce at any of the points.

@@ -77,6 +77,9 @@ fn tables_fit_eighty_columns() {
             narrow(&["solve", scene, "--digits", "30"]);
         }
     }
+    for scene in ["doyen-ern-piperno", "steel-bar", "ansys-vm265", "mu-3-2-chaotic"] {
+        narrow(&["explain", scene]);
+    }
     let bar = at_terminal("solve doyen-ern-piperno", &[]);
     assert!(bar.lines().all(|line| line.chars().count() <= 80), "{bar}");
     // The symbols are the same in both places.
@@ -85,5 +88,8 @@ fn tables_fit_eighty_columns() {
     assert!(quiet(&["solve", "--help"]).contains(symbols.trim_end()), "{symbols}");
     assert!(!quiet(&["solve", "-h"]).contains("e_P"));
     // With --wide nothing is wrapped.
+    let explained = run(&["explain", "steel-bar", "--wide"]).out;
+    let effects = explained.split("\n\n").nth(1).unwrap();
+    assert_eq!(effects.lines().count(), 2 + 11, "a line for each effect: {effects}");
     assert!(run(&["solve", "siconos-impacting-bar", "--wide"]).out.lines().any(|line| line.chars().count() > 120));
 }

@@ -4,6 +4,8 @@ import { prepare, zoomed } from "./rod.js";
 
 /** To the left, right, top and bottom of the panels, and between them. */
 const MARGIN = [58, 12, 8, 26, 14];
+/** Milliseconds that a question to the engine may take: between two, others have their turn. */
+const EACH = 7;
 /** Points and columns of the first, quick picture; points of the last one, whose columns are those of the screen. */
 const COARSE = { columns: 90, rows: 24 };
 const ROWS = 160;
@@ -19,14 +21,14 @@ export function ticks(from, to, count) {
 }
 
 export class Diagram {
-  constructor(canvas) {
-    this.canvas = canvas;
-    this.jobs = [];
+  constructor(canvas, engine) {
+    Object.assign(this, { canvas, engine });
   }
 
-  /** Begins the pictures of `shot` between the times of `view`; `work` goes on with them. */
-  show(shot, view) {
-    Object.assign(this, { shot, view, energies: [] });
+  /** Draws the pictures of `shot` between the times of `view`; whether all are drawn, or others took their place. */
+  async show(shot, view) {
+    // A copy, by which later pictures are told from these.
+    Object.assign(this, { shot, view: { ...view }, energies: [] });
     const { pen, width, height, ratio } = prepare(this.canvas);
     this.em = zoomed();
     const [left, right, top, bottom, gap] = MARGIN.map((space) => space * this.em);
@@ -41,17 +43,8 @@ export class Diagram {
     this.drawStress();
     this.axes();
     const fine = Math.min(Math.round(this.panels.field.width * ratio), 1200);
-    this.jobs = [this.fieldJob(COARSE.columns, COARSE.rows), this.energyJob(60), this.energyJob(Math.round(fine / 2)),
-      this.fieldJob(fine, ROWS)];
-  }
-
-  /** Draws on for about so many milliseconds; whether there is more. */
-  work(milliseconds) {
-    const until = performance.now() + milliseconds;
-    while (this.jobs.length > 0 && performance.now() < until) {
-      if (this.jobs[0](until)) this.jobs.shift();
-    }
-    return this.jobs.length > 0;
+    return await this.field(COARSE.columns, COARSE.rows) && await this.energy(60)
+      && await this.energy(Math.round(fine / 2)) && await this.field(fine, ROWS);
   }
 
   place(time) {
@@ -64,27 +57,28 @@ export class Diagram {
     return this.view.from + ((place - field.left) / field.width) * (this.view.to - this.view.from);
   }
 
-  /** Calls `ask(from, to, count)` for the columns that are left, as many as there is time for, and `draw` with them. */
-  job(columns, ask, draw) {
-    let [done, each] = [0, 0.5];
-    return (until) => {
+  /** Asks for all columns, as many at a time as there is time for, and calls `draw` with them; false where others came. */
+  async columns(columns, what, rest, draw) {
+    const { shot, view } = this;
+    const at = (k) => view.from + ((view.to - view.from) * k) / columns;
+    for (let [done, each] = [0, 0.5]; done < columns;) {
       const start = performance.now();
-      const count = Math.max(1, Math.min(columns - done, Math.floor((until - start) / each)));
-      const at = (k) => this.view.from + ((this.view.to - this.view.from) * k) / columns;
-      const found = ask(at(done), at(done + count), count);
+      const count = Math.max(1, Math.min(columns - done, Math.floor(EACH / each)));
+      const found = await this.engine.ask(what, shot.number, at(done), at(done + count), count, ...rest);
+      if (!found || view !== this.view) return false;
       each = Math.max((performance.now() - start) / count, 1e-3);
       draw(found, done, count);
       done += count;
-      return done === columns;
-    };
+    }
+    return true;
   }
 
-  fieldJob(columns, rows) {
+  field(columns, rows) {
     const image = new ImageData(columns, rows);
     const sheet = new OffscreenCanvas(columns, rows);
     const paper = sheet.getContext("2d");
-    const { run, sizes } = this.shot;
-    return this.job(columns, (from, to, count) => run.strains(from, to, count, rows), (found, done, count) => {
+    const { sizes } = this.shot;
+    return this.columns(columns, "strains", [rows], (found, done, count) => {
       for (let i = 0; i < count; i += 1) {
         for (let j = 0; j < rows; j += 1) {
           const k = shade(found[i * rows + j], sizes.strain);
@@ -104,9 +98,9 @@ export class Diagram {
     });
   }
 
-  energyJob(columns) {
+  energy(columns) {
     const all = [];
-    return this.job(columns, (from, to, count) => this.shot.run.energies(from, to, count), (found) => {
+    return this.columns(columns, "energies", [], (found) => {
       all.push(...found);
       if (all.length === 2 * columns) {
         this.energies = all;

@@ -2,72 +2,79 @@
 import { PRESETS } from "./presets.js";
 import { command, fragment, read, scene, toml, value } from "./scene.js";
 import { colour, readColours } from "./colours.js";
-import { drawRod, enlargement } from "./rod.js";
+import { POINTS, drawRod, enlargement } from "./rod.js";
+import { Engine } from "./engine.js";
 import { Diagram } from "./diagram.js";
 import { Sliders } from "./sliders.js";
 
 /** Milliseconds that a scene may take. */
 const MOST = 1000;
-/** Milliseconds of each frame in which the pictures are drawn on. */
-const DRAWING = 7;
 const COLUMNS = ["contact from", "to", "t_b", "e_P", "e_E²", "E", "E_h", "E_z"];
 
 const $ = (id) => document.getElementById(id);
-const diagram = new Diagram($("diagram"));
+const engine = new Engine();
+const diagram = new Diagram($("diagram"), engine);
 /** The solved scene, the time of the cursor, the times that are shown, and what goes on. */
 let [shot, now, view, playing, last, frame] = [null, 0, null, false, 0, 0];
+/** The scene to be solved next, its number, whether the cursor has moved, and what is under way. */
+let [wanted, number, moved, solving, posing, doing] = [null, 0, false, null, null, 0];
 
-async function loadEngine() {
-  const packed = Uint8Array.from(atob($("engine").textContent), (c) => c.charCodeAt(0));
-  const stream = new Blob([packed]).stream().pipeThrough(new DecompressionStream("gzip"));
-  await wasm_bindgen({ module_or_path: await new Response(stream).arrayBuffer() });
+/**
+ * Solves the scene and shows it, from its start if it is another one. While one is being solved, the newest of those
+ * that come waits, and no other.
+ */
+function solve(another = false) {
+  const round = (2 * value(scene.L)) / value(scene.c);
+  wanted = { text: toml(), fixed: scene.top === "fixed", round, another: another || wanted?.another };
+  $("scene").textContent = wanted.text;
+  $("command").textContent = command();
+  return (solving ??= busily(async () => {
+    while (wanted) {
+      const next = wanted;
+      wanted = null;
+      const fresh = await solved(next);
+      document.querySelector("main").classList.toggle("stale", !fresh);
+      if (fresh) await show(fresh);
+    }
+    solving = null;
+  }));
 }
 
-/** Solves the scene and shows it. */
-function solve() {
-  const text = toml();
-  $("scene").textContent = text;
-  $("command").textContent = command();
-  const fresh = solved(text);
-  document.querySelector("main").classList.toggle("stale", !fresh);
-  if (!fresh) return;
-  const whole = !view || !shot || (view.from === 0 && view.to === shot.end);
-  shot?.run.free();
+/** Does what takes time, and says so meanwhile. */
+async function busily(act) {
+  doing += 1;
+  document.documentElement.dataset.busy = "";
+  await act();
+  doing -= 1;
+  if (doing === 0) delete document.documentElement.dataset.busy;
+}
+
+function show(fresh) {
+  const whole = fresh.another || !view || (view.from === 0 && view.to === shot.end);
   shot = fresh;
-  now = within(now);
+  now = fresh.another ? 0 : within(now);
   if (whole || view.to > shot.end) view = { from: 0, to: shot.end };
   sliders.ratios(shot.parameters);
-  $("status").textContent = `c = ${shot.parameters[0]}, t₁ = ${shot.parameters[1]}; ${shot.run.ending()}`;
+  $("status").textContent = `c = ${shot.parameters[0]}, t₁ = ${shot.parameters[1]}; ${shot.ending}`;
   const strain = Number(shot.sizes.strain.toPrecision(3));
   [$("least").textContent, $("most").textContent] = [`compressed −${strain}`, `${strain} stretched`];
   fillContacts();
-  redraw();
+  return redraw();
 }
 
 /** The answer to a scene; null, with the reason shown, where there is none. */
-function solved(text) {
-  let run;
+async function solved({ text, ...rest }) {
   try {
     performance.mark("asked");
-    run = new wasm_bindgen.Run(text, MOST);
-    // What is asked at once; pictures come in the frames that follow.
-    const [strain, rise, length, least, most] = run.sizes();
-    const fresh = {
-      run, sizes: { strain, rise, length, least, most }, fixed: scene.top === "fixed", end: run.end(),
-      round: (2 * value(scene.L)) / value(scene.c), events: run.events(), parameters: run.parameters(),
-      contacts: run.contacts(), stress: run.stress(),
-    };
+    number += 1;
+    const found = await engine.ask("solve", number, text, MOST);
     performance.measure("solve", "asked");
-    say("", run.doubts());
-    return fresh;
+    say("", found.doubts);
+    return { ...found, ...rest };
   } catch (error) {
-    if (error instanceof WebAssembly.RuntimeError) {
-      say("The engine has failed at this scene; please report it, and load the page again", []);
-      return null;
-    }
-    run?.free();
     const [, beyond] = error.message.match(/^beyond doubles: ([^]*)/) ?? [];
-    say(beyond ? "" : error.message, beyond ? [beyond] : []);
+    const failed = "The engine has failed at this scene; please report it, and load the page again";
+    say(beyond ? "" : error.failed ? failed : error.message, beyond ? [beyond] : []);
     return null;
   }
 }
@@ -83,10 +90,13 @@ function say(mistake, doubts) {
 /** Draws all again. */
 function redraw() {
   readColours();
-  diagram.show(shot, view);
-  diagram.work(DRAWING);
-  moveTo(now);
-  schedule();
+  draw();
+  return moveTo(now);
+}
+
+/** The pictures over time, which come by and by. */
+async function draw() {
+  if (await diagram.show(shot, view)) performance.mark("drawn");
 }
 
 function schedule() {
@@ -95,17 +105,15 @@ function schedule() {
 
 function tick(time) {
   frame = 0;
-  if (playing) {
-    // A frame's time may be that of its beginning, before the key was pressed.
-    const passed = Math.min(Math.max(time - last, 0), 100) / 1000;
-    const next = now + passed * Number($("speed").value) * 0.75 * shot.round;
-    if (next >= shot.end) play(false);
-    follow(within(next));
-    moveTo(next);
-  }
+  if (!playing) return;
+  // A frame's time may be that of its beginning, before the key was pressed.
+  const passed = Math.min(Math.max(time - last, 0), 100) / 1000;
+  const next = now + passed * Number($("speed").value) * 0.75 * shot.round;
+  if (next >= shot.end) play(false);
+  follow(within(next));
+  moveTo(next);
   last = time;
-  if (diagram.work(DRAWING) || playing) schedule();
-  else performance.mark("drawn");
+  schedule();
 }
 
 /** Turns the pages of the pictures where the cursor leaves them. */
@@ -114,7 +122,7 @@ function follow(time) {
   if (time <= view.to && time >= view.from) return;
   const from = Math.max(0, Math.min(time - 0.1 * wide, shot.end - wide));
   view = { from, to: from + wide };
-  diagram.show(shot, view);
+  draw();
 }
 
 function play(on) {
@@ -134,19 +142,33 @@ const factor = () => ($("drawn").value === "true" ? 1 : Number($("drawn").value)
 
 const within = (time) => Math.max(0, Math.min(time, shot.end));
 
-/** Puts the cursor at a time. */
+/** Puts the cursor at a time; the rod and the values there follow. */
 function moveTo(time) {
   now = within(time);
-  const [h, E, E_h, E_z, end, strain] = shot.run.at(now);
   $("now").value = now.toFixed(places());
-  fill($("values"), { h, E_h, E_z, E, "v(0,t)": end, "v_x(0,t)": strain });
-  drawRod($("rod"), shot, now, factor(), [E_h, E_z].map(Number), Number(h));
   const place = diagram.place(now);
   $("cursor").style.transform = `translateX(${place - 1}px)`;
   $("cursor").hidden = now < view.from || now > view.to;
   $("time").value = now / shot.end;
   $("time").setAttribute("aria-valuetext", `t = ${$("now").value}`);
   showContact();
+  return pose();
+}
+
+/** Asks for the rod and the values at the cursor. While that is asked, the newest place of the cursor waits. */
+function pose() {
+  moved = true;
+  return (posing ??= (async () => {
+    while (moved) {
+      moved = false;
+      const found = await engine.ask("at", shot.number, now, POINTS).catch(({ message }) => say(message, []));
+      if (!found) continue;
+      const [h, E, E_h, E_z, end, strain] = found.values;
+      fill($("values"), { h, E_h, E_z, E, "v(0,t)": end, "v_x(0,t)": strain });
+      drawRod($("rod"), shot, found.rod, factor(), [E_h, E_z].map(Number), Number(h));
+    }
+    posing = null;
+  })());
 }
 
 /** Decimals that tell two thousand times of the run apart. */
@@ -159,18 +181,18 @@ const rounded = (time) => Number(time.toFixed(places()));
 const justAfter = (time) => rounded(time + (rounded(time) < time - 1e-12 * shot.end ? 10 ** -places() : 0));
 
 /** After the cursor has come to rest: the link, and a word for those who listen. */
-function settle() {
-  moveTo(rounded(now));
+const settle = () => busily(async () => {
+  const there = moveTo(rounded(now));
   history.replaceState(null, "", fragment($("now").value));
+  await there;
   const words = (id) => [...$(id).children].map((part) => part.textContent).join(" ");
   $("spoken").textContent = `t = ${$("now").value}. ${words("values")}. ${$("which").textContent}: ${words("bounce")}`;
-}
+});
 
 function stepTo(time) {
   play(false);
   follow(within(time));
   now = within(time);
-  schedule();
   settle();
 }
 
@@ -243,13 +265,12 @@ function zoom(factor, around = now) {
   redraw();
 }
 
-function choose(k) {
+async function choose(k) {
   Object.assign(scene, PRESETS[k].scene);
   $("story").textContent = PRESETS[k].story;
-  [now, view] = [0, null];
   sliders.refit();
-  solve();
   mark();
+  await solve(true);
   const still = matchMedia("(prefers-reduced-motion: reduce)").matches;
   if (shot) play(!still);
 }
@@ -358,20 +379,19 @@ function listen() {
 }
 
 /** Takes scene and time from the link. */
-function open() {
+async function open() {
   const time = read(location.hash);
-  view = null;
   sliders.refit();
   mark();
-  solve();
-  if (shot) moveTo(time ?? rounded(0.3 * shot.round));
+  await solve(true);
+  if (shot) await moveTo(time ?? rounded(0.3 * shot.round));
   performance.mark("shown");
 }
 
 setTheme(matchMedia("(prefers-color-scheme: dark)").matches);
-const sliders = new Sliders($("sliders"), () => {
+const sliders = new Sliders($("sliders"), async () => {
   mark();
-  solve();
+  await solve();
   if (shot && !playing) settle();
 });
 PRESETS.forEach(({ name }, k) => {
@@ -380,8 +400,8 @@ PRESETS.forEach(({ name }, k) => {
   $("presets").append(button);
 });
 try {
-  await loadEngine();
-  open();
+  await engine.load(Uint8Array.from(atob($("engine").textContent), (c) => c.charCodeAt(0)), $("glue").textContent);
+  await open();
   listen();
 } catch (error) {
   say(`This browser cannot run the page, which needs WebAssembly and DecompressionStream: ${error.message}`, []);

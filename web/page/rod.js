@@ -1,7 +1,8 @@
 // The rod at one time, and its energies as bars.
 import { colour, shaded } from "./colours.js";
 
-const POINTS = 121;
+/** Points along the rod that is drawn. */
+export const POINTS = 121;
 
 /** How many times displacements are enlarged where nothing else is chosen: strains and heights stay in the picture. */
 export const enlargement = ({ strain, rise, length }) => Math.min(0.6 / strain, (0.9 * length) / rise) || 1;
@@ -24,8 +25,11 @@ export function prepare(canvas) {
   return { pen, width, height, ratio };
 }
 
-/** Draws the rod of `run` at `time`; energies are `[E_h, E_z]`, `sizes` the greatest of all in the run. */
-export function drawRod(canvas, { run, sizes, fixed }, time, factor, [translation, vibration], centre) {
+/**
+ * Draws the rod with the displacements and strains `found`; energies are `[E_h, E_z]`, `sizes` the greatest of all in
+ * the run.
+ */
+export function drawRod(canvas, { sizes, fixed }, found, factor, [translation, vibration], centre) {
   const { pen, width, height } = prepare(canvas);
   const { length, strain: most, rise } = sizes;
   const em = zoomed();
@@ -36,7 +40,6 @@ export function drawRod(canvas, { run, sizes, fixed }, time, factor, [translatio
   const narrow = width < 120 * em;
   const [left, thick] = (narrow ? [4, 22] : [22, 44]).map((x) => x * em);
 
-  const found = run.rod(time, POINTS);
   for (let k = 0; k + 1 < POINTS; k += 1) {
     const y = (j) => place((length * j) / (POINTS - 1) + factor * found[j]);
     pen.fillStyle = shaded((found[POINTS + k] + found[POINTS + k + 1]) / 2, most);

@@ -5,15 +5,17 @@
 //! | `svg` | shapes and texts |
 //! | `axis` | ranges, units, round numbers |
 //! | `color` | palettes |
+//! | `clip` | what lies in a frame |
 //! | `panel` | one picture with axes and legend |
-//! | `png` | SVG to PNG |
+//! | `render` | SVG to PNG and PDF |
 //! | `sheet` | several of them, and what they are made for |
 
 mod axis;
+pub(crate) mod clip;
 mod color;
 mod panel;
 #[cfg(feature = "plot")]
-mod png;
+mod render;
 mod sheet;
 mod svg;
 
@@ -21,6 +23,6 @@ pub(crate) use axis::{Axis, power_of_ten};
 pub(crate) use color::{AREAS, LINES, diverging};
 pub(crate) use panel::{Key, Layer, Mark, Panel, Piece, Shape, thinned};
 #[cfg(feature = "plot")]
-pub(crate) use png::png;
+pub(crate) use render::Rendered;
 pub(crate) use sheet::{Sheet, Size};
 pub(crate) use svg::{Anchor, Stroke, plain};

@@ -3,6 +3,7 @@
 use glam::DVec2;
 
 use super::axis::Axis;
+use super::clip;
 use super::color::{diverging, diverging_stops};
 use super::svg::{Anchor, Fill, Stroke, Svg, width};
 
@@ -161,12 +162,11 @@ impl Panel {
             svg.line(&[DVec2::new(from.x, y), DVec2::new(to.x, y)], GRID);
         }
         svg.close();
-        let clip = svg.clip([from, to]);
         for layer in &self.layers {
             // Neighbours of a field meet without a seam.
             let edges = if layer.class == "cells" { " shape-rendering=\"crispEdges\"" } else { "" };
-            svg.open(layer.class, &format!("{}{edges}", if layer.over { "" } else { &clip }));
-            draw_shape(svg, &layer.shape, &place);
+            svg.open(layer.class, edges);
+            draw_shape(svg, &layer.shape, &place, if layer.over { EVERYWHERE } else { [from, to] });
             svg.close();
         }
         svg.frame([from, to], FRAME);
@@ -184,7 +184,9 @@ impl Panel {
             svg.line(&[DVec2::new(from.x - TICK * em, y), DVec2::new(from.x, y)], FRAME);
             svg.text(DVec2::new(from.x - (TICK + 0.3) * em, y + 0.36 * em), Anchor::End, text);
         }
-        let label = DVec2::new(left + 0.85 * em, from.y + size.y / 2.0);
+        // A label longer than the frame reaches below it, not into the legend.
+        let middle = (from.y + size.y / 2.0).max(from.y + em * width(&self.y.label) / 2.0);
+        let label = DVec2::new(left + 0.85 * em, middle);
         svg.text_upwards(label, Anchor::Middle, &self.y.label);
         svg.close();
         svg.close();
@@ -240,22 +242,34 @@ fn draw_key(svg: &mut Svg, key: &Key, at: DVec2) {
     }
 }
 
-fn draw_shape(svg: &mut Svg, shape: &Shape, place: &impl Fn(DVec2) -> DVec2) {
+/// A frame that cuts nothing.
+const EVERYWHERE: [DVec2; 2] = [DVec2::NEG_INFINITY, DVec2::INFINITY];
+/// How far, in mm, neighbours of a field overlap, so that no viewer shows the paper between them: less than a ray.
+const OVERLAP: f64 = 0.04;
+
+/// What of a shape lies in a frame.
+fn draw_shape(svg: &mut Svg, shape: &Shape, place: &impl Fn(DVec2) -> DVec2, frame: [DVec2; 2]) {
     let placed = |points: &[DVec2]| points.iter().map(|point| place(*point)).collect::<Vec<_>>();
     match shape {
-        Shape::Lines(lines, stroke) => lines.iter().for_each(|line| svg.line(&placed(line), *stroke)),
+        Shape::Lines(lines, stroke) => {
+            let stretches = lines.iter().flat_map(|line| clip::line(&placed(line), frame));
+            stretches.for_each(|line| svg.line(&line, *stroke));
+        }
         Shape::Areas(areas, color) => {
-            areas.iter().for_each(|area| svg.polygon(&placed(area), &Fill::Flat((*color).into())));
+            let fill = Fill::Flat((*color).into());
+            areas.iter().for_each(|area| svg.polygon(&clip::polygon(placed(area), frame), &fill));
         }
         Shape::Pieces(pieces) => pieces.iter().for_each(|piece| draw_piece(svg, piece, place)),
         Shape::Runs(runs) => {
+            let grown = |[a, b]: [DVec2; 2]| [a.min(b) - OVERLAP, a.max(b) + OVERLAP];
             for (color, corners) in runs {
-                let corners: Vec<_> = corners.iter().map(|ends| ends.map(place)).collect();
+                let corners: Vec<_> = corners.iter().map(|ends| grown(ends.map(place))).collect();
                 svg.rectangles(&corners, color);
             }
         }
         Shape::Marks(points, mark, color) => {
-            points.iter().for_each(|point| draw_mark(svg, place(*point), *mark, color));
+            let inside = |point: &DVec2| frame[0].cmple(*point).all() && point.cmple(frame[1]).all();
+            placed(points).into_iter().filter(inside).for_each(|point| draw_mark(svg, point, *mark, color));
         }
         Shape::Note(at, anchor, text) => svg.text(place(*at), *anchor, text),
     }
@@ -270,8 +284,9 @@ fn draw_piece(svg: &mut Svg, piece: &Piece, place: &impl Fn(DVec2) -> DVec2) {
     let value = |corner: &DVec2| piece.middle + piece.slope.dot(*corner - piece.at);
     let values: Vec<f64> = piece.corners.iter().map(value).collect();
     let (least, most) = values.iter().fold((f64::INFINITY, f64::NEG_INFINITY), |(a, b), v| (a.min(*v), b.max(*v)));
+    let drawn = clip::grown(&corners, OVERLAP);
     if most - least < ONE_COLOR {
-        return svg.polygon(&corners, &Fill::Flat(diverging(piece.middle)));
+        return svg.polygon(&drawn, &Fill::Flat(diverging(piece.middle)));
     }
     // The slope on paper: unit steps of the axes are stretched there.
     let origin = place(piece.at);
@@ -279,7 +294,7 @@ fn draw_piece(svg: &mut Svg, piece: &Piece, place: &impl Fn(DVec2) -> DVec2) {
     let slope = DVec2::new(piece.slope.x / right.x, piece.slope.y / up.y);
     let along = slope / slope.length_squared();
     let end = |value: f64| origin + along * (value - piece.middle);
-    svg.polygon(&corners, &Fill::Gradient([end(least), end(most)], diverging_stops(least, most)));
+    svg.polygon(&drawn, &Fill::Gradient([end(least), end(most)], diverging_stops(least, most)));
 }
 
 fn draw_mark(svg: &mut Svg, at: DVec2, mark: Mark, color: &'static str) {

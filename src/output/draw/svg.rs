@@ -48,7 +48,6 @@ pub(crate) struct Svg {
     /// The height of letters, mm.
     pub(crate) em: f64,
     gradients: usize,
-    clips: usize,
 }
 
 /// A length: a hundredth of a millimetre, without zeros at the end.
@@ -116,7 +115,7 @@ pub(crate) fn width(text: &str) -> f64 {
 impl Svg {
     /// An empty page of this size with letters of the height `em`, all in mm.
     pub(crate) fn new(width: f64, height: f64, em: f64) -> Self {
-        let mut svg = Svg { text: String::new(), em, gradients: 0, clips: 0 };
+        let mut svg = Svg { text: String::new(), em, gradients: 0 };
         let [w, h] = [width, height].map(length);
         svg.put(format_args!(
             "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{w}mm\" height=\"{h}mm\" viewBox=\"0 0 {w} {h}\" \
@@ -139,17 +138,6 @@ impl Svg {
 
     pub(crate) fn close(&mut self) {
         self.put(format_args!("</g>\n"));
-    }
-
-    /// A rectangle beyond which nothing is drawn in a group: its attribute.
-    pub(crate) fn clip(&mut self, [from, to]: [DVec2; 2]) -> String {
-        self.clips += 1;
-        let (id, size) = (self.clips, to - from);
-        let [x, y, w, h] = [from.x, from.y, size.x, size.y].map(length);
-        self.put(format_args!(
-            "<clipPath id=\"clip{id}\"><rect x=\"{x}\" y=\"{y}\" width=\"{w}\" height=\"{h}\"/></clipPath>\n"
-        ));
-        format!(" clip-path=\"url(#clip{id})\"")
     }
 
     fn points(&mut self, points: &[DVec2]) {

@@ -3,12 +3,12 @@
 use glam::DVec2;
 
 use super::Along;
-use super::gather::Gathered;
+use super::gather::{Gathered, settled};
 use crate::error::Error;
 use crate::history::History;
 use crate::motion::{Field, Side};
 use crate::number::Scalar;
-use crate::output::draw::Piece;
+use crate::output::draw::{Piece, clip};
 use crate::solve::Target;
 
 /// A ray, by the time at which it leaves the ground.
@@ -40,8 +40,10 @@ pub(crate) enum Values {
 const MOST_CELLS: usize = 6000;
 /// Where a field is curved a cell is cut into parts that are no wider than this share of a round trip.
 const PARTS: f64 = 10.0;
-/// The grid, of undamped and of damped rods, whose values take longer.
-const GRID: [[usize; 2]; 2] = [[480, 96], [200, 40]];
+/// So many columns and rows.
+const GRID: [usize; 2] = [480, 96];
+/// With fewer columns a round trip its waves are not told apart.
+const FEW_COLUMNS: f64 = 8.0;
 
 /// The polygons of a field and its values.
 ///
@@ -61,31 +63,26 @@ pub(crate) fn of<S: Target>(
         damped.then(|| strip.trip / PARTS.min((4.0 * MOST_CELLS as f64 / (strip.trips() * 16.0)).sqrt()).max(2.0));
     let [rising, falling] = [0.0, strip.trip].map(|late| strip.knots(&breaks, late, fine));
     let polygons = strip.polygons(&rising, &falling);
-    let [across, up] = GRID[usize::from(damped)];
-    let pixels = || {
-        let middle = |k: usize, count: usize| (k as f64 + 0.5) / count as f64;
-        (0..across * up).map(|k| strip.place(middle(k % across, across), middle(k / across, up))).collect()
-    };
-    let points: Vec<DVec2> = match &polygons {
-        Some(polygons) => polygons.iter().flat_map(|polygon| samples(polygon)).collect(),
-        None => pixels(),
-    };
-    let values = ask(history, along, drawn, &points)?;
+    let points: Vec<DVec2> = polygons.iter().flatten().flat_map(|polygon| samples(polygon)).collect();
+    let values = if polygons.is_some() { ask(history, along, drawn, &points) } else { grid(history, along, drawn) }?;
     let mut greatest = 0.0f64;
     let values = match polygons {
         Some(polygons) => {
-            let linear =
-                polygons.into_iter().zip(values.chunks(3)).zip(points.chunks(3)).map(|((corners, values), at)| {
+            let pieces = polygons.into_iter().zip(values.chunks(3)).zip(points.chunks(3));
+            let linear = pieces.filter(|((_, values), _)| values.iter().all(|value| value.is_finite())).map(
+                |((corners, values), at)| {
                     let slope = slope([at[1] - at[0], at[2] - at[0]], [values[1] - values[0], values[2] - values[0]]);
                     let ends = corners.iter().map(|corner| (values[0] + slope.dot(*corner - at[0])).abs());
                     greatest = ends.fold(greatest, f64::max);
                     Piece { corners, at: at[0], middle: values[0], slope }
-                });
+                },
+            );
             Values::Linear(linear.collect())
         }
         None => {
-            greatest = values.iter().fold(0.0, |greatest, value| greatest.max(value.abs()));
-            Values::Grid(across, values)
+            greatest =
+                values.iter().filter(|value| value.is_finite()).fold(0.0, |greatest, value| greatest.max(value.abs()));
+            Values::Grid(GRID[0], values)
         }
     };
     Ok(Cells { breaks, values, greatest: round_above(greatest) })
@@ -117,7 +114,40 @@ fn ask<S: Target>(history: &History<S>, along: Along, drawn: &Gathered, points: 
         },
         |values| values.iter().collect(),
     )?;
-    Ok(values.iter().map(|value| factor * value.to_f64()).collect())
+    Ok(values.iter().map(|value| factor * settled(value)).collect())
+}
+
+/// Values at the middles of the grid, from the ground up, row by row.
+fn grid<S: Target>(history: &History<S>, along: Along, drawn: &Gathered) -> Result<Vec<f64>, Error> {
+    let (strip, [across, up]) = (Strip::of(drawn), GRID);
+    let middle = |k: usize, count: usize| (k as f64 + 0.5) / count as f64;
+    if drawn.rod.damping == 0.0 {
+        let place = |k: usize| strip.place(middle(k % across, across), middle(k / across, up));
+        return ask(history, along, drawn, &(0..across * up).map(place).collect::<Vec<_>>());
+    }
+    let found = history.ask(
+        |motion| {
+            let like = motion.end();
+            let points: Vec<_> = (0..up).map(|k| like.double(strip.place(0.0, middle(k, up)).y)).collect();
+            let times: Vec<_> = (0..across).map(|k| like.double(strip.place(middle(k, across), 0.0).x)).collect();
+            motion.rates(&points, &times)
+        },
+        |rates| rates.iter().flatten().collect(),
+    )?;
+    let factor = along.factor(&drawn.units);
+    let value = |k: usize| {
+        let [velocity, strain] = &found[(k % across) * up + k / across];
+        factor * settled(if along == Along::Velocity { velocity } else { strain })
+    };
+    Ok((0..across * up).map(value).collect())
+}
+
+impl Cells {
+    /// How many columns of the grid a round trip has, where they are too few to show its waves.
+    pub(crate) fn coarse(&self, drawn: &Gathered) -> Option<f64> {
+        let columns = GRID[0] as f64 / Strip::of(drawn).trips();
+        (matches!(self.values, Values::Grid(..)) && columns < FEW_COLUMNS).then_some(columns)
+    }
 }
 
 impl Along {
@@ -210,23 +240,8 @@ impl Strip {
     }
 
     /// What of a convex polygon lies in the strip; empty where that is nothing.
-    fn clipped(&self, mut polygon: Vec<DVec2>) -> Vec<DVec2> {
-        let sides = [(DVec2::X, self.from), (-DVec2::X, -self.to), (DVec2::Y, 0.0), (-DVec2::Y, -self.length)];
-        for (inwards, least) in sides {
-            let depth = |point: &DVec2| inwards.dot(*point) - least;
-            let mut kept = Vec::with_capacity(polygon.len() + 1);
-            for (k, b) in polygon.iter().enumerate() {
-                let a = &polygon[(k + polygon.len() - 1) % polygon.len()];
-                let (before, after) = (depth(a), depth(b));
-                if (before < 0.0) != (after < 0.0) {
-                    kept.push(a.lerp(*b, before / (before - after)));
-                }
-                if after >= 0.0 {
-                    kept.push(*b);
-                }
-            }
-            polygon = kept;
-        }
+    fn clipped(&self, polygon: Vec<DVec2>) -> Vec<DVec2> {
+        let polygon = clip::polygon(polygon, [DVec2::new(self.from, 0.0), DVec2::new(self.to, self.length)]);
         let area: f64 =
             (2..polygon.len()).map(|k| (polygon[k - 1] - polygon[0]).perp_dot(polygon[k] - polygon[0])).sum();
         if area.abs() < 1e-9 * self.length * self.trip { Vec::new() } else { polygon }

@@ -66,6 +66,13 @@ const MOST_CONTACTS: usize = 400;
 /// Points of the rod whose world lines are drawn.
 const WORLD: usize = 5;
 
+impl Gathered {
+    /// How many columns of its grid the field has in a round trip, where they are too few to show its waves.
+    pub(crate) fn coarse(&self) -> Option<f64> {
+        self.cells.as_ref()?.coarse(self)
+    }
+}
+
 impl Asked {
     /// Whether a picture is among those asked for.
     fn wants(&self, picture: Picture) -> bool {
@@ -168,13 +175,14 @@ impl Asked {
         }
         let all: Vec<Column> = [Column::Time, Column::Side].into_iter().chain(columns.iter().copied()).collect();
         let table = history.ask_columns(&all, None, |motion| times(motion, gathered, breaks))?;
-        let table: Vec<Vec<f64>> = table.iter().map(|column| column.iter().map(Scalar::to_f64).collect()).collect();
+        let table: Vec<Vec<f64>> = table.iter().map(|column| column.iter().map(settled).collect()).collect();
         let (times, sides) = (&table[0], &table[1]);
+        // A time at which a value is open, as beside a ray in enclosures, is left out of all lines.
+        let rows: Vec<usize> = (0..times.len()).filter(|k| table.iter().all(|column| column[*k].is_finite())).collect();
         gathered.columns = columns
             .into_iter()
             .zip(&table[2..])
             .map(|(column, values)| {
-                let rows: Vec<usize> = (0..times.len()).collect();
                 // A jump lies between two rows of one time.
                 let stretches =
                     rows.chunk_by(|a, b| !(sides[*a] < 0.0 && times[*a] == times[*b] && values[*a] != values[*b]));
@@ -183,6 +191,11 @@ impl Asked {
             .collect();
         Ok(())
     }
+}
+
+/// A number as a double; NaN where its bound or enclosure leaves it open.
+pub(super) fn settled<S: Scalar>(x: &S) -> f64 {
+    if x.log2_error() < f64::INFINITY { x.to_f64() } else { f64::NAN }
 }
 
 /// Up to where values are settled: the end, or where the events are no longer told apart.
@@ -236,7 +249,11 @@ fn breaks<S: Target>(history: &History<S>, problem: &Problem, drawn: &Gathered) 
         });
     }
     breaks.sort_by(|a, b| a.time.total_cmp(&b.time).then(b.jump.cmp(&a.jump)));
-    breaks.dedup_by(|b, a| b.time - a.time < 1e-9 * trip);
+    breaks.dedup_by(|b, a| {
+        let one = b.time - a.time < 1e-9 * trip;
+        a.jump |= one && b.jump;
+        one
+    });
     Ok(breaks)
 }
 

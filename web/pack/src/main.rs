@@ -36,7 +36,7 @@ fn main() -> Result<()> {
         Ok(())
     };
     fill("style", &format!("<style>\n{}</style>", read("style.css")?))?;
-    fill("glue", &format!("<script>\n{}</script>", bound.js()))?;
+    fill("glue", &format!("<script id=\"glue\">\n{}</script>", bound.js()))?;
     fill("engine", &format!("<script type=\"text/plain\" id=\"engine\">{}</script>", STANDARD.encode(&packed)))?;
     fill("script", &format!("<script type=\"module\">\n{}</script>", modules(&read)?))?;
 

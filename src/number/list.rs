@@ -1,0 +1,193 @@
+//! Lists of numbers as the command line has them: one grammar for times, points and the values of a sweep.
+
+use std::ops::Range;
+
+use super::{Number, NumberError, Scalar, short};
+
+/// The most values that one range may hold.
+const MOST: u32 = 10_000_000;
+
+/// What a list is written as: `V1,V2,…`, `A..B:N` or `A..B:N:log`.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) enum Spelled {
+    Numbers(Vec<Number>),
+    /// So many numbers from one to another, both included: in geometric progression, or equally spaced.
+    Range {
+        from: Number,
+        to: Number,
+        count: u32,
+        geometric: bool,
+    },
+}
+
+impl Spelled {
+    /// Reads `text`; `:log` only where a `geometric` progression makes sense.
+    pub(crate) fn of(text: &str, geometric: bool) -> Result<Self, String> {
+        let number = |text: &str| text.parse().map_err(|error: NumberError| error.to_string());
+        let refused = |expected: &str| format!("found `{}`, expected {expected}", short(text));
+        let Some((from, rest)) = text.split_once("..") else {
+            return Ok(Spelled::Numbers(text.split(',').map(number).collect::<Result<_, _>>()?));
+        };
+        let mut rest = rest.split(':');
+        let (to, count, log) = match (rest.next(), rest.next(), rest.next(), rest.next()) {
+            (Some(to), Some(count), None, _) => (to, count, false),
+            (Some(to), Some(count), Some("log"), None) if geometric => (to, count, true),
+            _ if geometric => return Err(refused("V1,V2,…, A..B:N or A..B:N:log")),
+            _ => return Err(refused("A..B:N")),
+        };
+        let count = count.trim().parse().ok().filter(|count| (2..=MOST).contains(count));
+        let count = count.ok_or_else(|| refused(&format!("a count of 2 to {MOST} in A..B:N")))?;
+        let (from, to): (Number, Number) = (number(from)?, number(to)?);
+        if log && !(from.to_f64() > 0.0 && to.to_f64() > 0.0) {
+            return Err(refused("two ends above zero for :log"));
+        }
+        Ok(Spelled::Range { from, to, count, geometric: log })
+    }
+}
+
+/// Numbers, or equally spaced ones that are worked out when they are needed.
+#[derive(Clone, Debug)]
+pub(crate) enum List {
+    Numbers(Vec<Number>),
+    /// So many numbers from one to another, both included.
+    Range(Number, Number, u32),
+    /// So many multiples of a step, from 0 on.
+    Steps(Number, u32),
+}
+
+impl List {
+    /// The numbers that `0.1,1/3` or `0..2:5` spells.
+    pub(crate) fn equally_spaced(text: &str) -> Result<List, String> {
+        Ok(match Spelled::of(text, false)? {
+            Spelled::Numbers(numbers) => List::Numbers(numbers),
+            Spelled::Range { from, to, count, .. } => List::Range(from, to, count),
+        })
+    }
+
+    /// The multiples of `step` from 0 to `to`.
+    pub(crate) fn steps(step: &Number, to: &Number) -> Result<List, String> {
+        if step.to_f64() <= 0.0 || to.to_f64() < 0.0 {
+            return Err(format!("found steps of {step} up to {to}, expected a step above 0 and an end from 0 on"));
+        }
+        let count = to.to_f64() / step.to_f64();
+        if count >= f64::from(MOST) {
+            return Err(format!("found {count:.0} steps of {step} up to {to}, expected fewer than {MOST}"));
+        }
+        // Two roundings below the number of steps is that number.
+        let count = (count * (1.0 + 2.0 * f64::EPSILON)) as u32;
+        match count as f64 * step.to_f64() >= to.to_f64() * (1.0 - 4.0 * f64::EPSILON) {
+            // The last one is met exactly: it is where the history ends.
+            true if count > 0 => Ok(List::Range(0.into(), to.clone(), count + 1)),
+            _ => Ok(List::Steps(step.clone(), count + 1)),
+        }
+    }
+
+    pub(crate) fn len(&self) -> usize {
+        match self {
+            List::Numbers(numbers) => numbers.len(),
+            List::Range(_, _, count) | List::Steps(_, count) => *count as usize,
+        }
+    }
+
+    pub(crate) fn greatest(&self) -> Option<Number> {
+        let greater = |a: Number, b: &Number| if b.compare(&a).is_gt() { b.clone() } else { a };
+        match self {
+            List::Numbers(numbers) => numbers.iter().cloned().reduce(|a, b| greater(a, &b)),
+            List::Range(from, to, _) => Some(greater(from.clone(), to)),
+            List::Steps(step, count) => {
+                (f64::from(count - 1) * step.to_f64() * (1.0 + f64::EPSILON)).to_string().parse().ok()
+            }
+        }
+    }
+
+    pub(crate) fn least(&self) -> Option<Number> {
+        let less = |a: Number, b: &Number| if b.compare(&a).is_lt() { b.clone() } else { a };
+        match self {
+            List::Numbers(numbers) => numbers.iter().cloned().reduce(|a, b| less(a, &b)),
+            List::Range(from, to, _) => Some(less(from.clone(), to)),
+            List::Steps(..) => Some(0.into()),
+        }
+    }
+
+    /// All numbers, in some number system.
+    pub(crate) fn lift<S: Scalar>(&self, precision: &S::Precision) -> Vec<S> {
+        self.lift_part(0..self.len(), precision)
+    }
+
+    /// The numbers of a part of the list.
+    ///
+    /// **Accuracy**: *correctly rounded* where the fraction of integers that each is has both below 2⁵³; otherwise
+    /// within three roundings. The ends of a range are met exactly: the last is where the history ends.
+    pub(crate) fn lift_part<S: Scalar>(&self, part: Range<usize>, precision: &S::Precision) -> Vec<S> {
+        let lift = |number: &Number| S::from_number(number, precision);
+        if let List::Numbers(numbers) = self {
+            return numbers[part].iter().map(lift).collect();
+        }
+        let (one, last) = (lift(&1.into()), self.len() as i64 - 1);
+        let integers = self.integers();
+        let at = |k: i64| match (self, integers) {
+            (List::Range(from, ..), _) if k == 0 => lift(from),
+            (List::Range(_, to, _), _) if k == last => lift(to),
+            (_, Some([a, b, divisor])) => one.int(a * (last - k) + b * k) / one.int(divisor),
+            (List::Range(from, to, _), None) => {
+                (lift(from) * one.int(last - k) + lift(to) * one.int(k)) / one.int(last)
+            }
+            (List::Steps(step, _), None) => one.int(k) * lift(step),
+            (List::Numbers(_), _) => one.zero(),
+        };
+        part.map(|k| at(k as i64)).collect()
+    }
+
+    /// `a`, `b`, `q` for which the k-th of `last + 1` numbers is `(a (last − k) + b k)/q`, where all are below 2⁵³.
+    fn integers(&self) -> Option<[i64; 3]> {
+        let last = self.len() as i128 - 1;
+        let (from, to, divisor) = match self {
+            List::Numbers(_) => return None,
+            List::Range(from, to, _) => {
+                let ((a, b), (c, d)) = (from.integers()?, to.integers()?);
+                (a * d, c * b, b.checked_mul(d)?.checked_mul(last)?)
+            }
+            List::Steps(step, _) => {
+                let (a, b) = step.integers()?;
+                (0, a, b)
+            }
+        };
+        let most = from.abs().max(to.abs()).checked_mul(last)?.max(divisor);
+        (most < 1 << 53).then_some([from as i64, to as i64, divisor as i64])
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Equally spaced decimals are the doubles that a program writes for them.
+    #[test]
+    fn decimals_stay_decimals() {
+        let of = |list: Result<List, String>| list.unwrap().lift::<f64>(&());
+        let number = |text: &str| text.parse::<Number>().unwrap();
+        assert_eq!(of(List::steps(&number("0.1"), &number("0.3"))), [0.0, 0.1, 0.2, 0.3]);
+        assert_eq!(of(List::steps(&number("1e-1"), &number("0.39"))), [0.0, 0.1, 0.2, 0.3]);
+        assert_eq!(of(List::equally_spaced("-1..1/5:4")), [-1.0, -0.6, -0.2, 0.2]);
+        // What does not fit into integers keeps both ends.
+        let long = of(List::equally_spaced("0..0.12345678901234567:3"));
+        assert_eq!((long[0], long[2]), (0.0, 0.12345678901234567));
+    }
+
+    #[test]
+    fn what_is_no_list_is_said() {
+        let said = |text: &str| List::equally_spaced(text).unwrap_err();
+        for (text, expected) in [
+            ("", "expected a number such as"),
+            ("1,,2", "found ``"),
+            ("0..1", "expected A..B:N"),
+            ("0..1:1", "a count of 2 to 10000000"),
+            ("0..1:1e3", "a count of 2"),
+            ("0..1:3,2", "a count of 2"),
+            ("1..2..3:4", "found `2..3`"),
+            ("1..2:3:log", "found `1..2:3:log`, expected A..B:N"),
+        ] {
+            assert!(said(text).contains(expected), "{text}: {}", said(text));
+        }
+    }
+}
