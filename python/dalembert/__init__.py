@@ -159,7 +159,8 @@ def solve(
 
     It is followed up to the time ``to`` or through so many ``impacts``, in place of what the scene says.
 
-    Without an option all values are doubles with a bound of 1e-9 of the natural scales, or ``accuracy``; ``digits=50``
+    Without an option all values are doubles with a bound of 1e-9 of the greatest number of an answer, or
+    ``accuracy``; ``digits=50``
     gives ``Decimal`` of 50 digits, rounded once; ``exact=True`` gives ``Fraction``; ``certified=True`` gives pairs
     ``(lo, hi)`` of ``Decimal`` that are proved to enclose the value. ``exact=True, digits=50`` goes on in digits where
     fractions end.

@@ -134,7 +134,8 @@ struct NumberArgs {
     /// Proved digits: everything is enclosed, with as many bits as that takes
     #[arg(long, conflicts_with_all = ["exact", "accuracy"])]
     certified: bool,
-    /// Accuracy relative to the natural scales, such as 1e-10; more bits are taken where doubles do not reach it
+    /// Accuracy relative to the greatest number of an answer, such as 1e-10; more bits are taken where doubles do not
+    /// reach it
     #[arg(long, value_name = "E", value_parser = accuracy, conflicts_with_all = ["digits", "exact"])]
     accuracy: Option<f64>,
 }

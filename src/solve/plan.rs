@@ -84,8 +84,8 @@ pub enum Rung {
 pub const MAX_DIGITS: u32 = 100_000;
 /// Digits that are proved where none are asked for.
 pub const CERTIFIED_DIGITS: u32 = 15;
-/// The accuracy that doubles are held to where none is asked for, relative to the natural scales: what it does not
-/// leave is not printed.
+/// The accuracy that doubles are held to where none is asked for, relative to the greatest number of an answer: what it
+/// does not leave is not printed.
 pub const DEFAULT_ACCURACY: f64 = 1e-9;
 /// Bits beyond those of the digits asked for, on the first attempt with error bounds.
 const GUARD_BITS: u32 = 64;
@@ -224,7 +224,8 @@ impl Plan {
         };
         let numbers = match self.numbers {
             Numbers::Double(accuracy) => format!(
-                "doubles with an error bound; longer numbers where the bound is above {:e} of the natural scales",
+                "doubles with an error bound; longer numbers where the bound is above {:e} of the greatest number of \
+                 an answer",
                 accuracy.unwrap_or(DEFAULT_ACCURACY)
             ),
             Numbers::Digits(digits) => {

@@ -31,7 +31,7 @@ pub enum Want {
 /// The numbers of an answer.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Numbers {
-    /// Doubles, to this accuracy relative to the natural scales; `None` for
+    /// Doubles, to this accuracy relative to the greatest number of an answer; `None` for
     /// [`DEFAULT_ACCURACY`](super::DEFAULT_ACCURACY). Where doubles alone do not reach it, longer numbers are computed
     /// with and rounded to doubles at the end.
     Double(Option<f64>),

@@ -409,7 +409,10 @@ fn what_cannot_be_is_refused() {
     asked(&["--times", "1", "--points", "0,11", "--field", "averages"], &["found point 11", "between 0 and 10"]);
     asked(&["--times", "1", "--points", "0,11"], &["found point 11"]);
     asked(&["--as", "python", "--times", "1"], &["cannot be used with"]);
-    refused(&["reference", "paper-weak", "--exact", "--times", "5"], &["found time 5, expected an earlier one", "exactness ends before"]);
+    refused(
+        &["reference", "paper-weak", "--exact", "--times", "5"],
+        &["found time 5, expected an earlier one", "exactness ends before"],
+    );
     refused(&["reference", "figure-4-r02", "--as", "c"], &["found a damped rod, expected an undamped one"]);
     let mean = ["reference", "figure-4-r02", "--times", "1", "--points", "0..1:3", "--field", "averages"];
     refused(&mean, &["found a damped rod"]);
