@@ -160,10 +160,9 @@ def solve(
     It is followed up to the time ``to`` or through so many ``impacts``, in place of what the scene says.
 
     Without an option all values are doubles with a bound of 1e-9 of the greatest number of an answer, or
-    ``accuracy``; ``digits=50``
-    gives ``Decimal`` of 50 digits, rounded once; ``exact=True`` gives ``Fraction``; ``certified=True`` gives pairs
-    ``(lo, hi)`` of ``Decimal`` that are proved to enclose the value. ``exact=True, digits=50`` goes on in digits where
-    fractions end.
+    ``accuracy``; ``digits=50`` gives ``Decimal`` of 50 digits, rounded once; ``exact=True`` gives ``Fraction``;
+    ``certified=True`` gives pairs ``(lo, hi)`` of ``Decimal`` that are proved to enclose the value.
+    ``exact=True, digits=50`` goes on in digits where fractions end.
 
     No lock of the interpreter is held meanwhile, and Ctrl-C interrupts it.
 
