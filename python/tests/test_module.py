@@ -105,7 +105,7 @@ def test_files(tmp_path):
         (ValueError, "either time or impacts", lambda: dalembert.solve("paper-strong", to=1, impacts=2)),
         (ValueError, "found -1 digits asked for", lambda: dalembert.solve("paper-strong", digits=-1)),
         (TypeError, "found impacts = 1.5", lambda: dalembert.solve("paper-strong", impacts=1.5)),
-        (ValueError, "expected an undamped scene", lambda: dalembert.solve("figure-4-r02", exact=True)),
+        (ValueError, "expected an undamped rod", lambda: dalembert.solve("figure-4-r02", exact=True)),
     ],
 )
 def test_refusals(error, said, act):
