@@ -174,8 +174,8 @@ fn notes_stand_below_the_table() {
     let (table, notes) = text.split_once("\n\n").unwrap();
     let last: Vec<&str> = table.lines().map(|line| line.split_whitespace().last().unwrap()).collect();
     assert_eq!((last[0], &last[3..]), ("note", &["[1]", "[1]"][..]));
-    // r t₁ = 6.4 is above π.
-    assert!(notes.starts_with("[1] no bounce: r t₁ = 6.4") && notes.trim_end().ends_with("overdamped"), "{notes}");
+    // r t₁ = 3.2 is above π.
+    assert!(notes.starts_with("[1] no bounce: r t₁ = 3.2") && notes.trim_end().ends_with("from there"), "{notes}");
     assert!(!text.contains('…') && text.lines().all(|line| line.chars().count() <= 80), "{text}");
     assert!(!run(&["paper-strong", "--vary", "impact.speed=3,4"]).unwrap().contains("note"));
 }
