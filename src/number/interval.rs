@@ -132,7 +132,8 @@ impl Interval {
     /// let history = rod.certified(20)?;
     /// // t_b = 2L/c = 2/3, which no binary number is.
     /// let end = history.contacts()[0].to.clone().unwrap();
-    /// assert!(end.lo().clone() * 3 < 2 && end.hi().clone() * 3 > 2);
+    /// let exact = |end: &dalembert::rug::Float| end.to_rational().unwrap();
+    /// assert!(exact(end.lo()) * 3 < 2 && exact(end.hi()) * 3 > 2);
     /// assert_eq!(format!("{end:.20}"), "0.66666666666666666667");
     /// # Ok::<(), dalembert::Error>(())
     /// ```
