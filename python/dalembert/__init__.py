@@ -447,9 +447,9 @@ class History:
 
     @cached_property
     def stress_history(self) -> np.ndarray:
-        """``v_x(0,·)`` piece by piece: ``from``, ``to``, and the values ``left`` and ``right`` at its ends. Undamped
+        """``v_x(0,·)`` piece by piece: ``from``, ``to``, and ``strain_from`` and ``strain_to`` at its ends. Undamped
         pieces are linear between them; :meth:`strain` gives the values of all."""
-        return self._table("stress", "from to left right")
+        return self._table("stress", "from to strain_from strain_to")
 
     def _places(self, values: Numbers) -> Any:
         array = np.asarray(values)

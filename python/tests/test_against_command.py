@@ -61,7 +61,7 @@ def compare(rod: dict, impacts: int, command) -> int:
     tables = {
         "events": (expected["events"], EVENTS),
         "contacts": (expected["contacts"], CONTACTS),
-        "stress_history": (expected["stress"]["pieces"], ("from", "to", "left", "right")),
+        "stress_history": (expected["stress"]["pieces"], ("from", "to", "strain_from", "strain_to")),
         "restitution": ([contact["restitution"] for contact in expected["contacts"]], COEFFICIENTS),
     }
     for table, (rows, names) in tables.items():

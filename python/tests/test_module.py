@@ -57,7 +57,7 @@ def test_tables():
     history = dalembert.solve("getfem-dynamic-contact", to=12)
     assert history.contacts["from"].tolist() == [1, 4, 7, 10] and history.contacts["to"].tolist() == [2, 5, 8, 11]
     assert np.isnan(history.flights["to"][-1]) and history.events.dtype.names[0] == "time"
-    assert history.stress_history["left"].tolist() == [0, -0.5, 0, -0.5, 0, -0.5, 0, -0.5, 0]
+    assert history.stress_history["strain_from"].tolist() == [0, -0.5, 0, -0.5, 0, -0.5, 0, -0.5, 0]
     assert not dalembert.Problem(length=1, wave_speed=1, displacement=[(0, 1), (1, 1)], time=1).solve().events.size
     assert "getfem-dynamic-contact" in dalembert.scenes()
 

@@ -59,6 +59,21 @@ pub enum CompareError {
         /// What was expected.
         expected: String,
     },
+    /// Their times, against the scene's own run.
+    #[error(
+        "{file}: found times up to {last}, expected times of the scene's own run, which ends at t = {end}: are they \
+         in {unit}? For a run as long, say so in the scene: time = {last} in [run]"
+    )]
+    Span {
+        /// The source.
+        file: String,
+        /// Its last time.
+        last: f64,
+        /// The end of the run.
+        end: f64,
+        /// What the times may be in.
+        unit: &'static str,
+    },
     /// The history.
     #[error(transparent)]
     History(#[from] Error),
@@ -147,6 +162,29 @@ pub struct ComparedFile {
     pub(crate) agreement: Agreement,
 }
 
+/// Data that go so many times as far as the scene's own run are in another unit of time.
+const FAR: f64 = 100.0;
+
+/// Where the scene's own run ends, asked only where that may be less than `1/FAR` of `last`.
+///
+/// **Source**: impacts follow each other by no less than a contact, which lasts at least a round trip.
+fn own_end(problem: &Problem, trip: f64, last: f64) -> Option<f64> {
+    match &problem.run {
+        Run::Time(time) => Some(time.to_f64()),
+        Run::Impacts(count) if last <= FAR * trip * f64::from(*count) => None,
+        Run::Impacts(_) => problem.solve().ok().map(|history| *history.end()),
+    }
+}
+
+/// What times may be in that go so many times as far as the run.
+fn unit_of_time(times: f64) -> &'static str {
+    match (times.log10() / 3.0).round() {
+        ..=1.0 => "milliseconds",
+        2.0 => "microseconds",
+        _ => "another unit of time",
+    }
+}
+
 impl Prepared {
     /// Reads `sources`, which are to be compared with `problem` in its `units`, solved in doubles to `accuracy`. It is followed as far
     /// as its own run and the data go.
@@ -164,6 +202,14 @@ impl Prepared {
         let read = |source: Source| Ok((source.file().to_string(), options.samples(source, rod.length, units)?));
         let data = sources.into_iter().map(read).collect::<Result<Vec<_>, CompareError>>()?;
         let last = data.iter().filter_map(|(_, samples)| samples.grid.times.last()).fold(0.0, |a: f64, b| a.max(*b));
+        for (file, samples) in &data {
+            let last = samples.grid.times.last().copied().unwrap_or(0.0);
+            let end = own_end(problem, rod.round_trip(), last);
+            if let Some(end) = end.filter(|end| *end > 0.0 && last > FAR * end) {
+                let unit = unit_of_time(last / end);
+                return Err(CompareError::Span { file: file.clone(), last, end, unit });
+            }
+        }
         // A round trip more shows a contact that begins in the data a little too early.
         let last = last + rod.round_trip();
         let settings = options.settings(problem);

@@ -14,7 +14,7 @@ use crate::history::History;
 use crate::problem::{Problem, Top};
 use crate::quantity::{
     Audit, Books, Column, Finding, Grid, Hint, Measures, Norms, Pair, Touch, gathered, matched, norms, of_contacts,
-    touches,
+    of_impulses, touches,
 };
 
 pub use comparison::{CompareError, ComparedFile, Comparison, Options, Prepared};
@@ -25,6 +25,7 @@ pub(crate) use limit::{Order, orders};
 pub use map::MapError;
 pub(crate) use map::{Map, What};
 use ours::{Ours, Place};
+pub use report::LEGEND;
 pub(crate) use samples::{Clock, Samples};
 
 /// Data beside a history.
@@ -153,6 +154,11 @@ impl Agreement {
         self.quantities.iter().find(|compared| compared.what == What::Column(column))
     }
 
+    fn has_scale(&self, what: What) -> bool {
+        let scale = |hint: &Hint| hint.quantity == what.name() && matches!(hint.finding, Finding::Scale { .. });
+        self.hints.iter().any(scale)
+    }
+
     /// Contacts, audit, and the hints of both.
     fn keep_books(&mut self, problem: &Problem, ours: &Ours<'_>, until: Option<f64>) {
         let times = &self.grid.times;
@@ -189,6 +195,11 @@ impl Agreement {
             let later = |touch: &Touch| touch.from > last - 2.0 * self.step;
             contacts.retain(|(a, b)| b.is_some() || !a.as_ref().is_some_and(later));
         }
+        // A factor that chatter hides from the samples is one of the impulses.
+        let impulses = shown.map(|shown| shown.what).filter(|what| !self.has_scale(*what)).and_then(|what| {
+            let finding = of_impulses(&contacts, times, self.step, &ours.factors(what))?;
+            Some(Hint { quantity: what.name().into(), finding })
+        });
         let energy = self.theirs(Column::Energy);
         let books = Books {
             times,
@@ -205,6 +216,7 @@ impl Agreement {
             ..books.audit()
         };
         let mut hints = of_contacts(&contacts, times, self.step);
+        hints.extend(impulses);
         hints.append(&mut self.hints);
         self.hints = gathered(hints);
         self.contacts = contacts;

@@ -305,8 +305,10 @@ impl<'a> Ours<'a> {
         known.extend([
             (1.0 / (density * area), "is ρS missing?"),
             (1.0 / density, "is ρ missing?"),
-            (1e3, "is it in thousandths of the unit?"),
-            (1e-3, "is it in thousands of the unit?"),
+            (1e3, "is it in thousandths of the unit, as mm of m?"),
+            (1e-3, "is it in thousands of the unit, as kN of N?"),
+            (1e6, "is it in millionths of the unit, as µm of m?"),
+            (1e-6, "is it in millions of the unit, as MPa of Pa?"),
         ]);
         known.retain(|(factor, _)| (factor - 1.0).abs() > 0.01);
         known

@@ -10,6 +10,28 @@ use crate::quantity::{Column, Extreme, Greatest, Norm, Touch, Units};
 /// What the norms are.
 const WEIGHTS: &str = "sums over the samples by the trapezoidal rule: each weighs half the way to its neighbours";
 
+/// What the words of the report mean, a line each.
+pub const LEGEND: &str = "\
+norm                L1 = ∫|e| dt, L2 = √∫e² dt, L∞ = max |e| of e = theirs − ours, by the
+                    trapezoidal rule; relative to the same norm of ours
+off jumps           over samples further from a jump of ours than --window says
+sample on a jump    compared with the nearer of the two limits, or the one that its row names
+impulse             ∫ F dt over the contact
+centroid            ∫ t F dt / ∫ F dt: the mean time of the force
+peak                the greatest F
+gaps closed         separations within a contact shorter than a quarter of the round trip, and of
+                    our shortest flight: the contact chatters, and they count as part of it
+penetration         the deepest the end is below the ground
+tension in contact  the greatest pull of the ground
+∫|v F| dt           gap times force, zero where contact and gap exclude each other; in units of
+                    energy times time, such as J s
+energy              how much more the energy of theirs has changed than that of ours
+momentum            what is left of P′ + 2rP = F − weight over all samples, P the momentum
+missed, invented    contacts of ours without one of theirs, and the other way round
+not covered         times of the run without samples
+no hint             no error of scale, sign, origin, units or clock explains half of a difference
+";
+
 fn number(x: f64) -> String {
     x.decimal(6)
 }
@@ -57,7 +79,15 @@ fn file_table(compared: &ComparedFile, title: Option<&str>, units: &Units) -> St
         out += &format!("hint: {hint}\n");
     }
     if agreement.hints.is_empty() {
-        out += "no hint: nothing systematic found\n";
+        let merged = agreement.contacts.iter().filter_map(|(_, theirs)| theirs.as_ref()).map(|touch| touch.merged);
+        let chatter: Vec<usize> = merged.filter(|merged| *merged > 0).collect();
+        out += "no hint: no error of scale, sign, origin, units or clock found";
+        if !chatter.is_empty() {
+            let counted = |count: usize, one: &str| format!("{count} {one}{}", if count == 1 { "" } else { "s" });
+            let (gaps, contacts) = (counted(chatter.iter().sum(), "gap"), counted(chatter.len(), "contact"));
+            out += &format!("; the contact chatters: {gaps} closed in {contacts}");
+        }
+        out.push('\n');
     }
     out
 }
@@ -102,7 +132,11 @@ fn contacts_table(contacts: &[(Option<Touch>, Option<Touch>)], units: &Units) ->
     for (k, (ours, theirs)) in contacts.iter().enumerate() {
         let name = (k + 1).to_string();
         let merged = theirs.as_ref().map_or(0, |touch| touch.merged);
-        let whose = if merged > 0 { format!("theirs, {merged} gaps closed") } else { "theirs".into() };
+        let whose = match merged {
+            0 => "theirs".to_string(),
+            1 => "theirs, 1 gap closed".to_string(),
+            count => format!("theirs, {count} gaps closed"),
+        };
         match (ours, theirs) {
             (Some(a), Some(b)) => {
                 let (a, b) = (columns(a), columns(b));
@@ -135,6 +169,8 @@ fn audit_lines(agreement: &Agreement, units: &Units) -> String {
     let or = |text: Option<String>, needs: &str| text.unwrap_or_else(|| format!("– (needs {needs})"));
     let [length, force, impulse, joule] =
         [Column::EndDisplacement, Column::Force, Column::Impulse, Column::Energy].map(|column| column.unit(units));
+    // A length and a force over a time; without a material all of it is per ρS.
+    let action = if units.has_material() && !joule.is_empty() { format!("{joule} s") } else { joule.to_string() };
     let energy = audit.energy_change.as_ref().map(|energy| {
         let of_ours =
             energy.relative.map_or_else(String::new, |share| format!(" ({} of ours)", self::share(Some(share.abs()))));
@@ -149,7 +185,7 @@ fn audit_lines(agreement: &Agreement, units: &Units) -> String {
     let lines = [
         ("penetration", or(audit.penetration.as_ref().map(|x| at(x, length)), "u_end")),
         ("tension in contact", or(audit.tension.as_ref().map(|x| at(x, force)), "force, stress or strain")),
-        ("∫|v F| dt", or(audit.complementarity.map(|x| size(Some(x))), "u_end and force")),
+        ("∫|v F| dt", or(audit.complementarity.map(|x| with(x, &action)), "u_end and force")),
         ("energy", or(energy, "E_total")),
         ("momentum", or(momentum, "force, h_rate and a free top")),
         ("contacts", format!("{} missed, {} invented", audit.missed, audit.invented)),

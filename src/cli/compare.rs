@@ -7,20 +7,22 @@ use clap::Args;
 
 use super::file::{self, Kind};
 use super::{Failure, Format, source};
-use crate::agreement::{Axis, Comparison, Compression, Limit, Options, Origin, Prepared};
+use crate::agreement::{Axis, Comparison, Compression, LEGEND, Limit, Options, Origin, Prepared};
 use crate::data::Source;
 use crate::number::Number;
 use crate::output::{Size, compare_csv, compare_svg};
 use crate::quantity::Units;
 
-/// Your data against the exact history: norms, contacts, an audit, and hints at what may be wrong
-#[derive(Args, Debug)]
-#[command(after_help = "Examples:\n  dalembert compare doyen-ern-piperno run.csv\n  \
+const EXAMPLES: &str = "Examples:\n  dalembert compare doyen-ern-piperno run.csv\n  \
     dalembert compare rod.toml run.dat --map t=0,u=1,v=2,force=3 -o run.svg\n  \
     dalembert compare rod.toml coarse.npz fine.npz --fail-above u.l2=0.01,force.l1=0.05\n\n\
     Quantities are called as in `dalembert reference`; u and v are short for u_end and v_end. With a column x, u, v,\n\
     strain and stress are those at the point x. Two rows at one time are the limits at a jump, as `reference` writes\n\
-    them; a column side (left, right, both) says which. The exit code is 1 where --fail-above fails.")]
+    them; a column side (left, right, both) says which. The exit code is 1 where --fail-above fails.";
+
+/// Your data against the exact history: norms, contacts, an audit, and hints at what may be wrong
+#[derive(Args, Debug)]
+#[command(after_help = EXAMPLES, after_long_help = format!("{EXAMPLES}\n\nWords of the report:\n{LEGEND}"))]
 pub(super) struct Compare {
     /// A scene file, `-`, or a built-in scene. It is followed as far as the data go
     scene: String,

@@ -59,9 +59,12 @@ pub(super) struct Reference {
     /// What to write; by default what the ending of FILE says, or CSV
     #[arg(long, value_enum)]
     format: Option<Golden>,
+    /// A CSV without the comments above the names of its columns
+    #[arg(long)]
+    bare: bool,
     /// Instead of rows: the exact solution of an undamped rod as a function uExact(x, t, d)
     #[arg(long = "as", value_enum, value_name = "LANGUAGE")]
-    #[arg(conflicts_with_all = ["when", "columns", "points", "side", "format"])]
+    #[arg(conflicts_with_all = ["when", "columns", "points", "side", "format", "bare"])]
     language: Option<Language>,
     /// Write to this file, whole or not at all; `-` is standard output
     #[arg(short, long, value_name = "FILE")]
@@ -84,6 +87,9 @@ impl Reference {
             return solve(&scene, &Question::run(numbers), &Function { asked: self, scene: &scene, language });
         }
         let golden = self.golden()?;
+        if self.bare && golden != Golden::Csv {
+            return Err(miette::miette!("found --bare, expected it with CSV only: JSON and NPZ have no comments"));
+        }
         let times = self.times()?;
         let columns = match &self.points {
             Some(_) => Vec::new(),
@@ -198,7 +204,9 @@ impl Visit for Series<'_> {
         let numbers = history.plan().numbers;
         let ends = matches!(self.times, Times::Events)
             .then(|| noted_end(history.ending(), &S::carry(history.end()), head.digits));
-        let preamble = Preamble { head: &head, scene: self.scene.source(), numbers, each: "each column", ends };
+        let (scene, until) = (self.scene.source(), history.end().to_f64());
+        let preamble =
+            Preamble { head: &head, scene, numbers, each: "each column", until, bare: self.asked.bare, ends };
         Ok(rows.finish(&preamble, self.asked.output.as_deref()).map_err(self.asked.cannot_write())?)
     }
 }
@@ -217,7 +225,8 @@ impl Visit for Function<'_> {
         let head = warned(history, head, false);
         let numbers = history.plan().numbers;
         let ends = Some(noted_end(history.ending(), &S::carry(history.end()), head.digits));
-        let preamble = Preamble { head: &head, scene: self.scene.source(), numbers, each: "each coefficient", ends };
+        let (scene, until) = (self.scene.source(), history.end().to_f64());
+        let preamble = Preamble { head: &head, scene, numbers, each: "each coefficient", until, bare: false, ends };
         let text = code(&waves, &S::carry(history.end()), self.language, &preamble);
         Ok(write_whole(self.asked.output.as_deref(), text.as_bytes()).map_err(self.asked.cannot_write())?)
     }

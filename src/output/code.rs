@@ -21,8 +21,12 @@ const FORMULA: &[&str] = &[
     "u(x,t) = (P(t - x/c) + sign P(t + x/c - 2L/c))/2 + a + b x + d x^2, d'Alembert's waves, with a",
     "piecewise quadratic function P: each row of the table is from, P, P', P'' there.",
     "d = 0 gives the displacement u, d = 1 the strain du/dx, d = 2 the velocity du/dt; at a jump the limit from",
-    "later times, or within rounding of it either one. Times from 0 to the end of the table's history.",
+    "later times, or within rounding of it either one. Times from 0 to the end of the table's history, which like",
+    "the length may be passed by a few roundings.",
 ];
+
+/// The length and the end may be passed by this factor: steps that add up to them are some roundings off.
+const NEAR: &str = "1 + 2e-15";
 
 /// The function `uExact(x, t, d)` of `waves`, which reach to `end`.
 pub fn code<S: Scalar>(waves: &Waves<S>, end: &S, language: Language, preamble: &Preamble<'_>) -> String {
@@ -78,13 +82,18 @@ fn python(remarks: &[String], constants: &[(&str, String)], sign: &str, rows: &[
     for row in rows {
         text += &format!("    ({}),\n", row.join(", "));
     }
-    text += "]\n_FROM = [row[0] for row in TABLE]\n\n\n";
+    text += "]\n_FROM = [row[0] for row in TABLE]\n";
+    text += &format!("_NEAR = {NEAR}\n\n\n");
     text += "def _wave(s):\n    \"\"\"P and P' at s.\"\"\"\n";
     text += "    start, value, rate, slope = TABLE[max(bisect_right(_FROM, s) - 1, 0)]\n    tau = s - start\n";
     text += "    return value + (rate + slope * tau / 2) * tau, rate + slope * tau\n\n\n";
     text += "def uExact(x, t, d=0):\n";
-    text += "    \"\"\"The displacement (d=0), the strain (d=1) or the velocity (d=2) at x and t.\"\"\"\n";
-    text += "    if not (0 <= x <= LENGTH and 0 <= t <= END):\n";
+    text += "    \"\"\"The displacement (d=0), the strain (d=1) or the velocity (d=2) at x and t.\n\n";
+    text += "    Arrays of NumPy are broadcast against each other.\n    \"\"\"\n";
+    text += "    if hasattr(x, \"__iter__\") or hasattr(t, \"__iter__\"):\n        from numpy import vectorize\n\n";
+    let kind = if exact { "object" } else { "float" };
+    text += &format!("        return vectorize(uExact, otypes=[{kind}])(x, t, d)\n");
+    text += "    if not (0 <= x <= LENGTH * _NEAR and 0 <= t <= END * _NEAR):\n";
     text += "        raise ValueError(f\"found x = {x}, t = {t}, expected 0 <= x <= {LENGTH} and 0 <= t <= {END}\")\n";
     text += "    up, rise = _wave(t - x / WAVE_SPEED)\n";
     text += "    down, fall = _wave(t + x / WAVE_SPEED - ROUND_TRIP)\n";
@@ -110,7 +119,8 @@ fn matlab(remarks: &[String], constants: &[(&str, String)], sign: &str, rows: &[
         text += &format!("        {}\n", row.join(" "));
     }
     text += "    ];\nend\n";
-    text += "if any(x(:) < 0 | x(:) > LENGTH) || any(t(:) < 0 | t(:) > END)\n";
+    text += &format!("NEAR = {NEAR};\n");
+    text += "if any(x(:) < 0 | x(:) > LENGTH * NEAR) || any(t(:) < 0 | t(:) > END * NEAR)\n";
     text += "    error('expected 0 <= x <= %g and 0 <= t <= %g', LENGTH, END);\nend\n";
     text += "[up, rise] = wave(TABLE, t - x / WAVE_SPEED);\n";
     text += "[down, fall] = wave(TABLE, t + x / WAVE_SPEED - ROUND_TRIP);\n";
@@ -143,9 +153,9 @@ fn c(remarks: &[String], constants: &[(&str, String)], sign: &str, rows: &[[Stri
     text += "// The displacement (d = 0), the strain (d = 1) or the velocity (d = 2) at x and t; NAN outside.\n";
     text += "static inline double uExact(double x, double t, int d) {\n    const double ";
     text += &constants.iter().map(|(name, value)| format!("{name} = {value}")).collect::<Vec<_>>().join(", ");
-    text += &format!(", SIGN = {sign};\n");
+    text += &format!(", SIGN = {sign}, NEAR = {NEAR};\n");
     text += "    double up, rise, down, fall;\n";
-    text += "    if (!(x >= 0 && x <= LENGTH && t >= 0 && t <= END) || d < 0 || d > 2) return NAN;\n";
+    text += "    if (!(x >= 0 && x <= LENGTH * NEAR && t >= 0 && t <= END * NEAR) || d < 0 || d > 2) return NAN;\n";
     text += "    uExact_wave(t - x / WAVE_SPEED, &up, &rise);\n";
     text += "    uExact_wave(t + x / WAVE_SPEED - ROUND_TRIP, &down, &fall);\n";
     text += "    if (d == 0) return (up + SIGN * down) / 2 + A + (B + D * x) * x;\n";

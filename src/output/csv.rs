@@ -64,7 +64,7 @@ pub fn history_csv<S: Scalar>(
                 let series: Vec<String> = piece.chebyshev.iter().map(show).collect();
                 ends(piece).into_iter().chain([series.join(" ")]).collect()
             }));
-            comments += "# v_x(0,t) is linear from left to right, or the sum of chebyshev[k] T_k(x), \
+            comments += "# v_x(0,t) is linear from strain_from to strain_to, or the sum of chebyshev[k] T_k(x), \
                 x = 2(t - from)/(to - from) - 1\n";
             names(&present).into_iter().chain(["chebyshev".to_string()]).collect()
         }
@@ -72,7 +72,7 @@ pub fn history_csv<S: Scalar>(
             rows.extend(straight(&record.stress, STRAIGHT).iter().map(ends));
             if record.stress.iter().any(|piece| piece.chebyshev.len() > 2) {
                 comments += &format!(
-                    "# straight lines from left to right are within {STRAIGHT:e} of the greatest v_x(0,t); \
+                    "# straight lines from strain_from to strain_to are within {STRAIGHT:e} of the greatest v_x(0,t); \
                      --coefficients gives the exact form\n"
                 );
             }
@@ -96,10 +96,10 @@ const EVENT: [Column; 8] = [
 const STRESS: [Column; 6] = [
     column("from", Measure::Time),
     column("to", Measure::Time),
-    column("left", Measure::Strain),
-    column("right", Measure::Strain),
-    column("left_stress", Measure::Stress),
-    column("right_stress", Measure::Stress),
+    column("strain_from", Measure::Strain),
+    column("strain_to", Measure::Strain),
+    column("stress_from", Measure::Stress),
+    column("stress_to", Measure::Stress),
 ];
 
 /// Samples.

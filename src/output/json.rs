@@ -84,8 +84,8 @@ pub fn history_json<S: Scalar>(record: &Record<S>, head: &Head) -> Value {
         let mut value = json!({
             "from": number(&piece.from),
             "to": number(&piece.to),
-            "left": number(&piece.left),
-            "right": number(&piece.right),
+            "strain_from": number(&piece.left),
+            "strain_to": number(&piece.right),
         });
         if !piece.chebyshev.is_empty() {
             value["chebyshev"] = piece.chebyshev.iter().map(number).collect();

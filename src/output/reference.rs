@@ -89,12 +89,19 @@ pub struct Preamble<'a> {
     pub each: &'a str,
     /// Why the history ends, where its end is among the rows.
     pub ends: Option<String>,
+    /// How far the history is followed.
+    pub until: f64,
+    /// Whether a CSV leaves out the comments.
+    pub bare: bool,
 }
 
 /// The sign conventions of all golden files.
 const SIGNS: &str = "x and displacements upwards from the undeformed rod on the ground; strain and stress positive in \
                      tension, force positive in compression";
 const SIDE: &str = "left is the limit from earlier times, right from later ones; both: they are the same";
+/// How others read a CSV below its comments.
+const READ: &str = "pandas.read_csv(FILE, comment=\"#\"), or \
+    numpy.genfromtxt((s for s in open(FILE) if s[0] != \"#\"), delimiter=\",\", names=True, dtype=None)";
 const CITE: &str = concat!(
     "The dalembert developers, dalembert ",
     env!("CARGO_PKG_VERSION"),
@@ -140,6 +147,7 @@ impl Preamble<'_> {
             "title": self.head.title,
             "scene": self.scene_lines().collect::<Vec<_>>().join("\n"),
             "effects": self.head.effects,
+            "until": self.until,
             "numbers": self.head.number,
             "proved": self.proved(),
             "promise": self.promise(npz),
@@ -167,6 +175,7 @@ impl Preamble<'_> {
         let mut lines = vec![format!("dalembert {}: reference", env!("CARGO_PKG_VERSION"))];
         lines.extend(self.head.title.iter().map(|title| line("title", title)));
         lines.extend(self.scene_lines().map(|scene| line("scene", scene)));
+        lines.push(line("until", &format!("the history is followed to t = {}", self.until)));
         lines.push(line("numbers", &format!("{}: {}{proved}", self.head.number, self.promise(false))));
         lines.push(line("signs", SIGNS));
         lines.extend(self.head.exact_until.iter().map(|end| line("note", &format!("{end}; all is in digits"))));
@@ -178,7 +187,11 @@ impl Preamble<'_> {
 
     /// Everything as comments above the rows of a CSV.
     fn comments(&self, columns: &[Described], bounds: &[f64]) -> String {
+        if self.bare {
+            return String::new();
+        }
         let mut text: String = self.lines().map(|line| format!("# {line}\n")).collect();
+        text += &format!("# read: {READ}\n");
         for (column, bound) in columns.iter().zip(bounds) {
             let within = match self.has_bounds() && !column.is_flag() {
                 true => format!("; within {}", bound_of_log2(*bound)),

@@ -16,8 +16,8 @@
 //!
 //! The clock of the contacts is read from the first of them, which starts from exact data as well: from how far the
 //! force spreads about its centroid, as the ends of a contact are smeared by every scheme, which changes the spread in
-//! the second order only. A shift of the contacts counts where beginning, end and centroid say the same. Nothing here
-//! is fitted to results.
+//! the second order only. A shift of the contacts counts where beginning, end and centroid say the same. A factor of
+//! the force that chatter hides from the fit is read from the impulses. Nothing here is fitted to results.
 
 use serde::Serialize;
 
@@ -55,9 +55,11 @@ pub enum Finding {
     Scale {
         /// The factor.
         factor: f64,
-        /// The name of a factor that is often forgotten, if it is one.
-        known: Option<&'static str>,
+        /// The names of factors that are often forgotten and are this one.
+        known: Vec<&'static str>,
     },
+    /// Theirs is zero at every sample.
+    Empty,
     /// `theirs = −ours`.
     Sign,
     /// `theirs = ours + offset`.
@@ -103,6 +105,7 @@ impl Finding {
             Finding::TimeShift { late, .. } | Finding::Rate { late, .. } => ("time_shift", *late),
             Finding::Clock { rate, .. } => ("clock", *rate),
             Finding::Scale { factor, .. } => ("scale", *factor),
+            Finding::Empty => ("empty", 0.0),
             Finding::Sign => ("sign", -1.0),
             Finding::Origin { offset } => ("origin", *offset),
             Finding::Missing(count) => ("missing", *count as f64),
@@ -148,11 +151,16 @@ impl std::fmt::Display for Hint {
                 write!(f, "{like}check mass, length or wave speed")
             }
             Finding::Scale { factor, known } => {
-                let close = (0.5..1.5).contains(factor) && known.is_none();
+                let close = (0.5..1.5).contains(factor) && known.is_empty();
                 let factor = if close { format!("{factor:.4}") } else { rounded(*factor) };
-                let ask = known.unwrap_or(if close { "is mass, modulus, length or speed off?" } else { "which unit?" });
+                let ask = match (known.as_slice(), close) {
+                    ([], true) => "is mass, modulus, length or speed off?".to_string(),
+                    ([], false) => "which unit?".to_string(),
+                    (known, _) => known.join(" "),
+                };
                 write!(f, "{name} × {factor}: {ask}")
             }
+            Finding::Empty => write!(f, "{name} is zero throughout: an empty column?"),
             Finding::Sign => {
                 let option = if matches!(name.as_str(), "force" | "stress" | "strain" | "impulse") {
                     "--compression"
@@ -322,6 +330,12 @@ impl Measures<'_> {
         if self.square(&e, counts) <= ACCURACY * ACCURACY * self.square(pair.ours, counts).max(natural) {
             return None;
         }
+        let most = pair.ours.iter().fold(0.0f64, |most, value| most.max(value.abs()));
+        if pair.theirs.iter().all(|value| *value == 0.0) {
+            // A scheme that releases a few steps late may be at rest as long.
+            let moved = pair.ours.iter().filter(|value| value.abs() > TELLS * most).count();
+            return (moved >= FEWEST).then_some(Finding::Empty);
+        }
         let times = &self.grid.times;
         let rate = |k: usize| {
             let (before, after) = (k.saturating_sub(1), (k + 1).min(times.len() - 1));
@@ -334,7 +348,6 @@ impl Measures<'_> {
         let at_zero = times.first().is_some_and(|first| *first == 0.0);
         let more = |fit: &Fit, scale: f64| (fit.from_start && at_zero) || fit.value.abs() > loss * scale;
         let gross = |fit: &Fit| fit.value.abs() >= AGREES;
-        let most = pair.ours.iter().fold(0.0f64, |most, value| most.max(value.abs()));
         let multiple = self.fit(&e, |k| counts(k).then(|| pair.ours[k]));
         let multiple = multiple.filter(|fit| more(fit, 1.0) && (fit.tell >= 2 || gross(fit)));
         let constant = self.fit(&e, |k| counts(k).then_some(1.0)).filter(|fit| more(fit, most) && fit.tell >= 2);
@@ -386,7 +399,7 @@ fn scaled(factor: f64, known: &[(f64, &'static str)]) -> Finding {
     if (factor + 1.0).abs() < AGREES {
         return Finding::Sign;
     }
-    Finding::Scale { factor, known: known.iter().find(|(value, _)| near(*value)).map(|(_, name)| *name) }
+    Finding::Scale { factor, known: known.iter().filter(|(value, _)| near(*value)).map(|(_, name)| *name).collect() }
 }
 
 /// Of several values, their mean where all are within a quarter of it.
@@ -406,15 +419,7 @@ fn agreed(values: &[f64]) -> Option<f64> {
 pub fn of_contacts(rows: &[(Option<Touch>, Option<Touch>)], times: &[f64], typical: f64) -> Vec<Hint> {
     let hint = |finding| Hint { quantity: "contact".into(), finding };
     let mut hints = Vec::new();
-    let longest = |touch: &Touch| {
-        if times.first().is_none_or(|first| touch.from < first - typical) {
-            return f64::INFINITY;
-        }
-        let first = times.partition_point(|time| *time <= touch.from).saturating_sub(1);
-        let last = touch.to.map_or(times.len(), |to| times.partition_point(|time| *time < to) + 1);
-        let within = &times[first..last.clamp(first, times.len())];
-        within.windows(2).map(|pair| pair[1] - pair[0]).reduce(f64::max).unwrap_or(f64::INFINITY)
-    };
+    let longest = |touch: &Touch| longest_step(touch, times, typical);
     let resolved = |touch: &Touch| touch.duration().is_some_and(|duration| duration > 2.0 * longest(touch));
     let missing = rows.iter().filter(|(a, b)| b.is_none() && a.as_ref().is_some_and(resolved)).count();
     let invented = rows.iter().filter(|(a, b)| a.is_none() && b.as_ref().is_some_and(resolved)).count();
@@ -427,7 +432,9 @@ pub fn of_contacts(rows: &[(Option<Touch>, Option<Touch>)], times: &[f64], typic
     let clock = first.and_then(|(a, b)| {
         let (rate, longer) = (ratio(a.spread, b.spread)?, ratio(a.duration(), b.duration())?);
         let open = longest(a).max(longest(b)) / a.duration()? + 6.0 * (longer - rate).powi(2);
-        (rate.abs() > open).then(|| Finding::Clock { rate, impulse: ratio(a.impulse, b.impulse) })
+        // An impulse that is off by more than a clock explains says nothing of the clock.
+        let impulse = ratio(a.impulse, b.impulse).filter(|impulse| impulse.abs() < AGREES);
+        (rate.abs() > open).then_some(Finding::Clock { rate, impulse })
     });
     if let Some(clock) = clock {
         hints.push(hint(clock));
@@ -443,6 +450,42 @@ pub fn of_contacts(rows: &[(Option<Touch>, Option<Touch>)], times: &[f64], typic
     let late = first.map(|(a, b)| b.from - a.from).filter(|late| agree && late.abs() > step);
     hints.extend(late.map(|late| hint(Finding::TimeShift { late, steps: late / typical })));
     hints
+}
+
+/// The longest step between the samples at `times` that a contact lies between; infinite where it had begun before the
+/// first of them.
+fn longest_step(touch: &Touch, times: &[f64], typical: f64) -> f64 {
+    if times.first().is_none_or(|first| touch.from < first - typical) {
+        return f64::INFINITY;
+    }
+    let first = times.partition_point(|time| *time <= touch.from).saturating_sub(1);
+    let last = touch.to.map_or(times.len(), |to| times.partition_point(|time| *time < to) + 1);
+    let within = &times[first..last.clamp(first, times.len())];
+    within.windows(2).map(|pair| pair[1] - pair[0]).reduce(f64::max).unwrap_or(f64::INFINITY)
+}
+
+/// The factor that the impulses of all contacts show.
+///
+/// **Source**: `∫ F dt` is the momentum that the ground gives, which no chatter of the force changes. A factor counts
+/// where every contact that begins and ends within the samples has the same within [`KNOWN`], and where it is further
+/// from 1 than a scheme loses, [`AGREES`], and what the sum over samples may be off: a step of the greatest force.
+pub fn of_impulses(
+    rows: &[(Option<Touch>, Option<Touch>)],
+    times: &[f64],
+    typical: f64,
+    known: &[(f64, &'static str)],
+) -> Option<Finding> {
+    let both = rows.iter().filter_map(|(a, b)| a.as_ref().zip(b.as_ref()));
+    let whole = both.filter(|(a, b)| a.to.is_some() && b.to.is_some() && longest_step(a, times, typical).is_finite());
+    let factors = whole.map(|(a, b)| {
+        let (ours, theirs, peak) = (a.impulse?, b.impulse?, a.peak?);
+        let open = longest_step(a, times, typical) * peak / ours;
+        ((theirs / ours - 1.0).abs() > AGREES + open).then_some(theirs / ours)
+    });
+    let factors = factors.collect::<Option<Vec<f64>>>()?;
+    let mean = factors.iter().sum::<f64>() / factors.len() as f64;
+    let same = factors.iter().all(|factor| (factor / mean - 1.0).abs() < KNOWN);
+    (same && mean > 0.0 && mean.is_finite()).then(|| scaled(mean, known))
 }
 
 /// One hint for all quantities in place of the same shift of each.
@@ -469,8 +512,11 @@ mod tests {
     #[test]
     fn texts() {
         let text = |quantity: &str, finding| Hint { quantity: quantity.into(), finding }.to_string();
-        let scale = Finding::Scale { factor: 2.0, known: Some("is ½ missing?") };
+        let scale = Finding::Scale { factor: 2.0, known: vec!["is ½ missing?"] };
         assert_eq!(text("E_total", scale), "E_total × 2.00: is ½ missing?");
+        let scale = Finding::Scale { factor: 1e-3, known: vec!["is ρ missing?", "is it in thousands?"] };
+        assert_eq!(text("force", scale), "force × 1.00e-3: is ρ missing? is it in thousands?");
+        assert_eq!(text("u_end", Finding::Empty), "u_end is zero throughout: an empty column?");
         let clock = Finding::Clock { rate: -0.036, impulse: None };
         assert_eq!(text("contact", clock), "clock −3.60 % per contact: check mass, length or wave speed");
         let clock = Finding::Clock { rate: -0.005, impulse: Some(-0.0105) };
@@ -490,13 +536,35 @@ mod tests {
             measures.of_pair(&pair, |_| true)
         };
         let map = |f: &dyn Fn(f64, f64) -> f64| times.iter().zip(&ours).map(|(t, v)| f(*t, *v)).collect::<Vec<_>>();
-        assert_eq!(of(map(&|_, v| 2.0 * v)), Some(Finding::Scale { factor: 2.0, known: Some("half") }));
+        assert_eq!(of(map(&|_, v| 2.0 * v)), Some(Finding::Scale { factor: 2.0, known: vec!["half"] }));
         assert_eq!(of(map(&|_, v| -v)), Some(Finding::Sign));
+        assert_eq!(of(map(&|_, _| 0.0)), Some(Finding::Empty));
         assert!(matches!(of(map(&|_, v| v + 0.5)), Some(Finding::Origin { offset }) if (offset - 0.5).abs() < 1e-12));
         let late = of(map(&|t, _| 3.0 + (t - 0.005) - (t - 0.005).powi(2)));
         assert!(matches!(late, Some(Finding::TimeShift { steps, .. }) if (steps - 0.5).abs() < 0.02), "{late:?}");
         assert_eq!(of(map(&|t, v| v + 0.01 * (1e4 * t).sin())), None);
         // An error that grows from nothing.
         assert_eq!(of(map(&|t, v| v * (1.0 + 0.02 * t))), None);
+    }
+
+    /// Two contacts of a steady force 1 on [0, 1] and [3, 4], in steps of 0.1: by hand 0.25 + 0.1 · 1/1 is open.
+    #[test]
+    fn of_two_impulses() {
+        let times: Vec<f64> = (0..50).map(|k| f64::from(k) / 10.0).collect();
+        let touch = |from: f64, impulse: f64| {
+            Some(Touch { from, to: Some(from + 1.0), impulse: Some(impulse), peak: Some(1.0), ..Touch::default() })
+        };
+        let of = |a: f64, b: f64| {
+            let rows = [(touch(0.0, 1.0), touch(0.0, a)), (touch(3.0, 1.0), touch(3.0, b))];
+            of_impulses(&rows, &times, 0.1, &[(2.0, "twice?")])
+        };
+        assert_eq!(of(2.0, 2.0), Some(Finding::Scale { factor: 2.0, known: vec!["twice?"] }));
+        assert!(of(1.3, 1.3).is_none() && of(1.4, 1.4).is_some());
+        assert!(of(2.0, 1.0).is_none() && of(2.0, 2.5).is_none());
+        // One that has not ended has no impulse yet.
+        let open = Touch { to: None, ..touch(3.0, 0.5).unwrap() };
+        let rows = [(touch(0.0, 1.0), touch(0.0, 3.0)), (touch(3.0, 1.0), Some(open))];
+        assert!(of_impulses(&rows, &times, 0.1, &[]).is_some());
+        assert_eq!(of_impulses(&[], &times, 0.1, &[]), None);
     }
 }

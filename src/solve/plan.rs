@@ -92,8 +92,6 @@ const GUARD_BITS: u32 = 64;
 /// At so many times the bits asked for, enclosures are tried in place of more bits: a root that is met exactly takes
 /// any number of bits, and enclosures carry exact roots.
 const EXACT_ROOT: u32 = 4;
-/// Cells that numbers of 128 bits cross in some ten seconds.
-const LONG_CELLS: f64 = 2e5;
 /// The most bits of a number with an error bound.
 const MOST_BITS: u32 = 1 << 22;
 /// Bits of an enclosure beyond which a comparison is called undecided, where the digits asked for do not need more.
@@ -194,15 +192,6 @@ impl Plan {
                 let next = f64::from(bits) + missing.clamp(32.0, f64::from(bits));
                 (next <= f64::from(MOST_ENCLOSED.max(4 * wanted))).then_some(Rung::Enclosures(next as u32))
             }
-        }
-    }
-
-    /// The most cells that numbers of so many bits cross: without limit for digits that are asked for, for some ten
-    /// seconds where doubles do not settle an answer.
-    pub(crate) fn most_cells(&self, bits: u32) -> u64 {
-        match self.numbers {
-            Numbers::Double(_) => (LONG_CELLS * (128.0 / f64::from(bits)).powi(2)) as u64,
-            _ => u64::MAX,
         }
     }
 

@@ -107,7 +107,7 @@ fn history_schema(history: &Value, is_number: fn(&Value) -> bool) {
         assert!(contact["energy"].as_object().unwrap().values().all(is_number));
     }
     for piece in history["stress"]["pieces"].as_array().unwrap() {
-        keys(piece, &["from", "to", "left", "right"]);
+        keys(piece, &["from", "to", "strain_from", "strain_to"]);
         assert!(piece.as_object().unwrap().values().all(is_number));
     }
     assert!(is_number(&history["end"]["time"]));
@@ -365,7 +365,7 @@ fn csv_parts() {
     let events = "kind,time,end_velocity,centre,centre_velocity,time_uncertainty,end_velocity_uncertainty,\
         centre_uncertainty,centre_velocity_uncertainty";
     assert_eq!(first(&[]), (events.into(), 3));
-    assert_eq!(first(&["--part", "stress"]), ("from,to,left,right".into(), 3));
+    assert_eq!(first(&["--part", "stress"]), ("from,to,strain_from,strain_to".into(), 3));
     let (header, lines) = first(&["--part", "contacts"]);
     assert!(header.starts_with("from,to,impulse [per ρS],peak_strain,restitution_momentum,"));
     assert_eq!(lines, 2);

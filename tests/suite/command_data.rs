@@ -69,7 +69,7 @@ fn stress(scene: &str, more: &[&str]) -> (String, Vec<([f64; 4], String)>) {
         let numbers = [0, 1, 2, 3].map(|k| cells[k].parse().unwrap());
         (numbers, cells.get(4).map_or_else(String::new, ToString::to_string))
     };
-    assert!(rows[0].starts_with("from,to,left,right"));
+    assert!(rows[0].starts_with("from,to,strain_from,strain_to"));
     (comments.join("\n"), rows[1..].iter().map(row).collect())
 }
 

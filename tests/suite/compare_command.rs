@@ -316,6 +316,53 @@ fn residuals_and_pictures() {
     }
 }
 
+/// A force at every second step of the contact, of the height `peak`, whose impulse is that height; `u` times `size`.
+fn chattering(peak: f64, size: f64) -> String {
+    let row = |k: u32| {
+        let t = f64::from(k) / 8.0;
+        let force = if k % 2 == 1 && t < 2.0 { peak } else { 0.0 };
+        format!("{t},{},{force}\n", size * (t - 2.0).max(0.0))
+    };
+    format!("t,u,force\n{}", (0..=32).map(row).collect::<String>())
+}
+
+/// What is said of chatter, of a factor behind it and of an empty column.
+#[test]
+fn words_of_hints() {
+    let said = |data: &str| {
+        let folder = folder(data);
+        let table = text(&run(folder.path(), &["compare", "rod.toml", "run.csv"]), 0);
+        table.lines().filter(|line| line.contains("hint")).map(String::from).collect::<Vec<_>>()
+    };
+    let none = "no hint: no error of scale, sign, origin, units or clock found";
+    assert_eq!(said(EXACT), [none]);
+    assert_eq!(said(&chattering(2.0, 1.0)), [format!("{none}; the contact chatters: 7 gaps closed in 1 contact")]);
+    assert_eq!(said(&chattering(4.0, 1.0)), ["hint: force × 2.00: which unit?"]);
+    assert_eq!(said(&chattering(4e-3, 1.0)), ["hint: force × 2.00e-3: which unit?"]);
+    assert_eq!(said(&chattering(2e-3, 1.0)), ["hint: force × 1.00e-3: is it in thousands of the unit, as kN of N?"]);
+    assert_eq!(said(&chattering(2.0, 0.0)), ["hint: u_end is zero throughout: an empty column?"]);
+}
+
+/// Times of another unit are told from those of a long run before it is solved.
+#[test]
+fn times_in_another_unit() {
+    for (scale, unit) in [("e3", "milliseconds"), ("e6", "microseconds")] {
+        let folder =
+            folder(&EXACT.replace("3,1,1,0", &format!("3{scale},1,1,0")).replace("4,2,", &format!("4{scale},2,")));
+        let output = run(folder.path(), &["compare", "rod.toml", "run.csv"]);
+        assert_eq!(text(&output, 2), "");
+        let error = String::from_utf8_lossy(&output.stderr).replace(['│', '×'], " ");
+        let words = error.split_whitespace().collect::<Vec<_>>().join(" ");
+        assert!(words.contains("run.csv: found times up to 4000"), "{words}");
+        assert!(words.contains(&format!("own run, which ends at t = 4: are they in {unit}?")), "{words}");
+        // A run of impacts ends at one of them.
+        fs::write(folder.path().join("rod.toml"), SCENE.replace("time = 4", "impacts = 1")).unwrap();
+        text(&run(folder.path(), &["compare", "rod.toml", "run.csv"]), 2);
+        fs::write(folder.path().join("rod.toml"), SCENE.replace("time = 4", "time = 4e6")).unwrap();
+        text(&run(folder.path(), &["compare", "rod.toml", "run.csv"]), 0);
+    }
+}
+
 /// One line each: the file, the place, what was found and what was expected.
 #[test]
 fn what_is_refused() {

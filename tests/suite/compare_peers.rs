@@ -105,6 +105,25 @@ fn what_is_wrong_is_found() {
     }
 }
 
+/// A force that is twice at every second step and none between has the same impulse: chatter is no hint, and a factor
+/// shows behind it.
+#[test]
+fn a_factor_behind_chatter() {
+    for scheme in SCHEMES {
+        let chatter = |factor: f64| {
+            let mut rows = bar(Rod { elements: 200, ..BAR }, scheme);
+            rows.iter_mut().enumerate().for_each(|(k, row)| row.force *= factor * 2.0 * (k % 2) as f64);
+            rows
+        };
+        found(&format!("{scheme:?}, chatter"), &chatter(1.0), &[]);
+        for factor in [2.0, 1e-3] {
+            let value = found(&format!("{scheme:?}, chatter × {factor}"), &chatter(factor), &["scale force"]);
+            // The ends of a contact are known to a step, 1/400 of it.
+            assert!((value[0] / factor - 1.0).abs() < 0.01, "{scheme:?}: {value:?}");
+        }
+    }
+}
+
 /// The options undo what the hints name.
 #[test]
 fn conventions_are_undone() {

@@ -206,6 +206,18 @@ fn the_python_function_is_the_history() {
         let mut program = Command::new("python3");
         program.arg("-c").arg(main).current_dir(folder.path());
         held_against_the_history(name, program);
+        // The same values at arrays of points by times, with a last one that a few steps make.
+        let main = format!(
+            "from math import nextafter\nfrom golden import uExact\nend = {end:?}\nlate = nextafter(end, 2 * end)\n\
+             assert abs(uExact(0, late) - uExact(0, end)) < 1e-12 * (1 + abs(uExact(0, end)))\n\
+             try:\n    uExact(0, end * (1 + 1e-13))\n    raise SystemExit('not refused')\nexcept ValueError:\n    pass\n\
+             try:\n    import numpy\nexcept ImportError:\n    raise SystemExit\n\
+             x, t = numpy.linspace(0, 1, 5), numpy.linspace(0, late, 7)\n\
+             for d in range(3):\n    u = uExact(x[:, None], t, d)\n    assert u.shape == (5, 7) and u.dtype == float\n    \
+             assert all(u[i, j] == uExact(x[i], t[j], d) for i in range(5) for j in range(7))\n"
+        );
+        let output = Command::new("python3").arg("-c").arg(main).current_dir(folder.path()).output().unwrap();
+        assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
     }
 }
 
@@ -239,12 +251,15 @@ fn the_c_function_is_the_history() {
         let path = |file: &str| folder.path().join(file).to_str().unwrap().to_string();
         quiet(&["reference", name, "--as", "c", "-o", &path("golden.h")]);
         let rod = scene(name);
-        let pairs = asked(&rod, rod.exact().unwrap().end().to_f64());
+        let end = rod.exact().unwrap().end().to_f64();
+        let pairs = asked(&rod, end);
         let list: String = pairs.iter().map(|(x, t)| format!("{{{x:?}, {t:?}}},")).collect();
         let main = format!(
             "#include <stdio.h>\n#include \"golden.h\"\nstatic const double at[][2] = {{{list}}};\nint main(void) {{\n\
              for (int k = 0; k < {}; k++) printf(\"%.17g %.17g %.17g\\n\", uExact(at[k][0], at[k][1], 0), \
-             uExact(at[k][0], at[k][1], 1), uExact(at[k][0], at[k][1], 2));\nreturn !isnan(uExact(0, -1, 0)); }}\n",
+             uExact(at[k][0], at[k][1], 1), uExact(at[k][0], at[k][1], 2));\n\
+             const double end = {end:?}, late = nextafter(end, 2 * end);\n\
+             return !isnan(uExact(0, -1, 0)) || isnan(uExact(0, late, 0)) || !isnan(uExact(0, end * (1 + 1e-13), 0)); }}\n",
             pairs.len()
         );
         std::fs::write(path("main.c"), main).unwrap();
@@ -391,6 +406,29 @@ fn times_come_from_files() {
     bad("# nothing\n", &["standard input: found no times, expected one a line"]);
     bad(&"9".repeat(4000), &["row 1: found `9999999999999999999999999999999999999999…`"]);
     refused(&["reference", "doyen-ern-piperno", "--times-from", "no/such/file"], &["cannot read no/such/file"]);
+}
+
+/// Without its comments a CSV is the same from the names on; the header says how far it goes, whatever the scene says.
+#[test]
+fn the_comments_of_a_csv() {
+    let asked = ["reference", "doyen-ern-piperno", "--times", "0,100", "--columns", "t,side,u_end"];
+    let (whole, bare) = (quiet(&asked), quiet(&[&asked[..], &["--bare"]].concat()));
+    assert!(bare.starts_with("t,side,u_end\n0.0,left,"), "{bare}");
+    assert!(whole.starts_with('#') && whole.ends_with(&format!("\n{bare}")));
+    assert!(whole.contains("# until: the history is followed to t = 100\n"), "{whole}");
+    refused(&[&asked[..], &["--bare", "--format", "json"]].concat(), &["found --bare, expected it with CSV only"]);
+    let numpy = Command::new("python3").args(["-c", "import numpy"]).output();
+    if numpy.is_ok_and(|output| output.status.success()) {
+        let folder = tempfile::tempdir().unwrap();
+        std::fs::write(folder.path().join("golden.csv"), &whole).unwrap();
+        // As the file itself says.
+        let read = whole.lines().find_map(|line| line.strip_prefix("# read: ")).unwrap();
+        let read = read.split_once("or ").unwrap().1.replace("FILE", "'golden.csv'");
+        let main = format!("import numpy\ndata = {read}\nprint(*data.dtype.names, *data['t'], *data['side'])\n");
+        let output = Command::new("python3").arg("-c").arg(main).current_dir(folder.path()).output().unwrap();
+        assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+        assert_eq!(String::from_utf8(output.stdout).unwrap(), "t side u_end 0.0 0.0 100.0 left right both\n");
+    }
 }
 
 #[test]
