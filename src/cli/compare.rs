@@ -16,8 +16,8 @@ use crate::quantity::Units;
 const EXAMPLES: &str = "Examples:\n  dalembert compare doyen-ern-piperno run.csv\n  \
     dalembert compare rod.toml run.dat --map t=0,u=1,v=2,force=3 -o run.svg\n  \
     dalembert compare rod.toml coarse.npz fine.npz --fail-above u.l2=0.01,force.l1=0.05\n\n\
-    Quantities are called as in `dalembert reference`; u and v are short for u_end and v_end. With a column x, u, v,\n\
-    strain and stress are those at the point x. Two rows at one time are the limits at a jump, as `reference` writes\n\
+    Quantities are called as in `dalembert reference`; u and v are short for u_end and v_end. With a column x, u, v, \
+    strain and stress are those at the point x. Two rows at one time are the limits at a jump, as `reference` writes \
     them; a column side (left, right, both) says which. The exit code is 1 where --fail-above fails.";
 
 /// Your data against the exact history: norms, contacts, an audit, and hints at what may be wrong
