@@ -24,7 +24,7 @@ pub(crate) fn compare_svg(compared: &ComparedFile, title: Option<&str>, units: &
     };
     let panels = compared.agreement.quantities.iter().flat_map(|Compared { what, ours, theirs, .. }| {
         let unit = if what.unit(units) == "1" { "" } else { what.unit(units) };
-        let (exact, other) = (Stroke::new("#000000", 0.2), Stroke::new("#e69f00", 0.9));
+        let (exact, other) = (Stroke::new("#000000", 0.2), Stroke::new("#e69f00", 0.5));
         let apart = theirs.iter().zip(ours).map(|(theirs, ours)| theirs - ours).collect();
         [
             panel(what.name(), unit, vec![(theirs.clone(), file, other), (ours.clone(), "ours", exact)]),

@@ -83,8 +83,8 @@ fn the_page_has_the_colours_of_plot() {
     let maps: Vec<&str> = style.split("--diverging: ").skip(1).filter_map(|rest| rest.split(';').next()).collect();
     let [map] = maps[..] else { panic!("one map for both themes: {maps:?}") };
     let svg = quiet(&["plot", "paper-strong", "--quantity", "xt", "-o", "-"]);
-    // The last gradient is that of the legend, which shows all of the map.
-    let legend = svg.rsplit("<linearGradient").next().unwrap().split("</linearGradient>").next().unwrap();
+    // The first gradient is that of the legend, which shows all of the map.
+    let legend = svg.split("<linearGradient").nth(1).unwrap().split("</linearGradient>").next().unwrap();
     let stops: Vec<&str> = legend.split("stop-color=\"").skip(1).filter_map(|rest| rest.split('"').next()).collect();
     assert_eq!(stops.join(", "), map);
 }
@@ -105,7 +105,7 @@ fn long_histories_are_cut_and_said() {
     assert!(said.code == Some(0) && said.out.len() < 300_000);
     let title = "t = 0 … 0.0008 of 0.138";
     assert!(said.out.contains(title) && said.out.contains("1 of 1 contacts; --to 0.138"), "{}", structure(&said.out));
-    // The contact of half a millisecond in 0.13 s is a mark in each of four pictures, and no band.
+    // The contact of 4e-4 in 0.13 is a mark in each of four pictures, and no band.
     let whole = quiet(&["plot", "steel-bar", "--to", "0.13", "-o", "-"]);
     assert_eq!(structure(&whole).matches("text short contact").count(), 4);
     assert_eq!(structure(&whole).matches("contacts: 1").count(), 4);

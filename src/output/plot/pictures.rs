@@ -13,7 +13,7 @@ use crate::quantity::{Column, Measure};
 /// The times on the ground, in every picture.
 const CONTACT: &str = "#c6c6c6";
 /// A contact shorter than this share of the axis is a mark: its band would be a hairline.
-const SHORT: f64 = 1.0 / 400.0;
+const SHORT: f64 = 1.0 / 200.0;
 /// The lowest part of a picture, where bars and marks of contacts stand.
 const FLOOR: f64 = 0.05;
 const RAY: Stroke = Stroke::new("#000000", 0.12);
