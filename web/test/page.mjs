@@ -132,6 +132,17 @@ for (const colorScheme of ["dark", "light"]) {
   await page.waitForFunction((theme) => document.documentElement.dataset.theme === theme, colorScheme);
 }
 
+// One screen holds all that moves, in letters that a class can read.
+for (const [width, height] of [[1920, 1080], [1280, 720]]) {
+  await page.setViewportSize({ width, height });
+  await settled();
+  const lowest = await page.$$eval("#screen > *, #all, #readouts", (parts) => Math.max(
+    ...parts.map((part) => part.getBoundingClientRect().bottom)));
+  assert.ok(lowest <= height, `${lowest} of ${height}`);
+  const letters = await page.$eval("#diagram", (canvas) => parseFloat(canvas.getContext("2d").font));
+  assert.ok(letters >= height / 50, `letters of ${letters} in ${height}`);
+}
+
 // The same numbers as the command, undamped and damped, free and held, and at a time in between.
 for (const scene of ["mu=2.5&g=1&n=10&t=9.5", "mu=1.5&g=1&n=20&t=30.1", "mu=2&g=1&r=0.1&n=10&t=7.3",
   "mu=20&r=0.01&n=10&t=50", "mu=1&g=0&r=0.3&n=1&t=1.5", "mu=1&g=1&top=fixed&n=6&t=5",
