@@ -6,8 +6,8 @@ use std::sync::Arc;
 use dalembert::number::{bound_of_log2, show};
 use dalembert::quantity::{flights, restitution};
 use dalembert::{
-    Answer, Ending, Energy, Error, History, Motion, Numbers, Parameters, Plan, Question, Scalar, Scene, SceneError, Side,
-    Solution, Warning,
+    Answer, Ending, Energy, Error, History, Motion, Numbers, Parameters, Plan, Question, Scalar, Scene, SceneError,
+    Side, Solution, Warning,
 };
 use wasm_bindgen::prelude::*;
 
