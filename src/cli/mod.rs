@@ -27,7 +27,7 @@ use crate::motion::{Ending, Motion};
 use crate::number::{DOUBLE_DIGITS, Number, Scalar, show};
 use crate::output::{Head, SCHEMA, write_whole};
 use crate::problem::Parameters;
-use crate::quantity::Units;
+use crate::quantity::{Measure, Units};
 use crate::scene::{Effect, Scene};
 use crate::solve::{CERTIFIED_DIGITS, Numbers, Plan, Question, Solution, Target};
 
@@ -244,7 +244,9 @@ fn head(scene: &Scene, plan: &Plan) -> Head {
 /// `c`, `t₁`, `R` and `M` to six digits.
 fn parameters(scene: &Scene) -> String {
     let Ok(rod) = Parameters::<f64>::of(&scene.problem, &()) else { return String::new() };
-    let (c, t1) = (rod.wave_speed.decimal(6), rod.round_trip().decimal(6));
+    let units = Units::of(&scene.problem, scene.units);
+    let shown = |value: f64, measure| format!("{} {}", value.decimal(6), units.name(measure)).trim_end().to_string();
+    let (c, t1) = (shown(rod.wave_speed, Measure::Velocity), shown(rod.round_trip(), Measure::Time));
     let mut text = format!("c = {c}    t₁ = {t1}");
     let groups = scene.problem.dimensionless();
     if groups.damping_ratio > 0.0 {

@@ -1,4 +1,4 @@
-//! Other people's data over ours, and the difference beside it.
+//! Ours over other people's data, and the difference beside it.
 
 use glam::DVec2;
 
@@ -6,7 +6,7 @@ use super::draw::{Axis, Key, Layer, Panel, Shape, Sheet, Size, Stroke, plain, th
 use crate::agreement::{Compared, ComparedFile};
 use crate::quantity::{Measure, Units};
 
-/// Two panels for each quantity: ours with theirs over it, and theirs − ours.
+/// Two panels for each quantity: ours as a thin line over theirs, and theirs − ours.
 pub(crate) fn compare_svg(compared: &ComparedFile, title: Option<&str>, units: &Units) -> String {
     let times = &compared.agreement.grid.times;
     let file = std::path::Path::new(&compared.file).file_name().and_then(|name| name.to_str()).unwrap_or("theirs");
@@ -24,10 +24,10 @@ pub(crate) fn compare_svg(compared: &ComparedFile, title: Option<&str>, units: &
     };
     let panels = compared.agreement.quantities.iter().flat_map(|Compared { what, ours, theirs, .. }| {
         let unit = if what.unit(units) == "1" { "" } else { what.unit(units) };
-        let (exact, other) = (Stroke::new("#000000", 0.6), Stroke::new("#d55e00", 0.3));
+        let (exact, other) = (Stroke::new("#000000", 0.2), Stroke::new("#e69f00", 0.5));
         let apart = theirs.iter().zip(ours).map(|(theirs, ours)| theirs - ours).collect();
         [
-            panel(what.name(), unit, vec![(ours.clone(), "ours", exact), (theirs.clone(), file, other)]),
+            panel(what.name(), unit, vec![(theirs.clone(), file, other), (ours.clone(), "ours", exact)]),
             panel(what.name(), unit, vec![(apart, "theirs − ours", Stroke::new("#0072b2", 0.3))]),
         ]
     });

@@ -142,14 +142,15 @@ pub(crate) fn regimes_panel(map: &Map) -> Panel {
     let curve = (0..=800).map(|k| below * (1.0 - (-f64::from(k) / 20.0).exp2()));
     let curve = curve.map(|r| DVec2::new(r, threshold(r))).filter(|point| point.y.is_finite()).collect();
     let pi = [y.from, y.to].map(|m| DVec2::new(std::f64::consts::PI, m)).to_vec();
-    let (white, dashed) = (Stroke::new("#ffffff", 0.6), Stroke::new("#000000", 0.25).dashed("1.8 1.2"));
+    // Apart from every colour of the map, and from paper.
+    let (solid, dashed) = (Stroke::new("#ff5a1f", 0.6), Stroke::new("#000000", 0.25).dashed("1.8 1.2"));
     let layers = vec![
         Layer::new("cells", Shape::Runs(runs)),
-        Layer::new("threshold", Shape::Lines(vec![curve], white)),
+        Layer::new("threshold", Shape::Lines(vec![curve], solid)),
         Layer::new("curve", Shape::Lines(vec![pi], dashed)),
     ];
     let mut legend: Vec<Key> = bands().map(|(color, text)| Key::Area(text.into(), color)).collect();
-    legend.push(Key::Line("M = (I₀(R) + I₁(R))/(2 − I₀(R))".into(), Stroke::new("#a0a0a0", 0.6)));
+    legend.push(Key::Line("M = (I₀(R) + I₁(R))/(2 − I₀(R))".into(), solid));
     legend.push(Key::Line("R = π".into(), dashed));
     Panel { title: "when the first contact ends".into(), x, y, layers, legend }
 }

@@ -312,6 +312,10 @@ fn residuals_and_pictures() {
         assert!(table.contains("no hint"));
         let svg = fs::read_to_string(folder.path().join("a.svg")).unwrap();
         assert!(svg.contains("theirs − ours") && svg.contains("run.csv"));
+        // Of two curves the later one lies above: ours, thinner than theirs.
+        let strokes = svg.split("<g class=\"curve\"").skip(1).filter_map(|curve| curve.split("stroke-width=\"").nth(1));
+        let widths: Vec<f64> = strokes.map(|rest| rest.split('"').next().unwrap().parse().unwrap()).collect();
+        assert!(widths[1] < 0.5 * widths[0], "{widths:?}");
         assert!(fs::read(folder.path().join("a.png")).unwrap().starts_with(b"\x89PNG"));
     }
 }

@@ -76,11 +76,24 @@ fn units_stand_on_the_axes() {
     refused(&["plot", path, "paper-strong", "--quantity", "u_end", "-o", "-"], &["different units, `m` and none"]);
 }
 
+/// The page and `plot` show compression and tension in one map.
+#[test]
+fn the_page_has_the_colours_of_plot() {
+    let style = fs::read_to_string(concat!(env!("CARGO_MANIFEST_DIR"), "/web/page/style.css")).unwrap();
+    let maps: Vec<&str> = style.split("--diverging: ").skip(1).filter_map(|rest| rest.split(';').next()).collect();
+    let [map] = maps[..] else { panic!("one map for both themes: {maps:?}") };
+    let svg = quiet(&["plot", "paper-strong", "--quantity", "xt", "-o", "-"]);
+    // The first gradient is that of the legend, which shows all of the map.
+    let legend = svg.split("<linearGradient").nth(1).unwrap().split("</linearGradient>").next().unwrap();
+    let stops: Vec<&str> = legend.split("stop-color=\"").skip(1).filter_map(|rest| rest.split('"').next()).collect();
+    assert_eq!(stops.join(", "), map);
+}
+
 #[test]
 fn several_scenes_are_lines_with_a_legend() {
     let svg = quiet(&["plot", "figure-4-r01", "figure-4-r03", "--quantity", "h", "-o", "-"]);
     let found = structure(&svg);
-    assert!(found.contains("text figure-4-r01\ntext figure-4-r03"), "{found}");
+    assert!(found.contains("text figure-4-r01 (r = 0.1)\ntext figure-4-r03 (r = 0.3)"), "{found}");
     assert_eq!(found.matches("curve: 1").count(), 2);
 }
 
@@ -90,6 +103,12 @@ fn long_histories_are_cut_and_said() {
     let said = run(&["plot", "steel-bar", "-o", "-"]);
     assert!(said.err.contains("note: steel-bar: drawn from t = 0 to 0.0008 of 0.138"), "{}", said.err);
     assert!(said.code == Some(0) && said.out.len() < 300_000);
+    let title = "t = 0 … 0.0008 of 0.138";
+    assert!(said.out.contains(title) && said.out.contains("1 of 1 contacts; --to 0.138"), "{}", structure(&said.out));
+    // The contact of 4e-4 in 0.13 is a mark in each of four pictures, and no band.
+    let whole = quiet(&["plot", "steel-bar", "--to", "0.13", "-o", "-"]);
+    assert_eq!(structure(&whole).matches("text short contact").count(), 4);
+    assert_eq!(structure(&whole).matches("contacts: 1").count(), 4);
     // Over 2000 round trips the field is a grid of 480 columns, which does not show them.
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("long.toml");

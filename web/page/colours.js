@@ -12,8 +12,7 @@ export function readColours() {
   for (const name of ["page", "panel", "line", "faint", "ink", "soft", "accent", "translation", "vibration"]) {
     colour[name] = style(name);
   }
-  const named = ["compressed", "middle", "stretched"].map(style).join(",");
-  const anchors = named.split(",").map((hex) => parts(hex.trim()));
+  const anchors = style("diverging").split(",").map((hex) => parts(hex.trim()));
   for (let k = 0; k < STEPS; k += 1) {
     const at = (k / (STEPS - 1)) * (anchors.length - 1);
     const below = Math.min(Math.floor(at), anchors.length - 2);

@@ -1,6 +1,6 @@
 // The pictures over time: the x–t diagram, the stress at the ground and the energies, on one axis.
 import { colour, ramp, shade } from "./colours.js";
-import { prepare, zoomed } from "./rod.js";
+import { prepare, write } from "./rod.js";
 
 /** To the left, right, top and bottom of the panels, and between them. */
 const MARGIN = [58, 12, 8, 26, 14];
@@ -29,8 +29,8 @@ export class Diagram {
   async show(shot, view) {
     // A copy, by which later pictures are told from these.
     Object.assign(this, { shot, view: { ...view }, energies: [] });
-    const { pen, width, height, ratio } = prepare(this.canvas);
-    this.em = zoomed();
+    const { pen, width, height, ratio, em } = prepare(this.canvas, 560);
+    this.em = em;
     const [left, right, top, bottom, gap] = MARGIN.map((space) => space * this.em);
     const inner = height - top - bottom - 2 * gap;
     const panel = (top, tall) => ({ left, top, width: width - left - right, height: tall });
@@ -117,7 +117,7 @@ export class Diagram {
     for (let k = 0; k < events.length; k += 2) {
       const from = Math.max(this.place(events[k]), left);
       const to = Math.min(this.place(events[k + 1] ?? end), left + width);
-      if (to > from) this.pen.fillRect(from, Math.round(top + height), to - from, 4);
+      if (to > from) this.pen.fillRect(from, Math.round(top + height), to - from, 4 * this.em);
     }
   }
 
@@ -141,13 +141,13 @@ export class Diagram {
   labels(panel, values, place, name) {
     const { pen } = this;
     pen.strokeStyle = colour.line;
-    pen.lineWidth = 1;
+    pen.lineWidth = this.em;
     pen.strokeRect(panel.left - 0.5, panel.top - 0.5, panel.width + 1, panel.height + 1);
     pen.fillStyle = colour.ink;
     pen.textAlign = "right";
-    for (const [value, text] of values) pen.fillText(text, panel.left - 6, place(value) + 4 * this.em);
+    for (const [value, text] of values) pen.fillText(text, panel.left - 5 * this.em, place(value) + 4 * this.em);
     pen.textAlign = "left";
-    pen.fillText(name, 2, panel.top + 5 * this.em);
+    write(pen, name, 2, panel.top + 7 * this.em, 13 * this.em);
   }
 
   drawStress() {
@@ -161,7 +161,7 @@ export class Diagram {
     this.grid(panel, ticks(low, high, 3), place, "v_x");
     this.clipped(panel, () => {
       pen.strokeStyle = colour.ink;
-      pen.lineWidth = 1.6;
+      pen.lineWidth = 1.6 * this.em;
       pen.beginPath();
       for (let k = 0; k < line.length; k += 2) pen.lineTo(this.place(line[k]), place(line[k + 1]));
       pen.stroke();
@@ -171,7 +171,7 @@ export class Diagram {
   drawEnergies() {
     const { pen, energies, panels } = this;
     const panel = panels.energy;
-    pen.clearRect(0, panel.top - 5, this.canvas.clientWidth, panel.height + 9);
+    pen.clearRect(0, panel.top - 6 * this.em, this.canvas.clientWidth, panel.height + 11 * this.em);
     const low = Math.min(0, ...energies);
     const high = 1.08 * Math.max(0, ...energies) || 1;
     const place = (value) => panel.top + (panel.height * (high - value)) / (high - low);
@@ -182,7 +182,7 @@ export class Diagram {
       pen.beginPath();
       for (let k = 0; k < count; k += 1) pen.lineTo(x(k), place(of(k)));
       pen.strokeStyle = colour[name];
-      pen.lineWidth = wide;
+      pen.lineWidth = wide * this.em;
       pen.stroke();
     };
     this.clipped(panel, () => {
@@ -193,15 +193,15 @@ export class Diagram {
     pen.textAlign = "left";
     [["E_h", "translation"], ["E_z", "vibration"]].forEach(([text, name], k) => {
       pen.fillStyle = colour[name];
-      pen.fillText(text, 2, panel.top + (22 + 16 * k) * this.em);
+      write(pen, text, 2, panel.top + (23 + 17 * k) * this.em, 13 * this.em);
     });
   }
 
   grid(panel, values, place, name) {
     const { pen } = this;
     pen.fillStyle = colour.faint;
-    for (const value of values) pen.fillRect(panel.left, place(value) - 0.5, panel.width, 1);
-    for (const time of this.times()) pen.fillRect(this.place(time) - 0.5, panel.top, 1, panel.height);
+    for (const value of values) pen.fillRect(panel.left, place(value) - 0.5 * this.em, panel.width, this.em);
+    for (const time of this.times()) pen.fillRect(this.place(time) - 0.5 * this.em, panel.top, this.em, panel.height);
     this.labels(panel, values.map((value) => [value, String(value).replace("-", "−")]), place, name);
   }
 

@@ -2,7 +2,7 @@
 import { PRESETS } from "./presets.js";
 import { command, fragment, read, scene, toml, value } from "./scene.js";
 import { colour, readColours } from "./colours.js";
-import { POINTS, drawRod, enlargement } from "./rod.js";
+import { POINTS, drawRod, enlargement, lowered } from "./rod.js";
 import { Engine } from "./engine.js";
 import { Diagram } from "./diagram.js";
 import { Sliders } from "./sliders.js";
@@ -74,10 +74,16 @@ async function solved({ text, ...rest }) {
   } catch (error) {
     const [, beyond] = error.message.match(/^beyond doubles: ([^]*)/) ?? [];
     const failed = "The engine has failed at this scene; please report it, and load the page again";
-    say(beyond ? "" : error.failed ? failed : error.message, beyond ? [beyond] : []);
+    say(beyond ? "" : error.failed ? failed : named(error.message), beyond ? [beyond] : []);
     return null;
   }
 }
+
+/** A text with its subscripts. */
+const written = (text) => lowered(text).map((part, k) => {
+  if (k % 2 === 0) return part;
+  return Object.assign(document.createElement("sub"), { textContent: part });
+});
 
 /** Shows a mistake, or what doubles do not settle. */
 function say(mistake, doubts) {
@@ -185,7 +191,7 @@ const settle = () => busily(async () => {
   const there = moveTo(rounded(now));
   history.replaceState(null, "", fragment($("now").value));
   await there;
-  const words = (id) => [...$(id).children].map((part) => part.textContent).join(" ");
+  const words = (id) => [...$(id).children].map((part) => part.dataset.name ?? part.textContent).join(" ");
   $("spoken").textContent = `t = ${$("now").value}. ${words("values")}. ${$("which").textContent}: ${words("bounce")}`;
 });
 
@@ -208,19 +214,29 @@ function fill(list, values) {
         box.style.background = `var(--${swatch})`;
         term.append(box);
       }
-      term.append(name);
+      term.append(...written(name));
+      term.dataset.name = name;
       return [term, document.createElement("dd")];
     }));
   }
   texts.forEach(([, text], k) => { list.children[2 * k + 1].textContent = text.replace("-", "−"); });
 }
 
+/** A mistake with the name that the field of the page has: there are no lines to be seen here. */
+const NAMES = { length: "L", wave_speed: "c", damping: "r", speed: "μ", acceleration: "g" };
+const named = (mistake) => mistake.replace(/^found (\w+)(?= = )/, (all, key) => `found ${NAMES[key] ?? key}`);
+
 /** The contact that the cursor is in, or the one before it. */
 function showContact() {
   let k = 0;
   while (shot.events[2 * k + 2] <= now) k += 1;
   const rows = [...$("contacts").tBodies[0].rows];
-  rows.forEach((row, j) => (j === k ? row.setAttribute("aria-current", "true") : row.removeAttribute("aria-current")));
+  if (rows[k]?.getAttribute("aria-current") !== "true") {
+    rows.forEach((row) => row.removeAttribute("aria-current"));
+    rows[k]?.setAttribute("aria-current", "true");
+    // Only the table moves, not the page.
+    $("contacts").parentElement.scrollTop = rows[k] ? rows[k].offsetTop - 2 * rows[k].offsetHeight : 0;
+  }
   if (rows.length === 0) {
     $("which").textContent = "No contact";
     return fill($("bounce"), {});
@@ -235,7 +251,7 @@ function fillContacts() {
     const made = document.createElement("tr");
     made.append(...cells.map((cell) => {
       const place = document.createElement(tag);
-      place.append(cell);
+      place.append(...(typeof cell === "string" ? written(cell) : [cell]));
       return place;
     }));
     return made;
@@ -267,7 +283,7 @@ function zoom(factor, around = now) {
 
 async function choose(k) {
   Object.assign(scene, PRESETS[k].scene);
-  $("story").textContent = PRESETS[k].story;
+  $("story").replaceChildren(...written(PRESETS[k].story));
   sliders.refit();
   mark();
   await solve(true);
@@ -280,7 +296,7 @@ function mark() {
   const same = ({ scene: told }) => Object.entries(told).every(([name, text]) => String(scene[name]) === String(text));
   const found = PRESETS.findIndex(same);
   [...$("presets").children].forEach((button, k) => button.setAttribute("aria-pressed", String(k === found)));
-  if (found >= 0) $("story").textContent = PRESETS[found].story;
+  if (found >= 0) $("story").replaceChildren(...written(PRESETS[found].story));
 }
 
 function setTheme(dark) {
@@ -306,8 +322,8 @@ async function copy(text, what) {
 /** The pictures as a PNG. */
 function save() {
   const [rod, pictures] = [$("rod"), $("diagram")];
-  const ratio = pictures.width / pictures.clientWidth;
-  const sheet = new OffscreenCanvas(rod.width + pictures.width + 24 * ratio, pictures.height + 48 * ratio);
+  const [ratio, em] = [pictures.width / pictures.clientWidth, diagram.em];
+  const sheet = new OffscreenCanvas(rod.width + pictures.width + 24 * ratio, pictures.height + (24 + 24 * em) * ratio);
   const pen = sheet.getContext("2d");
   pen.fillStyle = colour.page;
   pen.fillRect(0, 0, sheet.width, sheet.height);
@@ -317,7 +333,7 @@ function save() {
   const cursor = rod.width + (16 + diagram.place(now)) * ratio;
   if (!$("cursor").hidden) pen.fillRect(cursor, 8 * ratio, 2 * ratio, pictures.height);
   pen.fillStyle = colour.ink;
-  pen.font = `${14 * ratio}px system-ui, sans-serif`;
+  pen.font = `${14 * em * ratio}px system-ui, sans-serif`;
   const { L, c, mu, r, g, top } = scene;
   const held = top === "fixed" ? ", upper end held" : "";
   const text = `L = ${L}, c = ${c}, μ = ${mu}, r = ${r}, g = ${g}${held}; t = ${$("now").value}`;

@@ -6,8 +6,8 @@ use std::sync::Arc;
 use dalembert::number::{bound_of_log2, show};
 use dalembert::quantity::{flights, restitution};
 use dalembert::{
-    Answer, Ending, Energy, Error, History, Motion, Numbers, Parameters, Plan, Question, Scalar, Scene, Side, Solution,
-    Warning,
+    Answer, Ending, Energy, Error, History, Motion, Numbers, Parameters, Plan, Question, Scalar, Scene, SceneError,
+    Side, Solution, Warning,
 };
 use wasm_bindgen::prelude::*;
 
@@ -59,7 +59,9 @@ impl Run {
     /// Solves the scene of `toml` in doubles, in at most so many milliseconds.
     #[wasm_bindgen(constructor)]
     pub fn new(toml: &str, milliseconds: f64) -> Result<Run, JsError> {
-        let scene = Scene::parse(toml).map_err(refuse)?;
+        // Without line and column: no text is seen on the page.
+        let found = |error: SceneError| JsError::new(&format!("found {}, expected {}", error.found, error.expected));
+        let scene = Scene::parse(toml).map_err(found)?;
         let numbers = Numbers::Double(Some(ACCURACY));
         let plan = Plan::of(&scene.problem, &Question::run(numbers)).map_err(refuse)?;
         let until = now() + milliseconds;

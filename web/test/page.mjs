@@ -107,8 +107,9 @@ assert.ok(size < 600_000, `${size} bytes`);
 const pixel = (x, t) => page.evaluate(([x, t]) => {
   const canvas = document.getElementById("diagram");
   const ratio = canvas.width / canvas.clientWidth;
-  // The margins of the picture, and its share of the height.
-  const [left, top, right, bottom, gap] = [58, 8, 12, 26, 14];
+  // The margins of the picture, which grow with it, and its share of the height.
+  const em = Math.max(1, Math.min(canvas.clientWidth / 560, canvas.clientHeight / 290));
+  const [left, top, right, bottom, gap] = [58, 8, 12, 26, 14].map((space) => space * em);
   const high = 0.52 * (canvas.clientHeight - top - bottom - 2 * gap);
   const end = Number(document.getElementById("status").textContent.match(/ends at t = ([\d.]+)/)[1]);
   const place = [left + ((canvas.clientWidth - left - right) * t) / end, top + high * (1 - x)];
@@ -118,7 +119,7 @@ const pixel = (x, t) => page.evaluate(([x, t]) => {
 }, [x, t]);
 const [ahead, behind] = [await pixel(0.75, 0.6), await pixel(0.45, 0.6)];
 assert.ok(Math.max(...ahead.slice(0, 3)) - Math.min(...ahead.slice(0, 3)) < 12, `undeformed: ${ahead}`);
-assert.ok(behind[0] > behind[2] + 60, `compressed: ${behind}`);
+assert.ok(behind[2] > behind[0] + 60, `compressed is blue: ${behind}`);
 
 await page.emulateMedia({ colorScheme: "light" });
 await page.screenshot({ path: join(ROOT, "target/page/light.png") });
@@ -129,6 +130,17 @@ for (const colorScheme of ["dark", "light"]) {
   await page.emulateMedia({ colorScheme });
   await settled();
   await page.waitForFunction((theme) => document.documentElement.dataset.theme === theme, colorScheme);
+}
+
+// One screen holds all that moves, in letters that a class can read.
+for (const [width, height] of [[1920, 1080], [1280, 720]]) {
+  await page.setViewportSize({ width, height });
+  await settled();
+  const lowest = await page.$$eval("#screen > *, #all, #readouts", (parts) => Math.max(
+    ...parts.map((part) => part.getBoundingClientRect().bottom)));
+  assert.ok(lowest <= height, `${lowest} of ${height}`);
+  const letters = await page.$eval("#diagram", (canvas) => parseFloat(canvas.getContext("2d").font));
+  assert.ok(letters >= height / 50, `letters of ${letters} in ${height}`);
 }
 
 // The same numbers as the command, undamped and damped, free and held, and at a time in between.
@@ -212,7 +224,7 @@ assert.ok(statSync(join(ROOT, "target/page/saved.png")).size > 10_000);
 
 // A mistake is said where it is; then all goes on.
 await enter("g-field", "-1");
-assert.match(await text("doubt"), /line 11, column 16: found acceleration = -1, expected/);
+assert.match(await text("doubt"), /^found g = -1, expected/);
 await enter("g-field", "1");
 assert.ok(await page.isHidden("#doubt"));
 

@@ -95,15 +95,17 @@ impl Axis {
         let steps = if self.to / self.from > 300.0 { &[1.0][..] } else { &[1.0, 2.0, 5.0] };
         let decades = self.from.log10().floor() as i32..=self.to.log10().ceil() as i32;
         let ticks = decades.flat_map(|decade| steps.iter().map(move |step| (decade, *step)));
-        let within = ticks.map(|(decade, step)| (decade, step, step * 10f64.powi(decade)));
-        within
-            .filter(|(.., value)| (self.from * (1.0 - 1e-9)..=self.to * (1.0 + 1e-9)).contains(value))
-            .map(|(decade, step, value)| match decade {
-                -2..=3 => (value, format!("{value}")),
-                _ if step == 1.0 => (value, power_of_ten(decade)),
-                _ => (value, format!("{step}·{}", power_of_ten(decade))),
-            })
-            .collect()
+        let ticks = ticks.map(|(decade, step)| (decade, step, step * 10f64.powi(decade)));
+        let within = |value: &f64| (self.from * (1.0 - 1e-9)..=self.to * (1.0 + 1e-9)).contains(value);
+        let ticks: Vec<_> = ticks.filter(|(.., value)| within(value)).collect();
+        // All of an axis in one form.
+        let plain = ticks.iter().all(|(decade, ..)| (-2..=3).contains(decade));
+        let text = |(decade, step, value): (i32, f64, f64)| match () {
+            () if plain => (value, format!("{value}")),
+            () if step == 1.0 => (value, power_of_ten(decade)),
+            () => (value, format!("{step}·{}", power_of_ten(decade))),
+        };
+        ticks.into_iter().map(text).collect()
     }
 }
 
@@ -160,6 +162,7 @@ mod tests {
         assert_eq!(Axis::new("u", "", [0.0, 2e-3]).label, "u [10⁻³]");
         assert_eq!(Axis::new("u", "", [0.0, 3.0]).label, "u");
         assert_eq!(texts(&Axis::log("M", [0.1, 20.0])), ["0.1", "0.2", "0.5", "1", "2", "5", "10", "20"]);
+        assert_eq!(texts(&Axis::log("M", [0.5, 2e4])), ["10⁰", "10¹", "10²", "10³", "10⁴"]);
         assert_eq!(power_of_ten(-15), "10⁻¹⁵");
         // A value that does not change is in the middle.
         let axis = Axis::new("E", "J", Axis::range([2.0, 2.0].into_iter(), false));

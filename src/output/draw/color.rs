@@ -4,7 +4,7 @@
 pub(crate) const LINES: [&str; 7] = ["#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9", "#000000"];
 
 /// Light ones of the same for stacked areas, with black lines over them.
-pub(crate) const AREAS: [&str; 3] = ["#cfcfcf", "#7fb8d8", "#f0a860"];
+pub(crate) const AREAS: [&str; 3] = ["#a5d9c8", "#7fb8d8", "#f0a860"];
 
 /// From blue over white to red, as ColorBrewer has it: −1 to 1 in equal steps.
 const DIVERGING: [[u8; 3]; 11] = [

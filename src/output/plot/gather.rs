@@ -8,7 +8,7 @@ use crate::motion::{EventKind, Motion, Side, StressPiece};
 use crate::number::Scalar;
 use crate::output::straight::straight;
 use crate::problem::{Parameters, Problem, Start};
-use crate::quantity::{Column, Units};
+use crate::quantity::{Column, Measure, Units};
 use crate::reason::Warning;
 use crate::solve::Target;
 
@@ -39,6 +39,8 @@ pub(crate) struct Gathered {
     pub(crate) end: f64,
     /// Those that the span meets.
     pub(crate) contacts: Vec<[f64; 2]>,
+    /// How many the history has.
+    pub(crate) of_contacts: usize,
     /// The columns asked for: times and values, in stretches without a jump.
     pub(crate) columns: Vec<(Column, Vec<Line>)>,
     /// `v_x(0,·)` in straight pieces.
@@ -67,6 +69,16 @@ const MOST_CONTACTS: usize = 400;
 const WORLD: usize = 5;
 
 impl Gathered {
+    /// What of the history is drawn, where that is less than all and no span was asked for.
+    pub(crate) fn cut(&self, asked: &Asked) -> Option<String> {
+        let ([from, to], unit) = (self.span, self.units.name(Measure::Time));
+        let unit = if unit.is_empty() { String::new() } else { format!(" {unit}") };
+        let [from, to, end] = [from, to, self.end].map(|time| time.decimal(6));
+        let (shown, all) = (self.contacts.len(), self.of_contacts);
+        (asked.from.is_none() && asked.to.is_none() && to != end)
+            .then(|| format!("t = {from} … {to}{unit} of {end}{unit}, {shown} of {all} contacts; --to {end} shows all"))
+    }
+
     /// How many columns of its grid the field has in a round trip, where they are too few to show its waves.
     pub(crate) fn coarse(&self) -> Option<f64> {
         self.cells.as_ref()?.coarse(self)
@@ -113,6 +125,7 @@ impl Asked {
             span,
             end,
             contacts: contacts.collect(),
+            of_contacts: history.contacts().len(),
             columns: Vec::new(),
             stress: Vec::new(),
             restitution: Vec::new(),

@@ -10,8 +10,12 @@ use crate::output::draw::{
 };
 use crate::quantity::{Column, Measure};
 
-const CONTACT: &str = "#dcdcdc";
-const GROUND: &str = "#000000";
+/// The times on the ground, in every picture.
+const CONTACT: &str = "#c6c6c6";
+/// A contact shorter than this share of the axis is a mark: its band would be a hairline.
+const SHORT: f64 = 1.0 / 200.0;
+/// The lowest part of a picture, where bars and marks of contacts stand.
+const FLOOR: f64 = 0.05;
 const RAY: Stroke = Stroke::new("#000000", 0.12);
 const KINK: Stroke = Stroke::new("#707070", 0.1).dashed("0.8 0.6");
 const JUMP: &str = "0.5 0.5";
@@ -55,12 +59,25 @@ fn points(line: &[(f64, f64)]) -> Vec<DVec2> {
     thinned(line.iter().map(|(t, value)| DVec2::new(*t, *value)).collect())
 }
 
-/// The times on the ground, over the whole height of a picture.
-fn contacts(scene: &Gathered, y: &Axis) -> Layer {
-    let area = |[from, to]: &[f64; 2]| {
-        [(*from, y.from), (*to, y.from), (*to, y.to), (*from, y.to)].map(|(t, value)| DVec2::new(t, value)).to_vec()
+/// The times on the ground, with their keys: bands from the lower edge up to a height, and a mark above that edge for
+/// each that is too short for a band.
+fn contacts(scene: &Gathered, x: &Axis, y: &Axis, high: f64) -> Vec<(Layer, Key)> {
+    let short = |[from, to]: &[f64; 2]| to - from < SHORT * (x.to - x.from);
+    let (marks, bands): (Vec<[f64; 2]>, Vec<[f64; 2]>) = scene.contacts.iter().copied().partition(short);
+    let band = |[from, to]: &[f64; 2]| {
+        [(*from, y.from), (*to, y.from), (*to, high), (*from, high)].map(|(t, value)| DVec2::new(t, value)).to_vec()
     };
-    Layer::new("contacts", Shape::Areas(scene.contacts.iter().map(area).collect(), CONTACT))
+    let height = y.from + 0.5 * FLOOR * (y.to - y.from);
+    let mark = |[from, to]: &[f64; 2]| DVec2::new((0.5 * (from + to)).clamp(x.from, x.to), height);
+    let bands = (!bands.is_empty()).then(|| {
+        let bands = Shape::Areas(bands.iter().map(band).collect(), CONTACT);
+        (Layer::new("contacts", bands), Key::Area("contact".into(), CONTACT))
+    });
+    let marks = (!marks.is_empty()).then(|| {
+        let marks = Shape::Marks(marks.iter().map(mark).collect(), Mark::Triangle, CONTACT);
+        (Layer::new("contacts", marks), Key::Mark("short contact".into(), Mark::Triangle, CONTACT))
+    });
+    bands.into_iter().chain(marks).collect()
 }
 
 fn zero(x: &Axis) -> Layer {
@@ -109,20 +126,16 @@ fn lines(picture: Picture, scenes: &[Gathered]) -> Result<Panel, String> {
     let y = Axis::new(label, units.first().copied().unwrap_or(""), Axis::range(values, true));
     let (mut layers, mut legend) = (Vec::new(), Vec::new());
     if let [scene] = scenes {
-        layers.push(contacts(scene, &y));
-        if !scene.contacts.is_empty() {
-            legend.push(Key::Area("contact".into(), CONTACT));
-        }
+        (layers, legend) = contacts(scene, &x, &y, y.to).into_iter().unzip();
     }
     layers.push(zero(&x));
     let each = curves.len() / scenes.len().max(1);
     for (k, curve) in curves.iter().enumerate() {
         let (of_scene, of_quantity) = (k / each.max(1), k % each.max(1));
-        // One scene has a colour for each quantity, several a colour for each scene.
-        let look = match scenes.len() {
-            1 => Stroke::new(LINES[of_quantity % LINES.len()], WIDTH),
-            _ => Stroke::new(LINES[of_scene % LINES.len()], WIDTH).dashed(DASHES[of_quantity % DASHES.len()]),
-        };
+        // One scene has a colour for each quantity, several a colour for each scene. Through the dashes of a line is seen
+        // one that it coincides with.
+        let color = if scenes.len() == 1 { of_quantity } else { of_scene };
+        let look = Stroke::new(LINES[color % LINES.len()], WIDTH).dashed(DASHES[of_quantity % DASHES.len()]);
         let jumps = curve.stretches.windows(2).filter_map(|pair| {
             let ends = [pair[0].last()?, pair[1].first()?];
             Some(ends.map(|(t, value)| DVec2::new(*t, *value)).to_vec())
@@ -246,9 +259,10 @@ fn energy(scene: &Gathered) -> Panel {
     let space = if most > base { 0.06 * (most - base) } else { 1.0 };
     let unit = scene.units.name(Measure::Energy);
     // Below them the times on the ground.
-    let floor = base - 0.05 * (most + space - base);
+    let floor = base - FLOOR * (most + space - base);
     let y = Axis::new("E", unit, [floor, most + space]);
-    let names = ["gravity", "centre of mass", "vibration E_z"];
+    let gravity = if base < 0.0 { format!("gravity, from {} up", y.shown(base)) } else { "gravity".into() };
+    let names = [gravity, "centre of mass".into(), "vibration E_z".into()];
     let mut below: Vec<DVec2> = edges[0].iter().map(|(t, _)| DVec2::new(*t, base)).collect();
     let (mut layers, mut legend) = (Vec::new(), Vec::new());
     // Without gravity its layer is empty.
@@ -257,21 +271,15 @@ fn energy(scene: &Gathered) -> Panel {
         let edge: Vec<DVec2> = edge.iter().map(|(t, value)| DVec2::new(*t, *value)).collect();
         let area = [thinned(edge.clone()), thinned(below).into_iter().rev().collect()].concat();
         layers.push(Layer::new("area", Shape::Areas(vec![area], color)));
-        legend.push(Key::Area(name.into(), color));
+        legend.push(Key::Area(name, color));
         below = edge;
     }
     layers.push(Layer::new("curve", Shape::Lines(vec![thinned(below)], Stroke::new("#000000", 0.25))));
     layers.push(zero(&x));
-    layers.push(bars(scene, [floor, base]));
+    let (bars, keys): (Vec<Layer>, Vec<Key>) = contacts(scene, &x, &y, base).into_iter().unzip();
+    layers.extend(bars);
+    legend.extend(keys);
     Panel { title: "energy: the upper edge is E".into(), x, y, layers, legend }
-}
-
-/// The times on the ground as bars between two heights.
-fn bars(scene: &Gathered, [low, high]: [f64; 2]) -> Layer {
-    let bar = |[from, to]: &[f64; 2]| {
-        [(*from, low), (*to, low), (*to, high), (*from, high)].map(|(t, x)| DVec2::new(t, x)).to_vec()
-    };
-    Layer::new("contacts", Shape::Areas(scene.contacts.iter().map(bar).collect(), GROUND))
 }
 
 /// The rod over time.
@@ -282,17 +290,18 @@ fn along(asked: &Asked, scene: &Gathered) -> Panel {
         return world(scene, x);
     }
     let length = scene.rod.length;
-    let floor = -0.05 * length;
-    let y = Axis::new("x", unit, [floor, length]);
+    let y = Axis::new("x", unit, [-FLOOR * length, length]);
     let (mut layers, mut legend) = (Vec::new(), Vec::new());
     if let Some(cells) = &scene.cells {
         layers.push(Layer::new("cells", field(cells, scene)));
         layers.extend(rays(cells, scene));
         legend.push(colors(asked.along, cells, scene));
     }
-    layers.push(bars(scene, [floor, 0.0]));
-    legend.push(Key::Area("contact".into(), GROUND));
-    let title = format!("{} along the rod", asked.along.name(&scene.units));
+    let (bars, keys): (Vec<Layer>, Vec<Key>) = contacts(scene, &x, &y, 0.0).into_iter().unzip();
+    layers.extend(bars);
+    legend.extend(keys);
+    let coarse = if scene.coarse().is_some() { ", too coarse for its waves" } else { "" };
+    let title = format!("{} along the rod{coarse}", asked.along.name(&scene.units));
     Panel { title, x, y, layers, legend }
 }
 
@@ -366,7 +375,7 @@ fn world(scene: &Gathered, x: Axis) -> Panel {
     let lines: Vec<Vec<DVec2>> = scene.world.iter().map(line).collect();
     let heights = || lines.iter().flatten().map(|point| point.y);
     let [_, high] = Axis::range(heights(), true);
-    let floor = heights().fold(0.0, f64::min) - 0.05 * (high - heights().fold(0.0, f64::min));
+    let floor = heights().fold(0.0, f64::min) - FLOOR * (high - heights().fold(0.0, f64::min));
     let label = if times == 1.0 { "x + v".into() } else { format!("x + {times} v") };
     let y = Axis::new(&label, scene.units.name(Measure::Length), [floor, high]);
     let body = match (lines.first(), lines.last()) {
@@ -375,13 +384,14 @@ fn world(scene: &Gathered, x: Axis) -> Panel {
     };
     let ends = [lines.first(), lines.last()].into_iter().flatten().cloned().collect();
     let inner = lines.iter().skip(1).take(lines.len().saturating_sub(2)).cloned().collect();
-    let layers = vec![
+    let (bars, keys): (Vec<Layer>, Vec<Key>) = contacts(scene, &x, &y, 0.0).into_iter().unzip();
+    let mut layers = vec![
         Layer::new("area", Shape::Areas(vec![body], AREAS[1])),
         zero(&x),
         Layer::new("curve", Shape::Lines(inner, Stroke::new("#000000", 0.12))),
         Layer::new("curve", Shape::Lines(ends, Stroke::new(LINES[0], WIDTH))),
-        bars(scene, [floor, 0.0]),
     ];
-    let legend = vec![Key::Area("rod".into(), AREAS[1]), Key::Area("contact".into(), GROUND)];
+    layers.extend(bars);
+    let legend = [Key::Area("rod".into(), AREAS[1])].into_iter().chain(keys).collect();
     Panel { title: "the rod where it is".into(), x, y, layers, legend }
 }
