@@ -64,26 +64,6 @@ fn known() -> String {
     Picture::NAMES.iter().map(|known| known.0).chain(columns).collect::<Vec<_>>().join(", ")
 }
 
-/// More values than this that differ between scenes are not told in their names.
-const MOST_DIFFERENT: usize = 3;
-
-/// Adds to the names of scenes the values in which they differ.
-fn told_apart(scenes: &mut [Gathered]) {
-    let values = |scene: &Gathered| {
-        let rod = &scene.rod;
-        [("L", rod.length), ("c", rod.wave_speed), ("r", rod.damping), ("g", rod.gravity), ("μ", rod.speed)]
-    };
-    let all: Vec<_> = scenes.iter().map(values).collect();
-    let different: Vec<usize> = (0..5).filter(|k| all.iter().any(|values| values[*k] != all[0][*k])).collect();
-    if different.is_empty() || different.len() > MOST_DIFFERENT {
-        return;
-    }
-    for (scene, values) in scenes.iter_mut().zip(&all) {
-        let told = different.iter().map(|k| format!("{} = {}", values[*k].0, values[*k].1.decimal(6)));
-        scene.name += &format!(" ({})", told.collect::<Vec<_>>().join(", "));
-    }
-}
-
 fn named(name: &str) -> Result<Picture, String> {
     Picture::named(name.trim()).ok_or_else(|| format!("found no picture of this name, expected one of {}", known()))
 }
@@ -152,6 +132,26 @@ impl Plot {
         let gather = Gather { name: file, scene, asked, found: RefCell::new(None) };
         solve(scene, &question, &gather)?;
         gather.found.into_inner().ok_or_else(|| miette::miette!("found no history of {name}"))
+    }
+}
+
+/// More values than this that differ between scenes are not told in their names.
+const MOST_DIFFERENT: usize = 3;
+
+/// Adds to the names of scenes the values in which they differ.
+fn told_apart(scenes: &mut [Gathered]) {
+    let values = |scene: &Gathered| {
+        let rod = &scene.rod;
+        [("L", rod.length), ("c", rod.wave_speed), ("r", rod.damping), ("g", rod.gravity), ("μ", rod.speed)]
+    };
+    let all: Vec<_> = scenes.iter().map(values).collect();
+    let different: Vec<usize> = (0..5).filter(|k| all.iter().any(|values| values[*k] != all[0][*k])).collect();
+    if different.is_empty() || different.len() > MOST_DIFFERENT {
+        return;
+    }
+    for (scene, values) in scenes.iter_mut().zip(&all) {
+        let told = different.iter().map(|k| format!("{} = {}", values[*k].0, values[*k].1.decimal(6)));
+        scene.name += &format!(" ({})", told.collect::<Vec<_>>().join(", "));
     }
 }
 

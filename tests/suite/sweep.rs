@@ -177,7 +177,9 @@ fn notes_stand_below_the_table() {
     // r t₁ = 3.2 is above π.
     assert!(notes.starts_with("[1] no bounce: r t₁ = 3.2") && notes.trim_end().ends_with("from there"), "{notes}");
     assert!(!text.contains('…') && text.lines().all(|line| line.chars().count() <= 80), "{text}");
-    assert!(!run(&["paper-strong", "--vary", "impact.speed=3,4"]).unwrap().contains("note"));
+    assert!(
+        !run(&["paper-strong", "--vary", "impact.speed=3,4", "--quantity", "bounce_time"]).unwrap().contains("note")
+    );
 }
 
 /// R = r t₁ ≥ π: no bounce at any of the points.
