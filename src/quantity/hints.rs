@@ -415,20 +415,24 @@ fn agreed(values: &[f64]) -> Option<f64> {
 /// duration is longer than the spread. A rate beyond both is one of the clock. A shift counts where it is more than a
 /// step, and beginning, end and centroid of every contact say the same. A step is the longest between the samples at
 /// `times` that a contact lies between; `typical` is that which a shift is counted in. A contact that had begun before
-/// the first sample shows nothing.
+/// the first sample shows nothing, unless theirs ends late as well.
 pub fn of_contacts(rows: &[(Option<Touch>, Option<Touch>)], times: &[f64], typical: f64) -> Vec<Hint> {
     let hint = |finding| Hint { quantity: "contact".into(), finding };
     let mut hints = Vec::new();
-    let longest = |touch: &Touch| longest_step(touch, times, typical);
-    let resolved = |touch: &Touch| touch.duration().is_some_and(|duration| duration > 2.0 * longest(touch));
+    let longest = |touch: &Touch| longest_step(touch, times);
+    let begun = |touch: &Touch| begun_before(touch, times, typical);
+    // Late data end late as well.
+    let cut = |a: &Touch, b: &Touch| begun(a) && a.to.zip(b.to).is_some_and(|(a, b)| (a - b).abs() <= typical);
+    let resolved =
+        |touch: &Touch| !begun(touch) && touch.duration().is_some_and(|duration| duration > 2.0 * longest(touch));
     let missing = rows.iter().filter(|(a, b)| b.is_none() && a.as_ref().is_some_and(resolved)).count();
     let invented = rows.iter().filter(|(a, b)| a.is_none() && b.as_ref().is_some_and(resolved)).count();
     hints.extend((missing > 0).then(|| hint(Finding::Missing(missing))));
     hints.extend((invented > 0).then(|| hint(Finding::Invented(invented))));
     let both = rows.iter().filter_map(|(a, b)| a.as_ref().zip(b.as_ref()));
-    let pairs: Vec<(&Touch, &Touch)> = both.filter(|(a, _)| longest(a).is_finite()).collect();
+    let pairs: Vec<(&Touch, &Touch)> = both.filter(|(a, b)| !cut(a, b)).collect();
     let ratio = |a: Option<f64>, b: Option<f64>| a.zip(b).map(|(a, b)| b / a - 1.0).filter(|rate| rate.is_finite());
-    let first = rows.first().and_then(|(a, b)| a.as_ref().zip(b.as_ref())).filter(|(a, _)| longest(a).is_finite());
+    let first = rows.first().and_then(|(a, b)| a.as_ref().zip(b.as_ref())).filter(|(a, b)| !cut(a, b));
     let clock = first.and_then(|(a, b)| {
         let (rate, longer) = (ratio(a.spread, b.spread)?, ratio(a.duration(), b.duration())?);
         let open = longest(a).max(longest(b)) / a.duration()? + 6.0 * (longer - rate).powi(2);
@@ -452,12 +456,13 @@ pub fn of_contacts(rows: &[(Option<Touch>, Option<Touch>)], times: &[f64], typic
     hints
 }
 
-/// The longest step between the samples at `times` that a contact lies between; infinite where it had begun before the
-/// first of them.
-fn longest_step(touch: &Touch, times: &[f64], typical: f64) -> f64 {
-    if times.first().is_none_or(|first| touch.from < first - typical) {
-        return f64::INFINITY;
-    }
+/// Whether a contact had begun before the first sample.
+fn begun_before(touch: &Touch, times: &[f64], typical: f64) -> bool {
+    times.first().is_none_or(|first| touch.from < first - typical)
+}
+
+/// The longest step between the samples at `times` that a contact lies between; infinite where there are none.
+fn longest_step(touch: &Touch, times: &[f64]) -> f64 {
     let first = times.partition_point(|time| *time <= touch.from).saturating_sub(1);
     let last = touch.to.map_or(times.len(), |to| times.partition_point(|time| *time < to) + 1);
     let within = &times[first..last.clamp(first, times.len())];
@@ -476,10 +481,10 @@ pub fn of_impulses(
     known: &[(f64, &'static str)],
 ) -> Option<Finding> {
     let both = rows.iter().filter_map(|(a, b)| a.as_ref().zip(b.as_ref()));
-    let whole = both.filter(|(a, b)| a.to.is_some() && b.to.is_some() && longest_step(a, times, typical).is_finite());
+    let whole = both.filter(|(a, b)| a.to.is_some() && b.to.is_some() && !begun_before(a, times, typical));
     let factors = whole.map(|(a, b)| {
         let (ours, theirs, peak) = (a.impulse?, b.impulse?, a.peak?);
-        let open = longest_step(a, times, typical) * peak / ours;
+        let open = longest_step(a, times) * peak / ours;
         ((theirs / ours - 1.0).abs() > AGREES + open).then_some(theirs / ours)
     });
     let factors = factors.collect::<Option<Vec<f64>>>()?;

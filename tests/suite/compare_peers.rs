@@ -95,6 +95,8 @@ fn what_is_wrong_is_found() {
         let rows: Vec<Row> = falling.chain(with(&honest, |row| row.t += 0.1)).collect();
         let late = found(&what("late"), &rows, &["time_shift t"]);
         near(late[0], 0.1, dt);
+        let late = found(&what("late, from the contact on"), &with(&honest, |row| row.t += 0.1), &["time_shift t"]);
+        near(late[0], 0.1, dt);
         let mut between = honest.clone();
         for k in 1..between.len() {
             between[k].v = (honest[k].u - honest[k - 1].u) / dt;
