@@ -472,8 +472,8 @@ fn longest_step(touch: &Touch, times: &[f64]) -> f64 {
 /// The factor that the impulses of all contacts show.
 ///
 /// **Source**: `∫ F dt` is the momentum that the ground gives, which no chatter of the force changes. A factor counts
-/// where every contact that begins and ends within the samples has the same within [`KNOWN`], and where it is further
-/// from 1 than a scheme loses, [`AGREES`], and what the sum over samples may be off: a step of the greatest force.
+/// where every contact that begins and ends within the samples has the same within 5 %, and where it is further
+/// from 1 than a scheme loses, 25 %, and what the sum over samples may be off: a step of the greatest force.
 pub fn of_impulses(
     rows: &[(Option<Touch>, Option<Touch>)],
     times: &[f64],
