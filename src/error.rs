@@ -2,8 +2,6 @@
 
 use thiserror::Error;
 
-use crate::motion::Ending;
-
 /// What was found, where, and what was expected.
 #[derive(Clone, Debug, Error, PartialEq)]
 #[cfg_attr(feature = "cli", derive(miette::Diagnostic))]
@@ -37,8 +35,8 @@ pub enum Error {
         found: String,
         /// The end of the history.
         end: String,
-        /// Why it is the end.
-        ending: Ending,
+        /// Why it is the end, as the history's ending prints it.
+        ending: String,
     },
     /// A question about a time after the last one that fractions reach.
     #[error("found time {found}, expected an earlier one, or digits where fractions end: {ending}")]
@@ -46,8 +44,8 @@ pub enum Error {
     BeyondExactness {
         /// The time.
         found: String,
-        /// The event before which exactness ends.
-        ending: Ending,
+        /// The event before which exactness ends, as the history's ending prints it.
+        ending: String,
     },
     /// A question about a time that the march has gone past and forgotten.
     #[error("found time {found}, expected one from {start} on: what was before is forgotten")]

@@ -122,8 +122,10 @@ impl<S: Target> History<S> {
         let Error::TimeOutside { found, end } = error else { return error };
         let after = found.parse::<Number>().is_ok_and(|time| time.to_f64() > 0.0);
         match &self.ending {
-            ending @ Ending::ExactnessEnds { .. } if after => Error::BeyondExactness { found, ending: ending.clone() },
-            ending if after && *ending != Ending::Time => Error::BeyondEnd { found, end, ending: ending.clone() },
+            ending @ Ending::ExactnessEnds { .. } if after => {
+                Error::BeyondExactness { found, ending: ending.to_string() }
+            }
+            ending if after && *ending != Ending::Time => Error::BeyondEnd { found, end, ending: ending.to_string() },
             _ => Error::TimeOutside { found, end },
         }
     }

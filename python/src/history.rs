@@ -136,8 +136,8 @@ impl History {
 
 #[pymethods]
 impl History {
-    /// `double`, `exact`, `digits` or `certified`; the end; why it is the end, the engine, and what was asked; warnings;
-    /// `t₁`, the greatest speed, `L`, `c` and `g`.
+    /// `double`, `exact`, `digits` or `certified`; the end; why it is the end, the engine, and what was asked;
+    /// warnings; `t₁`, the greatest speed, `L`, `c` and `g`.
     fn facts(&self) -> (&'static str, Cell, [String; 3], Vec<String>, [f64; 5]) {
         let (kind, first) = match &*self.solution {
             Solution::Double(_) => ("double", None),

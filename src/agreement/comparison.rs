@@ -165,9 +165,8 @@ pub struct ComparedFile {
 /// Data that go so many times as far as the scene's own run are in another unit of time.
 const FAR: f64 = 100.0;
 
-/// Where the scene's own run ends, asked only where that may be less than `1/FAR` of `last`.
-///
-/// **Source**: impacts follow each other by no less than a contact, which lasts at least a round trip.
+/// Where the scene's own run ends. A run of impacts is solved for that only where the data go on for more than [`FAR`]
+/// round trips for each of them; hops may be shorter than a round trip, and then data that are too long are not refused.
 fn own_end(problem: &Problem, trip: f64, last: f64) -> Option<f64> {
     match &problem.run {
         Run::Time(time) => Some(time.to_f64()),
@@ -186,8 +185,8 @@ fn unit_of_time(times: f64) -> &'static str {
 }
 
 impl Prepared {
-    /// Reads `sources`, which are to be compared with `problem` in its `units`, solved in doubles to `accuracy`. It is followed as far
-    /// as its own run and the data go.
+    /// Reads `sources`, which are to be compared with `problem` in its `units`, solved in doubles to `accuracy`. It is
+    /// followed as far as its own run and the data go.
     ///
     /// **Errors**: [`CompareError`].
     pub fn new(

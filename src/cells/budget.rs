@@ -7,7 +7,7 @@
 //! the centre owe to each source of error.
 
 use super::dependence::{Dependence, Form};
-use super::follow::LEAST_LEAP;
+use super::effort::LEAST_LEAP;
 use crate::motion::Uncertainty;
 use crate::special::{phi1, phi2};
 
@@ -57,8 +57,8 @@ pub(super) struct Budget {
     fixed: Fixed,
 }
 
-/// What events that are off in time make besides what is followed: a motion of its own, its mean included. Neither norm
-/// of it grows, in flight or in contact.
+/// The errors that are not followed with signs: a motion of its own, its centre of mass included. Neither norm of it
+/// grows, in flight or in contact.
 #[derive(Clone, Copy, Debug, Default)]
 struct Rest {
     /// `∫|δq|` along a characteristic.
@@ -67,9 +67,9 @@ struct Rest {
     point: f64,
     /// Of `p` and `q`, by what damping scatters from displaced rays.
     scatter: f64,
-    /// The part of `wave` that is stripes whose places are given up.
+    /// The part of `wave` that is masses of rays whose places are no longer known.
     lumps: f64,
-    /// `|δh′|` at a take-off by what `wave` bounds.
+    /// A bound of `|δh′|` at the last take-off, of the part that `wave` bounds.
     mean: f64,
 }
 
@@ -190,8 +190,8 @@ impl Budget {
         (form, self.not_followed(damping, age) + unclear + self.scattered(damping, age))
     }
 
-    /// What is not followed adds to `v(0,·)` at this age: by its centre of mass and its vibration, or, in a flight that
-    /// is not leapt over, by what passes the end in each round trip.
+    /// What the rest adds to the error of `v(0,·)` at this age: by its centre of mass and its vibration, or, in a flight
+    /// that is not leapt over, by what reaches the ground in each round trip.
     fn not_followed(&self, damping: f64, age: f64) -> f64 {
         let ((even, Rest { wave, mean, .. }), grown) = (self.began, damping.exp());
         let (_, slowed) = aged(damping, age);
@@ -249,9 +249,10 @@ impl Budget {
         self.note();
     }
 
-    /// The end has flown so far, with this error; any other point swings about the centre of mass as well.
+    /// The end has flown so far, with this error; at any other point `½∫|δp| + |δq| dx` is added.
     pub(super) fn note_end(&mut self, off: Off) {
-        self.worst.rise = self.worst.rise.max(off.apart + self.rest.wave + 2.0 * self.events.mass());
+        let beyond = self.even + self.rest.wave + 2.0 * self.events.mass();
+        self.worst.rise = self.worst.rise.max(off.apart + beyond);
     }
 
     /// Velocities change no faster than this between rays, since the last event.
@@ -333,7 +334,7 @@ impl Budget {
     }
 
     /// After a contact of one round trip, which the true motion makes as well: without damping and gravity it turns the
-    /// vibration round whenever it begins. What is not followed of `δh′` as it was.
+    /// vibration round whenever it begins. Gives the part of the new `δh′` that has no known sign.
     fn after_round_trip(&mut self, r: f64, landing: &Landing, flight: &TakeOff) -> f64 {
         let kappa = 0.5 * r;
         let (late, rate, mass) = (self.events.late(), self.events.rate(), self.events.mass());
@@ -341,7 +342,7 @@ impl Budget {
         let scattered = r * (2.0 * landing.velocity.abs() * late + mass);
         let rigid = (5.0 * r).min(2.0) * rate;
         let new = scattered + rigid;
-        // All of the rest turns round, and next to nothing of what has no mean becomes one.
+        // The rest turns round. What has mean zero before has a mean of order R after.
         let weights = (-r).exp_m1().abs() + weight_slope(kappa);
         let grown = (weights + 2.0 * r * r.exp()) * 2.0 * self.rest.wave;
         self.rest.mean = (self.rest.mean + grown).min(r.exp() * self.rest.wave);

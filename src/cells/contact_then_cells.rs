@@ -2,7 +2,7 @@
 
 use std::ops::ControlFlow;
 
-use super::follow::Effort;
+use super::effort::Effort;
 use super::history::Damped;
 use super::piece::Unresolved;
 use super::with_bounds::{Bounding, Pair};

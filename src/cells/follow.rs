@@ -8,6 +8,7 @@ use std::ops::ControlFlow;
 
 use super::bounce::Held;
 use super::budget::{Budget, Off};
+use super::effort::{Effort, LEAST_LEAP, MOST_PIECES, MOST_SEGMENTS};
 use super::flight::Flight;
 use super::march::{Medium, State};
 use super::piece::{Checkpoint, Mark, Piece, Unresolved};
@@ -16,6 +17,7 @@ use super::series::{at_one, at_zero, bound, derivative, evaluate};
 use super::start::Data;
 use crate::error::Error;
 use crate::motion::{Ending, EventKind, Uncertainty};
+use crate::problem::{Problem, Run};
 use crate::reason::{Reason, Warning};
 use crate::special::RoundedSpecial;
 
@@ -28,21 +30,13 @@ pub(super) enum Goal<S> {
     Time(S),
 }
 
-/// How much is computed of a run at most.
-#[derive(Clone, Copy, Debug)]
-pub struct Effort {
-    /// Decimal digits of the natural scales that cells are marched to.
-    pub digits: f64,
-    /// Cells that are crossed.
-    pub cells: u64,
-    /// Whether a run that has lost its events is worth nothing.
-    pub until_lost: bool,
-}
-
-impl Effort {
-    /// So many digits, however many cells they take.
-    pub fn of(digits: f64) -> Self {
-        Effort { digits, cells: u64::MAX, until_lost: false }
+impl<S: RoundedSpecial> Goal<S> {
+    /// As far as the run of `problem` says.
+    pub(super) fn of(problem: &Problem, precision: &S::Precision, data: &Data<S>) -> Self {
+        match &problem.run {
+            Run::Impacts(count) => Goal::Impacts(*count),
+            Run::Time(time) => Goal::Time(S::from_number(time, precision) / &data.units.time),
+        }
     }
 }
 
@@ -89,12 +83,6 @@ pub(super) struct Follower<'a, S> {
     pub(super) before: Uncertainty,
 }
 
-/// The most strips that are followed: some hundred megabytes.
-const MOST_PIECES: usize = 400_000;
-/// The most segments of a round trip.
-const MOST_SEGMENTS: usize = 4096;
-/// The fewest round trips that are leapt over: a leap costs about as much as two of them.
-pub(super) const LEAST_LEAP: f64 = 3.0;
 /// The roundings of a leap, of a separation and of a joining, each of the greatest `|q|`: every coefficient is a sum of
 /// some dozen terms, none greater than it.
 pub(super) const LEAP_ROUNDINGS: f64 = 64.0;

@@ -3,15 +3,16 @@
 use std::ops::ControlFlow;
 
 use super::bounce::Held;
+use super::effort::Effort;
 use super::flight::Flight;
-use super::follow::{Effort, Follower, Goal};
+use super::follow::{Follower, Goal};
 use super::march::Medium;
 use super::piece::{Checkpoint, Mark, Piece, Unresolved};
-use super::record::{Node, Record};
+use super::record::Record;
 use super::root::smallest;
 use super::series::{at_one, at_zero, evaluate};
 use super::start::{Data, Units, medium};
-use super::strips::Pool;
+use super::strips::{Node, Pool};
 use super::with_bounds::Bounding;
 use crate::error::Error;
 use crate::first_contact::FirstContact;
@@ -61,7 +62,7 @@ pub struct Damped<S> {
     uncertain: Vec<Uncertainty>,
     warnings: Vec<Warning>,
     unresolved: Option<Unresolved<S>>,
-    /// Cells that were asked about lately.
+    /// Cells that earlier questions have marched.
     pool: Pool<S>,
 }
 
@@ -87,14 +88,6 @@ impl<S: RoundedSpecial> Found<S> {
         }
         let Follower { pieces, checkpoints, flights, warnings, unresolved, .. } = follower;
         Found { pieces, checkpoints, flights, marks, warnings, unresolved, before, ending }
-    }
-}
-
-/// How far to follow `problem`.
-fn goal<S: RoundedSpecial>(problem: &Problem, precision: &S::Precision, data: &Data<S>) -> Goal<S> {
-    match &problem.run {
-        Run::Impacts(count) => Goal::Impacts(*count),
-        Run::Time(time) => Goal::Time(S::from_number(time, precision) / &data.units.time),
     }
 }
 
@@ -124,7 +117,7 @@ impl<S: RoundedSpecial> Damped<S> {
         observe: &dyn Fn(usize, usize) -> ControlFlow<()>,
     ) -> Result<Self, Error> {
         let (medium, data) = medium(problem, precision, effort.digits, shorten)?;
-        let goal = goal(problem, precision, &data);
+        let goal = Goal::of(problem, precision, &data);
         let mut follower = Follower::new(&medium, &data);
         let ending = follower.run(&goal, effort, observe)?;
         let found = Found::of(follower, ending);
@@ -143,7 +136,7 @@ impl<S: RoundedSpecial> Damped<S> {
         observe: &dyn Fn(usize, usize) -> ControlFlow<()>,
     ) -> Result<Self, Error> {
         let (medium, data) = medium(problem, precision, effort.digits, 1)?;
-        let goal = goal(problem, precision, &data);
+        let goal = Goal::of(problem, precision, &data);
         let held = Held::until(contact, &data, time);
         let leaves = leaves.clone() / &data.units.velocity;
         let mut follower = Follower::released(&medium, &data, &held, (leaves, time_error / data.units.time.to_f64()));
@@ -310,9 +303,9 @@ impl<S: RoundedSpecial> Damped<S> {
                     let push = at_one(&area, &piece.len.zero()) * &piece.len * &units.displacement * &units.wave_speed;
                     contact.impulse = contact.impulse.clone() - push;
                     if let Some(least) = smallest(&self.medium.basis, &piece.trace) {
-                        let stress = least * &units.velocity / &units.wave_speed;
-                        if stress < contact.peak_strain {
-                            contact.peak_strain = stress;
+                        let strain = least * &units.velocity / &units.wave_speed;
+                        if strain < contact.peak_strain {
+                            contact.peak_strain = strain;
                         }
                     }
                 }
@@ -564,9 +557,8 @@ mod tests {
     #[test]
     fn a_run_that_takes_too_much_ends_where_it_is() {
         let problem = rod(1, 4, "0.01", Run::Time(Number::from(40)));
-        let whole = Damped::<f64>::solve(&problem, &(), 12.0).unwrap();
-        let effort = Effort { cells: 100, ..Effort::of(12.0) };
-        let part = Damped::<f64>::solve_observed(&problem, &(), effort, 1, &unobserved).unwrap();
+        let solve = |effort| Damped::<f64>::solve_observed(&problem, &(), effort, 1, &unobserved).unwrap();
+        let (whole, part) = (solve(Effort::of(12.0)), solve(Effort { cells: 100, ..Effort::of(12.0) }));
         let Ending::Undecided(Reason::Effort { cells, rays }) = part.ending else { panic!("{}", part.ending) };
         assert!(cells > 100 && rays > 1 && part.end < whole.end);
         assert!(part.events.len() > 2 && part.events.len() < whole.events.len());

@@ -3,17 +3,18 @@
 //! In reading order: `series` holds functions, `cell` carries the invariants through one cell, `march` through one
 //! strip; `start` makes the first state from the data at `t = 0` and `bounce` from the closed form of the first
 //! contact; `flight` takes a flight apart into centre of mass and vibration, and `leap` goes over many of its round
-//! trips at once. `root` finds events, `follow` decides what happens at the ground, `event` does it, `piece` is what
-//! remains of it, `budget` adds up what all of it may
-//! be off by, with the signs that `dependence` follows, `rest` says when nothing more can happen, `record` gets the
-//! field back, `history` answers questions, `contact_then_cells` puts the closed form of the first contact before it,
-//! `with_bounds` gives answers with bounds.
+//! trips at once. `root` finds events, `effort` limits a run, `follow` decides what happens at the ground, `event` does
+//! it, `piece` is what remains of it, `budget` adds up what all of it may be off by, with the signs that `dependence`
+//! follows, `rest` says when nothing more can happen. `record` gets the field back, from cells that `strips` keeps for
+//! the next question, `history` answers questions, `contact_then_cells` puts the closed form of the first contact
+//! before it, `with_bounds` gives answers with bounds.
 
 mod bounce;
 mod budget;
 mod cell;
 mod contact_then_cells;
 mod dependence;
+mod effort;
 mod event;
 mod flight;
 mod follow;
@@ -30,7 +31,7 @@ mod strips;
 mod with_bounds;
 
 pub use contact_then_cells::{ContactThenCells, Reach};
-pub use follow::Effort;
+pub use effort::Effort;
 pub use history::Damped;
 pub use piece::Unresolved;
 pub use with_bounds::WithBounds;

@@ -11,7 +11,7 @@ use super::march::Medium;
 use super::piece::{Checkpoint, Piece};
 use super::series::evaluate;
 use super::start::Data;
-use super::strips::{Kept, Line, Pool, Strips};
+use super::strips::{Kept, Line, Node, Pool, Strips};
 use crate::motion::Side;
 use crate::special::RoundedSpecial;
 
@@ -25,28 +25,6 @@ pub(super) struct Record<'a, S> {
     pub(super) checkpoints: &'a [Checkpoint<S>],
     pub(super) flights: &'a [Flight<S>],
     pub(super) pool: &'a Pool<S>,
-}
-
-/// A node of a quadrature along the rod.
-#[derive(Clone, Debug)]
-pub(super) struct Node<S> {
-    /// Weight.
-    pub(super) weight: S,
-    /// `x`.
-    pub(super) x: S,
-    /// `h′` of the flight that the vibration is taken apart from; zero without one.
-    pub(super) rigid: S,
-    /// The rest of `v_t`.
-    pub(super) motion: S,
-    /// `v_x`.
-    pub(super) strain: S,
-}
-
-impl<S: RoundedSpecial> Node<S> {
-    /// `v_t`.
-    pub(super) fn velocity(&self) -> S {
-        self.motion.clone() + &self.rigid
-    }
 }
 
 /// A cell on its way past, with the flight whose vibration it holds.

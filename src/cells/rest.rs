@@ -7,9 +7,9 @@
 use super::follow::{Follower, Goal};
 use super::march::Medium;
 use super::piece::Piece;
-use super::record::{Node, Record};
+use super::record::Record;
 use super::series::bound;
-use super::strips::Pool;
+use super::strips::{Node, Pool};
 use crate::motion::Ending;
 use crate::reason::{Reason, StillState};
 use crate::special::RoundedSpecial;

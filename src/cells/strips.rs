@@ -10,7 +10,6 @@ use super::cell::Cell;
 use super::flight::Flight;
 use super::march::{Medium, State};
 use super::piece::{Checkpoint, Piece};
-use super::record::Node;
 use crate::special::RoundedSpecial;
 
 /// A cell, and the data that come into it.
@@ -117,13 +116,35 @@ pub(super) struct Pool<S> {
     lines: Mutex<Vec<(S, Line<S>)>>,
 }
 
+/// A node of a quadrature along the rod.
+#[derive(Clone, Debug)]
+pub(super) struct Node<S> {
+    /// Weight.
+    pub(super) weight: S,
+    /// `x`.
+    pub(super) x: S,
+    /// `h′` of the flight that the vibration is taken apart from; zero without one.
+    pub(super) rigid: S,
+    /// The rest of `v_t`.
+    pub(super) motion: S,
+    /// `v_x`.
+    pub(super) strain: S,
+}
+
+impl<S: RoundedSpecial> Node<S> {
+    /// `v_t`.
+    pub(super) fn velocity(&self) -> S {
+        self.motion.clone() + &self.rigid
+    }
+}
+
 /// The nodes along the whole rod at a time.
 pub(super) type Line<S> = Arc<Vec<Node<S>>>;
 
 /// Each core goes from one checkpoint to the next.
 static MOST_KEPT: LazyLock<usize> = LazyLock::new(|| 2 * std::thread::available_parallelism().map_or(1, NonZero::get));
 
-/// Work on a list that is complete whenever it is here.
+/// Works on the list. No panic leaves it half changed, so a poisoned lock is taken as any other.
 fn with<T, R>(list: &Mutex<Vec<T>>, work: impl FnOnce(&mut Vec<T>) -> R) -> R {
     work(&mut list.lock().unwrap_or_else(PoisonError::into_inner))
 }
@@ -144,7 +165,7 @@ impl<S> Default for Pool<S> {
     }
 }
 
-/// Of another history nothing is kept.
+/// A clone starts empty.
 impl<S> Clone for Pool<S> {
     fn clone(&self) -> Self {
         Pool::default()

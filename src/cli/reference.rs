@@ -46,7 +46,8 @@ pub(super) struct Reference {
     #[arg(long, value_name = "A,B,C", value_delimiter = ',', value_parser = column)]
     columns: Option<Vec<Column>>,
     /// The field along the rod instead of the columns, on a grid: points in the same form as --times
-    #[arg(long, value_name = "LIST", value_parser = List::equally_spaced, allow_hyphen_values = true, conflicts_with = "columns")]
+    #[arg(long, value_name = "LIST", value_parser = List::equally_spaced, allow_hyphen_values = true)]
+    #[arg(conflicts_with = "columns")]
     points: Option<List>,
     /// What the field is on the grid
     #[arg(long, value_enum, default_value_t, requires = "points")]

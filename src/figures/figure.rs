@@ -142,8 +142,8 @@ impl Figure {
 
     /// Its numbers.
     ///
-    /// **Accuracy**: *within its own bound*, which is at most 1e-10 for Figure 4, 1e-9 for the tenth bounce and 1e-13 for
-    /// the others, relative to the numbers or to 1.
+    /// **Accuracy**: *within its own bound*, which is at most 1e-10 for Figure 4, 1e-9 for the tenth bounce and 1e-13
+    /// for the others, relative to the numbers or to 1.
     ///
     /// **Errors**: those of the histories.
     pub(crate) fn data(&self) -> Result<Data, Failed> {

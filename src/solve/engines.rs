@@ -5,7 +5,7 @@ use std::sync::Arc;
 use super::ladder::{Engined, Observer, Target};
 use super::long;
 use super::plan::{Engine, Plan, Rung};
-use crate::cells::{self, ContactThenCells, Damped, Effort, WithBounds};
+use crate::cells::{self, ContactThenCells, Damped, WithBounds};
 use crate::error::Error;
 use crate::first_contact::{Bounce, FirstContact};
 use crate::lattice::Undamped;
@@ -29,9 +29,13 @@ impl Target for f64 {
                 }
                 Arc::new(history)
             }
-            Engine::Cells => {
-                Arc::new(WithBounds::new(Damped::<f64>::solve_observed(problem, &(), EFFORT, 1, &**observe)?)?)
-            }
+            Engine::Cells => Arc::new(WithBounds::new(Damped::<f64>::solve_observed(
+                problem,
+                &(),
+                plan.effort(rung),
+                1,
+                &**observe,
+            )?)?),
             Engine::ClosedForm | Engine::ClosedFormThenCells => {
                 let rod = Parameters::<Estimate<f64>>::of(problem, &())?;
                 let contact = FirstContact::new(&rod);
@@ -46,7 +50,7 @@ impl Target for f64 {
                 Arc::new(WithBounds::new(ContactThenCells::<f64>::solve_observed(
                     problem,
                     &(),
-                    EFFORT,
+                    plan.effort(rung),
                     (bounce, reach),
                     &**observe,
                 )?)?)
@@ -54,10 +58,6 @@ impl Target for f64 {
         })
     }
 }
-
-/// What a run in doubles takes at most: some ten seconds. Where longer numbers follow, one that has lost its events is
-/// worth nothing.
-const EFFORT: Effort = Effort { digits: 13.0, cells: 20_000_000, until_lost: cfg!(feature = "mp") };
 
 /// Modes that are summed where the rays cancel and there are no longer numbers: with them the stress is known to some
 /// 10⁻¹¹ of the lowest mode at `τR² ≈ 300`, which is `R → π` and 30 round trips.

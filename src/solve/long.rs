@@ -5,8 +5,7 @@ use std::sync::Arc;
 use super::converted::Converted;
 use super::ladder::{Engined, Observer, Target};
 use super::plan::{Engine, Plan, Rung};
-use super::question::Numbers;
-use crate::cells::{self, ContactThenCells, Damped, Effort, WithBounds};
+use crate::cells::{self, ContactThenCells, Damped, WithBounds};
 use crate::error::Error;
 use crate::first_contact::{Bounce, ContactHistory, FirstContact};
 use crate::lattice::Undamped;
@@ -55,22 +54,9 @@ fn bits_of(rung: Rung) -> u32 {
     }
 }
 
-/// Cells that numbers of 128 bits cross in some ten seconds.
-const LONG_CELLS: f64 = 2e5;
-
-/// The most cells that numbers of so many bits cross: without limit for digits that are asked for, for some ten seconds
-/// where doubles do not settle an answer.
-fn most_cells(plan: &Plan, bits: u32) -> u64 {
-    match plan.numbers {
-        Numbers::Double(_) => (LONG_CELLS * (128.0 / f64::from(bits)).powi(2)) as u64,
-        _ => u64::MAX,
-    }
-}
-
 fn estimates(problem: &Problem, plan: &Plan, bits: u32, observe: &Observer) -> Result<Engined<Float>, Error> {
     let problem = &*plan.reaching(problem);
-    let digits = f64::from(bits) * std::f64::consts::LOG10_2 - 19.0;
-    let effort = Effort { digits, cells: most_cells(plan, bits), until_lost: true };
+    let effort = plan.effort(Rung::Bits(bits));
     Ok(match plan.engine {
         Engine::Lattice => {
             let limits = plan.limits(problem);

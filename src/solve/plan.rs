@@ -6,6 +6,7 @@ use serde::Serialize;
 
 use super::foresee;
 use super::question::{Numbers, Question, Want};
+use crate::cells::Effort;
 use crate::error::Error;
 use crate::lattice::Limits;
 use crate::number::{Number, bits_for_digits};
@@ -92,6 +93,12 @@ const GUARD_BITS: u32 = 64;
 /// At so many times the bits asked for, enclosures are tried in place of more bits: a root that is met exactly takes
 /// any number of bits, and enclosures carry exact roots.
 const EXACT_ROOT: u32 = 4;
+/// The decimal digits that cells are marched to in doubles.
+const DOUBLE_CELL_DIGITS: f64 = 13.0;
+/// Cells that doubles cross in some ten seconds.
+const DOUBLE_CELLS: u64 = 20_000_000;
+/// Cells that numbers of 128 bits cross in some ten seconds.
+const LONG_CELLS: f64 = 2e5;
 /// The most bits of a number with an error bound.
 const MOST_BITS: u32 = 1 << 22;
 /// Bits of an enclosure beyond which a comparison is called undecided, where the digits asked for do not need more.
@@ -247,6 +254,21 @@ impl Plan {
             Reach::Time(time) => Run::Time(time.clone()),
         };
         if problem.run == run { Cow::Borrowed(problem) } else { Cow::Owned(Problem { run, ..problem.clone() }) }
+    }
+
+    /// How much a damped march computes at most in the numbers of `rung`. Without digits that are asked for, that is some
+    /// ten seconds. A run that has lost its events is worth nothing where longer numbers follow.
+    pub(super) fn effort(&self, rung: Rung) -> Effort {
+        let until_lost = cfg!(feature = "mp");
+        let (Rung::Bits(bits) | Rung::Enclosures(bits)) = rung else {
+            return Effort { digits: DOUBLE_CELL_DIGITS, cells: DOUBLE_CELLS, until_lost };
+        };
+        let digits = f64::from(bits) * std::f64::consts::LOG10_2 - 19.0;
+        let cells = match self.numbers {
+            Numbers::Double(_) => (LONG_CELLS * (128.0 / f64::from(bits)).powi(2)) as u64,
+            _ => u64::MAX,
+        };
+        Effort { digits, cells, until_lost }
     }
 
     /// What an undamped march may store and forget.

@@ -62,7 +62,8 @@ impl Plan {
     /// use std::{ops::ControlFlow, sync::Arc};
     /// let problem = Problem::uniform(10.into(), 30.into(), 10.into(), 10.into());
     /// let plan = Plan::of(&problem, &Question::run(Numbers::default()))?;
-    /// let Solution::Double(motion) = plan.solve(&problem, Arc::new(|_, _| ControlFlow::Continue(())))? else { unreachable!() };
+    /// let observe = Arc::new(|_, _| ControlFlow::Continue(()));
+    /// let Solution::Double(motion) = plan.solve(&problem, observe)? else { unreachable!() };
     /// assert!((motion.contacts()[0].to.unwrap() - 2.0 / 3.0).abs() < 1e-15);
     /// # Ok::<(), dalembert::Error>(())
     /// ```

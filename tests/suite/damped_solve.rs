@@ -266,7 +266,8 @@ fn ten_impacts_know_how_far_they_are_off() {
     }
 }
 
-/// Ordinary rods need no long numbers: the bound of ten impacts and of the flights between them stays below the accuracy.
+/// Ordinary rods need no long numbers: the bound of ten impacts and of the flights between them stays below the
+/// accuracy.
 #[test]
 fn ordinary_rods_are_settled_in_doubles() {
     for damping in ["0.001", "0.003", "0.01", "0.03", "0.05", "0.1"] {

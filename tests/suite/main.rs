@@ -15,6 +15,8 @@ mod columns;
 mod command;
 #[cfg(feature = "cli")]
 mod command_data;
+#[cfg(all(feature = "cli", feature = "mp"))]
+mod command_ends;
 mod common;
 #[cfg(feature = "cli")]
 mod compare_command;

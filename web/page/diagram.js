@@ -57,7 +57,8 @@ export class Diagram {
     return this.view.from + ((place - field.left) / field.width) * (this.view.to - this.view.from);
   }
 
-  /** Asks for all columns, as many at a time as there is time for, and calls `draw` with them; false where others came. */
+  /** Asks for all columns, as many at a time as there is time for, and calls `draw` with them; false where others
+   * came. */
   async columns(columns, what, rest, draw) {
     const { shot, view } = this;
     const at = (k) => view.from + ((view.to - view.from) * k) / columns;

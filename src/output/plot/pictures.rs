@@ -132,8 +132,8 @@ fn lines(picture: Picture, scenes: &[Gathered]) -> Result<Panel, String> {
     let each = curves.len() / scenes.len().max(1);
     for (k, curve) in curves.iter().enumerate() {
         let (of_scene, of_quantity) = (k / each.max(1), k % each.max(1));
-        // One scene has a colour for each quantity, several a colour for each scene. Through the dashes of a line is seen
-        // one that it coincides with.
+        // One scene has a colour for each quantity, several a colour for each scene. Dashes show a line below that
+        // coincides with them.
         let color = if scenes.len() == 1 { of_quantity } else { of_scene };
         let look = Stroke::new(LINES[color % LINES.len()], WIDTH).dashed(DASHES[of_quantity % DASHES.len()]);
         let jumps = curve.stretches.windows(2).filter_map(|pair| {
