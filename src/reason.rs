@@ -142,6 +142,11 @@ pub enum Warning {
         /// From this time on.
         from: f64,
     },
+    /// Two events, or an event and a ray, coincide within their error bounds and are taken for one.
+    Coincidence {
+        /// From this time on.
+        from: f64,
+    },
     /// Hops that are not told apart from contact.
     HopsUnresolved {
         /// From this time on.
@@ -285,6 +290,11 @@ impl Display for Warning {
             Warning::NotDetermined { from } => {
                 let from = short(*from);
                 write!(f, "from t = {from} on, the events are not determined in this precision: ask for more digits")
+            }
+            Warning::Coincidence { from } => {
+                let from = short(*from);
+                write!(f, "from t = {from} on, an event and a ray that coincide within their error bounds are taken ")?;
+                f.write_str(if cfg!(feature = "mp") { "for one" } else { "for one: a build with long numbers decides" })
             }
             Warning::HopsUnresolved { from, longest, landings } => {
                 let (from, word) = (from.decimal(9), if *landings == 1 { "landing" } else { "landings" });

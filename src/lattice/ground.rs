@@ -18,7 +18,7 @@ use std::cmp::Ordering;
 
 use super::limits::{Halt, Stop, Until};
 use super::march::March;
-use super::trace::{GroundEvent, Line, Piece, at_deviating};
+use super::trace::{GroundEvent, Line, Piece, at_deviating, place_to};
 use crate::motion::EventKind;
 use crate::number::{Bounded, Open};
 
@@ -35,6 +35,8 @@ pub(super) struct Stretch<N> {
     q: N,
     /// At `to`.
     q_end: N,
+    /// Both as multiples of gravity, where they are known as such, see [`Piece`].
+    knots: [Option<i64>; 2],
 }
 
 impl<N: Bounded> March<N> {
@@ -49,6 +51,12 @@ impl<N: Bounded> March<N> {
         let trip = self.trip_number();
         self.undetermined.get_or_insert(trip);
         x.clone().nominal().sign()
+    }
+
+    /// Takes numbers for equal that are so within their bounds, where the motion depends on which is the greater one.
+    fn coincide(&mut self) {
+        let trip = self.trip_number();
+        self.coincidence.get_or_insert(trip);
     }
 
     /// The round trip that is marched, from 0.
@@ -88,17 +96,17 @@ impl<N: Bounded> March<N> {
             Until::Time { trip, age } if *trip == self.trip_number() => age.clone(),
             _ => return self.follow(stretch).map(|()| next),
         };
-        if !stretch.from.below(&stop)? {
+        if place_to(&stop, &stretch.from)?.is_le() {
             // What comes after the last time is its limit from the right.
             self.meet_break(&stretch)?;
-            self.leave(&stretch.from, &stretch.line);
-        } else if stop.below(&stretch.to)? {
+            self.leave(&stretch.from, &stretch.line, None);
+        } else if place_to(&stop, &stretch.to)?.is_lt() {
             let q = stretch.line.value_at_stored(&stop);
-            let rest = Stretch { from: stop.clone(), q: q.clone(), ..stretch.clone() };
-            (stretch.to, stretch.q_end) = (stop, q);
+            let rest = Stretch { from: stop.clone(), q: q.clone(), knots: [None; 2], ..stretch.clone() };
+            (stretch.to, stretch.q_end, stretch.knots[1]) = (stop, q, None);
             self.follow(stretch)?;
             if self.meet_break(&rest)? {
-                self.leave(&rest.from, &rest.line);
+                self.leave(&rest.from, &rest.line, None);
             }
         } else {
             return self.follow(stretch).map(|()| next);
@@ -123,13 +131,15 @@ impl<N: Bounded> March<N> {
             line.intercept = line.intercept - fallen;
         }
         let (q, q_end) = (line.value_at_stored(&from), line.value_at_stored(&to));
-        Stretch { incoming: first..next, from, to, line, q, q_end }
+        let trip = self.trip_number();
+        let knot = |piece: usize| Some(self.trace.knot_returned(pieces.get(piece)?.knot?, trip));
+        Stretch { incoming: first..next, from, to, line, q, q_end, knots: [first, next].map(knot) }
     }
 
     /// Contact and flight in one stretch, with the events between them.
     fn follow(&mut self, stretch: Stretch<N>) -> Result<(), Stop<N>> {
-        self.meet_break(&stretch)?;
-        self.leave(&stretch.from, &stretch.line);
+        let changed = self.meet_break(&stretch)?;
+        self.leave(&stretch.from, &stretch.line, stretch.knots[0].filter(|knot| !changed || *knot == 0));
         let (mut from, mut q) = (stretch.from.clone(), stretch.q.clone());
         loop {
             let contact = self.contact;
@@ -146,7 +156,8 @@ impl<N: Bounded> March<N> {
             } else {
                 self.record(EventKind::Impact, age.clone(), stretch.line.value_at(&age), &stretch)?;
             }
-            self.leave(&age, &stretch.line);
+            // The release is where q vanishes.
+            self.leave(&age, &stretch.line, contact.then_some(0));
             from = age;
         }
     }
@@ -156,7 +167,24 @@ impl<N: Bounded> March<N> {
     fn meet_break(&mut self, stretch: &Stretch<N>) -> Result<bool, Stop<N>> {
         let Stretch { from, q, line, .. } = stretch;
         let early = self.early.take();
-        let sign = if self.touches { Some(self.sign(q)?) } else { None };
+        let sign = match stretch.knots[0] {
+            _ if !self.touches => None,
+            Some(knot) => Some(knot.cmp(&0)),
+            None => Some(self.sign(q)?),
+        };
+        let equal = sign == Some(Ordering::Equal) && q.roundoffs() > 0.0 && stretch.knots[0].is_none();
+        if early.is_some() || equal {
+            // A release at a root, or a landing with speed, is the same on both sides of a break at which q is
+            // continuous; so is a release where the ray brings the zero of a rising q.
+            let either_side = match sign {
+                Some(Ordering::Equal) => self.contact && line.slope.positive()?,
+                Some(Ordering::Less) => !self.contact && (q.clone() - &self.arriving_q).vanishes()?,
+                _ => false,
+            };
+            if !either_side {
+                self.coincide();
+            }
+        }
         let flight = match sign {
             None => !self.contact,
             Some(Ordering::Greater) => true,
@@ -191,7 +219,7 @@ impl<N: Bounded> March<N> {
         let trip = self.trip_number();
         self.contact = kind == EventKind::Impact;
         if self.contact && matches!(self.until, Until::Contacts(most) if most == self.contacts) {
-            self.leave(&age, &stretch.line);
+            self.leave(&age, &stretch.line, None);
             return Err(Stop::Halt(Halt::NextImpact { trip, age }));
         }
         self.contacts += u32::from(self.contact);
@@ -205,20 +233,24 @@ impl<N: Bounded> March<N> {
         Ok(())
     }
 
-    /// What leaves the ground from `age` on: `−q` in contact, `q` in flight.
-    fn leave(&mut self, age: &N, q: &Line<N>) {
-        let line = if self.contact { -q.clone() } else { q.clone() };
+    /// What leaves the ground from `age` on: `−q` in contact, `q` in flight; `knot` is q there, as in [`Piece`].
+    fn leave(&mut self, age: &N, q: &Line<N>, knot: Option<i64>) {
+        let (line, knot) = if self.contact { (-q.clone(), knot.map(|k| -k)) } else { (q.clone(), knot) };
         let of_line = line.intercept.roundoffs() + line.slope.roundoffs();
         self.greatest_height = self.greatest_height.max(self.height.to_f64());
         let relative = f64::max(of_line / self.greatest_speed, self.height.roundoffs() / self.greatest_height);
         // No number has more digits to lose than all.
         self.relative_error = self.relative_error.max(relative.min(self.half_digits * self.half_digits));
-        self.trace.push(Piece { age: age.clone(), line, height: self.height.clone(), contact: self.contact });
+        self.trace.push(Piece { age: age.clone(), line, height: self.height.clone(), contact: self.contact, knot });
     }
 
     /// The release inside a stretch of contact: the root of `q`.
-    fn release_in(&mut self, Stretch { to, line, q_end, .. }: &Stretch<N>) -> Result<Option<N>, Open> {
-        if !self.sign(q_end)?.is_gt() || !line.slope.positive()? {
+    fn release_in(&mut self, Stretch { to, line, q_end, knots, .. }: &Stretch<N>) -> Result<Option<N>, Open> {
+        let sign = match knots[1] {
+            Some(knot) => knot.cmp(&0),
+            None => self.sign(q_end)?,
+        };
+        if !sign.is_gt() || !line.slope.positive()? {
             return Ok(None);
         }
         let age = -(line.intercept.clone() / &line.slope);
@@ -263,8 +295,14 @@ impl<N: Bounded> March<N> {
     /// dip.
     fn first_root(&mut self, at_end: Ordering, from: &N, q: &N, slope: &N) -> Result<Option<N>, Stop<N>> {
         let disc = q.square() - (slope.clone() * &self.height).doubled();
-        if at_end.is_ge() && !self.sign(&disc)?.is_gt() {
-            return Ok(None);
+        if at_end.is_ge() {
+            let sign = self.sign(&disc)?;
+            if sign.is_eq() && disc.roundoffs() > 0.0 {
+                self.coincide();
+            }
+            if !sign.is_gt() {
+                return Ok(None);
+            }
         }
         let Some(root) = disc.try_sqrt() else {
             let (trip, from, q, slope) = (self.trip_number(), from.clone(), q.clone(), slope.clone());

@@ -95,7 +95,9 @@ impl<N: Bounded> Undamped<N> {
             (Halt::Open { trip, age, spread }, _) => {
                 let spread = spread * (velocity.clone() * round_trip).to_f64();
                 let why = Reason::Touch { bits: age.bits().unwrap_or(0), spread };
-                (moment(*trip, age), Ending::Undecided(why))
+                // What began before the age that is not known is known.
+                let age = if age.is_finite() { age.clone() } else { age.zero() };
+                (moment(*trip, &age), Ending::Undecided(why))
             }
             (Halt::Irrational { trip, from, q, slope, disc }, _) => {
                 let (below, ending) = before_surd(round_trip, *trip, [from, q, slope, disc])?;
@@ -110,8 +112,11 @@ impl<N: Bounded> Undamped<N> {
         }
         history.events = history.in_scene_units()?;
         history.contacts = history.summed_contacts();
-        history.warnings =
-            history.undetermined_from().into_iter().map(|from| Warning::NotDetermined { from }).collect();
+        let undetermined = history.undetermined_from();
+        let coincidence = history.coincidence_from().filter(|from| undetermined.is_none_or(|lost| *from < lost));
+        let coincidence = coincidence.map(|from| Warning::Coincidence { from });
+        let undetermined = undetermined.map(|from| Warning::NotDetermined { from });
+        history.warnings = coincidence.into_iter().chain(undetermined).collect();
         Ok(history)
     }
 
@@ -135,6 +140,11 @@ impl<N: Bounded> Undamped<N> {
         Some(self.ground.undetermined? as f64 * self.problem.units.round_trip.to_f64())
     }
 
+    /// The time from which events that coincide within their bounds are taken for one; `None` where none do.
+    pub fn coincidence_from(&self) -> Option<f64> {
+        Some(self.ground.coincidence? as f64 * self.problem.units.round_trip.to_f64())
+    }
+
     pub(super) fn time_of(&self, moment: &Moment<N>) -> N {
         let trips = moment.age.int(moment.index as i64 - 1);
         (trips + &moment.age) * &self.problem.units.round_trip
@@ -143,7 +153,11 @@ impl<N: Bounded> Undamped<N> {
     /// Where `time` lies.
     pub(super) fn locate(&self, time: &N) -> Result<Moment<N>, Error> {
         let outside = || Error::TimeOutside { found: time.text(), end: self.time_of(&self.end).text() };
-        let (trip, age) = trip_and_age(time, &self.problem.units).ok_or_else(outside)?;
+        let Some((trip, age)) = trip_and_age(time, &self.problem.units) else {
+            // An enclosure that two round trips share is not outside for that.
+            let inside = !time.negative()? && !self.time_of(&self.end).below(time)?;
+            return Err(if inside { Error::Open(Open) } else { outside() });
+        };
         let begin = self.ground.trace.begin();
         if trip + 1 < begin {
             let start = self.time_of(&Moment { index: begin, age: age.zero() });

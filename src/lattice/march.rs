@@ -29,6 +29,9 @@ pub struct GroundMotion<N> {
     /// The round trip in which a decision first lay within a bound of more than half of the digits: from there on,
     /// events are not determined.
     pub undetermined: Option<usize>,
+    /// The first round trip in which two events, or an event and a break, were taken for one that are so only within
+    /// their bounds.
+    pub coincidence: Option<usize>,
 }
 
 /// The march, where it stands.
@@ -49,6 +52,7 @@ pub(super) struct March<N> {
     pub(super) early: Option<N>,
     pub(super) relative_error: f64,
     pub(super) undetermined: Option<usize>,
+    pub(super) coincidence: Option<usize>,
     /// `u^{−1/2}`: half of the digits, in roundoffs.
     pub(super) half_digits: f64,
     pub(super) greatest_speed: f64,
@@ -84,6 +88,7 @@ pub fn march<N: Bounded>(
         early: None,
         relative_error: 0.0,
         undetermined: None,
+        coincidence: None,
         half_digits: (-zero.log2_roundoff() / 2.0).exp2(),
         greatest_speed: problem.greatest_speed(),
         greatest_height: problem.greatest_speed(),
@@ -131,8 +136,8 @@ pub fn march<N: Bounded>(
             }
         }
     };
-    let March { trace, events, contacts, relative_error, undetermined, .. } = state;
-    Ok(GroundMotion { trace, events, halt, contacts, relative_error, undetermined })
+    let March { trace, events, contacts, relative_error, undetermined, coincidence, .. } = state;
+    Ok(GroundMotion { trace, events, halt, contacts, relative_error, undetermined, coincidence })
 }
 
 impl<N: Bounded> March<N> {

@@ -1,5 +1,7 @@
 //! What the march stores: the upward invariant `p` at the ground, piece by piece.
 
+use std::cmp::Ordering;
+
 use crate::motion::{EventKind, Side};
 use crate::number::{Bounded, Open};
 use crate::problem::Top;
@@ -56,6 +58,9 @@ pub struct Piece<N> {
     pub height: N,
     /// Whether the end stands on the ground.
     pub contact: bool,
+    /// `p` at its beginning as a multiple of gravity, where p has no jump there and this follows from what it is at a
+    /// release without a ray, zero: exact, while the line and the age both have errors, which cancel.
+    pub(super) knot: Option<i64>,
 }
 
 /// A change between contact and flight, in lattice units.
@@ -123,6 +128,23 @@ pub(super) struct Part<N> {
     pub(super) late_end: Option<N>,
 }
 
+/// An age that is asked for is that of a ray where so many roundings set the two apart, besides its own.
+const ON_A_RAY: f64 = 64.0;
+
+/// How an age that is asked for lies to that of a ray.
+///
+/// **Errors**: [`Open`] where the error of the ray's own age alone leaves it open.
+pub(super) fn place_to<N: Bounded>(age: &N, ray: &N) -> Result<Ordering, Open> {
+    let order = age.compare(ray)?;
+    let own = age.roundoffs() + ON_A_RAY;
+    if order.is_ne() || ray.roundoffs() <= own {
+        return Ok(order);
+    }
+    let apart = (age.clone() - ray).nominal().magnitude();
+    let roundings = (apart.clone() / apart.roundoff()).to_f64();
+    if roundings > own { Err(Open) } else { Ok(order) }
+}
+
 /// A value where the place that it is taken at may deviate.
 pub(super) fn at_deviating<N: Bounded>(value: &N, slope: &N, late: Option<&N>) -> N {
     late.map_or_else(|| value.clone(), |late| late.clone() * slope + value)
@@ -179,7 +201,7 @@ impl<N: Bounded> Trace<N> {
         let piece = |(age, value, slope): &(N, N, N)| {
             let intercept = value.clone() - slope.clone() * age;
             let line = Line { intercept, slope: slope.clone() };
-            Piece { age: age.clone(), line, height: age.zero(), contact: false }
+            Piece { age: age.clone(), line, height: age.zero(), contact: false, knot: None }
         };
         // A first contact and its flight fit without growing.
         let mut pieces = Vec::with_capacity(before.len() + 64);
@@ -334,6 +356,15 @@ impl<N: Bounded> Trace<N> {
         }
     }
 
+    /// [`Piece::knot`] of what comes back a round trip later, in trip `index`.
+    pub(super) fn knot_returned(&self, knot: i64, index: usize) -> i64 {
+        match self.top {
+            Top::Free if self.falls_freely() => knot - 1 - self.slot(index).1 as i64,
+            Top::Free => knot,
+            Top::Fixed => -knot,
+        }
+    }
+
     /// The place of `age` in trip `index` (0: before the start): in the piece that begins there, or from the left in
     /// the one before it, which may be the last of the trip before.
     pub(super) fn place(&self, index: usize, age: &N, side: Side) -> Result<Place<N>, Open> {
@@ -342,8 +373,8 @@ impl<N: Bounded> Trace<N> {
         while begun < later {
             let middle = (begun + later) / 2;
             let has_begun = match side {
-                Side::Left => pieces[middle].age.below(age)?,
-                Side::Right => !age.below(&pieces[middle].age)?,
+                Side::Left => place_to(age, &pieces[middle].age)?.is_gt(),
+                Side::Right => place_to(age, &pieces[middle].age)?.is_ge(),
             };
             if has_begun { begun = middle + 1 } else { later = middle }
         }

@@ -87,7 +87,8 @@ pub trait Bounded: Scalar {
         self
     }
 
-    /// The same number by a formula that keeps the exact number where this one has lost it. For enclosures.
+    /// The same number by a formula that keeps the exact number, or the ends, where this one has lost them. For
+    /// enclosures.
     #[must_use]
     fn or_exactly(self, other: impl FnOnce() -> Self) -> Self {
         let _ = other;

@@ -217,7 +217,7 @@ pub trait Reads<N: Scalar>: Scalar {
     fn read(number: N) -> Self;
 
     /// A number of this system in the other one, where a question about it is answered. A double stands for the
-    /// shortest decimal that spells it.
+    /// shortest decimal that spells it, or for a simple fraction.
     fn give(&self, precision: &N::Precision) -> N;
 }
 

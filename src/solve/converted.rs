@@ -39,8 +39,15 @@ impl<N: Scalar, M: Reads<N>> Converted<N, M> {
 
     fn known(&self, time: &M) -> Option<N> {
         let end = self.engine.end();
-        let known = self.engine.events().iter().map(|event| &event.time).chain([&end]);
-        known.into_iter().find(|known| M::read((*known).clone()).text() == time.text()).cloned()
+        let mut known = self.engine.events().iter().map(|event| &event.time).chain([&end]);
+        // Both are rounded, each to its own bits.
+        let same = |known: &&N| {
+            let known = M::read((*known).clone());
+            let rounding = time.magnitude() * (known.roundoff() + time.roundoff());
+            rounding.below(&(known - time).magnitude()) == Ok(false)
+        };
+        let exactly = |known: &&N| M::read((*known).clone()).text() == time.text();
+        known.clone().find(exactly).or_else(|| known.find(same)).cloned()
     }
 
     /// A point of this rod. The one that its length was rounded to is its top.

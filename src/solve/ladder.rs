@@ -5,11 +5,12 @@ use std::fmt;
 use std::ops::ControlFlow;
 use std::sync::Arc;
 
-use super::plan::{Plan, Rung};
+use super::plan::{Lacks, Plan, Rung};
 use crate::error::Error;
 use crate::motion::{Ending, Motion, Scales};
 use crate::number::{Answer, Scalar};
 use crate::problem::Problem;
+use crate::reason::Warning;
 
 /// Receives from time to time how far a run is, in round trips, or in contacts where so many are asked for, and how
 /// many pieces it has; may end the run with [`Error::Interrupted`].
@@ -49,11 +50,13 @@ impl fmt::Debug for Ladder {
 pub(crate) struct Attempt<S: Answer> {
     pub(crate) rung: Rung,
     pub(crate) engine: Engined<S>,
+    /// Whether exact numbers have been tried where events coincide within their bounds, and did not decide either.
+    tried: bool,
 }
 
 impl<S: Answer> Clone for Attempt<S> {
     fn clone(&self) -> Self {
-        Attempt { rung: self.rung, engine: self.engine.clone() }
+        Attempt { rung: self.rung, engine: self.engine.clone(), tried: self.tried }
     }
 }
 
@@ -78,6 +81,8 @@ impl Ladder {
         numbers: impl Fn(&T) -> Vec<&S::Carried>,
     ) -> Result<(Attempt<S>, T), Error> {
         let mut rung = attempt.as_ref().map_or(self.plan.rung, |attempt| attempt.rung);
+        let tried = attempt.as_ref().is_some_and(|attempt| attempt.tried);
+        let mut reserve = None;
         let mut known = attempt.map(|attempt| attempt.engine);
         let mut doubts: Vec<f64> = Vec::new();
         loop {
@@ -87,22 +92,31 @@ impl Ladder {
             }
             .and_then(|engine| query(&*engine).map(|answer| (engine, answer)));
             // Errors on the way to an open comparison mean nothing, except where no bits can help.
-            let (missing, reached) = match answer {
+            let (lacks, reached) = match answer {
                 Ok((engine, answer)) => {
                     let missing = self.missing::<S>(&*engine, &numbers(&answer), &mut doubts);
-                    let attempt = Attempt { rung, engine };
-                    if missing <= 0.0 {
-                        return Ok((attempt, answer));
+                    let coincides = !tried && meets(&*engine);
+                    let reached = Some((Attempt { rung, engine, tried }, answer));
+                    match reached {
+                        Some(settled) if missing <= 0.0 && !coincides => return Ok(settled),
+                        _ if missing <= 0.0 => {
+                            reserve = reached;
+                            (Lacks::Exactness, None)
+                        }
+                        _ => (Lacks::Bits(missing), reached),
                     }
-                    (missing, Some((attempt, answer)))
                 }
-                Err(Error::NotDecided { .. } | Error::Open(_)) => (f64::INFINITY, None),
+                Err(Error::NotDecided { .. } | Error::Open(_)) => (Lacks::Bits(f64::INFINITY), None),
                 Err(error) => return Err(error),
             };
-            match (self.plan.next(rung, missing), reached) {
-                (Some(next), _) => rung = next,
-                (None, Some(reached)) if matches!(rung, Rung::Double) => return Ok(reached),
-                (None, _) => return Err(self.unsettled(rung)),
+            // Where exact roots do not decide, the numbers that are known say what they take for one.
+            let open = matches!((rung, lacks), (Rung::Enclosures(_), Lacks::Bits(f64::INFINITY)));
+            let next = self.plan.next(rung, lacks).filter(|_| reserve.is_none() || !open);
+            match (next, reserve.take_if(|_| next.is_none()), reached) {
+                (Some(next), ..) => rung = next,
+                (None, Some((attempt, answer)), _) => return Ok((Attempt { tried: true, ..attempt }, answer)),
+                (None, None, Some(reached)) if matches!(rung, Rung::Double) => return Ok(reached),
+                (None, None, _) => return Err(self.unsettled(rung)),
             }
         }
     }
@@ -145,6 +159,15 @@ impl Ladder {
         });
         missing.fold(f64::NEG_INFINITY, f64::max)
     }
+}
+
+/// Beyond so many contacts exact roots take minutes.
+const MOST_EXACT: u32 = 1000;
+
+/// Whether events are taken for one that are so only within their bounds, early enough for exact numbers to decide.
+fn meets<S: Scalar>(engine: &dyn Motion<S>) -> bool {
+    let short = engine.digits_lost().is_none_or(|(contacts, _)| contacts <= MOST_EXACT);
+    short && engine.warnings().iter().any(|warning| matches!(warning, Warning::Coincidence { .. }))
 }
 
 /// Digits below those asked for, and below its natural scale, from which on a number that is not told from zero is

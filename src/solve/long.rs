@@ -9,13 +9,13 @@ use crate::cells::{self, ContactThenCells, Damped, WithBounds};
 use crate::error::Error;
 use crate::first_contact::{Bounce, ContactHistory, FirstContact};
 use crate::lattice::Undamped;
+use crate::motion::Ending;
 use crate::number::{Estimate, Float, Interval, IntervalPrecision, Rational};
 use crate::problem::{Parameters, Problem};
 
 impl Target for Rational {
     fn run(problem: &Problem, plan: &Plan, _: Rung, observe: &Observer) -> Result<Engined<Rational>, Error> {
-        let problem = &*plan.reaching(problem);
-        Ok(Arc::new(Undamped::<Rational>::solve_within(problem, &(), plan.limits(problem), |a, b| observe(a, b))?))
+        fractions(problem, plan, observe)
     }
 }
 
@@ -43,6 +43,14 @@ pub(super) fn in_doubles(
 ) -> Result<Engined<f64>, Error> {
     Ok(match rung {
         Rung::Enclosures(bits) => Arc::new(Converted::new(enclosures(problem, plan, bits, observe)?, problem)),
+        Rung::Fractions => {
+            let exact = match fractions(problem, plan, observe) {
+                Err(Error::Irrational { .. }) => None,
+                exact => Some(exact?).filter(|exact| !matches!(exact.ending(), Ending::ExactnessEnds { .. })),
+            };
+            let exact = exact.ok_or(Error::NotDecided { what: "by fractions", bits: 0 })?;
+            Arc::new(Converted::new(exact, problem))
+        }
         rung => Arc::new(Converted::new(estimates(problem, plan, bits_of(rung), observe)?, problem)),
     })
 }
@@ -52,6 +60,11 @@ fn bits_of(rung: Rung) -> u32 {
         Rung::Bits(bits) | Rung::Enclosures(bits) => bits,
         Rung::Double | Rung::Fractions => f64::MANTISSA_DIGITS,
     }
+}
+
+fn fractions(problem: &Problem, plan: &Plan, observe: &Observer) -> Result<Engined<Rational>, Error> {
+    let problem = &*plan.reaching(problem);
+    Ok(Arc::new(Undamped::<Rational>::solve_within(problem, &(), plan.limits(problem), |a, b| observe(a, b))?))
 }
 
 fn estimates(problem: &Problem, plan: &Plan, bits: u32, observe: &Observer) -> Result<Engined<Float>, Error> {

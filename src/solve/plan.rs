@@ -81,6 +81,15 @@ pub enum Rung {
     Enclosures(u32),
 }
 
+/// What an attempt lacks.
+#[derive(Clone, Copy, Debug)]
+pub(crate) enum Lacks {
+    /// About so many bits.
+    Bits(f64),
+    /// Numbers that are equal, and not only within their bounds.
+    Exactness,
+}
+
 /// More digits than this are refused: a slip of the hand, not a question.
 pub const MAX_DIGITS: u32 = 100_000;
 /// Digits that are proved where none are asked for.
@@ -90,6 +99,8 @@ pub const CERTIFIED_DIGITS: u32 = 15;
 pub const DEFAULT_ACCURACY: f64 = 1e-9;
 /// Bits beyond those of the digits asked for, on the first attempt with error bounds.
 const GUARD_BITS: u32 = 64;
+/// So many bits more tell events apart that miss each other by a rounding of a double, or by its square.
+const NEAR_MISS: u32 = 256;
 /// At so many times the bits asked for, enclosures are tried in place of more bits: a root that is met exactly takes
 /// any number of bits, and enclosures carry exact roots.
 const EXACT_ROOT: u32 = 4;
@@ -174,16 +185,25 @@ impl Plan {
         }
     }
 
-    /// The rung after `rung`, where the answer lacks about `missing` bits; `None` where no more are worth trying.
-    pub(crate) fn next(&self, rung: Rung, missing: f64) -> Option<Rung> {
+    /// The rung after `rung`, by what the answer `lacks`; `None` where no more are worth trying.
+    pub(crate) fn next(&self, rung: Rung, lacks: Lacks) -> Option<Rung> {
         if cfg!(not(feature = "mp")) {
             return None;
         }
         let (digits, _) = self.goal();
         let wanted = bits_for_digits(digits.ceil() as u32);
+        let Lacks::Bits(missing) = lacks else {
+            // Fractions are fast, and end soon where they do not serve; more bits tell a near miss from a meeting.
+            return match rung {
+                Rung::Double => Some(Rung::Fractions),
+                Rung::Bits(bits) if bits < wanted + NEAR_MISS => Some(Rung::Bits(bits + NEAR_MISS)),
+                Rung::Bits(bits) => Some(Rung::Enclosures(bits)),
+                Rung::Fractions | Rung::Enclosures(_) => None,
+            };
+        };
         match rung {
-            Rung::Fractions => None,
-            Rung::Double => Some(Rung::Bits((wanted + GUARD_BITS).max(128))),
+            Rung::Fractions if matches!(self.numbers, Numbers::Exact | Numbers::ExactThenDigits(_)) => None,
+            Rung::Fractions | Rung::Double => Some(Rung::Bits((wanted + GUARD_BITS).max(128))),
             Rung::Bits(bits) => {
                 // A double root needs two bits for each that is missing.
                 let more = if missing.is_finite() { (2.0 * missing).ceil() + 8.0 } else { f64::from(bits) };
@@ -219,11 +239,17 @@ impl Plan {
             }
         };
         let numbers = match self.numbers {
-            Numbers::Double(accuracy) => format!(
-                "doubles with an error bound; longer numbers where the bound is above {:e} of the greatest number of \
-                 an answer",
-                accuracy.unwrap_or(DEFAULT_ACCURACY)
-            ),
+            Numbers::Double(accuracy) => {
+                let exactly = match self.engine {
+                    Engine::Lattice => "; exact ones where an event and a ray coincide within their bounds",
+                    _ => "",
+                };
+                format!(
+                    "doubles with an error bound; longer numbers where the bound is above {:e} of the greatest number \
+                     of an answer{exactly}",
+                    accuracy.unwrap_or(DEFAULT_ACCURACY)
+                )
+            }
             Numbers::Digits(digits) => {
                 format!("{digits} digits are asked for: bits are added until the error bound leaves that many")
             }

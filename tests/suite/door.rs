@@ -56,6 +56,14 @@ fn without_long_numbers_they_are_an_error() {
     assert_eq!(rod("3").digits(20).unwrap_err(), Error::NoMultiprecision);
     assert_eq!(rod("3").certified(20).unwrap_err(), Error::NoMultiprecision);
     assert_eq!(rod("3").solve().unwrap().contacts()[0].to, Some(2.0));
+    // A landing as a ray arrives: whether they meet is for exact numbers to say.
+    let scene = dalembert::scene::builtin::get("doyen-ern-piperno").unwrap();
+    let meets = dalembert::Scene::parse(scene.source).unwrap().problem.solve().unwrap();
+    assert!(
+        matches!(meets.warnings()[..], [dalembert::Warning::Coincidence { from: 2.0.. }]),
+        "{:?}",
+        meets.warnings()
+    );
 }
 
 /// μ = 1 lands without speed at t = 31: a double root, at which 1000 digits need exact roots. `--digits` has them too.

@@ -77,5 +77,7 @@ mod undamped_bounds;
 #[cfg(feature = "mp")]
 mod undamped_chaotic;
 #[cfg(feature = "mp")]
+mod undamped_coincidences;
+#[cfg(feature = "mp")]
 mod undamped_properties;
 mod undamped_reference;

@@ -96,7 +96,12 @@ impl Run {
     pub fn ending(&self) -> String {
         let (end, why) = (self.history.end().decimal(DIGITS), self.history.ending());
         let bound = bound_of_log2(self.history.error_estimate().log2());
-        format!("ends at t = {end}: {why}; error at most {bound} of the natural scales")
+        let meets = |warning: &Warning| matches!(warning, Warning::Coincidence { .. });
+        let meeting = match self.history.warnings().iter().any(meets) {
+            true => "; an event and a ray that coincide within it are taken for one",
+            false => "",
+        };
+        format!("ends at t = {end}: {why}; error at most {bound} of the natural scales{meeting}")
     }
 
     /// What doubles do not settle, a sentence each; empty where they settle all.
@@ -106,7 +111,8 @@ impl Run {
             .then(|| format!("the bound of the error is {} of the natural scales", bound_of_log2(bound.log2())));
         let undecided =
             matches!(self.history.ending(), Ending::Undecided(_)).then(|| self.history.ending().to_string());
-        let settled = |warning: &Warning| matches!(warning, Warning::DragNeglected { .. });
+        let settled =
+            |warning: &Warning| matches!(warning, Warning::DragNeglected { .. } | Warning::Coincidence { .. });
         let warnings = self.history.warnings().into_iter().filter(|warning| !settled(warning));
         wide.into_iter().chain(undecided).chain(warnings.map(|warning| warning.to_string())).collect()
     }

@@ -6,6 +6,7 @@ use std::fmt;
 use rug::float::{Constant, Round};
 use rug::{Assign, Float, Rational};
 
+use super::super::float::spelled;
 use super::super::radical::Radical;
 use super::super::{Analytic, Answer, Bounded, Estimate, Number, Open, Reads, Scalar, show};
 use super::{Inside, Interval, IntervalPrecision, down, up};
@@ -272,12 +273,14 @@ impl Bounded for Interval {
     }
 
     fn or_exactly(self, other: impl FnOnce() -> Self) -> Self {
-        if !matches!(self.inside, Inside::Lost) {
+        // A quotient by what may be zero has no ends, even where it is known exactly.
+        let lost = matches!(self.inside, Inside::Lost);
+        if !lost && self.is_finite() {
             return self;
         }
         let other = other();
         match self.meet(&other) {
-            Some(both) => Interval { inside: other.inside, ..both },
+            Some(both) => Interval { inside: if lost { other.inside } else { self.inside }, ..both },
             None => self,
         }
     }
@@ -326,9 +329,9 @@ impl Reads<Interval> for Estimate<f64> {
     }
 
     fn give(&self, precision: &IntervalPrecision) -> Interval {
-        match self.value().to_string().parse::<Number>() {
-            Ok(number) => Interval::from_number(&number, precision),
-            Err(_) => Interval::rational(&Rational::from_f64(*self.value()).unwrap_or_default(), *precision),
+        match spelled(*self.value()) {
+            Some(number) => Interval::from_number(&number, precision),
+            None => Interval::rational(&Rational::from_f64(*self.value()).unwrap_or_default(), *precision),
         }
     }
 }

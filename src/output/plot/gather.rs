@@ -217,7 +217,7 @@ fn known_until<S: Target>(history: &History<S>) -> f64 {
         Warning::RoundingDecides { time: from } | Warning::EventsOverlap { from } | Warning::NotDetermined { from } => {
             Some(from)
         }
-        Warning::HopsUnresolved { .. } | Warning::DragNeglected { .. } => None,
+        Warning::Coincidence { .. } | Warning::HopsUnresolved { .. } | Warning::DragNeglected { .. } => None,
     });
     open.fold(history.end().to_f64(), f64::min)
 }
