@@ -76,6 +76,7 @@ mod ray;
 mod reason;
 #[doc(hidden)]
 pub mod scene;
+mod solution;
 #[doc(hidden)]
 pub mod solve;
 #[doc(hidden)]
@@ -101,10 +102,8 @@ pub use reason::{Doubt, NoBounceReason, Reason, StillState, Warning};
 #[cfg(feature = "mp")]
 pub use rug;
 pub use scene::{Effect, EffectUse, Scene, SceneError, SceneErrorKind, Target, TargetQuantity};
-pub use solve::{
-    CERTIFIED_DIGITS, DEFAULT_ACCURACY, Engine, ExactnessEnd, Numbers, Observer, Plan, Question, Reach, Rung, Solution,
-    Want,
-};
+pub use solution::{ExactnessEnd, Solution};
+pub use solve::{CERTIFIED_DIGITS, DEFAULT_ACCURACY, Engine, Numbers, Observer, Plan, Question, Reach, Rung, Want};
 pub use wave::{Stretch, WavePiece, Waves};
 
 #[cfg(doctest)]

@@ -9,7 +9,8 @@ use crate::number::Number;
 use crate::problem::{Parameters, Problem, Run};
 use crate::quantity::Units;
 use crate::reason::Warning;
-use crate::solve::{Numbers, Observer, Plan, Question, Solution};
+use crate::solution::Solution;
+use crate::solve::{Numbers, Observer, Plan, Question};
 
 /// What is said of data besides themselves; the names in messages are those of the command.
 #[derive(Clone, Debug, Default)]

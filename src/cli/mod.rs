@@ -29,7 +29,8 @@ use crate::output::{Head, SCHEMA, write_whole};
 use crate::problem::Parameters;
 use crate::quantity::{Measure, Units};
 use crate::scene::{Effect, Scene};
-use crate::solve::{CERTIFIED_DIGITS, Numbers, Plan, Question, Solution, Target};
+use crate::solution::Solution;
+use crate::solve::{CERTIFIED_DIGITS, Numbers, Plan, Question, Target};
 
 /// Everything that can go wrong, ready to be reported.
 pub type Failure = miette::Report;

@@ -182,6 +182,22 @@ pub fn decimal(x: &Rational, digits: u32) -> String {
     format!("{sign}{head}{dot}{tail}e{exponent}")
 }
 
+/// `value` in so many bits, rounded down.
+pub(super) fn down<T>(bits: u32, value: T) -> Float
+where
+    Float: rug::ops::AssignRound<T, Round = Round, Ordering = Ordering>,
+{
+    Float::with_val_round(bits, value, Round::Down).0
+}
+
+/// `value` in so many bits, rounded up.
+pub(super) fn up<T>(bits: u32, value: T) -> Float
+where
+    Float: rug::ops::AssignRound<T, Round = Round, Ordering = Ordering>,
+{
+    Float::with_val_round(bits, value, Round::Up).0
+}
+
 /// `⌊log₁₀|x|⌋`, or one more or less.
 fn decimal_exponent(x: &Rational) -> i64 {
     Float::with_val(64, x).abs().log10().floor_int().unwrap_or(0)

@@ -76,6 +76,7 @@ pub mod builtin;
 mod effects;
 mod error;
 mod read;
+mod reader;
 mod suggest;
 mod target;
 
