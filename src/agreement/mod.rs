@@ -13,8 +13,8 @@ use crate::error::Error;
 use crate::history::History;
 use crate::problem::{Problem, Top};
 use crate::quantity::{
-    Audit, Books, Column, Finding, Grid, Hint, Measures, Norms, Pair, Touch, gathered, matched, norms, of_contacts,
-    of_impulses, touches,
+    Audit, Books, Column, Finding, Grid, Hint, Measures, Norms, Pair, Place, Touch, gathered, matched, norms,
+    of_contacts, of_impulses, touches,
 };
 
 pub use comparison::{CompareError, ComparedFile, Comparison, Options, Prepared};
@@ -24,7 +24,7 @@ pub use limit::Limit;
 pub(crate) use limit::{Order, orders};
 pub use map::MapError;
 pub(crate) use map::{Map, What};
-use ours::{Ours, Place};
+use ours::Ours;
 pub use report::LEGEND;
 pub(crate) use samples::{Clock, Samples};
 
@@ -98,8 +98,8 @@ impl Agreement {
         let (mut compared, mut hints) = (Vec::new(), Vec::new());
         let mut passing = (Place::Ground, ours.passing(Place::Ground, &grid));
         for ((what, theirs), mut values) in quantities.into_iter().zip(values) {
-            if Place::of(what) != passing.0 {
-                passing = (Place::of(what), ours.passing(Place::of(what), &grid));
+            if what.place() != passing.0 {
+                passing = (what.place(), ours.passing(what.place(), &grid));
             }
             let on_jumps = ours.nearer(what, &grid, (&passing.1, &rounding, &sides), &theirs, &mut values)?;
             let away = |k: usize, window: f64| (passing.1[k] - grid.times[k]).abs() > window;
@@ -107,7 +107,8 @@ impl Agreement {
             let norms = norms(&grid, &values, &theirs, scale, on_jumps, |k| !what.jumps() || away(k, window));
             if grid.points.is_none() && what.is_hinted() {
                 let factors = ours.factors(what);
-                let pair = Pair { ours: &values, theirs: &theirs, scale, rays: what.rays(), factors: &factors };
+                let pair =
+                    Pair { ours: &values, theirs: &theirs, scale, rays: what.quantity().rays(), factors: &factors };
                 // Kinks of a displacement are where its velocity jumps.
                 let finding = measures.of_pair(&pair, |k| away(k, window.max(narrow)));
                 hints.extend(finding.map(|finding| Hint { quantity: what.name().into(), finding }));
@@ -129,7 +130,7 @@ impl Agreement {
                 Some(found.theirs.as_slice())
             };
             let Some((u, velocity)) = theirs(of).zip(theirs(rate)).filter(|_| even) else { continue };
-            let passing = ours.passing(Place::of(What::Column(of)), &grid);
+            let passing = ours.passing(of.place(), &grid);
             let away = |k: usize| (passing[k] - grid.times[k]).abs() > window.max(narrow);
             let finding = measures.of_rate(of.name(), [u, velocity], away);
             hints.extend(finding.map(|finding| Hint { quantity: rate.name().into(), finding }));

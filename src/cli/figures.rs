@@ -55,8 +55,7 @@ impl Figures {
         let drawn = figures.par_iter().map(|figure| {
             let data = figure.data().map_err(failed)?;
             let svg = figure_sheet(figure, &data).map_err(failed)?.svg(self.size);
-            let csv = figure_csv(figure, &data).map_err(|error| miette::miette!("cannot write CSV: {error}"))?;
-            let mut files = vec![(".csv", csv.into_bytes())];
+            let mut files = vec![(".csv", file::made("CSV", figure_csv(figure, &data))?)];
             if cfg!(feature = "plot") {
                 files.push((".png", file::picture(file::Picture::Png, svg.clone(), self.size)?));
             }

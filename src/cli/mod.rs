@@ -25,7 +25,7 @@ use crate::error::Error;
 use crate::history::History;
 use crate::motion::{Ending, Motion};
 use crate::number::{DOUBLE_DIGITS, Number, Scalar, show};
-use crate::output::{Head, SCHEMA, write_whole};
+use crate::output::{Head, SCHEMA};
 use crate::problem::Parameters;
 use crate::quantity::{Measure, Units};
 use crate::scene::{Effect, Scene};
@@ -110,14 +110,14 @@ pub fn run(cli: Cli) -> Result<ExitCode, Failure> {
         Command::Man => {
             let mut page = Vec::new();
             let done = clap_mangen::Man::new(Cli::command()).render(&mut page);
-            done.and_then(|()| write_whole(None, &page)).map_err(source::cannot("write the page"))?;
-            Ok(())
+            done.map_err(source::cannot("write the page"))?;
+            file::write(None, &page)
         }
-        Command::Schema => Ok(write_whole(None, SCHEMA.as_bytes()).map_err(source::cannot("write the schema"))?),
+        Command::Schema => file::write(None, SCHEMA.as_bytes()),
         Command::Completions { shell } => {
             let mut script = Vec::new();
             clap_complete::generate(shell, &mut Cli::command(), "dalembert", &mut script);
-            Ok(write_whole(None, &script).map_err(source::cannot("write the script"))?)
+            file::write(None, &script)
         }
     };
     done.map(|()| ExitCode::SUCCESS)
@@ -200,29 +200,12 @@ fn pool(threads: Option<usize>) -> Result<rayon::ThreadPool, Failure> {
 impl OutputArgs {
     /// What is printed: what is asked for, or what the ending of the file says.
     fn format(&self) -> Result<Format, Failure> {
-        let ending = self.output.as_deref().and_then(file::ending);
-        match (self.format, ending.as_deref()) {
-            (Some(format), _) => Ok(format),
-            (None, Some("json")) => Ok(Format::Json),
-            (None, Some("csv")) => Ok(Format::Csv),
-            (None, Some("txt") | None) => Ok(Format::Table),
-            (None, Some(other)) => Err(miette::miette!(
-                "found the ending .{other}, expected .json, .csv or .txt here, or --format to say what the file holds"
-            )),
-        }
+        let endings = [("json", Format::Json), ("csv", Format::Csv), ("txt", Format::Table), ("", Format::Table)];
+        file::format(self.format, self.output.as_deref(), &endings)
     }
 
-    fn write(&self, text: &str) -> Result<(), Failure> {
-        let name = self.output.as_ref().map_or("standard output".into(), |path| path.display().to_string());
-        Ok(write_whole(self.output.as_deref(), text.as_bytes()).map_err(source::cannot(&format!("write {name}")))?)
-    }
-
-    fn write_csv(&self, text: Result<String, csv::Error>) -> Result<(), Failure> {
-        self.write(&text.map_err(|error| miette::miette!("cannot write CSV: {error}"))?)
-    }
-
-    fn write_json(&self, value: &serde_json::Value) -> Result<(), Failure> {
-        self.write(&format!("{value:#}\n"))
+    fn write(&self, bytes: &[u8]) -> Result<(), Failure> {
+        file::write(self.output.as_deref(), bytes)
     }
 }
 
@@ -266,7 +249,7 @@ trait Report {
     fn gather<N: Scalar>(&self, history: &dyn Motion<N>, head: &Head) -> Result<Self::Data<N>, Error>;
     /// Every number in the data.
     fn numbers<'a, N: Scalar>(&self, data: &'a Self::Data<N>) -> Vec<&'a N>;
-    fn print<N: Scalar>(&self, data: &Self::Data<N>, head: &Head) -> Result<(), Failure>;
+    fn bytes<N: Scalar>(&self, data: &Self::Data<N>, head: &Head, format: Format) -> Result<Vec<u8>, Failure>;
 }
 
 /// What is done with a history, in any number system.
@@ -284,8 +267,9 @@ impl<R: Report> Visit for Printed<'_, R> {
         let gathered = history.ask(|motion| report.gather(motion, &head), |data| report.numbers(data));
         drop(progress);
         let data = gathered?;
-        let shown = output.output.is_none() && output.format()? == Format::Table;
-        report.print(&data, &warned(history, head, shown))
+        let format = output.format()?;
+        let head = warned(history, head, output.output.is_none() && format == Format::Table);
+        output.write(&report.bytes(&data, &head, format)?)
     }
 }
 

@@ -81,6 +81,15 @@ fn read_text(from: impl Read, name: &str) -> Result<String, Failure> {
     Ok(text)
 }
 
+/// A progress bar on standard error, on a terminal only.
+pub(super) fn bar(total: Option<u64>, template: &str) -> ProgressBar {
+    let bar = ProgressBar::with_draw_target(total, ProgressDrawTarget::stderr());
+    match ProgressStyle::with_template(template) {
+        Ok(style) => bar.with_style(style),
+        Err(_) => bar,
+    }
+}
+
 /// A progress bar on standard error: only on a terminal, and only for runs over a second.
 pub(super) struct Progress {
     bar: ProgressBar,
@@ -102,10 +111,8 @@ impl Progress {
             Some(_) => format!("{{bar:40}} {{pos}}/{{len}} {unit}, {{msg}}, {{eta}} left"),
             None => "{spinner} {elapsed}".into(),
         };
-        let bar = ProgressBar::with_draw_target(total, ProgressDrawTarget::hidden());
-        if let Ok(style) = ProgressStyle::with_template(&template) {
-            bar.set_style(style);
-        }
+        let bar = bar(total, &template);
+        bar.set_draw_target(ProgressDrawTarget::hidden());
         // A thread of its own shows it: a single step of a run in many digits can take longer than a second.
         let (running, ended) = channel();
         let shown = bar.clone();

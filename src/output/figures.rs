@@ -21,9 +21,9 @@ pub(crate) fn figure_csv(figure: &Figure, data: &Data) -> Result<String, csv::Er
         return regimes_csv(map);
     }
     let cell = |value: &Option<_>| value.as_ref().map_or_else(String::new, |value| show(value, DOUBLE_DIGITS));
-    let rows = data.rows.iter().map(|row| row.iter().map(cell).collect()).collect();
+    let rows = data.rows.iter().map(|row| row.iter().map(cell).collect());
     let comments = format!("# {}\n# {}\n", figure.shown, figure.corrected);
-    super::csv::write(&comments, data.columns.iter().map(ToString::to_string).collect(), rows)
+    super::csv::write(&comments, &data.columns, rows)
 }
 
 /// What stands beside the files.

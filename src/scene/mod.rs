@@ -48,10 +48,9 @@
 //!
 //! # Published values
 //! A scene may list what others have published of it; `dalembert scenes NAME --targets` prints it beside ours. With a
-//! `time` the quantity is one of `u_end`, `v_end`, `u_top`, `v_top` (displacement and velocity of the two ends),
-//! `strain`, `stress`, `force` (at the ground), `h`, `h_rate`, `E_total`, `E_h`, `E_z`; without a time one of a
-//! contact: `impact` and `release` (times), `duration`, `impact_velocity`, `release_velocity`, `impulse`,
-//! `peak_stress`, `peak_force`.
+//! `time` the quantity is a [`Column`](crate::Column) by its name, such as `u_end`, `stress` or `E_total`, but for the
+//! impulse; without a time one of a contact: `impact` and `release` (times), `duration`, `impact_velocity`,
+//! `release_velocity`, `impulse`, `peak_stress`, `peak_force`.
 //!
 //! ```toml
 //! [[target]]

@@ -7,7 +7,7 @@ use super::reader::{Reader, Value};
 use super::suggest;
 use crate::motion::Side;
 use crate::number::Number;
-use crate::quantity::Measure;
+use crate::quantity::{Column, Measure};
 
 /// A value that others have published for a scene.
 ///
@@ -52,36 +52,14 @@ pub enum TargetQuantity {
     PeakStress,
     /// The greatest force of the ground in a contact.
     PeakForce,
-    /// `v(0,t)`.
-    EndDisplacement,
-    /// `v_t(0,t)`.
-    EndVelocity,
-    /// `v(L,t)`.
-    TopDisplacement,
-    /// `v_t(L,t)`.
-    TopVelocity,
-    /// `v_x(0,t)`.
-    Strain,
-    /// `E v_x(0,t)`.
-    Stress,
-    /// `−E S v_x(0,t)`.
-    Force,
-    /// `h(t)`.
-    Centre,
-    /// `h′(t)`.
-    CentreVelocity,
-    /// `E(t)`.
-    Energy,
-    /// `E_h(t)`.
-    TranslationalEnergy,
-    /// `E_z(t)`.
-    VibrationalEnergy,
+    /// What has a value at every time.
+    Column(Column),
 }
 
 use TargetQuantity as Q;
 
-/// Every quantity, with the word that a scene has for it and what it measures.
-const QUANTITIES: [(Q, &str, Measure); 20] = [
+/// What belongs to a contact, with the word that a scene has for it and what it measures.
+const OF_CONTACT: [(Q, &str, Measure); 8] = [
     (Q::Impact, "impact", Measure::Time),
     (Q::Release, "release", Measure::Time),
     (Q::Duration, "duration", Measure::Time),
@@ -90,39 +68,40 @@ const QUANTITIES: [(Q, &str, Measure); 20] = [
     (Q::Impulse, "impulse", Measure::Impulse),
     (Q::PeakStress, "peak_stress", Measure::Stress),
     (Q::PeakForce, "peak_force", Measure::Force),
-    (Q::EndDisplacement, "u_end", Measure::Length),
-    (Q::EndVelocity, "v_end", Measure::Velocity),
-    (Q::TopDisplacement, "u_top", Measure::Length),
-    (Q::TopVelocity, "v_top", Measure::Velocity),
-    (Q::Strain, "strain", Measure::Strain),
-    (Q::Stress, "stress", Measure::Stress),
-    (Q::Force, "force", Measure::Force),
-    (Q::Centre, "h", Measure::Length),
-    (Q::CentreVelocity, "h_rate", Measure::Velocity),
-    (Q::Energy, "E_total", Measure::Energy),
-    (Q::TranslationalEnergy, "E_h", Measure::Energy),
-    (Q::VibrationalEnergy, "E_z", Measure::Energy),
 ];
 
 impl TargetQuantity {
-    fn row(self) -> &'static (Q, &'static str, Measure) {
-        QUANTITIES.iter().find(|(quantity, ..)| *quantity == self).unwrap_or(&QUANTITIES[0])
+    /// What belongs to a contact, and the columns but for times and the impulse, whose name is that of a contact's.
+    fn all() -> impl Iterator<Item = Self> {
+        let of_contact = OF_CONTACT.into_iter().map(|(quantity, ..)| quantity);
+        let measured = |column: &Column| !matches!(column.measure(), None | Some(Measure::Time | Measure::Impulse));
+        of_contact.chain(Column::ALL.into_iter().filter(measured).map(Q::Column))
+    }
+
+    fn of_contact(self) -> Option<(&'static str, Measure)> {
+        OF_CONTACT.iter().find(|(quantity, ..)| *quantity == self).map(|(_, name, measure)| (*name, *measure))
     }
 
     /// The word that a scene has for it: `u_top`.
     pub fn name(self) -> &'static str {
-        self.row().1
+        match self {
+            Q::Column(column) => column.name(),
+            _ => self.of_contact().map_or("", |(name, _)| name),
+        }
     }
 
     /// What it measures.
     pub fn measure(self) -> Measure {
-        self.row().2
+        match self {
+            Q::Column(column) => column.measure(),
+            _ => self.of_contact().map(|(_, measure)| measure),
+        }
+        .unwrap_or(Measure::Time)
     }
 
     /// Whether it belongs to a contact, and not to a time.
     pub fn is_of_contact(self) -> bool {
-        let of_contact = [Q::Impact, Q::Release, Q::Duration, Q::ImpactVelocity, Q::ReleaseVelocity];
-        of_contact.contains(&self) || matches!(self, Q::Impulse | Q::PeakStress | Q::PeakForce)
+        !matches!(self, Q::Column(_))
     }
 }
 
@@ -188,9 +167,9 @@ impl<'a> Reader<'a> {
         let missing = |key: &str, expected: &str| {
             self.error(span.clone(), Kind::MissingKey, format!("no {key} in [[target]]"), expected)
         };
-        let names = QUANTITIES.map(|(_, name, _)| name);
+        let (quantities, names): (Vec<Q>, Vec<&str>) = Q::all().map(|quantity| (quantity, quantity.name())).unzip();
         let place = self.choice("quantity", &names)?.ok_or_else(|| missing("quantity", &names.join(", ")))?;
-        let quantity = QUANTITIES[place].0;
+        let quantity = quantities[place];
         let refuse = |key: &str, expected: &str| match self.get(key) {
             None => Ok(()),
             Some((key, _)) => {
@@ -217,7 +196,7 @@ impl<'a> Reader<'a> {
                 return Err(missing("time", &format!("the time of the {}", quantity.name())));
             }
         }
-        if !matches!(quantity, Q::EndDisplacement | Q::TopDisplacement | Q::Centre) {
+        if quantity.measure() != Measure::Length {
             refuse("origin", "an origin of u_end, u_top or h only")?;
         }
         if !has_material && matches!(quantity.measure(), Measure::Stress | Measure::Force) {
