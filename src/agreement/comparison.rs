@@ -167,7 +167,8 @@ pub struct ComparedFile {
 const FAR: f64 = 100.0;
 
 /// Where the scene's own run ends. A run of impacts is solved for that only where the data go on for more than [`FAR`]
-/// round trips for each of them; hops may be shorter than a round trip, and then data that are too long are not refused.
+/// round trips for each of them; hops may be shorter than a round trip, and then data that are too long are not
+/// refused.
 fn own_end(problem: &Problem, trip: f64, last: f64) -> Option<f64> {
     match &problem.run {
         Run::Time(time) => Some(time.to_f64()),

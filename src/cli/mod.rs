@@ -74,7 +74,7 @@ enum Command {
     Sweep(sweep::Sweep),
     /// When and whether the first contact ends, over all dampings and impact speeds
     Regimes(regimes::Regimes),
-    /// The figures of the paper from its parameters, and two more: SVG, PNG and CSV, with an index
+    /// The figures of the paper from its parameters, and two more: SVG, PNG, PDF and CSV, with an index
     Figures(figures::Figures),
     /// Hard cases and the paper's claims, worked out by every route and held against the truth
     Check(check::Check),
