@@ -6,6 +6,7 @@ use super::samples::Rounding;
 use crate::error::Error;
 use crate::history::History;
 use crate::motion::{Field, Side, StressPiece};
+use crate::number::Number;
 use crate::problem::{Material, Parameters, Problem, Start, Top};
 use crate::quantity::{Column, Grid, Measure, Moments, Place, Touch};
 use crate::special::gauss_legendre;
@@ -40,7 +41,9 @@ impl<'a> Ours<'a> {
         let rod = Parameters::of(problem, &())?;
         let material = match &problem.rod.material {
             Material::WaveSpeed(_) => [rod.wave_speed * rod.wave_speed, 1.0, 1.0],
-            Material::Elastic { modulus, density, area } => [modulus, density, area].map(|number| number.to_f64()),
+            Material::Elastic { modulus, density, area } => {
+                [modulus.to_f64(), density.to_f64(), area.as_ref().map_or(1.0, Number::to_f64)]
+            }
         };
         let pieces = history.stress_history()?.pieces;
         let (trip, end) = (rod.round_trip(), *history.end());

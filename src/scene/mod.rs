@@ -5,10 +5,10 @@
 //!
 //! ```toml
 //! title = "A rod dropped on the ground"
-//! units = "SI"          # or "in-lbf-s", "mm-N-s", "other": names what is printed, with modulus, density and area
+//! units = "SI"          # or "in-lbf-s", "mm-N-s", "other": names what is printed, with modulus and density
 //! [rod]
 //! length = 1            # L
-//! wave_speed = 1        # c; or modulus, density and area: then c = √(modulus/density)
+//! wave_speed = 1        # c; or modulus and density: then c = √(modulus/density); area, or else forces are per area
 //! damping = 0           # r; absent or 0: no damping
 //! top = "free"          # or "fixed"
 //! [impact]

@@ -201,7 +201,7 @@ impl<'a> Reader<'a> {
         }
         if !has_material && matches!(quantity.measure(), Measure::Stress | Measure::Force) {
             let found = format!("the {} in [[target]]", quantity.name());
-            let expected = "modulus, density and area in [rod], or strain";
+            let expected = "modulus and density in [rod], or strain";
             return Err(self.error(span, Kind::MissingKey, found, expected));
         }
         Ok(Target {

@@ -48,7 +48,6 @@ const CASES: &[Case] = &[
     case("missing_length", "[rod]\nwave_speed = 1\n", Kind::MissingKey, (1, 2), "rod"),
     case("missing_wave_speed", "[rod]\nlength = 1\n", Kind::MissingKey, (1, 2), "rod"),
     case("missing_density", "[rod]\nlength = 1\nmodulus = 1\narea = 1", Kind::MissingKey, (1, 2), "rod"),
-    case("missing_area", "[rod]\nlength = 1\nmodulus = 1\ndensity = 1", Kind::MissingKey, (1, 2), "rod"),
     case("missing_start", "rod = { length = 1, wave_speed = 1 }\n", Kind::MissingKey, (1, 1), ""),
     case("missing_speed", "rod = { length = 1, wave_speed = 1 }\n[impact]\n", Kind::MissingKey, (2, 2), "impact"),
     case(
