@@ -90,7 +90,9 @@ pub use first_contact::{Bounce, BounceKind, FirstContact, Rebound};
 pub use glam;
 pub use history::History;
 pub use modal::Modal;
-pub use motion::{Contact, Ending, Energy, Event, EventKind, Field, Motion, Scales, Side, StressHistory, StressPiece};
+pub use motion::{
+    Contact, Course, Ending, Energy, Event, EventKind, Field, Motion, Scales, Side, StressHistory, StressPiece,
+};
 pub use number::{Analytic, Answer, Estimate, Float, Interval, Number, NumberError, Open, Rational, Scalar};
 pub use paper::UndampedContact;
 pub use problem::{

@@ -449,20 +449,69 @@ impl Uncertainty {
     }
 }
 
+/// What has happened, up to the end.
+#[derive(Clone, Debug)]
+pub struct Course<S> {
+    /// The last time that is known.
+    pub end: S,
+    /// Why it is the last.
+    pub ending: Ending,
+    /// All impacts and releases, in order.
+    pub events: Vec<Event<S>>,
+    /// All contacts, in order.
+    pub contacts: Vec<Contact<S>>,
+    /// What a user should know beside the numbers.
+    pub warnings: Vec<Warning>,
+}
+
+impl<S> Course<S> {
+    /// Nothing yet.
+    pub fn new(end: S, ending: Ending) -> Self {
+        Course { end, ending, events: Vec::new(), contacts: Vec::new(), warnings: Vec::new() }
+    }
+
+    /// The same in other numbers.
+    pub fn map<T>(self, f: impl Fn(S) -> T) -> Course<T> {
+        Course {
+            end: f(self.end),
+            ending: self.ending,
+            events: self.events.into_iter().map(|event| event.map(&f)).collect(),
+            contacts: self.contacts.into_iter().map(|contact| contact.map(&f)).collect(),
+            warnings: self.warnings,
+        }
+    }
+}
+
 /// What can be asked of a solution. All times are absolute, in the units of the scene; a time outside of
 /// `0 … end()` is [`Error::TimeOutside`], a point outside of the rod is [`Error::PointOutside`].
 pub trait Motion<S: Scalar>: fmt::Debug + Send + Sync {
+    /// What has happened, up to the end.
+    fn course(&self) -> &Course<S>;
+
     /// The last time that is known.
-    fn end(&self) -> S;
+    fn end(&self) -> S {
+        self.course().end.clone()
+    }
 
     /// Why it is the last.
-    fn ending(&self) -> &Ending;
+    fn ending(&self) -> &Ending {
+        &self.course().ending
+    }
 
     /// All impacts and releases, in order. The start at `t = 0` is the first impact where the rod stands on the ground.
-    fn events(&self) -> &[Event<S>];
+    fn events(&self) -> &[Event<S>] {
+        &self.course().events
+    }
 
     /// All contacts, in order.
-    fn contacts(&self) -> &[Contact<S>];
+    fn contacts(&self) -> &[Contact<S>] {
+        &self.course().contacts
+    }
+
+    /// What a user should know beside the numbers.
+    fn warnings(&self) -> &[Warning] {
+        &self.course().warnings
+    }
 
     /// `v_x(0,·)` from 0 to the end, pieces in order, canonical: neighbours that continue each other are one.
     fn stress_pieces(&self) -> Vec<StressPiece<S>>;
@@ -552,11 +601,6 @@ pub trait Motion<S: Scalar>: fmt::Debug + Send + Sync {
     /// that is not followed.
     fn digits_lost(&self) -> Option<(u32, f64)> {
         None
-    }
-
-    /// What a user should know beside the numbers.
-    fn warnings(&self) -> &[Warning] {
-        &[]
     }
 }
 
