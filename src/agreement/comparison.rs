@@ -1,8 +1,10 @@
 //! From data to a report: what may be said of them, the run that they call for, and what comes of it.
 
-use super::{
-    Agreement, Axis, Clock, Compression, Conventions, Limit, Map, MapError, Order, Origin, Samples, Settings, orders,
-};
+use super::agree::{Agreement, Settings};
+use super::conventions::{Axis, Compression, Conventions, Origin};
+use super::limit::{Limit, Order, orders};
+use super::map::{Map, MapError};
+use super::samples::{Clock, Samples};
 use crate::data::{DataError, Source};
 use crate::error::Error;
 use crate::number::Number;

@@ -2,7 +2,9 @@
 
 use serde_json::{Value, json};
 
-use super::{Agreement, Compared, ComparedFile, Comparison, Order};
+use super::agree::{Agreement, Compared};
+use super::comparison::{ComparedFile, Comparison};
+use super::limit::Order;
 use crate::aligned::table;
 use crate::number::Scalar;
 use crate::quantity::{Column, Extreme, Greatest, Norm, Touch, Units};

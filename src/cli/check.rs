@@ -5,7 +5,8 @@ use std::process::ExitCode;
 
 use clap::{Args, ValueEnum};
 
-use super::{Failure, file, source};
+use super::failure::Failure;
+use super::{file, source};
 use crate::compare::check::{CATALOGUE, Case, Checked, Group, Verdict, select};
 use crate::compare::published;
 use crate::output::{check_json, check_page, check_summary, check_table};

@@ -5,8 +5,9 @@ use std::process::ExitCode;
 
 use clap::Args;
 
-use super::file::{self, Kind};
-use super::{Failure, Format, source};
+use super::failure::Failure;
+use super::file::{self, Format, Kind};
+use super::source;
 use crate::agreement::{Axis, Comparison, Compression, LEGEND, Limit, Options, Origin, Prepared};
 use crate::data::Source;
 use crate::number::Number;

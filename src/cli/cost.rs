@@ -4,8 +4,10 @@ use std::path::PathBuf;
 
 use clap::Args;
 
-use super::file::{self, Kind};
-use super::{Failure, Format, NumberArgs, source};
+use super::args::NumberArgs;
+use super::failure::Failure;
+use super::file::{self, Format, Kind};
+use super::source;
 use crate::compare::cost::{self, Difference, Table};
 use crate::compare::{Quantity, Question, plan};
 use crate::number::Number;

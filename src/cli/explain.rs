@@ -3,7 +3,10 @@
 use clap::Args;
 use serde_json::json;
 
-use super::{Failure, Format, NumberArgs, OutputArgs, file, source};
+use super::args::{NumberArgs, OutputArgs};
+use super::failure::Failure;
+use super::file::{self, Format};
+use super::source;
 use crate::aligned::table;
 use crate::output::{WIDTH, wrapped};
 use crate::scene::{Effect, EffectUse, Scene};

@@ -5,8 +5,9 @@ use std::path::PathBuf;
 use clap::Args;
 use rayon::prelude::*;
 
+use super::args::pool;
+use super::failure::{self, Failure};
 use super::file::{self, Picture};
-use super::{Failure, source};
 use crate::figures::{ALL, Failed, Figure};
 use crate::output::{Size, figure_csv, figure_sheet, figures_index, write_files};
 
@@ -51,9 +52,9 @@ impl Figures {
         }
         let chosen = |figure: &&Figure| self.only.is_empty() || self.only.contains(&figure.name);
         let figures: Vec<&Figure> = ALL.iter().filter(chosen).collect();
-        let pool = super::pool(self.threads)?;
+        let pool = pool(self.threads)?;
         let files = pool.install(|| self.files(&figures))?;
-        write_files(&self.output, &files).map_err(source::cannot(&format!("write {}", self.output.display())))?;
+        write_files(&self.output, &files).map_err(failure::cannot(&format!("write {}", self.output.display())))?;
         Ok(())
     }
 

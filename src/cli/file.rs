@@ -2,10 +2,23 @@
 
 use std::path::{Path, PathBuf};
 
-use super::{Failure, Format, source};
+use clap::ValueEnum;
+
+use super::failure::{self, Failure};
 #[cfg(feature = "plot")]
 use crate::output::Rendered;
 use crate::output::{Size, write_whole};
+
+/// How rows are written.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub(super) enum Format {
+    /// For a person
+    Table,
+    /// For a program
+    Json,
+    /// For a spreadsheet
+    Csv,
+}
 
 /// What a picture is written as, by the ending of its file.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -63,9 +76,9 @@ pub(super) fn format<F: Copy>(asked: Option<F>, path: Option<&Path>, endings: &[
 }
 
 /// That `path`, or standard output, cannot be written.
-pub(super) fn unwritten(path: Option<&Path>) -> impl FnOnce(std::io::Error) -> source::Io + use<> {
+pub(super) fn unwritten(path: Option<&Path>) -> impl FnOnce(std::io::Error) -> failure::Io + use<> {
     let path = path.filter(|path| *path != Path::new("-"));
-    source::cannot(&format!("write {}", path.map_or("standard output".into(), |path| path.display().to_string())))
+    failure::cannot(&format!("write {}", path.map_or("standard output".into(), |path| path.display().to_string())))
 }
 
 /// Writes to a file whole or not at all, or to standard output.

@@ -5,8 +5,11 @@ use std::sync::mpsc::sync_channel;
 
 use clap::Args;
 
+use super::answer::{Visit, noted_end, solve, warned};
+use super::args::NumberArgs;
+use super::failure::{self, Failure};
 use super::times::{CHUNK, Chunk, Times, TimesFile};
-use super::{Failure, NumberArgs, Visit, file, noted_end, solve, source, warned};
+use super::{file, source};
 use crate::error::Error;
 use crate::history::History;
 use crate::motion::{Motion, Side};
@@ -170,7 +173,7 @@ impl Visit for Series<'_> {
             Some(_) => Described::slice(&units),
             None => self.columns.iter().map(|column| Described::column(*column, &units)).collect(),
         };
-        let keep = || source::cannot("keep the rows");
+        let keep = || failure::cannot("keep the rows");
         let mut rows = Rows::new(self.golden, described, head.digits).map_err(keep())?;
         let at_once = CHUNK / self.asked.points.as_ref().map_or(1, List::len).min(CHUNK);
         std::thread::scope(|scope| {

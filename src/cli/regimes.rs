@@ -4,8 +4,10 @@ use std::path::{Path, PathBuf};
 
 use clap::Args;
 
+use super::args::pool;
+use super::failure::Failure;
 use super::file::{self, Picture};
-use super::{Failure, source};
+use super::source;
 use crate::output::{Size, regimes_csv, regimes_npz, regimes_svg, regimes_text, threshold_csv};
 use crate::sweep::Map;
 
@@ -47,7 +49,7 @@ impl Regimes {
         // Before anything is solved.
         let kinds = self.output.iter().map(|path| self.kind(path)).collect::<Result<Vec<_>, Failure>>()?;
         let bar = source::bar(None, "{spinner} {pos} points, {elapsed}");
-        let pool = super::pool(self.threads)?;
+        let pool = pool(self.threads)?;
         // The curve takes R alone.
         let speeds = if self.curve { "1,2" } else { &self.speed_ratio };
         let map = pool.install(|| Map::new(&self.damping_ratio, speeds, || bar.inc(1)))?;

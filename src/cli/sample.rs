@@ -2,7 +2,11 @@
 
 use clap::Args;
 
-use super::{Failure, Format, NumberArgs, OutputArgs, Report, answer, file, source};
+use super::answer::{Report, answer};
+use super::args::{NumberArgs, OutputArgs};
+use super::failure::Failure;
+use super::file::{self, Format};
+use super::source;
 use crate::error::Error;
 use crate::motion::{Motion, Side};
 use crate::number::{List, Scalar};

@@ -2,7 +2,11 @@
 
 use clap::Args;
 
-use super::{Failure, Format, OutputArgs, Report, answer, file, source};
+use super::answer::{Report, answer};
+use super::args::OutputArgs;
+use super::failure::Failure;
+use super::file::{self, Format};
+use super::source;
 use crate::aligned::table;
 use crate::compare::Reached;
 use crate::error::Error;

@@ -4,7 +4,11 @@ use std::io::IsTerminal;
 
 use clap::Args;
 
-use super::{Failure, Format, NumberArgs, OutputArgs, Report, answer, file, noted_end, source};
+use super::answer::{Report, answer, noted_end};
+use super::args::{NumberArgs, OutputArgs};
+use super::failure::Failure;
+use super::file::{self, Format};
+use super::source;
 use crate::error::Error;
 use crate::motion::Motion;
 use crate::number::Scalar;

@@ -10,26 +10,13 @@ use std::time::Duration;
 
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 
-use super::Failure;
+use super::failure::{Failure, cannot};
 use crate::problem::Parameters;
 use crate::scene::{Scene, builtin};
 use crate::solve::{Observer, Plan, Reach};
 
 /// More than any scene: what is read of an endless stream before it is refused.
 const MAX_BYTES: u64 = (16 << 20) + 1;
-
-/// A failure to read or write, with what was tried.
-#[derive(Debug, thiserror::Error, miette::Diagnostic)]
-#[error("cannot {what}: {error}")]
-pub(super) struct Io {
-    what: String,
-    error: std::io::Error,
-}
-
-pub(super) fn cannot(what: &str) -> impl FnOnce(std::io::Error) -> Io + use<> {
-    let what = what.to_string();
-    move |error| Io { what, error }
-}
 
 #[derive(Debug, thiserror::Error, miette::Diagnostic)]
 #[error("found no file and no built-in scene called `{name}`")]

@@ -8,7 +8,9 @@ use std::process::ExitCode;
 use clap::{Args, ValueEnum};
 use serde_json::json;
 
-use super::{Failure, NumberArgs, file, source};
+use super::args::{NumberArgs, pool};
+use super::failure::{self, Failure};
+use super::{file, source};
 use crate::compare::Quantity;
 use crate::number::Number;
 use crate::output::{sweep_csv, sweep_json, sweep_npz, sweep_table};
@@ -140,7 +142,7 @@ impl Sweep {
         };
         file::write(path, &bytes)?;
         if let Some((journal, path)) = journal.zip(path) {
-            journal.remove().map_err(source::cannot(&format!("remove {}", journal_of(path).display())))?;
+            journal.remove().map_err(failure::cannot(&format!("remove {}", journal_of(path).display())))?;
         }
         let mut cells = found.iter().flat_map(|point| &point.cells);
         let fails = !found.is_empty() && cells.all(|cell| cell.value.is_null());
@@ -157,14 +159,14 @@ impl Sweep {
         let bar = source::bar(Some(points.len() as u64), "{bar:40} {pos}/{len} points, {eta} left");
         bar.inc(known.len() as u64);
         bar.reset_eta();
-        let pool = super::pool(self.threads)?;
+        let pool = pool(self.threads)?;
         let done = |point: &Point| {
             bar.inc(1);
             journal.map_or(Ok(()), |journal| journal.add(point))
         };
         let found = pool.install(|| sweep.run(points, known, done));
         bar.finish_and_clear();
-        Ok(found.map_err(source::cannot("keep finished points"))?)
+        Ok(found.map_err(failure::cannot("keep finished points"))?)
     }
 
     fn shape(&self) -> Result<Shape, Failure> {
@@ -190,6 +192,6 @@ fn unopened(output: &Path, error: std::io::Error) -> Failure {
         ErrorKind::InvalidData => {
             SweepError::new(format!("{journal} of another sweep"), "the same command, or the file removed").into()
         }
-        _ => source::cannot(&format!("write {journal}"))(error).into(),
+        _ => failure::cannot(&format!("write {journal}"))(error).into(),
     }
 }

@@ -3,7 +3,7 @@
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
 
-use super::Grid;
+use super::grid::Grid;
 use crate::compare::{NoAnswer, Quantity, Question, asked};
 use crate::history::History;
 use crate::number::{Number, Scalar, bound_json, number_json, shown_bound_text};

@@ -2,7 +2,7 @@
 
 use glam::DVec2;
 
-use super::Along;
+use super::picture::Along;
 use crate::error::Error;
 use crate::history::History;
 use crate::motion::{Field, Side};

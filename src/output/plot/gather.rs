@@ -1,7 +1,7 @@
 //! What pictures of a scene are drawn from: answers of its history in doubles, over the span that is drawn.
 
 use super::cells::{self, Break, Cells, Strip, settled};
-use super::{Along, Picture};
+use super::picture::{Along, Picture};
 use crate::error::Error;
 use crate::history::History;
 use crate::motion::{EventKind, Motion, Side, StressPiece};
