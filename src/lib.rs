@@ -45,6 +45,7 @@ pub mod cells;
 pub mod cli;
 #[cfg(feature = "cli")]
 mod compare;
+mod course;
 #[cfg(feature = "compare")]
 #[doc(hidden)]
 pub mod data;
