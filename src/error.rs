@@ -9,7 +9,7 @@ use thiserror::Error;
 pub enum Error {
     /// A problem that cannot be built.
     #[error(transparent)]
-    Problem(#[from] crate::problem::ProblemError),
+    Problem(#[from] ProblemError),
     /// A fraction cannot hold a square root.
     #[error(
         "exact fractions cannot hold the {quantity} √({square}), expected a square, or digits in place of fractions"
@@ -123,8 +123,8 @@ pub enum Error {
     },
     /// No engine that works in enclosures.
     #[error(
-        "found a damped rod with a gap, an initial strain, an initial velocity that varies, or a fixed top, expected no \
-         damping, or a uniform start on the ground under a free top: only there are digits proved"
+        "found a damped rod with a gap, an initial strain, an initial velocity that varies, or a fixed top, expected \
+         no damping, or a uniform start on the ground under a free top: only there are digits proved"
     )]
     NotCertified,
     /// More bits would be needed than are worth trying.
@@ -184,5 +184,58 @@ impl Error {
     /// [`Error::NotDecided`], which counts as an open comparison.
     pub(crate) fn not_decided(what: &'static str, bits: Option<u32>) -> Self {
         Error::NotDecided { what, bits: bits.unwrap_or(0) }
+    }
+}
+
+/// What is wrong with a problem: which value, what was found and what was expected.
+///
+/// ```
+/// use dalembert::{Problem, problem::ProblemErrorKind};
+/// let error = Problem::builder().length("1 m").wave_speed(1).impact_speed(3).build().unwrap_err();
+/// assert_eq!((error.kind, error.path.as_str()), (ProblemErrorKind::NotANumber, "rod.length"));
+/// let expected = "a number such as 3, 0.1, 1e-9 or \"1/3\", without a unit";
+/// assert_eq!(error.to_string(), format!("found length = \"1 m\", expected {expected}"));
+/// ```
+#[derive(Clone, Debug, Error, PartialEq, Eq)]
+#[error("found {found}, expected {expected}")]
+#[non_exhaustive]
+pub struct ProblemError {
+    /// Which rule the problem breaks.
+    pub kind: ProblemErrorKind,
+    /// The value, or the table that lacks one, as a scene file has it: `impact.speed`, `start.velocity[3].x`, `rod`.
+    /// It is empty where neither an impact nor a profile is given.
+    pub path: String,
+    /// What was found, the offending value included.
+    pub found: String,
+    /// What was expected in its place.
+    pub expected: String,
+}
+
+/// Which rule a problem breaks.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[non_exhaustive]
+pub enum ProblemErrorKind {
+    /// A value that this problem needs and does not have.
+    Missing,
+    /// A text or a double that is no usable number.
+    NotANumber,
+    /// A value outside of its range.
+    OutOfRange,
+    /// Two values that exclude each other.
+    Contradiction,
+    /// A start whose points do not run along the rod.
+    Profile,
+    /// Values that are each possible, in a combination that double precision cannot hold.
+    Combination,
+}
+
+impl ProblemError {
+    pub(crate) fn new(
+        kind: ProblemErrorKind,
+        path: &str,
+        found: impl Into<String>,
+        expected: impl Into<String>,
+    ) -> Self {
+        ProblemError { kind, path: path.into(), found: found.into(), expected: expected.into() }
     }
 }

@@ -317,8 +317,8 @@ impl<S: Target> History<S> {
         times: impl Fn(&dyn Motion<S::Carried>) -> Result<Vec<S::Carried>, Error>,
     ) -> Result<Vec<Vec<S::Carried>>, Error> {
         let query = |engine: &dyn Motion<S::Carried>| {
-            let table = quantity::columns(engine, &self.ladder.problem, columns, &times(engine)?, side)?;
-            let natural = quantity::natural_scales(engine, &self.ladder.problem, columns);
+            let table = quantity::columns(engine, &self.units(), columns, &times(engine)?, side)?;
+            let natural = quantity::natural_scales(engine, &self.units(), columns);
             let scaled = quantity::of_one_size(&table, &natural);
             Ok((table, scaled))
         };
@@ -360,7 +360,7 @@ impl<S: Target> History<S> {
         let query = |engine: &dyn Motion<S::Carried>| {
             let (points, times) = grid(engine)?;
             let table = quantity::slices(engine, slice, &points, &times, side)?;
-            let natural = quantity::natural_scales(engine, &self.ladder.problem, &columns);
+            let natural = quantity::natural_scales(engine, &self.units(), &columns);
             let scaled = quantity::of_one_size(&table, &natural);
             Ok((table, scaled))
         };

@@ -45,6 +45,7 @@ pub mod cells;
 pub mod cli;
 #[cfg(feature = "cli")]
 mod compare;
+mod course;
 #[cfg(feature = "compare")]
 #[doc(hidden)]
 pub mod data;
@@ -76,6 +77,7 @@ mod ray;
 mod reason;
 #[doc(hidden)]
 pub mod scene;
+mod solution;
 #[doc(hidden)]
 pub mod solve;
 #[doc(hidden)]
@@ -89,7 +91,9 @@ pub use first_contact::{Bounce, BounceKind, FirstContact, Rebound};
 pub use glam;
 pub use history::History;
 pub use modal::Modal;
-pub use motion::{Contact, Ending, Energy, Event, EventKind, Field, Motion, Scales, Side, StressHistory, StressPiece};
+pub use motion::{
+    Contact, Course, Ending, Energy, Event, EventKind, Field, Motion, Scales, Side, StressHistory, StressPiece,
+};
 pub use number::{Analytic, Answer, Estimate, Float, Interval, Number, NumberError, Open, Rational, Scalar};
 pub use paper::UndampedContact;
 pub use problem::{
@@ -101,10 +105,8 @@ pub use reason::{Doubt, NoBounceReason, Reason, StillState, Warning};
 #[cfg(feature = "mp")]
 pub use rug;
 pub use scene::{Effect, EffectUse, Scene, SceneError, SceneErrorKind, Target, TargetQuantity};
-pub use solve::{
-    CERTIFIED_DIGITS, DEFAULT_ACCURACY, Engine, ExactnessEnd, Numbers, Observer, Plan, Question, Reach, Rung, Solution,
-    Want,
-};
+pub use solution::{ExactnessEnd, Solution};
+pub use solve::{CERTIFIED_DIGITS, DEFAULT_ACCURACY, Engine, Numbers, Observer, Plan, Question, Reach, Rung, Want};
 pub use wave::{Stretch, WavePiece, Waves};
 
 #[cfg(doctest)]

@@ -1,396 +1,15 @@
-//! The answer as an object: what happened, and what can be asked of it.
+//! What can be asked of a motion, whatever engine answers.
 
 use std::fmt;
 use std::ops::ControlFlow;
 
-use serde::{Serialize, Serializer};
-
+pub use crate::course::{Contact, Course, Ending, Energy, Event, EventKind, Side, StressHistory, StressPiece};
 use crate::error::Error;
 pub use crate::field::Field;
 use crate::number::Scalar;
 use crate::ray::Ray;
-use crate::reason::{Reason, Warning};
+use crate::reason::Warning;
 use crate::wave::{Stretch, Waves};
-
-/// Writes a number as JSON has it: a number for a double, a text for all others.
-fn number<S: Scalar, Z: Serializer>(x: &S, z: Z) -> Result<Z::Ok, Z::Error> {
-    x.serialize(z)
-}
-
-fn optional<S: Scalar, Z: Serializer>(x: &Option<S>, z: Z) -> Result<Z::Ok, Z::Error> {
-    match x {
-        Some(x) => x.serialize(z),
-        None => z.serialize_none(),
-    }
-}
-
-fn list<S: Scalar, Z: Serializer>(list: &[S], z: Z) -> Result<Z::Ok, Z::Error> {
-    struct One<'a, S>(&'a S);
-    impl<S: Scalar> Serialize for One<'_, S> {
-        fn serialize<Z: Serializer>(&self, z: Z) -> Result<Z::Ok, Z::Error> {
-            self.0.serialize(z)
-        }
-    }
-    z.collect_seq(list.iter().map(One))
-}
-
-/// Which of two values at a jump: the limit from earlier or from later times.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
-#[serde(rename_all = "snake_case")]
-#[cfg_attr(feature = "cli", derive(clap::ValueEnum))]
-pub enum Side {
-    /// The limit from earlier times, `t⁻`; at the start the given data.
-    Left,
-    /// The limit from later times, `t⁺`.
-    #[default]
-    Right,
-}
-
-/// What happens to the ground end.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
-#[serde(rename_all = "snake_case")]
-pub enum EventKind {
-    /// It lands: contact begins.
-    Impact,
-    /// It leaves: contact ends.
-    Release,
-}
-
-/// A change between contact and flight.
-#[derive(Clone, Debug, PartialEq, Serialize)]
-#[serde(bound = "S: Scalar")]
-pub struct Event<S> {
-    /// Landing or leaving.
-    pub kind: EventKind,
-    /// `t`.
-    #[serde(serialize_with = "number")]
-    pub time: S,
-    /// `v_t(0,t)`: just before an impact, just after a release. At a landing without speed that a ray turns into an
-    /// impact, the `v_t + c v_x < 0` which that ray brings.
-    #[serde(serialize_with = "number")]
-    pub end_velocity: S,
-    /// `h(t)`: the centre of mass, relative to its place in the undeformed rod on the ground.
-    #[serde(serialize_with = "number")]
-    pub centre: S,
-    /// `h′(t)`.
-    #[serde(serialize_with = "number")]
-    pub centre_velocity: S,
-    /// How far `time` may be off, in its own unit: zero where it is exact.
-    pub time_error: f64,
-}
-
-/// A time on the ground.
-#[derive(Clone, Debug, PartialEq, Serialize)]
-#[serde(bound = "S: Scalar")]
-pub struct Contact<S> {
-    /// Its beginning.
-    #[serde(serialize_with = "number")]
-    pub from: S,
-    /// Its end; `None` where the history ends before.
-    #[serde(serialize_with = "optional")]
-    pub to: Option<S>,
-    /// `−c² ∫ v_x(0,t) dt ≥ 0` over the contact: momentum per linear density `ρS` that the ground gives;
-    /// [`History::units`](crate::History::units) has the factor that makes it that of the rod.
-    #[serde(serialize_with = "number")]
-    pub impulse: S,
-    /// The most compressive strain `v_x(0,t)` of the contact, `≤ 0`; [`History::units`](crate::History::units) has the
-    /// factors that make it a stress and a force.
-    #[serde(serialize_with = "number")]
-    pub peak_strain: S,
-}
-
-/// The energies (3.54), (3.61)–(3.63), per linear density `ρS`; [`History::units`](crate::History::units) has the
-/// factor that makes them those of the rod.
-#[derive(Clone, Debug, PartialEq, Serialize)]
-#[serde(bound = "S: Scalar")]
-pub struct Energy<S> {
-    /// `E = E_h + E_z`.
-    #[serde(serialize_with = "number")]
-    pub total: S,
-    /// `E_h = L h′²/2 + L g h`: the motion of the centre of mass.
-    #[serde(serialize_with = "number")]
-    pub translational: S,
-    /// `E_z = ½ ∫ ((v_t − h′)² + c² v_x²) dx`, a sum of squares.
-    #[serde(serialize_with = "number")]
-    pub vibrational: S,
-}
-
-/// A stretch of the stress history without jump or kink. Its values are strains `v_x(0,·)`, stress divided by the
-/// modulus: see [`StressHistory`].
-#[derive(Clone, Debug, PartialEq, Serialize)]
-#[serde(bound = "S: Scalar")]
-pub struct StressPiece<S> {
-    /// Its beginning.
-    #[serde(serialize_with = "number")]
-    pub from: S,
-    /// Its end.
-    #[serde(serialize_with = "number")]
-    pub to: S,
-    /// `v_x(0, from⁺)`.
-    #[serde(serialize_with = "number")]
-    pub left: S,
-    /// `v_x(0, to⁻)`.
-    #[serde(serialize_with = "number")]
-    pub right: S,
-    /// Chebyshev coefficients of `v_x(0,·)` on the piece (first one whole, not halved); empty where it is linear.
-    #[serde(serialize_with = "list")]
-    pub chebyshev: Vec<S>,
-}
-
-impl fmt::Display for EventKind {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.pad(match self {
-            EventKind::Impact => "impact",
-            EventKind::Release => "release",
-        })
-    }
-}
-
-impl fmt::Display for Side {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.pad(match self {
-            Side::Left => "left",
-            Side::Right => "right",
-        })
-    }
-}
-
-impl<S> Event<S> {
-    /// The same event in other numbers.
-    pub fn map<T>(self, f: impl Fn(S) -> T) -> Event<T> {
-        Event {
-            kind: self.kind,
-            time: f(self.time),
-            end_velocity: f(self.end_velocity),
-            centre: f(self.centre),
-            centre_velocity: f(self.centre_velocity),
-            time_error: self.time_error,
-        }
-    }
-
-    /// Every number in it.
-    pub(crate) fn numbers(&self) -> [&S; 4] {
-        [&self.time, &self.end_velocity, &self.centre, &self.centre_velocity]
-    }
-}
-
-impl<S: Scalar> fmt::Display for Event<S> {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let [time, end, centre, rate] = self.numbers().map(Scalar::text);
-        write!(f, "{} at t = {time}: v_t(0,t) = {end}, h = {centre}, h′ = {rate}", self.kind)
-    }
-}
-
-impl<S> Contact<S> {
-    /// The same contact in other numbers.
-    pub fn map<T>(self, f: impl Fn(S) -> T) -> Contact<T> {
-        Contact { from: f(self.from), to: self.to.map(&f), impulse: f(self.impulse), peak_strain: f(self.peak_strain) }
-    }
-
-    /// Every number in it.
-    pub(crate) fn numbers(&self) -> impl Iterator<Item = &S> {
-        [&self.from, &self.impulse, &self.peak_strain].into_iter().chain(&self.to)
-    }
-}
-
-impl<S: Scalar> fmt::Display for Contact<S> {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let to = self.to.as_ref().map_or_else(|| "no end".to_string(), Scalar::text);
-        let [from, impulse, peak] = [&self.from, &self.impulse, &self.peak_strain].map(Scalar::text);
-        write!(f, "contact from t = {from} to {to}: impulse {impulse}, peak v_x(0,t) = {peak}")
-    }
-}
-
-impl<S> Energy<S> {
-    /// The same energies in other numbers.
-    pub fn map<T>(self, f: impl Fn(S) -> T) -> Energy<T> {
-        Energy { total: f(self.total), translational: f(self.translational), vibrational: f(self.vibrational) }
-    }
-
-    /// Every number in it.
-    pub(crate) fn numbers(&self) -> [&S; 3] {
-        [&self.total, &self.translational, &self.vibrational]
-    }
-}
-
-impl<S> StressPiece<S> {
-    /// The same piece in other numbers.
-    pub fn map<T>(self, f: impl Fn(S) -> T) -> StressPiece<T> {
-        StressPiece {
-            from: f(self.from),
-            to: f(self.to),
-            left: f(self.left),
-            right: f(self.right),
-            chebyshev: self.chebyshev.into_iter().map(f).collect(),
-        }
-    }
-}
-
-impl<S: Scalar> StressPiece<S> {
-    /// `v_x(0,t)` at a time of the piece: linear between its ends, or the Chebyshev sum.
-    ///
-    /// **Accuracy**: that of the coefficients, and a rounding for each of them.
-    ///
-    /// ```
-    /// let rod = dalembert::Problem::uniform(1.into(), 1.into(), 1.into(), 3.into());
-    /// let pieces = rod.solve()?.stress_history()?.pieces;
-    /// // −(μ + g t)/c until the wave comes back.
-    /// assert_eq!(pieces[0].eval(&0.5), -3.5);
-    /// # Ok::<(), dalembert::Error>(())
-    /// ```
-    pub fn eval(&self, time: &S) -> S {
-        let width = self.to.clone() - &self.from;
-        let share = (time.clone() - &self.from) / &width;
-        if self.chebyshev.is_empty() {
-            return (self.right.clone() - &self.left) * &share + &self.left;
-        }
-        // Clenshaw's recurrence on −1 … 1.
-        let x = share.int(2) * &share - share.one();
-        let (mut b1, mut b2) = (x.zero(), x.zero());
-        for c in self.chebyshev.iter().skip(1).rev() {
-            let b0 = x.int(2) * &x * &b1 - &b2 + c;
-            b2 = std::mem::replace(&mut b1, b0);
-        }
-        match self.chebyshev.first() {
-            Some(first) => x * &b1 - b2 + first,
-            None => b1,
-        }
-    }
-}
-
-impl<S: Scalar> StressPiece<S> {
-    /// `∫ v_x(0,s) ds` from the beginning of the piece to a time of it.
-    ///
-    /// **Source**: `∫ T_k = T_{k+1}/(2(k+1)) − T_{k−1}/(2(k−1))`, from −1 on.
-    ///
-    /// **Accuracy**: that of the coefficients, and a few roundings for each of them.
-    ///
-    /// ```
-    /// let rod = dalembert::Problem::uniform(1.into(), 1.into(), 1.into(), 3.into());
-    /// let pieces = rod.solve()?.stress_history()?.pieces;
-    /// // −∫₀¹ (3 + s) ds.
-    /// assert_eq!(pieces[0].integral(&1.0), -3.5);
-    /// # Ok::<(), dalembert::Error>(())
-    /// ```
-    pub fn integral(&self, time: &S) -> S {
-        let passed = time.clone() - &self.from;
-        if self.chebyshev.is_empty() {
-            return (self.left.clone() + self.eval(time)) * &passed / passed.int(2);
-        }
-        let coefficient = |k: usize| self.chebyshev.get(k).cloned().unwrap_or_else(|| passed.zero());
-        let term = |k: usize| {
-            // The first coefficient is whole.
-            let before = if k == 1 { coefficient(0) * &passed.int(2) } else { coefficient(k - 1) };
-            (before - coefficient(k + 1)) / passed.int(2 * k as i64)
-        };
-        let mut chebyshev: Vec<S> = (1..=self.chebyshev.len()).map(term).collect();
-        // Zero at −1, where T_k = (−1)^k.
-        let start =
-            chebyshev.iter().enumerate().fold(passed.zero(), |sum, (j, c)| if j % 2 == 0 { sum + c } else { sum - c });
-        chebyshev.insert(0, start);
-        let half = (self.to.clone() - &self.from) / passed.int(2);
-        StressPiece { chebyshev, ..self.clone() }.eval(time) * &half
-    }
-}
-
-/// `v_x(0,·)`: the strain at the ground, piece by piece, from `t = 0` to the end of the history. The paper calls it the
-/// stress: it is the stress divided by the modulus.
-#[derive(Clone, Debug, PartialEq, Serialize)]
-#[serde(bound = "S: Scalar")]
-pub struct StressHistory<S> {
-    /// The pieces, in order and without a gap.
-    pub pieces: Vec<StressPiece<S>>,
-    /// Why the last one ends where it does. Before an event at no fraction that is a fraction just below its time.
-    pub ending: Ending,
-}
-
-/// A piece a line: `from … to: left … right`, with the number of Chebyshev coefficients where it is not linear; below
-/// them why the last one ends.
-impl<S: Scalar> fmt::Display for StressHistory<S> {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        for (k, piece) in self.pieces.iter().enumerate() {
-            let [from, to, left, right] = [&piece.from, &piece.to, &piece.left, &piece.right].map(Scalar::text);
-            let to = match &self.ending {
-                Ending::ExactnessEnds { time, .. } if k + 1 == self.pieces.len() => format!("just before {time}"),
-                _ => to,
-            };
-            write!(f, "{from} … {to}: {left} … {right}")?;
-            match piece.chebyshev.len() {
-                0 => writeln!(f)?,
-                count => writeln!(f, "  ({count} Chebyshev coefficients)")?,
-            }
-        }
-        writeln!(f, "ends: {}", self.ending)
-    }
-}
-
-/// Why a history ends where it does.
-#[derive(Clone, Debug, PartialEq)]
-pub enum Ending {
-    /// The time that was asked for.
-    Time,
-    /// The next impact after the contacts that were asked for.
-    NextImpact,
-    /// No impact can follow, for the reason that is said.
-    NoFurtherImpact(Reason),
-    /// No release can follow, for the reason that is said.
-    NoBounce(Reason),
-    /// The rod has come to rest, by the criterion that is said. Where a time was asked for, the history reaches it: as
-    /// it does with [`Ending::NoBounce`] and [`Ending::NoFurtherImpact`] once the motion has faded below the accuracy.
-    Rest(Reason),
-    /// The next event is at no fraction.
-    ExactnessEnds {
-        /// The event.
-        kind: EventKind,
-        /// Its time as a surd, `3 + √2`.
-        time: String,
-        /// The double nearest to it, or next to that.
-        near: f64,
-    },
-    /// The first bounce: what follows it is not proved.
-    Bounce,
-    /// The asked accuracy or effort does not settle what comes next.
-    Undecided(Reason),
-}
-
-#[cfg(feature = "cli")]
-impl Ending {
-    /// Whether the history may be shorter than what was asked for, because what follows is not known.
-    pub(crate) fn is_open(&self) -> bool {
-        matches!(self, Ending::ExactnessEnds { .. } | Ending::Undecided(_) | Ending::Bounce)
-    }
-
-    /// The reason with the time that it holds for: `ends at t = 12: …`.
-    pub(crate) fn at(&self, end: &str) -> String {
-        match self {
-            Ending::ExactnessEnds { .. } => self.to_string(),
-            reason => format!("ends at t = {end}: {reason}"),
-        }
-    }
-}
-
-impl Serialize for Ending {
-    fn serialize<Z: Serializer>(&self, z: Z) -> Result<Z::Ok, Z::Error> {
-        z.collect_str(self)
-    }
-}
-
-impl fmt::Display for Ending {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Ending::Time => f.write_str("the time asked for"),
-            Ending::NextImpact => f.write_str("the impact after the last contact asked for"),
-            Ending::NoFurtherImpact(reason) => write!(f, "no further impact: {reason}"),
-            Ending::NoBounce(reason) => write!(f, "no bounce: {reason}"),
-            Ending::Rest(reason) => write!(f, "at rest: {reason}"),
-            Ending::ExactnessEnds { time, near, .. } => {
-                write!(f, "exactness ends before the impact at t = {time} ≈ {near}, which is no fraction")
-            }
-            Ending::Bounce => f.write_str("the first bounce: whether and when the rod lands again is not proved"),
-            Ending::Undecided(reason) => write!(f, "undecided: {reason}"),
-        }
-    }
-}
 
 /// The scales of a motion: what its quantities are to be compared with.
 #[derive(Clone, Debug, PartialEq)]
@@ -452,17 +71,33 @@ impl Uncertainty {
 /// What can be asked of a solution. All times are absolute, in the units of the scene; a time outside of
 /// `0 … end()` is [`Error::TimeOutside`], a point outside of the rod is [`Error::PointOutside`].
 pub trait Motion<S: Scalar>: fmt::Debug + Send + Sync {
+    /// What has happened, up to the end.
+    fn course(&self) -> &Course<S>;
+
     /// The last time that is known.
-    fn end(&self) -> S;
+    fn end(&self) -> S {
+        self.course().end.clone()
+    }
 
     /// Why it is the last.
-    fn ending(&self) -> &Ending;
+    fn ending(&self) -> &Ending {
+        &self.course().ending
+    }
 
     /// All impacts and releases, in order. The start at `t = 0` is the first impact where the rod stands on the ground.
-    fn events(&self) -> &[Event<S>];
+    fn events(&self) -> &[Event<S>] {
+        &self.course().events
+    }
 
     /// All contacts, in order.
-    fn contacts(&self) -> &[Contact<S>];
+    fn contacts(&self) -> &[Contact<S>] {
+        &self.course().contacts
+    }
+
+    /// What a user should know beside the numbers.
+    fn warnings(&self) -> &[Warning] {
+        &self.course().warnings
+    }
 
     /// `v_x(0,·)` from 0 to the end, pieces in order, canonical: neighbours that continue each other are one.
     fn stress_pieces(&self) -> Vec<StressPiece<S>>;
@@ -552,11 +187,6 @@ pub trait Motion<S: Scalar>: fmt::Debug + Send + Sync {
     /// that is not followed.
     fn digits_lost(&self) -> Option<(u32, f64)> {
         None
-    }
-
-    /// What a user should know beside the numbers.
-    fn warnings(&self) -> &[Warning] {
-        &[]
     }
 }
 

@@ -1,15 +1,18 @@
 //! From data to a report: what may be said of them, the run that they call for, and what comes of it.
 
-use super::{
-    Agreement, Axis, Clock, Compression, Conventions, Limit, Map, MapError, Order, Origin, Samples, Settings, orders,
-};
+use super::agree::{Agreement, Settings};
+use super::conventions::{Axis, Compression, Conventions, Origin};
+use super::limit::{Limit, Order, orders};
+use super::map::{Map, MapError};
+use super::samples::{Clock, Samples};
 use crate::data::{DataError, Source};
 use crate::error::Error;
 use crate::number::Number;
 use crate::problem::{Parameters, Problem, Run};
 use crate::quantity::Units;
 use crate::reason::Warning;
-use crate::solve::{Numbers, Observer, Plan, Question, Solution};
+use crate::solution::Solution;
+use crate::solve::{Numbers, Observer, Plan, Question};
 
 /// What is said of data besides themselves; the names in messages are those of the command.
 #[derive(Clone, Debug, Default)]
@@ -166,7 +169,8 @@ pub struct ComparedFile {
 const FAR: f64 = 100.0;
 
 /// Where the scene's own run ends. A run of impacts is solved for that only where the data go on for more than [`FAR`]
-/// round trips for each of them; hops may be shorter than a round trip, and then data that are too long are not refused.
+/// round trips for each of them; hops may be shorter than a round trip, and then data that are too long are not
+/// refused.
 fn own_end(problem: &Problem, trip: f64, last: f64) -> Option<f64> {
     match &problem.run {
         Run::Time(time) => Some(time.to_f64()),

@@ -1,9 +1,9 @@
 //! Other people's signs, origins and factors, brought to ours.
 
-use super::map::{Part, What};
+use super::map::What;
 use super::ours::Ours;
 use crate::error::Error;
-use crate::quantity::Column;
+use crate::quantity::Measure;
 
 /// The sign of forces, stresses and strains where the rod is compressed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -55,26 +55,12 @@ impl Conventions {
         let flipped =
             |ours: Compression| if self.compression.is_some_and(|theirs| theirs != ours) { -1.0 } else { 1.0 };
         let way = if self.axis == Axis::Down { -1.0 } else { 1.0 };
-        match what {
-            What::Field(Part::Displacement | Part::Velocity) => way,
-            What::Field(Part::Strain | Part::Stress) => flipped(Compression::Negative),
-            What::Column(column) => match column {
-                Column::EndDisplacement
-                | Column::EndVelocity
-                | Column::TopDisplacement
-                | Column::TopVelocity
-                | Column::Centre
-                | Column::CentreVelocity => way,
-                Column::Strain | Column::Stress => flipped(Compression::Negative),
-                Column::Force | Column::Impulse => flipped(Compression::Positive),
-                Column::Energy
-                | Column::TranslationalEnergy
-                | Column::VibrationalEnergy
-                | Column::KineticEnergy
-                | Column::StrainEnergy
-                | Column::GravityEnergy => self.energy_scale,
-                Column::Time | Column::Side | Column::Contact => 1.0,
-            },
+        match what.quantity().measure() {
+            Some(Measure::Length | Measure::Velocity) => way,
+            Some(Measure::Strain | Measure::Stress) => flipped(Compression::Negative),
+            Some(Measure::Force | Measure::Impulse) => flipped(Compression::Positive),
+            Some(Measure::Energy) => self.energy_scale,
+            Some(Measure::Time) | None => 1.0,
         }
     }
 

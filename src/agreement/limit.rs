@@ -2,7 +2,7 @@
 
 use serde::Serialize;
 
-use super::Agreement;
+use super::agree::Agreement;
 use super::map::What;
 use crate::quantity::{Norms, order};
 

@@ -1,28 +1,18 @@
 //! Which column of a file is which quantity.
 
-use crate::quantity::{Column, Measure, Rays, Units};
+use crate::quantity::{Column, Measure, Place, Rays, Units};
 
 /// A quantity that can be compared.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum What {
     /// A function of time.
     Column(Column),
-    /// A function of point and time.
-    Field(Part),
+    /// A function of point and time, by the column that it is at the ground.
+    Field(Column),
 }
 
-/// The parts of a field.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Part {
-    /// `v(x,t)`.
-    Displacement,
-    /// `v_t(x,t)`.
-    Velocity,
-    /// `v_x(x,t)`.
-    Strain,
-    /// The same as a stress.
-    Stress,
-}
+/// What can be compared at points along the rod.
+const FIELD: [Column; 4] = [Column::EndDisplacement, Column::EndVelocity, Column::Strain, Column::Stress];
 
 /// What other people's columns are often called, beside our own names.
 const ALIASES: &[(&str, Column)] = &[
@@ -43,14 +33,18 @@ const ALIASES: &[(&str, Column)] = &[
 ];
 
 impl What {
-    /// The name in tables, JSON and `--fail-above`.
+    /// The quantity, whether at the ground or along the rod.
+    pub(crate) fn quantity(self) -> Column {
+        match self {
+            What::Column(column) | What::Field(column) => column,
+        }
+    }
+
+    /// The name in tables, JSON and `--fail-above`; along the rod `u`, `v`, `strain` and `stress`.
     pub(crate) fn name(self) -> &'static str {
         match self {
             What::Column(column) => column.name(),
-            What::Field(Part::Displacement) => "u",
-            What::Field(Part::Velocity) => "v",
-            What::Field(Part::Strain) => "strain",
-            What::Field(Part::Stress) => "stress",
+            What::Field(column) => column.name().trim_end_matches("_end"),
         }
     }
 
@@ -59,36 +53,18 @@ impl What {
         let column = |name: &str| {
             Column::named(name).or_else(|| ALIASES.iter().find(|alias| alias.0 == name).map(|alias| alias.1))
         };
-        match (field, column(name).or_else(|| column(&name.to_lowercase()))?) {
-            (_, Column::Side | Column::Time) => None,
-            (false, column) => Some(What::Column(column)),
-            (true, Column::EndDisplacement) => Some(What::Field(Part::Displacement)),
-            (true, Column::EndVelocity) => Some(What::Field(Part::Velocity)),
-            (true, Column::Strain) => Some(What::Field(Part::Strain)),
-            (true, Column::Stress) => Some(What::Field(Part::Stress)),
-            (true, _) => None,
+        match column(name).or_else(|| column(&name.to_lowercase()))? {
+            Column::Side | Column::Time => None,
+            column if field => FIELD.contains(&column).then_some(What::Field(column)),
+            column => Some(What::Column(column)),
         }
     }
 
-    /// The unit; empty where there is none.
-    pub(crate) fn unit(self, units: &Units) -> &'static str {
+    /// Where along the rod it is.
+    pub(crate) fn place(self) -> Place {
         match self {
-            What::Column(column) => column.unit(units),
-            What::Field(Part::Displacement) => units.name(Measure::Length),
-            What::Field(Part::Velocity) => units.name(Measure::Velocity),
-            What::Field(Part::Strain) => units.name(Measure::Strain),
-            What::Field(Part::Stress) => Column::Stress.unit(units),
-        }
-    }
-
-    /// What it measures.
-    fn measure(self) -> Option<Measure> {
-        match self {
-            What::Column(column) => column.measure(),
-            What::Field(Part::Displacement) => Some(Measure::Length),
-            What::Field(Part::Velocity) => Some(Measure::Velocity),
-            What::Field(Part::Strain) => Some(Measure::Strain),
-            What::Field(Part::Stress) => Some(Measure::Stress),
+            What::Column(column) => column.place(),
+            What::Field(_) => Place::Point,
         }
     }
 
@@ -102,32 +78,12 @@ impl What {
 
     /// Whether it has two values where a ray passes.
     pub(crate) fn jumps(self) -> bool {
-        match self {
-            What::Field(part) => part != Part::Displacement,
-            What::Column(column) => matches!(
-                column,
-                Column::EndVelocity
-                    | Column::Strain
-                    | Column::Stress
-                    | Column::Force
-                    | Column::TopVelocity
-                    | Column::Contact
-            ),
-        }
-    }
-
-    /// What a ray leaves in it.
-    pub(crate) fn rays(self) -> Rays {
-        match self {
-            _ if self.jumps() => Rays::Jump,
-            What::Column(Column::Centre | Column::Energy | Column::GravityEnergy) => Rays::Smooth,
-            _ => Rays::Kink,
-        }
+        self.quantity().rays() == Rays::Jump
     }
 
     /// Whether a scale, a sign, an origin and a clock make sense of it.
     pub(crate) fn is_hinted(self) -> bool {
-        self != What::Column(Column::Contact)
+        self.quantity().measure().is_some()
     }
 }
 
@@ -250,7 +206,10 @@ impl Map {
         let plain = |unit: &str| unit.replace([' ', '·', '*', '.'], "");
         let times = self.time.map(|place| (place, Some(Measure::Time), units.name(Measure::Time)));
         let points = self.point.map(|place| (place, Some(Measure::Length), units.name(Measure::Length)));
-        let quantities = self.quantities.iter().map(|(what, place)| (*place, what.measure(), what.unit(units)));
+        let quantities = self
+            .quantities
+            .iter()
+            .map(|(what, place)| (*place, what.quantity().measure(), what.quantity().unit(units)));
         for (place, measure, expected) in times.into_iter().chain(points).chain(quantities) {
             let Some((header, Some(unit))) = names.get(place).map(|header| (header, name_and_unit(header).1)) else {
                 continue;
@@ -307,7 +266,7 @@ mod tests {
         assert_eq!((map.time, map.quantities), (Some(1), vec![(u, 2)]));
         // With points, u is that there.
         let map = Map::of(None, &names("t x u"), 3, false).unwrap();
-        assert_eq!((map.point, map.quantities), (Some(1), vec![(What::Field(Part::Displacement), 2)]));
+        assert_eq!((map.point, map.quantities), (Some(1), vec![(What::Field(Column::EndDisplacement), 2)]));
     }
 
     #[test]

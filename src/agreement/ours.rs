@@ -1,13 +1,14 @@
 //! The exact side: values, jumps and contacts of a history.
 
 use super::between::filled;
-use super::map::{Part, What};
+use super::map::What;
 use super::samples::Rounding;
 use crate::error::Error;
 use crate::history::History;
 use crate::motion::{Field, Side, StressPiece};
+use crate::number::Number;
 use crate::problem::{Material, Parameters, Problem, Start, Top};
-use crate::quantity::{Column, Grid, Measure, Moments, Touch};
+use crate::quantity::{Column, Grid, Measure, Moments, Place, Touch};
 use crate::special::gauss_legendre;
 
 /// A history with the times at which the end at the ground sees a ray.
@@ -26,28 +27,6 @@ pub(super) struct Ours<'a> {
     leaves: Vec<f64>,
 }
 
-/// Where along the rod a quantity is.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Place {
-    Ground,
-    /// The ground, as a switch: contact begins and ends without a jump of the stress too.
-    Switch,
-    Top,
-    /// The points of the samples.
-    Point,
-}
-
-impl Place {
-    pub(super) fn of(what: What) -> Self {
-        match what {
-            What::Field(_) => Place::Point,
-            What::Column(Column::TopDisplacement | Column::TopVelocity) => Place::Top,
-            What::Column(Column::Contact) => Place::Switch,
-            What::Column(_) => Place::Ground,
-        }
-    }
-}
-
 /// With more times than this, most values are interpolated.
 const MANY: usize = 1 << 15;
 /// Jumps below this share of the scale of velocities are none, and times within it of the round trip are the same.
@@ -62,7 +41,9 @@ impl<'a> Ours<'a> {
         let rod = Parameters::of(problem, &())?;
         let material = match &problem.rod.material {
             Material::WaveSpeed(_) => [rod.wave_speed * rod.wave_speed, 1.0, 1.0],
-            Material::Elastic { modulus, density, area } => [modulus, density, area].map(|number| number.to_f64()),
+            Material::Elastic { modulus, density, area } => {
+                [modulus.to_f64(), density.to_f64(), area.as_ref().map_or(1.0, Number::to_f64)]
+            }
         };
         let pieces = history.stress_history()?.pieces;
         let (trip, end) = (rod.round_trip(), *history.end());
@@ -139,11 +120,11 @@ impl<'a> Ours<'a> {
     }
 
     fn part(&self, what: What, field: &Field<f64>) -> f64 {
-        match what {
-            What::Field(Part::Displacement) | What::Column(_) => field.displacement,
-            What::Field(Part::Velocity) => field.velocity,
-            What::Field(Part::Strain) => field.strain,
-            What::Field(Part::Stress) => self.material[0] * field.strain,
+        match what.quantity().measure() {
+            Some(Measure::Velocity) => field.velocity,
+            Some(Measure::Strain) => field.strain,
+            Some(Measure::Stress) => self.material[0] * field.strain,
+            _ => field.displacement,
         }
     }
 
@@ -222,31 +203,25 @@ impl<'a> Ours<'a> {
     /// What a displacement or a velocity is compared with; zero for what is not told from zero by it.
     pub(super) fn scale(&self, what: What) -> f64 {
         let scales = self.history.scales();
-        let measure = match what {
-            What::Field(Part::Displacement) => Some(Measure::Length),
-            What::Field(Part::Velocity) => Some(Measure::Velocity),
-            What::Field(Part::Strain | Part::Stress) => None,
-            What::Column(column) => column.measure(),
-        };
-        match measure {
+        match what.quantity().measure() {
             Some(Measure::Length) => scales.velocity * scales.time,
             Some(Measure::Velocity) => scales.velocity,
-            Some(Measure::Strain | Measure::Stress | Measure::Force | Measure::Impulse | Measure::Energy) => 0.0,
-            Some(Measure::Time) | None => 0.0,
+            _ => 0.0,
         }
     }
 
     /// The displacements at `t = 0`, one for all samples or one each; `None` for what is no displacement.
     pub(super) fn start(&self, what: What, points: Option<&[f64]>) -> Result<Option<Vec<f64>>, Error> {
         match (what, points) {
-            (What::Field(Part::Displacement), Some(points)) => {
+            _ if what.quantity().measure() != Some(Measure::Length) => Ok(None),
+            (What::Field(_), Some(points)) => {
                 let fields = self.history.field(points, &[0.0], Side::Right)?;
                 Ok(Some(fields.into_iter().map(|field| field.displacement).collect()))
             }
-            (What::Column(column @ (Column::EndDisplacement | Column::TopDisplacement | Column::Centre)), _) => {
+            _ => {
+                let column = what.quantity();
                 Ok(self.history.columns(&[column], &[0.0], Some(Side::Right))?.into_iter().next())
             }
-            _ => Ok(None),
         }
     }
 
@@ -288,15 +263,10 @@ impl<'a> Ours<'a> {
     /// Factors that are often forgotten, with the question to ask.
     pub(super) fn factors(&self, what: What) -> Vec<(f64, &'static str)> {
         let [modulus, density, area] = self.material;
-        let energy = |column: Column| {
-            use Column::{Energy, GravityEnergy, KineticEnergy, StrainEnergy, TranslationalEnergy, VibrationalEnergy};
-            matches!(
-                column,
-                Energy | TranslationalEnergy | VibrationalEnergy | KineticEnergy | StrainEnergy | GravityEnergy
-            )
-        };
         let mut known = match what {
-            What::Column(column) if energy(column) => vec![(2.0, "is ½ missing?"), (0.5, "is ½ there twice?")],
+            What::Column(column) if column.measure() == Some(Measure::Energy) => {
+                vec![(2.0, "is ½ missing?"), (0.5, "is ½ there twice?")]
+            }
             What::Column(Column::Force) => vec![(1.0 / area, "is it a stress?")],
             What::Column(Column::Stress) => vec![(area, "is it a force?"), (1.0 / modulus, "is it a strain?")],
             What::Column(Column::Strain) => vec![(modulus, "is it a stress?")],

@@ -2,7 +2,9 @@
 
 use serde_json::{Value, json};
 
-use super::{Agreement, Compared, ComparedFile, Comparison, Order};
+use super::agree::{Agreement, Compared};
+use super::comparison::{ComparedFile, Comparison};
+use super::limit::Order;
 use crate::aligned::table;
 use crate::number::Scalar;
 use crate::quantity::{Column, Extreme, Greatest, Norm, Touch, Units};
@@ -95,7 +97,7 @@ fn file_table(compared: &ComparedFile, title: Option<&str>, units: &Units) -> St
 fn norms_table(agreement: &Agreement, units: &Units) -> String {
     let mut rows = Vec::new();
     for Compared { what, norms, .. } in &agreement.quantities {
-        let unit = what.unit(units);
+        let unit = what.quantity().unit(units);
         let plain = |norm: Norm| [size(Some(norm.absolute)), share(norm.relative), String::new()];
         let greatest = |most: Greatest| {
             let point = most.point.map_or_else(String::new, |x| format!(", x = {}", number(x)));
@@ -209,7 +211,7 @@ fn orders_table(orders: &[Order]) -> String {
 fn file_json(compared: &ComparedFile, units: &Units) -> serde_json::Map<String, Value> {
     let ComparedFile { file, agreement } = compared;
     let quantities = agreement.quantities.iter().map(|Compared { what, norms, .. }| {
-        let mut value = json!({"name": what.name(), "unit": what.unit(units)});
+        let mut value = json!({"name": what.name(), "unit": what.quantity().unit(units)});
         if let (Some(object), Value::Object(norms)) = (value.as_object_mut(), json!(norms)) {
             object.extend(norms);
         }

@@ -8,12 +8,10 @@ use super::piece::Unresolved;
 use super::with_bounds::{Bounding, Pair};
 use crate::error::Error;
 use crate::first_contact::{Bounce, ContactHistory, FirstContact};
-use crate::motion::{
-    Contact, Ending, Energy, Event, Field, Motion, Scales, Side, StressPiece, Uncertainty, unobserved,
-};
+use crate::motion::{Course, Ending, Energy, Event, Field, Motion, Scales, Side, StressPiece, Uncertainty, unobserved};
 use crate::number::Estimate;
 use crate::problem::{Parameters, Problem, Run};
-use crate::reason::{Reason, Warning};
+use crate::reason::Reason;
 use crate::special::RoundedSpecial;
 
 /// The damped rod that starts as the paper's does, through any number of impacts: [`ContactHistory`] as long as the
@@ -32,10 +30,7 @@ pub struct ContactThenCells<S> {
     /// `t_b`.
     bounce: Option<S>,
     march: Option<Damped<S>>,
-    events: Vec<Event<S>>,
-    contacts: Vec<Contact<S>>,
-    end: S,
-    ending: Ending,
+    course: Course<S>,
     error: S,
     /// The same of the first contact.
     before: f64,
@@ -87,25 +82,13 @@ impl<S: RoundedSpecial> ContactThenCells<S> {
             Run::Impacts(_) => None,
         };
         let contact = ContactHistory::new(FirstContact::new(&Parameters::of(problem, precision)?), bounce, asked)?;
-        let events: Vec<Event<S>> =
-            contact.events().iter().map(|event| event.clone().map(Estimate::into_value)).collect();
-        let bounce = events.get(1).map(|release| release.time.clone());
-        let time_error = events.get(1).map_or(0.0, |release| release.time_error);
+        let course = contact.course().clone().map(Estimate::into_value);
+        let bounce = course.events.get(1).map(|release| release.time.clone());
+        let time_error = course.events.get(1).map_or(0.0, |release| release.time_error);
         let round_trip = rod.round_trip();
         let error = round_trip.double(17.0) * round_trip.roundoff() + round_trip.double(time_error) / &round_trip;
-        let mut history = ContactThenCells {
-            before: error.to_f64(),
-            error,
-            end: contact.end().into_value(),
-            ending: contact.ending().clone(),
-            contacts: contact.contacts().iter().map(|contact| contact.clone().map(Estimate::into_value)).collect(),
-            march: None,
-            events,
-            bounce,
-            contact,
-            rod,
-            effort,
-        };
+        let mut history =
+            ContactThenCells { before: error.to_f64(), error, march: None, course, bounce, contact, rod, effort };
         history.follow(problem, precision, reach, observe)?;
         Ok(history)
     }
@@ -120,21 +103,23 @@ impl<S: RoundedSpecial> ContactThenCells<S> {
     ) -> Result<(), Error> {
         let (Some(bounce), Reach::Run) = (self.bounce.clone(), reach) else { return Ok(()) };
         if self.effort.digits > MOST_MARCHED {
-            self.ending = Ending::Undecided(Reason::MostDigits(MOST_MARCHED as u32));
+            self.course.ending = Ending::Undecided(Reason::MostDigits(MOST_MARCHED as u32));
             return Ok(());
         }
-        let release = (&bounce, self.events[1].time_error, &self.events[1].end_velocity);
+        let release = (&bounce, self.course.events[1].time_error, &self.course.events[1].end_velocity);
         // The cells account for the roundings of the parameters themselves.
         let form = FirstContact::new(&self.rod.carry());
         let march = Damped::after_bounce(problem, precision, self.effort, &form, release, observe)?;
-        self.events.extend(march.events().iter().skip(1).cloned());
-        self.contacts.extend(march.contacts().iter().cloned());
+        let Course { events, contacts, .. } = march.course();
+        self.course.events.extend(events.iter().skip(1).cloned());
+        self.course.contacts.extend(contacts.iter().cloned());
         let error = march.error_estimate();
         if error > self.error {
             self.error = error;
         }
-        self.end = march.end();
-        self.ending = march.ending().clone();
+        self.course.end = march.end();
+        self.course.ending = march.ending().clone();
+        self.course.warnings = march.warnings().to_vec();
         self.march = Some(march);
         Ok(())
     }
@@ -146,8 +131,8 @@ impl<S: RoundedSpecial> ContactThenCells<S> {
 
     /// Refuses a time that is not known, and says whether it is one of the first contact.
     fn in_contact(&self, time: &S, side: Side) -> Result<bool, Error> {
-        if time.is_negative() || *time > self.end || !time.is_finite() {
-            return Err(Error::TimeOutside { found: time.text(), end: self.end.text() });
+        if time.is_negative() || *time > self.course.end || !time.is_finite() {
+            return Err(Error::TimeOutside { found: time.text(), end: self.course.end.text() });
         }
         let flies = |bounce: &S| time > bounce || time == bounce && side == Side::Right;
         Ok(!self.bounce.as_ref().is_some_and(flies))
@@ -160,29 +145,19 @@ impl<S: RoundedSpecial> ContactThenCells<S> {
 
     /// The cells at a time after the bounce; the history ends at the bounce where there are none.
     fn later(&self) -> Result<&Damped<S>, Error> {
-        self.march.as_ref().ok_or_else(|| Error::TimeOutside { found: self.end.text(), end: self.end.text() })
+        self.march
+            .as_ref()
+            .ok_or_else(|| Error::TimeOutside { found: self.course.end.text(), end: self.course.end.text() })
     }
 }
 
 impl<S: RoundedSpecial> Motion<S> for ContactThenCells<S> {
-    fn end(&self) -> S {
-        self.end.clone()
-    }
-
-    fn ending(&self) -> &Ending {
-        &self.ending
-    }
-
-    fn events(&self) -> &[Event<S>] {
-        &self.events
-    }
-
-    fn contacts(&self) -> &[Contact<S>] {
-        &self.contacts
+    fn course(&self) -> &Course<S> {
+        &self.course
     }
 
     fn stress_pieces(&self) -> Vec<StressPiece<S>> {
-        let until = self.bounce.as_ref().unwrap_or(&self.end);
+        let until = self.bounce.as_ref().unwrap_or(&self.course.end);
         let first = self.contact.stress_pieces().into_iter();
         let mut pieces: Vec<StressPiece<S>> = first.map(|piece| piece.map(Estimate::into_value)).collect();
         if let Some(march) = &self.march {
@@ -282,10 +257,6 @@ impl<S: RoundedSpecial> Motion<S> for ContactThenCells<S> {
             _ => Uncertainty { rise: self.before, speed: self.before, ..Uncertainty::default() },
         }
     }
-
-    fn warnings(&self) -> &[Warning] {
-        self.march.as_ref().map_or(&[], |march| march.warnings())
-    }
 }
 
 /// The first contact, whose closed forms carry their own bounds: late in it the rays cancel.
@@ -296,7 +267,7 @@ impl<S: RoundedSpecial> Bounding<S> for ContactThenCells<S> {
     }
 
     fn bounded_centre(&self, time: &S) -> Option<Pair<S>> {
-        match (self.in_contact(time, Side::Left).ok()?, self.events.get(2)) {
+        match (self.in_contact(time, Side::Left).ok()?, self.course.events.get(2)) {
             (true, _) => Some(self.contact.centre(&time.carry())),
             // Until the next impact the centre flies freely, whatever the rod does.
             (false, next) if next.is_none_or(|next| *time <= next.time) => Some(self.contact.flight(&time.carry())),

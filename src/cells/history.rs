@@ -17,7 +17,8 @@ use super::with_bounds::Bounding;
 use crate::error::Error;
 use crate::first_contact::FirstContact;
 use crate::motion::{
-    Contact, Ending, Energy, Event, EventKind, Field, Motion, Scales, Side, StressPiece, Uncertainty, unobserved,
+    Contact, Course, Ending, Energy, Event, EventKind, Field, Motion, Scales, Side, StressPiece, Uncertainty,
+    unobserved,
 };
 use crate::number::Estimate;
 use crate::problem::{Problem, Run};
@@ -54,13 +55,9 @@ pub struct Damped<S> {
     pieces: Vec<Piece<S>>,
     checkpoints: Vec<Checkpoint<S>>,
     flights: Vec<Flight<S>>,
-    events: Vec<Event<S>>,
-    contacts: Vec<Contact<S>>,
-    end: S,
-    ending: Ending,
+    course: Course<S>,
     /// Before the first event, and after each.
     uncertain: Vec<Uncertainty>,
-    warnings: Vec<Warning>,
     unresolved: Option<Unresolved<S>>,
     /// Cells that earlier questions have marched.
     pool: Pool<S>,
@@ -169,22 +166,18 @@ impl<S: RoundedSpecial> Damped<S> {
             }
         };
         let mut history = Damped {
-            contacts: Vec::new(),
-            events: Vec::new(),
+            course: Course { warnings, ..Course::new(end, ending) },
             medium,
             data,
             held,
             pieces,
             checkpoints,
             flights,
-            end,
-            ending,
             uncertain: std::iter::once(before).chain(marks.iter().map(|mark| mark.after)).collect(),
-            warnings,
             unresolved,
             pool: Pool::default(),
         };
-        history.events = marks
+        history.course.events = marks
             .into_iter()
             .map(|mark| {
                 let (centre, centre_velocity) = history.centre_at(&mark.time);
@@ -199,7 +192,7 @@ impl<S: RoundedSpecial> Damped<S> {
                 }
             })
             .collect();
-        history.contacts = history.find_contacts();
+        history.course.contacts = history.find_contacts();
         history
     }
 
@@ -222,8 +215,8 @@ impl<S: RoundedSpecial> Damped<S> {
 
     /// The dimensionless time.
     fn time(&self, time: &S) -> Result<S, Error> {
-        if time.is_negative() || *time > self.end || !time.is_finite() {
-            return Err(Error::TimeOutside { found: time.text(), end: self.end.text() });
+        if time.is_negative() || *time > self.course.end || !time.is_finite() {
+            return Err(Error::TimeOutside { found: time.text(), end: self.course.end.text() });
         }
         let unit = &self.data.units.time;
         let trips = time.clone() / unit;
@@ -278,7 +271,7 @@ impl<S: RoundedSpecial> Damped<S> {
     fn find_contacts(&self) -> Vec<Contact<S>> {
         let units = &self.data.units;
         let mut contacts: Vec<Contact<S>> = Vec::new();
-        for event in &self.events {
+        for event in &self.course.events {
             match (event.kind, contacts.last_mut()) {
                 (EventKind::Release, Some(contact)) => contact.to = Some(event.time.clone()),
                 (EventKind::Release, None) => {}
@@ -319,20 +312,8 @@ impl<S: RoundedSpecial> Damped<S> {
 impl<S: RoundedSpecial> Bounding<S> for Damped<S> {}
 
 impl<S: RoundedSpecial> Motion<S> for Damped<S> {
-    fn end(&self) -> S {
-        self.end.clone()
-    }
-
-    fn ending(&self) -> &Ending {
-        &self.ending
-    }
-
-    fn events(&self) -> &[Event<S>] {
-        &self.events
-    }
-
-    fn contacts(&self) -> &[Contact<S>] {
-        &self.contacts
+    fn course(&self) -> &Course<S> {
+        &self.course
     }
 
     /// Flights are one piece each; in contact a piece ends where a ray arrives.
@@ -368,7 +349,7 @@ impl<S: RoundedSpecial> Motion<S> for Damped<S> {
             flying = !piece.contact;
         }
         if let Some(last) = pieces.last_mut() {
-            last.to = self.end.clone();
+            last.to = self.course.end.clone();
         }
         pieces
     }
@@ -495,13 +476,13 @@ impl<S: RoundedSpecial> Motion<S> for Damped<S> {
 
     fn error_estimate(&self) -> S {
         let most = self.uncertain.iter().fold(Uncertainty::default(), |most, next| most.max(*next));
-        let times = self.events.iter().map(|event| event.time_error / self.data.units.time.to_f64());
-        self.end.double(times.fold(most.rise.max(most.speed).max(most.late), f64::max))
+        let times = self.course.events.iter().map(|event| event.time_error / self.data.units.time.to_f64());
+        self.course.end.double(times.fold(most.rise.max(most.speed).max(most.late), f64::max))
     }
 
     fn uncertainty(&self, time: &S) -> Uncertainty {
-        let since = self.events.partition_point(|event| event.time <= *time);
-        let lost = since.checked_sub(1).is_some_and(|last| self.events[last].time_error.is_infinite());
+        let since = self.course.events.partition_point(|event| event.time <= *time);
+        let lost = since.checked_sub(1).is_some_and(|last| self.course.events[last].time_error.is_infinite());
         let mut found = self.uncertain[since];
         if self.medium.splits() {
             // h′ + 2Rh changes by −2∫y dt and by what gravity does in that time.
@@ -510,10 +491,6 @@ impl<S: RoundedSpecial> Motion<S> for Damped<S> {
             found.impulse = Some(speed + 2.0 * damping * rise + self.medium.gravity.to_f64() * late);
         }
         if lost { Uncertainty { rise: f64::INFINITY, speed: f64::INFINITY, ..found } } else { found }
-    }
-
-    fn warnings(&self) -> &[Warning] {
-        &self.warnings
     }
 }
 
@@ -538,8 +515,8 @@ mod tests {
             let coarse = Damped::<f64>::solve(&problem, &(), 12.0).unwrap();
             let fine = Damped::<f64>::solve_observed(&problem, &(), Effort::of(12.0), 5, &unobserved).unwrap();
             assert!(fine.pieces.len() > 4 * coarse.pieces.len() / 3);
-            assert_eq!(coarse.events.len(), fine.events.len());
-            for (a, b) in coarse.events.iter().zip(&fine.events) {
+            assert_eq!(coarse.events().len(), fine.events().len());
+            for (a, b) in coarse.events().iter().zip(fine.events()) {
                 assert!((a.time - b.time).abs() < 1e-12, "{damping} {a:?} {b:?}");
                 assert!((a.centre - b.centre).abs() < 1e-12 && (a.centre_velocity - b.centre_velocity).abs() < 1e-12);
             }
@@ -559,12 +536,14 @@ mod tests {
         let problem = rod(1, 4, "0.01", Run::Time(Number::from(40)));
         let solve = |effort| Damped::<f64>::solve_observed(&problem, &(), effort, 1, &unobserved).unwrap();
         let (whole, part) = (solve(Effort::of(12.0)), solve(Effort { cells: 100, ..Effort::of(12.0) }));
-        let Ending::Undecided(Reason::Effort { cells, rays }) = part.ending else { panic!("{}", part.ending) };
-        assert!(cells > 100 && rays > 1 && part.end < whole.end);
-        assert!(part.events.len() > 2 && part.events.len() < whole.events.len());
-        assert_eq!(part.events, whole.events[..part.events.len()]);
-        assert_eq!(part.centre(&part.end).unwrap(), whole.centre(&part.end).unwrap());
-        assert!(matches!(part.centre(&whole.end), Err(Error::TimeOutside { .. })));
+        let Ending::Undecided(Reason::Effort { cells, rays }) = part.course.ending else {
+            panic!("{}", part.course.ending)
+        };
+        assert!(cells > 100 && rays > 1 && part.end() < whole.end());
+        assert!(part.events().len() > 2 && part.events().len() < whole.events().len());
+        assert_eq!(part.events(), &whole.events()[..part.events().len()]);
+        assert_eq!(part.centre(&part.end()).unwrap(), whole.centre(&part.end()).unwrap());
+        assert!(matches!(part.centre(&whole.end()), Err(Error::TimeOutside { .. })));
     }
 
     #[test]
@@ -572,8 +551,8 @@ mod tests {
         // E(t) − E(0) = −2r ∫∫ v_t²: Gauss in time between all times at which rays meet each other or an end.
         let problem = rod(1, 3, "0.3", Run::Time(Number::from(7)));
         let history = Damped::<f64>::solve(&problem, &(), 13.0).unwrap();
-        assert!(history.events.len() >= 3);
-        let end = history.end / 2.0;
+        assert!(history.events().len() >= 3);
+        let end = history.end() / 2.0;
         let rays: Vec<f64> = history.pieces.iter().map(|piece| piece.from).collect();
         let mut times = vec![0.0, end];
         for a in &rays {
@@ -593,7 +572,7 @@ mod tests {
         }
         // V = 3, t₁ = 2, c t₁ = 2.
         let lost = 2.0 * 0.3 * lost * 9.0 * 2.0 * 2.0;
-        let change = history.energy(&history.end).unwrap().total - history.energy(&0.0).unwrap().total;
+        let change = history.energy(&history.end()).unwrap().total - history.energy(&0.0).unwrap().total;
         assert!((change + lost).abs() < 1e-11, "{change} {lost}");
         assert!((history.energy(&0.0).unwrap().total - 4.5).abs() < 1e-13);
     }

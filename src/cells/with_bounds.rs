@@ -1,9 +1,8 @@
 //! A history whose answers carry their bounds.
 
 use crate::error::Error;
-use crate::motion::{Contact, Ending, Energy, Event, EventKind, Field, Motion, Scales, Side, StressPiece, Uncertainty};
+use crate::motion::{Contact, Course, Energy, Event, EventKind, Field, Motion, Scales, Side, StressPiece, Uncertainty};
 use crate::number::{Estimate, Rounded, Scalar};
-use crate::reason::Warning;
 
 /// A history, each of whose numbers has the bound that follows from [`Motion::uncertainty`] and its natural scale;
 /// times of events have their own.
@@ -14,8 +13,7 @@ use crate::reason::Warning;
 pub struct WithBounds<S, H> {
     history: H,
     scales: Scales<f64>,
-    events: Vec<Event<Estimate<S>>>,
-    contacts: Vec<Contact<Estimate<S>>>,
+    course: Course<Estimate<S>>,
 }
 
 /// Two numbers with their bounds.
@@ -61,7 +59,8 @@ impl<S: Rounded, H: Bounding<S>> WithBounds<S, H> {
     /// **Errors**: those of a question at an event.
     pub fn new(history: H) -> Result<Self, Error> {
         let scales = history.scales().map(|scale| scale.to_f64());
-        let bounded = WithBounds { scales, events: Vec::new(), contacts: Vec::new(), history };
+        let course = Course::new(within(&history.end(), 0.0), history.ending().clone());
+        let bounded = WithBounds { scales, course, history };
         let given = bounded.history.events();
         let event = |(k, event): (usize, &Event<S>)| {
             let form = bounded.history.bounded(&event.time, Side::Left);
@@ -107,12 +106,14 @@ impl<S: Rounded, H: Bounding<S>> WithBounds<S, H> {
             }
         };
         let contacts = bounded.history.contacts().iter().enumerate().map(contact).collect();
-        Ok(WithBounds { events, contacts, ..bounded })
+        let (ending, warnings) = (bounded.history.ending().clone(), bounded.history.warnings().to_vec());
+        let course = Course { end: bounded.course.end.clone(), ending, events, contacts, warnings };
+        Ok(WithBounds { course, ..bounded })
     }
 
     /// The bounds near a time; at that of an event, which has the bound of the event, those of the event itself.
     fn near(&self, time: &Estimate<S>) -> Near {
-        let event = self.events.iter().position(|event| event.time.value() == time.value());
+        let event = self.course.events.iter().position(|event| event.time.value() == time.value());
         match event.filter(|_| time.bound() > 0.0) {
             Some(event) => self.at_event(event),
             None => self.scaled(self.history.uncertainty(time.value())),
@@ -176,8 +177,8 @@ impl<S: Rounded, H: Bounding<S>> WithBounds<S, H> {
 
     /// The time that is asked about: that of an event from which roundings alone set it apart.
     fn meant<'a>(&'a self, time: &'a Estimate<S>) -> &'a Estimate<S> {
-        let next = self.events.partition_point(|event| event.time.value() < time.value());
-        let mut near = self.events[next.saturating_sub(1)..].iter().take(2).map(|event| &event.time);
+        let next = self.course.events.partition_point(|event| event.time.value() < time.value());
+        let mut near = self.course.events[next.saturating_sub(1)..].iter().take(2).map(|event| &event.time);
         let roundings = 4.0 * time.value().unit() * time.value().to_f64().abs();
         let same = |event: &&Estimate<S>| {
             let apart = (event.value().clone() - time.value()).to_f64().abs();
@@ -193,20 +194,8 @@ impl<S: Rounded, H: Bounding<S>> WithBounds<S, H> {
 }
 
 impl<S: Rounded, H: Bounding<S>> Motion<Estimate<S>> for WithBounds<S, H> {
-    fn end(&self) -> Estimate<S> {
-        within(&self.history.end(), 0.0)
-    }
-
-    fn ending(&self) -> &Ending {
-        self.history.ending()
-    }
-
-    fn events(&self) -> &[Event<Estimate<S>>] {
-        &self.events
-    }
-
-    fn contacts(&self) -> &[Contact<Estimate<S>>] {
-        &self.contacts
+    fn course(&self) -> &Course<Estimate<S>> {
+        &self.course
     }
 
     fn stress_pieces(&self) -> Vec<StressPiece<Estimate<S>>> {
@@ -328,7 +317,7 @@ impl<S: Rounded, H: Bounding<S>> Motion<Estimate<S>> for WithBounds<S, H> {
         if let Some(form) = self.history.bounded(release.time.value(), Side::Left) {
             return form.highest(release);
         }
-        let known = self.events.iter().position(|event| event.time.value() == release.time.value())?;
+        let known = self.course.events.iter().position(|event| event.time.value() == release.time.value())?;
         let (time, height) = self.history.highest(self.history.events().get(known)?)?;
         // dt*/dh′ = 1/(g + 2rh′); and what the height loses there is of second order.
         let (Near { rise, speed, .. }, gravity) = (self.near(&within(&time, 0.0)), self.scales.gravity);
@@ -346,9 +335,5 @@ impl<S: Rounded, H: Bounding<S>> Motion<Estimate<S>> for WithBounds<S, H> {
 
     fn digits_lost(&self) -> Option<(u32, f64)> {
         self.history.digits_lost()
-    }
-
-    fn warnings(&self) -> &[Warning] {
-        self.history.warnings()
     }
 }

@@ -4,12 +4,12 @@ use std::path::PathBuf;
 use std::process::ExitCode;
 
 use clap::{Args, ValueEnum};
-use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 
-use super::{Failure, source};
+use super::failure::Failure;
+use super::{file, source};
 use crate::compare::check::{CATALOGUE, Case, Checked, Group, Verdict, select};
 use crate::compare::published;
-use crate::output::{check_json, check_page, check_summary, check_table, write_whole};
+use crate::output::{check_json, check_page, check_summary, check_table};
 
 /// The catalogue of hard cases and of the paper's claims, worked out now by every route and held against the truth
 #[derive(Args, Debug)]
@@ -54,12 +54,8 @@ impl Check {
             let cases: Vec<&str> = CATALOGUE.iter().flat_map(|group| group.cases).map(|case| case.name).collect();
             miette::miette!("found --only {name}, expected a group ({groups}) or a case ({})", cases.join(", "))
         })?;
-        // Drawn on a terminal only.
         let count = groups.iter().map(|(_, cases)| cases.len() as u64).sum();
-        let bar = ProgressBar::with_draw_target(Some(count), ProgressDrawTarget::stderr());
-        if let Ok(style) = ProgressStyle::with_template("{bar:40} {pos}/{len}, {msg}") {
-            bar.set_style(style);
-        }
+        let bar = source::bar(Some(count), "{bar:40} {pos}/{len}, {msg}");
         let run = |case: &'static Case| {
             bar.set_message(case.name);
             let checked = case.run();
@@ -76,7 +72,7 @@ impl Check {
             Shape::Json => format!("{:#}\n", check_json(&checked, &published)),
             Shape::Markdown => check_page(&checked, &published),
         };
-        write_whole(self.output.as_deref(), text.as_bytes()).map_err(source::cannot("write the catalogue"))?;
+        file::write(self.output.as_deref(), text.as_bytes())?;
         let failed = checked.iter().flat_map(|(_, cases)| cases).any(|case| case.verdict == Verdict::Failed);
         let failed =
             failed || published.iter().flat_map(|published| &published.reached).any(|reached| !reached.agrees());

@@ -5,8 +5,9 @@ use std::process::ExitCode;
 
 use clap::Args;
 
-use super::file::{self, Kind};
-use super::{Failure, Format, source};
+use super::failure::Failure;
+use super::file::{self, Format, Kind};
+use super::source;
 use crate::agreement::{Axis, Comparison, Compression, LEGEND, Limit, Options, Origin, Prepared};
 use crate::data::Source;
 use crate::number::Number;
@@ -95,7 +96,7 @@ impl Compare {
         let report = Report { comparison: &comparison, title: scene.title.as_deref(), units: &units };
         // Before anything is written.
         let failures = comparison.above(&self.fail_above).map_err(|error| miette::miette!("{error}"))?;
-        self.write(&report)?;
+        file::write_each(&self.output, self.format, |kind| report.bytes(kind))?;
         for failure in &failures {
             eprintln!("failed: {failure}");
         }
@@ -135,29 +136,14 @@ impl Compare {
         }
         Ok(())
     }
-
-    fn write(&self, report: &Report<'_>) -> Result<(), Failure> {
-        let mut printed = false;
-        for path in &self.output {
-            let kind = Kind::of(path, self.format)?;
-            printed |= matches!(kind, Kind::Rows(_));
-            file::write(Some(path), &report.bytes(kind)?)?;
-        }
-        if printed {
-            return Ok(());
-        }
-        file::write(None, &report.bytes(Kind::Rows(self.format.unwrap_or(Format::Table)))?)
-    }
 }
 
 impl Report<'_> {
     fn bytes(&self, kind: Kind) -> Result<Vec<u8>, Failure> {
         let Report { comparison, title, units } = *self;
         Ok(match kind {
-            Kind::Rows(Format::Json) => format!("{:#}\n", comparison.json(title, units)).into_bytes(),
-            Kind::Rows(Format::Csv) => {
-                compare_csv(&comparison.files[0]).map_err(|error| miette::miette!("cannot write CSV: {error}"))?
-            }
+            Kind::Rows(Format::Json) => file::json(&comparison.json(title, units)),
+            Kind::Rows(Format::Csv) => file::made("CSV", compare_csv(&comparison.files[0]))?,
             Kind::Picture(kind) => file::picture(kind, compare_svg(&comparison.files[0], title, units), Size::Page)?,
             Kind::Rows(Format::Table) => comparison.table(title, units).into_bytes(),
         })

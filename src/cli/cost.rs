@@ -3,10 +3,11 @@
 use std::path::PathBuf;
 
 use clap::Args;
-use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 
-use super::file::{self, Kind};
-use super::{Failure, Format, NumberArgs, source};
+use super::args::NumberArgs;
+use super::failure::Failure;
+use super::file::{self, Format, Kind};
+use super::source;
 use crate::compare::cost::{self, Difference, Table};
 use crate::compare::{Quantity, Question, plan};
 use crate::number::Number;
@@ -55,17 +56,7 @@ impl Cost {
         // Before ten seconds are spent.
         self.check()?;
         let measured = self.measure(&scene)?;
-        let title = scene.title.as_deref();
-        let mut printed = false;
-        for path in &self.output {
-            let kind = Kind::of(path, self.format)?;
-            printed |= matches!(kind, Kind::Rows(_));
-            file::write(Some(path), &measured.bytes(kind, title)?)?;
-        }
-        if printed {
-            return Ok(());
-        }
-        file::write(None, &measured.bytes(Kind::Rows(self.format.unwrap_or(Format::Table)), title)?)
+        file::write_each(&self.output, self.format, |kind| measured.bytes(kind, scene.title.as_deref()))
     }
 
     fn check(&self) -> Result<(), Failure> {
@@ -78,7 +69,7 @@ impl Cost {
     }
 
     fn measure(&self, scene: &Scene) -> Result<Measured, Failure> {
-        let bar = progress();
+        let bar = source::bar(Some(1000), "{bar:40} {percent} %, {msg}");
         let observe = |share: f64, what: &str| {
             bar.set_message(what.to_string());
             bar.set_position((1000.0 * share.min(1.0)) as u64);
@@ -99,29 +90,15 @@ impl Cost {
 
 impl Measured {
     fn bytes(&self, kind: Kind, title: Option<&str>) -> Result<Vec<u8>, Failure> {
-        let no_csv = |error: csv::Error| miette::miette!("cannot write CSV: {error}");
         Ok(match (self, kind) {
             (Measured::Work(table), Kind::Rows(Format::Table)) => cost_table(table, title).into_bytes(),
-            (Measured::Work(table), Kind::Rows(Format::Json)) => {
-                format!("{:#}\n", cost_json(table, title)).into_bytes()
-            }
-            (Measured::Work(table), Kind::Rows(Format::Csv)) => cost_csv(table).map_err(no_csv)?.into_bytes(),
+            (Measured::Work(table), Kind::Rows(Format::Json)) => file::json(&cost_json(table, title)),
+            (Measured::Work(table), Kind::Rows(Format::Csv)) => file::made("CSV", cost_csv(table))?,
             (Measured::Work(table), Kind::Picture(kind)) => file::picture(kind, cost_svg(table, title), Size::Page)?,
-            (Measured::Effects(rows), Kind::Rows(Format::Json)) => {
-                format!("{:#}\n", effects_json(rows, title)).into_bytes()
-            }
-            (Measured::Effects(rows), Kind::Rows(Format::Csv)) => effects_csv(rows).map_err(no_csv)?.into_bytes(),
+            (Measured::Effects(rows), Kind::Rows(Format::Json)) => file::json(&effects_json(rows, title)),
+            (Measured::Effects(rows), Kind::Rows(Format::Csv)) => file::made("CSV", effects_csv(rows))?,
             // Pictures that cannot be drawn are refused before anything is measured.
             (Measured::Effects(rows), _) => effects_table(rows, title).into_bytes(),
         })
     }
-}
-
-/// A bar on standard error, on a terminal only.
-fn progress() -> ProgressBar {
-    let bar = ProgressBar::with_draw_target(Some(1000), ProgressDrawTarget::stderr());
-    if let Ok(style) = ProgressStyle::with_template("{bar:40} {percent} %, {msg}") {
-        bar.set_style(style);
-    }
-    bar
 }

@@ -3,7 +3,10 @@
 use clap::Args;
 use serde_json::json;
 
-use super::{Failure, Format, NumberArgs, OutputArgs, source};
+use super::args::{NumberArgs, OutputArgs};
+use super::failure::Failure;
+use super::file::{self, Format};
+use super::source;
 use crate::aligned::table;
 use crate::output::{WIDTH, wrapped};
 use crate::scene::{Effect, EffectUse, Scene};
@@ -26,7 +29,7 @@ impl Explain {
         let plan = Plan::of(&scene.problem, &Question::run(self.numbers.numbers(&scene)))?;
         let effects = effects(&scene, &plan);
         match self.output.format()? {
-            Format::Json => self.output.write_json(&json!({
+            Format::Json => self.output.write(&file::json(&json!({
                 "schema": 1,
                 "title": scene.title,
                 "effects": effects,
@@ -36,11 +39,11 @@ impl Explain {
                 "reach": plan.reach.to_string(),
                 "reasons": plan.reasons(),
                 "warnings": scene.problem.neglected().iter().map(ToString::to_string).collect::<Vec<_>>(),
-            })),
+            }))),
             Format::Csv => {
                 Err(miette::miette!("found --format csv, expected table or json: a plan is no list of numbers"))
             }
-            Format::Table => self.output.write(&self.text(&scene, &effects, &plan)),
+            Format::Table => self.output.write(self.text(&scene, &effects, &plan).as_bytes()),
         }
     }
 

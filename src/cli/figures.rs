@@ -5,11 +5,13 @@ use std::path::PathBuf;
 use clap::Args;
 use rayon::prelude::*;
 
-use super::{Failure, file, source};
+use super::args::pool;
+use super::failure::{self, Failure};
+use super::file::{self, Picture};
 use crate::figures::{ALL, Failed, Figure};
 use crate::output::{Size, figure_csv, figure_sheet, figures_index, write_files};
 
-/// The figures of the paper from its parameters, and two more: SVG, PNG and CSV, with an index
+/// The figures of the paper from its parameters, and two more: SVG, PNG, PDF and CSV, with an index
 #[derive(Args, Debug)]
 #[command(
     after_help = "Figures: 1 to 8 of the paper, `regimes` and `tenth-bounce`. README.md in DIR says of each what is \
@@ -31,6 +33,12 @@ pub(super) struct Figures {
     output: PathBuf,
 }
 
+/// What each figure is drawn as, by the endings of the files, the one that the index shows first.
+const PICTURES: &[(&str, Picture)] = match cfg!(feature = "plot") {
+    true => &[("png", Picture::Png), ("svg", Picture::Svg), ("pdf", Picture::Pdf)],
+    false => &[("svg", Picture::Svg)],
+};
+
 fn named(name: &str) -> Result<&'static str, String> {
     let known = ALL.iter().map(|figure| figure.name).find(|known| *known == name.trim());
     let names = || ALL.map(|figure| figure.name).join(", ");
@@ -44,9 +52,9 @@ impl Figures {
         }
         let chosen = |figure: &&Figure| self.only.is_empty() || self.only.contains(&figure.name);
         let figures: Vec<&Figure> = ALL.iter().filter(chosen).collect();
-        let pool = super::pool(self.threads)?;
+        let pool = pool(self.threads)?;
         let files = pool.install(|| self.files(&figures))?;
-        write_files(&self.output, &files).map_err(source::cannot(&format!("write {}", self.output.display())))?;
+        write_files(&self.output, &files).map_err(failure::cannot(&format!("write {}", self.output.display())))?;
         Ok(())
     }
 
@@ -55,16 +63,15 @@ impl Figures {
         let drawn = figures.par_iter().map(|figure| {
             let data = figure.data().map_err(failed)?;
             let svg = figure_sheet(figure, &data).map_err(failed)?.svg(self.size);
-            let csv = figure_csv(figure, &data).map_err(|error| miette::miette!("cannot write CSV: {error}"))?;
-            let mut files = vec![(".csv", csv.into_bytes())];
-            if cfg!(feature = "plot") {
-                files.push((".png", file::picture(file::Picture::Png, svg.clone(), self.size)?));
+            let mut files = vec![(figure.file() + ".csv", file::made("CSV", figure_csv(figure, &data))?)];
+            for (ending, kind) in PICTURES {
+                files.push((format!("{}.{ending}", figure.file()), file::picture(*kind, svg.clone(), self.size)?));
             }
-            files.push((".svg", svg.into_bytes()));
-            Ok((data, files.into_iter().map(|(ending, bytes)| (figure.file() + ending, bytes)).collect::<Vec<_>>()))
+            Ok((data, files))
         });
         let (data, files): (Vec<_>, Vec<_>) = drawn.collect::<Result<Vec<_>, Failure>>()?.into_iter().unzip();
-        let index = figures_index(figures, &data).map_err(failed)?;
+        let endings: Vec<&str> = PICTURES.iter().map(|picture| picture.0).collect();
+        let index = figures_index(figures, &data, &endings).map_err(failed)?;
         Ok(files.into_iter().flatten().chain([("README.md".to_string(), index.into_bytes())]).collect())
     }
 }

@@ -1,11 +1,24 @@
 //! What a file holds by its ending, and writing it.
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
-use super::{Failure, Format, source};
+use clap::ValueEnum;
+
+use super::failure::{self, Failure};
 #[cfg(feature = "plot")]
 use crate::output::Rendered;
 use crate::output::{Size, write_whole};
+
+/// How rows are written.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub(super) enum Format {
+    /// For a person
+    Table,
+    /// For a program
+    Json,
+    /// For a spreadsheet
+    Csv,
+}
 
 /// What a picture is written as, by the ending of its file.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -48,11 +61,54 @@ pub(super) fn ending(path: &Path) -> Option<String> {
     path.extension().and_then(|ending| ending.to_str()).map(str::to_lowercase)
 }
 
+/// The format that is asked for, or the one that the ending of the file says; an empty ending is that of no file.
+///
+/// **Errors**: an ending of none.
+pub(super) fn format<F: Copy>(asked: Option<F>, path: Option<&Path>, endings: &[(&str, F)]) -> Result<F, Failure> {
+    let found = path.and_then(ending).unwrap_or_default();
+    let by_ending = || endings.iter().find(|known| known.0 == found).map(|known| known.1);
+    asked.or_else(by_ending).ok_or_else(|| {
+        let known: Vec<String> = endings.iter().map(|known| format!(".{}", known.0)).filter(|k| k != ".").collect();
+        let known = known.join(", ");
+        let known = known.rsplit_once(", ").map_or(known.clone(), |(most, last)| format!("{most} or {last}"));
+        miette::miette!("found the ending .{found}, expected {known} here, or --format to say what the file holds")
+    })
+}
+
+/// That `path`, or standard output, cannot be written.
+pub(super) fn unwritten(path: Option<&Path>) -> impl FnOnce(std::io::Error) -> failure::Io + use<> {
+    let path = path.filter(|path| *path != Path::new("-"));
+    failure::cannot(&format!("write {}", path.map_or("standard output".into(), |path| path.display().to_string())))
+}
+
 /// Writes to a file whole or not at all, or to standard output.
 pub(super) fn write(path: Option<&Path>, bytes: &[u8]) -> Result<(), Failure> {
-    let path = path.filter(|path| *path != Path::new("-"));
-    let name = path.map_or("standard output".into(), |path| path.display().to_string());
-    Ok(write_whole(path, bytes).map_err(source::cannot(&format!("write {name}")))?)
+    Ok(write_whole(path, bytes).map_err(unwritten(path))?)
+}
+
+/// Writes each file; rows are printed too, if no file holds any.
+pub(super) fn write_each(
+    paths: &[PathBuf],
+    format: Option<Format>,
+    bytes: impl Fn(Kind) -> Result<Vec<u8>, Failure>,
+) -> Result<(), Failure> {
+    let mut printed = false;
+    for path in paths {
+        let kind = Kind::of(path, format)?;
+        printed |= matches!(kind, Kind::Rows(_));
+        write(Some(path), &bytes(kind)?)?;
+    }
+    if printed { Ok(()) } else { write(None, &bytes(Kind::Rows(format.unwrap_or(Format::Table)))?) }
+}
+
+/// The bytes of a file that can be made.
+pub(super) fn made(what: &str, made: Result<impl Into<Vec<u8>>, impl std::fmt::Display>) -> Result<Vec<u8>, Failure> {
+    made.map(Into::into).map_err(|error| miette::miette!("cannot write {what}: {error}"))
+}
+
+/// The bytes of a JSON file.
+pub(super) fn json(value: &serde_json::Value) -> Vec<u8> {
+    format!("{value:#}\n").into_bytes()
 }
 
 impl Picture {

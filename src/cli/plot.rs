@@ -5,7 +5,10 @@ use std::path::{Path, PathBuf};
 
 use clap::Args;
 
-use super::{Failure, NumberArgs, Visit, file, parameters, solve, source, warned};
+use super::answer::{Visit, parameters, solve, warned};
+use super::args::NumberArgs;
+use super::failure::Failure;
+use super::{file, source};
 use crate::history::History;
 use crate::motion::Ending;
 use crate::number::{Number, Scalar};

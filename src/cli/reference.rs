@@ -5,13 +5,16 @@ use std::sync::mpsc::sync_channel;
 
 use clap::Args;
 
+use super::answer::{Visit, noted_end, solve, warned};
+use super::args::NumberArgs;
+use super::failure::{self, Failure};
 use super::times::{CHUNK, Chunk, Times, TimesFile};
-use super::{Failure, NumberArgs, Visit, file, noted_end, solve, source, warned};
+use super::{file, source};
 use crate::error::Error;
 use crate::history::History;
 use crate::motion::{Motion, Side};
 use crate::number::{List, Number, Scalar};
-use crate::output::{Described, Golden, Head, Language, Preamble, Rows, code, write_whole};
+use crate::output::{Described, Golden, Head, Language, Preamble, Rows, code};
 use crate::quantity::{Column, Slice, Units};
 use crate::scene::Scene;
 use crate::solve::{Question, Target};
@@ -111,21 +114,8 @@ impl Reference {
     }
 
     fn golden(&self) -> Result<Golden, Failure> {
-        let ending = self.output.as_deref().and_then(file::ending);
-        match (self.format, ending.as_deref()) {
-            (Some(golden), _) => Ok(golden),
-            (None, Some("csv") | None) => Ok(Golden::Csv),
-            (None, Some("json")) => Ok(Golden::Json),
-            (None, Some("npz")) => Ok(Golden::Npz),
-            (None, Some(other)) => Err(miette::miette!(
-                "found the ending .{other}, expected .csv, .json or .npz here, or --format to say what the file holds"
-            )),
-        }
-    }
-
-    fn cannot_write(&self) -> impl FnOnce(std::io::Error) -> source::Io + use<> {
-        let name = self.output.as_ref().map_or("standard output".into(), |path| path.display().to_string());
-        source::cannot(&format!("write {name}"))
+        let endings = [("csv", Golden::Csv), ("json", Golden::Json), ("npz", Golden::Npz), ("", Golden::Csv)];
+        file::format(self.format, self.output.as_deref(), &endings)
     }
 
     fn times(&self) -> Result<Times, Failure> {
@@ -183,7 +173,7 @@ impl Visit for Series<'_> {
             Some(_) => Described::slice(&units),
             None => self.columns.iter().map(|column| Described::column(*column, &units)).collect(),
         };
-        let keep = || source::cannot("keep the rows");
+        let keep = || failure::cannot("keep the rows");
         let mut rows = Rows::new(self.golden, described, head.digits).map_err(keep())?;
         let at_once = CHUNK / self.asked.points.as_ref().map_or(1, List::len).min(CHUNK);
         std::thread::scope(|scope| {
@@ -208,7 +198,8 @@ impl Visit for Series<'_> {
         let (scene, until) = (self.scene.source(), history.end().to_f64());
         let preamble =
             Preamble { head: &head, scene, numbers, each: "each column", until, bare: self.asked.bare, ends };
-        Ok(rows.finish(&preamble, self.asked.output.as_deref()).map_err(self.asked.cannot_write())?)
+        let path = self.asked.output.as_deref();
+        Ok(rows.finish(&preamble, path).map_err(file::unwritten(path))?)
     }
 }
 
@@ -229,6 +220,6 @@ impl Visit for Function<'_> {
         let (scene, until) = (self.scene.source(), history.end().to_f64());
         let preamble = Preamble { head: &head, scene, numbers, each: "each coefficient", until, bare: false, ends };
         let text = code(&waves, &S::carry(history.end()), self.language, &preamble);
-        Ok(write_whole(self.asked.output.as_deref(), text.as_bytes()).map_err(self.asked.cannot_write())?)
+        file::write(self.asked.output.as_deref(), text.as_bytes())
     }
 }

@@ -3,10 +3,11 @@
 use std::path::{Path, PathBuf};
 
 use clap::Args;
-use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 
-use super::Failure;
+use super::args::pool;
+use super::failure::Failure;
 use super::file::{self, Picture};
+use super::source;
 use crate::output::{Size, regimes_csv, regimes_npz, regimes_svg, regimes_text, threshold_csv};
 use crate::sweep::Map;
 
@@ -47,11 +48,8 @@ impl Regimes {
     pub(super) fn run(&self) -> Result<(), Failure> {
         // Before anything is solved.
         let kinds = self.output.iter().map(|path| self.kind(path)).collect::<Result<Vec<_>, Failure>>()?;
-        let bar = ProgressBar::with_draw_target(None, ProgressDrawTarget::stderr());
-        if let Ok(style) = ProgressStyle::with_template("{spinner} {pos} points, {elapsed}") {
-            bar.set_style(style);
-        }
-        let pool = super::pool(self.threads)?;
+        let bar = source::bar(None, "{spinner} {pos} points, {elapsed}");
+        let pool = pool(self.threads)?;
         // The curve takes R alone.
         let speeds = if self.curve { "1,2" } else { &self.speed_ratio };
         let map = pool.install(|| Map::new(&self.damping_ratio, speeds, || bar.inc(1)))?;
@@ -86,12 +84,11 @@ impl Regimes {
     }
 
     fn bytes(&self, map: &Map, kind: Kind) -> Result<Vec<u8>, Failure> {
-        let no_csv = |error: csv::Error| miette::miette!("cannot write CSV: {error}");
-        Ok(match kind {
-            Kind::Csv if self.curve => threshold_csv(map).map_err(no_csv)?.into_bytes(),
-            Kind::Csv => regimes_csv(map).map_err(no_csv)?.into_bytes(),
-            Kind::Npz => regimes_npz(map).map_err(|error| miette::miette!("cannot write NPZ: {error}"))?,
-            Kind::Picture(kind) => file::picture(kind, regimes_svg(map), Size::Page)?,
-        })
+        match kind {
+            Kind::Csv if self.curve => file::made("CSV", threshold_csv(map)),
+            Kind::Csv => file::made("CSV", regimes_csv(map)),
+            Kind::Npz => file::made("NPZ", regimes_npz(map)),
+            Kind::Picture(kind) => file::picture(kind, regimes_svg(map), Size::Page),
+        }
     }
 }

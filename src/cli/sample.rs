@@ -2,7 +2,11 @@
 
 use clap::Args;
 
-use super::{Failure, Format, NumberArgs, OutputArgs, Report, answer, source};
+use super::answer::{Report, answer};
+use super::args::{NumberArgs, OutputArgs};
+use super::failure::Failure;
+use super::file::{self, Format};
+use super::source;
 use crate::error::Error;
 use crate::motion::{Motion, Side};
 use crate::number::{List, Scalar};
@@ -71,11 +75,11 @@ impl Report for Sample {
         samples.iter().flat_map(|sample| sample.values.iter().chain(&sample.point).chain([&sample.time])).collect()
     }
 
-    fn print<S: Scalar>(&self, samples: &Self::Data<S>, head: &Head) -> Result<(), Failure> {
-        match self.output.format()? {
-            Format::Table => self.output.write(&samples_table(samples, self.quantity, head)),
-            Format::Json => self.output.write_json(&samples_json(samples, self.quantity, head)),
-            Format::Csv => self.output.write_csv(samples_csv(samples, self.quantity, head)),
+    fn bytes<S: Scalar>(&self, samples: &Self::Data<S>, head: &Head, format: Format) -> Result<Vec<u8>, Failure> {
+        match format {
+            Format::Table => Ok(samples_table(samples, self.quantity, head).into_bytes()),
+            Format::Json => Ok(file::json(&samples_json(samples, self.quantity, head))),
+            Format::Csv => file::made("CSV", samples_csv(samples, self.quantity, head)),
         }
     }
 }

@@ -2,7 +2,11 @@
 
 use clap::Args;
 
-use super::{Failure, Format, OutputArgs, Report, answer, source};
+use super::answer::{Report, answer};
+use super::args::OutputArgs;
+use super::failure::Failure;
+use super::file::{self, Format};
+use super::source;
 use crate::aligned::table;
 use crate::compare::Reached;
 use crate::error::Error;
@@ -31,9 +35,8 @@ impl Scenes {
     pub(super) fn run(&self) -> Result<(), Failure> {
         if let (true, Some(name)) = (self.targets, &self.name) {
             let scene = source::read(name)?;
-            let report = Published { targets: &scene.targets, output: &self.output };
             let numbers = Numbers::Double(scene.accuracy.as_ref().map(Number::to_f64));
-            return answer(&scene, &Question::run(numbers), &self.output, &report);
+            return answer(&scene, &Question::run(numbers), &self.output, &Published(&scene.targets));
         }
         if self.output.format.is_some_and(|format| format != Format::Table) {
             return Err(miette::miette!("found --format, expected it with --targets: a list of scenes is a text"));
@@ -53,21 +56,18 @@ impl Scenes {
                 }
             },
         };
-        self.output.write(&text)
+        self.output.write(text.as_bytes())
     }
 }
 
 /// The published values of a scene beside ours.
-struct Published<'a> {
-    targets: &'a [Target],
-    output: &'a OutputArgs,
-}
+struct Published<'a>(&'a [Target]);
 
 impl Report for Published<'_> {
     type Data<S: Scalar> = Vec<Reached<S>>;
 
     fn gather<S: Scalar>(&self, history: &dyn Motion<S>, head: &Head) -> Result<Self::Data<S>, Error> {
-        Reached::all(history, self.targets, &head.units)
+        Reached::all(history, self.0, &head.units)
     }
 
     /// None: values of very different size would be held to the digits of the greatest.
@@ -75,11 +75,11 @@ impl Report for Published<'_> {
         Vec::new()
     }
 
-    fn print<S: Scalar>(&self, reached: &Self::Data<S>, head: &Head) -> Result<(), Failure> {
-        match self.output.format()? {
-            Format::Table => self.output.write(&targets_table(reached, head)),
-            Format::Json => self.output.write_json(&targets_json(reached, head)),
-            Format::Csv => self.output.write_csv(targets_csv(reached, head)),
+    fn bytes<S: Scalar>(&self, reached: &Self::Data<S>, head: &Head, format: Format) -> Result<Vec<u8>, Failure> {
+        match format {
+            Format::Table => Ok(targets_table(reached, head).into_bytes()),
+            Format::Json => Ok(file::json(&targets_json(reached, head))),
+            Format::Csv => file::made("CSV", targets_csv(reached, head)),
         }
     }
 }

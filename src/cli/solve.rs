@@ -4,7 +4,11 @@ use std::io::IsTerminal;
 
 use clap::Args;
 
-use super::{Failure, Format, NumberArgs, OutputArgs, Report, answer, noted_end, source};
+use super::answer::{Report, answer, noted_end};
+use super::args::{NumberArgs, OutputArgs};
+use super::failure::Failure;
+use super::file::{self, Format};
+use super::source;
 use crate::error::Error;
 use crate::motion::Motion;
 use crate::number::Scalar;
@@ -78,17 +82,17 @@ impl Report for Solve {
         record.numbers(!self.numbers.in_doubles())
     }
 
-    fn print<S: Scalar>(&self, record: &Record<S>, head: &Head) -> Result<(), Failure> {
+    fn bytes<S: Scalar>(&self, record: &Record<S>, head: &Head, format: Format) -> Result<Vec<u8>, Failure> {
         // A table on the screen says it.
-        if self.output.output.is_some() || self.output.format()? != Format::Table {
+        if self.output.output.is_some() || format != Format::Table {
             noted_end(&record.end.1, &record.end.0, head.digits);
         }
-        match self.output.format()? {
-            Format::Table if self.legend => self.output.write(&format!("{}\n{LEGEND}", history_table(record, head))),
-            Format::Table => self.output.write(&history_table(record, head)),
-            Format::Json => self.output.write_json(&history_json(record, head)),
+        match format {
+            Format::Table if self.legend => Ok(format!("{}\n{LEGEND}", history_table(record, head)).into_bytes()),
+            Format::Table => Ok(history_table(record, head).into_bytes()),
+            Format::Json => Ok(file::json(&history_json(record, head))),
             Format::Csv => {
-                self.output.write_csv(history_csv(record, self.part.unwrap_or_default(), self.coefficients, head))
+                file::made("CSV", history_csv(record, self.part.unwrap_or_default(), self.coefficients, head))
             }
         }
     }

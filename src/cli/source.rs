@@ -10,26 +10,13 @@ use std::time::Duration;
 
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 
-use super::Failure;
+use super::failure::{Failure, cannot};
 use crate::problem::Parameters;
 use crate::scene::{Scene, builtin};
 use crate::solve::{Observer, Plan, Reach};
 
 /// More than any scene: what is read of an endless stream before it is refused.
 const MAX_BYTES: u64 = (16 << 20) + 1;
-
-/// A failure to read or write, with what was tried.
-#[derive(Debug, thiserror::Error, miette::Diagnostic)]
-#[error("cannot {what}: {error}")]
-pub(super) struct Io {
-    what: String,
-    error: std::io::Error,
-}
-
-pub(super) fn cannot(what: &str) -> impl FnOnce(std::io::Error) -> Io + use<> {
-    let what = what.to_string();
-    move |error| Io { what, error }
-}
 
 #[derive(Debug, thiserror::Error, miette::Diagnostic)]
 #[error("found no file and no built-in scene called `{name}`")]
@@ -81,6 +68,15 @@ fn read_text(from: impl Read, name: &str) -> Result<String, Failure> {
     Ok(text)
 }
 
+/// A progress bar on standard error, on a terminal only.
+pub(super) fn bar(total: Option<u64>, template: &str) -> ProgressBar {
+    let bar = ProgressBar::with_draw_target(total, ProgressDrawTarget::stderr());
+    match ProgressStyle::with_template(template) {
+        Ok(style) => bar.with_style(style),
+        Err(_) => bar,
+    }
+}
+
 /// A progress bar on standard error: only on a terminal, and only for runs over a second.
 pub(super) struct Progress {
     bar: ProgressBar,
@@ -102,10 +98,8 @@ impl Progress {
             Some(_) => format!("{{bar:40}} {{pos}}/{{len}} {unit}, {{msg}}, {{eta}} left"),
             None => "{spinner} {elapsed}".into(),
         };
-        let bar = ProgressBar::with_draw_target(total, ProgressDrawTarget::hidden());
-        if let Ok(style) = ProgressStyle::with_template(&template) {
-            bar.set_style(style);
-        }
+        let bar = bar(total, &template);
+        bar.set_draw_target(ProgressDrawTarget::hidden());
         // A thread of its own shows it: a single step of a run in many digits can take longer than a second.
         let (running, ended) = channel();
         let shown = bar.clone();

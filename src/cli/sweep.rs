@@ -6,10 +6,11 @@ use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
 use clap::{Args, ValueEnum};
-use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use serde_json::json;
 
-use super::{Failure, NumberArgs, file, source};
+use super::args::{NumberArgs, pool};
+use super::failure::{self, Failure};
+use super::{file, source};
 use crate::compare::Quantity;
 use crate::number::Number;
 use crate::output::{sweep_csv, sweep_json, sweep_npz, sweep_table};
@@ -135,15 +136,13 @@ impl Sweep {
         let found = self.solve(&sweep, points, known, journal.as_ref())?;
         let bytes = match shape {
             Shape::Table => sweep_table(&sweep, &found).into_bytes(),
-            Shape::Json => format!("{:#}\n", sweep_json(&sweep, &found, scene.title.as_deref())).into_bytes(),
-            Shape::Csv => {
-                sweep_csv(&sweep, &found).map_err(|error| miette::miette!("cannot write CSV: {error}"))?.into_bytes()
-            }
-            Shape::Npz => sweep_npz(&sweep, &found).map_err(|error| miette::miette!("cannot write NPZ: {error}"))?,
+            Shape::Json => file::json(&sweep_json(&sweep, &found, scene.title.as_deref())),
+            Shape::Csv => file::made("CSV", sweep_csv(&sweep, &found))?,
+            Shape::Npz => file::made("NPZ", sweep_npz(&sweep, &found))?,
         };
         file::write(path, &bytes)?;
         if let Some((journal, path)) = journal.zip(path) {
-            journal.remove().map_err(source::cannot(&format!("remove {}", journal_of(path).display())))?;
+            journal.remove().map_err(failure::cannot(&format!("remove {}", journal_of(path).display())))?;
         }
         let mut cells = found.iter().flat_map(|point| &point.cells);
         let fails = !found.is_empty() && cells.all(|cell| cell.value.is_null());
@@ -157,36 +156,28 @@ impl Sweep {
         known: Vec<Point>,
         journal: Option<&Journal>,
     ) -> Result<Vec<Point>, Failure> {
-        // Drawn on a terminal only.
-        let bar = ProgressBar::with_draw_target(Some(points.len() as u64), ProgressDrawTarget::stderr());
-        if let Ok(style) = ProgressStyle::with_template("{bar:40} {pos}/{len} points, {eta} left") {
-            bar.set_style(style);
-        }
+        let bar = source::bar(Some(points.len() as u64), "{bar:40} {pos}/{len} points, {eta} left");
         bar.inc(known.len() as u64);
         bar.reset_eta();
-        let pool = super::pool(self.threads)?;
+        let pool = pool(self.threads)?;
         let done = |point: &Point| {
             bar.inc(1);
             journal.map_or(Ok(()), |journal| journal.add(point))
         };
         let found = pool.install(|| sweep.run(points, known, done));
         bar.finish_and_clear();
-        Ok(found.map_err(source::cannot("keep finished points"))?)
+        Ok(found.map_err(failure::cannot("keep finished points"))?)
     }
 
     fn shape(&self) -> Result<Shape, Failure> {
-        let ending = self.output.as_deref().and_then(file::ending);
-        match (self.format, ending.as_deref()) {
-            (Some(shape), _) => Ok(shape),
-            (None, Some("json")) => Ok(Shape::Json),
-            (None, Some("csv")) => Ok(Shape::Csv),
-            (None, Some("npz")) => Ok(Shape::Npz),
-            (None, Some("txt") | None) => Ok(Shape::Table),
-            (None, Some(other)) => Err(miette::miette!(
-                "found the ending .{other}, expected .csv, .json, .npz or .txt here, or --format to say what the file \
-                 holds"
-            )),
-        }
+        let endings = [
+            ("csv", Shape::Csv),
+            ("json", Shape::Json),
+            ("npz", Shape::Npz),
+            ("txt", Shape::Table),
+            ("", Shape::Table),
+        ];
+        file::format(self.format, self.output.as_deref(), &endings)
     }
 }
 
@@ -201,6 +192,6 @@ fn unopened(output: &Path, error: std::io::Error) -> Failure {
         ErrorKind::InvalidData => {
             SweepError::new(format!("{journal} of another sweep"), "the same command, or the file removed").into()
         }
-        _ => source::cannot(&format!("write {journal}"))(error).into(),
+        _ => failure::cannot(&format!("write {journal}"))(error).into(),
     }
 }

@@ -4,8 +4,8 @@ use std::fs::File;
 use std::io::{BufRead, BufReader, Seek};
 use std::path::Path;
 
-use super::Failure;
-use super::source::cannot;
+use super::failure::Failure;
+use super::failure::cannot;
 use crate::number::{List, Number, Scalar};
 
 /// Where the times come from.

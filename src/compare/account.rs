@@ -4,7 +4,7 @@
 use std::cell::OnceCell;
 use std::cmp::Ordering;
 
-use super::cost::differences::Marched;
+use super::differences::Marched;
 use super::value::{Bounded, NoAnswer, System};
 use crate::error::Error;
 use crate::first_contact::{Bounce, FirstContact};

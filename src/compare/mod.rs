@@ -3,19 +3,21 @@
 //!
 //! | module | |
 //! |---|---|
-//! | `value` | a number in any number system, and what two of them have in common |
+//! | `value` | a number in any number system, with its bound |
 //! | `quantity` | what can be asked of a rod |
 //! | `account` | the accounts of a motion that can be asked |
+//! | `differences` | finite differences along the characteristics |
 //! | `route` | every route to an answer |
 //! | `truth` | what answers are held against |
 //! | `target` | what others have published of a scene |
-//! | `long` | all that needs numbers longer than doubles |
+//! | `long` | what needs numbers longer than doubles |
 //! | [`check`] | the catalogue of hard cases and of the paper's claims |
 //! | [`cost`] | what accuracy and effects cost in time |
 
 mod account;
 pub(crate) mod check;
 pub(crate) mod cost;
+mod differences;
 #[cfg(feature = "mp")]
 mod long;
 #[cfg(not(feature = "mp"))]

@@ -9,7 +9,8 @@ use crate::motion::{EventKind, Motion, Side};
 use crate::number::Number;
 use crate::problem::{Parameters, Problem, Run};
 use crate::scene::Scene;
-use crate::solve::{Solution, Target};
+use crate::solution::Solution;
+use crate::solve::Target;
 
 /// A quantity that is one number. Those that `dalembert cost` offers come first.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]

@@ -1,7 +1,7 @@
 //! Every route to an answer, and the one function that runs it.
 
 use super::account::ByClosedForm;
-use super::cost::differences::march;
+use super::differences::march;
 use super::long;
 use super::quantity::{Quantity, Question};
 use super::value::{Answer, Bounded, NoAnswer, Value};
@@ -12,11 +12,9 @@ use crate::motion::Ending;
 use crate::number::{Estimate, Scalar};
 use crate::paper::Printed;
 use crate::problem::{Parameters, Problem, Run};
+use crate::solution::Solution;
 pub(crate) use crate::solve::Numbers;
-use crate::solve::{self, Plan, Solution, Want};
-
-/// A formula in many digits; its argument makes `p/q` in that many.
-pub(crate) type LongFormula = fn(&dyn Fn(i32, i32) -> long::Digits) -> long::Digits;
+use crate::solve::{self, Plan, Want};
 
 /// A route at a setting.
 #[derive(Clone, Copy, Debug)]
@@ -24,7 +22,7 @@ pub(crate) enum Route {
     /// A formula in plain doubles, as it stands in print or as a reader would program it.
     Formula(&'static str, fn() -> f64),
     /// A formula in numbers of so many digits.
-    LongFormula(&'static str, u32, LongFormula),
+    LongFormula(&'static str, u32, long::Formula),
     /// The closed form of the first contact, in these numbers alone.
     ClosedForm(Numbers),
     /// The paper's closed forms of `r = 0`, in fractions.
@@ -82,7 +80,11 @@ impl Route {
             }
             Route::Differences(cells) => question.ask(&Parameters::<f64>::of(problem, &())?, &march(problem, cells)?),
             Route::Planned(numbers) => question.ask_solution(&planned(question, numbers)?),
-            _ => long::run(self, question),
+            Route::LongFormula(_, digits, formula) => Ok(Bounded::unbounded(long::formula(digits, formula))),
+            Route::ClosedForm(Numbers::Digits(digits)) => long::closed_form(question, digits),
+            Route::Lattice(Numbers::Exact) => long::lattice(question),
+            Route::PrintedForms => long::printed_forms(question),
+            Route::ClosedForm(_) | Route::Lattice(_) => Err(NoAnswer::gave_up("this route has no such numbers")),
         }
     }
 }

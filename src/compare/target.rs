@@ -3,7 +3,7 @@
 use crate::error::Error;
 use crate::motion::{Contact, EventKind, Motion};
 use crate::number::{Estimate, Scalar};
-use crate::quantity::Units;
+use crate::quantity::{Units, columns};
 use crate::scene::{Scene, Target, TargetQuantity as Q, builtin};
 
 /// A scene with its published values and ours.
@@ -69,30 +69,14 @@ impl<S: Scalar> Reached<S> {
 }
 
 fn ours<S: Scalar>(motion: &dyn Motion<S>, target: &Target, units: &Units) -> Result<S, Error> {
-    let end = motion.end();
-    let precision = end.precision();
-    let scaled = |value: S| match units.factor::<S>(target.quantity.measure(), &precision) {
-        Some(factor) => value * factor,
-        None => value,
-    };
-    if let Some(time) = &target.time {
-        let (time, side) = (S::from_number(time, &precision), target.side);
-        let from_start = |asked: &dyn Fn(&S) -> Result<S, Error>| {
-            let value = asked(&time)?;
-            Ok(if target.from_start { value - asked(&time.zero())? } else { value })
+    let precision = motion.end().precision();
+    if let (Q::Column(column), Some(time)) = (target.quantity, &target.time) {
+        let at = |time: S| {
+            let mut table = columns(motion, units, &[column], &[time], Some(target.side))?;
+            Ok::<_, Error>(table.remove(0).remove(0))
         };
-        return match target.quantity {
-            Q::EndDisplacement => from_start(&|t| Ok(motion.ground_end(t, side)?.0)),
-            Q::TopDisplacement => from_start(&|t| Ok(motion.top_end(t, side)?.0)),
-            Q::Centre => from_start(&|t| Ok(motion.centre(t)?.0)),
-            Q::EndVelocity => Ok(motion.ground_end(&time, side)?.1),
-            Q::TopVelocity => Ok(motion.top_end(&time, side)?.1),
-            Q::CentreVelocity => Ok(motion.centre(&time)?.1),
-            Q::Energy => motion.energy(&time).map(|energy| scaled(energy.total)),
-            Q::TranslationalEnergy => motion.energy(&time).map(|energy| scaled(energy.translational)),
-            Q::VibrationalEnergy => motion.energy(&time).map(|energy| scaled(energy.vibrational)),
-            _ => motion.strain(&time, side).map(scaled),
-        };
+        let value = at(S::from_number(time, &precision))?;
+        return Ok(if target.from_start { value - at(motion.end().zero())? } else { value });
     }
     let none = || Error::NoContact { contact: target.contact - 1, found: motion.contacts().len() };
     let contact: &Contact<S> = motion.contacts().get(target.contact - 1).ok_or_else(none)?;
@@ -101,14 +85,18 @@ fn ours<S: Scalar>(motion: &dyn Motion<S>, target: &Target, units: &Units) -> Re
         let mut events = motion.events().iter().filter(|event| event.kind == kind);
         events.nth(target.contact - 1).map(|event| event.end_velocity.clone()).ok_or_else(none)
     };
+    let scaled = |value: &S| match units.factor::<S>(target.quantity.measure(), &precision) {
+        Some(factor) => value.clone() * factor,
+        None => value.clone(),
+    };
     Ok(match target.quantity {
         Q::Impact => contact.from.clone(),
         Q::Release => to?.clone(),
         Q::Duration => to?.clone() - &contact.from,
         Q::ImpactVelocity => velocity(EventKind::Impact)?,
         Q::ReleaseVelocity => velocity(EventKind::Release)?,
-        Q::Impulse => scaled(contact.impulse.clone()),
-        _ => scaled(contact.peak_strain.clone()),
+        Q::Impulse => scaled(&contact.impulse),
+        _ => scaled(&contact.peak_strain),
     })
 }
 

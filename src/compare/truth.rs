@@ -83,7 +83,7 @@ impl Truth {
         let mut more = 0;
         loop {
             let (near, value) = (run(digits + more)?, run(digits + more + more / 4 + 12)?);
-            let log10_half_width = near.log10_apart(&value) + std::f64::consts::LOG10_2;
+            let log10_half_width = long::log10_apart(&near, &value) + std::f64::consts::LOG10_2;
             let scale = value.to_f64().abs().log10().max(-290.0);
             // Equal to the last bit: no better than the shorter of the two.
             let log10_half_width = log10_half_width.max(scale - f64::from(digits + more) - 12.0);
@@ -102,7 +102,7 @@ impl Truth {
 
     /// `log₁₀` of the relative error of `value`, −∞ where there is none.
     pub(crate) fn log10_error(&self, value: &Value) -> f64 {
-        value.log10_apart(&self.value) - self.log10_scale()
+        long::log10_apart(value, &self.value) - self.log10_scale()
     }
 
     /// Digits to which an answer can be compared with it.

@@ -1,17 +1,19 @@
-//! A number as a route gives it, in the number system of that route, and what two such numbers have in common.
+//! A number as a route gives it, in the number system of that route, with its bound; or why there is none.
 
-use super::long::{self, Long};
 use crate::error::Error;
-use crate::number::{Analytic, Estimate, Scalar};
+use crate::number::{Analytic, Estimate, Float, Interval, Rational, Scalar, show};
 
 /// A number in any number system.
 #[derive(Clone, Debug)]
 pub(crate) enum Value {
     /// In double precision.
     Double(f64),
-    /// In more bits, as a fraction, or enclosed.
-    #[cfg_attr(not(feature = "mp"), expect(dead_code, reason = "there is no such number then"))]
-    Long(Long),
+    /// In more bits.
+    Float(Float),
+    /// Without any error.
+    Fraction(Rational),
+    /// Between two bounds.
+    Enclosure(Box<Interval>),
 }
 
 impl Value {
@@ -19,26 +21,17 @@ impl Value {
     pub(crate) fn to_f64(&self) -> f64 {
         match self {
             Value::Double(value) => *value,
-            Value::Long(value) => value.to_f64(),
-        }
-    }
-
-    /// `log₁₀ |self − other|`, with the middle of an enclosure: −∞ where the two are equal, ∞ where one is not finite.
-    /// An error of a thousand digits has no double.
-    ///
-    /// **Accuracy**: the difference is rounded once, to 53 bits or more.
-    pub(crate) fn log10_apart(&self, other: &Value) -> f64 {
-        match (self, other) {
-            (Value::Double(a), Value::Double(b)) if (a - b).is_finite() => (a - b).abs().log10(),
-            _ => long::log10_apart(self, other),
+            Value::Float(value) => Scalar::to_f64(value),
+            Value::Fraction(value) => Scalar::to_f64(value),
+            Value::Enclosure(value) => value.decimal(25).parse().unwrap_or(f64::NAN),
         }
     }
 
     /// `log₁₀` of half the width of an enclosure; `None` for what is none.
     pub(crate) fn log10_radius(&self) -> Option<f64> {
         match self {
-            Value::Double(_) => None,
-            Value::Long(value) => value.log10_radius(),
+            Value::Enclosure(value) => Some(value.log2_error() * std::f64::consts::LOG10_2),
+            _ => None,
         }
     }
 }
@@ -51,7 +44,9 @@ impl std::fmt::Display for Value {
                 write!(f, "{value}")
             }
             Value::Double(value) => write!(f, "{value:e}"),
-            Value::Long(value) => write!(f, "{value}"),
+            Value::Float(value) => f.write_str(&value.decimal(18)),
+            Value::Fraction(value) => f.write_str(&value.text()),
+            Value::Enclosure(value) => f.write_str(&show(&**value, 18)),
         }
     }
 }
@@ -65,23 +60,36 @@ pub(crate) trait System: Scalar {
     fn exponential(&self) -> Option<Self>;
 }
 
-impl System for f64 {
-    fn value(self) -> Value {
-        Value::Double(self)
-    }
+macro_rules! systems {
+    ($($name:ty: $self:ident => $value:expr),*) => {$(
+        #[allow(unreachable_code, reason = "without `mp` there are only doubles")]
+        impl System for $name {
+            fn value($self) -> Value {
+                $value
+            }
 
-    fn exponential(&self) -> Option<f64> {
-        Some(self.exp())
-    }
+            fn exponential(&self) -> Option<Self> {
+                Some(Analytic::exp(self))
+            }
+        }
+    )*};
 }
+systems!(
+    f64: self => Value::Double(self),
+    Float: self => Value::Float(self),
+    Interval: self => Value::Enclosure(Box::new(self)),
+    Estimate<f64>: self => self.into_value().value(),
+    Estimate<Float>: self => self.into_value().value()
+);
 
-impl System for Estimate<f64> {
+impl System for Rational {
     fn value(self) -> Value {
-        Value::Double(self.into_value())
+        Value::Fraction(self)
     }
 
+    /// Only at zero: no other fraction has a rational exponential.
     fn exponential(&self) -> Option<Self> {
-        Some(Analytic::exp(self))
+        (self.vanishes() == Ok(true)).then(|| self.one())
     }
 }
 

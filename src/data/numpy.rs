@@ -5,7 +5,7 @@ use std::io::{Cursor, Read};
 use ndarray::{ArrayD, Axis, IxDyn, OwnedRepr};
 use ndarray_npy::{NpzReader, ReadNpyError, ReadNpyExt, ReadNpzError, ReadableElement};
 
-use super::{DataError, DataErrorKind};
+use super::error::{DataError, DataErrorKind};
 use crate::number::short;
 
 /// The columns of an array or an archive, with their names where they have any. A column that is no column of numbers

@@ -2,7 +2,7 @@
 
 use std::io::{BufRead, BufReader, Read};
 
-use super::{DataError, DataErrorKind, Lines};
+use super::error::{DataError, DataErrorKind};
 use crate::number::{Number, short};
 
 /// A text, read up to its first row.
@@ -24,6 +24,25 @@ pub(super) struct Text {
 impl std::fmt::Debug for Text {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         f.debug_struct("Text").field("names", &self.names).field("width", &self.width).finish_non_exhaustive()
+    }
+}
+
+/// Where rows stand in a text: the first row of every stretch without empty lines and comments, with its line. Empty
+/// where rows have no lines.
+#[derive(Debug, Default)]
+pub(super) struct Lines(Vec<(usize, usize)>);
+
+impl Lines {
+    pub(super) fn note(&mut self, row: usize, line: usize) {
+        if self.of(row) != Some(line) {
+            self.0.push((row, line));
+        }
+    }
+
+    /// The line of a row, counted from 1, the row from 0.
+    pub(super) fn of(&self, row: usize) -> Option<usize> {
+        let k = self.0.partition_point(|(first, _)| *first <= row).checked_sub(1)?;
+        self.0.get(k).map(|(first, line)| line + row - first)
     }
 }
 

@@ -5,7 +5,7 @@ use super::outcome::{Bounce, BounceKind};
 use super::rebound::Rebound;
 use super::static_state::{StaticState, faded_after};
 use crate::error::Error;
-use crate::motion::{Contact, Ending, Energy, Event, EventKind, Field, Motion, Scales, Side, StressPiece};
+use crate::motion::{Contact, Course, Ending, Energy, Event, EventKind, Field, Motion, Scales, Side, StressPiece};
 use crate::number::{Open, Scalar};
 use crate::problem::{Parameters, Problem, Run};
 use crate::reason::Reason;
@@ -39,10 +39,7 @@ pub struct ContactHistory<N> {
     release: Option<Release<N>>,
     /// After so many round trips a contact without end is at rest.
     rest: Option<i64>,
-    events: Vec<Event<N>>,
-    contacts: Vec<Contact<N>>,
-    end: N,
-    ending: Ending,
+    course: Course<N>,
 }
 
 /// The bounce.
@@ -132,22 +129,20 @@ impl<N: BoundedSpecial> ContactHistory<N> {
                 (end, rest) = (asked, Some(faded));
             }
         }
-        ContactHistory { events: Vec::new(), contacts: Vec::new(), release: None, rest, contact, end, ending }
-            .measured()
+        ContactHistory { course: Course::new(end, ending), release: None, rest, contact }.measured()
     }
 
     fn with_bounce(contact: FirstContact<N>, time: N, trips: Trips<N>, kind: BounceKind) -> Result<Self, Error> {
         let (centre, velocity) = contact.centre_at(&trips);
         let rebound = Rebound { time: time.clone(), centre, velocity, rod: contact.rod.clone() };
         let release = Some(Release { trips, kind, rebound });
-        let (events, contacts, ending) = (Vec::new(), Vec::new(), Ending::Bounce);
-        ContactHistory { events, contacts, release, rest: None, contact, end: time, ending }.measured()
+        ContactHistory { course: Course::new(time, Ending::Bounce), release, rest: None, contact }.measured()
     }
 
     /// Events, impulse and peak: `−c² ∫ v_x dt = P(t) − P(0) + 2rL h(t) + gLt`, (3.36) integrated.
     fn measured(mut self) -> Result<Self, Error> {
-        let (zero, rod) = (self.end.zero(), self.contact.rod.clone());
-        self.events.push(Event {
+        let (zero, rod) = (self.course.end.zero(), self.contact.rod.clone());
+        self.course.events.push(Event {
             kind: EventKind::Impact,
             end_velocity: -rod.speed.clone(),
             centre: zero.clone(),
@@ -166,19 +161,20 @@ impl<N: BoundedSpecial> ContactHistory<N> {
                 }
                 BounceKind::Root => zero.clone(),
             };
-            self.events.push(Event {
+            self.course.events.push(Event {
                 kind: EventKind::Release,
-                time: self.end.clone(),
+                time: self.course.end.clone(),
                 end_velocity,
                 centre: rebound.centre.clone(),
                 centre_velocity: rebound.velocity.clone(),
-                time_error: self.end.log2_error().exp2(),
+                time_error: self.course.end.log2_error().exp2(),
             });
         }
-        let (centre, velocity) = self.centre(&self.end)?;
-        let gained = velocity + &rod.speed + centre * &rod.damping * &zero.int(2) + rod.gravity.clone() * &self.end;
-        self.contacts.push(Contact {
-            to: self.release.as_ref().map(|_| self.end.clone()),
+        let (centre, velocity) = self.centre(&self.course.end)?;
+        let gained =
+            velocity + &rod.speed + centre * &rod.damping * &zero.int(2) + rod.gravity.clone() * &self.course.end;
+        self.course.contacts.push(Contact {
+            to: self.release.as_ref().map(|_| self.course.end.clone()),
             impulse: (gained * &rod.length).without_exact(),
             peak_strain: self.contact.peak(&self.followed()?),
             from: zero,
@@ -191,7 +187,7 @@ impl<N: BoundedSpecial> ContactHistory<N> {
         match (&self.release, self.rest) {
             (Some(release), _) => Ok(release.trips.clone()),
             (None, Some(rest)) => Ok(self.contact.lattice(rest)),
-            (None, None) => self.trips(&self.end),
+            (None, None) => self.trips(&self.course.end),
         }
     }
 
@@ -219,28 +215,28 @@ impl<N: BoundedSpecial> ContactHistory<N> {
     /// **Source**: (3.43), (3.44). **Accuracy**: *within its own bound*. **Errors**: [`Error::TimeOutside`] before the
     /// bounce or where there is none.
     pub fn flight(&self, time: &N) -> Result<(N, N), Error> {
-        let outside = || Error::TimeOutside { found: time.text(), end: self.end.text() };
+        let outside = || Error::TimeOutside { found: time.text(), end: self.course.end.text() };
         let rebound = self.rebound().ok_or_else(outside)?;
-        if time.coincides(&self.end) {
+        if time.coincides(&self.course.end) {
             return Ok((rebound.centre.clone(), rebound.velocity.clone()));
         }
-        if open("whether that time is in the flight", time, time.below(&self.end))? {
+        if open("whether that time is in the flight", time, time.below(&self.course.end))? {
             return Err(outside());
         }
         Ok(rebound.flight(&time.clone().without_exact()))
     }
 
     fn moment(&self, time: &N) -> Result<Moment<'_, N>, Error> {
-        let at_end = time.coincides(&self.end);
+        let at_end = time.coincides(&self.course.end);
         if at_end && let Some(release) = &self.release {
             return Ok(Moment::Bounce(release));
         }
-        let outside = || Ok(time.negative()? || !at_end && self.end.below(time)?);
+        let outside = || Ok(time.negative()? || !at_end && self.course.end.below(time)?);
         if !time.is_finite() || open("whether that time is before the end", time, outside())? {
-            return Err(Error::TimeOutside { found: time.text(), end: self.end.text() });
+            return Err(Error::TimeOutside { found: time.text(), end: self.course.end.text() });
         }
         if let Some(rest) = self.rest {
-            let rest = self.end.int(rest) * &self.contact.round_trip;
+            let rest = self.course.end.int(rest) * &self.contact.round_trip;
             if open("whether the rod is at rest", time, rest.below(time))? {
                 return Ok(Moment::Rest(StaticState::of(&self.contact.rod)));
             }
@@ -255,20 +251,8 @@ impl<N: BoundedSpecial> ContactHistory<N> {
 }
 
 impl<N: BoundedSpecial> Motion<N> for ContactHistory<N> {
-    fn end(&self) -> N {
-        self.end.clone()
-    }
-
-    fn ending(&self) -> &Ending {
-        &self.ending
-    }
-
-    fn events(&self) -> &[Event<N>] {
-        &self.events
-    }
-
-    fn contacts(&self) -> &[Contact<N>] {
-        &self.contacts
+    fn course(&self) -> &Course<N> {
+        &self.course
     }
 
     /// None where these bits do not settle how many there are.
@@ -276,16 +260,16 @@ impl<N: BoundedSpecial> Motion<N> for ContactHistory<N> {
         let Ok(followed) = self.followed() else { return Vec::new() };
         let mut pieces = self.contact.pieces(&followed);
         if let Some(last) = pieces.last_mut().filter(|_| self.rest.is_none()) {
-            last.to = self.end.clone();
+            last.to = self.course.end.clone();
             if self.release.as_ref().is_some_and(|release| release.kind == BounceKind::Root) {
-                last.right = self.end.zero();
+                last.right = self.course.end.zero();
             }
         }
         if let Some(rest) = self.rest {
-            let still = StaticState::of(&self.contact.rod).field(&self.end.zero()).strain;
-            let from = self.end.int(rest) * &self.contact.round_trip;
+            let still = StaticState::of(&self.contact.rod).field(&self.course.end.zero()).strain;
+            let from = self.course.end.int(rest) * &self.contact.round_trip;
             let (left, chebyshev) = (still.clone(), vec![still.clone()]);
-            pieces.push(StressPiece { from, to: self.end.clone(), left, right: still, chebyshev });
+            pieces.push(StressPiece { from, to: self.course.end.clone(), left, right: still, chebyshev });
         }
         pieces
     }
@@ -309,7 +293,7 @@ impl<N: BoundedSpecial> Motion<N> for ContactHistory<N> {
         if Self::before_impact(time, side) {
             return Ok((time.zero(), -self.contact.rod.speed.clone()));
         }
-        match (self.moment(time)?, self.events.last()) {
+        match (self.moment(time)?, self.course.events.last()) {
             (Moment::Bounce(_), Some(event)) if side == Side::Right => Ok((time.zero(), event.end_velocity.clone())),
             _ => Ok((time.zero(), time.zero())),
         }
@@ -367,7 +351,7 @@ impl<N: BoundedSpecial> Motion<N> for ContactHistory<N> {
 
     /// **Errors**: `None` also where these bits do not tell whether the centre of mass rises.
     fn highest(&self, release: &Event<N>) -> Option<(N, N)> {
-        let at_end = release.kind == EventKind::Release && release.time.coincides(&self.end);
+        let at_end = release.kind == EventKind::Release && release.time.coincides(&self.course.end);
         self.rebound().filter(|_| at_end)?.highest()
     }
 
@@ -387,6 +371,6 @@ impl<N: BoundedSpecial> Motion<N> for ContactHistory<N> {
 
     /// Zero: every number holds its own.
     fn error_estimate(&self) -> N {
-        self.end.zero()
+        self.course.end.zero()
     }
 }

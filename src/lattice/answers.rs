@@ -4,27 +4,14 @@ use super::history::{Centre, Moment, Undamped};
 use super::start::Units;
 use super::trace::{Line, Part, Piece};
 use crate::error::Error;
-use crate::motion::{Contact, Ending, Energy, Event, Field, Motion, Scales, Side, StressPiece};
+use crate::motion::{Course, Energy, Event, Field, Motion, Scales, Side, StressPiece};
 use crate::number::Bounded;
 use crate::ray::Ray;
-use crate::reason::Warning;
 use crate::wave::{Stretch, Waves};
 
 impl<N: Bounded> Motion<N> for Undamped<N> {
-    fn end(&self) -> N {
-        self.time_of(&self.end)
-    }
-
-    fn ending(&self) -> &Ending {
-        &self.ending
-    }
-
-    fn events(&self) -> &[Event<N>] {
-        &self.events
-    }
-
-    fn contacts(&self) -> &[Contact<N>] {
-        &self.contacts
+    fn course(&self) -> &Course<N> {
+        &self.course
     }
 
     fn stress_pieces(&self) -> Vec<StressPiece<N>> {
@@ -213,10 +200,6 @@ impl<N: Bounded> Motion<N> for Undamped<N> {
     fn digits_lost(&self) -> Option<(u32, f64)> {
         let lost = self.ground.relative_error;
         (lost > 0.0).then(|| (self.ground.contacts, lost.max(1.0).log10()))
-    }
-
-    fn warnings(&self) -> &[Warning] {
-        &self.warnings
     }
 }
 

@@ -68,8 +68,8 @@ impl<N: Bounded> Undamped<N> {
 
     pub(super) fn summed_contacts(&self) -> Vec<Contact<N>> {
         let Units { length, velocity, wave_speed, .. } = &self.problem.units;
-        let mut contacts = Vec::with_capacity(self.events.len() / 2 + 1);
-        for (k, event) in self.events.iter().enumerate().filter(|(_, event)| event.kind == EventKind::Impact) {
+        let mut contacts = Vec::with_capacity(self.course.events.len() / 2 + 1);
+        for (k, event) in self.course.events.iter().enumerate().filter(|(_, event)| event.kind == EventKind::Impact) {
             let [from, _] = self.places(&self.ground.events[k]);
             let until = match self.ground.events.get(k + 1) {
                 Some(release) => self.places(release)[1].clone(),
@@ -85,7 +85,7 @@ impl<N: Bounded> Undamped<N> {
             });
             contacts.push(Contact {
                 from: event.time.clone(),
-                to: self.events.get(k + 1).map(|release| release.time.clone()),
+                to: self.course.events.get(k + 1).map(|release| release.time.clone()),
                 impulse: sum.doubled() * length * velocity,
                 peak_strain: -(peak * velocity / wave_speed),
             });

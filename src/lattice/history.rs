@@ -8,7 +8,7 @@ use super::start::{Scaled, Units};
 use super::trace::{Part, Place};
 use crate::error::Error;
 use crate::motion::unobserved;
-use crate::motion::{Contact, Ending, Event, EventKind, Side};
+use crate::motion::{Course, Ending, EventKind, Side};
 use crate::number::{Bounded, Open};
 use crate::problem::{Problem, Run, Top};
 use crate::reason::{Reason, Warning};
@@ -22,10 +22,7 @@ pub struct Undamped<N> {
     pub(super) problem: Scaled<N>,
     pub(super) ground: GroundMotion<N>,
     pub(super) end: Moment<N>,
-    pub(super) ending: Ending,
-    pub(super) events: Vec<Event<N>>,
-    pub(super) contacts: Vec<Contact<N>>,
-    pub(super) warnings: Vec<Warning>,
+    pub(super) course: Course<N>,
 }
 
 /// A time as a round trip and an age in it. The trip before the start has `index` 0.
@@ -104,19 +101,18 @@ impl<N: Bounded> Undamped<N> {
                 (moment(*trip, &below), ending)
             }
         };
-        let mut history =
-            Undamped { end, ending, events: Vec::new(), contacts: Vec::new(), warnings: Vec::new(), problem, ground };
-        if history.end.index > trips && !matches!(history.ending, Ending::Time) {
-            // The stored trips end where the next begins: the last instant that is known.
-            history.end = Moment { index: trips, age: history.end.age.one() };
-        }
-        history.events = history.in_scene_units()?;
-        history.contacts = history.summed_contacts();
+        // The stored trips end where the next begins: the last instant that is known.
+        let beyond = end.index > trips && ending != Ending::Time;
+        let end = if beyond { Moment { index: trips, age: end.age.one() } } else { end };
+        let course = Course::new(time_of(&end, round_trip), ending);
+        let mut history = Undamped { end, course, problem, ground };
+        history.course.events = history.in_scene_units()?;
+        history.course.contacts = history.summed_contacts();
         let undetermined = history.undetermined_from();
         let coincidence = history.coincidence_from().filter(|from| undetermined.is_none_or(|lost| *from < lost));
         let coincidence = coincidence.map(|from| Warning::Coincidence { from });
         let undetermined = undetermined.map(|from| Warning::NotDetermined { from });
-        history.warnings = coincidence.into_iter().chain(undetermined).collect();
+        history.course.warnings = coincidence.into_iter().chain(undetermined).collect();
         Ok(history)
     }
 
@@ -146,16 +142,15 @@ impl<N: Bounded> Undamped<N> {
     }
 
     pub(super) fn time_of(&self, moment: &Moment<N>) -> N {
-        let trips = moment.age.int(moment.index as i64 - 1);
-        (trips + &moment.age) * &self.problem.units.round_trip
+        time_of(moment, &self.problem.units.round_trip)
     }
 
     /// Where `time` lies.
     pub(super) fn locate(&self, time: &N) -> Result<Moment<N>, Error> {
-        let outside = || Error::TimeOutside { found: time.text(), end: self.time_of(&self.end).text() };
+        let outside = || Error::TimeOutside { found: time.text(), end: self.course.end.text() };
         let Some((trip, age)) = trip_and_age(time, &self.problem.units) else {
             // An enclosure that two round trips share is not outside for that.
-            let inside = !time.negative()? && !self.time_of(&self.end).below(time)?;
+            let inside = !time.negative()? && !self.course.end.below(time)?;
             return Err(if inside { Error::Open(Open) } else { outside() });
         };
         let begin = self.ground.trace.begin();
@@ -302,6 +297,11 @@ impl<N: Bounded> Undamped<N> {
         })?;
         Ok(Centre { height, rate })
     }
+}
+
+fn time_of<N: Bounded>(moment: &Moment<N>, round_trip: &N) -> N {
+    let trips = moment.age.int(moment.index as i64 - 1);
+    (trips + &moment.age) * round_trip
 }
 
 /// The round trip, from 0, and the age in it; `None` before the start or beyond counting.

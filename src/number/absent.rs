@@ -29,78 +29,27 @@ macro_rules! absent {
             fn from_number(_: &Number, precision: &Self) -> Self {
                 match *precision {}
             }
-            fn precision(&self) -> Self {
-                match *self {}
-            }
-            fn int(&self, _: i64) -> Self {
-                match *self {}
-            }
-            fn double(&self, _: f64) -> Self {
-                match *self {}
-            }
-            fn try_sqrt(&self) -> Option<Self> {
-                match *self {}
-            }
-            fn to_f64(&self) -> f64 {
-                match *self {}
-            }
-            fn roundoff(&self) -> Self {
-                match *self {}
-            }
-            fn bits(&self) -> Option<u32> {
-                match *self {}
-            }
-            fn sign(&self) -> Result<Ordering, Open> {
-                match *self {}
-            }
-            fn floor_int(&self) -> Option<i64> {
-                match *self {}
-            }
-            fn is_finite(&self) -> bool {
-                match *self {}
-            }
-            fn text(&self) -> String {
-                match *self {}
-            }
+            absent!(@none precision() -> Self, int(_: i64) -> Self, double(_: f64) -> Self, try_sqrt() -> Option<Self>,
+                to_f64() -> f64, roundoff() -> Self, bits() -> Option<u32>, sign() -> Result<Ordering, Open>,
+                floor_int() -> Option<i64>, is_finite() -> bool, text() -> String);
         }
 
         impl Analytic for $name {
-            fn sqrt(&self) -> Self {
-                match *self {}
-            }
-            fn exp(&self) -> Self {
-                match *self {}
-            }
-            fn exp_m1(&self) -> Self {
-                match *self {}
-            }
-            fn ln(&self) -> Self {
-                match *self {}
-            }
-            fn ln_1p(&self) -> Self {
-                match *self {}
-            }
-            fn cos(&self) -> Self {
-                match *self {}
-            }
-            fn sin(&self) -> Self {
-                match *self {}
-            }
-            fn pi(&self) -> Self {
-                match *self {}
-            }
+            absent!(@none sqrt() -> Self, exp() -> Self, exp_m1() -> Self, ln() -> Self, ln_1p() -> Self, cos() -> Self,
+                sin() -> Self, pi() -> Self);
         }
 
         impl Rounded for $name {
-            fn unit(&self) -> f64 {
-                match *self {}
-            }
-            fn in_roundoffs(&self) -> f64 {
-                match *self {}
-            }
+            absent!(@none unit() -> f64, in_roundoffs() -> f64);
         }
 
         impl Bounded for $name {}
+    )*};
+    // Methods that nothing can call.
+    (@none $($method:ident($($_:tt: $of:ty)?) -> $answer:ty),*) => {$(
+        fn $method(&self $(, $_: $of)?) -> $answer {
+            match *self {}
+        }
     )*};
     (@operator $name:ident, $($trait:ident $method:ident),*) => {$(
         impl $trait for $name {

@@ -101,35 +101,18 @@ impl Scalar for f64 {
     }
 }
 
+macro_rules! elementary {
+    ($($name:ident),*) => {$(
+        #[inline]
+        fn $name(&self) -> Self {
+            f64::$name(*self)
+        }
+    )*};
+}
+
 impl Analytic for f64 {
-    #[inline]
-    fn sqrt(&self) -> Self {
-        f64::sqrt(*self)
-    }
-    #[inline]
-    fn exp(&self) -> Self {
-        f64::exp(*self)
-    }
-    #[inline]
-    fn exp_m1(&self) -> Self {
-        f64::exp_m1(*self)
-    }
-    #[inline]
-    fn ln(&self) -> Self {
-        f64::ln(*self)
-    }
-    #[inline]
-    fn ln_1p(&self) -> Self {
-        f64::ln_1p(*self)
-    }
-    #[inline]
-    fn cos(&self) -> Self {
-        f64::cos(*self)
-    }
-    #[inline]
-    fn sin(&self) -> Self {
-        f64::sin(*self)
-    }
+    elementary!(sqrt, exp, exp_m1, ln, ln_1p, cos, sin);
+
     #[inline]
     fn pi(&self) -> Self {
         std::f64::consts::PI

@@ -70,28 +70,18 @@ impl Scalar for Float {
     }
 }
 
+macro_rules! elementary {
+    ($($name:ident: $of:ident),*) => {$(
+        fn $name(&self) -> Self {
+            Float::with_val(self.prec(), self.$of())
+        }
+    )*};
+}
+
 impl Analytic for Float {
-    fn sqrt(&self) -> Self {
-        Float::with_val(self.prec(), self.sqrt_ref())
-    }
-    fn exp(&self) -> Self {
-        Float::with_val(self.prec(), self.exp_ref())
-    }
-    fn exp_m1(&self) -> Self {
-        Float::with_val(self.prec(), self.exp_m1_ref())
-    }
-    fn ln(&self) -> Self {
-        Float::with_val(self.prec(), self.ln_ref())
-    }
-    fn ln_1p(&self) -> Self {
-        Float::with_val(self.prec(), self.ln_1p_ref())
-    }
-    fn cos(&self) -> Self {
-        Float::with_val(self.prec(), self.cos_ref())
-    }
-    fn sin(&self) -> Self {
-        Float::with_val(self.prec(), self.sin_ref())
-    }
+    elementary!(sqrt: sqrt_ref, exp: exp_ref, exp_m1: exp_m1_ref, ln: ln_ref, ln_1p: ln_1p_ref);
+    elementary!(cos: cos_ref, sin: sin_ref);
+
     fn pi(&self) -> Self {
         Float::with_val(self.prec(), Constant::Pi)
     }
@@ -223,6 +213,22 @@ pub fn decimal(x: &Rational, digits: u32) -> String {
     let (head, tail) = mantissa.split_at(1);
     let dot = if tail.is_empty() { "" } else { "." };
     format!("{sign}{head}{dot}{tail}e{exponent}")
+}
+
+/// `value` in so many bits, rounded down.
+pub(super) fn down<T>(bits: u32, value: T) -> Float
+where
+    Float: rug::ops::AssignRound<T, Round = Round, Ordering = Ordering>,
+{
+    Float::with_val_round(bits, value, Round::Down).0
+}
+
+/// `value` in so many bits, rounded up.
+pub(super) fn up<T>(bits: u32, value: T) -> Float
+where
+    Float: rug::ops::AssignRound<T, Round = Round, Ordering = Ordering>,
+{
+    Float::with_val_round(bits, value, Round::Up).0
 }
 
 /// `⌊log₁₀|x|⌋`, or one more or less.

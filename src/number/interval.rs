@@ -11,6 +11,7 @@ use std::ops::{Add, Div, Mul, Neg, Sub};
 use rug::float::{Round, Special};
 use rug::{Float, Rational};
 
+use super::float::{down, up};
 use super::radical::Radical;
 
 /// How an [`Interval`] is carried.
@@ -77,20 +78,6 @@ impl Inside {
             _ => Inside::Lost,
         }
     }
-}
-
-fn down<T>(bits: u32, value: T) -> Float
-where
-    Float: rug::ops::AssignRound<T, Round = Round, Ordering = Ordering>,
-{
-    Float::with_val_round(bits, value, Round::Down).0
-}
-
-fn up<T>(bits: u32, value: T) -> Float
-where
-    Float: rug::ops::AssignRound<T, Round = Round, Ordering = Ordering>,
-{
-    Float::with_val_round(bits, value, Round::Up).0
 }
 
 impl Interval {

@@ -4,10 +4,9 @@ use std::cmp::Ordering;
 use std::sync::Arc;
 use std::sync::atomic::{self, AtomicU64};
 
-use rug::{Integer, Rational};
+use rug::{Assign, Float, Integer, Rational};
 
-use super::Analytic;
-use super::interval::{Interval, IntervalPrecision};
+use super::float::{down, up};
 
 /// A positive square root, or a number of which nothing is known but that it is always the same.
 #[derive(Debug)]
@@ -224,27 +223,38 @@ impl Radical {
         }
         let mut bits = 64;
         while bits <= MOST_SIGN_BITS {
-            if let Some(sign) = self.enclosed(bits)?.sign() {
-                return Some(sign);
+            match self.enclosed(bits)?.map(|end| end.cmp0()) {
+                [Some(Ordering::Greater), _] => return Some(Ordering::Greater),
+                [_, Some(Ordering::Less)] => return Some(Ordering::Less),
+                _ => bits *= 2,
             }
-            bits *= 2;
         }
         None
     }
 
-    /// In digits; `None` where something is only named.
-    fn enclosed(&self, bits: u32) -> Option<Interval> {
-        let lift = |c: &Rational| Interval::rational(c, IntervalPrecision::bits(bits));
-        let mut sum = lift(&Rational::new());
+    /// Between two numbers of so many bits; `None` where something is only named.
+    fn enclosed(&self, bits: u32) -> Option<[Float; 2]> {
+        let [mut lo, mut hi] = [0, 0].map(|zero| Float::with_val(bits, zero));
         for (product, c) in &self.terms {
-            let mut term = lift(c);
+            // The size of the term first, whose factors are all positive.
+            let size = Rational::from(c.abs_ref());
+            let (mut least, mut most) = (down(bits, &size), up(bits, &size));
             for root in product {
                 let Root::Of(radicand) = root.as_ref() else { return None };
-                term = term * &radicand.enclosed(bits)?.sqrt();
+                let [below, above] = radicand.enclosed(bits)?;
+                if below.cmp0() == Some(Ordering::Greater) {
+                    least = down(bits, &least * &down(bits, below.sqrt_ref()));
+                } else {
+                    least.assign(0);
+                }
+                most = up(bits, &most * &up(bits, above.sqrt_ref()));
             }
-            sum = sum + &term;
+            if c.cmp0().is_lt() {
+                (least, most) = (-most, -least);
+            }
+            (lo, hi) = (down(bits, &lo + &least), up(bits, &hi + &most));
         }
-        Some(sum)
+        Some([lo, hi])
     }
 
     pub(super) fn cmp(&self, other: &Self) -> Option<Ordering> {

@@ -2,6 +2,7 @@
 
 use serde_json::{Value, json};
 
+use super::csv;
 use crate::aligned::table;
 use crate::compare::cost::{Difference, Row, Table, Timing};
 
@@ -114,10 +115,10 @@ pub(crate) fn cost_json(cost: &Table, title: Option<&str>) -> Value {
 }
 
 /// The rows.
-pub(crate) fn cost_csv(cost: &Table) -> Result<String, csv::Error> {
+pub(crate) fn cost_csv(cost: &Table) -> Result<String, ::csv::Error> {
     let rows = cost.rows.iter().map(|row| {
         let spread = row.timing.spread.map_or_else(String::new, |spread| spread.to_string());
-        [
+        vec![
             row.family.name().into(),
             row.setting.clone(),
             error(row),
@@ -127,17 +128,8 @@ pub(crate) fn cost_csv(cost: &Table) -> Result<String, csv::Error> {
             row.chosen.to_string(),
         ]
     });
-    write(&["route", "setting", "error", "seconds", "spread_seconds", "runs", "chosen"], rows)
-}
-
-fn write<const N: usize>(header: &[&str; N], rows: impl Iterator<Item = [String; N]>) -> Result<String, csv::Error> {
-    let mut writer = csv::Writer::from_writer(Vec::new());
-    writer.write_record(header)?;
-    for row in rows {
-        writer.write_record(row)?;
-    }
-    let bytes = writer.into_inner().map_err(|error| error.into_error())?;
-    Ok(String::from_utf8_lossy(&bytes).into_owned())
+    let header = ["route", "setting", "error", "seconds", "spread_seconds", "runs", "chosen"];
+    csv::write("", header, rows)
 }
 
 /// What each effect costs, for a person.
@@ -181,13 +173,13 @@ pub(crate) fn effects_json(rows: &[Difference], title: Option<&str>) -> Value {
 }
 
 /// What each effect costs, as rows.
-pub(crate) fn effects_csv(rows: &[Difference]) -> Result<String, csv::Error> {
+pub(crate) fn effects_csv(rows: &[Difference]) -> Result<String, ::csv::Error> {
     let header = ["effect", "called", "with_seconds", "without_seconds", "seconds", "noise_seconds", "noise"];
     let rows = rows.iter().map(|row| {
         let number = |x: f64| x.to_string();
         let (with, without) = (number(row.with.seconds), number(row.without.seconds));
         let (called, noise) = (row.called.to_string(), row.is_noise().to_string());
-        [row.name().into(), called, with, without, number(row.seconds), number(row.noise()), noise]
+        vec![row.name().into(), called, with, without, number(row.seconds), number(row.noise()), noise]
     });
-    write(&header, rows)
+    csv::write("", header, rows)
 }

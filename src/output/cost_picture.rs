@@ -80,12 +80,13 @@ pub(crate) fn cost_svg(cost: &Table, title: Option<&str>) -> String {
         let ends = [first, last].map(|time| DVec2::new(time, place_of(DOUBLES_END, decades))).to_vec();
         layers.push(Layer::new("doubles-end", Shape::Lines(vec![ends], Stroke::new("#666666", 0.2).dashed("1.5 1"))));
     }
-    // The rows come by family.
+    // The rows come by family, and in it by ladder.
     for rows in cost.rows.chunk_by(|a, b| a.family == b.family) {
-        let points: Vec<DVec2> = rows.iter().map(place).collect();
+        let ladders = rows.chunk_by(|a, b| a.ladder == b.ladder);
+        let lines: Vec<Vec<DVec2>> = ladders.map(|rows| rows.iter().map(place).collect()).collect();
         let (color, mark) = look(rows[0].family);
-        layers.push(Layer::new("curve", Shape::Lines(vec![points.clone()], Stroke::new(color, 0.3))));
-        layers.push(Layer::new("marks", Shape::Marks(points, mark, color)));
+        layers.push(Layer::new("curve", Shape::Lines(lines.clone(), Stroke::new(color, 0.3))));
+        layers.push(Layer::new("marks", Shape::Marks(lines.concat(), mark, color)));
         legend.push(Key::Mark(rows[0].family.name().into(), mark, color));
     }
     let chosen: Vec<DVec2> = cost.rows.iter().filter(|row| row.chosen).map(place).collect();

@@ -116,7 +116,7 @@ pub fn samples_csv<S: Scalar>(samples: &[Sample<S>], quantity: Quantity, head: &
         let place = [show(&sample.time), sample.point.as_ref().map_or_else(String::new, show), sample.side.to_string()];
         place.into_iter().chain(values.iter().map(show)).chain(values.iter().map(bound)).collect()
     });
-    write(&comments(head), header, rows.collect())
+    write(&comments(head), header, rows)
 }
 
 /// What the numbers do not say, in lines that begin with `#`, which readers of CSV skip.
@@ -126,7 +126,12 @@ fn comments(head: &Head) -> String {
     end.into_iter().chain(warnings).collect()
 }
 
-pub(super) fn write(comments: &str, header: Vec<String>, rows: Vec<Vec<String>>) -> Result<String, csv::Error> {
+/// Rows below a header, and comments above it.
+pub(super) fn write(
+    comments: &str,
+    header: impl IntoIterator<Item = impl AsRef<[u8]>>,
+    rows: impl IntoIterator<Item = Vec<String>>,
+) -> Result<String, csv::Error> {
     let mut writer = csv::Writer::from_writer(Vec::new());
     writer.write_record(header)?;
     for row in rows {
@@ -137,30 +142,17 @@ pub(super) fn write(comments: &str, header: Vec<String>, rows: Vec<Vec<String>>)
 }
 
 /// Every sample: time, point of a field, and for each quantity ours, theirs and the difference.
-pub(crate) fn compare_csv(ComparedFile { agreement, .. }: &ComparedFile) -> Result<Vec<u8>, csv::Error> {
-    let mut writer = csv::Writer::from_writer(Vec::new());
+pub(crate) fn compare_csv(ComparedFile { agreement, .. }: &ComparedFile) -> Result<String, csv::Error> {
     let points = agreement.grid.points.as_ref();
-    writer.write_field("t")?;
-    if points.is_some() {
-        writer.write_field("x")?;
-    }
-    for compared in &agreement.quantities {
-        for whose in ["ours", "theirs", "difference"] {
-            writer.write_field(format!("{}_{whose}", compared.what.name()))?;
-        }
-    }
-    writer.write_record(None::<&[u8]>)?;
-    for (k, time) in agreement.grid.times.iter().enumerate() {
-        writer.write_field(time.to_string())?;
-        if let Some(points) = points {
-            writer.write_field(points[k].to_string())?;
-        }
-        for Compared { ours, theirs, .. } in &agreement.quantities {
-            for value in [ours[k], theirs[k], theirs[k] - ours[k]] {
-                writer.write_field(format!("{value:e}"))?;
-            }
-        }
-        writer.write_record(None::<&[u8]>)?;
-    }
-    writer.into_inner().map_err(|error| csv::Error::from(error.into_error()))
+    let names = agreement.quantities.iter().map(|compared| compared.what.name());
+    let columns = names.flat_map(|name| ["ours", "theirs", "difference"].map(|whose| format!("{name}_{whose}")));
+    let place = ["t"].into_iter().chain(points.map(|_| "x")).map(String::from);
+    let rows = agreement.grid.times.iter().enumerate().map(|(k, time)| {
+        let place = [time.to_string()].into_iter().chain(points.map(|points| points[k].to_string()));
+        let values = agreement.quantities.iter().flat_map(|Compared { ours, theirs, .. }| {
+            [ours[k], theirs[k], theirs[k] - ours[k]].map(|value| format!("{value:e}"))
+        });
+        place.chain(values).collect()
+    });
+    write("", place.chain(columns), rows)
 }

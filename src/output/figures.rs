@@ -21,27 +21,33 @@ pub(crate) fn figure_csv(figure: &Figure, data: &Data) -> Result<String, csv::Er
         return regimes_csv(map);
     }
     let cell = |value: &Option<_>| value.as_ref().map_or_else(String::new, |value| show(value, DOUBLE_DIGITS));
-    let rows = data.rows.iter().map(|row| row.iter().map(cell).collect()).collect();
+    let rows = data.rows.iter().map(|row| row.iter().map(cell).collect());
     let comments = format!("# {}\n# {}\n", figure.shown, figure.corrected);
-    super::csv::write(&comments, data.columns.iter().map(ToString::to_string).collect(), rows)
+    super::csv::write(&comments, &data.columns, rows)
 }
 
-/// What stands beside the files.
-pub(crate) fn figures_index(figures: &[&Figure], data: &[Data]) -> Result<String, Failed> {
+/// What stands beside the files, whose pictures have these `endings`.
+pub(crate) fn figures_index(figures: &[&Figure], data: &[Data], endings: &[&str]) -> Result<String, Failed> {
+    let names: Vec<String> = endings.iter().map(|ending| ending.to_uppercase()).collect();
     let mut text = format!(
         "# Figures\n\nOf *Explicit solutions and coefficient of restitution for an elastic rod with viscous damping*, \
-         worked out by dalembert {}: `dalembert figures`.\nEach is there as SVG, as PNG and as numbers (CSV), in which \
+         worked out by dalembert {}: `dalembert figures`.\nEach is there as {} and as numbers (CSV), in which \
          what is not defined is empty and no number has a digit beyond the bound of its error.\n",
-        env!("CARGO_PKG_VERSION")
+        env!("CARGO_PKG_VERSION"),
+        names.join(", ")
     );
     for (figure, data) in figures.iter().zip(data) {
         let title =
             if figure.name.parse::<u32>().is_ok() { format!("Figure {}", figure.name) } else { figure.name.into() };
         let (file, count) = (figure.file(), data.map.as_ref().map_or(data.rows.len(), |map| map.regimes.len()));
+        let links = names.iter().zip(endings).map(|(name, ending)| format!("[{name}]({file}.{ending}), "));
         text += &format!(
-            "\n## {title}\n\n![{title}]({file}.png)\n\nReproduced: {}\n\nCorrected: {}\n\n[SVG]({file}.svg), [PNG]({file}.png), \
-             [CSV]({file}.csv): {count} rows\n",
-            figure.shown, figure.corrected
+            "\n## {title}\n\n![{title}]({file}.{})\n\nReproduced: {}\n\nCorrected: {}\n\n{}[CSV]({file}.csv): {count} \
+             rows\n",
+            endings[0],
+            figure.shown,
+            figure.corrected,
+            links.collect::<String>()
         );
     }
     if figures.iter().any(|figure| matches!(figure.of, Of::Restitution | Of::Translational | Of::Kept | Of::Decay)) {

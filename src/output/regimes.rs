@@ -43,8 +43,8 @@ pub(crate) fn regimes_csv(map: &Map) -> Result<String, csv::Error> {
         };
         vec![r.to_string(), m.to_string(), time, word.to_string()]
     };
-    let rows = map.regimes.iter().enumerate().map(row).collect();
-    super::csv::write("", ["damping_ratio", "speed_ratio", "bounce_ratio", "regime"].map(String::from).into(), rows)
+    let rows = map.regimes.iter().enumerate().map(row);
+    super::csv::write("", ["damping_ratio", "speed_ratio", "bounce_ratio", "regime"], rows)
 }
 
 /// `R` of each column and the `M` above which the bounce comes at `t₁`; empty where no M is high enough.
@@ -53,11 +53,7 @@ pub(crate) fn threshold_csv(map: &Map) -> Result<String, csv::Error> {
         let m = threshold(r.to_f64());
         vec![r.to_string(), if m.is_finite() { m.text() } else { String::new() }]
     };
-    super::csv::write(
-        "",
-        ["damping_ratio", "threshold"].map(String::from).into(),
-        map.damping.iter().map(row).collect(),
-    )
+    super::csv::write("", ["damping_ratio", "threshold"], map.damping.iter().map(row))
 }
 
 /// How often each regime comes, in words.

@@ -64,7 +64,7 @@ pub(crate) fn targets_json<S: Scalar>(reached: &[Reached<S>], head: &Head) -> Va
 /// The same as rows.
 pub(crate) fn targets_csv<S: Scalar>(reached: &[Reached<S>], head: &Head) -> Result<String, csv::Error> {
     let digits = if head.digits == 0 { DOUBLE_DIGITS } else { head.digits };
-    let header = ["quantity", "unit", "time", "published", "ours", "difference", "source"].map(String::from);
+    let header = ["quantity", "unit", "time", "published", "ours", "difference", "source"];
     let row = |reached: &Reached<S>| {
         let target = &reached.target;
         vec![
@@ -77,7 +77,7 @@ pub(crate) fn targets_csv<S: Scalar>(reached: &[Reached<S>], head: &Head) -> Res
             target.source.clone(),
         ]
     };
-    super::csv::write("", header.into(), reached.iter().map(row).collect())
+    super::csv::write("", header, reached.iter().map(row))
 }
 
 /// The published values of the built-in scenes: a line each.

@@ -17,7 +17,7 @@ pub struct Builder {
 }
 
 const IMPACT: &[&str] = &["impact.speed", "impact.gap", "impact.drop_height"];
-/// What is set replaces what the base has of its group: in place of the wave speed it can have the three of the
+/// What is set replaces what the base has of its group: in place of the wave speed it can have those of the
 /// material; a gap goes with a speed, and a drop height with neither.
 const EXCLUSIVE: [&[&str]; 4] = [
     &["rod.wave_speed", "rod.modulus", "rod.density", "rod.area"],
@@ -40,14 +40,18 @@ macro_rules! setters {
     )*};
 }
 
-const MATERIAL: [(&str, &str); 3] = [("modulus", "rod.modulus"), ("density", "rod.density"), ("area", "rod.area")];
-
 impl Builder {
     setters! {
         /// `L > 0`: the length.
         length => "rod.length",
         /// `c > 0`: the wave speed. Either this or the [`material`](Builder::material).
         wave_speed => "rod.wave_speed",
+        /// `E > 0`: Young's modulus, with the density in place of the wave speed: `c = √(E/ρ)`.
+        modulus => "rod.modulus",
+        /// `ρ > 0`: the density.
+        density => "rod.density",
+        /// `S > 0`: the cross-section; without it forces, impulses and energies are those of a unit of it.
+        area => "rod.area",
         /// `r ≥ 0`: the damping; without it none.
         damping => "rod.damping",
         /// `g ≥ 0`: the acceleration of gravity; without it none.
@@ -67,14 +71,14 @@ impl Builder {
     /// The names of single numbers: the setters', and the parts of the material.
     #[doc(hidden)]
     pub fn numbers() -> impl Iterator<Item = &'static str> {
-        Self::NAMED.iter().chain(&MATERIAL).map(|(name, _)| *name)
+        Self::NAMED.iter().map(|(name, _)| *name)
     }
 
     /// The number of this name, one of [`Builder::numbers`]; any other changes nothing.
     #[doc(hidden)]
     #[must_use]
     pub fn named(mut self, name: &str, value: impl Into<Written>) -> Self {
-        if let Some((_, path)) = Self::NAMED.iter().chain(&MATERIAL).find(|(known, _)| *known == name) {
+        if let Some((_, path)) = Self::NAMED.iter().find(|(known, _)| *known == name) {
             self.draft.numbers.insert(path, value.into());
         }
         self
@@ -82,16 +86,8 @@ impl Builder {
 
     /// Young's modulus `E`, density `ρ` and cross-section `S`, all above zero: `c = √(E/ρ)`.
     #[must_use]
-    pub fn material(
-        mut self,
-        modulus: impl Into<Written>,
-        density: impl Into<Written>,
-        area: impl Into<Written>,
-    ) -> Self {
-        self.draft.numbers.insert("rod.modulus", modulus.into());
-        self.draft.numbers.insert("rod.density", density.into());
-        self.draft.numbers.insert("rod.area", area.into());
-        self
+    pub fn material(self, modulus: impl Into<Written>, density: impl Into<Written>, area: impl Into<Written>) -> Self {
+        self.modulus(modulus).density(density).area(area)
     }
 
     /// What holds the end `x = L`; without it nothing.
@@ -188,7 +184,7 @@ impl Builder {
             Material::Elastic { modulus, density, area } => {
                 set("rod.modulus", modulus);
                 set("rod.density", density);
-                set("rod.area", area)
+                area.as_ref().and_then(|area| set("rod.area", area))
             }
         };
         match &problem.run {

@@ -50,8 +50,8 @@ pub enum Material {
         modulus: Number,
         /// Density `ρ > 0`.
         density: Number,
-        /// Cross-section `S > 0`.
-        area: Number,
+        /// Cross-section `S > 0`; without it forces, impulses and energies are those of a unit of it.
+        area: Option<Number>,
     },
 }
 

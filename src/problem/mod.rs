@@ -26,16 +26,15 @@
 mod at_start;
 mod builder;
 mod definition;
-mod error;
 pub(crate) mod given;
 mod parameters;
 pub(crate) mod profile;
 pub(crate) mod validate;
 pub(crate) mod written;
 
+pub use crate::error::{ProblemError, ProblemErrorKind};
 pub(crate) use at_start::AtStart;
 pub use builder::Builder;
 pub use definition::{Material, Problem, Profile, Rod, Run, Speed, Start, Top};
-pub use error::{ProblemError, ProblemErrorKind};
 pub use parameters::{Dimensionless, Parameters};
 pub use written::Written;

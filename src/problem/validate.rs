@@ -69,7 +69,7 @@ impl Draft {
     }
 
     fn material(&self) -> Result<Material, ProblemError> {
-        const EITHER: &str = "wave_speed, or a material: modulus, density and area";
+        const EITHER: &str = "wave_speed, or a material: modulus and density";
         let first = ["rod.modulus", "rod.density", "rod.area"].into_iter().find(|path| self.has(path));
         match (self.positive("rod.wave_speed", "a wave speed")?, first) {
             (Some(c), None) => return Ok(Material::WaveSpeed(c.number.clone())),
@@ -82,7 +82,7 @@ impl Draft {
         }
         let modulus = self.required("rod.modulus", "a modulus")?.number.clone();
         let density = self.required("rod.density", "a density")?.number.clone();
-        let area = self.required("rod.area", "an area")?.number.clone();
+        let area = self.positive("rod.area", "an area")?.map(|area| area.number.clone());
         Ok(Material::Elastic { modulus, density, area })
     }
 

@@ -1,112 +1,9 @@
 //! The named columns of a table over time: what contact codes are compared in.
 
-use super::unit::{Measure, UnitSystem, Units};
+use super::unit::{Measure, Units};
 use crate::error::Error;
 use crate::motion::{Ending, EventKind, Motion, Side, StressPiece};
 use crate::number::{Open, Scalar};
-use crate::problem::Problem;
-
-/// A quantity of the rod as a function of time, by name.
-///
-/// Displacements are measured from the undeformed rod that stands on the ground, upwards. Strains and stresses are
-/// positive in tension, the contact force is positive in compression.
-///
-/// **Units**: with a material (`modulus`, `density`, `area`) stresses, forces, impulses and energies are those of the
-/// rod; without one they are divided by `ρ` (stress, then `c² v_x`) or `ρS` (all others): see [`Column::unit`].
-///
-/// ```
-/// use dalembert::{Column, Problem, Side};
-/// let rod = Problem::builder().length(1).wave_speed(1).gravity(1).impact_speed(3).build()?;
-/// let history = rod.solve()?;
-/// // In the first contact v_x(0,t) = −(μ + g t)/c: at t = 1 the force is 4, and ∫(3 + s)ds = 7/2 has been given.
-/// let values = history.columns(&[Column::Force, Column::Impulse], &[1.0], Some(Side::Right))?;
-/// assert_eq!(values, [[4.0], [3.5]]);
-/// // At the impact v_t(0,t) jumps from −μ to 0: two rows.
-/// let values = history.columns(&[Column::Side, Column::EndVelocity], &[0.0, 1.0], None)?;
-/// assert_eq!(values, [[-1.0, 1.0, 0.0], [-3.0, 0.0, 0.0]]);
-/// # Ok::<(), dalembert::Error>(())
-/// ```
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Column {
-    /// `t`.
-    Time,
-    /// Which limit the row holds: −1 from earlier times, 1 from later ones, 0 where both are the same.
-    Side,
-    /// `v(0,t)`.
-    EndDisplacement,
-    /// `v_t(0,t)`.
-    EndVelocity,
-    /// `v_x(0,t)`.
-    Strain,
-    /// `E v_x(0,t)`; `c² v_x(0,t)` without a material.
-    Stress,
-    /// `−E S v_x(0,t)`: what the ground pushes with, and never less than zero from `t = 0⁺` on.
-    Force,
-    /// `v(L,t)`.
-    TopDisplacement,
-    /// `v_t(L,t)`.
-    TopVelocity,
-    /// `h(t) = (1/L) ∫ v dx`: the centre of mass.
-    Centre,
-    /// `h′(t)`.
-    CentreVelocity,
-    /// `E = E_h + E_z`, (3.54).
-    Energy,
-    /// `E_h = ρS (L h′²/2 + L g h)`.
-    TranslationalEnergy,
-    /// `E_z = ½ ρS ∫ ((v_t − h′)² + c² v_x²) dx`.
-    VibrationalEnergy,
-    /// `½ ρS ∫ v_t² dx`.
-    KineticEnergy,
-    /// `½ ρS c² ∫ v_x² dx`.
-    StrainEnergy,
-    /// `ρS g L h`: zero where the centre of mass is where it is in the undeformed rod on the ground. Kinetic, strain
-    /// and gravity energy add up to `E`.
-    GravityEnergy,
-    /// 1 while the end is on the ground, 0 in flight.
-    Contact,
-    /// `∫₀ᵗ force ds`: the momentum that the ground has given since `t = 0`.
-    Impulse,
-}
-
-/// The columns in the order of a table, with name, symbol, meaning and measure of each.
-macro_rules! columns {
-    ($($column:ident: $name:literal, $symbol:literal, $meaning:literal, $measure:expr;)+) => {
-        impl Column {
-            /// All columns, in the order of a table.
-            pub const ALL: [Column; [$(Column::$column),+].len()] = [$(Column::$column),+];
-
-            fn facts(self) -> (&'static str, &'static str, &'static str, Option<Measure>) {
-                match self {
-                    $(Column::$column => ($name, $symbol, $meaning, $measure),)+
-                }
-            }
-        }
-    };
-}
-
-columns! {
-    Time: "t", "t", "time", Some(Measure::Time);
-    Side: "side", "", "which limit at a jump: from earlier times, from later ones, or both the same", None;
-    EndDisplacement: "u_end", "v(0,t)", "displacement of the end at the ground, upwards: its gap",
-        Some(Measure::Length);
-    EndVelocity: "v_end", "v_t(0,t)", "velocity of the end at the ground, upwards", Some(Measure::Velocity);
-    Strain: "strain", "v_x(0,t)", "strain at the ground, positive in tension", Some(Measure::Strain);
-    Stress: "stress", "E v_x(0,t)", "stress at the ground, positive in tension", Some(Measure::Stress);
-    Force: "force", "−E S v_x(0,t)", "contact force, positive in compression", Some(Measure::Force);
-    TopDisplacement: "u_top", "v(L,t)", "displacement of the upper end", Some(Measure::Length);
-    TopVelocity: "v_top", "v_t(L,t)", "velocity of the upper end", Some(Measure::Velocity);
-    Centre: "h", "h", "centre of mass above its place in the undeformed rod on the ground", Some(Measure::Length);
-    CentreVelocity: "h_rate", "h′", "velocity of the centre of mass", Some(Measure::Velocity);
-    Energy: "E_total", "E", "energy: E_h + E_z, or kinetic + strain_energy + gravity", Some(Measure::Energy);
-    TranslationalEnergy: "E_h", "E_h", "energy of the centre of mass: ρSL(h′²/2 + g h)", Some(Measure::Energy);
-    VibrationalEnergy: "E_z", "E_z", "energy of the vibration: ½ρS∫((v_t − h′)² + c²v_x²)dx", Some(Measure::Energy);
-    KineticEnergy: "kinetic", "½ρS∫v_t²dx", "kinetic energy", Some(Measure::Energy);
-    StrainEnergy: "strain_energy", "½ES∫v_x²dx", "strain energy", Some(Measure::Energy);
-    GravityEnergy: "gravity", "ρSLg h", "energy in gravity, zero at h = 0", Some(Measure::Energy);
-    Contact: "contact", "", "1 on the ground, 0 in flight", None;
-    Impulse: "impulse", "∫force dt", "impulse of the contact force since t = 0", Some(Measure::Impulse);
-}
 
 /// A question to a history; it may answer several columns.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -123,6 +20,156 @@ enum Source {
     Impulse,
 }
 
+/// What a ray leaves in a quantity where it passes.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Rays {
+    /// A jump.
+    Jump,
+    /// A jump of its rate.
+    Kink,
+    /// Neither.
+    Smooth,
+}
+
+/// Where along the rod a quantity is.
+#[cfg(feature = "compare")]
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Place {
+    /// At the ground, or nowhere: what jumps there jumps in it.
+    Ground,
+    /// At the ground, as a switch: contact begins and ends without a jump of the stress too.
+    Switch,
+    /// At the upper end.
+    Top,
+    /// At points along the rod.
+    Point,
+}
+
+/// All that is known of a column.
+struct Facts {
+    name: &'static str,
+    symbol: &'static str,
+    meaning: &'static str,
+    measure: Option<Measure>,
+    /// Where it comes from, and which of the answers there it is.
+    source: (Source, usize),
+    rays: Rays,
+}
+
+/// The columns in the order of a table, with all that is known of each: its name, symbol, meaning, measure, source and
+/// what rays leave in it.
+macro_rules! columns {
+    ($(#[$of_all:meta])* pub enum Column { $($(#[$doc:meta])* $column:ident: $name:literal, $symbol:literal,
+        $meaning:literal, $measure:expr, $source:ident $answer:literal, $rays:ident;)+ }) => {
+        $(#[$of_all])*
+        pub enum Column {
+            $($(#[$doc])* $column,)+
+        }
+
+        impl Column {
+            /// All columns, in the order of a table.
+            pub const ALL: [Column; [$(Column::$column),+].len()] = [$(Column::$column),+];
+
+            const fn facts(self) -> Facts {
+                match self {
+                    $(Column::$column => Facts {
+                        name: $name,
+                        symbol: $symbol,
+                        meaning: $meaning,
+                        measure: $measure,
+                        source: (Source::$source, $answer),
+                        rays: Rays::$rays,
+                    },)+
+                }
+            }
+        }
+    };
+}
+
+columns! {
+    /// A quantity of the rod as a function of time, by name.
+    ///
+    /// Displacements are measured from the undeformed rod that stands on the ground, upwards. Strains and stresses are
+    /// positive in tension, the contact force is positive in compression.
+    ///
+    /// **Units**: with a material (`modulus`, `density`, `area`) stresses, forces, impulses and energies are those of
+    /// the rod; without one they are divided by `ρ` (stress, then `c² v_x`) or `ρS` (all others): see [`Column::unit`].
+    ///
+    /// ```
+    /// use dalembert::{Column, Problem, Side};
+    /// let rod = Problem::builder().length(1).wave_speed(1).gravity(1).impact_speed(3).build()?;
+    /// let history = rod.solve()?;
+    /// // In the first contact v_x(0,t) = −(μ + g t)/c: at t = 1 the force is 4, and ∫(3 + s)ds = 7/2 was given.
+    /// let values = history.columns(&[Column::Force, Column::Impulse], &[1.0], Some(Side::Right))?;
+    /// assert_eq!(values, [[4.0], [3.5]]);
+    /// // At the impact v_t(0,t) jumps from −μ to 0: two rows.
+    /// let values = history.columns(&[Column::Side, Column::EndVelocity], &[0.0, 1.0], None)?;
+    /// assert_eq!(values, [[-1.0, 1.0, 0.0], [-3.0, 0.0, 0.0]]);
+    /// # Ok::<(), dalembert::Error>(())
+    /// ```
+    #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+    pub enum Column {
+        /// `t`.
+        Time: "t", "t", "time",
+            Some(Measure::Time), Time 0, Kink;
+        /// Which limit the row holds: −1 from earlier times, 1 from later ones, 0 where both are the same.
+        Side: "side", "", "which limit at a jump: from earlier times, from later ones, or both the same",
+            None, Side 0, Kink;
+        /// `v(0,t)`.
+        EndDisplacement: "u_end", "v(0,t)", "displacement of the end at the ground, upwards: its gap",
+            Some(Measure::Length), End 0, Kink;
+        /// `v_t(0,t)`.
+        EndVelocity: "v_end", "v_t(0,t)", "velocity of the end at the ground, upwards",
+            Some(Measure::Velocity), End 1, Jump;
+        /// `v_x(0,t)`.
+        Strain: "strain", "v_x(0,t)", "strain at the ground, positive in tension",
+            Some(Measure::Strain), Strain 0, Jump;
+        /// `E v_x(0,t)`; `c² v_x(0,t)` without a material.
+        Stress: "stress", "E v_x(0,t)", "stress at the ground, positive in tension",
+            Some(Measure::Stress), Strain 0, Jump;
+        /// `−E S v_x(0,t)`: what the ground pushes with, and never less than zero from `t = 0⁺` on.
+        Force: "force", "−E S v_x(0,t)", "contact force, positive in compression",
+            Some(Measure::Force), Strain 0, Jump;
+        /// `v(L,t)`.
+        TopDisplacement: "u_top", "v(L,t)", "displacement of the upper end",
+            Some(Measure::Length), Top 0, Kink;
+        /// `v_t(L,t)`.
+        TopVelocity: "v_top", "v_t(L,t)", "velocity of the upper end",
+            Some(Measure::Velocity), Top 1, Jump;
+        /// `h(t) = (1/L) ∫ v dx`: the centre of mass.
+        Centre: "h", "h", "centre of mass above its place in the undeformed rod on the ground",
+            Some(Measure::Length), Centre 0, Smooth;
+        /// `h′(t)`.
+        CentreVelocity: "h_rate", "h′", "velocity of the centre of mass",
+            Some(Measure::Velocity), Centre 1, Kink;
+        /// `E = E_h + E_z`, (3.54).
+        Energy: "E_total", "E", "energy: E_h + E_z, or kinetic + strain_energy + gravity",
+            Some(Measure::Energy), Energy 0, Smooth;
+        /// `E_h = ρS (L h′²/2 + L g h)`.
+        TranslationalEnergy: "E_h", "E_h", "energy of the centre of mass: ρSL(h′²/2 + g h)",
+            Some(Measure::Energy), Energy 1, Kink;
+        /// `E_z = ½ ρS ∫ ((v_t − h′)² + c² v_x²) dx`.
+        VibrationalEnergy: "E_z", "E_z", "energy of the vibration: ½ρS∫((v_t − h′)² + c²v_x²)dx",
+            Some(Measure::Energy), Energy 2, Kink;
+        /// `½ ρS ∫ v_t² dx`.
+        KineticEnergy: "kinetic", "½ρS∫v_t²dx", "kinetic energy",
+            Some(Measure::Energy), Parts 0, Kink;
+        /// `½ ρS c² ∫ v_x² dx`.
+        StrainEnergy: "strain_energy", "½ES∫v_x²dx", "strain energy",
+            Some(Measure::Energy), Parts 1, Kink;
+        /// `ρS g L h`: zero where the centre of mass is where it is in the undeformed rod on the ground. Kinetic,
+        /// strain and gravity energy add up to `E`.
+        GravityEnergy: "gravity", "ρSLg h", "energy in gravity, zero at h = 0",
+            Some(Measure::Energy), Centre 0, Smooth;
+        /// 1 while the end is on the ground, 0 in flight.
+        Contact: "contact", "", "1 on the ground, 0 in flight",
+            None, Contact 0, Jump;
+        /// `∫₀ᵗ force ds`: the momentum that the ground has given since `t = 0`.
+        Impulse: "impulse", "∫force dt", "impulse of the contact force since t = 0",
+            Some(Measure::Impulse), Impulse 0, Kink;
+    }
+}
+
 impl Source {
     fn has_sides(self) -> bool {
         matches!(self, Source::End | Source::Strain | Source::Top | Source::Contact)
@@ -132,7 +179,7 @@ impl Source {
 impl Column {
     /// The name in files: `u_end`.
     pub fn name(self) -> &'static str {
-        self.facts().0
+        self.facts().name
     }
 
     /// The column of this name.
@@ -148,17 +195,17 @@ impl Column {
 
     /// The symbol: `v(0,t)`; empty where there is none.
     pub fn symbol(self) -> &'static str {
-        self.facts().1
+        self.facts().symbol
     }
 
     /// What it is, in a line.
     pub fn meaning(self) -> &'static str {
-        self.facts().2
+        self.facts().meaning
     }
 
     /// What its values measure; `None` for [`Column::Side`] and [`Column::Contact`].
     pub fn measure(self) -> Option<Measure> {
-        self.facts().3
+        self.facts().measure
     }
 
     /// The unit: `Pa` with a material, `per ρ` without one; empty where there is none or none is known.
@@ -178,25 +225,22 @@ impl Column {
         }
     }
 
-    /// Where it comes from, and which of the answers there it is.
     fn source(self) -> (Source, usize) {
-        match self {
-            Column::Time => (Source::Time, 0),
-            Column::Side => (Source::Side, 0),
-            Column::EndDisplacement => (Source::End, 0),
-            Column::EndVelocity => (Source::End, 1),
-            Column::Strain | Column::Stress | Column::Force => (Source::Strain, 0),
-            Column::TopDisplacement => (Source::Top, 0),
-            Column::TopVelocity => (Source::Top, 1),
-            Column::Centre | Column::GravityEnergy => (Source::Centre, 0),
-            Column::CentreVelocity => (Source::Centre, 1),
-            Column::Energy => (Source::Energy, 0),
-            Column::TranslationalEnergy => (Source::Energy, 1),
-            Column::VibrationalEnergy => (Source::Energy, 2),
-            Column::KineticEnergy => (Source::Parts, 0),
-            Column::StrainEnergy => (Source::Parts, 1),
-            Column::Contact => (Source::Contact, 0),
-            Column::Impulse => (Source::Impulse, 0),
+        self.facts().source
+    }
+
+    /// What a ray leaves in it.
+    pub fn rays(self) -> Rays {
+        self.facts().rays
+    }
+
+    /// Where along the rod it is.
+    #[cfg(feature = "compare")]
+    pub(crate) fn place(self) -> Place {
+        match self.source().0 {
+            Source::Top => Place::Top,
+            Source::Contact => Place::Switch,
+            _ => Place::Ground,
         }
     }
 
@@ -225,14 +269,13 @@ impl Column {
 /// **Errors**: what the history cannot answer.
 pub fn columns<S: Scalar>(
     motion: &dyn Motion<S>,
-    problem: &Problem,
+    units: &Units,
     columns: &[Column],
     times: &[S],
     side: Option<Side>,
 ) -> Result<Vec<Vec<S>>, Error> {
-    let units = Units::of(problem, UnitSystem::default());
     let places: Vec<(Source, usize)> = columns.iter().map(|column| column.source()).collect();
-    let factors: Vec<Option<S>> = columns.iter().map(|column| column.factor(motion, &units)).collect();
+    let factors: Vec<Option<S>> = columns.iter().map(|column| column.factor(motion, units)).collect();
     let mut sources: Vec<Source> = places.iter().map(|(source, _)| *source).collect();
     sources.sort_unstable();
     sources.dedup();
@@ -318,12 +361,7 @@ fn side_by_side<S: Scalar>(
 }
 
 /// The natural scale of each column; `None` where its values are no measurements.
-pub(crate) fn natural_scales<S: Scalar>(
-    motion: &dyn Motion<S>,
-    problem: &Problem,
-    columns: &[Column],
-) -> Vec<Option<f64>> {
-    let units = Units::of(problem, UnitSystem::default());
+pub(crate) fn natural_scales<S: Scalar>(motion: &dyn Motion<S>, units: &Units, columns: &[Column]) -> Vec<Option<f64>> {
     let scales = motion.scales().map(|scale| scale.to_f64());
     let natural = |column: &Column| {
         let natural = match column.source() {
@@ -334,7 +372,7 @@ pub(crate) fn natural_scales<S: Scalar>(
             (Source::Energy | Source::Parts, _) => scales.velocity * scales.velocity * scales.length,
             (Source::Impulse, _) => scales.velocity * scales.length,
         };
-        Some(natural * column.factor(motion, &units).map_or(1.0, |factor| factor.to_f64().abs()))
+        Some(natural * column.factor(motion, units).map_or(1.0, |factor| factor.to_f64().abs()))
     };
     columns.iter().map(natural).collect()
 }

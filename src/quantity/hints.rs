@@ -21,6 +21,7 @@
 
 use serde::Serialize;
 
+use super::column::Rays;
 use super::norms::Grid;
 use super::touch::Touch;
 use crate::number::Scalar;
@@ -204,17 +205,6 @@ pub struct Pair<'a> {
     pub rays: Rays,
     /// Factors that are often forgotten for this quantity, with what to ask.
     pub factors: &'a [(f64, &'static str)],
-}
-
-/// What a ray leaves in a quantity where it passes.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Rays {
-    /// A jump.
-    Jump,
-    /// A jump of its rate.
-    Kink,
-    /// Neither.
-    Smooth,
 }
 
 /// What a hint is judged by.

@@ -12,10 +12,12 @@ mod touch;
 mod unit;
 
 pub use audit::{Audit, Books, EnergyChange, Extreme};
-pub use column::{Column, columns};
+#[cfg(feature = "compare")]
+pub(crate) use column::Place;
+pub use column::{Column, Rays, columns};
 pub(crate) use column::{natural_scales, of_one_size};
 pub use flight::{Flight, flights};
-pub use hints::{Finding, Hint, Measures, Pair, Rays, gathered, of_contacts, of_impulses};
+pub use hints::{Finding, Hint, Measures, Pair, gathered, of_contacts, of_impulses};
 pub use norms::{Greatest, Grid, Norm, Norms, norms, order};
 pub use restitution::{EnergyShares, Restitution, Undefined, energy_shares, restitution};
 pub use slice::{Slice, slices};

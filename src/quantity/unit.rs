@@ -2,7 +2,7 @@
 
 use serde::Serialize;
 
-use crate::number::Scalar;
+use crate::number::{Number, Scalar};
 use crate::problem::{Material, Problem};
 
 /// What a number measures.
@@ -70,15 +70,27 @@ impl UnitSystem {
         ("other", UnitSystem::Other),
     ];
 
-    /// The name of the unit of `measure`; empty where there is none or none is known.
-    fn name(self, measure: Measure) -> &'static str {
-        let [length, velocity, stress, force, impulse, energy] = match self {
-            UnitSystem::Si => ["m", "m/s", "Pa", "N", "N s", "J"],
-            UnitSystem::Inch => ["in", "in/s", "psi", "lbf", "lbf s", "lbf in"],
-            UnitSystem::Millimetre => ["mm", "mm/s", "MPa", "N", "N s", "mJ"],
-            UnitSystem::Other => return "",
+    /// The name of the unit of `measure`, `per_area` where no cross-section is given; empty where there is none or none
+    /// is known.
+    fn name(self, measure: Measure, per_area: bool) -> &'static str {
+        let [length, velocity, stress] = match self {
+            UnitSystem::Si => ["m", "m/s", "Pa"],
+            UnitSystem::Inch => ["in", "in/s", "psi"],
+            UnitSystem::Millimetre => ["mm", "mm/s", "MPa"],
+            UnitSystem::Other => ["", "", ""],
+        };
+        let [force, impulse, energy] = match (self, per_area) {
+            (UnitSystem::Si, false) => ["N", "N s", "J"],
+            (UnitSystem::Si, true) => ["N/m²", "N s/m²", "J/m²"],
+            (UnitSystem::Inch, false) => ["lbf", "lbf s", "lbf in"],
+            (UnitSystem::Inch, true) => ["lbf/in²", "lbf s/in²", "lbf/in"],
+            (UnitSystem::Millimetre, false) => ["N", "N s", "mJ"],
+            (UnitSystem::Millimetre, true) => ["N/mm²", "N s/mm²", "mJ/mm²"],
+            (UnitSystem::Other, false) => ["", "", ""],
+            (UnitSystem::Other, true) => ["per S"; 3],
         };
         match measure {
+            Measure::Time if self == UnitSystem::Other => "",
             Measure::Time => "s",
             Measure::Length => length,
             Measure::Velocity => velocity,
@@ -94,8 +106,8 @@ impl UnitSystem {
 /// What turns the answers of a history, which are strains and values per `ρS`, into quantities with a unit.
 ///
 /// **Units**: those of the problem. With a material `E`, `ρ`, `S` stress is `E v_x`, force `−E S v_x`, and impulse and
-/// energy are `ρS` times what the history answers. Without one there is neither stress nor force, and impulse and
-/// energy stay per linear density.
+/// energy are `ρS` times what the history answers; where no `S` is given all three are those of a unit of it, and their
+/// units say so. Without a material there is neither stress nor force, and impulse and energy stay per linear density.
 ///
 /// ```
 /// use dalembert::{Measure, Problem, UnitSystem, Units};
@@ -104,6 +116,8 @@ impl UnitSystem {
 /// assert_eq!((units.factor::<f64>(Measure::Stress, &()), units.name(Measure::Stress)), (Some(900.0), "Pa"));
 /// assert_eq!((units.factor::<f64>(Measure::Force, &()), units.name(Measure::Force)), (Some(-2700.0), "N"));
 /// assert_eq!((units.factor::<f64>(Measure::Energy, &()), units.name(Measure::Energy)), (Some(6.0), "J"));
+/// let units = Units::of(&rod.clone().modulus(900).density(2).build()?, UnitSystem::Si);
+/// assert_eq!((units.factor::<f64>(Measure::Force, &()), units.name(Measure::Force)), (Some(-900.0), "N/m²"));
 /// let units = Units::of(&rod.wave_speed(1).build()?, UnitSystem::Si);
 /// assert_eq!((units.factor::<f64>(Measure::Force, &()), units.name(Measure::Force)), (None, ""));
 /// assert_eq!((units.factor::<f64>(Measure::Energy, &()), units.name(Measure::Energy)), (Some(1.0), "per ρS"));
@@ -128,7 +142,7 @@ impl Units {
         Units { material: problem.rod.material.clone(), system }
     }
 
-    /// Whether the scene gives modulus, density and area.
+    /// Whether the scene gives modulus and density.
     pub fn has_material(&self) -> bool {
         matches!(self.material, Material::Elastic { .. })
     }
@@ -137,7 +151,9 @@ impl Units {
     /// is known.
     pub fn name(&self, measure: Measure) -> &'static str {
         match measure {
-            _ if self.has_material() => self.system.name(measure),
+            _ if self.has_material() => {
+                self.system.name(measure, matches!(self.material, Material::Elastic { area: None, .. }))
+            }
             Measure::Impulse | Measure::Energy => "per ρS",
             _ => "",
         }
@@ -148,15 +164,17 @@ impl Units {
     ///
     /// **Accuracy**: *exact* in fractions; one rounding for each number given and one for the product otherwise.
     pub fn factor<S: Scalar>(&self, measure: Measure, precision: &S::Precision) -> Option<S> {
-        let lift = |number| S::from_number(number, precision);
+        let lift = |number: &Number| S::from_number(number, precision);
+        let times = |number: &Number, area: &Option<Number>| match area {
+            Some(area) => lift(number) * lift(area),
+            None => lift(number),
+        };
         let one = || S::from_number(&1.into(), precision);
         match (measure, &self.material) {
             (Measure::Stress | Measure::Force, Material::WaveSpeed(_)) => None,
             (Measure::Stress, Material::Elastic { modulus, .. }) => Some(lift(modulus)),
-            (Measure::Force, Material::Elastic { modulus, area, .. }) => Some(-(lift(modulus) * lift(area))),
-            (Measure::Impulse | Measure::Energy, Material::Elastic { density, area, .. }) => {
-                Some(lift(density) * lift(area))
-            }
+            (Measure::Force, Material::Elastic { modulus, area, .. }) => Some(-times(modulus, area)),
+            (Measure::Impulse | Measure::Energy, Material::Elastic { density, area, .. }) => Some(times(density, area)),
             _ => Some(one()),
         }
     }

@@ -27,7 +27,7 @@ pub enum Effect {
     InitialStrain,
     /// The rod starts with a velocity of its own at every point.
     InitialVelocity,
-    /// Modulus, density and area give forces and energies their units.
+    /// Modulus and density, with an area or for a unit of it, give forces and energies their units.
     SiForces,
     /// Energies and the field at other times than the ends of contacts: what `sample` asks for.
     FieldEnergies,
@@ -209,7 +209,12 @@ impl Scene {
 
     fn si_forces(&self) -> Decision {
         match self.problem.rod.material {
-            Material::Elastic { .. } => (true, Some("rod.modulus"), "modulus, density and area are given".into()),
+            Material::Elastic { area: Some(_), .. } => {
+                (true, Some("rod.modulus"), "modulus, density and area are given".into())
+            }
+            Material::Elastic { area: None, .. } => {
+                (true, Some("rod.modulus"), "modulus and density are given: forces and energies are per area".into())
+            }
             Material::WaveSpeed(_) => {
                 let because = "only the wave speed is given: strains v_x, and no forces in newtons";
                 (false, Some("rod.wave_speed"), because.into())

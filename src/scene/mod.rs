@@ -5,10 +5,10 @@
 //!
 //! ```toml
 //! title = "A rod dropped on the ground"
-//! units = "SI"          # or "in-lbf-s", "mm-N-s", "other": names what is printed, with modulus, density and area
+//! units = "SI"          # or "in-lbf-s", "mm-N-s", "other": names what is printed, with modulus and density
 //! [rod]
 //! length = 1            # L
-//! wave_speed = 1        # c; or modulus, density and area: then c = √(modulus/density)
+//! wave_speed = 1        # c; or modulus and density: then c = √(modulus/density); area, or else forces are per area
 //! damping = 0           # r; absent or 0: no damping
 //! top = "free"          # or "fixed"
 //! [impact]
@@ -48,10 +48,9 @@
 //!
 //! # Published values
 //! A scene may list what others have published of it; `dalembert scenes NAME --targets` prints it beside ours. With a
-//! `time` the quantity is one of `u_end`, `v_end`, `u_top`, `v_top` (displacement and velocity of the two ends),
-//! `strain`, `stress`, `force` (at the ground), `h`, `h_rate`, `E_total`, `E_h`, `E_z`; without a time one of a
-//! contact: `impact` and `release` (times), `duration`, `impact_velocity`, `release_velocity`, `impulse`,
-//! `peak_stress`, `peak_force`.
+//! `time` the quantity is a [`Column`](crate::Column) by its name, such as `u_end`, `stress` or `E_total`, but for the
+//! impulse; without a time one of a contact: `impact` and `release` (times), `duration`, `impact_velocity`,
+//! `release_velocity`, `impulse`, `peak_stress`, `peak_force`.
 //!
 //! ```toml
 //! [[target]]
@@ -76,6 +75,7 @@ pub mod builtin;
 mod effects;
 mod error;
 mod read;
+mod reader;
 mod suggest;
 mod target;
 

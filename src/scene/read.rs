@@ -1,13 +1,12 @@
 //! From the text of a scene to a problem: TOML types and keys, and the place of whatever is wrong.
 
-use std::borrow::Cow;
 use std::collections::BTreeMap;
 use std::ops::Range;
 
-use toml::Spanned;
-use toml::de::{DeTable, DeValue};
+use toml::de::DeTable;
 
 use super::error::{SceneError, SceneErrorKind as Kind, position};
+use super::reader::{Key, Reader, Value, did_you_mean};
 use super::suggest;
 use super::target::Target;
 use crate::number::Number;
@@ -15,7 +14,7 @@ use crate::problem::given::{Given, within};
 use crate::problem::profile::{Points, SHAPE};
 use crate::problem::validate::{Draft, NUMBERS};
 use crate::problem::written::{has_unit, short};
-use crate::problem::{Material, Problem, ProblemError, ProblemErrorKind, Top, Written};
+use crate::problem::{Material, Problem, ProblemError, ProblemErrorKind, Top};
 use crate::quantity::UnitSystem;
 
 /// Every table with its keys; the first is the scene itself.
@@ -107,15 +106,6 @@ fn value_around(source: &str, at: usize) -> Range<usize> {
     start..start + value.trim().len()
 }
 
-type Key<'a> = Spanned<Cow<'a, str>>;
-type Value<'a> = Spanned<DeValue<'a>>;
-
-/// A scene as TOML.
-pub(super) struct Reader<'a> {
-    source: &'a str,
-    document: &'a DeTable<'a>,
-}
-
 impl<'a> Reader<'a> {
     fn scene(&self) -> Result<Scene, SceneError> {
         for (name, known) in TABLES {
@@ -150,15 +140,7 @@ impl<'a> Reader<'a> {
                 None => return Err(self.wrong_type(value, name, &format!("a table, [{name}]"))),
             },
         };
-        // toml hands the keys over in alphabetical order; the first one in the file is reported.
-        let unknown = table.keys().filter(|key| !known.contains(&key.get_ref().as_ref()));
-        if let Some(key) = unknown.min_by_key(|key| key.span().start) {
-            let meant = suggest::key(key.get_ref(), name, known);
-            let hint = meant.map_or(String::new(), |meant| format!(" (did you mean {meant}?)"));
-            let found = format!("the unknown key `{}` in {shown}", short(key.get_ref()));
-            let expected = format!("one of {}{hint}", known.join(", "));
-            return Err(self.error(key.span(), Kind::UnknownKey, found, expected));
-        }
+        self.check_known((table, &shown), known, |key| suggest::key(key, name, known))?;
         let (found, expected) = match name {
             "impact" => ("no speed", "speed, with a gap or without, or drop_height"),
             "gravity" => ("no acceleration", "acceleration, zero or more"),
@@ -217,7 +199,7 @@ impl<'a> Reader<'a> {
             Some(("free", _)) => Ok(Some(Top::Free)),
             Some(("fixed", _)) => Ok(Some(Top::Fixed)),
             Some((text, span)) => {
-                let hint = suggest::top(text).map_or(String::new(), |top| format!(" (did you mean \"{top}\"?)"));
+                let hint = did_you_mean(suggest::top(text).map(|top| format!("\"{top}\"")));
                 let (found, expected) = (format!("top = {}", short(self.slice(&span))), "\"free\" or \"fixed\"");
                 Err(self.error(span, Kind::OutOfRange, found, format!("{expected}{hint}")))
             }
@@ -257,64 +239,6 @@ impl<'a> Reader<'a> {
             }
         };
         array.iter().map(point).collect::<Result<_, _>>().map(Some)
-    }
-
-    fn text(&self, path: &str) -> Result<Option<(&'a str, Range<usize>)>, SceneError> {
-        let Some((key, value)) = self.get(path) else { return Ok(None) };
-        let text = value.get_ref().as_str().ok_or_else(|| self.wrong_type(value, key.get_ref(), "a string"))?;
-        Ok(Some((text, value.span())))
-    }
-
-    fn number(&self, path: &str) -> Result<Option<Written>, SceneError> {
-        self.get(path).map(|(key, value)| self.written(value, key.get_ref())).transpose()
-    }
-
-    /// The number that a value spells, taken from the source itself so that no digit is lost.
-    fn written(&self, value: &Value<'a>, key: &str) -> Result<Written, SceneError> {
-        let shown = self.slice(&value.span());
-        match value.get_ref() {
-            DeValue::Integer(_) | DeValue::Float(_) => Ok(Written::new(shown, shown)),
-            DeValue::String(text) => Ok(Written::new(text, shown)),
-            _ => Err(self.wrong_type(value, key, "a number such as 3, 0.1, 1e-9 or \"1/3\"")),
-        }
-    }
-
-    /// The number that a value outside of the problem spells.
-    pub(super) fn plain_number(&self, value: &Value<'a>, key: &str) -> Result<Number, SceneError> {
-        let written = self.written(value, key)?;
-        let number = Given::new("", key, &written).map(|given| given.number.clone());
-        number.map_err(|error| self.error(value.span(), error.kind.into(), error.found, error.expected))
-    }
-
-    /// Key and value at a path such as `rod` or `rod.length`.
-    pub(super) fn get(&self, path: &str) -> Option<(&'a Key<'a>, &'a Value<'a>)> {
-        match path.split_once('.') {
-            None => self.document.get_key_value(path),
-            Some((table, key)) => self.document.get(table)?.get_ref().as_table()?.get_key_value(key),
-        }
-    }
-
-    pub(super) fn wrong_type(&self, value: &Value<'_>, key: &str, expected: &str) -> SceneError {
-        let article = if matches!(value.get_ref(), DeValue::Array(_) | DeValue::Integer(_)) { "an" } else { "a" };
-        let found = match value.get_ref() {
-            DeValue::Table(_) => format!("{key}, a table"),
-            other => format!("{key} = {}, {article} {}", short(self.slice(&value.span())), other.type_str()),
-        };
-        self.error(value.span(), Kind::WrongType, found, expected)
-    }
-
-    pub(super) fn error(
-        &self,
-        span: Range<usize>,
-        kind: Kind,
-        found: impl Into<String>,
-        expected: impl Into<String>,
-    ) -> SceneError {
-        SceneError::new(self.source, span, kind, found, expected)
-    }
-
-    pub(super) fn slice(&self, span: &Range<usize>) -> &'a str {
-        self.source.get(span.clone()).unwrap_or_default()
     }
 
     /// The line of every key.

@@ -1,14 +1,13 @@
 //! Values that others have published for a scene: data beside it, in `[[target]]`.
 
-use toml::de::{DeTable, DeValue};
+use std::ops::Range;
 
 use super::error::{SceneError, SceneErrorKind as Kind};
-use super::read::Reader;
+use super::reader::{Reader, Value};
 use super::suggest;
 use crate::motion::Side;
 use crate::number::Number;
-use crate::problem::written::short;
-use crate::quantity::Measure;
+use crate::quantity::{Column, Measure};
 
 /// A value that others have published for a scene.
 ///
@@ -53,36 +52,14 @@ pub enum TargetQuantity {
     PeakStress,
     /// The greatest force of the ground in a contact.
     PeakForce,
-    /// `v(0,t)`.
-    EndDisplacement,
-    /// `v_t(0,t)`.
-    EndVelocity,
-    /// `v(L,t)`.
-    TopDisplacement,
-    /// `v_t(L,t)`.
-    TopVelocity,
-    /// `v_x(0,t)`.
-    Strain,
-    /// `E v_x(0,t)`.
-    Stress,
-    /// `−E S v_x(0,t)`.
-    Force,
-    /// `h(t)`.
-    Centre,
-    /// `h′(t)`.
-    CentreVelocity,
-    /// `E(t)`.
-    Energy,
-    /// `E_h(t)`.
-    TranslationalEnergy,
-    /// `E_z(t)`.
-    VibrationalEnergy,
+    /// What has a value at every time.
+    Column(Column),
 }
 
 use TargetQuantity as Q;
 
-/// Every quantity, with the word that a scene has for it and what it measures.
-const QUANTITIES: [(Q, &str, Measure); 20] = [
+/// What belongs to a contact, with the word that a scene has for it and what it measures.
+const OF_CONTACT: [(Q, &str, Measure); 8] = [
     (Q::Impact, "impact", Measure::Time),
     (Q::Release, "release", Measure::Time),
     (Q::Duration, "duration", Measure::Time),
@@ -91,39 +68,40 @@ const QUANTITIES: [(Q, &str, Measure); 20] = [
     (Q::Impulse, "impulse", Measure::Impulse),
     (Q::PeakStress, "peak_stress", Measure::Stress),
     (Q::PeakForce, "peak_force", Measure::Force),
-    (Q::EndDisplacement, "u_end", Measure::Length),
-    (Q::EndVelocity, "v_end", Measure::Velocity),
-    (Q::TopDisplacement, "u_top", Measure::Length),
-    (Q::TopVelocity, "v_top", Measure::Velocity),
-    (Q::Strain, "strain", Measure::Strain),
-    (Q::Stress, "stress", Measure::Stress),
-    (Q::Force, "force", Measure::Force),
-    (Q::Centre, "h", Measure::Length),
-    (Q::CentreVelocity, "h_rate", Measure::Velocity),
-    (Q::Energy, "E_total", Measure::Energy),
-    (Q::TranslationalEnergy, "E_h", Measure::Energy),
-    (Q::VibrationalEnergy, "E_z", Measure::Energy),
 ];
 
 impl TargetQuantity {
-    fn row(self) -> &'static (Q, &'static str, Measure) {
-        QUANTITIES.iter().find(|(quantity, ..)| *quantity == self).unwrap_or(&QUANTITIES[0])
+    /// What belongs to a contact, and the columns but for times and the impulse, whose name is that of a contact's.
+    fn all() -> impl Iterator<Item = Self> {
+        let of_contact = OF_CONTACT.into_iter().map(|(quantity, ..)| quantity);
+        let measured = |column: &Column| !matches!(column.measure(), None | Some(Measure::Time | Measure::Impulse));
+        of_contact.chain(Column::ALL.into_iter().filter(measured).map(Q::Column))
+    }
+
+    fn of_contact(self) -> Option<(&'static str, Measure)> {
+        OF_CONTACT.iter().find(|(quantity, ..)| *quantity == self).map(|(_, name, measure)| (*name, *measure))
     }
 
     /// The word that a scene has for it: `u_top`.
     pub fn name(self) -> &'static str {
-        self.row().1
+        match self {
+            Q::Column(column) => column.name(),
+            _ => self.of_contact().map_or("", |(name, _)| name),
+        }
     }
 
     /// What it measures.
     pub fn measure(self) -> Measure {
-        self.row().2
+        match self {
+            Q::Column(column) => column.measure(),
+            _ => self.of_contact().map(|(_, measure)| measure),
+        }
+        .unwrap_or(Measure::Time)
     }
 
     /// Whether it belongs to a contact, and not to a time.
     pub fn is_of_contact(self) -> bool {
-        let of_contact = [Q::Impact, Q::Release, Q::Duration, Q::ImpactVelocity, Q::ReleaseVelocity];
-        of_contact.contains(&self) || matches!(self, Q::Impulse | Q::PeakStress | Q::PeakForce)
+        !matches!(self, Q::Column(_))
     }
 }
 
@@ -175,36 +153,35 @@ impl<'a> Reader<'a> {
         let Some(array) = value.get_ref().as_array() else {
             return Err(self.wrong_type(value, "target", "tables, [[target]]"));
         };
-        let table = |value: &'a toml::Spanned<DeValue<'a>>| match value.get_ref().as_table() {
-            Some(table) => self.target(&One { reader: self, table, span: value.span() }, has_material),
+        let table = |value: &'a Value<'a>| match value.get_ref().as_table() {
+            Some(document) => Reader { document, ..*self }.target(value.span(), has_material),
             None => Err(self.wrong_type(value, "target", "a table, [[target]]")),
         };
         array.iter().map(table).collect()
     }
 
-    fn target(&self, one: &One<'_, 'a>, has_material: bool) -> Result<Target, SceneError> {
-        let unknown = one.table.keys().filter(|key| !KEYS.contains(&key.get_ref().as_ref()));
-        if let Some(key) = unknown.min_by_key(|key| key.span().start) {
-            let hint =
-                suggest::nearest(key.get_ref(), KEYS).map_or(String::new(), |near| format!(" (did you mean {near}?)"));
-            let found = format!("the unknown key `{}` in [[target]]", short(key.get_ref()));
-            return Err(self.error(key.span(), Kind::UnknownKey, found, format!("one of {}{hint}", KEYS.join(", "))));
-        }
-        let names = QUANTITIES.map(|(_, name, _)| name);
-        let place = one.choice("quantity", &names)?.ok_or_else(|| one.missing("quantity", &names.join(", ")))?;
-        let quantity = QUANTITIES[place].0;
-        let refuse = |key: &str, expected: &str| match one.table.get_key_value(key) {
+    /// The published value of this table, which stands at `span`.
+    fn target(&self, span: Range<usize>, has_material: bool) -> Result<Target, SceneError> {
+        let near = |key: &str| suggest::nearest(key, KEYS).map(String::from);
+        self.check_known((self.document, "[[target]]"), KEYS, near)?;
+        let missing = |key: &str, expected: &str| {
+            self.error(span.clone(), Kind::MissingKey, format!("no {key} in [[target]]"), expected)
+        };
+        let (quantities, names): (Vec<Q>, Vec<&str>) = Q::all().map(|quantity| (quantity, quantity.name())).unzip();
+        let place = self.choice("quantity", &names)?.ok_or_else(|| missing("quantity", &names.join(", ")))?;
+        let quantity = quantities[place];
+        let refuse = |key: &str, expected: &str| match self.get(key) {
             None => Ok(()),
             Some((key, _)) => {
                 let found = format!("{} of the {} in [[target]]", key.get_ref(), quantity.name());
                 Err(self.error(key.span(), Kind::Contradiction, found, expected))
             }
         };
-        let time = one.number("time")?;
-        let (side, origin) = (one.choice("side", &["left", "right"])?, one.choice("origin", &["ground", "start"])?);
-        let contact = match one.table.get("contact") {
+        let time = self.plain_number("time")?;
+        let (side, origin) = (self.choice("side", &["left", "right"])?, self.choice("origin", &["ground", "start"])?);
+        let contact = match self.get("contact") {
             None => 1,
-            Some(value) => {
+            Some((_, value)) => {
                 let whole = value.get_ref().as_integer().and_then(|whole| whole.as_str().parse::<usize>().ok());
                 let expected = "the number of a contact, from 1 on";
                 whole.filter(|n| *n > 0).ok_or_else(|| self.wrong_type(value, "contact", expected))?
@@ -216,16 +193,16 @@ impl<'a> Reader<'a> {
         } else {
             refuse("contact", "a time: it has a value at every time")?;
             if time.is_none() {
-                return Err(one.missing("time", &format!("the time of the {}", quantity.name())));
+                return Err(missing("time", &format!("the time of the {}", quantity.name())));
             }
         }
-        if !matches!(quantity, Q::EndDisplacement | Q::TopDisplacement | Q::Centre) {
+        if quantity.measure() != Measure::Length {
             refuse("origin", "an origin of u_end, u_top or h only")?;
         }
         if !has_material && matches!(quantity.measure(), Measure::Stress | Measure::Force) {
             let found = format!("the {} in [[target]]", quantity.name());
-            let expected = "modulus, density and area in [rod], or strain";
-            return Err(self.error(one.span.clone(), Kind::MissingKey, found, expected));
+            let expected = "modulus and density in [rod], or strain";
+            return Err(self.error(span, Kind::MissingKey, found, expected));
         }
         Ok(Target {
             quantity,
@@ -233,44 +210,9 @@ impl<'a> Reader<'a> {
             side: if side == Some(0) { Side::Left } else { Side::Right },
             contact,
             from_start: origin == Some(1),
-            published: one.number("published")?.ok_or_else(|| one.missing("published", "the published value"))?,
-            within: one.number("within")?,
-            source: one.text("source")?.ok_or_else(|| one.missing("source", "where it was published"))?.0.to_string(),
+            published: self.plain_number("published")?.ok_or_else(|| missing("published", "the published value"))?,
+            within: self.plain_number("within")?,
+            source: self.text("source")?.ok_or_else(|| missing("source", "where it was published"))?.0.to_string(),
         })
-    }
-}
-
-/// One `[[target]]`.
-struct One<'r, 'a> {
-    reader: &'r Reader<'a>,
-    table: &'a DeTable<'a>,
-    span: std::ops::Range<usize>,
-}
-
-impl<'a> One<'_, 'a> {
-    fn missing(&self, key: &str, expected: &str) -> SceneError {
-        self.reader.error(self.span.clone(), Kind::MissingKey, format!("no {key} in [[target]]"), expected)
-    }
-
-    fn text(&self, key: &str) -> Result<Option<(&'a str, std::ops::Range<usize>)>, SceneError> {
-        let Some(value) = self.table.get(key) else { return Ok(None) };
-        let text = value.get_ref().as_str().ok_or_else(|| self.reader.wrong_type(value, key, "a string"))?;
-        Ok(Some((text, value.span())))
-    }
-
-    /// The place of a word among `known`.
-    fn choice(&self, key: &str, known: &[&'static str]) -> Result<Option<usize>, SceneError> {
-        let Some((text, span)) = self.text(key)? else { return Ok(None) };
-        let place = known.iter().position(|name| *name == text);
-        place.map(Some).ok_or_else(|| {
-            let hint = suggest::nearest(text, known).map_or(String::new(), |near| format!(" (did you mean {near}?)"));
-            let (found, expected) = (format!("{key} = {}", short(self.reader.slice(&span))), known.join(", "));
-            self.reader.error(span, Kind::OutOfRange, found, format!("one of {expected}{hint}"))
-        })
-    }
-
-    fn number(&self, key: &'static str) -> Result<Option<Number>, SceneError> {
-        let Some(value) = self.table.get(key) else { return Ok(None) };
-        self.reader.plain_number(value, key).map(Some)
     }
 }

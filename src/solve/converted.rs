@@ -4,11 +4,10 @@ use std::sync::Arc;
 
 use super::rays::Rays;
 use crate::error::Error;
-use crate::motion::{Contact, Ending, Energy, Event, Field, Motion, Scales, Side, StressPiece};
+use crate::motion::{Course, Energy, Event, Field, Motion, Scales, Side, StressPiece};
 use crate::number::{Reads, Scalar};
 use crate::problem::Problem;
 use crate::ray::Ray;
-use crate::reason::Warning;
 use crate::wave::{Stretch, Waves};
 
 /// The history of an engine in numbers `N`, read in numbers `M`.
@@ -17,8 +16,7 @@ pub(super) struct Converted<N: Scalar, M> {
     engine: Arc<dyn Motion<N>>,
     precision: N::Precision,
     rays: Rays<N>,
-    events: Vec<Event<M>>,
-    contacts: Vec<Contact<M>>,
+    course: Course<M>,
 }
 
 impl<N: Scalar, M: Reads<N>> Converted<N, M> {
@@ -26,8 +24,7 @@ impl<N: Scalar, M: Reads<N>> Converted<N, M> {
         Converted {
             precision: engine.end().precision(),
             rays: Rays::of(&*engine, problem),
-            events: engine.events().iter().map(|event| event.clone().map(M::read)).collect(),
-            contacts: engine.contacts().iter().map(|contact| contact.clone().map(M::read)).collect(),
+            course: engine.course().clone().map(M::read),
             engine,
         }
     }
@@ -72,20 +69,8 @@ impl<N: Scalar, M: Reads<N>> Converted<N, M> {
 }
 
 impl<N: Scalar, M: Reads<N>> Motion<M> for Converted<N, M> {
-    fn end(&self) -> M {
-        M::read(self.engine.end())
-    }
-
-    fn ending(&self) -> &Ending {
-        self.engine.ending()
-    }
-
-    fn events(&self) -> &[Event<M>] {
-        &self.events
-    }
-
-    fn contacts(&self) -> &[Contact<M>] {
-        &self.contacts
+    fn course(&self) -> &Course<M> {
+        &self.course
     }
 
     fn stress_pieces(&self) -> Vec<StressPiece<M>> {
@@ -124,7 +109,8 @@ impl<N: Scalar, M: Reads<N>> Motion<M> for Converted<N, M> {
 
     fn highest(&self, release: &Event<M>) -> Option<(M, M)> {
         let time = release.time.text();
-        let known = self.events.iter().position(|event| event.kind == release.kind && event.time.text() == time)?;
+        let known =
+            self.course.events.iter().position(|event| event.kind == release.kind && event.time.text() == time)?;
         self.engine.highest(self.engine.events().get(known)?).map(Self::pair)
     }
 
@@ -150,9 +136,5 @@ impl<N: Scalar, M: Reads<N>> Motion<M> for Converted<N, M> {
 
     fn digits_lost(&self) -> Option<(u32, f64)> {
         self.engine.digits_lost()
-    }
-
-    fn warnings(&self) -> &[Warning] {
-        self.engine.warnings()
     }
 }

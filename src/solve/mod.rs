@@ -8,7 +8,6 @@
 //! | `engines`, `long` | the planned engine in the numbers of one attempt |
 //! | `converted`, `rays` | a history in one number system, read in another, and when rays pass a point of it |
 //! | `ladder` | more bits until the answer is settled |
-//! | `solution` | the answer in the numbers that were asked for |
 
 #[cfg(feature = "mp")]
 mod converted;
@@ -21,10 +20,8 @@ mod plan;
 mod question;
 #[cfg(feature = "mp")]
 mod rays;
-mod solution;
 
 pub(crate) use ladder::{Attempt, Ladder, unobserved};
 pub use ladder::{Observer, Target};
 pub use plan::{CERTIFIED_DIGITS, DEFAULT_ACCURACY, Engine, MAX_DIGITS, Plan, Reach, Rung};
 pub use question::{Numbers, Question, Want};
-pub use solution::{ExactnessEnd, Solution};

@@ -5,53 +5,17 @@
 //! | `grid` | which values are varied, and the problem of each point |
 //! | `point` | what is asked of a point, and its answer |
 //! | `journal` | finished points on disk, so that an interrupted sweep goes on |
+//! | `run` | all points, on all threads |
 //! | `regimes` | how the first contact ends, over all dampings and speeds |
 
 mod grid;
 mod journal;
 mod point;
 mod regimes;
+mod run;
 
 pub(crate) use grid::{Axis, Grid, SweepError};
 pub(crate) use journal::{Journal, journal_of};
 pub(crate) use point::{Asked, Cell, Point};
 pub(crate) use regimes::{Map, Regime, threshold};
-
-use rayon::prelude::*;
-use std::ops::Range;
-
-/// A sweep: what is varied, and what is asked.
-#[derive(Debug)]
-pub(crate) struct Sweep {
-    pub(crate) grid: Grid,
-    pub(crate) asked: Asked,
-}
-
-impl Sweep {
-    /// All `points` that are not `known`, on all threads, and those that are, in order. `done` receives each as it is
-    /// finished and may refuse to go on.
-    ///
-    /// **Accuracy**: that of the numbers asked for. The same for any number of threads.
-    pub(crate) fn run<E: Send>(
-        &self,
-        points: Range<usize>,
-        known: Vec<Point>,
-        done: impl Fn(&Point) -> Result<(), E> + Sync,
-    ) -> Result<Vec<Point>, E> {
-        let mut have = vec![None; points.len()];
-        for point in known.into_iter().filter(|point| points.contains(&point.index)) {
-            let place = point.index - points.start;
-            have[place] = Some(point);
-        }
-        have.into_par_iter()
-            .enumerate()
-            .map(|(place, point)| match point {
-                Some(point) => Ok(point),
-                None => {
-                    let point = self.asked.answer(&self.grid, points.start + place);
-                    done(&point).map(|()| point)
-                }
-            })
-            .collect()
-    }
-}
+pub(crate) use run::Sweep;

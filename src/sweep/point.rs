@@ -3,12 +3,13 @@
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
 
-use super::Grid;
+use super::grid::Grid;
 use crate::compare::{NoAnswer, Quantity, Question, asked};
 use crate::history::History;
 use crate::number::{Number, Scalar, bound_json, number_json, shown_bound_text};
 use crate::problem::Problem;
-use crate::solve::{self, Numbers, Plan, Solution, Target, unobserved};
+use crate::solution::Solution;
+use crate::solve::{self, Numbers, Plan, Target, unobserved};
 
 /// The numbers that are asked of every point.
 #[derive(Clone, Debug)]

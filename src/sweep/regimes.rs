@@ -2,8 +2,7 @@
 
 use rayon::prelude::*;
 
-use super::grid::values;
-use super::{Axis, Grid, SweepError};
+use super::grid::{Axis, Grid, SweepError, values};
 use crate::first_contact::{Bounce, FirstContact};
 use crate::motion::Ending;
 use crate::number::{Estimate, Number};

@@ -57,6 +57,13 @@ fn from_field(rod: &Problem, history: &dalembert::History<Rational>, time: &Rati
 }
 
 #[test]
+fn the_readme_lists_all_columns() {
+    let readme = include_str!("../../README.md").split_whitespace().collect::<Vec<_>>().join(" ");
+    let list = Column::ALL.map(Column::name).join(" ");
+    assert!(readme.contains(&format!("`{list}`")), "{list}");
+}
+
+#[test]
 fn energies_are_integrals_of_the_field() {
     let scenes = ["doyen-ern-piperno", "getfem-dynamic-contact", "paper-strong", "figure-2", "mu-4-3"];
     for name in scenes {

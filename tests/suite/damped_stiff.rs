@@ -13,7 +13,7 @@ fn rod(case: &Value) -> Problem {
     let of = |key: &str| number(&case[key]);
     let mut problem = Problem::uniform(of("length"), 1.into(), of("gravity"), 1.into());
     problem.rod.material =
-        Material::Elastic { modulus: of("modulus"), density: of("density"), area: "1e-4".parse().unwrap() };
+        Material::Elastic { modulus: of("modulus"), density: of("density"), area: "1e-4".parse().ok() };
     problem.rod.damping = Some(of("damping"));
     problem.start = Start::Uniform(Speed::DropHeight(of("drop_height")));
     problem.run = Run::Impacts(u32::try_from(case["impacts"].as_u64().unwrap()).unwrap());

@@ -50,7 +50,8 @@ fn a_scene_is_told_in_four_pictures() {
     // The stress jumps where each contact begins and ends, but for the two ends of the picture.
     assert_eq!(count(&svg, "jumps"), Some(6));
     assert_eq!(svg, quiet(&["plot", "doyen-ern-piperno", "--to", "26/3", "-o", "-"]), "the same bytes");
-    insta::with_settings!({snapshot_path => concat!(env!("CARGO_MANIFEST_DIR"), "/snapshots"), prepend_module_to_snapshot => false}, {
+    let snapshots = concat!(env!("CARGO_MANIFEST_DIR"), "/snapshots");
+    insta::with_settings!({snapshot_path => snapshots, prepend_module_to_snapshot => false}, {
         insta::assert_snapshot!("picture_doyen_ern_piperno", structure(&svg));
     });
     // Between the rays of an undamped rod each cell is one polygon; a damped one is cut finer.
@@ -355,6 +356,11 @@ fn no_digit_is_beyond_its_bound(folder: &std::path::Path) {
 fn sentences_hold_the_numbers_of_the_figures() {
     let folder = figures("1,5,6,7");
     let index = fs::read_to_string(folder.path().join("README.md")).unwrap();
+    // What the index names is there: of each figure the picture that it shows, and four links.
+    let files: Vec<&str> = index.split("](").skip(1).filter_map(|rest| rest.split(')').next()).collect();
+    assert_eq!(files.len(), 4 * 5);
+    assert!(files.iter().all(|file| folder.path().join(file).is_file()), "{files:?}");
+    assert!(fs::read(folder.path().join("figure-5.pdf")).unwrap().starts_with(b"%PDF-1."));
     for row in rows(folder.path(), "figure-1.csv") {
         assert!(index.contains(&format!("{:.14}", row[4].unwrap())), "{row:?}");
     }

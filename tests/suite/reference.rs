@@ -64,7 +64,8 @@ fn getfem_has_the_same_solution() {
 #[test]
 fn two_waves_are_the_field() {
     let profile = "[rod]\nlength = 2\nwave_speed = 3\ntop = \"fixed\"\n[gravity]\nacceleration = 1\n[run]\ntime = 7\n\
-                   [start]\ndisplacement = [[0, 0.5], [1, 0], [2, 0.25]]\nvelocity = [[0, 1], [1, 1], [1, -1], [2, 0]]\n";
+                   [start]\ndisplacement = [[0, 0.5], [1, 0], [2, 0.25]]\n\
+                   velocity = [[0, 1], [1, 1], [1, -1], [2, 0]]\n";
     let profile = Scene::parse(profile).unwrap().problem;
     let rods = ["doyen-ern-piperno", "paper-strong", "mu-4-3", "figure-2"].map(scene).into_iter().chain([profile]);
     for rod in rods {
@@ -210,11 +211,12 @@ fn the_python_function_is_the_history() {
         let main = format!(
             "from math import nextafter\nfrom golden import uExact\nend = {end:?}\nlate = nextafter(end, 2 * end)\n\
              assert abs(uExact(0, late) - uExact(0, end)) < 1e-12 * (1 + abs(uExact(0, end)))\n\
-             try:\n    uExact(0, end * (1 + 1e-13))\n    raise SystemExit('not refused')\nexcept ValueError:\n    pass\n\
+             try:\n    uExact(0, end * (1 + 1e-13))\n    raise SystemExit('not refused')\n\
+             except ValueError:\n    pass\n\
              try:\n    import numpy\nexcept ImportError:\n    raise SystemExit\n\
              x, t = numpy.linspace(0, 1, 5), numpy.linspace(0, late, 7)\n\
-             for d in range(3):\n    u = uExact(x[:, None], t, d)\n    assert u.shape == (5, 7) and u.dtype == float\n    \
-             assert all(u[i, j] == uExact(x[i], t[j], d) for i in range(5) for j in range(7))\n"
+             for d in range(3):\n    u = uExact(x[:, None], t, d)\n    \
+             assert u.shape == (5, 7) and u.dtype == float\n    assert all(u[i, j] == uExact(x[i], t[j], d) for i in range(5) for j in range(7))\n"
         );
         let output = Command::new("python3").arg("-c").arg(main).current_dir(folder.path()).output().unwrap();
         assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
@@ -229,7 +231,8 @@ fn the_python_function_is_exact() {
     }
     let module = quiet(&["reference", "getfem-dynamic-contact", "--as", "python", "--exact"]);
     let main = "\nfor k in range(200):\n    x, t = F(2 * k + 1, 400), F(9 * (3 * k + 1), 601)\n    \
-                print(*(uExact(x, t, d) for d in range(3)))\ntry:\n    uExact(2, 0)\nexcept ValueError as error:\n    print(error)\n";
+                print(*(uExact(x, t, d) for d in range(3)))\n\
+                try:\n    uExact(2, 0)\nexcept ValueError as error:\n    print(error)\n";
     let output = Command::new("python3").arg("-c").arg(module + main).output().unwrap();
     let text = String::from_utf8(output.stdout).unwrap();
     let mut lines = text.lines();
@@ -259,7 +262,8 @@ fn the_c_function_is_the_history() {
              for (int k = 0; k < {}; k++) printf(\"%.17g %.17g %.17g\\n\", uExact(at[k][0], at[k][1], 0), \
              uExact(at[k][0], at[k][1], 1), uExact(at[k][0], at[k][1], 2));\n\
              const double end = {end:?}, late = nextafter(end, 2 * end);\n\
-             return !isnan(uExact(0, -1, 0)) || isnan(uExact(0, late, 0)) || !isnan(uExact(0, end * (1 + 1e-13), 0)); }}\n",
+             return !isnan(uExact(0, -1, 0)) || isnan(uExact(0, late, 0))\n\
+             || !isnan(uExact(0, end * (1 + 1e-13), 0)); }}\n",
             pairs.len()
         );
         std::fs::write(path("main.c"), main).unwrap();

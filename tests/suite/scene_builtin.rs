@@ -16,7 +16,7 @@ fn parameters(scene: &Scene) -> Parameters<f64> {
 fn force(scene: &Scene) -> f64 {
     let Material::Elastic { density, area, .. } = &scene.problem.rod.material else { panic!("elastic") };
     let p = parameters(scene);
-    density.to_f64() * p.wave_speed * area.to_f64() * p.speed
+    density.to_f64() * p.wave_speed * area.as_ref().unwrap().to_f64() * p.speed
 }
 
 fn close(a: f64, b: f64, relative: f64) {

@@ -1,10 +1,7 @@
 //! The undamped march of one precision, without plan and ladder, read in numbers without their bounds.
 
 use dalembert::lattice::{Limits, Undamped, unobserved};
-use dalembert::{
-    Answer, Contact, Ending, Energy, Error, Event, Field, Motion, Problem, Ray, Scalar, Scales, Side, StressPiece,
-    Warning,
-};
+use dalembert::{Answer, Course, Energy, Error, Event, Field, Motion, Problem, Ray, Scalar, Scales, Side, StressPiece};
 
 /// An undamped history, computed in numbers that carry their bounds and read without them.
 pub(crate) type StrippedUndamped<S> = Stripped<S, Undamped<<S as Answer>::Carried>>;
@@ -27,16 +24,15 @@ pub(crate) fn undamped_within<S: Answer>(
 #[derive(Debug)]
 pub(crate) struct Stripped<S: Answer, H> {
     history: H,
-    events: Vec<Event<S>>,
-    contacts: Vec<Contact<S>>,
+    course: Course<S>,
 }
 
 impl<S: Answer, H: Motion<S::Carried>> Stripped<S, H> {
     /// `history`, read without bounds; those of event times stay in [`Event::time_error`].
     pub(crate) fn new(history: H) -> Self {
         let events = history.events().iter().map(event).collect();
-        let contacts = history.contacts().iter().map(|contact| contact.clone().map(S::strip)).collect();
-        Stripped { events, contacts, history }
+        let course = Course { events, ..history.course().clone().map(S::strip) };
+        Stripped { course, history }
     }
 
     /// The history that carries the bounds.
@@ -54,20 +50,8 @@ fn event<S: Answer>(event: &Event<S::Carried>) -> Event<S> {
 }
 
 impl<S: Answer, H: Motion<S::Carried>> Motion<S> for Stripped<S, H> {
-    fn end(&self) -> S {
-        S::strip(self.history.end())
-    }
-
-    fn ending(&self) -> &Ending {
-        self.history.ending()
-    }
-
-    fn events(&self) -> &[Event<S>] {
-        &self.events
-    }
-
-    fn contacts(&self) -> &[Contact<S>] {
-        &self.contacts
+    fn course(&self) -> &Course<S> {
+        &self.course
     }
 
     fn stress_pieces(&self) -> Vec<StressPiece<S>> {
@@ -104,6 +88,7 @@ impl<S: Answer, H: Motion<S::Carried>> Motion<S> for Stripped<S, H> {
 
     fn highest(&self, release: &Event<S>) -> Option<(S, S)> {
         let known = self
+            .course
             .events
             .iter()
             .position(|event| event.kind == release.kind && event.time.text() == release.time.text())?;
@@ -124,9 +109,5 @@ impl<S: Answer, H: Motion<S::Carried>> Motion<S> for Stripped<S, H> {
 
     fn digits_lost(&self) -> Option<(u32, f64)> {
         self.history.digits_lost()
-    }
-
-    fn warnings(&self) -> &[Warning] {
-        self.history.warnings()
     }
 }

@@ -1,10 +1,10 @@
 //! Events that coincide with a ray, and events that nearly do: rounded numbers do not tell the two apart.
 
 use dalembert::motion::Event;
-use dalembert::number::{Estimate, Scalar};
+use dalembert::number::Estimate;
 use dalembert::problem::Run;
 use dalembert::scene::builtin;
-use dalembert::{EventKind, History, Motion, Problem, Rung, Scene};
+use dalembert::{EventKind, History, Problem, Rung, Scene};
 use proptest::prelude::*;
 use rug::{Float, Rational};
 

@@ -5,7 +5,7 @@ use std::time::Instant;
 use super::verdict::{Outcome, Promise, Row, Verdict};
 use crate::compare::long;
 use crate::compare::quantity::{Limit, Quantity, Question};
-use crate::compare::route::{LongFormula, Numbers, Route};
+use crate::compare::route::{Numbers, Route};
 use crate::compare::truth::Truth;
 use crate::compare::value::NoAnswer;
 use crate::motion::Side;
@@ -136,7 +136,7 @@ impl Entry {
     }
 
     /// A formula in 36 digits.
-    pub(super) const fn by_digits(self, what: Text, formula: LongFormula) -> Entry {
+    pub(super) const fn by_digits(self, what: Text, formula: long::Formula) -> Entry {
         self.first_by((Route::LongFormula(what, 36, formula), Promise::Digits(36)))
     }
 

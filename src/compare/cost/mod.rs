@@ -7,10 +7,8 @@
 //! | `work` | which of them fit into the time, and the table of what they cost |
 //! | `clock` | medians and spreads |
 //! | `effects` | the same scene with each effect switched off |
-//! | `differences` | finite differences along the characteristics |
 
 mod clock;
-pub(crate) mod differences;
 mod effects;
 mod ladder;
 mod work;

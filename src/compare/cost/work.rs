@@ -14,6 +14,8 @@ use crate::solve::Plan;
 #[derive(Clone, Debug)]
 pub(crate) struct Row {
     pub(crate) family: Family,
+    /// Rows of one family are of one ladder, or of two: of the route by itself, and as the plan takes it.
+    pub(crate) ladder: usize,
     /// `N = 1024`.
     pub(crate) setting: String,
     /// `log₁₀` of the error relative to the truth, −∞ where there is none. Relative to 1 where the truth is zero.
@@ -85,7 +87,7 @@ pub(crate) fn work_precision(
     let slot = SHARE * seconds / count.max(1) as f64;
     let mut left_out: Vec<LeftOut> =
         without.into_iter().map(|(family, why)| LeftOut { family, setting: None, why }).collect();
-    let mut taken: Vec<(Candidate, Value, Timing)> = Vec::with_capacity(count);
+    let mut taken: Vec<(Candidate, usize, Value, Timing)> = Vec::with_capacity(count);
     let mut waiting: Vec<Waiting> = all.into_iter().map(Waiting::new).collect();
     while let Some(next) = cheapest(&mut waiting) {
         let (candidate, expected, ladder) = next;
@@ -110,7 +112,7 @@ pub(crate) fn work_precision(
                 let room = slot.max((4.0 * once).min(left / 8.0)).min(left);
                 let timing = repeat(once, Duration::from_secs_f64(room), || candidate.route.run(question, left));
                 waiting[ladder].before = timing.seconds.max(1e-7);
-                taken.push((candidate, value, timing));
+                taken.push((candidate, ladder, value, timing));
             }
             // What the plan cannot answer the scene does not have.
             Err(error) if candidate.chosen => return Err(error),
@@ -131,7 +133,7 @@ pub(crate) fn work_precision(
             Err(error) if taken.iter().any(|row| row.0.digits < digits) => {
                 let (kept, lost) = taken.into_iter().partition(|row| row.0.digits < digits);
                 taken = kept;
-                left_out.extend(lost.into_iter().map(|(candidate, _, _): (Candidate, _, _)| {
+                left_out.extend(lost.into_iter().map(|(candidate, ..): (Candidate, _, _, _)| {
                     let why = format!("no truth to hold it against: {error}");
                     LeftOut { family: candidate.family, setting: Some(candidate.setting), why }
                 }));
@@ -141,8 +143,9 @@ pub(crate) fn work_precision(
     };
     let mut rows: Vec<Row> = taken
         .into_iter()
-        .map(|(candidate, value, timing)| Row {
+        .map(|(candidate, ladder, value, timing)| Row {
             family: candidate.family,
+            ladder,
             setting: candidate.setting,
             log10_error: truth.log10_error(&value),
             timing,
@@ -150,7 +153,7 @@ pub(crate) fn work_precision(
         })
         .collect();
     // A stable sort: settings stay in the order of their ladder.
-    rows.sort_by_key(|row| row.family);
+    rows.sort_by_key(|row| (row.family, row.ladder));
     left_out.sort_by_key(|item| item.family);
     Ok(Table { quantity: question.quantity, time: question.time.clone(), truth, rows, left_out })
 }

@@ -6,10 +6,10 @@ use std::fmt;
 use rug::float::{Constant, Round};
 use rug::{Assign, Float, Rational};
 
-use super::super::float::spelled;
+use super::super::float::{down, spelled, up};
 use super::super::radical::Radical;
 use super::super::{Analytic, Answer, Bounded, Estimate, Number, Open, Reads, Scalar, show};
-use super::{Inside, Interval, IntervalPrecision, down, up};
+use super::{Inside, Interval, IntervalPrecision};
 
 /// The digits that both ends prove, or so many of them as a precision asks for; both ends where they prove none.
 impl fmt::Display for Interval {

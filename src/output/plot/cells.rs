@@ -2,13 +2,13 @@
 
 use glam::DVec2;
 
-use super::Along;
-use super::gather::{Gathered, settled};
+use super::picture::Along;
 use crate::error::Error;
 use crate::history::History;
 use crate::motion::{Field, Side};
 use crate::number::Scalar;
 use crate::output::draw::{Piece, clip};
+use crate::problem::Parameters;
 use crate::solve::Target;
 
 /// A ray, by the time at which it leaves the ground.
@@ -26,6 +26,8 @@ pub(crate) struct Cells {
     pub(crate) values: Values,
     /// A round number that no absolute value is above: where the colours end.
     pub(crate) greatest: f64,
+    /// Round trips of the span.
+    trips: f64,
 }
 
 #[derive(Clone, Debug)]
@@ -45,7 +47,7 @@ const GRID: [usize; 2] = [480, 96];
 /// With fewer columns a round trip its waves are not told apart.
 const FEW_COLUMNS: f64 = 8.0;
 
-/// The polygons of a field and its values.
+/// The polygons of a field and its values, in units of `1/factor`.
 ///
 /// **Source**: between the rays of an undamped rod velocity and strain are linear in `x` and `t` (d'Alembert), and a
 /// cell is one polygon. Between those of a damped rod they are smooth, and a cell is cut into parts.
@@ -53,18 +55,21 @@ const FEW_COLUMNS: f64 = 8.0;
 /// **Accuracy**: that of the history at three points of each polygon; linear between them.
 pub(crate) fn of<S: Target>(
     history: &History<S>,
-    along: Along,
-    drawn: &Gathered,
+    (along, factor): (Along, f64),
+    strip: &Strip,
     breaks: Vec<Break>,
 ) -> Result<Cells, Error> {
-    let strip = Strip::of(drawn);
-    let damped = drawn.rod.damping > 0.0;
-    let fine =
-        damped.then(|| strip.trip / PARTS.min((4.0 * MOST_CELLS as f64 / (strip.trips() * 16.0)).sqrt()).max(2.0));
+    let fine = strip
+        .damped
+        .then(|| strip.trip / PARTS.min((4.0 * MOST_CELLS as f64 / (strip.trips() * 16.0)).sqrt()).max(2.0));
     let [rising, falling] = [0.0, strip.trip].map(|late| strip.knots(&breaks, late, fine));
     let polygons = strip.polygons(&rising, &falling);
     let points: Vec<DVec2> = polygons.iter().flatten().flat_map(|polygon| samples(polygon)).collect();
-    let values = if polygons.is_some() { ask(history, along, drawn, &points) } else { grid(history, along, drawn) }?;
+    let values = match polygons {
+        Some(_) => ask(history, along, strip, &points),
+        None => grid(history, along, strip),
+    };
+    let values: Vec<f64> = values?.into_iter().map(|value| factor * value).collect();
     let mut greatest = 0.0f64;
     let values = match polygons {
         Some(polygons) => {
@@ -85,7 +90,7 @@ pub(crate) fn of<S: Target>(
             Values::Grid(GRID[0], values)
         }
     };
-    Ok(Cells { breaks, values, greatest: round_above(greatest) })
+    Ok(Cells { breaks, values, greatest: round_above(greatest), trips: strip.trips() })
 }
 
 /// The next number with one or two digits from which colours can begin; 0 for 0.
@@ -98,11 +103,15 @@ fn round_above(value: f64) -> f64 {
     steps.into_iter().map(|step| step * power).find(|step| *step >= value * (1.0 - 1e-9)).unwrap_or(value)
 }
 
-fn ask<S: Target>(history: &History<S>, along: Along, drawn: &Gathered, points: &[DVec2]) -> Result<Vec<f64>, Error> {
-    let factor = along.factor(&drawn.units);
-    if drawn.rod.damping == 0.0 {
+/// A number as a double; NaN where its bound or enclosure leaves it open.
+pub(super) fn settled<S: Scalar>(x: &S) -> f64 {
+    if x.log2_error() < f64::INFINITY { x.to_f64() } else { f64::NAN }
+}
+
+fn ask<S: Target>(history: &History<S>, along: Along, strip: &Strip, points: &[DVec2]) -> Result<Vec<f64>, Error> {
+    if !strip.damped {
         let waves = history.waves()?.map(|x| x.to_f64());
-        return Ok(points.iter().map(|point| factor * along.part(waves.at(&point.y, &point.x))).collect());
+        return Ok(points.iter().map(|point| along.part(waves.at(&point.y, &point.x))).collect());
     }
     let values = history.ask(
         |motion| {
@@ -114,16 +123,16 @@ fn ask<S: Target>(history: &History<S>, along: Along, drawn: &Gathered, points: 
         },
         |values| values.iter().collect(),
     )?;
-    Ok(values.iter().map(|value| factor * settled(value)).collect())
+    Ok(values.iter().map(settled).collect())
 }
 
 /// Values at the middles of the grid, from the ground up, row by row.
-fn grid<S: Target>(history: &History<S>, along: Along, drawn: &Gathered) -> Result<Vec<f64>, Error> {
-    let (strip, [across, up]) = (Strip::of(drawn), GRID);
+fn grid<S: Target>(history: &History<S>, along: Along, strip: &Strip) -> Result<Vec<f64>, Error> {
+    let [across, up] = GRID;
     let middle = |k: usize, count: usize| (k as f64 + 0.5) / count as f64;
-    if drawn.rod.damping == 0.0 {
+    if !strip.damped {
         let place = |k: usize| strip.place(middle(k % across, across), middle(k / across, up));
-        return ask(history, along, drawn, &(0..across * up).map(place).collect::<Vec<_>>());
+        return ask(history, along, strip, &(0..across * up).map(place).collect::<Vec<_>>());
     }
     let found = history.ask(
         |motion| {
@@ -134,18 +143,17 @@ fn grid<S: Target>(history: &History<S>, along: Along, drawn: &Gathered) -> Resu
         },
         |rates| rates.iter().flatten().collect(),
     )?;
-    let factor = along.factor(&drawn.units);
     let value = |k: usize| {
         let [velocity, strain] = &found[(k % across) * up + k / across];
-        factor * settled(if along == Along::Velocity { velocity } else { strain })
+        settled(if along == Along::Velocity { velocity } else { strain })
     };
     Ok((0..across * up).map(value).collect())
 }
 
 impl Cells {
     /// How many columns of the grid a round trip has, where they are too few to show its waves.
-    pub(crate) fn coarse(&self, drawn: &Gathered) -> Option<f64> {
-        let columns = GRID[0] as f64 / Strip::of(drawn).trips();
+    pub(crate) fn coarse(&self) -> Option<f64> {
+        let columns = GRID[0] as f64 / self.trips;
         (matches!(self.values, Values::Grid(..)) && columns < FEW_COLUMNS).then_some(columns)
     }
 }
@@ -174,18 +182,19 @@ fn slope([a, b]: [DVec2; 2], [da, db]: [f64; 2]) -> DVec2 {
 }
 
 /// The rod over the span: `from ≤ t ≤ to`, `0 ≤ x ≤ L`.
-struct Strip {
+pub(super) struct Strip {
     from: f64,
     to: f64,
     length: f64,
     speed: f64,
     trip: f64,
+    damped: bool,
 }
 
 impl Strip {
-    fn of(drawn: &Gathered) -> Self {
-        let ([from, to], rod) = (drawn.span, &drawn.rod);
-        Strip { from, to, length: rod.length, speed: rod.wave_speed, trip: rod.round_trip() }
+    pub(super) fn of(rod: &Parameters<f64>, [from, to]: [f64; 2]) -> Self {
+        let (length, speed, trip) = (rod.length, rod.wave_speed, rod.round_trip());
+        Strip { from, to, length, speed, trip, damped: rod.damping > 0.0 }
     }
 
     fn trips(&self) -> f64 {
@@ -255,7 +264,7 @@ mod tests {
     /// The polygons cover the strip once.
     #[test]
     fn cells_cover_the_strip() {
-        let strip = Strip { from: 0.3, to: 5.1, length: 2.0, speed: 3.0, trip: 4.0 / 3.0 };
+        let strip = Strip { from: 0.3, to: 5.1, length: 2.0, speed: 3.0, trip: 4.0 / 3.0, damped: false };
         let breaks: Vec<Break> = (-3..40).map(|k| Break { time: 0.17 * f64::from(k * k) - 1.0, jump: true }).collect();
         for fine in [None, Some(0.2)] {
             let [up, down] = [0.0, strip.trip].map(|late| strip.knots(&breaks, late, fine));

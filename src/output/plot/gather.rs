@@ -1,7 +1,7 @@
 //! What pictures of a scene are drawn from: answers of its history in doubles, over the span that is drawn.
 
-use super::cells::{self, Break, Cells};
-use super::{Along, Picture};
+use super::cells::{self, Break, Cells, Strip, settled};
+use super::picture::{Along, Picture};
 use crate::error::Error;
 use crate::history::History;
 use crate::motion::{EventKind, Motion, Side, StressPiece};
@@ -81,7 +81,7 @@ impl Gathered {
 
     /// How many columns of its grid the field has in a round trip, where they are too few to show its waves.
     pub(crate) fn coarse(&self) -> Option<f64> {
-        self.cells.as_ref()?.coarse(self)
+        self.cells.as_ref()?.coarse()
     }
 }
 
@@ -150,7 +150,8 @@ impl Asked {
         if self.wants(Picture::Along) && self.deformed {
             gathered.world = world_lines(history, &gathered, &breaks)?;
         } else if self.wants(Picture::Along) {
-            gathered.cells = Some(cells::of(history, self.along, &gathered, breaks)?);
+            let field = (self.along, self.along.factor(&gathered.units));
+            gathered.cells = Some(cells::of(history, field, &Strip::of(&gathered.rod, span), breaks)?);
         }
         Ok(gathered)
     }
@@ -204,11 +205,6 @@ impl Asked {
             .collect();
         Ok(())
     }
-}
-
-/// A number as a double; NaN where its bound or enclosure leaves it open.
-pub(super) fn settled<S: Scalar>(x: &S) -> f64 {
-    if x.log2_error() < f64::INFINITY { x.to_f64() } else { f64::NAN }
 }
 
 /// Up to where values are settled: the end, or where the events are no longer told apart.

@@ -2,139 +2,17 @@
 //!
 //! | file | |
 //! |---|---|
+//! | `picture` | which pictures there are |
 //! | `gather` | answers of a history over the span that is drawn |
 //! | `cells` | the field along the rod: polygons between the rays |
 //! | `pictures` | panels of answers |
 
 mod cells;
 mod gather;
+mod picture;
 mod pictures;
 
 pub(crate) use gather::{Asked, Gathered};
+pub(crate) use picture::{Along, Picture};
+pub use pictures::scene_svg;
 pub(crate) use pictures::sheet;
-
-use crate::error::Error;
-use crate::history::History;
-use crate::output::draw::Size;
-use crate::problem::Problem;
-use crate::quantity::{Column, Measure, Units};
-use crate::solve::Target;
-
-/// The sheet that tells a scene, as SVG for the width of a page.
-///
-/// **Errors**: those of the history.
-///
-/// ```
-/// # use dalembert::{Problem, Units, output::scene_svg};
-/// let rod = Problem::builder().length(1).wave_speed(1).gravity(1).impact_speed(3).build()?;
-/// let svg = scene_svg(&rod.solve()?, &rod, Units::default())?;
-/// // The field, stress, motion and energy.
-/// assert_eq!(svg.matches("class=\"panel\"").count(), 4);
-/// # Ok::<(), dalembert::Error>(())
-/// ```
-pub fn scene_svg<S: Target>(history: &History<S>, problem: &Problem, units: Units) -> Result<String, Error> {
-    let pictures = Picture::SHEET.to_vec();
-    let asked = Asked { pictures, along: Along::default(), deformed: false, from: None, to: None };
-    let scene = asked.gather(String::new(), problem, units, history)?;
-    // The units of one scene do not differ.
-    Ok(sheet(&asked, &[scene], Vec::new()).map_or_else(|_| String::new(), |sheet| sheet.svg(Size::Page)))
-}
-
-/// A picture of a scene.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Picture {
-    /// The rod over time: rays, field, contacts.
-    Along,
-    /// The stress at the ground.
-    Stress,
-    /// Both ends and the centre of mass.
-    Motion,
-    /// The parts of the energy, on top of each other.
-    Energy,
-    /// The coefficients of restitution of each bounce.
-    Restitution,
-    /// A column as `reference` names it.
-    Column(Column),
-}
-
-/// What is drawn as colour along the rod.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, clap::ValueEnum)]
-pub(crate) enum Along {
-    /// `E v_x`; without a material the strain
-    #[default]
-    Stress,
-    /// `v_t`
-    Velocity,
-    /// `v_x`
-    Strain,
-}
-
-impl Picture {
-    /// Those that tell a scene.
-    pub(crate) const SHEET: [Picture; 4] = [Picture::Along, Picture::Stress, Picture::Motion, Picture::Energy];
-    /// Those that tell several scenes apart.
-    pub(crate) const COMPARED: [Picture; 4] = [
-        Picture::Stress,
-        Picture::Column(Column::EndDisplacement),
-        Picture::Column(Column::Centre),
-        Picture::Column(Column::VibrationalEnergy),
-    ];
-    /// Names other than those of columns.
-    pub(crate) const NAMES: [(&str, Picture); 6] = [
-        ("xt", Picture::Along),
-        ("stress", Picture::Stress),
-        ("motion", Picture::Motion),
-        ("ends", Picture::Motion),
-        ("energy", Picture::Energy),
-        ("restitution", Picture::Restitution),
-    ];
-
-    /// The picture of this name.
-    pub(crate) fn named(name: &str) -> Option<Picture> {
-        let own = Picture::NAMES.iter().find(|known| known.0 == name).map(|known| known.1);
-        let column = || Column::named(name).filter(|column| !matches!(column, Column::Time | Column::Side));
-        own.or_else(|| column().map(Picture::Column))
-    }
-
-    /// What is asked of a history for it.
-    fn columns(&self) -> Vec<Column> {
-        match self {
-            Picture::Motion => vec![Column::EndDisplacement, Column::Centre, Column::TopDisplacement],
-            Picture::Energy => vec![Column::GravityEnergy, Column::TranslationalEnergy, Column::Energy],
-            Picture::Column(column) => vec![*column],
-            Picture::Along | Picture::Stress | Picture::Restitution => Vec::new(),
-        }
-    }
-}
-
-impl Along {
-    /// What it is with these units: a stress where there is a modulus.
-    fn measure(self, units: &Units) -> Measure {
-        match self {
-            Along::Stress if units.has_material() => Measure::Stress,
-            Along::Stress | Along::Strain => Measure::Strain,
-            Along::Velocity => Measure::Velocity,
-        }
-    }
-
-    fn factor(self, units: &Units) -> f64 {
-        units.factor::<f64>(self.measure(units), &()).unwrap_or(1.0)
-    }
-
-    /// `E v_x`.
-    fn symbol(self, units: &Units) -> &'static str {
-        match self.measure(units) {
-            Measure::Stress => "E v_x",
-            Measure::Velocity => "v_t",
-            _ => "v_x",
-        }
-    }
-
-    fn name(self, units: &Units) -> &'static str {
-        match self.measure(units) {
-            Measure::Stress => "stress",
-            Measure::Velocity => "velocity",
-            _ => "strain",
-        }
-    }
-}

@@ -3,12 +3,16 @@
 use glam::DVec2;
 
 use super::cells::{Cells, Values};
-use super::gather::Line;
-use super::{Along, Asked, Gathered, Picture};
+use super::gather::{Asked, Gathered, Line};
+use super::picture::{Along, Picture};
+use crate::error::Error;
+use crate::history::History;
 use crate::output::draw::{
-    AREAS, Axis, Key, LINES, Layer, Mark, Panel, Piece, Shape, Sheet, Stroke, diverging, plain, thinned,
+    AREAS, Axis, Key, LINES, Layer, Mark, Panel, Piece, Shape, Sheet, Size, Stroke, diverging, plain, thinned,
 };
-use crate::quantity::{Column, Measure};
+use crate::problem::Problem;
+use crate::quantity::{Column, Measure, Units};
+use crate::solve::Target;
 
 /// The times on the ground, in every picture.
 const CONTACT: &str = "#c6c6c6";
@@ -26,6 +30,26 @@ const DASHES: [&str; 3] = ["", "2 0.9", "0.5 0.7"];
 const MOST_RAYS: usize = 300;
 /// More jumps than this are not drawn.
 const MOST_JUMPS: usize = 2000;
+
+/// The sheet that tells a scene, as SVG for the width of a page.
+///
+/// **Errors**: those of the history.
+///
+/// ```
+/// # use dalembert::{Problem, Units, output::scene_svg};
+/// let rod = Problem::builder().length(1).wave_speed(1).gravity(1).impact_speed(3).build()?;
+/// let svg = scene_svg(&rod.solve()?, &rod, Units::default())?;
+/// // The field, stress, motion and energy.
+/// assert_eq!(svg.matches("class=\"panel\"").count(), 4);
+/// # Ok::<(), dalembert::Error>(())
+/// ```
+pub fn scene_svg<S: Target>(history: &History<S>, problem: &Problem, units: Units) -> Result<String, Error> {
+    let pictures = Picture::SHEET.to_vec();
+    let asked = Asked { pictures, along: Along::default(), deformed: false, from: None, to: None };
+    let scene = asked.gather(String::new(), problem, units, history)?;
+    // The units of one scene do not differ.
+    Ok(sheet(&asked, &[scene], Vec::new()).map_or_else(|_| String::new(), |sheet| sheet.svg(Size::Page)))
+}
 
 /// The pictures asked for, of all scenes.
 ///

@@ -1,13 +1,11 @@
 //! The answer in the numbers that were asked for.
 
-use super::ladder::Observer;
-use super::plan::Plan;
-use super::question::Numbers;
 use crate::error::Error;
 use crate::history::History;
 use crate::motion::Ending;
 use crate::number::{Float, Interval, Rational};
 use crate::problem::Problem;
+use crate::solve::{Numbers, Observer, Plan};
 
 /// A history in the numbers of its plan. All variants exist in every build; without the feature `mp` only the first has
 /// values.

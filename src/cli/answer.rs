@@ -1,0 +1,128 @@
+//! From a scene and a question to what is printed of the history.
+
+use super::args::OutputArgs;
+use super::failure::Failure;
+use super::file::Format;
+use super::source;
+use crate::error::Error;
+use crate::history::History;
+use crate::motion::{Ending, Motion};
+use crate::number::{DOUBLE_DIGITS, Scalar, show};
+use crate::output::Head;
+use crate::problem::Parameters;
+use crate::quantity::{Measure, Units};
+use crate::scene::{Effect, Scene};
+use crate::solution::Solution;
+use crate::solve::{Plan, Question, Target};
+
+/// What stands above the numbers of a scene.
+pub(super) fn head(scene: &Scene, plan: &Plan) -> Head {
+    let called = scene.called_effects().into_iter().map(Effect::name).collect();
+    Head {
+        title: scene.title.clone(),
+        number: plan.numbers.to_string(),
+        effects: called,
+        parameters: parameters(scene),
+        wide: false,
+        digits: 0,
+        units: Units::of(&scene.problem, scene.units),
+        warnings: Vec::new(),
+        exact_until: None,
+    }
+}
+
+/// `c`, `t₁`, `R` and `M` to six digits.
+pub(super) fn parameters(scene: &Scene) -> String {
+    let Ok(rod) = Parameters::<f64>::of(&scene.problem, &()) else { return String::new() };
+    let units = Units::of(&scene.problem, scene.units);
+    let shown = |value: f64, measure| format!("{} {}", value.decimal(6), units.name(measure)).trim_end().to_string();
+    let (c, t1) = (shown(rod.wave_speed, Measure::Velocity), shown(rod.round_trip(), Measure::Time));
+    let mut text = format!("c = {c}    t₁ = {t1}");
+    let groups = scene.problem.dimensionless();
+    if groups.damping_ratio > 0.0 {
+        text += &format!("    R = r t₁ = {}", groups.damping_ratio.decimal(6));
+    }
+    if let Some(ratio) = groups.speed_ratio.filter(|ratio| ratio.is_finite()) {
+        text += &format!("    M = μ/(g t₁) = {}", ratio.decimal(6));
+    }
+    text
+}
+
+/// What a subcommand prints of a history, in any number system.
+pub(super) trait Report {
+    /// What is asked of the history.
+    type Data<N: Scalar>;
+    fn gather<N: Scalar>(&self, history: &dyn Motion<N>, head: &Head) -> Result<Self::Data<N>, Error>;
+    /// Every number in the data.
+    fn numbers<'a, N: Scalar>(&self, data: &'a Self::Data<N>) -> Vec<&'a N>;
+    fn bytes<N: Scalar>(&self, data: &Self::Data<N>, head: &Head, format: Format) -> Result<Vec<u8>, Failure>;
+}
+
+/// What is done with a history, in any number system.
+pub(super) trait Visit {
+    fn visit<S: Target>(&self, history: &History<S>, head: Head, progress: source::Progress) -> Result<(), Failure>;
+}
+
+/// A report, and what it looks like.
+pub(super) struct Printed<'a, R>(&'a R, &'a OutputArgs);
+
+impl<R: Report> Visit for Printed<'_, R> {
+    fn visit<S: Target>(&self, history: &History<S>, head: Head, progress: source::Progress) -> Result<(), Failure> {
+        let Printed(report, output) = *self;
+        let head = Head { wide: output.wide, ..head };
+        let gathered = history.ask(|motion| report.gather(motion, &head), |data| report.numbers(data));
+        drop(progress);
+        let data = gathered?;
+        let format = output.format()?;
+        let head = warned(history, head, output.output.is_none() && format == Format::Table);
+        output.write(&report.bytes(&data, &head, format)?)
+    }
+}
+
+/// The head with the warnings of the history, which are printed.
+pub(super) fn warned<S: Target>(history: &History<S>, head: Head, shown: bool) -> Head {
+    let head = Head { warnings: history.warnings(), ..head };
+    // A table on the screen has them below it.
+    if !shown {
+        head.warnings.iter().for_each(|warning| eprintln!("warning: {warning}"));
+    }
+    head
+}
+
+/// Why the history ends where it does, which is printed where that may be before what was asked for.
+pub(super) fn noted_end<S: Scalar>(ending: &Ending, end: &S, digits: u32) -> String {
+    if ending.is_open() {
+        eprintln!("note: {}", ending.at(&show(end, DOUBLE_DIGITS)));
+    }
+    ending.at(&show(end, if digits == 0 { DOUBLE_DIGITS } else { digits }))
+}
+
+/// Answers `question` of `scene`, and prints what `report` makes of the answer.
+pub(super) fn answer(
+    scene: &Scene,
+    question: &Question,
+    output: &OutputArgs,
+    report: &impl Report,
+) -> Result<(), Failure> {
+    solve(scene, question, &Printed(report, output))
+}
+
+/// Solves `scene` for `question`, and hands the history over.
+pub(super) fn solve(scene: &Scene, question: &Question, visit: &impl Visit) -> Result<(), Failure> {
+    let plan = Plan::of(&scene.problem, question)?;
+    let head = head(scene, &plan);
+    let progress = source::Progress::of(scene, &plan);
+    let solution = plan.solve(&scene.problem, progress.observer())?;
+    let digits = |digits: u32, head: Head| Head { digits, ..head };
+    match &solution {
+        Solution::Double(motion) => visit.visit(motion, head, progress),
+        Solution::Exact(motion) => visit.visit(motion, head, progress),
+        Solution::Certified(motion, n) => visit.visit(motion, digits(*n, head), progress),
+        Solution::Digits(motion, n) => visit.visit(motion, digits(*n, head), progress),
+        Solution::DigitsAfter(motion, n, end) => {
+            eprintln!("note: {end}; what follows is in {n} digits");
+            let (number, exact_until) = (format!("{n} digits"), Some(end.clone()));
+            visit.visit(motion, Head { digits: *n, number, exact_until, ..head }, progress)
+        }
+    }
+}

@@ -1,0 +1,102 @@
+//! Which pictures there are of a scene, and what each asks of a history.
+
+use crate::quantity::{Column, Measure, Units};
+
+/// A picture of a scene.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Picture {
+    /// The rod over time: rays, field, contacts.
+    Along,
+    /// The stress at the ground.
+    Stress,
+    /// Both ends and the centre of mass.
+    Motion,
+    /// The parts of the energy, on top of each other.
+    Energy,
+    /// The coefficients of restitution of each bounce.
+    Restitution,
+    /// A column as `reference` names it.
+    Column(Column),
+}
+
+/// What is drawn as colour along the rod.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, clap::ValueEnum)]
+pub(crate) enum Along {
+    /// `E v_x`; without a material the strain
+    #[default]
+    Stress,
+    /// `v_t`
+    Velocity,
+    /// `v_x`
+    Strain,
+}
+
+impl Picture {
+    /// Those that tell a scene.
+    pub(crate) const SHEET: [Picture; 4] = [Picture::Along, Picture::Stress, Picture::Motion, Picture::Energy];
+    /// Those that tell several scenes apart.
+    pub(crate) const COMPARED: [Picture; 4] = [
+        Picture::Stress,
+        Picture::Column(Column::EndDisplacement),
+        Picture::Column(Column::Centre),
+        Picture::Column(Column::VibrationalEnergy),
+    ];
+    /// Names other than those of columns.
+    pub(crate) const NAMES: [(&str, Picture); 6] = [
+        ("xt", Picture::Along),
+        ("stress", Picture::Stress),
+        ("motion", Picture::Motion),
+        ("ends", Picture::Motion),
+        ("energy", Picture::Energy),
+        ("restitution", Picture::Restitution),
+    ];
+
+    /// The picture of this name.
+    pub(crate) fn named(name: &str) -> Option<Picture> {
+        let own = Picture::NAMES.iter().find(|known| known.0 == name).map(|known| known.1);
+        let column = || Column::named(name).filter(|column| !matches!(column, Column::Time | Column::Side));
+        own.or_else(|| column().map(Picture::Column))
+    }
+
+    /// What is asked of a history for it.
+    pub(super) fn columns(&self) -> Vec<Column> {
+        match self {
+            Picture::Motion => vec![Column::EndDisplacement, Column::Centre, Column::TopDisplacement],
+            Picture::Energy => vec![Column::GravityEnergy, Column::TranslationalEnergy, Column::Energy],
+            Picture::Column(column) => vec![*column],
+            Picture::Along | Picture::Stress | Picture::Restitution => Vec::new(),
+        }
+    }
+}
+
+impl Along {
+    /// What it is with these units: a stress where there is a modulus.
+    pub(super) fn measure(self, units: &Units) -> Measure {
+        match self {
+            Along::Stress if units.has_material() => Measure::Stress,
+            Along::Stress | Along::Strain => Measure::Strain,
+            Along::Velocity => Measure::Velocity,
+        }
+    }
+
+    pub(super) fn factor(self, units: &Units) -> f64 {
+        units.factor::<f64>(self.measure(units), &()).unwrap_or(1.0)
+    }
+
+    /// `E v_x`.
+    pub(super) fn symbol(self, units: &Units) -> &'static str {
+        match self.measure(units) {
+            Measure::Stress => "E v_x",
+            Measure::Velocity => "v_t",
+            _ => "v_x",
+        }
+    }
+
+    pub(super) fn name(self, units: &Units) -> &'static str {
+        match self.measure(units) {
+            Measure::Stress => "stress",
+            Measure::Velocity => "velocity",
+            _ => "strain",
+        }
+    }
+}

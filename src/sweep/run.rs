@@ -1,0 +1,44 @@
+//! All points of a sweep, on all threads.
+
+use std::ops::Range;
+
+use rayon::prelude::*;
+
+use super::grid::Grid;
+use super::point::{Asked, Point};
+
+/// A sweep: what is varied, and what is asked.
+#[derive(Debug)]
+pub(crate) struct Sweep {
+    pub(crate) grid: Grid,
+    pub(crate) asked: Asked,
+}
+
+impl Sweep {
+    /// All `points` that are not `known`, on all threads, and those that are, in order. `done` receives each as it is
+    /// finished and may refuse to go on.
+    ///
+    /// **Accuracy**: that of the numbers asked for. The same for any number of threads.
+    pub(crate) fn run<E: Send>(
+        &self,
+        points: Range<usize>,
+        known: Vec<Point>,
+        done: impl Fn(&Point) -> Result<(), E> + Sync,
+    ) -> Result<Vec<Point>, E> {
+        let mut have = vec![None; points.len()];
+        for point in known.into_iter().filter(|point| points.contains(&point.index)) {
+            let place = point.index - points.start;
+            have[place] = Some(point);
+        }
+        have.into_par_iter()
+            .enumerate()
+            .map(|(place, point)| match point {
+                Some(point) => Ok(point),
+                None => {
+                    let point = self.asked.answer(&self.grid, points.start + place);
+                    done(&point).map(|()| point)
+                }
+            })
+            .collect()
+    }
+}
