@@ -95,7 +95,7 @@ pub use paper::UndampedContact;
 pub use problem::{
     Dimensionless, Material, Parameters, Problem, ProblemError, ProblemErrorKind, Profile, Rod, Run, Speed, Start, Top,
 };
-pub use quantity::{Column, EnergyShares, Flight, Measure, Restitution, Slice, Undefined, UnitSystem, Units};
+pub use quantity::{Column, EnergyShares, Flight, Measure, Restitution, Slice, Table, Undefined, UnitSystem, Units};
 pub use ray::{Ray, reflection};
 pub use reason::{Doubt, NoBounceReason, Reason, StillState, Warning};
 #[cfg(feature = "mp")]

@@ -8,6 +8,7 @@ mod hints;
 mod norms;
 mod restitution;
 mod slice;
+mod table;
 mod touch;
 mod unit;
 
@@ -19,5 +20,6 @@ pub use hints::{Finding, Hint, Measures, Pair, Rays, gathered, of_contacts, of_i
 pub use norms::{Greatest, Grid, Norm, Norms, norms, order};
 pub use restitution::{EnergyShares, Restitution, Undefined, energy_shares, restitution};
 pub use slice::{Slice, slices};
+pub use table::{Columns, Table, table};
 pub use touch::{Moments, Touch, matched, touches};
 pub use unit::{Measure, UnitSystem, Units};
