@@ -137,16 +137,17 @@ impl Compare {
     }
 
     fn write(&self, report: &Report<'_>) -> Result<(), Failure> {
-        let mut printed = false;
+        let (mut files, mut printed) = (Vec::new(), false);
         for path in &self.output {
             let kind = Kind::of(path, self.format)?;
             printed |= matches!(kind, Kind::Rows(_));
-            file::write(Some(path), &report.bytes(kind)?)?;
+            files.push((Some(path.as_path()), report.bytes(kind)?));
         }
-        if printed {
-            return Ok(());
+        if !printed {
+            files.push((None, report.bytes(Kind::Rows(self.format.unwrap_or(Format::Table)))?));
         }
-        file::write(None, &report.bytes(Kind::Rows(self.format.unwrap_or(Format::Table)))?)
+        let files: Vec<_> = files.iter().map(|(path, bytes)| (*path, bytes.as_slice())).collect();
+        file::write_all(&files)
     }
 }
 

@@ -5,7 +5,7 @@ use std::path::Path;
 use super::{Failure, Format, source};
 #[cfg(feature = "plot")]
 use crate::output::Rendered;
-use crate::output::{Size, write_whole};
+use crate::output::{Size, write_together};
 
 /// What a picture is written as, by the ending of its file.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -50,9 +50,16 @@ pub(super) fn ending(path: &Path) -> Option<String> {
 
 /// Writes to a file whole or not at all, or to standard output.
 pub(super) fn write(path: Option<&Path>, bytes: &[u8]) -> Result<(), Failure> {
-    let path = path.filter(|path| *path != Path::new("-"));
-    let name = path.map_or("standard output".into(), |path| path.display().to_string());
-    Ok(write_whole(path, bytes).map_err(source::cannot(&format!("write {name}")))?)
+    write_all(&[(path, bytes)])
+}
+
+/// Writes all of several files, or none.
+pub(super) fn write_all(files: &[(Option<&Path>, &[u8])]) -> Result<(), Failure> {
+    Ok(write_together(files).map_err(|(k, error)| {
+        let path = files[k].0.filter(|path| *path != Path::new("-"));
+        let name = path.map_or("standard output".into(), |path| path.display().to_string());
+        source::cannot(&format!("write {name}"))(error)
+    })?)
 }
 
 impl Picture {

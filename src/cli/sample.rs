@@ -4,9 +4,10 @@ use clap::Args;
 
 use super::{Failure, Format, NumberArgs, OutputArgs, Report, answer, source};
 use crate::error::Error;
-use crate::motion::{Motion, Side};
+use crate::motion::{Ending, Motion, Side};
 use crate::number::{List, Scalar};
 use crate::output::{self, Head, Quantity, sample, samples_csv, samples_json, samples_table};
+use crate::problem::Run;
 use crate::solve::Question;
 
 /// Values of a quantity at chosen times
@@ -49,12 +50,23 @@ impl Sample {
         if last.to_f64() < 0.0 {
             return Err(miette::miette!("found time {last}, expected times from 0 on"));
         }
-        answer(&scene, &Question::between(first, last, self.numbers.numbers(&scene)), &self.output, self)
+        let beyond = match &scene.problem.run {
+            Run::Time(time) if time.to_f64() < last.to_f64() => {
+                Some(format!("the run of the scene ends at t = {time}, and is followed to t = {last}"))
+            }
+            _ => None,
+        };
+        answer(&scene, &Question::between(first, last, self.numbers.numbers(&scene)), &self.output, self)?;
+        beyond.iter().for_each(|note| eprintln!("note: {note}"));
+        Ok(())
     }
 }
 
+/// The values, and why the history ends where that may be before some of their times.
+pub(super) struct Sampled<S>(Vec<output::Sample<S>>, Option<String>);
+
 impl Report for Sample {
-    type Data<S: Scalar> = Vec<output::Sample<S>>;
+    type Data<S: Scalar> = Sampled<S>;
 
     fn gather<S: Scalar>(&self, history: &dyn Motion<S>, _: &Head) -> Result<Self::Data<S>, Error> {
         let length = history.scales().length;
@@ -64,18 +76,23 @@ impl Report for Sample {
             Some(points) => points.lift::<S>(&precision),
             None => vec![length.zero(), length.clone() / length.int(2), length],
         };
-        sample(history, self.quantity, &times, &points, self.side)
+        let samples = sample(history, self.quantity, &times, &points, self.side)?;
+        let ends =
+            (!matches!(history.ending(), Ending::Time | Ending::NextImpact)).then(|| history.ending().to_string());
+        Ok(Sampled(samples, ends))
     }
 
-    fn numbers<'a, S: Scalar>(&self, samples: &'a Self::Data<S>) -> Vec<&'a S> {
+    fn numbers<'a, S: Scalar>(&self, Sampled(samples, _): &'a Self::Data<S>) -> Vec<&'a S> {
         samples.iter().flat_map(|sample| sample.values.iter().chain(&sample.point).chain([&sample.time])).collect()
     }
 
-    fn print<S: Scalar>(&self, samples: &Self::Data<S>, head: &Head) -> Result<(), Failure> {
+    fn print<S: Scalar>(&self, Sampled(samples, ends): &Self::Data<S>, head: &Head) -> Result<(), Failure> {
         match self.output.format()? {
             Format::Table => self.output.write(&samples_table(samples, self.quantity, head)),
             Format::Json => self.output.write_json(&samples_json(samples, self.quantity, head)),
             Format::Csv => self.output.write_csv(samples_csv(samples, self.quantity, head)),
-        }
+        }?;
+        ends.iter().for_each(|why| eprintln!("note: {why}"));
+        Ok(())
     }
 }
