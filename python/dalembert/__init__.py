@@ -291,16 +291,23 @@ def compare(
 
 
 def _source(data: Any) -> tuple[str, list[str], list[np.ndarray] | None]:
-    """A path; or a type, the names of columns where they have some, and the columns."""
+    """A path; or what it is called, the names of columns where they have some, and the columns."""
+    called = type(data).__name__
     if isinstance(data, (str, os.PathLike)):
-        return os.fspath(data), [], None
+        called = os.fspath(data)
+        if not called.lower().endswith((".npy", ".npz")) or not os.path.isfile(called):
+            return called, [], None
+        try:
+            data = np.load(called)
+        except Exception as error:  # of the many that a broken file raises
+            raise ValueError(f"{called}: cannot be read: {error}") from None
     names = getattr(getattr(data, "dtype", None), "names", None) or (data.keys() if hasattr(data, "keys") else None)
     if names is None:
         array = np.asarray(data)
         names, columns = [], list(array.T) if array.ndim == 2 else [array]
     else:
         columns = [data[name] for name in names]
-    return type(data).__name__, [str(name) for name in names], [_doubles(column) for column in columns]
+    return called, [str(name) for name in names], [_doubles(column) for column in columns]
 
 
 def _doubles(column: Any) -> np.ndarray:
