@@ -129,7 +129,8 @@ def _text(scene: str | os.PathLike[str]) -> str:
             expected = "a scene file, or a name that `dalembert.scenes()` lists"
             raise ValueError(f"found no file and no built-in scene called `{scene}`, expected {expected}")
     elif not isinstance(scene, os.PathLike):
-        raise TypeError(f"found a scene of type {type(scene).__name__}, expected a name, a path, TOML text or a Problem")
+        kind = type(scene).__name__
+        raise TypeError(f"found a scene of type {kind}, expected a name, a path, TOML text or a Problem")
     with open(scene, encoding="utf-8") as file:
         return file.read()
 
@@ -295,7 +296,7 @@ def _source(data: Any) -> tuple[str, list[str], list[np.ndarray] | None]:
     called = type(data).__name__
     if isinstance(data, (str, os.PathLike)):
         called = os.fspath(data)
-        if not called.lower().endswith((".npy", ".npz")) or not os.path.isfile(called):
+        if not (os.path.isfile(called) and _is_numpy(called)):
             return called, [], None
         try:
             data = np.load(called)
@@ -308,6 +309,11 @@ def _source(data: Any) -> tuple[str, list[str], list[np.ndarray] | None]:
     else:
         columns = [data[name] for name in names]
     return called, [str(name) for name in names], [_doubles(column) for column in columns]
+
+
+def _is_numpy(path: str) -> bool:
+    with open(path, "rb") as file:
+        return file.read(4) in (b"\x93NUM", b"PK\x03\x04")
 
 
 def _doubles(column: Any) -> np.ndarray:

@@ -7,7 +7,6 @@ use crate::error::Error;
 use crate::motion::{Ending, Motion, Side};
 use crate::number::{List, Scalar};
 use crate::output::{self, Head, Quantity, sample, samples_csv, samples_json, samples_table};
-use crate::problem::Run;
 use crate::solve::Question;
 
 /// Values of a quantity at chosen times
@@ -50,19 +49,11 @@ impl Sample {
         if last.to_f64() < 0.0 {
             return Err(miette::miette!("found time {last}, expected times from 0 on"));
         }
-        let beyond = match &scene.problem.run {
-            Run::Time(time) if time.to_f64() < last.to_f64() => {
-                Some(format!("the run of the scene ends at t = {time}, and is followed to t = {last}"))
-            }
-            _ => None,
-        };
-        answer(&scene, &Question::between(first, last, self.numbers.numbers(&scene)), &self.output, self)?;
-        beyond.iter().for_each(|note| eprintln!("note: {note}"));
-        Ok(())
+        answer(&scene, &Question::between(first, last, self.numbers.numbers(&scene)), &self.output, self)
     }
 }
 
-/// The values, and why the history ends where that may be before some of their times.
+/// The values, and why the history ends where that is not for the time asked for, as at rest.
 pub(super) struct Sampled<S>(Vec<output::Sample<S>>, Option<String>);
 
 impl Report for Sample {

@@ -101,7 +101,7 @@ impl Serialize for Hint {
 
 impl Finding {
     /// Whether both say the same, within 5 %: of two estimates the one from samples is then the better.
-    pub(crate) fn is_near(&self, other: &Finding) -> bool {
+    pub fn is_near(&self, other: &Finding) -> bool {
         let ((kind, ours), (other, theirs)) = (self.kind(), other.kind());
         kind == other && (ours / theirs - 1.0).abs() < KNOWN
     }
