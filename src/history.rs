@@ -7,7 +7,8 @@ use crate::motion::{Contact, Ending, Energy, Event, Field, Motion, Scales, Side,
 use crate::number::{Answer, Number, Scalar, show};
 use crate::problem::Problem;
 use crate::quantity::{
-    self, Column, EnergyShares, Flight, Restitution, Slice, UnitSystem, Units, energy_shares, flights, restitution,
+    self, Column, EnergyShares, Flight, Restitution, Slice, Table, UnitSystem, Units, energy_shares, flights,
+    restitution,
 };
 use crate::ray::Ray;
 use crate::reason::Warning;
@@ -365,6 +366,37 @@ impl<S: Target> History<S> {
             Ok((table, scaled))
         };
         Ok(self.ask(query, |(_, scaled)| scaled.iter().collect())?.0)
+    }
+
+    /// The columns of a table by name, such as the `from`, `to`, `impulse` and `peak_strain` of all contacts; with a
+    /// material in its units. What there is not, such as the end of a contact that lasts, is `None`.
+    ///
+    /// **Accuracy**: that of the [`Plan`].
+    ///
+    /// **Errors**: those of the ladder.
+    ///
+    /// ```
+    /// use dalembert::{Problem, Table};
+    /// let rod = Problem::builder().length(2).material(4, 1, 2).impact_speed(1).build()?;
+    /// // c = 2 and t₁ = 2; ρS L μ turns round.
+    /// let contacts = rod.solve()?.table(Table::Contacts)?;
+    /// assert_eq!(contacts[1], ("to", vec![Some(2.0)]));
+    /// assert_eq!(contacts[2], ("impulse", vec![Some(8.0)]));
+    /// # Ok::<(), dalembert::Error>(())
+    /// ```
+    pub fn table(&self, table: Table) -> Result<quantity::Columns<S>, Error> {
+        let strip = |column: Vec<Option<S::Carried>>| column.into_iter().map(|x| x.map(S::strip)).collect();
+        Ok(self.ask_table(table)?.into_iter().map(|(name, column)| (name, strip(column))).collect())
+    }
+
+    /// [`History::table`] in numbers that carry their bound.
+    #[doc(hidden)]
+    pub fn ask_table(&self, table: Table) -> Result<quantity::Columns<S::Carried>, Error> {
+        let units = self.units();
+        self.ask(
+            |motion| quantity::table(motion, table, &units),
+            |columns| columns.iter().flat_map(|(_, column)| column.iter().flatten()).collect(),
+        )
     }
 
     /// `v`, `v_t`, `v_x` at `(x,t)`; where a ray passes, the limit from later times.

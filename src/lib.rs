@@ -29,8 +29,8 @@
 //! and `{}` prints the digits that both prove. [`History::units`] turns strains and values per `ρS` into those of the
 //! material.
 //!
-//! The features `mp` (all numbers but doubles), `cli` (the command), `compare` (what it shares with the wheel) and
-//! `plot` (its pictures as PNG and PDF) add to each other and take nothing away.
+//! The features `mp` (all numbers but doubles), `cli` (the command), `compare` (what it shares with the wheel), `npz`
+//! (data in NumPy's files) and `plot` (its pictures as PNG and PDF) add to each other and take nothing away.
 
 // The rooms are public for the crate's own tests and benchmarks; what is meant to be used is re-exported below.
 #[cfg(feature = "compare")]
@@ -99,7 +99,7 @@ pub use paper::UndampedContact;
 pub use problem::{
     Dimensionless, Material, Parameters, Problem, ProblemError, ProblemErrorKind, Profile, Rod, Run, Speed, Start, Top,
 };
-pub use quantity::{Column, EnergyShares, Flight, Measure, Restitution, Slice, Undefined, UnitSystem, Units};
+pub use quantity::{Column, EnergyShares, Flight, Measure, Restitution, Slice, Table, Undefined, UnitSystem, Units};
 pub use ray::{Ray, reflection};
 pub use reason::{Doubt, NoBounceReason, Reason, StillState, Warning};
 #[cfg(feature = "mp")]

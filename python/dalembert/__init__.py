@@ -19,7 +19,7 @@ from decimal import Decimal
 from fractions import Fraction
 from functools import cached_property
 from importlib.metadata import version as _version
-from typing import Any, Literal, Mapping, Sequence, Union
+from typing import Any, Iterable, Literal, Mapping, Sequence, Union
 
 import numpy as np
 
@@ -32,7 +32,8 @@ Number = Union[int, float, Fraction, Decimal, str]
 Numbers = Union[Number, Sequence[Any], np.ndarray]
 Points = Union[Sequence["tuple[Number, Number]"], np.ndarray]
 Side = Literal["left", "right"]
-
+Maybe = Union[Number, None]
+Scene = Union[str, "os.PathLike[str]", "Problem"]
 
 Motion = namedtuple("Motion", "displacement velocity")
 Motion.__doc__ = "A displacement and its rate, ``v`` and ``v_t``."
@@ -42,9 +43,12 @@ Field = namedtuple("Field", "displacement velocity strain")
 Field.__doc__ = "``v``, ``v_t`` and ``v_x``."
 
 
+_SCENES = {name: (summary, text) for name, summary, text in _core.scenes()}
+
+
 def scenes() -> dict[str, str]:
     """Names and summaries of the built-in scenes."""
-    return dict(_core.scenes())
+    return {name: summary for name, (summary, _) in _SCENES.items()}
 
 
 class Problem:
@@ -67,35 +71,25 @@ class Problem:
     def __init__(
         self,
         *,
-        length: Number,
-        wave_speed: Number | None = None,
-        modulus: Number | None = None,
-        density: Number | None = None,
-        area: Number | None = None,
-        damping: Number | None = None,
-        gravity: Number | None = None,
-        impact_speed: Number | None = None,
-        gap: Number | None = None,
-        drop_height: Number | None = None,
-        top: Literal["free", "fixed"] | None = None,
-        displacement: Points | None = None,
-        velocity: Points | None = None,
-        time: Number | None = None,
-        impacts: int | None = None,
+        length: Number, wave_speed: Maybe = None, modulus: Maybe = None, density: Maybe = None, area: Maybe = None,
+        damping: Maybe = None, gravity: Maybe = None, top: Literal["free", "fixed", None] = None,
+        impact_speed: Maybe = None, gap: Maybe = None, drop_height: Maybe = None,
+        displacement: Points | None = None, velocity: Points | None = None,
+        time: Maybe = None, impacts: int | None = None,
     ) -> None:
-        given = {name: value for name, value in locals().items() if name != "self" and value is not None}
-        self._hold(_core.Problem(given), (given,))
+        self._make({name: value for name, value in locals().items() if name != "self" and value is not None})
 
-    def _hold(self, core: _core.Problem, made: tuple[Any, ...]) -> Problem:
-        self._core, self._made = core, made
+    def _make(self, *made: Any) -> Problem:
+        """From values by name or the text of a scene, and values that replace others, in order."""
+        self._core, self._made = _core.Problem(*made), made
         #: ``c``; ``t₁ = 2L/c``; ``R = r t₁``; ``M = μ/(g t₁)``, infinite without gravity and None without ``μ``.
-        self.wave_speed, self.round_trip, self.damping_ratio, self.speed_ratio = core.parameters()
+        self.wave_speed, self.round_trip, self.damping_ratio, self.speed_ratio = self._core.parameters()
         return self
 
     @classmethod
-    def from_scene(cls, scene: str | os.PathLike[str]) -> Problem:
-        """The problem of a built-in scene, of a scene file, or of a scene as TOML text."""
-        return cls.__new__(cls)._hold(_core.Problem.parse(text := _text(scene)), (text,))
+    def from_scene(cls, scene: Scene) -> Problem:
+        """The problem of a built-in scene, of a scene file, or of a scene as TOML text; a problem is its own."""
+        return scene if isinstance(scene, Problem) else _problem(_text(scene))
 
     def replace(self, **values: Any) -> Problem:
         """The same problem with other values: a ``time`` takes the place of ``impacts``, a profile that of an impact.
@@ -103,10 +97,10 @@ class Problem:
         >>> Problem(length=1, wave_speed=1, impact_speed=3).replace(damping="0.1").damping_ratio
         0.2
         """
-        return type(self).__new__(type(self))._hold(self._core.replace(values), (*self._made, values))
+        return _problem(*self._made, values)
 
     def __reduce__(self) -> tuple[Any, ...]:
-        return _remake, self._made
+        return _problem, self._made
 
     def solve(
         self,
@@ -121,45 +115,32 @@ class Problem:
         return History(self._core.solve(digits, exact, certified, accuracy, first_contact), self)
 
 
-def _remake(first: dict[str, Any] | str, *replaced: dict[str, Any]) -> Problem:
-    problem = Problem.from_scene(first) if isinstance(first, str) else Problem(**first)
-    for values in replaced:
-        problem = problem.replace(**values)
-    return problem
+def _problem(*made: Any) -> Problem:
+    return Problem.__new__(Problem)._make(*made)
 
 
 def _text(scene: str | os.PathLike[str]) -> str:
-    if not isinstance(scene, os.PathLike):
-        if not isinstance(scene, str):
-            kind = type(scene).__name__
-            raise TypeError(f"found a scene of type {kind}, expected a name, a path, TOML text or a Problem")
+    if isinstance(scene, str):
         if "\n" in scene or "=" in scene:
             return scene
-        builtin = None if os.path.isfile(scene) else _core.scene(scene)
-        if builtin is not None:
-            return builtin
+        if scene in _SCENES and not os.path.isfile(scene):
+            return _SCENES[scene][1]
         if not os.path.exists(scene):
             expected = "a scene file, or a name that `dalembert.scenes()` lists"
             raise ValueError(f"found no file and no built-in scene called `{scene}`, expected {expected}")
+    elif not isinstance(scene, os.PathLike):
+        kind = type(scene).__name__
+        raise TypeError(f"found a scene of type {kind}, expected a name, a path, TOML text or a Problem")
     with open(scene, encoding="utf-8") as file:
         return file.read()
 
 
-def solve(
-    scene: str | os.PathLike[str] | Problem,
-    *,
-    to: Number | None = None,
-    impacts: int | None = None,
-    digits: int | None = None,
-    exact: bool = False,
-    certified: bool = False,
-    accuracy: float | None = None,
-) -> History:
+def solve(scene: Scene, *, to: Maybe = None, impacts: int | None = None, **numbers: Any) -> History:
     """The motion of a built-in scene, a scene file, a scene as TOML text, or a :class:`Problem`.
 
     It is followed up to the time ``to`` or through so many ``impacts``, in place of what the scene says.
 
-    Without an option all values are doubles with a bound of 1e-9 of the greatest number of an answer, or
+    Without an option of ``numbers`` all values are doubles with a bound of 1e-9 of the greatest number of an answer, or
     ``accuracy``; ``digits=50`` gives ``Decimal`` of 50 digits, rounded once; ``exact=True`` gives ``Fraction``;
     ``certified=True`` gives pairs ``(lo, hi)`` of ``Decimal`` that are proved to enclose the value.
     ``exact=True, digits=50`` goes on in digits where fractions end.
@@ -169,14 +150,13 @@ def solve(
     >>> solve("doyen-ern-piperno", exact=True).contacts["to"][0]
     Fraction(2, 3)
     """
-    problem = scene if isinstance(scene, Problem) else Problem.from_scene(scene)
     run = {name: value for name, value in (("time", to), ("impacts", impacts)) if value is not None}
-    problem = problem.replace(**run) if run else problem
-    return problem.solve(digits=digits, exact=exact, certified=certified, accuracy=accuracy)
+    problem = Problem.from_scene(scene)
+    return (problem.replace(**run) if run else problem).solve(**numbers)
 
 
 def reference(
-    scene: str | os.PathLike[str] | Problem,
+    scene: Scene,
     times: Numbers,
     columns: Sequence[str] = ("t", "side", "u_end", "v_end", "strain", "force", "h", "h_rate", "E_total"),
     side: Side | None = None,
@@ -207,18 +187,16 @@ class Comparison:
 
     ``norms`` of each quantity by name, as ``norms["u_end"]["l2"]["relative"]``; ``contacts``, each with "ours" and
     "theirs" (or None); ``audit``; ``hints``; the median ``step``; and at the times ``t``, and points ``x`` of a field,
-    ``ours``, ``theirs`` and ``difference``, arrays by name.
+    ``ours``, ``theirs`` and ``difference``, arrays by name. ``warnings`` are what a user should know of the history.
     """
 
     def __init__(self, core: _core.Comparison) -> None:
         self._core = core
+        report, self._table, self.warnings, columns = core.report()
         #: Everything, as ``--format json`` gives it.
-        self.report: dict[str, Any] = json.loads(core.json())
+        self.report: dict[str, Any] = json.loads(report)
         self.orders: list[dict[str, Any]] = self.report.get("orders", [])
-        #: What a user should know of the history.
-        self.warnings: list[str] = core.warnings()
-        reports = self.report.get("files", [self.report])
-        self.files = [_Compared(report, core.columns(k)) for k, report in enumerate(reports)]
+        self.files = [_Compared(*source) for source in zip(self.report.get("files", [self.report]), columns)]
 
     def fails_above(self, limits: Mapping[str, Mapping[str, float]]) -> list[str]:
         """The norms above ``limits``, as ``--fail-above`` reports them, a line each; an empty list where none is.
@@ -246,7 +224,7 @@ class Comparison:
 
     def table(self) -> str:
         """The text that the command prints."""
-        return self._core.table()
+        return self._table
 
     __repr__ = table
 
@@ -271,22 +249,15 @@ class _Compared:
 
 
 def compare(
-    scene: str | os.PathLike[str] | Problem,
+    scene: Scene,
     data: Any,
     values: Any = None,
     *,
-    quantity: str | None = None,
-    x: Numbers | None = None,
-    map: str | None = None,
-    dt: Number | None = None,
-    t0: Number | None = None,
-    shift: Number | None = None,
-    compression: Literal["+", "-"] | None = None,
-    u_origin: Literal["ground", "start"] = "ground",
-    axis: Literal["up", "down"] = "up",
-    energy_scale: Number = 1,
-    window: Number | None = None,
-    widths: Sequence[Number] = (),
+    quantity: str | None = None, x: Numbers | None = None,
+    map: str | None = None, dt: Maybe = None, t0: Maybe = None, shift: Maybe = None,
+    compression: Literal["+", "-", None] = None, u_origin: Literal["ground", "start"] = "ground",
+    axis: Literal["up", "down"] = "up", energy_scale: Number = 1,
+    window: Maybe = None, widths: Sequence[Number] = (),
 ) -> Comparison:
     """Holds data against the exact history of a scene or problem, as ``dalembert compare`` does.
 
@@ -304,63 +275,64 @@ def compare(
     Data that cannot be compared are a ValueError with the text of the command.
     """
     given = {name: value for name, value in locals().items() if value is not None}
-    given = {name: value for name, value in given.items() if name not in ("scene", "data", "values", "quantity", "x")}
+    given = {name: given[name] for name in given if name not in ("scene", "data", "values", "quantity", "x")}
     if values is not None:
         if not hasattr(values, "keys"):
             if quantity is None:
                 raise TypeError("found values without a quantity, expected quantity='u_end' or another column's name")
             values = {quantity: values}
-        columns = {name: np.asarray(values[name]) for name in values.keys()}
-        times = {"t": data} if x is None else {"t": data, "x": x}
-        if x is not None and any(column.ndim == 2 for column in columns.values()):
-            times = dict(zip("tx", np.meshgrid(data, x, indexing="ij")))
-            times, columns = ({name: np.ravel(array) for name, array in part.items()} for part in (times, columns))
-        data = times | columns
+        data = {"t": data} if x is None else {"t": data, "x": x}
+        values = {name: np.asarray(values[name]) for name in values.keys()}
+        if x is not None and any(column.ndim == 2 for column in values.values()):
+            data = dict(zip("tx", np.meshgrid(*data.values(), indexing="ij")))
+            data, values = ({name: np.ravel(array) for name, array in part.items()} for part in (data, values))
+        data = data | values
     sources = data if isinstance(data, list) else [data]
-    problem = scene if isinstance(scene, Problem) else Problem.from_scene(scene)
-    return Comparison(_core.Comparison(problem._core, [_source(source) for source in sources], given))
+    return Comparison(_core.Comparison(Problem.from_scene(scene)._core, [_source(one) for one in sources], given))
 
 
-def _source(data: Any) -> tuple[str, list[str], list[Any] | None]:
+def _source(data: Any) -> tuple[str, list[str], list[np.ndarray] | None]:
+    """A path; or what it is called, the names of columns where they have some, and the columns."""
+    called = type(data).__name__
     if isinstance(data, (str, os.PathLike)):
-        return os.fspath(data), [], None
+        called = os.fspath(data)
+        if not (os.path.isfile(called) and _is_numpy(called)):
+            return called, [], None
+        try:
+            data = np.load(called)
+        except Exception as error:  # of the many that a broken file raises
+            raise ValueError(f"{called}: cannot be read: {error}") from None
     names = getattr(getattr(data, "dtype", None), "names", None) or (data.keys() if hasattr(data, "keys") else None)
     if names is None:
         array = np.asarray(data)
         names, columns = [], list(array.T) if array.ndim == 2 else [array]
     else:
-        names = list(names)
         columns = [data[name] for name in names]
-    return type(data).__name__, [str(name) for name in names], [_doubles(column) for column in columns]
+    return called, [str(name) for name in names], [_doubles(column) for column in columns]
 
 
-_SIDES = {"left": -1, "both": 0, "right": 1}
+def _is_numpy(path: str) -> bool:
+    with open(path, "rb") as file:
+        return file.read(4) in (b"\x93NUM", b"PK\x03\x04")
 
 
-def _doubles(column: Any) -> np.ndarray | str | list[int]:
-    """The column as doubles, or the type or the shape that makes it none."""
-    array = np.asarray(column)
-    if array.ndim != 1:
-        return list(array.shape)
-    if array.dtype.kind in "OU":
-        array = np.array([_SIDES.get(value, value) for value in array.tolist()], dtype=object)
+def _doubles(column: Any) -> np.ndarray:
+    """The column as doubles, or as it is where it has others."""
+    array, sides = np.asarray(column), {"left": -1, "both": 0, "right": 1}
     try:
-        return np.ascontiguousarray(array, dtype=np.float64) if array.dtype.kind in "biufO" else str(array.dtype)
+        if array.dtype.kind in "OU":
+            return np.array([sides.get(value, value) for value in array.tolist()], dtype=float)
+        return array.astype(float, copy=False) if array.dtype.kind in "biuf" else array
     except (TypeError, ValueError):
-        return str(np.asarray(column).dtype)
-
-
-def _fraction(text: str) -> Fraction:
-    # By way of Decimal: int() refuses texts of more than 4300 digits.
-    numerator, _, denominator = text.partition("/")
-    return Fraction(int(Decimal(numerator)), int(Decimal(denominator or 1)))
+        return array
 
 
 _READ = {
     "double": float,
-    "exact": _fraction,
+    # By way of Decimal: int() refuses texts of more than 4300 digits.
+    "exact": lambda text: Fraction(*(int(Decimal(whole)) for whole in text.split("/"))),
     "digits": Decimal,
-    "certified": lambda ends: (Decimal(ends[0]), Decimal(ends[1])),
+    "certified": lambda ends: tuple(map(Decimal, ends)),
 }
 
 
@@ -373,7 +345,11 @@ class History:
 
     ``numbers`` is "double", "exact", "digits" or "certified"; ``end`` the last time that is known, ``ending`` why it is
     the last; ``engine`` how the motion was solved; ``warnings`` what a user should know of the answer; ``scales`` are
-    the natural scales by name.
+    the natural scales by name. Where fractions end before an event at no fraction, ``end`` is a fraction just below its
+    time, :attr:`events` do not have it, and ``ending`` says its time:
+
+    >>> solve("paper-weak", exact=True).ending
+    'exactness ends before the impact at t = 3 + √2 ≈ 4.414213562373095, which is no fraction'
     """
 
     def __init__(self, core: _core.History, problem: Problem) -> None:
@@ -395,18 +371,11 @@ class History:
     def _array(self, raw: Any) -> np.ndarray:
         if isinstance(raw, np.ndarray):
             return raw
-        array = np.empty(len(raw), dtype=object)
-        for place, value in enumerate(raw):
-            array[place] = None if value is None else self._read(value)
-        return array
+        return np.fromiter((None if value is None else self._read(value) for value in raw), dtype=object)
 
-    def _table(self, part: str, names: str, **others: np.ndarray) -> np.ndarray:
-        columns = dict(zip(names.split(), map(self._array, self._core.table(part)))) | others
-        kinds = [(name, column.dtype, column.shape[1:]) for name, column in columns.items()]
-        table = np.empty(len(next(iter(columns.values()))), dtype=kinds)
-        for name, column in columns.items():
-            table[name] = column
-        return table
+    def _table(self, part: str, **others: np.ndarray) -> np.ndarray:
+        columns = {name: self._array(raw) for name, raw in self._core.table(part)} | others
+        return np.fromiter(zip(*columns.values()), [(name, column.dtype) for name, column in columns.items()])
 
     @cached_property
     def events(self) -> np.ndarray:
@@ -416,9 +385,8 @@ class History:
         >>> solve("paper-strong").events["kind"].tolist()
         ['impact', 'release']
         """
-        kinds, errors = np.array(self._core.kinds(), dtype=object).reshape(-1, 2).T
-        names = "time end_velocity centre centre_velocity"
-        return self._table("events", names, kind=kinds.astype("U7"), time_error=errors.astype(float))
+        kinds, errors = self._core.kinds()
+        return self._table("events", kind=np.array(kinds, "U7"), time_error=np.array(errors, float))
 
     @cached_property
     def contacts(self) -> np.ndarray:
@@ -430,37 +398,30 @@ class History:
         >>> rod.solve(exact=True).contacts[["impulse", "peak_stress", "peak_force"]].tolist()
         [(Fraction(8, 1), Fraction(-2, 1), Fraction(4, 1))]
         """
-        names = ("peak_stress", "peak_force") if self._core.has_material() else ()
-        peaks = dict(zip(names, map(self._array, self._core.table("peaks")))) if names else {}
-        return self._table("contacts", "from to impulse peak_strain", **peaks)
+        return self._table("contacts")
 
     @cached_property
     def restitution(self) -> np.ndarray:
         """For each contact ``e_P``, ``e_E²`` and its factors ``E_h/E`` and ``E/E(0)`` at its end: ``momentum``,
         ``energy_squared``, ``translational_part``, ``energy_kept``."""
-        return self._table("restitution", "momentum energy_squared translational_part energy_kept")
+        return self._table("restitution")
 
     @cached_property
     def flights(self) -> np.ndarray:
         """Flights: ``from``, ``to``, and ``top_time`` and ``top``, when and how high the centre of mass turns."""
-        return self._table("flights", "from to top_time top")
+        return self._table("flights")
 
     @cached_property
     def stress_history(self) -> np.ndarray:
         """``v_x(0,·)`` piece by piece: ``from``, ``to``, and ``strain_from`` and ``strain_to`` at its ends. Undamped
         pieces are linear between them; :meth:`strain` gives the values of all."""
-        return self._table("stress", "from to strain_from strain_to")
+        return self._table("stress")
 
     def _places(self, values: Numbers) -> Any:
         array = np.asarray(values)
         if self.numbers == "double" and array.dtype.kind in "fiu":
             return np.ascontiguousarray(array.ravel(), dtype=np.float64)
         return np.asarray(values, dtype=object).ravel().tolist()
-
-    def _at(self, names: list[str], t: Numbers, side: str = "right") -> list[Any]:
-        columns = [self._array(raw) for raw in self._core.columns(names, self._places(t), side)]
-        shape = np.shape(t)
-        return [column.reshape(shape) if shape else column[0] for column in columns]
 
     def columns(self, names: Sequence[str], t: Numbers, side: Side | None = None) -> dict[str, np.ndarray]:
         """Columns by the names of `dalembert reference`: ``u_end``, ``v_end``, ``strain``, ``stress``, ``force``,
@@ -471,32 +432,34 @@ class History:
         >>> solve("paper-strong").columns(["t", "side", "strain"], [1, 2])["strain"].tolist()
         [-4.0, -5.0, 0.0]
         """
-        raw = self._core.columns(list(names), self._places(t), side)
-        return {name: self._array(column) for name, column in zip(names, raw)}
+        return dict(zip(names, map(self._array, self._core.columns(list(names), self._places(t), side))))
+
+    def _at(self, t: Numbers, side: Side, *names: str) -> list[Any]:
+        return _shaped(self.columns(names, t, side).values(), np.shape(t))
 
     def strain(self, t: Numbers, side: Side = "right") -> Any:
         """``v_x(0,t)``: the strain at the ground, which is the stress there divided by the modulus; zero in flight."""
-        return self._at(["strain"], t, side)[0]
+        return self._at(t, side, "strain")[0]
 
     def ground_end(self, t: Numbers, side: Side = "right") -> Motion:
         """``v(0,t)`` and ``v_t(0,t)``."""
-        return Motion(*self._at(["u_end", "v_end"], t, side))
+        return Motion(*self._at(t, side, "u_end", "v_end"))
 
     def top_end(self, t: Numbers, side: Side = "right") -> Motion:
         """``v(L,t)`` and ``v_t(L,t)``."""
-        return Motion(*self._at(["u_top", "v_top"], t, side))
+        return Motion(*self._at(t, side, "u_top", "v_top"))
 
     def centre(self, t: Numbers) -> Motion:
         """``h(t)`` and ``h′(t)``: the centre of mass, relative to its place in the undeformed rod on the ground."""
-        return Motion(*self._at(["h", "h_rate"], t))
+        return Motion(*self._at(t, "right", "h", "h_rate"))
 
     def h(self, t: Numbers) -> Any:
         """``h(t)``."""
-        return self._at(["h"], t)[0]
+        return self._at(t, "right", "h")[0]
 
     def energy(self, t: Numbers) -> Energy:
         """``E``, ``E_h`` and ``E_z``; per linear density where the problem has no material."""
-        return Energy(*self._at(["E_total", "E_h", "E_z"], t))
+        return Energy(*self._at(t, "right", "E_total", "E_h", "E_z"))
 
     def field(self, x: Numbers, t: Numbers, side: Side = "right") -> Field:
         """``v``, ``v_t`` and ``v_x`` at every point of ``x`` for every time of ``t``: arrays of the shape of ``t``
@@ -506,5 +469,9 @@ class History:
         (2, 2)
         """
         columns = map(self._array, self._core.field(self._places(x), self._places(t), side))
-        shape = np.shape(t) + np.shape(x)
-        return Field(*(column.reshape(shape) if shape else column[0] for column in columns))
+        return Field(*_shaped(columns, np.shape(t) + np.shape(x)))
+
+
+def _shaped(columns: Iterable[np.ndarray], shape: tuple[int, ...]) -> list[Any]:
+    """Columns in the shape of what they were asked at; numbers where that was one."""
+    return [column.reshape(shape) if shape else column[0] for column in columns]

@@ -6,28 +6,24 @@ use std::sync::Arc;
 use dalembert::Units;
 use dalembert::agreement::{Axis, CompareError, Comparison as Compared, Compression, Limit, Options, Origin, Prepared};
 use dalembert::data::{DataErrorKind, Source};
-use numpy::{PyArray1, PyReadonlyArray1};
+use numpy::{PyArray1, PyArrayMethods, PyUntypedArray, PyUntypedArrayMethods};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 
-use super::problem::{Problem, number as read_number};
+use super::problem::{Problem, number};
 use super::{observer, one_of, refuse, run};
 
-/// A column: doubles, or the type or the shape that makes it none.
-#[derive(FromPyObject)]
-pub(crate) enum Column<'py> {
-    Doubles(PyReadonlyArray1<'py, f64>),
-    Type(String),
-    Shape(Vec<usize>),
-}
+/// A path, or a name with the names of columns and these.
+type Data<'py> = (String, Vec<String>, Option<Vec<Bound<'py, PyUntypedArray>>>);
 
-impl Column<'_> {
-    fn read(self) -> Result<Vec<f64>, DataErrorKind> {
-        match self {
-            Column::Doubles(values) => Ok(values.as_array().to_vec()),
-            Column::Type(found) => Err(DataErrorKind::ElementType { found }),
-            Column::Shape(shape) => Err(DataErrorKind::Shape(shape)),
-        }
+type Samples<'py> = Vec<(String, Bound<'py, PyArray1<f64>>)>;
+
+/// The column as doubles, or what makes it none.
+fn column(array: Bound<'_, PyUntypedArray>) -> Result<Vec<f64>, DataErrorKind> {
+    match array.cast::<PyArray1<f64>>() {
+        Ok(values) => Ok(values.readonly().as_array().to_vec()),
+        Err(_) if array.ndim() != 1 => Err(DataErrorKind::Shape(array.shape().to_vec())),
+        Err(_) => Err(DataErrorKind::ElementType { found: array.dtype().to_string() }),
     }
 }
 
@@ -43,18 +39,15 @@ fn options(given: &Bound<'_, PyDict>) -> PyResult<Options> {
     let mut options = Options::default();
     for (key, value) in given {
         let name: String = key.extract()?;
-        let number = || read_number(&name, &value).map(Some);
+        let number = |value: &Bound<'_, PyAny>| number(&name, value);
         match name.as_str() {
             "map" => options.map = Some(value.extract()?),
-            "dt" => options.dt = number()?,
-            "t0" => options.t0 = number()?,
-            "shift" => options.shift = number()?,
-            "energy_scale" => options.energy_scale = number()?,
-            "window" => options.window = number()?,
-            "widths" => {
-                let widths = value.try_iter()?.map(|width| read_number("widths", &width?));
-                options.widths = widths.collect::<PyResult<_>>()?;
-            }
+            "dt" => options.dt = Some(number(&value)?),
+            "t0" => options.t0 = Some(number(&value)?),
+            "shift" => options.shift = Some(number(&value)?),
+            "energy_scale" => options.energy_scale = Some(number(&value)?),
+            "window" => options.window = Some(number(&value)?),
+            "widths" => options.widths = value.try_iter()?.map(|width| number(&width?)).collect::<PyResult<_>>()?,
             "compression" => {
                 let known = [("+", Compression::Positive), ("-", Compression::Negative)];
                 options.compression = Some(one_of(&name, &value, &known)?);
@@ -70,17 +63,11 @@ fn options(given: &Bound<'_, PyDict>) -> PyResult<Options> {
 
 #[pymethods]
 impl Comparison {
-    /// Compares sources: a name with the names of columns and these, or a path alone.
     #[new]
-    fn new(
-        py: Python<'_>,
-        problem: &Problem,
-        data: Vec<(String, Vec<String>, Option<Vec<Column<'_>>>)>,
-        given: &Bound<'_, PyDict>,
-    ) -> PyResult<Self> {
+    fn new(py: Python<'_>, problem: &Problem, data: Vec<Data<'_>>, given: &Bound<'_, PyDict>) -> PyResult<Self> {
         let options = options(given)?;
-        let source = |(name, names, columns): (String, Vec<String>, Option<Vec<Column<'_>>>)| match columns {
-            Some(columns) => Ok(Source::arrays(&name, names, columns.into_iter().map(Column::read).collect())),
+        let source = |(name, names, columns): Data<'_>| match columns {
+            Some(columns) => Ok(Source::arrays(&name, names, columns.into_iter().map(column).collect())),
             None => Source::open(Path::new(&name)).map_err(refuse),
         };
         let sources = data.into_iter().map(source).collect::<PyResult<Vec<_>>>()?;
@@ -94,27 +81,19 @@ impl Comparison {
         Ok(Comparison { compared, title: problem.title.clone(), units })
     }
 
-    fn table(&self) -> String {
-        self.compared.table(self.title.as_deref(), &self.units)
-    }
-
-    fn json(&self) -> String {
-        self.compared.json(self.title.as_deref(), &self.units).to_string()
+    /// As JSON and as a table; warnings; and for each source every sample by name: times, points, and for each
+    /// quantity ours and theirs.
+    fn report<'py>(&self, py: Python<'py>) -> (String, String, Vec<String>, Vec<Samples<'py>>) {
+        let (of, title) = (&self.compared, self.title.as_deref());
+        let array = |(name, values)| (name, PyArray1::from_slice(py, values));
+        let samples = of.files.iter().map(|file| file.columns().map(array).collect()).collect();
+        let warnings = of.warnings.iter().map(ToString::to_string).collect();
+        (of.json(title, &self.units).to_string(), of.table(title, &self.units), warnings, samples)
     }
 
     /// The norms that are above limits such as `u.l2=0.1`, a line each.
     fn above(&self, limits: Vec<String>) -> PyResult<Vec<String>> {
         let limits = limits.iter().map(|limit| limit.parse()).collect::<Result<Vec<Limit>, _>>().map_err(refuse)?;
         self.compared.above(&limits).map_err(refuse)
-    }
-
-    fn warnings(&self) -> Vec<String> {
-        self.compared.warnings.iter().map(ToString::to_string).collect()
-    }
-
-    /// Every sample of a source, by name: times, points, and for each quantity ours and theirs.
-    fn columns<'py>(&self, py: Python<'py>, source: usize) -> Vec<(String, Bound<'py, PyArray1<f64>>)> {
-        let files = self.compared.files.get(source).into_iter();
-        files.flat_map(|file| file.columns()).map(|(name, values)| (name, PyArray1::from_slice(py, values))).collect()
     }
 }

@@ -44,18 +44,13 @@ fn run<T: Send + 'static, E: std::fmt::Display + Send + 'static>(
     work: impl FnOnce() -> Result<T, E> + Send + 'static,
 ) -> PyResult<T> {
     stop.store(false, Ordering::Relaxed);
-    let (sender, receiver) = channel();
+    let (sender, mut receiver) = channel();
     // Where nobody waits any more, the answer is dropped.
     let worker = std::thread::Builder::new().spawn(move || drop(sender.send(work())));
     worker.map_err(|error| PyRuntimeError::new_err(format!("cannot start a thread: {error}")))?;
-    let mut waiting = receiver;
     loop {
-        let (receiver, answer) = py.detach(move || {
-            let answer = waiting.recv_timeout(POLL);
-            (waiting, answer)
-        });
-        waiting = receiver;
-        match answer {
+        let answer = &mut receiver;
+        match py.detach(move || answer.recv_timeout(POLL)) {
             Ok(answer) => return answer.map_err(refuse),
             Err(RecvTimeoutError::Timeout) => {
                 py.check_signals().inspect_err(|_| stop.store(true, Ordering::Relaxed))?;
@@ -69,6 +64,7 @@ fn run<T: Send + 'static, E: std::fmt::Display + Send + 'static>(
 
 #[pymodule]
 mod _core {
+    use dalembert::scene::builtin::ALL;
     use pyo3::prelude::*;
 
     #[pymodule_export]
@@ -78,15 +74,9 @@ mod _core {
     #[pymodule_export]
     use super::problem::Problem;
 
-    /// The text of a built-in scene; `None` where there is none of this name.
+    /// Names, summaries and texts of the built-in scenes.
     #[pyfunction]
-    fn scene(name: &str) -> Option<&'static str> {
-        dalembert::scene::builtin::get(name).map(|builtin| builtin.source)
-    }
-
-    /// Names and summaries of the built-in scenes.
-    #[pyfunction]
-    fn scenes() -> Vec<(&'static str, &'static str)> {
-        dalembert::scene::builtin::ALL.iter().map(|builtin| (builtin.name, builtin.summary)).collect()
+    fn scenes() -> Vec<[&'static str; 3]> {
+        ALL.iter().map(|builtin| [builtin.name, builtin.summary, builtin.source]).collect()
     }
 }

@@ -4,10 +4,10 @@ use std::sync::Arc;
 
 use dalembert::problem::{Builder, Parameters, Top, Written};
 use dalembert::solve::MAX_DIGITS;
-use dalembert::{Number, Numbers, Plan, Question, Scene, UnitSystem};
-use pyo3::exceptions::{PyTypeError, PyValueError};
+use dalembert::{CERTIFIED_DIGITS, Number, Numbers, Plan, Question, Scene, UnitSystem};
+use pyo3::exceptions::PyTypeError;
 use pyo3::prelude::*;
-use pyo3::types::{PyBool, PyDict, PyFloat, PyInt, PyString};
+use pyo3::types::{PyBool, PyDict, PyFloat, PyString};
 
 use super::history::History;
 use super::{observer, one_of, refuse, run};
@@ -18,7 +18,7 @@ pub(crate) fn written(name: &str, value: &Bound<'_, PyAny>) -> PyResult<Written>
     if let Ok(text) = value.cast::<PyString>() {
         return Ok(Written::from(text.to_str()?));
     }
-    let spelt = value.is_instance_of::<PyInt>() || value.hasattr("as_integer_ratio")? || value.hasattr("__index__")?;
+    let spelt = value.hasattr("as_integer_ratio")? || value.hasattr("__index__")?;
     if !spelt || value.is_instance_of::<PyBool>() {
         let (shown, kind) = (value.repr()?, value.get_type().name()?);
         let shown: String = shown.to_str()?.chars().take(40).collect();
@@ -40,14 +40,9 @@ pub(crate) fn number(name: &str, value: &Bound<'_, PyAny>) -> PyResult<Number> {
     written(name, value)?.number().cloned().map_err(refuse)
 }
 
-type Points<'py> = Vec<(Bound<'py, PyAny>, Bound<'py, PyAny>)>;
-
 fn points(name: &str, value: &Bound<'_, PyAny>) -> PyResult<Vec<(Written, Written)>> {
-    let pairs: Points<'_> = value.extract().map_err(|_| {
-        PyTypeError::new_err(format!(
-            "found {name} of another shape, expected points (x, value), an array of shape (n, 2)"
-        ))
-    })?;
+    let shape = format!("found {name} of another shape, expected points (x, value), an array of shape (n, 2)");
+    let pairs: Vec<(Bound<'_, PyAny>, Bound<'_, PyAny>)> = value.extract().map_err(|_| PyTypeError::new_err(shape))?;
     pairs.iter().map(|(x, v)| Ok((written("x", x)?, written(name, v)?))).collect()
 }
 
@@ -62,25 +57,24 @@ pub(crate) struct Problem {
 
 #[pymethods]
 impl Problem {
-    /// A problem from its values by name.
+    /// A problem from its values by name or from a scene in TOML, and other values in place of some, in order.
     #[new]
-    fn new(values: &Bound<'_, PyDict>) -> PyResult<Self> {
-        let problem = set(dalembert::Problem::builder(), values)?.build().map_err(refuse)?;
-        Ok(Problem { problem, accuracy: None, title: None, units: UnitSystem::default() })
-    }
-
-    /// The problem of a scene in TOML.
-    #[staticmethod]
-    fn parse(text: &str) -> PyResult<Self> {
-        let scene = Scene::parse(text).map_err(refuse)?;
-        let Scene { problem, accuracy, title, units, .. } = scene;
-        Ok(Problem { problem, accuracy: accuracy.as_ref().map(Number::to_f64), title, units })
-    }
-
-    /// The same problem with other values in place of some.
-    fn replace(&self, values: &Bound<'_, PyDict>) -> PyResult<Self> {
-        let problem = set(self.problem.to_builder(), values)?.build().map_err(refuse)?;
-        Ok(Problem { problem, accuracy: self.accuracy, title: self.title.clone(), units: self.units })
+    #[pyo3(signature = (first, *replaced))]
+    fn new(first: &Bound<'_, PyAny>, replaced: Vec<Bound<'_, PyDict>>) -> PyResult<Self> {
+        let mut made = match first.cast::<PyDict>() {
+            Ok(values) => {
+                let problem = set(dalembert::Problem::builder(), values)?;
+                Problem { problem, accuracy: None, title: None, units: UnitSystem::default() }
+            }
+            Err(_) => {
+                let Scene { problem, accuracy, title, units, .. } = Scene::parse(first.extract()?).map_err(refuse)?;
+                Problem { problem, accuracy: accuracy.as_ref().map(Number::to_f64), title, units }
+            }
+        };
+        for values in replaced {
+            made.problem = set(made.problem.to_builder(), &values)?;
+        }
+        Ok(made)
     }
 
     /// `c`, `t₁`, `R`, `M`, in doubles; `M` is infinite without gravity and `None` where the start is not uniform.
@@ -100,22 +94,21 @@ impl Problem {
         accuracy: Option<f64>,
         first_contact: bool,
     ) -> PyResult<History> {
-        let digits = digits.map(|digits| {
-            u32::try_from(digits)
-                .map_err(|_| refuse(format!("found {digits} digits asked for, expected 1 to {MAX_DIGITS}")))
-        });
-        let digits = digits.transpose()?;
-        let numbers = match (certified, exact, digits, accuracy) {
-            (true, true, ..) => return Err(PyValueError::new_err("found certified and exact, expected one of them")),
-            (true, _, _, Some(_)) | (_, true, _, Some(_)) | (_, _, Some(_), Some(_)) => {
-                return Err(PyValueError::new_err("found accuracy with other numbers, expected it with doubles only"));
-            }
-            (true, _, digits, _) => Numbers::Certified(digits.unwrap_or(dalembert::CERTIFIED_DIGITS)),
-            (_, true, None, _) => Numbers::Exact,
-            (_, true, Some(digits), _) => Numbers::ExactThenDigits(digits),
-            (_, _, Some(digits), _) => Numbers::Digits(digits),
-            (.., accuracy) => Numbers::Double(accuracy.or(self.accuracy)),
+        let count = |digits| {
+            let refused = |_| refuse(format!("found {digits} digits asked for, expected 1 to {MAX_DIGITS}"));
+            u32::try_from(digits).map_err(refused)
         };
+        let numbers = match (certified, exact, digits.map(count).transpose()?) {
+            (true, true, _) => return Err(refuse("found certified and exact, expected one of them")),
+            (true, _, digits) => Numbers::Certified(digits.unwrap_or(CERTIFIED_DIGITS)),
+            (_, true, None) => Numbers::Exact,
+            (_, true, Some(digits)) => Numbers::ExactThenDigits(digits),
+            (_, _, Some(digits)) => Numbers::Digits(digits),
+            _ => Numbers::Double(accuracy.or(self.accuracy)),
+        };
+        if accuracy.is_some() && !matches!(numbers, Numbers::Double(_)) {
+            return Err(refuse("found accuracy with other numbers, expected it with doubles only"));
+        }
         let question = if first_contact { Question::first_contact(numbers) } else { Question::run(numbers) };
         let (problem, stop) = (self.problem.clone(), Arc::default());
         let observe = observer(&stop);
@@ -125,32 +118,22 @@ impl Problem {
     }
 }
 
-/// A whole number, whose range the builder checks.
-fn whole(name: &str, value: &Bound<'_, PyAny>) -> PyResult<u32> {
-    let message = || format!("found {name} = {value}, expected a whole number from 1 to 10000000");
-    let whole: i64 = value.extract().map_err(|_| PyTypeError::new_err(message()))?;
-    u32::try_from(whole).map_err(|_| refuse(message()))
-}
-
-/// The builder with all of `values` set.
-fn set(mut builder: Builder, values: &Bound<'_, PyDict>) -> PyResult<Builder> {
+/// The problem of a builder with all of `values` set.
+fn set(mut builder: Builder, values: &Bound<'_, PyDict>) -> PyResult<dalembert::Problem> {
     for (key, value) in values {
         let key: String = key.extract()?;
         let name = key.as_str();
         builder = match name {
-            "impacts" => builder.impacts(whole(name, &value)?),
             "displacement" => builder.displacement(points(name, &value)?),
             "velocity" => builder.velocity(points(name, &value)?),
             "top" => builder.top(one_of(name, &value, &[("free", Top::Free), ("fixed", Top::Fixed)])?),
-            _ => match Builder::numbers().any(|known| known == name) {
-                true => builder.named(name, written(name, &value)?),
-                false => {
-                    let known = Builder::numbers().collect::<Vec<_>>().join(", ");
-                    let expected = format!("one of {known}, impacts, displacement, velocity, top");
-                    return Err(PyTypeError::new_err(format!("found the unknown value `{name}`, expected {expected}")));
-                }
-            },
+            _ if Builder::numbers().any(|known| known == name) => builder.named(name, written(name, &value)?),
+            _ => {
+                let known = Builder::numbers().collect::<Vec<_>>().join(", ");
+                let expected = format!("one of {known}, displacement, velocity, top");
+                return Err(PyTypeError::new_err(format!("found the unknown value `{name}`, expected {expected}")));
+            }
         };
     }
-    Ok(builder)
+    builder.build().map_err(refuse)
 }

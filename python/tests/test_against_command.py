@@ -4,7 +4,9 @@ on one side, which the bound of the run shows, both are the same within the accu
 
 import json
 import math
+import os
 import random
+from concurrent.futures import ThreadPoolExecutor
 from decimal import Decimal
 from fractions import Fraction
 
@@ -51,61 +53,65 @@ def near(ours, theirs, scale) -> None:
     assert ours == pytest.approx(math.nan if theirs is None else theirs, rel=1e-9, abs=1e-9 * scale, nan_ok=True)
 
 
-def compare(rod: dict, impacts: int, command) -> int:
-    """Holds a problem against the command; returns how many numbers were compared bit for bit."""
-    scene = toml(rod, impacts)
-    run = command("solve", "-", "--format", "json", scene=scene)
-    problem = dalembert.Problem(**rod, impacts=impacts)
-    assert run.returncode == 0, run.stderr
-    expected, count = json.loads(run.stdout), 0
-    tables = {
-        "events": (expected["events"], EVENTS),
-        "contacts": (expected["contacts"], CONTACTS),
-        "stress_history": (expected["stress"]["pieces"], ("from", "to", "strain_from", "strain_to")),
-        "restitution": ([contact["restitution"] for contact in expected["contacts"]], COEFFICIENTS),
+def tables(answer: dict) -> dict:
+    """The rows of the command's answer, and the names of their numbers, by the name of the module's table."""
+    return {
+        "events": (answer["events"], EVENTS),
+        "contacts": (answer["contacts"], CONTACTS),
+        "stress_history": (answer["stress"]["pieces"], ("from", "to", "strain_from", "strain_to")),
+        "restitution": ([contact["restitution"] for contact in answer["contacts"]], COEFFICIENTS),
     }
-    for table, (rows, names) in tables.items():
-        history = problem.solve()
-        ours = getattr(history, table)
-        assert len(ours) == len(rows)
-        exactly = history.error_estimate == expected["error_estimate"]
-        for name in names:
-            scale = np.nanmax(np.abs(ours[name]), initial=1)
-            for value, row in zip(ours[name], rows, strict=True):
-                if exactly:
-                    same(value, row[name], 1e-9 * scale)
-                    count += 1
-                else:
-                    near(value, row[name], scale)
-    kinds = [event["kind"] for event in expected["events"]]
-    assert problem.solve().events["kind"].tolist() == kinds
-    return count
+
+
+def answers(command, problems: list, *options: str):
+    """Problems with the command's answers, which come from as many processes at a time as there are cores."""
+    asked = ("solve", "-", "--format", "json", *options)
+    with ThreadPoolExecutor(os.cpu_count()) as pool:
+        for problem, run in zip(problems, pool.map(lambda problem: command(*asked, scene=toml(*problem)), problems)):
+            assert run.returncode == 0, run.stderr
+            yield dalembert.Problem(**problem[0], impacts=problem[1]), json.loads(run.stdout)
 
 
 @pytest.mark.parametrize("damped", [False, True])
 def test_random_problems_in_doubles(command, damped):
     rng = random.Random(1878 + damped)
-    counts = [compare(values(rng, damped), rng.randint(1, 4), command) for _ in range(500)]
-    assert sum(count > 0 for count in counts) > 400, counts
+    exactly = 0
+    for problem, expected in answers(command, [(values(rng, damped), rng.randint(1, 4)) for _ in range(500)]):
+        count = 0
+        for table, (rows, names) in tables(expected).items():
+            history = problem.solve()
+            ours = getattr(history, table)
+            assert len(ours) == len(rows)
+            alike = history.error_estimate == expected["error_estimate"]
+            for name in names:
+                scale = np.nanmax(np.abs(ours[name]), initial=1)
+                for value, row in zip(ours[name], rows, strict=True):
+                    same(value, row[name], 1e-9 * scale) if alike else near(value, row[name], scale)
+                count += alike
+        exactly += count > 0
+        assert problem.solve().events["kind"].tolist() == [event["kind"] for event in expected["events"]]
+    assert exactly > 400
 
 
-def test_random_problems_in_fractions_and_digits(command):
+NUMBERS = {
+    "exact": ({"exact": True}, ("--exact",), Fraction),
+    "digits": ({"digits": 50}, ("--digits", "50"), lambda text: str(Decimal(text))),
+    "certified": ({"certified": True}, ("--certified",), lambda number: (Decimal(number["lo"]), Decimal(number["hi"]))),
+}
+
+
+@pytest.mark.parametrize("numbers", NUMBERS)
+def test_random_problems_in_long_numbers(command, numbers):
     rng = random.Random(1746)
-    for _ in range(60):
-        rod = values(rng, False)
-        run = command("solve", "-", "--exact", "--format", "json", scene=toml(rod, 3))
-        exact = dalembert.Problem(**rod, impacts=3).solve(exact=True)
-        for ours, theirs in zip(exact.events, json.loads(run.stdout)["events"], strict=True):
-            assert [ours[name] for name in EVENTS] == [Fraction(theirs[name]) for name in EVENTS]
-        run = command("solve", "-", "--digits", "50", "--format", "json", scene=toml(rod, 3))
-        long = dalembert.Problem(**rod, impacts=3).solve(digits=50)
-        for ours, theirs in zip(long.events, json.loads(run.stdout)["events"], strict=True):
-            assert [str(ours[name]) for name in EVENTS] == [str(Decimal(theirs[name])) for name in EVENTS]
-        run = command("solve", "-", "--certified", "--format", "json", scene=toml(rod, 3))
-        proved = dalembert.Problem(**rod, impacts=3).solve(certified=True)
-        for ours, theirs in zip(proved.events, json.loads(run.stdout)["events"], strict=True):
-            for name in EVENTS:
-                assert ours[name] == (Decimal(theirs[name]["lo"]), Decimal(theirs[name]["hi"]))
+    options, asked, read = NUMBERS[numbers]
+    for problem, expected in answers(command, [(values(rng, False), 3) for _ in range(1000)], *asked):
+        history = problem.solve(**options)
+        for table, (rows, names) in tables(expected).items():
+            for ours, row in zip(getattr(history, table), rows, strict=True):
+                for name in names:
+                    value = str(ours[name]) if isinstance(ours[name], Decimal) else ours[name]
+                    wanted = None if row[name] is None else read(row[name])
+                    assert type(value) is type(wanted) and value == wanted, (table, name)
 
 
 @pytest.mark.parametrize("scene", ["doyen-ern-piperno", "getfem-dynamic-contact", "figure-4-r02"])

@@ -27,7 +27,8 @@ def run(tmp_path_factory):
 def test_the_report_is_that_of_the_command(command, run, tmp_path):
     path, data = run
     np.savez(tmp_path / "run.npz", **data)
-    for file in (path, tmp_path / "run.npz"):
+    (tmp_path / "archive").write_bytes((tmp_path / "run.npz").read_bytes())
+    for file in (path, tmp_path / "run.npz", tmp_path / "archive"):
         ours = dalembert.compare(SCENE, file, axis="down", energy_scale="1/2", window=0.1)
         asked = ("compare", SCENE, str(file), "--axis", "down", "--energy-scale", "1/2", "--window", "0.1")
         assert ours.report == json.loads(command(*asked, "--format", "json").stdout)
@@ -106,7 +107,7 @@ def of(values, **options):
     [
         (TypeError, "found values without a quantity", of(T, quantity=None)),
         (ValueError, "found no column of times", lambda: dalembert.compare(ROD, {"u": T})),
-        (ValueError, "row 2, column 1: found time 0 after 1", lambda: dalembert.compare(ROD, {"t": [1, 0], "u": [0, 0]})),
+        (ValueError, "row 2, column 1: found time 0 after 1", lambda: dalembert.compare(ROD, dict(t=[1, 0], u=[0, 0]))),
         (ValueError, "row 5, column 2: found NaN", of([0, 0, 0, 1, np.nan])),
         (ValueError, "`u`: found 4 rows, expected 5", of(T[1:])),
         (ValueError, r"`u`: found an array of shape \[5, 1\]", of(T[:, None])),

@@ -139,11 +139,6 @@ impl Agreement {
         self.quantities.iter().find(|compared| compared.what == What::Column(column))
     }
 
-    fn has_scale(&self, what: What) -> bool {
-        let scale = |hint: &Hint| hint.quantity == what.name() && matches!(hint.finding, Finding::Scale { .. });
-        self.hints.iter().any(scale)
-    }
-
     /// Contacts, audit, and the hints of both.
     fn keep_books(&mut self, problem: &Problem, ours: &Ours<'_>, until: Option<f64>) {
         let times = &self.grid.times;
@@ -180,10 +175,11 @@ impl Agreement {
             let later = |touch: &Touch| touch.from > last - 2.0 * self.step;
             contacts.retain(|(a, b)| b.is_some() || !a.as_ref().is_some_and(later));
         }
-        // A factor that chatter hides from the samples is one of the impulses.
-        let impulses = shown.map(|shown| shown.what).filter(|what| !self.has_scale(*what)).and_then(|what| {
+        // Where chatter hides a factor from the samples, or falsifies it, the impulses show it.
+        let impulses = shown.map(|shown| shown.what).and_then(|what| {
             let finding = of_impulses(&contacts, times, self.step, &ours.factors(what))?;
-            Some(Hint { quantity: what.name().into(), finding })
+            let near = |hint: &Hint| hint.quantity == what.name() && hint.finding.is_near(&finding);
+            (!self.hints.iter().any(near)).then(|| Hint { quantity: what.name().into(), finding })
         });
         let energy = self.theirs(Column::Energy);
         let books = Books {
@@ -201,7 +197,11 @@ impl Agreement {
             ..books.audit()
         };
         let mut hints = of_contacts(&contacts, times, self.step);
-        hints.extend(impulses);
+        if let Some(found) = impulses {
+            let fitted = |hint: &Hint| hint.quantity == found.quantity && matches!(hint.finding, Finding::Scale { .. });
+            self.hints.retain(|hint| !fitted(hint));
+            hints.push(found);
+        }
         hints.append(&mut self.hints);
         self.hints = gathered(hints);
         self.contacts = contacts;

@@ -56,6 +56,10 @@ pub(super) trait Report {
     /// Every number in the data.
     fn numbers<'a, N: Scalar>(&self, data: &'a Self::Data<N>) -> Vec<&'a N>;
     fn bytes<N: Scalar>(&self, data: &Self::Data<N>, head: &Head, format: Format) -> Result<Vec<u8>, Failure>;
+    /// What is said beside the data, on standard error.
+    fn note<N: Scalar>(&self, _: &Self::Data<N>) -> Option<String> {
+        None
+    }
 }
 
 /// What is done with a history, in any number system.
@@ -75,7 +79,9 @@ impl<R: Report> Visit for Printed<'_, R> {
         let data = gathered?;
         let format = output.format()?;
         let head = warned(history, head, output.output.is_none() && format == Format::Table);
-        output.write(&report.bytes(&data, &head, format)?)
+        output.write(&report.bytes(&data, &head, format)?)?;
+        report.note(&data).iter().for_each(|note| eprintln!("note: {note}"));
+        Ok(())
     }
 }
 

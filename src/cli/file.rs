@@ -7,7 +7,7 @@ use clap::ValueEnum;
 use super::failure::{self, Failure};
 #[cfg(feature = "plot")]
 use crate::output::Rendered;
-use crate::output::{Size, write_whole};
+use crate::output::{Size, write_together};
 
 /// How rows are written.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
@@ -83,22 +83,30 @@ pub(super) fn unwritten(path: Option<&Path>) -> impl FnOnce(std::io::Error) -> f
 
 /// Writes to a file whole or not at all, or to standard output.
 pub(super) fn write(path: Option<&Path>, bytes: &[u8]) -> Result<(), Failure> {
-    Ok(write_whole(path, bytes).map_err(unwritten(path))?)
+    write_all(&[(path, bytes)])
 }
 
-/// Writes each file; rows are printed too, if no file holds any.
+/// Writes all of several files, or none.
+fn write_all(files: &[(Option<&Path>, &[u8])]) -> Result<(), Failure> {
+    Ok(write_together(files).map_err(|(k, error)| unwritten(files[k].0)(error))?)
+}
+
+/// Writes each file, all of them or none; rows are printed too, if no file holds any.
 pub(super) fn write_each(
     paths: &[PathBuf],
     format: Option<Format>,
     bytes: impl Fn(Kind) -> Result<Vec<u8>, Failure>,
 ) -> Result<(), Failure> {
-    let mut printed = false;
+    let (mut files, mut printed) = (Vec::new(), false);
     for path in paths {
         let kind = Kind::of(path, format)?;
         printed |= matches!(kind, Kind::Rows(_));
-        write(Some(path), &bytes(kind)?)?;
+        files.push((Some(path.as_path()), bytes(kind)?));
     }
-    if printed { Ok(()) } else { write(None, &bytes(Kind::Rows(format.unwrap_or(Format::Table)))?) }
+    if !printed {
+        files.push((None, bytes(Kind::Rows(format.unwrap_or(Format::Table)))?));
+    }
+    write_all(&files.iter().map(|(path, bytes)| (*path, bytes.as_slice())).collect::<Vec<_>>())
 }
 
 /// The bytes of a file that can be made.

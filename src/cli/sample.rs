@@ -8,7 +8,7 @@ use super::failure::Failure;
 use super::file::{self, Format};
 use super::source;
 use crate::error::Error;
-use crate::motion::{Motion, Side};
+use crate::motion::{Ending, Motion, Side};
 use crate::number::{List, Scalar};
 use crate::output::{self, Head, Quantity, sample, samples_csv, samples_json, samples_table};
 use crate::solve::Question;
@@ -57,8 +57,11 @@ impl Sample {
     }
 }
 
+/// The values, and why the history ends where that is not for the time asked for, as at rest.
+pub(super) struct Sampled<S>(Vec<output::Sample<S>>, Option<String>);
+
 impl Report for Sample {
-    type Data<S: Scalar> = Vec<output::Sample<S>>;
+    type Data<S: Scalar> = Sampled<S>;
 
     fn gather<S: Scalar>(&self, history: &dyn Motion<S>, _: &Head) -> Result<Self::Data<S>, Error> {
         let length = history.scales().length;
@@ -68,14 +71,26 @@ impl Report for Sample {
             Some(points) => points.lift::<S>(&precision),
             None => vec![length.zero(), length.clone() / length.int(2), length],
         };
-        sample(history, self.quantity, &times, &points, self.side)
+        let samples = sample(history, self.quantity, &times, &points, self.side)?;
+        let ends =
+            (!matches!(history.ending(), Ending::Time | Ending::NextImpact)).then(|| history.ending().to_string());
+        Ok(Sampled(samples, ends))
     }
 
-    fn numbers<'a, S: Scalar>(&self, samples: &'a Self::Data<S>) -> Vec<&'a S> {
+    fn numbers<'a, S: Scalar>(&self, Sampled(samples, _): &'a Self::Data<S>) -> Vec<&'a S> {
         samples.iter().flat_map(|sample| sample.values.iter().chain(&sample.point).chain([&sample.time])).collect()
     }
 
-    fn bytes<S: Scalar>(&self, samples: &Self::Data<S>, head: &Head, format: Format) -> Result<Vec<u8>, Failure> {
+    fn note<S: Scalar>(&self, Sampled(_, ends): &Self::Data<S>) -> Option<String> {
+        ends.clone()
+    }
+
+    fn bytes<S: Scalar>(
+        &self,
+        Sampled(samples, _): &Self::Data<S>,
+        head: &Head,
+        format: Format,
+    ) -> Result<Vec<u8>, Failure> {
         match format {
             Format::Table => Ok(samples_table(samples, self.quantity, head).into_bytes()),
             Format::Json => Ok(file::json(&samples_json(samples, self.quantity, head))),

@@ -1,6 +1,7 @@
 //! Other people's data: columns of numbers from text, `.npy` and `.npz`.
 
 mod error;
+#[cfg_attr(not(feature = "npz"), path = "numpy_absent.rs")]
 mod numpy;
 mod source;
 mod text;

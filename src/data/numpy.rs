@@ -6,19 +6,8 @@ use ndarray::{ArrayD, Axis, IxDyn, OwnedRepr};
 use ndarray_npy::{NpzReader, ReadNpyError, ReadNpyExt, ReadNpzError, ReadableElement};
 
 use super::error::{DataError, DataErrorKind};
+use super::source::{Arrays, is_array};
 use crate::number::short;
-
-/// The columns of an array or an archive, with their names where they have any. A column that is no column of numbers
-/// has the reason in its place: it may not be asked for.
-pub(super) type Arrays = (Vec<String>, Vec<Result<Vec<f64>, DataErrorKind>>);
-
-pub(super) fn is_array(start: &[u8]) -> bool {
-    start.starts_with(b"\x93NUMPY")
-}
-
-pub(super) fn is_archive(start: &[u8]) -> bool {
-    start.starts_with(b"PK\x03\x04")
-}
 
 /// Reads an array or an archive of arrays: an array of one axis is a column, one of two axes has a column for each
 /// index of its second. A number alone is no column.

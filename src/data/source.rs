@@ -23,6 +23,15 @@ enum Body {
     Arrays(Vec<Result<Vec<f64>, DataErrorKind>>),
 }
 
+/// The columns of an array or an archive, with their names where they have any. A column that is no column of numbers
+/// has the reason in its place: it may not be asked for.
+pub(super) type Arrays = (Vec<String>, Vec<Result<Vec<f64>, DataErrorKind>>);
+
+/// Whether a file that starts so is an array of NumPy.
+pub(super) fn is_array(start: &[u8]) -> bool {
+    start.starts_with(b"\x93NUMPY")
+}
+
 /// The columns that were asked for, in that order, all of one length.
 #[derive(Debug)]
 pub(crate) struct Columns {
@@ -43,7 +52,7 @@ impl Source {
             if piped { Box::new(std::io::stdin()) } else { Box::new(File::open(path).map_err(read)?) };
         let mut reader = BufReader::with_capacity(1 << 16, opened);
         let start = reader.fill_buf().map_err(read)?;
-        let (names, width, body) = if numpy::is_array(start) || numpy::is_archive(start) {
+        let (names, width, body) = if is_array(start) || start.starts_with(b"PK\x03\x04") {
             let (names, columns) = numpy::read(reader, &file)?;
             (names, columns.len(), Body::Arrays(columns))
         } else {

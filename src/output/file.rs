@@ -4,12 +4,30 @@ use std::fs::File;
 use std::io::{self, ErrorKind, Seek, Write};
 use std::path::Path;
 
+use tempfile::NamedTempFile;
+
 /// Writes `bytes` to `path`, or to standard output for `-` or none. A file appears complete or not at all.
 pub fn write_whole(path: Option<&Path>, bytes: &[u8]) -> io::Result<()> {
-    match named(path) {
-        Some(path) => write_file(path, |file| file.write_all(bytes)),
-        None => to_stdout(|out| out.write_all(bytes)),
+    write_together(&[(path, bytes)]).map_err(|(_, error)| error)
+}
+
+/// [`write_whole`] for several: all files appear, or none.
+///
+/// **Errors**: with the place of the one that cannot be written.
+pub(crate) fn write_together(files: &[(Option<&Path>, &[u8])]) -> Result<(), (usize, io::Error)> {
+    let (mut staged, mut printed) = (Vec::new(), Vec::new());
+    for (k, (path, bytes)) in files.iter().enumerate() {
+        match named(*path) {
+            Some(path) => {
+                staged.push((k, path, stage(path, |file| file.write_all(bytes)).map_err(|error| (k, error))?))
+            }
+            None => printed.push((k, bytes)),
+        }
     }
+    for (k, path, file) in staged {
+        file.persist(path).map_err(|error| (k, error.into()))?;
+    }
+    printed.into_iter().try_for_each(|(k, bytes)| to_stdout(|out| out.write_all(bytes)).map_err(|error| (k, error)))
 }
 
 /// Lets `fill` write a file, and gives it its name, or copies it to standard output, when it is complete.
@@ -20,7 +38,8 @@ pub(crate) fn write_filled(path: Option<&Path>, fill: impl FnOnce(&mut File) -> 
         file.rewind()?;
         return to_stdout(|out| io::copy(&mut file, out).map(|_| ()));
     };
-    write_file(path, fill)
+    stage(path, fill)?.persist(path)?;
+    Ok(())
 }
 
 fn named(path: Option<&Path>) -> Option<&Path> {
@@ -36,7 +55,11 @@ fn to_stdout(write: impl FnOnce(&mut io::StdoutLock<'_>) -> io::Result<()>) -> i
     }
 }
 
-fn write_file(path: &Path, fill: impl FnOnce(&mut File) -> io::Result<()>) -> io::Result<()> {
+/// A file that `fill` has written, complete beside its place, where it is moved next.
+fn stage(path: &Path, fill: impl FnOnce(&mut File) -> io::Result<()>) -> io::Result<NamedTempFile> {
+    if path.is_dir() {
+        return Err(ErrorKind::IsADirectory.into());
+    }
     let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
     let mut builder = tempfile::Builder::new();
     builder.prefix(".dalembert-");
@@ -48,8 +71,7 @@ fn write_file(path: &Path, fill: impl FnOnce(&mut File) -> io::Result<()>) -> io
     };
     let mut file = builder.tempfile_in(folder).map_err(|error| plain(&error, folder))?;
     fill(file.as_file_mut()).map_err(|error| io::Error::from(error.kind()))?;
-    file.persist(path)?;
-    Ok(())
+    Ok(file)
 }
 
 /// The error of making a temporary file in `folder`, without the name of that file.

@@ -33,7 +33,7 @@ pub(crate) use draw::Rendered;
 pub(crate) use draw::{Size, plain};
 pub(crate) use figures::{figure_csv, figure_sheet, figures_index};
 pub use file::write_whole;
-pub(crate) use file::{write_files, write_filled};
+pub(crate) use file::{write_files, write_filled, write_together};
 pub use json::{SCHEMA, history_json, samples_json};
 pub(crate) use outline::outline;
 pub use plot::scene_svg;

@@ -40,6 +40,9 @@ macro_rules! setters {
     )*};
 }
 
+/// Single numbers whose setters are not as simple, and their names.
+const OTHERS: [(&str, &str); 1] = [("impacts", "run.impacts")];
+
 impl Builder {
     setters! {
         /// `L > 0`: the length.
@@ -68,17 +71,17 @@ impl Builder {
         time => "run.time",
     }
 
-    /// The names of single numbers: the setters', and the parts of the material.
+    /// The names of single numbers: the setters', and the impacts.
     #[doc(hidden)]
     pub fn numbers() -> impl Iterator<Item = &'static str> {
-        Self::NAMED.iter().map(|(name, _)| *name)
+        Self::NAMED.iter().chain(&OTHERS).map(|(name, _)| *name)
     }
 
     /// The number of this name, one of [`Builder::numbers`]; any other changes nothing.
     #[doc(hidden)]
     #[must_use]
     pub fn named(mut self, name: &str, value: impl Into<Written>) -> Self {
-        if let Some((_, path)) = Self::NAMED.iter().find(|(known, _)| *known == name) {
+        if let Some((_, path)) = Self::NAMED.iter().chain(&OTHERS).find(|(known, _)| *known == name) {
             self.draft.numbers.insert(path, value.into());
         }
         self

@@ -17,7 +17,8 @@
 //! The clock of the contacts is read from the first of them, which starts from exact data as well: from how far the
 //! force spreads about its centroid, as the ends of a contact are smeared by every scheme, which changes the spread in
 //! the second order only. A shift of the contacts counts where beginning, end and centroid say the same. A factor of
-//! the force that chatter hides from the fit is read from the impulses. Nothing here is fitted to results.
+//! the force that chatter hides from the fit, or turns the fit away from by more than 5 %, is read from the impulses.
+//! Nothing here is fitted to results.
 
 use serde::Serialize;
 
@@ -100,6 +101,12 @@ impl Serialize for Hint {
 }
 
 impl Finding {
+    /// Whether both say the same, within 5 %: of two estimates the one from samples is then the better.
+    pub fn is_near(&self, other: &Finding) -> bool {
+        let ((kind, ours), (other, theirs)) = (self.kind(), other.kind());
+        kind == other && (ours / theirs - 1.0).abs() < KNOWN
+    }
+
     /// Its name in JSON, and its value.
     pub fn kind(&self) -> (&'static str, f64) {
         match self {

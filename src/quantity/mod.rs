@@ -8,6 +8,7 @@ mod hints;
 mod norms;
 mod restitution;
 mod slice;
+mod table;
 mod touch;
 mod unit;
 
@@ -21,5 +22,6 @@ pub use hints::{Finding, Hint, Measures, Pair, gathered, of_contacts, of_impulse
 pub use norms::{Greatest, Grid, Norm, Norms, norms, order};
 pub use restitution::{EnergyShares, Restitution, Undefined, energy_shares, restitution};
 pub use slice::{Slice, slices};
+pub use table::{Columns, Table, table};
 pub use touch::{Moments, Touch, matched, touches};
 pub use unit::{Measure, UnitSystem, Units};

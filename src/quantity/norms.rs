@@ -88,15 +88,6 @@ impl Grid {
     pub fn rows(&self) -> Vec<Range<usize>> {
         self.points.as_ref().map_or_else(Vec::new, |points| rows(&self.times, points))
     }
-
-    fn greatest(&self, found: Option<(usize, f64)>, scale: f64) -> Option<Greatest> {
-        found.map(|(k, absolute)| Greatest {
-            absolute,
-            relative: ratio(absolute, scale),
-            time: self.times[k],
-            point: self.points.as_ref().map(|points| points[k]),
-        })
-    }
 }
 
 fn rows(times: &[f64], points: &[f64]) -> Vec<Range<usize>> {
@@ -119,6 +110,12 @@ fn ratio(a: f64, b: f64) -> Option<f64> {
     (b > 0.0).then(|| a / b)
 }
 
+/// The power of two next to the greatest of some values, within what has an inverse; 1 where all are zero.
+fn size(values: impl Iterator<Item = f64>) -> f64 {
+    let most = values.fold(0.0, f64::max);
+    if most > 0.0 { most.log2().round().clamp(-1000.0, 1000.0).exp2() } else { 1.0 }
+}
+
 /// Values below this share of their natural scale are rounding of zero, such as that of a top that is held.
 const NOTHING: f64 = 1e-12;
 
@@ -135,10 +132,14 @@ pub fn norms(
     on_jumps: usize,
     away: impl Fn(usize) -> bool,
 ) -> Norms {
+    // Of about 1 each, by powers of two: no square leaves the range of doubles, and no digit changes.
+    let apart = |a: &f64, b: &f64| (b / 2.0 - a / 2.0).abs();
+    let (unit, own_unit) =
+        (size(ours.iter().zip(theirs).map(|(a, b)| apart(a, b))), size(ours.iter().map(|a| a.abs())));
     let (mut sums, mut own, mut scale) = ([0.0; 2], [0.0; 2], [0.0f64; 2]);
     let mut greatest: [Option<(usize, f64)>; 2] = [None; 2];
     for (k, (weight, (a, b))) in grid.weights.iter().zip(ours.iter().zip(theirs)).enumerate() {
-        let difference = (b - a).abs();
+        let (difference, a) = (apart(a, b) / unit, a / own_unit);
         sums = [sums[0] + weight * difference, sums[1] + weight * difference * difference];
         own = [own[0] + weight * a.abs(), own[1] + weight * a * a];
         for (which, counts) in [true, away(k)].into_iter().enumerate() {
@@ -150,18 +151,28 @@ pub fn norms(
             }
         }
     }
-    if scale[0] <= NOTHING * natural {
+    if scale[0] <= NOTHING * (natural / own_unit) {
         (own, scale) = ([0.0; 2], [0.0; 2]);
     }
-    let norm = |absolute: f64, own: f64| Norm { absolute, relative: ratio(absolute, own) };
+    let unit = 2.0 * unit;
+    let of = |absolute: f64, own: f64| (absolute * unit, ratio(absolute * (unit / own_unit), own));
+    let norm = |absolute: f64, own: f64| {
+        let (absolute, relative) = of(absolute, own);
+        Norm { absolute, relative }
+    };
+    let greatest = [0, 1].map(|which| {
+        let (k, absolute) = greatest[which]?;
+        let (absolute, relative) = of(absolute, scale[which]);
+        Some(Greatest { absolute, relative, time: grid.times[k], point: grid.points.as_ref().map(|points| points[k]) })
+    });
     let none = Greatest { absolute: 0.0, relative: None, time: 0.0, point: None };
     Norms {
         samples: ours.len(),
         on_jumps,
         l1: norm(sums[0], own[0]),
         l2: norm(sums[1].sqrt(), own[1].sqrt()),
-        linf: grid.greatest(greatest[0], scale[0]).unwrap_or(none),
-        linf_off_jumps: grid.greatest(greatest[1], scale[1]),
+        linf: greatest[0].unwrap_or(none),
+        linf_off_jumps: greatest[1],
     }
 }
 
@@ -189,6 +200,23 @@ mod tests {
         assert_eq!((norms.l2.absolute, norms.l2.relative), (10.5f64.sqrt(), Some(10.5f64.sqrt() / 12f64.sqrt())));
         assert_eq!((norms.linf.absolute, norms.linf.time, norms.on_jumps), (3.0, 3.0, 1));
         assert_eq!(norms.linf_off_jumps.map(|most| (most.absolute, most.time)), Some((1.0, 1.0)));
+    }
+
+    /// Values whose squares no double holds have the norms of the same values of an ordinary size.
+    #[test]
+    fn of_any_size() {
+        let grid = Grid::new(vec![0.0, 1.0, 3.0], None);
+        let of = |unit: f64| {
+            let [ours, theirs] = [[2.0, 2.0, 2.0], [2.0, 3.0, -1.0]].map(|list| list.map(|x| x * unit));
+            norms(&grid, &ours, &theirs, unit, 1, |k| k < 2)
+        };
+        for unit in [2f64.powi(1020), 2f64.powi(-1020)] {
+            let (found, plain) = (of(unit), of(1.0));
+            for (found, plain) in [(found.l1, plain.l1), (found.l2, plain.l2)] {
+                assert_eq!((found.absolute, found.relative), (plain.absolute * unit, plain.relative));
+            }
+            assert_eq!(found.linf, Greatest { absolute: 3.0 * unit, ..plain.linf });
+        }
     }
 
     /// Against nothing there is no relative norm.

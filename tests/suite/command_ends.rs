@@ -64,3 +64,21 @@ fn no_file_ends_in_silence() {
     let whole = quiet(&["reference", "doyen-ern-piperno", "--exact"]);
     assert!(whole.contains("\n# ends at t = 16: the impact after the last contact asked for\n"), "{whole}");
 }
+
+/// Values beyond where a rod comes to rest are those of rest, and a note says from when; beyond the run of the scene a
+/// sample is followed without one, as its help says.
+#[test]
+fn samples_of_a_rod_at_rest() {
+    let sample = |scene: &str, times: &str| {
+        let Run { code, err, .. } = run_with(&["sample", "-", "--quantity", "end", "--times", times], scene);
+        assert_eq!(code, Some(0), "{err}");
+        err
+    };
+    let scene = "rod = { length = 1, wave_speed = 1 }\nimpact.speed = 3\nrun.time = 5\n";
+    assert_eq!(sample(scene, "1,6"), "");
+    let damped = scene.replace("wave_speed = 1", "wave_speed = 1, damping = 0.3333");
+    let damped = format!("{damped}gravity.acceleration = 1\n");
+    assert_eq!(sample(&damped, "1,5"), "");
+    let rest = sample(&damped, "1,400");
+    assert!(rest.starts_with("note: at rest: from t = ") && rest.lines().count() == 1, "{rest}");
+}

@@ -345,6 +345,48 @@ fn words_of_hints() {
     assert_eq!(said(&chattering(2.0, 0.0)), ["hint: u_end is zero throughout: an empty column?"]);
 }
 
+/// Where the force of a contact falls as much as ours rises, from 2 to 1 and from 1 to 2, the impulses are the same; a
+/// fit would find 13/14 of the factor: ∫(1 + t/2)(2 − t/2) = 13/3 against ∫(1 + t/2)² = 14/3.
+#[test]
+fn a_factor_that_chatter_falsifies() {
+    let row = |k: u32| {
+        let t = f64::from(k) / 64.0;
+        let force = if k % 2 == 1 && t < 2.0 { 2e-3 * (2.0 - t / 2.0) } else { 0.0 };
+        format!("{t},{force}\n")
+    };
+    let folder = folder(&format!("t,force\n{}", (0..=192).map(row).collect::<String>()));
+    fs::write(folder.path().join("rod.toml"), SCENE.replace("[run]", "[gravity]\nacceleration = 0.5\n[run]")).unwrap();
+    let report = json(folder.path(), &["compare", "rod.toml", "run.csv"]);
+    let hints = report["hints"].as_array().unwrap();
+    let factor = hints.iter().find(|hint| hint["kind"] == "scale").unwrap()["value"].as_f64().unwrap();
+    // The sum of the pulses is known to a step of 1/64 of twice the greatest force, of an impulse of 3.
+    assert!((factor / 1e-3 - 1.0).abs() < 4.0 / 64.0 / 3.0, "{hints:?}");
+}
+
+/// Of several files all are written, or none.
+#[test]
+fn all_files_or_none() {
+    let folder = folder(EXACT);
+    fs::create_dir(folder.path().join("folder.csv")).unwrap();
+    for bad in ["nowhere/b.csv", "folder.csv"] {
+        text(&run(folder.path(), &["compare", "rod.toml", "run.csv", "-o", "a.json", "-o", bad]), 2);
+        assert!(!folder.path().join("a.json").exists());
+    }
+    assert_eq!(fs::read_dir(folder.path()).unwrap().count(), 3);
+    text(&run(folder.path(), &["compare", "rod.toml", "run.csv", "-o", "a.json", "-o", "b.csv"]), 0);
+    assert!(folder.path().join("a.json").exists() && folder.path().join("b.csv").exists());
+}
+
+/// Squares of data beyond the range of doubles are none of the report's concern.
+#[test]
+fn norms_of_huge_data() {
+    let report = json(folder("t,u\n0,0\n2,0\n3,1e300\n4,2\n").path(), &["compare", "rod.toml", "run.csv"]);
+    let quantity = &report["quantities"][0];
+    // Weights 1, 3/2, 1, 1/2; ours 0, 0, 1, 2.
+    assert_eq!((&quantity["l1"]["absolute"], &quantity["l2"]["absolute"]), (&1e300.into(), &1e300.into()));
+    assert!((quantity["l2"]["relative"].as_f64().unwrap() / (1e300 / 3f64.sqrt()) - 1.0).abs() < 1e-14);
+}
+
 /// Times of another unit are told from those of a long run before it is solved.
 #[test]
 fn times_in_another_unit() {
