@@ -99,7 +99,7 @@ impl<S: Target> History<S> {
     ///     |motion| motion.strain(&Scalar::from_number(&third, &motion.end().precision()), Side::Right),
     ///     |strain| vec![strain],
     /// )?;
-    /// assert!((strain.value() + 10.0 / 3.0).abs() <= strain.bound()); // −(μ + g t)/c
+    /// assert_eq!(*strain.value(), -10.0 / 3.0); // −(μ + g t)/c
     /// assert!(strain.bound() < 1e-14);
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```

@@ -131,7 +131,8 @@ impl Reads<Estimate<Float>> for Estimate<f64> {
 /// Rounded once.
 impl Reads<Rational> for Estimate<f64> {
     fn read(number: Rational) -> Self {
-        let value = number.to_f64();
+        // The method of the same name that rug has truncates.
+        let value = Scalar::to_f64(&number);
         if number == value { Estimate::exact(value) } else { Estimate::rounded(value, 1.0) }
     }
 

@@ -84,6 +84,9 @@ fn a_meeting_is_decided_exactly() {
         history.rung()
     };
     assert_eq!(rung("doyen-ern-piperno"), Rung::Fractions);
+    // A fraction is rounded to the nearest double: 10/3 is one.
+    let scene = Scene::parse(builtin::get("doyen-ern-piperno").unwrap().source).unwrap();
+    assert_eq!(scene.problem.solve().unwrap().contacts()[1].to, Some(10.0 / 3.0));
     assert!(matches!(rung("mu-1-period-36"), Rung::Enclosures(_)));
 }
 
