@@ -51,6 +51,8 @@ pub struct Uncertainty {
     pub late: f64,
     /// `|dv_t/dt|` between rays, in `V/t₁`: what lateness makes of velocities.
     pub slope: f64,
+    /// The most of `v_t ± c v_x` about the centre of mass, in `V`: what a ray that is off in time makes of energies.
+    pub peak: f64,
     /// The impulse of a contact, in `c V t₁`, where the balance of momentum bounds it.
     pub impulse: Option<f64>,
 }
@@ -63,6 +65,7 @@ impl Uncertainty {
             speed: self.speed.max(other.speed),
             late: self.late.max(other.late),
             slope: self.slope.max(other.slope),
+            peak: self.peak.max(other.peak),
             impulse: None,
         }
     }

@@ -221,7 +221,7 @@ impl Budget {
         if apart && worst.rise.max(worst.speed) < fixed {
             return worst;
         }
-        Uncertainty { rise: fixed, speed: fixed, slope: worst.slope, ..Uncertainty::default() }
+        Uncertainty { rise: fixed, speed: fixed, slope: worst.slope, peak: worst.peak, ..Uncertainty::default() }
     }
 
     /// The time of an event may be off so far.
@@ -255,9 +255,10 @@ impl Budget {
         self.worst.rise = self.worst.rise.max(off.apart + beyond);
     }
 
-    /// Velocities change no faster than this between rays, since the last event.
-    pub(super) fn note_slope(&mut self, slope: f64) {
+    /// Velocities change no faster than this between rays, and are no greater than `peak`, since the last event.
+    pub(super) fn note_slope(&mut self, slope: f64, peak: f64) {
         self.worst.slope = self.worst.slope.max(slope);
+        self.worst.peak = self.worst.peak.max(peak);
     }
 
     /// A ray that may be off passes the ground in flight, which takes its jump at the wrong time.

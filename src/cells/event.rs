@@ -75,7 +75,7 @@ impl<S: RoundedSpecial> Follower<'_, S> {
         let rate = self.centre().map_or(0.0, |(_, rate)| rate.to_f64().abs());
         let moving = self.state.bound() + rate;
         let slope = self.medium.variation(&self.state).0 + self.medium.gravity.to_f64() + 2.0 * self.damping() * moving;
-        self.budget.note_slope(slope);
+        self.budget.note_slope(slope, self.state.bound());
     }
 
     /// Takes the flight that begins here apart.

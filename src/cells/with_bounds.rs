@@ -171,8 +171,17 @@ impl<S: Rounded, H: Bounding<S>> WithBounds<S, H> {
         self.scales.length * (2.0 * root + off) * off
     }
 
-    fn energy_off(&self, energy: &S, off: f64) -> f64 {
-        self.square_off((2.0 * energy.to_f64().max(0.0) / self.scales.length).sqrt(), off)
+    /// What an energy is off by where the root of the mean square is `off` between rays, and where rays are off in time:
+    /// `¼ ∫ |δp| (2|p| + |δp|) + |δq| (2|q| + |δq|) dx ≤ M ∫ |δp| + |δq| dx`, as `|δq|` is at most twice the greatest
+    /// `|q|`, M; and half of the integral is at most `rise`.
+    fn energy_off(&self, energy: &S, off: f64, by_rays: f64) -> f64 {
+        self.square_off((2.0 * energy.to_f64().max(0.0) / self.scales.length).sqrt(), off) + by_rays
+    }
+
+    /// The second part of [`Self::energy_off`].
+    fn by_rays(&self, time: &Estimate<S>) -> f64 {
+        let Uncertainty { peak, .. } = self.history.uncertainty(time.value());
+        2.0 * peak * self.scales.velocity * self.scales.wave_speed * self.near(time).rise
     }
 
     /// The time that is asked about: that of an event from which roundings alone set it apart.
@@ -266,7 +275,7 @@ impl<S: Rounded, H: Bounding<S>> Motion<Estimate<S>> for WithBounds<S, H> {
         let energy = self.history.energy(time.value())?;
         let (height, rate) = self.centre(time)?;
         let Scales { length, gravity, .. } = &self.scales;
-        let vibration = self.energy_off(&energy.vibrational, self.root_off(time)?);
+        let vibration = self.energy_off(&energy.vibrational, self.root_off(time)?, self.by_rays(time));
         let translational = self.square_off(rate.to_f64().abs(), rate.bound()) + length * gravity * height.bound();
         Ok(Energy {
             total: within(&energy.total, translational + vibration),
@@ -281,8 +290,8 @@ impl<S: Rounded, H: Bounding<S>> Motion<Estimate<S>> for WithBounds<S, H> {
         if let Some(form) = self.history.bounded(time.value(), Side::Left) {
             return form.energy_parts(&rounded(time.value()));
         }
-        let off = self.root_off(time)?;
-        Ok(self.history.energy_parts(time.value())?.map(|part| within(&part, self.energy_off(&part, off))))
+        let (off, by_rays) = (self.root_off(time)?, self.by_rays(time));
+        Ok(self.history.energy_parts(time.value())?.map(|part| within(&part, self.energy_off(&part, off, by_rays))))
     }
 
     fn field(&self, point: &Estimate<S>, time: &Estimate<S>, side: Side) -> Result<Field<Estimate<S>>, Error> {
