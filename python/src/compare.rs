@@ -10,7 +10,8 @@ use numpy::{PyArray1, PyArrayMethods, PyUntypedArray, PyUntypedArrayMethods};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 
-use super::problem::{Problem, number};
+use super::number::number;
+use super::problem::Problem;
 use super::{observer, one_of, refuse, run};
 
 /// A path, or a name with the names of columns and these.

@@ -10,7 +10,7 @@ use numpy::{PyArray1, PyReadonlyArray1};
 use pyo3::IntoPyObjectExt;
 use pyo3::prelude::*;
 
-use super::problem::number;
+use super::number::number;
 use super::{one_of, refuse, run};
 
 /// A number as Python gets it: a float, the text of a fraction or of a decimal, or both ends of an enclosure.

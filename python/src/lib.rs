@@ -2,6 +2,7 @@
 
 mod compare;
 mod history;
+mod number;
 mod problem;
 
 use std::ops::ControlFlow;

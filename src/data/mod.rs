@@ -1,5 +1,6 @@
 //! Other people's data: columns of numbers from text, `.npy` and `.npz`.
 
+mod arrays;
 mod error;
 #[cfg_attr(not(feature = "npz"), path = "numpy_absent.rs")]
 mod numpy;

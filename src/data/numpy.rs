@@ -5,8 +5,8 @@ use std::io::{Cursor, Read};
 use ndarray::{ArrayD, Axis, IxDyn, OwnedRepr};
 use ndarray_npy::{NpzReader, ReadNpyError, ReadNpyExt, ReadNpzError, ReadableElement};
 
+use super::arrays::{Arrays, is_array};
 use super::error::{DataError, DataErrorKind};
-use super::source::{Arrays, is_array};
 use crate::number::short;
 
 /// Reads an array or an archive of arrays: an array of one axis is a column, one of two axes has a column for each

@@ -2,8 +2,8 @@
 
 use std::io::Read;
 
+use super::arrays::Arrays;
 use super::error::{DataError, DataErrorKind};
-use super::source::Arrays;
 
 pub(super) fn read(_: impl Read, file: &str) -> Result<Arrays, DataError> {
     let why = "found an array of NumPy in a build without the feature `npz`, expected text";

@@ -4,6 +4,7 @@ use std::fs::File;
 use std::io::{BufRead, BufReader, Read};
 use std::path::Path;
 
+use super::arrays::is_array;
 use super::error::{DataError, DataErrorKind};
 use super::numpy;
 use super::text::{Lines, Text};
@@ -21,15 +22,6 @@ pub struct Source {
 enum Body {
     Text(Box<Text>),
     Arrays(Vec<Result<Vec<f64>, DataErrorKind>>),
-}
-
-/// The columns of an array or an archive, with their names where they have any. A column that is no column of numbers
-/// has the reason in its place: it may not be asked for.
-pub(super) type Arrays = (Vec<String>, Vec<Result<Vec<f64>, DataErrorKind>>);
-
-/// Whether a file that starts so is an array of NumPy.
-pub(super) fn is_array(start: &[u8]) -> bool {
-    start.starts_with(b"\x93NUMPY")
 }
 
 /// The columns that were asked for, in that order, all of one length.

@@ -30,8 +30,15 @@ impl<N: Scalar, M: Reads<N>> Converted<N, M> {
     }
 
     /// A time of this history. One that an event, or the end, was rounded to is that event's own.
-    fn time(&self, time: &M) -> N {
-        self.known(time).unwrap_or_else(|| time.give(&self.precision))
+    fn time(&self, time: &M) -> Result<N, Error> {
+        self.finite(time)?;
+        Ok(self.known(time).unwrap_or_else(|| time.give(&self.precision)))
+    }
+
+    /// What is no number has none in another system that stands for it.
+    fn finite(&self, time: &M) -> Result<(), Error> {
+        let outside = || Error::TimeOutside { found: time.text(), end: self.engine.end().text() };
+        if time.is_finite() { Ok(()) } else { Err(outside()) }
     }
 
     fn known(&self, time: &M) -> Option<N> {
@@ -48,18 +55,22 @@ impl<N: Scalar, M: Reads<N>> Converted<N, M> {
     }
 
     /// A point of this rod. The one that its length was rounded to is its top.
-    fn point(&self, point: &M) -> N {
+    fn point(&self, point: &M) -> Result<N, Error> {
         let length = self.engine.scales().length;
-        if M::read(length.clone()).text() == point.text() { length } else { point.give(&self.precision) }
+        if !point.is_finite() {
+            return Err(Error::PointOutside { found: point.text(), length: length.text() });
+        }
+        Ok(if M::read(length.clone()).text() == point.text() { length } else { point.give(&self.precision) })
     }
 
     /// A time at which `point` is asked about: that of a ray there, where the roundings of `M` alone set it apart.
-    fn time_at(&self, point: &N, time: &M) -> N {
+    fn time_at(&self, point: &N, time: &M) -> Result<N, Error> {
+        self.finite(time)?;
         let roundings = 8.0 * time.log2_roundoff().exp2() * time.to_f64();
-        self.known(time).unwrap_or_else(|| self.rays.meant(point, time.give(&self.precision), roundings))
+        Ok(self.known(time).unwrap_or_else(|| self.rays.meant(point, time.give(&self.precision), roundings)))
     }
 
-    fn time_at_ground(&self, time: &M) -> N {
+    fn time_at_ground(&self, time: &M) -> Result<N, Error> {
         self.time_at(&self.engine.end().zero(), time)
     }
 
@@ -78,32 +89,32 @@ impl<N: Scalar, M: Reads<N>> Motion<M> for Converted<N, M> {
     }
 
     fn strain(&self, time: &M, side: Side) -> Result<M, Error> {
-        self.engine.strain(&self.time_at_ground(time), side).map(M::read)
+        self.engine.strain(&self.time_at_ground(time)?, side).map(M::read)
     }
 
     fn ground_end(&self, time: &M, side: Side) -> Result<(M, M), Error> {
-        self.engine.ground_end(&self.time_at_ground(time), side).map(Self::pair)
+        self.engine.ground_end(&self.time_at_ground(time)?, side).map(Self::pair)
     }
 
     fn top_end(&self, time: &M, side: Side) -> Result<(M, M), Error> {
-        self.engine.top_end(&self.time_at(&self.engine.scales().length, time), side).map(Self::pair)
+        self.engine.top_end(&self.time_at(&self.engine.scales().length, time)?, side).map(Self::pair)
     }
 
     fn centre(&self, time: &M) -> Result<(M, M), Error> {
-        self.engine.centre(&self.time(time)).map(Self::pair)
+        self.engine.centre(&self.time(time)?).map(Self::pair)
     }
 
     fn energy(&self, time: &M) -> Result<Energy<M>, Error> {
-        self.engine.energy(&self.time(time)).map(|energy| energy.map(M::read))
+        self.engine.energy(&self.time(time)?).map(|energy| energy.map(M::read))
     }
 
     fn energy_parts(&self, time: &M) -> Result<[M; 2], Error> {
-        self.engine.energy_parts(&self.time(time)).map(|parts| parts.map(M::read))
+        self.engine.energy_parts(&self.time(time)?).map(|parts| parts.map(M::read))
     }
 
     fn field(&self, point: &M, time: &M, side: Side) -> Result<Field<M>, Error> {
-        let point = self.point(point);
-        let field = self.engine.field(&point, &self.time_at(&point, time), side)?;
+        let point = self.point(point)?;
+        let field = self.engine.field(&point, &self.time_at(&point, time)?, side)?;
         Ok(field.map(M::read))
     }
 
@@ -119,7 +130,7 @@ impl<N: Scalar, M: Reads<N>> Motion<M> for Converted<N, M> {
     }
 
     fn stretches(&self, time: &M) -> Result<Vec<Stretch<M>>, Error> {
-        Ok(self.engine.stretches(&self.time(time))?.into_iter().map(|stretch| stretch.map(M::read)).collect())
+        Ok(self.engine.stretches(&self.time(time)?)?.into_iter().map(|stretch| stretch.map(M::read)).collect())
     }
 
     fn waves(&self) -> Result<Waves<M>, Error> {

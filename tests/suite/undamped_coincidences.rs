@@ -110,3 +110,16 @@ fn a_time_beside_an_uncertain_ray_is_not_on_it() {
     // In contact, 0.026 before the ray that ends it.
     assert_eq!(motion.ground_end(741.24497, dalembert::Side::Right).unwrap(), (0.0, 0.0));
 }
+
+/// What is no number is no time of any history, whatever numbers it took.
+#[test]
+fn a_time_that_is_no_number_is_refused() {
+    let motion = crate::common::uniform("1", "1", "1", "3", Run::Impacts(2)).solve().unwrap();
+    assert_eq!(motion.rung(), Rung::Fractions);
+    let right = dalembert::Side::Right;
+    for time in [f64::NAN, f64::INFINITY] {
+        assert!(matches!(motion.strain(time, right), Err(dalembert::Error::TimeOutside { .. })));
+        assert!(matches!(motion.centre(time), Err(dalembert::Error::TimeOutside { .. })));
+    }
+    assert!(matches!(motion.at(f64::NAN, 1.0), Err(dalembert::Error::PointOutside { .. })));
+}
