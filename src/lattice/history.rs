@@ -5,7 +5,7 @@ use std::ops::ControlFlow;
 use super::limits::{Halt, Limits, Until};
 use super::march::{GroundMotion, march};
 use super::start::{Scaled, Units};
-use super::trace::{Part, Place};
+use super::trace::{Part, Piece, Place};
 use crate::error::Error;
 use crate::motion::unobserved;
 use crate::motion::{Course, Ending, EventKind, Side};
@@ -134,6 +134,30 @@ impl<N: Bounded> Undamped<N> {
     /// The time from which events are not determined in this precision; `None` where all are.
     pub fn undetermined_from(&self) -> Option<f64> {
         Some(self.ground.undetermined? as f64 * self.problem.units.round_trip.to_f64())
+    }
+
+    /// Whether `exact` has the same pieces and events, one by one: then what this history took for equal is equal, and
+    /// it no longer warns of that.
+    pub fn confirm<M: Bounded>(&mut self, exact: &Undamped<M>) -> bool {
+        let pieces = |ours: &[Piece<N>], theirs: &[Piece<M>]| {
+            ours.len() == theirs.len() && ours.iter().zip(theirs).all(|(a, b)| a.contact == b.contact)
+        };
+        let (ours, theirs) = (&self.ground, &exact.ground);
+        let events = ours.events.len() == theirs.events.len()
+            && ours
+                .events
+                .iter()
+                .zip(&theirs.events)
+                .all(|(a, b)| (a.kind, a.trip, a.piece, a.incoming) == (b.kind, b.trip, b.piece, b.incoming));
+        let (trips, others) = (ours.trace.stored(), theirs.trace.stored());
+        let same = events
+            && ours.undetermined.is_none()
+            && ours.trace.trips() == theirs.trace.trips()
+            && trips.zip(others).all(|((k, a), (j, b))| k == j && pieces(a, b));
+        if same {
+            self.course.warnings.retain(|warning| !matches!(warning, Warning::Coincidence { .. }));
+        }
+        same
     }
 
     /// The time from which events that coincide within their bounds are taken for one; `None` where none do.

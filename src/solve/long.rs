@@ -9,13 +9,13 @@ use crate::cells::{self, ContactThenCells, Damped, WithBounds};
 use crate::error::Error;
 use crate::first_contact::{Bounce, ContactHistory, FirstContact};
 use crate::lattice::Undamped;
-use crate::motion::Ending;
+use crate::motion::{Ending, Motion};
 use crate::number::{Estimate, Float, Interval, IntervalPrecision, Rational};
 use crate::problem::{Parameters, Problem};
 
 impl Target for Rational {
     fn run(problem: &Problem, plan: &Plan, _: Rung, observe: &Observer) -> Result<Engined<Rational>, Error> {
-        fractions(problem, plan, observe)
+        Ok(Arc::new(fractions(problem, plan, observe)?))
     }
 }
 
@@ -49,7 +49,11 @@ pub(super) fn in_doubles(
                 exact => Some(exact?).filter(|exact| !matches!(exact.ending(), Ending::ExactnessEnds { .. })),
             };
             let exact = exact.ok_or(Error::NotDecided { what: "by fractions", bits: 0 })?;
-            Arc::new(Converted::new(exact, problem))
+            let reached = plan.reaching(problem);
+            let mut doubles =
+                Undamped::<Estimate<f64>>::solve_within(&reached, &(), plan.limits(problem), |a, b| observe(a, b))?;
+            // Values in doubles are had faster, and are right where all that they took for equal is.
+            if doubles.confirm(&exact) { Arc::new(doubles) } else { Arc::new(Converted::new(Arc::new(exact), problem)) }
         }
         rung => Arc::new(Converted::new(estimates(problem, plan, bits_of(rung), observe)?, problem)),
     })
@@ -62,9 +66,9 @@ fn bits_of(rung: Rung) -> u32 {
     }
 }
 
-fn fractions(problem: &Problem, plan: &Plan, observe: &Observer) -> Result<Engined<Rational>, Error> {
+fn fractions(problem: &Problem, plan: &Plan, observe: &Observer) -> Result<Undamped<Rational>, Error> {
     let problem = &*plan.reaching(problem);
-    Ok(Arc::new(Undamped::<Rational>::solve_within(problem, &(), plan.limits(problem), |a, b| observe(a, b))?))
+    Undamped::<Rational>::solve_within(problem, &(), plan.limits(problem), |a, b| observe(a, b))
 }
 
 fn estimates(problem: &Problem, plan: &Plan, bits: u32, observe: &Observer) -> Result<Engined<Float>, Error> {
