@@ -190,8 +190,8 @@ impl Budget {
         (form, self.not_followed(damping, age) + unclear + self.scattered(damping, age))
     }
 
-    /// What the rest adds to the error of `v(0,·)` at this age: by its centre of mass and its vibration, or, in a flight
-    /// that is not leapt over, by what reaches the ground in each round trip.
+    /// What the rest adds to the error of `v(0,·)` at this age: by its centre of mass and its vibration, or, in a
+    /// flight that is not leapt over, by what reaches the ground in each round trip.
     fn not_followed(&self, damping: f64, age: f64) -> f64 {
         let ((even, Rest { wave, mean, .. }), grown) = (self.began, damping.exp());
         let (_, slowed) = aged(damping, age);

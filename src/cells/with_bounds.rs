@@ -171,9 +171,9 @@ impl<S: Rounded, H: Bounding<S>> WithBounds<S, H> {
         self.scales.length * (2.0 * root + off) * off
     }
 
-    /// What an energy is off by where the root of the mean square is `off` between rays, and where rays are off in time:
-    /// `¼ ∫ |δp| (2|p| + |δp|) + |δq| (2|q| + |δq|) dx ≤ M ∫ |δp| + |δq| dx`, as `|δq|` is at most twice the greatest
-    /// `|q|`, M; and half of the integral is at most `rise`.
+    /// What an energy is off by where the root of the mean square is `off` between rays, and where rays are off in
+    /// time: `¼ ∫ |δp| (2|p| + |δp|) + |δq| (2|q| + |δq|) dx ≤ M ∫ |δp| + |δq| dx`, as `|δq|` is at most twice the
+    /// greatest `|q|`, M; and half of the integral is at most `rise`.
     fn energy_off(&self, energy: &S, off: f64, by_rays: f64) -> f64 {
         self.square_off((2.0 * energy.to_f64().max(0.0) / self.scales.length).sqrt(), off) + by_rays
     }

@@ -282,8 +282,8 @@ impl Plan {
         if problem.run == run { Cow::Borrowed(problem) } else { Cow::Owned(Problem { run, ..problem.clone() }) }
     }
 
-    /// How much a damped march computes at most in the numbers of `rung`. Without digits that are asked for, that is some
-    /// ten seconds. A run that has lost its events is worth nothing where longer numbers follow.
+    /// How much a damped march computes at most in the numbers of `rung`. Without digits that are asked for, that is
+    /// some ten seconds. A run that has lost its events is worth nothing where longer numbers follow.
     pub(super) fn effort(&self, rung: Rung) -> Effort {
         let until_lost = cfg!(feature = "mp");
         let (Rung::Bits(bits) | Rung::Enclosures(bits)) = rung else {
