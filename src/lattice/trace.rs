@@ -58,8 +58,8 @@ pub struct Piece<N> {
     pub height: N,
     /// Whether the end stands on the ground.
     pub contact: bool,
-    /// `p` at its beginning as a multiple of gravity, where p has no jump there and this follows from what it is at a
-    /// release without a ray, zero: exact, while the line and the age both have errors, which cancel.
+    /// `p` at its beginning as a multiple of gravity, where it began as the zero of a release without a ray and has no
+    /// jump: this is exact. The value of the line at the age is not, as each has its own error.
     pub(super) knot: Option<i64>,
 }
 

@@ -95,7 +95,7 @@ impl Ladder {
             let (lacks, reached) = match answer {
                 Ok((engine, answer)) => {
                     let missing = self.missing::<S>(&*engine, &numbers(&answer), &mut doubts);
-                    let coincides = !tried && meets(&*engine);
+                    let coincides = !tried && coincides(&self.plan, &*engine);
                     let reached = Some((Attempt { rung, engine, tried }, answer));
                     match reached {
                         Some(settled) if missing <= 0.0 && !coincides => return Ok(settled),
@@ -161,13 +161,10 @@ impl Ladder {
     }
 }
 
-/// Beyond so many contacts exact roots take minutes.
-const MOST_EXACT: u32 = 1000;
-
-/// Whether events are taken for one that are so only within their bounds, early enough for exact numbers to decide.
-fn meets<S: Scalar>(engine: &dyn Motion<S>) -> bool {
-    let short = engine.digits_lost().is_none_or(|(contacts, _)| contacts <= MOST_EXACT);
-    short && engine.warnings().iter().any(|warning| matches!(warning, Warning::Coincidence { .. }))
+/// Whether events are taken for one that are so only within their bounds, where exact numbers are to decide.
+fn coincides<S: Scalar>(plan: &Plan, engine: &dyn Motion<S>) -> bool {
+    let contacts = engine.digits_lost().map_or(0, |(contacts, _)| contacts);
+    plan.tries_exact(contacts) && engine.warnings().iter().any(|warning| matches!(warning, Warning::Coincidence { .. }))
 }
 
 /// Digits below those asked for, and below its natural scale, from which on a number that is not told from zero is

@@ -52,7 +52,7 @@ pub(super) fn in_doubles(
             let reached = plan.reaching(problem);
             let mut doubles =
                 Undamped::<Estimate<f64>>::solve_within(&reached, &(), plan.limits(problem), |a, b| observe(a, b))?;
-            // Values in doubles are had faster, and are right where all that they took for equal is.
+            // Doubles answer faster than fractions, and within their bounds where all that they took for equal is equal.
             if doubles.confirm(&exact) { Arc::new(doubles) } else { Arc::new(Converted::new(Arc::new(exact), problem)) }
         }
         rung => Arc::new(Converted::new(estimates(problem, plan, bits_of(rung), observe)?, problem)),

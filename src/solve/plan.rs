@@ -101,6 +101,8 @@ pub const DEFAULT_ACCURACY: f64 = 1e-9;
 const GUARD_BITS: u32 = 64;
 /// So many bits more tell events apart that miss each other by a rounding of a double, or by its square.
 const NEAR_MISS: u32 = 256;
+/// Beyond so many contacts exact roots take minutes.
+const MOST_EXACT: u32 = 1000;
 /// At so many times the bits asked for, enclosures are tried in place of more bits: a root that is met exactly takes
 /// any number of bits, and enclosures carry exact roots.
 const EXACT_ROOT: u32 = 4;
@@ -220,6 +222,11 @@ impl Plan {
                 (next <= f64::from(MOST_ENCLOSED.max(4 * wanted))).then_some(Rung::Enclosures(next as u32))
             }
         }
+    }
+
+    /// Whether exact numbers decide where events of a run through so many contacts coincide within their bounds.
+    pub(crate) fn tries_exact(&self, contacts: u32) -> bool {
+        self.engine == Engine::Lattice && contacts <= MOST_EXACT
     }
 
     /// Why this engine and these numbers, a sentence each.

@@ -189,7 +189,9 @@ fn every_mistake_is_answered_with_its_value() {
             rod().material(1, 1, 1),
             Kind::Contradiction,
             "rod.modulus",
-            "found modulus as well as wave_speed, expected either wave_speed, or a material: modulus and density".into(),
+            "found modulus as well as wave_speed, expected either wave_speed, or a material: modulus and \
+             density"
+                .into(),
         ),
         (
             rod().drop_height(1),
