@@ -47,14 +47,16 @@ pub struct Uncertainty {
     pub rise: f64,
     /// Velocities and `c v_x`, in `V`, as far as the events are in time.
     pub speed: f64,
+    /// `h′`, in `V`, as far as the events are in time.
+    pub rate: f64,
     /// How early or late the events may be, in `t₁`.
     pub late: f64,
     /// `|dv_t/dt|` between rays, in `V/t₁`: what lateness makes of velocities.
     pub slope: f64,
     /// The most of `v_t ± c v_x` about the centre of mass, in `V`: what a ray that is off in time makes of energies.
     pub peak: f64,
-    /// The impulse of a contact, in `c V t₁`, where the balance of momentum bounds it.
-    pub impulse: Option<f64>,
+    /// How far rays may be off, in `t₁`: what the limits next to them, and peaks, are off by is that times the slope.
+    pub rays: f64,
 }
 
 impl Uncertainty {
@@ -63,10 +65,11 @@ impl Uncertainty {
         Uncertainty {
             rise: self.rise.max(other.rise),
             speed: self.speed.max(other.speed),
+            rate: self.rate.max(other.rate),
             late: self.late.max(other.late),
             slope: self.slope.max(other.slope),
             peak: self.peak.max(other.peak),
-            impulse: None,
+            rays: self.rays.max(other.rays),
         }
     }
 }
@@ -183,7 +186,7 @@ pub trait Motion<S: Scalar>: fmt::Debug + Send + Sync {
     /// How far values near `time` may be off.
     fn uncertainty(&self, time: &S) -> Uncertainty {
         let (_, error) = (time, self.error_estimate().to_f64());
-        Uncertainty { rise: error, speed: error, ..Uncertainty::default() }
+        Uncertainty { rise: error, speed: error, rate: error, ..Uncertainty::default() }
     }
 
     /// How many impacts there were and `log₁₀` of the factor by which rounding may have grown over them; `None` where

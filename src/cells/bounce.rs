@@ -6,12 +6,18 @@
 
 use std::collections::VecDeque;
 
+use super::budget::Off;
+use super::follow::{CUT_CELLS, FIRST_CELLS};
 use super::march::{Medium, State};
 use super::start::{Data, Units};
 use crate::first_contact::FirstContact;
 use crate::motion::Side;
 use crate::number::Estimate;
 use crate::special::RoundedSpecial;
+
+/// Contacts of so many round trips are marched over, and compared with the closed form beyond the former.
+const SURELY_MARCHED: f64 = 4.0;
+const MOST_MARCHED: f64 = 64.0;
 
 /// The motion before the first release, dimensionless.
 #[derive(Clone, Debug)]
@@ -74,10 +80,48 @@ impl<S: RoundedSpecial> Held<S> {
         cuts.windows(2).filter(long).map(|pair| (pair[0].clone(), pair[1].clone())).collect()
     }
 
-    /// The state on the characteristic that leaves the ground at `t_b`, and a bound of the error of its values.
+    /// The state on the characteristic that leaves the ground at `t_b`, and a bound of its error: from cells since the
+    /// impact where the contact is short, otherwise from the closed form if that is known better.
+    pub(super) fn state(&self, medium: &Medium<S>, data: &Data<S>) -> (State<S>, f64) {
+        let trips = self.release.to_f64();
+        if !medium.splits() || trips > MOST_MARCHED {
+            return self.closed(medium);
+        }
+        let marched = self.marched(medium, data);
+        if trips <= SURELY_MARCHED {
+            return marched;
+        }
+        let closed = self.closed(medium);
+        if closed.1 < marched.1 { closed } else { marched }
+    }
+
+    /// That state from cells.
+    fn marched(&self, medium: &Medium<S>, data: &Data<S>) -> (State<S>, f64) {
+        let mut state = data.march(medium, &mut |_| {});
+        let mut error = FIRST_CELLS * medium.cell_error(&state);
+        loop {
+            let left = self.release.clone() - state.time();
+            if left <= rounding(&self.release) {
+                break;
+            }
+            let cell = medium.cell_error(&state);
+            if state.segments[0].len.clone() - &left > rounding(&self.release) {
+                medium.cut_first(&mut state, &left, Off::default());
+                error += CUT_CELLS * cell;
+            }
+            let segments = state.segments.len();
+            medium.strip(&mut state, true, &mut |_| {});
+            error += (2.0 + (segments - state.segments.len()) as f64) * cell;
+        }
+        // The place of the release itself, not that to which the strips have added up.
+        state.segments[0].at = self.release.clone() - self.release.int(state.round);
+        (state, error)
+    }
+
+    /// The same from the closed form.
     ///
     /// Between the rays `q` is of the form that the module `cell` says lasts, so the medium's number of terms serves.
-    pub(super) fn state(&self, medium: &Medium<S>) -> (State<S>, f64) {
+    fn closed(&self, medium: &Medium<S>) -> (State<S>, f64) {
         let release = &self.release;
         let round = release.floor_int().unwrap_or(0);
         let (from, one) = (release.clone() - release.int(round), release.one());
@@ -104,6 +148,7 @@ impl<S: RoundedSpecial> Held<S> {
                 eta = eta + &len;
             }
         }
+        let error = error + FIRST_CELLS * medium.cell_error(&state);
         (state, error)
     }
 }

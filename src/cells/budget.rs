@@ -8,6 +8,7 @@
 
 use super::dependence::{Dependence, Form};
 use super::effort::LEAST_LEAP;
+use super::piece::AtEvent;
 use crate::motion::Uncertainty;
 use crate::special::{phi1, phi2};
 
@@ -43,6 +44,8 @@ struct Fixed {
 /// The errors that the state carries.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Budget {
+    /// `R`.
+    damping: f64,
     /// Of `p` and `q`, by truncation and rounding.
     even: f64,
     /// What events that are off in time do, to first order.
@@ -52,6 +55,8 @@ pub(super) struct Budget {
     began: (f64, Rest),
     flight: TakeOff,
     landing: Option<Landing>,
+    /// The most that rays are off in time.
+    rays: f64,
     /// The most that was off since the last event.
     worst: Uncertainty,
     fixed: Fixed,
@@ -93,6 +98,8 @@ pub(super) struct TakeOff {
     pub(super) end_rate: f64,
     /// `h″`.
     pub(super) fall: f64,
+    /// What `h′` is off by, where it is known otherwise.
+    pub(super) known: Option<f64>,
 }
 
 /// How a landing depends on the flight before it, and the contact after it on the landing.
@@ -112,6 +119,8 @@ pub(super) struct Landing {
     pub(super) range: f64,
     pub(super) variation: f64,
     pub(super) slope: f64,
+    /// `z_tt` of the end, where no ray arrives; otherwise the greatest slope.
+    pub(super) bend: f64,
     /// By how much `∫y` of a contact of one round trip changes with the phase of the vibration, and how far that may be
     /// off.
     pub(super) phase: (f64, f64),
@@ -140,6 +149,11 @@ fn weight_slope(kappa: f64) -> f64 {
 }
 
 impl Budget {
+    /// No error yet, with the damping `R`.
+    pub(super) fn new(damping: f64) -> Self {
+        Budget { damping, ..Budget::default() }
+    }
+
     /// Adds an error of `p` and `q`.
     pub(super) fn add(&mut self, error: f64) {
         self.even += error;
@@ -155,10 +169,61 @@ impl Budget {
 
     /// The error of `p` and `q`, but next to rays that are off; in contact at equal times since the landing.
     pub(super) fn point(&self) -> Off {
-        let Rest { wave, point, scatter, lumps, .. } = self.rest;
         let displaced = self.landing.map_or(0.0, |landing| landing.slope * self.events.late());
-        let scatter = scatter.min(2.0 * (wave + self.events.mass())) + self.events.level();
-        Off { fixed: self.fixed.point, apart: self.even + point + lumps + scatter + displaced + self.events.rate() }
+        Off { fixed: self.fixed.point, apart: self.loose() + displaced + self.events.between() }
+    }
+
+    /// The part of that which is not followed with signs.
+    fn loose(&self) -> f64 {
+        let Rest { wave, point, scatter, lumps, .. } = self.rest;
+        self.even + point + lumps + scatter.min(2.0 * (wave + self.events.mass()))
+    }
+
+    /// The error of displacements in the clock of the vibration, at events, where the end is at height zero.
+    fn beyond(&self) -> f64 {
+        // ½e^R of an error of `p` and `q` is the most that displacements about the centre of mass are off by.
+        2.0 * self.rest.wave + self.events.mass() + 4.0 * self.even
+    }
+
+    /// The error of `h′` in a flight that is taken apart, and at its ends.
+    fn rate(&self) -> f64 {
+        let since = (self.even - self.began.0).max(0.0);
+        let loose = self.mean_of(self.even) + self.rest.mean;
+        let known = self.flight.known.map(|known| known + self.mean_of(since));
+        self.events.rate() + known.map_or(loose, |known| known.min(loose))
+    }
+
+    /// What `h′ = ∫ e^{R(η−b)} q dη` is off by if `q` is off by so much.
+    fn mean_of(&self, even: f64) -> f64 {
+        phi1(&self.damping) * even
+    }
+
+    /// `h′` of the flight that has just begun is off by no more than this, as is known otherwise.
+    pub(super) fn know_rate(&mut self, known: f64) {
+        self.flight.known = Some(known);
+    }
+
+    /// The errors at the last event, whenever that is; if it was a release, with the greatest slope of the vibration,
+    /// its variation, and `z_tt` at the end.
+    pub(super) fn at_event(&self, begins: Option<(f64, f64, f64)>) -> AtEvent {
+        let late = self.events.late();
+        let (at, end_rate, near, slope, variation, bend) = match (begins, self.landing) {
+            (None, Some(Landing { at, velocity, rate, off, slope, variation, bend, .. })) => {
+                (at, velocity - rate, off.apart.max(NEAR), slope, variation, bend)
+            }
+            (begins, _) => {
+                let (slope, variation, bend) = begins.unwrap_or_default();
+                (self.flight.at, self.flight.end_rate, -1.0, slope, variation, bend)
+            }
+        };
+        let (rate, grown) = (self.rate(), self.damping.exp());
+        let rise = self.beyond() + 0.5 * variation * late;
+        // h = −z(0,·), by the weight that makes the mean of z vanish.
+        let rest = 0.5 * grown * (self.rest.wave + self.mean_of(self.even) + self.rest.mean + self.even);
+        let centre = rise.min(self.events.ground_then(at, end_rate, near) + rest);
+        let (loose, between) = (self.loose(), self.events.between() + slope * late);
+        let end = loose + between.min(self.events.velocity_then(at, bend, begins.is_some()));
+        AtEvent { rise, centre, speed: loose + between, end, rate, momentum: rate + 2.0 * self.damping * centre }
     }
 
     /// By how much the clock may be late: in contact that of the landing, in flight that of the vibration.
@@ -173,30 +238,32 @@ impl Budget {
 
     /// The error of `v(0,·)` in flight, up to `len` from now; in a flight that is taken apart `flown` is the age, `h′`
     /// and the place on the circle then.
-    pub(super) fn end(&self, damping: f64, flown: Option<(f64, f64, f64)>, len: f64) -> Off {
+    pub(super) fn end(&self, flown: Option<(f64, f64, f64)>, len: f64) -> Off {
         let apart = flown.map_or(0.0, |(age, rate, at)| {
-            let (form, more) = self.flown(damping, (age, rate, at), 0.0);
+            let (form, more) = self.flown((age, rate, at), 0.0);
             form.bound() + more
         });
         Off { fixed: self.fixed.height + self.fixed.point * len, apart }
     }
 
     /// The same in the clock of the vibration: as a linear function of the sources, and what is not followed that way.
-    fn flown(&self, damping: f64, (age, rate, at): (f64, f64, f64), near: f64) -> (Form, f64) {
-        let (_, slowed) = aged(damping, age);
+    fn flown(&self, (age, rate, at): (f64, f64, f64), near: f64) -> (Form, f64) {
+        let (_, slowed) = aged(self.damping, age);
         let TakeOff { at: from, end_rate, .. } = self.flight;
-        let fade = (-damping * age).exp();
+        let fade = (-self.damping * age).exp();
         let (form, unclear) = self.events.height((-(end_rate + rate), slowed), (from, at), fade, near);
-        (form, self.not_followed(damping, age) + unclear + self.scattered(damping, age))
+        (form, self.not_followed(age) + unclear + self.scattered(age))
     }
 
     /// What the rest adds to the error of `v(0,·)` at this age: by its centre of mass and its vibration, or, in a
     /// flight that is not leapt over, by what reaches the ground in each round trip.
-    fn not_followed(&self, damping: f64, age: f64) -> f64 {
-        let ((even, Rest { wave, mean, .. }), grown) = (self.began, damping.exp());
-        let (_, slowed) = aged(damping, age);
-        let apart = slowed * (grown * even + mean) + grown * (1.0 + grown) * wave + 0.5 * grown * even;
-        let left = 1.0 - 0.5 * damping;
+    fn not_followed(&self, age: f64) -> f64 {
+        let ((even, Rest { wave, mean, .. }), grown) = (self.began, self.damping.exp());
+        let (_, slowed) = aged(self.damping, age);
+        let loose = self.mean_of(even) + mean;
+        let rate = self.flight.known.map_or(loose, |known| known.min(loose));
+        let apart = slowed * rate + grown * (1.0 + grown) * wave + 0.5 * grown * even;
+        let left = 1.0 - 0.5 * self.damping;
         let passed = if age < LEAST_LEAP && left > 0.0 {
             grown * (even * age + wave * age.ceil() / left)
         } else {
@@ -206,10 +273,10 @@ impl Budget {
     }
 
     /// What damping makes of stripes at this age, besides letting them fade: no more than they are.
-    fn scattered(&self, damping: f64, age: f64) -> f64 {
-        let left = (damping * (6.0 - 0.75 * age)).exp() + (-damping * age).exp();
-        let turned = (0.5 * damping * damping * age).exp_m1() * (2.0 * damping).exp();
-        self.events.mass() * left.min(2.0 * damping + turned).min(2.0 * damping * age)
+    fn scattered(&self, age: f64) -> f64 {
+        let left = (self.damping * (6.0 - 0.75 * age)).exp() + (-self.damping * age).exp();
+        let turned = (0.5 * self.damping * self.damping * age).exp_m1() * (2.0 * self.damping).exp();
+        self.events.mass() * left.min(2.0 * self.damping + turned).min(2.0 * self.damping * age)
     }
 
     /// What has been off since this was last asked, of a run whose flights are taken apart or are not.
@@ -221,12 +288,16 @@ impl Budget {
         if apart && worst.rise.max(worst.speed) < fixed {
             return worst;
         }
-        Uncertainty { rise: fixed, speed: fixed, slope: worst.slope, peak: worst.peak, ..Uncertainty::default() }
+        // What h′ of a flight that is taken apart owes to an error of `q` on the characteristic that it begins with.
+        let rate = if apart { self.damping.exp() * fixed } else { fixed };
+        Uncertainty { rise: fixed, speed: fixed, rate, late: 0.0, ..worst }
     }
 
-    /// The time of an event may be off so far.
-    pub(super) fn note_event(&mut self, off: Off) {
+    /// The time of an event, and the ray that it starts, may be off so far.
+    pub(super) fn note_event(&mut self, off: Off, apart: bool) {
         self.fixed.worst = self.fixed.worst.max(off.fixed);
+        self.rays = self.rays.max(self.better(off, apart));
+        self.worst.rays = self.rays;
     }
 
     /// The error of the height at the end of a piece of rest.
@@ -237,15 +308,15 @@ impl Budget {
     }
 
     /// A part of a round trip, in contact or in flight, with this error in each cell.
-    pub(super) fn strip(&mut self, damping: f64, len: f64, cell: f64, contact: bool) {
+    pub(super) fn strip(&mut self, len: f64, cell: f64, contact: bool) {
         if !contact {
             self.fixed.height += self.fixed.point * len;
         }
         self.even += 2.0 * cell;
-        self.rest.scatter += 2.0 * damping * len * (self.rest.wave + self.events.mass());
+        self.rest.scatter += 2.0 * self.damping * len * (self.rest.wave + self.events.mass());
         self.fixed.point += 2.0 * cell;
         // A jump of p fades along its ray like p_η = −κp, and η = 2t there.
-        self.fixed.rays *= (-damping * len).exp();
+        self.fixed.rays *= (-self.damping * len).exp();
         self.note();
     }
 
@@ -268,9 +339,9 @@ impl Budget {
 
     /// A leap, with this error of its own: what vibrates fades. `passing` is `Σ |jump| · time` of all rays, each time
     /// that they pass.
-    pub(super) fn leap(&mut self, damping: f64, trips: f64, error: f64, passing: f64) {
+    pub(super) fn leap(&mut self, trips: f64, error: f64, passing: f64) {
         // The centre of mass fades by e^{−2R} in each round trip, and is at most e^R of all.
-        let fade = ((2.0 + damping.exp()) * (damping * (6.0 - 0.75 * trips)).exp()).min(1.0);
+        let fade = ((2.0 + self.damping.exp()) * (self.damping * (6.0 - 0.75 * trips)).exp()).min(1.0);
         self.even = self.even * fade + error;
         let Rest { wave, point, scatter, lumps, mean } = self.rest;
         self.rest = Rest {
@@ -282,7 +353,7 @@ impl Budget {
         };
         self.fixed.height += trips * (self.fixed.point + error + passing);
         self.fixed.point += error;
-        self.fixed.rays *= (-damping * trips).exp();
+        self.fixed.rays *= (-self.damping * trips).exp();
         self.note();
     }
 
@@ -300,22 +371,22 @@ impl Budget {
 
     /// The ground is hit. The part of the ray that is off has twice the mass of the error of the height, and scatters
     /// at rate κ.
-    pub(super) fn hit(&mut self, damping: f64, velocity: f64, off: Off) {
+    pub(super) fn hit(&mut self, velocity: f64, off: Off) {
         self.displace(velocity, off.fixed);
-        self.fixed.point += 2.0 * damping * self.fixed.height;
+        self.fixed.point += 2.0 * self.damping * self.fixed.height;
         self.fixed.height = 0.0;
         self.note();
     }
 
     /// Centre of mass and vibration are taken apart after a release.
-    pub(super) fn take_off(&mut self, damping: f64, flight: TakeOff, rounding: f64) {
-        let r = damping;
+    pub(super) fn take_off(&mut self, flight: TakeOff, rounding: f64) {
+        let r = self.damping;
         self.even += rounding;
         self.fixed.point += rounding;
         let more = match self.landing.take() {
-            Some(landing) if flight.whole => self.after_round_trip(r, &landing, &flight),
+            Some(landing) if flight.whole => self.after_round_trip(&landing, &flight),
             Some(landing) => {
-                self.after_contact(r, &landing, &flight);
+                self.after_contact(&landing, &flight);
                 0.0
             }
             None => {
@@ -336,7 +407,8 @@ impl Budget {
 
     /// After a contact of one round trip, which the true motion makes as well: without damping and gravity it turns the
     /// vibration round whenever it begins. Gives the part of the new `δh′` that has no known sign.
-    fn after_round_trip(&mut self, r: f64, landing: &Landing, flight: &TakeOff) -> f64 {
+    fn after_round_trip(&mut self, landing: &Landing, flight: &TakeOff) -> f64 {
+        let r = self.damping;
         let kappa = 0.5 * r;
         let (late, rate, mass) = (self.events.late(), self.events.rate(), self.events.mass());
         // The ray of the landing comes back to the release with e^{−R} of its mass, and what it has lost is scattered.
@@ -367,7 +439,8 @@ impl Budget {
     }
 
     /// After any other contact: what passes turns round.
-    fn after_contact(&mut self, r: f64, landing: &Landing, flight: &TakeOff) {
+    fn after_contact(&mut self, landing: &Landing, flight: &TakeOff) {
+        let r = self.damping;
         let time = self.events.time();
         let (fade, faded) = ((-r * flight.len).exp(), r * flight.len);
         self.events.contact((landing.at, flight.len), (landing.velocity, landing.fall), fade);
@@ -384,13 +457,13 @@ impl Budget {
     }
 
     /// The landing of a flight that is taken apart. From here on times count from it.
-    pub(super) fn land(&mut self, damping: f64, landing: Landing) {
+    pub(super) fn land(&mut self, landing: Landing) {
         let Landing { at, velocity, curvature, off, age, rate, fall, range, .. } = landing;
         let (speed, clock) = (velocity.abs(), self.events.clock());
-        let (kept, _) = aged(damping, age);
-        let fade = (-damping * age).exp();
-        let (form, more) = self.flown(damping, (age, rate, at), off.apart.max(NEAR));
-        let scattered = self.scattered(damping, age);
+        let (kept, _) = aged(self.damping, age);
+        let fade = (-self.damping * age).exp();
+        let (form, more) = self.flown((age, rate, at), off.apart.max(NEAR));
+        let scattered = self.scattered(age);
         let bent = curvature * off.apart / speed;
         let linear = bent <= MOST_BENT;
         // δt = −δv/v, in the clock of the vibration; more than that from what is not linear.
@@ -405,7 +478,7 @@ impl Budget {
         self.rest.wave += scattered;
         self.rest.point += scattered;
         // A vibration that has died out takes its clock from what the landing makes.
-        if range <= damping * speed {
+        if range <= self.damping * speed {
             self.rest.wave += landing.variation * self.events.late();
             self.rest.point += landing.slope * self.events.late();
             self.events.reset_clock();
@@ -426,10 +499,14 @@ impl Budget {
 
     /// Keeps the greatest.
     fn note(&mut self) {
-        // ½e^R of an error of `p` and `q` is the most that displacements about the centre of mass are off by.
-        let rise = 2.0 * self.rest.wave + self.events.mass() + 4.0 * self.even;
-        let (speed, late) = (self.point().apart, self.events.time());
-        self.worst = self.worst.max(Uncertainty { rise, speed, late, ..Uncertainty::default() });
+        let (speed, late) = (self.point().apart, self.events.time().max(self.events.clock()));
+        let (mut rise, mut rate) = (self.beyond(), self.rate());
+        if let Some(landing) = self.landing {
+            // At equal times since the landing: v(x) = ∫ v_x, and h′ is a mean of `p` and `q`.
+            rise += 0.5 * (rate + landing.variation * self.events.late());
+            rate = 2.0 * rise;
+        }
+        self.worst = self.worst.max(Uncertainty { rise, speed, rate, late, ..Uncertainty::default() });
         self.fixed.worst = self.fixed.worst.max(self.fixed.point).max(self.fixed.height);
     }
 }

@@ -4,7 +4,7 @@ use std::ops::ControlFlow;
 
 use super::effort::Effort;
 use super::history::Damped;
-use super::piece::Unresolved;
+use super::piece::{AtEvent, Unresolved};
 use super::with_bounds::{Bounding, Pair};
 use crate::error::Error;
 use crate::first_contact::{Bounce, ContactHistory, FirstContact};
@@ -65,15 +65,16 @@ impl<S: RoundedSpecial> ContactThenCells<S> {
         bounce: Bounce<Estimate<S>>,
         reach: Reach,
     ) -> Result<Self, Error> {
-        Self::solve_observed(problem, precision, Effort::of(digits), (bounce, reach), &unobserved)
+        Self::solve_observed(problem, precision, Effort::of(digits), (bounce, reach), None, &unobserved)
     }
 
-    /// [`Self::solve`], observed.
+    /// [`Self::solve`], observed; `rate` is `h′` at the bounce where it is known better than here.
     pub(crate) fn solve_observed(
         problem: &Problem,
         precision: &S::Precision,
         effort: Effort,
         (bounce, reach): (Bounce<Estimate<S>>, Reach),
+        rate: Option<Estimate<S>>,
         observe: &dyn Fn(usize, usize) -> ControlFlow<()>,
     ) -> Result<Self, Error> {
         let rod = Parameters::<S>::of(problem, precision)?;
@@ -89,7 +90,7 @@ impl<S: RoundedSpecial> ContactThenCells<S> {
         let error = round_trip.double(17.0) * round_trip.roundoff() + round_trip.double(time_error) / &round_trip;
         let mut history =
             ContactThenCells { before: error.to_f64(), error, march: None, course, bounce, contact, rod, effort };
-        history.follow(problem, precision, reach, observe)?;
+        history.follow(problem, precision, (reach, rate), observe)?;
         Ok(history)
     }
 
@@ -98,7 +99,7 @@ impl<S: RoundedSpecial> ContactThenCells<S> {
         &mut self,
         problem: &Problem,
         precision: &S::Precision,
-        reach: Reach,
+        (reach, rate): (Reach, Option<Estimate<S>>),
         observe: &dyn Fn(usize, usize) -> ControlFlow<()>,
     ) -> Result<(), Error> {
         let (Some(bounce), Reach::Run) = (self.bounce.clone(), reach) else { return Ok(()) };
@@ -109,7 +110,8 @@ impl<S: RoundedSpecial> ContactThenCells<S> {
         let release = (&bounce, self.course.events[1].time_error, &self.course.events[1].end_velocity);
         // The cells account for the roundings of the parameters themselves.
         let form = FirstContact::new(&self.rod.carry());
-        let march = Damped::after_bounce(problem, precision, self.effort, &form, release, observe)?;
+        let Some(rate) = rate.or_else(|| Some(self.contact.rebound()?.velocity.clone())) else { return Ok(()) };
+        let march = Damped::after_bounce(problem, precision, self.effort, &form, release, &rate, observe)?;
         let Course { events, contacts, .. } = march.course();
         self.course.events.extend(events.iter().skip(1).cloned());
         self.course.contacts.extend(contacts.iter().cloned());
@@ -254,7 +256,7 @@ impl<S: RoundedSpecial> Motion<S> for ContactThenCells<S> {
     fn uncertainty(&self, time: &S) -> Uncertainty {
         match (&self.march, &self.bounce) {
             (Some(march), Some(bounce)) if time > bounce => march.uncertainty(time),
-            _ => Uncertainty { rise: self.before, speed: self.before, ..Uncertainty::default() },
+            _ => Uncertainty { rise: self.before, speed: self.before, rate: self.before, ..Uncertainty::default() },
         }
     }
 }
@@ -264,6 +266,11 @@ impl<S: RoundedSpecial> Bounding<S> for ContactThenCells<S> {
     fn bounded(&self, time: &S, side: Side) -> Option<&dyn Motion<Estimate<S>>> {
         let first = self.in_contact(time, side).is_ok_and(|is| is) || self.at_bounce(time);
         first.then_some(&self.contact as &dyn Motion<Estimate<S>>)
+    }
+
+    /// The first event of the cells is the bounce.
+    fn at_event(&self, event: usize) -> Option<AtEvent> {
+        self.march.as_ref()?.at_event(event.checked_sub(1)?)
     }
 
     fn bounded_centre(&self, time: &S) -> Option<Pair<S>> {
@@ -311,6 +318,7 @@ mod tests {
                     Effort::of(13.0),
                     form,
                     (&release.0, release.1, &release.2),
+                    &straight.events()[1].centre_velocity.carry(),
                     &unobserved,
                 )?;
                 Ok((straight, off))

@@ -143,18 +143,57 @@ impl Dependence {
         let mut form = Form::default();
         form.add(by_time, &self.late);
         form.add(by_rate, &self.rate);
-        let mut unclear = 0.0;
+        form.add(fade, &self.ground(to));
+        form.add(-1.0, &self.ground(from));
+        (form, self.passing(to, near))
+    }
+
+    /// The error of `z(0,·)` at a place on the circle, in the clock of the vibration: what stripes and levels bring.
+    fn ground(&self, place: f64) -> Form {
+        let mut form = Form::default();
         for (stripe, at, len) in self.intervals() {
-            // The stripe of the release itself has been passed then.
-            let first = if distance(at, from) < SAME { 0.5 } else { sawtooth(from - at) };
-            form.add(fade * sawtooth(to - at) - first, &stripe.mass);
-            let between = |place: f64| arch(place - at) - arch(place - at - len);
-            form.add(fade * between(to) - between(from), &stripe.level);
-            if distance(at, to) <= near {
-                unclear += stripe.mass.bound();
-            }
+            // The stripe of a release at this place has been passed.
+            form.add(if distance(at, place) < SAME { 0.5 } else { sawtooth(place - at) }, &stripe.mass);
+            form.add(arch(place - at) - arch(place - at - len), &stripe.level);
         }
-        (form, unclear)
+        form
+    }
+
+    /// The masses of rays that pass a place within `near`.
+    fn passing(&self, place: f64, near: f64) -> f64 {
+        let passing = self.stripes.iter().filter(|stripe| distance(stripe.at, place) <= near);
+        passing.map(|stripe| stripe.mass.bound()).sum()
+    }
+
+    /// At most so much is `z(0,·)` off at the last event, whenever that is: at the place `at`, where it changes at
+    /// `rate`.
+    pub(super) fn ground_then(&self, at: f64, rate: f64, near: f64) -> f64 {
+        let mut form = self.ground(at);
+        form.add(rate, &self.late);
+        form.bound() + self.passing(at, near)
+    }
+
+    /// At most so much is the velocity of the end off at the last event, whenever that is: at the place `at`, on the
+    /// side of it where the flight is, where `z_t` changes at the rate `bend`.
+    pub(super) fn velocity_then(&self, at: f64, bend: f64, after: bool) -> f64 {
+        let mut form = self.rate.clone();
+        form.add(-1.0, &self.mean());
+        form.add(bend, &self.late);
+        let beside = self.intervals().find(|(_, from, len)| {
+            let part = (at - from).rem_euclid(1.0);
+            if distance(at, *from) < SAME { after } else { part < *len || !after && part <= *len + SAME }
+        });
+        if let Some((stripe, ..)) = beside {
+            form.add(1.0, &stripe.level);
+        }
+        form.bound()
+    }
+
+    /// At most so much is `q` off between rays, the centre of mass included, in the clock of the vibration.
+    pub(super) fn between(&self) -> f64 {
+        let mut form = self.rate.clone();
+        form.add(-1.0, &self.mean());
+        form.bound() + self.level()
     }
 
     /// A landing, late by `late` and by `more` from a new source; `h″ = fall`, and of `δh′` is kept `kept`, of the

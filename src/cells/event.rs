@@ -2,8 +2,8 @@
 
 use super::budget::{Landing, Off, TakeOff, weight_rest};
 use super::follow::{Follower, LEAP_ROUNDINGS};
-use super::piece::{Mark, Unresolved};
-use super::series::at_zero;
+use super::piece::{AtEvent, Mark, Unresolved};
+use super::series::{at_zero, derivative};
 use crate::motion::{EventKind, Uncertainty};
 use crate::reason::Warning;
 use crate::special::RoundedSpecial;
@@ -33,9 +33,9 @@ impl<S: RoundedSpecial> Follower<'_, S> {
         self.height = zero;
         // A ray of the start is off by no more than the roundings of t₁ and of its own time.
         let rounding = 4.0 * time.log2_roundoff().exp2() * (1.0 + time.to_f64());
-        self.budget.note_event(off);
+        self.budget.note_event(off, apart);
         let since = self.budget.since(apart);
-        self.budget.note_event(off);
+        self.budget.note_event(off, apart);
         match self.marks.last_mut() {
             Some(last) => last.after = since,
             None => self.before = since,
@@ -46,6 +46,7 @@ impl<S: RoundedSpecial> Follower<'_, S> {
             time,
             velocity: velocity.clone(),
             time_error: f64::INFINITY,
+            at: None,
             after: Uncertainty::default(),
         });
         if self.contact {
@@ -59,7 +60,21 @@ impl<S: RoundedSpecial> Follower<'_, S> {
         }
         if !self.lost {
             self.marks[mark].time_error = self.budget.last(off, apart).max(rounding);
+            self.marks[mark].at = self.at_event();
         }
+    }
+
+    /// What values may be off by at the event that has just happened, where flights are taken apart.
+    pub(super) fn at_event(&self) -> Option<AtEvent> {
+        let (slope, _, variation) = self.medium.variation(&self.state);
+        let begins = self.flying().map(|_| (slope, variation, self.bend()));
+        self.medium.splits().then(|| self.budget.at_event(begins))
+    }
+
+    /// `z_tt` of the end from now on, in a flight that is taken apart.
+    fn bend(&self) -> f64 {
+        let (first, zero) = (&self.state.segments[0], self.height.zero());
+        at_zero(&derivative(&self.medium.trace(&self.state, false)), &zero).to_f64() / first.len.to_f64()
     }
 
     /// The ground lets go, with this velocity, at a root of the stress with this slope or at a ray: p goes over from −q
@@ -103,9 +118,10 @@ impl<S: RoundedSpecial> Follower<'_, S> {
             jump: (velocity - last, velocity + last),
             end_rate: velocity - rate,
             fall,
+            known: None,
         };
         let rounding = LEAP_ROUNDINGS / 4.0 * self.cell_error;
-        self.budget.take_off(self.damping(), begins, rounding);
+        self.budget.take_off(begins, rounding);
         self.flight = Some(self.flights.len());
         self.flights.push(flight);
         self.weigh();
@@ -117,7 +133,7 @@ impl<S: RoundedSpecial> Follower<'_, S> {
         self.landing = Some((self.state.round, self.state.segments[0].at.clone()));
         self.compare_rays(speed, off);
         let damping = self.damping();
-        self.budget.hit(damping, speed, off);
+        self.budget.hit(speed, off);
         let (Some(flight), Some((_, rate))) = (self.flying().cloned(), self.centre()) else { return };
         let (slope, range, variation) = self.medium.variation(&self.state);
         let (phase, sup) = (self.medium.phase(&self.state), self.state.bound());
@@ -134,9 +150,10 @@ impl<S: RoundedSpecial> Follower<'_, S> {
             range,
             variation,
             slope,
+            bend: if self.at_ray { slope } else { self.bend() },
             phase: (phase, weight_rest(0.5 * damping) * sup),
         };
-        self.budget.land(damping, landing);
+        self.budget.land(landing);
         self.medium.touch_down(&mut self.state, &flight);
         self.flight = None;
     }
@@ -152,9 +169,14 @@ impl<S: RoundedSpecial> Follower<'_, S> {
         let near = segments[0].len.to_f64() < off || (last.len.to_f64() < off && !own);
         let speeds = (self.medium.gravity.to_f64() + self.noise()) * off;
         if speed > speeds && (near || self.at_ray) {
-            let from = self.unresolved.as_ref().map_or_else(|| self.state.time(), |unresolved| unresolved.from.clone());
-            let (count, longest) = self.unresolved.as_ref().map_or((0, 0.0), |old| (old.count, old.longest));
-            self.unresolved = Some(Unresolved { from, count: count + 1, longest: longest.max(off) });
+            self.count_unresolved(off);
         }
+    }
+
+    /// Counts one more hop or contact that is not told from what comes before and after it, and is at most so long.
+    pub(super) fn count_unresolved(&mut self, longest: f64) {
+        let from = self.unresolved.as_ref().map_or_else(|| self.state.time(), |unresolved| unresolved.from.clone());
+        let (count, most) = self.unresolved.as_ref().map_or((0, 0.0), |old| (old.count, old.longest));
+        self.unresolved = Some(Unresolved { from, count: count + 1, longest: longest.max(most) });
     }
 }

@@ -17,6 +17,7 @@ use super::series::{at_one, at_zero, bound, derivative, evaluate};
 use super::start::Data;
 use crate::error::Error;
 use crate::motion::{Ending, EventKind, Uncertainty};
+use crate::number::Estimate;
 use crate::problem::{Problem, Run};
 use crate::reason::{Reason, Warning};
 use crate::special::RoundedSpecial;
@@ -87,10 +88,16 @@ pub(super) struct Follower<'a, S> {
 /// some dozen terms, none greater than it.
 pub(super) const LEAP_ROUNDINGS: f64 = 64.0;
 
+/// The errors of a cell that a state is off by which is interpolated from values: some dozen roundings of each.
+pub(super) const FIRST_CELLS: f64 = 8.0;
+/// The errors of a cell that a cut adds, which interpolates anew what a series has already.
+pub(super) const CUT_CELLS: f64 = 2.0;
+
 impl<'a, S: RoundedSpecial> Follower<'a, S> {
     /// At `t = 0`.
     pub(super) fn new(medium: &'a Medium<S>, data: &'a Data<S>) -> Self {
         let mut follower = Self::with(medium, data, data.march(medium, &mut |_| {}));
+        follower.budget.add(FIRST_CELLS * follower.cell_error);
         follower.height = data.ground.clone();
         if !data.ground.is_positive() && !follower.rises() {
             follower.contact = true;
@@ -102,6 +109,7 @@ impl<'a, S: RoundedSpecial> Follower<'a, S> {
                 time: data.slope.zero(),
                 velocity,
                 time_error: 0.0,
+                at: None,
                 after,
             });
         } else {
@@ -111,14 +119,17 @@ impl<'a, S: RoundedSpecial> Follower<'a, S> {
         follower
     }
 
-    /// At the first release, where the end leaves with `velocity` and the time may be off by `time_error`.
+    /// At the first release, from the state there and the bound of its error; the end leaves with `velocity`, the time
+    /// may be off by `time_error`, and `h′` is `rate`.
     pub(super) fn released(
         medium: &'a Medium<S>,
         data: &'a Data<S>,
         held: &'a Held<S>,
+        state: (State<S>, f64),
         (velocity, time_error): (S, f64),
+        rate: &Estimate<S>,
     ) -> Self {
-        let (mut state, error) = held.state(medium);
+        let (mut state, error) = state;
         let off = Off { fixed: time_error, apart: time_error };
         state.segments[0].off = off;
         let mut follower = Self::with(medium, data, state);
@@ -126,12 +137,17 @@ impl<'a, S: RoundedSpecial> Follower<'a, S> {
         follower.landed = 1;
         follower.budget.add(error);
         follower.let_go(&velocity, off, None);
+        if let Some(flight) = follower.flying() {
+            let off = (flight.rate.clone() - rate.value()).to_f64().abs() + rate.bound();
+            follower.budget.know_rate(off);
+        }
         let (time, after) = (held.release.clone(), Uncertainty::default());
-        follower.marks.push(Mark { kind: EventKind::Release, time, velocity, time_error, after });
+        let at = follower.at_event();
+        follower.marks.push(Mark { kind: EventKind::Release, time, velocity, time_error, at, after });
         follower
     }
 
-    /// In flight at height zero, with no error but that of the first cells.
+    /// In flight at height zero, with no error.
     fn with(medium: &'a Medium<S>, data: &'a Data<S>, state: State<S>) -> Self {
         let mut follower = Follower {
             medium,
@@ -154,20 +170,17 @@ impl<'a, S: RoundedSpecial> Follower<'a, S> {
             warnings: Vec::new(),
             crossed: 0,
             cell_error: 0.0,
-            budget: Budget::default(),
+            budget: Budget::new(2.0 * medium.kappa.to_f64()),
             last_trace: None,
             before: Uncertainty::default(),
         };
         follower.weigh();
-        follower.budget.add(8.0 * follower.cell_error);
         follower
     }
 
-    /// The error of a cell: what the series of its sides and of its sum leave out, and four roundings of every
-    /// coefficient: the sum, the correction, the decay and its factor. Both are relative to what moves now.
+    /// The error of a cell now.
     pub(super) fn weigh(&mut self) {
-        let unit = self.medium.log2_accuracy.exp2() + self.height.log2_roundoff().exp2();
-        self.cell_error = 4.0 * unit * (self.state.bound() + self.medium.slope.to_f64().abs());
+        self.cell_error = self.medium.cell_error(&self.state);
     }
 
     /// What roundings and truncations make of `p` and `q`: what is smaller decides nothing.
@@ -210,7 +223,7 @@ impl<'a, S: RoundedSpecial> Follower<'a, S> {
             let rate = flight.at(&self.height.double(age)).1.to_f64();
             (age, rate, (self.place() + len).fract())
         });
-        self.budget.end(self.damping(), then, len)
+        self.budget.end(then, len)
     }
 
     /// The better account of it.
@@ -452,7 +465,7 @@ impl<'a, S: RoundedSpecial> Follower<'a, S> {
         let from = self.state.time();
         let passing = self.medium.passing(&self.state);
         self.medium.leap(&mut self.state, &self.ground, trips);
-        self.budget.leap(self.damping(), trips as f64, LEAP_ROUNDINGS / 4.0 * self.cell_error, passing);
+        self.budget.leap(trips as f64, LEAP_ROUNDINGS / 4.0 * self.cell_error, passing);
         self.pieces.push(Piece {
             len: from.int(trips),
             from,
@@ -474,7 +487,7 @@ impl<'a, S: RoundedSpecial> Follower<'a, S> {
     /// Forgets rays and vibrations that are below the truncation of a cell.
     fn forget(&mut self) {
         let most = self.state.bound();
-        let least = self.medium.log2_accuracy.exp2() * self.medium.gravity.to_f64();
+        let least = self.medium.least() * self.medium.gravity.to_f64();
         if most > 0.0 && most <= least {
             self.budget.add(most);
             self.medium.still(&mut self.state);
@@ -514,11 +527,12 @@ impl<'a, S: RoundedSpecial> Follower<'a, S> {
     }
 
     /// How far a root in the strip may be off: the error of the function, and `vague` more, over its slope, or the root
-    /// of twice the error over the second derivative if that is less. What Clenshaw's sum rounds, at most `(k + 2)u` of
-    /// each coefficient, counts where the strip is long and the hop is short.
-    fn event_error(&self, trace: &[S], height: &[S], x: &S, len: &S, vague: f64) -> Off {
+    /// of twice the error over the second derivative if that is less. Where the function bends back, up to twice the
+    /// former; and where the error reaches as far as it bends, the root may not be there in truth. What Clenshaw's sum
+    /// rounds, at most `(k + 2)u` of each coefficient, counts where the strip is long and the hop is short.
+    fn event_error(&mut self, trace: &[S], height: &[S], x: &S, len: &S, vague: f64) -> Off {
         let strip = len.to_f64();
-        let at = |c: &[S]| evaluate(c, x).to_f64().abs();
+        let at = |c: &[S]| evaluate(c, x).to_f64();
         let first = derivative(trace);
         let (error, more, slope, curvature) = if self.contact {
             (self.budget.point(), vague, at(&first) / strip, at(&derivative(&first)) / (strip * strip))
@@ -529,7 +543,17 @@ impl<'a, S: RoundedSpecial> Follower<'a, S> {
         };
         // Where the event is: rounding of the place in the strip.
         let place = 4.0 * x.log2_roundoff().exp2() * (1.0 + self.state.round.unsigned_abs() as f64);
-        let off = |error: f64| ((error + more) / slope).min((2.0 * (error + more) / curvature).sqrt()) + place;
+        let (bends_back, slope, curvature) = (slope * curvature < 0.0, slope.abs(), curvature.abs());
+        // The part of s²/2c, the depth at which it bends back, that the error is.
+        let part = |error: f64| 2.0 * curvature * (error + more) / (slope * slope);
+        let off = |error: f64| {
+            let back = if bends_back { 2.0 / (1.0 + (1.0 - part(error)).max(0.0).sqrt()) } else { 1.0 };
+            (back * (error + more) / slope).min((2.0 * (error + more) / curvature).sqrt()) + place
+        };
+        let graze = bends_back && part(self.budget.better(error, self.flight.is_some())) >= 1.0;
+        if graze && slope > 0.0 {
+            self.count_unresolved(2.0 * slope / curvature);
+        }
         // The clock that times are counted in is off itself.
         let late = self.budget.clock(self.contact);
         Off { fixed: off(error.fixed), apart: off(error.apart) + late }
@@ -553,21 +577,27 @@ impl<'a, S: RoundedSpecial> Follower<'a, S> {
             self.height = at_one(&height, &zero);
         }
         self.last_trace = Some(at_one(&trace, &zero));
-        self.crossed += self.state.segments.len() as u64 + 2;
+        let segments = self.state.segments.len();
+        self.crossed += segments as u64 + 2;
         self.medium.strip(&mut self.state, self.contact, &mut |_| {});
+        let joined = (segments - self.state.segments.len()) as f64;
+        self.budget.add((joined + if cut.is_some() { CUT_CELLS } else { 0.0 }) * self.cell_error);
         if let Some((centre, _)) = self.centre() {
             self.ground = self.height.clone() - centre;
             self.budget.note_end(self.height_error(0.0));
         }
-        self.budget.strip(self.damping(), len.to_f64(), self.cell_error, self.contact);
+        self.budget.strip(len.to_f64(), self.cell_error, self.contact);
         let (contact, flight) = (self.contact, self.flight);
         let cut = cut.is_some();
         self.pieces.push(Piece { from, len, contact, flight, cut, still: false, leap: 0, trace, height });
     }
 
-    /// An impact where this strip begins, at a ray that may be off by `ray`; as [`Follower::land`].
+    /// An impact where this strip begins, at a ray that may be off by `ray`; as [`Follower::land`]. The end has come
+    /// as close to the ground as the noise, and reaches it a little later.
     fn land_at_ray(&mut self, goal: &Goal<S>, ray: Off, trace: &[S], height: &[S], len: &S) -> bool {
-        let off = ray.max(self.event_error(trace, height, &len.zero(), len, 0.0));
+        let zero = len.zero();
+        let left = at_zero(height, &zero).to_f64().abs();
+        let off = ray.max(self.event_error(trace, height, &zero, len, left));
         self.at_ray = true;
         self.land(goal, off)
     }

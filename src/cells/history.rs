@@ -6,8 +6,8 @@ use super::bounce::Held;
 use super::effort::Effort;
 use super::flight::Flight;
 use super::follow::{Follower, Goal};
-use super::march::Medium;
-use super::piece::{Checkpoint, Mark, Piece, Unresolved};
+use super::march::{Medium, State};
+use super::piece::{AtEvent, Checkpoint, Mark, Piece, Unresolved};
 use super::record::Record;
 use super::root::smallest;
 use super::series::{at_one, at_zero, evaluate};
@@ -58,6 +58,8 @@ pub struct Damped<S> {
     course: Course<S>,
     /// Before the first event, and after each.
     uncertain: Vec<Uncertainty>,
+    /// At each event, where that is known better.
+    at_events: Vec<Option<AtEvent>>,
     unresolved: Option<Unresolved<S>>,
     /// Cells that earlier questions have marched.
     pool: Pool<S>,
@@ -121,7 +123,8 @@ impl<S: RoundedSpecial> Damped<S> {
         Ok(Self::record_of(medium, data, None, found, problem, precision))
     }
 
-    /// The motion after the first release, at `time`, known to `time_error`, with the velocity `leaves` of the end.
+    /// The motion after the first release, at `time`, known to `time_error`, with the velocity `leaves` of the end and
+    /// `h′` as in `rate`.
     ///
     /// The first event is that release; no question may be asked about what came before it.
     pub(super) fn after_bounce(
@@ -130,13 +133,31 @@ impl<S: RoundedSpecial> Damped<S> {
         effort: Effort,
         contact: &FirstContact<Estimate<S>>,
         (time, time_error, leaves): (&S, f64, &S),
+        rate: &Estimate<S>,
         observe: &dyn Fn(usize, usize) -> ControlFlow<()>,
     ) -> Result<Self, Error> {
         let (medium, data) = medium(problem, precision, effort.digits, 1)?;
-        let goal = Goal::of(problem, precision, &data);
         let held = Held::until(contact, &data, time);
-        let leaves = leaves.clone() / &data.units.velocity;
-        let mut follower = Follower::released(&medium, &data, &held, (leaves, time_error / data.units.time.to_f64()));
+        let state = held.state(&medium, &data);
+        let unit = &data.units.velocity;
+        let release = (leaves.clone() / unit, time_error / data.units.time.to_f64());
+        let rate = rate.clone() / &Estimate::rounded(unit.clone(), 8.0);
+        Self::released(problem, precision, effort, (medium, data), (held, state), (release, rate), observe)
+    }
+
+    /// The motion after a release in this state, whose error has this bound; with the velocity of the end, how far the
+    /// time is off, and `h′`.
+    pub(super) fn released(
+        problem: &Problem,
+        precision: &S::Precision,
+        effort: Effort,
+        (medium, data): (Medium<S>, Data<S>),
+        (held, state): (Held<S>, (State<S>, f64)),
+        (release, rate): ((S, f64), Estimate<S>),
+        observe: &dyn Fn(usize, usize) -> ControlFlow<()>,
+    ) -> Result<Self, Error> {
+        let goal = Goal::of(problem, precision, &data);
+        let mut follower = Follower::released(&medium, &data, &held, state, release, &rate);
         let ending = follower.run(&goal, effort, observe)?;
         let found = Found::of(follower, ending);
         Ok(Self::record_of(medium, data, Some(held), found, problem, precision))
@@ -173,6 +194,7 @@ impl<S: RoundedSpecial> Damped<S> {
             pieces,
             checkpoints,
             flights,
+            at_events: marks.iter().map(|mark| mark.at).collect(),
             uncertain: std::iter::once(before).chain(marks.iter().map(|mark| mark.after)).collect(),
             unresolved,
             pool: Pool::default(),
@@ -309,7 +331,11 @@ impl<S: RoundedSpecial> Damped<S> {
     }
 }
 
-impl<S: RoundedSpecial> Bounding<S> for Damped<S> {}
+impl<S: RoundedSpecial> Bounding<S> for Damped<S> {
+    fn at_event(&self, event: usize) -> Option<AtEvent> {
+        *self.at_events.get(event)?
+    }
+}
 
 impl<S: RoundedSpecial> Motion<S> for Damped<S> {
     fn course(&self) -> &Course<S> {
@@ -483,14 +509,9 @@ impl<S: RoundedSpecial> Motion<S> for Damped<S> {
     fn uncertainty(&self, time: &S) -> Uncertainty {
         let since = self.course.events.partition_point(|event| event.time <= *time);
         let lost = since.checked_sub(1).is_some_and(|last| self.course.events[last].time_error.is_infinite());
-        let mut found = self.uncertain[since];
-        if self.medium.splits() {
-            // h′ + 2Rh changes by −2∫y dt and by what gravity does in that time.
-            let damping = 2.0 * self.medium.kappa.to_f64();
-            let Uncertainty { rise, speed, late, .. } = found;
-            found.impulse = Some(speed + 2.0 * damping * rise + self.medium.gravity.to_f64() * late);
-        }
-        if lost { Uncertainty { rise: f64::INFINITY, speed: f64::INFINITY, ..found } } else { found }
+        let found = self.uncertain[since];
+        let none = f64::INFINITY;
+        if lost { Uncertainty { rise: none, speed: none, rate: none, ..found } } else { found }
     }
 }
 

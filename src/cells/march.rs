@@ -84,6 +84,18 @@ impl<S: Rounded> Medium<S> {
         Medium { basis, kappa, gravity, slope, offset, free_top, log2_accuracy, longest }
     }
 
+    /// What is too small to be told, relative to the greatest `|q|`: the truncation of a cell, or a rounding.
+    pub(super) fn least(&self) -> f64 {
+        self.log2_accuracy.max(self.kappa.log2_roundoff()).exp2()
+    }
+
+    /// The error of a cell: what the series of its sides and of its sum leave out, and four roundings of every
+    /// coefficient: the sum, the correction, the decay and its factor. Both are relative to what moves now.
+    pub(super) fn cell_error(&self, state: &State<S>) -> f64 {
+        let unit = self.log2_accuracy.exp2() + self.kappa.log2_roundoff().exp2();
+        4.0 * unit * (state.bound() + self.slope.to_f64().abs())
+    }
+
     /// Terms for a function that grows like `e^{multiple·κ|s|}` on a segment.
     fn terms(&self, len: &S, multiple: f64) -> usize {
         let (kappa, len) = (self.kappa.to_f64(), len.to_f64());
@@ -299,7 +311,7 @@ impl<S: Rounded> Medium<S> {
         let (a, b) = (&state.segments[k], &state.segments[k + 1]);
         let len = a.len.clone() + &b.len;
         let size = bound(&a.q, 0) + bound(&b.q, 0) + self.gravity.to_f64() + self.slope.to_f64().abs();
-        let accuracy = self.log2_accuracy.exp2() * size;
+        let accuracy = self.least() * size;
         let zero = len.zero();
         let jump = at_one(&a.q, &zero) * &a.decay - at_zero(&b.q, &zero);
         if len > self.longest || jump.to_f64().abs() > accuracy {

@@ -14,6 +14,8 @@ mod budget;
 mod cell;
 mod contact_then_cells;
 mod dependence;
+#[cfg(test)]
+mod displaced;
 mod effort;
 mod event;
 mod flight;

@@ -47,6 +47,23 @@ pub(super) struct Checkpoint<S> {
     pub(super) ground: S,
 }
 
+/// How far the values at an event may be off, whenever it is, dimensionless.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct AtEvent {
+    /// Displacements.
+    pub(super) rise: f64,
+    /// `h`.
+    pub(super) centre: f64,
+    /// Velocities and `c v_x`.
+    pub(super) speed: f64,
+    /// The velocity of the end.
+    pub(super) end: f64,
+    /// `h′`.
+    pub(super) rate: f64,
+    /// `h′ + 2Rh`, which only the force of the ground and gravity change.
+    pub(super) momentum: f64,
+}
+
 /// An event, dimensionless.
 #[derive(Clone, Debug)]
 pub(super) struct Mark<S> {
@@ -58,7 +75,9 @@ pub(super) struct Mark<S> {
     pub(super) velocity: S,
     /// How far the time may be off.
     pub(super) time_error: f64,
-    /// How far values may be off from then to the next event.
+    /// How far values may be off then, where flights are taken apart.
+    pub(super) at: Option<AtEvent>,
+    /// How far they may be off from then to the next event.
     pub(super) after: Uncertainty,
 }
 

@@ -62,8 +62,14 @@ impl<S: RoundedSpecial> Follower<'_, S> {
     /// Why no release can follow, if that is certain.
     ///
     /// In contact `p = −q` at the ground and `p = ±q` at the top, so `|q| ≤ B` on one characteristic gives `|q| ≤ B`
-    /// for ever, and with `B < |v_s′(0)|`, `v_s′(0) < 0`, the stress `q + v_s′(0)` stays negative.
+    /// for ever, and with `B < |v_s′(0)|`, `v_s′(0) < 0`, the stress `q + v_s′(0)` stays negative. The first round trip
+    /// of the contact is followed all the same, for its peak.
     pub(super) fn stays(&self) -> Option<Ending> {
+        let (round, at) = self.landing.as_ref()?;
+        let first = &self.state.segments[0].at;
+        if self.state.round <= *round || self.state.round == *round + 1 && first < at {
+            return None;
+        }
         let most = self.state.bound() + self.noise();
         let slope = self.medium.slope.to_f64();
         (self.contact && slope < 0.0 && most < -slope).then(|| {

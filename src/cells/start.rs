@@ -19,6 +19,9 @@ use crate::number::{Number, Rounded};
 use crate::problem::{AtStart, Parameters, Problem, Profile, Start, Top};
 use crate::special::RoundedSpecial;
 
+/// What series leave out is so many bits below a rounding, so that both together are hardly more than the rounding.
+const SPARE_BITS: f64 = 4.0;
+
 /// Cells are at most `2/r` wide, so that each round trip takes `(r t₁/2)²` of them: millions here.
 const MOST_DAMPING: f64 = 2000.0;
 
@@ -276,7 +279,7 @@ pub(super) fn medium<S: RoundedSpecial>(
     let free_top = problem.rod.top == Top::Free;
     let data = Data::of(problem, &parameters, free_top);
     let asked = -digits.max(1.0) * std::f64::consts::LOG2_10 - 20.0;
-    let log2_accuracy = asked.max(data.damping.log2_roundoff());
+    let log2_accuracy = asked.max(data.damping.log2_roundoff() - SPARE_BITS);
     let found = data.damping.to_f64();
     if found > MOST_DAMPING {
         return Err(Error::DampingTooStrong { found, most: MOST_DAMPING });

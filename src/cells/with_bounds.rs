@@ -1,5 +1,6 @@
 //! A history whose answers carry their bounds.
 
+use super::piece::AtEvent;
 use crate::error::Error;
 use crate::motion::{Contact, Course, Energy, Event, EventKind, Field, Motion, Scales, Side, StressPiece, Uncertainty};
 use crate::number::{Estimate, Rounded, Scalar};
@@ -26,6 +27,11 @@ pub trait Bounding<S: Rounded>: Motion<S> {
         None
     }
 
+    /// What values may be off by at an event, whenever it is, where that is followed.
+    fn at_event(&self, _event: usize) -> Option<AtEvent> {
+        None
+    }
+
     /// `h` and `h′` with their bounds, where they are known better than the rest.
     fn bounded_centre(&self, time: &S) -> Option<Pair<S>> {
         self.bounded(time, Side::Left).map(|form| form.centre(&rounded(time)))
@@ -46,11 +52,32 @@ fn within<S: Rounded>(value: &S, bound: f64) -> Estimate<S> {
 struct Near {
     /// Of displacements, as far as the events are in time.
     rise: f64,
+    /// Of `h` likewise.
+    centre: f64,
     /// Of velocities.
     speed: f64,
+    /// Of that of the end.
+    end: f64,
     strain: f64,
+    /// Of `h′`.
+    rate: f64,
     /// Of the times of events.
     late: f64,
+}
+
+impl Near {
+    /// The less in all, and the greater lateness.
+    fn min(self, other: &Near) -> Near {
+        Near {
+            rise: self.rise.min(other.rise),
+            centre: self.centre.min(other.centre),
+            speed: self.speed.min(other.speed),
+            end: self.end.min(other.end),
+            strain: self.strain.min(other.strain),
+            rate: self.rate.min(other.rate),
+            late: self.late.max(other.late),
+        }
+    }
 }
 
 impl<S: Rounded, H: Bounding<S>> WithBounds<S, H> {
@@ -67,14 +94,14 @@ impl<S: Rounded, H: Bounding<S>> WithBounds<S, H> {
             if let Some(own) = form.and_then(|form| form.events().get(k)) {
                 return Ok(own.clone());
             }
-            let Near { rise, speed, late, .. } = bounded.at_event(k);
-            let (rate, push) = (event.centre_velocity.to_f64().abs(), bounded.push(&event.time, late)?);
+            let Near { centre, end, rate, late, .. } = bounded.at_event(k);
+            let (moves, push) = (event.centre_velocity.to_f64().abs(), bounded.push(&event.time, late)?);
             Ok(Event {
                 kind: event.kind,
                 time: within(&event.time, event.time_error),
-                end_velocity: within(&event.end_velocity, speed),
-                centre: within(&event.centre, rise + late * (rate + push)),
-                centre_velocity: within(&event.centre_velocity, speed + push),
+                end_velocity: within(&event.end_velocity, end),
+                centre: within(&event.centre, centre + late * (moves + push)),
+                centre_velocity: within(&event.centre_velocity, rate + push),
                 time_error: event.time_error,
             })
         };
@@ -91,13 +118,11 @@ impl<S: Rounded, H: Bounding<S>> WithBounds<S, H> {
                 return Contact { peak_strain: within(&contact.peak_strain, strain), ..own.clone() };
             }
             let (from, to) = (time_of(&contact.from), contact.to.as_ref().map(&time_of));
-            let last = to.as_ref().map_or_else(|| bounded.history.end().to_f64(), Estimate::to_f64);
-            let Near { rise, speed, strain, .. } = bounded.scaled(bounded.history.uncertainty(&contact.from));
-            let Scales { time, velocity, wave_speed: c, .. } = bounded.scales;
-            // −c² ∫ v_x dt; rays that are off within the contact move the end by their masses.
-            let by_stress = (last - from.to_f64()) * speed * c + 2.0 * rise * c;
-            let by_momentum = bounded.history.uncertainty(&contact.from).impulse;
-            let push = by_momentum.map_or(by_stress, |impulse| impulse * c * velocity * time);
+            let found = bounded.history.uncertainty(&contact.from);
+            let Scales { velocity, wave_speed, .. } = bounded.scales;
+            // A peak lies next to a ray, or where the slope vanishes.
+            let strain = bounded.scaled(found).strain + found.slope * found.rays * velocity / wave_speed;
+            let push = bounded.impulse_off(&from, to.as_ref());
             Contact {
                 impulse: within(&contact.impulse, push),
                 peak_strain: within(&contact.peak_strain, strain),
@@ -109,6 +134,21 @@ impl<S: Rounded, H: Bounding<S>> WithBounds<S, H> {
         let (ending, warnings) = (bounded.history.ending().clone(), bounded.history.warnings().to_vec());
         let course = Course { end: bounded.course.end.clone(), ending, events, contacts, warnings };
         Ok(WithBounds { course, ..bounded })
+    }
+
+    /// What an impulse may be off by: by the balance of momentum between two events that are followed, or by the stress,
+    /// `−c² ∫ v_x dt`, where rays that are off within the contact move the end by their masses.
+    fn impulse_off(&self, from: &Estimate<S>, to: Option<&Estimate<S>>) -> f64 {
+        let Scales { velocity, wave_speed: c, length, gravity, .. } = self.scales;
+        let event = |time: &Estimate<S>| self.history.events().iter().position(|event| event.time == *time.value());
+        let momentum = |time: &Estimate<S>| Some(self.history.at_event(event(time)?)?.momentum * velocity);
+        let by_momentum = to.and_then(|to| {
+            let both = momentum(from)? + momentum(to)?;
+            Some(length * (both + gravity * (from.bound() + to.bound())))
+        });
+        let last = to.map_or_else(|| self.history.end().to_f64(), Estimate::to_f64);
+        let Near { rise, speed, .. } = self.scaled(self.history.uncertainty(from.value()));
+        by_momentum.unwrap_or((last - from.to_f64()) * speed * c + 2.0 * rise * c)
     }
 
     /// The bounds near a time; at that of an event, which has the bound of the event, those of the event itself.
@@ -129,15 +169,23 @@ impl<S: Rounded, H: Bounding<S>> WithBounds<S, H> {
         let Event { time, time_error, .. } = &events[event];
         let rounding = 8.0 * time.unit() * time.to_f64();
         // Where the time may be off without bound, so may all else already.
-        let off = if found.late == 0.0 && time_error.is_finite() { *time_error } else { 0.0 };
-        self.scaled(Uncertainty { late: (off + rounding) / self.scales.time, ..found })
+        let equal_times = found.late == 0.0 && time_error.is_finite();
+        let off = if equal_times { *time_error } else { 0.0 };
+        let near = self.scaled(Uncertainty { late: (off + rounding) / self.scales.time, ..found });
+        let Some(AtEvent { rise, centre, speed, end, rate, .. }) = self.history.at_event(event) else { return near };
+        let found = Uncertainty { rise, speed, rate, late: rounding / self.scales.time, ..found };
+        let unit = self.scales.velocity * self.scales.time;
+        let own = self.scaled(found);
+        let own = Near { centre: centre * unit, end: own.speed + (end - speed) * self.scales.velocity, ..own };
+        if equal_times { near.min(&own) } else { own }
     }
 
     fn scaled(&self, found: Uncertainty) -> Near {
-        let Uncertainty { rise, speed, late, slope, .. } = found;
+        let Uncertainty { rise, speed, rate, late, slope, .. } = found;
         let Scales { time, velocity, wave_speed, .. } = self.scales;
-        let speed = (speed + slope * late) * velocity;
-        Near { rise: rise * velocity * time, speed, strain: speed / wave_speed, late: late * time }
+        let (rise, speed) = (rise * velocity * time, (speed + slope * late) * velocity);
+        let (rate, strain) = ((rate + slope * late) * velocity, speed / wave_speed);
+        Near { rise, centre: rise, speed, end: speed, strain, rate, late: late * time }
     }
 
     /// What the force of the ground makes of `h′` while events are `late`: `h″ = −c² v_x(0,t)/L`.
@@ -184,16 +232,14 @@ impl<S: Rounded, H: Bounding<S>> WithBounds<S, H> {
         2.0 * peak * self.scales.velocity * self.scales.wave_speed * self.near(time).rise
     }
 
-    /// The time that is asked about: that of an event from which roundings alone set it apart.
+    /// The time that is asked about: that of the nearest event, where roundings alone set it apart.
     fn meant<'a>(&'a self, time: &'a Estimate<S>) -> &'a Estimate<S> {
         let next = self.course.events.partition_point(|event| event.time.value() < time.value());
-        let mut near = self.course.events[next.saturating_sub(1)..].iter().take(2).map(|event| &event.time);
+        let near = self.course.events[next.saturating_sub(1)..].iter().take(2).map(|event| &event.time);
         let roundings = 4.0 * time.value().unit() * time.value().to_f64().abs();
-        let same = |event: &&Estimate<S>| {
-            let apart = (event.value().clone() - time.value()).to_f64().abs();
-            apart <= time.bound() + event.bound().min(roundings)
-        };
-        near.find(same).unwrap_or(time)
+        let apart = |event: &&Estimate<S>| (event.value().clone() - time.value()).to_f64().abs();
+        let nearest = near.min_by(|a, b| apart(a).total_cmp(&apart(b)));
+        nearest.filter(|event| apart(event) <= time.bound() + event.bound().min(roundings)).unwrap_or(time)
     }
 
     /// The history without its bounds.
@@ -260,10 +306,9 @@ impl<S: Rounded, H: Bounding<S>> Motion<Estimate<S>> for WithBounds<S, H> {
             return centre;
         }
         let centre = self.history.centre(time.value())?;
-        let push = self.push(time.value(), self.near(time).late)?;
-        let (height, rate) = self.moved(time, centre);
-        let bound = rate.bound() + push;
-        Ok((height, within(rate.value(), bound)))
+        let near = self.near(time);
+        let (moves, push) = (centre.1.to_f64().abs(), self.push(time.value(), near.late)?);
+        Ok((within(&centre.0, near.centre + near.late * (moves + push)), within(&centre.1, near.rate + push)))
     }
 
     /// `L g h` is off by that of h.
@@ -329,8 +374,8 @@ impl<S: Rounded, H: Bounding<S>> Motion<Estimate<S>> for WithBounds<S, H> {
         let known = self.course.events.iter().position(|event| event.time.value() == release.time.value())?;
         let (time, height) = self.history.highest(self.history.events().get(known)?)?;
         // dt*/dh′ = 1/(g + 2rh′); and what the height loses there is of second order.
-        let (Near { rise, speed, .. }, gravity) = (self.near(&within(&time, 0.0)), self.scales.gravity);
-        let late = release.time_error + speed / gravity;
+        let (Near { rise, rate, .. }, gravity) = (self.near(&within(&time, 0.0)), self.scales.gravity);
+        let late = release.time_error + rate / gravity;
         Some((within(&time, late), within(&height, rise + gravity * late * late)))
     }
 

@@ -46,12 +46,14 @@ impl Target for f64 {
                     }
                     bounce = by_modes(&contact, problem)?;
                 }
+                let rate = long::rate_after(problem, &bounce);
                 let reach = if plan.engine == Engine::ClosedForm { cells::Reach::Bounce } else { cells::Reach::Run };
                 Arc::new(WithBounds::new(ContactThenCells::<f64>::solve_observed(
                     problem,
                     &(),
                     plan.effort(rung),
                     (bounce, reach),
+                    rate,
                     &**observe,
                 )?)?)
             }

@@ -10,7 +10,7 @@ use crate::error::Error;
 use crate::first_contact::{Bounce, ContactHistory, FirstContact};
 use crate::lattice::Undamped;
 use crate::motion::{Ending, Motion};
-use crate::number::{Estimate, Float, Interval, IntervalPrecision, Rational};
+use crate::number::{Estimate, Float, Interval, IntervalPrecision, Rational, Reads, Scalar};
 use crate::problem::{Parameters, Problem};
 
 impl Target for Rational {
@@ -98,10 +98,24 @@ fn estimates(problem: &Problem, plan: &Plan, bits: u32, observe: &Observer) -> R
                 &bits,
                 effort,
                 (bounce, reach),
+                None,
                 &**observe,
             )?)?)
         }
     })
+}
+
+/// `h′` at the bounce that doubles have found, in long numbers: the first flight, and all that follows, hangs on it.
+pub(super) fn rate_after(problem: &Problem, bounce: &Bounce<Estimate<f64>>) -> Option<Estimate<f64>> {
+    const BITS: u32 = 128;
+    let Bounce::At { time, trips, .. } = bounce else { return None };
+    let contact = FirstContact::new(&Parameters::<Estimate<Float>>::of(problem, &BITS).ok()?);
+    let time = match trips.lattice() {
+        Some(k) => contact.round_trip() * &contact.round_trip().int(k),
+        None => Estimate::exact(Float::with_val(BITS, time.value())),
+    };
+    let (_, rate) = contact.centre(&time);
+    Some(Reads::read(rate))
 }
 
 fn enclosures(problem: &Problem, plan: &Plan, bits: u32, observe: &Observer) -> Result<Engined<Interval>, Error> {

@@ -3,7 +3,8 @@
 use super::ladder::{Engined, Observer, Target};
 use super::plan::{Plan, Rung};
 use crate::error::Error;
-use crate::number::{Answer, Float, Interval, Rational};
+use crate::first_contact::Bounce;
+use crate::number::{Answer, Estimate, Float, Interval, Rational};
 use crate::problem::Problem;
 
 macro_rules! absent {
@@ -28,4 +29,9 @@ absent!(Float, Rational, Interval);
 
 pub(super) fn in_doubles(_: &Problem, _: &Plan, _: Rung, _: &Observer) -> Result<Engined<f64>, Error> {
     Err(Error::NoMultiprecision)
+}
+
+/// Doubles know `h′` at the bounce as well as there is need.
+pub(super) fn rate_after(_: &Problem, _: &Bounce<Estimate<f64>>) -> Option<Estimate<f64>> {
+    None
 }
