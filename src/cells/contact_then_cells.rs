@@ -5,7 +5,7 @@ use std::ops::ControlFlow;
 use super::effort::Effort;
 use super::history::Damped;
 use super::piece::Unresolved;
-use super::with_bounds::{Bounding, Pair};
+use super::with_bounds::{Bounding, Lines, Pair};
 use crate::error::Error;
 use crate::first_contact::{Bounce, ContactHistory, FirstContact};
 use crate::motion::{Course, Ending, Energy, Event, Field, Motion, Scales, Side, StressPiece, Uncertainty, unobserved};
@@ -264,6 +264,10 @@ impl<S: RoundedSpecial> Bounding<S> for ContactThenCells<S> {
     fn bounded(&self, time: &S, side: Side) -> Option<&dyn Motion<Estimate<S>>> {
         let first = self.in_contact(time, side).is_ok_and(|is| is) || self.at_bounce(time);
         first.then_some(&self.contact as &dyn Motion<Estimate<S>>)
+    }
+
+    fn lines(&self, time: &S, points: &[S]) -> Result<Lines<S>, Error> {
+        self.later()?.lines(time, points)
     }
 
     fn bounded_centre(&self, time: &S) -> Option<Pair<S>> {

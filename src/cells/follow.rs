@@ -108,6 +108,7 @@ impl<'a, S: RoundedSpecial> Follower<'a, S> {
             let velocity = data.end_velocity();
             follower.take_off(&velocity, Off::default(), None);
         }
+        follower.note_slope();
         follower
     }
 

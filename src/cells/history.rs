@@ -13,9 +13,10 @@ use super::root::smallest;
 use super::series::{at_one, at_zero, evaluate};
 use super::start::{Data, Units, medium};
 use super::strips::{Node, Pool};
-use super::with_bounds::Bounding;
+use super::with_bounds::{Bounding, Lines};
 use crate::error::Error;
 use crate::first_contact::FirstContact;
+use crate::moments;
 use crate::motion::{
     Contact, Course, Ending, Energy, Event, EventKind, Field, Motion, Scales, Side, StressPiece, Uncertainty,
     unobserved,
@@ -309,7 +310,24 @@ impl<S: RoundedSpecial> Damped<S> {
     }
 }
 
-impl<S: RoundedSpecial> Bounding<S> for Damped<S> {}
+impl<S: RoundedSpecial> Bounding<S> for Damped<S> {
+    fn lines(&self, time: &S, points: &[S]) -> Result<Lines<S>, Error> {
+        let (t, units) = (self.time(time)?, &self.data.units);
+        let cuts: Vec<S> = points.iter().map(|x| x.clone() / &units.length * t.ratio(1, 2)).collect();
+        let reach = units.length.int(2) * &units.length;
+        let strain = units.velocity.clone() / &units.wave_speed;
+        let node = |node: Node<S>| moments::Node {
+            velocity: node.velocity() * &units.velocity,
+            weight: node.weight * &reach,
+            x: node.x * &reach,
+            strain: node.strain * &strain,
+        };
+        let lines = self.record().lines(&t, &cuts);
+        let nodes = lines.into_iter().map(|line| line.into_iter().map(node).collect()).collect();
+        let left_out = 2.0 * self.medium.log2_accuracy.exp2();
+        Ok(Lines { nodes, rule: self.medium.basis.gauss.len(), left_out })
+    }
+}
 
 impl<S: RoundedSpecial> Motion<S> for Damped<S> {
     fn course(&self) -> &Course<S> {

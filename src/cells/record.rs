@@ -101,43 +101,54 @@ impl<S: RoundedSpecial> Record<'_, S> {
         self.pool.line(t, || self.line(t, &t.ratio(1, 2)))
     }
 
-    /// Gauss–Legendre nodes on `0 ≤ x ≤ reach` at time `t`, between all rays.
+    /// [`Record::lines`] on `0 ≤ x ≤ reach`.
+    pub(super) fn line(&self, t: &S, reach: &S) -> Vec<Node<S>> {
+        self.lines(t, std::slice::from_ref(reach)).pop().unwrap_or_default()
+    }
+
+    /// Gauss–Legendre nodes at time `t` from the ground to the first of `cuts`, and from each to the next, between all
+    /// rays.
     ///
     /// **Accuracy**: that of the cells: between rays the squares of `z_t`, `z_x` grow at most like `e^{4κ|s|}`, for
     /// which the tables hold enough terms, and the rule is exact to twice its nodes.
-    pub(super) fn line(&self, t: &S, reach: &S) -> Vec<Node<S>> {
+    pub(super) fn lines(&self, t: &S, cuts: &[S]) -> Vec<Vec<Node<S>>> {
         let zero = t.zero();
-        let mut nodes = Vec::new();
+        let mut nodes = vec![Vec::new(); cuts.len()];
+        let Some(reach) = cuts.last() else { return nodes };
         let gauss = &self.medium.basis.gauss;
-        let places = |from: &S, len: &S| gauss.iter().map(|(at, _)| len.clone() * at + from).collect::<Vec<S>>();
-        let mut add = |len: &S, places: Vec<S>, values: Vec<(S, S, S)>| {
-            for (((_, weight), x), (rigid, motion, strain)) in gauss.iter().zip(places).zip(values) {
-                nodes.push(Node { weight: weight.clone() * len, x, rigid, motion, strain });
+        // Between two rays, part by part.
+        let mut add = |from: &S, to: &S, values: &dyn Fn(&[S]) -> Vec<(S, S, S)>| {
+            let first = cuts.partition_point(|cut| cut <= from);
+            let mut from = from.clone();
+            for (cut, nodes) in cuts.iter().zip(&mut nodes).skip(first) {
+                let end = smaller(to.clone(), cut.clone());
+                let len = end.clone() - &from;
+                if !len.is_positive() {
+                    break;
+                }
+                let places: Vec<S> = gauss.iter().map(|(at, _)| len.clone() * at + &from).collect();
+                let values = values(&places);
+                for (((_, weight), x), (rigid, motion, strain)) in gauss.iter().zip(places).zip(values) {
+                    nodes.push(Node { weight: weight.clone() * &len, x, rigid, motion, strain });
+                }
+                from = end;
             }
         };
         if let Some(contact) = self.at_rest(t) {
-            let places = places(&zero, reach);
-            let values = places.iter().map(|x| (zero.clone(), zero.clone(), self.rest_strain(x, contact))).collect();
-            add(reach, places, values);
+            let still = |x: &S| (zero.clone(), zero.clone(), self.rest_strain(x, contact));
+            add(&zero, reach, &|places| places.iter().map(still).collect());
             return nodes;
         }
         self.sweep(&(t.clone() - reach), t, &mut |(cell, flight)| {
             let (xi, eta) = &cell.corner;
             let low = larger(larger(t.clone() - xi - &cell.size.0, eta.clone() - t), zero.clone());
             let high = smaller(smaller(t.clone() - xi, eta.clone() + &cell.size.1 - t), reach.clone());
-            let len = high - &low;
-            if len.is_positive() {
-                let places = places(&low, &len);
-                let values = self.inside((cell, flight), &places, t);
-                add(&len, places, values);
-            }
+            add(&low, &high, &|places| self.inside((cell, flight), places, t));
         });
         if let Some(held) = self.held {
             for (from, to) in held.between_rays(t, &larger(t.clone() - &held.release, zero.clone()), reach) {
-                let len = to - &from;
-                let places = places(&from, &len);
-                let values = places.iter().map(|x| self.before(held, x, t, Side::Right)).collect();
-                add(&len, places, values);
+                let before = |x: &S| self.before(held, x, t, Side::Right);
+                add(&from, &to, &|places| places.iter().map(before).collect());
             }
         }
         nodes

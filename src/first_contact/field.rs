@@ -37,7 +37,7 @@ pub struct FirstContact<N> {
     /// `R = r t₁`.
     pub(super) damping: N,
     /// `1/c`.
-    slowness: N,
+    pub(super) slowness: N,
     /// Whether `g = 0`.
     pub(super) weightless: bool,
 }
