@@ -340,19 +340,19 @@ impl<S: Rounded, H: Bounding<S>> Motion<Estimate<S>> for WithBounds<S, H> {
         let most = self.history.uncertainty(time.value()).most * velocity + rate.to_f64().abs();
         let between = speed + left_out * most;
         let rounding = 8.0 * time.value().unit() * (time.to_f64() + trip);
-        let far = |parts: usize| rise + 2.0 * most * (late + placed / c + (parts + 1) as f64 * rounding);
-        let parts: Vec<usize> = nodes.iter().map(|nodes| nodes.len() / rule).collect();
-        let high = far(parts.iter().sum()) + length * left_out * most / c;
+        let far = |rays: usize| rise + 2.0 * most * (late + placed / c + (rays + 1) as f64 * rounding);
+        let rays: Vec<usize> = nodes.iter().map(|nodes| (nodes.len() / rule).saturating_sub(1)).collect();
+        let high = far(rays.iter().sum()) + length * left_out * most / c;
 
         let known = |x: &S| Estimate::exact(x.clone());
         let starts = std::iter::once(height.zero()).chain(points.iter().cloned()).map(Estimate::exact);
         let sums = nodes.iter().zip(starts).map(|(nodes, from)| Sums::of(&from, nodes.iter().map(|n| n.map(known))));
         let ends: Vec<_> = points.iter().map(known).collect();
         let cells = moments::of_sums(sums.collect(), &ends, Estimate::exact(height)).into_iter();
-        let cells = cells.zip(points.windows(2)).zip(&parts[1..]).map(|(([v, v_t, v_x], pair), parts)| {
+        let cells = cells.zip(points.windows(2)).zip(&rays[1..]).map(|(([v, v_t, v_x], pair), rays)| {
             let width = (pair[1].clone() - &pair[0]).to_f64();
             let share = [width, width * width / 2.0];
-            let bounds = [share[0] * between + c * far(*parts), share[1] * between + width * c * far(*parts)];
+            let bounds = [share[0] * between + c * far(*rays), share[1] * between + width * c * far(*rays)];
             let widen = |[area, moment]: [Estimate<S>; 2], [by_area, by_moment]: [f64; 2]| {
                 [wider(area, by_area), wider(moment, by_moment)]
             };
