@@ -323,9 +323,9 @@ impl<S: RoundedSpecial> Bounding<S> for Damped<S> {
             strain: node.strain * &strain,
         };
         let lines = self.record().lines(&t, &cuts);
-        let nodes = lines.into_iter().map(|line| line.into_iter().map(node).collect()).collect();
-        let left_out = 2.0 * self.medium.log2_accuracy.exp2();
-        Ok(Lines { nodes, rule: self.medium.basis.gauss.len(), left_out })
+        let rays = lines.iter().map(|line| line.parts.saturating_sub(1)).collect();
+        let nodes = lines.into_iter().map(|line| line.nodes.into_iter().map(node).collect()).collect();
+        Ok(Lines { nodes, rays, left_out: 2.0 * self.medium.log2_accuracy.exp2() })
     }
 }
 
@@ -581,7 +581,7 @@ mod tests {
         times.sort_by(f64::total_cmp);
         let mut lost = 0.0;
         for pair in times.windows(2).filter(|pair| pair[1] - pair[0] > 1e-12) {
-            for (x, w) in &history.medium.basis.gauss {
+            for (x, w) in history.medium.rule(&history.medium.longest) {
                 let t = pair[0] + x * (pair[1] - pair[0]);
                 let motion: f64 =
                     history.record().line(&t, &0.5).iter().map(|node| node.weight * node.velocity().powi(2)).sum();

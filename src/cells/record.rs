@@ -11,7 +11,7 @@ use super::march::Medium;
 use super::piece::{Checkpoint, Piece};
 use super::series::evaluate;
 use super::start::Data;
-use super::strips::{Kept, Line, Node, Pool, Strips};
+use super::strips::{Kept, Line, Node, Nodes, Pool, Strips};
 use crate::motion::Side;
 use crate::special::RoundedSpecial;
 
@@ -97,13 +97,13 @@ impl<S: RoundedSpecial> Record<'_, S> {
     }
 
     /// [`Record::line`] along the whole rod.
-    pub(super) fn whole_line(&self, t: &S) -> Line<S> {
+    pub(super) fn whole_line(&self, t: &S) -> Nodes<S> {
         self.pool.line(t, || self.line(t, &t.ratio(1, 2)))
     }
 
     /// [`Record::lines`] on `0 ≤ x ≤ reach`.
     pub(super) fn line(&self, t: &S, reach: &S) -> Vec<Node<S>> {
-        self.lines(t, std::slice::from_ref(reach)).pop().unwrap_or_default()
+        self.lines(t, std::slice::from_ref(reach)).pop().unwrap_or_default().nodes
     }
 
     /// Gauss–Legendre nodes at time `t` from the ground to the first of `cuts`, and from each to the next, between all
@@ -111,33 +111,32 @@ impl<S: RoundedSpecial> Record<'_, S> {
     ///
     /// **Accuracy**: that of the cells: between rays the squares of `z_t`, `z_x` grow at most like `e^{4κ|s|}`, for
     /// which the tables hold enough terms, and the rule is exact to twice its nodes.
-    pub(super) fn lines(&self, t: &S, cuts: &[S]) -> Vec<Vec<Node<S>>> {
+    pub(super) fn lines(&self, t: &S, cuts: &[S]) -> Vec<Line<S>> {
         let zero = t.zero();
-        let mut nodes = vec![Vec::new(); cuts.len()];
-        let Some(reach) = cuts.last() else { return nodes };
-        let gauss = &self.medium.basis.gauss;
+        let mut lines = vec![Line::default(); cuts.len()];
+        let Some(reach) = cuts.last() else { return lines };
         // Between two rays, part by part.
         let mut add = |from: &S, to: &S, values: &dyn Fn(&[S]) -> Vec<(S, S, S)>| {
             let first = cuts.partition_point(|cut| cut <= from);
-            let mut from = from.clone();
-            for (cut, nodes) in cuts.iter().zip(&mut nodes).skip(first) {
-                let end = smaller(to.clone(), cut.clone());
-                let len = end.clone() - &from;
-                if !len.is_positive() {
-                    break;
-                }
-                let places: Vec<S> = gauss.iter().map(|(at, _)| len.clone() * at + &from).collect();
-                let values = values(&places);
-                for (((_, weight), x), (rigid, motion, strain)) in gauss.iter().zip(places).zip(values) {
-                    nodes.push(Node { weight: weight.clone() * &len, x, rigid, motion, strain });
-                }
-                from = end;
+            let ends = cuts[first..].iter().map(|cut| smaller(to.clone(), cut.clone()));
+            let starts = std::iter::once(from).chain(&cuts[first..]);
+            let parts = starts.zip(ends).map(|(from, end)| (from, end - from));
+            let parts: Vec<_> = parts.take_while(|(_, len)| len.is_positive()).collect();
+            let nodes = parts.iter().zip(first..).flat_map(|((from, len), line)| {
+                let rule = self.medium.rule(len).iter();
+                rule.map(move |(at, weight)| (line, len.clone() * at + *from, weight.clone() * len))
+            });
+            let nodes: Vec<_> = nodes.collect();
+            let places: Vec<S> = nodes.iter().map(|(_, x, _)| x.clone()).collect();
+            for ((line, x, weight), (rigid, motion, strain)) in nodes.into_iter().zip(values(&places)) {
+                lines[line].nodes.push(Node { weight, x, rigid, motion, strain });
             }
+            lines.iter_mut().skip(first).take(parts.len()).for_each(|line| line.parts += 1);
         };
         if let Some(contact) = self.at_rest(t) {
             let still = |x: &S| (zero.clone(), zero.clone(), self.rest_strain(x, contact));
             add(&zero, reach, &|places| places.iter().map(still).collect());
-            return nodes;
+            return lines;
         }
         self.sweep(&(t.clone() - reach), t, &mut |(cell, flight)| {
             let (xi, eta) = &cell.corner;
@@ -151,7 +150,7 @@ impl<S: RoundedSpecial> Record<'_, S> {
                 add(&from, &to, &|places| places.iter().map(before).collect());
             }
         }
-        nodes
+        lines
     }
 
     /// Whether the rod is at rest at time `t`, and if so whether in contact.

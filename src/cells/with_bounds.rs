@@ -24,8 +24,8 @@ pub(super) type Pair<S> = Result<(Estimate<S>, Estimate<S>), Error>;
 #[derive(Debug)]
 pub struct Lines<S> {
     pub(super) nodes: Vec<Vec<Node<S>>>,
-    /// So many nodes lie between two rays, or a ray and a point.
-    pub(super) rule: usize,
+    /// How many rays cut each of them.
+    pub(super) rays: Vec<usize>,
     /// What they leave, relative to the greatest integrand and the length.
     pub(super) left_out: f64,
 }
@@ -332,7 +332,7 @@ impl<S: Rounded, H: Bounding<S>> Motion<Estimate<S>> for WithBounds<S, H> {
         if let Some(form) = self.history.bounded(time.value(), Side::Left) {
             return form.moments(&rounded(time.value()), &points.iter().map(rounded).collect::<Vec<_>>());
         }
-        let Lines { nodes, rule, left_out } = self.history.lines(time.value(), &points)?;
+        let Lines { nodes, rays, left_out } = self.history.lines(time.value(), &points)?;
         let (height, _) = self.history.ground_end(time.value(), Side::Left)?;
         let (_, rate) = self.history.centre(time.value())?;
         let Scales { time: trip, velocity, length, wave_speed: c, .. } = self.scales;
@@ -341,7 +341,6 @@ impl<S: Rounded, H: Bounding<S>> Motion<Estimate<S>> for WithBounds<S, H> {
         let between = speed + left_out * most;
         let rounding = 8.0 * time.value().unit() * (time.to_f64() + trip);
         let far = |rays: usize| rise + 2.0 * most * (late + placed / c + (rays + 1) as f64 * rounding);
-        let rays: Vec<usize> = nodes.iter().map(|nodes| (nodes.len() / rule).saturating_sub(1)).collect();
         let high = far(rays.iter().sum()) + length * left_out * most / c;
 
         let known = |x: &S| Estimate::exact(x.clone());
