@@ -155,6 +155,37 @@ proptest! {
     }
 }
 
+/// Constant and linear fields are their own projections, and quadratic ones have the means of parabolas: a strained
+/// start, and rods at rest on the ground and under a fixed top.
+#[test]
+fn linear_fields_are_reproduced() {
+    let rod = || Problem::builder().length(2).wave_speed(3).gravity("0.9").damping(4);
+    let start = rod().displacement([(0, "1"), (2, "1.5")]).velocity([(0, "-1"), (2, "-1")]).time(1);
+    let (still, held) = (rod().impact_speed("0.1").time(90), rod().gap(1).impact_speed(0).fixed_top().time(90));
+    // v as a + b x + d x², and v_t.
+    let (bend, shift) = (0.9 / 18.0, 0.9 * 2.0 / 9.0);
+    let resting = [0.0, -shift, bend];
+    let cases =
+        [(start, 0.0, [1.0, 0.25, 0.0], -1.0), (still, 80.0, resting, 0.0), (held, 80.0, [0.8, 0.0, bend], 0.0)];
+    for (problem, t, [a, b, d], rate) in cases {
+        let history = problem.build().unwrap().solve().unwrap();
+        for points in [vec![0.0, 2.0], vec![0.0, 0.3, 0.30001, 1.7, 2.0]] {
+            let nodal = history.slices(Slice::P1, &points, &[t], None).unwrap();
+            let means = history.slices(Slice::Averages, &points, &[t], None).unwrap();
+            for (k, x) in points.iter().enumerate() {
+                assert!((nodal[4][k] - rate).abs() < 1e-9, "{t} {x} {}", nodal[4][k]);
+                assert!((nodal[5][k] - (b + 2.0 * d * x)).abs() < 1e-9, "{t} {x} {}", nodal[5][k]);
+                assert!(d != 0.0 || (nodal[3][k] - (a + b * x)).abs() < 1e-9, "{t} {x} {}", nodal[3][k]);
+            }
+            for (k, pair) in points.windows(2).enumerate() {
+                let (x, y) = (pair[0], pair[1]);
+                let mean = a + b * (x + y) / 2.0 + d * (x * x + x * y + y * y) / 3.0;
+                assert!((means[3][k] - mean).abs() < 1e-9, "{t} {x} {} {mean}", means[3][k]);
+            }
+        }
+    }
+}
+
 /// Where rays are at this time, and the ends.
 fn cuts(problem: &Problem, events: &[Float], time: &Float) -> Vec<Float> {
     let lift = |x: &Number| Float::from_number(x, &time.prec());
