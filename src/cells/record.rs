@@ -30,6 +30,9 @@ pub(super) struct Record<'a, S> {
 /// A cell on its way past, with the flight whose vibration it holds.
 type Passing<'a, 'b, 'c, S> = (&'a Cell<'b, S>, Option<&'c Flight<S>>);
 
+/// `h′`, the rest of `v_t`, and `v_x`, at places.
+type Values<'a, S> = dyn Fn(&[S]) -> Vec<(S, S, S)> + 'a;
+
 impl<S: RoundedSpecial> Record<'_, S> {
     /// Shows every cell of the strips that meet `from ≤ ξ ≤ to`, in order of `ξ`, then of `η`.
     fn sweep<'c>(&'c self, from: &S, to: &S, visit: &mut dyn FnMut(Passing<'_, '_, 'c, S>)) {
@@ -116,7 +119,7 @@ impl<S: RoundedSpecial> Record<'_, S> {
         let mut lines = vec![Line::default(); cuts.len()];
         let Some(reach) = cuts.last() else { return lines };
         // Between two rays, part by part.
-        let mut add = |from: &S, to: &S, values: &dyn Fn(&[S]) -> Vec<(S, S, S)>| {
+        let mut add = |from: &S, to: &S, values: &Values<'_, S>| {
             let first = cuts.partition_point(|cut| cut <= from);
             let ends = cuts[first..].iter().map(|cut| smaller(to.clone(), cut.clone()));
             let starts = std::iter::once(from).chain(&cuts[first..]);

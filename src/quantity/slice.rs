@@ -26,7 +26,8 @@ pub enum Slice {
 ///
 /// **Accuracy**: *exact* in fractions; otherwise within the bounds that the numbers carry. The inverse of the mass
 /// matrix has signs that alternate, and so has the elimination: the bounds of the loads become those of the solution
-/// without any loss.
+/// without any loss. Points in doubles are those doubles, whatever they were rounded from: a cell that is roundings wide
+/// has no other width.
 ///
 /// **Errors**: [`Error::Grid`] for averages and projections on a grid whose points do not increase, and
 /// [`Error::PointOutside`].
@@ -42,15 +43,17 @@ pub fn slices<S: Scalar>(
         let row = [time.clone(), time.int(limit), x.clone()].into_iter().chain(values);
         table.iter_mut().zip(row).for_each(|(column, value)| column.push(value));
     };
+    let stored = |point: &S| point.as_double().map_or_else(|| point.clone(), |double| point.double(double));
+    let cells: Vec<S> = if slice == Slice::Points { Vec::new() } else { points.iter().map(stored).collect() };
     if slice != Slice::Points {
-        check(points, &motion.scales().length)?;
+        check(&cells, &motion.scales().length)?;
     }
     for time in times {
         if slice != Slice::Points {
-            let moments = motion.moments(time, points)?;
+            let moments = motion.moments(time, &cells)?;
             let (places, values) = match slice {
-                Slice::P1 => (points.to_vec(), projection(&moments, points)),
-                _ => averages(&moments, points),
+                Slice::P1 => (points.to_vec(), projection(&moments, &cells)),
+                _ => averages(&moments, &cells),
             };
             places.iter().zip(values).for_each(|(x, values)| add(time, 0, x, values));
             continue;

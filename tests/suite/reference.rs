@@ -458,6 +458,18 @@ fn what_cannot_be_is_refused() {
     refused(&["reference", "figure-4-r02", "--as", "c"], &["found a damped rod, expected an undamped one"]);
 }
 
+/// A cell that is five roundings of a double wide: above the ray of the impact nothing is strained.
+#[test]
+fn narrow_cells_are_those_of_the_doubles() {
+    let asked = ["reference", "figure-4-r02", "--times", "0.25", "--points", "0,0.3,0.3000000000000003,1"];
+    let text = quiet(&[&asked[..], &["--field", "averages", "--bare"]].concat());
+    let rows: Vec<&str> = text.lines().collect();
+    assert!(
+        rows.len() == 4 && rows[2].starts_with("0.25,both,0.3000000000000001") && rows[2].ends_with(",0.0"),
+        "{text}"
+    );
+}
+
 #[test]
 fn steps_end_where_they_are_told() {
     let last = |dt: &str, to: &str| {

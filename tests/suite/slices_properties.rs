@@ -244,7 +244,8 @@ fn they_are_integrals_of_the_field() {
                 let width = points[cell + 1] - points[cell];
                 for (at, weight) in &rule {
                     let x = half.clone() * at + &middle;
-                    let field = digits.field(&[x.clone()], &[time.clone()], Side::Right).unwrap().remove(0);
+                    let at = (std::slice::from_ref(&x), std::slice::from_ref(&time));
+                    let field = digits.field(at.0, at.1, Side::Right).unwrap().remove(0);
                     let upper = (x - points[cell]).to_f64() / width;
                     for (j, f) in [field.displacement, field.velocity, field.strain].into_iter().enumerate() {
                         let share = (f * &half * weight).to_f64();
