@@ -143,14 +143,15 @@ impl<N: BoundedSpecial> FirstContact<N> {
                 sum = sum + square(&node) * &node.weight;
             }
         }
-        // Two squares on either side of a ray.
-        let square = self.most(trips, &doubt).square() * &doubt.int(4);
+        // v_t − h′ is at most twice what v_t and c v_x are.
+        let square = self.total_speed().square() * &doubt.int(5);
         // dx = c t₁ da = 2L da.
         ((sum.widened(&(doubt * square))) * &self.rod.length).without_exact()
     }
 
     /// The stretches between the rays in the rod, of which there are one upwards and one downwards but at lattice
-    /// times, and how far a ray may lie below the top that is taken to be there.
+    /// times. What lies above them is at most as long as the second number: where a ray is not told from the top, they
+    /// end at the ray.
     pub(super) fn stretches(&self, trips: &Trips<N>) -> (Vec<Stretch<N>>, N) {
         let (k, zero, half) = (trips.passed, self.damping.zero(), self.damping.ratio(1, 2));
         if trips.on_lattice {
@@ -164,7 +165,7 @@ impl<N: BoundedSpecial> FirstContact<N> {
         let upper = match side {
             Ok(Ordering::Greater) => [k + 1, k + 1],
             Ok(Ordering::Less) => [k, k],
-            _ => return (vec![Stretch { from: zero, to: half, arrived: lower }], late),
+            _ => return (vec![Stretch { from: zero, to: cut, arrived: lower }], late),
         };
         let lower = Stretch { from: zero.clone(), to: cut.clone(), arrived: lower };
         (vec![lower, Stretch { from: cut, to: half, arrived: upper }], zero)

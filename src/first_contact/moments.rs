@@ -16,17 +16,14 @@ impl<N: BoundedSpecial> FirstContact<N> {
     /// `v_x`.
     ///
     /// **Accuracy**: *within its own bound*, which holds rounding and quadrature. Where a ray is not told from a point
-    /// of the grid, or from the top, it is taken to be there; the integrals are off by its distance times twice what
-    /// bounds `v_t` and `c v_x`.
+    /// of the grid, or from the top, a cell ends at the ray, and what lies between is at most
+    /// [`FirstContact::total_speed`] times their distance.
     pub(super) fn moments_at(&self, points: &[N], trips: &Trips<N>) -> Vec<Moments<N>> {
-        let (stretches, doubt) = self.stretches(trips);
+        let (stretches, _) = self.stretches(trips);
         let (zero, reach) = (self.damping.zero(), self.rod.length.clone() * &self.damping.int(2));
         let ends: Vec<N> = std::iter::once(zero.clone()).chain(points.iter().cloned()).collect();
         let places: Vec<N> = ends.iter().map(|x| (x.clone() / &reach).without_exact()).collect();
-        let mut cells: Vec<_> = places.windows(2).map(|pair| parts(&stretches, &pair[0], &pair[1])).collect();
-        if let Some((_, last)) = cells.last_mut() {
-            *last = last.clone() + &doubt;
-        }
+        let cells: Vec<_> = places.windows(2).map(|pair| parts(&stretches, &pair[0], &pair[1])).collect();
 
         let moved = cells.iter().flat_map(|(parts, _)| parts).filter(|part| part.arrived[0] > 0);
         let widest = moved.map(|part| (part.to.clone() - &part.from).to_f64() / 2.0).fold(0.0, f64::max);
@@ -46,8 +43,7 @@ impl<N: BoundedSpecial> FirstContact<N> {
             };
             let nodes = parts.iter().flat_map(|part| rule.iter().map(move |(at, weight)| node(part, at, weight)));
             let width = pair[1].clone() - &pair[0];
-            let jump = self.most(trips, doubt) * zero.int(2) * doubt * &reach;
-            let off = (left.clone() * &width + jump).without_exact();
+            let off = (left.clone() * &width + self.total_speed() * doubt * &reach).without_exact();
             Sums::of(&pair[0], nodes).widened(&width, &off, &(off.clone() * &self.slowness))
         });
         of_sums(sums.collect(), points, zero.clone())
@@ -72,22 +68,14 @@ impl<N: BoundedSpecial> FirstContact<N> {
         let left = (two.ln() * &two.double(rest(&ellipses, n) + 1e-3)).exp();
         (left, self.damping.gauss_legendre(n))
     }
-
-    /// A bound of `v_t` and `c v_x`, also where a formula is followed so far beyond the ray at which it ends.
-    pub(super) fn most(&self, trips: &Trips<N>, beyond: &N) -> N {
-        let (mu, mu0) = (self.speed.to_f64(), self.critical.to_f64());
-        beyond.double(self.amplitude(trips.number.to_f64(), beyond.magnitude().to_f64(), mu, mu0))
-    }
 }
 
-/// The parts of `from … to` between rays, and how far a ray may lie on the other side of an end that it is taken for.
+/// The parts of `from … to` between rays, and how far these may miss an end, where a ray is not told from it.
 fn parts<N: Scalar>(stretches: &[Stretch<N>], from: &N, to: &N) -> (Vec<Stretch<N>>, N) {
-    let part = |from: &N, to: &N, of: &Stretch<N>| Stretch { from: from.clone(), to: to.clone(), ..*of };
-    let [lower, upper] = stretches else {
-        return (stretches.iter().map(|stretch| part(from, to, stretch)).collect(), from.zero());
-    };
-    let cut = &lower.to;
     let mut doubt = from.zero();
+    let (Some(lower), Some(upper)) = (stretches.first(), stretches.last()) else { return (Vec::new(), doubt) };
+    let part = |from: &N, to: &N, of: &Stretch<N>| Stretch { from: from.clone(), to: to.clone(), ..*of };
+    let cut = &lower.to;
     let sides = [from, to].map(|end| match cut.compare(end) {
         Ok(order @ (Ordering::Less | Ordering::Greater)) => Some(order),
         _ => {
@@ -96,9 +84,13 @@ fn parts<N: Scalar>(stretches: &[Stretch<N>], from: &N, to: &N) -> (Vec<Stretch<
         }
     });
     let parts = match sides {
-        [Some(Ordering::Greater), Some(Ordering::Less)] => vec![part(from, cut, lower), part(cut, to, upper)],
-        [Some(Ordering::Greater), _] => vec![part(from, to, lower)],
-        _ => vec![part(from, to, upper)],
+        [Some(Ordering::Greater), Some(Ordering::Greater)] => vec![part(from, to, lower)],
+        [Some(Ordering::Greater), Some(_)] => vec![part(from, cut, lower), part(cut, to, upper)],
+        [Some(Ordering::Greater), None] => vec![part(from, cut, lower)],
+        [Some(_), _] => vec![part(from, to, upper)],
+        [None, Some(Ordering::Less)] => vec![part(cut, to, upper)],
+        // The cell is no wider than the doubt.
+        [None, _] => Vec::new(),
     };
     (parts, doubt)
 }
