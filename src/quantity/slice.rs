@@ -22,12 +22,12 @@ pub enum Slice {
 /// `t`, `side`, `x`, `v`, `v_t`, `v_x` for every time of `times` on the grid `points`, column by column, with the sides
 /// as in [`columns`](super::columns). Averages and projections do not jump.
 ///
-/// **Source**: the integrals over the cells, [`Motion::moments`]; for the projection the mass matrix of linear elements.
+/// **Source**: the integrals over the cells, [`Motion::moments`]; the mass matrix of linear elements.
 ///
 /// **Accuracy**: *exact* in fractions; otherwise within the bounds that the numbers carry. The inverse of the mass
 /// matrix has signs that alternate, and so has the elimination: the bounds of the loads become those of the solution
-/// without any loss. Points in doubles are those doubles, whatever they were rounded from: a cell that is roundings wide
-/// has no other width.
+/// without any loss. Points in doubles are those doubles, whatever they were rounded from: a cell that is a few
+/// roundings wide has no other width.
 ///
 /// **Errors**: [`Error::Grid`] for averages and projections on a grid whose points do not increase, and
 /// [`Error::PointOutside`].

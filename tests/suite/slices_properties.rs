@@ -102,7 +102,8 @@ proptest! {
     ) {
         let solve = |digits: f64| WithBounds::new(Damped::<f64>::solve(&problem, &(), digits).unwrap()).unwrap();
         let (coarse, fine) = (solve(digits), solve(13.0));
-        prop_assume!(!too_long(&coarse) && !too_long(&fine));
+        // A touch that a run misses by less than its bound is not counted, as docs/bounds.md says.
+        prop_assume!(!too_long(&coarse) && !too_long(&fine) && coarse.events().len() == fine.events().len());
         let points = exact(&grid(kind, problem.rod.length.to_f64(), seed));
         let end = coarse.end().to_f64().min(fine.end().to_f64()) * 0.999;
         let times: Vec<_> = (0..12).map(|k| Estimate::exact(end * (f64::from(k) + seed) / 12.0)).collect();
@@ -136,7 +137,8 @@ proptest! {
             let ask = |motion: &dyn Motion<Estimate<f64>>| slices(motion, slice, &points, &times, None).unwrap();
             let found = ask(&closed);
             prop_assert_eq!(apart(&found, &ask(&cells)), Vec::<String>::new(), "{:?}", slice);
-            let lift = |x: &Estimate<f64>| Rational::from_f64(*x.value()).unwrap().to_string().parse::<Number>().unwrap();
+            let spelled = |x: f64| Rational::from_f64(x).unwrap().to_string();
+            let lift = |x: &Estimate<f64>| spelled(*x.value()).parse::<Number>().unwrap();
             let [points, times] = [&points, &times].map(|list| list.iter().map(lift).collect::<Vec<_>>());
             let known = |list: &[Number]| list.iter().map(|x| Estimate::from_number(x, &200)).collect::<Vec<_>>();
             let inside = |list: &[Number]| {
@@ -208,8 +210,8 @@ fn cuts(problem: &Problem, events: &[Float], time: &Float) -> Vec<Float> {
     cuts
 }
 
-/// Gauss–Legendre between rays, from values of the field in forty digits: means, and what is left of a projection, which
-/// every hat function is orthogonal to.
+/// Gauss–Legendre between rays, from values of the field in forty digits: means, and what a projection leaves, which is
+/// orthogonal to every hat function.
 #[test]
 fn they_are_integrals_of_the_field() {
     let rod = || Problem::builder().length("1.5").wave_speed(2).gravity("0.7").impact_speed("1.9");
