@@ -499,8 +499,8 @@ fn a_damped_rod_has_rows() {
     // A mean of v_x is a difference of v, in doubles and proved.
     for (numbers, times) in [("--digits", ["1", "3"]), ("--certified", ["1", "1.7"])] {
         let numbers = if numbers == "--digits" { vec!["--digits", "12"] } else { vec![numbers] };
-        let asked =
-            ["reference", "figure-4-r02", "--times", &times.join(","), "--points", "0,1/4,1", "--format", "json"];
+        let times = times.join(",");
+        let asked = ["reference", "figure-4-r02", "--times", &times, "--points", "0,1/4,1", "--format", "json"];
         let rows = |field: &str| json(&[&asked[..], &["--side", "left", "--field", field], &numbers].concat());
         let (points, means, nodal) = (rows("points"), rows("averages"), rows("p1"));
         let value = |table: &Value, row: usize, column: usize| {
