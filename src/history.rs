@@ -332,7 +332,7 @@ impl<S: Target> History<S> {
     ///
     /// **Accuracy**: that of the [`Plan`], each column by itself.
     ///
-    /// **Errors**: [`Error::NoWaves`] for means and projections of a damped rod; [`Error::Grid`].
+    /// **Errors**: [`Error::Grid`].
     ///
     /// ```
     /// use dalembert::{Problem, Slice};

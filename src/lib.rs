@@ -60,6 +60,7 @@ mod history;
 pub mod lattice;
 #[doc(hidden)]
 pub mod modal;
+mod moments;
 #[doc(hidden)]
 pub mod motion;
 #[doc(hidden)]

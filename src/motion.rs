@@ -6,6 +6,7 @@ use std::ops::ControlFlow;
 pub use crate::course::{Contact, Course, Ending, Energy, Event, EventKind, Side, StressHistory, StressPiece};
 use crate::error::Error;
 pub use crate::field::Field;
+use crate::moments::{self, Moments};
 use crate::number::Scalar;
 use crate::ray::Ray;
 use crate::reason::Warning;
@@ -53,6 +54,8 @@ pub struct Uncertainty {
     pub late: f64,
     /// `|dv_t/dt|` between rays, in `V/t₁`: what lateness makes of velocities.
     pub slope: f64,
+    /// The most of `|v_t|` and `|c v_x|`, in `V`: what lateness makes of displacements and of integrals along the rod.
+    pub most: f64,
     /// The most of `v_t ± c v_x` about the centre of mass, in `V`: what a ray that is off in time makes of energies.
     pub peak: f64,
     /// How far rays may be off, in `t₁`: what the limits next to them, and peaks, are off by is that times the slope.
@@ -68,6 +71,7 @@ impl Uncertainty {
             rate: self.rate.max(other.rate),
             late: self.late.max(other.late),
             slope: self.slope.max(other.slope),
+            most: self.most.max(other.most),
             peak: self.peak.max(other.peak),
             rays: self.rays.max(other.rays),
         }
@@ -161,6 +165,12 @@ pub trait Motion<S: Scalar>: fmt::Debug + Send + Sync {
     fn stretches(&self, time: &S) -> Result<Vec<Stretch<S>>, Error> {
         let _ = time;
         Err(Error::NoWaves)
+    }
+
+    /// `∫ f dx` and `∫ f (x − a) dx` over each cell `a … b` between neighbours of `points`, which increase, for `f` =
+    /// `v`, `v_t`, `v_x`.
+    fn moments(&self, time: &S, points: &[S]) -> Result<Vec<Moments<S>>, Error> {
+        moments::of_stretches(&self.stretches(time)?, points)
     }
 
     /// Whether the two limits in time of anything at the ends may differ: `false` where no ray is there.

@@ -461,15 +461,23 @@ class History:
         """``E``, ``E_h`` and ``E_z``; per linear density where the problem has no material."""
         return Energy(*self._at(t, "right", "E_total", "E_h", "E_z"))
 
-    def field(self, x: Numbers, t: Numbers, side: Side = "right") -> Field:
+    def field(
+        self, x: Numbers, t: Numbers, side: Side = "right", kind: Literal["points", "averages", "p1"] = "points"
+    ) -> Field:
         """``v``, ``v_t`` and ``v_x`` at every point of ``x`` for every time of ``t``: arrays of the shape of ``t``
-        followed by that of ``x``.
+        followed by that of ``x``. ``kind="averages"`` gives the means over the cells between the points of ``x``, which
+        are one fewer, and ``kind="p1"`` the nodal values of the L² projection on the continuous, piecewise linear
+        functions on that grid; neither has two sides.
 
-        >>> solve("paper-strong").field([0.25, 0.5], [1, 1.5]).strain.shape
+        >>> rod = solve("paper-strong")
+        >>> rod.field([0.25, 0.5], [1, 1.5]).strain.shape
         (2, 2)
+        >>> rod.field([0, 0.5, 1], 0.5, kind="averages").strain.tolist()
+        [-3.25, 0.0]
         """
-        columns = map(self._array, self._core.field(self._places(x), self._places(t), side))
-        return Field(*_shaped(columns, np.shape(t) + np.shape(x)))
+        columns = map(self._array, self._core.field(self._places(x), self._places(t), side, kind))
+        points = np.shape(x) if kind != "averages" else (np.size(x) - 1,)
+        return Field(*_shaped(columns, np.shape(t) + points))
 
 
 def _shaped(columns: Iterable[np.ndarray], shape: tuple[int, ...]) -> list[Any]:

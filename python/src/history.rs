@@ -196,21 +196,24 @@ impl History {
         })
     }
 
-    /// `v`, `v_t`, `v_x` time by time, and there point by point.
+    /// `v`, `v_t`, `v_x` time by time, and there point by point or cell by cell.
     fn field(
         &self,
         py: Python<'_>,
         points: &Bound<'_, PyAny>,
         times: &Bound<'_, PyAny>,
         side: &Bound<'_, PyAny>,
+        kind: &Bound<'_, PyAny>,
     ) -> PyResult<Vec<Found>> {
         let (points, times, side) = (places("point", points)?, places("time", times)?, side_of(side)?);
+        let kinds = [("points", Slice::Points), ("averages", Slice::Averages), ("p1", Slice::P1)];
+        let slice = one_of("kind", kind, &kinds)?;
         self.ask(py, move |solution| {
             each!(solution, |history, digits| {
                 let found = history.ask(
                     |motion| {
                         let (points, times) = (points.lift(motion), times.lift(motion));
-                        Ok(slices(motion, Slice::Points, &points, &times, Some(side))?.split_off(3))
+                        Ok(slices(motion, slice, &points, &times, Some(side))?.split_off(3))
                     },
                     |columns| columns.iter().flatten().collect(),
                 )?;

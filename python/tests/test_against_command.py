@@ -140,6 +140,21 @@ def test_values_at_times(command, scene, side):
                 same(value, row["values"][name], row["uncertainty"][name])
 
 
+@pytest.mark.parametrize("scene", ["doyen-ern-piperno", "figure-4-r02"])
+@pytest.mark.parametrize("kind", ["averages", "p1"])
+def test_means_and_projections(command, scene, kind):
+    times = [0.3, 1.25, 1.9]
+    x = np.linspace(0, dalembert.solve(scene).scales["length"], 5)
+    ours = dalembert.solve(scene, to=times[-1]).field(x, times, kind=kind)
+    listed = [",".join(map(repr, map(float, values))) for values in (times, x)]
+    asked = ("--times", listed[0], "--points", listed[1], "--field", kind, "--format", "json")
+    found = json.loads(command("reference", scene, *asked).stdout)
+    for j, column in enumerate(ours, start=3):
+        assert column.shape == (3, len(x) - (kind == "averages"))
+        for value, row in zip(column.ravel(), found["rows"], strict=True):
+            same(value, row[j], found["columns"][j]["bound"])
+
+
 def test_refusals_have_the_text_of_the_command(command):
     scene = "[rod]\nlength = {}\nwave_speed = 1\n[impact]\nspeed = 3\n"
     for length in (-1, '"1 m"', "nan", '"1/0"', "1e99", "[1]", "true"):

@@ -326,9 +326,11 @@ impl Budget {
         self.worst.rise = self.worst.rise.max(off.apart + beyond);
     }
 
-    /// Velocities change no faster than this between rays, and are no greater than `peak`, since the last event.
-    pub(super) fn note_slope(&mut self, slope: f64, peak: f64) {
+    /// Velocities change no faster than this between rays, and neither they nor `c v_x` are greater than `most`, nor
+    /// the invariants than `peak`, since the last event.
+    pub(super) fn note_slope(&mut self, slope: f64, (most, peak): (f64, f64)) {
         self.worst.slope = self.worst.slope.max(slope);
+        self.worst.most = self.worst.most.max(most);
         self.worst.peak = self.worst.peak.max(peak);
     }
 

@@ -5,7 +5,7 @@ use std::ops::ControlFlow;
 use super::effort::Effort;
 use super::history::Damped;
 use super::piece::{AtEvent, Unresolved};
-use super::with_bounds::{Bounding, Pair};
+use super::with_bounds::{Bounding, Lines, Pair};
 use crate::error::Error;
 use crate::first_contact::{Bounce, ContactHistory, FirstContact};
 use crate::motion::{Course, Ending, Energy, Event, Field, Motion, Scales, Side, StressPiece, Uncertainty, unobserved};
@@ -273,6 +273,10 @@ impl<S: RoundedSpecial> Bounding<S> for ContactThenCells<S> {
         self.march.as_ref()?.at_event(event.checked_sub(1)?)
     }
 
+    fn lines(&self, time: &S, points: &[S]) -> Result<Lines<S>, Error> {
+        self.later()?.lines(time, points)
+    }
+
     fn bounded_centre(&self, time: &S) -> Option<Pair<S>> {
         match (self.in_contact(time, Side::Left).ok()?, self.course.events.get(2)) {
             (true, _) => Some(self.contact.centre(&time.carry())),
@@ -318,7 +322,7 @@ mod tests {
                     Effort::of(13.0),
                     form,
                     (&release.0, release.1, &release.2),
-                    &straight.events()[1].centre_velocity.carry(),
+                    &Estimate::new(0.0, f64::INFINITY),
                     &unobserved,
                 )?;
                 Ok((straight, off))

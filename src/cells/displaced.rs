@@ -136,6 +136,11 @@ fn compare(case: &Displaced) -> Result<(), TestCaseError> {
         within("translational energy", &of_a.translational, &of_b.translational)?;
         within("vibrational energy", &of_a.vibrational, &of_b.vibrational)?;
         within("energy", &of_a.total, &of_b.total)?;
+        let grid = [0.0, 0.05, 0.4, 1.0].map(Estimate::exact);
+        let (means, of_b) = (a.moments(&time, &grid)?, b.moments(&time, &grid)?);
+        for (x, y) in means.iter().flatten().flatten().zip(of_b.iter().flatten().flatten()) {
+            within("moment", x, y)?;
+        }
     }
     Ok(())
 }

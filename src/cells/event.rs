@@ -85,12 +85,14 @@ impl<S: RoundedSpecial> Follower<'_, S> {
         self.note_slope();
     }
 
-    /// How fast velocities change between rays: `q` by its slope and by damping, and the static state by gravity.
-    fn note_slope(&mut self) {
+    /// How fast velocities change between rays: `q` by its slope and by damping, and the static state by gravity. And
+    /// how great they and strains may be: as `q`, the centre of mass and the static state are.
+    pub(super) fn note_slope(&mut self) {
         let rate = self.centre().map_or(0.0, |(_, rate)| rate.to_f64().abs());
         let moving = self.state.bound() + rate;
         let slope = self.medium.variation(&self.state).0 + self.medium.gravity.to_f64() + 2.0 * self.damping() * moving;
-        self.budget.note_slope(slope, self.state.bound());
+        let still = self.medium.slope.to_f64().abs() + 0.5 * self.medium.gravity.to_f64();
+        self.budget.note_slope(slope, (moving + still, self.state.bound()));
     }
 
     /// Takes the flight that begins here apart.

@@ -116,6 +116,7 @@ impl<'a, S: RoundedSpecial> Follower<'a, S> {
             let velocity = data.end_velocity();
             follower.take_off(&velocity, Off::default(), None);
         }
+        follower.note_slope();
         follower
     }
 

@@ -13,9 +13,10 @@ use super::root::smallest;
 use super::series::{at_one, at_zero, evaluate};
 use super::start::{Data, Units, medium};
 use super::strips::{Node, Pool};
-use super::with_bounds::Bounding;
+use super::with_bounds::{Bounding, Lines};
 use crate::error::Error;
 use crate::first_contact::FirstContact;
+use crate::moments;
 use crate::motion::{
     Contact, Course, Ending, Energy, Event, EventKind, Field, Motion, Scales, Side, StressPiece, Uncertainty,
     unobserved,
@@ -335,6 +336,23 @@ impl<S: RoundedSpecial> Bounding<S> for Damped<S> {
     fn at_event(&self, event: usize) -> Option<AtEvent> {
         *self.at_events.get(event)?
     }
+
+    fn lines(&self, time: &S, points: &[S]) -> Result<Lines<S>, Error> {
+        let (t, units) = (self.time(time)?, &self.data.units);
+        let cuts: Vec<S> = points.iter().map(|x| x.clone() / &units.length * t.ratio(1, 2)).collect();
+        let reach = units.length.int(2) * &units.length;
+        let strain = units.velocity.clone() / &units.wave_speed;
+        let node = |node: Node<S>| moments::Node {
+            velocity: node.velocity() * &units.velocity,
+            weight: node.weight * &reach,
+            x: node.x * &reach,
+            strain: node.strain * &strain,
+        };
+        let lines = self.record().lines(&t, &cuts);
+        let rays = lines.iter().map(|line| line.parts.saturating_sub(1)).collect();
+        let nodes = lines.into_iter().map(|line| line.nodes.into_iter().map(node).collect()).collect();
+        Ok(Lines { nodes, rays, left_out: 2.0 * self.medium.log2_accuracy.exp2() })
+    }
 }
 
 impl<S: RoundedSpecial> Motion<S> for Damped<S> {
@@ -584,7 +602,7 @@ mod tests {
         times.sort_by(f64::total_cmp);
         let mut lost = 0.0;
         for pair in times.windows(2).filter(|pair| pair[1] - pair[0] > 1e-12) {
-            for (x, w) in &history.medium.basis.gauss {
+            for (x, w) in history.medium.rule(&history.medium.longest) {
                 let t = pair[0] + x * (pair[1] - pair[0]);
                 let motion: f64 =
                     history.record().line(&t, &0.5).iter().map(|node| node.weight * node.velocity().powi(2)).sum();

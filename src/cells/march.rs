@@ -9,10 +9,11 @@
 //! again, so that rays return at exactly the same fraction and lengths never drift.
 
 use std::collections::VecDeque;
+use std::sync::OnceLock;
 
 use super::budget::Off;
 use super::cell::{Cell, cross, diagonal, scale};
-use super::series::{Basis, at_one, at_zero, bound, evaluate, terms_for};
+use super::series::{Basis, at_one, at_zero, bound, evaluate, terms_for, unit_rule};
 use crate::number::Rounded;
 
 /// The strongest damping `R` for which flights are leapt over: `R²‖D⁻²‖ ≤ 0.13`.
@@ -37,7 +38,12 @@ pub(super) struct Medium<S> {
     pub(super) log2_accuracy: f64,
     /// The longest segment.
     pub(super) longest: S,
+    /// See [`Medium::rule`].
+    rules: [OnceLock<Vec<(S, S)>>; RULES],
 }
+
+/// Rules for so many lengths, each half of the one before.
+const RULES: usize = 8;
 
 /// Bounds `a`, `b` of the sides for [`terms_for`]: velocities of a few dozen `V`, slopes `(1 + r t₁)` times that.
 /// They enter as logarithms; the error estimate uses what is found in the run.
@@ -81,7 +87,17 @@ impl<S: Rounded> Medium<S> {
         let size = terms_for(SIDE_BOUND, SIDE_BOUND * (1.0 + r) * longest.to_f64(), 4.0 * depth, log2_accuracy);
         let basis = Basis::new(damping, size, powers);
         let kappa = damping.clone() * damping.ratio(1, 2);
-        Medium { basis, kappa, gravity, slope, offset, free_top, log2_accuracy, longest }
+        Medium { basis, kappa, gravity, slope, offset, free_top, log2_accuracy, longest, rules: Default::default() }
+    }
+
+    /// Gauss–Legendre nodes and weights on `0 … 1` for products with a parabola of functions that grow like
+    /// `e^{4κ|s|}`, on a part of this length of a line of constant time.
+    pub(super) fn rule(&self, len: &S) -> &[(S, S)] {
+        let (mut k, mut longest) = (0, self.longest.clone());
+        while k + 1 < RULES && len.int(2) * len <= longest {
+            (k, longest) = (k + 1, longest.clone() / longest.int(2));
+        }
+        self.rules[k].get_or_init(|| unit_rule(&self.kappa, self.terms(&longest, 4.0) / 2 + 2))
     }
 
     /// What is too small to be told, relative to the greatest `|q|`: the truncation of a cell, or a rounding.

@@ -11,7 +11,7 @@ use super::march::Medium;
 use super::piece::{Checkpoint, Piece};
 use super::series::evaluate;
 use super::start::Data;
-use super::strips::{Kept, Line, Node, Pool, Strips};
+use super::strips::{Kept, Line, Node, Nodes, Pool, Strips};
 use crate::motion::Side;
 use crate::special::RoundedSpecial;
 
@@ -29,6 +29,9 @@ pub(super) struct Record<'a, S> {
 
 /// A cell on its way past, with the flight whose vibration it holds.
 type Passing<'a, 'b, 'c, S> = (&'a Cell<'b, S>, Option<&'c Flight<S>>);
+
+/// `h′`, the rest of `v_t`, and `v_x`, at places.
+type Values<'a, S> = dyn Fn(&[S]) -> Vec<(S, S, S)> + 'a;
 
 impl<S: RoundedSpecial> Record<'_, S> {
     /// Shows every cell of the strips that meet `from ≤ ξ ≤ to`, in order of `ξ`, then of `η`.
@@ -97,50 +100,60 @@ impl<S: RoundedSpecial> Record<'_, S> {
     }
 
     /// [`Record::line`] along the whole rod.
-    pub(super) fn whole_line(&self, t: &S) -> Line<S> {
+    pub(super) fn whole_line(&self, t: &S) -> Nodes<S> {
         self.pool.line(t, || self.line(t, &t.ratio(1, 2)))
     }
 
-    /// Gauss–Legendre nodes on `0 ≤ x ≤ reach` at time `t`, between all rays.
+    /// [`Record::lines`] on `0 ≤ x ≤ reach`.
+    pub(super) fn line(&self, t: &S, reach: &S) -> Vec<Node<S>> {
+        self.lines(t, std::slice::from_ref(reach)).pop().unwrap_or_default().nodes
+    }
+
+    /// Gauss–Legendre nodes at time `t` from the ground to the first of `cuts`, and from each to the next, between all
+    /// rays.
     ///
     /// **Accuracy**: that of the cells: between rays the squares of `z_t`, `z_x` grow at most like `e^{4κ|s|}`, for
     /// which the tables hold enough terms, and the rule is exact to twice its nodes.
-    pub(super) fn line(&self, t: &S, reach: &S) -> Vec<Node<S>> {
+    pub(super) fn lines(&self, t: &S, cuts: &[S]) -> Vec<Line<S>> {
         let zero = t.zero();
-        let mut nodes = Vec::new();
-        let gauss = &self.medium.basis.gauss;
-        let places = |from: &S, len: &S| gauss.iter().map(|(at, _)| len.clone() * at + from).collect::<Vec<S>>();
-        let mut add = |len: &S, places: Vec<S>, values: Vec<(S, S, S)>| {
-            for (((_, weight), x), (rigid, motion, strain)) in gauss.iter().zip(places).zip(values) {
-                nodes.push(Node { weight: weight.clone() * len, x, rigid, motion, strain });
+        let mut lines = vec![Line::default(); cuts.len()];
+        let Some(reach) = cuts.last() else { return lines };
+        // Between two rays, part by part.
+        let mut add = |from: &S, to: &S, values: &Values<'_, S>| {
+            let first = cuts.partition_point(|cut| cut <= from);
+            let ends = cuts[first..].iter().map(|cut| smaller(to.clone(), cut.clone()));
+            let starts = std::iter::once(from).chain(&cuts[first..]);
+            let parts = starts.zip(ends).map(|(from, end)| (from, end - from));
+            let parts: Vec<_> = parts.take_while(|(_, len)| len.is_positive()).collect();
+            let nodes = parts.iter().zip(first..).flat_map(|((from, len), line)| {
+                let rule = self.medium.rule(len).iter();
+                rule.map(move |(at, weight)| (line, len.clone() * at + *from, weight.clone() * len))
+            });
+            let nodes: Vec<_> = nodes.collect();
+            let places: Vec<S> = nodes.iter().map(|(_, x, _)| x.clone()).collect();
+            for ((line, x, weight), (rigid, motion, strain)) in nodes.into_iter().zip(values(&places)) {
+                lines[line].nodes.push(Node { weight, x, rigid, motion, strain });
             }
+            lines.iter_mut().skip(first).take(parts.len()).for_each(|line| line.parts += 1);
         };
         if let Some(contact) = self.at_rest(t) {
-            let places = places(&zero, reach);
-            let values = places.iter().map(|x| (zero.clone(), zero.clone(), self.rest_strain(x, contact))).collect();
-            add(reach, places, values);
-            return nodes;
+            let still = |x: &S| (zero.clone(), zero.clone(), self.rest_strain(x, contact));
+            add(&zero, reach, &|places| places.iter().map(still).collect());
+            return lines;
         }
         self.sweep(&(t.clone() - reach), t, &mut |(cell, flight)| {
             let (xi, eta) = &cell.corner;
             let low = larger(larger(t.clone() - xi - &cell.size.0, eta.clone() - t), zero.clone());
             let high = smaller(smaller(t.clone() - xi, eta.clone() + &cell.size.1 - t), reach.clone());
-            let len = high - &low;
-            if len.is_positive() {
-                let places = places(&low, &len);
-                let values = self.inside((cell, flight), &places, t);
-                add(&len, places, values);
-            }
+            add(&low, &high, &|places| self.inside((cell, flight), places, t));
         });
         if let Some(held) = self.held {
             for (from, to) in held.between_rays(t, &larger(t.clone() - &held.release, zero.clone()), reach) {
-                let len = to - &from;
-                let places = places(&from, &len);
-                let values = places.iter().map(|x| self.before(held, x, t, Side::Right)).collect();
-                add(&len, places, values);
+                let before = |x: &S| self.before(held, x, t, Side::Right);
+                add(&from, &to, &|places| places.iter().map(before).collect());
             }
         }
-        nodes
+        lines
     }
 
     /// Whether the rod is at rest at time `t`, and if so whether in contact.

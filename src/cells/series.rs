@@ -14,8 +14,6 @@ pub(super) struct Basis<S> {
     quarter: Vec<S>,
     /// The series of `xᵏ`.
     pub(super) powers: Vec<Vec<S>>,
-    /// Gauss–Legendre nodes and weights on `0 … 1`.
-    pub(super) gauss: Vec<(S, S)>,
 }
 
 impl<S: Rounded> Basis<S> {
@@ -34,7 +32,7 @@ impl<S: Rounded> Basis<S> {
             times_x(&mut next);
             powers.push(next);
         }
-        Basis { nodes, cosines, quarter, powers, gauss: unit_rule(like, size / 2 + 2) }
+        Basis { nodes, cosines, quarter, powers }
     }
 
     /// The most terms that a series has.
@@ -176,7 +174,7 @@ pub(super) fn bound<S: Rounded>(c: &[S], first: usize) -> f64 {
 }
 
 /// Gauss–Legendre nodes and weights on `0 … 1`.
-fn unit_rule<S: Rounded>(like: &S, n: usize) -> Vec<(S, S)> {
+pub(super) fn unit_rule<S: Rounded>(like: &S, n: usize) -> Vec<(S, S)> {
     let half = like.ratio(1, 2);
     gauss_legendre(like, n).into_iter().map(|(x, weight)| ((x + like.one()) * &half, weight * &half)).collect()
 }

@@ -113,7 +113,7 @@ impl<S: RoundedSpecial> Strips<S> {
 #[derive(Debug)]
 pub(super) struct Pool<S> {
     strips: Mutex<Vec<Strips<S>>>,
-    lines: Mutex<Vec<(S, Line<S>)>>,
+    lines: Mutex<Vec<(S, Nodes<S>)>>,
 }
 
 /// A node of a quadrature along the rod.
@@ -138,8 +138,22 @@ impl<S: RoundedSpecial> Node<S> {
     }
 }
 
+/// A part of the rod at a time.
+#[derive(Clone, Debug)]
+pub(super) struct Line<S> {
+    pub(super) nodes: Vec<Node<S>>,
+    /// How many parts of it lie between rays.
+    pub(super) parts: usize,
+}
+
+impl<S> Default for Line<S> {
+    fn default() -> Self {
+        Line { nodes: Vec::new(), parts: 0 }
+    }
+}
+
 /// The nodes along the whole rod at a time.
-pub(super) type Line<S> = Arc<Vec<Node<S>>>;
+pub(super) type Nodes<S> = Arc<Vec<Node<S>>>;
 
 /// Each core goes from one checkpoint to the next.
 static MOST_KEPT: LazyLock<usize> = LazyLock::new(|| 2 * std::thread::available_parallelism().map_or(1, NonZero::get));
@@ -183,7 +197,7 @@ impl<S: PartialEq> Pool<S> {
     }
 
     /// The nodes at `time`: those that are kept, or those that `find` gives.
-    pub(super) fn line(&self, time: &S, find: impl FnOnce() -> Vec<Node<S>>) -> Line<S>
+    pub(super) fn line(&self, time: &S, find: impl FnOnce() -> Vec<Node<S>>) -> Nodes<S>
     where
         S: Clone,
     {

@@ -2,6 +2,7 @@
 
 use super::piece::AtEvent;
 use crate::error::Error;
+use crate::moments::{self, Moments, Node, Sums};
 use crate::motion::{Contact, Course, Energy, Event, EventKind, Field, Motion, Scales, Side, StressPiece, Uncertainty};
 use crate::number::{Estimate, Rounded, Scalar};
 
@@ -20,8 +21,21 @@ pub struct WithBounds<S, H> {
 /// Two numbers with their bounds.
 pub(super) type Pair<S> = Result<(Estimate<S>, Estimate<S>), Error>;
 
+/// The nodes of a quadrature along the rod, from the ground to the first of some points and from each to the next.
+#[derive(Debug)]
+pub struct Lines<S> {
+    pub(super) nodes: Vec<Vec<Node<S>>>,
+    /// How many rays cut each of them.
+    pub(super) rays: Vec<usize>,
+    /// What they leave, relative to the greatest integrand and the length.
+    pub(super) left_out: f64,
+}
+
 /// A history, parts of which carry their own bounds.
 pub trait Bounding<S: Rounded>: Motion<S> {
+    /// The nodes at a time for integrals over the cells between `points`, where [`Motion::uncertainty`] bounds them.
+    fn lines(&self, time: &S, points: &[S]) -> Result<Lines<S>, Error>;
+
     /// What answers with bounds of its own at this limit of this time; `None` where [`Motion::uncertainty`] bounds it.
     fn bounded(&self, _time: &S, _side: Side) -> Option<&dyn Motion<Estimate<S>>> {
         None
@@ -46,6 +60,11 @@ fn rounded<S: Rounded>(value: &S) -> Estimate<S> {
 /// `value` within `bound`.
 fn within<S: Rounded>(value: &S, bound: f64) -> Estimate<S> {
     Estimate::new(value.clone(), bound / value.unit() + value.to_f64().abs())
+}
+
+/// `value` with so much more in its bound.
+fn wider<S: Rounded>(value: Estimate<S>, bound: f64) -> Estimate<S> {
+    Estimate::new(value.value().clone(), value.error() + bound / value.value().unit())
 }
 
 /// Bounds near a time, in the units of the problem.
@@ -348,6 +367,42 @@ impl<S: Rounded, H: Bounding<S>> Motion<Estimate<S>> for WithBounds<S, H> {
         let strain = within(&field.strain, self.near(time).strain);
         let (displacement, velocity) = self.moved(time, (field.displacement, field.velocity));
         Ok(Field { displacement, velocity, strain })
+    }
+
+    /// **Accuracy**: as `docs/bounds.md` derives under "What a mean may be off by".
+    fn moments(&self, time: &Estimate<S>, points: &[Estimate<S>]) -> Result<Vec<Moments<Estimate<S>>>, Error> {
+        let time = self.meant(time);
+        let placed = points.iter().fold(0.0, |most: f64, point| most.max(point.bound()));
+        let points: Vec<S> = points.iter().map(|point| point.value().clone()).collect();
+        if let Some(form) = self.history.bounded(time.value(), Side::Left) {
+            return form.moments(&rounded(time.value()), &points.iter().map(rounded).collect::<Vec<_>>());
+        }
+        let Lines { nodes, rays, left_out } = self.history.lines(time.value(), &points)?;
+        let (height, _) = self.history.ground_end(time.value(), Side::Left)?;
+        let (_, rate) = self.history.centre(time.value())?;
+        let Scales { time: trip, velocity, length, wave_speed: c, .. } = self.scales;
+        let Near { rise, speed, late, .. } = self.near(time);
+        let most = self.history.uncertainty(time.value()).most * velocity + rate.to_f64().abs();
+        let between = speed + left_out * most;
+        let rounding = 8.0 * time.value().unit() * (time.to_f64() + trip);
+        let far = |rays: usize| rise + 2.0 * most * (late + placed / c + (rays + 1) as f64 * rounding);
+        let high = far(rays.iter().sum()) + length * left_out * most / c;
+
+        let known = |x: &S| Estimate::exact(x.clone());
+        let starts = std::iter::once(height.zero()).chain(points.iter().cloned()).map(Estimate::exact);
+        let sums = nodes.iter().zip(starts).map(|(nodes, from)| Sums::of(&from, nodes.iter().map(|n| n.map(known))));
+        let ends: Vec<_> = points.iter().map(known).collect();
+        let cells = moments::of_sums(sums.collect(), &ends, Estimate::exact(height)).into_iter();
+        let cells = cells.zip(points.windows(2)).zip(&rays[1..]).map(|(([v, v_t, v_x], pair), rays)| {
+            let width = (pair[1].clone() - &pair[0]).to_f64();
+            let share = [width, width * width / 2.0];
+            let bounds = [share[0] * between + c * far(*rays), share[1] * between + width * c * far(*rays)];
+            let widen = |[area, moment]: [Estimate<S>; 2], [by_area, by_moment]: [f64; 2]| {
+                [wider(area, by_area), wider(moment, by_moment)]
+            };
+            [widen(v, share.map(|share| share * high)), widen(v_t, bounds), widen(v_x, bounds.map(|bound| bound / c))]
+        });
+        Ok(cells.collect())
     }
 
     fn rates(&self, points: &[Estimate<S>], times: &[Estimate<S>]) -> Result<Vec<[Estimate<S>; 2]>, Error> {

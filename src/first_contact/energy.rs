@@ -1,5 +1,7 @@
 //! The energies during the first contact: `E_z` as a sum of squares, by Gauss–Legendre between the rays.
 
+use std::cmp::Ordering;
+
 use super::field::{FirstContact, Trips, unknown};
 use super::rebound::translational;
 use crate::motion::{Energy, Side};
@@ -14,11 +16,14 @@ struct Node<N> {
 }
 
 /// A stretch of the rod between two rays, and how many rays have arrived there upwards and downwards.
-struct Stretch<N> {
-    from: N,
-    to: N,
-    arrived: [i64; 2],
+pub(super) struct Stretch<N> {
+    pub(super) from: N,
+    pub(super) to: N,
+    pub(super) arrived: [i64; 2],
 }
+
+/// Bernstein ellipses that are tried.
+pub(super) const RADII: [f64; 11] = [1.1, 1.25, 1.5, 2.0, 4.0, 8.0, 16.0, 32.0, 64.0, 128.0, 256.0];
 
 /// Most nodes between two rays; only damping far beyond `r t₁ = 100` could ask for more.
 const MOST_NODES: usize = 4000;
@@ -54,15 +59,15 @@ impl<N: BoundedSpecial> FirstContact<N> {
         let (centre, velocity) = self.centre_at(trips);
         let translational = translational(&self.rod, &centre, &velocity);
         let both = |node: &Node<N>| node.deviation.square() + node.strain.square();
-        let vibrational = self.vibrational(trips, &both).unwrap_or_else(|| unknown(&centre));
+        let vibrational = self.vibrational(trips, &both);
         Energy { total: translational.clone() + &vibrational, translational, vibrational }
     }
 
     /// The kinetic energy `L h′²/2 + ½ ∫ (v_t − h′)² dx` and the strain energy, the parts of one sum.
     pub(super) fn energy_parts_at(&self, trips: &Trips<N>) -> [N; 2] {
-        let (centre, velocity) = self.centre_at(trips);
-        let part = |square: &dyn Fn(&Node<N>) -> N| self.vibrational(trips, square).unwrap_or_else(|| unknown(&centre));
-        let whole = velocity.square() * &self.rod.length / centre.int(2);
+        let (_, velocity) = self.centre_at(trips);
+        let whole = velocity.square() * &self.rod.length / velocity.int(2);
+        let part = |square: &dyn Fn(&Node<N>) -> N| self.vibrational(trips, square);
         [whole + part(&|node| node.deviation.square()), part(&|node| node.strain.square())]
     }
 
@@ -83,22 +88,22 @@ impl<N: BoundedSpecial> FirstContact<N> {
     /// `E_z`, or the part of it that `square` takes of a node: with the number of nodes for a small part of its natural
     /// size, and once more where what these leave is more than the rounding errors. The impact finds the rod
     /// undeformed.
-    fn vibrational(&self, trips: &Trips<N>, square: &dyn Fn(&Node<N>) -> N) -> Option<N> {
+    fn vibrational(&self, trips: &Trips<N>, square: &dyn Fn(&Node<N>) -> N) -> N {
         if trips.lattice() == Some(0) {
-            return Some(self.damping.zero());
+            return self.damping.zero();
         }
         let scale = 2.0 * self.total_speed().to_f64().log2() + self.rod.length.to_f64().log2();
         let ellipses = self.ellipses(trips);
         let goal = self.damping.log2_roundoff() + FIRST_SIZE + scale;
         let n = nodes(&ellipses, goal);
-        let (value, rest) = (self.integrate(trips, n, square)?, rest(&ellipses, n));
+        let (value, rest) = (self.integrate(trips, n, square), rest(&ellipses, n));
         let (value, rest) = match nodes(&ellipses, value.log2_error().max(goal + LEAST_SIZE)) {
-            more if more > n => (self.integrate(trips, more, square)?, self::rest(&ellipses, more)),
+            more if more > n => (self.integrate(trips, more, square), self::rest(&ellipses, more)),
             _ => (value, rest),
         };
         // A part in a thousand more is for the doubles in it.
         let two = self.damping.int(2);
-        Some(value.widened(&(two.ln() * &two.double(rest + 1e-3)).exp()))
+        value.widened(&(two.ln() * &two.double(rest + 1e-3)).exp())
     }
 
     /// `log₂` of the bound of what n nodes leave between two rays, without nodes, and of what each node takes off, for
@@ -110,21 +115,21 @@ impl<N: BoundedSpecial> FirstContact<N> {
     fn ellipses(&self, trips: &Trips<N>) -> Vec<[f64; 2]> {
         let tau = trips.number.to_f64();
         let (mu, mu0, length) = (self.speed.to_f64(), self.critical.to_f64(), self.rod.length.to_f64());
-        let radii = [1.1f64, 1.25, 1.5, 2.0, 4.0, 8.0, 16.0, 32.0, 64.0, 128.0, 256.0];
         let bound = |rho: f64| {
             // No ray has come farther than a = τ, and where none has been the integrand does not depend on a.
             let beyond = (rho - 1.0 / rho) / 2.0 * (tau / 2.0).min(0.25);
             let amplitude = self.amplitude(tau, beyond, mu, mu0);
             [2.0 * amplitude.log2() + (5.0 * length / (1.0 - 1.0 / (rho * rho))).log2(), 2.0 * rho.log2()]
         };
-        radii.map(bound).to_vec()
+        RADII.map(bound).to_vec()
     }
 
     /// The integral with n nodes between two rays.
-    fn integrate(&self, trips: &Trips<N>, n: usize, square: &dyn Fn(&Node<N>) -> N) -> Option<N> {
+    fn integrate(&self, trips: &Trips<N>, n: usize, square: &dyn Fn(&Node<N>) -> N) -> N {
         let rule = self.damping.gauss_legendre(n);
         let mut sum = self.damping.zero();
-        for stretch in self.stretches(trips)? {
+        let (stretches, doubt) = self.stretches(trips);
+        for stretch in stretches {
             let half = (stretch.to.clone() - &stretch.from) / sum.int(2);
             let places = rule.iter().map(|(x, w)| ((x.one() + x) * &half + &stretch.from, w.clone() * &half));
             let places: Vec<(N, N)> = places.collect();
@@ -138,31 +143,32 @@ impl<N: BoundedSpecial> FirstContact<N> {
                 sum = sum + square(&node) * &node.weight;
             }
         }
+        // v_t − h′ is at most twice what v_t and c v_x are.
+        let square = self.total_speed().square() * &doubt.int(5);
         // dx = c t₁ da = 2L da.
-        Some((sum * &self.rod.length).without_exact())
+        ((sum.widened(&(doubt * square))) * &self.rod.length).without_exact()
     }
 
     /// The stretches between the rays in the rod, of which there are one upwards and one downwards but at lattice
-    /// times.
-    fn stretches(&self, trips: &Trips<N>) -> Option<Vec<Stretch<N>>> {
+    /// times. What lies above them is at most as long as the second number: where a ray is not told from the top, they
+    /// end at the ray.
+    pub(super) fn stretches(&self, trips: &Trips<N>) -> (Vec<Stretch<N>>, N) {
         let (k, zero, half) = (trips.passed, self.damping.zero(), self.damping.ratio(1, 2));
         if trips.on_lattice {
-            return Some(vec![Stretch { from: zero, to: half, arrived: [k, k] }]);
+            return (vec![Stretch { from: zero.clone(), to: half, arrived: [k, k] }], zero);
         }
         // The upward ray is at this a in the first half of a round trip, the downward one at the mirror image in the
         // second.
-        let late = trips.number.clone() - trips.number.int(k) - &half;
-        let cut = half.clone() - late.magnitude();
-        let upward = match late.sign().ok()? {
-            std::cmp::Ordering::Greater => [k + 1, k + 1],
-            _ => [k, k],
+        let past = |trips: &N| trips.clone() - trips.int(k) - &half;
+        let (side, late) = (past(&trips.exact).sign(), past(&trips.number).magnitude());
+        let (lower, cut) = ([k + 1, k], half.clone() - &late);
+        let upper = match side {
+            Ok(Ordering::Greater) => [k + 1, k + 1],
+            Ok(Ordering::Less) => [k, k],
+            _ => return (vec![Stretch { from: zero, to: cut, arrived: lower }], late),
         };
-        let lower = Stretch { from: zero, to: cut.clone(), arrived: [k + 1, k] };
-        let mut stretches = vec![lower];
-        if late.sign().ok()?.is_ne() {
-            stretches.push(Stretch { from: cut, to: half, arrived: upward });
-        }
-        Some(stretches)
+        let lower = Stretch { from: zero.clone(), to: cut.clone(), arrived: lower };
+        (vec![lower, Stretch { from: cut, to: half, arrived: upper }], zero)
     }
 
     fn sample(&self, trips: &Trips<N>, stretch: &Stretch<N>, places: Vec<(N, N)>) -> Vec<Node<N>> {
@@ -260,12 +266,12 @@ fn nothing<N: Scalar>(like: &N) -> Energy<N> {
 }
 
 /// The number of nodes that leave less than `2^goal`.
-fn nodes(ellipses: &[[f64; 2]], goal: f64) -> usize {
+pub(super) fn nodes(ellipses: &[[f64; 2]], goal: f64) -> usize {
     let best = ellipses.iter().map(|[log, step]| (log - goal) / step).fold(f64::INFINITY, f64::min);
     best.ceil().clamp(2.0, MOST_NODES as f64) as usize
 }
 
 /// `log₂` of what n nodes leave.
-fn rest(ellipses: &[[f64; 2]], n: usize) -> f64 {
+pub(super) fn rest(ellipses: &[[f64; 2]], n: usize) -> f64 {
     ellipses.iter().map(|[log, step]| log - n as f64 * step).fold(f64::INFINITY, f64::min)
 }

@@ -37,7 +37,7 @@ pub struct FirstContact<N> {
     /// `R = r t₁`.
     pub(super) damping: N,
     /// `1/c`.
-    slowness: N,
+    pub(super) slowness: N,
     /// Whether `g = 0`.
     pub(super) weightless: bool,
 }
@@ -148,7 +148,8 @@ impl<N: BoundedSpecial> FirstContact<N> {
         Trips { number: exact.clone().without_exact(), exact, passed: k, on_lattice: true }
     }
 
-    /// `μ + μ₀`.
+    /// `μ + μ₀`: a bound of `|v_t|` and `|c v_x|`. With `z = v − v_s`, `|z_t ± c z_x|` is at most `μ + μ₀/2` at the
+    /// start and never grows, and `|c v_s′| ≤ μ₀/2`.
     pub(super) fn total_speed(&self) -> N {
         self.speed.clone() + &self.critical
     }

@@ -5,6 +5,7 @@ use super::outcome::{Bounce, BounceKind};
 use super::rebound::Rebound;
 use super::static_state::{StaticState, faded_after};
 use crate::error::Error;
+use crate::moments::Moments;
 use crate::motion::{Contact, Course, Ending, Energy, Event, EventKind, Field, Motion, Scales, Side, StressPiece};
 use crate::number::{Open, Scalar};
 use crate::problem::{Parameters, Problem, Run};
@@ -346,6 +347,14 @@ impl<N: BoundedSpecial> Motion<N> for ContactHistory<N> {
             }
             Moment::Contact(trips) => Ok(self.contact.field_at(point, &trips, side)),
             Moment::Rest(state) => Ok(state.field(point)),
+        }
+    }
+
+    fn moments(&self, time: &N, points: &[N]) -> Result<Vec<Moments<N>>, Error> {
+        match self.moment(time)? {
+            Moment::Bounce(release) => Ok(self.contact.moments_at(points, &release.trips)),
+            Moment::Contact(trips) => Ok(self.contact.moments_at(points, &trips)),
+            Moment::Rest(state) => state.moments(points),
         }
     }
 

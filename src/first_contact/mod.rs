@@ -11,6 +11,7 @@ mod energy;
 mod field;
 mod first_root;
 mod history;
+mod moments;
 mod outcome;
 mod peak;
 mod pieces;

@@ -1,8 +1,11 @@
 //! The rod at rest on the ground under a free top, and when a contact without end has become that.
 
+use crate::error::Error;
+use crate::moments::{Moments, of_stretches};
 use crate::motion::{Energy, Field};
 use crate::number::Scalar;
 use crate::problem::Parameters;
+use crate::wave::Stretch;
 
 /// `v_s = (g/2c²)(x² − 2Lx)`: what a contact that never ends tends to, with what is left of the transient by
 /// [`faded_after`] as a bound.
@@ -38,6 +41,32 @@ impl<'a, N: Scalar> StaticState<'a, N> {
             velocity: x.zero().widened(&self.left),
             strain: strain.widened(&(self.left.clone() / &self.rod.wave_speed)),
         }
+    }
+
+    /// Those of [`Motion::moments`](crate::Motion::moments).
+    pub(super) fn moments(&self, points: &[N]) -> Result<Vec<Moments<N>>, Error> {
+        let length = &self.rod.length;
+        let (zero, slope) = (length.zero(), self.curvature.clone());
+        let stretch = Stretch {
+            from: zero.clone(),
+            width: length.clone(),
+            displacement: zero.clone(),
+            velocity: [zero.clone(), zero],
+            strain: [-(slope.clone() * length), slope],
+        };
+        let left = [self.left_height(), self.left.clone(), self.left.clone() / &self.rod.wave_speed];
+        let mut cells = of_stretches(&[stretch], points)?;
+        for (cell, pair) in cells.iter_mut().zip(points.windows(2)) {
+            let width = pair[1].clone() - &pair[0];
+            for (moments, left) in cell.iter_mut().zip(&left) {
+                let mut by = left.clone();
+                for value in moments {
+                    by = by * &width;
+                    *value = value.clone().widened(&by);
+                }
+            }
+        }
+        Ok(cells)
     }
 
     /// `h = −gL²/3c²`, and zero.

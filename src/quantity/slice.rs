@@ -2,9 +2,9 @@
 
 use super::column::same;
 use crate::error::Error;
+use crate::moments::Moments;
 use crate::motion::{Motion, Side};
 use crate::number::Scalar;
-use crate::wave::Stretch;
 
 /// How the field is given on a grid.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -22,14 +22,15 @@ pub enum Slice {
 /// `t`, `side`, `x`, `v`, `v_t`, `v_x` for every time of `times` on the grid `points`, column by column, with the sides
 /// as in [`columns`](super::columns). Averages and projections do not jump.
 ///
-/// **Source**: between rays `v_t` and `v_x` are linear in `x` and `v` quadratic: all integrals are those of
-/// polynomials.
+/// **Source**: the integrals over the cells, [`Motion::moments`]; the mass matrix of linear elements.
 ///
-/// **Accuracy**: *exact* in fractions; otherwise within the bounds that the numbers carry.
+/// **Accuracy**: *exact* in fractions; otherwise within the bounds that the numbers carry. The inverse of the mass
+/// matrix has signs that alternate, and so has the elimination: the bounds of the loads become those of the solution
+/// without any loss. Points in doubles are those doubles, whatever they were rounded from: a cell that is a few
+/// roundings wide has no other width.
 ///
-/// **Errors**: [`Error::NoWaves`] for averages and projections of a damped rod: the bounds of its velocities hold away
-/// from rays that are off in time, and a mean takes these in; [`Error::Grid`] for those on a grid whose points do not
-/// increase, and [`Error::PointOutside`].
+/// **Errors**: [`Error::Grid`] for averages and projections on a grid whose points do not increase, and
+/// [`Error::PointOutside`].
 pub fn slices<S: Scalar>(
     motion: &dyn Motion<S>,
     slice: Slice,
@@ -42,15 +43,17 @@ pub fn slices<S: Scalar>(
         let row = [time.clone(), time.int(limit), x.clone()].into_iter().chain(values);
         table.iter_mut().zip(row).for_each(|(column, value)| column.push(value));
     };
+    let stored = |point: &S| point.as_double().map_or_else(|| point.clone(), |double| point.double(double));
+    let cells: Vec<S> = if slice == Slice::Points { Vec::new() } else { points.iter().map(stored).collect() };
     if slice != Slice::Points {
-        check(points, &motion.scales().length)?;
+        check(&cells, &motion.scales().length)?;
     }
     for time in times {
         if slice != Slice::Points {
-            let stretches = motion.stretches(time)?;
+            let moments = motion.moments(time, &cells)?;
             let (places, values) = match slice {
-                Slice::P1 => (points.to_vec(), projection(&moments(&stretches, points)?, points)),
-                _ => averages(&moments(&stretches, points)?, points),
+                Slice::P1 => (points.to_vec(), projection(&moments, &cells)),
+                _ => averages(&moments, &cells),
             };
             places.iter().zip(values).for_each(|(x, values)| add(time, 0, x, values));
             continue;
@@ -90,51 +93,8 @@ fn check<S: Scalar>(points: &[S], length: &S) -> Result<(), Error> {
     outside.map_or(Ok(()), |point| Err(Error::PointOutside { found: point.text(), length: length.text() }))
 }
 
-/// `∫ f dx` and `∫ f (x − a) dx` over each cell `a … b`, for `f` = `v`, `v_t`, `v_x`.
-fn moments<S: Scalar>(stretches: &[Stretch<S>], points: &[S]) -> Result<Vec<[[S; 2]; 3]>, Error> {
-    let mut cells = Vec::with_capacity(points.len());
-    let mut rest = stretches.iter().cloned();
-    let mut now = rest.next();
-    for pair in points.windows(2) {
-        let (a, b) = (&pair[0], &pair[1]);
-        let zero = || [a.zero(), a.zero()];
-        let mut sums = [zero(), zero(), zero()];
-        while let Some(stretch) = now.take() {
-            let end = stretch.from.clone() + &stretch.width;
-            // Before the grid, in the cell, and beyond it.
-            let skipped = a.clone() - &stretch.from;
-            let stretch = match skipped.positive()? {
-                true if !a.below(&end)? => {
-                    now = rest.next();
-                    if now.is_none() {
-                        break;
-                    }
-                    continue;
-                }
-                true => stretch.after(&skipped),
-                false => stretch,
-            };
-            let within = end.below(b)?;
-            let way = if within { stretch.width.clone() } else { b.clone() - &stretch.from };
-            let offset = stretch.from.clone() - a;
-            for (sum, [area, moment]) in sums.iter_mut().zip(stretch.moments(&way)) {
-                sum[1] = sum[1].clone() + moment + &(offset.clone() * &area);
-                sum[0] = sum[0].clone() + area;
-            }
-            if within {
-                now = rest.next();
-            } else {
-                now = Some(stretch.after(&way));
-                break;
-            }
-        }
-        cells.push(sums);
-    }
-    Ok(cells)
-}
-
 /// The middles of the cells, and the means over them.
-fn averages<S: Scalar>(moments: &[[[S; 2]; 3]], points: &[S]) -> (Vec<S>, Vec<[S; 3]>) {
+fn averages<S: Scalar>(moments: &[Moments<S>], points: &[S]) -> (Vec<S>, Vec<[S; 3]>) {
     let cells = points.windows(2).zip(moments).map(|(pair, moments)| {
         let width = pair[1].clone() - &pair[0];
         let middle = (pair[1].clone() + &pair[0]) / width.int(2);
@@ -144,7 +104,7 @@ fn averages<S: Scalar>(moments: &[[[S; 2]; 3]], points: &[S]) -> (Vec<S>, Vec<[S
 }
 
 /// The nodal values: the mass matrix of linear elements, `h/3` and `h/6` from each cell, by elimination.
-fn projection<S: Scalar>(moments: &[[[S; 2]; 3]], points: &[S]) -> Vec<[S; 3]> {
+fn projection<S: Scalar>(moments: &[Moments<S>], points: &[S]) -> Vec<[S; 3]> {
     let Some(first) = points.first() else { return Vec::new() };
     let zero = || first.zero();
     let mut diagonal: Vec<S> = points.iter().map(|_| zero()).collect();

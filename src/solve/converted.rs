@@ -4,6 +4,7 @@ use std::sync::Arc;
 
 use super::rays::Rays;
 use crate::error::Error;
+use crate::moments::{self, Moments};
 use crate::motion::{Course, Energy, Event, Field, Motion, Scales, Side, StressPiece};
 use crate::number::{Reads, Scalar};
 use crate::problem::Problem;
@@ -131,6 +132,16 @@ impl<N: Scalar, M: Reads<N>> Motion<M> for Converted<N, M> {
 
     fn stretches(&self, time: &M) -> Result<Vec<Stretch<M>>, Error> {
         Ok(self.engine.stretches(&self.time(time)?)?.into_iter().map(|stretch| stretch.map(M::read)).collect())
+    }
+
+    fn moments(&self, time: &M, points: &[M]) -> Result<Vec<Moments<M>>, Error> {
+        match self.stretches(time) {
+            Err(Error::NoWaves) => {}
+            stretches => return moments::of_stretches(&stretches?, points),
+        }
+        let points = points.iter().map(|point| self.point(point)).collect::<Result<Vec<N>, Error>>()?;
+        let moments = self.engine.moments(&self.time(time)?, &points)?;
+        Ok(moments.into_iter().map(|cell| cell.map(|pair| pair.map(M::read))).collect())
     }
 
     fn waves(&self) -> Result<Waves<M>, Error> {

@@ -155,6 +155,10 @@ impl Ladder {
         let faint = least_scale(engine) - bits(if double { digits } else { digits + FAINT_DIGITS });
         let missing = numbers.iter().map(|x| {
             let (size, error) = (log2(x), x.log2_error());
+            // Nothing is known of it, whatever its size.
+            if error.is_nan() || error == f64::INFINITY {
+                return f64::INFINITY;
+            }
             error - (size - bits(digits)).max(floor).max(if size <= error { faint } else { f64::NEG_INFINITY })
         });
         missing.fold(f64::NEG_INFINITY, f64::max)

@@ -12,7 +12,7 @@ fn number(x: f64) -> Number {
 }
 
 /// A rod of any scale. `μ = M max(g t₁, c/10)`, profiles in units of `L/8` and `c/4`, `r t₁` from `low` to `high`.
-fn scene(low: f64, high: f64) -> impl Strategy<Value = Problem> {
+pub(crate) fn scene(low: f64, high: f64) -> impl Strategy<Value = Problem> {
     let rod = (prop::sample::select(vec![0.5, 1.0, 3.0]), prop::sample::select(vec![0.7, 1.0, 5.0]), any::<bool>());
     let effects = (low.ln()..high.ln(), prop::option::weighted(0.7, 0.05f64..1.0));
     let points = prop::collection::vec((1u8..8, -4i8..=4), 0..3);

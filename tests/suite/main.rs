@@ -64,6 +64,8 @@ mod scene_properties;
 #[cfg(feature = "cli")]
 mod schema;
 #[cfg(feature = "mp")]
+mod slices_properties;
+#[cfg(feature = "mp")]
 mod snapshots_stress;
 mod start_above;
 mod stripped;
