@@ -110,7 +110,7 @@ impl Ladder {
                 Err(error) => return Err(error),
             };
             // Where exact roots do not decide, the numbers that are known say what they take for one.
-            let open = matches!((rung, lacks), (Rung::Enclosures(_), Lacks::Bits(f64::INFINITY)));
+            let open = matches!((rung, lacks), (Rung::Confirmed(_) | Rung::Enclosures(_), Lacks::Bits(f64::INFINITY)));
             let next = self.plan.next(rung, lacks).filter(|_| reserve.is_none() || !open);
             match (next, reserve.take_if(|_| next.is_none()), reached) {
                 (Some(next), ..) => rung = next,
@@ -124,7 +124,7 @@ impl Ladder {
     fn unsettled(&self, rung: Rung) -> Error {
         let digits = self.plan.goal().0 as u32;
         match rung {
-            Rung::Enclosures(bits) => Error::Undecided { digits, bits },
+            Rung::Confirmed(bits) | Rung::Enclosures(bits) => Error::Undecided { digits, bits },
             Rung::Bits(bits) => Error::Unsettled { digits, bits },
             Rung::Double | Rung::Fractions => Error::NoMultiprecision,
         }

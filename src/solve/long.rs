@@ -10,7 +10,7 @@ use crate::error::Error;
 use crate::first_contact::{Bounce, ContactHistory, FirstContact};
 use crate::lattice::Undamped;
 use crate::motion::{Ending, Motion};
-use crate::number::{Estimate, Float, Interval, IntervalPrecision, Rational, Reads, Scalar};
+use crate::number::{Bounded, Estimate, Float, Interval, IntervalPrecision, Rational, Reads, Scalar};
 use crate::problem::{Parameters, Problem};
 
 impl Target for Rational {
@@ -48,20 +48,30 @@ pub(super) fn in_doubles(
                 Err(Error::Irrational { .. }) => None,
                 exact => Some(exact?).filter(|exact| !matches!(exact.ending(), Ending::ExactnessEnds { .. })),
             };
-            let exact = exact.ok_or(Error::NotDecided { what: "by fractions", bits: 0 })?;
-            let reached = plan.reaching(problem);
-            let mut doubles =
-                Undamped::<Estimate<f64>>::solve_within(&reached, &(), plan.limits(problem), |a, b| observe(a, b))?;
-            // Doubles answer faster than fractions, and within their bounds where all that they took for equal is equal.
-            if doubles.confirm(&exact) { Arc::new(doubles) } else { Arc::new(Converted::new(Arc::new(exact), problem)) }
+            confirmed(problem, plan, exact.ok_or(Error::NotDecided { what: "by fractions", bits: 0 })?, observe)?
         }
+        Rung::Confirmed(bits) => confirmed(problem, plan, roots(problem, plan, bits, observe)?, observe)?,
         rung => Arc::new(Converted::new(estimates(problem, plan, bits_of(rung), observe)?, problem)),
     })
 }
 
+/// Doubles, which answer faster than exact numbers, and within their bounds where all that they took for equal is
+/// equal; otherwise the exact ones.
+fn confirmed<N>(problem: &Problem, plan: &Plan, exact: Undamped<N>, observe: &Observer) -> Result<Engined<f64>, Error>
+where
+    N: Bounded,
+    Undamped<N>: Motion<N>,
+    Estimate<f64>: Reads<N>,
+{
+    let reached = plan.reaching(problem);
+    let mut doubles =
+        Undamped::<Estimate<f64>>::solve_within(&reached, &(), plan.limits(problem), |a, b| observe(a, b))?;
+    Ok(if doubles.confirm(&exact) { Arc::new(doubles) } else { Arc::new(Converted::new(Arc::new(exact), problem)) })
+}
+
 fn bits_of(rung: Rung) -> u32 {
     match rung {
-        Rung::Bits(bits) | Rung::Enclosures(bits) => bits,
+        Rung::Bits(bits) | Rung::Confirmed(bits) | Rung::Enclosures(bits) => bits,
         Rung::Double | Rung::Fractions => f64::MANTISSA_DIGITS,
     }
 }
@@ -118,14 +128,16 @@ pub(super) fn rate_after(problem: &Problem, bounce: &Bounce<Estimate<f64>>) -> O
     Some(Reads::read(rate))
 }
 
+/// Enclosures with exact roots inside, of an undamped rod.
+fn roots(problem: &Problem, plan: &Plan, bits: u32, observe: &Observer) -> Result<Undamped<Interval>, Error> {
+    let (problem, precision) = (&*plan.reaching(problem), IntervalPrecision::with_exact(bits));
+    Undamped::<Interval>::solve_within(problem, &precision, plan.limits(problem), |a, b| observe(a, b))
+}
+
 fn enclosures(problem: &Problem, plan: &Plan, bits: u32, observe: &Observer) -> Result<Engined<Interval>, Error> {
     let problem = &*plan.reaching(problem);
     match plan.engine {
-        Engine::Lattice => {
-            let precision = IntervalPrecision::with_exact(bits);
-            let limits = plan.limits(problem);
-            Ok(Arc::new(Undamped::<Interval>::solve_within(problem, &precision, limits, |a, b| observe(a, b))?))
-        }
+        Engine::Lattice => Ok(Arc::new(roots(problem, plan, bits, observe)?)),
         Engine::Cells => Err(Error::NotCertified),
         Engine::ClosedForm | Engine::ClosedFormThenCells => {
             Ok(Arc::new(ContactHistory::<Interval>::solve(problem, &IntervalPrecision::with_exact(bits))?))

@@ -77,6 +77,8 @@ pub enum Rung {
     Bits(u32),
     /// Fractions.
     Fractions,
+    /// Doubles, where enclosures of so many bits have the same events.
+    Confirmed(u32),
     /// Enclosures of so many bits, with exact roots inside where the rod is undamped.
     Enclosures(u32),
 }
@@ -199,8 +201,9 @@ impl Plan {
             return match rung {
                 Rung::Double => Some(Rung::Fractions),
                 Rung::Bits(bits) if bits < wanted + NEAR_MISS => Some(Rung::Bits(bits + NEAR_MISS)),
+                Rung::Bits(bits) if matches!(self.numbers, Numbers::Double(_)) => Some(Rung::Confirmed(bits)),
                 Rung::Bits(bits) => Some(Rung::Enclosures(bits)),
-                Rung::Fractions | Rung::Enclosures(_) => None,
+                Rung::Fractions | Rung::Confirmed(_) | Rung::Enclosures(_) => None,
             };
         };
         match rung {
@@ -217,6 +220,7 @@ impl Plan {
                     (next <= f64::from(MOST_BITS)).then_some(Rung::Bits(next as u32))
                 }
             }
+            Rung::Confirmed(bits) => Some(Rung::Enclosures(bits)),
             Rung::Enclosures(bits) => {
                 let next = f64::from(bits) + missing.clamp(32.0, f64::from(bits));
                 (next <= f64::from(MOST_ENCLOSED.max(4 * wanted))).then_some(Rung::Enclosures(next as u32))
@@ -374,6 +378,7 @@ impl std::fmt::Display for Rung {
             Rung::Double => f.write_str("doubles"),
             Rung::Bits(bits) => write!(f, "numbers of {bits} bits"),
             Rung::Fractions => f.write_str("fractions"),
+            Rung::Confirmed(bits) => write!(f, "doubles that enclosures of {bits} bits confirm"),
             Rung::Enclosures(bits) => write!(f, "enclosures of {bits} bits"),
         }
     }

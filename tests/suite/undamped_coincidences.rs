@@ -85,7 +85,7 @@ fn a_meeting_is_decided_exactly() {
         history.rung()
     };
     assert_eq!(rung("doyen-ern-piperno"), Rung::Fractions);
-    assert!(matches!(rung("mu-1-period-36"), Rung::Enclosures(_)));
+    assert!(matches!(rung("mu-1-period-36"), Rung::Confirmed(_)));
 }
 
 /// Below the critical speed the end leaves the ground at a root of the stress, and its ray brings q = 0 again two round
