@@ -1,9 +1,9 @@
 //! What an event does to the state, and to the bound of its error.
 
 use super::budget::{Landing, Off, TakeOff, weight_rest};
-use super::follow::{Follower, LEAP_ROUNDINGS};
+use super::follow::{Follower, Goal, LEAP_ROUNDINGS};
 use super::piece::{AtEvent, Mark, Unresolved};
-use super::series::{at_zero, derivative};
+use super::series::{at_zero, derivative, evaluate};
 use crate::motion::{EventKind, Uncertainty};
 use crate::reason::Warning;
 use crate::special::RoundedSpecial;
@@ -12,6 +12,61 @@ use crate::special::RoundedSpecial;
 const MOST_LATE: f64 = 0.01;
 
 impl<S: RoundedSpecial> Follower<'_, S> {
+    /// How far a root in the strip may be off: the error of the function, and `vague` more, over its slope, or the root
+    /// of twice the error over the second derivative if that is less. Where the function bends back, up to twice the
+    /// former; and where the error reaches as far as it bends, the root may not be there in truth. What Clenshaw's sum
+    /// rounds, at most `(k + 2)u` of each coefficient, counts where the strip is long and the hop is short.
+    pub(super) fn event_error(&mut self, trace: &[S], height: &[S], x: &S, len: &S, vague: f64) -> Off {
+        let strip = len.to_f64();
+        let at = |c: &[S]| evaluate(c, x).to_f64();
+        let first = derivative(trace);
+        let (error, more, slope, curvature) = if self.contact {
+            (self.budget.point(), vague, at(&first) / strip, at(&derivative(&first)) / (strip * strip))
+        } else {
+            let roundings: f64 = (2u32..).zip(height).map(|(k, c)| f64::from(k) * c.to_f64().abs()).sum();
+            let rounding = x.log2_roundoff().exp2() * roundings;
+            (self.height_error(strip * x.to_f64()), vague + rounding, at(trace), at(&first) / strip)
+        };
+        // Where the event is: rounding of the place in the strip.
+        let place = 4.0 * x.log2_roundoff().exp2() * (1.0 + self.state.round.unsigned_abs() as f64);
+        let (bends_back, slope, curvature) = (slope * curvature < 0.0, slope.abs(), curvature.abs());
+        // The part of s²/2c, the depth at which it bends back, that the error is.
+        let part = |error: f64| 2.0 * curvature * (error + more) / (slope * slope);
+        let off = |error: f64| {
+            let back = if bends_back { 2.0 / (1.0 + (1.0 - part(error)).max(0.0).sqrt()) } else { 1.0 };
+            (back * (error + more) / slope).min((2.0 * (error + more) / curvature).sqrt()) + place
+        };
+        let graze = bends_back && part(self.budget.better(error, self.flight.is_some())) >= 1.0;
+        if graze && slope > 0.0 {
+            self.count_unresolved(2.0 * slope / curvature);
+        }
+        // The clock that times are counted in is off itself.
+        let late = self.budget.clock(self.contact);
+        Off { fixed: off(error.fixed), apart: off(error.apart) + late }
+    }
+
+    /// An impact where this strip begins, at a ray that may be off by `ray`; as [`Follower::land`]. The end has come
+    /// as close to the ground as the noise, and reaches it a little later.
+    pub(super) fn land_at_ray(&mut self, goal: &Goal<S>, ray: Off, trace: &[S], height: &[S], len: &S) -> bool {
+        let zero = len.zero();
+        let left = at_zero(height, &zero).to_f64().abs();
+        let off = ray.max(self.event_error(trace, height, &zero, len, left));
+        self.at_ray = true;
+        self.land(goal, off)
+    }
+
+    /// An impact now; whether it is the one after the last that was asked for.
+    pub(super) fn land(&mut self, goal: &Goal<S>, off: Off) -> bool {
+        if let Goal::Impacts(count) = goal
+            && self.landed >= *count
+        {
+            return true;
+        }
+        self.landed += 1;
+        self.event(off, None);
+        false
+    }
+
     /// Turns contact into flight or back, now. A release at a root of the trace, which has this `slope` there, has
     /// velocity zero. Where the end only touches the ground and a ray arrives at that very time, the velocity is the
     /// one that the ray brings.

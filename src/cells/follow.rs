@@ -11,7 +11,7 @@ use super::budget::{Budget, Off};
 use super::effort::{Effort, LEAST_LEAP, MOST_PIECES, MOST_SEGMENTS};
 use super::flight::Flight;
 use super::march::{Medium, State};
-use super::piece::{Checkpoint, Mark, Piece, Unresolved};
+use super::piece::{Checkpoint, Found, Mark, Piece, Unresolved};
 use super::root::first_descent;
 use super::series::{at_one, at_zero, bound, derivative, evaluate};
 use super::start::Data;
@@ -51,7 +51,7 @@ pub(super) struct Follower<'a, S> {
     pub(super) state: State<S>,
     pub(super) contact: bool,
     /// Contacts so far.
-    landed: u32,
+    pub(super) landed: u32,
     /// Whether events are in doubt.
     pub(super) lost: bool,
     /// Whether the landing that is decided is at a ray.
@@ -218,7 +218,7 @@ impl<'a, S: RoundedSpecial> Follower<'a, S> {
     }
 
     /// The error of `v(0,·)` up to `len` from now.
-    fn height_error(&self, len: f64) -> Off {
+    pub(super) fn height_error(&self, len: f64) -> Off {
         let then = self.flying().map(|flight| {
             let age = flight.age((self.state.round, &self.state.segments[0].at)).to_f64() + len;
             let rate = flight.at(&self.height.double(age)).1.to_f64();
@@ -404,6 +404,17 @@ impl<'a, S: RoundedSpecial> Follower<'a, S> {
         }
     }
 
+    /// What a run that ends like this has found.
+    pub(super) fn found(mut self, ending: Ending) -> Found<S> {
+        let last = self.budget.since(self.medium.splits());
+        match self.marks.last_mut() {
+            Some(mark) => mark.after = last,
+            None => self.before = last,
+        }
+        let Follower { pieces, checkpoints, flights, marks, warnings, unresolved, before, .. } = self;
+        Found { pieces, checkpoints, flights, marks, warnings, unresolved, before, ending }
+    }
+
     /// A round trip begins: the state is kept, and what is summed up in it is computed anew.
     fn new_round(&mut self) {
         self.weigh();
@@ -527,39 +538,6 @@ impl<'a, S: RoundedSpecial> Follower<'a, S> {
         (trace, height)
     }
 
-    /// How far a root in the strip may be off: the error of the function, and `vague` more, over its slope, or the root
-    /// of twice the error over the second derivative if that is less. Where the function bends back, up to twice the
-    /// former; and where the error reaches as far as it bends, the root may not be there in truth. What Clenshaw's sum
-    /// rounds, at most `(k + 2)u` of each coefficient, counts where the strip is long and the hop is short.
-    fn event_error(&mut self, trace: &[S], height: &[S], x: &S, len: &S, vague: f64) -> Off {
-        let strip = len.to_f64();
-        let at = |c: &[S]| evaluate(c, x).to_f64();
-        let first = derivative(trace);
-        let (error, more, slope, curvature) = if self.contact {
-            (self.budget.point(), vague, at(&first) / strip, at(&derivative(&first)) / (strip * strip))
-        } else {
-            let roundings: f64 = (2u32..).zip(height).map(|(k, c)| f64::from(k) * c.to_f64().abs()).sum();
-            let rounding = x.log2_roundoff().exp2() * roundings;
-            (self.height_error(strip * x.to_f64()), vague + rounding, at(trace), at(&first) / strip)
-        };
-        // Where the event is: rounding of the place in the strip.
-        let place = 4.0 * x.log2_roundoff().exp2() * (1.0 + self.state.round.unsigned_abs() as f64);
-        let (bends_back, slope, curvature) = (slope * curvature < 0.0, slope.abs(), curvature.abs());
-        // The part of s²/2c, the depth at which it bends back, that the error is.
-        let part = |error: f64| 2.0 * curvature * (error + more) / (slope * slope);
-        let off = |error: f64| {
-            let back = if bends_back { 2.0 / (1.0 + (1.0 - part(error)).max(0.0).sqrt()) } else { 1.0 };
-            (back * (error + more) / slope).min((2.0 * (error + more) / curvature).sqrt()) + place
-        };
-        let graze = bends_back && part(self.budget.better(error, self.flight.is_some())) >= 1.0;
-        if graze && slope > 0.0 {
-            self.count_unresolved(2.0 * slope / curvature);
-        }
-        // The clock that times are counted in is off itself.
-        let late = self.budget.clock(self.contact);
-        Off { fixed: off(error.fixed), apart: off(error.apart) + late }
-    }
-
     /// Marches over the first segment, or the part of it before `cut`.
     fn advance(&mut self, cut: Option<&S>, off: Off, trace: &[S], height: &[S]) {
         let from = self.state.time();
@@ -591,28 +569,6 @@ impl<'a, S: RoundedSpecial> Follower<'a, S> {
         let (contact, flight) = (self.contact, self.flight);
         let cut = cut.is_some();
         self.pieces.push(Piece { from, len, contact, flight, cut, still: false, leap: 0, trace, height });
-    }
-
-    /// An impact where this strip begins, at a ray that may be off by `ray`; as [`Follower::land`]. The end has come
-    /// as close to the ground as the noise, and reaches it a little later.
-    fn land_at_ray(&mut self, goal: &Goal<S>, ray: Off, trace: &[S], height: &[S], len: &S) -> bool {
-        let zero = len.zero();
-        let left = at_zero(height, &zero).to_f64().abs();
-        let off = ray.max(self.event_error(trace, height, &zero, len, left));
-        self.at_ray = true;
-        self.land(goal, off)
-    }
-
-    /// An impact now; whether it is the one after the last that was asked for.
-    fn land(&mut self, goal: &Goal<S>, off: Off) -> bool {
-        if let Goal::Impacts(count) = goal
-            && self.landed >= *count
-        {
-            return true;
-        }
-        self.landed += 1;
-        self.event(off, None);
-        false
     }
 }
 

@@ -7,7 +7,7 @@ use super::effort::Effort;
 use super::flight::Flight;
 use super::follow::{Follower, Goal};
 use super::march::{Medium, State};
-use super::piece::{AtEvent, Checkpoint, Mark, Piece, Unresolved};
+use super::piece::{AtEvent, Checkpoint, Found, Piece, Unresolved};
 use super::record::Record;
 use super::root::smallest;
 use super::series::{at_one, at_zero, evaluate};
@@ -23,7 +23,6 @@ use crate::motion::{
 };
 use crate::number::Estimate;
 use crate::problem::{Problem, Run};
-use crate::reason::Warning;
 use crate::special::{RoundedSpecial, log_mean, log_rest};
 
 /// The motion of the damped rod through any number of impacts, `r ≥ 0`.
@@ -66,31 +65,6 @@ pub struct Damped<S> {
     pool: Pool<S>,
 }
 
-/// What a run has found.
-struct Found<S> {
-    pieces: Vec<Piece<S>>,
-    checkpoints: Vec<Checkpoint<S>>,
-    flights: Vec<Flight<S>>,
-    marks: Vec<Mark<S>>,
-    warnings: Vec<Warning>,
-    unresolved: Option<Unresolved<S>>,
-    before: Uncertainty,
-    ending: Ending,
-}
-
-impl<S: RoundedSpecial> Found<S> {
-    fn of(follower: Follower<'_, S>, ending: Ending) -> Self {
-        let Follower { medium, mut budget, mut before, mut marks, .. } = follower;
-        let last = budget.since(medium.splits());
-        match marks.last_mut() {
-            Some(mark) => mark.after = last,
-            None => before = last,
-        }
-        let Follower { pieces, checkpoints, flights, warnings, unresolved, .. } = follower;
-        Found { pieces, checkpoints, flights, marks, warnings, unresolved, before, ending }
-    }
-}
-
 impl<S: RoundedSpecial> Damped<S> {
     /// Follows `problem` as far as its `run` says, to about `digits` decimal digits of the natural scales.
     ///
@@ -120,7 +94,7 @@ impl<S: RoundedSpecial> Damped<S> {
         let goal = Goal::of(problem, precision, &data);
         let mut follower = Follower::new(&medium, &data);
         let ending = follower.run(&goal, effort, observe)?;
-        let found = Found::of(follower, ending);
+        let found = follower.found(ending);
         Ok(Self::record_of(medium, data, None, found, problem, precision))
     }
 
@@ -160,7 +134,7 @@ impl<S: RoundedSpecial> Damped<S> {
         let goal = Goal::of(problem, precision, &data);
         let mut follower = Follower::released(&medium, &data, &held, state, release, &rate);
         let ending = follower.run(&goal, effort, observe)?;
-        let found = Found::of(follower, ending);
+        let found = follower.found(ending);
         Ok(Self::record_of(medium, data, Some(held), found, problem, precision))
     }
 

@@ -1,7 +1,8 @@
 //! What a run leaves behind: what the ground felt, strip by strip, events, and states to start again from.
 
+use super::flight::Flight;
 use super::march::State;
-use crate::motion::{EventKind, Uncertainty};
+use crate::motion::{Ending, EventKind, Uncertainty};
 use crate::reason::Warning;
 use crate::special::RoundedSpecial;
 
@@ -100,4 +101,16 @@ impl<S: RoundedSpecial> Unresolved<S> {
     pub(super) fn warning(&self) -> Warning {
         Warning::HopsUnresolved { from: self.from.to_f64(), longest: self.longest, landings: self.count }
     }
+}
+
+/// What a run has found.
+pub(super) struct Found<S> {
+    pub(super) pieces: Vec<Piece<S>>,
+    pub(super) checkpoints: Vec<Checkpoint<S>>,
+    pub(super) flights: Vec<Flight<S>>,
+    pub(super) marks: Vec<Mark<S>>,
+    pub(super) warnings: Vec<Warning>,
+    pub(super) unresolved: Option<Unresolved<S>>,
+    pub(super) before: Uncertainty,
+    pub(super) ending: Ending,
 }

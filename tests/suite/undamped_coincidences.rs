@@ -4,9 +4,11 @@ use dalembert::motion::Event;
 use dalembert::number::Estimate;
 use dalembert::problem::Run;
 use dalembert::scene::builtin;
-use dalembert::{EventKind, History, Problem, Rung, Scene};
+use dalembert::solve::Target;
+use dalembert::{EventKind, History, Motion, Numbers, Plan, Problem, Question, Rung, Scalar, Scene, Warning};
 use proptest::prelude::*;
 use rug::{Float, Rational};
+use std::sync::Arc;
 
 /// The events with their bounds.
 fn events(history: &History<f64>) -> Vec<Event<Estimate<f64>>> {
@@ -85,7 +87,25 @@ fn a_meeting_is_decided_exactly() {
         history.rung()
     };
     assert_eq!(rung("doyen-ern-piperno"), Rung::Fractions);
-    assert!(matches!(rung("mu-1-period-36"), Rung::Confirmed(_)));
+    assert!(matches!(rung("mu-1-period-36"), Rung::Enclosures(_)));
+}
+
+/// Where enclosures have the same events, doubles answer as before, and warn no more.
+#[test]
+fn enclosures_confirm_doubles() {
+    let problem = Scene::parse(builtin::get("mu-1-period-36").unwrap().source).unwrap().problem;
+    let plan = Plan::of(&problem, &Question::run(Numbers::Double(None))).unwrap();
+    let observe: dalembert::Observer = Arc::new(dalembert::lattice::unobserved);
+    let [double, confirmed] =
+        [Rung::Double, Rung::Confirmed(384)].map(|rung| f64::run(&problem, &plan, rung, &observe).unwrap());
+    assert!(double.warnings().iter().any(|warning| matches!(warning, Warning::Coincidence { .. })));
+    assert!(confirmed.warnings().is_empty(), "{:?}", confirmed.warnings());
+    let times = |of: &dyn Motion<Estimate<f64>>| of.events().iter().map(|event| event.time.clone()).collect::<Vec<_>>();
+    let (ours, theirs) = (times(&*double), times(&*confirmed));
+    assert!(ours.len() > 20 && ours.len() == theirs.len());
+    for (a, b) in ours.iter().zip(&theirs) {
+        assert!(a.value() == b.value() && a.bound() == b.bound(), "{a:?} {b:?}");
+    }
 }
 
 /// Below the critical speed the end leaves the ground at a root of the stress, and its ray brings q = 0 again two round
