@@ -5,7 +5,7 @@ use dalembert::number::Estimate;
 use dalembert::problem::Run;
 use dalembert::scene::builtin;
 use dalembert::solve::Target;
-use dalembert::{EventKind, History, Motion, Numbers, Plan, Problem, Question, Rung, Scalar, Scene, Warning};
+use dalembert::{EventKind, History, Motion, Numbers, Plan, Problem, Question, Rung, Scene, Warning};
 use proptest::prelude::*;
 use rug::{Float, Rational};
 use std::sync::Arc;
