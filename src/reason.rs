@@ -147,8 +147,8 @@ pub enum Warning {
         /// From this time on.
         from: f64,
     },
-    /// Hops that are not told apart from contact, or touches from flight; the peak of a contact leaves out what lasts no
-    /// longer.
+    /// Hops that are not told apart from contact, or touches from flight; the peak of a contact leaves out what lasts
+    /// no longer.
     HopsUnresolved {
         /// From this time on.
         from: f64,

@@ -6,8 +6,7 @@
 
 use std::collections::VecDeque;
 
-use super::budget::Off;
-use super::follow::{CUT_CELLS, FIRST_CELLS};
+use super::budget::{CUT_CELLS, FIRST_CELLS, Off};
 use super::march::{Medium, State};
 use super::start::{Data, Units};
 use crate::first_contact::FirstContact;

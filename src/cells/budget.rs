@@ -8,7 +8,6 @@
 
 use super::dependence::{Dependence, Form};
 use super::effort::LEAST_LEAP;
-use super::piece::AtEvent;
 use crate::motion::Uncertainty;
 use crate::special::{phi1, phi2};
 
@@ -26,6 +25,31 @@ impl Off {
     pub(super) fn max(self, other: Off) -> Off {
         Off { fixed: self.fixed.max(other.fixed), apart: self.apart.max(other.apart) }
     }
+}
+
+/// The errors of a cell that a state is off by which is interpolated from values.
+pub(super) const FIRST_CELLS: f64 = 8.0;
+/// Those that a cut adds, which interpolates anew what a series has already.
+pub(super) const CUT_CELLS: f64 = 2.0;
+/// Those of a leap, of a separation and of a joining: every coefficient is a sum of some dozen terms, none greater than
+/// the greatest `|q|`.
+pub(super) const LEAP_CELLS: f64 = 16.0;
+
+/// How far the values at an event may be off, whenever it is, dimensionless.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct AtEvent {
+    /// Displacements.
+    pub(super) rise: f64,
+    /// `h`.
+    pub(super) centre: f64,
+    /// Velocities and `c v_x`.
+    pub(super) speed: f64,
+    /// The velocity of the end.
+    pub(super) end: f64,
+    /// `h′`.
+    pub(super) rate: f64,
+    /// `h′ + 2Rh`, which only the force of the ground and gravity change.
+    pub(super) momentum: f64,
 }
 
 /// The account at equal times.

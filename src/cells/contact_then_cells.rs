@@ -2,9 +2,10 @@
 
 use std::ops::ControlFlow;
 
+use super::budget::AtEvent;
 use super::effort::Effort;
 use super::history::Damped;
-use super::piece::{AtEvent, Unresolved};
+use super::piece::Unresolved;
 use super::with_bounds::{Bounding, Lines, Pair};
 use crate::error::Error;
 use crate::first_contact::{Bounce, ContactHistory, FirstContact};
@@ -102,7 +103,8 @@ impl<S: RoundedSpecial> ContactThenCells<S> {
         (reach, rate): (Reach, Option<Estimate<S>>),
         observe: &dyn Fn(usize, usize) -> ControlFlow<()>,
     ) -> Result<(), Error> {
-        let (Some(bounce), Reach::Run) = (self.bounce.clone(), reach) else { return Ok(()) };
+        let rebound = self.contact.rebound().map(|rebound| rebound.velocity.clone());
+        let (Some(bounce), Some(rebound), Reach::Run) = (self.bounce.clone(), rebound, reach) else { return Ok(()) };
         if self.effort.digits > MOST_MARCHED {
             self.course.ending = Ending::Undecided(Reason::MostDigits(MOST_MARCHED as u32));
             return Ok(());
@@ -110,7 +112,7 @@ impl<S: RoundedSpecial> ContactThenCells<S> {
         let release = (&bounce, self.course.events[1].time_error, &self.course.events[1].end_velocity);
         // The cells account for the roundings of the parameters themselves.
         let form = FirstContact::new(&self.rod.carry());
-        let Some(rate) = rate.or_else(|| Some(self.contact.rebound()?.velocity.clone())) else { return Ok(()) };
+        let rate = rate.unwrap_or(rebound);
         let march = Damped::after_bounce(problem, precision, self.effort, &form, release, &rate, observe)?;
         let Course { events, contacts, .. } = march.course();
         self.course.events.extend(events.iter().skip(1).cloned());

@@ -1,8 +1,8 @@
 //! What an event does to the state, and to the bound of its error.
 
-use super::budget::{Landing, Off, TakeOff, weight_rest};
-use super::follow::{Follower, Goal, LEAP_ROUNDINGS};
-use super::piece::{AtEvent, Mark, Unresolved};
+use super::budget::{AtEvent, LEAP_CELLS, Landing, Off, TakeOff, weight_rest};
+use super::follow::{Follower, Goal};
+use super::piece::{Mark, Unresolved};
 use super::series::{at_zero, derivative, evaluate};
 use crate::motion::{EventKind, Uncertainty};
 use crate::reason::Warning;
@@ -36,7 +36,7 @@ impl<S: RoundedSpecial> Follower<'_, S> {
             let back = if bends_back { 2.0 / (1.0 + (1.0 - part(error)).max(0.0).sqrt()) } else { 1.0 };
             (back * (error + more) / slope).min((2.0 * (error + more) / curvature).sqrt()) + place
         };
-        let graze = bends_back && part(self.budget.better(error, self.flight.is_some())) >= 1.0;
+        let graze = bends_back && part(self.budget.better(error, self.medium.splits())) >= 1.0;
         if graze && slope > 0.0 {
             self.count_unresolved(2.0 * slope / curvature);
         }
@@ -177,7 +177,7 @@ impl<S: RoundedSpecial> Follower<'_, S> {
             fall,
             known: None,
         };
-        let rounding = LEAP_ROUNDINGS / 4.0 * self.cell_error;
+        let rounding = LEAP_CELLS * self.cell_error;
         self.budget.take_off(begins, rounding);
         self.flight = Some(self.flights.len());
         self.flights.push(flight);
@@ -231,7 +231,7 @@ impl<S: RoundedSpecial> Follower<'_, S> {
     }
 
     /// Counts one more hop or contact that is not told from what comes before and after it, and is at most so long.
-    pub(super) fn count_unresolved(&mut self, longest: f64) {
+    fn count_unresolved(&mut self, longest: f64) {
         let from = self.unresolved.as_ref().map_or_else(|| self.state.time(), |unresolved| unresolved.from.clone());
         let (count, most) = self.unresolved.as_ref().map_or((0, 0.0), |old| (old.count, old.longest));
         self.unresolved = Some(Unresolved { from, count: count + 1, longest: longest.max(most) });

@@ -7,7 +7,7 @@
 use std::ops::ControlFlow;
 
 use super::bounce::Held;
-use super::budget::{Budget, Off};
+use super::budget::{Budget, CUT_CELLS, FIRST_CELLS, LEAP_CELLS, Off};
 use super::effort::{Effort, LEAST_LEAP, MOST_PIECES, MOST_SEGMENTS};
 use super::flight::Flight;
 use super::march::{Medium, State};
@@ -83,15 +83,6 @@ pub(super) struct Follower<'a, S> {
     /// How far values may be off before the first event.
     pub(super) before: Uncertainty,
 }
-
-/// The roundings of a leap, of a separation and of a joining, each of the greatest `|q|`: every coefficient is a sum of
-/// some dozen terms, none greater than it.
-pub(super) const LEAP_ROUNDINGS: f64 = 64.0;
-
-/// The errors of a cell that a state is off by which is interpolated from values: some dozen roundings of each.
-pub(super) const FIRST_CELLS: f64 = 8.0;
-/// The errors of a cell that a cut adds, which interpolates anew what a series has already.
-pub(super) const CUT_CELLS: f64 = 2.0;
 
 impl<'a, S: RoundedSpecial> Follower<'a, S> {
     /// At `t = 0`.
@@ -477,7 +468,7 @@ impl<'a, S: RoundedSpecial> Follower<'a, S> {
         let from = self.state.time();
         let passing = self.medium.passing(&self.state);
         self.medium.leap(&mut self.state, &self.ground, trips);
-        self.budget.leap(trips as f64, LEAP_ROUNDINGS / 4.0 * self.cell_error, passing);
+        self.budget.leap(trips as f64, LEAP_CELLS * self.cell_error, passing);
         self.pieces.push(Piece {
             len: from.int(trips),
             from,

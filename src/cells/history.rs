@@ -3,11 +3,12 @@
 use std::ops::ControlFlow;
 
 use super::bounce::Held;
+use super::budget::AtEvent;
 use super::effort::Effort;
 use super::flight::Flight;
 use super::follow::{Follower, Goal};
 use super::march::{Medium, State};
-use super::piece::{AtEvent, Checkpoint, Found, Piece, Unresolved};
+use super::piece::{Checkpoint, Found, Piece, Unresolved};
 use super::record::Record;
 use super::root::smallest;
 use super::series::{at_one, at_zero, evaluate};

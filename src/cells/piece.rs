@@ -1,5 +1,6 @@
 //! What a run leaves behind: what the ground felt, strip by strip, events, and states to start again from.
 
+use super::budget::AtEvent;
 use super::flight::Flight;
 use super::march::State;
 use crate::motion::{Ending, EventKind, Uncertainty};
@@ -46,23 +47,6 @@ pub(super) struct Checkpoint<S> {
     pub(super) state: State<S>,
     /// `z(0,b)` in such a flight.
     pub(super) ground: S,
-}
-
-/// How far the values at an event may be off, whenever it is, dimensionless.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct AtEvent {
-    /// Displacements.
-    pub(super) rise: f64,
-    /// `h`.
-    pub(super) centre: f64,
-    /// Velocities and `c v_x`.
-    pub(super) speed: f64,
-    /// The velocity of the end.
-    pub(super) end: f64,
-    /// `h′`.
-    pub(super) rate: f64,
-    /// `h′ + 2Rh`, which only the force of the ground and gravity change.
-    pub(super) momentum: f64,
 }
 
 /// An event, dimensionless.

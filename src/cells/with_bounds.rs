@@ -1,6 +1,6 @@
 //! A history whose answers carry their bounds.
 
-use super::piece::AtEvent;
+use super::budget::AtEvent;
 use crate::error::Error;
 use crate::moments::{self, Moments, Node, Sums};
 use crate::motion::{Contact, Course, Energy, Event, EventKind, Field, Motion, Scales, Side, StressPiece, Uncertainty};
@@ -155,8 +155,8 @@ impl<S: Rounded, H: Bounding<S>> WithBounds<S, H> {
         Ok(WithBounds { course, ..bounded })
     }
 
-    /// What an impulse may be off by: by the balance of momentum between two events that are followed, or by the stress,
-    /// `−c² ∫ v_x dt`, where rays that are off within the contact move the end by their masses.
+    /// What an impulse may be off by: by the balance of momentum between two events that are followed, or by the
+    /// stress, `−c² ∫ v_x dt`, where rays that are off within the contact move the end by their masses.
     fn impulse_off(&self, from: &Estimate<S>, to: Option<&Estimate<S>>) -> f64 {
         let Scales { velocity, wave_speed: c, length, gravity, .. } = self.scales;
         let event = |time: &Estimate<S>| self.history.events().iter().position(|event| event.time == *time.value());

@@ -46,8 +46,10 @@ impl Target for f64 {
                     }
                     bounce = by_modes(&contact, problem)?;
                 }
-                let rate = long::rate_after(problem, &bounce);
-                let reach = if plan.engine == Engine::ClosedForm { cells::Reach::Bounce } else { cells::Reach::Run };
+                let (reach, rate) = match plan.engine {
+                    Engine::ClosedForm => (cells::Reach::Bounce, None),
+                    _ => (cells::Reach::Run, long::rate_after(problem, &bounce)),
+                };
                 Arc::new(WithBounds::new(ContactThenCells::<f64>::solve_observed(
                     problem,
                     &(),

@@ -216,7 +216,8 @@ fn the_python_function_is_the_history() {
              try:\n    import numpy\nexcept ImportError:\n    raise SystemExit\n\
              x, t = numpy.linspace(0, 1, 5), numpy.linspace(0, late, 7)\n\
              for d in range(3):\n    u = uExact(x[:, None], t, d)\n    \
-             assert u.shape == (5, 7) and u.dtype == float\n    assert all(u[i, j] == uExact(x[i], t[j], d) for i in range(5) for j in range(7))\n"
+             assert u.shape == (5, 7) and u.dtype == float\n    \
+             assert all(u[i, j] == uExact(x[i], t[j], d) for i in range(5) for j in range(7))\n"
         );
         let output = Command::new("python3").arg("-c").arg(main).current_dir(folder.path()).output().unwrap();
         assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
