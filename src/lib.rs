@@ -34,33 +34,24 @@
 
 // The rooms are public for the crate's own tests and benchmarks; what is meant to be used is re-exported below.
 #[cfg(feature = "compare")]
-#[doc(hidden)]
-pub mod agreement;
-#[cfg(feature = "compare")]
 mod aligned;
 #[doc(hidden)]
 pub mod cells;
 #[cfg(feature = "cli")]
 #[doc(hidden)]
 pub mod cli;
-#[cfg(feature = "cli")]
-mod compare;
-mod course;
 #[cfg(feature = "compare")]
 #[doc(hidden)]
-pub mod data;
+pub mod compare;
 mod error;
-mod field;
 #[cfg(feature = "cli")]
 mod figures;
 #[doc(hidden)]
 pub mod first_contact;
-mod history;
 #[doc(hidden)]
 pub mod lattice;
 #[doc(hidden)]
 pub mod modal;
-mod moments;
 #[doc(hidden)]
 pub mod motion;
 #[doc(hidden)]
@@ -74,26 +65,25 @@ pub mod paper;
 pub mod problem;
 #[doc(hidden)]
 pub mod quantity;
-mod ray;
 mod reason;
+#[cfg(feature = "cli")]
+mod routes;
 #[doc(hidden)]
 pub mod scene;
-mod solution;
 #[doc(hidden)]
 pub mod solve;
 #[doc(hidden)]
 pub mod special;
 #[cfg(feature = "cli")]
 mod sweep;
-mod wave;
 
 pub use error::Error;
 pub use first_contact::{Bounce, BounceKind, FirstContact, Rebound};
 pub use glam;
-pub use history::History;
 pub use modal::Modal;
 pub use motion::{
-    Contact, Course, Ending, Energy, Event, EventKind, Field, Motion, Scales, Side, StressHistory, StressPiece,
+    Contact, Course, Ending, Energy, Event, EventKind, Field, Motion, Ray, Scales, Side, StressHistory, StressPiece,
+    Stretch, WavePiece, Waves, reflection,
 };
 pub use number::{Analytic, Answer, Estimate, Float, Interval, Number, NumberError, Open, Rational, Scalar};
 pub use paper::UndampedContact;
@@ -101,14 +91,14 @@ pub use problem::{
     Dimensionless, Material, Parameters, Problem, ProblemError, ProblemErrorKind, Profile, Rod, Run, Speed, Start, Top,
 };
 pub use quantity::{Column, EnergyShares, Flight, Measure, Restitution, Slice, Table, Undefined, UnitSystem, Units};
-pub use ray::{Ray, reflection};
 pub use reason::{Doubt, NoBounceReason, Reason, StillState, Warning};
 #[cfg(feature = "mp")]
 pub use rug;
 pub use scene::{Effect, EffectUse, Scene, SceneError, SceneErrorKind, Target, TargetQuantity};
-pub use solution::{ExactnessEnd, Solution};
-pub use solve::{CERTIFIED_DIGITS, DEFAULT_ACCURACY, Engine, Numbers, Observer, Plan, Question, Reach, Rung, Want};
-pub use wave::{Stretch, WavePiece, Waves};
+pub use solve::{
+    CERTIFIED_DIGITS, DEFAULT_ACCURACY, Engine, ExactnessEnd, History, Numbers, Observer, Plan, Question, Reach, Rung,
+    Solution, Want,
+};
 
 #[cfg(doctest)]
 #[doc = include_str!("../README.md")]

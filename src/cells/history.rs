@@ -17,9 +17,8 @@ use super::strips::{Node, Pool};
 use super::with_bounds::{Bounding, Lines};
 use crate::error::Error;
 use crate::first_contact::FirstContact;
-use crate::moments;
 use crate::motion::{
-    Contact, Course, Ending, Energy, Event, EventKind, Field, Motion, Scales, Side, StressPiece, Uncertainty,
+    Contact, Course, Ending, Energy, Event, EventKind, Field, Motion, Scales, Side, StressPiece, Uncertainty, moments,
     unobserved,
 };
 use crate::number::Estimate;

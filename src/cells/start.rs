@@ -15,8 +15,9 @@ use std::collections::VecDeque;
 use super::cell::Cell;
 use super::march::{Medium, State};
 use crate::error::Error;
+use crate::motion::AtStart;
 use crate::number::{Number, Rounded};
-use crate::problem::{AtStart, Parameters, Problem, Profile, Start, Top};
+use crate::problem::{Parameters, Problem, Profile, Start, Top};
 use crate::special::RoundedSpecial;
 
 /// What series leave out is so many bits below a rounding, so that both together are hardly more than the rounding.

@@ -2,7 +2,7 @@
 
 use super::budget::AtEvent;
 use crate::error::Error;
-use crate::moments::{self, Moments, Node, Sums};
+use crate::motion::moments::{self, Moments, Node, Sums};
 use crate::motion::{Contact, Course, Energy, Event, EventKind, Field, Motion, Scales, Side, StressPiece, Uncertainty};
 use crate::number::{Estimate, Rounded, Scalar};
 

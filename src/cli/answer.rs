@@ -5,15 +5,13 @@ use super::failure::Failure;
 use super::file::Format;
 use super::source;
 use crate::error::Error;
-use crate::history::History;
 use crate::motion::{Ending, Motion};
 use crate::number::{DOUBLE_DIGITS, Scalar, show};
 use crate::output::Head;
 use crate::problem::Parameters;
 use crate::quantity::{Measure, Units};
 use crate::scene::{Effect, Scene};
-use crate::solution::Solution;
-use crate::solve::{Plan, Question, Target};
+use crate::solve::{History, Plan, Question, Solution, Target};
 
 /// What stands above the numbers of a scene.
 pub(super) fn head(scene: &Scene, plan: &Plan) -> Head {

@@ -7,9 +7,9 @@ use clap::{Args, ValueEnum};
 
 use super::failure::Failure;
 use super::{file, source};
-use crate::compare::check::{CATALOGUE, Case, Checked, Group, Verdict, select};
-use crate::compare::published;
 use crate::output::{check_json, check_page, check_summary, check_table};
+use crate::routes::check::{CATALOGUE, Case, Checked, Group, Verdict, select};
+use crate::routes::published;
 
 /// The catalogue of hard cases and of the paper's claims, worked out now by every route and held against the truth
 #[derive(Args, Debug)]

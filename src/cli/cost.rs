@@ -8,10 +8,10 @@ use super::args::NumberArgs;
 use super::failure::Failure;
 use super::file::{self, Format, Kind};
 use super::source;
-use crate::compare::cost::{self, Difference, Table};
-use crate::compare::{Quantity, Question, plan};
 use crate::number::Number;
 use crate::output::{Size, cost_csv, cost_json, cost_svg, cost_table, effects_csv, effects_json, effects_table};
+use crate::routes::cost::{self, Difference, Table};
+use crate::routes::{Quantity, Question, plan};
 use crate::scene::Scene;
 
 /// What accuracy costs in time: one quantity by every route that can give it, measured now, on this machine

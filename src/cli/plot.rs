@@ -9,13 +9,12 @@ use super::answer::{Visit, parameters, solve, warned};
 use super::args::NumberArgs;
 use super::failure::Failure;
 use super::{file, source};
-use crate::history::History;
 use crate::motion::Ending;
 use crate::number::{Number, Scalar};
 use crate::output::{Along, Asked, Gathered, Head, Picture, Size, plain, sheet};
 use crate::quantity::{Column, Units};
 use crate::scene::Scene;
-use crate::solve::{Numbers, Question, Target};
+use crate::solve::{History, Numbers, Question, Target};
 
 /// Pictures of a scene, or of several to compare: the rod over time, stress, motion, energy, restitution
 #[derive(Args, Debug)]

@@ -11,13 +11,12 @@ use super::failure::{self, Failure};
 use super::times::{CHUNK, Chunk, Times, TimesFile};
 use super::{file, source};
 use crate::error::Error;
-use crate::history::History;
 use crate::motion::{Motion, Side};
 use crate::number::{List, Number, Scalar};
 use crate::output::{Described, Golden, Head, Language, Preamble, Rows, code};
 use crate::quantity::{Column, Slice, Units};
 use crate::scene::Scene;
-use crate::solve::{Question, Target};
+use crate::solve::{History, Question, Target};
 
 /// Golden files: all quantities at chosen times as CSV, JSON or NPZ, or the exact solution as a function
 #[derive(Args, Debug)]

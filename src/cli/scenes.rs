@@ -8,11 +8,11 @@ use super::failure::Failure;
 use super::file::{self, Format};
 use super::source;
 use crate::aligned::table;
-use crate::compare::Reached;
 use crate::error::Error;
 use crate::motion::Motion;
 use crate::number::{Number, Scalar};
 use crate::output::{Head, targets_csv, targets_json, targets_table};
+use crate::routes::Reached;
 use crate::scene::{Target, builtin};
 use crate::solve::{Numbers, Question};
 

@@ -11,9 +11,9 @@ use serde_json::json;
 use super::args::{NumberArgs, pool};
 use super::failure::{self, Failure};
 use super::{file, source};
-use crate::compare::Quantity;
 use crate::number::Number;
 use crate::output::{sweep_csv, sweep_json, sweep_npz, sweep_table};
+use crate::routes::Quantity;
 use crate::sweep::{self, Asked, Axis, Grid, Journal, Point, SweepError, journal_of};
 
 /// Numbers of a scene over a grid of its values, on all cores

@@ -1,36 +1,25 @@
-//! Routes to an answer, held against each other and against the truth: what `dalembert check` and `dalembert cost`
-//! share.
-//!
-//! | module | |
-//! |---|---|
-//! | `value` | a number in any number system, with its bound |
-//! | `quantity` | what can be asked of a rod |
-//! | `account` | the accounts of a motion that can be asked |
-//! | `differences` | finite differences along the characteristics |
-//! | `route` | every route to an answer |
-//! | `truth` | what answers are held against |
-//! | `target` | what others have published of a scene |
-//! | `long` | what needs numbers longer than doubles |
-//! | [`check`] | the catalogue of hard cases and of the paper's claims |
-//! | [`cost`] | what accuracy and effects cost in time |
+//! Other people's data held against a history: the same quantities at the same times, and what follows from them.
 
-mod account;
-pub(crate) mod check;
-pub(crate) mod cost;
-mod differences;
-#[cfg(feature = "mp")]
-mod long;
-#[cfg(not(feature = "mp"))]
-#[path = "long_absent.rs"]
-mod long;
-mod quantity;
-mod route;
-mod target;
-mod truth;
-mod value;
+mod agree;
+mod audit;
+mod between;
+mod comparison;
+mod conventions;
+pub mod data;
+mod hints;
+mod limit;
+mod map;
+mod norms;
+mod ours;
+mod report;
+mod samples;
+mod touch;
 
-pub(crate) use quantity::{Quantity, Question};
-pub(crate) use route::{asked, plan};
-pub(crate) use target::{Published, Reached, published};
-pub(crate) use truth::RightDigits;
-pub(crate) use value::{NoAnswer, System};
+#[cfg(feature = "cli")]
+pub(crate) use agree::Compared;
+pub use comparison::{CompareError, ComparedFile, Comparison, Options, Prepared};
+pub use conventions::{Axis, Compression, Origin};
+pub use limit::Limit;
+pub use map::MapError;
+pub use norms::{Grid, norms, order};
+pub use report::LEGEND;

@@ -5,7 +5,7 @@ use super::outcome::{Bounce, BounceKind};
 use super::rebound::Rebound;
 use super::static_state::{StaticState, faded_after};
 use crate::error::Error;
-use crate::moments::Moments;
+use crate::motion::moments::Moments;
 use crate::motion::{Contact, Course, Ending, Energy, Event, EventKind, Field, Motion, Scales, Side, StressPiece};
 use crate::number::{Open, Scalar};
 use crate::problem::{Parameters, Problem, Run};

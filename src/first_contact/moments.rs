@@ -4,7 +4,7 @@ use std::cmp::Ordering;
 
 use super::energy::{RADII, Stretch, nodes, rest};
 use super::field::{FirstContact, Trips};
-use crate::moments::{Moments, Node, Sums, of_sums};
+use crate::motion::moments::{Moments, Node, Sums, of_sums};
 use crate::number::Scalar;
 use crate::special::BoundedSpecial;
 

@@ -1,11 +1,10 @@
 //! The rod at rest on the ground under a free top, and when a contact without end has become that.
 
 use crate::error::Error;
-use crate::moments::{Moments, of_stretches};
-use crate::motion::{Energy, Field};
+use crate::motion::moments::{Moments, of_stretches};
+use crate::motion::{Energy, Field, Stretch};
 use crate::number::Scalar;
 use crate::problem::Parameters;
-use crate::wave::Stretch;
 
 /// `v_s = (g/2c²)(x² − 2Lx)`: what a contact that never ends tends to, with what is left of the transient by
 /// [`faded_after`] as a bound.

@@ -4,10 +4,8 @@ use super::history::{Centre, Moment, Undamped};
 use super::start::Units;
 use super::trace::{Line, Part, Piece};
 use crate::error::Error;
-use crate::motion::{Course, Energy, Event, Field, Motion, Scales, Side, StressPiece};
+use crate::motion::{Course, Energy, Event, Field, Motion, Ray, Scales, Side, StressPiece, Stretch, Waves};
 use crate::number::Bounded;
-use crate::ray::Ray;
-use crate::wave::{Stretch, Waves};
 
 impl<N: Bounded> Motion<N> for Undamped<N> {
     fn course(&self) -> &Course<N> {

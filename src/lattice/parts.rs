@@ -5,8 +5,8 @@ use std::cmp::Ordering;
 use super::history::Undamped;
 use super::start::Units;
 use super::trace::{Part, Place};
+use crate::motion::Stretch;
 use crate::number::{Bounded, Open};
-use crate::wave::Stretch;
 
 /// A stretch of the rod on which one invariant is linear, in the order of `x`.
 struct One<N> {

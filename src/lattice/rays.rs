@@ -2,9 +2,9 @@
 
 use super::history::Undamped;
 use super::trace::Place;
+use crate::motion::Ray;
 use crate::number::Bounded;
 use crate::problem::Top;
-use crate::ray::Ray;
 
 impl<N: Bounded> Undamped<N> {
     /// The rays that leave the ground in round trip `trip` (0 is the first), in order, jumps and mere kinks.

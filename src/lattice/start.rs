@@ -1,8 +1,9 @@
 //! The problem in its own units: one round trip, and the speed that gravity gives in it.
 
 use crate::error::Error;
+use crate::motion::AtStart;
 use crate::number::{Bounded, Number, Open};
-use crate::problem::{AtStart, Parameters, Problem, Profile, Start, Top};
+use crate::problem::{Parameters, Problem, Profile, Start, Top};
 
 /// The units in which the lattice computes: with them a break returns after exactly 1, and gravity is 1 or 0.
 #[derive(Clone, Debug)]

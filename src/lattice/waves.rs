@@ -4,9 +4,9 @@ use super::history::Undamped;
 use super::start::Units;
 use super::trace::Place;
 use crate::error::Error;
+use crate::motion::{WavePiece, Waves};
 use crate::number::Bounded;
 use crate::problem::Top;
-use crate::wave::{WavePiece, Waves};
 
 /// More pieces than this are no function to be written into a program.
 const MOST_PIECES: usize = 1_000_000;

@@ -5,9 +5,9 @@ use serde_json::{Value, json};
 use super::cost::duration;
 use super::target::{published_json, published_page, published_table};
 use crate::aligned::table;
-use crate::compare::Published;
-use crate::compare::RightDigits;
-use crate::compare::check::{Checked, CheckedQuestion, Group};
+use crate::routes::Published;
+use crate::routes::RightDigits;
+use crate::routes::check::{Checked, CheckedQuestion, Group};
 
 /// How many digits are right, in words.
 fn digits(right: RightDigits) -> String {

@@ -1,9 +1,9 @@
 //! The exact solution of an undamped rod as a function for other programs: Python, MATLAB, C.
 
 use super::reference::Preamble;
+use crate::motion::Waves;
 use crate::number::{Scalar, bound_of_log2};
 use crate::problem::Top;
-use crate::wave::Waves;
 
 /// A language of functions.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, clap::ValueEnum)]

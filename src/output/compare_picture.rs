@@ -3,7 +3,7 @@
 use glam::DVec2;
 
 use super::draw::{Axis, Key, Layer, Panel, Shape, Sheet, Size, Stroke, plain, thinned};
-use crate::agreement::{Compared, ComparedFile};
+use crate::compare::{Compared, ComparedFile};
 use crate::quantity::{Measure, Units};
 
 /// Two panels for each quantity: ours as a thin line over theirs, and theirs − ours.

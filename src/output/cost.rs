@@ -4,7 +4,7 @@ use serde_json::{Value, json};
 
 use super::csv;
 use crate::aligned::table;
-use crate::compare::cost::{Difference, Row, Table, Timing};
+use crate::routes::cost::{Difference, Row, Table, Timing};
 
 /// A time in the unit that suits it, to three digits: `3.21 ms`.
 ///

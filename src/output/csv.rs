@@ -2,7 +2,7 @@
 
 use super::record::{CONTACT, Column, Factors, Head, Quantity, Record, Sample, column, sampled};
 use super::straight::straight;
-use crate::agreement::{Compared, ComparedFile};
+use crate::compare::{Compared, ComparedFile};
 use crate::motion::{Ending, StressPiece};
 use crate::number::{DOUBLE_DIGITS, Scalar, show, shown_bound_text};
 use crate::quantity::Measure;

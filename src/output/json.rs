@@ -8,7 +8,7 @@ use super::record::{CONTACT, Finished, Head, Quantity, Record, Sample, sampled};
 use crate::motion::Ending;
 use crate::number::{Scalar, bound_json, number_json};
 use crate::quantity::{Measure, Units};
-use crate::solution::ExactnessEnd;
+use crate::solve::ExactnessEnd;
 
 /// The JSON Schema of histories, samples, golden files, comparisons and sweeps.
 pub const SCHEMA: &str = include_str!("schema.json");

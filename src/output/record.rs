@@ -5,7 +5,7 @@ use crate::motion::{Contact, Ending, Energy, Event, Motion, Side, StressPiece};
 use crate::number::Scalar;
 use crate::quantity::{EnergyShares, Flight, Measure, Restitution, Units, energy_shares, flights, restitution};
 use crate::reason::Warning;
-use crate::solution::ExactnessEnd;
+use crate::solve::ExactnessEnd;
 
 /// What stands above the numbers.
 #[derive(Clone, Debug, Default)]

@@ -5,8 +5,8 @@ use serde_json::{Value, json};
 use super::record::Head;
 use super::table::{cell, fitted};
 use crate::aligned::table;
-use crate::compare::{Published, Reached};
 use crate::number::{DOUBLE_DIGITS, Scalar, number_json, show};
+use crate::routes::{Published, Reached};
 use crate::scene::Target;
 
 /// Significant digits of a difference in a table.

@@ -23,7 +23,6 @@
 //! | impacts | 1 … 10 000 000 |
 //! | points of a profile | 2 … 100 000, at least 1e-12 L apart |
 
-mod at_start;
 mod builder;
 mod definition;
 pub(crate) mod given;
@@ -33,7 +32,6 @@ pub(crate) mod validate;
 pub(crate) mod written;
 
 pub use crate::error::{ProblemError, ProblemErrorKind};
-pub(crate) use at_start::AtStart;
 pub use builder::Builder;
 pub use definition::{Material, Problem, Profile, Rod, Run, Speed, Start, Top};
 pub use parameters::{Dimensionless, Parameters};

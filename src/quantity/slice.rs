@@ -2,7 +2,7 @@
 
 use super::column::same;
 use crate::error::Error;
-use crate::moments::Moments;
+use crate::motion::moments::Moments;
 use crate::motion::{Motion, Side};
 use crate::number::Scalar;
 

@@ -4,12 +4,10 @@ use std::sync::Arc;
 
 use super::rays::Rays;
 use crate::error::Error;
-use crate::moments::{self, Moments};
-use crate::motion::{Course, Energy, Event, Field, Motion, Scales, Side, StressPiece};
+use crate::motion::moments::{self, Moments};
+use crate::motion::{Course, Energy, Event, Field, Motion, Ray, Scales, Side, StressPiece, Stretch, Waves};
 use crate::number::{Reads, Scalar};
 use crate::problem::Problem;
-use crate::ray::Ray;
-use crate::wave::{Stretch, Waves};
 
 /// The history of an engine in numbers `N`, read in numbers `M`.
 #[derive(Debug)]

@@ -8,11 +8,14 @@
 //! | `engines`, `long` | the planned engine in the numbers of one attempt |
 //! | `converted`, `rays` | a history in one number system, read in another, and when rays pass a point of it |
 //! | `ladder` | more bits until the answer is settled |
+//! | `history` | the answer in one number system, of which everything else is asked |
+//! | `solution` | the answer in the numbers of its plan |
 
 #[cfg(feature = "mp")]
 mod converted;
 mod engines;
 mod foresee;
+mod history;
 mod ladder;
 #[cfg_attr(not(feature = "mp"), path = "long_absent.rs")]
 mod long;
@@ -20,8 +23,11 @@ mod plan;
 mod question;
 #[cfg(feature = "mp")]
 mod rays;
+mod solution;
 
-pub(crate) use ladder::{Attempt, Ladder, unobserved};
+pub use history::History;
+pub(crate) use ladder::unobserved;
 pub use ladder::{Observer, Target};
 pub use plan::{CERTIFIED_DIGITS, DEFAULT_ACCURACY, Engine, MAX_DIGITS, Plan, Reach, Rung};
 pub use question::{Numbers, Question, Want};
+pub use solution::{ExactnessEnd, Solution};

@@ -4,12 +4,10 @@ use serde::{Deserialize, Serialize};
 use serde_json::Value;
 
 use super::grid::Grid;
-use crate::compare::{NoAnswer, Quantity, Question, asked};
-use crate::history::History;
 use crate::number::{Number, Scalar, bound_json, number_json, shown_bound_text};
 use crate::problem::Problem;
-use crate::solution::Solution;
-use crate::solve::{self, Numbers, Plan, Target, unobserved};
+use crate::routes::{NoAnswer, Quantity, Question, asked};
+use crate::solve::{self, History, Numbers, Plan, Solution, Target, unobserved};
 
 /// The numbers that are asked of every point.
 #[derive(Clone, Debug)]
@@ -95,7 +93,7 @@ fn in_solution(question: &Question, solution: &Solution) -> Cell {
     }
 }
 
-fn cell<S: Target<Carried: crate::compare::System>>(question: &Question, history: &History<S>, digits: u32) -> Cell {
+fn cell<S: Target<Carried: crate::routes::System>>(question: &Question, history: &History<S>, digits: u32) -> Cell {
     let cell = match question.find_settled(history) {
         Ok(found) if !found.value.is_finite() => Cell::none("no finite number"),
         Ok(found) => Cell {

@@ -4,12 +4,11 @@ use glam::DVec2;
 
 use super::picture::Along;
 use crate::error::Error;
-use crate::history::History;
 use crate::motion::{Field, Side};
 use crate::number::Scalar;
 use crate::output::draw::{Piece, clip};
 use crate::problem::Parameters;
-use crate::solve::Target;
+use crate::solve::{History, Target};
 
 /// A ray, by the time at which it leaves the ground.
 #[derive(Clone, Copy, Debug, PartialEq)]

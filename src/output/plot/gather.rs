@@ -3,14 +3,13 @@
 use super::cells::{self, Break, Cells, Strip, settled};
 use super::picture::{Along, Picture};
 use crate::error::Error;
-use crate::history::History;
 use crate::motion::{EventKind, Motion, Side, StressPiece};
 use crate::number::Scalar;
 use crate::output::straight::straight;
 use crate::problem::{Parameters, Problem, Start};
 use crate::quantity::{Column, Measure, Units};
 use crate::reason::Warning;
-use crate::solve::Target;
+use crate::solve::{History, Target};
 
 /// What is asked of every scene.
 #[derive(Clone, Debug)]

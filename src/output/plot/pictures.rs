@@ -6,13 +6,12 @@ use super::cells::{Cells, Values};
 use super::gather::{Asked, Gathered, Line};
 use super::picture::{Along, Picture};
 use crate::error::Error;
-use crate::history::History;
 use crate::output::draw::{
     AREAS, Axis, Key, LINES, Layer, Mark, Panel, Piece, Shape, Sheet, Size, Stroke, diverging, plain, thinned,
 };
 use crate::problem::Problem;
 use crate::quantity::{Column, Measure, Units};
-use crate::solve::Target;
+use crate::solve::{History, Target};
 
 /// The times on the ground, in every picture.
 const CONTACT: &str = "#c6c6c6";

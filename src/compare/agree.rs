@@ -1,0 +1,210 @@
+//! Data beside a history: norms, contacts, audit and hints.
+
+use super::audit::{Audit, Books};
+use super::conventions::Conventions;
+use super::hints::{Finding, Hint, Measures, Pair, gathered, of_contacts, of_impulses};
+use super::map::What;
+use super::norms::{Grid, Norms, norms};
+use super::ours::Ours;
+use super::samples::Samples;
+use super::touch::{Touch, matched, touches};
+use crate::error::Error;
+use crate::problem::{Problem, Top};
+use crate::quantity::{Column, Place};
+use crate::solve::History;
+
+/// Data beside a history.
+#[derive(Debug)]
+pub(crate) struct Agreement {
+    pub(crate) grid: Grid,
+    pub(crate) quantities: Vec<Compared>,
+    /// Ours and theirs; either may be missing.
+    pub(crate) contacts: Vec<(Option<Touch>, Option<Touch>)>,
+    pub(crate) audit: Audit,
+    pub(crate) hints: Vec<Hint>,
+    /// The median step of the samples.
+    pub(crate) step: f64,
+    /// How far from a jump a sample counts as away from it.
+    pub(crate) window: f64,
+    /// How many rows are before `t = 0` and are not compared.
+    pub(crate) outside: usize,
+}
+
+/// One quantity: values at the samples of the grid, and how far apart they are.
+#[derive(Debug)]
+pub(crate) struct Compared {
+    pub(crate) what: What,
+    pub(crate) ours: Vec<f64>,
+    pub(crate) theirs: Vec<f64>,
+    pub(crate) norms: Norms,
+}
+
+/// What a comparison may be told besides the data.
+#[derive(Clone, Debug)]
+pub(crate) struct Settings {
+    pub(crate) conventions: Conventions,
+    /// How far the data should go: the end of the scene's own run, where that is a time.
+    pub(crate) until: Option<f64>,
+    /// In round trips; by default [`WINDOW`], or two steps where that is more.
+    pub(crate) window: Option<f64>,
+}
+
+/// Round trips that a sample is away from a jump where nothing else is said.
+const WINDOW: f64 = 0.02;
+/// A sample pushes where its force is above this share of our greatest.
+const PUSHES: f64 = 1e-6;
+
+impl Agreement {
+    /// Compares `samples` with `history` of `problem`.
+    ///
+    /// **Source**: each sample of a quantity that jumps is scored against the nearer of its two limits where its time
+    /// is that of the jump, as well as the times tell, or against the limit that its row is said to hold. Norms,
+    /// contacts, audit and hints as in `quantity`.
+    ///
+    /// **Accuracy**: that of the history, in doubles.
+    ///
+    /// **Errors**: what the history cannot answer.
+    pub(crate) fn of(
+        problem: &Problem,
+        history: &History<f64>,
+        samples: Samples,
+        settings: &Settings,
+    ) -> Result<Self, Error> {
+        let ours = Ours::of(problem, history)?;
+        let Samples { grid, mut quantities, step, outside, rounding, sides } = samples;
+        let trip = history.scales().time;
+        settings.conventions.apply(&ours, &mut quantities, grid.points.as_deref())?;
+        let narrow = 2.0 * step;
+        let window = settings.window.map_or_else(|| narrow.max(WINDOW * trip), |trips| trips * trip);
+        let whats: Vec<What> = quantities.iter().map(|(what, _)| *what).collect();
+        let values = ours.values(&whats, &grid)?;
+        let events: Vec<f64> = history.events().iter().map(|event| event.time).collect();
+        let measures = Measures { grid: &grid, events: &events, step: step / trip, round_trip: trip };
+        let (mut compared, mut hints) = (Vec::new(), Vec::new());
+        let mut passing = (Place::Ground, ours.passing(Place::Ground, &grid));
+        for ((what, theirs), mut values) in quantities.into_iter().zip(values) {
+            if what.place() != passing.0 {
+                passing = (what.place(), ours.passing(what.place(), &grid));
+            }
+            let on_jumps = ours.nearer(what, &grid, (&passing.1, &rounding, &sides), &theirs, &mut values)?;
+            let away = |k: usize, window: f64| (passing.1[k] - grid.times[k]).abs() > window;
+            let scale = ours.scale(what);
+            let norms = norms(&grid, &values, &theirs, scale, on_jumps, |k| !what.jumps() || away(k, window));
+            if grid.points.is_none() && what.is_hinted() {
+                let factors = ours.factors(what);
+                let pair =
+                    Pair { ours: &values, theirs: &theirs, scale, rays: what.quantity().rays(), factors: &factors };
+                // Kinks of a displacement are where its velocity jumps.
+                let finding = measures.of_pair(&pair, |k| away(k, window.max(narrow)));
+                hints.extend(finding.map(|finding| Hint { quantity: what.name().into(), finding }));
+            }
+            compared.push(Compared { what, ours: values, theirs, norms });
+        }
+        // Half a step is one where steps are alike.
+        let steps = grid.times.windows(2).map(|pair| pair[1] - pair[0]).filter(|way| *way > 0.0);
+        let (alike, all) = steps
+            .fold((0, 0), |(alike, all), way| (alike + usize::from((step / 2.0..=2.0 * step).contains(&way)), all + 1));
+        let even = 10 * alike >= 9 * all;
+        for (of, rate) in [
+            (Column::EndDisplacement, Column::EndVelocity),
+            (Column::TopDisplacement, Column::TopVelocity),
+            (Column::Centre, Column::CentreVelocity),
+        ] {
+            let theirs = |column| {
+                let found = compared.iter().find(|compared: &&Compared| compared.what == What::Column(column))?;
+                Some(found.theirs.as_slice())
+            };
+            let Some((u, velocity)) = theirs(of).zip(theirs(rate)).filter(|_| even) else { continue };
+            let passing = ours.passing(of.place(), &grid);
+            let away = |k: usize| (passing[k] - grid.times[k]).abs() > window.max(narrow);
+            let finding = measures.of_rate(of.name(), [u, velocity], away);
+            hints.extend(finding.map(|finding| Hint { quantity: rate.name().into(), finding }));
+        }
+        let mut agreement = Agreement {
+            grid,
+            quantities: compared,
+            contacts: Vec::new(),
+            audit: Audit::default(),
+            hints,
+            step,
+            window,
+            outside,
+        };
+        if agreement.grid.points.is_none() {
+            agreement.keep_books(problem, &ours, settings.until);
+        }
+        Ok(agreement)
+    }
+
+    fn theirs(&self, column: Column) -> Option<&Compared> {
+        self.quantities.iter().find(|compared| compared.what == What::Column(column))
+    }
+
+    /// Contacts, audit, and the hints of both.
+    fn keep_books(&mut self, problem: &Problem, ours: &Ours<'_>, until: Option<f64>) {
+        let times = &self.grid.times;
+        let (Some(first), Some(last)) = (times.first().copied(), times.last().copied()) else { return };
+        // Whatever shows the force: it, or stress or strain with the factor that makes them one. Where its sign is the
+        // other one, which is a hint, contacts are read from the force that is meant.
+        let shown = [Column::Force, Column::Stress, Column::Strain].into_iter().find_map(|column| self.theirs(column));
+        let force: Option<Vec<f64>> = shown.map(|shown| {
+            let sign = |hint: &Hint| hint.quantity == shown.what.name() && hint.finding == Finding::Sign;
+            let factor = ours.force_per(shown.what) * if self.hints.iter().any(sign) { -1.0 } else { 1.0 };
+            shown.theirs.iter().map(|value| value * factor).collect()
+        });
+        let force = force.as_deref();
+        let end = self.theirs(Column::EndDisplacement).map(|compared| compared.theirs.as_slice());
+        let on_ground = self.theirs(Column::Contact).map(|compared| compared.theirs.as_slice());
+        let exact = ours.touches();
+        let most = exact.iter().filter_map(|touch| touch.peak).fold(0.0, f64::max);
+        let height = self.theirs(Column::EndDisplacement);
+        let height = height.map_or(0.0, |end| end.ours.iter().fold(0.0f64, |most, v| most.max(v.abs())));
+        let touching = |k: usize| match (on_ground, force, end) {
+            (Some(flag), ..) => flag[k] > 0.5,
+            (_, Some(force), _) => force[k] > PUSHES * most,
+            (.., Some(v)) => v[k] <= PUSHES * height,
+            _ => false,
+        };
+        let mut contacts = Vec::new();
+        if on_ground.is_some() || force.is_some() || end.is_some() {
+            // One that begins just after the last sample may have begun in theirs; it is not missing if not.
+            let separation = ours.shortest_separation();
+            let found = touches(times, touching, force, separation);
+            let within = |touch: &Touch| touch.from < last + separation && touch.to.is_none_or(|to| to > first);
+            let exact: Vec<Touch> = exact.into_iter().filter(within).collect();
+            contacts = matched(&exact, &found);
+            let later = |touch: &Touch| touch.from > last - 2.0 * self.step;
+            contacts.retain(|(a, b)| b.is_some() || !a.as_ref().is_some_and(later));
+        }
+        // Where chatter hides a factor from the samples, or falsifies it, the impulses show it.
+        let impulses = shown.map(|shown| shown.what).and_then(|what| {
+            let finding = of_impulses(&contacts, times, self.step, &ours.factors(what))?;
+            let near = |hint: &Hint| hint.quantity == what.name() && hint.finding.is_near(&finding);
+            (!self.hints.iter().any(near)).then(|| Hint { quantity: what.name().into(), finding })
+        });
+        let energy = self.theirs(Column::Energy);
+        let books = Books {
+            times,
+            displacement: end,
+            force,
+            energy: energy.map(|energy| [energy.ours.as_slice(), energy.theirs.as_slice()]),
+            centre_velocity: self.theirs(Column::CentreVelocity).map(|compared| compared.theirs.as_slice()),
+            momentum: (problem.rod.top == Top::Free).then(|| ours.momentum()),
+        };
+        self.audit = Audit {
+            missed: contacts.iter().filter(|row| row.1.is_none()).count(),
+            invented: contacts.iter().filter(|row| row.0.is_none()).count(),
+            not_covered: books.not_covered(until.unwrap_or(last)),
+            ..books.audit()
+        };
+        let mut hints = of_contacts(&contacts, times, self.step);
+        if let Some(found) = impulses {
+            let fitted = |hint: &Hint| hint.quantity == found.quantity && matches!(hint.finding, Finding::Scale { .. });
+            self.hints.retain(|hint| !fitted(hint));
+            hints.push(found);
+        }
+        hints.append(&mut self.hints);
+        self.hints = gathered(hints);
+        self.contacts = contacts;
+    }
+}

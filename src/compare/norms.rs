@@ -1,0 +1,231 @@
+//! How far other people's data are from ours, in L¹, L² and L∞.
+
+use std::ops::Range;
+
+use serde::Serialize;
+
+/// A norm of the difference `theirs − ours`.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct Norm {
+    /// `‖theirs − ours‖`.
+    pub absolute: f64,
+    /// The same divided by `‖ours‖` at the same samples; `None` where ours is zero there.
+    pub relative: Option<f64>,
+}
+
+/// The greatest difference, and where it is.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct Greatest {
+    /// `max |theirs − ours|`.
+    pub absolute: f64,
+    /// The same divided by `max |ours|`; `None` where ours is zero.
+    pub relative: Option<f64>,
+    /// When.
+    pub time: f64,
+    /// Where in the rod, for a field.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub point: Option<f64>,
+}
+
+/// The norms of the difference of two lists of samples.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct Norms {
+    /// How many samples there are.
+    pub samples: usize,
+    /// How many of them are on a jump of ours.
+    pub on_jumps: usize,
+    /// `∫ |theirs − ours|`.
+    pub l1: Norm,
+    /// `√∫ (theirs − ours)²`.
+    pub l2: Norm,
+    /// `max |theirs − ours|` over all samples.
+    pub linf: Greatest,
+    /// The same over samples away from jumps; `None` where there are none.
+    pub linf_off_jumps: Option<Greatest>,
+}
+
+/// Where and when samples are, and what they weigh.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Grid {
+    /// Times, in order.
+    pub times: Vec<f64>,
+    /// Points of the rod, for a field: in order at each time.
+    pub points: Option<Vec<f64>>,
+    /// The weight of each sample.
+    pub weights: Vec<f64>,
+}
+
+impl Grid {
+    /// The grid of samples at these times and points.
+    ///
+    /// **Source**: the trapezoidal rule. A sample weighs half the way to each of its neighbours in time, and for a
+    /// field in `x` at its time as well; where there is but one time, or one point at a time, that direction weighs 1.
+    /// Nothing is interpolated: the integrals are sums over samples, whatever is between them. Two rows at one time,
+    /// the limits at a jump, share what one would weigh.
+    ///
+    /// ```
+    /// use dalembert::compare::Grid;
+    /// assert_eq!(Grid::new(vec![0.0, 1.0, 4.0], None).weights, [0.5, 2.0, 1.5]);
+    /// let field = Grid::new(vec![0.0, 0.0, 1.0, 1.0], Some(vec![0.0, 3.0, 0.0, 3.0]));
+    /// assert_eq!(field.weights, [0.75; 4]);
+    /// ```
+    pub fn new(times: Vec<f64>, points: Option<Vec<f64>>) -> Self {
+        let weights = match &points {
+            None => trapezoid(&times),
+            Some(points) => {
+                let rows = rows(&times, points);
+                let of_rows = trapezoid(&rows.iter().map(|row| times[row.start]).collect::<Vec<_>>());
+                let weigh = |(row, of_row): (&Range<usize>, f64)| {
+                    trapezoid(&points[row.clone()]).into_iter().map(move |weight| weight * of_row)
+                };
+                rows.iter().zip(of_rows).flat_map(weigh).collect()
+            }
+        };
+        Grid { times, points, weights }
+    }
+
+    /// The rows of a field: the samples of one time, or of one limit of it, with points that increase.
+    pub fn rows(&self) -> Vec<Range<usize>> {
+        self.points.as_ref().map_or_else(Vec::new, |points| rows(&self.times, points))
+    }
+}
+
+fn rows(times: &[f64], points: &[f64]) -> Vec<Range<usize>> {
+    let ends =
+        (1..=times.len()).filter(|k| *k == times.len() || times[*k] > times[k - 1] || points[*k] <= points[k - 1]);
+    let mut start = 0;
+    ends.map(|end| std::mem::replace(&mut start, end)..end).collect()
+}
+
+/// The weights of the trapezoidal rule at ascending places; 1 where there is only one.
+fn trapezoid(places: &[f64]) -> Vec<f64> {
+    let last = places.len().saturating_sub(1);
+    if places.first() == places.last() {
+        return vec![1.0; places.len()];
+    }
+    (0..=last).map(|k| (places[(k + 1).min(last)] - places[k.saturating_sub(1)]) / 2.0).collect()
+}
+
+fn ratio(a: f64, b: f64) -> Option<f64> {
+    (b > 0.0).then(|| a / b)
+}
+
+/// The power of two next to the greatest of some values, within what has an inverse; 1 where all are zero.
+fn size(values: impl Iterator<Item = f64>) -> f64 {
+    let most = values.fold(0.0, f64::max);
+    if most > 0.0 { most.log2().round().clamp(-1000.0, 1000.0).exp2() } else { 1.0 }
+}
+
+/// Values below this share of their natural scale are rounding of zero, such as that of a top that is held.
+const NOTHING: f64 = 1e-12;
+
+/// The norms of `theirs − ours` over `grid`, with `on_jumps` of the samples on a jump; `away` says which samples count
+/// as away from jumps. Where ours is below 1e-12 of its scale `natural` throughout there is no relative norm. There
+/// must be a sample.
+///
+/// **Accuracy**: *exact* but for rounding, as sums over samples; what happens between them is not seen.
+pub fn norms(
+    grid: &Grid,
+    ours: &[f64],
+    theirs: &[f64],
+    natural: f64,
+    on_jumps: usize,
+    away: impl Fn(usize) -> bool,
+) -> Norms {
+    // Of about 1 each, by powers of two: no square leaves the range of doubles, and no digit changes.
+    let apart = |a: &f64, b: &f64| (b / 2.0 - a / 2.0).abs();
+    let (unit, own_unit) =
+        (size(ours.iter().zip(theirs).map(|(a, b)| apart(a, b))), size(ours.iter().map(|a| a.abs())));
+    let (mut sums, mut own, mut scale) = ([0.0; 2], [0.0; 2], [0.0f64; 2]);
+    let mut greatest: [Option<(usize, f64)>; 2] = [None; 2];
+    for (k, (weight, (a, b))) in grid.weights.iter().zip(ours.iter().zip(theirs)).enumerate() {
+        let (difference, a) = (apart(a, b) / unit, a / own_unit);
+        sums = [sums[0] + weight * difference, sums[1] + weight * difference * difference];
+        own = [own[0] + weight * a.abs(), own[1] + weight * a * a];
+        for (which, counts) in [true, away(k)].into_iter().enumerate() {
+            if counts {
+                scale[which] = scale[which].max(a.abs());
+                if greatest[which].is_none_or(|(_, most)| difference > most) {
+                    greatest[which] = Some((k, difference));
+                }
+            }
+        }
+    }
+    if scale[0] <= NOTHING * (natural / own_unit) {
+        (own, scale) = ([0.0; 2], [0.0; 2]);
+    }
+    let unit = 2.0 * unit;
+    let of = |absolute: f64, own: f64| (absolute * unit, ratio(absolute * (unit / own_unit), own));
+    let norm = |absolute: f64, own: f64| {
+        let (absolute, relative) = of(absolute, own);
+        Norm { absolute, relative }
+    };
+    let greatest = [0, 1].map(|which| {
+        let (k, absolute) = greatest[which]?;
+        let (absolute, relative) = of(absolute, scale[which]);
+        Some(Greatest { absolute, relative, time: grid.times[k], point: grid.points.as_ref().map(|points| points[k]) })
+    });
+    let none = Greatest { absolute: 0.0, relative: None, time: 0.0, point: None };
+    Norms {
+        samples: ours.len(),
+        on_jumps,
+        l1: norm(sums[0], own[0]),
+        l2: norm(sums[1].sqrt(), own[1].sqrt()),
+        linf: greatest[0].unwrap_or(none),
+        linf_off_jumps: greatest[1],
+    }
+}
+
+/// The observed order of convergence `log(e₁/e₂)/log(h₁/h₂)` between two widths; `None` where it is not defined.
+///
+/// ```
+/// assert_eq!(dalembert::compare::order((0.2, 0.04), (0.1, 0.01)), Some(2.0));
+/// ```
+pub fn order((coarse, error): (f64, f64), (fine, less): (f64, f64)) -> Option<f64> {
+    let order = (error / less).log2() / (coarse / fine).log2();
+    order.is_finite().then_some(order)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A straight line against zero: the sums by hand.
+    #[test]
+    fn by_hand() {
+        let grid = Grid::new(vec![0.0, 1.0, 3.0], None);
+        let norms = norms(&grid, &[2.0, 2.0, 2.0], &[2.0, 3.0, -1.0], 1.0, 1, |k| k < 2);
+        // Weights ½, 3/2, 1; differences 0, 1, 3; ‖ours‖₁ = 6, ‖ours‖₂² = 12.
+        assert_eq!((norms.l1.absolute, norms.l1.relative), (4.5, Some(0.75)));
+        assert_eq!((norms.l2.absolute, norms.l2.relative), (10.5f64.sqrt(), Some(10.5f64.sqrt() / 12f64.sqrt())));
+        assert_eq!((norms.linf.absolute, norms.linf.time, norms.on_jumps), (3.0, 3.0, 1));
+        assert_eq!(norms.linf_off_jumps.map(|most| (most.absolute, most.time)), Some((1.0, 1.0)));
+    }
+
+    /// Values whose squares no double holds have the norms of the same values of an ordinary size.
+    #[test]
+    fn of_any_size() {
+        let grid = Grid::new(vec![0.0, 1.0, 3.0], None);
+        let of = |unit: f64| {
+            let [ours, theirs] = [[2.0, 2.0, 2.0], [2.0, 3.0, -1.0]].map(|list| list.map(|x| x * unit));
+            norms(&grid, &ours, &theirs, unit, 1, |k| k < 2)
+        };
+        for unit in [2f64.powi(1020), 2f64.powi(-1020)] {
+            let (found, plain) = (of(unit), of(1.0));
+            for (found, plain) in [(found.l1, plain.l1), (found.l2, plain.l2)] {
+                assert_eq!((found.absolute, found.relative), (plain.absolute * unit, plain.relative));
+            }
+            assert_eq!(found.linf, Greatest { absolute: 3.0 * unit, ..plain.linf });
+        }
+    }
+
+    /// Against nothing there is no relative norm.
+    #[test]
+    fn against_zero() {
+        let grid = Grid::new(vec![1.0], None);
+        for rounding in [0.0, 1e-13] {
+            let norms = norms(&grid, &[rounding], &[2.0], 1.0, 0, |_| false);
+            assert_eq!((norms.l1.absolute, norms.l1.relative, norms.linf_off_jumps), (2.0 - rounding, None, None));
+        }
+    }
+}

@@ -1,0 +1,313 @@
+//! The exact side: values, jumps and contacts of a history.
+
+use super::between::filled;
+use super::map::What;
+use super::norms::Grid;
+use super::samples::Rounding;
+use super::touch::{Moments, Touch};
+use crate::error::Error;
+use crate::motion::{Field, Side, StressPiece};
+use crate::number::Number;
+use crate::problem::{Material, Parameters, Problem, Start, Top};
+use crate::quantity::{Column, Measure, Place};
+use crate::solve::History;
+use crate::special::gauss_legendre;
+
+/// A history with the times at which the end at the ground sees a ray.
+#[derive(Debug)]
+pub(super) struct Ours<'a> {
+    history: &'a History<f64>,
+    rod: Parameters<f64>,
+    material: [f64; 3],
+    pieces: Vec<StressPiece<f64>>,
+    /// Times at which `v_t(0,·)` or `v_x(0,·)` jumps, ascending.
+    jumps: Vec<f64>,
+    /// Times at which contact begins or ends, and the start.
+    switches: Vec<f64>,
+    /// Times at which rays leave the ground: the jumps, and for a start that is not uniform rays that have not been
+    /// there yet.
+    leaves: Vec<f64>,
+}
+
+/// With more times than this, most values are interpolated.
+const MANY: usize = 1 << 15;
+/// Jumps below this share of the scale of velocities are none, and times within it of the round trip are the same.
+const SMALL: f64 = 1e-9;
+
+impl<'a> Ours<'a> {
+    /// The exact side of `problem`, solved by `history`.
+    ///
+    /// **Source**: a jump at the ground comes back after `t₁`, for ever. It is found where the stress jumps, at events
+    /// and where what the start brings first arrives; a candidate counts where the two limits differ.
+    pub(super) fn of(problem: &Problem, history: &'a History<f64>) -> Result<Self, Error> {
+        let rod = Parameters::of(problem, &())?;
+        let material = match &problem.rod.material {
+            Material::WaveSpeed(_) => [rod.wave_speed * rod.wave_speed, 1.0, 1.0],
+            Material::Elastic { modulus, density, area } => {
+                [modulus.to_f64(), density.to_f64(), area.as_ref().map_or(1.0, Number::to_f64)]
+            }
+        };
+        let pieces = history.stress_history()?.pieces;
+        let (trip, end) = (rod.round_trip(), *history.end());
+        let mut found = vec![0.0];
+        found.extend(history.events().iter().map(|event| event.time));
+        found.extend(pieces.windows(2).filter(|pair| pair[0].right != pair[1].left).map(|pair| pair[1].from));
+        let mut brought = Vec::new();
+        // What holds the top stops it at t = 0.
+        let held = (problem.rod.top == Top::Fixed).then_some(rod.length);
+        let edges: Vec<f64> = match &problem.start {
+            Start::Profile(profile) => {
+                let corners = profile.displacement.iter().chain(&profile.velocity).map(|(x, _)| x.to_f64());
+                corners.chain([0.0, rod.length]).collect()
+            }
+            Start::Uniform(_) | Start::Above { .. } => held.into_iter().collect(),
+        };
+        let arrivals = edges.into_iter().map(|x| x / rod.wave_speed);
+        brought.extend(arrivals.flat_map(|arrival| [arrival, trip - arrival]));
+        found.extend(&brought);
+        let candidates = repeated(found, trip, end);
+        let seen = [Column::EndVelocity, Column::Strain];
+        let (before, after) = (
+            history.columns(&seen, &candidates, Some(Side::Left))?,
+            history.columns(&seen, &candidates, Some(Side::Right))?,
+        );
+        let jump = |column: usize, k: usize| (before[column][k] - after[column][k]).abs();
+        let least = SMALL * history.scales().velocity;
+        let differ = |k: usize| jump(0, k).max(jump(1, k) * rod.wave_speed) > least;
+        let jumps: Vec<f64> = candidates.iter().enumerate().filter(|(k, _)| differ(*k)).map(|(_, at)| *at).collect();
+        let mut leaves: Vec<f64> = brought.iter().map(|arrival| arrival - trip).chain(jumps.iter().copied()).collect();
+        leaves.sort_by(f64::total_cmp);
+        let events = history.events().iter().map(|event| event.time);
+        let switches = std::iter::once(0.0).chain(events).collect();
+        Ok(Ours { history, rod, material, pieces, jumps, switches, leaves })
+    }
+
+    /// `ρS`, or 1 where forces are per `ρS`.
+    fn line(&self) -> f64 {
+        self.material[1] * self.material[2]
+    }
+
+    /// `ρS L`, `g`, `r`.
+    pub(super) fn momentum(&self) -> [f64; 3] {
+        [self.line() * self.rod.length, self.rod.gravity, self.rod.damping]
+    }
+
+    /// What makes a quantity the force of the ground.
+    pub(super) fn force_per(&self, what: What) -> f64 {
+        let [modulus, _, area] = self.material;
+        match what {
+            What::Column(Column::Strain) => -modulus * area,
+            What::Column(Column::Stress) => -area,
+            _ => 1.0,
+        }
+    }
+
+    /// The values of every quantity on `grid`, from later times where there are two.
+    pub(super) fn values(&self, whats: &[What], grid: &Grid) -> Result<Vec<Vec<f64>>, Error> {
+        let Some(points) = &grid.points else {
+            let columns: Vec<Column> = whats.iter().filter_map(|what| what.column()).collect();
+            let at = |times: &[f64]| self.history.columns(&columns, times, Some(Side::Right));
+            let many = grid.times.len() > MANY;
+            return if many { filled(&grid.times, columns.len(), at) } else { at(&grid.times) };
+        };
+        let mut all = vec![Vec::with_capacity(grid.times.len()); whats.len()];
+        for row in grid.rows() {
+            for field in self.history.field(&points[row.clone()], &[grid.times[row.start]], Side::Right)? {
+                for (values, what) in all.iter_mut().zip(whats) {
+                    values.push(self.part(*what, &field));
+                }
+            }
+        }
+        Ok(all)
+    }
+
+    fn part(&self, what: What, field: &Field<f64>) -> f64 {
+        match what.quantity().measure() {
+            Some(Measure::Velocity) => field.velocity,
+            Some(Measure::Strain) => field.strain,
+            Some(Measure::Stress) => self.material[0] * field.strain,
+            _ => field.displacement,
+        }
+    }
+
+    /// Replaces our values at samples on a jump by the limit that their row holds, or the one that is nearer to theirs
+    /// where that is not known, and counts those samples.
+    pub(super) fn nearer(
+        &self,
+        what: What,
+        grid: &Grid,
+        (passing, rounding, sides): (&[f64], &Rounding, &[Option<Side>]),
+        theirs: &[f64],
+        ours: &mut [f64],
+    ) -> Result<usize, Error> {
+        let mut count = 0;
+        let may = if what.jumps() { rounding.most } else { -1.0 };
+        for (k, (jump, time)) in passing.iter().zip(&grid.times).enumerate() {
+            if (jump - time).abs() > may || (jump - time).abs() > rounding.at(*time) {
+                continue;
+            }
+            let limits = |time: f64| {
+                Ok::<_, Error>((
+                    self.limit(what, grid, k, time, Side::Left)?,
+                    self.limit(what, grid, k, time, Side::Right)?,
+                ))
+            };
+            let (left, right) = limits(jump.max(0.0))?;
+            count += usize::from(left != right);
+            if let Some(side) = sides[k] {
+                // The jump is where the row says, or a rounding of its time away.
+                let own = limits(*time)?;
+                let (left, right) = if own.0 == own.1 { (left, right) } else { own };
+                ours[k] = if side == Side::Left { left } else { right };
+                continue;
+            }
+            // Or the sample is just beside the jump, whatever its time is worth.
+            for limit in [left, right] {
+                if (theirs[k] - limit).abs() < (theirs[k] - ours[k]).abs() {
+                    ours[k] = limit;
+                }
+            }
+        }
+        Ok(count)
+    }
+
+    fn limit(&self, what: What, grid: &Grid, k: usize, time: f64, side: Side) -> Result<f64, Error> {
+        match (what.column(), &grid.points) {
+            (None, Some(points)) => {
+                let fields = self.history.field(&points[k..=k], &[time], side)?;
+                Ok(fields.first().map_or(0.0, |field| self.part(what, field)))
+            }
+            (column, _) => {
+                let columns: Vec<Column> = column.into_iter().collect();
+                let values = self.history.columns(&columns, &[time], Some(side))?;
+                Ok(values.first().and_then(|values| values.first()).copied().unwrap_or(0.0))
+            }
+        }
+    }
+
+    /// For each sample the time nearest to it at which a ray passes the point that the quantity is at; infinite where
+    /// none ever does.
+    pub(super) fn passing(&self, place: Place, grid: &Grid) -> Vec<f64> {
+        let trip = self.rod.round_trip();
+        let up_and_down = |travel: f64, time: f64| {
+            let ways = [travel, trip - travel].map(|delay| nearest(&self.leaves, time - delay) + delay);
+            if (ways[0] - time).abs() < (ways[1] - time).abs() { ways[0] } else { ways[1] }
+        };
+        let at = |(k, time): (usize, &f64)| match (place, &grid.points) {
+            (Place::Point, Some(points)) => up_and_down(points[k] / self.rod.wave_speed, *time),
+            (Place::Top, _) => up_and_down(trip / 2.0, *time),
+            (Place::Switch, _) => nearest(&self.switches, *time),
+            _ => nearest(&self.jumps, *time),
+        };
+        grid.times.iter().enumerate().map(at).collect()
+    }
+
+    /// What a displacement or a velocity is compared with; zero for what is not told from zero by it.
+    pub(super) fn scale(&self, what: What) -> f64 {
+        let scales = self.history.scales();
+        match what.quantity().measure() {
+            Some(Measure::Length) => scales.velocity * scales.time,
+            Some(Measure::Velocity) => scales.velocity,
+            _ => 0.0,
+        }
+    }
+
+    /// The displacements at `t = 0`, one for all samples or one each; `None` for what is no displacement.
+    pub(super) fn start(&self, what: What, points: Option<&[f64]>) -> Result<Option<Vec<f64>>, Error> {
+        match (what, points) {
+            _ if what.quantity().measure() != Some(Measure::Length) => Ok(None),
+            (What::Field(_), Some(points)) => {
+                let fields = self.history.field(points, &[0.0], Side::Right)?;
+                Ok(Some(fields.into_iter().map(|field| field.displacement).collect()))
+            }
+            _ => {
+                let column = what.quantity();
+                Ok(self.history.columns(&[column], &[0.0], Some(Side::Right))?.into_iter().next())
+            }
+        }
+    }
+
+    /// Our contacts, with the moments of their force.
+    ///
+    /// **Accuracy**: pieces of degree n are integrated by a rule that is exact for `t²` times them.
+    pub(super) fn touches(&self) -> Vec<Touch> {
+        let factor = self.force_per(What::Column(Column::Strain));
+        let mut pieces = self.pieces.iter().peekable();
+        let mut touches = Vec::new();
+        for contact in self.history.contacts() {
+            let end = contact.to.unwrap_or(f64::INFINITY);
+            let mut moments = Moments::about(contact.from);
+            while let Some(piece) = pieces.next_if(|piece| piece.from < end) {
+                let middle = f64::midpoint(piece.from, piece.to);
+                if middle < contact.from {
+                    continue;
+                }
+                let half = (piece.to - piece.from) / 2.0;
+                for (node, weight) in gauss_legendre(&1.0_f64, piece.chebyshev.len().max(2)) {
+                    let time = middle + half * node;
+                    moments.add(time, factor * piece.eval(&time), half * weight);
+                }
+            }
+            moments.reach(factor * contact.peak_strain);
+            let impulse = Some(self.line() * contact.impulse);
+            touches.push(Touch { impulse, ..moments.touch(contact.from, contact.to) });
+        }
+        touches
+    }
+
+    /// A separation that is shorter is chatter: a quarter of the round trip, or of our shortest flight.
+    pub(super) fn shortest_separation(&self) -> f64 {
+        let contacts = self.history.contacts();
+        let flights = contacts.windows(2).filter_map(|pair| pair[0].to.map(|to| pair[1].from - to));
+        flights.fold(self.rod.round_trip(), f64::min) / 4.0
+    }
+
+    /// Factors that are often forgotten, with the question to ask.
+    pub(super) fn factors(&self, what: What) -> Vec<(f64, &'static str)> {
+        let [modulus, density, area] = self.material;
+        let mut known = match what {
+            What::Column(column) if column.measure() == Some(Measure::Energy) => {
+                vec![(2.0, "is ½ missing?"), (0.5, "is ½ there twice?")]
+            }
+            What::Column(Column::Force) => vec![(1.0 / area, "is it a stress?")],
+            What::Column(Column::Stress) => vec![(area, "is it a force?"), (1.0 / modulus, "is it a strain?")],
+            What::Column(Column::Strain) => vec![(modulus, "is it a stress?")],
+            _ => Vec::new(),
+        };
+        known.extend([
+            (1.0 / (density * area), "is ρS missing?"),
+            (1.0 / density, "is ρ missing?"),
+            (1e3, "is it in thousandths of the unit, as mm of m?"),
+            (1e-3, "is it in thousands of the unit, as kN of N?"),
+            (1e6, "is it in millionths of the unit, as µm of m?"),
+            (1e-6, "is it in millions of the unit, as MPa of Pa?"),
+        ]);
+        known.retain(|(factor, _)| (factor - 1.0).abs() > 0.01);
+        known
+    }
+}
+
+/// The nearest of ascending times; infinite where there is none.
+fn nearest(times: &[f64], time: f64) -> f64 {
+    let next = times.partition_point(|at| *at < time);
+    let after = times.get(next).copied().unwrap_or(f64::INFINITY);
+    match next.checked_sub(1).map(|before| times[before]) {
+        Some(before) if time - before <= after - time => before,
+        _ => after,
+    }
+}
+
+/// Times and what comes back every `trip` after them up to `end`, ascending, each once.
+fn repeated(mut found: Vec<f64>, trip: f64, end: f64) -> Vec<f64> {
+    found.retain(|time| (0.0..=end).contains(time));
+    found.sort_by(f64::total_cmp);
+    // A stable sort: of one phase the earliest is first.
+    let phase = |time: &f64| ((time / trip).fract() / SMALL).round();
+    found.sort_by(|a, b| phase(a).total_cmp(&phase(b)));
+    found.dedup_by(|later, first| phase(later) - phase(first) <= 1.0);
+    let returns = |from: f64| (0..).map(move |k| from + f64::from(k) * trip).take_while(move |time| *time <= end);
+    let mut all: Vec<f64> = found.into_iter().flat_map(returns).collect();
+    all.sort_by(f64::total_cmp);
+    all.dedup_by(|later, first| *later - *first <= SMALL * trip);
+    all
+}

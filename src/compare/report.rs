@@ -1,0 +1,260 @@
+//! Other people's data beside ours, as a table and JSON.
+
+use serde_json::{Value, json};
+
+use super::agree::{Agreement, Compared};
+use super::audit::Extreme;
+use super::comparison::{ComparedFile, Comparison};
+use super::limit::Order;
+use super::norms::{Greatest, Norm};
+use super::touch::Touch;
+use crate::aligned::table;
+use crate::number::Scalar;
+use crate::quantity::{Column, Units};
+
+/// What the norms are.
+const WEIGHTS: &str = "sums over the samples by the trapezoidal rule: each weighs half the way to its neighbours";
+
+/// What the words of the report mean, a line each.
+pub const LEGEND: &str = "\
+norm                L1 = ∫|e| dt, L2 = √∫e² dt, L∞ = max |e| of e = theirs − ours, by the
+                    trapezoidal rule; relative to the same norm of ours
+off jumps           over samples further from a jump of ours than --window says
+sample on a jump    compared with the nearer of the two limits, or the one that its row names
+impulse             ∫ F dt over the contact
+centroid            ∫ t F dt / ∫ F dt: the mean time of the force
+peak                the greatest F
+gaps closed         separations within a contact shorter than a quarter of the round trip, and of
+                    our shortest flight: the contact chatters, and they count as part of it
+penetration         the deepest the end is below the ground
+tension in contact  the greatest pull of the ground
+∫|v F| dt           gap times force, zero where contact and gap exclude each other; in units of
+                    energy times time, such as J s
+energy              how much more the energy of theirs has changed than that of ours
+momentum            what is left of P′ + 2rP = F − weight over all samples, P the momentum
+missed, invented    contacts of ours without one of theirs, and the other way round
+not covered         times of the run without samples
+no hint             no error of scale, sign, origin, units or clock explains half of a difference
+";
+
+fn number(x: f64) -> String {
+    x.decimal(6)
+}
+
+/// `12.34`, `1.234e-5`, or `–`.
+fn size(x: Option<f64>) -> String {
+    match x {
+        None => "–".into(),
+        Some(0.0) => "0".into(),
+        Some(x) if (1e-3..1e5).contains(&x.abs()) => x.decimal(4),
+        Some(x) => format!("{x:.3e}"),
+    }
+}
+
+/// `0.12 %`, or `–`.
+fn share(x: Option<f64>) -> String {
+    match x {
+        None => "–".into(),
+        Some(0.0) => "0".into(),
+        Some(x) if x < 1e-6 => format!("{x:.1e}"),
+        Some(x) => format!("{} %", (100.0 * x).decimal(3)),
+    }
+}
+
+/// The whole report of one file.
+fn file_table(compared: &ComparedFile, title: Option<&str>, units: &Units) -> String {
+    let ComparedFile { file, agreement } = compared;
+    let times = &agreement.grid.times;
+    let (first, last) = (times.first().copied().unwrap_or(0.0), times.last().copied().unwrap_or(0.0));
+    let mut out = title.map_or_else(String::new, |title| format!("{title}\n"));
+    let (count, step) = (times.len(), number(agreement.step));
+    out += &format!("{file}: {count} samples from t = {} to {}, step {step}\n", number(first), number(last));
+    if agreement.outside > 0 {
+        out += &format!("{} rows before t = 0 are not compared\n", agreement.outside);
+    }
+    out += &format!("theirs − ours; norms are {WEIGHTS}\n\n{}\n", norms_table(agreement, units));
+    if !agreement.contacts.is_empty() {
+        out += &format!("\n{}\n", contacts_table(&agreement.contacts, units));
+    }
+    if agreement.grid.points.is_none() {
+        out += &format!("\n{}", audit_lines(agreement, units));
+    }
+    out.push('\n');
+    for hint in &agreement.hints {
+        out += &format!("hint: {hint}\n");
+    }
+    if agreement.hints.is_empty() {
+        let merged = agreement.contacts.iter().filter_map(|(_, theirs)| theirs.as_ref()).map(|touch| touch.merged);
+        let chatter: Vec<usize> = merged.filter(|merged| *merged > 0).collect();
+        out += "no hint: no error of scale, sign, origin, units or clock found";
+        if !chatter.is_empty() {
+            let counted = |count: usize, one: &str| format!("{count} {one}{}", if count == 1 { "" } else { "s" });
+            let (gaps, contacts) = (counted(chatter.iter().sum(), "gap"), counted(chatter.len(), "contact"));
+            out += &format!("; the contact chatters: {gaps} closed in {contacts}");
+        }
+        out.push('\n');
+    }
+    out
+}
+
+fn norms_table(agreement: &Agreement, units: &Units) -> String {
+    let mut rows = Vec::new();
+    for Compared { what, norms, .. } in &agreement.quantities {
+        let unit = what.quantity().unit(units);
+        let plain = |norm: Norm| [size(Some(norm.absolute)), share(norm.relative), String::new()];
+        let greatest = |most: Greatest| {
+            let point = most.point.map_or_else(String::new, |x| format!(", x = {}", number(x)));
+            [size(Some(most.absolute)), share(most.relative), format!("{}{point}", number(most.time))]
+        };
+        let none = || ["–".to_string(), "–".into(), String::new()];
+        let name = if unit.is_empty() { what.name().to_string() } else { format!("{}, {unit}", what.name()) };
+        let on_jumps = match norms.on_jumps {
+            0 => String::new(),
+            1 => "1 sample on a jump".to_string(),
+            count => format!("{count} samples on jumps"),
+        };
+        let jumps = what.jumps();
+        let lines = [
+            (name, "L1", plain(norms.l1)),
+            (on_jumps, "L2", plain(norms.l2)),
+            (String::new(), "L∞", greatest(norms.linf)),
+            (String::new(), "L∞ off jumps", norms.linf_off_jumps.map_or_else(none, greatest)),
+        ];
+        for (name, norm, [absolute, relative, at]) in lines.into_iter().take(if jumps { 4 } else { 3 }) {
+            rows.push(vec![name, norm.into(), absolute, relative, at]);
+        }
+    }
+    table(&["quantity", "norm", "absolute", "relative", "at t"], rows, 2)
+}
+
+fn contacts_table(contacts: &[(Option<Touch>, Option<Touch>)], units: &Units) -> String {
+    let columns = |touch: &Touch| [Some(touch.from), touch.to, touch.impulse, touch.centroid, touch.peak];
+    let row = |name: String, whose: String, values: [Option<f64>; 5]| {
+        let numbers = values.into_iter().map(|value| value.map_or_else(|| "–".into(), number));
+        [name, whose].into_iter().chain(numbers).collect::<Vec<String>>()
+    };
+    let mut rows = Vec::new();
+    for (k, (ours, theirs)) in contacts.iter().enumerate() {
+        let name = (k + 1).to_string();
+        let merged = theirs.as_ref().map_or(0, |touch| touch.merged);
+        let whose = match merged {
+            0 => "theirs".to_string(),
+            1 => "theirs, 1 gap closed".to_string(),
+            count => format!("theirs, {count} gaps closed"),
+        };
+        match (ours, theirs) {
+            (Some(a), Some(b)) => {
+                let (a, b) = (columns(a), columns(b));
+                rows.push(row(name, "ours".into(), a));
+                rows.push(row(String::new(), whose, b));
+                let apart: Vec<Option<f64>> = a.iter().zip(b).map(|(a, b)| a.zip(b).map(|(a, b)| b - a)).collect();
+                let apart = apart.try_into().unwrap_or([None; 5]);
+                rows.push(row(String::new(), "difference".into(), apart));
+            }
+            (Some(a), None) => rows.push(row(name, "ours, missing in theirs".into(), columns(a))),
+            (None, Some(b)) => rows.push(row(name, format!("{whose}, not in ours"), columns(b))),
+            (None, None) => {}
+        }
+    }
+    let named = |name: &str, column: Column| match column.unit(units) {
+        "" => name.to_string(),
+        unit => format!("{name}, {unit}"),
+    };
+    let (impulse, peak) = (named("impulse", Column::Impulse), named("peak", Column::Force));
+    table(&["contact", "", "from", "to", &impulse, "centroid", &peak], rows, 2)
+}
+
+fn audit_lines(agreement: &Agreement, units: &Units) -> String {
+    let audit = &agreement.audit;
+    let with = |value: f64, unit: &str| format!("{} {unit}", size(Some(value))).trim_end().to_string();
+    let at = |extreme: &Extreme, unit: &str| match extreme.value {
+        0.0 => "none".to_string(),
+        value => format!("{} at t = {}", with(value, unit), number(extreme.time)),
+    };
+    let or = |text: Option<String>, needs: &str| text.unwrap_or_else(|| format!("– (needs {needs})"));
+    let [length, force, impulse, joule] =
+        [Column::EndDisplacement, Column::Force, Column::Impulse, Column::Energy].map(|column| column.unit(units));
+    // A length and a force over a time; without a material all of it is per ρS.
+    let action = if units.has_material() && !joule.is_empty() { format!("{joule} s") } else { joule.to_string() };
+    let energy = audit.energy_change.as_ref().map(|energy| {
+        let of_ours =
+            energy.relative.map_or_else(String::new, |share| format!(" ({} of ours)", self::share(Some(share.abs()))));
+        let way = if energy.change < 0.0 { "lost" } else { "gained" };
+        let change = with(energy.change.abs(), joule);
+        let (gain, loss) = (at(&energy.gain, joule), at(&energy.loss, joule));
+        format!("{change} {way} in all{of_ours}\n{:20}most gained: {gain}; most lost: {loss}", "")
+    });
+    let covered: Vec<String> =
+        audit.not_covered.iter().map(|[from, to]| format!("t = {} … {}", number(*from), number(*to))).collect();
+    let momentum = audit.momentum.map(|x| format!("{} out of balance", with(x, impulse)));
+    let lines = [
+        ("penetration", or(audit.penetration.as_ref().map(|x| at(x, length)), "u_end")),
+        ("tension in contact", or(audit.tension.as_ref().map(|x| at(x, force)), "force, stress or strain")),
+        ("∫|v F| dt", or(audit.complementarity.map(|x| with(x, &action)), "u_end and force")),
+        ("energy", or(energy, "E_total")),
+        ("momentum", or(momentum, "force, h_rate and a free top")),
+        ("contacts", format!("{} missed, {} invented", audit.missed, audit.invented)),
+        ("not covered", if covered.is_empty() { "nothing".into() } else { covered.join(", ") }),
+    ];
+    lines.map(|(name, text)| format!("{name:<20}{text}\n")).concat()
+}
+
+/// The orders of convergence that several files show, one row for each pair of neighbours.
+fn orders_table(orders: &[Order]) -> String {
+    let order = |x: Option<f64>| x.map_or_else(|| "–".into(), |x| format!("{x:.2}"));
+    let rows = orders.iter().map(|row| {
+        let widths = format!("{} → {}", number(row.widths[0]), number(row.widths[1]));
+        vec![row.quantity.into(), widths, order(row.l1), order(row.l2), order(row.linf), order(row.linf_off_jumps)]
+    });
+    let header = ["observed order", "width", "L1", "L2", "L∞", "L∞ off jumps"];
+    table(&header, rows.collect(), 2) + "\n"
+}
+
+/// One file, schema 1.
+fn file_json(compared: &ComparedFile, units: &Units) -> serde_json::Map<String, Value> {
+    let ComparedFile { file, agreement } = compared;
+    let quantities = agreement.quantities.iter().map(|Compared { what, norms, .. }| {
+        let mut value = json!({"name": what.name(), "unit": what.quantity().unit(units)});
+        if let (Some(object), Value::Object(norms)) = (value.as_object_mut(), json!(norms)) {
+            object.extend(norms);
+        }
+        value
+    });
+    let contacts = agreement.contacts.iter().map(|(ours, theirs)| json!({"ours": ours, "theirs": theirs}));
+    let value = json!({
+        "file": file,
+        "weights": WEIGHTS,
+        "step": agreement.step,
+        "window": agreement.window,
+        "outside": agreement.outside,
+        "quantities": quantities.collect::<Vec<_>>(),
+        "contacts": contacts.collect::<Vec<_>>(),
+        "audit": agreement.audit,
+        "hints": agreement.hints,
+    });
+    match value {
+        Value::Object(map) => map,
+        _ => serde_json::Map::new(),
+    }
+}
+
+impl Comparison {
+    /// Everything as tables.
+    pub fn table(&self, title: Option<&str>, units: &Units) -> String {
+        let mut tables: Vec<String> = self.files.iter().map(|file| file_table(file, title, units)).collect();
+        tables.extend((self.files.len() > 1).then(|| orders_table(&self.orders)));
+        tables.join("\n")
+    }
+
+    /// Everything, schema 1: of one file its members stand at the top, of several under `files`, with their `orders`.
+    pub fn json(&self, title: Option<&str>, units: &Units) -> Value {
+        let mut value = serde_json::Map::from_iter([("schema".into(), 1.into()), ("title".into(), title.into())]);
+        if let [one] = self.files.as_slice() {
+            value.extend(file_json(one, units));
+        } else {
+            let files = self.files.iter().map(|file| Value::Object(file_json(file, units))).collect();
+            value.extend([("files".into(), files), ("orders".into(), json!(self.orders))]);
+        }
+        Value::Object(value)
+    }
+}

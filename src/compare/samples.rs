@@ -1,0 +1,165 @@
+//! Samples: the rows of a file at times of ours.
+
+use super::data::{Columns, DataError, DataErrorKind};
+use super::map::{Map, What};
+use super::norms::Grid;
+use crate::motion::Side;
+
+/// Times that are counted, and not in the file: `start + k step`.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Clock {
+    pub(crate) start: f64,
+    pub(crate) step: f64,
+}
+
+/// The rows from `t = 0` on.
+#[derive(Debug)]
+pub(crate) struct Samples {
+    pub(crate) grid: Grid,
+    /// In the conventions of the file.
+    pub(crate) quantities: Vec<(What, Vec<f64>)>,
+    /// The median step between times.
+    pub(crate) step: f64,
+    /// How many rows lie before `t = 0`.
+    pub(crate) outside: usize,
+    pub(crate) rounding: Rounding,
+    /// Which limit each row holds at a jump, where that is known.
+    pub(crate) sides: Vec<Option<Side>>,
+}
+
+/// How far a time may be from what is meant by it: half a unit of its last written digit, and what adding up steps
+/// one by one may lose, but never a quarter of a step.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Rounding {
+    /// Decimals after the point that the times have, and digits in all: the most that any of them needs.
+    decimals: i32,
+    digits: i32,
+    rows: f64,
+    pub(crate) most: f64,
+}
+
+/// So many times are looked at for their digits.
+const LOOKED_AT: usize = 1000;
+
+impl Rounding {
+    fn of(times: &[f64], step: f64) -> Self {
+        let (mut decimals, mut digits) = (0, 1);
+        for time in times.iter().step_by(times.len().div_ceil(LOOKED_AT).max(1)).filter(|time| **time != 0.0) {
+            // The shortest text that is this double: what a file with fewer digits has written.
+            let text = format!("{time:e}");
+            let (mantissa, exponent) = text.split_once('e').unwrap_or((&text, "0"));
+            let written = mantissa.chars().filter(char::is_ascii_digit).count() as i32;
+            digits = digits.max(written);
+            decimals = decimals.max(written - 1 - exponent.parse::<i32>().unwrap_or(0));
+        }
+        Rounding { decimals, digits, rows: times.len() as f64, most: step / 4.0 }
+    }
+
+    /// How far `time` may be off.
+    pub(crate) fn at(&self, time: f64) -> f64 {
+        let place = time.abs().log10().floor().max(-300.0) as i32 + 1 - self.digits;
+        let unit = 10f64.powi(place.max(-self.decimals));
+        (unit / 2.0 + self.rows * f64::EPSILON * time.abs()).min(self.most)
+    }
+}
+
+impl Samples {
+    /// The samples in `columns` as `map` reads them, on a clock that is `shift` behind ours. Two rows at one time are
+    /// the limits of a jump, the earlier first; a field needs the column of sides for that.
+    ///
+    /// **Errors**: times that do not increase, points outside of the rod, no time after 0.
+    pub(crate) fn of(
+        columns: Columns,
+        map: &Map,
+        clock: Option<Clock>,
+        shift: f64,
+        length: f64,
+    ) -> Result<Self, DataError> {
+        let rows = columns.rows();
+        if rows == 0 {
+            return Err(columns.whole(DataErrorKind::Empty));
+        }
+        let place = |k: usize| map.places().get(k).copied().unwrap_or(0);
+        let at_points = map.point.is_some();
+        let mut at = 0;
+        let mut times: Vec<f64> = match (map.time, clock) {
+            (Some(_), _) => {
+                at += 1;
+                columns.values[0].clone()
+            }
+            (None, Some(Clock { start, step })) => (0..rows).map(|k| start + k as f64 * step).collect(),
+            (None, None) => Vec::new(),
+        };
+        let side_at = at + usize::from(at_points);
+        let mut sides = vec![None; times.len()];
+        let said = map.side.map(|_| &columns.values[side_at]);
+        for (k, found) in said.into_iter().flatten().enumerate() {
+            sides[k] = match *found {
+                -1.0 => Some(Side::Left),
+                0.0 => None,
+                1.0 => Some(Side::Right),
+                other => return Err(columns.refuse(k, place(side_at), DataErrorKind::Side(other.to_string()))),
+            };
+        }
+        let limits = [Some(Side::Left), Some(Side::Right)];
+        for k in 1..times.len() {
+            let (before, found) = (times[k - 1], times[k]);
+            if found == before && !at_points && said.is_none() && sides[k - 1].is_none() {
+                sides[k - 1..=k].copy_from_slice(&limits);
+            }
+            let follows = found > before || (found == before && (at_points || sides[k - 1..=k] == limits));
+            if !follows {
+                return Err(columns.refuse(k, place(0), DataErrorKind::NotIncreasing { before, found }));
+            }
+        }
+        times.iter_mut().for_each(|time| *time += shift);
+        let points = at_points.then(|| columns.values[at].clone());
+        for (k, found) in points.iter().flatten().enumerate() {
+            if !(0.0..=length).contains(found) {
+                return Err(columns.refuse(k, place(at), DataErrorKind::PointOutside { found: *found, length }));
+            }
+            let same = |before: &usize| times[*before] == times[k] && sides[*before..=k] != limits;
+            let before = k.checked_sub(1).filter(same);
+            if let Some(before) = before.and_then(|k| points.as_ref().map(|points| points[k])).filter(|x| x >= found) {
+                return Err(columns.refuse(k, place(at), DataErrorKind::PointsNotIncreasing { before, found: *found }));
+            }
+        }
+        let from = times.partition_point(|time| *time < 0.0);
+        let last = times.last().copied().unwrap_or(0.0);
+        if last <= 0.0 {
+            return Err(columns.whole(DataErrorKind::NoOverlap { last }));
+        }
+        if !at_points && times[from] == last {
+            return Err(columns.whole(DataErrorKind::OneTime(last)));
+        }
+        let cut = |mut values: Vec<f64>| values.split_off(from);
+        let first = side_at + usize::from(map.side.is_some());
+        let (times, points, sides) = (cut(times), points.map(&cut), sides.split_off(from));
+        let mut steps: Vec<f64> = times.windows(2).map(|pair| pair[1] - pair[0]).filter(|step| *step > 0.0).collect();
+        let middle = steps.len() / 2;
+        let step = if steps.is_empty() { 0.0 } else { *steps.select_nth_unstable_by(middle, f64::total_cmp).1 };
+        let rounding = Rounding::of(&times, step);
+        let values = columns.values.into_iter().skip(first);
+        let quantities = map.quantities.iter().map(|(what, _)| *what).zip(values.map(&cut)).collect();
+        Ok(Samples { grid: Grid::new(times, points), quantities, step, outside: from, rounding, sides })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Six decimals, six digits, sums of a step, and no more than a quarter of a step.
+    #[test]
+    fn what_times_tell() {
+        let near = |a: f64, b: f64| (a / b - 1.0).abs() < 1e-6;
+        let rounding = Rounding::of(&[0.125_001, 0.5, 12.25], 0.1);
+        assert!(near(rounding.at(0.5), 0.5e-6), "{rounding:?}");
+        let rounding = Rounding::of(&[0.001_234_56, 0.666_667], 0.1);
+        assert!(near(rounding.at(0.666_667), 0.5e-6), "{rounding:?}");
+        // 0.1 + 0.2 needs all digits of a double.
+        let rounding = Rounding::of(&[0.1, 0.1 + 0.2], 0.1);
+        assert!(rounding.at(0.3) < 1e-15, "{rounding:?}");
+        assert_eq!(Rounding::of(&[0.0, 1.0, 2.0], 1.0).at(2.0), 0.25);
+    }
+}

@@ -1,0 +1,210 @@
+//! Contacts as samples show them, and which of them is which of ours.
+
+use serde::Serialize;
+
+/// A contact as it is compared: from samples, or from the exact history.
+#[derive(Clone, Debug, Default, PartialEq, Serialize)]
+pub(crate) struct Touch {
+    /// Its beginning; for samples the middle between the last one off the ground and the first one on it.
+    pub from: f64,
+    /// Its end, likewise; `None` where the samples end before.
+    pub to: Option<f64>,
+    /// `∫ F dt`; `None` where no force is known, as for all that follow from it.
+    pub impulse: Option<f64>,
+    /// `∫ t F dt / ∫ F dt`.
+    pub centroid: Option<f64>,
+    /// The greatest `F`.
+    pub peak: Option<f64>,
+    /// `√12 · √(∫ (t − centroid)² F dt / ∫ F dt)`: the duration of a steady force that spreads as much.
+    #[serde(skip)]
+    pub spread: Option<f64>,
+    /// How many short separations were taken as part of it.
+    #[serde(skip_serializing_if = "is_zero")]
+    pub merged: usize,
+    /// How far `from` and `to` may be off: half of the longest of the steps around them; zero for an exact one.
+    #[serde(skip)]
+    pub step: f64,
+}
+
+#[expect(clippy::trivially_copy_pass_by_ref, reason = "as serde calls it")]
+fn is_zero(count: &usize) -> bool {
+    *count == 0
+}
+
+impl Touch {
+    /// `to − from`.
+    pub(crate) fn duration(&self) -> Option<f64> {
+        self.to.map(|to| to - self.from)
+    }
+
+    /// About when it is.
+    fn middle(&self) -> f64 {
+        self.centroid.unwrap_or_else(|| self.to.map_or(self.from, |to| f64::midpoint(self.from, to)))
+    }
+}
+
+/// Moments of a force about a time.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct Moments {
+    about: f64,
+    sums: [f64; 3],
+    peak: f64,
+}
+
+impl Moments {
+    /// No force yet.
+    pub(super) fn about(time: f64) -> Self {
+        Moments { about: time, ..Moments::default() }
+    }
+
+    /// Adds a force at a time, with its weight in time.
+    pub(super) fn add(&mut self, time: f64, force: f64, weight: f64) {
+        let t = time - self.about;
+        let [m0, m1, m2] = &mut self.sums;
+        (*m0, *m1, *m2) = (*m0 + weight * force, *m1 + weight * force * t, *m2 + weight * force * t * t);
+        self.peak = self.peak.max(force);
+    }
+
+    /// A value that `peak` is at least.
+    pub(super) fn reach(&mut self, force: f64) {
+        self.peak = self.peak.max(force);
+    }
+
+    /// The contact with these moments.
+    pub(super) fn touch(&self, from: f64, to: Option<f64>) -> Touch {
+        let [m0, m1, m2] = self.sums;
+        let mean = m1 / m0;
+        let some = |value: f64| (m0 > 0.0).then_some(value);
+        Touch {
+            from,
+            to,
+            impulse: Some(m0),
+            centroid: some(self.about + mean),
+            peak: Some(self.peak),
+            spread: some((12.0 * (m2 / m0 - mean * mean).max(0.0)).sqrt()),
+            ..Touch::default()
+        }
+    }
+}
+
+/// The contacts in samples: a sample is on the ground where `touches` says so, and pushes with `force` where that is
+/// known. Separations shorter than `shortest` are chatter: part of the contact, and counted.
+///
+/// **Accuracy**: integrals by the trapezoidal rule, with the last sample before and the first one after a contact.
+pub(super) fn touches(
+    times: &[f64],
+    touches: impl Fn(usize) -> bool,
+    force: Option<&[f64]>,
+    shortest: f64,
+) -> Vec<Touch> {
+    // First and last sample of each, and the separations inside.
+    let mut runs: Vec<(usize, usize, usize)> = Vec::new();
+    for (k, time) in times.iter().enumerate().filter(|(k, _)| touches(*k)) {
+        match runs.last_mut() {
+            Some((_, last, _)) if *last + 1 == k => *last = k,
+            Some((_, last, merged)) if time - times[*last] < shortest => (*last, *merged) = (k, *merged + 1),
+            _ => runs.push((k, k, 0)),
+        }
+    }
+    let found = runs.into_iter().map(|(first, last, merged)| {
+        let (before, after) = (first.saturating_sub(1), (last + 1).min(times.len() - 1));
+        let (from, to) = (f64::midpoint(times[before], times[first]), f64::midpoint(times[last], times[after]));
+        let to = (last < after).then_some(to);
+        let touch = match force {
+            None => Touch { from, to, ..Touch::default() },
+            Some(force) => {
+                let mut moments = Moments::about(from);
+                for k in before..after {
+                    let half = (times[k + 1] - times[k]) / 2.0;
+                    moments.add(times[k], force[k], half);
+                    moments.add(times[k + 1], force[k + 1], half);
+                }
+                moments.touch(from, to)
+            }
+        };
+        Touch { merged, step: (times[first] - times[before]).max(times[after] - times[last]) / 2.0, ..touch }
+    });
+    found.collect()
+}
+
+/// Which of `theirs` is which of `ours`, in order of time: pairs, ours without theirs, and theirs without ours.
+///
+/// A contact is the same as one of ours where it lies within half the way to the nearest other one of ours, after the
+/// difference that the pair before had: clocks that drift apart are followed.
+pub(super) fn matched(ours: &[Touch], theirs: &[Touch]) -> Vec<(Option<Touch>, Option<Touch>)> {
+    let near = |k: usize| {
+        let to = |other: Option<&Touch>| other.map_or(f64::INFINITY, |other| (other.middle() - ours[k].middle()).abs());
+        to(k.checked_sub(1).and_then(|k| ours.get(k))).min(to(ours.get(k + 1))) / 2.0
+    };
+    let (mut rows, mut late) = (Vec::new(), 0.0);
+    let (mut i, mut j) = (0, 0);
+    while i < ours.len() || j < theirs.len() {
+        let (a, b) = (ours.get(i), theirs.get(j));
+        let apart = a.zip(b).map(|(a, b)| b.middle() - late - a.middle());
+        let (take_ours, take_theirs) = match apart {
+            Some(apart) if apart.abs() <= near(i) => {
+                late += apart;
+                (true, true)
+            }
+            Some(apart) => (apart > 0.0, apart <= 0.0),
+            None => (a.is_some(), b.is_some()),
+        };
+        rows.push((a.filter(|_| take_ours).cloned(), b.filter(|_| take_theirs).cloned()));
+        (i, j) = (i + usize::from(take_ours), j + usize::from(take_theirs));
+    }
+    rows
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn at(from: f64) -> Touch {
+        Touch { from, to: Some(from + 1.0), ..Touch::default() }
+    }
+
+    /// A box of force 2 from 1 to 3 in steps of ½, with one separation of a single sample.
+    #[test]
+    fn a_box_with_chatter() {
+        let times: Vec<f64> = (0..=8).map(|k| f64::from(k) / 2.0).collect();
+        let force = [0.0, 0.0, 2.0, 2.0, 0.0, 2.0, 2.0, 0.0, 0.0];
+        let found = touches(&times, |k| force[k] > 0.0, Some(&force), 1.5);
+        assert_eq!(found.len(), 1);
+        let touch = &found[0];
+        assert_eq!((touch.from, touch.to, touch.merged, touch.step), (0.75, Some(3.25), 1, 0.25));
+        // Four samples of weight ½, and the centroid between them.
+        assert_eq!((touch.impulse, touch.centroid, touch.peak), (Some(4.0), Some(2.0), Some(2.0)));
+        // 12 · (1 + ¼ + ¼ + 1)/4.
+        assert_eq!(touch.spread, Some(7.5f64.sqrt()));
+        // Told apart where separations of a step count.
+        assert_eq!(touches(&times, |k| force[k] > 0.0, None, 0.9).len(), 2);
+    }
+
+    /// A contact that does not end, and none at all.
+    #[test]
+    fn open_and_none() {
+        let found = touches(&[0.0, 1.0, 2.0], |k| k > 0, None, 0.0);
+        assert_eq!(found, [Touch { from: 0.5, to: None, step: 0.5, ..Touch::default() }]);
+        assert_eq!(touches(&[0.0, 1.0], |_| false, None, 0.0), []);
+    }
+
+    /// Contacts every 4; theirs drift by 0.5 each, one is left out, one is added.
+    #[test]
+    fn drift_a_gap_and_one_too_many() {
+        let ours: Vec<Touch> = (0..6).map(|k| at(4.0 * f64::from(k))).collect();
+        let theirs: Vec<Touch> = [0.0, 4.5, 13.5, 15.2, 18.0, 22.5].map(at).into();
+        let rows = matched(&ours, &theirs);
+        let times =
+            |row: &(Option<Touch>, Option<Touch>)| (row.0.as_ref().map(|a| a.from), row.1.as_ref().map(|b| b.from));
+        let expected = [
+            (Some(0.0), Some(0.0)),
+            (Some(4.0), Some(4.5)),
+            (Some(8.0), None),
+            (Some(12.0), Some(13.5)),
+            (None, Some(15.2)),
+            (Some(16.0), Some(18.0)),
+            (Some(20.0), Some(22.5)),
+        ];
+        assert_eq!(rows.iter().map(times).collect::<Vec<_>>(), expected);
+    }
+}

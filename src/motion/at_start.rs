@@ -1,0 +1,56 @@
+//! The data at `t = 0`, in the numbers of an engine.
+
+use super::Field;
+use crate::number::{Number, Open, Scalar};
+use crate::problem::{Parameters, Problem, Start};
+
+/// The given displacement and velocity: the limit `t → 0⁻` of the motion.
+///
+/// Where the data jump at a point of the rod, the value is that from above; at the top that from below. A point within
+/// eight roundings of a jump is on it.
+#[derive(Clone, Debug)]
+pub(crate) struct AtStart<S> {
+    displacement: Vec<(S, S)>,
+    velocity: Vec<(S, S)>,
+    zero: S,
+}
+
+impl<S: Scalar> AtStart<S> {
+    /// The data of `problem`, whose numbers are `given`.
+    pub(crate) fn of(problem: &Problem, given: &Parameters<S>) -> Self {
+        let zero = given.length.zero();
+        let lift = |n: &Number| S::from_number(n, &zero.precision());
+        let points = |list: &[(Number, Number)]| list.iter().map(|(x, value)| (lift(x), lift(value))).collect();
+        let (displacement, velocity) = match &problem.start {
+            Start::Profile(profile) => (points(&profile.displacement), points(&profile.velocity)),
+            Start::Uniform(_) | Start::Above { .. } => {
+                let gap = problem.gap().map(|gap| (zero.clone(), lift(gap)));
+                (gap.into_iter().collect(), vec![(zero.clone(), -given.speed.clone())])
+            }
+        };
+        AtStart { displacement, velocity, zero }
+    }
+
+    /// `v`, `v_t`, `v_x` at `t = 0` and the point `x` of the rod.
+    pub(crate) fn at(&self, x: &S) -> Result<Field<S>, Open> {
+        let (displacement, strain) = self.on_line(&self.displacement, x)?;
+        let (velocity, _) = self.on_line(&self.velocity, x)?;
+        Ok(Field { displacement, velocity, strain })
+    }
+
+    /// The value at `x`, and the slope, of the lines between `points`; constant where there is one point only.
+    fn on_line(&self, points: &[(S, S)], x: &S) -> Result<(S, S), Open> {
+        let mut line = points.first().map(|(x, value)| (x, value, self.zero.clone()));
+        let roundings = self.zero.double(8.0 * self.zero.log2_roundoff().exp2());
+        for ((from, a), (to, b)) in points.iter().zip(points.iter().skip(1)) {
+            let reached = from.clone() - from.clone() * &roundings;
+            if from.below(to)? && !x.below(&reached)? {
+                line = Some((from, a, (b.clone() - a) / (to.clone() - from)));
+            }
+        }
+        Ok(match line {
+            Some((from, value, slope)) => (slope.clone() * (x.clone() - from) + value, slope),
+            None => (self.zero.clone(), self.zero.clone()),
+        })
+    }
+}

@@ -1,0 +1,16 @@
+//! What a motion is: events, contacts, endings, fields, waves, moments, and what can be asked of every engine.
+
+mod at_start;
+mod course;
+mod field;
+pub(crate) mod moments;
+mod query;
+mod ray;
+mod wave;
+
+pub(crate) use at_start::AtStart;
+pub use course::{Contact, Course, Ending, Energy, Event, EventKind, Side, StressHistory, StressPiece};
+pub use field::Field;
+pub use query::{Motion, Scales, Uncertainty, unobserved};
+pub use ray::{Ray, reflection};
+pub use wave::{Stretch, WavePiece, Waves};

@@ -1,0 +1,135 @@
+//! Integrals of the field over the cells of a grid: of polynomials between rays, or from the nodes of a quadrature.
+
+use super::Stretch;
+use crate::error::Error;
+use crate::number::Scalar;
+
+/// `∫ f dx` and `∫ f (x − a) dx` over a cell `a … b`, for `f` = `v`, `v_t`, `v_x`.
+pub(crate) type Moments<S> = [[S; 2]; 3];
+
+/// The moments of stretches on which all is polynomial.
+pub(crate) fn of_stretches<S: Scalar>(stretches: &[Stretch<S>], points: &[S]) -> Result<Vec<Moments<S>>, Error> {
+    let mut cells = Vec::with_capacity(points.len());
+    let mut rest = stretches.iter().cloned();
+    let mut now = rest.next();
+    for pair in points.windows(2) {
+        let (a, b) = (&pair[0], &pair[1]);
+        let zero = || [a.zero(), a.zero()];
+        let mut sums = [zero(), zero(), zero()];
+        while let Some(stretch) = now.take() {
+            let end = stretch.from.clone() + &stretch.width;
+            // Before the grid, in the cell, and beyond it.
+            let skipped = a.clone() - &stretch.from;
+            let stretch = match skipped.positive()? {
+                true if !a.below(&end)? => {
+                    now = rest.next();
+                    if now.is_none() {
+                        break;
+                    }
+                    continue;
+                }
+                true => stretch.after(&skipped),
+                false => stretch,
+            };
+            let within = end.below(b)?;
+            let way = if within { stretch.width.clone() } else { b.clone() - &stretch.from };
+            let offset = stretch.from.clone() - a;
+            for (sum, [area, moment]) in sums.iter_mut().zip(stretch.moments(&way)) {
+                sum[1] = sum[1].clone() + moment + &(offset.clone() * &area);
+                sum[0] = sum[0].clone() + area;
+            }
+            if within {
+                now = rest.next();
+            } else {
+                now = Some(stretch.after(&way));
+                break;
+            }
+        }
+        cells.push(sums);
+    }
+    Ok(cells)
+}
+
+/// A node of a quadrature along the rod.
+#[derive(Clone, Debug)]
+pub(crate) struct Node<S> {
+    /// Weight.
+    pub(crate) weight: S,
+    /// `x`.
+    pub(crate) x: S,
+    /// `v_t`.
+    pub(crate) velocity: S,
+    /// `v_x`.
+    pub(crate) strain: S,
+}
+
+impl<S> Node<S> {
+    /// The same node in other numbers.
+    pub(crate) fn map<T>(&self, f: impl Fn(&S) -> T) -> Node<T> {
+        Node { weight: f(&self.weight), x: f(&self.x), velocity: f(&self.velocity), strain: f(&self.strain) }
+    }
+}
+
+/// `∫ v_x (x − a)ⁿ dx` and `∫ v_t (x − a)ⁿ dx` over a cell from a on.
+#[derive(Clone, Debug)]
+pub(crate) struct Sums<S> {
+    from: S,
+    strain: [S; 3],
+    velocity: [S; 2],
+}
+
+impl<S: Scalar> Sums<S> {
+    /// Those of these nodes.
+    pub(crate) fn of(from: &S, nodes: impl IntoIterator<Item = Node<S>>) -> Self {
+        let zero = || from.zero();
+        let mut sums = Sums { from: from.clone(), strain: [zero(), zero(), zero()], velocity: [zero(), zero()] };
+        for Node { weight, x, velocity, strain } in nodes {
+            let offset = x - from;
+            let (mut strain, mut velocity) = (strain * &weight, velocity * &weight);
+            for (n, sum) in sums.strain.iter_mut().enumerate() {
+                *sum = sum.clone() + &strain;
+                strain = strain * &offset;
+                if let Some(sum) = sums.velocity.get_mut(n) {
+                    *sum = sum.clone() + &velocity;
+                    velocity = velocity * &offset;
+                }
+            }
+        }
+        sums
+    }
+
+    /// The same, where what is off in `∫ |v_t| dx` and `∫ |v_x| dx` over a cell of this width is at most so much.
+    pub(crate) fn widened(mut self, width: &S, velocity: &S, strain: &S) -> Self {
+        let mut power = width.one();
+        for (n, sum) in self.strain.iter_mut().enumerate() {
+            *sum = sum.clone().widened(&(power.clone() * strain));
+            if let Some(sum) = self.velocity.get_mut(n) {
+                *sum = sum.clone().widened(&(power.clone() * velocity));
+            }
+            power = power * width;
+        }
+        self
+    }
+
+    /// The moments of the cell up to `to`, and `v` there, from `v` at its beginning: by parts, those of `v` are
+    /// `∫ v = h v(a) + ∫ (b − x) v_x` and `∫ v (x − a) = ½h² v(a) + ½∫ (h² − (x − a)²) v_x`, h the width.
+    pub(crate) fn moments(self, to: &S, start: &S) -> (Moments<S>, S) {
+        let Sums { from, strain: [rise, first, second], velocity } = self;
+        let width = to.clone() - &from;
+        let end = start.clone() + &rise;
+        let area = end.clone() * &width - &first;
+        let moment = (end.clone() * &width.square() - second) / width.int(2);
+        ([[area, moment], velocity, [rise, first]], end)
+    }
+}
+
+/// The moments of all cells, from the sums below the first point and in each cell, and `v` at the ground.
+pub(crate) fn of_sums<S: Scalar>(sums: Vec<Sums<S>>, points: &[S], ground: S) -> Vec<Moments<S>> {
+    let mut start = ground;
+    let moments = sums.into_iter().zip(points).map(|(sums, to)| {
+        let (moments, end) = sums.moments(to, &start);
+        start = end;
+        moments
+    });
+    moments.skip(1).collect()
+}

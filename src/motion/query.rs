@@ -1,0 +1,209 @@
+//! What can be asked of a motion, whatever engine answers.
+
+use std::fmt;
+use std::ops::ControlFlow;
+
+use super::moments::{self, Moments};
+use super::{Contact, Course, Ending, Energy, Event, Field, Ray, Side, StressPiece, Stretch, Waves};
+use crate::error::Error;
+use crate::number::Scalar;
+use crate::reason::Warning;
+
+/// The scales of a motion: what its quantities are to be compared with.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Scales<S> {
+    /// `t₁`, of times; later times scale with themselves.
+    pub time: S,
+    /// About the greatest speed: `μ`, or `g t₁` where that is greater. Displacements scale with `time · velocity`, or
+    /// with the greatest of them.
+    pub velocity: S,
+    /// `L`.
+    pub length: S,
+    /// `c`.
+    pub wave_speed: S,
+    /// `g`.
+    pub gravity: S,
+}
+
+impl<S> Scales<S> {
+    /// The same scales in other numbers.
+    pub fn map<T>(self, f: impl Fn(S) -> T) -> Scales<T> {
+        Scales {
+            time: f(self.time),
+            velocity: f(self.velocity),
+            length: f(self.length),
+            wave_speed: f(self.wave_speed),
+            gravity: f(self.gravity),
+        }
+    }
+}
+
+/// How far the values of a run may be off between two events, in natural scales, away from rays that are off in time.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Uncertainty {
+    /// Displacements, in `V t₁`, as far as the events are in time.
+    pub rise: f64,
+    /// Velocities and `c v_x`, in `V`, as far as the events are in time.
+    pub speed: f64,
+    /// `h′`, in `V`, as far as the events are in time.
+    pub rate: f64,
+    /// How early or late the events may be, in `t₁`.
+    pub late: f64,
+    /// `|dv_t/dt|` between rays, in `V/t₁`: what lateness makes of velocities.
+    pub slope: f64,
+    /// The most of `|v_t|` and `|c v_x|`, in `V`: what lateness makes of displacements and of integrals along the rod.
+    pub most: f64,
+    /// The most of `v_t ± c v_x` about the centre of mass, in `V`: what a ray that is off in time makes of energies.
+    pub peak: f64,
+    /// How far rays may be off, in `t₁`: what the limits next to them, and peaks, are off by is that times the slope.
+    pub rays: f64,
+}
+
+impl Uncertainty {
+    /// The greater in all.
+    pub(crate) fn max(self, other: Self) -> Self {
+        Uncertainty {
+            rise: self.rise.max(other.rise),
+            speed: self.speed.max(other.speed),
+            rate: self.rate.max(other.rate),
+            late: self.late.max(other.late),
+            slope: self.slope.max(other.slope),
+            most: self.most.max(other.most),
+            peak: self.peak.max(other.peak),
+            rays: self.rays.max(other.rays),
+        }
+    }
+}
+
+/// What can be asked of a solution. All times are absolute, in the units of the scene; a time outside of
+/// `0 … end()` is [`Error::TimeOutside`], a point outside of the rod is [`Error::PointOutside`].
+pub trait Motion<S: Scalar>: fmt::Debug + Send + Sync {
+    /// What has happened, up to the end.
+    fn course(&self) -> &Course<S>;
+
+    /// The last time that is known.
+    fn end(&self) -> S {
+        self.course().end.clone()
+    }
+
+    /// Why it is the last.
+    fn ending(&self) -> &Ending {
+        &self.course().ending
+    }
+
+    /// All impacts and releases, in order. The start at `t = 0` is the first impact where the rod stands on the ground.
+    fn events(&self) -> &[Event<S>] {
+        &self.course().events
+    }
+
+    /// All contacts, in order.
+    fn contacts(&self) -> &[Contact<S>] {
+        &self.course().contacts
+    }
+
+    /// What a user should know beside the numbers.
+    fn warnings(&self) -> &[Warning] {
+        &self.course().warnings
+    }
+
+    /// `v_x(0,·)` from 0 to the end, pieces in order, canonical: neighbours that continue each other are one.
+    fn stress_pieces(&self) -> Vec<StressPiece<S>>;
+
+    /// `v_x(0,t)`: the stress at the ground divided by the modulus; zero in flight.
+    fn strain(&self, time: &S, side: Side) -> Result<S, Error>;
+
+    /// `v(0,t)` and `v_t(0,t)`.
+    fn ground_end(&self, time: &S, side: Side) -> Result<(S, S), Error>;
+
+    /// `v(L,t)` and `v_t(L,t)`.
+    fn top_end(&self, time: &S, side: Side) -> Result<(S, S), Error>;
+
+    /// `h(t)` and `h′(t)`.
+    fn centre(&self, time: &S) -> Result<(S, S), Error>;
+
+    /// `E(t)`, `E_h(t)`, `E_z(t)`.
+    fn energy(&self, time: &S) -> Result<Energy<S>, Error>;
+
+    /// `½ ∫ v_t² dx` and `½ c² ∫ v_x² dx`, each a sum of squares, per linear density: the kinetic energy of the whole
+    /// motion, and the strain energy.
+    fn energy_parts(&self, time: &S) -> Result<[S; 2], Error>;
+
+    /// `v`, `v_t`, `v_x` at `(x,t)`.
+    fn field(&self, point: &S, time: &S, side: Side) -> Result<Field<S>, Error>;
+
+    /// `v_t` and `v_x` at every point of `points` for every time of `times`, both in increasing order: time by time,
+    /// all points of one time together. Where a ray passes, the value on one of its sides.
+    fn rates(&self, points: &[S], times: &[S]) -> Result<Vec<[S; 2]>, Error> {
+        let mut rates = Vec::with_capacity(points.len() * times.len());
+        for time in times {
+            for point in points {
+                let Field { velocity, strain, .. } = self.field(point, time, Side::Right)?;
+                rates.push([velocity, strain]);
+            }
+        }
+        Ok(rates)
+    }
+
+    /// `t*` and `h(t*)`: where the centre of mass turns in the flight after `release`, if nothing ends the flight
+    /// before. `None` where it does not turn: without gravity, under a fixed top, or already falling at the release.
+    fn highest(&self, release: &Event<S>) -> Option<(S, S)>;
+
+    /// The rays that leave the ground in round trip `trip`, counted from 0, in order: jumps, and mere kinks.
+    ///
+    /// **Errors**: [`Error::NoRays`] where they are not followed: under damping.
+    fn rays(&self, trip: usize) -> Result<Vec<Ray<S>>, Error> {
+        let _ = trip;
+        Err(Error::NoRays)
+    }
+
+    /// The rod at a time, in stretches between the rays.
+    ///
+    /// **Errors**: [`Error::NoWaves`] under damping.
+    fn stretches(&self, time: &S) -> Result<Vec<Stretch<S>>, Error> {
+        let _ = time;
+        Err(Error::NoWaves)
+    }
+
+    /// `∫ f dx` and `∫ f (x − a) dx` over each cell `a … b` between neighbours of `points`, which increase, for `f` =
+    /// `v`, `v_t`, `v_x`.
+    fn moments(&self, time: &S, points: &[S]) -> Result<Vec<Moments<S>>, Error> {
+        moments::of_stretches(&self.stretches(time)?, points)
+    }
+
+    /// Whether the two limits in time of anything at the ends may differ: `false` where no ray is there.
+    fn may_jump(&self, time: &S) -> Result<bool, Error> {
+        let _ = time;
+        Ok(true)
+    }
+
+    /// The whole solution as two travelling waves.
+    ///
+    /// **Errors**: [`Error::NoWaves`] under damping.
+    fn waves(&self) -> Result<Waves<S>, Error> {
+        Err(Error::NoWaves)
+    }
+
+    /// The natural scales of the motion.
+    fn scales(&self) -> Scales<S>;
+
+    /// How far any quantity may be off, relative to its natural scale; zero where all is exact. The bound that the run
+    /// carries.
+    fn error_estimate(&self) -> S;
+
+    /// How far values near `time` may be off.
+    fn uncertainty(&self, time: &S) -> Uncertainty {
+        let (_, error) = (time, self.error_estimate().to_f64());
+        Uncertainty { rise: error, speed: error, rate: error, ..Uncertainty::default() }
+    }
+
+    /// How many impacts there were and `log₁₀` of the factor by which rounding may have grown over them; `None` where
+    /// that is not followed.
+    fn digits_lost(&self) -> Option<(u32, f64)> {
+        None
+    }
+}
+
+/// An observer that does nothing.
+pub fn unobserved(_: usize, _: usize) -> ControlFlow<()> {
+    ControlFlow::Continue(())
+}

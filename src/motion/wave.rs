@@ -1,0 +1,181 @@
+//! An undamped motion as two travelling waves.
+
+use super::Field;
+use crate::number::Scalar;
+use crate::problem::Top;
+
+/// The exact solution of an undamped rod:
+/// `v(x,t) = (P(t − x/c) ± P(t + x/c − t₁))/2 + a + b x + d x²`, with `+` under a free top and `−` under a fixed one,
+/// and a piecewise quadratic, continuous function `P` on `−t₁ … end`.
+///
+/// **Source**: d'Alembert. `P′` is the upward invariant `v_t − c v_x` that leaves the ground, less `g t₁/2` under a
+/// free top; the polynomial in `x` solves `c² v_xx = g`.
+///
+/// **Accuracy**: *exact* in fractions; otherwise that of the numbers in it.
+///
+/// ```
+/// use dalembert::Problem;
+/// let rod = Problem::builder().length(1).wave_speed(1).gravity(1).impact_speed(3).build()?;
+/// let waves = rod.solve()?.waves()?;
+/// // Behind the wave of the impact v_x = −(μ + g(t − x))/c.
+/// assert_eq!(waves.at(&0.25, &0.5).strain, -3.25);
+/// # Ok::<(), dalembert::Error>(())
+/// ```
+#[derive(Clone, Debug, PartialEq)]
+pub struct Waves<S> {
+    /// `P`, in the order of time.
+    pub pieces: Vec<WavePiece<S>>,
+    /// `a`.
+    pub constant: S,
+    /// `b`.
+    pub linear: S,
+    /// `d`.
+    pub quadratic: S,
+    /// What holds the end `x = L`.
+    pub top: Top,
+    /// `t₁`.
+    pub round_trip: S,
+    /// `c`.
+    pub wave_speed: S,
+    /// `L`.
+    pub length: S,
+}
+
+/// A stretch of an undamped rod at one time, without a ray inside: velocity and strain are linear along it.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Stretch<S> {
+    /// `x` where it begins.
+    pub from: S,
+    /// Its width.
+    pub width: S,
+    /// `v` where it begins.
+    pub displacement: S,
+    /// `v_t` where it begins, and `v_tx`.
+    pub velocity: [S; 2],
+    /// `v_x` where it begins, and `v_xx`.
+    pub strain: [S; 2],
+}
+
+impl<S> Stretch<S> {
+    /// The same stretch in other numbers.
+    pub fn map<T>(self, f: impl Fn(S) -> T) -> Stretch<T> {
+        Stretch {
+            from: f(self.from),
+            width: f(self.width),
+            displacement: f(self.displacement),
+            velocity: self.velocity.map(&f),
+            strain: self.strain.map(&f),
+        }
+    }
+}
+
+impl<S: Scalar> Stretch<S> {
+    /// `v` so far behind its beginning.
+    pub(crate) fn displacement_after(&self, way: &S) -> S {
+        let [strain, bend] = &self.strain;
+        (bend.clone() * way / way.int(2) + strain) * way + &self.displacement
+    }
+
+    /// What is left of it behind its first `way`.
+    pub(crate) fn after(&self, way: &S) -> Self {
+        let along = |[value, slope]: &[S; 2]| [slope.clone() * way + value, slope.clone()];
+        Stretch {
+            from: self.from.clone() + way,
+            width: self.width.clone() - way,
+            displacement: self.displacement_after(way),
+            velocity: along(&self.velocity),
+            strain: along(&self.strain),
+        }
+    }
+
+    /// `∫ f dx` and `∫ f (x − from) dx` over its first `way`, for `f` = `v`, `v_t`, `v_x`.
+    pub(crate) fn moments(&self, way: &S) -> [[S; 2]; 3] {
+        let square = way.square();
+        let linear = |[value, slope]: &[S; 2]| {
+            let rise = slope.clone() * way;
+            [(rise.clone() / way.int(2) + value) * way, (rise / way.int(3) + &(value.clone() / way.int(2))) * &square]
+        };
+        let [strain, bend] = &self.strain;
+        let (rise, sag) = (strain.clone() * way, bend.clone() * &square);
+        let displacement = [
+            (rise.clone() / way.int(2) + &(sag.clone() / way.int(6)) + &self.displacement) * way,
+            (rise / way.int(3) + &(sag / way.int(8)) + &(self.displacement.clone() / way.int(2))) * &square,
+        ];
+        [displacement, linear(&self.velocity), linear(&self.strain)]
+    }
+}
+
+/// A piece of `P`: `sum + rate·τ + slope·τ²/2` from `τ = s − from = 0` on.
+#[derive(Clone, Debug, PartialEq)]
+pub struct WavePiece<S> {
+    /// Where it begins.
+    pub from: S,
+    /// `P`.
+    pub sum: S,
+    /// `P′`.
+    pub rate: S,
+    /// `P″`.
+    pub slope: S,
+}
+
+impl<S: Scalar> WavePiece<S> {
+    /// `P` and `P′` at `s`.
+    pub fn at(&self, s: &S) -> (S, S) {
+        let passed = s.clone() - &self.from;
+        let gained = self.slope.clone() * &passed;
+        let mean = gained.clone() / passed.int(2) + &self.rate;
+        (mean * &passed + &self.sum, gained + &self.rate)
+    }
+}
+
+impl<S: Scalar> Waves<S> {
+    /// `v`, `v_t`, `v_x` at `(x,t)`; where a ray passes, the limit from later times.
+    pub fn at(&self, x: &S, t: &S) -> Field<S> {
+        let late = x.clone() / &self.wave_speed;
+        let up = self.wave(&(t.clone() - &late));
+        let down = self.wave(&(t.clone() + &late - &self.round_trip));
+        let down = match self.top {
+            Top::Free => down,
+            Top::Fixed => (-down.0, -down.1),
+        };
+        let two = x.int(2);
+        let bend = self.quadratic.clone() * x;
+        Field {
+            displacement: (up.0 + down.0) / &two + (bend.clone() + &self.linear) * x + &self.constant,
+            velocity: (up.1.clone() + &down.1) / &two,
+            strain: (down.1 - up.1) / &(two.clone() * &self.wave_speed) + bend * two + &self.linear,
+        }
+    }
+
+    /// `P` and `P′`. A comparison that is open puts `s` before a break, where `P` is the same.
+    fn wave(&self, s: &S) -> (S, S) {
+        let begun = self.pieces.partition_point(|piece| s.below(&piece.from) == Ok(false));
+        self.pieces[begun.max(1) - 1].at(s)
+    }
+
+    /// Every number in them.
+    pub(crate) fn numbers(&self) -> impl Iterator<Item = &S> {
+        let pieces = self.pieces.iter().flat_map(|piece| [&piece.from, &piece.sum, &piece.rate, &piece.slope]);
+        pieces.chain([&self.constant, &self.linear, &self.quadratic])
+    }
+
+    /// The same waves in other numbers.
+    pub(crate) fn map<T>(self, f: impl Fn(S) -> T) -> Waves<T> {
+        let piece = |piece: WavePiece<S>| WavePiece {
+            from: f(piece.from),
+            sum: f(piece.sum),
+            rate: f(piece.rate),
+            slope: f(piece.slope),
+        };
+        Waves {
+            pieces: self.pieces.into_iter().map(piece).collect(),
+            constant: f(self.constant),
+            linear: f(self.linear),
+            quadratic: f(self.quadratic),
+            top: self.top,
+            round_trip: f(self.round_trip),
+            wave_speed: f(self.wave_speed),
+            length: f(self.length),
+        }
+    }
+}

@@ -1,0 +1,294 @@
+//! What a case of the catalogue is, and how it is run.
+
+use std::time::Instant;
+
+use super::verdict::{Outcome, Promise, Row, Verdict};
+use crate::motion::Side;
+use crate::number::Number;
+use crate::paper::Printed;
+use crate::problem::{Parameters, Problem, Run};
+use crate::routes::long;
+use crate::routes::quantity::{Limit, Quantity, Question};
+use crate::routes::route::{Numbers, Route};
+use crate::routes::truth::Truth;
+use crate::routes::value::NoAnswer;
+use crate::scene::Scene;
+
+pub(super) type Text = &'static str;
+
+/// The rod of a question.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Rod {
+    /// `L`.
+    pub(super) length: Text,
+    /// `c`.
+    pub(super) wave_speed: Text,
+    /// `r`.
+    pub(super) damping: Text,
+    /// `g`.
+    pub(super) gravity: Text,
+    /// `μ`.
+    pub(super) speed: Text,
+    /// Followed to this time; empty: through the first contact and the flight after it.
+    pub(super) until: Text,
+    /// A whole scene in place of all that; empty without one.
+    pub(super) scene: Text,
+}
+
+/// `c = L = g = 1`.
+pub(super) const fn unit(damping: Text, speed: Text) -> Rod {
+    Rod { length: "1", wave_speed: "1", damping, gravity: "1", speed, until: "", scene: "" }
+}
+
+impl Rod {
+    /// The same rod without gravity.
+    pub(super) const fn weightless(self) -> Rod {
+        Rod { gravity: "0", ..self }
+    }
+
+    /// The same rod followed to a time.
+    pub(super) const fn until(self, until: Text) -> Rod {
+        Rod { until, ..self }
+    }
+
+    /// The rod of a scene.
+    pub(super) const fn of(scene: Text) -> Rod {
+        Rod { scene, ..unit("0", "1") }
+    }
+
+    fn problem(&self) -> Result<Problem, NoAnswer> {
+        if !self.scene.is_empty() {
+            return Scene::parse(self.scene).map(|scene| scene.problem).map_err(NoAnswer::gave_up);
+        }
+        let number = |text: &str| text.parse::<Number>();
+        let (gravity, speed) = (number(self.gravity)?, number(self.speed)?);
+        let mut problem = Problem::uniform(number(self.length)?, number(self.wave_speed)?, gravity, speed);
+        problem.rod.damping = Some(number(self.damping)?).filter(|r| !r.is_zero());
+        if !self.until.is_empty() {
+            problem.run = Run::Time(number(self.until)?);
+        }
+        Ok(problem)
+    }
+}
+
+/// A route and what it promises.
+pub(super) type Promised = (Route, Promise);
+
+const MOST_FORMULAS: usize = 4;
+
+/// A question of the catalogue, its truth, and the routes to it.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Entry {
+    /// In words: `t_b`, `h(3)`.
+    what: Text,
+    rod: Rod,
+    quantity: Quantity,
+    /// x, and t; `t_b` where it is empty.
+    place: (Text, Text),
+    limit: Limit,
+    /// See [`Truth::spelt`], or [`super::verdict::NO_BOUNCE`].
+    pub(super) truth: Text,
+    /// Routes of this question alone, shown before the others.
+    formulas: [Option<Promised>; MOST_FORMULAS],
+    routes: &'static [Promised],
+}
+
+/// A question at `t_b`, or that has no time.
+pub(super) const fn ask(what: Text, rod: Rod, quantity: Quantity, truth: Text, routes: &'static [Promised]) -> Entry {
+    let (place, limit, formulas) = (("", ""), Limit::From(Side::Right), [None; MOST_FORMULAS]);
+    Entry { what, rod, quantity, place, limit, truth, formulas, routes }
+}
+
+/// A number that belongs to no rod.
+pub(super) const fn constant(what: Text, truth: Text) -> Entry {
+    ask(what, unit("0", "1"), Quantity::Constant, truth, &[])
+}
+
+impl Entry {
+    /// At this time, in the limit from later times.
+    pub(super) const fn at(self, time: Text) -> Entry {
+        Entry { place: ("", time), ..self }
+    }
+
+    /// At this time, in the limit from earlier times.
+    pub(super) const fn before(self, time: Text) -> Entry {
+        Entry { place: ("", time), limit: Limit::From(Side::Left), ..self }
+    }
+
+    /// At this point and time.
+    pub(super) const fn at_point(self, point: Text, time: Text) -> Entry {
+        Entry { place: (point, time), ..self }
+    }
+
+    /// The later limit minus the earlier.
+    pub(super) const fn jump(self) -> Entry {
+        Entry { limit: Limit::Jump, ..self }
+    }
+
+    /// A formula in doubles that gives so many digits.
+    pub(super) const fn by(self, what: Text, digits: u32, formula: fn() -> f64) -> Entry {
+        self.first_by((Route::Formula(what, formula), Promise::Digits(digits)))
+    }
+
+    /// A formula in doubles that gives fewer digits than this.
+    pub(super) const fn breaks(self, what: Text, digits: u32, formula: fn() -> f64) -> Entry {
+        self.first_by((Route::Formula(what, formula), Promise::Fewer(digits)))
+    }
+
+    /// A formula in 36 digits.
+    pub(super) const fn by_digits(self, what: Text, formula: long::Formula) -> Entry {
+        self.first_by((Route::LongFormula(what, 36, formula), Promise::Digits(36)))
+    }
+
+    const fn first_by(mut self, formula: Promised) -> Entry {
+        let mut place = 0;
+        while self.formulas[place].is_some() {
+            place += 1;
+        }
+        self.formulas[place] = Some(formula);
+        self
+    }
+
+    fn question(&self) -> Result<Question, NoAnswer> {
+        let number = |text: &str| (!text.is_empty()).then(|| text.parse::<Number>()).transpose();
+        let (problem, quantity, limit) = (self.rod.problem()?, self.quantity, self.limit);
+        let (point, time) = (number(self.place.0)?, number(self.place.1)?);
+        // The centre of mass at the end of a run needs nothing of what lies long before.
+        let end = matches!((&problem.run, quantity), (Run::Time(_), Quantity::Centre));
+        let from = time.as_ref().map(Number::to_f64).filter(|_| end);
+        Ok(Question { problem, quantity, point, time, limit, from })
+    }
+
+    pub(super) fn check(&self) -> CheckedQuestion {
+        let truth = Truth::spelt(self.truth);
+        let question = self.question();
+        let routes = self.formulas.iter().flatten().chain(self.routes);
+        let rows = routes.filter(|(route, _)| long::AVAILABLE || !route.is_long()).map(|(route, promise)| {
+            let start = Instant::now();
+            let answer = question.as_ref().map_err(Clone::clone).and_then(|asked| route.run(asked, f64::INFINITY));
+            Row::judged(name(*route), *promise, truth.as_ref(), answer, start.elapsed().as_secs_f64())
+        });
+        CheckedQuestion { what: self.what, truth: self.truth, rows: rows.collect() }
+    }
+}
+
+/// The name of a route in the catalogue.
+fn name(route: Route) -> String {
+    match route {
+        Route::Formula(what, _) => format!("{what}, plain doubles"),
+        Route::LongFormula(what, digits, _) => format!("{what}, {digits} digits"),
+        Route::ClosedForm(Numbers::Digits(digits)) => format!("closed form, {digits} digits"),
+        Route::ClosedForm(_) => "closed form, doubles".into(),
+        Route::PrintedForms => "printed form, fractions".into(),
+        Route::PrintedIntegrals(_) => "printed integrals, doubles".into(),
+        Route::Modes(_) => "modal sum, doubles".into(),
+        Route::Lattice(Numbers::Exact) => "lattice, fractions".into(),
+        Route::Lattice(_) => "lattice, doubles".into(),
+        Route::Cells(_) => "cells, doubles".into(),
+        Route::Differences(_) => "finite differences".into(),
+        Route::Planned(Numbers::Double(Some(accuracy))) => format!("--accuracy {accuracy:e}"),
+        Route::Planned(Numbers::Digits(digits)) => format!("--digits {digits}"),
+        Route::Planned(Numbers::Certified(digits)) => format!("--certified --digits {digits}"),
+        Route::Planned(_) => "the plan".into(),
+    }
+}
+
+pub(super) const CLOSED: Route = Route::ClosedForm(Numbers::Double(None));
+pub(super) const CLOSED_50: Promised = (closed(50), Promise::Digits(36));
+pub(super) const MODES: Route = Route::Modes(2048);
+pub(super) const LATTICE: Route = Route::Lattice(Numbers::Double(None));
+pub(super) const FRACTIONS: Route = Route::Lattice(Numbers::Exact);
+pub(super) const CELLS: Route = Route::Cells(13);
+pub(super) const PRINTED: Promised = (Route::PrintedForms, Promise::Exact);
+pub(super) const DIGITS: Promised = (Route::Planned(Numbers::Digits(36)), Promise::Digits(36));
+pub(super) const CERTIFIED: Route = Route::Planned(Numbers::Certified(36));
+pub(super) const PLANNED: Route = Route::Planned(Numbers::Double(None));
+pub(super) const PROVED: Promised = (CERTIFIED, Promise::Enclosed(36));
+
+/// Values during a contact.
+pub(super) const CONTACT: &[Promised] =
+    &[(CLOSED, Promise::Bound(12)), (MODES, Promise::Bound(9)), (CELLS, Promise::Digits(10)), CLOSED_50, PROVED];
+/// That there is no bounce.
+pub(super) const NEVER: &[Promised] = &[
+    (CLOSED, Promise::Digits(0)),
+    (accuracy(1e-12), Promise::Digits(0)),
+    (closed(50), Promise::Digits(0)),
+    (CERTIFIED, Promise::Digits(0)),
+];
+
+/// The closed form in so many digits.
+pub(super) const fn closed(digits: u32) -> Route {
+    Route::ClosedForm(Numbers::Digits(digits))
+}
+
+/// What `--accuracy` does.
+pub(super) const fn accuracy(accuracy: f64) -> Route {
+    Route::Planned(Numbers::Double(Some(accuracy)))
+}
+
+/// The printed integrals of a rod with `c = L = g = 1`.
+pub(super) fn printed(damping: f64, speed: f64) -> Printed {
+    Printed::new(&Parameters { length: 1.0, wave_speed: 1.0, damping, gravity: 1.0, speed }, 1e-13)
+}
+
+/// What belongs together in the catalogue.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Group {
+    /// The name on the command line.
+    pub(crate) name: Text,
+    pub(crate) title: Text,
+    /// What the cases show.
+    pub(crate) lesson: Text,
+    pub(crate) cases: &'static [Case],
+}
+
+pub(super) const fn group(name: Text, title: Text, lesson: Text, cases: &'static [Case]) -> Group {
+    Group { name, title, lesson, cases }
+}
+
+pub(super) type Entries = &'static [Entry];
+
+/// A hard case, or a claim of the paper.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Case {
+    pub(crate) name: Text,
+    /// Where the paper or the theory says it.
+    pub(crate) source: Text,
+    /// The rod, or what is claimed.
+    pub(crate) about: Text,
+    /// What the case comes to when all promises are kept.
+    pub(super) verdict: Verdict,
+    pub(super) entries: Entries,
+}
+
+/// A claim of the paper.
+pub(super) const fn claim(name: Text, verdict: Verdict, source: Text, about: Text, entries: &'static [Entry]) -> Case {
+    Case { name, source, about, verdict, entries }
+}
+
+impl Case {
+    /// Takes every route to every question. A build without long numbers takes those in doubles only.
+    pub(crate) fn run(&'static self) -> Checked {
+        let asked: Vec<CheckedQuestion> = self.entries.iter().map(Entry::check).collect();
+        let failed = asked.iter().flat_map(|asked| &asked.rows).any(|row| row.outcome == Outcome::Failed);
+        Checked { case: self, asked, verdict: if failed { Verdict::Failed } else { self.verdict } }
+    }
+}
+
+/// The answers to a question.
+#[derive(Clone, Debug)]
+pub(crate) struct CheckedQuestion {
+    /// In words.
+    pub(crate) what: Text,
+    /// As the catalogue spells it.
+    pub(crate) truth: Text,
+    pub(crate) rows: Vec<Row>,
+}
+
+/// A case that was run.
+#[derive(Clone, Debug)]
+pub(crate) struct Checked {
+    pub(crate) case: &'static Case,
+    pub(crate) asked: Vec<CheckedQuestion>,
+    pub(crate) verdict: Verdict,
+}

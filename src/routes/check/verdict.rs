@@ -1,0 +1,159 @@
+//! What a route promises, whether it keeps that, and what a case comes to.
+
+use crate::routes::truth::{RightDigits, Truth};
+use crate::routes::value::{Answer, NoAnswer, Value};
+
+/// The one truth that is no number.
+pub(super) const NO_BOUNCE: &str = "no bounce";
+
+/// What a route promises of its answer.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) enum Promise {
+    /// So many right digits.
+    Digits(u32),
+    /// That the answer is within the bound that comes with it, and this bound leaves so many digits. With zero digits
+    /// the route may also leave the answer undecided.
+    Bound(u32),
+    /// The truth itself.
+    Exact,
+    /// Two bounds with the truth between them, and so many digits in common.
+    Enclosed(u32),
+    /// Nothing. The catalogue shows that fewer digits than this are right: what goes wrong has to be seen to go wrong.
+    Fewer(u32),
+}
+
+impl std::fmt::Display for Promise {
+    /// In words: `36 digits proved`.
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        match self {
+            Promise::Digits(0) => f.write_str("the right answer"),
+            Promise::Digits(digits) => write!(f, "{digits} digits"),
+            Promise::Bound(0) => f.write_str("within its own bound"),
+            Promise::Bound(digits) => write!(f, "within its own bound, {digits} digits"),
+            Promise::Exact => f.write_str("exact"),
+            Promise::Enclosed(digits) => write!(f, "{digits} digits proved"),
+            Promise::Fewer(1) => f.write_str("nothing: no digit is right"),
+            Promise::Fewer(digits) => write!(f, "nothing: fewer than {digits} digits are right"),
+        }
+    }
+}
+
+/// What came of a promise.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Outcome {
+    /// It is kept.
+    Kept,
+    /// Nothing was promised, and digits are lost as foreseen.
+    Breaks,
+    /// The route leaves the answer undecided, which it may.
+    Undecided,
+    /// It is not kept.
+    Failed,
+}
+
+impl Outcome {
+    /// The word in output.
+    pub(crate) fn name(self) -> &'static str {
+        match self {
+            Outcome::Kept => "kept",
+            Outcome::Breaks => "breaks",
+            Outcome::Undecided => "says so",
+            Outcome::Failed => "FAILED",
+        }
+    }
+}
+
+/// What a case comes to when all its promises are kept, or that they are not.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Verdict {
+    /// Every route keeps what it promises.
+    Holds,
+    /// The paper is right.
+    Reproduced,
+    /// The paper is off, and here is the truth.
+    Corrected,
+    /// The paper means the right thing and prints another.
+    Misprint,
+    /// The paper leaves it open, and here is an answer.
+    Settled,
+    /// Some route does not keep what it promises.
+    Failed,
+}
+
+impl Verdict {
+    /// The word in output.
+    pub(crate) fn name(self) -> &'static str {
+        match self {
+            Verdict::Holds => "holds",
+            Verdict::Reproduced => "reproduced",
+            Verdict::Corrected => "corrected",
+            Verdict::Misprint => "misprint",
+            Verdict::Settled => "settled",
+            Verdict::Failed => "FAILED",
+        }
+    }
+}
+
+/// One route's answer to one question.
+#[derive(Clone, Debug)]
+pub(crate) struct Row {
+    /// The route, in words.
+    pub(crate) route: String,
+    pub(crate) found: Result<Value, NoAnswer>,
+    pub(crate) promise: Promise,
+    pub(crate) digits: RightDigits,
+    pub(crate) outcome: Outcome,
+    pub(crate) seconds: f64,
+}
+
+impl Row {
+    /// `truth` is `None` where there is no bounce.
+    pub(super) fn judged(
+        route: String,
+        promise: Promise,
+        truth: Option<&Truth>,
+        answer: Result<Answer, NoAnswer>,
+        seconds: f64,
+    ) -> Self {
+        let digits = match (truth, &answer) {
+            (Some(truth), Ok(answer)) => truth.right_digits(&answer.value),
+            _ => RightDigits::NoNumber,
+        };
+        let outcome = outcome(promise, truth, &answer, digits);
+        Row { route, found: answer.map(|answer| answer.value), promise, digits, outcome, seconds }
+    }
+
+    /// The answer in words: `no bounce`, or a number.
+    pub(crate) fn found(&self) -> String {
+        match &self.found {
+            Ok(value) => value.to_string(),
+            Err(NoAnswer::NoSuchQuantity { .. }) => NO_BOUNCE.into(),
+            Err(_) => "undecided".into(),
+        }
+    }
+}
+
+fn outcome(promise: Promise, truth: Option<&Truth>, answer: &Result<Answer, NoAnswer>, digits: RightDigits) -> Outcome {
+    let kept = |holds: bool| if holds { Outcome::Kept } else { Outcome::Failed };
+    let (answer, truth) = match (answer, truth) {
+        (Ok(answer), Some(truth)) => (answer, truth),
+        (Err(NoAnswer::NoSuchQuantity { .. }), None) => return kept(!matches!(promise, Promise::Fewer(_))),
+        (Err(NoAnswer::NoSuchQuantity { .. }), Some(_)) | (Ok(_), None) => {
+            return if matches!(promise, Promise::Fewer(_)) { Outcome::Breaks } else { Outcome::Failed };
+        }
+        (Err(_), _) => return if promise == Promise::Bound(0) { Outcome::Undecided } else { Outcome::Failed },
+    };
+    match promise {
+        Promise::Fewer(most) if digits.count() < f64::from(most) => Outcome::Breaks,
+        Promise::Fewer(_) => Outcome::Failed,
+        Promise::Digits(least) | Promise::Enclosed(least) => kept(digits.count() >= f64::from(least)),
+        Promise::Exact => kept(digits == RightDigits::All),
+        Promise::Bound(least) => {
+            let scale = 10f64.powf(truth.log10_scale());
+            let useful = answer.bound <= 10f64.powi(-(least as i32)) * scale;
+            // No more can be seen than the truth is known to.
+            let within = digits.count() >= truth.most_digits() || 10f64.powf(-digits.count()) * scale <= answer.bound;
+            kept(useful && within)
+        }
+    }
+}

@@ -1,0 +1,93 @@
+//! Medians and spreads of repeated runs.
+
+use std::hint::black_box;
+use std::time::{Duration, Instant};
+
+use crate::routes::value::NoAnswer;
+
+/// How long something took, from repeated runs.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Timing {
+    /// The median, seconds.
+    pub(crate) seconds: f64,
+    /// The distance of the quartiles, seconds; `None` where it ran once.
+    pub(crate) spread: Option<f64>,
+    /// How many samples were taken.
+    pub(crate) runs: usize,
+}
+
+/// A sample shorter than this is mostly the clock itself: short runs are timed many at a time.
+const SHORTEST: f64 = 4e-5;
+const MOST_SAMPLES: usize = 31;
+
+impl Timing {
+    /// Median and distance of the quartiles of `samples`, which are sorted.
+    pub(super) fn of(samples: &mut [f64]) -> Self {
+        samples.sort_by(f64::total_cmp);
+        let at = |part: f64| quantile(samples, part);
+        let spread = (samples.len() > 1).then(|| at(0.75) - at(0.25));
+        Timing { seconds: at(0.5), spread, runs: samples.len() }
+    }
+}
+
+/// **Errors**: [`NoAnswer::Seconds`] for a budget that is no time.
+pub(super) fn check_budget(seconds: f64) -> Result<(), NoAnswer> {
+    if seconds > 0.0 && seconds <= 86_400.0 { Ok(()) } else { Err(NoAnswer::Seconds { found: seconds }) }
+}
+
+/// A quantile of sorted samples, linear between them.
+pub(super) fn quantile(sorted: &[f64], part: f64) -> f64 {
+    let place = part * (sorted.len().max(1) - 1) as f64;
+    let at = |k: usize| sorted.get(k).or(sorted.last()).copied().unwrap_or(f64::NAN);
+    let (low, share) = (place.floor() as usize, place.fract());
+    at(low) + share * (at(low + 1) - at(low))
+}
+
+/// Seconds that one call takes, averaged over `batch` calls.
+pub(super) fn sample<T>(batch: u32, mut run: impl FnMut() -> T) -> f64 {
+    let start = Instant::now();
+    for _ in 0..batch {
+        black_box(run());
+    }
+    start.elapsed().as_secs_f64() / f64::from(batch)
+}
+
+/// How many calls make a sample long enough to be timed.
+pub(super) fn batch(once: f64) -> u32 {
+    (SHORTEST / once.max(1e-9)).ceil().clamp(1.0, 1e5) as u32
+}
+
+/// Repeats `run`, which took `once` the first time, for about `slot`.
+///
+/// The first run counts only where nothing else fits: it finds caches and branch predictors cold.
+pub(super) fn repeat<T>(once: f64, slot: Duration, mut run: impl FnMut() -> T) -> Timing {
+    let start = Instant::now();
+    let slot = slot.as_secs_f64();
+    let mut samples = Vec::with_capacity(MOST_SAMPLES);
+    let mut batched = batch(once);
+    while samples.len() < MOST_SAMPLES && start.elapsed().as_secs_f64() + once * f64::from(batched) < slot {
+        let took = sample(batched, &mut run);
+        // What was slow for being first is timed in batches after all.
+        if samples.is_empty() && batch(took) > 2 * batched {
+            batched = batch(took);
+            continue;
+        }
+        samples.push(took);
+    }
+    if samples.len() < 2 {
+        samples.push(once);
+    }
+    Timing::of(&mut samples)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn median_and_quartiles() {
+        let timing = Timing::of(&mut [5.0, 1.0, 3.0, 2.0, 4.0]);
+        assert_eq!(timing, Timing { seconds: 3.0, spread: Some(2.0), runs: 5 });
+        assert_eq!(Timing::of(&mut [7.0]), Timing { seconds: 7.0, spread: None, runs: 1 });
+    }
+}

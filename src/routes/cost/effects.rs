@@ -1,0 +1,152 @@
+//! What each effect costs: the same scene with it and without it, run in turns.
+
+use std::time::Instant;
+
+use super::clock::{Timing, batch, check_budget, quantile, sample};
+use crate::number::Number;
+use crate::problem::{Parameters, Problem, Run, Speed, Start, Top};
+use crate::routes::route::{run_engine, run_planned};
+use crate::routes::value::NoAnswer;
+use crate::scene::{Effect, Scene};
+use crate::solve::Numbers;
+
+/// What one effect costs.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) struct Difference {
+    /// The effect; `None` for the plan itself, which decides what to leave out.
+    pub(crate) effect: Option<Effect>,
+    /// Whether the scene calls for it.
+    pub(crate) called: bool,
+    /// The scene as it is planned.
+    pub(crate) with: Timing,
+    /// The same with the effect switched off, which changes nothing where the scene does not call for it; for the plan
+    /// itself, the engine called directly.
+    pub(crate) without: Timing,
+    /// The median of the differences of neighbouring runs, seconds.
+    pub(crate) seconds: f64,
+    /// The distance of the quartiles of these differences, seconds.
+    pub(crate) spread: f64,
+}
+
+impl Difference {
+    /// The name in output: `damping`, or `plan`.
+    pub(crate) fn name(&self) -> &'static str {
+        self.effect.map_or("plan", Effect::name)
+    }
+
+    /// What the median of the differences may be by chance, seconds: three times `spread/√runs`, near its standard
+    /// deviation.
+    pub(crate) fn noise(&self) -> f64 {
+        3.0 * self.spread / (self.with.runs.max(1) as f64).sqrt()
+    }
+
+    /// Whether the difference cannot be told from nothing.
+    pub(crate) fn is_noise(&self) -> bool {
+        self.seconds.abs() <= self.noise()
+    }
+}
+
+const MOST_PAIRS: usize = 201;
+/// What can be switched off.
+const LIST: [Effect; 5] =
+    [Effect::Damping, Effect::Gravity, Effect::RepeatedImpacts, Effect::FixedTop, Effect::FieldEnergies];
+
+/// The time that every effect and the plan itself cost `scene`, in about `seconds` in all. The energies of the field
+/// count as called for where `energies` says so: then one energy at the end of the history is part of the scene.
+///
+/// **Accuracy**: medians of differences on this machine, now; [`Difference::is_noise`] says what is not to be told from
+/// nothing.
+///
+/// **Errors**: [`NoAnswer::Seconds`], and those of the solver.
+pub(crate) fn effects(
+    scene: &Scene,
+    energies: bool,
+    seconds: f64,
+    mut observe: impl FnMut(f64, &str),
+) -> Result<Vec<Difference>, NoAnswer> {
+    check_budget(seconds)?;
+    let numbers = Numbers::Double(scene.accuracy.as_ref().map(Number::to_f64));
+    let called_effects = scene.called_effects();
+    let called = |effect: Effect| match effect {
+        Effect::FieldEnergies => energies,
+        other => called_effects.contains(&other),
+    };
+    let slot = seconds / (LIST.len() + 1) as f64;
+    let with = || run_planned(&scene.problem, numbers, energies);
+    let mut rows = Vec::with_capacity(LIST.len() + 1);
+    for (k, effect) in LIST.into_iter().enumerate() {
+        observe(k as f64 * slot / seconds, effect.name());
+        let other = switched_off(scene, effect)?;
+        let energies = energies && effect != Effect::FieldEnergies;
+        let difference = in_turns(slot, with, || run_planned(&other, numbers, energies))?;
+        rows.push(Difference { effect: Some(effect), called: called(effect), ..difference });
+    }
+    observe(1.0 - slot / seconds, "the plan itself");
+    rows.push(in_turns(slot, with, || run_engine(&scene.problem, energies))?);
+    Ok(rows)
+}
+
+/// The scene's problem without one effect.
+fn switched_off(scene: &Scene, effect: Effect) -> Result<Problem, NoAnswer> {
+    let mut problem = scene.problem.clone();
+    match effect {
+        Effect::Damping => problem.rod.damping = None,
+        Effect::Gravity => {
+            // The speed that gravity gave stays.
+            let speed = Parameters::<f64>::of(&problem, &())?.speed;
+            match &mut problem.start {
+                start @ Start::Uniform(Speed::DropHeight(_)) => *start = Start::Uniform(Speed::Given(spelt(speed)?)),
+                Start::Above { gap, speed } if speed.is_zero() => {
+                    let gravity = problem.gravity.as_ref().map_or(0.0, Number::to_f64);
+                    *speed = spelt((2.0 * gravity * gap.to_f64()).sqrt())?;
+                }
+                _ => (),
+            }
+            problem.gravity = None;
+        }
+        Effect::RepeatedImpacts => problem.run = Run::Impacts(1),
+        Effect::FixedTop => problem.rod.top = Top::Free,
+        _ => (),
+    }
+    Ok(problem)
+}
+
+/// A speed as a number.
+fn spelt(speed: f64) -> Result<Number, NoAnswer> {
+    format!("{speed:e}").parse().map_err(|_| NoAnswer::GaveUp(format!("an impact speed of {speed}")))
+}
+
+/// Both in turns, so that what slows the machine slows both.
+fn in_turns(
+    slot: f64,
+    with: impl Fn() -> Result<f64, NoAnswer>,
+    without: impl Fn() -> Result<f64, NoAnswer>,
+) -> Result<Difference, NoAnswer> {
+    let start = Instant::now();
+    with()?;
+    without()?;
+    let began = Instant::now();
+    with()?;
+    let batched = batch(began.elapsed().as_secs_f64());
+    let (mut a, mut b, mut differences) = (Vec::new(), Vec::new(), Vec::new());
+    let mut pair = 0.0;
+    while a.len() < 3 || (a.len() < MOST_PAIRS && start.elapsed().as_secs_f64() + pair < slot) {
+        let began = Instant::now();
+        // Who goes first changes, so that going first favours neither.
+        let (x, y) = if a.len() % 2 == 0 {
+            let x = sample(batched, &with);
+            (x, sample(batched, &without))
+        } else {
+            let y = sample(batched, &without);
+            (sample(batched, &with), y)
+        };
+        a.push(x);
+        b.push(y);
+        differences.push(x - y);
+        pair = began.elapsed().as_secs_f64();
+    }
+    differences.sort_by(f64::total_cmp);
+    let spread = quantile(&differences, 0.75) - quantile(&differences, 0.25);
+    let (with, without) = (Timing::of(&mut a), Timing::of(&mut b));
+    Ok(Difference { effect: None, called: true, with, without, seconds: quantile(&differences, 0.5), spread })
+}

@@ -1,0 +1,188 @@
+//! Which routes fit into the time, and the table of what each took and how far it was off.
+
+use std::time::{Duration, Instant};
+
+use super::clock::{Timing, check_budget, repeat};
+use super::ladder::{Candidate, Expected, Family, Ladder, ladders};
+use crate::number::Number;
+use crate::routes::quantity::{Quantity, Question};
+use crate::routes::truth::Truth;
+use crate::routes::value::{NoAnswer, Value};
+use crate::solve::Plan;
+
+/// A route at a setting: what it cost and how far it was off.
+#[derive(Clone, Debug)]
+pub(crate) struct Row {
+    pub(crate) family: Family,
+    /// Rows of one family are of one ladder, or of two: of the route by itself, and as the plan takes it.
+    pub(crate) ladder: usize,
+    /// `N = 1024`.
+    pub(crate) setting: String,
+    /// `log₁₀` of the error relative to the truth, −∞ where there is none. Relative to 1 where the truth is zero.
+    pub(crate) log10_error: f64,
+    pub(crate) timing: Timing,
+    /// Whether this is what the plan does.
+    pub(crate) chosen: bool,
+}
+
+impl Row {
+    /// The relative error as a double: zero below what a double holds.
+    pub(crate) fn error(&self) -> f64 {
+        10f64.powf(self.log10_error)
+    }
+}
+
+/// A route, or a setting of one, that is not in the table.
+#[derive(Clone, Debug)]
+pub(crate) struct LeftOut {
+    pub(crate) family: Family,
+    /// From this setting on; `None` for the whole route.
+    pub(crate) setting: Option<String>,
+    pub(crate) why: String,
+}
+
+/// Work and precision of one quantity.
+#[derive(Clone, Debug)]
+pub(crate) struct Table {
+    pub(crate) quantity: Quantity,
+    /// When, for a quantity at a time.
+    pub(crate) time: Option<Number>,
+    /// What errors are measured against.
+    pub(crate) truth: Truth,
+    /// By route, and each route's settings in order.
+    pub(crate) rows: Vec<Row>,
+    /// What is not there, and why.
+    pub(crate) left_out: Vec<LeftOut>,
+}
+
+/// What the truth and the last long rows may take of the time.
+const FOR_TRUTH: f64 = 2.5;
+/// Digits that the truth has beyond the most precise row.
+const BEYOND: u32 = 30;
+/// The share of the time that repeated runs may take.
+const SHARE: f64 = 0.5;
+
+/// Measures `question` by every route that can answer it, in about `seconds`. `observe` gets the share of the time that
+/// is spent, and what runs next.
+///
+/// The plan's own run always is among the rows. All others come the cheapest first, by what the setting before took;
+/// one that is not expected to fit is left out, and so are those above it.
+///
+/// **Accuracy**: times are medians on this machine, now; errors are measured against [`Truth::computed`] with thirty
+/// digits more than the most precise row.
+///
+/// **Errors**: [`NoAnswer::Seconds`]; [`NoAnswer::NoSuchQuantity`] where the scene has no such quantity; those of the
+/// solver.
+pub(crate) fn work_precision(
+    question: &Question,
+    plan: &Plan,
+    seconds: f64,
+    mut observe: impl FnMut(f64, &str),
+) -> Result<Table, NoAnswer> {
+    check_budget(seconds)?;
+    let start = Instant::now();
+    let spent = || start.elapsed().as_secs_f64();
+    let (all, without) = ladders(question, plan);
+    let count: usize = all.iter().map(Vec::len).sum();
+    let slot = SHARE * seconds / count.max(1) as f64;
+    let mut left_out: Vec<LeftOut> =
+        without.into_iter().map(|(family, why)| LeftOut { family, setting: None, why }).collect();
+    let mut taken: Vec<(Candidate, usize, Value, Timing)> = Vec::with_capacity(count);
+    let mut waiting: Vec<Waiting> = all.into_iter().map(Waiting::new).collect();
+    while let Some(next) = cheapest(&mut waiting) {
+        let (candidate, expected, ladder) = next;
+        observe(spent() / seconds, &format!("{}, {}", candidate.family.name(), candidate.setting));
+        // Rows of long numbers make the truth as dear as they are.
+        let share = if candidate.digits > 20 { FOR_TRUTH } else { 1.0 };
+        let left = seconds - spent();
+        if !candidate.chosen && expected * share > left {
+            let why = format!("not expected to fit into {seconds} seconds: --seconds gives more");
+            left_out.push(LeftOut { family: candidate.family, setting: Some(candidate.setting), why });
+            waiting[ladder].rest = Vec::new().into_iter().peekable();
+            continue;
+        }
+        let began = Instant::now();
+        // A run that can stop itself leaves most of the time to others.
+        let answer = candidate.route.run(question, left / 4.0).map(|answer| answer.value);
+        let once = began.elapsed().as_secs_f64();
+        match answer {
+            Ok(value) => {
+                let left = (seconds - spent()).max(0.0);
+                // Three samples at least, where that is little of what is left.
+                let room = slot.max((4.0 * once).min(left / 8.0)).min(left);
+                let timing = repeat(once, Duration::from_secs_f64(room), || candidate.route.run(question, left));
+                waiting[ladder].before = timing.seconds.max(1e-7);
+                taken.push((candidate, ladder, value, timing));
+            }
+            // What the plan cannot answer the scene does not have.
+            Err(error) if candidate.chosen => return Err(error),
+            Err(error) => {
+                // A coarser setting may fail where a finer one does not.
+                waiting[ladder].before = once.max(1e-7);
+                let (family, setting) = (candidate.family, Some(candidate.setting));
+                left_out.push(LeftOut { family, setting, why: error.to_string() });
+            }
+        }
+    }
+    let truth = loop {
+        let digits = taken.iter().map(|row| row.0.digits).max().unwrap_or(0);
+        observe(spent() / seconds, &format!("the truth, to {} digits", digits + BEYOND));
+        match Truth::computed(question, digits + BEYOND) {
+            Ok(truth) => break truth,
+            // What nothing can be held against is left out, down to doubles.
+            Err(error) if taken.iter().any(|row| row.0.digits < digits) => {
+                let (kept, lost) = taken.into_iter().partition(|row| row.0.digits < digits);
+                taken = kept;
+                left_out.extend(lost.into_iter().map(|(candidate, ..): (Candidate, _, _, _)| {
+                    let why = format!("no truth to hold it against: {error}");
+                    LeftOut { family: candidate.family, setting: Some(candidate.setting), why }
+                }));
+            }
+            Err(error) => return Err(error),
+        }
+    };
+    let mut rows: Vec<Row> = taken
+        .into_iter()
+        .map(|(candidate, ladder, value, timing)| Row {
+            family: candidate.family,
+            ladder,
+            setting: candidate.setting,
+            log10_error: truth.log10_error(&value),
+            timing,
+            chosen: candidate.chosen,
+        })
+        .collect();
+    // A stable sort: settings stay in the order of their ladder.
+    rows.sort_by_key(|row| (row.family, row.ladder));
+    left_out.sort_by_key(|item| item.family);
+    Ok(Table { quantity: question.quantity, time: question.time.clone(), truth, rows, left_out })
+}
+
+/// A ladder whose lowest settings have been taken.
+struct Waiting {
+    rest: std::iter::Peekable<std::vec::IntoIter<Candidate>>,
+    /// Seconds that the last setting took.
+    before: f64,
+}
+
+impl Waiting {
+    fn new(ladder: Ladder) -> Self {
+        Waiting { rest: ladder.into_iter().peekable(), before: 1.0 }
+    }
+
+    fn expected(&mut self) -> Option<f64> {
+        let before = self.before;
+        self.rest.peek().map(|candidate| match candidate.expected {
+            Expected::Seconds(seconds) => seconds,
+            Expected::Times(factor) => factor * before,
+        })
+    }
+}
+
+/// The setting that is expected to take the least, with that time and the place of its ladder.
+fn cheapest(waiting: &mut [Waiting]) -> Option<(Candidate, f64, usize)> {
+    let expected = waiting.iter_mut().enumerate().filter_map(|(k, ladder)| Some((k, ladder.expected()?)));
+    let (k, expected) = expected.min_by(|a, b| a.1.total_cmp(&b.1))?;
+    let candidate = waiting[k].rest.next()?;
+    Some((candidate, expected, k))
+}

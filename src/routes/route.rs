@@ -1,0 +1,154 @@
+//! Every route to an answer, and the one function that runs it.
+
+use super::account::ByClosedForm;
+use super::differences::march;
+use super::long;
+use super::quantity::{Quantity, Question};
+use super::value::{Answer, Bounded, NoAnswer, Value};
+use crate::cells::{Damped, WithBounds};
+use crate::lattice::Undamped;
+use crate::modal::Modal;
+use crate::motion::Ending;
+use crate::number::{Estimate, Scalar};
+use crate::paper::Printed;
+use crate::problem::{Parameters, Problem, Run};
+pub(crate) use crate::solve::Numbers;
+use crate::solve::{self, Plan, Solution, Want};
+
+/// A route at a setting.
+#[derive(Clone, Copy, Debug)]
+pub(crate) enum Route {
+    /// A formula in plain doubles, as it stands in print or as a reader would program it.
+    Formula(&'static str, fn() -> f64),
+    /// A formula in numbers of so many digits.
+    LongFormula(&'static str, u32, long::Formula),
+    /// The closed form of the first contact, in these numbers alone.
+    ClosedForm(Numbers),
+    /// The paper's closed forms of `r = 0`, in fractions.
+    PrintedForms,
+    /// The paper's integrals by quadrature to this tolerance, in doubles.
+    PrintedIntegrals(f64),
+    /// The sum of so many modes, in doubles.
+    Modes(u32),
+    /// The lattice, in doubles or in fractions.
+    Lattice(Numbers),
+    /// Characteristic cells from the start, to so many digits, in doubles.
+    Cells(u32),
+    /// Finite differences with so many cells.
+    Differences(usize),
+    /// What the plan does when these numbers are asked for.
+    Planned(Numbers),
+}
+
+impl Route {
+    /// Whether it needs numbers longer than doubles.
+    pub(crate) fn is_long(self) -> bool {
+        match self {
+            Route::ClosedForm(numbers) | Route::Lattice(numbers) => !matches!(numbers, Numbers::Double(_)),
+            // An accuracy may take more than doubles.
+            Route::Planned(numbers) => numbers != Numbers::Double(None),
+            Route::LongFormula(..) | Route::PrintedForms => true,
+            _ => false,
+        }
+    }
+
+    /// The answer of this route to `question`, in about so many seconds where it can stop itself.
+    pub(crate) fn run(self, question: &Question, seconds: f64) -> Result<Answer, NoAnswer> {
+        let problem = &question.problem;
+        match self {
+            Route::Formula(_, formula) => Ok(Bounded::unbounded(Value::Double(formula()))),
+            Route::ClosedForm(Numbers::Double(_)) => {
+                let rod = Parameters::<Estimate<f64>>::of(problem, &())?;
+                question.ask(&rod, &ByClosedForm::new(&rod))
+            }
+            Route::Lattice(Numbers::Double(_)) => {
+                question.ask_history(&Undamped::<Estimate<f64>>::solve(problem, &())?)
+            }
+            Route::Cells(digits) => {
+                question.ask_history(&WithBounds::new(Damped::<f64>::solve(problem, &(), f64::from(digits))?)?)
+            }
+            Route::Modes(modes) => {
+                let rod = Parameters::of(problem, &())?;
+                question.ask(&rod, &Modal::<f64>::new(&rod, modes))
+            }
+            Route::PrintedIntegrals(tolerance) => {
+                let rod = Parameters::of(problem, &())?;
+                let printed = Printed::new(&rod, tolerance).limited_to(seconds);
+                let answer = question.ask(&rod, &printed);
+                if printed.is_late() { Err(NoAnswer::gave_up("the nested integrals take too long")) } else { answer }
+            }
+            Route::Differences(cells) => question.ask(&Parameters::<f64>::of(problem, &())?, &march(problem, cells)?),
+            Route::Planned(numbers) => question.ask_solution(&planned(question, numbers)?),
+            Route::LongFormula(_, digits, formula) => Ok(Bounded::unbounded(long::formula(digits, formula))),
+            Route::ClosedForm(Numbers::Digits(digits)) => long::closed_form(question, digits),
+            Route::Lattice(Numbers::Exact) => long::lattice(question),
+            Route::PrintedForms => long::printed_forms(question),
+            Route::ClosedForm(_) | Route::Lattice(_) => Err(NoAnswer::gave_up("this route has no such numbers")),
+        }
+    }
+}
+
+/// What the solver is asked so that it answers `question`, and no more.
+pub(crate) fn asked(question: &Question, numbers: Numbers) -> solve::Question {
+    let want = match (&question.time, question.quantity) {
+        (_, Quantity::LastEvent | Quantity::Impact | Quantity::Release) => Want::Run,
+        (_, Quantity::TopTime | Quantity::TopHeight | Quantity::ShortestPiece) => Want::Run,
+        (Some(time), _) => {
+            let from = question.from.and_then(|from| from.to_string().parse().ok());
+            Want::Between(from.unwrap_or_else(|| time.clone()), time.clone())
+        }
+        (None, _) => Want::FirstContact,
+    };
+    solve::Question { want, numbers }
+}
+
+/// The plan that answers `question` in these numbers.
+pub(crate) fn plan(question: &Question, numbers: Numbers) -> Result<Plan, NoAnswer> {
+    Ok(Plan::of(&question.problem, &asked(question, numbers))?)
+}
+
+/// The solution of `question` as its plan runs it.
+fn planned(question: &Question, numbers: Numbers) -> Result<Solution, NoAnswer> {
+    Ok(plan(question, numbers)?.solve(&question.problem, solve::unobserved())?)
+}
+
+/// Whether the first contact alone answers, and lasts as long as the question asks.
+///
+/// **Errors**: why not.
+pub(crate) fn within_first_contact(question: &Question) -> Result<(), String> {
+    if !question.problem.has_closed_form() {
+        return Err("the start or the top is not the paper's, so the first contact has no closed form".into());
+    }
+    if question.quantity == Quantity::LastEvent && question.problem.run != Run::Impacts(1) {
+        return Err("it covers the first contact only".into());
+    }
+    let Some(time) = &question.time else { return Ok(()) };
+    let first = question.problem.first_contact().map_err(|error| error.to_string())?;
+    match (first.contacts().first().and_then(|contact| contact.to), first.ending()) {
+        (Some(end), _) if time.to_f64() > end * (1.0 + 1e-12) => {
+            Err(format!("it covers the first contact only, which ends at t = {end:.6}"))
+        }
+        (None, Ending::Undecided(_)) if time.to_f64() > *first.end() => {
+            Err(format!("it is undecided whether the first contact lasts beyond t = {:.6}", first.end()))
+        }
+        _ => Ok(()),
+    }
+}
+
+/// The whole run of `problem` in doubles as its plan does it, with the energy at its end if that is asked for.
+pub(crate) fn run_planned(problem: &Problem, numbers: Numbers, energies: bool) -> Result<f64, NoAnswer> {
+    let plan = Plan::of(problem, &solve::Question::run(numbers))?;
+    match plan.solve(problem, solve::unobserved())? {
+        Solution::Double(history) if energies => Ok(history.energy(*history.end())?.total),
+        Solution::Double(history) => Ok(*history.end()),
+        _ => Err(NoAnswer::gave_up("effects are measured in doubles")),
+    }
+}
+
+/// The same by calling the engine that the plan calls.
+pub(crate) fn run_engine(problem: &Problem, energies: bool) -> Result<f64, NoAnswer> {
+    let plan = Plan::of(problem, &solve::Question::run(Numbers::Double(None)))?;
+    let engine = <f64 as solve::Target>::run(problem, &plan, plan.rung, &solve::unobserved())?;
+    let end = engine.end();
+    Ok(if energies { engine.energy(&end)?.total.to_f64() } else { end.to_f64() })
+}

@@ -1,0 +1,511 @@
+//! The answer: what happened, and everything that can be asked of it.
+
+use std::sync::{Mutex, OnceLock, PoisonError};
+
+use super::ladder::{Attempt, Ladder, Observer, Target, unobserved};
+use super::plan::{Plan, Rung};
+use super::question::{Numbers, Question};
+use crate::error::Error;
+use crate::motion::{Contact, Ending, Energy, Event, Field, Motion, Ray, Scales, Side, StressHistory, Waves};
+use crate::number::{Answer, Number, Scalar, show};
+use crate::problem::Problem;
+use crate::quantity::{
+    self, Column, EnergyShares, Flight, Restitution, Slice, Table, UnitSystem, Units, energy_shares, flights,
+    restitution,
+};
+use crate::reason::Warning;
+
+/// The motion of a rod: its impacts and releases, and the values of every quantity at any time, in numbers `S`.
+///
+/// All times are absolute and in the units of the problem. A question about a time outside of `0 … end()` is
+/// [`Error::TimeOutside`], or [`Error::BeyondEnd`] and [`Error::BeyondExactness`] where the history ends for a reason
+/// of its own; about a point outside of the rod [`Error::PointOutside`].
+///
+/// **Accuracy**: that of the [`Plan`]. Each answer is computed in more bits where those at hand do not leave the digits
+/// that were asked for.
+///
+/// ```
+/// use dalembert::Problem;
+/// let rod = Problem::uniform(1.into(), 1.into(), 1.into(), 3.into());
+/// let motion = rod.solve()?;
+/// // Corollary 1: μ = 3 ≥ g t₁ = 2, so the contact lasts exactly t₁ = 2L/c.
+/// assert_eq!(motion.contacts()[0].to, Some(2.0));
+/// // d'Alembert: at t = 1/2 the wave front of the impact is at x = 1/2; below it v_x = −(μ + g(t − x))/c.
+/// assert_eq!(motion.at(0.25, 0.5)?.strain, -3.25);
+/// # Ok::<(), dalembert::Error>(())
+/// ```
+pub struct History<S: Target> {
+    ladder: Ladder,
+    attempt: Mutex<Attempt<S>>,
+    events: OnceLock<Vec<Event<S>>>,
+    contacts: OnceLock<Vec<Contact<S>>>,
+    ending: Ending,
+    end: S,
+}
+
+impl<S: Target> History<S> {
+    /// Solves `problem` by `plan`.
+    ///
+    /// **Errors**: those of the engine; [`Error::Unsettled`], [`Error::Undecided`] where too many bits do not settle
+    /// the events.
+    pub(crate) fn solve(problem: &Problem, plan: &Plan, observe: Observer) -> Result<Self, Error> {
+        let ladder = Ladder { problem: problem.clone(), plan: plan.clone(), observe };
+        let ask_events = plan.keep_from.is_none();
+        let query = |engine: &dyn Motion<S::Carried>| {
+            let events = if ask_events { engine.events().to_vec() } else { Vec::new() };
+            let contacts = if ask_events { engine.contacts().to_vec() } else { Vec::new() };
+            Ok((engine.end(), events, contacts))
+        };
+        let (attempt, (end, events, contacts)) = ladder.settle(None, query, |(end, events, contacts)| {
+            let mut all: Vec<&S::Carried> = vec![end];
+            all.extend(events.iter().flat_map(Event::numbers));
+            all.extend(contacts.iter().flat_map(Contact::numbers));
+            all
+        })?;
+        let motion = History {
+            ending: attempt.engine.ending().clone(),
+            attempt: Mutex::new(attempt),
+            events: OnceLock::new(),
+            contacts: OnceLock::new(),
+            end: S::strip(end),
+            ladder,
+        };
+        if ask_events {
+            motion.events.get_or_init(|| events.into_iter().map(|event| event.map(S::strip)).collect());
+            motion.contacts.get_or_init(|| contacts.into_iter().map(|contact| contact.map(S::strip)).collect());
+        }
+        Ok(motion)
+    }
+
+    fn current(&self) -> Attempt<S> {
+        // An attempt is replaced whole: one that a panic left behind is as good as any.
+        self.attempt.lock().unwrap_or_else(PoisonError::into_inner).clone()
+    }
+
+    /// The answer to any `query`, in numbers that carry their bound; `numbers` are those of the answer that are settled
+    /// to the digits of the plan.
+    ///
+    /// **Accuracy**: that of the [`Plan`]. The query is repeated in more bits where those at hand do not settle it.
+    ///
+    /// **Errors**: those of the query; [`Error::Unsettled`], [`Error::Undecided`] where too many bits do not settle it.
+    ///
+    /// ```
+    /// use dalembert::{Number, Problem, Scalar, Side};
+    /// let rod = Problem::builder().length(1).wave_speed(1).gravity(1).impact_speed(3).build()?;
+    /// // A time that no double holds, in the precision of each attempt.
+    /// let third: Number = "1/3".parse()?;
+    /// let history = rod.solve()?;
+    /// let strain = history.ask(
+    ///     |motion| motion.strain(&Scalar::from_number(&third, &motion.end().precision()), Side::Right),
+    ///     |strain| vec![strain],
+    /// )?;
+    /// assert_eq!(*strain.value(), -10.0 / 3.0); // −(μ + g t)/c
+    /// assert!(strain.bound() < 1e-14);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    pub fn ask<T>(
+        &self,
+        query: impl Fn(&dyn Motion<S::Carried>) -> Result<T, Error>,
+        numbers: impl Fn(&T) -> Vec<&S::Carried>,
+    ) -> Result<T, Error> {
+        let current = self.current();
+        let rung = current.rung;
+        let settled = self.ladder.settle(Some(current), query, numbers);
+        let (attempt, answer) = settled.map_err(|error| self.explained(error))?;
+        if attempt.rung != rung {
+            *self.attempt.lock().unwrap_or_else(PoisonError::into_inner) = attempt;
+        }
+        Ok(answer)
+    }
+
+    /// An error of a question, with why the history ends before the time that was asked for.
+    pub(crate) fn explained(&self, error: Error) -> Error {
+        let Error::TimeOutside { found, end } = error else { return error };
+        let after = found.parse::<Number>().is_ok_and(|time| time.to_f64() > 0.0);
+        match &self.ending {
+            ending @ Ending::ExactnessEnds { .. } if after => {
+                Error::BeyondExactness { found, ending: ending.to_string() }
+            }
+            ending if after && *ending != Ending::Time => Error::BeyondEnd { found, end, ending: ending.to_string() },
+            _ => Error::TimeOutside { found, end },
+        }
+    }
+
+    /// The last time that is known: before an event at no fraction, a fraction just below its time.
+    pub fn end(&self) -> &S {
+        &self.end
+    }
+
+    /// Why it is the last.
+    pub fn ending(&self) -> &Ending {
+        &self.ending
+    }
+
+    /// A number of an answer as text, with the digits that the [`Plan`] promises and no more: a `Float` and an
+    /// enclosure carry further ones.
+    ///
+    /// **Accuracy**: *correctly rounded* to the digits asked for; the shortest text of a double, and a fraction whole.
+    ///
+    /// ```
+    /// # #[cfg(feature = "mp")] {
+    /// let rod = dalembert::Problem::builder().length(12).wave_speed(30).gravity(10).impact_speed(40).build()?;
+    /// let history = rod.digits(50)?;
+    /// // t_b = t₁ = 2L/c = 4/5, and the peak is −(μ + g t₁)/c = −8/5.
+    /// assert_eq!(history.text(history.contacts()[0].to.as_ref().unwrap()), format!("0.8{}", "0".repeat(49)));
+    /// assert_eq!(rod.certified(5)?.text(&rod.certified(5)?.contacts()[0].peak_strain), "-1.6000");
+    /// # }
+    /// # Ok::<(), dalembert::Error>(())
+    /// ```
+    pub fn text(&self, number: &S) -> String {
+        match self.plan().numbers {
+            Numbers::Digits(digits) | Numbers::ExactThenDigits(digits) | Numbers::Certified(digits) => {
+                show(&number.exactly(), digits)
+            }
+            Numbers::Double(_) | Numbers::Exact => number.text(),
+        }
+    }
+
+    /// What turns strains into stress and force, and values per `ρS` into impulse and energy.
+    ///
+    /// ```
+    /// use dalembert::{Measure, Problem};
+    /// // c = √(E/ρ) = 2, and nothing but the momentum ρS L μ turns round: an impulse of 2ρS L μ, of which ρS = 2.
+    /// let rod = Problem::builder().length(2).material(4, 1, 2).impact_speed(1).build()?;
+    /// let history = rod.solve()?;
+    /// let impulse = history.contacts()[0].impulse;
+    /// assert_eq!(impulse, 4.0);
+    /// assert_eq!(history.units().factor::<f64>(Measure::Impulse, &()).map(|factor| factor * impulse), Some(8.0));
+    /// # Ok::<(), dalembert::Error>(())
+    /// ```
+    pub fn units(&self) -> Units {
+        Units::of(&self.ladder.problem, UnitSystem::default())
+    }
+
+    /// How it was solved.
+    pub fn plan(&self) -> &Plan {
+        &self.ladder.plan
+    }
+
+    /// The numbers that the last answer was computed in.
+    pub fn rung(&self) -> Rung {
+        self.current().rung
+    }
+
+    /// All impacts and releases, in order. The start at `t = 0` is the first impact where the rod stands on the ground.
+    pub fn events(&self) -> &[Event<S>] {
+        self.events
+            .get_or_init(|| self.current().engine.events().iter().map(|event| event.clone().map(S::strip)).collect())
+    }
+
+    /// All times on the ground, in order.
+    pub fn contacts(&self) -> &[Contact<S>] {
+        let strip = |contact: &Contact<S::Carried>| contact.clone().map(S::strip);
+        self.contacts.get_or_init(|| self.current().engine.contacts().iter().map(strip).collect())
+    }
+
+    /// The flights between the contacts, and how high they go.
+    ///
+    /// **Errors**: those of the ladder.
+    pub fn flights(&self) -> Result<Vec<Flight<S>>, Error> {
+        let found = self.ask(flights, |flights| flights.iter().flat_map(Flight::numbers).collect())?;
+        Ok(found.into_iter().map(|flight| flight.map(S::strip)).collect())
+    }
+
+    /// `e_P` and `e_E²` of a contact, counted from 0.
+    ///
+    /// **Accuracy**: in doubles that of `h` and `h′` at both ends, of which these are ratios; otherwise their own.
+    ///
+    /// **Errors**: [`Error::NoContact`] where the history has fewer contacts.
+    pub fn restitution(&self, contact: usize) -> Result<Restitution<S>, Error> {
+        let centre = |engine: &dyn Motion<S::Carried>, time: &_| engine.centre(time).map(|(h, rate)| vec![h, rate]);
+        Ok(self.ask_ratios(contact, restitution, Restitution::numbers, centre)?.map(S::strip))
+    }
+
+    /// The two factors of `e_E²` of a contact, counted from 0.
+    ///
+    /// **Accuracy**: in doubles that of the energies at both ends, of which these are ratios; otherwise their own.
+    ///
+    /// **Errors**: [`Error::NoContact`] where the history has fewer contacts.
+    pub fn energy_shares(&self, contact: usize) -> Result<EnergyShares<S>, Error> {
+        let energy = |engine: &dyn Motion<S::Carried>, time: &_| {
+            let Energy { total, translational, vibrational } = engine.energy(time)?;
+            Ok(vec![total, translational, vibrational])
+        };
+        Ok(self.ask_ratios(contact, energy_shares, EnergyShares::numbers, energy)?.map(S::strip))
+    }
+
+    /// Ratios of what there is at both ends of a contact. Where one of these is next to nothing, no double is as
+    /// accurate as its ratio would need: doubles are held to the accuracy of the `parts`.
+    fn ask_ratios<T>(
+        &self,
+        contact: usize,
+        ratios: impl Fn(&dyn Motion<S::Carried>, &Contact<S::Carried>) -> Result<T, Error>,
+        numbers: impl Fn(&T) -> Vec<&S::Carried>,
+        parts: impl Fn(&dyn Motion<S::Carried>, &S::Carried) -> Result<Vec<S::Carried>, Error>,
+    ) -> Result<T, Error> {
+        let doubles = matches!(self.plan().numbers, Numbers::Double(_));
+        let query = |engine: &dyn Motion<S::Carried>| {
+            let found = engine.contacts().len();
+            let contact = engine.contacts().get(contact).ok_or(Error::NoContact { contact, found })?;
+            let ends = std::iter::once(&contact.from).chain(&contact.to);
+            let whole = ends.map(|time| parts(engine, time)).collect::<Result<Vec<_>, Error>>()?;
+            Ok((ratios(engine, contact)?, whole))
+        };
+        Ok(self.ask(query, |(found, whole)| if doubles { whole.iter().flatten().collect() } else { numbers(found) })?.0)
+    }
+
+    /// `v_x(0,·)` piece by piece: strains, as [`StressHistory`] says.
+    ///
+    /// **Errors**: those of the ladder.
+    pub fn stress_history(&self) -> Result<StressHistory<S>, Error> {
+        let pieces = self.ask(
+            |engine| Ok(engine.stress_pieces()),
+            |pieces| pieces.iter().flat_map(|piece| [&piece.from, &piece.to, &piece.left, &piece.right]).collect(),
+        )?;
+        let pieces = pieces.into_iter().map(|piece| piece.map(S::strip)).collect();
+        Ok(StressHistory { pieces, ending: self.ending.clone() })
+    }
+
+    /// `v_x(0,t)`: the strain at the ground, which is the stress there divided by the modulus; zero in flight.
+    pub fn strain(&self, time: S, side: Side) -> Result<S, Error> {
+        let time = time.carry();
+        Ok(S::strip(self.ask(|engine| engine.strain(&time, side), |value| vec![value])?))
+    }
+
+    /// `v(0,t)` and `v_t(0,t)`: the end at the ground.
+    pub fn ground_end(&self, time: S, side: Side) -> Result<(S, S), Error> {
+        self.pair(time, |engine, time| engine.ground_end(time, side))
+    }
+
+    /// `v(L,t)` and `v_t(L,t)`: the upper end.
+    pub fn top_end(&self, time: S, side: Side) -> Result<(S, S), Error> {
+        self.pair(time, |engine, time| engine.top_end(time, side))
+    }
+
+    /// `h(t)` and `h′(t)`: the centre of mass, relative to its place in the undeformed rod on the ground.
+    pub fn centre(&self, time: S) -> Result<(S, S), Error> {
+        self.pair(time, |engine, time| engine.centre(time))
+    }
+
+    fn pair(&self, time: S, ask: impl Fn(&dyn Motion<S::Carried>, &S::Carried) -> Pair<S>) -> Result<(S, S), Error> {
+        let time = time.carry();
+        let (a, b) = self.ask(|engine| ask(engine, &time), |(a, b)| vec![a, b])?;
+        Ok((S::strip(a), S::strip(b)))
+    }
+
+    /// `E(t)`, `E_h(t)`, `E_z(t)`: the energies, per linear density.
+    pub fn energy(&self, time: S) -> Result<Energy<S>, Error> {
+        let time = time.carry();
+        Ok(self.ask(|engine| engine.energy(&time), |energy| energy.numbers().to_vec())?.map(S::strip))
+    }
+
+    /// The values of `columns` at every time of `times`, column by column. Where `side` is `None` and the two limits of
+    /// any of them differ, a time has two rows, the limit from earlier times first.
+    ///
+    /// **Accuracy**: that of the [`Plan`], each column by itself.
+    pub fn columns(&self, columns: &[Column], times: &[S], side: Option<Side>) -> Result<Vec<Vec<S>>, Error> {
+        let times: Vec<_> = times.iter().map(Answer::carry).collect();
+        let table = self.ask_columns(columns, side, |_| Ok(times.clone()))?;
+        Ok(table.into_iter().map(|column| column.into_iter().map(S::strip).collect()).collect())
+    }
+
+    /// [`History::columns`] in numbers that carry their bound, at times that may be those of the engine itself, or
+    /// lifted to the precision of each attempt.
+    pub fn ask_columns(
+        &self,
+        columns: &[Column],
+        side: Option<Side>,
+        times: impl Fn(&dyn Motion<S::Carried>) -> Result<Vec<S::Carried>, Error>,
+    ) -> Result<Vec<Vec<S::Carried>>, Error> {
+        let query = |engine: &dyn Motion<S::Carried>| {
+            let table = quantity::columns(engine, &self.units(), columns, &times(engine)?, side)?;
+            let natural = quantity::natural_scales(engine, &self.units(), columns);
+            let scaled = quantity::of_one_size(&table, &natural);
+            Ok((table, scaled))
+        };
+        Ok(self.ask(query, |(_, scaled)| scaled.iter().collect())?.0)
+    }
+
+    /// `t`, `side`, `x`, `v`, `v_t`, `v_x` on the grid `points` at every time of `times`, column by column: values at
+    /// the points, means over the cells between them, or nodal values of a projection. Sides as in
+    /// [`History::columns`].
+    ///
+    /// **Accuracy**: that of the [`Plan`], each column by itself.
+    ///
+    /// **Errors**: [`Error::Grid`].
+    ///
+    /// ```
+    /// use dalembert::{Problem, Slice};
+    /// let rod = Problem::builder().length(1).wave_speed(1).impact_speed(2).build()?;
+    /// // At t = 1/4 the strain is −2 below x = 1/4 and 0 above.
+    /// let slice = rod.solve()?.slices(Slice::Averages, &[0.0, 0.5, 1.0], &[0.25], None)?;
+    /// assert_eq!(slice[5], [-1.0, 0.0]);
+    /// # Ok::<(), dalembert::Error>(())
+    /// ```
+    pub fn slices(&self, slice: Slice, points: &[S], times: &[S], side: Option<Side>) -> Result<Vec<Vec<S>>, Error> {
+        let carry = |list: &[S]| list.iter().map(Answer::carry).collect::<Vec<_>>();
+        let (points, times) = (carry(points), carry(times));
+        let table = self.ask_slices(slice, side, |_| Ok((points.clone(), times.clone())))?;
+        Ok(table.into_iter().map(|column| column.into_iter().map(S::strip).collect()).collect())
+    }
+
+    /// [`History::slices`] in numbers that carry their bound, at points and times in the numbers of the engine.
+    pub(crate) fn ask_slices(
+        &self,
+        slice: Slice,
+        side: Option<Side>,
+        grid: impl Fn(&dyn Motion<S::Carried>) -> Result<(Vec<S::Carried>, Vec<S::Carried>), Error>,
+    ) -> Result<Vec<Vec<S::Carried>>, Error> {
+        let columns =
+            [Column::Time, Column::Side, Column::Time, Column::EndDisplacement, Column::EndVelocity, Column::Strain];
+        let query = |engine: &dyn Motion<S::Carried>| {
+            let (points, times) = grid(engine)?;
+            let table = quantity::slices(engine, slice, &points, &times, side)?;
+            let natural = quantity::natural_scales(engine, &self.units(), &columns);
+            let scaled = quantity::of_one_size(&table, &natural);
+            Ok((table, scaled))
+        };
+        Ok(self.ask(query, |(_, scaled)| scaled.iter().collect())?.0)
+    }
+
+    /// The columns of a table by name, such as the `from`, `to`, `impulse` and `peak_strain` of all contacts; with a
+    /// material in its units. What there is not, such as the end of a contact that lasts, is `None`.
+    ///
+    /// **Accuracy**: that of the [`Plan`].
+    ///
+    /// **Errors**: those of the ladder.
+    ///
+    /// ```
+    /// use dalembert::{Problem, Table};
+    /// let rod = Problem::builder().length(2).material(4, 1, 2).impact_speed(1).build()?;
+    /// // c = 2 and t₁ = 2; ρS L μ turns round.
+    /// let contacts = rod.solve()?.table(Table::Contacts)?;
+    /// assert_eq!(contacts[1], ("to", vec![Some(2.0)]));
+    /// assert_eq!(contacts[2], ("impulse", vec![Some(8.0)]));
+    /// # Ok::<(), dalembert::Error>(())
+    /// ```
+    pub fn table(&self, table: Table) -> Result<quantity::Columns<S>, Error> {
+        let strip = |column: Vec<Option<S::Carried>>| column.into_iter().map(|x| x.map(S::strip)).collect();
+        Ok(self.ask_table(table)?.into_iter().map(|(name, column)| (name, strip(column))).collect())
+    }
+
+    /// [`History::table`] in numbers that carry their bound.
+    #[doc(hidden)]
+    pub fn ask_table(&self, table: Table) -> Result<quantity::Columns<S::Carried>, Error> {
+        let units = self.units();
+        self.ask(
+            |motion| quantity::table(motion, table, &units),
+            |columns| columns.iter().flat_map(|(_, column)| column.iter().flatten()).collect(),
+        )
+    }
+
+    /// `v`, `v_t`, `v_x` at `(x,t)`; where a ray passes, the limit from later times.
+    pub fn at(&self, point: S, time: S) -> Result<Field<S>, Error> {
+        self.field(&[point], &[time], Side::Right).map(|mut values| values.remove(0))
+    }
+
+    /// `v`, `v_t`, `v_x` at every point of `points` for every time of `times`: time by time, all points of one time
+    /// together.
+    pub fn field(&self, points: &[S], times: &[S], side: Side) -> Result<Vec<Field<S>>, Error> {
+        let points: Vec<_> = points.iter().map(Answer::carry).collect();
+        let mut values = Vec::with_capacity(points.len() * times.len());
+        for time in times {
+            let time = time.carry();
+            for point in &points {
+                let value = self.ask(|engine| engine.field(point, &time, side), |field| field.numbers().to_vec())?;
+                values.push(value.map(S::strip));
+            }
+        }
+        Ok(values)
+    }
+
+    /// The rays that leave the ground in round trip `trip`, counted from 0, with the jumps that they carry.
+    ///
+    /// **Errors**: [`Error::NoRays`] under damping.
+    pub fn rays(&self, trip: usize) -> Result<Vec<Ray<S>>, Error> {
+        let rays = self.ask(|motion| motion.rays(trip), |rays| rays.iter().map(|ray| &ray.from).collect())?;
+        Ok(rays.into_iter().map(|ray| ray.map(S::strip)).collect())
+    }
+
+    /// The whole solution as two travelling waves: a piecewise quadratic function of one variable.
+    ///
+    /// **Errors**: [`Error::NoWaves`] under damping; [`Error::TooManyPieces`].
+    pub fn waves(&self) -> Result<Waves<S>, Error> {
+        Ok(self.ask_waves()?.map(S::strip))
+    }
+
+    /// [`History::waves`] in numbers that carry their bound.
+    pub(crate) fn ask_waves(&self) -> Result<Waves<S::Carried>, Error> {
+        self.ask(|engine| engine.waves(), |waves| waves.numbers().collect())
+    }
+
+    /// The natural scales of the motion.
+    pub fn scales(&self) -> Scales<S> {
+        self.current().engine.scales().map(S::strip)
+    }
+
+    /// A bound of the error of events and of values at ordinary times, relative to the natural scales; zero where all
+    /// is exact.
+    pub fn error_estimate(&self) -> f64 {
+        self.current().engine.error_estimate().to_f64()
+    }
+
+    /// How many impacts there were, and `log₁₀` of the factor by which rounding may have grown over them; `None` where
+    /// that is not followed.
+    pub fn digits_lost(&self) -> Option<(u32, f64)> {
+        self.current().engine.digits_lost()
+    }
+
+    /// What a user should know of the answer.
+    pub fn warnings(&self) -> Vec<Warning> {
+        let mut warnings = self.current().engine.warnings().to_vec();
+        warnings.extend(self.ladder.problem.neglected());
+        warnings
+    }
+}
+
+type Pair<S> = Result<(<S as Answer>::Carried, <S as Answer>::Carried), Error>;
+
+impl<S: Target> std::fmt::Debug for History<S> {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.debug_struct("History").field("ladder", &self.ladder).field("end", &self.end).finish_non_exhaustive()
+    }
+}
+
+impl Problem {
+    /// The motion in doubles. **Accuracy**: [`DEFAULT_ACCURACY`](crate::DEFAULT_ACCURACY) of the natural scales.
+    pub fn solve(&self) -> Result<History<f64>, Error> {
+        self.answer(&Question::run(Numbers::default()))
+    }
+
+    /// The motion in fractions, as far as they reach. **Accuracy**: *exact*.
+    ///
+    /// **Errors**: [`Error::DampedExact`]; [`Error::NoMultiprecision`] without the feature `mp`.
+    pub fn exact(&self) -> Result<History<crate::number::Rational>, Error> {
+        self.answer(&Question::run(Numbers::Exact))
+    }
+
+    /// The motion in decimal digits. **Accuracy**: so many digits of each number, rounded once, as [`History::text`]
+    /// prints them; the `Float` itself carries more, which are not promised.
+    ///
+    /// **Errors**: [`Error::Digits`]; [`Error::Unsettled`]; [`Error::NoMultiprecision`] without the feature `mp`.
+    pub fn digits(&self, digits: u32) -> Result<History<crate::number::Float>, Error> {
+        self.answer(&Question::run(Numbers::Digits(digits)))
+    }
+
+    /// The motion in proved decimal digits. **Accuracy**: *enclosure*.
+    ///
+    /// **Errors**: [`Error::NotCertified`]; [`Error::Undecided`]; [`Error::NoMultiprecision`] without the feature `mp`.
+    pub fn certified(&self, digits: u32) -> Result<History<crate::number::Interval>, Error> {
+        self.answer(&Question::run(Numbers::Certified(digits)))
+    }
+
+    /// The first contact alone, in doubles: `t_b`, impulse, peak and restitution, without the flight after it.
+    pub fn first_contact(&self) -> Result<History<f64>, Error> {
+        self.answer(&Question::first_contact(Numbers::default()))
+    }
+
+    fn answer<S: Target>(&self, question: &Question) -> Result<History<S>, Error> {
+        History::solve(self, &Plan::of(self, question)?, unobserved())
+    }
+}

@@ -1,0 +1,94 @@
+//! The answer in the numbers that were asked for.
+
+use super::history::History;
+use super::ladder::Observer;
+use super::plan::Plan;
+use super::question::Numbers;
+use crate::error::Error;
+use crate::motion::Ending;
+use crate::number::{Float, Interval, Rational};
+use crate::problem::Problem;
+
+/// A history in the numbers of its plan. All variants exist in every build; without the feature `mp` only the first has
+/// values.
+#[derive(Debug)]
+pub enum Solution {
+    /// Doubles.
+    Double(History<f64>),
+    /// Decimal digits: this many are to be printed.
+    Digits(History<Float>, u32),
+    /// Fractions.
+    Exact(History<Rational>),
+    /// Digits of the whole run, this many of which are to be printed, and what fractions could not hold.
+    DigitsAfter(History<Float>, u32, ExactnessEnd),
+    /// Enclosures: this many digits are proved.
+    Certified(History<Interval>, u32),
+}
+
+/// What fractions cannot hold.
+#[derive(Clone, Debug, PartialEq)]
+pub enum ExactnessEnd {
+    /// A parameter of the problem.
+    Parameter {
+        /// Its name.
+        quantity: &'static str,
+        /// What stands under its root.
+        square: String,
+    },
+    /// An event, as [`Ending::ExactnessEnds`].
+    Event(Ending),
+}
+
+impl std::fmt::Display for ExactnessEnd {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        match self {
+            ExactnessEnd::Parameter { quantity, square } => write!(f, "the {quantity} √({square}) is no fraction"),
+            ExactnessEnd::Event(ending) => ending.fmt(f),
+        }
+    }
+}
+
+impl Plan {
+    /// Solves `problem`; see [`Observer`] for what `observe` receives.
+    ///
+    /// **Accuracy**: that of [`Plan::numbers`].
+    ///
+    /// **Errors**: [`Error::TooManyPieces`]; [`Error::Irrational`] where a parameter is no fraction and no digits are
+    /// asked for; [`Error::Unsettled`], [`Error::Undecided`] where no bits that are worth trying settle the answer;
+    /// [`Error::Interrupted`] by `observe`.
+    ///
+    /// ```
+    /// use dalembert::{Numbers, Plan, Problem, Question, Solution};
+    /// use std::{ops::ControlFlow, sync::Arc};
+    /// let problem = Problem::uniform(10.into(), 30.into(), 10.into(), 10.into());
+    /// let plan = Plan::of(&problem, &Question::run(Numbers::default()))?;
+    /// let observe = Arc::new(|_, _| ControlFlow::Continue(()));
+    /// let Solution::Double(motion) = plan.solve(&problem, observe)? else { unreachable!() };
+    /// assert!((motion.contacts()[0].to.unwrap() - 2.0 / 3.0).abs() < 1e-15);
+    /// # Ok::<(), dalembert::Error>(())
+    /// ```
+    pub fn solve(&self, problem: &Problem, observe: Observer) -> Result<Solution, Error> {
+        Ok(match self.numbers {
+            Numbers::Double(_) => Solution::Double(History::solve(problem, self, observe)?),
+            Numbers::Digits(digits) => Solution::Digits(History::solve(problem, self, observe)?, digits),
+            Numbers::Certified(digits) => Solution::Certified(History::solve(problem, self, observe)?, digits),
+            Numbers::Exact => Solution::Exact(History::solve(problem, self, observe)?),
+            Numbers::ExactThenDigits(digits) => {
+                let in_digits = |end: ExactnessEnd| {
+                    let motion = History::solve(problem, &self.in_digits(problem, digits), observe.clone())?;
+                    Ok(Solution::DigitsAfter(motion, digits, end))
+                };
+                match History::<Rational>::solve(problem, self, observe.clone()) {
+                    Err(Error::Irrational { quantity, square }) => {
+                        return in_digits(ExactnessEnd::Parameter { quantity, square });
+                    }
+                    Err(error) => return Err(error),
+                    Ok(exact) => match exact.ending() {
+                        Ending::ExactnessEnds { .. } => return in_digits(ExactnessEnd::Event(exact.ending().clone())),
+                        _ => Solution::Exact(exact),
+                    },
+                }
+            }
+        })
+    }
+}
