@@ -1,8 +1,37 @@
 //! What several test files share: reference files, problems made from them, and how far apart two numbers are.
 
+use std::cell::Cell;
+use std::fmt::Debug;
+
 use dalembert::problem::{Run, Speed, Start};
 use dalembert::{History, Number, Numbers, Parameters, Plan, Problem, Question, Solution};
+use proptest::prelude::*;
+use proptest::test_runner::TestRunner;
 use serde_json::Value;
+
+/// Runs `check` on so many random cases. It says how many numbers of a case it has compared, by one or several routes;
+/// each route must have compared some in at least so many cases.
+#[track_caller]
+pub(crate) fn compares<T: Debug, const N: usize>(
+    cases: u32,
+    least: [u32; N],
+    strategy: impl Strategy<Value = T>,
+    check: impl Fn(T) -> Result<[usize; N], TestCaseError>,
+) {
+    let config = ProptestConfig { cases, failure_persistence: None, ..ProptestConfig::default() };
+    let compared = Cell::new([0; N]);
+    let run = TestRunner::new(config).run(&strategy, |case| {
+        let counts = check(case)?;
+        let mut sums = compared.get();
+        sums.iter_mut().zip(counts).for_each(|(sum, count)| *sum += u32::from(count > 0));
+        compared.set(sums);
+        Ok(())
+    });
+    run.unwrap_or_else(|error| panic!("{error}"));
+    let compared = compared.get();
+    let enough = compared.iter().zip(&least).all(|(found, least)| found >= least);
+    assert!(enough, "of {cases} cases {compared:?} compared numbers, and {least:?} should");
+}
 
 /// A file of `tests/reference/`.
 pub(crate) fn reference(name: &str) -> Vec<Value> {

@@ -9,6 +9,8 @@ use dalembert::{
 use proptest::prelude::*;
 use std::sync::Arc;
 
+use crate::common::compares;
+
 /// A rod in small fractions, so that rays, events and breaks of the start often meet; `R` between 1/50 and 3. The part
 /// `strained` of them starts bent.
 fn scene(damped: bool, strained: f64) -> impl Strategy<Value = Problem> {
@@ -85,24 +87,26 @@ fn values<S: Scalar>(motion: &dyn Motion<S>, time: &S, side: Side) -> Result<Val
 }
 
 /// Whether two accounts agree within the bounds of both and the rounding to doubles in which they are compared.
-fn same<A: Scalar, B: Scalar>(what: &str, ours: &Values<A>, truth: &Values<B>) -> Result<(), TestCaseError> {
+fn same<A: Scalar, B: Scalar>(what: &str, ours: &Values<A>, truth: &Values<B>) -> Result<usize, TestCaseError> {
     for ((name, a), (_, b)) in ours.iter().zip(truth) {
         let bound = a.log2_error().exp2() + b.log2_error().exp2();
         let (a, b) = (a.to_f64(), b.to_f64());
         let rounding = 2.0 * f64::EPSILON * a.abs().max(b.abs());
         prop_assert!((a - b).abs() <= bound + rounding, "{} {}: {:e} {:e} ± {:e}", what, name, a, b, bound);
     }
-    Ok(())
+    Ok(ours.len())
 }
 
-/// In `numbers`: as part of the whole run, and asked alone, against the `truth`.
+/// In `numbers`: as part of the whole run, and asked alone, against the `truth`. A time that either history does not
+/// reach, and a run that these numbers refuse, compares nothing.
 fn in_numbers<S: Target, T: Scalar>(
     problem: &Problem,
     numbers: Numbers,
     times: &[Number],
     truth: &dyn Motion<T>,
-) -> Result<(), TestCaseError> {
-    let Some(whole) = run::<S>(problem, &Question::run(numbers)) else { return Ok(()) };
+) -> Result<usize, TestCaseError> {
+    let Some(whole) = run::<S>(problem, &Question::run(numbers)) else { return Ok(0) };
+    let mut compared = 0;
     let precision = whole.end().precision();
     for (k, time) in times.iter().enumerate() {
         let exact = T::from_number(time, &truth.end().precision());
@@ -114,12 +118,12 @@ fn in_numbers<S: Target, T: Scalar>(
             let Ok(truth) = values(truth, &exact, side) else { continue };
             let place = format!("{numbers} {side:?} of {time}");
             if let Ok(ours) = values(&*whole, &lifted, side) {
-                same(&place, &ours, &truth)?;
+                compared += same(&place, &ours, &truth)?;
             }
             if let Some(alone) = &alone
                 && let Ok(ours) = values(&**alone, &S::Carried::from_number(time, &alone.end().precision()), side)
             {
-                same(&format!("{place}, alone"), &ours, &truth)?;
+                compared += same(&format!("{place}, alone"), &ours, &truth)?;
             }
         }
     }
@@ -139,10 +143,10 @@ fn in_numbers<S: Target, T: Scalar>(
             let (Ok(found), Ok(truth)) = (values(&*whole, &ours.time, side), values(truth, &exact.time, side)) else {
                 continue;
             };
-            same(&format!("{numbers} {side:?} of event {ours}"), &found, &truth)?;
+            compared += same(&format!("{numbers} {side:?} of event {ours}"), &found, &truth)?;
         }
     }
-    Ok(())
+    Ok(compared)
 }
 
 /// Times on rays of the start, half-way between them, and of no note.
@@ -159,7 +163,7 @@ fn times(problem: &Problem) -> Vec<Number> {
 
 /// Asked in one order and in the other, each time of a history of its own: settled to the same digits, on rays at times
 /// that no double holds, too, although a question before may have called for longer numbers.
-fn in_any_order(problem: &Problem, times: &[Number]) -> Result<(), TestCaseError> {
+fn in_any_order(problem: &Problem, times: &[Number]) -> Result<usize, TestCaseError> {
     let ask = |history: &History<f64>, time: &Number| -> Vec<f64> {
         let t = time.to_f64();
         let sides = [Side::Left, Side::Right].map(|side| {
@@ -169,7 +173,8 @@ fn in_any_order(problem: &Problem, times: &[Number]) -> Result<(), TestCaseError
         let (Ok((h, rate)), Ok(energy)) = (history.centre(t), history.energy(t)) else { return Vec::new() };
         sides.into_iter().flatten().flatten().chain([h, rate, energy.total, energy.vibrational]).collect()
     };
-    let Ok(history) = problem.solve() else { return Ok(()) };
+    let Ok(history) = problem.solve() else { return Ok(0) };
+    let mut compared = 0;
     let forward: Vec<_> = times.iter().map(|time| ask(&history, time)).collect();
     let again = problem.solve().unwrap();
     let mut backward: Vec<_> = times.iter().rev().map(|time| ask(&again, time)).collect();
@@ -180,52 +185,49 @@ fn in_any_order(problem: &Problem, times: &[Number]) -> Result<(), TestCaseError
         for (k, (a, b)) in a.iter().zip(&b).enumerate() {
             prop_assert!((a - b).abs() <= 2.0 * dalembert::DEFAULT_ACCURACY * scale, "{} of {}: {} {}", k, time, a, b);
         }
+        compared += a.len();
     }
-    Ok(())
+    Ok(compared)
 }
 
-proptest! {
-    #![proptest_config(ProptestConfig { cases: 900, failure_persistence: None, ..ProptestConfig::default() })]
-
-    #[test]
-    fn undamped(problem in scene(false, 0.3)) {
-        let (times, fine) = (times(&problem), Numbers::Digits(40));
-        let Some(truth) = run::<Float>(&problem, &Question::run(fine)) else { return Ok(()) };
-        in_numbers::<f64, _>(&problem, Numbers::Double(None), &times, &*truth)?;
-        in_numbers::<Float, _>(&problem, Numbers::Digits(12), &times, &*truth)?;
-        in_numbers::<Rational, _>(&problem, Numbers::Exact, &times, &*truth)?;
-        in_numbers::<Interval, _>(&problem, Numbers::Certified(12), &times, &*truth)?;
-        in_any_order(&problem, &times)?;
-    }
+/// Doubles, digits, fractions and enclosures, and any order. Fractions end at the first irrational root.
+#[test]
+fn undamped() {
+    compares(900, [900, 900, 900, 900, 900], scene(false, 0.3), |problem| {
+        let times = times(&problem);
+        let Some(truth) = run::<Float>(&problem, &Question::run(Numbers::Digits(40))) else { return Ok([0; 5]) };
+        Ok([
+            in_numbers::<f64, _>(&problem, Numbers::Double(None), &times, &*truth)?,
+            in_numbers::<Float, _>(&problem, Numbers::Digits(12), &times, &*truth)?,
+            in_numbers::<Rational, _>(&problem, Numbers::Exact, &times, &*truth)?,
+            in_numbers::<Interval, _>(&problem, Numbers::Certified(12), &times, &*truth)?,
+            in_any_order(&problem, &times)?,
+        ])
+    });
 }
 
-proptest! {
-    #![proptest_config(ProptestConfig { cases: 100, failure_persistence: None, ..ProptestConfig::default() })]
-
-    #[test]
-    fn damped(problem in scene(true, 0.0)) {
-        every_number_system_but_fractions(&problem)?;
-    }
-
+/// Enclosures reach the first bounce, and refuse a fixed top.
+#[test]
+fn damped() {
+    compares(100, [100, 100, 40, 100], scene(true, 0.0), every_number_system_but_fractions);
 }
 
-proptest! {
-    #![proptest_config(ProptestConfig { cases: 8, failure_persistence: None, ..ProptestConfig::default() })]
-
-    #[test]
-    fn damped_and_strained(problem in scene(true, 1.0)) {
-        every_number_system_but_fractions(&problem)?;
-    }
+/// Enclosures refuse a strained start.
+#[test]
+fn damped_and_strained() {
+    compares(8, [8, 8, 0, 8], scene(true, 1.0), every_number_system_but_fractions);
 }
 
 /// A damped rod.
-fn every_number_system_but_fractions(problem: &Problem) -> Result<(), TestCaseError> {
-    let times = times(problem);
-    let Some(truth) = run::<Float>(problem, &Question::run(Numbers::Digits(25))) else { return Ok(()) };
-    in_numbers::<f64, _>(problem, Numbers::Double(None), &times, &*truth)?;
-    in_numbers::<Float, _>(problem, Numbers::Digits(12), &times, &*truth)?;
-    in_numbers::<Interval, _>(problem, Numbers::Certified(12), &times, &*truth)?;
-    in_any_order(problem, &times)
+fn every_number_system_but_fractions(problem: Problem) -> Result<[usize; 4], TestCaseError> {
+    let times = times(&problem);
+    let Some(truth) = run::<Float>(&problem, &Question::run(Numbers::Digits(25))) else { return Ok([0; 4]) };
+    Ok([
+        in_numbers::<f64, _>(&problem, Numbers::Double(None), &times, &*truth)?,
+        in_numbers::<Float, _>(&problem, Numbers::Digits(12), &times, &*truth)?,
+        in_numbers::<Interval, _>(&problem, Numbers::Certified(12), &times, &*truth)?,
+        in_any_order(&problem, &times)?,
+    ])
 }
 
 /// A run in doubles and the same run in longer numbers, both asked by doubles: rays at times that no double holds are
