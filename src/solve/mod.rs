@@ -26,6 +26,7 @@ mod rays;
 mod solution;
 
 pub use history::History;
+#[cfg(feature = "cli")]
 pub(crate) use ladder::unobserved;
 pub use ladder::{Observer, Target};
 pub use plan::{CERTIFIED_DIGITS, DEFAULT_ACCURACY, Engine, MAX_DIGITS, Plan, Reach, Rung};
