@@ -107,8 +107,8 @@ pub enum Error {
         /// The most that is given.
         most: u32,
     },
-    /// Fractions and digits need GMP and MPFR.
-    #[error("found a build without arbitrary precision, expected one with the feature `mp` for digits and fractions")]
+    /// Digits, proved or not, need GMP and MPFR.
+    #[error("found a build without arbitrary precision, expected one with the feature `mp` for digits")]
     NoMultiprecision,
     /// Comparisons of enclosures stay open.
     #[error(

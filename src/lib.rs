@@ -29,7 +29,7 @@
 //! and `{}` prints the digits that both prove. [`History::units`] turns strains and values per `ρS` into those of the
 //! material.
 //!
-//! The features `mp` (all numbers but doubles), `cli` (the command), `compare` (what it shares with the wheel), `npz`
+//! The features `mp` (digits, proved or not, and faster fractions), `cli` (the command), `compare` (what it shares with the wheel), `npz`
 //! (data in NumPy's files) and `plot` (its pictures as PNG and PDF) add to each other and take nothing away.
 
 // The rooms are public for the crate's own tests and benchmarks; what is meant to be used is re-exported below.

@@ -1,6 +1,6 @@
-//! What stands for fractions, long numbers and enclosures in a build without the feature `mp`: types without a value.
+//! What stands for long numbers and enclosures in a build without the feature `mp`: types without a value.
 //!
-//! They let every other room name the four number systems without asking for the feature. No plan chooses them, because
+//! They let every other room name the number systems without asking for the feature. No plan chooses them, because
 //! [`Plan`](crate::Plan) refuses with [`Error::NoMultiprecision`](crate::Error::NoMultiprecision) first.
 
 use std::cmp::Ordering;
@@ -70,8 +70,6 @@ macro_rules! absent {
 absent!(
     /// In a build with the feature `mp`, `rug::Float`.
     Float,
-    /// In a build with the feature `mp`, `rug::Rational`.
-    Rational,
     /// In a build with the feature `mp`, an enclosure.
     Interval
 );

@@ -6,6 +6,7 @@ use rug::float::{Constant, Round};
 use rug::ops::Pow;
 use rug::{Float, Integer, Rational};
 
+use super::fraction::spelled;
 use super::{Analytic, Answer, Estimate, Number, Open, Reads, Rounded, Scalar};
 
 impl Scalar for Float {
@@ -126,50 +127,6 @@ impl Reads<Estimate<Float>> for Estimate<f64> {
             None => Estimate::exact(Float::with_val(*precision, self.value())),
         }
     }
-}
-
-/// Rounded once.
-impl Reads<Rational> for Estimate<f64> {
-    fn read(number: Rational) -> Self {
-        // The method of the same name that rug has truncates.
-        let value = Scalar::to_f64(&number);
-        if number == value { Estimate::exact(value) } else { Estimate::rounded(value, 1.0) }
-    }
-
-    fn give(&self, (): &()) -> Rational {
-        let exactly = || Rational::from_f64(*self.value()).unwrap_or_default();
-        spelled(*self.value()).map_or_else(exactly, |number| number.to_rational())
-    }
-}
-
-/// A fraction is looked for with denominators up to this, of which no two lie as close as doubles do.
-const MOST_DENOMINATOR: i64 = 10_000;
-
-/// The number that a double stands for: the shortest decimal that rounds to it, or, where that takes all digits of a
-/// double, a simple fraction that does. `None` for what is no number.
-pub(super) fn spelled(x: f64) -> Option<Number> {
-    let decimal = x.to_string();
-    let digits = decimal.bytes().filter(u8::is_ascii_digit).count();
-    let fraction = if digits > 15 { simple_fraction(x) } else { None };
-    fraction.unwrap_or(decimal).parse().ok()
-}
-
-/// The convergents of the continued fraction of `x`, as far as denominators are small: the first that rounds to it.
-fn simple_fraction(x: f64) -> Option<String> {
-    let (mut rest, mut last, mut now) = (x.abs(), (0i64, 1i64), (1i64, 0i64));
-    while rest < 1e15 {
-        let whole = rest.floor();
-        let next = |last: i64, now: i64| (whole as i64).checked_mul(now)?.checked_add(last);
-        (last, now) = (now, (next(last.0, now.0)?, next(last.1, now.1)?));
-        if now.1 > MOST_DENOMINATOR {
-            return None;
-        }
-        if now.0 as f64 / now.1 as f64 == x.abs() {
-            return Some(format!("{}{}/{}", if x < 0.0 { "-" } else { "" }, now.0, now.1));
-        }
-        rest = 1.0 / (rest - whole);
-    }
-    None
 }
 
 /// A decimal with exactly `digits` significant digits, rounded to nearest from the exact value of `x`.

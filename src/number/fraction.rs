@@ -2,11 +2,8 @@
 
 use std::cmp::Ordering;
 
-use rug::float::Round;
-use rug::ops::DivRounding;
-use rug::{Float, Integer, Rational};
-
-use super::{Answer, Bounded, Number, Open, Scalar};
+use super::rational::{self, Integer, Rational};
+use super::{Answer, Bounded, Estimate, Number, Open, Reads, Scalar};
 
 /// Square factors below this leave the root of a surd that is printed.
 const SMALL_FACTOR: u32 = 10_000;
@@ -25,27 +22,24 @@ impl Scalar for Rational {
     }
 
     fn double(&self, x: f64) -> Self {
-        Rational::from_f64(x).unwrap_or_default()
+        rational::of_double(x).unwrap_or_default()
     }
 
     fn try_sqrt(&self) -> Option<Self> {
-        if self.cmp0().is_lt() || !self.numer().is_perfect_square() || !self.denom().is_perfect_square() {
-            return None;
-        }
-        Some(Rational::from((self.numer().clone().sqrt(), self.denom().clone().sqrt())))
+        let (p, q) = rational::parts(self);
+        Some(rational::quotient(rational::exact_root(&p)?, rational::exact_root(&q)?))
     }
 
     fn to_f64(&self) -> f64 {
-        // Rational::to_f64 truncates; a Float rounds to nearest.
-        Float::with_val_round(53, self, Round::Nearest).0.to_f64()
+        rational::nearest_double(self)
     }
 
     fn roundoff(&self) -> Self {
-        Rational::new()
+        Rational::default()
     }
 
     fn floor_int(&self) -> Option<i64> {
-        Integer::from(self.numer().div_floor(self.denom())).to_i64()
+        rational::floor(self)
     }
 
     fn bits(&self) -> Option<u32> {
@@ -57,7 +51,7 @@ impl Scalar for Rational {
     }
 
     fn sign(&self) -> Result<Ordering, Open> {
-        Ok(self.cmp0())
+        Ok(rational::sign(self))
     }
 
     fn compare(&self, other: &Self) -> Result<Ordering, Open> {
@@ -70,25 +64,29 @@ impl Scalar for Rational {
 
     fn surd(&self, plus: bool, square: &Self) -> String {
         // √(n/d) = √(n d)/d, and squares of small primes leave the root.
-        let mut radicand = Integer::from(square.numer() * square.denom());
-        let mut factor = Rational::from((1, square.denom()));
-        let mut prime = Integer::from(2);
-        while prime < SMALL_FACTOR && Integer::from(prime.square_ref()) <= radicand {
-            let square = Integer::from(prime.square_ref());
-            while radicand.is_divisible(&square) {
-                radicand.div_exact_mut(&square);
-                factor *= &prime;
+        let (numerator, denominator) = rational::parts(square);
+        let (zero, one) = (Integer::from(0), Integer::from(1));
+        let mut radicand = numerator * &denominator;
+        let mut factor = rational::quotient(one.clone(), denominator);
+        for prime in 2..SMALL_FACTOR {
+            let square = Integer::from(prime * prime);
+            if square > radicand {
+                break;
             }
-            prime += 1;
+            while radicand.clone() % &square == zero {
+                radicand /= &square;
+                factor *= Rational::from(prime);
+            }
         }
-        if radicand.is_perfect_square() {
-            factor *= radicand.sqrt();
-            radicand = Integer::from(1);
+        if let Some(root) = rational::exact_root(&radicand) {
+            factor *= Rational::from(root);
+            radicand = one.clone();
         }
-        let times = if *factor.numer() == 1 { String::new() } else { factor.numer().to_string() };
-        let over = if *factor.denom() == 1 { String::new() } else { format!("/{}", factor.denom()) };
+        let (times, over) = rational::parts(&factor);
+        let times = if times == one { String::new() } else { times.to_string() };
+        let over = if over == one { String::new() } else { format!("/{over}") };
         let root = format!("{times}√{radicand}{over}");
-        match (self.cmp0().is_eq(), plus) {
+        match (rational::sign(self).is_eq(), plus) {
             (true, true) => root,
             (true, false) => format!("−{root}"),
             (false, _) => format!("{self} {} {root}", if plus { '+' } else { '−' }),
@@ -96,13 +94,13 @@ impl Scalar for Rational {
     }
 
     fn zero(&self) -> Self {
-        Rational::new()
+        Rational::default()
     }
 }
 
 impl Bounded for Rational {
     fn halved(self) -> Self {
-        self >> 1u32
+        rational::half(self)
     }
 }
 
@@ -118,13 +116,58 @@ impl Answer for Rational {
     }
 }
 
+/// Rounded once.
+impl Reads<Rational> for Estimate<f64> {
+    fn read(number: Rational) -> Self {
+        let value = Scalar::to_f64(&number);
+        let exact = rational::of_double(value).is_some_and(|value| value == number);
+        if exact { Estimate::exact(value) } else { Estimate::rounded(value, 1.0) }
+    }
+
+    fn give(&self, (): &()) -> Rational {
+        let exactly = || rational::of_double(*self.value()).unwrap_or_default();
+        spelled(*self.value()).map_or_else(exactly, |number| number.to_rational())
+    }
+}
+
+/// A fraction is looked for with denominators up to this, of which no two lie as close as doubles do.
+const MOST_DENOMINATOR: i64 = 10_000;
+
+/// The number that a double stands for: the shortest decimal that rounds to it, or, where that takes all digits of a
+/// double, a simple fraction that does. `None` for what is no number.
+pub(super) fn spelled(x: f64) -> Option<Number> {
+    let decimal = x.to_string();
+    let digits = decimal.bytes().filter(u8::is_ascii_digit).count();
+    let fraction = if digits > 15 { simple_fraction(x) } else { None };
+    fraction.unwrap_or(decimal).parse().ok()
+}
+
+/// The convergents of the continued fraction of `x`, as far as denominators are small: the first that rounds to it.
+fn simple_fraction(x: f64) -> Option<String> {
+    let (mut rest, mut last, mut now) = (x.abs(), (0i64, 1i64), (1i64, 0i64));
+    while rest < 1e15 {
+        let whole = rest.floor();
+        let next = |last: i64, now: i64| (whole as i64).checked_mul(now)?.checked_add(last);
+        (last, now) = (now, (next(last.0, now.0)?, next(last.1, now.1)?));
+        if now.1 > MOST_DENOMINATOR {
+            return None;
+        }
+        if now.0 as f64 / now.1 as f64 == x.abs() {
+            return Some(format!("{}{}/{}", if x < 0.0 { "-" } else { "" }, now.0, now.1));
+        }
+        rest = 1.0 / (rest - whole);
+    }
+    None
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
 
     #[test]
     fn surds_are_printed_in_lowest_terms() {
-        let text = |a: (i32, i32), plus, b: (i32, i32)| Rational::from(a).surd(plus, &Rational::from(b));
+        let fraction = |(p, q): (i32, i32)| rational::quotient(p.into(), q.into());
+        let text = |a, plus, b| fraction(a).surd(plus, &fraction(b));
         assert_eq!(text((3, 1), true, (2, 1)), "3 + √2");
         assert_eq!(text((5, 2), false, (12, 1)), "5/2 − 2√3");
         assert_eq!(text((0, 1), true, (1, 2)), "√2/2");

@@ -6,6 +6,8 @@ use std::str::FromStr;
 
 use thiserror::Error;
 
+use super::rational::{self, Integer, Rational};
+
 /// A number as a person wrote it: `3`, `0.1`, `1e-9`, `1/3`, `2.5/7`. It stands for exactly the rational that it
 /// spells: `0.1` is 1/10, never the nearest double.
 ///
@@ -110,8 +112,7 @@ impl Number {
     }
 
     /// The fraction that the text spells. **Accuracy**: exact.
-    #[cfg(feature = "mp")]
-    pub fn to_rational(&self) -> rug::Rational {
+    pub fn to_rational(&self) -> Rational {
         let (numerator, denominator) = self.parts();
         decimal_to_rational(numerator) / decimal_to_rational(denominator)
     }
@@ -168,16 +169,13 @@ impl Magnitude {
 }
 
 /// The fraction that a checked decimal spells.
-#[cfg(feature = "mp")]
-fn decimal_to_rational(text: &str) -> rug::Rational {
-    use rug::ops::Pow;
+fn decimal_to_rational(text: &str) -> Rational {
     let (mantissa, exponent) = text.split_once(['e', 'E']).unwrap_or((text, "0"));
     let (whole, fraction) = mantissa.split_once('.').unwrap_or((mantissa, ""));
-    let digits: rug::Integer = format!("{whole}{fraction}").parse().unwrap_or_default();
-    let exponent: i64 = exponent.parse().unwrap_or(0);
-    let power = exponent - fraction.len() as i64;
-    let factor = rug::Integer::from(10).pow(u32::try_from(power.unsigned_abs()).unwrap_or(u32::MAX));
-    if power < 0 { (digits, factor).into() } else { (digits * factor).into() }
+    let digits: Integer = format!("{whole}{fraction}").parse().unwrap_or_default();
+    let power = exponent.parse().unwrap_or(0) - fraction.len() as i64;
+    let factor = rational::power_of_ten(u32::try_from(power.unsigned_abs()).unwrap_or(u32::MAX));
+    if power < 0 { rational::quotient(digits, factor) } else { Rational::from(digits * factor) }
 }
 
 impl FromStr for Number {
@@ -308,12 +306,10 @@ mod tests {
             let (x, y): (Number, Number) = (a.parse().unwrap(), b.parse().unwrap());
             assert_eq!(x.compare(&y), order, "{a} against {b}");
             assert_eq!(y.compare(&x), order.reverse(), "{b} against {a}");
-            #[cfg(feature = "mp")]
             assert_eq!(x.to_rational().cmp(&y.to_rational()), order, "{a} against {b}");
         }
     }
 
-    #[cfg(feature = "mp")]
     #[test]
     fn a_decimal_is_the_rational_that_it_spells() {
         let cases = [
@@ -325,8 +321,9 @@ mod tests {
             (".5", (1, 2)),
             ("+3.", (3, 1)),
         ];
-        for (text, fraction) in cases {
-            assert_eq!(text.parse::<Number>().unwrap().to_rational(), rug::Rational::from(fraction), "{text}");
+        for (text, (p, q)) in cases {
+            let fraction = rational::quotient(p.into(), q.into());
+            assert_eq!(text.parse::<Number>().unwrap().to_rational(), fraction, "{text}");
         }
     }
 }

@@ -4,7 +4,7 @@
 //! |---|---|---|
 //! | `f64` | double precision | each operation correctly rounded |
 //! | `rug::Float` (feature `mp`) | any number of bits | each operation correctly rounded |
-//! | `rug::Rational` (feature `mp`) | fractions | exact; square roots only where they are rational |
+//! | [`Rational`] (`rug::Rational`, without the feature `mp` `dashu_ratio::RBig`) | fractions | exact; square roots only where they are rational |
 //! | [`Interval`] (feature `mp`) | enclosures | ends rounded outwards, with the exact number where it has a root form |
 //! | [`Estimate`] | a rounded number and its error | the bound is carried through every operation |
 //!
@@ -18,7 +18,6 @@ mod double;
 mod estimate;
 #[cfg(feature = "mp")]
 mod float;
-#[cfg(feature = "mp")]
 mod fraction;
 #[cfg(feature = "mp")]
 mod interval;
@@ -29,11 +28,14 @@ mod list;
 mod literal;
 #[cfg(feature = "mp")]
 mod radical;
+#[cfg_attr(feature = "mp", path = "rational_gmp.rs")]
+#[cfg_attr(not(feature = "mp"), path = "rational_dashu.rs")]
+mod rational;
 mod scalar;
 mod text;
 
 #[cfg(not(feature = "mp"))]
-pub use absent::{Float, Interval, Rational};
+pub use absent::{Float, Interval};
 pub use bounded::{Answer, Bounded};
 pub use estimate::Estimate;
 #[cfg(feature = "mp")]
@@ -46,8 +48,9 @@ pub(crate) use json::{bound_json, number_json};
 pub(crate) use list::{List, Spelled};
 pub(crate) use literal::short;
 pub use literal::{Number, NumberError};
+pub use rational::Rational;
 #[cfg(feature = "mp")]
-pub use rug::{Float, Rational};
+pub use rug::Float;
 pub use scalar::{Analytic, Open, Reads, Rounded, Scalar};
 #[doc(hidden)]
 pub use text::{DOUBLE_DIGITS, bits_for_digits, bound_of_log2, double_bound_text, show, shown_bound_text};

@@ -1,11 +1,11 @@
 //! A number as it was written, before it is checked.
 
 pub(crate) use crate::number::short;
-use crate::number::{Number, NumberError};
+use crate::number::{Number, NumberError, Rational};
 
 /// A number as it was written: an integer, a text such as `"1/3"` or `"0.1"`, a [`Number`], or a double, which stands
-/// for the shortest decimal that spells it: `0.1` is 1/10. With the feature `mp` a `rug::Rational` or `rug::Integer`
-/// too.
+/// for the shortest decimal that spells it: `0.1` is 1/10. A [`Rational`] too,
+/// and with the feature `mp` a `rug::Integer`.
 ///
 /// **Accuracy**: *exact*.
 #[derive(Clone, Debug)]
@@ -61,9 +61,9 @@ macro_rules! written {
     )*};
 }
 
-written!(i32, i64, u32, u64, usize, &Number);
+written!(i32, i64, u32, u64, usize, &Number, Rational);
 #[cfg(feature = "mp")]
-written!(rug::Integer, rug::Rational);
+written!(rug::Integer);
 
 /// Whether a text is a number followed by a word: `1 m`, `5 kg/m3`.
 pub(crate) fn has_unit(text: &str) -> bool {

@@ -1,4 +1,4 @@
-//! What needs numbers longer than doubles: differences of any two values, and the routes that compute in such numbers.
+//! What needs numbers longer than doubles: differences of any two values, and the formulas in such numbers.
 
 use rug::ops::Pow;
 use rug::{Float, Rational};
@@ -6,9 +6,7 @@ use rug::{Float, Rational};
 use super::account::ByClosedForm;
 use super::quantity::Question;
 use super::value::{Answer, NoAnswer, System, Value};
-use crate::lattice::Undamped;
-use crate::number::{Estimate, Number, bits_for_digits};
-use crate::paper::UndampedContact;
+use crate::number::{Estimate, bits_for_digits};
 use crate::problem::Parameters;
 
 /// Whether this build has such numbers.
@@ -21,11 +19,6 @@ pub(crate) type Digits = Float;
 
 /// A formula in many digits; its argument makes `p/q` in that many.
 pub(crate) type Formula = fn(&dyn Fn(i32, i32) -> Digits) -> Digits;
-
-/// The number that a person wrote.
-pub(super) fn exact(number: &Number) -> Value {
-    number.to_rational().value()
-}
 
 fn middle(value: &Value) -> Option<Rational> {
     match value {
@@ -64,16 +57,4 @@ pub(super) fn closed_form(question: &Question, digits: u32) -> Result<Answer, No
     let bits = bits_for_digits(digits) + SPARE_BITS;
     let rod = Parameters::<Estimate<Float>>::of(&question.problem, &bits)?;
     question.ask(&rod, &ByClosedForm::new(&rod))
-}
-
-/// The lattice in fractions.
-pub(super) fn lattice(question: &Question) -> Result<Answer, NoAnswer> {
-    question.ask_history(&Undamped::<Rational>::solve(&question.problem, &())?)
-}
-
-/// The paper's closed forms of `r = 0`, in fractions.
-pub(super) fn printed_forms(question: &Question) -> Result<Answer, NoAnswer> {
-    let rod = Parameters::<Rational>::of(&question.problem, &())?;
-    let contact = UndampedContact::new(&rod).ok_or_else(|| NoAnswer::gave_up("they are printed for r = 0"))?;
-    question.ask(&rod, &contact)
 }

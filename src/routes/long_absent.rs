@@ -1,9 +1,10 @@
-//! What stands for `long` in a build without multiple precision: differences of doubles, and routes that are not there.
+//! What stands for `long` in a build without multiple precision: differences of fractions and doubles, and formulas in
+//! doubles.
 
 use super::quantity::Question;
 use super::value::{Answer, NoAnswer, Value};
 use crate::error::Error;
-use crate::number::Number;
+use crate::number::{Rational, Scalar};
 
 pub(crate) const AVAILABLE: bool = false;
 
@@ -11,13 +12,14 @@ pub(crate) type Digits = f64;
 
 pub(crate) type Formula = fn(&dyn Fn(i32, i32) -> Digits) -> Digits;
 
-pub(super) fn exact(number: &Number) -> Value {
-    Value::Double(number.to_f64())
-}
-
+/// `log₁₀ |a − b|`. **Accuracy**: the difference is rounded once.
 pub(super) fn log10_apart(a: &Value, b: &Value) -> f64 {
-    let apart = (a.to_f64() - b.to_f64()).abs();
-    if apart.is_finite() { apart.log10() } else { f64::INFINITY }
+    let exact = |value: &Value| match value {
+        Value::Fraction(value) => Some(value.clone()),
+        value => Some(value.to_f64()).filter(|value| value.is_finite()).map(|value| Rational::default().double(value)),
+    };
+    let (Some(a), Some(b)) = (exact(a), exact(b)) else { return f64::INFINITY };
+    Scalar::to_f64(&(a - b)).abs().log10()
 }
 
 pub(super) fn holds(_: &Value, _: &Value, _: Option<i32>) -> bool {
@@ -29,13 +31,5 @@ pub(super) fn formula(_: u32, formula: Formula) -> Value {
 }
 
 pub(super) fn closed_form(_: &Question, _: u32) -> Result<Answer, NoAnswer> {
-    Err(Error::NoMultiprecision.into())
-}
-
-pub(super) fn lattice(_: &Question) -> Result<Answer, NoAnswer> {
-    Err(Error::NoMultiprecision.into())
-}
-
-pub(super) fn printed_forms(_: &Question) -> Result<Answer, NoAnswer> {
     Err(Error::NoMultiprecision.into())
 }

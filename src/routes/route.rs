@@ -9,8 +9,8 @@ use crate::cells::{Damped, WithBounds};
 use crate::lattice::Undamped;
 use crate::modal::Modal;
 use crate::motion::Ending;
-use crate::number::{Estimate, Scalar};
-use crate::paper::Printed;
+use crate::number::{Estimate, Rational, Scalar};
+use crate::paper::{Printed, UndampedContact};
 use crate::problem::{Parameters, Problem, Run};
 pub(crate) use crate::solve::Numbers;
 use crate::solve::{self, Plan, Solution, Want};
@@ -41,13 +41,13 @@ pub(crate) enum Route {
 }
 
 impl Route {
-    /// Whether it needs numbers longer than doubles.
+    /// Whether it may need long numbers.
     pub(crate) fn is_long(self) -> bool {
         match self {
-            Route::ClosedForm(numbers) | Route::Lattice(numbers) => !matches!(numbers, Numbers::Double(_)),
+            Route::ClosedForm(numbers) => !matches!(numbers, Numbers::Double(_)),
             // An accuracy may take more than doubles.
             Route::Planned(numbers) => numbers != Numbers::Double(None),
-            Route::LongFormula(..) | Route::PrintedForms => true,
+            Route::LongFormula(..) => true,
             _ => false,
         }
     }
@@ -81,8 +81,13 @@ impl Route {
             Route::Planned(numbers) => question.ask_solution(&planned(question, numbers)?),
             Route::LongFormula(_, digits, formula) => Ok(Bounded::unbounded(long::formula(digits, formula))),
             Route::ClosedForm(Numbers::Digits(digits)) => long::closed_form(question, digits),
-            Route::Lattice(Numbers::Exact) => long::lattice(question),
-            Route::PrintedForms => long::printed_forms(question),
+            Route::Lattice(Numbers::Exact) => question.ask_history(&Undamped::<Rational>::solve(problem, &())?),
+            Route::PrintedForms => {
+                let rod = Parameters::<Rational>::of(problem, &())?;
+                let contact =
+                    UndampedContact::new(&rod).ok_or_else(|| NoAnswer::gave_up("they are printed for r = 0"))?;
+                question.ask(&rod, &contact)
+            }
             Route::ClosedForm(_) | Route::Lattice(_) => Err(NoAnswer::gave_up("this route has no such numbers")),
         }
     }

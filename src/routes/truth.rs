@@ -3,7 +3,7 @@
 use super::long;
 use super::quantity::Question;
 use super::route::{Numbers, Route};
-use super::value::{NoAnswer, Value};
+use super::value::{NoAnswer, System, Value};
 use crate::number::Number;
 
 /// A number and how far it may be from the truth.
@@ -50,12 +50,12 @@ impl Truth {
         // A whole unit: the last digit may have been cut instead of rounded.
         let last_place = mantissa.split_once('.').map(|(_, after)| exponent.parse().unwrap_or(0) - after.len() as i32);
         let log10_half_width = last_place.map_or(f64::NEG_INFINITY, f64::from);
-        Some(Truth { value: long::exact(&number), log10_half_width, proved: true, last_place })
+        Some(Truth { value: number.to_rational().value(), log10_half_width, proved: true, last_place })
     }
 
     /// The answer to `question` with `digits` decimal digits or more: a fraction where the undamped run stays in
     /// fractions, else an enclosure where there is one, else twice in long numbers by the
-    /// planned engine. A build without long numbers has its best doubles.
+    /// planned engine. A build without long numbers has its best doubles where fractions end.
     ///
     /// **Errors**: those of the solver; [`NoAnswer::NoSuchQuantity`].
     pub(crate) fn computed(question: &Question, digits: u32) -> Result<Self, NoAnswer> {
@@ -63,15 +63,15 @@ impl Truth {
             Ok(Truth { value, log10_half_width, proved, last_place: None })
         };
         let run = |route: Route| route.run(question, f64::INFINITY).map(|answer| answer.value);
-        if !long::AVAILABLE {
-            let value = run(Route::Planned(Numbers::Double(None)))?;
-            let log10_half_width = (value.to_f64().abs() * 1e-13).log10();
-            return of(value, log10_half_width, false);
-        }
         if question.problem.rod.damping.is_none()
             && let Ok(value) = run(Route::Lattice(Numbers::Exact))
         {
             return of(value, f64::NEG_INFINITY, true);
+        }
+        if !long::AVAILABLE {
+            let value = run(Route::Planned(Numbers::Double(None)))?;
+            let log10_half_width = (value.to_f64().abs() * 1e-13).log10();
+            return of(value, log10_half_width, false);
         }
         if let Ok(value) = run(Route::Planned(Numbers::Certified(digits)))
             && let Some(log10_half_width) = value.log10_radius()

@@ -3,8 +3,8 @@
 use std::sync::Arc;
 
 use super::ladder::{Engined, Observer, Target};
-use super::long;
 use super::plan::{Engine, Plan, Rung};
+use super::{fractions, long};
 use crate::cells::{self, ContactThenCells, Damped, WithBounds};
 use crate::error::Error;
 use crate::first_contact::{Bounce, FirstContact};
@@ -16,8 +16,10 @@ use crate::problem::{Parameters, Problem};
 
 impl Target for f64 {
     fn run(problem: &Problem, plan: &Plan, rung: Rung, observe: &Observer) -> Result<Engined<f64>, Error> {
-        if rung != Rung::Double {
-            return long::in_doubles(problem, plan, rung, observe);
+        match rung {
+            Rung::Double => {}
+            Rung::Fractions => return fractions::in_doubles(problem, plan, observe),
+            rung => return long::in_doubles(problem, plan, rung, observe),
         }
         let problem = &*plan.reaching(problem);
         Ok(match plan.engine {

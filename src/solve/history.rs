@@ -480,7 +480,7 @@ impl Problem {
 
     /// The motion in fractions, as far as they reach. **Accuracy**: *exact*.
     ///
-    /// **Errors**: [`Error::DampedExact`]; [`Error::NoMultiprecision`] without the feature `mp`.
+    /// **Errors**: [`Error::DampedExact`].
     pub fn exact(&self) -> Result<History<crate::number::Rational>, Error> {
         self.answer(&Question::run(Numbers::Exact))
     }

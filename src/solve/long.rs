@@ -1,23 +1,17 @@
-//! The planned engine, run in long numbers, fractions and enclosures.
+//! The planned engine, run in long numbers and enclosures.
 
 use std::sync::Arc;
 
 use super::converted::Converted;
+use super::fractions::confirmed;
 use super::ladder::{Engined, Observer, Target};
 use super::plan::{Engine, Plan, Rung};
 use crate::cells::{self, ContactThenCells, Damped, WithBounds};
 use crate::error::Error;
 use crate::first_contact::{Bounce, ContactHistory, FirstContact};
 use crate::lattice::Undamped;
-use crate::motion::{Ending, Motion};
-use crate::number::{Bounded, Estimate, Float, Interval, IntervalPrecision, Rational, Reads, Scalar};
+use crate::number::{Estimate, Float, Interval, IntervalPrecision, Reads, Scalar};
 use crate::problem::{Parameters, Problem};
-
-impl Target for Rational {
-    fn run(problem: &Problem, plan: &Plan, _: Rung, observe: &Observer) -> Result<Engined<Rational>, Error> {
-        Ok(Arc::new(fractions(problem, plan, observe)?))
-    }
-}
 
 impl Target for Float {
     fn run(problem: &Problem, plan: &Plan, rung: Rung, observe: &Observer) -> Result<Engined<Float>, Error> {
@@ -43,30 +37,9 @@ pub(super) fn in_doubles(
 ) -> Result<Engined<f64>, Error> {
     Ok(match rung {
         Rung::Enclosures(bits) => Arc::new(Converted::new(enclosures(problem, plan, bits, observe)?, problem)),
-        Rung::Fractions => {
-            let exact = match fractions(problem, plan, observe) {
-                Err(Error::Irrational { .. }) => None,
-                exact => Some(exact?).filter(|exact| !matches!(exact.ending(), Ending::ExactnessEnds { .. })),
-            };
-            confirmed(problem, plan, exact.ok_or(Error::NotDecided { what: "by fractions", bits: 0 })?, observe)?
-        }
         Rung::Confirmed(bits) => confirmed(problem, plan, roots(problem, plan, bits, observe)?, observe)?,
         rung => Arc::new(Converted::new(estimates(problem, plan, bits_of(rung), observe)?, problem)),
     })
-}
-
-/// Doubles, which answer faster than exact numbers, and within their bounds where all that they took for equal is
-/// equal; otherwise the exact ones.
-fn confirmed<N>(problem: &Problem, plan: &Plan, exact: Undamped<N>, observe: &Observer) -> Result<Engined<f64>, Error>
-where
-    N: Bounded,
-    Undamped<N>: Motion<N>,
-    Estimate<f64>: Reads<N>,
-{
-    let reached = plan.reaching(problem);
-    let mut doubles =
-        Undamped::<Estimate<f64>>::solve_within(&reached, &(), plan.limits(problem), |a, b| observe(a, b))?;
-    Ok(if doubles.confirm(&exact) { Arc::new(doubles) } else { Arc::new(Converted::new(Arc::new(exact), problem)) })
 }
 
 fn bits_of(rung: Rung) -> u32 {
@@ -74,11 +47,6 @@ fn bits_of(rung: Rung) -> u32 {
         Rung::Bits(bits) | Rung::Confirmed(bits) | Rung::Enclosures(bits) => bits,
         Rung::Double | Rung::Fractions => f64::MANTISSA_DIGITS,
     }
-}
-
-fn fractions(problem: &Problem, plan: &Plan, observe: &Observer) -> Result<Undamped<Rational>, Error> {
-    let problem = &*plan.reaching(problem);
-    Undamped::<Rational>::solve_within(problem, &(), plan.limits(problem), |a, b| observe(a, b))
 }
 
 fn estimates(problem: &Problem, plan: &Plan, bits: u32, observe: &Observer) -> Result<Engined<Float>, Error> {

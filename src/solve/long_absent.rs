@@ -1,10 +1,10 @@
-//! Long numbers, fractions and enclosures in a build without the feature `mp`: an error that names it.
+//! Long numbers and enclosures in a build without the feature `mp`: an error that names it.
 
 use super::ladder::{Engined, Observer, Target};
 use super::plan::{Plan, Rung};
 use crate::error::Error;
 use crate::first_contact::Bounce;
-use crate::number::{Answer, Estimate, Float, Interval, Rational};
+use crate::number::{Answer, Estimate, Float, Interval};
 use crate::problem::Problem;
 
 macro_rules! absent {
@@ -25,7 +25,7 @@ macro_rules! absent {
         }
     )*};
 }
-absent!(Float, Rational, Interval);
+absent!(Float, Interval);
 
 pub(super) fn in_doubles(_: &Problem, _: &Plan, _: Rung, _: &Observer) -> Result<Engined<f64>, Error> {
     Err(Error::NoMultiprecision)

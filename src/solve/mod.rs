@@ -5,23 +5,22 @@
 //! | `question` | what is asked, and in which numbers |
 //! | `plan` | everything that is decided before running |
 //! | `foresee` | the digits that a chaotic run is going to lose |
-//! | `engines`, `long` | the planned engine in the numbers of one attempt |
+//! | `engines`, `fractions`, `long` | the planned engine in the numbers of one attempt |
 //! | `converted`, `rays` | a history in one number system, read in another, and when rays pass a point of it |
 //! | `ladder` | more bits until the answer is settled |
 //! | `history` | the answer in one number system, of which everything else is asked |
 //! | `solution` | the answer in the numbers of its plan |
 
-#[cfg(feature = "mp")]
 mod converted;
 mod engines;
 mod foresee;
+mod fractions;
 mod history;
 mod ladder;
 #[cfg_attr(not(feature = "mp"), path = "long_absent.rs")]
 mod long;
 mod plan;
 mod question;
-#[cfg(feature = "mp")]
 mod rays;
 mod solution;
 

@@ -123,7 +123,7 @@ impl Plan {
     /// The plan for `question` of `problem`.
     ///
     /// **Errors**: [`Error::DampedExact`]; [`Error::Accuracy`]; [`Error::Digits`] for none or absurdly many;
-    /// [`Error::NotCertified`]; [`Error::NoMultiprecision`] in a build without the feature `mp`.
+    /// [`Error::NotCertified`]; [`Error::NoMultiprecision`] for digits in a build without the feature `mp`.
     pub fn of(problem: &Problem, question: &Question) -> Result<Self, Error> {
         let numbers = question.numbers;
         check(problem, numbers)?;
@@ -192,7 +192,7 @@ impl Plan {
     /// The rung after `rung`, by what the answer `lacks`; `None` where no more are worth trying.
     pub(crate) fn next(&self, rung: Rung, lacks: Lacks) -> Option<Rung> {
         if cfg!(not(feature = "mp")) {
-            return None;
+            return matches!((rung, lacks), (Rung::Double, Lacks::Exactness)).then_some(Rung::Fractions);
         }
         let (digits, _) = self.goal();
         let wanted = bits_for_digits(digits.ceil() as u32);
@@ -347,7 +347,7 @@ fn check(problem: &Problem, numbers: Numbers) -> Result<(), Error> {
     if problem.rod.damping.is_some() && !problem.has_closed_form() && matches!(numbers, Numbers::Certified(_)) {
         return Err(Error::NotCertified);
     }
-    if cfg!(feature = "mp") { Ok(()) } else { Err(Error::NoMultiprecision) }
+    if cfg!(feature = "mp") || digits.is_none() { Ok(()) } else { Err(Error::NoMultiprecision) }
 }
 
 impl std::fmt::Display for Engine {

@@ -9,8 +9,8 @@ use crate::motion::Ending;
 use crate::number::{Float, Interval, Rational};
 use crate::problem::Problem;
 
-/// A history in the numbers of its plan. All variants exist in every build; without the feature `mp` only the first has
-/// values.
+/// A history in the numbers of its plan. All variants exist in every build; without the feature `mp` there are only
+/// doubles and fractions.
 #[derive(Debug)]
 pub enum Solution {
     /// Doubles.

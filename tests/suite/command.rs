@@ -126,7 +126,6 @@ fn json_of_a_history_in_double_precision() {
     assert!((history["contacts"][1]["from"].as_f64().unwrap() - 8.0 / 3.0).abs() < 1e-14);
 }
 
-#[cfg(feature = "mp")]
 #[test]
 fn json_of_a_history_in_fractions() {
     let history = json(&["solve", "doyen-ern-piperno", "--exact", "--format", "json"]);
@@ -222,7 +221,6 @@ fn parameters_that_are_no_fractions() {
     assert!(out.contains("1270.82747846") && out.contains("0.000885449644664") && out.contains("12 digits"), "{out}");
 }
 
-#[cfg(feature = "mp")]
 #[test]
 fn tables_of_fractions() {
     let out = quiet(&["solve", "doyen-ern-piperno", "--exact"]);
@@ -381,7 +379,8 @@ fn wrong_usage_is_refused() {
 #[test]
 fn digits_need_the_feature() {
     refused(&["solve", "paper-weak", "--digits", "20"], &["found a build without arbitrary precision"]);
-    refused(&["solve", "paper-weak", "--exact"], &["found a build without arbitrary precision"]);
+    let digits_after = ["solve", "paper-weak", "--exact", "--digits", "20"];
+    refused(&digits_after, &["found a build without arbitrary precision"]);
     refused(&["solve", "paper-weak", "--certified"], &["found a build without arbitrary precision"]);
 }
 

@@ -52,18 +52,28 @@ fn what_cannot_be_planned_is_refused_before_it_runs() {
 #[cfg(not(feature = "mp"))]
 #[test]
 fn without_long_numbers_they_are_an_error() {
-    assert_eq!(rod("3").exact().unwrap_err(), Error::NoMultiprecision);
     assert_eq!(rod("3").digits(20).unwrap_err(), Error::NoMultiprecision);
     assert_eq!(rod("3").certified(20).unwrap_err(), Error::NoMultiprecision);
-    assert_eq!(rod("3").solve().unwrap().contacts()[0].to, Some(2.0));
-    // A landing as a ray arrives: whether they meet is for exact numbers to say.
-    let scene = dalembert::scene::builtin::get("doyen-ern-piperno").unwrap();
-    let meets = dalembert::Scene::parse(scene.source).unwrap().problem.solve().unwrap();
-    assert!(
-        matches!(meets.warnings()[..], [dalembert::Warning::Coincidence { from: 2.0.. }]),
-        "{:?}",
-        meets.warnings()
-    );
+    let then_digits = Question::run(Numbers::ExactThenDigits(20));
+    assert_eq!(Plan::of(&rod("3"), &then_digits).unwrap_err(), Error::NoMultiprecision);
+}
+
+/// A landing as a ray arrives: fractions say that they meet, in every build. Where the time of the meeting is no
+/// fraction, only roots do, and a build without them warns.
+#[test]
+fn a_meeting_is_decided_by_fractions() {
+    let solved = |name: &str| {
+        let scene = dalembert::scene::builtin::get(name).unwrap();
+        dalembert::Scene::parse(scene.source).unwrap().problem.solve().unwrap()
+    };
+    let history = solved("doyen-ern-piperno");
+    assert_eq!((history.rung(), history.warnings()), (dalembert::Rung::Fractions, vec![]));
+    let warnings = solved("mu-1-period-36").warnings();
+    let undecided = matches!(warnings[..], [dalembert::Warning::Coincidence { .. }]);
+    assert_eq!(undecided, cfg!(not(feature = "mp")), "{warnings:?}");
+    // Corollary 1, without any error.
+    let exact = rod("3").exact().unwrap();
+    assert_eq!(exact.text(exact.contacts()[0].to.as_ref().unwrap()), "2");
 }
 
 /// μ = 1 lands without speed at t = 31: a double root, at which 1000 digits need exact roots. `--digits` has them too.

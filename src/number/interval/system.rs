@@ -6,7 +6,8 @@ use std::fmt;
 use rug::float::{Constant, Round};
 use rug::{Assign, Float, Rational};
 
-use super::super::float::{down, spelled, up};
+use super::super::float::{down, up};
+use super::super::fraction::spelled;
 use super::super::radical::Radical;
 use super::super::{Analytic, Answer, Bounded, Estimate, Number, Open, Reads, Scalar, show};
 use super::{Inside, Interval, IntervalPrecision};

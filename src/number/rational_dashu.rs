@@ -1,0 +1,56 @@
+//! Fractions in Rust alone.
+
+use std::cmp::Ordering;
+
+pub(super) use dashu_int::IBig as Integer;
+use dashu_int::ops::SquareRootRem;
+use dashu_int::{Sign, UBig};
+pub use dashu_ratio::RBig as Rational;
+
+pub(super) fn quotient(p: Integer, q: Integer) -> Rational {
+    Rational::from_parts_signed(p, q)
+}
+
+/// Numerator and denominator.
+pub(super) fn parts(x: &Rational) -> (Integer, Integer) {
+    (x.numerator().clone(), x.denominator().clone().into())
+}
+
+/// `10^n`.
+pub(super) fn power_of_ten(n: u32) -> Integer {
+    Integer::from(10).pow(n as usize)
+}
+
+/// A double as it is; `None` for what is no number.
+pub(super) fn of_double(x: f64) -> Option<Rational> {
+    x.try_into().ok()
+}
+
+/// The nearest double.
+pub(super) fn nearest_double(x: &Rational) -> f64 {
+    x.to_f64().value()
+}
+
+/// The greatest integer `≤ x`; `None` where it does not fit.
+pub(super) fn floor(x: &Rational) -> Option<i64> {
+    x.floor().try_into().ok()
+}
+
+pub(super) fn sign(x: &Rational) -> Ordering {
+    match x.sign() {
+        _ if x.is_zero() => Ordering::Equal,
+        Sign::Positive => Ordering::Greater,
+        Sign::Negative => Ordering::Less,
+    }
+}
+
+/// `x/2`.
+pub(super) fn half(x: Rational) -> Rational {
+    x / Rational::from(2)
+}
+
+/// `√n` of a perfect square; `None` for any other integer.
+pub(super) fn exact_root(n: &Integer) -> Option<Integer> {
+    let (root, rest) = UBig::try_from(n.clone()).ok()?.sqrt_rem();
+    rest.is_zero().then(|| root.into())
+}

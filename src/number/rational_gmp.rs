@@ -1,0 +1,52 @@
+//! Fractions on GMP.
+
+use std::cmp::Ordering;
+
+use rug::Float;
+pub(super) use rug::Integer;
+pub use rug::Rational;
+use rug::float::Round;
+use rug::ops::{DivRounding, Pow};
+
+pub(super) fn quotient(p: Integer, q: Integer) -> Rational {
+    Rational::from((p, q))
+}
+
+/// Numerator and denominator.
+pub(super) fn parts(x: &Rational) -> (Integer, Integer) {
+    (x.numer().clone(), x.denom().clone())
+}
+
+/// `10^n`.
+pub(super) fn power_of_ten(n: u32) -> Integer {
+    Integer::from(10).pow(n)
+}
+
+/// A double as it is; `None` for what is no number.
+pub(super) fn of_double(x: f64) -> Option<Rational> {
+    Rational::from_f64(x)
+}
+
+/// The nearest double. `Rational::to_f64` truncates; a `Float` rounds to nearest.
+pub(super) fn nearest_double(x: &Rational) -> f64 {
+    Float::with_val_round(53, x, Round::Nearest).0.to_f64()
+}
+
+/// The greatest integer `≤ x`; `None` where it does not fit.
+pub(super) fn floor(x: &Rational) -> Option<i64> {
+    Integer::from(x.numer().div_floor(x.denom())).to_i64()
+}
+
+pub(super) fn sign(x: &Rational) -> Ordering {
+    x.cmp0()
+}
+
+/// `x/2`.
+pub(super) fn half(x: Rational) -> Rational {
+    x >> 1u32
+}
+
+/// `√n` of a perfect square; `None` for any other integer.
+pub(super) fn exact_root(n: &Integer) -> Option<Integer> {
+    n.is_perfect_square().then(|| n.clone().sqrt())
+}

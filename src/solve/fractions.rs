@@ -1,0 +1,53 @@
+//! The planned engine, run in fractions, and doubles that exact numbers confirm.
+
+use std::sync::Arc;
+
+use super::converted::Converted;
+use super::ladder::{Engined, Observer, Target};
+use super::plan::{Plan, Rung};
+use crate::error::Error;
+use crate::lattice::Undamped;
+use crate::motion::{Ending, Motion};
+use crate::number::{Bounded, Estimate, Rational, Reads};
+use crate::problem::Problem;
+
+impl Target for Rational {
+    fn run(problem: &Problem, plan: &Plan, _: Rung, observe: &Observer) -> Result<Engined<Rational>, Error> {
+        Ok(Arc::new(fractions(problem, plan, observe)?))
+    }
+}
+
+/// Doubles that fractions confirm.
+///
+/// **Errors**: [`Error::NotDecided`] where fractions end before the run does.
+pub(super) fn in_doubles(problem: &Problem, plan: &Plan, observe: &Observer) -> Result<Engined<f64>, Error> {
+    let exact = match fractions(problem, plan, observe) {
+        Err(Error::Irrational { .. }) => None,
+        exact => Some(exact?).filter(|exact| !matches!(exact.ending(), Ending::ExactnessEnds { .. })),
+    };
+    confirmed(problem, plan, exact.ok_or(Error::NotDecided { what: "by fractions", bits: 0 })?, observe)
+}
+
+/// Doubles, which answer faster than exact numbers, and within their bounds where all that they took for equal is
+/// equal; otherwise the exact ones.
+pub(super) fn confirmed<N>(
+    problem: &Problem,
+    plan: &Plan,
+    exact: Undamped<N>,
+    observe: &Observer,
+) -> Result<Engined<f64>, Error>
+where
+    N: Bounded,
+    Undamped<N>: Motion<N>,
+    Estimate<f64>: Reads<N>,
+{
+    let reached = plan.reaching(problem);
+    let mut doubles =
+        Undamped::<Estimate<f64>>::solve_within(&reached, &(), plan.limits(problem), |a, b| observe(a, b))?;
+    Ok(if doubles.confirm(&exact) { Arc::new(doubles) } else { Arc::new(Converted::new(Arc::new(exact), problem)) })
+}
+
+fn fractions(problem: &Problem, plan: &Plan, observe: &Observer) -> Result<Undamped<Rational>, Error> {
+    let problem = &*plan.reaching(problem);
+    Undamped::<Rational>::solve_within(problem, &(), plan.limits(problem), |a, b| observe(a, b))
+}
