@@ -4,7 +4,6 @@ use thiserror::Error;
 
 /// What was found, where, and what was expected.
 #[derive(Clone, Debug, Error, PartialEq)]
-#[cfg_attr(feature = "cli", derive(miette::Diagnostic))]
 #[non_exhaustive]
 pub enum Error {
     /// A problem that cannot be built.
@@ -40,7 +39,6 @@ pub enum Error {
     },
     /// A question about a time after the last one that fractions reach.
     #[error("found time {found}, expected an earlier one, or digits where fractions end: {ending}")]
-    #[cfg_attr(feature = "cli", diagnostic(help("--digits N as well goes on from there in digits")))]
     BeyondExactness {
         /// The time.
         found: String,

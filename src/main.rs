@@ -9,7 +9,7 @@ fn main() -> ExitCode {
     match run(Cli::parse()) {
         Ok(code) => code,
         Err(failure) => {
-            eprintln!("{failure:?}");
+            eprintln!("{failure}");
             ExitCode::from(2)
         }
     }

@@ -161,7 +161,7 @@ def test_refusals_have_the_text_of_the_command(command):
         run = command("solve", "-", scene=scene.format(length))
         with pytest.raises(ValueError) as refused:
             dalembert.solve(scene.format(length))
-        said = " ".join(run.stderr.replace("│", " ").replace("×", " ").split())
+        said = " ".join(run.stderr.split())
         assert str(refused.value).split(": ", 1)[1] in said or str(refused.value) in said
     with pytest.raises(ValueError, match="found length = -1, expected a length above zero"):
         dalembert.Problem(length=-1, wave_speed=1, impact_speed=3)

@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use clap::Args;
 
 use super::failure::Failure;
-use super::file::{self, Format};
+use super::file::{self, Format, ROWS, formats};
 use crate::number::Number;
 use crate::scene::Scene;
 use crate::solve::{CERTIFIED_DIGITS, Numbers};
@@ -58,7 +58,7 @@ impl NumberArgs {
 #[derive(Args, Clone, Debug)]
 pub(super) struct OutputArgs {
     /// What to print; by default a table, or what the ending of FILE says
-    #[arg(long, value_enum)]
+    #[arg(long, value_parser = formats(ROWS))]
     pub(super) format: Option<Format>,
     /// Write to this file, whole or not at all; `-` is standard output
     #[arg(short, long, value_name = "FILE")]
@@ -71,14 +71,13 @@ pub(super) struct OutputArgs {
 /// So many threads; by default one for each core.
 pub(super) fn pool(threads: Option<usize>) -> Result<rayon::ThreadPool, Failure> {
     let pool = rayon::ThreadPoolBuilder::new().num_threads(threads.unwrap_or(0)).build();
-    pool.map_err(|error| miette::miette!("cannot start threads: {error}"))
+    pool.map_err(|error| failure!("cannot start threads: {error}"))
 }
 
 impl OutputArgs {
     /// What is printed: what is asked for, or what the ending of the file says.
     pub(super) fn format(&self) -> Result<Format, Failure> {
-        let endings = [("json", Format::Json), ("csv", Format::Csv), ("txt", Format::Table), ("", Format::Table)];
-        file::format(self.format, self.output.as_deref(), &endings)
+        Format::of(self.output.as_deref(), self.format, ROWS)
     }
 
     pub(super) fn write(&self, bytes: &[u8]) -> Result<(), Failure> {

@@ -3,10 +3,11 @@
 use std::path::PathBuf;
 use std::process::ExitCode;
 
-use clap::{Args, ValueEnum};
+use clap::Args;
 
 use super::failure::Failure;
-use super::{file, source};
+use super::file::{self, Format, formats};
+use super::source;
 use crate::output::{check_json, check_page, check_summary, check_table};
 use crate::routes::check::{CATALOGUE, Case, Checked, Group, Verdict, select};
 use crate::routes::published;
@@ -23,8 +24,8 @@ pub(super) struct Check {
     #[arg(long, conflicts_with = "format")]
     summary: bool,
     /// What to print
-    #[arg(long, value_enum, default_value_t = Shape::Table)]
-    format: Shape,
+    #[arg(long, value_parser = formats(FORMATS), default_value = "table")]
+    format: Format,
     /// Write to this file, whole or not at all; `-` is standard output
     #[arg(short, long, value_name = "FILE")]
     output: Option<PathBuf>,
@@ -33,15 +34,7 @@ pub(super) struct Check {
 /// The published values among the names of groups.
 const TARGETS: &str = "targets";
 
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-enum Shape {
-    /// For a person: answers, digits and times
-    Table,
-    /// For a program
-    Json,
-    /// For a page: nothing that depends on the machine
-    Markdown,
-}
+const FORMATS: &[Format] = &[Format::Table, Format::Json, Format::Markdown];
 
 impl Check {
     pub(super) fn run(&self) -> Result<ExitCode, Failure> {
@@ -52,7 +45,7 @@ impl Check {
         let groups = groups.map_err(|name| {
             let groups = CATALOGUE.map(|group| group.name).join(", ") + ", " + TARGETS;
             let cases: Vec<&str> = CATALOGUE.iter().flat_map(|group| group.cases).map(|case| case.name).collect();
-            miette::miette!("found --only {name}, expected a group ({groups}) or a case ({})", cases.join(", "))
+            failure!("found --only {name}, expected a group ({groups}) or a case ({})", cases.join(", "))
         })?;
         let count = groups.iter().map(|(_, cases)| cases.len() as u64).sum();
         let bar = source::bar(Some(count), "{bar:40} {pos}/{len}, {msg}");
@@ -67,10 +60,10 @@ impl Check {
         bar.finish_and_clear();
         let published = if everything || !targets.is_empty() { published()? } else { Vec::new() };
         let text = match self.format {
-            Shape::Table if self.summary => check_summary(&checked, &published),
-            Shape::Table => check_table(&checked, &published),
-            Shape::Json => format!("{:#}\n", check_json(&checked, &published)),
-            Shape::Markdown => check_page(&checked, &published),
+            Format::Table if self.summary => check_summary(&checked, &published),
+            Format::Table => check_table(&checked, &published),
+            Format::Json => format!("{:#}\n", check_json(&checked, &published)),
+            _ => check_page(&checked, &published),
         };
         file::write(self.output.as_deref(), text.as_bytes())?;
         let failed = checked.iter().flat_map(|(_, cases)| cases).any(|case| case.verdict == Verdict::Failed);

@@ -6,7 +6,7 @@ use std::process::ExitCode;
 use clap::Args;
 
 use super::failure::Failure;
-use super::file::{self, Format, Kind};
+use super::file::{self, Format, ROWS, ROWS_OR_PICTURE, formats};
 use super::source;
 use crate::compare::data::Source;
 use crate::compare::{Axis, Comparison, Compression, LEGEND, Limit, Options, Origin, Prepared};
@@ -64,7 +64,7 @@ pub(super) struct Compare {
     #[arg(long, value_name = "QUANTITY.NORM=BOUND,…", value_delimiter = ',')]
     fail_above: Vec<Limit>,
     /// What to print; by default a table
-    #[arg(long, value_enum)]
+    #[arg(long, value_parser = formats(ROWS))]
     format: Option<Format>,
     /// Write to this file, whole or not at all: .svg, .png or .pdf, .json, .csv with every sample, or a table; `-`
     /// is standard output. Can be given several times. Beside pictures the table is printed as well
@@ -95,8 +95,8 @@ impl Compare {
         }
         let report = Report { comparison: &comparison, title: scene.title.as_deref(), units: &units };
         // Before anything is written.
-        let failures = comparison.above(&self.fail_above).map_err(|error| miette::miette!("{error}"))?;
-        file::write_each(&self.output, self.format, |kind| report.bytes(kind))?;
+        let failures = comparison.above(&self.fail_above).map_err(|error| failure!("{error}"))?;
+        file::write_each(&self.output, self.format, |format| report.bytes(format))?;
         for failure in &failures {
             eprintln!("failed: {failure}");
         }
@@ -120,32 +120,30 @@ impl Compare {
 
     fn check(&self) -> Result<(), Failure> {
         for path in &self.output {
-            let kind = Kind::of(path, self.format)?;
+            let format = Format::of(Some(path), self.format, ROWS_OR_PICTURE)?;
             let path = path.display();
-            if self.data.len() > 1 && !matches!(kind, Kind::Rows(Format::Table | Format::Json)) {
-                return Err(miette::miette!(
-                    "found {path} with several files of data, expected one for a picture or CSV"
-                ));
+            if self.data.len() > 1 && !matches!(format, Format::Table | Format::Json) {
+                return Err(failure!("found {path} with several files of data, expected one for a picture or CSV"));
             }
         }
         if self.data.len() > 1 && self.format == Some(Format::Csv) {
-            return Err(miette::miette!("found --format csv with several files of data, expected one"));
+            return Err(failure!("found --format csv with several files of data, expected one"));
         }
         if self.data.iter().filter(|path| *path == Path::new("-")).count() + usize::from(self.scene == "-") > 1 {
-            return Err(miette::miette!("found `-` twice, expected standard input to be read once"));
+            return Err(failure!("found `-` twice, expected standard input to be read once"));
         }
         Ok(())
     }
 }
 
 impl Report<'_> {
-    fn bytes(&self, kind: Kind) -> Result<Vec<u8>, Failure> {
+    fn bytes(&self, format: Format) -> Result<Vec<u8>, Failure> {
         let Report { comparison, title, units } = *self;
-        Ok(match kind {
-            Kind::Rows(Format::Json) => file::json(&comparison.json(title, units)),
-            Kind::Rows(Format::Csv) => file::made("CSV", compare_csv(&comparison.files[0]))?,
-            Kind::Picture(kind) => file::picture(kind, compare_svg(&comparison.files[0], title, units), Size::Page)?,
-            Kind::Rows(Format::Table) => comparison.table(title, units).into_bytes(),
+        Ok(match format {
+            Format::Json => file::json(&comparison.json(title, units)),
+            Format::Csv => file::made("CSV", compare_csv(&comparison.files[0]))?,
+            Format::Table => comparison.table(title, units).into_bytes(),
+            picture => file::picture(picture, compare_svg(&comparison.files[0], title, units), Size::Page)?,
         })
     }
 }

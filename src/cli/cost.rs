@@ -6,7 +6,7 @@ use clap::Args;
 
 use super::args::NumberArgs;
 use super::failure::Failure;
-use super::file::{self, Format, Kind};
+use super::file::{self, Format, ROWS, ROWS_OR_PICTURE, formats};
 use super::source;
 use crate::number::Number;
 use crate::output::{Size, cost_csv, cost_json, cost_svg, cost_table, effects_csv, effects_json, effects_table};
@@ -37,7 +37,7 @@ pub(super) struct Cost {
     #[command(flatten)]
     numbers: NumberArgs,
     /// What to print; by default a table
-    #[arg(long, value_enum)]
+    #[arg(long, value_parser = formats(ROWS))]
     format: Option<Format>,
     /// Write to this file, whole or not at all: a picture (.svg, .png, .pdf), .json, .csv, or a table; `-` is standard
     /// output. Can be given several times. Beside pictures the rows are printed as well
@@ -56,13 +56,13 @@ impl Cost {
         // Before ten seconds are spent.
         self.check()?;
         let measured = self.measure(&scene)?;
-        file::write_each(&self.output, self.format, |kind| measured.bytes(kind, scene.title.as_deref()))
+        file::write_each(&self.output, self.format, |format| measured.bytes(format, scene.title.as_deref()))
     }
 
     fn check(&self) -> Result<(), Failure> {
-        self.output.iter().try_for_each(|path| match Kind::of(path, self.format)? {
-            Kind::Picture(_) if self.effects => {
-                Err(miette::miette!("found --effects with {}, expected a table, JSON or CSV", path.display()))
+        self.output.iter().try_for_each(|path| match Format::of(Some(path), self.format, ROWS_OR_PICTURE)? {
+            format if format.is_picture() && self.effects => {
+                Err(failure!("found --effects with {}, expected a table, JSON or CSV", path.display()))
             }
             _ => Ok(()),
         })
@@ -89,14 +89,14 @@ impl Cost {
 }
 
 impl Measured {
-    fn bytes(&self, kind: Kind, title: Option<&str>) -> Result<Vec<u8>, Failure> {
-        Ok(match (self, kind) {
-            (Measured::Work(table), Kind::Rows(Format::Table)) => cost_table(table, title).into_bytes(),
-            (Measured::Work(table), Kind::Rows(Format::Json)) => file::json(&cost_json(table, title)),
-            (Measured::Work(table), Kind::Rows(Format::Csv)) => file::made("CSV", cost_csv(table))?,
-            (Measured::Work(table), Kind::Picture(kind)) => file::picture(kind, cost_svg(table, title), Size::Page)?,
-            (Measured::Effects(rows), Kind::Rows(Format::Json)) => file::json(&effects_json(rows, title)),
-            (Measured::Effects(rows), Kind::Rows(Format::Csv)) => file::made("CSV", effects_csv(rows))?,
+    fn bytes(&self, format: Format, title: Option<&str>) -> Result<Vec<u8>, Failure> {
+        Ok(match (self, format) {
+            (Measured::Work(table), Format::Table) => cost_table(table, title).into_bytes(),
+            (Measured::Work(table), Format::Json) => file::json(&cost_json(table, title)),
+            (Measured::Work(table), Format::Csv) => file::made("CSV", cost_csv(table))?,
+            (Measured::Work(table), picture) => file::picture(picture, cost_svg(table, title), Size::Page)?,
+            (Measured::Effects(rows), Format::Json) => file::json(&effects_json(rows, title)),
+            (Measured::Effects(rows), Format::Csv) => file::made("CSV", effects_csv(rows))?,
             // Pictures that cannot be drawn are refused before anything is measured.
             (Measured::Effects(rows), _) => effects_table(rows, title).into_bytes(),
         })

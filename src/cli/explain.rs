@@ -40,10 +40,8 @@ impl Explain {
                 "reasons": plan.reasons(),
                 "warnings": scene.problem.neglected().iter().map(ToString::to_string).collect::<Vec<_>>(),
             }))),
-            Format::Csv => {
-                Err(miette::miette!("found --format csv, expected table or json: a plan is no list of numbers"))
-            }
             Format::Table => self.output.write(self.text(&scene, &effects, &plan).as_bytes()),
+            _ => Err(failure!("found --format csv, expected table or json: a plan is no list of numbers")),
         }
     }
 

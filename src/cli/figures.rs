@@ -7,7 +7,7 @@ use rayon::prelude::*;
 
 use super::args::pool;
 use super::failure::{self, Failure};
-use super::file::{self, Picture};
+use super::file::{self, Format};
 use crate::figures::{ALL, Failed, Figure};
 use crate::output::{Size, figure_csv, figure_sheet, figures_index, write_files};
 
@@ -34,9 +34,9 @@ pub(super) struct Figures {
 }
 
 /// What each figure is drawn as, by the endings of the files, the one that the index shows first.
-const PICTURES: &[(&str, Picture)] = match cfg!(feature = "plot") {
-    true => &[("png", Picture::Png), ("svg", Picture::Svg), ("pdf", Picture::Pdf)],
-    false => &[("svg", Picture::Svg)],
+const PICTURES: &[(&str, Format)] = match cfg!(feature = "plot") {
+    true => &[("png", Format::Png), ("svg", Format::Svg), ("pdf", Format::Pdf)],
+    false => &[("svg", Format::Svg)],
 };
 
 fn named(name: &str) -> Result<&'static str, String> {
@@ -48,7 +48,7 @@ fn named(name: &str) -> Result<&'static str, String> {
 impl Figures {
     pub(super) fn run(&self) -> Result<(), Failure> {
         if self.output.exists() && !self.output.is_dir() {
-            return Err(miette::miette!("found the file {}, expected a folder", self.output.display()));
+            return Err(failure!("found the file {}, expected a folder", self.output.display()));
         }
         let chosen = |figure: &&Figure| self.only.is_empty() || self.only.contains(&figure.name);
         let figures: Vec<&Figure> = ALL.iter().filter(chosen).collect();
@@ -59,7 +59,7 @@ impl Figures {
     }
 
     fn files(&self, figures: &[&Figure]) -> Result<Vec<(String, Vec<u8>)>, Failure> {
-        let failed = |error: Failed| miette::miette!("{error}");
+        let failed = |error: Failed| failure!("{error}");
         let drawn = figures.par_iter().map(|figure| {
             let data = figure.data().map_err(failed)?;
             let svg = figure_sheet(figure, &data).map_err(failed)?.svg(self.size);

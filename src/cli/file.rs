@@ -2,77 +2,95 @@
 
 use std::path::{Path, PathBuf};
 
-use clap::ValueEnum;
+use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
 
 use super::failure::{self, Failure};
 #[cfg(feature = "plot")]
 use crate::output::Rendered;
 use crate::output::{Size, write_together};
 
-/// How rows are written.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+/// What is written.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Format {
-    /// For a person
     Table,
-    /// For a program
     Json,
-    /// For a spreadsheet
     Csv,
-}
-
-/// What a picture is written as, by the ending of its file.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) enum Picture {
+    Npz,
+    Markdown,
     Svg,
     Png,
     Pdf,
 }
 
-/// What a file holds.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) enum Kind {
-    Rows(Format),
-    Picture(Picture),
+/// Each format with its word after `--format`, its ending, and whom it is for.
+const FORMATS: [(Format, &str, &str, &str); 8] = [
+    (Format::Table, "table", "txt", "For a person"),
+    (Format::Json, "json", "json", "For a program"),
+    (Format::Csv, "csv", "csv", "For a spreadsheet"),
+    (Format::Npz, "npz", "npz", "For NumPy: an array for each column"),
+    (Format::Markdown, "markdown", "md", "For a page: nothing that depends on the machine"),
+    (Format::Svg, "svg", "svg", ""),
+    (Format::Png, "png", "png", ""),
+    (Format::Pdf, "pdf", "pdf", ""),
+];
+
+/// The pictures.
+pub(super) const PICTURES: &[Format] = &[Format::Svg, Format::Png, Format::Pdf];
+/// How rows are written.
+pub(super) const ROWS: &[Format] = &[Format::Table, Format::Json, Format::Csv];
+/// Rows, or a picture of them.
+pub(super) const ROWS_OR_PICTURE: &[Format] =
+    &[Format::Table, Format::Json, Format::Csv, Format::Svg, Format::Png, Format::Pdf];
+
+/// What `--format` takes where these are written.
+pub(super) fn formats(known: &'static [Format]) -> impl TypedValueParser<Value = Format> {
+    let known = FORMATS.iter().filter(|format| known.contains(&format.0));
+    let values = known.map(|(_, word, _, help)| PossibleValue::new(*word).help(*help));
+    let of = |word: String| FORMATS.iter().find(|format| format.1 == word).map(|format| format.0);
+    PossibleValuesParser::new(values).try_map(move |word| of(word).ok_or("no format"))
 }
 
-impl Kind {
-    /// By its ending, and for rows by the `format` that is asked for.
-    ///
-    /// **Errors**: those of [`Picture::of`]; an ending that names neither a picture nor rows, without a `format`.
-    pub(super) fn of(path: &Path, format: Option<Format>) -> Result<Self, Failure> {
-        let by_ending = match ending(path).as_deref() {
-            Some("svg" | "png" | "pdf") => return Picture::of(path).map(Kind::Picture),
-            Some("json") => Some(Format::Json),
-            Some("csv") => Some(Format::Csv),
-            Some("txt") | None => Some(Format::Table),
-            Some(_) => None,
-        };
-        let path = path.display();
-        format.or(by_ending).map(Kind::Rows).ok_or_else(|| {
-            miette::miette!(
-                "found {path}, expected .svg, .png, .pdf, .json, .csv or .txt, or --format to say what it holds"
-            )
-        })
+impl Format {
+    pub(super) fn is_picture(self) -> bool {
+        PICTURES.contains(&self)
     }
-}
 
-/// The ending of a file in small letters.
-pub(super) fn ending(path: &Path) -> Option<String> {
-    path.extension().and_then(|ending| ending.to_str()).map(str::to_lowercase)
-}
+    fn ending(self) -> &'static str {
+        FORMATS[self as usize].2
+    }
 
-/// The format that is asked for, or the one that the ending of the file says; an empty ending is that of no file.
-///
-/// **Errors**: an ending of none.
-pub(super) fn format<F: Copy>(asked: Option<F>, path: Option<&Path>, endings: &[(&str, F)]) -> Result<F, Failure> {
-    let found = path.and_then(ending).unwrap_or_default();
-    let by_ending = || endings.iter().find(|known| known.0 == found).map(|known| known.1);
-    asked.or_else(by_ending).ok_or_else(|| {
-        let known: Vec<String> = endings.iter().map(|known| format!(".{}", known.0)).filter(|k| k != ".").collect();
-        let known = known.join(", ");
-        let known = known.rsplit_once(", ").map_or(known.clone(), |(most, last)| format!("{most} or {last}"));
-        miette::miette!("found the ending .{found}, expected {known} here, or --format to say what the file holds")
-    })
+    /// What is written to `path`, one of those `known`: a picture by its ending, else what is `asked`, else what the
+    /// ending says; without an ending the first.
+    ///
+    /// **Errors**: an ending of none; a format that this build does not have.
+    pub(super) fn of(path: Option<&Path>, asked: Option<Format>, known: &[Format]) -> Result<Format, Failure> {
+        let named = path.filter(|path| *path != Path::new("-"));
+        let ending = named.map(|path| path.extension().unwrap_or_default().to_string_lossy().to_lowercase());
+        let by_ending = known.iter().find(|known| ending.as_deref() == Some(known.ending()));
+        // Where a picture can be meant, its file says so.
+        let first = ending.as_deref().is_none_or(|ending| {
+            ending.is_empty() && (known[0] == Format::Table || !known.iter().any(|known| known.is_picture()))
+        });
+        let by_ending = by_ending.or(first.then_some(&known[0])).copied();
+        let format = by_ending.filter(|format| format.is_picture()).or(asked).or(by_ending);
+        let path = named.unwrap_or(Path::new("-")).display();
+        let Some(format) = format else {
+            let endings: Vec<String> = known.iter().map(|known| format!(".{}", known.ending())).collect();
+            let endings = endings.join(", ");
+            let endings = endings.rsplit_once(", ").map_or(endings.clone(), |(most, last)| format!("{most} or {last}"));
+            let or = if known.contains(&Format::Json) { ", or --format to say what the file holds" } else { "" };
+            return Err(failure!("found {path}, expected a file that ends in {endings}{or}"));
+        };
+        match format {
+            Format::Npz if !cfg!(feature = "npz") => {
+                Err(failure!("found NPZ in a build without the feature `npz`, expected another format"))
+            }
+            Format::Png | Format::Pdf if !cfg!(feature = "plot") => {
+                Err(failure!("found {path} in a build without the feature `plot`, expected .svg"))
+            }
+            format => Ok(format),
+        }
+    }
 }
 
 /// That `path`, or standard output, cannot be written.
@@ -94,24 +112,24 @@ fn write_all(files: &[(Option<&Path>, &[u8])]) -> Result<(), Failure> {
 /// Writes each file, all of them or none; rows are printed too, if no file holds any.
 pub(super) fn write_each(
     paths: &[PathBuf],
-    format: Option<Format>,
-    bytes: impl Fn(Kind) -> Result<Vec<u8>, Failure>,
+    asked: Option<Format>,
+    bytes: impl Fn(Format) -> Result<Vec<u8>, Failure>,
 ) -> Result<(), Failure> {
     let (mut files, mut printed) = (Vec::new(), false);
     for path in paths {
-        let kind = Kind::of(path, format)?;
-        printed |= matches!(kind, Kind::Rows(_));
-        files.push((Some(path.as_path()), bytes(kind)?));
+        let format = Format::of(Some(path), asked, ROWS_OR_PICTURE)?;
+        printed |= !format.is_picture();
+        files.push((Some(path.as_path()), bytes(format)?));
     }
     if !printed {
-        files.push((None, bytes(Kind::Rows(format.unwrap_or(Format::Table)))?));
+        files.push((None, bytes(asked.unwrap_or(Format::Table))?));
     }
     write_all(&files.iter().map(|(path, bytes)| (*path, bytes.as_slice())).collect::<Vec<_>>())
 }
 
 /// The bytes of a file that can be made.
 pub(super) fn made(what: &str, made: Result<impl Into<Vec<u8>>, impl std::fmt::Display>) -> Result<Vec<u8>, Failure> {
-    made.map(Into::into).map_err(|error| miette::miette!("cannot write {what}: {error}"))
+    made.map(Into::into).map_err(|error| failure!("cannot write {what}: {error}"))
 }
 
 /// The bytes of a JSON file.
@@ -119,44 +137,24 @@ pub(super) fn json(value: &serde_json::Value) -> Vec<u8> {
     format!("{value:#}\n").into_bytes()
 }
 
-impl Picture {
-    /// **Errors**: an ending of no picture; a PNG or PDF in a build that draws none.
-    pub(super) fn of(path: &Path) -> Result<Self, Failure> {
-        match ending(path).as_deref() {
-            Some("svg") => Ok(Picture::Svg),
-            Some("png") if cfg!(feature = "plot") => Ok(Picture::Png),
-            Some("pdf") if cfg!(feature = "plot") => Ok(Picture::Pdf),
-            Some("png" | "pdf") => {
-                Err(miette::miette!("found {} in a build without the feature `plot`, expected .svg", path.display()))
-            }
-            _ if path == Path::new("-") => Ok(Picture::Svg),
-            _ => Err(miette::miette!("found {}, expected a file that ends in .svg, .png or .pdf", path.display())),
-        }
-    }
-}
-
 /// A picture as the bytes of its file.
-pub(super) fn picture(kind: Picture, svg: String, size: Size) -> Result<Vec<u8>, Failure> {
-    match kind {
-        Picture::Svg => Ok(svg.into_bytes()),
-        Picture::Png | Picture::Pdf => rendered(kind, &svg, size),
-    }
-}
-
 #[cfg(feature = "plot")]
-fn rendered(kind: Picture, svg: &str, size: Size) -> Result<Vec<u8>, Failure> {
-    let drawn = Rendered::of(svg).and_then(|rendered| {
+pub(super) fn picture(format: Format, svg: String, size: Size) -> Result<Vec<u8>, Failure> {
+    if format == Format::Svg {
+        return Ok(svg.into_bytes());
+    }
+    let drawn = Rendered::of(&svg).and_then(|rendered| {
         let missing = rendered.missing();
         if !missing.is_empty() {
             eprintln!("note: the font of PNG and PDF has no {missing}, which stay empty; an SVG has all letters");
         }
-        if kind == Picture::Pdf { rendered.pdf() } else { rendered.png(size.scale()) }
+        if format == Format::Pdf { rendered.pdf() } else { rendered.png(size.scale()) }
     });
-    drawn.map_err(|error| miette::miette!("cannot draw: {error}"))
+    drawn.map_err(|error| failure!("cannot draw: {error}"))
 }
 
-/// Refused before anything is solved.
+/// A picture as the bytes of its file: SVG, as others are refused before anything is solved.
 #[cfg(not(feature = "plot"))]
-fn rendered(_: Picture, _: &str, _: Size) -> Result<Vec<u8>, Failure> {
-    Ok(Vec::new())
+pub(super) fn picture(_: Format, svg: String, _: Size) -> Result<Vec<u8>, Failure> {
+    Ok(svg.into_bytes())
 }

@@ -1,12 +1,14 @@
 //! The command: one file per subcommand; `args`, `answer`, `source`, `file`, `times` and `failure` are what they share.
 
+#[macro_use]
+mod failure;
+
 mod answer;
 mod args;
 mod check;
 mod compare;
 mod cost;
 mod explain;
-mod failure;
 mod figures;
 mod file;
 mod plot;

@@ -8,7 +8,8 @@ use clap::Args;
 use super::answer::{Visit, parameters, solve, warned};
 use super::args::NumberArgs;
 use super::failure::Failure;
-use super::{file, source};
+use super::file::{self, Format, PICTURES};
+use super::source;
 use crate::motion::Ending;
 use crate::number::{Number, Scalar};
 use crate::output::{Along, Asked, Gathered, Head, Picture, Size, plain, sheet};
@@ -73,15 +74,16 @@ fn named(name: &str) -> Result<Picture, String> {
 impl Plot {
     pub(super) fn run(&self) -> Result<(), Failure> {
         // Before anything is solved.
-        let kinds = self.output.iter().map(|path| file::Picture::of(path)).collect::<Result<Vec<_>, Failure>>()?;
+        let format = |path: &PathBuf| Format::of(Some(path), None, PICTURES);
+        let formats = self.output.iter().map(format).collect::<Result<Vec<_>, Failure>>()?;
         let time = |time: &Option<Number>| time.as_ref().map(Number::to_f64);
         let (from, to) = (time(&self.from), time(&self.to));
         if let Some(from) = from.filter(|from| *from < 0.0) {
-            return Err(miette::miette!("found --from {from}, expected a time from 0 on"));
+            return Err(failure!("found --from {from}, expected a time from 0 on"));
         }
         if let Some(to) = to.filter(|to| *to <= from.unwrap_or(0.0)) {
             let from = from.unwrap_or(0.0);
-            return Err(miette::miette!("found --to {to}, expected a time after {from}, where the picture begins"));
+            return Err(failure!("found --to {to}, expected a time after {from}, where the picture begins"));
         }
         let pictures = match (self.quantity.is_empty(), self.scenes.len()) {
             (false, _) => self.quantity.clone(),
@@ -91,10 +93,10 @@ impl Plot {
         let along = pictures.contains(&Picture::Along);
         if !along && (self.deformed || self.field != Along::default()) {
             let option = if self.deformed { "--deformed" } else { "--field" };
-            return Err(miette::miette!("found {option} without xt, expected it with --quantity xt"));
+            return Err(failure!("found {option} without xt, expected it with --quantity xt"));
         }
         if self.deformed && self.field != Along::default() {
-            return Err(miette::miette!("found --deformed with --field, expected one of them"));
+            return Err(failure!("found --deformed with --field, expected one of them"));
         }
         let asked = Asked { pictures, along: self.field, deformed: self.deformed, from, to };
         let scenes = self.scenes.iter().map(|name| source::read(name)).collect::<Result<Vec<_>, Failure>>()?;
@@ -113,10 +115,10 @@ impl Plot {
                 Vec::new()
             }
         };
-        let sheet = sheet(&asked, &gathered, title).map_err(|found| miette::miette!("{found}, expected one unit"))?;
+        let sheet = sheet(&asked, &gathered, title).map_err(|found| failure!("{found}, expected one unit"))?;
         let svg = sheet.svg(self.size);
-        for (path, kind) in self.output.iter().zip(kinds) {
-            file::write(Some(path), &file::picture(kind, svg.clone(), self.size)?)?;
+        for (path, format) in self.output.iter().zip(formats) {
+            file::write(Some(path), &file::picture(format, svg.clone(), self.size)?)?;
         }
         Ok(())
     }
@@ -133,7 +135,7 @@ impl Plot {
         let file = Path::new(name).file_stem().and_then(|stem| stem.to_str()).unwrap_or(name);
         let gather = Gather { name: file, scene, asked, found: RefCell::new(None) };
         solve(scene, &question, &gather)?;
-        gather.found.into_inner().ok_or_else(|| miette::miette!("found no history of {name}"))
+        gather.found.into_inner().ok_or_else(|| failure!("found no history of {name}"))
     }
 }
 

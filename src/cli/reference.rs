@@ -8,8 +8,9 @@ use clap::Args;
 use super::answer::{Visit, noted_end, solve, warned};
 use super::args::NumberArgs;
 use super::failure::{self, Failure};
+use super::file::{self, Format, formats};
+use super::source;
 use super::times::{CHUNK, Chunk, Times, TimesFile};
-use super::{file, source};
 use crate::error::Error;
 use crate::motion::{Motion, Side};
 use crate::number::{List, Number, Scalar};
@@ -60,8 +61,8 @@ pub(super) struct Reference {
     #[command(flatten)]
     numbers: NumberArgs,
     /// What to write; by default what the ending of FILE says, or CSV
-    #[arg(long, value_enum)]
-    format: Option<Golden>,
+    #[arg(long, value_parser = formats(FORMATS))]
+    format: Option<Format>,
     /// A CSV without the comments above the names of its columns
     #[arg(long)]
     bare: bool,
@@ -73,6 +74,8 @@ pub(super) struct Reference {
     #[arg(short, long, value_name = "FILE")]
     output: Option<PathBuf>,
 }
+
+const FORMATS: &[Format] = &[Format::Csv, Format::Json, Format::Npz];
 
 fn known() -> String {
     Column::ALL.map(Column::name).join(", ")
@@ -89,17 +92,22 @@ impl Reference {
         if let Some(language) = self.language {
             return solve(&scene, &Question::run(numbers), &Function { asked: self, scene: &scene, language });
         }
-        let golden = self.golden()?;
-        if self.bare && golden != Golden::Csv {
-            return Err(miette::miette!("found --bare, expected it with CSV only: JSON and NPZ have no comments"));
+        let format = Format::of(self.output.as_deref(), self.format, FORMATS)?;
+        if self.bare && format != Format::Csv {
+            return Err(failure!("found --bare, expected it with CSV only: JSON and NPZ have no comments"));
         }
+        let golden = match format {
+            Format::Json => Golden::Json,
+            Format::Npz => Golden::Npz,
+            _ => Golden::Csv,
+        };
         let times = self.times()?;
         let columns = match &self.points {
             Some(_) => Vec::new(),
             None => self.columns.clone().unwrap_or_else(|| Column::ALL.to_vec()),
         };
         if let Some(twice) = (1..columns.len()).find(|k| columns[..*k].contains(&columns[*k])) {
-            return Err(miette::miette!("found the column {} twice, expected each once", columns[twice].name()));
+            return Err(failure!("found the column {} twice, expected each once", columns[twice].name()));
         }
         let question = match times.ends()? {
             None => Question::run(numbers),
@@ -112,16 +120,11 @@ impl Reference {
         solve(&scene, &question, &Series { asked: self, scene: &scene, golden, times, columns })
     }
 
-    fn golden(&self) -> Result<Golden, Failure> {
-        let endings = [("csv", Golden::Csv), ("json", Golden::Json), ("npz", Golden::Npz), ("", Golden::Csv)];
-        file::format(self.format, self.output.as_deref(), &endings)
-    }
-
     fn times(&self) -> Result<Times, Failure> {
         Ok(match (&self.times, &self.times_from, &self.dt, &self.to) {
             (Some(list), ..) => Times::List(list.clone()),
             (_, Some(path), ..) => Times::File(TimesFile::open(path)?),
-            (_, _, Some(dt), Some(to)) => Times::List(List::steps(dt, to).map_err(|error| miette::miette!("{error}"))?),
+            (_, _, Some(dt), Some(to)) => Times::List(List::steps(dt, to).map_err(|error| failure!("{error}"))?),
             _ => Times::Events,
         })
     }

@@ -6,7 +6,7 @@ use clap::Args;
 
 use super::args::pool;
 use super::failure::Failure;
-use super::file::{self, Picture};
+use super::file::{self, Format};
 use super::source;
 use crate::output::{Size, regimes_csv, regimes_npz, regimes_svg, regimes_text, threshold_csv};
 use crate::sweep::Map;
@@ -36,59 +36,42 @@ pub(super) struct Regimes {
     output: Vec<PathBuf>,
 }
 
-/// What a file holds, by its ending.
-#[derive(Clone, Copy, PartialEq)]
-enum Kind {
-    Csv,
-    Npz,
-    Picture(Picture),
-}
+const FORMATS: &[Format] = &[Format::Csv, Format::Npz, Format::Svg, Format::Png, Format::Pdf];
 
 impl Regimes {
     pub(super) fn run(&self) -> Result<(), Failure> {
         // Before anything is solved.
-        let kinds = self.output.iter().map(|path| self.kind(path)).collect::<Result<Vec<_>, Failure>>()?;
+        let formats = self.output.iter().map(|path| self.format(path)).collect::<Result<Vec<_>, Failure>>()?;
         let bar = source::bar(None, "{spinner} {pos} points, {elapsed}");
         let pool = pool(self.threads)?;
         // The curve takes R alone.
         let speeds = if self.curve { "1,2" } else { &self.speed_ratio };
         let map = pool.install(|| Map::new(&self.damping_ratio, speeds, || bar.inc(1)))?;
         bar.finish_and_clear();
-        for (path, kind) in self.output.iter().zip(kinds) {
-            file::write(Some(path), &self.bytes(&map, kind)?)?;
+        for (path, format) in self.output.iter().zip(formats) {
+            file::write(Some(path), &self.bytes(&map, format)?)?;
         }
         match (self.output.is_empty(), self.curve) {
             (false, _) => Ok(()),
-            (true, true) => file::write(None, &self.bytes(&map, Kind::Csv)?),
+            (true, true) => file::write(None, &self.bytes(&map, Format::Csv)?),
             (true, false) => file::write(None, regimes_text(&map).as_bytes()),
         }
     }
 
-    fn kind(&self, path: &Path) -> Result<Kind, Failure> {
-        let kind = match file::ending(path).as_deref() {
-            Some("npz") => Kind::Npz,
-            Some("svg" | "png" | "pdf") => Kind::Picture(Picture::of(path)?),
-            Some("csv") => Kind::Csv,
-            _ if path == Path::new("-") => Kind::Csv,
-            _ => {
-                let path = path.display();
-                return Err(miette::miette!(
-                    "found {path}, expected a file that ends in .svg, .png, .pdf, .csv or .npz"
-                ));
-            }
-        };
-        if self.curve && kind != Kind::Csv {
-            return Err(miette::miette!("found --curve with {}, expected CSV", path.display()));
+    fn format(&self, path: &Path) -> Result<Format, Failure> {
+        match Format::of(Some(path), None, FORMATS)? {
+            Format::Csv => Ok(Format::Csv),
+            _ if self.curve => Err(failure!("found --curve with {}, expected CSV", path.display())),
+            format => Ok(format),
         }
-        Ok(kind)
     }
 
-    fn bytes(&self, map: &Map, kind: Kind) -> Result<Vec<u8>, Failure> {
-        match kind {
-            Kind::Csv if self.curve => file::made("CSV", threshold_csv(map)),
-            Kind::Csv => file::made("CSV", regimes_csv(map)),
-            Kind::Npz => file::made("NPZ", regimes_npz(map)),
-            Kind::Picture(kind) => file::picture(kind, regimes_svg(map), Size::Page),
+    fn bytes(&self, map: &Map, format: Format) -> Result<Vec<u8>, Failure> {
+        match format {
+            Format::Csv if self.curve => file::made("CSV", threshold_csv(map)),
+            Format::Csv => file::made("CSV", regimes_csv(map)),
+            Format::Npz => file::made("NPZ", regimes_npz(map)),
+            picture => file::picture(picture, regimes_svg(map), Size::Page),
         }
     }
 }

@@ -45,13 +45,13 @@ impl Sample {
     pub(super) fn run(&self) -> Result<(), Failure> {
         let scene = source::read(&self.scene)?;
         let (Some(first), Some(last)) = (self.times.least(), self.times.greatest()) else {
-            return Err(miette::miette!("found no times, expected at least one"));
+            return Err(failure!("found no times, expected at least one"));
         };
         if self.points.is_some() && !matches!(self.quantity, Quantity::Field) {
-            return Err(miette::miette!("found --points, expected them with --quantity field only"));
+            return Err(failure!("found --points, expected them with --quantity field only"));
         }
         if last.to_f64() < 0.0 {
-            return Err(miette::miette!("found time {last}, expected times from 0 on"));
+            return Err(failure!("found time {last}, expected times from 0 on"));
         }
         answer(&scene, &Question::between(first, last, self.numbers.numbers(&scene)), &self.output, self)
     }
@@ -94,7 +94,7 @@ impl Report for Sample {
         match format {
             Format::Table => Ok(samples_table(samples, self.quantity, head).into_bytes()),
             Format::Json => Ok(file::json(&samples_json(samples, self.quantity, head))),
-            Format::Csv => file::made("CSV", samples_csv(samples, self.quantity, head)),
+            _ => file::made("CSV", samples_csv(samples, self.quantity, head)),
         }
     }
 }

@@ -39,7 +39,7 @@ impl Scenes {
             return answer(&scene, &Question::run(numbers), &self.output, &Published(&scene.targets));
         }
         if self.output.format.is_some_and(|format| format != Format::Table) {
-            return Err(miette::miette!("found --format, expected it with --targets: a list of scenes is a text"));
+            return Err(failure!("found --format, expected it with --targets: a list of scenes is a text"));
         }
         let text = match &self.name {
             None => {
@@ -49,10 +49,8 @@ impl Scenes {
             Some(name) => match builtin::get(name) {
                 Some(scene) => scene.source.to_string(),
                 None => {
-                    return Err(miette::miette!(
-                        help = "expected one of the names that `dalembert scenes` lists",
-                        "found no built-in scene called `{name}`"
-                    ));
+                    let failure = failure!("found no built-in scene called `{name}`");
+                    return Err(failure.help("expected one of the names that `dalembert scenes` lists"));
                 }
             },
         };
@@ -79,7 +77,7 @@ impl Report for Published<'_> {
         match format {
             Format::Table => Ok(targets_table(reached, head).into_bytes()),
             Format::Json => Ok(file::json(&targets_json(reached, head))),
-            Format::Csv => file::made("CSV", targets_csv(reached, head)),
+            _ => file::made("CSV", targets_csv(reached, head)),
         }
     }
 }

@@ -43,12 +43,12 @@ pub(super) struct Solve {
 impl Solve {
     pub(super) fn run(&self) -> Result<(), Failure> {
         if self.part.is_some() && self.output.format()? != Format::Csv {
-            return Err(miette::miette!(
+            return Err(failure!(
                 "found --part, expected it with --format csv only: JSON holds all parts, and a table all but the stress"
             ));
         }
         if self.coefficients && self.part != Some(Part::Stress) {
-            return Err(miette::miette!("found --coefficients, expected it with --part stress only"));
+            return Err(failure!("found --coefficients, expected it with --part stress only"));
         }
         let scene = source::read(&self.scene)?;
         answer(&scene, &Question::run(self.numbers.numbers(&scene)), &self.output, self)
@@ -91,9 +91,7 @@ impl Report for Solve {
             Format::Table if self.legend => Ok(format!("{}\n{LEGEND}", history_table(record, head)).into_bytes()),
             Format::Table => Ok(history_table(record, head).into_bytes()),
             Format::Json => Ok(file::json(&history_json(record, head))),
-            Format::Csv => {
-                file::made("CSV", history_csv(record, self.part.unwrap_or_default(), self.coefficients, head))
-            }
+            _ => file::made("CSV", history_csv(record, self.part.unwrap_or_default(), self.coefficients, head)),
         }
     }
 }

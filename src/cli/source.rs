@@ -18,34 +18,27 @@ use crate::solve::{Observer, Plan, Reach};
 /// More than any scene: what is read of an endless stream before it is refused.
 const MAX_BYTES: u64 = (16 << 20) + 1;
 
-#[derive(Debug, thiserror::Error, miette::Diagnostic)]
-#[error("found no file and no built-in scene called `{name}`")]
-#[diagnostic(help("expected a scene file, `-` for standard input, or a name that `dalembert scenes` lists{nearest}"))]
-struct NoScene {
-    name: String,
-    nearest: String,
-}
-
 /// The scene of this name: `-`, a file, or a built-in scene.
 pub(super) fn read(name: &str) -> Result<Scene, Failure> {
+    let path = std::path::Path::new(name);
+    let builtin = builtin::get(name).filter(|_| !path.is_file());
     let (shown, text) = if name == "-" {
         ("standard input", read_text(std::io::stdin(), "standard input")?)
-    } else if std::path::Path::new(name).is_file() {
-        let file = std::fs::File::open(name).map_err(cannot(&format!("open {name}")))?;
-        (name, read_text(file, name)?)
-    } else if let Some(builtin) = builtin::get(name) {
+    } else if let Some(builtin) = builtin {
         (name, builtin.source.to_string())
-    } else if std::path::Path::new(name).is_dir() {
+    } else if path.is_dir() {
         let scenes = "a scene file in it, such as `FOLDER/rod.toml`, or a name that `dalembert scenes` lists";
-        return Err(miette::miette!(help = format!("expected {scenes}"), "found the folder `{name}` as a scene"));
-    } else if std::path::Path::new(name).exists() {
+        return Err(failure!("found the folder `{name}` as a scene").help(format!("expected {scenes}")));
+    } else if path.exists() {
         let file = std::fs::File::open(name).map_err(cannot(&format!("open {name}")))?;
         (name, read_text(file, name)?)
     } else {
         let nearest = nearest(name).map_or_else(String::new, |near| format!("; did you mean `{near}`?"));
-        return Err(NoScene { name: name.into(), nearest }.into());
+        let scenes = "a scene file, `-` for standard input, or a name that `dalembert scenes` lists";
+        let failure = failure!("found no file and no built-in scene called `{name}`");
+        return Err(failure.help(format!("expected {scenes}{nearest}")));
     };
-    Scene::parse(&text).map_err(|error| error.in_file(shown).into())
+    Scene::parse(&text).map_err(|error| Failure::in_file(error, shown))
 }
 
 /// The scene that a name which is none may mean: a file beside it that only lacks the ending, or the built-in scene

@@ -5,12 +5,13 @@ use std::ops::Range;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
-use clap::{Args, ValueEnum};
+use clap::Args;
 use serde_json::json;
 
 use super::args::{NumberArgs, pool};
 use super::failure::{self, Failure};
-use super::{file, source};
+use super::file::{self, Format, formats};
+use super::source;
 use crate::number::Number;
 use crate::output::{sweep_csv, sweep_json, sweep_npz, sweep_table};
 use crate::routes::Quantity;
@@ -48,24 +49,14 @@ pub(super) struct Sweep {
     #[arg(long, value_name = "N")]
     threads: Option<usize>,
     /// What to print; by default a table, or what the ending of FILE says
-    #[arg(long, value_enum)]
-    format: Option<Shape>,
+    #[arg(long, value_parser = formats(FORMATS))]
+    format: Option<Format>,
     /// Write to this file, whole or not at all: .csv, .json, .npz, or a table
     #[arg(short, long, value_name = "FILE")]
     output: Option<PathBuf>,
 }
 
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-enum Shape {
-    /// For a person
-    Table,
-    /// For a program
-    Json,
-    /// For a spreadsheet
-    Csv,
-    /// For numpy
-    Npz,
-}
+const FORMATS: &[Format] = &[Format::Table, Format::Json, Format::Csv, Format::Npz];
 
 #[derive(Clone, Copy, Debug)]
 struct Shard {
@@ -94,7 +85,7 @@ impl Shard {
 impl Sweep {
     /// The exit code is 1 where no point has a number.
     pub(super) fn run(&self) -> Result<ExitCode, Failure> {
-        let shape = self.shape()?;
+        let format = Format::of(self.output.as_deref(), self.format, FORMATS)?;
         let scene = source::read(&self.scene)?;
         let axes = self.vary.iter().map(|text| text.parse::<Axis>()).collect::<Result<Vec<_>, SweepError>>()?;
         if let Some(time) = self.time.as_ref().filter(|time| time.to_f64() < 0.0) {
@@ -134,11 +125,11 @@ impl Sweep {
             None => (None, Vec::new()),
         };
         let found = self.solve(&sweep, points, known, journal.as_ref())?;
-        let bytes = match shape {
-            Shape::Table => sweep_table(&sweep, &found).into_bytes(),
-            Shape::Json => file::json(&sweep_json(&sweep, &found, scene.title.as_deref())),
-            Shape::Csv => file::made("CSV", sweep_csv(&sweep, &found))?,
-            Shape::Npz => file::made("NPZ", sweep_npz(&sweep, &found))?,
+        let bytes = match format {
+            Format::Table => sweep_table(&sweep, &found).into_bytes(),
+            Format::Json => file::json(&sweep_json(&sweep, &found, scene.title.as_deref())),
+            Format::Csv => file::made("CSV", sweep_csv(&sweep, &found))?,
+            _ => file::made("NPZ", sweep_npz(&sweep, &found))?,
         };
         file::write(path, &bytes)?;
         if let Some((journal, path)) = journal.zip(path) {
@@ -167,17 +158,6 @@ impl Sweep {
         let found = pool.install(|| sweep.run(points, known, done));
         bar.finish_and_clear();
         Ok(found.map_err(failure::cannot("keep finished points"))?)
-    }
-
-    fn shape(&self) -> Result<Shape, Failure> {
-        let endings = [
-            ("csv", Shape::Csv),
-            ("json", Shape::Json),
-            ("npz", Shape::Npz),
-            ("txt", Shape::Table),
-            ("", Shape::Table),
-        ];
-        file::format(self.format, self.output.as_deref(), &endings)
     }
 }
 

@@ -58,7 +58,7 @@ impl TimesFile {
             Ok(())
         })?;
         let Some((least, greatest)) = ends else {
-            return Err(miette::miette!("{name}: found no times, expected one a line"));
+            return Err(failure!("{name}: found no times, expected one a line"));
         };
         Ok(TimesFile { file, name, least, greatest })
     }
@@ -95,11 +95,11 @@ fn lines(mut file: &File, name: &str, mut visit: impl FnMut(Number) -> Result<()
         let values = text.split(|c: char| c == ',' || c == ';' || c.is_whitespace()).filter(|part| !part.is_empty());
         let count = values.count();
         if count != 1 {
-            return Err(miette::miette!("{name}, row {row}: found {count} values, expected one time a line"));
+            return Err(failure!("{name}, row {row}: found {count} values, expected one time a line"));
         }
-        let time: Number = text.parse().map_err(|error| miette::miette!("{name}, row {row}: {error}"))?;
+        let time: Number = text.parse().map_err(|error| failure!("{name}, row {row}: {error}"))?;
         if time.to_f64() < 0.0 {
-            return Err(miette::miette!("{name}, row {row}: found time {time}, expected times from 0 on"));
+            return Err(failure!("{name}, row {row}: found time {time}, expected times from 0 on"));
         }
         visit(time)?;
     }
@@ -113,8 +113,8 @@ impl Times {
             Times::File(file) => Ok(Some((file.least.clone(), file.greatest.clone()))),
             Times::List(list) => match (list.least(), list.greatest()) {
                 (Some(least), Some(greatest)) if least.to_f64() >= 0.0 => Ok(Some((least, greatest))),
-                (Some(least), _) => Err(miette::miette!("found time {least}, expected times from 0 on")),
-                _ => Err(miette::miette!("found no times, expected at least one")),
+                (Some(least), _) => Err(failure!("found time {least}, expected times from 0 on")),
+                _ => Err(failure!("found no times, expected at least one")),
             },
         }
     }

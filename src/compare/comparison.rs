@@ -40,7 +40,6 @@ pub struct Options {
 
 /// Why data cannot be compared.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
-#[cfg_attr(feature = "cli", derive(miette::Diagnostic))]
 pub enum CompareError {
     /// The data.
     #[error(transparent)]

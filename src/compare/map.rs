@@ -102,7 +102,6 @@ pub(crate) struct Map {
 
 /// Why columns cannot be mapped.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
-#[cfg_attr(feature = "cli", derive(miette::Diagnostic))]
 pub enum MapError {
     #[error("found no quantity in the columns {found}, expected some of {}, or --map t=0,u=1", known(*field))]
     Nothing { found: String, field: bool },

@@ -19,6 +19,7 @@ mod straight;
 mod sweep;
 mod table;
 mod target;
+mod writer;
 
 pub(crate) use check::{check_json, check_page, check_summary, check_table};
 pub use code::{Language, code};

@@ -5,12 +5,11 @@ use std::fs::File;
 use std::io::{self, BufReader, BufWriter, Read, Seek, Write};
 use std::path::Path;
 
-use ndarray::Array1;
-use ndarray_npy::{NpzWriter, WriteNpzError};
 use serde_json::{Value, json};
 
 use super::record::Head;
 use super::write_filled;
+use super::writer::Npz;
 use crate::number::{DOUBLE_DIGITS, Scalar, bound_of_log2, number_json, show};
 use crate::quantity::{Column, Measure, Units};
 use crate::solve::Numbers;
@@ -273,10 +272,9 @@ impl Rows {
                 file.write_all(b"\n  ]\n}\n")
             }
             Golden::Npz => {
-                let other = |error: WriteNpzError| io::Error::other(error.to_string());
-                let mut npz = NpzWriter::new(file);
-                let header = format!("{:#}", preamble.json(&columns, &bounds, true));
-                npz.add_array("header", &Array1::from(header.into_bytes())).map_err(other)?;
+                let mut npz = Npz::new(file, false);
+                let header = format!("{:#}", preamble.json(&columns, &bounds, true)).into_bytes();
+                npz.add("header", &[header.len()], header)?;
                 for (column, values) in columns.iter().zip(kept) {
                     let mut values = BufReader::new(values?);
                     let mut next = || {
@@ -285,12 +283,11 @@ impl Rows {
                     };
                     let values = (0..count).map(|_| next()).collect::<Result<Vec<f64>, _>>()?;
                     match column.is_flag() {
-                        true => npz.add_array(column.name, &Array1::from_iter(values.iter().map(|x| *x as i8))),
-                        false => npz.add_array(column.name, &Array1::from(values)),
-                    }
-                    .map_err(other)?;
+                        true => npz.add(column.name, &[count], values.iter().map(|x| *x as i8).collect::<Vec<_>>()),
+                        false => npz.add(column.name, &[count], values),
+                    }?;
                 }
-                npz.finish().map_err(other).map(|_| ())
+                npz.finish()
             }
         })
     }

@@ -1,12 +1,11 @@
 //! The map of regimes: numbers, and a picture.
 
-use std::io::Cursor;
+use std::io::{self, Cursor};
 
 use glam::DVec2;
-use ndarray::{Array1, Array2};
-use ndarray_npy::{NpzWriter, WriteNpzError};
 
 use super::draw::{Axis, Key, Layer, Panel, Shape, Sheet, Size, Stroke};
+use super::writer::Npz;
 use crate::number::{Number, Scalar};
 use crate::sweep::{Map, Regime, threshold};
 
@@ -74,19 +73,22 @@ pub(crate) fn regimes_text(map: &Map) -> String {
 
 /// `damping_ratio`, `speed_ratio`, `bounce_ratio` (rows of one M; infinite where there is no bounce, NaN where none is
 /// shown), and `threshold` at each R.
-pub(crate) fn regimes_npz(map: &Map) -> Result<Vec<u8>, WriteNpzError> {
+pub(crate) fn regimes_npz(map: &Map) -> io::Result<Vec<u8>> {
     let mut bytes = Cursor::new(Vec::new());
-    let mut npz = NpzWriter::new_compressed(&mut bytes);
-    let doubles = |list: &[Number]| list.iter().map(Number::to_f64).collect::<Array1<f64>>();
-    let (columns, value) = (map.damping.len(), |place: usize| match map.regimes[place] {
-        Regime::Bounce(time) => time,
+    let mut npz = Npz::new(&mut bytes, true);
+    let doubles = |list: &[Number]| list.iter().map(Number::to_f64).collect::<Vec<f64>>();
+    let (dampings, speeds) = (doubles(&map.damping), doubles(&map.speed));
+    let value = |regime: &Regime| match regime {
+        Regime::Bounce(time) => *time,
         Regime::Never => f64::INFINITY,
         Regime::Undecided => f64::NAN,
-    });
-    npz.add_array("damping_ratio", &doubles(&map.damping))?;
-    npz.add_array("speed_ratio", &doubles(&map.speed))?;
-    npz.add_array("bounce_ratio", &Array2::from_shape_fn((map.speed.len(), columns), |(m, r)| value(m * columns + r)))?;
-    npz.add_array("threshold", &doubles(&map.damping).mapv(threshold))?;
+    };
+    let shape = [speeds.len(), dampings.len()];
+    let thresholds = dampings.iter().map(|r| threshold(*r)).collect();
+    npz.add("damping_ratio", &shape[1..], dampings)?;
+    npz.add("speed_ratio", &shape[..1], speeds)?;
+    npz.add("bounce_ratio", &shape, map.regimes.iter().map(value).collect())?;
+    npz.add("threshold", &shape[1..], thresholds)?;
     npz.finish()?;
     Ok(bytes.into_inner())
 }

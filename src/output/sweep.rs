@@ -1,12 +1,11 @@
 //! Sweeps: a row for each point.
 
-use std::io::Cursor;
+use std::io::{self, Cursor};
 
-use ndarray::Array1;
-use ndarray_npy::{NpzWriter, WriteNpzError};
 use serde_json::{Map, Value, json};
 
 use super::table::{WIDTH, wrapped};
+use super::writer::Npz;
 use crate::aligned::table;
 use crate::number::{DOUBLE_DIGITS, Estimate, Rounded, show};
 use crate::sweep::{Point, Sweep};
@@ -119,21 +118,21 @@ pub(crate) fn sweep_json(sweep: &Sweep, points: &[Point], title: Option<&str>) -
 }
 
 /// NPZ: doubles, a list for each column; `shape` is that of the whole grid, and numbers that are missing are NaN.
-pub(crate) fn sweep_npz(sweep: &Sweep, points: &[Point]) -> Result<Vec<u8>, WriteNpzError> {
+pub(crate) fn sweep_npz(sweep: &Sweep, points: &[Point]) -> io::Result<Vec<u8>> {
     let mut bytes = Cursor::new(Vec::new());
-    let mut npz = NpzWriter::new_compressed(&mut bytes);
-    let shape: Array1<i64> = sweep.grid.axes.iter().map(|axis| axis.values.len() as i64).collect();
-    npz.add_array("shape", &shape)?;
-    npz.add_array("point", &points.iter().map(|point| point.index as i64).collect::<Array1<_>>())?;
+    let mut npz = Npz::new(&mut bytes, true);
+    let count = &[points.len()];
+    let shape: Vec<i64> = sweep.grid.axes.iter().map(|axis| axis.values.len() as i64).collect();
+    npz.add("shape", &[shape.len()], shape)?;
+    npz.add("point", count, points.iter().map(|point| point.index as i64).collect())?;
     for (k, axis) in sweep.grid.axes.iter().enumerate() {
-        let values = points.iter().map(|point| sweep.grid.values(point.index)[k].to_f64());
-        npz.add_array(axis.path, &values.collect::<Array1<_>>())?;
+        npz.add(axis.path, count, points.iter().map(|point| sweep.grid.values(point.index)[k].to_f64()).collect())?;
     }
     for (k, quantity) in sweep.asked.quantities.iter().enumerate() {
-        let values = points.iter().map(|point| double(&point.cells[k].value));
-        npz.add_array(quantity.name(), &values.collect::<Array1<_>>())?;
-        let bounds = points.iter().map(|point| double(&point.cells[k].uncertainty));
-        npz.add_array(format!("{}_uncertainty", quantity.name()), &bounds.collect::<Array1<_>>())?;
+        let name = quantity.name();
+        npz.add(name, count, points.iter().map(|point| double(&point.cells[k].value)).collect())?;
+        let bounds = points.iter().map(|point| double(&point.cells[k].uncertainty)).collect();
+        npz.add(&format!("{name}_uncertainty"), count, bounds)?;
     }
     npz.finish()?;
     Ok(bytes.into_inner())

@@ -149,7 +149,7 @@ impl<S: System> Bounded<S> {
 pub(crate) type Answer = Bounded<Value>;
 
 /// Why there is no answer, or nothing can be asked.
-#[derive(Clone, Debug, PartialEq, thiserror::Error, miette::Diagnostic)]
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub(crate) enum NoAnswer {
     /// The solver refuses.
     #[error(transparent)]

@@ -33,7 +33,6 @@ pub struct SceneError {
     /// Column of the first of them in characters, from 1.
     pub column: usize,
     pub(super) text: Arc<str>,
-    pub(super) file: Option<Arc<str>>,
 }
 
 /// Which rule a scene breaks.
@@ -63,13 +62,6 @@ pub enum SceneErrorKind {
 }
 
 impl SceneError {
-    /// The same error, with the name of the file that the scene was read from.
-    #[must_use]
-    pub fn in_file(mut self, name: &str) -> Self {
-        self.file = Some(name.into());
-        self
-    }
-
     /// The whole source.
     pub fn source_text(&self) -> &str {
         &self.text
@@ -91,7 +83,7 @@ impl SceneError {
         let end = floor_boundary(source, span.end).max(start);
         let (line, column) = position(source, start);
         let (found, expected) = (found.into(), expected.into());
-        SceneError { kind, found, expected, span: start..end, line, column, text: source.into(), file: None }
+        SceneError { kind, found, expected, span: start..end, line, column, text: source.into() }
     }
 }
 
@@ -121,39 +113,5 @@ impl From<ProblemErrorKind> for SceneErrorKind {
             ProblemErrorKind::Profile => SceneErrorKind::Profile,
             ProblemErrorKind::Combination => SceneErrorKind::Combination,
         }
-    }
-}
-
-#[cfg(feature = "cli")]
-impl miette::Diagnostic for SceneError {
-    fn source_code(&self) -> Option<&dyn miette::SourceCode> {
-        Some(self)
-    }
-
-    fn labels(&self) -> Option<Box<dyn Iterator<Item = miette::LabeledSpan> + '_>> {
-        let label = miette::LabeledSpan::new(Some("here".into()), self.span.start, self.span.len());
-        Some(Box::new(std::iter::once(label)))
-    }
-}
-
-/// The source with the name of its file, so that a report points at `FILE:LINE:COLUMN`.
-#[cfg(feature = "cli")]
-impl miette::SourceCode for SceneError {
-    fn read_span<'a>(
-        &'a self,
-        span: &miette::SourceSpan,
-        before: usize,
-        after: usize,
-    ) -> Result<Box<dyn miette::SpanContents<'a> + 'a>, miette::MietteError> {
-        let inner = self.text.read_span(span, before, after)?;
-        let Some(name) = &self.file else { return Ok(inner) };
-        Ok(Box::new(miette::MietteSpanContents::new_named(
-            name.to_string(),
-            inner.data(),
-            *inner.span(),
-            inner.line(),
-            inner.column(),
-            inner.line_count(),
-        )))
     }
 }

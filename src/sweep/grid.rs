@@ -9,7 +9,7 @@ use crate::problem::{Problem, ProblemError};
 const MOST_POINTS: usize = 10_000_000;
 
 /// What is wrong with a sweep.
-#[derive(Debug, thiserror::Error, miette::Diagnostic)]
+#[derive(Debug, thiserror::Error)]
 pub(crate) enum SweepError {
     /// What was found, and what was expected.
     #[error("found {found}, expected {expected}")]

@@ -445,7 +445,7 @@ fn what_cannot_be_is_refused() {
     asked(&["--dt", "0", "--to", "1"], &["expected a step above 0"]);
     asked(&["--dt", "1e-9", "--to", "5"], &["found 5000000000 steps"]);
     asked(&["--dt", "0.1", "--to", "1", "--times", "1"], &["cannot be used with"]);
-    asked(&["-o", "golden.xls"], &["found the ending .xls, expected .csv, .json or .npz"]);
+    asked(&["-o", "golden.xls"], &["golden.xls, expected a file that ends in .csv, .json or .npz"]);
     asked(&["--field", "p1"], &["--points <LIST>"]);
     asked(&["--times", "1", "--points", "1,0", "--field", "p1"], &["found the point 0", "that increase"]);
     asked(&["--times", "1", "--points", "1", "--field", "averages"], &["found fewer than two points"]);

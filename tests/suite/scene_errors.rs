@@ -490,10 +490,9 @@ fn points_of_equal_value_are_kept_equal() {
 #[cfg(feature = "cli")]
 #[test]
 fn a_report_shows_the_line() {
-    let error = Scene::parse("[rod]\nlength = -1 # L\nwave_speed = 1\n").unwrap_err().in_file("rod.toml");
-    let mut report = String::new();
-    miette::NarratableReportHandler::new().render_report(&mut report, &error).unwrap();
-    for text in ["rod.toml", "length = -1 # L", "expected a length above zero", "found length = -1"] {
+    let report = crate::command::run_with(&["solve", "-"], "[rod]\nlength = -1 # L\nwave_speed = 1\n").err;
+    let place = "standard input:2:10";
+    for text in [place, "length = -1 # L", "expected a length above zero", "found length = -1", "^^"] {
         assert_eq!(report.matches(text).count(), 1, "{text} in {report}");
     }
 }

@@ -4,7 +4,6 @@ use crate::number::short;
 
 /// Data that cannot be used: what was found, where, and what was expected.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
-#[cfg_attr(feature = "cli", derive(miette::Diagnostic))]
 #[error("{file}{}: {kind}", place.as_ref().map_or_else(String::new, |place| format!(", {place}")))]
 pub struct DataError {
     file: String,
