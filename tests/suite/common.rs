@@ -4,7 +4,7 @@ use std::cell::Cell;
 use std::fmt::Debug;
 
 use dalembert::problem::{Run, Speed, Start};
-use dalembert::{History, Number, Numbers, Parameters, Plan, Problem, Question, Solution};
+use dalembert::{History, Number, Numbers, Parameters, Plan, Problem, Question, Rational, Solution};
 use proptest::prelude::*;
 use proptest::test_runner::TestRunner;
 use serde_json::Value;
@@ -46,6 +46,11 @@ pub(crate) fn number(value: &Value) -> Number {
         Value::String(text) => text.parse().unwrap(),
         other => other.to_string().parse().unwrap(),
     }
+}
+
+/// `p/q`, in the fractions of this build.
+pub(crate) fn fraction(p: i64, q: i64) -> Rational {
+    format!("{p}/{q}").parse::<Number>().unwrap().to_rational()
 }
 
 /// The uniform problem of a reference case, followed through `run`.

@@ -1,15 +1,12 @@
 //! The paper's undamped formulas, against each other and against the balance laws, in fractions.
 
+use crate::common::fraction as q;
+use dalembert::Rational;
 use dalembert::motion::Side;
 use dalembert::number::Scalar;
 use dalembert::paper::UndampedContact;
 use dalembert::problem::Parameters;
 use proptest::prelude::*;
-use rug::Rational;
-
-fn q(p: i64, d: i64) -> Rational {
-    Rational::from((p, d))
-}
 
 fn parameters(l: Rational, c: Rational, g: Rational, mu: Rational) -> Parameters<Rational> {
     Parameters { length: l, wave_speed: c, damping: q(0, 1), gravity: g, speed: mu }

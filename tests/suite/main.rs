@@ -40,7 +40,6 @@ mod first_contact_bounce;
 mod first_contact_energy;
 mod first_contact_paper;
 mod first_contact_reference;
-#[cfg(feature = "mp")]
 mod first_contact_undamped;
 #[cfg(all(feature = "cli", feature = "mp", target_os = "linux"))]
 mod guide;
@@ -65,7 +64,6 @@ mod scene_properties;
 mod schema;
 #[cfg(feature = "mp")]
 mod slices_properties;
-#[cfg(feature = "mp")]
 mod snapshots_stress;
 mod start_above;
 mod stripped;

@@ -3,19 +3,14 @@
 //! A snapshot says "unchanged"; that it is right is said by the assertions: those of [`snapshot`] for every case, and
 //! those of the case itself, from a closed form or worked out by hand.
 
-use crate::common::uniform;
+use crate::common::{fraction as q, uniform};
 use dalembert::lattice::Undamped;
 use dalembert::paper;
 use dalembert::problem::{Parameters, Run, Top};
 use dalembert::scene::builtin;
-use dalembert::{Ending, Error, Motion, Problem, Scene, Side, StressHistory};
-use rug::Rational;
+use dalembert::{Ending, Error, Motion, Problem, Rational, Scalar, Scene, Side, StressHistory};
 
 type Exact = Undamped<Rational>;
-
-fn q(p: i64, d: i64) -> Rational {
-    Rational::from((p, d))
-}
 
 fn scene(text: &str) -> Problem {
     Scene::parse(text).unwrap().problem
@@ -33,12 +28,15 @@ fn snapshot(name: &str, problem: &Problem) -> Exact {
     let pieces = history.stress_pieces();
 
     // The ground pushes and never pulls (1.4); the pieces leave no gap.
-    assert!(pieces.iter().all(|piece| piece.left <= 0 && piece.right <= 0 && piece.from < piece.to), "{name}");
+    assert!(
+        pieces.iter().all(|piece| piece.left <= q(0, 1) && piece.right <= q(0, 1) && piece.from < piece.to),
+        "{name}"
+    );
     assert!(pieces.windows(2).all(|pair| pair[0].to == pair[1].from), "{name}");
-    assert_eq!((&pieces[0].from, &pieces[pieces.len() - 1].to), (&Rational::new(), &history.end()), "{name}");
+    assert_eq!((&pieces[0].from, &pieces[pieces.len() - 1].to), (&Rational::default(), &history.end()), "{name}");
 
     // Energy is the same fraction at every event.
-    let energy = history.energy(&Rational::new()).unwrap().total;
+    let energy = history.energy(&Rational::default()).unwrap().total;
     for event in history.events() {
         assert_eq!(history.energy(&event.time).unwrap().total, energy, "{name} at {}", event.time);
     }
@@ -46,8 +44,9 @@ fn snapshot(name: &str, problem: &Problem) -> Exact {
     // Contacts: the impulse is the area under the stress; with a free top it is momentum gained and weight carried.
     for (contact, (from, to)) in history.contacts().iter().zip(contacts(&history)) {
         let within = pieces.iter().filter(|piece| piece.from >= from && piece.to <= to);
-        let area: Rational =
-            within.map(|p| Rational::from(&p.left + &p.right) / 2 * Rational::from(&p.to - &p.from)).sum();
+        let area = within
+            .map(|p| Rational::from(&p.left + &p.right) / q(2, 1) * Rational::from(&p.to - &p.from))
+            .fold(q(0, 1), |sum, part| sum + part);
         let stiffness = Rational::from(&rod.wave_speed * &rod.wave_speed);
         assert_eq!(contact.impulse, -stiffness * area, "{name}: impulse of the contact from {from}");
         if problem.rod.top == Top::Free {
@@ -56,7 +55,7 @@ fn snapshot(name: &str, problem: &Problem) -> Exact {
             assert_eq!(contact.impulse, (gained + weight) * &rod.length, "{name}: momentum balance from {from}");
         }
         // Complementarity (1.6): while the ground pushes, the end stands still on it.
-        let middle = Rational::from(&from + &to) / 2;
+        let middle = Rational::from(&from + &to) / q(2, 1);
         assert_eq!(history.ground_end(&middle, Side::Right).unwrap(), (q(0, 1), q(0, 1)), "{name}");
     }
 
@@ -133,7 +132,7 @@ fn mu_1_2_stays_for_seven_halves() {
 #[test]
 fn mu_1_stays_for_three() {
     let history = first_contact("mu_1", ["1", "1", "1", "1"]);
-    assert_eq!(contacts(&history)[0].1, 3);
+    assert_eq!(contacts(&history)[0].1, q(3, 1));
     // q = 3 − t after t = 4, where v(0,4) = 1/2: the flight ends where 1 − (t − 3)²/2 = 0.
     let Ending::ExactnessEnds { time, .. } = history.ending() else { panic!("{:?}", history.ending()) };
     assert_eq!(time, "3 + √2");
@@ -209,13 +208,13 @@ fn getfem_dynamic_contact() {
     for (n, d) in [(1, 4), (2, 1), (9, 4), (3, 1), (5, 1), (6, 1)] {
         let time = q(n, d);
         // u(0,t) = (1−t)/2 on [0,1], 0 on [1,2], (t−2)/2 on [2,3].
-        let age = time.clone() - (&time / q(3, 1)).floor() * 3;
-        let expected = if age <= 1 {
-            (1 - age) / 2
-        } else if age <= 2 {
+        let age = time.clone() - q((time.clone() / q(3, 1)).floor_int().unwrap() * 3, 1);
+        let expected = if age <= q(1, 1) {
+            (q(1, 1) - age) / q(2, 1)
+        } else if age <= q(2, 1) {
             q(0, 1)
         } else {
-            (age - 2) / 2
+            (age - q(2, 1)) / q(2, 1)
         };
         assert_eq!(history.ground_end(&time, Side::Right).unwrap().0, expected, "{time}");
     }
@@ -230,7 +229,7 @@ fn fixed_top_with_gravity() {
     let history = snapshot("fixed_top_gravity", &problem);
     // −(μ + g t)/c until the top, which stopped at t = 0, pulls the end up: at L/c, not at 2L/c.
     assert_eq!(contacts(&history), [(q(0, 1), q(1, 1))]);
-    assert_eq!(history.contacts()[0].peak_strain, -2);
+    assert_eq!(history.contacts()[0].peak_strain, q(-2, 1));
     assert_eq!(history.contacts()[0].impulse, q(3, 2));
     // The top is held where it was.
     assert_eq!(history.top_end(&q(3, 2), Side::Right).unwrap(), (q(0, 1), q(0, 1)));
@@ -247,7 +246,7 @@ fn fixed_top_above_the_ground_with_gravity() {
     let impact = &history.events()[0];
     assert_eq!((&impact.time, &impact.end_velocity), (&q(2, 3), &q(-1, 1)));
     // Contact begins with −μ/c for the speed of arrival.
-    assert_eq!(history.strain(&q(2, 3), Side::Right).unwrap(), -1);
+    assert_eq!(history.strain(&q(2, 3), Side::Right).unwrap(), q(-1, 1));
 }
 
 #[test]
@@ -261,7 +260,7 @@ fn lower_half_moving() {
     assert_eq!(contacts(&history), [(q(0, 1), q(2, 1))]);
     let stress = [(1, 4, -1), (1, 1, 0), (7, 4, -1)];
     for (n, d, expected) in stress {
-        assert_eq!(history.strain(&q(n, d), Side::Right).unwrap(), expected);
+        assert_eq!(history.strain(&q(n, d), Side::Right).unwrap(), q(expected, 1));
     }
     // −1/2 becomes +1/2; an impulse of one.
     assert_eq!(history.centre(&q(2, 1)).unwrap().1, q(1, 2));
@@ -303,6 +302,6 @@ fn dropped_from_above() {
     for k in 0..96 {
         let time = q(k, 4) + q(1, 8);
         let stress = later.strain(&time, Side::Right).unwrap();
-        assert_eq!(history.strain(&(time.clone() + 2), Side::Right).unwrap(), stress, "{time}");
+        assert_eq!(history.strain(&(time.clone() + q(2, 1)), Side::Right).unwrap(), stress, "{time}");
     }
 }
