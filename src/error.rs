@@ -61,6 +61,12 @@ pub enum Error {
         /// The length of the rod.
         length: String,
     },
+    /// A quantity that has no value at a time.
+    #[error("found {quantity} asked at times, expected a quantity over time, such as u_end")]
+    NotOverTime {
+        /// Its name.
+        quantity: &'static str,
+    },
     /// The history has more pieces than the limit allows.
     #[error(
         "the history passed {limit} pieces at t = {time:?}; expected fewer: ask for a shorter time or fewer impacts"

@@ -90,11 +90,13 @@ pub use paper::UndampedContact;
 pub use problem::{
     Dimensionless, Material, Parameters, Problem, ProblemError, ProblemErrorKind, Profile, Rod, Run, Speed, Start, Top,
 };
-pub use quantity::{Column, EnergyShares, Flight, Measure, Restitution, Slice, Table, Undefined, UnitSystem, Units};
+pub use quantity::{
+    EnergyShares, Flight, Measure, Needs, Quantity, Restitution, Slice, Table, Undefined, UnitSystem, Units,
+};
 pub use reason::{Doubt, NoBounceReason, Reason, StillState, Warning};
 #[cfg(feature = "mp")]
 pub use rug;
-pub use scene::{Effect, EffectUse, Scene, SceneError, SceneErrorKind, Target, TargetQuantity};
+pub use scene::{Effect, EffectUse, Scene, SceneError, SceneErrorKind, Target};
 pub use solve::{
     CERTIFIED_DIGITS, DEFAULT_ACCURACY, Engine, ExactnessEnd, History, Numbers, Observer, Plan, Question, Reach, Rung,
     Solution, Want,

@@ -5,7 +5,7 @@ use std::sync::atomic::AtomicBool;
 
 use dalembert::number::show;
 use dalembert::quantity::slices;
-use dalembert::{Answer, Column, Error, Motion, Number, Scalar, Side, Slice, Solution, Table};
+use dalembert::{Answer, Error, Motion, Needs, Number, Quantity, Scalar, Side, Slice, Solution, Table};
 use numpy::{PyArray1, PyReadonlyArray1};
 use pyo3::IntoPyObjectExt;
 use pyo3::prelude::*;
@@ -183,8 +183,8 @@ impl History {
         side: Option<&Bound<'_, PyAny>>,
     ) -> PyResult<Vec<Found>> {
         let column = |name: &String| {
-            let known = || Column::ALL.map(Column::name).join(", ");
-            Column::named(name).ok_or_else(|| refuse(format!("found column {name}, expected one of {}", known())))
+            let known = || Needs::Time.quantities().map(Quantity::name).collect::<Vec<_>>().join(", ");
+            Needs::Time.named(name).ok_or_else(|| refuse(format!("found column {name}, expected one of {}", known())))
         };
         let columns = names.iter().map(column).collect::<PyResult<Vec<_>>>()?;
         let (times, side) = (places("time", times)?, side.map(side_of).transpose()?);

@@ -13,7 +13,7 @@ use super::source;
 use crate::motion::Ending;
 use crate::number::{Number, Scalar};
 use crate::output::{Along, Asked, Gathered, Head, Picture, Size, plain, sheet};
-use crate::quantity::{Column, Units};
+use crate::quantity::{Needs, Quantity, Units};
 use crate::scene::Scene;
 use crate::solve::{History, Numbers, Question, Target};
 
@@ -62,8 +62,8 @@ pub(super) struct Plot {
 const ACCURACY: f64 = 1e-6;
 
 fn known() -> String {
-    let columns = Column::ALL.into_iter().map(Column::name);
-    let columns = columns.filter(|name| matches!(Picture::named(name), Some(Picture::Column(_))));
+    let columns = Needs::Time.quantities().map(Quantity::name);
+    let columns = columns.filter(|name| matches!(Picture::named(name), Some(Picture::Quantity(_))));
     Picture::NAMES.iter().map(|known| known.0).chain(columns).collect::<Vec<_>>().join(", ")
 }
 

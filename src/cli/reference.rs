@@ -15,7 +15,7 @@ use crate::error::Error;
 use crate::motion::{Motion, Side};
 use crate::number::{List, Number, Scalar};
 use crate::output::{Described, Golden, Head, Language, Preamble, Rows, code};
-use crate::quantity::{Column, Slice, Units};
+use crate::quantity::{Needs, Quantity, SLICE, Slice, Units};
 use crate::scene::Scene;
 use crate::solve::{History, Question, Target};
 
@@ -47,7 +47,7 @@ pub(super) struct Reference {
     to: Option<Number>,
     /// The columns, in this order; by default all
     #[arg(long, value_name = "A,B,C", value_delimiter = ',', value_parser = column)]
-    columns: Option<Vec<Column>>,
+    columns: Option<Vec<Quantity>>,
     /// The field along the rod instead of the columns, on a grid: points in the same form as --times
     #[arg(long, value_name = "LIST", value_parser = List::equally_spaced, allow_hyphen_values = true)]
     #[arg(conflicts_with = "columns")]
@@ -78,11 +78,11 @@ pub(super) struct Reference {
 const FORMATS: &[Format] = &[Format::Csv, Format::Json, Format::Npz];
 
 fn known() -> String {
-    Column::ALL.map(Column::name).join(", ")
+    Needs::Time.quantities().map(Quantity::name).collect::<Vec<_>>().join(", ")
 }
 
-fn column(name: &str) -> Result<Column, String> {
-    Column::named(name.trim()).ok_or_else(|| format!("found no column of this name, expected one of {}", known()))
+fn column(name: &str) -> Result<Quantity, String> {
+    Needs::Time.named(name.trim()).ok_or_else(|| format!("found no column of this name, expected one of {}", known()))
 }
 
 impl Reference {
@@ -104,7 +104,7 @@ impl Reference {
         let times = self.times()?;
         let columns = match &self.points {
             Some(_) => Vec::new(),
-            None => self.columns.clone().unwrap_or_else(|| Column::ALL.to_vec()),
+            None => self.columns.clone().unwrap_or_else(|| Needs::Time.quantities().collect()),
         };
         if let Some(twice) = (1..columns.len()).find(|k| columns[..*k].contains(&columns[*k])) {
             return Err(failure!("found the column {} twice, expected each once", columns[twice].name()));
@@ -112,7 +112,7 @@ impl Reference {
         let question = match times.ends()? {
             None => Question::run(numbers),
             // What has happened before the first time is part of these.
-            Some((_, last)) if columns.iter().any(|c| matches!(c, Column::Contact | Column::Impulse)) => {
+            Some((_, last)) if columns.iter().any(|c| matches!(c, Quantity::Contact | Quantity::Impulse)) => {
                 Question::between(0.into(), last, numbers)
             }
             Some((first, last)) => Question::between(first, last, numbers),
@@ -136,7 +136,7 @@ struct Series<'a> {
     scene: &'a Scene,
     golden: Golden,
     times: Times,
-    columns: Vec<Column>,
+    columns: Vec<Quantity>,
 }
 
 /// The start, the events and the end, each once.
@@ -172,9 +172,10 @@ impl Visit for Series<'_> {
     fn visit<S: Target>(&self, history: &History<S>, head: Head, progress: source::Progress) -> Result<(), Failure> {
         let units = Units::of(&self.scene.problem, self.scene.units);
         let described = match &self.asked.points {
-            Some(_) => Described::slice(&units),
-            None => self.columns.iter().map(|column| Described::column(*column, &units)).collect(),
+            Some(_) => &SLICE[..],
+            None => &self.columns,
         };
+        let described = described.iter().map(|column| Described::of(*column, &units)).collect();
         let keep = || failure::cannot("keep the rows");
         let mut rows = Rows::new(self.golden, described, head.digits).map_err(keep())?;
         let at_once = CHUNK / self.asked.points.as_ref().map_or(1, List::len).min(CHUNK);

@@ -3,14 +3,14 @@
 use super::audit::{Audit, Books};
 use super::conventions::Conventions;
 use super::hints::{Finding, Hint, Measures, Pair, gathered, of_contacts, of_impulses};
-use super::map::What;
+use super::map::Location;
 use super::norms::{Grid, Norms, norms};
 use super::ours::Ours;
 use super::samples::Samples;
 use super::touch::{Touch, matched, touches};
 use crate::error::Error;
 use crate::problem::{Problem, Top};
-use crate::quantity::{Column, Place};
+use crate::quantity::{Quantity, Rays};
 use crate::solve::History;
 
 /// Data beside a history.
@@ -33,7 +33,7 @@ pub(crate) struct Agreement {
 /// One quantity: values at the samples of the grid, and how far apart they are.
 #[derive(Debug)]
 pub(crate) struct Compared {
-    pub(crate) what: What,
+    pub(crate) what: Quantity,
     pub(crate) ours: Vec<f64>,
     pub(crate) theirs: Vec<f64>,
     pub(crate) norms: Norms,
@@ -76,24 +76,25 @@ impl Agreement {
         settings.conventions.apply(&ours, &mut quantities, grid.points.as_deref())?;
         let narrow = 2.0 * step;
         let window = settings.window.map_or_else(|| narrow.max(WINDOW * trip), |trips| trips * trip);
-        let whats: Vec<What> = quantities.iter().map(|(what, _)| *what).collect();
+        let whats: Vec<Quantity> = quantities.iter().map(|(what, _)| *what).collect();
         let values = ours.values(&whats, &grid)?;
         let events: Vec<f64> = history.events().iter().map(|event| event.time).collect();
         let measures = Measures { grid: &grid, events: &events, step: step / trip, round_trip: trip };
         let (mut compared, mut hints) = (Vec::new(), Vec::new());
-        let mut passing = (Place::Ground, ours.passing(Place::Ground, &grid));
+        let mut passing = (Location::Ground, ours.passing(Location::Ground, &grid));
         for ((what, theirs), mut values) in quantities.into_iter().zip(values) {
-            if what.place() != passing.0 {
-                passing = (what.place(), ours.passing(what.place(), &grid));
+            let location = Location::of(what);
+            if location != passing.0 {
+                passing = (location, ours.passing(location, &grid));
             }
             let on_jumps = ours.nearer(what, &grid, (&passing.1, &rounding, &sides), &theirs, &mut values)?;
             let away = |k: usize, window: f64| (passing.1[k] - grid.times[k]).abs() > window;
             let scale = ours.scale(what);
-            let norms = norms(&grid, &values, &theirs, scale, on_jumps, |k| !what.jumps() || away(k, window));
-            if grid.points.is_none() && what.is_hinted() {
+            let norms =
+                norms(&grid, &values, &theirs, scale, on_jumps, |k| what.rays() != Rays::Jump || away(k, window));
+            if grid.points.is_none() && what.measure().is_some() {
                 let factors = ours.factors(what);
-                let pair =
-                    Pair { ours: &values, theirs: &theirs, scale, rays: what.quantity().rays(), factors: &factors };
+                let pair = Pair { ours: &values, theirs: &theirs, scale, rays: what.rays(), factors: &factors };
                 // Kinks of a displacement are where its velocity jumps.
                 let finding = measures.of_pair(&pair, |k| away(k, window.max(narrow)));
                 hints.extend(finding.map(|finding| Hint { quantity: what.name().into(), finding }));
@@ -106,16 +107,16 @@ impl Agreement {
             .fold((0, 0), |(alike, all), way| (alike + usize::from((step / 2.0..=2.0 * step).contains(&way)), all + 1));
         let even = 10 * alike >= 9 * all;
         for (of, rate) in [
-            (Column::EndDisplacement, Column::EndVelocity),
-            (Column::TopDisplacement, Column::TopVelocity),
-            (Column::Centre, Column::CentreVelocity),
+            (Quantity::EndDisplacement, Quantity::EndVelocity),
+            (Quantity::TopDisplacement, Quantity::TopVelocity),
+            (Quantity::Centre, Quantity::CentreVelocity),
         ] {
             let theirs = |column| {
-                let found = compared.iter().find(|compared: &&Compared| compared.what == What::Column(column))?;
+                let found = compared.iter().find(|compared: &&Compared| compared.what == column)?;
                 Some(found.theirs.as_slice())
             };
             let Some((u, velocity)) = theirs(of).zip(theirs(rate)).filter(|_| even) else { continue };
-            let passing = ours.passing(of.place(), &grid);
+            let passing = ours.passing(Location::of(of), &grid);
             let away = |k: usize| (passing[k] - grid.times[k]).abs() > window.max(narrow);
             let finding = measures.of_rate(of.name(), [u, velocity], away);
             hints.extend(finding.map(|finding| Hint { quantity: rate.name().into(), finding }));
@@ -136,8 +137,8 @@ impl Agreement {
         Ok(agreement)
     }
 
-    fn theirs(&self, column: Column) -> Option<&Compared> {
-        self.quantities.iter().find(|compared| compared.what == What::Column(column))
+    fn theirs(&self, column: Quantity) -> Option<&Compared> {
+        self.quantities.iter().find(|compared| compared.what == column)
     }
 
     /// Contacts, audit, and the hints of both.
@@ -146,18 +147,19 @@ impl Agreement {
         let (Some(first), Some(last)) = (times.first().copied(), times.last().copied()) else { return };
         // Whatever shows the force: it, or stress or strain with the factor that makes them one. Where its sign is the
         // other one, which is a hint, contacts are read from the force that is meant.
-        let shown = [Column::Force, Column::Stress, Column::Strain].into_iter().find_map(|column| self.theirs(column));
+        let shown =
+            [Quantity::Force, Quantity::Stress, Quantity::Strain].into_iter().find_map(|column| self.theirs(column));
         let force: Option<Vec<f64>> = shown.map(|shown| {
             let sign = |hint: &Hint| hint.quantity == shown.what.name() && hint.finding == Finding::Sign;
             let factor = ours.force_per(shown.what) * if self.hints.iter().any(sign) { -1.0 } else { 1.0 };
             shown.theirs.iter().map(|value| value * factor).collect()
         });
         let force = force.as_deref();
-        let end = self.theirs(Column::EndDisplacement).map(|compared| compared.theirs.as_slice());
-        let on_ground = self.theirs(Column::Contact).map(|compared| compared.theirs.as_slice());
+        let end = self.theirs(Quantity::EndDisplacement).map(|compared| compared.theirs.as_slice());
+        let on_ground = self.theirs(Quantity::Contact).map(|compared| compared.theirs.as_slice());
         let exact = ours.touches();
         let most = exact.iter().filter_map(|touch| touch.peak).fold(0.0, f64::max);
-        let height = self.theirs(Column::EndDisplacement);
+        let height = self.theirs(Quantity::EndDisplacement);
         let height = height.map_or(0.0, |end| end.ours.iter().fold(0.0f64, |most, v| most.max(v.abs())));
         let touching = |k: usize| match (on_ground, force, end) {
             (Some(flag), ..) => flag[k] > 0.5,
@@ -182,13 +184,13 @@ impl Agreement {
             let near = |hint: &Hint| hint.quantity == what.name() && hint.finding.is_near(&finding);
             (!self.hints.iter().any(near)).then(|| Hint { quantity: what.name().into(), finding })
         });
-        let energy = self.theirs(Column::Energy);
+        let energy = self.theirs(Quantity::Energy);
         let books = Books {
             times,
             displacement: end,
             force,
             energy: energy.map(|energy| [energy.ours.as_slice(), energy.theirs.as_slice()]),
-            centre_velocity: self.theirs(Column::CentreVelocity).map(|compared| compared.theirs.as_slice()),
+            centre_velocity: self.theirs(Quantity::CentreVelocity).map(|compared| compared.theirs.as_slice()),
             momentum: (problem.rod.top == Top::Free).then(|| ours.momentum()),
         };
         self.audit = Audit {

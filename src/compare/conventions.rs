@@ -1,9 +1,8 @@
 //! Other people's signs, origins and factors, brought to ours.
 
-use super::map::What;
 use super::ours::Ours;
 use crate::error::Error;
-use crate::quantity::Measure;
+use crate::quantity::{Measure, Quantity, Sign};
 
 /// The sign of forces, stresses and strains where the rod is compressed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -51,16 +50,16 @@ pub(crate) struct Conventions {
 
 impl Conventions {
     /// The factor that brings a quantity to our convention.
-    fn factor(&self, what: What) -> f64 {
+    fn factor(&self, quantity: Quantity) -> f64 {
         let flipped =
             |ours: Compression| if self.compression.is_some_and(|theirs| theirs != ours) { -1.0 } else { 1.0 };
         let way = if self.axis == Axis::Down { -1.0 } else { 1.0 };
-        match what.quantity().measure() {
-            Some(Measure::Length | Measure::Velocity) => way,
-            Some(Measure::Strain | Measure::Stress) => flipped(Compression::Negative),
-            Some(Measure::Force | Measure::Impulse) => flipped(Compression::Positive),
-            Some(Measure::Energy) => self.energy_scale,
-            Some(Measure::Time) | None => 1.0,
+        match quantity.sign() {
+            Sign::Upwards => way,
+            Sign::Tension => flipped(Compression::Negative),
+            Sign::Compression => flipped(Compression::Positive),
+            Sign::None if quantity.measure() == Some(Measure::Energy) => self.energy_scale,
+            Sign::None => 1.0,
         }
     }
 
@@ -70,7 +69,7 @@ impl Conventions {
     pub(super) fn apply(
         &self,
         ours: &Ours<'_>,
-        quantities: &mut [(What, Vec<f64>)],
+        quantities: &mut [(Quantity, Vec<f64>)],
         points: Option<&[f64]>,
     ) -> Result<(), Error> {
         for (what, values) in quantities {

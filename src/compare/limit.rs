@@ -3,7 +3,7 @@
 use serde::Serialize;
 
 use super::agree::Agreement;
-use super::map::What;
+use super::map::compared;
 use super::norms::{Norms, order};
 
 /// A bound of a norm: `u.l2=0.1`.
@@ -62,7 +62,7 @@ impl Limit {
     ///
     /// **Errors**: a quantity that the data do not have.
     pub(crate) fn above(&self, agreement: &Agreement) -> Result<Option<f64>, String> {
-        let what = What::named(&self.quantity, agreement.grid.points.is_some());
+        let what = compared(&self.quantity, agreement.grid.points.is_some());
         let found = agreement.quantities.iter().find(|compared| Some(compared.what) == what);
         let compared = found.ok_or_else(|| {
             let names: Vec<&str> = agreement.quantities.iter().map(|compared| compared.what.name()).collect();

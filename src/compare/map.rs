@@ -1,90 +1,37 @@
 //! Which column of a file is which quantity.
 
-use crate::quantity::{Column, Measure, Place, Rays, Units};
+use crate::quantity::{Measure, Needs, Quantity, Units};
 
-/// A quantity that can be compared.
+/// Where along the rod a quantity is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum What {
-    /// A function of time.
-    Column(Column),
-    /// A function of point and time, by the column that it is at the ground.
-    Field(Column),
+pub(crate) enum Location {
+    /// At the ground, or nowhere: what jumps there jumps in it.
+    Ground,
+    /// At the ground, as a switch: contact begins and ends without a jump of the stress too.
+    Switch,
+    /// At the upper end.
+    Top,
+    /// At points along the rod.
+    Point,
 }
 
-/// What can be compared at points along the rod.
-const FIELD: [Column; 4] = [Column::EndDisplacement, Column::EndVelocity, Column::Strain, Column::Stress];
-
-/// What other people's columns are often called, beside our own names.
-const ALIASES: &[(&str, Column)] = &[
-    ("time", Column::Time),
-    ("u", Column::EndDisplacement),
-    ("v", Column::EndVelocity),
-    ("f", Column::Force),
-    ("contact_force", Column::Force),
-    ("reaction", Column::Force),
-    ("lambda", Column::Force),
-    ("sigma", Column::Stress),
-    ("eps", Column::Strain),
-    ("h'", Column::CentreVelocity),
-    ("h_dot", Column::CentreVelocity),
-    ("E", Column::Energy),
-    ("energy", Column::Energy),
-    ("total", Column::Energy),
-];
-
-impl What {
-    /// The quantity, whether at the ground or along the rod.
-    pub(crate) fn quantity(self) -> Column {
-        match self {
-            What::Column(column) | What::Field(column) => column,
+impl Location {
+    /// Where `quantity` is.
+    pub(crate) fn of(quantity: Quantity) -> Self {
+        match quantity {
+            Quantity::TopDisplacement | Quantity::TopVelocity => Location::Top,
+            Quantity::Contact => Location::Switch,
+            along if along.needs() == Needs::PointAndTime => Location::Point,
+            _ => Location::Ground,
         }
     }
+}
 
-    /// The name in tables, JSON and `--fail-above`; along the rod `u`, `v`, `strain` and `stress`.
-    pub(crate) fn name(self) -> &'static str {
-        match self {
-            What::Column(column) => column.name(),
-            What::Field(column) => column.name().trim_end_matches("_end"),
-        }
-    }
-
-    /// The quantity of this name or alias; with points along the rod `u`, `v`, `strain` and `stress` are those there.
-    pub(crate) fn named(name: &str, field: bool) -> Option<What> {
-        let column = |name: &str| {
-            Column::named(name).or_else(|| ALIASES.iter().find(|alias| alias.0 == name).map(|alias| alias.1))
-        };
-        match column(name).or_else(|| column(&name.to_lowercase()))? {
-            Column::Side | Column::Time => None,
-            column if field => FIELD.contains(&column).then_some(What::Field(column)),
-            column => Some(What::Column(column)),
-        }
-    }
-
-    /// Where along the rod it is.
-    pub(crate) fn place(self) -> Place {
-        match self {
-            What::Column(column) => column.place(),
-            What::Field(_) => Place::Point,
-        }
-    }
-
-    /// The column, for a function of time.
-    pub(crate) fn column(self) -> Option<Column> {
-        match self {
-            What::Column(column) => Some(column),
-            What::Field(_) => None,
-        }
-    }
-
-    /// Whether it has two values where a ray passes.
-    pub(crate) fn jumps(self) -> bool {
-        self.quantity().rays() == Rays::Jump
-    }
-
-    /// Whether a scale, a sign, an origin and a clock make sense of it.
-    pub(crate) fn is_hinted(self) -> bool {
-        self.quantity().measure().is_some()
-    }
+/// What of `field`, or over time, is called so and can be compared.
+pub(crate) fn compared(name: &str, field: bool) -> Option<Quantity> {
+    let needs = if field { Needs::PointAndTime } else { Needs::Time };
+    let found = needs.called(name).or_else(|| needs.called(&name.to_lowercase()));
+    found.filter(|quantity| !matches!(quantity, Quantity::Time | Quantity::Side | Quantity::Point))
 }
 
 /// Which places of a file hold what.
@@ -97,7 +44,7 @@ pub(crate) struct Map {
     /// The column of sides: which limit a row holds at a jump.
     pub(crate) side: Option<usize>,
     /// The quantities.
-    pub(crate) quantities: Vec<(What, usize)>,
+    pub(crate) quantities: Vec<(Quantity, usize)>,
 }
 
 /// Why columns cannot be mapped.
@@ -129,8 +76,8 @@ fn known(field: bool) -> String {
     if field {
         return "u, v, strain, stress at the points x".into();
     }
-    let names = Column::ALL.into_iter().filter(|column| !matches!(column, Column::Time | Column::Side));
-    format!("{} (u and v for short)", names.map(Column::name).collect::<Vec<_>>().join(", "))
+    let names = Needs::Time.quantities().map(Quantity::name).filter(|name| compared(name, false).is_some());
+    format!("{} (u and v for short)", names.collect::<Vec<_>>().join(", "))
 }
 
 /// Whether a name is that of the times, of the points, or of the sides.
@@ -143,7 +90,7 @@ fn is_point(name: &str) -> bool {
 }
 
 fn is_side(name: &str) -> bool {
-    name.to_lowercase() == Column::Side.name()
+    name.to_lowercase() == Quantity::Side.name()
 }
 
 /// The name and the unit of `force [N]`, `t (s)`; `u[0]` is a name.
@@ -177,11 +124,11 @@ impl Map {
         let mut map = Map { time, point, side, quantities: Vec::new() };
         let is_place = |name: &str| is_time(name) || is_point(name) || is_side(name);
         for (name, place) in entries.iter().filter(|(name, _)| !is_place(name)) {
-            match What::named(name, field) {
-                Some(what) if map.quantities.iter().any(|(other, _)| *other == what) => {
+            match compared(name, field) {
+                Some(quantity) if map.quantities.iter().any(|(other, _)| *other == quantity) => {
                     return Err(MapError::Twice { found: name.clone() });
                 }
-                Some(what) => map.quantities.push((what, *place)),
+                Some(quantity) => map.quantities.push((quantity, *place)),
                 // Columns that nobody asked for may be anything.
                 None if text.is_none() => {}
                 None => return Err(MapError::Name { found: name.clone(), field }),
@@ -205,10 +152,8 @@ impl Map {
         let plain = |unit: &str| unit.replace([' ', '·', '*', '.'], "");
         let times = self.time.map(|place| (place, Some(Measure::Time), units.name(Measure::Time)));
         let points = self.point.map(|place| (place, Some(Measure::Length), units.name(Measure::Length)));
-        let quantities = self
-            .quantities
-            .iter()
-            .map(|(what, place)| (*place, what.quantity().measure(), what.quantity().unit(units)));
+        let quantities =
+            self.quantities.iter().map(|(quantity, place)| (*place, quantity.measure(), quantity.unit(units)));
         for (place, measure, expected) in times.into_iter().chain(points).chain(quantities) {
             let Some((header, Some(unit))) = names.get(place).map(|header| (header, name_and_unit(header).1)) else {
                 continue;
@@ -256,16 +201,16 @@ mod tests {
 
     #[test]
     fn names_and_numbers() {
-        let u = What::Column(Column::EndDisplacement);
+        let u = Quantity::EndDisplacement;
         let map = Map::of(Some("t=0, u=2,force=lam"), &names("time lam disp"), 3, false).unwrap();
-        assert_eq!((map.time, map.quantities.clone()), (Some(0), vec![(u, 2), (What::Column(Column::Force), 1)]));
+        assert_eq!((map.time, map.quantities.clone()), (Some(0), vec![(u, 2), (Quantity::Force, 1)]));
         assert_eq!(map.places(), [0, 2, 1]);
         // The names of a header, and what is none of ours left alone.
         let map = Map::of(None, &names("step t u"), 3, false).unwrap();
         assert_eq!((map.time, map.quantities), (Some(1), vec![(u, 2)]));
         // With points, u is that there.
         let map = Map::of(None, &names("t x u"), 3, false).unwrap();
-        assert_eq!((map.point, map.quantities), (Some(1), vec![(What::Field(Column::EndDisplacement), 2)]));
+        assert_eq!((map.point, map.quantities), (Some(1), vec![(Quantity::PointDisplacement, 2)]));
     }
 
     #[test]

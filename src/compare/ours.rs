@@ -1,7 +1,7 @@
 //! The exact side: values, jumps and contacts of a history.
 
 use super::between::filled;
-use super::map::What;
+use super::map::Location;
 use super::norms::Grid;
 use super::samples::Rounding;
 use super::touch::{Moments, Touch};
@@ -9,7 +9,7 @@ use crate::error::Error;
 use crate::motion::{Field, Side, StressPiece};
 use crate::number::Number;
 use crate::problem::{Material, Parameters, Problem, Start, Top};
-use crate::quantity::{Column, Measure, Place};
+use crate::quantity::{Measure, Quantity, Rays};
 use crate::solve::History;
 use crate::special::gauss_legendre;
 
@@ -66,7 +66,7 @@ impl<'a> Ours<'a> {
         brought.extend(arrivals.flat_map(|arrival| [arrival, trip - arrival]));
         found.extend(&brought);
         let candidates = repeated(found, trip, end);
-        let seen = [Column::EndVelocity, Column::Strain];
+        let seen = [Quantity::EndVelocity, Quantity::Strain];
         let (before, after) = (
             history.columns(&seen, &candidates, Some(Side::Left))?,
             history.columns(&seen, &candidates, Some(Side::Right))?,
@@ -93,22 +93,21 @@ impl<'a> Ours<'a> {
     }
 
     /// What makes a quantity the force of the ground.
-    pub(super) fn force_per(&self, what: What) -> f64 {
+    pub(super) fn force_per(&self, what: Quantity) -> f64 {
         let [modulus, _, area] = self.material;
         match what {
-            What::Column(Column::Strain) => -modulus * area,
-            What::Column(Column::Stress) => -area,
+            Quantity::Strain => -modulus * area,
+            Quantity::Stress => -area,
             _ => 1.0,
         }
     }
 
     /// The values of every quantity on `grid`, from later times where there are two.
-    pub(super) fn values(&self, whats: &[What], grid: &Grid) -> Result<Vec<Vec<f64>>, Error> {
+    pub(super) fn values(&self, whats: &[Quantity], grid: &Grid) -> Result<Vec<Vec<f64>>, Error> {
         let Some(points) = &grid.points else {
-            let columns: Vec<Column> = whats.iter().filter_map(|what| what.column()).collect();
-            let at = |times: &[f64]| self.history.columns(&columns, times, Some(Side::Right));
+            let at = |times: &[f64]| self.history.columns(whats, times, Some(Side::Right));
             let many = grid.times.len() > MANY;
-            return if many { filled(&grid.times, columns.len(), at) } else { at(&grid.times) };
+            return if many { filled(&grid.times, whats.len(), at) } else { at(&grid.times) };
         };
         let mut all = vec![Vec::with_capacity(grid.times.len()); whats.len()];
         for row in grid.rows() {
@@ -121,8 +120,8 @@ impl<'a> Ours<'a> {
         Ok(all)
     }
 
-    fn part(&self, what: What, field: &Field<f64>) -> f64 {
-        match what.quantity().measure() {
+    fn part(&self, what: Quantity, field: &Field<f64>) -> f64 {
+        match what.measure() {
             Some(Measure::Velocity) => field.velocity,
             Some(Measure::Strain) => field.strain,
             Some(Measure::Stress) => self.material[0] * field.strain,
@@ -134,14 +133,14 @@ impl<'a> Ours<'a> {
     /// where that is not known, and counts those samples.
     pub(super) fn nearer(
         &self,
-        what: What,
+        what: Quantity,
         grid: &Grid,
         (passing, rounding, sides): (&[f64], &Rounding, &[Option<Side>]),
         theirs: &[f64],
         ours: &mut [f64],
     ) -> Result<usize, Error> {
         let mut count = 0;
-        let may = if what.jumps() { rounding.most } else { -1.0 };
+        let may = if what.rays() == Rays::Jump { rounding.most } else { -1.0 };
         for (k, (jump, time)) in passing.iter().zip(&grid.times).enumerate() {
             if (jump - time).abs() > may || (jump - time).abs() > rounding.at(*time) {
                 continue;
@@ -171,15 +170,14 @@ impl<'a> Ours<'a> {
         Ok(count)
     }
 
-    fn limit(&self, what: What, grid: &Grid, k: usize, time: f64, side: Side) -> Result<f64, Error> {
-        match (what.column(), &grid.points) {
-            (None, Some(points)) => {
+    fn limit(&self, what: Quantity, grid: &Grid, k: usize, time: f64, side: Side) -> Result<f64, Error> {
+        match &grid.points {
+            Some(points) => {
                 let fields = self.history.field(&points[k..=k], &[time], side)?;
                 Ok(fields.first().map_or(0.0, |field| self.part(what, field)))
             }
-            (column, _) => {
-                let columns: Vec<Column> = column.into_iter().collect();
-                let values = self.history.columns(&columns, &[time], Some(side))?;
+            None => {
+                let values = self.history.columns(&[what], &[time], Some(side))?;
                 Ok(values.first().and_then(|values| values.first()).copied().unwrap_or(0.0))
             }
         }
@@ -187,25 +185,25 @@ impl<'a> Ours<'a> {
 
     /// For each sample the time nearest to it at which a ray passes the point that the quantity is at; infinite where
     /// none ever does.
-    pub(super) fn passing(&self, place: Place, grid: &Grid) -> Vec<f64> {
+    pub(super) fn passing(&self, location: Location, grid: &Grid) -> Vec<f64> {
         let trip = self.rod.round_trip();
         let up_and_down = |travel: f64, time: f64| {
             let ways = [travel, trip - travel].map(|delay| nearest(&self.leaves, time - delay) + delay);
             if (ways[0] - time).abs() < (ways[1] - time).abs() { ways[0] } else { ways[1] }
         };
-        let at = |(k, time): (usize, &f64)| match (place, &grid.points) {
-            (Place::Point, Some(points)) => up_and_down(points[k] / self.rod.wave_speed, *time),
-            (Place::Top, _) => up_and_down(trip / 2.0, *time),
-            (Place::Switch, _) => nearest(&self.switches, *time),
+        let at = |(k, time): (usize, &f64)| match (location, &grid.points) {
+            (Location::Point, Some(points)) => up_and_down(points[k] / self.rod.wave_speed, *time),
+            (Location::Top, _) => up_and_down(trip / 2.0, *time),
+            (Location::Switch, _) => nearest(&self.switches, *time),
             _ => nearest(&self.jumps, *time),
         };
         grid.times.iter().enumerate().map(at).collect()
     }
 
     /// What a displacement or a velocity is compared with; zero for what is not told from zero by it.
-    pub(super) fn scale(&self, what: What) -> f64 {
+    pub(super) fn scale(&self, what: Quantity) -> f64 {
         let scales = self.history.scales();
-        match what.quantity().measure() {
+        match what.measure() {
             Some(Measure::Length) => scales.velocity * scales.time,
             Some(Measure::Velocity) => scales.velocity,
             _ => 0.0,
@@ -213,17 +211,14 @@ impl<'a> Ours<'a> {
     }
 
     /// The displacements at `t = 0`, one for all samples or one each; `None` for what is no displacement.
-    pub(super) fn start(&self, what: What, points: Option<&[f64]>) -> Result<Option<Vec<f64>>, Error> {
-        match (what, points) {
-            _ if what.quantity().measure() != Some(Measure::Length) => Ok(None),
-            (What::Field(_), Some(points)) => {
+    pub(super) fn start(&self, what: Quantity, points: Option<&[f64]>) -> Result<Option<Vec<f64>>, Error> {
+        match points {
+            _ if !what.has_origin() => Ok(None),
+            Some(points) => {
                 let fields = self.history.field(points, &[0.0], Side::Right)?;
                 Ok(Some(fields.into_iter().map(|field| field.displacement).collect()))
             }
-            _ => {
-                let column = what.quantity();
-                Ok(self.history.columns(&[column], &[0.0], Some(Side::Right))?.into_iter().next())
-            }
+            None => Ok(self.history.columns(&[what], &[0.0], Some(Side::Right))?.into_iter().next()),
         }
     }
 
@@ -231,7 +226,7 @@ impl<'a> Ours<'a> {
     ///
     /// **Accuracy**: pieces of degree n are integrated by a rule that is exact for `t²` times them.
     pub(super) fn touches(&self) -> Vec<Touch> {
-        let factor = self.force_per(What::Column(Column::Strain));
+        let factor = self.force_per(Quantity::Strain);
         let mut pieces = self.pieces.iter().peekable();
         let mut touches = Vec::new();
         for contact in self.history.contacts() {
@@ -263,15 +258,15 @@ impl<'a> Ours<'a> {
     }
 
     /// Factors that are often forgotten, with the question to ask.
-    pub(super) fn factors(&self, what: What) -> Vec<(f64, &'static str)> {
+    pub(super) fn factors(&self, what: Quantity) -> Vec<(f64, &'static str)> {
         let [modulus, density, area] = self.material;
         let mut known = match what {
-            What::Column(column) if column.measure() == Some(Measure::Energy) => {
+            energy if energy.measure() == Some(Measure::Energy) => {
                 vec![(2.0, "is ½ missing?"), (0.5, "is ½ there twice?")]
             }
-            What::Column(Column::Force) => vec![(1.0 / area, "is it a stress?")],
-            What::Column(Column::Stress) => vec![(area, "is it a force?"), (1.0 / modulus, "is it a strain?")],
-            What::Column(Column::Strain) => vec![(modulus, "is it a stress?")],
+            Quantity::Force => vec![(1.0 / area, "is it a stress?")],
+            Quantity::Stress => vec![(area, "is it a force?"), (1.0 / modulus, "is it a strain?")],
+            Quantity::Strain => vec![(modulus, "is it a stress?")],
             _ => Vec::new(),
         };
         known.extend([

@@ -10,7 +10,7 @@ use super::norms::{Greatest, Norm};
 use super::touch::Touch;
 use crate::aligned::table;
 use crate::number::Scalar;
-use crate::quantity::{Column, Units};
+use crate::quantity::{Quantity, Rays, Units};
 
 /// What the norms are.
 const WEIGHTS: &str = "sums over the samples by the trapezoidal rule: each weighs half the way to its neighbours";
@@ -100,7 +100,7 @@ fn file_table(compared: &ComparedFile, title: Option<&str>, units: &Units) -> St
 fn norms_table(agreement: &Agreement, units: &Units) -> String {
     let mut rows = Vec::new();
     for Compared { what, norms, .. } in &agreement.quantities {
-        let unit = what.quantity().unit(units);
+        let unit = what.unit(units);
         let plain = |norm: Norm| [size(Some(norm.absolute)), share(norm.relative), String::new()];
         let greatest = |most: Greatest| {
             let point = most.point.map_or_else(String::new, |x| format!(", x = {}", number(x)));
@@ -113,7 +113,7 @@ fn norms_table(agreement: &Agreement, units: &Units) -> String {
             1 => "1 sample on a jump".to_string(),
             count => format!("{count} samples on jumps"),
         };
-        let jumps = what.jumps();
+        let jumps = what.rays() == Rays::Jump;
         let lines = [
             (name, "L1", plain(norms.l1)),
             (on_jumps, "L2", plain(norms.l2)),
@@ -156,11 +156,11 @@ fn contacts_table(contacts: &[(Option<Touch>, Option<Touch>)], units: &Units) ->
             (None, None) => {}
         }
     }
-    let named = |name: &str, column: Column| match column.unit(units) {
+    let named = |name: &str, column: Quantity| match column.unit(units) {
         "" => name.to_string(),
         unit => format!("{name}, {unit}"),
     };
-    let (impulse, peak) = (named("impulse", Column::Impulse), named("peak", Column::Force));
+    let (impulse, peak) = (named("impulse", Quantity::Impulse), named("peak", Quantity::Force));
     table(&["contact", "", "from", "to", &impulse, "centroid", &peak], rows, 2)
 }
 
@@ -173,7 +173,8 @@ fn audit_lines(agreement: &Agreement, units: &Units) -> String {
     };
     let or = |text: Option<String>, needs: &str| text.unwrap_or_else(|| format!("– (needs {needs})"));
     let [length, force, impulse, joule] =
-        [Column::EndDisplacement, Column::Force, Column::Impulse, Column::Energy].map(|column| column.unit(units));
+        [Quantity::EndDisplacement, Quantity::Force, Quantity::Impulse, Quantity::Energy]
+            .map(|column| column.unit(units));
     // A length and a force over a time; without a material all of it is per ρS.
     let action = if units.has_material() && !joule.is_empty() { format!("{joule} s") } else { joule.to_string() };
     let energy = audit.energy_change.as_ref().map(|energy| {
@@ -214,7 +215,7 @@ fn orders_table(orders: &[Order]) -> String {
 fn file_json(compared: &ComparedFile, units: &Units) -> serde_json::Map<String, Value> {
     let ComparedFile { file, agreement } = compared;
     let quantities = agreement.quantities.iter().map(|Compared { what, norms, .. }| {
-        let mut value = json!({"name": what.name(), "unit": what.quantity().unit(units)});
+        let mut value = json!({"name": what.name(), "unit": what.unit(units)});
         if let (Some(object), Value::Object(norms)) = (value.as_object_mut(), json!(norms)) {
             object.extend(norms);
         }

@@ -1,9 +1,10 @@
 //! Samples: the rows of a file at times of ours.
 
 use super::data::{Columns, DataError, DataErrorKind};
-use super::map::{Map, What};
+use super::map::Map;
 use super::norms::Grid;
 use crate::motion::Side;
+use crate::quantity::Quantity;
 
 /// Times that are counted, and not in the file: `start + k step`.
 #[derive(Clone, Copy, Debug)]
@@ -17,7 +18,7 @@ pub(crate) struct Clock {
 pub(crate) struct Samples {
     pub(crate) grid: Grid,
     /// In the conventions of the file.
-    pub(crate) quantities: Vec<(What, Vec<f64>)>,
+    pub(crate) quantities: Vec<(Quantity, Vec<f64>)>,
     /// The median step between times.
     pub(crate) step: f64,
     /// How many rows lie before `t = 0`.

@@ -23,7 +23,7 @@ pub(crate) fn compare_svg(compared: &ComparedFile, title: Option<&str>, units: &
         Panel { title: plain(title), x: Axis::new("t", units.name(Measure::Time), span), y, layers, legend }
     };
     let panels = compared.agreement.quantities.iter().flat_map(|Compared { what, ours, theirs, .. }| {
-        let unit = if what.quantity().unit(units) == "1" { "" } else { what.quantity().unit(units) };
+        let unit = if what.unit(units) == "1" { "" } else { what.unit(units) };
         let (exact, other) = (Stroke::new("#000000", 0.2), Stroke::new("#e69f00", 0.5));
         let apart = theirs.iter().zip(ours).map(|(theirs, ours)| theirs - ours).collect();
         [

@@ -11,7 +11,7 @@ use super::record::Head;
 use super::write_filled;
 use super::writer::Npz;
 use crate::number::{DOUBLE_DIGITS, Scalar, bound_of_log2, number_json, show};
-use crate::quantity::{Column, Measure, Units};
+use crate::quantity::{Quantity, Units};
 use crate::solve::Numbers;
 
 /// What a golden file is written as.
@@ -39,32 +39,19 @@ pub struct Described {
 }
 
 impl Described {
-    /// A column of time series.
-    pub fn column(column: Column, units: &Units) -> Self {
-        Described { name: column.name(), symbol: column.symbol(), meaning: column.meaning(), unit: column.unit(units) }
-    }
-
-    /// The columns of a slice along the rod.
-    pub fn slice(units: &Units) -> Vec<Self> {
-        let one = |name, symbol, meaning, measure| Described { name, symbol, meaning, unit: units.name(measure) };
-        let [time, side] = [Column::Time, Column::Side].map(|column| Described::column(column, units));
-        vec![
-            time,
-            side,
-            one("x", "x", "place along the rod, from the end at the ground", Measure::Length),
-            one("u", "v", "displacement, upwards", Measure::Length),
-            one("v", "v_t", "velocity, upwards", Measure::Velocity),
-            one("strain", "v_x", "strain, positive in tension", Measure::Strain),
-        ]
+    /// The column of `quantity`.
+    pub fn of(quantity: Quantity, units: &Units) -> Self {
+        let (symbol, meaning) = (quantity.symbol(), quantity.meaning());
+        Described { name: quantity.name(), symbol, meaning, unit: quantity.unit(units) }
     }
 
     /// Whether the values are −1, 0 and 1, which stand for the sides of a jump, or 0 and 1 for contact.
     fn is_flag(&self) -> bool {
-        self.is_side() || self.name == Column::Contact.name()
+        self.is_side() || self.name == Quantity::Contact.name()
     }
 
     fn is_side(&self) -> bool {
-        self.name == Column::Side.name()
+        self.name == Quantity::Side.name()
     }
 
     /// `v(0,t): displacement of the end [m]`.

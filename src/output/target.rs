@@ -25,7 +25,7 @@ pub(crate) fn targets_table<S: Scalar>(reached: &[Reached<S>], head: &Head) -> S
             sources.push(&target.source);
             sources.len() - 1
         });
-        let unit = head.units.name(target.quantity.measure());
+        let unit = target.quantity.unit(&head.units);
         vec![
             target.label(),
             unit.to_string(),
@@ -69,7 +69,7 @@ pub(crate) fn targets_csv<S: Scalar>(reached: &[Reached<S>], head: &Head) -> Res
         let target = &reached.target;
         vec![
             target.label(),
-            head.units.name(target.quantity.measure()).into(),
+            target.quantity.unit(&head.units).into(),
             target.time.as_ref().map_or_else(String::new, ToString::to_string),
             target.published.to_string(),
             show(&reached.ours, digits),

@@ -1,19 +1,27 @@
-//! What follows from a history: restitution, the top of a flight, columns over time, slices along the rod, units.
-//! Nothing here looks back at the scene.
+//! What follows from a history: the table of quantities, and how each is asked; slices along the rod, units. Nothing
+//! here looks back at the scene.
+//!
+//! | file | |
+//! |---|---|
+//! | `table` | all that is known of each quantity |
+//! | `unit` | units, and the factors that belong to them |
+//! | `column`, `slice` | quantities over time, and along the rod |
+//! | `listing` | quantities of all contacts, events, flights and pieces |
+//! | `restitution`, `flight` | coefficients of a contact, and how high a flight goes |
 
 mod column;
 mod flight;
+mod listing;
 mod restitution;
 mod slice;
 mod table;
 mod unit;
 
-#[cfg(feature = "compare")]
-pub(crate) use column::Place;
-pub use column::{Column, Rays, columns};
-pub(crate) use column::{natural_scales, of_one_size};
+pub use column::columns;
+pub(crate) use column::of_one_size;
 pub use flight::{Flight, flights};
+pub use listing::{Columns, Table, of_contact, table};
 pub use restitution::{EnergyShares, Restitution, Undefined, energy_shares, restitution};
-pub use slice::{Slice, slices};
-pub use table::{Columns, Table, table};
+pub use slice::{SLICE, Slice, slices};
+pub use table::{Needs, Quantity, Rays, Sign};
 pub use unit::{Measure, UnitSystem, Units};

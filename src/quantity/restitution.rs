@@ -23,12 +23,21 @@ pub struct EnergyShares<S> {
     pub kept: Option<S>,
 }
 
-/// Why a coefficient of restitution is not defined.
+/// Why a quantity of a contact or a flight is not defined.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum Undefined {
     /// The contact has no end.
     #[error("the contact does not end within this history")]
     Unfinished,
+    /// The flight has no end.
+    #[error("the flight does not end within this history")]
+    Lasts,
+    /// The centre of mass does not turn in the flight.
+    #[error("the centre of mass does not turn in the flight")]
+    NoTurn,
+    /// A share of nothing.
+    #[error("no energy to have a share of")]
+    NoEnergy,
     /// The centre of mass stands still where the contact begins.
     #[error("the centre of mass has no momentum where the contact begins")]
     NoMomentum,

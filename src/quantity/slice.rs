@@ -1,6 +1,7 @@
 //! The field along the rod at chosen times: at points, averaged over cells, or projected on linear elements.
 
 use super::column::same;
+use super::table::Quantity;
 use crate::error::Error;
 use crate::motion::moments::Moments;
 use crate::motion::{Motion, Side};
@@ -19,7 +20,17 @@ pub enum Slice {
     P1,
 }
 
-/// `t`, `side`, `x`, `v`, `v_t`, `v_x` for every time of `times` on the grid `points`, column by column, with the sides
+/// The columns of a slice.
+pub const SLICE: [Quantity; 6] = [
+    Quantity::Time,
+    Quantity::Side,
+    Quantity::Point,
+    Quantity::PointDisplacement,
+    Quantity::PointVelocity,
+    Quantity::PointStrain,
+];
+
+/// The columns [`SLICE`] for every time of `times` on the grid `points`, column by column, with the sides
 /// as in [`columns`](super::columns). Averages and projections do not jump.
 ///
 /// **Source**: the integrals over the cells, [`Motion::moments`]; the mass matrix of linear elements.

@@ -1,81 +1,463 @@
-//! What a history lists, as columns of numbers by name.
+//! The table of quantities: all that is known of each. Names, help texts, units, lists and questions follow from it.
 
-use super::flight::flights;
-use super::restitution::{energy_shares, restitution};
 use super::unit::{Measure, Units};
-use crate::error::Error;
-use crate::motion::{Event, Motion};
+use crate::motion::Motion;
 use crate::number::Scalar;
+use Measure::{Energy, Force, Impulse, Length, Strain, Stress, Time, Velocity};
 
-/// What a history lists.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Table {
-    /// Impacts and releases: `time`, `end_velocity`, `centre`, `centre_velocity`.
-    Events,
-    /// Contacts: `from`, `to`, `impulse`, `peak_strain`; with a material `peak_stress` and `peak_force` too.
-    Contacts,
-    /// For each contact `e_P`, `e_E²` and its factors: `momentum`, `energy_squared`, `translational_part`,
-    /// `energy_kept`.
+/// A question to a motion; it may answer several quantities.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub(super) enum Source {
+    /// `t`.
+    Time,
+    /// Which limit a row holds.
+    Side,
+    /// [`Motion::ground_end`].
+    End,
+    /// [`Motion::strain`].
+    Strain,
+    /// [`Motion::top_end`].
+    Top,
+    /// Whether the end is on the ground.
+    Contact,
+    /// [`Motion::centre`].
+    Centre,
+    /// [`Motion::energy`].
+    Energy,
+    /// [`Motion::energy_parts`].
+    Parts,
+    /// What the ground has given since `t = 0`.
+    Impulse,
+    /// `x`, and [`Motion::field`].
+    Field,
+    /// [`Motion::events`].
+    Event,
+    /// [`Motion::contacts`]: beginning, end, length.
+    Span,
+    /// `v_t(0,t)` just before and just after a contact.
+    Ends,
+    /// [`Motion::contacts`]: impulse, peak strain.
+    Push,
+    /// [`restitution`](super::restitution).
     Restitution,
-    /// Flights: `from`, `to`, and `top_time` and `top` where the centre of mass turns.
-    Flights,
-    /// `v_x(0,·)` piece by piece: `from`, `to`, `strain_from`, `strain_to`.
-    Stress,
+    /// [`energy_shares`](super::energy_shares).
+    Shares,
+    /// [`Motion::energy`] at the end of a contact.
+    Left,
+    /// [`flights`](super::flights).
+    Flight,
+    /// [`Motion::stress_pieces`].
+    Piece,
+    /// The first release.
+    Bounce,
+    /// The last event.
+    Last,
+    /// The shortest piece of the stress at the ground.
+    Shortest,
 }
 
-/// Columns by name. What there is not, such as the end of a contact that lasts, is `None`.
-pub type Columns<S> = Vec<(&'static str, Vec<Option<S>>)>;
+/// What a quantity needs to have a value.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Needs {
+    /// A time.
+    Time,
+    /// A point of the rod and a time.
+    PointAndTime,
+    /// An impact or a release.
+    Event,
+    /// A contact.
+    Contact,
+    /// A flight.
+    Flight,
+    /// A piece of the stress at the ground.
+    Piece,
+    /// The first contact alone.
+    FirstContact,
+    /// The whole run.
+    Run,
+}
 
-fn columns<T, S, const N: usize>(
-    list: impl IntoIterator<Item = T>,
-    names: [&'static str; N],
-    row: impl Fn(T) -> Result<[Option<S>; N], Error>,
-) -> Result<Columns<S>, Error> {
-    let mut columns = names.map(|name| (name, Vec::new()));
-    for one in list {
-        columns.iter_mut().zip(row(one)?).for_each(|((_, column), value)| column.push(value));
+/// What a ray leaves in a quantity where it passes.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Rays {
+    /// A jump.
+    Jump,
+    /// A jump of its rate.
+    Kink,
+    /// Neither.
+    Smooth,
+}
+
+/// Which way a quantity counts.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Sign {
+    /// Positive upwards: displacements and velocities.
+    Upwards,
+    /// Positive in tension: strains and stresses.
+    Tension,
+    /// Positive in compression: forces and impulses.
+    Compression,
+    /// One way only: times, energies, ratios.
+    None,
+}
+
+/// All that is known of a quantity.
+struct Facts {
+    name: &'static str,
+    key: &'static str,
+    also: &'static [&'static str],
+    symbol: &'static str,
+    measure: Option<Measure>,
+    /// Where it comes from, and which of the answers there it is.
+    source: (Source, usize),
+    rays: Rays,
+    meaning: &'static str,
+}
+
+/// A name, the key in lists of its own kind where that is another one, and other names that are understood.
+macro_rules! names {
+    (key $name:literal) => {
+        $name
+    };
+    (key $name:literal $key:literal) => {
+        $key
+    };
+    (also) => {
+        &[]
+    };
+    (also $names:tt) => {
+        &$names
+    };
+}
+
+macro_rules! quantities {
+    ($($quantity:ident: $name:literal $(as $key:literal)? $(also $also:tt)?, $symbol:literal, $measure:expr,
+        $source:ident $answer:literal, $rays:ident, $meaning:literal;)+) => {
+        /// A quantity of a motion, by name. The table holds every one that is printed, asked for or compared.
+        ///
+        /// Displacements are measured from the undeformed rod that stands on the ground, upwards. Strains and stresses
+        /// are positive in tension, forces are positive in compression.
+        ///
+        /// **Units**: with a material (`modulus`, `density`, `area`) stresses, forces, impulses and energies are those
+        /// of the rod; without one they are divided by `ρ` (stress, then `c² v_x`) or `ρS` (all others): see
+        /// [`Quantity::unit`].
+        ///
+        /// ```
+        /// use dalembert::{Problem, Quantity, Side};
+        /// let rod = Problem::builder().length(1).wave_speed(1).gravity(1).impact_speed(3).build()?;
+        /// let history = rod.solve()?;
+        /// // In the first contact v_x(0,t) = −(μ + g t)/c: at t = 1 the force is 4, and ∫(3 + s)ds = 7/2 was given.
+        /// let values = history.columns(&[Quantity::Force, Quantity::Impulse], &[1.0], Some(Side::Right))?;
+        /// assert_eq!(values, [[4.0], [3.5]]);
+        /// // At the impact v_t(0,t) jumps from −μ to 0: two rows.
+        /// let values = history.columns(&[Quantity::Side, Quantity::EndVelocity], &[0.0, 1.0], None)?;
+        /// assert_eq!(values, [[-1.0, 1.0, 0.0], [-3.0, 0.0, 0.0]]);
+        /// # Ok::<(), dalembert::Error>(())
+        /// ```
+        #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+        pub enum Quantity {
+            $(#[doc = concat!("`", $name, "`: ", $meaning, ".")] $quantity,)+
+        }
+
+        impl Quantity {
+            /// All quantities, those over time first and in the order of a table.
+            pub const ALL: &'static [Quantity] = &[$(Quantity::$quantity),+];
+
+            const fn facts(self) -> Facts {
+                match self {
+                    $(Quantity::$quantity => Facts {
+                        name: $name,
+                        key: names!(key $name $($key)?),
+                        also: names!(also $($also)?),
+                        symbol: $symbol,
+                        measure: $measure,
+                        source: (Source::$source, $answer),
+                        rays: Rays::$rays,
+                        meaning: $meaning,
+                    },)+
+                }
+            }
+        }
+    };
+}
+
+// Each quantity: its name, the key in lists of its own kind where that is another one, and what else it is called;
+// symbol, measure, where it comes from and which of the answers there it is; what a ray leaves in it; its meaning.
+#[rustfmt::skip]
+quantities! {
+    // Over time.
+    Time: "t" also ["time"], "t", Some(Time), Time 0, Kink, "time";
+    Side: "side", "", None, Side 0, Kink, "which limit at a jump: from earlier times, from later ones, or both the same";
+    EndDisplacement: "u_end" as "v" also ["u"], "v(0,t)", Some(Length), End 0, Kink,
+        "displacement of the end at the ground, upwards: its gap";
+    EndVelocity: "v_end" as "v_t" also ["v"], "v_t(0,t)", Some(Velocity), End 1, Jump,
+        "velocity of the end at the ground, upwards";
+    Strain: "strain" as "v_x" also ["eps"], "v_x(0,t)", Some(Strain), Strain 0, Jump,
+        "strain at the ground, positive in tension";
+    Stress: "stress" also ["sigma"], "E v_x(0,t)", Some(Stress), Strain 0, Jump,
+        "stress at the ground, positive in tension";
+    Force: "force" also ["f", "contact_force", "reaction", "lambda"], "−E S v_x(0,t)", Some(Force), Strain 0, Jump,
+        "contact force, positive in compression";
+    TopDisplacement: "u_top" as "v", "v(L,t)", Some(Length), Top 0, Kink, "displacement of the upper end";
+    TopVelocity: "v_top" as "v_t", "v_t(L,t)", Some(Velocity), Top 1, Jump, "velocity of the upper end";
+    Centre: "h" also ["centre"], "h", Some(Length), Centre 0, Smooth,
+        "centre of mass above its place in the undeformed rod on the ground";
+    CentreVelocity: "h_rate" also ["h'", "h_dot"], "h′", Some(Velocity), Centre 1, Kink,
+        "velocity of the centre of mass";
+    Energy: "E_total" as "total" also ["E", "energy", "total"], "E", Some(Energy), Energy 0, Smooth,
+        "energy: E_h + E_z, or kinetic + strain_energy + gravity";
+    TranslationalEnergy: "E_h" as "translational", "E_h", Some(Energy), Energy 1, Kink,
+        "energy of the centre of mass: ρSL(h′²/2 + g h)";
+    VibrationalEnergy: "E_z" as "vibrational" also ["vibrational"], "E_z", Some(Energy), Energy 2, Kink,
+        "energy of the vibration: ½ρS∫((v_t − h′)² + c²v_x²)dx";
+    KineticEnergy: "kinetic", "½ρS∫v_t²dx", Some(Energy), Parts 0, Kink, "kinetic energy";
+    StrainEnergy: "strain_energy", "½ES∫v_x²dx", Some(Energy), Parts 1, Kink, "strain energy";
+    GravityEnergy: "gravity", "ρSLg h", Some(Energy), Centre 0, Smooth, "energy in gravity, zero at h = 0";
+    Contact: "contact", "", None, Contact 0, Jump, "1 on the ground, 0 in flight";
+    Impulse: "impulse", "∫force dt", Some(Impulse), Impulse 0, Kink, "impulse of the contact force since t = 0";
+
+    // Along the rod.
+    Point: "x", "x", Some(Length), Field 0, Smooth, "place along the rod, from the end at the ground";
+    PointDisplacement: "u" as "v" also ["u_end"], "v", Some(Length), Field 1, Kink, "displacement, upwards";
+    PointVelocity: "v" as "v_t" also ["v_end"], "v_t", Some(Velocity), Field 2, Jump, "velocity, upwards";
+    PointStrain: "strain" as "v_x" also ["eps"], "v_x", Some(Strain), Field 3, Jump, "strain, positive in tension";
+    PointStress: "stress" also ["sigma"], "E v_x", Some(Stress), Field 3, Jump, "stress, positive in tension";
+
+    // Of an event.
+    EventTime: "time", "t", Some(Time), Event 0, Smooth, "time of an impact or a release";
+    EventVelocity: "end_velocity", "v_t(0,t)", Some(Velocity), Event 1, Smooth,
+        "velocity of the end, just before an impact, just after a release";
+    EventCentre: "centre", "h", Some(Length), Event 2, Smooth, "centre of mass at an impact or a release";
+    EventCentreVelocity: "centre_velocity", "h′", Some(Velocity), Event 3, Smooth, "its velocity then";
+
+    // Of a contact.
+    Impact: "impact" as "from", "contact from", Some(Time), Span 0, Smooth, "time at which a contact begins";
+    Release: "release" as "to", "to", Some(Time), Span 1, Smooth, "time at which a contact ends";
+    Duration: "duration", "", Some(Time), Span 2, Smooth, "how long a contact lasts";
+    ImpactVelocity: "impact_velocity", "v_t(0,t⁻)", Some(Velocity), Ends 0, Smooth,
+        "velocity of the end just before a contact";
+    ReleaseVelocity: "release_velocity", "v_t(0,t⁺)", Some(Velocity), Ends 1, Smooth,
+        "velocity of the end just after a contact";
+    ContactImpulse: "impulse", "impulse", Some(Impulse), Push 0, Smooth, "impulse of a contact";
+    PeakStrain: "peak_strain", "peak v_x(0,t)", Some(Strain), Push 1, Smooth,
+        "the most compressive strain at the ground in a contact";
+    PeakStress: "peak_stress", "peak stress", Some(Stress), Push 1, Smooth,
+        "the most compressive stress at the ground in a contact";
+    PeakForce: "peak_force", "peak force", Some(Force), Push 1, Smooth, "the greatest force of the ground in a contact";
+    MomentumRestitution: "e_P" as "momentum", "e_P", None, Restitution 0, Smooth,
+        "ratio of the momenta at both ends of a contact";
+    EnergyRestitution: "e_E2" as "energy_squared" also ["restitution"], "e_E²", None, Restitution 1, Smooth,
+        "ratio of the energies of the centre of mass at both ends of a contact";
+    TranslationalShare: "translational_part", "E_h/E", None, Shares 0, Smooth,
+        "what part of the energy at the end of a contact moves the centre of mass";
+    EnergyKept: "energy_kept", "E/E₀", None, Shares 1, Smooth, "what part of the energy a contact keeps";
+    EnergyLeft: "E_total_after" as "total", "E", Some(Energy), Left 0, Smooth, "energy at the end of a contact";
+    TranslationalLeft: "E_h_after" as "translational", "E_h", Some(Energy), Left 1, Smooth,
+        "energy of the centre of mass at the end of a contact";
+    VibrationalLeft: "E_z_after" as "vibrational", "E_z", Some(Energy), Left 2, Smooth,
+        "energy of the vibration at the end of a contact";
+
+    // Of a flight.
+    FlightBegins: "flight" as "from", "flight from", Some(Time), Flight 0, Smooth, "time at which a flight begins";
+    FlightEnds: "landing" as "to", "to", Some(Time), Flight 1, Smooth, "time at which a flight ends";
+    TopTime: "top_time", "highest at", Some(Time), Flight 2, Smooth,
+        "when the centre of mass is highest in a flight, if it turns";
+    Top: "top", "h_max", Some(Length), Flight 3, Smooth, "how high the centre of mass comes in a flight, if it turns";
+
+    // Of a piece of the stress at the ground.
+    PieceBegins: "from", "from", Some(Time), Piece 0, Smooth, "where a piece of the stress at the ground begins";
+    PieceEnds: "to", "to", Some(Time), Piece 1, Smooth, "where it ends";
+    PieceStrainBegins: "strain_from", "v_x(0,from⁺)", Some(Strain), Piece 2, Smooth, "strain at the ground where it begins";
+    PieceStrainEnds: "strain_to", "v_x(0,to⁻)", Some(Strain), Piece 3, Smooth, "strain at the ground where it ends";
+    PieceStressBegins: "stress_from", "E v_x(0,from⁺)", Some(Stress), Piece 2, Smooth,
+        "stress at the ground where it begins";
+    PieceStressEnds: "stress_to", "E v_x(0,to⁻)", Some(Stress), Piece 3, Smooth, "stress at the ground where it ends";
+
+    // Of the first contact, and of the whole run.
+    BounceTime: "bounce_time", "t_b", Some(Time), Bounce 0, Smooth, "time of the first release";
+    LastEvent: "last_event", "time of the last event", Some(Time), Last 0, Smooth,
+        "time of the last impact or release of the run";
+    ShortestPiece: "shortest_piece", "", Some(Time), Shortest 0, Smooth,
+        "length of the shortest piece of the stress at the ground";
+}
+
+impl Source {
+    /// Whether there are two limits at a jump.
+    pub(super) fn has_sides(self) -> bool {
+        matches!(self, Source::End | Source::Strain | Source::Top | Source::Contact)
     }
-    Ok(columns.into())
+
+    /// How many numbers it gives.
+    pub(super) fn answers(self) -> usize {
+        match self {
+            Source::Field | Source::Event | Source::Flight | Source::Piece => 4,
+            Source::Energy | Source::Span | Source::Left => 3,
+            Source::End | Source::Top | Source::Centre | Source::Parts => 2,
+            Source::Ends | Source::Push | Source::Restitution | Source::Shares => 2,
+            Source::Time | Source::Side | Source::Strain | Source::Contact | Source::Impulse => 1,
+            Source::Bounce | Source::Last | Source::Shortest => 1,
+        }
+    }
+
+    fn needs(self) -> Needs {
+        match self {
+            Source::Time | Source::Side | Source::End | Source::Strain | Source::Top => Needs::Time,
+            Source::Contact | Source::Centre | Source::Energy | Source::Parts | Source::Impulse => Needs::Time,
+            Source::Field => Needs::PointAndTime,
+            Source::Event => Needs::Event,
+            Source::Span | Source::Ends | Source::Push => Needs::Contact,
+            Source::Restitution | Source::Shares | Source::Left => Needs::Contact,
+            Source::Flight => Needs::Flight,
+            Source::Piece => Needs::Piece,
+            Source::Bounce => Needs::FirstContact,
+            Source::Last | Source::Shortest => Needs::Run,
+        }
+    }
 }
 
-/// The columns of `table`, in units of the problem.
-///
-/// **Accuracy**: that of the history's answers, and a rounding for each factor of a unit.
-///
-/// **Errors**: what the history cannot answer.
-pub fn table<S: Scalar>(motion: &dyn Motion<S>, table: Table, units: &Units) -> Result<Columns<S>, Error> {
-    let measured = |measure, x: &S| units.factor::<S>(measure, &x.precision()).map(|factor| x.clone() * factor);
-    let (events, contacts) = (motion.events(), motion.contacts());
-    match table {
-        Table::Events => {
-            let row = |event: &Event<S>| Ok(event.numbers().map(|x| Some(x.clone())));
-            columns(events, ["time", "end_velocity", "centre", "centre_velocity"], row)
+impl Needs {
+    /// The quantities that need this, in the order of a table.
+    pub fn quantities(self) -> impl Iterator<Item = Quantity> {
+        Quantity::ALL.iter().copied().filter(move |quantity| quantity.needs() == self)
+    }
+
+    /// The quantity of this name among them.
+    ///
+    /// ```
+    /// use dalembert::{Needs, Quantity};
+    /// assert_eq!(Needs::Time.named("impulse"), Some(Quantity::Impulse));
+    /// assert_eq!(Needs::Contact.named("impulse"), Some(Quantity::ContactImpulse));
+    /// assert_eq!(Needs::Time.named("u"), None);
+    /// ```
+    pub fn named(self, name: &str) -> Option<Quantity> {
+        self.quantities().find(|quantity| quantity.name() == name)
+    }
+
+    /// The quantity that is called so among them, by its name or by another one that is understood.
+    pub fn called(self, name: &str) -> Option<Quantity> {
+        self.named(name).or_else(|| self.quantities().find(|quantity| quantity.also().contains(&name)))
+    }
+}
+
+impl Quantity {
+    /// The name: `u_end`. No other quantity that needs the same has it.
+    pub fn name(self) -> &'static str {
+        self.facts().name
+    }
+
+    /// The name in a list of its own kind, which says the rest: `from` of a contact, `total` of energies.
+    pub fn key(self) -> &'static str {
+        self.facts().key
+    }
+
+    /// What else it is called.
+    pub fn also(self) -> &'static [&'static str] {
+        self.facts().also
+    }
+
+    /// The symbol: `v(0,t)`; empty where there is none.
+    pub fn symbol(self) -> &'static str {
+        self.facts().symbol
+    }
+
+    /// What it is, in a line.
+    pub fn meaning(self) -> &'static str {
+        self.facts().meaning
+    }
+
+    /// What its values measure; `None` for ratios, and for [`Quantity::Side`] and [`Quantity::Contact`].
+    pub fn measure(self) -> Option<Measure> {
+        self.facts().measure
+    }
+
+    /// What it needs to have a value.
+    pub fn needs(self) -> Needs {
+        self.source().0.needs()
+    }
+
+    /// What a ray leaves in it.
+    pub fn rays(self) -> Rays {
+        self.facts().rays
+    }
+
+    /// Which way it counts.
+    pub fn sign(self) -> Sign {
+        match self.measure() {
+            Some(Length | Velocity) => Sign::Upwards,
+            Some(Strain | Stress) => Sign::Tension,
+            Some(Force | Impulse) => Sign::Compression,
+            Some(Time | Energy) | None => Sign::None,
         }
-        Table::Contacts => {
-            let names = ["from", "to", "impulse", "peak_strain", "peak_stress", "peak_force"];
-            let mut columns = columns(contacts.iter().cloned(), names, |contact| {
-                let [impulse, stress, force] = [
-                    measured(Measure::Impulse, &contact.impulse),
-                    measured(Measure::Stress, &contact.peak_strain),
-                    measured(Measure::Force, &contact.peak_strain),
-                ];
-                Ok([Some(contact.from), contact.to, impulse, Some(contact.peak_strain), stress, force])
-            })?;
-            columns.truncate(if units.has_material() { 6 } else { 4 });
-            Ok(columns)
+    }
+
+    /// Whether it is counted from where the undeformed rod stands on the ground, as displacements are.
+    pub fn has_origin(self) -> bool {
+        self.measure() == Some(Length)
+    }
+
+    /// Whether lists have it: stresses and forces are listed with a material only.
+    pub fn is_listed(self, has_material: bool) -> bool {
+        has_material || !matches!(self.measure(), Some(Stress | Force))
+    }
+
+    /// The unit: `Pa` with a material, `per ρ` without one; empty where there is none or none is known.
+    ///
+    /// ```
+    /// use dalembert::{Problem, Quantity, UnitSystem, Units};
+    /// let bare = Problem::builder().length(1).wave_speed(1).impact_speed(3).build()?;
+    /// assert_eq!(Quantity::Force.unit(&Units::of(&bare, UnitSystem::Si)), "per ρS");
+    /// # Ok::<(), dalembert::Error>(())
+    /// ```
+    pub fn unit(self, units: &Units) -> &'static str {
+        match self.measure() {
+            Some(Stress) if !units.has_material() => "per ρ",
+            Some(Force) if !units.has_material() => "per ρS",
+            Some(measure) => units.name(measure),
+            None => "",
         }
-        Table::Restitution => {
-            columns(contacts, ["momentum", "energy_squared", "translational_part", "energy_kept"], |contact| {
-                let (e, shares) = (restitution(motion, contact)?, energy_shares(motion, contact)?);
-                Ok([e.momentum.ok(), e.energy_squared.ok(), shares.translational, shares.kept])
-            })
+    }
+
+    pub(super) fn source(self) -> (Source, usize) {
+        self.facts().source
+    }
+
+    /// What the answer is multiplied with; `None` where it is the value itself.
+    pub(super) fn factor<S: Scalar>(self, motion: &dyn Motion<S>, units: &Units) -> Option<S> {
+        let scales = motion.scales();
+        let square = scales.wave_speed.square();
+        let factor = |measure| units.factor(measure, &square.precision());
+        match self.measure()? {
+            Stress => factor(Stress).or(Some(square)),
+            Force => factor(Force).or(Some(-square)),
+            Energy if self == Quantity::GravityEnergy => {
+                factor(Energy).map(|mass| mass * &scales.gravity * &scales.length)
+            }
+            measure @ (Energy | Impulse) if units.has_material() => factor(measure),
+            _ => None,
         }
-        Table::Flights => columns(flights(motion)?, ["from", "to", "top_time", "top"], |flight| {
-            let (time, height) = flight.highest.unzip();
-            Ok([Some(flight.from), flight.to, time, height])
-        }),
-        Table::Stress => columns(motion.stress_pieces(), ["from", "to", "strain_from", "strain_to"], |piece| {
-            Ok([piece.from, piece.to, piece.left, piece.right].map(Some))
-        }),
+    }
+
+    /// A number of [`Quantity::source`] in its unit.
+    pub(super) fn scaled<S: Scalar>(self, value: S, factor: Option<&S>) -> S {
+        match factor {
+            Some(factor) => value * factor,
+            None => value,
+        }
+    }
+
+    /// The natural scale; `None` where its values are no measurements.
+    pub(crate) fn natural_scale<S: Scalar>(self, motion: &dyn Motion<S>, units: &Units) -> Option<f64> {
+        let scales = motion.scales().map(|scale| scale.to_f64());
+        let natural = match self.measure()? {
+            Time => return None,
+            Length if self == Quantity::Point => return None,
+            Energy if self == Quantity::GravityEnergy => scales.velocity * scales.time,
+            Length => scales.velocity * scales.time,
+            Velocity => scales.velocity,
+            Strain | Stress | Force => scales.velocity / scales.wave_speed,
+            Energy => scales.velocity * scales.velocity * scales.length,
+            Impulse => scales.velocity * scales.length,
+        };
+        Some(natural * self.factor(motion, units).map_or(1.0, |factor| factor.to_f64().abs()))
     }
 }

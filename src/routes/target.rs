@@ -1,10 +1,10 @@
 //! What others have published of a scene, held against its history.
 
 use crate::error::Error;
-use crate::motion::{Contact, EventKind, Motion};
+use crate::motion::Motion;
 use crate::number::{Estimate, Scalar};
-use crate::quantity::{Units, columns};
-use crate::scene::{Scene, Target, TargetQuantity as Q, builtin};
+use crate::quantity::{Units, columns, of_contact};
+use crate::scene::{Scene, Target, builtin};
 
 /// A scene with its published values and ours.
 #[derive(Clone, Debug)]
@@ -69,35 +69,17 @@ impl<S: Scalar> Reached<S> {
 }
 
 fn ours<S: Scalar>(motion: &dyn Motion<S>, target: &Target, units: &Units) -> Result<S, Error> {
-    let precision = motion.end().precision();
-    if let (Q::Column(column), Some(time)) = (target.quantity, &target.time) {
-        let at = |time: S| {
-            let mut table = columns(motion, units, &[column], &[time], Some(target.side))?;
-            Ok::<_, Error>(table.remove(0).remove(0))
-        };
-        let value = at(S::from_number(time, &precision))?;
-        return Ok(if target.from_start { value - at(motion.end().zero())? } else { value });
-    }
-    let none = || Error::NoContact { contact: target.contact - 1, found: motion.contacts().len() };
-    let contact: &Contact<S> = motion.contacts().get(target.contact - 1).ok_or_else(none)?;
-    let to = contact.to.as_ref().ok_or_else(none);
-    let velocity = |kind: EventKind| {
-        let mut events = motion.events().iter().filter(|event| event.kind == kind);
-        events.nth(target.contact - 1).map(|event| event.end_velocity.clone()).ok_or_else(none)
+    let Some(time) = &target.time else {
+        let contact = target.contact - 1;
+        let none = || Error::NoContact { contact, found: motion.contacts().len() };
+        return of_contact(motion, units, target.quantity, contact)?.map_err(|_| none());
     };
-    let scaled = |value: &S| match units.factor::<S>(target.quantity.measure(), &precision) {
-        Some(factor) => value.clone() * factor,
-        None => value.clone(),
+    let at = |time: S| {
+        let mut table = columns(motion, units, &[target.quantity], &[time], Some(target.side))?;
+        Ok::<_, Error>(table.remove(0).remove(0))
     };
-    Ok(match target.quantity {
-        Q::Impact => contact.from.clone(),
-        Q::Release => to?.clone(),
-        Q::Duration => to?.clone() - &contact.from,
-        Q::ImpactVelocity => velocity(EventKind::Impact)?,
-        Q::ReleaseVelocity => velocity(EventKind::Release)?,
-        Q::Impulse => scaled(&contact.impulse),
-        _ => scaled(&contact.peak_strain),
-    })
+    let value = at(S::from_number(time, &motion.end().precision()))?;
+    Ok(if target.from_start { value - at(motion.end().zero())? } else { value })
 }
 
 #[cfg(test)]

@@ -48,7 +48,7 @@
 //!
 //! # Published values
 //! A scene may list what others have published of it; `dalembert scenes NAME --targets` prints it beside ours. With a
-//! `time` the quantity is a [`Column`](crate::Column) by its name, such as `u_end`, `stress` or `E_total`, but for the
+//! `time` the quantity is a [quantity](crate::Quantity) by its name, such as `u_end`, `stress` or `E_total`, but for the
 //! impulse; without a time one of a contact: `impact` and `release` (times), `duration`, `impact_velocity`,
 //! `release_velocity`, `impulse`, `peak_stress`, `peak_force`.
 //!
@@ -82,4 +82,4 @@ mod target;
 pub use effects::{Effect, EffectUse};
 pub use error::{SceneError, SceneErrorKind};
 pub use read::Scene;
-pub use target::{Target, TargetQuantity};
+pub use target::Target;

@@ -7,7 +7,7 @@ use super::reader::{Reader, Value};
 use super::suggest;
 use crate::motion::Side;
 use crate::number::Number;
-use crate::quantity::{Column, Measure};
+use crate::quantity::{Measure, Needs, Quantity};
 
 /// A value that others have published for a scene.
 ///
@@ -15,7 +15,7 @@ use crate::quantity::{Column, Measure};
 #[derive(Clone, Debug, PartialEq)]
 pub struct Target {
     /// What was published.
-    pub quantity: TargetQuantity,
+    pub quantity: Quantity,
     /// `t`, for what has a value at every time.
     pub time: Option<Number>,
     /// Which limit, where there are two.
@@ -32,77 +32,11 @@ pub struct Target {
     pub source: String,
 }
 
-/// What can be published of a scene.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-#[non_exhaustive]
-pub enum TargetQuantity {
-    /// The time at which a contact begins.
-    Impact,
-    /// The time at which a contact ends.
-    Release,
-    /// How long a contact lasts.
-    Duration,
-    /// `v_t(0,t)` just before a contact.
-    ImpactVelocity,
-    /// `v_t(0,t)` just after a contact.
-    ReleaseVelocity,
-    /// The impulse of a contact.
-    Impulse,
-    /// The most compressive stress at the ground in a contact.
-    PeakStress,
-    /// The greatest force of the ground in a contact.
-    PeakForce,
-    /// What has a value at every time.
-    Column(Column),
-}
-
-use TargetQuantity as Q;
-
-/// What belongs to a contact, with the word that a scene has for it and what it measures.
-const OF_CONTACT: [(Q, &str, Measure); 8] = [
-    (Q::Impact, "impact", Measure::Time),
-    (Q::Release, "release", Measure::Time),
-    (Q::Duration, "duration", Measure::Time),
-    (Q::ImpactVelocity, "impact_velocity", Measure::Velocity),
-    (Q::ReleaseVelocity, "release_velocity", Measure::Velocity),
-    (Q::Impulse, "impulse", Measure::Impulse),
-    (Q::PeakStress, "peak_stress", Measure::Stress),
-    (Q::PeakForce, "peak_force", Measure::Force),
-];
-
-impl TargetQuantity {
-    /// What belongs to a contact, and the columns but for times and the impulse, whose name is that of a contact's.
-    fn all() -> impl Iterator<Item = Self> {
-        let of_contact = OF_CONTACT.into_iter().map(|(quantity, ..)| quantity);
-        let measured = |column: &Column| !matches!(column.measure(), None | Some(Measure::Time | Measure::Impulse));
-        of_contact.chain(Column::ALL.into_iter().filter(measured).map(Q::Column))
-    }
-
-    fn of_contact(self) -> Option<(&'static str, Measure)> {
-        OF_CONTACT.iter().find(|(quantity, ..)| *quantity == self).map(|(_, name, measure)| (*name, *measure))
-    }
-
-    /// The word that a scene has for it: `u_top`.
-    pub fn name(self) -> &'static str {
-        match self {
-            Q::Column(column) => column.name(),
-            _ => self.of_contact().map_or("", |(name, _)| name),
-        }
-    }
-
-    /// What it measures.
-    pub fn measure(self) -> Measure {
-        match self {
-            Q::Column(column) => column.measure(),
-            _ => self.of_contact().map(|(_, measure)| measure),
-        }
-        .unwrap_or(Measure::Time)
-    }
-
-    /// Whether it belongs to a contact, and not to a time.
-    pub fn is_of_contact(self) -> bool {
-        !matches!(self, Q::Column(_))
-    }
+/// What can be published of a scene: what belongs to a contact, and what has a value at every time, but for times and the
+/// impulse, whose name is that of a contact's.
+fn publishable() -> impl Iterator<Item = Quantity> {
+    let measured = |quantity: &Quantity| !matches!(quantity.measure(), None | Some(Measure::Time | Measure::Impulse));
+    Needs::Contact.quantities().chain(Needs::Time.quantities().filter(measured))
 }
 
 impl Target {
@@ -167,7 +101,8 @@ impl<'a> Reader<'a> {
         let missing = |key: &str, expected: &str| {
             self.error(span.clone(), Kind::MissingKey, format!("no {key} in [[target]]"), expected)
         };
-        let (quantities, names): (Vec<Q>, Vec<&str>) = Q::all().map(|quantity| (quantity, quantity.name())).unzip();
+        let (quantities, names): (Vec<Quantity>, Vec<&str>) =
+            publishable().map(|quantity| (quantity, quantity.name())).unzip();
         let place = self.choice("quantity", &names)?.ok_or_else(|| missing("quantity", &names.join(", ")))?;
         let quantity = quantities[place];
         let refuse = |key: &str, expected: &str| match self.get(key) {
@@ -187,7 +122,7 @@ impl<'a> Reader<'a> {
                 whole.filter(|n| *n > 0).ok_or_else(|| self.wrong_type(value, "contact", expected))?
             }
         };
-        if quantity.is_of_contact() {
+        if quantity.needs() == Needs::Contact {
             refuse("time", "no time: it belongs to a contact")?;
             refuse("side", "no side: it belongs to a contact")?;
         } else {
@@ -196,10 +131,10 @@ impl<'a> Reader<'a> {
                 return Err(missing("time", &format!("the time of the {}", quantity.name())));
             }
         }
-        if quantity.measure() != Measure::Length {
+        if !quantity.has_origin() {
             refuse("origin", "an origin of u_end, u_top or h only")?;
         }
-        if !has_material && matches!(quantity.measure(), Measure::Stress | Measure::Force) {
+        if !quantity.is_listed(has_material) {
             let found = format!("the {} in [[target]]", quantity.name());
             let expected = "modulus and density in [rod], or strain";
             return Err(self.error(span, Kind::MissingKey, found, expected));

@@ -10,7 +10,7 @@ use crate::motion::{Contact, Ending, Energy, Event, Field, Motion, Ray, Scales, 
 use crate::number::{Answer, Number, Scalar, show};
 use crate::problem::Problem;
 use crate::quantity::{
-    self, Column, EnergyShares, Flight, Restitution, Slice, Table, UnitSystem, Units, energy_shares, flights,
+    self, EnergyShares, Flight, Quantity, Restitution, Slice, Table, UnitSystem, Units, energy_shares, flights,
     restitution,
 };
 use crate::reason::Warning;
@@ -303,7 +303,7 @@ impl<S: Target> History<S> {
     /// any of them differ, a time has two rows, the limit from earlier times first.
     ///
     /// **Accuracy**: that of the [`Plan`], each column by itself.
-    pub fn columns(&self, columns: &[Column], times: &[S], side: Option<Side>) -> Result<Vec<Vec<S>>, Error> {
+    pub fn columns(&self, columns: &[Quantity], times: &[S], side: Option<Side>) -> Result<Vec<Vec<S>>, Error> {
         let times: Vec<_> = times.iter().map(Answer::carry).collect();
         let table = self.ask_columns(columns, side, |_| Ok(times.clone()))?;
         Ok(table.into_iter().map(|column| column.into_iter().map(S::strip).collect()).collect())
@@ -313,14 +313,13 @@ impl<S: Target> History<S> {
     /// lifted to the precision of each attempt.
     pub fn ask_columns(
         &self,
-        columns: &[Column],
+        columns: &[Quantity],
         side: Option<Side>,
         times: impl Fn(&dyn Motion<S::Carried>) -> Result<Vec<S::Carried>, Error>,
     ) -> Result<Vec<Vec<S::Carried>>, Error> {
         let query = |engine: &dyn Motion<S::Carried>| {
             let table = quantity::columns(engine, &self.units(), columns, &times(engine)?, side)?;
-            let natural = quantity::natural_scales(engine, &self.units(), columns);
-            let scaled = quantity::of_one_size(&table, &natural);
+            let scaled = quantity::of_one_size(engine, &self.units(), columns, &table);
             Ok((table, scaled))
         };
         Ok(self.ask(query, |(_, scaled)| scaled.iter().collect())?.0)
@@ -356,13 +355,10 @@ impl<S: Target> History<S> {
         side: Option<Side>,
         grid: impl Fn(&dyn Motion<S::Carried>) -> Result<(Vec<S::Carried>, Vec<S::Carried>), Error>,
     ) -> Result<Vec<Vec<S::Carried>>, Error> {
-        let columns =
-            [Column::Time, Column::Side, Column::Time, Column::EndDisplacement, Column::EndVelocity, Column::Strain];
         let query = |engine: &dyn Motion<S::Carried>| {
             let (points, times) = grid(engine)?;
             let table = quantity::slices(engine, slice, &points, &times, side)?;
-            let natural = quantity::natural_scales(engine, &self.units(), &columns);
-            let scaled = quantity::of_one_size(&table, &natural);
+            let scaled = quantity::of_one_size(engine, &self.units(), &quantity::SLICE, &table);
             Ok((table, scaled))
         };
         Ok(self.ask(query, |(_, scaled)| scaled.iter().collect())?.0)

@@ -1,7 +1,7 @@
 //! The columns of a table over time, each against a route of its own: integrals of the field over the rod, momentum
 //! balance, and what pencil and paper give.
 
-use dalembert::{Column, Number, Problem, Rational, Run, Scene, Side};
+use dalembert::{Needs, Number, Problem, Quantity, Rational, Run, Scene, Side};
 
 fn scene(name: &str) -> Problem {
     let source = dalembert::scene::builtin::get(name).unwrap().source;
@@ -59,7 +59,7 @@ fn from_field(rod: &Problem, history: &dalembert::History<Rational>, time: &Rati
 #[test]
 fn the_readme_lists_all_columns() {
     let readme = include_str!("../../README.md").split_whitespace().collect::<Vec<_>>().join(" ");
-    let list = Column::ALL.map(Column::name).join(" ");
+    let list = Needs::Time.quantities().map(Quantity::name).collect::<Vec<_>>().join(" ");
     assert!(readme.contains(&format!("`{list}`")), "{list}");
 }
 
@@ -69,7 +69,7 @@ fn energies_are_integrals_of_the_field() {
     for name in scenes {
         let rod = scene(name);
         let history = rod.exact().unwrap();
-        let columns = [Column::KineticEnergy, Column::StrainEnergy, Column::GravityEnergy, Column::Energy];
+        let columns = [Quantity::KineticEnergy, Quantity::StrainEnergy, Quantity::GravityEnergy, Quantity::Energy];
         let times: Vec<Rational> = (0..=23).map(|k| history.end().clone() * fraction(k, 23)).collect();
         let table = history.columns(&columns, &times, Some(Side::Right)).unwrap();
         for (k, time) in times.iter().enumerate() {
@@ -87,7 +87,7 @@ fn impulse_is_what_momentum_has_gained() {
         let rod = scene(name);
         let history = rod.exact().unwrap();
         let times: Vec<Rational> = (0..=40).map(|k| history.end().clone() * fraction(k, 40)).collect();
-        let table = history.columns(&[Column::Impulse, Column::CentreVelocity], &times, Some(Side::Right)).unwrap();
+        let table = history.columns(&[Quantity::Impulse, Quantity::CentreVelocity], &times, Some(Side::Right)).unwrap();
         let length = rod.rod.length.to_rational();
         let gravity = rod.gravity.as_ref().map_or_else(Rational::new, Number::to_rational);
         for (k, time) in times.iter().enumerate() {
@@ -107,13 +107,13 @@ fn a_damped_rod_balances_momentum_and_energy() {
     let (r, g) = (0.2, 1.0);
     let times: Vec<f64> = (0..=60).map(|k| history.end() * f64::from(k) / 60.0).collect();
     let columns = [
-        Column::Impulse,
-        Column::CentreVelocity,
-        Column::Centre,
-        Column::KineticEnergy,
-        Column::StrainEnergy,
-        Column::GravityEnergy,
-        Column::Energy,
+        Quantity::Impulse,
+        Quantity::CentreVelocity,
+        Quantity::Centre,
+        Quantity::KineticEnergy,
+        Quantity::StrainEnergy,
+        Quantity::GravityEnergy,
+        Quantity::Energy,
     ];
     let table = history.columns(&columns, &times, Some(Side::Right)).unwrap();
     let bound = 1e-9;
@@ -148,7 +148,7 @@ fn a_damped_rod_balances_momentum_and_energy() {
 fn enclosures_hold_the_doubles() {
     let rod = scene("figure-4-r02");
     let (proved, double) = (rod.certified(15).unwrap(), rod.first_contact().unwrap());
-    let columns = [Column::KineticEnergy, Column::StrainEnergy, Column::Impulse, Column::Force];
+    let columns = [Quantity::KineticEnergy, Quantity::StrainEnergy, Quantity::Impulse, Quantity::Force];
     for t in ["1/3", "1", "3/2"] {
         let number: Number = t.parse().unwrap();
         let time = dalembert::Scalar::from_number(&number, &dalembert::Scalar::precision(proved.end()));
@@ -166,8 +166,14 @@ fn enclosures_hold_the_doubles() {
 fn a_material_gives_units() {
     let rod = Problem::builder().length(2).material(900, 1, "1/2").impact_speed(3).build().unwrap();
     let history = rod.exact().unwrap();
-    let columns =
-        [Column::Stress, Column::Force, Column::Energy, Column::StrainEnergy, Column::Impulse, Column::Contact];
+    let columns = [
+        Quantity::Stress,
+        Quantity::Force,
+        Quantity::Energy,
+        Quantity::StrainEnergy,
+        Quantity::Impulse,
+        Quantity::Contact,
+    ];
     let at = |t: Rational, side| {
         let table = history.columns(&columns, &[t], Some(side)).unwrap();
         table.into_iter().map(|mut column| column.remove(0)).collect::<Vec<_>>()
@@ -187,7 +193,8 @@ fn a_material_gives_units() {
 #[test]
 fn both_limits_at_a_jump() {
     let history = scene("getfem-dynamic-contact").exact().unwrap();
-    let columns = [Column::Time, Column::Side, Column::EndVelocity, Column::Strain, Column::Contact, Column::Impulse];
+    let columns =
+        [Quantity::Time, Quantity::Side, Quantity::EndVelocity, Quantity::Strain, Quantity::Contact, Quantity::Impulse];
     let times = [fraction(1, 2), fraction(1, 1), fraction(3, 2), fraction(2, 1), fraction(3, 1)];
     let table = history.columns(&columns, &times, None).unwrap();
     let expected = [
@@ -226,6 +233,7 @@ fn one_march_has_the_values_of_many() {
         let (damping, speed) = (10f64.powf(2.5 * random() - 2.0), 0.3 + 4.0 * random());
         problems.push(rod().damping(damping).impact_speed(speed));
     }
+    let all: Vec<Quantity> = Needs::Time.quantities().collect();
     for (name, problem) in problems.into_iter().map(|problem| problem.build().unwrap()).enumerate() {
         let history = problem.solve().unwrap();
         let (end, trip) = (*history.end(), history.scales().time);
@@ -238,12 +246,12 @@ fn one_march_has_the_values_of_many() {
         let bits =
             |table: &[Vec<f64>], row: usize| table.iter().map(|values| values[row].to_bits()).collect::<Vec<_>>();
         for side in [Side::Left, Side::Right] {
-            let table = history.columns(&Column::ALL, &times, Some(side)).unwrap();
+            let table = history.columns(&all, &times, Some(side)).unwrap();
             let alone = problem.solve().unwrap();
             for (row, time) in times.iter().enumerate().rev() {
                 // The first ones of a history that has been asked nothing yet.
                 let fresh = (row % 16 == 0).then(|| problem.solve().unwrap());
-                let found = fresh.as_ref().unwrap_or(&alone).columns(&Column::ALL, &[*time], Some(side)).unwrap();
+                let found = fresh.as_ref().unwrap_or(&alone).columns(&all, &[*time], Some(side)).unwrap();
                 assert_eq!(bits(&table, row), bits(&found, 0), "problem {name} at {time}, {side:?}");
             }
         }

@@ -92,13 +92,13 @@ fn a_problem_goes_back_to_a_builder() {
 /// Without an area S is 1.
 #[test]
 fn a_material_without_an_area_has_forces_per_area() {
-    use dalembert::{Column, Side, UnitSystem, Units};
+    use dalembert::{Quantity, Side, UnitSystem, Units};
     let rod = Problem::builder().length(2).modulus(4).density(1).impact_speed(3);
     for (rod, area, units) in
         [(rod.clone(), 1.0, ["Pa", "N/m²", "N s/m²", "J/m²"]), (rod.area(5), 5.0, ["Pa", "N", "N s", "J"])]
     {
         let rod = rod.build().unwrap();
-        let columns = [Column::Stress, Column::Force, Column::Impulse, Column::Energy];
+        let columns = [Quantity::Stress, Quantity::Force, Quantity::Impulse, Quantity::Energy];
         let found = rod.solve().unwrap().columns(&columns, &[2.0], Some(Side::Left)).unwrap();
         assert_eq!(found, [[-6.0], [6.0 * area], [12.0 * area], [9.0 * area]]);
         assert_eq!(columns.map(|column| column.unit(&Units::of(&rod, UnitSystem::Si))), units);

@@ -7,7 +7,7 @@ use crate::motion::{EventKind, Motion, Side, StressPiece};
 use crate::number::Scalar;
 use crate::output::straight::straight;
 use crate::problem::{Parameters, Problem, Start};
-use crate::quantity::{Column, Measure, Units};
+use crate::quantity::{Measure, Quantity, Units};
 use crate::reason::Warning;
 use crate::solve::{History, Target};
 
@@ -41,7 +41,7 @@ pub(crate) struct Gathered {
     /// How many the history has.
     pub(crate) of_contacts: usize,
     /// The columns asked for: times and values, in stretches without a jump.
-    pub(crate) columns: Vec<(Column, Vec<Line>)>,
+    pub(crate) columns: Vec<(Quantity, Vec<Line>)>,
     /// `v_x(0,·)` in straight pieces.
     pub(crate) stress: Vec<StressPiece<f64>>,
     /// `e_P` and `e_E²` of each contact, where they are defined.
@@ -90,8 +90,8 @@ impl Asked {
         self.pictures.contains(&picture)
     }
 
-    fn columns(&self) -> Vec<Column> {
-        let mut columns: Vec<Column> = Vec::new();
+    fn columns(&self) -> Vec<Quantity> {
+        let mut columns: Vec<Quantity> = Vec::new();
         let pictures = self.pictures.iter().flat_map(|picture| picture.columns());
         pictures.for_each(|column| {
             if !columns.contains(&column) {
@@ -186,7 +186,7 @@ impl Asked {
         if columns.is_empty() {
             return Ok(());
         }
-        let all: Vec<Column> = [Column::Time, Column::Side].into_iter().chain(columns.iter().copied()).collect();
+        let all: Vec<Quantity> = [Quantity::Time, Quantity::Side].into_iter().chain(columns.iter().copied()).collect();
         let table = history.ask_columns(&all, None, |motion| times(motion, gathered, breaks))?;
         let table: Vec<Vec<f64>> = table.iter().map(|column| column.iter().map(settled).collect()).collect();
         let (times, sides) = (&table[0], &table[1]);

@@ -1,6 +1,6 @@
 //! Which pictures there are of a scene, and what each asks of a history.
 
-use crate::quantity::{Column, Measure, Units};
+use crate::quantity::{Measure, Needs, Quantity, Units};
 
 /// A picture of a scene.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -16,7 +16,7 @@ pub(crate) enum Picture {
     /// The coefficients of restitution of each bounce.
     Restitution,
     /// A column as `reference` names it.
-    Column(Column),
+    Quantity(Quantity),
 }
 
 /// What is drawn as colour along the rod.
@@ -37,9 +37,9 @@ impl Picture {
     /// Those that tell several scenes apart.
     pub(crate) const COMPARED: [Picture; 4] = [
         Picture::Stress,
-        Picture::Column(Column::EndDisplacement),
-        Picture::Column(Column::Centre),
-        Picture::Column(Column::VibrationalEnergy),
+        Picture::Quantity(Quantity::EndDisplacement),
+        Picture::Quantity(Quantity::Centre),
+        Picture::Quantity(Quantity::VibrationalEnergy),
     ];
     /// Names other than those of columns.
     pub(crate) const NAMES: [(&str, Picture); 6] = [
@@ -54,16 +54,16 @@ impl Picture {
     /// The picture of this name.
     pub(crate) fn named(name: &str) -> Option<Picture> {
         let own = Picture::NAMES.iter().find(|known| known.0 == name).map(|known| known.1);
-        let column = || Column::named(name).filter(|column| !matches!(column, Column::Time | Column::Side));
-        own.or_else(|| column().map(Picture::Column))
+        let column = || Needs::Time.named(name).filter(|column| !matches!(column, Quantity::Time | Quantity::Side));
+        own.or_else(|| column().map(Picture::Quantity))
     }
 
     /// What is asked of a history for it.
-    pub(super) fn columns(&self) -> Vec<Column> {
+    pub(super) fn columns(&self) -> Vec<Quantity> {
         match self {
-            Picture::Motion => vec![Column::EndDisplacement, Column::Centre, Column::TopDisplacement],
-            Picture::Energy => vec![Column::GravityEnergy, Column::TranslationalEnergy, Column::Energy],
-            Picture::Column(column) => vec![*column],
+            Picture::Motion => vec![Quantity::EndDisplacement, Quantity::Centre, Quantity::TopDisplacement],
+            Picture::Energy => vec![Quantity::GravityEnergy, Quantity::TranslationalEnergy, Quantity::Energy],
+            Picture::Quantity(column) => vec![*column],
             Picture::Along | Picture::Stress | Picture::Restitution => Vec::new(),
         }
     }

@@ -10,7 +10,7 @@ use crate::output::draw::{
     AREAS, Axis, Key, LINES, Layer, Mark, Panel, Piece, Shape, Sheet, Size, Stroke, diverging, plain, thinned,
 };
 use crate::problem::Problem;
-use crate::quantity::{Column, Measure, Units};
+use crate::quantity::{Measure, Quantity, Units};
 use crate::solve::{History, Target};
 
 /// The times on the ground, in every picture.
@@ -141,7 +141,7 @@ fn lines(picture: Picture, scenes: &[Gathered]) -> Result<Panel, String> {
             ("stress at the ground", "E v_x(0,t)")
         }
         Picture::Stress => ("strain at the ground", "v_x(0,t)"),
-        Picture::Column(column) => (short(column), symbol(column)),
+        Picture::Quantity(column) => (short(column), symbol(column)),
         _ => ("both ends and the centre of mass", "displacement"),
     };
     let x = time_axis(scenes);
@@ -186,7 +186,7 @@ fn lines(picture: Picture, scenes: &[Gathered]) -> Result<Panel, String> {
 }
 
 /// What a column is, in a few words.
-fn short(column: Column) -> &'static str {
+fn short(column: Quantity) -> &'static str {
     let meaning = column.meaning();
     [",", ":", " above"]
         .iter()
@@ -197,10 +197,10 @@ fn short(column: Column) -> &'static str {
 }
 
 /// The symbol of a column, as long as it fits beside an axis.
-fn symbol(column: Column) -> &'static str {
+fn symbol(column: Quantity) -> &'static str {
     match column {
-        Column::KineticEnergy | Column::StrainEnergy | Column::GravityEnergy => "E",
-        Column::Contact => "contact",
+        Quantity::KineticEnergy | Quantity::StrainEnergy | Quantity::GravityEnergy => "E",
+        Quantity::Contact => "contact",
         column => column.symbol(),
     }
 }
@@ -209,7 +209,7 @@ fn unit(picture: Picture, scene: &Gathered) -> &'static str {
     match picture {
         Picture::Stress if scene.units.has_material() => scene.units.name(Measure::Stress),
         Picture::Motion => scene.units.name(Measure::Length),
-        Picture::Column(column) => column.unit(&scene.units),
+        Picture::Quantity(column) => column.unit(&scene.units),
         Picture::Along | Picture::Stress | Picture::Energy | Picture::Restitution => "",
     }
 }
@@ -270,11 +270,11 @@ fn restitution(scenes: &[Gathered]) -> Panel {
 /// Energies on top of each other: gravity from its least, the motion of the centre of mass, the vibration. The upper
 /// edge is `E`.
 fn energy(scene: &Gathered) -> Panel {
-    let column = |column: Column| {
+    let column = |column: Quantity| {
         let found = scene.columns.iter().find(|found| found.0 == column);
         found.map_or_else(Vec::new, |found| found.1.concat())
     };
-    let edges = [Column::GravityEnergy, Column::TranslationalEnergy, Column::Energy].map(column);
+    let edges = [Quantity::GravityEnergy, Quantity::TranslationalEnergy, Quantity::Energy].map(column);
     let least = edges[0].iter().map(|(_, value)| *value).fold(f64::INFINITY, f64::min);
     let base = if least.is_finite() { least.min(0.0) } else { 0.0 };
     let x = time_axis(std::slice::from_ref(scene));
