@@ -9,12 +9,17 @@ pub struct Effort {
     pub cells: u64,
     /// Whether the run is given up where its bounds no longer tell the events apart.
     pub until_lost: bool,
+    /// Digits beyond which nothing is marched.
+    pub most_digits: f64,
+    /// A first contact of up to so many round trips is marched over; up to the second of them, it is if that is known
+    /// better than the closed form.
+    pub marched_trips: [f64; 2],
 }
 
 impl Effort {
     /// So many digits, however many cells they take.
     pub fn of(digits: f64) -> Self {
-        Effort { digits, cells: u64::MAX, until_lost: false }
+        Effort { digits, cells: u64::MAX, until_lost: false, most_digits: 300.0, marched_trips: [4.0, 64.0] }
     }
 }
 

@@ -5,13 +5,14 @@ use std::iter::once;
 use rayon::prelude::*;
 
 use super::Failed;
-use crate::first_contact::{Bounce, FirstContact};
+use crate::first_contact::FirstContact;
 use crate::motion::{Motion, Side};
 use crate::number::{Analytic, Estimate, Number, Scalar};
 use crate::paper::formulas::limit;
 use crate::problem::{Parameters, Problem};
 use crate::quantity::{Restitution, energy_shares, restitution};
-use crate::sweep::{Axis, Grid, threshold};
+use crate::solve::{Numbers, Plan, Question};
+use crate::sweep::{Axis, Grid, threshold_near};
 
 /// `r` of Figures 4–7, where `c = L = g = 1`.
 pub(crate) const DAMPINGS: [&str; 4] = ["0", "0.1", "0.2", "0.3"];
@@ -26,6 +27,8 @@ type Sided = (f64, Side, Double);
 /// What is asked of a first contact at its bounce.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum Wanted {
+    /// Nothing but `t_b`.
+    Time,
     /// `e_E²`.
     Restitution,
     /// `E_h(t_b)/E(t_b)` and `E(t_b)/E(0)`.
@@ -36,8 +39,7 @@ pub(crate) enum Wanted {
 
 /// The first contacts of a grid over `impact.speed` and `rod.damping`, the speed varying fastest, on all cores.
 ///
-/// **Accuracy**: *within its own bound*, and `accuracy` of the numbers, or of 1 where they are less: the closed form in
-/// doubles where its bound says so, otherwise a history in longer numbers.
+/// **Accuracy**: *within its own bound*, and `accuracy` of the numbers, or of 1 where they are less.
 ///
 /// **Errors**: those of the history.
 pub(crate) fn contacts(grid: &Grid, wanted: Wanted, accuracy: f64) -> Result<Vec<Ended>, Failed> {
@@ -52,55 +54,29 @@ pub(crate) fn grid(dampings: &str, speeds: &str) -> Result<Grid, Failed> {
 }
 
 fn contact(problem: &Problem, wanted: Wanted, accuracy: f64) -> Result<Ended, Failed> {
-    let is_sharp = |value: &Double| value.bound() <= accuracy * value.value().abs().max(1.0);
-    let form = FirstContact::new(&Parameters::<Double>::of(problem, &())?);
-    match form.bounce() {
-        Bounce::Never(_) => Ok(None),
-        Bounce::At { time, .. } if is_sharp(&time) => {
-            let found = asked(&form, &time, wanted);
-            if found.iter().flatten().all(is_sharp) {
-                return Ok(Some((time, found)));
-            }
-            by_history(problem, wanted, accuracy)
-        }
-        _ => by_history(problem, wanted, accuracy),
-    }
-}
-
-fn asked(form: &FirstContact<Double>, time: &Double, wanted: Wanted) -> Vec<Option<Double>> {
-    match wanted {
-        Wanted::Restitution => vec![form.rebound(time).energy_restitution_squared()],
-        Wanted::Shares => form.restitution_factors(time).map_or(vec![None, None], |(a, b)| vec![Some(a), Some(b)]),
-        Wanted::Energies => {
-            let energy = form.energy(time);
-            vec![Some(energy.translational), Some(energy.vibrational)]
-        }
-    }
-}
-
-fn by_history(problem: &Problem, wanted: Wanted, accuracy: f64) -> Result<Ended, Failed> {
-    let question = crate::Question::first_contact(crate::Numbers::Double(Some(accuracy)));
-    let plan = crate::Plan::of(problem, &question)?;
-    let history = crate::History::<f64>::solve(problem, &plan, crate::solve::unobserved())?;
+    let plan = Plan::of(problem, &Question::bounce(Numbers::Double(Some(accuracy))))?;
     let query = |motion: &dyn Motion<Double>| {
-        let Some(contact) = motion.contacts().first() else { return Ok(None) };
-        let Some(time) = contact.to.clone() else { return Ok(None) };
+        let Some((from, Some(to))) = motion.contact_times(0) else { return Ok(None) };
         let values = match wanted {
-            Wanted::Restitution => vec![restitution(motion, contact)?.energy_squared.ok()],
+            Wanted::Time => Vec::new(),
+            Wanted::Restitution => vec![restitution(motion, (&from, Some(&to)))?.energy_squared.ok()],
             Wanted::Shares => {
-                let shares = energy_shares(motion, contact)?;
+                let shares = energy_shares(motion, (&from, Some(&to)))?;
                 vec![shares.translational, shares.kept]
             }
             Wanted::Energies => {
-                let energy = motion.energy(&time)?;
+                let energy = motion.energy(&to)?;
                 vec![Some(energy.translational), Some(energy.vibrational)]
             }
         };
-        Ok(Some((time, values)))
+        // The time relative to itself, and the others to 1.
+        let whole = to.clone() / Double::exact(*to.value());
+        Ok(Some((whole, (to, values))))
     };
-    Ok(history.ask(query, |ended| {
-        ended.iter().flat_map(|(time, values)| once(time).chain(values.iter().flatten())).collect()
-    })?)
+    let found = plan.ask::<f64, _>(problem, query, |ended| {
+        ended.iter().flat_map(|(whole, (_, values))| once(whole).chain(values.iter().flatten())).collect()
+    })?;
+    Ok(found.map(|(_, ended)| ended))
 }
 
 /// What Figures 4–7 tend to for `μ → ∞`, as long as `t_b = t₁`.
@@ -131,7 +107,7 @@ pub(crate) fn limits(damping: &str) -> Result<Limits, Failed> {
 
 /// `μ` from which the bounce comes at `t₁`: `μ₀` times the threshold of (2.32).
 pub(crate) fn dot(damping: &str) -> f64 {
-    2.0 * threshold(2.0 * damping.parse().unwrap_or(f64::NAN))
+    2.0 * threshold_near(2.0 * damping.parse().unwrap_or(f64::NAN))
 }
 
 /// `Ψ_r(t)` of Figure 1: `g = 0`, `t₁ = μ = c = 1`, with two values at whole `t`, and `t_b`.
@@ -156,7 +132,7 @@ pub(crate) fn kernel(damping: &str, per_trip: i32) -> Result<(Vec<Sided>, Ended)
         }
     }
     // As sharp as doubles can be: the index prints 14 decimals.
-    Ok((rows, contact(&rod, Wanted::Restitution, 1e-15)?))
+    Ok((rows, contact(&rod, Wanted::Time, 1e-15)?))
 }
 
 /// `e_E²` of the tenth contact over `impact.speed`, without damping; `None` where it is not defined or not settled.
@@ -167,7 +143,7 @@ pub(crate) fn tenth(grid: &Grid) -> Vec<Option<Double>> {
         let rod = grid.problem(index).ok()?.with_run(crate::Run::Impacts(10)).ok()?;
         let query = |motion: &dyn Motion<Double>| {
             let contact = motion.contacts().get(9);
-            contact.map(|contact| restitution(motion, contact)).transpose()
+            contact.map(|contact| restitution(motion, contact.times())).transpose()
         };
         let found = rod.solve().ok()?.ask(query, |found| found.iter().flat_map(Restitution::numbers).collect());
         found.ok()??.energy_squared.ok()

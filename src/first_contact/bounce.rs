@@ -1,6 +1,6 @@
 //! The bounce time `t_b`: the first root or jump of the stress, or the reason why there is none.
 
-use super::cells::Search;
+use super::cells::{Kernels, Search};
 use super::field::FirstContact;
 use super::outcome::{Bounce, BounceKind};
 use crate::reason::{Doubt, NoBounceReason};
@@ -32,12 +32,17 @@ impl<N: BoundedSpecial> FirstContact<N> {
     /// # Ok::<(), dalembert::Error>(())
     /// ```
     pub fn bounce(&self) -> Bounce<N> {
-        self.search(&Search { contact: self, route: None })
+        self.search(&Search { contact: self, route: None, kernels: None })
+    }
+
+    /// The same for one of many speeds of one damping, which share its `kernels`.
+    pub fn bounce_sharing(&self, kernels: &Kernels<N>) -> Bounce<N> {
+        self.search(&Search { contact: self, route: None, kernels: Some(kernels) })
     }
 
     /// The same with `e^{−rt} H_r` and `e^{−rt} G_r/t₁` from another route, after τ round trips of which k have passed.
     pub fn bounce_by(&self, route: &dyn Fn(&N, i64) -> [N; 2]) -> Bounce<N> {
-        self.search(&Search { contact: self, route: Some(route) })
+        self.search(&Search { contact: self, route: Some(route), kernels: None })
     }
 
     fn search(&self, search: &Search<'_, N>) -> Bounce<N> {
@@ -60,7 +65,7 @@ impl<N: BoundedSpecial> FirstContact<N> {
         if search.force(&mu.one(), 1).negative() == Ok(true) {
             return jump(1);
         }
-        let first = match self.lowest_mode() {
+        let first = match self.lowest_mode(search) {
             Ok(first) => first,
             Err(answer) => return *answer,
         };
@@ -78,7 +83,7 @@ impl<N: BoundedSpecial> FirstContact<N> {
                 Err(why) => return undecided(k, why),
             }
             let looked = k <= 4 || k.count_ones() <= 2 && k % 2 == 0;
-            if looked && let Some(reason) = self.settled(k) {
+            if looked && let Some(reason) = self.settled(k, search.kernels) {
                 return Bounce::Never(reason);
             }
         }
@@ -116,7 +121,7 @@ impl<N: BoundedSpecial> FirstContact<N> {
     /// up to `π/Ω_0`, so a look at τ = 1 and at τ = k is enough for all between. The doubles here stand against margins
     /// of one part in 10⁹: r and π are known to 10⁻¹⁶, so is R − π to `10⁻¹⁶/s²`, and below s = 10⁻⁶ nothing depends on
     /// s. Before, `H_r = I₀ > 0`. As long as H_r > 0, G_r > 0.
-    fn lowest_mode(&self) -> Result<i64, Box<Bounce<N>>> {
+    fn lowest_mode(&self, search: &Search<'_, N>) -> Result<i64, Box<Bounce<N>>> {
         use std::f64::consts::PI;
         let answer = |bounce| Err(Box::new(bounce));
         let pi = self.damping.pi();
@@ -163,7 +168,7 @@ impl<N: BoundedSpecial> FirstContact<N> {
         }
         if k > MOST_CELLS {
             // The force is positive up to here, whether or not the transient has died away before.
-            if let Some(reason) = [1, 2, 4, 8, 16].into_iter().find_map(|k| self.settled(k)) {
+            if let Some(reason) = [1, 2, 4, 8, 16].into_iter().find_map(|k| self.settled(k, search.kernels)) {
                 return answer(Bounce::Never(reason));
             }
             let why = Doubt::Late { damping_ratio: r, cells: MOST_CELLS, expected: PI / s };

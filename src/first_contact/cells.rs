@@ -1,5 +1,9 @@
 //! One cell between two lattice times: has the transient died away, and where is the first root of the stress.
 
+use std::cell::RefCell;
+use std::collections::BTreeMap;
+use std::rc::Rc;
+
 use super::field::{FirstContact, Shares, Trips};
 use super::first_root::{FirstRoot, coefficients, first_root};
 use super::outcome::{Bounce, BounceKind};
@@ -14,6 +18,30 @@ pub(super) struct Search<'a, N> {
     pub(super) contact: &'a FirstContact<N>,
     /// The rays where there is none.
     pub(super) route: Option<Route<'a, N>>,
+    /// What is known of the rays already.
+    pub(super) kernels: Option<&'a Kernels<N>>,
+}
+
+/// What the search for the bounce asks of the rays of one damping, each worked out once for many speeds: the motion is
+/// linear in `μ` and `g`.
+#[derive(Debug)]
+pub struct Kernels<N> {
+    /// The shares of the force at the nodes of a cell, by the cell and how many they are.
+    cells: RefCell<BTreeMap<(i64, usize), Rc<[Shares<N>]>>>,
+    /// The shares of `v_t` and `c v_x`, the static state taken from it, at lattice times.
+    lattice: RefCell<BTreeMap<i64, Rc<[[Shares<N>; 2]]>>>,
+}
+
+impl<N> Default for Kernels<N> {
+    fn default() -> Self {
+        Kernels { cells: RefCell::default(), lattice: RefCell::default() }
+    }
+}
+
+/// What a table holds for `key`, worked out where it does not.
+fn known<K: Ord, T>(table: &RefCell<BTreeMap<K, Rc<[T]>>>, key: K, find: impl FnOnce() -> Rc<[T]>) -> Rc<[T]> {
+    let held = table.borrow().get(&key).cloned();
+    held.unwrap_or_else(|| table.borrow_mut().entry(key).or_insert_with(find).clone())
 }
 
 /// The force in a cell, over `scale`: within `error` of a Chebyshev sum.
@@ -37,11 +65,11 @@ pub(super) struct Bracket<N> {
 
 impl<N: BoundedSpecial> FirstContact<N> {
     /// Whether, at `k t₁`, the transient is below the static stress everywhere in the rod: then it stays so.
-    pub(super) fn settled(&self, k: i64) -> Option<NoBounceReason> {
+    pub(super) fn settled(&self, k: i64, kernels: Option<&Kernels<N>>) -> Option<NoBounceReason> {
         if self.weightless {
             return None;
         }
-        let (share, largest) = (self.static_share(), self.transient(k)?);
+        let (share, largest) = (self.static_share(), self.transient(k, kernels)?);
         let part = largest / share;
         (largest < share * (1.0 - 1e-9)).then_some(NoBounceReason::SettlesUnderWeight { trips: k, part })
     }
@@ -58,20 +86,24 @@ impl<N: BoundedSpecial> FirstContact<N> {
     /// interpolant is off by at most `4M·8^{−24}/7`, M from [`FirstContact::amplitude`], and it is nowhere larger than
     /// the sum of its coefficients' magnitudes. Errors of the values add up to no more than 3.1 times the greatest of
     /// them.
-    pub(super) fn transient(&self, k: i64) -> Option<f64> {
+    pub(super) fn transient(&self, k: i64, kernels: Option<&Kernels<N>>) -> Option<f64> {
         const NODES: usize = 24;
         let trips = self.damping.int(k);
         let (total, free) = (self.total_speed(), self.free_fall(&trips));
-        let (mut upward, mut downward) = (Vec::with_capacity(NODES + 1), Vec::with_capacity(NODES + 1));
-        let mut error = 0.0f64;
-        let share = self.static_share();
-        for j in 0..=NODES {
+        let sample = |j: usize| {
             let node = (std::f64::consts::PI * j as f64 / NODES as f64).cos();
             let a = trips.double((0.25 + 0.25 * node).clamp(0.0, 0.5));
             // The limit from inside at the ground: the ray that comes down has arrived, the one it starts has not.
             let [_, rate, slope] = self.field_shares(&a, &trips, [k, k], &free);
-            let held = Shares { impact: slope.impact, weight: slope.weight - (a - trips.ratio(1, 2)) };
-            let (velocity, strain) = (self.weighted(&rate) / &total, self.weighted(&held) / &total);
+            [rate, Shares { impact: slope.impact, weight: slope.weight - (a - trips.ratio(1, 2)) }]
+        };
+        let held = kernels.map(|kernels| known(&kernels.lattice, k, || (0..=NODES).map(sample).collect()));
+        let (mut upward, mut downward) = (Vec::with_capacity(NODES + 1), Vec::with_capacity(NODES + 1));
+        let mut error = 0.0f64;
+        let share = self.static_share();
+        for j in 0..=NODES {
+            let [rate, slope] = held.as_ref().map_or_else(|| sample(j), |held| held[j].clone());
+            let (velocity, strain) = (self.weighted(&rate) / &total, self.weighted(&slope) / &total);
             let ((up, up_off), (down, down_off)) = ((velocity.clone() - &strain).near(), (velocity + strain).near());
             error = error.max(up_off).max(down_off);
             if !(up.is_finite() && down.is_finite()) || up.abs().max(down.abs()) > share {
@@ -110,9 +142,25 @@ impl<N: BoundedSpecial> FirstContact<N> {
 impl<N: BoundedSpecial> Search<'_, N> {
     /// What presses on the ground, see [`FirstContact::force`].
     pub(super) fn force(&self, trips: &N, k: i64) -> N {
-        let Some(route) = self.route else { return self.contact.force(trips, k) };
+        self.contact.weighted(&self.shares(trips, k)) / self.contact.total_speed()
+    }
+
+    fn shares(&self, trips: &N, k: i64) -> Shares<N> {
+        let Some(route) = self.route else { return self.contact.ground(trips, k) };
         let [impact, weight] = route(trips, k);
-        self.contact.weighted(&Shares { impact, weight }) / self.contact.total_speed()
+        Shares { impact, weight }
+    }
+
+    /// The force at the n + 1 Chebyshev points of a cell, from its end to its beginning.
+    fn at_nodes(&self, k: i64, n: usize) -> Vec<N> {
+        let place = |j: usize| self.contact.inside(k, (std::f64::consts::PI * j as f64 / n as f64).cos());
+        let find = || (0..=n).map(|j| self.shares(&place(j), k)).collect();
+        let shares: Rc<[_]> = match self.kernels {
+            Some(kernels) => known(&kernels.cells, (k, n), find),
+            None => find(),
+        };
+        let total = self.contact.total_speed();
+        shares.iter().map(|shares| self.contact.weighted(shares) / &total).collect()
     }
 
     /// The force in `(k t₁, (k+1) t₁)` as a Chebyshev sum in doubles, or why there is none.
@@ -130,11 +178,10 @@ impl<N: BoundedSpecial> Search<'_, N> {
     ///   are at most `n²` and the terms `Σ (j+1)³|c_j|`; divided by the `4(n+1)²` that [`first_root`] allows slopes,
     ///   that is less than `4 u Σ (j+1)³|c_j|`.
     pub(super) fn interpolant(&self, k: i64) -> Result<Interpolant<N>, Doubt> {
-        let at = |x: f64| self.contact.inside(k, x);
         let zero = self.contact.damping.zero();
         // Any exact number will do for a scale.
-        let probes = [-1.0, 0.0, 1.0].map(|x| self.force(&at(x), k).magnitude());
-        let scale = probes.into_iter().fold(zero, |sum, probe| sum + probe).middle();
+        let probes = self.at_nodes(k, 2).into_iter().rev();
+        let scale = probes.fold(zero, |sum, probe| sum + probe.magnitude()).middle();
         if !(scale.positive() == Ok(true) && scale.is_finite()) {
             return Err(Doubt::Faint(k));
         }
@@ -142,10 +189,11 @@ impl<N: BoundedSpecial> Search<'_, N> {
         let rho = width + (width * width - 1.0).sqrt();
         let log_bound = 2.0 * width.ln() - scale.ln().near().0 + (4.0 / (rho - 1.0)).ln();
         let n = ((log_bound + 35.0) / rho.ln()).ceil().clamp(8.0, 4000.0) as usize;
+        // Speeds that ask for about as many share their nodes.
+        let n = if self.kernels.is_some() { n.next_multiple_of(8) } else { n };
         let mut values = Vec::with_capacity(n + 1);
         let mut rounding = 0.0f64;
-        for j in 0..=n {
-            let value = self.force(&at((std::f64::consts::PI * j as f64 / n as f64).cos()), k);
+        for value in self.at_nodes(k, n) {
             let (value, error) = (value / &scale).near();
             rounding = if error.is_nan() { f64::INFINITY } else { rounding.max(error) };
             values.push(value);

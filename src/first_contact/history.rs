@@ -1,5 +1,7 @@
 //! The first contact as a history, from the impact to the bounce.
 
+use std::sync::OnceLock;
+
 use super::field::{FirstContact, Trips};
 use super::outcome::{Bounce, BounceKind};
 use super::rebound::Rebound;
@@ -9,7 +11,7 @@ use crate::motion::moments::Moments;
 use crate::motion::{Contact, Course, Ending, Energy, Event, EventKind, Field, Motion, Scales, Side, StressPiece};
 use crate::number::{Open, Scalar};
 use crate::problem::{Parameters, Problem, Run};
-use crate::reason::Reason;
+use crate::reason::{Reason, Warning};
 use crate::special::BoundedSpecial;
 
 /// The first contact of a uniform start under a free top, damped or not, from the impact to the bounce, or as far as it
@@ -34,27 +36,27 @@ use crate::special::BoundedSpecial;
 /// assert!((bounce.value() - 3.299026051445773).abs() < bounce.bound() && bounce.bound() < 1e-9);
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
+///
+/// Nothing but the end is worked out before it is asked for.
 #[derive(Clone, Debug)]
 pub struct ContactHistory<N> {
     contact: FirstContact<N>,
-    release: Option<Release<N>>,
+    end: N,
+    ending: Ending,
+    /// As far as the closed forms are followed: to the end, or to rest.
+    followed: Trips<N>,
+    /// What the stress does at the end, where that is the bounce.
+    release: Option<BounceKind>,
     /// After so many round trips a contact without end is at rest.
     rest: Option<i64>,
-    course: Course<N>,
-}
-
-/// The bounce.
-#[derive(Clone, Debug)]
-struct Release<N> {
-    trips: Trips<N>,
-    kind: BounceKind,
-    rebound: Rebound<N>,
+    rebound: OnceLock<Rebound<N>>,
+    course: OnceLock<Course<N>>,
 }
 
 /// A time of the history.
 enum Moment<'a, N> {
     /// The bounce itself.
-    Bounce(&'a Release<N>),
+    Bounce(BounceKind),
     Contact(Trips<N>),
     /// A contact without end in which nothing moves any more.
     Rest(StaticState<'a, N>),
@@ -68,6 +70,10 @@ const MOST_TRIPS: i64 = 256;
 /// That a comparison of enclosures is open.
 fn open<T>(what: &'static str, like: &impl Scalar, found: Result<T, Open>) -> Result<T, Error> {
     found.map_err(|_| Error::not_decided(what, like.bits()))
+}
+
+fn trips_at<N: BoundedSpecial>(contact: &FirstContact<N>, time: &N) -> Result<Trips<N>, Error> {
+    open("how many rays have returned by that time", time, contact.trips(time).ok_or(Open))
 }
 
 impl<N: BoundedSpecial> ContactHistory<N> {
@@ -94,35 +100,22 @@ impl<N: BoundedSpecial> ContactHistory<N> {
     ///
     /// **Errors**: [`Error::NotDecided`] where an enclosure does not tell which of the two comes first.
     pub fn new(contact: FirstContact<N>, bounce: Bounce<N>, asked: Option<N>) -> Result<Self, Error> {
-        match bounce {
+        let (until, ending) = match bounce {
             Bounce::At { time, trips, kind } => match &asked {
                 Some(asked) if open("whether the contact lasts so long", asked, asked.below(&time))? => {
-                    Self::without_bounce(contact, None, Ending::Time, Some(asked.clone()))
+                    (None, Ending::Time)
                 }
-                _ => Self::with_bounce(contact, time, trips, kind),
+                _ => return Ok(Self::up_to(contact, time, Ending::Bounce, trips, Some(kind), None)),
             },
-            Bounce::Undecided { until, why } => {
-                Self::without_bounce(contact, Some(until), Ending::Undecided(Reason::Doubt(why)), asked)
-            }
-            Bounce::Never(reason) => {
-                Self::without_bounce(contact, None, Ending::NoBounce(Reason::NoBounce(reason)), asked)
-            }
-        }
-    }
-
-    /// A contact that does not end before `until`, or the time that is asked for.
-    fn without_bounce(
-        contact: FirstContact<N>,
-        until: Option<N>,
-        ending: Ending,
-        asked: Option<N>,
-    ) -> Result<Self, Error> {
+            Bounce::Undecided { until, why } => (Some(until), Ending::Undecided(Reason::Doubt(why))),
+            Bounce::Never(reason) => (None, Ending::NoBounce(Reason::NoBounce(reason))),
+        };
         let trips = |k: i64| contact.round_trip.int(k) * &contact.round_trip;
-        let (mut end, mut rest) = (until.clone().unwrap_or_else(|| trips(SHOWN_TRIPS)), None);
-        let mut ending = ending;
+        let most = trips(if asked.is_some() { MOST_TRIPS } else { SHOWN_TRIPS });
+        let last = until.clone().unwrap_or(most);
+        let (mut end, mut ending, mut rest) = (last.clone(), ending, None);
         if let Some(asked) = asked {
-            end = until.clone().unwrap_or_else(|| trips(MOST_TRIPS));
-            if !open("whether the contact is followed so long", &asked, end.below(&asked))? {
+            if !open("whether the contact is followed so long", &asked, last.below(&asked))? {
                 (end, ending) = (asked, Ending::Time);
             } else if until.is_none()
                 && let Some(faded) = faded_after(&contact.rod, MOST_TRIPS)
@@ -130,70 +123,75 @@ impl<N: BoundedSpecial> ContactHistory<N> {
                 (end, rest) = (asked, Some(faded));
             }
         }
-        ContactHistory { course: Course::new(end, ending), release: None, rest, contact }.measured()
+        let followed = match rest {
+            Some(rest) => contact.lattice(rest),
+            None => trips_at(&contact, &end)?,
+        };
+        Ok(Self::up_to(contact, end, ending, followed, None, rest))
     }
 
-    fn with_bounce(contact: FirstContact<N>, time: N, trips: Trips<N>, kind: BounceKind) -> Result<Self, Error> {
-        let (centre, velocity) = contact.centre_at(&trips);
-        let rebound = Rebound { time: time.clone(), centre, velocity, rod: contact.rod.clone() };
-        let release = Some(Release { trips, kind, rebound });
-        ContactHistory { course: Course::new(time, Ending::Bounce), release, rest: None, contact }.measured()
+    fn up_to(
+        contact: FirstContact<N>,
+        end: N,
+        ending: Ending,
+        followed: Trips<N>,
+        release: Option<BounceKind>,
+        rest: Option<i64>,
+    ) -> Self {
+        let (rebound, course) = (OnceLock::new(), OnceLock::new());
+        ContactHistory { contact, end, ending, followed, release, rest, rebound, course }
     }
 
-    /// Events, impulse and peak: `−c² ∫ v_x dt = P(t) − P(0) + 2rL h(t) + gLt`, (3.36) integrated.
-    fn measured(mut self) -> Result<Self, Error> {
-        let (zero, rod) = (self.course.end.zero(), self.contact.rod.clone());
-        self.course.events.push(Event {
+    /// Events, impulse and peak.
+    fn measured(&self) -> Course<N> {
+        let (zero, rod) = (self.end.zero(), &self.contact.rod);
+        let mut events = vec![Event {
             kind: EventKind::Impact,
             end_velocity: -rod.speed.clone(),
             centre: zero.clone(),
             centre_velocity: -rod.speed.clone(),
             time: zero.clone(),
             time_error: 0.0,
-        });
-        if let Some(Release { trips, kind, rebound }) = &self.release {
+        }];
+        if let (Some(kind), Some(rebound)) = (self.release, self.rebound()) {
             let end_velocity = match kind {
                 // The rod that were glued on would be pulled: that stress is what the end leaves with.
                 BounceKind::Jump => {
-                    match (self.contact.stress_at(trips, Side::Right) * &rod.wave_speed).without_exact() {
+                    match (self.contact.stress_at(&self.followed, Side::Right) * &rod.wave_speed).without_exact() {
                         none if none.vanishes() == Ok(true) => zero.clone().widened(&none),
                         pull => pull,
                     }
                 }
                 BounceKind::Root => zero.clone(),
             };
-            self.course.events.push(Event {
+            events.push(Event {
                 kind: EventKind::Release,
-                time: self.course.end.clone(),
+                time: self.end.clone(),
                 end_velocity,
                 centre: rebound.centre.clone(),
                 centre_velocity: rebound.velocity.clone(),
-                time_error: self.course.end.log2_error().exp2(),
+                time_error: self.end.log2_error().exp2(),
             });
         }
-        let (centre, velocity) = self.centre(&self.course.end)?;
-        let gained =
-            velocity + &rod.speed + centre * &rod.damping * &zero.int(2) + rod.gravity.clone() * &self.course.end;
-        self.course.contacts.push(Contact {
-            to: self.release.as_ref().map(|_| self.course.end.clone()),
-            impulse: (gained * &rod.length).without_exact(),
-            peak_strain: self.contact.peak(&self.followed()?),
+        let contacts = vec![Contact {
+            to: self.release.map(|_| self.end.clone()),
+            impulse: self.whole_impulse(),
+            peak_strain: self.contact.peak(&self.followed),
             from: zero,
-        });
-        Ok(self)
+        }];
+        Course { events, contacts, ..Course::new(self.end.clone(), self.ending.clone()) }
     }
 
-    /// As far as the closed forms are followed, in round trips.
-    fn followed(&self) -> Result<Trips<N>, Error> {
-        match (&self.release, self.rest) {
-            (Some(release), _) => Ok(release.trips.clone()),
-            (None, Some(rest)) => Ok(self.contact.lattice(rest)),
-            (None, None) => self.trips(&self.course.end),
-        }
-    }
-
-    fn trips(&self, time: &N) -> Result<Trips<N>, Error> {
-        open("how many rays have returned by that time", time, self.contact.trips(time).ok_or(Open))
+    /// `−c² ∫ v_x dt = P(t) − P(0) + 2rL h(t) + gLt`, (3.36) integrated, over the contact.
+    fn whole_impulse(&self) -> N {
+        let rod = &self.contact.rod;
+        let (centre, velocity) = match (self.rebound(), self.rest) {
+            (Some(rebound), _) => (rebound.centre.clone(), rebound.velocity.clone()),
+            (None, Some(_)) => StaticState::of(rod).centre(),
+            (None, None) => self.contact.centre_at(&self.followed),
+        };
+        let gained = velocity + &rod.speed + centre * &rod.damping * &self.end.int(2) + rod.gravity.clone() * &self.end;
+        (gained * &rod.length).without_exact()
     }
 
     /// The closed forms behind it, which hold while the contact lasts.
@@ -203,12 +201,16 @@ impl<N: BoundedSpecial> ContactHistory<N> {
 
     /// What the stress does at the bounce, and k where that is at `k t₁`; `None` where there is none.
     pub fn bounce(&self) -> Option<(BounceKind, Option<i64>)> {
-        self.release.as_ref().map(|release| (release.kind, release.trips.lattice()))
+        self.release.map(|kind| (kind, self.followed.lattice()))
     }
 
     /// The motion of the centre of mass after the bounce; `None` where there is none.
     pub fn rebound(&self) -> Option<&Rebound<N>> {
-        self.release.as_ref().map(|release| &release.rebound)
+        self.release?;
+        Some(self.rebound.get_or_init(|| {
+            let (centre, velocity) = self.contact.centre_at(&self.followed);
+            Rebound { time: self.end.clone(), centre, velocity, rod: self.contact.rod.clone() }
+        }))
     }
 
     /// `h(t)` and `h′(t)` in the flight after the bounce, provided that no impact has come before.
@@ -216,33 +218,33 @@ impl<N: BoundedSpecial> ContactHistory<N> {
     /// **Source**: (3.43), (3.44). **Accuracy**: *within its own bound*. **Errors**: [`Error::TimeOutside`] before the
     /// bounce or where there is none.
     pub fn flight(&self, time: &N) -> Result<(N, N), Error> {
-        let outside = || Error::TimeOutside { found: time.text(), end: self.course.end.text() };
+        let outside = || Error::TimeOutside { found: time.text(), end: self.end.text() };
         let rebound = self.rebound().ok_or_else(outside)?;
-        if time.coincides(&self.course.end) {
+        if time.coincides(&self.end) {
             return Ok((rebound.centre.clone(), rebound.velocity.clone()));
         }
-        if open("whether that time is in the flight", time, time.below(&self.course.end))? {
+        if open("whether that time is in the flight", time, time.below(&self.end))? {
             return Err(outside());
         }
         Ok(rebound.flight(&time.clone().without_exact()))
     }
 
     fn moment(&self, time: &N) -> Result<Moment<'_, N>, Error> {
-        let at_end = time.coincides(&self.course.end);
-        if at_end && let Some(release) = &self.release {
-            return Ok(Moment::Bounce(release));
+        let at_end = time.coincides(&self.end);
+        if at_end && let Some(kind) = self.release {
+            return Ok(Moment::Bounce(kind));
         }
-        let outside = || Ok(time.negative()? || !at_end && self.course.end.below(time)?);
+        let outside = || Ok(time.negative()? || !at_end && self.end.below(time)?);
         if !time.is_finite() || open("whether that time is before the end", time, outside())? {
-            return Err(Error::TimeOutside { found: time.text(), end: self.course.end.text() });
+            return Err(Error::TimeOutside { found: time.text(), end: self.end.text() });
         }
         if let Some(rest) = self.rest {
-            let rest = self.course.end.int(rest) * &self.contact.round_trip;
+            let rest = self.end.int(rest) * &self.contact.round_trip;
             if open("whether the rod is at rest", time, rest.below(time))? {
                 return Ok(Moment::Rest(StaticState::of(&self.contact.rod)));
             }
         }
-        Ok(Moment::Contact(self.trips(time)?))
+        Ok(Moment::Contact(trips_at(&self.contact, time)?))
     }
 
     /// Whether that is the state just before the impact.
@@ -253,24 +255,42 @@ impl<N: BoundedSpecial> ContactHistory<N> {
 
 impl<N: BoundedSpecial> Motion<N> for ContactHistory<N> {
     fn course(&self) -> &Course<N> {
-        &self.course
+        self.course.get_or_init(|| self.measured())
     }
 
-    /// None where these bits do not settle how many there are.
+    fn end(&self) -> N {
+        self.end.clone()
+    }
+
+    fn ending(&self) -> &Ending {
+        &self.ending
+    }
+
+    fn warnings(&self) -> &[Warning] {
+        &[]
+    }
+
+    fn contact_times(&self, contact: usize) -> Option<(N, Option<N>)> {
+        (contact == 0).then(|| (self.end.zero(), self.release.map(|_| self.end.clone())))
+    }
+
+    fn impulse(&self, contact: usize) -> Option<N> {
+        (contact == 0).then(|| self.whole_impulse())
+    }
+
     fn stress_pieces(&self) -> Vec<StressPiece<N>> {
-        let Ok(followed) = self.followed() else { return Vec::new() };
-        let mut pieces = self.contact.pieces(&followed);
+        let mut pieces = self.contact.pieces(&self.followed);
         if let Some(last) = pieces.last_mut().filter(|_| self.rest.is_none()) {
-            last.to = self.course.end.clone();
-            if self.release.as_ref().is_some_and(|release| release.kind == BounceKind::Root) {
-                last.right = self.course.end.zero();
+            last.to = self.end.clone();
+            if self.release == Some(BounceKind::Root) {
+                last.right = self.end.zero();
             }
         }
         if let Some(rest) = self.rest {
-            let still = StaticState::of(&self.contact.rod).field(&self.course.end.zero()).strain;
-            let from = self.course.end.int(rest) * &self.contact.round_trip;
+            let still = StaticState::of(&self.contact.rod).field(&self.end.zero()).strain;
+            let from = self.end.int(rest) * &self.contact.round_trip;
             let (left, chebyshev) = (still.clone(), vec![still.clone()]);
-            pieces.push(StressPiece { from, to: self.course.end.clone(), left, right: still, chebyshev });
+            pieces.push(StressPiece { from, to: self.end.clone(), left, right: still, chebyshev });
         }
         pieces
     }
@@ -281,8 +301,8 @@ impl<N: BoundedSpecial> Motion<N> for ContactHistory<N> {
         }
         Ok(match self.moment(time)? {
             // A root, or the limit before the jump.
-            Moment::Bounce(release) if side == Side::Left && release.kind == BounceKind::Jump => {
-                self.contact.stress_at(&release.trips, Side::Left)
+            Moment::Bounce(BounceKind::Jump) if side == Side::Left => {
+                self.contact.stress_at(&self.followed, Side::Left)
             }
             Moment::Bounce(_) => time.zero(),
             Moment::Contact(trips) => self.contact.stress_at(&trips, side),
@@ -294,7 +314,7 @@ impl<N: BoundedSpecial> Motion<N> for ContactHistory<N> {
         if Self::before_impact(time, side) {
             return Ok((time.zero(), -self.contact.rod.speed.clone()));
         }
-        match (self.moment(time)?, self.course.events.last()) {
+        match (self.moment(time)?, self.events().last()) {
             (Moment::Bounce(_), Some(event)) if side == Side::Right => Ok((time.zero(), event.end_velocity.clone())),
             _ => Ok((time.zero(), time.zero())),
         }
@@ -307,7 +327,7 @@ impl<N: BoundedSpecial> Motion<N> for ContactHistory<N> {
 
     fn centre(&self, time: &N) -> Result<(N, N), Error> {
         Ok(match self.moment(time)? {
-            Moment::Bounce(release) => (release.rebound.centre.clone(), release.rebound.velocity.clone()),
+            Moment::Bounce(_) => self.contact.centre_at(&self.followed),
             Moment::Contact(trips) => self.contact.centre_at(&trips),
             Moment::Rest(state) => state.centre(),
         })
@@ -315,7 +335,7 @@ impl<N: BoundedSpecial> Motion<N> for ContactHistory<N> {
 
     fn energy(&self, time: &N) -> Result<Energy<N>, Error> {
         Ok(match self.moment(time)? {
-            Moment::Bounce(release) => self.contact.energy_at(&release.trips),
+            Moment::Bounce(_) => self.contact.energy_at(&self.followed),
             Moment::Contact(trips) => self.contact.energy_at(&trips),
             Moment::Rest(state) => state.energy(),
         })
@@ -323,7 +343,7 @@ impl<N: BoundedSpecial> Motion<N> for ContactHistory<N> {
 
     fn energy_parts(&self, time: &N) -> Result<[N; 2], Error> {
         Ok(match self.moment(time)? {
-            Moment::Bounce(release) => self.contact.energy_parts_at(&release.trips),
+            Moment::Bounce(_) => self.contact.energy_parts_at(&self.followed),
             Moment::Contact(trips) => self.contact.energy_parts_at(&trips),
             Moment::Rest(state) => state.energy_parts(),
         })
@@ -336,14 +356,14 @@ impl<N: BoundedSpecial> Motion<N> for ContactHistory<N> {
             return Err(Error::PointOutside { found: point.text(), length: length.text() });
         }
         match self.moment(time)? {
-            Moment::Bounce(release) => {
+            Moment::Bounce(_) => {
                 let ground =
                     side == Side::Right && open("whether the point is at the ground", point, point.vanishes())?;
                 if ground {
                     let (displacement, velocity) = self.ground_end(time, side)?;
                     return Ok(Field { displacement, velocity, strain: time.zero() });
                 }
-                Ok(self.contact.field_at(point, &release.trips, side))
+                Ok(self.contact.field_at(point, &self.followed, side))
             }
             Moment::Contact(trips) => Ok(self.contact.field_at(point, &trips, side)),
             Moment::Rest(state) => Ok(state.field(point)),
@@ -352,7 +372,7 @@ impl<N: BoundedSpecial> Motion<N> for ContactHistory<N> {
 
     fn moments(&self, time: &N, points: &[N]) -> Result<Vec<Moments<N>>, Error> {
         match self.moment(time)? {
-            Moment::Bounce(release) => Ok(self.contact.moments_at(points, &release.trips)),
+            Moment::Bounce(_) => Ok(self.contact.moments_at(points, &self.followed)),
             Moment::Contact(trips) => Ok(self.contact.moments_at(points, &trips)),
             Moment::Rest(state) => state.moments(points),
         }
@@ -360,7 +380,7 @@ impl<N: BoundedSpecial> Motion<N> for ContactHistory<N> {
 
     /// **Errors**: `None` also where these bits do not tell whether the centre of mass rises.
     fn highest(&self, release: &Event<N>) -> Option<(N, N)> {
-        let at_end = release.kind == EventKind::Release && release.time.coincides(&self.course.end);
+        let at_end = release.kind == EventKind::Release && release.time.coincides(&self.end);
         self.rebound().filter(|_| at_end)?.highest()
     }
 
@@ -380,6 +400,6 @@ impl<N: BoundedSpecial> Motion<N> for ContactHistory<N> {
 
     /// Zero: every number holds its own.
     fn error_estimate(&self) -> N {
-        self.course.end.zero()
+        self.end.zero()
     }
 }

@@ -18,6 +18,7 @@ mod pieces;
 mod rebound;
 mod static_state;
 
+pub use cells::Kernels;
 pub use field::{FirstContact, Trips};
 pub use history::ContactHistory;
 pub use outcome::{Bounce, BounceKind};

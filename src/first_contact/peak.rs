@@ -100,7 +100,7 @@ impl<N: BoundedSpecial> FirstContact<N> {
     /// `4(n+1)²e`, as in the search for the first root; their second derivatives, by Markov's inequality and the same
     /// series with k⁴ for k², by `4(n+1)⁴e`.
     fn excess(&self, k: i64, to: f64, known: &N) -> Excess<N> {
-        let search = Search { contact: self, route: None };
+        let search = Search { contact: self, route: None, kernels: None };
         let Ok(Interpolant { scale, sum, error }) = search.interpolant(k) else {
             return Excess::AtMost(known.one());
         };
@@ -193,7 +193,7 @@ impl<N: BoundedSpecial> FirstContact<N> {
     /// Half the static share of the force and a bound of the transient from `k t₁` on: no later force is greater.
     fn most_after(&self, k: i64) -> Option<N> {
         let share = self.critical.clone() / self.total_speed() / self.critical.int(2);
-        Some(share.double(self.transient(k)?) + &share)
+        Some(share.double(self.transient(k, None)?) + &share)
     }
 }
 

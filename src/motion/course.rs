@@ -182,6 +182,11 @@ impl<S> Contact<S> {
         Contact { from: f(self.from), to: self.to.map(&f), impulse: f(self.impulse), peak_strain: f(self.peak_strain) }
     }
 
+    /// When it begins and ends.
+    pub fn times(&self) -> (&S, Option<&S>) {
+        (&self.from, self.to.as_ref())
+    }
+
     /// Every number in it.
     pub(crate) fn numbers(&self) -> impl Iterator<Item = &S> {
         [&self.from, &self.impulse, &self.peak_strain].into_iter().chain(&self.to)

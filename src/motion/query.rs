@@ -101,6 +101,16 @@ pub trait Motion<S: Scalar>: fmt::Debug + Send + Sync {
         &self.course().contacts
     }
 
+    /// When a contact, counted from 0, begins and ends.
+    fn contact_times(&self, contact: usize) -> Option<(S, Option<S>)> {
+        self.contacts().get(contact).map(|contact| (contact.from.clone(), contact.to.clone()))
+    }
+
+    /// The impulse of a contact, counted from 0.
+    fn impulse(&self, contact: usize) -> Option<S> {
+        self.contacts().get(contact).map(|contact| contact.impulse.clone())
+    }
+
     /// What a user should know beside the numbers.
     fn warnings(&self) -> &[Warning] {
         &self.course().warnings

@@ -193,8 +193,8 @@ pub fn record<S: Scalar>(history: &dyn Motion<S>, stress: bool) -> Result<Record
     for contact in history.contacts() {
         contacts.push(Finished {
             energy: contact.to.as_ref().map(|to| history.energy(to)).transpose()?,
-            restitution: restitution(history, contact)?,
-            shares: energy_shares(history, contact)?,
+            restitution: restitution(history, contact.times())?,
+            shares: energy_shares(history, contact.times())?,
             contact: contact.clone(),
         });
     }

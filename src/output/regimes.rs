@@ -6,8 +6,8 @@ use glam::DVec2;
 
 use super::draw::{Axis, Key, Layer, Panel, Shape, Sheet, Size, Stroke};
 use super::writer::Npz;
-use crate::number::{Number, Scalar};
-use crate::sweep::{Map, Regime, threshold};
+use crate::number::{Estimate, Number, Scalar, double_bound_text};
+use crate::sweep::{Map, Regime, threshold, threshold_near};
 
 /// Colours by `t_b/t₁`, each up to its number and with it.
 const BANDS: [(f64, &str, &str); 8] = [
@@ -49,10 +49,11 @@ pub(crate) fn regimes_csv(map: &Map) -> Result<String, csv::Error> {
 /// `R` of each column and the `M` above which the bounce comes at `t₁`; empty where no M is high enough.
 pub(crate) fn threshold_csv(map: &Map) -> Result<String, csv::Error> {
     let row = |r: &Number| {
-        let m = threshold(r.to_f64());
-        vec![r.to_string(), if m.is_finite() { m.text() } else { String::new() }]
+        let m = threshold(&Estimate::from_number(r, &()));
+        let [m, bound] = m.map(|m| [m.text(), double_bound_text(&m)]).unwrap_or_default();
+        vec![r.to_string(), m, bound]
     };
-    super::csv::write("", ["damping_ratio", "threshold"], map.damping.iter().map(row))
+    super::csv::write("", ["damping_ratio", "threshold", "uncertainty"], map.damping.iter().map(row))
 }
 
 /// How often each regime comes, in words.
@@ -84,7 +85,7 @@ pub(crate) fn regimes_npz(map: &Map) -> io::Result<Vec<u8>> {
         Regime::Undecided => f64::NAN,
     };
     let shape = [speeds.len(), dampings.len()];
-    let thresholds = dampings.iter().map(|r| threshold(*r)).collect();
+    let thresholds = dampings.iter().map(|r| threshold_near(*r)).collect();
     npz.add("damping_ratio", &shape[1..], dampings)?;
     npz.add("speed_ratio", &shape[..1], speeds)?;
     npz.add("bounce_ratio", &shape, map.regimes.iter().map(value).collect())?;
@@ -135,10 +136,10 @@ pub(crate) fn regimes_panel(map: &Map) -> Panel {
     let (mut below, mut above) = (1.8, 1.81);
     for _ in 0..60 {
         let middle: f64 = (below + above) / 2.0;
-        *(if threshold(middle).is_finite() { &mut below } else { &mut above }) = middle;
+        *(if threshold_near(middle).is_finite() { &mut below } else { &mut above }) = middle;
     }
     let curve = (0..=800).map(|k| below * (1.0 - (-f64::from(k) / 20.0).exp2()));
-    let curve = curve.map(|r| DVec2::new(r, threshold(r))).filter(|point| point.y.is_finite()).collect();
+    let curve = curve.map(|r| DVec2::new(r, threshold_near(r))).filter(|point| point.y.is_finite()).collect();
     let pi = [y.from, y.to].map(|m| DVec2::new(std::f64::consts::PI, m)).to_vec();
     // Apart from every colour of the map, and from paper.
     let (solid, dashed) = (Stroke::new("#ff5a1f", 0.6), Stroke::new("#000000", 0.25).dashed("1.8 1.2"));

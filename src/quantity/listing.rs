@@ -108,11 +108,11 @@ impl Source {
             }
             Source::Push => contacts().map(|contact| ok(&[&contact.impulse, &contact.peak_strain])).collect(),
             Source::Restitution => contacts()
-                .map(|contact| restitution(motion, contact).map(|e| vec![e.momentum, e.energy_squared]))
+                .map(|contact| restitution(motion, contact.times()).map(|e| vec![e.momentum, e.energy_squared]))
                 .collect::<Result<_, _>>()?,
             Source::Shares => contacts()
                 .map(|contact| {
-                    let shares = energy_shares(motion, contact)?;
+                    let shares = energy_shares(motion, contact.times())?;
                     let why = if contact.to.is_none() { unfinished } else { Undefined::NoEnergy };
                     Ok::<_, Error>(vec![shares.translational.ok_or(why), shares.kept.ok_or(why)])
                 })

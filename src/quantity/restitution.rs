@@ -1,7 +1,7 @@
 //! The coefficients of restitution of a contact.
 
 use crate::error::Error;
-use crate::motion::{Contact, Motion};
+use crate::motion::Motion;
 use crate::number::Scalar;
 
 /// The coefficients of restitution `e_P` and `e_E²` of one contact, its end compared with its own beginning.
@@ -71,7 +71,7 @@ impl<S> EnergyShares<S> {
     }
 }
 
-/// The coefficients of restitution of `contact`.
+/// The coefficients of restitution of the contact that begins at `from` and ends at `to`.
 ///
 /// **Source**: section 4.1 and (4.71), with the state at the beginning of the contact for that at `t = 0`: the same for
 /// the first contact. The datum of `E_h` is `h = 0`, the undeformed rod on the ground. `h` and `h′` are all that is
@@ -81,11 +81,11 @@ impl<S> EnergyShares<S> {
 /// within its bound counts as zero.
 ///
 /// **Errors**: what the history cannot answer. A coefficient that is not defined has the reason in its place.
-pub fn restitution<S: Scalar>(history: &dyn Motion<S>, contact: &Contact<S>) -> Result<Restitution<S>, Error> {
-    let Some(to) = &contact.to else {
+pub fn restitution<S: Scalar>(history: &dyn Motion<S>, (from, to): (&S, Option<&S>)) -> Result<Restitution<S>, Error> {
+    let Some(to) = to else {
         return Ok(Restitution { momentum: Err(Undefined::Unfinished), energy_squared: Err(Undefined::Unfinished) });
     };
-    let (h0, rate0) = history.centre(&contact.from)?;
+    let (h0, rate0) = history.centre(from)?;
     let (h, rate) = history.centre(to)?;
     // E_h/L = h′²/2 + g h.
     let gravity = history.scales().gravity;
@@ -102,12 +102,15 @@ pub fn restitution<S: Scalar>(history: &dyn Motion<S>, contact: &Contact<S>) -> 
     Ok(Restitution { momentum, energy_squared })
 }
 
-/// The factors of `e_E²` of `contact`.
+/// The factors of `e_E²` of the contact that begins at `from` and ends at `to`.
 ///
 /// **Source**: (4.73). **Accuracy**: that of the energies. **Errors**: what the history cannot answer.
-pub fn energy_shares<S: Scalar>(history: &dyn Motion<S>, contact: &Contact<S>) -> Result<EnergyShares<S>, Error> {
-    let Some(to) = &contact.to else { return Ok(EnergyShares { translational: None, kept: None }) };
-    let (before, after) = (history.energy(&contact.from)?, history.energy(to)?);
+pub fn energy_shares<S: Scalar>(
+    history: &dyn Motion<S>,
+    (from, to): (&S, Option<&S>),
+) -> Result<EnergyShares<S>, Error> {
+    let Some(to) = to else { return Ok(EnergyShares { translational: None, kept: None }) };
+    let (before, after) = (history.energy(from)?, history.energy(to)?);
     let ratio = |part: &S, whole: &S| Ok::<_, Error>((!whole.vanishes()?).then(|| part.clone() / whole));
     Ok(EnergyShares {
         translational: ratio(&after.translational, &after.total)?,

@@ -35,7 +35,9 @@ use crate::reason::Warning;
 /// # Ok::<(), dalembert::Error>(())
 /// ```
 pub struct History<S: Target> {
-    ladder: Ladder,
+    problem: Problem,
+    plan: Plan,
+    observe: Observer,
     attempt: Mutex<Attempt<S>>,
     events: OnceLock<Vec<Event<S>>>,
     contacts: OnceLock<Vec<Contact<S>>>,
@@ -49,8 +51,8 @@ impl<S: Target> History<S> {
     /// **Errors**: those of the engine; [`Error::Unsettled`], [`Error::Undecided`] where too many bits do not settle
     /// the events.
     pub(crate) fn solve(problem: &Problem, plan: &Plan, observe: Observer) -> Result<Self, Error> {
-        let ladder = Ladder { problem: problem.clone(), plan: plan.clone(), observe };
-        let ask_events = plan.keep_from.is_none();
+        let ladder = Ladder { problem, plan, observe: &observe };
+        let ask_events = plan.settles_events;
         let query = |engine: &dyn Motion<S::Carried>| {
             let events = if ask_events { engine.events().to_vec() } else { Vec::new() };
             let contacts = if ask_events { engine.contacts().to_vec() } else { Vec::new() };
@@ -68,7 +70,9 @@ impl<S: Target> History<S> {
             events: OnceLock::new(),
             contacts: OnceLock::new(),
             end: S::strip(end),
-            ladder,
+            problem: problem.clone(),
+            plan: plan.clone(),
+            observe,
         };
         if ask_events {
             motion.events.get_or_init(|| events.into_iter().map(|event| event.map(S::strip)).collect());
@@ -110,7 +114,8 @@ impl<S: Target> History<S> {
     ) -> Result<T, Error> {
         let current = self.current();
         let rung = current.rung;
-        let settled = self.ladder.settle(Some(current), query, numbers);
+        let ladder = Ladder { problem: &self.problem, plan: &self.plan, observe: &self.observe };
+        let settled = ladder.settle(Some(current), query, numbers);
         let (attempt, answer) = settled.map_err(|error| self.explained(error))?;
         if attempt.rung != rung {
             *self.attempt.lock().unwrap_or_else(PoisonError::into_inner) = attempt;
@@ -178,12 +183,12 @@ impl<S: Target> History<S> {
     /// # Ok::<(), dalembert::Error>(())
     /// ```
     pub fn units(&self) -> Units {
-        Units::of(&self.ladder.problem, UnitSystem::default())
+        Units::of(&self.problem, UnitSystem::default())
     }
 
     /// How it was solved.
     pub fn plan(&self) -> &Plan {
-        &self.ladder.plan
+        &self.plan
     }
 
     /// The numbers that the last answer was computed in.
@@ -239,17 +244,18 @@ impl<S: Target> History<S> {
     fn ask_ratios<T>(
         &self,
         contact: usize,
-        ratios: impl Fn(&dyn Motion<S::Carried>, &Contact<S::Carried>) -> Result<T, Error>,
+        ratios: impl Fn(&dyn Motion<S::Carried>, (&S::Carried, Option<&S::Carried>)) -> Result<T, Error>,
         numbers: impl Fn(&T) -> Vec<&S::Carried>,
         parts: impl Fn(&dyn Motion<S::Carried>, &S::Carried) -> Result<Vec<S::Carried>, Error>,
     ) -> Result<T, Error> {
         let doubles = matches!(self.plan().numbers, Numbers::Double(_));
         let query = |engine: &dyn Motion<S::Carried>| {
-            let found = engine.contacts().len();
-            let contact = engine.contacts().get(contact).ok_or(Error::NoContact { contact, found })?;
-            let ends = std::iter::once(&contact.from).chain(&contact.to);
+            let times = engine.contact_times(contact);
+            let missing = || Error::NoContact { contact, found: engine.contacts().len() };
+            let (from, to) = times.ok_or_else(missing)?;
+            let ends = std::iter::once(&from).chain(&to);
             let whole = ends.map(|time| parts(engine, time)).collect::<Result<Vec<_>, Error>>()?;
-            Ok((ratios(engine, contact)?, whole))
+            Ok((ratios(engine, (&from, to.as_ref()))?, whole))
         };
         Ok(self.ask(query, |(found, whole)| if doubles { whole.iter().flatten().collect() } else { numbers(found) })?.0)
     }
@@ -455,7 +461,7 @@ impl<S: Target> History<S> {
     /// What a user should know of the answer.
     pub fn warnings(&self) -> Vec<Warning> {
         let mut warnings = self.current().engine.warnings().to_vec();
-        warnings.extend(self.ladder.problem.neglected());
+        warnings.extend(self.problem.neglected());
         warnings
     }
 }
@@ -464,7 +470,12 @@ type Pair<S> = Result<(<S as Answer>::Carried, <S as Answer>::Carried), Error>;
 
 impl<S: Target> std::fmt::Debug for History<S> {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        f.debug_struct("History").field("ladder", &self.ladder).field("end", &self.end).finish_non_exhaustive()
+        let Self { problem, plan, end, .. } = self;
+        f.debug_struct("History")
+            .field("problem", problem)
+            .field("plan", plan)
+            .field("end", end)
+            .finish_non_exhaustive()
     }
 }
 

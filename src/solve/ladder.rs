@@ -1,11 +1,10 @@
 //! The precision ladder: an answer is computed in doubles, in longer numbers or in enclosures until its own bound
 //! settles it.
 
-use std::fmt;
 use std::ops::ControlFlow;
-use std::sync::Arc;
+use std::sync::{Arc, LazyLock};
 
-use super::plan::{Lacks, Plan, Rung};
+use super::plan::{Goal, Lacks, Plan, Rung};
 use crate::error::Error;
 use crate::motion::{Ending, Motion, Scales};
 use crate::number::{Answer, Scalar};
@@ -16,9 +15,41 @@ use crate::reason::Warning;
 /// many pieces it has; may end the run with [`Error::Interrupted`].
 pub type Observer = Arc<dyn Fn(usize, usize) -> ControlFlow<()> + Send + Sync>;
 
+static UNOBSERVED: LazyLock<Observer> = LazyLock::new(|| Arc::new(crate::lattice::unobserved));
+
 /// An observer that does nothing.
 pub(crate) fn unobserved() -> Observer {
-    Arc::new(crate::lattice::unobserved)
+    UNOBSERVED.clone()
+}
+
+impl Plan {
+    /// The answer to one `query` of `problem`, in numbers that carry their bound, and nothing that it does not ask for:
+    /// no list of events is settled before it. `numbers` are those of the answer that are settled to the digits of the
+    /// plan.
+    ///
+    /// **Accuracy**: that of [`Plan::numbers`].
+    ///
+    /// **Errors**: those of the run and of the query; [`Error::Unsettled`], [`Error::Undecided`] where no bits that are
+    /// worth trying settle it.
+    ///
+    /// ```
+    /// use dalembert::{Numbers, Plan, Problem, Question};
+    /// let rod = Problem::builder().length(1).wave_speed(1).gravity(1).impact_speed(4).build()?;
+    /// let plan = Plan::of(&rod, &Question::bounce(Numbers::default()))?;
+    /// // Corollary 1: nothing of the impulse but 2ρS L μ, and that of gravity, g L t₁ = 2.
+    /// let impulse = plan.ask::<f64, _>(&rod, |motion| Ok(motion.impulse(0)), |found| found.iter().collect())?;
+    /// assert!((impulse.map_or(0.0, |impulse| *impulse.value()) - 8.0).abs() < 1e-13);
+    /// # Ok::<(), dalembert::Error>(())
+    /// ```
+    pub fn ask<S: Target, T>(
+        &self,
+        problem: &Problem,
+        query: impl Fn(&dyn Motion<S::Carried>) -> Result<T, Error>,
+        numbers: impl Fn(&T) -> Vec<&S::Carried>,
+    ) -> Result<T, Error> {
+        let ladder = Ladder { problem, plan: self, observe: &UNOBSERVED };
+        ladder.settle::<S, T>(None, query, numbers).map(|(_, answer)| answer)
+    }
 }
 
 /// An engine that has run.
@@ -32,18 +63,12 @@ pub trait Target: Answer {
     fn run(problem: &Problem, plan: &Plan, rung: Rung, observe: &Observer) -> Result<Engined<Self>, Error>;
 }
 
-/// A problem, its plan and how far up the ladder the attempts are.
-#[derive(Clone)]
-pub(crate) struct Ladder {
-    pub(crate) problem: Problem,
-    pub(crate) plan: Plan,
-    pub(crate) observe: Observer,
-}
-
-impl fmt::Debug for Ladder {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.debug_struct("Ladder").field("problem", &self.problem).field("plan", &self.plan).finish_non_exhaustive()
-    }
+/// A problem and its plan, of which attempts are made.
+#[derive(Clone, Copy)]
+pub(crate) struct Ladder<'a> {
+    pub(crate) problem: &'a Problem,
+    pub(crate) plan: &'a Plan,
+    pub(crate) observe: &'a Observer,
 }
 
 /// An attempt: its numbers, and the engine that has run in them.
@@ -62,10 +87,8 @@ impl<S: Answer> Clone for Attempt<S> {
 
 /// As often an attempt may end at the same doubt, with more bits each time, before that is the answer.
 const SAME_DOUBT: usize = 3;
-/// No double is known better than this.
-const MOST_DOUBLE_DIGITS: f64 = 15.0;
 
-impl Ladder {
+impl Ladder<'_> {
     /// The answer to `query`, settled: asked of `attempt` where there is one, and of attempts in more and more bits
     /// until every comparison on the way is decided and all `numbers` of the answer have the digits of the plan.
     ///
@@ -88,14 +111,14 @@ impl Ladder {
         loop {
             let answer = match known.take() {
                 Some(engine) => Ok(engine),
-                None => S::run(&self.problem, &self.plan, rung, &self.observe),
+                None => S::run(self.problem, self.plan, rung, self.observe),
             }
             .and_then(|engine| query(&*engine).map(|answer| (engine, answer)));
             // Errors on the way to an open comparison mean nothing, except where no bits can help.
             let (lacks, reached) = match answer {
                 Ok((engine, answer)) => {
                     let missing = self.missing::<S>(&*engine, &numbers(&answer), &mut doubts);
-                    let coincides = !tried && coincides(&self.plan, &*engine);
+                    let coincides = !tried && coincides(self.plan, &*engine);
                     let reached = Some((Attempt { rung, engine, tried }, answer));
                     match reached {
                         Some(settled) if missing <= 0.0 && !coincides => return Ok(settled),
@@ -122,7 +145,7 @@ impl Ladder {
     }
 
     fn unsettled(&self, rung: Rung) -> Error {
-        let digits = self.plan.goal().0 as u32;
+        let digits = self.plan.goal.digits as u32;
         match rung {
             Rung::Confirmed(bits) | Rung::Enclosures(bits) => Error::Undecided { digits, bits },
             Rung::Bits(bits) => Error::Unsettled { digits, bits },
@@ -144,24 +167,26 @@ impl Ladder {
                 return f64::INFINITY;
             }
         }
-        let (digits, spare) = self.plan.goal();
-        let double = matches!(self.plan.numbers, super::Numbers::Double(_));
-        let digits = if double { digits.min(MOST_DOUBLE_DIGITS) } else { digits };
-        let log2 = |x: &S::Carried| x.to_f64().abs().log2();
-        let greatest = numbers.iter().map(|x| log2(x)).fold(f64::NEG_INFINITY, f64::max);
+        let Goal { digits, spare, faint } = self.plan.goal;
         let bits = |digits: f64| digits * std::f64::consts::LOG2_10;
+        let log2 = |x: &&S::Carried| x.to_f64().abs().log2();
+        let greatest = numbers.iter().map(log2).fold(f64::NEG_INFINITY, f64::max);
         let floor = greatest - bits(digits + spare);
-        // What is not told from zero has no digits that bits could settle: its natural scale says when it is small.
-        let faint = least_scale(engine) - bits(if double { digits } else { digits + FAINT_DIGITS });
-        let missing = numbers.iter().map(|x| {
+        let mut most = f64::NEG_INFINITY;
+        for x in numbers {
             let (size, error) = (log2(x), x.log2_error());
+            let mut missing = error - (size - bits(digits)).max(floor);
             // Nothing is known of it, whatever its size.
             if error.is_nan() || error == f64::INFINITY {
                 return f64::INFINITY;
             }
-            error - (size - bits(digits)).max(floor).max(if size <= error { faint } else { f64::NEG_INFINITY })
-        });
-        missing.fold(f64::NEG_INFINITY, f64::max)
+            // What is not told from zero has no digits that bits could settle: its natural scale says when it is small.
+            if missing > 0.0 && size <= error {
+                missing = missing.min(error - least_scale(engine) + bits(digits + faint));
+            }
+            most = most.max(missing);
+        }
+        most
     }
 }
 
@@ -170,10 +195,6 @@ fn coincides<S: Scalar>(plan: &Plan, engine: &dyn Motion<S>) -> bool {
     let contacts = engine.digits_lost().map_or(0, |(contacts, _)| contacts);
     plan.tries_exact(contacts) && engine.warnings().iter().any(|warning| matches!(warning, Warning::Coincidence { .. }))
 }
-
-/// Digits below those asked for, and below its natural scale, from which on a number that is not told from zero is
-/// settled.
-const FAINT_DIGITS: f64 = 30.0;
 
 /// `log₂` of the least of the natural scales of displacement, velocity, strain and energy.
 fn least_scale<S: Scalar>(engine: &dyn Motion<S>) -> f64 {

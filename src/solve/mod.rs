@@ -28,6 +28,6 @@ pub use history::History;
 #[cfg(feature = "cli")]
 pub(crate) use ladder::unobserved;
 pub use ladder::{Observer, Target};
-pub use plan::{CERTIFIED_DIGITS, DEFAULT_ACCURACY, Engine, MAX_DIGITS, Plan, Reach, Rung};
+pub use plan::{CERTIFIED_DIGITS, CellLimits, Climb, DEFAULT_ACCURACY, Engine, Goal, MAX_DIGITS, Plan, Reach, Rung};
 pub use question::{Numbers, Question, Want};
 pub use solution::{ExactnessEnd, Solution};

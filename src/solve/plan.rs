@@ -35,11 +35,70 @@ pub struct Plan {
     pub reach: Reach,
     /// What lies before this time may be forgotten on the way.
     pub keep_from: Option<f64>,
+    /// Whether all events and contacts are settled before anything else is asked; otherwise only what is asked for is
+    /// worked out.
+    pub settles_events: bool,
     /// The numbers of the first attempt; `explain` prints it, and longer numbers follow where they do not settle the
     /// answer.
     pub rung: Rung,
     /// Decimal digits that rounding is foreseen to take in a chaotic run; the first rung has as many more.
     pub foreseen_loss: f64,
+    /// How far an answer has to be known.
+    pub goal: Goal,
+    /// The numbers after those of the first attempt.
+    pub climb: Climb,
+    /// What cells compute at most; `None` where there are none.
+    pub cells: Option<CellLimits>,
+    /// Modes that are summed where the rays of a late first contact cancel in doubles and no longer numbers are built
+    /// in.
+    pub modes: Option<u32>,
+    /// Bits of `h′` at the first bounce, on which the flight and all that follows hangs; `None` for those of the run.
+    pub rate_bits: Option<u32>,
+}
+
+/// How far an answer has to be known.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct Goal {
+    /// Decimal digits of each number.
+    pub digits: f64,
+    /// So many digits below the greatest number of the answer one may lie and still have all of its digits.
+    pub spare: f64,
+    /// So many digits more below its natural scale a number is settled that is not told from zero.
+    pub faint: f64,
+}
+
+/// Which numbers follow where those of an attempt do not settle an answer.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct Climb {
+    /// Bits of the first attempt after doubles or fractions; `None` where there are no longer numbers.
+    pub bits: Option<u32>,
+    /// The most bits of numbers with an error bound.
+    pub most_bits: u32,
+    /// The most bits that tell two events apart that may be one.
+    pub near_miss: u32,
+    /// Beyond so many bits enclosures are tried in their place, which carry exact roots.
+    pub exact_roots: Option<u32>,
+    /// Bits of an enclosure beyond which a comparison is called undecided.
+    pub most_enclosed: u32,
+    /// Through so many contacts exact numbers decide where events coincide within their bounds.
+    pub exact_contacts: Option<u32>,
+}
+
+/// What cells compute at most.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct CellLimits {
+    /// Decimal digits in doubles.
+    pub double_digits: f64,
+    /// Cells in doubles.
+    pub double_cells: u64,
+    /// Cells in numbers of 128 bits, and fewer by the square of the bits in longer ones; `None` where digits are asked
+    /// for, however many cells they take.
+    pub long_cells: Option<u64>,
+    /// Decimal digits beyond which nothing is marched.
+    pub most_digits: f64,
+    /// A first contact of up to so many round trips is marched over; up to the second of them, it is if that is known
+    /// better than the closed form.
+    pub marched_trips: [f64; 2],
 }
 
 /// The engine that a plan chooses.
@@ -99,6 +158,11 @@ pub const CERTIFIED_DIGITS: u32 = 15;
 /// The accuracy that doubles are held to where none is asked for, relative to the greatest number of an answer: what it
 /// does not leave is not printed.
 pub const DEFAULT_ACCURACY: f64 = 1e-9;
+/// No double is known better than this.
+const MOST_DOUBLE_DIGITS: f64 = 15.0;
+/// Digits below those asked for, and below its natural scale, from which on a number that is not told from zero is
+/// settled.
+const FAINT_DIGITS: f64 = 30.0;
 /// Bits beyond those of the digits asked for, on the first attempt with error bounds.
 const GUARD_BITS: u32 = 64;
 /// So many bits more tell events apart that miss each other by a rounding of a double, or by its square.
@@ -108,12 +172,20 @@ const MOST_EXACT: u32 = 1000;
 /// At so many times the bits asked for, enclosures are tried in place of more bits: a root that is met exactly takes
 /// any number of bits, and enclosures carry exact roots.
 const EXACT_ROOT: u32 = 4;
-/// The decimal digits that cells are marched to in doubles.
-const DOUBLE_CELL_DIGITS: f64 = 13.0;
-/// Cells that doubles cross in some ten seconds.
-const DOUBLE_CELLS: u64 = 20_000_000;
-/// Cells that numbers of 128 bits cross in some ten seconds.
-const LONG_CELLS: f64 = 2e5;
+/// The fewest bits of a number with an error bound that follows doubles.
+const FEWEST_BITS: u32 = 128;
+/// Cells: thirteen digits in doubles; some ten seconds in doubles and in numbers of 128 bits. The cost of more digits
+/// grows with their cube.
+const CELLS: CellLimits = CellLimits {
+    double_digits: 13.0,
+    double_cells: 20_000_000,
+    long_cells: Some(200_000),
+    most_digits: 300.0,
+    marched_trips: [4.0, 64.0],
+};
+/// With so many modes the stress is known to some 10⁻¹¹ of the lowest mode at `τR² ≈ 300`, which is `R → π` and 30
+/// round trips.
+const MODES: u32 = 4096;
 /// The most bits of a number with an error bound.
 const MOST_BITS: u32 = 1 << 22;
 /// Bits of an enclosure beyond which a comparison is called undecided, where the digits asked for do not need more.
@@ -132,7 +204,7 @@ impl Plan {
                 Run::Impacts(contacts) => Reach::Contacts(*contacts),
                 Run::Time(time) => Reach::Time(time.clone()),
             },
-            Want::FirstContact => Reach::FirstContact,
+            Want::FirstContact | Want::Bounce => Reach::FirstContact,
             Want::Between(_, to) if problem.rod.damping.is_some() => Reach::Time(beyond(problem, to)),
             Want::Between(_, to) => Reach::Time(to.clone()),
         };
@@ -140,7 +212,10 @@ impl Plan {
             Want::Between(from, _) => Some(from.to_f64()),
             _ => None,
         };
+        let single = question.want == Want::Bounce;
         let engine = match (&problem.rod.damping, problem.has_closed_form()) {
+            // Corollary 1 asks for no exact numbers, and its terms for no events.
+            (None, true) if single && matches!(numbers, Numbers::Double(_)) => Engine::ClosedForm,
             (None, _) => Engine::Lattice,
             (Some(_), false) => Engine::Cells,
             (Some(_), true) if reach == Reach::FirstContact => Engine::ClosedForm,
@@ -148,59 +223,69 @@ impl Plan {
             (Some(_), true) if matches!(numbers, Numbers::Certified(_)) => Engine::ClosedForm,
             (Some(_), true) => Engine::ClosedFormThenCells,
         };
-        let mut plan = Plan { engine, numbers, reach, keep_from, rung: Rung::Double, foreseen_loss: 0.0 };
-        plan.first_rung(problem);
-        Ok(plan)
+        let settles_events = keep_from.is_none() && !single;
+        Ok(Self::with(problem, numbers, engine, reach, (keep_from, settles_events)))
     }
 
-    fn first_rung(&mut self, problem: &Problem) {
-        self.rung = match self.numbers {
-            Numbers::Double(_) => Rung::Double,
-            Numbers::Exact | Numbers::ExactThenDigits(_) => Rung::Fractions,
-            Numbers::Certified(digits) => Rung::Enclosures(bits_for_digits(digits) + GUARD_BITS),
+    /// The plan with what follows from engine, numbers and reach.
+    fn with(
+        problem: &Problem,
+        numbers: Numbers,
+        engine: Engine,
+        reach: Reach,
+        (keep_from, settles_events): (Option<f64>, bool),
+    ) -> Self {
+        let (long, doubles) = (cfg!(feature = "mp"), matches!(numbers, Numbers::Double(_)));
+        let (closed, then_cells) = (engine == Engine::ClosedForm, engine == Engine::ClosedFormThenCells);
+        let cells = CellLimits { long_cells: CELLS.long_cells.filter(|_| doubles), ..CELLS };
+        let (rung, foreseen_loss) = match numbers {
+            Numbers::Double(_) => (Rung::Double, 0.0),
+            Numbers::Exact | Numbers::ExactThenDigits(_) => (Rung::Fractions, 0.0),
+            Numbers::Certified(digits) => (Rung::Enclosures(bits_for_digits(digits) + GUARD_BITS), 0.0),
             Numbers::Digits(digits) => {
-                let lost = match (self.engine, &self.reach) {
+                let lost = match (engine, &reach) {
                     (Engine::Lattice, Reach::Time(end)) => foresee::bits_lost(problem, end.to_f64()),
                     _ => 0.0,
                 };
                 let lost = lost.min(f64::from(MOST_BITS));
-                self.foreseen_loss = lost * std::f64::consts::LOG10_2;
                 // A tenth more than foreseen is cheaper than a second run.
-                Rung::Bits(bits_for_digits(digits + SPARE_DIGITS) + GUARD_BITS.max((1.1 * lost) as u32 + 8))
+                let bits = bits_for_digits(digits + SPARE_DIGITS) + GUARD_BITS.max((1.1 * lost) as u32 + 8);
+                (Rung::Bits(bits), lost * std::f64::consts::LOG10_2)
             }
         };
+        Plan {
+            goal: Goal::of(numbers),
+            climb: Climb::of(numbers, engine),
+            cells: (then_cells || engine == Engine::Cells).then_some(cells),
+            modes: ((closed || then_cells) && doubles && !long).then_some(MODES),
+            rate_bits: (then_cells && doubles && long).then_some(FEWEST_BITS),
+            engine,
+            numbers,
+            reach,
+            keep_from,
+            settles_events,
+            rung,
+            foreseen_loss,
+        }
     }
 
     /// The same plan in decimal digits.
     pub(crate) fn in_digits(&self, problem: &Problem, digits: u32) -> Self {
-        let mut plan = Plan { numbers: Numbers::Digits(digits), ..self.clone() };
-        plan.first_rung(problem);
-        plan
-    }
-
-    /// The digits that the answer is held to, and how many digits below the greatest of its numbers one may lie and
-    /// still have all of them.
-    pub(crate) fn goal(&self) -> (f64, f64) {
-        match self.numbers {
-            Numbers::Double(accuracy) => (-accuracy.unwrap_or(DEFAULT_ACCURACY).log10(), 0.0),
-            Numbers::Exact => (0.0, 0.0),
-            Numbers::Digits(digits) | Numbers::ExactThenDigits(digits) => (f64::from(digits), f64::from(SPARE_DIGITS)),
-            Numbers::Certified(digits) => (f64::from(digits), f64::from(FLOOR_DIGITS)),
-        }
+        let keeps = (self.keep_from, self.settles_events);
+        Self::with(problem, Numbers::Digits(digits), self.engine, self.reach.clone(), keeps)
     }
 
     /// The rung after `rung`, by what the answer `lacks`; `None` where no more are worth trying.
     pub(crate) fn next(&self, rung: Rung, lacks: Lacks) -> Option<Rung> {
-        if cfg!(not(feature = "mp")) {
+        let Climb { bits, most_bits, near_miss, exact_roots, most_enclosed, .. } = self.climb;
+        let Some(after) = bits else {
             return matches!((rung, lacks), (Rung::Double, Lacks::Exactness)).then_some(Rung::Fractions);
-        }
-        let (digits, _) = self.goal();
-        let wanted = bits_for_digits(digits.ceil() as u32);
+        };
         let Lacks::Bits(missing) = lacks else {
             // Fractions are fast, and end soon where they do not serve; more bits tell a near miss from a meeting.
             return match rung {
                 Rung::Double => Some(Rung::Fractions),
-                Rung::Bits(bits) if bits < wanted + NEAR_MISS => Some(Rung::Bits(bits + NEAR_MISS)),
+                Rung::Bits(bits) if bits < near_miss => Some(Rung::Bits(bits + NEAR_MISS)),
                 Rung::Bits(bits) if matches!(self.numbers, Numbers::Double(_)) => Some(Rung::Confirmed(bits)),
                 Rung::Bits(bits) => Some(Rung::Enclosures(bits)),
                 Rung::Fractions | Rung::Confirmed(_) | Rung::Enclosures(_) => None,
@@ -208,29 +293,28 @@ impl Plan {
         };
         match rung {
             Rung::Fractions if matches!(self.numbers, Numbers::Exact | Numbers::ExactThenDigits(_)) => None,
-            Rung::Fractions | Rung::Double => Some(Rung::Bits((wanted + GUARD_BITS).max(128))),
+            Rung::Fractions | Rung::Double => Some(Rung::Bits(after)),
             Rung::Bits(bits) => {
                 // A double root needs two bits for each that is missing.
                 let more = if missing.is_finite() { (2.0 * missing).ceil() + 8.0 } else { f64::from(bits) };
                 let next = f64::from(bits) + more.max(f64::from(bits / 4));
-                let exact_roots = self.engine == Engine::Lattice && next > f64::from(wanted * EXACT_ROOT + 1024);
-                if exact_roots {
-                    Some(Rung::Enclosures(wanted + GUARD_BITS))
+                if exact_roots.is_some_and(|most| next > f64::from(most)) {
+                    Some(Rung::Enclosures(after))
                 } else {
-                    (next <= f64::from(MOST_BITS)).then_some(Rung::Bits(next as u32))
+                    (next <= f64::from(most_bits)).then_some(Rung::Bits(next as u32))
                 }
             }
             Rung::Confirmed(bits) => Some(Rung::Enclosures(bits)),
             Rung::Enclosures(bits) => {
                 let next = f64::from(bits) + missing.clamp(32.0, f64::from(bits));
-                (next <= f64::from(MOST_ENCLOSED.max(4 * wanted))).then_some(Rung::Enclosures(next as u32))
+                (next <= f64::from(most_enclosed)).then_some(Rung::Enclosures(next as u32))
             }
         }
     }
 
     /// Whether exact numbers decide where events of a run through so many contacts coincide within their bounds.
     pub(crate) fn tries_exact(&self, contacts: u32) -> bool {
-        self.engine == Engine::Lattice && contacts <= MOST_EXACT
+        self.climb.exact_contacts.is_some_and(|most| contacts <= most)
     }
 
     /// Why this engine and these numbers, a sentence each.
@@ -293,24 +377,54 @@ impl Plan {
         if problem.run == run { Cow::Borrowed(problem) } else { Cow::Owned(Problem { run, ..problem.clone() }) }
     }
 
-    /// How much a damped march computes at most in the numbers of `rung`. Without digits that are asked for, that is
-    /// some ten seconds. A run that has lost its events is worth nothing where longer numbers follow.
+    /// How much a damped march computes at most in the numbers of `rung`. A run that has lost its events is worth
+    /// nothing where longer numbers follow.
     pub(super) fn effort(&self, rung: Rung) -> Effort {
-        let until_lost = cfg!(feature = "mp");
-        let (Rung::Bits(bits) | Rung::Enclosures(bits)) = rung else {
-            return Effort { digits: DOUBLE_CELL_DIGITS, cells: DOUBLE_CELLS, until_lost };
+        let CellLimits { double_digits, double_cells, long_cells, most_digits, marched_trips } =
+            self.cells.unwrap_or(CELLS);
+        let (digits, cells) = match rung {
+            Rung::Bits(bits) | Rung::Enclosures(bits) => {
+                let fewer = |cells: u64| (cells as f64 * (f64::from(FEWEST_BITS) / f64::from(bits)).powi(2)) as u64;
+                (f64::from(bits) * std::f64::consts::LOG10_2 - 19.0, long_cells.map_or(u64::MAX, fewer))
+            }
+            _ => (double_digits, double_cells),
         };
-        let digits = f64::from(bits) * std::f64::consts::LOG10_2 - 19.0;
-        let cells = match self.numbers {
-            Numbers::Double(_) => (LONG_CELLS * (128.0 / f64::from(bits)).powi(2)) as u64,
-            _ => u64::MAX,
-        };
-        Effort { digits, cells, until_lost }
+        Effort { digits, cells, until_lost: self.climb.bits.is_some(), most_digits, marched_trips }
     }
 
     /// What an undamped march may store and forget.
     pub(super) fn limits(&self, problem: &Problem) -> Limits {
         self.keep_from.map_or_else(Limits::default, |time| Limits::keeping_from(problem, time))
+    }
+}
+
+impl Goal {
+    fn of(numbers: Numbers) -> Self {
+        let (digits, spare, faint) = match numbers {
+            Numbers::Double(accuracy) => {
+                ((-accuracy.unwrap_or(DEFAULT_ACCURACY).log10()).min(MOST_DOUBLE_DIGITS), 0.0, 0.0)
+            }
+            Numbers::Exact => (0.0, 0.0, FAINT_DIGITS),
+            Numbers::Digits(digits) | Numbers::ExactThenDigits(digits) => {
+                (f64::from(digits), f64::from(SPARE_DIGITS), FAINT_DIGITS)
+            }
+            Numbers::Certified(digits) => (f64::from(digits), f64::from(FLOOR_DIGITS), FAINT_DIGITS),
+        };
+        Goal { digits, spare, faint }
+    }
+}
+
+impl Climb {
+    fn of(numbers: Numbers, engine: Engine) -> Self {
+        let (wanted, lattice) = (bits_for_digits(Goal::of(numbers).digits.ceil() as u32), engine == Engine::Lattice);
+        Climb {
+            bits: cfg!(feature = "mp").then_some((wanted + GUARD_BITS).max(FEWEST_BITS)),
+            most_bits: MOST_BITS,
+            near_miss: wanted + NEAR_MISS,
+            exact_roots: lattice.then_some(wanted * EXACT_ROOT + 1024),
+            most_enclosed: MOST_ENCLOSED.max(4 * wanted),
+            exact_contacts: lattice.then_some(MOST_EXACT),
+        }
     }
 }
 

@@ -22,8 +22,11 @@ pub struct Question {
 pub enum Want {
     /// Every event and contact up to the end of the problem's own run.
     Run,
-    /// The first contact, up to the bounce: `t_b`, impulse, peak, restitution. No flight is followed.
+    /// The first contact, up to the bounce: its events, its impulse and its peak. No flight is followed.
     FirstContact,
+    /// Single numbers of the first contact, such as `t_b`, `e_P`, `e_E²`, its impulse, the energies at the bounce: each
+    /// is worked out when it is asked for, and nothing else.
+    Bounce,
     /// Values between two times, both included. What lies before the first need not be kept.
     Between(Number, Number),
 }
@@ -54,6 +57,11 @@ impl Question {
     /// The first contact alone.
     pub fn first_contact(numbers: Numbers) -> Self {
         Question { want: Want::FirstContact, numbers }
+    }
+
+    /// Single numbers of the first contact.
+    pub fn bounce(numbers: Numbers) -> Self {
+        Question { want: Want::Bounce, numbers }
     }
 
     /// Values between two times.

@@ -17,5 +17,5 @@ mod run;
 pub(crate) use grid::{Axis, Grid, SweepError};
 pub(crate) use journal::{Journal, journal_of};
 pub(crate) use point::{Asked, Cell, Point};
-pub(crate) use regimes::{Map, Regime, threshold};
+pub(crate) use regimes::{Map, Regime, threshold, threshold_near};
 pub(crate) use run::Sweep;

@@ -3,12 +3,12 @@
 use rayon::prelude::*;
 
 use super::grid::{Axis, Grid, SweepError, values};
-use crate::first_contact::{Bounce, FirstContact};
-use crate::motion::Ending;
-use crate::number::{Estimate, Number};
+use crate::first_contact::{Bounce, FirstContact, Kernels};
+use crate::motion::{Ending, Motion};
+use crate::number::{Analytic, Estimate, Number, Scalar};
 use crate::problem::written::short;
-use crate::problem::{Parameters, Problem};
-use crate::solve::DEFAULT_ACCURACY;
+use crate::problem::{Parameters, Problem, Speed, Start};
+use crate::solve::{Engine, Numbers, Plan, Question, Rung};
 use crate::special::{i0_scaled, i1_scaled};
 
 /// How a first contact ends.
@@ -35,14 +35,14 @@ impl Map {
     ///
     /// **Source**: a rod with `c = g = t₁ = 1` has `R = r` and `M = μ`.
     ///
-    /// **Accuracy**: within [`DEFAULT_ACCURACY`]; the same for any number of threads.
+    /// **Accuracy**: within [`DEFAULT_ACCURACY`](crate::DEFAULT_ACCURACY); the same for any number of threads.
     ///
     /// **Errors**: [`SweepError`] for what is no range.
     pub(crate) fn new(damping: &str, speed: &str, done: impl Fn() + Sync) -> Result<Self, SweepError> {
         let half: Number = "1/2".parse().map_err(|_| SweepError::new("1/2", "a number"))?;
         let rod = Problem::uniform(half, 1.into(), 1.into(), 1.into());
         let axis = |path, text| Ok::<_, SweepError>(Axis { path, values: values(text)? });
-        let grid = Grid::new(rod, vec![axis("impact.speed", speed)?, axis("rod.damping", damping)?])?;
+        let grid = Grid::new(rod.clone(), vec![axis("impact.speed", speed)?, axis("rod.damping", damping)?])?;
         // Before any point is solved.
         for (axis, least) in grid.axes.iter().zip([f64::MIN_POSITIVE, 0.0]) {
             let values: Vec<f64> = axis.values.iter().map(Number::to_f64).collect();
@@ -52,75 +52,95 @@ impl Map {
                 return Err(SweepError::new(format!("the values {}", short(&found)), expected));
             }
         }
-        let regime = |index: usize| {
-            let regime = regime(&grid, index);
-            done();
-            regime
+        let [speeds, dampings] = [0, 1].map(|k: usize| grid.axes[k].values.clone());
+        let columns = dampings.iter().flat_map(|damping| speeds.chunks(SHARING).map(move |part| (damping, part)));
+        let column = |(damping, speeds): (&Number, &[Number])| {
+            let kernels = Kernels::default();
+            let regime = |speed: &Number| {
+                let regime = regime(&rod, damping, speed, &kernels);
+                done();
+                regime
+            };
+            speeds.iter().map(regime).collect::<Vec<_>>()
         };
-        let regimes = (0..grid.len()).into_par_iter().map(regime).collect();
-        let [speed, damping] = [0, 1].map(|k: usize| grid.axes[k].values.clone());
-        Ok(Map { damping, speed, regimes })
+        let columns: Vec<Regime> = columns.collect::<Vec<_>>().into_par_iter().flat_map_iter(column).collect();
+        let at = |k: usize| columns[k % dampings.len() * speeds.len() + k / dampings.len()];
+        Ok(Map { regimes: (0..columns.len()).map(at).collect(), damping: dampings, speed: speeds })
     }
 }
 
-/// The bounce alone, of the closed form in doubles: the impulse, the peak and the rest of a [`History`](crate::History)
-/// take several times as long. Where doubles do not settle it, the history does.
-fn regime(grid: &Grid, index: usize) -> Regime {
-    let Ok(problem) = grid.problem(index) else { return Regime::Undecided };
-    let rod = Parameters::<Estimate<f64>>::of(&problem, &());
-    match rod.map(|rod| FirstContact::new(&rod).bounce()) {
-        Ok(Bounce::At { time, .. }) if time.bound() <= DEFAULT_ACCURACY * time.value() => Regime::Bounce(*time.value()),
-        Ok(Bounce::Never(_)) => Regime::Never,
-        _ => by_history(&problem),
+/// Speeds of one damping that share its kernels.
+const SHARING: usize = 256;
+
+/// The regime of a point, as its plan has it: all points of a damping share its kernels where that is the closed form.
+fn regime(rod: &Problem, damping: &Number, speed: &Number, kernels: &Kernels<Estimate<f64>>) -> Regime {
+    let mut problem = rod.clone();
+    problem.rod.damping = Some(damping.clone()).filter(|damping| !damping.is_zero());
+    problem.start = Start::Uniform(Speed::Given(speed.clone()));
+    let Ok(plan) = Plan::of(&problem, &Question::bounce(Numbers::default())) else { return Regime::Undecided };
+    if (plan.engine, plan.rung) == (Engine::ClosedForm, Rung::Double)
+        && let Ok(rod) = Parameters::<Estimate<f64>>::of(&problem, &())
+    {
+        let exact = 10f64.powf(-plan.goal.digits);
+        match FirstContact::new(&rod).bounce_sharing(kernels) {
+            Bounce::At { time, .. } if time.bound() <= exact * time.value() => return Regime::Bounce(*time.value()),
+            Bounce::Never(_) => return Regime::Never,
+            _ => {}
+        }
     }
+    by_plan(&problem, &plan)
 }
 
-fn by_history(problem: &Problem) -> Regime {
-    let Ok(history) = problem.first_contact() else { return Regime::Undecided };
-    match (history.contacts().first().and_then(|contact| contact.to), history.ending()) {
-        (Some(time), _) => Regime::Bounce(time),
-        (None, Ending::NoBounce(_)) => Regime::Never,
+fn by_plan(problem: &Problem, plan: &Plan) -> Regime {
+    let query = |motion: &dyn Motion<Estimate<f64>>| {
+        let end = motion.contact_times(0).and_then(|(_, end)| end);
+        Ok((end, matches!(motion.ending(), Ending::NoBounce(_))))
+    };
+    match plan.ask::<f64, _>(problem, query, |(end, _)| end.iter().collect()) {
+        Ok((Some(time), _)) => Regime::Bounce(time.into_value()),
+        Ok((None, true)) => Regime::Never,
         _ => Regime::Undecided,
     }
 }
 
-/// The `M` above which the bounce comes at `t₁`: `(I₀(R) + I₁(R))/(2 − I₀(R))`; infinite from `I₀(R) = 2` on.
+/// The `M` above which the bounce comes at `t₁`: `(I₀(R) + I₁(R))/(2 − I₀(R))`; none from `I₀(R) = 2` on.
 ///
 /// **Source**: (2.32) in closed form.
 ///
-/// **Accuracy**: within `20 (1 + 2I₀/(2 − I₀))` roundings.
-pub(crate) fn threshold(damping_ratio: f64) -> f64 {
-    let (i0, i1) = (i0_scaled(&damping_ratio), i1_scaled(&damping_ratio));
-    let below = 2.0 * (-damping_ratio).exp() - i0;
-    if below > 0.0 { (i0 + i1) / below } else { f64::INFINITY }
+/// **Accuracy**: *within its own bound*.
+pub(crate) fn threshold(damping_ratio: &Estimate<f64>) -> Option<Estimate<f64>> {
+    let (i0, i1) = (i0_scaled(damping_ratio), i1_scaled(damping_ratio));
+    let below = (-damping_ratio.clone()).exp() * damping_ratio.int(2) - &i0;
+    (below.positive() == Ok(true)).then(|| (i0 + i1) / below)
+}
+
+/// The double next to [`threshold`]; infinite where there is none.
+pub(crate) fn threshold_near(damping_ratio: f64) -> f64 {
+    threshold(&Estimate::exact(damping_ratio)).map_or(f64::INFINITY, Estimate::into_value)
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
 
-    /// `Σ (x/2)^{2k+n}/(k! (k+n)!)`.
-    fn bessel(n: i32, x: f64) -> f64 {
-        let mut term = (x / 2.0).powi(n);
-        let mut sum = term;
-        for k in 1..60 {
-            term *= x * x / 4.0 / f64::from(k * (k + n));
-            sum += term;
-        }
-        sum
-    }
-
+    /// Held against forty digits, up to where `2 − I₀` has lost all that doubles have.
+    #[cfg(feature = "mp")]
     #[test]
-    fn the_threshold_is_the_closed_form() {
-        assert_eq!(threshold(0.0), 1.0);
-        for k in 1..=1780 {
-            let r = 1e-3 * f64::from(k);
-            let (i0, i1) = (bessel(0, r), bessel(1, r));
-            let truth = (i0 + i1) / (2.0 - i0);
-            let condition = 1.0 + 2.0 * i0 / (2.0 - i0);
-            assert!((threshold(r) / truth - 1.0).abs() < 1e-12_f64.min(40.0 * condition * f64::EPSILON), "R = {r}");
+    fn the_threshold_lies_within_its_bound() {
+        use crate::number::Float;
+        let mut worst = 0.0f64;
+        for k in 0..=1808 {
+            let r: Number = format!("{k}e-3").parse().unwrap();
+            let found = threshold(&Estimate::from_number(&r, &())).unwrap();
+            let truth = crate::paper::formulas::threshold(&Float::from_number(&r, &140));
+            let off = (Float::with_val(140, found.value()) - truth).to_f64().abs();
+            // Each function has some ten roundings, and a part of 2 − I₀ has all of them.
+            let condition = 1.0 + 2.0 * found.value();
+            assert!(off <= found.bound() && found.bound() < 40.0 * condition * condition * f64::EPSILON, "R = {r}");
+            worst = worst.max(off / found.value());
         }
-        assert_eq!(threshold(1.81), f64::INFINITY);
+        assert!(worst > 1e-13, "{worst:e}");
+        assert_eq!((threshold_near(0.0), threshold_near(1.81)), (1.0, f64::INFINITY));
     }
 
     #[test]
@@ -128,22 +148,26 @@ mod tests {
         let map = Map::new("0..4:33", "0.1..10:24:log", || ()).unwrap();
         for (k, regime) in map.regimes.iter().enumerate() {
             let (m, r) = (map.speed[k / 33].to_f64(), map.damping[k % 33].to_f64());
+            let threshold = threshold_near(r);
             match regime {
                 // Corollary 1.
                 Regime::Bounce(time) if r == 0.0 => assert!((time - (2.0 - m).max(1.0)).abs() < 1e-14, "M = {m}"),
                 Regime::Bounce(time) => {
                     assert!(r < std::f64::consts::PI && *time >= 1.0);
-                    assert_eq!(*time == 1.0, m > threshold(r), "R = {r}, M = {m}");
+                    assert_eq!(*time == 1.0, m > threshold, "R = {r}, M = {m}");
                 }
-                Regime::Never => assert!(m < threshold(r), "R = {r}, M = {m}"),
+                Regime::Never => assert!(m < threshold, "R = {r}, M = {m}"),
                 Regime::Undecided => panic!("R = {r}, M = {m}"),
             }
             assert!(r < std::f64::consts::PI || *regime == Regime::Never);
             if k % 7 == 0 {
                 let rod = Problem::builder().length("1/2").wave_speed(1).gravity(1);
                 let rod = rod.impact_speed(&map.speed[k / 33]).damping(&map.damping[k % 33]).build().unwrap();
-                match (by_history(&rod), *regime) {
-                    (Regime::Bounce(a), Regime::Bounce(b)) => assert!((a - b).abs() <= 2.0 * DEFAULT_ACCURACY * a),
+                let plan = Plan::of(&rod, &Question::first_contact(Numbers::default())).unwrap();
+                match (by_plan(&rod, &plan), *regime) {
+                    (Regime::Bounce(a), Regime::Bounce(b)) => {
+                        assert!((a - b).abs() <= 2.0 * crate::DEFAULT_ACCURACY * a);
+                    }
                     (a, b) => assert_eq!(a, b, "R = {r}, M = {m}"),
                 }
             }

@@ -112,7 +112,7 @@ proptest! {
         }
         let contact = &history.contacts()[0];
         prop_assert_eq!(history.energy(&bounce).unwrap().vibrational, paper.vibrational_energy_at_bounce());
-        let e = restitution(&history, contact).unwrap();
+        let e = restitution(&history, contact.times()).unwrap();
         prop_assert_eq!(e.momentum.unwrap(), paper.momentum_restitution());
         prop_assert_eq!(e.energy_squared.unwrap(), paper.energy_restitution_squared().unwrap());
         // The impulse turns the momentum round and carries the weight meanwhile.

@@ -6,7 +6,7 @@ use std::sync::Arc;
 use dalembert::number::{bound_of_log2, show};
 use dalembert::quantity::{flights, restitution};
 use dalembert::{
-    Answer, Ending, Energy, Error, History, Motion, Numbers, Parameters, Plan, Question, Scalar, Scene, SceneError,
+    Answer, Contact, Ending, Energy, Error, History, Motion, Numbers, Parameters, Plan, Question, Scalar, Scene, SceneError,
     Side, Solution, Warning,
 };
 use wasm_bindgen::prelude::*;
@@ -126,8 +126,8 @@ impl Run {
     pub fn contacts(&self) -> Result<Vec<String>, JsError> {
         let rows = self.history.ask(
             |motion| {
-                let row = |contact: &_| {
-                    let e = restitution(motion, contact)?;
+                let row = |contact: &Contact<_>| {
+                    let e = restitution(motion, contact.times())?;
                     let energy = contact.to.as_ref().map(|to| motion.energy(to)).transpose()?;
                     let time = contact.to.clone().map(|to| to - &contact.from);
                     let mut row = vec![Some(contact.from.clone()), contact.to.clone(), time];
