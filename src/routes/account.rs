@@ -151,14 +151,14 @@ impl<S: System> ByHistory<'_, S> {
         event.map(|event| carried(event.time.clone())).ok_or_else(|| self.ended())
     }
 
-    fn first_release(&self) -> Option<&Event<S>> {
-        self.0.events().iter().find(|event| event.kind == EventKind::Release)
+    fn first_contact(&self) -> Result<(S, Option<S>), NoAnswer> {
+        self.0.contact_times(0).ok_or_else(|| NoAnswer::none("no contact in it"))
     }
 }
 
 impl<S: System> Account<S> for ByHistory<'_, S> {
     fn release(&self, _: &Parameters<S>) -> Found<S> {
-        self.event(self.first_release())
+        self.first_contact().ok().and_then(|(_, to)| to).map(carried).ok_or_else(|| self.ended())
     }
 
     fn event_near(&self, kind: EventKind, near: f64) -> Found<S> {
@@ -205,12 +205,13 @@ impl<S: System> Account<S> for ByHistory<'_, S> {
     }
 
     fn first_energy(&self, rod: &Parameters<S>) -> Found<S> {
-        let contact = self.0.contacts().first().ok_or_else(|| NoAnswer::none("no contact in it"))?;
-        Ok(translational(rod, self.centre(rod, &contact.from)?))
+        Ok(translational(rod, self.centre(rod, &self.first_contact()?.0)?))
     }
 
     fn top(&self) -> All<S, 2> {
-        let top = self.0.highest(self.first_release().ok_or_else(|| self.ended())?);
+        let top = self.0.highest(
+            self.0.events().iter().find(|event| event.kind == EventKind::Release).ok_or_else(|| self.ended())?,
+        );
         let (time, height) = top.ok_or_else(|| NoAnswer::none("no top"))?;
         Ok([carried(time), carried(height)])
     }

@@ -6,10 +6,10 @@ use super::account::{Account, ByHistory, Found};
 use super::value::{Answer, Bounded, NoAnswer, System};
 use crate::error::Error;
 use crate::motion::{EventKind, Motion, Side};
-use crate::number::Number;
+use crate::number::{Estimate, Number};
 use crate::problem::{Parameters, Problem, Run};
 use crate::scene::Scene;
-use crate::solve::{Solution, Target};
+use crate::solve::{Plan, Solution, Target};
 
 /// A quantity that is one number. Those that `dalembert cost` offers come first.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
@@ -202,12 +202,21 @@ impl Question {
         &self,
         history: &crate::solve::History<S>,
     ) -> Found<S::Carried> {
-        let query = |engine: &dyn Motion<S::Carried>| match self.find_in_history(engine) {
+        history.ask(|engine| self.query(engine), |found| found.iter().map(|found| &found.value).collect())?
+    }
+
+    /// The answer in doubles by a plan, which works out nothing else.
+    pub(super) fn find_planned(&self, plan: &Plan) -> Found<Estimate<f64>> {
+        let query = |engine: &dyn Motion<_>| self.query(engine);
+        plan.ask::<f64, _>(&self.problem, query, |found| found.iter().map(|found| &found.value).collect())?
+    }
+
+    fn query<S: System>(&self, engine: &dyn Motion<S>) -> Result<Found<S>, Error> {
+        match self.find_in_history(engine) {
             // More bits may settle it.
             Err(NoAnswer::Solve(error @ (Error::NotDecided { .. } | Error::Open(_)))) => Err(error),
             found => Ok(found),
-        };
-        history.ask(query, |found| found.iter().map(|found| &found.value).collect())?
+        }
     }
 
     /// The answer of an engine in its numbers.

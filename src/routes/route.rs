@@ -78,7 +78,7 @@ impl Route {
                 if printed.is_late() { Err(NoAnswer::gave_up("the nested integrals take too long")) } else { answer }
             }
             Route::Differences(cells) => question.ask(&Parameters::<f64>::of(problem, &())?, &march(problem, cells)?),
-            Route::Planned(numbers) => question.ask_solution(&planned(question, numbers)?),
+            Route::Planned(numbers) => planned(question, numbers),
             Route::LongFormula(_, digits, formula) => Ok(Bounded::unbounded(long::formula(digits, formula))),
             Route::ClosedForm(Numbers::Digits(digits)) => long::closed_form(question, digits),
             Route::Lattice(Numbers::Exact) => question.ask_history(&Undamped::<Rational>::solve(problem, &())?),
@@ -102,7 +102,7 @@ pub(crate) fn asked(question: &Question, numbers: Numbers) -> solve::Question {
             let from = question.from.and_then(|from| from.to_string().parse().ok());
             Want::Between(from.unwrap_or_else(|| time.clone()), time.clone())
         }
-        (None, _) => Want::FirstContact,
+        (None, _) => Want::Bounce,
     };
     solve::Question { want, numbers }
 }
@@ -112,9 +112,13 @@ pub(crate) fn plan(question: &Question, numbers: Numbers) -> Result<Plan, NoAnsw
     Ok(Plan::of(&question.problem, &asked(question, numbers))?)
 }
 
-/// The solution of `question` as its plan runs it.
-fn planned(question: &Question, numbers: Numbers) -> Result<Solution, NoAnswer> {
-    Ok(plan(question, numbers)?.solve(&question.problem, solve::unobserved())?)
+/// The answer to `question` as its plan finds it.
+fn planned(question: &Question, numbers: Numbers) -> Result<Answer, NoAnswer> {
+    let plan = plan(question, numbers)?;
+    match numbers {
+        Numbers::Double(_) => question.find_planned(&plan).map(Bounded::answer),
+        _ => question.ask_solution(&plan.solve(&question.problem, solve::unobserved())?),
+    }
 }
 
 /// Whether the first contact alone answers, and lasts as long as the question asks.

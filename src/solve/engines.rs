@@ -7,7 +7,7 @@ use super::plan::{Engine, Plan, Rung};
 use super::{fractions, long};
 use crate::cells::{self, ContactThenCells, Damped, WithBounds};
 use crate::error::Error;
-use crate::first_contact::{Bounce, FirstContact};
+use crate::first_contact::{Bounce, ContactHistory, FirstContact};
 use crate::lattice::Undamped;
 use crate::modal::Modal;
 use crate::motion::Side;
@@ -43,20 +43,18 @@ impl Target for f64 {
                 let contact = FirstContact::new(&rod);
                 let mut bounce = contact.bounce();
                 if matches!(&bounce, Bounce::Undecided { why, .. } if why.needs_bits()) {
-                    if cfg!(feature = "mp") {
-                        return Err(Error::NotDecided { what: "how the first contact ends", bits: 53 });
-                    }
-                    bounce = by_modes(&contact, problem)?;
+                    let undecided = Error::NotDecided { what: "how the first contact ends", bits: 53 };
+                    bounce = by_modes(&contact, problem, plan.modes.ok_or(undecided)?)?;
                 }
-                let (reach, rate) = match plan.engine {
-                    Engine::ClosedForm => (cells::Reach::Bounce, None),
-                    _ => (cells::Reach::Run, long::rate_after(problem, &bounce)),
-                };
+                if plan.engine == Engine::ClosedForm {
+                    return Ok(Arc::new(ContactHistory::new(contact, bounce, None)?));
+                }
+                let rate = plan.rate_bits.and_then(|bits| long::rate_after(problem, &bounce, bits));
                 Arc::new(WithBounds::new(ContactThenCells::<f64>::solve_observed(
                     problem,
                     &(),
                     plan.effort(rung),
-                    (bounce, reach),
+                    (bounce, cells::Reach::Run),
                     rate,
                     &**observe,
                 )?)?)
@@ -65,14 +63,14 @@ impl Target for f64 {
     }
 }
 
-/// Modes that are summed where the rays cancel and there are no longer numbers: with them the stress is known to some
-/// 10⁻¹¹ of the lowest mode at `τR² ≈ 300`, which is `R → π` and 30 round trips.
-const MODES: u32 = 4096;
-
-/// How the first contact ends by the sum over its modes, which does not cancel late in the contact as that over rays
+/// How the first contact ends by the sum over so many modes, which does not cancel late in the contact as that over rays
 /// does.
-fn by_modes(contact: &FirstContact<Estimate<f64>>, problem: &Problem) -> Result<Bounce<Estimate<f64>>, Error> {
-    let modal = Modal::new(&Parameters::<f64>::of(problem, &())?, MODES);
+fn by_modes(
+    contact: &FirstContact<Estimate<f64>>,
+    problem: &Problem,
+    modes: u32,
+) -> Result<Bounce<Estimate<f64>>, Error> {
+    let modal = Modal::new(&Parameters::<f64>::of(problem, &())?, modes);
     // The last moment of a cell belongs to it.
     let side = |trips: &f64, k: i64| if *trips == (k + 1) as f64 { Side::Left } else { Side::Right };
     Ok(contact.bounce_by(&|trips, k| modal.ground(trips.value(), side(trips.value(), k))))

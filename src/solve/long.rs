@@ -64,18 +64,18 @@ fn estimates(problem: &Problem, plan: &Plan, bits: u32, observe: &Observer) -> R
         Engine::Cells => {
             Arc::new(WithBounds::new(Damped::<Float>::solve_observed(problem, &bits, effort, 1, &**observe)?)?)
         }
-        Engine::ClosedForm | Engine::ClosedFormThenCells => {
+        Engine::ClosedForm => Arc::new(ContactHistory::<Estimate<Float>>::solve(problem, &bits)?),
+        Engine::ClosedFormThenCells => {
             let rod = Parameters::<Estimate<Float>>::of(problem, &bits)?;
             let bounce = FirstContact::new(&rod).bounce();
             if matches!(&bounce, Bounce::Undecided { why, .. } if why.needs_bits()) {
                 return Err(Error::NotDecided { what: "how the first contact ends", bits });
             }
-            let reach = if plan.engine == Engine::ClosedForm { cells::Reach::Bounce } else { cells::Reach::Run };
             Arc::new(WithBounds::new(ContactThenCells::<Float>::solve_observed(
                 problem,
                 &bits,
                 effort,
-                (bounce, reach),
+                (bounce, cells::Reach::Run),
                 None,
                 &**observe,
             )?)?)
@@ -83,14 +83,13 @@ fn estimates(problem: &Problem, plan: &Plan, bits: u32, observe: &Observer) -> R
     })
 }
 
-/// `h′` at the bounce that doubles have found, in long numbers: the first flight, and all that follows, hangs on it.
-pub(super) fn rate_after(problem: &Problem, bounce: &Bounce<Estimate<f64>>) -> Option<Estimate<f64>> {
-    const BITS: u32 = 128;
+/// `h′` at the bounce that doubles have found, in numbers of so many bits: the first flight, and all that follows, hangs on it.
+pub(super) fn rate_after(problem: &Problem, bounce: &Bounce<Estimate<f64>>, bits: u32) -> Option<Estimate<f64>> {
     let Bounce::At { time, trips, .. } = bounce else { return None };
-    let contact = FirstContact::new(&Parameters::<Estimate<Float>>::of(problem, &BITS).ok()?);
+    let contact = FirstContact::new(&Parameters::<Estimate<Float>>::of(problem, &bits).ok()?);
     let time = match trips.lattice() {
         Some(k) => contact.round_trip() * &contact.round_trip().int(k),
-        None => Estimate::exact(Float::with_val(BITS, time.value())),
+        None => Estimate::exact(Float::with_val(bits, time.value())),
     };
     let (_, rate) = contact.centre(&time);
     Some(Reads::read(rate))

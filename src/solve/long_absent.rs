@@ -32,6 +32,6 @@ pub(super) fn in_doubles(_: &Problem, _: &Plan, _: Rung, _: &Observer) -> Result
 }
 
 /// Doubles know `h′` at the bounce as well as there is need.
-pub(super) fn rate_after(_: &Problem, _: &Bounce<Estimate<f64>>) -> Option<Estimate<f64>> {
+pub(super) fn rate_after(_: &Problem, _: &Bounce<Estimate<f64>>, _: u32) -> Option<Estimate<f64>> {
     None
 }

@@ -132,8 +132,10 @@ mod tests {
         for k in 0..=1808 {
             let r: Number = format!("{k}e-3").parse().unwrap();
             let found = threshold(&Estimate::from_number(&r, &())).unwrap();
-            let truth = crate::paper::formulas::threshold(&Float::from_number(&r, &140));
-            let off = (Float::with_val(140, found.value()) - truth).to_f64().abs();
+            // The paper's is μ over r, with t₁ = 2 and g = 1.
+            let half = Float::from_number(&r, &140) / 2;
+            let truth = crate::paper::formulas::threshold(&half) / 2;
+            let off = Scalar::to_f64(&(Float::with_val(140, found.value()) - truth)).abs();
             // Each function has some ten roundings, and a part of 2 − I₀ has all of them.
             let condition = 1.0 + 2.0 * found.value();
             assert!(off <= found.bound() && found.bound() < 40.0 * condition * condition * f64::EPSILON, "R = {r}");

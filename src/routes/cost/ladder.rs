@@ -90,14 +90,24 @@ pub(super) fn ladders(question: &Question, plan: &Plan) -> (Vec<Ladder>, Vec<(Fa
         Engine::ClosedForm => Family::ClosedForm,
         Engine::ClosedFormThenCells | Engine::Cells => Family::ContactThenCells,
     };
-    if family == Family::Lattice {
-        take(Family::ContactThenCells, Err("the scene has no damping: the plan takes the lattice".into()));
-    } else {
+    let damped = question.problem.rod.damping.is_some();
+    if damped {
         take(Family::Lattice, Err("the scene has damping, which couples the characteristics".into()));
+    } else {
+        take(Family::ContactThenCells, Err(format!("the scene has no damping: the plan takes the {}", family.name())));
     }
     match plan.numbers {
         Numbers::Certified(_) => take(family, Err("the plan takes enclosures".into())),
-        _ => take(family, Ok(by_plan(family, question, plan.numbers))),
+        // In longer numbers the plan takes the lattice.
+        numbers if !damped && family == Family::ClosedForm => {
+            let mut planned = by_plan(Family::Lattice, question, numbers);
+            let doubles = Route::Lattice(Numbers::Double(None));
+            let doubles = Candidate::new(Family::Lattice, doubles, "double".into(), DOUBLE, Seconds(1e-6));
+            let chosen = std::mem::replace(&mut planned[0], doubles);
+            take(family, Ok(vec![Candidate { family, ..chosen }]));
+            take(Family::Lattice, Ok(planned));
+        }
+        numbers => take(family, Ok(by_plan(family, question, numbers))),
     }
     let doubles = |family: Family, first: f64, factor: f64, settings: Vec<(String, Route)>| -> Ladder {
         let expected = std::iter::once(Seconds(first)).chain(std::iter::repeat(Times(factor)));
