@@ -53,7 +53,7 @@ fn pieces<S: Bounded>(c: &mut Criterion, name: &str, precision: &S::Precision, s
     for (label, speed, impacts) in speeds {
         for impacts in *impacts {
             let scaled = Scaled::<S>::of(&problem(speed, Run::Impacts(*impacts)), precision).unwrap();
-            let run = || march(&scaled, &Until::Contacts(*impacts), Limits::default(), unobserved).unwrap();
+            let run = || march(&scaled, &Until::Contacts(*impacts), Limits::default(), &unobserved).unwrap();
             let count = run().trace.count();
             group.throughput(Throughput::Elements(count as u64));
             group.bench_function(BenchmarkId::new(*label, format!("{impacts} impacts, {count} pieces")), |b| {

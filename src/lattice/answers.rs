@@ -77,7 +77,7 @@ impl<N: Bounded> Motion<N> for Undamped<N> {
         let trip = self.last_trip(&self.locate(time)?)?;
         let Centre { height, rate } = self.centre_at(&trip)?;
         let mut sum = rate.zero();
-        self.visit_rod(&trip[0], &trip[1], |part| {
+        self.visit_rod(&trip[0], &trip[1], &mut |part| {
             let value = part.value - gravity.clone() * (rate.one() - &part.offset) - &rate;
             let vibration = Part { value, slope: part.slope + gravity, ..part };
             sum = sum.clone() + vibration.square_integral();

@@ -56,7 +56,7 @@ impl<N: Bounded> Undamped<N> {
         let (mut push, mut lift) = (width.zero(), width.zero());
         if before.kind == EventKind::Impact {
             let ([from, _], [_, until]) = (self.places(before), self.places(event));
-            self.ground.trace.window(&from, &until, |part| {
+            self.ground.trace.window(&from, &until, &mut |part| {
                 let first = part.integral();
                 lift = lift.clone() + (width.clone() - &part.offset) * &first - part.moment();
                 push = push.clone() + first;
@@ -79,7 +79,7 @@ impl<N: Bounded> Undamped<N> {
                 }
             };
             let (mut sum, mut peak) = (from.age.zero(), from.age.zero());
-            self.ground.trace.window(&from, &until, |part| {
+            self.ground.trace.window(&from, &until, &mut |part| {
                 sum = sum.clone() + part.integral();
                 peak = part.ends().into_iter().fold(peak.clone(), N::larger);
             });

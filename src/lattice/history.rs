@@ -53,7 +53,7 @@ impl<N: Bounded> Undamped<N> {
     /// # Ok::<(), dalembert::Error>(())
     /// ```
     pub fn solve(problem: &Problem, precision: &N::Precision) -> Result<Self, Error> {
-        Self::solve_within(problem, precision, Limits::default(), unobserved)
+        Self::solve_within(problem, precision, Limits::default(), &unobserved)
     }
 
     /// [`Undamped::solve`] with a limit of one's own; for `observe` see [`crate::solve::Observer`].
@@ -61,7 +61,7 @@ impl<N: Bounded> Undamped<N> {
         problem: &Problem,
         precision: &N::Precision,
         limits: Limits,
-        observe: impl FnMut(usize, usize) -> ControlFlow<()>,
+        observe: &dyn Fn(usize, usize) -> ControlFlow<()>,
     ) -> Result<Self, Error> {
         let scaled = Scaled::<N>::of(problem, precision)?;
         let until = match &problem.run {
@@ -231,7 +231,7 @@ impl<N: Bounded> Undamped<N> {
     fn integral(&self, from: &Moment<N>, until: &Moment<N>) -> Result<N, Open> {
         let (mut sum, exact) = (from.age.zero(), self.sums_stay_short(from.index));
         let (from, until) = (self.place(from, Side::Right)?, self.place(until, Side::Left)?);
-        self.ground.trace.window(&from, &until, |part| {
+        self.ground.trace.window(&from, &until, &mut |part| {
             let part = if exact { part } else { part.without_exact() };
             sum = sum.clone() + part.integral();
         });
@@ -264,13 +264,13 @@ impl<N: Bounded> Undamped<N> {
         &self,
         from: &Place<N>,
         until: &Place<N>,
-        mut visit: impl FnMut(Part<N>),
+        visit: &mut dyn FnMut(Part<N>),
     ) -> Result<(), Open> {
         if self.problem.top == Top::Fixed {
-            return self.visit_ways(from, until, |_, part| visit(part));
+            return self.visit_ways(from, until, &mut |_, part| visit(part));
         }
         let exact = self.sums_stay_short(until.index);
-        self.ground.trace.window(from, until, |part| visit(if exact { part } else { part.without_exact() }));
+        self.ground.trace.window(from, until, &mut |part| visit(if exact { part } else { part.without_exact() }));
         Ok(())
     }
 
@@ -279,7 +279,7 @@ impl<N: Bounded> Undamped<N> {
         &self,
         from: &Place<N>,
         until: &Place<N>,
-        mut visit: impl FnMut(bool, Part<N>),
+        visit: &mut dyn FnMut(bool, Part<N>),
     ) -> Result<(), Open> {
         let trace = &self.ground.trace;
         let exact = self.sums_stay_short(until.index);
@@ -287,14 +287,14 @@ impl<N: Bounded> Undamped<N> {
         let (gravity, half) = (&self.problem.gravity, until.age.one().halved());
         let now = Moment { index: until.index, age: until.age.clone() };
         let middle = self.place(&self.shifted(&now, &-half.clone())?, Side::Right)?;
-        trace.window(from, &middle, |part| match self.problem.top {
+        trace.window(from, &middle, &mut |part| match self.problem.top {
             Top::Free => visit(false, part),
             Top::Fixed => {
                 let shift = part.shift.map(|(jump, late)| (-jump, late));
                 visit(false, Part { value: gravity.clone() - part.value, slope: -part.slope, shift, ..part });
             }
         });
-        trace.window(&middle, until, |part| visit(true, Part { offset: part.offset + &half, ..part }));
+        trace.window(&middle, until, &mut |part| visit(true, Part { offset: part.offset + &half, ..part }));
         Ok(())
     }
 
@@ -313,7 +313,7 @@ impl<N: Bounded> Undamped<N> {
         let half = gravity.one().halved();
         let (mut rate, mut height) = (-gravity.clone().halved(), self.height_at(until));
         height = height - gravity.clone() / gravity.int(12);
-        self.visit_rod(from, until, |part| {
+        self.visit_rod(from, until, &mut |part| {
             let first = part.integral();
             height = height.clone() + first.clone() * (half.clone() - &part.offset) - part.moment();
             rate = rate.clone() + first;

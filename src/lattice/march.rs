@@ -72,7 +72,7 @@ pub fn march<N: Bounded>(
     problem: &Scaled<N>,
     until: &Until<N>,
     limits: Limits,
-    mut observe: impl FnMut(usize, usize) -> ControlFlow<()>,
+    observe: &dyn Fn(usize, usize) -> ControlFlow<()>,
 ) -> Result<GroundMotion<N>, Error> {
     let zero = problem.gravity.zero();
     let mut state = March {
@@ -167,7 +167,7 @@ impl<N: Bounded> March<N> {
         let mut rise = self.zero.clone();
         let from = Place { index: trip, piece: 0, age: self.zero.clone() };
         let to = Place { index: trip, piece: self.trace.slice(trip).len() - 1, age: one.clone() };
-        self.trace.window(&from, &to, |part| rise = rise.clone() + part.integral());
+        self.trace.window(&from, &to, &mut |part| rise = rise.clone() + part.integral());
         let safe = (2.0 * rise.to_f64() * (1.0 - 1e-15) - 2.0).max(0.0) as usize;
         let trips = safe.min(MOST_LEAPT);
         if trips < 2 {

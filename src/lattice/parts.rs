@@ -42,7 +42,7 @@ impl<N: Bounded> Undamped<N> {
     pub(super) fn squares(&self, trip: &[Place<N>; 2]) -> Result<[N; 2], Open> {
         let zero = self.problem.gravity.zero();
         let mut sums = [zero.clone(), zero.clone()];
-        self.visit_both(trip, |both| {
+        self.visit_both(trip, &mut |both| {
             for ((sum, value), slope) in sums.iter_mut().zip(both.values).zip(both.slopes) {
                 let reach = value.magnitude().doubled();
                 let (offset, width) = (zero.clone(), both.width.clone());
@@ -66,7 +66,7 @@ impl<N: Bounded> Undamped<N> {
         let rates = [velocity.clone(), velocity.clone() / wave_speed];
         let (mut from, mut displacement) = (length.zero(), height);
         let mut stretches = Vec::new();
-        self.visit_both(trip, |both| {
+        self.visit_both(trip, &mut |both| {
             let width = both.width * &twice;
             let [velocity, strain] = std::array::from_fn(|k| {
                 let slope = both.slopes[k].clone() * &rates[k] / &twice;
@@ -80,10 +80,10 @@ impl<N: Bounded> Undamped<N> {
         Ok(stretches)
     }
 
-    fn visit_both(&self, [from, until]: &[Place<N>; 2], visit: impl FnMut(Both<N>)) -> Result<(), Open> {
+    fn visit_both(&self, [from, until]: &[Place<N>; 2], visit: &mut dyn FnMut(Both<N>)) -> Result<(), Open> {
         let (gravity, one) = (&self.problem.gravity, until.age.one());
         let (mut down, mut up) = (Vec::new(), Vec::new());
-        self.visit_ways(from, until, |rises, part| {
+        self.visit_ways(from, until, &mut |rises, part| {
             // w of `visit_rod`.
             let value = part.value - gravity.clone() * (one.clone() - &part.offset);
             let part = Part { value, slope: part.slope + gravity, ..part };
@@ -107,7 +107,7 @@ impl<N: Bounded> Undamped<N> {
 fn join<N: Bounded>(
     up: impl Iterator<Item = One<N>>,
     down: impl Iterator<Item = One<N>>,
-    mut visit: impl FnMut(Both<N>),
+    visit: &mut dyn FnMut(Both<N>),
 ) -> Result<(), Open> {
     let (mut up, mut down) = (up.peekable(), down.peekable());
     let (mut p, mut q) = (up.next(), down.next());

@@ -391,7 +391,7 @@ impl<N: Bounded> Trace<N> {
     }
 
     /// `p` from one place to another, in parts.
-    pub(super) fn window(&self, from: &Place<N>, until: &Place<N>, mut visit: impl FnMut(Part<N>)) {
+    pub(super) fn window(&self, from: &Place<N>, until: &Place<N>, visit: &mut dyn FnMut(Part<N>)) {
         let (mut index, mut k) = (from.index, from.piece);
         let (mut start, mut offset, mut shift) = (from.age.clone(), from.age.zero(), None);
         let (mut pieces, mut fallen) = (self.slice(index), self.fallen(index));

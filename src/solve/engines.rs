@@ -24,8 +24,7 @@ impl Target for f64 {
         let problem = &*plan.reaching(problem);
         Ok(match plan.engine {
             Engine::Lattice => {
-                let history =
-                    Undamped::<Estimate<f64>>::solve_within(problem, &(), plan.limits(problem), |a, b| observe(a, b))?;
+                let history = Undamped::<Estimate<f64>>::solve_within(problem, &(), plan.limits(problem), &**observe)?;
                 if cfg!(feature = "mp") && history.undetermined_from().is_some() {
                     return Err(Error::NotDecided { what: "in which order the events come", bits: 53 });
                 }

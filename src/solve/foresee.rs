@@ -22,7 +22,7 @@ pub(super) fn bits_lost(problem: &Problem, end: f64) -> f64 {
         let Ok(number) = time.to_string().parse::<Number>() else { return lost };
         let part = Problem { run: Run::Time(number), ..problem.clone() };
         let limits = Limits::keeping_from(problem, time);
-        let Ok(history) = Undamped::<Estimate<f64>>::solve_within(&part, &(), limits, unobserved) else { return lost };
+        let Ok(history) = Undamped::<Estimate<f64>>::solve_within(&part, &(), limits, &unobserved) else { return lost };
         let found = history.ground().relative_error.max(1.0).log2();
         if history.undetermined_from().is_some() {
             return if lost > 0.0 { lost } else { found * end / time };

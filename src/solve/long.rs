@@ -55,7 +55,7 @@ fn estimates(problem: &Problem, plan: &Plan, bits: u32, observe: &Observer) -> R
     Ok(match plan.engine {
         Engine::Lattice => {
             let limits = plan.limits(problem);
-            let history = Undamped::<Estimate<Float>>::solve_within(problem, &bits, limits, |a, b| observe(a, b))?;
+            let history = Undamped::<Estimate<Float>>::solve_within(problem, &bits, limits, &**observe)?;
             if history.undetermined_from().is_some() {
                 return Err(Error::NotDecided { what: "in which order the events come", bits });
             }
@@ -98,7 +98,7 @@ pub(super) fn rate_after(problem: &Problem, bounce: &Bounce<Estimate<f64>>, bits
 /// Enclosures with exact roots inside, of an undamped rod.
 fn roots(problem: &Problem, plan: &Plan, bits: u32, observe: &Observer) -> Result<Undamped<Interval>, Error> {
     let (problem, precision) = (&*plan.reaching(problem), IntervalPrecision::with_exact(bits));
-    Undamped::<Interval>::solve_within(problem, &precision, plan.limits(problem), |a, b| observe(a, b))
+    Undamped::<Interval>::solve_within(problem, &precision, plan.limits(problem), &**observe)
 }
 
 fn enclosures(problem: &Problem, plan: &Plan, bits: u32, observe: &Observer) -> Result<Engined<Interval>, Error> {

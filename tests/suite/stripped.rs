@@ -17,7 +17,7 @@ pub(crate) fn undamped_within<S: Answer>(
     precision: &S::Precision,
     limits: Limits,
 ) -> Result<StrippedUndamped<S>, Error> {
-    Undamped::solve_within(problem, precision, limits, unobserved).map(Stripped::new)
+    Undamped::solve_within(problem, precision, limits, &unobserved).map(Stripped::new)
 }
 
 /// A history whose numbers carry their bounds, read without them.
