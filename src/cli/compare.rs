@@ -11,7 +11,7 @@ use super::source;
 use crate::compare::data::Source;
 use crate::compare::{Axis, Comparison, Compression, LEGEND, Limit, Options, Origin, Prepared};
 use crate::number::Number;
-use crate::output::{Size, compare_csv, compare_svg};
+use crate::output::{Size, compare_data, compare_svg};
 use crate::quantity::Units;
 
 const EXAMPLES: &str = "Examples:\n  dalembert compare doyen-ern-piperno run.csv\n  \
@@ -141,7 +141,7 @@ impl Report<'_> {
         let Report { comparison, title, units } = *self;
         Ok(match format {
             Format::Json => file::json(&comparison.json(title, units)),
-            Format::Csv => file::made("CSV", compare_csv(&comparison.files[0]))?,
+            Format::Csv => file::rows(&compare_data(&comparison.files[0]), format)?,
             Format::Table => comparison.table(title, units).into_bytes(),
             picture => file::picture(picture, compare_svg(&comparison.files[0], title, units), Size::Page)?,
         })

@@ -9,7 +9,7 @@ use super::failure::Failure;
 use super::file::{self, Format, ROWS, ROWS_OR_PICTURE, formats};
 use super::source;
 use crate::number::Number;
-use crate::output::{Size, cost_csv, cost_json, cost_svg, cost_table, effects_csv, effects_json, effects_table};
+use crate::output::{Size, cost_data, cost_svg, effects_data};
 use crate::routes::cost::{self, Difference, Table};
 use crate::routes::{Quantity, Question, plan};
 use crate::scene::Scene;
@@ -90,15 +90,11 @@ impl Cost {
 
 impl Measured {
     fn bytes(&self, format: Format, title: Option<&str>) -> Result<Vec<u8>, Failure> {
-        Ok(match (self, format) {
-            (Measured::Work(table), Format::Table) => cost_table(table, title).into_bytes(),
-            (Measured::Work(table), Format::Json) => file::json(&cost_json(table, title)),
-            (Measured::Work(table), Format::Csv) => file::made("CSV", cost_csv(table))?,
-            (Measured::Work(table), picture) => file::picture(picture, cost_svg(table, title), Size::Page)?,
-            (Measured::Effects(rows), Format::Json) => file::json(&effects_json(rows, title)),
-            (Measured::Effects(rows), Format::Csv) => file::made("CSV", effects_csv(rows))?,
+        match self {
+            Measured::Work(table) if format.is_picture() => file::picture(format, cost_svg(table, title), Size::Page),
+            Measured::Work(table) => file::rows(&cost_data(table, title), format),
             // Pictures that cannot be drawn are refused before anything is measured.
-            (Measured::Effects(rows), _) => effects_table(rows, title).into_bytes(),
-        })
+            Measured::Effects(rows) => file::rows(&effects_data(rows, title), format),
+        }
     }
 }

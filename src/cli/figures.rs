@@ -9,7 +9,7 @@ use super::args::pool;
 use super::failure::{self, Failure};
 use super::file::{self, Format};
 use crate::figures::{ALL, Failed, Figure};
-use crate::output::{Size, figure_csv, figure_sheet, figures_index, write_files};
+use crate::output::{Size, figure_data, figure_sheet, figures_index, write_files};
 
 /// The figures of the paper from its parameters, and two more: SVG, PNG, PDF and CSV, with an index
 #[derive(Args, Debug)]
@@ -63,7 +63,7 @@ impl Figures {
         let drawn = figures.par_iter().map(|figure| {
             let data = figure.data().map_err(failed)?;
             let svg = figure_sheet(figure, &data).map_err(failed)?.svg(self.size);
-            let mut files = vec![(figure.file() + ".csv", file::made("CSV", figure_csv(figure, &data))?)];
+            let mut files = vec![(figure.file() + ".csv", file::rows(&figure_data(figure, &data), Format::Csv)?)];
             for (ending, kind) in PICTURES {
                 files.push((format!("{}.{ending}", figure.file()), file::picture(*kind, svg.clone(), self.size)?));
             }

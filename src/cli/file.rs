@@ -7,7 +7,7 @@ use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
 use super::failure::{self, Failure};
 #[cfg(feature = "plot")]
 use crate::output::Rendered;
-use crate::output::{Size, write_together};
+use crate::output::{Dataset, Size, write_together};
 
 /// What is written.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -130,6 +130,16 @@ pub(super) fn write_each(
 /// The bytes of a file that can be made.
 pub(super) fn made(what: &str, made: Result<impl Into<Vec<u8>>, impl std::fmt::Display>) -> Result<Vec<u8>, Failure> {
     made.map(Into::into).map_err(|error| failure!("cannot write {what}: {error}"))
+}
+
+/// The bytes of a file of rows.
+pub(super) fn rows(data: &Dataset, format: Format) -> Result<Vec<u8>, Failure> {
+    match format {
+        Format::Table => Ok(data.table().into_bytes()),
+        Format::Json => Ok(json(&data.json())),
+        Format::Npz => made("NPZ", data.npz()),
+        _ => made("CSV", data.csv()),
+    }
 }
 
 /// The bytes of a JSON file.

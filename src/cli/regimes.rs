@@ -8,7 +8,7 @@ use super::args::pool;
 use super::failure::Failure;
 use super::file::{self, Format};
 use super::source;
-use crate::output::{Size, regimes_csv, regimes_npz, regimes_svg, regimes_text, threshold_csv};
+use crate::output::{Size, regimes_data, regimes_npz, regimes_svg, regimes_text, threshold_data};
 use crate::sweep::Map;
 
 /// When and whether the first contact ends, over all dampings and impact speeds
@@ -68,8 +68,8 @@ impl Regimes {
 
     fn bytes(&self, map: &Map, format: Format) -> Result<Vec<u8>, Failure> {
         match format {
-            Format::Csv if self.curve => file::made("CSV", threshold_csv(map)),
-            Format::Csv => file::made("CSV", regimes_csv(map)),
+            Format::Csv if self.curve => file::rows(&threshold_data(map), format),
+            Format::Csv => file::rows(&regimes_data(map), format),
             Format::Npz => file::made("NPZ", regimes_npz(map)),
             picture => file::picture(picture, regimes_svg(map), Size::Page),
         }

@@ -10,7 +10,7 @@ use super::source;
 use crate::error::Error;
 use crate::motion::{Ending, Motion, Side};
 use crate::number::{List, Scalar};
-use crate::output::{self, Head, Quantity, sample, samples_csv, samples_json, samples_table};
+use crate::output::{self, Head, Quantity, sample, samples_data};
 use crate::solve::Question;
 
 /// Values of a quantity at chosen times
@@ -91,10 +91,6 @@ impl Report for Sample {
         head: &Head,
         format: Format,
     ) -> Result<Vec<u8>, Failure> {
-        match format {
-            Format::Table => Ok(samples_table(samples, self.quantity, head).into_bytes()),
-            Format::Json => Ok(file::json(&samples_json(samples, self.quantity, head))),
-            _ => file::made("CSV", samples_csv(samples, self.quantity, head)),
-        }
+        file::rows(&samples_data(samples, self.quantity, head), format)
     }
 }

@@ -11,7 +11,7 @@ use crate::aligned::table;
 use crate::error::Error;
 use crate::motion::Motion;
 use crate::number::{Number, Scalar};
-use crate::output::{Head, targets_csv, targets_json, targets_table};
+use crate::output::{Head, targets_data};
 use crate::routes::Reached;
 use crate::scene::{Target, builtin};
 use crate::solve::{Numbers, Question};
@@ -74,10 +74,6 @@ impl Report for Published<'_> {
     }
 
     fn bytes<S: Scalar>(&self, reached: &Self::Data<S>, head: &Head, format: Format) -> Result<Vec<u8>, Failure> {
-        match format {
-            Format::Table => Ok(targets_table(reached, head).into_bytes()),
-            Format::Json => Ok(file::json(&targets_json(reached, head))),
-            _ => file::made("CSV", targets_csv(reached, head)),
-        }
+        file::rows(&targets_data(reached, head), format)
     }
 }

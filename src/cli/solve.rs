@@ -12,7 +12,7 @@ use super::source;
 use crate::error::Error;
 use crate::motion::Motion;
 use crate::number::Scalar;
-use crate::output::{Head, LEGEND, Part, Record, history_csv, history_json, history_table, outline, record};
+use crate::output::{Head, LEGEND, Part, Record, history_json, history_part, history_table, outline, record};
 use crate::solve::Question;
 
 const EXAMPLES: &str = "Examples:\n  dalembert solve doyen-ern-piperno --exact\n  \
@@ -91,7 +91,7 @@ impl Report for Solve {
             Format::Table if self.legend => Ok(format!("{}\n{LEGEND}", history_table(record, head)).into_bytes()),
             Format::Table => Ok(history_table(record, head).into_bytes()),
             Format::Json => Ok(file::json(&history_json(record, head))),
-            _ => file::made("CSV", history_csv(record, self.part.unwrap_or_default(), self.coefficients, head)),
+            _ => file::rows(&history_part(record, self.part.unwrap_or_default(), self.coefficients, head), format),
         }
     }
 }

@@ -13,7 +13,7 @@ use super::failure::{self, Failure};
 use super::file::{self, Format, formats};
 use super::source;
 use crate::number::Number;
-use crate::output::{sweep_csv, sweep_json, sweep_npz, sweep_table};
+use crate::output::sweep_data;
 use crate::routes::Quantity;
 use crate::sweep::{self, Asked, Axis, Grid, Journal, Point, SweepError, journal_of};
 
@@ -125,12 +125,7 @@ impl Sweep {
             None => (None, Vec::new()),
         };
         let found = self.solve(&sweep, points, known, journal.as_ref())?;
-        let bytes = match format {
-            Format::Table => sweep_table(&sweep, &found).into_bytes(),
-            Format::Json => file::json(&sweep_json(&sweep, &found, scene.title.as_deref())),
-            Format::Csv => file::made("CSV", sweep_csv(&sweep, &found))?,
-            _ => file::made("NPZ", sweep_npz(&sweep, &found))?,
-        };
+        let bytes = file::rows(&sweep_data(&sweep, &found, scene.title.as_deref()), format)?;
         file::write(path, &bytes)?;
         if let Some((journal, path)) = journal.zip(path) {
             journal.remove().map_err(failure::cannot(&format!("remove {}", journal_of(path).display())))?;

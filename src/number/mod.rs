@@ -54,3 +54,6 @@ pub use rug::Float;
 pub use scalar::{Analytic, Open, Reads, Rounded, Scalar};
 #[doc(hidden)]
 pub use text::{DOUBLE_DIGITS, bits_for_digits, bound_of_log2, double_bound_text, show, shown_bound_text};
+#[doc(hidden)]
+#[cfg(feature = "cli")]
+pub(crate) use text::{double_bound, shown_bound};

@@ -114,6 +114,12 @@ pub trait Scalar:
         None
     }
 
+    /// How many of so many significant digits are proved: those of an enclosure in which both of its ends agree, all of
+    /// other numbers.
+    fn proved(&self, digits: u32) -> u32 {
+        digits
+    }
+
     /// The number, if it is a double.
     fn as_double(&self) -> Option<f64> {
         None

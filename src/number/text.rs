@@ -20,29 +20,41 @@ pub fn bits_for_digits(digits: u32) -> u32 {
 /// A number that carries its bound, as it is printed: at most so many significant digits, and none beyond the bound;
 /// `0` where no digit is known.
 ///
-/// **Accuracy**: *correctly rounded* unless the bound is astride a rounding boundary, and then within one unit of the
-/// last digit: a last unit is at least twice the bound.
+/// **Accuracy**: *correctly rounded* of an enclosure, both of whose ends round to what is printed. Of other numbers
+/// correctly rounded unless the bound is astride a rounding boundary, and then within one unit of the last digit: a
+/// last unit is at least twice the bound.
 pub fn show<S: Scalar>(x: &S, digits: u32) -> String {
     shown_digits(x, digits).map_or_else(|| "0".into(), |digits| x.decimal(digits))
 }
 
-/// How many digits are printed: at most so many, and none beyond the bound; `None` where no digit is known.
+/// How many digits are printed: at most so many, none beyond the bound, and of an enclosure those that both ends prove;
+/// `None` where no digit is known.
 fn shown_digits<S: Scalar>(x: &S, digits: u32) -> Option<u32> {
     let size = x.to_f64().abs();
     // −1 for the half unit that rounding takes.
     let known =
         ((size - 2.0 * x.log2_error().exp2()).max(0.0).log2() - x.log2_error() - 1.0) * std::f64::consts::LOG10_2;
-    (known >= 1.0).then(|| digits.min(known as u32))
+    (known >= 1.0).then(|| x.proved(digits.min(known as u32))).filter(|digits| *digits > 0)
 }
 
 /// The bound of the error of the shortest text that reads as the same double, which may be half a unit of the last bit
 /// off that double; `0` where the double is exact.
 pub fn double_bound_text<S: Scalar>(x: &S) -> String {
+    bound_of_log2(double_bound(x))
+}
+
+/// `log₂` of what [`double_bound_text`] says.
+pub(crate) fn double_bound<S: Scalar>(x: &S) -> f64 {
     with_rounding(x, x.to_f64().abs().log2() - f64::from(f64::MANTISSA_DIGITS))
 }
 
 /// The bound of the error of [`show`]'s text, with the rounding to its digits; `0` where the text is exact.
 pub fn shown_bound_text<S: Scalar>(x: &S, digits: u32) -> String {
+    bound_of_log2(shown_bound(x, digits))
+}
+
+/// `log₂` of what [`shown_bound_text`] says.
+pub(crate) fn shown_bound<S: Scalar>(x: &S, digits: u32) -> f64 {
     let size = x.to_f64().abs();
     let rounding = shown_digits(x, digits).map_or(size.log2(), |digits| {
         // A power of ten whose logarithm is rounded down keeps its decade.
@@ -50,17 +62,17 @@ pub fn shown_bound_text<S: Scalar>(x: &S, digits: u32) -> String {
         last / std::f64::consts::LOG10_2 - 1.0
     });
     let rounded = || show(x, digits).parse::<f64>().is_ok_and(|read| read != x.to_f64());
-    if x.log2_error() == f64::NEG_INFINITY && rounded() { bound_of_log2(rounding) } else { with_rounding(x, rounding) }
+    if x.log2_error() == f64::NEG_INFINITY && rounded() { rounding } else { with_rounding(x, rounding) }
 }
 
 /// The bound of `x` and of a rounding of the size `2^rounding` together.
-fn with_rounding<S: Scalar>(x: &S, rounding: f64) -> String {
+fn with_rounding<S: Scalar>(x: &S, rounding: f64) -> f64 {
     let own = x.log2_error();
     if own.is_infinite() {
-        return bound_of_log2(own);
+        return own;
     }
     let (least, most) = (own.min(rounding), own.max(rounding));
-    bound_of_log2(most + (least - most).exp2().ln_1p() / std::f64::consts::LN_2)
+    most + (least - most).exp2().ln_1p() / std::f64::consts::LN_2
 }
 
 /// A bound, given by its `log₂`, to two digits, rounded up: `3.1e-14`; `0` where the number is exact.
@@ -91,6 +103,11 @@ mod tests {
         let around = |x: f64, by: f64| Interval::between(Float::with_val(99, x - by), Float::with_val(99, x + by));
         assert_eq!(show(&around(2.0, 9e-6), 20), "2.0000");
         assert_eq!(show(&around(2.0, 3.0), 20), "0");
+        // 1.05 lies between: of two digits one end says 1.0 and the other 1.1.
+        let ends = [104_999_999, 105_000_001].map(|end| Float::with_val(99, end) / 100_000_000u32);
+        let [low, high] = ends;
+        let astride = Interval::between(low, high);
+        assert_eq!([1, 2, 3, 6].map(|digits| show(&astride, digits)), ["1", "1", "1.05", "1.05000"]);
         assert_eq!(show(&around(0.0, 1e-20), 20), "0");
         assert_eq!(bound_of_log2(crate::number::Estimate::new(1.0f64, 3.0).log2_error()), "3.4e-16");
         // 1 + ε with a bound of one rounding: ε/2 and, for the text, another.

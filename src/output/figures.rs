@@ -2,10 +2,11 @@
 
 use glam::DVec2;
 
+use super::dataset::{Cell, Column, Dataset};
 use super::draw::{Anchor, Axis, Key, LINES, Layer, Mark, Panel, Shape, Sheet, Stroke};
-use super::regimes::{regimes_csv, regimes_panel};
+use super::regimes::{regimes_data, regimes_panel};
 use crate::figures::{DAMPINGS, Data, Failed, Figure, Of, STRONG, dot, limits};
-use crate::number::{Analytic, DOUBLE_DIGITS, show};
+use crate::number::Analytic;
 
 const LINE: f64 = 0.4;
 const THIN: f64 = 0.2;
@@ -16,14 +17,14 @@ const UNDAMPED: &str = "#d55e00";
 const REGIONS: [&str; 3] = ["#d9c3dd", "#bfdcc4", "#d9c3dd"];
 
 /// The numbers of a figure, none with a digit beyond its bound.
-pub(crate) fn figure_csv(figure: &Figure, data: &Data) -> Result<String, csv::Error> {
+pub(crate) fn figure_data(figure: &Figure, data: &Data) -> Dataset {
     if let Some(map) = &data.map {
-        return regimes_csv(map);
+        return regimes_data(map);
     }
-    let cell = |value: &Option<_>| value.as_ref().map_or_else(String::new, |value| show(value, DOUBLE_DIGITS));
-    let rows = data.rows.iter().map(|row| row.iter().map(cell).collect());
-    let comments = format!("# {}\n# {}\n", figure.shown, figure.corrected);
-    super::csv::write(&comments, &data.columns, rows)
+    let row = |row: &Vec<_>| row.iter().map(|value: &Option<_>| Cell::optional(value.as_ref())).collect();
+    let columns = data.columns.iter().map(|name| Column::new(*name)).collect();
+    let notes = [figure.shown, figure.corrected].map(String::from).to_vec();
+    Dataset { columns, rows: data.rows.iter().map(row).collect(), notes, ..Dataset::default() }
 }
 
 /// What stands beside the files, whose pictures have these `endings`.

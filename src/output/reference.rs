@@ -10,7 +10,7 @@ use serde_json::{Value, json};
 use super::record::Head;
 use super::write_filled;
 use super::writer::Npz;
-use crate::number::{DOUBLE_DIGITS, Scalar, bound_of_log2, number_json, show};
+use crate::number::{DOUBLE_DIGITS, Scalar, bound_of_log2, double_bound, number_json, show, shown_bound};
 use crate::quantity::{Quantity, Units};
 use crate::solve::Numbers;
 
@@ -122,7 +122,13 @@ impl Preamble<'_> {
                 "name": column.name, "symbol": column.symbol, "meaning": column.meaning, "unit": column.unit,
             });
             if self.has_bounds() && !column.is_flag() {
-                value["bound"] = bound_of_log2(*bound).parse::<f64>().map_or(Value::Null, Value::from);
+                let text = bound_of_log2(*bound);
+                value["bound"] = match text.parse::<f64>() {
+                    Ok(bound) if bound > 0.0 || text == "0" => bound.into(),
+                    // Below the least double.
+                    Ok(_) => text.into(),
+                    Err(_) => Value::Null,
+                };
             }
             value
         });
@@ -151,7 +157,7 @@ impl Preamble<'_> {
     }
 
     fn has_bounds(&self) -> bool {
-        matches!(self.numbers, Numbers::Double(_))
+        self.numbers != Numbers::Exact
     }
 
     /// What stands above a CSV or a function, line by line.
@@ -215,24 +221,22 @@ impl Rows {
 
     /// Adds rows, given column by column.
     pub fn push<S: Scalar>(&mut self, table: &[Vec<S>]) -> io::Result<()> {
-        for (bound, values) in self.bounds.iter_mut().zip(table) {
-            *bound = values.iter().map(|value| written_error(value)).fold(*bound, f64::max);
-        }
+        let greatest = |(bound, values): (&f64, &Vec<S>)| values.iter().map(|x| self.bound(x)).fold(*bound, f64::max);
+        self.bounds = self.bounds.iter().zip(table).map(greatest).collect();
         let count = table.first().map_or(0, Vec::len);
         if self.golden == Golden::Npz {
             for (file, values) in self.kept.iter_mut().zip(table) {
                 values.iter().try_for_each(|value| file.write_all(&written(value).to_le_bytes()))?;
             }
-        } else if let Some(file) = self.kept.first_mut() {
-            let mut writer = Writer { golden: self.golden, digits: self.digits, text: Vec::with_capacity(BUFFER) };
+        } else {
+            let mut text = Vec::with_capacity(BUFFER);
             for row in 0..count {
-                writer.row(&self.columns, table, row, self.count + row == 0);
-                if writer.text.len() > BUFFER / 2 {
-                    file.write_all(&writer.text)?;
-                    writer.text.clear();
+                self.row(&mut text, table, row);
+                if text.len() > BUFFER / 2 || row + 1 == count {
+                    self.kept.iter_mut().try_for_each(|file| file.write_all(&text))?;
+                    text.clear();
                 }
             }
-            file.write_all(&writer.text)?;
         }
         self.count += count;
         Ok(())
@@ -285,59 +289,54 @@ fn written<S: Scalar>(value: &S) -> f64 {
     if value.vanishes() == Ok(true) { 0.0 } else { value.to_f64() }
 }
 
-/// `log₂` of how far the number meant may lie from what is written.
-fn written_error<S: Scalar>(value: &S) -> f64 {
-    let own = value.log2_error();
-    // What is zero within its bound is at most that bound.
-    if value.vanishes() == Ok(true) { own + 1.0 } else { own }
-}
-
-/// Rows as text.
-struct Writer {
-    golden: Golden,
-    digits: u32,
-    text: Vec<u8>,
-}
-
-impl Writer {
-    fn row<S: Scalar>(&mut self, columns: &[Described], table: &[Vec<S>], row: usize, first: bool) {
-        let json = self.golden == Golden::Json;
-        if json {
-            self.text.extend_from_slice(if first { b"\n    [" } else { b",\n    [" });
+impl Rows {
+    /// `log₂` of how far the number meant may lie from what is written.
+    fn bound<S: Scalar>(&self, value: &S) -> f64 {
+        match value.as_double() {
+            // What is zero within its bound is at most that bound.
+            Some(_) if value.vanishes() == Ok(true) => value.log2_error() + 1.0,
+            Some(_) => value.log2_error(),
+            None if self.golden == Golden::Npz => double_bound(value),
+            None => shown_bound(value, self.shown()),
         }
-        for (k, (column, values)) in columns.iter().zip(table).enumerate() {
-            if k > 0 {
-                self.text.extend_from_slice(if json { b", " } else { b"," });
-            }
-            self.value(column, &values[row]);
-        }
-        self.text.extend_from_slice(if json { b"]" } else { b"\n" });
     }
 
-    fn value<S: Scalar>(&mut self, column: &Described, value: &S) {
+    /// Digits of a long number.
+    fn shown(&self) -> u32 {
+        if self.digits == 0 { DOUBLE_DIGITS } else { self.digits }
+    }
+
+    fn row<S: Scalar>(&self, text: &mut Vec<u8>, table: &[Vec<S>], row: usize) {
+        let [begin, between, end] = match self.golden {
+            Golden::Json if self.count + row == 0 => ["\n    [", ", ", "]"],
+            Golden::Json => [",\n    [", ", ", "]"],
+            _ => ["", ",", "\n"],
+        };
+        text.extend(begin.bytes());
+        for (k, (column, values)) in self.columns.iter().zip(table).enumerate() {
+            if k > 0 {
+                text.extend(between.bytes());
+            }
+            self.value(text, column, &values[row]);
+        }
+        text.extend(end.bytes());
+    }
+
+    fn value<S: Scalar>(&self, text: &mut Vec<u8>, column: &Described, value: &S) {
         let json = self.golden == Golden::Json;
         if column.is_side() {
-            let word: &[u8] = match (value.to_f64(), json) {
-                (x, true) if x < 0.0 => b"\"left\"",
-                (x, false) if x < 0.0 => b"left",
-                (x, true) if x > 0.0 => b"\"right\"",
-                (x, false) if x > 0.0 => b"right",
-                (_, true) => b"\"both\"",
-                (_, false) => b"both",
-            };
-            return self.text.extend_from_slice(word);
+            let quote = if json { "\"" } else { "" };
+            let word = ["left", "both", "right"][(value.to_f64() + 1.0) as usize];
+            return text.extend([quote, word, quote].into_iter().flat_map(str::bytes));
         }
         if column.is_flag() {
-            return self.text.push(if value.to_f64() > 0.0 { b'1' } else { b'0' });
+            return text.push(if value.to_f64() > 0.0 { b'1' } else { b'0' });
         }
         match value.as_double() {
             // The shortest text that reads as the same double; no negative zero.
-            Some(_) => self.text.extend_from_slice(ryu::Buffer::new().format(written(value)).as_bytes()),
-            None if json => self.text.extend_from_slice(number_json(value, self.digits).to_string().as_bytes()),
-            None => {
-                let digits = if self.digits == 0 { DOUBLE_DIGITS } else { self.digits };
-                self.text.extend_from_slice(show(value, digits).as_bytes());
-            }
+            Some(_) => text.extend(ryu::Buffer::new().format(written(value)).bytes()),
+            None if json => text.extend(number_json(value, self.digits).to_string().bytes()),
+            None => text.extend(show(value, self.shown()).bytes()),
         }
     }
 }

@@ -4,6 +4,7 @@ use std::io::{self, Cursor};
 
 use glam::DVec2;
 
+use super::dataset::{Column, Dataset};
 use super::draw::{Axis, Key, Layer, Panel, Shape, Sheet, Size, Stroke};
 use super::writer::Npz;
 use crate::number::{Estimate, Number, Scalar, double_bound_text};
@@ -32,28 +33,29 @@ fn color(regime: Regime) -> &'static str {
 }
 
 /// `t_b/t₁`; empty where there is no bounce, with the reason in a word.
-pub(crate) fn regimes_csv(map: &Map) -> Result<String, csv::Error> {
+pub(crate) fn regimes_data(map: &Map) -> Dataset {
     let row = |(k, regime): (usize, &Regime)| {
         let (m, r) = (&map.speed[k / map.damping.len()], &map.damping[k % map.damping.len()]);
         let (time, word) = match regime {
-            Regime::Bounce(time) => (time.text(), "bounce"),
-            Regime::Never => (String::new(), "no bounce"),
-            Regime::Undecided => (String::new(), "not decided"),
+            Regime::Bounce(time) => (Some(time.text()), "bounce"),
+            Regime::Never => (None, "no bounce"),
+            Regime::Undecided => (None, "not decided"),
         };
-        vec![r.to_string(), m.to_string(), time, word.to_string()]
+        vec![r.to_string().into(), m.to_string().into(), time.into(), word.into()]
     };
-    let rows = map.regimes.iter().enumerate().map(row);
-    super::csv::write("", ["damping_ratio", "speed_ratio", "bounce_ratio", "regime"], rows)
+    let columns = ["damping_ratio", "speed_ratio", "bounce_ratio", "regime"].map(Column::new).to_vec();
+    Dataset { columns, rows: map.regimes.iter().enumerate().map(row).collect(), ..Dataset::default() }
 }
 
 /// `R` of each column and the `M` above which the bounce comes at `t₁`; empty where no M is high enough.
-pub(crate) fn threshold_csv(map: &Map) -> Result<String, csv::Error> {
+pub(crate) fn threshold_data(map: &Map) -> Dataset {
     let row = |r: &Number| {
         let m = threshold(&Estimate::from_number(r, &()));
         let [m, bound] = m.map(|m| [m.text(), double_bound_text(&m)]).unwrap_or_default();
-        vec![r.to_string(), m, bound]
+        vec![r.to_string().into(), m.into(), bound.into()]
     };
-    super::csv::write("", ["damping_ratio", "threshold", "uncertainty"], map.damping.iter().map(row))
+    let columns = ["damping_ratio", "threshold", "uncertainty"].map(Column::new).to_vec();
+    Dataset { columns, rows: map.damping.iter().map(row).collect(), ..Dataset::default() }
 }
 
 /// How often each regime comes, in words.

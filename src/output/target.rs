@@ -2,22 +2,19 @@
 
 use serde_json::{Value, json};
 
+use super::dataset::{Cell, Column, Dataset};
 use super::record::Head;
-use super::table::{cell, fitted};
+use super::writer;
 use crate::aligned::table;
-use crate::number::{DOUBLE_DIGITS, Scalar, number_json, show};
+use crate::number::{Scalar, show};
 use crate::routes::{Published, Reached};
 use crate::scene::Target;
 
 /// Significant digits of a difference in a table.
 const DIFFERENCE_DIGITS: u32 = 3;
 
-/// The table, and below it where each value was published.
-pub(crate) fn targets_table<S: Scalar>(reached: &[Reached<S>], head: &Head) -> String {
-    let mut out = head.title.as_ref().map_or_else(String::new, |title| format!("{title}\n\n"));
-    if reached.is_empty() {
-        return out + "the scene lists no published value: it has no [[target]]\n";
-    }
+/// A row for each; a table has below it where each value was published.
+pub(crate) fn targets_data<S: Scalar>(reached: &[Reached<S>], head: &Head) -> Dataset {
     let mut sources: Vec<&str> = Vec::new();
     let rows = reached.iter().map(|reached| {
         let target = &reached.target;
@@ -25,59 +22,46 @@ pub(crate) fn targets_table<S: Scalar>(reached: &[Reached<S>], head: &Head) -> S
             sources.push(&target.source);
             sources.len() - 1
         });
-        let unit = target.quantity.unit(&head.units);
+        let time = target.time.as_ref().map(|time| S::from_number(time, &reached.ours.precision()));
         vec![
-            target.label(),
-            unit.to_string(),
-            target.time.as_ref().map_or_else(|| "–".into(), ToString::to_string),
-            target.published.to_string(),
-            cell(&reached.ours, head),
-            show(&reached.difference(), DIFFERENCE_DIGITS),
-            format!("({})", place + 1),
+            target.label().into(),
+            target.quantity.unit(&head.units).into(),
+            target.time.as_ref().map(ToString::to_string).into(),
+            Cell::optional(time.as_ref()),
+            target.published.to_string().into(),
+            Cell::number(&reached.published),
+            Cell::number(&reached.ours),
+            show(&reached.difference(), DIFFERENCE_DIGITS).into(),
+            Cell::number(&reached.difference()),
+            target.source.clone().into(),
+            format!("({})", place + 1).into(),
         ]
     });
-    let header = ["quantity", "unit", "t", "published", "ours", "difference", ""];
-    out += &(fitted(&header, &rows.collect::<Vec<_>>(), 2, 1, head.wide) + "\n\n");
-    for (k, source) in sources.iter().enumerate() {
-        out += &format!("({}) {source}\n", k + 1);
-    }
-    out
+    let rows = rows.collect();
+    let below: String = sources.iter().enumerate().map(|(k, source)| format!("({}) {source}\n", k + 1)).collect();
+    let above = head.title.as_ref().map_or_else(String::new, |title| format!("{title}\n\n"));
+    let below = match reached {
+        [] => "the scene lists no published value: it has no [[target]]\n".into(),
+        _ => format!("\n\n{below}"),
+    };
+    let keys = (!head.wide).then_some(1);
+    Dataset { columns: target_columns(), rows, around: [above, below], digits: head.digits, keys, ..Dataset::default() }
 }
 
-/// A list of objects with `quantity`, `time`, `published`, `ours`, `difference`, `source`.
-pub(crate) fn targets_json<S: Scalar>(reached: &[Reached<S>], head: &Head) -> Value {
-    let number = |x: &S| number_json(x, head.digits);
-    let row = |reached: &Reached<S>| {
-        let time = reached.target.time.as_ref().map(|time| S::from_number(time, &reached.ours.precision()));
-        json!({
-            "quantity": reached.target.label(),
-            "time": time.as_ref().map(number),
-            "published": number(&reached.published),
-            "ours": number(&reached.ours),
-            "difference": number(&reached.difference()),
-            "source": reached.target.source,
-        })
-    };
-    reached.iter().map(row).collect()
-}
-
-/// The same as rows.
-pub(crate) fn targets_csv<S: Scalar>(reached: &[Reached<S>], head: &Head) -> Result<String, csv::Error> {
-    let digits = if head.digits == 0 { DOUBLE_DIGITS } else { head.digits };
-    let header = ["quantity", "unit", "time", "published", "ours", "difference", "source"];
-    let row = |reached: &Reached<S>| {
-        let target = &reached.target;
-        vec![
-            target.label(),
-            target.quantity.unit(&head.units).into(),
-            target.time.as_ref().map_or_else(String::new, ToString::to_string),
-            target.published.to_string(),
-            show(&reached.ours, digits),
-            show(&reached.difference(), digits),
-            target.source.clone(),
-        ]
-    };
-    super::csv::write("", header, reached.iter().map(row))
+fn target_columns() -> Vec<Column> {
+    vec![
+        Column::new("quantity").text(),
+        Column::table("unit").named("unit").text(),
+        Column::table("t").named("time"),
+        Column::json("time"),
+        Column::table("published").named("published"),
+        Column::json("published"),
+        Column::new("ours"),
+        Column::table("difference"),
+        Column::data("difference"),
+        Column::data("source"),
+        Column::table(""),
+    ]
 }
 
 /// The published values of the built-in scenes: a line each.
@@ -117,11 +101,12 @@ pub(crate) fn published_page(published: &[Published]) -> String {
 /// The same as JSON.
 pub(crate) fn published_json(published: &[Published]) -> Value {
     let scene = |Published { scene, reached }: &Published| {
-        let rows: Vec<Value> = targets_json(reached, &Head::default()).as_array().cloned().unwrap_or_default();
-        let agrees = rows.into_iter().zip(reached).map(|(mut row, reached)| {
-            row["agrees"] = reached.agrees().into();
-            row
-        });
+        let agrees = writer::objects(&targets_data(reached, &Head::default())).into_iter().zip(reached).map(
+            |(mut row, reached)| {
+                row["agrees"] = reached.agrees().into();
+                row
+            },
+        );
         json!({ "scene": scene, "values": agrees.collect::<Vec<_>>() })
     };
     published.iter().map(scene).collect()

@@ -106,10 +106,40 @@ fn history_schema(history: &Value, is_number: fn(&Value) -> bool) {
         assert!(contact["energy"].as_object().unwrap().values().all(is_number));
     }
     for piece in history["stress"]["pieces"].as_array().unwrap() {
-        keys(piece, &["from", "to", "strain_from", "strain_to"]);
-        assert!(piece.as_object().unwrap().values().all(is_number));
+        keys(piece, &["from", "to", "strain_from", "strain_to", "uncertainty"]);
+        assert!(["from", "to", "strain_from", "strain_to"].iter().all(|key| is_number(&piece[*key])));
     }
     assert!(is_number(&history["end"]["time"]));
+    every_number_has_a_bound(history);
+}
+
+/// Each number of an event, a contact, a flight, a piece and the end has its bound, which an enclosure has in itself.
+#[track_caller]
+fn every_number_has_a_bound(history: &Value) {
+    fn held(value: &Value, bound: &Value) -> usize {
+        match value {
+            Value::Null => 0,
+            Value::Object(parts) if !parts.contains_key("lo") => {
+                let apart = ["uncertainty", "undefined"];
+                let numbers = parts.iter().filter(|(key, _)| !apart.contains(&key.as_str()));
+                numbers.map(|(key, value)| held(value, &bound[key])).sum()
+            }
+            Value::Array(list) => list.iter().zip(bound.as_array().unwrap()).map(|(x, bound)| held(x, bound)).sum(),
+            Value::String(word) if word.contains("impact") || word.contains("release") || bound.is_null() => 0,
+            number => {
+                assert!(bound.is_number() || bound.is_string() || number["lo"].is_string(), "{number} {bound}");
+                1
+            }
+        }
+    }
+    let lists = [&history["events"], &history["contacts"], &history["flights"], &history["stress"]["pieces"]];
+    for (list, least) in lists.into_iter().zip([4, 11, 1, 4]) {
+        let rows = list.as_array().unwrap();
+        let counts = rows.iter().map(|row| held(row, &row["uncertainty"]));
+        assert!(counts.clone().all(|count| count >= least), "{:?}", counts.collect::<Vec<_>>());
+    }
+    let time = &history["end"]["time"];
+    assert_eq!(held(time, &history["end"]["uncertainty"]["time"]), 1);
 }
 
 #[test]
@@ -120,7 +150,7 @@ fn json_of_a_history_in_double_precision() {
     assert_eq!(history["events"].as_array().unwrap().len(), 12);
     keys(
         &history["contacts"][0],
-        &["from", "to", "impulse", "peak_strain", "restitution", "energy", "peak_stress", "peak_force"],
+        &["from", "to", "impulse", "peak_strain", "peak_stress", "peak_force", "restitution", "energy", "uncertainty"],
     );
     assert!((history["contacts"][1]["from"].as_f64().unwrap() - 8.0 / 3.0).abs() < 1e-14);
 }
@@ -298,8 +328,12 @@ fn csv_parts() {
     let events = "kind,time,end_velocity,centre,centre_velocity,time_uncertainty,end_velocity_uncertainty,\
         centre_uncertainty,centre_velocity_uncertainty";
     assert_eq!(first(&[]), (events.into(), 3));
-    assert_eq!(first(&["--part", "stress"]), ("from,to,strain_from,strain_to".into(), 3));
+    let stress = "from,to,strain_from,strain_to,from_uncertainty,to_uncertainty,strain_from_uncertainty,\
+        strain_to_uncertainty";
+    assert_eq!(first(&["--part", "stress"]), (stress.into(), 3));
     let (header, lines) = first(&["--part", "contacts"]);
+    assert_eq!(header.split(',').count(), 18);
+    assert!(header.ends_with(",vibrational_uncertainty [per ρS]"), "{header}");
     assert!(header.starts_with("from,to,impulse [per ρS],peak_strain,restitution_momentum,"));
     assert_eq!(lines, 2);
     refused(

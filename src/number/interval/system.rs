@@ -150,6 +150,11 @@ impl Scalar for Interval {
         Some([text(&self.lo, Round::Down), text(&self.hi, Round::Up)])
     }
 
+    fn proved(&self, digits: u32) -> u32 {
+        let agree = |digits: &u32| self.lo.decimal(*digits) == self.hi.decimal(*digits);
+        (1..=digits).rev().find(agree).unwrap_or(0)
+    }
+
     fn text(&self) -> String {
         let ends = [(&self.lo, Round::Down), (&self.hi, Round::Up)];
         let [lo, hi] = ends.map(|(end, round)| end.to_string_radix_round(10, Some(17), round));

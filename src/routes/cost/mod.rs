@@ -13,7 +13,6 @@ mod effects;
 mod ladder;
 mod work;
 
-pub(crate) use clock::Timing;
 pub(crate) use effects::{Difference, effects};
 pub(crate) use ladder::Family;
 pub(crate) use work::{Row, Table, work_precision};

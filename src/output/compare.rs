@@ -1,7 +1,8 @@
-//! Ours over other people's data, and the difference beside it.
+//! Ours beside other people's data, and the difference: rows, and a picture.
 
 use glam::DVec2;
 
+use super::dataset::{Column, Dataset};
 use super::draw::{Axis, Key, Layer, Panel, Shape, Sheet, Size, Stroke, plain, thinned};
 use crate::compare::{Compared, ComparedFile};
 use crate::quantity::{Measure, Units};
@@ -33,4 +34,21 @@ pub(crate) fn compare_svg(compared: &ComparedFile, title: Option<&str>, units: &
     });
     let title = plain(title.unwrap_or("Theirs and ours"));
     Sheet { title: vec![title], panels: panels.collect() }.svg(Size::Page)
+}
+
+/// Every sample: time, point of a field, and for each quantity ours, theirs and the difference.
+pub(crate) fn compare_data(ComparedFile { agreement, .. }: &ComparedFile) -> Dataset {
+    let points = agreement.grid.points.as_ref();
+    let mut columns: Vec<Column> = ["t"].into_iter().chain(points.map(|_| "x")).map(Column::new).collect();
+    for Compared { what, .. } in &agreement.quantities {
+        columns.extend(["ours", "theirs", "difference"].map(|whose| Column::new(format!("{}_{whose}", what.name()))));
+    }
+    let row = |(k, time): (usize, &f64)| {
+        let place = [time.to_string()].into_iter().chain(points.map(|points| points[k].to_string()));
+        let values = agreement.quantities.iter().flat_map(|Compared { ours, theirs, .. }| {
+            [ours[k], theirs[k], theirs[k] - ours[k]].map(|value| format!("{value:e}"))
+        });
+        place.chain(values).map(Into::into).collect()
+    };
+    Dataset { columns, rows: agreement.grid.times.iter().enumerate().map(row).collect(), ..Dataset::default() }
 }

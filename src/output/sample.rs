@@ -1,0 +1,151 @@
+//! Values of a quantity at chosen times.
+
+use super::dataset::{Cell, Column, Dataset};
+use super::record::Head;
+use super::solve::{Listed, listed, named_units, units_json};
+use crate::error::Error;
+use crate::motion::{Motion, Side};
+use crate::number::Scalar;
+use crate::quantity::Measure;
+
+/// What `sample` can be asked for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, clap::ValueEnum)]
+pub enum Quantity {
+    /// The strain at the ground `v_x(0,t)`, and with a material the stress and the force there
+    Stress,
+    /// The end at the ground: `v(0,t)`, `v_t(0,t)`
+    End,
+    /// The upper end: `v(L,t)`, `v_t(L,t)`
+    Top,
+    /// The centre of mass: `h`, `h′`
+    Centre,
+    /// The energies `E`, `E_h`, `E_z`
+    Energy,
+    /// `v`, `v_t`, `v_x` at points
+    Field,
+}
+
+impl Quantity {
+    /// The name of the quantity itself.
+    pub fn name(self) -> &'static str {
+        match self {
+            Quantity::Stress => "stress",
+            Quantity::End => "end",
+            Quantity::Top => "top",
+            Quantity::Centre => "centre",
+            Quantity::Energy => "energy",
+            Quantity::Field => "field",
+        }
+    }
+
+    /// What is printed of it, each with the place of its number in [`Sample::values`].
+    fn columns(self) -> &'static [(Listed, usize)] {
+        const STRAIN: Listed = Listed::value("v_x", "values/v_x", Measure::Strain);
+        const STRESS: Listed = Listed::value("stress", "values/stress", Measure::Stress);
+        const FORCE: Listed = Listed::value("force", "values/force", Measure::Force);
+        const V: Listed = Listed::value("v", "values/v", Measure::Length);
+        const V_T: Listed = Listed::value("v_t", "values/v_t", Measure::Velocity);
+        const ENERGY: [(Listed, usize); 3] = [
+            (Listed::value("total", "values/total", Measure::Energy), 0),
+            (Listed::value("translational", "values/translational", Measure::Energy), 1),
+            (Listed::value("vibrational", "values/vibrational", Measure::Energy), 2),
+        ];
+        const H: Listed = Listed::value("h", "values/h", Measure::Length);
+        const H_RATE: Listed = Listed::value("h_rate", "values/h_rate", Measure::Velocity);
+        match self {
+            Quantity::Stress => const { &[(STRAIN, 0), (STRESS, 0), (FORCE, 0)] },
+            Quantity::End | Quantity::Top => const { &[(V, 0), (V_T, 1)] },
+            Quantity::Centre => const { &[(H, 0), (H_RATE, 1)] },
+            Quantity::Energy => &ENERGY,
+            Quantity::Field => const { &[(V, 0), (V_T, 1), (STRAIN, 2), (STRESS, 2)] },
+        }
+    }
+}
+
+/// A value of a quantity, or several.
+#[derive(Clone, Debug)]
+pub struct Sample<S> {
+    /// `t`.
+    pub time: S,
+    /// `x`, for the field.
+    pub point: Option<S>,
+    /// Which limit.
+    pub side: Side,
+    /// As the history answers them: see [`Motion`].
+    pub values: Vec<S>,
+}
+
+/// The values of `quantity` at every time and, for the field, at every point.
+pub fn sample<S: Scalar>(
+    history: &dyn Motion<S>,
+    quantity: Quantity,
+    times: &[S],
+    points: &[S],
+    side: Side,
+) -> Result<Vec<Sample<S>>, Error> {
+    let mut rows = Vec::new();
+    for time in times {
+        let mut row = |point, values| rows.push(Sample { time: time.clone(), point, side, values });
+        match quantity {
+            Quantity::Stress => row(None, vec![history.strain(time, side)?]),
+            Quantity::End => row(None, history.ground_end(time, side).map(|(v, rate)| vec![v, rate])?),
+            Quantity::Top => row(None, history.top_end(time, side).map(|(v, rate)| vec![v, rate])?),
+            Quantity::Centre => row(None, history.centre(time).map(|(h, rate)| vec![h, rate])?),
+            Quantity::Energy => {
+                row(None, history.energy(time).map(|e| vec![e.total, e.translational, e.vibrational])?);
+            }
+            Quantity::Field => {
+                for point in points {
+                    let field = history.field(point, time, side)?;
+                    row(Some(point.clone()), vec![field.displacement, field.velocity, field.strain]);
+                }
+            }
+        }
+    }
+    Ok(rows)
+}
+
+/// A row for each sample.
+pub(crate) fn samples_data<S: Scalar>(samples: &[Sample<S>], quantity: Quantity, head: &Head) -> Dataset {
+    let units = &head.units;
+    let entries: Vec<Listed> = quantity.columns().iter().map(|(entry, _)| *entry).collect();
+    let places = quantity.columns().iter().map(|(_, place)| *place);
+    let values = samples.iter().map(|sample| places.clone().map(|place| sample.values.get(place)).collect());
+    let (values, rows) = listed(&entries, units, values);
+    let point = Column::new("point").headed("x").with_unit(units.name(Measure::Length));
+    let has_points = samples.iter().any(|sample| sample.point.is_some());
+    let mut columns = vec![
+        Column::new("time").headed("t").with_unit(units.name(Measure::Time)),
+        if has_points { point } else { point.untabled() },
+        Column::new("side"),
+    ];
+    columns.extend(values);
+    let row = |(sample, values): (&Sample<S>, Vec<Cell>)| {
+        let place = [Cell::number(&sample.time), Cell::optional(sample.point.as_ref()), sample.side.to_string().into()];
+        place.into_iter().chain(values).collect()
+    };
+    let rows = samples.iter().zip(rows).map(row).collect();
+    let end = head.exact_until.as_ref().map_or_else(String::new, |end| format!("{end}; these are {}\n", head.number));
+    let measures: Vec<Measure> = entries.iter().filter_map(|entry| entry.measure).collect();
+    let below = end + &named_units(&measures, units) + &head.warning_lines();
+    let space = if below.is_empty() { "" } else { "\n" };
+    Dataset {
+        header: vec![
+            ("schema", 1.into()),
+            ("title", head.title.clone().into()),
+            ("number", head.number.clone().into()),
+            ("quantity", quantity.name().into()),
+            ("units", units_json(units)),
+            ("exact_until", head.exact_until_json()),
+            ("warnings", head.warning_texts().into()),
+        ],
+        list: "rows",
+        columns,
+        rows,
+        around: [String::new(), format!("\n{space}{below}")],
+        notes: head.notes(),
+        digits: head.digits,
+        keys: (!head.wide).then_some(2 + usize::from(has_points)),
+        ..Dataset::default()
+    }
+}
