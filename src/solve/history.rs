@@ -2,7 +2,7 @@
 
 use std::sync::{Mutex, OnceLock, PoisonError};
 
-use super::ladder::{Attempt, Ladder, Observer, Target, unobserved};
+use super::ladder::{Attempt, Ladder, Observer, Query, Target, settled, unobserved};
 use super::plan::{Plan, Rung};
 use super::question::{Numbers, Question};
 use crate::error::Error;
@@ -45,6 +45,18 @@ pub struct History<S: Target> {
     end: S,
 }
 
+/// The numbers of all that happens.
+fn what_happens<N>((end, events, contacts): &(N, Vec<Event<N>>, Vec<Contact<N>>)) -> Vec<&N> {
+    let mut numbers = vec![end];
+    for event in events {
+        numbers.extend(event.numbers());
+    }
+    for contact in contacts {
+        numbers.extend(contact.numbers());
+    }
+    numbers
+}
+
 impl<S: Target> History<S> {
     /// Solves `problem` by `plan`.
     ///
@@ -58,12 +70,8 @@ impl<S: Target> History<S> {
             let contacts = if ask_events { engine.contacts().to_vec() } else { Vec::new() };
             Ok((engine.end(), events, contacts))
         };
-        let (attempt, (end, events, contacts)) = ladder.settle(None, query, |(end, events, contacts)| {
-            let mut all: Vec<&S::Carried> = vec![end];
-            all.extend(events.iter().flat_map(Event::numbers));
-            all.extend(contacts.iter().flat_map(Contact::numbers));
-            all
-        })?;
+        let (attempt, (end, events, contacts)) =
+            settled::<S, _, _>(query, what_happens, |query| ladder.settle::<S>(None, query))?;
         let motion = History {
             ending: attempt.engine.ending().clone(),
             attempt: Mutex::new(attempt),
@@ -112,15 +120,19 @@ impl<S: Target> History<S> {
         query: impl Fn(&dyn Motion<S::Carried>) -> Result<T, Error>,
         numbers: impl Fn(&T) -> Vec<&S::Carried>,
     ) -> Result<T, Error> {
+        settled::<S, T, _>(query, numbers, |query| self.settle(query)).map(|((), answer)| answer)
+    }
+
+    /// Settles a query from the last attempt on, and keeps the one that has settled it.
+    fn settle(&self, query: Query<'_, S>) -> Result<((), usize), Error> {
         let current = self.current();
         let rung = current.rung;
         let ladder = Ladder { problem: &self.problem, plan: &self.plan, observe: &self.observe };
-        let settled = ladder.settle(Some(current), query, numbers);
-        let (attempt, answer) = settled.map_err(|error| self.explained(error))?;
+        let (attempt, answer) = ladder.settle::<S>(Some(current), query).map_err(|error| self.explained(error))?;
         if attempt.rung != rung {
             *self.attempt.lock().unwrap_or_else(PoisonError::into_inner) = attempt;
         }
-        Ok(answer)
+        Ok(((), answer))
     }
 
     /// An error of a question, with why the history ends before the time that was asked for.

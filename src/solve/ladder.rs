@@ -48,7 +48,7 @@ impl Plan {
         numbers: impl Fn(&T) -> Vec<&S::Carried>,
     ) -> Result<T, Error> {
         let ladder = Ladder { problem, plan: self, observe: &UNOBSERVED };
-        ladder.settle::<S, T>(None, query, numbers).map(|(_, answer)| answer)
+        settled::<S, T, _>(query, numbers, |query| ladder.settle::<S>(None, query)).map(|(_, answer)| answer)
     }
 }
 
@@ -85,24 +85,58 @@ impl<S: Answer> Clone for Attempt<S> {
     }
 }
 
+/// A number of an answer, as far as it matters whether it is settled.
+pub(crate) struct Size {
+    /// `log₂` of its magnitude.
+    log2: f64,
+    log2_error: f64,
+}
+
+fn sizes<S: Scalar>(numbers: Vec<&S>) -> Vec<Size> {
+    let mut sizes = Vec::with_capacity(numbers.len());
+    for x in numbers {
+        sizes.push(Size { log2: x.to_f64().abs().log2(), log2_error: x.log2_error() });
+    }
+    sizes
+}
+
+/// What the ladder asks of each attempt: which answer it is, counted from 0, and the numbers of it. So the ladder is
+/// compiled once for all kinds of answers.
+pub(crate) type Query<'a, S> =
+    &'a mut dyn FnMut(&dyn Motion<<S as Answer>::Carried>) -> Result<(usize, Vec<Size>), Error>;
+
+/// The answer to `query` that `settle` chooses among those to its attempts, with what it says beside.
+pub(crate) fn settled<S: Target, T, A>(
+    query: impl Fn(&dyn Motion<S::Carried>) -> Result<T, Error>,
+    numbers: impl Fn(&T) -> Vec<&S::Carried>,
+    settle: impl FnOnce(Query<'_, S>) -> Result<(A, usize), Error>,
+) -> Result<(A, T), Error> {
+    let mut answers = Vec::with_capacity(1);
+    let (beside, chosen) = settle(&mut |engine| {
+        answers.push(query(engine)?);
+        let last = answers.len() - 1;
+        Ok((last, sizes(numbers(&answers[last]))))
+    })?;
+    Ok((beside, answers.swap_remove(chosen)))
+}
+
 /// As often an attempt may end at the same doubt, with more bits each time, before that is the answer.
 const SAME_DOUBT: usize = 3;
 
 impl Ladder<'_> {
     /// The answer to `query`, settled: asked of `attempt` where there is one, and of attempts in more and more bits
-    /// until every comparison on the way is decided and all `numbers` of the answer have the digits of the plan.
+    /// until every comparison on the way is decided and all numbers of the answer have the digits of the plan.
     ///
     /// **Accuracy**: each number is known to the digits of the plan, or to so many below the greatest number of the
     /// answer as the plan says. In doubles the best that could be reached; its own bounds say what that is.
     ///
     /// **Errors**: [`Error::Unsettled`] and [`Error::Undecided`] where too many bits do not settle it; those of the run
     /// and of the query.
-    pub(crate) fn settle<S: Target, T>(
+    pub(crate) fn settle<S: Target>(
         &self,
         attempt: Option<Attempt<S>>,
-        query: impl Fn(&dyn Motion<S::Carried>) -> Result<T, Error>,
-        numbers: impl Fn(&T) -> Vec<&S::Carried>,
-    ) -> Result<(Attempt<S>, T), Error> {
+        query: Query<'_, S>,
+    ) -> Result<(Attempt<S>, usize), Error> {
         let mut rung = attempt.as_ref().map_or(self.plan.rung, |attempt| attempt.rung);
         let tried = attempt.as_ref().is_some_and(|attempt| attempt.tried);
         let mut reserve = None;
@@ -116,8 +150,8 @@ impl Ladder<'_> {
             .and_then(|engine| query(&*engine).map(|answer| (engine, answer)));
             // Errors on the way to an open comparison mean nothing, except where no bits can help.
             let (lacks, reached) = match answer {
-                Ok((engine, answer)) => {
-                    let missing = self.missing::<S>(&*engine, &numbers(&answer), &mut doubts);
+                Ok((engine, (answer, sizes))) => {
+                    let missing = self.missing(&*engine, &sizes, &mut doubts);
                     let coincides = !tried && coincides(self.plan, &*engine);
                     let reached = Some((Attempt { rung, engine, tried }, answer));
                     match reached {
@@ -154,12 +188,7 @@ impl Ladder<'_> {
     }
 
     /// About how many bits more would settle the answer; zero or less where it is settled.
-    fn missing<S: Target>(
-        &self,
-        engine: &dyn Motion<S::Carried>,
-        numbers: &[&S::Carried],
-        doubts: &mut Vec<f64>,
-    ) -> f64 {
+    fn missing<S: Scalar>(&self, engine: &dyn Motion<S>, numbers: &[Size], doubts: &mut Vec<f64>) -> f64 {
         if self.plan.engine == super::Engine::Lattice && matches!(engine.ending(), Ending::Undecided(_)) {
             let end = engine.end().to_f64();
             doubts.push(end);
@@ -169,15 +198,13 @@ impl Ladder<'_> {
         }
         let Goal { digits, spare, faint } = self.plan.goal;
         let bits = |digits: f64| digits * std::f64::consts::LOG2_10;
-        let log2 = |x: &&S::Carried| x.to_f64().abs().log2();
-        let greatest = numbers.iter().map(log2).fold(f64::NEG_INFINITY, f64::max);
+        let greatest = numbers.iter().map(|number| number.log2).fold(f64::NEG_INFINITY, f64::max);
         let floor = greatest - bits(digits + spare);
         let mut most = f64::NEG_INFINITY;
-        for x in numbers {
-            let (size, error) = (log2(x), x.log2_error());
+        for Size { log2: size, log2_error: error } in numbers {
             let mut missing = error - (size - bits(digits)).max(floor);
             // Nothing is known of it, whatever its size.
-            if error.is_nan() || error == f64::INFINITY {
+            if error.is_nan() || *error == f64::INFINITY {
                 return f64::INFINITY;
             }
             // What is not told from zero has no digits that bits could settle: its natural scale says when it is small.
