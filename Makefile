@@ -1,6 +1,6 @@
-# For a machine with Rust and, for fractions and long digits, a C compiler:
+# For a machine with Rust and, for long digits and the tests, a C compiler:
 #   make demo         builds the command in pure Rust and solves a real scene in doubles; a minute or two
-#   make demo-exact   the same scene in fractions; builds GMP and MPFR once, which takes minutes
+#   make demo-exact   the same scene in fractions
 #   make test         runs all tests
 #   make page         builds the page, one HTML file that opens from disk, and make page-test tries it in Chromium
 #   make docs         works out docs/guide and docs/check.md anew
@@ -14,7 +14,7 @@ export PROPTEST_RNG_SEED ?= 1878
 
 help:
 	@echo "make demo         build the command in pure Rust and solve the bouncing bar of Doyen, Ern and Piperno"
-	@echo "make demo-exact   the same in fractions; builds GMP and MPFR first"
+	@echo "make demo-exact   the same in fractions"
 	@echo "make test         run all tests, those of the documentation included"
 	@echo "make page         build the page: target/page/dalembert.html, one file that opens from disk"
 	@echo "make page-test    try the page in Chromium; needs Node 20 and npm"
@@ -23,12 +23,11 @@ help:
 
 demo:
 	@echo "building the command without the C libraries; a minute or two where nothing is built yet"
-	$(CARGO) run --no-default-features --features cli -- solve doyen-ern-piperno
+	$(CARGO) run --profile demo --no-default-features --features cli -- solve doyen-ern-piperno
 	@echo "make demo-exact solves the same scene in fractions"
 
-demo-exact: m4
-	@echo "building GMP and MPFR from source, once, without a word for some two minutes"
-	$(CARGO) run -- solve doyen-ern-piperno --exact
+demo-exact:
+	$(CARGO) run --profile demo --no-default-features --features cli -- solve doyen-ern-piperno --exact
 
 test: m4
 	$(CARGO) test --no-fail-fast
