@@ -6,9 +6,9 @@
 //! at equal times since the last event, and follows with their signs what the time of that event and the velocity of
 //! the centre owe to each source of error.
 
+use super::bounds::Uncertainty;
 use super::dependence::{Dependence, Form};
 use super::effort::LEAST_LEAP;
-use crate::motion::Uncertainty;
 use crate::special::{phi1, phi2};
 
 /// What either account says of an error.
@@ -37,7 +37,7 @@ pub(super) const LEAP_CELLS: f64 = 16.0;
 
 /// How far the values at an event may be off, whenever it is, dimensionless.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct AtEvent {
+pub(super) struct AtEvent {
     /// Displacements.
     pub(super) rise: f64,
     /// `h`.

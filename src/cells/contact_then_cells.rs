@@ -2,15 +2,15 @@
 
 use std::ops::ControlFlow;
 
-use super::budget::AtEvent;
+use super::bounds::{bounded_piece, meant, rounded, within};
 use super::effort::Effort;
 use super::history::Damped;
 use super::piece::Unresolved;
-use super::with_bounds::{Bounding, Lines, Pair};
 use crate::error::Error;
 use crate::first_contact::{Bounce, ContactHistory, FirstContact};
-use crate::motion::{Course, Ending, Energy, Event, Field, Motion, Scales, Side, StressPiece, Uncertainty, unobserved};
-use crate::number::Estimate;
+use crate::motion::moments::Moments;
+use crate::motion::{Contact, Course, Ending, Field, Motion, Pair, Scales, Side, StressPiece, unobserved};
+use crate::number::{Estimate, Scalar};
 use crate::problem::{Parameters, Problem, Run};
 use crate::reason::Reason;
 use crate::special::RoundedSpecial;
@@ -23,19 +23,15 @@ use crate::special::RoundedSpecial;
 ///
 /// **Units**: those of the problem.
 ///
-/// **Accuracy**: within [`Motion::error_estimate`] of the natural scales.
+/// **Accuracy**: *within its own bound*.
 #[derive(Clone, Debug)]
 pub struct ContactThenCells<S> {
     contact: ContactHistory<Estimate<S>>,
-    rod: Parameters<S>,
-    /// `t_b`.
-    bounce: Option<S>,
     march: Option<Damped<S>>,
-    course: Course<S>,
+    course: Course<Estimate<S>>,
     error: S,
-    /// The same of the first contact.
-    before: f64,
-    effort: Effort,
+    /// What a strain of the first contact may be off by where nothing else bounds it.
+    strain: f64,
 }
 
 /// How far a history is to go.
@@ -45,13 +41,6 @@ pub enum Reach {
     Run,
     /// To the first release at most: closed forms alone, no cells.
     Bounce,
-}
-
-/// Cells are not marched to more digits than this: their cost grows with the cube of the digits.
-const MOST_MARCHED: f64 = 300.0;
-
-fn pair<S>((a, b): (Estimate<S>, Estimate<S>)) -> (S, S) {
-    (a.into_value(), b.into_value())
 }
 
 impl<S: RoundedSpecial> ContactThenCells<S> {
@@ -84,14 +73,21 @@ impl<S: RoundedSpecial> ContactThenCells<S> {
             Run::Impacts(_) => None,
         };
         let contact = ContactHistory::new(FirstContact::new(&Parameters::of(problem, precision)?), bounce, asked)?;
-        let course = contact.course().clone().map(Estimate::into_value);
-        let bounce = course.events.get(1).map(|release| release.time.clone());
-        let time_error = course.events.get(1).map_or(0.0, |release| release.time_error);
+        let known = contact.course().clone();
+        let time_error = known.events.get(1).map_or(0.0, |release| release.time_error);
         let round_trip = rod.round_trip();
         let error = round_trip.double(17.0) * round_trip.roundoff() + round_trip.double(time_error) / &round_trip;
-        let mut history =
-            ContactThenCells { before: error.to_f64(), error, march: None, course, bounce, contact, rod, effort };
-        history.follow(problem, precision, (reach, rate), observe)?;
+        let Scales { velocity, wave_speed, .. } = contact.scales().map(|scale| scale.to_f64());
+        let strain = error.to_f64() * velocity / wave_speed;
+        // A peak that is only approached has no bound of its own that falls with more bits.
+        let bounded =
+            |found: Contact<Estimate<S>>| Contact { peak_strain: within(found.peak_strain.value(), strain), ..found };
+        let contacts = known.contacts.into_iter().map(bounded).collect();
+        let course = Course { end: within(known.end.value(), 0.0), contacts, ..known };
+        let mut history = ContactThenCells { error, strain, march: None, course, contact };
+        if reach == Reach::Run {
+            history.follow(problem, precision, (&rod, effort), rate, observe)?;
+        }
         Ok(history)
     }
 
@@ -100,30 +96,29 @@ impl<S: RoundedSpecial> ContactThenCells<S> {
         &mut self,
         problem: &Problem,
         precision: &S::Precision,
-        (reach, rate): (Reach, Option<Estimate<S>>),
+        (rod, effort): (&Parameters<S>, Effort),
+        rate: Option<Estimate<S>>,
         observe: &dyn Fn(usize, usize) -> ControlFlow<()>,
     ) -> Result<(), Error> {
-        let rebound = self.contact.rebound().map(|rebound| rebound.velocity.clone());
-        let (Some(bounce), Some(rebound), Reach::Run) = (self.bounce.clone(), rebound, reach) else { return Ok(()) };
-        if self.effort.digits > MOST_MARCHED {
-            self.course.ending = Ending::Undecided(Reason::MostDigits(MOST_MARCHED as u32));
+        let (Some(rebound), Some(release)) = (self.contact.rebound(), self.course.events.get(1)) else { return Ok(()) };
+        if effort.digits > effort.most_digits {
+            self.course.ending = Ending::Undecided(Reason::MostDigits(effort.most_digits as u32));
             return Ok(());
         }
-        let release = (&bounce, self.course.events[1].time_error, &self.course.events[1].end_velocity);
+        let release = (release.time.value(), release.time_error, release.end_velocity.value());
         // The cells account for the roundings of the parameters themselves.
-        let form = FirstContact::new(&self.rod.carry());
-        let rate = rate.unwrap_or(rebound);
-        let march = Damped::after_bounce(problem, precision, self.effort, &form, release, &rate, observe)?;
-        let Course { events, contacts, .. } = march.course();
-        self.course.events.extend(events.iter().skip(1).cloned());
-        self.course.contacts.extend(contacts.iter().cloned());
-        let error = march.error_estimate();
+        let form = FirstContact::new(&rod.carry());
+        let rate = rate.unwrap_or_else(|| rebound.velocity.clone());
+        let mut march = Damped::after_bounce(problem, precision, effort, &form, release, &rate, observe)?;
+        march.rebound = Some(rebound.clone());
+        let Course { end, ending, events, contacts, warnings } = march.course().clone();
+        self.course.events.extend(events.into_iter().skip(1));
+        self.course.contacts.extend(contacts);
+        let error = march.error_estimate().into_value();
         if error > self.error {
             self.error = error;
         }
-        self.course.end = march.end();
-        self.course.ending = march.ending().clone();
-        self.course.warnings = march.warnings().to_vec();
+        self.course = Course { end, ending, warnings, ..self.course.clone() };
         self.march = Some(march);
         Ok(())
     }
@@ -133,159 +128,111 @@ impl<S: RoundedSpecial> ContactThenCells<S> {
         self.march.as_ref().and_then(Damped::unresolved)
     }
 
-    /// Refuses a time that is not known, and says whether it is one of the first contact.
-    fn in_contact(&self, time: &S, side: Side) -> Result<bool, Error> {
-        if time.is_negative() || *time > self.course.end || !time.is_finite() {
+    /// `t_b`.
+    fn bounce(&self) -> Option<&S> {
+        self.contact.events().get(1).map(|release| release.time.value())
+    }
+
+    /// The cells, where they answer at a time; the closed form has the bounce itself.
+    ///
+    /// **Errors**: [`Error::TimeOutside`].
+    fn later(&self, time: &Estimate<S>) -> Result<Option<&Damped<S>>, Error> {
+        let time = time.value();
+        if time.is_negative() || time > self.course.end.value() || !time.is_finite() {
             return Err(Error::TimeOutside { found: time.text(), end: self.course.end.text() });
         }
-        let flies = |bounce: &S| time > bounce || time == bounce && side == Side::Right;
-        Ok(!self.bounce.as_ref().is_some_and(flies))
+        Ok(self.march.as_ref().filter(|_| self.bounce().is_some_and(|bounce| time > bounce)))
     }
 
-    /// Whether that is the first bounce itself.
-    fn at_bounce(&self, time: &S) -> bool {
-        self.bounce.as_ref() == Some(time)
-    }
-
-    /// The cells at a time after the bounce; the history ends at the bounce where there are none.
-    fn later(&self) -> Result<&Damped<S>, Error> {
-        self.march
-            .as_ref()
-            .ok_or_else(|| Error::TimeOutside { found: self.course.end.text(), end: self.course.end.text() })
+    /// What answers at a time, and the time as it is asked about: the closed form takes it as it is stored.
+    fn part(&self, time: &Estimate<S>) -> Result<(&dyn Motion<Estimate<S>>, Estimate<S>), Error> {
+        let time = meant(&self.course.events, time);
+        Ok(match self.later(time)? {
+            Some(march) => (march, time.clone()),
+            None => (&self.contact, rounded(time.value())),
+        })
     }
 }
 
-impl<S: RoundedSpecial> Motion<S> for ContactThenCells<S> {
-    fn course(&self) -> &Course<S> {
+impl<S: RoundedSpecial> Motion<Estimate<S>> for ContactThenCells<S> {
+    fn course(&self) -> &Course<Estimate<S>> {
         &self.course
     }
 
-    fn stress_pieces(&self) -> Vec<StressPiece<S>> {
-        let until = self.bounce.as_ref().unwrap_or(&self.course.end);
-        let first = self.contact.stress_pieces().into_iter();
-        let mut pieces: Vec<StressPiece<S>> = first.map(|piece| piece.map(Estimate::into_value)).collect();
-        if let Some(march) = &self.march {
-            let later = march.stress_pieces().into_iter().filter(|piece| piece.to > *until);
+    fn scales(&self) -> Scales<Estimate<S>> {
+        self.contact.scales().map(|scale| within(scale.value(), 0.0))
+    }
+
+    fn stress_pieces(&self) -> Vec<StressPiece<Estimate<S>>> {
+        let bounded = |piece: StressPiece<Estimate<S>>| {
+            // Between the rays its own bounds hardly change.
+            let own = |time: &Estimate<S>, side| {
+                self.contact.strain(&rounded(time.value()), side).map_or(0.0, |strain| strain.bound())
+            };
+            let strain = self.strain.max(own(&piece.from, Side::Right)).max(own(&piece.to, Side::Left));
+            bounded_piece(piece.map(Estimate::into_value), strain)
+        };
+        let mut pieces: Vec<_> = self.contact.stress_pieces().into_iter().map(bounded).collect();
+        if let (Some(march), Some(bounce)) = (&self.march, self.bounce()) {
+            let first = pieces.len();
+            pieces.extend(march.stress_pieces().into_iter().filter(|piece| piece.to.value() > bounce));
             // The flight begins where the closed form ends.
-            pieces.extend(later.map(|piece| StressPiece {
-                from: if piece.from < *until { until.clone() } else { piece.from },
-                ..piece
-            }));
-            if let Some(flight) = pieces.iter_mut().find(|piece| piece.from >= *until) {
-                flight.from = until.clone();
+            if let Some(flight) = pieces.get_mut(first) {
+                flight.from = within(bounce, 0.0);
             }
         }
         pieces
     }
 
-    fn strain(&self, time: &S, side: Side) -> Result<S, Error> {
-        if self.in_contact(time, side)? || self.at_bounce(time) {
-            return Ok(self.contact.strain(&time.carry(), side)?.into_value());
+    fn strain(&self, time: &Estimate<S>, side: Side) -> Result<Estimate<S>, Error> {
+        let (part, time) = self.part(time)?;
+        part.strain(&time, side)
+    }
+
+    fn pair(&self, pair: Pair, time: &Estimate<S>, side: Side) -> Result<[Estimate<S>; 2], Error> {
+        let (part, time) = self.part(time)?;
+        part.pair(pair, &time, side)
+    }
+
+    fn field(&self, point: &Estimate<S>, time: &Estimate<S>, side: Side) -> Result<Field<Estimate<S>>, Error> {
+        let (part, time) = self.part(time)?;
+        part.field(&rounded(point.value()), &time, side)
+    }
+
+    fn moments(&self, time: &Estimate<S>, points: &[Estimate<S>]) -> Result<Vec<Moments<Estimate<S>>>, Error> {
+        let time = meant(&self.course.events, time);
+        match self.later(time)? {
+            Some(march) => march.moments(time, points),
+            None => {
+                let points: Vec<_> = points.iter().map(|point| rounded(point.value())).collect();
+                self.contact.moments(&rounded(time.value()), &points)
+            }
         }
-        self.later()?.strain(time, side)
     }
 
-    fn ground_end(&self, time: &S, side: Side) -> Result<(S, S), Error> {
-        if self.in_contact(time, side)? || self.at_bounce(time) {
-            return self.contact.ground_end(&time.carry(), side).map(pair);
-        }
-        self.later()?.ground_end(time, side)
-    }
-
-    fn top_end(&self, time: &S, side: Side) -> Result<(S, S), Error> {
-        let top = self.field(&self.rod.length, time, side)?;
-        Ok((top.displacement, top.velocity))
-    }
-
-    fn centre(&self, time: &S) -> Result<(S, S), Error> {
-        self.bounded_centre(time).map_or_else(|| self.later()?.centre(time), |centre| centre.map(pair))
-    }
-
-    fn energy(&self, time: &S) -> Result<Energy<S>, Error> {
-        if !self.in_contact(time, Side::Left)? {
-            return self.later()?.energy(time);
-        }
-        Ok(self.contact.energy(&time.carry())?.map(Estimate::into_value))
-    }
-
-    fn energy_parts(&self, time: &S) -> Result<[S; 2], Error> {
-        if !self.in_contact(time, Side::Left)? {
-            return self.later()?.energy_parts(time);
-        }
-        Ok(self.contact.energy_parts(&time.carry())?.map(Estimate::into_value))
-    }
-
-    fn field(&self, point: &S, time: &S, side: Side) -> Result<Field<S>, Error> {
-        if point.is_negative() || *point > self.rod.length || !point.is_finite() {
-            return Err(Error::PointOutside { found: point.text(), length: self.rod.length.text() });
-        }
-        if !self.in_contact(time, side)? {
-            return self.later()?.field(point, time, side);
-        }
-        Ok(self.contact.field(&point.carry(), &time.carry(), side)?.map(Estimate::into_value))
-    }
-
-    fn rates(&self, points: &[S], times: &[S]) -> Result<Vec<[S; 2]>, Error> {
+    fn rates(&self, points: &[Estimate<S>], times: &[Estimate<S>]) -> Result<Vec<[Estimate<S>; 2]>, Error> {
+        let times: Vec<_> = times.iter().map(|time| meant(&self.course.events, time).clone()).collect();
         let mut first = 0;
-        while first < times.len() && self.in_contact(&times[first], Side::Right)? {
+        while first < times.len() && self.later(&times[first])?.is_none() {
             first += 1;
         }
-        let (contact, later) = times.split_at(first);
-        let carry = |numbers: &[S]| numbers.iter().map(|x| x.carry()).collect::<Vec<_>>();
-        let rates = self.contact.rates(&carry(points), &carry(contact))?;
-        let mut rates: Vec<_> = rates.into_iter().map(|pair| pair.map(Estimate::into_value)).collect();
-        if !later.is_empty() {
-            rates.extend(self.later()?.rates(points, later)?);
+        let contact: Vec<_> = times[..first].iter().map(|time| rounded(time.value())).collect();
+        let mut rates = self.contact.rates(points, &contact)?;
+        if let Some(march) = self.march.as_ref().filter(|_| first < times.len()) {
+            rates.extend(march.rates(points, &times[first..])?);
         }
         Ok(rates)
     }
 
-    fn highest(&self, release: &Event<S>) -> Option<(S, S)> {
-        if self.at_bounce(&release.time) {
-            return self.contact.rebound()?.highest().map(pair);
-        }
-        self.march.as_ref().and_then(|march| march.highest(release))
-    }
-
-    fn scales(&self) -> Scales<S> {
-        self.contact.scales().map(Estimate::into_value)
-    }
-
-    fn error_estimate(&self) -> S {
-        self.error.clone()
-    }
-
-    fn uncertainty(&self, time: &S) -> Uncertainty {
-        match (&self.march, &self.bounce) {
-            (Some(march), Some(bounce)) if time > bounce => march.uncertainty(time),
-            _ => Uncertainty { rise: self.before, speed: self.before, rate: self.before, ..Uncertainty::default() },
+    fn highest(&self, release: usize) -> Option<(Estimate<S>, Estimate<S>)> {
+        match release {
+            0 | 1 => self.contact.highest(release),
+            later => self.march.as_ref()?.highest(later - 1),
         }
     }
-}
 
-/// The first contact, whose closed forms carry their own bounds: late in it the rays cancel.
-impl<S: RoundedSpecial> Bounding<S> for ContactThenCells<S> {
-    fn bounded(&self, time: &S, side: Side) -> Option<&dyn Motion<Estimate<S>>> {
-        let first = self.in_contact(time, side).is_ok_and(|is| is) || self.at_bounce(time);
-        first.then_some(&self.contact as &dyn Motion<Estimate<S>>)
-    }
-
-    /// The first event of the cells is the bounce.
-    fn at_event(&self, event: usize) -> Option<AtEvent> {
-        self.march.as_ref()?.at_event(event.checked_sub(1)?)
-    }
-
-    fn lines(&self, time: &S, points: &[S]) -> Result<Lines<S>, Error> {
-        self.later()?.lines(time, points)
-    }
-
-    fn bounded_centre(&self, time: &S) -> Option<Pair<S>> {
-        match (self.in_contact(time, Side::Left).ok()?, self.course.events.get(2)) {
-            (true, _) => Some(self.contact.centre(&time.carry())),
-            // Until the next impact the centre flies freely, whatever the rod does.
-            (false, next) if next.is_none_or(|next| *time <= next.time) => Some(self.contact.flight(&time.carry())),
-            _ => None,
-        }
+    fn error_estimate(&self) -> Estimate<S> {
+        Estimate::exact(self.error.clone())
     }
 }
 
@@ -316,7 +263,8 @@ mod tests {
                 let bounce = contact.bounce();
                 let straight = ContactThenCells::<f64>::solve(&problem, &(), 13.0, bounce, Reach::Run)?;
                 let first = straight.events()[1].clone();
-                let release = (first.time + displaced, f64::abs(displaced) + first.time_error, first.end_velocity);
+                let (time, leaves) = (first.time.into_value() + displaced, first.end_velocity.into_value());
+                let release = (time, f64::abs(displaced) + first.time_error, leaves);
                 let form = straight.contact.form();
                 let off = Damped::after_bounce(
                     &problem,
@@ -333,7 +281,7 @@ mod tests {
             let (ours, theirs) = (&straight.events()[1..], off.events());
             assert_eq!(ours.len(), theirs.len(), "{damping} {speed}");
             for (k, (a, b)) in ours.iter().zip(theirs).enumerate() {
-                let moved = (a.time - b.time).abs();
+                let moved = (a.time.value() - b.time.value()).abs();
                 assert!(moved <= b.time_error, "{damping} {speed}, event {k}: {moved:e} {:e}", b.time_error);
                 let most = f64::abs(displaced) * 30f64.powi(k as i32 + 1);
                 assert!(b.time_error <= most, "{damping} {speed}, event {k}: {:e} {most:e}", b.time_error);

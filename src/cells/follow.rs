@@ -7,6 +7,7 @@
 use std::ops::ControlFlow;
 
 use super::bounce::Held;
+use super::bounds::Uncertainty;
 use super::budget::{Budget, CUT_CELLS, FIRST_CELLS, LEAP_CELLS, Off};
 use super::effort::{Effort, LEAST_LEAP, MOST_PIECES, MOST_SEGMENTS};
 use super::flight::Flight;
@@ -16,7 +17,7 @@ use super::root::first_descent;
 use super::series::{at_one, at_zero, bound, derivative, evaluate};
 use super::start::Data;
 use crate::error::Error;
-use crate::motion::{Ending, EventKind, Uncertainty};
+use crate::motion::{Ending, EventKind};
 use crate::number::Estimate;
 use crate::problem::{Problem, Run};
 use crate::reason::{Reason, Warning};

@@ -6,10 +6,11 @@
 //! trips at once. `root` finds events, `effort` limits a run, `follow` decides what happens at the ground, `event` does
 //! it, `piece` is what remains of it, `budget` adds up what all of it may be off by, with the signs that `dependence`
 //! follows, `rest` says when nothing more can happen. `record` gets the field back, from cells that `strips` keeps for
-//! the next question, `history` answers questions, `contact_then_cells` puts the closed form of the first contact
-//! before it, `with_bounds` gives answers with bounds.
+//! the next question, `history` answers questions, `bounds` says what each answer may be off by, `contact_then_cells`
+//! puts the closed form of the first contact before them.
 
 mod bounce;
+mod bounds;
 mod budget;
 mod cell;
 mod contact_then_cells;
@@ -30,10 +31,8 @@ mod root;
 mod series;
 mod start;
 mod strips;
-mod with_bounds;
 
 pub use contact_then_cells::{ContactThenCells, Reach};
 pub use effort::Effort;
 pub use history::Damped;
 pub use piece::Unresolved;
-pub use with_bounds::WithBounds;

@@ -15,7 +15,7 @@ use std::collections::VecDeque;
 use super::cell::Cell;
 use super::march::{Medium, State};
 use crate::error::Error;
-use crate::motion::AtStart;
+use crate::motion::{AtStart, Scales};
 use crate::number::{Number, Rounded};
 use crate::problem::{Parameters, Problem, Profile, Start, Top};
 use crate::special::RoundedSpecial;
@@ -118,6 +118,14 @@ pub(super) struct Units<S> {
     pub(super) length: S,
     /// `g`.
     pub(super) gravity: S,
+}
+
+impl<S: Clone> Units<S> {
+    /// The natural scales.
+    pub(super) fn scales(&self) -> Scales<S> {
+        let Units { time, velocity, length, wave_speed, gravity, .. } = self.clone();
+        Scales { time, velocity, length, wave_speed, gravity }
+    }
 }
 
 /// The start in dimensionless form.

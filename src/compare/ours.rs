@@ -6,9 +6,9 @@ use super::norms::Grid;
 use super::samples::Rounding;
 use super::touch::{Moments, Touch};
 use crate::error::Error;
-use crate::motion::{Field, Side, StressPiece};
-use crate::number::Number;
-use crate::problem::{Material, Parameters, Problem, Start, Top};
+use crate::motion::{Field, Motion, RayRegister, Side, StressPiece};
+use crate::number::{Estimate, Number, Scalar};
+use crate::problem::{Material, Parameters, Problem};
 use crate::quantity::{Measure, Quantity, Rays};
 use crate::solve::History;
 use crate::special::gauss_legendre;
@@ -31,16 +31,15 @@ pub(super) struct Ours<'a> {
 
 /// With more times than this, most values are interpolated.
 const MANY: usize = 1 << 15;
-/// Jumps below this share of the scale of velocities are none, and times within it of the round trip are the same.
+/// Jumps below this share of the scale of velocities are none.
 const SMALL: f64 = 1e-9;
 
 impl<'a> Ours<'a> {
     /// The exact side of `problem`, solved by `history`.
     ///
-    /// **Source**: a jump at the ground comes back after `t₁`, for ever. It is found where the stress jumps, at events
-    /// and where what the start brings first arrives; a candidate counts where the two limits differ.
+    /// **Source**: the register of rays. A time at which one is at the ground counts where the two limits differ.
     pub(super) fn of(problem: &Problem, history: &'a History<f64>) -> Result<Self, Error> {
-        let rod = Parameters::of(problem, &())?;
+        let rod = Parameters::<f64>::of(problem, &())?;
         let material = match &problem.rod.material {
             Material::WaveSpeed(_) => [rod.wave_speed * rod.wave_speed, 1.0, 1.0],
             Material::Elastic { modulus, density, area } => {
@@ -48,24 +47,19 @@ impl<'a> Ours<'a> {
             }
         };
         let pieces = history.stress_history()?.pieces;
-        let (trip, end) = (rod.round_trip(), *history.end());
-        let mut found = vec![0.0];
-        found.extend(history.events().iter().map(|event| event.time));
-        found.extend(pieces.windows(2).filter(|pair| pair[0].right != pair[1].left).map(|pair| pair[1].from));
-        let mut brought = Vec::new();
-        // What holds the top stops it at t = 0.
-        let held = (problem.rod.top == Top::Fixed).then_some(rod.length);
-        let edges: Vec<f64> = match &problem.start {
-            Start::Profile(profile) => {
-                let corners = profile.displacement.iter().chain(&profile.velocity).map(|(x, _)| x.to_f64());
-                corners.chain([0.0, rod.length]).collect()
-            }
-            Start::Uniform(_) | Start::Above { .. } => held.into_iter().collect(),
+        // At the ground since the start, and before it where rays have not been there yet.
+        let at_ground = |from: f64, to: f64| {
+            let passing = |motion: &dyn Motion<Estimate<f64>>| {
+                Ok(RayRegister::of(motion)
+                    .passing(&motion.end().zero(), from, to)
+                    .into_iter()
+                    .map(|ray| ray.time)
+                    .collect())
+            };
+            let times: Vec<Estimate<f64>> = history.ask(passing, |_| Vec::new())?;
+            Ok::<_, Error>(times.into_iter().map(Estimate::into_value).collect::<Vec<f64>>())
         };
-        let arrivals = edges.into_iter().map(|x| x / rod.wave_speed);
-        brought.extend(arrivals.flat_map(|arrival| [arrival, trip - arrival]));
-        found.extend(&brought);
-        let candidates = repeated(found, trip, end);
+        let candidates: Vec<f64> = at_ground(0.0, *history.end())?;
         let seen = [Quantity::EndVelocity, Quantity::Strain];
         let (before, after) = (
             history.columns(&seen, &candidates, Some(Side::Left))?,
@@ -75,8 +69,9 @@ impl<'a> Ours<'a> {
         let least = SMALL * history.scales().velocity;
         let differ = |k: usize| jump(0, k).max(jump(1, k) * rod.wave_speed) > least;
         let jumps: Vec<f64> = candidates.iter().enumerate().filter(|(k, _)| differ(*k)).map(|(_, at)| *at).collect();
-        let mut leaves: Vec<f64> = brought.iter().map(|arrival| arrival - trip).chain(jumps.iter().copied()).collect();
-        leaves.sort_by(f64::total_cmp);
+        let mut leaves = at_ground(-rod.round_trip(), 0.0)?;
+        leaves.retain(|time| *time < 0.0);
+        leaves.extend(&jumps);
         let events = history.events().iter().map(|event| event.time);
         let switches = std::iter::once(0.0).chain(events).collect();
         Ok(Ours { history, rod, material, pieces, jumps, switches, leaves })
@@ -290,19 +285,4 @@ fn nearest(times: &[f64], time: f64) -> f64 {
         Some(before) if time - before <= after - time => before,
         _ => after,
     }
-}
-
-/// Times and what comes back every `trip` after them up to `end`, ascending, each once.
-fn repeated(mut found: Vec<f64>, trip: f64, end: f64) -> Vec<f64> {
-    found.retain(|time| (0.0..=end).contains(time));
-    found.sort_by(f64::total_cmp);
-    // A stable sort: of one phase the earliest is first.
-    let phase = |time: &f64| ((time / trip).fract() / SMALL).round();
-    found.sort_by(|a, b| phase(a).total_cmp(&phase(b)));
-    found.dedup_by(|later, first| phase(later) - phase(first) <= 1.0);
-    let returns = |from: f64| (0..).map(move |k| from + f64::from(k) * trip).take_while(move |time| *time <= end);
-    let mut all: Vec<f64> = found.into_iter().flat_map(returns).collect();
-    all.sort_by(f64::total_cmp);
-    all.dedup_by(|later, first| *later - *first <= SMALL * trip);
-    all
 }

@@ -8,7 +8,9 @@ use super::rebound::Rebound;
 use super::static_state::{StaticState, faded_after};
 use crate::error::Error;
 use crate::motion::moments::Moments;
-use crate::motion::{Contact, Course, Ending, Energy, Event, EventKind, Field, Motion, Scales, Side, StressPiece};
+use crate::motion::{
+    Contact, Course, Ending, Energy, Event, EventKind, Field, Motion, Pair, Scales, Side, StressPiece,
+};
 use crate::number::{Open, Scalar};
 use crate::problem::{Parameters, Problem, Run};
 use crate::reason::{Reason, Warning};
@@ -310,42 +312,33 @@ impl<N: BoundedSpecial> Motion<N> for ContactHistory<N> {
         })
     }
 
-    fn ground_end(&self, time: &N, side: Side) -> Result<(N, N), Error> {
-        if Self::before_impact(time, side) {
-            return Ok((time.zero(), -self.contact.rod.speed.clone()));
+    fn pair(&self, pair: Pair, time: &N, side: Side) -> Result<[N; 2], Error> {
+        if pair == Pair::GroundEnd {
+            if Self::before_impact(time, side) {
+                return Ok([time.zero(), -self.contact.rod.speed.clone()]);
+            }
+            return Ok(match (self.moment(time)?, self.events().last()) {
+                (Moment::Bounce(_), Some(event)) if side == Side::Right => [time.zero(), event.end_velocity.clone()],
+                _ => [time.zero(), time.zero()],
+            });
         }
-        match (self.moment(time)?, self.events().last()) {
-            (Moment::Bounce(_), Some(event)) if side == Side::Right => Ok((time.zero(), event.end_velocity.clone())),
-            _ => Ok((time.zero(), time.zero())),
-        }
-    }
-
-    fn top_end(&self, time: &N, side: Side) -> Result<(N, N), Error> {
-        let field = self.field(&self.contact.rod.length, time, side)?;
-        Ok((field.displacement, field.velocity))
-    }
-
-    fn centre(&self, time: &N) -> Result<(N, N), Error> {
-        Ok(match self.moment(time)? {
-            Moment::Bounce(_) => self.contact.centre_at(&self.followed),
-            Moment::Contact(trips) => self.contact.centre_at(&trips),
-            Moment::Rest(state) => state.centre(),
-        })
-    }
-
-    fn energy(&self, time: &N) -> Result<Energy<N>, Error> {
-        Ok(match self.moment(time)? {
-            Moment::Bounce(_) => self.contact.energy_at(&self.followed),
-            Moment::Contact(trips) => self.contact.energy_at(&trips),
-            Moment::Rest(state) => state.energy(),
-        })
-    }
-
-    fn energy_parts(&self, time: &N) -> Result<[N; 2], Error> {
-        Ok(match self.moment(time)? {
-            Moment::Bounce(_) => self.contact.energy_parts_at(&self.followed),
-            Moment::Contact(trips) => self.contact.energy_parts_at(&trips),
-            Moment::Rest(state) => state.energy_parts(),
+        let apart = |Energy { translational, vibrational, .. }| [translational, vibrational];
+        let moment = self.moment(time)?;
+        let trips = match &moment {
+            Moment::Bounce(_) => &self.followed,
+            Moment::Contact(trips) => trips,
+            Moment::Rest(state) => {
+                return Ok(match pair {
+                    Pair::Centre | Pair::GroundEnd => state.centre().into(),
+                    Pair::Energy => apart(state.energy()),
+                    Pair::EnergyParts => state.energy_parts(),
+                });
+            }
+        };
+        Ok(match pair {
+            Pair::Centre | Pair::GroundEnd => self.contact.centre_at(trips).into(),
+            Pair::Energy => apart(self.contact.energy_at(trips)),
+            Pair::EnergyParts => self.contact.energy_parts_at(trips),
         })
     }
 
@@ -379,9 +372,8 @@ impl<N: BoundedSpecial> Motion<N> for ContactHistory<N> {
     }
 
     /// **Errors**: `None` also where these bits do not tell whether the centre of mass rises.
-    fn highest(&self, release: &Event<N>) -> Option<(N, N)> {
-        let at_end = release.kind == EventKind::Release && release.time.coincides(&self.end);
-        self.rebound().filter(|_| at_end)?.highest()
+    fn highest(&self, release: usize) -> Option<(N, N)> {
+        self.rebound().filter(|_| release == 1)?.highest()
     }
 
     fn scales(&self) -> Scales<N> {

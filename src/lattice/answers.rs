@@ -4,7 +4,7 @@ use super::history::{Centre, Moment, Undamped};
 use super::start::Units;
 use super::trace::{Line, Part, Piece};
 use crate::error::Error;
-use crate::motion::{Course, Energy, Event, Field, Motion, Ray, Scales, Side, StressPiece, Stretch, Waves};
+use crate::motion::{Course, Field, Motion, Pair, Ray, Scales, Side, StressPiece, Stretch, Waves};
 use crate::number::Bounded;
 
 impl<N: Bounded> Motion<N> for Undamped<N> {
@@ -43,57 +43,39 @@ impl<N: Bounded> Motion<N> for Undamped<N> {
         Ok(-(p * &self.problem.units.velocity / &self.problem.units.wave_speed))
     }
 
-    fn ground_end(&self, time: &N, side: Side) -> Result<(N, N), Error> {
+    fn pair(&self, pair: Pair, time: &N, side: Side) -> Result<[N; 2], Error> {
+        let Units { round_trip, velocity, length, .. } = &self.problem.units;
         let moment = self.locate(time)?;
-        let Units { round_trip, velocity, .. } = &self.problem.units;
-        let place = self.place(&moment, side)?;
-        let piece = self.ground.trace.piece(&place);
-        let rate = if place.index == 0 {
-            self.problem.ground_velocity.clone()
-        } else if piece.contact {
-            time.zero()
-        } else {
-            piece.line.value_at(&place.age)
-        };
-        let height = self.height_at(&self.place(&moment, Side::Left)?);
-        Ok((height * velocity * round_trip, rate * velocity))
-    }
-
-    fn top_end(&self, time: &N, side: Side) -> Result<(N, N), Error> {
-        let top = self.field(&self.problem.units.length, time, side)?;
-        Ok((top.displacement, top.velocity))
-    }
-
-    fn centre(&self, time: &N) -> Result<(N, N), Error> {
-        let Centre { height, rate } = self.centre_at(&self.last_trip(&self.locate(time)?)?)?;
-        let Units { round_trip, velocity, .. } = &self.problem.units;
-        Ok((height * velocity * round_trip, rate * velocity))
-    }
-
-    /// `E_z = ½ ∫ (w − h′)² ds` with `w` of [`Undamped::visit_rod`], times `L`.
-    fn energy(&self, time: &N) -> Result<Energy<N>, Error> {
-        let Units { velocity, length, .. } = &self.problem.units;
-        let gravity = &self.problem.gravity;
-        let trip = self.last_trip(&self.locate(time)?)?;
+        if pair == Pair::GroundEnd {
+            let place = self.place(&moment, side)?;
+            let piece = self.ground.trace.piece(&place);
+            let rate = if place.index == 0 {
+                self.problem.ground_velocity.clone()
+            } else if piece.contact {
+                time.zero()
+            } else {
+                piece.line.value_at(&place.age)
+            };
+            let height = self.height_at(&self.place(&moment, Side::Left)?);
+            return Ok([height * velocity * round_trip, rate * velocity]);
+        }
+        let (trip, unit) = (self.last_trip(&moment)?, velocity.square() * length);
+        if pair == Pair::EnergyParts {
+            // On the rod `v_t = (p + q)/2` and `c v_x = (q − p)/2`, whose breaks are those of both.
+            return Ok(self.squares(&trip)?.map(|part| part * &unit));
+        }
         let Centre { height, rate } = self.centre_at(&trip)?;
-        let mut sum = rate.zero();
+        if pair == Pair::Centre {
+            return Ok([height * velocity * round_trip, rate * velocity]);
+        }
+        // `E_z = ½ ∫ (w − h′)² ds` with `w` of [`Undamped::visit_rod`], times `L`.
+        let (gravity, mut sum) = (&self.problem.gravity, rate.zero());
         self.visit_rod(&trip[0], &trip[1], &mut |part| {
             let value = part.value - gravity.clone() * (rate.one() - &part.offset) - &rate;
             let vibration = Part { value, slope: part.slope + gravity, ..part };
             sum = sum.clone() + vibration.square_integral();
         })?;
-        let unit = velocity.square() * length;
-        let vibrational = sum.halved() * &unit;
-        let translational = (rate.square().halved() + gravity.clone() * &height) * &unit;
-        Ok(Energy { total: translational.clone() + &vibrational, translational, vibrational })
-    }
-
-    /// On the rod `v_t = (p + q)/2` and `c v_x = (q − p)/2`, whose breaks are those of both.
-    fn energy_parts(&self, time: &N) -> Result<[N; 2], Error> {
-        let Units { velocity, length, .. } = &self.problem.units;
-        let parts = self.squares(&self.last_trip(&self.locate(time)?)?)?;
-        let unit = velocity.square() * length;
-        Ok(parts.map(|part| part * &unit))
+        Ok([(rate.square().halved() + gravity.clone() * &height) * &unit, sum.halved() * &unit])
     }
 
     fn field(&self, point: &N, time: &N, side: Side) -> Result<Field<N>, Error> {
@@ -144,8 +126,9 @@ impl<N: Bounded> Motion<N> for Undamped<N> {
         Ok(rates)
     }
 
-    fn highest(&self, release: &Event<N>) -> Option<(N, N)> {
+    fn highest(&self, release: usize) -> Option<(N, N)> {
         let Units { round_trip, velocity, .. } = &self.problem.units;
+        let release = self.course.events.get(release)?;
         let rate = &release.centre_velocity;
         if !self.ground.trace.falls_freely() || rate.negative() == Ok(true) {
             return None;
@@ -157,6 +140,10 @@ impl<N: Bounded> Motion<N> for Undamped<N> {
 
     fn rays(&self, trip: usize) -> Result<Vec<Ray<N>>, Error> {
         Ok(self.rays_of(trip))
+    }
+
+    fn corners(&self) -> Vec<N> {
+        self.problem.data.corners.clone()
     }
 
     fn stretches(&self, time: &N) -> Result<Vec<Stretch<N>>, Error> {

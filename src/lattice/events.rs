@@ -68,8 +68,7 @@ impl<N: Bounded> Undamped<N> {
 
     pub(super) fn summed_contacts(&self) -> Vec<Contact<N>> {
         let Units { length, velocity, wave_speed, .. } = &self.problem.units;
-        let mut contacts = Vec::with_capacity(self.course.events.len() / 2 + 1);
-        for (k, event) in self.course.events.iter().enumerate().filter(|(_, event)| event.kind == EventKind::Impact) {
+        Contact::between(&self.course.events, |k| {
             let [from, _] = self.places(&self.ground.events[k]);
             let until = match self.ground.events.get(k + 1) {
                 Some(release) => self.places(release)[1].clone(),
@@ -83,13 +82,7 @@ impl<N: Bounded> Undamped<N> {
                 sum = sum.clone() + part.integral();
                 peak = part.ends().into_iter().fold(peak.clone(), N::larger);
             });
-            contacts.push(Contact {
-                from: event.time.clone(),
-                to: self.course.events.get(k + 1).map(|release| release.time.clone()),
-                impulse: sum.doubled() * length * velocity,
-                peak_strain: -(peak * velocity / wave_speed),
-            });
-        }
-        contacts
+            (sum.doubled() * length * velocity, -(peak * velocity / wave_speed))
+        })
     }
 }

@@ -2,7 +2,7 @@
 
 use super::Field;
 use crate::number::{Number, Open, Scalar};
-use crate::problem::{Parameters, Problem, Start};
+use crate::problem::{Parameters, Problem, Start, Top};
 
 /// The given displacement and velocity: the limit `t → 0⁻` of the motion.
 ///
@@ -12,6 +12,8 @@ use crate::problem::{Parameters, Problem, Start};
 pub(crate) struct AtStart<S> {
     displacement: Vec<(S, S)>,
     velocity: Vec<(S, S)>,
+    /// The points from which it sends rays.
+    pub(crate) corners: Vec<S>,
     zero: S,
 }
 
@@ -21,14 +23,23 @@ impl<S: Scalar> AtStart<S> {
         let zero = given.length.zero();
         let lift = |n: &Number| S::from_number(n, &zero.precision());
         let points = |list: &[(Number, Number)]| list.iter().map(|(x, value)| (lift(x), lift(value))).collect();
+        let mut corners: Vec<S> = Vec::new();
         let (displacement, velocity) = match &problem.start {
-            Start::Profile(profile) => (points(&profile.displacement), points(&profile.velocity)),
+            Start::Profile(profile) => {
+                let data: (Vec<(S, S)>, Vec<(S, S)>) = (points(&profile.displacement), points(&profile.velocity));
+                corners.extend(data.0.iter().chain(&data.1).map(|(x, _)| x.clone()));
+                corners.extend([zero.clone(), given.length.clone()]);
+                data
+            }
             Start::Uniform(_) | Start::Above { .. } => {
                 let gap = problem.gap().map(|gap| (zero.clone(), lift(gap)));
                 (gap.into_iter().collect(), vec![(zero.clone(), -given.speed.clone())])
             }
         };
-        AtStart { displacement, velocity, zero }
+        if problem.rod.top == Top::Fixed {
+            corners.push(given.length.clone());
+        }
+        AtStart { displacement, velocity, corners, zero }
     }
 
     /// `v`, `v_t`, `v_x` at `t = 0` and the point `x` of the rod.

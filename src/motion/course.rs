@@ -7,11 +7,6 @@ use serde::{Serialize, Serializer};
 use crate::number::Scalar;
 use crate::reason::{Reason, Warning};
 
-/// Writes a number as JSON has it: a number for a double, a text for all others.
-fn number<S: Scalar, Z: Serializer>(x: &S, z: Z) -> Result<Z::Ok, Z::Error> {
-    x.serialize(z)
-}
-
 fn optional<S: Scalar, Z: Serializer>(x: &Option<S>, z: Z) -> Result<Z::Ok, Z::Error> {
     match x {
         Some(x) => x.serialize(z),
@@ -58,17 +53,17 @@ pub struct Event<S> {
     /// Landing or leaving.
     pub kind: EventKind,
     /// `t`.
-    #[serde(serialize_with = "number")]
+    #[serde(serialize_with = "Scalar::serialize")]
     pub time: S,
     /// `v_t(0,t)`: just before an impact, just after a release. At a landing without speed that a ray turns into an
     /// impact, the `v_t + c v_x < 0` which that ray brings.
-    #[serde(serialize_with = "number")]
+    #[serde(serialize_with = "Scalar::serialize")]
     pub end_velocity: S,
     /// `h(t)`: the centre of mass, relative to its place in the undeformed rod on the ground.
-    #[serde(serialize_with = "number")]
+    #[serde(serialize_with = "Scalar::serialize")]
     pub centre: S,
     /// `h′(t)`.
-    #[serde(serialize_with = "number")]
+    #[serde(serialize_with = "Scalar::serialize")]
     pub centre_velocity: S,
     /// How far `time` may be off, in its own unit: zero where it is exact.
     pub time_error: f64,
@@ -79,18 +74,18 @@ pub struct Event<S> {
 #[serde(bound = "S: Scalar")]
 pub struct Contact<S> {
     /// Its beginning.
-    #[serde(serialize_with = "number")]
+    #[serde(serialize_with = "Scalar::serialize")]
     pub from: S,
     /// Its end; `None` where the history ends before.
     #[serde(serialize_with = "optional")]
     pub to: Option<S>,
     /// `−c² ∫ v_x(0,t) dt ≥ 0` over the contact: momentum per linear density `ρS` that the ground gives;
     /// [`History::units`](crate::History::units) has the factor that makes it that of the rod.
-    #[serde(serialize_with = "number")]
+    #[serde(serialize_with = "Scalar::serialize")]
     pub impulse: S,
     /// The most compressive strain `v_x(0,t)` of the contact, `≤ 0`; [`History::units`](crate::History::units) has the
     /// factors that make it a stress and a force.
-    #[serde(serialize_with = "number")]
+    #[serde(serialize_with = "Scalar::serialize")]
     pub peak_strain: S,
 }
 
@@ -100,13 +95,13 @@ pub struct Contact<S> {
 #[serde(bound = "S: Scalar")]
 pub struct Energy<S> {
     /// `E = E_h + E_z`.
-    #[serde(serialize_with = "number")]
+    #[serde(serialize_with = "Scalar::serialize")]
     pub total: S,
     /// `E_h = L h′²/2 + L g h`: the motion of the centre of mass.
-    #[serde(serialize_with = "number")]
+    #[serde(serialize_with = "Scalar::serialize")]
     pub translational: S,
     /// `E_z = ½ ∫ ((v_t − h′)² + c² v_x²) dx`, a sum of squares.
-    #[serde(serialize_with = "number")]
+    #[serde(serialize_with = "Scalar::serialize")]
     pub vibrational: S,
 }
 
@@ -116,16 +111,16 @@ pub struct Energy<S> {
 #[serde(bound = "S: Scalar")]
 pub struct StressPiece<S> {
     /// Its beginning.
-    #[serde(serialize_with = "number")]
+    #[serde(serialize_with = "Scalar::serialize")]
     pub from: S,
     /// Its end.
-    #[serde(serialize_with = "number")]
+    #[serde(serialize_with = "Scalar::serialize")]
     pub to: S,
     /// `v_x(0, from⁺)`.
-    #[serde(serialize_with = "number")]
+    #[serde(serialize_with = "Scalar::serialize")]
     pub left: S,
     /// `v_x(0, to⁻)`.
-    #[serde(serialize_with = "number")]
+    #[serde(serialize_with = "Scalar::serialize")]
     pub right: S,
     /// Chebyshev coefficients of `v_x(0,·)` on the piece (first one whole, not halved); empty where it is linear.
     #[serde(serialize_with = "list")]
@@ -198,6 +193,19 @@ impl<S: Scalar> fmt::Display for Contact<S> {
         let to = self.to.as_ref().map_or_else(|| "no end".to_string(), Scalar::text);
         let [from, impulse, peak] = [&self.from, &self.impulse, &self.peak_strain].map(Scalar::text);
         write!(f, "contact from t = {from} to {to}: impulse {impulse}, peak v_x(0,t) = {peak}")
+    }
+}
+
+impl<S: Clone> Contact<S> {
+    /// The contacts between events; `found` has the impulse and the peak of the one that begins with an event.
+    pub(crate) fn between(events: &[Event<S>], mut found: impl FnMut(usize) -> (S, S)) -> Vec<Self> {
+        let impacts = events.iter().enumerate().filter(|(_, event)| event.kind == EventKind::Impact);
+        let contact = |(k, impact): (usize, &Event<S>)| {
+            let (impulse, peak_strain) = found(k);
+            let to = events.get(k + 1).map(|release| release.time.clone());
+            Contact { from: impact.time.clone(), to, impulse, peak_strain }
+        };
+        impacts.map(contact).collect()
     }
 }
 

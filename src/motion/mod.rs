@@ -6,11 +6,13 @@ mod field;
 pub(crate) mod moments;
 mod query;
 mod ray;
+mod register;
 mod wave;
 
 pub(crate) use at_start::AtStart;
 pub use course::{Contact, Course, Ending, Energy, Event, EventKind, Side, StressHistory, StressPiece};
 pub use field::Field;
-pub use query::{Motion, Scales, Uncertainty, unobserved};
+pub use query::{Motion, Pair, Scales, unobserved};
 pub use ray::{Ray, reflection};
+pub use register::{Passing, RayRegister};
 pub use wave::{Stretch, WavePiece, Waves};

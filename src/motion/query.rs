@@ -38,48 +38,41 @@ impl<S> Scales<S> {
     }
 }
 
-/// How far the values of a run may be off between two events, in natural scales, away from rays that are off in time.
-#[derive(Clone, Copy, Debug, Default)]
-pub struct Uncertainty {
-    /// Displacements, in `V t₁`, as far as the events are in time.
-    pub rise: f64,
-    /// Velocities and `c v_x`, in `V`, as far as the events are in time.
-    pub speed: f64,
-    /// `h′`, in `V`, as far as the events are in time.
-    pub rate: f64,
-    /// How early or late the events may be, in `t₁`.
-    pub late: f64,
-    /// `|dv_t/dt|` between rays, in `V/t₁`: what lateness makes of velocities.
-    pub slope: f64,
-    /// The most of `|v_t|` and `|c v_x|`, in `V`: what lateness makes of displacements and of integrals along the rod.
-    pub most: f64,
-    /// The most of `v_t ± c v_x` about the centre of mass, in `V`: what a ray that is off in time makes of energies.
-    pub peak: f64,
-    /// How far rays may be off, in `t₁`: what the limits next to them, and peaks, are off by is that times the slope.
-    pub rays: f64,
-}
-
-impl Uncertainty {
-    /// The greater in all.
-    pub(crate) fn max(self, other: Self) -> Self {
-        Uncertainty {
-            rise: self.rise.max(other.rise),
-            speed: self.speed.max(other.speed),
-            rate: self.rate.max(other.rate),
-            late: self.late.max(other.late),
-            slope: self.slope.max(other.slope),
-            most: self.most.max(other.most),
-            peak: self.peak.max(other.peak),
-            rays: self.rays.max(other.rays),
-        }
-    }
+/// Two numbers at a time that an engine finds together.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Pair {
+    /// `v(0,t)` and `v_t(0,t)`.
+    GroundEnd,
+    /// `h(t)` and `h′(t)`.
+    Centre,
+    /// `E_h(t)` and `E_z(t)`.
+    Energy,
+    /// `½ ∫ v_t² dx` and `½ c² ∫ v_x² dx`.
+    EnergyParts,
 }
 
 /// What can be asked of a solution. All times are absolute, in the units of the scene; a time outside of
 /// `0 … end()` is [`Error::TimeOutside`], a point outside of the rod is [`Error::PointOutside`].
+///
+/// An engine answers the first six; the rest follows from them, where it has no better answer of its own.
 pub trait Motion<S: Scalar>: fmt::Debug + Send + Sync {
     /// What has happened, up to the end.
     fn course(&self) -> &Course<S>;
+
+    /// The natural scales of the motion.
+    fn scales(&self) -> Scales<S>;
+
+    /// `v_x(0,·)` from 0 to the end, pieces in order, canonical: neighbours that continue each other are one.
+    fn stress_pieces(&self) -> Vec<StressPiece<S>>;
+
+    /// `v_x(0,t)`: the stress at the ground divided by the modulus; zero in flight.
+    fn strain(&self, time: &S, side: Side) -> Result<S, Error>;
+
+    /// Two numbers at a time. Only [`Pair::GroundEnd`] has two limits.
+    fn pair(&self, pair: Pair, time: &S, side: Side) -> Result<[S; 2], Error>;
+
+    /// `v`, `v_t`, `v_x` at `(x,t)`.
+    fn field(&self, point: &S, time: &S, side: Side) -> Result<Field<S>, Error>;
 
     /// The last time that is known.
     fn end(&self) -> S {
@@ -116,30 +109,33 @@ pub trait Motion<S: Scalar>: fmt::Debug + Send + Sync {
         &self.course().warnings
     }
 
-    /// `v_x(0,·)` from 0 to the end, pieces in order, canonical: neighbours that continue each other are one.
-    fn stress_pieces(&self) -> Vec<StressPiece<S>>;
-
-    /// `v_x(0,t)`: the stress at the ground divided by the modulus; zero in flight.
-    fn strain(&self, time: &S, side: Side) -> Result<S, Error>;
-
     /// `v(0,t)` and `v_t(0,t)`.
-    fn ground_end(&self, time: &S, side: Side) -> Result<(S, S), Error>;
+    fn ground_end(&self, time: &S, side: Side) -> Result<(S, S), Error> {
+        self.pair(Pair::GroundEnd, time, side).map(Into::into)
+    }
 
     /// `v(L,t)` and `v_t(L,t)`.
-    fn top_end(&self, time: &S, side: Side) -> Result<(S, S), Error>;
+    fn top_end(&self, time: &S, side: Side) -> Result<(S, S), Error> {
+        let Field { displacement, velocity, .. } = self.field(&self.scales().length, time, side)?;
+        Ok((displacement, velocity))
+    }
 
     /// `h(t)` and `h′(t)`.
-    fn centre(&self, time: &S) -> Result<(S, S), Error>;
+    fn centre(&self, time: &S) -> Result<(S, S), Error> {
+        self.pair(Pair::Centre, time, Side::Left).map(Into::into)
+    }
 
     /// `E(t)`, `E_h(t)`, `E_z(t)`.
-    fn energy(&self, time: &S) -> Result<Energy<S>, Error>;
+    fn energy(&self, time: &S) -> Result<Energy<S>, Error> {
+        let [translational, vibrational] = self.pair(Pair::Energy, time, Side::Left)?;
+        Ok(Energy { total: translational.clone() + &vibrational, translational, vibrational })
+    }
 
     /// `½ ∫ v_t² dx` and `½ c² ∫ v_x² dx`, each a sum of squares, per linear density: the kinetic energy of the whole
     /// motion, and the strain energy.
-    fn energy_parts(&self, time: &S) -> Result<[S; 2], Error>;
-
-    /// `v`, `v_t`, `v_x` at `(x,t)`.
-    fn field(&self, point: &S, time: &S, side: Side) -> Result<Field<S>, Error>;
+    fn energy_parts(&self, time: &S) -> Result<[S; 2], Error> {
+        self.pair(Pair::EnergyParts, time, Side::Left)
+    }
 
     /// `v_t` and `v_x` at every point of `points` for every time of `times`, both in increasing order: time by time,
     /// all points of one time together. Where a ray passes, the value on one of its sides.
@@ -154,9 +150,10 @@ pub trait Motion<S: Scalar>: fmt::Debug + Send + Sync {
         Ok(rates)
     }
 
-    /// `t*` and `h(t*)`: where the centre of mass turns in the flight after `release`, if nothing ends the flight
-    /// before. `None` where it does not turn: without gravity, under a fixed top, or already falling at the release.
-    fn highest(&self, release: &Event<S>) -> Option<(S, S)>;
+    /// `t*` and `h(t*)`: where the centre of mass turns in the flight after the release that is this event, if nothing
+    /// ends the flight before. `None` where it does not turn: without gravity, under a fixed top, or already falling at
+    /// the release.
+    fn highest(&self, release: usize) -> Option<(S, S)>;
 
     /// The rays that leave the ground in round trip `trip`, counted from 0, in order: jumps, and mere kinks.
     ///
@@ -172,6 +169,11 @@ pub trait Motion<S: Scalar>: fmt::Debug + Send + Sync {
     fn stretches(&self, time: &S) -> Result<Vec<Stretch<S>>, Error> {
         let _ = time;
         Err(Error::NoWaves)
+    }
+
+    /// The points from which the start sends rays: where its data bend or jump, and a top that is held.
+    fn corners(&self) -> Vec<S> {
+        Vec::new()
     }
 
     /// `∫ f dx` and `∫ f (x − a) dx` over each cell `a … b` between neighbours of `points`, which increase, for `f` =
@@ -193,18 +195,9 @@ pub trait Motion<S: Scalar>: fmt::Debug + Send + Sync {
         Err(Error::NoWaves)
     }
 
-    /// The natural scales of the motion.
-    fn scales(&self) -> Scales<S>;
-
     /// How far any quantity may be off, relative to its natural scale; zero where all is exact. The bound that the run
     /// carries.
     fn error_estimate(&self) -> S;
-
-    /// How far values near `time` may be off.
-    fn uncertainty(&self, time: &S) -> Uncertainty {
-        let (_, error) = (time, self.error_estimate().to_f64());
-        Uncertainty { rise: error, speed: error, rate: error, ..Uncertainty::default() }
-    }
 
     /// How many impacts there were and `log₁₀` of the factor by which rounding may have grown over them; `None` where
     /// that is not followed.

@@ -44,7 +44,7 @@ pub fn flights<S: Scalar>(history: &dyn Motion<S>) -> Result<Vec<Flight<S>>, Err
     let mut flights = Vec::new();
     for (k, release) in events.iter().enumerate().filter(|(_, event)| event.kind == EventKind::Release) {
         let to = events.get(k + 1).map(|impact| impact.time.clone());
-        let highest = match history.highest(release) {
+        let highest = match history.highest(k) {
             Some((time, _)) if to.as_ref().unwrap_or(&end).below(&time)? => None,
             highest => highest,
         };

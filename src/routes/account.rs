@@ -209,9 +209,8 @@ impl<S: System> Account<S> for ByHistory<'_, S> {
     }
 
     fn top(&self) -> All<S, 2> {
-        let top = self.0.highest(
-            self.0.events().iter().find(|event| event.kind == EventKind::Release).ok_or_else(|| self.ended())?,
-        );
+        let release = self.0.events().iter().position(|event| event.kind == EventKind::Release);
+        let top = self.0.highest(release.ok_or_else(|| self.ended())?);
         let (time, height) = top.ok_or_else(|| NoAnswer::none("no top"))?;
         Ok([carried(time), carried(height)])
     }

@@ -5,7 +5,7 @@ use super::differences::march;
 use super::long;
 use super::quantity::{Quantity, Question};
 use super::value::{Answer, Bounded, NoAnswer, Value};
-use crate::cells::{Damped, WithBounds};
+use crate::cells::Damped;
 use crate::lattice::Undamped;
 use crate::modal::Modal;
 use crate::motion::Ending;
@@ -64,9 +64,7 @@ impl Route {
             Route::Lattice(Numbers::Double(_)) => {
                 question.ask_history(&Undamped::<Estimate<f64>>::solve(problem, &())?)
             }
-            Route::Cells(digits) => {
-                question.ask_history(&WithBounds::new(Damped::<f64>::solve(problem, &(), f64::from(digits))?)?)
-            }
+            Route::Cells(digits) => question.ask_history(&Damped::<f64>::solve(problem, &(), f64::from(digits))?),
             Route::Modes(modes) => {
                 let rod = Parameters::of(problem, &())?;
                 question.ask(&rod, &Modal::<f64>::new(&rod, modes))

@@ -2,27 +2,25 @@
 
 use std::sync::Arc;
 
-use super::rays::Rays;
 use crate::error::Error;
 use crate::motion::moments::{self, Moments};
-use crate::motion::{Course, Energy, Event, Field, Motion, Ray, Scales, Side, StressPiece, Stretch, Waves};
+use crate::motion::{Course, Field, Motion, Pair, Ray, RayRegister, Scales, Side, StressPiece, Stretch, Waves};
 use crate::number::{Reads, Scalar};
-use crate::problem::Problem;
 
 /// The history of an engine in numbers `N`, read in numbers `M`.
 #[derive(Debug)]
 pub(super) struct Converted<N: Scalar, M> {
     engine: Arc<dyn Motion<N>>,
     precision: N::Precision,
-    rays: Rays<N>,
+    rays: RayRegister<N>,
     course: Course<M>,
 }
 
 impl<N: Scalar, M: Reads<N>> Converted<N, M> {
-    pub(super) fn new(engine: Arc<dyn Motion<N>>, problem: &Problem) -> Self {
+    pub(super) fn new(engine: Arc<dyn Motion<N>>) -> Self {
         Converted {
             precision: engine.end().precision(),
-            rays: Rays::of(&*engine, problem),
+            rays: RayRegister::of(&*engine),
             course: engine.course().clone().map(M::read),
             engine,
         }
@@ -72,10 +70,6 @@ impl<N: Scalar, M: Reads<N>> Converted<N, M> {
     fn time_at_ground(&self, time: &M) -> Result<N, Error> {
         self.time_at(&self.engine.end().zero(), time)
     }
-
-    fn pair(pair: (N, N)) -> (M, M) {
-        (M::read(pair.0), M::read(pair.1))
-    }
 }
 
 impl<N: Scalar, M: Reads<N>> Motion<M> for Converted<N, M> {
@@ -91,24 +85,9 @@ impl<N: Scalar, M: Reads<N>> Motion<M> for Converted<N, M> {
         self.engine.strain(&self.time_at_ground(time)?, side).map(M::read)
     }
 
-    fn ground_end(&self, time: &M, side: Side) -> Result<(M, M), Error> {
-        self.engine.ground_end(&self.time_at_ground(time)?, side).map(Self::pair)
-    }
-
-    fn top_end(&self, time: &M, side: Side) -> Result<(M, M), Error> {
-        self.engine.top_end(&self.time_at(&self.engine.scales().length, time)?, side).map(Self::pair)
-    }
-
-    fn centre(&self, time: &M) -> Result<(M, M), Error> {
-        self.engine.centre(&self.time(time)?).map(Self::pair)
-    }
-
-    fn energy(&self, time: &M) -> Result<Energy<M>, Error> {
-        self.engine.energy(&self.time(time)?).map(|energy| energy.map(M::read))
-    }
-
-    fn energy_parts(&self, time: &M) -> Result<[M; 2], Error> {
-        self.engine.energy_parts(&self.time(time)?).map(|parts| parts.map(M::read))
+    fn pair(&self, pair: Pair, time: &M, side: Side) -> Result<[M; 2], Error> {
+        let time = if pair == Pair::GroundEnd { self.time_at_ground(time)? } else { self.time(time)? };
+        Ok(self.engine.pair(pair, &time, side)?.map(M::read))
     }
 
     fn field(&self, point: &M, time: &M, side: Side) -> Result<Field<M>, Error> {
@@ -117,15 +96,29 @@ impl<N: Scalar, M: Reads<N>> Motion<M> for Converted<N, M> {
         Ok(field.map(M::read))
     }
 
-    fn highest(&self, release: &Event<M>) -> Option<(M, M)> {
-        let time = release.time.text();
-        let known =
-            self.course.events.iter().position(|event| event.kind == release.kind && event.time.text() == time)?;
-        self.engine.highest(self.engine.events().get(known)?).map(Self::pair)
+    /// In one march, where no time is that of an event or of a ray at a point of its own.
+    fn rates(&self, points: &[M], times: &[M]) -> Result<Vec<[M; 2]>, Error> {
+        let points = points.iter().map(|point| self.point(point)).collect::<Result<Vec<N>, Error>>()?;
+        let times = times.iter().map(|time| self.time(time)).collect::<Result<Vec<N>, Error>>()?;
+        Ok(self.engine.rates(&points, &times)?.into_iter().map(|pair| pair.map(M::read)).collect())
+    }
+
+    fn highest(&self, release: usize) -> Option<(M, M)> {
+        self.engine.highest(release).map(|(time, height)| (M::read(time), M::read(height)))
+    }
+
+    fn may_jump(&self, time: &M) -> Result<bool, Error> {
+        let [ground, top] = [self.time_at_ground(time)?, self.time_at(&self.engine.scales().length, time)?];
+        // What enclosures leave open is asked on both sides.
+        Ok([ground, top].iter().any(|time| self.engine.may_jump(time).unwrap_or(true)))
     }
 
     fn rays(&self, trip: usize) -> Result<Vec<Ray<M>>, Error> {
         Ok(self.engine.rays(trip)?.into_iter().map(|ray| ray.map(M::read)).collect())
+    }
+
+    fn corners(&self) -> Vec<M> {
+        self.engine.corners().into_iter().map(M::read).collect()
     }
 
     fn stretches(&self, time: &M) -> Result<Vec<Stretch<M>>, Error> {
@@ -156,5 +149,63 @@ impl<N: Scalar, M: Reads<N>> Motion<M> for Converted<N, M> {
 
     fn digits_lost(&self) -> Option<(u32, f64)> {
         self.engine.digits_lost()
+    }
+}
+
+#[cfg(all(test, feature = "mp"))]
+mod tests {
+    use std::sync::atomic::{AtomicUsize, Ordering};
+
+    use super::*;
+    use crate::motion::Ending;
+    use crate::number::{Estimate, Float};
+
+    type Long = Estimate<Float>;
+
+    /// An engine that counts its grids, and answers nothing else.
+    #[derive(Debug)]
+    struct Grids(Course<Long>, AtomicUsize);
+
+    impl Motion<Long> for Grids {
+        fn course(&self) -> &Course<Long> {
+            &self.0
+        }
+        fn scales(&self) -> Scales<Long> {
+            let one = || self.0.end.one();
+            Scales { time: one(), velocity: one(), length: one(), wave_speed: one(), gravity: one() }
+        }
+        fn stress_pieces(&self) -> Vec<StressPiece<Long>> {
+            Vec::new()
+        }
+        fn strain(&self, _: &Long, _: Side) -> Result<Long, Error> {
+            Err(Error::NoWaves)
+        }
+        fn pair(&self, _: Pair, _: &Long, _: Side) -> Result<[Long; 2], Error> {
+            Err(Error::NoWaves)
+        }
+        fn field(&self, _: &Long, _: &Long, _: Side) -> Result<Field<Long>, Error> {
+            Err(Error::NoWaves)
+        }
+        fn rates(&self, points: &[Long], times: &[Long]) -> Result<Vec<[Long; 2]>, Error> {
+            self.1.fetch_add(1, Ordering::Relaxed);
+            Ok(times.iter().flat_map(|t| points.iter().map(|x| [x.clone(), t.clone()])).collect())
+        }
+        fn highest(&self, _: usize) -> Option<(Long, Long)> {
+            None
+        }
+        fn error_estimate(&self) -> Long {
+            self.0.end.zero()
+        }
+    }
+
+    /// A grid in longer numbers is marched once.
+    #[test]
+    fn a_grid_is_asked_of_the_engine_as_a_whole() {
+        let end = Estimate::exact(Float::with_val(128, 2));
+        let engine = Arc::new(Grids(Course::new(end, Ending::Time), AtomicUsize::new(0)));
+        let read = Converted::<_, Estimate<f64>>::new(engine.clone());
+        let grid = [0.0, 0.25, 0.5].map(Estimate::exact);
+        assert_eq!(read.rates(&grid, &grid).unwrap().len(), 9);
+        assert_eq!(engine.1.load(Ordering::Relaxed), 1);
     }
 }

@@ -5,7 +5,7 @@ use std::sync::Arc;
 use super::ladder::{Engined, Observer, Target};
 use super::plan::{Engine, Plan, Rung};
 use super::{fractions, long};
-use crate::cells::{self, ContactThenCells, Damped, WithBounds};
+use crate::cells::{self, ContactThenCells, Damped};
 use crate::error::Error;
 use crate::first_contact::{Bounce, ContactHistory, FirstContact};
 use crate::lattice::Undamped;
@@ -30,13 +30,7 @@ impl Target for f64 {
                 }
                 Arc::new(history)
             }
-            Engine::Cells => Arc::new(WithBounds::new(Damped::<f64>::solve_observed(
-                problem,
-                &(),
-                plan.effort(rung),
-                1,
-                &**observe,
-            )?)?),
+            Engine::Cells => Arc::new(Damped::<f64>::solve_observed(problem, &(), plan.effort(rung), 1, &**observe)?),
             Engine::ClosedForm | Engine::ClosedFormThenCells => {
                 let rod = Parameters::<Estimate<f64>>::of(problem, &())?;
                 let contact = FirstContact::new(&rod);
@@ -49,14 +43,14 @@ impl Target for f64 {
                     return Ok(Arc::new(ContactHistory::new(contact, bounce, None)?));
                 }
                 let rate = plan.rate_bits.and_then(|bits| long::rate_after(problem, &bounce, bits));
-                Arc::new(WithBounds::new(ContactThenCells::<f64>::solve_observed(
+                Arc::new(ContactThenCells::<f64>::solve_observed(
                     problem,
                     &(),
                     plan.effort(rung),
                     (bounce, cells::Reach::Run),
                     rate,
                     &**observe,
-                )?)?)
+                )?)
             }
         })
     }

@@ -43,7 +43,7 @@ where
 {
     let reached = plan.reaching(problem);
     let mut doubles = Undamped::<Estimate<f64>>::solve_within(&reached, &(), plan.limits(problem), &**observe)?;
-    Ok(if doubles.confirm(&exact) { Arc::new(doubles) } else { Arc::new(Converted::new(Arc::new(exact), problem)) })
+    Ok(if doubles.confirm(&exact) { Arc::new(doubles) } else { Arc::new(Converted::new(Arc::new(exact))) })
 }
 
 fn fractions(problem: &Problem, plan: &Plan, observe: &Observer) -> Result<Undamped<Rational>, Error> {

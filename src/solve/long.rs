@@ -6,7 +6,7 @@ use super::converted::Converted;
 use super::fractions::confirmed;
 use super::ladder::{Engined, Observer, Target};
 use super::plan::{Engine, Plan, Rung};
-use crate::cells::{self, ContactThenCells, Damped, WithBounds};
+use crate::cells::{self, ContactThenCells, Damped};
 use crate::error::Error;
 use crate::first_contact::{Bounce, ContactHistory, FirstContact};
 use crate::lattice::Undamped;
@@ -16,7 +16,7 @@ use crate::problem::{Parameters, Problem};
 impl Target for Float {
     fn run(problem: &Problem, plan: &Plan, rung: Rung, observe: &Observer) -> Result<Engined<Float>, Error> {
         match rung {
-            Rung::Enclosures(bits) => Ok(Arc::new(Converted::new(enclosures(problem, plan, bits, observe)?, problem))),
+            Rung::Enclosures(bits) => Ok(Arc::new(Converted::new(enclosures(problem, plan, bits, observe)?))),
             rung => estimates(problem, plan, bits_of(rung), observe),
         }
     }
@@ -36,9 +36,9 @@ pub(super) fn in_doubles(
     observe: &Observer,
 ) -> Result<Engined<f64>, Error> {
     Ok(match rung {
-        Rung::Enclosures(bits) => Arc::new(Converted::new(enclosures(problem, plan, bits, observe)?, problem)),
+        Rung::Enclosures(bits) => Arc::new(Converted::new(enclosures(problem, plan, bits, observe)?)),
         Rung::Confirmed(bits) => confirmed(problem, plan, roots(problem, plan, bits, observe)?, observe)?,
-        rung => Arc::new(Converted::new(estimates(problem, plan, bits_of(rung), observe)?, problem)),
+        rung => Arc::new(Converted::new(estimates(problem, plan, bits_of(rung), observe)?)),
     })
 }
 
@@ -61,9 +61,7 @@ fn estimates(problem: &Problem, plan: &Plan, bits: u32, observe: &Observer) -> R
             }
             Arc::new(history)
         }
-        Engine::Cells => {
-            Arc::new(WithBounds::new(Damped::<Float>::solve_observed(problem, &bits, effort, 1, &**observe)?)?)
-        }
+        Engine::Cells => Arc::new(Damped::<Float>::solve_observed(problem, &bits, effort, 1, &**observe)?),
         Engine::ClosedForm => Arc::new(ContactHistory::<Estimate<Float>>::solve(problem, &bits)?),
         Engine::ClosedFormThenCells => {
             let rod = Parameters::<Estimate<Float>>::of(problem, &bits)?;
@@ -71,14 +69,14 @@ fn estimates(problem: &Problem, plan: &Plan, bits: u32, observe: &Observer) -> R
             if matches!(&bounce, Bounce::Undecided { why, .. } if why.needs_bits()) {
                 return Err(Error::NotDecided { what: "how the first contact ends", bits });
             }
-            Arc::new(WithBounds::new(ContactThenCells::<Float>::solve_observed(
+            Arc::new(ContactThenCells::<Float>::solve_observed(
                 problem,
                 &bits,
                 effort,
                 (bounce, cells::Reach::Run),
                 None,
                 &**observe,
-            )?)?)
+            )?)
         }
     })
 }

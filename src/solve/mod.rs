@@ -6,7 +6,7 @@
 //! | `plan` | everything that is decided before running |
 //! | `foresee` | the digits that a chaotic run is going to lose |
 //! | `engines`, `fractions`, `long` | the planned engine in the numbers of one attempt |
-//! | `converted`, `rays` | a history in one number system, read in another, and when rays pass a point of it |
+//! | `converted` | a history in one number system, read in another |
 //! | `ladder` | more bits until the answer is settled |
 //! | `history` | the answer in one number system, of which everything else is asked |
 //! | `solution` | the answer in the numbers of its plan |
@@ -21,7 +21,6 @@ mod ladder;
 mod long;
 mod plan;
 mod question;
-mod rays;
 mod solution;
 
 pub use history::History;

@@ -1,6 +1,7 @@
 //! Two ways to the same motion: cells from `t = 0`, and the closed form up to the bounce with cells from there.
 
 use crate::common::uniform;
+use crate::stripped::{Stripped, damped};
 use dalembert::cells::{ContactThenCells, Damped, Reach};
 use dalembert::first_contact::{Bounce, FirstContact};
 use dalembert::problem::{Parameters, Run};
@@ -24,17 +25,18 @@ fn scene(random: &mut impl FnMut() -> f64) -> Problem {
 }
 
 /// Both histories; `None` where the first contact does not end, or a march is refused as too long.
-fn both(problem: &Problem) -> Option<(Damped<f64>, ContactThenCells<f64>)> {
+fn both(problem: &Problem) -> Option<(Stripped<f64, Damped<f64>>, Stripped<f64, ContactThenCells<f64>>)> {
     let rod = Parameters::<f64>::of(problem, &()).unwrap();
     let bounce = FirstContact::new(&rod.carry()).bounce();
     if !matches!(bounce, Bounce::At { .. }) {
         return None;
     }
-    let marched = Damped::<f64>::solve(problem, &(), 13.0).unwrap();
+    let marched = damped::<f64>(problem, &(), 13.0).unwrap();
     if matches!(marched.ending(), Ending::Undecided(Reason::Effort { .. })) {
         return None;
     }
-    Some((marched, ContactThenCells::<f64>::solve(problem, &(), 13.0, bounce, Reach::Run).unwrap()))
+    let history = ContactThenCells::<f64>::solve(problem, &(), 13.0, bounce, Reach::Run).unwrap();
+    Some((marched, Stripped::new(history)))
 }
 
 #[test]
@@ -106,8 +108,9 @@ fn a_question_about_the_first_contact_needs_no_cells() {
     problem.rod.damping = "0.1".parse().ok();
     let rod = Parameters::<f64>::of(&problem, &()).unwrap();
     let bounce = FirstContact::new(&rod.carry()).bounce();
-    let short = ContactThenCells::<f64>::solve(&problem, &(), 13.0, bounce.clone(), Reach::Bounce).unwrap();
-    let long = ContactThenCells::<f64>::solve(&problem, &(), 13.0, bounce, Reach::Run).unwrap();
+    let short =
+        ContactThenCells::<f64>::solve(&problem, &(), 13.0, bounce.clone(), Reach::Bounce).map(Stripped::new).unwrap();
+    let long = ContactThenCells::<f64>::solve(&problem, &(), 13.0, bounce, Reach::Run).map(Stripped::new).unwrap();
     assert_eq!(*short.ending(), Ending::Bounce);
     assert_eq!(short.end(), 2.0);
     assert_eq!(short.events(), &long.events()[..2]);
@@ -120,17 +123,15 @@ fn a_question_about_the_first_contact_needs_no_cells() {
 #[cfg(feature = "mp")]
 #[test]
 fn answers_carry_their_bounds() {
-    use dalembert::cells::WithBounds;
     use dalembert::number::{Estimate, Scalar};
     use rug::Float;
     for (damping, speed) in [("0.1", "3"), ("0.02", "10"), ("0.3", "5")] {
         let mut problem = uniform("1", "1", "1", speed, Run::Impacts(4));
         problem.rod.damping = damping.parse().ok();
         let rod = Parameters::<f64>::of(&problem, &()).unwrap();
-        let history =
-            ContactThenCells::solve(&problem, &(), 13.0, FirstContact::new(&rod.carry()).bounce(), Reach::Run).unwrap();
-        let bounded = WithBounds::new(history).unwrap();
-        let truth = Damped::<Float>::solve(&problem, &200, 40.0).unwrap();
+        let bounce = FirstContact::new(&rod.carry()).bounce();
+        let bounded = ContactThenCells::<f64>::solve(&problem, &(), 13.0, bounce, Reach::Run).unwrap();
+        let truth = crate::stripped::damped::<Float>(&problem, &200, 40.0).unwrap();
         let near = |what: &str, ours: &Estimate<f64>, truth: &Float| {
             let off = Float::with_val(200, truth - *ours.value()).abs().to_f64();
             let useful = 1e-8 * (1.0 + ours.value().abs());
@@ -152,8 +153,7 @@ fn answers_carry_their_bounds() {
             near("impulse", &ours.impulse, &truth.impulse);
             near("peak", &ours.peak_strain, &truth.peak_strain);
         }
-        let release = &truth.events()[1];
-        let (ours, exact) = (bounded.highest(&bounded.events()[1]).unwrap(), truth.highest(release).unwrap());
+        let (ours, exact) = (bounded.highest(1).unwrap(), truth.highest(1).unwrap());
         near("t*", &ours.0, &exact.0);
         near("h(t*)", &ours.1, &exact.1);
         for k in 0..10 {

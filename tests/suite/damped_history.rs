@@ -1,6 +1,7 @@
 //! The damped march against closed forms, limits, balances, another method and itself.
 
 use crate::common::{close, number, problem, reference, uniform};
+use crate::stripped::{Stripped, damped as in_cells};
 use dalembert::cells::Damped;
 use dalembert::motion::{Ending, EventKind, Motion, Side};
 use dalembert::problem::{Material, Profile, Rod, Run, Start, Top};
@@ -12,8 +13,8 @@ fn damped(gravity: &str, speed: &str, damping: &str, run: Run) -> Problem {
     problem
 }
 
-fn solve(problem: &Problem) -> Damped<f64> {
-    Damped::solve(problem, &(), 12.0).unwrap()
+fn solve(problem: &Problem) -> Stripped<f64, Damped<f64>> {
+    in_cells(problem, &(), 12.0).unwrap()
 }
 
 fn until(time: i64) -> Run {
@@ -250,7 +251,7 @@ mod in_many_digits {
             let mut problem = damped("0", "1", damping, Run::Impacts(1));
             problem.rod.length = "1/2".parse().unwrap();
             assert!(matches!(solve(&problem).ending(), Ending::Undecided(_)));
-            let history = Damped::<Float>::solve(&problem, &200, 50.0).unwrap();
+            let history = in_cells::<Float>(&problem, &200, 50.0).unwrap();
             let time = history.events()[1].time.to_string_radix(10, Some(25));
             assert!(time.starts_with(bounce), "{time}");
         }
@@ -260,8 +261,8 @@ mod in_many_digits {
     fn each_accuracy_meets_what_it_promises() {
         for (speed, damping, time) in [("3", "0.1", 11), ("3/2", "0.01", 11), ("5", "1.2", 5)] {
             let problem = damped("1", speed, damping, until(time));
-            let truth = Damped::<Float>::solve(&problem, &220, 50.0).unwrap();
-            let better = Damped::<Float>::solve(&problem, &320, 80.0).unwrap();
+            let truth = in_cells::<Float>(&problem, &220, 50.0).unwrap();
+            let better = in_cells::<Float>(&problem, &320, 80.0).unwrap();
             let off = |a: &Float, b: f64| (a.to_f64() - b).abs();
             for (a, b) in truth.events().iter().zip(better.events()) {
                 let gap = Float::with_val(320, &a.time - &b.time).abs().to_f64();
@@ -269,7 +270,7 @@ mod in_many_digits {
                 assert!(gap < 1e-50, "{gap:e}");
             }
             for digits in [3.0, 6.0, 9.0, 12.0, 15.0] {
-                let history = Damped::<f64>::solve(&problem, &(), digits).unwrap();
+                let history = in_cells::<f64>(&problem, &(), digits).unwrap();
                 assert_eq!(history.events().len(), truth.events().len());
                 let promise = history.error_estimate();
                 assert!(promise < 10f64.powf(-digits).max(1e-11), "{digits} {promise:e}");

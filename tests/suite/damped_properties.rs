@@ -1,6 +1,6 @@
 //! What holds of every damped history, on random scenes, each within the error that the history itself claims.
 
-use crate::stripped::undamped;
+use crate::stripped::{Stripped, damped, undamped};
 use dalembert::cells::Damped;
 use dalembert::motion::Event;
 use dalembert::problem::{Material, Parameters, Profile, Rod, Run, Speed, Start, Top};
@@ -61,13 +61,13 @@ pub(crate) fn scene(low: f64, high: f64) -> impl Strategy<Value = Problem> {
 }
 
 /// The history; `None` where it ends as too long, so that runs that are compared may end in different places.
-fn solve(problem: &Problem) -> Option<Damped<f64>> {
-    let history = Damped::<f64>::solve(problem, &(), 13.0).unwrap();
+fn solve(problem: &Problem) -> Option<Stripped<f64, Damped<f64>>> {
+    let history = damped::<f64>(problem, &(), 13.0).unwrap();
     (!matches!(history.ending(), Ending::Undecided(Reason::Effort { .. }))).then_some(history)
 }
 
 /// Ordinary times, spread over the history.
-fn times(history: &Damped<f64>, count: u32) -> Vec<f64> {
+fn times(history: &dyn Motion<f64>, count: u32) -> Vec<f64> {
     (0..count).map(|k| history.end() * (f64::from(k) + 0.382) / f64::from(count)).collect()
 }
 
@@ -186,7 +186,7 @@ proptest! {
         use dalembert::EventKind;
         use rug::Float;
         let Some(history) = solve(&problem) else { return Ok(()) };
-        let truth = Damped::<Float>::solve(&problem, &200, 40.0).unwrap();
+        let truth = damped::<Float>(&problem, &200, 40.0).unwrap();
         let (scales, error) = (history.scales(), history.error_estimate());
         for t in times(&history, 6) {
             let exact = Float::with_val(200, t);

@@ -1,7 +1,7 @@
 //! The damped march against values from programs that share no code with it.
 
 use crate::common::{close, number, problem, reference};
-use dalembert::cells::Damped;
+use crate::stripped::damped;
 use dalembert::motion::{Ending, EventKind, Motion, Side};
 use dalembert::problem::Run;
 
@@ -15,7 +15,7 @@ fn repeated_bounces_are_those_of_the_volterra_equation() {
     for case in reference("damped_bounces") {
         let name = case["name"].as_str().unwrap();
         let problem = problem(&case, Run::Time(number(&case["time"])));
-        let history = Damped::<f64>::solve(&problem, &(), 12.0).unwrap();
+        let history = damped::<f64>(&problem, &(), 12.0).unwrap();
         assert_eq!(*history.ending(), Ending::Time);
         assert_eq!(history.end(), number(&case["time"]).to_f64());
         let expected = case["events"].as_array().unwrap();
@@ -45,7 +45,7 @@ fn the_first_contact_is_that_of_the_series() {
         let (stress, motion, field) = (list("stress"), list("motion"), list("field"));
         let last = stress.iter().chain(&motion).map(|row| row[0]).fold(bounce.unwrap_or(0.0), f64::max);
         let problem = problem(&case, Run::Time(format!("{:?}", last * 1.01).parse().unwrap()));
-        let history = Damped::<f64>::solve(&problem, &(), 13.0).unwrap();
+        let history = damped::<f64>(&problem, &(), 13.0).unwrap();
         let [length, c, gravity, speed] =
             ["length", "wave_speed", "gravity", "impact_speed"].map(|key| value(&case[key]));
         let t1 = 2.0 * length / c;

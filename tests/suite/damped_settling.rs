@@ -2,6 +2,7 @@
 //! costs no more to ask for more of it.
 
 use crate::common::{close, uniform};
+use crate::stripped::{Stripped, damped};
 use dalembert::cells::{ContactThenCells, Damped, Reach};
 use dalembert::first_contact::FirstContact;
 use dalembert::problem::{Parameters, Profile, Run, Start, Top};
@@ -24,8 +25,8 @@ fn fixed(gravity: &str, low: &str, high: &str, damping: &str, time: i64) -> Prob
     problem
 }
 
-fn solve(problem: &Problem) -> Damped<f64> {
-    Damped::solve(problem, &(), 13.0).unwrap()
+fn solve(problem: &Problem) -> Stripped<f64, Damped<f64>> {
+    damped(problem, &(), 13.0).unwrap()
 }
 
 /// Everything that can be asked at the end: the rod rests with `v`, and `v_x(0)` as it is just above the ground.
@@ -132,7 +133,8 @@ fn a_contact_without_end_is_known_at_all_times() {
         let problem = rod(gravity, "1/2", damping, 1_000_000);
         let parameters = Parameters::<f64>::of(&problem, &()).unwrap();
         let bounce = FirstContact::new(&parameters.carry()).bounce();
-        let history = ContactThenCells::<f64>::solve(&problem, &(), 13.0, bounce, Reach::Run).unwrap();
+        let history =
+            ContactThenCells::<f64>::solve(&problem, &(), 13.0, bounce, Reach::Run).map(Stripped::new).unwrap();
         assert!(matches!(history.ending(), Ending::NoBounce(_)), "{:?}", history.ending());
         let g = parameters.gravity;
         rests(&history, 1_000_000, |x| g * (0.5 * x * x - x), -g);
@@ -141,7 +143,8 @@ fn a_contact_without_end_is_known_at_all_times() {
     // Too slow: after 256 round trips it still moves.
     let problem = rod("0", "1", "1e4", 1_000_000);
     let bounce = FirstContact::new(&Parameters::<f64>::of(&problem, &()).unwrap().carry()).bounce();
-    let history = ContactThenCells::<f64>::solve(&problem, &(), 13.0, bounce, Reach::Run).unwrap();
+    let history: Stripped<f64, _> =
+        ContactThenCells::<f64>::solve(&problem, &(), 13.0, bounce, Reach::Run).map(Stripped::new).unwrap();
     assert_eq!(history.end(), 512.0);
 }
 

@@ -1,7 +1,7 @@
 //! Means and projections of damped rods, each within the bound that it carries: against fractions where nothing is
 //! damped, against finer cells, against the closed form, and against quadratures of the field in forty digits.
 
-use dalembert::cells::{Damped, WithBounds};
+use dalembert::cells::Damped;
 use dalembert::first_contact::ContactHistory;
 use dalembert::number::IntervalPrecision;
 use dalembert::quantity::slices;
@@ -70,7 +70,7 @@ proptest! {
     fn without_damping_they_are_fractions(problem in scene(1e-3, 1.0), kind in 0u8..5, seed in 0.01f64..0.99) {
         let (mut damped, mut bare) = (problem.clone(), problem);
         (damped.rod.damping, bare.rod.damping) = ("1e-30".parse::<Number>().ok(), None);
-        let history = WithBounds::new(Damped::<f64>::solve(&damped, &(), 13.0).unwrap()).unwrap();
+        let history = Damped::<f64>::solve(&damped, &(), 13.0).unwrap();
         let truth = bare.exact();
         prop_assume!(truth.is_ok() && !too_long(&history));
         let truth = truth.unwrap();
@@ -100,7 +100,7 @@ proptest! {
     fn coarse_cells_are_off_by_no_more_than_they_say(
         problem in scene(1e-3, 3.0), kind in 0u8..5, seed in 0.01f64..0.99, digits in 1f64..5.0
     ) {
-        let solve = |digits: f64| WithBounds::new(Damped::<f64>::solve(&problem, &(), digits).unwrap()).unwrap();
+        let solve = |digits: f64| Damped::<f64>::solve(&problem, &(), digits).unwrap();
         let (coarse, fine) = (solve(digits), solve(13.0));
         // A touch that a run misses by less than its bound is not counted, as docs/bounds.md says.
         prop_assume!(!too_long(&coarse) && !too_long(&fine) && coarse.events().len() == fine.events().len());
@@ -123,7 +123,7 @@ proptest! {
         let rod = Problem::builder().length(2).wave_speed(4).gravity(gravity).impact_speed(speed + 0.01);
         let problem = rod.damping(damping.exp()).time(3).build().unwrap();
         let closed = ContactHistory::<Estimate<f64>>::solve(&problem, &()).unwrap();
-        let cells = WithBounds::new(Damped::<f64>::solve(&problem, &(), 13.0).unwrap()).unwrap();
+        let cells = Damped::<f64>::solve(&problem, &(), 13.0).unwrap();
         let end = closed.end().to_f64();
         // t₁ = 1: at halves and quarters of it rays are at the ends and at points of the grid.
         let mut times: Vec<f64> = [0.0, 0.25, 0.5, 0.75, 1.0, 1.5, 2.0].into();

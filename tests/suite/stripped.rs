@@ -1,7 +1,12 @@
 //! The undamped march of one precision, without plan and ladder, read in numbers without their bounds.
 
+use dalembert::cells::Damped;
 use dalembert::lattice::{Limits, Undamped, unobserved};
-use dalembert::{Answer, Course, Energy, Error, Event, Field, Motion, Problem, Ray, Scalar, Scales, Side, StressPiece};
+use dalembert::motion::Pair;
+use dalembert::special::RoundedSpecial;
+use dalembert::{
+    Answer, Course, Error, Estimate, Event, Field, Motion, Problem, Ray, Scalar, Scales, Side, StressPiece,
+};
 
 /// An undamped history, computed in numbers that carry their bounds and read without them.
 pub(crate) type StrippedUndamped<S> = Stripped<S, Undamped<<S as Answer>::Carried>>;
@@ -18,6 +23,18 @@ pub(crate) fn undamped_within<S: Answer>(
     limits: Limits,
 ) -> Result<StrippedUndamped<S>, Error> {
     Undamped::solve_within(problem, precision, limits, &unobserved).map(Stripped::new)
+}
+
+/// The history of `problem` in cells, to about `digits` digits.
+pub(crate) fn damped<S>(
+    problem: &Problem,
+    precision: &S::Precision,
+    digits: f64,
+) -> Result<Stripped<S, Damped<S>>, Error>
+where
+    S: Answer<Carried = Estimate<S>> + RoundedSpecial,
+{
+    Damped::<S>::solve(problem, precision, digits).map(Stripped::new)
 }
 
 /// A history whose numbers carry their bounds, read without them.
@@ -41,10 +58,6 @@ impl<S: Answer, H: Motion<S::Carried>> Stripped<S, H> {
     }
 }
 
-fn pair<S: Answer>((a, b): (S::Carried, S::Carried)) -> (S, S) {
-    (S::strip(a), S::strip(b))
-}
-
 fn event<S: Answer>(event: &Event<S::Carried>) -> Event<S> {
     Event { time_error: event.time.log2_error().exp2(), ..event.clone().map(S::strip) }
 }
@@ -62,37 +75,16 @@ impl<S: Answer, H: Motion<S::Carried>> Motion<S> for Stripped<S, H> {
         self.history.strain(&time.carry(), side).map(S::strip)
     }
 
-    fn ground_end(&self, time: &S, side: Side) -> Result<(S, S), Error> {
-        self.history.ground_end(&time.carry(), side).map(pair)
-    }
-
-    fn top_end(&self, time: &S, side: Side) -> Result<(S, S), Error> {
-        self.history.top_end(&time.carry(), side).map(pair)
-    }
-
-    fn centre(&self, time: &S) -> Result<(S, S), Error> {
-        self.history.centre(&time.carry()).map(pair)
-    }
-
-    fn energy(&self, time: &S) -> Result<Energy<S>, Error> {
-        self.history.energy(&time.carry()).map(|energy| energy.map(S::strip))
-    }
-
-    fn energy_parts(&self, time: &S) -> Result<[S; 2], Error> {
-        self.history.energy_parts(&time.carry()).map(|parts| parts.map(S::strip))
+    fn pair(&self, pair: Pair, time: &S, side: Side) -> Result<[S; 2], Error> {
+        self.history.pair(pair, &time.carry(), side).map(|pair| pair.map(S::strip))
     }
 
     fn field(&self, point: &S, time: &S, side: Side) -> Result<Field<S>, Error> {
         self.history.field(&point.carry(), &time.carry(), side).map(|field| field.map(S::strip))
     }
 
-    fn highest(&self, release: &Event<S>) -> Option<(S, S)> {
-        let known = self
-            .course
-            .events
-            .iter()
-            .position(|event| event.kind == release.kind && event.time.text() == release.time.text())?;
-        self.history.highest(self.history.events().get(known)?).map(pair)
+    fn highest(&self, release: usize) -> Option<(S, S)> {
+        self.history.highest(release).map(|(time, height)| (S::strip(time), S::strip(height)))
     }
 
     fn rays(&self, trip: usize) -> Result<Vec<Ray<S>>, Error> {

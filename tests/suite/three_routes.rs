@@ -3,7 +3,6 @@
 //! more than their bounds.
 
 use crate::common::{number, reference};
-use dalembert::cells::Damped;
 use dalembert::first_contact::FirstContact;
 use dalembert::modal::Modal;
 use dalembert::motion::{Motion, Side};
@@ -180,7 +179,7 @@ fn rays_modes_and_the_cells() {
         problem.rod.damping = Some(damping.parse().unwrap());
         let rod = Parameters::<f64>::of(&problem, &()).unwrap();
         let (rays, modal) = (FirstContact::new(&rod.carry()), Modal::new(&rod, 1024));
-        let cells = Damped::<f64>::solve(&problem, &(), 13.0).unwrap();
+        let cells = crate::stripped::damped::<f64>(&problem, &(), 13.0).unwrap();
         let scale = rod.speed + rod.critical_speed();
         let slack = 4.0 * cells.error_estimate() * scale;
         assert!(slack < 1e-9 * scale, "{damping}: {slack:e}");

@@ -3,10 +3,10 @@
 use super::cells::{self, Break, Cells, Strip, settled};
 use super::picture::{Along, Picture};
 use crate::error::Error;
-use crate::motion::{EventKind, Motion, Side, StressPiece};
+use crate::motion::{EventKind, Motion, RayRegister, Side, StressPiece};
 use crate::number::Scalar;
 use crate::output::straight::straight;
-use crate::problem::{Parameters, Problem, Start};
+use crate::problem::{Parameters, Problem};
 use crate::quantity::{Measure, Quantity, Units};
 use crate::reason::Warning;
 use crate::solve::{History, Target};
@@ -132,7 +132,7 @@ impl Asked {
             world: Vec::new(),
             rod,
         };
-        let breaks = breaks(history, problem, &gathered)?;
+        let breaks = breaks(history, &gathered)?;
         self.gather_columns(history, &breaks, &mut gathered)?;
         if self.wants(Picture::Stress) {
             let pieces = history.stress_history()?.pieces.into_iter().map(|piece| piece.map(|x| x.to_f64()));
@@ -223,7 +223,7 @@ fn in_flight<S: Target>(history: &History<S>, time: f64) -> bool {
 }
 
 /// The rays of a history, by the time at which each leaves the ground: every ray that is in the rod during the span.
-fn breaks<S: Target>(history: &History<S>, problem: &Problem, drawn: &Gathered) -> Result<Vec<Break>, Error> {
+fn breaks<S: Target>(history: &History<S>, drawn: &Gathered) -> Result<Vec<Break>, Error> {
     let trip = drawn.rod.round_trip();
     let [from, to] = drawn.span;
     let inside = |time: &f64| *time >= from - 1.001 * trip && *time <= to;
@@ -239,30 +239,11 @@ fn breaks<S: Target>(history: &History<S>, problem: &Problem, drawn: &Gathered) 
     }
     // A ray of a damped rod comes back for ever, and fades.
     let faded = drawn.rod.damping.recip() * -FADED.ln();
-    let mut every = |first: f64, jump: bool| {
-        let trips = ((from - trip - first) / trip).floor().max(0.0);
-        let times = (0..).map(|k| first + (trips + f64::from(k)) * trip);
-        let times = times.take_while(|time| *time <= to && *time <= first + faded);
-        breaks.extend(times.filter(inside).map(|time| Break { time, jump }));
-    };
-    for event in history.events() {
-        every(event.time.to_f64(), event.kind == EventKind::Impact && event.end_velocity.to_f64() != 0.0);
-    }
-    if let Start::Profile(profile) = &problem.start {
-        let inner = profile.displacement.iter().chain(&profile.velocity);
-        let points = inner.map(|(x, _)| x.to_f64() / drawn.rod.wave_speed).chain([0.0, trip / 2.0]);
-        points.for_each(|late| {
-            every(-late, true);
-            every(late - trip, true);
-        });
-    }
-    breaks.sort_by(|a, b| a.time.total_cmp(&b.time).then(b.jump.cmp(&a.jump)));
-    breaks.dedup_by(|b, a| {
-        let one = b.time - a.time < 1e-9 * trip;
-        a.jump |= one && b.jump;
-        one
-    });
-    Ok(breaks)
+    let rays =
+        |motion: &dyn Motion<S::Carried>| Ok(RayRegister::of(motion).passing(&motion.end().zero(), from - trip, to));
+    let rays = history.ask(rays, |_| Vec::new())?;
+    let drawn = rays.iter().filter(|ray| ray.age <= faded);
+    Ok(drawn.map(|ray| Break { time: ray.time.to_f64(), jump: ray.jump }).collect())
 }
 
 /// What is left of a ray that is drawn no more.
@@ -271,34 +252,27 @@ const FADED: f64 = 1e-3;
 /// Times at which lines are drawn: evenly spaced, at events, and where rays are at the ends.
 fn times<S: Scalar>(motion: &dyn Motion<S>, drawn: &Gathered, breaks: &[Break]) -> Result<Vec<S>, Error> {
     let (end, [from, to]) = (motion.end(), drawn.span);
-    let (trip, half) = (drawn.rod.round_trip(), 0.5 * drawn.rod.round_trip());
+    let trip = drawn.rod.round_trip();
     let count = if breaks.len() > MOST_BREAKS { DENSE } else { POINTS };
     let even = (0..=count).map(|k| from + (to - from) * k as f64 / count as f64);
     // The numbers of the engine itself where two limits may differ: they meet the rays.
     let mut times: Vec<(f64, S)> =
         motion.events().iter().map(|event| (event.time.to_f64(), event.time.clone())).collect();
-    let trips = motion.scales().time;
     if breaks.len() <= MOST_BREAKS {
         match motion.waves() {
             Ok(waves) => {
-                let late = trips.clone() / trips.int(2);
+                let late = motion.scales().time / end.int(2);
                 for piece in waves.pieces {
                     let top = piece.from.clone() + &late;
                     times.extend([piece.from, top].map(|time| (time.to_f64(), time)));
                 }
             }
             Err(Error::NoWaves) => {
-                let returns = |(first, event): (f64, S)| {
-                    let begin = ((from - first) / trip).floor().max(0.0) as i64;
-                    let last = ((to - first) / half).floor().max(0.0) as i64;
-                    let trips = &trips;
-                    (2 * begin..=last).map(move |k| {
-                        let time = trips.int(k) * trips / trips.int(2) + &event;
-                        (time.to_f64(), time)
-                    })
-                };
-                let events = std::mem::take(&mut times);
-                times.extend(events.into_iter().flat_map(returns));
+                let (rays, scales) = (RayRegister::of(motion), motion.scales());
+                for point in [scales.length.zero(), scales.length] {
+                    let passing = rays.passing(&point, from, to).into_iter();
+                    times.extend(passing.map(|ray| (ray.time.to_f64(), ray.time)));
+                }
             }
             Err(error) => return Err(error),
         }

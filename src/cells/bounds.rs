@@ -1,0 +1,395 @@
+//! The answers of a damped run: every number with the bound that the run has carried to its time.
+
+use super::budget::AtEvent;
+use super::history::Damped;
+use crate::error::Error;
+use crate::motion::moments::{self, Moments, Sums};
+use crate::motion::{Contact, Course, Event, EventKind, Field, Motion, Pair, Scales, Side, StressPiece};
+use crate::number::{Estimate, Rounded, Scalar};
+use crate::special::RoundedSpecial;
+
+/// How far the values of a run may be off between two events, in natural scales, away from rays that are off in time.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct Uncertainty {
+    /// Displacements, in `V t₁`, as far as the events are in time.
+    pub(super) rise: f64,
+    /// Velocities and `c v_x`, in `V`, as far as the events are in time.
+    pub(super) speed: f64,
+    /// `h′`, in `V`, as far as the events are in time.
+    pub(super) rate: f64,
+    /// How early or late the events may be, in `t₁`.
+    pub(super) late: f64,
+    /// `|dv_t/dt|` between rays, in `V/t₁`: what lateness makes of velocities.
+    pub(super) slope: f64,
+    /// The most of `|v_t|` and `|c v_x|`, in `V`: what lateness makes of displacements and of integrals along the rod.
+    pub(super) most: f64,
+    /// The most of `v_t ± c v_x` about the centre of mass, in `V`: what a ray that is off in time makes of energies.
+    pub(super) peak: f64,
+    /// How far rays may be off, in `t₁`: what the limits next to them, and peaks, are off by is that times the slope.
+    pub(super) rays: f64,
+}
+
+impl Uncertainty {
+    /// The greater in all.
+    pub(super) fn max(self, other: Self) -> Self {
+        Uncertainty {
+            rise: self.rise.max(other.rise),
+            speed: self.speed.max(other.speed),
+            rate: self.rate.max(other.rate),
+            late: self.late.max(other.late),
+            slope: self.slope.max(other.slope),
+            most: self.most.max(other.most),
+            peak: self.peak.max(other.peak),
+            rays: self.rays.max(other.rays),
+        }
+    }
+}
+
+/// `value` as it is stored.
+pub(super) fn rounded<S: Rounded>(value: &S) -> Estimate<S> {
+    Estimate::rounded(value.clone(), 1.0)
+}
+
+/// `value` within `bound`.
+pub(super) fn within<S: Rounded>(value: &S, bound: f64) -> Estimate<S> {
+    Estimate::new(value.clone(), bound / value.unit() + value.to_f64().abs())
+}
+
+/// `value` with so much more in its bound.
+pub(super) fn wider<S: Rounded>(value: Estimate<S>, bound: f64) -> Estimate<S> {
+    Estimate::new(value.value().clone(), value.error() + bound / value.value().unit())
+}
+
+/// The time that is asked about: that of the nearest event, where roundings alone set it apart.
+pub(super) fn meant<'a, S: Rounded>(events: &'a [Event<Estimate<S>>], time: &'a Estimate<S>) -> &'a Estimate<S> {
+    let next = events.partition_point(|event| event.time.value() < time.value());
+    let near = events[next.saturating_sub(1)..].iter().take(2).map(|event| &event.time);
+    let roundings = 4.0 * time.value().unit() * time.value().to_f64().abs();
+    let apart = |event: &&Estimate<S>| (event.value().clone() - time.value()).to_f64().abs();
+    let nearest = near.min_by(|a, b| apart(a).total_cmp(&apart(b)));
+    nearest.filter(|event| apart(event) <= time.bound() + event.bound().min(roundings)).unwrap_or(time)
+}
+
+/// Bounds near a time, in the units of the problem.
+struct Near {
+    /// Of displacements, as far as the events are in time.
+    rise: f64,
+    /// Of `h` likewise.
+    centre: f64,
+    /// Of velocities.
+    speed: f64,
+    /// Of that of the end.
+    end: f64,
+    strain: f64,
+    /// Of `h′`.
+    rate: f64,
+    /// Of the times of events.
+    late: f64,
+}
+
+impl Near {
+    /// The less in all, and the greater lateness.
+    fn min(self, other: &Near) -> Near {
+        Near {
+            rise: self.rise.min(other.rise),
+            centre: self.centre.min(other.centre),
+            speed: self.speed.min(other.speed),
+            end: self.end.min(other.end),
+            strain: self.strain.min(other.strain),
+            rate: self.rate.min(other.rate),
+            late: self.late.max(other.late),
+        }
+    }
+}
+
+impl<S: RoundedSpecial> Damped<S> {
+    /// The run with its contacts and the bounds of its events, which are there without them.
+    ///
+    /// **Errors**: those of a question at an event.
+    pub(super) fn with_bounds(mut self) -> Result<Self, Error> {
+        let event = |(k, event): (usize, &Event<Estimate<S>>)| {
+            let Near { centre, end, rate, late, .. } = self.at_event(k);
+            let (moves, push) = (event.centre_velocity.to_f64().abs(), self.push(event.time.value(), late)?);
+            Ok(Event {
+                kind: event.kind,
+                time: within(event.time.value(), event.time_error),
+                end_velocity: within(event.end_velocity.value(), end),
+                centre: within(event.centre.value(), centre + late * (moves + push)),
+                centre_velocity: within(event.centre_velocity.value(), rate + push),
+                time_error: event.time_error,
+            })
+        };
+        let events: Vec<_> = self.course.events.iter().enumerate().map(event).collect::<Result<_, Error>>()?;
+        self.course.events = events;
+        let mut pushes = self.pushes();
+        let contacts = Contact::between(&self.course.events, |k| {
+            let none = || (self.data.slope.zero(), self.data.slope.zero());
+            let (impulse, peak) = pushes.next().unwrap_or_else(none);
+            let found = self.uncertainty(self.course.events[k].time.value());
+            let Scales { velocity, wave_speed, .. } = self.scales;
+            // A peak lies next to a ray, or where the slope vanishes.
+            let strain = self.scaled(found).strain + found.slope * found.rays * velocity / wave_speed;
+            (within(&impulse, self.impulse_off(k)), within(&peak, strain))
+        });
+        drop(pushes);
+        self.course.contacts = contacts;
+        Ok(self)
+    }
+
+    /// What the impulse of a contact may be off by: by the balance of momentum between two events that are followed, or
+    /// by the stress, `−c² ∫ v_x dt`, where rays that are off within the contact move the end by their masses.
+    fn impulse_off(&self, impact: usize) -> f64 {
+        let Scales { velocity, wave_speed: c, length, gravity, .. } = self.scales;
+        let (from, to) =
+            (&self.course.events[impact].time, self.course.events.get(impact + 1).map(|event| &event.time));
+        let momentum = |event: usize| Some(self.at_events[event]?.momentum * velocity);
+        let by_momentum = to.and_then(|to| {
+            let both = momentum(impact)? + momentum(impact + 1)?;
+            Some(length * (both + gravity * (from.bound() + to.bound())))
+        });
+        let last = to.unwrap_or(&self.course.end).to_f64();
+        let Near { rise, speed, .. } = self.scaled(self.uncertainty(from.value()));
+        by_momentum.unwrap_or((last - from.to_f64()) * speed * c + 2.0 * rise * c)
+    }
+
+    /// The event at this very time.
+    fn event_at(&self, time: &Estimate<S>) -> Option<usize> {
+        let events = &self.course.events;
+        let next = events.partition_point(|event| event.time.value() < time.value());
+        events.get(next).filter(|event| event.time.value() == time.value()).map(|_| next)
+    }
+
+    /// How far values near a time may be off.
+    fn uncertainty(&self, time: &S) -> Uncertainty {
+        let since = self.course.events.partition_point(|event| event.time.value() <= time);
+        let lost = since.checked_sub(1).is_some_and(|last| self.course.events[last].time_error.is_infinite());
+        let found = self.uncertain[since];
+        let none = f64::INFINITY;
+        if lost { Uncertainty { rise: none, speed: none, rate: none, ..found } } else { found }
+    }
+
+    /// The bounds near a time; at that of an event, which has the bound of the event, those of the event itself.
+    fn near(&self, time: &Estimate<S>) -> Near {
+        match self.event_at(time).filter(|_| time.bound() > 0.0) {
+            Some(event) => self.at_event(event),
+            None => self.scaled(self.uncertainty(time.value())),
+        }
+    }
+
+    /// The bounds at an event: those of the contact that it begins or ends, whenever that is; but its time is rounded.
+    /// Where they are those of equal times, the event itself is off.
+    fn at_event(&self, event: usize) -> Near {
+        let events = &self.course.events;
+        let contact = event - usize::from(event > 0 && events[event].kind == EventKind::Release);
+        let found = self.uncertainty(events[contact].time.value());
+        let Event { time, time_error, .. } = &events[event];
+        let rounding = 8.0 * time.value().unit() * time.to_f64();
+        // Where the time may be off without bound, so may all else already.
+        let equal_times = found.late == 0.0 && time_error.is_finite();
+        let off = if equal_times { *time_error } else { 0.0 };
+        let near = self.scaled(Uncertainty { late: (off + rounding) / self.scales.time, ..found });
+        let Some(AtEvent { rise, centre, speed, end, rate, .. }) = self.at_events[event] else { return near };
+        let found = Uncertainty { rise, speed, rate, late: rounding / self.scales.time, ..found };
+        let unit = self.scales.velocity * self.scales.time;
+        let own = self.scaled(found);
+        let own = Near { centre: centre * unit, end: own.speed + (end - speed) * self.scales.velocity, ..own };
+        if equal_times { near.min(&own) } else { own }
+    }
+
+    fn scaled(&self, found: Uncertainty) -> Near {
+        let Uncertainty { rise, speed, rate, late, slope, .. } = found;
+        let Scales { time, velocity, wave_speed, .. } = self.scales;
+        let (rise, speed) = (rise * velocity * time, (speed + slope * late) * velocity);
+        let (rate, strain) = ((rate + slope * late) * velocity, speed / wave_speed);
+        Near { rise, centre: rise, speed, end: speed, strain, rate, late: late * time }
+    }
+
+    /// What the force of the ground makes of `h′` while events are `late`: `h″ = −c² v_x(0,t)/L`.
+    fn push(&self, time: &S, late: f64) -> Result<f64, Error> {
+        let Scales { length, wave_speed, .. } = &self.scales;
+        // The last event may be a rounding beyond the end.
+        let end = self.course.end.value();
+        let time = if time > end { end } else { time };
+        let strain = |side| self.strain_of(time, side).map(|strain| strain.to_f64().abs());
+        let right = strain(Side::Right)?;
+        // Before the start there is nothing.
+        let most = strain(Side::Left).map_or(right, |left| left.max(right));
+        Ok(late * wave_speed * wave_speed * most / length)
+    }
+
+    /// A displacement and its rate of change.
+    fn moved(&self, time: &Estimate<S>, place: &S, rate: &S) -> [Estimate<S>; 2] {
+        let near = self.near(time);
+        [within(place, near.rise + near.late * rate.to_f64().abs()), within(rate, near.speed)]
+    }
+
+    /// How far the root of a mean square may be off: what the ground gives to the centre of mass it takes from the
+    /// vibration, or not, while contact is in doubt.
+    fn root_off(&self, time: &Estimate<S>) -> Result<f64, Error> {
+        let near = self.near(time);
+        Ok(near.speed + self.push(time.value(), near.late)?)
+    }
+
+    /// `L s²/2` of a root mean square s that is `off` by so much: at most `L (2s + off) off`.
+    fn square_off(&self, root: f64, off: f64) -> f64 {
+        self.scales.length * (2.0 * root + off) * off
+    }
+
+    /// What an energy is off by where the root of the mean square is `off` between rays, and where rays are off in
+    /// time: `¼ ∫ |δp| (2|p| + |δp|) + |δq| (2|q| + |δq|) dx ≤ M ∫ |δp| + |δq| dx`, as `|δq|` is at most twice the
+    /// greatest `|q|`, M; and half of the integral is at most `rise`.
+    fn energy_off(&self, energy: &S, off: f64, by_rays: f64) -> f64 {
+        self.square_off((2.0 * energy.to_f64().max(0.0) / self.scales.length).sqrt(), off) + by_rays
+    }
+
+    /// The second part of [`Self::energy_off`].
+    fn by_rays(&self, time: &Estimate<S>) -> f64 {
+        let Uncertainty { peak, .. } = self.uncertainty(time.value());
+        2.0 * peak * self.scales.velocity * self.scales.wave_speed * self.near(time).rise
+    }
+}
+
+/// **Accuracy**: *within its own bound*, away from rays that are themselves off in time. A time that is asked about is
+/// taken as it is stored; one within rounding of an event stands for the event, whenever that is.
+impl<S: RoundedSpecial> Motion<Estimate<S>> for Damped<S> {
+    fn course(&self) -> &Course<Estimate<S>> {
+        &self.course
+    }
+
+    fn scales(&self) -> Scales<Estimate<S>> {
+        self.data.units.scales().map(|scale| within(&scale, 0.0))
+    }
+
+    fn stress_pieces(&self) -> Vec<StressPiece<Estimate<S>>> {
+        let piece = |piece: StressPiece<S>| {
+            let strain = self.scaled(self.uncertainty(&piece.from)).strain;
+            bounded_piece(piece, strain)
+        };
+        self.pieces_of_stress().into_iter().map(piece).collect()
+    }
+
+    fn strain(&self, time: &Estimate<S>, side: Side) -> Result<Estimate<S>, Error> {
+        let time = meant(&self.course.events, time);
+        Ok(within(&self.strain_of(time.value(), side)?, self.near(time).strain))
+    }
+
+    fn pair(&self, pair: Pair, time: &Estimate<S>, side: Side) -> Result<[Estimate<S>; 2], Error> {
+        let time = meant(&self.course.events, time);
+        if let (Pair::Centre, Some(flight)) = (pair, self.first_flight(time)) {
+            return Ok(flight.flight(&rounded(time.value())).into());
+        }
+        Ok(match pair {
+            Pair::GroundEnd => {
+                let [height, rate] = self.ground_of(time.value(), side)?;
+                self.moved(time, &height, &rate)
+            }
+            Pair::Centre => {
+                let [height, rate] = self.centre_of(time.value())?;
+                let near = self.near(time);
+                let (moves, push) = (rate.to_f64().abs(), self.push(time.value(), near.late)?);
+                [within(&height, near.centre + near.late * (moves + push)), within(&rate, near.rate + push)]
+            }
+            Pair::Energy => {
+                let (height, rate) = self.centre(time)?;
+                let Scales { length, gravity, .. } = self.data.units.scales().map(Estimate::exact);
+                let translational = (rate.square() * rate.ratio(1, 2) + gravity * height) * length;
+                let vibration = self.vibration_of(time.value())?;
+                let off = self.energy_off(&vibration, self.root_off(time)?, self.by_rays(time));
+                [translational, within(&vibration, off)]
+            }
+            // Of each mean square as of the vibration.
+            Pair::EnergyParts => {
+                let (off, by_rays) = (self.root_off(time)?, self.by_rays(time));
+                self.parts_of(time.value())?.map(|part| within(&part, self.energy_off(&part, off, by_rays)))
+            }
+        })
+    }
+
+    fn field(&self, point: &Estimate<S>, time: &Estimate<S>, side: Side) -> Result<Field<Estimate<S>>, Error> {
+        let time = meant(&self.course.events, time);
+        let field = self.field_of(point.value(), time.value(), side)?;
+        let strain = within(&field.strain, self.near(time).strain);
+        let [displacement, velocity] = self.moved(time, &field.displacement, &field.velocity);
+        Ok(Field { displacement, velocity, strain })
+    }
+
+    fn corners(&self) -> Vec<Estimate<S>> {
+        self.data.given.corners.iter().map(rounded).collect()
+    }
+
+    /// **Accuracy**: as `docs/bounds.md` derives under "What a mean may be off by".
+    fn moments(&self, time: &Estimate<S>, points: &[Estimate<S>]) -> Result<Vec<Moments<Estimate<S>>>, Error> {
+        let time = meant(&self.course.events, time);
+        let placed = points.iter().fold(0.0, |most: f64, point| most.max(point.bound()));
+        let points: Vec<S> = points.iter().map(|point| point.value().clone()).collect();
+        let lines = self.lines(time.value(), &points)?;
+        // What the rule leaves, relative to the greatest integrand and the length.
+        let left_out = 2.0 * self.medium.log2_accuracy.exp2();
+        let [height, _] = self.ground_of(time.value(), Side::Left)?;
+        let [_, rate] = self.centre_of(time.value())?;
+        let Scales { time: trip, velocity, length, wave_speed: c, .. } = self.scales;
+        let Near { rise, speed, late, .. } = self.near(time);
+        let most = self.uncertainty(time.value()).most * velocity + rate.to_f64().abs();
+        let between = speed + left_out * most;
+        let rounding = 8.0 * time.value().unit() * (time.to_f64() + trip);
+        let far = |rays: usize| rise + 2.0 * most * (late + placed / c + (rays + 1) as f64 * rounding);
+        let rays: Vec<usize> = lines.iter().map(|(_, rays)| *rays).collect();
+        let high = far(rays.iter().sum()) + length * left_out * most / c;
+
+        let known = |x: &S| Estimate::exact(x.clone());
+        let starts = std::iter::once(height.zero()).chain(points.iter().cloned()).map(Estimate::exact);
+        let sums =
+            lines.iter().zip(starts).map(|((nodes, _), from)| Sums::of(&from, nodes.iter().map(|n| n.map(known))));
+        let ends: Vec<_> = points.iter().map(known).collect();
+        let cells = moments::of_sums(sums.collect(), &ends, Estimate::exact(height)).into_iter();
+        let cells = cells.zip(points.windows(2)).zip(&rays[1..]).map(|(([v, v_t, v_x], pair), rays)| {
+            let width = (pair[1].clone() - &pair[0]).to_f64();
+            let share = [width, width * width / 2.0];
+            let bounds = [share[0] * between + c * far(*rays), share[1] * between + width * c * far(*rays)];
+            let widen = |[area, moment]: [Estimate<S>; 2], [by_area, by_moment]: [f64; 2]| {
+                [wider(area, by_area), wider(moment, by_moment)]
+            };
+            [widen(v, share.map(|share| share * high)), widen(v_t, bounds), widen(v_x, bounds.map(|bound| bound / c))]
+        });
+        Ok(cells.collect())
+    }
+
+    fn rates(&self, points: &[Estimate<S>], times: &[Estimate<S>]) -> Result<Vec<[Estimate<S>; 2]>, Error> {
+        let times: Vec<&Estimate<S>> = times.iter().map(|time| meant(&self.course.events, time)).collect();
+        let plain: Vec<S> = points.iter().map(|x| x.value().clone()).collect();
+        let found = self.rates_of(&plain, &times.iter().map(|time| time.value().clone()).collect::<Vec<_>>())?;
+        let mut rates = Vec::with_capacity(found.len());
+        for (time, of_time) in times.iter().zip(found.chunks(plain.len().max(1))) {
+            let Near { speed, strain, .. } = self.near(time);
+            rates.extend(of_time.iter().map(|[v_t, v_x]| [within(v_t, speed), within(v_x, strain)]));
+        }
+        Ok(rates)
+    }
+
+    fn highest(&self, release: usize) -> Option<(Estimate<S>, Estimate<S>)> {
+        let (time, height) = self.turn_after(release)?;
+        // dt*/dh′ = 1/(g + 2rh′); and what the height loses there is of second order.
+        let (Near { rise, rate, .. }, gravity) = (self.near(&within(&time, 0.0)), self.scales.gravity);
+        let late = self.course.events[release].time_error + rate / gravity;
+        Some((within(&time, late), within(&height, rise + gravity * late * late)))
+    }
+
+    fn error_estimate(&self) -> Estimate<S> {
+        let most = self.uncertain.iter().fold(Uncertainty::default(), |most, next| most.max(*next));
+        let times = self.course.events.iter().map(|event| event.time_error / self.scales.time);
+        let most = times.fold(most.rise.max(most.speed).max(most.late), f64::max);
+        Estimate::exact(self.course.end.value().double(most))
+    }
+}
+
+/// A piece of stress whose strain is off by so much. The bound is that of the whole; the first coefficient carries it.
+pub(super) fn bounded_piece<S: Rounded>(piece: StressPiece<S>, strain: f64) -> StressPiece<Estimate<S>> {
+    let coefficient = |(k, c)| within(c, if k == 0 { strain } else { 0.0 });
+    StressPiece {
+        from: within(&piece.from, 0.0),
+        to: within(&piece.to, 0.0),
+        left: within(&piece.left, strain),
+        right: within(&piece.right, strain),
+        chebyshev: piece.chebyshev.iter().enumerate().map(coefficient).collect(),
+    }
+}

@@ -1,0 +1,158 @@
+//! The register of rays: when each is where.
+
+use super::{EventKind, Motion, Scales};
+use crate::number::Scalar;
+
+/// The rays of a motion, by the times at which they leave the ground, modulo round trips.
+///
+/// **Source**: a ray that leaves the ground at τ passes the point x at `τ + x/c + k t₁` and `τ − x/c + (k + 1) t₁`,
+/// `k ≥ 0`. RayRegister begin at impacts and releases, and at the points between which the data of the start are linear: as if
+/// they had left the ground before.
+///
+/// **Accuracy**: each time is known within the bound that it carries, and no other tolerance tells two rays apart.
+#[derive(Clone, Debug)]
+pub struct RayRegister<S> {
+    round_trip: S,
+    wave_speed: S,
+    end: S,
+    /// RayRegister that are at the ground at the same times, modulo round trips, in the order of these.
+    known: Vec<Phase<S>>,
+}
+
+/// RayRegister whose times differ by whole round trips.
+#[derive(Clone, Debug)]
+struct Phase<S> {
+    /// The fraction of a round trip, in doubles.
+    fraction: f64,
+    /// When they leave the ground, ascending, and whether they may carry a jump, or a kink alone.
+    rays: Vec<(S, bool)>,
+}
+
+/// A ray at a point.
+#[derive(Clone, Debug)]
+pub struct Passing<S> {
+    /// When it is there.
+    pub time: S,
+    /// How long ago it began: under damping its jump has faded by `e^{−r·age}`.
+    pub age: f64,
+    /// Whether it may carry a jump, or a kink alone.
+    pub jump: bool,
+}
+
+/// RayRegister are compared in the numbers of the run where doubles tell them apart by less than this part of a round trip:
+/// doubles hold a fraction of a million round trips to 1e-10.
+const NEAR: f64 = 1e-6;
+
+impl<S: Scalar> RayRegister<S> {
+    /// The rays of `motion`.
+    pub fn of(motion: &dyn Motion<S>) -> Self {
+        let scales = motion.scales();
+        let mut found = Vec::new();
+        for corner in motion.corners() {
+            let late = corner / &scales.wave_speed;
+            found.extend([(-late.clone(), true), (late - &scales.time, true)]);
+        }
+        for event in motion.events() {
+            let jump = event.kind == EventKind::Impact && event.end_velocity.vanishes() != Ok(true);
+            found.push((event.time.clone(), jump));
+        }
+        let fraction = |time: &S| fraction(&(time.clone() / &scales.time));
+        let mut found: Vec<_> = found.into_iter().map(|ray| (fraction(&ray.0), ray)).collect();
+        found.sort_by(|(a, (s, _)), (b, (t, _))| a.total_cmp(b).then(s.to_f64().total_cmp(&t.to_f64())));
+        let Scales { time: round_trip, wave_speed, .. } = scales;
+        let mut rays = RayRegister { round_trip, wave_speed, end: motion.end(), known: Vec::new() };
+        for (fraction, ray) in found {
+            match rays.known.last() {
+                Some(last) if fraction - last.fraction <= NEAR && rays.same_phase(&last.rays[0].0, &ray.0) => {
+                    let last = rays.known.len() - 1;
+                    rays.known[last].rays.push(ray);
+                }
+                _ => rays.known.push(Phase { fraction, rays: vec![ray] }),
+            }
+        }
+        for phase in &mut rays.known {
+            phase.rays.sort_by(|(a, _), (b, _)| a.to_f64().total_cmp(&b.to_f64()));
+        }
+        rays
+    }
+
+    /// Whether two times are whole round trips apart, within their bounds.
+    fn same_phase(&self, a: &S, b: &S) -> bool {
+        let apart = b.clone() - a;
+        let trips = (apart.to_f64() / self.round_trip.to_f64()).round();
+        (apart - self.round_trip.double(trips) * &self.round_trip).vanishes() != Ok(false)
+    }
+
+    /// `time`, or that within `roundings` of it, and within the bound of the ray, at which a ray passes `point`.
+    pub fn meant(&self, point: &S, time: S, roundings: f64) -> S {
+        let travel = point.clone() / &self.wave_speed;
+        let on_ray = |delay: S| {
+            let at_ground = time.clone() - &delay;
+            self.known_near(fraction(&(at_ground.clone() / &self.round_trip))).find_map(|known| {
+                let trips = (at_ground.clone() - known) / &self.round_trip;
+                let trips = (trips.clone() + trips.ratio(1, 2)).floor_int().filter(|trips| *trips >= 0)?;
+                let met = self.round_trip.int(trips) * &self.round_trip + known + &delay;
+                let bound = met.log2_error().exp2();
+                let known = roundings + if bound.is_finite() { bound } else { 0.0 };
+                let near = (met.clone() - &time).to_f64().abs() <= known;
+                (near && self.end.below(&met) != Ok(true)).then_some(met)
+            })
+        };
+        on_ray(travel.clone()).or_else(|| on_ray(-travel)).unwrap_or(time)
+    }
+
+    /// The rays at about this fraction of a round trip: 0 and 1 are neighbours.
+    fn known_near(&self, fraction: f64) -> impl Iterator<Item = &S> {
+        [fraction - 1.0, fraction, fraction + 1.0].into_iter().flat_map(|fraction| {
+            let from = self.known.partition_point(|phase| phase.fraction < fraction - NEAR);
+            let near = self.known[from..].iter().take_while(move |phase| phase.fraction <= fraction + NEAR);
+            near.map(|phase| &phase.rays[0].0)
+        })
+    }
+
+    /// The rays that pass `point` from one time to another, in order; at the ground also those that come from the start
+    /// and have never been there, as if they had left it before.
+    pub fn passing(&self, point: &S, from: f64, to: f64) -> Vec<Passing<S>> {
+        let (trip, travel) = (self.round_trip.to_f64(), point.clone() / &self.wave_speed);
+        let mut found: Vec<Passing<S>> = Vec::new();
+        for Phase { rays, .. } in &self.known {
+            let first = &rays[0].0;
+            let first_jump = rays.iter().position(|ray| ray.1).unwrap_or(rays.len());
+            let down = self.round_trip.clone() - &travel;
+            for delay in [travel.clone(), down] {
+                let (begins, late) = (first.to_f64(), delay.to_f64());
+                let before = ((from - begins - late) / trip).floor().max(0.0);
+                for k in 0u32.. {
+                    let trips = before + f64::from(k);
+                    let time = self.round_trip.double(trips) * &self.round_trip + first + &delay;
+                    let at = time.to_f64();
+                    if at > to {
+                        break;
+                    }
+                    // The ray that began last goes on as those before it.
+                    let begun = rays.partition_point(|(ray, _)| ray.to_f64() <= at - late + NEAR * trip).max(1);
+                    if at >= from {
+                        let (jump, age) = (begun > first_jump, at - rays[begun - 1].0.to_f64());
+                        found.push(Passing { time, age, jump });
+                    }
+                }
+            }
+        }
+        found.sort_by(|a, b| a.time.to_f64().total_cmp(&b.time.to_f64()));
+        found.dedup_by(|b, a| {
+            let apart = b.time.clone() - &a.time;
+            let one = apart.to_f64() <= NEAR * trip && apart.vanishes() != Ok(false);
+            if one {
+                *a = Passing { time: a.time.clone(), age: a.age.min(b.age), jump: a.jump || b.jump };
+            }
+            one
+        });
+        found
+    }
+}
+
+/// The fraction of a number of round trips.
+fn fraction<S: Scalar>(trips: &S) -> f64 {
+    let trips = trips.to_f64();
+    trips - trips.floor()
+}
