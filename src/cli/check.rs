@@ -31,6 +31,8 @@ pub(super) struct Check {
     output: Option<PathBuf>,
 }
 
+/// What makes the page of the repository.
+const PAGE: &str = "dalembert check --format markdown -o docs/check.md";
 /// The published values among the names of groups.
 const TARGETS: &str = "targets";
 
@@ -63,7 +65,7 @@ impl Check {
             Format::Table if self.summary => check_summary(&checked, &published),
             Format::Table => check_table(&checked, &published),
             Format::Json => format!("{:#}\n", check_json(&checked, &published)),
-            _ => check_page(&checked, &published),
+            _ => check_page(&checked, &published, PAGE),
         };
         file::write(self.output.as_deref(), text.as_bytes())?;
         let failed = checked.iter().flat_map(|(_, cases)| cases).any(|case| case.verdict == Verdict::Failed);

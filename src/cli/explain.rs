@@ -76,7 +76,10 @@ fn effects(scene: &Scene, plan: &Plan) -> Vec<EffectUse> {
     let mut effects = scene.effects();
     effects.push(scene.effect(Effect::FieldEnergies));
     effects.push(match plan.numbers {
-        Numbers::Double(_) => scene.effect(Effect::ArbitraryPrecision),
+        Numbers::Double(_) => {
+            let effect = scene.effect(Effect::ArbitraryPrecision);
+            EffectUse { because: format!("{}; --digits and --exact do", effect.because), ..effect }
+        }
         numbers => EffectUse {
             effect: Effect::ArbitraryPrecision,
             called: true,

@@ -114,8 +114,8 @@ pub trait Scalar:
         None
     }
 
-    /// How many of so many significant digits are proved: those of an enclosure in which both of its ends agree, all of
-    /// other numbers.
+    /// How many of so many significant digits are proved: those of an enclosure in which both of its ends agree, one or
+    /// two more where they agree in these only; all of other numbers.
     fn proved(&self, digits: u32) -> u32 {
         digits
     }

@@ -108,6 +108,7 @@ mod tests {
         let [low, high] = ends;
         let astride = Interval::between(low, high);
         assert_eq!([1, 2, 3, 6].map(|digits| show(&astride, digits)), ["1", "1", "1.05", "1.05000"]);
+        assert_eq!(show(&around(0.25, 1e-6), 1), "0.25");
         assert_eq!(show(&around(0.0, 1e-20), 20), "0");
         assert_eq!(bound_of_log2(crate::number::Estimate::new(1.0f64, 3.0).log2_error()), "3.4e-16");
         // 1 + ε with a bound of one rounding: ε/2 and, for the text, another.

@@ -87,9 +87,9 @@ pub(crate) fn check_summary(groups: &Groups, published: &[Published]) -> String 
 }
 
 /// For the repository: nothing in it depends on the machine.
-pub(crate) fn check_page(groups: &Groups, published: &[Published]) -> String {
-    let mut out = String::from(
-        "# Hard cases, and what the paper claims\n\nMade by `dalembert check --format markdown -o docs/check.md`; a \
+pub(crate) fn check_page(groups: &Groups, published: &[Published], command: &str) -> String {
+    let mut out = format!(
+        "# Hard cases, and what the paper claims\n\nMade by `{command}`; a \
          test holds it against what the program finds. Each number is asked of several routes that share as little as \
          they can, and each route is held to what it promises. The truth stands in the catalogue, to as many digits \
          as are printed; where a row says *proved*, enclosures prove them. `dalembert check` shows the answers, how \

@@ -8,7 +8,7 @@ use crate::problem::Top;
 /// A language of functions.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, clap::ValueEnum)]
 pub enum Language {
-    /// A module without dependencies; in fractions with --exact
+    /// A module without dependencies; in fractions where the numbers are
     Python,
     /// A function file
     Matlab,

@@ -134,12 +134,6 @@ impl Column {
         Column { head, name, key, unit: "", is_text: false, is_bounded: false, is_optional: false }
     }
 
-    /// With a head, a name and a key, where these are not empty.
-    pub(crate) fn placed(texts: [&'static str; 3]) -> Self {
-        let [head, name, key] = texts.map(|text| Some(text.into()).filter(|_| !text.is_empty()));
-        Column { head, name, key, ..Column::new("") }
-    }
-
     /// In every format.
     pub(crate) fn new(name: impl Into<Cow<'static, str>>) -> Self {
         Column::at(true, true, true, name.into())

@@ -3,10 +3,8 @@
 use serde_json::{Value, json};
 
 use super::writer::{WIDTH, wrapped};
-use crate::error::Error;
-use crate::motion::{Contact, Ending, Energy, Event, Motion, StressPiece};
-use crate::number::Scalar;
-use crate::quantity::{EnergyShares, Flight, Restitution, Undefined, Units, energy_shares, flights, restitution};
+use crate::motion::{Ending, EventKind, StressPiece};
+use crate::quantity::{Row, Units};
 use crate::reason::Warning;
 use crate::solve::ExactnessEnd;
 
@@ -67,88 +65,24 @@ impl Head {
     }
 }
 
-/// A contact, its coefficients, and the energies at its end if it has one.
-#[derive(Clone, Debug)]
-pub struct Finished<S> {
-    /// The contact.
-    pub contact: Contact<S>,
-    /// `e_P` and `e_E²`.
-    pub restitution: Restitution<S>,
-    /// The factors of `e_E²`.
-    pub shares: EnergyShares<S>,
-    /// The energies at its end.
-    pub energy: Option<Energy<S>>,
-}
-
-impl<S> Finished<S> {
-    /// Why `e_P` and `e_E²` are not defined, where they are not.
-    pub(super) fn undefined(&self) -> [Option<&Undefined>; 2] {
-        let Restitution { momentum, energy_squared } = &self.restitution;
-        [momentum.as_ref().err(), energy_squared.as_ref().err()]
-    }
-}
-
 /// A history, ready to be printed.
 #[derive(Clone, Debug)]
-pub struct Record<S> {
+pub(crate) struct Record<S> {
     /// Impacts and releases.
-    pub events: Vec<Event<S>>,
+    pub(crate) kinds: Vec<EventKind>,
+    pub(crate) events: Vec<Row<S>>,
     /// Contacts with their coefficients and the energies at their ends.
-    pub contacts: Vec<Finished<S>>,
+    pub(crate) contacts: Vec<Row<S>>,
     /// Flights with their tops.
-    pub flights: Vec<Flight<S>>,
+    pub(crate) flights: Vec<Row<S>>,
     /// The stress at the ground, where it is asked for.
-    pub stress: Vec<StressPiece<S>>,
+    pub(crate) stress: Vec<StressPiece<S>>,
     /// The stress at the ground in equal parts of the history, where a line of blocks shows it.
-    pub outline: Vec<f64>,
+    pub(crate) outline: Vec<f64>,
     /// The last time that is known, and why.
-    pub end: (S, Ending),
+    pub(crate) end: (S, Ending),
     /// Bound on the error relative to the natural scales; zero where all is exact.
-    pub error: f64,
+    pub(crate) error: f64,
     /// Impacts, and the digits that rounding may have taken over them; `None` where that is not followed.
-    pub lost: Option<(u32, f64)>,
-}
-
-impl<S> Record<S> {
-    /// Every number that is printed, with or without those that are ratios of others.
-    pub fn numbers(&self, ratios: bool) -> Vec<&S> {
-        let mut all = vec![&self.end.0];
-        all.extend(self.events.iter().flat_map(Event::numbers));
-        for Finished { contact, restitution, shares, energy } in &self.contacts {
-            all.extend(contact.numbers());
-            if ratios {
-                all.extend(restitution.numbers());
-                all.extend(shares.numbers());
-            }
-            all.extend(energy.iter().flat_map(Energy::numbers));
-        }
-        all.extend(self.flights.iter().flat_map(Flight::numbers));
-        all.extend(self.stress.iter().flat_map(|piece| [&piece.from, &piece.to, &piece.left, &piece.right]));
-        all
-    }
-}
-
-/// Gathers what is printed of `history`; the stress at the ground only if asked for, as it can cost more than all the
-/// rest.
-pub fn record<S: Scalar>(history: &dyn Motion<S>, stress: bool) -> Result<Record<S>, Error> {
-    let end = history.end();
-    let mut contacts = Vec::with_capacity(history.contacts().len());
-    for contact in history.contacts() {
-        contacts.push(Finished {
-            energy: contact.to.as_ref().map(|to| history.energy(to)).transpose()?,
-            restitution: restitution(history, contact.times())?,
-            shares: energy_shares(history, contact.times())?,
-            contact: contact.clone(),
-        });
-    }
-    Ok(Record {
-        events: history.events().to_vec(),
-        contacts,
-        flights: flights(history)?,
-        stress: if stress { history.stress_pieces() } else { Vec::new() },
-        outline: Vec::new(),
-        end: (end, history.ending().clone()),
-        error: history.error_estimate().to_f64(),
-        lost: history.digits_lost(),
-    })
+    pub(crate) lost: Option<(u32, f64)>,
 }

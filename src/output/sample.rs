@@ -2,11 +2,12 @@
 
 use super::dataset::{Cell, Column, Dataset};
 use super::record::Head;
-use super::solve::{Listed, listed, named_units, units_json};
+use super::solve::{listed, named_units, units_json};
 use crate::error::Error;
 use crate::motion::{Motion, Side};
 use crate::number::Scalar;
-use crate::quantity::Measure;
+use crate::quantity::Quantity::*;
+use crate::quantity::{self, Measure};
 
 /// What `sample` can be asked for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, clap::ValueEnum)]
@@ -39,25 +40,14 @@ impl Quantity {
     }
 
     /// What is printed of it, each with the place of its number in [`Sample::values`].
-    fn columns(self) -> &'static [(Listed, usize)] {
-        const STRAIN: Listed = Listed::value("v_x", "values/v_x", Measure::Strain);
-        const STRESS: Listed = Listed::value("stress", "values/stress", Measure::Stress);
-        const FORCE: Listed = Listed::value("force", "values/force", Measure::Force);
-        const V: Listed = Listed::value("v", "values/v", Measure::Length);
-        const V_T: Listed = Listed::value("v_t", "values/v_t", Measure::Velocity);
-        const ENERGY: [(Listed, usize); 3] = [
-            (Listed::value("total", "values/total", Measure::Energy), 0),
-            (Listed::value("translational", "values/translational", Measure::Energy), 1),
-            (Listed::value("vibrational", "values/vibrational", Measure::Energy), 2),
-        ];
-        const H: Listed = Listed::value("h", "values/h", Measure::Length);
-        const H_RATE: Listed = Listed::value("h_rate", "values/h_rate", Measure::Velocity);
+    fn columns(self) -> &'static [(quantity::Quantity, usize)] {
         match self {
-            Quantity::Stress => const { &[(STRAIN, 0), (STRESS, 0), (FORCE, 0)] },
-            Quantity::End | Quantity::Top => const { &[(V, 0), (V_T, 1)] },
-            Quantity::Centre => const { &[(H, 0), (H_RATE, 1)] },
-            Quantity::Energy => &ENERGY,
-            Quantity::Field => const { &[(V, 0), (V_T, 1), (STRAIN, 2), (STRESS, 2)] },
+            Quantity::Stress => &[(Strain, 0), (Stress, 0), (Force, 0)],
+            Quantity::End => &[(EndDisplacement, 0), (EndVelocity, 1)],
+            Quantity::Top => &[(TopDisplacement, 0), (TopVelocity, 1)],
+            Quantity::Centre => &[(Centre, 0), (CentreVelocity, 1)],
+            Quantity::Energy => &[(Energy, 0), (TranslationalEnergy, 1), (VibrationalEnergy, 2)],
+            Quantity::Field => &[(PointDisplacement, 0), (PointVelocity, 1), (PointStrain, 2), (PointStress, 2)],
         }
     }
 }
@@ -108,10 +98,13 @@ pub fn sample<S: Scalar>(
 /// A row for each sample.
 pub(crate) fn samples_data<S: Scalar>(samples: &[Sample<S>], quantity: Quantity, head: &Head) -> Dataset {
     let units = &head.units;
-    let entries: Vec<Listed> = quantity.columns().iter().map(|(entry, _)| *entry).collect();
-    let places = quantity.columns().iter().map(|(_, place)| *place);
-    let values = samples.iter().map(|sample| places.clone().map(|place| sample.values.get(place)).collect());
-    let (values, rows) = listed(&entries, units, values);
+    let (quantities, places): (Vec<_>, Vec<usize>) = quantity.columns().iter().copied().unzip();
+    let values = samples.iter().map(|sample| places.iter().map(|place| sample.values.get(*place)).collect());
+    let column = |quantity: quantity::Quantity| {
+        let key = quantity.key();
+        Column::new(key).keyed(format!("values/{key}"))
+    };
+    let (values, rows) = listed(&quantities, column, units, values);
     let point = Column::new("point").headed("x").with_unit(units.name(Measure::Length));
     let has_points = samples.iter().any(|sample| sample.point.is_some());
     let mut columns = vec![
@@ -126,7 +119,7 @@ pub(crate) fn samples_data<S: Scalar>(samples: &[Sample<S>], quantity: Quantity,
     };
     let rows = samples.iter().zip(rows).map(row).collect();
     let end = head.exact_until.as_ref().map_or_else(String::new, |end| format!("{end}; these are {}\n", head.number));
-    let measures: Vec<Measure> = entries.iter().filter_map(|entry| entry.measure).collect();
+    let measures: Vec<Measure> = quantities.iter().filter_map(|quantity| quantity.measure()).collect();
     let below = end + &named_units(&measures, units) + &head.warning_lines();
     let space = if below.is_empty() { "" } else { "\n" };
     Dataset {

@@ -4,119 +4,88 @@ use serde_json::{Value, json};
 
 use super::dataset::{Cell, Column, Dataset};
 use super::outline::sparkline;
-use super::record::{Finished, Head, Record};
+use super::record::{Head, Record};
 use super::straight::straight;
 use super::writer::{objects, table, table_digits};
-use crate::motion::{Ending, Event, StressPiece};
+use crate::error::Error;
+use crate::motion::{Ending, Motion, StressPiece};
 use crate::number::{DOUBLE_DIGITS, Scalar, bound_json, number_json, show, shown_bound_text};
-use crate::quantity::{Measure, Units};
+use crate::quantity::Quantity::{self, *};
+use crate::quantity::{Measure, Row, Undefined, Units, rows};
 
-/// A quantity of a list.
-#[derive(Clone, Copy)]
-pub(super) struct Listed {
-    /// The head in a table; empty where tables leave it out.
-    head: &'static str,
-    /// The name in CSV; empty where it is left out.
-    name: &'static str,
-    /// The key in JSON; empty where it is left out.
-    key: &'static str,
-    /// What it measures; `None` for a ratio.
-    pub(super) measure: Option<Measure>,
-}
+const EVENT: [Quantity; 4] = [EventTime, EventVelocity, EventCentre, EventCentreVelocity];
+const CONTACT: [Quantity; 13] = [
+    Impact,
+    Release,
+    ContactImpulse,
+    PeakStrain,
+    PeakStress,
+    PeakForce,
+    MomentumRestitution,
+    EnergyRestitution,
+    TranslationalShare,
+    EnergyKept,
+    EnergyLeft,
+    TranslationalLeft,
+    VibrationalLeft,
+];
+const FLIGHT: [Quantity; 4] = [FlightBegins, FlightEnds, TopTime, Top];
+const PIECE: [Quantity; 6] =
+    [PieceBegins, PieceEnds, PieceStrainBegins, PieceStrainEnds, PieceStressBegins, PieceStressEnds];
 
-impl Listed {
-    const fn new(head: &'static str, name: &'static str, key: &'static str, measure: Measure) -> Self {
-        Listed { head, name, key, measure: Some(measure) }
-    }
-
-    /// A quantity whose head is its name.
-    pub(super) const fn value(name: &'static str, key: &'static str, measure: Measure) -> Self {
-        Listed::new(name, name, key, measure)
-    }
-
-    const fn ratio(head: &'static str, name: &'static str, key: &'static str) -> Self {
-        Listed { head, name, key, measure: None }
-    }
-
-    /// Whether it is there: stress and force are with a material only.
-    fn is_present(&self, units: &Units) -> bool {
-        units.has_material() || !matches!(self.measure, Some(Measure::Stress | Measure::Force))
-    }
-
-    fn column(&self, units: &Units) -> Column {
-        let unit = self.measure.map_or("", |measure| units.name(measure));
-        Column::placed([self.head, self.name, self.key]).with_unit(unit).bounded()
-    }
-
-    /// What turns the numbers of a history into its own, where they are not the same.
-    fn factor<S: Scalar>(&self, units: &Units, number: &S) -> Option<S> {
-        let kept = |measure| matches!(measure, Measure::Time | Measure::Length | Measure::Velocity | Measure::Strain);
-        let measure = self.measure.filter(|measure| units.has_material() && !kept(*measure))?;
-        units.factor(measure, &number.precision())
+/// The column of a quantity in a list, in JSON inside of what it belongs to.
+fn column(quantity: Quantity) -> Column {
+    let key = quantity.key();
+    let column = Column::new(key).headed(quantity.symbol());
+    match quantity {
+        EventTime => column.headed(key),
+        MomentumRestitution | EnergyRestitution => {
+            column.named(format!("restitution_{key}")).keyed(format!("restitution/{key}"))
+        }
+        TranslationalShare | EnergyKept => Column::json(format!("restitution/{key}")),
+        EnergyLeft | TranslationalLeft | VibrationalLeft => column.keyed(format!("energy/{key}")),
+        FlightEnds => Column::json(key),
+        TopTime => column.keyed("highest/time"),
+        Top => column.keyed("highest/centre"),
+        PieceStressBegins | PieceStressEnds => Column::csv(key),
+        PieceBegins | PieceEnds | PieceStrainBegins | PieceStrainEnds => Column::data(key),
+        _ => column,
     }
 }
 
-/// The columns of the quantities that these units have, and the rows of their values, each of which has a value for
-/// every quantity.
+/// The columns of the quantities that these units have, and the rows of their numbers, each with one for every
+/// quantity, as a history answers them.
 pub(super) fn listed<'a, S: Scalar>(
-    entries: &[Listed],
+    quantities: &[Quantity],
+    column: fn(Quantity) -> Column,
     units: &Units,
     rows: impl Iterator<Item = Vec<Option<&'a S>>>,
 ) -> (Vec<Column>, Vec<Vec<Cell>>) {
+    let factor = |quantity: &Quantity, number: &S| {
+        let measure = quantity.measure().filter(|_| units.has_material())?;
+        let kept = matches!(measure, Measure::Time | Measure::Length | Measure::Velocity | Measure::Strain);
+        if kept { None } else { units.factor(measure, &number.precision()) }
+    };
+    let present = |quantity: &Quantity| quantity.is_listed(units.has_material());
     let mut factors: Vec<Option<S>> = Vec::new();
     let rows = rows.map(|values| {
         if let (true, Some(number)) = (factors.is_empty(), values.iter().flatten().next()) {
-            factors = entries.iter().map(|entry| entry.factor(units, *number)).collect();
+            factors = quantities.iter().map(|quantity| factor(quantity, *number)).collect();
         }
-        let present = entries.iter().zip(values).enumerate().filter(|(_, (entry, _))| entry.is_present(units));
-        let cell = |(k, (_, value)): (usize, (&Listed, Option<&S>))| match (value, factors.get(k)) {
+        let present = quantities.iter().zip(values).enumerate().filter(|(_, (quantity, _))| present(quantity));
+        let cell = |(k, (_, value)): (usize, (&Quantity, Option<&S>))| match (value, factors.get(k)) {
             (Some(value), Some(Some(factor))) => Cell::number(&(value.clone() * factor)),
             (value, _) => Cell::optional(value),
         };
         present.map(cell).collect()
     });
     let rows = rows.collect();
-    (entries.iter().filter(|entry| entry.is_present(units)).map(|entry| entry.column(units)).collect(), rows)
+    let named = |quantity: &Quantity| {
+        let unit = quantity.measure().map_or("", |measure| units.name(measure));
+        column(*quantity).with_unit(unit).bounded()
+    };
+    (quantities.iter().filter(|quantity| present(quantity)).map(named).collect(), rows)
 }
-
-const EVENT: [Listed; 4] = [
-    Listed::value("time", "time", Measure::Time),
-    Listed::new("v_t(0,t)", "end_velocity", "end_velocity", Measure::Velocity),
-    Listed::new("h", "centre", "centre", Measure::Length),
-    Listed::new("h′", "centre_velocity", "centre_velocity", Measure::Velocity),
-];
-
-const CONTACT: [Listed; 13] = [
-    Listed::new("contact from", "from", "from", Measure::Time),
-    Listed::value("to", "to", Measure::Time),
-    Listed::value("impulse", "impulse", Measure::Impulse),
-    Listed::new("peak v_x(0,t)", "peak_strain", "peak_strain", Measure::Strain),
-    Listed::new("peak stress", "peak_stress", "peak_stress", Measure::Stress),
-    Listed::new("peak force", "peak_force", "peak_force", Measure::Force),
-    Listed::ratio("e_P", "restitution_momentum", "restitution/momentum"),
-    Listed::ratio("e_E²", "restitution_energy_squared", "restitution/energy_squared"),
-    Listed::ratio("", "", "restitution/translational_part"),
-    Listed::ratio("", "", "restitution/energy_kept"),
-    Listed::new("E", "total", "energy/total", Measure::Energy),
-    Listed::new("E_h", "translational", "energy/translational", Measure::Energy),
-    Listed::new("E_z", "vibrational", "energy/vibrational", Measure::Energy),
-];
-
-const FLIGHT: [Listed; 4] = [
-    Listed::new("flight from", "", "from", Measure::Time),
-    Listed::new("", "", "to", Measure::Time),
-    Listed::new("highest at", "", "highest/time", Measure::Time),
-    Listed::new("h_max", "", "highest/centre", Measure::Length),
-];
-
-const PIECE: [Listed; 6] = [
-    Listed::new("", "from", "from", Measure::Time),
-    Listed::new("", "to", "to", Measure::Time),
-    Listed::new("", "strain_from", "strain_from", Measure::Strain),
-    Listed::new("", "strain_to", "strain_to", Measure::Strain),
-    Listed::new("", "stress_from", "", Measure::Stress),
-    Listed::new("", "stress_to", "", Measure::Stress),
-];
 
 /// The part of a history that a CSV file holds.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, clap::ValueEnum)]
@@ -137,66 +106,55 @@ fn dataset((columns, rows): (Vec<Column>, Vec<Vec<Cell>>), head: &Head) -> Datas
     Dataset { columns, rows, digits: head.digits, keys: (!head.wide).then_some(1), ..Dataset::default() }
 }
 
+/// The numbers of rows, where they are defined.
+fn defined<S>(rows: &[Row<S>]) -> impl Iterator<Item = Vec<Option<&S>>> {
+    rows.iter().map(|row| row.iter().map(|value| value.as_ref().ok()).collect())
+}
+
 fn events<S: Scalar>(record: &Record<S>, head: &Head) -> Dataset {
-    let rows = record.events.iter().map(|event| event.numbers().map(Some).to_vec());
-    let mut data = dataset(listed(&EVENT, &head.units, rows), head);
-    let is_uncertain = |event: &Event<S>| event.time.ends(1).is_none() && event.time.log2_error().is_finite();
-    let uncertain = record.events.iter().any(is_uncertain);
+    let mut data = dataset(listed(&EVENT, column, &head.units, defined(&record.events)), head);
+    let times = || record.events.iter().map(|row| row.first().and_then(|time| time.as_ref().ok()));
+    let uncertain = times().flatten().any(|time| time.ends(1).is_none() && time.log2_error().is_finite());
     data.columns.insert(0, Column::new("kind").headed("event").text());
     if uncertain {
         data.columns.insert(2, Column::table("±"));
     }
-    for (row, event) in data.rows.iter_mut().zip(&record.events) {
-        row.insert(0, event.kind.to_string().into());
+    for ((row, kind), time) in data.rows.iter_mut().zip(&record.kinds).zip(times()) {
+        row.insert(0, kind.to_string().into());
         if uncertain {
-            row.insert(2, shown_bound_text(&event.time, table_digits(head.digits)).into());
+            row.insert(2, time.map(|time| shown_bound_text(time, table_digits(head.digits))).into());
         }
     }
     data
 }
 
 fn contacts<S: Scalar>(record: &Record<S>, head: &Head) -> Dataset {
-    let rows = record.contacts.iter().map(|finished| {
-        let Finished { contact, restitution, shares, energy } = finished;
-        let (energy, peak) = (energy.as_ref(), Some(&contact.peak_strain));
-        vec![
-            Some(&contact.from),
-            contact.to.as_ref(),
-            Some(&contact.impulse),
-            peak,
-            peak,
-            peak,
-            restitution.momentum.as_ref().ok(),
-            restitution.energy_squared.as_ref().ok(),
-            shares.translational.as_ref(),
-            shares.kept.as_ref(),
-            energy.map(|e| &e.total),
-            energy.map(|e| &e.translational),
-            energy.map(|e| &e.vibrational),
-        ]
-    });
-    let mut data = dataset(listed(&CONTACT, &head.units, rows), head);
+    let mut data = dataset(listed(&CONTACT, column, &head.units, defined(&record.contacts)), head);
     let undefined = ["momentum", "energy_squared"].map(|name| format!("restitution/undefined/{name}"));
     data.columns.extend(undefined.map(|key| Column::json(key).optional()));
-    for (row, finished) in data.rows.iter_mut().zip(&record.contacts) {
-        row.extend(finished.undefined().map(|reason| reason.map(ToString::to_string).into()));
+    for (row, contact) in data.rows.iter_mut().zip(&record.contacts) {
+        row.extend(undefined_ratios(contact).map(|reason| reason.map(ToString::to_string).into()));
     }
     data
 }
 
+/// Why `e_P` and `e_E²` of a contact are not defined, where they are not.
+fn undefined_ratios<S>(contact: &Row<S>) -> [Option<&Undefined>; 2] {
+    [MomentumRestitution, EnergyRestitution].map(|ratio| {
+        let place = CONTACT.iter().position(|quantity| *quantity == ratio)?;
+        contact.get(place)?.as_ref().err()
+    })
+}
+
 fn flights<S: Scalar>(record: &Record<S>, head: &Head) -> Dataset {
-    let rows = record.flights.iter().map(|flight| {
-        let highest = flight.highest.as_ref();
-        vec![Some(&flight.from), flight.to.as_ref(), highest.map(|top| &top.0), highest.map(|top| &top.1)]
-    });
-    dataset(listed(&FLIGHT, &head.units, rows), head)
+    dataset(listed(&FLIGHT, column, &head.units, defined(&record.flights)), head)
 }
 
 fn pieces<S: Scalar>(pieces: &[StressPiece<S>], coefficients: bool, head: &Head) -> Dataset {
     let rows = pieces
         .iter()
         .map(|piece| [&piece.from, &piece.to, &piece.left, &piece.right, &piece.left, &piece.right].map(Some).to_vec());
-    let mut data = dataset(listed(&PIECE, &head.units, rows), head);
+    let mut data = dataset(listed(&PIECE, column, &head.units, rows), head);
     if coefficients {
         data.columns.push(Column::data("chebyshev").bounded().optional());
         for (row, piece) in data.rows.iter_mut().zip(pieces) {
@@ -204,6 +162,33 @@ fn pieces<S: Scalar>(pieces: &[StressPiece<S>], coefficients: bool, head: &Head)
         }
     }
     data
+}
+
+/// Gathers what is printed of `history`; the stress at the ground only if asked for, as it can cost more than all the
+/// rest.
+pub(crate) fn record<S: Scalar>(history: &dyn Motion<S>, stress: bool) -> Result<Record<S>, Error> {
+    Ok(Record {
+        kinds: history.events().iter().map(|event| event.kind).collect(),
+        events: rows(history, &EVENT)?,
+        contacts: rows(history, &CONTACT)?,
+        flights: rows(history, &FLIGHT)?,
+        stress: if stress { history.stress_pieces() } else { Vec::new() },
+        outline: Vec::new(),
+        end: (history.end(), history.ending().clone()),
+        error: history.error_estimate().to_f64(),
+        lost: history.digits_lost(),
+    })
+}
+
+impl<S> Record<S> {
+    /// Every number that is printed, with or without those that are ratios of others.
+    pub(crate) fn numbers(&self, ratios: bool) -> Vec<&S> {
+        let contacts = self.contacts.iter().flat_map(|row| row.iter().zip(CONTACT));
+        let contacts = contacts.filter(|(_, quantity)| ratios || quantity.measure().is_some()).map(|(value, _)| value);
+        let others = self.events.iter().chain(&self.flights).flatten();
+        let pieces = self.stress.iter().flat_map(|piece| [&piece.from, &piece.to, &piece.left, &piece.right]);
+        [&self.end.0].into_iter().chain(contacts.chain(others).flatten()).chain(pieces).collect()
+    }
 }
 
 /// The whole history, schema 1.
@@ -315,7 +300,7 @@ pub(crate) fn history_table<S: Scalar>(record: &Record<S>, head: &Head) -> Strin
     }
     out += "\n";
     if !record.outline.is_empty() {
-        let peaks = record.contacts.iter().map(|finished| finished.contact.peak_strain.to_f64());
+        let peaks = record.contacts.iter().filter_map(|contact| Some(contact.get(3)?.as_ref().ok()?.to_f64()));
         out += &sparkline(&record.outline, record.end.0.to_f64(), peaks.fold(0.0, f64::min), head);
     }
     out += &format!("{}\n\n{}\n\n", table(&events(record, head)), table(&contacts(record, head)));
@@ -323,9 +308,9 @@ pub(crate) fn history_table<S: Scalar>(record: &Record<S>, head: &Head) -> Strin
         let measures = [Measure::Impulse, Measure::Stress, Measure::Force, Measure::Energy];
         out += &named_units(&measures, &head.units);
     }
-    for finished in &record.contacts {
-        let from = show(&finished.contact.from);
-        let mut reasons = finished.undefined().to_vec();
+    for contact in &record.contacts {
+        let from = contact.first().and_then(|from| from.as_ref().ok()).map_or_else(String::new, show);
+        let mut reasons = undefined_ratios(contact).to_vec();
         reasons.dedup();
         for reason in reasons.into_iter().flatten() {
             out += &head.line(&format!("contact from {from}: {reason}"));

@@ -82,8 +82,7 @@ pub(crate) fn published_table(published: &[Published]) -> String {
 pub(crate) fn published_page(published: &[Published]) -> String {
     let mut out = String::from(
         "## Published values of other programs\n\nEach value that a built-in scene lists as published, \
-         and whether ours rounds to it (or is within what the scene says it may be off). \
-         `dalembert scenes NAME --targets` shows both.\n\n\
+         and whether ours rounds to it (or is within what the scene says it may be off).\n\n\
          | scene | quantity | t | published | | source |\n|---|---|---|---|---|---|\n",
     );
     for Published { scene, reached } in published {

@@ -47,20 +47,39 @@ pub type Columns<S> = Vec<(&'static str, Vec<Option<S>>)>;
 ///
 /// **Errors**: what the history cannot answer.
 pub fn table<S: Scalar>(motion: &dyn Motion<S>, table: Table, units: &Units) -> Result<Columns<S>, Error> {
-    let present = table.quantities().iter().filter(|quantity| quantity.is_listed(units.has_material()));
-    let mut columns: Columns<S> = Vec::new();
-    let mut rows: Option<(Source, Vec<Row<S>>)> = None;
-    for quantity in present {
+    let present = table.quantities().iter().copied().filter(|quantity| quantity.is_listed(units.has_material()));
+    let present: Vec<Quantity> = present.collect();
+    let rows = rows(motion, &present)?;
+    let column = |(k, quantity): (usize, &Quantity)| {
+        let factor = quantity.factor(motion, units);
+        let value = |row: &Row<S>| row.get(k)?.clone().ok().map(|value| quantity.scaled(value, factor.as_ref()));
+        (quantity.key(), rows.iter().map(value).collect())
+    };
+    Ok(present.iter().enumerate().map(column).collect())
+}
+
+/// The values of quantities of one kind for each event, contact, flight or piece, as the history answers them, or why
+/// there is none.
+///
+/// **Errors**: what the history cannot answer.
+pub(crate) fn rows<S: Scalar>(motion: &dyn Motion<S>, quantities: &[Quantity]) -> Result<Vec<Row<S>>, Error> {
+    let mut all: Vec<Row<S>> = Vec::new();
+    let mut known: Option<(Source, Vec<Row<S>>)> = None;
+    for quantity in quantities {
         let (source, place) = quantity.source();
         // Neighbours have one source.
-        if rows.as_ref().is_none_or(|known| known.0 != source) {
-            rows = Some((source, source.rows(motion, None)?));
+        if known.as_ref().is_none_or(|known| known.0 != source) {
+            known = Some((source, source.rows(motion, None)?));
         }
-        let factor = quantity.factor(motion, units);
-        let value = |row: &Row<S>| row.get(place)?.clone().ok().map(|value| quantity.scaled(value, factor.as_ref()));
-        columns.push((quantity.key(), rows.iter().flat_map(|(_, rows)| rows).map(value).collect()));
+        let answers = known.iter().flat_map(|(_, rows)| rows);
+        for (k, answer) in answers.enumerate() {
+            if all.len() <= k {
+                all.push(Vec::with_capacity(quantities.len()));
+            }
+            all[k].extend(answer.get(place).cloned());
+        }
     }
-    Ok(columns)
+    Ok(all)
 }
 
 /// The value of `quantity` of a contact, counted from 0, in units of the problem.
@@ -80,7 +99,7 @@ pub fn of_contact<S: Scalar>(
 }
 
 /// The answers to one question for one contact, event, flight or piece.
-type Row<S> = Vec<Result<S, Undefined>>;
+pub(crate) type Row<S> = Vec<Result<S, Undefined>>;
 
 impl Source {
     /// Its answers for every contact, event, flight or piece; for the `only` one, counted from 0, where that is given.

@@ -21,6 +21,8 @@ pub use column::columns;
 pub(crate) use column::of_one_size;
 pub use flight::{Flight, flights};
 pub use listing::{Columns, Table, of_contact, table};
+#[cfg(feature = "cli")]
+pub(crate) use listing::{Row, rows};
 pub use restitution::{EnergyShares, Restitution, Undefined, energy_shares, restitution};
 pub use slice::{SLICE, Slice, slices};
 pub use table::{Needs, Quantity, Rays, Sign};

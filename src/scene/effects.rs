@@ -31,7 +31,7 @@ pub enum Effect {
     SiForces,
     /// Energies and the field at other times than the ends of contacts: what `sample` asks for.
     FieldEnergies,
-    /// Fractions or more bits than doubles have: what `--exact` and `--digits` ask for.
+    /// Fractions or more bits than doubles have: what digits and fractions take.
     ArbitraryPrecision,
 }
 
@@ -126,7 +126,7 @@ impl Scene {
                 None,
                 "energies at the ends of contacts only; `sample` asks for the field and for other times".into(),
             ),
-            Effect::ArbitraryPrecision => (false, None, "a scene does not ask for it; --digits and --exact do".into()),
+            Effect::ArbitraryPrecision => (false, None, "a scene does not ask for it".into()),
         };
         EffectUse { effect, called, line: key.and_then(|key| self.line_of(key)), because }
     }

@@ -152,7 +152,8 @@ impl Scalar for Interval {
 
     fn proved(&self, digits: u32) -> u32 {
         let agree = |digits: &u32| self.lo.decimal(*digits) == self.hi.decimal(*digits);
-        (1..=digits).rev().find(agree).unwrap_or(0)
+        // Ends at both sides of 0.25 agree in no first digit, but in two.
+        (1..=digits).rev().chain(digits + 1..digits + 3).find(agree).unwrap_or(0)
     }
 
     fn text(&self) -> String {
