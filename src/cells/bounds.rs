@@ -2,6 +2,7 @@
 
 use super::budget::AtEvent;
 use super::history::Damped;
+use super::start::Units;
 use crate::error::Error;
 use crate::motion::moments::{self, Moments, Sums};
 use crate::motion::{Contact, Course, Event, EventKind, Field, Motion, Pair, Scales, Side, StressPiece};
@@ -291,11 +292,14 @@ impl<S: RoundedSpecial> Motion<Estimate<S>> for Damped<S> {
             }
             Pair::Energy => {
                 let (height, rate) = self.centre(time)?;
-                let Scales { length, gravity, .. } = self.data.units.scales().map(Estimate::exact);
-                let translational = (rate.square() * rate.ratio(1, 2) + gravity * height) * length;
+                let Units { length, gravity, .. } = &self.data.units;
+                let (speed, place) = (rate.value(), height.value());
+                let translational = (speed.square() * speed.ratio(1, 2) + gravity.clone() * place) * length;
+                let of_height = self.scales.length * self.scales.gravity * height.bound();
+                let by_centre = self.square_off(speed.to_f64().abs(), rate.bound()) + of_height;
                 let vibration = self.vibration_of(time.value())?;
                 let off = self.energy_off(&vibration, self.root_off(time)?, self.by_rays(time));
-                [translational, within(&vibration, off)]
+                [within(&translational, by_centre), within(&vibration, off)]
             }
             // Of each mean square as of the vibration.
             Pair::EnergyParts => {

@@ -6,8 +6,8 @@ use crate::number::Scalar;
 /// The rays of a motion, by the times at which they leave the ground, modulo round trips.
 ///
 /// **Source**: a ray that leaves the ground at τ passes the point x at `τ + x/c + k t₁` and `τ − x/c + (k + 1) t₁`,
-/// `k ≥ 0`. RayRegister begin at impacts and releases, and at the points between which the data of the start are linear: as if
-/// they had left the ground before.
+/// `k ≥ 0`. Rays begin at impacts and releases, and at the points between which the data of the start are linear: these
+/// as if they had left the ground before.
 ///
 /// **Accuracy**: each time is known within the bound that it carries, and no other tolerance tells two rays apart.
 #[derive(Clone, Debug)]
@@ -15,11 +15,11 @@ pub struct RayRegister<S> {
     round_trip: S,
     wave_speed: S,
     end: S,
-    /// RayRegister that are at the ground at the same times, modulo round trips, in the order of these.
+    /// Rays that are at the ground at the same times, modulo round trips, in the order of these.
     known: Vec<Phase<S>>,
 }
 
-/// RayRegister whose times differ by whole round trips.
+/// Rays whose times differ by whole round trips.
 #[derive(Clone, Debug)]
 struct Phase<S> {
     /// The fraction of a round trip, in doubles.
@@ -39,7 +39,7 @@ pub struct Passing<S> {
     pub jump: bool,
 }
 
-/// RayRegister are compared in the numbers of the run where doubles tell them apart by less than this part of a round trip:
+/// Rays are compared in the numbers of the run where doubles tell them apart by less than this part of a round trip:
 /// doubles hold a fraction of a million round trips to 1e-10.
 const NEAR: f64 = 1e-6;
 
