@@ -50,19 +50,20 @@ pub(super) fn asked(table: &Table) -> String {
 pub(crate) fn cost_data(cost: &Table, title: Option<&str>) -> Dataset {
     let row = |row: &Row| {
         let timing = &row.timing;
+        let mark = if row.chosen { "← the plan" } else { "" };
         vec![
-            row.family.name().into(),
-            row.setting.clone().into(),
-            if row.chosen { "← the plan" } else { "" }.into(),
-            error(row).into(),
-            row.error().into(),
-            row.log10_error.into(),
-            duration(timing.seconds).into(),
-            timing.seconds.into(),
-            timing.spread.map(duration).into(),
-            timing.spread.into(),
-            timing.runs.into(),
-            row.chosen.into(),
+            (Column::new("route").text(), row.family.name().into()),
+            (Column::new("setting").text(), row.setting.clone().into()),
+            (Column::table("").text(), mark.into()),
+            (Column::table("error").named("error"), error(row).into()),
+            (Column::json("error"), row.error().into()),
+            (Column::json("log10_error"), row.log10_error.into()),
+            (Column::table("time"), duration(timing.seconds).into()),
+            (Column::data("seconds"), timing.seconds.into()),
+            (Column::table("spread"), timing.spread.map(duration).into()),
+            (Column::data("spread_seconds"), timing.spread.into()),
+            (Column::new("runs"), timing.runs.into()),
+            (Column::data("chosen"), row.chosen.into()),
         ]
     };
     let left_out = cost
@@ -94,23 +95,8 @@ pub(crate) fn cost_data(cost: &Table, title: Option<&str>) -> Dataset {
             ("left_out", left_out.collect()),
         ],
         list: "rows",
-        columns: vec![
-            Column::new("route").text(),
-            Column::new("setting").text(),
-            Column::table("").text(),
-            Column::table("error").named("error"),
-            Column::json("error"),
-            Column::json("log10_error"),
-            Column::table("time"),
-            Column::data("seconds"),
-            Column::table("spread"),
-            Column::data("spread_seconds"),
-            Column::new("runs"),
-            Column::data("chosen"),
-        ],
-        rows: cost.rows.iter().map(row).collect(),
         around: [format!("{above}{} = {truth:?}\n\n", asked(cost)), below],
-        ..Dataset::default()
+        ..Dataset::of(cost.rows.iter().map(row))
     }
 }
 
@@ -118,21 +104,21 @@ pub(crate) fn cost_data(cost: &Table, title: Option<&str>) -> Dataset {
 pub(crate) fn effects_data(rows: &[Difference], title: Option<&str>) -> Dataset {
     let row = |row: &Difference| {
         vec![
-            row.name().into(),
-            if row.called { "yes" } else { "no" }.into(),
-            row.called.into(),
-            duration(row.with.seconds).into(),
-            row.with.seconds.into(),
-            duration(row.without.seconds).into(),
-            row.without.seconds.into(),
-            duration(row.seconds).into(),
-            row.seconds.into(),
-            row.spread.into(),
-            duration(row.noise()).into(),
-            row.noise().into(),
-            row.with.runs.into(),
-            if row.is_noise() { "within the noise" } else { "" }.into(),
-            row.is_noise().into(),
+            (Column::new("effect").text(), row.name().into()),
+            (Column::table("called for").text(), if row.called { "yes" } else { "no" }.into()),
+            (Column::data("called"), row.called.into()),
+            (Column::table("with"), duration(row.with.seconds).into()),
+            (Column::data("with_seconds"), row.with.seconds.into()),
+            (Column::table("without"), duration(row.without.seconds).into()),
+            (Column::data("without_seconds"), row.without.seconds.into()),
+            (Column::table("costs"), duration(row.seconds).into()),
+            (Column::data("seconds"), row.seconds.into()),
+            (Column::json("spread_seconds"), row.spread.into()),
+            (Column::table("noise"), duration(row.noise()).into()),
+            (Column::data("noise_seconds"), row.noise().into()),
+            (Column::json("runs"), row.with.runs.into()),
+            (Column::table(""), if row.is_noise() { "within the noise" } else { "" }.into()),
+            (Column::data("noise"), row.is_noise().into()),
         ]
     };
     let below = "\n\nwith:    the scene as planned\n\
@@ -142,25 +128,7 @@ pub(crate) fn effects_data(rows: &[Difference], title: Option<&str>) -> Dataset 
     Dataset {
         header: vec![("schema", 1.into()), ("title", title.into()), ("quantity", "effects".into())],
         list: "rows",
-        columns: vec![
-            Column::new("effect").text(),
-            Column::table("called for").text(),
-            Column::data("called"),
-            Column::table("with"),
-            Column::data("with_seconds"),
-            Column::table("without"),
-            Column::data("without_seconds"),
-            Column::table("costs"),
-            Column::data("seconds"),
-            Column::json("spread_seconds"),
-            Column::table("noise"),
-            Column::data("noise_seconds"),
-            Column::json("runs"),
-            Column::table(""),
-            Column::data("noise"),
-        ],
-        rows: rows.iter().map(row).collect(),
         around: [title.map_or_else(String::new, |title| format!("{title}\n\n")), below.into()],
-        ..Dataset::default()
+        ..Dataset::of(rows.iter().map(row))
     }
 }

@@ -222,6 +222,17 @@ pub(crate) struct Dataset {
 }
 
 impl Dataset {
+    /// Rows whose values each come with their column.
+    pub(crate) fn of(rows: impl Iterator<Item = Vec<(Column, Cell)>>) -> Self {
+        let mut data = Dataset::default();
+        for row in rows {
+            let (columns, cells) = row.into_iter().unzip();
+            data.columns = columns;
+            data.rows.push(cells);
+        }
+        data
+    }
+
     /// For a person; without rows only what stands around them.
     pub(crate) fn table(&self) -> String {
         let table = if self.rows.is_empty() { String::new() } else { writer::table(self) };

@@ -6,12 +6,7 @@ use std::path::Path;
 
 use tempfile::NamedTempFile;
 
-/// Writes `bytes` to `path`, or to standard output for `-` or none. A file appears complete or not at all.
-pub fn write_whole(path: Option<&Path>, bytes: &[u8]) -> io::Result<()> {
-    write_together(&[(path, bytes)]).map_err(|(_, error)| error)
-}
-
-/// [`write_whole`] for several: all files appear, or none.
+/// Writes bytes to each path, or to standard output for `-` or none: all files appear, each complete, or none.
 ///
 /// **Errors**: with the place of the one that cannot be written.
 pub(crate) fn write_together(files: &[(Option<&Path>, &[u8])]) -> Result<(), (usize, io::Error)> {

@@ -32,7 +32,6 @@ pub(crate) use dataset::Dataset;
 pub(crate) use draw::Rendered;
 pub(crate) use draw::{Size, plain};
 pub(crate) use figures::{figure_data, figure_sheet, figures_index};
-pub use file::write_whole;
 pub(crate) use file::{write_files, write_filled, write_together};
 pub(crate) use outline::outline;
 pub use plot::scene_svg;

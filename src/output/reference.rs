@@ -312,14 +312,14 @@ impl Rows {
             Golden::Json => [",\n    [", ", ", "]"],
             _ => ["", ",", "\n"],
         };
-        text.extend(begin.bytes());
+        text.extend_from_slice(begin.as_bytes());
         for (k, (column, values)) in self.columns.iter().zip(table).enumerate() {
             if k > 0 {
-                text.extend(between.bytes());
+                text.extend_from_slice(between.as_bytes());
             }
             self.value(text, column, &values[row]);
         }
-        text.extend(end.bytes());
+        text.extend_from_slice(end.as_bytes());
     }
 
     fn value<S: Scalar>(&self, text: &mut Vec<u8>, column: &Described, value: &S) {
@@ -327,16 +327,16 @@ impl Rows {
         if column.is_side() {
             let quote = if json { "\"" } else { "" };
             let word = ["left", "both", "right"][(value.to_f64() + 1.0) as usize];
-            return text.extend([quote, word, quote].into_iter().flat_map(str::bytes));
+            return [quote, word, quote].iter().for_each(|part| text.extend_from_slice(part.as_bytes()));
         }
         if column.is_flag() {
             return text.push(if value.to_f64() > 0.0 { b'1' } else { b'0' });
         }
         match value.as_double() {
             // The shortest text that reads as the same double; no negative zero.
-            Some(_) => text.extend(ryu::Buffer::new().format(written(value)).bytes()),
-            None if json => text.extend(number_json(value, self.digits).to_string().bytes()),
-            None => text.extend(show(value, self.shown()).bytes()),
+            Some(_) => text.extend_from_slice(ryu::Buffer::new().format(written(value)).as_bytes()),
+            None if json => text.extend_from_slice(number_json(value, self.digits).to_string().as_bytes()),
+            None => text.extend_from_slice(show(value, self.shown()).as_bytes()),
         }
     }
 }

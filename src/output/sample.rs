@@ -1,5 +1,7 @@
 //! Values of a quantity at chosen times.
 
+use clap::ValueEnum;
+
 use super::dataset::{Cell, Column, Dataset};
 use super::record::Head;
 use super::solve::{listed, named_units, units_json};
@@ -27,18 +29,6 @@ pub enum Quantity {
 }
 
 impl Quantity {
-    /// The name of the quantity itself.
-    pub fn name(self) -> &'static str {
-        match self {
-            Quantity::Stress => "stress",
-            Quantity::End => "end",
-            Quantity::Top => "top",
-            Quantity::Centre => "centre",
-            Quantity::Energy => "energy",
-            Quantity::Field => "field",
-        }
-    }
-
     /// What is printed of it, each with the place of its number in [`Sample::values`].
     fn columns(self) -> &'static [(quantity::Quantity, usize)] {
         match self {
@@ -127,7 +117,7 @@ pub(crate) fn samples_data<S: Scalar>(samples: &[Sample<S>], quantity: Quantity,
             ("schema", 1.into()),
             ("title", head.title.clone().into()),
             ("number", head.number.clone().into()),
-            ("quantity", quantity.name().into()),
+            ("quantity", quantity.to_possible_value().map(|value| value.get_name().to_string()).into()),
             ("units", units_json(units)),
             ("exact_until", head.exact_until_json()),
             ("warnings", head.warning_texts().into()),
