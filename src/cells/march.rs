@@ -181,7 +181,7 @@ impl<S: Rounded> Medium<S> {
     }
 
     /// Marches over the first segment. `visit` sees every cell before it is crossed.
-    pub(super) fn strip(&self, state: &mut State<S>, contact: bool, visit: &mut impl FnMut(&Cell<'_, S>)) {
+    pub(super) fn strip(&self, state: &mut State<S>, contact: bool, visit: &mut dyn FnMut(&Cell<'_, S>)) {
         let Some(first) = state.segments.pop_front() else { return };
         let zero = first.len.zero();
         let begin = first.at.int(state.round) + &first.at;
@@ -231,7 +231,7 @@ impl<S: Rounded> Medium<S> {
         state: &mut State<S>,
         (p, q): (Segment<S>, Segment<S>),
         corner: (S, S),
-        visit: &mut impl FnMut(&Cell<'_, S>),
+        visit: &mut dyn FnMut(&Cell<'_, S>),
     ) {
         let depth = self.kappa.clone() * &p.len;
         let (mut up, offset) = (p.q.clone(), depth.zero());

@@ -238,7 +238,7 @@ impl<S: Rounded> Data<S> {
     }
 
     /// Marches from `ξ = −1` to `ξ = 0`. `visit` sees every cell; those beyond `x = ½` are mirror images.
-    pub(super) fn march(&self, medium: &Medium<S>, visit: &mut impl FnMut(&Cell<'_, S>)) -> State<S> {
+    pub(super) fn march(&self, medium: &Medium<S>, visit: &mut dyn FnMut(&Cell<'_, S>)) -> State<S> {
         let zero = self.slope.zero();
         let mirror = self.half.iter().rev().map(|piece| piece.mirrored(medium.free_top));
         let mut pieces: Vec<Linear<S>> = Vec::new();

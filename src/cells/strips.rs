@@ -86,7 +86,7 @@ impl<S: RoundedSpecial> Strips<S> {
     }
 
     /// Marches over the next piece, and shows its cells.
-    pub(super) fn strip(&mut self, medium: &Medium<S>, piece: &Piece<S>, visit: &mut impl FnMut(&Cell<'_, S>)) {
+    pub(super) fn strip(&mut self, medium: &Medium<S>, piece: &Piece<S>, visit: &mut dyn FnMut(&Cell<'_, S>)) {
         if piece.cut {
             medium.cut_first(&mut self.state, &piece.len, Default::default());
         }
@@ -103,7 +103,7 @@ impl<S: RoundedSpecial> Strips<S> {
     }
 
     /// Shows the cells of a strip that is kept.
-    pub(super) fn show(&self, strip: usize, visit: &mut impl FnMut(&Cell<'_, S>)) {
+    pub(super) fn show(&self, strip: usize, visit: &mut dyn FnMut(&Cell<'_, S>)) {
         self.strips[strip].iter().for_each(|kept| visit(&kept.cell()));
     }
 }
