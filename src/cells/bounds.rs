@@ -3,73 +3,12 @@
 use super::budget::AtEvent;
 use super::history::Damped;
 use super::start::Units;
+use super::uncertainty::{Uncertainty, meant, rounded, wider, within};
 use crate::error::Error;
 use crate::motion::moments::{self, Moments, Sums};
 use crate::motion::{Contact, Course, Event, EventKind, Field, Motion, Pair, Scales, Side, StressPiece};
 use crate::number::{Estimate, Rounded, Scalar};
 use crate::special::RoundedSpecial;
-
-/// How far the values of a run may be off between two events, in natural scales, away from rays that are off in time.
-#[derive(Clone, Copy, Debug, Default)]
-pub(super) struct Uncertainty {
-    /// Displacements, in `V t₁`, as far as the events are in time.
-    pub(super) rise: f64,
-    /// Velocities and `c v_x`, in `V`, as far as the events are in time.
-    pub(super) speed: f64,
-    /// `h′`, in `V`, as far as the events are in time.
-    pub(super) rate: f64,
-    /// How early or late the events may be, in `t₁`.
-    pub(super) late: f64,
-    /// `|dv_t/dt|` between rays, in `V/t₁`: what lateness makes of velocities.
-    pub(super) slope: f64,
-    /// The most of `|v_t|` and `|c v_x|`, in `V`: what lateness makes of displacements and of integrals along the rod.
-    pub(super) most: f64,
-    /// The most of `v_t ± c v_x` about the centre of mass, in `V`: what a ray that is off in time makes of energies.
-    pub(super) peak: f64,
-    /// How far rays may be off, in `t₁`: what the limits next to them, and peaks, are off by is that times the slope.
-    pub(super) rays: f64,
-}
-
-impl Uncertainty {
-    /// The greater in all.
-    pub(super) fn max(self, other: Self) -> Self {
-        Uncertainty {
-            rise: self.rise.max(other.rise),
-            speed: self.speed.max(other.speed),
-            rate: self.rate.max(other.rate),
-            late: self.late.max(other.late),
-            slope: self.slope.max(other.slope),
-            most: self.most.max(other.most),
-            peak: self.peak.max(other.peak),
-            rays: self.rays.max(other.rays),
-        }
-    }
-}
-
-/// `value` as it is stored.
-pub(super) fn rounded<S: Rounded>(value: &S) -> Estimate<S> {
-    Estimate::rounded(value.clone(), 1.0)
-}
-
-/// `value` within `bound`.
-pub(super) fn within<S: Rounded>(value: &S, bound: f64) -> Estimate<S> {
-    Estimate::new(value.clone(), bound / value.unit() + value.to_f64().abs())
-}
-
-/// `value` with so much more in its bound.
-pub(super) fn wider<S: Rounded>(value: Estimate<S>, bound: f64) -> Estimate<S> {
-    Estimate::new(value.value().clone(), value.error() + bound / value.value().unit())
-}
-
-/// The time that is asked about: that of the nearest event, where roundings alone set it apart.
-pub(super) fn meant<'a, S: Rounded>(events: &'a [Event<Estimate<S>>], time: &'a Estimate<S>) -> &'a Estimate<S> {
-    let next = events.partition_point(|event| event.time.value() < time.value());
-    let near = events[next.saturating_sub(1)..].iter().take(2).map(|event| &event.time);
-    let roundings = 4.0 * time.value().unit() * time.value().to_f64().abs();
-    let apart = |event: &&Estimate<S>| (event.value().clone() - time.value()).to_f64().abs();
-    let nearest = near.min_by(|a, b| apart(a).total_cmp(&apart(b)));
-    nearest.filter(|event| apart(event) <= time.bound() + event.bound().min(roundings)).unwrap_or(time)
-}
 
 /// Bounds near a time, in the units of the problem.
 struct Near {

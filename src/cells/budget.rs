@@ -6,9 +6,9 @@
 //! at equal times since the last event, and follows with their signs what the time of that event and the velocity of
 //! the centre owe to each source of error.
 
-use super::bounds::Uncertainty;
 use super::dependence::{Dependence, Form};
 use super::effort::LEAST_LEAP;
+use super::uncertainty::Uncertainty;
 use crate::special::{phi1, phi2};
 
 /// What either account says of an error.

@@ -2,10 +2,11 @@
 
 use std::ops::ControlFlow;
 
-use super::bounds::{bounded_piece, meant, rounded, within};
+use super::bounds::bounded_piece;
 use super::effort::Effort;
 use super::history::Damped;
 use super::piece::Unresolved;
+use super::uncertainty::{meant, rounded, within};
 use crate::error::Error;
 use crate::first_contact::{Bounce, ContactHistory, FirstContact};
 use crate::motion::moments::Moments;

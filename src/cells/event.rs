@@ -1,10 +1,10 @@
 //! What an event does to the state, and to the bound of its error.
 
-use super::bounds::Uncertainty;
 use super::budget::{AtEvent, LEAP_CELLS, Landing, Off, TakeOff, weight_rest};
 use super::follow::{Follower, Goal};
 use super::piece::{Mark, Unresolved};
 use super::series::{at_zero, derivative, evaluate};
+use super::uncertainty::Uncertainty;
 use crate::motion::EventKind;
 use crate::reason::Warning;
 use crate::special::RoundedSpecial;

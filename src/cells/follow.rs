@@ -7,7 +7,6 @@
 use std::ops::ControlFlow;
 
 use super::bounce::Held;
-use super::bounds::Uncertainty;
 use super::budget::{Budget, CUT_CELLS, FIRST_CELLS, LEAP_CELLS, Off};
 use super::effort::{Effort, LEAST_LEAP, MOST_PIECES, MOST_SEGMENTS};
 use super::flight::Flight;
@@ -16,6 +15,7 @@ use super::piece::{Checkpoint, Found, Mark, Piece, Unresolved};
 use super::root::first_descent;
 use super::series::{at_one, at_zero, bound, derivative, evaluate};
 use super::start::Data;
+use super::uncertainty::Uncertainty;
 use crate::error::Error;
 use crate::motion::{Ending, EventKind};
 use crate::number::Estimate;

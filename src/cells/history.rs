@@ -3,7 +3,6 @@
 use std::ops::ControlFlow;
 
 use super::bounce::Held;
-use super::bounds::{Uncertainty, within};
 use super::budget::AtEvent;
 use super::effort::Effort;
 use super::flight::Flight;
@@ -15,6 +14,7 @@ use super::root::smallest;
 use super::series::{at_one, at_zero, evaluate};
 use super::start::{Data, Units, medium};
 use super::strips::{Line, Node, Pool};
+use super::uncertainty::{Uncertainty, within};
 use crate::error::Error;
 use crate::first_contact::{FirstContact, Rebound};
 use crate::motion::{Course, Ending, Event, Field, Scales, Side, StressPiece, moments, unobserved};

@@ -6,8 +6,8 @@
 //! trips at once. `root` finds events, `effort` limits a run, `follow` decides what happens at the ground, `event` does
 //! it, `piece` is what remains of it, `budget` adds up what all of it may be off by, with the signs that `dependence`
 //! follows, `rest` says when nothing more can happen. `record` gets the field back, from cells that `strips` keeps for
-//! the next question, `history` answers questions, `bounds` says what each answer may be off by, `contact_then_cells`
-//! puts the closed form of the first contact before them.
+//! the next question, `history` answers questions, `bounds` gives the answers the bounds that the `uncertainty` of the
+//! run makes of them, `contact_then_cells` puts the closed form of the first contact before them.
 
 mod bounce;
 mod bounds;
@@ -31,6 +31,7 @@ mod root;
 mod series;
 mod start;
 mod strips;
+mod uncertainty;
 
 pub use contact_then_cells::{ContactThenCells, Reach};
 pub use effort::Effort;
