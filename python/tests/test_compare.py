@@ -89,7 +89,7 @@ def test_limits_are_those_of_the_command(command, run, tmp_path):
         c.assert_below(limits)
     assert c.fails_above({"u": {"l2": 10}}) == [] and c.assert_below({}) is None
     for limits, said in [
-        ({"w": {"l2": 1}}, "found --fail-above w, expected one of u_end"),
+        ({"w": {"l2": 1}}, "found a bound of w, expected one of u_end"),
         ({"u": {"l3": 1}}, "found `u.l3=1.0`, expected QUANTITY.NORM=BOUND"),
         ({"u": {"l2": -1}}, "expected QUANTITY.NORM=BOUND"),
         ({"u": {"l2": float("nan")}}, "expected QUANTITY.NORM=BOUND"),
@@ -115,7 +115,7 @@ def of(values, **options):
         (ValueError, "array of type complex128", of(T * 1j)),
         (ValueError, "found no quantity in the columns t, w", of(T, quantity="w")),
         (ValueError, "found axis = left, expected up or down", of(T, axis="left")),
-        (ValueError, "found --dt 0, expected more than zero", lambda: dalembert.compare(ROD, {"u": T}, dt=0)),
+        (ValueError, "found dt 0, expected more than zero", lambda: dalembert.compare(ROD, {"u": T}, dt=0)),
         (ValueError, "cannot be read", lambda: dalembert.compare(ROD, "nowhere.csv")),
         (AttributeError, "one of files", lambda: dalembert.compare(ROD, [{"t": T, "u": T}] * 2).norms),
     ],

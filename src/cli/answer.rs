@@ -11,7 +11,7 @@ use crate::output::Head;
 use crate::problem::Parameters;
 use crate::quantity::{Measure, Units};
 use crate::scene::{Effect, Scene};
-use crate::solve::{History, Plan, Question, Solution, Target};
+use crate::solve::{History, Plan, Question, Target, Visitor};
 
 /// What stands above the numbers of a scene.
 pub(super) fn head(scene: &Scene, plan: &Plan) -> Head {
@@ -117,16 +117,28 @@ pub(super) fn solve(scene: &Scene, question: &Question, visit: &impl Visit) -> R
     let head = head(scene, &plan);
     let progress = source::Progress::of(scene, &plan);
     let solution = plan.solve(&scene.problem, progress.observer())?;
-    let digits = |digits: u32, head: Head| Head { digits, ..head };
-    match &solution {
-        Solution::Double(motion) => visit.visit(motion, head, progress),
-        Solution::Exact(motion) => visit.visit(motion, head, progress),
-        Solution::Certified(motion, n) => visit.visit(motion, digits(*n, head), progress),
-        Solution::Digits(motion, n) => visit.visit(motion, digits(*n, head), progress),
-        Solution::DigitsAfter(motion, n, end) => {
+    let n = solution.digits();
+    let head = match solution.exactness_end() {
+        None => Head { digits: n, ..head },
+        Some(end) => {
             eprintln!("note: {end}; what follows is in {n} digits");
-            let (number, exact_until) = (format!("{n} digits"), Some(end.clone()));
-            visit.visit(motion, Head { digits: *n, number, exact_until, ..head }, progress)
+            Head { digits: n, number: format!("{n} digits"), exact_until: Some(end.clone()), ..head }
         }
+    };
+    solution.visit(Visited { visit, head, progress })
+}
+
+/// A visit with what it is given.
+struct Visited<'a, V> {
+    visit: &'a V,
+    head: Head,
+    progress: source::Progress,
+}
+
+impl<V: Visit> Visitor for Visited<'_, V> {
+    type Output = Result<(), Failure>;
+
+    fn visit<S: Target>(self, history: &History<S>) -> Result<(), Failure> {
+        self.visit.visit(history, self.head, self.progress)
     }
 }

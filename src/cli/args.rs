@@ -3,12 +3,22 @@
 use std::path::PathBuf;
 
 use clap::Args;
+use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
 
 use super::failure::Failure;
 use super::file::{self, Format, ROWS, formats};
 use crate::number::Number;
+use crate::quantity::Quantity;
 use crate::scene::Scene;
 use crate::solve::{CERTIFIED_DIGITS, Numbers};
+
+/// The name of a quantity that is one number.
+pub(super) fn quantity() -> impl TypedValueParser<Value = Quantity> {
+    let value =
+        |quantity: Quantity| PossibleValue::new(quantity.name()).aliases(quantity.also()).help(quantity.meaning());
+    PossibleValuesParser::new(Quantity::singles().map(value))
+        .try_map(|name| Quantity::single(&name).ok_or("expected a quantity"))
+}
 
 /// How exact the numbers are to be.
 #[derive(Args, Clone, Copy, Debug)]

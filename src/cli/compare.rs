@@ -9,7 +9,7 @@ use super::failure::Failure;
 use super::file::{self, Format, ROWS, ROWS_OR_PICTURE, formats};
 use super::source;
 use crate::compare::data::Source;
-use crate::compare::{Axis, Comparison, Compression, LEGEND, Limit, Options, Origin, Prepared};
+use crate::compare::{Axis, CompareError, Comparison, Compression, LEGEND, Limit, Options, Origin, Prepared};
 use crate::number::Number;
 use crate::output::{Size, compare_data, compare_svg};
 use crate::quantity::Units;
@@ -86,7 +86,7 @@ impl Compare {
         let sources = self.data.iter().map(|path| Source::open(path)).collect::<Result<Vec<_>, _>>()?;
         let accuracy = scene.accuracy.as_ref().map(Number::to_f64);
         let units = Units::of(&scene.problem, scene.units);
-        let prepared = Prepared::new(&scene.problem, &units, accuracy, sources, &self.options())?;
+        let prepared = Prepared::new(&scene.problem, &units, accuracy, sources, &self.options()).map_err(with_flag)?;
         let progress = source::Progress::of(&scene, &prepared.plan);
         let comparison = prepared.compare(progress.observer())?;
         drop(progress);
@@ -95,7 +95,9 @@ impl Compare {
         }
         let report = Report { comparison: &comparison, title: scene.title.as_deref(), units: &units };
         // Before anything is written.
-        let failures = comparison.above(&self.fail_above).map_err(|error| failure!("{error}"))?;
+        let failures = comparison
+            .above(&self.fail_above)
+            .map_err(|error| failure!("{error}").help("--fail-above QUANTITY.NORM=BOUND"))?;
         file::write_each(&self.output, self.format, |format| report.bytes(format))?;
         for failure in &failures {
             eprintln!("failed: {failure}");
@@ -145,5 +147,16 @@ impl Report<'_> {
             Format::Table => comparison.table(title, units).into_bytes(),
             picture => file::picture(picture, compare_svg(&comparison.files[0], title, units), Size::Page)?,
         })
+    }
+}
+
+/// The failure, with the flag that mends it.
+fn with_flag(error: CompareError) -> Failure {
+    let key = error.key();
+    let failure = Failure::from(error);
+    match key {
+        Some("map") => failure.help("--map NAME=COLUMN,… says which column is what"),
+        Some(key) => failure.help(format!("see --{}", key.replace('_', "-"))),
+        None => failure,
     }
 }

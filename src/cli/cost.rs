@@ -4,14 +4,15 @@ use std::path::PathBuf;
 
 use clap::Args;
 
-use super::args::NumberArgs;
+use super::args::{NumberArgs, quantity};
 use super::failure::Failure;
 use super::file::{self, Format, ROWS, ROWS_OR_PICTURE, formats};
 use super::source;
 use crate::number::Number;
 use crate::output::{Size, cost_data, cost_svg, effects_data};
+use crate::quantity::{Measure, Quantity};
 use crate::routes::cost::{self, Difference, Table};
-use crate::routes::{Quantity, Question, plan};
+use crate::routes::{Question, plan};
 use crate::scene::Scene;
 
 /// What accuracy costs in time: one quantity by every route that can give it, measured now, on this machine
@@ -23,9 +24,9 @@ pub(super) struct Cost {
     /// A scene file, `-`, or a built-in scene
     scene: String,
     /// What is asked of every route; by default the bounce time, or the last event of a scene with several impacts
-    #[arg(long, value_enum)]
+    #[arg(long, value_parser = quantity())]
     quantity: Option<Quantity>,
-    /// When, for stress, centre and energies; by default three quarters of a round trip
+    /// When, for what has a value at every time; by default three quarters of a round trip
     #[arg(long, value_name = "T", allow_hyphen_values = true)]
     time: Option<Number>,
     /// Instead: what each effect of the scene costs, and that those it does not call for cost nothing
@@ -75,8 +76,10 @@ impl Cost {
             bar.set_position((1000.0 * share.min(1.0)) as u64);
         };
         let measured = if self.effects {
-            let energies =
-                matches!(self.quantity, Some(Quantity::Energy | Quantity::Vibrational | Quantity::Restitution));
+            let of_energy = |quantity: Quantity| {
+                quantity.measure() == Some(Measure::Energy) || quantity == Quantity::EnergyRestitution
+            };
+            let energies = self.quantity.is_some_and(of_energy);
             cost::effects(scene, energies, self.seconds, observe).map(Measured::Effects)
         } else {
             let question = Question::of_scene(scene, self.quantity, self.time.clone())?;

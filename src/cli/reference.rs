@@ -112,7 +112,7 @@ impl Reference {
         let question = match times.ends()? {
             None => Question::run(numbers),
             // What has happened before the first time is part of these.
-            Some((_, last)) if columns.iter().any(|c| matches!(c, Quantity::Contact | Quantity::Impulse)) => {
+            Some((_, last)) if columns.iter().any(|column| column.is_of_past()) => {
                 Question::between(0.into(), last, numbers)
             }
             Some((first, last)) => Question::between(first, last, numbers),

@@ -8,13 +8,13 @@ use std::process::ExitCode;
 use clap::Args;
 use serde_json::json;
 
-use super::args::{NumberArgs, pool};
+use super::args::{NumberArgs, pool, quantity};
 use super::failure::{self, Failure};
 use super::file::{self, Format, formats};
 use super::source;
 use crate::number::Number;
 use crate::output::sweep_data;
-use crate::routes::Quantity;
+use crate::quantity::{Needs, Quantity};
 use crate::sweep::{self, Asked, Axis, Grid, Journal, Point, SweepError, journal_of};
 
 /// Numbers of a scene over a grid of its values, on all cores
@@ -32,9 +32,9 @@ pub(super) struct Sweep {
     #[arg(long, value_name = "PATH=VALUES", required = true, allow_hyphen_values = true)]
     vary: Vec<String>,
     /// What is asked of each point, separated by commas
-    #[arg(long, value_enum, value_delimiter = ',', required = true)]
+    #[arg(long, value_parser = quantity(), value_delimiter = ',', required = true)]
     quantity: Vec<Quantity>,
-    /// When, for stress, centre and energies; by default at the first bounce
+    /// When, for what has a value at every time; by default at the first bounce
     #[arg(long, value_name = "T", allow_hyphen_values = true)]
     time: Option<Number>,
     #[command(flatten)]
@@ -93,7 +93,7 @@ impl Sweep {
         }
         let mut quantities: Vec<Quantity> = Vec::new();
         for quantity in &self.quantity {
-            if let Some(time) = self.time.as_ref().filter(|_| !quantity.is_at_a_time()) {
+            if let Some(time) = self.time.as_ref().filter(|_| quantity.needs() != Needs::Time) {
                 let expected = format!("none: {} is not asked at a time", quantity.name());
                 return Err(SweepError::new(format!("time {time}"), expected).into());
             }
@@ -102,7 +102,8 @@ impl Sweep {
             }
             quantities.push(*quantity);
         }
-        let asked = Asked { quantities, time: self.time.clone(), numbers: self.numbers.numbers(&scene) };
+        let asked =
+            Asked { quantities, time: self.time.clone(), numbers: self.numbers.numbers(&scene), units: scene.units };
         let sweep = sweep::Sweep { grid: Grid::new(scene.problem.clone(), axes)?, asked };
         let points = self.shard.map_or(0..sweep.grid.len(), |shard| shard.points(sweep.grid.len()));
         let vary = |axis: &Axis| json!({"path": axis.path, "values": axis.values});

@@ -13,7 +13,7 @@ use crate::quantity::Units;
 use crate::reason::Warning;
 use crate::solve::{Numbers, Observer, Plan, Question, Solution};
 
-/// What is said of data besides themselves; the names in messages are those of the command.
+/// What is said of data besides themselves; messages call it by these names.
 #[derive(Clone, Debug, Default)]
 pub struct Options {
     /// Which column is what: `t=0,u=1,force=f_n`; by default the names of the columns.
@@ -55,6 +55,8 @@ pub enum CompareError {
     /// What is said of them.
     #[error("found {found}, expected {expected}")]
     Option {
+        /// Which of [`Options`] it is said by.
+        key: &'static str,
         /// What was found.
         found: String,
         /// What was expected.
@@ -80,21 +82,33 @@ pub enum CompareError {
     History(#[from] Error),
 }
 
+impl CompareError {
+    /// The key of [`Options`] that mends it.
+    pub fn key(&self) -> Option<&'static str> {
+        match self {
+            CompareError::Map { error: MapError::NoTime { .. } | MapError::TwoTimes, .. } => Some("dt"),
+            CompareError::Map { .. } => Some("map"),
+            CompareError::Option { key, .. } => Some(key),
+            _ => None,
+        }
+    }
+}
+
 impl Options {
     /// Refuses what cannot be meant of `count` sources.
     fn check(&self, count: usize) -> Result<(), CompareError> {
-        let refuse = |found: String, expected: String| Err(CompareError::Option { found, expected });
+        let refuse = |key, found: String, expected: String| Err(CompareError::Option { key, found, expected });
         if !self.widths.is_empty() && self.widths.len() != count {
-            return refuse(format!("{} --widths", self.widths.len()), format!("{count}, one for each file"));
+            return refuse("widths", format!("{} widths", self.widths.len()), format!("{count}, one for each file"));
         }
         if self.t0.is_some() && self.dt.is_none() {
-            return refuse("--t0 without --dt".into(), "both, or a column of times".into());
+            return refuse("dt", "t0 without dt".into(), "both, or a column of times".into());
         }
-        let named = [("--dt", &self.dt), ("--window", &self.window), ("--energy-scale", &self.energy_scale)];
+        let named = [("dt", &self.dt), ("window", &self.window), ("energy_scale", &self.energy_scale)];
         let lengths = named.into_iter().flat_map(|(name, number)| number.iter().map(move |number| (name, number)));
-        for (name, number) in lengths.chain(self.widths.iter().map(|width| ("--widths", width))) {
+        for (name, number) in lengths.chain(self.widths.iter().map(|width| ("widths", width))) {
             if number.to_f64() <= 0.0 {
-                return refuse(format!("{name} {number}"), "more than zero".into());
+                return refuse(name, format!("{name} {number}"), "more than zero".into());
             }
         }
         Ok(())

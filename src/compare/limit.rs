@@ -66,7 +66,7 @@ impl Limit {
         let found = agreement.quantities.iter().find(|compared| Some(compared.what) == what);
         let compared = found.ok_or_else(|| {
             let names: Vec<&str> = agreement.quantities.iter().map(|compared| compared.what.name()).collect();
-            format!("found --fail-above {}, expected one of {}", self.quantity, names.join(", "))
+            format!("found a bound of {}, expected one of {}", self.quantity, names.join(", "))
         })?;
         let value = self.norm.of(&compared.norms).map(|(absolute, relative)| relative.unwrap_or(absolute));
         Ok(value.filter(|value| *value > self.bound || value.is_nan()))

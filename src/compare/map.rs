@@ -50,25 +50,29 @@ pub(crate) struct Map {
 /// Why columns cannot be mapped.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum MapError {
-    #[error("found no quantity in the columns {found}, expected some of {}, or --map t=0,u=1", known(*field))]
+    #[error("found no quantity in the columns {found}, expected some of {}, or a map such as t=0,u=1", known(*field))]
     Nothing { found: String, field: bool },
-    #[error("found no names of columns, expected --map t=0,u=1,v=2,force=3 with their numbers, counted from 0")]
+    #[error("found no names of columns, expected a map such as t=0,u=1,v=2,force=3 with their numbers, counted from 0")]
     NoNames,
-    #[error("found `{found}` in --map, expected NAME=COLUMN as in t=0,u=1,force=3")]
+    #[error("found `{found}` in the map, expected NAME=COLUMN as in t=0,u=1,force=3")]
     Form { found: String },
-    #[error("found {found} names above rows of {expected} columns, expected as many, or --map t=0,u=1,v=2,force=3")]
+    #[error(
+        "found {found} names above rows of {expected} columns, expected as many, or a map such as t=0,u=1,v=2,force=3"
+    )]
     Names { found: usize, expected: usize },
-    #[error("found the name `{found}` in --map, expected t, x, side, or one of {}", known(*field))]
+    #[error("found the name `{found}` in the map, expected t, x, side, or one of {}", known(*field))]
     Name { found: String, field: bool },
-    #[error("found `{found}` twice, expected each quantity once, as --map t=0,u=1 can say it")]
+    #[error("found `{found}` twice, expected each quantity once, as a map such as t=0,u=1 can say it")]
     Twice { found: String },
-    #[error("found the column `{found}`, expected it {expected} as in the scene; --map t=0,u=1 takes it as it is")]
+    #[error(
+        "found the column `{found}`, expected it {expected} as in the scene; a map such as t=0,u=1 takes it as it is"
+    )]
     Unit { found: String, expected: String },
-    #[error("found column `{found}` in --map, expected {expected}")]
+    #[error("found column `{found}` in the map, expected {expected}")]
     Column { found: String, expected: String },
-    #[error("found no column of times{found}, expected one called t, t=… in --map, or --dt")]
+    #[error("found no column of times{found}, expected one called t, t=… in the map, or a step dt")]
     NoTime { found: String },
-    #[error("found --dt and a column of times, expected one of them")]
+    #[error("found dt and a column of times, expected one of them")]
     TwoTimes,
 }
 
@@ -104,7 +108,7 @@ fn name_and_unit(header: &str) -> (&str, Option<&str>) {
 
 impl Map {
     /// The map that `text` asks for, `NAME=COLUMN` separated by commas; without it the names of the columns themselves.
-    /// `counted` says that times come from `--dt`.
+    /// `counted` says that times come from `dt`.
     ///
     /// **Errors**: [`MapError`].
     pub(crate) fn of(text: Option<&str>, names: &[String], width: usize, counted: bool) -> Result<Self, MapError> {

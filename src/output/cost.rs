@@ -83,11 +83,13 @@ pub(crate) fn cost_data(cost: &Table, title: Option<&str>) -> Dataset {
     }
     let truth = cost.truth.value.to_f64();
     let above = title.map_or_else(String::new, |title| format!("{title}\n"));
+    let unit = if cost.unit.is_empty() { String::new() } else { format!(" {}", cost.unit) };
     Dataset {
         header: vec![
             ("schema", 1.into()),
             ("title", title.into()),
             ("quantity", cost.quantity.name().into()),
+            ("unit", cost.unit.into()),
             ("time", cost.time.as_ref().map(crate::Number::to_f64).into()),
             ("truth", truth.into()),
             ("truth_log10_half_width", cost.truth.log10_half_width.into()),
@@ -95,7 +97,7 @@ pub(crate) fn cost_data(cost: &Table, title: Option<&str>) -> Dataset {
             ("left_out", left_out.collect()),
         ],
         list: "rows",
-        around: [format!("{above}{} = {truth:?}\n\n", asked(cost)), below],
+        around: [format!("{above}{} = {truth:?}{unit}\n\n", asked(cost)), below],
         ..Dataset::of(cost.rows.iter().map(row))
     }
 }

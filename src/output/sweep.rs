@@ -1,6 +1,6 @@
 //! Sweeps: a row for each point.
 
-use serde_json::{Value, json};
+use serde_json::{Map, Value, json};
 
 use super::dataset::{Cell, Column, Dataset};
 use super::writer::{WIDTH, wrapped};
@@ -29,14 +29,14 @@ fn shown(cell: &sweep::Cell) -> Cell {
 
 /// A row for each point; a table has the notes below it, each once.
 pub(crate) fn sweep_data(sweep: &Sweep, points: &[Point], title: Option<&str>) -> Dataset {
-    let quantities = sweep.asked.quantities.iter().map(|quantity| quantity.name());
     let mut columns = vec![Column::new("point")];
     columns.extend(sweep.grid.axes.iter().map(|axis| Column::new(axis.path).keyed(format!("at/{}", axis.path))));
-    for name in quantities {
+    for (name, unit) in sweep.units().map(|(quantity, unit)| (quantity.name(), unit)) {
+        let head = if unit.is_empty() { name.to_string() } else { format!("{name} [{unit}]") };
         columns.extend([
-            Column::table(name),
-            Column::data(name).keyed(format!("values/{name}")),
-            Column::data(format!("{name}_uncertainty")).keyed(format!("uncertainty/{name}")),
+            Column::table(head),
+            Column::data(name).keyed(format!("values/{name}")).with_unit(unit),
+            Column::data(format!("{name}_uncertainty")).keyed(format!("uncertainty/{name}")).with_unit(unit),
             Column::json(format!("notes/{name}")),
         ]);
     }
@@ -63,12 +63,14 @@ pub(crate) fn sweep_data(sweep: &Sweep, points: &[Point], title: Option<&str>) -
     let below = below.iter().enumerate().map(|(k, note)| wrapped(&format!("[{}] {note}", k + 1), WIDTH, "    ") + "\n");
     let below: String = below.collect();
     let vary = sweep.grid.axes.iter().map(|axis| json!({"path": axis.path, "values": axis.values}));
+    let units = sweep.units().map(|(quantity, unit)| (quantity.name().to_string(), unit.into()));
     Dataset {
         header: vec![
             ("schema", 1.into()),
             ("title", title.into()),
             ("number", sweep.asked.numbers.to_string().into()),
             ("time", json!(sweep.asked.time)),
+            ("units", units.collect::<Map<_, _>>().into()),
             ("vary", vary.collect::<Value>()),
         ],
         list: "points",

@@ -23,7 +23,7 @@ pub fn columns<S: Scalar>(
         return Err(Error::NotOverTime { quantity: other.name() });
     }
     let places: Vec<(Source, usize)> = columns.iter().map(|column| column.source()).collect();
-    let factors: Vec<Option<S>> = columns.iter().map(|column| column.factor(motion, units)).collect();
+    let factors: Vec<Option<S>> = columns.iter().map(|column| column.factor(&motion.scales(), units)).collect();
     let mut sources: Vec<Source> = places.iter().map(|(source, _)| *source).collect();
     sources.sort_unstable();
     sources.dedup();

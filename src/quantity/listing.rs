@@ -51,7 +51,7 @@ pub fn table<S: Scalar>(motion: &dyn Motion<S>, table: Table, units: &Units) -> 
     let present: Vec<Quantity> = present.collect();
     let rows = rows(motion, &present)?;
     let column = |(k, quantity): (usize, &Quantity)| {
-        let factor = quantity.factor(motion, units);
+        let factor = quantity.factor(&motion.scales(), units);
         let value = |row: &Row<S>| row.get(k)?.clone().ok().map(|value| quantity.scaled(value, factor.as_ref()));
         (quantity.key(), rows.iter().map(value).collect())
     };
@@ -82,9 +82,10 @@ pub(crate) fn rows<S: Scalar>(motion: &dyn Motion<S>, quantities: &[Quantity]) -
     Ok(all)
 }
 
-/// The value of `quantity` of a contact, counted from 0, in units of the problem.
+/// The value of `quantity` of a contact or a flight, counted from 0, in units of the problem.
 ///
-/// **Errors**: [`Error::NoContact`], and what the history cannot answer. What is not defined has the reason in its place.
+/// **Errors**: [`Error::NoContact`], and what the history cannot answer. What is not defined has the reason in its
+/// place.
 pub fn of_contact<S: Scalar>(
     motion: &dyn Motion<S>,
     units: &Units,
@@ -94,7 +95,7 @@ pub fn of_contact<S: Scalar>(
     let (source, place) = quantity.source();
     let row = source.rows(motion, Some(contact))?.pop().unwrap_or_default();
     let value = row.into_iter().nth(place).ok_or(Error::NoContact { contact, found: motion.contacts().len() })?;
-    let factor = quantity.factor(motion, units);
+    let factor = quantity.factor(&motion.scales(), units);
     Ok(value.map(|value| quantity.scaled(value, factor.as_ref())))
 }
 
@@ -108,14 +109,20 @@ impl Source {
         let ok = |numbers: &[&S]| numbers.iter().map(|x| Ok((*x).clone())).collect::<Row<S>>();
         let contacts = || motion.contacts().iter().skip(skip).take(take);
         let unfinished = Undefined::Unfinished;
+        // When one contact begins and ends is known without what happens in it.
+        let times = || match only {
+            Some(contact) => motion.contact_times(contact).into_iter().collect::<Vec<_>>(),
+            None => motion.contacts().iter().map(|contact| (contact.from.clone(), contact.to.clone())).collect(),
+        };
         Ok(match self {
             Source::Event => motion.events().iter().skip(skip).take(take).map(|event| ok(&event.numbers())).collect(),
             Source::Span => {
-                let row = |(from, to): (&S, Option<&S>)| {
+                let row = |(from, to): (S, Option<S>)| {
                     let to = to.ok_or(unfinished);
-                    vec![Ok(from.clone()), to.cloned(), to.map(|to| to.clone() - from)]
+                    let length = to.clone().map(|to| to - &from);
+                    vec![Ok(from), to, length]
                 };
-                contacts().map(|contact| row((&contact.from, contact.to.as_ref()))).collect()
+                times().into_iter().map(row).collect()
             }
             Source::Ends => {
                 let of = |kind: EventKind, k: usize| {
@@ -126,22 +133,27 @@ impl Source {
                 contacts().enumerate().map(ends).collect()
             }
             Source::Push => contacts().map(|contact| ok(&[&contact.impulse, &contact.peak_strain])).collect(),
-            Source::Restitution => contacts()
-                .map(|contact| restitution(motion, contact.times()).map(|e| vec![e.momentum, e.energy_squared]))
-                .collect::<Result<_, _>>()?,
-            Source::Shares => contacts()
-                .map(|contact| {
-                    let shares = energy_shares(motion, contact.times())?;
-                    let why = if contact.to.is_none() { unfinished } else { Undefined::NoEnergy };
+            Source::Restitution => {
+                let row = |(from, to): &(S, Option<S>)| {
+                    restitution(motion, (from, to.as_ref())).map(|e| vec![e.momentum, e.energy_squared])
+                };
+                times().iter().map(row).collect::<Result<_, _>>()?
+            }
+            Source::Shares => {
+                let row = |(from, to): &(S, Option<S>)| {
+                    let shares = energy_shares(motion, (from, to.as_ref()))?;
+                    let why = if to.is_none() { unfinished } else { Undefined::NoEnergy };
                     Ok::<_, Error>(vec![shares.translational.ok_or(why), shares.kept.ok_or(why)])
-                })
-                .collect::<Result<_, _>>()?,
-            Source::Left => contacts()
-                .map(|contact| match &contact.to {
+                };
+                times().iter().map(row).collect::<Result<_, _>>()?
+            }
+            Source::Left => {
+                let row = |(_, to): &(S, Option<S>)| match to {
                     Some(to) => motion.energy(to).map(|energy| ok(&energy.numbers())),
                     None => Ok(vec![Err(unfinished); 3]),
-                })
-                .collect::<Result<_, _>>()?,
+                };
+                times().iter().map(row).collect::<Result<_, _>>()?
+            }
             Source::Flight => {
                 let row = |flight: super::Flight<S>| {
                     let (time, top) = flight.highest.unzip();

@@ -7,11 +7,14 @@
 //! | `unit` | units, and the factors that belong to them |
 //! | `column`, `slice` | quantities over time, and along the rod |
 //! | `listing` | quantities of all contacts, events, flights and pieces |
+//! | `one` | one number of a run |
 //! | `restitution`, `flight` | coefficients of a contact, and how high a flight goes |
 
 mod column;
 mod flight;
 mod listing;
+#[cfg(feature = "cli")]
+mod one;
 mod restitution;
 mod slice;
 mod table;
@@ -23,6 +26,8 @@ pub use flight::{Flight, flights};
 pub use listing::{Columns, Table, of_contact, table};
 #[cfg(feature = "cli")]
 pub(crate) use listing::{Row, rows};
+#[cfg(feature = "cli")]
+pub(crate) use one::{Missing, One};
 pub use restitution::{EnergyShares, Restitution, Undefined, energy_shares, restitution};
 pub use slice::{SLICE, Slice, slices};
 pub use table::{Needs, Quantity, Rays, Sign};

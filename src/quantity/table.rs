@@ -1,7 +1,7 @@
 //! The table of quantities: all that is known of each. Names, help texts, units, lists and questions follow from it.
 
 use super::unit::{Measure, Units};
-use crate::motion::Motion;
+use crate::motion::{Motion, Scales};
 use crate::number::Scalar;
 use Measure::{Energy, Force, Impulse, Length, Strain, Stress, Time, Velocity};
 
@@ -187,7 +187,8 @@ macro_rules! quantities {
 quantities! {
     // Over time.
     Time: "t" also ["time"], "t", Some(Time), Time 0, Kink, "time";
-    Side: "side", "", None, Side 0, Kink, "which limit at a jump: from earlier times, from later ones, or both the same";
+    Side: "side", "", None, Side 0, Kink,
+        "which limit at a jump: from earlier times, from later ones, or both the same";
     EndDisplacement: "u_end" as "v" also ["u"], "v(0,t)", Some(Length), End 0, Kink,
         "displacement of the end at the ground, upwards: its gap";
     EndVelocity: "v_end" as "v_t" also ["v"], "v_t(0,t)", Some(Velocity), End 1, Jump,
@@ -267,7 +268,8 @@ quantities! {
     // Of a piece of the stress at the ground.
     PieceBegins: "from", "from", Some(Time), Piece 0, Smooth, "where a piece of the stress at the ground begins";
     PieceEnds: "to", "to", Some(Time), Piece 1, Smooth, "where it ends";
-    PieceStrainBegins: "strain_from", "v_x(0,from⁺)", Some(Strain), Piece 2, Smooth, "strain at the ground where it begins";
+    PieceStrainBegins: "strain_from", "v_x(0,from⁺)", Some(Strain), Piece 2, Smooth,
+        "strain at the ground where it begins";
     PieceStrainEnds: "strain_to", "v_x(0,to⁻)", Some(Strain), Piece 3, Smooth, "strain at the ground where it ends";
     PieceStressBegins: "stress_from", "E v_x(0,from⁺)", Some(Stress), Piece 2, Smooth,
         "stress at the ground where it begins";
@@ -375,6 +377,16 @@ impl Quantity {
         self.source().0.needs()
     }
 
+    /// Whether what has happened before is part of it.
+    pub(crate) fn is_of_past(self) -> bool {
+        matches!(self, Quantity::Contact | Quantity::Impulse)
+    }
+
+    /// Whether both ends of a contact and the values there are all that it takes.
+    pub(crate) fn is_of_ends(self) -> bool {
+        matches!(self.source().0, Source::Span | Source::Restitution | Source::Shares | Source::Left)
+    }
+
     /// What a ray leaves in it.
     pub fn rays(self) -> Rays {
         self.facts().rays
@@ -422,8 +434,7 @@ impl Quantity {
     }
 
     /// What the answer is multiplied with; `None` where it is the value itself.
-    pub(super) fn factor<S: Scalar>(self, motion: &dyn Motion<S>, units: &Units) -> Option<S> {
-        let scales = motion.scales();
+    pub(crate) fn factor<S: Scalar>(self, scales: &Scales<S>, units: &Units) -> Option<S> {
         let square = scales.wave_speed.square();
         let factor = |measure| units.factor(measure, &square.precision());
         match self.measure()? {
@@ -438,7 +449,7 @@ impl Quantity {
     }
 
     /// A number of [`Quantity::source`] in its unit.
-    pub(super) fn scaled<S: Scalar>(self, value: S, factor: Option<&S>) -> S {
+    pub(crate) fn scaled<S: Scalar>(self, value: S, factor: Option<&S>) -> S {
         match factor {
             Some(factor) => value * factor,
             None => value,
@@ -458,6 +469,6 @@ impl Quantity {
             Energy => scales.velocity * scales.velocity * scales.length,
             Impulse => scales.velocity * scales.length,
         };
-        Some(natural * self.factor(motion, units).map_or(1.0, |factor| factor.to_f64().abs()))
+        Some(natural * self.factor(&motion.scales(), units).map_or(1.0, |factor| factor.to_f64().abs()))
     }
 }

@@ -3,9 +3,9 @@
 use rug::ops::Pow;
 use rug::{Float, Rational};
 
-use super::account::ByClosedForm;
+use super::account::{ByClosedForm, unbounded};
 use super::quantity::Question;
-use super::value::{Answer, NoAnswer, System, Value};
+use super::value::{NoAnswer, Value};
 use crate::number::{Estimate, bits_for_digits};
 use crate::problem::Parameters;
 
@@ -22,8 +22,8 @@ pub(crate) type Formula = fn(&dyn Fn(i32, i32) -> Digits) -> Digits;
 
 fn middle(value: &Value) -> Option<Rational> {
     match value {
-        Value::Double(value) => Rational::from_f64(*value),
-        Value::Float(value) => value.to_rational(),
+        Value::Double(value) => Rational::from_f64(*value.value()),
+        Value::Float(value) => value.value().to_rational(),
         Value::Fraction(value) => Some(value.clone()),
         Value::Enclosure(value) => value.mid().to_rational(),
     }
@@ -49,11 +49,11 @@ pub(super) fn holds(value: &Value, truth: &Value, place: Option<i32>) -> bool {
 /// A formula in so many digits.
 pub(super) fn formula(digits: u32, formula: Formula) -> Value {
     let bits = bits_for_digits(digits) + SPARE_BITS;
-    formula(&|p, q| Float::with_val(bits, Rational::from((p, q)))).value()
+    unbounded(formula(&|p, q| Float::with_val(bits, Rational::from((p, q))))).into()
 }
 
 /// The closed form of the first contact in so many digits.
-pub(super) fn closed_form(question: &Question, digits: u32) -> Result<Answer, NoAnswer> {
+pub(super) fn closed_form(question: &Question, digits: u32) -> Result<Value, NoAnswer> {
     let bits = bits_for_digits(digits) + SPARE_BITS;
     let rod = Parameters::<Estimate<Float>>::of(&question.problem, &bits)?;
     question.ask(&rod, &ByClosedForm::new(&rod))

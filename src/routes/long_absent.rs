@@ -1,8 +1,9 @@
 //! What stands for `long` in a build without multiple precision: differences of fractions and doubles, and formulas in
 //! doubles.
 
+use super::account::unbounded;
 use super::quantity::Question;
-use super::value::{Answer, NoAnswer, Value};
+use super::value::{NoAnswer, Value};
 use crate::error::Error;
 use crate::number::{Rational, Scalar};
 
@@ -27,9 +28,9 @@ pub(super) fn holds(_: &Value, _: &Value, _: Option<i32>) -> bool {
 }
 
 pub(super) fn formula(_: u32, formula: Formula) -> Value {
-    Value::Double(formula(&|p, q| f64::from(p) / f64::from(q)))
+    unbounded(formula(&|p, q| f64::from(p) / f64::from(q))).into()
 }
 
-pub(super) fn closed_form(_: &Question, _: u32) -> Result<Answer, NoAnswer> {
+pub(super) fn closed_form(_: &Question, _: u32) -> Result<Value, NoAnswer> {
     Err(Error::NoMultiprecision.into())
 }

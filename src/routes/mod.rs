@@ -4,8 +4,8 @@
 //! | module | |
 //! |---|---|
 //! | `value` | a number in any number system, with its bound |
-//! | `quantity` | what can be asked of a rod |
-//! | `account` | the accounts of a motion that can be asked |
+//! | `quantity` | one number, asked of any account of a motion |
+//! | `account` | the accounts of a motion beside a history |
 //! | `differences` | finite differences along the characteristics |
 //! | `route` | every route to an answer |
 //! | `truth` | what answers are held against |
@@ -29,8 +29,7 @@ mod target;
 mod truth;
 mod value;
 
-pub(crate) use quantity::{Quantity, Question};
-pub(crate) use route::{asked, plan};
+pub(crate) use quantity::Question;
+pub(crate) use route::plan;
 pub(crate) use target::{Published, Reached, published};
 pub(crate) use truth::RightDigits;
-pub(crate) use value::{NoAnswer, System};

@@ -1,147 +1,40 @@
-//! What can be asked of a rod, and how any account of its motion answers.
+//! One number of a problem, asked of any account of its motion.
 
-use clap::ValueEnum;
-
-use super::account::{Account, ByHistory, Found};
-use super::value::{Answer, Bounded, NoAnswer, System};
+use super::account::{Account, Found, first_energy, not_given};
+use super::value::{NoAnswer, System, Value};
 use crate::error::Error;
-use crate::motion::{EventKind, Motion, Side};
-use crate::number::{Estimate, Number};
+use crate::motion::{Motion, Scales, Side};
+use crate::number::Number;
 use crate::problem::{Parameters, Problem, Run};
+use crate::quantity::{Missing, Needs, One, Quantity, Units};
 use crate::scene::Scene;
-use crate::solve::{Plan, Solution, Target};
+use crate::solve::{History, Plan, Solution, Target};
 
-/// A quantity that is one number. Those that `dalembert cost` offers come first.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-#[value(rename_all = "snake_case")]
-pub(crate) enum Quantity {
-    /// `t_b`: the first release.
-    BounceTime,
-    /// `v_x(0,t)`: the strain at the ground, which is the stress divided by the modulus.
-    Stress,
-    /// `h(t)`: the centre of mass.
-    Centre,
-    /// `E(t)`.
-    Energy,
-    /// `E_z(t)`: the vibrational part of the energy.
-    Vibrational,
-    /// `e_P` of the first contact: the ratio of momenta.
-    #[value(name = "e_P")]
-    MomentumRestitution,
-    /// `e_E²` of the first contact: the ratio of the energies of the centre of mass.
-    #[value(name = "e_E2", alias = "restitution")]
-    Restitution,
-    /// The time of the last impact or release of the run.
-    LastEvent,
-    /// The impact next to a time.
-    #[value(skip)]
-    Impact,
-    /// The release next to a time.
-    #[value(skip)]
-    Release,
-    /// `v(x,t)`.
-    #[value(skip)]
-    Displacement,
-    /// `v_t(x,t)`.
-    #[value(skip)]
-    Velocity,
-    /// `v_x(x,t)`.
-    #[value(skip)]
-    Strain,
-    /// `P(t) = L h′(t)`.
-    #[value(skip)]
-    Momentum,
-    /// `E_h(t)`.
-    #[value(skip)]
-    Translational,
-    /// `E_h(t_b)/E(t_b)`.
-    #[value(skip)]
-    TranslationalShare,
-    /// `E(t_b)/E(0)`.
-    #[value(skip)]
-    EnergyLeft,
-    /// `E(t_b)/E(0) e^{2r t_b}`.
-    #[value(skip)]
-    EnergyLeftUndamped,
-    /// `e_E − e^{−r t_b}`.
-    #[value(skip)]
-    BeyondExponential,
-    /// `t*`: when the centre of mass is highest.
-    #[value(skip)]
-    TopTime,
-    /// `h_max = h(t*)`.
-    #[value(skip)]
-    TopHeight,
-    /// The length of the shortest piece of the stress history.
-    #[value(skip)]
-    ShortestPiece,
-    /// A number that belongs to no rod; formulas alone give it.
-    #[value(skip)]
-    Constant,
-}
-
-use Quantity::*;
-
-impl Quantity {
-    /// The name in output: `bounce_time`.
-    pub(crate) fn name(self) -> &'static str {
-        self.texts().0
-    }
-
-    /// The symbol: `t_b`.
-    pub(crate) fn symbol(self) -> &'static str {
-        self.texts().1
-    }
-
-    fn texts(self) -> (&'static str, &'static str) {
-        match self {
-            BounceTime => ("bounce_time", "t_b"),
-            Stress => ("stress", "v_x(0,t)"),
-            Centre => ("centre", "h(t)"),
-            Energy => ("energy", "E(t)"),
-            Vibrational => ("vibrational", "E_z(t)"),
-            MomentumRestitution => ("e_P", "e_P"),
-            Restitution => ("e_E2", "e_E²"),
-            LastEvent => ("last_event", "time of the last event"),
-            _ => ("quantity", ""),
-        }
-    }
-
-    /// Whether `dalembert cost` asks it at a time.
-    pub(crate) fn is_at_a_time(self) -> bool {
-        matches!(self, Stress | Centre | Energy | Vibrational)
-    }
-}
-
-/// Which of two values at a jump, or their difference.
+/// What is made of an answer: claims of the paper that are no quantities of a motion.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Limit {
-    /// From earlier or from later times.
-    From(Side),
-    /// The later limit minus the earlier.
+pub(crate) enum Claimed {
+    /// The answer itself.
+    Itself,
+    /// The jump of it, the later limit minus the earlier.
     Jump,
+    /// `e^{2r t_b}` times it.
+    TimesGrowth,
+    /// What its root exceeds `e^{−r t_b}` by.
+    RootBeyondDecay,
 }
 
 /// One number of a problem that is followed as far as the answer needs.
 #[derive(Clone, Debug)]
 pub(crate) struct Question {
     pub(crate) problem: Problem,
-    pub(crate) quantity: Quantity,
-    /// x, for a quantity at a point.
-    pub(crate) point: Option<Number>,
-    /// t, for a quantity at a time; `t_b` where it is `None`.
-    pub(crate) time: Option<Number>,
-    pub(crate) limit: Limit,
+    pub(crate) one: One,
+    pub(crate) units: Units,
+    pub(crate) claimed: Claimed,
     /// Nothing before this time is asked for.
     pub(crate) from: Option<f64>,
 }
 
 impl Question {
-    /// `quantity` of `problem` at `time`.
-    pub(crate) fn new(problem: Problem, quantity: Quantity, time: Option<Number>) -> Self {
-        Question { problem, quantity, point: None, time, limit: Limit::From(Side::Right), from: None }
-    }
-
     /// `quantity` of `scene` at `time`; without one at three quarters of a round trip. Without a quantity it is the
     /// bounce time, or, where the scene calls for more than one contact, the time of the last event.
     ///
@@ -149,158 +42,146 @@ impl Question {
     pub(crate) fn of_scene(scene: &Scene, quantity: Option<Quantity>, time: Option<Number>) -> Result<Self, NoAnswer> {
         let mut problem = scene.problem.clone();
         let quantity = quantity.unwrap_or(match problem.run {
-            Run::Impacts(1) => BounceTime,
-            _ => LastEvent,
+            Run::Impacts(1) => Quantity::BounceTime,
+            _ => Quantity::LastEvent,
         });
+        let over_time = quantity.needs() == Needs::Time;
         let expected = match &time {
-            Some(_) if !quantity.is_at_a_time() => Some(format!("none: {} is not asked at a time", quantity.name())),
+            Some(_) if !over_time => Some(format!("none: {} is not asked at a time", quantity.name())),
             Some(time) if time.to_f64() < 0.0 => Some("one from 0 on".into()),
             _ => None,
         };
         if let (Some(expected), Some(time)) = (expected, &time) {
             return Err(NoAnswer::Time { found: time.to_string(), expected });
         }
-        let time = match time {
-            None if quantity.is_at_a_time() => Some(default_time(&problem)?),
-            other => other,
-        };
-        match (&time, quantity) {
+        let time = if time.is_none() && over_time { Some(default_time(&problem)?) } else { time };
+        match (&time, quantity.needs()) {
             (Some(time), _) => problem.run = Run::Time(time.clone()),
-            (None, BounceTime | MomentumRestitution | Restitution) => problem.run = Run::Impacts(1),
+            (None, Needs::FirstContact | Needs::Contact) => problem.run = Run::Impacts(1),
             (None, _) => (),
         }
-        Ok(Question::new(problem, quantity, time))
+        let (one, units) = (One::new(quantity, time), Units::of(&problem, scene.units));
+        Ok(Question { problem, one, units, claimed: Claimed::Itself, from: None })
     }
 
     /// The answer of one account of the motion of `rod`.
-    pub(crate) fn ask<S: System>(&self, rod: &Parameters<S>, motion: &dyn Account<S>) -> Result<Answer, NoAnswer> {
-        self.find(rod, motion).map(Bounded::answer)
+    pub(crate) fn ask<S: System>(&self, rod: &Parameters<S>, motion: &dyn Account<S>) -> Result<Value, NoAnswer> {
+        let scales = Scales {
+            time: rod.round_trip(),
+            velocity: rod.speed.clone(),
+            length: rod.length.clone(),
+            wave_speed: rod.wave_speed.clone(),
+            gravity: rod.gravity.clone(),
+        };
+        let factor = self.one.quantity.factor(&scales, &self.units);
+        let find = |side: Side| Ok(self.one.quantity.scaled(self.find(rod, motion, side)?, factor.as_ref()));
+        // A release that is found without a bound counts as exact, as it does where values are asked at it.
+        let unbounded = |time: &S| time.log2_error() == f64::INFINITY;
+        let bounce = || motion.release(rod).map(|time| if unbounded(&time) { time.nominal() } else { time });
+        self.claim(rod, find, bounce).map(Into::into)
     }
 
-    /// The answer of a history.
-    pub(crate) fn ask_history<S: System>(&self, history: &dyn Motion<S>) -> Result<Answer, NoAnswer> {
-        self.find_in_history(history).map(Bounded::answer)
-    }
-
-    /// The answer of a solution in any numbers.
-    pub(crate) fn ask_solution(&self, solution: &Solution) -> Result<Answer, NoAnswer> {
-        match solution {
-            Solution::Double(history) => self.ask_motion(history),
-            Solution::Digits(history, _) | Solution::DigitsAfter(history, ..) => self.ask_motion(history),
-            Solution::Exact(history) => self.ask_motion(history),
-            Solution::Certified(history, _) => self.ask_motion(history),
-        }
-    }
-
-    /// The answer of the public history, settled to its digits.
-    fn ask_motion<S: Target<Carried: System>>(&self, history: &crate::solve::History<S>) -> Result<Answer, NoAnswer> {
-        self.find_settled(history).map(Bounded::answer)
-    }
-
-    /// The same in the numbers of the history.
-    pub(crate) fn find_settled<S: Target<Carried: System>>(
-        &self,
-        history: &crate::solve::History<S>,
-    ) -> Found<S::Carried> {
-        history.ask(|engine| self.query(engine), |found| found.iter().map(|found| &found.value).collect())?
+    /// The answer of an engine.
+    pub(crate) fn ask_engine<S: System>(&self, motion: &dyn Motion<S>) -> Result<Value, NoAnswer> {
+        self.find_in(motion)?.map(Into::into)
     }
 
     /// The answer in doubles by a plan, which works out nothing else.
-    pub(super) fn find_planned(&self, plan: &Plan) -> Found<Estimate<f64>> {
-        let query = |engine: &dyn Motion<_>| self.query(engine);
-        plan.ask::<f64, _>(&self.problem, query, |found| found.iter().map(|found| &found.value).collect())?
+    pub(super) fn ask_plan(&self, plan: &Plan) -> Result<Value, NoAnswer> {
+        let query = |motion: &dyn Motion<_>| self.find_in(motion);
+        plan.ask::<f64, _>(&self.problem, query, |found| found.iter().collect())?.map(Into::into)
     }
 
-    fn query<S: System>(&self, engine: &dyn Motion<S>) -> Result<Found<S>, Error> {
-        match self.find_in_history(engine) {
-            // More bits may settle it.
+    /// The answer of a solution, settled to its digits.
+    pub(crate) fn ask_solution(&self, solution: &Solution) -> Result<Value, NoAnswer> {
+        match solution {
+            Solution::Double(history) => self.ask_history(history),
+            Solution::Digits(history, _) | Solution::DigitsAfter(history, ..) => self.ask_history(history),
+            Solution::Exact(history) => self.ask_history(history),
+            Solution::Certified(history, _) => self.ask_history(history),
+        }
+    }
+
+    fn ask_history<S: Target<Carried: System>>(&self, history: &History<S>) -> Result<Value, NoAnswer> {
+        history.ask(|motion| self.find_in(motion), |found| found.iter().collect())?.map(Into::into)
+    }
+
+    /// The answer of a motion. **Errors**: those that more bits may settle.
+    fn find_in<S: System>(&self, motion: &dyn Motion<S>) -> Result<Found<S>, Error> {
+        let run = &self.problem.run;
+        let find = |one: &One| match one.of(motion, &self.units, run)? {
+            Ok([value, _]) => Ok(value),
+            Err(Missing { open: true, why }) => Err(NoAnswer::gave_up(why)),
+            Err(Missing { why, .. }) => Err(NoAnswer::none(why)),
+        };
+        let found = Parameters::of(&self.problem, &motion.end().precision()).map_err(NoAnswer::from).and_then(|rod| {
+            let bounce = || find(&One::new(Quantity::BounceTime, None));
+            self.claim(&rod, |side| find(&One { side, ..self.one.clone() }), bounce)
+        });
+        match found {
             Err(NoAnswer::Solve(error @ (Error::NotDecided { .. } | Error::Open(_)))) => Err(error),
             found => Ok(found),
         }
     }
 
-    /// The answer of an engine in its numbers.
-    fn find_in_history<S: System>(&self, history: &dyn Motion<S>) -> Found<S> {
-        let rod = Parameters::of(&self.problem, &history.scales().length.precision())?;
-        self.find(&rod, &ByHistory(history, &self.problem.run))
-    }
-
-    fn find<S: System>(&self, rod: &Parameters<S>, motion: &dyn Account<S>) -> Found<S> {
-        let found = match self.limit {
-            Limit::From(side) => self.find_on(rod, motion, side),
-            Limit::Jump => {
-                let earlier = self.find_on(rod, motion, Side::Left);
-                self.find_on(rod, motion, Side::Right).and_then(|later| Ok(later.minus(earlier?)))
-            }
+    /// What is made of what `find` gives for a side.
+    fn claim<S: System>(
+        &self,
+        rod: &Parameters<S>,
+        find: impl Fn(Side) -> Found<S>,
+        bounce: impl Fn() -> Found<S>,
+    ) -> Found<S> {
+        let exponential = |exponent: S| exponent.exponential().ok_or_else(|| NoAnswer::none("no fraction"));
+        let claimed = || {
+            let found = find(self.one.side)?;
+            Ok(match self.claimed {
+                Claimed::Itself => found,
+                Claimed::Jump => find(Side::Right)? - find(Side::Left)?,
+                Claimed::TimesGrowth => found * exponential(bounce()? * &rod.damping * rod.damping.int(2))?,
+                Claimed::RootBeyondDecay => {
+                    let root = found.try_sqrt().ok_or_else(|| NoAnswer::none("no fraction"))?;
+                    root - exponential(-(bounce()? * &rod.damping))?
+                }
+            })
         };
-        found.map_err(|error| match error {
-            NoAnswer::NoSuchQuantity { why, .. } => NoAnswer::NoSuchQuantity { quantity: self.quantity.name(), why },
+        claimed().map_err(|error| match error {
+            NoAnswer::NoSuchQuantity { why, .. } => {
+                NoAnswer::NoSuchQuantity { quantity: self.one.quantity.name(), why }
+            }
             other => other,
         })
     }
 
-    fn find_on<S: System>(&self, rod: &Parameters<S>, motion: &dyn Account<S>, side: Side) -> Found<S> {
-        let precision = rod.length.precision();
-        let point = || match &self.point {
-            Some(point) => Ok(S::from_number(point, &precision)),
+    /// The answer of an account, without a unit.
+    fn find<S: System>(&self, rod: &Parameters<S>, motion: &dyn Account<S>, side: Side) -> Found<S> {
+        let lift = |number: &Number| S::from_number(number, &rod.length.precision());
+        let time = || self.one.time.as_ref().map_or_else(|| motion.release(rod), |time| Ok(lift(time)));
+        let field = || match &self.one.point {
+            Some(point) => motion.field(&lift(point), &time()?, side),
             None => Err(NoAnswer::none("no point is given")),
         };
-        let time = || match &self.time {
-            Some(time) => Ok(S::from_number(time, &precision)),
-            None => motion.release(rod).map(|release| release.value),
-        };
-        let field = |k: usize| {
-            let [v, v_t, v_x] = motion.field(&point()?, &time()?, side)?;
-            Ok(if k == 0 {
-                v
-            } else if k == 1 {
-                v_t
-            } else {
-                v_x
-            })
-        };
-        let exponential = |exponent: S| exponent.exponential().ok_or_else(|| NoAnswer::none("no fraction"));
-        let left = || {
-            let end = motion.release(rod)?.value;
-            Ok::<_, NoAnswer>((motion.total_energy(&end)?.over(motion.first_energy(rod)?), end))
-        };
-        match self.quantity {
-            BounceTime => motion.release(rod),
-            LastEvent => motion.last_event(rod),
-            Impact => motion.event_near(EventKind::Impact, time()?.to_f64()),
-            Release => motion.event_near(EventKind::Release, time()?.to_f64()),
-            Stress => motion.strain(&time()?, side),
-            Displacement => field(0),
-            Velocity => field(1),
-            Strain => field(2),
-            Centre => motion.height(rod, &time()?),
-            Momentum => motion.momentum(rod, &time()?),
-            Energy => motion.total_energy(&time()?),
-            Translational => motion.translational_energy(rod, &time()?),
-            Vibrational => motion.vibrational_energy(rod, &time()?),
-            MomentumRestitution => motion.momentum_restitution(rod),
-            Restitution => motion.restitution(rod),
-            TranslationalShare => {
-                let end = motion.release(rod)?.value;
-                Ok(motion.translational_energy(rod, &end)?.over(motion.total_energy(&end)?))
+        match self.one.quantity {
+            Quantity::BounceTime => motion.release(rod),
+            Quantity::LastEvent => motion.last_event(rod),
+            Quantity::Strain | Quantity::Stress | Quantity::Force => motion.strain(&time()?, side),
+            Quantity::PointDisplacement => field().map(|[v, _, _]| v),
+            Quantity::PointVelocity => field().map(|[_, v_t, _]| v_t),
+            Quantity::PointStrain => field().map(|[_, _, v_x]| v_x),
+            Quantity::Centre => motion.height(rod, &time()?),
+            Quantity::CentreVelocity => motion.centre(rod, &time()?).map(|[_, velocity]| velocity),
+            Quantity::Energy => motion.total_energy(&time()?),
+            Quantity::TranslationalEnergy => motion.translational_energy(rod, &time()?),
+            Quantity::VibrationalEnergy => motion.vibrational_energy(rod, &time()?),
+            Quantity::MomentumRestitution => motion.momentum_restitution(rod),
+            Quantity::EnergyRestitution => motion.restitution(rod),
+            Quantity::TranslationalShare => {
+                let end = motion.release(rod)?;
+                Ok(motion.translational_energy(rod, &end)? / motion.total_energy(&end)?)
             }
-            EnergyLeft => Ok(left()?.0),
-            EnergyLeftUndamped => {
-                let (left, end) = left()?;
-                let lost = end.int(2) * &rod.damping * &end;
-                Ok(left.times(&exponential(lost)?))
-            }
-            BeyondExponential => {
-                let (squared, end) = (motion.restitution(rod)?, motion.release(rod)?.value);
-                let root = squared.value.try_sqrt().ok_or_else(|| NoAnswer::none("no fraction"))?;
-                let bound = squared.bound / root.to_f64();
-                let decay = exponential(-(end * &rod.damping))?;
-                Ok(Bounded::new(root, bound).minus(Bounded::rounded(decay)))
-            }
-            TopTime => motion.top().map(|[time, _]| time),
-            TopHeight => motion.top().map(|[_, height]| height),
-            ShortestPiece => motion.shortest_piece(),
-            Constant => Err(NoAnswer::none("it belongs to no rod")),
+            Quantity::EnergyKept => Ok(motion.total_energy(&motion.release(rod)?)? / first_energy(rod)),
+            Quantity::TopTime => motion.top().map(|[time, _]| time),
+            Quantity::Top => motion.top().map(|[_, height]| height),
+            _ => not_given(),
         }
     }
 }

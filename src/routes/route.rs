@@ -1,10 +1,10 @@
 //! Every route to an answer, and the one function that runs it.
 
-use super::account::ByClosedForm;
+use super::account::{ByClosedForm, unbounded};
 use super::differences::march;
 use super::long;
-use super::quantity::{Quantity, Question};
-use super::value::{Answer, Bounded, NoAnswer, Value};
+use super::quantity::Question;
+use super::value::{NoAnswer, Value};
 use crate::cells::Damped;
 use crate::lattice::Undamped;
 use crate::modal::Modal;
@@ -12,6 +12,7 @@ use crate::motion::Ending;
 use crate::number::{Estimate, Rational, Scalar};
 use crate::paper::{Printed, UndampedContact};
 use crate::problem::{Parameters, Problem, Run};
+use crate::quantity::{One, Quantity};
 pub(crate) use crate::solve::Numbers;
 use crate::solve::{self, Plan, Solution, Want};
 
@@ -53,33 +54,30 @@ impl Route {
     }
 
     /// The answer of this route to `question`, in about so many seconds where it can stop itself.
-    pub(crate) fn run(self, question: &Question, seconds: f64) -> Result<Answer, NoAnswer> {
+    pub(crate) fn run(self, question: &Question, seconds: f64) -> Result<Value, NoAnswer> {
         let problem = &question.problem;
         match self {
-            Route::Formula(_, formula) => Ok(Bounded::unbounded(Value::Double(formula()))),
+            Route::Formula(_, formula) => Ok(unbounded(formula()).into()),
             Route::ClosedForm(Numbers::Double(_)) => {
                 let rod = Parameters::<Estimate<f64>>::of(problem, &())?;
                 question.ask(&rod, &ByClosedForm::new(&rod))
             }
-            Route::Lattice(Numbers::Double(_)) => {
-                question.ask_history(&Undamped::<Estimate<f64>>::solve(problem, &())?)
-            }
-            Route::Cells(digits) => question.ask_history(&Damped::<f64>::solve(problem, &(), f64::from(digits))?),
+            Route::Lattice(Numbers::Double(_)) => question.ask_engine(&Undamped::<Estimate<f64>>::solve(problem, &())?),
+            Route::Cells(digits) => question.ask_engine(&Damped::<f64>::solve(problem, &(), f64::from(digits))?),
             Route::Modes(modes) => {
-                let rod = Parameters::of(problem, &())?;
-                question.ask(&rod, &Modal::<f64>::new(&rod, modes))
+                let modal = Modal::<f64>::new(&Parameters::of(problem, &())?, modes);
+                question.ask(&Parameters::of(problem, &())?, &modal)
             }
             Route::PrintedIntegrals(tolerance) => {
-                let rod = Parameters::of(problem, &())?;
-                let printed = Printed::new(&rod, tolerance).limited_to(seconds);
-                let answer = question.ask(&rod, &printed);
+                let printed = Printed::new(&Parameters::of(problem, &())?, tolerance).limited_to(seconds);
+                let answer = question.ask(&Parameters::of(problem, &())?, &printed);
                 if printed.is_late() { Err(NoAnswer::gave_up("the nested integrals take too long")) } else { answer }
             }
-            Route::Differences(cells) => question.ask(&Parameters::<f64>::of(problem, &())?, &march(problem, cells)?),
+            Route::Differences(cells) => question.ask(&Parameters::of(problem, &())?, &march(problem, cells)?),
             Route::Planned(numbers) => planned(question, numbers),
-            Route::LongFormula(_, digits, formula) => Ok(Bounded::unbounded(long::formula(digits, formula))),
+            Route::LongFormula(_, digits, formula) => Ok(long::formula(digits, formula)),
             Route::ClosedForm(Numbers::Digits(digits)) => long::closed_form(question, digits),
-            Route::Lattice(Numbers::Exact) => question.ask_history(&Undamped::<Rational>::solve(problem, &())?),
+            Route::Lattice(Numbers::Exact) => question.ask_engine(&Undamped::<Rational>::solve(problem, &())?),
             Route::PrintedForms => {
                 let rod = Parameters::<Rational>::of(problem, &())?;
                 let contact =
@@ -92,17 +90,13 @@ impl Route {
 }
 
 /// What the solver is asked so that it answers `question`, and no more.
-pub(crate) fn asked(question: &Question, numbers: Numbers) -> solve::Question {
-    let want = match (&question.time, question.quantity) {
-        (_, Quantity::LastEvent | Quantity::Impact | Quantity::Release) => Want::Run,
-        (_, Quantity::TopTime | Quantity::TopHeight | Quantity::ShortestPiece) => Want::Run,
-        (Some(time), _) => {
-            let from = question.from.and_then(|from| from.to_string().parse().ok());
-            Want::Between(from.unwrap_or_else(|| time.clone()), time.clone())
-        }
-        (None, _) => Want::Bounce,
-    };
-    solve::Question { want, numbers }
+fn asked(question: &Question, numbers: Numbers) -> solve::Question {
+    let One { quantity, time, .. } = &question.one;
+    let asked = solve::Question::of(*quantity, time.as_ref(), numbers);
+    match (question.from.and_then(|from| from.to_string().parse().ok()), asked.want) {
+        (Some(from), Want::Between(_, to)) => solve::Question::between(from, to, numbers),
+        (_, want) => solve::Question { want, numbers },
+    }
 }
 
 /// The plan that answers `question` in these numbers.
@@ -111,10 +105,10 @@ pub(crate) fn plan(question: &Question, numbers: Numbers) -> Result<Plan, NoAnsw
 }
 
 /// The answer to `question` as its plan finds it.
-fn planned(question: &Question, numbers: Numbers) -> Result<Answer, NoAnswer> {
+fn planned(question: &Question, numbers: Numbers) -> Result<Value, NoAnswer> {
     let plan = plan(question, numbers)?;
     match numbers {
-        Numbers::Double(_) => question.find_planned(&plan).map(Bounded::answer),
+        Numbers::Double(_) => question.ask_plan(&plan),
         _ => question.ask_solution(&plan.solve(&question.problem, solve::unobserved())?),
     }
 }
@@ -126,10 +120,10 @@ pub(crate) fn within_first_contact(question: &Question) -> Result<(), String> {
     if !question.problem.has_closed_form() {
         return Err("the start or the top is not the paper's, so the first contact has no closed form".into());
     }
-    if question.quantity == Quantity::LastEvent && question.problem.run != Run::Impacts(1) {
+    if question.one.quantity == Quantity::LastEvent && question.problem.run != Run::Impacts(1) {
         return Err("it covers the first contact only".into());
     }
-    let Some(time) = &question.time else { return Ok(()) };
+    let Some(time) = &question.one.time else { return Ok(()) };
     let first = question.problem.first_contact().map_err(|error| error.to_string())?;
     match (first.contacts().first().and_then(|contact| contact.to), first.ending()) {
         (Some(end), _) if time.to_f64() > end * (1.0 + 1e-12) => {

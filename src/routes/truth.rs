@@ -3,7 +3,7 @@
 use super::long;
 use super::quantity::Question;
 use super::route::{Numbers, Route};
-use super::value::{NoAnswer, System, Value};
+use super::value::{NoAnswer, Value};
 use crate::number::Number;
 
 /// A number and how far it may be from the truth.
@@ -50,7 +50,7 @@ impl Truth {
         // A whole unit: the last digit may have been cut instead of rounded.
         let last_place = mantissa.split_once('.').map(|(_, after)| exponent.parse().unwrap_or(0) - after.len() as i32);
         let log10_half_width = last_place.map_or(f64::NEG_INFINITY, f64::from);
-        Some(Truth { value: number.to_rational().value(), log10_half_width, proved: true, last_place })
+        Some(Truth { value: number.to_rational().into(), log10_half_width, proved: true, last_place })
     }
 
     /// The answer to `question` with `digits` decimal digits or more: a fraction where the undamped run stays in
@@ -62,7 +62,7 @@ impl Truth {
         let of = |value: Value, log10_half_width: f64, proved: bool| {
             Ok(Truth { value, log10_half_width, proved, last_place: None })
         };
-        let run = |route: Route| route.run(question, f64::INFINITY).map(|answer| answer.value);
+        let run = |route: Route| route.run(question, f64::INFINITY);
         if question.problem.rod.damping.is_none()
             && let Ok(value) = run(Route::Lattice(Numbers::Exact))
         {
@@ -129,10 +129,12 @@ impl Truth {
 mod tests {
     #![allow(clippy::unwrap_used)]
     use super::*;
+    use crate::number::Estimate;
 
     #[test]
     fn a_truth_is_as_exact_as_it_is_spelt() {
-        let digits = |truth: &str, value: f64| Truth::spelt(truth).unwrap().right_digits(&Value::Double(value));
+        let digits =
+            |truth: &str, value: f64| Truth::spelt(truth).unwrap().right_digits(&Value::Double(Estimate::exact(value)));
         assert_eq!(digits("2", 2.0), RightDigits::All);
         assert_eq!(digits("5/2", 2.5), RightDigits::All);
         assert_eq!(digits("2.500", 2.5), RightDigits::Digits(3.0));

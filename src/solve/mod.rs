@@ -29,4 +29,4 @@ pub(crate) use ladder::unobserved;
 pub use ladder::{Observer, Target};
 pub use plan::{CERTIFIED_DIGITS, CellLimits, Climb, DEFAULT_ACCURACY, Engine, Goal, MAX_DIGITS, Plan, Reach, Rung};
 pub use question::{Numbers, Question, Want};
-pub use solution::{ExactnessEnd, Solution};
+pub use solution::{ExactnessEnd, Solution, Visitor};

@@ -1,6 +1,7 @@
 //! What is asked of a problem, and in which numbers.
 
 use crate::number::Number;
+use crate::quantity::{Needs, Quantity};
 
 /// What is asked of a problem, and in which numbers: all that a [`Plan`](super::Plan) is made from besides the problem.
 ///
@@ -62,6 +63,21 @@ impl Question {
     /// Single numbers of the first contact.
     pub fn bounce(numbers: Numbers) -> Self {
         Question { want: Want::Bounce, numbers }
+    }
+
+    /// What answers `quantity`: at `time` where it has one, otherwise of the first contact or at its end.
+    pub fn of(quantity: Quantity, time: Option<&Number>, numbers: Numbers) -> Self {
+        match (quantity.needs(), time) {
+            (Needs::Event | Needs::Flight | Needs::Piece | Needs::Run, _) | (Needs::Contact, Some(_)) => {
+                Question::run(numbers)
+            }
+            (Needs::Contact, None) if !quantity.is_of_ends() => Question::first_contact(numbers),
+            // What has happened before is part of these.
+            (_, None) if quantity.is_of_past() => Question::first_contact(numbers),
+            (_, Some(time)) if quantity.is_of_past() => Question::between(0.into(), time.clone(), numbers),
+            (_, None) => Question::bounce(numbers),
+            (_, Some(time)) => Question::between(time.clone(), time.clone(), numbers),
+        }
     }
 
     /// Values between two times.

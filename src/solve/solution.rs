@@ -1,7 +1,7 @@
 //! The answer in the numbers that were asked for.
 
 use super::history::History;
-use super::ladder::Observer;
+use super::ladder::{Observer, Target};
 use super::plan::Plan;
 use super::question::Numbers;
 use crate::error::Error;
@@ -23,6 +23,45 @@ pub enum Solution {
     DigitsAfter(History<Float>, u32, ExactnessEnd),
     /// Enclosures: this many digits are proved.
     Certified(History<Interval>, u32),
+}
+
+/// What is done with a history, whatever its numbers.
+pub trait Visitor {
+    /// What comes of it.
+    type Output;
+
+    /// Does it.
+    fn visit<S: Target>(self, history: &History<S>) -> Self::Output;
+}
+
+impl Solution {
+    /// What `visitor` makes of the history.
+    pub fn visit<V: Visitor>(&self, visitor: V) -> V::Output {
+        match self {
+            Solution::Double(history) => visitor.visit(history),
+            Solution::Exact(history) => visitor.visit(history),
+            Solution::Digits(history, _) | Solution::DigitsAfter(history, ..) => visitor.visit(history),
+            Solution::Certified(history, _) => visitor.visit(history),
+        }
+    }
+
+    /// How many digits are to be printed; 0 for doubles and fractions.
+    pub fn digits(&self) -> u32 {
+        match self {
+            Solution::Double(_) | Solution::Exact(_) => 0,
+            Solution::Digits(_, digits) | Solution::DigitsAfter(_, digits, _) | Solution::Certified(_, digits) => {
+                *digits
+            }
+        }
+    }
+
+    /// What fractions could not hold, where digits of the whole run stand in for them.
+    pub fn exactness_end(&self) -> Option<&ExactnessEnd> {
+        match self {
+            Solution::DigitsAfter(_, _, end) => Some(end),
+            _ => None,
+        }
+    }
 }
 
 /// What fractions cannot hold.

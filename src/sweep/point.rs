@@ -4,10 +4,11 @@ use serde::{Deserialize, Serialize};
 use serde_json::Value;
 
 use super::grid::Grid;
+use crate::motion::Motion;
 use crate::number::{Number, Scalar, bound_json, number_json, shown_bound_text};
-use crate::problem::Problem;
-use crate::routes::{NoAnswer, Quantity, Question, asked};
-use crate::solve::{self, History, Numbers, Plan, Solution, Target, unobserved};
+use crate::problem::{Problem, Run};
+use crate::quantity::{Needs, One, Quantity, UnitSystem, Units};
+use crate::solve::{ExactnessEnd, History, Numbers, Plan, Question, Solution, Target, Visitor, unobserved};
 
 /// The numbers that are asked of every point.
 #[derive(Clone, Debug)]
@@ -16,6 +17,8 @@ pub(crate) struct Asked {
     /// For quantities at a time; at the first bounce without it.
     pub(crate) time: Option<Number>,
     pub(crate) numbers: Numbers,
+    /// The units of the numbers.
+    pub(crate) units: UnitSystem,
 }
 
 /// A point and its numbers, in the order of the quantities.
@@ -59,12 +62,12 @@ impl Asked {
 
     /// Quantities that the same run answers share it.
     fn cells(&self, problem: &Problem) -> Vec<Cell> {
-        let mut runs: Vec<(solve::Question, Result<Solution, String>)> = Vec::new();
+        let units = Units::of(problem, self.units);
+        let mut runs: Vec<(Question, Result<Solution, String>)> = Vec::new();
         let mut cells = Vec::with_capacity(self.quantities.len());
         for quantity in &self.quantities {
-            let time = self.time.clone().filter(|_| quantity.is_at_a_time());
-            let question = Question::new(problem.clone(), *quantity, time);
-            let run = asked(&question, self.numbers);
+            let time = self.time.clone().filter(|_| quantity.needs() == Needs::Time);
+            let run = Question::of(*quantity, time.as_ref(), self.numbers);
             let known = runs.iter().position(|(other, _)| *other == run);
             let known = known.unwrap_or_else(|| {
                 let plan = Plan::of(problem, &run);
@@ -73,7 +76,13 @@ impl Asked {
                 runs.len() - 1
             });
             cells.push(match &runs[known].1 {
-                Ok(solution) => in_solution(&question, solution),
+                Ok(solution) => solution.visit(Found {
+                    one: &One::new(*quantity, time),
+                    units: &units,
+                    run: &problem.run,
+                    digits: solution.digits(),
+                    exactness_end: solution.exactness_end(),
+                }),
                 Err(why) => Cell::none(why),
             });
         }
@@ -81,31 +90,37 @@ impl Asked {
     }
 }
 
-fn in_solution(question: &Question, solution: &Solution) -> Cell {
-    match solution {
-        Solution::Double(history) => cell(question, history, 0),
-        Solution::Exact(history) => cell(question, history, 0),
-        Solution::Digits(history, n) => cell(question, history, *n),
-        Solution::DigitsAfter(history, n, end) => {
-            cell(question, history, *n).noted(format!("{end}; the number is in {n} digits"))
-        }
-        Solution::Certified(history, n) => cell(question, history, *n),
-    }
+/// One number of a point, as a cell.
+struct Found<'a> {
+    one: &'a One,
+    units: &'a Units,
+    run: &'a Run,
+    digits: u32,
+    exactness_end: Option<&'a ExactnessEnd>,
 }
 
-fn cell<S: Target<Carried: crate::routes::System>>(question: &Question, history: &History<S>, digits: u32) -> Cell {
-    let cell = match question.find_settled(history) {
-        Ok(found) if !found.value.is_finite() => Cell::none("no finite number"),
-        Ok(found) => Cell {
-            value: number_json(&found.value, digits),
-            uncertainty: match bound_json(&found.value, digits) {
-                Value::Null => shown_bound_text(&found.value, digits).into(),
-                bound => bound,
+impl Visitor for Found<'_> {
+    type Output = Cell;
+
+    fn visit<S: Target>(self, history: &History<S>) -> Cell {
+        let digits = self.digits;
+        let query = |motion: &dyn Motion<S::Carried>| self.one.of(motion, self.units, self.run);
+        let found = history.ask(query, |found| found.iter().map(|[_, plain]| plain).collect());
+        let cell = match found {
+            Ok(Ok([value, _])) if !value.is_finite() => Cell::none("no finite number"),
+            Ok(Ok([value, _])) => Cell {
+                value: number_json(&value, digits),
+                uncertainty: match bound_json(&value, digits) {
+                    Value::Null => shown_bound_text(&value, digits).into(),
+                    bound => bound,
+                },
+                note: None,
             },
-            note: None,
-        },
-        Err(NoAnswer::NoSuchQuantity { why, .. }) => Cell::none(why),
-        Err(error) => Cell::none(error),
-    };
-    history.warnings().iter().fold(cell, |cell, warning| cell.noted(warning.to_string()))
+            Ok(Err(missing)) => Cell::none(missing.why),
+            Err(error) => Cell::none(error),
+        };
+        let ends = self.exactness_end.map(|end| format!("{end}; the number is in {digits} digits"));
+        let warnings = history.warnings().into_iter().map(|warning| warning.to_string());
+        ends.into_iter().chain(warnings).fold(cell, Cell::noted)
+    }
 }

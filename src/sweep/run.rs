@@ -6,6 +6,7 @@ use rayon::prelude::*;
 
 use super::grid::Grid;
 use super::point::{Asked, Point};
+use crate::quantity::{Quantity, Units};
 
 /// A sweep: what is varied, and what is asked.
 #[derive(Debug)]
@@ -15,6 +16,13 @@ pub(crate) struct Sweep {
 }
 
 impl Sweep {
+    /// The quantities with their units, which are the same at every point.
+    pub(crate) fn units(&self) -> impl Iterator<Item = (Quantity, &'static str)> {
+        let problem = (0..self.grid.len()).find_map(|index| self.grid.problem(index).ok());
+        let units = problem.map_or_else(Units::default, |problem| Units::of(&problem, self.asked.units));
+        self.asked.quantities.iter().map(move |quantity| (*quantity, quantity.unit(&units)))
+    }
+
     /// All `points` that are not `known`, on all threads, and those that are, in order. `done` receives each as it is
     /// finished and may refuse to go on.
     ///

@@ -64,6 +64,30 @@ fn the_readme_lists_all_columns() {
 }
 
 #[test]
+fn the_docstring_of_python_lists_all_columns() {
+    let source = include_str!("../../python/dalembert/__init__.py");
+    let doc = source.split("def columns(").nth(1).and_then(|rest| rest.split("\"\"\"").nth(1)).unwrap();
+    let mut listed: Vec<&str> = doc.split("``").skip(1).step_by(2).collect();
+    let mut known: Vec<&str> = Needs::Time.quantities().map(Quantity::name).collect();
+    listed.sort_unstable();
+    known.sort_unstable();
+    assert_eq!(listed, known);
+}
+
+/// Nothing that needs the same has the same name, and every name is found.
+#[test]
+fn names_are_told_apart_by_what_they_need() {
+    for quantity in Quantity::ALL {
+        assert_eq!(quantity.needs().named(quantity.name()), Some(*quantity));
+        assert_eq!(quantity.needs().called(quantity.name()), Some(*quantity));
+        assert!(!quantity.meaning().is_empty());
+        for name in quantity.also() {
+            assert_eq!(quantity.needs().called(name), Some(*quantity), "{name}");
+        }
+    }
+}
+
+#[test]
 fn energies_are_integrals_of_the_field() {
     let scenes = ["doyen-ern-piperno", "getfem-dynamic-contact", "paper-strong", "figure-2", "mu-4-3"];
     for name in scenes {

@@ -435,7 +435,10 @@ fn what_is_refused() {
         ("t,side,u\n0,both,0\n1,right,0\n1,left,0\n", "run.csv, line 4, column 1: found time 1 after 1"),
         ("t,side,u\n0,both,0\n1,up,0\n", "run.csv, line 3, column 2: found `up`, expected left, right or both"),
         ("t,u\n-2,0\n-1,0\n", "run.csv: found times up to -1, expected some after 0"),
-        ("0,0\n1,0\n", "run.csv: found no names of columns, expected --map"),
+        (
+            "0,0\n1,0\n",
+            "run.csv: found no names of columns, expected a map such as t=0,u=1,v=2,force=3 with their numbers, counted from 0",
+        ),
         ("t,w\n0,0\n1,0\n", "run.csv: found no quantity in the columns t, w"),
         ("t,x,u\n0,0,0\n0,2,0\n", "run.csv, line 3, column 2: found point 2, expected one between 0 and 1"),
         ("t,x,u\n0,0.5,0\n0,0.5,0\n", "run.csv, line 3, column 2: found point 0.5 after 0.5"),
@@ -447,6 +450,8 @@ fn what_is_refused() {
         let error = String::from_utf8_lossy(&output.stderr);
         let words = error.split_whitespace().collect::<Vec<_>>().join(" ");
         assert!(words.contains(said), "no `{said}` in {words}");
+        // What a map or a step mends, a flag gives.
+        assert_eq!(words.contains("a map such as"), words.contains("help: --map"), "{words}");
         assert!(!folder.path().join("out.json").exists());
     }
 }
@@ -483,6 +488,8 @@ fn every_kind_of_array() {
         let error = String::from_utf8_lossy(&output.stderr);
         let words = error.split_whitespace().collect::<Vec<_>>().join(" ");
         assert!(words.contains(said), "no `{said}` in {words}");
+        // What a map or a step mends, a flag gives.
+        assert_eq!(words.contains("a map such as"), words.contains("help: --map"), "{words}");
     };
     Array0::from_elem((), 1.0).write_npy(fs::File::create(&path).unwrap()).unwrap();
     refused("a.npy: found an array of shape [], expected one column");

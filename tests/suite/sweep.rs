@@ -198,6 +198,26 @@ fn a_sweep_without_any_number_fails() {
     assert!(String::from_utf8(none.stdout).unwrap().contains("no bounce: r t₁ = 4.000000 ≥ π"));
 }
 
+/// E = 4, ρ = 1, S = 2, L = 2: c = 2, ρS = 2, t_b = 2. What turns round is 2ρSLμ = 8 N s at the force ESμ/c = 4 N, and
+/// the energy is ρSLμ²/2 = 2 J, as `solve` has them.
+#[test]
+fn numbers_are_in_the_units_of_the_material() {
+    let file = tempfile::NamedTempFile::new().unwrap();
+    let scene = "rod = { length = 2, modulus = 4, density = 1, area = 2 }\nimpact = { speed = 1 }\n";
+    std::fs::write(file.path(), scene).unwrap();
+    let path = file.path().to_str().unwrap();
+    let asked = ["--quantity", "energy,impulse,peak_force,peak_stress,bounce_time", "--vary", "impact.speed=1,2"];
+    let json: Value =
+        serde_json::from_str(&run(&[&[path], &asked[..], &["--format", "json"]].concat()).unwrap()).unwrap();
+    let names = ["E_total", "impulse", "peak_force", "peak_stress", "bounce_time"];
+    let values = |k: usize| names.map(|name| json["points"][k]["values"][name].as_f64().unwrap());
+    assert_eq!(values(0), [2.0, 8.0, 4.0, -2.0, 2.0]);
+    assert_eq!(values(1), [8.0, 16.0, 8.0, -4.0, 2.0]);
+    assert_eq!(names.map(|name| json["units"][name].as_str().unwrap()), ["J", "N s", "N", "Pa", "s"]);
+    let csv = run(&[&[path], &asked[..], &["--format", "csv"]].concat()).unwrap();
+    assert!(csv.starts_with("point,impact.speed,E_total [J],E_total_uncertainty [J],impulse [N s],"), "{csv}");
+}
+
 /// c = L = g = 1: μ = 1 lands first at 3 + √2, which is no fraction.
 #[cfg(feature = "mp")]
 #[test]

@@ -7,8 +7,9 @@ use crate::motion::Side;
 use crate::number::Number;
 use crate::paper::Printed;
 use crate::problem::{Parameters, Problem, Run};
+use crate::quantity::{One, Quantity, Units};
 use crate::routes::long;
-use crate::routes::quantity::{Limit, Quantity, Question};
+use crate::routes::quantity::{Claimed, Question};
 use crate::routes::route::{Numbers, Route};
 use crate::routes::truth::Truth;
 use crate::routes::value::NoAnswer;
@@ -85,7 +86,8 @@ pub(crate) struct Entry {
     quantity: Quantity,
     /// x, and t; `t_b` where it is empty.
     place: (Text, Text),
-    limit: Limit,
+    side: Side,
+    claimed: Claimed,
     /// See [`Truth::spelt`], or [`super::verdict::NO_BOUNCE`].
     pub(super) truth: Text,
     /// Routes of this question alone, shown before the others.
@@ -95,13 +97,13 @@ pub(crate) struct Entry {
 
 /// A question at `t_b`, or that has no time.
 pub(super) const fn ask(what: Text, rod: Rod, quantity: Quantity, truth: Text, routes: &'static [Promised]) -> Entry {
-    let (place, limit, formulas) = (("", ""), Limit::From(Side::Right), [None; MOST_FORMULAS]);
-    Entry { what, rod, quantity, place, limit, truth, formulas, routes }
+    let (place, side, claimed, formulas) = (("", ""), Side::Right, Claimed::Itself, [None; MOST_FORMULAS]);
+    Entry { what, rod, quantity, place, side, claimed, truth, formulas, routes }
 }
 
-/// A number that belongs to no rod.
+/// A number that belongs to no rod: only formulas give it, and nothing is asked.
 pub(super) const fn constant(what: Text, truth: Text) -> Entry {
-    ask(what, unit("0", "1"), Quantity::Constant, truth, &[])
+    ask(what, unit("0", "1"), Quantity::BounceTime, truth, &[])
 }
 
 impl Entry {
@@ -112,7 +114,7 @@ impl Entry {
 
     /// At this time, in the limit from earlier times.
     pub(super) const fn before(self, time: Text) -> Entry {
-        Entry { place: ("", time), limit: Limit::From(Side::Left), ..self }
+        Entry { place: ("", time), side: Side::Left, ..self }
     }
 
     /// At this point and time.
@@ -122,7 +124,17 @@ impl Entry {
 
     /// The later limit minus the earlier.
     pub(super) const fn jump(self) -> Entry {
-        Entry { limit: Limit::Jump, ..self }
+        Entry { claimed: Claimed::Jump, ..self }
+    }
+
+    /// `e^{2r t_b}` times that.
+    pub(super) const fn times_growth(self) -> Entry {
+        Entry { claimed: Claimed::TimesGrowth, ..self }
+    }
+
+    /// What its root exceeds `e^{−r t_b}` by.
+    pub(super) const fn root_beyond_decay(self) -> Entry {
+        Entry { claimed: Claimed::RootBeyondDecay, ..self }
     }
 
     /// A formula in doubles that gives so many digits.
@@ -151,12 +163,13 @@ impl Entry {
 
     fn question(&self) -> Result<Question, NoAnswer> {
         let number = |text: &str| (!text.is_empty()).then(|| text.parse::<Number>()).transpose();
-        let (problem, quantity, limit) = (self.rod.problem()?, self.quantity, self.limit);
+        let (problem, quantity) = (self.rod.problem()?, self.quantity);
         let (point, time) = (number(self.place.0)?, number(self.place.1)?);
         // The centre of mass at the end of a run needs nothing of what lies long before.
         let end = matches!((&problem.run, quantity), (Run::Time(_), Quantity::Centre));
         let from = time.as_ref().map(Number::to_f64).filter(|_| end);
-        Ok(Question { problem, quantity, point, time, limit, from })
+        let one = One { quantity, point, time, side: self.side };
+        Ok(Question { problem, one, units: Units::default(), claimed: self.claimed, from })
     }
 
     pub(super) fn check(&self) -> CheckedQuestion {

@@ -7,9 +7,7 @@ use super::verdict::Verdict;
 use crate::first_contact::FirstContact;
 use crate::paper::{Printed, formulas};
 use crate::problem::Parameters;
-use crate::routes::quantity::Quantity::{
-    BounceTime, Centre, Impact, Release, ShortestPiece, Stress, TopHeight, Vibrational,
-};
+use crate::quantity::Quantity::{BounceTime, Centre, Impact, Release, ShortestPiece, Strain, Top, VibrationalEnergy};
 use crate::routes::route::{Numbers, Route};
 
 const fn hard(name: Text, source: Text, about: Text, entries: Entries) -> Case {
@@ -122,11 +120,11 @@ pub(super) const WEAK: Group = group("weak", "Damping that vanishes",
          functions and logarithmic means they have no division by r, and their limit r → 0 is the formula of r = 0, \
          which `remark-2` checks.", &[
     hard("weak-1e-9", "(3.44), Remark 2", "c = L = g = 1, μ = 4, r = 1e-9", &[
-        ask("h_max", unit("1e-9", "4"), TopHeight, "7.333333259333333905999995484844481333944", WEAK_ROUTES)
+        ask("h_max", unit("1e-9", "4"), Top, "7.333333259333333905999995484844481333944", WEAK_ROUTES)
             .breaks(REMARK, 2, || formulas::top_height(1e-9, 1.0, -2.0 / 3.0, 4.0)),
     ]),
     hard("weak-1e-300", "(3.44), Remark 2", "c = L = g = 1, μ = 4, r = 1e-300", &[
-        ask("h_max", unit("1e-300", "4"), TopHeight, "7.333333333333333333333333333333333333333", WEAK_ROUTES)
+        ask("h_max", unit("1e-300", "4"), Top, "7.333333333333333333333333333333333333333", WEAK_ROUTES)
             .breaks(REMARK, 1, || formulas::top_height(1e-300, 1.0, -2.0 / 3.0, 4.0)),
     ]),
 ]);
@@ -136,10 +134,10 @@ pub(super) const STRONG: Group = group("strong", "Damping that overflows",
     "I₀(rt) overflows beyond rt = 713, and e^{−rt} underflows. Their product is of the order of one and has to be \
          formed before its factors. The rod settles under its weight.", &[
     hard("strong-50", "(2.28)", "c = L = g = μ = 1, r = 25: R = 50", &[
-        ask("v_x(0, 5)", unit("25", "1"), Stress, "-0.3921827498005491489803559626221082304965", STRONG_ROUTES).at("5"),
+        ask("v_x(0, 5)", unit("25", "1"), Strain, "-0.3921827498005491489803559626221082304965", STRONG_ROUTES).at("5"),
     ]),
     hard("strong-1000", "(2.28)", "c = L = g = μ = 1, r = 500: R = 1000", &[
-        ask("v_x(0, 5)", unit("500", "1"), Stress, "-0.08776371099830946838336668658955494142548", STRONG_ROUTES)
+        ask("v_x(0, 5)", unit("500", "1"), Strain, "-0.08776371099830946838336668658955494142548", STRONG_ROUTES)
             .at("5").breaks(SUM, 1, || printed(500.0, 1.0).strain(5.0)),
     ]),
 ]);
@@ -208,11 +206,11 @@ pub(super) const SMALL: Group = group("small", "Small differences of great numbe
          them.", &[
     hard("steel-100", "(3.61)–(3.63)",
         "steel: c = 5000 m/s, L = 1 m, g = 9.81 m/s², μ = 100 m/s, r = 12/s", &[
-        ask("E_z(t_b)", steel("12"), Vibrational, "0.000003356796289599677190188789542192724001067", STEEL)
+        ask("E_z(t_b)", steel("12"), VibrationalEnergy, "0.000003356796289599677190188789542192724001067", STEEL)
             .breaks("E − E_h", 8, energy_difference),
     ]),
     hard("steel-undamped", "(3.69)", "the same without damping: E_z = μ₀²L/6", &[
-        ask("E_z(t_b)", steel("0"), Vibrational, "320787/125000000000", STEEL_UNDAMPED),
+        ask("E_z(t_b)", steel("0"), VibrationalEnergy, "320787/125000000000", STEEL_UNDAMPED),
     ]),
 ]);
 
@@ -222,12 +220,12 @@ pub(super) const RAYS: Group = group("rays", "Two values at one time",
          limits can be asked for, and decimals are taken as the fractions that they spell.", &[
     hard("on-a-ray", "(2.28)",
         "g = 0, c = μ = 1, L = 1/10, r = 15, at t = 3t₁ = 0.6, which is not 3 · 0.2 in doubles", &[
-        ask("v_x(0, 0.6⁺)", ON_A_RAY, Stress, "-0.0001890979741652485720935621548163603160316", RAY).at("0.6")
+        ask("v_x(0, 0.6⁺)", ON_A_RAY, Strain, "-0.0001890979741652485720935621548163603160316", RAY).at("0.6")
             .breaks("H_r by the k of (2.26)", 1, kernel_on_a_ray),
-        ask("v_x(0, 0.6⁻)", ON_A_RAY, Stress, "-0.0004359175823386076710888355362764279681759", RAY).before("0.6"),
+        ask("v_x(0, 0.6⁻)", ON_A_RAY, Strain, "-0.0004359175823386076710888355362764279681759", RAY).before("0.6"),
     ]),
     hard("sides", "(2.28)", "the limits at a ray's arrival, asked alone and last", &[
-        ask("v_x(0, 3/2⁻), L = 3/5, c = 4/5, μ = 3/8, g = 5/2", MET, Stress, "-165/32", SIDES).before("3/2"),
-        ask("v_x(0, 18/5⁺), L = 3/5, c = 1/3, μ = 1593/25, g = 3", STRONG_RELEASE, Stress, "0", SIDES).at("18/5"),
+        ask("v_x(0, 3/2⁻), L = 3/5, c = 4/5, μ = 3/8, g = 5/2", MET, Strain, "-165/32", SIDES).before("3/2"),
+        ask("v_x(0, 18/5⁺), L = 3/5, c = 1/3, μ = 1593/25, g = 3", STRONG_RELEASE, Strain, "0", SIDES).at("18/5"),
     ]),
 ]);

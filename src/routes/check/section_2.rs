@@ -5,7 +5,7 @@ use super::verdict::NO_BOUNCE;
 use super::verdict::Promise::{Bound, Digits, Exact};
 use super::verdict::Verdict::{Misprint, Reproduced, Settled};
 use crate::paper::formulas;
-use crate::routes::quantity::Quantity::{BounceTime, Displacement, Strain, Stress, Velocity};
+use crate::quantity::Quantity::{BounceTime, PointDisplacement, PointStrain, PointVelocity, Strain};
 
 /// g = 0, c = t₁ = μ = 1.
 const fn figure_1(damping: &'static str) -> Rod {
@@ -40,35 +40,35 @@ pub(super) const SECTION_2: Group = group("section-2", "Section 2: the contact a
     ]),
     claim("proposition-1", Reproduced, "(2.19), (2.22)–(2.24)",
         "displacement, velocity and strain: c = L = g = 1, r = 0.5, μ = 3", &[
-        ask("v(0.3, 1.4)", INSIDE, Displacement, "-0.7716282135252858905122492780782575627506", CONTACT)
+        ask("v(0.3, 1.4)", INSIDE, PointDisplacement, "-0.7716282135252858905122492780782575627506", CONTACT)
             .at_point("0.3", "1.4"),
-        ask("v_t(0.3, 1.4)", INSIDE, Velocity, "0.0007223855825310580081664500092873174252066", SMALL)
+        ask("v_t(0.3, 1.4)", INSIDE, PointVelocity, "0.0007223855825310580081664500092873174252066", SMALL)
             .at_point("0.3", "1.4"),
-        ask("v_x(0.3, 1.4)", INSIDE, Strain, "-2.427317243447501123991174235476276673384", CONTACT)
+        ask("v_x(0.3, 1.4)", INSIDE, PointStrain, "-2.427317243447501123991174235476276673384", CONTACT)
             .at_point("0.3", "1.4"),
     ]),
     claim("proposition-2", Reproduced, "Proposition 2",
         "jumps on the rays, times e^{−rt}: c = L = 1, r = 0.4, g = 0.6, μ = 1.7", &[
-        ask("[v_x](0, t₁) = 2μe^{−rt₁}/c", JUMPS, Stress, "1.527718477998553410862348109052913506176", JUMP)
+        ask("[v_x](0, t₁) = 2μe^{−rt₁}/c", JUMPS, Strain, "1.527718477998553410862348109052913506176", JUMP)
             .at("2").jump()
             .by("2μe^{−rt}/c", 14, || 3.4 * (-0.8f64).exp()),
-        ask("[v_x](½, ½) = −μe^{−rt}/c", JUMPS, Strain, "-1.391842280232569159738890364652367021410", JUMP)
+        ask("[v_x](½, ½) = −μe^{−rt}/c", JUMPS, PointStrain, "-1.391842280232569159738890364652367021410", JUMP)
             .at_point("0.5", "0.5").jump()
             .by("(ii) [φ]/2c", 14, || -1.7 * (-0.2f64).exp()),
-        ask("[v_t](½, ½) = +μe^{−rt}", JUMPS, Velocity, "1.391842280232569159738890364652367021410", JUMP)
+        ask("[v_t](½, ½) = +μe^{−rt}", JUMPS, PointVelocity, "1.391842280232569159738890364652367021410", JUMP)
             .at_point("0.5", "0.5").jump()
             .by("(ii) −[φ]/2", 14, || 1.7 * (-0.2f64).exp()),
-        ask("[v_x](½, 3/2) = +μe^{−rt}/c", JUMPS, Strain, "0.9329797813598449354683801592953653880649", JUMP)
+        ask("[v_x](½, 3/2) = +μe^{−rt}/c", JUMPS, PointStrain, "0.9329797813598449354683801592953653880649", JUMP)
             .at_point("0.5", "1.5").jump()
             .by("(i) [φ]/2c", 14, || 1.7 * (-0.6f64).exp()),
-        ask("[v_t](1, 1) = 2μe^{−rt}", JUMPS, Velocity, "2.279088156521173622531071945502608644586", JUMP)
+        ask("[v_t](1, 1) = 2μe^{−rt}", JUMPS, PointVelocity, "2.279088156521173622531071945502608644586", JUMP)
             .at_point("1", "1").jump()
             .by("(iii) difference of [φ]/2", 14, || 3.4 * (-0.4f64).exp()),
     ]),
     claim("stress", Reproduced, "(2.28)", "the stress at the ground: c = L = g = μ = 1, r = 0.1", &[
-        ask("v_x(0, 1.5)", SLOW, Stress, "-2.260992914622576187804116950191671018820", CONTACT).at("1.5")
+        ask("v_x(0, 1.5)", SLOW, Strain, "-2.260992914622576187804116950191671018820", CONTACT).at("1.5")
             .by("(2.28) by quadrature", 12, || printed(0.1, 1.0).strain(1.5)),
-        ask("v_x(0, 2.5)", SLOW, Stress, "-0.6467207086033466335609605663018219594747", CONTACT).at("2.5")
+        ask("v_x(0, 2.5)", SLOW, Strain, "-0.6467207086033466335609605663018219594747", CONTACT).at("2.5")
             .by("(2.28) by quadrature", 12, || printed(0.1, 1.0).strain(2.5)),
     ]),
     claim("condition-2.31", Reproduced, "(2.31), (2.33)", "r t₁ < I₀⁻¹(2) ≃ 1.8 is necessary for a bounce at t₁", &[

@@ -4,9 +4,7 @@ use super::case::*;
 use super::verdict::Promise::{Bound, Digits, Exact};
 use super::verdict::Verdict::{Corrected, Reproduced, Settled};
 use crate::paper::formulas;
-use crate::routes::quantity::Quantity::{
-    BeyondExponential, BounceTime, EnergyLeft, EnergyLeftUndamped, MomentumRestitution, Restitution, TranslationalShare,
-};
+use crate::quantity::Quantity::{BounceTime, EnergyKept, EnergyRestitution, MomentumRestitution, TranslationalShare};
 
 /// μ → ∞: nothing is left of gravity.
 const fn limit(damping: &'static str) -> Rod {
@@ -45,23 +43,26 @@ pub(super) const SECTION_4: Group = group("section-4", "Section 4: coefficients 
     ]),
     claim("energy-restitution", Reproduced, "(4.71), (4.72)",
         "r = 0, c = L = g = 1: e_E² is least, 5/9, at μ = 2μ₀/3", &[
-        ask("e_E², μ = 1", unit("0", "1"), Restitution, "7/12", EXACT),
-        ask("e_E², μ = 4/3", unit("0", "4/3"), Restitution, "5/9", EXACT),
-        ask("e_E², μ = 4", unit("0", "4"), Restitution, "11/12", EXACT),
+        ask("e_E², μ = 1", unit("0", "1"), EnergyRestitution, "7/12", EXACT),
+        ask("e_E², μ = 4/3", unit("0", "4/3"), EnergyRestitution, "5/9", EXACT),
+        ask("e_E², μ = 4", unit("0", "4"), EnergyRestitution, "11/12", EXACT),
     ]),
     claim("figure-4", Reproduced, "Figure 4", "right of the black dots, where t_b = t₁: c = L = g = 1, μ = 5", &[
-        ask("e_E², r = 0.1", unit("0.1", "5"), Restitution, "0.6202643084571624744481581489946464573244", AT_T1),
-        ask("e_E², r = 0.2", unit("0.2", "5"), Restitution, "0.4009910890774769182960221839814290930402", AT_T1),
-        ask("e_E², r = 0.3", unit("0.3", "5"), Restitution, "0.2543430950994055877566630527867066799152", AT_T1),
+        ask("e_E², r = 0.1", unit("0.1", "5"), EnergyRestitution, "0.6202643084571624744481581489946464573244", AT_T1),
+        ask("e_E², r = 0.2", unit("0.2", "5"), EnergyRestitution, "0.4009910890774769182960221839814290930402", AT_T1),
+        ask("e_E², r = 0.3", unit("0.3", "5"), EnergyRestitution, "0.2543430950994055877566630527867066799152", AT_T1),
     ]),
     claim("figure-4-left", Settled, "Figure 4",
         "left of the black dots, \"significantly more difficult to compute\": t_b > t₁", &[
         ask("t_b, r = 0.1, μ = 1.5", LEFT_1, BounceTime, "2.890460729168262502823395495175424806531", AFTER_T1),
-        ask("e_E², r = 0.1, μ = 1.5", LEFT_1, Restitution, "0.2335750046778280457751702821069789771300", AFTER_T1),
+        ask("e_E², r = 0.1, μ = 1.5", LEFT_1, EnergyRestitution,
+            "0.2335750046778280457751702821069789771300", AFTER_T1),
         ask("t_b, r = 0.2, μ = 2.5", LEFT_2, BounceTime, "2.156471888994680717981496360752384213616", AFTER_T1),
-        ask("e_E², r = 0.2, μ = 2.5", LEFT_2, Restitution, "0.2159298868555963713812142673621205898860", AFTER_T1),
+        ask("e_E², r = 0.2, μ = 2.5", LEFT_2, EnergyRestitution,
+            "0.2159298868555963713812142673621205898860", AFTER_T1),
         ask("t_b, r = 0.3, μ = 3", LEFT_3, BounceTime, "2.247803899311644297247506322698188832420", AFTER_T1),
-        ask("e_E², r = 0.3, μ = 3", LEFT_3, Restitution, "0.1098071999264657941087776090813272541222", AFTER_T1),
+        ask("e_E², r = 0.3, μ = 3", LEFT_3, EnergyRestitution,
+            "0.1098071999264657941087776090813272541222", AFTER_T1),
     ]),
     claim("figure-5", Reproduced, "(4.73), Figure 5", "E_h(t₁)/E(t₁) at both ends of the figure, c = L = g = 1", &[
         ask("r = 0.1, μ = 3.2", LOW_1, TranslationalShare, "0.8321745695016716858485197047301930231483", AT_T1),
@@ -71,20 +72,20 @@ pub(super) const SECTION_4: Group = group("section-4", "Section 4: coefficients 
         ask("r = 0.3, μ = 12.5", HIGH_3, TranslationalShare, "0.9669032493743898642419920790798618615560", AT_T1),
     ]),
     claim("figure-6", Reproduced, "(4.73), Figure 6", "E(t₁)/E(0) at both ends of the figure, c = L = g = 1", &[
-        ask("r = 0.1, μ = 3.2", LOW_1, EnergyLeft, "0.6600180439305823671000960660760858642292", AT_T1),
-        ask("r = 0.2, μ = 3.2", LOW_2, EnergyLeft, "0.4337168967167036401874864976123601694293", AT_T1),
-        ask("r = 0.1, μ = 12.5", HIGH_1, EnergyLeft, "0.6700636871273743539547723888783507061359", AT_T1),
-        ask("r = 0.2, μ = 12.5", HIGH_2, EnergyLeft, "0.4505741116858087570427272109296256120666", AT_T1),
-        ask("r = 0.3, μ = 12.5", HIGH_3, EnergyLeft, "0.3052784117418808003456742702611732470791", AT_T1),
+        ask("r = 0.1, μ = 3.2", LOW_1, EnergyKept, "0.6600180439305823671000960660760858642292", AT_T1),
+        ask("r = 0.2, μ = 3.2", LOW_2, EnergyKept, "0.4337168967167036401874864976123601694293", AT_T1),
+        ask("r = 0.1, μ = 12.5", HIGH_1, EnergyKept, "0.6700636871273743539547723888783507061359", AT_T1),
+        ask("r = 0.2, μ = 12.5", HIGH_2, EnergyKept, "0.4505741116858087570427272109296256120666", AT_T1),
+        ask("r = 0.3, μ = 12.5", HIGH_3, EnergyKept, "0.3052784117418808003456742702611732470791", AT_T1),
     ]),
     claim("figure-7", Corrected, "Figure 7",
         "\"a common limit (approximately C₀ = 1)\" of E(t₁)/E(0) e^{2rt₁}: three limits, none of them 1", &[
-        ask("lim, r = 0.1", limit("0.1"), EnergyLeftUndamped, "1.000668923858792484851230398489368945625", FACTOR)
-            .breaks("1 as printed", 4, || 1.0),
-        ask("lim, r = 0.2", limit("0.2"), EnergyLeftUndamped, "1.005413372756512772887143260672753782987", FACTOR)
-            .breaks("1 as printed", 3, || 1.0),
-        ask("lim, r = 0.3", limit("0.3"), EnergyLeftUndamped, "1.018665828692668523986377532213577496259", FACTOR)
-            .breaks("1 as printed", 2, || 1.0),
+        ask("lim, r = 0.1", limit("0.1"), EnergyKept, "1.000668923858792484851230398489368945625", FACTOR)
+            .times_growth().breaks("1 as printed", 4, || 1.0),
+        ask("lim, r = 0.2", limit("0.2"), EnergyKept, "1.005413372756512772887143260672753782987", FACTOR)
+            .times_growth().breaks("1 as printed", 3, || 1.0),
+        ask("lim, r = 0.3", limit("0.3"), EnergyKept, "1.018665828692668523986377532213577496259", FACTOR)
+            .times_growth().breaks("1 as printed", 2, || 1.0),
     ]),
     claim("limit-4.74", Corrected, "(4.74)", "lim E_h(t₁)/E(t₁) = 1 for μ → ∞ with damping: it is less", &[
         ask("lim, r = 0.1", limit("0.1"), TranslationalShare, "0.9999664683750782862671076809725956262541", FACTOR)
@@ -109,11 +110,11 @@ pub(super) const SECTION_4: Group = group("section-4", "Section 4: coefficients 
     claim("within-0.001", Corrected, "after (4.75)",
         "\"verify this numerically … to within 0.001 for each curve\": at the right ends of Figures 5 to 7, μ = \
          12.5, the curves are five times as far from e^{−rt₁}", &[
-        ask("e_E − e^{−rt₁}, r = 0.1", HIGH_1, BeyondExponential, "-0.004979630662738762029319588014749494820138", FAR)
-            .breaks(WITHIN, 1, || -0.001),
-        ask("e_E − e^{−rt₁}, r = 0.2", HIGH_2, BeyondExponential, "-0.005504555608256541947969599758874854269478", FAR)
-            .breaks(WITHIN, 1, || -0.001),
-        ask("e_E − e^{−rt₁}, r = 0.3", HIGH_3, BeyondExponential, "-0.005511821740038788683030255217195912212474", FAR)
-            .breaks(WITHIN, 1, || -0.001),
+        ask("e_E − e^{−rt₁}, r = 0.1", HIGH_1, EnergyRestitution, "-0.004979630662738762029319588014749494820138", FAR)
+            .root_beyond_decay().breaks(WITHIN, 1, || -0.001),
+        ask("e_E − e^{−rt₁}, r = 0.2", HIGH_2, EnergyRestitution, "-0.005504555608256541947969599758874854269478", FAR)
+            .root_beyond_decay().breaks(WITHIN, 1, || -0.001),
+        ask("e_E − e^{−rt₁}, r = 0.3", HIGH_3, EnergyRestitution, "-0.005511821740038788683030255217195912212474", FAR)
+            .root_beyond_decay().breaks(WITHIN, 1, || -0.001),
     ]),
 ]);

@@ -1,7 +1,7 @@
 //! What a route promises, whether it keeps that, and what a case comes to.
 
 use crate::routes::truth::{RightDigits, Truth};
-use crate::routes::value::{Answer, NoAnswer, Value};
+use crate::routes::value::{NoAnswer, Value};
 
 /// The one truth that is no number.
 pub(super) const NO_BOUNCE: &str = "no bounce";
@@ -112,15 +112,15 @@ impl Row {
         route: String,
         promise: Promise,
         truth: Option<&Truth>,
-        answer: Result<Answer, NoAnswer>,
+        answer: Result<Value, NoAnswer>,
         seconds: f64,
     ) -> Self {
         let digits = match (truth, &answer) {
-            (Some(truth), Ok(answer)) => truth.right_digits(&answer.value),
+            (Some(truth), Ok(answer)) => truth.right_digits(answer),
             _ => RightDigits::NoNumber,
         };
         let outcome = outcome(promise, truth, &answer, digits);
-        Row { route, found: answer.map(|answer| answer.value), promise, digits, outcome, seconds }
+        Row { route, found: answer, promise, digits, outcome, seconds }
     }
 
     /// The answer in words: `no bounce`, or a number.
@@ -133,7 +133,7 @@ impl Row {
     }
 }
 
-fn outcome(promise: Promise, truth: Option<&Truth>, answer: &Result<Answer, NoAnswer>, digits: RightDigits) -> Outcome {
+fn outcome(promise: Promise, truth: Option<&Truth>, answer: &Result<Value, NoAnswer>, digits: RightDigits) -> Outcome {
     let kept = |holds: bool| if holds { Outcome::Kept } else { Outcome::Failed };
     let (answer, truth) = match (answer, truth) {
         (Ok(answer), Some(truth)) => (answer, truth),
@@ -150,9 +150,9 @@ fn outcome(promise: Promise, truth: Option<&Truth>, answer: &Result<Answer, NoAn
         Promise::Exact => kept(digits == RightDigits::All),
         Promise::Bound(least) => {
             let scale = 10f64.powf(truth.log10_scale());
-            let useful = answer.bound <= 10f64.powi(-(least as i32)) * scale;
+            let useful = answer.bound() <= 10f64.powi(-(least as i32)) * scale;
             // No more can be seen than the truth is known to.
-            let within = digits.count() >= truth.most_digits() || 10f64.powf(-digits.count()) * scale <= answer.bound;
+            let within = digits.count() >= truth.most_digits() || 10f64.powf(-digits.count()) * scale <= answer.bound();
             kept(useful && within)
         }
     }

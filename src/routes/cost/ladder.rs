@@ -1,7 +1,8 @@
 //! Every route that can answer a question, at every setting, the cheapest first.
 
+use crate::quantity::Quantity;
 use crate::routes::long;
-use crate::routes::quantity::{Quantity, Question};
+use crate::routes::quantity::Question;
 use crate::routes::route::{Numbers, Route, within_first_contact};
 use crate::solve::{Engine, Plan};
 
@@ -116,8 +117,8 @@ pub(super) fn ladders(question: &Question, plan: &Plan) -> (Vec<Ladder>, Vec<(Fa
     };
     let cells = [1, 3, 5, 7, 9, 11, 13].map(|digits| (format!("to 1e-{digits}"), Route::Cells(digits)));
     take(Family::Cells, Ok(doubles(Family::Cells, 1e-4, 1.5, cells.into())));
-    let whole = match question.quantity {
-        Quantity::Vibrational => Err("gives the whole energy; E_z would be the difference of two".into()),
+    let whole = match question.one.quantity {
+        Quantity::VibrationalEnergy => Err("gives the whole energy; E_z would be the difference of two".into()),
         _ => first.clone(),
     };
     let modes = (0..8).map(|k| 4 << (2 * k)).map(|count| (format!("N = {count}"), Route::Modes(count)));

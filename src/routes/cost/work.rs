@@ -5,7 +5,8 @@ use std::time::{Duration, Instant};
 use super::clock::{Timing, check_budget, repeat};
 use super::ladder::{Candidate, Expected, Family, Ladder, ladders};
 use crate::number::Number;
-use crate::routes::quantity::{Quantity, Question};
+use crate::quantity::Quantity;
+use crate::routes::quantity::Question;
 use crate::routes::truth::Truth;
 use crate::routes::value::{NoAnswer, Value};
 use crate::solve::Plan;
@@ -45,6 +46,8 @@ pub(crate) struct LeftOut {
 #[derive(Clone, Debug)]
 pub(crate) struct Table {
     pub(crate) quantity: Quantity,
+    /// Its unit; empty where there is none or none is known.
+    pub(crate) unit: &'static str,
     /// When, for a quantity at a time.
     pub(crate) time: Option<Number>,
     /// What errors are measured against.
@@ -96,14 +99,14 @@ pub(crate) fn work_precision(
         let share = if candidate.digits > 20 { FOR_TRUTH } else { 1.0 };
         let left = seconds - spent();
         if !candidate.chosen && expected * share > left {
-            let why = format!("not expected to fit into {seconds} seconds: --seconds gives more");
+            let why = format!("not expected to fit into {seconds} seconds");
             left_out.push(LeftOut { family: candidate.family, setting: Some(candidate.setting), why });
             waiting[ladder].rest = Vec::new().into_iter().peekable();
             continue;
         }
         let began = Instant::now();
         // A run that can stop itself leaves most of the time to others.
-        let answer = candidate.route.run(question, left / 4.0).map(|answer| answer.value);
+        let answer = candidate.route.run(question, left / 4.0);
         let once = began.elapsed().as_secs_f64();
         match answer {
             Ok(value) => {
@@ -155,7 +158,14 @@ pub(crate) fn work_precision(
     // A stable sort: settings stay in the order of their ladder.
     rows.sort_by_key(|row| (row.family, row.ladder));
     left_out.sort_by_key(|item| item.family);
-    Ok(Table { quantity: question.quantity, time: question.time.clone(), truth, rows, left_out })
+    Ok(Table {
+        quantity: question.one.quantity,
+        unit: question.one.quantity.unit(&question.units),
+        time: question.one.time.clone(),
+        truth,
+        rows,
+        left_out,
+    })
 }
 
 /// A ladder whose lowest settings have been taken.

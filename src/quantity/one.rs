@@ -1,0 +1,141 @@
+//! One number of a motion: of the run, of its first contact, or at a time.
+
+use super::column::columns;
+use super::listing::of_contact;
+use super::restitution::Undefined;
+use super::table::{Needs, Quantity};
+use super::unit::Units;
+use crate::error::Error;
+use crate::motion::{Ending, EventKind, Motion, Side};
+use crate::number::{Number, Scalar};
+use crate::problem::Run;
+
+/// A quantity, and what it needs: one number is asked for.
+#[derive(Clone, Debug)]
+pub(crate) struct One {
+    pub(crate) quantity: Quantity,
+    /// `x`, for a quantity along the rod.
+    pub(crate) point: Option<Number>,
+    /// `t`, for a quantity at a time, where `None` stands for the end of the first contact; for the beginning and the
+    /// end of a contact a time next to it, where `None` stands for the first contact.
+    pub(crate) time: Option<Number>,
+    pub(crate) side: Side,
+}
+
+/// Why there is no number.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) struct Missing {
+    /// Whether that is left undecided, and not known.
+    pub(crate) open: bool,
+    pub(crate) why: String,
+}
+
+impl Missing {
+    pub(crate) fn none(why: impl std::fmt::Display) -> Self {
+        Missing { open: false, why: why.to_string() }
+    }
+}
+
+/// How far an event may be from the time that it is next to.
+const NEXT: f64 = 0.25;
+
+impl Quantity {
+    /// Every quantity that can be asked as one number, each name once.
+    pub(crate) fn singles() -> impl Iterator<Item = Quantity> {
+        let plain = |quantity: &Quantity| !matches!(quantity, Quantity::Time | Quantity::Side);
+        let [first, run, time, contact] = [Needs::FirstContact, Needs::Run, Needs::Time, Needs::Contact];
+        let over_time = time.quantities().filter(plain);
+        let of_contact = contact.quantities().filter(move |quantity| time.named(quantity.name()).is_none());
+        first.quantities().chain(of_contact).chain(over_time).chain(run.quantities())
+    }
+
+    /// The one that is called so among them.
+    pub(crate) fn single(name: &str) -> Option<Quantity> {
+        let named = Quantity::singles().find(|quantity| quantity.name() == name);
+        named.or_else(|| Quantity::singles().find(|quantity| quantity.also().contains(&name)))
+    }
+}
+
+impl One {
+    /// `quantity`, at `time` if it is one at a time.
+    pub(crate) fn new(quantity: Quantity, time: Option<Number>) -> Self {
+        One { quantity, point: None, time, side: Side::Right }
+    }
+
+    /// The number, in units of the problem, whose run is `run`; and the same as the motion has it, without a unit.
+    ///
+    /// **Accuracy**: that of the history's answers, and a rounding for the factor of the unit.
+    ///
+    /// **Errors**: what the history cannot answer. What there is not has the reason in its place.
+    pub(crate) fn of<S: Scalar>(
+        &self,
+        motion: &dyn Motion<S>,
+        units: &Units,
+        run: &Run,
+    ) -> Result<Result<[S; 2], Missing>, Error> {
+        let ended = || Missing { open: motion.ending().is_open(), why: motion.ending().to_string() };
+        let bounce = || motion.contact_times(0).and_then(|(_, to)| to).ok_or_else(ended);
+        let event = |kind: EventKind, near: f64| {
+            let apart = |time: &S| (time.to_f64() - near).abs();
+            let of_kind = motion.events().iter().filter(|event| event.kind == kind).map(|event| event.time.clone());
+            let found = of_kind.filter(|time| apart(time) < NEXT).min_by(|a, b| apart(a).total_cmp(&apart(b)));
+            found.ok_or_else(ended)
+        };
+        let lift = |number: &Number| S::from_number(number, &motion.end().precision());
+        let near = self.time.as_ref().map(Number::to_f64);
+        let found = match (self.quantity, near, self.quantity.needs()) {
+            (Quantity::BounceTime, ..) => bounce(),
+            (Quantity::Impact, Some(near), _) => event(EventKind::Impact, near),
+            (Quantity::Release, Some(near), _) => event(EventKind::Release, near),
+            (Quantity::LastEvent, ..) => match (motion.ending(), motion.events().last()) {
+                // The last event before an open question is not the last of the run.
+                (Ending::Undecided(_) | Ending::ExactnessEnds { .. }, _) => Err(ended()),
+                (Ending::Bounce, _) if *run != Run::Impacts(1) => Err(ended()),
+                (_, None) => Err(Missing::none("nothing happens in it")),
+                (_, Some(last)) => Ok(last.time.clone()),
+            },
+            (Quantity::ShortestPiece, ..) => {
+                let lengths = motion.stress_pieces().into_iter().map(|piece| piece.to - &piece.from);
+                lengths.min_by(|a, b| a.to_f64().total_cmp(&b.to_f64())).ok_or_else(ended)
+            }
+            (quantity, _, Needs::Contact | Needs::Flight) => match of_contact(motion, units, quantity, 0) {
+                Err(Error::NoContact { .. }) | Ok(Err(Undefined::Unfinished | Undefined::Lasts)) => Err(ended()),
+                found => found?.map_err(Missing::none),
+            },
+            (quantity, _, needs) => {
+                let time = match &self.time {
+                    Some(time) => Ok(lift(time)),
+                    None => bounce(),
+                };
+                let answer = |time: S| match (needs, &self.point) {
+                    (Needs::PointAndTime, Some(point)) => {
+                        let field = motion.field(&lift(point), &time, self.side)?;
+                        let value = match quantity {
+                            Quantity::PointDisplacement => field.displacement,
+                            Quantity::PointVelocity => field.velocity,
+                            _ => field.strain,
+                        };
+                        let factor = quantity.factor(&motion.scales(), units);
+                        Ok(quantity.scaled(value, factor.as_ref()))
+                    }
+                    _ => {
+                        columns(motion, units, &[quantity], &[time], Some(self.side)).map(|mut t| t.remove(0).remove(0))
+                    }
+                };
+                match time.map(answer) {
+                    Ok(Err(Error::TimeOutside { .. })) => Err(ended()),
+                    Ok(found) => Ok(found?),
+                    Err(missing) => Err(missing),
+                }
+            }
+        };
+        let unscaled = |value: &S| match self.quantity.factor(&motion.scales(), units) {
+            Some(factor) => value.clone() / factor,
+            None => value.clone(),
+        };
+        Ok(found.map(|value| {
+            let plain = unscaled(&value);
+            [value, plain]
+        }))
+    }
+}
