@@ -523,3 +523,29 @@ fn a_damped_rod_has_rows() {
     let flight = quiet(&["reference", "figure-4-r02", "--times", "3", "--columns", "force"]);
     assert!(flight.ends_with("force\n0.0\n"), "{flight}");
 }
+
+/// Each column of numbers in digits says how far it may be off, the rounding of the last digit included: doubles read
+/// from both files are as near to each other as that and the doubles allow.
+#[cfg(feature = "mp")]
+#[test]
+fn columns_in_digits_have_their_bounds() {
+    let of =
+        |digits: &str| crate::command::json(&["reference", "figure-4-r02", "--digits", digits, "--format", "json"]);
+    let (few, many) = (of("8"), of("30"));
+    let mut held = 0;
+    for (k, column) in few["columns"].as_array().unwrap().iter().enumerate() {
+        let Some(bound) = column["bound"].as_f64() else {
+            assert!(["side", "contact"].contains(&column["name"].as_str().unwrap()), "{column}");
+            continue;
+        };
+        for (few, many) in few["rows"].as_array().unwrap().iter().zip(many["rows"].as_array().unwrap()) {
+            let [few, many]: [f64; 2] = [few, many].map(|row| row[k].as_str().unwrap().parse().unwrap());
+            assert!((few - many).abs() <= bound + 1e-15 * many.abs(), "{column}: {few} {many}");
+            held += 1;
+        }
+        // And no wider than the eighth digit of numbers about 1 is.
+        let most = many["rows"].as_array().unwrap().iter().map(|row| row[k].as_str().unwrap().parse::<f64>().unwrap());
+        assert!(bound <= 1e-7 * most.map(f64::abs).fold(1.0, f64::max), "{column}");
+    }
+    assert!(held >= 17 * 3, "{held}");
+}
