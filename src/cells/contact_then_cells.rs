@@ -35,6 +35,9 @@ pub struct ContactThenCells<S> {
     strain: f64,
 }
 
+/// What answers at a time, and the time that it is asked about.
+type Part<'a, S> = (&'a dyn Motion<Estimate<S>>, Estimate<S>);
+
 /// How far a history is to go.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Reach {
@@ -146,7 +149,7 @@ impl<S: RoundedSpecial> ContactThenCells<S> {
     }
 
     /// What answers at a time, and the time as it is asked about: the closed form takes it as it is stored.
-    fn part(&self, time: &Estimate<S>) -> Result<(&dyn Motion<Estimate<S>>, Estimate<S>), Error> {
+    fn part(&self, time: &Estimate<S>) -> Result<Part<'_, S>, Error> {
         let time = meant(&self.course.events, time);
         Ok(match self.later(time)? {
             Some(march) => (march, time.clone()),

@@ -285,7 +285,7 @@ impl<S: RoundedSpecial> Damped<S> {
 impl<S: RoundedSpecial> Damped<S> {
     /// The nodes of a quadrature along the rod, from the ground to the first of some points and from each to the next,
     /// and how many rays cut each of these.
-    pub(super) fn lines(&self, time: &S, points: &[S]) -> Result<Vec<(Vec<moments::Node<S>>, usize)>, Error> {
+    pub(super) fn lines(&self, time: &S, points: &[S]) -> Result<Vec<Cut<S>>, Error> {
         let (t, units) = (self.time(time)?, &self.data.units);
         let cuts: Vec<S> = points.iter().map(|x| x.clone() / &units.length * t.ratio(1, 2)).collect();
         let reach = units.length.int(2) * &units.length;
@@ -449,6 +449,9 @@ impl<S: RoundedSpecial> Damped<S> {
         self.rebound.as_ref().filter(|_| next.is_none_or(|next| time.value() <= next.time.value()))
     }
 }
+
+/// The nodes along a part of the rod, and how many rays cut it.
+type Cut<S> = (Vec<moments::Node<S>>, usize);
 
 /// A weighted sum over nodes.
 fn summed<S: RoundedSpecial>(nodes: &[Node<S>], like: &S, part: impl Fn(&Node<S>) -> S) -> S {

@@ -22,11 +22,13 @@ impl<S: Scalar> AtStart<S> {
     pub(crate) fn of(problem: &Problem, given: &Parameters<S>) -> Self {
         let zero = given.length.zero();
         let lift = |n: &Number| S::from_number(n, &zero.precision());
-        let points = |list: &[(Number, Number)]| list.iter().map(|(x, value)| (lift(x), lift(value))).collect();
+        let points = |list: &[(Number, Number)]| -> Vec<(S, S)> {
+            list.iter().map(|(x, value)| (lift(x), lift(value))).collect()
+        };
         let mut corners: Vec<S> = Vec::new();
         let (displacement, velocity) = match &problem.start {
             Start::Profile(profile) => {
-                let data: (Vec<(S, S)>, Vec<(S, S)>) = (points(&profile.displacement), points(&profile.velocity));
+                let data = (points(&profile.displacement), points(&profile.velocity));
                 corners.extend(data.0.iter().chain(&data.1).map(|(x, _)| x.clone()));
                 corners.extend([zero.clone(), given.length.clone()]);
                 data

@@ -24,8 +24,10 @@ fn scene(random: &mut impl FnMut() -> f64) -> Problem {
     problem
 }
 
+type Both = (Stripped<f64, Damped<f64>>, Stripped<f64, ContactThenCells<f64>>);
+
 /// Both histories; `None` where the first contact does not end, or a march is refused as too long.
-fn both(problem: &Problem) -> Option<(Stripped<f64, Damped<f64>>, Stripped<f64, ContactThenCells<f64>>)> {
+fn both(problem: &Problem) -> Option<Both> {
     let rod = Parameters::<f64>::of(problem, &()).unwrap();
     let bounce = FirstContact::new(&rod.carry()).bounce();
     if !matches!(bounce, Bounce::At { .. }) {
