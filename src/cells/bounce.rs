@@ -14,10 +14,6 @@ use crate::motion::Side;
 use crate::number::Estimate;
 use crate::special::RoundedSpecial;
 
-/// Contacts of so many round trips are marched over, and compared with the closed form beyond the former.
-const SURELY_MARCHED: f64 = 4.0;
-const MOST_MARCHED: f64 = 64.0;
-
 /// The motion before the first release, dimensionless.
 #[derive(Clone, Debug)]
 pub(super) struct Held<S> {
@@ -80,14 +76,16 @@ impl<S: RoundedSpecial> Held<S> {
     }
 
     /// The state on the characteristic that leaves the ground at `t_b`, and a bound of its error: from cells since the
-    /// impact where the contact is short, otherwise from the closed form if that is known better.
-    pub(super) fn state(&self, medium: &Medium<S>, data: &Data<S>) -> (State<S>, f64) {
+    /// impact where the contact is short, otherwise from the closed form if that is known better. `marched` is what
+    /// the effort allows.
+    pub(super) fn state(&self, medium: &Medium<S>, data: &Data<S>, marched: [f64; 2]) -> (State<S>, f64) {
         let trips = self.release.to_f64();
-        if !medium.splits() || trips > MOST_MARCHED {
+        let [surely, most] = marched;
+        if !medium.splits() || trips > most {
             return self.closed(medium);
         }
         let marched = self.marched(medium, data);
-        if trips <= SURELY_MARCHED {
+        if trips <= surely {
             return marched;
         }
         let closed = self.closed(medium);

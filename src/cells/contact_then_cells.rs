@@ -38,18 +38,9 @@ pub struct ContactThenCells<S> {
 /// What answers at a time, and the time that it is asked about.
 type Part<'a, S> = (&'a dyn Motion<Estimate<S>>, Estimate<S>);
 
-/// How far a history is to go.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Reach {
-    /// As far as the problem's run says.
-    Run,
-    /// To the first release at most: closed forms alone, no cells.
-    Bounce,
-}
-
 impl<S: RoundedSpecial> ContactThenCells<S> {
     /// Follows `problem`, whose first contact ends as `bounce` says, to about `digits` decimal digits of the natural
-    /// scales, and no farther than `reach`.
+    /// scales.
     ///
     /// **Errors**: those of [`Damped::solve`].
     pub fn solve(
@@ -57,9 +48,8 @@ impl<S: RoundedSpecial> ContactThenCells<S> {
         precision: &S::Precision,
         digits: f64,
         bounce: Bounce<Estimate<S>>,
-        reach: Reach,
     ) -> Result<Self, Error> {
-        Self::solve_observed(problem, precision, Effort::of(digits), (bounce, reach), None, &unobserved)
+        Self::solve_observed(problem, precision, Effort::of(digits), bounce, None, &unobserved)
     }
 
     /// [`Self::solve`], observed; `rate` is `h′` at the bounce where it is known better than here.
@@ -67,7 +57,7 @@ impl<S: RoundedSpecial> ContactThenCells<S> {
         problem: &Problem,
         precision: &S::Precision,
         effort: Effort,
-        (bounce, reach): (Bounce<Estimate<S>>, Reach),
+        bounce: Bounce<Estimate<S>>,
         rate: Option<Estimate<S>>,
         observe: &dyn Fn(usize, usize) -> ControlFlow<()>,
     ) -> Result<Self, Error> {
@@ -89,9 +79,7 @@ impl<S: RoundedSpecial> ContactThenCells<S> {
         let contacts = known.contacts.into_iter().map(bounded).collect();
         let course = Course { end: within(known.end.value(), 0.0), contacts, ..known };
         let mut history = ContactThenCells { error, strain, march: None, course, contact };
-        if reach == Reach::Run {
-            history.follow(problem, precision, (&rod, effort), rate, observe)?;
-        }
+        history.follow(problem, precision, (&rod, effort), rate, observe)?;
         Ok(history)
     }
 
@@ -265,7 +253,7 @@ mod tests {
                 let rod = Parameters::<f64>::of(&problem, &())?;
                 let contact = FirstContact::new(&rod.carry());
                 let bounce = contact.bounce();
-                let straight = ContactThenCells::<f64>::solve(&problem, &(), 13.0, bounce, Reach::Run)?;
+                let straight = ContactThenCells::<f64>::solve(&problem, &(), 13.0, bounce)?;
                 let first = straight.events()[1].clone();
                 let (time, leaves) = (first.time.into_value() + displaced, first.end_velocity.into_value());
                 let release = (time, f64::abs(displaced) + first.time_error, leaves);

@@ -59,7 +59,7 @@ fn both(case: &Displaced) -> Result<Option<(History, History)>, Error> {
         let effort = Effort::of(13.0);
         let (medium, data) = medium::<f64>(&problem, &(), effort.digits, 1)?;
         let held = Held::until(contact.form(), &data, release.time.value());
-        let (mut state, error) = held.state(&medium, &data);
+        let (mut state, error) = held.state(&medium, &data, Effort::of(12.0).marched_trips);
         for (segment, (part, up)) in state.segments.iter_mut().zip(case.shape.iter().cycle()) {
             segment.q[0] += size * part;
             segment.q[1] += size * (1.0 - part.abs()) * if *up { 1.0 } else { -1.0 };

@@ -114,7 +114,7 @@ impl<S: RoundedSpecial> Damped<S> {
     ) -> Result<Self, Error> {
         let (medium, data) = medium(problem, precision, effort.digits, 1)?;
         let held = Held::until(contact, &data, time);
-        let state = held.state(&medium, &data);
+        let state = held.state(&medium, &data, effort.marched_trips);
         let unit = &data.units.velocity;
         let release = (leaves.clone() / unit, time_error / data.units.time.to_f64());
         let rate = rate.clone() / &Estimate::rounded(unit.clone(), 8.0);

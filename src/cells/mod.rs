@@ -33,7 +33,7 @@ mod start;
 mod strips;
 mod uncertainty;
 
-pub use contact_then_cells::{ContactThenCells, Reach};
+pub use contact_then_cells::ContactThenCells;
 pub use effort::Effort;
 pub use history::Damped;
 pub use piece::Unresolved;

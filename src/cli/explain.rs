@@ -38,6 +38,8 @@ impl Explain {
                 "first_attempt": plan.rung.to_string(),
                 "reach": plan.reach.to_string(),
                 "reasons": plan.reasons(),
+                "limits": plan.limits(),
+                "plan": plan,
                 "warnings": scene.problem.neglected().iter().map(ToString::to_string).collect::<Vec<_>>(),
             }))),
             Format::Table => self.output.write(self.text(&scene, &effects, &plan).as_bytes()),
@@ -60,8 +62,10 @@ impl Explain {
         let number = format!("{}, at first in {}", plan.numbers, plan.rung);
         let lines = [("engine:", plan.engine.to_string()), ("reach:", plan.reach.to_string()), ("numbers:", number)];
         let reasons = plan.reasons().into_iter().map(|reason| ("", reason));
+        let limits = plan.limits().into_iter().enumerate();
+        let limits = limits.map(|(k, limit)| (if k == 0 { "limits:" } else { "" }, limit));
         let warnings = scene.problem.neglected().into_iter().map(|neglected| ("warning:", neglected.to_string()));
-        for (name, text) in lines.into_iter().chain(reasons).chain(warnings) {
+        for (name, text) in lines.into_iter().chain(reasons).chain(limits).chain(warnings) {
             out += &(format!("{name:10}") + &fold(&text, 10).replace('\n', "\n          ") + "\n");
         }
         out

@@ -118,9 +118,11 @@ impl<N: BoundedSpecial> FirstContact<N> {
     /// `4 Σ_{all} sin(ω_nτ)/ω_n = ±1`, with `Ω_n² ≥ ¾ω_n²`, `Σ_{n≥N} ω_n⁻² ≤ ω_N⁻² + 1/2πω_N`,
     /// `Σ_{n≥N} ω_n⁻³ ≤ ω_N⁻³ + 1/4πω_N²`. Those between are at most τ and `1/Ω_n`. All others together are at most
     /// `b₀ + b₁τ`. For `R ≥ π`, `S_0` is convex, so one look at τ = 1 is enough for ever; for `R < π` it is concave
-    /// up to `π/Ω_0`, so a look at τ = 1 and at τ = k is enough for all between. The doubles here stand against margins
-    /// of one part in 10⁹: r and π are known to 10⁻¹⁶, so is R − π to `10⁻¹⁶/s²`, and below s = 10⁻⁶ nothing depends on
-    /// s. Before, `H_r = I₀ > 0`. As long as H_r > 0, G_r > 0.
+    /// up to `π/Ω_0`, so a look at τ = 1 and at τ = k is enough for all between. Late, modes up to `R²τ/4`, which have
+    /// fallen behind, are bounded by their sizes too: from k to k + 1 the lowest is at least the lesser of both ends,
+    /// and all others at most what they are at k + 1. The doubles here stand against margins of one part in 10⁹: r and
+    /// π are known to 10⁻¹⁶, so is R − π to `10⁻¹⁶/s²`, and below s = 10⁻⁶ nothing depends on s. Before,
+    /// `H_r = I₀ > 0`. As long as H_r > 0, G_r > 0.
     fn lowest_mode(&self, search: &Search<'_, N>) -> Result<i64, Box<Bounce<N>>> {
         use std::f64::consts::PI;
         let answer = |bounce| Err(Box::new(bounce));
@@ -132,23 +134,28 @@ impl<N: BoundedSpecial> FirstContact<N> {
         };
         let r = self.damping.near().0;
         let s = (apart * &(self.damping.clone() + &pi)).near().0.abs().sqrt();
-        let (mut others, mut growth, mut square_wave) = (0.0, 0.0, 1.0 + 4.0 / PI);
-        let mut omega = 3.0 * PI;
-        // With R beyond 3·10⁶, sinh(s)/s overflows long before the modes in question, R/π of them, matter.
-        while omega < 2.0 * r && omega < 2e7 {
-            square_wave += 4.0 / omega;
-            let below = omega * omega - r * r;
-            if below > 0.25 {
-                others += 4.0 / below.sqrt();
-            } else if below > -1e-9 * omega {
-                growth += 4.0;
+        // `b₀` and `b₁` with the modes below `limit`, at least 2R, by their sizes.
+        let bounds = |limit: f64| {
+            let (mut others, mut growth, mut square_wave) = (0.0, 0.0, 1.0 + 4.0 / PI);
+            let mut omega = 3.0 * PI;
+            // With R beyond 3·10⁶, sinh(s)/s overflows long before the modes in question, R/π of them, matter.
+            while omega < limit && omega < 2e7 {
+                square_wave += 4.0 / omega;
+                let below = omega * omega - r * r;
+                if below > 0.25 {
+                    others += 4.0 / below.sqrt();
+                } else if below > -1e-9 * omega {
+                    growth += 4.0;
+                }
+                omega += 2.0 * PI;
             }
-            omega += 2.0 * PI;
-        }
-        let squares = 1.0 / (omega * omega) + 1.0 / (2.0 * PI * omega);
-        let cubes = 1.0 / omega.powi(3) + 1.0 / (4.0 * PI * omega * omega);
-        growth += 4.0 * r * r / 1.5 * squares;
-        others += square_wave + 4.0 * r * r / (2.0 * 0.75f64.powf(1.5)) * cubes;
+            let squares = 1.0 / (omega * omega) + 1.0 / (2.0 * PI * omega);
+            let cubes = 1.0 / omega.powi(3) + 1.0 / (4.0 * PI * omega * omega);
+            growth += 4.0 * r * r / 1.5 * squares;
+            others += square_wave + 4.0 * r * r / (2.0 * 0.75f64.powf(1.5)) * cubes;
+            (others, growth)
+        };
+        let (others, growth) = bounds(2.0 * r);
         let rest = |trips: f64| (others + growth * trips) * (1.0 + 1e-9);
         if overdamped {
             let lowest = if s < 1e-6 { 4.0 } else { 4.0 * s.sinh() / s };
@@ -164,6 +171,14 @@ impl<N: BoundedSpecial> FirstContact<N> {
         }
         let mut k = 1i64;
         while k <= MOST_CELLS && holds(k as f64 + 1.0) {
+            k += 1;
+        }
+        let holds_late = |from: f64, to: f64| {
+            let (others, growth) = bounds((2.0 * r).max(r * r * to / 4.0));
+            let rest = (others + growth * to) * (1.0 + 1e-9);
+            s * to < PI && 4.0 * (s * from).sin().min((s * to).sin()) > rest * s
+        };
+        while k <= MOST_CELLS && holds_late(k as f64, k as f64 + 1.0) {
             k += 1;
         }
         if k > MOST_CELLS {

@@ -51,8 +51,8 @@ pub struct ContactHistory<N> {
     release: Option<BounceKind>,
     /// After so many round trips a contact without end is at rest.
     rest: Option<i64>,
-    rebound: OnceLock<Rebound<N>>,
-    course: OnceLock<Course<N>>,
+    rebound: OnceLock<Box<Rebound<N>>>,
+    course: OnceLock<Box<Course<N>>>,
 }
 
 /// A time of the history.
@@ -211,7 +211,7 @@ impl<N: BoundedSpecial> ContactHistory<N> {
         self.release?;
         Some(self.rebound.get_or_init(|| {
             let (centre, velocity) = self.contact.centre_at(&self.followed);
-            Rebound { time: self.end.clone(), centre, velocity, rod: self.contact.rod.clone() }
+            Box::new(Rebound { time: self.end.clone(), centre, velocity, rod: self.contact.rod.clone() })
         }))
     }
 
@@ -257,7 +257,7 @@ impl<N: BoundedSpecial> ContactHistory<N> {
 
 impl<N: BoundedSpecial> Motion<N> for ContactHistory<N> {
     fn course(&self) -> &Course<N> {
-        self.course.get_or_init(|| self.measured())
+        self.course.get_or_init(|| Box::new(self.measured()))
     }
 
     fn end(&self) -> N {
@@ -321,6 +321,10 @@ impl<N: BoundedSpecial> Motion<N> for ContactHistory<N> {
                 (Moment::Bounce(_), Some(event)) if side == Side::Right => [time.zero(), event.end_velocity.clone()],
                 _ => [time.zero(), time.zero()],
             });
+        }
+        // Undeformed, and as fast as it is given: no ray is there yet.
+        if pair == Pair::Centre && time.vanishes() == Ok(true) {
+            return Ok([time.zero(), -self.contact.rod.speed.clone()]);
         }
         let apart = |Energy { translational, vibrational, .. }| [translational, vibrational];
         let moment = self.moment(time)?;

@@ -5,7 +5,7 @@ use std::sync::Arc;
 use super::ladder::{Engined, Observer, Target};
 use super::plan::{Engine, Plan, Rung};
 use super::{fractions, long};
-use crate::cells::{self, ContactThenCells, Damped};
+use crate::cells::{ContactThenCells, Damped};
 use crate::error::Error;
 use crate::first_contact::{Bounce, ContactHistory, FirstContact};
 use crate::lattice::Undamped;
@@ -24,7 +24,8 @@ impl Target for f64 {
         let problem = &*plan.reaching(problem);
         Ok(match plan.engine {
             Engine::Lattice => {
-                let history = Undamped::<Estimate<f64>>::solve_within(problem, &(), plan.limits(problem), &**observe)?;
+                let history =
+                    Undamped::<Estimate<f64>>::solve_within(problem, &(), plan.lattice_limits(problem), &**observe)?;
                 if cfg!(feature = "mp") && history.undetermined_from().is_some() {
                     return Err(Error::NotDecided { what: "in which order the events come", bits: 53 });
                 }
@@ -47,7 +48,7 @@ impl Target for f64 {
                     problem,
                     &(),
                     plan.effort(rung),
-                    (bounce, cells::Reach::Run),
+                    bounce,
                     rate,
                     &**observe,
                 )?)

@@ -42,11 +42,11 @@ where
     Estimate<f64>: Reads<N>,
 {
     let reached = plan.reaching(problem);
-    let mut doubles = Undamped::<Estimate<f64>>::solve_within(&reached, &(), plan.limits(problem), &**observe)?;
+    let mut doubles = Undamped::<Estimate<f64>>::solve_within(&reached, &(), plan.lattice_limits(problem), &**observe)?;
     Ok(if doubles.confirm(&exact) { Arc::new(doubles) } else { Arc::new(Converted::new(Arc::new(exact))) })
 }
 
 fn fractions(problem: &Problem, plan: &Plan, observe: &Observer) -> Result<Undamped<Rational>, Error> {
     let problem = &*plan.reaching(problem);
-    Undamped::<Rational>::solve_within(problem, &(), plan.limits(problem), &**observe)
+    Undamped::<Rational>::solve_within(problem, &(), plan.lattice_limits(problem), &**observe)
 }

@@ -6,7 +6,7 @@ use super::converted::Converted;
 use super::fractions::confirmed;
 use super::ladder::{Engined, Observer, Target};
 use super::plan::{Engine, Plan, Rung};
-use crate::cells::{self, ContactThenCells, Damped};
+use crate::cells::{ContactThenCells, Damped};
 use crate::error::Error;
 use crate::first_contact::{Bounce, ContactHistory, FirstContact};
 use crate::lattice::Undamped;
@@ -54,7 +54,7 @@ fn estimates(problem: &Problem, plan: &Plan, bits: u32, observe: &Observer) -> R
     let effort = plan.effort(Rung::Bits(bits));
     Ok(match plan.engine {
         Engine::Lattice => {
-            let limits = plan.limits(problem);
+            let limits = plan.lattice_limits(problem);
             let history = Undamped::<Estimate<Float>>::solve_within(problem, &bits, limits, &**observe)?;
             if history.undetermined_from().is_some() {
                 return Err(Error::NotDecided { what: "in which order the events come", bits });
@@ -69,14 +69,7 @@ fn estimates(problem: &Problem, plan: &Plan, bits: u32, observe: &Observer) -> R
             if matches!(&bounce, Bounce::Undecided { why, .. } if why.needs_bits()) {
                 return Err(Error::NotDecided { what: "how the first contact ends", bits });
             }
-            Arc::new(ContactThenCells::<Float>::solve_observed(
-                problem,
-                &bits,
-                effort,
-                (bounce, cells::Reach::Run),
-                None,
-                &**observe,
-            )?)
+            Arc::new(ContactThenCells::<Float>::solve_observed(problem, &bits, effort, bounce, None, &**observe)?)
         }
     })
 }
@@ -96,7 +89,7 @@ pub(super) fn rate_after(problem: &Problem, bounce: &Bounce<Estimate<f64>>, bits
 /// Enclosures with exact roots inside, of an undamped rod.
 fn roots(problem: &Problem, plan: &Plan, bits: u32, observe: &Observer) -> Result<Undamped<Interval>, Error> {
     let (problem, precision) = (&*plan.reaching(problem), IntervalPrecision::with_exact(bits));
-    Undamped::<Interval>::solve_within(problem, &precision, plan.limits(problem), &**observe)
+    Undamped::<Interval>::solve_within(problem, &precision, plan.lattice_limits(problem), &**observe)
 }
 
 fn enclosures(problem: &Problem, plan: &Plan, bits: u32, observe: &Observer) -> Result<Engined<Interval>, Error> {

@@ -25,7 +25,7 @@ use crate::problem::{Parameters, Problem, Run};
 /// assert_eq!(Plan::of(&problem, &Question::first_contact(Numbers::default()))?.engine, Engine::ClosedForm);
 /// # Ok::<(), dalembert::Error>(())
 /// ```
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Plan {
     /// The engine.
     pub engine: Engine,
@@ -116,7 +116,8 @@ pub enum Engine {
 }
 
 /// How far the motion is followed.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize)]
+#[serde(rename_all = "snake_case")]
 pub enum Reach {
     /// Through this many contacts, each with the flight after it.
     Contacts(u32),
@@ -253,9 +254,10 @@ impl Plan {
                 (Rung::Bits(bits), lost * std::f64::consts::LOG10_2)
             }
         };
+        let goal = Goal::of(numbers);
         Plan {
-            goal: Goal::of(numbers),
-            climb: Climb::of(numbers, engine),
+            climb: Climb::of(goal, engine),
+            goal,
             cells: (then_cells || engine == Engine::Cells).then_some(cells),
             modes: ((closed || then_cells) && doubles && !long).then_some(MODES),
             rate_bits: (then_cells && doubles && long).then_some(FEWEST_BITS),
@@ -367,6 +369,37 @@ impl Plan {
         reasons
     }
 
+    /// How far everything goes, a sentence each.
+    pub fn limits(&self) -> Vec<String> {
+        let mut limits = Vec::new();
+        let Goal { digits, spare, .. } = self.goal;
+        if digits > 0.0 {
+            limits.push(format!(
+                "a number is settled at {digits:.0} digits, or at {:.0} below the greatest of its answer",
+                digits + spare
+            ));
+        }
+        let Climb { bits, most_bits, most_enclosed, exact_contacts, .. } = self.climb;
+        if let Some(contacts) = exact_contacts.filter(|_| matches!(self.numbers, Numbers::Double(_))) {
+            limits.push(format!("exact numbers decide meetings of events through {contacts} contacts"));
+        }
+        limits.push(bits.map_or("no longer numbers are built in".into(), |bits| {
+            format!("longer numbers have {bits} to {most_bits} bits, enclosures up to {most_enclosed}")
+        }));
+        if let Some(CellLimits { double_digits, double_cells, long_cells, most_digits, marched_trips }) = self.cells {
+            let long = long_cells.map_or(String::new(), |cells| format!(", {cells} in {FEWEST_BITS} bits"));
+            let [surely, most] = marched_trips;
+            limits.push(format!(
+                "cells: {double_digits} digits and {double_cells} cells in doubles{long}; none beyond {most_digits} \
+                 digits; a first contact of up to {surely} round trips is marched over, and one of up to {most} where \
+                 that is known better than its closed form"
+            ));
+        }
+        limits.extend(self.modes.map(|modes| format!("{modes} modes where the rays of a late first contact cancel")));
+        limits.extend(self.rate_bits.map(|bits| format!("h′ at the first bounce in {bits} bits")));
+        limits
+    }
+
     /// The problem with the run that is followed.
     pub(super) fn reaching<'a>(&self, problem: &'a Problem) -> Cow<'a, Problem> {
         let run = match &self.reach {
@@ -393,7 +426,7 @@ impl Plan {
     }
 
     /// What an undamped march may store and forget.
-    pub(super) fn limits(&self, problem: &Problem) -> Limits {
+    pub(super) fn lattice_limits(&self, problem: &Problem) -> Limits {
         self.keep_from.map_or_else(Limits::default, |time| Limits::keeping_from(problem, time))
     }
 }
@@ -415,8 +448,8 @@ impl Goal {
 }
 
 impl Climb {
-    fn of(numbers: Numbers, engine: Engine) -> Self {
-        let (wanted, lattice) = (bits_for_digits(Goal::of(numbers).digits.ceil() as u32), engine == Engine::Lattice);
+    fn of(goal: Goal, engine: Engine) -> Self {
+        let (wanted, lattice) = (bits_for_digits(goal.digits.ceil() as u32), engine == Engine::Lattice);
         Climb {
             bits: cfg!(feature = "mp").then_some((wanted + GUARD_BITS).max(FEWEST_BITS)),
             most_bits: MOST_BITS,

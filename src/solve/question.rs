@@ -1,5 +1,7 @@
 //! What is asked of a problem, and in which numbers.
 
+use serde::Serialize;
+
 use crate::number::Number;
 use crate::quantity::{Needs, Quantity};
 
@@ -33,7 +35,8 @@ pub enum Want {
 }
 
 /// The numbers of an answer.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+#[serde(rename_all = "snake_case")]
 pub enum Numbers {
     /// Doubles, to this accuracy relative to the greatest number of an answer; `None` for
     /// [`DEFAULT_ACCURACY`](super::DEFAULT_ACCURACY). Where doubles alone do not reach it, longer numbers are computed

@@ -4,7 +4,7 @@
 use std::fmt::Debug;
 use std::sync::Arc;
 
-use dalembert::cells::{ContactThenCells, Damped, Reach};
+use dalembert::cells::{ContactThenCells, Damped};
 use dalembert::first_contact::{ContactHistory, FirstContact};
 use dalembert::lattice::{Limits, Undamped, unobserved};
 use dalembert::motion::RayRegister;
@@ -209,7 +209,7 @@ fn both<S: RoundedSpecial>(precision: &S::Precision, digits: f64) -> [Arc<dyn Mo
     let bounce = FirstContact::new(&Parameters::of(&problem, precision).unwrap()).bounce();
     [
         Arc::new(Damped::<S>::solve(&problem, precision, digits).unwrap()),
-        Arc::new(ContactThenCells::<S>::solve(&problem, precision, digits, bounce, Reach::Run).unwrap()),
+        Arc::new(ContactThenCells::<S>::solve(&problem, precision, digits, bounce).unwrap()),
         Arc::new(ContactHistory::<Estimate<S>>::solve(&problem, precision).unwrap()),
     ]
 }

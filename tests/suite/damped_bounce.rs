@@ -2,8 +2,8 @@
 
 use crate::common::uniform;
 use crate::stripped::{Stripped, damped};
-use dalembert::cells::{ContactThenCells, Damped, Reach};
-use dalembert::first_contact::{Bounce, FirstContact};
+use dalembert::cells::{ContactThenCells, Damped};
+use dalembert::first_contact::{Bounce, ContactHistory, FirstContact};
 use dalembert::problem::{Parameters, Run};
 use dalembert::{Ending, Error, EventKind, Motion, Number, Problem, Reason, Side};
 
@@ -37,7 +37,7 @@ fn both(problem: &Problem) -> Option<Both> {
     if matches!(marched.ending(), Ending::Undecided(Reason::Effort { .. })) {
         return None;
     }
-    let history = ContactThenCells::<f64>::solve(problem, &(), 13.0, bounce, Reach::Run).unwrap();
+    let history = ContactThenCells::<f64>::solve(problem, &(), 13.0, bounce).unwrap();
     Some((marched, Stripped::new(history)))
 }
 
@@ -109,10 +109,10 @@ fn a_question_about_the_first_contact_needs_no_cells() {
     let mut problem = uniform("1", "1", "1", "3", Run::Impacts(10));
     problem.rod.damping = "0.1".parse().ok();
     let rod = Parameters::<f64>::of(&problem, &()).unwrap();
-    let bounce = FirstContact::new(&rod.carry()).bounce();
-    let short =
-        ContactThenCells::<f64>::solve(&problem, &(), 13.0, bounce.clone(), Reach::Bounce).map(Stripped::new).unwrap();
-    let long = ContactThenCells::<f64>::solve(&problem, &(), 13.0, bounce, Reach::Run).map(Stripped::new).unwrap();
+    let form = FirstContact::new(&rod.carry());
+    let bounce = form.bounce();
+    let short = ContactHistory::new(form, bounce.clone(), None).map(Stripped::new).unwrap();
+    let long = ContactThenCells::<f64>::solve(&problem, &(), 13.0, bounce).map(Stripped::new).unwrap();
     assert_eq!(*short.ending(), Ending::Bounce);
     assert_eq!(short.end(), 2.0);
     assert_eq!(short.events(), &long.events()[..2]);
@@ -132,7 +132,7 @@ fn answers_carry_their_bounds() {
         problem.rod.damping = damping.parse().ok();
         let rod = Parameters::<f64>::of(&problem, &()).unwrap();
         let bounce = FirstContact::new(&rod.carry()).bounce();
-        let bounded = ContactThenCells::<f64>::solve(&problem, &(), 13.0, bounce, Reach::Run).unwrap();
+        let bounded = ContactThenCells::<f64>::solve(&problem, &(), 13.0, bounce).unwrap();
         let truth = crate::stripped::damped::<Float>(&problem, &200, 40.0).unwrap();
         let near = |what: &str, ours: &Estimate<f64>, truth: &Float| {
             let off = Float::with_val(200, truth - *ours.value()).abs().to_f64();

@@ -3,7 +3,7 @@
 
 use crate::common::{close, uniform};
 use crate::stripped::{Stripped, damped};
-use dalembert::cells::{ContactThenCells, Damped, Reach};
+use dalembert::cells::{ContactThenCells, Damped};
 use dalembert::first_contact::FirstContact;
 use dalembert::problem::{Parameters, Profile, Run, Start, Top};
 use dalembert::{Ending, Error, Estimate, Modal, Motion, Number, Problem, Side};
@@ -133,8 +133,7 @@ fn a_contact_without_end_is_known_at_all_times() {
         let problem = rod(gravity, "1/2", damping, 1_000_000);
         let parameters = Parameters::<f64>::of(&problem, &()).unwrap();
         let bounce = FirstContact::new(&parameters.carry()).bounce();
-        let history =
-            ContactThenCells::<f64>::solve(&problem, &(), 13.0, bounce, Reach::Run).map(Stripped::new).unwrap();
+        let history = ContactThenCells::<f64>::solve(&problem, &(), 13.0, bounce).map(Stripped::new).unwrap();
         assert!(matches!(history.ending(), Ending::NoBounce(_)), "{:?}", history.ending());
         let g = parameters.gravity;
         rests(&history, 1_000_000, |x| g * (0.5 * x * x - x), -g);
@@ -144,7 +143,7 @@ fn a_contact_without_end_is_known_at_all_times() {
     let problem = rod("0", "1", "1e4", 1_000_000);
     let bounce = FirstContact::new(&Parameters::<f64>::of(&problem, &()).unwrap().carry()).bounce();
     let history: Stripped<f64, _> =
-        ContactThenCells::<f64>::solve(&problem, &(), 13.0, bounce, Reach::Run).map(Stripped::new).unwrap();
+        ContactThenCells::<f64>::solve(&problem, &(), 13.0, bounce).map(Stripped::new).unwrap();
     assert_eq!(history.end(), 512.0);
 }
 

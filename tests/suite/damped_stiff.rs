@@ -3,7 +3,7 @@
 
 use crate::common::{number, reference};
 use crate::stripped::{Stripped, damped};
-use dalembert::cells::{ContactThenCells, Reach};
+use dalembert::cells::ContactThenCells;
 use dalembert::first_contact::FirstContact;
 use dalembert::problem::{Material, Parameters, Run, Speed, Start};
 use dalembert::{EventKind, Motion, Number, Problem, Side};
@@ -24,7 +24,7 @@ fn rod(case: &Value) -> Problem {
 fn solve(problem: &Problem) -> Stripped<f64, ContactThenCells<f64>> {
     let rod = Parameters::<f64>::of(problem, &()).unwrap();
     let bounce = FirstContact::new(&rod.carry()).bounce();
-    ContactThenCells::solve(problem, &(), 13.0, bounce, Reach::Run).map(Stripped::new).unwrap()
+    ContactThenCells::solve(problem, &(), 13.0, bounce).map(Stripped::new).unwrap()
 }
 
 #[test]

@@ -1,6 +1,9 @@
 //! One door: what a question is planned as, and that every number system gives the same answer through it.
 
-use dalembert::{DEFAULT_ACCURACY, Engine, Error, Numbers, Plan, Problem, Question, Reach, Rung, Side};
+use dalembert::quantity::restitution;
+use dalembert::{
+    DEFAULT_ACCURACY, Engine, Error, Estimate, Motion, Numbers, Plan, Problem, Question, Reach, Rung, Scalar, Side,
+};
 
 fn rod(speed: &str) -> Problem {
     Problem::builder().length(1).wave_speed(1).gravity(1).impact_speed(speed).build().unwrap()
@@ -26,6 +29,12 @@ fn a_plan_reaches_what_is_asked_and_no_more() {
     // The bounce time and the restitution need no flight, and so no cell.
     let first = plan(&weak, Question::first_contact(doubles));
     assert_eq!((first.engine, first.reach), (Engine::ClosedForm, Reach::FirstContact));
+    // Single numbers need no list of events, and with the closed form no lattice either.
+    for rod in [&undamped, &weak] {
+        let single = plan(rod, Question::bounce(doubles));
+        assert_eq!((single.engine, single.settles_events, single.cells), (Engine::ClosedForm, false, None));
+    }
+    assert!(first.settles_events && whole.cells.is_some());
     // Values between two times: nothing beyond the later one, and nothing before the earlier one is kept.
     let between = plan(&undamped, Question::between(5.into(), 7.into(), doubles));
     assert_eq!((between.reach, between.keep_from), (Reach::Time(7.into()), Some(5.0)));
@@ -36,6 +45,36 @@ fn a_plan_reaches_what_is_asked_and_no_more() {
     if cfg!(feature = "mp") {
         assert_eq!(plan(&weak, Question::run(Numbers::Certified(20))).engine, Engine::ClosedForm);
     }
+}
+
+/// `t_b`, the impulse, `e_E²` and `E_z` that are asked for alone are those of the whole first contact, within the bounds
+/// of both.
+#[test]
+fn single_numbers_are_those_of_the_whole() {
+    let mut compared = 0;
+    for (damping, speed) in
+        [("0", "1"), ("0", "2"), ("0", "5/2"), ("0.1", "1"), ("0.2", "5"), ("0.3", "2"), ("1.2", "9")]
+    {
+        let rod = damped(damping, speed);
+        let query = |motion: &dyn Motion<Estimate<f64>>| {
+            let Some((from, Some(to))) = motion.contact_times(0) else { return Ok(Vec::new()) };
+            let squared = restitution(motion, (&from, Some(&to)))?.energy_squared;
+            let vibrational = motion.energy(&to)?.vibrational;
+            Ok([Some(to), motion.impulse(0), squared.ok(), Some(vibrational)].into_iter().flatten().collect())
+        };
+        let found =
+            [Question::bounce(Numbers::default()), Question::first_contact(Numbers::default())].map(|question| {
+                plan(&rod, question).ask::<f64, Vec<_>>(&rod, query, |found| found.iter().collect()).unwrap()
+            });
+        assert_eq!(found[0].len(), found[1].len(), "r = {damping}, μ = {speed}");
+        for (single, whole) in found[0].iter().zip(&found[1]) {
+            assert!(single.compare(whole).unwrap().is_eq(), "r = {damping}, μ = {speed}: {single:?} {whole:?}");
+            assert!(single.bound() <= DEFAULT_ACCURACY * found[0][0].value(), "r = {damping}, μ = {speed}: {single:?}");
+            compared += 1;
+        }
+    }
+    // One of the seven has no bounce, and one of the others no `e_E²`.
+    assert_eq!(compared, 6 * 4 - 1);
 }
 
 #[test]
