@@ -8,14 +8,14 @@ use crate::number::{Answer, Estimate, Float, Interval};
 use crate::problem::Problem;
 
 macro_rules! absent {
-    ($($name:ident),*) => {$(
+    ($($name:ident as $carried:ty: $stripped:ident => $strip:expr),*) => {$(
         impl Answer for $name {
-            type Carried = $name;
-            fn carry(&self) -> $name {
+            type Carried = $carried;
+            fn carry(&self) -> $carried {
                 match *self {}
             }
-            fn strip(carried: $name) -> $name {
-                carried
+            fn strip($stripped: $carried) -> $name {
+                $strip
             }
         }
         impl Target for $name {
@@ -25,7 +25,7 @@ macro_rules! absent {
         }
     )*};
 }
-absent!(Float, Interval);
+absent!(Float as Estimate<Float>: carried => carried.into_value(), Interval as Interval: carried => carried);
 
 pub(super) fn in_doubles(_: &Problem, _: &Plan, _: Rung, _: &Observer) -> Result<Engined<f64>, Error> {
     Err(Error::NoMultiprecision)
