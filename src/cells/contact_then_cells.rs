@@ -168,8 +168,9 @@ impl<S: RoundedSpecial> Motion<Estimate<S>> for ContactThenCells<S> {
         if let (Some(march), Some(bounce)) = (&self.march, self.bounce()) {
             let first = pieces.len();
             pieces.extend(march.stress_pieces().into_iter().filter(|piece| piece.to.value() > bounce));
-            // The flight begins where the closed form ends.
+            // The flight begins where the closed form ends, and its stress is zero: the cells' errors are not in it.
             if let Some(flight) = pieces.get_mut(first) {
+                *flight = bounded_piece(flight.clone().map(Estimate::into_value), self.strain);
                 flight.from = within(bounce, 0.0);
             }
         }

@@ -1,11 +1,9 @@
 //! What is written: named columns and rows, with what stands above and below them. Each format has one writer.
 
 use std::borrow::Cow;
-use std::io;
 
 use serde_json::Value;
 
-use super::writer;
 use crate::number::{Number, Scalar, bound_json, number_json, show, shown_bound_text};
 
 /// A number of any system, as writers ask it.
@@ -231,30 +229,5 @@ impl Dataset {
             data.rows.push(cells);
         }
         data
-    }
-
-    /// For a person; without rows only what stands around them.
-    pub(crate) fn table(&self) -> String {
-        let table = if self.rows.is_empty() { String::new() } else { writer::table(self) };
-        format!("{}{table}{}", self.around[0], self.around[1])
-    }
-
-    /// For a program: the header, and an object for each row; without a header the list of these.
-    pub(crate) fn json(&self) -> Value {
-        if self.header.is_empty() {
-            return writer::objects(self).into();
-        }
-        let header = self.header.iter().map(|(key, value)| ((*key).to_string(), value.clone()));
-        header.chain([(self.list.to_string(), writer::objects(self).into())]).collect()
-    }
-
-    /// For a spreadsheet.
-    pub(crate) fn csv(&self) -> Result<String, csv::Error> {
-        writer::csv(self)
-    }
-
-    /// For NumPy.
-    pub(crate) fn npz(&self) -> io::Result<Vec<u8>> {
-        writer::npz(self)
     }
 }

@@ -6,7 +6,7 @@ use super::dataset::{Cell, Column, Dataset};
 use super::outline::sparkline;
 use super::record::{Head, Record};
 use super::straight::straight;
-use super::writer::{objects, table, table_digits};
+use super::writer::table_digits;
 use crate::error::Error;
 use crate::motion::{Ending, Motion, StressPiece};
 use crate::number::{DOUBLE_DIGITS, Scalar, bound_json, number_json, show, shown_bound_text};
@@ -193,8 +193,8 @@ impl<S> Record<S> {
 
 /// The whole history, schema 1.
 pub(crate) fn history_json<S: Scalar>(record: &Record<S>, head: &Head) -> Value {
-    let mut contacts = objects(&contacts(record, head));
-    let mut flights = objects(&flights(record, head));
+    let mut contacts = contacts(record, head).objects();
+    let mut flights = flights(record, head).objects();
     // An object of values that there are not is none.
     for (list, key, value) in [(&mut contacts, "energy", "total"), (&mut flights, "highest", "time")] {
         list.iter_mut().filter(|row| row[key][value].is_null()).for_each(|row| row[key] = Value::Null);
@@ -206,10 +206,10 @@ pub(crate) fn history_json<S: Scalar>(record: &Record<S>, head: &Head) -> Value 
         "effects": head.effects,
         "units": units_json(&head.units),
         "exact_until": head.exact_until_json(),
-        "events": objects(&events(record, head)),
+        "events": events(record, head).objects(),
         "contacts": contacts,
         "flights": flights,
-        "stress": {"pieces": objects(&pieces(&record.stress, true, head))},
+        "stress": {"pieces": pieces(&record.stress, true, head).objects()},
         "end": end_json(record, head),
         "error_estimate": record.error,
         "digits_lost": record.lost.map(|(_, digits)| digits),
@@ -303,7 +303,7 @@ pub(crate) fn history_table<S: Scalar>(record: &Record<S>, head: &Head) -> Strin
         let peaks = record.contacts.iter().filter_map(|contact| Some(contact.get(3)?.as_ref().ok()?.to_f64()));
         out += &sparkline(&record.outline, record.end.0.to_f64(), peaks.fold(0.0, f64::min), head);
     }
-    out += &format!("{}\n\n{}\n\n", table(&events(record, head)), table(&contacts(record, head)));
+    out += &format!("{}\n\n{}\n\n", events(record, head).table(), contacts(record, head).table());
     if !record.contacts.is_empty() {
         let measures = [Measure::Impulse, Measure::Stress, Measure::Force, Measure::Energy];
         out += &named_units(&measures, &head.units);
@@ -319,7 +319,7 @@ pub(crate) fn history_table<S: Scalar>(record: &Record<S>, head: &Head) -> Strin
     let mut flights = flights(record, head);
     flights.rows.retain(|row| !row[2].is_empty());
     if !flights.rows.is_empty() {
-        out += &format!("\n{}\n", table(&flights));
+        out += &format!("\n{}\n", flights.table());
     }
     out += &format!("\n{}", head.line(&record.end.1.at(&show(&record.end.0))));
     if let Some((impacts, lost)) = record.lost

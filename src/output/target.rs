@@ -4,7 +4,6 @@ use serde_json::{Value, json};
 
 use super::dataset::{Cell, Column, Dataset};
 use super::record::Head;
-use super::writer;
 use crate::aligned::table;
 use crate::number::{Scalar, show};
 use crate::routes::{Published, Reached};
@@ -100,12 +99,11 @@ pub(crate) fn published_page(published: &[Published]) -> String {
 /// The same as JSON.
 pub(crate) fn published_json(published: &[Published]) -> Value {
     let scene = |Published { scene, reached }: &Published| {
-        let agrees = writer::objects(&targets_data(reached, &Head::default())).into_iter().zip(reached).map(
-            |(mut row, reached)| {
+        let agrees =
+            targets_data(reached, &Head::default()).objects().into_iter().zip(reached).map(|(mut row, reached)| {
                 row["agrees"] = reached.agrees().into();
                 row
-            },
-        );
+            });
         json!({ "scene": scene, "values": agrees.collect::<Vec<_>>() })
     };
     published.iter().map(scene).collect()

@@ -5,25 +5,28 @@ use std::io::{self, Cursor};
 use super::Npz;
 use crate::output::dataset::{Cell, Column, Dataset};
 
-/// Whole numbers where all are, doubles otherwise, not a number where there is none; and the shape of the grid.
-pub(in crate::output) fn npz(data: &Dataset) -> io::Result<Vec<u8>> {
-    let mut bytes = Cursor::new(Vec::new());
-    let mut npz = Npz::new(&mut bytes, true);
-    let count = &[data.rows.len()];
-    if !data.shape.is_empty() {
-        npz.add("shape", &[data.shape.len()], data.shape.iter().map(|n| *n as i64).collect())?;
-    }
-    for (k, column) in data.columns.iter().enumerate() {
-        let (Column { name: Some(name), is_text: false, .. }, cells) = (column, data.rows.iter().map(|row| &row[k]))
-        else {
-            continue;
-        };
-        let whole = |cell: &Cell| if let Cell::Plain(value) = cell { value.as_i64() } else { None };
-        match cells.clone().map(whole).collect::<Option<Vec<i64>>>().filter(|all| !all.is_empty()) {
-            Some(whole) => npz.add(name, count, whole)?,
-            None => npz.add(name, count, cells.map(Cell::double).collect())?,
+impl Dataset {
+    /// Whole numbers where all are, doubles otherwise, not a number where there is none; and the shape of the grid.
+    pub(crate) fn npz(&self) -> io::Result<Vec<u8>> {
+        let mut bytes = Cursor::new(Vec::new());
+        let mut npz = Npz::new(&mut bytes, true);
+        let count = &[self.rows.len()];
+        if !self.shape.is_empty() {
+            npz.add("shape", &[self.shape.len()], self.shape.iter().map(|n| *n as i64).collect())?;
         }
+        for (k, column) in self.columns.iter().enumerate() {
+            let (Column { name: Some(name), is_text: false, .. }, cells) =
+                (column, self.rows.iter().map(|row| &row[k]))
+            else {
+                continue;
+            };
+            let whole = |cell: &Cell| if let Cell::Plain(value) = cell { value.as_i64() } else { None };
+            match cells.clone().map(whole).collect::<Option<Vec<i64>>>().filter(|all| !all.is_empty()) {
+                Some(whole) => npz.add(name, count, whole)?,
+                None => npz.add(name, count, cells.map(Cell::double).collect())?,
+            }
+        }
+        npz.finish()?;
+        Ok(bytes.into_inner())
     }
-    npz.finish()?;
-    Ok(bytes.into_inner())
 }

@@ -3,34 +3,36 @@
 use crate::number::DOUBLE_DIGITS;
 use crate::output::dataset::{Cell, Column, Dataset};
 
-/// The rows below the names of their columns, the bounds of numbers in columns of their own after all others, and the
-/// notes in comments above, which readers of CSV skip.
-pub(in crate::output) fn csv(data: &Dataset) -> Result<String, csv::Error> {
-    let digits = if data.digits == 0 { DOUBLE_DIGITS } else { data.digits };
-    let named = |column: &&Column| column.name.is_some();
-    let with_unit = |column: &Column, suffix: &str| {
-        let name = column.name.as_deref().unwrap_or_default();
-        if column.unit.is_empty() { format!("{name}{suffix}") } else { format!("{name}{suffix} [{}]", column.unit) }
-    };
-    let bounded = || data.columns.iter().filter(named).filter(|column| column.is_bounded);
-    let names = data.columns.iter().filter(named).map(|column| with_unit(column, ""));
-    let mut writer = csv::Writer::from_writer(Vec::new());
-    writer.write_record(names.chain(bounded().map(|column| with_unit(column, "_uncertainty"))))?;
-    for row in &data.rows {
-        let cells = || data.columns.iter().zip(row).filter(|(column, _)| named(column));
-        for (_, cell) in cells() {
-            writer.write_field(cell.text(digits, ""))?;
+impl Dataset {
+    /// The rows below the names of their columns, the bounds of numbers in columns of their own after all others, and the
+    /// notes in comments above, which readers of CSV skip.
+    pub(crate) fn csv(&self) -> Result<String, csv::Error> {
+        let digits = if self.digits == 0 { DOUBLE_DIGITS } else { self.digits };
+        let named = |column: &&Column| column.name.is_some();
+        let with_unit = |column: &Column, suffix: &str| {
+            let name = column.name.as_deref().unwrap_or_default();
+            if column.unit.is_empty() { format!("{name}{suffix}") } else { format!("{name}{suffix} [{}]", column.unit) }
+        };
+        let bounded = || self.columns.iter().filter(named).filter(|column| column.is_bounded);
+        let names = self.columns.iter().filter(named).map(|column| with_unit(column, ""));
+        let mut writer = csv::Writer::from_writer(Vec::new());
+        writer.write_record(names.chain(bounded().map(|column| with_unit(column, "_uncertainty"))))?;
+        for row in &self.rows {
+            let cells = || self.columns.iter().zip(row).filter(|(column, _)| named(column));
+            for (_, cell) in cells() {
+                writer.write_field(cell.text(digits, ""))?;
+            }
+            for (_, cell) in cells().filter(|(column, _)| column.is_bounded) {
+                writer.write_field(match cell {
+                    Cell::Plain(_) => String::new(),
+                    Cell::Number(x) => x.printed_bound(digits),
+                    Cell::Numbers(all) => all.iter().map(|x| x.printed_bound(digits)).collect::<Vec<_>>().join(" "),
+                })?;
+            }
+            writer.write_record(None::<&[u8]>)?;
         }
-        for (_, cell) in cells().filter(|(column, _)| column.is_bounded) {
-            writer.write_field(match cell {
-                Cell::Plain(_) => String::new(),
-                Cell::Number(x) => x.printed_bound(digits),
-                Cell::Numbers(all) => all.iter().map(|x| x.printed_bound(digits)).collect::<Vec<_>>().join(" "),
-            })?;
-        }
-        writer.write_record(None::<&[u8]>)?;
+        let bytes = writer.into_inner().map_err(|error| csv::Error::from(error.into_error()))?;
+        let comments: String = self.notes.iter().map(|note| format!("# {note}\n")).collect();
+        Ok(comments + &String::from_utf8_lossy(&bytes))
     }
-    let bytes = writer.into_inner().map_err(|error| csv::Error::from(error.into_error()))?;
-    let comments: String = data.notes.iter().map(|note| format!("# {note}\n")).collect();
-    Ok(comments + &String::from_utf8_lossy(&bytes))
 }

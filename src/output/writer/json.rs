@@ -12,9 +12,20 @@ const UNCERTAINTY: &str = "uncertainty";
 /// Where numbers may stand apart from the keys of a row; their bounds do without it.
 const VALUES: &str = "values/";
 
-/// The rows as objects.
-pub(in crate::output) fn objects(data: &Dataset) -> Vec<Value> {
-    data.rows.iter().map(|row| object(data, row)).collect()
+impl Dataset {
+    /// The header, and an object for each row; without a header the list of these.
+    pub(crate) fn json(&self) -> Value {
+        if self.header.is_empty() {
+            return self.objects().into();
+        }
+        let header = self.header.iter().map(|(key, value)| ((*key).to_string(), value.clone()));
+        header.chain([(self.list.to_string(), self.objects().into())]).collect()
+    }
+
+    /// The rows as objects.
+    pub(in crate::output) fn objects(&self) -> Vec<Value> {
+        self.rows.iter().map(|row| object(self, row)).collect()
+    }
 }
 
 fn object(data: &Dataset, row: &[Cell]) -> Value {

@@ -11,10 +11,7 @@ mod table;
 #[cfg(not(feature = "npz"))]
 use npz_absent as npz;
 
-pub(super) use arrays::npz;
-pub(super) use csv::csv;
 pub use json::SCHEMA;
-pub(super) use json::objects;
 pub(super) use npz::Npz;
+pub(super) use table::table_digits;
 pub(crate) use table::{WIDTH, wrapped};
-pub(super) use table::{table, table_digits};

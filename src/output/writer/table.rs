@@ -8,21 +8,28 @@ pub(crate) const WIDTH: usize = 80;
 /// Significant digits of a double in a table.
 const TABLE_DIGITS: u32 = 12;
 
-/// The columns that have a head.
-pub(in crate::output) fn table(data: &Dataset) -> String {
-    let digits = table_digits(data.digits);
-    let shown = |column: &&Column| column.head.is_some();
-    let columns: Vec<&Column> = data.columns.iter().filter(shown).collect();
-    let header: Vec<&str> = columns.iter().filter_map(|column| column.head.as_deref()).collect();
-    let row = |row: &Vec<Cell>| {
-        let cells = data.columns.iter().zip(row).filter(|(column, _)| shown(column));
-        cells.map(|(_, cell)| cell.text(digits, "–")).collect()
-    };
-    let rows: Vec<Vec<String>> = data.rows.iter().map(row).collect();
-    let words = columns.iter().take_while(|column| column.is_text).count();
-    match data.keys {
-        Some(keys) => fitted(&header, &rows, words, keys),
-        None => aligned(&header, rows, words),
+impl Dataset {
+    /// The columns that have a head; without rows only what stands around them.
+    pub(crate) fn table(&self) -> String {
+        let [above, below] = &self.around;
+        if self.rows.is_empty() {
+            return format!("{above}{below}");
+        }
+        let digits = table_digits(self.digits);
+        let shown = |column: &&Column| column.head.is_some();
+        let columns: Vec<&Column> = self.columns.iter().filter(shown).collect();
+        let header: Vec<&str> = columns.iter().filter_map(|column| column.head.as_deref()).collect();
+        let row = |row: &Vec<Cell>| {
+            let cells = self.columns.iter().zip(row).filter(|(column, _)| shown(column));
+            cells.map(|(_, cell)| cell.text(digits, "–")).collect()
+        };
+        let rows: Vec<Vec<String>> = self.rows.iter().map(row).collect();
+        let words = columns.iter().take_while(|column| column.is_text).count();
+        let table = match self.keys {
+            Some(keys) => fitted(&header, &rows, words, keys),
+            None => aligned(&header, rows, words),
+        };
+        format!("{above}{table}{below}")
     }
 }
 
