@@ -127,10 +127,14 @@ pub enum Doubt {
 /// What a user should know of an answer beside its numbers. Times are in the units of the problem.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Warning {
-    /// Rounding decides between contact and flight.
-    RoundingDecides {
+    /// The bound does not tell whether something happens at the ground; later bounds hold either way.
+    NotTold {
         /// At this time.
         time: f64,
+        /// What may happen.
+        what: Near,
+        /// By how much velocities may differ from then on.
+        differ: f64,
     },
     /// The bound of the error no longer tells events apart.
     EventsOverlap {
@@ -164,6 +168,24 @@ pub enum Warning {
         /// `g/2r`.
         terminal: f64,
     },
+}
+
+/// What the bound of an error does not tell.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Near {
+    /// Whether the end, which comes as close to the ground as its bound, touches it.
+    Touch,
+    /// Whether the end, where the stress comes as close to zero as its bound, lets go.
+    Release,
+    /// Whether an event comes before the end of the run.
+    End,
+}
+
+impl Warning {
+    /// Whether more bits could settle it in a damped run.
+    pub fn needs_bits(&self) -> bool {
+        matches!(self, Warning::NotTold { .. } | Warning::HopsUnresolved { .. })
+    }
 }
 
 impl Doubt {
@@ -282,8 +304,15 @@ impl Display for Doubt {
 impl Display for Warning {
     fn fmt(&self, f: &mut Formatter<'_>) -> Result {
         match self {
-            Warning::RoundingDecides { time } => {
-                write!(f, "at t = {time} rounding decides between contact and flight")
+            Warning::NotTold { time, what, differ } => {
+                let what = match what {
+                    Near::Touch => "the end touches the ground or passes just above it",
+                    Near::Release => "the ground lets go or just holds",
+                    Near::End => "an event comes just before the end of the run or just after it",
+                };
+                let time = time.decimal(12);
+                write!(f, "at t = {time} {what}: the bounds do not tell; from then on velocities may differ by ")?;
+                write!(f, "{differ:.1e}, which later bounds include")
             }
             Warning::EventsOverlap { from } => {
                 write!(f, "from t = {from} on the bound of the error no longer tells events apart")

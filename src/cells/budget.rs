@@ -59,6 +59,9 @@ struct Fixed {
     point: f64,
     /// `Σ |jump| · time` of rays that are off, fading as the jumps do.
     rays: f64,
+    /// Masses of all rays that are off, and what damping has scattered from them into `p` and `q`.
+    mass: f64,
+    scatter: f64,
     /// Of `v(0,b)`.
     height: f64,
     /// The most that `point`, `height` and the times of events were.
@@ -70,8 +73,10 @@ struct Fixed {
 pub(super) struct Budget {
     /// `R`.
     damping: f64,
-    /// Of `p` and `q`, by truncation and rounding.
+    /// Of `p` and `q`, by truncation and rounding, and by what was open.
     even: f64,
+    /// The latter, by which nothing is decided.
+    covered: f64,
     /// What events that are off in time do, to first order.
     events: Dependence,
     rest: Rest,
@@ -158,6 +163,8 @@ fn aged(damping: f64, age: f64) -> (f64, f64) {
 
 /// Stripes that pass within so much of a landing may do so before or after it.
 const NEAR: f64 = 1e-13;
+/// `‖e^{−Rn} e^{nG}‖ ≤ e^{−FADES·Rn}`, as `‖G‖ ≤ R²/8 (1 + R²/150)` and `R ≤ 2`.
+const FADES: f64 = 0.74;
 /// Where `|v̇| δt` is more than this part of `|v|`, a landing is not taken for a linear function of what is off.
 const MOST_BENT: f64 = 0.01;
 
@@ -170,6 +177,19 @@ pub(super) fn weight_rest(kappa: f64) -> f64 {
 /// `|w′|` at most.
 fn weight_slope(kappa: f64) -> f64 {
     kappa * (1.0 + (1.0 + kappa) * (1.0 + kappa * kappa.exp() + kappa * kappa) * (2.0 * kappa).exp())
+}
+
+impl Fixed {
+    /// The error of `p` and `q`, but next to rays that are off.
+    fn points(&self) -> f64 {
+        self.point + self.scatter
+    }
+
+    /// What so many round trips scatter of the masses of displaced rays: a path crosses each twice in one, at the cost
+    /// of a part κ of it each time, and all in all no more than `e^R` of it comes out.
+    fn turn(&mut self, damping: f64, trips: f64) {
+        self.scatter = (self.scatter + damping * trips * self.mass).min(damping.exp() * self.mass);
+    }
 }
 
 impl Budget {
@@ -188,13 +208,40 @@ impl Budget {
     /// What is too small to decide anything: what roundings and truncations make of `p` and `q`, and where flights are
     /// not taken apart also what displaced rays scatter.
     pub(super) fn noise(&self, apart: bool) -> f64 {
-        if apart { self.even } else { self.fixed.point }
+        (if apart { self.even } else { self.fixed.points() } - self.covered).max(0.0)
+    }
+
+    /// What nothing is decided by that is less: the error of `p` and `q` at the ground.
+    pub(super) fn trace(&self, apart: bool) -> f64 {
+        let Off { fixed, apart: moving } = self.point();
+        self.better(Off { fixed, apart: moving + self.worst.slope * self.events.late() }, apart)
+    }
+
+    /// The same of `v(0,·)` up to `len` from now; in a flight that is taken apart `flown` has the ages and `h′` now and
+    /// then. It is [`Self::end`] with the greatest that each of its terms is between these.
+    pub(super) fn end_most(&self, flown: Option<[(f64, f64); 2]>, len: f64) -> f64 {
+        let apart = flown.map(|[(from, before), (to, after)]| {
+            let (start, (_, slowed)) = (self.flight.end_rate, aged(self.damping, to));
+            let moves = (start + before).abs().max((start + after).abs());
+            let followed = moves * self.events.late() + slowed * self.events.rate() + 2.0 * self.events.mass();
+            followed + self.not_followed(to) + self.scattered(from, to)
+        });
+        let fixed = self.fixed.height + self.fixed.points() * len;
+        apart.map_or(fixed, |apart| apart.min(fixed))
+    }
+
+    /// The two motions that an open decision leaves differ by no more than this in `p` and `q` from now on.
+    pub(super) fn cover(&mut self, differ: f64) {
+        self.add(differ);
+        self.covered += differ;
+        self.began.0 += differ;
+        self.flight.known = None;
     }
 
     /// The error of `p` and `q`, but next to rays that are off; in contact at equal times since the landing.
     pub(super) fn point(&self) -> Off {
         let displaced = self.landing.map_or(0.0, |landing| landing.slope * self.events.late());
-        Off { fixed: self.fixed.point, apart: self.loose() + displaced + self.events.between() }
+        Off { fixed: self.fixed.points(), apart: self.loose() + displaced + self.events.between() }
     }
 
     /// The part of that which is not followed with signs.
@@ -267,7 +314,7 @@ impl Budget {
             let (form, more) = self.flown((age, rate, at), 0.0);
             form.bound() + more
         });
-        Off { fixed: self.fixed.height + self.fixed.point * len, apart }
+        Off { fixed: self.fixed.height + self.fixed.points() * len, apart }
     }
 
     /// The same in the clock of the vibration: as a linear function of the sources, and what is not followed that way.
@@ -276,7 +323,7 @@ impl Budget {
         let TakeOff { at: from, end_rate, .. } = self.flight;
         let fade = (-self.damping * age).exp();
         let (form, unclear) = self.events.height((-(end_rate + rate), slowed), (from, at), fade, near);
-        (form, self.not_followed(age) + unclear + self.scattered(age))
+        (form, self.not_followed(age) + unclear + self.scattered(age, age))
     }
 
     /// What the rest adds to the error of `v(0,·)` at this age: by its centre of mass and its vibration, or, in a
@@ -296,9 +343,9 @@ impl Budget {
         apart.min(passed) + 0.5 * grown * self.even
     }
 
-    /// What damping makes of stripes at this age, besides letting them fade: no more than they are.
-    fn scattered(&self, age: f64) -> f64 {
-        let left = (self.damping * (6.0 - 0.75 * age)).exp() + (-self.damping * age).exp();
+    /// What damping makes of stripes between these ages, besides letting them fade: no more than they are.
+    fn scattered(&self, from: f64, age: f64) -> f64 {
+        let left = (self.damping * (6.0 - FADES * from)).exp() + (-self.damping * from).exp();
         let turned = (0.5 * self.damping * self.damping * age).exp_m1() * (2.0 * self.damping).exp();
         self.events.mass() * left.min(2.0 * self.damping + turned).min(2.0 * self.damping * age)
     }
@@ -306,7 +353,7 @@ impl Budget {
     /// What has been off since this was last asked, of a run whose flights are taken apart or are not.
     pub(super) fn since(&mut self, apart: bool) -> Uncertainty {
         let fixed = self.fixed.worst + self.fixed.rays;
-        self.fixed.worst = self.fixed.point.max(self.fixed.height);
+        self.fixed.worst = self.fixed.points().max(self.fixed.height);
         let worst = std::mem::take(&mut self.worst);
         self.note();
         if apart && worst.rise.max(worst.speed) < fixed {
@@ -334,11 +381,12 @@ impl Budget {
     /// A part of a round trip, in contact or in flight, with this error in each cell.
     pub(super) fn strip(&mut self, len: f64, cell: f64, contact: bool) {
         if !contact {
-            self.fixed.height += self.fixed.point * len;
+            self.fixed.height += self.fixed.points() * len;
         }
         self.even += 2.0 * cell;
         self.rest.scatter += 2.0 * self.damping * len * (self.rest.wave + self.events.mass());
         self.fixed.point += 2.0 * cell;
+        self.fixed.turn(self.damping, len);
         // A jump of p fades along its ray like p_η = −κp, and η = 2t there.
         self.fixed.rays *= (-self.damping * len).exp();
         self.note();
@@ -367,7 +415,8 @@ impl Budget {
     /// that they pass.
     pub(super) fn leap(&mut self, trips: f64, error: f64, passing: f64) {
         // The centre of mass fades by e^{−2R} in each round trip, and is at most e^R of all.
-        let fade = ((2.0 + self.damping.exp()) * (self.damping * (6.0 - 0.75 * trips)).exp()).min(1.0);
+        let fade = ((2.0 + self.damping.exp()) * (self.damping * (6.0 - FADES * trips)).exp()).min(1.0);
+        self.covered *= fade;
         self.even = self.even * fade + error;
         let Rest { wave, point, scatter, lumps, mean } = self.rest;
         self.rest = Rest {
@@ -377,7 +426,8 @@ impl Budget {
             lumps: lumps * fade,
             mean: mean * fade,
         };
-        self.fixed.height += trips * (self.fixed.point + error + passing);
+        self.fixed.turn(self.damping, trips);
+        self.fixed.height += trips * (self.fixed.points() + error + passing);
         self.fixed.point += error;
         self.fixed.rays *= (-self.damping * trips).exp();
         self.note();
@@ -393,13 +443,16 @@ impl Budget {
     /// A ray that starts off: p goes over from −q to q or back.
     fn displace(&mut self, velocity: f64, fixed: f64) {
         self.fixed.rays += 2.0 * velocity * fixed;
+        self.fixed.mass += 2.0 * velocity * fixed;
+        self.fixed.turn(self.damping, 1.0);
     }
 
-    /// The ground is hit. The part of the ray that is off has twice the mass of the error of the height, and scatters
-    /// at rate κ.
+    /// The ground is hit. The part of the ray that is off has twice the mass of the error of the height.
     pub(super) fn hit(&mut self, velocity: f64, off: Off) {
+        // Where the velocity is small, it grows by as much again while the end may touch.
+        let (drop, height) = (velocity * off.fixed, self.fixed.height);
         self.displace(velocity, off.fixed);
-        self.fixed.point += 2.0 * self.damping * self.fixed.height;
+        self.fixed.mass += if drop < height { 2.0 * height } else { 0.0 };
         self.fixed.height = 0.0;
         self.note();
     }
@@ -489,7 +542,7 @@ impl Budget {
         let (kept, _) = aged(self.damping, age);
         let fade = (-self.damping * age).exp();
         let (form, more) = self.flown((age, rate, at), off.apart.max(NEAR));
-        let scattered = self.scattered(age);
+        let scattered = self.scattered(age, age);
         let bent = curvature * off.apart / speed;
         let linear = bent <= MOST_BENT;
         // δt = −δv/v, in the clock of the vibration; more than that from what is not linear.
@@ -518,6 +571,15 @@ impl Budget {
         if apart { off.fixed.min(off.apart) } else { off.fixed }
     }
 
+    /// The end may lie on the ground before a ray lets it go again: a ray of so much mass may start.
+    pub(super) fn cover_hop(&mut self, mass: f64) {
+        self.fixed.rays += mass;
+        self.fixed.mass += mass;
+        self.fixed.turn(self.damping, 1.0);
+        self.rest.wave += mass;
+        self.rest.lumps += mass;
+    }
+
     /// Whether both accounts have lost the events.
     pub(super) fn lost(&self, off: Off, apart: bool, most: f64) -> bool {
         off.fixed > most && (!apart || off.apart > most)
@@ -533,6 +595,6 @@ impl Budget {
             rate = 2.0 * rise;
         }
         self.worst = self.worst.max(Uncertainty { rise, speed, rate, late, ..Uncertainty::default() });
-        self.fixed.worst = self.fixed.worst.max(self.fixed.point).max(self.fixed.height);
+        self.fixed.worst = self.fixed.worst.max(self.fixed.points()).max(self.fixed.height);
     }
 }

@@ -2,22 +2,26 @@
 
 use super::budget::{AtEvent, LEAP_CELLS, Landing, Off, TakeOff, weight_rest};
 use super::follow::{Follower, Goal};
+use super::near::{open_release, open_touch};
 use super::piece::{Mark, Unresolved};
-use super::series::{at_zero, derivative, evaluate};
+use super::series::{at_zero, bound, derivative, evaluate};
 use super::uncertainty::Uncertainty;
 use crate::motion::EventKind;
-use crate::reason::Warning;
+use crate::reason::{Near, Warning};
 use crate::special::RoundedSpecial;
 
 /// Where times are in doubt by more than this part of a round trip, so are the events.
-const MOST_LATE: f64 = 0.01;
+pub(super) const MOST_LATE: f64 = 0.01;
+
+/// Where something is open, it is looked for how long in steps that grow from this part of a strip.
+const SMALLEST_STEP: f64 = 1e-12;
 
 impl<S: RoundedSpecial> Follower<'_, S> {
     /// How far a root in the strip may be off: the error of the function, and `vague` more, over its slope, or the root
     /// of twice the error over the second derivative if that is less. Where the function bends back, up to twice the
-    /// former; and where the error reaches as far as it bends, the root may not be there in truth. What Clenshaw's sum
+    /// former. What Clenshaw's sum
     /// rounds, at most `(k + 2)u` of each coefficient, counts where the strip is long and the hop is short.
-    pub(super) fn event_error(&mut self, trace: &[S], height: &[S], x: &S, len: &S, vague: f64) -> Off {
+    pub(super) fn event_error(&self, trace: &[S], height: &[S], x: &S, len: &S, vague: f64) -> Off {
         let strip = len.to_f64();
         let at = |c: &[S]| evaluate(c, x).to_f64();
         let first = derivative(trace);
@@ -37,10 +41,6 @@ impl<S: RoundedSpecial> Follower<'_, S> {
             let back = if bends_back { 2.0 / (1.0 + (1.0 - part(error)).max(0.0).sqrt()) } else { 1.0 };
             (back * (error + more) / slope).min((2.0 * (error + more) / curvature).sqrt()) + place
         };
-        let graze = bends_back && part(self.budget.better(error, self.medium.splits())) >= 1.0;
-        if graze && slope > 0.0 {
-            self.count_unresolved(2.0 * slope / curvature);
-        }
         // The clock that times are counted in is off itself.
         let late = self.budget.clock(self.contact);
         Off { fixed: off(error.fixed), apart: off(error.apart) + late }
@@ -107,6 +107,7 @@ impl<S: RoundedSpecial> Follower<'_, S> {
         });
         if self.contact {
             self.contact = false;
+            self.rising = true;
             self.let_go(&velocity, off, slope);
         } else {
             self.touch_down(&velocity, off);
@@ -228,6 +229,99 @@ impl<S: RoundedSpecial> Follower<'_, S> {
         let speeds = (self.medium.gravity.to_f64() + self.noise()) * off;
         if speed > speeds && (near || self.at_ray) {
             self.count_unresolved(off);
+        }
+    }
+
+    /// The ground holds or lets go at the ray that arrives now: that is open where the stress on either side of it is
+    /// within its bound of zero.
+    pub(super) fn note_open_ray(&mut self, trace: &[S]) {
+        let off = self.trace_error();
+        let after = at_zero(trace, &self.height.zero()).to_f64();
+        let before = self.last_trace.as_ref().map_or(f64::NEG_INFINITY, S::to_f64);
+        if !self.medium.kappa.is_zero() && before != 0.0 && (after.abs() <= off || before >= -off) {
+            self.note_open_release(trace, 0.0, off);
+        }
+    }
+
+    /// Compares what the ground feels in this strip, until `left` from now, with the bound of its error: see
+    /// [`super::near`]. Whether that leaves open what happens; the bounds of the rest of the run include both.
+    pub(super) fn note_open(&mut self, trace: &[S], height: &[S], fresh: bool, left: f64) -> bool {
+        let (basis, len) = (&self.medium.basis, self.state.segments[0].len.to_f64());
+        // Without damping events lie on rays by construction; such runs belong to the lattice.
+        if self.medium.kappa.is_zero() {
+            return false;
+        }
+        let off = self.trace_error();
+        if self.contact {
+            let begins = fresh && self.pieces.is_empty();
+            // What a ray leaves open at the beginning is counted already.
+            let open = open_release(basis, trace, off, begins).filter(|at| at * len < left);
+            if let Some(at) = open.filter(|at| fresh || *at > 0.0) {
+                self.note_open_release(trace, at, off);
+            }
+            return open.is_some();
+        }
+        let (high, mut rising) = (self.height_most(len), self.rising);
+        let open = open_touch(basis, (height, trace), (high, off), &mut rising);
+        self.rising = rising;
+        let Some(at) = open.filter(|at| at * len < left) else { return false };
+        let at_ray = at == 0.0 && !fresh;
+        let before = self.last_trace.as_ref().filter(|_| at_ray).map_or(0.0, S::to_f64);
+        // As long as the end may lie on the ground: p is −q there, and q in flight.
+        let value = |c: &[S], x: f64| evaluate(c, &c[0].double(x)).to_f64();
+        let (mut from, mut to, mut step) = (at, at, SMALLEST_STEP);
+        while from > 0.0 && value(height, from) <= high {
+            (from, step) = ((from - step).max(0.0), 2.0 * step);
+        }
+        step = SMALLEST_STEP;
+        while to < 1.0 && value(height, to).abs() <= high && value(trace, to) <= off {
+            (to, step) = ((to + step).min(1.0), 2.0 * step);
+        }
+        let most =
+            |from, to| bound(&basis.restrict(trace, &trace[0].double(from), &trace[0].double(to), trace.len()), 0);
+        let most = if to > from { most(from, to) } else { 0.0 };
+        if before < -off {
+            // Until the ray arrives, for as long as the last of the fall takes.
+            self.budget.cover_hop(4.0 * high);
+            self.count_unresolved(2.0 * high / -before);
+        }
+        self.not_told(at * len, Near::Touch, 2.0 * (most + off));
+        true
+    }
+
+    /// From the place `at` in this strip on the stress is within `off` of zero: the end may fly until the integral of
+    /// what is possible is negative again.
+    fn note_open_release(&mut self, trace: &[S], at: f64, off: f64) {
+        let basis = &self.medium.basis;
+        let mut area = trace.to_vec();
+        area.push(trace[0].zero());
+        basis.integrate(&mut area);
+        let value = |c: &[S], x: f64| evaluate(c, &c[0].double(x)).to_f64();
+        let (mut from, mut to, mut step) = (at, at, SMALLEST_STEP);
+        while from > 0.0 && value(trace, from) >= -off {
+            (from, step) = ((from - step).max(0.0), 2.0 * step);
+        }
+        step = SMALLEST_STEP;
+        let start = value(&area, from);
+        // Until it has surely let go, or would be back on the ground.
+        let open = |to: f64| value(trace, to) <= off && value(&area, to) - start + off * (to - from) >= 0.0;
+        while to < 1.0 && (to == at || open(to)) {
+            (to, step) = ((to + step).min(1.0), 1.5 * step);
+        }
+        let most = bound(&basis.restrict(trace, &trace[0].double(from), &trace[0].double(to), trace.len()), 0);
+        let len = self.state.segments[0].len.to_f64();
+        self.not_told(at * len, Near::Release, 2.0 * (most + off));
+    }
+
+    /// So much later than now something is open, and velocities may differ by this from then on.
+    pub(super) fn not_told(&mut self, later: f64, what: Near, differ: f64) {
+        let units = &self.data.units;
+        let time = (self.state.time().to_f64() + later) * units.time.to_f64();
+        self.warnings.push(Warning::NotTold { time, what, differ: differ * units.velocity.to_f64() });
+        self.budget.cover(differ);
+        if differ > MOST_LATE && !self.lost {
+            self.lost = true;
+            self.warnings.push(Warning::EventsOverlap { from: time });
         }
     }
 

@@ -9,6 +9,7 @@ use std::ops::ControlFlow;
 use super::bounce::Held;
 use super::budget::{Budget, CUT_CELLS, FIRST_CELLS, LEAP_CELLS, Off};
 use super::effort::{Effort, LEAST_LEAP, MOST_PIECES, MOST_SEGMENTS};
+use super::event::MOST_LATE;
 use super::flight::Flight;
 use super::march::{Medium, State};
 use super::piece::{Checkpoint, Found, Mark, Piece, Unresolved};
@@ -20,7 +21,7 @@ use crate::error::Error;
 use crate::motion::{Ending, EventKind};
 use crate::number::Estimate;
 use crate::problem::{Problem, Run};
-use crate::reason::{Reason, Warning};
+use crate::reason::{Near, Reason, Warning};
 use crate::special::RoundedSpecial;
 
 /// How far to go.
@@ -57,6 +58,8 @@ pub(super) struct Follower<'a, S> {
     pub(super) lost: bool,
     /// Whether the landing that is decided is at a ray.
     pub(super) at_ray: bool,
+    /// Whether the end has only gone up since the release, and is not yet clear of the ground.
+    pub(super) rising: bool,
     /// Hops that the bound does not tell apart from contact.
     pub(super) unresolved: Option<Unresolved<S>>,
     /// When the last contact began, in whole round trips and the fraction.
@@ -91,7 +94,8 @@ impl<'a, S: RoundedSpecial> Follower<'a, S> {
         let mut follower = Self::with(medium, data, data.march(medium, &mut |_| {}));
         follower.budget.add(FIRST_CELLS * follower.cell_error);
         follower.height = data.ground.clone();
-        if !data.ground.is_positive() && !follower.rises() {
+        follower.rising = !data.ground.is_positive();
+        if !data.ground.is_positive() && !follower.rises(follower.held_trace()) {
             follower.contact = true;
             follower.landed = 1;
             follower.landing = Some((0, data.slope.zero()));
@@ -151,6 +155,7 @@ impl<'a, S: RoundedSpecial> Follower<'a, S> {
             landed: 0,
             lost: false,
             at_ray: false,
+            rising: true,
             unresolved: None,
             landing: None,
             flight: None,
@@ -168,6 +173,7 @@ impl<'a, S: RoundedSpecial> Follower<'a, S> {
             before: Uncertainty::default(),
         };
         follower.weigh();
+        follower.add_chain();
         follower
     }
 
@@ -176,17 +182,40 @@ impl<'a, S: RoundedSpecial> Follower<'a, S> {
         self.cell_error = self.medium.cell_error(&self.state);
     }
 
+    /// A strip crosses two cells more on the longest path to the next characteristic, and the first strips of a chain
+    /// all that there are on this one.
+    fn add_chain(&mut self) {
+        self.budget.add(self.state.segments.len() as f64 * self.cell_error);
+    }
+
     /// What roundings and truncations make of `p` and `q`: what is smaller decides nothing.
     pub(super) fn noise(&self) -> f64 {
         self.budget.noise(self.medium.splits())
     }
 
-    /// The same of `v(0,·)` up to `len` from now.
-    fn height_noise(&self, len: f64) -> f64 {
-        if self.flight.is_some() {
-            return 2.0 * self.damping().exp() * self.noise();
-        }
-        self.height_error(len).fixed
+    /// The same of `v(0,·)` up to `len` from now. Where the bound leaves `open` what happens, the noise alone decides, so
+    /// that there is one hop and not a row of ever smaller ones.
+    fn height_noise(&self, len: f64, open: bool) -> f64 {
+        let noise = if self.flight.is_some() {
+            2.0 * self.damping().exp() * self.noise()
+        } else {
+            self.height_error(len).fixed
+        };
+        if open { noise } else { noise.min(self.height_most(len)) }
+    }
+
+    /// The error of `p` and `q` at the ground, by the better account.
+    pub(super) fn trace_error(&self) -> f64 {
+        self.budget.trace(self.medium.splits())
+    }
+
+    /// A bound of the error of `v(0,·)` from now until `len` later, by the better account.
+    pub(super) fn height_most(&self, len: f64) -> f64 {
+        let flown = self.flying().map(|flight| {
+            let age = flight.age((self.state.round, &self.state.segments[0].at)).to_f64();
+            [age, age + len].map(|age| (age, flight.at(&self.height.double(age)).1.to_f64()))
+        });
+        self.budget.end_most(flown, len)
     }
 
     /// `R`.
@@ -219,18 +248,11 @@ impl<'a, S: RoundedSpecial> Follower<'a, S> {
         self.budget.end(then, len)
     }
 
-    /// The better account of it.
-    pub(super) fn least_height_error(&self) -> f64 {
-        let off = self.height_error(0.0);
-        self.budget.better(off, self.flight.is_some())
-    }
-
     /// Whether the ground end, at height zero, leaves at once: `y > 0`, or `y = 0` and rising.
     ///
     /// What is less than the error counts as zero; Markov's inequality, `‖f′‖ ≤ 2n²‖f‖` on the unit interval, says what
     /// that is for a derivative.
-    fn rises(&self) -> bool {
-        let mut c = self.held_trace();
+    fn rises(&self, mut c: Vec<S>) -> bool {
         let zero = self.height.zero();
         let mut noise = self.noise();
         for _ in 0..3 {
@@ -308,18 +330,27 @@ impl<'a, S: RoundedSpecial> Follower<'a, S> {
             // What the beginning of this strip decides.
             let first = &self.state.segments[0];
             let (len, ray) = (first.len.clone(), first.off);
-            if !fresh && self.contact && self.rises() {
-                self.event(ray, None);
-                fresh = true;
-                continue;
+            if !fresh && self.contact {
+                let trace = self.held_trace();
+                self.note_open_ray(&trace);
+                if self.rises(trace) {
+                    self.event(ray, None);
+                    fresh = true;
+                    continue;
+                }
             }
             let (trace, height) = self.over(&len);
             // At a release the end starts with the ray that lets it go: the height counts that already.
             if !fresh {
                 self.pass_ray(&trace, ray);
             }
-            let grounded = !self.contact && self.height.to_f64() <= self.height_noise(0.0);
-            if !fresh && grounded && !self.rises() {
+            let left = match goal {
+                Goal::Time(end) => (end.clone() - self.state.time()).to_f64(),
+                Goal::Impacts(_) => f64::INFINITY,
+            };
+            let open = self.note_open(&trace, &height, fresh, left);
+            let grounded = !self.contact && self.height.to_f64() <= self.height_noise(0.0, open);
+            if !fresh && grounded && !self.rises(self.held_trace()) {
                 if self.land_at_ray(goal, ray, &trace, &height, &len) {
                     return Ok(Ending::NextImpact);
                 }
@@ -329,10 +360,11 @@ impl<'a, S: RoundedSpecial> Follower<'a, S> {
             // The next event in this strip.
             let (noise, found) = if self.contact {
                 let fall: Vec<S> = trace.iter().map(|term| -term.clone()).collect();
-                let noise = self.noise().max(unit * 16.0 * bound(&trace, 0));
+                let most = if open { f64::INFINITY } else { self.trace_error() };
+                let noise = self.noise().min(most).max(unit * 16.0 * bound(&trace, 0));
                 (noise, first_descent(&self.medium.basis, &fall, noise))
             } else {
-                let noise = self.height_noise(len.to_f64()).max(unit * 16.0 * bound(&height, 0));
+                let noise = self.height_noise(len.to_f64(), open).max(unit * 16.0 * bound(&height, 0));
                 (noise, first_descent(&self.medium.basis, &height, noise))
             };
             // Where a root is not told from the noise, both the function and what is known of it are off by so much.
@@ -349,14 +381,16 @@ impl<'a, S: RoundedSpecial> Follower<'a, S> {
                 fresh = true;
                 continue;
             }
-            if at_start {
-                let time = (self.state.time() * &self.data.units.time).to_f64();
-                self.warnings.push(Warning::RoundingDecides { time });
-            }
             let at_end = found.as_ref().is_some_and(|x| nearby(&(len.clone() - x)));
             let found = found.filter(|_| !at_start && !at_end);
             if let Goal::Time(end) = goal {
                 let left = end.clone() - self.state.time();
+                if let Some(x) = found.as_ref().filter(|x| ((*x).clone() - &left).to_f64().abs() < MOST_LATE) {
+                    let off = self.event_error(&trace, &height, &(x.clone() / &len), &len, vague);
+                    if (x.clone() - &left).to_f64().abs() <= self.budget.better(off, self.medium.splits()) {
+                        self.not_told(left.to_f64(), Near::End, 0.0);
+                    }
+                }
                 if left.to_f64() <= 4.0 * unit * end.to_f64().max(1.0) {
                     return Ok(Ending::Time);
                 }
@@ -421,8 +455,8 @@ impl<'a, S: RoundedSpecial> Follower<'a, S> {
     ///
     /// `v(0,t) = h + z(0,t)` with `|z(0,t)| ≤ B e^{−Rτ}` at the age τ from now. For `z` has mean zero, hence
     /// `|z(0)| ≤ ‖z_x‖/√6` on a rod of length ½; `e^{2Rτ} (|ȧ + Ra|² + ω²|a|²)` is constant in each mode `a`, and lies
-    /// between `1 ∓ ρ` times `e^{2Rτ}(|ȧ|² + (2πk)²|a|²)`, `ρ = R/2π`; and `½ ∫ p² + q² dx ≤ ½ M²` now where `|q| ≤ M`
-    /// on the characteristic. So `B = M √((1 + ρ)/(1 − ρ)/12)`. Where `h′ ≥ −g/2R` the fall is concave, and
+    /// between `1 ∓ ρ` times `e^{2Rτ}(|ȧ|² + (2πk)²|a|²)`, `ρ = R/2π`; and `½ ∫ p² + q² dx ≤ ½ M²` half a round trip from
+    /// now, above the characteristic on which `|q| ≤ M`. So `B = e^{R/2} M √((1 + ρ)/(1 − ρ)/12)`. Where `h′ ≥ −g/2R` the fall is concave, and
     /// `h − B e^{−Rτ}` with it: both ends decide. Otherwise h falls all the time, and its end does.
     fn leap_length(&self, goal: &Goal<S>) -> Option<i64> {
         let flight = self.flying()?;
@@ -431,12 +465,13 @@ impl<'a, S: RoundedSpecial> Follower<'a, S> {
         let (height, rate) = flight.at(&age);
         let most = self.state.bound() + self.noise();
         let rho = damping / (2.0 * std::f64::consts::PI);
-        let bound = most * ((1.0 + rho) / (1.0 - rho) / 12.0).sqrt();
+        let bound = (0.5 * damping).exp() * most * ((1.0 + rho) / (1.0 - rho) / 12.0).sqrt();
+        let passing = self.medium.passing(&self.state);
         let concave = rate.to_f64() >= -gravity / (2.0 * damping);
         let clear = |trips: f64| {
             let later = flight.at(&(age.clone() + age.double(trips))).0.to_f64();
             let fade = if concave { (-damping * trips).exp() } else { 1.0 };
-            later > bound * fade + 4.0 * self.height_noise(trips)
+            later > bound * fade + self.height_most(trips) + trips * passing
         };
         let mut most = match goal {
             Goal::Time(end) => (end.clone() - self.state.time()).to_f64().floor() - 1.0,
@@ -470,6 +505,7 @@ impl<'a, S: RoundedSpecial> Follower<'a, S> {
         let passing = self.medium.passing(&self.state);
         self.medium.leap(&mut self.state, &self.ground, trips);
         self.budget.leap(trips as f64, LEAP_CELLS * self.cell_error, passing);
+        self.rising = false;
         self.pieces.push(Piece {
             len: from.int(trips),
             from,
@@ -482,6 +518,7 @@ impl<'a, S: RoundedSpecial> Follower<'a, S> {
             height: Vec::new(),
         });
         self.forget();
+        self.add_chain();
         if let Some((height, _)) = self.centre() {
             self.height = height + self.medium.ground_of(&self.state);
         }

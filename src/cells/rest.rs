@@ -51,7 +51,7 @@ impl<S: RoundedSpecial> Follower<'_, S> {
         } else {
             (slope / 2.0, sum(&|_, v_t, v_x| v_t.powi(2) + v_x.powi(2)) / 2.0)
         };
-        let swing = share.sqrt() + 8.0 * (self.noise() + self.least_height_error());
+        let swing = share.sqrt() + 8.0 * (self.trace_error() + self.height_most(0.0));
         (least > swing).then(|| {
             let unit = data.units.displacement.to_f64();
             let from = (t * &data.units.time).to_f64();
@@ -70,7 +70,7 @@ impl<S: RoundedSpecial> Follower<'_, S> {
         if self.state.round <= *round || self.state.round == *round + 1 && first < at {
             return None;
         }
-        let most = self.state.bound() + self.noise();
+        let most = self.state.bound() + self.trace_error();
         let slope = self.medium.slope.to_f64();
         (self.contact && slope < 0.0 && most < -slope).then(|| {
             let from = (self.state.time() * &self.data.units.time).to_f64();
@@ -148,7 +148,7 @@ impl<S: RoundedSpecial> Follower<'_, S> {
         let rest = if self.medium.free_top { self.height.clone() } else { self.medium.slope.clone() * now.ratio(1, 2) };
         let ending = if self.contact && !neither {
             self.held(still(StillState::Pressed))
-        } else if !self.contact && rest.to_f64() > far + self.least_height_error() {
+        } else if !self.contact && rest.to_f64() > far + self.height_most(0.0) {
             Ending::NoFurtherImpact(still(StillState::Above(rest.to_f64() * units.displacement.to_f64())))
         } else {
             Ending::Rest(still(StillState::Faint))

@@ -18,12 +18,12 @@ pub(super) struct Converted<N: Scalar, M> {
 
 impl<N: Scalar, M: Reads<N>> Converted<N, M> {
     pub(super) fn new(engine: Arc<dyn Motion<N>>) -> Self {
-        Converted {
-            precision: engine.end().precision(),
-            rays: RayRegister::of(&*engine),
-            course: engine.course().clone().map(M::read),
-            engine,
+        let mut course = engine.course().clone().map(M::read);
+        for event in &mut course.events {
+            // The time has been rounded once more.
+            event.time_error = event.time_error.max(event.time.log2_error().exp2());
         }
+        Converted { precision: engine.end().precision(), rays: RayRegister::of(&*engine), course, engine }
     }
 
     /// A time of this history. One that an event, or the end, was rounded to is that event's own.

@@ -4,7 +4,7 @@
 use std::ops::ControlFlow;
 use std::sync::{Arc, LazyLock};
 
-use super::plan::{Goal, Lacks, Plan, Rung};
+use super::plan::{Engine, Goal, Lacks, Plan, Rung};
 use crate::error::Error;
 use crate::motion::{Ending, Motion, Scales};
 use crate::number::{Answer, Scalar};
@@ -120,7 +120,8 @@ pub(crate) fn settled<S: Target, T, A>(
     Ok((beside, answers.swap_remove(chosen)))
 }
 
-/// As often an attempt may end at the same doubt, with more bits each time, before that is the answer.
+/// As often an attempt may end at the same doubt, or leave events open, with more bits each time, before that is the
+/// answer.
 const SAME_DOUBT: usize = 3;
 
 impl Ladder<'_> {
@@ -140,6 +141,7 @@ impl Ladder<'_> {
         let mut rung = attempt.as_ref().map_or(self.plan.rung, |attempt| attempt.rung);
         let tried = attempt.as_ref().is_some_and(|attempt| attempt.tried);
         let mut reserve = None;
+        let mut kept: Option<(Attempt<S>, usize, bool)> = None;
         let mut known = attempt.map(|attempt| attempt.engine);
         let mut doubts: Vec<f64> = Vec::new();
         loop {
@@ -151,11 +153,26 @@ impl Ladder<'_> {
             // Errors on the way to an open comparison mean nothing, except where no bits can help.
             let (lacks, reached) = match answer {
                 Ok((engine, (answer, sizes))) => {
+                    let longer = |(kept, _, settled): &mut (Attempt<S>, usize, bool)| {
+                        *settled && ends_before(&*engine, &*kept.engine)
+                    };
+                    if let Some((kept, answer, _)) = kept.take_if(longer) {
+                        return Ok((Attempt { tried: true, ..kept }, answer));
+                    }
                     let missing = self.missing(&*engine, &sizes, &mut doubts);
                     let coincides = !tried && coincides(self.plan, &*engine);
-                    let reached = Some((Attempt { rung, engine, tried }, answer));
+                    let open = !tried && self.plan.engine != Engine::Lattice && needs_bits(&*engine);
+                    if open {
+                        doubts.push(engine.end().to_f64());
+                    }
+                    let climbs = open && doubts.len() < SAME_DOUBT;
+                    let reached = Some((Attempt { rung, engine, tried: tried || open && !climbs }, answer));
                     match reached {
-                        Some(settled) if missing <= 0.0 && !coincides => return Ok(settled),
+                        Some(settled) if missing <= 0.0 && !coincides && !climbs => return Ok(settled),
+                        _ if climbs => {
+                            kept = reached.map(|(attempt, answer)| (attempt, answer, missing <= 0.0));
+                            (Lacks::Bits(f64::INFINITY), None)
+                        }
                         _ if missing <= 0.0 => {
                             reserve = reached;
                             (Lacks::Exactness, None)
@@ -172,8 +189,12 @@ impl Ladder<'_> {
             match (next, reserve.take_if(|_| next.is_none()), reached) {
                 (Some(next), ..) => rung = next,
                 (None, Some((attempt, answer)), _) => return Ok((Attempt { tried: true, ..attempt }, answer)),
-                (None, None, Some(reached)) if matches!(rung, Rung::Double) => return Ok(reached),
-                (None, None, _) => return Err(self.unsettled(rung)),
+                (None, None, reached) => {
+                    let kept = kept.filter(|(kept, _, settled)| *settled || kept.rung == Rung::Double);
+                    let kept = kept.map(|(kept, answer, _)| (Attempt { tried: true, ..kept }, answer));
+                    let reached = reached.filter(|_| rung == Rung::Double);
+                    return kept.or(reached).ok_or_else(|| self.unsettled(rung));
+                }
             }
         }
     }
@@ -189,7 +210,7 @@ impl Ladder<'_> {
 
     /// About how many bits more would settle the answer; zero or less where it is settled.
     fn missing<S: Scalar>(&self, engine: &dyn Motion<S>, numbers: &[Size], doubts: &mut Vec<f64>) -> f64 {
-        if self.plan.engine == super::Engine::Lattice && matches!(engine.ending(), Ending::Undecided(_)) {
+        if self.plan.engine == Engine::Lattice && matches!(engine.ending(), Ending::Undecided(_)) {
             let end = engine.end().to_f64();
             doubts.push(end);
             if doubts.iter().filter(|doubt| (*doubt - end).abs() <= 1e-9 * end).count() < SAME_DOUBT {
@@ -221,6 +242,16 @@ impl Ladder<'_> {
 fn coincides<S: Scalar>(plan: &Plan, engine: &dyn Motion<S>) -> bool {
     let contacts = engine.digits_lost().map_or(0, |(contacts, _)| contacts);
     plan.tries_exact(contacts) && engine.warnings().iter().any(|warning| matches!(warning, Warning::Coincidence { .. }))
+}
+
+/// Whether a damped run says that its bounds leave events open.
+fn needs_bits<S: Scalar>(engine: &dyn Motion<S>) -> bool {
+    engine.warnings().iter().any(Warning::needs_bits)
+}
+
+/// Whether a run does not get as far as another.
+fn ends_before<S: Scalar>(engine: &dyn Motion<S>, other: &dyn Motion<S>) -> bool {
+    engine.end().to_f64() < other.end().to_f64() * (1.0 - 1e-6)
 }
 
 /// `log₂` of the least of the natural scales of displacement, velocity, strain and energy.

@@ -46,6 +46,8 @@ mod first_contact_undamped;
 mod guide;
 mod hard_cases;
 #[cfg(feature = "mp")]
+mod near_thresholds;
+#[cfg(feature = "mp")]
 mod number_interval;
 mod paper_claims;
 #[cfg(feature = "cli")]

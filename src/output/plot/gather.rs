@@ -209,10 +209,11 @@ impl Asked {
 /// Up to where values are settled: the end, or where the events are no longer told apart.
 fn known_until<S: Target>(history: &History<S>) -> f64 {
     let open = history.warnings().into_iter().filter_map(|warning| match warning {
-        Warning::RoundingDecides { time: from } | Warning::EventsOverlap { from } | Warning::NotDetermined { from } => {
-            Some(from)
-        }
-        Warning::Coincidence { .. } | Warning::HopsUnresolved { .. } | Warning::DragNeglected { .. } => None,
+        Warning::EventsOverlap { from } | Warning::NotDetermined { from } => Some(from),
+        Warning::Coincidence { .. }
+        | Warning::HopsUnresolved { .. }
+        | Warning::NotTold { .. }
+        | Warning::DragNeglected { .. } => None,
     });
     open.fold(history.end().to_f64(), f64::min)
 }

@@ -1,0 +1,107 @@
+//! What the bound of an error leaves open at the ground: touches that may be misses, releases that may be none.
+//!
+//! A function `f` is known within a bound. A touch, or a release, is decided where `f` passes through all of the bound
+//! on one stretch on which its derivative has one sign beyond its own bound, and it is none where `f` stays clear.
+//! Anything else is open: the true motion may have an event that the computed one lacks, or the other way round.
+
+use super::series::{Basis, at_zero, bound, derivative};
+use crate::number::Rounded;
+
+/// Stretches shorter than this part of a strip are not cut any further, nor is a strip into more than so many.
+const SHORTEST: f64 = 1e-14;
+const MOST_PARTS: usize = 1000;
+
+/// The two halves of series on the unit interval, the latter first.
+fn halves<S: Rounded, const N: usize>(basis: &Basis<S>, series: &[Vec<S>; N]) -> [[Vec<S>; N]; 2] {
+    let zero = series[0][0].zero();
+    let (half, one) = (zero.ratio(1, 2), zero.one());
+    let part = |from: &S, to: &S| std::array::from_fn(|k| basis.restrict(&series[k], from, to, series[k].len()));
+    [part(&half, &one), part(&zero, &half)]
+}
+
+/// Whether the derivative is positive throughout.
+fn increases<S: Rounded>(c: &[S]) -> bool {
+    let slope = derivative(c);
+    slope.first().is_some_and(|mean| mean.to_f64() > bound(&slope, 1))
+}
+
+/// Where it first is open whether the end, in flight, touches the ground, as a part of the strip: `height` and its
+/// derivative `trace` are known within these bounds. `rising` says that since the release the end has gone up and is
+/// not yet clear of the ground.
+pub(super) fn open_touch<S: Rounded>(
+    basis: &Basis<S>,
+    (height, trace): (&[S], &[S]),
+    (high, fast): (f64, f64),
+    rising: &mut bool,
+) -> Option<f64> {
+    let mut parts = vec![(0.0, 1.0, [height.to_vec(), trace.to_vec()])];
+    let mut count = 0;
+    while let Some((from, width, series)) = parts.pop() {
+        count += 1;
+        let [height, trace] = &series;
+        let (middle, spread) = (height[0].to_f64(), bound(height, 1));
+        if middle - spread > high {
+            *rising = false;
+            continue;
+        }
+        if middle + spread < -high {
+            return None;
+        }
+        let start = at_zero(height, &height[0].zero()).to_f64();
+        let (middle, spread) = (trace[0].to_f64(), bound(trace, 1));
+        if *rising && (middle - spread > fast || increases(trace)) {
+            continue;
+        }
+        if start > high && (middle - spread).max(-middle - spread) > fast {
+            *rising = false;
+            continue;
+        }
+        if !*rising && middle + spread < -fast {
+            continue;
+        }
+        if width < SHORTEST || count > MOST_PARTS {
+            return Some(from);
+        }
+        let width = 0.5 * width;
+        let [late, early] = halves(basis, &series);
+        parts.push((from + width, width, late));
+        parts.push((from, width, early));
+    }
+    None
+}
+
+/// Where it first is open whether the ground, in contact, lets go, as a part of the strip: the stress `trace` is known
+/// within `bound`. `begins` says that it may fall from zero here, by construction.
+pub(super) fn open_release<S: Rounded>(basis: &Basis<S>, trace: &[S], off: f64, mut begins: bool) -> Option<f64> {
+    // Where no wave has arrived yet, and without weight, the stress is zero and not only small.
+    if trace.iter().all(S::is_zero) {
+        return None;
+    }
+    let mut parts = vec![(0.0, 1.0, [trace.to_vec()])];
+    let mut count = 0;
+    while let Some((from, width, series)) = parts.pop() {
+        count += 1;
+        let [trace] = &series;
+        let (middle, spread) = (trace[0].to_f64(), bound(trace, 1));
+        if middle + spread < -off {
+            begins = false;
+            continue;
+        }
+        if middle - spread > off {
+            return None;
+        }
+        let pressed = from > 0.0 || at_zero(trace, &trace[0].zero()).to_f64() < -off;
+        let falls = || increases(&trace.iter().map(|term| -term.clone()).collect::<Vec<_>>());
+        if (pressed || begins) && increases(trace) || begins && falls() {
+            continue;
+        }
+        if width < SHORTEST || count > MOST_PARTS {
+            return Some(from);
+        }
+        let width = 0.5 * width;
+        let [late, early] = halves(basis, &series);
+        parts.push((from + width, width, late));
+        parts.push((from, width, early));
+    }
+    None
+}
