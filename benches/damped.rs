@@ -5,11 +5,10 @@
 use std::hint::black_box;
 
 use criterion::{BenchmarkId, Criterion, Throughput, criterion_group, criterion_main};
-use dalembert::cells::Damped;
-use dalembert::lattice::Undamped;
-use dalembert::number::Estimate;
-use dalembert::problem::{Material, Profile, Rod, Run, Start, Top};
-use dalembert::{Motion, Number, Numbers, Plan, Problem, Question, Solution};
+use dalembert::engine::{Damped, Motion, Undamped};
+use dalembert::{
+    Estimate, Material, Number, Numbers, Plan, Problem, Profile, Question, Rod, Run, Solution, Start, Top,
+};
 
 /// A rod with c = L = g = 1, t₁ = 2.
 fn rod(damping: &str, speed: &str, run: Run) -> Problem {
@@ -35,7 +34,7 @@ fn periodic(trips: i64) -> Problem {
 
 /// The events of a run in doubles, as planned, and their error.
 fn planned(problem: &Problem, plan: &Plan) -> (usize, f64) {
-    match plan.solve(black_box(problem), std::sync::Arc::new(dalembert::lattice::unobserved)).unwrap() {
+    match plan.solve(black_box(problem), std::sync::Arc::new(dalembert::engine::unobserved)).unwrap() {
         Solution::Double(motion) => (motion.events().len(), motion.error_estimate()),
         _ => unreachable!(),
     }

@@ -6,11 +6,9 @@ use std::hint::black_box;
 use std::ops::ControlFlow;
 
 use criterion::{Criterion, Throughput, criterion_group, criterion_main};
-use dalembert::first_contact::{ContactHistory, FirstContact};
-use dalembert::lattice::{Limits, Scaled, Undamped, Until, march, unobserved};
-use dalembert::number::{Answer, Estimate, Interval, IntervalPrecision, Number, Scalar};
-use dalembert::problem::{Parameters, Run};
-use dalembert::{Motion, Problem, Side};
+use dalembert::engine::{ContactHistory, FirstContact, Limits, Motion, Scaled, Undamped, Until, march, unobserved};
+use dalembert::number::{Answer, IntervalPrecision, Scalar};
+use dalembert::{Estimate, Interval, Number, Parameters, Problem, Run, Side};
 use rug::Float;
 
 fn rod(damping: &str, gravity: &str, length: &str, speed: &str) -> Problem {

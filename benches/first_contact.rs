@@ -8,13 +8,10 @@ use std::sync::Arc;
 use std::time::Instant;
 
 use criterion::{Criterion, criterion_group, criterion_main};
-use dalembert::first_contact::{Bounce, FirstContact};
-use dalembert::lattice::Undamped;
-use dalembert::number::{Estimate, Scalar};
-use dalembert::problem::Parameters;
-use dalembert::quantity::restitution;
+use dalembert::engine::{Bounce, FirstContact, Motion, Undamped, restitution};
+use dalembert::number::Scalar;
 use dalembert::special::{i0_scaled, i1_scaled};
-use dalembert::{Error, Motion, Numbers, Plan, Problem, Question, Scene, Side, scene::builtin};
+use dalembert::{Error, Estimate, Numbers, Parameters, Plan, Problem, Question, Scene, Side, builtin};
 
 fn rod(damping: f64, speed: f64) -> Parameters<Estimate<f64>> {
     Parameters { length: 1.0, wave_speed: 1.0, damping, gravity: 1.0, speed }.carry()
@@ -44,7 +41,7 @@ fn first_contact(criterion: &mut Criterion) {
     let late = late.to_builder().damping(3).build().unwrap();
     let plan = Plan::of(&late, &Question::first_contact(Numbers::Double(Some(1e-12)))).unwrap();
     criterion.bench_function("t_b to 1e-12, g = 0, R = 3", |b| {
-        b.iter(|| plan.solve(black_box(&late), Arc::new(dalembert::lattice::unobserved)).unwrap());
+        b.iter(|| plan.solve(black_box(&late), Arc::new(dalembert::engine::unobserved)).unwrap());
     });
     criterion.bench_function("figure 4, 4 × 1000 speeds", |b| {
         b.iter(|| {

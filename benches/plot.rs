@@ -5,8 +5,7 @@
 use std::hint::black_box;
 
 use criterion::{Criterion, criterion_group, criterion_main};
-use dalembert::output::scene_svg;
-use dalembert::{Problem, Units};
+use dalembert::{Problem, Units, scene_svg};
 
 fn plot(criterion: &mut Criterion) {
     for (name, damping) in [("undamped", "0"), ("damped", "0.01")] {

@@ -7,10 +7,9 @@
 use std::hint::black_box;
 
 use criterion::{BenchmarkId, Criterion, Throughput, criterion_group, criterion_main};
-use dalembert::lattice::{Limits, Scaled, Undamped, Until, march, unobserved};
-use dalembert::number::{Bounded, Estimate};
-use dalembert::problem::Run;
-use dalembert::{Motion, Numbers, Plan, Problem, Question, Scene, scene::builtin};
+use dalembert::engine::{Limits, Motion, Scaled, Undamped, Until, march, unobserved};
+use dalembert::number::Bounded;
+use dalembert::{Estimate, Numbers, Plan, Problem, Question, Run, Scene, builtin};
 
 fn problem(speed: &str, run: Run) -> Problem {
     let one = || "1".parse().unwrap();
@@ -32,7 +31,7 @@ fn first_contact(c: &mut Criterion) {
     group.bench_function("plan", |b| b.iter(|| Plan::of(black_box(&scene.problem), &question).unwrap()));
     group.bench_function("closed form of the bounce time, f64", |b| {
         b.iter(|| {
-            let rod = dalembert::problem::Parameters::<f64>::of(black_box(&scene.problem), &()).unwrap();
+            let rod = dalembert::Parameters::<f64>::of(black_box(&scene.problem), &()).unwrap();
             dalembert::paper::UndampedContact::new(&rod).unwrap().bounce_time()
         });
     });

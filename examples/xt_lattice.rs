@@ -4,8 +4,9 @@
 //! hits the ground or leaves it, runs up, is reflected at the top, comes back down after t₁ = 2L/c, and so on for ever.
 //! Proposition 2 says how large the jumps are: going up [v_t] = −c [v_x], coming down [v_t] = c [v_x].
 
+use dalembert::engine::reflection;
 use dalembert::glam::DVec2;
-use dalembert::{Error, Problem, reflection};
+use dalembert::{Error, Problem};
 
 fn main() -> Result<(), Error> {
     // L = c = g = 1 and μ = 3: contact from 0 to 2, then flight until t = 8.

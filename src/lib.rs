@@ -32,71 +32,55 @@
 //! The features `mp` (digits, proved or not, and faster fractions), `cli` (the command), `compare` (what it shares with the wheel), `npz`
 //! (data in NumPy's files) and `plot` (its pictures as PNG and PDF) add to each other and take nothing away.
 
-// The rooms are public for the crate's own tests and benchmarks; what is meant to be used is re-exported below.
 #[cfg(feature = "compare")]
 mod aligned;
-#[doc(hidden)]
-pub mod cells;
+mod cells;
 #[cfg(feature = "cli")]
 #[doc(hidden)]
 pub mod cli;
 #[cfg(feature = "compare")]
 #[doc(hidden)]
 pub mod compare;
+pub mod engine;
 mod error;
 #[cfg(feature = "cli")]
 mod figures;
-#[doc(hidden)]
-pub mod first_contact;
-#[doc(hidden)]
-pub mod lattice;
-#[doc(hidden)]
-pub mod modal;
-#[doc(hidden)]
-pub mod motion;
-#[doc(hidden)]
+mod first_contact;
+mod lattice;
+mod modal;
+mod motion;
 pub mod number;
 #[cfg(feature = "cli")]
-#[doc(hidden)]
-pub mod output;
-#[doc(hidden)]
+mod output;
 pub mod paper;
-#[doc(hidden)]
-pub mod problem;
-#[doc(hidden)]
-pub mod quantity;
+mod problem;
+mod quantity;
 mod reason;
 #[cfg(feature = "cli")]
 mod routes;
-#[doc(hidden)]
-pub mod scene;
-#[doc(hidden)]
-pub mod solve;
-#[doc(hidden)]
+mod scene;
+mod solve;
 pub mod special;
 #[cfg(feature = "cli")]
 mod sweep;
 
 pub use error::Error;
-pub use first_contact::{Bounce, BounceKind, FirstContact, Rebound};
 pub use glam;
-pub use modal::Modal;
-pub use motion::{
-    Contact, Course, Ending, Energy, Event, EventKind, Field, Motion, Ray, Scales, Side, StressHistory, StressPiece,
-    Stretch, WavePiece, Waves, reflection,
-};
-pub use number::{Analytic, Answer, Estimate, Float, Interval, Number, NumberError, Open, Rational, Scalar};
-pub use paper::UndampedContact;
+pub use motion::{Contact, Ending, Energy, Event, EventKind, Field, Ray, Side, StressHistory, StressPiece};
+pub use number::{Estimate, Float, Interval, Number, NumberError, Rational};
+#[cfg(feature = "cli")]
+pub use output::scene_svg;
 pub use problem::{
-    Dimensionless, Material, Parameters, Problem, ProblemError, ProblemErrorKind, Profile, Rod, Run, Speed, Start, Top,
+    Builder, Dimensionless, Material, Parameters, Problem, ProblemError, ProblemErrorKind, Profile, Rod, Run, Speed,
+    Start, Top, Written,
 };
 pub use quantity::{
     EnergyShares, Flight, Measure, Needs, Quantity, Restitution, Slice, Table, Undefined, UnitSystem, Units,
 };
-pub use reason::{Doubt, NoBounceReason, Reason, StillState, Warning};
+pub use reason::{Doubt, Near, NoBounceReason, Reason, StillState, Warning};
 #[cfg(feature = "mp")]
 pub use rug;
-pub use scene::{Effect, EffectUse, Scene, SceneError, SceneErrorKind, Target};
+pub use scene::{Effect, EffectUse, Scene, SceneError, SceneErrorKind, Target, builtin};
 pub use solve::{
     CERTIFIED_DIGITS, DEFAULT_ACCURACY, Engine, ExactnessEnd, History, Numbers, Observer, Plan, Question, Reach, Rung,
     Solution, Want,

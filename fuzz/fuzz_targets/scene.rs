@@ -5,7 +5,7 @@ use dalembert::Scene;
 
 libfuzzer_sys::fuzz_target!(|source: &str| {
     match Scene::parse(source) {
-        Ok(scene) => assert_eq!(scene.effects().len(), dalembert::scene::Effect::ALL.len()),
+        Ok(scene) => assert_eq!(scene.effects().len(), dalembert::Effect::ALL.len()),
         Err(error) => assert!(source.get(error.span.clone()).is_some()),
     }
 });

@@ -65,7 +65,7 @@ fn run<T: Send + 'static, E: std::fmt::Display + Send + 'static>(
 
 #[pymodule]
 mod _core {
-    use dalembert::scene::builtin::ALL;
+    use dalembert::builtin::ALL;
     use pyo3::prelude::*;
 
     #[pymodule_export]

@@ -1,7 +1,6 @@
 //! Numbers as Python has them.
 
-use dalembert::Number;
-use dalembert::problem::Written;
+use dalembert::{Number, Written};
 use pyo3::exceptions::PyTypeError;
 use pyo3::prelude::*;
 use pyo3::types::{PyBool, PyFloat, PyString};

@@ -2,9 +2,8 @@
 
 use std::sync::Arc;
 
-use dalembert::problem::{Builder, Parameters, Top, Written};
-use dalembert::solve::MAX_DIGITS;
-use dalembert::{CERTIFIED_DIGITS, Number, Numbers, Plan, Question, Scene, UnitSystem};
+use dalembert::{Builder, CERTIFIED_DIGITS, Number, Numbers, Parameters, Plan, Question, Scene, Top, UnitSystem, Written};
+use dalembert::engine::MAX_DIGITS;
 use pyo3::exceptions::PyTypeError;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;

@@ -19,7 +19,7 @@ use crate::special::RoundedSpecial;
 /// The damped rod that starts as the paper's does, through any number of impacts: [`ContactHistory`] as long as the
 /// first contact lasts, [`Damped`] from the bounce on.
 ///
-/// **Source**: Theorem 1 and the closed forms of section 3 until `t_b`; the characteristic cells of [`crate::cells`]
+/// **Source**: Theorem 1 and the closed forms of section 3 until `t_b`; the characteristic cells of `cells`
 /// after it.
 ///
 /// **Units**: those of the problem.

@@ -30,12 +30,12 @@ use crate::special::{RoundedSpecial, log_mean, log_rest};
 /// **Units**: those of the problem.
 ///
 /// **Accuracy**: *within its own bound*, which is at most about
-/// [`Motion::error_estimate`](crate::Motion::error_estimate) of the quantity's natural scale: `t₁`,
+/// [`Motion::error_estimate`](crate::engine::Motion::error_estimate) of the quantity's natural scale: `t₁`,
 /// `V = max(|data|, g t₁)`, `V t₁`.
 ///
 /// ```
-/// use dalembert::cells::Damped;
-/// use dalembert::motion::Motion;
+/// use dalembert::engine::Damped;
+/// use dalembert::engine::Motion;
 /// use dalembert::{Number, Problem};
 /// // Without damping a rod with c = L = g = 1 that arrives at μ = 3 leaves after the round trip, t₁ = 2.
 /// let mut problem = Problem::uniform(Number::from(1), Number::from(1), Number::from(1), Number::from(3));
@@ -461,7 +461,8 @@ fn summed<S: RoundedSpecial>(nodes: &[Node<S>], like: &S, part: impl Fn(&Node<S>
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::{Motion, Number, Reason};
+    use crate::motion::Motion;
+    use crate::{Number, Reason};
 
     fn plain(history: &Damped<f64>) -> Course<f64> {
         history.course().clone().map(Estimate::into_value)

@@ -24,7 +24,8 @@ impl<N: BoundedSpecial> FirstContact<N> {
     /// the stress.
     ///
     /// ```
-    /// # use dalembert::{Bounce, BounceKind, Estimate, FirstContact, Number, Parameters, Problem};
+    /// # use dalembert::{Estimate, Number, Parameters, Problem};
+    /// # use dalembert::engine::{Bounce, BounceKind, FirstContact};
     /// let problem = Problem::uniform(Number::from(1), Number::from(1), Number::from(1), Number::from(3));
     /// let contact = FirstContact::new(&Parameters::<Estimate<f64>>::of(&problem, &())?);
     /// let bounce = contact.bounce();

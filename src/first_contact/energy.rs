@@ -45,7 +45,8 @@ impl<N: BoundedSpecial> FirstContact<N> {
     /// `μ + μ₀`.
     ///
     /// ```
-    /// # use dalembert::{problem::Parameters, first_contact::FirstContact, number::Estimate};
+    /// # use dalembert::{Estimate, Parameters};
+    /// # use dalembert::engine::FirstContact;
     /// // r = 0, μ ≥ μ₀ = 2: E_z(t₁) = μ₀² L/6.
     /// let rod = Parameters { length: 1.0, wave_speed: 1.0, damping: 0.0, gravity: 1.0, speed: 1e6 };
     /// let energy = FirstContact::new(&rod.carry()).energy(&Estimate::exact(2.0));

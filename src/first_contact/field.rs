@@ -17,7 +17,8 @@ use crate::special::{BoundedSpecial, Ray};
 /// not known, because an enclosure does not tell which rays have arrived, has no finite bound.
 ///
 /// ```
-/// # use dalembert::{Number, Problem, problem::Parameters, first_contact::FirstContact, Side, number::Estimate};
+/// # use dalembert::{Estimate, Number, Parameters, Problem, Side};
+/// # use dalembert::engine::FirstContact;
 /// // r = 0: the stress in the first round trip is −(μ + gt)/c.
 /// let problem = Problem::uniform(Number::from(1), Number::from(1), Number::from(1), Number::from(3));
 /// let contact = FirstContact::new(&Parameters::<Estimate<f64>>::of(&problem, &())?);

@@ -29,7 +29,8 @@ use crate::special::BoundedSpecial;
 /// [`ContactHistory::flight`].
 ///
 /// ```
-/// use dalembert::{Motion, Number, Problem, first_contact::ContactHistory, number::Estimate};
+/// use dalembert::{Estimate, Number, Problem};
+/// use dalembert::engine::{ContactHistory, Motion};
 /// // (1.10): g = 0, R = 3: the bounce is a root in the fourth round trip.
 /// let mut problem = Problem::uniform("1/2".parse()?, Number::from(1), Number::from(0), Number::from(1));
 /// problem.rod.damping = Some(Number::from(3));

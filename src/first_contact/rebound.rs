@@ -12,7 +12,8 @@ use crate::special::{BoundedSpecial, log_mean, log_rest};
 /// **Units**: any consistent units; energies are per linear density.
 ///
 /// ```
-/// # use dalembert::{problem::Parameters, first_contact::FirstContact, number::Estimate};
+/// # use dalembert::{Estimate, Parameters};
+/// # use dalembert::engine::FirstContact;
 /// // r = 0, μ = 4 > μ₀ = 2: h⁰ = −2/3, h¹ = μ, and the top of the flight at t = 6.
 /// let rod = Parameters { length: 1.0, wave_speed: 1.0, damping: 0.0, gravity: 1.0, speed: 4.0 };
 /// let rebound = FirstContact::new(&rod.carry()).rebound(&Estimate::exact(2.0));

@@ -12,7 +12,7 @@ use crate::number::{Bounded, Open};
 use crate::problem::{Problem, Run, Top};
 use crate::reason::{Reason, Warning};
 
-/// The history of an undamped rod: [`crate::Motion`] by the ground trace of the upward invariant.
+/// The history of an undamped rod: [`crate::engine::Motion`] by the ground trace of the upward invariant.
 ///
 /// **Accuracy**: *exact* in fractions, *enclosure* in intervals; otherwise each number within the bound that it
 /// carries.
@@ -38,12 +38,13 @@ pub(super) struct Centre<N> {
 }
 
 impl<N: Bounded> Undamped<N> {
-    /// The history of `problem`, whose damping is ignored: see [`crate::scene::plan`] for the choice of engine.
+    /// The history of `problem`, whose damping is ignored; a [`Plan`](crate::Plan) chooses the engine.
     ///
     /// **Errors**: [`Error::Irrational`], [`Error::TooManyPieces`], [`Error::Open`].
     ///
     /// ```
-    /// use dalembert::{Motion, Number, Problem, lattice::Undamped, number::Estimate};
+    /// use dalembert::{Estimate, Number, Problem};
+    /// use dalembert::engine::{Motion, Undamped};
     /// let problem = Problem::uniform(Number::from(1), Number::from(1), Number::from(1), Number::from(3));
     /// let history = Undamped::<Estimate<f64>>::solve(&problem, &())?;
     /// // Corollary 1: at μ = 3 ≥ g t₁ = 2 the contact lasts exactly t₁ = 2.

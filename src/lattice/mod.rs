@@ -32,7 +32,7 @@ mod start;
 mod trace;
 mod waves;
 
-pub use crate::motion::unobserved;
+pub(crate) use crate::motion::unobserved;
 pub use history::Undamped;
 pub use limits::{Halt, Limits, Until};
 pub use march::{GroundMotion, march};

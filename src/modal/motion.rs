@@ -16,7 +16,8 @@ use super::sums::{History, MOST_MODES, Shape, series};
 /// **Accuracy**: each [`Estimate`] carries the proved bound of the modes left out and of the rounding errors.
 ///
 /// ```
-/// # use dalembert::{problem::Parameters, modal::Modal, Side};
+/// # use dalembert::{Parameters, Side};
+/// # use dalembert::engine::Modal;
 /// // r = 0: the stress in the first round trip is −(μ + gt)/c.
 /// let rod = Parameters { length: 1.0, wave_speed: 1.0, damping: 0.0, gravity: 1.0, speed: 3.0 };
 /// let stress = Modal::new(&rod, 64).strain(&1.0, Side::Right);

@@ -14,7 +14,8 @@ use super::{Analytic, Number, Open, Rounded, Scalar};
 /// two errors included, and one rounding of its result; an elementary function, two.
 ///
 /// ```
-/// use dalembert::number::{Estimate, Scalar};
+/// use dalembert::Estimate;
+/// use dalembert::number::Scalar;
 /// let tenth = Estimate::rounded(0.1, 1.0);
 /// let sum = tenth.clone() + &tenth + &tenth;
 /// // 0.1 + 0.1 + 0.1 is no double, and not the double 0.3 either; within the bound it is.

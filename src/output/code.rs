@@ -7,7 +7,7 @@ use crate::problem::Top;
 
 /// A language of functions.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, clap::ValueEnum)]
-pub enum Language {
+pub(crate) enum Language {
     /// A module without dependencies; in fractions where the numbers are
     Python,
     /// A function file
@@ -29,7 +29,7 @@ const FORMULA: &[&str] = &[
 const NEAR: &str = "1 + 2e-15";
 
 /// The function `uExact(x, t, d)` of `waves`, which reach to `end`.
-pub fn code<S: Scalar>(waves: &Waves<S>, end: &S, language: Language, preamble: &Preamble<'_>) -> String {
+pub(crate) fn code<S: Scalar>(waves: &Waves<S>, end: &S, language: Language, preamble: &Preamble<'_>) -> String {
     // Fractions stay fractions where the language has them.
     let exact = language == Language::Python && end.bits().is_none() && end.ends(1).is_none();
     let number = |x: &S| match exact {

@@ -8,10 +8,10 @@ use crate::routes::cost::{Difference, Row, Table};
 /// A time in the unit that suits it, to three digits: `3.21 ms`.
 ///
 /// ```
-/// assert_eq!(dalembert::output::duration(3.2149e-3), "3.21 ms");
-/// assert_eq!(dalembert::output::duration(0.0), "0 s");
+/// assert_eq!(dalembert::duration(3.2149e-3), "3.21 ms");
+/// assert_eq!(dalembert::duration(0.0), "0 s");
 /// ```
-pub fn duration(seconds: f64) -> String {
+pub(crate) fn duration(seconds: f64) -> String {
     let (unit, name) = match seconds.abs() {
         0.0 => return "0 s".into(),
         s if s < 0.999_5e-6 => (1e-9, "ns"),

@@ -10,7 +10,7 @@ use crate::solve::ExactnessEnd;
 
 /// What stands above the numbers.
 #[derive(Clone, Debug, Default)]
-pub struct Head {
+pub(crate) struct Head {
     /// The title of the scene.
     pub title: Option<String>,
     /// The number system in words.

@@ -16,7 +16,7 @@ use crate::solve::Numbers;
 
 /// What a golden file is written as.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, clap::ValueEnum)]
-pub enum Golden {
+pub(crate) enum Golden {
     /// Rows below a header of comments
     Csv,
     /// An object with the header's entries and the rows
@@ -27,7 +27,7 @@ pub enum Golden {
 
 /// A column of a golden file.
 #[derive(Clone, Debug)]
-pub struct Described {
+pub(crate) struct Described {
     /// The name in the file.
     pub name: &'static str,
     /// The symbol; empty where there is none.
@@ -40,7 +40,7 @@ pub struct Described {
 
 impl Described {
     /// The column of `quantity`.
-    pub fn of(quantity: Quantity, units: &Units) -> Self {
+    pub(crate) fn of(quantity: Quantity, units: &Units) -> Self {
         let (symbol, meaning) = (quantity.symbol(), quantity.meaning());
         Described { name: quantity.name(), symbol, meaning, unit: quantity.unit(units) }
     }
@@ -64,7 +64,7 @@ impl Described {
 
 /// What a golden file says of itself.
 #[derive(Debug)]
-pub struct Preamble<'a> {
+pub(crate) struct Preamble<'a> {
     /// Title, numbers, warnings.
     pub head: &'a Head,
     /// The text of the scene.
@@ -197,7 +197,7 @@ impl Preamble<'_> {
 
 /// The rows of a golden file, kept aside until their bounds are known.
 #[derive(Debug)]
-pub struct Rows {
+pub(crate) struct Rows {
     golden: Golden,
     columns: Vec<Described>,
     digits: u32,
@@ -212,7 +212,7 @@ const BUFFER: usize = 1 << 16;
 
 impl Rows {
     /// No rows yet. `digits` is how many a long number has, 0 for doubles and fractions.
-    pub fn new(golden: Golden, columns: Vec<Described>, digits: u32) -> io::Result<Self> {
+    pub(crate) fn new(golden: Golden, columns: Vec<Described>, digits: u32) -> io::Result<Self> {
         let files = if golden == Golden::Npz { columns.len() } else { 1 };
         let kept = (0..files).map(|_| tempfile::tempfile().map(|file| BufWriter::with_capacity(BUFFER, file)));
         let (kept, bounds) = (kept.collect::<Result<_, _>>()?, vec![f64::NEG_INFINITY; columns.len()]);
@@ -220,7 +220,7 @@ impl Rows {
     }
 
     /// Adds rows, given column by column.
-    pub fn push<S: Scalar>(&mut self, table: &[Vec<S>]) -> io::Result<()> {
+    pub(crate) fn push<S: Scalar>(&mut self, table: &[Vec<S>]) -> io::Result<()> {
         let greatest = |(bound, values): (&f64, &Vec<S>)| values.iter().map(|x| self.bound(x)).fold(*bound, f64::max);
         self.bounds = self.bounds.iter().zip(table).map(greatest).collect();
         let count = table.first().map_or(0, Vec::len);
@@ -243,7 +243,7 @@ impl Rows {
     }
 
     /// Writes the file, or to standard output.
-    pub fn finish(self, preamble: &Preamble<'_>, path: Option<&Path>) -> io::Result<()> {
+    pub(crate) fn finish(self, preamble: &Preamble<'_>, path: Option<&Path>) -> io::Result<()> {
         let Rows { golden, columns, kept, bounds, count, .. } = self;
         let mut kept = kept.into_iter().map(|file| {
             let mut file = file.into_inner().map_err(io::IntoInnerError::into_error)?;

@@ -13,7 +13,7 @@ use crate::quantity::{self, Measure};
 
 /// What `sample` can be asked for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, clap::ValueEnum)]
-pub enum Quantity {
+pub(crate) enum Quantity {
     /// The strain at the ground `v_x(0,t)`, and with a material the stress and the force there
     Stress,
     /// The end at the ground: `v(0,t)`, `v_t(0,t)`
@@ -44,7 +44,7 @@ impl Quantity {
 
 /// A value of a quantity, or several.
 #[derive(Clone, Debug)]
-pub struct Sample<S> {
+pub(crate) struct Sample<S> {
     /// `t`.
     pub time: S,
     /// `x`, for the field.
@@ -56,7 +56,7 @@ pub struct Sample<S> {
 }
 
 /// The values of `quantity` at every time and, for the field, at every point.
-pub fn sample<S: Scalar>(
+pub(crate) fn sample<S: Scalar>(
     history: &dyn Motion<S>,
     quantity: Quantity,
     times: &[S],

@@ -89,7 +89,7 @@ pub(super) fn listed<'a, S: Scalar>(
 
 /// The part of a history that a CSV file holds.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, clap::ValueEnum)]
-pub enum Part {
+pub(crate) enum Part {
     /// Impacts and releases.
     #[default]
     Events,
@@ -266,7 +266,7 @@ pub(crate) fn history_part<S: Scalar>(record: &Record<S>, part: Part, coefficien
 }
 
 /// What the symbols of the tables mean.
-pub const LEGEND: &str = "\
+pub(crate) const LEGEND: &str = "\
 time           t, from the first touch or, where there is a gap, from before it
 v_t(0,t)       velocity of the end, just before an impact, just after a release
 h, h′          the centre of mass above that of the undeformed rod, and its rate

@@ -19,7 +19,8 @@ use crate::problem::Parameters;
 /// **Accuracy**: *exact* in fractions; a rounding for each operation otherwise.
 ///
 /// ```
-/// # use dalembert::{Number, Problem, problem::Parameters, paper::UndampedContact};
+/// # use dalembert::{Number, Parameters, Problem};
+/// # use dalembert::paper::UndampedContact;
 /// // L = c = g = 1: μ₀ = 2, so μ = 1 stays on the ground for 2t₁ − μ/g = 3.
 /// let problem = Problem::uniform(Number::from(1), Number::from(1), Number::from(1), Number::from(1));
 /// let rod = UndampedContact::new(&Parameters::<f64>::of(&problem, &())?).unwrap();
@@ -199,7 +200,8 @@ impl<S: Scalar + PartialOrd> UndampedContact<S> {
     /// **Errors**: `None` where `g = 0`: the flight has no top.
     ///
     /// ```
-    /// # use dalembert::{Number, Problem, problem::Parameters, paper::UndampedContact};
+    /// # use dalembert::{Number, Parameters, Problem};
+    /// # use dalembert::paper::UndampedContact;
     /// let problem = Problem::uniform(Number::from(1), Number::from(1), Number::from(1), Number::from(4));
     /// let rod = UndampedContact::new(&Parameters::<f64>::of(&problem, &())?).unwrap();
     /// assert_eq!(rod.highest(), Some((6.0, 8.0 - 2.0 / 3.0)));

@@ -114,7 +114,7 @@ impl Builder {
     /// let rod = Problem::builder().length(1).wave_speed(1).fixed_top();
     /// let compressed = rod.displacement([(0, "1/2"), (1, "0")]).build()?;
     /// assert_eq!(compressed.dimensionless().speed_ratio, None);
-    /// # Ok::<(), dalembert::problem::ProblemError>(())
+    /// # Ok::<(), dalembert::ProblemError>(())
     /// ```
     #[must_use]
     pub fn displacement<X: Into<Written>, V: Into<Written>>(
@@ -151,7 +151,7 @@ impl Builder {
     /// The problem.
     ///
     /// **Errors**: [`ProblemError`] for the first value that is missing, is no number, or is outside of its
-    /// [limits](crate::problem#limits) alone or together with others.
+    /// [limits](crate::Problem#limits) alone or together with others.
     ///
     /// ```
     /// use dalembert::Problem;

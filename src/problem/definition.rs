@@ -13,6 +13,29 @@ use crate::reason::Warning;
 /// **Source**: paper (1.2)–(1.8), extended by a fixed top and a piecewise-linear start.
 ///
 /// **Units**: any consistent units.
+///
+/// ```
+/// use dalembert::Problem;
+/// let rod = Problem::builder().length(1).wave_speed(1).gravity(1).impact_speed(3).build()?;
+/// // μ = 3 is 3/2 of the critical speed g t₁ = 2.
+/// assert_eq!(rod.dimensionless().speed_ratio, Some(1.5));
+/// let error = rod.to_builder().length(-1).build().unwrap_err();
+/// assert_eq!(error.to_string(), "found length = -1, expected a length above zero");
+/// # Ok::<(), dalembert::ProblemError>(())
+/// ```
+///
+/// # Limits
+/// So that no intermediate result overflows or underflows in double precision:
+///
+/// | quantity | range |
+/// |---|---|
+/// | every quantity with a unit, `t₁ = 2L/c`, `μ` and `g t₁` among them | 0 where that makes sense, or 1e-40 … 1e40 |
+/// | `R = r t₁` | 0, or 1e-305 … 1e6 |
+/// | `M = μ/(g t₁)` | 1e-12 … 1e12, or no gravity |
+/// | time of the run | at most 1e12 `t₁` |
+/// | fall of a free rod that starts above the ground | at most 1e6 `t₁` |
+/// | impacts | 1 … 10 000 000 |
+/// | points of a profile | 2 … 100 000, at least 1e-12 L apart |
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Problem {
     /// The rod.
@@ -132,7 +155,7 @@ impl Problem {
     /// use dalembert::Problem;
     /// let rod = Problem::builder().length(1).wave_speed(1).gravity("9.81").impact_speed(3).build()?;
     /// assert!(rod.rod.damping.is_none() && rod.has_closed_form());
-    /// # Ok::<(), dalembert::problem::ProblemError>(())
+    /// # Ok::<(), dalembert::ProblemError>(())
     /// ```
     pub fn builder() -> Builder {
         Builder::default()
@@ -147,7 +170,7 @@ impl Problem {
     /// let damped = rod.to_builder().damping(0.1).time(40).build()?;
     /// assert_eq!(damped.dimensionless().damping_ratio, 0.2);
     /// assert_eq!(damped.to_builder().damping(0).impacts(1).build()?, rod);
-    /// # Ok::<(), dalembert::problem::ProblemError>(())
+    /// # Ok::<(), dalembert::ProblemError>(())
     /// ```
     pub fn to_builder(&self) -> Builder {
         Builder::from_problem(self)
@@ -155,14 +178,14 @@ impl Problem {
 
     /// The same problem followed through `run`.
     ///
-    /// **Errors**: [`ProblemError`] for a run outside of its [limits](crate::problem#limits).
+    /// **Errors**: [`ProblemError`] for a run outside of its [limits](crate::Problem#limits).
     ///
     /// ```
-    /// use dalembert::{Problem, problem::Run};
+    /// use dalembert::{Problem, Run};
     /// let rod = Problem::builder().length(1).wave_speed(1).impact_speed(3).build()?;
     /// assert_eq!(rod.with_run(Run::Impacts(3))?.run, Run::Impacts(3));
     /// assert!(rod.with_run(Run::Impacts(0)).is_err());
-    /// # Ok::<(), dalembert::problem::ProblemError>(())
+    /// # Ok::<(), dalembert::ProblemError>(())
     /// ```
     pub fn with_run(&self, run: Run) -> Result<Self, ProblemError> {
         let builder = self.to_builder();
@@ -180,7 +203,7 @@ impl Problem {
     /// let rod = Problem::builder().length(1).wave_speed(1).impact_speed(2).gap("0.5").build()?;
     /// assert_eq!(rod.gap().map(|gap| gap.to_f64()), Some(0.5));
     /// assert_eq!(rod.to_builder().gap(0).build()?.gap(), None);
-    /// # Ok::<(), dalembert::problem::ProblemError>(())
+    /// # Ok::<(), dalembert::ProblemError>(())
     /// ```
     pub fn gap(&self) -> Option<&Number> {
         match &self.start {
@@ -204,7 +227,7 @@ impl Problem {
     /// let rod = Problem::builder().length(1).wave_speed(1).gravity(2).drop_height(1).damping(0.1).build()?;
     /// assert_eq!(rod.neglected(), None); // μ = 2, g/2r = 10
     /// assert!(rod.to_builder().damping(1).build()?.neglected().is_some()); // g/2r = 1
-    /// # Ok::<(), dalembert::problem::ProblemError>(())
+    /// # Ok::<(), dalembert::ProblemError>(())
     /// ```
     pub fn neglected(&self) -> Option<Warning> {
         let (damping, gravity) = (self.rod.damping.as_ref()?.to_f64(), self.gravity.as_ref()?.to_f64());

@@ -51,7 +51,7 @@ impl<S: Scalar> Parameters<S> {
     /// `t₁ = 2L/c`: the round trip.
     ///
     /// ```
-    /// use dalembert::{Problem, problem::Parameters};
+    /// use dalembert::{Parameters, Problem};
     /// let rod = Problem::builder().length(10).wave_speed(30).gravity(10).impact_speed(10).build()?;
     /// assert_eq!(Parameters::<f64>::of(&rod, &())?.round_trip(), 2.0 / 3.0);
     /// # Ok::<(), dalembert::Error>(())
@@ -90,7 +90,7 @@ impl Problem {
     /// let rod = Problem::builder().length(6).wave_speed(3).damping("1/8").gravity(2).impact_speed(4).build()?;
     /// assert_eq!(rod.dimensionless().damping_ratio, 0.5);
     /// assert_eq!(rod.dimensionless().speed_ratio, Some(0.5));
-    /// # Ok::<(), dalembert::problem::ProblemError>(())
+    /// # Ok::<(), dalembert::ProblemError>(())
     /// ```
     pub fn dimensionless(&self) -> Dimensionless {
         let or_zero = |n: &Option<Number>| n.as_ref().map_or(0.0, Number::to_f64);

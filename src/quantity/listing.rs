@@ -86,7 +86,8 @@ pub(crate) fn rows<S: Scalar>(motion: &dyn Motion<S>, quantities: &[Quantity]) -
 ///
 /// **Errors**: [`Error::NoContact`], and what the history cannot answer. What is not defined has the reason in its
 /// place.
-pub fn of_contact<S: Scalar>(
+#[cfg(feature = "cli")]
+pub(crate) fn of_contact<S: Scalar>(
     motion: &dyn Motion<S>,
     units: &Units,
     quantity: Quantity,

@@ -23,12 +23,17 @@ mod unit;
 pub use column::columns;
 pub(crate) use column::of_one_size;
 pub use flight::{Flight, flights};
-pub use listing::{Columns, Table, of_contact, table};
+#[cfg(feature = "cli")]
+pub(crate) use listing::of_contact;
+pub use listing::{Columns, Table, table};
 #[cfg(feature = "cli")]
 pub(crate) use listing::{Row, rows};
 #[cfg(feature = "cli")]
 pub(crate) use one::{Missing, One};
 pub use restitution::{EnergyShares, Restitution, Undefined, energy_shares, restitution};
-pub use slice::{SLICE, Slice, slices};
-pub use table::{Needs, Quantity, Rays, Sign};
+pub(crate) use slice::SLICE;
+pub use slice::{Slice, slices};
+pub use table::{Needs, Quantity};
+#[cfg(feature = "compare")]
+pub(crate) use table::{Rays, Sign};
 pub use unit::{Measure, UnitSystem, Units};

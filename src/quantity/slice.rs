@@ -21,7 +21,7 @@ pub enum Slice {
 }
 
 /// The columns of a slice.
-pub const SLICE: [Quantity; 6] = [
+pub(crate) const SLICE: [Quantity; 6] = [
     Quantity::Time,
     Quantity::Side,
     Quantity::Point,
@@ -30,7 +30,7 @@ pub const SLICE: [Quantity; 6] = [
     Quantity::PointStrain,
 ];
 
-/// The columns [`SLICE`] for every time of `times` on the grid `points`, column by column, with the sides
+/// The columns `SLICE` for every time of `times` on the grid `points`, column by column, with the sides
 /// as in [`columns`](super::columns). Averages and projections do not jump.
 ///
 /// **Source**: the integrals over the cells, [`Motion::moments`]; the mass matrix of linear elements.

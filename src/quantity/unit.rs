@@ -121,7 +121,7 @@ impl UnitSystem {
 /// let units = Units::of(&rod.wave_speed(1).build()?, UnitSystem::Si);
 /// assert_eq!((units.factor::<f64>(Measure::Force, &()), units.name(Measure::Force)), (None, ""));
 /// assert_eq!((units.factor::<f64>(Measure::Energy, &()), units.name(Measure::Energy)), (Some(1.0), "per ρS"));
-/// # Ok::<(), dalembert::problem::ProblemError>(())
+/// # Ok::<(), dalembert::ProblemError>(())
 /// ```
 #[derive(Clone, Debug, PartialEq)]
 pub struct Units {

@@ -50,7 +50,7 @@ pub const ALL: &[Builtin] = &[
 /// The names of the built-in scenes.
 ///
 /// ```
-/// assert!(dalembert::scene::builtin::names().any(|name| name == "doyen-ern-piperno"));
+/// assert!(dalembert::builtin::names().any(|name| name == "doyen-ern-piperno"));
 /// ```
 pub fn names() -> impl Iterator<Item = &'static str> {
     ALL.iter().map(|builtin| builtin.name)
@@ -59,10 +59,10 @@ pub fn names() -> impl Iterator<Item = &'static str> {
 /// The built-in scene of this name; `None` where there is none.
 ///
 /// ```
-/// use dalembert::{Scene, scene::builtin};
+/// use dalembert::{Scene, builtin};
 /// let scene = Scene::parse(builtin::get("paper-strong").unwrap().source)?;
 /// assert_eq!(scene.problem.rod.length.to_f64(), 1.0);
-/// # Ok::<(), dalembert::scene::SceneError>(())
+/// # Ok::<(), dalembert::SceneError>(())
 /// ```
 pub fn get(name: &str) -> Option<&'static Builtin> {
     ALL.iter().find(|builtin| builtin.name == name)

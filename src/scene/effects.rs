@@ -52,7 +52,7 @@ impl Effect {
     /// The name in output: `unilateral_contact`.
     ///
     /// ```
-    /// assert_eq!(dalembert::scene::Effect::SiForces.name(), "si_forces");
+    /// assert_eq!(dalembert::Effect::SiForces.name(), "si_forces");
     /// ```
     pub fn name(self) -> &'static str {
         match self {
@@ -94,12 +94,12 @@ impl Scene {
     /// Every effect, in the order of [`Effect::ALL`], with the line of the scene that calls for it or rules it out.
     ///
     /// ```
-    /// use dalembert::{Scene, scene::Effect};
+    /// use dalembert::{Effect, Scene};
     /// let scene = Scene::parse("rod = { length = 1, wave_speed = 1, damping = 0.0 }\n[impact]\nspeed = 3\n")?;
     /// let effects = scene.effects();
     /// let damping = effects.iter().find(|e| e.effect == Effect::Damping).unwrap();
     /// assert_eq!((damping.called, damping.line), (false, Some(1)));
-    /// # Ok::<(), dalembert::scene::SceneError>(())
+    /// # Ok::<(), dalembert::SceneError>(())
     /// ```
     pub fn effects(&self) -> Vec<EffectUse> {
         Effect::ALL.into_iter().map(|effect| self.effect(effect)).collect()

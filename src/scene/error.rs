@@ -10,7 +10,7 @@ use crate::problem::ProblemErrorKind;
 /// What is wrong with a scene: what was found, where, and what was expected.
 ///
 /// ```
-/// use dalembert::{Scene, scene::SceneErrorKind};
+/// use dalembert::{Scene, SceneErrorKind};
 /// let error = Scene::parse("[rod]\nlength = -1\nwave_speed = 1\n[impact]\nspeed = 3\n").unwrap_err();
 /// assert_eq!(error.kind, SceneErrorKind::OutOfRange);
 /// assert_eq!(error.to_string(), "line 2, column 10: found length = -1, expected a length above zero");

@@ -62,7 +62,7 @@ impl Target {
     /// let scene = "[rod]\nlength = 1\nwave_speed = 3\n[impact]\nspeed = 1\n\
     ///              [[target]]\nquantity = 'release'\npublished = 6.67e-1\nsource = 'by hand'\n";
     /// assert!((Scene::parse(scene)?.targets[0].tolerance() - 0.0005).abs() < 1e-15);
-    /// # Ok::<(), dalembert::scene::SceneError>(())
+    /// # Ok::<(), dalembert::SceneError>(())
     /// ```
     pub fn tolerance(&self) -> f64 {
         if let Some(within) = &self.within {

@@ -102,7 +102,8 @@ impl<S: Target> History<S> {
     /// **Errors**: those of the query; [`Error::Unsettled`], [`Error::Undecided`] where too many bits do not settle it.
     ///
     /// ```
-    /// use dalembert::{Number, Problem, Scalar, Side};
+    /// use dalembert::{Number, Problem, Side};
+    /// use dalembert::number::Scalar;
     /// let rod = Problem::builder().length(1).wave_speed(1).gravity(1).impact_speed(3).build()?;
     /// // A time that no double holds, in the precision of each attempt.
     /// let third: Number = "1/3".parse()?;

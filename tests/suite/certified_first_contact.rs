@@ -1,11 +1,8 @@
 //! The first contact in enclosures: what is proved, to how many digits, and that it is the truth.
 
-use dalembert::first_contact::{Bounce, ContactHistory, FirstContact};
-use dalembert::modal::Modal;
-use dalembert::motion::{Ending, Energy, Motion, Side};
-use dalembert::number::{Answer, Interval, IntervalPrecision, Number, Scalar};
-use dalembert::problem::Parameters;
-use dalembert::{Error, NoBounceReason, Problem, Reason};
+use dalembert::engine::{Bounce, ContactHistory, FirstContact, Modal, Motion};
+use dalembert::number::{Answer, IntervalPrecision, Scalar};
+use dalembert::{Ending, Energy, Error, Interval, NoBounceReason, Number, Parameters, Problem, Reason, Side};
 use proptest::prelude::*;
 use rug::ops::Pow;
 use rug::{Float, Integer, Rational};

@@ -3,10 +3,9 @@
 
 use crate::common::{number, problem, reference};
 use crate::stripped::undamped;
-use dalembert::lattice::Undamped;
-use dalembert::number::{Interval, IntervalPrecision, Scalar};
-use dalembert::problem::Run;
-use dalembert::{Ending, Error, EventKind, Motion, Number, Problem, Reason, Side};
+use dalembert::engine::{Motion, Undamped};
+use dalembert::number::{IntervalPrecision, Scalar};
+use dalembert::{Ending, Error, EventKind, Interval, Number, Problem, Reason, Run, Side};
 use rug::{Float, Rational};
 use serde_json::Value;
 use std::cmp::Ordering;
@@ -117,7 +116,7 @@ fn a_tangential_landing_is_proved_by_exact_arithmetic() {
 /// The steel bar's wave speed √(E/ρ) is no fraction; lattice times are still met exactly.
 #[test]
 fn irrational_wave_speeds_keep_their_coincidences() {
-    let source = dalembert::scene::builtin::get("siconos-impacting-bar").unwrap().source;
+    let source = dalembert::builtin::get("siconos-impacting-bar").unwrap().source;
     let scene = dalembert::Scene::parse(source).unwrap();
     let history = scene.problem.certified(DIGITS).unwrap();
     let contact = history.contacts()[0].clone();

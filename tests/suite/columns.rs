@@ -4,7 +4,7 @@
 use dalembert::{Needs, Number, Problem, Quantity, Rational, Run, Scene, Side};
 
 fn scene(name: &str) -> Problem {
-    let source = dalembert::scene::builtin::get(name).unwrap().source;
+    let source = dalembert::builtin::get(name).unwrap().source;
     Scene::parse(source).unwrap().problem
 }
 
@@ -175,11 +175,11 @@ fn enclosures_hold_the_doubles() {
     let columns = [Quantity::KineticEnergy, Quantity::StrainEnergy, Quantity::Impulse, Quantity::Force];
     for t in ["1/3", "1", "3/2"] {
         let number: Number = t.parse().unwrap();
-        let time = dalembert::Scalar::from_number(&number, &dalembert::Scalar::precision(proved.end()));
+        let time = dalembert::number::Scalar::from_number(&number, &dalembert::number::Scalar::precision(proved.end()));
         let enclosed = proved.columns(&columns, &[time], Some(Side::Right)).unwrap();
         let values = double.columns(&columns, &[number.to_f64()], Some(Side::Right)).unwrap();
         for ((enclosed, value), column) in enclosed.iter().zip(&values).zip(columns) {
-            let middle = dalembert::Scalar::to_f64(&enclosed[0]);
+            let middle = dalembert::number::Scalar::to_f64(&enclosed[0]);
             assert!((middle - value[0]).abs() < 1e-12 * middle.abs(), "{}: {middle} {}", column.name(), value[0]);
         }
     }

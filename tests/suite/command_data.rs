@@ -78,7 +78,7 @@ fn stress(scene: &str, more: &[&str]) -> (String, Vec<([f64; 4], String)>) {
 /// Straight lines between the rows, and the Chebyshev sums, against the closed form asked at times of its own.
 #[test]
 fn the_stress_of_a_damped_rod_can_be_drawn_from_its_csv() {
-    let history = dalembert::Scene::parse(dalembert::scene::builtin::get("figure-4-r02").unwrap().source)
+    let history = dalembert::Scene::parse(dalembert::builtin::get("figure-4-r02").unwrap().source)
         .unwrap()
         .problem
         .solve()

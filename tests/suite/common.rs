@@ -3,8 +3,7 @@
 use std::cell::Cell;
 use std::fmt::Debug;
 
-use dalembert::problem::{Run, Speed, Start};
-use dalembert::{History, Number, Numbers, Parameters, Plan, Problem, Question, Rational, Solution};
+use dalembert::{History, Number, Numbers, Parameters, Plan, Problem, Question, Rational, Run, Solution, Speed, Start};
 use proptest::prelude::*;
 use proptest::test_runner::TestRunner;
 use serde_json::Value;
@@ -96,7 +95,7 @@ pub(crate) fn first_contact(rod: &Parameters<f64>, accuracy: f64) -> History<f64
 /// The first contact of `problem` in doubles to `accuracy`.
 pub(crate) fn to_accuracy(problem: &Problem, accuracy: f64) -> History<f64> {
     let plan = Plan::of(problem, &Question::first_contact(Numbers::Double(Some(accuracy)))).unwrap();
-    match plan.solve(problem, std::sync::Arc::new(dalembert::lattice::unobserved)).unwrap() {
+    match plan.solve(problem, std::sync::Arc::new(dalembert::engine::unobserved)).unwrap() {
         Solution::Double(history) => history,
         other => panic!("{other:?}"),
     }

@@ -4,14 +4,12 @@
 use std::fmt::Debug;
 use std::sync::Arc;
 
-use dalembert::cells::{ContactThenCells, Damped};
-use dalembert::first_contact::{ContactHistory, FirstContact};
-use dalembert::lattice::{Limits, Undamped, unobserved};
-use dalembert::motion::RayRegister;
-use dalembert::number::Bounded;
-use dalembert::problem::{Parameters, Profile, Run, Start, Top};
+use dalembert::engine::{
+    ContactHistory, ContactThenCells, Damped, FirstContact, Limits, Motion, RayRegister, Scales, Undamped, unobserved,
+};
+use dalembert::number::{Bounded, Scalar};
 use dalembert::special::RoundedSpecial;
-use dalembert::{Error, Estimate, Field, Motion, Problem, Rational, Scalar, Scales, Side};
+use dalembert::{Error, Estimate, Field, Parameters, Problem, Profile, Rational, Run, Side, Start, Top};
 
 /// How many answers have been compared, whose bounds say something.
 #[derive(Default)]
@@ -241,8 +239,8 @@ fn fractions_conform() {
 #[cfg(feature = "mp")]
 mod long {
     use super::*;
+    use dalembert::engine::Target;
     use dalembert::number::IntervalPrecision;
-    use dalembert::solve::Target;
     use dalembert::{Float, Interval, Numbers, Observer, Plan, Question, Rung};
 
     /// The planned engine in the numbers of a rung, read in numbers `S`.

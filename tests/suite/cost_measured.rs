@@ -3,7 +3,7 @@
 use std::process::Command;
 
 #[cfg(any(feature = "mp", feature = "plot"))]
-use dalembert::scene::builtin;
+use dalembert::builtin;
 use serde_json::Value;
 
 fn cost(args: &[&str]) -> (Option<i32>, String, String) {
@@ -34,8 +34,7 @@ const ROUTES: [&str; 8] = [
 #[cfg(feature = "mp")]
 #[test]
 fn the_truth_of_a_later_event() {
-    use dalembert::Scene;
-    use dalembert::problem::Run;
+    use dalembert::{Run, Scene};
     let source = builtin::get("figure-4-r02").unwrap().source.replace("[impact]", "[run]\nimpacts = 2\n\n[impact]");
     let file = tempfile::NamedTempFile::new().unwrap();
     std::fs::write(file.path(), &source).unwrap();

@@ -2,10 +2,8 @@
 
 use crate::common::uniform;
 use crate::stripped::{Stripped, damped};
-use dalembert::cells::{ContactThenCells, Damped};
-use dalembert::first_contact::{Bounce, ContactHistory, FirstContact};
-use dalembert::problem::{Parameters, Run};
-use dalembert::{Ending, Error, EventKind, Motion, Number, Problem, Reason, Side};
+use dalembert::engine::{Bounce, ContactHistory, ContactThenCells, Damped, FirstContact, Motion};
+use dalembert::{Ending, Error, EventKind, Number, Parameters, Problem, Reason, Run, Side};
 
 /// A rod of any length, wave speed, damping, gravity and speed that may bounce more than once.
 fn scene(random: &mut impl FnMut() -> f64) -> Problem {
@@ -125,7 +123,8 @@ fn a_question_about_the_first_contact_needs_no_cells() {
 #[cfg(feature = "mp")]
 #[test]
 fn answers_carry_their_bounds() {
-    use dalembert::number::{Estimate, Scalar};
+    use dalembert::Estimate;
+    use dalembert::number::Scalar;
     use rug::Float;
     for (damping, speed) in [("0.1", "3"), ("0.02", "10"), ("0.3", "5")] {
         let mut problem = uniform("1", "1", "1", speed, Run::Impacts(4));

@@ -2,10 +2,8 @@
 
 use crate::common::{close, number, problem, reference, uniform};
 use crate::stripped::{Stripped, damped as in_cells};
-use dalembert::cells::Damped;
-use dalembert::motion::{Ending, EventKind, Motion, Side};
-use dalembert::problem::{Material, Profile, Rod, Run, Start, Top};
-use dalembert::{Error, Number, Problem, Warning};
+use dalembert::engine::{Damped, Motion};
+use dalembert::{Ending, Error, EventKind, Material, Number, Problem, Profile, Rod, Run, Side, Start, Top, Warning};
 
 fn damped(gravity: &str, speed: &str, damping: &str, run: Run) -> Problem {
     let mut problem = uniform("1", "1", gravity, speed, run);

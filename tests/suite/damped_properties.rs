@@ -2,10 +2,10 @@
 
 use crate::common::compares;
 use crate::stripped::{Stripped, damped, undamped};
-use dalembert::cells::Damped;
-use dalembert::motion::Event;
-use dalembert::problem::{Material, Parameters, Profile, Rod, Run, Speed, Start, Top};
-use dalembert::{Ending, Motion, Number, Problem, Reason, Side};
+use dalembert::engine::{Damped, Motion};
+use dalembert::{
+    Ending, Event, Material, Number, Parameters, Problem, Profile, Reason, Rod, Run, Side, Speed, Start, Top,
+};
 use proptest::prelude::*;
 
 fn number(x: f64) -> Number {

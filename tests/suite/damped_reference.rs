@@ -2,8 +2,8 @@
 
 use crate::common::{close, number, problem, reference};
 use crate::stripped::damped;
-use dalembert::motion::{Ending, EventKind, Motion, Side};
-use dalembert::problem::Run;
+use dalembert::engine::Motion;
+use dalembert::{Ending, EventKind, Run, Side};
 
 /// A string or number as a double.
 fn value(json: &serde_json::Value) -> f64 {

@@ -3,10 +3,8 @@
 
 use crate::common::{close, uniform};
 use crate::stripped::{Stripped, damped};
-use dalembert::cells::{ContactThenCells, Damped};
-use dalembert::first_contact::FirstContact;
-use dalembert::problem::{Parameters, Profile, Run, Start, Top};
-use dalembert::{Ending, Error, Estimate, Modal, Motion, Number, Problem, Side};
+use dalembert::engine::{ContactThenCells, Damped, FirstContact, Modal, Motion};
+use dalembert::{Ending, Error, Estimate, Number, Parameters, Problem, Profile, Run, Side, Start, Top};
 
 /// `c = L = 1`.
 fn rod(gravity: &str, speed: &str, damping: &str, time: i64) -> Problem {

@@ -2,14 +2,15 @@
 //! cases.
 
 use crate::common::{close, number, problem, reference};
-use dalembert::problem::{Parameters, Run};
-use dalembert::{Ending, EventKind, History, Number, Numbers, Plan, Problem, Question, Rung, Side, Solution};
+use dalembert::{
+    Ending, EventKind, History, Number, Numbers, Parameters, Plan, Problem, Question, Run, Rung, Side, Solution,
+};
 use serde_json::Value;
 use std::sync::Arc;
 
 fn in_doubles(problem: &Problem, accuracy: Option<f64>) -> History<f64> {
     let plan = Plan::of(problem, &Question::run(Numbers::Double(accuracy))).unwrap();
-    let Solution::Double(motion) = plan.solve(problem, Arc::new(dalembert::lattice::unobserved)).unwrap() else {
+    let Solution::Double(motion) = plan.solve(problem, Arc::new(dalembert::engine::unobserved)).unwrap() else {
         panic!("doubles were asked for");
     };
     motion

@@ -3,10 +3,8 @@
 
 use crate::common::{number, reference};
 use crate::stripped::{Stripped, damped};
-use dalembert::cells::ContactThenCells;
-use dalembert::first_contact::FirstContact;
-use dalembert::problem::{Material, Parameters, Run, Speed, Start};
-use dalembert::{EventKind, Motion, Number, Problem, Side};
+use dalembert::engine::{ContactThenCells, FirstContact, Motion};
+use dalembert::{EventKind, Material, Number, Parameters, Problem, Run, Side, Speed, Start};
 use serde_json::Value;
 
 /// The rod of a case, dropped.

@@ -1,9 +1,8 @@
 //! One door: what a question is planned as, and that every number system gives the same answer through it.
 
-use dalembert::quantity::restitution;
-use dalembert::{
-    DEFAULT_ACCURACY, Engine, Error, Estimate, Motion, Numbers, Plan, Problem, Question, Reach, Rung, Scalar, Side,
-};
+use dalembert::engine::{Motion, restitution};
+use dalembert::number::Scalar;
+use dalembert::{DEFAULT_ACCURACY, Engine, Error, Estimate, Numbers, Plan, Problem, Question, Reach, Rung, Side};
 
 fn rod(speed: &str) -> Problem {
     Problem::builder().length(1).wave_speed(1).gravity(1).impact_speed(speed).build().unwrap()
@@ -102,7 +101,7 @@ fn without_long_numbers_they_are_an_error() {
 #[test]
 fn a_meeting_is_decided_by_fractions() {
     let solved = |name: &str| {
-        let scene = dalembert::scene::builtin::get(name).unwrap();
+        let scene = dalembert::builtin::get(name).unwrap();
         dalembert::Scene::parse(scene.source).unwrap().problem.solve().unwrap()
     };
     let history = solved("doyen-ern-piperno");

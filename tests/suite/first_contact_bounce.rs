@@ -1,12 +1,9 @@
 //! The bounce time: the reference, thresholds, and where doubles lose their digits.
 
 use crate::common::{bounce_time, first_contact};
-use dalembert::Number;
-use dalembert::motion::Side;
-use dalembert::number::Estimate;
-use dalembert::problem::Parameters;
+use dalembert::engine::{Bounce, BounceKind, FirstContact};
 use dalembert::special::RoundedSpecial;
-use dalembert::{Bounce, BounceKind, Ending, FirstContact, NoBounceReason, Reason};
+use dalembert::{Ending, Estimate, NoBounceReason, Number, Parameters, Reason, Side};
 use serde_json::Value;
 
 type Contact<S> = FirstContact<Estimate<S>>;
@@ -75,7 +72,7 @@ fn reference_in_doubles() {
 #[test]
 fn reference_to_an_accuracy() {
     for case in crate::common::reference("first_contact") {
-        let problem = crate::common::problem(&case, dalembert::problem::Run::Impacts(1));
+        let problem = crate::common::problem(&case, dalembert::Run::Impacts(1));
         let history = crate::common::to_accuracy(&problem, 1e-12);
         let truth = case["bounce_time"].as_str().map(|text| text.parse::<f64>().unwrap());
         let found = bounce_time(&history);
@@ -139,7 +136,7 @@ fn lost_digits_are_noticed_and_fetched() {
     let solved = |damping: &str, accuracy: f64| -> History<f64> {
         let problem = Problem::builder().length("1/2").wave_speed(1).damping(damping).impact_speed(1).build().unwrap();
         let plan = Plan::of(&problem, &Question::first_contact(Numbers::Double(Some(accuracy)))).unwrap();
-        match plan.solve(&problem, std::sync::Arc::new(dalembert::lattice::unobserved)).unwrap() {
+        match plan.solve(&problem, std::sync::Arc::new(dalembert::engine::unobserved)).unwrap() {
             Solution::Double(history) => history,
             other => panic!("{other:?}"),
         }

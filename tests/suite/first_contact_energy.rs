@@ -1,11 +1,9 @@
 //! Energies, restitution and flight.
 
-use dalembert::Number;
-use dalembert::first_contact::FirstContact;
-use dalembert::number::Estimate;
+use dalembert::engine::FirstContact;
 use dalembert::paper::UndampedContact;
-use dalembert::problem::Parameters;
 use dalembert::special::RoundedSpecial;
+use dalembert::{Estimate, Number, Parameters};
 use serde_json::Value;
 
 fn rod(damping: f64, gravity: f64, speed: f64) -> FirstContact<Estimate<f64>> {

@@ -1,10 +1,8 @@
 //! The closed forms against the paper's own integrals, done by quadrature that shares no code with them.
 
-use dalembert::first_contact::FirstContact;
-use dalembert::motion::Side;
-use dalembert::number::Estimate;
+use dalembert::engine::FirstContact;
 use dalembert::paper::Printed;
-use dalembert::problem::Parameters;
+use dalembert::{Estimate, Parameters, Side};
 
 fn known(x: f64) -> Estimate<f64> {
     Estimate::exact(x)

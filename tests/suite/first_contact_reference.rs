@@ -1,10 +1,9 @@
 //! The reference values of an independent ball-arithmetic program.
 
-use dalembert::first_contact::FirstContact;
-use dalembert::motion::Side;
-use dalembert::number::{Estimate, Number, Scalar};
-use dalembert::problem::Parameters;
+use dalembert::engine::FirstContact;
+use dalembert::number::Scalar;
 use dalembert::special::RoundedSpecial;
+use dalembert::{Estimate, Number, Parameters, Side};
 use serde_json::Value;
 
 fn cases() -> Vec<Value> {

@@ -1,11 +1,9 @@
 //! The paper's undamped formulas, against each other and against the balance laws, in fractions.
 
 use crate::common::fraction as q;
-use dalembert::Rational;
-use dalembert::motion::Side;
 use dalembert::number::Scalar;
 use dalembert::paper::UndampedContact;
-use dalembert::problem::Parameters;
+use dalembert::{Parameters, Rational, Side};
 use proptest::prelude::*;
 
 fn parameters(l: Rational, c: Rational, g: Rational, mu: Rational) -> Parameters<Rational> {

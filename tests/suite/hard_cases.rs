@@ -2,12 +2,8 @@
 //! `check`.
 
 use crate::common::{bounce_time, first_contact};
-use dalembert::first_contact::FirstContact;
-use dalembert::modal::Modal;
-use dalembert::motion::Side;
-use dalembert::number::Estimate;
-use dalembert::problem::Parameters;
-use dalembert::{Ending, Reason};
+use dalembert::engine::{FirstContact, Modal};
+use dalembert::{Ending, Estimate, Parameters, Reason, Side};
 
 fn rod(damping: f64, gravity: f64, length: f64, speed: f64) -> Parameters<f64> {
     Parameters { length, wave_speed: 1.0, damping, gravity, speed }

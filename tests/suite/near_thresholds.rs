@@ -16,8 +16,10 @@
 
 use std::sync::Arc;
 
-use dalembert::problem::{Material, Profile, Rod, Start, Top};
-use dalembert::{EventKind, Number, Numbers, Plan, Problem, Question, Run, Scene, Solution, Warning};
+use dalembert::{
+    EventKind, Material, Number, Numbers, Plan, Problem, Profile, Question, Rod, Run, Scene, Solution, Start, Top,
+    Warning,
+};
 use rug::Float;
 use rug::ops::Pow;
 
@@ -297,7 +299,7 @@ impl Case {
 /// What was found near the threshold: the events, with how far their times may be off, and whether a warning names it.
 fn near(problem: &Problem, numbers: Numbers, (t, wide): (&Float, &Float)) -> (Vec<(EventKind, Float, f64)>, bool) {
     let plan = Plan::of(problem, &Question::run(numbers)).unwrap();
-    let solution = plan.solve(problem, Arc::new(dalembert::lattice::unobserved)).unwrap();
+    let solution = plan.solve(problem, Arc::new(dalembert::engine::unobserved)).unwrap();
     let (events, warnings): (Vec<_>, Vec<Warning>) = match &solution {
         Solution::Double(history) => {
             let events = history.events().iter();

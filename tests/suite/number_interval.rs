@@ -3,7 +3,8 @@
 
 use std::cmp::Ordering;
 
-use dalembert::number::{Analytic, Interval, IntervalPrecision, Open, Scalar};
+use dalembert::Interval;
+use dalembert::number::{Analytic, IntervalPrecision, Open, Scalar};
 use proptest::prelude::*;
 use rug::ops::Pow;
 use rug::{Float, Rational};

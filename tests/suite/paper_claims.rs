@@ -1,12 +1,9 @@
 //! What the paper says of whole curves: each follows from a formula that is evaluated here on its own. Single numbers
 //! stand in the catalogue of `check`.
 
-use dalembert::first_contact::{Bounce, BounceKind, FirstContact};
-use dalembert::modal::Modal;
-use dalembert::motion::Side;
-use dalembert::number::Estimate;
+use dalembert::engine::{Bounce, BounceKind, FirstContact, Modal};
 use dalembert::paper::UndampedContact;
-use dalembert::problem::Parameters;
+use dalembert::{Estimate, Parameters, Side};
 
 fn rod(damping: f64, gravity: f64, speed: f64) -> Parameters<f64> {
     Parameters { length: 1.0, wave_speed: 1.0, damping, gravity, speed }

@@ -276,7 +276,7 @@ fn figures_5_to_7_agree_with_cells_from_data() {
 fn cells(rod: &Problem) -> History<f64> {
     let plan = Plan::of(rod, &Question::run(Numbers::Double(Some(1e-13)))).unwrap();
     assert_eq!(plan.engine, dalembert::Engine::Cells);
-    match plan.solve(rod, std::sync::Arc::new(dalembert::lattice::unobserved)).unwrap() {
+    match plan.solve(rod, std::sync::Arc::new(dalembert::engine::unobserved)).unwrap() {
         Solution::Double(history) => history,
         other => panic!("{other:?}"),
     }

@@ -1,8 +1,9 @@
 //! The builder, and that it and a scene file end in the same checks.
 
-use dalembert::problem::{Builder, Material, ProblemError, ProblemErrorKind as Kind, Run, Speed, Start, Top, Written};
-use dalembert::scene::SceneErrorKind;
-use dalembert::{Number, Problem, Scene};
+use dalembert::{
+    Builder, Material, Number, Problem, ProblemError, ProblemErrorKind as Kind, Run, Scene, SceneErrorKind, Speed,
+    Start, Top, Written,
+};
 use proptest::prelude::*;
 use proptest::strategy::ValueTree;
 use proptest::test_runner::TestRunner;

@@ -1,7 +1,8 @@
 //! `Motion::rates`, velocity and strain on a grid at once, against the field point by point: two ways to the same
 //! numbers in every engine, at both ends, at rest, and across flights that are leapt over.
 
-use dalembert::{Answer, Error, Estimate, Problem, Scalar, Side};
+use dalembert::number::{Answer, Scalar};
+use dalembert::{Error, Estimate, Problem, Side};
 
 /// What differs by more than the bounds.
 fn differences(name: &str, problem: &Problem, parts: usize) -> Vec<String> {

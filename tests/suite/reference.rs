@@ -12,7 +12,7 @@ use crate::columns::cuts;
 use crate::command::{json, quiet, refused, refused_with, run_with};
 
 fn scene(name: &str) -> Problem {
-    Scene::parse(dalembert::scene::builtin::get(name).unwrap().source).unwrap().problem
+    Scene::parse(dalembert::builtin::get(name).unwrap().source).unwrap().problem
 }
 
 fn fraction(p: i64, q: i64) -> Rational {

@@ -1,11 +1,9 @@
 //! A value is the same whether it is asked alone or with others, in any order, and in every number system: on rays, at
 //! events and at ordinary times, from both sides, of random rods with and without damping.
 
-use dalembert::problem::Run;
-use dalembert::solve::Target;
-use dalembert::{
-    Error, Float, History, Interval, Motion, Number, Numbers, Plan, Problem, Question, Rational, Rung, Scalar, Side,
-};
+use dalembert::engine::{Motion, Target};
+use dalembert::number::Scalar;
+use dalembert::{Error, Float, History, Interval, Number, Numbers, Plan, Problem, Question, Rational, Run, Rung, Side};
 use proptest::prelude::*;
 use std::sync::Arc;
 
@@ -53,7 +51,7 @@ fn run<S: Target>(problem: &Problem, question: &Question) -> Option<Arc<dyn Moti
             (Rung::Enclosures(_), Rung::Bits(bits)) => Rung::Enclosures(bits),
             _ => rung,
         };
-        match S::run(problem, &plan, rung, &(Arc::new(dalembert::lattice::unobserved) as dalembert::Observer)) {
+        match S::run(problem, &plan, rung, &(Arc::new(dalembert::engine::unobserved) as dalembert::Observer)) {
             Err(Error::Open(_) | Error::NotDecided { .. }) => (),
             Err(Error::TooManyPieces { .. } | Error::NotCertified) => return None,
             found => return Some(found.unwrap()),
@@ -246,11 +244,11 @@ fn rays_are_met_by_rounded_times() {
         }
         let problem = problem.build().unwrap();
         let plan = Plan::of(&problem, &Question::run(Numbers::Double(None))).unwrap();
-        let observe = Arc::new(dalembert::lattice::unobserved) as dalembert::Observer;
+        let observe = Arc::new(dalembert::engine::unobserved) as dalembert::Observer;
         let [double, long] =
             [Rung::Double, Rung::Bits(192)].map(|rung| f64::run(&problem, &plan, rung, &observe).unwrap());
         let mut jumps = 0;
-        for time in times(&problem).iter().map(|time| <f64 as dalembert::Answer>::carry(&time.to_f64())) {
+        for time in times(&problem).iter().map(|time| <f64 as dalembert::number::Answer>::carry(&time.to_f64())) {
             let found = [Side::Left, Side::Right].map(|side| {
                 let (ours, theirs) = (values(&*double, &time, side).ok()?, values(&*long, &time, side).ok()?);
                 same(&format!("{side:?} of {time:?}"), &ours, &theirs).unwrap();

@@ -1,8 +1,6 @@
 //! The built-in scenes, and what their comments say as far as it follows from their numbers.
 
-use dalembert::problem::{Material, Parameters, Start, Top};
-use dalembert::scene::{Effect, builtin};
-use dalembert::{Number, Scene};
+use dalembert::{Effect, Material, Number, Parameters, Scene, Start, Top, builtin};
 
 fn scene(name: &str) -> Scene {
     Scene::parse(builtin::get(name).expect(name).source).expect(name)

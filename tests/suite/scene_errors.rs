@@ -1,8 +1,6 @@
 //! Every mistake in a scene is answered with its place, what was found and what was expected.
 
-use dalembert::Scene;
-use dalembert::problem::Start;
-use dalembert::scene::SceneErrorKind as Kind;
+use dalembert::{Scene, SceneErrorKind as Kind, Start};
 
 /// A scene, the rule that it breaks, and the line, column and text that the answer has to point at.
 struct Case {

@@ -1,8 +1,6 @@
 //! Whatever stands in a scene file, reading it ends in a scene or in an error that points into the file.
 
-use dalembert::problem::{Material, Run, Speed, Start};
-use dalembert::scene::{SceneErrorKind, builtin};
-use dalembert::{Number, Scene};
+use dalembert::{Material, Number, Run, Scene, SceneErrorKind, Speed, Start, builtin};
 use proptest::prelude::*;
 
 /// The error, if there is one, points at characters of the source.

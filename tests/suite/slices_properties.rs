@@ -1,14 +1,10 @@
 //! Means and projections of damped rods, each within the bound that it carries: against fractions where nothing is
 //! damped, against finer cells, against the closed form, and against quadratures of the field in forty digits.
 
-use dalembert::cells::Damped;
-use dalembert::first_contact::ContactHistory;
-use dalembert::number::IntervalPrecision;
-use dalembert::quantity::slices;
+use dalembert::engine::{ContactHistory, Damped, Motion, slices};
+use dalembert::number::{IntervalPrecision, Scalar};
 use dalembert::special::gauss_legendre;
-use dalembert::{
-    Ending, Estimate, Float, Interval, Motion, Number, Problem, Rational, Reason, Scalar, Side, Slice, Start,
-};
+use dalembert::{Ending, Estimate, Float, Interval, Number, Problem, Rational, Reason, Side, Slice, Start};
 use proptest::prelude::*;
 
 use crate::common::compares;
@@ -210,7 +206,7 @@ fn linear_fields_are_reproduced() {
 /// Where rays are at this time, and the ends.
 fn cuts(problem: &Problem, events: &[Float], time: &Float) -> Vec<Float> {
     let lift = |x: &Number| Float::from_number(x, &time.prec());
-    let dalembert::problem::Material::WaveSpeed(c) = &problem.rod.material else { panic!() };
+    let dalembert::Material::WaveSpeed(c) = &problem.rod.material else { panic!() };
     let (length, way) = (lift(&problem.rod.length), time.clone() * lift(c));
     let mut sources: Vec<Float> = events.iter().map(|event| (time.clone() - event) * lift(c)).collect();
     let mut corners = vec![length.zero(), length.clone()];

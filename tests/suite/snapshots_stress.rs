@@ -4,11 +4,9 @@
 //! those of the case itself, from a closed form or worked out by hand.
 
 use crate::common::{fraction as q, uniform};
-use dalembert::lattice::Undamped;
-use dalembert::paper;
-use dalembert::problem::{Parameters, Run, Top};
-use dalembert::scene::builtin;
-use dalembert::{Ending, Error, Motion, Problem, Rational, Scalar, Scene, Side, StressHistory};
+use dalembert::engine::{Motion, Undamped};
+use dalembert::number::Scalar;
+use dalembert::{Ending, Error, Parameters, Problem, Rational, Run, Scene, Side, StressHistory, Top, builtin, paper};
 
 type Exact = Undamped<Rational>;
 
@@ -157,7 +155,7 @@ fn questions_beyond_the_end() {
 #[test]
 fn mu_4_3_has_the_least_restitution() {
     let history = first_contact("mu_4_3", ["1", "1", "1", "4/3"]);
-    let e = dalembert::quantity::restitution(&history, history.contacts()[0].times()).unwrap();
+    let e = dalembert::engine::restitution(&history, history.contacts()[0].times()).unwrap();
     // (4.72) at μ = 2μ₀/3.
     assert_eq!(e.energy_squared.unwrap(), q(5, 9));
 }

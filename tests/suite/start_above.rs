@@ -1,7 +1,6 @@
 //! A rod that starts above the ground: the touch by hand, and after it the motion of the rod that touches at `t = 0`.
 
-use dalembert::problem::{Run, Start, Top};
-use dalembert::{Ending, EventKind, Number, Problem, Side};
+use dalembert::{Ending, EventKind, Number, Problem, Run, Side, Start, Top};
 use proptest::prelude::*;
 
 use crate::common::close;
@@ -11,7 +10,7 @@ fn n(text: &str) -> Number {
 }
 
 /// `c = L = 1`.
-fn above(gravity: &str, speed: &str, gap: &str) -> dalembert::problem::Builder {
+fn above(gravity: &str, speed: &str, gap: &str) -> dalembert::Builder {
     Problem::builder().length(1).wave_speed(1).gravity(gravity).impact_speed(speed).gap(gap)
 }
 
@@ -124,7 +123,8 @@ fn pairs() -> impl Strategy<Value = (Problem, Problem, rug::Rational)> {
 #[cfg(feature = "mp")]
 mod shifted {
     use super::*;
-    use dalembert::{Scalar, Side};
+    use dalembert::Side;
+    use dalembert::number::Scalar;
     use rug::Rational;
 
     proptest! {
@@ -208,7 +208,7 @@ mod shifted {
             let float = rug::Float::with_val(200, &at);
             near("digits", above.digits(30).unwrap().ground_end(float, Side::Right).unwrap().0.to_f64(), 1e-15);
             let proved = above.certified(20).unwrap();
-            let precision = dalembert::Scalar::precision(proved.end());
+            let precision = dalembert::number::Scalar::precision(proved.end());
             let asked = dalembert::Interval::from_number(&n(&at.to_string()), &precision);
             prop_assert!(proved.ground_end(asked, Side::Right).unwrap().0.contains(&height));
         }

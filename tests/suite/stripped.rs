@@ -1,12 +1,9 @@
 //! The undamped march of one precision, without plan and ladder, read in numbers without their bounds.
 
-use dalembert::cells::Damped;
-use dalembert::lattice::{Limits, Undamped, unobserved};
-use dalembert::motion::Pair;
+use dalembert::engine::{Course, Damped, Limits, Motion, Pair, Scales, Undamped, unobserved};
+use dalembert::number::{Answer, Scalar};
 use dalembert::special::RoundedSpecial;
-use dalembert::{
-    Answer, Course, Error, Estimate, Event, Field, Motion, Problem, Ray, Scalar, Scales, Side, StressPiece,
-};
+use dalembert::{Error, Estimate, Event, Field, Problem, Ray, Side, StressPiece};
 
 /// An undamped history, computed in numbers that carry their bounds and read without them.
 pub(crate) type StrippedUndamped<S> = Stripped<S, Undamped<<S as Answer>::Carried>>;

@@ -3,12 +3,10 @@
 //! more than their bounds.
 
 use crate::common::{number, reference};
-use dalembert::first_contact::FirstContact;
-use dalembert::modal::Modal;
-use dalembert::motion::{Motion, Side};
-use dalembert::number::{Answer, Estimate, Rounded};
-use dalembert::problem::{Parameters, Run};
+use dalembert::engine::{FirstContact, Modal, Motion};
+use dalembert::number::{Answer, Rounded};
 use dalembert::special::RoundedSpecial;
+use dalembert::{Estimate, Parameters, Run, Side};
 
 /// Two values within their bounds, and bounds that say something: below `useful` of `scale`.
 fn agree<S: Rounded>(what: &str, a: &Estimate<S>, b: &Estimate<S>, scale: f64, useful: f64) {

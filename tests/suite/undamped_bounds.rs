@@ -1,11 +1,9 @@
 //! The bounds that undamped histories carry, against the same histories in 400 bits; and times on rays and at the end.
 
 use crate::stripped::{undamped, undamped_within};
-use dalembert::lattice::{Limits, Undamped};
-use dalembert::motion::{Event, Side};
-use dalembert::number::{Answer, Estimate, Scalar};
-use dalembert::problem::{Profile, Run, Speed, Start, Top};
-use dalembert::{Motion, Number, Problem, Scene};
+use dalembert::engine::{Limits, Motion, Undamped};
+use dalembert::number::{Answer, Scalar};
+use dalembert::{Estimate, Event, Number, Problem, Profile, Run, Scene, Side, Speed, Start, Top};
 use proptest::prelude::*;
 use rug::{Float, Rational};
 

@@ -1,9 +1,8 @@
 //! μ = 3/2 with c = L = g = 1: breaks and impacts multiply, digits are lost, and as many are carried as it takes.
 
 use crate::stripped::{undamped, undamped_within};
-use dalembert::lattice::Limits;
-use dalembert::problem::Run;
-use dalembert::{Error, Motion, Numbers, Plan, Problem, Question, Rung, Side, Solution, Warning};
+use dalembert::engine::{Limits, Motion};
+use dalembert::{Error, Numbers, Plan, Problem, Question, Run, Rung, Side, Solution, Warning};
 use rug::Float;
 
 fn chaotic(time: i64) -> Problem {
@@ -43,7 +42,7 @@ fn the_loss_is_foreseen() {
     }
     // A periodic history loses next to nothing, however long.
     let mut periodic = chaotic(2000);
-    periodic.start = dalembert::problem::Start::Uniform(dalembert::problem::Speed::Given(3.into()));
+    periodic.start = dalembert::Start::Uniform(dalembert::Speed::Given(3.into()));
     let plan = Plan::of(&periodic, &Question::run(Numbers::Digits(15))).unwrap();
     assert!(plan.foreseen_loss < 6.0, "{}", plan.foreseen_loss);
 }
@@ -55,7 +54,7 @@ fn fifteen_digits_at_t_400() {
     let problem = chaotic(400);
     let plan = Plan::of(&problem, &Question::between(400.into(), 400.into(), Numbers::Digits(15))).unwrap();
     let Solution::Digits(history, 15) =
-        plan.solve(&problem, std::sync::Arc::new(dalembert::lattice::unobserved)).unwrap()
+        plan.solve(&problem, std::sync::Arc::new(dalembert::engine::unobserved)).unwrap()
     else {
         panic!("digits were asked for")
     };

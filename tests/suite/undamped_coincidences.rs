@@ -1,11 +1,9 @@
 //! Events that coincide with a ray, and events that nearly do: rounded numbers do not tell the two apart.
 
-use dalembert::motion::Event;
-use dalembert::number::Estimate;
-use dalembert::problem::Run;
-use dalembert::scene::builtin;
-use dalembert::solve::Target;
-use dalembert::{EventKind, History, Motion, Numbers, Plan, Problem, Question, Rung, Scene, Warning};
+use dalembert::engine::{Motion, Target};
+use dalembert::{
+    Estimate, Event, EventKind, History, Numbers, Plan, Problem, Question, Run, Rung, Scene, Warning, builtin,
+};
 use proptest::prelude::*;
 use rug::{Float, Rational};
 use std::sync::Arc;
@@ -95,7 +93,7 @@ fn a_meeting_is_decided_exactly() {
 fn enclosures_confirm_doubles() {
     let problem = Scene::parse(builtin::get("mu-1-period-36").unwrap().source).unwrap().problem;
     let plan = Plan::of(&problem, &Question::run(Numbers::Double(None))).unwrap();
-    let observe: dalembert::Observer = Arc::new(dalembert::lattice::unobserved);
+    let observe: dalembert::Observer = Arc::new(dalembert::engine::unobserved);
     let [double, confirmed] =
         [Rung::Double, Rung::Confirmed(384)].map(|rung| f64::run(&problem, &plan, rung, &observe).unwrap());
     assert!(double.warnings().iter().any(|warning| matches!(warning, Warning::Coincidence { .. })));

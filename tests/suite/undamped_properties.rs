@@ -2,12 +2,9 @@
 //! multiples of `g t₁` are common among them, so that rays and events often coincide.
 
 use crate::stripped::undamped;
-use dalembert::lattice::Undamped;
+use dalembert::engine::{Motion, Undamped, flights, reflection, restitution};
 use dalembert::number::Scalar;
-use dalembert::problem::{Parameters, Profile, Run, Speed, Start, Top};
-use dalembert::quantity::{flights, restitution};
-use dalembert::reflection;
-use dalembert::{Ending, EventKind, Motion, Number, Problem, Side, paper};
+use dalembert::{Ending, EventKind, Number, Parameters, Problem, Profile, Run, Side, Speed, Start, Top, paper};
 use proptest::prelude::*;
 use rug::{Float, Rational};
 
@@ -284,7 +281,7 @@ proptest! {
         }
         let rounded = undamped::<f64>(&problem, &()).unwrap();
         let rod = Parameters::<Rational>::of(&problem, &()).unwrap();
-        let kinds = |events: &[dalembert::motion::Event<f64>]| events.iter().map(|e| e.kind).collect::<Vec<_>>();
+        let kinds = |events: &[dalembert::Event<f64>]| events.iter().map(|e| e.kind).collect::<Vec<_>>();
         prop_assert_eq!(kinds(rounded.events()), exact.events().iter().map(|e| e.kind).collect::<Vec<_>>());
         for (ours, truth) in rounded.events().iter().zip(exact.events()) {
             let error = (Rational::from_f64(ours.time).unwrap() - &truth.time).abs().to_f64();

@@ -2,8 +2,9 @@
 
 use crate::common::{close, number, problem, reference};
 use crate::stripped::undamped;
-use dalembert::problem::Run;
-use dalembert::{EventKind, Motion, Rational, Scalar, Side};
+use dalembert::engine::Motion;
+use dalembert::number::Scalar;
+use dalembert::{EventKind, Rational, Run, Side};
 use serde_json::Value;
 
 fn kind(event: &Value) -> EventKind {

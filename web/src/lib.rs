@@ -3,12 +3,9 @@
 use std::ops::ControlFlow;
 use std::sync::Arc;
 
-use dalembert::number::{bound_of_log2, show};
-use dalembert::quantity::{flights, restitution};
-use dalembert::{
-    Answer, Contact, Ending, Energy, Error, History, Motion, Numbers, Parameters, Plan, Question, Scalar, Scene, SceneError,
-    Side, Solution, Warning,
-};
+use dalembert::{Contact, Ending, Energy, Error, History, Numbers, Parameters, Plan, Question, Scene, SceneError, Side, Solution, Warning};
+use dalembert::engine::{Motion, flights, restitution};
+use dalembert::number::{Answer, Scalar, bound_of_log2, show};
 use wasm_bindgen::prelude::*;
 
 #[wasm_bindgen]

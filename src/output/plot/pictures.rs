@@ -35,7 +35,7 @@ const MOST_JUMPS: usize = 2000;
 /// **Errors**: those of the history.
 ///
 /// ```
-/// # use dalembert::{Problem, Units, output::scene_svg};
+/// # use dalembert::{Problem, Units, scene_svg};
 /// let rod = Problem::builder().length(1).wave_speed(1).gravity(1).impact_speed(3).build()?;
 /// let svg = scene_svg(&rod.solve()?, &rod, Units::default())?;
 /// // The field, stress, motion and energy.

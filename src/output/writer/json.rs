@@ -5,7 +5,7 @@ use serde_json::{Map, Value};
 use crate::output::dataset::{Cell, Dataset};
 
 /// The JSON Schema of histories, samples, golden files, comparisons and sweeps.
-pub const SCHEMA: &str = include_str!("../schema.json");
+pub(crate) const SCHEMA: &str = include_str!("../schema.json");
 
 /// Where the bounds of numbers stand in a row, each under the key of its number.
 const UNCERTAINTY: &str = "uncertainty";

@@ -11,7 +11,7 @@ mod table;
 #[cfg(not(feature = "npz"))]
 use npz_absent as npz;
 
-pub use json::SCHEMA;
+pub(crate) use json::SCHEMA;
 pub(super) use npz::Npz;
 pub(super) use table::table_digits;
 pub(crate) use table::{WIDTH, wrapped};

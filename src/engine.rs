@@ -1,0 +1,14 @@
+//! The engines by themselves, and what follows from any of them: for those who build on a motion rather than on a
+//! [`History`](crate::History). Each implements [`Motion`], in the numbers that its `impl` names.
+
+pub use crate::cells::{ContactThenCells, Damped, Effort, Unresolved};
+pub use crate::first_contact::{Bounce, BounceKind, ContactHistory, FirstContact, Kernels, Rebound, Trips};
+pub use crate::lattice::{
+    GroundEvent, GroundMotion, Halt, Limits, Line, Piece, Scaled, Trace, Undamped, Units, Until, march,
+};
+pub use crate::modal::Modal;
+pub use crate::motion::{
+    Course, Motion, Pair, Passing, RayRegister, Scales, Stretch, WavePiece, Waves, reflection, unobserved,
+};
+pub use crate::quantity::{Columns, columns, energy_shares, flights, restitution, slices, table};
+pub use crate::solve::{CellLimits, Climb, Goal, MAX_DIGITS, Target, Visitor};
