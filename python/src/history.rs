@@ -3,9 +3,9 @@
 use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
 
-use dalembert::{Error, Needs, Number, Quantity, Side, Slice, Solution, Table};
 use dalembert::engine::{Motion, slices};
 use dalembert::number::{Answer, Scalar, show};
+use dalembert::{Error, Needs, Number, Quantity, Side, Slice, Solution, Table};
 use numpy::{PyArray1, PyReadonlyArray1};
 use pyo3::IntoPyObjectExt;
 use pyo3::prelude::*;

@@ -2,8 +2,10 @@
 
 use std::sync::Arc;
 
-use dalembert::{Builder, CERTIFIED_DIGITS, Number, Numbers, Parameters, Plan, Question, Scene, Top, UnitSystem, Written};
 use dalembert::engine::MAX_DIGITS;
+use dalembert::{
+    Builder, CERTIFIED_DIGITS, Number, Numbers, Parameters, Plan, Question, Scene, Top, UnitSystem, Written,
+};
 use pyo3::exceptions::PyTypeError;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;

@@ -22,14 +22,17 @@ pub(super) struct Search<'a, N> {
     pub(super) kernels: Option<&'a Kernels<N>>,
 }
 
+/// Lists that are worked out once, by what they belong to.
+type Known<K, T> = RefCell<BTreeMap<K, Rc<[T]>>>;
+
 /// What the search for the bounce asks of the rays of one damping, each worked out once for many speeds: the motion is
 /// linear in `μ` and `g`.
 #[derive(Debug)]
 pub struct Kernels<N> {
     /// The shares of the force at the nodes of a cell, by the cell and how many they are.
-    cells: RefCell<BTreeMap<(i64, usize), Rc<[Shares<N>]>>>,
+    cells: Known<(i64, usize), Shares<N>>,
     /// The shares of `v_t` and `c v_x`, the static state taken from it, at lattice times.
-    lattice: RefCell<BTreeMap<i64, Rc<[[Shares<N>; 2]]>>>,
+    lattice: Known<i64, [Shares<N>; 2]>,
 }
 
 impl<N> Default for Kernels<N> {
@@ -39,7 +42,7 @@ impl<N> Default for Kernels<N> {
 }
 
 /// What a table holds for `key`, worked out where it does not.
-fn known<K: Ord, T>(table: &RefCell<BTreeMap<K, Rc<[T]>>>, key: K, find: impl FnOnce() -> Rc<[T]>) -> Rc<[T]> {
+fn known<K: Ord, T>(table: &Known<K, T>, key: K, find: impl FnOnce() -> Rc<[T]>) -> Rc<[T]> {
     let held = table.borrow().get(&key).cloned();
     held.unwrap_or_else(|| table.borrow_mut().entry(key).or_insert_with(find).clone())
 }

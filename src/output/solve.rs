@@ -70,7 +70,7 @@ pub(super) fn listed<'a, S: Scalar>(
     let mut factors: Vec<Option<S>> = Vec::new();
     let rows = rows.map(|values| {
         if let (true, Some(number)) = (factors.is_empty(), values.iter().flatten().next()) {
-            factors = quantities.iter().map(|quantity| factor(quantity, *number)).collect();
+            factors = quantities.iter().map(|quantity| factor(quantity, number)).collect();
         }
         let present = quantities.iter().zip(values).enumerate().filter(|(_, (quantity, _))| present(quantity));
         let cell = |(k, (_, value)): (usize, (&Quantity, Option<&S>))| match (value, factors.get(k)) {

@@ -3,9 +3,12 @@
 use std::ops::ControlFlow;
 use std::sync::Arc;
 
-use dalembert::{Contact, Ending, Energy, Error, History, Numbers, Parameters, Plan, Question, Scene, SceneError, Side, Solution, Warning};
 use dalembert::engine::{Motion, flights, restitution};
 use dalembert::number::{Answer, Scalar, bound_of_log2, show};
+use dalembert::{
+    Contact, Ending, Energy, Error, History, Numbers, Parameters, Plan, Question, Scene, SceneError, Side, Solution,
+    Warning,
+};
 use wasm_bindgen::prelude::*;
 
 #[wasm_bindgen]
