@@ -82,13 +82,14 @@ fn plan_against_direct(_: &mut Criterion) {
         println!("{name:<30} plan {:.3} µs, direct {:.3} µs: {:.2} ×", 1e6 * plan, 1e6 * direct, plan / direct);
     };
     type Engine<'a> = &'a dyn Motion<Estimate<f64>>;
+    type Query<'q> = dyn Fn(Engine<'_>) -> Result<Option<Estimate<f64>>, Error> + 'q;
     type Direct = fn(&FirstContact<Estimate<f64>>, &Estimate<f64>) -> Option<Estimate<f64>>;
     let ended = |motion: Engine<'_>| motion.contact_times(0).and_then(|(from, to)| Some((from, to?)));
     let ratios = |motion: Engine<'_>| match ended(motion) {
         Some((from, to)) => restitution(motion, (&from, Some(&to))).map(Some),
         None => Ok(None),
     };
-    let ask = |query: &dyn Fn(Engine<'_>) -> Result<Option<Estimate<f64>>, Error>| {
+    let ask = |query: &Query<'_>| {
         let plan = Plan::of(black_box(&damped), &Question::bounce(Numbers::default())).unwrap();
         plan.ask::<f64, _>(&damped, query, |found| found.iter().collect()).unwrap().unwrap()
     };

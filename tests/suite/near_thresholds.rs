@@ -110,14 +110,15 @@ impl Case {
         while Float::with_val(BITS, &trip * k) < *end {
             let (from, to) = (Float::with_val(BITS, &trip * k), Float::with_val(BITS, &trip * (k + 1)));
             if self.kind == Kind::TouchAtRay {
-                let (first, last) = if k % 2 == 0 { (&low, &high) } else { (&high, &low) };
-                let part = float(if k % 2 == 0 { self.place } else { 1.0 - self.place });
+                let (first, last) = if k.is_multiple_of(2) { (&low, &high) } else { (&high, &low) };
+                let part = float(if k.is_multiple_of(2) { self.place } else { 1.0 - self.place });
                 let cut = from.clone() + part * &trip;
                 pieces.push([from, cut.clone(), first.clone(), float(0.0)]);
                 pieces.push([cut, to, last.clone(), float(0.0)]);
             } else {
-                let slope: Float = Float::with_val(BITS, &high - &low) / &trip * if k % 2 == 0 { 1 } else { -1 };
-                let at = if k % 2 == 0 { &low } else { &high };
+                let slope: Float =
+                    Float::with_val(BITS, &high - &low) / &trip * if k.is_multiple_of(2) { 1 } else { -1 };
+                let at = if k.is_multiple_of(2) { &low } else { &high };
                 let constant = at.clone() - slope.clone() * &from;
                 pieces.push([from, to, constant, slope]);
             }
