@@ -29,6 +29,9 @@
 //! and `{}` prints the digits that both prove. [`History::units`] turns strains and values per `ρS` into those of the
 //! material.
 //!
+//! The types in daily use stand at the root. [`engine`] has the engines by themselves, [`number`] what numbers can do in
+//! each system, [`special`] the functions of the closed forms, [`paper`] the printed formulas.
+//!
 //! The features `mp` (digits, proved or not, and faster fractions), `cli` (the command), `compare` (what it shares with the wheel), `npz`
 //! (data in NumPy's files) and `plot` (its pictures as PNG and PDF) add to each other and take nothing away.
 
