@@ -61,7 +61,17 @@ impl<S: RoundedSpecial> ContactThenCells<S> {
         rate: Option<Estimate<S>>,
         observe: &dyn Fn(usize, usize) -> ControlFlow<()>,
     ) -> Result<Self, Error> {
-        let rod = Parameters::<S>::of(problem, precision)?;
+        let mut history = Self::first_contact(problem, precision, bounce)?;
+        history.follow(problem, precision, effort, rate, observe)?;
+        Ok(history)
+    }
+
+    /// The first contact alone, and no flight.
+    pub(crate) fn first_contact(
+        problem: &Problem,
+        precision: &S::Precision,
+        bounce: Bounce<Estimate<S>>,
+    ) -> Result<Self, Error> {
         let asked = match &problem.run {
             Run::Time(time) => Some(S::from_number(time, precision).carry()),
             Run::Impacts(_) => None,
@@ -69,7 +79,7 @@ impl<S: RoundedSpecial> ContactThenCells<S> {
         let contact = ContactHistory::new(FirstContact::new(&Parameters::of(problem, precision)?), bounce, asked)?;
         let known = contact.course().clone();
         let time_error = known.events.get(1).map_or(0.0, |release| release.time_error);
-        let round_trip = rod.round_trip();
+        let round_trip = Parameters::<S>::of(problem, precision)?.round_trip();
         let error = round_trip.double(17.0) * round_trip.roundoff() + round_trip.double(time_error) / &round_trip;
         let Scales { velocity, wave_speed, .. } = contact.scales().map(|scale| scale.to_f64());
         let strain = error.to_f64() * velocity / wave_speed;
@@ -78,9 +88,7 @@ impl<S: RoundedSpecial> ContactThenCells<S> {
             |found: Contact<Estimate<S>>| Contact { peak_strain: within(found.peak_strain.value(), strain), ..found };
         let contacts = known.contacts.into_iter().map(bounded).collect();
         let course = Course { end: within(known.end.value(), 0.0), contacts, ..known };
-        let mut history = ContactThenCells { error, strain, march: None, course, contact };
-        history.follow(problem, precision, (&rod, effort), rate, observe)?;
-        Ok(history)
+        Ok(ContactThenCells { error, strain, march: None, course, contact })
     }
 
     /// The flight and all that comes after it, from the cells.
@@ -88,7 +96,7 @@ impl<S: RoundedSpecial> ContactThenCells<S> {
         &mut self,
         problem: &Problem,
         precision: &S::Precision,
-        (rod, effort): (&Parameters<S>, Effort),
+        effort: Effort,
         rate: Option<Estimate<S>>,
         observe: &dyn Fn(usize, usize) -> ControlFlow<()>,
     ) -> Result<(), Error> {
@@ -99,7 +107,7 @@ impl<S: RoundedSpecial> ContactThenCells<S> {
         }
         let release = (release.time.value(), release.time_error, release.end_velocity.value());
         // The cells account for the roundings of the parameters themselves.
-        let form = FirstContact::new(&rod.carry());
+        let form = FirstContact::new(&Parameters::<S>::of(problem, precision)?.carry());
         let rate = rate.unwrap_or_else(|| rebound.velocity.clone());
         let mut march = Damped::after_bounce(problem, precision, effort, &form, release, &rate, observe)?;
         march.rebound = Some(rebound.clone());

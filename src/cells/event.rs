@@ -61,11 +61,20 @@ impl<S: RoundedSpecial> Follower<'_, S> {
         if let Goal::Impacts(count) = goal
             && self.landed >= *count
         {
+            let rounding = self.rounding();
+            let last = self.budget.better(off, self.medium.splits()).max(rounding);
+            self.end_error = if self.lost { f64::INFINITY } else { last };
             return true;
         }
         self.landed += 1;
         self.event(off, None);
         false
+    }
+
+    /// The roundings of t₁ and of the time now: a ray of the start is off by no more.
+    fn rounding(&self) -> f64 {
+        let time = self.state.time();
+        4.0 * time.log2_roundoff().exp2() * (1.0 + time.to_f64())
     }
 
     /// Turns contact into flight or back, now. A release at a root of the trace, which has this `slope` there, has
@@ -87,11 +96,9 @@ impl<S: RoundedSpecial> Follower<'_, S> {
             self.warnings.push(Warning::EventsOverlap { from });
         }
         self.height = zero;
-        // A ray of the start is off by no more than the roundings of t₁ and of its own time.
-        let rounding = 4.0 * time.log2_roundoff().exp2() * (1.0 + time.to_f64());
+        let rounding = self.rounding();
         self.budget.note_event(off, apart);
         let since = self.budget.since(apart);
-        self.budget.note_event(off, apart);
         match self.marks.last_mut() {
             Some(last) => last.after = since,
             None => self.before = since,

@@ -58,6 +58,8 @@ pub(super) struct Follower<'a, S> {
     pub(super) lost: bool,
     /// Whether the landing that is decided is at a ray.
     pub(super) at_ray: bool,
+    /// How far the end of the run may be off where it is an event.
+    pub(super) end_error: f64,
     /// Whether the end has only gone up since the release, and is not yet clear of the ground.
     pub(super) rising: bool,
     /// Hops that the bound does not tell apart from contact.
@@ -155,6 +157,7 @@ impl<'a, S: RoundedSpecial> Follower<'a, S> {
             landed: 0,
             lost: false,
             at_ray: false,
+            end_error: 0.0,
             rising: true,
             unresolved: None,
             landing: None,
@@ -437,8 +440,8 @@ impl<'a, S: RoundedSpecial> Follower<'a, S> {
             Some(mark) => mark.after = last,
             None => self.before = last,
         }
-        let Follower { pieces, checkpoints, flights, marks, warnings, unresolved, before, .. } = self;
-        Found { pieces, checkpoints, flights, marks, warnings, unresolved, before, ending }
+        let Follower { pieces, checkpoints, flights, marks, warnings, unresolved, before, end_error, .. } = self;
+        Found { pieces, checkpoints, flights, marks, warnings, unresolved, before, ending, end_error }
     }
 
     /// A round trip begins: the state is kept, and what is summed up in it is computed anew.

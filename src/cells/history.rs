@@ -147,7 +147,7 @@ impl<S: RoundedSpecial> Damped<S> {
         problem: &Problem,
         precision: &S::Precision,
     ) -> Result<Self, Error> {
-        let Found { pieces, checkpoints, flights, marks, mut warnings, unresolved, before, ending } = found;
+        let Found { pieces, checkpoints, flights, marks, mut warnings, unresolved, before, ending, end_error } = found;
         let unresolved = unresolved.map(|found| {
             let unit = &data.units.time;
             Unresolved { from: found.from * unit, longest: found.longest * unit.to_f64(), ..found }
@@ -163,7 +163,7 @@ impl<S: RoundedSpecial> Damped<S> {
             }
         };
         let mut history = Damped {
-            course: Course { warnings, ..Course::new(within(&end, 0.0), ending) },
+            course: Course { warnings, ..Course::new(within(&end, end_error * data.units.time.to_f64()), ending) },
             scales: data.units.scales().map(|scale| scale.to_f64()),
             rebound: None,
             medium,

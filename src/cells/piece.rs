@@ -98,4 +98,6 @@ pub(super) struct Found<S> {
     pub(super) unresolved: Option<Unresolved<S>>,
     pub(super) before: Uncertainty,
     pub(super) ending: Ending,
+    /// How far its time may be off where it is an event.
+    pub(super) end_error: f64,
 }

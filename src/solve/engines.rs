@@ -40,8 +40,12 @@ impl Target for f64 {
                     let undecided = Error::NotDecided { what: "how the first contact ends", bits: 53 };
                     bounce = by_modes(&contact, problem, plan.modes.ok_or(undecided)?)?;
                 }
-                if plan.engine == Engine::ClosedForm {
-                    return Ok(Arc::new(ContactHistory::new(contact, bounce, None)?));
+                match (plan.engine, plan.settles_events) {
+                    (Engine::ClosedForm, false) => return Ok(Arc::new(ContactHistory::new(contact, bounce, None)?)),
+                    (Engine::ClosedForm, true) => {
+                        return Ok(Arc::new(ContactThenCells::<f64>::first_contact(problem, &(), bounce)?));
+                    }
+                    _ => {}
                 }
                 let rate = plan.rate_bits.and_then(|bits| long::rate_after(problem, &bounce, bits));
                 Arc::new(ContactThenCells::<f64>::solve_observed(

@@ -62,12 +62,17 @@ fn estimates(problem: &Problem, plan: &Plan, bits: u32, observe: &Observer) -> R
             Arc::new(history)
         }
         Engine::Cells => Arc::new(Damped::<Float>::solve_observed(problem, &bits, effort, 1, &**observe)?),
-        Engine::ClosedForm => Arc::new(ContactHistory::<Estimate<Float>>::solve(problem, &bits)?),
-        Engine::ClosedFormThenCells => {
+        Engine::ClosedForm if !plan.settles_events => {
+            Arc::new(ContactHistory::<Estimate<Float>>::solve(problem, &bits)?)
+        }
+        Engine::ClosedForm | Engine::ClosedFormThenCells => {
             let rod = Parameters::<Estimate<Float>>::of(problem, &bits)?;
             let bounce = FirstContact::new(&rod).bounce();
             if matches!(&bounce, Bounce::Undecided { why, .. } if why.needs_bits()) {
                 return Err(Error::NotDecided { what: "how the first contact ends", bits });
+            }
+            if plan.engine == Engine::ClosedForm {
+                return Ok(Arc::new(ContactThenCells::<Float>::first_contact(problem, &bits, bounce)?));
             }
             Arc::new(ContactThenCells::<Float>::solve_observed(problem, &bits, effort, bounce, None, &**observe)?)
         }
