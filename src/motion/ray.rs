@@ -46,7 +46,7 @@ impl<S: Scalar> Ray<S> {
 ///
 /// ```
 /// use glam::DVec2;
-/// assert_eq!(dalembert::reflection(true) * DVec2::new(0.5, 1.0), DVec2::new(0.5, -1.0));
+/// assert_eq!(dalembert::engine::reflection(true) * DVec2::new(0.5, 1.0), DVec2::new(0.5, -1.0));
 /// ```
 pub fn reflection(held: bool) -> DMat2 {
     DMat2::from_diagonal(if held { DVec2::new(1.0, -1.0) } else { DVec2::new(-1.0, 1.0) })

@@ -6,11 +6,6 @@ use super::dataset::{Column, Dataset};
 use crate::routes::cost::{Difference, Row, Table};
 
 /// A time in the unit that suits it, to three digits: `3.21 ms`.
-///
-/// ```
-/// assert_eq!(dalembert::duration(3.2149e-3), "3.21 ms");
-/// assert_eq!(dalembert::duration(0.0), "0 s");
-/// ```
 pub(crate) fn duration(seconds: f64) -> String {
     let (unit, name) = match seconds.abs() {
         0.0 => return "0 s".into(),
@@ -132,5 +127,15 @@ pub(crate) fn effects_data(rows: &[Difference], title: Option<&str>) -> Dataset 
         list: "rows",
         around: [title.map_or_else(String::new, |title| format!("{title}\n\n")), below.into()],
         ..Dataset::of(rows.iter().map(row))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::duration;
+
+    #[test]
+    fn times_have_three_digits() {
+        assert_eq!([3.2149e-3, 0.0].map(duration), ["3.21 ms", "0 s"]);
     }
 }

@@ -33,6 +33,7 @@ impl Plan {
     /// worth trying settle it.
     ///
     /// ```
+    /// use dalembert::engine::Motion;
     /// use dalembert::{Numbers, Plan, Problem, Question};
     /// let rod = Problem::builder().length(1).wave_speed(1).gravity(1).impact_speed(4).build()?;
     /// let plan = Plan::of(&rod, &Question::bounce(Numbers::default()))?;
