@@ -35,6 +35,9 @@ pub(super) const CUT_CELLS: f64 = 2.0;
 /// the greatest `|q|`.
 pub(super) const LEAP_CELLS: f64 = 16.0;
 
+/// Where times are in doubt by more than this part of a round trip, so are the events.
+pub(super) const MOST_LATE: f64 = 0.01;
+
 /// How far the values at an event may be off, whenever it is, dimensionless.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct AtEvent {

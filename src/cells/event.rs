@@ -1,6 +1,6 @@
 //! What an event does to the state, and to the bound of its error.
 
-use super::budget::{AtEvent, LEAP_CELLS, Landing, Off, TakeOff, weight_rest};
+use super::budget::{AtEvent, LEAP_CELLS, Landing, MOST_LATE, Off, TakeOff, weight_rest};
 use super::follow::{Follower, Goal};
 use super::near::{open_release, open_touch};
 use super::piece::{Mark, Unresolved};
@@ -9,9 +9,6 @@ use super::uncertainty::Uncertainty;
 use crate::motion::EventKind;
 use crate::reason::{Near, Warning};
 use crate::special::RoundedSpecial;
-
-/// Where times are in doubt by more than this part of a round trip, so are the events.
-pub(super) const MOST_LATE: f64 = 0.01;
 
 /// Where something is open, it is looked for how long in steps that grow from this part of a strip.
 const SMALLEST_STEP: f64 = 1e-12;

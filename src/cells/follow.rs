@@ -7,9 +7,8 @@
 use std::ops::ControlFlow;
 
 use super::bounce::Held;
-use super::budget::{Budget, CUT_CELLS, FIRST_CELLS, LEAP_CELLS, Off};
+use super::budget::{Budget, CUT_CELLS, FIRST_CELLS, LEAP_CELLS, MOST_LATE, Off};
 use super::effort::{Effort, LEAST_LEAP, MOST_PIECES, MOST_SEGMENTS};
-use super::event::MOST_LATE;
 use super::flight::Flight;
 use super::march::{Medium, State};
 use super::piece::{Checkpoint, Found, Mark, Piece, Unresolved};
