@@ -37,9 +37,9 @@ impl Plan {
     /// use dalembert::{Numbers, Plan, Problem, Question};
     /// let rod = Problem::builder().length(1).wave_speed(1).gravity(1).impact_speed(4).build()?;
     /// let plan = Plan::of(&rod, &Question::bounce(Numbers::default()))?;
-    /// // Corollary 1: nothing of the impulse but 2ρS L μ, and that of gravity, g L t₁ = 2.
+    /// // Corollary 1: 2L μ = 8, and that of gravity, g L t₁ = 2, per ρS.
     /// let impulse = plan.ask::<f64, _>(&rod, |motion| Ok(motion.impulse(0)), |found| found.iter().collect())?;
-    /// assert!((impulse.map_or(0.0, |impulse| *impulse.value()) - 8.0).abs() < 1e-13);
+    /// assert!((impulse.map_or(0.0, |impulse| *impulse.value()) - 10.0).abs() < 1e-13);
     /// # Ok::<(), dalembert::Error>(())
     /// ```
     pub fn ask<S: Target, T>(
