@@ -32,8 +32,12 @@
 //! The types in daily use stand at the root. [`engine`] has the engines by themselves, [`number`] what numbers can do in
 //! each system, [`special`] the functions of the closed forms, [`paper`] the printed formulas.
 //!
-//! The features `mp` (digits, proved or not, and faster fractions), `cli` (the command), `compare` (what it shares with the wheel), `npz`
-//! (data in NumPy's files) and `plot` (its pictures as PNG and PDF) add to each other and take nothing away.
+//! Equation numbers are those of F. Wang and S. W. Hansen, *Explicit solutions and coefficient of restitution for an
+//! elastic rod with viscous damping*, IMA Preprint 2473, Institute for Mathematics and its Applications, University of
+//! Minnesota, August 2016: "the paper" throughout.
+//!
+//! The features `mp` (digits, proved or not, and faster fractions), `cli` (the command), `compare` (what it shares with
+//! the wheel), `npz` (data in NumPy's files) and `plot` (its pictures as PNG and PDF) only add to each other.
 
 #[cfg(feature = "compare")]
 mod aligned;

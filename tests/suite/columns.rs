@@ -57,10 +57,10 @@ fn from_field(rod: &Problem, history: &dalembert::History<Rational>, time: &Rati
 }
 
 #[test]
-fn the_readme_lists_all_columns() {
-    let readme = include_str!("../../README.md").split_whitespace().collect::<Vec<_>>().join(" ");
+fn the_page_on_output_lists_all_columns() {
+    let page = include_str!("../../docs/output.md").split_whitespace().collect::<Vec<_>>().join(" ");
     let list = Needs::Time.quantities().map(Quantity::name).collect::<Vec<_>>().join(" ");
-    assert!(readme.contains(&format!("`{list}`")), "{list}");
+    assert!(page.contains(&format!("`{list}`")), "{list}");
 }
 
 #[test]

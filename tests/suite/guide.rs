@@ -1,4 +1,4 @@
-//! The guide: what its commands print, the pictures they draw, and the answers of its exercises.
+//! The guide and the pages beside it: what their commands print, the pictures they draw, and the answers of exercises.
 //!
 //! `make docs` sets REBUILD_GUIDE, and what differs is written instead of reported.
 
@@ -8,8 +8,12 @@ use std::process::Command;
 use dalembert::rug::Rational;
 use dalembert::{History, Problem, Side};
 
+fn docs() -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("docs")
+}
+
 fn folder() -> PathBuf {
-    Path::new(env!("CARGO_MANIFEST_DIR")).join("docs/guide")
+    docs().join("guide")
 }
 
 fn chapter(name: &str) -> String {
@@ -50,21 +54,33 @@ fn rebuilt(text: &str, work: &Path) -> String {
     out
 }
 
+fn rebuilds() -> bool {
+    std::env::var_os("REBUILD_GUIDE").is_some()
+}
+
+/// Holds what a page shows against what its commands print in `work`; its text.
+#[track_caller]
+fn prints(path: &Path, work: &Path) -> String {
+    let name = path.display();
+    let text = std::fs::read_to_string(path).unwrap_or_else(|error| panic!("{name}: {error}"));
+    let now = rebuilt(&text, work);
+    if rebuilds() {
+        std::fs::write(path, &now).unwrap();
+    }
+    assert!(text.contains("console\n$ dalembert "), "{name} has a command");
+    for (ours, theirs) in now.lines().zip(text.lines()).filter(|_| !rebuilds()) {
+        assert_eq!(ours, theirs, "{name}; `make docs` writes it anew");
+    }
+    assert!(rebuilds() || now == text, "{name}");
+    text
+}
+
 /// Holds a chapter and its pictures against what its commands give.
 #[track_caller]
 fn holds(name: &str) {
     let work = tempfile::tempdir().unwrap();
-    let text = chapter(name);
-    let now = rebuilt(&text, work.path());
-    let rebuild = std::env::var_os("REBUILD_GUIDE").is_some();
-    if rebuild {
-        std::fs::write(folder().join(name), &now).unwrap();
-    }
-    assert!(text.contains("console\n$ dalembert "), "{name} has a command");
-    for (ours, theirs) in now.lines().zip(text.lines()).filter(|_| !rebuild) {
-        assert_eq!(ours, theirs, "{name}; `make docs` writes it anew");
-    }
-    assert!(rebuild || now == text, "{name}");
+    let text = prints(&folder().join(name), work.path());
+    let rebuild = rebuilds();
     let pictures: Vec<&str> =
         text.split("](").skip(1).filter_map(|rest| rest.split_once(')')).map(|end| end.0).collect();
     let pictures: Vec<&&str> = pictures.iter().filter(|path| path.ends_with(".svg")).collect();
@@ -98,6 +114,36 @@ fn answers(name: &str, parts: &[String]) {
 fn unit(speed: &str, impacts: u32) -> History<Rational> {
     let rod = Problem::builder().length(1).wave_speed(1).gravity(1).impact_speed(speed);
     rod.impacts(impacts).build().unwrap().exact().unwrap()
+}
+
+#[test]
+fn pages_show_what_their_commands_print() {
+    for page in ["numbers.md", "output.md", "scenes.md", "sweeps.md"] {
+        prints(&docs().join(page), tempfile::tempdir().unwrap().path());
+    }
+}
+
+/// The files of the repository that a page links to are there.
+#[test]
+fn links_lead_to_files() {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR"));
+    let pages = |folder: &str| {
+        let entries = std::fs::read_dir(root.join(folder)).unwrap().map(|entry| entry.unwrap().path());
+        entries.filter(|path| path.extension().is_some_and(|end| end == "md")).collect::<Vec<_>>()
+    };
+    let mut links = 0;
+    for page in ["", "docs", "docs/guide", "python"].into_iter().flat_map(pages) {
+        let text = std::fs::read_to_string(&page).unwrap();
+        for link in text.split("](").skip(1).filter_map(|rest| rest.split_once(')')).map(|(link, _)| link) {
+            let Some(file) = link.split('#').next().filter(|file| !file.is_empty() && !file.contains([' ', ':']))
+            else {
+                continue;
+            };
+            assert!(page.parent().unwrap().join(file).exists(), "{}: {link}", page.display());
+            links += 1;
+        }
+    }
+    assert!(links > 50, "{links} links");
 }
 
 #[test]
