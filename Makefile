@@ -3,6 +3,7 @@
 #   make demo-exact   the same scene in fractions
 #   make test         runs all tests
 #   make page         builds the page, one HTML file that opens from disk, and make page-test tries it in Chromium
+#   make site         builds the site of docs/, with the page, the commands' help and the gallery in it
 #   make docs         works out docs/guide and docs/check.md anew
 # GMP needs m4, and page-test Chromium; both are installed where they are missing. page-test needs Node 20 with npm too.
 
@@ -10,7 +11,7 @@ CARGO ?= cargo
 # Random tests draw the same cases every time, so that one commit has one answer. `make explore` draws others.
 export PROPTEST_RNG_SEED ?= 1878
 
-.PHONY: help demo demo-exact test docs explore page page-test m4 chromium
+.PHONY: help demo demo-exact test docs explore page page-test site m4 chromium
 
 help:
 	@echo "make demo         build the command in pure Rust and solve the bouncing bar of Doyen, Ern and Piperno"
@@ -18,6 +19,7 @@ help:
 	@echo "make test         run all tests, those of the documentation included"
 	@echo "make page         build the page: target/page/dalembert.html, one file that opens from disk"
 	@echo "make page-test    try the page in Chromium; needs Node 20 and npm"
+	@echo "make site         build the site of these pages: target/site/index.html, which opens from disk; needs Python 3.10"
 	@echo "make docs         write the outputs and pictures of docs/guide, and docs/check.md, anew"
 	@echo "make explore      run the random tests on cases never tried before"
 
@@ -54,6 +56,13 @@ page:
 page-test: page chromium
 	$(CARGO) build
 	cd web/test && npm ci --silent --no-fund && node page.mjs
+
+# Every picture and table of the site is made here; a link that leads nowhere ends it.
+site: page
+	$(CARGO) build
+	[ -d target/site-venv ] || python3 -m venv target/site-venv
+	target/site-venv/bin/pip install --quiet --requirement site/requirements.txt
+	NO_MKDOCS_2_WARNING=1 target/site-venv/bin/mkdocs build --quiet --strict --config-file site/mkdocs.yml
 
 # Debian and its kin; elsewhere the message says what is missing.
 m4 chromium:

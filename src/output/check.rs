@@ -104,6 +104,8 @@ pub(crate) fn check_page(groups: &Groups, published: &[Published], command: &str
             let case = checked.case;
             out += &format!("### `{}`: {}\n\n{}: {}.\n\n", case.name, checked.verdict.name(), case.source, case.about);
             for CheckedQuestion { what, truth, rows } in &checked.asked {
+                // A jump at a point, `[v_x](0, t₁)`, is no link.
+                let what = what.replace("](", "]\\(");
                 out += &format!("{what} = **{}**\n\n| route | promises | |\n|---|---|---|\n", truth);
                 for row in rows {
                     out += &format!("| {} | {} | {} |\n", row.route, row.promise, row.outcome.name());

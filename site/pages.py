@@ -1,0 +1,117 @@
+"""What `make site` adds to the pages of docs/: first steps from the README, the help of each command, the schema, the
+examples, pictures with their commands, and the page of the classroom."""
+
+import json
+import re
+import subprocess
+import tempfile
+from pathlib import Path
+
+from mkdocs.structure.files import File
+
+ROOT = Path(__file__).parent.parent
+COMMAND = ROOT / "target/debug/dalembert"
+COMMANDS = "solve sample plot reference explain cost compare sweep regimes figures check scenes".split()
+GALLERY = {
+    "A periodic rod": "plot doyen-ern-piperno -o periodic.svg",
+    "Damping": "plot figure-4-r01 figure-4-r03 --quantity stress,h -o damping.svg",
+    "A landing without speed": "plot mu-1-period-36 --quantity xt --to 36 -o tangential.svg",
+    "Velocity along the rod": "plot paper-strong --quantity xt --field velocity -o velocity.svg",
+    "Chaos": "plot mu-3-2-chaotic --quantity xt --to 40 -o chaos.svg",
+    "A fixed top": "plot getfem-dynamic-contact -o fixed.svg",
+    "A real rod": "plot steel-bar -o steel.svg",
+    "When and whether a rod bounces": "regimes -o regimes.svg",
+}
+
+
+def run(arguments, **options):
+    return subprocess.run([COMMAND, *arguments.split()], check=True, capture_output=True, text=True, **options).stdout
+
+
+def commands():
+    """The help of every command, as it is printed."""
+    helps = (f"## {name}\n\n```text\n{run(f'{name} --help')}```\n" for name in COMMANDS)
+    return "# Commands\n\n`dalembert help COMMAND` prints the same.\n\n" + "\n".join(helps)
+
+
+def examples():
+    parts = []
+    for path in sorted((ROOT / "examples").glob("*.rs")):
+        parts.append(f"## {path.stem}\n\n`cargo run --example {path.stem}`\n\n```rust\n{path.read_text()}```\n")
+    return "# Examples in Rust\n\n" + "\n".join(parts)
+
+
+def gallery(files, config):
+    parts = ["# Gallery", "Each picture is drawn by the command below it when this site is built."]
+    with tempfile.TemporaryDirectory() as folder:
+        for title, line in GALLERY.items():
+            run(line, cwd=folder)
+            name = line.split()[-1]
+            files.append(File.generated(config, f"gallery/{name}", content=(Path(folder) / name).read_text()))
+            parts.append(f"## {title}\n\n![{title}](gallery/{name})\n\n```sh\ndalembert {line}\n```")
+    return "\n\n".join(parts) + "\n"
+
+
+def colour(strain, most):
+    """Blue in compression, red in tension, white without strain."""
+    share = max(-1.0, min(1.0, strain / most))
+    ends = (33, 102, 172) if share < 0 else (178, 24, 43)
+    return "#" + "".join(f"{round(247 + (end - 247) * abs(share)):02x}" for end in ends)
+
+
+def rod():
+    """One period of the bar of Doyen, Ern and Piperno as an animated SVG, from values of the program."""
+    table = json.loads(run("reference doyen-ern-piperno --times 0..16/3:129 --points 0..10:11 --side right --format json"))
+    names = [column["name"] for column in table["columns"]]
+    rows = [dict(zip(names, row)) for row in table["rows"]]
+    frames = [rows[k : k + 11] for k in range(0, len(rows), 11)]
+    most = max(abs(row["strain"]) for row in rows)
+    height = lambda row: 16.0 - (row["x"] + row["u"])
+    animate = '<animate attributeName="{}" dur="8s" repeatCount="indefinite" values="{}"/>'
+    parts = []
+    for k in range(10):
+        pairs = [(frame[k], frame[k + 1]) for frame in frames]
+        tops = ";".join(f"{height(upper):.3f}" for _, upper in pairs)
+        sizes = ";".join(f"{height(lower) - height(upper) + 0.02:.3f}" for lower, upper in pairs)
+        fills = ";".join(colour((lower["strain"] + upper["strain"]) / 2, most) for lower, upper in pairs)
+        moving = [("y", tops), ("height", sizes), ("fill", fills)]
+        body = "".join(animate.format(name, values) for name, values in moving)
+        first = " ".join(f'{name}="{values.split(";")[0]}"' for name, values in moving)
+        parts.append(f'<rect x="4" width="2" {first}>{body}</rect>')
+    ground = '<rect x="0" y="16" width="10" height="0.6" fill="#888"/>'
+    return (
+        '<svg viewBox="0 0 10 17" style="max-height: 28rem; width: 100%" role="img" '
+        f'aria-label="An elastic bar bounces on the ground">{ground}{"".join(parts)}</svg>'
+    )
+
+
+def on_files(files, config):
+    readme = (ROOT / "README.md").read_text().replace("](docs/", "](").replace("# dalembert", "# First steps", 1)
+    pages = {
+        "index.md": (ROOT / "site/index.md").read_text().replace("<!-- rod -->", rod()),
+        "start.md": readme,
+        "commands.md": commands(),
+        "examples.md": examples(),
+        "gallery.md": gallery(files, config),
+        "python.md": (ROOT / "python/README.md").read_text() + "\n## Reference\n\n::: dalembert\n",
+        "schema.md": f"# JSON schema\n\n`dalembert schema` prints it.\n\n```json\n{run('schema')}```\n",
+        "changes.md": (ROOT / "CHANGELOG.md").read_text(),
+    }
+    for name, text in pages.items():
+        files.append(File.generated(config, name, content=text))
+    page = ROOT / "target/page/dalembert.html"
+    files.append(File.generated(config, "live.html", content=page.read_bytes()))
+    return files
+
+
+def on_page_markdown(markdown, page, **_):
+    """Links to files of the repository that are pages of the site lead to those; the others become code."""
+    if page.file.src_uri == "page.md":
+        markdown += '\n<iframe src="live.html" title="The page" style="width: 100%; height: 48rem; border: 0"></iframe>\n'
+    here = "../" if page.file.src_uri.startswith("guide/") else ""
+    markdown = re.sub(r"\]\((?:\.\./)*examples/(\w+)\.rs\)", rf"]({here}examples.md#\1)", markdown)
+    markdown = re.sub(r"\]\((?:\.\./)*examples\)", f"]({here}examples.md)", markdown)
+    markdown = re.sub(r"\]\((?:\.\./)*python/README\.md\)", f"]({here}python.md)", markdown)
+    markdown = re.sub(r"\]\((?:\.\./)+README\.md\)", f"]({here}start.md)", markdown)
+    markdown = re.sub(r"\]\((?:\.\./)*CHANGELOG\.md\)", f"]({here}changes.md)", markdown)
+    return re.sub(r"\[([^\]]*)\]\((?:[\w./-]*(?:LICENSE[\w-]*|CITATION\.cff|CONTRIBUTING\.md|\w+\.py))\)", r"`\1`", markdown)
