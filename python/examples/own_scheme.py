@@ -11,8 +11,7 @@ from scheme import leapfrog
 
 import dalembert
 
-rod = dict(length=1, wave_speed=1, gravity=1)
-history = dalembert.Problem(**rod, impact_speed=3, time=2.5).solve()
+history = dalembert.Problem(length=1, wave_speed=1, gravity=1, impact_speed=3, time=2.5).solve()
 times, ours = leapfrog(1, 1, 1, 3, cells=200, end=2.5)
 exact = history.strain(times)
 

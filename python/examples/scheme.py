@@ -1,10 +1,16 @@
 """A contact scheme as a textbook has it, to be held against the exact motion: linear elements with lumped masses,
 central differences, and a ground that holds the end back with as much force as it takes."""
 
+from typing import Any
+
 import numpy as np
 
+Doubles = np.ndarray[Any, np.dtype[Any]]
 
-def leapfrog(length, c, g, mu, cells, end, courant=0.8):
+
+def leapfrog(
+    length: float, c: float, g: float, mu: float, cells: int, end: float, courant: float = 0.8
+) -> tuple[Doubles, Doubles]:
     """The contact stress ``v_x(0,t)`` at every step of the scheme, with its times."""
     dx = length / cells
     dt = courant * dx / c

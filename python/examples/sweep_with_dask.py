@@ -5,13 +5,16 @@ answer is the same, byte for byte, for any number of workers and blocks.
 """
 
 import sys
+from typing import Any
 
 import numpy as np
 
 import dalembert
 
+Doubles = np.ndarray[Any, np.dtype[Any]]
 
-def bounce(points: np.ndarray) -> np.ndarray:
+
+def bounce(points: Doubles) -> Doubles:
     """Bounce time and e_E² of each point (μ, r); nan where there is none."""
     rod = dalembert.Problem(length=1, wave_speed=1, gravity=1, impact_speed=1)
     answers = np.empty((len(points), 2))
@@ -21,7 +24,7 @@ def bounce(points: np.ndarray) -> np.ndarray:
     return answers
 
 
-def sweep(client, points: np.ndarray, blocks: int) -> np.ndarray:
+def sweep(client: Any, points: Doubles, blocks: int) -> Doubles:
     return np.concatenate(client.gather(client.map(bounce, np.array_split(points, blocks))))
 
 

@@ -196,8 +196,38 @@ impl History {
         })
     }
 
-    /// `v`, `v_t`, `v_x` time by time, and there point by point or cell by cell.
+    /// `v`, `v_t`, `v_x` at each point at the time beside it.
     fn field(
+        &self,
+        py: Python<'_>,
+        points: &Bound<'_, PyAny>,
+        times: &Bound<'_, PyAny>,
+        side: &Bound<'_, PyAny>,
+    ) -> PyResult<Vec<Found>> {
+        let (points, times, side) = (places("point", points)?, places("time", times)?, side_of(side)?);
+        self.ask(py, move |solution| {
+            each!(solution, |history, digits| {
+                let found = history.ask(
+                    |motion| {
+                        let mut columns = [vec![], vec![], vec![]];
+                        for (point, time) in points.lift(motion).iter().zip(&times.lift(motion)) {
+                            let field = motion.field(point, time, side)?;
+                            for (column, x) in columns.iter_mut().zip([field.displacement, field.velocity, field.strain])
+                            {
+                                column.push(x);
+                            }
+                        }
+                        Ok(columns)
+                    },
+                    |columns| columns.iter().flatten().collect(),
+                )?;
+                Ok(Found::all(&found, &history.end().carry(), *digits))
+            })
+        })
+    }
+
+    /// `v`, `v_t`, `v_x` time by time, and there point by point or cell by cell.
+    fn grid(
         &self,
         py: Python<'_>,
         points: &Bound<'_, PyAny>,

@@ -4,7 +4,8 @@ use std::sync::Arc;
 
 use dalembert::engine::MAX_DIGITS;
 use dalembert::{
-    Builder, CERTIFIED_DIGITS, Number, Numbers, Parameters, Plan, Question, Scene, Top, UnitSystem, Written,
+    Builder, CERTIFIED_DIGITS, Material, Number, Numbers, Parameters, Plan, Question, Run, Scene, Speed, Start, Top,
+    UnitSystem, Written,
 };
 use pyo3::exceptions::PyTypeError;
 use pyo3::prelude::*;
@@ -49,6 +50,44 @@ impl Problem {
             made.problem = set(made.problem.to_builder(), &values)?;
         }
         Ok(made)
+    }
+
+    /// Its numbers and profiles by the names of the constructor, as they are spelt; what is absent is left out.
+    fn values(&self) -> (Vec<(&'static str, String)>, Vec<(&'static str, Vec<[String; 2]>)>) {
+        let dalembert::Problem { rod, gravity, start, run } = &self.problem;
+        let mut numbers = vec![("length", Some(&rod.length))];
+        match &rod.material {
+            Material::WaveSpeed(speed) => numbers.push(("wave_speed", Some(speed))),
+            Material::Elastic { modulus, density, area } => {
+                numbers.extend([("modulus", Some(modulus)), ("density", Some(density)), ("area", area.as_ref())]);
+            }
+        }
+        numbers.extend([("damping", rod.damping.as_ref()), ("gravity", gravity.as_ref())]);
+        let mut profiles = vec![];
+        match start {
+            Start::Uniform(Speed::Given(speed)) => numbers.push(("impact_speed", Some(speed))),
+            Start::Uniform(Speed::DropHeight(height)) => numbers.push(("drop_height", Some(height))),
+            Start::Above { gap, speed } => numbers.extend([("impact_speed", Some(speed)), ("gap", Some(gap))]),
+            Start::Profile(profile) => {
+                profiles = vec![("displacement", &profile.displacement), ("velocity", &profile.velocity)];
+                profiles.retain(|(_, points)| !points.is_empty());
+            }
+        }
+        let text = |(name, number): (_, Option<&Number>)| Some((name, number?.to_string()));
+        let mut numbers: Vec<(&'static str, String)> = numbers.into_iter().filter_map(text).collect();
+        numbers.push(match run {
+            Run::Impacts(impacts) => ("impacts", impacts.to_string()),
+            Run::Time(time) => ("time", time.to_string()),
+        });
+        let points = |(name, points): (_, &Vec<(Number, Number)>)| {
+            (name, points.iter().map(|(x, value)| [x.to_string(), value.to_string()]).collect())
+        };
+        (numbers, profiles.into_iter().map(points).collect())
+    }
+
+    /// Whether the upper end is held; the title of the scene.
+    fn about(&self) -> (bool, Option<&str>) {
+        (self.problem.rod.top == Top::Fixed, self.title.as_deref())
     }
 
     /// `c`, `t₁`, `R`, `M`, in doubles; `M` is infinite without gravity and `None` where the start is not uniform.

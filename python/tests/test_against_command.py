@@ -128,7 +128,7 @@ def test_values_at_times(command, scene, side):
         "top": history().top_end(times, side),
         "centre": history().centre(times),
         "energy": history().energy(times),
-        "field": history().field(x, times, side),
+        "field": history().grid(x, times, side),
     }
     for quantity, columns in ours.items():
         points = ("--points", ",".join(map(str, x))) if quantity == "field" else ()
@@ -145,7 +145,7 @@ def test_values_at_times(command, scene, side):
 def test_means_and_projections(command, scene, kind):
     times = [0.3, 1.25, 1.9]
     x = np.linspace(0, dalembert.solve(scene).scales["length"], 5)
-    ours = dalembert.solve(scene, to=times[-1]).field(x, times, kind=kind)
+    ours = dalembert.solve(scene, to=times[-1]).grid(x, times, kind=kind)
     listed = [",".join(map(repr, map(float, values))) for values in (times, x)]
     asked = ("--times", listed[0], "--points", listed[1], "--field", kind, "--format", "json")
     found = json.loads(command("reference", scene, *asked).stdout)

@@ -55,7 +55,7 @@ def test_displacement_against_finite_differences(end):
     history = dalembert.Problem(length=1, wave_speed=1, damping=r, gravity=g, impact_speed=mu, time=end).solve()
     errors = []
     for cells in (100, 200, 400):
-        exact = history.field(np.linspace(0, 1, cells + 1), end).displacement
+        exact = history.grid(np.linspace(0, 1, cells + 1), end).displacement
         errors.append(np.abs(leapfrog(cells, r, mu, g, end) - exact).max())
     # The scheme is of first order where the contact opens: each doubling halves its error.
     assert errors[0] < 0.05
@@ -66,7 +66,7 @@ def test_energy_is_its_integral():
     history = dalembert.solve("doyen-ern-piperno")
     x = np.linspace(0, 10, 4001)
     for t in (0.3, 1.1, 2.9):
-        field = history.field((x[1:] + x[:-1]) / 2, t)
+        field = history.grid((x[1:] + x[:-1]) / 2, t)
         h, rate = history.centre(t)
         width, c = x[1] - x[0], 30
         vibration = 0.5 * width * np.sum((field.velocity - rate) ** 2 + c**2 * field.strain**2)

@@ -43,14 +43,91 @@ def test_kinds_of_answers():
 def test_shapes_and_sides():
     history = dalembert.solve("getfem-dynamic-contact", to=3)
     t, x = np.linspace(0, 3, 12).reshape(3, 4), np.linspace(0, 1, 5)
-    field = history.field(x, t)
+    field = history.grid(x, t)
     assert field.strain.shape == (3, 4, 5) and field.strain.flags.c_contiguous
     assert field.displacement[1, 2, 3] == history.field(x[3], t[1, 2]).displacement
+    assert isinstance(history.field(0.5, 1).strain, float)
     assert isinstance(history.strain(0.5), float)
     assert (history.strain(1, "left"), history.strain(1, "right")) == (0, -0.5)
     np.testing.assert_array_equal(history.strain(range(3)), history.strain(np.arange(3.0)))
     assert history.strain(np.float32(0.5)) == history.strain(0.5)
     np.testing.assert_array_equal(history.strain(t[:, ::2]), history.strain(t)[:, ::2])
+
+
+@pytest.mark.parametrize("numbers", [{}, {"exact": True}])
+def test_points_and_times_are_broadcast(numbers):
+    history = dalembert.solve("getfem-dynamic-contact", to=3, **numbers)
+    x, t = np.linspace(0, 1, 5), np.linspace(0, 3, 7)
+    grid = history.grid(x, t)
+    compared = 0
+    for points, times in [
+        (x, t[:, None]), (x[:, None], t), (x[:, None, None], t[None, :, None]), (x, t[:5]), (0.25, t), (x, 1.5),
+        (x[None, :], t[:5]), (x[:1], t), (np.broadcast_to(x, (7, 5)), t[:, None]), (x[:, None], t[:5]),
+    ]:
+        field = history.field(points, times)
+        where = np.broadcast(np.asarray(points), np.asarray(times))
+        assert field.strain.shape == where.shape
+        for (point, time), strain, velocity in zip(where, np.ravel(field.strain), np.ravel(field.velocity)):
+            one = history.field(point, time)
+            assert (one.strain, one.velocity) == (strain, velocity)
+            compared += 1
+    assert compared == 194
+    np.testing.assert_array_equal(grid.strain, history.field(x, t[:, None]).strain)
+    with pytest.raises(ValueError, match="broadcast"):
+        history.field(x, t)
+
+
+def test_a_problem_shows_its_values():
+    rod = dalembert.Problem(length=0.1, modulus="1/3", density=2, damping=Decimal("0.2"), impact_speed=1, time="7/2")
+    assert (rod.length, rod.modulus, rod.density, rod.area, rod.damping) == (0.1, Fraction(1, 3), 2, None, 0.2)
+    assert (rod.wave_speed, rod.time, rod.impacts, rod.top) == (np.sqrt(1 / 6), 3.5, None, "free")
+    assert repr(rod) == (
+        "Problem(length=0.1, modulus=Fraction(1, 3), density=2, damping=0.2, impact_speed=1, time=3.5)"
+    )
+    named = {"Problem": dalembert.Problem, "Fraction": Fraction}
+    for name in dalembert.scenes():
+        problem = dalembert.Problem.from_scene(name)
+        again = eval(repr(problem), named)
+        assert again == problem and hash(again) == hash(problem) and again.replace(time=77) != problem
+    held = dalembert.Problem.from_scene("getfem-dynamic-contact")
+    assert held.top == "fixed" and held.displacement[-1][1] == 0 and "top='fixed'" in repr(held)
+
+
+def test_frames_and_datasets():
+    pandas, xarray = pytest.importorskip("pandas"), pytest.importorskip("xarray")
+    history = dalembert.solve("getfem-dynamic-contact", to=12)
+    frame = history.to_frame().query("start > 3 and end < 9")
+    assert isinstance(frame, pandas.DataFrame) and frame["end"].tolist() == [5, 8]
+    assert history.to_frame("events")["kind"].tolist()[:2] == ["impact", "release"]
+    data = history.to_xarray([0, 0.5, 1], [1, 1.5])
+    assert isinstance(data, xarray.Dataset) and float(data.strain.sel(x=0, t=1.5)) == -0.5
+
+
+def test_pictures():
+    matplotlib = pytest.importorskip("matplotlib")
+    matplotlib.use("agg")
+    from matplotlib import pyplot
+
+    history = dalembert.solve("doyen-ern-piperno")
+    ax = history.plot(["strain", "h"], pyplot.subplots()[1])
+    strain, centre = ax.get_lines()
+    assert strain.get_color() == "#0072b2" and centre.get_label() == "h"
+    # The jump at the first release is drawn upright: v_x = -5/9 before, 0 after.
+    at = np.isclose(strain.get_xdata(), 2 / 3, atol=1e-12, rtol=0)
+    assert np.allclose(np.asarray(strain.get_ydata())[at], [-5 / 9, 0])
+    assert len(ax.patches) == len(history.contacts)
+    mesh = dalembert.solve("paper-strong").plot("xt").collections[0]
+    assert mesh.get_clim() == (-5, 5)
+    pyplot.close("all")
+
+
+def test_what_is_shown():
+    shown = dir(dalembert)
+    assert "solve" in shown and not {"np", "json", "os", "Any"} & set(shown)
+    comparison = dalembert.compare("paper-strong", dalembert.reference("paper-strong", [0, 1, 2, 3]))
+    assert {"norms", "difference", "report"} <= set(dir(comparison))
+    page = dalembert.solve("doyen-ern-piperno")._repr_html_()
+    assert page.count("<tr>") == 7 and "bouncing bar" in page and "0.666667" in page
 
 
 def test_tables():
@@ -76,6 +153,24 @@ def test_pickles():
     assert again.damping_ratio == 0.2 and again.solve().events.tobytes() == rod.solve().events.tobytes()
     named = pickle.loads(pickle.dumps(dalembert.Problem.from_scene("figure-4-r02")))
     assert named.damping_ratio == 0.4
+
+
+def test_histories_are_pickled():
+    rng, compared = np.random.default_rng(7), 0
+    for k in range(1000):
+        length, speed, gravity, damping = (Fraction(int(value), 12) for value in rng.integers(1, 60, 4))
+        rod = dalembert.Problem(length=length, wave_speed=1, gravity=gravity, impact_speed=speed)
+        numbers = [{}, {"exact": True}, {"digits": 20}][k % 3]
+        if k % 3 != 1 and k % 2:
+            rod = rod.replace(damping=damping / 10)
+        history = rod.solve(first_contact=k % 5 > 0, **numbers)
+        again = pickle.loads(pickle.dumps(history))
+        assert again == history and again.numbers == history.numbers
+        for ours, theirs in zip(history.events.tolist(), again.events.tolist(), strict=True):
+            assert ours == theirs
+            compared += 1
+    assert compared > 1500
+    assert history != rod.solve(digits=21)
 
 
 def test_files(tmp_path):

@@ -1,0 +1,257 @@
+"""Data of one's own against the exact history."""
+
+from __future__ import annotations
+
+import json
+import os
+from typing import Any, Literal, Mapping, Sequence
+
+import numpy as np
+
+from . import _core
+from ._problem import Maybe, Number, Numbers, Problem, Scene
+
+Array = np.ndarray[Any, np.dtype[Any]]
+
+
+class Comparison:
+    """Data beside the exact history: what ``dalembert compare`` reports.
+
+    Attributes
+    ----------
+    report : dict
+        Everything, as ``dalembert compare --format json`` gives it.
+    files : list
+        With several sources, what follows for each of them.
+    orders : list of dict
+        With several sources, the orders of convergence.
+    norms : dict
+        By quantity, as ``norms["u_end"]["l2"]["relative"]``.
+    contacts : list of dict
+        Each with "ours" and "theirs", or None.
+    audit, hints : dict, list
+        What the data violate, and what may be wrong.
+    t, x : ndarray
+        The times of the data and, for a field, the points.
+    ours, theirs, difference : dict of str to ndarray
+        The values of each quantity there.
+    step : float
+        The median step of the data.
+    warnings : list of str
+        What a user should know of the history.
+    """
+
+    report: dict[str, Any]
+    orders: list[dict[str, Any]]
+    warnings: list[str]
+
+    def __init__(self, core: _core.Comparison) -> None:
+        self._core = core
+        report, self._table, self.warnings, columns = core.report()
+        self.report = json.loads(report)
+        self.orders = self.report.get("orders", [])
+        self.files = [_Compared(*source) for source in zip(self.report.get("files", [self.report]), columns)]
+
+    def fails_above(self, limits: Mapping[str, Mapping[str, float]]) -> list[str]:
+        """Say which norms are above limits.
+
+        Parameters
+        ----------
+        limits : mapping
+            For each quantity, limits of ``l1``, ``l2``, ``linf``, ``linf_off_jumps``, relative to ours, or absolute
+            where ours is zero. With several sources all of them have to keep within.
+
+        Returns
+        -------
+        list of str
+            A line for each that is above its limit.
+
+        Raises
+        ------
+        ValueError
+            For a quantity that the data do not have, or a norm of another name.
+
+        Examples
+        --------
+        >>> c = compare(Problem(length=1, wave_speed=1, impact_speed=1), [0, 2, 4], [0, 0, 2.5], quantity="u")
+        >>> c.fails_above({"u": {"l2": 0.3, "linf": 0.1}})
+        ['dict: expected u.linf ≤ 1e-1, found 2.500e-1']
+        """
+        given = ((name, norm, bound) for name, norms in limits.items() for norm, bound in norms.items())
+        return self._core.above([f"{name}.{norm}={float(bound)!r}" for name, norm, bound in given])
+
+    def assert_below(self, limits: Mapping[str, Mapping[str, float]]) -> None:
+        """Require that no norm is above its limit: one line for a test.
+
+        Parameters
+        ----------
+        limits : mapping
+            As :meth:`fails_above` takes them.
+
+        Raises
+        ------
+        AssertionError
+            With the lines of :meth:`fails_above`, where there are any.
+
+        Examples
+        --------
+        >>> compare("paper-strong", reference("paper-strong", [0, 1, 2, 3])).assert_below({"u": {"linf": 1e-12}})
+        """
+        failures = self.fails_above(limits)
+        if failures:
+            raise AssertionError("\n".join(failures))
+
+    def table(self) -> str:
+        """Give the text that the command prints.
+
+        Returns
+        -------
+        str
+            Norms, contacts, audit and hints.
+        """
+        return self._table
+
+    __repr__ = table
+
+    def __dir__(self) -> list[str]:
+        own = [name for name in super().__dir__() if not name.startswith("_") or name.startswith("__")]
+        return own + (list(vars(self.files[0])) if len(self.files) == 1 else [])
+
+    def __getattr__(self, name: str) -> Any:
+        if name.startswith("_") or len(self.files) > 1:
+            raise AttributeError(f"found {name}, expected it of one of files")
+        return getattr(self.files[0], name)
+
+
+class _Compared:
+    """One source of a :class:`Comparison`."""
+
+    def __init__(self, report: dict[str, Any], columns: list[tuple[str, Array]]) -> None:
+        arrays = dict(columns)
+        self.file, self.step, self.window, self.outside = (report[k] for k in ("file", "step", "window", "outside"))
+        self.contacts, self.audit, self.hints = report["contacts"], report["audit"], report["hints"]
+        self.norms = {norms["name"]: norms for norms in report["quantities"]}
+        self.t, self.x = arrays["t"], arrays.get("x")
+        self.ours = {name: arrays[f"{name}_ours"] for name in self.norms}
+        self.theirs = {name: arrays[f"{name}_theirs"] for name in self.norms}
+        self.difference = {name: self.theirs[name] - self.ours[name] for name in self.norms}
+
+
+def compare(
+    scene: Scene,
+    data: Any,
+    values: Any = None,
+    *,
+    quantity: str | None = None, x: Numbers | None = None,
+    map: str | None = None, dt: Maybe = None, t0: Maybe = None, shift: Maybe = None,
+    compression: Literal["+", "-", None] = None, u_origin: Literal["ground", "start"] = "ground",
+    axis: Literal["up", "down"] = "up", energy_scale: Number = 1,
+    window: Maybe = None, widths: Sequence[Number] = (),
+) -> Comparison:
+    """Hold data against the exact history of a scene, as ``dalembert compare`` does.
+
+    Parameters
+    ----------
+    scene : str, path or Problem
+        As :func:`solve` takes it.
+    data : array_like, mapping, DataFrame, str or path, or a list of these
+        Times; or, without `values`, a DataFrame, a dict or a structured array with a column ``t``, or a file. A list
+        gives the order of convergence.
+    values : array_like, mapping or DataFrame, optional
+        Values of a `quantity` at the times, or of several by name. With `x`, values of shape ``(len(t), len(x))`` are
+        those of a field.
+    quantity : str, optional
+        What single values are, by the names of :meth:`History.columns`; ``u`` and ``v`` for short.
+    x : array_like, optional
+        Points along the rod.
+    map : str, optional
+        Which column is which, as ``"t=0,u=1"``.
+    dt, t0 : number, optional
+        Step and first time of data without a column of times.
+    shift : number, optional
+        By how much the data are late.
+    compression : {"+", "-"}, optional
+        The sign that compression has in the data.
+    u_origin : {"ground", "start"}, optional
+        From where displacements are counted.
+    axis : {"up", "down"}, optional
+        Where the data's axis points.
+    energy_scale : number, optional
+        By what energies of the data are multiplied.
+    window : number, optional
+        How close to a jump a sample is left out of ``linf_off_jumps``.
+    widths : sequence of number, optional
+        The mesh widths of several sources, for the orders of convergence.
+
+    Returns
+    -------
+    Comparison
+        Norms, contacts, an audit and hints.
+
+    Raises
+    ------
+    ValueError
+        For data that cannot be compared, with the text of the command.
+
+    Notes
+    -----
+    Two rows at one time are the limits at a jump.
+
+    Examples
+    --------
+    >>> t = [0, 1, 2, 3, 4]     # one contact of two time units, and v = t - 2 after it
+    >>> c = compare(Problem(length=1, wave_speed=1, impact_speed=1), t, [0, 0, 0, 1, 2.25], quantity="u_end")
+    >>> c.difference["u_end"].tolist(), c.norms["u_end"]["linf"]["time"]
+    ([0.0, 0.0, 0.0, 0.0, 0.25], 4.0)
+    """
+    given = {name: value for name, value in locals().items() if value is not None}
+    given = {name: given[name] for name in given if name not in ("scene", "data", "values", "quantity", "x")}
+    if values is not None:
+        if not hasattr(values, "keys"):
+            if quantity is None:
+                raise TypeError("found values without a quantity, expected quantity='u_end' or another column's name")
+            values = {quantity: values}
+        data = {"t": data} if x is None else {"t": data, "x": x}
+        values = {name: np.asarray(values[name]) for name in values.keys()}
+        if x is not None and any(column.ndim == 2 for column in values.values()):
+            data = dict(zip("tx", np.meshgrid(*data.values(), indexing="ij")))
+            data, values = ({name: np.ravel(array) for name, array in part.items()} for part in (data, values))
+        data = data | values
+    sources = data if isinstance(data, list) else [data]
+    return Comparison(_core.Comparison(Problem.from_scene(scene)._core, [_source(one) for one in sources], given))
+
+
+def _source(data: Any) -> tuple[str, list[str], list[Array] | None]:
+    """A path; or what it is called, the names of columns where they have some, and the columns."""
+    called = type(data).__name__
+    if isinstance(data, (str, os.PathLike)):
+        called = os.fspath(data)
+        if not (os.path.isfile(called) and _is_numpy(called)):
+            return called, [], None
+        try:
+            data = np.load(called)
+        except Exception as error:  # of the many that a broken file raises
+            raise ValueError(f"{called}: cannot be read: {error}") from None
+    names = getattr(getattr(data, "dtype", None), "names", None) or (data.keys() if hasattr(data, "keys") else None)
+    if names is None:
+        array = np.asarray(data)
+        names, columns = [], list(array.T) if array.ndim == 2 else [array]
+    else:
+        columns = [data[name] for name in names]
+    return called, [str(name) for name in names], [_doubles(column) for column in columns]
+
+
+def _is_numpy(path: str) -> bool:
+    with open(path, "rb") as file:
+        return file.read(4) in (b"\x93NUM", b"PK\x03\x04")
+
+
+def _doubles(column: Any) -> Array:
+    """The column as doubles, or as it is where it has others."""
+    array, sides = np.asarray(column), {"left": -1, "both": 0, "right": 1}
+    try:
+        if array.dtype.kind in "OU":
+            return np.array([sides.get(value, value) for value in array.tolist()], dtype=float)
+        return array.astype(float, copy=False) if array.dtype.kind in "biuf" else array
+    except (TypeError, ValueError):
+        return array

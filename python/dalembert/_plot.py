@@ -1,0 +1,62 @@
+"""Pictures by matplotlib, in the colours of ``dalembert plot``."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any, Sequence
+
+import numpy as np
+
+if TYPE_CHECKING:
+    import matplotlib.axes
+
+    from ._history import History
+
+LINES = ("#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9", "#000000")
+CONTACT = "#c6c6c6"
+SAMPLES = 2000
+
+
+def _float(value: Any) -> float:
+    return float(value[0] if isinstance(value, tuple) else value)
+
+
+def draw(
+    history: History, quantities: str | Sequence[str], ax: matplotlib.axes.Axes | None, start: float, end: float | None
+) -> matplotlib.axes.Axes:
+    if ax is None:
+        from matplotlib import pyplot
+
+        ax = pyplot.subplots()[1]
+    last = min(_float(history.end), np.inf if end is None else end)
+    times = np.linspace(start, last, SAMPLES)
+    if isinstance(quantities, str) and quantities == "xt":
+        length = float(history.problem.length)
+        points = np.linspace(0.0, length, 201)
+        strain = np.array(np.vectorize(_float)(history.grid(points, times[::2]).strain), dtype=float)
+        peaks = [abs(_float(peak)) for peak in history.contacts["peak_strain"]]
+        most = max([float(np.abs(strain).max()), *peaks]) or 1.0
+        mesh = ax.pcolormesh(times[::2], points, strain.T, cmap="RdBu_r", vmin=-most, vmax=most, shading="nearest")
+        ax.figure.colorbar(mesh, ax=ax, label="v_x")
+        ax.set(xlabel="t", ylabel="x")
+        return ax
+    names = [quantities] if isinstance(quantities, str) else list(quantities)
+    for contact in history.contacts:
+        until = last if contact["to"] is None else min(_float(contact["to"]), last)
+        begin = max(_float(contact["from"]), start)
+        if begin < (last if np.isnan(until) else until):
+            ax.axvspan(begin, last if np.isnan(until) else until, color=CONTACT, alpha=0.5, linewidth=0)
+    # Both limits of a jump, so that it is drawn upright.
+    columns = history.columns(["t", *names], _lifted(history, times))
+    axis = [_float(value) for value in columns["t"]]
+    for k, name in enumerate(names):
+        ax.plot(axis, [_float(value) for value in columns[name]], color=LINES[k % len(LINES)], label=name)
+    ax.set(xlabel="t", xlim=(start, last))
+    ax.legend()
+    return ax
+
+
+def _lifted(history: History, times: np.ndarray[Any, Any]) -> Any:
+    """Times to draw at: equal steps, and every event between them."""
+    events = [_float(value) for value in history.events["time"]]
+    inside = [value for value in events if times[0] <= value <= times[-1]]
+    return np.unique(np.concatenate([times, inside]))
