@@ -57,6 +57,7 @@ mod lattice;
 mod modal;
 mod motion;
 pub mod number;
+mod order;
 #[cfg(feature = "cli")]
 mod output;
 pub mod paper;
@@ -70,6 +71,7 @@ mod solve;
 pub mod special;
 #[cfg(feature = "cli")]
 mod sweep;
+mod threads;
 
 pub use error::Error;
 pub use glam;

@@ -78,12 +78,6 @@ pub(super) struct OutputArgs {
     pub(super) wide: bool,
 }
 
-/// So many threads; by default one for each core.
-pub(super) fn pool(threads: Option<usize>) -> Result<rayon::ThreadPool, Failure> {
-    let pool = rayon::ThreadPoolBuilder::new().num_threads(threads.unwrap_or(0)).build();
-    pool.map_err(|error| failure!("cannot start threads: {error}"))
-}
-
 impl OutputArgs {
     /// What is printed: what is asked for, or what the ending of the file says.
     pub(super) fn format(&self) -> Result<Format, Failure> {

@@ -9,7 +9,7 @@ use crate::error::Error;
 use crate::scene::SceneError;
 
 /// Why a command ends without an answer.
-pub struct Failure {
+pub(super) struct Failure {
     message: String,
     help: Option<String>,
     /// A scene that cannot be read, and where it stands.

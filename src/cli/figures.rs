@@ -3,13 +3,12 @@
 use std::path::PathBuf;
 
 use clap::Args;
-use rayon::prelude::*;
 
-use super::args::pool;
 use super::failure::{self, Failure};
 use super::file::{self, Format};
-use crate::figures::{ALL, Failed, Figure};
+use crate::figures::{ALL, Data, Failed, Figure};
 use crate::output::{Size, figure_data, figure_sheet, figures_index, write_files};
+use crate::threads::Threads;
 
 /// The figures of the paper from its parameters, and two more: SVG, PNG, PDF and CSV, with an index
 #[derive(Args, Debug)]
@@ -25,7 +24,7 @@ pub(super) struct Figures {
     /// What the pictures are made for
     #[arg(long, value_enum, default_value_t)]
     size: Size,
-    /// How many are worked out at the same time; by default one for each core
+    /// How many points are worked out at the same time, and then pictures; by default one for each core
     #[arg(long, value_name = "N")]
     threads: Option<usize>,
     /// Write into this folder, which is made where there is none; all files or none
@@ -52,24 +51,27 @@ impl Figures {
         }
         let chosen = |figure: &&Figure| self.only.is_empty() || self.only.contains(&figure.name);
         let figures: Vec<&Figure> = ALL.iter().filter(chosen).collect();
-        let pool = pool(self.threads)?;
-        let files = pool.install(|| self.files(&figures))?;
+        let files = self.files(&figures)?;
         write_files(&self.output, &files).map_err(failure::cannot(&format!("write {}", self.output.display())))?;
         Ok(())
     }
 
     fn files(&self, figures: &[&Figure]) -> Result<Vec<(String, Vec<u8>)>, Failure> {
         let failed = |error: Failed| failure!("{error}");
-        let drawn = figures.par_iter().map(|figure| {
-            let data = figure.data().map_err(failed)?;
-            let svg = figure_sheet(figure, &data).map_err(failed)?.svg(self.size);
-            let mut files = vec![(figure.file() + ".csv", file::rows(&figure_data(figure, &data), Format::Csv)?)];
+        let threads = Threads::of(self.threads);
+        let mut data: Vec<Data> = Vec::new();
+        for figure in figures {
+            data.push(figure.data(threads).map_err(failed)?);
+        }
+        let files = threads.all(figures.len(), |k| {
+            let (figure, data) = (figures[k], &data[k]);
+            let svg = figure_sheet(figure, data).map_err(failed)?.svg(self.size);
+            let mut files = vec![(figure.file() + ".csv", file::rows(&figure_data(figure, data), Format::Csv)?)];
             for (ending, kind) in PICTURES {
                 files.push((format!("{}.{ending}", figure.file()), file::picture(*kind, svg.clone(), self.size)?));
             }
-            Ok((data, files))
-        });
-        let (data, files): (Vec<_>, Vec<_>) = drawn.collect::<Result<Vec<_>, Failure>>()?.into_iter().unzip();
+            Ok::<_, Failure>(files)
+        })?;
         let endings: Vec<&str> = PICTURES.iter().map(|picture| picture.0).collect();
         let index = figures_index(figures, &data, &endings).map_err(failed)?;
         Ok(files.into_iter().flatten().chain([("README.md".to_string(), index.into_bytes())]).collect())

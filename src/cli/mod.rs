@@ -26,7 +26,7 @@ use std::process::ExitCode;
 use clap::{CommandFactory, Parser, Subcommand};
 
 use crate::output::SCHEMA;
-pub use failure::Failure;
+use failure::Failure;
 
 /// The version and the features of this build.
 const VERSION: &str = match (cfg!(feature = "mp"), cfg!(feature = "plot")) {
@@ -42,7 +42,7 @@ const VERSION: &str = match (cfg!(feature = "mp"), cfg!(feature = "plot")) {
 #[command(after_help = "A scene is a file, `-` for standard input, or one of the built-in scenes that \
     `dalembert scenes` lists.\n\n\
     Start with:  dalembert solve doyen-ern-piperno")]
-pub struct Cli {
+struct Cli {
     #[command(subcommand)]
     command: Command,
 }
@@ -84,9 +84,16 @@ enum Command {
     },
 }
 
-/// Runs the command. The exit code is 1 where `check` finds a promise that is not kept, `compare` a norm above its
-/// bound, and no point of a `sweep` has a number.
-pub fn run(cli: Cli) -> Result<ExitCode, Failure> {
+/// The command: parse, run, report, exit code. It is 1 where `check` finds a promise that is not kept, `compare` a norm
+/// above its bound, and no point of a `sweep` has a number.
+pub fn main() -> ExitCode {
+    run(Cli::parse()).unwrap_or_else(|failure| {
+        eprintln!("{failure}");
+        ExitCode::from(2)
+    })
+}
+
+fn run(cli: Cli) -> Result<ExitCode, Failure> {
     let done = match cli.command {
         Command::Solve(command) => command.run(),
         Command::Sample(command) => command.run(),

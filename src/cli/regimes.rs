@@ -4,12 +4,12 @@ use std::path::{Path, PathBuf};
 
 use clap::Args;
 
-use super::args::pool;
 use super::failure::Failure;
 use super::file::{self, Format};
 use super::source;
 use crate::output::{Size, regimes_data, regimes_npz, regimes_svg, regimes_text, threshold_data};
 use crate::sweep::Map;
+use crate::threads::Threads;
 
 /// When and whether the first contact ends, over all dampings and impact speeds
 #[derive(Args, Debug)]
@@ -43,10 +43,9 @@ impl Regimes {
         // Before anything is solved.
         let formats = self.output.iter().map(|path| self.format(path)).collect::<Result<Vec<_>, Failure>>()?;
         let bar = source::bar(None, "{spinner} {pos} points, {elapsed}");
-        let pool = pool(self.threads)?;
         // The curve takes R alone.
         let speeds = if self.curve { "1,2" } else { &self.speed_ratio };
-        let map = pool.install(|| Map::new(&self.damping_ratio, speeds, || bar.inc(1)))?;
+        let map = Map::new(&self.damping_ratio, speeds, Threads::of(self.threads), &|| bar.inc(1))?;
         bar.finish_and_clear();
         for (path, format) in self.output.iter().zip(formats) {
             file::write(Some(path), &self.bytes(&map, format)?)?;

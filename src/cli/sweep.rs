@@ -8,7 +8,7 @@ use std::process::ExitCode;
 use clap::Args;
 use serde_json::json;
 
-use super::args::{NumberArgs, pool, quantity};
+use super::args::{NumberArgs, quantity};
 use super::failure::{self, Failure};
 use super::file::{self, Format, formats};
 use super::source;
@@ -16,6 +16,7 @@ use crate::number::Number;
 use crate::output::sweep_data;
 use crate::quantity::{Needs, Quantity};
 use crate::sweep::{self, Asked, Axis, Grid, Journal, Point, SweepError, journal_of};
+use crate::threads::Threads;
 
 /// Numbers of a scene over a grid of its values, on all cores
 #[derive(Args, Debug)]
@@ -146,12 +147,11 @@ impl Sweep {
         let bar = source::bar(Some(points.len() as u64), "{bar:40} {pos}/{len} points, {eta} left");
         bar.inc(known.len() as u64);
         bar.reset_eta();
-        let pool = pool(self.threads)?;
         let done = |point: &Point| {
             bar.inc(1);
             journal.map_or(Ok(()), |journal| journal.add(point))
         };
-        let found = pool.install(|| sweep.run(points, known, done));
+        let found = sweep.run(points, known, Threads::of(self.threads), &done);
         bar.finish_and_clear();
         Ok(found.map_err(failure::cannot("keep finished points"))?)
     }

@@ -5,6 +5,7 @@ use super::first::{self, DAMPINGS, Double, Wanted, grid};
 use crate::motion::Side;
 use crate::number::{Estimate, Scalar};
 use crate::sweep::Map;
+use crate::threads::Threads;
 
 /// A figure of the paper, or one that it could not have.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -146,7 +147,7 @@ impl Figure {
     /// for the others, relative to the numbers or to 1.
     ///
     /// **Errors**: those of the histories.
-    pub(crate) fn data(&self) -> Result<Data, Failed> {
+    pub(crate) fn data(&self, threads: Threads) -> Result<Data, Failed> {
         let plain = |columns: &[&'static str], rows| Data { columns: columns.to_vec(), rows, map: None };
         Ok(match self.of {
             Of::Kernel => {
@@ -170,7 +171,7 @@ impl Figure {
             Of::Vibration | Of::Shares => {
                 let grid = grid("0", "0.01..8:800")?;
                 let speeds = first::speeds(&grid);
-                let found = first::contacts(&grid, Wanted::Energies, SHARP)?;
+                let found = first::contacts(&grid, Wanted::Energies, SHARP, threads)?;
                 let rows = speeds.into_iter().zip(found).map(|(speed, ended)| {
                     let (time, energies) = ended.unzip();
                     let energies = energies.unwrap_or_else(|| vec![None, None]);
@@ -182,7 +183,7 @@ impl Figure {
             }
             Of::Restitution => {
                 let grid = grid(&DAMPINGS.join(","), "0.0125..12.5:1000")?;
-                let found = first::contacts(&grid, Wanted::Restitution, IN_DOUBLES)?;
+                let found = first::contacts(&grid, Wanted::Restitution, IN_DOUBLES, threads)?;
                 let rows = found.into_iter().enumerate().map(|(k, ended)| {
                     let (time, restitution) = ended.unzip();
                     let point = grid.values(k).into_iter().map(|value| Some(exact(value.to_f64())));
@@ -192,7 +193,7 @@ impl Figure {
             }
             Of::Translational | Of::Kept | Of::Decay => {
                 let grid = grid(&DAMPINGS.join(","), "3.2..12.5:373")?;
-                let found = first::contacts(&grid, Wanted::Shares, SHARP)?;
+                let found = first::contacts(&grid, Wanted::Shares, SHARP, threads)?;
                 let each = first::speeds(&grid).len().max(1);
                 let limits = DAMPINGS.iter().map(|damping| first::limits(damping)).collect::<Result<Vec<_>, _>>()?;
                 let rows = found.into_iter().enumerate().map(|(k, ended)| {
@@ -229,13 +230,14 @@ impl Figure {
                 plain(&["region", "y", "t"], rows.collect())
             }
             Of::Regimes => {
-                let map = Map::new("0..4:240", "0.05..1e4:240:log", || ())?;
+                let map = Map::new("0..4:240", "0.05..1e4:240:log", threads, &|| ())?;
                 Data { columns: Vec::new(), rows: Vec::new(), map: Some(map) }
             }
             Of::Tenth => {
                 let grid = grid("0", "0.005..10:2000")?;
                 let speeds = first::speeds(&grid);
-                let (tenth, first) = (first::tenth(&grid), first::contacts(&grid, Wanted::Restitution, SHARP)?);
+                let tenth = first::tenth(&grid, threads)?;
+                let first = first::contacts(&grid, Wanted::Restitution, SHARP, threads)?;
                 let rows = speeds.into_iter().zip(tenth).zip(first).map(|((speed, tenth), first)| {
                     vec![Some(speed), first.and_then(|(_, values)| values[0].clone()), tenth]
                 });

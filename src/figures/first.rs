@@ -2,8 +2,6 @@
 
 use std::iter::once;
 
-use rayon::prelude::*;
-
 use super::Failed;
 use crate::first_contact::FirstContact;
 use crate::motion::{Motion, Side};
@@ -13,6 +11,7 @@ use crate::problem::{Parameters, Problem};
 use crate::quantity::{Restitution, energy_shares, restitution};
 use crate::solve::{Numbers, Plan, Question};
 use crate::sweep::{Axis, Grid, threshold_near};
+use crate::threads::Threads;
 
 /// `r` of Figures 4–7, where `c = L = g = 1`.
 pub(crate) const DAMPINGS: [&str; 4] = ["0", "0.1", "0.2", "0.3"];
@@ -37,13 +36,18 @@ pub(crate) enum Wanted {
     Energies,
 }
 
-/// The first contacts of a grid over `impact.speed` and `rod.damping`, the speed varying fastest, on all cores.
+/// The first contacts of a grid over `impact.speed` and `rod.damping`, the speed varying fastest.
 ///
 /// **Accuracy**: *within its own bound*, and `accuracy` of the numbers, or of 1 where they are less.
 ///
 /// **Errors**: those of the history.
-pub(crate) fn contacts(grid: &Grid, wanted: Wanted, accuracy: f64) -> Result<Vec<Ended>, Failed> {
-    (0..grid.len()).into_par_iter().map(|index| contact(&grid.problem(index)?, wanted, accuracy)).collect()
+pub(crate) fn contacts(
+    grid: &Grid,
+    wanted: Wanted,
+    accuracy: f64,
+    threads: Threads,
+) -> Result<Vec<Ended>, Failed> {
+    threads.all(grid.len(), |index| contact(&grid.problem(index)?, wanted, accuracy))
 }
 
 /// The grid of the paper's rod, `c = L = g = 1`.
@@ -138,7 +142,7 @@ pub(crate) fn kernel(damping: &str, per_trip: i32) -> Result<(Vec<Sided>, Ended)
 /// `e_E²` of the tenth contact over `impact.speed`, without damping; `None` where it is not defined or not settled.
 ///
 /// **Accuracy**: *within its own bound*, 1e-9.
-pub(crate) fn tenth(grid: &Grid) -> Vec<Option<Double>> {
+pub(crate) fn tenth(grid: &Grid, threads: Threads) -> Result<Vec<Option<Double>>, Failed> {
     let one = |index: usize| {
         let rod = grid.problem(index).ok()?.with_run(crate::Run::Impacts(10)).ok()?;
         let query = |motion: &dyn Motion<Double>| {
@@ -148,7 +152,7 @@ pub(crate) fn tenth(grid: &Grid) -> Vec<Option<Double>> {
         let found = rod.solve().ok()?.ask(query, |found| found.iter().flat_map(Restitution::numbers).collect());
         found.ok()??.energy_squared.ok()
     };
-    (0..grid.len()).into_par_iter().map(one).collect()
+    threads.all(grid.len(), |index| Ok(one(index)))
 }
 
 /// The values of the axis of speeds.

@@ -2,6 +2,7 @@
 
 use super::{EventKind, Motion, Scales};
 use crate::number::Scalar;
+use crate::order::ascending;
 
 /// The rays of a motion, by the times at which they leave the ground, modulo round trips.
 ///
@@ -46,22 +47,21 @@ const NEAR: f64 = 1e-6;
 impl<S: Scalar> RayRegister<S> {
     /// The rays of `motion`.
     pub fn of(motion: &dyn Motion<S>) -> Self {
-        let scales = motion.scales();
+        let Scales { time: round_trip, wave_speed, .. } = motion.scales();
         let mut found = Vec::new();
         for corner in motion.corners() {
-            let late = corner / &scales.wave_speed;
-            found.extend([(-late.clone(), true), (late - &scales.time, true)]);
+            let late = corner / &wave_speed;
+            found.extend([(-late.clone(), true), (late - &round_trip, true)]);
         }
         for event in motion.events() {
             let jump = event.kind == EventKind::Impact && event.end_velocity.vanishes() != Ok(true);
             found.push((event.time.clone(), jump));
         }
-        let fraction = |time: &S| fraction(&(time.clone() / &scales.time));
-        let mut found: Vec<_> = found.into_iter().map(|ray| (fraction(&ray.0), ray)).collect();
-        found.sort_by(|(a, (s, _)), (b, (t, _))| a.total_cmp(b).then(s.to_f64().total_cmp(&t.to_f64())));
-        let Scales { time: round_trip, wave_speed, .. } = scales;
+        let fraction = |time: &S| fraction(&(time.clone() / &round_trip));
+        let found = ascending(ascending(found, |ray| ray.0.to_f64()), |ray| fraction(&ray.0));
+        let phases: Vec<_> = found.into_iter().map(|ray| (fraction(&ray.0), ray)).collect();
         let mut rays = RayRegister { round_trip, wave_speed, end: motion.end(), known: Vec::new() };
-        for (fraction, ray) in found {
+        for (fraction, ray) in phases {
             match rays.known.last() {
                 Some(last) if fraction - last.fraction <= NEAR && rays.same_phase(&last.rays[0].0, &ray.0) => {
                     let last = rays.known.len() - 1;
@@ -71,7 +71,7 @@ impl<S: Scalar> RayRegister<S> {
             }
         }
         for phase in &mut rays.known {
-            phase.rays.sort_by(|(a, _), (b, _)| a.to_f64().total_cmp(&b.to_f64()));
+            phase.rays = ascending(std::mem::take(&mut phase.rays), |ray| ray.0.to_f64());
         }
         rays
     }
@@ -138,7 +138,7 @@ impl<S: Scalar> RayRegister<S> {
                 }
             }
         }
-        found.sort_by(|a, b| a.time.to_f64().total_cmp(&b.time.to_f64()));
+        let mut found = ascending(found, |ray| ray.time.to_f64());
         found.dedup_by(|b, a| {
             let apart = b.time.clone() - &a.time;
             let one = apart.to_f64() <= NEAR * trip && apart.vanishes() != Ok(false);

@@ -34,7 +34,7 @@ macro_rules! setters {
         $(#[$doc])*
         #[must_use]
         pub fn $setter(mut self, value: impl Into<Written>) -> Self {
-            self.draft.numbers.insert($path, value.into());
+            self.draft.numbers.set($path, value.into());
             self
         }
     )*};
@@ -82,7 +82,7 @@ impl Builder {
     #[must_use]
     pub fn named(mut self, name: &str, value: impl Into<Written>) -> Self {
         if let Some((_, path)) = Self::NAMED.iter().chain(&OTHERS).find(|(known, _)| *known == name) {
-            self.draft.numbers.insert(path, value.into());
+            self.draft.numbers.set(path, value.into());
         }
         self
     }
@@ -121,7 +121,7 @@ impl Builder {
         mut self,
         points: impl IntoIterator<Item = (X, V)>,
     ) -> Self {
-        self.draft.profiles.insert("start.displacement", written(points));
+        self.draft.profiles.set("start.displacement", written(points));
         self
     }
 
@@ -129,21 +129,21 @@ impl Builder {
     /// same `x` twice.
     #[must_use]
     pub fn velocity<X: Into<Written>, V: Into<Written>>(mut self, points: impl IntoIterator<Item = (X, V)>) -> Self {
-        self.draft.profiles.insert("start.velocity", written(points));
+        self.draft.profiles.set("start.velocity", written(points));
         self
     }
 
     /// How many contacts to follow, each with the flight after it; without it and without a `time`, one.
     #[must_use]
     pub fn impacts(mut self, impacts: u32) -> Self {
-        self.draft.numbers.insert("run.impacts", impacts.into());
+        self.draft.numbers.set("run.impacts", impacts.into());
         self
     }
 
     /// The value at a path of a scene file, one of [`NUMBERS`](super::validate::NUMBERS).
     #[cfg(feature = "cli")]
     pub(crate) fn at(mut self, path: &'static str, value: &Number) -> Self {
-        self.draft.numbers.insert(path, value.into());
+        self.draft.numbers.set(path, value.into());
         self.base.from_scene = true;
         self
     }
@@ -160,51 +160,52 @@ impl Builder {
     /// assert_eq!(rod.build().unwrap_err().to_string(), expected);
     /// ```
     pub fn build(self) -> Result<Problem, ProblemError> {
-        let Builder { mut draft, mut base } = self;
+        let Builder { draft, mut base } = self;
         for group in EXCLUSIVE.iter().filter(|group| group.iter().any(|path| draft.has(path))) {
-            base.numbers.retain(|path, _| !group.contains(path));
+            base.numbers.leave_out(group);
         }
         if IMPACT.iter().any(|path| draft.has(path)) {
-            base.profiles.clear();
+            base.profiles = Default::default();
         }
         if !draft.profiles.is_empty() {
-            base.numbers.retain(|path, _| !IMPACT.contains(path));
+            base.numbers.leave_out(IMPACT);
         }
-        base.numbers.append(&mut draft.numbers);
-        base.profiles.append(&mut draft.profiles);
+        base.numbers.set_all(draft.numbers);
+        base.profiles.set_all(draft.profiles);
         base.top = draft.top.or(base.top);
         base.check()
     }
 
     pub(super) fn from_problem(problem: &Problem) -> Self {
         let mut base = Draft { top: Some(problem.rod.top), ..Draft::default() };
-        let mut set = |path, number: &Number| base.numbers.insert(path, number.into());
+        let mut set = |path, number: &Number| base.numbers.set(path, number.clone().into());
         set("rod.length", &problem.rod.length);
-        problem.rod.damping.iter().for_each(|r| drop(set("rod.damping", r)));
-        problem.gravity.iter().for_each(|g| drop(set("gravity.acceleration", g)));
+        problem.rod.damping.iter().for_each(|r| set("rod.damping", r));
+        problem.gravity.iter().for_each(|g| set("gravity.acceleration", g));
         match &problem.rod.material {
             Material::WaveSpeed(c) => set("rod.wave_speed", c),
             Material::Elastic { modulus, density, area } => {
                 set("rod.modulus", modulus);
                 set("rod.density", density);
-                area.as_ref().and_then(|area| set("rod.area", area))
+                area.iter().for_each(|area| set("rod.area", area));
             }
-        };
+        }
         match &problem.run {
             Run::Impacts(impacts) => set("run.impacts", &i64::from(*impacts).into()),
             Run::Time(time) => set("run.time", time),
-        };
+        }
         match &problem.start {
-            Start::Uniform(Speed::Given(speed)) => drop(set("impact.speed", speed)),
-            Start::Uniform(Speed::DropHeight(height)) => drop(set("impact.drop_height", height)),
+            Start::Uniform(Speed::Given(speed)) => set("impact.speed", speed),
+            Start::Uniform(Speed::DropHeight(height)) => set("impact.drop_height", height),
             Start::Above { gap, speed } => {
                 set("impact.gap", gap);
                 set("impact.speed", speed);
             }
             Start::Profile(Profile { displacement, velocity }) => {
                 let both = [("start.displacement", displacement), ("start.velocity", velocity)];
-                let given = both.into_iter().filter(|(_, points)| !points.is_empty());
-                base.profiles.extend(given.map(|(path, points)| (path, written(points.iter().map(|(x, v)| (x, v))))));
+                for (path, points) in both.into_iter().filter(|(_, points)| !points.is_empty()) {
+                    base.profiles.set(path, written(points.iter().map(|(x, v)| (x, v))));
+                }
             }
         }
         Builder { draft: Draft::default(), base }

@@ -1,9 +1,9 @@
 //! The checks of a start that is linear between points.
 
 use std::cmp::Ordering;
-use std::collections::BTreeMap;
 
 use super::given::{Given, UNITS, range, within};
+use super::validate::ByPath;
 use super::written::short;
 use super::{ProblemError, ProblemErrorKind as Kind, Profile, Written};
 use crate::number::Number;
@@ -20,8 +20,8 @@ pub(crate) type Points = Vec<(Written, Written)>;
 
 /// The profile of a rod of this length, from the points of `start.displacement` and `start.velocity`; what is not given
 /// is zero.
-pub(super) fn check(given: &BTreeMap<&str, Points>, length: &Number) -> Result<Profile, ProblemError> {
-    let read = |key| given.get(&*format!("start.{key}")).map_or(Ok(Vec::new()), |points| read(key, points, length));
+pub(super) fn check(given: &ByPath<Points>, length: &Number) -> Result<Profile, ProblemError> {
+    let read = |key| given.get(&format!("start.{key}")).map_or(Ok(Vec::new()), |points| read(key, points, length));
     Ok(Profile { displacement: read("displacement")?, velocity: read("velocity")? })
 }
 

@@ -1,7 +1,5 @@
 //! The one set of checks that every problem goes through, from a scene file or from the builder.
 
-use std::collections::BTreeMap;
-
 use super::given::{Given, UNITS, range, within};
 use super::parameters::touch_speed;
 use super::profile::{self, Points};
@@ -31,15 +29,51 @@ pub(crate) const NUMBERS: [&str; 12] = [
     "run.impacts",
 ];
 
+/// Values by their path in a scene file, each once.
+#[derive(Clone, Debug)]
+pub(crate) struct ByPath<T>(Vec<(&'static str, T)>);
+
+impl<T> Default for ByPath<T> {
+    fn default() -> Self {
+        ByPath(Vec::new())
+    }
+}
+
+impl<T> ByPath<T> {
+    pub(super) fn get(&self, path: &str) -> Option<&T> {
+        self.0.iter().find(|(known, _)| *known == path).map(|(_, value)| value)
+    }
+
+    /// A value in place of what the path had.
+    pub(crate) fn set(&mut self, path: &'static str, value: T) {
+        self.0.retain(|(known, _)| *known != path);
+        self.0.push((path, value));
+    }
+
+    /// All values of another list in place of its own.
+    pub(super) fn set_all(&mut self, others: Self) {
+        others.0.into_iter().for_each(|(path, value)| self.set(path, value));
+    }
+
+    /// Leaves out these paths.
+    pub(super) fn leave_out(&mut self, paths: &[&str]) {
+        self.0.retain(|(path, _)| !paths.contains(path));
+    }
+
+    pub(super) fn is_empty(&self) -> bool {
+        self.0.is_empty()
+    }
+}
+
 /// The values of a problem before any check, by their path in a scene file.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Draft {
     /// Whether messages use the keys of a scene file; otherwise the setters of the builder.
     pub(crate) from_scene: bool,
     /// Some of [`NUMBERS`].
-    pub(crate) numbers: BTreeMap<&'static str, Written>,
+    pub(crate) numbers: ByPath<Written>,
     /// `start.displacement` and `start.velocity`.
-    pub(crate) profiles: BTreeMap<&'static str, Points>,
+    pub(crate) profiles: ByPath<Points>,
     pub(crate) top: Option<Top>,
 }
 
@@ -202,7 +236,7 @@ impl Draft {
     }
 
     pub(super) fn has(&self, path: &str) -> bool {
-        self.numbers.contains_key(path)
+        self.numbers.get(path).is_some()
     }
 
     fn given(&self, path: &'static str) -> Result<Option<Given<'_>>, ProblemError> {

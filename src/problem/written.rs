@@ -61,7 +61,13 @@ macro_rules! written {
     )*};
 }
 
-written!(i32, i64, u32, u64, usize, &Number, Rational);
+impl From<&Number> for Written {
+    fn from(number: &Number) -> Self {
+        number.clone().into()
+    }
+}
+
+written!(i32, i64, u32, u64, usize, Rational);
 #[cfg(feature = "mp")]
 written!(rug::Integer);
 

@@ -5,6 +5,7 @@ use super::unit::Units;
 use crate::error::Error;
 use crate::motion::{Ending, EventKind, Motion, Side, StressPiece};
 use crate::number::{Open, Scalar};
+use crate::threads::Threads;
 
 /// The values of `columns` at every time of `times`, column by column. Where `side` is `None` and the two limits of any
 /// of them differ, a time has two rows, the limit from earlier times first.
@@ -87,23 +88,16 @@ fn side_by_side<S: Scalar>(
     times: &[S],
     rows: impl Fn(&[S]) -> Result<Vec<Vec<S>>, Error> + Sync,
 ) -> Result<Vec<Vec<S>>, Error> {
-    let cores = std::thread::available_parallelism().map_or(1, std::num::NonZero::get);
-    let size = times.len().div_ceil(cores).max(WORTH);
+    let threads = Threads::default();
+    let size = times.len().div_ceil(threads.count()).max(WORTH);
     if times.len() <= size {
         return rows(times);
     }
-    let rows = &rows;
-    let tables = std::thread::scope(|scope| {
-        let parts: Vec<_> = times.chunks(size).map(|part| scope.spawn(move || rows(part))).collect();
-        let join = |part: std::thread::ScopedJoinHandle<'_, _>| {
-            part.join().unwrap_or_else(|panic| std::panic::resume_unwind(panic))
-        };
-        parts.into_iter().map(join).collect::<Vec<_>>()
-    });
-    let mut tables = tables.into_iter();
-    let mut all = tables.next().unwrap_or_else(|| rows(&[]))?;
+    let parts: Vec<&[S]> = times.chunks(size).collect();
+    let mut tables = threads.all(parts.len(), |k| rows(parts[k]))?.into_iter();
+    let mut all = tables.next().unwrap_or_default();
     for table in tables {
-        all.iter_mut().zip(table?).for_each(|(column, values)| column.extend(values));
+        all.iter_mut().zip(table).for_each(|(column, values)| column.extend(values));
     }
     Ok(all)
 }

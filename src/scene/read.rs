@@ -1,6 +1,5 @@
 //! From the text of a scene to a problem: TOML types and keys, and the place of whatever is wrong.
 
-use std::collections::BTreeMap;
 use std::ops::Range;
 
 use toml::de::DeTable;
@@ -117,7 +116,7 @@ pub struct Scene {
     /// `[[target]]`: what others have published of this scene.
     pub targets: Vec<Target>,
     source: String,
-    lines: BTreeMap<String, usize>,
+    lines: Vec<(String, usize)>,
 }
 
 impl Scene {
@@ -144,7 +143,7 @@ impl Scene {
 
     /// The line, from 1, of a key such as `rod.damping` or `start`; `None` where the scene does not have it.
     pub fn line_of(&self, key: &str) -> Option<usize> {
-        self.lines.get(key).copied()
+        self.lines.iter().find(|(name, _)| name == key).map(|(_, line)| *line)
     }
 
     /// The text that the scene was read from.
@@ -234,12 +233,12 @@ impl<'a> Reader<'a> {
         let mut draft = Draft { from_scene: true, top: self.top()?, ..Draft::default() };
         for path in NUMBERS {
             if let Some(number) = self.number(path)? {
-                draft.numbers.insert(path, number);
+                draft.numbers.set(path, number);
             }
         }
         for path in ["start.displacement", "start.velocity"] {
             if let Some(points) = self.points(path)? {
-                draft.profiles.insert(path, points);
+                draft.profiles.set(path, points);
             }
         }
         Ok(draft)
@@ -313,13 +312,13 @@ impl<'a> Reader<'a> {
     }
 
     /// The line of every key.
-    fn lines(&self) -> BTreeMap<String, usize> {
+    fn lines(&self) -> Vec<(String, usize)> {
         let line = |key: &Key<'_>| position(self.source, key.span().start).0;
-        let mut lines = BTreeMap::new();
+        let mut lines = Vec::new();
         for (name, value) in self.document {
-            lines.insert(name.get_ref().to_string(), line(name));
+            lines.push((name.get_ref().to_string(), line(name)));
             for key in value.get_ref().as_table().iter().flat_map(|table| table.keys()) {
-                lines.insert(format!("{}.{}", name.get_ref(), key.get_ref()), line(key));
+                lines.push((format!("{}.{}", name.get_ref(), key.get_ref()), line(key)));
             }
         }
         lines

@@ -1,7 +1,5 @@
 //! How the first contact ends, over the two numbers that decide it: `R = r t₁` and `M = μ/(g t₁)`.
 
-use rayon::prelude::*;
-
 use super::grid::{Axis, Grid, SweepError, values};
 use crate::first_contact::{Bounce, FirstContact, Kernels};
 use crate::motion::{Ending, Motion};
@@ -10,6 +8,7 @@ use crate::problem::written::short;
 use crate::problem::{Parameters, Problem, Speed, Start};
 use crate::solve::{Engine, Numbers, Plan, Question, Rung};
 use crate::special::{i0_scaled, i1_scaled};
+use crate::threads::Threads;
 
 /// How a first contact ends.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -38,7 +37,12 @@ impl Map {
     /// **Accuracy**: within [`DEFAULT_ACCURACY`](crate::DEFAULT_ACCURACY); the same for any number of threads.
     ///
     /// **Errors**: [`SweepError`] for what is no range.
-    pub(crate) fn new(damping: &str, speed: &str, done: impl Fn() + Sync) -> Result<Self, SweepError> {
+    pub(crate) fn new(
+        damping: &str,
+        speed: &str,
+        threads: Threads,
+        done: &(dyn Fn() + Sync),
+    ) -> Result<Self, SweepError> {
         let half: Number = "1/2".parse().map_err(|_| SweepError::new("1/2", "a number"))?;
         let rod = Problem::uniform(half, 1.into(), 1.into(), 1.into());
         let axis = |path, text| Ok::<_, SweepError>(Axis { path, values: values(text)? });
@@ -53,17 +57,17 @@ impl Map {
             }
         }
         let [speeds, dampings] = [0, 1].map(|k: usize| grid.axes[k].values.clone());
-        let columns = dampings.iter().flat_map(|damping| speeds.chunks(SHARING).map(move |part| (damping, part)));
-        let column = |(damping, speeds): (&Number, &[Number])| {
+        let parts: Vec<&[Number]> = speeds.chunks(SHARING).collect();
+        let columns = threads.all(dampings.len() * parts.len(), |k| {
             let kernels = Kernels::default();
-            let regime = |speed: &Number| {
-                let regime = regime(&rod, damping, speed, &kernels);
+            let mut regimes = Vec::with_capacity(SHARING);
+            for speed in parts[k % parts.len()] {
+                regimes.push(regime(&rod, &dampings[k / parts.len()], speed, &kernels));
                 done();
-                regime
-            };
-            speeds.iter().map(regime).collect::<Vec<_>>()
-        };
-        let columns: Vec<Regime> = columns.collect::<Vec<_>>().into_par_iter().flat_map_iter(column).collect();
+            }
+            Ok(regimes)
+        })?;
+        let columns: Vec<Regime> = columns.concat();
         let at = |k: usize| columns[k % dampings.len() * speeds.len() + k / dampings.len()];
         Ok(Map { regimes: (0..columns.len()).map(at).collect(), damping: dampings, speed: speeds })
     }
@@ -147,7 +151,7 @@ mod tests {
 
     #[test]
     fn pixels_keep_to_the_curves() {
-        let map = Map::new("0..4:33", "0.1..10:24:log", || ()).unwrap();
+        let map = Map::new("0..4:33", "0.1..10:24:log", Threads::default(), &|| ()).unwrap();
         for (k, regime) in map.regimes.iter().enumerate() {
             let (m, r) = (map.speed[k / 33].to_f64(), map.damping[k % 33].to_f64());
             let threshold = threshold_near(r);

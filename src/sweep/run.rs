@@ -2,11 +2,10 @@
 
 use std::ops::Range;
 
-use rayon::prelude::*;
-
 use super::grid::Grid;
 use super::point::{Asked, Point};
 use crate::quantity::{Quantity, Units};
+use crate::threads::Threads;
 
 /// A sweep: what is varied, and what is asked.
 #[derive(Debug)]
@@ -23,7 +22,7 @@ impl Sweep {
         self.asked.quantities.iter().map(move |quantity| (*quantity, quantity.unit(&units)))
     }
 
-    /// All `points` that are not `known`, on all threads, and those that are, in order. `done` receives each as it is
+    /// All `points` that are not `known`, and those that are, in order. `done` receives each as it is
     /// finished and may refuse to go on.
     ///
     /// **Accuracy**: that of the numbers asked for. The same for any number of threads.
@@ -31,22 +30,20 @@ impl Sweep {
         &self,
         points: Range<usize>,
         known: Vec<Point>,
-        done: impl Fn(&Point) -> Result<(), E> + Sync,
+        threads: Threads,
+        done: &(dyn Fn(&Point) -> Result<(), E> + Sync),
     ) -> Result<Vec<Point>, E> {
         let mut have = vec![None; points.len()];
         for point in known.into_iter().filter(|point| points.contains(&point.index)) {
             let place = point.index - points.start;
             have[place] = Some(point);
         }
-        have.into_par_iter()
-            .enumerate()
-            .map(|(place, point)| match point {
-                Some(point) => Ok(point),
-                None => {
-                    let point = self.asked.answer(&self.grid, points.start + place);
-                    done(&point).map(|()| point)
-                }
-            })
-            .collect()
+        threads.all(points.len(), |place| match &have[place] {
+            Some(point) => Ok(point.clone()),
+            None => {
+                let point = self.asked.answer(&self.grid, points.start + place);
+                done(&point).map(|()| point)
+            }
+        })
     }
 }

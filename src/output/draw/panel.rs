@@ -332,14 +332,20 @@ pub(crate) fn thinned(points: Vec<DVec2>) -> Vec<DVec2> {
     if step <= 2 {
         return points;
     }
-    let ends = |chunk: &[DVec2]| {
-        let order = |a: &&DVec2, b: &&DVec2| a.y.total_cmp(&b.y);
-        let mut ends: Vec<DVec2> =
-            chunk.iter().min_by(order).into_iter().chain(chunk.iter().max_by(order)).copied().collect();
-        ends.sort_by(|a, b| a.x.total_cmp(&b.x));
-        ends
-    };
-    points.chunks(step).flat_map(ends).collect()
+    let mut ends = Vec::new();
+    for chunk in points.chunks(step) {
+        let (mut least, mut most) = (chunk[0], chunk[0]);
+        for point in chunk {
+            if point.y < least.y {
+                least = *point;
+            }
+            if point.y >= most.y {
+                most = *point;
+            }
+        }
+        ends.extend(if least.x <= most.x { [least, most] } else { [most, least] });
+    }
+    ends
 }
 
 #[cfg(test)]

@@ -5,6 +5,7 @@ use super::picture::{Along, Picture};
 use crate::error::Error;
 use crate::motion::{EventKind, Motion, RayRegister, Side, StressPiece};
 use crate::number::Scalar;
+use crate::order::ascending;
 use crate::output::straight::straight;
 use crate::problem::{Parameters, Problem};
 use crate::quantity::{Measure, Quantity, Units};
@@ -280,7 +281,7 @@ fn times<S: Scalar>(motion: &dyn Motion<S>, drawn: &Gathered, breaks: &[Break]) 
     }
     times.extend(even.map(|time| (time, end.double(time))));
     times.retain(|(time, _)| *time >= from && *time <= to);
-    times.sort_by(|a, b| a.0.total_cmp(&b.0));
+    let mut times = ascending(times, |time| time.0);
     // Of neighbours within rounding the one from the engine, which comes first where they are equal.
     times.dedup_by(|b, a| b.0 - a.0 <= 1e-12 * to.abs().max(trip));
     if let Some(last) = times.last_mut().filter(|(time, _)| *time >= end.to_f64()) {

@@ -5,6 +5,7 @@ use std::time::{Duration, Instant};
 use super::clock::{Timing, check_budget, repeat};
 use super::ladder::{Candidate, Expected, Family, Ladder, ladders};
 use crate::number::Number;
+use crate::order::ascending;
 use crate::quantity::Quantity;
 use crate::routes::quantity::Question;
 use crate::routes::truth::Truth;
@@ -144,7 +145,7 @@ pub(crate) fn work_precision(
             Err(error) => return Err(error),
         }
     };
-    let mut rows: Vec<Row> = taken
+    let rows: Vec<Row> = taken
         .into_iter()
         .map(|(candidate, ladder, value, timing)| Row {
             family: candidate.family,
@@ -155,9 +156,9 @@ pub(crate) fn work_precision(
             chosen: candidate.chosen,
         })
         .collect();
-    // A stable sort: settings stay in the order of their ladder.
-    rows.sort_by_key(|row| (row.family, row.ladder));
-    left_out.sort_by_key(|item| item.family);
+    // Settings stay in the order of their ladder.
+    let rows = ascending(ascending(rows, |row| row.ladder as f64), |row| f64::from(row.family as u8));
+    let left_out = ascending(left_out, |item| f64::from(item.family as u8));
     Ok(Table {
         quantity: question.one.quantity,
         unit: question.one.quantity.unit(&question.units),

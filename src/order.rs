@@ -1,0 +1,31 @@
+//! Lists in the order of a number.
+
+/// The items in ascending order of `key`; those of equal keys stay as they are.
+pub(crate) fn ascending<T>(items: Vec<T>, key: impl Fn(&T) -> f64) -> Vec<T> {
+    let mut order: Vec<(f64, usize)> = Vec::with_capacity(items.len());
+    for (place, item) in items.iter().enumerate() {
+        order.push((key(item), place));
+    }
+    sort(&mut order);
+    let mut items: Vec<Option<T>> = items.into_iter().map(Some).collect();
+    let mut sorted = Vec::with_capacity(items.len());
+    for (_, place) in order {
+        sorted.extend(items[place].take());
+    }
+    sorted
+}
+
+fn sort(order: &mut [(f64, usize)]) {
+    order.sort_unstable_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
+}
+
+#[cfg(test)]
+mod tests {
+    use super::ascending;
+
+    #[test]
+    fn items_of_equal_keys_stay_in_order() {
+        let words = vec!["bb", "a", "cc", "", "d", "aa"];
+        assert_eq!(ascending(words, |word| word.len() as f64), ["", "a", "d", "bb", "cc", "aa"]);
+    }
+}

@@ -1,0 +1,91 @@
+//! Work that falls into independent parts, on several threads.
+
+use std::num::NonZero;
+use std::sync::atomic::{AtomicUsize, Ordering};
+use std::sync::{Mutex, PoisonError};
+
+/// How many threads work at the same time.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Threads(NonZero<usize>);
+
+/// One for each core.
+impl Default for Threads {
+    fn default() -> Self {
+        Threads(std::thread::available_parallelism().unwrap_or(NonZero::<usize>::MIN))
+    }
+}
+
+impl Threads {
+    /// So many; without a number, or with zero, one for each core.
+    #[cfg(feature = "cli")]
+    pub(crate) fn of(count: Option<usize>) -> Self {
+        count.and_then(NonZero::new).map_or_else(Threads::default, Threads)
+    }
+
+    pub(crate) fn count(self) -> usize {
+        self.0.get()
+    }
+
+    /// The answers for every index below `count`, in order.
+    ///
+    /// **Errors**: that of the least index among those that failed before all threads had stopped.
+    pub(crate) fn all<T: Send, E: Send>(
+        self,
+        count: usize,
+        one: impl Fn(usize) -> Result<T, E> + Sync,
+    ) -> Result<Vec<T>, E> {
+        let mut found: Vec<Mutex<Option<Result<T, E>>>> = Vec::new();
+        found.resize_with(count, Mutex::default);
+        self.each(count, &|k| {
+            let answer = one(k);
+            let fine = answer.is_ok();
+            *found[k].lock().unwrap_or_else(PoisonError::into_inner) = Some(answer);
+            fine
+        });
+        let mut all = Vec::with_capacity(count);
+        for answer in found {
+            // After an error the rest is empty.
+            if let Some(answer) = answer.into_inner().unwrap_or_else(PoisonError::into_inner) {
+                all.push(answer?);
+            }
+        }
+        Ok(all)
+    }
+
+    /// Visits every index below `count`; none are begun after a visit that was refused.
+    fn each(self, count: usize, visit: &(dyn Fn(usize) -> bool + Sync)) {
+        let next = AtomicUsize::new(0);
+        let work = || loop {
+            let k = next.fetch_add(1, Ordering::Relaxed);
+            if k >= count {
+                break;
+            }
+            if !visit(k) {
+                next.store(count, Ordering::Relaxed);
+            }
+        };
+        std::thread::scope(|scope| {
+            for _ in 1..self.count().min(count) {
+                scope.spawn(work);
+            }
+            work();
+        });
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn answers_come_in_order_and_the_first_error_ends_the_work() {
+        for threads in 1..=3 {
+            let threads = Threads(NonZero::new(threads).unwrap());
+            let all = threads.all(1000, |k| Ok::<_, usize>(k * k)).unwrap();
+            assert!(all.iter().enumerate().all(|(k, square)| *square == k * k) && all.len() == 1000);
+            let refused = threads.all(1000, |k| if k >= 7 { Err(k) } else { Ok(k) });
+            assert_eq!(refused, Err(7));
+            assert_eq!(threads.all(0, Ok::<usize, ()>), Ok(Vec::new()));
+        }
+    }
+}
