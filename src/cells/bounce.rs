@@ -23,6 +23,8 @@ pub(super) struct Held<S> {
     slope: S,
     /// `t_b`.
     pub(super) release: S,
+    /// A bound of the motion from the release on, where that is as good as none.
+    faded: Option<f64>,
 }
 
 impl<S: RoundedSpecial> Held<S> {
@@ -32,6 +34,7 @@ impl<S: RoundedSpecial> Held<S> {
         let near = (trips.clone() + trips.ratio(1, 2)).floor_int();
         let lattice = near.filter(|k| (trips.clone() - trips.int(*k)).magnitude() <= rounding(&trips));
         Held {
+            faded: contact.faded(trips.to_f64()).map(f64::exp2),
             contact: contact.clone(),
             units: data.units.clone(),
             gravity: data.gravity.clone(),
@@ -40,8 +43,11 @@ impl<S: RoundedSpecial> Held<S> {
         }
     }
 
-    /// `p`, `q` of `z` at a point before the release, `ξ ≤ t_b`, and a bound of the error of either.
+    /// `p`, `q` of `z` at a point with `ξ ≤ t_b ≤ t`, and a bound of the error of either.
     pub(super) fn invariants(&self, x: &S, t: &S, side: Side) -> (S, S, f64) {
+        if let Some(most) = self.faded {
+            return (x.zero(), x.zero(), most);
+        }
         let point = x.clone() * x.int(2) * &self.units.length;
         // Within eight roundings of a ray is on it.
         let time = Estimate::rounded(t.clone() * &self.units.time, 8.0);

@@ -93,6 +93,11 @@ impl<N: BoundedSpecial> FirstContact<N> {
         if trips.lattice() == Some(0) {
             return self.damping.zero();
         }
+        if let Some(faded) = self.faded(trips.number.to_f64()) {
+            // Half of v_t² and half of c² v_x² over L.
+            let most = self.damping.double((2.0 * faded).exp2().max(f64::MIN_POSITIVE));
+            return self.damping.zero().widened(&(most * &self.rod.speed.square() * &self.rod.length));
+        }
         let scale = 2.0 * self.total_speed().to_f64().log2() + self.rod.length.to_f64().log2();
         let ellipses = self.ellipses(trips);
         let goal = self.damping.log2_roundoff() + FIRST_SIZE + scale;

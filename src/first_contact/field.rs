@@ -291,6 +291,26 @@ impl<N: BoundedSpecial> FirstContact<N> {
         }
     }
 
+    /// `log₂` of a bound of `|v_t|/μ` and `c|v_x|/μ` from τ round trips on, where a rod without weight has faded so far
+    /// that nothing but this bound is asked of it: the rays cancel, and numbers that tell when the stress is zero have
+    /// twice the bits by which it has faded.
+    ///
+    /// For `g = 0`, `W = e^{Rτ} v` obeys `W_ττ − W_xx = R² W` in lengths `c t₁`, so `W_τ ± W_x`, which pass both ends
+    /// without growing, are at most what they were at first, μ, and `R² ∫ sup|W|`. For `R < π` no mode of W grows faster
+    /// than τ, as `Ω_n² = ω_n² − R² > 0`, and for n ≥ 1 `Ω_n ≥ π√((2n+1)² − 1)`: with coefficients `4μ/((2n+1)π)` at
+    /// first, `sup|W| ≤ 2μ(τ+1)`. So
+    /// `|v_τ ± v_x| ≤ e^{−Rτ}(sup|W_τ ± W_x| + R sup|W|) ≤ e^{−Rτ} μ (1 + R(τ+1))²`, which falls from `R(τ+1) = 1` on.
+    pub(crate) fn faded(&self, tau: f64) -> Option<f64> {
+        let r = self.damping.to_f64();
+        let growth = 1.0 + r * (tau + 1.0);
+        if !self.weightless || r >= std::f64::consts::PI || growth < 2.0 {
+            return None;
+        }
+        // A thousandth for the roundings of R and τ.
+        let bound = 2.0 * growth.log2() - 0.999 * r * tau * std::f64::consts::LOG2_E;
+        (bound <= (0.25 * self.damping.log2_roundoff()).min(FADED_BITS)).then_some(bound)
+    }
+
     /// A bound of `v_t`, `c v_x` and `v_t − h′` where the travel time a is complex, at most `δ = beyond` from the rod.
     ///
     /// Let X, Y be `|ξ|`, `|η|` of one ray. The coefficients of every ψ_n are positive, so `|ψ_n(ξ,η)| ≤ ψ_n(X,Y)`, and
@@ -356,6 +376,9 @@ impl<N: BoundedSpecial> FirstContact<N> {
         [height, rate]
     }
 }
+
+/// `log₂` of what a motion is at most of which nothing but a bound is asked.
+const FADED_BITS: f64 = -128.0;
 
 /// A field of which nothing is known.
 fn nowhere<N: Scalar>(like: &N) -> Field<N> {

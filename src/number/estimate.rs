@@ -137,7 +137,8 @@ impl<'a, S: Rounded> Mul<&'a Estimate<S>> for Estimate<S> {
     #[inline]
     fn mul(self, other: &'a Self) -> Self {
         let (a, b) = (self.value.to_f64().abs(), other.value.to_f64().abs());
-        let both = self.error * other.error * self.value.unit();
+        // In this order a product of errors beyond the range of doubles is still a number.
+        let both = self.error * self.value.unit() * other.error;
         Estimate::once(self.value * &other.value, a * other.error + b * self.error + both)
     }
 }
