@@ -41,12 +41,7 @@ pub(crate) enum Wanted {
 /// **Accuracy**: *within its own bound*, and `accuracy` of the numbers, or of 1 where they are less.
 ///
 /// **Errors**: those of the history.
-pub(crate) fn contacts(
-    grid: &Grid,
-    wanted: Wanted,
-    accuracy: f64,
-    threads: Threads,
-) -> Result<Vec<Ended>, Failed> {
+pub(crate) fn contacts(grid: &Grid, wanted: Wanted, accuracy: f64, threads: Threads) -> Result<Vec<Ended>, Failed> {
     threads.all(grid.len(), |index| contact(&grid.problem(index)?, wanted, accuracy))
 }
 
