@@ -11,7 +11,7 @@ CARGO ?= cargo
 # Random tests draw the same cases every time, so that one commit has one answer. `make explore` draws others.
 export PROPTEST_RNG_SEED ?= 1878
 
-.PHONY: help demo demo-exact test docs explore page page-test site m4 chromium
+.PHONY: help demo demo-exact test docs explore page page-test site release m4 chromium
 
 help:
 	@echo "make demo         build the command in pure Rust and solve the bouncing bar of Doyen, Ern and Piperno"
@@ -20,6 +20,7 @@ help:
 	@echo "make page         build the page: target/page/dalembert.html, one file that opens from disk"
 	@echo "make page-test    try the page in Chromium; needs Node 20 and npm"
 	@echo "make site         build the site of these pages: target/site/index.html, which opens from disk; needs Python 3.10"
+	@echo "make release      binary, wheel, crate and page in target/dist, each tried; half an hour where nothing is built"
 	@echo "make docs         write the outputs and pictures of docs/guide, and docs/check.md, anew"
 	@echo "make explore      run the random tests on cases never tried before"
 
@@ -63,6 +64,9 @@ site: page
 	[ -d target/site-venv ] || python3 -m venv target/site-venv
 	target/site-venv/bin/pip install --quiet --requirement site/requirements.txt
 	NO_MKDOCS_2_WARNING=1 target/site-venv/bin/mkdocs build --quiet --strict --config-file site/mkdocs.yml
+
+release:
+	bash .ci/release
 
 # Debian and its kin; elsewhere the message says what is missing.
 m4 chromium:

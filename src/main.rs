@@ -1,5 +1,7 @@
 //! The `dalembert` command.
 
-fn main() -> std::process::ExitCode {
-    dalembert::cli::main()
+use std::process::ExitCode;
+
+fn main() -> ExitCode {
+    dalembert::cli::main(std::env::args_os())
 }

@@ -2,13 +2,15 @@
 
 ``v_tt + 2r v_t - c² v_xx = -g`` on ``0 < x < L`` with unilateral contact at ``x = 0``.
 
+Numbers are given as int, float, ``fractions.Fraction``, ``decimal.Decimal`` or str. A float stands for the shortest
+decimal that spells it: 0.1 is 1/10. All units are those of the input.
+
+Examples
+--------
 >>> import dalembert
 >>> m = dalembert.solve("getfem-dynamic-contact", to=12)
 >>> m.strain([0.5, 1.5])
 array([ 0. , -0.5])
-
-Numbers are given as int, float, ``fractions.Fraction``, ``decimal.Decimal`` or str. A float stands for the shortest
-decimal that spells it: 0.1 is 1/10. All units are those of the input.
 """
 
 from ._compare import Comparison, compare

@@ -6,6 +6,7 @@ import numpy as np
 
 Array = np.ndarray[Any, np.dtype[Any]]
 
+def main(arguments: list[str]) -> int: ...
 def scenes() -> list[tuple[str, str, str]]: ...
 
 class Problem:

@@ -212,7 +212,8 @@ impl History {
                         let mut columns = [vec![], vec![], vec![]];
                         for (point, time) in points.lift(motion).iter().zip(&times.lift(motion)) {
                             let field = motion.field(point, time, side)?;
-                            for (column, x) in columns.iter_mut().zip([field.displacement, field.velocity, field.strain])
+                            for (column, x) in
+                                columns.iter_mut().zip([field.displacement, field.velocity, field.strain])
                             {
                                 column.push(x);
                             }

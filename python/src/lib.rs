@@ -75,6 +75,13 @@ mod _core {
     #[pymodule_export]
     use super::problem::Problem;
 
+    /// The command `dalembert`: `arguments` with the name of the program first; its exit code.
+    #[pyfunction]
+    fn main(py: Python<'_>, arguments: Vec<std::ffi::OsString>) -> u8 {
+        let code = py.detach(|| dalembert::cli::main(arguments));
+        [0, 1].into_iter().find(|known| code == std::process::ExitCode::from(*known)).unwrap_or(2)
+    }
+
     /// Names, summaries and texts of the built-in scenes.
     #[pyfunction]
     fn scenes() -> Vec<[&'static str; 3]> {

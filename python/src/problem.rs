@@ -15,6 +15,9 @@ use super::history::History;
 use super::number::written;
 use super::{observer, one_of, refuse, run};
 
+/// A profile by its name, its points as they are spelt.
+type Spelt = (&'static str, Vec<[String; 2]>);
+
 fn points(name: &str, value: &Bound<'_, PyAny>) -> PyResult<Vec<(Written, Written)>> {
     let shape = format!("found {name} of another shape, expected points (x, value), an array of shape (n, 2)");
     let pairs: Vec<(Bound<'_, PyAny>, Bound<'_, PyAny>)> = value.extract().map_err(|_| PyTypeError::new_err(shape))?;
@@ -53,7 +56,7 @@ impl Problem {
     }
 
     /// Its numbers and profiles by the names of the constructor, as they are spelt; what is absent is left out.
-    fn values(&self) -> (Vec<(&'static str, String)>, Vec<(&'static str, Vec<[String; 2]>)>) {
+    fn values(&self) -> (Vec<(&'static str, String)>, Vec<Spelt>) {
         let dalembert::Problem { rod, gravity, start, run } = &self.problem;
         let mut numbers = vec![("length", Some(&rod.length))];
         match &rod.material {

@@ -21,6 +21,7 @@ mod source;
 mod sweep;
 mod times;
 
+use std::ffi::OsString;
 use std::process::ExitCode;
 
 use clap::{CommandFactory, Parser, Subcommand};
@@ -84,15 +85,26 @@ enum Command {
     },
 }
 
-/// The command: parse, run, report, exit code. It is 1 where `check` finds a promise that is not kept, `compare` a norm
-/// above its bound, and no point of a `sweep` has a number.
-pub fn main() -> ExitCode {
-    run(Cli::parse()).unwrap_or_else(|failure| {
+/// Parses, runs and reports; the first of `arguments` is the name of the program. The exit code is 2 for what cannot be
+/// parsed or run.
+pub fn main(arguments: impl IntoIterator<Item = OsString>) -> ExitCode {
+    let cli = match Cli::try_parse_from(arguments) {
+        Ok(cli) => cli,
+        // Help and the version are on standard output, with the code 0.
+        Err(said) => {
+            let failed = said.use_stderr();
+            let written = said.print();
+            return if failed || written.is_err() { ExitCode::from(2) } else { ExitCode::SUCCESS };
+        }
+    };
+    run(cli).unwrap_or_else(|failure| {
         eprintln!("{failure}");
         ExitCode::from(2)
     })
 }
 
+/// Runs the command. The exit code is 1 where `check` finds a promise that is not kept, `compare` a norm above its
+/// bound, and no point of a `sweep` has a number.
 fn run(cli: Cli) -> Result<ExitCode, Failure> {
     let done = match cli.command {
         Command::Solve(command) => command.run(),

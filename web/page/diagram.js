@@ -3,7 +3,7 @@ import { colour, ramp, shade } from "./colours.js";
 import { prepare, write } from "./rod.js";
 
 /** To the left, right, top and bottom of the panels, and between them. */
-const MARGIN = [58, 12, 8, 26, 14];
+const MARGIN = [66, 12, 8, 26, 14];
 /** Milliseconds that a question to the engine may take: between two, others have their turn. */
 const EACH = 7;
 /** Points and columns of the first, quick picture; points of the last one, whose columns are those of the screen. */
@@ -18,6 +18,13 @@ export function ticks(from, to, count) {
   const found = [];
   for (let k = Math.ceil(from / step - 1e-9); k * step <= to + 1e-9 * step; k += 1) found.push(k * step);
   return found.map((x) => Number(x.toPrecision(12)));
+}
+
+/** A number of an axis in at most seven letters: with an exponent where it is great or small. */
+export function shortest(x) {
+  const size = Math.abs(x);
+  const plain = size === 0 || (size >= 1e-3 && size < 1e5);
+  return (plain ? String(x) : x.toExponential().replace("e+", "e")).replaceAll("-", "−");
 }
 
 export class Diagram {
@@ -129,7 +136,7 @@ export class Diagram {
     pen.fillStyle = colour.ink;
     pen.textAlign = "center";
     const low = this.canvas.clientHeight - 6 * this.em;
-    for (const time of this.times()) pen.fillText(String(time), this.place(time), low);
+    for (const time of this.times()) pen.fillText(shortest(time), this.place(time), low);
     pen.textAlign = "left";
     pen.fillText("t", 2, low);
   }
@@ -203,7 +210,7 @@ export class Diagram {
     pen.fillStyle = colour.faint;
     for (const value of values) pen.fillRect(panel.left, place(value) - 0.5 * this.em, panel.width, this.em);
     for (const time of this.times()) pen.fillRect(this.place(time) - 0.5 * this.em, panel.top, this.em, panel.height);
-    this.labels(panel, values.map((value) => [value, String(value).replace("-", "−")]), place, name);
+    this.labels(panel, values.map((value) => [value, shortest(value)]), place, name);
   }
 
   clipped(panel, draw) {

@@ -49,11 +49,22 @@ async function busily(act) {
   if (doing === 0) delete document.documentElement.dataset.busy;
 }
 
+/** The spans that the pictures can show: the whole run, the first contact, the first flight. */
+const SPANS = {
+  all: () => ({ from: 0, to: shot.end }),
+  contact: () => ({ from: 0, to: Math.min(1.25 * (shot.events[1] ?? shot.end), shot.end) }),
+  flight: () => ({ from: shot.events[1] ?? 0, to: shot.events[2] ?? shot.end }),
+};
+
+/** Of a stiff rod the contact would be a line in the whole run: less than a fiftieth of it. */
+const natural = () => (shot.events[1] < shot.end / 50 ? "contact" : "all");
+
 function show(fresh) {
-  const whole = fresh.another || !view || (view.from === 0 && view.to === shot.end);
+  const span = fresh.another || !view ? null : $("span").value;
   shot = fresh;
   now = fresh.another ? 0 : within(now);
-  if (whole || view.to > shot.end) view = { from: 0, to: shot.end };
+  if (span !== "") setSpan(span ?? natural());
+  else if (view.to > shot.end) setSpan("all");
   sliders.ratios(shot.parameters);
   $("status").textContent = `c = ${shot.parameters[0]}, t₁ = ${shot.parameters[1]}; ${shot.ending}`;
   const strain = Number(shot.sizes.strain.toPrecision(3));
@@ -93,6 +104,12 @@ function say(mistake, doubts) {
   $("beyond").hidden = doubts.length === 0;
 }
 
+/** Shows a span by its name, which stands in the choice until another time is shown. */
+function setSpan(name) {
+  view = SPANS[name]();
+  $("span").value = name;
+}
+
 /** Draws all again. */
 function redraw() {
   readColours();
@@ -100,8 +117,20 @@ function redraw() {
   return moveTo(now);
 }
 
+/** What the pictures show, for those who do not see them. */
+function describe() {
+  const shown = `from t = ${Number(view.from.toPrecision(4))} to ${Number(view.to.toPrecision(4))}`;
+  const strain = Number(shot.sizes.strain.toPrecision(3));
+  $("diagram").setAttribute("aria-label", `Over time, ${shown}: the strain along the rod, up to ${strain}; the strain at `
+    + `the ground; the energies of the centre of mass and of the vibration. ${shot.contacts.length / COLUMNS.length} `
+    + `contacts in the whole run, which ends at t = ${Number(shot.end.toPrecision(6))}.`);
+  $("rod").setAttribute("aria-label", `The rod at t = ${$("now").value}, `
+    + `${shot.events.filter((time) => time <= now).length % 2 ? "on the ground" : "in flight"}.`);
+}
+
 /** The pictures over time, which come by and by. */
 async function draw() {
+  describe();
   if (await diagram.show(shot, view)) performance.mark("drawn");
 }
 
@@ -128,6 +157,7 @@ function follow(time) {
   if (time <= view.to && time >= view.from) return;
   const from = Math.max(0, Math.min(time - 0.1 * wide, shot.end - wide));
   view = { from, to: from + wide };
+  $("span").value = "";
   draw();
 }
 
@@ -155,7 +185,7 @@ function moveTo(time) {
   const place = diagram.place(now);
   $("cursor").style.transform = `translateX(${place - 1}px)`;
   $("cursor").hidden = now < view.from || now > view.to;
-  $("time").value = now / shot.end;
+  $("time").value = (now - view.from) / (view.to - view.from);
   $("time").setAttribute("aria-valuetext", `t = ${$("now").value}`);
   showContact();
   return pose();
@@ -177,8 +207,8 @@ function pose() {
   })());
 }
 
-/** Decimals that tell two thousand times of the run apart. */
-const places = () => Math.max(0, Math.min(12, 4 - Math.floor(Math.log10(shot.end))));
+/** Decimals that tell two thousand of the times that are shown apart. */
+const places = () => Math.max(0, Math.min(12, 4 - Math.floor(Math.log10(view.to - view.from))));
 
 /** A time as it is shown, so that the link and the command can repeat it. */
 const rounded = (time) => Number(time.toFixed(places()));
@@ -191,6 +221,7 @@ const settle = () => busily(async () => {
   const there = moveTo(rounded(now));
   history.replaceState(null, "", fragment($("now").value));
   await there;
+  describe();
   const words = (id) => [...$(id).children].map((part) => part.dataset.name ?? part.textContent).join(" ");
   $("spoken").textContent = `t = ${$("now").value}. ${words("values")}. ${$("which").textContent}: ${words("bounce")}`;
 });
@@ -278,6 +309,7 @@ function zoom(factor, around = now) {
   const part = (around - view.from) / (view.to - view.from);
   const from = Math.max(0, Math.min(around - wide * Math.min(Math.max(part, 0), 1), shot.end - wide));
   view = { from, to: from + wide };
+  $("span").value = wide === shot.end ? "all" : "";
   redraw();
 }
 
@@ -296,7 +328,7 @@ function mark() {
   const same = ({ scene: told }) => Object.entries(told).every(([name, text]) => String(scene[name]) === String(text));
   const found = PRESETS.findIndex(same);
   [...$("presets").children].forEach((button, k) => button.setAttribute("aria-pressed", String(k === found)));
-  if (found >= 0) $("story").replaceChildren(...written(PRESETS[found].story));
+  $("story").replaceChildren(...(found >= 0 ? written(PRESETS[found].story) : []));
 }
 
 function setTheme(dark) {
@@ -372,9 +404,13 @@ function listen() {
   $("after").addEventListener("click", nextEvent);
   $("in").addEventListener("click", () => zoom(0.5));
   $("out").addEventListener("click", () => zoom(2));
-  $("whole").addEventListener("click", () => zoom(Infinity));
+  $("span").addEventListener("change", () => {
+    setSpan($("span").value);
+    if (now < view.from || now > view.to) stepTo(view.from);
+    redraw();
+  });
   $("drawn").addEventListener("change", () => moveTo(now));
-  $("time").addEventListener("input", () => stepTo($("time").value * shot.end));
+  $("time").addEventListener("input", () => stepTo(view.from + $("time").value * (view.to - view.from)));
   const scrub = (event) => {
     if (event.buttons) stepTo(Math.min(Math.max(diagram.time(event.offsetX), view.from), view.to));
   };
@@ -400,7 +436,16 @@ async function open() {
   sliders.refit();
   mark();
   await solve(true);
-  if (shot) await moveTo(time ?? rounded(0.3 * shot.round));
+  if (!shot) {
+    // Nothing can be shown of what the link says: the first story stands in for it, and the mistake stays.
+    const mistake = $("doubt").textContent;
+    Object.assign(scene, PRESETS[0].scene);
+    sliders.refit();
+    mark();
+    await solve(true);
+    say(`The link holds no scene: ${mistake}`, []);
+  }
+  if (shot) await moveTo(time ?? rounded(0.3 * (view.to < shot.end ? view.to : shot.round)));
   performance.mark("shown");
 }
 

@@ -109,7 +109,7 @@ const pixel = (x, t) => page.evaluate(([x, t]) => {
   const ratio = canvas.width / canvas.clientWidth;
   // The margins of the picture, which grow with it, and its share of the height.
   const em = Math.max(1, Math.min(canvas.clientWidth / 560, canvas.clientHeight / 290));
-  const [left, top, right, bottom, gap] = [58, 8, 12, 26, 14].map((space) => space * em);
+  const [left, top, right, bottom, gap] = [66, 8, 12, 26, 14].map((space) => space * em);
   const high = 0.52 * (canvas.clientHeight - top - bottom - 2 * gap);
   const end = Number(document.getElementById("status").textContent.match(/ends at t = ([\d.]+)/)[1]);
   const place = [left + ((canvas.clientWidth - left - right) * t) / end, top + high * (1 - x)];
@@ -168,7 +168,60 @@ for (let k = 1; k <= 5; k += 1) {
 }
 assert.equal(new Set(stories).size, 5);
 
+// A story ends when its scene is changed.
+await press("1");
+assert.notEqual(await text("story"), "");
+await enter("mu-field", "2.25");
+assert.equal(await text("story"), "");
+await enter("mu-field", "2.5");
+assert.notEqual(await text("story"), "");
+
+// A rod of steel: its contact of 0.2 ms in a run of seconds is shown by itself, in compression, and the whole run too.
+await open("#L=0.5&c=5172&mu=4.43&g=9.81&n=2");
+await idle();
+assert.equal(await field("span"), "contact");
+assert.match(await page.getAttribute("#diagram", "aria-label"), /from t = 0 to 0\.00024/);
+await page.waitForFunction(() => {
+  const canvas = document.getElementById("diagram");
+  const copy = new OffscreenCanvas(canvas.width, canvas.height).getContext("2d", { willReadFrequently: true });
+  copy.drawImage(canvas, 0, 0);
+  const [r, , b] = copy.getImageData(0.35 * canvas.width, 0.3 * canvas.height, 1, 1).data;
+  return b > r + 60;
+});
+await page.selectOption("#span", "all");
+await idle();
+await page.selectOption("#span", "flight");
+await idle();
+assert.ok(Number(await text("now")) >= 1.9e-4);
+
+// Great numbers have exponents, and no label leaves the picture.
+for (const hash of ["#mu=1e8&g=1e8&n=2", "#mu=1e-6&g=1e-6&n=2", "#L=1e-6&c=1e6&mu=3&n=2"]) {
+  await page.evaluate(() => {
+    window.labels = [];
+    const write = CanvasRenderingContext2D.prototype.fillText;
+    CanvasRenderingContext2D.prototype.fillText = function (text, x, y) {
+      const wide = this.measureText(text).width;
+      const left = x - { left: 0, start: 0, center: wide / 2, right: wide }[this.textAlign];
+      if (this.canvas.id === "diagram") window.labels.push([text, left, left + wide - this.canvas.clientWidth]);
+      return write.call(this, text, x, y);
+    };
+  });
+  await page.evaluate((hash) => { location.hash = hash; }, hash);
+  await settled();
+  await idle();
+  const labels = await page.evaluate(() => window.labels);
+  assert.ok(labels.length > 8, `${labels.length} labels`);
+  for (const [label, left, beyond] of labels) assert.ok(left >= -0.5 && beyond <= 0.5, `${hash}: ${label} at ${left}`);
+}
+
+// A link that holds no scene is said, and the first story stands in for it.
+await open("#mu=fast");
+assert.match(await text("doubt"), /^The link holds no scene: found/);
+assert.match(await text("status"), /t₁ = 2/);
+
 // Keys.
+await open("");
+await press("5");
 await press(" ");
 assert.match(await text("play"), /Play/);
 await press("Home");
@@ -260,6 +313,16 @@ await page.setViewportSize({ width: 360, height: 740 });
 await open("#mu=3&r=0.1&n=10");
 assert.equal(await page.evaluate(() => document.documentElement.scrollWidth), 360);
 await page.screenshot({ path: join(ROOT, "target/page/phone.png"), fullPage: true });
+await page.setViewportSize({ width: 390, height: 844 });
+await settled();
+const boxes = await page.evaluate(() => Object.fromEntries(["pictures", "side", "time", "sliders"].map((id) => {
+  const { top, bottom, left, right } = document.getElementById(id).getBoundingClientRect();
+  return [id, { top, bottom, left, right }];
+})));
+assert.ok(boxes.pictures.bottom <= boxes.time.top && boxes.time.bottom <= boxes.sliders.top, JSON.stringify(boxes));
+assert.ok(boxes.sliders.bottom <= 844, `the sliders end at ${boxes.sliders.bottom}`);
+assert.ok(boxes.side.right <= boxes.pictures.left && boxes.pictures.right <= 390, JSON.stringify(boxes));
+await page.screenshot({ path: join(ROOT, "target/page/phone.png") });
 const nameless = await page.$$eval("button, input, select, canvas", (all) => {
   const named = (part) => part.getAttribute("aria-label") || part.textContent.trim() || part.labels?.length;
   return all.filter((part) => !named(part)).map((part) => part.id);
