@@ -172,7 +172,17 @@ class History:
         title = f"<b>{escape(self.problem.title)}</b><br>" if self.problem.title else ""
         below = "".join(f"<br>{escape(note)}" for note in notes)
         more = f"<br>… {len(self.contacts) - 10} more contacts" if len(self.contacts) > 10 else ""
-        return f"<div>{title}History {escape(said)}<table>{table}</table>{more}{below}</div>"
+        return f"<div>{title}History {escape(said)}<table>{table}</table>{more}{below}<br>{self.to_svg()}</div>"
+
+    def to_svg(self) -> str:
+        """Draw the sheet of ``dalembert plot``: field, stress, motion and energy.
+
+        Returns
+        -------
+        str
+            An SVG picture, as notebooks show it.
+        """
+        return self._core.sheet(self.problem._core)
 
     @property
     def error_estimate(self) -> float:

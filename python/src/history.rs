@@ -5,12 +5,13 @@ use std::sync::atomic::AtomicBool;
 
 use dalembert::engine::{Motion, slices};
 use dalembert::number::{Answer, Scalar, show};
-use dalembert::{Error, Needs, Number, Quantity, Side, Slice, Solution, Table};
+use dalembert::{Error, Needs, Number, Quantity, Side, Slice, Solution, Table, Units, scene_svg};
 use numpy::{PyArray1, PyReadonlyArray1};
 use pyo3::IntoPyObjectExt;
 use pyo3::prelude::*;
 
 use super::number::number;
+use super::problem::Problem;
 use super::{one_of, refuse, run};
 
 /// A number as Python gets it: a float, the text of a fraction or of a decimal, or both ends of an enclosure.
@@ -140,6 +141,12 @@ impl History {
             let scales = [scales.time, scales.velocity, scales.length, scales.wave_speed, scales.gravity];
             (kind, cell(history.end(), *digits), about, warnings, scales.map(|x| x.to_f64()))
         })
+    }
+
+    /// The sheet of pictures that tells the scene, as SVG.
+    fn sheet(&self, py: Python<'_>, problem: &Problem) -> PyResult<String> {
+        let (rod, units) = (problem.problem.clone(), Units::of(&problem.problem, problem.units));
+        self.ask(py, move |solution| each!(solution, |history, _| scene_svg(history, &rod, units)))
     }
 
     fn error_estimate(&self) -> f64 {

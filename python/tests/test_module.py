@@ -128,6 +128,16 @@ def test_what_is_shown():
     assert {"norms", "difference", "report"} <= set(dir(comparison))
     page = dalembert.solve("doyen-ern-piperno")._repr_html_()
     assert page.count("<tr>") == 7 and "bouncing bar" in page and "0.666667" in page
+    assert page.count('class="panel"') == 4
+
+
+def test_the_command_of_the_wheel(command):
+    """`python -m dalembert` prints what the command prints, with its exit codes."""
+    for arguments in (["solve", "doyen-ern-piperno", "--exact"], ["explain", "figure-4-r02"], ["solve", "nothing"], []):
+        line = [sys.executable, "-m", "dalembert", *arguments]
+        ours = subprocess.run(line, capture_output=True, text=True)
+        theirs = command(*arguments)
+        assert (ours.stdout, ours.stderr, ours.returncode) == (theirs.stdout, theirs.stderr, theirs.returncode)
 
 
 def test_tables():
