@@ -183,8 +183,10 @@ impl<S> Contact<S> {
     }
 
     /// Every number in it.
-    pub(crate) fn numbers(&self) -> impl Iterator<Item = &S> {
-        [&self.from, &self.impulse, &self.peak_strain].into_iter().chain(&self.to)
+    pub(crate) fn numbers(&self) -> Vec<&S> {
+        let mut numbers = vec![&self.from, &self.impulse, &self.peak_strain];
+        numbers.extend(&self.to);
+        numbers
     }
 }
 
@@ -222,6 +224,15 @@ impl<S> Energy<S> {
 }
 
 impl<S> StressPiece<S> {
+    /// Where pieces begin and end, and the values there.
+    pub(crate) fn numbers(pieces: &[Self]) -> Vec<&S> {
+        let mut numbers = Vec::with_capacity(4 * pieces.len());
+        for piece in pieces {
+            numbers.extend_from_slice(&[&piece.from, &piece.to, &piece.left, &piece.right]);
+        }
+        numbers
+    }
+
     /// The same piece in other numbers.
     pub fn map<T>(self, f: impl Fn(S) -> T) -> StressPiece<T> {
         StressPiece {

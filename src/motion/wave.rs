@@ -154,9 +154,12 @@ impl<S: Scalar> Waves<S> {
     }
 
     /// Every number in them.
-    pub(crate) fn numbers(&self) -> impl Iterator<Item = &S> {
-        let pieces = self.pieces.iter().flat_map(|piece| [&piece.from, &piece.sum, &piece.rate, &piece.slope]);
-        pieces.chain([&self.constant, &self.linear, &self.quadratic])
+    pub(crate) fn numbers(&self) -> Vec<&S> {
+        let mut numbers = vec![&self.constant, &self.linear, &self.quadratic];
+        for piece in &self.pieces {
+            numbers.extend_from_slice(&[&piece.from, &piece.sum, &piece.rate, &piece.slope]);
+        }
+        numbers
     }
 
     /// The same waves in other numbers.

@@ -1,7 +1,7 @@
 //! The exact solution of an undamped rod as a function for other programs: Python, MATLAB, C.
 
 use super::reference::Preamble;
-use crate::motion::Waves;
+use crate::motion::{WavePiece, Waves};
 use crate::number::{Scalar, bound_of_log2};
 use crate::problem::Top;
 
@@ -47,9 +47,26 @@ pub(crate) fn code<S: Scalar>(waves: &Waves<S>, end: &S, language: Language, pre
         ("D", &waves.quadratic),
     ]
     .map(|(name, value)| (name, number(value)));
-    let rows: Vec<[String; 4]> =
-        waves.pieces.iter().map(|piece| [&piece.from, &piece.sum, &piece.rate, &piece.slope].map(number)).collect();
-    let error = waves.numbers().map(S::log2_error).fold(f64::NEG_INFINITY, f64::max);
+    let mut rows: Vec<[String; 4]> = Vec::with_capacity(waves.pieces.len());
+    for WavePiece { from, sum, rate, slope } in &waves.pieces {
+        rows.push([number(from), number(sum), number(rate), number(slope)]);
+    }
+    let mut error = f64::NEG_INFINITY;
+    for number in waves.numbers() {
+        error = error.max(number.log2_error());
+    }
+    written((constants, rows, error), (language, exact, sign), preamble)
+}
+
+/// The numbers as texts: constants by their names, pieces, and `log₂` of the greatest bound.
+type Numbers = ([(&'static str, String); 7], Vec<[String; 4]>, f64);
+
+/// The function with these numbers; its sign is that of the wave that comes back from the top.
+fn written(
+    (constants, rows, error): Numbers,
+    (language, exact, sign): (Language, bool, &str),
+    preamble: &Preamble<'_>,
+) -> String {
     let worth = match exact {
         true => "The coefficients are exact.".to_string(),
         false => format!("Each coefficient is within {} before it is rounded to a double.", bound_of_log2(error)),

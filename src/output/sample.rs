@@ -89,7 +89,7 @@ pub(crate) fn sample<S: Scalar>(
 pub(crate) fn samples_data<S: Scalar>(samples: &[Sample<S>], quantity: Quantity, head: &Head) -> Dataset {
     let units = &head.units;
     let (quantities, places): (Vec<_>, Vec<usize>) = quantity.columns().iter().copied().unzip();
-    let values = samples.iter().map(|sample| places.iter().map(|place| sample.values.get(*place)).collect());
+    let values = samples.iter().map(|sample| places.iter().map(|place| sample.values.get(*place)).collect()).collect();
     let column = |quantity: quantity::Quantity| {
         let key = quantity.key();
         Column::new(key).keyed(format!("values/{key}"))

@@ -55,11 +55,11 @@ fn column(quantity: Quantity) -> Column {
 
 /// The columns of the quantities that these units have, and the rows of their numbers, each with one for every
 /// quantity, as a history answers them.
-pub(super) fn listed<'a, S: Scalar>(
+pub(super) fn listed<S: Scalar>(
     quantities: &[Quantity],
     column: fn(Quantity) -> Column,
     units: &Units,
-    rows: impl Iterator<Item = Vec<Option<&'a S>>>,
+    rows: Vec<Vec<Option<&S>>>,
 ) -> (Vec<Column>, Vec<Vec<Cell>>) {
     let factor = |quantity: &Quantity, number: &S| {
         let measure = quantity.measure().filter(|_| units.has_material())?;
@@ -67,24 +67,25 @@ pub(super) fn listed<'a, S: Scalar>(
         if kept { None } else { units.factor(measure, &number.precision()) }
     };
     let present = |quantity: &Quantity| quantity.is_listed(units.has_material());
-    let mut factors: Vec<Option<S>> = Vec::new();
-    let rows = rows.map(|values| {
-        if let (true, Some(number)) = (factors.is_empty(), values.iter().flatten().next()) {
-            factors = quantities.iter().map(|quantity| factor(quantity, number)).collect();
+    let mut listed: Vec<Vec<Cell>> = Vec::with_capacity(rows.len());
+    listed.resize_with(rows.len(), Vec::new);
+    for (k, quantity) in quantities.iter().enumerate().filter(|(_, quantity)| present(quantity)) {
+        let mut known: Option<Option<S>> = None;
+        for (cells, values) in listed.iter_mut().zip(&rows) {
+            cells.push(match values[k] {
+                None => Cell::EMPTY,
+                Some(value) => match known.get_or_insert_with(|| factor(quantity, value)) {
+                    Some(factor) => Cell::number(&(value.clone() * &*factor)),
+                    None => Cell::number(value),
+                },
+            });
         }
-        let present = quantities.iter().zip(values).enumerate().filter(|(_, (quantity, _))| present(quantity));
-        let cell = |(k, (_, value)): (usize, (&Quantity, Option<&S>))| match (value, factors.get(k)) {
-            (Some(value), Some(Some(factor))) => Cell::number(&(value.clone() * factor)),
-            (value, _) => Cell::optional(value),
-        };
-        present.map(cell).collect()
-    });
-    let rows = rows.collect();
+    }
     let named = |quantity: &Quantity| {
         let unit = quantity.measure().map_or("", |measure| units.name(measure));
         column(*quantity).with_unit(unit).bounded()
     };
-    (quantities.iter().filter(|quantity| present(quantity)).map(named).collect(), rows)
+    (quantities.iter().filter(|quantity| present(quantity)).map(named).collect(), listed)
 }
 
 /// The part of a history that a CSV file holds.
@@ -107,8 +108,16 @@ fn dataset((columns, rows): (Vec<Column>, Vec<Vec<Cell>>), head: &Head) -> Datas
 }
 
 /// The numbers of rows, where they are defined.
-fn defined<S>(rows: &[Row<S>]) -> impl Iterator<Item = Vec<Option<&S>>> {
-    rows.iter().map(|row| row.iter().map(|value| value.as_ref().ok()).collect())
+fn defined<S>(rows: &[Row<S>]) -> Vec<Vec<Option<&S>>> {
+    let mut defined = Vec::with_capacity(rows.len());
+    for row in rows {
+        let mut values = Vec::with_capacity(row.len());
+        for value in row {
+            values.push(value.as_ref().ok());
+        }
+        defined.push(values);
+    }
+    defined
 }
 
 fn events<S: Scalar>(record: &Record<S>, head: &Head) -> Dataset {
@@ -151,9 +160,10 @@ fn flights<S: Scalar>(record: &Record<S>, head: &Head) -> Dataset {
 }
 
 fn pieces<S: Scalar>(pieces: &[StressPiece<S>], coefficients: bool, head: &Head) -> Dataset {
-    let rows = pieces
-        .iter()
-        .map(|piece| [&piece.from, &piece.to, &piece.left, &piece.right, &piece.left, &piece.right].map(Some).to_vec());
+    let mut rows = Vec::with_capacity(pieces.len());
+    for StressPiece { from, to, left, right, .. } in pieces {
+        rows.push(vec![Some(from), Some(to), Some(left), Some(right), Some(left), Some(right)]);
+    }
     let mut data = dataset(listed(&PIECE, column, &head.units, rows), head);
     if coefficients {
         data.columns.push(Column::data("chebyshev").bounded().optional());
@@ -183,11 +193,16 @@ pub(crate) fn record<S: Scalar>(history: &dyn Motion<S>, stress: bool) -> Result
 impl<S> Record<S> {
     /// Every number that is printed, with or without those that are ratios of others.
     pub(crate) fn numbers(&self, ratios: bool) -> Vec<&S> {
-        let contacts = self.contacts.iter().flat_map(|row| row.iter().zip(CONTACT));
-        let contacts = contacts.filter(|(_, quantity)| ratios || quantity.measure().is_some()).map(|(value, _)| value);
-        let others = self.events.iter().chain(&self.flights).flatten();
-        let pieces = self.stress.iter().flat_map(|piece| [&piece.from, &piece.to, &piece.left, &piece.right]);
-        [&self.end.0].into_iter().chain(contacts.chain(others).flatten()).chain(pieces).collect()
+        let mut numbers = vec![&self.end.0];
+        for (quantities, rows) in [(&EVENT[..], &self.events), (&CONTACT, &self.contacts), (&FLIGHT, &self.flights)] {
+            for row in rows {
+                for (value, quantity) in row.iter().zip(quantities) {
+                    numbers.extend(value.iter().filter(|_| ratios || quantity.measure().is_some()));
+                }
+            }
+        }
+        numbers.extend_from_slice(&StressPiece::numbers(&self.stress));
+        numbers
     }
 }
 

@@ -23,20 +23,15 @@ pub fn columns<S: Scalar>(
     if let Some(other) = columns.iter().find(|quantity| quantity.needs() != Needs::Time) {
         return Err(Error::NotOverTime { quantity: other.name() });
     }
-    let places: Vec<(Source, usize)> = columns.iter().map(|column| column.source()).collect();
-    let factors: Vec<Option<S>> = columns.iter().map(|column| column.factor(&motion.scales(), units)).collect();
-    let mut sources: Vec<Source> = places.iter().map(|(source, _)| *source).collect();
-    sources.sort_unstable();
-    sources.dedup();
-    // Those with two limits are asked first, and their answers stand first in a row.
-    let (sided, plain): (Vec<Source>, Vec<Source>) = sources.into_iter().partition(|source| source.has_sides());
+    let Asked { sided, plain, places, count } = Asked::of(columns);
+    let mut factors: Vec<Option<S>> = Vec::with_capacity(columns.len());
+    for column in columns {
+        factors.push(column.factor(&motion.scales(), units));
+    }
     let pushes = if plain.contains(&Source::Impulse) { Some(Pushes::of(motion)) } else { None };
-    let asked = || sided.iter().chain(&plain);
-    let count = asked().map(|source| source.answers()).sum();
-    let start = |of: Source| asked().take_while(|source| **source != of).map(|source| source.answers()).sum::<usize>();
-    let places: Vec<usize> = places.iter().map(|(source, index)| start(*source) + index).collect();
     side_by_side(times, |times| {
-        let mut table: Vec<Vec<S>> = columns.iter().map(|_| Vec::with_capacity(times.len())).collect();
+        let mut table: Vec<Vec<S>> = Vec::new();
+        table.resize_with(columns.len(), || Vec::with_capacity(times.len()));
         let (mut left, mut right) = (Vec::with_capacity(count), Vec::with_capacity(count));
         for time in times {
             let ask = |sources: &[Source], side: Side, limit: i64, row: &mut Vec<S>| {
@@ -66,18 +61,42 @@ pub fn columns<S: Scalar>(
             if jumps {
                 ask(&plain, Side::Left, -1, &mut left)?;
             }
-            for row in [&left, &right].into_iter().skip(usize::from(!jumps)) {
-                for ((values, place), factor) in table.iter_mut().zip(&places).zip(&factors) {
-                    let value = row[*place].clone();
-                    values.push(match factor {
-                        Some(factor) => value * factor,
-                        None => value,
-                    });
+            let rows = [&left, &right];
+            for row in &rows[usize::from(!jumps)..] {
+                for (k, values) in table.iter_mut().enumerate() {
+                    values.push(columns[k].scaled(row[places[k]].clone(), factors[k].as_ref()));
                 }
             }
         }
         Ok(table)
     })
+}
+
+/// What is asked at each time, and where the answers stand in a row.
+struct Asked {
+    /// What has two limits stands first.
+    sided: Vec<Source>,
+    plain: Vec<Source>,
+    /// Where each column is.
+    places: Vec<usize>,
+    /// The length of a row.
+    count: usize,
+}
+
+impl Asked {
+    fn of(columns: &[Quantity]) -> Self {
+        let mut sources: Vec<Source> = columns.iter().map(|column| column.source().0).collect();
+        sources.sort_unstable();
+        sources.dedup();
+        let (sided, plain): (Vec<Source>, Vec<Source>) = sources.into_iter().partition(|source| source.has_sides());
+        let asked = [&sided[..], &plain[..]].concat();
+        let before = |end: usize| asked[..end].iter().map(|source| source.answers()).sum::<usize>();
+        let mut places = Vec::with_capacity(columns.len());
+        for (source, index) in columns.iter().map(|column| column.source()) {
+            places.push(index + before(asked.iter().position(|known| *known == source).unwrap_or(0)));
+        }
+        Asked { places, count: before(asked.len()), sided, plain }
+    }
 }
 
 /// Times that a thread is worth.
@@ -97,7 +116,9 @@ fn side_by_side<S: Scalar>(
     let mut tables = threads.all(parts.len(), |k| rows(parts[k]))?.into_iter();
     let mut all = tables.next().unwrap_or_default();
     for table in tables {
-        all.iter_mut().zip(table).for_each(|(column, values)| column.extend(values));
+        for (column, mut values) in all.iter_mut().zip(table) {
+            column.append(&mut values);
+        }
     }
     Ok(all)
 }

@@ -24,10 +24,17 @@ impl<S> Flight<S> {
         }
     }
 
-    /// Every number in it.
-    pub(crate) fn numbers(&self) -> impl Iterator<Item = &S> {
-        let highest = self.highest.iter().flat_map(|(time, centre)| [time, centre]);
-        std::iter::once(&self.from).chain(&self.to).chain(highest)
+    /// Every number in them.
+    pub(crate) fn numbers(flights: &[Self]) -> Vec<&S> {
+        let mut numbers = Vec::new();
+        for flight in flights {
+            numbers.push(&flight.from);
+            numbers.extend(&flight.to);
+            if let Some((time, centre)) = &flight.highest {
+                numbers.extend_from_slice(&[time, centre]);
+            }
+        }
+        numbers
     }
 }
 

@@ -106,68 +106,85 @@ pub(crate) type Row<S> = Vec<Result<S, Undefined>>;
 impl Source {
     /// Its answers for every contact, event, flight or piece; for the `only` one, counted from 0, where that is given.
     pub(super) fn rows<S: Scalar>(self, motion: &dyn Motion<S>, only: Option<usize>) -> Result<Vec<Row<S>>, Error> {
-        let (skip, take) = only.map_or((0, usize::MAX), |only| (only, 1));
-        let ok = |numbers: &[&S]| numbers.iter().map(|x| Ok((*x).clone())).collect::<Row<S>>();
-        let contacts = || motion.contacts().iter().skip(skip).take(take);
+        let wanted = |k: usize| only.is_none_or(|only| only == k);
         let unfinished = Undefined::Unfinished;
-        // When one contact begins and ends is known without what happens in it.
-        let times = || match only {
-            Some(contact) => motion.contact_times(contact).into_iter().collect::<Vec<_>>(),
-            None => motion.contacts().iter().map(|contact| (contact.from.clone(), contact.to.clone())).collect(),
-        };
-        Ok(match self {
-            Source::Event => motion.events().iter().skip(skip).take(take).map(|event| ok(&event.numbers())).collect(),
-            Source::Span => {
-                let row = |(from, to): (S, Option<S>)| {
-                    let to = to.ok_or(unfinished);
-                    let length = to.clone().map(|to| to - &from);
-                    vec![Ok(from), to, length]
-                };
-                times().into_iter().map(row).collect()
+        let mut rows: Vec<Row<S>> = Vec::new();
+        match self {
+            Source::Event => {
+                for event in motion.events().iter().enumerate().filter(|(k, _)| wanted(*k)).map(|(_, event)| event) {
+                    rows.push(known(&event.numbers()));
+                }
             }
             Source::Ends => {
                 let of = |kind: EventKind, k: usize| {
                     let mut events = motion.events().iter().filter(|event| event.kind == kind);
                     events.nth(k).map(|event| event.end_velocity.clone()).ok_or(unfinished)
                 };
-                let ends = |(k, _)| vec![of(EventKind::Impact, skip + k), of(EventKind::Release, skip + k)];
-                contacts().enumerate().map(ends).collect()
+                for k in (0..motion.contacts().len()).filter(|k| wanted(*k)) {
+                    rows.push(vec![of(EventKind::Impact, k), of(EventKind::Release, k)]);
+                }
             }
-            Source::Push => contacts().map(|contact| ok(&[&contact.impulse, &contact.peak_strain])).collect(),
-            Source::Restitution => {
-                let row = |(from, to): &(S, Option<S>)| {
-                    restitution(motion, (from, to.as_ref())).map(|e| vec![e.momentum, e.energy_squared])
-                };
-                times().iter().map(row).collect::<Result<_, _>>()?
-            }
-            Source::Shares => {
-                let row = |(from, to): &(S, Option<S>)| {
-                    let shares = energy_shares(motion, (from, to.as_ref()))?;
-                    let why = if to.is_none() { unfinished } else { Undefined::NoEnergy };
-                    Ok::<_, Error>(vec![shares.translational.ok_or(why), shares.kept.ok_or(why)])
-                };
-                times().iter().map(row).collect::<Result<_, _>>()?
-            }
-            Source::Left => {
-                let row = |(_, to): &(S, Option<S>)| match to {
-                    Some(to) => motion.energy(to).map(|energy| ok(&energy.numbers())),
-                    None => Ok(vec![Err(unfinished); 3]),
-                };
-                times().iter().map(row).collect::<Result<_, _>>()?
+            Source::Push => {
+                for (_, contact) in motion.contacts().iter().enumerate().filter(|(k, _)| wanted(*k)) {
+                    rows.push(known(&[&contact.impulse, &contact.peak_strain]));
+                }
             }
             Source::Flight => {
-                let row = |flight: super::Flight<S>| {
+                for (_, flight) in flights(motion)?.into_iter().enumerate().filter(|(k, _)| wanted(*k)) {
                     let (time, top) = flight.highest.unzip();
                     let turns = |x: Option<S>| x.ok_or(Undefined::NoTurn);
-                    vec![Ok(flight.from), flight.to.ok_or(Undefined::Lasts), turns(time), turns(top)]
-                };
-                flights(motion)?.into_iter().skip(skip).take(take).map(row).collect()
+                    rows.push(vec![Ok(flight.from), flight.to.ok_or(Undefined::Lasts), turns(time), turns(top)]);
+                }
             }
             Source::Piece => {
-                let pieces = motion.stress_pieces().into_iter().skip(skip).take(take);
-                pieces.map(|piece| ok(&[&piece.from, &piece.to, &piece.left, &piece.right])).collect()
+                for (_, piece) in motion.stress_pieces().iter().enumerate().filter(|(k, _)| wanted(*k)) {
+                    rows.push(known(&[&piece.from, &piece.to, &piece.left, &piece.right]));
+                }
             }
-            _ => Vec::new(),
+            Source::Span | Source::Restitution | Source::Shares | Source::Left => {
+                // When one contact begins and ends is known without what happens in it.
+                let count = if only.is_none() { motion.contacts().len() } else { 1 };
+                for k in 0..count {
+                    let times = match only {
+                        Some(contact) => motion.contact_times(contact),
+                        None => motion.contacts().get(k).map(|contact| (contact.from.clone(), contact.to.clone())),
+                    };
+                    if let Some((from, to)) = times {
+                        rows.push(self.of_times(motion, &from, to.as_ref())?);
+                    }
+                }
+            }
+            _ => (),
+        }
+        Ok(rows)
+    }
+
+    /// Its answers for the contact from one time to another.
+    fn of_times<S: Scalar>(self, motion: &dyn Motion<S>, from: &S, to: Option<&S>) -> Result<Row<S>, Error> {
+        let unfinished = Undefined::Unfinished;
+        Ok(match (self, to) {
+            (Source::Restitution, _) => {
+                let found = restitution(motion, (from, to))?;
+                vec![found.momentum, found.energy_squared]
+            }
+            (Source::Shares, _) => {
+                let shares = energy_shares(motion, (from, to))?;
+                let why = if to.is_none() { unfinished } else { Undefined::NoEnergy };
+                vec![shares.translational.ok_or(why), shares.kept.ok_or(why)]
+            }
+            (Source::Left, Some(to)) => known(&motion.energy(to)?.numbers()),
+            (Source::Left, None) => vec![Err(unfinished), Err(unfinished), Err(unfinished)],
+            (_, Some(to)) => vec![Ok(from.clone()), Ok(to.clone()), Ok(to.clone() - from)],
+            (_, None) => vec![Ok(from.clone()), Err(unfinished), Err(unfinished)],
         })
     }
+}
+
+/// A row of numbers that there are.
+fn known<S: Clone>(numbers: &[&S]) -> Row<S> {
+    let mut row = Vec::with_capacity(numbers.len());
+    for number in numbers {
+        row.push(Ok((*number).clone()));
+    }
+    row
 }

@@ -6,7 +6,7 @@ use super::ladder::{Attempt, Ladder, Observer, Query, Target, settled, unobserve
 use super::plan::{Plan, Rung};
 use super::question::{Numbers, Question};
 use crate::error::Error;
-use crate::motion::{Contact, Ending, Energy, Event, Field, Motion, Ray, Scales, Side, StressHistory, Waves};
+use crate::motion::{Contact, Ending, Energy, Event, Field, Motion, Ray, Scales, Side, StressHistory, StressPiece, Waves};
 use crate::number::{Answer, Number, Scalar, show};
 use crate::problem::Problem;
 use crate::quantity::{
@@ -225,7 +225,7 @@ impl<S: Target> History<S> {
     ///
     /// **Errors**: those of the ladder.
     pub fn flights(&self) -> Result<Vec<Flight<S>>, Error> {
-        let found = self.ask(flights, |flights| flights.iter().flat_map(Flight::numbers).collect())?;
+        let found = self.ask(flights, |flights| Flight::numbers(flights))?;
         Ok(found.into_iter().map(|flight| flight.map(S::strip)).collect())
     }
 
@@ -279,7 +279,7 @@ impl<S: Target> History<S> {
     pub fn stress_history(&self) -> Result<StressHistory<S>, Error> {
         let pieces = self.ask(
             |engine| Ok(engine.stress_pieces()),
-            |pieces| pieces.iter().flat_map(|piece| [&piece.from, &piece.to, &piece.left, &piece.right]).collect(),
+            |pieces| StressPiece::numbers(pieces),
         )?;
         let pieces = pieces.into_iter().map(|piece| piece.map(S::strip)).collect();
         Ok(StressHistory { pieces, ending: self.ending.clone() })
@@ -451,7 +451,7 @@ impl<S: Target> History<S> {
 
     /// [`History::waves`] in numbers that carry their bound.
     pub(crate) fn ask_waves(&self) -> Result<Waves<S::Carried>, Error> {
-        self.ask(|engine| engine.waves(), |waves| waves.numbers().collect())
+        self.ask(|engine| engine.waves(), |waves| waves.numbers())
     }
 
     /// The natural scales of the motion.
