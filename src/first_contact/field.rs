@@ -391,7 +391,8 @@ mod tests {
     use crate::number::{Estimate, Float};
     use crate::problem::Problem;
 
-    /// In longer numbers: the field lies below what it is said to have faded to, and by the square of `1 + Rτ` at most, some 1e4.
+    /// In longer numbers: the field lies below what it is said to have faded to, and by the square of `1 + Rτ` at most,
+    /// some 1e4.
     #[test]
     fn motions_fade_as_is_said() -> Result<(), crate::Error> {
         for (damping, trips) in [("3.1", 36.25), ("3.1415", 33.5), ("2.9", 40.75)] {

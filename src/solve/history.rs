@@ -6,7 +6,9 @@ use super::ladder::{Attempt, Ladder, Observer, Query, Target, settled, unobserve
 use super::plan::{Plan, Rung};
 use super::question::{Numbers, Question};
 use crate::error::Error;
-use crate::motion::{Contact, Ending, Energy, Event, Field, Motion, Ray, Scales, Side, StressHistory, StressPiece, Waves};
+use crate::motion::{
+    Contact, Ending, Energy, Event, Field, Motion, Ray, Scales, Side, StressHistory, StressPiece, Waves,
+};
 use crate::number::{Answer, Number, Scalar, show};
 use crate::problem::Problem;
 use crate::quantity::{
@@ -277,10 +279,7 @@ impl<S: Target> History<S> {
     ///
     /// **Errors**: those of the ladder.
     pub fn stress_history(&self) -> Result<StressHistory<S>, Error> {
-        let pieces = self.ask(
-            |engine| Ok(engine.stress_pieces()),
-            |pieces| StressPiece::numbers(pieces),
-        )?;
+        let pieces = self.ask(|engine| Ok(engine.stress_pieces()), |pieces| StressPiece::numbers(pieces))?;
         let pieces = pieces.into_iter().map(|piece| piece.map(S::strip)).collect();
         Ok(StressHistory { pieces, ending: self.ending.clone() })
     }
