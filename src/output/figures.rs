@@ -32,8 +32,8 @@ pub(crate) fn figures_index(figures: &[&Figure], data: &[Data], endings: &[&str]
     let names: Vec<String> = endings.iter().map(|ending| ending.to_uppercase()).collect();
     let mut text = format!(
         "# Figures\n\nOf F. Wang and S. W. Hansen, *Explicit solutions and coefficient of restitution for an elastic \
-         rod with viscous damping*, IMA Preprint 2473, 2016, worked out by dalembert {}: `dalembert figures`.\nEach is there \
-         as {} and as numbers (CSV), in which \
+         rod with viscous damping*, IMA Preprint 2473, 2016, worked out by dalembert {}: `dalembert figures`.\nEach is \
+         there as {} and as numbers (CSV), in which \
          what is not defined is empty and no number has a digit beyond the bound of its error.\n",
         env!("CARGO_PKG_VERSION"),
         names.join(", ")
