@@ -3,7 +3,7 @@
 use super::budget::AtEvent;
 use super::history::Damped;
 use super::start::Units;
-use super::uncertainty::{Uncertainty, meant, rounded, wider, within};
+use super::uncertainty::{Uncertainty, rounded, wider, within};
 use crate::error::Error;
 use crate::motion::moments::{self, Moments, Sums};
 use crate::motion::{Contact, Course, Event, EventKind, Field, Motion, Pair, Scales, Side, StressPiece};
@@ -92,11 +92,12 @@ impl<S: RoundedSpecial> Damped<S> {
         by_momentum.unwrap_or((last - from.to_f64()) * speed * c + 2.0 * rise * c)
     }
 
-    /// The event at this very time.
+    /// The event whose time that is, with its bound.
     fn event_at(&self, time: &Estimate<S>) -> Option<usize> {
         let events = &self.course.events;
         let next = events.partition_point(|event| event.time.value() < time.value());
-        events.get(next).filter(|event| event.time.value() == time.value()).map(|_| next)
+        let same = |event: &Estimate<S>| event.value() == time.value() && event.error() == time.error();
+        events.get(next).filter(|event| same(&event.time)).map(|_| next)
     }
 
     /// How far values near a time may be off.
@@ -108,11 +109,14 @@ impl<S: RoundedSpecial> Damped<S> {
         if lost { Uncertainty { rise: none, speed: none, rate: none, ..found } } else { found }
     }
 
-    /// The bounds near a time; at that of an event, which has the bound of the event, those of the event itself.
+    /// The bounds near a time, which is known within its own; at that of an event, those of the event itself.
     fn near(&self, time: &Estimate<S>) -> Near {
-        match self.event_at(time).filter(|_| time.bound() > 0.0) {
+        match self.event_at(time) {
             Some(event) => self.at_event(event),
-            None => self.scaled(self.uncertainty(time.value())),
+            None => {
+                let found = self.uncertainty(time.value());
+                self.scaled(Uncertainty { late: found.late + time.bound() / self.scales.time, ..found })
+            }
         }
     }
 
@@ -189,8 +193,8 @@ impl<S: RoundedSpecial> Damped<S> {
     }
 }
 
-/// **Accuracy**: *within its own bound*, away from rays that are themselves off in time. A time that is asked about is
-/// taken as it is stored; one within rounding of an event stands for the event, whenever that is.
+/// **Accuracy**: *within its own bound*, away from rays that are themselves off in time: a history asks on both sides of
+/// these. The time of an event, with its bound, stands for the event, whenever that is.
 impl<S: RoundedSpecial> Motion<Estimate<S>> for Damped<S> {
     fn course(&self) -> &Course<Estimate<S>> {
         &self.course
@@ -209,12 +213,10 @@ impl<S: RoundedSpecial> Motion<Estimate<S>> for Damped<S> {
     }
 
     fn strain(&self, time: &Estimate<S>, side: Side) -> Result<Estimate<S>, Error> {
-        let time = meant(&self.course.events, time);
         Ok(within(&self.strain_of(time.value(), side)?, self.near(time).strain))
     }
 
     fn pair(&self, pair: Pair, time: &Estimate<S>, side: Side) -> Result<[Estimate<S>; 2], Error> {
-        let time = meant(&self.course.events, time);
         if let (Pair::Centre, Some(flight)) = (pair, self.first_flight(time)) {
             return Ok(flight.flight(&rounded(time.value())).into());
         }
@@ -249,7 +251,6 @@ impl<S: RoundedSpecial> Motion<Estimate<S>> for Damped<S> {
     }
 
     fn field(&self, point: &Estimate<S>, time: &Estimate<S>, side: Side) -> Result<Field<Estimate<S>>, Error> {
-        let time = meant(&self.course.events, time);
         let field = self.field_of(point.value(), time.value(), side)?;
         let strain = within(&field.strain, self.near(time).strain);
         let [displacement, velocity] = self.moved(time, &field.displacement, &field.velocity);
@@ -262,7 +263,6 @@ impl<S: RoundedSpecial> Motion<Estimate<S>> for Damped<S> {
 
     /// **Accuracy**: as `docs/bounds.md` derives under "What a mean may be off by".
     fn moments(&self, time: &Estimate<S>, points: &[Estimate<S>]) -> Result<Vec<Moments<Estimate<S>>>, Error> {
-        let time = meant(&self.course.events, time);
         let placed = points.iter().fold(0.0, |most: f64, point| most.max(point.bound()));
         let points: Vec<S> = points.iter().map(|point| point.value().clone()).collect();
         let lines = self.lines(time.value(), &points)?;
@@ -298,7 +298,6 @@ impl<S: RoundedSpecial> Motion<Estimate<S>> for Damped<S> {
     }
 
     fn rates(&self, points: &[Estimate<S>], times: &[Estimate<S>]) -> Result<Vec<[Estimate<S>; 2]>, Error> {
-        let times: Vec<&Estimate<S>> = times.iter().map(|time| meant(&self.course.events, time)).collect();
         let plain: Vec<S> = points.iter().map(|x| x.value().clone()).collect();
         let found = self.rates_of(&plain, &times.iter().map(|time| time.value().clone()).collect::<Vec<_>>())?;
         let mut rates = Vec::with_capacity(found.len());

@@ -179,8 +179,10 @@ by_value!(Add add, Sub sub, Mul mul, Div div);
 impl<S: Rounded> Scalar for Estimate<S> {
     type Precision = S::Precision;
 
+    /// Two roundings where no double spells the number, so that no longer numbers take that for it.
     fn from_number(number: &Number, precision: &S::Precision) -> Self {
-        Estimate::rounded(S::from_number(number, precision), 1.0)
+        let roundings = if number.is_spelled_by_its_double() { 1.0 } else { 2.0 };
+        Estimate::rounded(S::from_number(number, precision), roundings)
     }
 
     fn precision(&self) -> S::Precision {

@@ -135,7 +135,7 @@ const MOST_DENOMINATOR: i64 = 10_000;
 
 /// The number that a double stands for: the shortest decimal that rounds to it, or, where that takes all digits of a
 /// double, a simple fraction that does. `None` for what is no number.
-pub(super) fn spelled(x: f64) -> Option<Number> {
+pub(crate) fn spelled(x: f64) -> Option<Number> {
     let decimal = x.to_string();
     let digits = decimal.bytes().filter(u8::is_ascii_digit).count();
     let fraction = if digits > 15 { simple_fraction(x) } else { None };

@@ -6,6 +6,7 @@ use std::str::FromStr;
 
 use thiserror::Error;
 
+use super::fraction::spelled;
 use super::rational::{self, Integer, Rational};
 
 /// A number as a person wrote it: `3`, `0.1`, `1e-9`, `1/3`, `2.5/7`. It stands for exactly the rational that it
@@ -52,6 +53,12 @@ impl Number {
     #[inline]
     pub fn to_f64(&self) -> f64 {
         self.value
+    }
+
+    /// Whether the shortest decimal, or simple fraction, of the nearest double is this number.
+    pub(crate) fn is_spelled_by_its_double(&self) -> bool {
+        let decimal = self.text.len() <= 15 && !self.text.contains('/');
+        decimal || spelled(self.value).is_some_and(|spelled| spelled.compare(self).is_eq())
     }
 
     /// Whether the number is zero.

@@ -46,6 +46,7 @@ pub use interval::{Interval, IntervalPrecision};
 pub(crate) use json::{bound_json, number_json};
 #[cfg(feature = "cli")]
 pub(crate) use list::{List, Spelled};
+pub(crate) use fraction::spelled;
 pub(crate) use literal::short;
 pub use literal::{Number, NumberError};
 pub use rational::Rational;

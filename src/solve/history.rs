@@ -45,6 +45,8 @@ pub struct History<S: Target> {
     contacts: OnceLock<Vec<Contact<S>>>,
     ending: Ending,
     end: S,
+    /// Times of questions that are not told from those of events or rays.
+    open_times: Mutex<Vec<f64>>,
 }
 
 /// The numbers of all that happens.
@@ -80,6 +82,7 @@ impl<S: Target> History<S> {
             events: OnceLock::new(),
             contacts: OnceLock::new(),
             end: S::strip(end),
+            open_times: Mutex::default(),
             problem: problem.clone(),
             plan: plan.clone(),
             observe,
@@ -132,6 +135,7 @@ impl<S: Target> History<S> {
         let rung = current.rung;
         let ladder = Ladder { problem: &self.problem, plan: &self.plan, observe: &self.observe };
         let (attempt, answer) = ladder.settle::<S>(Some(current), query).map_err(|error| self.explained(error))?;
+        self.open_times.lock().unwrap_or_else(PoisonError::into_inner).extend(&attempt.open_times);
         if attempt.rung != rung {
             *self.attempt.lock().unwrap_or_else(PoisonError::into_inner) = attempt;
         }
@@ -474,6 +478,10 @@ impl<S: Target> History<S> {
     pub fn warnings(&self) -> Vec<Warning> {
         let mut warnings = self.current().engine.warnings().to_vec();
         warnings.extend(self.problem.neglected());
+        let mut open = self.open_times.lock().unwrap_or_else(PoisonError::into_inner).clone();
+        open.sort_by(f64::total_cmp);
+        open.dedup();
+        warnings.extend(open.into_iter().map(|time| Warning::TimeNotTold { time }));
         warnings
     }
 }

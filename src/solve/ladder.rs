@@ -5,6 +5,7 @@ use std::ops::ControlFlow;
 use std::sync::{Arc, LazyLock};
 
 use super::plan::{Engine, Goal, Lacks, Plan, Rung};
+use super::question::Numbers;
 use crate::error::Error;
 use crate::motion::{Ending, Motion, Scales};
 use crate::number::{Answer, Scalar};
@@ -78,11 +79,13 @@ pub(crate) struct Attempt<S: Answer> {
     pub(crate) engine: Engined<S>,
     /// Whether exact numbers have been tried where events coincide within their bounds, and did not decide either.
     tried: bool,
+    /// Times of its last answer that it does not tell from those of events or rays.
+    pub(crate) open_times: Vec<f64>,
 }
 
 impl<S: Answer> Clone for Attempt<S> {
     fn clone(&self) -> Self {
-        Attempt { rung: self.rung, engine: self.engine.clone(), tried: self.tried }
+        Attempt { rung: self.rung, engine: self.engine.clone(), tried: self.tried, open_times: Vec::new() }
     }
 }
 
@@ -125,6 +128,9 @@ pub(crate) fn settled<S: Target, T, A>(
 /// answer.
 const SAME_DOUBT: usize = 3;
 
+/// As often a time may not be told from that of an event or a ray: doubles, fractions, and more bits twice.
+const SAME_TIME: usize = 4;
+
 impl Ladder<'_> {
     /// The answer to `query`, settled: asked of `attempt` where there is one, and of attempts in more and more bits
     /// until every comparison on the way is decided and all numbers of the answer have the digits of the plan.
@@ -145,6 +151,7 @@ impl Ladder<'_> {
         let mut kept: Option<(Attempt<S>, usize, bool)> = None;
         let mut known = attempt.map(|attempt| attempt.engine);
         let mut doubts: Vec<f64> = Vec::new();
+        let mut unsure = 0;
         loop {
             let answer = match known.take() {
                 Some(engine) => Ok(engine),
@@ -166,17 +173,32 @@ impl Ladder<'_> {
                     if open {
                         doubts.push(engine.end().to_f64());
                     }
-                    let climbs = open && doubts.len() < SAME_DOUBT;
-                    let reached = Some((Attempt { rung, engine, tried: tried || open && !climbs }, answer));
+                    let open_times = engine.take_open_times();
+                    unsure += usize::from(!open_times.is_empty());
+                    let asks = !open_times.is_empty() && unsure < SAME_TIME;
+                    let given_up = !open_times.is_empty() && !asks;
+                    if given_up && !self.in_doubles() {
+                        return Err(self.unsettled(rung));
+                    }
+                    let open = open && doubts.len() < SAME_DOUBT;
+                    let (climbs, tried) = (open || asks, tried || needs_bits(&*engine) && !open);
+                    let reached = Some((Attempt { rung, engine, tried, open_times }, answer));
                     match reached {
-                        Some(settled) if missing <= 0.0 && !coincides && !climbs => return Ok(settled),
+                        Some(settled) if (missing <= 0.0 || given_up) && !coincides && !climbs => return Ok(settled),
                         _ if climbs => {
                             kept = reached.map(|(attempt, answer)| (attempt, answer, missing <= 0.0));
-                            (Lacks::Bits(f64::INFINITY), None)
+                            // Undamped, a time and an event may be equal.
+                            let equal = !open && self.plan.engine == Engine::Lattice;
+                            (if equal { Lacks::Exactness } else { Lacks::Bits(f64::INFINITY) }, None)
                         }
                         _ if missing <= 0.0 => {
                             reserve = reached;
                             (Lacks::Exactness, None)
+                        }
+                        // Fractions may end where doubles did not.
+                        _ if self.plan.climb.bits.is_none() => {
+                            kept = reached.map(|(attempt, answer)| (attempt, answer, missing <= 0.0));
+                            (Lacks::Bits(missing), None)
                         }
                         _ => (Lacks::Bits(missing), reached),
                     }
@@ -191,13 +213,18 @@ impl Ladder<'_> {
                 (Some(next), ..) => rung = next,
                 (None, Some((attempt, answer)), _) => return Ok((Attempt { tried: true, ..attempt }, answer)),
                 (None, None, reached) => {
-                    let kept = kept.filter(|(kept, _, settled)| *settled || kept.rung == Rung::Double);
+                    let kept = kept.filter(|(_, _, settled)| *settled || self.in_doubles());
                     let kept = kept.map(|(kept, answer, _)| (Attempt { tried: true, ..kept }, answer));
                     let reached = reached.filter(|_| rung == Rung::Double);
                     return kept.or(reached).ok_or_else(|| self.unsettled(rung));
                 }
             }
         }
+    }
+
+    /// Whether what is not settled has bounds that say so.
+    fn in_doubles(&self) -> bool {
+        matches!(self.plan.numbers, Numbers::Double(_))
     }
 
     fn unsettled(&self, rung: Rung) -> Error {

@@ -2,6 +2,7 @@
 
 use std::sync::Arc;
 
+use super::asked::Asked;
 use super::converted::Converted;
 use super::fractions::confirmed;
 use super::ladder::{Engined, Observer, Target};
@@ -10,6 +11,7 @@ use crate::cells::{ContactThenCells, Damped};
 use crate::error::Error;
 use crate::first_contact::{Bounce, ContactHistory, FirstContact};
 use crate::lattice::Undamped;
+use crate::motion::Motion;
 use crate::number::{Estimate, Float, Interval, IntervalPrecision, Reads, Scalar};
 use crate::problem::{Parameters, Problem};
 
@@ -35,10 +37,16 @@ pub(super) fn in_doubles(
     rung: Rung,
     observe: &Observer,
 ) -> Result<Engined<f64>, Error> {
+    fn read<N: Scalar>(engine: Arc<dyn Motion<N>>, problem: &Problem) -> Engined<f64>
+    where
+        Estimate<f64>: Reads<N>,
+    {
+        Arc::new(Asked::longer(Converted::new(engine), problem))
+    }
     Ok(match rung {
-        Rung::Enclosures(bits) => Arc::new(Converted::new(enclosures(problem, plan, bits, observe)?)),
+        Rung::Enclosures(bits) => read(enclosures(problem, plan, bits, observe)?, problem),
         Rung::Confirmed(bits) => confirmed(problem, plan, roots(problem, plan, bits, observe)?, observe)?,
-        rung => Arc::new(Converted::new(estimates(problem, plan, bits_of(rung), observe)?)),
+        rung => read(estimates(problem, plan, bits_of(rung), observe)?, problem),
     })
 }
 
@@ -59,11 +67,14 @@ fn estimates(problem: &Problem, plan: &Plan, bits: u32, observe: &Observer) -> R
             if history.undetermined_from().is_some() {
                 return Err(Error::NotDecided { what: "in which order the events come", bits });
             }
-            Arc::new(history)
+            Arc::new(Asked::new(history, problem))
         }
-        Engine::Cells => Arc::new(Damped::<Float>::solve_observed(problem, &bits, effort, 1, &**observe)?),
+        Engine::Cells => {
+            let history = Damped::<Float>::solve_observed(problem, &bits, effort, 1, &**observe)?;
+            Arc::new(Asked::new(history, problem))
+        }
         Engine::ClosedForm if !plan.settles_events => {
-            Arc::new(ContactHistory::<Estimate<Float>>::solve(problem, &bits)?)
+            Arc::new(Asked::new(ContactHistory::<Estimate<Float>>::solve(problem, &bits)?, problem))
         }
         Engine::ClosedForm | Engine::ClosedFormThenCells => {
             let rod = Parameters::<Estimate<Float>>::of(problem, &bits)?;
@@ -72,9 +83,12 @@ fn estimates(problem: &Problem, plan: &Plan, bits: u32, observe: &Observer) -> R
                 return Err(Error::NotDecided { what: "how the first contact ends", bits });
             }
             if plan.engine == Engine::ClosedForm {
-                return Ok(Arc::new(ContactThenCells::<Float>::first_contact(problem, &bits, bounce)?));
+                let history = ContactThenCells::<Float>::first_contact(problem, &bits, bounce)?;
+                return Ok(Arc::new(Asked::new(history, problem)));
             }
-            Arc::new(ContactThenCells::<Float>::solve_observed(problem, &bits, effort, bounce, None, &**observe)?)
+            let history =
+                ContactThenCells::<Float>::solve_observed(problem, &bits, effort, bounce, None, &**observe)?;
+            Arc::new(Asked::new(history, problem))
         }
     })
 }

@@ -281,7 +281,8 @@ impl Plan {
     pub(crate) fn next(&self, rung: Rung, lacks: Lacks) -> Option<Rung> {
         let Climb { bits, most_bits, near_miss, exact_roots, most_enclosed, .. } = self.climb;
         let Some(after) = bits else {
-            return matches!((rung, lacks), (Rung::Double, Lacks::Exactness)).then_some(Rung::Fractions);
+            let exactly = matches!(lacks, Lacks::Exactness) || self.engine == Engine::Lattice;
+            return (rung == Rung::Double && exactly).then_some(Rung::Fractions);
         };
         let Lacks::Bits(missing) = lacks else {
             // Fractions are fast, and end soon where they do not serve; more bits tell a near miss from a meeting.
