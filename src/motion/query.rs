@@ -204,8 +204,8 @@ pub trait Motion<S: Scalar>: fmt::Debug + Send + Sync {
     }
 
     /// The times of questions since this was asked last that are not told from that of an event or a ray, and whose
-    /// answers cover both sides of it.
-    fn take_open_times(&self) -> Vec<f64> {
+    /// answers cover both sides of it; and whether more bits may tell.
+    fn take_open_times(&self) -> Vec<(f64, bool)> {
         Vec::new()
     }
 

@@ -179,10 +179,9 @@ by_value!(Add add, Sub sub, Mul mul, Div div);
 impl<S: Rounded> Scalar for Estimate<S> {
     type Precision = S::Precision;
 
-    /// Two roundings where no double spells the number, so that no longer numbers take that for it.
+    /// With more than one rounding where its double alone does not say which number it is: [`Number::roundings`].
     fn from_number(number: &Number, precision: &S::Precision) -> Self {
-        let roundings = if number.is_spelled_by_its_double() { 1.0 } else { 2.0 };
-        Estimate::rounded(S::from_number(number, precision), roundings)
+        Estimate::rounded(S::from_number(number, precision), number.roundings())
     }
 
     fn precision(&self) -> S::Precision {

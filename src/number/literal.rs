@@ -55,10 +55,18 @@ impl Number {
         self.value
     }
 
-    /// Whether the shortest decimal, or simple fraction, of the nearest double is this number.
-    pub(crate) fn is_spelled_by_its_double(&self) -> bool {
+    /// How many roundings an estimate of the number begins with: one where its double spells it, three where the
+    /// shortest decimal of the double is it, and two where no double says which number it is.
+    pub(crate) fn roundings(&self) -> f64 {
         let decimal = self.text.len() <= 15 && !self.text.contains('/');
-        decimal || spelled(self.value).is_some_and(|spelled| spelled.compare(self).is_eq())
+        let same = |other: Option<Number>| other.is_some_and(|other| other.compare(self).is_eq());
+        if decimal || same(spelled(self.value)) {
+            1.0
+        } else if same(self.value.to_string().parse().ok()) {
+            3.0
+        } else {
+            2.0
+        }
     }
 
     /// Whether the number is zero.

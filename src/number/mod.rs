@@ -40,18 +40,19 @@ pub use bounded::{Answer, Bounded};
 pub use estimate::Estimate;
 #[cfg(feature = "mp")]
 pub use float::decimal;
+pub(crate) use fraction::{spelled, spelled_by};
 #[cfg(feature = "mp")]
 pub use interval::{Interval, IntervalPrecision};
 #[cfg(feature = "cli")]
 pub(crate) use json::{bound_json, number_json};
 #[cfg(feature = "cli")]
 pub(crate) use list::{List, Spelled};
-pub(crate) use fraction::spelled;
 pub(crate) use literal::short;
 pub use literal::{Number, NumberError};
 pub use rational::Rational;
 #[cfg(feature = "mp")]
 pub use rug::Float;
+pub(crate) use scalar::READ;
 pub use scalar::{Analytic, Open, Reads, Rounded, Scalar};
 #[doc(hidden)]
 pub use text::{DOUBLE_DIGITS, bits_for_digits, bound_of_log2, double_bound_text, show, shown_bound_text};

@@ -217,6 +217,9 @@ pub trait Rounded: Analytic + PartialOrd {
     fn in_roundoffs(&self) -> f64;
 }
 
+/// What is read from longer numbers is counted as off by so much of a rounding more than one: what is spelled is not.
+pub(crate) const READ: f64 = 1.0 / 1_048_576.0;
+
 /// A number system in which the numbers of another can be read: each stays within the bound that it carries.
 pub trait Reads<N: Scalar>: Scalar {
     /// The number in this system, rounded once, its bound with it.

@@ -10,7 +10,7 @@ use crate::error::Error;
 use crate::motion::moments::Moments;
 use crate::motion::{Contact, Course, Ending, Event, Field, Motion, Pair, Ray, RayRegister, Scales, Side};
 use crate::motion::{StressPiece, Stretch, Waves};
-use crate::number::{Estimate, Number, Rational, Rounded, Scalar, spelled};
+use crate::number::{Estimate, Number, READ, Rational, Rounded, Scalar, spelled, spelled_by};
 use crate::problem::{Material, Problem, Start};
 use crate::reason::Warning;
 
@@ -24,7 +24,7 @@ pub(super) struct Asked<E, S> {
     longer: bool,
     start: StartRays,
     rays: OnceLock<RayRegister<Estimate<S>>>,
-    open: Mutex<Vec<f64>>,
+    open: Mutex<Vec<(f64, bool)>>,
 }
 
 /// Where rays of the start are, in exact numbers.
@@ -36,10 +36,8 @@ struct StartRays {
     corners: Vec<Number>,
 }
 
-/// A double with more roundings than one does not spell what is asked for.
+/// A double with more roundings than one does not spell what is asked for by itself.
 const SPELLED: f64 = 1.5;
-/// A time with more roundings than a spelled one has was computed by an engine.
-const MOST_ROUNDINGS: f64 = 6.0;
 /// With no more roundings than these a time at a ray of the start is that of the ray.
 const RAY_ROUNDINGS: f64 = 64.0;
 
@@ -49,10 +47,17 @@ fn roundings<S: Rounded>(x: &Estimate<S>) -> f64 {
     if size > 0.0 { x.error() / size } else { 0.0 }
 }
 
+/// Whether longer numbers know which number was spelled.
+fn is_spelled<S: Rounded>(x: &Estimate<S>) -> bool {
+    roundings(x) <= SPELLED || x.error() == 3.0 * x.to_f64().abs()
+}
+
 /// Whether a time was computed by an engine and not spelled.
 pub(super) fn computed<S: Scalar>(time: &S) -> bool {
-    let size = time.to_f64().abs().log2() + time.log2_roundoff();
-    time.log2_error() > size + MOST_ROUNDINGS.log2()
+    let roundings = (time.log2_error() - time.to_f64().abs().log2() - time.log2_roundoff()).exp2();
+    // What is spelled is off by so many roundings at its beginning, exactly.
+    let spelled = [0.0, 1.0, 2.0, 3.0].into_iter().any(|few| (roundings - few).abs() < 0.5 * READ);
+    !spelled && roundings.is_finite()
 }
 
 impl StartRays {
@@ -69,8 +74,8 @@ impl StartRays {
     }
 
     /// Whether a ray of the start is at `point` at `time` exactly.
-    fn meet(&self, point: f64, time: f64) -> Option<bool> {
-        let (point, time) = (spelled(point)?.to_rational(), spelled(time)?.to_rational());
+    fn meet(&self, point: f64, time: &Estimate<f64>) -> Option<bool> {
+        let (point, time) = (spelled(point)?.to_rational(), spelled_by(time)?.to_rational());
         let way = time * &self.wave_speed.as_ref()?.to_rational();
         let double = self.length.to_rational();
         let double = double.clone() + &double;
@@ -103,12 +108,13 @@ impl<S: Rounded, E: Motion<Estimate<S>>> Asked<E, S> {
         Asked { longer: true, ..Self::new(engine, problem) }
     }
 
-    /// The times of events and rays at `point` that `time` is not told from; at the ground without a point.
-    fn near(&self, point: Option<&Estimate<S>>, time: &Estimate<S>) -> Vec<Estimate<S>> {
+    /// The time as the engine has it, and the times of events and rays at `point` that it is not told from; at the
+    /// ground without a point.
+    fn near(&self, point: Option<&Estimate<S>>, time: &Estimate<S>) -> (Estimate<S>, Vec<Estimate<S>>) {
         let (seconds, events) = (time.to_f64(), self.engine.events());
-        let told = self.longer && roundings(time) <= SPELLED;
+        let told = self.longer && is_spelled(time);
         if told || computed(time) || !(seconds > 0.0) {
-            return Vec::new();
+            return (time.clone(), Vec::new());
         }
         let ground = point.is_none_or(|point| point.to_f64() == 0.0);
         let next = events.partition_point(|event| event.time.to_f64() < seconds);
@@ -116,7 +122,7 @@ impl<S: Rounded, E: Motion<Estimate<S>>> Asked<E, S> {
         if ground {
             for Event { time: event, .. } in events[next.saturating_sub(1)..].iter().take(2) {
                 if event.value() == time.value() && event.error() == time.error() {
-                    return Vec::new();
+                    return (time.clone(), Vec::new());
                 }
                 if event.error().is_finite() && (event.clone() - time).vanishes() != Ok(false) {
                     near.push(event.clone());
@@ -127,18 +133,27 @@ impl<S: Rounded, E: Motion<Estimate<S>>> Asked<E, S> {
         let rays = self.rays.get_or_init(|| RayRegister::of(&self.engine));
         near.extend(rays.near(point.unwrap_or(&zero), time));
         if !near.is_empty() && self.at_start_ray(point, time) {
-            near.retain(|met| roundings(met) > RAY_ROUNDINGS);
+            let on_ray = |met: &Estimate<S>| roundings(met) <= RAY_ROUNDINGS;
+            let own = near.iter().find(|met| on_ray(met)).unwrap_or(time).clone();
+            near.retain(|met| !on_ray(met));
+            return (own, near);
         }
-        near
+        (time.clone(), near)
+    }
+
+    /// What is no number is no time.
+    fn finite(&self, time: &Estimate<S>) -> Result<(), Error> {
+        let outside = || Error::TimeOutside { found: time.text(), end: self.engine.end().text() };
+        if time.is_finite() { Ok(()) } else { Err(outside()) }
     }
 
     /// Whether a ray of the start is there at that very time. Long numbers hold more digits than are spelled.
     fn at_start_ray(&self, point: Option<&Estimate<S>>, time: &Estimate<S>) -> bool {
-        if roundings(time) > SPELLED {
+        if !is_spelled(time) {
             return false;
         }
         match (time.as_double(), point.map_or(Some(0.0), Scalar::as_double)) {
-            (Some(time), Some(point)) => self.start.meet(point, time) == Some(true),
+            (Some(double), Some(point)) => self.start.meet(point, &Estimate::new(double, time.error())) == Some(true),
             _ => true,
         }
     }
@@ -152,20 +167,24 @@ impl<S: Rounded, E: Motion<Estimate<S>>> Asked<E, S> {
         ask: impl Fn(&dyn Motion<Estimate<S>>, &Estimate<S>, Side) -> Result<T, Error>,
         cover: impl Fn(T, &T) -> T,
     ) -> Result<T, Error> {
-        let near = self.near(point, time);
+        self.finite(time)?;
+        let (own, near) = self.near(point, time);
         if near.is_empty() {
-            return ask(&self.engine, time, side);
+            return ask(&self.engine, &own, side);
         }
-        if let Some(exact) = self.exact.as_ref().filter(|_| roundings(time) <= SPELLED) {
+        if let Some(exact) = self.exact.as_ref().filter(|_| is_spelled(time)) {
             return ask(&**exact, time, side);
         }
         let mut found = ask(&self.engine, time, side)?;
-        self.open.lock().unwrap_or_else(PoisonError::into_inner).push(time.to_f64());
+        // More bits hold more of what is spelled, but not read in doubles.
+        let tellable = time.as_double().is_none() || is_spelled(time);
+        self.open.lock().unwrap_or_else(PoisonError::into_inner).push((time.to_f64(), tellable));
         for met in near {
             let late = met.double(met.bound() + time.bound());
             let exactly = |time: Estimate<S>| Estimate::exact(time.into_value());
             let [before, after] = [exactly(met.clone() - &late), exactly(met.clone() + &late)];
-            for (time, side) in [(&before, Side::Left), (&met, Side::Left), (&met, Side::Right), (&after, Side::Right)] {
+            for (time, side) in [(&before, Side::Left), (&met, Side::Left), (&met, Side::Right), (&after, Side::Right)]
+            {
                 match ask(&self.engine, time, side) {
                     Ok(other) => found = cover(found, &other),
                     // Beyond the end there is nothing to be covered.
@@ -180,8 +199,9 @@ impl<S: Rounded, E: Motion<Estimate<S>>> Asked<E, S> {
 
 /// `a`, with a bound that reaches over `b`.
 fn over<S: Rounded>(a: Estimate<S>, b: &Estimate<S>) -> Estimate<S> {
-    let apart = b.clone() - &a;
-    a.widened(&apart)
+    let apart = b.value().clone() - a.value();
+    let reach = apart.in_roundoffs() + apart.to_f64().abs() + b.error();
+    Estimate::new(a.value().clone(), a.error().max(reach))
 }
 
 impl<S: Rounded, E: Motion<Estimate<S>>> Motion<Estimate<S>> for Asked<E, S> {
@@ -191,6 +211,7 @@ impl<S: Rounded, E: Motion<Estimate<S>>> Motion<Estimate<S>> for Asked<E, S> {
 
     fn pair(&self, pair: Pair, time: &Estimate<S>, side: Side) -> Result<[Estimate<S>; 2], Error> {
         if pair != Pair::GroundEnd {
+            self.finite(time)?;
             return self.engine.pair(pair, time, side);
         }
         let ask = |engine: &dyn Motion<_>, time: &_, side| engine.pair(pair, time, side);
@@ -213,12 +234,13 @@ impl<S: Rounded, E: Motion<Estimate<S>>> Motion<Estimate<S>> for Asked<E, S> {
 
     fn may_jump(&self, time: &Estimate<S>) -> Result<bool, Error> {
         let top = self.scales().length;
-        let near = !(self.near(None, time).is_empty() && self.near(Some(&top), time).is_empty());
-        if near { Ok(true) } else { self.engine.may_jump(time) }
+        let [(own, ground), (_, above)] = [None, Some(&top)].map(|point| self.near(point, time));
+        if ground.is_empty() && above.is_empty() { self.engine.may_jump(&own) } else { Ok(true) }
     }
 
-    fn take_open_times(&self) -> Vec<f64> {
-        std::mem::take(&mut self.open.lock().unwrap_or_else(PoisonError::into_inner))
+    fn take_open_times(&self) -> Vec<(f64, bool)> {
+        let own = std::mem::take(&mut *self.open.lock().unwrap_or_else(PoisonError::into_inner));
+        self.engine.take_open_times().into_iter().chain(own).collect()
     }
 
     fn course(&self) -> &Course<Estimate<S>> {

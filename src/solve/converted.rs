@@ -17,6 +17,9 @@ pub(super) struct Converted<N: Scalar, M> {
     course: Course<M>,
 }
 
+/// A time that is past the end by no more roundings than these is the end.
+const LATE: f64 = 16.0;
+
 impl<N: Scalar, M: Reads<N>> Converted<N, M> {
     pub(super) fn new(engine: Arc<dyn Motion<N>>) -> Self {
         let mut course = engine.course().clone().map(M::read);
@@ -41,7 +44,11 @@ impl<N: Scalar, M: Reads<N>> Converted<N, M> {
         let event = events[next..].iter().take_while(|event| event.time.to_f64() == seconds);
         match event.zip(next..).find(|(event, _)| same(&event.time)) {
             Some((_, k)) => self.engine.events().get(k).map(|event| event.time.clone()),
-            None => (M::read(end.clone()).text() == time.text()).then_some(end),
+            // In other numbers the run may have ended a few roundings later.
+            None => {
+                let late = (seconds / end.to_f64() - 1.0) / time.log2_roundoff().exp2();
+                (M::read(end.clone()).text() == time.text() || (0.0..LATE).contains(&late)).then_some(end)
+            }
         }
     }
 
@@ -112,7 +119,7 @@ impl<N: Scalar, M: Reads<N>> Motion<M> for Converted<N, M> {
         self.engine.in_contact(&self.time_at_ground(time)?, side).map(M::read)
     }
 
-    fn take_open_times(&self) -> Vec<f64> {
+    fn take_open_times(&self) -> Vec<(f64, bool)> {
         self.engine.take_open_times()
     }
 

@@ -56,8 +56,7 @@ impl Target for f64 {
                 }
                 let rate = plan.rate_bits.and_then(|bits| long::rate_after(problem, &bounce, bits));
                 let effort = plan.effort(rung);
-                let history =
-                    ContactThenCells::<f64>::solve_observed(problem, &(), effort, bounce, rate, &**observe)?;
+                let history = ContactThenCells::<f64>::solve_observed(problem, &(), effort, bounce, rate, &**observe)?;
                 Arc::new(Asked::new(history, problem))
             }
         })

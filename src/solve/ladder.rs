@@ -128,8 +128,8 @@ pub(crate) fn settled<S: Target, T, A>(
 /// answer.
 const SAME_DOUBT: usize = 3;
 
-/// As often a time may not be told from that of an event or a ray: doubles, fractions, and more bits twice.
-const SAME_TIME: usize = 4;
+/// So many times as many bits as the first ones are tried to tell a time from that of an event or a ray.
+const BITS_OF_TIMES: u32 = 4;
 
 impl Ladder<'_> {
     /// The answer to `query`, settled: asked of `attempt` where there is one, and of attempts in more and more bits
@@ -151,7 +151,6 @@ impl Ladder<'_> {
         let mut kept: Option<(Attempt<S>, usize, bool)> = None;
         let mut known = attempt.map(|attempt| attempt.engine);
         let mut doubts: Vec<f64> = Vec::new();
-        let mut unsure = 0;
         loop {
             let answer = match known.take() {
                 Some(engine) => Ok(engine),
@@ -174,9 +173,9 @@ impl Ladder<'_> {
                         doubts.push(engine.end().to_f64());
                     }
                     let open_times = engine.take_open_times();
-                    unsure += usize::from(!open_times.is_empty());
-                    let asks = !open_times.is_empty() && unsure < SAME_TIME;
+                    let asks = open_times.iter().any(|(_, tellable)| *tellable) && self.tells_times(rung);
                     let given_up = !open_times.is_empty() && !asks;
+                    let open_times = open_times.into_iter().map(|(time, _)| time).collect();
                     if given_up && !self.in_doubles() {
                         return Err(self.unsettled(rung));
                     }
@@ -219,6 +218,16 @@ impl Ladder<'_> {
                     return kept.or(reached).ok_or_else(|| self.unsettled(rung));
                 }
             }
+        }
+    }
+
+    /// Whether the numbers after those of `rung` are tried to tell a time from that of an event or a ray.
+    fn tells_times(&self, rung: Rung) -> bool {
+        match (rung, self.plan.rung) {
+            (Rung::Double | Rung::Fractions, _) => true,
+            (Rung::Bits(bits), Rung::Bits(first)) => bits < BITS_OF_TIMES * first,
+            (Rung::Bits(bits), _) => bits < BITS_OF_TIMES * self.plan.climb.bits.unwrap_or(0),
+            _ => false,
         }
     }
 
@@ -269,7 +278,15 @@ impl Ladder<'_> {
 /// Whether events are taken for one that are so only within their bounds, where exact numbers are to decide.
 fn coincides<S: Scalar>(plan: &Plan, engine: &dyn Motion<S>) -> bool {
     let contacts = engine.digits_lost().map_or(0, |(contacts, _)| contacts);
-    plan.tries_exact(contacts) && engine.warnings().iter().any(|warning| matches!(warning, Warning::Coincidence { .. }))
+    let taken_for_one = || engine.warnings().iter().any(|warning| matches!(warning, Warning::Coincidence { .. }));
+    plan.tries_exact(contacts) && (taken_for_one() || plan.engine == Engine::Lattice && ends_at_event(engine))
+}
+
+/// Whether the last event is not told from the end of the run, which it may come after.
+fn ends_at_event<S: Scalar>(engine: &dyn Motion<S>) -> bool {
+    let Some(event) = engine.events().last().filter(|_| *engine.ending() == Ending::Time) else { return false };
+    let left = engine.end() - &event.time;
+    left.log2_error() > f64::NEG_INFINITY && left.vanishes() != Ok(false)
 }
 
 /// Whether a damped run says that its bounds leave events open.

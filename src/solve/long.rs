@@ -86,8 +86,7 @@ fn estimates(problem: &Problem, plan: &Plan, bits: u32, observe: &Observer) -> R
                 let history = ContactThenCells::<Float>::first_contact(problem, &bits, bounce)?;
                 return Ok(Arc::new(Asked::new(history, problem)));
             }
-            let history =
-                ContactThenCells::<Float>::solve_observed(problem, &bits, effort, bounce, None, &**observe)?;
+            let history = ContactThenCells::<Float>::solve_observed(problem, &bits, effort, bounce, None, &**observe)?;
             Arc::new(Asked::new(history, problem))
         }
     })
