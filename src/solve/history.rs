@@ -23,6 +23,11 @@ use crate::reason::Warning;
 /// [`Error::TimeOutside`], or [`Error::BeyondEnd`] and [`Error::BeyondExactness`] where the history ends for a reason
 /// of its own; about a point outside of the rod [`Error::PointOutside`].
 ///
+/// A time stands for exactly what it spells, a double for its shortest decimal or a simple fraction: just before an
+/// event, just after it, or at it. Longer numbers and fractions tell; where they do not, the bound covers both sides and
+/// [`History::warnings`] names the time. The times of [`Motion::events`](crate::engine::Motion::events), with their
+/// bounds, stand for the events: [`History::ask`] with these.
+///
 /// **Accuracy**: that of the [`Plan`]. Each answer is computed in more bits where those at hand do not leave the digits
 /// that were asked for.
 ///
