@@ -187,6 +187,38 @@ fn a_ray_of_the_start_is_met_exactly() {
     assert!(left[0].0 < -2 && right[0].0 == left[0].0, "{left:?} {right:?}");
 }
 
+/// What is no number is no time, also where fractions confirm the doubles.
+#[test]
+fn no_number_is_no_time() {
+    for scene_text in [
+        "[rod]\nlength = \"3/5\"\nwave_speed = \"4/5\"\n[impact]\nspeed = \"3/8\"\n[gravity]\nacceleration = \"5/2\"\n\
+         [run]\nimpacts = 5\n",
+        "[rod]\nlength = 1\nwave_speed = 1\ndamping = 0.1\n[impact]\nspeed = 2\n[gravity]\nacceleration = 1\n\
+         [run]\nimpacts = 2\n",
+    ] {
+        let history = scene(scene_text).solve().unwrap();
+        for side in [Side::Left, Side::Right] {
+            assert!(matches!(history.strain(f64::NAN, side), Err(Error::TimeOutside { .. })));
+            assert!(matches!(history.at(0.25, f64::NAN), Err(Error::TimeOutside { .. })));
+            assert!(matches!(history.centre(f64::NAN), Err(Error::TimeOutside { .. })));
+        }
+    }
+}
+
+/// An impact a part in 10¹³ after the end of the run is not in it.
+#[test]
+fn an_impact_beyond_the_end_is_none() {
+    let at = |height: &str| {
+        let text = format!(
+            "[rod]\nlength = 1\nwave_speed = 1\n[start]\ndisplacement = [[0, \"{height}\"], [1, \"{height}\"]]\n\
+             velocity = [[0, -0.7], [1, 4]]\n[gravity]\nacceleration = 1\n[run]\ntime = 4\n"
+        );
+        scene(&text).solve().unwrap().events().len()
+    };
+    // v(0,4) = d + 4 · 1.65 − 8 = d − 1.4.
+    assert_eq!((at("1.4000000000001"), at("1.4"), at("1.3999999999999")), (0, 1, 1));
+}
+
 /// Numbers from 0 to 1, one after the other (splitmix64).
 struct Random(u64);
 
