@@ -79,7 +79,8 @@ pub(super) fn open_touch<S: Rounded>(
         }
         let start = at_zero(height, &height[0].zero()).to_f64();
         let (middle, spread) = (trace[0].to_f64(), bound(trace, 1));
-        if *rising && (middle - spread > fast || increases(trace)) {
+        let leaves = || at_zero(trace, &trace[0].zero()).to_f64() >= -fast && increases(trace);
+        if *rising && (middle - spread > fast || leaves()) {
             return Told::Clear;
         }
         if start > high && (middle - spread).max(-middle - spread) > fast {
