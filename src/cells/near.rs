@@ -19,10 +19,22 @@ fn halves<S: Rounded, const N: usize>(basis: &Basis<S>, series: &[Vec<S>; N]) ->
     [part(&half, &one), part(&zero, &half)]
 }
 
+/// What the sums of a bound round in doubles: longer numbers may hold a function that is smaller.
+const ROUNDINGS: f64 = 1e-14;
+
+/// A series lies within the second number of the first.
+fn range<S: Rounded>(c: &[S]) -> (f64, f64) {
+    let (middle, spread) = (c[0].to_f64(), bound(c, 1));
+    (middle, spread + ROUNDINGS * (middle.abs() + spread))
+}
+
 /// Whether the derivative is positive throughout.
 fn increases<S: Rounded>(c: &[S]) -> bool {
     let slope = derivative(c);
-    slope.first().is_some_and(|mean| mean.to_f64() > bound(&slope, 1))
+    !slope.is_empty() && {
+        let (middle, spread) = range(&slope);
+        middle > spread
+    }
 }
 
 /// What is known of a part of a strip.
@@ -69,7 +81,7 @@ pub(super) fn open_touch<S: Rounded>(
     rising: &mut bool,
 ) -> Option<f64> {
     open(basis, [height.to_vec(), trace.to_vec()], |_, [height, trace]| {
-        let (middle, spread) = (height[0].to_f64(), bound(height, 1));
+        let (middle, spread) = range(height);
         if middle - spread > high {
             *rising = false;
             return Told::Clear;
@@ -78,7 +90,7 @@ pub(super) fn open_touch<S: Rounded>(
             return Told::Over;
         }
         let start = at_zero(height, &height[0].zero()).to_f64();
-        let (middle, spread) = (trace[0].to_f64(), bound(trace, 1));
+        let (middle, spread) = range(trace);
         let leaves = || at_zero(trace, &trace[0].zero()).to_f64() >= -fast && increases(trace);
         if *rising && (middle - spread > fast || leaves()) {
             return Told::Clear;
@@ -99,7 +111,7 @@ pub(super) fn open_release<S: Rounded>(basis: &Basis<S>, trace: &[S], off: f64, 
         return None;
     }
     open(basis, [trace.to_vec()], |from, [trace]| {
-        let (middle, spread) = (trace[0].to_f64(), bound(trace, 1));
+        let (middle, spread) = range(trace);
         if middle + spread < -off {
             begins = false;
             return Told::Clear;

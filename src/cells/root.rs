@@ -5,6 +5,8 @@ use crate::number::Rounded;
 
 /// Intervals shorter than this part of a segment are not cut any further.
 const SMALLEST: f64 = 1e-300;
+/// What the sums of a bound round in doubles: longer numbers may hold a function that is smaller.
+const ROUNDED: f64 = 1.0 + 1e-14;
 
 /// The first `x` in `0 … 1` where the series turns negative, given that it is not negative at 0; `None` if it does not.
 ///
@@ -21,7 +23,7 @@ pub(super) fn first_descent<S: Rounded>(basis: &Basis<S>, c: &[S], noise: f64) -
     let mut parts = vec![(zero.clone(), width, c.to_vec())];
     while let Some((from, width, c)) = parts.pop() {
         let centre = c[0].to_f64();
-        let spread = bound(&c, 1);
+        let spread = bound(&c, 1) * ROUNDED;
         if centre > spread || centre.abs() + spread <= noise {
             continue;
         }
@@ -29,7 +31,7 @@ pub(super) fn first_descent<S: Rounded>(basis: &Basis<S>, c: &[S], noise: f64) -
             return Some((from, true));
         }
         let slope = derivative(&c);
-        let (mean, variation) = (slope[0].to_f64(), bound(&slope, 1));
+        let (mean, variation) = (slope[0].to_f64(), bound(&slope, 1) * ROUNDED);
         if mean > variation {
             // Rising from a value that is not negative, as far as can be told.
             if at_zero(&c, &zero).to_f64() < -noise {

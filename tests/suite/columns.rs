@@ -266,7 +266,7 @@ fn one_march_has_the_values_of_many() {
         let (end, trip) = (*history.end(), history.scales().time);
         let mut times: Vec<f64> = (0..60).map(|_| end * random()).collect();
         times.extend((0..40).map(|k| 0.25 * f64::from(k)));
-        times.extend(history.events().iter().flat_map(|event| [event.time - 1e-9, event.time + 0.5 * trip + 1e-9]));
+        times.extend(history.events().iter().flat_map(|event| [event.time - 1e-5, event.time + 0.5 * trip + 1e-5]));
         times.extend([0.0, end, end]);
         times.retain(|time| (0.0..=end).contains(time));
         times.sort_by(f64::total_cmp);
