@@ -113,7 +113,7 @@ impl<S: Rounded, E: Motion<Estimate<S>>> Asked<E, S> {
     fn near(&self, point: Option<&Estimate<S>>, time: &Estimate<S>) -> (Estimate<S>, Vec<Estimate<S>>) {
         let (seconds, events) = (time.to_f64(), self.engine.events());
         let told = self.longer && is_spelled(time);
-        if told || computed(time) || !(seconds > 0.0) {
+        if told || computed(time) || seconds.is_nan() || seconds <= 0.0 {
             return (time.clone(), Vec::new());
         }
         let ground = point.is_none_or(|point| point.to_f64() == 0.0);
