@@ -90,7 +90,7 @@ fn held(problem: &Problem, modes: &[Numbers], counts: &mut Counts) {
     for (time, [left, _]) in times.iter().zip(&known) {
         let exact = Float::with_val(BITS, time.to_rational());
         let apart = |event: &Float| Float::with_val(BITS, &exact - event).to_f64();
-        let passed = truth.events().iter().filter(|event| apart(&event.time) > 1e-50).next_back();
+        let passed = truth.events().iter().rfind(|event| apart(&event.time) > 1e-50);
         let near = truth.events().iter().map(|event| apart(&event.time).abs()).fold(1.0, f64::min);
         if near < 1e-50 {
             continue;
