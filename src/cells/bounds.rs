@@ -50,11 +50,14 @@ impl<S: RoundedSpecial> Damped<S> {
         let event = |(k, event): (usize, &Event<Estimate<S>>)| {
             let Near { centre, end, rate, late, .. } = self.at_event(k);
             let (moves, push) = (event.centre_velocity.to_f64().abs(), self.push(event.time.value(), late)?);
+            // As the rod lies on the ground it is known.
+            let known = S::ENCLOSES && event.centre.value().in_roundoffs() == 0.0;
+            let centre = if known { 0.0 } else { centre + late * (moves + push) };
             Ok(Event {
                 kind: event.kind,
                 time: within(event.time.value(), event.time_error),
                 end_velocity: within(event.end_velocity.value(), end),
-                centre: within(event.centre.value(), centre + late * (moves + push)),
+                centre: within(event.centre.value(), centre),
                 centre_velocity: within(event.centre_velocity.value(), rate + push),
                 time_error: event.time_error,
             })
@@ -206,14 +209,19 @@ impl<S: RoundedSpecial> Motion<Estimate<S>> for Damped<S> {
 
     fn stress_pieces(&self) -> Vec<StressPiece<Estimate<S>>> {
         let piece = |piece: StressPiece<S>| {
-            let strain = self.scaled(self.uncertainty(&piece.from)).strain;
+            // In flight there is none.
+            let flies = S::ENCLOSES && piece.chebyshev.is_empty();
+            let strain = if flies { 0.0 } else { self.scaled(self.uncertainty(&piece.from)).strain };
             bounded_piece(piece, strain)
         };
         self.pieces_of_stress().into_iter().map(piece).collect()
     }
 
     fn strain(&self, time: &Estimate<S>, side: Side) -> Result<Estimate<S>, Error> {
-        Ok(within(&self.strain_of(time.value(), side)?, self.near(time).strain))
+        let strain = self.strain_of(time.value(), side)?;
+        // In flight there is none.
+        let flies = S::ENCLOSES && strain.in_roundoffs() == 0.0 && !self.presses(time.value(), side);
+        Ok(within(&strain, if flies { 0.0 } else { self.near(time).strain }))
     }
 
     fn pair(&self, pair: Pair, time: &Estimate<S>, side: Side) -> Result<[Estimate<S>; 2], Error> {
@@ -223,6 +231,10 @@ impl<S: RoundedSpecial> Motion<Estimate<S>> for Damped<S> {
         Ok(match pair {
             Pair::GroundEnd => {
                 let [height, rate] = self.ground_of(time.value(), side)?;
+                let zero = height.in_roundoffs() == 0.0 && rate.in_roundoffs() == 0.0;
+                if S::ENCLOSES && zero && self.presses(time.value(), side) {
+                    return Ok([Estimate::exact(height.zero()), Estimate::exact(rate.zero())]);
+                }
                 self.moved(time, &height, &rate)
             }
             Pair::Centre => {

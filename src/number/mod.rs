@@ -13,6 +13,8 @@
 
 #[cfg(not(feature = "mp"))]
 mod absent;
+#[cfg(feature = "mp")]
+mod ball;
 mod bounded;
 mod double;
 mod estimate;
@@ -36,6 +38,8 @@ mod text;
 
 #[cfg(not(feature = "mp"))]
 pub use absent::{Float, Interval};
+#[cfg(feature = "mp")]
+pub use ball::Ball;
 pub use bounded::{Answer, Bounded};
 pub use estimate::Estimate;
 #[cfg(feature = "mp")]

@@ -6,13 +6,14 @@ use super::asked::Asked;
 use super::converted::Converted;
 use super::fractions::confirmed;
 use super::ladder::{Engined, Observer, Target};
-use super::plan::{Engine, Plan, Rung};
-use crate::cells::{ContactThenCells, Damped};
+use super::plan::{Engine, Lacks, Plan, Rung};
+use super::proved::Proved;
+use crate::cells::{ContactThenCells, Damped, Effort, FirstRelease};
 use crate::error::Error;
 use crate::first_contact::{Bounce, ContactHistory, FirstContact};
 use crate::lattice::Undamped;
 use crate::motion::Motion;
-use crate::number::{Estimate, Float, Interval, IntervalPrecision, Reads, Scalar};
+use crate::number::{Ball, Estimate, Float, Interval, IntervalPrecision, Reads, Scalar};
 use crate::problem::{Parameters, Problem};
 
 impl Target for Float {
@@ -112,11 +113,56 @@ fn roots(problem: &Problem, plan: &Plan, bits: u32, observe: &Observer) -> Resul
 
 fn enclosures(problem: &Problem, plan: &Plan, bits: u32, observe: &Observer) -> Result<Engined<Interval>, Error> {
     let problem = &*plan.reaching(problem);
-    match plan.engine {
-        Engine::Lattice => Ok(Arc::new(roots(problem, plan, bits, observe)?)),
-        Engine::Cells => Err(Error::NotCertified),
-        Engine::ClosedForm | Engine::ClosedFormThenCells => {
-            Ok(Arc::new(ContactHistory::<Interval>::solve(problem, &IntervalPrecision::with_exact(bits))?))
+    let contact = || ContactHistory::<Interval>::solve(problem, &IntervalPrecision::with_exact(bits));
+    Ok(match plan.engine {
+        Engine::Lattice => Arc::new(roots(problem, plan, bits, observe)?),
+        Engine::Cells => return Err(Error::NotCertified),
+        Engine::ClosedForm => Arc::new(contact()?),
+        Engine::ClosedFormThenCells => match first_release(problem, bits)? {
+            Some(first) => match proved(problem, plan, bits, &first, observe)? {
+                Some(run) => run,
+                None => Arc::new(contact()?),
+            },
+            None => Arc::new(contact()?),
+        },
+    })
+}
+
+/// The first release by its closed form, if there is one.
+fn first_release(problem: &Problem, bits: u32) -> Result<Option<FirstRelease<Ball>>, Error> {
+    let rod = Parameters::<Interval>::of(problem, &IntervalPrecision::bits(bits))?;
+    let contact = FirstContact::new(&rod);
+    match contact.bounce() {
+        Bounce::At { time, trips, .. } => Ok(Some(match trips.lattice() {
+            Some(k) => FirstRelease::Ray(k),
+            None => FirstRelease::Root((time / contact.round_trip()).give(&bits).into_value()),
+        })),
+        Bounce::Undecided { why, .. } if why.needs_bits() => {
+            Err(Error::NotDecided { what: "how the first contact ends", bits })
         }
+        _ => Ok(None),
     }
+}
+
+/// A damped run in numbers that enclose each of its steps, and what that proves. Where more bits may prove more, they
+/// are asked for first; `None` where nothing is proved beyond the first contact.
+fn proved(
+    problem: &Problem,
+    plan: &Plan,
+    bits: u32,
+    first: &FirstRelease<Ball>,
+    observe: &Observer,
+) -> Result<Option<Engined<Interval>>, Error> {
+    let rung = Rung::Enclosures(bits);
+    let effort = Effort { digits: f64::from(bits) * std::f64::consts::LOG10_2, until_lost: false, ..plan.effort(rung) };
+    let run = Damped::<Ball>::solve_observed(problem, &bits, effort, 1, &**observe)?;
+    let last = plan.next(rung, Lacks::Bits(f64::INFINITY)).is_none();
+    let open = Err(Error::NotDecided { what: "what happens at the ground", bits });
+    Ok(match run.proved(first) {
+        // The closed form knows as much.
+        Ok((run, false)) if run.events().len() <= 2 => None,
+        Err(Error::NotDecided { .. }) => None,
+        Ok((_, false)) if !last => return open,
+        found => Some(Arc::new(Proved::new(found?.0))),
+    })
 }
