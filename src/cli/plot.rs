@@ -142,7 +142,7 @@ impl Plot {
 /// More values than this that differ between scenes are not told in their names.
 const MOST_DIFFERENT: usize = 3;
 
-/// Adds to the names of scenes the values in which they differ.
+/// Calls scenes by the values in which they differ, where these are few.
 fn told_apart(scenes: &mut [Gathered]) {
     let values = |scene: &Gathered| {
         let rod = &scene.rod;
@@ -155,7 +155,7 @@ fn told_apart(scenes: &mut [Gathered]) {
     }
     for (scene, values) in scenes.iter_mut().zip(&all) {
         let told = different.iter().map(|k| format!("{} = {}", values[*k].0, values[*k].1.decimal(6)));
-        scene.name += &format!(" ({})", told.collect::<Vec<_>>().join(", "));
+        scene.name = told.collect::<Vec<_>>().join(", ");
     }
 }
 

@@ -94,8 +94,43 @@ fn the_page_has_the_colours_of_plot() {
 fn several_scenes_are_lines_with_a_legend() {
     let svg = quiet(&["plot", "figure-4-r01", "figure-4-r03", "--quantity", "h", "-o", "-"]);
     let found = structure(&svg);
-    assert!(found.contains("text figure-4-r01 (r = 0.1)\ntext figure-4-r03 (r = 0.3)"), "{found}");
+    assert!(found.contains("text r = 0.1\ntext r = 0.3"), "{found}");
     assert_eq!(found.matches("curve: 1").count(), 2);
+}
+
+/// Width and height of each frame, mm.
+fn frames(svg: &str) -> Vec<[f64; 2]> {
+    let frames = svg.lines().filter(|line| line.starts_with("<rect") && line.contains("fill=\"none\""));
+    let number = |line: &str, name: &str| -> f64 {
+        let value = line.split(&format!(" {name}=\"")).nth(1).unwrap();
+        value.split('"').next().unwrap().parse().unwrap()
+    };
+    frames.map(|line| ["width", "height"].map(|name| number(line, name))).collect()
+}
+
+/// Scenes side by side have one axis of time, one scale of colours and one legend that tells them apart.
+#[test]
+fn scenes_side_by_side_are_drawn_alike() {
+    let svg = quiet(&["plot", "figure-4-r01", "figure-4-r03", "--quantity", "xt,stress,h", "-o", "-"]);
+    let panels: Vec<&str> = svg.split("class=\"panel\"").skip(1).collect();
+    let of = |panel: &str, class: &str| {
+        let part = panel.split(&format!("class=\"{class}\"")).nth(1).unwrap().split("</g>").next().unwrap();
+        part.split("<text").skip(1).map(|text| text.split('>').nth(1).unwrap().to_string()).collect::<Vec<_>>()
+    };
+    assert_eq!(panels.len(), 4);
+    assert_eq!(of(panels[0], "axis-x"), of(panels[1], "axis-x"));
+    assert_eq!(of(panels[0], "legend"), of(panels[1], "legend"));
+    assert_eq!((svg.matches(">r = 0.1<").count(), svg.matches(">r = 0.3<").count()), (1, 1));
+}
+
+/// On a slide each of four pictures is a fifth of its height or more, and nothing of the command line is in it.
+#[test]
+fn a_slide_has_room_for_four_pictures() {
+    let svg = quiet(&["plot", "doyen-ern-piperno", "--size", "slide", "-o", "-"]);
+    let heights: Vec<f64> = frames(&svg).into_iter().map(|[_, height]| height).collect();
+    assert_eq!(heights.len(), 4);
+    assert!(heights.iter().all(|height| *height > 254.0 * 9.0 / 16.0 / 5.0), "{heights:?}");
+    assert!(!svg.contains("--"), "no option in a picture");
 }
 
 #[test]
@@ -105,7 +140,7 @@ fn long_histories_are_cut_and_said() {
     assert!(said.err.contains("note: steel-bar: drawn from t = 0 to 0.0008 of 0.138"), "{}", said.err);
     assert!(said.code == Some(0) && said.out.len() < 300_000);
     let title = "t = 0 … 0.0008 of 0.138";
-    assert!(said.out.contains(title) && said.out.contains("1 of 1 contacts; --to 0.138"), "{}", structure(&said.out));
+    assert!(said.out.contains(title) && said.out.contains("1 of 1 contacts<"), "{}", structure(&said.out));
     // The contact of 4e-4 in 0.13 is a mark in each of four pictures, and no band.
     let whole = quiet(&["plot", "steel-bar", "--to", "0.13", "-o", "-"]);
     assert_eq!(structure(&whole).matches("text short contact").count(), 4);

@@ -44,6 +44,11 @@ impl Axis {
         Axis { label, from, to, log: false, factor: 10f64.powi(-power), ticks: None }
     }
 
+    /// Makes it reach as far as another one of the same quantity; the unit of its label stays.
+    pub(crate) fn widen(&mut self, [from, to]: [f64; 2]) {
+        (self.from, self.to) = (from.min(self.from), to.max(self.to));
+    }
+
     /// The axis of a number without a unit, by factors.
     pub(crate) fn log(label: &str, [from, to]: [f64; 2]) -> Self {
         Axis { label: label.into(), from, to, log: true, factor: 1.0, ticks: None }

@@ -87,7 +87,7 @@ impl Layer {
 }
 
 impl Key {
-    fn text(&self) -> &str {
+    pub(crate) fn text(&self) -> &str {
         let (Key::Line(text, _) | Key::Area(text, _) | Key::Mark(text, ..) | Key::Colors(text, _)) = self;
         text
     }
@@ -184,10 +184,9 @@ impl Panel {
             svg.line(&[DVec2::new(from.x - TICK * em, y), DVec2::new(from.x, y)], FRAME);
             svg.text(DVec2::new(from.x - (TICK + 0.3) * em, y + 0.36 * em), Anchor::End, text);
         }
-        // A label longer than the frame reaches below it, not into the legend.
-        let middle = (from.y + size.y / 2.0).max(from.y + em * width(&self.y.label) / 2.0);
-        let label = DVec2::new(left + 0.85 * em, middle);
-        svg.text_upwards(label, Anchor::Middle, &self.y.label);
+        // A label that is longer than the frame is written smaller.
+        let label = DVec2::new(left + 0.85 * em, from.y + size.y / 2.0);
+        svg.text_upwards(label, Anchor::Middle, &self.y.label, (size.y / em / width(&self.y.label)).min(1.0));
         svg.close();
         svg.close();
     }

@@ -41,9 +41,14 @@ impl Size {
         }
     }
 
-    /// The height of letters, mm: 8 points; on a slide what is as large on a screen as 18 points on a page.
-    fn em(self) -> f64 {
-        if self == Size::Slide { 4.4 } else { 2.82 }
+    /// The height of letters, mm: 8 points; on a slide what is as large on a screen as 18 points on a page, or 13 where
+    /// more than two pictures share it.
+    fn em(self, panels: usize) -> f64 {
+        match (self, panels) {
+            (Size::Slide, 0..=2) => 4.4,
+            (Size::Slide, _) => 3.2,
+            _ => 2.82,
+        }
     }
 
     /// Of the frame of one of so many pictures in a column.
@@ -65,7 +70,7 @@ impl Size {
 impl Sheet {
     /// The sheet as SVG.
     pub(crate) fn svg(&self, size: Size) -> String {
-        let (em, wide) = (size.em(), size.width());
+        let (em, wide) = (size.em(self.panels.len()), size.width());
         let across = if size == Size::Column || self.panels.len() < 2 { 1 } else { 2 };
         let rows: Vec<&[Panel]> = self.panels.chunks(across).collect();
         let title: Vec<&str> = self.title.iter().flat_map(|line| wrapped(line, (wide - 2.0 * em) / em)).collect();

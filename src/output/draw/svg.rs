@@ -210,9 +210,11 @@ impl Svg {
     }
 
     /// A text that is read upwards.
-    pub(crate) fn text_upwards(&mut self, at: DVec2, anchor: Anchor, text: &str) {
+    /// Letters are so many times as high as the others.
+    pub(crate) fn text_upwards(&mut self, at: DVec2, anchor: Anchor, text: &str, size: f64) {
         let [x, y] = [at.x, at.y].map(length);
-        self.place_text(at, anchor, &format!(" transform=\"rotate(-90 {x} {y})\""), text);
+        let smaller = if size < 1.0 { format!(" font-size=\"{}\"", length(size * self.em)) } else { String::new() };
+        self.place_text(at, anchor, &format!("{smaller} transform=\"rotate(-90 {x} {y})\""), text);
     }
 
     fn place_text(&mut self, at: DVec2, anchor: Anchor, turned: &str, text: &str) {

@@ -16,6 +16,8 @@ pub(crate) struct Break {
     pub(crate) time: f64,
     /// Whether the field jumps across it; otherwise only its slope.
     pub(crate) jump: bool,
+    /// Its jump, as a share of the greatest.
+    pub(crate) share: f64,
 }
 
 /// A field over the span.
@@ -264,7 +266,8 @@ mod tests {
     #[test]
     fn cells_cover_the_strip() {
         let strip = Strip { from: 0.3, to: 5.1, length: 2.0, speed: 3.0, trip: 4.0 / 3.0, damped: false };
-        let breaks: Vec<Break> = (-3..40).map(|k| Break { time: 0.17 * f64::from(k * k) - 1.0, jump: true }).collect();
+        let breaks: Vec<Break> =
+            (-3..40).map(|k| Break { time: 0.17 * f64::from(k * k) - 1.0, jump: true, share: 1.0 }).collect();
         for fine in [None, Some(0.2)] {
             let [up, down] = [0.0, strip.trip].map(|late| strip.knots(&breaks, late, fine));
             let polygons = strip.polygons(&up, &down).unwrap();

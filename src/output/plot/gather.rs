@@ -76,7 +76,7 @@ impl Gathered {
         let [from, to, end] = [from, to, self.end].map(|time| time.decimal(6));
         let (shown, all) = (self.contacts.len(), self.of_contacts);
         (asked.from.is_none() && asked.to.is_none() && to != end)
-            .then(|| format!("t = {from} … {to}{unit} of {end}{unit}, {shown} of {all} contacts; --to {end} shows all"))
+            .then(|| format!("t = {from} … {to}{unit} of {end}{unit}, {shown} of {all} contacts"))
     }
 
     /// How many columns of its grid the field has in a round trip, where they are too few to show its waves.
@@ -234,19 +234,48 @@ fn breaks<S: Target>(history: &History<S>, drawn: &Gathered) -> Result<Vec<Break
         let waves = history.waves()?.map(|x| x.to_f64());
         let greatest = waves.pieces.iter().map(|piece| piece.rate.abs()).fold(f64::MIN_POSITIVE, f64::max);
         breaks.extend(waves.pieces.windows(2).filter(|pair| inside(&pair[1].from)).map(|pair| {
-            let jump = pair[1].rate - pair[0].at(&pair[1].from).1;
-            Break { time: pair[1].from, jump: jump.abs() > 1e-9 * greatest }
+            let jump = (pair[1].rate - pair[0].at(&pair[1].from).1).abs();
+            Break { time: pair[1].from, jump: jump > 1e-9 * greatest, share: jump / greatest }
         }));
         return Ok(breaks);
     }
     // A ray of a damped rod comes back for ever, and fades.
     let faded = drawn.rod.damping.recip() * -FADED.ln();
-    let rays =
-        |motion: &dyn Motion<S::Carried>| Ok(RayRegister::of(motion).passing(&motion.end().zero(), from - trip, to));
-    let rays = history.ask(rays, |_| Vec::new())?;
-    let drawn = rays.iter().filter(|ray| ray.age <= faded);
-    Ok(drawn.map(|ray| Break { time: ray.time.to_f64(), jump: ray.jump }).collect())
+    let jumps = |motion: &dyn Motion<S::Carried>| {
+        let (end, scales) = (motion.end(), motion.scales());
+        let mut rays = RayRegister::of(motion).passing(&end.zero(), from - trip, to);
+        rays.retain(|ray| ray.age <= faded);
+        // Across a ray in the middle of the rod, a quarter of a round trip after it has left the ground.
+        let (middle, late) = (scales.length / end.int(2), scales.time / end.int(4));
+        let few = rays.len() <= MOST_MEASURED;
+        let mut found = Vec::with_capacity(rays.len());
+        for ray in rays {
+            let time = ray.time.clone() + &late;
+            let known = ray.jump && few && time.to_f64() > 0.0 && time.to_f64() < end.to_f64();
+            let jump = match known {
+                true => {
+                    let [left, right] = [Side::Left, Side::Right].map(|side| motion.field(&middle, &time, side));
+                    Some((right?.strain.to_f64() - left?.strain.to_f64()).abs())
+                }
+                false => None,
+            };
+            found.push((ray, jump));
+        }
+        Ok(found)
+    };
+    let rays = history.ask(jumps, |_| Vec::new())?;
+    let greatest = rays.iter().filter_map(|ray| ray.1).fold(f64::MIN_POSITIVE, f64::max);
+    // One that the end cuts carries about what the one before it did.
+    let mut before = 1.0;
+    for (ray, jump) in &rays {
+        before = jump.map_or(before, |jump| jump / greatest);
+        breaks.push(Break { time: ray.time.to_f64(), jump: ray.jump, share: before });
+    }
+    Ok(breaks)
 }
+
+/// Of more rays than this the jumps are not looked up: they are not drawn.
+const MOST_MEASURED: usize = 300;
 
 /// What is left of a ray that is drawn no more.
 const FADED: f64 = 1e-3;

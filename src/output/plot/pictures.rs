@@ -2,10 +2,11 @@
 
 use glam::DVec2;
 
-use super::cells::{Cells, Values};
+use super::cells::{Break, Cells, Values};
 use super::gather::{Asked, Gathered, Line};
 use super::picture::{Along, Picture};
 use crate::error::Error;
+use crate::number::Scalar;
 use crate::output::draw::{
     AREAS, Axis, Key, LINES, Layer, Mark, Panel, Piece, Shape, Sheet, Size, Stroke, diverging, plain, thinned,
 };
@@ -14,12 +15,18 @@ use crate::quantity::{Measure, Quantity, Units};
 use crate::solve::{History, Target};
 
 /// The times on the ground, in every picture.
-const CONTACT: &str = "#c6c6c6";
+const CONTACT: &str = "#dcdcdc";
 /// A contact shorter than this share of the axis is a mark: its band would be a hairline.
 const SHORT: f64 = 1.0 / 200.0;
 /// The lowest part of a picture, where bars and marks of contacts stand.
 const FLOOR: f64 = 0.05;
-const RAY: Stroke = Stroke::new("#000000", 0.12);
+/// Rays by the shares of the greatest jump that they carry: fainter ones are not drawn.
+const RAYS: [(f64, Stroke); 4] = [
+    (0.5, Stroke::new("#000000", 0.12)),
+    (0.2, Stroke::new("#4a4a4a", 0.1)),
+    (0.05, Stroke::new("#808080", 0.08)),
+    (0.01, Stroke::new("#a8a8a8", 0.06)),
+];
 const KINK: Stroke = Stroke::new("#707070", 0.1).dashed("0.8 0.6");
 const JUMP: &str = "0.5 0.5";
 const WIDTH: f64 = 0.4;
@@ -58,15 +65,36 @@ pub(crate) fn sheet(asked: &Asked, scenes: &[Gathered], title: Vec<String>) -> R
     for picture in &asked.pictures {
         match picture {
             Picture::Along | Picture::Energy => {
+                let first = panels.len();
                 for scene in scenes {
-                    let mut panel = if *picture == Picture::Energy { energy(scene) } else { along(asked, scene) };
+                    let mut panel = match picture {
+                        Picture::Energy => energy(scene, scenes),
+                        _ => along(asked, scene, scenes),
+                    };
                     if scenes.len() > 1 {
                         panel.title = format!("{}: {}", plain(&scene.name), panel.title);
                     }
                     panels.push(panel);
                 }
+                let of_scene = &mut panels[first..];
+                let [low, high] = of_scene.iter().fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], panel| {
+                    [low.min(panel.y.from), high.max(panel.y.to)]
+                });
+                for panel in of_scene {
+                    panel.y.widen([low, high]);
+                }
             }
             _ => panels.push(lines(*picture, scenes)?),
+        }
+    }
+    // One legend tells the scenes apart.
+    if scenes.len() > 1 {
+        let names: Vec<String> = scenes.iter().map(|scene| plain(&scene.name)).collect();
+        let mut told = false;
+        for panel in &mut panels {
+            let tells = panel.legend.iter().any(|key| names.iter().any(|name| key.text() == name));
+            panel.legend.retain(|key| !told || !names.iter().any(|name| key.text() == name));
+            told |= tells;
         }
     }
     Ok(Sheet { title, panels })
@@ -85,7 +113,9 @@ fn points(line: &[(f64, f64)]) -> Vec<DVec2> {
 /// The times on the ground, with their keys: bands from the lower edge up to a height, and a mark above that edge for
 /// each that is too short for a band.
 fn contacts(scene: &Gathered, x: &Axis, y: &Axis, high: f64) -> Vec<(Layer, Key)> {
-    let short = |[from, to]: &[f64; 2]| to - from < SHORT * (x.to - x.from);
+    // One that the span cuts is drawn as far as it is in it.
+    let cut = |[from, to]: &[f64; 2]| *from < x.from || *to > x.to;
+    let short = |contact: &[f64; 2]| contact[1] - contact[0] < SHORT * (x.to - x.from) && !cut(contact);
     let (marks, bands): (Vec<[f64; 2]>, Vec<[f64; 2]>) = scene.contacts.iter().copied().partition(short);
     let band = |[from, to]: &[f64; 2]| {
         [(*from, y.from), (*to, y.from), (*to, high), (*from, high)].map(|(t, value)| DVec2::new(t, value)).to_vec()
@@ -257,11 +287,11 @@ fn restitution(scenes: &[Gathered]) -> Panel {
             let line = Stroke { dash: DASHES[q], ..Stroke::new(color, 0.15) };
             layers.push(Layer::new("curve", Shape::Lines(lines, line)));
             layers.push(Layer::new("marks", Shape::Marks(dots, mark, color)));
-            legend.push(Key::Mark(
-                if scenes.len() == 1 { name.into() } else { format!("{name}, {}", plain(&scene.name)) },
-                mark,
-                color,
-            ));
+            // A single bounce is two points: their values stand beside them.
+            let value = scene.restitution.first().and_then(|pair| pair[q]).filter(|_| most == 1);
+            let value = value.map_or_else(String::new, |value| format!(" = {}", value.decimal(4)));
+            let of = if scenes.len() == 1 { String::new() } else { format!(", {}", plain(&scene.name)) };
+            legend.push(Key::Mark(format!("{name}{value}{of}"), mark, color));
         }
     }
     Panel { title: "restitution of each bounce".into(), x, y, layers, legend }
@@ -269,7 +299,7 @@ fn restitution(scenes: &[Gathered]) -> Panel {
 
 /// Energies on top of each other: gravity from its least, the motion of the centre of mass, the vibration. The upper
 /// edge is `E`.
-fn energy(scene: &Gathered) -> Panel {
+fn energy(scene: &Gathered, scenes: &[Gathered]) -> Panel {
     let column = |column: Quantity| {
         let found = scene.columns.iter().find(|found| found.0 == column);
         found.map_or_else(Vec::new, |found| found.1.concat())
@@ -277,7 +307,7 @@ fn energy(scene: &Gathered) -> Panel {
     let edges = [Quantity::GravityEnergy, Quantity::TranslationalEnergy, Quantity::Energy].map(column);
     let least = edges[0].iter().map(|(_, value)| *value).fold(f64::INFINITY, f64::min);
     let base = if least.is_finite() { least.min(0.0) } else { 0.0 };
-    let x = time_axis(std::slice::from_ref(scene));
+    let x = time_axis(scenes);
     let most = edges[2].iter().map(|(_, value)| *value).fold(base, f64::max);
     let space = if most > base { 0.06 * (most - base) } else { 1.0 };
     let unit = scene.units.name(Measure::Energy);
@@ -306,8 +336,8 @@ fn energy(scene: &Gathered) -> Panel {
 }
 
 /// The rod over time.
-fn along(asked: &Asked, scene: &Gathered) -> Panel {
-    let x = time_axis(std::slice::from_ref(scene));
+fn along(asked: &Asked, scene: &Gathered, scenes: &[Gathered]) -> Panel {
+    let x = time_axis(scenes);
     let unit = scene.units.name(Measure::Length);
     if asked.deformed {
         return world(scene, x);
@@ -316,9 +346,12 @@ fn along(asked: &Asked, scene: &Gathered) -> Panel {
     let y = Axis::new("x", unit, [-FLOOR * length, length]);
     let (mut layers, mut legend) = (Vec::new(), Vec::new());
     if let Some(cells) = &scene.cells {
-        layers.push(Layer::new("cells", field(cells, scene)));
+        // Scenes side by side have one scale of colours.
+        let greatest = scenes.iter().filter_map(|scene| scene.cells.as_ref()).map(|cells| cells.greatest);
+        let greatest = greatest.fold(0.0, f64::max);
+        layers.push(Layer::new("cells", field(cells, scene, greatest)));
         layers.extend(rays(cells, scene));
-        legend.push(colors(asked.along, cells, scene));
+        legend.push(colors(asked.along, greatest, scene));
     }
     let (bars, keys): (Vec<Layer>, Vec<Key>) = contacts(scene, &x, &y, 0.0).into_iter().unzip();
     layers.extend(bars);
@@ -329,15 +362,15 @@ fn along(asked: &Asked, scene: &Gathered) -> Panel {
 }
 
 /// The key to the colours.
-fn colors(along: Along, cells: &Cells, scene: &Gathered) -> Key {
+fn colors(along: Along, greatest: f64, scene: &Gathered) -> Key {
     let unit = scene.units.name(along.measure(&scene.units));
-    let axis = Axis::new(along.symbol(&scene.units), unit, [-cells.greatest, cells.greatest]);
-    let most = axis.shown(cells.greatest);
+    let axis = Axis::new(along.symbol(&scene.units), unit, [-greatest, greatest]);
+    let most = axis.shown(greatest);
     Key::Colors(axis.label, [format!("−{most}"), "0".into(), most])
 }
 
-fn field(cells: &Cells, scene: &Gathered) -> Shape {
-    let unit = if cells.greatest > 0.0 { cells.greatest } else { 1.0 };
+fn field(cells: &Cells, scene: &Gathered, greatest: f64) -> Shape {
+    let unit = if greatest > 0.0 { greatest } else { 1.0 };
     match &cells.values {
         Values::Linear(pieces) => {
             let share =
@@ -372,15 +405,24 @@ fn field(cells: &Cells, scene: &Gathered) -> Shape {
 /// Lines up from the ground and back: jumps, and what only bends the field.
 fn rays(cells: &Cells, scene: &Gathered) -> Vec<Layer> {
     let (length, trip) = (scene.rod.length, scene.rod.round_trip());
-    let path =
-        |from: f64| vec![DVec2::new(from, 0.0), DVec2::new(from + 0.5 * trip, length), DVec2::new(from + trip, 0.0)];
-    let of = |jump: bool| -> Vec<Vec<DVec2>> {
-        cells.breaks.iter().filter(|ray| ray.jump == jump).map(|ray| path(ray.time)).collect()
+    let end = scene.span[1];
+    let path = |from: f64| {
+        let height = |time: f64| length * (1.0 - ((time - from) / (0.5 * trip) - 1.0).abs());
+        let times = [from, from + 0.5 * trip, from + trip].map(|time| time.min(end));
+        times.map(|time| DVec2::new(time, height(time))).to_vec()
     };
     let few = |lines: &Vec<Vec<DVec2>>| !lines.is_empty() && cells.breaks.len() <= MOST_RAYS;
-    let kinks = Some(of(false)).filter(few).map(|lines| Layer::new("kinks", Shape::Lines(lines, KINK)));
-    let jumps = Some(of(true)).filter(few).map(|lines| Layer::new("rays", Shape::Lines(lines, RAY)));
-    kinks.into_iter().chain(jumps).collect()
+    let of = |wanted: &dyn Fn(&Break) -> bool, class: &'static str, look: Stroke| {
+        let lines: Vec<Vec<DVec2>> = cells.breaks.iter().filter(|ray| wanted(ray)).map(|ray| path(ray.time)).collect();
+        Some(lines).filter(few).map(|lines| Layer::new(class, Shape::Lines(lines, look)))
+    };
+    let mut layers: Vec<Layer> = of(&|ray| !ray.jump, "kinks", KINK).into_iter().collect();
+    let mut above = f64::INFINITY;
+    for (least, look) in RAYS {
+        layers.extend(of(&|ray| ray.jump && ray.share >= least && ray.share < above, "rays", look));
+        above = least;
+    }
+    layers
 }
 
 /// World lines of points along the rod, with displacements as large as they can be seen.
