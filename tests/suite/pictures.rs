@@ -126,7 +126,7 @@ fn scenes_side_by_side_are_drawn_alike() {
 /// On a slide each of four pictures is a fifth of its height or more, and nothing of the command line is in it.
 #[test]
 fn a_slide_has_room_for_four_pictures() {
-    let svg = quiet(&["plot", "doyen-ern-piperno", "--size", "slide", "-o", "-"]);
+    let svg = run(&["plot", "doyen-ern-piperno", "--size", "slide", "-o", "-"]).out;
     let heights: Vec<f64> = frames(&svg).into_iter().map(|[_, height]| height).collect();
     assert_eq!(heights.len(), 4);
     assert!(heights.iter().all(|height| *height > 254.0 * 9.0 / 16.0 / 5.0), "{heights:?}");
