@@ -2,12 +2,12 @@
 
 use super::audit::{Audit, Books};
 use super::conventions::Conventions;
-use super::hints::{Finding, Hint, Measures, Pair, gathered, of_contacts, of_impulses};
 use super::map::Location;
 use super::norms::{Grid, Norms, norms};
 use super::ours::Ours;
 use super::samples::Samples;
 use super::touch::{Touch, matched, touches};
+use super::verdict::{Known, Verdict, verdicts};
 use crate::error::Error;
 use crate::problem::{Problem, Top};
 use crate::quantity::{Quantity, Rays};
@@ -21,7 +21,7 @@ pub(crate) struct Agreement {
     /// Ours and theirs; either may be missing.
     pub(crate) contacts: Vec<(Option<Touch>, Option<Touch>)>,
     pub(crate) audit: Audit,
-    pub(crate) hints: Vec<Hint>,
+    pub(crate) hints: Vec<Verdict>,
     /// The median step of the samples.
     pub(crate) step: f64,
     /// How far from a jump a sample counts as away from it.
@@ -78,9 +78,7 @@ impl Agreement {
         let window = settings.window.map_or_else(|| narrow.max(WINDOW * trip), |trips| trips * trip);
         let whats: Vec<Quantity> = quantities.iter().map(|(what, _)| *what).collect();
         let values = ours.values(&whats, &grid)?;
-        let events: Vec<f64> = history.events().iter().map(|event| event.time).collect();
-        let measures = Measures { grid: &grid, events: &events, step: step / trip, round_trip: trip };
-        let (mut compared, mut hints) = (Vec::new(), Vec::new());
+        let mut compared = Vec::new();
         let mut passing = (Location::Ground, ours.passing(Location::Ground, &grid));
         for ((what, theirs), mut values) in quantities.into_iter().zip(values) {
             let location = Location::of(what);
@@ -92,47 +90,24 @@ impl Agreement {
             let scale = ours.scale(what);
             let norms =
                 norms(&grid, &values, &theirs, scale, on_jumps, |k| what.rays() != Rays::Jump || away(k, window));
-            if grid.points.is_none() && what.measure().is_some() {
-                let factors = ours.factors(what);
-                let pair = Pair { ours: &values, theirs: &theirs, scale, rays: what.rays(), factors: &factors };
-                // Kinks of a displacement are where its velocity jumps.
-                let finding = measures.of_pair(&pair, |k| away(k, window.max(narrow)));
-                hints.extend(finding.map(|finding| Hint { quantity: what.name().into(), finding }));
-            }
             compared.push(Compared { what, ours: values, theirs, norms });
-        }
-        // Half a step is one where steps are alike.
-        let steps = grid.times.windows(2).map(|pair| pair[1] - pair[0]).filter(|way| *way > 0.0);
-        let (alike, all) = steps
-            .fold((0, 0), |(alike, all), way| (alike + usize::from((step / 2.0..=2.0 * step).contains(&way)), all + 1));
-        let even = 10 * alike >= 9 * all;
-        for (of, rate) in [
-            (Quantity::EndDisplacement, Quantity::EndVelocity),
-            (Quantity::TopDisplacement, Quantity::TopVelocity),
-            (Quantity::Centre, Quantity::CentreVelocity),
-        ] {
-            let theirs = |column| {
-                let found = compared.iter().find(|compared: &&Compared| compared.what == column)?;
-                Some(found.theirs.as_slice())
-            };
-            let Some((u, velocity)) = theirs(of).zip(theirs(rate)).filter(|_| even) else { continue };
-            let passing = ours.passing(Location::of(of), &grid);
-            let away = |k: usize| (passing[k] - grid.times[k]).abs() > window.max(narrow);
-            let finding = measures.of_rate(of.name(), [u, velocity], away);
-            hints.extend(finding.map(|finding| Hint { quantity: rate.name().into(), finding }));
         }
         let mut agreement = Agreement {
             grid,
             quantities: compared,
             contacts: Vec::new(),
             audit: Audit::default(),
-            hints,
+            hints: Vec::new(),
             step,
             window,
             outside,
         };
         if agreement.grid.points.is_none() {
             agreement.keep_books(problem, &ours, settings.until);
+            let contacts = [agreement.audit.missed, agreement.audit.invented];
+            let (grid, columns) = (&agreement.grid, agreement.quantities.as_slice());
+            let known = Known { problem, history, grid, columns, step, contacts };
+            agreement.hints = verdicts(&known, |what| ours.force_per(what), |what| ours.factors(what))?;
         }
         Ok(agreement)
     }
@@ -150,8 +125,10 @@ impl Agreement {
         let shown =
             [Quantity::Force, Quantity::Stress, Quantity::Strain].into_iter().find_map(|column| self.theirs(column));
         let force: Option<Vec<f64>> = shown.map(|shown| {
-            let sign = |hint: &Hint| hint.quantity == shown.what.name() && hint.finding == Finding::Sign;
-            let factor = ours.force_per(shown.what) * if self.hints.iter().any(sign) { -1.0 } else { 1.0 };
+            let factor = ours.force_per(shown.what);
+            // Of the other sign, which is a hint, it is the force that is meant.
+            let sum = |values: &[f64]| values.iter().zip(&self.grid.weights).map(|(value, weight)| value * weight).sum::<f64>();
+            let factor = if sum(&shown.theirs) * sum(&shown.ours) < 0.0 { -factor } else { factor };
             shown.theirs.iter().map(|value| value * factor).collect()
         });
         let force = force.as_deref();
@@ -178,12 +155,6 @@ impl Agreement {
             let later = |touch: &Touch| touch.from > last - 2.0 * self.step;
             contacts.retain(|(a, b)| b.is_some() || !a.as_ref().is_some_and(later));
         }
-        // Where chatter hides a factor from the samples, or falsifies it, the impulses show it.
-        let impulses = shown.map(|shown| shown.what).and_then(|what| {
-            let finding = of_impulses(&contacts, times, self.step, &ours.factors(what))?;
-            let near = |hint: &Hint| hint.quantity == what.name() && hint.finding.is_near(&finding);
-            (!self.hints.iter().any(near)).then(|| Hint { quantity: what.name().into(), finding })
-        });
         let energy = self.theirs(Quantity::Energy);
         let books = Books {
             times,
@@ -199,14 +170,6 @@ impl Agreement {
             not_covered: books.not_covered(until.unwrap_or(last)),
             ..books.audit()
         };
-        let mut hints = of_contacts(&contacts, times, self.step);
-        if let Some(found) = impulses {
-            let fitted = |hint: &Hint| hint.quantity == found.quantity && matches!(hint.finding, Finding::Scale { .. });
-            self.hints.retain(|hint| !fitted(hint));
-            hints.push(found);
-        }
-        hints.append(&mut self.hints);
-        self.hints = gathered(hints);
         self.contacts = contacts;
     }
 }

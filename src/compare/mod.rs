@@ -6,14 +6,16 @@ mod between;
 mod comparison;
 mod conventions;
 pub mod data;
-mod hints;
 mod limit;
 mod map;
+mod model;
 mod norms;
 mod ours;
 mod report;
 mod samples;
 mod touch;
+mod vary;
+mod verdict;
 
 #[cfg(feature = "cli")]
 pub(crate) use agree::Compared;

@@ -81,7 +81,7 @@ fn file_table(compared: &ComparedFile, title: Option<&str>, units: &Units) -> St
     }
     out.push('\n');
     for hint in &agreement.hints {
-        out += &format!("hint: {hint}\n");
+        out += &format!("hint: {}\n", hint.text);
     }
     if agreement.hints.is_empty() {
         let merged = agreement.contacts.iter().filter_map(|(_, theirs)| theirs.as_ref()).map(|touch| touch.merged);

@@ -11,7 +11,7 @@ use crate::peers::{BAR, Rod, Row, SCHEMES, Scheme, csv};
 const END: f64 = 7.5;
 
 /// What `compare` says of `rows`, as JSON.
-fn compare(scene: &str, rows: &[Row], more: &[&str]) -> Value {
+pub(crate) fn compare(scene: &str, rows: &[Row], more: &[&str]) -> Value {
     let folder = TempDir::new().unwrap();
     let path: PathBuf = folder.path().join("run.csv");
     std::fs::write(&path, csv(rows)).unwrap();
@@ -36,7 +36,7 @@ fn bar(rod: Rod, scheme: Scheme) -> Vec<Row> {
     rod.run(scheme, END, |_| true)
 }
 
-fn with(rows: &[Row], change: impl Fn(&mut Row)) -> Vec<Row> {
+pub(crate) fn with(rows: &[Row], change: impl Fn(&mut Row)) -> Vec<Row> {
     let mut rows = rows.to_vec();
     rows.iter_mut().for_each(change);
     rows

@@ -22,6 +22,7 @@ mod common;
 mod compare_command;
 #[cfg(feature = "cli")]
 mod compare_peers;
+mod compare_verdicts;
 mod conformance;
 #[cfg(feature = "cli")]
 mod cost_measured;

@@ -10,11 +10,13 @@ pub(crate) struct Rod {
     pub(crate) gravity: f64,
     pub(crate) speed: f64,
     pub(crate) elements: usize,
+    /// What the masses of both end nodes are multiplied with.
+    pub(crate) ends: f64,
 }
 
 /// The bar of Doyen, Ern and Piperno.
 pub(crate) const BAR: Rod =
-    Rod { length: 10.0, modulus: 900.0, density: 1.0, area: 1.0, gravity: 10.0, speed: 10.0, elements: 400 };
+    Rod { length: 10.0, modulus: 900.0, density: 1.0, area: 1.0, gravity: 10.0, speed: 10.0, elements: 400, ends: 1.0 };
 
 /// What a code writes at a time.
 #[derive(Clone, Copy, Debug, Default)]
@@ -23,6 +25,8 @@ pub(crate) struct Row {
     pub(crate) u: f64,
     pub(crate) v: f64,
     pub(crate) force: f64,
+    pub(crate) u_top: f64,
+    pub(crate) v_top: f64,
     pub(crate) h: f64,
     pub(crate) h_rate: f64,
     pub(crate) energy: f64,
@@ -35,11 +39,29 @@ pub(crate) enum Scheme {
     Penalty,
     /// Newmark with β = ¼, γ = ½; a node that would go below the ground is put on it and stopped.
     Projection,
+    /// Symplectic Euler at a share of CFL = 1; a node that would go below the ground is stopped where it is.
+    Moreau(f64),
+    /// The θ-scheme at a share of CFL = 1, with the same impact; θ = 1 is backward Euler.
+    Theta(f64, f64),
+    /// HHT with α = −0.1 at CFL = ½, and a spring of so many times the stiffness of an element at the ground.
+    Hht(f64),
     /// The mass of the node at the ground moved to the next two, total and centre unchanged; velocity Verlet.
     Redistribution,
 }
 
 pub(crate) const SCHEMES: [Scheme; 3] = [Scheme::Penalty, Scheme::Projection, Scheme::Redistribution];
+/// Those and others.
+pub(crate) const MORE: [Scheme; 9] = [
+    Scheme::Penalty,
+    Scheme::Projection,
+    Scheme::Redistribution,
+    Scheme::Moreau(0.5),
+    Scheme::Moreau(0.9),
+    Scheme::Theta(0.5, 0.5),
+    Scheme::Theta(1.0, 0.25),
+    Scheme::Hht(1.0),
+    Scheme::Hht(4.0),
+];
 
 impl Rod {
     fn wave_speed(&self) -> f64 {
@@ -56,17 +78,15 @@ impl Rod {
 
     fn masses(&self) -> Vec<f64> {
         let mut masses = vec![self.density * self.area * self.width(); self.elements + 1];
-        masses[0] /= 2.0;
-        masses[self.elements] /= 2.0;
+        masses[0] *= self.ends / 2.0;
+        masses[self.elements] *= self.ends / 2.0;
         masses
     }
 
     /// `−K u` and the weight at each node.
     fn forces(&self, u: &[f64]) -> Vec<f64> {
         let k = self.stiffness();
-        let weight = self.density * self.area * self.width() * self.gravity;
-        let mut forces = vec![-weight; u.len()];
-        (forces[0], forces[u.len() - 1]) = (-weight / 2.0, -weight / 2.0);
+        let mut forces: Vec<f64> = self.masses().iter().map(|mass| -mass * self.gravity).collect();
         for i in 1..u.len() {
             let pull = k * (u[i] - u[i - 1]);
             forces[i] -= pull;
@@ -81,12 +101,15 @@ impl Rod {
         let kinetic: f64 = masses.iter().zip(v).map(|(m, v)| m * v * v / 2.0).sum();
         let strain: f64 = u.windows(2).map(|pair| (pair[1] - pair[0]).powi(2)).sum();
         let energy = kinetic + self.stiffness() * strain / 2.0 + self.gravity * total * mean(u);
-        Row { t, u: u[0], v: v[0], force, h: mean(u), h_rate: mean(v), energy }
+        Row { t, u: u[0], v: v[0], force, u_top: u[self.elements], v_top: v[self.elements], h: mean(u), h_rate: mean(v), energy }
     }
 
     /// The motion up to `end`; the ground is there where `ground` says so of the time.
     pub(crate) fn run(&self, scheme: Scheme, end: f64, ground: impl Fn(f64) -> bool) -> Vec<Row> {
         match scheme {
+            Scheme::Moreau(share) => self.theta((0.0, share), end, ground),
+            Scheme::Theta(theta, share) => self.theta((theta, share), end, ground),
+            Scheme::Hht(spring) => self.hht(spring, end, ground),
             Scheme::Penalty => self.penalty(end, ground),
             Scheme::Projection => self.projection(end, ground),
             Scheme::Redistribution => self.redistribution(end, ground),
@@ -127,6 +150,102 @@ impl Rod {
             let energy = f64::midpoint(half(&last, &now), half(&now, &next));
             rows.push(Row { energy, ..self.row(t, &now, &v, &masses, force) });
             (last, now) = (now, next);
+        }
+        rows
+    }
+
+    /// `(M + a K) x = right`, with a spring at the first node that counts as part of K, or that node given.
+    fn solve(&self, a: f64, spring: f64, right: &[f64], first: Option<f64>) -> Vec<f64> {
+        let (masses, k, count) = (self.masses(), self.stiffness(), right.len());
+        let (mut upper, mut x) = (vec![0.0; count], vec![0.0; count]);
+        for i in 0..count {
+            if let (0, Some(first)) = (i, first) {
+                x[0] = first;
+                continue;
+            }
+            let own = if i == 0 || i == count - 1 { 1.0 } else { 2.0 };
+            let below = if i == 0 { 0.0 } else { -a * k };
+            let before = if i == 0 { (0.0, 0.0) } else { (upper[i - 1], x[i - 1]) };
+            let more = if i == 0 { a * spring } else { 0.0 };
+            let pivot = masses[i] + a * k * own + more - below * before.0;
+            upper[i] = -a * k / pivot;
+            x[i] = (right[i] - below * before.1) / pivot;
+        }
+        for i in (0..count - 1).rev() {
+            x[i] -= upper[i] * x[i + 1];
+        }
+        x
+    }
+
+    /// The θ-scheme for the velocities and the places, θ = 0 being symplectic Euler, with an impact that stops.
+    fn theta(&self, (theta, share): (f64, f64), end: f64, ground: impl Fn(f64) -> bool) -> Vec<Row> {
+        let (masses, dt) = (self.masses(), share * self.width() / self.wave_speed());
+        let count = masses.len();
+        let mut u = vec![0.0; count];
+        let mut v = vec![-self.speed; count];
+        let mut rows = vec![self.row(0.0, &u, &v, &masses, 0.0)];
+        for n in 1.. {
+            let t = n as f64 * dt;
+            if t > end {
+                break;
+            }
+            let part = if theta == 0.0 { 1.0 } else { theta };
+            let guess: Vec<f64> = (0..count).map(|i| u[i] + dt * theta * (1.0 - theta) * v[i]).collect();
+            let forces = self.forces(&guess);
+            let a = (dt * theta).powi(2);
+            let right: Vec<f64> = (0..count).map(|i| masses[i] * v[i] + dt * forces[i]).collect();
+            let mut next = self.solve(a, 0.0, &right, None);
+            let reach = u[0] + dt * ((1.0 - part) * v[0] + part * next[0]);
+            let mut force = 0.0;
+            if (u[0] <= 0.0 || reach < 0.0) && next[0] < 0.0 && ground(t) {
+                next = self.solve(a, 0.0, &right, Some(0.0));
+                let k = self.stiffness();
+                force = (a * k * (next[0] - next[1]) - right[0]) / dt;
+            }
+            for i in 0..count {
+                u[i] += dt * ((1.0 - part) * v[i] + part * next[i]);
+            }
+            v = next;
+            rows.push(self.row(t, &u, &v, &masses, force));
+        }
+        rows
+    }
+
+    /// Newmark's scheme with a force of the time `1 + α`, and a spring at the ground.
+    fn hht(&self, spring: f64, end: f64, ground: impl Fn(f64) -> bool) -> Vec<Row> {
+        let (masses, dt, alpha) = (self.masses(), self.width() / self.wave_speed() / 2.0, -0.1);
+        let (beta, gamma) = ((1.0_f64 - alpha).powi(2) / 4.0, 0.5 - alpha);
+        let (count, spring) = (masses.len(), spring * self.stiffness());
+        let mut u = vec![0.0; count];
+        let mut v = vec![-self.speed; count];
+        let mut a = vec![-self.gravity; count];
+        let mut rows = vec![self.row(0.0, &u, &v, &masses, 0.0)];
+        for n in 1.. {
+            let t = n as f64 * dt;
+            if t > end {
+                break;
+            }
+            let whole = 1.0 + alpha;
+            let guess: Vec<f64> =
+                (0..count).map(|i| u[i] + dt * v[i] + dt * dt * (0.5 - beta) * a[i]).collect();
+            let middle: Vec<f64> = (0..count).map(|i| whole * guess[i] - alpha * u[i]).collect();
+            let of = |touches: bool| {
+                let mut right = self.forces(&middle);
+                let k = if touches { spring } else { 0.0 };
+                right[0] -= k * middle[0];
+                self.solve(whole * beta * dt * dt, k, &right, None)
+            };
+            let free = of(false);
+            let depth = |a: &[f64]| middle[0] + whole * beta * dt * dt * a[0];
+            let touches = depth(&free) < 0.0 && ground(t);
+            let next = if touches { of(true) } else { free };
+            let push = if touches { -spring * depth(&next) } else { 0.0 };
+            u = (0..count).map(|i| guess[i] + beta * dt * dt * next[i]).collect();
+            v = (0..count).map(|i| v[i] + dt * ((1.0 - gamma) * a[i] + gamma * next[i])).collect();
+            a = next;
+            let mut row = self.row(t, &u, &v, &masses, push);
+            row.energy += if u[0] < 0.0 && touches { spring * u[0] * u[0] / 2.0 } else { 0.0 };
+            rows.push(row);
         }
         rows
     }
@@ -228,9 +347,9 @@ impl Rod {
 
 /// The rows as a CSV file.
 pub(crate) fn csv(rows: &[Row]) -> String {
-    let mut text = String::from("t,u,v,force,h,h_rate,E_total\n");
-    for Row { t, u, v, force, h, h_rate, energy } in rows {
-        text += &format!("{t},{u:e},{v:e},{force:e},{h:e},{h_rate:e},{energy:e}\n");
+    let mut text = String::from("t,u,v,force,u_top,v_top,h,h_rate,E_total\n");
+    for Row { t, u, v, force, u_top, v_top, h, h_rate, energy } in rows {
+        text += &format!("{t},{u:e},{v:e},{force:e},{u_top:e},{v_top:e},{h:e},{h_rate:e},{energy:e}\n");
     }
     text
 }

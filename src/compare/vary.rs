@@ -1,0 +1,91 @@
+//! A problem with other values: what a fit turns.
+
+use crate::problem::{Material, Parameters, Problem, ProblemError, Start};
+
+/// A value of the scene that can be fitted.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Parameter {
+    /// `L`.
+    Length,
+    /// `c`; with a material by its modulus, the density as it is.
+    WaveSpeed,
+    /// `E`.
+    Modulus,
+    /// `ρ`, the modulus as it is.
+    Density,
+    /// `r`.
+    Damping,
+    /// `g`, the impact speed as it is.
+    Gravity,
+    /// `μ`: of an impact, or downwards at the start.
+    Speed,
+    /// How far the rod starts above the ground.
+    Gap,
+}
+
+impl Parameter {
+    /// All of them, with their names.
+    pub const ALL: [(&'static str, Parameter); 8] = [
+        ("length", Parameter::Length),
+        ("wave_speed", Parameter::WaveSpeed),
+        ("modulus", Parameter::Modulus),
+        ("density", Parameter::Density),
+        ("damping", Parameter::Damping),
+        ("gravity", Parameter::Gravity),
+        ("speed", Parameter::Speed),
+        ("gap", Parameter::Gap),
+    ];
+
+    /// Its name.
+    pub fn name(self) -> &'static str {
+        Self::ALL.iter().find(|(_, parameter)| *parameter == self).map_or("", |(name, _)| name)
+    }
+
+    /// Its value in `problem`; `None` where that has none.
+    pub(crate) fn value(self, problem: &Problem) -> Option<f64> {
+        let rod = Parameters::<f64>::of(problem, &()).ok()?;
+        match (self, &problem.rod.material, &problem.start) {
+            (Parameter::Length, ..) => Some(rod.length),
+            (Parameter::WaveSpeed, ..) => Some(rod.wave_speed),
+            (Parameter::Modulus, Material::Elastic { modulus, .. }, _) => Some(modulus.to_f64()),
+            (Parameter::Density, Material::Elastic { density, .. }, _) => Some(density.to_f64()),
+            (Parameter::Damping, ..) => Some(rod.damping),
+            (Parameter::Gravity, ..) => Some(rod.gravity),
+            (Parameter::Speed, _, Start::Uniform(_)) => Some(rod.speed),
+            (Parameter::Speed, _, Start::Above { speed, .. }) => Some(speed.to_f64()),
+            (Parameter::Gap, _, Start::Above { gap, .. }) => Some(gap.to_f64()),
+            _ => None,
+        }
+    }
+
+    /// `problem` with `value` in place of its own.
+    ///
+    /// **Errors**: a value that no problem has.
+    pub(crate) fn set(self, problem: &Problem, value: f64) -> Result<Problem, ProblemError> {
+        let given = |parameter: Parameter| parameter.value(problem).unwrap_or_default();
+        let builder = problem.to_builder();
+        // A material is given as a whole.
+        let material = |modulus: f64, density: f64| match &problem.rod.material {
+            Material::Elastic { area: Some(area), .. } => builder.clone().material(modulus, density, area.clone()),
+            Material::Elastic { area: None, .. } => builder.clone().modulus(modulus).density(density),
+            Material::WaveSpeed(_) => builder.clone().wave_speed((modulus / density).sqrt()),
+        };
+        let builder = match (self, &problem.rod.material, &problem.start) {
+            (Parameter::Length, ..) => builder.length(value),
+            (Parameter::WaveSpeed, Material::WaveSpeed(_), _) => builder.wave_speed(value),
+            (Parameter::WaveSpeed, ..) => {
+                let density = given(Parameter::Density);
+                material(value * value * density, density)
+            }
+            (Parameter::Modulus, ..) => material(value, given(Parameter::Density)),
+            (Parameter::Density, ..) => material(given(Parameter::Modulus), value),
+            (Parameter::Damping, ..) => builder.damping(value),
+            // The speed that a fall from a height gives stays as it is.
+            (Parameter::Gravity, _, Start::Uniform(_)) => builder.gravity(value).impact_speed(given(Parameter::Speed)),
+            (Parameter::Gravity, ..) => builder.gravity(value),
+            (Parameter::Speed, ..) => builder.impact_speed(value),
+            (Parameter::Gap, ..) => builder.gap(value),
+        };
+        builder.build()
+    }
+}
