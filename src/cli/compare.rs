@@ -9,7 +9,7 @@ use super::failure::Failure;
 use super::file::{self, Format, ROWS, ROWS_OR_PICTURE, formats};
 use super::source;
 use crate::compare::data::Source;
-use crate::compare::{Axis, CompareError, Comparison, Compression, LEGEND, Limit, Options, Origin, Prepared};
+use crate::compare::{Axis, CompareError, Comparison, Compression, LEGEND, Limit, Options, Origin, Parameter, Prepared};
 use crate::number::Number;
 use crate::output::{Size, compare_data, compare_svg};
 use crate::quantity::Units;
@@ -60,6 +60,9 @@ pub(super) struct Compare {
     /// Width of the mesh of each file, for the order of convergence; by default the step of its times
     #[arg(long, value_name = "LIST", value_delimiter = ',')]
     widths: Vec<Number>,
+    /// Values of the scene to fit to the data: length, wave_speed, modulus, density, damping, gravity, speed, gap
+    #[arg(long, value_name = "LIST", value_delimiter = ',')]
+    fit: Vec<Parameter>,
     /// Exit with code 1 where a relative norm is above a bound: u.l2=0.1, of l1, l2, linf, linf_off_jumps
     #[arg(long, value_name = "QUANTITY.NORM=BOUND,…", value_delimiter = ',')]
     fail_above: Vec<Limit>,
@@ -88,7 +91,7 @@ impl Compare {
         let units = Units::of(&scene.problem, scene.units);
         let prepared = Prepared::new(&scene.problem, &units, accuracy, sources, &self.options()).map_err(with_flag)?;
         let progress = source::Progress::of(&scene, &prepared.plan);
-        let comparison = prepared.compare(progress.observer())?;
+        let comparison = prepared.compare(progress.observer()).map_err(with_flag)?;
         drop(progress);
         for warning in &comparison.warnings {
             eprintln!("warning: {warning}");
@@ -117,6 +120,7 @@ impl Compare {
             energy_scale: Some(self.energy_scale.clone()),
             window: self.window.clone(),
             widths: self.widths.clone(),
+            fit: self.fit.clone(),
         }
     }
 

@@ -7,7 +7,7 @@ use super::norms::{Grid, Norms, norms};
 use super::ours::Ours;
 use super::samples::Samples;
 use super::touch::{Touch, matched, touches};
-use super::verdict::{Known, Verdict, verdicts};
+use super::verdict::{Known, Verdict, spread, verdicts};
 use crate::error::Error;
 use crate::problem::{Problem, Top};
 use crate::quantity::{Quantity, Rays};
@@ -22,6 +22,8 @@ pub(crate) struct Agreement {
     pub(crate) contacts: Vec<(Option<Touch>, Option<Touch>)>,
     pub(crate) audit: Audit,
     pub(crate) hints: Vec<Verdict>,
+    /// Over how long a time the fronts are spread.
+    pub(crate) spread: Option<f64>,
     /// The median step of the samples.
     pub(crate) step: f64,
     /// How far from a jump a sample counts as away from it.
@@ -45,6 +47,8 @@ pub(crate) struct Settings {
     pub(crate) conventions: Conventions,
     /// How far the data should go: the end of the scene's own run, where that is a time.
     pub(crate) until: Option<f64>,
+    /// Whether it is asked which number is wrong.
+    pub(crate) judge: bool,
     /// In round trips; by default [`WINDOW`], or two steps where that is more.
     pub(crate) window: Option<f64>,
 }
@@ -98,16 +102,20 @@ impl Agreement {
             contacts: Vec::new(),
             audit: Audit::default(),
             hints: Vec::new(),
+            spread: None,
             step,
             window,
             outside,
         };
         if agreement.grid.points.is_none() {
             agreement.keep_books(problem, &ours, settings.until);
-            let contacts = [agreement.audit.missed, agreement.audit.invented];
-            let (grid, columns) = (&agreement.grid, agreement.quantities.as_slice());
-            let known = Known { problem, history, grid, columns, step, contacts };
-            agreement.hints = verdicts(&known, |what| ours.force_per(what), |what| ours.factors(what))?;
+            if settings.judge {
+                let contacts = [agreement.audit.missed, agreement.audit.invented];
+                let (grid, columns) = (&agreement.grid, agreement.quantities.as_slice());
+                let known = Known { problem, history, grid, columns, step, contacts };
+                agreement.hints = verdicts(&known, |what| ours.force_per(what), |what| ours.factors(what))?;
+                agreement.spread = spread(history, grid, columns)?.filter(|width| *width > step);
+            }
         }
         Ok(agreement)
     }

@@ -3,9 +3,11 @@
 use super::agree::{Agreement, Settings};
 use super::conventions::{Axis, Compression, Conventions, Origin};
 use super::data::{DataError, Source};
+use super::fit::{Fit, FitError};
 use super::limit::{Limit, Order, orders};
 use super::map::{Map, MapError};
 use super::samples::{Clock, Samples};
+use super::vary::Parameter;
 use crate::error::Error;
 use crate::number::Number;
 use crate::problem::{Parameters, Problem, Run};
@@ -36,6 +38,8 @@ pub struct Options {
     pub window: Option<Number>,
     /// The width of the mesh of each source, for the order of convergence; by default the step of its times.
     pub widths: Vec<Number>,
+    /// The values of the scene that are fitted to the data.
+    pub fit: Vec<Parameter>,
 }
 
 /// Why data cannot be compared.
@@ -77,6 +81,14 @@ pub enum CompareError {
         /// What the times may be in.
         unit: &'static str,
     },
+    /// What is to be fitted.
+    #[error("{file}: {error}")]
+    Fit {
+        /// The source.
+        file: String,
+        /// What is wrong with it.
+        error: FitError,
+    },
     /// The history.
     #[error(transparent)]
     History(#[from] Error),
@@ -89,6 +101,7 @@ impl CompareError {
             CompareError::Map { error: MapError::NoTime { .. } | MapError::TwoTimes, .. } => Some("dt"),
             CompareError::Map { .. } => Some("map"),
             CompareError::Option { key, .. } => Some(key),
+            CompareError::Fit { .. } => Some("fit"),
             _ => None,
         }
     }
@@ -125,7 +138,7 @@ impl Options {
             Run::Time(time) => Some(time.to_f64()),
             Run::Impacts(_) => None,
         };
-        Settings { conventions, until, window: self.window.as_ref().map(Number::to_f64) }
+        Settings { conventions, until, judge: true, window: self.window.as_ref().map(Number::to_f64) }
     }
 
     fn samples(&self, source: Source, length: f64, units: &Units) -> Result<Samples, CompareError> {
@@ -155,6 +168,7 @@ pub struct Prepared {
     data: Vec<(String, Samples)>,
     settings: Settings,
     widths: Vec<f64>,
+    fit: Vec<Parameter>,
 }
 
 /// Data beside the exact history: what is reported.
@@ -175,6 +189,8 @@ pub struct ComparedFile {
     pub(crate) file: String,
     /// What came of it.
     pub(crate) agreement: Agreement,
+    /// The values that explain it best, and what comes of it with them.
+    pub(crate) fit: Option<(Fit, Agreement)>,
 }
 
 /// Data that go so many times as far as the scene's own run are in another unit of time.
@@ -233,18 +249,31 @@ impl Prepared {
             _ => problem.to_builder().time(last).build().map_err(Error::from)?,
         };
         let plan = Plan::of(&problem, &Question::run(Numbers::Double(accuracy)))?;
-        Ok(Prepared { problem, plan, data, settings, widths: options.widths.iter().map(Number::to_f64).collect() })
+        let widths = options.widths.iter().map(Number::to_f64).collect();
+        Ok(Prepared { problem, plan, data, settings, widths, fit: options.fit.clone() })
     }
 
     /// Solves the run and compares.
     ///
-    /// **Errors**: those of the history.
-    pub fn compare(self, observer: Observer) -> Result<Comparison, Error> {
-        let Prepared { problem, plan, data, settings, widths } = self;
-        let Solution::Double(history) = plan.solve(&problem, observer)? else { return Err(Error::NoMultiprecision) };
+    /// **Errors**: those of the history, and of a fit.
+    pub fn compare(self, observer: Observer) -> Result<Comparison, CompareError> {
+        let Prepared { problem, plan, data, settings, widths, fit } = self;
+        let Solution::Double(history) = plan.solve(&problem, observer)? else {
+            return Err(Error::NoMultiprecision.into());
+        };
         let mut files = Vec::new();
         for (file, samples) in data {
-            files.push(ComparedFile { file, agreement: Agreement::of(&problem, &history, samples, &settings)? });
+            let again = (!fit.is_empty()).then(|| samples.clone());
+            let agreement = Agreement::of(&problem, &history, samples, &settings)?;
+            let mut fitted = None;
+            if let Some(samples) = again {
+                let found = Fit::of(&problem, &history, &agreement, &fit)?;
+                let found = found.map_err(|error| CompareError::Fit { file: file.clone(), error })?;
+                let settings = Settings { judge: false, ..settings.clone() };
+                let then = Agreement::of(&found.problem, &found.history, samples, &settings)?;
+                fitted = Some((found, then));
+            }
+            files.push(ComparedFile { file, agreement, fit: fitted });
         }
         let compared: Vec<&Agreement> = files.iter().map(|file| &file.agreement).collect();
         let widths = if widths.is_empty() { compared.iter().map(|file| file.step).collect() } else { widths };
@@ -259,7 +288,7 @@ impl Comparison {
     /// **Errors**: a quantity that the data do not have.
     pub fn above(&self, limits: &[Limit]) -> Result<Vec<String>, String> {
         let mut lines = Vec::new();
-        for ComparedFile { file, agreement } in &self.files {
+        for ComparedFile { file, agreement, .. } in &self.files {
             for limit in limits {
                 let found = limit.above(agreement).map_err(|error| format!("{file}: {error}"))?;
                 lines.extend(found.map(|found| format!("{file}: {limit}, found {found:.3e}")));

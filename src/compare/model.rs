@@ -22,6 +22,13 @@ pub(super) struct Signal {
     pub(super) rate: f64,
 }
 
+impl Signal {
+    /// Whether it is an integral over the column.
+    pub(super) fn is_integral(&self) -> bool {
+        self.what != self.model
+    }
+}
+
 /// Times and columns of data, with the problem that they are of.
 #[derive(Debug)]
 pub(super) struct Model<'a> {

@@ -5,6 +5,7 @@ use serde_json::{Value, json};
 use super::agree::{Agreement, Compared};
 use super::audit::Extreme;
 use super::comparison::{ComparedFile, Comparison};
+use super::fit::{Fit, FittedValue};
 use super::limit::Order;
 use super::norms::{Greatest, Norm};
 use super::touch::Touch;
@@ -34,7 +35,9 @@ energy              how much more the energy of theirs has changed than that of 
 momentum            what is left of P′ + 2rP = F − weight over all samples, P the momentum
 missed, invented    contacts of ours without one of theirs, and the other way round
 not covered         times of the run without samples
-no hint             no error of scale, sign, origin, units or clock explains half of a difference
+hint                one number that explains most of what differs in all that it concerns, up to the
+                    second impact, with its standard error
+no hint             no such number; spread: the width of a ramp that is as far from a jump as theirs
 ";
 
 fn number(x: f64) -> String {
@@ -63,7 +66,7 @@ fn share(x: Option<f64>) -> String {
 
 /// The whole report of one file.
 fn file_table(compared: &ComparedFile, title: Option<&str>, units: &Units) -> String {
-    let ComparedFile { file, agreement } = compared;
+    let ComparedFile { file, agreement, .. } = compared;
     let times = &agreement.grid.times;
     let (first, last) = (times.first().copied().unwrap_or(0.0), times.last().copied().unwrap_or(0.0));
     let mut out = title.map_or_else(String::new, |title| format!("{title}\n"));
@@ -86,7 +89,11 @@ fn file_table(compared: &ComparedFile, title: Option<&str>, units: &Units) -> St
     if agreement.hints.is_empty() {
         let merged = agreement.contacts.iter().filter_map(|(_, theirs)| theirs.as_ref()).map(|touch| touch.merged);
         let chatter: Vec<usize> = merged.filter(|merged| *merged > 0).collect();
-        out += "no hint: no error of scale, sign, origin, units or clock found";
+        out += "no hint: no single wrong number explains what differs";
+        if let Some(width) = agreement.spread {
+            let steps = width / agreement.step;
+            out += &format!("; the fronts are spread over {} ({steps:.1} steps), as by dispersion", width.decimal(3));
+        }
         if !chatter.is_empty() {
             let counted = |count: usize, one: &str| format!("{count} {one}{}", if count == 1 { "" } else { "s" });
             let (gaps, contacts) = (counted(chatter.iter().sum(), "gap"), counted(chatter.len(), "contact"));
@@ -94,7 +101,43 @@ fn file_table(compared: &ComparedFile, title: Option<&str>, units: &Units) -> St
         }
         out.push('\n');
     }
+    if let Some((fit, then)) = &compared.fit {
+        out += &format!("\n{}\n", fit_table(fit, agreement, then));
+    }
     out
+}
+
+/// What was fitted, what remains of each column, and how the contacts then agree.
+fn fit_table(fit: &Fit, now: &Agreement, then: &Agreement) -> String {
+    let row = |value: &FittedValue| {
+        vec![value.name.into(), value.scene.decimal(10), value.value.decimal(10), format!("{:.1e}", value.error)]
+    };
+    let values = table(&["fitted", "scene", "value", "standard error"], fit.values.iter().map(row).collect(), 1);
+    let column = |(now, then): (&Compared, &Compared)| {
+        let of = |norm: Norm| norm.relative.map_or_else(|| size(Some(norm.absolute)), |relative| share(Some(relative)));
+        vec![now.what.name().into(), of(now.norms.l2), of(then.norms.l2)]
+    };
+    let columns = now.quantities.iter().zip(&then.quantities).map(column).collect();
+    let columns = table(&["L2 of", "scene", "fitted"], columns, 1);
+    let apart = |a: Option<f64>, b: Option<f64>| a.zip(b).map_or_else(|| "–".into(), |(a, b)| size(Some(b - a)));
+    let contact = |(k, (ours, theirs)): (usize, &(Option<Touch>, Option<Touch>))| {
+        let (Some(a), Some(b)) = (ours, theirs) else { return vec![(k + 1).to_string(), "unpaired".into()] };
+        vec![
+            (k + 1).to_string(),
+            apart(Some(a.from), Some(b.from)),
+            apart(a.to, b.to),
+            apart(a.impulse, b.impulse),
+            apart(a.centroid, b.centroid),
+        ]
+    };
+    let contacts: Vec<_> = then.contacts.iter().enumerate().map(contact).collect();
+    let contacts = match contacts.is_empty() {
+        true => String::new(),
+        false => format!("\n\n{}", table(&["theirs − fitted", "from", "to", "impulse", "centroid"], contacts, 1)),
+    };
+    let end = if fit.settled { "" } else { "; it had not settled" };
+    let counted = if fit.steps == 1 { "step" } else { "steps" };
+    format!("{values}\nin {} {counted}{end}\n\n{columns}{contacts}", fit.steps)
 }
 
 fn norms_table(agreement: &Agreement, units: &Units) -> String {
@@ -211,9 +254,22 @@ fn orders_table(orders: &[Order]) -> String {
     table(&header, rows.collect(), 2) + "\n"
 }
 
+/// Values with their errors, and the norms and contacts that they leave.
+fn fit_json(fit: &Fit, then: &Agreement) -> Value {
+    let norms = then.quantities.iter().map(|compared| json!({"name": compared.what.name(), "l2": compared.norms.l2}));
+    let contacts = then.contacts.iter().map(|(ours, theirs)| json!({"fitted": ours, "theirs": theirs}));
+    json!({
+        "values": fit.values,
+        "steps": fit.steps,
+        "settled": fit.settled,
+        "quantities": norms.collect::<Vec<_>>(),
+        "contacts": contacts.collect::<Vec<_>>(),
+    })
+}
+
 /// One file, schema 1.
 fn file_json(compared: &ComparedFile, units: &Units) -> serde_json::Map<String, Value> {
-    let ComparedFile { file, agreement } = compared;
+    let ComparedFile { file, agreement, .. } = compared;
     let quantities = agreement.quantities.iter().map(|Compared { what, norms, .. }| {
         let mut value = json!({"name": what.name(), "unit": what.unit(units)});
         if let (Some(object), Value::Object(norms)) = (value.as_object_mut(), json!(norms)) {
@@ -232,6 +288,8 @@ fn file_json(compared: &ComparedFile, units: &Units) -> serde_json::Map<String, 
         "contacts": contacts.collect::<Vec<_>>(),
         "audit": agreement.audit,
         "hints": agreement.hints,
+        "spread": agreement.spread,
+        "fit": compared.fit.as_ref().map(|(fit, then)| fit_json(fit, then)),
     });
     match value {
         Value::Object(map) => map,

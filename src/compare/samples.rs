@@ -14,7 +14,7 @@ pub(crate) struct Clock {
 }
 
 /// The rows from `t = 0` on.
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 pub(crate) struct Samples {
     pub(crate) grid: Grid,
     /// In the conventions of the file.

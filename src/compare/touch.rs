@@ -32,11 +32,6 @@ fn is_zero(count: &usize) -> bool {
 }
 
 impl Touch {
-    /// `to − from`.
-    pub(crate) fn duration(&self) -> Option<f64> {
-        self.to.map(|to| to - self.from)
-    }
-
     /// About when it is.
     fn middle(&self) -> f64 {
         self.centroid.unwrap_or_else(|| self.to.map_or(self.from, |to| f64::midpoint(self.from, to)))

@@ -89,3 +89,13 @@ impl Parameter {
         builder.build()
     }
 }
+
+impl std::str::FromStr for Parameter {
+    type Err = String;
+
+    fn from_str(text: &str) -> Result<Self, String> {
+        let found = Self::ALL.iter().find(|(name, _)| *name == text.trim()).map(|(_, parameter)| *parameter);
+        let names = || Self::ALL.map(|(name, _)| name).join(", ");
+        found.ok_or_else(|| format!("found `{text}`, expected some of {}", names()))
+    }
+}

@@ -1,4 +1,4 @@
-//! `dalembert compare` on three contact codes: it finds what is wrong with them, and nothing where nothing is.
+//! `dalembert compare` on small contact codes: conventions, and the audit.
 
 use std::path::PathBuf;
 use std::process::Command;
@@ -6,7 +6,7 @@ use std::process::Command;
 use serde_json::Value;
 use tempfile::TempDir;
 
-use crate::peers::{BAR, Rod, Row, SCHEMES, Scheme, csv};
+use crate::peers::{BAR, Rod, Row, Scheme, csv};
 
 const END: f64 = 7.5;
 
@@ -24,13 +24,6 @@ pub(crate) fn compare(scene: &str, rows: &[Row], more: &[&str]) -> Value {
     serde_json::from_slice(&output.stdout).unwrap()
 }
 
-/// `kind quantity` of every hint.
-fn hints(report: &Value) -> Vec<String> {
-    let text = |value: &Value| value.as_str().unwrap().to_string();
-    let hints = report["hints"].as_array().unwrap();
-    hints.iter().map(|hint| format!("{} {}", text(&hint["kind"]), text(&hint["quantity"]))).collect()
-}
-
 /// Three contacts of `rod`, by `scheme`.
 fn bar(rod: Rod, scheme: Scheme) -> Vec<Row> {
     rod.run(scheme, END, |_| true)
@@ -40,98 +33,6 @@ pub(crate) fn with(rows: &[Row], change: impl Fn(&mut Row)) -> Vec<Row> {
     let mut rows = rows.to_vec();
     rows.iter_mut().for_each(change);
     rows
-}
-
-/// What the hints of a file are, `kind quantity` each, and their values.
-#[track_caller]
-fn found(what: &str, rows: &[Row], expected: &[&str]) -> Vec<f64> {
-    let report = compare("doyen-ern-piperno", rows, &[]);
-    let found = hints(&report);
-    for hint in expected {
-        assert!(found.iter().any(|found| found == hint), "{what}: no `{hint}` in {found:?}");
-    }
-    if expected.is_empty() {
-        assert_eq!(found, Vec::<String>::new(), "{what}");
-    }
-    let value = |kind: &&str| {
-        let place = found.iter().position(|found| found == kind).unwrap();
-        report["hints"][place]["value"].as_f64().unwrap()
-    };
-    expected.iter().map(value).collect()
-}
-
-/// Codes with nothing wrong but their mesh: no hint, coarse or fine.
-#[test]
-fn honest_codes_get_no_hint() {
-    for elements in [50, 400] {
-        for scheme in SCHEMES {
-            found(&format!("{scheme:?}, {elements}"), &bar(Rod { elements, ..BAR }, scheme), &[]);
-        }
-    }
-}
-
-/// One thing wrong at a time, in each code; the clock of a contact is known to a step, 0.125 % of it.
-#[test]
-fn what_is_wrong_is_found() {
-    for scheme in SCHEMES {
-        let what = |fault: &str| format!("{scheme:?}, {fault}");
-        let honest = bar(Rod { elements: 200, ..BAR }, scheme);
-        let dt = honest[1].t;
-        let near = |a: f64, b: f64, by: f64| assert!((a - b).abs() <= by, "{scheme:?}: {a}, expected {b}");
-        // t₁ ∝ √ρ and ∝ L.
-        let clock = found(&what("mass"), &bar(Rod { density: 0.99, ..BAR }, scheme), &["clock contact"]);
-        near(clock[0], -0.005, 0.00125);
-        let clock = found(&what("length"), &bar(Rod { length: 9.9, ..BAR }, scheme), &["clock contact"]);
-        near(clock[0], -0.01, 0.00125);
-        let late = found(&what("half a step"), &with(&honest, |row| row.t += dt / 2.0), &["time_shift h"]);
-        near(late[0], dt / 2.0, dt / 8.0);
-        // Dropped from where it takes 0.1 to the ground, on a clock that starts with the fall.
-        let fall = |k: u32| {
-            let left = 0.1 - f64::from(k) * dt;
-            let (height, velocity) = ((BAR.speed - BAR.gravity * left / 2.0) * left, BAR.gravity * left - BAR.speed);
-            Row { t: 0.1 - left, u: height, v: velocity, h: height, h_rate: velocity, force: 0.0, ..honest[0] }
-        };
-        let falling = (0..).map(fall).take_while(|row| row.t < 0.1 - dt / 2.0);
-        let rows: Vec<Row> = falling.chain(with(&honest, |row| row.t += 0.1)).collect();
-        let late = found(&what("late"), &rows, &["time_shift t"]);
-        near(late[0], 0.1, dt);
-        let late = found(&what("late, from the contact on"), &with(&honest, |row| row.t += 0.1), &["time_shift t"]);
-        near(late[0], 0.1, dt);
-        let mut between = honest.clone();
-        for k in 1..between.len() {
-            between[k].v = (honest[k].u - honest[k - 1].u) / dt;
-        }
-        let late = found(&what("velocity between steps"), &between, &["time_shift v_end"]);
-        near(late[0], dt / 2.0, dt / 8.0);
-        let factor = found(&what("½"), &with(&honest, |row| row.energy *= 2.0), &["scale E_total"]);
-        near(factor[0], 2.0, 0.1);
-        found(&what("u down"), &with(&honest, |row| row.u = -row.u), &["sign u_end"]);
-        found(&what("v down"), &with(&honest, |row| row.v = -row.v), &["sign v_end"]);
-        found(&what("tension"), &with(&honest, |row| row.force = -row.force), &["sign force"]);
-        let offset = found(&what("origin"), &with(&honest, |row| row.u += 0.5), &["origin u_end"]);
-        near(offset[0], 0.5, 0.05);
-        let blind = Rod { elements: 200, ..BAR }.run(scheme, END, |t| !(2.0..4.0).contains(&t));
-        assert_eq!(found(&what("no second contact"), &blind, &["missing contact"]), [1.0]);
-    }
-}
-
-/// A force that is twice at every second step and none between has the same impulse: chatter is no hint, and a factor
-/// shows behind it.
-#[test]
-fn a_factor_behind_chatter() {
-    for scheme in SCHEMES {
-        let chatter = |factor: f64| {
-            let mut rows = bar(Rod { elements: 200, ..BAR }, scheme);
-            rows.iter_mut().enumerate().for_each(|(k, row)| row.force *= factor * 2.0 * (k % 2) as f64);
-            rows
-        };
-        found(&format!("{scheme:?}, chatter"), &chatter(1.0), &[]);
-        for factor in [2.0, 1e-3] {
-            let value = found(&format!("{scheme:?}, chatter × {factor}"), &chatter(factor), &["scale force"]);
-            // The ends of a contact are known to a step, 1/400 of it.
-            assert!((value[0] / factor - 1.0).abs() < 0.01, "{scheme:?}: {value:?}");
-        }
-    }
 }
 
 /// The options undo what the hints name.

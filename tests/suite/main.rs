@@ -21,6 +21,7 @@ mod common;
 #[cfg(feature = "cli")]
 mod compare_command;
 #[cfg(feature = "cli")]
+mod compare_fits;
 mod compare_peers;
 mod compare_verdicts;
 mod conformance;

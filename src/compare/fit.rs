@@ -1,0 +1,218 @@
+//! The values of the scene that explain data best.
+
+use serde::Serialize;
+
+use super::agree::{Agreement, Compared};
+use super::least::{Least, least};
+use super::map::Location;
+use super::model::{Model, solved};
+use super::ours::Ours;
+use super::vary::Parameter;
+use crate::error::Error;
+use crate::problem::Problem;
+use crate::quantity::{Quantity, Rays};
+use crate::solve::History;
+
+/// A value that was fitted.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub(crate) struct FittedValue {
+    /// Its name in the scene.
+    pub(crate) name: &'static str,
+    /// What the scene says.
+    pub(crate) scene: f64,
+    /// What explains the data best.
+    pub(crate) value: f64,
+    /// Its standard error, from what remains.
+    pub(crate) error: f64,
+}
+
+/// A fit, with the comparison that the fitted values give.
+#[derive(Debug)]
+pub(crate) struct Fit {
+    pub(crate) values: Vec<FittedValue>,
+    pub(crate) steps: usize,
+    pub(crate) settled: bool,
+    /// The problem with the fitted values.
+    pub(crate) problem: Problem,
+    /// The data against its history.
+    pub(crate) history: History<f64>,
+}
+
+/// Why values cannot be fitted.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum FitError {
+    /// A value that the scene does not have.
+    #[error("found {0} to be fitted, expected one that the scene has: a material, a start above the ground or an impact")]
+    Absent(&'static str),
+    /// Fewer samples than values.
+    #[error("found {samples} values in the data, expected more than the {unknowns} that are to be fitted")]
+    TooFew {
+        /// Values in the data.
+        samples: usize,
+        /// Values to be fitted.
+        unknowns: usize,
+    },
+    /// Data that say nothing of some value.
+    #[error("found data that do not tell {0} apart, expected fewer values to be fitted, or more columns")]
+    NotTold(String),
+}
+
+/// So many samples of a column are fitted at most.
+const SAMPLES: usize = 4000;
+/// So many steps a fit takes at most, in all.
+const STEPS: usize = 20;
+/// The share of a value that difference quotients are taken over: the root of the accuracy of the values.
+const WIDTH: f64 = 1e-6;
+
+/// Residuals of a problem; derivatives are taken of it.
+type Residuals<'a> = &'a dyn Fn(&Problem) -> Option<Vec<f64>>;
+
+/// `problem` with the values of `parameters`.
+fn varied(problem: &Problem, parameters: &[Parameter], values: &[f64]) -> Option<Problem> {
+    let set = |problem: Problem, (parameter, value): (&Parameter, &f64)| parameter.set(&problem, *value).ok();
+    parameters.iter().zip(values).try_fold(problem.clone(), set)
+}
+
+/// The derivatives of residuals by each parameter, as difference quotients of our own runs. What is left out on either
+/// side of one has none.
+fn derivatives(
+    problem: &Problem,
+    parameters: &[Parameter],
+    (values, scales): (&[f64], &[f64]),
+    now: &[f64],
+    residuals: Residuals<'_>,
+) -> Option<Vec<Vec<f64>>> {
+    let by = |i: usize| {
+        let mut next = values.to_vec();
+        next[i] += WIDTH * scales[i];
+        let width = next[i] - values[i];
+        let next = residuals(&varied(problem, parameters, &next)?)?;
+        let slope = |(now, next): (&f64, &f64)| if *now == 0.0 || *next == 0.0 { 0.0 } else { (next - now) / width };
+        Some(now.iter().zip(&next).map(slope).collect())
+    };
+    (0..values.len()).map(by).collect()
+}
+
+impl Fit {
+    /// The values of `parameters` that explain `columns` best, from those of `problem`.
+    ///
+    /// **Source**: Levenberg and Marquardt's method in three stages, the residuals of the first two as in `model`: up to
+    /// the second impact, then over all times, then sample by sample where no jump is within two steps. In the last
+    /// stage each column weighs by what remained of it.
+    ///
+    /// **Errors**: [`FitError`] as an inner result; the outer one is the history's.
+    pub(crate) fn of(
+        problem: &Problem,
+        history: &History<f64>,
+        agreement: &Agreement,
+        parameters: &[Parameter],
+    ) -> Result<Result<Self, FitError>, Error> {
+        let start: Option<Vec<f64>> = parameters.iter().map(|parameter| parameter.value(problem)).collect();
+        let Some(start) = start else {
+            let absent = parameters.iter().find(|parameter| parameter.value(problem).is_none());
+            return Ok(Err(FitError::Absent(absent.map_or("", |parameter| parameter.name()))));
+        };
+        let (grid, columns) = (&agreement.grid, &agreement.quantities);
+        let samples = grid.times.len() * columns.len();
+        if samples <= parameters.len() {
+            return Ok(Err(FitError::TooFew { samples, unknowns: parameters.len() }));
+        }
+        let scales = history.scales();
+        let scale = |(parameter, value): (&Parameter, &f64)| match parameter {
+            _ if *value != 0.0 => value.abs(),
+            Parameter::Damping => 0.01 / scales.time,
+            Parameter::Gravity => scales.velocity / scales.time,
+            Parameter::Gap => scales.velocity * scales.time,
+            _ => scales.velocity,
+        };
+        let sizes: Vec<f64> = parameters.iter().zip(&start).map(scale).collect();
+        let release = history.contacts().iter().find_map(|contact| contact.to).unwrap_or(f64::INFINITY);
+        let second = history.events().iter().map(|event| event.time).find(|time| *time > release);
+        let last = grid.times.last().copied().unwrap_or_default();
+        let ours = Ours::of(problem, history)?;
+        let (mut values, mut left) = (start.clone(), STEPS);
+        let run = |values: &[f64], most: usize, residuals: Residuals<'_>| {
+            let of = |values: &[f64]| residuals(&varied(problem, parameters, values)?);
+            let linear =
+                |values: &[f64], now: &[f64]| derivatives(problem, parameters, (values, &sizes), now, residuals);
+            least(values, &sizes, most, of, linear)
+        };
+        // Up to the second impact, and over all times.
+        for until in [second.unwrap_or(last), last] {
+            let per = |what| ours.force_per(what);
+            let model = Model::of(problem, history, (&grid.times, agreement.step), columns, per, (until, SAMPLES / 10))?;
+            let residuals = |problem: &Problem| {
+                let all = model.values(problem, |time| time).ok()?;
+                let of = model.signals.iter().zip(&all).flat_map(|(signal, ours)| {
+                    let error = move |(theirs, ours): (&f64, &f64)| (theirs - ours) / signal.rate;
+                    signal.theirs.iter().zip(ours).map(error)
+                });
+                Some(of.collect())
+            };
+            // The start may be far from the data; half a dozen steps bring it near. What only later times or the
+            // samples one by one tell is left for them.
+            if let Some(found) = run(&values, left.min(STEPS / 3), &residuals) {
+                (values, left) = (found.values, left - found.steps);
+            }
+        }
+        let near = varied(problem, parameters, &values).unwrap_or_else(|| problem.clone());
+        let stride = grid.times.len().div_ceil(SAMPLES);
+        let weights = pointwise(&near, columns, &grid.times, (stride, agreement.step), None)?;
+        let weights: Vec<f64> = weights.iter().map(|column| rms(column)).collect();
+        let residuals = |problem: &Problem| {
+            let all = pointwise(problem, columns, &grid.times, (stride, agreement.step), Some(&weights)).ok()?;
+            Some(all.concat())
+        };
+        let Some(Least { values, errors, steps, settled }) = run(&values, left, &residuals) else {
+            let names: Vec<&str> = parameters.iter().map(|parameter| parameter.name()).collect();
+            return Ok(Err(FitError::NotTold(names.join(", "))));
+        };
+        let problem = varied(problem, parameters, &values).unwrap_or(near);
+        let history = solved(&problem, last)?;
+        let fitted = parameters.iter().zip(start.iter().zip(values.iter().zip(&errors)));
+        let values = fitted
+            .map(|(parameter, (scene, (value, error)))| FittedValue {
+                name: parameter.name(),
+                scene: *scene,
+                value: *value,
+                error: *error,
+            })
+            .collect();
+        Ok(Ok(Fit { values, steps: STEPS - left + steps, settled, problem, history }))
+    }
+}
+
+fn rms(values: &[f64]) -> f64 {
+    let told = values.iter().filter(|value| **value != 0.0);
+    let (sum, count) = told.fold((0.0, 0.0), |(sum, count), value| (sum + value * value, count + 1.0));
+    if count > 0.0 && sum > 0.0 { f64::sqrt(sum / count) } else { 1.0 }
+}
+
+/// `theirs − ours` of each column at every `stride`-th sample, divided by its weight; zero within two steps of a jump.
+///
+/// **Errors**: those of the run.
+fn pointwise(
+    problem: &Problem,
+    columns: &[Compared],
+    times: &[f64],
+    (stride, step): (usize, f64),
+    weights: Option<&[f64]>,
+) -> Result<Vec<Vec<f64>>, Error> {
+    let history = solved(problem, times.last().copied().unwrap_or_default())?;
+    let problem = problem.to_builder().time(*history.end()).build()?;
+    let ours = Ours::of(&problem, &history)?;
+    let kept: Vec<f64> = times.iter().copied().step_by(stride).collect();
+    let grid = super::norms::Grid::new(kept, None);
+    let whats: Vec<Quantity> = columns.iter().map(|column| column.what).collect();
+    let all = ours.values(&whats, &grid)?;
+    let of = |((column, values), place): ((&Compared, Vec<f64>), usize)| {
+        let weight = weights.map_or(1.0, |weights| weights[place]);
+        let jumps = (column.what.rays() == Rays::Jump).then(|| ours.passing(Location::of(column.what), &grid));
+        let error = |k: usize| match &jumps {
+            Some(jumps) if (jumps[k] - grid.times[k]).abs() <= 2.0 * step => 0.0,
+            _ => (column.theirs[k * stride] - values[k]) / weight,
+        };
+        (0..grid.times.len()).map(error).collect()
+    };
+    Ok(columns.iter().zip(all).zip(0..).map(of).collect())
+}

@@ -1,0 +1,120 @@
+//! Least squares in a few unknowns.
+
+/// What a fit found.
+#[derive(Clone, Debug)]
+pub(super) struct Least {
+    /// The values.
+    pub(super) values: Vec<f64>,
+    /// Their standard errors, from what remains and the normal matrix.
+    pub(super) errors: Vec<f64>,
+    /// Steps that were taken.
+    pub(super) steps: usize,
+    /// Whether the last step was within rounding of the values.
+    pub(super) settled: bool,
+}
+
+/// Derivatives are known to about 1e-6: what is left of the square of one, when those before it are taken out, is
+/// rounding below this share.
+const TOLD: f64 = 1e-11;
+
+/// Solves `A x = b` of a symmetric positive matrix, by Cholesky's decomposition; `None` where it is none.
+fn solve(matrix: &[Vec<f64>], right: &[f64]) -> Option<Vec<f64>> {
+    let count = right.len();
+    let mut lower = vec![vec![0.0; count]; count];
+    for i in 0..count {
+        for j in 0..=i {
+            let sum: f64 = (0..j).map(|k| lower[i][k] * lower[j][k]).sum();
+            let rest: f64 = matrix[i][j] - sum;
+            lower[i][j] = match i == j {
+                true if rest > TOLD * matrix[i][i] => rest.sqrt(),
+                true => return None,
+                false => rest / lower[j][j],
+            };
+        }
+    }
+    let mut x = right.to_vec();
+    for i in 0..count {
+        x[i] = (x[i] - (0..i).map(|k| lower[i][k] * x[k]).sum::<f64>()) / lower[i][i];
+    }
+    for i in (0..count).rev() {
+        x[i] = (x[i] - (i + 1..count).map(|k| lower[k][i] * x[k]).sum::<f64>()) / lower[i][i];
+    }
+    Some(x)
+}
+
+/// The values that leave the least of `Σ r²`, from `start` in at most `most` steps, by Levenberg and Marquardt's method
+/// in unknowns divided by `scales`; `residuals` is `None` where there is no answer, `linear` gives their derivatives. `None` where the residuals do not
+/// tell the unknowns apart.
+///
+/// **Accuracy**: the standard errors are those of independent residuals of one size.
+pub(super) fn least(
+    start: &[f64],
+    scales: &[f64],
+    most: usize,
+    residuals: impl Fn(&[f64]) -> Option<Vec<f64>>,
+    linear: impl Fn(&[f64], &[f64]) -> Option<Vec<Vec<f64>>>,
+) -> Option<Least> {
+    let square = |r: &[f64]| r.iter().map(|r| r * r).sum::<f64>();
+    let count = start.len();
+    let mut values = start.to_vec();
+    let mut now = residuals(&values)?;
+    let (mut damping, mut settled, mut steps) = (0.0, false, 0);
+    let mut normal = vec![vec![0.0; count]; count];
+    while steps < most && !settled {
+        let slopes = linear(&values, &now)?;
+        let dot = |i: usize, r: &[f64]| slopes[i].iter().zip(r).map(|(a, b)| a * b).sum::<f64>() * scales[i];
+        for i in 0..count {
+            normal[i] = (0..count).map(|j| dot(i, &slopes[j]) * scales[j]).collect();
+        }
+        let right: Vec<f64> = (0..count).map(|i| -dot(i, &now)).collect();
+        solve(&normal, &right)?;
+        steps += 1;
+        let mut tries = 0;
+        loop {
+            let mut damped = normal.clone();
+            (0..count).for_each(|i| damped[i][i] *= 1.0 + damping);
+            let step = solve(&damped, &right)?;
+            let next: Vec<f64> = (0..count).map(|i| values[i] + step[i] * scales[i]).collect();
+            let small = step.iter().all(|step| step.abs() <= 1e-12);
+            match residuals(&next) {
+                Some(tried) if square(&tried) <= square(&now) => {
+                    (values, now, damping, settled) = (next, tried, damping / 10.0, small);
+                    break;
+                }
+                // No better is to be had.
+                _ if small || tries > 12 => {
+                    settled = true;
+                    break;
+                }
+                _ => (damping, tries) = ((damping * 10.0f64).max(1e-3), tries + 1),
+            }
+        }
+    }
+    let rest = square(&now);
+    let variance = rest / now.len().saturating_sub(count).max(1) as f64;
+    let error = |i: usize| {
+        let unit: Vec<f64> = (0..count).map(|j| f64::from(u8::from(i == j))).collect();
+        Some((variance * solve(&normal, &unit)?[i]).sqrt() * scales[i])
+    };
+    let errors = (0..count).map(error).collect::<Option<_>>()?;
+    Some(Least { values, errors, steps, settled })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A line through 0, 1 and 3 at 0, 1 and 2: by hand 3/2 t − 1/6, Σ r² = 1/6, and the errors from (JᵀJ)⁻¹.
+    #[test]
+    fn a_line_by_hand() {
+        let data = [0.0, 1.0, 3.0];
+        let residuals = |v: &[f64]| Some((0..3).map(|t| v[0] * t as f64 + v[1] - data[t]).collect::<Vec<f64>>());
+        let linear = |_: &[f64], _: &[f64]| Some(vec![vec![0.0, 1.0, 2.0], vec![1.0; 3]]);
+        let found = least(&[7.0, -3.0], &[1.0, 1.0], 20, residuals, linear).unwrap();
+        assert!((found.values[0] - 1.5).abs() < 1e-12 && (found.values[1] + 1.0 / 6.0).abs() < 1e-12);
+        assert!(found.settled);
+        // JᵀJ = [[5, 3], [3, 3]], its inverse [[1/2, −1/2], [−1/2, 5/6]], one degree of freedom.
+        assert!((found.errors[0] - (1.0 / 12.0f64).sqrt()).abs() < 1e-12, "{found:?}");
+        assert!((found.errors[1] - (5.0 / 36.0f64).sqrt()).abs() < 1e-12, "{found:?}");
+    }
+}

@@ -1,0 +1,95 @@
+//! Fits: the values of the scene that explain data best.
+
+use std::fmt::Write as _;
+
+use dalembert::compare::data::Source;
+use dalembert::compare::{Options, Parameter, Prepared};
+use dalembert::{Problem, Quantity, Side, UnitSystem, Units};
+use serde_json::Value;
+
+/// The values of a rod that starts above the ground: length, wave speed, damping, gravity, speed, gap.
+fn rod(values: [f64; 6], time: f64) -> Problem {
+    let [length, wave_speed, damping, gravity, speed, gap] = values;
+    let rod = Problem::builder().length(length).wave_speed(wave_speed).damping(damping).gravity(gravity);
+    rod.impact_speed(speed).gap(gap).time(time).build().unwrap()
+}
+
+const NAMES: [&str; 6] = ["length", "wave_speed", "damping", "gravity", "speed", "gap"];
+
+/// What of `columns` at `times` is `data`, fitted from `start`.
+fn fitted(start: &Problem, names: &[&str], times: &[f64], columns: &[Quantity], data: Vec<Vec<f64>>) -> Value {
+    let units = Units::of(start, UnitSystem::Si);
+    let all = std::iter::once(times.to_vec()).chain(data).map(Ok).collect();
+    let header = std::iter::once("t".to_string()).chain(columns.iter().map(|column| column.name().to_string()));
+    let source = Source::arrays("data", header.collect(), all);
+    let fit: Vec<Parameter> = names.iter().map(|name| name.parse().unwrap()).collect();
+    let options = Options { fit, ..Options::default() };
+    let prepared = Prepared::new(start, &units, None, vec![source], &options).unwrap();
+    let compared = prepared.compare(std::sync::Arc::new(|_, _| std::ops::ControlFlow::Continue(()))).unwrap();
+    compared.json(None, &units)["fit"].clone()
+}
+
+/// Six values, each off by up to 5 %: found again to 1e-9 from exact data in at most 20 steps.
+#[test]
+fn exact_data_give_their_values() {
+    let truth = [1.0, 2.0, 0.05, 1.0, 1.0, 0.05];
+    let off = [1.03, 0.97, 1.05, 0.96, 1.02, 0.95];
+    let mut start = truth;
+    start.iter_mut().zip(off).for_each(|(value, off)| *value *= off);
+    let times: Vec<f64> = (0..=60).map(|k| f64::from(k) / 20.0).collect();
+    let columns = [Quantity::EndDisplacement, Quantity::Strain, Quantity::TopDisplacement];
+    let data = rod(truth, 3.0).solve().unwrap().columns(&columns, &times, Some(Side::Right)).unwrap();
+    let fit = fitted(&rod(start, 3.0), &NAMES, &times, &columns, data);
+    assert!(fit["steps"].as_u64().unwrap() <= 20, "{fit}");
+    for (value, truth) in fit["values"].as_array().unwrap().iter().zip(truth) {
+        assert!((value["value"].as_f64().unwrap() / truth - 1.0).abs() <= 1e-9, "{fit}");
+    }
+}
+
+/// Without a force, a stress or a strain only L/c is told: no numbers are made up.
+#[test]
+fn what_data_do_not_tell() {
+    let problem = rod([1.0, 2.0, 0.0, 1.0, 1.0, 0.05], 2.0);
+    let folder = tempfile::TempDir::new().unwrap();
+    let times: Vec<f64> = (0..=40).map(|k| f64::from(k) / 20.0).collect();
+    let data = problem.solve().unwrap().columns(&[Quantity::EndDisplacement], &times, Some(Side::Right)).unwrap();
+    let mut text = String::from("t,u\n");
+    times.iter().zip(&data[0]).for_each(|(time, u)| writeln!(text, "{time},{u:e}").unwrap());
+    std::fs::write(folder.path().join("run.csv"), text).unwrap();
+    let scene = "rod = { length = 1, wave_speed = 2.1 }\ngravity.acceleration = 1\nimpact = { speed = 1, gap = 0.05 }\n";
+    std::fs::write(folder.path().join("rod.toml"), scene).unwrap();
+    let mut command = std::process::Command::new(env!("CARGO_BIN_EXE_dalembert"));
+    let command = command.args(["compare", "rod.toml", "run.csv", "--fit", "length,wave_speed"]);
+    let output = command.current_dir(folder.path()).output().unwrap();
+    let error = String::from_utf8_lossy(&output.stderr);
+    assert_eq!(output.status.code(), Some(2), "{error}");
+    assert!(error.contains("run.csv: found data that do not tell length, wave_speed apart"), "{error}");
+}
+
+/// Two hundred measured bounces, with noise of 1e-4: impact speed and gravity within two standard errors in 95 %. Of
+/// 200 × 2 values, each within two errors with a chance of 0.954, fewer than 365 are so once in 2,000.
+#[test]
+fn noisy_data_give_honest_errors() {
+    let problem = |speed: f64, gravity: f64| rod([1.0, 20.0, 0.0, gravity, speed, 0.05], 0.6);
+    let times: Vec<f64> = (0..=60).map(|k| f64::from(k) / 100.0).collect();
+    let columns = [Quantity::Centre];
+    let exact = problem(1.0, 9.81).solve().unwrap().columns(&columns, &times, Some(Side::Right)).unwrap();
+    // A linear congruential generator; twelve of its numbers make one of a normal distribution.
+    let mut state = 1878u64;
+    let mut uniform = || {
+        state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+        (state >> 11) as f64 / (1u64 << 53) as f64
+    };
+    let (mut count, mut within) = (0, 0);
+    for _ in 0..200 {
+        let noisy = exact[0].iter().map(|h| h + 1e-4 * ((0..12).map(|_| uniform()).sum::<f64>() - 6.0)).collect();
+        let fit = fitted(&problem(1.02, 9.7), &["speed", "gravity"], &times, &columns, vec![noisy]);
+        for (value, truth) in fit["values"].as_array().unwrap().iter().zip([1.0, 9.81]) {
+            let off = (value["value"].as_f64().unwrap() - truth).abs();
+            count += 1;
+            within += usize::from(off <= 2.0 * value["error"].as_f64().unwrap());
+        }
+    }
+    println!("{within} of {count}");
+    assert!(count == 400 && within >= 365, "{within} of {count}");
+}
