@@ -43,6 +43,11 @@ fn options(given: &Bound<'_, PyDict>) -> PyResult<Options> {
         let number = |value: &Bound<'_, PyAny>| number(&name, value);
         match name.as_str() {
             "map" => options.map = Some(value.extract()?),
+            "to" => options.to = Some(number(&value)?),
+            "fit" => {
+                let names: Vec<String> = value.extract()?;
+                options.fit = names.iter().map(|name| name.parse()).collect::<Result<_, _>>().map_err(refuse)?;
+            }
             "dt" => options.dt = Some(number(&value)?),
             "t0" => options.t0 = Some(number(&value)?),
             "shift" => options.shift = Some(number(&value)?),
@@ -77,7 +82,7 @@ impl Comparison {
         let (stop, in_run) = (Arc::default(), units.clone());
         let observe = observer(&stop);
         let compared = run(py, &stop, move || {
-            Prepared::new(&rod, &in_run, accuracy, sources, &options)?.compare(observe).map_err(CompareError::from)
+            Prepared::new(&rod, &in_run, accuracy, sources, &options)?.compare(observe)
         })?;
         Ok(Comparison { compared, title: problem.title.clone(), units })
     }
@@ -92,9 +97,12 @@ impl Comparison {
         (of.json(title, &self.units).to_string(), of.table(title, &self.units), warnings, samples)
     }
 
-    /// The norms that are above limits such as `u.l2=0.1`, a line each.
-    fn above(&self, limits: Vec<String>) -> PyResult<Vec<String>> {
-        let limits = limits.iter().map(|limit| limit.parse()).collect::<Result<Vec<Limit>, _>>().map_err(refuse)?;
-        self.compared.above(&limits).map_err(refuse)
+    /// What fails of limits such as `u.l2=0.1`, above which, or below which, something may not be; a line each.
+    fn failures(&self, above: Vec<String>, below: Vec<String>) -> PyResult<Vec<String>> {
+        let parsed = |limits: &[String]| limits.iter().map(|limit| limit.parse()).collect::<Result<Vec<Limit>, _>>();
+        let mut limits = parsed(&above).map_err(refuse)?;
+        limits.extend(parsed(&below).map_err(refuse)?.into_iter().map(Limit::turned));
+        let outcomes = self.compared.outcomes(&limits).map_err(refuse)?;
+        Ok(outcomes.iter().filter(|outcome| outcome.failure.is_some()).map(ToString::to_string).collect())
     }
 }

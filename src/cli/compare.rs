@@ -1,5 +1,6 @@
 //! `dalembert compare`.
 
+use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
@@ -9,7 +10,9 @@ use super::failure::Failure;
 use super::file::{self, Format, ROWS, ROWS_OR_PICTURE, formats};
 use super::source;
 use crate::compare::data::Source;
-use crate::compare::{Axis, CompareError, Comparison, Compression, LEGEND, Limit, Options, Origin, Parameter, Prepared};
+use crate::compare::{
+    Axis, CompareError, Comparison, Compression, LEGEND, Limit, Options, Origin, Outcome, Parameter, Prepared,
+};
 use crate::number::Number;
 use crate::output::{Size, compare_data, compare_svg};
 use crate::quantity::Units;
@@ -19,7 +22,8 @@ const EXAMPLES: &str = "Examples:\n  dalembert compare doyen-ern-piperno run.csv
     dalembert compare rod.toml coarse.npz fine.npz --fail-above u.l2=0.01,force.l1=0.05\n\n\
     Quantities are called as in `dalembert reference`; u and v are short for u_end and v_end. With a column x, u, v, \
     strain and stress are those at the point x. Two rows at one time are the limits at a jump, as `reference` writes \
-    them; a column side (left, right, both) says which. The exit code is 1 where --fail-above fails.";
+    them; a column side (left, right, both) says which. The exit code is 1 where a bound fails; with any bound, data \
+    that end before the run of the scene do, or before --to, fail.";
 
 /// Your data against the exact history: norms, contacts, an audit, and hints at what may be wrong
 #[derive(Args, Debug)]
@@ -63,9 +67,22 @@ pub(super) struct Compare {
     /// Values of the scene to fit to the data: length, wave_speed, modulus, density, damping, gravity, speed, gap
     #[arg(long, value_name = "LIST", value_delimiter = ',')]
     fit: Vec<Parameter>,
-    /// Exit with code 1 where a relative norm is above a bound: u.l2=0.1, of l1, l2, linf, linf_off_jumps
-    #[arg(long, value_name = "QUANTITY.NORM=BOUND,…", value_delimiter = ',')]
+    /// How far the data are to go; by default as far as the run of the scene
+    #[arg(long, value_name = "T", allow_hyphen_values = true)]
+    to: Option<Number>,
+    /// Exit with code 1 where something is above a bound: u.l2=0.1 (of l1, l2, linf, linf_off_jumps, relative to ours),
+    /// energy=0.02 and impulse=0.05 (relative), momentum, penetration, tension, missed=0, invented=0
+    #[arg(long, value_name = "NAME=BOUND,…", value_delimiter = ',')]
     fail_above: Vec<Limit>,
+    /// The same where something is below a bound: order.u=0.9 or order.force.l1=0.4 of several files, coverage=0.99
+    #[arg(long, value_name = "NAME=BOUND,…", value_delimiter = ',')]
+    fail_below: Vec<Limit>,
+    /// Bounds in a file: tables [above] and [below] of names such as "u.l2" with their bounds
+    #[arg(long, value_name = "FILE")]
+    gates: Option<PathBuf>,
+    /// Write what came of every bound as JUnit's XML, whole or not at all
+    #[arg(long, value_name = "FILE")]
+    junit: Option<PathBuf>,
     /// What to print; by default a table
     #[arg(long, value_parser = formats(ROWS))]
     format: Option<Format>,
@@ -73,6 +90,37 @@ pub(super) struct Compare {
     /// is standard output. Can be given several times. Beside pictures the table is printed as well
     #[arg(short, long, value_name = "FILE")]
     output: Vec<PathBuf>,
+}
+
+const BOUNDS: &str = "--fail-above NAME=BOUND and --fail-below NAME=BOUND, or a file of --gates";
+
+/// A file of bounds.
+#[derive(Debug, Default, serde::Deserialize)]
+#[serde(default, deny_unknown_fields)]
+struct Gates {
+    above: BTreeMap<String, f64>,
+    below: BTreeMap<String, f64>,
+}
+
+/// A test for every bound.
+fn junit(outcomes: &[Outcome]) -> String {
+    let escaped =
+        |text: &str| text.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;").replace('"', "&quot;");
+    let failures = outcomes.iter().filter(|outcome| outcome.failure.is_some()).count();
+    let count = outcomes.len();
+    let mut out = format!(
+        "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<testsuite name=\"dalembert compare\" tests=\"{count}\" \
+         failures=\"{failures}\">\n"
+    );
+    for outcome in outcomes {
+        let (file, name) = (escaped(&outcome.file), escaped(&outcome.expected));
+        let body = outcome
+            .failure
+            .as_ref()
+            .map_or_else(String::new, |found| format!("<failure message=\"found {}\"/>", escaped(found)));
+        out += &format!("  <testcase classname=\"{file}\" name=\"{name}\">{body}</testcase>\n");
+    }
+    out + "</testsuite>\n"
 }
 
 /// What is printed.
@@ -98,14 +146,32 @@ impl Compare {
         }
         let report = Report { comparison: &comparison, title: scene.title.as_deref(), units: &units };
         // Before anything is written.
-        let failures = comparison
-            .above(&self.fail_above)
-            .map_err(|error| failure!("{error}").help("--fail-above QUANTITY.NORM=BOUND"))?;
+        let outcomes = comparison.outcomes(&self.limits()?).map_err(|error| failure!("{error}").help(BOUNDS))?;
         file::write_each(&self.output, self.format, |format| report.bytes(format))?;
+        if let Some(path) = &self.junit {
+            file::write(Some(path), junit(&outcomes).as_bytes())?;
+        }
+        let failures: Vec<&Outcome> = outcomes.iter().filter(|outcome| outcome.failure.is_some()).collect();
         for failure in &failures {
             eprintln!("failed: {failure}");
         }
         Ok(if failures.is_empty() { ExitCode::SUCCESS } else { ExitCode::from(1) })
+    }
+
+    /// All bounds: those of the file, and those of the command line.
+    fn limits(&self) -> Result<Vec<Limit>, Failure> {
+        let mut limits = self.fail_above.clone();
+        limits.extend(self.fail_below.iter().cloned().map(Limit::turned));
+        let Some(path) = &self.gates else { return Ok(limits) };
+        let shown = path.display();
+        let text = std::fs::read_to_string(path).map_err(|error| failure!("{shown}: cannot be read: {error}"))?;
+        let gates: Gates = toml::from_str(&text).map_err(|error| failure!("{shown}: {}", error.to_string().trim()))?;
+        for (bounds, below) in [(gates.above, false), (gates.below, true)] {
+            for (name, bound) in bounds {
+                limits.push(Limit::new(&name, bound, below).map_err(|error| failure!("{shown}: {error}"))?);
+            }
+        }
+        Ok(limits)
     }
 
     fn options(&self) -> Options {
@@ -120,6 +186,7 @@ impl Compare {
             energy_scale: Some(self.energy_scale.clone()),
             window: self.window.clone(),
             widths: self.widths.clone(),
+            to: self.to.clone(),
             fit: self.fit.clone(),
         }
     }

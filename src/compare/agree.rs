@@ -1,5 +1,7 @@
 //! Data beside a history: norms, contacts, audit and hints.
 
+use serde::Serialize;
+
 use super::audit::{Audit, Books};
 use super::conventions::Conventions;
 use super::map::Location;
@@ -21,6 +23,7 @@ pub(crate) struct Agreement {
     /// Ours and theirs; either may be missing.
     pub(crate) contacts: Vec<(Option<Touch>, Option<Touch>)>,
     pub(crate) audit: Audit,
+    pub(crate) coverage: Coverage,
     pub(crate) hints: Vec<Verdict>,
     /// Over how long a time the fronts are spread.
     pub(crate) spread: Option<f64>,
@@ -30,6 +33,24 @@ pub(crate) struct Agreement {
     pub(crate) window: f64,
     /// How many rows are before `t = 0` and are not compared.
     pub(crate) outside: usize,
+}
+
+/// How much of the scene the data cover.
+#[derive(Clone, Debug, Default, PartialEq, Serialize)]
+pub(crate) struct Coverage {
+    /// Where the data end, and where the run of the scene does.
+    pub(crate) time: [f64; 2],
+    /// Whole contacts of ours that the data reach the end of, and all of the run.
+    pub(crate) contacts: [usize; 2],
+    /// Whether the data end before the run.
+    pub(crate) breaks_off: bool,
+}
+
+impl Coverage {
+    /// The share of the time.
+    pub(crate) fn share(&self) -> f64 {
+        if self.time[1] > 0.0 { (self.time[0] / self.time[1]).min(1.0) } else { 1.0 }
+    }
 }
 
 /// One quantity: values at the samples of the grid, and how far apart they are.
@@ -101,12 +122,14 @@ impl Agreement {
             quantities: compared,
             contacts: Vec::new(),
             audit: Audit::default(),
+            coverage: Coverage::default(),
             hints: Vec::new(),
             spread: None,
             step,
             window,
             outside,
         };
+        agreement.coverage = agreement.covered(history, settings);
         if agreement.grid.points.is_none() {
             agreement.keep_books(problem, &ours, settings.until);
             if settings.judge {
@@ -118,6 +141,14 @@ impl Agreement {
             }
         }
         Ok(agreement)
+    }
+
+    fn covered(&self, history: &History<f64>, settings: &Settings) -> Coverage {
+        let last = self.grid.times.last().copied().unwrap_or_default();
+        let end = settings.until.unwrap_or(last);
+        let ends = || history.contacts().iter().filter_map(|contact| contact.to);
+        let count = |to: f64| ends().filter(|end| *end <= to + self.step).count();
+        Coverage { time: [last, end], contacts: [count(last.min(end)), count(end)], breaks_off: end - last > self.step }
     }
 
     fn theirs(&self, column: Quantity) -> Option<&Compared> {
@@ -135,7 +166,9 @@ impl Agreement {
         let force: Option<Vec<f64>> = shown.map(|shown| {
             let factor = ours.force_per(shown.what);
             // Of the other sign, which is a hint, it is the force that is meant.
-            let sum = |values: &[f64]| values.iter().zip(&self.grid.weights).map(|(value, weight)| value * weight).sum::<f64>();
+            let sum = |values: &[f64]| {
+                values.iter().zip(&self.grid.weights).map(|(value, weight)| value * weight).sum::<f64>()
+            };
             let factor = if sum(&shown.theirs) * sum(&shown.ours) < 0.0 { -factor } else { factor };
             shown.theirs.iter().map(|value| value * factor).collect()
         });

@@ -4,7 +4,7 @@ use super::agree::{Agreement, Settings};
 use super::conventions::{Axis, Compression, Conventions, Origin};
 use super::data::{DataError, Source};
 use super::fit::{Fit, FitError};
-use super::limit::{Limit, Order, orders};
+use super::limit::{Limit, Order, Outcome, orders, outcomes};
 use super::map::{Map, MapError};
 use super::samples::{Clock, Samples};
 use super::vary::Parameter;
@@ -38,6 +38,8 @@ pub struct Options {
     pub window: Option<Number>,
     /// The width of the mesh of each source, for the order of convergence; by default the step of its times.
     pub widths: Vec<Number>,
+    /// How far the data are to go; by default as far as the run of the scene.
+    pub to: Option<Number>,
     /// The values of the scene that are fitted to the data.
     pub fit: Vec<Parameter>,
 }
@@ -117,7 +119,8 @@ impl Options {
         if self.t0.is_some() && self.dt.is_none() {
             return refuse("dt", "t0 without dt".into(), "both, or a column of times".into());
         }
-        let named = [("dt", &self.dt), ("window", &self.window), ("energy_scale", &self.energy_scale)];
+        let named =
+            [("dt", &self.dt), ("window", &self.window), ("energy_scale", &self.energy_scale), ("to", &self.to)];
         let lengths = named.into_iter().flat_map(|(name, number)| number.iter().map(move |number| (name, number)));
         for (name, number) in lengths.chain(self.widths.iter().map(|width| ("widths", width))) {
             if number.to_f64() <= 0.0 {
@@ -134,9 +137,12 @@ impl Options {
             axis: self.axis,
             energy_scale: self.energy_scale.as_ref().map_or(1.0, Number::to_f64),
         };
-        let until = match &problem.run {
-            Run::Time(time) => Some(time.to_f64()),
-            Run::Impacts(_) => None,
+        let last = |history: crate::solve::History<f64>| history.contacts().last().and_then(|contact| contact.to);
+        let until = match (&self.to, &problem.run) {
+            (Some(to), _) => Some(to.to_f64()),
+            (None, Run::Time(time)) => Some(time.to_f64()),
+            (None, Run::Impacts(count)) if *count <= MOST_IMPACTS => problem.solve().ok().and_then(last),
+            (None, Run::Impacts(_)) => None,
         };
         Settings { conventions, until, judge: true, window: self.window.as_ref().map(Number::to_f64) }
     }
@@ -193,6 +199,8 @@ pub struct ComparedFile {
     pub(crate) fit: Option<(Fit, Agreement)>,
 }
 
+/// A run of more impacts is not solved to see whether data break off before its end.
+const MOST_IMPACTS: u32 = 1000;
 /// Data that go so many times as far as the scene's own run are in another unit of time.
 const FAR: f64 = 100.0;
 
@@ -283,18 +291,19 @@ impl Prepared {
 }
 
 impl Comparison {
-    /// The norms that are above `limits`, a line each.
+    /// What comes of `limits`, for each source. A run that breaks off before the end of that of the scene fails.
     ///
-    /// **Errors**: a quantity that the data do not have.
-    pub fn above(&self, limits: &[Limit]) -> Result<Vec<String>, String> {
-        let mut lines = Vec::new();
-        for ComparedFile { file, agreement, .. } in &self.files {
-            for limit in limits {
-                let found = limit.above(agreement).map_err(|error| format!("{file}: {error}"))?;
-                lines.extend(found.map(|found| format!("{file}: {limit}, found {found:.3e}")));
-            }
-        }
-        Ok(lines)
+    /// **Errors**: what the data do not have.
+    pub fn outcomes(&self, limits: &[Limit]) -> Result<Vec<Outcome>, String> {
+        let files: Vec<_> = self.files.iter().map(|file| (file.file.as_str(), &file.agreement)).collect();
+        outcomes(&files, &self.orders, limits)
+    }
+}
+
+impl std::fmt::Display for Outcome {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        write!(f, "{}: expected {}", self.file, self.expected)?;
+        self.failure.iter().try_for_each(|found| write!(f, ", found {found}"))
     }
 }
 

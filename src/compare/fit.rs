@@ -42,7 +42,9 @@ pub(crate) struct Fit {
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum FitError {
     /// A value that the scene does not have.
-    #[error("found {0} to be fitted, expected one that the scene has: a material, a start above the ground or an impact")]
+    #[error(
+        "found {0} to be fitted, expected one that the scene has: a material, a start above the ground or an impact"
+    )]
     Absent(&'static str),
     /// Fewer samples than values.
     #[error("found {samples} values in the data, expected more than the {unknowns} that are to be fitted")]
@@ -140,7 +142,8 @@ impl Fit {
         // Up to the second impact, and over all times.
         for until in [second.unwrap_or(last), last] {
             let per = |what| ours.force_per(what);
-            let model = Model::of(problem, history, (&grid.times, agreement.step), columns, per, (until, SAMPLES / 10))?;
+            let model =
+                Model::of(problem, history, (&grid.times, agreement.step), columns, per, (until, SAMPLES / 10))?;
             let residuals = |problem: &Problem| {
                 let all = model.values(problem, |time| time).ok()?;
                 let of = model.signals.iter().zip(&all).flat_map(|(signal, ours)| {

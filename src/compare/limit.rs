@@ -3,16 +3,35 @@
 use serde::Serialize;
 
 use super::agree::Agreement;
+use super::audit::Extreme;
 use super::map::compared;
 use super::norms::{Norms, order};
+use super::touch::Touch;
+use crate::quantity::Quantity;
 
-/// A bound of a norm: `u.l2=0.1`.
+/// A bound for a test: `u.l2=0.1`, `energy=0.02`, `order.u=0.9`.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Limit {
-    quantity: String,
-    norm: NormName,
+    name: String,
     bound: f64,
+    /// Whether it fails below the bound, and not above.
+    below: bool,
 }
+
+/// A bound, and what it was held against.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Outcome {
+    /// The source; several for an order.
+    pub file: String,
+    /// What is expected: `u.l2 ≤ 1e-1`.
+    pub expected: String,
+    /// What was found, where that is not within the bound.
+    pub failure: Option<String>,
+}
+
+/// What can be bounded besides the norms of quantities, with its meaning.
+const AUDITED: [&str; 8] =
+    ["coverage", "energy", "momentum", "impulse", "penetration", "tension", "missed", "invented"];
 
 #[derive(Clone, Copy, Debug, PartialEq)]
 enum NormName {
@@ -37,40 +56,147 @@ impl NormName {
     }
 }
 
+impl std::fmt::Display for Limit {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        write!(f, "{} {} {:e}", self.name, if self.below { '≥' } else { '≤' }, self.bound)
+    }
+}
+
 impl std::str::FromStr for Limit {
     type Err = String;
 
+    /// A bound that fails above.
     fn from_str(text: &str) -> Result<Self, String> {
-        let form = || format!("found `{text}`, expected QUANTITY.NORM=BOUND with l1, l2, linf or linf_off_jumps");
-        let (place, bound) = text.split_once('=').ok_or_else(form)?;
-        let (quantity, norm) = place.trim().rsplit_once('.').ok_or_else(form)?;
-        let norm = NORMS.iter().find(|(name, _)| *name == norm).ok_or_else(form)?.1;
-        let bound = bound.trim().parse().ok().filter(|bound: &f64| *bound >= 0.0).ok_or_else(form)?;
-        Ok(Limit { quantity: quantity.into(), norm, bound })
+        let form = || format!("found `{text}`, expected {FORM}");
+        let (name, bound) = text.split_once('=').ok_or_else(form)?;
+        Limit::new(name, bound.trim().parse().map_err(|_| form())?, false).map_err(|_| form())
     }
 }
 
-impl std::fmt::Display for Limit {
-    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        let norm = NORMS.iter().find(|(_, norm)| *norm == self.norm).map_or("", |(name, _)| name);
-        write!(f, "expected {}.{norm} ≤ {:e}", self.quantity, self.bound)
-    }
-}
+/// What a bound looks like.
+const FORM: &str = "QUANTITY.NORM=BOUND with l1, l2, linf or linf_off_jumps, order.QUANTITY=BOUND, or one of coverage, \
+                    energy, momentum, impulse, penetration, tension, missed and invented with its bound";
 
 impl Limit {
-    /// The norm that is above the bound, relative to ours, or absolute where ours is zero.
+    /// A bound of `name`, failing `below` it or above.
     ///
-    /// **Errors**: a quantity that the data do not have.
-    pub(crate) fn above(&self, agreement: &Agreement) -> Result<Option<f64>, String> {
-        let what = compared(&self.quantity, agreement.grid.points.is_some());
-        let found = agreement.quantities.iter().find(|compared| Some(compared.what) == what);
-        let compared = found.ok_or_else(|| {
-            let names: Vec<&str> = agreement.quantities.iter().map(|compared| compared.what.name()).collect();
-            format!("found a bound of {}, expected one of {}", self.quantity, names.join(", "))
-        })?;
-        let value = self.norm.of(&compared.norms).map(|(absolute, relative)| relative.unwrap_or(absolute));
-        Ok(value.filter(|value| *value > self.bound || value.is_nan()))
+    /// **Errors**: a name that is none, a bound below zero.
+    pub fn new(name: &str, bound: f64, below: bool) -> Result<Self, String> {
+        let name = name.trim();
+        let norm = |text: &str| NORMS.iter().any(|(name, _)| *name == text);
+        let of_norm = name.rsplit_once('.').is_some_and(|(_, last)| norm(last));
+        let known = AUDITED.contains(&name) || name.starts_with("order.") || of_norm;
+        // A bound that is no number is none.
+        if !known || bound.is_nan() || bound < 0.0 {
+            return Err(format!("found `{name}={bound}`, expected {FORM}"));
+        }
+        Ok(Limit { name: name.into(), bound, below })
     }
+
+    /// The same bound, failing below it.
+    #[must_use]
+    pub fn turned(self) -> Self {
+        Limit { below: true, ..self }
+    }
+
+    fn outcome(&self, file: &str, found: Option<f64>) -> Outcome {
+        let within = |found: f64| if self.below { found >= self.bound } else { found <= self.bound };
+        let said = |found: Option<f64>| found.map_or_else(|| "none".into(), |found| format!("{found:.3e}"));
+        let failure = (!found.is_some_and(within)).then(|| said(found));
+        Outcome { file: file.into(), expected: self.to_string(), failure }
+    }
+
+    /// What a file has of it: a norm relative to ours, or absolute where ours is zero, energy likewise.
+    ///
+    /// **Errors**: what the data do not have.
+    fn found(&self, agreement: &Agreement) -> Result<Option<f64>, String> {
+        let audit = &agreement.audit;
+        let lacks = |needs: &str| format!("found a bound of {}, expected data with {needs}", self.name);
+        let extreme = |extreme: &Option<Extreme>, needs| extreme.map(|most| most.value).ok_or_else(|| lacks(needs));
+        Ok(Some(match self.name.as_str() {
+            "coverage" => agreement.coverage.share(),
+            "missed" => audit.missed as f64,
+            "invented" => audit.invented as f64,
+            "penetration" => extreme(&audit.penetration, "u_end")?,
+            "tension" => extreme(&audit.tension, "force, stress or strain")?,
+            "momentum" => audit.momentum.ok_or_else(|| lacks("force, h_rate and a free top"))?.abs(),
+            "energy" => {
+                let energy = audit.energy_change.ok_or_else(|| lacks("E_total"))?;
+                let most = energy.gain.value.max(energy.loss.value);
+                // The change relative to ours says what ours is.
+                energy
+                    .relative
+                    .filter(|relative| *relative != 0.0)
+                    .map_or(most, |relative| most * (relative / energy.change).abs())
+            }
+            "impulse" => {
+                let off = |(a, b): &(Option<Touch>, Option<Touch>)| {
+                    let (a, b) = (a.as_ref()?.impulse?, b.as_ref()?.impulse?);
+                    Some((b / a - 1.0).abs())
+                };
+                let whole = |(a, b): &&(Option<Touch>, Option<Touch>)| {
+                    [a, b].into_iter().all(|touch| touch.as_ref().is_some_and(|touch| touch.to.is_some()))
+                };
+                let most = agreement.contacts.iter().filter(whole).filter_map(off).reduce(f64::max);
+                most.ok_or_else(|| lacks("a force and a whole contact"))?
+            }
+            name => {
+                let (quantity, norm) = name.rsplit_once('.').unwrap_or((name, "l2"));
+                let norm = NORMS.iter().find(|(name, _)| *name == norm).map_or(NormName::L2, |(_, norm)| *norm);
+                let what = compared(quantity, agreement.grid.points.is_some());
+                let compared = agreement.quantities.iter().find(|compared| Some(compared.what) == what);
+                let compared = compared.ok_or_else(|| {
+                    let names: Vec<&str> = agreement.quantities.iter().map(|compared| compared.what.name()).collect();
+                    format!("found a bound of {quantity}, expected one of {}", names.join(", "))
+                })?;
+                // Where no sample has a say there is no difference.
+                norm.of(&compared.norms).map_or(0.0, |(absolute, relative)| relative.unwrap_or(absolute))
+            }
+        }))
+    }
+}
+
+/// What comes of `limits`, for each file and each bound. A run that breaks off fails whatever is bounded.
+///
+/// **Errors**: what the data do not have.
+pub(crate) fn outcomes(
+    files: &[(&str, &Agreement)],
+    orders: &[Order],
+    limits: &[Limit],
+) -> Result<Vec<Outcome>, String> {
+    let mut all = Vec::new();
+    let is_order = |limit: &&Limit| limit.name.starts_with("order.");
+    for (file, agreement) in files.iter().filter(|_| !limits.is_empty()) {
+        let coverage = &agreement.coverage;
+        let failure = coverage.breaks_off.then(|| format!("they end at t = {}", coverage.time[0]));
+        let expected = format!("data up to t = {}", coverage.time[1]);
+        all.push(Outcome { file: (*file).into(), expected, failure });
+        for limit in limits.iter().filter(|limit| !is_order(limit)) {
+            let found = limit.found(agreement).map_err(|error| format!("{file}: {error}"))?;
+            all.push(limit.outcome(file, found));
+        }
+    }
+    for limit in limits.iter().filter(is_order) {
+        let name = limit.name.trim_start_matches("order.");
+        let (quantity, norm) =
+            name.rsplit_once('.').filter(|(_, norm)| NORMS.iter().any(|n| n.0 == *norm)).unwrap_or((name, "l2"));
+        let what = compared(quantity, false).map(Quantity::name);
+        let rows: Vec<&Order> = orders.iter().filter(|order| Some(order.quantity) == what).collect();
+        if rows.is_empty() {
+            return Err(format!("found a bound of {}, expected several files with {quantity}", limit.name));
+        }
+        for order in rows {
+            let found = match norm {
+                "l1" => order.l1,
+                "linf" => order.linf,
+                "linf_off_jumps" => order.linf_off_jumps,
+                _ => order.l2,
+            };
+            let widths = format!("widths {} to {}", order.widths[0], order.widths[1]);
+            all.push(limit.outcome(&widths, found.filter(|_| order.meaningless.is_none())));
+        }
+    }
+    Ok(all)
 }
 
 /// The order of convergence of a quantity between two files.
@@ -82,7 +208,12 @@ pub(crate) struct Order {
     pub(crate) l2: Option<f64>,
     pub(crate) linf: Option<f64>,
     pub(crate) linf_off_jumps: Option<f64>,
+    /// Why it says nothing.
+    pub(crate) meaningless: Option<&'static str>,
 }
+
+/// Ends that are so many steps apart are not the same.
+const LONGER: f64 = 2.0;
 
 /// The observed orders between each file and the next, for every quantity that both have.
 pub(crate) fn orders(files: &[&Agreement], widths: &[f64]) -> Vec<Order> {
@@ -95,7 +226,19 @@ pub(crate) fn orders(files: &[&Agreement], widths: &[f64]) -> Vec<Order> {
                 let (error, less) = name.of(&coarse).zip(name.of(&fine))?;
                 order((widths[0], error.0), (widths[1], less.0))
             };
+            let apart = |a: f64, b: f64| (a - b).abs() > LONGER * pair[0].step.max(pair[1].step);
+            let [coarse_end, fine_end] = [pair[0], pair[1]].map(|file| file.coverage.time[0]);
+            let meaningless = if widths[0] == widths[1] {
+                Some("the widths are the same")
+            } else if pair.iter().any(|file| file.coverage.breaks_off) || apart(coarse_end, fine_end) {
+                Some("the files do not cover the same times")
+            } else if coarse.l2.relative.is_some_and(|l2| l2 >= 1.0) {
+                Some("the coarser one is as far off as no motion at all")
+            } else {
+                None
+            };
             rows.push(Order {
+                meaningless,
                 quantity: compared.what.name(),
                 widths: [widths[0], widths[1]],
                 l1: between(NormName::L1),

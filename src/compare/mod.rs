@@ -24,7 +24,7 @@ pub(crate) use agree::Compared;
 pub use comparison::{CompareError, ComparedFile, Comparison, Options, Prepared};
 pub use conventions::{Axis, Compression, Origin};
 pub use fit::FitError;
-pub use limit::Limit;
+pub use limit::{Limit, Outcome};
 pub use map::MapError;
 pub use norms::{Grid, norms, order};
 pub use report::LEGEND;

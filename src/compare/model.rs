@@ -43,7 +43,8 @@ pub(super) struct Model<'a> {
 
 /// The history of `problem` in doubles up to a time.
 pub(super) fn solved(problem: &Problem, until: f64) -> Result<History<f64>, Error> {
-    let problem = problem.to_builder().time(until).build()?;
+    // A rounding further, for times that are as many.
+    let problem = problem.to_builder().time(until * (1.0 + 4.0 * f64::EPSILON)).build()?;
     let plan = Plan::of(&problem, &Question::run(Numbers::Double(None)))?;
     match plan.solve(&problem, unobserved())? {
         Solution::Double(history) => Ok(history),

@@ -2,7 +2,7 @@
 
 use serde_json::{Value, json};
 
-use super::agree::{Agreement, Compared};
+use super::agree::{Agreement, Compared, Coverage};
 use super::audit::Extreme;
 use super::comparison::{ComparedFile, Comparison};
 use super::fit::{Fit, FittedValue};
@@ -72,6 +72,10 @@ fn file_table(compared: &ComparedFile, title: Option<&str>, units: &Units) -> St
     let mut out = title.map_or_else(String::new, |title| format!("{title}\n"));
     let (count, step) = (times.len(), number(agreement.step));
     out += &format!("{file}: {count} samples from t = {} to {}, step {step}\n", number(first), number(last));
+    let Coverage { time: [_, end], contacts: [contacts, of], breaks_off } = agreement.coverage;
+    let share = (100.0 * agreement.coverage.share()).decimal(4);
+    let broken = if breaks_off { ": THE RUN BREAKS OFF, unless a time to go to says so" } else { "" };
+    out += &format!("covers {share} % of the run to t = {}, {contacts} of {of} contacts{broken}\n", number(end));
     if agreement.outside > 0 {
         out += &format!("{} rows before t = 0 are not compared\n", agreement.outside);
     }
@@ -90,14 +94,13 @@ fn file_table(compared: &ComparedFile, title: Option<&str>, units: &Units) -> St
         let merged = agreement.contacts.iter().filter_map(|(_, theirs)| theirs.as_ref()).map(|touch| touch.merged);
         let chatter: Vec<usize> = merged.filter(|merged| *merged > 0).collect();
         out += "no hint: no single wrong number explains what differs";
-        if let Some(width) = agreement.spread {
-            let steps = width / agreement.step;
-            out += &format!("; the fronts are spread over {} ({steps:.1} steps), as by dispersion", width.decimal(3));
-        }
         if !chatter.is_empty() {
             let counted = |count: usize, one: &str| format!("{count} {one}{}", if count == 1 { "" } else { "s" });
             let (gaps, contacts) = (counted(chatter.iter().sum(), "gap"), counted(chatter.len(), "contact"));
             out += &format!("; the contact chatters: {gaps} closed in {contacts}");
+        } else if let Some(width) = agreement.spread {
+            let steps = width / agreement.step;
+            out += &format!("; the fronts are spread over {} ({steps:.1} steps), as by dispersion", width.decimal(3));
         }
         out.push('\n');
     }
@@ -248,10 +251,17 @@ fn orders_table(orders: &[Order]) -> String {
     let order = |x: Option<f64>| x.map_or_else(|| "–".into(), |x| format!("{x:.2}"));
     let rows = orders.iter().map(|row| {
         let widths = format!("{} → {}", number(row.widths[0]), number(row.widths[1]));
+        let order = |x: Option<f64>| order(x.filter(|_| row.meaningless.is_none()));
         vec![row.quantity.into(), widths, order(row.l1), order(row.l2), order(row.linf), order(row.linf_off_jumps)]
     });
     let header = ["observed order", "width", "L1", "L2", "L∞", "L∞ off jumps"];
-    table(&header, rows.collect(), 2) + "\n"
+    let mut out = table(&header, rows.collect(), 2) + "\n";
+    for Order { quantity, widths, meaningless, .. } in orders {
+        let said =
+            |why: &&str| format!("no order of {quantity} from {} to {}: {why}\n", number(widths[0]), number(widths[1]));
+        out += &meaningless.as_ref().map(said).unwrap_or_default();
+    }
+    out
 }
 
 /// Values with their errors, and the norms and contacts that they leave.
@@ -284,6 +294,7 @@ fn file_json(compared: &ComparedFile, units: &Units) -> serde_json::Map<String, 
         "step": agreement.step,
         "window": agreement.window,
         "outside": agreement.outside,
+        "coverage": agreement.coverage,
         "quantities": quantities.collect::<Vec<_>>(),
         "contacts": contacts.collect::<Vec<_>>(),
         "audit": agreement.audit,

@@ -22,9 +22,9 @@ use super::model::{Model, Signal};
 use super::norms::Grid;
 use super::vary::Parameter;
 use crate::error::Error;
+use crate::motion::Side;
 use crate::number::Scalar;
 use crate::problem::Problem;
-use crate::motion::Side;
 use crate::quantity::{Measure, Quantity, Rays};
 use crate::solve::History;
 
@@ -150,6 +150,21 @@ impl Judge<'_> {
         (0..a.len()).filter(counts).map(|k| self.model.weights[k] * a[k] * b[k]).sum()
     }
 
+    /// `∫ dt` over a part.
+    fn span(&self, part: usize) -> f64 {
+        let ones = vec![1.0; self.model.times.len()];
+        self.product(&ones, &ones, Some(part))
+    }
+
+    /// Whether anything is off by more than half of what the step resolves.
+    fn tells(&self) -> bool {
+        let half = self.model.step / 2.0;
+        let told = |errors: &Vec<f64>| {
+            (0..=self.ends.len()).any(|part| self.product(errors, errors, Some(part)) > half * half * self.span(part))
+        };
+        self.base.iter().any(told)
+    }
+
     fn squares(&self, errors: &[Vec<f64>]) -> f64 {
         errors.iter().map(|errors| self.product(errors, errors, None)).sum()
     }
@@ -244,7 +259,7 @@ impl Judge<'_> {
             let mut told = false;
             for part in 0..=self.ends.len() {
                 let own = square(&slope[j], Some(part));
-                let span = self.product(&vec![1.0; found[j].len()], &vec![1.0; found[j].len()], Some(part));
+                let span = self.span(part);
                 if p * p * own <= self.model.step * self.model.step * span {
                     continue;
                 }
@@ -257,6 +272,10 @@ impl Judge<'_> {
             // Half of ‖e‖₂² of each column.
             let share = if sworn { 1.0 } else { 0.5 };
             holds &= !told || square(&found[j], None) <= square(&self.base[j], None) * share;
+        }
+        // A clock is told by fronts, which are known to half their width.
+        if matches!(hypothesis, Hypothesis::Clock | Hypothesis::Late) {
+            holds &= p.abs() * self.trip > 3.0 * self.delay;
         }
         let most = if sworn { LEFT } else { LEFT * LEFT };
         holds &= total(found) <= most * total(&self.base);
@@ -297,6 +316,9 @@ pub(super) fn verdicts(
     if let Some(lost) = lost_start(columns) {
         return Ok(vec![lost]);
     }
+    if grid.times.len() < FEWEST {
+        return Ok(said);
+    }
     // The first contact and the flight after it.
     let release = history.contacts().iter().find_map(|contact| contact.to).unwrap_or(f64::INFINITY);
     let until = history.events().iter().map(|event| event.time).find(|time| *time > release);
@@ -310,6 +332,9 @@ pub(super) fn verdicts(
     let delay = spread(history, grid, columns)?.map_or(step, |width| step.max(width / 6.0));
     let mut judge = Judge { model, base: Vec::new(), exact, ends, trip, delay };
     judge.base = judge.errors(&judge.exact);
+    if judge.model.times.len() < FEWEST || !judge.tells() {
+        return Ok(said);
+    }
     let of_columns = (0..judge.model.signals.len()).flat_map(|k| {
         let what = judge.model.signals[k].what;
         let origin = matches!(what.measure(), Some(Measure::Length)).then_some(("origin", Hypothesis::Origin(k)));
@@ -341,7 +366,9 @@ pub(super) fn verdicts(
     if said.is_empty() {
         said.extend(unstable.or_else(|| half_step(known, trip)));
     }
-    for (count, kind, whose) in [(contacts[0], "missed", "of ours are not in theirs"), (contacts[1], "invented", "of theirs are not in ours")] {
+    for (count, kind, whose) in
+        [(contacts[0], "missed", "of ours are not in theirs"), (contacts[1], "invented", "of theirs are not in ours")]
+    {
         if count > 0 {
             let text = format!("contacts that {whose}: {count}; see the table of contacts");
             said.push(Verdict { kind, quantity: "contact".into(), value: count as f64, error: 0.0, text });
@@ -350,6 +377,8 @@ pub(super) fn verdicts(
     Ok(said)
 }
 
+/// Fewer samples say nothing.
+const FEWEST: usize = 8;
 /// So many samples are looked at.
 const SAMPLES: usize = 150;
 
@@ -446,7 +475,8 @@ fn half_step(known: &Known<'_>, trip: f64) -> Option<Verdict> {
         (count > 3 && is_half && error < late.abs() / 2.0).then(|| {
             let side = if late > 0.0 { "late" } else { "early" };
             let name = column.what.name();
-            let text = format!("{name} is {:.2} steps {side}: is it the velocity between two steps?", late.abs() / step);
+            let text =
+                format!("{name} is {:.2} steps {side}: is it the velocity between two steps?", late.abs() / step);
             Verdict { kind: "half_step", quantity: name.into(), value: late, error, text }
         })
     };
@@ -477,7 +507,8 @@ impl Judge<'_> {
         let percent = |p: f64, error: f64| format!("{:+.2} ± {:.2} %", 100.0 * p, 100.0 * error).replace('-', "−");
         let column = |place: usize| self.model.signals[place].what;
         let name = |place: usize| column(place).name().to_string();
-        let of_all = |value: f64, error: f64, text: String| Verdict { kind, quantity: "all".into(), value, error, text };
+        let of_all =
+            |value: f64, error: f64, text: String| Verdict { kind, quantity: "all".into(), value, error, text };
         match hypothesis {
             Hypothesis::Value(Parameter::WaveSpeed) => {
                 let modulus = percent((1.0 + p) * (1.0 + p) - 1.0, 2.0 * error);
@@ -496,10 +527,13 @@ impl Judge<'_> {
                 of_all(p, error, format!("{} off by {}", parameter.name(), percent(p, error)))
             }
             Hypothesis::EndMass => {
-                let text = format!("the ends carry {} of the mass of the rod besides: check end masses", percent(p, error));
+                let text =
+                    format!("the ends carry {} of the mass of the rod besides: check end masses", percent(p, error));
                 of_all(p, error, text)
             }
-            Hypothesis::Clock => of_all(p, error, format!("clock off by {}: check the step of time", percent(p, error))),
+            Hypothesis::Clock => {
+                of_all(p, error, format!("clock off by {}: check the step of time", percent(p, error)))
+            }
             Hypothesis::Late => {
                 let (late, error) = (p * self.trip, error * self.trip);
                 let side = if late > 0.0 { "late" } else { "early" };
@@ -518,8 +552,11 @@ impl Judge<'_> {
                     return Verdict { kind: "sign", quantity, value: -1.0, error, text };
                 }
                 let near = |known: f64| (factor / known - 1.0).abs() < (2.0 * error / factor.abs()).max(0.02);
-                let known: Vec<&str> =
-                    factors(column(place)).into_iter().filter(|(value, _)| near(*value)).map(|(_, name)| name).collect();
+                let known: Vec<&str> = factors(column(place))
+                    .into_iter()
+                    .filter(|(value, _)| near(*value))
+                    .map(|(_, name)| name)
+                    .collect();
                 let ask = if known.is_empty() { "which unit?".to_string() } else { known.join(" ") };
                 let text = format!("{quantity} × {} ± {}: {ask}", factor.decimal(4), error.decimal(2));
                 Verdict { kind, quantity, value: factor, error, text }

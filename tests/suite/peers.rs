@@ -100,7 +100,17 @@ impl Rod {
         let kinetic: f64 = masses.iter().zip(v).map(|(m, v)| m * v * v / 2.0).sum();
         let strain: f64 = u.windows(2).map(|pair| (pair[1] - pair[0]).powi(2)).sum();
         let energy = kinetic + self.stiffness() * strain / 2.0 + self.gravity * total * mean(u);
-        Row { t, u: u[0], v: v[0], force, u_top: u[self.elements], v_top: v[self.elements], h: mean(u), h_rate: mean(v), energy }
+        Row {
+            t,
+            u: u[0],
+            v: v[0],
+            force,
+            u_top: u[self.elements],
+            v_top: v[self.elements],
+            h: mean(u),
+            h_rate: mean(v),
+            energy,
+        }
     }
 
     /// The motion up to `end`; the ground is there where `ground` says so of the time.
@@ -225,8 +235,7 @@ impl Rod {
                 break;
             }
             let whole = 1.0 + alpha;
-            let guess: Vec<f64> =
-                (0..count).map(|i| u[i] + dt * v[i] + dt * dt * (0.5 - beta) * a[i]).collect();
+            let guess: Vec<f64> = (0..count).map(|i| u[i] + dt * v[i] + dt * dt * (0.5 - beta) * a[i]).collect();
             let middle: Vec<f64> = (0..count).map(|i| whole * guess[i] - alpha * u[i]).collect();
             let of = |touches: bool| {
                 let mut right = self.forces(&middle);
