@@ -14,6 +14,19 @@ from ._problem import Maybe, Number, Numbers, Problem, Scene
 Array = np.ndarray[Any, np.dtype[Any]]
 
 
+Limits = Mapping[str, "float | Mapping[str, float]"]
+
+
+def _bounds(limits: Limits) -> list[str]:
+    bounds = []
+    for name, limit in limits.items():
+        if isinstance(limit, Mapping):
+            bounds += [f"{name}.{norm}={float(bound)!r}" for norm, bound in limit.items()]
+        else:
+            bounds.append(f"{name}={float(limit)!r}")
+    return bounds
+
+
 class Comparison:
     """Data beside the exact history: what ``dalembert compare`` reports.
 
@@ -52,14 +65,16 @@ class Comparison:
         self.orders = self.report.get("orders", [])
         self.files = [_Compared(*source) for source in zip(self.report.get("files", [self.report]), columns)]
 
-    def fails_above(self, limits: Mapping[str, Mapping[str, float]]) -> list[str]:
+    def fails_above(self, limits: Limits) -> list[str]:
         """Say which norms are above limits.
 
         Parameters
         ----------
         limits : mapping
             For each quantity, limits of ``l1``, ``l2``, ``linf``, ``linf_off_jumps``, relative to ours, or absolute
-            where ours is zero. With several sources all of them have to keep within.
+            where ours is zero; or a limit of ``energy``, ``impulse`` (relative), ``momentum``, ``penetration``,
+            ``tension``, ``missed`` or ``invented``. With several sources all of them have to keep within. Data that
+            end before the run of the scene, or before ``to``, fail whatever is limited.
 
         Returns
         -------
@@ -77,10 +92,25 @@ class Comparison:
         >>> c.fails_above({"u": {"l2": 0.3, "linf": 0.1}})
         ['dict: expected u.linf ≤ 1e-1, found 2.500e-1']
         """
-        given = ((name, norm, bound) for name, norms in limits.items() for norm, bound in norms.items())
-        return self._core.above([f"{name}.{norm}={float(bound)!r}" for name, norm, bound in given])
+        return self._core.failures(_bounds(limits), [])
 
-    def assert_below(self, limits: Mapping[str, Mapping[str, float]]) -> None:
+    def assert_above(self, limits: Limits) -> None:
+        """Require that nothing is below its limit, such as ``{"coverage": 0.99, "order.u": 0.9}``.
+
+        Parameters
+        ----------
+        limits : mapping
+            Limits of ``coverage``, and of ``order.u`` and the like of several sources.
+
+        Raises
+        ------
+        AssertionError
+            With a line for each that is below.
+        """
+        if failures := self._core.failures([], _bounds(limits)):
+            raise AssertionError("\n".join(failures))
+
+    def assert_below(self, limits: Limits) -> None:
         """Require that no norm is above its limit: one line for a test.
 
         Parameters
@@ -130,6 +160,7 @@ class _Compared:
         arrays = dict(columns)
         self.file, self.step, self.window, self.outside = (report[k] for k in ("file", "step", "window", "outside"))
         self.contacts, self.audit, self.hints = report["contacts"], report["audit"], report["hints"]
+        self.coverage, self.fit = report["coverage"], report["fit"]
         self.norms = {norms["name"]: norms for norms in report["quantities"]}
         self.t, self.x = arrays["t"], arrays.get("x")
         self.ours = {name: arrays[f"{name}_ours"] for name in self.norms}
@@ -146,7 +177,7 @@ def compare(
     map: str | None = None, dt: Maybe = None, t0: Maybe = None, shift: Maybe = None,
     compression: Literal["+", "-", None] = None, u_origin: Literal["ground", "start"] = "ground",
     axis: Literal["up", "down"] = "up", energy_scale: Number = 1,
-    window: Maybe = None, widths: Sequence[Number] = (),
+    window: Maybe = None, widths: Sequence[Number] = (), to: Maybe = None, fit: Sequence[str] = (),
 ) -> Comparison:
     """Hold data against the exact history of a scene, as ``dalembert compare`` does.
 

@@ -79,15 +79,16 @@ def test_a_field_and_several_sources():
 
 def test_limits_are_those_of_the_command(command, run, tmp_path):
     path, _ = run
-    c = dalembert.compare(SCENE, path)
+    c = dalembert.compare(SCENE, path, to=6)
     limits = {"u": {"l2": 0.001, "linf_off_jumps": 10}, "force": {"l1": 1e-6}}
     asked = ",".join(f"{name}.{norm}={bound!r}" for name, norms in limits.items() for norm, bound in norms.items())
-    said = command("compare", SCENE, str(path), "--fail-above", asked).stderr
+    said = command("compare", SCENE, str(path), "--to", "6", "--fail-above", asked).stderr
     failures = c.fails_above(limits)
     assert [f"failed: {line}" for line in failures] == said.splitlines() and len(failures) == 2
     with pytest.raises(AssertionError, match="expected u.l2 ≤ 1e-3, found"):
         c.assert_below(limits)
-    assert c.fails_above({"u": {"l2": 10}}) == [] and c.assert_below({}) is None
+    assert c.fails_above({"u": {"l2": 10}, "missed": 0}) == [] and c.assert_below({}) is None
+    assert c.assert_above({"coverage": 0.99}) is None and len(dalembert.compare(SCENE, path).fails_below({"coverage": 0})) == 1
     for limits, said in [
         ({"w": {"l2": 1}}, "found a bound of w, expected one of u_end"),
         ({"u": {"l3": 1}}, "found `u.l3=1.0`, expected QUANTITY.NORM=BOUND"),

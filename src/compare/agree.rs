@@ -33,6 +33,8 @@ pub(crate) struct Agreement {
     pub(crate) window: f64,
     /// How many rows are before `t = 0` and are not compared.
     pub(crate) outside: usize,
+    /// What is to be said of how the file was read.
+    pub(crate) notes: Vec<String>,
 }
 
 /// How much of the scene the data cover.
@@ -96,7 +98,7 @@ impl Agreement {
         settings: &Settings,
     ) -> Result<Self, Error> {
         let ours = Ours::of(problem, history)?;
-        let Samples { grid, mut quantities, step, outside, rounding, sides } = samples;
+        let Samples { grid, mut quantities, step, outside, notes, rounding, sides } = samples;
         let trip = history.scales().time;
         settings.conventions.apply(&ours, &mut quantities, grid.points.as_deref())?;
         let narrow = 2.0 * step;
@@ -128,6 +130,7 @@ impl Agreement {
             step,
             window,
             outside,
+            notes,
         };
         agreement.coverage = agreement.covered(history, settings);
         if agreement.grid.points.is_none() {

@@ -150,7 +150,10 @@ impl Options {
     fn samples(&self, source: Source, length: f64, units: &Units) -> Result<Samples, CompareError> {
         let of = |number: &Option<Number>| number.as_ref().map_or(0.0, Number::to_f64);
         let counted = self.dt.is_some();
-        let map = Map::of(self.map.as_deref(), source.names(), source.width(), counted).and_then(|map| {
+        let sized = source.is_sized();
+        let guess = (sized && self.map.is_none() && !counted && source.names().is_empty() && source.width() > 3)
+            .then_some(PLAIN);
+        let map = Map::of(guess.or(self.map.as_deref()), source.names(), source.width(), counted).and_then(|map| {
             let by_name = self.map.is_none();
             if by_name { map.check_units(source.names(), units) } else { Ok(()) }.map(|()| map)
         });
@@ -161,7 +164,10 @@ impl Options {
         let map = map.map_err(|error| CompareError::Map { file: source.file().into(), error })?;
         let clock = counted.then(|| Clock { start: of(&self.t0), step: of(&self.dt) });
         let columns = source.columns(&map.places(), map.side)?;
-        Ok(Samples::of(columns, &map, clock, of(&self.shift), length)?)
+        let mut samples = Samples::of(columns, &map, clock, of(&self.shift), length)?;
+        samples.notes.extend(sized.then(|| "the first line holds the numbers of rows and columns: skipped".into()));
+        samples.notes.extend(guess.map(|guess| format!("the columns have no names: taken as {guess}")));
+        Ok(samples)
     }
 }
 
@@ -199,6 +205,8 @@ pub struct ComparedFile {
     pub(crate) fit: Option<(Fit, Agreement)>,
 }
 
+/// What the columns of a file without names are taken for that begins with their number, as Siconos' own are.
+const PLAIN: &str = "t=0,u=1,v=2,force=3";
 /// A run of more impacts is not solved to see whether data break off before its end.
 const MOST_IMPACTS: u32 = 1000;
 /// Data that go so many times as far as the scene's own run are in another unit of time.

@@ -30,7 +30,8 @@ impl Location {
 /// What of `field`, or over time, is called so and can be compared.
 pub(crate) fn compared(name: &str, field: bool) -> Option<Quantity> {
     let needs = if field { Needs::PointAndTime } else { Needs::Time };
-    let found = needs.called(name).or_else(|| needs.called(&name.to_lowercase()));
+    let plain = || name.to_lowercase().replace([' ', '-'], "_");
+    let found = needs.called(name).or_else(|| needs.called(&plain()));
     found.filter(|quantity| !matches!(quantity, Quantity::Time | Quantity::Side | Quantity::Point))
 }
 
@@ -45,6 +46,8 @@ pub(crate) struct Map {
     pub(crate) side: Option<usize>,
     /// The quantities.
     pub(crate) quantities: Vec<(Quantity, usize)>,
+    /// The names of columns that nothing is called by.
+    pub(crate) unused: Vec<String>,
 }
 
 /// Why columns cannot be mapped.
@@ -125,16 +128,21 @@ impl Map {
         };
         let (time, point, side) = (find(is_time)?, find(is_point)?, find(is_side)?);
         let field = point.is_some();
-        let mut map = Map { time, point, side, quantities: Vec::new() };
+        let mut map = Map { time, point, side, quantities: Vec::new(), unused: Vec::new() };
         let is_place = |name: &str| is_time(name) || is_point(name) || is_side(name);
         for (name, place) in entries.iter().filter(|(name, _)| !is_place(name)) {
             match compared(name, field) {
+                // Of several columns of one quantity the first is taken, where nobody says which.
                 Some(quantity) if map.quantities.iter().any(|(other, _)| *other == quantity) => {
+                    if text.is_none() {
+                        map.unused.push(name.clone());
+                        continue;
+                    }
                     return Err(MapError::Twice { found: name.clone() });
                 }
                 Some(quantity) => map.quantities.push((quantity, *place)),
                 // Columns that nobody asked for may be anything.
-                None if text.is_none() => {}
+                None if text.is_none() => map.unused.push(name.clone()),
                 None => return Err(MapError::Name { found: name.clone(), field }),
             }
         }

@@ -76,6 +76,7 @@ fn file_table(compared: &ComparedFile, title: Option<&str>, units: &Units) -> St
     let share = (100.0 * agreement.coverage.share()).decimal(4);
     let broken = if breaks_off { ": THE RUN BREAKS OFF, unless a time to go to says so" } else { "" };
     out += &format!("covers {share} % of the run to t = {}, {contacts} of {of} contacts{broken}\n", number(end));
+    agreement.notes.iter().for_each(|note| out += &format!("{note}\n"));
     if agreement.outside > 0 {
         out += &format!("{} rows before t = 0 are not compared\n", agreement.outside);
     }
@@ -294,6 +295,7 @@ fn file_json(compared: &ComparedFile, units: &Units) -> serde_json::Map<String, 
         "step": agreement.step,
         "window": agreement.window,
         "outside": agreement.outside,
+        "notes": agreement.notes,
         "coverage": agreement.coverage,
         "quantities": quantities.collect::<Vec<_>>(),
         "contacts": contacts.collect::<Vec<_>>(),

@@ -23,6 +23,8 @@ pub(crate) struct Samples {
     pub(crate) step: f64,
     /// How many rows lie before `t = 0`.
     pub(crate) outside: usize,
+    /// What is to be said of how the file was read.
+    pub(crate) notes: Vec<String>,
     pub(crate) rounding: Rounding,
     /// Which limit each row holds at a jump, where that is known.
     pub(crate) sides: Vec<Option<Side>>,
@@ -142,7 +144,9 @@ impl Samples {
         let rounding = Rounding::of(&times, step);
         let values = columns.values.into_iter().skip(first);
         let quantities = map.quantities.iter().map(|(what, _)| *what).zip(values.map(&cut)).collect();
-        Ok(Samples { grid: Grid::new(times, points), quantities, step, outside: from, rounding, sides })
+        let unused = map.unused.join(", ");
+        let notes = (!unused.is_empty()).then(|| format!("not used: {unused}")).into_iter().collect();
+        Ok(Samples { grid: Grid::new(times, points), quantities, step, outside: from, notes, rounding, sides })
     }
 }
 

@@ -5,7 +5,8 @@
 //! it concerns.
 //!
 //! - *Of all columns that it changes* it leaves at most half of ‖e‖₂, three quarters of ‖e‖₂² being removed; of each
-//!   of them it removes more than half of ‖e‖₂².
+//!   of them it removes more than half of ‖e‖₂². Of a clock or a shift in time at most a quarter is left: contacts
+//!   that are soft look like one.
 //! - *Of each part of a column*, which are the first wave up the rod, the rest of the contact, and the flight, the
 //!   number that fits it best is within half of the value. A part has a say where the value changes it by more than
 //!   the resolution of the data, which is an error of one step in time. What a scheme does wrong at an impact is not
@@ -100,8 +101,6 @@ struct Judge<'a> {
     /// Ends of the parts.
     ends: Vec<f64>,
     trip: f64,
-    /// How far the time of a front may be off: a step, or the mean delay of one that is spread.
-    delay: f64,
 }
 
 impl Judge<'_> {
@@ -273,14 +272,12 @@ impl Judge<'_> {
             let share = if sworn { 1.0 } else { 0.5 };
             holds &= !told || square(&found[j], None) <= square(&self.base[j], None) * share;
         }
-        // A clock is told by fronts, which are known to half their width.
-        if matches!(hypothesis, Hypothesis::Clock | Hypothesis::Late) {
-            holds &= p.abs() * self.trip > 3.0 * self.delay;
-        }
-        let most = if sworn { LEFT } else { LEFT * LEFT };
+        // A contact that is soft, or late, is much like a clock: of that nearly nothing is left.
+        let clock = matches!(hypothesis, Hypothesis::Clock | Hypothesis::Late);
+        let most = if sworn { LEFT } else { LEFT * LEFT } * if clock { LEFT * LEFT } else { 1.0 };
         holds &= total(found) <= most * total(&self.base);
         let span: f64 = self.model.weights.iter().sum::<f64>() * count / (self.ends.len() + 1) as f64;
-        let resolution = self.delay * (span / weight).sqrt() / f64::max(count, 1.0).sqrt();
+        let resolution = self.model.step * (span / weight).sqrt() / f64::max(count, 1.0).sqrt();
         let error = (scatter / weight / f64::max(count - 1.0, 1.0) + resolution * resolution).sqrt();
         // What is off by a factor has its errors off by it as well.
         let error = if matches!(hypothesis, Hypothesis::Factor(_)) { error * (1.0 + p).abs() } else { error };
@@ -328,9 +325,7 @@ pub(super) fn verdicts(
     let first = history.contacts().first().map_or(0.0, |contact| contact.from);
     let exact = model.values(problem, |time| time)?;
     let ends = [first, first + trip / 2.0, release].into_iter().filter(|end| *end > 0.0).collect();
-    // Of a front that rises as 1 − e^(−t/τ), e² makes τ/2: a ramp of 6 τ, whose mean delay is τ.
-    let delay = spread(history, grid, columns)?.map_or(step, |width| step.max(width / 6.0));
-    let mut judge = Judge { model, base: Vec::new(), exact, ends, trip, delay };
+    let mut judge = Judge { model, base: Vec::new(), exact, ends, trip };
     judge.base = judge.errors(&judge.exact);
     if judge.model.times.len() < FEWEST || !judge.tells() {
         return Ok(said);

@@ -122,6 +122,23 @@ fn every_form_of_data() {
     }
 }
 
+/// A first line with the numbers of rows and columns, as Siconos writes it, and no names; columns that are not used.
+#[test]
+fn files_of_other_programs() {
+    let rows = EXACT.split_once('\n').unwrap().1.replace(',', " ");
+    let folder = folder(&format!("5 4\n{rows}"));
+    let table = text(&run(folder.path(), &["compare", "rod.toml", "run.csv"]), 0);
+    assert!(table.contains("the first line holds the numbers of rows and columns: skipped"), "{table}");
+    assert!(table.contains("the columns have no names: taken as t=0,u=1,v=2,force=3"), "{table}");
+    let names = "# time displacement velocity Reaction-Force iterations\n";
+    let with_more: String = rows.lines().map(|row| format!("{row} 7\n")).collect();
+    fs::write(folder.path().join("run.csv"), format!("{names}{with_more}")).unwrap();
+    let report = json(folder.path(), &["compare", "rod.toml", "run.csv"]);
+    let found: Vec<&Value> = report["quantities"].as_array().unwrap().iter().map(|one| &one["name"]).collect();
+    assert_eq!(found, ["u_end", "v_end", "force"]);
+    assert_eq!(report["notes"], serde_json::json!(["not used: iterations"]));
+}
+
 /// A held top stops at t = 0; a release without a jump of the stress ends contact; and a few samples at random, between
 /// which whole contacts pass, are no reason for a hint, nor are data that begin within a contact.
 #[test]

@@ -94,3 +94,17 @@ fn noisy_data_give_honest_errors() {
     println!("{within} of {count}");
     assert!(count == 400 && within >= 365, "{within} of {count}");
 }
+
+/// The examples: a measured bounce, whose truth is 0.42 and 9.81, and bounds for CI.
+#[test]
+fn the_examples() {
+    let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/examples");
+    let args = ["compare", "bounce.toml", "bounce.csv", "--fit", "speed,gravity", "--format", "json"];
+    let mut command = std::process::Command::new(env!("CARGO_BIN_EXE_dalembert"));
+    let output = command.args(args).current_dir(folder).output().unwrap();
+    let report: Value = serde_json::from_slice(&output.stdout).unwrap();
+    for (value, truth) in report["fit"]["values"].as_array().unwrap().iter().zip([0.42, 9.81]) {
+        let [value, error] = ["value", "error"].map(|key| value[key].as_f64().unwrap());
+        assert!((value - truth).abs() <= 2.0 * error && error < 1e-3 * truth, "{report}");
+    }
+}

@@ -252,3 +252,11 @@ fn chapter_8() {
     let history = rod.build().unwrap().solve().unwrap();
     answers("08-accuracy.md", &[format!("to {:.6}.", history.events().last().unwrap().time)]);
 }
+
+#[test]
+fn chapter_9() {
+    holds("09-which-number.md");
+    let faster = 1.08f64.sqrt();
+    let parts = [format!("{:.3} %", 100.0 * (faster - 1.0)), format!("{:.6} in place", 2.0 / 3.0 / faster)];
+    answers("09-which-number.md", &[&parts[..], &[format!("{:.3} % less", 100.0 * (1.0 - 1.0 / faster))]].concat());
+}

@@ -67,6 +67,11 @@ impl Source {
         }
     }
 
+    /// Whether a first line `rows columns` was skipped.
+    pub(crate) fn is_sized(&self) -> bool {
+        matches!(&self.body, Body::Text(text) if text.sized)
+    }
+
     /// What it is called.
     pub fn file(&self) -> &str {
         &self.file

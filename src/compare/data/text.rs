@@ -15,6 +15,10 @@ pub(super) struct Text {
     pub(super) names: Vec<String>,
     /// How many names a header has, where they are not as many as the columns.
     pub(super) misnamed: Option<usize>,
+    /// Whether a first line `rows columns` was skipped.
+    pub(super) sized: bool,
+    /// A line that was read ahead, and its number.
+    held: Option<(Vec<u8>, usize)>,
     /// The line that was read last, and its number.
     line: Vec<u8>,
     number: usize,
@@ -95,6 +99,12 @@ fn separator(row: &str) -> Option<char> {
     [';', ','].into_iter().find(|separator| row.contains(*separator)).filter(|found| *found == ';' || !decimals())
 }
 
+/// The columns of a line `rows columns`.
+fn sizes(row: &str, separator: Option<char>) -> Option<usize> {
+    let whole: Vec<usize> = fields(row, separator).map(|field| field.parse().ok()).collect::<Option<_>>()?;
+    whole.get(1).copied()
+}
+
 fn names(header: &str, separator: Option<char>) -> Vec<String> {
     fields(header, separator).map(|name| name.trim_matches(['"', '\'']).trim().to_string()).collect()
 }
@@ -108,7 +118,18 @@ impl Text {
         let start = reader.fill_buf().map_err(|error| DataErrorKind::Unreadable(error.to_string()).at(file, None))?;
         let end = if start.contains(&b'\r') && !start.contains(&b'\n') { b'\r' } else { b'\n' };
         let (line, none) = (Vec::new(), Vec::new());
-        let mut text = Text { reader, end, separator: None, names: none, misnamed: None, line, number: 0, width: 0 };
+        let mut text = Text {
+            reader,
+            end,
+            separator: None,
+            names: none,
+            misnamed: None,
+            sized: false,
+            held: None,
+            line,
+            number: 0,
+            width: 0,
+        };
         let mut comment = String::new();
         let mut header: Option<String> = None;
         while text.next(file)? {
@@ -124,6 +145,17 @@ impl Text {
                 continue;
             }
             text.width = fields(&row, text.separator).count();
+            // A line `rows columns` above as many columns, as NumPy's writers and Siconos have it.
+            if let (None, 2, Some(width)) = (&header, text.width, sizes(&row, text.separator)) {
+                let (line, number) = (text.line.clone(), text.number);
+                if text.next(file)? && fields(text.row(file)?, text.separator).count() == width && width > 2 {
+                    text.width = width;
+                    text.sized = true;
+                } else {
+                    text.held = Some((std::mem::replace(&mut text.line, line), text.number));
+                    text.number = number;
+                }
+            }
             let words = header.as_ref().unwrap_or(&comment);
             text.names = names(words, separator(words));
             if text.names.len() != text.width {
@@ -142,6 +174,10 @@ impl Text {
 
     /// Reads the next line that is not empty; `false` at the end.
     fn next(&mut self, file: &str) -> Result<bool, DataError> {
+        if let Some((line, number)) = self.held.take() {
+            (self.line, self.number) = (line, number);
+            return Ok(!self.line.is_empty());
+        }
         loop {
             self.line.clear();
             let read = self.reader.read_until(self.end, &mut self.line);
