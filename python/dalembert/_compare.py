@@ -213,6 +213,10 @@ def compare(
         How close to a jump a sample is left out of ``linf_off_jumps``.
     widths : sequence of number, optional
         The mesh widths of several sources, for the orders of convergence.
+    to : number, optional
+        How far the data are to go; by default as far as the run of the scene.
+    fit : sequence of str, optional
+        Values of the scene to fit to the data: ``"length"``, ``"damping"`` and others of the command.
 
     Returns
     -------
