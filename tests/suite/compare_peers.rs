@@ -43,6 +43,7 @@ fn conventions_are_undone() {
     let dt = honest[1].t;
     let other = with(&honest, |row| {
         (row.u, row.v, row.h, row.h_rate) = (-row.u, -row.v, -row.h, -row.h_rate);
+        (row.u_top, row.v_top) = (-row.u_top, -row.v_top);
         (row.force, row.energy, row.t) = (-row.force, 2.0 * row.energy, row.t - 4.0 * dt);
     });
     let (shift, more) = (format!("{:e}", 4.0 * dt), ["--axis", "down", "--compression", "-", "--energy-scale", "1/2"]);
