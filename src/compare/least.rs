@@ -63,9 +63,8 @@ pub(super) fn least(
     while steps < most && !settled {
         let slopes = linear(&values, &now)?;
         let dot = |i: usize, r: &[f64]| slopes[i].iter().zip(r).map(|(a, b)| a * b).sum::<f64>() * scales[i];
-        for i in 0..count {
-            normal[i] = (0..count).map(|j| dot(i, &slopes[j]) * scales[j]).collect();
-        }
+        let row = |i: usize| (0..count).map(|j| dot(i, &slopes[j]) * scales[j]).collect();
+        normal = (0..count).map(row).collect();
         let right: Vec<f64> = (0..count).map(|i| -dot(i, &now)).collect();
         solve(&normal, &right)?;
         steps += 1;
