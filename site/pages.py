@@ -114,4 +114,4 @@ def on_page_markdown(markdown, page, **_):
     markdown = re.sub(r"\]\((?:\.\./)*python/README\.md\)", f"]({here}python.md)", markdown)
     markdown = re.sub(r"\]\((?:\.\./)+README\.md\)", f"]({here}start.md)", markdown)
     markdown = re.sub(r"\]\((?:\.\./)*CHANGELOG\.md\)", f"]({here}changes.md)", markdown)
-    return re.sub(r"\[([^\]]*)\]\((?:[\w./-]*(?:LICENSE[\w-]*|CITATION\.cff|CONTRIBUTING\.md|\w+\.py))\)", r"`\1`", markdown)
+    return re.sub(r"\[([^\]]*)\]\((?:[\w./-]*(?:LICENSE[\w-]*|CITATION\.cff|CONTRIBUTING\.md|\w+\.py|\w+\.csv|\w+\.toml))\)", r"`\1`", markdown)

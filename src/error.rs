@@ -127,8 +127,8 @@ pub enum Error {
     },
     /// No engine that works in enclosures.
     #[error(
-        "found a damped rod with a gap, an initial strain, an initial velocity that varies, or a fixed top, or means \
-         over its cells after the first contact, expected no damping, or values of a uniform start on the ground under a free top: only there are digits proved"
+        "found a damped rod with a gap, an initial strain, an initial velocity that varies, or a fixed top, expected \
+         no damping, or a uniform start on the ground under a free top: only there are digits proved"
     )]
     NotCertified,
     /// More bits would be needed than are worth trying.

@@ -3,7 +3,7 @@
 use super::budget::AtEvent;
 use super::history::Damped;
 use super::start::Units;
-use super::uncertainty::{Uncertainty, rounded, wider, within};
+use super::uncertainty::{Uncertainty, meant, rounded, wider, within};
 use crate::error::Error;
 use crate::motion::moments::{self, Moments, Sums};
 use crate::motion::{Contact, Course, Event, EventKind, Field, Motion, Pair, Scales, Side, StressPiece};
@@ -50,14 +50,11 @@ impl<S: RoundedSpecial> Damped<S> {
         let event = |(k, event): (usize, &Event<Estimate<S>>)| {
             let Near { centre, end, rate, late, .. } = self.at_event(k);
             let (moves, push) = (event.centre_velocity.to_f64().abs(), self.push(event.time.value(), late)?);
-            // As the rod lies on the ground it is known.
-            let known = S::ENCLOSES && event.centre.value().in_roundoffs() == 0.0;
-            let centre = if known { 0.0 } else { centre + late * (moves + push) };
             Ok(Event {
                 kind: event.kind,
                 time: within(event.time.value(), event.time_error),
                 end_velocity: within(event.end_velocity.value(), end),
-                centre: within(event.centre.value(), centre),
+                centre: within(event.centre.value(), centre + late * (moves + push)),
                 centre_velocity: within(event.centre_velocity.value(), rate + push),
                 time_error: event.time_error,
             })
@@ -95,12 +92,11 @@ impl<S: RoundedSpecial> Damped<S> {
         by_momentum.unwrap_or((last - from.to_f64()) * speed * c + 2.0 * rise * c)
     }
 
-    /// The event whose time that is, with its bound.
+    /// The event at this very time.
     fn event_at(&self, time: &Estimate<S>) -> Option<usize> {
         let events = &self.course.events;
         let next = events.partition_point(|event| event.time.value() < time.value());
-        let same = |event: &Estimate<S>| event.value() == time.value() && event.error() == time.error();
-        events.get(next).filter(|event| same(&event.time)).map(|_| next)
+        events.get(next).filter(|event| event.time.value() == time.value()).map(|_| next)
     }
 
     /// How far values near a time may be off.
@@ -112,14 +108,11 @@ impl<S: RoundedSpecial> Damped<S> {
         if lost { Uncertainty { rise: none, speed: none, rate: none, ..found } } else { found }
     }
 
-    /// The bounds near a time, which is known within its own; at that of an event, those of the event itself.
+    /// The bounds near a time; at that of an event, which has the bound of the event, those of the event itself.
     fn near(&self, time: &Estimate<S>) -> Near {
-        match self.event_at(time) {
+        match self.event_at(time).filter(|_| time.bound() > 0.0) {
             Some(event) => self.at_event(event),
-            None => {
-                let found = self.uncertainty(time.value());
-                self.scaled(Uncertainty { late: found.late + time.bound() / self.scales.time, ..found })
-            }
+            None => self.scaled(self.uncertainty(time.value())),
         }
     }
 
@@ -196,8 +189,8 @@ impl<S: RoundedSpecial> Damped<S> {
     }
 }
 
-/// **Accuracy**: *within its own bound*, away from rays that are themselves off in time: a history asks on both sides of
-/// these. The time of an event, with its bound, stands for the event, whenever that is.
+/// **Accuracy**: *within its own bound*, away from rays that are themselves off in time. A time that is asked about is
+/// taken as it is stored; one within rounding of an event stands for the event, whenever that is.
 impl<S: RoundedSpecial> Motion<Estimate<S>> for Damped<S> {
     fn course(&self) -> &Course<Estimate<S>> {
         &self.course
@@ -209,32 +202,25 @@ impl<S: RoundedSpecial> Motion<Estimate<S>> for Damped<S> {
 
     fn stress_pieces(&self) -> Vec<StressPiece<Estimate<S>>> {
         let piece = |piece: StressPiece<S>| {
-            // In flight there is none.
-            let flies = S::ENCLOSES && piece.chebyshev.is_empty();
-            let strain = if flies { 0.0 } else { self.scaled(self.uncertainty(&piece.from)).strain };
+            let strain = self.scaled(self.uncertainty(&piece.from)).strain;
             bounded_piece(piece, strain)
         };
         self.pieces_of_stress().into_iter().map(piece).collect()
     }
 
     fn strain(&self, time: &Estimate<S>, side: Side) -> Result<Estimate<S>, Error> {
-        let strain = self.strain_of(time.value(), side)?;
-        // In flight there is none.
-        let flies = S::ENCLOSES && strain.in_roundoffs() == 0.0 && !self.presses(time.value(), side);
-        Ok(within(&strain, if flies { 0.0 } else { self.near(time).strain }))
+        let time = meant(&self.course.events, time);
+        Ok(within(&self.strain_of(time.value(), side)?, self.near(time).strain))
     }
 
     fn pair(&self, pair: Pair, time: &Estimate<S>, side: Side) -> Result<[Estimate<S>; 2], Error> {
+        let time = meant(&self.course.events, time);
         if let (Pair::Centre, Some(flight)) = (pair, self.first_flight(time)) {
             return Ok(flight.flight(&rounded(time.value())).into());
         }
         Ok(match pair {
             Pair::GroundEnd => {
                 let [height, rate] = self.ground_of(time.value(), side)?;
-                let zero = height.in_roundoffs() == 0.0 && rate.in_roundoffs() == 0.0;
-                if S::ENCLOSES && zero && self.presses(time.value(), side) {
-                    return Ok([Estimate::exact(height.zero()), Estimate::exact(rate.zero())]);
-                }
                 self.moved(time, &height, &rate)
             }
             Pair::Centre => {
@@ -263,6 +249,7 @@ impl<S: RoundedSpecial> Motion<Estimate<S>> for Damped<S> {
     }
 
     fn field(&self, point: &Estimate<S>, time: &Estimate<S>, side: Side) -> Result<Field<Estimate<S>>, Error> {
+        let time = meant(&self.course.events, time);
         let field = self.field_of(point.value(), time.value(), side)?;
         let strain = within(&field.strain, self.near(time).strain);
         let [displacement, velocity] = self.moved(time, &field.displacement, &field.velocity);
@@ -275,6 +262,7 @@ impl<S: RoundedSpecial> Motion<Estimate<S>> for Damped<S> {
 
     /// **Accuracy**: as `docs/bounds.md` derives under "What a mean may be off by".
     fn moments(&self, time: &Estimate<S>, points: &[Estimate<S>]) -> Result<Vec<Moments<Estimate<S>>>, Error> {
+        let time = meant(&self.course.events, time);
         let placed = points.iter().fold(0.0, |most: f64, point| most.max(point.bound()));
         let points: Vec<S> = points.iter().map(|point| point.value().clone()).collect();
         let lines = self.lines(time.value(), &points)?;
@@ -310,6 +298,7 @@ impl<S: RoundedSpecial> Motion<Estimate<S>> for Damped<S> {
     }
 
     fn rates(&self, points: &[Estimate<S>], times: &[Estimate<S>]) -> Result<Vec<[Estimate<S>; 2]>, Error> {
+        let times: Vec<&Estimate<S>> = times.iter().map(|time| meant(&self.course.events, time)).collect();
         let plain: Vec<S> = points.iter().map(|x| x.value().clone()).collect();
         let found = self.rates_of(&plain, &times.iter().map(|time| time.value().clone()).collect::<Vec<_>>())?;
         let mut rates = Vec::with_capacity(found.len());

@@ -31,7 +31,7 @@
 
 use std::sync::LazyLock;
 
-use super::series::{Basis, at_one, bound, evaluate_all, times_x, widen};
+use super::series::{Basis, at_one, evaluate_all, times_x};
 use crate::number::Rounded;
 
 /// A cell with its incoming data: `e^{κ(ξ−ξ₀)} p` on the side `η = η₀`, `e^{κ(η−η₀)} q` on the side `ξ = ξ₀`.
@@ -68,17 +68,6 @@ pub(super) fn terms(y: f64, log2_accuracy: f64) -> usize {
     k.saturating_sub(1)
 }
 
-/// `log₂` of a bound of `Σ yᵏ/k!²` beyond the term `terms`: where each is at most half of the one before it, twice the
-/// first.
-fn log2_rest(y: f64, terms: usize) -> f64 {
-    let next = terms as f64 + 1.0;
-    if y > 0.5 * (next + 1.0).powi(2) {
-        return f64::INFINITY;
-    }
-    let factorial: f64 = (2..=terms + 1).map(|k| (k as f64).log2()).sum();
-    1.0 + next * y.log2() - 2.0 * factorial + 1e-6
-}
-
 /// Turns incoming `p` and `q` into outgoing ones, each referred to the new corner.
 pub(super) fn cross<S: Rounded>(
     basis: &Basis<S>,
@@ -90,11 +79,6 @@ pub(super) fn cross<S: Rounded>(
     let y = a.clone() * h;
     let terms = terms(y.to_f64(), log2_accuracy).min(basis.powers.len() - 1);
     let (mut u, mut w) = (p.clone(), q.clone());
-    let rests = S::ENCLOSES.then(|| {
-        let rest = log2_rest(y.most(), terms);
-        let (sup_p, sup_q) = (bound(p, 0), bound(q, 0));
-        [sup_p + h.most() * sup_q, sup_q + a.most() * sup_p].map(|sup| rest + sup.log2())
-    });
     let (mut factor, zero) = (a.one(), a.zero());
     let mut corrections = Vec::with_capacity(terms + 1);
     for k in 0..=terms {
@@ -111,9 +95,6 @@ pub(super) fn cross<S: Rounded>(
         add_scaled(p, &basis.powers[k], &-(from_q * &factor * h));
         add_scaled(q, &basis.powers[k], &-(from_p * &factor * a));
     }
-    for (side, rest) in [&mut *p, &mut *q].into_iter().zip(rests.into_iter().flatten()) {
-        side[0] = side[0].clone().off_by(rest);
-    }
     scale(p, decay_h);
     scale(q, decay_a);
 }
@@ -122,10 +103,6 @@ pub(super) fn cross<S: Rounded>(
 fn add_scaled<S: Rounded>(target: &mut [S], series: &[S], factor: &S) {
     for (t, s) in target.iter_mut().zip(series) {
         *t = s.clone() * factor + &*t;
-    }
-    if S::ENCLOSES && series.len() > target.len() {
-        let dropped = series[target.len()..].iter().map(|s| (s.clone() * factor).in_roundoffs()).sum();
-        widen(target, dropped);
     }
 }
 
@@ -166,10 +143,6 @@ pub(super) fn diagonal<S: Rounded>(
         }
         add_scaled(&mut sum, &layer, &depth.one());
     }
-    if S::ENCLOSES {
-        let sup = bound(q, 0) * (1.0 + depth.most());
-        sum[0] = sum[0].clone().off_by(log2_rest(y.most(), count) + sup.log2());
-    }
     sum
 }
 
@@ -200,11 +173,8 @@ impl<S: Rounded> Cell<'_, S> {
             }
             (at_x, at_e) = (next_x, next_e);
         }
-        let sup = if S::ENCLOSES { bound(self.p, 0) + bound(self.q, 0) } else { 0.0 };
-        let rest = log2_rest(y.most(), count) + (sup * (1.0 + a.most() + h.most())).log2();
         let value = |([p, q, ..], (x, e)): ([S; 4], (&S, &S))| {
             let decay = (-(a.clone() * x + h.clone() * e)).exp();
-            let (p, q) = (p.off_by(rest), q.off_by(rest));
             (p * &decay + &self.offset, q * &decay - &self.offset)
         };
         sums.into_iter().zip(xs.iter().zip(&es)).map(value).collect()

@@ -6,7 +6,7 @@ use super::bounds::bounded_piece;
 use super::effort::Effort;
 use super::history::Damped;
 use super::piece::Unresolved;
-use super::uncertainty::{rounded, within};
+use super::uncertainty::{meant, rounded, within};
 use crate::error::Error;
 use crate::first_contact::{Bounce, ContactHistory, FirstContact};
 use crate::motion::moments::Moments;
@@ -146,6 +146,7 @@ impl<S: RoundedSpecial> ContactThenCells<S> {
 
     /// What answers at a time, and the time as it is asked about: the closed form takes it as it is stored.
     fn part(&self, time: &Estimate<S>) -> Result<Part<'_, S>, Error> {
+        let time = meant(&self.course.events, time);
         Ok(match self.later(time)? {
             Some(march) => (march, time.clone()),
             None => (&self.contact, rounded(time.value())),
@@ -200,6 +201,7 @@ impl<S: RoundedSpecial> Motion<Estimate<S>> for ContactThenCells<S> {
     }
 
     fn moments(&self, time: &Estimate<S>, points: &[Estimate<S>]) -> Result<Vec<Moments<Estimate<S>>>, Error> {
+        let time = meant(&self.course.events, time);
         match self.later(time)? {
             Some(march) => march.moments(time, points),
             None => {
@@ -210,6 +212,7 @@ impl<S: RoundedSpecial> Motion<Estimate<S>> for ContactThenCells<S> {
     }
 
     fn rates(&self, points: &[Estimate<S>], times: &[Estimate<S>]) -> Result<Vec<[Estimate<S>; 2]>, Error> {
+        let times: Vec<_> = times.iter().map(|time| meant(&self.course.events, time).clone()).collect();
         let mut first = 0;
         while first < times.len() && self.later(&times[first])?.is_none() {
             first += 1;

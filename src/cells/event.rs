@@ -162,7 +162,6 @@ impl<S: RoundedSpecial> Follower<'_, S> {
         }
         self.weigh();
         let flight = self.medium.take_off(&mut self.state, &self.height);
-        self.settle_defect();
         let (round, first) = (self.state.round, self.state.segments[0].at.clone());
         let since = |(landing, at): &(i64, S)| ((round - landing) as f64) + (first.clone() - at).to_f64();
         let whole = self.landing.as_ref().is_some_and(|(landing, at)| *landing + 1 == round && *at == first);
@@ -218,7 +217,6 @@ impl<S: RoundedSpecial> Follower<'_, S> {
         };
         self.budget.land(landing);
         self.medium.touch_down(&mut self.state, &flight);
-        self.settle_defect();
         self.flight = None;
     }
 
@@ -243,7 +241,7 @@ impl<S: RoundedSpecial> Follower<'_, S> {
         let off = self.trace_error();
         let after = at_zero(trace, &self.height.zero()).to_f64();
         let before = self.last_trace.as_ref().map_or(f64::NEG_INFINITY, S::to_f64);
-        if !S::ENCLOSES && !self.medium.kappa.is_zero() && before != 0.0 && (after.abs() <= off || before >= -off) {
+        if !self.medium.kappa.is_zero() && before != 0.0 && (after.abs() <= off || before >= -off) {
             self.note_open_release(trace, 0.0, off);
         }
     }
@@ -253,7 +251,7 @@ impl<S: RoundedSpecial> Follower<'_, S> {
     pub(super) fn note_open(&mut self, trace: &[S], height: &[S], fresh: bool, left: f64) -> bool {
         let (basis, len) = (&self.medium.basis, self.state.segments[0].len.to_f64());
         // Without damping events lie on rays by construction; such runs belong to the lattice.
-        if self.medium.kappa.is_zero() || S::ENCLOSES {
+        if self.medium.kappa.is_zero() {
             return false;
         }
         let off = self.trace_error();

@@ -15,7 +15,7 @@
 
 use super::march::MOST_DAMPING;
 use super::march::{Medium, State};
-use super::series::{at_one, at_zero, integral, times_x, widen};
+use super::series::{at_one, at_zero, integral, times_x};
 use crate::special::RoundedSpecial;
 use crate::special::{phi1, phi2};
 
@@ -47,9 +47,8 @@ impl<S: RoundedSpecial> Flight<S> {
     /// `h` and `h′`.
     pub(super) fn at(&self, age: &S) -> (S, S) {
         let fall = -(self.drag.clone() * age);
-        let [phi1, phi2] = fall.phi_rounded();
-        let slowed = phi1 * age;
-        let drop = phi2 * &age.square() * &self.gravity;
+        let slowed = phi1(&fall) * age;
+        let drop = phi2(&fall) * &age.square() * &self.gravity;
         let rate = fall.exp() * &self.rate - slowed.clone() * &self.gravity;
         (slowed * &self.rate + &self.height - drop, rate)
     }
@@ -71,19 +70,11 @@ impl<S: RoundedSpecial> Medium<S> {
             log2_term += (fall.to_f64() / k as f64).log2();
             k += 1;
         }
-        // Each later term is at most half of the one before it: the first of them, twice.
-        let last = &taylor[taylor.len() - 1];
-        let rest = if fall.most() <= 0.5 * (k + 1) as f64 {
-            last.in_roundoffs() * fall.most() / k as f64
-        } else {
-            f64::INFINITY
-        };
         let mut series = vec![zero; self.basis.size()];
         for term in taylor.into_iter().rev() {
             times_x(&mut series);
             series[0] = series[0].clone() + term;
         }
-        widen(&mut series, 2.0 * rest);
         let mut rise = series.clone();
         self.basis.integrate(&mut rise);
         super::cell::scale(&mut rise, len);
@@ -96,9 +87,8 @@ impl<S: RoundedSpecial> Medium<S> {
         self.free_top && 2.0 * self.kappa.to_f64() <= MOST_DAMPING
     }
 
-    /// `2 ∫ f(x) q dx` over the characteristic, `q` from the segments, `f` given at `x`, with
-    /// `|f| ≤ (a + b|x|) e^{2R|x|}` in the plane.
-    fn weighed(&self, state: &State<S>, (a, b): (f64, f64), weight: &dyn Fn(&S) -> S) -> S {
+    /// `2 ∫ f(x) q dx` over the characteristic, `q` from the segments, `f` given at `x`.
+    fn weighed(&self, state: &State<S>, weight: &dyn Fn(&S) -> S) -> S {
         let mut start = self.kappa.zero();
         let mut sum = start.clone();
         for segment in &state.segments {
@@ -107,9 +97,7 @@ impl<S: RoundedSpecial> Medium<S> {
                 let x = (node.clone() * &segment.len + &start) * &start.ratio(1, 2);
                 weight(&x) * &(node.clone() * &depth).exp()
             });
-            let mut weights = self.basis.through(&weights.collect::<Vec<_>>(), self.basis.size());
-            // On an ellipse |start + len s| ≤ |s|'s bound, which is 1 or more.
-            self.basis.note_rest(&mut weights, (a, 0.5 * b), 2.0 * self.kappa.most() + depth.most());
+            let weights = self.basis.through(&weights.collect::<Vec<_>>(), self.basis.size());
             sum = sum + integral(&self.basis.product(&weights, &segment.q, self.basis.size())) * &segment.len;
             start = start + &segment.len;
         }
@@ -124,19 +112,13 @@ impl<S: RoundedSpecial> Medium<S> {
         let after = (at_one(&last.q, &zero) * &last.decay).to_f64();
         let before = at_zero(&state.segments[0].q, &zero).to_f64();
         let weight = |x: &S| (-(self.kappa.int(2) * x * &self.kappa)).exp() * &self.kappa + &self.kappa;
-        (-kappa).exp() * after - (1.0 + kappa) * before + self.weighed(state, (4.0, 0.0), &weight).to_f64()
-    }
-
-    /// `h′(b)` of what should be a vibration, and has none: what the stored one still has.
-    pub(super) fn drift(&self, state: &State<S>) -> S {
-        let drag = self.kappa.clone() * self.kappa.int(4);
-        self.weighed(state, (1.0, 0.0), &|x| (drag.clone() * x).exp())
+        (-kappa).exp() * after - (1.0 + kappa) * before + self.weighed(state, &weight).to_f64()
     }
 
     /// `z(0,b)` from the `q` of a vibration.
     pub(super) fn ground_of(&self, state: &State<S>) -> S {
         let drag = self.kappa.clone() * self.kappa.int(4);
-        -self.weighed(state, (0.5, 2.0), &|x| x.ratio(1, 2) - x - phi1(&(drag.clone() * x)) * x)
+        -self.weighed(state, &|x| x.ratio(1, 2) - x - phi1(&(drag.clone() * x)) * x)
     }
 
     /// Takes `q` of the deviation from the static state apart into centre of mass and vibration, where the end is at
@@ -145,16 +127,15 @@ impl<S: RoundedSpecial> Medium<S> {
         let (zero, half) = (self.kappa.zero(), self.kappa.ratio(1, 2));
         let drag = self.kappa.clone() * self.kappa.int(4);
         // v_x of the static state and h′ − h′(b) e^{−2Rx} in one.
-        let (gravity, slope) = (self.gravity.most(), self.slope.most());
-        self.shift(state, (slope, gravity), &|x| self.gravity.clone() * x + &self.slope);
-        let grown = self.weighed(state, (1.0, 0.0), &|x| (drag.clone() * x).exp());
+        self.shift(state, &|x| self.gravity.clone() * x + &self.slope);
+        let grown = self.weighed(state, &|x| (drag.clone() * x).exp());
         // 2 ∫₀^½ x φ₁(2Rx) dx = ½ φ₂(R)/2 …: ∫₀ˣ y φ₁(ay) dy = x² φ₂(ax).
         let weight = phi2(&(drag.clone() * &half)) * &self.gravity * &half;
         let rate = grown + weight;
         let segment = &state.segments[0];
         let mut flight =
             Flight { from: (state.round, segment.at.clone()), height: zero, rate, drag, gravity: self.gravity.clone() };
-        self.shift(state, (flight.rate.most(), gravity), &|x| -flight.at(x).1);
+        self.shift(state, &|x| -flight.at(x).1);
         flight.height = height.clone() - self.ground_of(state);
         flight
     }
@@ -164,8 +145,7 @@ impl<S: RoundedSpecial> Medium<S> {
         let age = flight.age((state.round, &state.segments[0].at));
         let (_, rate) = flight.at(&age);
         let now = Flight { rate, ..flight.clone() };
-        let size = (now.rate.most() + self.slope.most(), 2.0 * self.gravity.most());
-        self.shift(state, size, &|x| now.at(x).1 - self.gravity.clone() * x - &self.slope);
+        self.shift(state, &|x| now.at(x).1 - self.gravity.clone() * x - &self.slope);
     }
 
     /// Goes over from one flight, or from the deviation from the static state, to another.
@@ -176,20 +156,12 @@ impl<S: RoundedSpecial> Medium<S> {
         if let Some(to) = to {
             let age = to.age((state.round, &state.segments[0].at));
             let now = Flight { rate: to.at(&age).1, ..to.clone() };
-            let (gravity, slope) = (self.gravity.most(), self.slope.most());
-            if S::ENCLOSES {
-                // Bit for bit as the run has taken off: what is joined later hangs on it.
-                self.shift(state, (slope, gravity), &|x| self.gravity.clone() * x + &self.slope);
-                self.shift(state, (now.rate.most(), gravity), &|x| -now.at(x).1);
-            } else {
-                let size = (now.rate.most() + slope, 2.0 * gravity);
-                self.shift(state, size, &|x| self.gravity.clone() * x + &self.slope - now.at(x).1);
-            }
+            self.shift(state, &|x| self.gravity.clone() * x + &self.slope - now.at(x).1);
         }
     }
 
-    /// Adds a function of x, `|f| ≤ (a + b|x|) e^{2R|x|}` in the plane, to `q`.
-    fn shift(&self, state: &mut State<S>, (a, b): (f64, f64), f: &dyn Fn(&S) -> S) {
+    /// Adds a function of x to `q`.
+    fn shift(&self, state: &mut State<S>, f: &dyn Fn(&S) -> S) {
         let mut start = self.kappa.zero();
         for segment in &mut state.segments {
             let depth = self.kappa.clone() * &segment.len;
@@ -197,8 +169,7 @@ impl<S: RoundedSpecial> Medium<S> {
                 let x = (node.clone() * &segment.len + &start) * &start.ratio(1, 2);
                 f(&x) * &(node.clone() * &depth).exp()
             });
-            let mut added = self.basis.through(&values.collect::<Vec<_>>(), segment.q.len());
-            self.basis.note_rest(&mut added, (a, 0.5 * b), 2.0 * self.kappa.most() + depth.most());
+            let added = self.basis.through(&values.collect::<Vec<_>>(), segment.q.len());
             for (q, added) in segment.q.iter_mut().zip(added) {
                 *q = q.clone() + added;
             }

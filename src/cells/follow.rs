@@ -10,8 +10,8 @@ use super::bounce::Held;
 use super::budget::{Budget, CUT_CELLS, FIRST_CELLS, LEAP_CELLS, MOST_LATE, Off};
 use super::effort::{Effort, LEAST_LEAP, MOST_PIECES, MOST_SEGMENTS};
 use super::flight::Flight;
-use super::march::{Medium, State, on_grid};
-use super::piece::{Checkpoint, Enclosed, Found, Mark, Piece, Unresolved};
+use super::march::{Medium, State};
+use super::piece::{Checkpoint, Found, Mark, Piece, Unresolved};
 use super::root::first_descent;
 use super::series::{at_one, at_zero, bound, derivative, evaluate};
 use super::start::Data;
@@ -83,8 +83,6 @@ pub(super) struct Follower<'a, S> {
     /// Error of `p`, `q` made in one cell.
     pub(super) cell_error: f64,
     pub(super) budget: Budget,
-    /// What steps have done since the last piece, in numbers that enclose.
-    pub(super) defect: f64,
     /// The trace at the end of the last piece.
     pub(super) last_trace: Option<S>,
     /// How far values may be off before the first event.
@@ -172,22 +170,13 @@ impl<'a, S: RoundedSpecial> Follower<'a, S> {
             warnings: Vec::new(),
             crossed: 0,
             cell_error: 0.0,
-            defect: 0.0,
             budget: Budget::new(2.0 * medium.kappa.to_f64()),
             last_trace: None,
             before: Uncertainty::default(),
         };
         follower.weigh();
-        follower.settle_defect();
         follower.add_chain();
         follower
-    }
-
-    /// Takes the state as it is stored from here on.
-    pub(super) fn settle_defect(&mut self) {
-        if S::ENCLOSES {
-            self.defect += self.state.settle();
-        }
     }
 
     /// The error of a cell now.
@@ -382,7 +371,7 @@ impl<'a, S: RoundedSpecial> Follower<'a, S> {
             };
             // Where a root is not told from the noise, both the function and what is known of it are off by so much.
             let vague = if found.as_ref().is_some_and(|(_, vague)| *vague) { 2.0 * noise } else { 0.0 };
-            let found = found.map(|(x, _)| on_grid(x * &len));
+            let found = found.map(|(x, _)| x * &len);
             let nearby = |x: &S| x.to_f64() <= 32.0 * unit;
             let at_start = found.as_ref().is_some_and(&nearby);
             if at_start && !fresh {
@@ -409,7 +398,6 @@ impl<'a, S: RoundedSpecial> Follower<'a, S> {
                 }
                 let ends = left < len && found.as_ref().is_none_or(|x| *x > left);
                 if ends {
-                    let left = on_grid(left);
                     self.advance(Some(&left), Off::default(), &trace, &height);
                     return Ok(Ending::Time);
                 }
@@ -432,7 +420,7 @@ impl<'a, S: RoundedSpecial> Follower<'a, S> {
                 None => {
                     self.advance(None, Off::default(), &trace, &height);
                     if at_end && !self.contact {
-                        self.height = self.height.zero().give_bound(self.height.in_roundoffs());
+                        self.height = self.height.zero();
                     }
                     fresh = false;
                 }
@@ -517,10 +505,7 @@ impl<'a, S: RoundedSpecial> Follower<'a, S> {
     fn leap(&mut self, trips: i64) {
         let from = self.state.time();
         let passing = self.medium.passing(&self.state);
-        let clear = if S::ENCLOSES { self.least_over(trips as f64) } else { 0.0 };
-        let at = Some(self.state.segments[0].at.clone());
         self.medium.leap(&mut self.state, &self.ground, trips);
-        self.settle_defect();
         self.budget.leap(trips as f64, LEAP_CELLS * self.cell_error, passing);
         self.rising = false;
         self.pieces.push(Piece {
@@ -533,7 +518,6 @@ impl<'a, S: RoundedSpecial> Follower<'a, S> {
             leap: trips,
             trace: Vec::new(),
             height: Vec::new(),
-            enclosed: Enclosed { at, defect: std::mem::take(&mut self.defect), clear, whole: None },
         });
         self.forget();
         self.add_chain();
@@ -549,29 +533,11 @@ impl<'a, S: RoundedSpecial> Follower<'a, S> {
         let least = self.medium.least() * self.medium.gravity.to_f64();
         if most > 0.0 && most <= least {
             self.budget.add(most);
-            self.defect += most;
             self.medium.still(&mut self.state);
         } else {
             let joined = self.medium.join_all(&mut self.state);
             self.budget.add(joined as f64 * self.cell_error);
-            self.settle_defect();
         }
-    }
-
-    /// No more than the least of `v(0,·)` over so many round trips: that of `h − B e^{−Rτ}`, concave or falling, as in
-    /// [`Self::leap_length`]; less a billionth of what it is the difference of.
-    fn least_over(&self, trips: f64) -> f64 {
-        let Some(flight) = self.flying() else { return f64::NEG_INFINITY };
-        let (damping, gravity) = (self.damping(), self.medium.gravity.to_f64());
-        let age = flight.age((self.state.round, &self.state.segments[0].at));
-        let (now, rate) = flight.at(&age);
-        let rho = damping / (2.0 * std::f64::consts::PI);
-        let bound = (0.5 * damping).exp() * self.state.bound() * ((1.0 + rho) / (1.0 - rho) / 12.0).sqrt();
-        let later = flight.at(&(age.clone() + age.double(trips))).0.to_f64();
-        let concave = rate.to_f64() >= -gravity / (2.0 * damping) * (1.0 - 1e-9);
-        let fade = if concave { (-damping * trips).exp() } else { 1.0 };
-        let start = if concave { now.to_f64() } else { f64::INFINITY };
-        (start - bound).min(later - bound * fade) - 1e-9 * (now.to_f64().abs() + later.abs() + bound)
     }
 
     /// A ray that may be off in time passes the ground: in flight the height takes its jump at the wrong time.
@@ -607,11 +573,6 @@ impl<'a, S: RoundedSpecial> Follower<'a, S> {
     fn advance(&mut self, cut: Option<&S>, off: Off, trace: &[S], height: &[S]) {
         let from = self.state.time();
         let whole = self.state.segments[0].len.clone();
-        let mut enclosed = Enclosed::default();
-        if S::ENCLOSES {
-            enclosed.at = Some(self.state.segments[0].at.clone());
-            enclosed.whole = cut.map(|_| (whole.clone(), trace.to_vec(), height.to_vec()));
-        }
         let (mut trace, mut height) = (trace.to_vec(), height.to_vec());
         if let Some(cut) = cut {
             let fraction = cut.clone() / &whole;
@@ -629,8 +590,6 @@ impl<'a, S: RoundedSpecial> Follower<'a, S> {
         let segments = self.state.segments.len();
         self.crossed += segments as u64 + 2;
         self.medium.strip(&mut self.state, self.contact, &mut |_| {});
-        self.settle_defect();
-        enclosed.defect = std::mem::take(&mut self.defect);
         let joined = (segments - self.state.segments.len()) as f64;
         self.budget.add((joined + if cut.is_some() { CUT_CELLS } else { 0.0 }) * self.cell_error);
         if let Some((centre, _)) = self.centre() {
@@ -640,7 +599,7 @@ impl<'a, S: RoundedSpecial> Follower<'a, S> {
         self.budget.strip(len.to_f64(), self.cell_error, self.contact);
         let (contact, flight) = (self.contact, self.flight);
         let cut = cut.is_some();
-        self.pieces.push(Piece { from, len, contact, flight, cut, still: false, leap: 0, trace, height, enclosed });
+        self.pieces.push(Piece { from, len, contact, flight, cut, still: false, leap: 0, trace, height });
     }
 }
 

@@ -9,7 +9,7 @@ use super::flight::Flight;
 use super::follow::{Follower, Goal};
 use super::march::{Medium, State};
 use super::piece::{Checkpoint, Found, Mark, Piece, Unresolved};
-use super::record::{Record, with_rests};
+use super::record::Record;
 use super::root::smallest;
 use super::series::{at_one, at_zero, evaluate};
 use super::start::{Data, Units, medium};
@@ -52,8 +52,8 @@ pub struct Damped<S> {
     pub(super) data: Data<S>,
     pub(super) scales: Scales<f64>,
     held: Option<Held<S>>,
-    pub(super) pieces: Vec<Piece<S>>,
-    pub(super) checkpoints: Vec<Checkpoint<S>>,
+    pieces: Vec<Piece<S>>,
+    checkpoints: Vec<Checkpoint<S>>,
     flights: Vec<Flight<S>>,
     pub(super) course: Course<Estimate<S>>,
     /// The motion of the centre of mass after the release that the run begins with.
@@ -233,7 +233,6 @@ impl<S: RoundedSpecial> Damped<S> {
             mean = mean + (half.clone() - &node.x) * &node.strain * &node.weight;
             rate = rate + node.velocity() * &node.weight;
         }
-        let (mean, rate) = (with_rests(mean, nodes), with_rests(rate, nodes));
         (mean * t.int(2) + self.record().height(t), rate * t.int(2))
     }
 
@@ -243,7 +242,6 @@ impl<S: RoundedSpecial> Damped<S> {
             Some(flight) => flight.at(&flight.age_at(t)),
             None => self.mean(t, &self.record().whole_line(t)),
         };
-        let mean = if t.is_zero() && self.data.given.is_undeformed() { t.zero() } else { mean };
         (mean * &self.data.units.displacement, rate * &self.data.units.velocity)
     }
 
@@ -252,12 +250,12 @@ impl<S: RoundedSpecial> Damped<S> {
         let mut sum = self.record().height(t);
         if *x == x.ratio(1, 2) {
             // The upper end.
-            let nodes = self.record().whole_line(t);
-            return with_rests(nodes.iter().fold(sum, |sum, node| sum + node.strain.clone() * &node.weight), &nodes);
+            return self.record().whole_line(t).iter().fold(sum, |sum, node| sum + node.strain.clone() * &node.weight);
         }
         if x.is_positive() {
-            let nodes = self.record().line(t, x);
-            sum = with_rests(nodes.iter().fold(sum, |sum, node| sum + node.strain.clone() * &node.weight), &nodes);
+            for node in self.record().line(t, x) {
+                sum = sum + node.strain * &node.weight;
+            }
         }
         sum
     }
@@ -338,11 +336,6 @@ impl<S: RoundedSpecial> Damped<S> {
             last.to = self.course.end.value().clone();
         }
         pieces
-    }
-
-    /// Whether the end is on the ground.
-    pub(super) fn presses(&self, time: &S, side: Side) -> bool {
-        self.time(time).is_ok_and(|t| self.record().piece(&t, side).is_some_and(|(piece, _)| piece.contact))
     }
 
     /// `v_x(0,t)`.
@@ -462,7 +455,7 @@ type Cut<S> = (Vec<moments::Node<S>>, usize);
 
 /// A weighted sum over nodes.
 fn summed<S: RoundedSpecial>(nodes: &[Node<S>], like: &S, part: impl Fn(&Node<S>) -> S) -> S {
-    with_rests(nodes.iter().fold(like.zero(), |sum, node| sum + part(node) * &node.weight), nodes)
+    nodes.iter().fold(like.zero(), |sum, node| sum + part(node) * &node.weight)
 }
 
 #[cfg(test)]

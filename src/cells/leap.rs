@@ -35,7 +35,7 @@ use std::collections::VecDeque;
 
 use super::cell::scale;
 use super::march::{Medium, Segment, State};
-use super::series::{Basis, at_one, at_zero, bound, integral, times_x, widen};
+use super::series::{Basis, at_one, at_zero, integral, times_x};
 use crate::special::RoundedSpecial;
 
 /// The most of `nR²/4π`, the phase by which damping holds the lowest mode back, in one leap: its series loses
@@ -49,11 +49,6 @@ pub(super) fn most_trips(damping: f64) -> f64 {
     MOST_PHASE * 4.0 * std::f64::consts::PI / (damping * damping)
 }
 
-/// What a leap makes of `q` that it should have handed on times `e^{−Rn}`, that of a rigid motion: with `|q| ≤ ε`,
-/// `z(0) = 0` and R ≤ 2 (in) has `|Z| ≤ ½e^R ε ≤ 3.7ε`, `|Z_s| ≤ 5.1ε`; with `e^{½‖G‖} ≤ 1.3`, `‖Gδ‖ ≤ 1.1`,
-/// `|ψ| ≤ 16ε`; (out) `|Z_s| ≤ 23ε`, `|Z(0)| ≤ 9ε`, so `|q| ≤ 2(23 + 32)ε`; and 1 for what should be there.
-const LOST_DRIFT: f64 = 128.0;
-
 /// A function on the circle of length 1: one series for each segment.
 type Function<S> = Vec<Vec<S>>;
 
@@ -65,22 +60,6 @@ struct Circle<'a, S> {
     /// Coefficients of `D^{1−2m}` in `G`, and of `D^{−2m}` in `H`, `m ≥ 1`.
     lag: Vec<S>,
     turn: Vec<S>,
-    /// `log₂` of what is left out of both, as norms.
-    rests: [f64; 2],
-}
-
-/// A bound of `|f|`.
-fn sup<S: RoundedSpecial>(f: &[Vec<S>]) -> f64 {
-    f.iter().map(|c| bound(c, 0)).fold(0.0, f64::max)
-}
-
-/// Counts `2^log2` in the bound of a function.
-fn off_by<S: RoundedSpecial>(f: &mut [Vec<S>], log2: f64) {
-    if S::ENCLOSES {
-        for c in f {
-            c[0] = c[0].clone().off_by(log2);
-        }
-    }
 }
 
 /// `target += factor · f`.
@@ -145,7 +124,6 @@ impl<S: RoundedSpecial> Circle<'_, S> {
             }
             add(&mut sum, &power, factor);
         }
-        off_by(&mut sum, self.rests[usize::from(!odd)] + sup(f).log2());
         sum
     }
 
@@ -176,8 +154,6 @@ impl<S: RoundedSpecial> Circle<'_, S> {
             }
             add(&mut sum, &sawtooth, factor);
         }
-        // The sawtooth is twice ‖D⁻¹‖.
-        off_by(&mut sum, 1.0 + self.rests[0]);
         sum
     }
 }
@@ -223,13 +199,8 @@ impl<S: RoundedSpecial> Medium<S> {
             parts,
             lag: binomials(&damping, 1, self.log2_accuracy),
             turn: binomials(&damping, -1, self.log2_accuracy).into_iter().map(|c: S| -c).collect(),
-            rests: [0.0; 2],
         };
-        let circle = self.with_rests(circle);
-        // The leap below is for what has no h′: see `LOST_DRIFT`.
-        let drift = if S::ENCLOSES { self.drift(state).most() } else { 0.0 };
         let (value, rate) = self.scaled(state, &circle, ground);
-        let size_in = if S::ENCLOSES { sup(&value) + sup(&rate) } else { 0.0 };
         let layers = self.layers(&damping);
         // (in), by Horner's rule.
         let gamma = circle.lagged_delta();
@@ -251,11 +222,8 @@ impl<S: RoundedSpecial> Medium<S> {
             wave = Some(rate);
         }
         let Some(mut wave) = wave else { return };
-        let layer = self.log2_layer(layers + 1);
-        off_by(&mut wave, 2.0 + layer + size_in.log2());
         self.pass(&circle, &mut wave, &damping, trips);
         // (out).
-        let size_out = if S::ENCLOSES { sup(&wave) } else { 0.0 };
         let mut at_ground = wave.clone();
         add(&mut at_ground, &circle.turned(&wave), &-zero.one());
         circle.antiderivative(&mut at_ground);
@@ -282,31 +250,10 @@ impl<S: RoundedSpecial> Medium<S> {
             }
             rate = Some(term);
         }
-        if let Some(mut rate) = rate {
-            off_by(&mut rate, 2.0 + layer + size_out.log2());
+        if let Some(rate) = rate {
             self.unscaled(&mut state.segments, &circle, &rate, &ground);
         }
-        for segment in &mut state.segments {
-            segment.q[0] = segment.q[0].clone().off_by((LOST_DRIFT * drift).log2());
-        }
         state.round += trips;
-    }
-
-    /// The circle with what its series of G and H leave out: `|C(±½,m)| ≤ ½`, and each term is at most
-    /// `R²‖D⁻²‖ ≤ 0.13` of the one before it.
-    fn with_rests<'a>(&self, circle: Circle<'a, S>) -> Circle<'a, S> {
-        let square = (2.0 * self.kappa.most()).powi(2);
-        let part = (square * INVERSE_SQUARE).log2();
-        let lag = (0.15 * square).log2() + circle.lag.len() as f64 * part + 1e-6;
-        let turn = (0.6f64).log2() + (circle.turn.len() + 1) as f64 * part + 1e-6;
-        Circle { rests: [lag, turn], ..circle }
-    }
-
-    /// `log₂` of twice the layer j of `e^{sG/2}`, which bounds all from it on: `‖G/2‖ ≤ R²/16 (1 + R²/150)`.
-    fn log2_layer(&self, j: usize) -> f64 {
-        let square = (2.0 * self.kappa.most()).powi(2);
-        let factorial: f64 = (2..=j).map(|k| (k as f64).log2()).sum();
-        1.0 + j as f64 * (square / 16.0 * (1.0 + square / 150.0)).log2() - factorial + 1e-6
     }
 
     /// How many powers of `G/2` count on the characteristic.
@@ -344,12 +291,6 @@ impl<S: RoundedSpecial> Medium<S> {
                     *s = f.clone() + &*s;
                 }
             }
-            if S::ENCLOSES {
-                let (most, k) = (depth.most(), self.rounds(&depth) + 1);
-                let factorial: f64 = (2..=k).map(|k| (k as f64).log2()).sum();
-                let rest = k as f64 * most.log2() - factorial + most * std::f64::consts::LOG2_E + 1e-6;
-                sum[0] = sum[0].clone().off_by(rest + bound(&first, 0).log2());
-            }
             for (p, s) in push.iter_mut().zip(&sum) {
                 *p = s.clone() * &self.kappa + &*p;
             }
@@ -382,11 +323,6 @@ impl<S: RoundedSpecial> Medium<S> {
             for (k, q) in segment.q.iter_mut().enumerate() {
                 *q = (rate[k].clone() - value[k].clone() * &self.kappa) * &shrunk;
             }
-            if S::ENCLOSES {
-                let beyond = (segment.q.len()..rate.len())
-                    .map(|k| ((rate[k].clone() - value[k].clone() * &self.kappa) * &shrunk).in_roundoffs());
-                widen(&mut segment.q, beyond.sum());
-            }
             shrunk = shrunk * &segment.decay;
         }
     }
@@ -396,7 +332,6 @@ impl<S: RoundedSpecial> Medium<S> {
     /// The coefficients `e_k` of the powers of `D⁻¹` follow from `E′ = nG′E`: `k e_k = n Σ i g_i e_{k−i}` over odd i.
     fn pass(&self, circle: &Circle<'_, S>, wave: &mut Function<S>, damping: &S, trips: i64) {
         let n = damping.int(trips);
-        let size = if S::ENCLOSES { sup(wave) } else { 0.0 };
         let mut coefficients = vec![damping.one()];
         let mut power = wave.clone();
         let mut below = 0usize;
@@ -419,23 +354,6 @@ impl<S: RoundedSpecial> Medium<S> {
             if below >= 4 {
                 break;
             }
-        }
-        if S::ENCLOSES {
-            // |e_k| ≤ exp(nR²ρ)/ρᵏ for Rρ ≤ 1, as G has the majorant (1 − √(1 − R²x²))/x; ‖D⁻ᵏ‖ ≤ 1.39 · 0.18ᵏ.
-            let (r, n) = (damping.most(), trips as f64);
-            let left_out =
-                (0..160).map(|j| 0.4 * (f64::from(j) / 4.0).exp2()).filter(|rho| r * rho <= 1.0).map(|rho| {
-                    let part = 0.18 / rho;
-                    (1.39 / (1.0 - part)).log2()
-                        + n * r * r * rho * std::f64::consts::LOG2_E
-                        + coefficients.len() as f64 * part.log2()
-                });
-            let left_out = left_out.fold(f64::INFINITY, f64::min) + 1e-6 + size.log2();
-            // And what the series of G leaves out acts n times, under e^{n‖G‖}.
-            let norm = r * r / 8.0 * (1.0 + r * r / 150.0);
-            let lag = circle.rests[0] + n.log2() + n * norm * std::f64::consts::LOG2_E + size.log2() + 1e-6;
-            off_by(wave, left_out);
-            off_by(wave, lag);
         }
         let decay = (-(damping.clone() * &n)).exp();
         for c in wave {

@@ -13,7 +13,7 @@ use std::sync::OnceLock;
 
 use super::budget::Off;
 use super::cell::{Cell, cross, diagonal, scale};
-use super::series::{Basis, at_one, at_zero, bound, evaluate, take_bounds, terms_for, unit_rule, widen};
+use super::series::{Basis, at_one, at_zero, bound, evaluate, terms_for, unit_rule};
 use crate::number::Rounded;
 
 /// The strongest damping `R` for which flights are leapt over: `R²‖D⁻²‖ ≤ 0.13`.
@@ -64,21 +64,6 @@ pub(super) struct Segment<S> {
     pub(super) off: Off,
 }
 
-/// A sum of places or lengths, which are multiples of one power of two and below 2: it is not rounded.
-pub(super) fn placed<S: Rounded>(mut sum: S) -> S {
-    sum.take_bound();
-    sum
-}
-
-/// The place nearest to this one of which such sums are exact, where that matters.
-pub(super) fn on_grid<S: Rounded>(place: S) -> S {
-    if !S::ENCLOSES {
-        return place;
-    }
-    let four = place.int(4);
-    placed(place + &four - four)
-}
-
 /// `q` on a whole upward characteristic.
 #[derive(Clone, Debug)]
 pub(super) struct State<S> {
@@ -112,10 +97,7 @@ impl<S: Rounded> Medium<S> {
         while k + 1 < RULES && len.int(2) * len <= longest {
             (k, longest) = (k + 1, longest.clone() / longest.int(2));
         }
-        self.rules[k].get_or_init(|| match S::ENCLOSES {
-            true => self.basis.rule(),
-            false => unit_rule(&self.kappa, self.terms(&longest, 4.0) / 2 + 2),
-        })
+        self.rules[k].get_or_init(|| unit_rule(&self.kappa, self.terms(&longest, 4.0) / 2 + 2))
     }
 
     /// What is too small to be told, relative to the greatest `|q|`: the truncation of a cell, or a rounding.
@@ -150,13 +132,13 @@ impl<S: Rounded> Medium<S> {
     fn cut(&self, segment: &Segment<S>, cut: &S, off: Off) -> (Segment<S>, Segment<S>) {
         let (zero, one) = (cut.zero(), cut.one());
         let fraction = cut.clone() / &segment.len;
-        let rest = placed(segment.len.clone() - cut);
+        let rest = segment.len.clone() - cut;
         let low = self.basis.restrict(&segment.q, &zero, &fraction, self.terms(cut, 1.0));
         let mut high = self.basis.restrict(&segment.q, &fraction, &one, self.terms(&rest, 1.0));
         let decay = (-(self.kappa.clone() * cut)).exp();
         scale(&mut high, &decay);
-        let at = placed(segment.at.clone() + cut);
-        let at = if at >= one { placed(at - &one) } else { at };
+        let at = segment.at.clone() + cut;
+        let at = if at >= one { at - &one } else { at };
         let high_decay = (-(self.kappa.clone() * &rest)).exp();
         (
             Segment { at: segment.at.clone(), len: cut.clone(), decay, q: low, off: segment.off },
@@ -343,7 +325,7 @@ impl<S: Rounded> Medium<S> {
     /// and by the sup norm property it is never amplified.
     fn join(&self, state: &mut State<S>, k: usize) {
         let (a, b) = (&state.segments[k], &state.segments[k + 1]);
-        let len = placed(a.len.clone() + &b.len);
+        let len = a.len.clone() + &b.len;
         let size = bound(&a.q, 0) + bound(&b.q, 0) + self.gravity.to_f64() + self.slope.to_f64().abs();
         let accuracy = self.least() * size;
         let zero = len.zero();
@@ -358,19 +340,16 @@ impl<S: Rounded> Medium<S> {
             if s < a.len { evaluate(&a.q, &(s / &a.len)) } else { evaluate(&b.q, &((s - &a.len) / &b.len)) * &growth }
         };
         let values: Vec<S> = self.basis.nodes().iter().map(value).collect();
-        let mut q = self.basis.through(&values, self.terms(&len, 1.0));
-        take_bounds(&mut q);
+        let q = self.basis.through(&values, self.terms(&len, 1.0));
         let low = self.basis.restrict(&q, &zero, &cut, a.q.len());
         let high = self.basis.restrict(&q, &cut, &len.one(), b.q.len());
         let differs = |old: &[S], new: &[S], factor: &S| -> f64 {
             let difference = old.iter().zip(new).map(|(x, y)| y.clone() * factor - x).collect::<Vec<_>>();
             bound(&difference, 0)
         };
-        let differ = differs(&a.q, &low, &len.one()) + differs(&b.q, &high, &a.decay);
-        if differ > accuracy {
+        if differs(&a.q, &low, &len.one()) + differs(&b.q, &high, &a.decay) > accuracy {
             return;
         }
-        widen(&mut q, differ / zero.unit());
         let decay = a.decay.clone() * &b.decay;
         let joined = Segment { at: a.at.clone(), len, decay, q, off: a.off };
         state.segments[k] = joined;
@@ -388,13 +367,6 @@ impl<S: Rounded> Medium<S> {
 }
 
 impl<S: Rounded> State<S> {
-    /// Takes the bounds of all that is stored, and returns the greatest: how far `q` may be off what the steps since the
-    /// last time should have made of what was stored then.
-    pub(super) fn settle(&mut self) -> f64 {
-        let unit = self.segments[0].at.unit();
-        self.segments.iter_mut().map(|segment| take_bounds(&mut segment.q)).fold(0.0, f64::max) * unit
-    }
-
     /// `b`: the time at which this characteristic leaves the ground.
     pub(super) fn time(&self) -> S {
         let at = &self.segments[0].at;

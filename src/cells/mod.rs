@@ -26,8 +26,6 @@ mod leap;
 mod march;
 mod near;
 mod piece;
-#[cfg(feature = "mp")]
-mod proof;
 mod record;
 mod rest;
 mod root;
@@ -40,5 +38,3 @@ pub use contact_then_cells::ContactThenCells;
 pub use effort::Effort;
 pub use history::Damped;
 pub use piece::Unresolved;
-#[cfg(feature = "mp")]
-pub(crate) use proof::FirstRelease;

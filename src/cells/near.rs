@@ -19,56 +19,10 @@ fn halves<S: Rounded, const N: usize>(basis: &Basis<S>, series: &[Vec<S>; N]) ->
     [part(&half, &one), part(&zero, &half)]
 }
 
-/// What the sums of a bound round in doubles: longer numbers may hold a function that is smaller.
-const ROUNDINGS: f64 = 1e-14;
-
-/// A series lies within the second number of the first.
-fn range<S: Rounded>(c: &[S]) -> (f64, f64) {
-    let (middle, spread) = (c[0].to_f64(), bound(c, 1));
-    (middle, spread + ROUNDINGS * (middle.abs() + spread))
-}
-
 /// Whether the derivative is positive throughout.
 fn increases<S: Rounded>(c: &[S]) -> bool {
     let slope = derivative(c);
-    !slope.is_empty() && {
-        let (middle, spread) = range(&slope);
-        middle > spread
-    }
-}
-
-/// What is known of a part of a strip.
-enum Told {
-    /// Nothing happens in it.
-    Clear,
-    /// What comes after it is another question.
-    Over,
-    /// Halves may tell.
-    Open,
-}
-
-/// Where `told` first leaves a part of the strip open that is not worth cutting, as a part of the strip.
-fn open<S: Rounded, const N: usize>(
-    basis: &Basis<S>,
-    series: [Vec<S>; N],
-    mut told: impl FnMut(f64, &[Vec<S>; N]) -> Told,
-) -> Option<f64> {
-    let mut parts = vec![(0.0, 1.0, series)];
-    let mut count = 0;
-    while let Some((from, width, series)) = parts.pop() {
-        count += 1;
-        match told(from, &series) {
-            Told::Clear => continue,
-            Told::Over => return None,
-            Told::Open if width < SHORTEST || count > MOST_PARTS => return Some(from),
-            Told::Open => {}
-        }
-        let width = 0.5 * width;
-        let [late, early] = halves(basis, &series);
-        parts.push((from + width, width, late));
-        parts.push((from, width, early));
-    }
-    None
+    slope.first().is_some_and(|mean| mean.to_f64() > bound(&slope, 1))
 }
 
 /// Where it first is open whether the end, in flight, touches the ground, as a part of the strip: `height` and its
@@ -80,27 +34,40 @@ pub(super) fn open_touch<S: Rounded>(
     (high, fast): (f64, f64),
     rising: &mut bool,
 ) -> Option<f64> {
-    open(basis, [height.to_vec(), trace.to_vec()], |_, [height, trace]| {
-        let (middle, spread) = range(height);
+    let mut parts = vec![(0.0, 1.0, [height.to_vec(), trace.to_vec()])];
+    let mut count = 0;
+    while let Some((from, width, series)) = parts.pop() {
+        count += 1;
+        let [height, trace] = &series;
+        let (middle, spread) = (height[0].to_f64(), bound(height, 1));
         if middle - spread > high {
             *rising = false;
-            return Told::Clear;
+            continue;
         }
         if middle + spread < -high {
-            return Told::Over;
+            return None;
         }
         let start = at_zero(height, &height[0].zero()).to_f64();
-        let (middle, spread) = range(trace);
-        let leaves = || at_zero(trace, &trace[0].zero()).to_f64() >= -fast && increases(trace);
-        if *rising && (middle - spread > fast || leaves()) {
-            return Told::Clear;
+        let (middle, spread) = (trace[0].to_f64(), bound(trace, 1));
+        if *rising && (middle - spread > fast || increases(trace)) {
+            continue;
         }
         if start > high && (middle - spread).max(-middle - spread) > fast {
             *rising = false;
-            return Told::Clear;
+            continue;
         }
-        if !*rising && middle + spread < -fast { Told::Clear } else { Told::Open }
-    })
+        if !*rising && middle + spread < -fast {
+            continue;
+        }
+        if width < SHORTEST || count > MOST_PARTS {
+            return Some(from);
+        }
+        let width = 0.5 * width;
+        let [late, early] = halves(basis, &series);
+        parts.push((from + width, width, late));
+        parts.push((from, width, early));
+    }
+    None
 }
 
 /// Where it first is open whether the ground, in contact, lets go, as a part of the strip: the stress `trace` is known
@@ -110,18 +77,31 @@ pub(super) fn open_release<S: Rounded>(basis: &Basis<S>, trace: &[S], off: f64, 
     if trace.iter().all(S::is_zero) {
         return None;
     }
-    open(basis, [trace.to_vec()], |from, [trace]| {
-        let (middle, spread) = range(trace);
+    let mut parts = vec![(0.0, 1.0, [trace.to_vec()])];
+    let mut count = 0;
+    while let Some((from, width, series)) = parts.pop() {
+        count += 1;
+        let [trace] = &series;
+        let (middle, spread) = (trace[0].to_f64(), bound(trace, 1));
         if middle + spread < -off {
             begins = false;
-            return Told::Clear;
+            continue;
         }
         if middle - spread > off {
-            return Told::Over;
+            return None;
         }
         let pressed = from > 0.0 || at_zero(trace, &trace[0].zero()).to_f64() < -off;
         let falls = || increases(&trace.iter().map(|term| -term.clone()).collect::<Vec<_>>());
-        let told = (pressed || begins) && increases(trace) || begins && falls();
-        if told { Told::Clear } else { Told::Open }
-    })
+        if (pressed || begins) && increases(trace) || begins && falls() {
+            continue;
+        }
+        if width < SHORTEST || count > MOST_PARTS {
+            return Some(from);
+        }
+        let width = 0.5 * width;
+        let [late, early] = halves(basis, &series);
+        parts.push((from + width, width, late));
+        parts.push((from, width, early));
+    }
+    None
 }

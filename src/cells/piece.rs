@@ -29,29 +29,6 @@ pub(super) struct Piece<S> {
     pub(super) trace: Vec<S>,
     /// `v(0,·)`; empty in contact and in a leap.
     pub(super) height: Vec<S>,
-    /// What a proof needs of it.
-    #[cfg_attr(not(feature = "mp"), allow(dead_code))]
-    pub(super) enclosed: Enclosed<S>,
-}
-
-/// What a proof needs of a piece, in numbers that enclose.
-#[cfg_attr(not(feature = "mp"), allow(dead_code))]
-#[derive(Clone, Debug)]
-pub(super) struct Enclosed<S> {
-    /// Where on the circle of a round trip it begins.
-    pub(super) at: Option<S>,
-    /// How far `q` may be off what the steps from the last piece to the end of this one should have made of it.
-    pub(super) defect: f64,
-    /// No more than the least of `v(0,·)` in a leap.
-    pub(super) clear: f64,
-    /// The whole strip where it was cut: its length, trace and height.
-    pub(super) whole: Option<(S, Vec<S>, Vec<S>)>,
-}
-
-impl<S> Default for Enclosed<S> {
-    fn default() -> Self {
-        Enclosed { at: None, defect: 0.0, clear: 0.0, whole: None }
-    }
 }
 
 impl<S: RoundedSpecial> Piece<S> {

@@ -86,10 +86,10 @@ impl<S: RoundedSpecial> Record<'_, S> {
                     ahead.ground = self.medium.ground_of(&ahead.state);
                 }
                 if skipped > 0 {
-                    ahead.leap(self.medium, skipped);
+                    self.medium.leap(&mut ahead.state, &ahead.ground, skipped);
                 }
                 while ahead.state.time() <= *to && (ahead.state.round < end || ahead.state.segments[0].at != fraction) {
-                    ahead.pass(self.medium, false, &mut |cell| visit((cell, now)));
+                    self.medium.strip(&mut ahead.state, false, &mut |cell| visit((cell, now)));
                 }
             } else if k >= first {
                 ahead.strip(self.medium, piece, &mut |cell| visit((cell, now)));
@@ -119,7 +119,7 @@ impl<S: RoundedSpecial> Record<'_, S> {
         let mut lines = vec![Line::default(); cuts.len()];
         let Some(reach) = cuts.last() else { return lines };
         // Between two rays, part by part.
-        let mut add = |from: &S, to: &S, rest: &dyn Fn() -> f64, values: &Values<'_, S>| {
+        let mut add = |from: &S, to: &S, values: &Values<'_, S>| {
             let first = cuts.partition_point(|cut| cut <= from);
             let ends = cuts[first..].iter().map(|cut| smaller(to.clone(), cut.clone()));
             let starts = std::iter::once(from).chain(&cuts[first..]);
@@ -131,52 +131,29 @@ impl<S: RoundedSpecial> Record<'_, S> {
             });
             let nodes: Vec<_> = nodes.collect();
             let places: Vec<S> = nodes.iter().map(|(_, x, _)| x.clone()).collect();
-            let rest = if S::ENCLOSES { rest() } else { 0.0 };
             for ((line, x, weight), (rigid, motion, strain)) in nodes.into_iter().zip(values(&places)) {
-                let rest = rest * weight.most();
-                lines[line].nodes.push(Node { weight, x, rigid, motion, strain, rest });
+                lines[line].nodes.push(Node { weight, x, rigid, motion, strain });
             }
             lines.iter_mut().skip(first).take(parts.len()).for_each(|line| line.parts += 1);
         };
         if let Some(contact) = self.at_rest(t) {
             let still = |x: &S| (zero.clone(), zero.clone(), self.rest_strain(x, contact));
-            add(&zero, reach, &|| 0.0, &|places| places.iter().map(still).collect());
+            add(&zero, reach, &|places| places.iter().map(still).collect());
             return lines;
         }
         self.sweep(&(t.clone() - reach), t, &mut |(cell, flight)| {
             let (xi, eta) = &cell.corner;
             let low = larger(larger(t.clone() - xi - &cell.size.0, eta.clone() - t), zero.clone());
             let high = smaller(smaller(t.clone() - xi, eta.clone() + &cell.size.1 - t), reach.clone());
-            let rest = || self.left_by_rule(cell, flight, t);
-            add(&low, &high, &rest, &|places| self.inside((cell, flight), places, t));
+            add(&low, &high, &|places| self.inside((cell, flight), places, t));
         });
         if let Some(held) = self.held {
             for (from, to) in held.between_rays(t, &larger(t.clone() - &held.release, zero.clone()), reach) {
                 let before = |x: &S| self.before(held, x, t, Side::Right);
-                add(&from, &to, &|| f64::INFINITY, &|places| places.iter().map(before).collect());
+                add(&from, &to, &|places| places.iter().map(before).collect());
             }
         }
         lines
-    }
-
-    /// What interpolation at the nodes leaves of squares of `v_t` and `v_x` in a cell, and of their products with a
-    /// place: on the ellipse ρ a side is at most `Σ |c_k| ρᵏ`, a part of it no more, and Riemann's sums, with arguments up
-    /// to σ, `e^{2σ√y}` times that.
-    fn left_by_rule(&self, cell: &Cell<'_, S>, flight: Option<&Flight<S>>, t: &S) -> f64 {
-        let (a, h) = (cell.depth.0.most(), cell.depth.1.most());
-        let rigid = flight.map_or(0.0, |flight| flight.at(&flight.age_at(t)).1.most());
-        let size = self.medium.basis.size() as i32;
-        let on = |log2_rho: f64| {
-            let rho = log2_rho.exp2();
-            let sigma = 0.5 + (rho + 1.0 / rho) / 4.0;
-            let side = |c: &[S]| c.iter().rev().fold(0.0, |sum, c| sum * rho + c.most());
-            let within = (side(cell.p) + side(cell.q)) * (1.0 + sigma * (a + h));
-            let wave = within * (2.0 * sigma * (a * h).sqrt() + (a + h) * sigma).exp();
-            let still = self.data.slope.most() + self.data.gravity.most() * (1.0 + sigma) + cell.offset.most();
-            let most = wave + still + rigid;
-            4.0 * (8.0 * most * most + (1.0 + sigma) * most) / (1.0 - 1.0 / rho) * rho.powi(-size)
-        };
-        (2..64).map(|j| on(f64::from(j) / 4.0)).fold(f64::INFINITY, f64::min) * (1.0 + 1e-6) + f64::MIN_POSITIVE
     }
 
     /// Whether the rod is at rest at time `t`, and if so whether in contact.
@@ -317,7 +294,6 @@ impl<S: RoundedSpecial> Record<'_, S> {
                     .iter()
                     .fold(t.zero(), |sum, node| (half.clone() - &node.x) * &node.strain * &node.weight + &sum);
                 let centre = self.flight(t, side).map_or_else(|| t.zero(), |flight| flight.at(&flight.age_at(t)).0);
-                let lack = with_rests(lack, &self.whole_line(t));
                 (centre - lack * t.int(2), self.at(&t.zero(), t, side).0)
             }
             Some((piece, at)) if !piece.contact => (evaluate(&piece.height, &at), evaluate(&piece.trace, &at)),
@@ -336,15 +312,6 @@ impl<S: RoundedSpecial> Record<'_, S> {
 fn slack<S: RoundedSpecial>(t: &S) -> S {
     let unit = t.double(t.log2_roundoff().exp2());
     (t.magnitude() + t.one()) * unit * t.int(8)
-}
-
-/// A sum over nodes with what the rule may leave of it.
-pub(super) fn with_rests<S: RoundedSpecial>(sum: S, nodes: &[Node<S>]) -> S {
-    if !S::ENCLOSES {
-        return sum;
-    }
-    let unit = sum.unit();
-    sum.give_bound(nodes.iter().map(|node| node.rest).sum::<f64>() / unit)
 }
 
 fn larger<S: RoundedSpecial>(a: S, b: S) -> S {

@@ -6,7 +6,7 @@
 
 use super::follow::{Follower, Goal};
 use super::march::Medium;
-use super::piece::{Enclosed, Piece};
+use super::piece::Piece;
 use super::record::Record;
 use super::series::bound;
 use super::strips::{Node, Pool};
@@ -172,7 +172,6 @@ impl<S: RoundedSpecial> Follower<'_, S> {
             leap: 0,
             trace,
             height,
-            enclosed: Enclosed::default(),
         });
         Some(ending)
     }

@@ -1,12 +1,10 @@
 //! The first time at which a smooth function turns negative, with earlier times excluded.
 
-use super::series::{Basis, at_one, at_zero, bound, derivative, evaluate, take_bounds};
+use super::series::{Basis, at_one, at_zero, bound, derivative, evaluate};
 use crate::number::Rounded;
 
 /// Intervals shorter than this part of a segment are not cut any further.
 const SMALLEST: f64 = 1e-300;
-/// What the sums of a bound round in doubles: longer numbers may hold a function that is smaller.
-const ROUNDED: f64 = 1.0 + 1e-14;
 
 /// The first `x` in `0 … 1` where the series turns negative, given that it is not negative at 0; `None` if it does not.
 ///
@@ -21,11 +19,9 @@ pub(super) fn first_descent<S: Rounded>(basis: &Basis<S>, c: &[S], noise: f64) -
     let zero = first.zero();
     let width = first.one();
     let mut parts = vec![(zero.clone(), width, c.to_vec())];
-    while let Some((from, width, mut c)) = parts.pop() {
-        // What is found is not proved here.
-        take_bounds(&mut c);
+    while let Some((from, width, c)) = parts.pop() {
         let centre = c[0].to_f64();
-        let spread = bound(&c, 1) * ROUNDED;
+        let spread = bound(&c, 1);
         if centre > spread || centre.abs() + spread <= noise {
             continue;
         }
@@ -33,7 +29,7 @@ pub(super) fn first_descent<S: Rounded>(basis: &Basis<S>, c: &[S], noise: f64) -
             return Some((from, true));
         }
         let slope = derivative(&c);
-        let (mean, variation) = (slope[0].to_f64(), bound(&slope, 1) * ROUNDED);
+        let (mean, variation) = (slope[0].to_f64(), bound(&slope, 1));
         if mean > variation {
             // Rising from a value that is not negative, as far as can be told.
             if at_zero(&c, &zero).to_f64() < -noise {
@@ -97,20 +93,8 @@ pub(super) fn smallest<S: Rounded>(basis: &Basis<S>, c: &[S]) -> Option<S> {
     let unit = zero.log2_roundoff();
     let roundoff = 16.0 * unit.exp2() * bound(c, 0);
     let mut least = at_zero(c, &zero);
-    let mut off = 0.0f64;
     let mut parts = vec![(0.0, c.to_vec())];
-    let (whole, mut places) = (c, vec![zero.clone()]);
-    while let Some((log2_width, mut c)) = parts.pop() {
-        if S::ENCLOSES {
-            // Of the whole each time, so that only one restriction adds to its bounds.
-            let from = places.pop().unwrap_or_else(|| zero.clone());
-            let half = zero.double(f64::exp2(log2_width - 1.0));
-            places.extend([from.clone() + &half, from.clone()]);
-            if log2_width < 0.0 {
-                c = basis.restrict(whole, &from, &(from.clone() + &half + &half), whole.len());
-            }
-            off = off.max(take_bounds(&mut c));
-        }
+    while let Some((log2_width, c)) = parts.pop() {
         for value in [at_zero(&c, &zero), at_one(&c, &zero)] {
             if value < least {
                 least = value;
@@ -120,18 +104,13 @@ pub(super) fn smallest<S: Rounded>(basis: &Basis<S>, c: &[S]) -> Option<S> {
         // What the part can still fall below the least value found.
         let above = bound(&c, 1) - (c[0].clone() - &least).to_f64() <= roundoff;
         if above || slope[0].to_f64().abs() >= bound(&slope, 1) || log2_width < unit / 2.0 {
-            places.truncate(parts.len());
             continue;
         }
         let (half, one) = (zero.ratio(1, 2), zero.one());
-        if S::ENCLOSES {
-            parts.extend([(log2_width - 1.0, c.clone()), (log2_width - 1.0, c)]);
-            continue;
-        }
         parts.push((log2_width - 1.0, basis.restrict(&c, &half, &one, c.len())));
         parts.push((log2_width - 1.0, basis.restrict(&c, &zero, &half, c.len())));
     }
-    Some(least.give_bound(16.0 * bound(c, 0) + 2.0 * off))
+    Some(least)
 }
 
 #[cfg(test)]

@@ -57,35 +57,14 @@ impl<S: Rounded> Basis<S> {
             let sum = sum * &scale;
             if k == 0 { sum * self.nodes[0].ratio(1, 2) } else { sum }
         };
-        let mut c: Vec<S> = (0..terms.min(size)).map(coefficient).collect();
-        if S::ENCLOSES {
-            widen(&mut c, (terms.min(size)..size).map(|k| coefficient(k).in_roundoffs()).sum());
-        }
-        c
-    }
-
-    /// The rule of interpolation at the nodes: Fejér's, whose weights are positive.
-    pub(super) fn rule(&self) -> Vec<(S, S)> {
-        let (size, one) = (self.size(), self.nodes[0].one());
-        let whole = |n: usize| one.int(i64::try_from(n).unwrap_or(i64::MAX));
-        let weight = |j: usize| {
-            let sum = (1..=size / 2).fold(one.zero(), |sum, k| {
-                sum + self.cosines[2 * k * (2 * j + 1) % (4 * size)].clone() / whole(4 * k * k - 1)
-            });
-            (one.clone() - sum.clone() - sum) / whole(size)
-        };
-        self.nodes.iter().cloned().zip((0..size).map(weight)).collect()
+        (0..terms.min(size)).map(coefficient).collect()
     }
 
     /// The series on `from ≤ x ≤ to`, as a series on the unit interval.
     pub(super) fn restrict(&self, c: &[S], from: &S, to: &S, terms: usize) -> Vec<S> {
         let width = to.clone() - from;
         let values: Vec<S> = self.nodes.iter().map(|x| evaluate(c, &(width.clone() * x + from))).collect();
-        let mut part = self.through(&values, terms);
-        if S::ENCLOSES {
-            widen(&mut part, 2.0 * c.iter().skip(self.size()).map(S::in_roundoffs).sum::<f64>());
-        }
-        part
+        self.through(&values, terms)
     }
 
     /// `∫₀ˣ`, in place; the term that would be one too many is dropped.
@@ -102,53 +81,19 @@ impl<S: Rounded> Basis<S> {
             below = std::mem::replace(&mut c[k], difference * &self.quarter[k]);
             start = if k % 2 == 1 { start + &c[k] } else { start - &c[k] };
         }
-        if S::ENCLOSES {
-            // b_n (T_n − T_n(−1)).
-            let dropped = below / start.int(2 * i64::try_from(c.len()).unwrap_or(i64::MAX));
-            start = start.give_bound(dropped.in_roundoffs());
-        }
         c[0] = start;
     }
 
     /// The series of `e^{rate·x}` with `terms` terms, for `|rate| ≤ 2` or so.
     pub(super) fn exponential(&self, rate: &S, terms: usize) -> Vec<S> {
         let values: Vec<S> = self.nodes.iter().map(|x| (x.clone() * rate).exp()).collect();
-        let mut series = self.through(&values, terms);
-        self.note_rest(&mut series, (1.0, 0.0), rate.most());
-        series
-    }
-
-    /// Counts what interpolation at the nodes leaves of a function with `|f(s)| ≤ (a + b|s|) e^{θ|s|}`: each term
-    /// beyond the nodes stands for another one there, so twice the sum of their sizes.
-    pub(super) fn note_rest(&self, series: &mut [S], (a, b): (f64, f64), theta: f64) {
-        if S::ENCLOSES
-            && let Some(first) = series.first_mut()
-        {
-            let rest = 1.0 + log2_rest(a, b, theta, self.size());
-            *first = first.clone().off_by(rest);
-        }
+        self.through(&values, terms)
     }
 
     /// The product of two series, to `terms` terms.
     pub(super) fn product(&self, a: &[S], b: &[S], terms: usize) -> Vec<S> {
         let values: Vec<S> = self.nodes.iter().map(|x| evaluate(a, x) * evaluate(b, x)).collect();
-        let mut product = self.through(&values, terms);
-        if S::ENCLOSES {
-            // T_i T_j is half of T_{i+j} and T_{|i−j|}; T_m beyond the nodes is off by 2 at most.
-            let mut tail = vec![0.0; self.size() + 1];
-            let mut sum: f64 = b.iter().skip(self.size()).map(S::in_roundoffs).sum();
-            tail[self.size()] = sum;
-            for j in (0..self.size()).rev() {
-                sum += b.get(j).map_or(0.0, S::in_roundoffs);
-                tail[j] = sum;
-            }
-            let term = |(i, a): (usize, &S)| match tail[self.size().saturating_sub(i)] {
-                0.0 => 0.0,
-                tail => a.most() * tail,
-            };
-            widen(&mut product, a.iter().enumerate().map(term).sum());
-        }
-        product
+        self.through(&values, terms)
     }
 }
 
@@ -164,43 +109,18 @@ pub(super) fn times_x<S: Rounded>(c: &mut [S]) {
         let here = c[k].clone() * &half + (from_below + above) * &quarter;
         below = std::mem::replace(&mut c[k], here);
     }
-    if S::ENCLOSES {
-        widen(c, below.in_roundoffs() * if c.len() == 1 { 0.5 } else { 0.25 });
-    }
-}
-
-/// Counts so many roundoffs of a function in the bound of its series: in that of its first term.
-pub(super) fn widen<S: Rounded>(c: &mut [S], roundoffs: f64) {
-    if let Some(first) = c.first_mut() {
-        *first = first.clone().give_bound(roundoffs);
-    }
-}
-
-/// Takes the bounds of all terms: together they bound that of the function.
-pub(super) fn take_bounds<S: Rounded>(c: &mut [S]) -> f64 {
-    c.iter_mut().map(S::take_bound).sum()
-}
-
-/// What an error of 1 in each step of Clenshaw's recurrence may make of the value: it changes a coefficient, so
-/// `|T_k| ≤ 1`; a little beyond the interval, `|T_k(1+δ)| ≤ e^{k√(2δ)}`.
-fn growth<S: Rounded>(two_u: &S) -> f64 {
-    if two_u.most() <= 2.0 + 1e-9 { 1.05 } else { f64::INFINITY }
 }
 
 /// The value at `x`, by Clenshaw's recurrence.
 pub(super) fn evaluate<S: Rounded>(c: &[S], x: &S) -> S {
     let two_u = x.clone() * x.int(4) - x.int(2);
-    let (mut b1, mut b2, mut off) = (x.zero(), x.zero(), 0.0);
+    let (mut b1, mut b2) = (x.zero(), x.zero());
     for k in (1..c.len()).rev() {
-        let mut b0 = two_u.clone() * &b1 - &b2 + &c[k];
-        off += b0.take_bound();
+        let b0 = two_u.clone() * &b1 - &b2 + &c[k];
         b2 = std::mem::replace(&mut b1, b0);
     }
-    if S::ENCLOSES && off > 0.0 {
-        off *= growth(&two_u);
-    }
     match c.first() {
-        Some(first) => (two_u * x.ratio(1, 2) * b1 - b2 + first).give_bound(off),
+        Some(first) => two_u * x.ratio(1, 2) * b1 - b2 + first,
         None => b1,
     }
 }
@@ -209,9 +129,6 @@ pub(super) fn evaluate<S: Rounded>(c: &[S], x: &S) -> S {
 /// once.
 pub(super) fn evaluate_all<S: Rounded>(c: &[S], xs: &[S]) -> Vec<S> {
     let Some(first) = c.first() else { return xs.iter().map(S::zero).collect() };
-    if S::ENCLOSES {
-        return xs.iter().map(|x| evaluate(c, x)).collect();
-    }
     let mut states: Vec<[S; 3]> = xs.iter().map(|x| [x.clone() * x.int(4) - x.int(2), x.zero(), x.zero()]).collect();
     for term in c[1..].iter().rev() {
         for [two_u, b1, b2] in &mut states {
@@ -253,7 +170,7 @@ pub(super) fn derivative<S: Rounded>(c: &[S]) -> Vec<S> {
 
 /// `Σ|c_k|` from `k = first` on, as a double: a bound of the series on its interval.
 pub(super) fn bound<S: Rounded>(c: &[S], first: usize) -> f64 {
-    c.iter().skip(first).map(S::most).sum()
+    c.iter().skip(first).map(|term| term.to_f64().abs()).sum()
 }
 
 /// Gauss–Legendre nodes and weights on `0 … 1`.
@@ -278,20 +195,6 @@ pub(super) fn terms_for(a: f64, b: f64, theta: f64, log2_accuracy: f64) -> usize
         best = best.min((1.0 + log2_f - (1.0 - 1.0 / rho).log2() - log2_accuracy) / log2_rho);
     }
     best.ceil().clamp(3.0, 4096.0) as usize
-}
-
-/// `log₂` of what is left of such a function after n terms, by the least of the same bounds.
-pub(super) fn log2_rest(a: f64, b: f64, theta: f64, n: usize) -> f64 {
-    let mut best = f64::INFINITY;
-    for j in 1..=80 {
-        let log2_rho = f64::from(j) * 0.25;
-        let rho = log2_rho.exp2();
-        let sigma = 0.5 + (rho + 1.0 / rho) / 4.0;
-        let log2_f = (a + b * sigma).log2() + theta * sigma * std::f64::consts::LOG2_E;
-        best = best.min(1.0 + log2_f - (1.0 - 1.0 / rho).log2() - n as f64 * log2_rho);
-    }
-    // The logarithms are rounded.
-    best + 1e-6
 }
 
 #[cfg(test)]

@@ -13,7 +13,7 @@
 use std::collections::VecDeque;
 
 use super::cell::Cell;
-use super::march::{Medium, State, on_grid, placed};
+use super::march::{Medium, State};
 use crate::error::Error;
 use crate::motion::{AtStart, Scales};
 use crate::number::{Number, Rounded};
@@ -96,8 +96,7 @@ fn phi_one<S: Rounded>(z: &S) -> S {
         term = term * z / z.int(k);
         let next = sum.clone() + &term;
         if next == sum {
-            // Later terms are less than this one, and each than two thirds of the one before it.
-            return sum.widened(&(term.clone() + &term + &term));
+            break;
         }
         sum = next;
     }
@@ -254,17 +253,8 @@ impl<S: Rounded> Data<S> {
             let len = piece.len.clone() / zero.int(count);
             (0..count).map(move |k| piece.part(&(len.clone() * len.int(k)), len.clone())).collect::<Vec<_>>()
         });
-        let mut pieces: Vec<Linear<S>> = pieces.collect();
-        if S::ENCLOSES {
-            // Places whose sums are exact; `off_grid` says what that moves.
-            let mut places: Vec<S> = pieces.iter().map(|piece| on_grid(piece.from.clone())).collect();
-            places.push(zero.one());
-            for (piece, pair) in pieces.iter_mut().zip(places.windows(2)) {
-                (piece.from, piece.len) = (pair[0].clone(), placed(pair[1].clone() - &pair[0]));
-            }
-        }
         let mut state = State { round: 0, segments: VecDeque::new() };
-        for piece in pieces.into_iter().rev() {
+        for piece in pieces.collect::<Vec<_>>().into_iter().rev() {
             let half = zero.ratio(1, 2);
             let side = |sign: i64| -> Vec<S> {
                 let value = |x: &S| {
@@ -276,20 +266,8 @@ impl<S: Rounded> Data<S> {
                 };
                 medium.basis.nodes().iter().map(value).collect()
             };
-            let mut p = medium.segment(piece.from.clone(), piece.len.clone(), &side(-1));
-            let mut q = medium.segment(piece.from.clone(), piece.len.clone(), &side(1));
-            if S::ENCLOSES {
-                // On an ellipse |t| ≤ len (1 + |s|)/2, |τ| ≤ |t| e^{2R|t|}, and the offset is as long.
-                let Linear { len, strain, velocity, strain_slope, velocity_slope, .. } = &piece;
-                let [len, rate] = [len, &self.damping].map(S::most);
-                let (constant, linear) = (strain.most() + velocity.most(), strain_slope.most() + velocity_slope.most());
-                let [a, b] = [constant + linear * len, 2.0 * linear * len];
-                let scale = (rate * len).exp();
-                for side in [&mut p, &mut q] {
-                    let theta = (rate + medium.kappa.most()) * len;
-                    medium.basis.note_rest(&mut side.q, (a * scale, b * scale), theta);
-                }
-            }
+            let p = medium.segment(piece.from.clone(), piece.len.clone(), &side(-1));
+            let q = medium.segment(piece.from.clone(), piece.len.clone(), &side(1));
             let end = piece.from.clone() + &piece.len;
             medium.rise(&mut state, (p, q), (-end, piece.from.clone()), visit);
         }

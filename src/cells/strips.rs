@@ -10,7 +10,6 @@ use super::cell::Cell;
 use super::flight::Flight;
 use super::march::{Medium, State};
 use super::piece::{Checkpoint, Piece};
-use super::series::widen;
 use crate::special::RoundedSpecial;
 
 /// A cell, and the data that come into it.
@@ -36,17 +35,6 @@ impl<S: Clone> Kept<S> {
         let (corner, size, depth, offset) = (corner.clone(), size.clone(), depth.clone(), offset.clone());
         Cell { corner, size, depth, p, q, offset }
     }
-
-    /// Counts so much more in what comes in.
-    fn widen(&mut self, by: f64)
-    where
-        S: RoundedSpecial,
-    {
-        for side in [&mut self.p, &mut self.q] {
-            let unit = side[0].unit();
-            widen(side, by / unit);
-        }
-    }
 }
 
 /// The strips after a checkpoint, one for each piece, as far as they have been asked for.
@@ -61,8 +49,6 @@ pub(super) struct Strips<S> {
     pub(super) state: State<S>,
     pub(super) flight: Option<usize>,
     pub(super) ground: S,
-    /// What these steps have made of `q` that they should not have, in numbers that enclose.
-    defect: f64,
 }
 
 /// The most coefficients that strips keep, 2 MB in doubles: some 50 rays over two round trips.
@@ -72,14 +58,14 @@ impl<S: RoundedSpecial> Strips<S> {
     /// None yet.
     pub(super) fn after(start: usize, kept: &Checkpoint<S>) -> Self {
         let Checkpoint { flight, state, ground, .. } = kept.clone();
-        Strips { start, strips: Vec::new(), size: 0, state, flight, ground, defect: 0.0 }
+        Strips { start, strips: Vec::new(), size: 0, state, flight, ground }
     }
 
     /// What comes after them, alone.
     pub(super) fn ahead(&self) -> Self {
-        let Strips { start, flight, defect, .. } = *self;
+        let Strips { start, flight, .. } = *self;
         let (state, ground) = (self.state.clone(), self.ground.clone());
-        Strips { start, strips: Vec::new(), size: 0, state, flight, ground, defect }
+        Strips { start, strips: Vec::new(), size: 0, state, flight, ground }
     }
 
     pub(super) fn count(&self) -> usize {
@@ -95,7 +81,6 @@ impl<S: RoundedSpecial> Strips<S> {
         if flight != self.flight {
             let of = |flight: Option<usize>| flight.and_then(|k| flights.get(k));
             medium.convert(&mut self.state, of(self.flight), of(flight));
-            self.settle();
             self.flight = flight;
         }
     }
@@ -105,34 +90,7 @@ impl<S: RoundedSpecial> Strips<S> {
         if piece.cut {
             medium.cut_first(&mut self.state, &piece.len, Default::default());
         }
-        self.pass(medium, piece.contact, visit);
-    }
-
-    /// Marches over the first segment, and shows its cells.
-    pub(super) fn pass(&mut self, medium: &Medium<S>, contact: bool, visit: &mut dyn FnMut(&Cell<'_, S>)) {
-        if !S::ENCLOSES {
-            return medium.strip(&mut self.state, contact, visit);
-        }
-        let defect = self.defect;
-        medium.strip(&mut self.state, contact, &mut |cell| {
-            let mut kept = Kept::of(cell);
-            kept.widen(defect);
-            visit(&kept.cell());
-        });
-        self.settle();
-    }
-
-    /// Leaps over so many round trips.
-    pub(super) fn leap(&mut self, medium: &Medium<S>, trips: i64) {
-        medium.leap(&mut self.state, &self.ground, trips);
-        self.settle();
-    }
-
-    /// Takes the state as it is stored from here on.
-    fn settle(&mut self) {
-        if S::ENCLOSES {
-            self.defect += self.state.settle();
-        }
+        medium.strip(&mut self.state, piece.contact, visit);
     }
 
     /// Marches over the next piece, and keeps its cells.
@@ -171,8 +129,6 @@ pub(super) struct Node<S> {
     pub(super) motion: S,
     /// `v_x`.
     pub(super) strain: S,
-    /// Its share of what the rule may leave, in numbers that enclose.
-    pub(super) rest: f64,
 }
 
 impl<S: RoundedSpecial> Node<S> {

@@ -1,5 +1,6 @@
 //! How far values may be off between events, and numbers that carry such bounds.
 
+use crate::motion::Event;
 use crate::number::{Estimate, Rounded};
 
 /// How far the values of a run may be off between two events, in natural scales, away from rays that are off in time.
@@ -52,4 +53,14 @@ pub(super) fn within<S: Rounded>(value: &S, bound: f64) -> Estimate<S> {
 /// `value` with so much more in its bound.
 pub(super) fn wider<S: Rounded>(value: Estimate<S>, bound: f64) -> Estimate<S> {
     Estimate::new(value.value().clone(), value.error() + bound / value.value().unit())
+}
+
+/// The time that is asked about: that of the nearest event, where roundings alone set it apart.
+pub(super) fn meant<'a, S: Rounded>(events: &'a [Event<Estimate<S>>], time: &'a Estimate<S>) -> &'a Estimate<S> {
+    let next = events.partition_point(|event| event.time.value() < time.value());
+    let near = events[next.saturating_sub(1)..].iter().take(2).map(|event| &event.time);
+    let roundings = 4.0 * time.value().unit() * time.value().to_f64().abs();
+    let apart = |event: &&Estimate<S>| (event.value().clone() - time.value()).to_f64().abs();
+    let nearest = near.min_by(|a, b| apart(a).total_cmp(&apart(b)));
+    nearest.filter(|event| apart(event) <= time.bound() + event.bound().min(roundings)).unwrap_or(time)
 }

@@ -61,8 +61,10 @@ impl<'a> Ours<'a> {
         };
         let candidates: Vec<f64> = at_ground(0.0, *history.end())?;
         let seen = [Quantity::EndVelocity, Quantity::Strain];
-        let (before, after) =
-            (columns(history, &seen, &candidates, Side::Left)?, columns(history, &seen, &candidates, Side::Right)?);
+        let (before, after) = (
+            history.columns(&seen, &candidates, Some(Side::Left))?,
+            history.columns(&seen, &candidates, Some(Side::Right))?,
+        );
         let jump = |column: usize, k: usize| (before[column][k] - after[column][k]).abs();
         let least = SMALL * history.scales().velocity;
         let differ = |k: usize| jump(0, k).max(jump(1, k) * rod.wave_speed) > least;
@@ -98,13 +100,13 @@ impl<'a> Ours<'a> {
     /// The values of every quantity on `grid`, from later times where there are two.
     pub(super) fn values(&self, whats: &[Quantity], grid: &Grid) -> Result<Vec<Vec<f64>>, Error> {
         let Some(points) = &grid.points else {
-            let at = |times: &[f64]| columns(self.history, whats, times, Side::Right);
+            let at = |times: &[f64]| self.history.columns(whats, times, Some(Side::Right));
             let many = grid.times.len() > MANY;
             return if many { filled(&grid.times, whats.len(), at) } else { at(&grid.times) };
         };
         let mut all = vec![Vec::with_capacity(grid.times.len()); whats.len()];
         for row in grid.rows() {
-            for field in fields(self.history, &points[row.clone()], grid.times[row.start], Side::Right)? {
+            for field in self.history.field(&points[row.clone()], &[grid.times[row.start]], Side::Right)? {
                 for (values, what) in all.iter_mut().zip(whats) {
                     values.push(self.part(*what, &field));
                 }
@@ -166,11 +168,11 @@ impl<'a> Ours<'a> {
     fn limit(&self, what: Quantity, grid: &Grid, k: usize, time: f64, side: Side) -> Result<f64, Error> {
         match &grid.points {
             Some(points) => {
-                let fields = fields(self.history, &points[k..=k], time, side)?;
+                let fields = self.history.field(&points[k..=k], &[time], side)?;
                 Ok(fields.first().map_or(0.0, |field| self.part(what, field)))
             }
             None => {
-                let values = columns(self.history, &[what], &[time], side)?;
+                let values = self.history.columns(&[what], &[time], Some(side))?;
                 Ok(values.first().and_then(|values| values.first()).copied().unwrap_or(0.0))
             }
         }
@@ -273,30 +275,6 @@ impl<'a> Ours<'a> {
         known.retain(|(factor, _)| (factor - 1.0).abs() > 0.01);
         known
     }
-}
-
-/// Times of data are rounded: one at an event or a ray, but for some roundings, is that of the event or the ray.
-fn about(motion: &dyn Motion<Estimate<f64>>, time: f64) -> Estimate<f64> {
-    let like = motion.end();
-    like.double(time).widened(&like.double(ROUNDED * time))
-}
-
-/// In parts of a time.
-const ROUNDED: f64 = 1e-15;
-
-fn columns(history: &History<f64>, whats: &[Quantity], times: &[f64], side: Side) -> Result<Vec<Vec<f64>>, Error> {
-    let about = |motion: &dyn Motion<Estimate<f64>>| Ok(times.iter().map(|time| about(motion, *time)).collect());
-    let found = history.ask_columns(whats, Some(side), about)?;
-    Ok(found.into_iter().map(|column| column.into_iter().map(Estimate::into_value).collect()).collect())
-}
-
-fn fields(history: &History<f64>, points: &[f64], time: f64, side: Side) -> Result<Vec<Field<f64>>, Error> {
-    let of = |point: &f64| {
-        let ask =
-            |motion: &dyn Motion<Estimate<f64>>| motion.field(&motion.end().double(*point), &about(motion, time), side);
-        Ok(history.ask(ask, |field| field.numbers().to_vec())?.map(Estimate::into_value))
-    };
-    points.iter().map(of).collect()
 }
 
 /// The nearest of ascending times; infinite where there is none.

@@ -44,11 +44,6 @@ impl<S: Scalar> AtStart<S> {
         AtStart { displacement, velocity, corners, zero }
     }
 
-    /// Whether the rod lies undeformed on the ground.
-    pub(crate) fn is_undeformed(&self) -> bool {
-        self.displacement.is_empty()
-    }
-
     /// `v`, `v_t`, `v_x` at `t = 0` and the point `x` of the rod.
     pub(crate) fn at(&self, x: &S) -> Result<Field<S>, Open> {
         let (displacement, strain) = self.on_line(&self.displacement, x)?;

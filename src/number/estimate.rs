@@ -179,9 +179,8 @@ by_value!(Add add, Sub sub, Mul mul, Div div);
 impl<S: Rounded> Scalar for Estimate<S> {
     type Precision = S::Precision;
 
-    /// With more than one rounding where its double alone does not say which number it is.
     fn from_number(number: &Number, precision: &S::Precision) -> Self {
-        Estimate::rounded(S::from_number(number, precision), number.roundings())
+        Estimate::rounded(S::from_number(number, precision), 1.0)
     }
 
     fn precision(&self) -> S::Precision {

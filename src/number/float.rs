@@ -6,8 +6,8 @@ use rug::float::{Constant, Round};
 use rug::ops::Pow;
 use rug::{Float, Integer, Rational};
 
-use super::fraction::spelled_by;
-use super::{Analytic, Answer, Estimate, Number, Open, READ, Reads, Rounded, Scalar};
+use super::fraction::spelled;
+use super::{Analytic, Answer, Estimate, Number, Open, Reads, Rounded, Scalar};
 
 impl Scalar for Float {
     /// Bits of the significand.
@@ -118,11 +118,11 @@ impl Answer for Float {
 impl Reads<Estimate<Float>> for Estimate<f64> {
     fn read(number: Estimate<Float>) -> Self {
         let (bound, value) = (number.bound(), number.to_f64());
-        Estimate::new(value, bound / value.unit() * (1.0 + f64::EPSILON) + (1.0 + READ) * value.abs())
+        Estimate::new(value, bound / value.unit() * (1.0 + f64::EPSILON) + value.abs())
     }
 
     fn give(&self, precision: &u32) -> Estimate<Float> {
-        match spelled_by(self) {
+        match spelled(*self.value()) {
             Some(number) => Estimate::from_number(&number, precision),
             None => Estimate::exact(Float::with_val(*precision, self.value())),
         }

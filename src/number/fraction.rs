@@ -3,7 +3,7 @@
 use std::cmp::Ordering;
 
 use super::rational::{self, Integer, Rational};
-use super::{Answer, Bounded, Estimate, Number, Open, READ, Reads, Scalar};
+use super::{Answer, Bounded, Estimate, Number, Open, Reads, Scalar};
 
 /// Square factors below this leave the root of a surd that is printed.
 const SMALL_FACTOR: u32 = 10_000;
@@ -121,12 +121,12 @@ impl Reads<Rational> for Estimate<f64> {
     fn read(number: Rational) -> Self {
         let value = Scalar::to_f64(&number);
         let exact = rational::of_double(value).is_some_and(|value| value == number);
-        if exact { Estimate::exact(value) } else { Estimate::rounded(value, 1.0 + READ) }
+        if exact { Estimate::exact(value) } else { Estimate::rounded(value, 1.0) }
     }
 
     fn give(&self, (): &()) -> Rational {
         let exactly = || rational::of_double(*self.value()).unwrap_or_default();
-        spelled_by(self).map_or_else(exactly, |number| number.to_rational())
+        spelled(*self.value()).map_or_else(exactly, |number| number.to_rational())
     }
 }
 
@@ -135,17 +135,11 @@ const MOST_DENOMINATOR: i64 = 10_000;
 
 /// The number that a double stands for: the shortest decimal that rounds to it, or, where that takes all digits of a
 /// double, a simple fraction that does. `None` for what is no number.
-pub(crate) fn spelled(x: f64) -> Option<Number> {
+pub(super) fn spelled(x: f64) -> Option<Number> {
     let decimal = x.to_string();
     let digits = decimal.bytes().filter(u8::is_ascii_digit).count();
     let fraction = if digits > 15 { simple_fraction(x) } else { None };
     fraction.unwrap_or(decimal).parse().ok()
-}
-
-/// The number that a double stands for, by its roundings as [`Number::roundings`] counts them.
-pub(crate) fn spelled_by(x: &Estimate<f64>) -> Option<Number> {
-    let decimal = x.error() == 3.0 * x.value().abs();
-    if decimal { x.value().to_string().parse().ok() } else { spelled(*x.value()) }
 }
 
 /// The convergents of the continued fraction of `x`, as far as denominators are small: the first that rounds to it.

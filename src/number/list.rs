@@ -2,7 +2,7 @@
 
 use std::ops::Range;
 
-use super::{Number, NumberError, Rational, Scalar, short};
+use super::{Number, NumberError, Scalar, short};
 
 /// The most values that one range may hold.
 const MOST: u32 = 10_000_000;
@@ -117,25 +117,22 @@ impl List {
     /// The numbers of a part of the list.
     ///
     /// **Accuracy**: *correctly rounded* where the fraction of integers that each is has both below 2⁵³; otherwise
-    /// rounded as a number that is spelled is. The ends of a range are met exactly: the last is where the history ends.
+    /// within three roundings. The ends of a range are met exactly: the last is where the history ends.
     pub(crate) fn lift_part<S: Scalar>(&self, part: Range<usize>, precision: &S::Precision) -> Vec<S> {
         let lift = |number: &Number| S::from_number(number, precision);
         if let List::Numbers(numbers) = self {
             return numbers[part].iter().map(lift).collect();
         }
-        let exactly = |x: Rational| x.to_string().parse().map_or_else(|_| lift(&0.into()), |x| lift(&x));
         let (one, last) = (lift(&1.into()), self.len() as i64 - 1);
-        let integers = self.integers().filter(|[.., divisor]| is_simple(*divisor));
+        let integers = self.integers();
         let at = |k: i64| match (self, integers) {
             (List::Range(from, ..), _) if k == 0 => lift(from),
             (List::Range(_, to, _), _) if k == last => lift(to),
             (_, Some([a, b, divisor])) => one.int(a * (last - k) + b * k) / one.int(divisor),
             (List::Range(from, to, _), None) => {
-                let whole = |k: i64| Number::from(k).to_rational();
-                let sum = from.to_rational() * &whole(last - k) + &(to.to_rational() * &whole(k));
-                exactly(sum / &whole(last))
+                (lift(from) * one.int(last - k) + lift(to) * one.int(k)) / one.int(last)
             }
-            (List::Steps(step, _), None) => exactly(step.to_rational() * &Number::from(k).to_rational()),
+            (List::Steps(step, _), None) => one.int(k) * lift(step),
             (List::Numbers(_), _) => one.zero(),
         };
         part.map(|k| at(k as i64)).collect()
@@ -158,16 +155,6 @@ impl List {
         let most = from.abs().max(to.abs()).checked_mul(last)?.max(divisor);
         (most < 1 << 53).then_some([from as i64, to as i64, divisor as i64])
     }
-}
-
-/// Whether doubles spell the fractions of this denominator: decimals, and simple ones.
-fn is_simple(mut divisor: i64) -> bool {
-    for prime in [2, 5] {
-        while divisor % prime == 0 && divisor != 0 {
-            divisor /= prime;
-        }
-    }
-    divisor.abs() <= 10_000
 }
 
 #[cfg(test)]

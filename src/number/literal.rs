@@ -6,7 +6,6 @@ use std::str::FromStr;
 
 use thiserror::Error;
 
-use super::fraction::spelled;
 use super::rational::{self, Integer, Rational};
 
 /// A number as a person wrote it: `3`, `0.1`, `1e-9`, `1/3`, `2.5/7`. It stands for exactly the rational that it
@@ -53,20 +52,6 @@ impl Number {
     #[inline]
     pub fn to_f64(&self) -> f64 {
         self.value
-    }
-
-    /// How many roundings an estimate of the number begins with: one where its double spells it, three where the
-    /// shortest decimal of the double is it, and two where no double says which number it is.
-    pub(crate) fn roundings(&self) -> f64 {
-        let decimal = self.text.len() <= 15 && !self.text.contains('/');
-        let same = |other: Option<Number>| other.is_some_and(|other| other.compare(self).is_eq());
-        if decimal || same(spelled(self.value)) {
-            1.0
-        } else if same(self.value.to_string().parse().ok()) {
-            3.0
-        } else {
-            2.0
-        }
     }
 
     /// Whether the number is zero.

@@ -13,8 +13,6 @@
 
 #[cfg(not(feature = "mp"))]
 mod absent;
-#[cfg(feature = "mp")]
-mod ball;
 mod bounded;
 mod double;
 mod estimate;
@@ -38,13 +36,10 @@ mod text;
 
 #[cfg(not(feature = "mp"))]
 pub use absent::{Float, Interval};
-#[cfg(feature = "mp")]
-pub use ball::Ball;
 pub use bounded::{Answer, Bounded};
 pub use estimate::Estimate;
 #[cfg(feature = "mp")]
 pub use float::decimal;
-pub(crate) use fraction::{spelled, spelled_by};
 #[cfg(feature = "mp")]
 pub use interval::{Interval, IntervalPrecision};
 #[cfg(feature = "cli")]
@@ -56,7 +51,6 @@ pub use literal::{Number, NumberError};
 pub use rational::Rational;
 #[cfg(feature = "mp")]
 pub use rug::Float;
-pub(crate) use scalar::READ;
 pub use scalar::{Analytic, Open, Reads, Rounded, Scalar};
 #[doc(hidden)]
 pub use text::{DOUBLE_DIGITS, bits_for_digits, bound_of_log2, double_bound_text, show, shown_bound_text};

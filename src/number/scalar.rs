@@ -215,45 +215,7 @@ pub trait Rounded: Analytic + PartialOrd {
 
     /// `|self|/u`.
     fn in_roundoffs(&self) -> f64;
-
-    /// Whether numbers carry a bound of their error all the same, so that a step of a run on exact inputs encloses what
-    /// it should have given.
-    const ENCLOSES: bool = false;
-
-    /// `|self|` as a double; where there is a bound, no less than any number within it.
-    #[inline]
-    fn most(&self) -> f64 {
-        self.to_f64().abs()
-    }
-
-    /// Takes away the bound, in roundoffs: the number stored is meant from here on.
-    #[inline]
-    fn take_bound(&mut self) -> f64 {
-        0.0
-    }
-
-    /// The number with so many roundoffs more in its bound, where it has one.
-    #[inline]
-    #[must_use]
-    fn give_bound(self, roundoffs: f64) -> Self {
-        let _ = roundoffs;
-        self
-    }
-
-    /// The same with `2^log2` more.
-    #[inline]
-    #[must_use]
-    fn off_by(self, log2: f64) -> Self {
-        if !Self::ENCLOSES {
-            return self;
-        }
-        let roundoffs = (log2 - self.log2_roundoff()).exp2() * (1.0 + 1e-9);
-        self.give_bound(roundoffs)
-    }
 }
-
-/// What is read from longer numbers is counted as off by so much of a rounding more than one: what is spelled is not.
-pub(crate) const READ: f64 = 1.0 / 1_048_576.0;
 
 /// A number system in which the numbers of another can be read: each stays within the bound that it carries.
 pub trait Reads<N: Scalar>: Scalar {

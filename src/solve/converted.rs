@@ -2,7 +2,6 @@
 
 use std::sync::Arc;
 
-use super::asked::computed;
 use crate::error::Error;
 use crate::motion::moments::{self, Moments};
 use crate::motion::{Course, Field, Motion, Pair, Ray, RayRegister, Scales, Side, StressPiece, Stretch, Waves};
@@ -17,9 +16,6 @@ pub(super) struct Converted<N: Scalar, M> {
     course: Course<M>,
 }
 
-/// A time that is past the end by no more roundings than these is the end.
-const LATE: f64 = 16.0;
-
 impl<N: Scalar, M: Reads<N>> Converted<N, M> {
     pub(super) fn new(engine: Arc<dyn Motion<N>>) -> Self {
         let mut course = engine.course().clone().map(M::read);
@@ -30,26 +26,29 @@ impl<N: Scalar, M: Reads<N>> Converted<N, M> {
         Converted { precision: engine.end().precision(), rays: RayRegister::of(&*engine), course, engine }
     }
 
-    /// A time of this history: that of an event stands for the event.
+    /// A time of this history. One that an event, or the end, was rounded to is that event's own.
     fn time(&self, time: &M) -> Result<N, Error> {
-        self.time_at(None, time)
+        self.finite(time)?;
+        Ok(self.known(time).unwrap_or_else(|| time.give(&self.precision)))
     }
 
-    /// The time of the engine that was rounded to this one: that of an event, or the end.
+    /// What is no number has none in another system that stands for it.
+    fn finite(&self, time: &M) -> Result<(), Error> {
+        let outside = || Error::TimeOutside { found: time.text(), end: self.engine.end().text() };
+        if time.is_finite() { Ok(()) } else { Err(outside()) }
+    }
+
     fn known(&self, time: &M) -> Option<N> {
-        let (events, end) = (&self.course.events, self.engine.end());
-        let seconds = time.to_f64();
-        let next = events.partition_point(|event| event.time.to_f64() < seconds);
-        let same = |known: &M| known.to_f64() == seconds && known.log2_error() == time.log2_error();
-        let event = events[next..].iter().take_while(|event| event.time.to_f64() == seconds);
-        match event.zip(next..).find(|(event, _)| same(&event.time)) {
-            Some((_, k)) => self.engine.events().get(k).map(|event| event.time.clone()),
-            // In other numbers the run may have ended a few roundings later.
-            None => {
-                let late = (seconds / end.to_f64() - 1.0) / time.log2_roundoff().exp2();
-                (M::read(end.clone()).text() == time.text() || (0.0..LATE).contains(&late)).then_some(end)
-            }
-        }
+        let end = self.engine.end();
+        let mut known = self.engine.events().iter().map(|event| &event.time).chain([&end]);
+        // Both are rounded, each to its own bits.
+        let same = |known: &&N| {
+            let known = M::read((*known).clone());
+            let rounding = time.magnitude() * (known.roundoff() + time.roundoff());
+            rounding.below(&(known - time).magnitude()) == Ok(false)
+        };
+        let exactly = |known: &&N| M::read((*known).clone()).text() == time.text();
+        known.clone().find(exactly).or_else(|| known.find(same)).cloned()
     }
 
     /// A point of this rod. The one that its length was rounded to is its top.
@@ -61,26 +60,15 @@ impl<N: Scalar, M: Reads<N>> Converted<N, M> {
         Ok(if M::read(length.clone()).text() == point.text() { length } else { point.give(&self.precision) })
     }
 
-    /// A time at which `point` is asked about: one that was computed is that of a ray there, where the roundings of `M`
-    /// alone set it apart.
-    fn time_at(&self, point: Option<&N>, time: &M) -> Result<N, Error> {
-        // What is no number has none in another system that stands for it.
-        if !time.is_finite() {
-            return Err(Error::TimeOutside { found: time.text(), end: self.engine.end().text() });
-        }
-        if let Some(known) = self.known(time) {
-            return Ok(known);
-        }
-        let given = time.give(&self.precision);
-        let roundings = 8.0 * time.log2_roundoff().exp2() * time.to_f64().abs();
-        Ok(match point.filter(|_| computed(time)) {
-            Some(point) => self.rays.meant(point, given, roundings),
-            None => given,
-        })
+    /// A time at which `point` is asked about: that of a ray there, where the roundings of `M` alone set it apart.
+    fn time_at(&self, point: &N, time: &M) -> Result<N, Error> {
+        self.finite(time)?;
+        let roundings = 8.0 * time.log2_roundoff().exp2() * time.to_f64();
+        Ok(self.known(time).unwrap_or_else(|| self.rays.meant(point, time.give(&self.precision), roundings)))
     }
 
     fn time_at_ground(&self, time: &M) -> Result<N, Error> {
-        self.time_at(Some(&self.engine.end().zero()), time)
+        self.time_at(&self.engine.end().zero(), time)
     }
 }
 
@@ -104,7 +92,7 @@ impl<N: Scalar, M: Reads<N>> Motion<M> for Converted<N, M> {
 
     fn field(&self, point: &M, time: &M, side: Side) -> Result<Field<M>, Error> {
         let point = self.point(point)?;
-        let field = self.engine.field(&point, &self.time_at(Some(&point), time)?, side)?;
+        let field = self.engine.field(&point, &self.time_at(&point, time)?, side)?;
         Ok(field.map(M::read))
     }
 
@@ -115,20 +103,12 @@ impl<N: Scalar, M: Reads<N>> Motion<M> for Converted<N, M> {
         Ok(self.engine.rates(&points, &times)?.into_iter().map(|pair| pair.map(M::read)).collect())
     }
 
-    fn in_contact(&self, time: &M, side: Side) -> Result<M, Error> {
-        self.engine.in_contact(&self.time_at_ground(time)?, side).map(M::read)
-    }
-
-    fn take_open_times(&self) -> Vec<(f64, bool)> {
-        self.engine.take_open_times()
-    }
-
     fn highest(&self, release: usize) -> Option<(M, M)> {
         self.engine.highest(release).map(|(time, height)| (M::read(time), M::read(height)))
     }
 
     fn may_jump(&self, time: &M) -> Result<bool, Error> {
-        let [ground, top] = [self.time_at_ground(time)?, self.time_at(Some(&self.engine.scales().length), time)?];
+        let [ground, top] = [self.time_at_ground(time)?, self.time_at(&self.engine.scales().length, time)?];
         // What enclosures leave open is asked on both sides.
         Ok([ground, top].iter().any(|time| self.engine.may_jump(time).unwrap_or(true)))
     }

@@ -2,7 +2,6 @@
 
 use std::sync::Arc;
 
-use super::asked::Asked;
 use super::ladder::{Engined, Observer, Target};
 use super::plan::{Engine, Plan, Rung};
 use super::{fractions, long};
@@ -30,12 +29,9 @@ impl Target for f64 {
                 if cfg!(feature = "mp") && history.undetermined_from().is_some() {
                     return Err(Error::NotDecided { what: "in which order the events come", bits: 53 });
                 }
-                Arc::new(Asked::new(history, problem))
+                Arc::new(history)
             }
-            Engine::Cells => {
-                let history = Damped::<f64>::solve_observed(problem, &(), plan.effort(rung), 1, &**observe)?;
-                Arc::new(Asked::new(history, problem))
-            }
+            Engine::Cells => Arc::new(Damped::<f64>::solve_observed(problem, &(), plan.effort(rung), 1, &**observe)?),
             Engine::ClosedForm | Engine::ClosedFormThenCells => {
                 let rod = Parameters::<Estimate<f64>>::of(problem, &())?;
                 let contact = FirstContact::new(&rod);
@@ -45,19 +41,21 @@ impl Target for f64 {
                     bounce = by_modes(&contact, problem, plan.modes.ok_or(undecided)?)?;
                 }
                 match (plan.engine, plan.settles_events) {
-                    (Engine::ClosedForm, false) => {
-                        return Ok(Arc::new(Asked::new(ContactHistory::new(contact, bounce, None)?, problem)));
-                    }
+                    (Engine::ClosedForm, false) => return Ok(Arc::new(ContactHistory::new(contact, bounce, None)?)),
                     (Engine::ClosedForm, true) => {
-                        let history = ContactThenCells::<f64>::first_contact(problem, &(), bounce)?;
-                        return Ok(Arc::new(Asked::new(history, problem)));
+                        return Ok(Arc::new(ContactThenCells::<f64>::first_contact(problem, &(), bounce)?));
                     }
                     _ => {}
                 }
                 let rate = plan.rate_bits.and_then(|bits| long::rate_after(problem, &bounce, bits));
-                let effort = plan.effort(rung);
-                let history = ContactThenCells::<f64>::solve_observed(problem, &(), effort, bounce, rate, &**observe)?;
-                Arc::new(Asked::new(history, problem))
+                Arc::new(ContactThenCells::<f64>::solve_observed(
+                    problem,
+                    &(),
+                    plan.effort(rung),
+                    bounce,
+                    rate,
+                    &**observe,
+                )?)
             }
         })
     }

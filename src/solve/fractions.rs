@@ -2,7 +2,6 @@
 
 use std::sync::Arc;
 
-use super::asked::Asked;
 use super::converted::Converted;
 use super::ladder::{Engined, Observer, Target};
 use super::plan::{Plan, Rung};
@@ -44,9 +43,7 @@ where
 {
     let reached = plan.reaching(problem);
     let mut doubles = Undamped::<Estimate<f64>>::solve_within(&reached, &(), plan.lattice_limits(problem), &**observe)?;
-    let confirmed = doubles.confirm(&exact);
-    let exact: Engined<f64> = Arc::new(Asked::longer(Converted::new(Arc::new(exact)), problem));
-    Ok(if confirmed { Arc::new(Asked::new(doubles, problem).backed(exact)) } else { exact })
+    Ok(if doubles.confirm(&exact) { Arc::new(doubles) } else { Arc::new(Converted::new(Arc::new(exact))) })
 }
 
 fn fractions(problem: &Problem, plan: &Plan, observe: &Observer) -> Result<Undamped<Rational>, Error> {

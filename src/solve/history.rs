@@ -23,11 +23,6 @@ use crate::reason::Warning;
 /// [`Error::TimeOutside`], or [`Error::BeyondEnd`] and [`Error::BeyondExactness`] where the history ends for a reason
 /// of its own; about a point outside of the rod [`Error::PointOutside`].
 ///
-/// A time stands for exactly what it spells, a double for its shortest decimal or a simple fraction: just before an
-/// event, just after it, or at it. Longer numbers and fractions tell; where they do not, the bound covers both sides and
-/// [`History::warnings`] names the time. The times of [`Motion::events`](crate::engine::Motion::events), with their
-/// bounds, stand for the events: [`History::ask`] with these.
-///
 /// **Accuracy**: that of the [`Plan`]. Each answer is computed in more bits where those at hand do not leave the digits
 /// that were asked for.
 ///
@@ -50,8 +45,6 @@ pub struct History<S: Target> {
     contacts: OnceLock<Vec<Contact<S>>>,
     ending: Ending,
     end: S,
-    /// Times of questions that are not told from those of events or rays.
-    open_times: Mutex<Vec<f64>>,
 }
 
 /// The numbers of all that happens.
@@ -87,7 +80,6 @@ impl<S: Target> History<S> {
             events: OnceLock::new(),
             contacts: OnceLock::new(),
             end: S::strip(end),
-            open_times: Mutex::default(),
             problem: problem.clone(),
             plan: plan.clone(),
             observe,
@@ -140,7 +132,6 @@ impl<S: Target> History<S> {
         let rung = current.rung;
         let ladder = Ladder { problem: &self.problem, plan: &self.plan, observe: &self.observe };
         let (attempt, answer) = ladder.settle::<S>(Some(current), query).map_err(|error| self.explained(error))?;
-        self.open_times.lock().unwrap_or_else(PoisonError::into_inner).extend(&attempt.open_times);
         if attempt.rung != rung {
             *self.attempt.lock().unwrap_or_else(PoisonError::into_inner) = attempt;
         }
@@ -483,10 +474,6 @@ impl<S: Target> History<S> {
     pub fn warnings(&self) -> Vec<Warning> {
         let mut warnings = self.current().engine.warnings().to_vec();
         warnings.extend(self.problem.neglected());
-        let mut open = self.open_times.lock().unwrap_or_else(PoisonError::into_inner).clone();
-        open.sort_by(f64::total_cmp);
-        open.dedup();
-        warnings.extend(open.into_iter().map(|time| Warning::TimeNotTold { time }));
         warnings
     }
 }

@@ -5,7 +5,6 @@ use std::ops::ControlFlow;
 use std::sync::{Arc, LazyLock};
 
 use super::plan::{Engine, Goal, Lacks, Plan, Rung};
-use super::question::Numbers;
 use crate::error::Error;
 use crate::motion::{Ending, Motion, Scales};
 use crate::number::{Answer, Scalar};
@@ -79,13 +78,11 @@ pub(crate) struct Attempt<S: Answer> {
     pub(crate) engine: Engined<S>,
     /// Whether exact numbers have been tried where events coincide within their bounds, and did not decide either.
     tried: bool,
-    /// Times of its last answer that it does not tell from those of events or rays.
-    pub(crate) open_times: Vec<f64>,
 }
 
 impl<S: Answer> Clone for Attempt<S> {
     fn clone(&self) -> Self {
-        Attempt { rung: self.rung, engine: self.engine.clone(), tried: self.tried, open_times: Vec::new() }
+        Attempt { rung: self.rung, engine: self.engine.clone(), tried: self.tried }
     }
 }
 
@@ -128,9 +125,6 @@ pub(crate) fn settled<S: Target, T, A>(
 /// answer.
 const SAME_DOUBT: usize = 3;
 
-/// So many times as many bits as the first ones are tried to tell a time from that of an event or a ray.
-const BITS_OF_TIMES: u32 = 4;
-
 impl Ladder<'_> {
     /// The answer to `query`, settled: asked of `attempt` where there is one, and of attempts in more and more bits
     /// until every comparison on the way is decided and all numbers of the answer have the digits of the plan.
@@ -172,32 +166,17 @@ impl Ladder<'_> {
                     if open {
                         doubts.push(engine.end().to_f64());
                     }
-                    let open_times = engine.take_open_times();
-                    let asks = open_times.iter().any(|(_, tellable)| *tellable) && self.tells_times(rung);
-                    let given_up = !open_times.is_empty() && !asks;
-                    let open_times = open_times.into_iter().map(|(time, _)| time).collect();
-                    if given_up && !self.in_doubles() {
-                        return Err(self.unsettled(rung));
-                    }
-                    let open = open && doubts.len() < SAME_DOUBT;
-                    let (climbs, tried) = (open || asks, tried || needs_bits(&*engine) && !open);
-                    let reached = Some((Attempt { rung, engine, tried, open_times }, answer));
+                    let climbs = open && doubts.len() < SAME_DOUBT;
+                    let reached = Some((Attempt { rung, engine, tried: tried || open && !climbs }, answer));
                     match reached {
-                        Some(settled) if (missing <= 0.0 || given_up) && !coincides && !climbs => return Ok(settled),
+                        Some(settled) if missing <= 0.0 && !coincides && !climbs => return Ok(settled),
                         _ if climbs => {
                             kept = reached.map(|(attempt, answer)| (attempt, answer, missing <= 0.0));
-                            // Undamped, a time and an event may be equal.
-                            let equal = !open && self.plan.engine == Engine::Lattice;
-                            (if equal { Lacks::Exactness } else { Lacks::Bits(f64::INFINITY) }, None)
+                            (Lacks::Bits(f64::INFINITY), None)
                         }
                         _ if missing <= 0.0 => {
                             reserve = reached;
                             (Lacks::Exactness, None)
-                        }
-                        // Fractions may end where doubles did not.
-                        _ if self.plan.climb.bits.is_none() => {
-                            kept = reached.map(|(attempt, answer)| (attempt, answer, missing <= 0.0));
-                            (Lacks::Bits(missing), None)
                         }
                         _ => (Lacks::Bits(missing), reached),
                     }
@@ -212,28 +191,13 @@ impl Ladder<'_> {
                 (Some(next), ..) => rung = next,
                 (None, Some((attempt, answer)), _) => return Ok((Attempt { tried: true, ..attempt }, answer)),
                 (None, None, reached) => {
-                    let kept = kept.filter(|(_, _, settled)| *settled || self.in_doubles());
+                    let kept = kept.filter(|(kept, _, settled)| *settled || kept.rung == Rung::Double);
                     let kept = kept.map(|(kept, answer, _)| (Attempt { tried: true, ..kept }, answer));
                     let reached = reached.filter(|_| rung == Rung::Double);
                     return kept.or(reached).ok_or_else(|| self.unsettled(rung));
                 }
             }
         }
-    }
-
-    /// Whether the numbers after those of `rung` are tried to tell a time from that of an event or a ray.
-    fn tells_times(&self, rung: Rung) -> bool {
-        match (rung, self.plan.rung) {
-            (Rung::Double | Rung::Fractions, _) => true,
-            (Rung::Bits(bits), Rung::Bits(first)) => bits < BITS_OF_TIMES * first,
-            (Rung::Bits(bits), _) => bits < BITS_OF_TIMES * self.plan.climb.bits.unwrap_or(0),
-            _ => false,
-        }
-    }
-
-    /// Whether what is not settled has bounds that say so.
-    fn in_doubles(&self) -> bool {
-        matches!(self.plan.numbers, Numbers::Double(_))
     }
 
     fn unsettled(&self, rung: Rung) -> Error {
@@ -278,15 +242,7 @@ impl Ladder<'_> {
 /// Whether events are taken for one that are so only within their bounds, where exact numbers are to decide.
 fn coincides<S: Scalar>(plan: &Plan, engine: &dyn Motion<S>) -> bool {
     let contacts = engine.digits_lost().map_or(0, |(contacts, _)| contacts);
-    let taken_for_one = || engine.warnings().iter().any(|warning| matches!(warning, Warning::Coincidence { .. }));
-    plan.tries_exact(contacts) && (taken_for_one() || plan.engine == Engine::Lattice && ends_at_event(engine))
-}
-
-/// Whether the last event is not told from the end of the run, which it may come after.
-fn ends_at_event<S: Scalar>(engine: &dyn Motion<S>) -> bool {
-    let Some(event) = engine.events().last().filter(|_| *engine.ending() == Ending::Time) else { return false };
-    let left = engine.end() - &event.time;
-    left.log2_error() > f64::NEG_INFINITY && left.vanishes() != Ok(false)
+    plan.tries_exact(contacts) && engine.warnings().iter().any(|warning| matches!(warning, Warning::Coincidence { .. }))
 }
 
 /// Whether a damped run says that its bounds leave events open.

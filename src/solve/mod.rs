@@ -6,14 +6,11 @@
 //! | `plan` | everything that is decided before running |
 //! | `foresee` | the digits that a chaotic run is going to lose |
 //! | `engines`, `fractions`, `long` | the planned engine in the numbers of one attempt |
-//! | `asked` | times that are not told from that of an event or a ray |
 //! | `converted` | a history in one number system, read in another |
-//! | `proved` | a proved damped run, read in enclosures |
 //! | `ladder` | more bits until the answer is settled |
 //! | `history` | the answer in one number system, of which everything else is asked |
 //! | `solution` | the answer in the numbers of its plan |
 
-mod asked;
 mod converted;
 mod engines;
 mod foresee;
@@ -23,8 +20,6 @@ mod ladder;
 #[cfg_attr(not(feature = "mp"), path = "long_absent.rs")]
 mod long;
 mod plan;
-#[cfg(feature = "mp")]
-mod proved;
 mod question;
 mod solution;
 

@@ -166,9 +166,6 @@ const MOST_DOUBLE_DIGITS: f64 = 15.0;
 const FAINT_DIGITS: f64 = 30.0;
 /// Bits beyond those of the digits asked for, on the first attempt with error bounds.
 const GUARD_BITS: u32 = 64;
-/// An impact of a damped run costs its proof so many bits, or a few times that; through so many they are foreseen.
-const BITS_PER_IMPACT: u32 = 5;
-const MOST_FORESEEN: u32 = 40;
 /// So many bits more tell events apart that miss each other by a rounding of a double, or by its square.
 const NEAR_MISS: u32 = 256;
 /// Beyond so many contacts exact roots take minutes.
@@ -194,8 +191,6 @@ const MODES: u32 = 4096;
 const MOST_BITS: u32 = 1 << 22;
 /// Bits of an enclosure beyond which a comparison is called undecided, where the digits asked for do not need more.
 const MOST_ENCLOSED: u32 = 1 << 13;
-/// The same of a damped run after its first contact: its bounds are doubles, which have 1022 binary exponents.
-const MOST_PROVED: u32 = 600;
 
 impl Plan {
     /// The plan for `question` of `problem`.
@@ -225,6 +220,8 @@ impl Plan {
             (None, _) => Engine::Lattice,
             (Some(_), false) => Engine::Cells,
             (Some(_), true) if reach == Reach::FirstContact => Engine::ClosedForm,
+            // What is proved of a damped rod ends with its first contact.
+            (Some(_), true) if matches!(numbers, Numbers::Certified(_)) => Engine::ClosedForm,
             (Some(_), true) => Engine::ClosedFormThenCells,
         };
         let settles_events = keep_from.is_none() && !single;
@@ -245,21 +242,7 @@ impl Plan {
         let (rung, foreseen_loss) = match numbers {
             Numbers::Double(_) => (Rung::Double, 0.0),
             Numbers::Exact | Numbers::ExactThenDigits(_) => (Rung::Fractions, 0.0),
-            Numbers::Certified(digits) => {
-                let impacts = match &reach {
-                    Reach::Contacts(contacts) if then_cells || engine == Engine::Cells => {
-                        (*contacts).min(MOST_FORESEEN)
-                    }
-                    _ => 0,
-                };
-                let guard = GUARD_BITS + BITS_PER_IMPACT * impacts;
-                (
-                    Rung::Enclosures(
-                        (bits_for_digits(digits) + guard).min(MOST_PROVED.max(bits_for_digits(digits) + GUARD_BITS)),
-                    ),
-                    0.0,
-                )
-            }
+            Numbers::Certified(digits) => (Rung::Enclosures(bits_for_digits(digits) + GUARD_BITS), 0.0),
             Numbers::Digits(digits) => {
                 let lost = match (engine, &reach) {
                     (Engine::Lattice, Reach::Time(end)) => foresee::bits_lost(problem, end.to_f64()),
@@ -298,8 +281,7 @@ impl Plan {
     pub(crate) fn next(&self, rung: Rung, lacks: Lacks) -> Option<Rung> {
         let Climb { bits, most_bits, near_miss, exact_roots, most_enclosed, .. } = self.climb;
         let Some(after) = bits else {
-            let exactly = matches!(lacks, Lacks::Exactness) || self.engine == Engine::Lattice;
-            return (rung == Rung::Double && exactly).then_some(Rung::Fractions);
+            return matches!((rung, lacks), (Rung::Double, Lacks::Exactness)).then_some(Rung::Fractions);
         };
         let Lacks::Bits(missing) = lacks else {
             // Fractions are fast, and end soon where they do not serve; more bits tell a near miss from a meeting.
@@ -473,10 +455,7 @@ impl Climb {
             most_bits: MOST_BITS,
             near_miss: wanted + NEAR_MISS,
             exact_roots: lattice.then_some(wanted * EXACT_ROOT + 1024),
-            most_enclosed: match engine {
-                Engine::ClosedFormThenCells | Engine::Cells => MOST_PROVED,
-                _ => MOST_ENCLOSED.max(4 * wanted),
-            },
+            most_enclosed: MOST_ENCLOSED.max(4 * wanted),
             exact_contacts: lattice.then_some(MOST_EXACT),
         }
     }

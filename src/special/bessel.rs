@@ -49,11 +49,6 @@ pub trait RoundedSpecial: Rounded + Answer<Carried = Estimate<Self>> {
         first: [i64; K],
         weight: impl Fn(i64) -> [i64; K],
     ) -> RoundedSums<Self, K>;
-
-    /// `φ₁` and `φ₂`, as [`Special::phi1`] and [`Special::phi2`].
-    fn phi_rounded(&self) -> [Self; 2] {
-        [phi::phi1(self), phi::phi2(self)]
-    }
 }
 
 impl<S: RoundedSpecial> Special for S {

@@ -3,11 +3,10 @@
 use rug::Float;
 
 use super::backward::Backward;
-use super::bessel::{RoundedSpecial, Special, by_ratios};
+use super::bessel::{RoundedSpecial, by_ratios};
 use super::bits;
 use super::hypergeometric::{damped_start, in_scaled_bounded};
 use super::ray::{Ray, RaySums, RoundedSums};
-use crate::number::Ball;
 
 /// `Backward::sums` has fewer.
 const SUM_ROUNDINGS: f64 = 2.0;
@@ -48,33 +47,6 @@ impl RoundedSpecial for Float {
             return RoundedSums { values, start_roundings, sum_roundings: SUM_ROUNDINGS, terms, mean: terms as f64 };
         }
         ray.sums_by_ratios(first, weight, Float::ray_start_rounded(&ray))
-    }
-}
-
-/// The bound is in the number, and no rounding beside it.
-impl RoundedSpecial for Ball {
-    fn in_scaled_rounded(&self, n: u32) -> (Ball, f64) {
-        (Ball::from(self.estimate().in_scaled(n)), 0.0)
-    }
-
-    fn ray_start_rounded(ray: &Ray<Ball>) -> (Ball, f64) {
-        (Ball::from(Special::ray_start(&ray.map(|x| x.estimate().clone()))), 0.0)
-    }
-
-    fn ray_sums_rounded<const K: usize>(
-        ray: &Ray<Ball>,
-        first: [i64; K],
-        weight: impl Fn(i64) -> [i64; K],
-    ) -> RoundedSums<Ball, K> {
-        let terms = ray.map(|x| x.estimate().value().clone()).terms(first.iter().copied().max().unwrap_or(1));
-        let found = Special::ray_sums(&ray.map(|x| x.estimate().clone()), first, weight);
-        let values = RaySums { start: Ball::from(found.start), sums: found.sums.map(Ball::from) };
-        RoundedSums { values, start_roundings: 0.0, sum_roundings: 0.0, terms, mean: terms as f64 }
-    }
-
-    /// Also where the argument may be zero.
-    fn phi_rounded(&self) -> [Ball; 2] {
-        [self.estimate().phi1(), self.estimate().phi2()].map(Ball::from)
     }
 }
 

@@ -246,8 +246,7 @@ fn one_march_has_the_values_of_many() {
         state = state.wrapping_mul(6364136223846793005).wrapping_add(1442695040888963407);
         (state >> 11) as f64 / (1u64 << 53) as f64
     };
-    // t₁ = 1, so that rays meet times that doubles hold.
-    let any = || Problem::builder().length(2).wave_speed(4).gravity(1);
+    let any = || Problem::builder().length(2).wave_speed(3).gravity(1);
     let rod = || any().impacts(4);
     let mut problems = vec![
         rod().damping("0.01").impact_speed(40).impacts(2),
@@ -265,10 +264,10 @@ fn one_march_has_the_values_of_many() {
         let history = problem.solve().unwrap();
         let (end, trip) = (*history.end(), history.scales().time);
         let mut times: Vec<f64> = (0..60).map(|_| end * random()).collect();
-        times.extend((0..40).map(|k| 0.25 * f64::from(k)));
-        times.extend(history.events().iter().flat_map(|event| [event.time - 1e-5, event.time + 0.5 * trip + 1e-5]));
+        times.extend((0..40).map(|k| 0.25 * trip * f64::from(k)));
+        times.extend(history.events().iter().flat_map(|event| [event.time, event.time + 0.5 * trip]));
         times.extend([0.0, end, end]);
-        times.retain(|time| (0.0..=end).contains(time));
+        times.retain(|time| *time <= end);
         times.sort_by(f64::total_cmp);
         let bits =
             |table: &[Vec<f64>], row: usize| table.iter().map(|values| values[row].to_bits()).collect::<Vec<_>>();

@@ -214,7 +214,6 @@ fn known_until<S: Target>(history: &History<S>) -> f64 {
         Warning::Coincidence { .. }
         | Warning::HopsUnresolved { .. }
         | Warning::NotTold { .. }
-        | Warning::TimeNotTold { .. }
         | Warning::DragNeglected { .. } => None,
     });
     open.fold(history.end().to_f64(), f64::min)
@@ -290,31 +289,26 @@ fn times<S: Scalar>(motion: &dyn Motion<S>, drawn: &Gathered, breaks: &[Break]) 
     // The numbers of the engine itself where two limits may differ: they meet the rays.
     let mut times: Vec<(f64, S)> =
         motion.events().iter().map(|event| (event.time.to_f64(), event.time.clone())).collect();
-    // What is drawn takes a time at an event or a ray for that of the event or the ray.
-    let about = |time: S| {
-        let roundings = time.double(1e-14) * &time;
-        time.widened(&roundings)
-    };
     if breaks.len() <= MOST_BREAKS {
         match motion.waves() {
             Ok(waves) => {
                 let late = motion.scales().time / end.int(2);
                 for piece in waves.pieces {
                     let top = piece.from.clone() + &late;
-                    times.extend([piece.from, top].map(|time| (time.to_f64(), about(time))));
+                    times.extend([piece.from, top].map(|time| (time.to_f64(), time)));
                 }
             }
             Err(Error::NoWaves) => {
                 let (rays, scales) = (RayRegister::of(motion), motion.scales());
                 for point in [scales.length.zero(), scales.length] {
                     let passing = rays.passing(&point, from, to).into_iter();
-                    times.extend(passing.map(|ray| (ray.time.to_f64(), about(ray.time))));
+                    times.extend(passing.map(|ray| (ray.time.to_f64(), ray.time)));
                 }
             }
             Err(error) => return Err(error),
         }
     }
-    times.extend(even.map(|time| (time, about(end.double(time)))));
+    times.extend(even.map(|time| (time, end.double(time))));
     times.retain(|(time, _)| *time >= from && *time <= to);
     let mut times = ascending(times, |time| time.0);
     // Of neighbours within rounding the one from the engine, which comes first where they are equal.
