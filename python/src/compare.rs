@@ -5,7 +5,7 @@ use std::sync::Arc;
 
 use dalembert::Units;
 use dalembert::compare::data::{DataErrorKind, Source};
-use dalembert::compare::{Axis, CompareError, Comparison as Compared, Compression, Limit, Options, Origin, Prepared};
+use dalembert::compare::{Axis, Comparison as Compared, Compression, Limit, Options, Origin, Prepared};
 use numpy::{PyArray1, PyArrayMethods, PyUntypedArray, PyUntypedArrayMethods};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
@@ -81,9 +81,8 @@ impl Comparison {
         let units = Units::of(&rod, problem.units);
         let (stop, in_run) = (Arc::default(), units.clone());
         let observe = observer(&stop);
-        let compared = run(py, &stop, move || {
-            Prepared::new(&rod, &in_run, accuracy, sources, &options)?.compare(observe)
-        })?;
+        let compared =
+            run(py, &stop, move || Prepared::new(&rod, &in_run, accuracy, sources, &options)?.compare(observe))?;
         Ok(Comparison { compared, title: problem.title.clone(), units })
     }
 
