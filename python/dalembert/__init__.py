@@ -14,8 +14,9 @@ array([ 0. , -0.5])
 """
 
 from ._compare import Comparison, compare
-from ._history import Energy, Field, History, Motion, reference, solve
+from ._history import Energy, Field, History, Motion
 from ._problem import Problem, __version__, scenes
+from ._solve import reference, solve
 
 __all__ = ["Comparison", "Energy", "Field", "History", "Motion", "Problem", "compare", "reference", "scenes", "solve"]
 

@@ -9,9 +9,8 @@ from typing import Any, Literal, Mapping, Sequence
 import numpy as np
 
 from . import _core
-from ._problem import Maybe, Number, Numbers, Problem, Scene
-
-Array = np.ndarray[Any, np.dtype[Any]]
+from ._numbers import Array, Maybe, Number, Numbers
+from ._problem import Problem, Scene
 
 
 Limits = Mapping[str, "float | Mapping[str, float]"]

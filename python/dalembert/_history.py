@@ -11,15 +11,15 @@ from typing import TYPE_CHECKING, Any, Callable, Iterable, Literal, NamedTuple, 
 import numpy as np
 
 from . import _core
-from ._problem import Maybe, Numbers, Problem, Scene
+from ._numbers import Array, Numbers, Side
 
 if TYPE_CHECKING:
     import matplotlib.axes
     import pandas
     import xarray
 
-Array = np.ndarray[Any, np.dtype[Any]]
-Side = Literal["left", "right"]
+    from ._problem import Problem
+
 Slice = Literal["points", "averages", "p1"]
 TableName = Literal["events", "contacts", "restitution", "flights", "stress_history"]
 
@@ -182,7 +182,7 @@ class History:
         str
             An SVG picture, as notebooks show it.
         """
-        return self._core.sheet(self.problem._core)
+        return self._core.sheet()
 
     @property
     def error_estimate(self) -> float:
@@ -242,7 +242,8 @@ class History:
     def flights(self) -> Array:
         """Flights.
 
-        A structured array of ``from``, ``to``, and ``top_time`` and ``top``, when and how high the centre of mass turns.
+        A structured array of ``from``, ``to``, and ``top_time`` and ``top``: when and how high the centre of mass
+        turns.
         """
         return self._table("flights")
 
@@ -559,112 +560,3 @@ def _html(tag: str, cells: Iterable[str]) -> str:
 def _shaped(columns: Iterable[Array], shape: tuple[int, ...]) -> list[Any]:
     """Columns in the shape of what they were asked at; numbers where that was one."""
     return [column.reshape(shape) if shape else column[0] for column in columns]
-
-
-def solve(
-    scene: Scene,
-    *,
-    to: Maybe = None,
-    impacts: int | None = None,
-    digits: int | None = None,
-    exact: bool = False,
-    certified: bool = False,
-    accuracy: float | None = None,
-    first_contact: bool = False,
-) -> History:
-    """Solve a scene.
-
-    Parameters
-    ----------
-    scene : str, path or Problem
-        The name of a built-in scene, a scene file, a scene as TOML text, or a problem.
-    to : number, optional
-        Follow it up to this time, in place of what the scene says.
-    impacts : int, optional
-        Follow it through so many contacts, in place of what the scene says.
-    digits : int, optional
-        All numbers are ``Decimal`` of so many digits, rounded once.
-    exact : bool, optional
-        All numbers are ``Fraction``, as far as they reach; with `digits` it goes on in digits where they end.
-    certified : bool, optional
-        All numbers are pairs ``(lo, hi)`` of ``Decimal`` that are proved to enclose the value.
-    accuracy : float, optional
-        Without any of these all numbers are doubles with a bound of 1e-9 of the greatest number of an answer, or this.
-    first_contact : bool, optional
-        Whether to end at the bounce, which takes less time.
-
-    Returns
-    -------
-    History
-        The motion. No lock of the interpreter is held meanwhile, and Ctrl-C interrupts it.
-
-    Raises
-    ------
-    ValueError
-        For a scene that is none, with the text of the command.
-
-    Examples
-    --------
-    >>> solve("doyen-ern-piperno", exact=True).contacts["to"][0]
-    Fraction(2, 3)
-    """
-    run: dict[str, Any] = {name: value for name, value in (("time", to), ("impacts", impacts)) if value is not None}
-    problem = Problem.from_scene(scene)
-    return (problem.replace(**run) if run else problem).solve(
-        digits=digits, exact=exact, certified=certified, accuracy=accuracy, first_contact=first_contact
-    )
-
-
-def reference(
-    scene: Scene,
-    times: Numbers,
-    columns: Sequence[str] = ("t", "side", "u_end", "v_end", "strain", "force", "h", "h_rate", "E_total"),
-    side: Side | None = None,
-    *,
-    digits: int | None = None,
-    exact: bool = False,
-    certified: bool = False,
-    accuracy: float | None = None,
-) -> Any:
-    """Give columns of a scene at times.
-
-    Parameters
-    ----------
-    scene : str, path or Problem
-        As :func:`solve` takes it.
-    times : number or array_like
-        The times; the motion is followed up to the last.
-    columns : sequence of str, optional
-        Names of :meth:`History.columns`.
-    side : {"left", "right"}, optional
-        Which limit at a jump; without it a time has two rows where they differ.
-    digits : int, optional
-        As in :func:`solve`.
-    exact, certified : bool, optional
-        As in :func:`solve`.
-    accuracy : float, optional
-        As in :func:`solve`.
-
-    Returns
-    -------
-    pandas.DataFrame or dict of str to ndarray
-        A DataFrame where pandas is installed.
-
-    Examples
-    --------
-    >>> list(reference("paper-strong", [0.5, 2], ["t", "strain"])["strain"])
-    [-3.5, -5.0, 0.0]
-    """
-    # By way of text: 0.7 is 7/10 here too, where Fraction(0.7) is a little less, and the last time would be beyond it.
-    given = np.asarray(times)
-    given = given.astype(float if given.dtype.kind == "f" else object)
-    last = max(Fraction(str(time)) for time in given.ravel().tolist())
-    history = solve(
-        scene, to=last if last > 0 else None, digits=digits, exact=exact, certified=certified, accuracy=accuracy
-    )
-    table = history.columns(columns, times, side)
-    try:
-        from pandas import DataFrame
-    except ImportError:
-        return table
-    return DataFrame(table)

@@ -9,8 +9,6 @@ import numpy as np
 if TYPE_CHECKING:
     import matplotlib.axes
 
-    from ._history import History
-
 LINES = ("#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9", "#000000")
 CONTACT = "#c6c6c6"
 SAMPLES = 2000
@@ -21,7 +19,7 @@ def _float(value: Any) -> float:
 
 
 def draw(
-    history: History, quantities: str | Sequence[str], ax: matplotlib.axes.Axes | None, start: float, end: float | None
+    history: Any, quantities: str | Sequence[str], ax: matplotlib.axes.Axes | None, start: float, end: float | None
 ) -> matplotlib.axes.Axes:
     if ax is None:
         from matplotlib import pyplot
@@ -55,7 +53,7 @@ def draw(
     return ax
 
 
-def _lifted(history: History, times: np.ndarray[Any, Any]) -> Any:
+def _lifted(history: Any, times: np.ndarray[Any, Any]) -> Any:
     """Times to draw at: equal steps, and every event between them."""
     events = [_float(value) for value in history.events["time"]]
     inside = [value for value in events if times[0] <= value <= times[-1]]

@@ -3,24 +3,18 @@
 from __future__ import annotations
 
 import os
-from decimal import Decimal
 from fractions import Fraction
 from importlib.metadata import version as _version
-from typing import TYPE_CHECKING, Any, Literal, Sequence, Union
-
-import numpy as np
+from typing import TYPE_CHECKING, Any, Literal, Union
 
 from . import _core
+from ._numbers import Maybe, Number, Points
 
 if TYPE_CHECKING:
     from ._history import History
 
 __version__: str = _version("dalembert")
 
-Number = Union[int, float, Fraction, Decimal, str]
-Numbers = Union[Number, Sequence[Any], "np.ndarray[Any, Any]"]
-Points = Union[Sequence["tuple[Number, Number]"], "np.ndarray[Any, Any]"]
-Maybe = Union[Number, None]
 Scene = Union[str, "os.PathLike[str]", "Problem"]
 
 _SCENES = {name: (summary, text) for name, summary, text in _core.scenes()}

@@ -5,13 +5,12 @@ use std::sync::atomic::AtomicBool;
 
 use dalembert::engine::{Motion, slices};
 use dalembert::number::{Answer, Scalar, show};
-use dalembert::{Error, Needs, Number, Quantity, Side, Slice, Solution, Table, Units, scene_svg};
+use dalembert::{Error, Needs, Number, Problem, Quantity, Side, Slice, Solution, Table, Units, scene_svg};
 use numpy::{PyArray1, PyReadonlyArray1};
 use pyo3::IntoPyObjectExt;
 use pyo3::prelude::*;
 
 use super::number::number;
-use super::problem::Problem;
 use super::{one_of, refuse, run};
 
 /// A number as Python gets it: a float, the text of a fraction or of a decimal, or both ends of an enclosure.
@@ -104,12 +103,14 @@ macro_rules! each {
 #[pyclass(frozen, module = "dalembert._core")]
 pub(crate) struct History {
     solution: Arc<Solution>,
+    /// What was solved, and the units of its numbers.
+    solved: (Problem, Units),
     stop: Arc<AtomicBool>,
 }
 
 impl History {
-    pub(crate) fn new(solution: Solution, stop: Arc<AtomicBool>) -> Self {
-        History { solution: Arc::new(solution), stop }
+    pub(crate) fn new(solution: Solution, solved: (Problem, Units), stop: Arc<AtomicBool>) -> Self {
+        History { solution: Arc::new(solution), solved, stop }
     }
 
     fn ask<T: Send + 'static>(
@@ -144,8 +145,8 @@ impl History {
     }
 
     /// The sheet of pictures that tells the scene, as SVG.
-    fn sheet(&self, py: Python<'_>, problem: &Problem) -> PyResult<String> {
-        let (rod, units) = (problem.problem.clone(), Units::of(&problem.problem, problem.units));
+    fn sheet(&self, py: Python<'_>) -> PyResult<String> {
+        let (rod, units) = self.solved.clone();
         self.ask(py, move |solution| each!(solution, |history, _| scene_svg(history, &rod, units)))
     }
 

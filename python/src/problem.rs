@@ -5,7 +5,7 @@ use std::sync::Arc;
 use dalembert::engine::MAX_DIGITS;
 use dalembert::{
     Builder, CERTIFIED_DIGITS, Material, Number, Numbers, Parameters, Plan, Question, Run, Scene, Speed, Start, Top,
-    UnitSystem, Written,
+    UnitSystem, Units, Written,
 };
 use pyo3::exceptions::PyTypeError;
 use pyo3::prelude::*;
@@ -127,10 +127,11 @@ impl Problem {
         }
         let question = if first_contact { Question::first_contact(numbers) } else { Question::run(numbers) };
         let (problem, stop) = (self.problem.clone(), Arc::default());
+        let solved = (problem.clone(), Units::of(&problem, self.units));
         let observe = observer(&stop);
         // The plan may already take long: it foresees the digits that a chaotic run loses.
         let solution = run(py, &stop, move || Plan::of(&problem, &question)?.solve(&problem, observe))?;
-        Ok(History::new(solution, stop))
+        Ok(History::new(solution, solved, stop))
     }
 }
 

@@ -134,6 +134,7 @@ impl Compare {
     pub(super) fn run(&self) -> Result<ExitCode, Failure> {
         self.check()?;
         let scene = source::read(&self.scene)?;
+        let limits = self.limits()?;
         let sources = self.data.iter().map(|path| Source::open(path)).collect::<Result<Vec<_>, _>>()?;
         let accuracy = scene.accuracy.as_ref().map(Number::to_f64);
         let units = Units::of(&scene.problem, scene.units);
@@ -146,7 +147,7 @@ impl Compare {
         }
         let report = Report { comparison: &comparison, title: scene.title.as_deref(), units: &units };
         // Before anything is written.
-        let outcomes = comparison.outcomes(&self.limits()?).map_err(|error| failure!("{error}").help(BOUNDS))?;
+        let outcomes = comparison.outcomes(&limits).map_err(|error| failure!("{error}").help(BOUNDS))?;
         file::write_each(&self.output, self.format, |format| report.bytes(format))?;
         if let Some(path) = &self.junit {
             file::write(Some(path), junit(&outcomes).as_bytes())?;

@@ -5,7 +5,7 @@ use serde::Serialize;
 use super::audit::{Audit, Books};
 use super::conventions::Conventions;
 use super::map::Location;
-use super::norms::{Grid, Norms, norms};
+use super::norms::{Compared, Grid, norms};
 use super::ours::Ours;
 use super::samples::Samples;
 use super::touch::{Touch, matched, touches};
@@ -53,15 +53,6 @@ impl Coverage {
     pub(crate) fn share(&self) -> f64 {
         if self.time[1] > 0.0 { (self.time[0] / self.time[1]).min(1.0) } else { 1.0 }
     }
-}
-
-/// One quantity: values at the samples of the grid, and how far apart they are.
-#[derive(Debug)]
-pub(crate) struct Compared {
-    pub(crate) what: Quantity,
-    pub(crate) ours: Vec<f64>,
-    pub(crate) theirs: Vec<f64>,
-    pub(crate) norms: Norms,
 }
 
 /// What a comparison may be told besides the data.

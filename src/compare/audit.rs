@@ -22,6 +22,9 @@ pub(crate) struct EnergyChange {
     pub loss: Extreme,
     /// `change` divided by our energy at the start, `None` where that is zero.
     pub relative: Option<f64>,
+    /// How great our energy is at the start.
+    #[serde(skip)]
+    pub start: f64,
 }
 
 /// What the laws say of samples; `None` where the columns for it are not given.
@@ -92,6 +95,7 @@ impl Books<'_> {
                 gain: self.most(change),
                 loss: self.most(|k| -change(k)),
                 relative: (ours[0] != 0.0).then(|| last / ours[0].abs()),
+                start: ours[0].abs(),
             }
         });
         let momentum = self.momentum.zip(self.force).zip(self.centre_velocity).and_then(|((rod, force), rate)| {

@@ -2,10 +2,11 @@
 
 use serde::Serialize;
 
-use super::agree::{Agreement, Compared};
+use super::agree::Agreement;
 use super::least::{Least, least};
 use super::map::Location;
 use super::model::{Model, solved};
+use super::norms::{Compared, Grid};
 use super::ours::Ours;
 use super::vary::Parameter;
 use crate::error::Error;
@@ -205,7 +206,7 @@ fn pointwise(
     let problem = problem.to_builder().time(*history.end()).build()?;
     let ours = Ours::of(&problem, &history)?;
     let kept: Vec<f64> = times.iter().copied().step_by(stride).collect();
-    let grid = super::norms::Grid::new(kept, None);
+    let grid = Grid::new(kept, None);
     let whats: Vec<Quantity> = columns.iter().map(|column| column.what).collect();
     let all = ours.values(&whats, &grid)?;
     let of = |((column, values), place): ((&Compared, Vec<f64>), usize)| {

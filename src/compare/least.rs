@@ -43,8 +43,8 @@ fn solve(matrix: &[Vec<f64>], right: &[f64]) -> Option<Vec<f64>> {
 }
 
 /// The values that leave the least of `Σ r²`, from `start` in at most `most` steps, by Levenberg and Marquardt's method
-/// in unknowns divided by `scales`; `residuals` is `None` where there is no answer, `linear` gives their derivatives. `None` where the residuals do not
-/// tell the unknowns apart.
+/// in unknowns divided by `scales`. `residuals` is `None` where there is no answer, and `linear` gives their
+/// derivatives. `None` where the residuals do not tell the unknowns apart.
 ///
 /// **Accuracy**: the standard errors are those of independent residuals of one size.
 pub(super) fn least(

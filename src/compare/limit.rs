@@ -45,7 +45,7 @@ const NORMS: [(&str, NormName); 4] =
     [("l1", NormName::L1), ("l2", NormName::L2), ("linf", NormName::Linf), ("linf_off_jumps", NormName::LinfOffJumps)];
 
 impl NormName {
-    /// Absolute and relative; `None` where no sample has a say.
+    /// Absolute and relative; `None` where no sample counts.
     fn of(self, norms: &Norms) -> Option<(f64, Option<f64>)> {
         match self {
             NormName::L1 => Some((norms.l1.absolute, norms.l1.relative)),
@@ -123,11 +123,7 @@ impl Limit {
             "energy" => {
                 let energy = audit.energy_change.ok_or_else(|| lacks("E_total"))?;
                 let most = energy.gain.value.max(energy.loss.value);
-                // The change relative to ours says what ours is.
-                energy
-                    .relative
-                    .filter(|relative| *relative != 0.0)
-                    .map_or(most, |relative| most * (relative / energy.change).abs())
+                if energy.start == 0.0 { most } else { most / energy.start }
             }
             "impulse" => {
                 let off = |(a, b): &(Option<Touch>, Option<Touch>)| {
@@ -149,7 +145,7 @@ impl Limit {
                     let names: Vec<&str> = agreement.quantities.iter().map(|compared| compared.what.name()).collect();
                     format!("found a bound of {quantity}, expected one of {}", names.join(", "))
                 })?;
-                // Where no sample has a say there is no difference.
+                // Where no sample counts there is no difference.
                 norm.of(&compared.norms).map_or(0.0, |(absolute, relative)| relative.unwrap_or(absolute))
             }
         }))

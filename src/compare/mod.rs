@@ -19,13 +19,13 @@ mod touch;
 mod vary;
 mod verdict;
 
-#[cfg(feature = "cli")]
-pub(crate) use agree::Compared;
 pub use comparison::{CompareError, ComparedFile, Comparison, Options, Prepared};
 pub use conventions::{Axis, Compression, Origin};
 pub use fit::FitError;
 pub use limit::{Limit, Outcome};
 pub use map::MapError;
+#[cfg(feature = "cli")]
+pub(crate) use norms::Compared;
 pub use norms::{Grid, norms, order};
 pub use report::LEGEND;
 pub use vary::Parameter;

@@ -1,12 +1,12 @@
 //! What other values of the scene would have given at the times of the data, and the columns that are held against it.
 
-use super::agree::Compared;
+use super::norms::{Compared, Grid};
 use super::vary::Parameter;
 use crate::error::Error;
 use crate::motion::Side;
 use crate::problem::Problem;
 use crate::quantity::{Measure, Quantity, Rays, Units};
-use crate::solve::{History, Numbers, Plan, Question, Solution, unobserved};
+use crate::solve::History;
 
 /// A column as it is held against a run: itself where it has no jumps, its integral over time where it has them. An
 /// integral does not see how far a front is spread about its time, and changes steadily with the values of the scene.
@@ -46,12 +46,7 @@ pub(super) struct Model<'a> {
 /// The history of `problem` in doubles up to a time.
 pub(super) fn solved(problem: &Problem, until: f64) -> Result<History<f64>, Error> {
     // A rounding further, for times that are as many.
-    let problem = problem.to_builder().time(until * (1.0 + 4.0 * f64::EPSILON)).build()?;
-    let plan = Plan::of(&problem, &Question::run(Numbers::Double(None)))?;
-    match plan.solve(&problem, unobserved())? {
-        Solution::Double(history) => Ok(history),
-        _ => Err(Error::NoMultiprecision),
-    }
+    problem.to_builder().time(until * (1.0 + 4.0 * f64::EPSILON)).build()?.solve()
 }
 
 /// `start + ∫ values dt` by the trapezoidal rule.
@@ -66,10 +61,11 @@ fn integral(times: &[f64], values: &[f64], start: f64) -> Vec<f64> {
 
 /// `ρS L`, or `L` where forces are per `ρS`.
 pub(super) fn mass(problem: &Problem) -> f64 {
-    line(problem) * Parameter::Length.value(problem).unwrap_or_default()
+    line_density(problem) * Parameter::Length.value(problem).unwrap_or_default()
 }
 
-fn line(problem: &Problem) -> f64 {
+/// `ρS`, or 1 where forces are per `ρS`.
+fn line_density(problem: &Problem) -> f64 {
     Units::of(problem, crate::quantity::UnitSystem::Si).factor::<f64>(Measure::Impulse, &()).unwrap_or(1.0)
 }
 
@@ -95,7 +91,7 @@ impl<'a> Model<'a> {
                 _ if *what == Quantity::CentreVelocity => speed / trip,
                 Some(Measure::Energy) => mass(problem) * speed * speed / trip,
                 Some(Measure::Force | Measure::Stress | Measure::Strain | Measure::Impulse) => {
-                    line(problem) * wave_speed * speed
+                    line_density(problem) * wave_speed * speed
                 }
                 Some(_) => speed,
                 None => continue,
@@ -118,7 +114,7 @@ impl<'a> Model<'a> {
             signals.push(Signal { what: *what, model, theirs, is_empty, rate });
         }
         let times: Vec<f64> = kept.iter().map(|k| times[*k]).collect();
-        let weights = super::norms::Grid::new(times.clone(), None).weights;
+        let weights = Grid::new(times.clone(), None).weights;
         Ok(Model { problem, times, signals, weights, step })
     }
 

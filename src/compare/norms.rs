@@ -4,6 +4,8 @@ use std::ops::Range;
 
 use serde::Serialize;
 
+use crate::quantity::Quantity;
+
 /// A norm of the difference `theirs − ours`.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Norm {
@@ -25,6 +27,15 @@ pub struct Greatest {
     /// Where in the rod, for a field.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub point: Option<f64>,
+}
+
+/// One quantity: values at the samples of the grid, and how far apart they are.
+#[derive(Debug)]
+pub(crate) struct Compared {
+    pub(crate) what: Quantity,
+    pub(crate) ours: Vec<f64>,
+    pub(crate) theirs: Vec<f64>,
+    pub(crate) norms: Norms,
 }
 
 /// The norms of the difference of two lists of samples.

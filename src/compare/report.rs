@@ -2,12 +2,12 @@
 
 use serde_json::{Value, json};
 
-use super::agree::{Agreement, Compared, Coverage};
+use super::agree::{Agreement, Coverage};
 use super::audit::Extreme;
 use super::comparison::{ComparedFile, Comparison};
 use super::fit::{Fit, FittedValue};
 use super::limit::Order;
-use super::norms::{Greatest, Norm};
+use super::norms::{Compared, Greatest, Norm};
 use super::touch::Touch;
 use crate::aligned::table;
 use crate::number::Scalar;

@@ -1,16 +1,19 @@
 //! Which one number is wrong: hypotheses, each fitted to the data.
 //!
-//! A hypothesis has one number. It is fitted to the first contact and the flight after it: a scheme starts from the same
-//! data as ours, and its errors grow from impact to impact. It is said where it removes most of the misfit in all that
-//! it concerns.
+//! A hypothesis has one number. It is fitted to the first contact and the flight after it: a scheme starts from the
+//! same data as ours, and its errors grow from impact to impact. It is said where it removes most of the misfit in all
+//! that it concerns.
 //!
 //! - *Of all columns that it changes* it leaves at most half of ‖e‖₂, three quarters of ‖e‖₂² being removed; of each
 //!   of them it removes more than half of ‖e‖₂². Of a clock or a shift in time at most a quarter is left: contacts
 //!   that are soft look like one.
 //! - *Of each part of a column*, which are the first wave up the rod, the rest of the contact, and the flight, the
-//!   number that fits it best is within half of the value. A part has a say where the value changes it by more than
-//!   the resolution of the data, which is an error of one step in time. What a scheme does wrong at an impact is not
-//!   there before it, or goes another way after it.
+//!   number that fits it best is within half of the value. A part counts where the value changes it by more than the
+//!   resolution of the data, which is an error of one step in time. What a scheme does wrong at an impact is not there
+//!   before it, or goes another way after it.
+//! - *Of the first sample*, which a scheme is given and does not compute, at most half of what the value changes is
+//!   left. Where it is the energy that the value changes there and at most a quarter is left, the start itself says
+//!   the value: then half of ‖e‖₂² may be left over all columns, and no column may get worse.
 //! - The value is more than twice its standard error. That has two parts: the scatter of the parts about the value,
 //!   and the step.
 //!
@@ -18,9 +21,8 @@
 
 use serde::Serialize;
 
-use super::agree::Compared;
 use super::model::{Model, Signal};
-use super::norms::Grid;
+use super::norms::{Compared, Grid};
 use super::vary::Parameter;
 use crate::error::Error;
 use crate::motion::Side;
@@ -83,6 +85,8 @@ const HOPELESS: f64 = 0.8;
 const STEPS: usize = 12;
 /// Where a fit starts besides at 0: nearly nothing of a value.
 const NOTHING: f64 = -0.999;
+/// A gravity that is known no better than this, in standard errors, may be none.
+const NO_GRAVITY: f64 = 0.009;
 
 /// A hypothesis that was fitted.
 #[derive(Debug)]
@@ -181,8 +185,8 @@ impl Judge<'_> {
         };
         let (mut p, mut found) = (0.0, self.base.clone());
         let slope = slopes(p, &found)?;
-        // What the number does not change has no say. Nor has the energy after the start: a scheme loses as much of
-        // it at an impact as one number would.
+        // What the number does not change does not count. Nor does the energy after the start: a scheme loses as much
+        // of it at an impact as one number would.
         let tells = |k: usize| {
             let by_itself = matches!(hypothesis, Hypothesis::Factor(_));
             (by_itself || self.model.signals[k].what.measure() != Some(Measure::Energy))
@@ -245,13 +249,13 @@ impl Judge<'_> {
             false => of(errors),
         };
         let mut holds = true;
-        let mut sworn = false;
+        let mut start_tells = false;
         for j in 0..found.len() {
-            // The start is given to a scheme: where the value changes it, it says so.
+            // The start is given to a scheme and not computed by it.
             let by = (p * slope[j][0]).abs();
             holds &= by <= NONE * self.trip || found[j][0].abs() <= by / 2.0;
             let energy = self.model.signals[j].what == Quantity::Energy;
-            sworn |= energy && by > NONE * self.trip && found[j][0].abs() <= by / 4.0;
+            start_tells |= energy && by > NONE * self.trip && found[j][0].abs() <= by / 4.0;
         }
         let (mut scatter, mut weight, mut count, mut early) = (0.0, 0.0, 0.0, false);
         for j in (0..found.len()).filter(|j| concerned[*j]) {
@@ -268,13 +272,12 @@ impl Judge<'_> {
                 holds &= apart.abs() <= p.abs() / 2.0 + resolution;
                 (scatter, weight, count) = (scatter + own * apart * apart, weight + own, count + 1.0);
             }
-            // Half of ‖e‖₂² of each column.
-            let share = if sworn { 1.0 } else { 0.5 };
+            let share = if start_tells { 1.0 } else { 0.5 };
             holds &= !told || square(&found[j], None) <= square(&self.base[j], None) * share;
         }
-        // A contact that is soft, or late, is much like a clock: of that nearly nothing is left.
+        // A contact that is soft, or late, is much like a clock.
         let clock = matches!(hypothesis, Hypothesis::Clock | Hypothesis::Late);
-        let most = if sworn { LEFT } else { LEFT * LEFT } * if clock { LEFT * LEFT } else { 1.0 };
+        let most = if start_tells { LEFT } else { LEFT * LEFT } * if clock { LEFT * LEFT } else { 1.0 };
         holds &= total(found) <= most * total(&self.base);
         let span: f64 = self.model.weights.iter().sum::<f64>() * count / (self.ends.len() + 1) as f64;
         let resolution = self.model.step * (span / weight).sqrt() / f64::max(count, 1.0).sqrt();
@@ -517,7 +520,7 @@ impl Judge<'_> {
             Hypothesis::Value(Parameter::Speed) => {
                 of_all(p, error, format!("velocity at the start off by {}", percent(p, error)))
             }
-            Hypothesis::Value(Parameter::Gravity) if p < -1.0 + 3.0 * error.max(-NOTHING - 0.99) => {
+            Hypothesis::Value(Parameter::Gravity) if p < -1.0 + 3.0 * error.max(NO_GRAVITY) => {
                 of_all(-1.0, error, "no gravity: is the weight missing?".into())
             }
             Hypothesis::Value(parameter) => {

@@ -2,8 +2,7 @@
 
 use std::cmp::Ordering;
 
-use super::given::{Given, UNITS, range, within};
-use super::validate::ByPath;
+use super::given::{ByPath, Given, UNITS, range, within};
 use super::written::short;
 use super::{ProblemError, ProblemErrorKind as Kind, Profile, Written};
 use crate::number::Number;

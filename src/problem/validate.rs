@@ -1,6 +1,6 @@
 //! The one set of checks that every problem goes through, from a scene file or from the builder.
 
-use super::given::{Given, UNITS, range, within};
+use super::given::{ByPath, Given, UNITS, range, within};
 use super::parameters::touch_speed;
 use super::profile::{self, Points};
 use super::{Material, Problem, ProblemError, ProblemErrorKind as Kind, Rod, Run, Speed, Start, Top, Written};
@@ -28,42 +28,6 @@ pub(crate) const NUMBERS: [&str; 12] = [
     "run.time",
     "run.impacts",
 ];
-
-/// Values by their path in a scene file, each once.
-#[derive(Clone, Debug)]
-pub(crate) struct ByPath<T>(Vec<(&'static str, T)>);
-
-impl<T> Default for ByPath<T> {
-    fn default() -> Self {
-        ByPath(Vec::new())
-    }
-}
-
-impl<T> ByPath<T> {
-    pub(super) fn get(&self, path: &str) -> Option<&T> {
-        self.0.iter().find(|(known, _)| *known == path).map(|(_, value)| value)
-    }
-
-    /// A value in place of what the path had.
-    pub(crate) fn set(&mut self, path: &'static str, value: T) {
-        self.0.retain(|(known, _)| *known != path);
-        self.0.push((path, value));
-    }
-
-    /// All values of another list in place of its own.
-    pub(super) fn set_all(&mut self, others: Self) {
-        others.0.into_iter().for_each(|(path, value)| self.set(path, value));
-    }
-
-    /// Leaves out these paths.
-    pub(super) fn leave_out(&mut self, paths: &[&str]) {
-        self.0.retain(|(path, _)| !paths.contains(path));
-    }
-
-    pub(super) fn is_empty(&self) -> bool {
-        self.0.is_empty()
-    }
-}
 
 /// The values of a problem before any check, by their path in a scene file.
 #[derive(Clone, Debug, Default)]

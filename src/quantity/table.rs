@@ -189,31 +189,35 @@ quantities! {
     Time: "t" also ["time"], "t", Some(Time), Time 0, Kink, "time";
     Side: "side", "", None, Side 0, Kink,
         "which limit at a jump: from earlier times, from later ones, or both the same";
-    EndDisplacement: "u_end" as "v" also ["u", "displacement", "disp", "gap", "u_y", "uy"], "v(0,t)", Some(Length), End 0, Kink,
-        "displacement of the end at the ground, upwards: its gap";
-    EndVelocity: "v_end" as "v_t" also ["v", "velocity", "vel", "v_y", "vy"], "v_t(0,t)", Some(Velocity), End 1, Jump,
-        "velocity of the end at the ground, upwards";
+    EndDisplacement: "u_end" as "v" also ["u", "displacement", "disp", "gap", "u_y", "uy"],
+        "v(0,t)", Some(Length), End 0, Kink, "displacement of the end at the ground, upwards: its gap";
+    EndVelocity: "v_end" as "v_t" also ["v", "velocity", "vel", "v_y", "vy"],
+        "v_t(0,t)", Some(Velocity), End 1, Jump, "velocity of the end at the ground, upwards";
     Strain: "strain" as "v_x" also ["eps"], "v_x(0,t)", Some(Strain), Strain 0, Jump,
         "strain at the ground, positive in tension";
     Stress: "stress" also ["sigma"], "E v_x(0,t)", Some(Stress), Strain 0, Jump,
         "stress at the ground, positive in tension";
-    Force: "force" also
-        ["f", "contact_force", "reaction", "reaction_force", "lambda", "f_n", "fn", "normal_force", "rf"], "−E S v_x(0,t)", Some(Force), Strain 0, Jump,
-        "contact force, positive in compression";
-    TopDisplacement: "u_top" as "v" also ["top_displacement", "u_tip", "tip_displacement"], "v(L,t)", Some(Length), Top 0, Kink, "displacement of the upper end";
-    TopVelocity: "v_top" as "v_t" also ["top_velocity", "v_tip", "tip_velocity"], "v_t(L,t)", Some(Velocity), Top 1, Jump, "velocity of the upper end";
+    Force: "force"
+        also ["f", "contact_force", "reaction", "reaction_force", "lambda", "f_n", "fn", "normal_force", "rf"],
+        "−E S v_x(0,t)", Some(Force), Strain 0, Jump, "contact force, positive in compression";
+    TopDisplacement: "u_top" as "v" also ["top_displacement", "u_tip", "tip_displacement"],
+        "v(L,t)", Some(Length), Top 0, Kink, "displacement of the upper end";
+    TopVelocity: "v_top" as "v_t" also ["top_velocity", "v_tip", "tip_velocity"],
+        "v_t(L,t)", Some(Velocity), Top 1, Jump, "velocity of the upper end";
     Centre: "h" also ["centre"], "h", Some(Length), Centre 0, Smooth,
         "centre of mass above its place in the undeformed rod on the ground";
     CentreVelocity: "h_rate" also ["h'", "h_dot"], "h′", Some(Velocity), Centre 1, Kink,
         "velocity of the centre of mass";
-    Energy: "E_total" as "total" also ["E", "energy", "total", "total_energy", "etot"], "E", Some(Energy), Energy 0, Smooth,
-        "energy: E_h + E_z, or kinetic + strain_energy + gravity";
+    Energy: "E_total" as "total" also ["E", "energy", "total", "total_energy", "etot"],
+        "E", Some(Energy), Energy 0, Smooth, "energy: E_h + E_z, or kinetic + strain_energy + gravity";
     TranslationalEnergy: "E_h" as "translational", "E_h", Some(Energy), Energy 1, Kink,
         "energy of the centre of mass: ρSL(h′²/2 + g h)";
     VibrationalEnergy: "E_z" as "vibrational" also ["vibrational"], "E_z", Some(Energy), Energy 2, Kink,
         "energy of the vibration: ½ρS∫((v_t − h′)² + c²v_x²)dx";
-    KineticEnergy: "kinetic" also ["kinetic_energy", "elke"], "½ρS∫v_t²dx", Some(Energy), Parts 0, Kink, "kinetic energy";
-    StrainEnergy: "strain_energy" also ["internal_energy", "else"], "½ES∫v_x²dx", Some(Energy), Parts 1, Kink, "strain energy";
+    KineticEnergy: "kinetic" also ["kinetic_energy", "elke"],
+        "½ρS∫v_t²dx", Some(Energy), Parts 0, Kink, "kinetic energy";
+    StrainEnergy: "strain_energy" also ["internal_energy", "else"],
+        "½ES∫v_x²dx", Some(Energy), Parts 1, Kink, "strain energy";
     GravityEnergy: "gravity", "ρSLg h", Some(Energy), Centre 0, Smooth, "energy in gravity, zero at h = 0";
     Contact: "contact", "", None, Contact 0, Jump, "1 on the ground, 0 in flight";
     Impulse: "impulse", "∫force dt", Some(Impulse), Impulse 0, Kink, "impulse of the contact force since t = 0";

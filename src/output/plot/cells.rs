@@ -10,6 +10,9 @@ use crate::output::draw::{Piece, clip};
 use crate::problem::Parameters;
 use crate::solve::{History, Target};
 
+/// More rays than this are not drawn, and their jumps not looked up.
+pub(super) const MOST_RAYS: usize = 300;
+
 /// A ray, by the time at which it leaves the ground.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Break {

@@ -1,6 +1,6 @@
 //! What pictures of a scene are drawn from: answers of its history in doubles, over the span that is drawn.
 
-use super::cells::{self, Break, Cells, Strip, settled};
+use super::cells::{self, Break, Cells, MOST_RAYS, Strip, settled};
 use super::picture::{Along, Picture};
 use crate::error::Error;
 use crate::motion::{EventKind, Motion, RayRegister, Side, StressPiece};
@@ -247,7 +247,7 @@ fn breaks<S: Target>(history: &History<S>, drawn: &Gathered) -> Result<Vec<Break
         rays.retain(|ray| ray.age <= faded);
         // Across a ray in the middle of the rod, a quarter of a round trip after it has left the ground.
         let (middle, late) = (scales.length / end.int(2), scales.time / end.int(4));
-        let few = rays.len() <= MOST_MEASURED;
+        let few = rays.len() <= MOST_RAYS;
         let mut found = Vec::with_capacity(rays.len());
         for ray in rays {
             let time = ray.time.clone() + &late;
@@ -273,9 +273,6 @@ fn breaks<S: Target>(history: &History<S>, drawn: &Gathered) -> Result<Vec<Break
     }
     Ok(breaks)
 }
-
-/// Of more rays than this the jumps are not looked up: they are not drawn.
-const MOST_MEASURED: usize = 300;
 
 /// What is left of a ray that is drawn no more.
 const FADED: f64 = 1e-3;

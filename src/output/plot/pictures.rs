@@ -2,7 +2,7 @@
 
 use glam::DVec2;
 
-use super::cells::{Break, Cells, Values};
+use super::cells::{Break, Cells, MOST_RAYS, Values};
 use super::gather::{Asked, Gathered, Line};
 use super::picture::{Along, Picture};
 use crate::error::Error;
@@ -32,8 +32,6 @@ const JUMP: &str = "0.5 0.5";
 const WIDTH: f64 = 0.4;
 /// Lines of scenes and of quantities in one picture.
 const DASHES: [&str; 3] = ["", "2 0.9", "0.5 0.7"];
-/// More rays than this are not drawn.
-const MOST_RAYS: usize = 300;
 /// More jumps than this are not drawn.
 const MOST_JUMPS: usize = 2000;
 
