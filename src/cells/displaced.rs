@@ -84,7 +84,8 @@ fn doubtful(history: &History, before: f64) -> bool {
 }
 
 fn compare(case: &Displaced) -> Result<(), TestCaseError> {
-    let Ok(Some((a, b))) = both(case) else { return Ok(()) };
+    // A rod that does not leave the ground has nothing to be displaced.
+    let Some((a, b)) = both(case)? else { return Ok(()) };
     let within = |what: &str, a: &Estimate<f64>, b: &Estimate<f64>| {
         let (off, bound) = ((a.value() - b.value()).abs(), a.bound() + b.bound());
         prop_assert!(off <= bound, "{what}: {} and {}, off by {off:e}, bound {bound:e}", a.value(), b.value());

@@ -2,7 +2,9 @@
 //! that goes strip by strip and does not take flights apart.
 
 use crate::common::{number, reference};
-use crate::stripped::{Stripped, damped};
+use crate::stripped::Stripped;
+#[cfg(feature = "mp")]
+use crate::stripped::damped;
 use dalembert::engine::{ContactThenCells, FirstContact, Motion};
 use dalembert::{EventKind, Material, Number, Parameters, Problem, Run, Side, Speed, Start};
 use serde_json::Value;

@@ -22,7 +22,9 @@ mod common;
 mod compare_command;
 #[cfg(feature = "cli")]
 mod compare_fits;
+#[cfg(feature = "cli")]
 mod compare_peers;
+#[cfg(feature = "cli")]
 mod compare_verdicts;
 mod conformance;
 #[cfg(feature = "cli")]

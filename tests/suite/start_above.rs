@@ -1,6 +1,9 @@
 //! A rod that starts above the ground: the touch by hand, and after it the motion of the rod that touches at `t = 0`.
 
-use dalembert::{Ending, EventKind, Number, Problem, Run, Side, Start, Top};
+use dalembert::{Ending, EventKind, Number, Problem, Side, Start};
+#[cfg(feature = "mp")]
+use dalembert::{Run, Top};
+#[cfg(feature = "mp")]
 use proptest::prelude::*;
 
 use crate::common::close;
