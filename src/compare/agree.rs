@@ -125,7 +125,8 @@ impl Agreement {
         };
         agreement.coverage = agreement.covered(history, settings);
         if agreement.grid.points.is_none() {
-            agreement.keep_books(problem, &ours, settings.until);
+            let start = agreement.grid.times.iter().take_while(|time| **time <= rounding.at(**time)).count();
+            agreement.keep_books(problem, &ours, settings.until, start);
             if settings.judge {
                 let contacts = [agreement.audit.missed, agreement.audit.invented];
                 let (grid, columns) = (&agreement.grid, agreement.quantities.as_slice());
@@ -149,8 +150,9 @@ impl Agreement {
         self.quantities.iter().find(|compared| compared.what == column)
     }
 
-    /// Contacts, audit, and the hints of both.
-    fn keep_books(&mut self, problem: &Problem, ours: &Ours<'_>, until: Option<f64>) {
+    /// Contacts and audit. The first `start` samples are at `t = 0`: what is given, before it or after it, and none of
+    /// the ground's doing.
+    fn keep_books(&mut self, problem: &Problem, ours: &Ours<'_>, until: Option<f64>, start: usize) {
         let times = &self.grid.times;
         let (Some(first), Some(last)) = (times.first().copied(), times.last().copied()) else { return };
         // Whatever shows the force: it, or stress or strain with the factor that makes them one. Where its sign is the
@@ -173,19 +175,20 @@ impl Agreement {
         let most = exact.iter().filter_map(|touch| touch.peak).fold(0.0, f64::max);
         let height = self.theirs(Quantity::EndDisplacement);
         let height = height.map_or(0.0, |end| end.ours.iter().fold(0.0f64, |most, v| most.max(v.abs())));
-        let touching = |k: usize| match (on_ground, force, end) {
+        let on_it = |k: usize| match (on_ground, force, end) {
             (Some(flag), ..) => flag[k] > 0.5,
             (_, Some(force), _) => force[k] > PUSHES * most,
             (.., Some(v)) => v[k] <= PUSHES * height,
             _ => false,
         };
+        let touching = |k: usize| on_it(k) && (k >= start || (start < times.len() && on_it(start)));
         let mut contacts = Vec::new();
         if on_ground.is_some() || force.is_some() || end.is_some() {
             // One that begins just after the last sample may have begun in theirs; it is not missing if not.
             let separation = ours.shortest_separation();
             let found = touches(times, touching, force, separation);
             let within = |touch: &Touch| touch.from < last + separation && touch.to.is_none_or(|to| to > first);
-            let exact: Vec<Touch> = exact.into_iter().filter(within).collect();
+            let exact: Vec<Touch> = exact.into_iter().filter(within).map(|touch| touch.beside(times)).collect();
             contacts = matched(&exact, &found);
             let later = |touch: &Touch| touch.from > last - 2.0 * self.step;
             contacts.retain(|(a, b)| b.is_some() || !a.as_ref().is_some_and(later));
@@ -193,15 +196,21 @@ impl Agreement {
         let energy = self.theirs(Quantity::Energy);
         let books = Books {
             times,
+            start,
             displacement: end,
             force,
             energy: energy.map(|energy| [energy.ours.as_slice(), energy.theirs.as_slice()]),
             centre_velocity: self.theirs(Quantity::CentreVelocity).map(|compared| compared.theirs.as_slice()),
             momentum: (problem.rod.top == Top::Free).then(|| ours.momentum()),
         };
+        let alone = |row: &&(Option<Touch>, Option<Touch>)| row.0.is_none() || row.1.is_none();
+        let below =
+            |row: &&(Option<Touch>, Option<Touch>)| [&row.0, &row.1].into_iter().flatten().all(|t| t.below_step);
+        let told = || contacts.iter().filter(alone).filter(|row| !below(row));
         self.audit = Audit {
-            missed: contacts.iter().filter(|row| row.1.is_none()).count(),
-            invented: contacts.iter().filter(|row| row.0.is_none()).count(),
+            missed: told().filter(|row| row.1.is_none()).count(),
+            invented: told().filter(|row| row.0.is_none()).count(),
+            below_step: contacts.iter().filter(alone).filter(below).count(),
             not_covered: books.not_covered(until.unwrap_or(last)),
             ..books.audit()
         };

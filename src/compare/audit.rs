@@ -44,6 +44,8 @@ pub(crate) struct Audit {
     pub missed: usize,
     /// How many contacts of the samples are none of ours.
     pub invented: usize,
+    /// How many more, of either, are shorter than two steps of the samples.
+    pub below_step: usize,
     /// Times of the run that the samples leave out: before, after, and in holes ten times as long as the median step.
     pub not_covered: Vec<[f64; 2]>,
 }
@@ -53,6 +55,8 @@ pub(crate) struct Audit {
 pub(super) struct Books<'a> {
     /// Times.
     pub times: &'a [f64],
+    /// How many of them are the start, where the ground does not act yet.
+    pub start: usize,
     /// `v(0,t)`.
     pub displacement: Option<&'a [f64]>,
     /// `F`: the force of the ground, or what is proportional to it.
@@ -68,7 +72,7 @@ pub(super) struct Books<'a> {
 impl Books<'_> {
     /// The first sample with the greatest `value` above zero.
     fn most(&self, value: impl Fn(usize) -> f64) -> Extreme {
-        (0..self.times.len()).map(|k| Extreme { value: value(k), time: self.times[k] }).fold(
+        (self.start..self.times.len()).map(|k| Extreme { value: value(k), time: self.times[k] }).fold(
             Extreme { value: 0.0, time: self.times.first().copied().unwrap_or(0.0) },
             |most, found| {
                 if found.value > most.value { found } else { most }
@@ -146,6 +150,7 @@ mod tests {
         let times = [0.0, 1.0, 2.0];
         let books = Books {
             times: &times,
+            start: 0,
             displacement: Some(&[-0.5, 1.0, 0.0]),
             force: Some(&[4.0, -1.0, 0.0]),
             energy: Some([&[2.0, 2.0, 2.0], &[4.0, 5.0, 3.5]]),
@@ -165,6 +170,8 @@ mod tests {
         // 2 (2 + 0 + 3 · 2) − (3/2 − 1/2).
         assert_eq!(audit.momentum, Some(15.0));
         assert_eq!(Books { force: None, ..books }.audit().complementarity, None);
+        // What is given at the start is not of the ground's doing.
+        assert_eq!(Books { start: 1, ..books }.audit().penetration, Some(Extreme { value: 0.0, time: 0.0 }));
     }
 
     #[test]

@@ -86,7 +86,7 @@ impl<'a> Model<'a> {
         let count = times.partition_point(|time| *time <= until);
         let kept: Vec<usize> = (0..count).step_by(count.div_ceil(most).max(1)).collect();
         let mut signals = Vec::new();
-        for Compared { what, theirs, .. } in columns {
+        for Compared { what, ours, theirs, .. } in columns {
             let rate = match what.measure() {
                 _ if *what == Quantity::CentreVelocity => speed / trip,
                 Some(Measure::Energy) => mass(problem) * speed * speed / trip,
@@ -104,7 +104,12 @@ impl<'a> Model<'a> {
                 _ => (*what, theirs.clone()),
             };
             let values = if what.rays() == Rays::Jump {
-                let start = history.columns(&[model], &times[..1], Some(Side::Right))?;
+                let start = history.columns(&[model, *what], &times[..1], Some(Side::Right))?;
+                let mut values = values;
+                // A row with what is before the start: nothing has acted yet.
+                if let (true, Some(next)) = (ours[0] != start[1][0], values.get(1).copied()) {
+                    values[0] = next;
+                }
                 integral(times, &values, start[0][0])
             } else {
                 values

@@ -20,7 +20,8 @@ const WEIGHTS: &str = "sums over the samples by the trapezoidal rule: each weigh
 pub const LEGEND: &str = "\
 norm                L1 = ∫|e| dt, L2 = √∫e² dt, L∞ = max |e| of e = theirs − ours, by the
                     trapezoidal rule; relative to the same norm of ours
-off jumps           over samples further from a jump of ours than --window says
+off jumps           over samples further from a jump of ours than the window: 0.02 round trips or two
+                    steps, whichever is more, where nothing else is said
 sample on a jump    compared with the nearer of the two limits, or the one that its row names
 impulse             ∫ F dt over the contact
 centroid            ∫ t F dt / ∫ F dt: the mean time of the force
@@ -34,6 +35,7 @@ tension in contact  the greatest pull of the ground
 energy              how much more the energy of theirs has changed than that of ours
 momentum            what is left of P′ + 2rP = F − weight over all samples, P the momentum
 missed, invented    contacts of ours without one of theirs, and the other way round
+below the step      such contacts that are shorter than two steps: samples need not show them
 not covered         times of the run without samples
 hint                one number that explains most of what differs in all that it concerns, up to the
                     second impact, with its standard error
@@ -198,8 +200,14 @@ fn contacts_table(contacts: &[(Option<Touch>, Option<Touch>)], units: &Units) ->
                 let apart = apart.try_into().unwrap_or([None; 5]);
                 rows.push(row(String::new(), "difference".into(), apart));
             }
-            (Some(a), None) => rows.push(row(name, "ours, missing in theirs".into(), columns(a))),
-            (None, Some(b)) => rows.push(row(name, format!("{whose}, not in ours"), columns(b))),
+            (Some(a), None) => {
+                let why = if a.below_step { "below their step" } else { "missing in theirs" };
+                rows.push(row(name, format!("ours, {why}"), columns(a)));
+            }
+            (None, Some(b)) => {
+                let why = if b.below_step { "below the step" } else { "not in ours" };
+                rows.push(row(name, format!("{whose}, {why}"), columns(b)));
+            }
             (None, None) => {}
         }
     }
@@ -234,6 +242,7 @@ fn audit_lines(agreement: &Agreement, units: &Units) -> String {
     });
     let covered: Vec<String> =
         audit.not_covered.iter().map(|[from, to]| format!("t = {} … {}", number(*from), number(*to))).collect();
+    let below = if audit.below_step > 0 { format!(", {} below the step", audit.below_step) } else { String::new() };
     let momentum = audit.momentum.map(|x| format!("{} out of balance", with(x, impulse)));
     let lines = [
         ("penetration", or(audit.penetration.as_ref().map(|x| at(x, length)), "u_end")),
@@ -241,7 +250,7 @@ fn audit_lines(agreement: &Agreement, units: &Units) -> String {
         ("∫|v F| dt", or(audit.complementarity.map(|x| with(x, &action)), "u_end and force")),
         ("energy", or(energy, "E_total")),
         ("momentum", or(momentum, "force, h_rate and a free top")),
-        ("contacts", format!("{} missed, {} invented", audit.missed, audit.invented)),
+        ("contacts", format!("{} missed, {} invented{below}", audit.missed, audit.invented)),
         ("not covered", if covered.is_empty() { "nothing".into() } else { covered.join(", ") }),
     ];
     lines.map(|(name, text)| format!("{name:<20}{text}\n")).concat()

@@ -15,15 +15,13 @@ pub(crate) struct Touch {
     pub centroid: Option<f64>,
     /// The greatest `F`.
     pub peak: Option<f64>,
-    /// `√12 · √(∫ (t − centroid)² F dt / ∫ F dt)`: the duration of a steady force that spreads as much.
-    #[serde(skip)]
-    pub spread: Option<f64>,
     /// How many short separations were taken as part of it.
     #[serde(skip_serializing_if = "is_zero")]
     pub merged: usize,
-    /// How far `from` and `to` may be off: half of the longest of the steps around them; zero for an exact one.
-    #[serde(skip)]
-    pub step: f64,
+    /// Whether it is shorter than two steps of the samples: a scheme may begin it a step late and end it a step early,
+    /// and then none of them is in it.
+    #[serde(skip_serializing_if = "std::ops::Not::not")]
+    pub below_step: bool,
 }
 
 #[expect(clippy::trivially_copy_pass_by_ref, reason = "as serde calls it")]
@@ -36,13 +34,33 @@ impl Touch {
     fn middle(&self) -> f64 {
         self.centroid.unwrap_or_else(|| self.to.map_or(self.from, |to| f64::midpoint(self.from, to)))
     }
+
+    /// How much of the longer one both share, where `theirs` is `late`, and which part of the greater impulse the
+    /// lesser is.
+    fn agreement(&self, theirs: &Touch, late: f64) -> f64 {
+        let end = |touch: &Touch| touch.to.unwrap_or(f64::MAX);
+        let (from, to) = (theirs.from - late, end(theirs) - late);
+        let both = (to.min(end(self)) - from.max(self.from)).max(0.0);
+        let either = to.max(end(self)) - from.min(self.from);
+        let share = |(a, b): (f64, f64)| if a > 0.0 && b > 0.0 { (a / b).min(b / a) } else { 0.0 };
+        (if either > 0.0 { both / either } else { 0.0 }) + self.impulse.zip(theirs.impulse).map_or(0.0, share)
+    }
+
+    /// The same, beside samples at `times`.
+    pub(super) fn beside(self, times: &[f64]) -> Self {
+        let Some(to) = self.to else { return self };
+        let first = times.partition_point(|time| *time <= self.from).saturating_sub(1);
+        let last = times.partition_point(|time| *time < to).min(times.len().saturating_sub(1));
+        let step = (first..last).map(|k| times[k + 1] - times[k]).fold(0.0, f64::max);
+        Touch { below_step: to - self.from < 2.0 * step, ..self }
+    }
 }
 
 /// Moments of a force about a time.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Moments {
     about: f64,
-    sums: [f64; 3],
+    sums: [f64; 2],
     peak: f64,
 }
 
@@ -55,8 +73,8 @@ impl Moments {
     /// Adds a force at a time, with its weight in time.
     pub(super) fn add(&mut self, time: f64, force: f64, weight: f64) {
         let t = time - self.about;
-        let [m0, m1, m2] = &mut self.sums;
-        (*m0, *m1, *m2) = (*m0 + weight * force, *m1 + weight * force * t, *m2 + weight * force * t * t);
+        let [m0, m1] = &mut self.sums;
+        (*m0, *m1) = (*m0 + weight * force, *m1 + weight * force * t);
         self.peak = self.peak.max(force);
     }
 
@@ -67,16 +85,13 @@ impl Moments {
 
     /// The contact with these moments.
     pub(super) fn touch(&self, from: f64, to: Option<f64>) -> Touch {
-        let [m0, m1, m2] = self.sums;
-        let mean = m1 / m0;
-        let some = |value: f64| (m0 > 0.0).then_some(value);
+        let [m0, m1] = self.sums;
         Touch {
             from,
             to,
             impulse: Some(m0),
-            centroid: some(self.about + mean),
+            centroid: (m0 > 0.0).then(|| self.about + m1 / m0),
             peak: Some(self.peak),
-            spread: some((12.0 * (m2 / m0 - mean * mean).max(0.0)).sqrt()),
             ..Touch::default()
         }
     }
@@ -117,36 +132,38 @@ pub(super) fn touches(
                 moments.touch(from, to)
             }
         };
-        Touch { merged, step: (times[first] - times[before]).max(times[after] - times[last]) / 2.0, ..touch }
+        Touch { merged, ..touch }.beside(times)
     });
     found.collect()
 }
 
 /// Which of `theirs` is which of `ours`, in order of time: pairs, ours without theirs, and theirs without ours.
 ///
-/// A contact is the same as one of ours where it lies within half the way to the nearest other one of ours, after the
-/// difference that the pair before had: clocks that drift apart are followed.
+/// One of theirs may be one of ours where it lies within half the way to the nearest other one of ours, after the
+/// difference that the pair before had: clocks that drift apart are followed. Of several, that which agrees best in
+/// overlap, place and impulse.
 pub(super) fn matched(ours: &[Touch], theirs: &[Touch]) -> Vec<(Option<Touch>, Option<Touch>)> {
     let near = |k: usize| {
         let to = |other: Option<&Touch>| other.map_or(f64::INFINITY, |other| (other.middle() - ours[k].middle()).abs());
         to(k.checked_sub(1).and_then(|k| ours.get(k))).min(to(ours.get(k + 1))) / 2.0
     };
-    let (mut rows, mut late) = (Vec::new(), 0.0);
-    let (mut i, mut j) = (0, 0);
-    while i < ours.len() || j < theirs.len() {
-        let (a, b) = (ours.get(i), theirs.get(j));
-        let apart = a.zip(b).map(|(a, b)| b.middle() - late - a.middle());
-        let (take_ours, take_theirs) = match apart {
-            Some(apart) if apart.abs() <= near(i) => {
-                late += apart;
-                (true, true)
-            }
-            Some(apart) => (apart > 0.0, apart <= 0.0),
-            None => (a.is_some(), b.is_some()),
-        };
-        rows.push((a.filter(|_| take_ours).cloned(), b.filter(|_| take_theirs).cloned()));
-        (i, j) = (i + usize::from(take_ours), j + usize::from(take_theirs));
+    let (mut rows, mut late, mut next) = (Vec::new(), 0.0, 0);
+    for (k, a) in ours.iter().enumerate() {
+        let near = near(k);
+        let apart = |b: &Touch| b.middle() - late - a.middle();
+        let until = |reach: &dyn Fn(f64) -> bool| theirs[next..].iter().take_while(|b| reach(apart(b))).count() + next;
+        let (from, to) = (until(&|apart| apart < -near), until(&|apart| apart <= near));
+        let agreement = |b: &Touch| a.agreement(b, late) + 1.0 - apart(b).abs() / near;
+        let best = (from..to).max_by(|i, j| agreement(&theirs[*i]).total_cmp(&agreement(&theirs[*j])));
+        let end = best.unwrap_or(from);
+        rows.extend(theirs[next..end].iter().map(|b| (None, Some(b.clone()))));
+        rows.push((Some(a.clone()), best.map(|k| theirs[k].clone())));
+        if let Some(best) = best {
+            late += apart(&theirs[best]);
+        }
+        next = end + usize::from(best.is_some());
     }
+    rows.extend(theirs[next..].iter().map(|b| (None, Some(b.clone()))));
     rows
 }
 
@@ -166,11 +183,9 @@ mod tests {
         let found = touches(&times, |k| force[k] > 0.0, Some(&force), 1.5);
         assert_eq!(found.len(), 1);
         let touch = &found[0];
-        assert_eq!((touch.from, touch.to, touch.merged, touch.step), (0.75, Some(3.25), 1, 0.25));
+        assert_eq!((touch.from, touch.to, touch.merged, touch.below_step), (0.75, Some(3.25), 1, false));
         // Four samples of weight ½, and the centroid between them.
         assert_eq!((touch.impulse, touch.centroid, touch.peak), (Some(4.0), Some(2.0), Some(2.0)));
-        // 12 · (1 + ¼ + ¼ + 1)/4.
-        assert_eq!(touch.spread, Some(7.5f64.sqrt()));
         // Told apart where separations of a step count.
         assert_eq!(touches(&times, |k| force[k] > 0.0, None, 0.9).len(), 2);
     }
@@ -179,8 +194,24 @@ mod tests {
     #[test]
     fn open_and_none() {
         let found = touches(&[0.0, 1.0, 2.0], |k| k > 0, None, 0.0);
-        assert_eq!(found, [Touch { from: 0.5, to: None, step: 0.5, ..Touch::default() }]);
+        assert_eq!(found, [Touch { from: 0.5, to: None, ..Touch::default() }]);
         assert_eq!(touches(&[0.0, 1.0], |_| false, None, 0.0), []);
+    }
+
+    /// Two of theirs are near one of ours: the one with its impulse is the same, and the clock goes on from it.
+    #[test]
+    fn the_impulse_tells() {
+        let of = |from: f64, impulse: f64| Touch { impulse: Some(impulse), ..at(from) };
+        let ours: Vec<Touch> = [0.0, 4.0, 8.0].map(|from| of(from, 3.0)).into();
+        let theirs: Vec<Touch> = [(0.0, 3.0), (2.8, 0.1), (4.4, 2.9), (8.8, 3.0)].map(|(at, i)| of(at, i)).into();
+        let rows = matched(&ours, &theirs);
+        let places: Vec<_> = rows.iter().map(|(a, b)| [a, b].map(|touch| touch.as_ref().map(|t| t.from))).collect();
+        let expected = [(Some(0.0), 0.0), (None, 2.8), (Some(4.0), 4.4), (Some(8.0), 8.8)];
+        assert_eq!(places, expected.map(|(a, b)| [a, Some(b)]));
+        // One of length 1 beside steps of ½ and of 0.51.
+        let below =
+            |step: f64| at(0.0).beside(&(0..9).map(|k| f64::from(k) * step - 2.0).collect::<Vec<_>>()).below_step;
+        assert!(!below(0.5) && below(0.51));
     }
 
     /// Contacts every 4; theirs drift by 0.5 each, one is left out, one is added.

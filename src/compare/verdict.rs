@@ -365,11 +365,12 @@ pub(super) fn verdicts(
     if said.is_empty() {
         said.extend(unstable.or_else(|| half_step(known, trip)));
     }
-    for (count, kind, whose) in
-        [(contacts[0], "missed", "of ours are not in theirs"), (contacts[1], "invented", "of theirs are not in ours")]
-    {
+    for (count, kind, whose) in [
+        (contacts[0], "missed", "of ours that are not in theirs"),
+        (contacts[1], "invented", "of theirs that are not in ours"),
+    ] {
         if count > 0 {
-            let text = format!("contacts that {whose}: {count}; see the table of contacts");
+            let text = format!("contacts {whose}: {count}; see the table of contacts");
             said.push(Verdict { kind, quantity: "contact".into(), value: count as f64, error: 0.0, text });
         }
     }

@@ -7,19 +7,19 @@ use std::process::{Command, Output};
 use serde_json::Value;
 use tempfile::TempDir;
 
-fn run(folder: &Path, args: &[&str]) -> Output {
+pub(crate) fn run(folder: &Path, args: &[&str]) -> Output {
     Command::new(env!("CARGO_BIN_EXE_dalembert")).args(args).current_dir(folder).output().unwrap()
 }
 
 #[track_caller]
-fn text(output: &Output, code: i32) -> String {
+pub(crate) fn text(output: &Output, code: i32) -> String {
     let error = String::from_utf8_lossy(&output.stderr);
     assert_eq!(output.status.code(), Some(code), "{error}");
     String::from_utf8(output.stdout.clone()).unwrap()
 }
 
 #[track_caller]
-fn json(folder: &Path, args: &[&str]) -> Value {
+pub(crate) fn json(folder: &Path, args: &[&str]) -> Value {
     serde_json::from_str(&text(&run(folder, &[args, &["--format", "json"]].concat()), 0)).unwrap()
 }
 

@@ -20,6 +20,7 @@ mod command_ends;
 mod common;
 #[cfg(feature = "cli")]
 mod compare_command;
+mod compare_contacts;
 #[cfg(feature = "cli")]
 mod compare_fits;
 #[cfg(feature = "cli")]
