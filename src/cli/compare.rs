@@ -22,7 +22,8 @@ const EXAMPLES: &str = "Examples:\n  dalembert compare doyen-ern-piperno run.csv
     dalembert compare rod.toml coarse.npz fine.npz --fail-above u.l2=0.01,force.l1=0.05\n\n\
     Quantities are called as in `dalembert reference`; u and v are short for u_end and v_end. With a column x, u, v, \
     strain and stress are those at the point x. Two rows at one time are the limits at a jump, as `reference` writes \
-    them; a column side (left, right, both) says which. The exit code is 1 where a bound fails; with any bound, data \
+    them; a column side (left, right, both) says which. A unit in a name, as in `force [kN]`, is brought to that of \
+    the scene. The exit code is 1 where a bound fails; with any bound, data \
     that end before the run of the scene do, or before --to, fail.";
 
 /// Your data against the exact history: norms, contacts, an audit, and hints at what may be wrong
@@ -31,7 +32,8 @@ const EXAMPLES: &str = "Examples:\n  dalembert compare doyen-ern-piperno run.csv
 pub(super) struct Compare {
     /// A scene file, `-`, or a built-in scene. It is followed as far as the data go
     scene: String,
-    /// Data: text with columns, .npy or .npz; `-` is standard input. Several show the order of convergence
+    /// Data: text with columns, .npy, .npz, or a folder with a .npy for each quantity; `-` is standard input. Several
+    /// show the order of convergence
     #[arg(required = true)]
     data: Vec<PathBuf>,
     /// Which column is what, by its name or its number from 0: t=0,u=1,force=f_n; by default the names of the columns

@@ -118,7 +118,7 @@ fn run(cli: Cli) -> Result<ExitCode, Failure> {
         Command::Regimes(command) => command.run(),
         Command::Figures(command) => command.run(),
         Command::Check(command) => return command.run(),
-        Command::Scenes(command) => command.run(),
+        Command::Scenes(command) => return command.run(),
         Command::Man => {
             let mut page = Vec::new();
             let done = clap_mangen::Man::new(Cli::command()).render(&mut page);

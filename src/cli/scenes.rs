@@ -1,42 +1,40 @@
 //! `dalembert scenes`.
 
+use std::path::Path;
+use std::process::ExitCode;
+
 use clap::Args;
 
-use super::answer::{Report, answer};
 use super::args::OutputArgs;
-use super::failure::Failure;
+use super::failure::{Failure, cannot};
 use super::file::{self, Format};
 use super::source;
 use crate::aligned::table;
-use crate::error::Error;
-use crate::motion::Motion;
-use crate::number::{Number, Scalar};
-use crate::output::{Head, targets_data};
-use crate::routes::Reached;
-use crate::scene::{Target, builtin};
-use crate::solve::{Numbers, Question};
+use crate::output::targets_data;
+use crate::routes::Published;
+use crate::scene::builtin;
 
 /// List the built-in scenes, print one, or hold it against what others have published
 #[derive(Args, Debug)]
 #[command(
-    after_help = "Examples:\n  dalembert scenes ansys-vm265\n  dalembert scenes ansys-vm265 --targets --format json"
+    after_help = "Examples:\n  dalembert scenes ansys-vm265\n  dalembert scenes ansys-vm265 --targets --format json\n  \
+    dalembert scenes my_scenes/ --targets\n\nWith --targets the exit code is 1 where a value differs by more than \
+    its `within`, or by more than half a unit of its last digit."
 )]
 pub(super) struct Scenes {
-    /// The scene to print; with --targets also a scene file, or `-`
+    /// The scene to print; with --targets also a scene file, `-`, or a folder with scene files
     name: Option<String>,
-    /// Print the published values of the scene, its [[target]]s, beside ours
-    #[arg(long, requires = "name")]
+    /// Print the published values of the scene, its [[target]]s, beside ours; without a scene those of all built-in ones
+    #[arg(long)]
     targets: bool,
     #[command(flatten)]
     output: OutputArgs,
 }
 
 impl Scenes {
-    pub(super) fn run(&self) -> Result<(), Failure> {
-        if let (true, Some(name)) = (self.targets, &self.name) {
-            let scene = source::read(name)?;
-            let numbers = Numbers::Double(scene.accuracy.as_ref().map(Number::to_f64));
-            return answer(&scene, &Question::run(numbers), &self.output, &Published(&scene.targets));
+    pub(super) fn run(&self) -> Result<ExitCode, Failure> {
+        if self.targets {
+            return self.published();
         }
         if self.output.format.is_some_and(|format| format != Format::Table) {
             return Err(failure!("found --format, expected it with --targets: a list of scenes is a text"));
@@ -54,26 +52,49 @@ impl Scenes {
                 }
             },
         };
-        self.output.write(text.as_bytes())
+        self.output.write(text.as_bytes())?;
+        Ok(ExitCode::SUCCESS)
     }
 }
 
-/// The published values of a scene beside ours.
-struct Published<'a>(&'a [Target]);
-
-impl Report for Published<'_> {
-    type Data<S: Scalar> = Vec<Reached<S>>;
-
-    fn gather<S: Scalar>(&self, history: &dyn Motion<S>, head: &Head) -> Result<Self::Data<S>, Error> {
-        Reached::all(history, self.0, &head.units)
+impl Scenes {
+    /// The published values of a scene, of the scenes in a folder, or of all that are built in; 1 where one differs.
+    fn published(&self) -> Result<ExitCode, Failure> {
+        let all = match &self.name {
+            None => Published::builtin()?,
+            Some(name) => {
+                let mut all = Vec::new();
+                for name in scene_files(name)? {
+                    let scene = source::read(&name)?;
+                    let found = Published::of(&name, &scene).map_err(|error| failure!("{name}: {error}"))?;
+                    all.push(found);
+                }
+                all
+            }
+        };
+        for published in &all {
+            for warning in &published.warnings {
+                eprintln!("warning: {}: {warning}", published.scene);
+            }
+        }
+        self.output.write(&file::rows(&targets_data(&all, self.output.wide), self.output.format()?)?)?;
+        let (count, agreed) = Published::count(&all);
+        Ok(if agreed < count { ExitCode::from(1) } else { ExitCode::SUCCESS })
     }
+}
 
-    /// None: values of very different size would be held to the digits of the greatest.
-    fn numbers<'a, S: Scalar>(&self, _: &'a Self::Data<S>) -> Vec<&'a S> {
-        Vec::new()
+/// The scene itself, or the scene files of a folder in the order of their names.
+fn scene_files(name: &str) -> Result<Vec<String>, Failure> {
+    if !Path::new(name).is_dir() {
+        return Ok(vec![name.to_string()]);
     }
-
-    fn bytes<S: Scalar>(&self, reached: &Self::Data<S>, head: &Head, format: Format) -> Result<Vec<u8>, Failure> {
-        file::rows(&targets_data(reached, head), format)
+    let entries = std::fs::read_dir(name).map_err(cannot(&format!("read {name}")))?;
+    let paths = entries.filter_map(|entry| Some(entry.ok()?.path()));
+    let scenes = paths.filter(|path| path.extension().is_some_and(|extension| extension == "toml"));
+    let mut names: Vec<String> = scenes.map(|path| path.display().to_string()).collect();
+    names.sort();
+    if names.is_empty() {
+        return Err(failure!("found no .toml in the folder {name}, expected scene files"));
     }
+    Ok(names)
 }

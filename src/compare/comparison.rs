@@ -154,17 +154,23 @@ impl Options {
         let guess = (sized && self.map.is_none() && !counted && source.names().is_empty() && source.width() > 3)
             .then_some(PLAIN);
         let map = Map::of(guess.or(self.map.as_deref()), source.names(), source.width(), counted).and_then(|map| {
-            let by_name = self.map.is_none();
-            if by_name { map.check_units(source.names(), units) } else { Ok(()) }.map(|()| map)
+            let names = if self.map.is_none() { source.names() } else { &[] };
+            let (conversions, converted) = map.conversions(names, units)?;
+            Ok((map, conversions, converted))
         });
         let map = map.map_err(|error| match (error, source.misnamed()) {
             (MapError::NoNames, Some(found)) => MapError::Names { found, expected: source.width() },
             (error, _) => error,
         });
-        let map = map.map_err(|error| CompareError::Map { file: source.file().into(), error })?;
+        let (map, conversions, converted) =
+            map.map_err(|error| CompareError::Map { file: source.file().into(), error })?;
         let clock = counted.then(|| Clock { start: of(&self.t0), step: of(&self.dt) });
-        let columns = source.columns(&map.places(), map.side)?;
+        let mut columns = source.columns(&map.places(), map.side)?;
+        for (values, conversion) in columns.values.iter_mut().zip(conversions) {
+            values.iter_mut().for_each(|value| *value = conversion.apply(*value));
+        }
         let mut samples = Samples::of(columns, &map, clock, of(&self.shift), length)?;
+        samples.notes.extend((!converted.is_empty()).then(|| format!("units: {converted}")));
         samples.notes.extend(sized.then(|| "the first line holds the numbers of rows and columns: skipped".into()));
         samples.notes.extend(guess.map(|guess| format!("the columns have no names: taken as {guess}")));
         Ok(samples)

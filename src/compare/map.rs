@@ -1,6 +1,6 @@
 //! Which column of a file is which quantity.
 
-use crate::quantity::{Measure, Needs, Quantity, Units};
+use crate::quantity::{Conversion, Measure, Needs, Quantity, Units};
 
 /// Where along the rod a quantity is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -68,7 +68,8 @@ pub enum MapError {
     #[error("found `{found}` twice, expected each quantity once, as a map such as t=0,u=1 can say it")]
     Twice { found: String },
     #[error(
-        "found the column `{found}`, expected it {expected} as in the scene; a map such as t=0,u=1 takes it as it is"
+        "found the column `{found}`, expected it {expected} as in the scene, or in a unit that can be brought to it; a \
+         map such as t=0,u=1 takes it as it is"
     )]
     Unit { found: String, expected: String },
     #[error("found column `{found}` in the map, expected {expected}")]
@@ -157,29 +158,47 @@ impl Map {
         }
     }
 
-    /// Refuses a header whose unit is not that of the scene.
+    /// What brings each of [`places`](Self::places) to the units of the scene, where its name says that it is in another
+    /// one, and what is to be said of that. A scene without units has its numbers as they are.
     ///
     /// **Errors**: [`MapError::Unit`].
-    pub(crate) fn check_units(&self, names: &[String], units: &Units) -> Result<(), MapError> {
-        let plain = |unit: &str| unit.replace([' ', '·', '*', '.'], "");
-        let times = self.time.map(|place| (place, Some(Measure::Time), units.name(Measure::Time)));
-        let points = self.point.map(|place| (place, Some(Measure::Length), units.name(Measure::Length)));
-        let quantities =
-            self.quantities.iter().map(|(quantity, place)| (*place, quantity.measure(), quantity.unit(units)));
-        for (place, measure, expected) in times.into_iter().chain(points).chain(quantities) {
-            let Some((header, Some(unit))) = names.get(place).map(|header| (header, name_and_unit(header).1)) else {
+    pub(crate) fn conversions(&self, names: &[String], units: &Units) -> Result<(Vec<Conversion>, String), MapError> {
+        let own = |place: Option<usize>, measure| place.map(|place| (place, Some((measure, units.name(measure)))));
+        let quantities = self
+            .quantities
+            .iter()
+            .map(|(quantity, place)| (*place, quantity.measure().map(|measure| (measure, quantity.unit(units)))));
+        let side = self.side.map(|place| (place, None));
+        let read = own(self.time, Measure::Time).into_iter().chain(own(self.point, Measure::Length)).chain(side);
+        let (mut all, mut said) = (Vec::new(), Vec::new());
+        for (place, expected) in read.chain(quantities) {
+            let header = names.get(place).map_or("", String::as_str);
+            let (Some(unit), Some((measure, expected))) = (name_and_unit(header).1, expected) else {
+                all.push(Conversion::NONE);
                 continue;
             };
-            let (met, expected) = match measure {
-                Some(Measure::Strain) => (matches!(unit, "-" | "–" | "1" | "m/m"), "without a unit".to_string()),
-                _ if expected.starts_with("per") => (plain(unit) == plain(expected), expected.to_string()),
-                _ => (expected.is_empty() || plain(unit) == plain(expected), format!("in {expected}")),
-            };
-            if !met {
-                return Err(MapError::Unit { found: header.clone(), expected });
+            let is_number = measure == Measure::Strain;
+            if expected.is_empty() && !is_number {
+                said.push(format!("{header} as it is, the scene having no units"));
+                all.push(Conversion::NONE);
+                continue;
             }
+            let same = unit.replace([' ', '·', '*', '.'], "") == expected.replace(' ', "");
+            let conversion = if same { Some(Conversion::NONE) } else { Conversion::between(unit, expected) };
+            let conversion = conversion.ok_or_else(|| MapError::Unit {
+                found: header.into(),
+                expected: match expected {
+                    "" => "without a unit".into(),
+                    per if per.starts_with("per") => per.into(),
+                    unit => format!("in {unit}"),
+                },
+            })?;
+            if conversion != Conversion::NONE {
+                said.push(format!("{header} in {}", if is_number { "1" } else { expected }));
+            }
+            all.push(conversion);
         }
-        Ok(())
+        Ok((all, said.join(", ")))
     }
 
     /// The places that are read: times, points, sides, quantities.

@@ -106,8 +106,9 @@ impl<'a> Model<'a> {
             let values = if what.rays() == Rays::Jump {
                 let start = history.columns(&[model, *what], &times[..1], Some(Side::Right))?;
                 let mut values = values;
-                // A row with what is before the start: nothing has acted yet.
-                if let (true, Some(next)) = (ours[0] != start[1][0], values.get(1).copied()) {
+                // A row with the stress that is there before the start, on which nothing has acted yet.
+                let before = ours[0] != start[1][0] && ours[0] != 0.0;
+                if let (true, Some(next)) = (before, values.get(1).copied()) {
                     values[0] = next;
                 }
                 integral(times, &values, start[0][0])

@@ -3,7 +3,7 @@
 use serde_json::{Value, json};
 
 use super::cost::duration;
-use super::target::{published_json, published_page, published_table};
+use super::target::{published_json, published_page, targets_data};
 use crate::aligned::table;
 use crate::routes::Published;
 use crate::routes::RightDigits;
@@ -63,12 +63,9 @@ pub(crate) fn check_table(groups: &Groups, published: &[Published]) -> String {
 
 /// The published values, and the counts.
 fn below(groups: &Groups, published: &[Published]) -> String {
-    let agreed = published.iter().flat_map(|published| &published.reached).filter(|reached| reached.agrees()).count();
-    let all: usize = published.iter().map(|published| published.reached.len()).sum();
     let mut out = String::new();
-    if all > 0 {
-        out += &(published_table(published) + "\n\n");
-        out += &format!("{all} published values: {agreed} agree, {} differ\n", all - agreed);
+    if Published::count(published).0 > 0 {
+        out += &targets_data(published, true).table();
     }
     if !groups.is_empty() {
         out += &(count(groups) + "\n");

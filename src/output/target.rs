@@ -3,54 +3,67 @@
 use serde_json::{Value, json};
 
 use super::dataset::{Cell, Column, Dataset};
-use super::record::Head;
-use crate::aligned::table;
-use crate::number::{Scalar, show};
-use crate::routes::{Published, Reached};
+use crate::number::{Estimate, Scalar, show};
+use crate::routes::Published;
 use crate::scene::Target;
 
 /// Significant digits of a difference in a table.
 const DIFFERENCE_DIGITS: u32 = 3;
 
-/// A row for each; a table has below it where each value was published.
-pub(crate) fn targets_data<S: Scalar>(reached: &[Reached<S>], head: &Head) -> Dataset {
+/// A row for each; a table has below it where each value was published, and how many agree.
+pub(crate) fn targets_data(all: &[Published], wide: bool) -> Dataset {
+    let several = all.len() > 1;
     let mut sources: Vec<&str> = Vec::new();
-    let rows = reached.iter().map(|reached| {
-        let target = &reached.target;
+    let mut rows = Vec::new();
+    for (published, reached) in all.iter().flat_map(|published| published.reached.iter().map(move |r| (published, r))) {
+        let (target, unit) = (&reached.target, reached.target.quantity.unit(&published.units));
         let place = sources.iter().position(|source| *source == target.source).unwrap_or_else(|| {
             sources.push(&target.source);
             sources.len() - 1
         });
-        let time = target.time.as_ref().map(|time| S::from_number(time, &reached.ours.precision()));
-        vec![
-            target.label().into(),
-            target.quantity.unit(&head.units).into(),
-            target.time.as_ref().map(ToString::to_string).into(),
-            Cell::optional(time.as_ref()),
-            target.published.to_string().into(),
-            Cell::number(&reached.published),
-            Cell::number(&reached.ours),
-            show(&reached.difference(), DIFFERENCE_DIGITS).into(),
-            Cell::number(&reached.difference()),
-            target.source.clone().into(),
-            format!("({})", place + 1).into(),
-        ]
-    });
-    let rows = rows.collect();
-    let below: String = sources.iter().enumerate().map(|(k, source)| format!("({}) {source}\n", k + 1)).collect();
-    let above = head.title.as_ref().map_or_else(String::new, |title| format!("{title}\n\n"));
-    let below = match reached {
-        [] => "the scene lists no published value: it has no [[target]]\n".into(),
-        _ => format!("\n\n{below}"),
+        let time = target.time.as_ref().map(|time| Estimate::<f64>::from_number(time, &()));
+        let (label, spelled) = (target.label(), target.time.as_ref().map(ToString::to_string));
+        let scene: Vec<Cell> = if several { vec![published.scene.clone().into()] } else { Vec::new() };
+        rows.push(
+            scene
+                .into_iter()
+                .chain([
+                    if unit.is_empty() { label.clone() } else { format!("{label}, {unit}") }.into(),
+                    label.into(),
+                    unit.into(),
+                    spelled.into(),
+                    Cell::optional(time.as_ref()),
+                    target.published.to_string().into(),
+                    Cell::number(&reached.published),
+                    Cell::number(&reached.ours),
+                    show(&reached.difference(), DIFFERENCE_DIGITS).into(),
+                    Cell::number(&reached.difference()),
+                    target.tolerance().into(),
+                    format!("{} ({})", if reached.agrees() { "yes" } else { "NO" }, place + 1).into(),
+                    reached.agrees().into(),
+                    target.source.clone().into(),
+                ])
+                .collect(),
+        );
+    }
+    let listed: String = sources.iter().enumerate().map(|(k, source)| format!("({}) {source}\n", k + 1)).collect();
+    let title = all.first().filter(|_| !several).and_then(|published| published.title.as_ref());
+    let (count, agreed) = Published::count(all);
+    let below = match count {
+        0 => "the scene lists no published value: it has no [[target]]\n".into(),
+        _ => format!("\n\n{listed}\n{count} published values: {agreed} agree, {} differ\n", count - agreed),
     };
-    let keys = (!head.wide).then_some(1);
-    Dataset { columns: target_columns(), rows, around: [above, below], digits: head.digits, keys, ..Dataset::default() }
+    let above = title.map_or_else(String::new, |title| format!("{title}\n\n"));
+    let columns = several.then(|| Column::new("scene").text()).into_iter().chain(target_columns()).collect();
+    let keys = (!wide && !several).then_some(1);
+    Dataset { columns, rows, around: [above, below], keys, ..Dataset::default() }
 }
 
-fn target_columns() -> Vec<Column> {
-    vec![
-        Column::new("quantity").text(),
-        Column::table("unit").named("unit").text(),
+fn target_columns() -> [Column; 14] {
+    [
+        Column::table("quantity").text(),
+        Column::data("quantity").text(),
+        Column::csv("unit").text(),
         Column::table("t").named("time"),
         Column::json("time"),
         Column::table("published").named("published"),
@@ -58,23 +71,11 @@ fn target_columns() -> Vec<Column> {
         Column::new("ours"),
         Column::table("difference"),
         Column::data("difference"),
+        Column::data("within"),
+        Column::table("agrees").text(),
+        Column::data("agrees"),
         Column::data("source"),
-        Column::table(""),
     ]
-}
-
-/// The published values of the built-in scenes: a line each.
-pub(crate) fn published_table(published: &[Published]) -> String {
-    let rows = published.iter().flat_map(|published| {
-        published.reached.iter().map(|reached| {
-            let target = &reached.target;
-            let difference = show(&reached.difference(), DIFFERENCE_DIGITS);
-            let verdict = if reached.agrees() { "agrees" } else { "DIFFERS" };
-            vec![published.scene.into(), target.label(), verdict.into(), target.published.to_string(), difference]
-        })
-    });
-    let header = ["published for", "quantity", "", "published", "ours less that"];
-    table(&header, rows.collect(), 3)
 }
 
 /// The same for the repository's page.
@@ -84,7 +85,7 @@ pub(crate) fn published_page(published: &[Published]) -> String {
          and whether ours rounds to it (or is within what the scene says it may be off).\n\n\
          | scene | quantity | t | published | | source |\n|---|---|---|---|---|---|\n",
     );
-    for Published { scene, reached } in published {
+    for Published { scene, reached, .. } in published {
         for reached in reached {
             let Target { time, published, source, .. } = &reached.target;
             let time = time.as_ref().map_or_else(|| "–".into(), ToString::to_string);
@@ -98,13 +99,9 @@ pub(crate) fn published_page(published: &[Published]) -> String {
 
 /// The same as JSON.
 pub(crate) fn published_json(published: &[Published]) -> Value {
-    let scene = |Published { scene, reached }: &Published| {
-        let agrees =
-            targets_data(reached, &Head::default()).objects().into_iter().zip(reached).map(|(mut row, reached)| {
-                row["agrees"] = reached.agrees().into();
-                row
-            });
-        json!({ "scene": scene, "values": agrees.collect::<Vec<_>>() })
+    let scene = |published: &Published| {
+        let values = targets_data(std::slice::from_ref(published), false).objects();
+        json!({ "scene": published.scene, "values": values })
     };
     published.iter().map(scene).collect()
 }

@@ -5,12 +5,15 @@
 //! |---|---|
 //! | `table` | all that is known of each quantity |
 //! | `unit` | units, and the factors that belong to them |
+//! | `convert` | units by their names, and what brings one to another |
 //! | `column`, `slice` | quantities over time, and along the rod |
 //! | `listing` | quantities of all contacts, events, flights and pieces |
 //! | `one` | one number of a run |
 //! | `restitution`, `flight` | coefficients of a contact, and how high a flight goes |
 
 mod column;
+#[cfg(feature = "compare")]
+mod convert;
 mod flight;
 mod listing;
 #[cfg(feature = "cli")]
@@ -22,6 +25,8 @@ mod unit;
 
 pub use column::columns;
 pub(crate) use column::of_one_size;
+#[cfg(feature = "compare")]
+pub(crate) use convert::Conversion;
 pub use flight::{Flight, flights};
 #[cfg(feature = "cli")]
 pub(crate) use listing::of_contact;

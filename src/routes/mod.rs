@@ -31,5 +31,5 @@ mod value;
 
 pub(crate) use quantity::Question;
 pub(crate) use route::plan;
-pub(crate) use target::{Published, Reached, published};
+pub(crate) use target::Published;
 pub(crate) use truth::RightDigits;

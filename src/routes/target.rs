@@ -2,33 +2,53 @@
 
 use crate::error::Error;
 use crate::motion::Motion;
-use crate::number::{Estimate, Scalar};
+use crate::number::{Estimate, Number, Scalar};
 use crate::quantity::{Units, columns, of_contact};
+use crate::reason::Warning;
 use crate::scene::{Scene, Target, builtin};
+use crate::solve::{Numbers, Plan, Question, Solution, unobserved};
 
 /// A scene with its published values and ours.
 #[derive(Clone, Debug)]
 pub(crate) struct Published {
-    pub(crate) scene: &'static str,
+    /// What it is called.
+    pub(crate) scene: String,
+    pub(crate) title: Option<String>,
+    pub(crate) units: Units,
     pub(crate) reached: Vec<Reached<Estimate<f64>>>,
+    pub(crate) warnings: Vec<Warning>,
 }
 
-/// Every built-in scene that has published values, in doubles.
-///
-/// **Errors**: those of scene and run; no built-in scene has any.
-pub(crate) fn published() -> Result<Vec<Published>, Error> {
-    let mut all = Vec::new();
-    for builtin in builtin::ALL {
-        let Ok(scene) = Scene::parse(builtin.source) else { continue };
-        if scene.targets.is_empty() {
-            continue;
-        }
-        let units = Units::of(&scene.problem, scene.units);
+impl Published {
+    /// What `scene` lists, beside its history in doubles to its accuracy.
+    ///
+    /// **Errors**: those of the run, and [`Error::NoContact`].
+    pub(crate) fn of(called: &str, scene: &Scene) -> Result<Self, Error> {
+        let (problem, units) = (&scene.problem, Units::of(&scene.problem, scene.units));
+        let numbers = Numbers::Double(scene.accuracy.as_ref().map(Number::to_f64));
+        let history = match Plan::of(problem, &Question::run(numbers))?.solve(problem, unobserved())? {
+            Solution::Double(history) => history,
+            _ => return Err(Error::NoMultiprecision),
+        };
         let gather = |motion: &dyn Motion<Estimate<f64>>| Reached::all(motion, &scene.targets, &units);
-        let reached = scene.problem.solve()?.ask(gather, |_| Vec::new())?;
-        all.push(Published { scene: builtin.name, reached });
+        let reached = history.ask(gather, |_| Vec::new())?;
+        let (scene, title) = (called.to_string(), scene.title.clone());
+        Ok(Published { scene, title, units, reached, warnings: history.warnings() })
     }
-    Ok(all)
+
+    /// Every built-in scene that has published values.
+    ///
+    /// **Errors**: those of [`of`](Self::of); no built-in scene has any.
+    pub(crate) fn builtin() -> Result<Vec<Self>, Error> {
+        let scenes = builtin::ALL.iter().filter_map(|builtin| Some((builtin.name, Scene::parse(builtin.source).ok()?)));
+        scenes.filter(|(_, scene)| !scene.targets.is_empty()).map(|(name, scene)| Self::of(name, &scene)).collect()
+    }
+
+    /// How many values there are, and how many of them agree.
+    pub(crate) fn count(all: &[Self]) -> (usize, usize) {
+        let reached = || all.iter().flat_map(|published| &published.reached);
+        (reached().count(), reached().filter(|reached| reached.agrees()).count())
+    }
 }
 
 /// A published value and ours.
@@ -103,10 +123,8 @@ mod tests {
                  published = {published}\n{within}\nsource = 'by hand'\n"
             );
             let scene = Scene::parse(&text).unwrap();
-            let units = Units::of(&scene.problem, scene.units);
-            let gather = |motion: &dyn Motion<Estimate<f64>>| Reached::all(motion, &scene.targets, &units);
-            let reached = scene.problem.solve().unwrap().ask(gather, |_| Vec::new()).unwrap();
-            assert_eq!(reached[0].agrees(), agrees, "{published} {within}");
+            let found = Published::of("it", &scene).unwrap();
+            assert_eq!(Published::count(&[found]), (1, usize::from(agrees)), "{published} {within}");
         }
     }
 }

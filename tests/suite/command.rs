@@ -550,7 +550,7 @@ fn published_values_beside_ours() {
     let rows = json(&["scenes", "ansys-vm265", "--targets", "--format", "json"]);
     let rows = rows.as_array().unwrap();
     for row in rows {
-        keys(row, &["quantity", "time", "published", "ours", "difference", "source"]);
+        keys(row, &["quantity", "time", "published", "ours", "difference", "within", "agrees", "source"]);
     }
     // gap/μ, and 2L/c after it.
     let close = |value: &Value, truth: f64| assert!((value.as_f64().unwrap() - truth).abs() < 1e-12 * truth, "{value}");
@@ -560,23 +560,51 @@ fn published_values_beside_ours() {
 
     let table = quiet(&["scenes", "code-aster-sdnv100", "--targets"]);
     assert!(table.lines().all(|line| line.chars().count() <= 80), "{table}");
-    assert!(table.contains("E_total                J        2e-6      3200.0     3200            0   (2)"), "{table}");
+    assert!(table.contains("E_total, J                   2e-6      3200.0     3200            0   yes (2)"), "{table}");
     let csv = quiet(&["scenes", "ansys-vm85", "--targets", "--format", "csv"]);
     assert!(
-        csv.starts_with("quantity,unit,time,published,ours,difference,source\nimpact,s,,0.0064,0.0064,0,"),
+        csv.starts_with(
+            "quantity,unit,time,published,ours,difference,within,agrees,source\nimpact,s,,0.0064,0.0064,0,"
+        ),
         "{csv}"
     );
 
     // One half off is seen as that.
     let scene = "rod = { length = 1, wave_speed = 1 }\nimpact.speed = 1\n[[target]]\nquantity = 'release'\n\
                  published = 2.5\nsource = 'nowhere'\n";
-    let Run { out, .. } = run_with(&["scenes", "-", "--targets", "--format", "json"], scene);
+    let Run { out, code, .. } = run_with(&["scenes", "-", "--targets", "--format", "json"], scene);
     let rows: Value = serde_json::from_str(&out).unwrap();
     assert_eq!((&rows[0]["ours"], &rows[0]["difference"]), (&2.0.into(), &(-0.5).into()));
+    assert_eq!((code, &rows[0]["within"], &rows[0]["agrees"]), (Some(1), &0.05.into(), &false.into()));
+    // Unless the scene says so.
+    let wide = scene.replace("published", "within = 0.5\npublished");
+    assert_eq!(run_with(&["scenes", "-", "--targets"], &wide).code, Some(0));
+
+    // All scenes of a folder, and all that are built in.
+    let folder = tempfile::TempDir::new().unwrap();
+    let path = |name: &str| folder.path().join(name);
+    std::fs::write(path("a.toml"), scene).unwrap();
+    std::fs::write(path("b.toml"), &wide).unwrap();
+    std::fs::write(path("notes.txt"), "no scene").unwrap();
+    let shown = folder.path().display().to_string();
+    let Run { out, code, .. } = run_with(&["scenes", &shown, "--targets", "--format", "json"], "");
+    let rows: Value = serde_json::from_str(&out).unwrap();
+    let said = |k: usize| (rows[k]["scene"].as_str().unwrap().ends_with("b.toml"), &rows[k]["agrees"]);
+    assert_eq!((code, said(0), said(1)), (Some(1), (false, &false.into()), (true, &true.into())));
+    let Run { out, code, .. } = run_with(&["scenes", &shown, "--targets"], "");
+    assert!(
+        code == Some(1) && out.contains("NO (1)") && out.ends_with("2 published values: 1 agree, 1 differ\n"),
+        "{out}"
+    );
+    let all = json(&["scenes", "--targets", "--format", "json"]);
+    let all = all.as_array().unwrap();
+    assert!(all.len() >= 30 && all.iter().all(|row| row["agrees"] == Value::Bool(true)));
+    std::fs::remove_file(path("a.toml")).unwrap();
+    std::fs::remove_file(path("b.toml")).unwrap();
+    refused(&["scenes", &shown, "--targets"], &["found no .toml in the folder"]);
     let missing = scene.replace("published = 2.5", "contact = 3\npublished = 2.5");
     refused_with(&["scenes", "-", "--targets"], &missing, &["found contact 2 asked for"]);
     assert_eq!(quiet(&["scenes", "figure-2", "--targets"]).lines().count(), 3);
-    refused(&["scenes", "--targets"], &["<NAME>"]);
     refused(&["scenes", "ansys-vm85", "--format", "json"], &["found --format, expected it with --targets"]);
 }
 

@@ -20,11 +20,14 @@ mod command_ends;
 mod common;
 #[cfg(feature = "cli")]
 mod compare_command;
+#[cfg(feature = "cli")]
 mod compare_contacts;
 #[cfg(feature = "cli")]
 mod compare_fits;
 #[cfg(feature = "cli")]
 mod compare_peers;
+#[cfg(feature = "cli")]
+mod compare_reading;
 #[cfg(feature = "cli")]
 mod compare_verdicts;
 mod conformance;

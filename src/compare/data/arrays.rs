@@ -10,3 +10,8 @@ pub(super) type Arrays = (Vec<String>, Vec<Result<Vec<f64>, DataErrorKind>>);
 pub(super) fn is_array(start: &[u8]) -> bool {
     start.starts_with(b"\x93NUMPY")
 }
+
+/// What the columns of an array `name` are called: as it, where there is one.
+pub(super) fn called(name: &str, columns: usize) -> impl Iterator<Item = String> {
+    (0..columns).map(move |k| if columns == 1 { name.to_string() } else { format!("{name}[{k}]") })
+}

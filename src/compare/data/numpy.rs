@@ -5,7 +5,7 @@ use std::io::{Cursor, Read};
 use ndarray::{ArrayD, Axis, IxDyn, OwnedRepr};
 use ndarray_npy::{NpzReader, ReadNpyError, ReadNpyExt, ReadNpzError, ReadableElement};
 
-use super::arrays::{Arrays, is_array};
+use super::arrays::{Arrays, called, is_array};
 use super::error::{DataError, DataErrorKind};
 use crate::number::short;
 
@@ -29,8 +29,7 @@ pub(super) fn read(mut reader: impl Read, file: &str) -> Result<Arrays, DataErro
     let (mut names, mut all) = (Vec::new(), Vec::new());
     for name in archive.names().map_err(|error| unreadable(&error))? {
         let columns = numbers(&mut Entry(&mut archive, &name)).map_or_else(|kind| vec![Err(kind)], columns);
-        let one = columns.len() == 1;
-        names.extend((0..columns.len()).map(|k| if one { name.clone() } else { format!("{name}[{k}]") }));
+        names.extend(called(&name, columns.len()));
         all.extend(columns);
     }
     Ok((names, all))

@@ -4,7 +4,7 @@ use std::fs::File;
 use std::io::{BufRead, BufReader, Read};
 use std::path::Path;
 
-use super::arrays::is_array;
+use super::arrays::{called, is_array};
 use super::error::{DataError, DataErrorKind};
 use super::numpy;
 use super::text::{Lines, Text};
@@ -33,10 +33,14 @@ pub(crate) struct Columns {
 }
 
 impl Source {
-    /// Opens a file, or standard input for `-`: `.npy` and `.npz` by their first bytes, text otherwise.
+    /// Opens a file, or standard input for `-`: `.npy` and `.npz` by their first bytes, text otherwise. Of a folder each
+    /// `.npy` is a quantity, called as the file is.
     ///
     /// **Errors**: [`DataError`], for an empty file too.
     pub fn open(path: &Path) -> Result<Self, DataError> {
+        if path.is_dir() {
+            return Self::folder(path);
+        }
         let piped = path == Path::new("-");
         let file = if piped { "standard input".to_string() } else { path.display().to_string() };
         let read = |error: std::io::Error| DataErrorKind::Unreadable(error.to_string()).at(&file, None);
@@ -52,6 +56,30 @@ impl Source {
             (text.names.clone(), text.width(), Body::Text(Box::new(text)))
         };
         Ok(Source { file, names, width, body })
+    }
+
+    fn folder(path: &Path) -> Result<Self, DataError> {
+        let file = path.display().to_string();
+        let unreadable =
+            |why: &dyn std::fmt::Display, file: &str| DataErrorKind::Unreadable(why.to_string()).at(file, None);
+        let entries = std::fs::read_dir(path).map_err(|error| unreadable(&error, &file))?;
+        let mut paths: Vec<_> = entries.filter_map(|entry| Some(entry.ok()?.path())).collect();
+        paths.retain(|path| path.extension().is_some_and(|extension| extension == "npy"));
+        paths.sort();
+        if paths.is_empty() {
+            let none = "found no .npy in the folder, expected one for each quantity, such as t.npy and u.npy";
+            return Err(unreadable(&none, &file));
+        }
+        let (mut names, mut all) = (Vec::new(), Vec::new());
+        for path in paths {
+            let shown = path.display().to_string();
+            let opened = File::open(&path).map_err(|error| unreadable(&error, &shown))?;
+            let columns = numpy::read(opened, &shown)?.1;
+            let stem = path.file_stem().unwrap_or_default().to_string_lossy();
+            names.extend(called(&stem, columns.len()));
+            all.extend(columns);
+        }
+        Ok(Self::arrays(&file, names, all))
     }
 
     /// The names of the columns; empty where they have none.

@@ -105,8 +105,19 @@ fn sizes(row: &str, separator: Option<char>) -> Option<usize> {
     whole.get(1).copied()
 }
 
+/// The names of a header; where white space separates them, a unit in brackets belongs to the name before it.
 fn names(header: &str, separator: Option<char>) -> Vec<String> {
-    fields(header, separator).map(|name| name.trim_matches(['"', '\'']).trim().to_string()).collect()
+    let mut names: Vec<String> = Vec::new();
+    let open = |name: &str| name.matches(['[', '(']).count() > name.matches([']', ')']).count();
+    for name in fields(header, separator).map(|name| name.trim_matches(['"', '\'']).trim()) {
+        match names.last_mut() {
+            Some(last) if separator.is_none() && (name.starts_with(['[', '(']) || open(last)) => {
+                *last += &format!(" {name}")
+            }
+            _ => names.push(name.to_string()),
+        }
+    }
+    names
 }
 
 impl Text {
