@@ -185,7 +185,8 @@ def compare(
     scene : str, path or Problem
         As :func:`solve` takes it.
     data : array_like, mapping, DataFrame, str or path, or a list of these
-        Times; or, without `values`, a DataFrame, a dict or a structured array with a column ``t``, or a file. A list
+        Times; or, without `values`, a DataFrame, a dict or a structured array with a column ``t``, a file, or a folder
+        with a ``.npy`` for each quantity. A unit in a name, ``force [kN]``, is brought to that of the scene. A list
         gives the order of convergence.
     values : array_like, mapping or DataFrame, optional
         Values of a `quantity` at the times, or of several by name. With `x`, values of shape ``(len(t), len(x))`` are
@@ -209,7 +210,7 @@ def compare(
     energy_scale : number, optional
         By what energies of the data are multiplied.
     window : number, optional
-        How close to a jump a sample is left out of ``linf_off_jumps``.
+        How close to a jump a sample is left out of ``linf_off_jumps``, in round trips.
     widths : sequence of number, optional
         The mesh widths of several sources, for the orders of convergence.
     to : number, optional
