@@ -5,7 +5,7 @@
 use std::hint::black_box;
 
 use criterion::{Criterion, criterion_group, criterion_main};
-use dalembert::{Problem, Units, scene_svg};
+use dalembert::{Drawing, Problem, Units};
 
 fn plot(criterion: &mut Criterion) {
     for (name, damping) in [("undamped", "0"), ("damped", "0.01")] {
@@ -13,7 +13,7 @@ fn plot(criterion: &mut Criterion) {
         let rod = rod.impacts(10).build().unwrap();
         criterion.bench_function(&format!("ten {name} bounces, solved"), |b| b.iter(|| black_box(&rod).solve()));
         criterion.bench_function(&format!("ten {name} bounces, solved and drawn"), |b| {
-            b.iter(|| scene_svg(&black_box(&rod).solve().unwrap(), &rod, Units::default()).unwrap());
+            b.iter(|| Drawing::default().draw(&black_box(&rod).solve().unwrap(), &rod, Units::default()).unwrap());
         });
     }
 }

@@ -37,7 +37,8 @@
 //! Minnesota, August 2016: "the paper" throughout.
 //!
 //! The features `mp` (digits, proved or not, and faster fractions), `cli` (the command), `compare` (what it shares with
-//! the wheel), `npz` (data in NumPy's files) and `plot` (its pictures as PNG and PDF) only add to each other.
+//! the wheel), `svg` (pictures), `npz` (data in NumPy's files) and `plot` (pictures as PNG and PDF) only add to each
+//! other.
 
 #[cfg(feature = "compare")]
 mod aligned;
@@ -48,6 +49,8 @@ pub mod cli;
 #[cfg(feature = "compare")]
 #[doc(hidden)]
 pub mod compare;
+#[cfg(feature = "svg")]
+mod draw;
 pub mod engine;
 mod error;
 #[cfg(feature = "cli")]
@@ -61,6 +64,8 @@ mod order;
 #[cfg(feature = "cli")]
 mod output;
 pub mod paper;
+#[cfg(feature = "svg")]
+mod plot;
 mod problem;
 mod quantity;
 mod reason;
@@ -77,8 +82,8 @@ pub use error::Error;
 pub use glam;
 pub use motion::{Contact, Ending, Energy, Event, EventKind, Field, Ray, Side, StressHistory, StressPiece};
 pub use number::{Estimate, Float, Interval, Number, NumberError, Rational};
-#[cfg(feature = "cli")]
-pub use output::scene_svg;
+#[cfg(feature = "svg")]
+pub use plot::{Canvas, Drawing, Drawn};
 pub use problem::{
     Builder, Dimensionless, Material, Parameters, Problem, ProblemError, ProblemErrorKind, Profile, Rod, Run, Speed,
     Start, Top, Written,
@@ -94,6 +99,8 @@ pub use solve::{
     CERTIFIED_DIGITS, DEFAULT_ACCURACY, Engine, ExactnessEnd, History, Numbers, Observer, Plan, Question, Reach, Rung,
     Solution, Want,
 };
+#[cfg(feature = "cli")]
+pub use sweep::{Cell, sweep};
 
 #[cfg(doctest)]
 #[doc = include_str!("../README.md")]

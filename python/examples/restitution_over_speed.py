@@ -11,11 +11,10 @@ import numpy as np
 import dalembert
 
 speeds = np.geomspace(0.05, 12.5, 120)
-curves = {}
-for damping in (0, 0.1, 0.2, 0.3):
-    rod = dalembert.Problem(length=1, wave_speed=1, gravity=1, damping=damping, impact_speed=1)
-    contacts = [rod.replace(impact_speed=speed).solve(first_contact=True).restitution[0] for speed in speeds]
-    curves[damping] = np.sqrt([contact["energy_squared"] for contact in contacts])
+dampings = [0, 0.1, 0.2, 0.3]
+rod = dalembert.Problem(length=1, wave_speed=1, gravity=1, impact_speed=1)
+found = dalembert.sweep(rod, "e_E2", impact_speed=speeds, damping=np.reshape(dampings, (4, 1)))
+curves = dict(zip(dampings, np.sqrt(found["e_E2"])))
 
 print("    μ  " + "".join(f"   r = {damping}" for damping in curves))
 for k in range(0, len(speeds), 17):

@@ -5,7 +5,7 @@ use std::sync::atomic::AtomicBool;
 
 use dalembert::engine::{Motion, slices};
 use dalembert::number::{Answer, Scalar, show};
-use dalembert::{Error, Needs, Number, Problem, Quantity, Side, Slice, Solution, Table, Units, scene_svg};
+use dalembert::{Drawing, Error, Needs, Number, Problem, Quantity, Side, Slice, Solution, Table, Units};
 use numpy::{PyArray1, PyReadonlyArray1};
 use pyo3::IntoPyObjectExt;
 use pyo3::prelude::*;
@@ -147,7 +147,9 @@ impl History {
     /// The sheet of pictures that tells the scene, as SVG.
     fn sheet(&self, py: Python<'_>) -> PyResult<String> {
         let (rod, units) = self.solved.clone();
-        self.ask(py, move |solution| each!(solution, |history, _| scene_svg(history, &rod, units)))
+        self.ask(py, move |solution| {
+            each!(solution, |history, _| Drawing::default().draw(history, &rod, units)).map(|drawn| drawn.svg)
+        })
     }
 
     fn error_estimate(&self) -> f64 {

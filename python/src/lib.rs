@@ -4,6 +4,7 @@ mod compare;
 mod history;
 mod number;
 mod problem;
+mod sweep;
 
 use std::ops::ControlFlow;
 use std::sync::Arc;
@@ -74,6 +75,8 @@ mod _core {
     use super::history::History;
     #[pymodule_export]
     use super::problem::Problem;
+    #[pymodule_export]
+    use super::sweep::sweep;
 
     /// The command `dalembert`: `arguments` with the name of the program first; its exit code.
     #[pyfunction]

@@ -251,3 +251,34 @@ def test_others_run_while_a_history_is_solved():
         ticks += 1
         time.sleep(1e-4)
     assert ticks > 10
+
+
+def test_sweep_has_the_numbers_of_solve():
+    """Over two values that are broadcast: what each problem by itself answers, within both bounds."""
+    rod = dalembert.Problem(length=1, wave_speed=1, gravity=1, impact_speed=1)
+    speeds, dampings = [0.5, "1", 2, Fraction(7, 3)], [[0], [0.1], [0.3]]
+    found = dalembert.sweep(rod, ["bounce_time", "e_P"], impact_speed=speeds, damping=dampings)
+    assert found["bounce_time"].shape == found.errors["e_P"].shape == (3, 4)
+    for i, (damping,) in enumerate(dampings):
+        for j, speed in enumerate(speeds):
+            run = rod.replace(impact_speed=speed, damping=damping).solve(first_contact=True)
+            times = abs(found["bounce_time"][i, j] - run.contacts["to"][0])
+            assert times <= found.errors["bounce_time"][i, j] + 1e-9
+            shares = abs(found["e_P"][i, j] - run.restitution["momentum"][0])
+            assert shares <= found.errors["e_P"][i, j] + 1e-9
+
+
+def test_sweep_says_why_there_is_no_number():
+    """A rod that is damped too much does not bounce; a value that is none is a point's own fault."""
+    rod = dalembert.Problem(length=1, wave_speed=1, impact_speed=1)
+    found = dalembert.sweep(rod, "bounce_time", damping=[0, 1.6], impact_speed=1)
+    assert found["bounce_time"][0] == 2 and np.isnan(found["bounce_time"][1])
+    assert list(found.notes) == [(1,)] and "π" in found.notes[1,]
+    assert dalembert.sweep(rod, "bounce_time")["bounce_time"].shape == ()
+    assert "expected" in dalembert.sweep(rod, "bounce_time", length=[1, -1]).notes[1,]
+    with pytest.raises(ValueError, match="found quantity `bounce`, expected one of bounce_time"):
+        dalembert.sweep(rod, "bounce")
+    with pytest.raises(TypeError, match="found the unknown value `speed`"):
+        dalembert.sweep(rod, "bounce_time", speed=[1])
+    with pytest.raises(ValueError):
+        dalembert.sweep(rod, "bounce_time", impact_speed=[1, 2], damping=[0, 0.1, 0.2])

@@ -8,7 +8,6 @@ use crate::error::Error;
 use crate::motion::{Ending, Motion};
 use crate::number::{DOUBLE_DIGITS, Scalar, show};
 use crate::output::Head;
-use crate::problem::Parameters;
 use crate::quantity::{Measure, Units};
 use crate::scene::{Effect, Scene};
 use crate::solve::{History, Plan, Question, Target, Visitor};
@@ -20,7 +19,7 @@ pub(super) fn head(scene: &Scene, plan: &Plan) -> Head {
         title: scene.title.clone(),
         number: plan.numbers.to_string(),
         effects: called,
-        parameters: parameters(scene),
+        parameters: known(scene).join("    "),
         wide: false,
         digits: 0,
         units: Units::of(&scene.problem, scene.units),
@@ -30,20 +29,10 @@ pub(super) fn head(scene: &Scene, plan: &Plan) -> Head {
 }
 
 /// `c`, `t₁`, `R` and `M` to six digits.
-pub(super) fn parameters(scene: &Scene) -> String {
-    let Ok(rod) = Parameters::<f64>::of(&scene.problem, &()) else { return String::new() };
+fn known(scene: &Scene) -> Vec<String> {
     let units = Units::of(&scene.problem, scene.units);
-    let shown = |value: f64, measure| format!("{} {}", value.decimal(6), units.name(measure)).trim_end().to_string();
-    let (c, t1) = (shown(rod.wave_speed, Measure::Velocity), shown(rod.round_trip(), Measure::Time));
-    let mut text = format!("c = {c}    t₁ = {t1}");
-    let groups = scene.problem.dimensionless();
-    if groups.damping_ratio > 0.0 {
-        text += &format!("    R = r t₁ = {}", groups.damping_ratio.decimal(6));
-    }
-    if let Some(ratio) = groups.speed_ratio.filter(|ratio| ratio.is_finite()) {
-        text += &format!("    M = μ/(g t₁) = {}", ratio.decimal(6));
-    }
-    text
+    let time = |time: f64| format!("{} {}", time.decimal(6), units.name(Measure::Time)).trim_end().to_string();
+    units.parameters(&scene.problem, time)
 }
 
 /// What a subcommand prints of a history, in any number system.

@@ -13,8 +13,9 @@ use crate::compare::data::Source;
 use crate::compare::{
     Axis, CompareError, Comparison, Compression, LEGEND, Limit, Options, Origin, Outcome, Parameter, Prepared,
 };
+use crate::draw::Size;
 use crate::number::Number;
-use crate::output::{Size, compare_data, compare_svg};
+use crate::output::{compare_data, compare_svg};
 use crate::quantity::Units;
 
 const EXAMPLES: &str = "Examples:\n  dalembert compare doyen-ern-piperno run.csv\n  \

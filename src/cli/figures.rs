@@ -6,8 +6,9 @@ use clap::Args;
 
 use super::failure::{self, Failure};
 use super::file::{self, Format};
+use crate::draw::Size;
 use crate::figures::{ALL, Data, Failed, Figure};
-use crate::output::{Size, figure_data, figure_sheet, figures_index, write_files};
+use crate::output::{figure_data, figure_sheet, figures_index, write_files};
 use crate::threads::Threads;
 
 /// The figures of the paper from its parameters, and two more: SVG, PNG, PDF and CSV, with an index

@@ -6,8 +6,9 @@ use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
 
 use super::failure::{self, Failure};
 #[cfg(feature = "plot")]
-use crate::output::Rendered;
-use crate::output::{Dataset, Size, write_together};
+use crate::draw::Rendered;
+use crate::draw::Size;
+use crate::output::{Dataset, write_together};
 
 /// What is written.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -5,14 +5,16 @@ use std::path::{Path, PathBuf};
 
 use clap::Args;
 
-use super::answer::{Visit, parameters, solve, warned};
+use super::answer::{Visit, solve, warned};
 use super::args::NumberArgs;
 use super::failure::Failure;
 use super::file::{self, Format, PICTURES};
 use super::source;
+use crate::draw::Size;
 use crate::motion::Ending;
 use crate::number::{Number, Scalar};
-use crate::output::{Along, Asked, Gathered, Head, Picture, Size, plain, sheet};
+use crate::output::Head;
+use crate::plot::{Along, Asked, Gathered, Picture, heading, sheet};
 use crate::quantity::{Needs, Quantity, Units};
 use crate::scene::Scene;
 use crate::solve::{History, Numbers, Question, Target};
@@ -106,9 +108,9 @@ impl Plot {
         }
         let title = match scenes.as_slice() {
             [scene] => {
-                let title = plain(scene.title.as_deref().unwrap_or(&self.scenes[0]));
-                let cut = gathered.first().and_then(|found| found.cut(&asked));
-                [title, parameters(scene).replace("    ", ", ")].into_iter().chain(cut).collect()
+                // What comes from standard input has no name.
+                let name = Some(self.scenes[0].as_str()).filter(|name| *name != "-");
+                heading(scene.title.as_deref().or(name), &scene.problem, &gathered[0], &asked)
             }
             _ => {
                 told_apart(&mut gathered);

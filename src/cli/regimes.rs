@@ -7,7 +7,8 @@ use clap::Args;
 use super::failure::Failure;
 use super::file::{self, Format};
 use super::source;
-use crate::output::{Size, regimes_data, regimes_npz, regimes_svg, regimes_text, threshold_data};
+use crate::draw::Size;
+use crate::output::{regimes_data, regimes_npz, regimes_svg, regimes_text, threshold_data};
 use crate::sweep::Map;
 use crate::threads::Threads;
 

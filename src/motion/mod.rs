@@ -7,6 +7,8 @@ pub(crate) mod moments;
 mod query;
 mod ray;
 mod register;
+#[cfg(feature = "svg")]
+mod straight;
 mod wave;
 
 pub(crate) use at_start::AtStart;
@@ -15,4 +17,6 @@ pub use field::Field;
 pub use query::{Motion, Pair, Scales, unobserved};
 pub use ray::{Ray, reflection};
 pub use register::{Passing, RayRegister};
+#[cfg(feature = "svg")]
+pub(crate) use straight::straight;
 pub use wave::{Stretch, WavePiece, Waves};

@@ -3,8 +3,8 @@
 use glam::DVec2;
 
 use super::dataset::{Column, Dataset};
-use super::draw::{Axis, Key, Layer, Panel, Shape, Sheet, Size, Stroke, plain, thinned};
 use crate::compare::{Compared, ComparedFile};
+use crate::draw::{Axis, Key, Layer, Panel, Shape, Sheet, Size, Stroke, plain, thinned};
 use crate::quantity::{Measure, Units};
 
 /// Two panels for each quantity: ours as a thin line over theirs, and theirs − ours.

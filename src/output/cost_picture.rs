@@ -3,7 +3,7 @@
 use glam::DVec2;
 
 use super::cost::asked;
-use super::draw::{Axis, Key, Layer, Mark, Panel, Shape, Sheet, Size, Stroke, plain, power_of_ten};
+use crate::draw::{Axis, Key, Layer, Mark, Panel, Shape, Sheet, Size, Stroke, plain, power_of_ten};
 use crate::routes::cost::{Family, Row, Table};
 
 /// Where the scale of errors is drawn together: the digits of a double get as much of the picture as the thousand

@@ -3,8 +3,8 @@
 use glam::DVec2;
 
 use super::dataset::{Cell, Column, Dataset};
-use super::draw::{Anchor, Axis, Key, LINES, Layer, Mark, Panel, Shape, Sheet, Stroke};
 use super::regimes::{regimes_data, regimes_panel};
+use crate::draw::{Anchor, Axis, Key, LINES, Layer, Mark, Panel, Shape, Sheet, Stroke};
 use crate::figures::{DAMPINGS, Data, Failed, Figure, Of, STRONG, dot, limits};
 use crate::number::Analytic;
 

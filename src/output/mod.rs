@@ -1,4 +1,4 @@
-//! Tables, JSON, CSV and pictures. Output computes no physics: it asks the history and the quantities.
+//! Tables, JSON, CSV, and the pictures of what is no history. Output computes no physics: it asks the history and the quantities.
 
 mod check;
 mod code;
@@ -6,17 +6,14 @@ mod compare;
 mod cost;
 mod cost_picture;
 mod dataset;
-mod draw;
 mod figures;
 mod file;
 mod outline;
-mod plot;
 mod record;
 mod reference;
 mod regimes;
 mod sample;
 mod solve;
-mod straight;
 mod sweep;
 mod target;
 mod writer;
@@ -28,14 +25,9 @@ pub(crate) use compare::{compare_data, compare_svg};
 pub(crate) use cost::{cost_data, effects_data};
 pub(crate) use cost_picture::cost_svg;
 pub(crate) use dataset::Dataset;
-#[cfg(feature = "plot")]
-pub(crate) use draw::Rendered;
-pub(crate) use draw::{Size, plain};
 pub(crate) use figures::{figure_data, figure_sheet, figures_index};
 pub(crate) use file::{write_files, write_filled, write_together};
 pub(crate) use outline::outline;
-pub use plot::scene_svg;
-pub(crate) use plot::{Along, Asked, Gathered, Picture, sheet};
 pub(crate) use record::{Head, Record};
 pub(crate) use reference::{Described, Golden, Preamble, Rows};
 pub(crate) use regimes::{regimes_data, regimes_npz, regimes_svg, regimes_text, threshold_data};

@@ -1,8 +1,7 @@
 //! The stress at the ground as a line of blocks, for a glance at a terminal.
 
 use super::record::Head;
-use super::straight::straight;
-use crate::motion::{Motion, StressPiece};
+use crate::motion::{Motion, StressPiece, straight};
 use crate::number::Scalar;
 use crate::quantity::Measure;
 

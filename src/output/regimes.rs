@@ -5,8 +5,8 @@ use std::io::{self, Cursor};
 use glam::DVec2;
 
 use super::dataset::{Column, Dataset};
-use super::draw::{Axis, Key, Layer, Panel, Shape, Sheet, Size, Stroke};
 use super::writer::Npz;
+use crate::draw::{Axis, Key, Layer, Panel, Shape, Sheet, Size, Stroke};
 use crate::number::{Estimate, Number, Scalar, double_bound_text};
 use crate::sweep::{Map, Regime, threshold, threshold_near};
 

@@ -41,7 +41,7 @@ const NEXT: f64 = 0.25;
 
 impl Quantity {
     /// Every quantity that can be asked as one number, each name once.
-    pub(crate) fn singles() -> impl Iterator<Item = Quantity> {
+    pub fn singles() -> impl Iterator<Item = Quantity> {
         let plain = |quantity: &Quantity| !matches!(quantity, Quantity::Time | Quantity::Side);
         let [first, run, time, contact] = [Needs::FirstContact, Needs::Run, Needs::Time, Needs::Contact];
         let over_time = time.quantities().filter(plain);
@@ -49,8 +49,8 @@ impl Quantity {
         first.quantities().chain(of_contact).chain(over_time).chain(run.quantities())
     }
 
-    /// The one that is called so among them.
-    pub(crate) fn single(name: &str) -> Option<Quantity> {
+    /// The one that is called so among [`Quantity::singles`].
+    pub fn single(name: &str) -> Option<Quantity> {
         let named = Quantity::singles().find(|quantity| quantity.name() == name);
         named.or_else(|| Quantity::singles().find(|quantity| quantity.also().contains(&name)))
     }

@@ -3,6 +3,8 @@
 use serde::Serialize;
 
 use crate::number::{Number, Scalar};
+#[cfg(feature = "svg")]
+use crate::problem::Parameters;
 use crate::problem::{Material, Problem};
 
 /// What a number measures.
@@ -157,6 +159,22 @@ impl Units {
             Measure::Impulse | Measure::Energy => "per ρS",
             _ => "",
         }
+    }
+
+    /// `c`, `t₁`, `R` and `M` of a problem to six digits, each with its symbol; those that it has.
+    #[cfg(feature = "svg")]
+    pub(crate) fn parameters(&self, problem: &Problem, time: impl Fn(f64) -> String) -> Vec<String> {
+        let Ok(rod) = Parameters::<f64>::of(problem, &()) else { return Vec::new() };
+        let speed = format!("{} {}", rod.wave_speed.decimal(6), self.name(Measure::Velocity));
+        let mut known = vec![format!("c = {}", speed.trim_end()), format!("t₁ = {}", time(rod.round_trip()))];
+        let groups = problem.dimensionless();
+        if groups.damping_ratio > 0.0 {
+            known.push(format!("R = r t₁ = {}", groups.damping_ratio.decimal(6)));
+        }
+        if let Some(ratio) = groups.speed_ratio.filter(|ratio| ratio.is_finite()) {
+            known.push(format!("M = μ/(g t₁) = {}", ratio.decimal(6)));
+        }
+        known
     }
 
     /// What to multiply with to get `measure`: a strain `v_x` for stress and force, the value per `ρS` for impulse and

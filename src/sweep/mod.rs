@@ -16,6 +16,8 @@ mod run;
 
 pub(crate) use grid::{Axis, Grid, SweepError};
 pub(crate) use journal::{Journal, journal_of};
-pub(crate) use point::{Asked, Cell, Point};
+pub use point::Cell;
+pub(crate) use point::{Asked, Point};
 pub(crate) use regimes::{Map, Regime, threshold, threshold_near};
 pub(crate) use run::Sweep;
+pub use run::sweep;

@@ -6,7 +6,7 @@ use serde_json::Value;
 use super::grid::Grid;
 use crate::motion::Motion;
 use crate::number::{Number, Scalar, bound_json, number_json, shown_bound_text};
-use crate::problem::{Problem, Run};
+use crate::problem::{Problem, ProblemError, Run};
 use crate::quantity::{Needs, One, Quantity, UnitSystem, Units};
 use crate::solve::{ExactnessEnd, History, Numbers, Plan, Question, Solution, Target, Visitor, unobserved};
 
@@ -28,9 +28,9 @@ pub(crate) struct Point {
     pub(crate) cells: Vec<Cell>,
 }
 
-/// One number, or why there is none.
+/// One number of a point of a sweep, or why there is none.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
-pub(crate) struct Cell {
+pub struct Cell {
     /// As JSON has it: a number for a double, otherwise a text, or an enclosure; null where there is none.
     pub(crate) value: Value,
     /// How far it may be off.
@@ -41,6 +41,22 @@ pub(crate) struct Cell {
 }
 
 impl Cell {
+    /// The number; `None` where there is none.
+    pub fn value(&self) -> Option<f64> {
+        self.value.as_f64().or_else(|| self.value.as_str()?.parse().ok())
+    }
+
+    /// How far it may be off; infinite where that is not known.
+    pub fn bound(&self) -> f64 {
+        let text = || self.uncertainty.as_str().and_then(|text| text.parse().ok());
+        self.uncertainty.as_f64().or_else(text).unwrap_or(f64::INFINITY)
+    }
+
+    /// Why there is no number, or what a user should know of it.
+    pub fn note(&self) -> Option<&str> {
+        self.note.as_deref()
+    }
+
     fn none(why: impl std::fmt::Display) -> Self {
         Cell { note: Some(why.to_string()), ..Cell::default() }
     }
@@ -53,11 +69,14 @@ impl Cell {
 impl Asked {
     /// The numbers of a point. What cannot be answered is an answer too.
     pub(crate) fn answer(&self, grid: &Grid, index: usize) -> Point {
-        let cells = match grid.problem(index) {
+        Point { index, cells: self.cells_of(grid.problem(index)) }
+    }
+
+    pub(super) fn cells_of(&self, problem: Result<Problem, ProblemError>) -> Vec<Cell> {
+        match problem {
             Ok(problem) => self.cells(&problem),
             Err(error) => vec![Cell::none(error); self.quantities.len()],
-        };
-        Point { index, cells }
+        }
     }
 
     /// Quantities that the same run answers share it.

@@ -1,11 +1,49 @@
 //! All points of a sweep, on all threads.
 
-use std::ops::Range;
+use std::ops::{ControlFlow, Range};
 
 use super::grid::Grid;
-use super::point::{Asked, Point};
-use crate::quantity::{Quantity, Units};
+use super::point::{Asked, Cell, Point};
+use crate::error::Error;
+use crate::number::Number;
+use crate::problem::{Problem, ProblemError};
+use crate::quantity::{Quantity, UnitSystem, Units};
+use crate::solve::Numbers;
 use crate::threads::Threads;
+
+/// The same numbers of many problems, on all cores: for each of `count` problems a cell for each quantity. Those that
+/// need a time are taken at `time`, or at the end of the first contact; impulses and energies are per `ρS` where a
+/// problem has no material. `go_on` is asked before each problem.
+///
+/// **Accuracy**: that of the numbers asked for, with the bound in each cell; the same for any number of cores.
+///
+/// **Errors**: [`Error::Interrupted`] where `go_on` breaks. A problem that is none, and a number that there is not,
+/// has the reason in its cells.
+///
+/// ```
+/// # use dalembert::{Numbers, Problem, Quantity, sweep};
+/// # use std::ops::ControlFlow;
+/// let rod = |k| Problem::builder().length(1).wave_speed(1).gravity(1).impact_speed(k as i64 + 2).build();
+/// let asked = [Quantity::BounceTime, Quantity::EnergyRestitution];
+/// let cells = sweep(3, &rod, &asked, None, Numbers::Double(None), &|| ControlFlow::Continue(()))?;
+/// assert_eq!(cells[1][0].value(), Some(2.0));
+/// # Ok::<(), dalembert::Error>(())
+/// ```
+pub fn sweep(
+    count: usize,
+    problem: &(dyn Fn(usize) -> Result<Problem, ProblemError> + Sync),
+    quantities: &[Quantity],
+    time: Option<&Number>,
+    numbers: Numbers,
+    go_on: &(dyn Fn() -> ControlFlow<()> + Sync),
+) -> Result<Vec<Vec<Cell>>, Error> {
+    let (quantities, units) = (quantities.to_vec(), UnitSystem::default());
+    let asked = Asked { quantities, time: time.cloned(), numbers, units };
+    Threads::default().all(count, |k| match go_on() {
+        ControlFlow::Continue(()) => Ok(asked.cells_of(problem(k))),
+        ControlFlow::Break(()) => Err(Error::Interrupted),
+    })
+}
 
 /// A sweep: what is varied, and what is asked.
 #[derive(Debug)]

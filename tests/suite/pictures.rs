@@ -139,7 +139,7 @@ fn long_histories_are_cut_and_said() {
     let said = run(&["plot", "steel-bar", "-o", "-"]);
     assert!(said.err.contains("note: steel-bar: drawn from t = 0 to 0.0008 of 0.138"), "{}", said.err);
     assert!(said.code == Some(0) && said.out.len() < 300_000);
-    let title = "t = 0 … 0.0008 of 0.138";
+    let title = "from t = 0 to 0.0008 of 0.138";
     assert!(said.out.contains(title) && said.out.contains("1 of 1 contacts<"), "{}", structure(&said.out));
     // The contact of 4e-4 in 0.13 is a mark in each of four pictures, and no band.
     let whole = quiet(&["plot", "steel-bar", "--to", "0.13", "-o", "-"]);

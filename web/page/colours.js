@@ -6,7 +6,7 @@ const STEPS = 256;
 
 export let colour = {};
 /** Red, green and blue from the most compressed to the most stretched, in steps. */
-export let ramp = new Uint8ClampedArray(3 * STEPS);
+let ramp = new Uint8ClampedArray(3 * STEPS);
 
 export function readColours() {
   for (const name of ["page", "panel", "line", "faint", "ink", "soft", "accent", "translation", "vibration"]) {
@@ -20,13 +20,10 @@ export function readColours() {
       ramp[3 * k + j] = anchors[below][j] + (at - below) * (anchors[below + 1][j] - anchors[below][j]);
     }
   }
-  const stop = (k) => `rgb(${ramp.slice(3 * k, 3 * k + 3).join(" ")})`;
-  const stops = Array.from({ length: 17 }, (_, k) => stop(Math.min(16 * k, STEPS - 1)));
-  document.getElementById("scale").style.background = `linear-gradient(to right, ${stops.join(", ")})`;
 }
 
 /** Where in the ramp a strain stands, whose greatest size is `most`. */
-export function shade(strain, most) {
+function shade(strain, most) {
   const part = most > 0 ? strain / most : 0;
   return 3 * Math.round(((Math.min(Math.max(part, -1), 1) + 1) / 2) * (STEPS - 1));
 }

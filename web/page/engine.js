@@ -4,6 +4,11 @@
 function answers() {
   let [run, shown] = [null, 0];
   const of = (number, ask) => (number === shown ? ask() : null);
+  const drawn = (picture) => {
+    const { svg, greatest } = picture;
+    picture.free();
+    return { svg, greatest };
+  };
   return {
     load: (module) => wasm_bindgen({ module_or_path: module }).then(() => true),
     /** All that is shown of a scene at once; later questions name it by its number. */
@@ -13,8 +18,8 @@ function answers() {
         const [strain, rise, length, least, most] = fresh.sizes();
         const found = {
           number, sizes: { strain, rise, length, least, most }, end: fresh.end(), events: fresh.events(),
-          parameters: fresh.parameters(), contacts: fresh.contacts(), stress: fresh.stress(), ending: fresh.ending(),
-          doubts: fresh.doubts(),
+          parameters: fresh.parameters(), contacts: fresh.contacts(), ending: fresh.ending(),
+          doubts: fresh.doubts(), span: fresh.span(),
         };
         run?.free();
         [run, shown] = [fresh, number];
@@ -25,8 +30,8 @@ function answers() {
       }
     },
     at: (number, time, points) => of(number, () => ({ values: run.at(time), rod: run.rod(time, points) })),
-    strains: (number, ...grid) => of(number, () => run.strains(...grid)),
-    energies: (number, ...times) => of(number, () => run.energies(...times)),
+    screen: (number, ...rest) => of(number, () => drawn(run.screen(...rest))),
+    page: (number, ...span) => of(number, () => drawn(run.page(...span))),
   };
 }
 

@@ -1,7 +1,7 @@
 // The page: what its parts do together.
 import { PRESETS } from "./presets.js";
 import { command, fragment, read, scene, toml, value } from "./scene.js";
-import { colour, readColours } from "./colours.js";
+import { readColours } from "./colours.js";
 import { POINTS, drawRod, enlargement, lowered } from "./rod.js";
 import { Engine } from "./engine.js";
 import { Diagram } from "./diagram.js";
@@ -49,15 +49,15 @@ async function busily(act) {
   if (doing === 0) delete document.documentElement.dataset.busy;
 }
 
-/** The spans that the pictures can show: the whole run, the first contact, the first flight. */
+/** The spans that the pictures can show: the whole run, what `plot` shows of it, the first flight. */
 const SPANS = {
   all: () => ({ from: 0, to: shot.end }),
-  contact: () => ({ from: 0, to: Math.min(1.25 * (shot.events[1] ?? shot.end), shot.end) }),
+  contacts: () => ({ from: shot.span[0], to: shot.span[1] }),
   flight: () => ({ from: shot.events[1] ?? 0, to: shot.events[2] ?? shot.end }),
 };
 
 /** Of a stiff rod the contact would be a line in the whole run: less than a fiftieth of it. */
-const natural = () => (shot.events[1] < shot.end / 50 ? "contact" : "all");
+const natural = () => (shot.events[1] < shot.end / 50 ? "contacts" : "all");
 
 function show(fresh) {
   const span = fresh.another || !view ? null : $("span").value;
@@ -67,8 +67,6 @@ function show(fresh) {
   else if (view.to > shot.end) setSpan("all");
   sliders.ratios(shot.parameters);
   $("status").textContent = `c = ${shot.parameters[0]}, t₁ = ${shot.parameters[1]}; ${shot.ending}`;
-  const strain = Number(shot.sizes.strain.toPrecision(3));
-  [$("least").textContent, $("most").textContent] = [`compressed −${strain}`, `${strain} stretched`];
   fillContacts();
   return redraw();
 }
@@ -113,8 +111,7 @@ function setSpan(name) {
 /** Draws all again. */
 function redraw() {
   readColours();
-  draw();
-  return moveTo(now);
+  return draw();
 }
 
 /** What the pictures show, for those who do not see them. */
@@ -128,11 +125,13 @@ function describe() {
     + `${shot.events.filter((time) => time <= now).length % 2 ? "on the ground" : "in flight"}.`);
 }
 
-/** The pictures over time, which come by and by. */
-async function draw() {
+/** The pictures over time; then the cursor stands where it is in them, and the rod has their colours. */
+const draw = () => busily(async () => {
   describe();
-  if (await diagram.show(shot, view)) performance.mark("drawn");
-}
+  if (!await diagram.show(shot, view)) return;
+  performance.mark("drawn");
+  await moveTo(now);
+});
 
 function schedule() {
   frame ||= requestAnimationFrame(tick);
@@ -182,7 +181,7 @@ const within = (time) => Math.max(0, Math.min(time, shot.end));
 function moveTo(time) {
   now = within(time);
   $("now").value = now.toFixed(places());
-  const place = diagram.place(now);
+  const place = diagram.at(now);
   $("cursor").style.transform = `translateX(${place - 1}px)`;
   $("cursor").hidden = now < view.from || now > view.to;
   $("time").value = (now - view.from) / (view.to - view.from);
@@ -201,7 +200,7 @@ function pose() {
       if (!found) continue;
       const [h, E, E_h, E_z, end, strain] = found.values;
       fill($("values"), { h, E_h, E_z, E, "v(0,t)": end, "v_x(0,t)": strain });
-      drawRod($("rod"), shot, found.rod, factor(), [E_h, E_z].map(Number), Number(h));
+      drawRod($("rod"), shot, found.rod, diagram.greatest, factor(), [E_h, E_z].map(Number), Number(h));
     }
     posing = null;
   })());
@@ -351,31 +350,38 @@ async function copy(text, what) {
   $("done").value = `${what} copied`;
 }
 
-/** The pictures as a PNG. */
-function save() {
-  const [rod, pictures] = [$("rod"), $("diagram")];
-  const [ratio, em] = [pictures.width / pictures.clientWidth, diagram.em];
-  const sheet = new OffscreenCanvas(rod.width + pictures.width + 24 * ratio, pictures.height + (24 + 24 * em) * ratio);
-  const pen = sheet.getContext("2d");
-  pen.fillStyle = colour.page;
-  pen.fillRect(0, 0, sheet.width, sheet.height);
-  pen.drawImage(rod, 8 * ratio, 8 * ratio);
-  pen.drawImage(pictures, rod.width + 16 * ratio, 8 * ratio);
-  pen.fillStyle = colour.accent;
-  const cursor = rod.width + (16 + diagram.place(now)) * ratio;
-  if (!$("cursor").hidden) pen.fillRect(cursor, 8 * ratio, 2 * ratio, pictures.height);
-  pen.fillStyle = colour.ink;
-  pen.font = `${14 * em * ratio}px system-ui, sans-serif`;
-  const { L, c, mu, r, g, top } = scene;
-  const held = top === "fixed" ? ", upper end held" : "";
-  const text = `L = ${L}, c = ${c}, μ = ${mu}, r = ${r}, g = ${g}${held}; t = ${$("now").value}`;
-  pen.fillText(text, 12 * ratio, sheet.height - 14 * ratio);
-  sheet.convertToBlob({ type: "image/png" }).then((blob) => {
-    const link = document.createElement("a");
-    Object.assign(link, { href: URL.createObjectURL(blob), download: "dalembert.png" }).click();
-    URL.revokeObjectURL(link.href);
-    $("done").value = "picture saved";
-  });
+/** Saves a file under its name. */
+function keep(blob, name) {
+  const link = document.createElement("a");
+  Object.assign(link, { href: URL.createObjectURL(blob), download: name }).click();
+  URL.revokeObjectURL(link.href);
+  $("done").value = `${name} saved`;
+}
+
+/** The pictures of the times that are shown, as `dalembert plot` writes them. */
+async function sheet() {
+  const span = $("span").value === "contacts" ? [] : [view.from, view.to];
+  const found = await engine.ask("page", shot.number, ...span);
+  return found && new Blob([found.svg], { type: "image/svg+xml" });
+}
+
+async function saveSvg() {
+  const blob = await sheet();
+  if (blob) keep(blob, "dalembert.svg");
+}
+
+/** The same with 300 points for an inch. */
+async function savePng() {
+  const blob = await sheet();
+  if (!blob) return;
+  const image = new Image();
+  image.src = URL.createObjectURL(blob);
+  await image.decode();
+  const [width, height] = [image.width, image.height].map((side) => Math.round(side * (300 / 96)));
+  const paper = new OffscreenCanvas(width, height);
+  paper.getContext("2d").drawImage(image, 0, 0, width, height);
+  URL.revokeObjectURL(image.src);
+  keep(await paper.convertToBlob({ type: "image/png" }), "dalembert.png");
 }
 
 const nextEvent = () => stepTo(shot.events.map(justAfter).find((time) => time > now) ?? shot.end);
@@ -425,7 +431,8 @@ function listen() {
   $("copy-scene").addEventListener("click", () => copy(toml(), "scene"));
   $("copy-command").addEventListener("click", () => copy(command(), "command"));
   $("copy-link").addEventListener("click", () => copy(location.href.split("#")[0] + fragment($("now").value), "link"));
-  $("save").addEventListener("click", save);
+  $("save").addEventListener("click", () => busily(saveSvg));
+  $("save-png").addEventListener("click", () => busily(savePng));
   addEventListener("hashchange", open);
   new ResizeObserver(() => shot && redraw()).observe($("pictures"));
 }

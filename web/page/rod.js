@@ -8,7 +8,7 @@ export const POINTS = 121;
 export const enlargement = ({ strain, rise, length }) => Math.min(0.6 / strain, (0.9 * length) / rise) || 1;
 
 /** How much greater than usual letters and lines are: as the canvas is, and as the reader has set the letters. */
-const zoomed = ({ clientWidth, clientHeight }, usual) => Math.max(
+export const zoomed = ({ clientWidth, clientHeight }, usual) => Math.max(
   parseFloat(getComputedStyle(document.documentElement).fontSize) / 16,
   Math.min(clientWidth / usual, clientHeight / 290),
 );
@@ -54,12 +54,12 @@ export function write(pen, name, x, y, size) {
 }
 
 /**
- * Draws the rod with the displacements and strains `found`; energies are `[E_h, E_z]`, `sizes` the greatest of all in
- * the run.
+ * Draws the rod with the displacements and strains `found`, in colours that end at the strain `most`; energies are
+ * `[E_h, E_z]`, `sizes` the greatest of all in the run.
  */
-export function drawRod(canvas, { sizes, fixed }, found, factor, [translation, vibration], centre) {
+export function drawRod(canvas, { sizes, fixed }, found, most, factor, [translation, vibration], centre) {
   const { pen, width, height, em } = prepare(canvas, 176);
-  const { length, strain: most, rise } = sizes;
+  const { length, rise } = sizes;
   const ground = height - 46 * em;
   // The upper end swings about the centre of mass.
   const reach = 1.12 * length + factor * rise;

@@ -6,8 +6,8 @@ use std::sync::Arc;
 use dalembert::engine::{Motion, flights, restitution};
 use dalembert::number::{Answer, Scalar, bound_of_log2, show};
 use dalembert::{
-    Contact, Ending, Energy, Error, History, Numbers, Parameters, Plan, Question, Scene, SceneError, Side, Solution,
-    Warning,
+    Canvas, Contact, Drawing, Drawn, Ending, Energy, Error, History, Numbers, Parameters, Plan, Question, Scene,
+    SceneError, Side, Solution, Units, Warning,
 };
 use wasm_bindgen::prelude::*;
 
@@ -24,8 +24,6 @@ const DIGITS: u32 = 12;
 const ACCURACY: f64 = 1e-6;
 /// Significant digits of `c`, `t₁`, `R` and `M`, as in the tables of the command.
 const FEW_DIGITS: u32 = 6;
-/// Straight pieces that a curved piece of the stress is drawn with.
-const CHORDS: i64 = 12;
 
 /// What has no value.
 const NONE: &str = "–";
@@ -176,15 +174,6 @@ impl Run {
         })
     }
 
-    /// `v_x` in the middle of each cell of a grid: column by column in time, from the ground to the top.
-    pub fn strains(&self, from: f64, to: f64, columns: u32, rows: u32) -> Result<Vec<f64>, JsError> {
-        self.draw(|motion| {
-            let points = grid(motion, f64::from(rows), |k| k + 0.5, rows);
-            let times: Vec<_> = middles(from, to, columns).map(|time| time.carry()).collect();
-            Ok(motion.rates(&points, &times)?.iter().map(|[_, strain]| strain.to_f64()).collect())
-        })
-    }
-
     /// For scales: the greatest `|v_x(0,t)|`, the greatest height of the centre of mass in a flight, `L`, and the least
     /// and the greatest of energies at some times of the first contacts.
     pub fn sizes(&self) -> Result<Vec<f64>, JsError> {
@@ -208,38 +197,41 @@ impl Run {
         })
     }
 
-    /// `v_x(0,t)` as points `t, v_x` of a line that is drawn through: two of them where it jumps.
-    pub fn stress(&self) -> Result<Vec<f64>, JsError> {
-        let mut line = Vec::new();
-        for piece in self.history.stress_history().map_err(refuse)?.pieces {
-            line.extend([piece.from, piece.left]);
-            if !piece.chebyshev.is_empty() {
-                for k in 1..CHORDS {
-                    let time = piece.from + (piece.to - piece.from) * k as f64 / CHORDS as f64;
-                    line.extend([time, piece.eval(&time)]);
-                }
-            }
-            line.extend([piece.to, piece.right]);
-        }
-        Ok(line)
+    /// The first and the last time of what shows the first contacts.
+    pub fn span(&self) -> Result<Vec<f64>, JsError> {
+        let found = Drawing::default().drawn_span(&self.history, &self.scene.problem);
+        Ok(found.map_err(refuse)?.to_vec())
     }
 
-    /// `E_h` and `E_z` in the middle of so many equal parts of the time between two.
-    pub fn energies(&self, from: f64, to: f64, count: u32) -> Result<Vec<f64>, JsError> {
-        self.draw(|motion| {
-            let mut energies = Vec::with_capacity(2 * count as usize);
-            for time in middles(from, to, count) {
-                let Energy { translational, vibrational, .. } = motion.energy(&time.carry())?;
-                energies.extend([translational.to_f64(), vibrational.to_f64()]);
-            }
-            Ok(energies)
-        })
+    /// Field, stress and energy between two times, for a part of the screen in mm.
+    pub fn screen(&self, from: f64, to: f64, width: f64, height: f64, letters: f64) -> Result<Picture, JsError> {
+        self.picture(Some([from, to]), Canvas::Screen { width, height, letters })
+    }
+
+    /// The pictures of a page between two times, or of the first contacts.
+    pub fn page(&self, from: Option<f64>, to: Option<f64>) -> Result<Picture, JsError> {
+        self.picture(from.zip(to).map(|(from, to)| [from, to]), Canvas::Page)
+    }
+
+    /// A picture as `dalembert plot` draws it.
+    fn picture(&self, span: Option<[f64; 2]>, canvas: Canvas) -> Result<Picture, JsError> {
+        let drawing = Drawing { title: self.scene.title.clone(), span, canvas };
+        let units = Units::of(&self.scene.problem, self.scene.units);
+        let Drawn { svg, greatest } = drawing.draw(&self.history, &self.scene.problem, units).map_err(refuse)?;
+        Ok(Picture { svg, greatest })
     }
 
     /// Numbers for a picture: as doubles, without their bounds.
     fn draw(&self, query: impl Fn(&dyn Motion<Carried>) -> Result<Vec<f64>, Error>) -> Result<Vec<f64>, JsError> {
         self.history.ask(query, |_| Vec::new()).map_err(refuse)
     }
+}
+
+/// An SVG, and the strain at which its colours end.
+#[wasm_bindgen(getter_with_clone)]
+pub struct Picture {
+    pub svg: String,
+    pub greatest: f64,
 }
 
 /// A double with its bound.

@@ -13,6 +13,8 @@ pub(crate) struct Axis {
     pub(crate) log: bool,
     /// What the numbers beside it are multiplied with.
     factor: f64,
+    /// Their unit, with its prefix.
+    unit: String,
     /// Places and texts other than round numbers.
     pub(crate) ticks: Option<Vec<(f64, String)>>,
 }
@@ -35,13 +37,13 @@ impl Axis {
         let prefix = PREFIXES.iter().find(|prefix| prefix.0 == power).filter(|_| PREFIXED.contains(&unit));
         let unit = match (prefix, power, unit) {
             (_, 0, "") => String::new(),
-            (Some((_, prefix)), ..) => format!(" [{prefix}{unit}]"),
-            (None, 0, unit) => format!(" [{unit}]"),
-            (None, power, "") => format!(" [{}]", power_of_ten(power)),
-            (None, power, unit) => format!(" [{} {unit}]", power_of_ten(power)),
+            (Some((_, prefix)), ..) => format!("{prefix}{unit}"),
+            (None, 0, unit) => unit.into(),
+            (None, power, "") => power_of_ten(power),
+            (None, power, unit) => format!("{} {unit}", power_of_ten(power)),
         };
-        let label = format!("{symbol}{unit}");
-        Axis { label, from, to, log: false, factor: 10f64.powi(-power), ticks: None }
+        let label = if unit.is_empty() { symbol.into() } else { format!("{symbol} [{unit}]") };
+        Axis { label, from, to, log: false, factor: 10f64.powi(-power), unit, ticks: None }
     }
 
     /// Makes it reach as far as another one of the same quantity; the unit of its label stays.
@@ -51,7 +53,7 @@ impl Axis {
 
     /// The axis of a number without a unit, by factors.
     pub(crate) fn log(label: &str, [from, to]: [f64; 2]) -> Self {
-        Axis { label: label.into(), from, to, log: true, factor: 1.0, ticks: None }
+        Axis { label: label.into(), from, to, log: true, factor: 1.0, unit: String::new(), ticks: None }
     }
 
     /// The range that holds all values, and zero where `zero` says so, with a little space.
@@ -69,6 +71,16 @@ impl Axis {
     /// A value to three digits, in the unit of the label.
     pub(crate) fn shown(&self, value: f64) -> String {
         signed(&crate::number::Scalar::decimal(&(value * self.factor), 3))
+    }
+
+    /// A value to six digits with the unit of the label; as it is where that is a power of ten.
+    pub(crate) fn told(&self, value: f64) -> String {
+        let decimal = |value: f64| signed(&crate::number::Scalar::decimal(&value, 6));
+        match self.unit.as_str() {
+            "" => decimal(value),
+            unit if unit.starts_with("10") => decimal(value),
+            unit => format!("{} {unit}", decimal(value * self.factor)),
+        }
     }
 
     /// The place of a value as a share of the axis.

@@ -3,10 +3,10 @@
 use glam::DVec2;
 
 use super::picture::Along;
+use crate::draw::{Piece, clip};
 use crate::error::Error;
 use crate::motion::{Field, Side};
 use crate::number::Scalar;
-use crate::output::draw::{Piece, clip};
 use crate::problem::Parameters;
 use crate::solve::{History, Target};
 

@@ -3,16 +3,13 @@
 use glam::DVec2;
 
 use super::cells::{Break, Cells, MOST_RAYS, Values};
-use super::gather::{Asked, Gathered, Line};
+use super::gather::{Asked, Gathered, Line, UNSEEN};
 use super::picture::{Along, Picture};
-use crate::error::Error;
-use crate::number::Scalar;
-use crate::output::draw::{
-    AREAS, Axis, Key, LINES, Layer, Mark, Panel, Piece, Shape, Sheet, Size, Stroke, diverging, plain, thinned,
+use crate::draw::{
+    AREAS, Axis, Key, LINES, Layer, Mark, Panel, Piece, Shape, Sheet, Stroke, diverging, plain, thinned,
 };
-use crate::problem::Problem;
-use crate::quantity::{Measure, Quantity, Units};
-use crate::solve::{History, Target};
+use crate::number::Scalar;
+use crate::quantity::{Measure, Quantity};
 
 /// The times on the ground, in every picture.
 const CONTACT: &str = "#dcdcdc";
@@ -34,26 +31,6 @@ const WIDTH: f64 = 0.4;
 const DASHES: [&str; 3] = ["", "2 0.9", "0.5 0.7"];
 /// More jumps than this are not drawn.
 const MOST_JUMPS: usize = 2000;
-
-/// The sheet that tells a scene, as SVG for the width of a page.
-///
-/// **Errors**: those of the history.
-///
-/// ```
-/// # use dalembert::{Problem, Units, scene_svg};
-/// let rod = Problem::builder().length(1).wave_speed(1).gravity(1).impact_speed(3).build()?;
-/// let svg = scene_svg(&rod.solve()?, &rod, Units::default())?;
-/// // The field, stress, motion and energy.
-/// assert_eq!(svg.matches("class=\"panel\"").count(), 4);
-/// # Ok::<(), dalembert::Error>(())
-/// ```
-pub fn scene_svg<S: Target>(history: &History<S>, problem: &Problem, units: Units) -> Result<String, Error> {
-    let pictures = Picture::SHEET.to_vec();
-    let asked = Asked { pictures, along: Along::default(), deformed: false, from: None, to: None };
-    let scene = asked.gather(String::new(), problem, units, history)?;
-    // The units of one scene do not differ.
-    Ok(sheet(&asked, &[scene], Vec::new()).map_or_else(|_| String::new(), |sheet| sheet.svg(Size::Page)))
-}
 
 /// The pictures asked for, of all scenes.
 ///
@@ -98,7 +75,7 @@ pub(crate) fn sheet(asked: &Asked, scenes: &[Gathered], title: Vec<String>) -> R
     Ok(Sheet { title, panels })
 }
 
-fn time_axis(scenes: &[Gathered]) -> Axis {
+pub(super) fn time_axis(scenes: &[Gathered]) -> Axis {
     let from = scenes.iter().map(|scene| scene.span[0]).fold(f64::INFINITY, f64::min);
     let to = scenes.iter().map(|scene| scene.span[1]).fold(0.0, f64::max);
     Axis::new("t", scenes.first().map_or("", |scene| scene.units.name(Measure::Time)), [from, to])
@@ -251,7 +228,7 @@ fn stress(scene: &Gathered) -> Curve<'_> {
         let [from, to] = [piece.from.max(scene.span[0]), piece.to.min(scene.span[1])];
         let ends = [from, to].map(|t| (t, factor * piece.eval(&t)));
         match stretches.last_mut() {
-            Some(last) if last.last().is_some_and(|end| (end.1 - ends[0].1).abs() <= 1e-6 * factor * peak) => {
+            Some(last) if last.last().is_some_and(|end| (end.1 - ends[0].1).abs() <= UNSEEN * factor * peak) => {
                 last.push(ends[1]);
             }
             _ => stretches.push(ends.to_vec()),

@@ -107,15 +107,35 @@ impl Key {
 /// Widths and heights in those of a letter.
 const COLORS: f64 = 7.0;
 const LINE: f64 = 1.55;
+/// Between a title and the legend beside it.
+const BESIDE: f64 = 1.6;
 const TICK: f64 = 0.4;
 const GRID: Stroke = Stroke::new("#e4e4e4", 0.12);
 const FRAME: Stroke = Stroke::new("#000000", 0.2);
 
+/// Where a panel stands, and what of it is drawn.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Place {
+    /// Two corners of the frame.
+    pub(super) frame: [DVec2; 2],
+    /// Where it begins, and how wide it is, with all that is around the frame.
+    pub(super) left: f64,
+    pub(super) wide: f64,
+    /// Whether it is one of a stack over one axis of times: its legend beside its title.
+    pub(super) stacked: bool,
+    /// Whether the numbers below the frame are drawn.
+    pub(super) foot: bool,
+}
+
 impl Panel {
-    /// The rows of the legend in a width of so many letters.
-    fn rows(&self, most: f64) -> Vec<Vec<&Key>> {
+    /// The rows of the legend in a width of so many letters; in a stack the first one follows the title.
+    fn rows(&self, most: f64, stacked: bool) -> Vec<Vec<&Key>> {
         let mut rows: Vec<Vec<&Key>> = Vec::new();
         let mut used = f64::INFINITY;
+        if stacked {
+            rows.push(Vec::new());
+            used = width(&self.title) + BESIDE;
+        }
         for key in &self.legend {
             used += key.width();
             match rows.last_mut() {
@@ -129,19 +149,39 @@ impl Panel {
         rows
     }
 
+    /// Puts the label of the axis upwards in the title where it is longer than the frame is high, in letters.
+    pub(super) fn label_in_title(&mut self, high: f64) {
+        if width(&self.y.label) <= high {
+            return;
+        }
+        let label = std::mem::take(&mut self.y.label);
+        let symbol = label.split(" [").next().unwrap_or_default();
+        // A title that ends with the symbol needs only the unit.
+        self.title = match self.title.strip_suffix(symbol) {
+            Some(before) => format!("{before}{label}"),
+            None => format!("{}, {label}", self.title),
+        };
+    }
+
+    /// The numbers beside the axis upwards.
+    fn up(&self, height: f64, em: f64) -> Vec<(f64, String)> {
+        self.y.ticks((height / em / 2.4).max(2.5))
+    }
+
     /// How many numbers fit beside an axis of a height, and how wide the widest of them is, in letters.
     pub(super) fn margin(&self, height: f64, em: f64) -> f64 {
-        let ticks = self.y.ticks(height / em / 2.4);
-        ticks.iter().map(|tick| width(&tick.1)).fold(0.0, f64::max) + TICK + 0.5
+        self.up(height, em).iter().map(|tick| width(&tick.1)).fold(0.0, f64::max) + TICK + 0.5
     }
 
     /// Above the frame: the title and the legend.
-    pub(super) fn head(&self, wide: f64, em: f64) -> f64 {
-        em * (LINE * (1 + self.rows(wide / em).len()) as f64 + 0.4)
+    pub(super) fn head(&self, wide: f64, em: f64, stacked: bool) -> f64 {
+        let rows = self.rows(wide / em, stacked).len();
+        em * (LINE * if stacked { rows } else { 1 + rows } as f64 + 0.4)
     }
 
-    /// Draws it with its frame between two corners; all else is outside of the frame.
-    pub(super) fn draw(&self, svg: &mut Svg, [from, to]: [DVec2; 2], left: f64, wide: f64) {
+    /// Draws it; all but what is in its layers is outside of the frame.
+    pub(super) fn draw(&self, svg: &mut Svg, at: Place) {
+        let Place { frame: [from, to], left, wide, stacked, foot } = at;
         let (em, size) = (svg.em, to - from);
         let place = |point: DVec2| {
             let share = DVec2::new(self.x.share(point.x), 1.0 - self.y.share(point.y));
@@ -149,9 +189,9 @@ impl Panel {
             from + share.clamp(DVec2::splat(-20.0), DVec2::splat(20.0)) * size
         };
         svg.open("panel", "");
-        self.draw_head(svg, DVec2::new(left, from.y), wide);
+        self.draw_head(svg, DVec2::new(left, from.y), wide, stacked);
         let across = self.x.ticks(size.x / em / 4.5);
-        let up = self.y.ticks(size.y / em / 2.4);
+        let up = self.up(size.y, em);
         svg.open("grid", "");
         for (value, _) in &across {
             let x = from.x + self.x.share(*value) * size.x;
@@ -170,39 +210,45 @@ impl Panel {
             svg.close();
         }
         svg.frame([from, to], FRAME);
-        svg.open("axis-x", "");
-        for (value, text) in &across {
-            let x = from.x + self.x.share(*value) * size.x;
-            svg.line(&[DVec2::new(x, to.y), DVec2::new(x, to.y + TICK * em)], FRAME);
-            svg.text(DVec2::new(x, to.y + (TICK + 1.0) * em), Anchor::Middle, text);
+        if foot {
+            svg.open("axis-x", "");
+            for (value, text) in &across {
+                let x = from.x + self.x.share(*value) * size.x;
+                svg.line(&[DVec2::new(x, to.y), DVec2::new(x, to.y + TICK * em)], FRAME);
+                svg.text(DVec2::new(x, to.y + (TICK + 1.0) * em), Anchor::Middle, text);
+            }
+            svg.text(DVec2::new(from.x + size.x / 2.0, to.y + (TICK + 2.35) * em), Anchor::Middle, &self.x.label);
+            svg.close();
         }
-        svg.text(DVec2::new(from.x + size.x / 2.0, to.y + (TICK + 2.35) * em), Anchor::Middle, &self.x.label);
-        svg.close();
         svg.open("axis-y", "");
         for (value, text) in &up {
             let y = to.y - self.y.share(*value) * size.y;
             svg.line(&[DVec2::new(from.x - TICK * em, y), DVec2::new(from.x, y)], FRAME);
             svg.text(DVec2::new(from.x - (TICK + 0.3) * em, y + 0.36 * em), Anchor::End, text);
         }
-        // A label that is longer than the frame is written smaller.
-        let label = DVec2::new(left + 0.85 * em, from.y + size.y / 2.0);
-        svg.text_upwards(label, Anchor::Middle, &self.y.label, (size.y / em / width(&self.y.label)).min(1.0));
+        if !self.y.label.is_empty() {
+            // A label that is longer than the frame is written smaller.
+            let label = DVec2::new(left + 0.85 * em, from.y + size.y / 2.0);
+            svg.text_upwards(label, Anchor::Middle, &self.y.label, (size.y / em / width(&self.y.label)).min(1.0));
+        }
         svg.close();
         svg.close();
     }
 
-    fn draw_head(&self, svg: &mut Svg, at: DVec2, wide: f64) {
+    fn draw_head(&self, svg: &mut Svg, at: DVec2, wide: f64, stacked: bool) {
         let em = svg.em;
-        let rows = self.rows(wide / em);
-        let top = at.y - em * (0.75 + LINE * rows.len() as f64);
+        let rows = self.rows(wide / em, stacked);
+        let below = if stacked { rows.len() - 1 } else { rows.len() };
+        let top = at.y - em * (0.75 + LINE * below as f64);
         svg.text(DVec2::new(at.x, top), Anchor::Start, &self.title);
-        if rows.is_empty() {
+        if self.legend.is_empty() {
             return;
         }
         svg.open("legend", "");
         for (k, row) in rows.iter().enumerate() {
-            let mut x = at.x;
-            let base = top + em * LINE * (k + 1) as f64;
+            let line = if stacked { k } else { k + 1 };
+            let mut x = at.x + if line == 0 { em * (width(&self.title) + BESIDE) } else { 0.0 };
+            let base = top + em * LINE * line as f64;
             for key in row {
                 draw_key(svg, key, DVec2::new(x, base));
                 x += em * key.width();

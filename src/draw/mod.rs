@@ -10,6 +10,8 @@
 //! | `render` | SVG to PNG and PDF |
 //! | `sheet` | several of them, and what they are made for |
 
+#![cfg_attr(not(feature = "cli"), allow(dead_code, unused_imports, reason = "the command draws more"))]
+
 mod axis;
 pub(crate) mod clip;
 mod color;
@@ -19,10 +21,13 @@ mod render;
 mod sheet;
 mod svg;
 
-pub(crate) use axis::{Axis, power_of_ten};
+pub(crate) use axis::Axis;
+pub(crate) use axis::power_of_ten;
 pub(crate) use color::{AREAS, LINES, diverging};
 pub(crate) use panel::{Key, Layer, Mark, Panel, Piece, Shape, thinned};
 #[cfg(feature = "plot")]
 pub(crate) use render::Rendered;
+pub use sheet::Canvas;
 pub(crate) use sheet::{Sheet, Size};
-pub(crate) use svg::{Anchor, Stroke, plain};
+pub(crate) use svg::Anchor;
+pub(crate) use svg::{Stroke, plain};

@@ -2,7 +2,7 @@
 
 use std::f64::consts::PI;
 
-use crate::motion::StressPiece;
+use super::StressPiece;
 use crate::number::Scalar;
 
 /// The pieces cut into straight ones, each within `share` of the greatest `|v_x(0,·)|` at their ends.
@@ -12,7 +12,7 @@ use crate::number::Scalar;
 /// 64th of it, and no piece is halved more than [`MOST_HALVINGS`] times.
 ///
 /// **Accuracy**: the tolerance, and that of the pieces.
-pub(super) fn straight<S: Scalar>(pieces: &[StressPiece<S>], share: f64) -> Vec<StressPiece<S>> {
+pub(crate) fn straight<S: Scalar>(pieces: &[StressPiece<S>], share: f64) -> Vec<StressPiece<S>> {
     let ends = pieces.iter().flat_map(|piece| [&piece.left, &piece.right]);
     let tolerance = share * ends.map(|end| end.to_f64().abs()).fold(0.0, f64::max);
     pieces.iter().flat_map(|piece| cut(piece, tolerance)).collect()

@@ -20,7 +20,8 @@ pub(crate) enum Picture {
 }
 
 /// What is drawn as colour along the rod.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, clap::ValueEnum)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[cfg_attr(feature = "cli", derive(clap::ValueEnum))]
 pub(crate) enum Along {
     /// `E v_x`; without a material the strain
     #[default]

@@ -2,11 +2,12 @@
 
 use glam::DVec2;
 
-use super::panel::Panel;
+use super::panel::{Panel, Place};
 use super::svg::{Anchor, Svg, width};
 
 /// What a picture is made for.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, clap::ValueEnum)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[cfg_attr(feature = "cli", derive(clap::ValueEnum))]
 pub(crate) enum Size {
     /// One column of a journal, 85 mm
     Column,
@@ -15,6 +16,23 @@ pub(crate) enum Size {
     Page,
     /// A slide, 16:9
     Slide,
+}
+
+/// What a picture of a history is drawn on.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub enum Canvas {
+    /// The width of a page, 170 mm, and as high as it takes: field, stress, motion and energy.
+    #[default]
+    Page,
+    /// A part of a screen, in mm: field, stress and energy over one axis of times, without a title.
+    Screen {
+        /// From left to right.
+        width: f64,
+        /// From top to bottom.
+        height: f64,
+        /// The height of letters.
+        letters: f64,
+    },
 }
 
 /// Pictures with a title above all.
@@ -77,7 +95,7 @@ impl Sheet {
         let above = em * (0.9 + TITLE * title.len() as f64);
         let cell = wide / across as f64;
         // A frame of this height, and the legends that its width leaves room for.
-        let head = |row: &[Panel]| row.iter().map(|panel| panel.head(cell - 1.5 * em, em)).fold(0.0, f64::max);
+        let head = |row: &[Panel]| row.iter().map(|panel| panel.head(cell - 1.5 * em, em, false)).fold(0.0, f64::max);
         let around: f64 = rows.iter().map(|row| head(row) + em * (FOOT + GAP)).sum();
         let frame = match size {
             Size::Slide => (wide * 9.0 / 16.0 - above - around) / rows.len().max(1) as f64,
@@ -97,10 +115,40 @@ impl Sheet {
             y += head(row);
             for (column, panel) in row.iter().enumerate() {
                 let left = column as f64 * cell + em;
-                let corners = [DVec2::new(left + margin(column), y), DVec2::new(left + cell - 2.2 * em, y + frame)];
-                panel.draw(&mut svg, corners, left, cell - 1.5 * em);
+                let frame = [DVec2::new(left + margin(column), y), DVec2::new(left + cell - 2.2 * em, y + frame)];
+                panel.draw(&mut svg, Place { frame, left, wide: cell - 1.5 * em, stacked: false, foot: true });
             }
             y += frame + em * (FOOT + GAP);
+        }
+        svg.finish()
+    }
+
+    /// The pictures of one span of times in a rectangle, one below the other; the first is twice as high as the others.
+    /// What stands in one legend is not said again.
+    pub(crate) fn stacked(mut self, width: f64, height: f64, em: f64) -> String {
+        let mut said: Vec<String> = Vec::new();
+        for panel in &mut self.panels {
+            panel.legend.retain(|key| !said.iter().any(|text| text == key.text()));
+            said.extend(panel.legend.iter().map(|key| key.text().to_string()));
+        }
+        let mut svg = Svg::new(width, height, em);
+        let wide = width - 0.8 * em;
+        let around: f64 = self.panels.iter().map(|panel| panel.head(wide, em, true)).sum();
+        let part = ((height - around - em * FOOT) / (self.panels.len() + 1) as f64).max(em);
+        let share = |k: usize| if k == 0 { 2.0 * part } else { part };
+        for (k, panel) in self.panels.iter_mut().enumerate() {
+            panel.label_in_title(share(k) / em);
+        }
+        let margins = self.panels.iter().enumerate().map(|(k, panel)| panel.margin(share(k), em));
+        let margin = em * (LABEL + margins.fold(0.0, f64::max));
+        let mut y = 0.0;
+        for (k, panel) in self.panels.iter().enumerate() {
+            y += panel.head(wide, em, true);
+            // Half of the last number may stand beyond the frame.
+            let frame = [DVec2::new(margin, y), DVec2::new(width - 1.8 * em, y + share(k))];
+            let foot = k + 1 == self.panels.len();
+            panel.draw(&mut svg, Place { frame, left: 0.3 * em, wide, stacked: true, foot });
+            y += share(k);
         }
         svg.finish()
     }

@@ -2,13 +2,14 @@
 
 use super::cells::{self, Break, Cells, MOST_RAYS, Strip, settled};
 use super::picture::{Along, Picture};
+use crate::draw::Axis;
 use crate::error::Error;
+use crate::motion::straight;
 use crate::motion::{EventKind, Motion, RayRegister, Side, StressPiece};
 use crate::number::Scalar;
 use crate::order::ascending;
-use crate::output::straight::straight;
 use crate::problem::{Parameters, Problem};
-use crate::quantity::{Measure, Quantity, Units};
+use crate::quantity::{Quantity, Units};
 use crate::reason::Warning;
 use crate::solve::{History, Target};
 
@@ -61,6 +62,8 @@ const POINTS: usize = 400;
 /// Where rays are more than this, a line is drawn through [`DENSE`] points.
 const MOST_BREAKS: usize = 4000;
 const DENSE: usize = 8000;
+/// A jump below this share of the greatest value is thinner than any line.
+pub(super) const UNSEEN: f64 = 1e-6;
 /// How far a straight piece of the stress may be off, as a share of the greatest.
 const STRAIGHT: f64 = 1e-3;
 /// Contacts whose restitution is drawn.
@@ -70,13 +73,12 @@ const WORLD: usize = 5;
 
 impl Gathered {
     /// What of the history is drawn, where that is less than all and no span was asked for.
-    pub(crate) fn cut(&self, asked: &Asked) -> Option<String> {
-        let ([from, to], unit) = (self.span, self.units.name(Measure::Time));
-        let unit = if unit.is_empty() { String::new() } else { format!(" {unit}") };
-        let [from, to, end] = [from, to, self.end].map(|time| time.decimal(6));
-        let (shown, all) = (self.contacts.len(), self.of_contacts);
-        (asked.from.is_none() && asked.to.is_none() && to != end)
-            .then(|| format!("t = {from} … {to}{unit} of {end}{unit}, {shown} of {all} contacts"))
+    pub(crate) fn cut(&self, asked: &Asked, axis: &Axis) -> Option<String> {
+        let ([from, to], (shown, all)) = (self.span, (self.contacts.len(), self.of_contacts));
+        (asked.from.is_none() && asked.to.is_none() && to != self.end).then(|| {
+            let [from, to, end] = [from, to, self.end].map(|time| axis.told(time));
+            format!("from t = {from} to {to} of {end}, {shown} of {all} contacts")
+        })
     }
 
     /// How many columns of its grid the field has in a round trip, where they are too few to show its waves.
@@ -197,9 +199,11 @@ impl Asked {
             .into_iter()
             .zip(&table[2..])
             .map(|(column, values)| {
-                // A jump lies between two rows of one time.
-                let stretches =
-                    rows.chunk_by(|a, b| !(sides[*a] < 0.0 && times[*a] == times[*b] && values[*a] != values[*b]));
+                // A jump lies between two rows of one time; one that is not seen is none.
+                let seen = UNSEEN * rows.iter().map(|k| values[*k].abs()).fold(0.0, f64::max);
+                let jumps =
+                    |a: usize, b: usize| sides[a] < 0.0 && times[a] == times[b] && (values[a] - values[b]).abs() > seen;
+                let stretches = rows.chunk_by(|a, b| !jumps(*a, *b));
                 (column, stretches.map(|rows| rows.iter().map(|k| (times[*k], values[*k])).collect()).collect())
             })
             .collect();
