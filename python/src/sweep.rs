@@ -15,6 +15,8 @@ use super::{refuse, run};
 
 /// Values and bounds of one quantity, point by point.
 type Column = (Py<PyArray1<f64>>, Py<PyArray1<f64>>);
+/// What is said of points, by their index.
+type Notes = Vec<(usize, String)>;
 
 /// Values and bounds of each quantity, and a note for each point that has one.
 #[pyfunction]
@@ -25,7 +27,7 @@ pub(crate) fn sweep(
     time: Option<&Bound<'_, PyAny>>,
     accuracy: Option<f64>,
     varied: Vec<(String, Vec<Bound<'_, PyAny>>)>,
-) -> PyResult<(Vec<Column>, Vec<(usize, String)>)> {
+) -> PyResult<(Vec<Column>, Notes)> {
     let base = base.cast::<Problem>()?.get();
     let single = |name: &String| {
         let known = || Quantity::singles().map(|quantity| quantity.name()).collect::<Vec<_>>().join(", ");
