@@ -168,6 +168,14 @@ pub enum Error {
          top, whose first contact has a closed form"
     )]
     NoClosedForm,
+    /// A derivative that there is not, or not in these numbers.
+    #[error("found the derivative by {parameter} asked for, expected {expected}")]
+    Derivative {
+        /// The value by which it was to be taken.
+        parameter: &'static str,
+        /// What there would have to be.
+        expected: &'static str,
+    },
     /// The observer of a run ended it.
     #[error("interrupted")]
     Interrupted,

@@ -85,7 +85,7 @@ pub use number::{Estimate, Float, Interval, Number, NumberError, Rational};
 #[cfg(feature = "svg")]
 pub use plot::{Canvas, Drawing, Drawn};
 pub use problem::{
-    Builder, Dimensionless, Material, Parameters, Problem, ProblemError, ProblemErrorKind, Profile, Rod, Run, Speed,
+    Builder, Dimensionless, Material, Parameter, Parameters, Problem, ProblemError, ProblemErrorKind, Profile, Rod, Run, Speed,
     Start, Top, Written,
 };
 pub use quantity::{
@@ -96,8 +96,8 @@ pub use reason::{Doubt, Near, NoBounceReason, Reason, StillState, Warning};
 pub use rug;
 pub use scene::{Effect, EffectUse, Scene, SceneError, SceneErrorKind, Target, builtin};
 pub use solve::{
-    CERTIFIED_DIGITS, DEFAULT_ACCURACY, Engine, ExactnessEnd, History, Numbers, Observer, Plan, Question, Reach, Rung,
-    Solution, Want,
+    CERTIFIED_DIGITS, DEFAULT_ACCURACY, Derivative, Derivatives, Engine, ExactnessEnd, History, NoDerivative, Numbers,
+    Observer, Plan, Question, Reach, Rung, Solution, Want,
 };
 #[cfg(feature = "cli")]
 pub use sweep::{Cell, sweep};

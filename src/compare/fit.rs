@@ -8,9 +8,8 @@ use super::map::Location;
 use super::model::{Model, solved};
 use super::norms::{Compared, Grid};
 use super::ours::Ours;
-use super::vary::Parameter;
 use crate::error::Error;
-use crate::problem::Problem;
+use crate::problem::{Parameter, Problem};
 use crate::quantity::{Quantity, Rays};
 use crate::solve::History;
 

@@ -16,9 +16,9 @@ mod ours;
 mod report;
 mod samples;
 mod touch;
-mod vary;
 mod verdict;
 
+pub use crate::problem::Parameter;
 pub use comparison::{CompareError, ComparedFile, Comparison, Options, Prepared};
 pub use conventions::{Axis, Compression, Origin};
 pub use fit::FitError;
@@ -28,4 +28,3 @@ pub use map::MapError;
 pub(crate) use norms::Compared;
 pub use norms::{Grid, norms, order};
 pub use report::LEGEND;
-pub use vary::Parameter;

@@ -1,10 +1,9 @@
 //! What other values of the scene would have given at the times of the data, and the columns that are held against it.
 
 use super::norms::{Compared, Grid};
-use super::vary::Parameter;
 use crate::error::Error;
 use crate::motion::Side;
-use crate::problem::Problem;
+use crate::problem::{Parameter, Problem};
 use crate::quantity::{Measure, Quantity, Rays, Units};
 use crate::solve::History;
 

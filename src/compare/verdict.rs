@@ -23,11 +23,10 @@ use serde::Serialize;
 
 use super::model::{Model, Signal};
 use super::norms::{Compared, Grid};
-use super::vary::Parameter;
 use crate::error::Error;
 use crate::motion::Side;
 use crate::number::Scalar;
-use crate::problem::Problem;
+use crate::problem::{Parameter, Problem};
 use crate::quantity::{Measure, Quantity, Rays};
 use crate::solve::History;
 

@@ -64,11 +64,21 @@ impl<N: Bounded> Undamped<N> {
         limits: Limits,
         observe: &dyn Fn(usize, usize) -> ControlFlow<()>,
     ) -> Result<Self, Error> {
-        let scaled = Scaled::<N>::of(problem, precision)?;
-        let until = match &problem.run {
+        Self::solve_scaled(Scaled::of(problem, precision)?, &problem.run, limits, observe)
+    }
+
+    /// [`Undamped::solve_within`] of a problem in its own units.
+    pub(crate) fn solve_scaled(
+        scaled: Scaled<N>,
+        run: &Run,
+        limits: Limits,
+        observe: &dyn Fn(usize, usize) -> ControlFlow<()>,
+    ) -> Result<Self, Error> {
+        let until = match run {
             Run::Impacts(contacts) => Until::Contacts(*contacts),
             Run::Time(time) => {
-                let Some((trip, age)) = trip_and_age(&N::from_number(time, precision), &scaled.units) else {
+                let end = N::from_number(time, &scaled.gravity.precision());
+                let Some((trip, age)) = trip_and_age(&end, &scaled.units) else {
                     return Err(Error::TooManyPieces { limit: limits.pieces, time: time.to_f64() });
                 };
                 Until::Time { trip, age }

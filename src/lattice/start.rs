@@ -47,13 +47,19 @@ impl<N: Bounded> Scaled<N> {
     ///
     /// **Errors**: [`Error::Irrational`] where a fraction cannot hold a parameter.
     pub fn of(problem: &Problem, precision: &N::Precision) -> Result<Self, Error> {
-        let given = Parameters::<N>::of(problem, precision)?;
+        let gap = problem.gap().map(|gap| N::from_number(gap, precision));
+        Self::with(problem, &Parameters::of(problem, precision)?, gap)
+    }
+
+    /// The same with these values of the parameters and of the gap in place of those of `problem`.
+    pub(crate) fn with(problem: &Problem, given: &Parameters<N>, gap: Option<N>) -> Result<Self, Error> {
+        let precision = &given.length.precision();
         let round_trip = given.round_trip();
         let has_gravity = problem.gravity.as_ref().is_some_and(|gravity| !gravity.is_zero());
         let one = given.length.one();
         let gravity = if has_gravity { one.clone() } else { one.zero() };
         let fall = given.critical_speed();
-        let data = AtStart::of(problem, &given);
+        let data = AtStart::of(problem, given);
         let units = |velocity: N| Units {
             round_trip: round_trip.clone(),
             velocity,
@@ -71,8 +77,7 @@ impl<N: Bounded> Scaled<N> {
                         (one.clone().halved(), gravity.clone().halved() - &speed, -gravity.clone()),
                     ],
                 };
-                let gap = problem.gap().map_or_else(|| one.zero(), |gap| N::from_number(gap, precision));
-                let ground_start = gap / &velocity / &round_trip;
+                let ground_start = gap.unwrap_or_else(|| one.zero()) / &velocity / &round_trip;
                 let (top, ground_velocity) = (problem.rod.top, -speed);
                 Ok(Scaled { units: units(velocity), gravity, top, data, ground_start, ground_velocity, before })
             }

@@ -6,7 +6,7 @@
 use std::cmp::Ordering;
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
-use super::{Analytic, Bounded, Number, Open, Rounded, Scalar};
+use super::{Analytic, Bounded, Estimate, Number, Open, Reads, Rounded, Scalar};
 
 macro_rules! absent {
     ($(#[$doc:meta] $name:ident),*) => {$(
@@ -73,3 +73,12 @@ absent!(
     /// In a build with the feature `mp`, an enclosure.
     Interval
 );
+
+impl Reads<Estimate<Float>> for Estimate<f64> {
+    fn read(number: Estimate<Float>) -> Self {
+        match number.into_value() {}
+    }
+    fn give(&self, precision: &Float) -> Estimate<Float> {
+        match *precision {}
+    }
+}

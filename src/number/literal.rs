@@ -118,6 +118,13 @@ impl Number {
     }
 }
 
+impl Number {
+    /// The number that `fraction` spells; `None` beyond the sizes that are read.
+    pub(crate) fn of_rational(fraction: &Rational) -> Option<Number> {
+        fraction.to_string().parse().ok()
+    }
+}
+
 /// The magnitude of a decimal: `limbs`, of nine decimal digits each and the least first, times `10^power`.
 struct Magnitude {
     limbs: Vec<u64>,

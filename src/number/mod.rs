@@ -8,6 +8,8 @@
 //! | [`Interval`] (feature `mp`) | enclosures | ends rounded outwards, with the exact number where it has a root form |
 //! | [`Estimate`] | a rounded number and its error | the bound is carried through every operation |
 //!
+//! `Dual`, a fraction with a derivative, is for computations inside.
+//!
 //! Formulas are written once: [`Scalar`] has the field operations and the square root, [`Analytic`] the elementary
 //! functions; [`Rounded`] numbers round, and [`Bounded`] ones answer for their own error.
 
@@ -15,6 +17,7 @@
 mod absent;
 mod bounded;
 mod double;
+mod dual;
 mod estimate;
 #[cfg(feature = "mp")]
 mod float;
@@ -37,6 +40,7 @@ mod text;
 #[cfg(not(feature = "mp"))]
 pub use absent::{Float, Interval};
 pub use bounded::{Answer, Bounded};
+pub(crate) use dual::Dual;
 pub use estimate::Estimate;
 #[cfg(feature = "mp")]
 pub use float::decimal;

@@ -6,10 +6,12 @@ pub(crate) mod given;
 mod parameters;
 pub(crate) mod profile;
 pub(crate) mod validate;
+mod vary;
 pub(crate) mod written;
 
 pub use crate::error::{ProblemError, ProblemErrorKind};
 pub use builder::Builder;
 pub use definition::{Material, Problem, Profile, Rod, Run, Speed, Start, Top};
 pub use parameters::{Dimensionless, Parameters};
+pub use vary::Parameter;
 pub use written::Written;

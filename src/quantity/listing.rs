@@ -49,13 +49,32 @@ pub type Columns<S> = Vec<(&'static str, Vec<Option<S>>)>;
 pub fn table<S: Scalar>(motion: &dyn Motion<S>, table: Table, units: &Units) -> Result<Columns<S>, Error> {
     let present = table.quantities().iter().copied().filter(|quantity| quantity.is_listed(units.has_material()));
     let present: Vec<Quantity> = present.collect();
-    let rows = rows(motion, &present)?;
+    let rows = values(motion, &present, units)?;
     let column = |(k, quantity): (usize, &Quantity)| {
-        let factor = quantity.factor(&motion.scales(), units);
-        let value = |row: &Row<S>| row.get(k)?.clone().ok().map(|value| quantity.scaled(value, factor.as_ref()));
-        (quantity.key(), rows.iter().map(value).collect())
+        (quantity.key(), rows.iter().map(|row| row.get(k).cloned().flatten()).collect())
     };
     Ok(present.iter().enumerate().map(column).collect())
+}
+
+/// The values of `quantities` of one kind for each event, contact, flight or piece, in units of the problem; `None` where
+/// there is none.
+///
+/// **Errors**: what the history cannot answer.
+pub(crate) fn values<S: Scalar>(
+    motion: &dyn Motion<S>,
+    quantities: &[Quantity],
+    units: &Units,
+) -> Result<Vec<Vec<Option<S>>>, Error> {
+    let mut values = Vec::new();
+    for row in rows(motion, quantities)? {
+        let mut cells = Vec::with_capacity(row.len());
+        for (value, quantity) in row.into_iter().zip(quantities) {
+            let factor = quantity.factor(&motion.scales(), units);
+            cells.push(value.ok().map(|value| quantity.scaled(value, factor.as_ref())));
+        }
+        values.push(cells);
+    }
+    Ok(values)
 }
 
 /// The values of quantities of one kind for each event, contact, flight or piece, as the history answers them, or why

@@ -31,6 +31,7 @@ pub use flight::{Flight, flights};
 #[cfg(feature = "cli")]
 pub(crate) use listing::of_contact;
 pub use listing::{Columns, Table, table};
+pub(crate) use listing::values;
 #[cfg(feature = "cli")]
 pub(crate) use listing::{Row, rows};
 #[cfg(feature = "cli")]

@@ -2,16 +2,17 @@
 
 use std::sync::Arc;
 
+use super::derivative::{Asked, Derivatives};
 use super::ladder::{Engined, Observer, Target};
 use super::plan::{Engine, Plan, Rung};
-use super::{fractions, long};
+use super::{differences, fractions, long};
 use crate::cells::{ContactThenCells, Damped};
 use crate::error::Error;
 use crate::first_contact::{Bounce, ContactHistory, FirstContact};
 use crate::lattice::Undamped;
 use crate::modal::Modal;
 use crate::motion::Side;
-use crate::number::Estimate;
+use crate::number::{DOUBLE_DIGITS, Estimate, Reads};
 use crate::problem::{Parameters, Problem};
 
 impl Target for f64 {
@@ -58,6 +59,16 @@ impl Target for f64 {
                 )?)
             }
         })
+    }
+
+    /// As many digits as a double has where a run takes no time, otherwise one more than the run is asked for.
+    fn derivatives(asked: &Asked<'_>) -> Result<Derivatives<Estimate<f64>>, Error> {
+        let digits = match asked.plan.engine {
+            Engine::Lattice => DOUBLE_DIGITS,
+            _ => asked.plan.goal.digits.ceil() as u32,
+        };
+        let found = differences::of(asked, digits)?;
+        Ok(found.into_iter().map(|row| row.into_iter().map(|cell| cell.map(|it| it.map(Reads::read))).collect()).collect())
     }
 }
 

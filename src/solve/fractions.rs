@@ -3,6 +3,8 @@
 use std::sync::Arc;
 
 use super::converted::Converted;
+use super::derivative::{Asked, Derivatives};
+use super::exact;
 use super::ladder::{Engined, Observer, Target};
 use super::plan::{Plan, Rung};
 use crate::error::Error;
@@ -14,6 +16,10 @@ use crate::problem::Problem;
 impl Target for Rational {
     fn run(problem: &Problem, plan: &Plan, _: Rung, observe: &Observer) -> Result<Engined<Rational>, Error> {
         Ok(Arc::new(fractions(problem, plan, observe)?))
+    }
+
+    fn derivatives(asked: &Asked<'_>) -> Result<Derivatives<Rational>, Error> {
+        exact::derivatives(asked)
     }
 }
 

@@ -2,6 +2,7 @@
 
 use std::sync::{Mutex, OnceLock, PoisonError};
 
+use super::derivative::{Asked, Derivatives};
 use super::ladder::{Attempt, Ladder, Observer, Query, Target, settled, unobserved};
 use super::plan::{Plan, Rung};
 use super::question::{Numbers, Question};
@@ -10,7 +11,7 @@ use crate::motion::{
     Contact, Ending, Energy, Event, Field, Motion, Ray, Scales, Side, StressHistory, StressPiece, Waves,
 };
 use crate::number::{Answer, Number, Scalar, show};
-use crate::problem::Problem;
+use crate::problem::{Parameter, Problem};
 use crate::quantity::{
     self, EnergyShares, Flight, Quantity, Restitution, Slice, Table, UnitSystem, Units, energy_shares, flights,
     restitution,
@@ -411,6 +412,32 @@ impl<S: Target> History<S> {
             |motion| quantity::table(motion, table, &units),
             |columns| columns.iter().flat_map(|(_, column)| column.iter().flatten()).collect(),
         )
+    }
+
+    /// The derivatives of `quantities` of one kind by a value of the problem, for each event, contact or flight; with a
+    /// material in its units. All other values stay as they are: a derivative by the wave speed is one at the same
+    /// density, one by gravity at the same impact speed. What there is not, such as the end of a contact that lasts, is
+    /// `None`.
+    ///
+    /// **Accuracy**: *exact* in fractions. Otherwise each derivative is within the bound that it carries: it is a
+    /// difference quotient of runs in long numbers, whose step is below the digits asked for, and the bound has what
+    /// the quotients of both sides, or of two steps, differ by.
+    ///
+    /// **Errors**: [`Error::Derivative`] where the problem has no such value, in fractions for damping, and for
+    /// enclosures; [`Error::NoMultiprecision`] without the feature `mp`, but for fractions; those of the runs.
+    ///
+    /// ```
+    /// use dalembert::{Derivative, Parameter, Problem, Quantity};
+    /// // Doyen, Ern and Piperno's rod lands for the second time as a wave arrives: a faster one lands after it, and
+    /// // g ∂t₂/∂μ is 6 for slower rods and 6/5 for faster ones.
+    /// let rod = Problem::builder().length(10).wave_speed(30).gravity(10).impact_speed(10).impacts(2).build()?;
+    /// let times = rod.exact()?.derivatives(Parameter::Speed, &[Quantity::EventTime])?;
+    /// let Some(Derivative::Sides { left: Ok(slower), right: Ok(faster) }) = &times[2][0] else { unreachable!() };
+    /// assert_eq!((slower.to_string(), faster.to_string()), ("3/5".into(), "3/25".into()));
+    /// # Ok::<(), dalembert::Error>(())
+    /// ```
+    pub fn derivatives(&self, by: Parameter, quantities: &[Quantity]) -> Result<Derivatives<S::Carried>, Error> {
+        S::derivatives(&Asked { problem: &self.problem, plan: &self.plan, observe: &self.observe, by, quantities })
     }
 
     /// `v`, `v_t`, `v_x` at `(x,t)`; where a ray passes, the limit from later times.

@@ -4,6 +4,7 @@
 use std::ops::ControlFlow;
 use std::sync::{Arc, LazyLock};
 
+use super::derivative::{Asked, Derivatives};
 use super::plan::{Engine, Goal, Lacks, Plan, Rung};
 use crate::error::Error;
 use crate::motion::{Ending, Motion, Scales};
@@ -62,6 +63,11 @@ pub trait Target: Answer {
     ///
     /// **Errors**: those of the engine; [`Error::NotDecided`] where these numbers do not settle a comparison.
     fn run(problem: &Problem, plan: &Plan, rung: Rung, observe: &Observer) -> Result<Engined<Self>, Error>;
+
+    /// The derivatives that are asked for, by the numbers that this system has them from.
+    ///
+    /// **Errors**: those of runs with other values; [`Error::Derivative`].
+    fn derivatives(asked: &Asked<'_>) -> Result<Derivatives<Self::Carried>, Error>;
 }
 
 /// A problem and its plan, of which attempts are made.

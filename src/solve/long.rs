@@ -3,6 +3,8 @@
 use std::sync::Arc;
 
 use super::converted::Converted;
+use super::derivative::{Asked, Derivatives};
+use super::differences;
 use super::fractions::confirmed;
 use super::ladder::{Engined, Observer, Target};
 use super::plan::{Engine, Plan, Rung};
@@ -20,11 +22,19 @@ impl Target for Float {
             rung => estimates(problem, plan, bits_of(rung), observe),
         }
     }
+
+    fn derivatives(asked: &Asked<'_>) -> Result<Derivatives<Estimate<Float>>, Error> {
+        differences::of(asked, asked.plan.goal.digits.ceil() as u32)
+    }
 }
 
 impl Target for Interval {
     fn run(problem: &Problem, plan: &Plan, rung: Rung, observe: &Observer) -> Result<Engined<Interval>, Error> {
         enclosures(problem, plan, bits_of(rung), observe)
+    }
+
+    fn derivatives(asked: &Asked<'_>) -> Result<Derivatives<Interval>, Error> {
+        Err(Error::Derivative { parameter: asked.by.name(), expected: "digits that need not be proved" })
     }
 }
 

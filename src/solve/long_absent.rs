@@ -1,5 +1,6 @@
 //! Long numbers and enclosures in a build without the feature `mp`: an error that names it.
 
+use super::derivative::{Asked, Derivatives};
 use super::ladder::{Engined, Observer, Target};
 use super::plan::{Plan, Rung};
 use crate::error::Error;
@@ -20,6 +21,9 @@ macro_rules! absent {
         }
         impl Target for $name {
             fn run(_: &Problem, _: &Plan, _: Rung, _: &Observer) -> Result<Engined<$name>, Error> {
+                Err(Error::NoMultiprecision)
+            }
+            fn derivatives(_: &Asked<'_>) -> Result<Derivatives<$carried>, Error> {
                 Err(Error::NoMultiprecision)
             }
         }

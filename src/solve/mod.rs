@@ -8,11 +8,16 @@
 //! | `engines`, `fractions`, `long` | the planned engine in the numbers of one attempt |
 //! | `converted` | a history in one number system, read in another |
 //! | `ladder` | more bits until the answer is settled |
+//! | `derivative` | derivatives by a value of the problem |
+//! | `exact`, `differences` | how fractions have them, and how long numbers |
 //! | `history` | the answer in one number system, of which everything else is asked |
 //! | `solution` | the answer in the numbers of its plan |
 
 mod converted;
+mod derivative;
+mod differences;
 mod engines;
+mod exact;
 mod foresee;
 mod fractions;
 mod history;
@@ -23,6 +28,7 @@ mod plan;
 mod question;
 mod solution;
 
+pub use derivative::{Derivative, Derivatives, NoDerivative};
 pub use history::History;
 #[cfg(feature = "cli")]
 pub(crate) use ladder::unobserved;

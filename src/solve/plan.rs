@@ -277,6 +277,12 @@ impl Plan {
         Self::with(problem, Numbers::Digits(digits), self.engine, self.reach.clone(), keeps)
     }
 
+    /// The question that it answers, in other numbers.
+    pub(super) fn question(&self, numbers: Numbers) -> Question {
+        let want = if self.reach == Reach::FirstContact { Want::FirstContact } else { Want::Run };
+        Question { want, numbers }
+    }
+
     /// The rung after `rung`, by what the answer `lacks`; `None` where no more are worth trying.
     pub(crate) fn next(&self, rung: Rung, lacks: Lacks) -> Option<Rung> {
         let Climb { bits, most_bits, near_miss, exact_roots, most_enclosed, .. } = self.climb;

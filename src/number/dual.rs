@@ -1,0 +1,191 @@
+//! Fractions with a derivative.
+
+use std::cmp::Ordering;
+use std::ops::{Add, Div, Mul, Neg, Sub};
+
+use super::{Bounded, Number, Open, Rational, Scalar};
+
+/// A fraction and how fast it grows with a value of the problem that becomes a little greater: `a + b ε`, `ε > 0` and
+/// `ε² = 0`.
+///
+/// Comparisons are those of the problem with the greater value: where the fractions are equal, their rates decide. So
+/// events come in the order that they have beside a threshold, and the derivative is that from the right.
+///
+/// What first order does not tell, such as a quotient by `b ε` or the root of one, is open in every comparison.
+#[derive(Clone, Debug)]
+pub(crate) struct Dual {
+    value: Rational,
+    rate: Rational,
+    known: bool,
+}
+
+impl Dual {
+    /// `value + rate ε`.
+    pub(crate) fn new(value: Rational, rate: Rational) -> Self {
+        Dual { value, rate, known: true }
+    }
+
+    /// A number that does not change.
+    pub(crate) fn constant(value: Rational) -> Self {
+        Dual::new(value, Rational::default())
+    }
+
+    /// `b`; `None` where first order does not tell.
+    pub(crate) fn rate(&self) -> Option<&Rational> {
+        Some(&self.rate).filter(|_| self.known)
+    }
+
+    /// `a`.
+    pub(crate) fn value(&self) -> &Rational {
+        &self.value
+    }
+
+    fn unknown() -> Self {
+        Dual { known: false, ..Dual::constant(Rational::default()) }
+    }
+}
+
+impl Neg for Dual {
+    type Output = Self;
+    fn neg(self) -> Self {
+        Dual { value: -self.value, rate: -self.rate, known: self.known }
+    }
+}
+
+impl Add<&Dual> for Dual {
+    type Output = Self;
+    fn add(self, other: &Self) -> Self {
+        Dual { value: self.value + &other.value, rate: self.rate + &other.rate, known: self.known && other.known }
+    }
+}
+
+impl Sub<&Dual> for Dual {
+    type Output = Self;
+    fn sub(self, other: &Self) -> Self {
+        Dual { value: self.value - &other.value, rate: self.rate - &other.rate, known: self.known && other.known }
+    }
+}
+
+impl Mul<&Dual> for Dual {
+    type Output = Self;
+    fn mul(self, other: &Self) -> Self {
+        let rate = self.rate * &other.value + other.rate.clone() * &self.value;
+        Dual { value: self.value * &other.value, rate, known: self.known && other.known }
+    }
+}
+
+impl Div<&Dual> for Dual {
+    type Output = Self;
+    fn div(self, other: &Self) -> Self {
+        if !other.known || other.value.vanishes() == Ok(true) {
+            return Dual::unknown();
+        }
+        let value = self.value / &other.value;
+        Dual { rate: (self.rate - other.rate.clone() * &value) / &other.value, value, known: self.known }
+    }
+}
+
+macro_rules! by_value {
+    ($($trait:ident $method:ident),*) => {$(
+        impl $trait for Dual {
+            type Output = Self;
+            fn $method(self, other: Self) -> Self {
+                self.$method(&other)
+            }
+        }
+    )*};
+}
+by_value!(Add add, Sub sub, Mul mul, Div div);
+
+impl Scalar for Dual {
+    type Precision = ();
+
+    fn from_number(number: &Number, (): &()) -> Self {
+        Dual::constant(number.to_rational())
+    }
+
+    fn precision(&self) {}
+
+    fn int(&self, n: i64) -> Self {
+        Dual::constant(n.into())
+    }
+
+    fn double(&self, x: f64) -> Self {
+        Dual::constant(self.value.double(x))
+    }
+
+    /// `√(a + b ε) = √a + b ε/2√a`: a step of Newton's method.
+    fn try_sqrt(&self) -> Option<Self> {
+        let root = self.value.try_sqrt()?;
+        if root.vanishes() == Ok(true) {
+            return Some(Dual::unknown());
+        }
+        Some(Dual { rate: (self.rate.clone() / &root).halved(), value: root, known: self.known })
+    }
+
+    fn to_f64(&self) -> f64 {
+        Scalar::to_f64(&self.value)
+    }
+
+    fn roundoff(&self) -> Self {
+        self.zero()
+    }
+
+    fn bits(&self) -> Option<u32> {
+        None
+    }
+
+    fn sign(&self) -> Result<Ordering, Open> {
+        if self.known { Ok(Scalar::sign(&self.value)?.then(Scalar::sign(&self.rate)?)) } else { Err(Open) }
+    }
+
+    fn floor_int(&self) -> Option<i64> {
+        let floor = self.value.floor_int()?;
+        let just_below = self.known && self.value == Rational::from(floor) && self.rate.negative() == Ok(true);
+        self.known.then_some(floor - i64::from(just_below))
+    }
+
+    fn is_finite(&self) -> bool {
+        self.known
+    }
+
+    fn text(&self) -> String {
+        self.value.text()
+    }
+}
+
+impl Bounded for Dual {
+    fn halved(self) -> Self {
+        Dual { value: self.value.halved(), rate: self.rate.halved(), known: self.known }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn dual(value: (i64, i64), rate: (i64, i64)) -> Dual {
+        let fraction = |(p, q): (i64, i64)| Rational::from(p) / Rational::from(q);
+        Dual::new(fraction(value), fraction(rate))
+    }
+
+    /// `(x² + 3)/x` at x = 2, whose derivative is `1 − 3/x²`, and `√(x² + 5)`, whose derivative is `x/√(x² + 5)`.
+    #[test]
+    fn rates_are_derivatives() {
+        let x = dual((2, 1), (1, 1));
+        let quotient = (x.square() + x.int(3)) / &x;
+        assert_eq!((quotient.value(), quotient.rate()), (dual((7, 2), (0, 1)).value(), dual((0, 1), (1, 4)).rate()));
+        let root = (x.square() + x.int(5)).try_sqrt().unwrap();
+        assert_eq!((root.value(), root.rate()), (dual((3, 1), (0, 1)).value(), dual((0, 1), (2, 3)).rate()));
+    }
+
+    #[test]
+    fn rates_decide_between_equal_numbers() {
+        let (one, more, less) = (dual((1, 1), (0, 1)), dual((1, 1), (1, 9)), dual((1, 1), (-1, 9)));
+        assert_eq!((more.compare(&one), less.compare(&one)), (Ok(Ordering::Greater), Ok(Ordering::Less)));
+        assert_eq!([&one, &more, &less].map(Scalar::floor_int), [Some(1), Some(1), Some(0)]);
+        // ε/ε is not of first order, and neither is √ε.
+        let step = more - &one;
+        assert_eq!(((one / &step).sign(), step.try_sqrt().unwrap().sign()), (Err(Open), Err(Open)));
+    }
+}

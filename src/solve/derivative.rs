@@ -1,0 +1,90 @@
+//! Derivatives of what a history lists by a value of the problem, from both sides.
+
+use std::fmt;
+
+use super::ladder::Observer;
+use super::plan::Plan;
+use crate::problem::{Parameter, Problem};
+use crate::quantity::Quantity;
+
+/// The derivative of a number of a history by a value of the problem.
+///
+/// ```
+/// use dalembert::{Parameter, Problem, Quantity};
+/// let rod = Problem::builder().length(2).wave_speed(1).gravity(1).impact_speed(5).build()?;
+/// // Corollary 1: t_b = 2L/c.
+/// let times = rod.exact()?.derivatives(Parameter::Length, &[Quantity::EventTime])?;
+/// assert_eq!(times[1][0].as_ref().and_then(|by| by.value()), Some(&2.into()));
+/// # Ok::<(), dalembert::Error>(())
+/// ```
+#[derive(Clone, Debug, PartialEq)]
+pub enum Derivative<S> {
+    /// The same from both sides, or from the only one: a damping that is zero can only grow.
+    One(S),
+    /// Not the same from both sides: an event meets a ray, and comes before it on one side and after it on the other.
+    Sides {
+        /// As the value grows towards that of the problem.
+        left: Result<S, NoDerivative>,
+        /// As it grows beyond.
+        right: Result<S, NoDerivative>,
+    },
+}
+
+/// Why there is no derivative from a side.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum NoDerivative {
+    /// Difference quotients grow without bound as steps get smaller, slower than their inverse: as next to a touch.
+    Infinite,
+    /// The number jumps, or is one of another event.
+    Jumps,
+    /// The numbers that were tried do not settle it.
+    Unsettled,
+}
+
+/// Derivatives by row and column; `None` where there is no number.
+pub type Derivatives<S> = Vec<Vec<Option<Derivative<S>>>>;
+
+/// What derivatives are asked for.
+pub struct Asked<'a> {
+    pub(super) problem: &'a Problem,
+    pub(super) plan: &'a Plan,
+    pub(super) observe: &'a Observer,
+    pub(super) by: Parameter,
+    pub(super) quantities: &'a [Quantity],
+}
+
+impl<S> Derivative<S> {
+    /// The derivative, where it is the same from both sides.
+    pub fn value(&self) -> Option<&S> {
+        match self {
+            Derivative::One(value) => Some(value),
+            Derivative::Sides { .. } => None,
+        }
+    }
+
+    /// From the left and from the right.
+    pub fn sides(&self) -> [Result<&S, NoDerivative>; 2] {
+        match self {
+            Derivative::One(value) => [Ok(value), Ok(value)],
+            Derivative::Sides { left, right } => [left, right].map(|side| side.as_ref().map_err(|why| *why)),
+        }
+    }
+
+    /// The same derivative in other numbers.
+    pub fn map<T>(self, f: impl Fn(S) -> T) -> Derivative<T> {
+        match self {
+            Derivative::One(value) => Derivative::One(f(value)),
+            Derivative::Sides { left, right } => Derivative::Sides { left: left.map(&f), right: right.map(&f) },
+        }
+    }
+}
+
+impl fmt::Display for NoDerivative {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            NoDerivative::Infinite => "infinite",
+            NoDerivative::Jumps => "jumps",
+            NoDerivative::Unsettled => "not settled",
+        })
+    }
+}

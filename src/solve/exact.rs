@@ -1,0 +1,108 @@
+//! Derivatives in fractions: the undamped history in numbers `a + b ε`, for a value that grows and one that shrinks.
+
+use super::derivative::{Asked, Derivative, Derivatives, NoDerivative};
+use crate::error::Error;
+use crate::lattice::{Scaled, Undamped};
+use crate::motion::Motion;
+use crate::number::{Bounded, Dual, Rational, Scalar};
+use crate::problem::{Material, Parameter, Parameters, Problem};
+use crate::quantity::{self, Measure, Quantity, UnitSystem, Units};
+
+type Rows<S> = Vec<Vec<Option<S>>>;
+
+/// The derivatives that are `asked` for.
+///
+/// **Errors**: [`Error::Derivative`] for damping, for a gravity that is zero, and where the problem has no such value;
+/// those of the runs.
+pub(super) fn derivatives(asked: &Asked<'_>) -> Result<Derivatives<Rational>, Error> {
+    let value = asked.by.value_in::<Rational>(asked.problem, &())?;
+    if value.vanishes() == Ok(true) && asked.by != Parameter::Speed || asked.by == Parameter::Damping {
+        let expected = "digits or doubles: a rod without it is another problem in fractions";
+        return Err(Error::Derivative { parameter: asked.by.name(), expected });
+    }
+    let problem = &*asked.plan.reaching(asked.problem);
+    let base = {
+        let limits = asked.plan.lattice_limits(problem);
+        let history = Undamped::<Rational>::solve_within(problem, &(), limits, &**asked.observe)?;
+        values(asked, &history)?
+    };
+    let right = rates(asked, problem, &value, 1)?;
+    // A speed at the start that is zero can only grow.
+    let left = if value.vanishes() == Ok(true) { None } else { Some(rates(asked, problem, &value, -1)?) };
+    let mut found = Vec::with_capacity(base.len());
+    for (i, row) in base.iter().enumerate() {
+        let mut cells = Vec::with_capacity(row.len());
+        for (j, number) in row.iter().enumerate() {
+            cells.push(number.as_ref().map(|number| {
+                let right = side(&right, number, (i, j));
+                match left.as_ref().map(|left| side(left, number, (i, j)).map(|rate| -rate)) {
+                    Some(left) if left != right || left.is_err() => Derivative::Sides { left, right },
+                    _ => right.map_or_else(|why| Derivative::Sides { left: Err(why), right: Err(why) }, Derivative::One),
+                }
+            }));
+        }
+        found.push(cells);
+    }
+    Ok(found)
+}
+
+/// The rate of a number on a side, where the same number is there.
+fn side(rows: &Rows<Dual>, number: &Rational, (row, column): (usize, usize)) -> Result<Rational, NoDerivative> {
+    let there = rows.get(row).and_then(|row| row.get(column)?.as_ref()).ok_or(NoDerivative::Jumps)?;
+    if there.value() != number {
+        return Err(NoDerivative::Jumps);
+    }
+    there.rate().cloned().ok_or(NoDerivative::Unsettled)
+}
+
+fn values<S: Scalar>(asked: &Asked<'_>, motion: &dyn Motion<S>) -> Result<Rows<S>, Error> {
+    quantity::values(motion, asked.quantities, &Units::of(asked.problem, UnitSystem::default()))
+}
+
+/// The numbers of the problem with a value that grows, or shrinks, with their rates.
+fn rates(asked: &Asked<'_>, problem: &Problem, value: &Rational, sign: i64) -> Result<Rows<Dual>, Error> {
+    let given = Parameters::<Rational>::of(problem, &())?;
+    let rate = |on: bool| if on { Rational::from(sign) } else { Rational::default() };
+    let dual = |number: Rational, by: Parameter| Dual::new(number, rate(asked.by == by));
+    // √(E/ρ) has the rate c/2E, or −c/2ρ.
+    let share = |c: &Rational| (c.clone() / value).halved() * Rational::from(sign);
+    let wave_speed = match asked.by {
+        Parameter::Modulus => Dual::new(given.wave_speed.clone(), share(&given.wave_speed)),
+        Parameter::Density => Dual::new(given.wave_speed.clone(), -share(&given.wave_speed)),
+        _ => dual(given.wave_speed, Parameter::WaveSpeed),
+    };
+    let given = Parameters {
+        length: dual(given.length, Parameter::Length),
+        wave_speed,
+        damping: Dual::constant(given.damping),
+        gravity: dual(given.gravity, Parameter::Gravity),
+        speed: dual(given.speed, Parameter::Speed),
+    };
+    let gap = problem.gap().map(|gap| dual(gap.to_rational(), Parameter::Gap));
+    let scaled = Scaled::with(problem, &given, gap)?;
+    let limits = asked.plan.lattice_limits(problem);
+    let history = Undamped::<Dual>::solve_scaled(scaled, &problem.run, limits, &**asked.observe)?;
+    let mut rows = values(asked, &history)?;
+    for row in &mut rows {
+        for (number, quantity) in row.iter_mut().zip(asked.quantities) {
+            if let Some(number) = number {
+                let by = unit_rate(asked.by, *quantity, &problem.rod.material, value) * Rational::from(sign);
+                *number = number.clone() * Dual::new(1.into(), by);
+            }
+        }
+    }
+    Ok(rows)
+}
+
+/// The rate of what gives `quantity` its unit, as a part of it: stress and force have `E`, which is `c² ρ` at the same
+/// density, impulse and energy `ρ`.
+fn unit_rate(by: Parameter, quantity: Quantity, material: &Material, value: &Rational) -> Rational {
+    let power = match (by, quantity.measure(), material) {
+        (_, _, Material::WaveSpeed(_)) => 0,
+        (Parameter::Modulus, Some(Measure::Stress | Measure::Force), _) => 1,
+        (Parameter::WaveSpeed, Some(Measure::Stress | Measure::Force), _) => 2,
+        (Parameter::Density, Some(Measure::Impulse | Measure::Energy), _) => 1,
+        _ => 0,
+    };
+    if power == 0 { Rational::default() } else { Rational::from(power) / value }
+}
