@@ -85,8 +85,8 @@ pub use number::{Estimate, Float, Interval, Number, NumberError, Rational};
 #[cfg(feature = "svg")]
 pub use plot::{Canvas, Drawing, Drawn};
 pub use problem::{
-    Builder, Dimensionless, Material, Parameter, Parameters, Problem, ProblemError, ProblemErrorKind, Profile, Rod, Run, Speed,
-    Start, Top, Written,
+    Builder, Dimensionless, Material, Parameter, Parameters, Problem, ProblemError, ProblemErrorKind, Profile, Rod,
+    Run, Speed, Start, Top, Written,
 };
 pub use quantity::{
     EnergyShares, Flight, Measure, Needs, Quantity, Restitution, Slice, Table, Undefined, UnitSystem, Units,

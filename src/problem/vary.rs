@@ -126,9 +126,7 @@ impl Parameter {
         let scale = rod.map_or(1.0, |rod| match self {
             Parameter::Gravity if rod.speed > 0.0 => rod.speed / rod.round_trip(),
             Parameter::Gravity => rod.wave_speed / rod.round_trip() / 1000.0,
-            Parameter::Speed => {
-                (2.0 * rod.gravity * Parameter::Gap.value(problem).unwrap_or_default()).sqrt()
-            }
+            Parameter::Speed => (2.0 * rod.gravity * Parameter::Gap.value(problem).unwrap_or_default()).sqrt(),
             _ => rod.round_trip().recip(),
         });
         format!("{scale:e}").parse().unwrap_or_else(|_| 1.into())

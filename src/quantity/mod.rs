@@ -30,8 +30,8 @@ pub(crate) use convert::Conversion;
 pub use flight::{Flight, flights};
 #[cfg(feature = "cli")]
 pub(crate) use listing::of_contact;
-pub use listing::{Columns, Table, table};
 pub(crate) use listing::values;
+pub use listing::{Columns, Table, table};
 #[cfg(feature = "cli")]
 pub(crate) use listing::{Row, rows};
 #[cfg(feature = "cli")]

@@ -37,7 +37,7 @@ pub enum NoDerivative {
     Infinite,
     /// The number jumps, or is one of another event.
     Jumps,
-    /// The numbers that were tried do not settle it.
+    /// The numbers that were tried do not settle it; in fractions, first order does not.
     Unsettled,
 }
 

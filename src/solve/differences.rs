@@ -14,7 +14,7 @@ use crate::error::Error;
 use crate::motion::Motion;
 use crate::number::{Bounded, Estimate, Float, Number, Scalar, bits_for_digits};
 use crate::problem::Problem;
-use crate::quantity::{self, UnitSystem, Units};
+use crate::quantity::{self, Measure, Quantity, UnitSystem, Units};
 use crate::threads::Threads;
 
 type Long = Estimate<Float>;
@@ -66,6 +66,8 @@ fn part(exponent: u32) -> f64 {
 /// Runs that are a step apart.
 struct Level {
     base: Rows,
+    /// The natural scale of each column.
+    scales: Vec<f64>,
     /// To the left and to the right; `None` where no problem has such a value.
     moved: [Option<Rows>; 2],
     /// The step, in the units of the value.
@@ -87,13 +89,14 @@ impl Level {
         };
         let mut runs = Threads::default().all(3, run)?.into_iter();
         let mut next = || runs.next().flatten();
-        let (base, moved) = (next().unwrap_or_default(), [next(), next()]);
+        let (base, scales) = next().unwrap_or_default();
+        let moved = [next(), next()].map(|run| run.map(|(rows, _)| rows));
         let value = match zero {
             true => Long::from_number(&asked.by.scale_of_zero(asked.problem), &bits),
             false => asked.by.value_in(asked.problem, &bits)?,
         };
         let step = value.clone() * Long::from_number(&by, &bits) / value.int(asked.by.power(asked.problem));
-        Ok(Level { base, moved, step, part: part(exponent) })
+        Ok(Level { base, scales, moved, step, part: part(exponent) })
     }
 
     /// The quotients to both sides of a number that there is; `None` where no problem is on that side.
@@ -111,8 +114,8 @@ impl Level {
         let mut settled = true;
         let mut cell = |place: (usize, usize)| {
             let now = self.quotients(place)?;
-            let here = self.base[place.0][place.1].as_ref()?.to_f64();
-            let judge = Judge { wanted, natural: (here / self.step.to_f64()).abs() * self.part, step: self.part };
+            let natural = self.base[place.0][place.1].as_ref().map_or(0.0, size).max(self.scales[place.1]);
+            let judge = Judge { wanted, natural: natural / size(&self.step) * self.part, step: self.part };
             let found = judge.derivative(now, before.and_then(|before| before.quotients(place)));
             settled &= found.is_some();
             let why = NoDerivative::Unsettled;
@@ -130,7 +133,7 @@ impl Level {
 struct Judge {
     /// So much of its size, or of the natural one, it may be off.
     wanted: f64,
-    /// The number itself, divided by the value.
+    /// The number itself, or its natural scale where that is greater, divided by the value.
     natural: f64,
     /// The step as a part of the value; that before was its root.
     step: f64,
@@ -142,11 +145,7 @@ impl Judge {
     }
 
     /// From the quotients to both sides, and those of the step before; `None` where a smaller step is needed.
-    fn derivative(
-        &self,
-        now: [Option<OneSide>; 2],
-        before: Option<[Option<OneSide>; 2]>,
-    ) -> Option<Derivative<Long>> {
+    fn derivative(&self, now: [Option<OneSide>; 2], before: Option<[Option<OneSide>; 2]>) -> Option<Derivative<Long>> {
         if let [Some(Ok(left)), Some(Ok(right))] = &now {
             let (mean, apart) = mean(left, right);
             if self.is_fine(reach(&apart), size(&mean)) {
@@ -221,18 +220,27 @@ fn reach(x: &Long) -> f64 {
     size(x) + bound(x)
 }
 
-/// The numbers of a run, in numbers of so many bits.
-fn rows(asked: &Asked<'_>, problem: &Problem, exponent: u32, bits: u32) -> Result<Rows, Error> {
+/// The numbers of a run, in numbers of so many bits, and the scale of each column.
+fn rows(asked: &Asked<'_>, problem: &Problem, exponent: u32, bits: u32) -> Result<(Rows, Vec<f64>), Error> {
     let plan = Plan::of(problem, &asked.plan.question(Numbers::Digits(2 * exponent)))?;
     let history = History::<Float>::solve(problem, &plan, asked.observe.clone())?;
     let units = Units::of(problem, UnitSystem::default());
-    let query = |motion: &dyn Motion<Long>| quantity::values(motion, asked.quantities, &units);
-    let mut rows = history.ask(query, |rows| rows.iter().flatten().flatten().collect())?;
+    let query = |motion: &dyn Motion<Long>| {
+        let time = motion.scales().time.to_f64();
+        // Ratios are about 1.
+        let scale = |quantity: &Quantity| match quantity.measure() {
+            Some(Measure::Time) => time,
+            _ => quantity.natural_scale(motion, &units).unwrap_or(1.0),
+        };
+        let scales: Vec<f64> = asked.quantities.iter().map(scale).collect();
+        Ok((quantity::values(motion, asked.quantities, &units)?, scales))
+    };
+    let (mut rows, scales) = history.ask(query, |(rows, _)| rows.iter().flatten().flatten().collect())?;
     let zero = Long::from_number(&Number::from(0), &bits);
     for number in rows.iter_mut().flatten().flatten() {
         let error = (number.log2_error() + f64::from(bits)).exp2();
         // The left operand has the precision.
         *number = Estimate::new(zero.value().clone() + number.value(), error + size(number));
     }
-    Ok(rows)
+    Ok((rows, scales))
 }

@@ -68,7 +68,10 @@ impl Target for f64 {
             _ => asked.plan.goal.digits.ceil() as u32,
         };
         let found = differences::of(asked, digits)?;
-        Ok(found.into_iter().map(|row| row.into_iter().map(|cell| cell.map(|it| it.map(Reads::read))).collect()).collect())
+        Ok(found
+            .into_iter()
+            .map(|row| row.into_iter().map(|cell| cell.map(|it| it.map(Reads::read))).collect())
+            .collect())
     }
 }
 

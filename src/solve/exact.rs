@@ -1,14 +1,16 @@
 //! Derivatives in fractions: the undamped history in numbers `a + b ε`, for a value that grows and one that shrinks.
 
 use super::derivative::{Asked, Derivative, Derivatives, NoDerivative};
+use super::differences;
 use crate::error::Error;
 use crate::lattice::{Scaled, Undamped};
 use crate::motion::Motion;
-use crate::number::{Bounded, Dual, Rational, Scalar};
+use crate::number::{Bounded, DOUBLE_DIGITS, Dual, Estimate, Float, Number, Rational, Scalar};
 use crate::problem::{Material, Parameter, Parameters, Problem};
 use crate::quantity::{self, Measure, Quantity, UnitSystem, Units};
 
 type Rows<S> = Vec<Vec<Option<S>>>;
+type OneSide = Result<Rational, NoDerivative>;
 
 /// The derivatives that are `asked` for.
 ///
@@ -29,16 +31,20 @@ pub(super) fn derivatives(asked: &Asked<'_>) -> Result<Derivatives<Rational>, Er
     let right = rates(asked, problem, &value, 1)?;
     // A speed at the start that is zero can only grow.
     let left = if value.vanishes() == Ok(true) { None } else { Some(rates(asked, problem, &value, -1)?) };
+    let quotients = match differences::of(asked, DOUBLE_DIGITS) {
+        Err(Error::NoMultiprecision) => None,
+        quotients => Some(quotients?),
+    };
     let mut found = Vec::with_capacity(base.len());
     for (i, row) in base.iter().enumerate() {
         let mut cells = Vec::with_capacity(row.len());
         for (j, number) in row.iter().enumerate() {
             cells.push(number.as_ref().map(|number| {
                 let right = side(&right, number, (i, j));
-                match left.as_ref().map(|left| side(left, number, (i, j)).map(|rate| -rate)) {
-                    Some(left) if left != right || left.is_err() => Derivative::Sides { left, right },
-                    _ => right.map_or_else(|why| Derivative::Sides { left: Err(why), right: Err(why) }, Derivative::One),
-                }
+                let left =
+                    left.as_ref().map_or_else(|| right.clone(), |rows| side(rows, number, (i, j)).map(|rate| -rate));
+                let quotient = quotients.as_ref().map(|rows| rows.get(i)?.get(j)?.as_ref());
+                confirmed([left, right], quotient)
             }));
         }
         found.push(cells);
@@ -46,13 +52,40 @@ pub(super) fn derivatives(asked: &Asked<'_>) -> Result<Derivatives<Rational>, Er
     Ok(found)
 }
 
-/// The rate of a number on a side, where the same number is there.
-fn side(rows: &Rows<Dual>, number: &Rational, (row, column): (usize, usize)) -> Result<Rational, NoDerivative> {
-    let there = rows.get(row).and_then(|row| row.get(column)?.as_ref()).ok_or(NoDerivative::Jumps)?;
-    if there.value() != number {
-        return Err(NoDerivative::Jumps);
+/// The rates on both sides, as far as difference quotients confirm them; without these, where both are one.
+///
+/// Beside a threshold events may be apart by `ε²`, which decides what comes first as well as `ε` does.
+fn confirmed(rates: [OneSide; 2], quotient: Option<Option<&Derivative<Estimate<Float>>>>) -> Derivative<Rational> {
+    let unsettled = NoDerivative::Unsettled;
+    let [left, right] = match quotient.map(|quotient| quotient.map(Derivative::sides)) {
+        None if rates[0] == rates[1] => rates,
+        None | Some(None) => [Err(unsettled), Err(unsettled)],
+        Some(Some(quotients)) => {
+            let [left, right] = rates;
+            let [to_left, to_right] = quotients;
+            [(left, to_left), (right, to_right)].map(|(rate, quotient)| {
+                let (rate, quotient) = (rate, quotient?);
+                let near = |rate: &Rational| meets(rate, quotient);
+                rate.ok().filter(near).ok_or(unsettled)
+            })
+        }
+    };
+    match (left, right) {
+        (Ok(left), Ok(right)) if left == right => Derivative::One(right),
+        (left, right) => Derivative::Sides { left, right },
     }
-    there.rate().cloned().ok_or(NoDerivative::Unsettled)
+}
+
+/// Whether a quotient is a rate within its bound.
+fn meets(rate: &Rational, quotient: &Estimate<Float>) -> bool {
+    let number = Number::of_rational(rate);
+    number.is_some_and(|number| Estimate::from_number(&number, &quotient.precision()).same(quotient))
+}
+
+/// The rate of a number on a side, where the same number is there: otherwise events do not move in first order only.
+fn side(rows: &Rows<Dual>, number: &Rational, (row, column): (usize, usize)) -> OneSide {
+    let there = rows.get(row).and_then(|row| row.get(column)?.as_ref());
+    there.filter(|there| there.value() == number).and_then(Dual::rate).cloned().ok_or(NoDerivative::Unsettled)
 }
 
 fn values<S: Scalar>(asked: &Asked<'_>, motion: &dyn Motion<S>) -> Result<Rows<S>, Error> {

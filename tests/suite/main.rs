@@ -40,6 +40,8 @@ mod damped_reference;
 mod damped_settling;
 mod damped_solve;
 mod damped_stiff;
+#[cfg(feature = "mp")]
+mod derivatives;
 mod door;
 #[cfg(feature = "cli")]
 mod endings;
