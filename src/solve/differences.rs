@@ -1,10 +1,11 @@
 //! Derivatives as difference quotients of runs in long numbers.
 //!
-//! With a step `h` of the value, relative to it, and numbers of twice as many digits, `(f(1 ± h) − f(1))/h` has half
-//! of them. A quotient is off by `h f″/2`, and so those from both sides differ by `h f″`: what they differ by is a bound
-//! of the error of their mean as long as `f″` does not change by its own size within the step. Where they differ by
-//! more than a step of the size asked for lets a smooth function differ, the step is squared: the error of a one-sided
-//! quotient shrinks with it, and what does not is a kink, a root or a jump.
+//! With a step `h` of the value, relative to it, and numbers of twice as many digits, `(f(1 + h) − f(1))/h` has half of
+//! them. It is off by `h f″/2`, and the quotient to the left, whose step is twice as long, by `−h f″`: what they differ
+//! by bounds the error of `(2 right + left)/3`, where `f″` cancels, as long as `f″` does not change by its own size
+//! within the steps. The steps are not the same, so that no root or jump that is odd about the value looks smooth. Where
+//! the quotients differ by more than a step of the size asked for lets a smooth function differ, the step is squared:
+//! the error of a one-sided quotient shrinks with it, and what does not is a kink, a root or a jump.
 
 use super::derivative::{Asked, Derivative, Derivatives, NoDerivative};
 use super::history::History;
@@ -13,7 +14,7 @@ use super::question::Numbers;
 use crate::error::Error;
 use crate::motion::Motion;
 use crate::number::{Bounded, Estimate, Float, Number, Scalar, bits_for_digits};
-use crate::problem::Problem;
+use crate::problem::{Parameter, Problem};
 use crate::quantity::{self, Measure, Quantity, UnitSystem, Units};
 use crate::threads::Threads;
 
@@ -28,8 +29,8 @@ const MOST_DIGITS: u32 = 60;
 const LEVELS: u32 = 3;
 /// Bits of a quotient beyond the digits of the numbers.
 const SPARE_BITS: u32 = 32;
-/// Decimal exponent of the first step of a value that is zero: a gravity so weak still brings the rod down.
-const FROM_ZERO: u32 = 6;
+/// Decimal exponent of the first step of a gravity that is zero: one so weak, squared, still brings the rod down.
+const WEAKEST: u32 = 6;
 /// A quotient is settled that is off by less than so many steps of its natural size: a second derivative that is
 /// greater costs another run.
 const SLACK: f64 = 100.0;
@@ -43,7 +44,7 @@ pub(super) fn of(asked: &Asked<'_>, digits: u32) -> Result<Derivatives<Long>, Er
         return Err(Error::Digits { found: digits, most: MOST_DIGITS });
     }
     let zero = asked.by.value_in::<f64>(asked.problem, &())? == 0.0;
-    let first = if zero { FROM_ZERO } else { digits + 1 };
+    let first = if zero && asked.by == Parameter::Gravity { WEAKEST } else { digits + 1 };
     let wanted = SLACK * part(first);
     let mut before = None;
     let mut level = Level::of(asked, first, zero)?;
@@ -68,7 +69,7 @@ struct Level {
     base: Rows,
     /// The natural scale of each column.
     scales: Vec<f64>,
-    /// To the left and to the right; `None` where no problem has such a value.
+    /// Two steps to the left and one to the right; `None` where no problem has such a value.
     moved: [Option<Rows>; 2],
     /// The step, in the units of the value.
     step: Long,
@@ -81,7 +82,7 @@ impl Level {
     fn of(asked: &Asked<'_>, exponent: u32, zero: bool) -> Result<Self, Error> {
         let by: Number = format!("1e-{exponent}").parse().unwrap_or_else(|_| 1.into());
         let step = by.to_rational();
-        let problems = [-step.clone(), step].map(|step| asked.by.moved(asked.problem, &step));
+        let problems = [-(step.clone() + &step), step].map(|step| asked.by.moved(asked.problem, &step));
         let bits = bits_for_digits(2 * exponent) + SPARE_BITS;
         let run = |k: usize| match k {
             0 => rows(asked, asked.problem, exponent, bits).map(Some),
@@ -106,7 +107,7 @@ impl Level {
             let there = moved.as_ref()?.get(row).and_then(|row| row.get(column)?.as_ref());
             Some(there.ok_or(NoDerivative::Jumps).map(|there| (there.clone() - here) / &self.step))
         });
-        Some([left.map(|left| left.map(|rise| -rise)), right])
+        Some([left.map(|left| left.map(|rise| -rise.halved())), right])
     }
 
     /// The derivatives by these runs, those with a greater step at hand; and whether all are settled.
@@ -168,8 +169,8 @@ impl Judge {
         }
     }
 
-    /// From two quotients to one side. Their errors are as their steps, so that the last is off by `step/(1 − step)` of
-    /// what they differ by where the second derivative stays as it is, for which that is doubled.
+    /// From two quotients to one side, which differ by the error of the last at least: be it greater as that of the
+    /// first, whose step is, or because the last step is short enough to see that the threshold is not met.
     fn side(&self, before: OneSide, now: OneSide) -> Option<OneSide> {
         let (before, now) = match (before, now) {
             (Ok(before), Ok(now)) => (before, now),
@@ -179,8 +180,7 @@ impl Judge {
         let change = now.clone() - &before;
         let [was, is] = [&before, &now].map(size);
         if size(&change) <= f64::max(was, is) / 10.0 + self.wanted * self.natural {
-            let by = change.double(2.0 * self.step.sqrt()) * &change;
-            let found = now.widened(&by);
+            let found = now.widened(&change);
             return self.is_fine(bound(&found), is).then_some(Ok(found));
         }
         // A jump makes quotients grow as steps shrink, a root as their roots do.
@@ -202,9 +202,9 @@ fn only(side: OneSide) -> Derivative<Long> {
     }
 }
 
-/// The mean of two numbers, and what they differ by.
-fn mean(a: &Long, b: &Long) -> (Long, Long) {
-    ((a.clone() + b).halved(), b.clone() - a)
+/// The mean of quotients to the left and to the right by their steps, and what they differ by.
+fn mean(left: &Long, right: &Long) -> (Long, Long) {
+    ((right.clone().doubled() + left) / left.int(3), right.clone() - left)
 }
 
 fn size(x: &Long) -> f64 {

@@ -13,7 +13,7 @@ use crate::lattice::Undamped;
 use crate::modal::Modal;
 use crate::motion::Side;
 use crate::number::{DOUBLE_DIGITS, Estimate, Reads};
-use crate::problem::{Parameters, Problem};
+use crate::problem::{Parameter, Parameters, Problem};
 
 impl Target for f64 {
     fn run(problem: &Problem, plan: &Plan, rung: Rung, observe: &Observer) -> Result<Engined<f64>, Error> {
@@ -64,7 +64,7 @@ impl Target for f64 {
     /// As many digits as a double has where a run takes no time, otherwise one more than the run is asked for.
     fn derivatives(asked: &Asked<'_>) -> Result<Derivatives<Estimate<f64>>, Error> {
         let digits = match asked.plan.engine {
-            Engine::Lattice => DOUBLE_DIGITS,
+            Engine::Lattice if asked.by != Parameter::Damping => DOUBLE_DIGITS,
             _ => asked.plan.goal.digits.ceil() as u32,
         };
         let found = differences::of(asked, digits)?;

@@ -419,14 +419,17 @@ impl<S: Target> History<S> {
     /// density, one by gravity at the same impact speed. What there is not, such as the end of a contact that lasts, is
     /// `None`.
     ///
-    /// **Accuracy**: *exact* in fractions. Otherwise each derivative is within the bound that it carries: it is a
-    /// difference quotient of runs in long numbers, whose step is below the digits asked for, and the bound has what
-    /// the quotients of both sides, or of two steps, differ by.
+    /// **Accuracy**: *exact* in fractions; where the two sides differ, difference quotients have confirmed them. Otherwise
+    /// each derivative is *within its own bound*: it is a difference quotient of runs in long numbers, with a step as
+    /// small as the last of the digits asked for, and the bound has what the quotients of both sides, or of two steps,
+    /// differ by. A threshold that is nearer than the step counts as met.
     ///
     /// **Errors**: [`Error::Derivative`] where the problem has no such value, in fractions for damping, and for
-    /// enclosures; [`Error::NoMultiprecision`] without the feature `mp`, but for fractions; those of the runs.
+    /// enclosures; [`Error::Digits`] for more than 60; [`Error::NoMultiprecision`] without the feature `mp`, but for
+    /// fractions; those of the runs.
     ///
     /// ```
+    /// # #[cfg(feature = "mp")] {
     /// use dalembert::{Derivative, Parameter, Problem, Quantity};
     /// // Doyen, Ern and Piperno's rod lands for the second time as a wave arrives: a faster one lands after it, and
     /// // g ∂t₂/∂μ is 6 for slower rods and 6/5 for faster ones.
@@ -434,6 +437,7 @@ impl<S: Target> History<S> {
     /// let times = rod.exact()?.derivatives(Parameter::Speed, &[Quantity::EventTime])?;
     /// let Some(Derivative::Sides { left: Ok(slower), right: Ok(faster) }) = &times[2][0] else { unreachable!() };
     /// assert_eq!((slower.to_string(), faster.to_string()), ("3/5".into(), "3/25".into()));
+    /// # }
     /// # Ok::<(), dalembert::Error>(())
     /// ```
     pub fn derivatives(&self, by: Parameter, quantities: &[Quantity]) -> Result<Derivatives<S::Carried>, Error> {

@@ -199,13 +199,13 @@ fn exact_against_quotients(cases: u32, least: [u32; 2]) {
 
 #[test]
 fn fractions_against_difference_quotients() {
-    exact_against_quotients(200, [150, 20]);
+    exact_against_quotients(150, [100, 12]);
 }
 
 #[test]
 #[ignore = "for make explore"]
 fn fractions_against_difference_quotients_at_length() {
-    exact_against_quotients(1000, [900, 100]);
+    exact_against_quotients(1000, [700, 90]);
 }
 
 fn refused<T: std::fmt::Debug>(found: Result<T, Error>, message: &str) {
@@ -227,19 +227,146 @@ fn what_has_no_derivative_is_refused() {
     refused(rod.certified(20).unwrap().derivatives(Parameter::Speed, &[EventTime]), expected);
 }
 
+/// `I_n(x)` by its series.
+fn bessel(n: i32, x: f64) -> f64 {
+    let first = (1..=n).fold(1.0, |term, k| term * x / 2.0 / f64::from(k));
+    let ratio = |k: i32| x * x / 4.0 / f64::from(k * (k + n));
+    (1..60)
+        .scan(first, |term, k| {
+            *term *= ratio(k);
+            Some(*term)
+        })
+        .sum::<f64>()
+        + first
+}
+
+/// Of a damped rod that bounces in its second round trip, `μ H + g G = 0` at t_b with `H = I₀(rt) − 2 I₀(ru)` and
+/// `G = ∫ e^{r(t−τ)} H dτ`, whose derivatives are `H′ = r I₁(rt) − 2 r (t/u) I₁(ru)` and `H + r G`; u² = t² − t₁².
 #[test]
-#[ignore]
-fn tmp_print() {
-    let speed = std::env::var("MU").unwrap();
-    let n: u32 = std::env::var("N").unwrap().parse().unwrap();
-    let rod = uniform("1", "1", "1", &speed, Run::Impacts(n));
-    let exact = rod.exact().unwrap();
-    let q = [Quantity::ContactImpulse, Quantity::PeakStrain, Quantity::MomentumRestitution];
-    for by in ["length", "speed"] {
-        let a = exact.derivatives(by_name(by), &q).unwrap();
-        let b = rod.solve().unwrap().derivatives(by_name(by), &q).unwrap();
-        for (k, event) in exact.contacts().iter().enumerate() {
-            println!("{by} {event}\n   {:?}\n   {:?}", a[k], b[k]);
+fn a_damped_bounce_between_rays() {
+    let (r, t1) = (0.25, 2.0);
+    for (mu, g) in [("1.6", "1"), ("2", "1"), ("2.4", "1"), ("1", "0.5")] {
+        let mut rod = uniform("1", "1", g, mu, Run::Impacts(1));
+        rod.rod.damping = Some(number("0.25"));
+        let history = rod.solve().unwrap();
+        let (mu, g, t) = (number(mu).to_f64(), number(g).to_f64(), history.events()[1].time);
+        assert!(t > t1 + 0.01 && t < 2.0 * t1 - 0.01, "{t}");
+        let u = (t * t - t1 * t1).sqrt();
+        let h = bessel(0, r * t) - 2.0 * bessel(0, r * u);
+        let at_root = -mu * h / g;
+        let rise = mu * (r * bessel(1, r * t) - 2.0 * r * t / u * bessel(1, r * u)) + g * (h + r * at_root);
+        for (by, expected) in [("speed", -h / rise), ("gravity", -at_root / rise)] {
+            let found = &doubles(&history, by, EventTime)[1];
+            assert!(
+                (found.value() - expected).abs() <= found.bound() + 1e-11 * expected.abs(),
+                "{by} {found:?} {expected}"
+            );
+            assert!(found.bound() < 1e-8 * expected.abs(), "{found:?}");
         }
+    }
+}
+
+/// Without gravity and for R with `I₀(R) < 2`: `e_P = 2e^{−R}(I₀ − I₁) − e^{−2R}`, whose derivative by R is
+/// `2e^{−R}(2I₁ − 2I₀ + I₁/R) + 2e^{−2R}`, and −1 at R = 0, where damping can only grow.
+#[test]
+fn restitution_by_damping() {
+    let slope = |r: f64| {
+        let (i0, i1) = (bessel(0, r), bessel(1, r));
+        let share = if r == 0.0 { 0.5 } else { i1 / r };
+        2.0 * (-r).exp() * (2.0 * i1 - 2.0 * i0 + share) + 2.0 * (-2.0 * r).exp()
+    };
+    assert_eq!(slope(0.0), -1.0);
+    for r in ["0", "0.05", "0.1", "0.3"] {
+        let mut rod = uniform("1", "1", "0", "1", Run::Impacts(1));
+        rod.rod.damping = Some(number(r)).filter(|r| !r.is_zero());
+        let found = &doubles(&rod.solve().unwrap(), "damping", Quantity::MomentumRestitution)[0];
+        // R = r t₁, t₁ = 2.
+        let expected = 2.0 * slope(2.0 * number(r).to_f64());
+        let off = (found.value() - expected).abs();
+        assert!(off <= found.bound() + 1e-14 && found.bound() < 1e-8, "{r}: {found:?} {expected}");
+    }
+}
+
+/// Both of Euler's identities of a damped rod, within what the bounds of the derivatives leave.
+fn euler_identities_damped(cases: u32, least: [u32; 1]) {
+    let rod =
+        (0.02f64..0.8, prop::option::weighted(0.7, 0.2f64..2.0), 0.5f64..3.0, prop::option::weighted(0.3, 0.1f64..1.0));
+    compares(cases, least, (rod, 0.5f64..2.0, any::<bool>()), |((r, g, m, gap), l, fixed)| {
+        let number = |x: f64| number(&format!("{x:.3}"));
+        let mut problem = Problem::uniform(number(l), number(1.5), number(g.unwrap_or(0.0)), number(m));
+        problem.rod.damping = Some(number(r));
+        problem.rod.top = if fixed { Top::Fixed } else { Top::Free };
+        if let Some(gap) = gap {
+            problem.start = Start::Above { gap: number(gap), speed: number(m) };
+        }
+        problem.run = Run::Impacts(1);
+        let history = problem.solve().unwrap();
+        let mut given = given(&problem);
+        given.push((Parameter::Damping, number(r).to_rational()));
+        let table: Vec<_> = given
+            .into_iter()
+            .map(|(by, value)| (by, value.to_f64(), history.derivatives(by, &EVENT).unwrap()))
+            .collect();
+        let mut compared = 0;
+        for (i, event) in history.events().iter().enumerate() {
+            let numbers = [event.time, event.end_velocity, event.centre, event.centre_velocity];
+            for (j, number) in numbers.into_iter().enumerate() {
+                let one = |(by, value, rows): &(Parameter, f64, dalembert::Derivatives<Estimate<f64>>)| {
+                    let found = rows[i][j].as_ref()?.value()?;
+                    Some((*by, value * found.value(), value * (found.bound() + 1e-15 * found.value().abs())))
+                };
+                let Some(terms) = table.iter().map(one).collect::<Option<Vec<_>>>() else { continue };
+                for pick in [|d: (i32, i32)| d.0, |d: (i32, i32)| d.1] {
+                    let power = |by: Parameter| f64::from(pick(dimension(by)));
+                    let sum: f64 = terms.iter().map(|(by, term, _)| term * power(*by)).sum();
+                    let bound: f64 = terms.iter().map(|(by, _, bound)| bound * power(*by).abs()).sum();
+                    let off = (sum - number * f64::from(pick(DIMENSIONS[j]))).abs();
+                    // The numbers themselves are known to 1e-9 of the greatest.
+                    prop_assert!(off <= bound + 1e-8, "{} {}: {} {}", i, j, off, bound);
+                }
+                compared += 1;
+            }
+        }
+        Ok([compared])
+    });
+}
+
+#[test]
+fn euler_identities_under_damping() {
+    euler_identities_damped(4, [4]);
+}
+
+#[test]
+#[ignore = "for make explore"]
+fn euler_identities_under_damping_at_length() {
+    euler_identities_damped(60, [55]);
+}
+
+/// At `μ = g t₁` a contact of `2t₁ − μ/g` turns into one of t₁, and at the threshold of (2.32) with damping the bounce
+/// jumps from a root behind t₁ to t₁ itself.
+#[test]
+fn thresholds() {
+    let rod = uniform("1", "1", "1", "2", Run::Impacts(1));
+    let found = rod.exact().unwrap().derivatives(Parameter::Speed, &[EventTime]).unwrap();
+    let sides = |left: i32, right: i32| Derivative::Sides { left: Ok(left.into()), right: Ok(right.into()) };
+    assert_eq!(found[1][0], Some(sides(-1, 0)));
+    // μ = 1 lands without speed at t = 31: of neighbours one lands with a root of the distance, and one does not.
+    let rod = uniform("1", "1", "1", "1", Run::Time(number("35")));
+    let history = rod.solve().unwrap();
+    let found = history.derivatives(Parameter::Speed, &[EventTime]).unwrap();
+    let touch = history.events().iter().position(|event| (event.time - 31.0).abs() < 1e-9).unwrap();
+    let reasons = found[touch][0].as_ref().unwrap().sides().map(|side| side.is_err());
+    assert!(reasons.contains(&true), "{:?}", found[touch]);
+    // The bounce leaves t₁ with the rate of the root in the second round trip, u = 0.
+    let (r, mu) = (0.2, 2.593_644_954_560_194_3);
+    let h = bessel(0, 2.0 * r) - 2.0;
+    let slope = -h / (mu * (r * bessel(1, 2.0 * r) - 2.0 * r * r) + h - r * mu * h);
+    let mut rod = uniform("1", "1", "1", "2.59364495456019430337818987448", Run::Impacts(1));
+    rod.rod.damping = Some(number("0.2"));
+    let found = rod.solve().unwrap().derivatives(Parameter::Speed, &[EventTime]).unwrap();
+    let [left, right] = found[1][0].as_ref().unwrap().sides().map(|side| side.unwrap().clone());
+    for (found, expected) in [(left, slope), (right, 0.0)] {
+        let off = (found.value() - expected).abs();
+        assert!(off <= found.bound() + 1e-14 && off < 1e-8, "{found:?} {expected}");
     }
 }
