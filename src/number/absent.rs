@@ -76,7 +76,7 @@ absent!(
 
 impl Reads<Estimate<Float>> for Estimate<f64> {
     fn read(number: Estimate<Float>) -> Self {
-        match number.into_value() {}
+        match *number.value() {}
     }
     fn give(&self, precision: &Float) -> Estimate<Float> {
         match *precision {}

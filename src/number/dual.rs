@@ -141,7 +141,8 @@ impl Scalar for Dual {
 
     fn floor_int(&self) -> Option<i64> {
         let floor = self.value.floor_int()?;
-        let just_below = self.known && self.value == Rational::from(floor) && self.rate.negative() == Ok(true);
+        let whole = self.value.compare(&Rational::from(floor)) == Ok(Ordering::Equal);
+        let just_below = self.known && whole && self.rate.negative() == Ok(true);
         self.known.then_some(floor - i64::from(just_below))
     }
 

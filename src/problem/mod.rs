@@ -5,6 +5,8 @@ mod definition;
 pub(crate) mod given;
 mod parameters;
 pub(crate) mod profile;
+#[cfg(feature = "mp")]
+mod step;
 pub(crate) mod validate;
 mod vary;
 pub(crate) mod written;

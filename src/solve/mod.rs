@@ -15,6 +15,7 @@
 
 mod converted;
 mod derivative;
+#[cfg_attr(not(feature = "mp"), path = "differences_absent.rs")]
 mod differences;
 mod engines;
 mod exact;

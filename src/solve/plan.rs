@@ -278,6 +278,7 @@ impl Plan {
     }
 
     /// The question that it answers, in other numbers.
+    #[cfg(feature = "mp")]
     pub(super) fn question(&self, numbers: Numbers) -> Question {
         let want = if self.reach == Reach::FirstContact { Want::FirstContact } else { Want::Run };
         Question { want, numbers }
