@@ -43,6 +43,10 @@ pub(super) trait Report {
     /// Every number in the data.
     fn numbers<'a, N: Scalar>(&self, data: &'a Self::Data<N>) -> Vec<&'a N>;
     fn bytes<N: Scalar>(&self, data: &Self::Data<N>, head: &Head, format: Format) -> Result<Vec<u8>, Failure>;
+    /// Adds what several runs are needed for.
+    fn add<S: Target>(&self, _: &History<S>, _: &mut Self::Data<S::Carried>) -> Result<(), Error> {
+        Ok(())
+    }
     /// What is said beside the data, on standard error.
     fn note<N: Scalar>(&self, _: &Self::Data<N>) -> Option<String> {
         None
@@ -63,7 +67,8 @@ impl<R: Report> Visit for Printed<'_, R> {
         let head = Head { wide: output.wide, ..head };
         let gathered = history.ask(|motion| report.gather(motion, &head), |data| report.numbers(data));
         drop(progress);
-        let data = gathered?;
+        let mut data = gathered?;
+        report.add(history, &mut data)?;
         let format = output.format()?;
         let head = warned(history, head, output.output.is_none() && format == Format::Table);
         output.write(&report.bytes(&data, &head, format)?)?;

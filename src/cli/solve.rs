@@ -12,11 +12,15 @@ use super::source;
 use crate::error::Error;
 use crate::motion::Motion;
 use crate::number::Scalar;
-use crate::output::{Head, LEGEND, Part, Record, history_json, history_part, history_table, outline, record};
-use crate::solve::Question;
+use crate::output::{
+    CONTACT, Derived, EVENT, Head, LEGEND, Part, Record, history_json, history_part, history_table, outline, record,
+};
+use crate::problem::Parameter;
+use crate::solve::{History, Question, Target};
 
 const EXAMPLES: &str = "Examples:\n  dalembert solve doyen-ern-piperno --exact\n  \
     dalembert solve rod.toml --digits 38 -o rod.json\n  \
+    dalembert solve doyen-ern-piperno --derivatives speed,gravity\n  \
     dalembert scenes paper-weak | dalembert solve - --format csv --part stress";
 
 /// Solve a scene: events, contacts, restitution, energies, stress history
@@ -35,6 +39,10 @@ pub(super) struct Solve {
     /// What a CSV holds; by default the events
     #[arg(long, value_enum)]
     part: Option<Part>,
+    /// Derivatives of events and contacts by values of the scene: length, wave_speed, modulus, density, damping, gravity,
+    /// speed, gap; all others stay as they are
+    #[arg(long, value_name = "LIST", value_delimiter = ',')]
+    derivatives: Vec<Parameter>,
     /// With --part stress: the Chebyshev coefficients of curved pieces, not straight lines within 1e-6 of the peak
     #[arg(long)]
     coefficients: bool,
@@ -49,6 +57,9 @@ impl Solve {
         }
         if self.coefficients && self.part != Some(Part::Stress) {
             return Err(failure!("found --coefficients, expected it with --part stress only"));
+        }
+        if self.part == Some(Part::Stress) && !self.derivatives.is_empty() {
+            return Err(failure!("found --derivatives with --part stress, expected them of events or contacts"));
         }
         let scene = source::read(&self.scene)?;
         answer(&scene, &Question::run(self.numbers.numbers(&scene)), &self.output, self)
@@ -80,6 +91,17 @@ impl Report for Solve {
 
     fn numbers<'a, S: Scalar>(&self, record: &'a Record<S>) -> Vec<&'a S> {
         record.numbers(!self.numbers.in_doubles())
+    }
+
+    fn add<S: Target>(&self, history: &History<S>, record: &mut Record<S::Carried>) -> Result<(), Error> {
+        for by in self.derivatives.iter().copied() {
+            // There are no more contacts than events: a row has an event, and a contact beside it where there is one.
+            let mut events = history.derivatives(by, &[&EVENT[..], &CONTACT].concat())?;
+            let contacts = events.iter_mut().map(|row| row.split_off(EVENT.len().min(row.len())));
+            let contacts = contacts.filter(|row| !row.is_empty()).collect();
+            record.derivatives.push(Derived { by, events, contacts });
+        }
+        Ok(())
     }
 
     fn bytes<S: Scalar>(&self, record: &Record<S>, head: &Head, format: Format) -> Result<Vec<u8>, Failure> {

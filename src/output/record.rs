@@ -2,6 +2,7 @@
 
 use serde_json::{Value, json};
 
+use super::derivatives::Derived;
 use super::writer::{WIDTH, wrapped};
 use crate::motion::{Ending, EventKind, StressPiece};
 use crate::quantity::{Row, Units};
@@ -75,6 +76,8 @@ pub(crate) struct Record<S> {
     pub(crate) contacts: Vec<Row<S>>,
     /// Flights with their tops.
     pub(crate) flights: Vec<Row<S>>,
+    /// Derivatives of events and contacts, where they are asked for.
+    pub(crate) derivatives: Vec<Derived<S>>,
     /// The stress at the ground, where it is asked for.
     pub(crate) stress: Vec<StressPiece<S>>,
     /// The stress at the ground in equal parts of the history, where a line of blocks shows it.

@@ -3,17 +3,20 @@
 use serde_json::{Value, json};
 
 use super::dataset::{Cell, Column, Dataset};
+use super::derivatives::{self, Derived, add_columns};
 use super::outline::sparkline;
 use super::record::{Head, Record};
 use super::writer::table_digits;
 use crate::error::Error;
-use crate::motion::{Ending, Motion, StressPiece, straight};
+use crate::motion::{Ending, EventKind, Motion, StressPiece, straight};
 use crate::number::{DOUBLE_DIGITS, Scalar, bound_json, number_json, show, shown_bound_text};
 use crate::quantity::Quantity::{self, *};
 use crate::quantity::{Measure, Row, Undefined, Units, rows};
 
-const EVENT: [Quantity; 4] = [EventTime, EventVelocity, EventCentre, EventCentreVelocity];
-const CONTACT: [Quantity; 13] = [
+/// What is listed of an event.
+pub(crate) const EVENT: [Quantity; 4] = [EventTime, EventVelocity, EventCentre, EventCentreVelocity];
+/// What is listed of a contact.
+pub(crate) const CONTACT: [Quantity; 13] = [
     Impact,
     Release,
     ContactImpulse,
@@ -133,6 +136,9 @@ fn events<S: Scalar>(record: &Record<S>, head: &Head) -> Dataset {
             row.insert(2, time.map(|time| shown_bound_text(time, table_digits(head.digits))).into());
         }
     }
+    for Derived { by, events, .. } in &record.derivatives {
+        add_columns(&mut data, &EVENT, (*by, events), csv_name);
+    }
     data
 }
 
@@ -143,7 +149,15 @@ fn contacts<S: Scalar>(record: &Record<S>, head: &Head) -> Dataset {
     for (row, contact) in data.rows.iter_mut().zip(&record.contacts) {
         row.extend(undefined_ratios(contact).map(|reason| reason.map(ToString::to_string).into()));
     }
+    for Derived { by, contacts, .. } in &record.derivatives {
+        add_columns(&mut data, &CONTACT, (*by, contacts), csv_name);
+    }
     data
+}
+
+/// The name of a quantity in CSV.
+fn csv_name(quantity: Quantity) -> String {
+    column(quantity).name.map_or_else(|| quantity.key().to_string(), Into::into)
 }
 
 /// Why `e_P` and `e_E²` of a contact are not defined, where they are not.
@@ -181,6 +195,7 @@ pub(crate) fn record<S: Scalar>(history: &dyn Motion<S>, stress: bool) -> Result
         events: rows(history, &EVENT)?,
         contacts: rows(history, &CONTACT)?,
         flights: rows(history, &FLIGHT)?,
+        derivatives: Vec::new(),
         stress: if stress { history.stress_pieces() } else { Vec::new() },
         outline: Vec::new(),
         end: (history.end(), history.ending().clone()),
@@ -335,6 +350,7 @@ pub(crate) fn history_table<S: Scalar>(record: &Record<S>, head: &Head) -> Strin
     if !flights.rows.is_empty() {
         out += &format!("\n{}\n", flights.table());
     }
+    out += &derivative_tables(record, head);
     out += &format!("\n{}", head.line(&record.end.1.at(&show(&record.end.0))));
     if let Some((impacts, lost)) = record.lost
         && lost >= MANY_LOST
@@ -342,6 +358,32 @@ pub(crate) fn history_table<S: Scalar>(record: &Record<S>, head: &Head) -> Strin
         out += &format!("{impacts} impacts may have lost {lost:.1} of the digits carried, none of those printed\n");
     }
     out + &head.warning_lines()
+}
+
+/// The derivatives of events and contacts, a table of each for each value.
+fn derivative_tables<S: Scalar>(record: &Record<S>, head: &Head) -> String {
+    let first = |row: &Row<S>| {
+        row.first().and_then(|time| time.as_ref().ok()).map(|time| show(time, table_digits(head.digits)))
+    };
+    let event = |(kind, row): (&EventKind, &Row<S>)| format!("{kind} at {}", first(row).unwrap_or_default());
+    let contact = |row: &Row<S>| format!("contact from {}", first(row).unwrap_or_default());
+    let symbols = |quantities: &[Quantity]| -> Vec<(usize, &'static str)> {
+        let shown = |(k, quantity): (usize, &Quantity)| {
+            let listed = column(*quantity).head.is_some() && quantity.is_listed(head.units.has_material());
+            listed.then(|| (k, quantity.symbol()))
+        };
+        quantities.iter().enumerate().filter_map(shown).collect()
+    };
+    let mut out = String::new();
+    for Derived { by, events, contacts } in &record.derivatives {
+        let keys = record.kinds.iter().zip(&record.events).map(event).collect();
+        out += &derivatives::table(("derivatives", keys), &symbols(&EVENT), (*by, events), head);
+        // When a contact begins and ends is in the table above.
+        let keys = record.contacts.iter().map(contact).collect();
+        let symbols: Vec<_> = symbols(&CONTACT).into_iter().skip(2).collect();
+        out += &derivatives::table(("derivatives", keys), &symbols, (*by, contacts), head);
+    }
+    out
 }
 
 /// Below so many digits lost the table does not mention them.

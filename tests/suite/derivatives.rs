@@ -2,6 +2,7 @@
 
 use std::str::FromStr;
 
+use crate::command::{json, quiet};
 use crate::common::{compares, uniform};
 use dalembert::{
     Derivative, Error, Estimate, History, NoDerivative, Number, Parameter, Problem, Quantity, Run, Speed, Start, Top,
@@ -369,4 +370,30 @@ fn thresholds() {
         let off = (found.value() - expected).abs();
         assert!(off <= found.bound() + 1e-14 && off < 1e-8, "{found:?} {expected}");
     }
+}
+
+/// The formula of the second landing, in JSON, CSV and the table.
+#[test]
+fn the_command() {
+    let asked = ["solve", "doyen-ern-piperno", "--derivatives", "speed,density"];
+    let found = json(&[&asked[..], &["--exact", "--format", "json"]].concat());
+    let by = |key: &str, name: &str| found["events"][2]["derivatives"][key][name].clone();
+    assert_eq!(by("time", "speed"), serde_json::json!({"left": "3/5", "right": "3/25"}));
+    // The speed on the left is that before a ray, on the right that behind it.
+    assert_eq!(by("end_velocity", "speed"), serde_json::json!({"left": "7", "undefined": {"right": "jumps"}}));
+    // c = √(E/ρ) = 30 with ρ = 1: ∂t_b/∂ρ = t_b/2ρ.
+    assert_eq!(found["events"][1]["derivatives"]["time"]["density"], "1/3");
+    // An impulse of ρ L (2μ + g t₁) = 200ρ + 200/3 ρ√ρ.
+    assert_eq!(found["contacts"][0]["derivatives"]["impulse"]["density"], "300");
+    assert_eq!(found["contacts"][0]["derivatives"]["momentum"]["speed"], "0");
+    let csv = quiet(&[&asked[..], &["--format", "csv"]].concat());
+    let table: Vec<Vec<&str>> = csv.lines().map(|line| line.split(',').collect()).collect();
+    let column = |name: &str| table[0].iter().position(|head| *head == name).unwrap();
+    let cell = |name: &str| table[3][column(name)];
+    assert_eq!((cell("time_by_speed"), cell("time_by_speed_left"), cell("time_by_speed_right")), ("", "0.6", "0.12"));
+    assert!(cell("time_by_speed_left_uncertainty").parse::<f64>().unwrap() < 1e-15);
+    let shown = quiet(&asked);
+    let row = shown.lines().find(|line| line.starts_with(" impact at 2.66666666667     right")).unwrap();
+    let words: Vec<&str> = row.split_whitespace().skip(4).collect();
+    assert_eq!(words, ["0.12", "jumps", "0.8", "-0.2"]);
 }

@@ -40,7 +40,7 @@ mod damped_reference;
 mod damped_settling;
 mod damped_solve;
 mod damped_stiff;
-#[cfg(feature = "mp")]
+#[cfg(all(feature = "cli", feature = "mp"))]
 mod derivatives;
 mod door;
 #[cfg(feature = "cli")]

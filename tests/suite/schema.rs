@@ -100,6 +100,11 @@ fn every_output_is_what_the_schema_says() {
             check("history", &["solve", "paper-strong", numbers]);
             check("reference", &["reference", "paper-strong", numbers]);
         }
+        // At the second landing of the first, and at the touch of the second, the sides differ or there is none.
+        for scene in ["doyen-ern-piperno", "mu-1-period-36"] {
+            check("history", &["solve", scene, "--derivatives", "speed,length"]);
+        }
+        check("history", &["solve", "doyen-ern-piperno", "--exact", "--derivatives", "speed,modulus"]);
     }
 }
 
