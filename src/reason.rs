@@ -136,6 +136,11 @@ pub enum Warning {
         /// By how much velocities may differ from then on.
         differ: f64,
     },
+    /// A time that was asked for is not told from that of an event or a ray; its values cover both sides.
+    TimeNotTold {
+        /// The time.
+        time: f64,
+    },
     /// The bound of the error no longer tells events apart.
     EventsOverlap {
         /// From this time on.
@@ -313,6 +318,9 @@ impl Display for Warning {
                 let time = time.decimal(12);
                 write!(f, "at t = {time} {what}: the bounds do not tell; from then on velocities may differ by ")?;
                 write!(f, "{differ:.1e}, which later bounds include")
+            }
+            Warning::TimeNotTold { time } => {
+                write!(f, "t = {time} is not told from the time of an event or a ray: its values cover both sides")
             }
             Warning::EventsOverlap { from } => {
                 write!(f, "from t = {from} on the bound of the error no longer tells events apart")

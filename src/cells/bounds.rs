@@ -92,9 +92,12 @@ impl<S: RoundedSpecial> Damped<S> {
         by_momentum.unwrap_or((last - from.to_f64()) * speed * c + 2.0 * rise * c)
     }
 
-    /// The event at this very time.
+    /// The event at this very time, which is not spelled.
     fn event_at(&self, time: &Estimate<S>) -> Option<usize> {
         let events = &self.course.events;
+        if time.spelled_as().is_some() {
+            return None;
+        }
         let next = events.partition_point(|event| event.time.value() < time.value());
         events.get(next).filter(|event| event.time.value() == time.value()).map(|_| next)
     }

@@ -1,7 +1,7 @@
 //! How far values may be off between events, and numbers that carry such bounds.
 
 use crate::motion::Event;
-use crate::number::{Estimate, Rounded};
+use crate::number::{Estimate, Rounded, Scalar};
 
 /// How far the values of a run may be off between two events, in natural scales, away from rays that are off in time.
 #[derive(Clone, Copy, Debug, Default)]
@@ -55,12 +55,20 @@ pub(super) fn wider<S: Rounded>(value: Estimate<S>, bound: f64) -> Estimate<S> {
     Estimate::new(value.value().clone(), value.error() + bound / value.value().unit())
 }
 
-/// The time that is asked about: that of the nearest event, where roundings alone set it apart.
+/// In roundings of its time, how far the time of an event is off for a spelled one to stand for it.
+const MOST_ROUNDINGS: f64 = 64.0;
+
+/// The time that is asked about: that of the nearest event, where roundings alone set it apart, and the event is where
+/// it is meant to be or the time was computed.
 pub(super) fn meant<'a, S: Rounded>(events: &'a [Event<Estimate<S>>], time: &'a Estimate<S>) -> &'a Estimate<S> {
     let next = events.partition_point(|event| event.time.value() < time.value());
     let near = events[next.saturating_sub(1)..].iter().take(2).map(|event| &event.time);
     let roundings = 4.0 * time.value().unit() * time.value().to_f64().abs();
     let apart = |event: &&Estimate<S>| (event.value().clone() - time.value()).to_f64().abs();
     let nearest = near.min_by(|a, b| apart(a).total_cmp(&apart(b)));
-    nearest.filter(|event| apart(event) <= time.bound() + event.bound().min(roundings)).unwrap_or(time)
+    let known = |event: &Estimate<S>| event.bound() <= MOST_ROUNDINGS / 4.0 * roundings;
+    let met = |event: &&Estimate<S>| {
+        apart(event) <= time.bound() + event.bound().min(roundings) && (time.spelled_as().is_none() || known(event))
+    };
+    nearest.filter(met).unwrap_or(time)
 }

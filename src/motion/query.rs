@@ -4,7 +4,7 @@ use std::fmt;
 use std::ops::ControlFlow;
 
 use super::moments::{self, Moments};
-use super::{Contact, Course, Ending, Energy, Event, Field, Ray, Side, StressPiece, Stretch, Waves};
+use super::{Contact, Course, Ending, Energy, Event, EventKind, Field, Ray, Side, StressPiece, Stretch, Waves};
 use crate::error::Error;
 use crate::number::Scalar;
 use crate::reason::Warning;
@@ -180,6 +180,33 @@ pub trait Motion<S: Scalar>: fmt::Debug + Send + Sync {
     /// `v`, `v_t`, `v_x`.
     fn moments(&self, time: &S, points: &[S]) -> Result<Vec<Moments<S>>, Error> {
         moments::of_stretches(&self.stretches(time)?, points)
+    }
+
+    /// Whether the end is on the ground just before or just after a time: 1 or 0.
+    fn in_contact(&self, time: &S, side: Side) -> Result<S, Error> {
+        let like = self.end();
+        // The impact that ends a history is no event of it.
+        if side == Side::Right && *self.ending() == Ending::NextImpact && !time.below(&like)? {
+            return Ok(like.one());
+        }
+        let (events, mut from) = (self.events(), 0);
+        let mut to = events.len();
+        while from < to {
+            let middle = (from + to) / 2;
+            let passed = match side {
+                Side::Left => events[middle].time.below(time)?,
+                Side::Right => !time.below(&events[middle].time)?,
+            };
+            if passed { from = middle + 1 } else { to = middle }
+        }
+        let contact = from.checked_sub(1).is_some_and(|last| events[last].kind == EventKind::Impact);
+        Ok(like.int(contact.into()))
+    }
+
+    /// The times that were asked for and are not told from that of an event or a ray, with the motion as it answers
+    /// where they stand for these; `None` where there are none. Other answers at such times cover both sides.
+    fn covered(&self) -> Option<(Vec<f64>, &dyn Motion<S>)> {
+        None
     }
 
     /// Whether the two limits in time of anything at the ends may differ: `false` where no ray is there.

@@ -1,6 +1,6 @@
 //! The register of rays: when each is where.
 
-use super::{EventKind, Motion, Scales};
+use super::{Event, EventKind, Motion, Scales};
 use crate::number::Scalar;
 use crate::order::ascending;
 
@@ -18,6 +18,8 @@ pub struct RayRegister<S> {
     end: S,
     /// Rays that are at the ground at the same times, modulo round trips, in the order of these.
     known: Vec<Phase<S>>,
+    /// The greatest of their bounds, in round trips.
+    widest: f64,
 }
 
 /// Rays whose times differ by whole round trips.
@@ -43,24 +45,57 @@ pub struct Passing<S> {
 /// Rays are compared in the numbers of the run where doubles tell them apart by less than this part of a round trip:
 /// doubles hold a fraction of a million round trips to 1e-10.
 const NEAR: f64 = 1e-6;
+/// A ray that is off by more than this part of a round trip is known not to be known: the run says so.
+const MOST_LATE: f64 = 0.01;
 
 impl<S: Scalar> RayRegister<S> {
     /// The rays of `motion`.
     pub fn of(motion: &dyn Motion<S>) -> Self {
+        let mut found = Self::of_start(motion);
+        for event in motion.events().iter().filter(|event| event.time.to_f64() != 0.0) {
+            let jump = event.kind == EventKind::Impact && event.end_velocity.vanishes() != Ok(true);
+            found.push((event.time.clone(), jump));
+        }
+        Self::with(motion, found)
+    }
+
+    /// The rays of the start, and those that begin at events whose time is off by more than `roundings` of its own, or
+    /// that are on no ray of the start.
+    pub(crate) fn parted(motion: &dyn Motion<S>, roundings: f64) -> [Self; 2] {
+        let start = Self::with(motion, Self::of_start(motion));
+        let own = |time: &S| {
+            let rounded = time.log2_error() <= time.to_f64().abs().log2() + time.log2_roundoff() + roundings.log2();
+            rounded && !start.near(&time.zero(), time).is_empty()
+        };
+        let most = (motion.scales().time.to_f64() * MOST_LATE).log2();
+        let times = motion.events().iter().map(|event| &event.time);
+        let off = times.filter(|time| time.log2_error() < most && time.to_f64() > 0.0 && !own(time));
+        let displaced = Self::with(motion, off.map(|time| (time.clone(), true)).collect());
+        [start, displaced]
+    }
+
+    /// Those of the data, and of a rod that stands on the ground.
+    fn of_start(motion: &dyn Motion<S>) -> Vec<(S, bool)> {
         let Scales { time: round_trip, wave_speed, .. } = motion.scales();
         let mut found = Vec::new();
         for corner in motion.corners() {
             let late = corner / &wave_speed;
             found.extend([(-late.clone(), true), (late - &round_trip, true)]);
         }
-        for event in motion.events() {
-            let jump = event.kind == EventKind::Impact && event.end_velocity.vanishes() != Ok(true);
-            found.push((event.time.clone(), jump));
-        }
+        let stands = motion.events().first().filter(|event| event.time.to_f64() == 0.0);
+        let jump = |event: &Event<S>| event.kind == EventKind::Impact && event.end_velocity.vanishes() != Ok(true);
+        found.extend(stands.map(|event| (event.time.clone(), jump(event))));
+        found
+    }
+
+    fn with(motion: &dyn Motion<S>, found: Vec<(S, bool)>) -> Self {
+        let Scales { time: round_trip, wave_speed, .. } = motion.scales();
         let fraction = |time: &S| fraction(&(time.clone() / &round_trip));
         let found = ascending(ascending(found, |ray| ray.0.to_f64()), |ray| fraction(&ray.0));
         let phases: Vec<_> = found.into_iter().map(|ray| (fraction(&ray.0), ray)).collect();
-        let mut rays = RayRegister { round_trip, wave_speed, end: motion.end(), known: Vec::new() };
+        let bounds = phases.iter().map(|(_, (time, _))| time.log2_error().exp2()).filter(|bound| bound.is_finite());
+        let widest = bounds.fold(0.0, f64::max) / round_trip.to_f64();
+        let mut rays = RayRegister { round_trip, wave_speed, end: motion.end(), known: Vec::new(), widest };
         for (fraction, ray) in phases {
             match rays.known.last() {
                 Some(last) if fraction - last.fraction <= NEAR && rays.same_phase(&last.rays[0].0, &ray.0) => {
@@ -85,27 +120,54 @@ impl<S: Scalar> RayRegister<S> {
 
     /// `time`, or that within `roundings` of it, and within the bound of the ray, at which a ray passes `point`.
     pub fn meant(&self, point: &S, time: S, roundings: f64) -> S {
+        let known = |met: &S| {
+            let bound = met.log2_error().exp2();
+            let known = roundings + if bound.is_finite() { bound } else { 0.0 };
+            (met.clone() - &time).to_f64().abs() <= known && self.end.below(met) != Ok(true)
+        };
+        self.about(point, &time, 0.0).into_iter().find(known).unwrap_or(time)
+    }
+
+    /// When rays pass `point` at times that are not told from `time` within both bounds.
+    pub fn near(&self, point: &S, time: &S) -> Vec<S> {
+        // Doubles settle nearly all.
+        let (trip, seconds) = (self.round_trip.to_f64(), time.to_f64());
+        let travel = point.to_f64() / self.wave_speed.to_f64();
+        let about = |delay: f64| {
+            let trips = (seconds - delay) / trip;
+            self.known_near(trips - trips.floor(), NEAR + self.widest).next().is_some()
+        };
+        if !about(travel) && !about(-travel) {
+            return Vec::new();
+        }
+        let open = |met: &S| met.log2_error() < f64::INFINITY && (met.clone() - time).vanishes() != Ok(false);
+        let mut near = self.about(point, time, self.widest);
+        near.retain(open);
+        near
+    }
+
+    /// When rays pass `point` at about `time`, and as much more apart as `widest` says, in round trips.
+    fn about(&self, point: &S, time: &S, widest: f64) -> Vec<S> {
         let travel = point.clone() / &self.wave_speed;
-        let on_ray = |delay: S| {
+        let delays = if point.vanishes() == Ok(true) { vec![travel] } else { vec![travel.clone(), -travel] };
+        let mut met = Vec::new();
+        for delay in delays {
             let at_ground = time.clone() - &delay;
-            self.known_near(fraction(&(at_ground.clone() / &self.round_trip))).find_map(|known| {
+            let place = fraction(&(at_ground.clone() / &self.round_trip));
+            met.extend(self.known_near(place, NEAR + widest).filter_map(|known| {
                 let trips = (at_ground.clone() - known) / &self.round_trip;
                 let trips = (trips.clone() + trips.ratio(1, 2)).floor_int().filter(|trips| *trips >= 0)?;
-                let met = self.round_trip.int(trips) * &self.round_trip + known + &delay;
-                let bound = met.log2_error().exp2();
-                let known = roundings + if bound.is_finite() { bound } else { 0.0 };
-                let near = (met.clone() - &time).to_f64().abs() <= known;
-                (near && self.end.below(&met) != Ok(true)).then_some(met)
-            })
-        };
-        on_ray(travel.clone()).or_else(|| on_ray(-travel)).unwrap_or(time)
+                Some(self.round_trip.int(trips) * &self.round_trip + known + &delay)
+            }));
+        }
+        met
     }
 
     /// The rays at about this fraction of a round trip: 0 and 1 are neighbours.
-    fn known_near(&self, fraction: f64) -> impl Iterator<Item = &S> {
-        [fraction - 1.0, fraction, fraction + 1.0].into_iter().flat_map(|fraction| {
-            let from = self.known.partition_point(|phase| phase.fraction < fraction - NEAR);
-            let near = self.known[from..].iter().take_while(move |phase| phase.fraction <= fraction + NEAR);
+    fn known_near(&self, fraction: f64, apart: f64) -> impl Iterator<Item = &S> {
+        [fraction - 1.0, fraction, fraction + 1.0].into_iter().flat_map(move |fraction| {
+            let from = self.known.partition_point(|phase| phase.fraction < fraction - apart);
+            let near = self.known[from..].iter().take_while(move |phase| phase.fraction <= fraction + apart);
             near.map(|phase| &phase.rays[0].0)
         })
     }

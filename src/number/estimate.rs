@@ -3,7 +3,18 @@
 use std::cmp::Ordering;
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
-use super::{Analytic, Number, Open, Rounded, Scalar};
+use super::fraction::spelling;
+use super::{Analytic, Number, Open, Rounded, Scalar, Spelling};
+
+/// The bound of a number that was spelled, in roundings, of which it has one: no operation leaves these, which tell it
+/// from a number that was computed.
+fn roundings(spelling: Spelling) -> f64 {
+    match spelling {
+        Spelling::Decimal => 1.25,
+        Spelling::Fraction => 1.75,
+        Spelling::Near => 2.25,
+    }
+}
 
 /// A rounded number and how far the number meant may lie from it, carried through every operation.
 ///
@@ -181,6 +192,18 @@ impl<S: Rounded> Scalar for Estimate<S> {
 
     fn from_number(number: &Number, precision: &S::Precision) -> Self {
         Estimate::rounded(S::from_number(number, precision), 1.0)
+    }
+
+    fn spelling(number: &Number, precision: &S::Precision) -> Self {
+        let value = S::from_number(number, precision);
+        let spelling = value.as_double().map_or(Spelling::Decimal, |double| spelling(double, number));
+        Estimate::rounded(value, roundings(spelling))
+    }
+
+    fn spelled_as(&self) -> Option<Spelling> {
+        let size = size(&self.value);
+        let as_this = |spelling: &Spelling| self.error == roundings(*spelling) * size;
+        [Spelling::Decimal, Spelling::Fraction, Spelling::Near].into_iter().find(as_this).filter(|_| size > 0.0)
     }
 
     fn precision(&self) -> S::Precision {

@@ -6,7 +6,7 @@ use rug::float::{Constant, Round};
 use rug::ops::Pow;
 use rug::{Float, Integer, Rational};
 
-use super::fraction::spelled;
+use super::fraction::spelled_as;
 use super::{Analytic, Answer, Estimate, Number, Open, Reads, Rounded, Scalar};
 
 impl Scalar for Float {
@@ -122,7 +122,7 @@ impl Reads<Estimate<Float>> for Estimate<f64> {
     }
 
     fn give(&self, precision: &u32) -> Estimate<Float> {
-        match spelled(*self.value()) {
+        match spelled_as(*self.value(), self.spelled_as()) {
             Some(number) => Estimate::from_number(&number, precision),
             None => Estimate::exact(Float::with_val(*precision, self.value())),
         }

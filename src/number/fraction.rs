@@ -3,7 +3,7 @@
 use std::cmp::Ordering;
 
 use super::rational::{self, Integer, Rational};
-use super::{Answer, Bounded, Estimate, Number, Open, Reads, Scalar};
+use super::{Answer, Bounded, Estimate, Number, Open, Reads, Scalar, Spelling};
 
 /// Square factors below this leave the root of a surd that is printed.
 const SMALL_FACTOR: u32 = 10_000;
@@ -126,7 +126,7 @@ impl Reads<Rational> for Estimate<f64> {
 
     fn give(&self, (): &()) -> Rational {
         let exactly = || rational::of_double(*self.value()).unwrap_or_default();
-        spelled(*self.value()).map_or_else(exactly, |number| number.to_rational())
+        spelled_as(*self.value(), self.spelled_as()).map_or_else(exactly, |number| number.to_rational())
     }
 }
 
@@ -140,6 +140,24 @@ pub(super) fn spelled(x: f64) -> Option<Number> {
     let digits = decimal.bytes().filter(u8::is_ascii_digit).count();
     let fraction = if digits > 15 { simple_fraction(x) } else { None };
     fraction.unwrap_or(decimal).parse().ok()
+}
+
+/// How a number is spelled that is rounded to `x`.
+pub(super) fn spelling(x: f64, number: &Number) -> Spelling {
+    let same = |other: Option<Number>| other.is_some_and(|other| other.compare(number).is_eq());
+    match number.is_short() || same(x.to_string().parse().ok()) {
+        true => Spelling::Decimal,
+        false if same(spelled(x)) => Spelling::Fraction,
+        false => Spelling::Near,
+    }
+}
+
+/// The number that a double stands for, if it is known how that was spelled.
+pub(crate) fn spelled_as(x: f64, spelling: Option<Spelling>) -> Option<Number> {
+    match spelling {
+        Some(Spelling::Decimal) => x.to_string().parse().ok(),
+        _ => spelled(x),
+    }
 }
 
 /// The convergents of the continued fraction of `x`, as far as denominators are small: the first that rounds to it.

@@ -119,20 +119,21 @@ impl List {
     /// **Accuracy**: *correctly rounded* where the fraction of integers that each is has both below 2⁵³; otherwise
     /// within three roundings. The ends of a range are met exactly: the last is where the history ends.
     pub(crate) fn lift_part<S: Scalar>(&self, part: Range<usize>, precision: &S::Precision) -> Vec<S> {
-        let lift = |number: &Number| S::from_number(number, precision);
+        let lift = |number: &Number| S::spelling(number, precision);
         if let List::Numbers(numbers) = self {
             return numbers[part].iter().map(lift).collect();
         }
-        let (one, last) = (lift(&1.into()), self.len() as i64 - 1);
+        let number = |number: &Number| S::from_number(number, precision);
+        let (one, last) = (S::from_number(&1.into(), precision), self.len() as i64 - 1);
         let integers = self.integers();
         let at = |k: i64| match (self, integers) {
             (List::Range(from, ..), _) if k == 0 => lift(from),
             (List::Range(_, to, _), _) if k == last => lift(to),
             (_, Some([a, b, divisor])) => one.int(a * (last - k) + b * k) / one.int(divisor),
             (List::Range(from, to, _), None) => {
-                (lift(from) * one.int(last - k) + lift(to) * one.int(k)) / one.int(last)
+                (number(from) * one.int(last - k) + number(to) * one.int(k)) / one.int(last)
             }
-            (List::Steps(step, _), None) => one.int(k) * lift(step),
+            (List::Steps(step, _), None) => one.int(k) * number(step),
             (List::Numbers(_), _) => one.zero(),
         };
         part.map(|k| at(k as i64)).collect()

@@ -44,6 +44,7 @@ pub(crate) use dual::Dual;
 pub use estimate::Estimate;
 #[cfg(feature = "mp")]
 pub use float::decimal;
+pub(crate) use fraction::spelled_as;
 #[cfg(feature = "mp")]
 pub use interval::{Interval, IntervalPrecision};
 #[cfg(feature = "cli")]
@@ -55,7 +56,7 @@ pub use literal::{Number, NumberError};
 pub use rational::Rational;
 #[cfg(feature = "mp")]
 pub use rug::Float;
-pub use scalar::{Analytic, Open, Reads, Rounded, Scalar};
+pub use scalar::{Analytic, Open, Reads, Rounded, Scalar, Spelling};
 #[doc(hidden)]
 pub use text::{DOUBLE_DIGITS, bits_for_digits, bound_of_log2, double_bound_text, show, shown_bound_text};
 #[doc(hidden)]

@@ -38,6 +38,19 @@ pub trait Scalar:
     /// The number that a person wrote. **Accuracy**: correctly rounded (exact for fractions).
     fn from_number(number: &Number, precision: &Self::Precision) -> Self;
 
+    /// The number that a person wrote, as a time that is asked for: it stands for exactly what it spells, and
+    /// [`Scalar::spelled_as`] tells it from one that was computed.
+    ///
+    /// **Accuracy**: that of [`Scalar::from_number`].
+    fn spelling(number: &Number, precision: &Self::Precision) -> Self {
+        Self::from_number(number, precision)
+    }
+
+    /// How this is a [`Scalar::spelling`] that no computation has changed. Exact numbers and enclosures do not need it.
+    fn spelled_as(&self) -> Option<Spelling> {
+        None
+    }
+
     /// The precision of this number.
     fn precision(&self) -> Self::Precision;
 
@@ -225,6 +238,17 @@ pub trait Reads<N: Scalar>: Scalar {
     /// A number of this system in the other one, where a question about it is answered. A double stands for the
     /// shortest decimal that spells it, or for a simple fraction.
     fn give(&self, precision: &N::Precision) -> N;
+}
+
+/// How a rounded number was spelled.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Spelling {
+    /// As the shortest decimal that is rounded to it, or, in longer numbers, anyhow.
+    Decimal,
+    /// As a simple fraction.
+    Fraction,
+    /// As another number that is rounded to it.
+    Near,
 }
 
 /// A `Scalar` with the elementary functions: what the damped rod needs. Where a signature asks for it, exactness ends.

@@ -218,6 +218,7 @@ fn known_until<S: Target>(history: &History<S>) -> f64 {
         Warning::Coincidence { .. }
         | Warning::HopsUnresolved { .. }
         | Warning::NotTold { .. }
+        | Warning::TimeNotTold { .. }
         | Warning::DragNeglected { .. } => None,
     });
     open.fold(history.end().to_f64(), f64::min)

@@ -3,7 +3,7 @@
 use super::table::{Needs, Quantity, Source};
 use super::unit::Units;
 use crate::error::Error;
-use crate::motion::{Ending, EventKind, Motion, Side, StressPiece};
+use crate::motion::{Motion, Side, StressPiece};
 use crate::number::{Open, Scalar};
 use crate::threads::Threads;
 
@@ -158,7 +158,7 @@ impl Source {
             Source::End => row.extend(pair(motion.ground_end(time, side)?)),
             Source::Strain => row.push(motion.strain(time, side)?),
             Source::Top => row.extend(pair(motion.top_end(time, side)?)),
-            Source::Contact => row.push(time.int(in_contact(motion, time, side)?.into())),
+            Source::Contact => row.push(motion.in_contact(time, side)?),
             Source::Centre => row.extend(pair(motion.centre(time)?)),
             Source::Energy => {
                 let energy = motion.energy(time)?;
@@ -180,19 +180,6 @@ fn partition<T>(list: &[T], passed: impl Fn(&T) -> Result<bool, Open>) -> Result
         if passed(&list[middle])? { from = middle + 1 } else { to = middle }
     }
     Ok(from)
-}
-
-/// Whether the end is on the ground just before or just after a time.
-fn in_contact<S: Scalar>(motion: &dyn Motion<S>, time: &S, side: Side) -> Result<bool, Open> {
-    // The impact that ends a history is no event of it.
-    if side == Side::Right && *motion.ending() == Ending::NextImpact && !time.below(&motion.end())? {
-        return Ok(true);
-    }
-    let passed = partition(motion.events(), |event| match side {
-        Side::Left => event.time.below(time),
-        Side::Right => Ok(!time.below(&event.time)?),
-    })?;
-    Ok(passed.checked_sub(1).is_some_and(|last| motion.events()[last].kind == EventKind::Impact))
 }
 
 /// `−c² ∫₀ᵗ v_x(0,s) ds`: pieces of the stress, each with what came before it.

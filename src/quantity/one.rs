@@ -81,7 +81,7 @@ impl One {
             let found = of_kind.filter(|time| apart(time) < NEXT).min_by(|a, b| apart(a).total_cmp(&apart(b)));
             found.ok_or_else(ended)
         };
-        let lift = |number: &Number| S::from_number(number, &motion.end().precision());
+        let lift = |number: &Number| S::spelling(number, &motion.end().precision());
         let near = self.time.as_ref().map(Number::to_f64);
         let found = match (self.quantity, near, self.quantity.needs()) {
             (Quantity::BounceTime, ..) => bounce(),

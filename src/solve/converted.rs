@@ -2,10 +2,11 @@
 
 use std::sync::Arc;
 
+use super::asked::{Windows, not_told};
 use crate::error::Error;
 use crate::motion::moments::{self, Moments};
 use crate::motion::{Course, Field, Motion, Pair, Ray, RayRegister, Scales, Side, StressPiece, Stretch, Waves};
-use crate::number::{Reads, Scalar};
+use crate::number::{Reads, Scalar, Spelling};
 
 /// The history of an engine in numbers `N`, read in numbers `M`.
 #[derive(Debug)]
@@ -13,7 +14,14 @@ pub(super) struct Converted<N: Scalar, M> {
     engine: Arc<dyn Motion<N>>,
     precision: N::Precision,
     rays: RayRegister<N>,
+    /// Where times that are spelled are not told from events or rays; exact numbers and enclosures know.
+    windows: Option<Windows<N>>,
     course: Course<M>,
+}
+
+/// How a time in doubles was spelled. A longer number does not say what it was rounded from.
+fn spelled<M: Scalar>(time: &M) -> Option<Spelling> {
+    time.as_double().and_then(|_| time.spelled_as())
 }
 
 impl<N: Scalar, M: Reads<N>> Converted<N, M> {
@@ -23,13 +31,26 @@ impl<N: Scalar, M: Reads<N>> Converted<N, M> {
             // The time has been rounded once more.
             event.time_error = event.time_error.max(event.time.log2_error().exp2());
         }
-        Converted { precision: engine.end().precision(), rays: RayRegister::of(&*engine), course, engine }
+        let precision = engine.end().precision();
+        let rounds = N::spelling(&1.into(), &precision).spelled_as().is_some();
+        let windows = rounds.then(|| Windows::of(&*engine));
+        Converted { precision, rays: RayRegister::of(&*engine), windows, course, engine }
     }
 
     /// A time of this history. One that an event, or the end, was rounded to is that event's own.
     fn time(&self, time: &M) -> Result<N, Error> {
         self.finite(time)?;
-        Ok(self.known(time).unwrap_or_else(|| time.give(&self.precision)))
+        Ok(self.known(time).unwrap_or_else(|| self.given(time)))
+    }
+
+    /// A time that is none of the engine's own.
+    fn given(&self, time: &M) -> N {
+        let given = time.give(&self.precision);
+        if spelled(time) != Some(Spelling::Near) {
+            return given;
+        }
+        let roundings = given.double(2.0 * time.log2_roundoff().exp2() * time.to_f64());
+        given.widened(&roundings)
     }
 
     /// What is no number has none in another system that stands for it.
@@ -40,6 +61,10 @@ impl<N: Scalar, M: Reads<N>> Converted<N, M> {
 
     fn known(&self, time: &M) -> Option<N> {
         let end = self.engine.end();
+        // What is spelled stands for itself; the end is where a run that was asked for so long ends.
+        if spelled(time).is_some() {
+            return (M::read(end.clone()).text() == time.text()).then_some(end);
+        }
         let mut known = self.engine.events().iter().map(|event| &event.time).chain([&end]);
         // Both are rounded, each to its own bits.
         let same = |known: &&N| {
@@ -60,11 +85,31 @@ impl<N: Scalar, M: Reads<N>> Converted<N, M> {
         Ok(if M::read(length.clone()).text() == point.text() { length } else { point.give(&self.precision) })
     }
 
-    /// A time at which `point` is asked about: that of a ray there, where the roundings of `M` alone set it apart.
+    /// A time at which `point` is asked about: that of a ray there, where the roundings of `M` alone set a computed one
+    /// apart.
+    ///
+    /// **Errors**: where it is not told from another event or ray.
     fn time_at(&self, point: &N, time: &M) -> Result<N, Error> {
         self.finite(time)?;
-        let roundings = 8.0 * time.log2_roundoff().exp2() * time.to_f64();
-        Ok(self.known(time).unwrap_or_else(|| self.rays.meant(point, time.give(&self.precision), roundings)))
+        if let Some(known) = self.known(time) {
+            return Ok(known);
+        }
+        let mut given = self.given(time);
+        if spelled(time).is_none() {
+            let roundings = 8.0 * time.log2_roundoff().exp2() * time.to_f64();
+            let met = self.rays.meant(point, given.clone(), roundings);
+            if met.compare(&given).is_ok_and(std::cmp::Ordering::is_ne) {
+                return Ok(met);
+            }
+            given = met;
+        }
+        let Some(windows) = &self.windows else { return Ok(given) };
+        let near = match spelled(time) {
+            // What more digits than a double has were rounded from is known no better.
+            Some(Spelling::Near) => windows.all(point, &given),
+            _ => windows.displaced(point, &given),
+        };
+        if near.is_empty() { Ok(given) } else { Err(not_told(given.bits())) }
     }
 
     fn time_at_ground(&self, time: &M) -> Result<N, Error> {

@@ -2,6 +2,7 @@
 
 use std::sync::Arc;
 
+use super::asked::{Longer, Open, Telling};
 use super::derivative::{Asked, Derivatives};
 use super::ladder::{Engined, Observer, Target};
 use super::plan::{Engine, Plan, Rung};
@@ -22,8 +23,9 @@ impl Target for f64 {
             Rung::Fractions => return fractions::in_doubles(problem, plan, observe),
             rung => return long::in_doubles(problem, plan, rung, observe),
         }
+        let longer = longer(problem, plan, rung, observe);
         let problem = &*plan.reaching(problem);
-        Ok(match plan.engine {
+        let engine: Engined<f64> = match plan.engine {
             Engine::Lattice => {
                 let history =
                     Undamped::<Estimate<f64>>::solve_within(problem, &(), plan.lattice_limits(problem), &**observe)?;
@@ -42,9 +44,13 @@ impl Target for f64 {
                     bounce = by_modes(&contact, problem, plan.modes.ok_or(undecided)?)?;
                 }
                 match (plan.engine, plan.settles_events) {
-                    (Engine::ClosedForm, false) => return Ok(Arc::new(ContactHistory::new(contact, bounce, None)?)),
+                    (Engine::ClosedForm, false) => {
+                        let history = Arc::new(ContactHistory::new(contact, bounce, None)?);
+                        return Ok(Telling::of(history, problem, Open::Ask(longer)));
+                    }
                     (Engine::ClosedForm, true) => {
-                        return Ok(Arc::new(ContactThenCells::<f64>::first_contact(problem, &(), bounce)?));
+                        let history = Arc::new(ContactThenCells::<f64>::first_contact(problem, &(), bounce)?);
+                        return Ok(Telling::of(history, problem, Open::Ask(longer)));
                     }
                     _ => {}
                 }
@@ -58,7 +64,8 @@ impl Target for f64 {
                     &**observe,
                 )?)
             }
-        })
+        };
+        Ok(Telling::of(engine, problem, Open::Ask(longer)))
     }
 
     /// As many digits as a double has where a run takes no time, otherwise one more than the run is asked for.
@@ -73,6 +80,18 @@ impl Target for f64 {
             .map(|row| row.into_iter().map(|cell| cell.map(|it| it.map(Reads::read))).collect())
             .collect())
     }
+}
+
+/// The runs that tell a time from an event or a ray where one in `rung` does not: fractions for a rod without damping
+/// that has not bounced too often for them, and more and more bits.
+pub(super) fn longer(problem: &Problem, plan: &Plan, rung: Rung, observe: &Observer) -> Longer<f64> {
+    let (rungs, exact_contacts) = (plan.telling(rung), plan.climb.exact_contacts.unwrap_or(0));
+    let (problem, plan, observe) = (problem.clone(), plan.clone(), observe.clone());
+    let run = move |rung: Rung| match rung {
+        Rung::Fractions => fractions::read(&problem, &plan, &observe),
+        rung => long::read(&problem, &plan, rung, &observe),
+    };
+    Longer { rungs, exact_contacts, run: Box::new(run) }
 }
 
 /// How the first contact ends by the sum over so many modes, which does not cancel late in the contact as that over rays

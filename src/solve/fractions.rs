@@ -2,8 +2,10 @@
 
 use std::sync::Arc;
 
+use super::asked::{Open, Telling};
 use super::converted::Converted;
 use super::derivative::{Asked, Derivatives};
+use super::engines::longer;
 use super::exact;
 use super::ladder::{Engined, Observer, Target};
 use super::plan::{Plan, Rung};
@@ -49,7 +51,16 @@ where
 {
     let reached = plan.reaching(problem);
     let mut doubles = Undamped::<Estimate<f64>>::solve_within(&reached, &(), plan.lattice_limits(problem), &**observe)?;
-    Ok(if doubles.confirm(&exact) { Arc::new(doubles) } else { Arc::new(Converted::new(Arc::new(exact))) })
+    Ok(if doubles.confirm(&exact) {
+        Telling::of(Arc::new(doubles), problem, Open::Ask(longer(problem, plan, Rung::Double, observe)))
+    } else {
+        Arc::new(Converted::new(Arc::new(exact)))
+    })
+}
+
+/// The run in fractions, read in doubles.
+pub(super) fn read(problem: &Problem, plan: &Plan, observe: &Observer) -> Result<Engined<f64>, Error> {
+    Ok(Arc::new(Converted::new(Arc::new(fractions(problem, plan, observe)?))))
 }
 
 fn fractions(problem: &Problem, plan: &Plan, observe: &Observer) -> Result<Undamped<Rational>, Error> {

@@ -46,6 +46,8 @@ pub struct History<S: Target> {
     contacts: OnceLock<Vec<Contact<S>>>,
     ending: Ending,
     end: S,
+    /// Times that earlier attempts have not told from those of events or rays.
+    covered: Mutex<Vec<f64>>,
 }
 
 /// The numbers of all that happens.
@@ -81,6 +83,7 @@ impl<S: Target> History<S> {
             events: OnceLock::new(),
             contacts: OnceLock::new(),
             end: S::strip(end),
+            covered: Mutex::default(),
             problem: problem.clone(),
             plan: plan.clone(),
             observe,
@@ -134,7 +137,9 @@ impl<S: Target> History<S> {
         let ladder = Ladder { problem: &self.problem, plan: &self.plan, observe: &self.observe };
         let (attempt, answer) = ladder.settle::<S>(Some(current), query).map_err(|error| self.explained(error))?;
         if attempt.rung != rung {
-            *self.attempt.lock().unwrap_or_else(PoisonError::into_inner) = attempt;
+            let before = std::mem::replace(&mut *self.attempt.lock().unwrap_or_else(PoisonError::into_inner), attempt);
+            let covered = before.engine.covered().map(|(times, _)| times);
+            self.covered.lock().unwrap_or_else(PoisonError::into_inner).extend(covered.into_iter().flatten());
         }
         Ok(((), answer))
     }
@@ -503,8 +508,14 @@ impl<S: Target> History<S> {
 
     /// What a user should know of the answer.
     pub fn warnings(&self) -> Vec<Warning> {
-        let mut warnings = self.current().engine.warnings().to_vec();
+        let engine = self.current().engine;
+        let mut warnings = engine.warnings().to_vec();
         warnings.extend(self.problem.neglected());
+        let mut covered = self.covered.lock().unwrap_or_else(PoisonError::into_inner).clone();
+        covered.extend(engine.covered().into_iter().flat_map(|(times, _)| times));
+        covered.sort_by(f64::total_cmp);
+        covered.dedup();
+        warnings.extend(covered.into_iter().map(|time| Warning::TimeNotTold { time }));
         warnings
     }
 }

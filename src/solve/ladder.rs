@@ -156,7 +156,15 @@ impl Ladder<'_> {
                 Some(engine) => Ok(engine),
                 None => S::run(self.problem, self.plan, rung, self.observe),
             }
-            .and_then(|engine| query(&*engine).map(|answer| (engine, answer)));
+            .and_then(|engine| {
+                let (answer, sizes) = query(&*engine)?;
+                // What covers both sides of an event says so; the rest is held to what it would be held to by itself.
+                let sizes = match engine.covered() {
+                    Some((_, plain)) => query(plain).map_or(Vec::new(), |(_, sizes)| sizes),
+                    None => sizes,
+                };
+                Ok((engine, (answer, sizes)))
+            });
             // Errors on the way to an open comparison mean nothing, except where no bits can help.
             let (lacks, reached) = match answer {
                 Ok((engine, (answer, sizes))) => {
@@ -248,7 +256,15 @@ impl Ladder<'_> {
 /// Whether events are taken for one that are so only within their bounds, where exact numbers are to decide.
 fn coincides<S: Scalar>(plan: &Plan, engine: &dyn Motion<S>) -> bool {
     let contacts = engine.digits_lost().map_or(0, |(contacts, _)| contacts);
-    plan.tries_exact(contacts) && engine.warnings().iter().any(|warning| matches!(warning, Warning::Coincidence { .. }))
+    let taken_for_one = || engine.warnings().iter().any(|warning| matches!(warning, Warning::Coincidence { .. }));
+    plan.tries_exact(contacts) && (taken_for_one() || plan.engine == Engine::Lattice && ends_at_event(engine))
+}
+
+/// Whether the last event is not told from the end of the run, which it may come after.
+fn ends_at_event<S: Scalar>(engine: &dyn Motion<S>) -> bool {
+    let Some(event) = engine.events().last().filter(|_| *engine.ending() == Ending::Time) else { return false };
+    let left = engine.end() - &event.time;
+    left.log2_error() > f64::NEG_INFINITY && left.vanishes() != Ok(false)
 }
 
 /// Whether a damped run says that its bounds leave events open.

@@ -2,9 +2,11 @@
 
 use std::sync::Arc;
 
+use super::asked::{Open, Telling, not_told};
 use super::converted::Converted;
 use super::derivative::{Asked, Derivatives};
 use super::differences;
+use super::engines::longer;
 use super::fractions::confirmed;
 use super::ladder::{Engined, Observer, Target};
 use super::plan::{Engine, Plan, Rung};
@@ -19,7 +21,18 @@ impl Target for Float {
     fn run(problem: &Problem, plan: &Plan, rung: Rung, observe: &Observer) -> Result<Engined<Float>, Error> {
         match rung {
             Rung::Enclosures(bits) => Ok(Arc::new(Converted::new(enclosures(problem, plan, bits, observe)?))),
-            rung => estimates(problem, plan, bits_of(rung), observe),
+            rung => {
+                let bits = bits_of(rung);
+                let run = estimates(problem, plan, bits, observe)?;
+                // Of an undamped rod an event may be at the very time.
+                if plan.engine == Engine::Lattice {
+                    return Ok(run);
+                }
+                let digits = plan.goal.digits as u32;
+                let last = plan.rung.bits().is_some_and(|first| bits >= MOST_TIMES * first);
+                let error = if last { Error::Unsettled { digits, bits } } else { not_told(Some(bits)) };
+                Ok(Telling::<Float>::of(run, problem, Open::Refuse(error)))
+            }
         }
     }
 
@@ -27,6 +40,9 @@ impl Target for Float {
         differences::of(asked, asked.plan.goal.digits.ceil() as u32)
     }
 }
+
+/// So many times as many bits as the first ones are tried to tell a time from that of an event or a ray.
+const MOST_TIMES: u32 = 4;
 
 impl Target for Interval {
     fn run(problem: &Problem, plan: &Plan, rung: Rung, observe: &Observer) -> Result<Engined<Interval>, Error> {
@@ -48,8 +64,15 @@ pub(super) fn in_doubles(
     Ok(match rung {
         Rung::Enclosures(bits) => Arc::new(Converted::new(enclosures(problem, plan, bits, observe)?)),
         Rung::Confirmed(bits) => confirmed(problem, plan, roots(problem, plan, bits, observe)?, observe)?,
-        rung => Arc::new(Converted::new(estimates(problem, plan, bits_of(rung), observe)?)),
+        rung => {
+            Telling::of(read(problem, plan, rung, observe)?, problem, Open::Says(longer(problem, plan, rung, observe)))
+        }
     })
+}
+
+/// An attempt in so many bits, read in doubles, which says where it does not tell a time from an event or a ray.
+pub(super) fn read(problem: &Problem, plan: &Plan, rung: Rung, observe: &Observer) -> Result<Engined<f64>, Error> {
+    Ok(Arc::new(Converted::new(estimates(problem, plan, bits_of(rung), observe)?)))
 }
 
 fn bits_of(rung: Rung) -> u32 {

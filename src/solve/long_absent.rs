@@ -35,6 +35,10 @@ pub(super) fn in_doubles(_: &Problem, _: &Plan, _: Rung, _: &Observer) -> Result
     Err(Error::NoMultiprecision)
 }
 
+pub(super) fn read(_: &Problem, _: &Plan, _: Rung, _: &Observer) -> Result<Engined<f64>, Error> {
+    Err(Error::NoMultiprecision)
+}
+
 /// Doubles know `h′` at the bounce as well as there is need.
 pub(super) fn rate_after(_: &Problem, _: &Bounce<Estimate<f64>>, _: u32) -> Option<Estimate<f64>> {
     None

@@ -6,6 +6,7 @@
 //! | `plan` | everything that is decided before running |
 //! | `foresee` | the digits that a chaotic run is going to lose |
 //! | `engines`, `fractions`, `long` | the planned engine in the numbers of one attempt |
+//! | `asked` | times that are not told from that of an event or a ray |
 //! | `converted` | a history in one number system, read in another |
 //! | `ladder` | more bits until the answer is settled |
 //! | `derivative` | derivatives by a value of the problem |
@@ -13,6 +14,7 @@
 //! | `history` | the answer in one number system, of which everything else is asked |
 //! | `solution` | the answer in the numbers of its plan |
 
+mod asked;
 mod converted;
 mod derivative;
 #[cfg_attr(not(feature = "mp"), path = "differences_absent.rs")]

@@ -321,6 +321,15 @@ impl Plan {
         }
     }
 
+    /// The numbers that are asked, one after the other, where those of `rung` do not tell a time from an event or a ray.
+    pub(super) fn telling(&self, rung: Rung) -> Vec<Rung> {
+        let exact = self.engine == Engine::Lattice && !matches!(rung, Rung::Bits(_));
+        let known = rung.bits().unwrap_or(0);
+        let bits = self.climb.bits.iter().flat_map(|bits| [1, 2, 4].map(|times| times * bits));
+        let longer = bits.filter(|bits| *bits > known).map(Rung::Bits);
+        exact.then_some(Rung::Fractions).into_iter().chain(longer).collect()
+    }
+
     /// Whether exact numbers decide where events of a run through so many contacts coincide within their bounds.
     pub(crate) fn tries_exact(&self, contacts: u32) -> bool {
         self.climb.exact_contacts.is_some_and(|most| contacts <= most)
@@ -502,6 +511,16 @@ fn check(problem: &Problem, numbers: Numbers) -> Result<(), Error> {
         return Err(Error::NotCertified);
     }
     if cfg!(feature = "mp") || digits.is_none() { Ok(()) } else { Err(Error::NoMultiprecision) }
+}
+
+impl Rung {
+    /// How many bits numbers with an error bound have.
+    pub(super) fn bits(self) -> Option<u32> {
+        match self {
+            Rung::Bits(bits) => Some(bits),
+            Rung::Double | Rung::Fractions | Rung::Confirmed(_) | Rung::Enclosures(_) => None,
+        }
+    }
 }
 
 impl std::fmt::Display for Engine {

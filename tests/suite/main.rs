@@ -4,6 +4,8 @@
 #![allow(clippy::approx_constant, clippy::expect_used, clippy::panic, clippy::unwrap_used, clippy::useless_conversion)]
 
 #[cfg(feature = "mp")]
+mod asked_times;
+#[cfg(feature = "mp")]
 mod certified_first_contact;
 #[cfg(feature = "mp")]
 mod certified_undamped;
@@ -66,6 +68,7 @@ mod peers;
 mod pictures;
 mod problem_builder;
 mod rates;
+mod referee;
 #[cfg(all(feature = "cli", feature = "mp"))]
 mod reference;
 #[cfg(feature = "mp")]

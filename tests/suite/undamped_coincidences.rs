@@ -139,3 +139,17 @@ fn a_time_that_is_no_number_is_refused() {
     }
     assert!(matches!(motion.at(f64::NAN, 1.0), Err(dalembert::Error::PointOutside { .. })));
 }
+
+/// An impact a part in 10¹³ after the end of the run is not in it.
+#[test]
+fn an_impact_beyond_the_end_is_none() {
+    let events = |height: &str| {
+        let text = format!(
+            "[rod]\nlength = 1\nwave_speed = 1\n[start]\ndisplacement = [[0, \"{height}\"], [1, \"{height}\"]]\n\
+             velocity = [[0, -0.7], [1, 4]]\n[gravity]\nacceleration = 1\n[run]\ntime = 4\n"
+        );
+        Scene::parse(&text).unwrap().problem.solve().unwrap().events().len()
+    };
+    // v(0,4) = d + 4 · 1.65 − 8 = d − 1.4.
+    assert_eq!(["1.4000000000001", "1.4", "1.3999999999999"].map(events), [0, 1, 1]);
+}

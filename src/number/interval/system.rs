@@ -7,7 +7,7 @@ use rug::float::{Constant, Round};
 use rug::{Assign, Float, Rational};
 
 use super::super::float::{down, up};
-use super::super::fraction::spelled;
+use super::super::fraction::spelled_as;
 use super::super::radical::Radical;
 use super::super::{Analytic, Answer, Bounded, Estimate, Number, Open, Reads, Scalar, show};
 use super::{Inside, Interval, IntervalPrecision};
@@ -336,7 +336,7 @@ impl Reads<Interval> for Estimate<f64> {
     }
 
     fn give(&self, precision: &IntervalPrecision) -> Interval {
-        match spelled(*self.value()) {
+        match spelled_as(*self.value(), self.spelled_as()) {
             Some(number) => Interval::from_number(&number, precision),
             None => Interval::rational(&Rational::from_f64(*self.value()).unwrap_or_default(), *precision),
         }

@@ -29,6 +29,24 @@ const STEEL_DROPPED: Rod = Rod::of(
      [impact]\ndrop_height = 1\n[gravity]\nacceleration = 9.81\n[run]\nimpacts = 10\n",
 );
 
+/// Touches the ground for 3e-7 of a round trip.
+const TOUCHING: Rod = Rod::of(
+    "[rod]\nlength = 1\nwave_speed = 1\ndamping = 0.3\n\
+     [start]\ndisplacement = [[0, \"0.1522081713484600025305355\"], [1, \"0.1522081713484600025305355\"]]\n\
+     velocity = [[0, -1], [1, 2.5]]\n[gravity]\nacceleration = 0.5\n[run]\ntime = 1\n",
+);
+/// Leaves it for 2e-7 of a round trip.
+const GRAZING: Rod = Rod::of(
+    "[rod]\nlength = 1\nwave_speed = 1\ntop = \"fixed\"\ndamping = 4\n\
+     [start]\ndisplacement = [[0, 0], [1, \"-0.3\"]]\n\
+     velocity = [[0, 0], [\"0.9\", \"2.388476579223269313178295800\"], [1, 0]]\n\
+     [gravity]\nacceleration = 0.1\n[run]\ntime = 0.8\n",
+);
+const STEEL_GRAZING: Rod = Rod::of(
+    "[rod]\nmodulus = 210e9\ndensity = 7850\nlength = 1\ndamping = 20\n\
+     [impact]\nspeed = \"0.0065539298493806059740412997\"\n[gravity]\nacceleration = 9.81\n[run]\nimpacts = 4\n",
+);
+
 const HOPPING: Rod = Rod { length: "1.1", wave_speed: "2.3", gravity: "0.8", ..unit("0.35", "20").until("37") };
 
 const MET: Rod = Rod { length: "3/5", wave_speed: "4/5", gravity: "5/2", ..unit("0", "3/8") };
@@ -190,6 +208,16 @@ pub(super) const HOPS: Group = group("hops", "Stiff rods and hop after hop",
         ask("impact", HOPPING, Impact, "34.06779612803115148662209116245653308720", HOP).at("34.0678"),
         ask("release", HOPPING, Release, "35.98083960525843926317249301870682548185", HOP).at("35.98"),
         ask("landing 1e-9 later", HOPPING, Impact, "35.98083960631523790340770036395370974312", HOP).at("35.98"),
+    ]),
+    hard("touch-3e-7", "theory", "L = c = 1, r = 0.3, g = 0.5, from a height at which the end just touches the ground", &[
+        ask("impact", TOUCHING, Impact, "0.3199827807688697935886756536602740659665", HOP).at("0.31998"),
+        ask("release", TOUCHING, Release, "0.3199830535935373588287297884058403682920", HOP).at("0.31998"),
+    ]),
+    hard("graze-4e-7", "theory", "L = c = 1, r = 4, g = 0.1, top held, from a strain that just lets go of the ground", &[
+        ask("release", GRAZING, Release, "0.5661538704537182854599808048158481366283", HOP).at("0.56615"),
+        ask("impact", GRAZING, Impact, "0.5661542230544449026512609177437484900435", HOP).at("0.56615"),
+        ask("last release of a steel rod", STEEL_GRAZING, Release, "0.004769822210408391877154892503847012550775",
+            HOP).at("0.00477"),
     ]),
     hard("smooth-release", "(2.28), Theorem 1", "rods that leave the ground at a root of the stress", &[
         ask("shortest piece of v_x(0,·) to t = 1.9, r = 2.6, g = 0", late("2.6").until("1.9"), ShortestPiece,

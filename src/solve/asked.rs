@@ -1,0 +1,378 @@
+//! Times that are asked for next to an event or a ray: each stands for exactly what it spells.
+//!
+//! A time that is not told from that of an event or of a displaced ray within both bounds lies before it, on it or after
+//! it. It is asked of longer runs, which are made for such times alone and kept; where none of them tells, the answer
+//! covers both sides. All other times are answered as if there were none of this.
+
+use std::sync::{Arc, Mutex, OnceLock, PoisonError};
+
+use super::ladder::Engined;
+use super::plan::Rung;
+use crate::error::Error;
+use crate::motion::moments::Moments;
+use crate::motion::{Contact, Course, Ending, Event, Field, Motion, Pair, Ray, RayRegister, Scales, Side};
+use crate::motion::{StressPiece, Stretch, Waves};
+use crate::number::{Answer, Estimate, Rational, Rounded, Scalar, Spelling, spelled_as};
+use crate::problem::{Material, Problem, Start};
+use crate::reason::Warning;
+
+/// Where a motion has rays: those of the start, and those of events that are off in time.
+#[derive(Debug)]
+pub(super) struct Windows<N> {
+    start: RayRegister<N>,
+    displaced: RayRegister<N>,
+}
+
+/// A ray that is off by no more roundings than these is where it is meant to be.
+const ROUNDED: f64 = 64.0;
+/// A time that was computed meets an event or a ray that no more roundings than these set apart.
+const COMPUTED: f64 = 8.0;
+
+impl<N: Scalar> Windows<N> {
+    pub(super) fn of(motion: &dyn Motion<N>) -> Self {
+        let [start, displaced] = RayRegister::parted(motion, ROUNDED);
+        Windows { start, displaced }
+    }
+
+    /// When displaced rays are at `point` that `time` is not told from.
+    pub(super) fn displaced(&self, point: &N, time: &N) -> Vec<N> {
+        self.displaced.near(point, time)
+    }
+
+    /// The same of all rays.
+    pub(super) fn all(&self, point: &N, time: &N) -> Vec<N> {
+        let mut near = self.displaced(point, time);
+        near.extend(self.start.near(point, time));
+        near
+    }
+}
+
+/// Where rays of the start are, in fractions.
+struct StartRays {
+    /// `2L`.
+    trip: Rational,
+    /// `None` where it is none: then no fraction is the time of such a ray.
+    wave_speed: Option<Rational>,
+    corners: Vec<Rational>,
+}
+
+impl StartRays {
+    fn of(problem: &Problem) -> Self {
+        let length = problem.rod.length.to_rational();
+        let mut corners = vec![length.zero(), length.clone()];
+        if let Start::Profile(profile) = &problem.start {
+            corners.extend(profile.displacement.iter().chain(&profile.velocity).map(|(x, _)| x.to_rational()));
+        }
+        let wave_speed = match &problem.rod.material {
+            Material::WaveSpeed(speed) => Some(speed.to_rational()),
+            Material::Elastic { modulus, density, .. } => (modulus.to_rational() / density.to_rational()).try_sqrt(),
+        };
+        StartRays { trip: length.clone() + length, wave_speed, corners }
+    }
+
+    /// Whether a ray of the start is at a point at the very time that `time` spells.
+    fn meet<S: Rounded>(&self, point: &Estimate<S>, time: &Estimate<S>) -> bool {
+        let exactly = |x: &Estimate<S>| Some(spelled_as(x.as_double()?, x.spelled_as())?.to_rational());
+        let (Some(point), Some(time), Some(wave_speed)) = (exactly(point), exactly(time), &self.wave_speed) else {
+            return false;
+        };
+        let way = time * wave_speed;
+        let whole = |x: Rational| {
+            let trips = x / &self.trip;
+            trips.floor_int().is_some_and(|whole| trips == trips.int(whole))
+        };
+        self.corners.iter().any(|corner| {
+            let [up, down] = [way.clone() - &point, way.clone() + &point];
+            [up.clone() - corner, up + corner, down.clone() - corner, down + corner].into_iter().any(whole)
+        })
+    }
+}
+
+const NOT_TOLD: &str = "on which side of an event or a ray a time lies";
+
+/// What such a question ends with where a longer run is to be asked.
+pub(super) fn not_told(bits: Option<u32>) -> Error {
+    Error::not_decided(NOT_TOLD, bits)
+}
+
+/// The longer runs that such times are asked of, one after the other, and how they are made.
+pub(super) struct Longer<S: Answer> {
+    pub(super) rungs: Vec<Rung>,
+    /// Through how many contacts fractions are tried.
+    pub(super) exact_contacts: u32,
+    pub(super) run: Box<dyn Fn(Rung) -> Result<Engined<S>, Error> + Send + Sync>,
+}
+
+/// What is done with a time that an engine does not tell.
+pub(super) enum Open<S: Answer> {
+    /// Longer runs are asked, and if none tells it, the answer covers both sides.
+    Ask(Longer<S>),
+    /// The same of an engine that says by itself where it does not tell a time: one in another number system.
+    Says(Longer<S>),
+    /// This is the answer to one that was spelled; computed ones stand for the event or the ray.
+    Refuse(Error),
+}
+
+/// An engine with what is done with times that it does not tell.
+pub(super) struct Telling<S: Rounded + Answer<Carried = Estimate<S>>> {
+    engine: Engined<S>,
+    windows: OnceLock<Windows<Estimate<S>>>,
+    start: StartRays,
+    open: Open<S>,
+    made: Mutex<Vec<(Rung, Option<Engined<S>>)>>,
+    covered: Mutex<Vec<f64>>,
+}
+
+impl<S: Rounded + Answer<Carried = Estimate<S>>> Telling<S> {
+    pub(super) fn of(engine: Engined<S>, problem: &Problem, open: Open<S>) -> Engined<S> {
+        let (windows, made, covered) = (OnceLock::new(), Mutex::default(), Mutex::default());
+        Arc::new(Telling { engine, windows, start: StartRays::of(problem), open, made, covered })
+    }
+
+    fn windows(&self) -> &Windows<Estimate<S>> {
+        self.windows.get_or_init(|| Windows::of(&*self.engine))
+    }
+
+    /// The times at `point` that `time` is not told from.
+    fn near(&self, point: &Estimate<S>, time: &Estimate<S>) -> Vec<Estimate<S>> {
+        let (windows, refuses) = (self.windows(), matches!(self.open, Open::Refuse(_)));
+        match time.spelled_as() {
+            None if refuses => return Vec::new(),
+            None => {}
+            // Long numbers have no shortest decimal.
+            Some(_) if refuses => return windows.displaced(point, time),
+            Some(spelling) => {
+                let near = windows.all(point, time);
+                let met = spelling != Spelling::Near && !near.is_empty() && self.start.meet(point, time);
+                return if met { windows.displaced(point, time) } else { near };
+            }
+        }
+        let mut near = windows.displaced(point, time);
+        let roundings = COMPUTED * time.value().unit() * time.to_f64().abs();
+        let apart = |met: &Estimate<S>| (met.value().clone() - time.value()).to_f64().abs();
+        if near.iter().any(|met| apart(met) <= roundings) {
+            near.clear();
+        }
+        near
+    }
+
+    /// A longer run, which is made when it is asked for first.
+    fn made(&self, longer: &Longer<S>, rung: Rung) -> Option<Engined<S>> {
+        let mut made = self.made.lock().unwrap_or_else(PoisonError::into_inner);
+        if let Some((_, run)) = made.iter().find(|(known, _)| *known == rung) {
+            return run.clone();
+        }
+        let run = (longer.run)(rung).ok();
+        made.push((rung, run.clone()));
+        run
+    }
+
+    /// What `ask` says at a time, of a longer run where this one does not tell it; otherwise all that may be meant, put
+    /// together by `cover`.
+    fn answer<T>(
+        &self,
+        point: &Estimate<S>,
+        time: &Estimate<S>,
+        side: Side,
+        ask: impl Fn(&dyn Motion<Estimate<S>>, &Estimate<S>, Side) -> Result<T, Error>,
+        cover: impl Fn(T, &T) -> T,
+    ) -> Result<T, Error> {
+        let longer = match &self.open {
+            Open::Says(longer) => match ask(&*self.engine, time, side) {
+                Err(Error::NotDecided { what: NOT_TOLD, .. }) => longer,
+                found => return found,
+            },
+            _ if self.near(point, time).is_empty() => return ask(&*self.engine, time, side),
+            Open::Ask(longer) => longer,
+            Open::Refuse(error) => return Err(error.clone()),
+        };
+        for rung in &longer.rungs {
+            // Fractions take a double for the number that it spells.
+            let many = || self.engine.digits_lost().is_some_and(|(contacts, _)| contacts > longer.exact_contacts);
+            if *rung == Rung::Fractions && (time.spelled_as() == Some(Spelling::Near) || many()) {
+                continue;
+            }
+            if let Some(Ok(found)) = self.made(longer, *rung).map(|run| ask(&*run, time, side)) {
+                return Ok(found);
+            }
+        }
+        let mut met = self.windows().all(point, time);
+        if met.is_empty() {
+            met.push(time.clone());
+        }
+        self.covered.lock().unwrap_or_else(PoisonError::into_inner).push(time.to_f64());
+        let mut found: Option<T> = None;
+        for met in met {
+            let late = met.double(met.bound() + time.bound());
+            let exactly = |time: Estimate<S>| Estimate::exact(time.into_value());
+            let [before, after] = [exactly(met.clone() - &late), exactly(met.clone() + &late)];
+            for (time, side) in [(&before, Side::Left), (&met, Side::Left), (&met, Side::Right), (&after, Side::Right)]
+            {
+                match ask(&*self.engine, time, side) {
+                    Ok(other) => {
+                        found = Some(match found {
+                            Some(found) => cover(found, &other),
+                            None => other,
+                        });
+                    }
+                    // Beyond the end there is nothing to be covered.
+                    Err(Error::TimeOutside { .. } | Error::NotDecided { .. }) => {}
+                    Err(error) => return Err(error),
+                }
+            }
+        }
+        found.map_or_else(|| ask(&*self.engine, time, side), Ok)
+    }
+}
+
+/// The number that covers both, within their bounds.
+fn hull<S: Rounded>(a: Estimate<S>, b: &Estimate<S>) -> Estimate<S> {
+    let apart = b.value().clone() - a.value();
+    let far = apart.in_roundoffs() + apart.to_f64().abs();
+    let to = if apart.is_negative() { -far } else { far };
+    let (low, high) = ((-a.error()).min(to - b.error()), a.error().max(to + b.error()));
+    if (low, high) == (-a.error(), a.error()) || !(high - low).is_finite() {
+        return Estimate::new(a.value().clone(), high.max(-low));
+    }
+    let step = apart.double((low + high) / 2.0) * &apart.roundoff();
+    let middle = a.value().clone() + &step;
+    // The step and the sum are rounded, and so is half of what lies between both ends.
+    let rounding = 4.0 * (middle.to_f64().abs() + step.to_f64().abs());
+    Estimate::new(middle, (high - low) / 2.0 + rounding)
+}
+
+impl<S: Rounded + Answer<Carried = Estimate<S>>> std::fmt::Debug for Telling<S> {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        self.engine.fmt(f)
+    }
+}
+
+impl<S: Rounded + Answer<Carried = Estimate<S>>> Motion<Estimate<S>> for Telling<S> {
+    fn strain(&self, time: &Estimate<S>, side: Side) -> Result<Estimate<S>, Error> {
+        self.answer(&time.zero(), time, side, |engine, time, side| engine.strain(time, side), hull)
+    }
+
+    fn pair(&self, pair: Pair, time: &Estimate<S>, side: Side) -> Result<[Estimate<S>; 2], Error> {
+        if pair != Pair::GroundEnd {
+            return self.engine.pair(pair, time, side);
+        }
+        let ask = |engine: &dyn Motion<_>, time: &_, side| engine.pair(pair, time, side);
+        self.answer(&time.zero(), time, side, ask, |[a, b], [c, d]| [hull(a, c), hull(b, d)])
+    }
+
+    fn in_contact(&self, time: &Estimate<S>, side: Side) -> Result<Estimate<S>, Error> {
+        let cover = |found: Estimate<S>, other: &Estimate<S>| {
+            // On the ground or off it: a number between both is neither.
+            let apart = (other.value().clone() - found.value()).in_roundoffs();
+            Estimate::new(found.value().clone(), found.error().max(apart))
+        };
+        self.answer(&time.zero(), time, side, |engine, time, side| engine.in_contact(time, side), cover)
+    }
+
+    fn field(&self, point: &Estimate<S>, time: &Estimate<S>, side: Side) -> Result<Field<Estimate<S>>, Error> {
+        let ask = |engine: &dyn Motion<_>, time: &_, side| engine.field(point, time, side);
+        let cover = |found: Field<Estimate<S>>, other: &Field<Estimate<S>>| Field {
+            displacement: hull(found.displacement, &other.displacement),
+            velocity: hull(found.velocity, &other.velocity),
+            strain: hull(found.strain, &other.strain),
+        };
+        self.answer(point, time, side, ask, cover)
+    }
+
+    fn may_jump(&self, time: &Estimate<S>) -> Result<bool, Error> {
+        let [ground, top] = [time.zero(), self.engine.scales().length];
+        if matches!(self.open, Open::Says(_)) {
+            return Ok(self.engine.may_jump(time).unwrap_or(true));
+        }
+        let near = [ground, top].iter().any(|point| !self.near(point, time).is_empty());
+        if near { Ok(true) } else { self.engine.may_jump(time) }
+    }
+
+    fn covered(&self) -> Option<(Vec<f64>, &dyn Motion<Estimate<S>>)> {
+        let covered = self.covered.lock().unwrap_or_else(PoisonError::into_inner);
+        (!covered.is_empty()).then(|| (covered.clone(), &*self.engine))
+    }
+
+    fn course(&self) -> &Course<Estimate<S>> {
+        self.engine.course()
+    }
+    fn scales(&self) -> Scales<Estimate<S>> {
+        self.engine.scales()
+    }
+    fn stress_pieces(&self) -> Vec<StressPiece<Estimate<S>>> {
+        self.engine.stress_pieces()
+    }
+    fn end(&self) -> Estimate<S> {
+        self.engine.end()
+    }
+    fn ending(&self) -> &Ending {
+        self.engine.ending()
+    }
+    fn events(&self) -> &[Event<Estimate<S>>] {
+        self.engine.events()
+    }
+    fn contacts(&self) -> &[Contact<Estimate<S>>] {
+        self.engine.contacts()
+    }
+    fn contact_times(&self, contact: usize) -> Option<(Estimate<S>, Option<Estimate<S>>)> {
+        self.engine.contact_times(contact)
+    }
+    fn impulse(&self, contact: usize) -> Option<Estimate<S>> {
+        self.engine.impulse(contact)
+    }
+    fn warnings(&self) -> &[Warning] {
+        self.engine.warnings()
+    }
+    fn centre(&self, time: &Estimate<S>) -> Result<(Estimate<S>, Estimate<S>), Error> {
+        self.engine.centre(time)
+    }
+    fn rates(&self, points: &[Estimate<S>], times: &[Estimate<S>]) -> Result<Vec<[Estimate<S>; 2]>, Error> {
+        self.engine.rates(points, times)
+    }
+    fn highest(&self, release: usize) -> Option<(Estimate<S>, Estimate<S>)> {
+        self.engine.highest(release)
+    }
+    fn rays(&self, trip: usize) -> Result<Vec<Ray<Estimate<S>>>, Error> {
+        self.engine.rays(trip)
+    }
+    fn stretches(&self, time: &Estimate<S>) -> Result<Vec<Stretch<Estimate<S>>>, Error> {
+        self.engine.stretches(time)
+    }
+    fn corners(&self) -> Vec<Estimate<S>> {
+        self.engine.corners()
+    }
+    fn moments(&self, time: &Estimate<S>, points: &[Estimate<S>]) -> Result<Vec<Moments<Estimate<S>>>, Error> {
+        self.engine.moments(time, points)
+    }
+    fn waves(&self) -> Result<Waves<Estimate<S>>, Error> {
+        self.engine.waves()
+    }
+    fn error_estimate(&self) -> Estimate<S> {
+        self.engine.error_estimate()
+    }
+    fn digits_lost(&self) -> Option<(u32, f64)> {
+        self.engine.digits_lost()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_hull_covers_both_and_little_more() {
+        let at = |value: f64, bound: f64| Estimate::new(value, bound / value.unit());
+        for (a, b, low, high) in [
+            (at(0.0, 0.0), at(-0.63, 0.0), -0.63, 0.0),
+            (at(1.0, 0.25), at(2.0, 0.5), 0.75, 2.5),
+            (at(1.0, 2.0), at(1.5, 0.5), -1.0, 3.0),
+            (at(1.5, 0.5), at(1.0, 2.0), -1.0, 3.0),
+        ] {
+            let all = hull(a, &b);
+            let (least, most) = (all.value() - all.bound(), all.value() + all.bound());
+            assert!(least <= low && most >= high, "{least} {most}");
+            assert!(least > low - 1e-14 && most < high + 1e-14, "{least} {most}");
+        }
+        assert_eq!(hull(at(1.0, 0.0), &at(0.0, f64::INFINITY)).bound(), f64::INFINITY);
+    }
+}
