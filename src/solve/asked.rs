@@ -108,8 +108,10 @@ pub(super) enum Open<S: Answer> {
     /// Longer runs are asked, and if none tells it, the answer covers both sides.
     Ask(Longer<S>),
     /// The same of an engine that says by itself where it does not tell a time: one in another number system.
+    #[cfg_attr(not(feature = "mp"), expect(dead_code, reason = "longer numbers are not built in"))]
     Says(Longer<S>),
     /// This is the answer to one that was spelled; computed ones stand for the event or the ray.
+    #[cfg_attr(not(feature = "mp"), expect(dead_code, reason = "longer numbers are not built in"))]
     Refuse(Error),
 }
 
