@@ -17,7 +17,7 @@ from ._problem import Problem, Scene
 class Sweep:
     """Numbers of many problems, in arrays of one shape.
 
-    Attributes
+    Parameters
     ----------
     values : dict of str to ndarray
         Each quantity; NaN where there is none.

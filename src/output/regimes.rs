@@ -8,7 +8,8 @@ use super::dataset::{Column, Dataset};
 use super::writer::Npz;
 use crate::draw::{Axis, Key, Layer, Panel, Shape, Sheet, Size, Stroke};
 use crate::number::{Estimate, Number, Scalar, double_bound_text};
-use crate::sweep::{Map, Regime, threshold, threshold_near};
+use crate::sweep::{Map, PARTS, Regime, Spread, threshold, threshold_near};
+use crate::threads::Threads;
 
 /// Colours by `t_b/t₁`, each up to its number and with it.
 const BANDS: [(f64, &str, &str); 8] = [
@@ -96,27 +97,11 @@ pub(crate) fn regimes_npz(map: &Map) -> io::Result<Vec<u8>> {
     Ok(bytes.into_inner())
 }
 
-/// Whether the values of an axis are nearer to a geometric than to an arithmetic progression.
-fn is_log(values: &[Number]) -> bool {
-    let value = |k: usize| values.get(k).map_or(0.0, Number::to_f64);
-    let (first, middle, last) = (value(0), value(values.len() / 2), value(values.len().saturating_sub(1)));
-    let place = values.len() as f64 / 2.0 / (values.len() as f64 - 1.0).max(1.0);
-    first > 0.0 && last > 0.0 && {
-        let (straight, geometric) = (first + (last - first) * place, first * (last / first).powf(place));
-        (middle / geometric).ln().abs() < (middle / straight).ln().abs()
-    }
-}
-
-/// The axis of some values and the borders between them: a value is the middle of its rectangle.
-fn axis(label: &str, values: &[Number]) -> (Axis, Vec<f64>) {
-    let log = is_log(values);
-    let scaled: Vec<f64> = values.iter().map(|x| if log { x.to_f64().ln() } else { x.to_f64() }).collect();
-    let last = scaled.len() - 1;
-    let half = (scaled[last] - scaled[0]) / (2.0 * last as f64);
-    let borders = (0..=scaled.len()).map(|k| scaled[0] + half * (2.0 * k as f64 - 1.0));
-    let borders: Vec<f64> = borders.map(|x| if log { x.exp() } else { x }).collect();
-    let ends = [borders[0], borders[scaled.len()]];
-    (if log { Axis::log(label, ends) } else { Axis::new(label, "", ends) }, borders)
+/// The axis of some values and where its parts begin and end: a value is the middle of its part.
+fn axis(label: &str, values: &[Number]) -> (Axis, Spread) {
+    let spread = Spread::of(values);
+    let ends = [0.0, values.len() as f64].map(|steps| spread.border(steps));
+    (if spread.log { Axis::log(label, ends) } else { Axis::new(label, "", ends) }, spread)
 }
 
 /// The map: a rectangle for each run of points of one colour, the threshold and `R = π` as lines.
@@ -124,16 +109,32 @@ pub(crate) fn regimes_panel(map: &Map) -> Panel {
     let ((x, across), (y, up)) = (axis("R = r t₁", &map.damping), axis("M = μ/(g t₁)", &map.speed));
     let undecided = map.regimes.contains(&Regime::Undecided).then_some(UNDECIDED);
     let bands = || BANDS.iter().map(|band| (band.1, band.2)).chain([NEVER]).chain(undecided);
-    let mut runs: Vec<(String, Vec<[DVec2; 2]>)> = bands().map(|(color, _)| (color.into(), Vec::new())).collect();
+    let corners = |[from, to]: [f64; 2], [low, high]: [f64; 2]| {
+        [DVec2::new(across.border(from), up.border(high)), DVec2::new(across.border(to), up.border(low))]
+    };
+    let mut runs: Vec<(&str, [DVec2; 2])> = Vec::new();
     for (row, regimes) in map.regimes.chunks(map.damping.len()).enumerate() {
-        let mut start = 0;
+        let (mut start, row) = (0, row as f64);
         for run in regimes.chunk_by(|a, b| color(*a) == color(*b)) {
             let end = start + run.len();
-            let corners = [DVec2::new(across[start], up[row + 1]), DVec2::new(across[end], up[row])];
-            runs.iter_mut().filter(|known| known.0 == color(run[0])).for_each(|known| known.1.push(corners));
+            runs.push((color(run[0]), corners([start as f64, end as f64], [row, row + 1.0])));
             start = end;
         }
     }
+    // Over them what at the edges has another colour than its point.
+    let part = |k: usize| k as f64 / PARTS as f64;
+    let mut edges: Vec<(&str, [DVec2; 2])> = Vec::new();
+    for (k, regimes) in map.edges(color, Threads::default()) {
+        let (row, column) = ((k / map.damping.len()) as f64, (k % map.damping.len()) as f64);
+        for (j, regime) in regimes.iter().enumerate().filter(|(_, regime)| color(**regime) != color(map.regimes[k])) {
+            let (x, y) = (column + part(j % PARTS), row + part(j / PARTS));
+            edges.push((color(*regime), corners([x, x + part(1)], [y, y + part(1)])));
+        }
+    }
+    let by_color = |rectangles: Vec<(&'static str, [DVec2; 2])>| {
+        let of = |color: &str| rectangles.iter().filter(|found| found.0 == color).map(|found| found.1).collect();
+        Shape::Runs(bands().map(|(color, _)| (color.to_string(), of(color))).collect())
+    };
     // Closer and closer to I₀(R) = 2, where it is infinite.
     let (mut below, mut above) = (1.8, 1.81);
     for _ in 0..60 {
@@ -146,7 +147,8 @@ pub(crate) fn regimes_panel(map: &Map) -> Panel {
     // Apart from every colour of the map, and from paper.
     let (solid, dashed) = (Stroke::new("#ff5a1f", 0.6), Stroke::new("#000000", 0.25).dashed("1.8 1.2"));
     let layers = vec![
-        Layer::new("cells", Shape::Runs(runs)),
+        Layer::new("cells", by_color(runs)),
+        Layer::new("cells", by_color(edges)),
         Layer::new("threshold", Shape::Lines(vec![curve], solid)),
         Layer::new("curve", Shape::Lines(vec![pi], dashed)),
     ];

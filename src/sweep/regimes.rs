@@ -4,7 +4,7 @@ use super::grid::{Axis, Grid, SweepError, values};
 use crate::first_contact::{Bounce, FirstContact, Kernels};
 use crate::motion::{Ending, Motion};
 use crate::number::{Analytic, Estimate, Number, Scalar};
-use crate::problem::written::short;
+use crate::problem::written::{Written, short};
 use crate::problem::{Parameters, Problem, Speed, Start};
 use crate::solve::{Engine, Numbers, Plan, Question, Rung};
 use crate::special::{i0_scaled, i1_scaled};
@@ -32,7 +32,7 @@ pub(crate) struct Map {
 impl Map {
     /// The map for the ranges `damping` of R and `speed` of M, as [`Axis`] has them; `done` is called after each point.
     ///
-    /// **Source**: a rod with `c = g = t₁ = 1` has `R = r` and `M = μ`.
+    /// **Source**: a rod with `t₁ = g = 1` has `R = r` and `M = μ`.
     ///
     /// **Accuracy**: within [`DEFAULT_ACCURACY`](crate::DEFAULT_ACCURACY); the same for any number of threads.
     ///
@@ -43,8 +43,7 @@ impl Map {
         threads: Threads,
         done: &(dyn Fn() + Sync),
     ) -> Result<Self, SweepError> {
-        let half: Number = "1/2".parse().map_err(|_| SweepError::new("1/2", "a number"))?;
-        let rod = Problem::uniform(half, 1.into(), 1.into(), 1.into());
+        let rod = unit_rod();
         let axis = |path, text| Ok::<_, SweepError>(Axis { path, values: values(text)? });
         let grid = Grid::new(rod.clone(), vec![axis("impact.speed", speed)?, axis("rod.damping", damping)?])?;
         // Before any point is solved.
@@ -71,6 +70,83 @@ impl Map {
         let at = |k: usize| columns[k % dampings.len() * speeds.len() + k / dampings.len()];
         Ok(Map { regimes: (0..columns.len()).map(at).collect(), damping: dampings, speed: speeds })
     }
+
+    /// The rectangles about points that are not of the class of a neighbour: the index of the point, and the regimes in
+    /// [`PARTS`] × [`PARTS`] parts of its rectangle, `M` by rows.
+    pub(crate) fn edges<C: PartialEq + Sync>(
+        &self,
+        class: impl Fn(Regime) -> C,
+        threads: Threads,
+    ) -> Vec<(usize, Vec<Regime>)> {
+        let (across, rod) = (self.damping.len(), unit_rod());
+        let kinds: Vec<C> = self.regimes.iter().map(|regime| class(*regime)).collect();
+        let differs = |k: usize| {
+            let (row, column) = (k / across, k % across);
+            let beside = [(column > 0).then(|| k - 1), (column + 1 < across).then(|| k + 1)];
+            let above = [(row > 0).then(|| k - across), (row + 1 < self.speed.len()).then(|| k + across)];
+            beside.into_iter().chain(above).flatten().any(|other| kinds[other] != kinds[k])
+        };
+        let (dampings, speeds) = (Spread::of(&self.damping), Spread::of(&self.speed));
+        // All parts of a column share their kernels, as far as they have one damping.
+        let columns = threads.all(across, |column| {
+            let edge = (0..self.speed.len()).map(|row| row * across + column).filter(|k| differs(*k));
+            let mut found: Vec<(usize, Vec<Regime>)> =
+                edge.map(|k| (k, vec![Regime::Undecided; PARTS * PARTS])).collect();
+            for part in 0..PARTS {
+                let (damping, kernels) = (dampings.inside(column, part), Kernels::default());
+                for (k, regimes) in &mut found {
+                    for row in 0..PARTS {
+                        let speed = speeds.inside(*k / across, row);
+                        regimes[row * PARTS + part] = regime(&rod, &damping, &speed, &kernels);
+                    }
+                }
+            }
+            Ok::<_, std::convert::Infallible>(found)
+        });
+        columns.unwrap_or_default().concat()
+    }
+}
+
+/// Parts of a rectangle in a picture, along either axis.
+pub(crate) const PARTS: usize = 4;
+
+/// Values of an axis as middles of equal parts of it, in themselves or in their logarithms.
+pub(crate) struct Spread {
+    pub(crate) log: bool,
+    first: f64,
+    step: f64,
+}
+
+impl Spread {
+    pub(crate) fn of(values: &[Number]) -> Self {
+        let value = |k: usize| values.get(k).map_or(0.0, Number::to_f64);
+        let last = values.len().saturating_sub(1);
+        let (from, middle, to) = (value(0), value(values.len() / 2), value(last));
+        let place = (values.len() / 2) as f64 / last.max(1) as f64;
+        let log = from > 0.0 && to > 0.0 && {
+            let (straight, geometric) = (from + (to - from) * place, from * (to / from).powf(place));
+            (middle / geometric).ln().abs() < (middle / straight).ln().abs()
+        };
+        let [from, to] = [from, to].map(|end| if log { end.ln() } else { end });
+        Spread { log, first: from, step: (to - from) / last.max(1) as f64 }
+    }
+
+    /// What lies so many steps beyond the lower border of the first part.
+    pub(crate) fn border(&self, steps: f64) -> f64 {
+        let place = self.first + self.step * (steps - 0.5);
+        if self.log { place.exp() } else { place }
+    }
+
+    /// The middle of a part of the rectangle of a value; zero where that would be below zero.
+    fn inside(&self, k: usize, part: usize) -> Number {
+        let value = self.border(k as f64 + (part as f64 + 0.5) / PARTS as f64).max(0.0);
+        Written::from(value).number().cloned().unwrap_or_else(|_| 0.into())
+    }
+}
+
+/// The rod with `t₁ = g = 1`.
+fn unit_rod() -> Problem {
+    Problem::uniform(1.into(), 2.into(), 1.into(), 1.into())
 }
 
 /// Speeds of one damping that share its kernels.
