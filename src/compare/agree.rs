@@ -9,7 +9,8 @@ use super::norms::{Compared, Grid, norms};
 use super::ours::Ours;
 use super::samples::Samples;
 use super::touch::{Touch, matched, touches};
-use super::verdict::{Known, Verdict, spread, verdicts};
+use super::unfitted::spread;
+use super::verdict::{Known, ToldFrom, Verdict, verdicts};
 use crate::error::Error;
 use crate::problem::{Problem, Top};
 use crate::quantity::{Quantity, Rays};
@@ -25,6 +26,8 @@ pub(crate) struct Agreement {
     pub(crate) audit: Audit,
     pub(crate) coverage: Coverage,
     pub(crate) hints: Vec<Verdict>,
+    /// From what value on a number that is wrong would be said, where none is.
+    pub(crate) told_from: Vec<ToldFrom>,
     /// Over how long a time the fronts are spread.
     pub(crate) spread: Option<f64>,
     /// The median step of the samples.
@@ -117,6 +120,7 @@ impl Agreement {
             audit: Audit::default(),
             coverage: Coverage::default(),
             hints: Vec::new(),
+            told_from: Vec::new(),
             spread: None,
             step,
             window,
@@ -131,7 +135,8 @@ impl Agreement {
                 let contacts = [agreement.audit.missed, agreement.audit.invented];
                 let (grid, columns) = (&agreement.grid, agreement.quantities.as_slice());
                 let known = Known { problem, history, grid, columns, step, contacts };
-                agreement.hints = verdicts(&known, |what| ours.force_per(what), |what| ours.factors(what))?;
+                let judged = verdicts(&known, |what| ours.force_per(what), |what| ours.factors(what))?;
+                (agreement.hints, agreement.told_from) = (judged.said, judged.told_from);
                 agreement.spread = spread(history, grid, columns)?.filter(|width| *width > step);
             }
         }

@@ -16,7 +16,9 @@ mod ours;
 mod report;
 mod samples;
 mod touch;
+mod unfitted;
 mod verdict;
+mod wording;
 
 pub use crate::problem::Parameter;
 pub use comparison::{CompareError, ComparedFile, Comparison, Options, Prepared};

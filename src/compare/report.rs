@@ -9,6 +9,7 @@ use super::fit::{Fit, FittedValue};
 use super::limit::Order;
 use super::norms::{Compared, Greatest, Norm};
 use super::touch::Touch;
+use super::verdict::ToldFrom;
 use crate::aligned::table;
 use crate::number::Scalar;
 use crate::quantity::{Quantity, Rays, Units};
@@ -40,6 +41,8 @@ not covered         times of the run without samples
 hint                one number that explains most of what differs in all that it concerns, up to the
                     second impact, with its standard error
 no hint             no such number; spread: the width of a ramp that is as far from a jump as theirs
+one would be told   the sizes from which on a wrong number stands out of what differs, and is found
+                    within a fifth
 ";
 
 fn number(x: f64) -> String {
@@ -106,11 +109,22 @@ fn file_table(compared: &ComparedFile, title: Option<&str>, units: &Units) -> St
             out += &format!("; the fronts are spread over {} ({steps:.1} steps), as by dispersion", width.decimal(3));
         }
         out.push('\n');
+        out += &told_line(&agreement.told_from);
     }
     if let Some((fit, then)) = &compared.fit {
         out += &format!("\n{}\n", fit_table(fit, agreement, then));
     }
     out
+}
+
+/// From what size on a wrong number would have been said, of those that are about all columns.
+fn told_line(told_from: &[ToldFrom]) -> String {
+    let one = |told: &ToldFrom| match told.kind {
+        kind @ "time_shift" => format!("{kind} {}", told.value.decimal(2)),
+        kind => format!("{kind} {} %", (100.0 * told.value).decimal(2)),
+    };
+    let all: Vec<String> = told_from.iter().filter(|told| told.quantity == "all").map(one).collect();
+    if all.is_empty() { String::new() } else { format!("one would be told from: {}\n", all.join(", ")) }
 }
 
 /// What was fitted, what remains of each column, and how the contacts then agree.
@@ -310,6 +324,7 @@ fn file_json(compared: &ComparedFile, units: &Units) -> serde_json::Map<String, 
         "contacts": contacts.collect::<Vec<_>>(),
         "audit": agreement.audit,
         "hints": agreement.hints,
+        "told_from": agreement.told_from,
         "spread": agreement.spread,
         "fit": compared.fit.as_ref().map(|(fit, then)| fit_json(fit, then)),
     });

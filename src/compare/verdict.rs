@@ -23,11 +23,10 @@ use serde::Serialize;
 
 use super::model::{Model, Signal};
 use super::norms::{Compared, Grid};
+use super::unfitted::{empty, gained, half_step, is_empty, lost_start};
 use crate::error::Error;
-use crate::motion::Side;
-use crate::number::Scalar;
 use crate::problem::{Parameter, Problem};
-use crate::quantity::{Measure, Quantity, Rays};
+use crate::quantity::{Measure, Quantity};
 use crate::solve::History;
 
 /// One number that is wrong.
@@ -45,9 +44,35 @@ pub(crate) struct Verdict {
     pub(crate) text: String,
 }
 
+/// From what value on a number that is wrong would be said.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub(crate) struct ToldFrom {
+    /// Which: `wave_speed`.
+    pub(crate) kind: &'static str,
+    /// The column that it is about; `all` where it is all of them.
+    pub(crate) quantity: &'static str,
+    /// The value: a share, a time, or an offset.
+    pub(crate) value: f64,
+}
+
+/// What is said of data.
+#[derive(Debug, Default)]
+pub(super) struct Judgement {
+    /// What is wrong.
+    pub(super) said: Vec<Verdict>,
+    /// Where no number is: from what value on each would have been said.
+    pub(super) told_from: Vec<ToldFrom>,
+}
+
+impl From<Vec<Verdict>> for Judgement {
+    fn from(said: Vec<Verdict>) -> Self {
+        Judgement { said, ..Judgement::default() }
+    }
+}
+
 /// A hypothesis, with one number `p` that is 0 where nothing is wrong.
 #[derive(Clone, Copy, Debug, PartialEq)]
-enum Hypothesis {
+pub(super) enum Hypothesis {
     /// A value of the scene is `1 + p` times what is given.
     Value(Parameter),
     /// The ends of the rod carry `p` times its mass.
@@ -75,35 +100,39 @@ const ALL: [(&str, Hypothesis); 8] = [
 ];
 
 /// At most so much of ‖e‖₂ is left by an explanation.
-const LEFT: f64 = 0.5;
+pub(super) const LEFT: f64 = 0.5;
+/// Up to so much of a value what it changes is taken for linear.
+const LINEAR: f64 = 0.2;
+/// What difference quotients are taken over.
+const WIDTH: f64 = 1e-4;
 /// A change of less than this share of a round trip is rounding.
 const NONE: f64 = 1e-9;
 /// A fit that leaves more of ‖e‖₂² after three steps is given up.
 const HOPELESS: f64 = 0.8;
 /// Steps of a fit.
 const STEPS: usize = 12;
-/// Where a fit starts besides at 0: nearly nothing of a value.
+/// Where a fit of what may have been left out, a speed or the weight, starts besides at 0: nearly nothing of it.
 const NOTHING: f64 = -0.999;
 /// A gravity that is known no better than this, in standard errors, may be none.
-const NO_GRAVITY: f64 = 0.009;
+pub(super) const NO_GRAVITY: f64 = 0.009;
 
 /// A hypothesis that was fitted.
 #[derive(Debug)]
-struct Fitted {
-    value: f64,
-    error: f64,
+pub(super) struct Fitted {
+    pub(super) value: f64,
+    pub(super) error: f64,
     /// ‖e‖₂² that is left over all signals.
     left: f64,
 }
 
 /// The signals, the misfit as it is, and where their parts begin.
-struct Judge<'a> {
-    model: Model<'a>,
+pub(super) struct Judge<'a> {
+    pub(super) model: Model<'a>,
     base: Vec<Vec<f64>>,
     exact: Vec<Vec<f64>>,
     /// Ends of the parts.
     ends: Vec<f64>,
-    trip: f64,
+    pub(super) trip: f64,
 }
 
 impl Judge<'_> {
@@ -171,38 +200,111 @@ impl Judge<'_> {
         errors.iter().map(|errors| self.product(errors, errors, None)).sum()
     }
 
-    /// The value that leaves the least, where the conditions at the head of this module hold.
-    fn fit(&self, hypothesis: Hypothesis) -> Option<Fitted> {
-        let errors = |p: f64| self.predict(hypothesis, p).map(|values| self.errors(&values));
-        let width = 1e-4;
-        let slopes = |p: f64, now: &[Vec<f64>]| -> Option<Vec<Vec<f64>>> {
-            let next = errors(p + width)?;
-            let slope = |(now, next): (&Vec<f64>, &Vec<f64>)| {
-                now.iter().zip(next).map(|(now, next)| (now - next) / width).collect()
-            };
-            Some(now.iter().zip(&next).map(slope).collect())
+    /// The derivatives of the errors by the number at `p`, where they are `now`.
+    fn slopes(&self, hypothesis: Hypothesis, p: f64, now: &[Vec<f64>]) -> Option<Vec<Vec<f64>>> {
+        let next = self.errors(&self.predict(hypothesis, p + WIDTH)?);
+        let slope = |(now, next): (&Vec<f64>, &Vec<f64>)| {
+            now.iter().zip(next).map(|(now, next)| (now - next) / WIDTH).collect()
         };
-        let (mut p, mut found) = (0.0, self.base.clone());
-        let slope = slopes(p, &found)?;
-        // What the number does not change does not count. Nor does the energy after the start: a scheme loses as much
-        // of it at an impact as one number would.
+        Some(now.iter().zip(&next).map(slope).collect())
+    }
+
+    /// What the number does not change does not count. Nor does the energy after the start: a scheme loses as much of
+    /// it at an impact as one number would.
+    fn concerned(&self, hypothesis: Hypothesis, slope: &[Vec<f64>]) -> Vec<bool> {
+        let by_itself = matches!(hypothesis, Hypothesis::Factor(_));
         let tells = |k: usize| {
-            let by_itself = matches!(hypothesis, Hypothesis::Factor(_));
             (by_itself || self.model.signals[k].what.measure() != Some(Measure::Energy))
                 && slope[k].iter().any(|d| d.abs() > NONE * self.trip)
         };
-        let concerned: Vec<bool> = (0..slope.len()).map(tells).collect();
+        (0..slope.len()).map(tells).collect()
+    }
+
+    /// From what value on each of `hypotheses` would be said of a run whose own errors are those of the data, its value
+    /// within a fifth.
+    ///
+    /// **Source**: a number p changes the signals by p s, the errors e being there besides. A fit finds p within
+    /// ‖e‖/‖s‖ and leaves at most ‖e‖: a fifth of p where p‖s‖ ≥ 5‖e‖, and of ‖e + p s‖ ≥ 4‖e‖ at most a quarter. In a
+    /// column or a part of one it is off by e/s there besides, at most p/4 + p/5 < p/2 where p‖s‖ ≥ 4‖e‖; then at most
+    /// (1 + 4/5)² of the (4 − 1)² are left, less than half. Another number, whose s has the angle θ to that, leaves at
+    /// least p‖s‖ sin θ − ‖e‖, which is more than ‖e‖ where p‖s‖ sin θ ≥ 2‖e‖. Some part up to the release must be
+    /// changed by a step, and a value is twice what a step resolves. Signals are linear in p up to about [`LINEAR`];
+    /// what is told from more is left out.
+    fn told_from(&self, hypotheses: &[(&'static str, Hypothesis)]) -> Vec<ToldFrom> {
+        let known = hypotheses
+            .iter()
+            .filter_map(|(kind, hypothesis)| Some((*kind, *hypothesis, self.slopes(*hypothesis, 0.0, &self.base)?)));
+        let known: Vec<_> = known.collect();
+        let told = |(kind, hypothesis, slope): &(&'static str, Hypothesis, Vec<Vec<f64>>)| {
+            let concerned = self.concerned(*hypothesis, slope);
+            let over = |a: &[Vec<f64>], b: &[Vec<f64>]| -> f64 {
+                (0..a.len()).filter(|j| concerned[*j]).map(|j| self.product(&a[j], &b[j], None)).sum()
+            };
+            let (own, errors) = (over(slope, slope), over(&self.base, &self.base));
+            let ratio = |factor: f64, own: f64, errors: f64| factor * (errors / own).sqrt();
+            let mut least = ratio(5.0, own, errors);
+            for (_, other, rival) in known.iter().filter(|(_, other, _)| other != hypothesis) {
+                let theirs = over(rival, rival);
+                let cosine = if theirs > 0.0 { over(slope, rival).powi(2) / (own * theirs) } else { 0.0 };
+                // A factor of a column is asked of that column alone.
+                if !matches!(other, Hypothesis::Factor(_) | Hypothesis::Origin(_)) {
+                    least = least.max(ratio(2.0, own * (1.0 - cosine), errors));
+                }
+            }
+            let by_itself = matches!(hypothesis, Hypothesis::Factor(_) | Hypothesis::Origin(_));
+            let mut by_step = f64::INFINITY;
+            for j in (0..slope.len()).filter(|j| concerned[*j]) {
+                let square = |values: &[f64], part| self.product(values, values, part);
+                least = least.max(ratio(4.0, square(&slope[j], None), square(&self.base[j], None)));
+                for part in 0..=self.ends.len() {
+                    let own = square(&slope[j], Some(part));
+                    // What a part is not changed by says nothing.
+                    if own <= NONE * NONE * self.trip * self.trip * self.span(part) {
+                        continue;
+                    }
+                    least = least.max(ratio(4.0, own, square(&self.base[j], Some(part))));
+                    if by_itself || part < self.ends.len() {
+                        by_step = by_step.min(self.model.step * (self.span(part) / own).sqrt());
+                    }
+                }
+            }
+            let unit = match hypothesis {
+                Hypothesis::Late => self.trip,
+                Hypothesis::Origin(place) => self.trip * self.model.signals[*place].rate,
+                _ => 1.0,
+            };
+            let share = least.max(2.0 * by_step);
+            let most = if by_itself { 1.0 } else { LINEAR };
+            let quantity = match hypothesis {
+                Hypothesis::Factor(place) | Hypothesis::Origin(place) => self.model.signals[*place].what.name(),
+                _ => "all",
+            };
+            // The mass of the ends is known to first order only.
+            let known = share <= most && *hypothesis != Hypothesis::EndMass;
+            known.then(|| ToldFrom { kind, quantity, value: share * unit })
+        };
+        known.iter().filter_map(told).collect()
+    }
+
+    /// The value that leaves the least, where the conditions at the head of this module hold.
+    fn fit(&self, hypothesis: Hypothesis) -> Option<Fitted> {
+        let errors = |p: f64| self.predict(hypothesis, p).map(|values| self.errors(&values));
+        let slopes = |p: f64, now: &[Vec<f64>]| self.slopes(hypothesis, p, now);
+        let (mut p, mut found) = (0.0, self.base.clone());
+        let slope = slopes(p, &found)?;
+        let concerned = self.concerned(hypothesis, &slope);
         let squares = |errors: &[Vec<f64>]| -> f64 {
             let told = errors.iter().zip(&concerned).filter(|(_, concerned)| **concerned);
             told.map(|(errors, _)| self.product(errors, errors, None)).sum()
         };
         let base = squares(&found);
         let mut left = base;
-        if let (true, Some(other)) = (matches!(hypothesis, Hypothesis::Value(_)), errors(NOTHING)) {
-            let square = squares(&other);
-            if square < left {
-                (p, found, left) = (NOTHING, other, square);
-            }
+        if matches!(hypothesis, Hypothesis::Value(Parameter::Speed | Parameter::Gravity))
+            && let Some(other) = errors(NOTHING)
+            && squares(&other) < left
+        {
+            left = squares(&other);
+            (p, found) = (NOTHING, other);
         }
         let mut slope = if p == 0.0 { slope } else { slopes(p, &found)? };
         for turn in 0..STEPS {
@@ -309,14 +411,14 @@ pub(super) fn verdicts(
     known: &Known<'_>,
     force_per: impl Fn(Quantity) -> f64,
     factors: impl Fn(Quantity) -> Vec<(f64, &'static str)>,
-) -> Result<Vec<Verdict>, Error> {
+) -> Result<Judgement, Error> {
     let Known { problem, history, grid, columns, step, contacts } = *known;
     let mut said: Vec<Verdict> = columns.iter().filter(|column| is_empty(column)).map(empty).collect();
     if let Some(lost) = lost_start(columns) {
-        return Ok(vec![lost]);
+        return Ok(vec![lost].into());
     }
     if grid.times.len() < FEWEST {
-        return Ok(said);
+        return Ok(said.into());
     }
     // The first contact and the flight after it.
     let release = history.contacts().iter().find_map(|contact| contact.to).unwrap_or(f64::INFINITY);
@@ -329,8 +431,8 @@ pub(super) fn verdicts(
     let ends = [first, first + trip / 2.0, release].into_iter().filter(|end| *end > 0.0).collect();
     let mut judge = Judge { model, base: Vec::new(), exact, ends, trip };
     judge.base = judge.errors(&judge.exact);
-    if judge.model.times.len() < FEWEST || !judge.tells() {
-        return Ok(said);
+    if judge.model.times.len() < FEWEST {
+        return Ok(said.into());
     }
     let filled = (0..judge.model.signals.len()).filter(|k| !judge.model.signals[*k].is_empty);
     let of_columns = filled.flat_map(|k| {
@@ -344,11 +446,16 @@ pub(super) fn verdicts(
         std::iter::once((kind, Hypothesis::Factor(k))).chain(origin)
     });
     let unstable = gained(columns);
-    let of_columns: Vec<_> = of_columns.filter(|_| unstable.is_none()).collect();
+    let of_columns = of_columns.filter(|_| unstable.is_none());
+    let hypotheses: Vec<_> = ALL.into_iter().chain(of_columns).collect();
+    if !judge.tells() {
+        let told_from = if said.is_empty() { judge.told_from(&hypotheses) } else { Vec::new() };
+        return Ok(Judgement { said, told_from });
+    }
     // A column that is wrong by itself is put right before the others are looked at.
     loop {
         let mut best: Option<(&'static str, Hypothesis, Fitted)> = None;
-        for (kind, hypothesis) in ALL.into_iter().chain(of_columns.iter().copied()) {
+        for (kind, hypothesis) in hypotheses.iter().copied() {
             let Some(fitted) = judge.fit(hypothesis) else { continue };
             if best.as_ref().is_none_or(|(.., best)| fitted.left < best.left) {
                 best = Some((kind, hypothesis, fitted));
@@ -361,7 +468,9 @@ pub(super) fn verdicts(
             break;
         }
     }
+    let mut told_from = Vec::new();
     if said.is_empty() {
+        told_from = if unstable.is_none() { judge.told_from(&hypotheses) } else { Vec::new() };
         said.extend(unstable.or_else(|| half_step(known, trip)));
     }
     for (count, kind, whose) in [
@@ -373,115 +482,13 @@ pub(super) fn verdicts(
             said.push(Verdict { kind, quantity: "contact".into(), value: count as f64, error: 0.0, text });
         }
     }
-    Ok(said)
+    Ok(Judgement { said, told_from })
 }
 
 /// Fewer samples say nothing.
 const FEWEST: usize = 8;
 /// So many samples are looked at.
 const SAMPLES: usize = 150;
-
-fn is_empty(column: &Compared) -> bool {
-    column.theirs.iter().all(|value| *value == 0.0) && column.norms.l2.relative.is_some_and(|share| share > LEFT)
-}
-
-fn empty(column: &Compared) -> Verdict {
-    let name = column.what.name();
-    let text = format!("{name} is zero throughout: an empty column?");
-    Verdict { kind: "empty", quantity: name.into(), value: 0.0, error: 0.0, text }
-}
-
-fn energy(columns: &[Compared]) -> Option<&Compared> {
-    columns.iter().find(|column| column.what == Quantity::Energy && !is_empty(column))
-}
-
-/// A start that is not that of the scene: the greater part of the energy is gone at the second sample.
-fn lost_start(columns: &[Compared]) -> Option<Verdict> {
-    let energy = energy(columns)?;
-    let [first, second] = energy.theirs.get(..2)?.try_into().ok()?;
-    let lost: f64 = first - second;
-    (lost > first / 2.0 && energy.ours[1] > energy.ours[0] / 2.0).then(|| {
-        let text = format!(
-            "{} of {} of the energy are lost in the first step: is the initial velocity ignored?",
-            lost.decimal(4),
-            first.decimal(4)
-        );
-        Verdict { kind: "start_velocity", quantity: "all".into(), value: -1.0, error: 0.0, text }
-    })
-}
-
-/// Energy from nowhere, as much as there was.
-fn gained(columns: &[Compared]) -> Option<Verdict> {
-    let energy = energy(columns)?;
-    let first = *energy.theirs.first()?;
-    let most = energy.theirs.iter().copied().fold(first, f64::max);
-    let share = most / first - 1.0;
-    (first > 0.0 && share > 1.0).then(|| {
-        let text = format!("energy up by {} %, from nowhere: the scheme is unstable", (100.0 * share).decimal(4));
-        Verdict { kind: "energy_gain", quantity: energy.what.name().into(), value: share, error: 0.0, text }
-    })
-}
-
-/// Over how long a time the fronts of the data are spread: the width of a ramp that is as far from a jump.
-///
-/// **Source**: `∫ e² dt = J² W/12` for a ramp of the width `W` about a jump `J`; the median over the jumps at both
-/// ends of the first contact, and at the top when the first wave is there. The start is left out: before it there are
-/// no data.
-pub(super) fn spread(history: &History<f64>, grid: &Grid, columns: &[Compared]) -> Result<Option<f64>, Error> {
-    let trip = history.scales().time;
-    let released = history.contacts().iter().find_map(|contact| contact.to).unwrap_or(f64::INFINITY);
-    let events = history.events().iter().map(|event| event.time);
-    let events: Vec<f64> = events.filter(|time| *time > 0.0 && *time <= released).collect();
-    let first = history.contacts().first().map_or(0.0, |contact| contact.from);
-    let mut widths = Vec::new();
-    for column in columns.iter().filter(|column| column.what.rays() == Rays::Jump && column.what.measure().is_some()) {
-        let times = if column.what == Quantity::TopVelocity { vec![first + trip / 2.0] } else { events.clone() };
-        for time in times.into_iter().filter(|time| *time < *history.end()) {
-            let limit = |side| Ok::<_, Error>(history.columns(&[column.what], &[time], Some(side))?[0][0]);
-            let jump = limit(Side::Right)? - limit(Side::Left)?;
-            let near = |k: &usize| (grid.times[*k] - time).abs() < trip / 8.0;
-            let square = |k: usize| grid.weights[k] * (column.theirs[k] - column.ours[k]).powi(2);
-            let sum: f64 = (0..grid.times.len()).filter(near).map(square).sum();
-            let most = column.ours.iter().fold(0.0f64, |most, value| most.max(value.abs()));
-            widths.extend((jump.abs() > LEFT * most).then(|| 12.0 * sum / (jump * jump)));
-        }
-    }
-    widths.sort_by(f64::total_cmp);
-    Ok(widths.get(widths.len() / 2).copied())
-}
-
-/// Velocities that are half a step from their times: of a top, or an end, that nothing has reached yet but gravity.
-///
-/// **Source**: there every scheme has the velocity to a rounding, and `v − ours = ∓(Δt/2) v_tt`.
-fn half_step(known: &Known<'_>, trip: f64) -> Option<Verdict> {
-    let Known { history, grid, columns, step, .. } = *known;
-    let first = history.contacts().first().map_or(f64::INFINITY, |contact| contact.from);
-    let of = |column: &Compared| {
-        let until = match column.what {
-            Quantity::EndVelocity => first,
-            // Well before the first wave, of which schemes send some ahead.
-            Quantity::TopVelocity => first + trip / 4.0,
-            _ => return None,
-        };
-        let count = grid.times.partition_point(|time| *time < until - step);
-        let rate = |k: usize| (column.ours[k] - column.ours[k - 1]) / (grid.times[k] - grid.times[k - 1]);
-        let sum = |f: &dyn Fn(usize) -> f64| (1..count).filter(|k| rate(*k).is_finite()).map(f).sum::<f64>();
-        let error = |k: usize| column.theirs[k] - column.ours[k];
-        let (square, cross) = (sum(&|k| rate(k) * rate(k)), sum(&|k| error(k) * rate(k)));
-        let late = -cross / square;
-        let left = sum(&|k| (error(k) + late * rate(k)).powi(2));
-        let is_half = (late.abs() / step - 0.5).abs() < LEFT * 0.5;
-        let error = (left / square / (count as f64 - 2.0)).sqrt();
-        (count > 3 && is_half && error < late.abs() / 2.0).then(|| {
-            let side = if late > 0.0 { "late" } else { "early" };
-            let name = column.what.name();
-            let text =
-                format!("{name} is {:.2} steps {side}: is it the velocity between two steps?", late.abs() / step);
-            Verdict { kind: "half_step", quantity: name.into(), value: late, error, text }
-        })
-    };
-    columns.iter().find_map(of)
-}
 
 impl Judge<'_> {
     /// Takes what is wrong with a column out of it; `false` where it is not one column that is wrong.
@@ -494,84 +501,5 @@ impl Judge<'_> {
         self.model.signals[place].theirs.iter_mut().for_each(|value| *value = (*value - offset) / factor);
         self.base = self.errors(&self.exact);
         true
-    }
-
-    fn verdict(
-        &self,
-        kind: &'static str,
-        hypothesis: Hypothesis,
-        fitted: &Fitted,
-        factors: &impl Fn(Quantity) -> Vec<(f64, &'static str)>,
-    ) -> Verdict {
-        let Fitted { value: p, error, .. } = *fitted;
-        let percent = |p: f64, error: f64| format!("{:+.2} ± {:.2} %", 100.0 * p, 100.0 * error).replace('-', "−");
-        let column = |place: usize| self.model.signals[place].what;
-        let name = |place: usize| column(place).name().to_string();
-        let of_all =
-            |value: f64, error: f64, text: String| Verdict { kind, quantity: "all".into(), value, error, text };
-        match hypothesis {
-            Hypothesis::Value(Parameter::WaveSpeed) => {
-                let modulus = percent((1.0 + p) * (1.0 + p) - 1.0, 2.0 * error);
-                of_all(p, error, format!("wave speed off by {}, as by a modulus off by {modulus}", percent(p, error)))
-            }
-            Hypothesis::Value(Parameter::Density) => {
-                of_all(p, error, format!("mass off by {}: check density and mass matrix", percent(p, error)))
-            }
-            Hypothesis::Value(Parameter::Speed) => {
-                of_all(p, error, format!("velocity at the start off by {}", percent(p, error)))
-            }
-            Hypothesis::Value(Parameter::Gravity) if p < -1.0 + 3.0 * error.max(NO_GRAVITY) => {
-                of_all(-1.0, error, "no gravity: is the weight missing?".into())
-            }
-            Hypothesis::Value(parameter) => {
-                of_all(p, error, format!("{} off by {}", parameter.name(), percent(p, error)))
-            }
-            Hypothesis::EndMass => {
-                let text =
-                    format!("the ends carry {} of the mass of the rod besides: check end masses", percent(p, error));
-                of_all(p, error, text)
-            }
-            Hypothesis::Clock => {
-                of_all(p, error, format!("clock off by {}: check the step of time", percent(p, error)))
-            }
-            Hypothesis::Late => {
-                let (late, error) = (p * self.trip, error * self.trip);
-                let side = if late > 0.0 { "late" } else { "early" };
-                let steps = late.abs() / self.model.step;
-                let (by, shift) = (late.abs().decimal(4), (-late).decimal(4));
-                let text = format!(
-                    "{by} ± {} {side}, {steps:.2} steps: is it on the same clock? A shift of {shift} undoes it",
-                    error.decimal(2)
-                );
-                of_all(late, error, text)
-            }
-            Hypothesis::Factor(place) => {
-                let (quantity, factor) = (name(place), 1.0 + p);
-                if (factor + 1.0).abs() < (2.0 * error).max(LEFT * LEFT) {
-                    let text = format!("{quantity} has the other sign");
-                    return Verdict { kind: "sign", quantity, value: -1.0, error, text };
-                }
-                let near = |known: f64| (factor / known - 1.0).abs() < (2.0 * error / factor.abs()).max(0.02);
-                let known: Vec<&str> = factors(column(place))
-                    .into_iter()
-                    .filter(|(value, _)| near(*value))
-                    .map(|(_, name)| name)
-                    .collect();
-                let ask = if known.is_empty() { "which unit?".to_string() } else { known.join(" ") };
-                let text = format!("{quantity} × {} ± {}: {ask}", factor.decimal(4), error.decimal(2));
-                Verdict { kind, quantity, value: factor, error, text }
-            }
-            Hypothesis::Origin(place) => {
-                let unit = self.trip * self.model.signals[place].rate;
-                let (offset, error) = (p * unit, error * unit);
-                let quantity = name(place);
-                let text = format!(
-                    "{quantity} off by {} ± {} everywhere: is it measured from elsewhere?",
-                    offset.decimal(4),
-                    error.decimal(2)
-                );
-                Verdict { kind, quantity, value: offset, error, text }
-            }
-        }
     }
 }

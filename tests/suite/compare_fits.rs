@@ -41,6 +41,7 @@ fn exact_data_give_their_values() {
     let data = rod(truth, 1.6).solve().unwrap().columns(&columns, &times, Some(Side::Right)).unwrap();
     let fit = fitted(&rod(start, 1.6), &NAMES, &times, &columns, data);
     assert!(fit["steps"].as_u64().unwrap() <= 20, "{fit}");
+    assert_eq!(fit["values"].as_array().unwrap().len(), truth.len(), "{fit}");
     for (value, truth) in fit["values"].as_array().unwrap().iter().zip(truth) {
         assert!((value["value"].as_f64().unwrap() / truth - 1.0).abs() <= 1e-9, "{fit}");
     }

@@ -3,12 +3,14 @@
 use serde_json::Value;
 
 use crate::compare_peers::{compare, with};
-use crate::peers::{BAR, Rod, Row, SCHEMES, Scheme};
+use crate::peers::{BAR, Rod, Row, SCHEMES, STEEL, Scheme};
 
 /// A run to the middle of the second contact.
 const END: f64 = 4.5;
+/// The same of the steel bar: its flight is long, and three round trips are of it.
+const STEEL_END: f64 = 1.2e-3;
 
-/// One thing wrong: its kind, its value, and the run.
+/// One thing wrong of the size that a code may have: its kind, its value, and the run.
 fn faults(rod: Rod, scheme: Scheme) -> Vec<(&'static str, f64, Vec<Row>)> {
     let run = |rod: Rod| rod.run(scheme, END, |_| true);
     let right = run(rod);
@@ -45,58 +47,146 @@ fn faults(rod: Rod, scheme: Scheme) -> Vec<(&'static str, f64, Vec<Row>)> {
     if scheme != Scheme::Redistribution {
         faults.push(("end_mass", extra, run(ends(2.0))));
     }
-    // Those of that scheme are u's differences as they are.
-    if matches!(scheme, Scheme::Moreau(_)) {
-        faults.retain(|(kind, ..)| *kind != "half_step");
-    }
+    // Where velocities are u's differences as they are, nothing is wrong with those.
+    let moved = |rows: &[Row]| right.iter().zip(rows).any(|(a, b)| (a.v_top - b.v_top).abs() > 1e-9 * rod.speed);
+    faults.retain(|(kind, _, rows)| *kind != "half_step" || moved(rows));
     faults
 }
 
-fn hints(rows: &[Row]) -> Vec<(String, f64, f64)> {
-    let report: Value = compare("doyen-ern-piperno", rows, &[]);
-    let hints = report["hints"].as_array().unwrap();
-    let number = |hint: &Value, key: &str| hint[key].as_f64().unwrap();
-    hints
-        .iter()
-        .map(|hint| (hint["kind"].as_str().unwrap().into(), number(hint, "value"), number(hint, "error")))
-        .collect()
+/// A value of the scene off by the share `p`, or the clock by it, or all late by the time `p`.
+fn off(rod: Rod, scheme: Scheme, kind: &str, p: f64) -> Vec<Row> {
+    let run = |rod: Rod| rod.run(scheme, END, |_| true);
+    match kind {
+        "wave_speed" => run(Rod { modulus: rod.modulus * (1.0 + p) * (1.0 + p), ..rod }),
+        "mass" => run(Rod { density: rod.density * (1.0 + p), ..rod }),
+        "length" => run(Rod { length: rod.length * (1.0 + p), ..rod }),
+        "start_velocity" => run(Rod { speed: rod.speed * (1.0 + p), ..rod }),
+        "gravity" => run(Rod { gravity: rod.gravity * (1.0 + p), ..rod }),
+        "clock" => with(&run(rod), |row| row.t *= 1.0 + p),
+        "time_shift" => with(&run(rod), |row| row.t += p),
+        other => panic!("{other}"),
+    }
 }
 
-/// Nothing is wrong with them but their mesh and their step.
+struct Said {
+    hints: Vec<(String, f64, f64)>,
+    /// Kind, column and value.
+    told_from: Vec<(String, String, f64)>,
+}
+
+fn said(scene: &str, rows: &[Row]) -> Said {
+    let report: Value = compare(scene, rows, &[]);
+    let list = |key: &str| report[key].as_array().unwrap().clone();
+    let number = |value: &Value, key: &str| value[key].as_f64().unwrap();
+    let text = |value: &Value, key: &str| value[key].as_str().unwrap().to_string();
+    let hint = |hint: &Value| (text(hint, "kind"), number(hint, "value"), number(hint, "error"));
+    let told = |told: &Value| (text(told, "kind"), text(told, "quantity"), number(told, "value"));
+    Said { hints: list("hints").iter().map(hint).collect(), told_from: list("told_from").iter().map(told).collect() }
+}
+
+/// Whether a fault is named, its value within twice its standard error or a fifth.
+fn is_named(hints: &[(String, f64, f64)], kind: &str, value: f64) -> bool {
+    hints.iter().any(|hint| hint.0 == kind && (hint.1 - value).abs() <= (2.0 * hint.2).max(0.2 * value.abs()))
+}
+
+/// Nothing is wrong with them but their mesh and their step: at most one in 25 is accused.
 #[test]
 fn right_runs_get_no_hint() {
-    let (mut count, mut alarms) = (0, Vec::new());
-    for scheme in SCHEMES {
-        for elements in [40, 80, 160] {
-            let found = hints(&Rod { elements, ..BAR }.run(scheme, END, |_| true));
-            count += 1;
-            if !found.is_empty() {
-                alarms.push(format!("{scheme:?}, {elements}: {found:?}"));
-            }
+    let folder = tempfile::TempDir::new().unwrap();
+    let scene = |rod: Rod, name: &str, time: f64| {
+        let path = folder.path().join(name);
+        let Rod { length, modulus, density, area, gravity, damping, speed, .. } = rod;
+        let text = format!(
+            "rod = {{ length = {length}, modulus = {modulus:e}, density = {density}, area = {area:e}, damping = {damping} \
+             }}\nimpact.speed = {speed}\ngravity.acceleration = {gravity}\nrun.time = {time:e}\n"
+        );
+        std::fs::write(&path, text).unwrap();
+        path.display().to_string()
+    };
+    let [damped, steel_damped] = [Rod { damping: 0.3, ..BAR }, Rod { damping: 12.0, ..STEEL }];
+    let bar = scene(BAR, "bar.toml", END);
+    let steel = scene(STEEL, "steel.toml", STEEL_END);
+    let (damped_bar, damped_steel) =
+        (scene(damped, "damped.toml", END), scene(steel_damped, "damped_steel.toml", STEEL_END));
+    let other = [Scheme::Moreau(0.2), Scheme::Theta(0.5, 1.0), Scheme::Theta(0.6, 0.5), Scheme::Hht(16.0)];
+    let with_damping = [Scheme::Moreau(0.5), Scheme::Theta(0.5, 0.5), Scheme::Hht(4.0)];
+    let mut runs: Vec<(&str, Rod, Scheme, f64)> = Vec::new();
+    for elements in [40, 80, 160] {
+        runs.extend(SCHEMES.map(|scheme| (bar.as_str(), Rod { elements, ..BAR }, scheme, END)));
+    }
+    runs.extend(other.map(|scheme| (bar.as_str(), Rod { elements: 60, ..BAR }, scheme, END)));
+    for scheme in SCHEMES.into_iter().chain(other) {
+        runs.push((steel.as_str(), Rod { elements: 50, ..STEEL }, scheme, STEEL_END));
+    }
+    for scheme in with_damping {
+        runs.push((damped_bar.as_str(), Rod { elements: 40, ..damped }, scheme, END));
+        runs.push((damped_steel.as_str(), Rod { elements: 40, ..steel_damped }, scheme, STEEL_END));
+    }
+    let mut alarms = Vec::new();
+    for (scene, rod, scheme, end) in &runs {
+        let hints = said(scene, &rod.run(*scheme, *end, |_| true)).hints;
+        if !hints.is_empty() {
+            alarms.push(format!("{scene}, {scheme:?}, {}: {hints:?}", rod.elements));
         }
     }
-    println!("{} of {count} right runs: {alarms:#?}", alarms.len());
-    assert!(count == 27 && alarms.is_empty(), "{alarms:#?}");
+    println!("{} of {} right runs: {alarms:#?}", alarms.len(), runs.len());
+    assert!(runs.len() == 50 && 25 * alarms.len() <= runs.len(), "{alarms:#?}");
 }
 
-/// Each fault in each scheme that damps no waves: its name, and its value within twice its standard error or a fifth.
+/// A report that names no number says from what size on one would have been named; that of the right run of each scheme
+/// is held to it. Faults of every scheme, backward Euler and HHT included: each that is as great as that is named. Those
+/// below it are drowned by the errors of their scheme, and may be named or not.
 #[test]
 fn faults_are_named() {
-    let (mut count, mut named, mut missed) = (0, 0, Vec::new());
-    for scheme in SCHEMES.into_iter().filter(|scheme| !matches!(scheme, Scheme::Theta(1.0, _) | Scheme::Hht(_))) {
-        for (kind, value, rows) in faults(Rod { elements: 80, ..BAR }, scheme) {
-            count += 1;
-            let found = hints(&rows);
-            let right = |hint: &(String, f64, f64)| {
-                hint.0 == kind && (hint.1 - value).abs() <= (2.0 * hint.2).max(0.2 * value.abs())
+    let (mut count, mut named, mut told) = (0, 0, 0);
+    let (mut untold, mut broken) = (Vec::new(), Vec::new());
+    for scheme in SCHEMES {
+        let rod = Rod { elements: 80, ..BAR };
+        let right = said("doyen-ern-piperno", &rod.run(scheme, END, |_| true));
+        for (kind, value, rows) in faults(rod, scheme) {
+            let changed = |pick: fn(&Row) -> f64, of: &[Row]| of.iter().map(pick).fold(0.0f64, |a, b| a.max(b.abs()));
+            // Factors as their share; a sign is a factor of −1.
+            let (key, size) = match kind {
+                "force_factor" => (("force_factor", "force"), 1.0 - value),
+                "energy_factor" => (("energy_factor", "E_total"), value - 1.0),
+                "origin" => (("origin", "u_top"), value),
+                "sign" if changed(|row| row.force.min(0.0), &rows) > 1.0 => (("force_factor", "force"), 2.0),
+                "sign" => (("factor", "u_end"), 2.0),
+                _ => ((kind, "all"), value.abs()),
             };
-            if found.iter().any(right) {
-                named += 1;
-            } else {
-                missed.push(format!("{scheme:?}, {kind} {value}: {found:?}"));
+            let from = right.told_from.iter().find(|told| (told.0.as_str(), told.1.as_str()) == key);
+            let is_told = from.is_some_and(|told| size >= told.2);
+            let found = said("doyen-ern-piperno", &rows).hints;
+            let is_named = is_named(&found, kind, value);
+            (count, named, told) = (count + 1, named + usize::from(is_named), told + usize::from(is_told));
+            if !is_named {
+                let list = if is_told { &mut broken } else { &mut untold };
+                list.push(format!("{scheme:?}, {kind} {value}, from {:?}: {found:?}", from.map(|told| told.2)));
             }
         }
     }
-    println!("{named} of {count} faults: {missed:#?}");
-    assert!(count == 93 && named >= 79, "{named}: {missed:#?}");
+    println!("{named} of {count} faults, {told} of which had to be; not named: {untold:#?}");
+    assert!(broken.is_empty(), "{broken:#?}");
+    assert!(count == 140 && told >= 45, "{told} of {count}");
+}
+
+/// The same at the limit itself: values a fiftieth greater than what would be told, either way.
+#[test]
+fn faults_at_their_limits_are_named() {
+    let (mut count, mut broken) = (0, Vec::new());
+    for scheme in SCHEMES {
+        let rod = Rod { elements: 80, ..BAR };
+        let right = said("doyen-ern-piperno", &rod.run(scheme, END, |_| true));
+        for (kind, _, limit) in right.told_from.iter().filter(|told| told.1 == "all") {
+            for value in [1.02 * limit, -1.02 * limit] {
+                count += 1;
+                let found = said("doyen-ern-piperno", &off(rod, scheme, kind, value)).hints;
+                if !is_named(&found, kind, value) {
+                    broken.push(format!("{scheme:?}, {kind} {value}: {found:?}"));
+                }
+            }
+        }
+    }
+    println!("{count} at their limits");
+    assert!(count >= 50 && broken.is_empty(), "{count}: {broken:#?}");
 }

@@ -8,6 +8,8 @@ pub(crate) struct Rod {
     pub(crate) density: f64,
     pub(crate) area: f64,
     pub(crate) gravity: f64,
+    /// `r`, in the θ-scheme and in HHT; the others have none.
+    pub(crate) damping: f64,
     pub(crate) speed: f64,
     pub(crate) elements: usize,
     /// What the masses of both end nodes are multiplied with.
@@ -15,8 +17,21 @@ pub(crate) struct Rod {
 }
 
 /// The bar of Doyen, Ern and Piperno.
-pub(crate) const BAR: Rod =
-    Rod { length: 10.0, modulus: 900.0, density: 1.0, area: 1.0, gravity: 10.0, speed: 10.0, elements: 400, ends: 1.0 };
+pub(crate) const BAR: Rod = Rod {
+    length: 10.0,
+    modulus: 900.0,
+    density: 1.0,
+    area: 1.0,
+    gravity: 10.0,
+    damping: 0.0,
+    speed: 10.0,
+    elements: 400,
+    ends: 1.0,
+};
+
+/// A steel bar of a square centimetre.
+pub(crate) const STEEL: Rod =
+    Rod { length: 1.0, modulus: 2e11, density: 8000.0, area: 1e-4, gravity: 9.81, speed: 1.0, ..BAR };
 
 /// What a code writes at a time.
 #[derive(Clone, Copy, Debug, Default)]
@@ -202,7 +217,8 @@ impl Rod {
             let guess: Vec<f64> = (0..count).map(|i| u[i] + dt * theta * (1.0 - theta) * v[i]).collect();
             let forces = self.forces(&guess);
             let a = (dt * theta).powi(2);
-            let right: Vec<f64> = (0..count).map(|i| masses[i] * v[i] + dt * forces[i]).collect();
+            let slowed = 1.0 - 2.0 * self.damping * dt;
+            let right: Vec<f64> = (0..count).map(|i| masses[i] * v[i] * slowed + dt * forces[i]).collect();
             let mut next = self.solve(a, 0.0, &right, None);
             let reach = u[0] + dt * ((1.0 - part) * v[0] + part * next[0]);
             let mut force = 0.0;
@@ -241,6 +257,7 @@ impl Rod {
                 let mut right = self.forces(&middle);
                 let k = if touches { spring } else { 0.0 };
                 right[0] -= k * middle[0];
+                (0..count).for_each(|i| right[i] -= 2.0 * self.damping * masses[i] * (v[i] + whole * dt * a[i]));
                 self.solve(whole * beta * dt * dt, k, &right, None)
             };
             let free = of(false);

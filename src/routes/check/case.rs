@@ -199,9 +199,9 @@ fn name(route: Route) -> String {
         Route::Lattice(_) => "lattice, doubles".into(),
         Route::Cells(_) => "cells, doubles".into(),
         Route::Differences(_) => "finite differences".into(),
-        Route::Planned(Numbers::Double(Some(accuracy))) => format!("--accuracy {accuracy:e}"),
-        Route::Planned(Numbers::Digits(digits)) => format!("--digits {digits}"),
-        Route::Planned(Numbers::Certified(digits)) => format!("--certified --digits {digits}"),
+        Route::Planned(Numbers::Double(Some(accuracy))) => format!("the plan, to {accuracy:e}"),
+        Route::Planned(Numbers::Digits(digits)) => format!("the plan, {digits} digits"),
+        Route::Planned(Numbers::Certified(digits)) => format!("the plan, {digits} digits proved"),
         Route::Planned(_) => "the plan".into(),
     }
 }

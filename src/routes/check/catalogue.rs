@@ -73,7 +73,7 @@ mod tests {
         wrong.truth = "11.66136670144388438415940577414171411946";
         let wrong = wrong.check();
         let failed: Vec<&str> = wrong.rows.iter().filter(|r| r.outcome == Outcome::Failed).map(|r| &*r.route).collect();
-        let expected = ["--digits 36", "--certified --digits 36"];
+        let expected = ["the plan, 36 digits", "the plan, 36 digits proved"];
         assert_eq!(failed, if long::AVAILABLE { &expected[..] } else { &[] });
         assert!(asked.check().rows.iter().all(|row| row.outcome != Outcome::Failed));
     }
