@@ -243,7 +243,7 @@ impl Rod {
         let (count, spring) = (masses.len(), spring * self.stiffness());
         let mut u = vec![0.0; count];
         let mut v = vec![-self.speed; count];
-        let mut a = vec![-self.gravity; count];
+        let mut a = vec![-self.gravity + 2.0 * self.damping * self.speed; count];
         let mut rows = vec![self.row(0.0, &u, &v, &masses, 0.0)];
         for n in 1.. {
             let t = n as f64 * dt;
