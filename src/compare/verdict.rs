@@ -281,7 +281,7 @@ impl Judge<'_> {
             };
             // The mass of the ends is known to first order only.
             let known = share <= most && *hypothesis != Hypothesis::EndMass;
-            known.then(|| ToldFrom { kind, quantity, value: share * unit })
+            known.then_some(ToldFrom { kind, quantity, value: share * unit })
         };
         known.iter().filter_map(told).collect()
     }
