@@ -31,9 +31,9 @@ const LEVELS: u32 = 3;
 const SPARE_BITS: u32 = 32;
 /// Decimal exponent of the first step of a gravity that is zero: one so weak, squared, still brings the rod down.
 const WEAKEST: u32 = 6;
-/// A quotient is settled that is off by less than so many steps of its natural size: a second derivative that is
-/// greater costs another run.
-const SLACK: f64 = 100.0;
+/// Digits of a step beyond those wanted: what second derivatives take of a quotient that is settled at once. A greater
+/// one costs another run.
+const CURVATURE: u32 = 4;
 
 /// The derivatives that are `asked` for, to about so many digits of their natural size.
 ///
@@ -44,8 +44,8 @@ pub(super) fn of(asked: &Asked<'_>, digits: u32) -> Result<Derivatives<Long>, Er
         return Err(Error::Digits { found: digits, most: MOST_DIGITS });
     }
     let zero = asked.by.value_in::<f64>(asked.problem, &())? == 0.0;
-    let first = if zero && asked.by == Parameter::Gravity { WEAKEST } else { digits + 1 };
-    let wanted = SLACK * part(first);
+    let first = if zero && asked.by == Parameter::Gravity { WEAKEST } else { digits + CURVATURE };
+    let wanted = part(first - CURVATURE.min(first / 2));
     let mut before = None;
     let mut level = Level::of(asked, first, zero)?;
     for doublings in 1.. {

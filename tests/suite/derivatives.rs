@@ -8,7 +8,7 @@ use dalembert::{
     Derivative, Error, Estimate, History, NoDerivative, Number, Parameter, Problem, Quantity, Run, Speed, Start, Top,
 };
 use proptest::prelude::*;
-use rug::Rational;
+use rug::{Float, Rational};
 
 use Quantity::{EventCentre, EventCentreVelocity, EventTime, EventVelocity};
 
@@ -358,11 +358,22 @@ fn thresholds() {
     let touch = history.events().iter().position(|event| (event.time - 31.0).abs() < 1e-9).unwrap();
     let reasons = found[touch][0].as_ref().unwrap().sides().map(|side| side.is_err());
     assert!(reasons.contains(&true), "{:?}", found[touch]);
-    // The bounce leaves t₁ with the rate of the root in the second round trip, u = 0.
-    let (r, mu) = (0.2, 2.593_644_954_560_194_3);
+    // The bounce leaves t₁ with the rate of the root in the second round trip, u = 0; μ = 2 (I₀ + I₁)/(2 − I₀) at R = 2/5.
+    let long = |n: u32| {
+        let x = Float::with_val(400, 2) / 5u32;
+        let mut term = if n == 1 { Float::with_val(400, &x / 2u32) } else { Float::with_val(400, 1) };
+        let mut sum = term.clone();
+        for k in 1..60u32 {
+            term = term * &x * &x / 4u32 / (k * (k + n));
+            sum += &term;
+        }
+        sum
+    };
+    let threshold = (long(0) + long(1)) * 2u32 / (2u32 - long(0));
+    let (r, mu) = (0.2, threshold.to_f64());
     let h = bessel(0, 2.0 * r) - 2.0;
     let slope = -h / (mu * (r * bessel(1, 2.0 * r) - 2.0 * r * r) + h - r * mu * h);
-    let mut rod = uniform("1", "1", "1", "2.59364495456019430337818987448", Run::Impacts(1));
+    let mut rod = uniform("1", "1", "1", &threshold.to_string_radix(10, Some(90)), Run::Impacts(1));
     rod.rod.damping = Some(number("0.2"));
     let found = rod.solve().unwrap().derivatives(Parameter::Speed, &[EventTime]).unwrap();
     let [left, right] = found[1][0].as_ref().unwrap().sides().map(|side| side.unwrap().clone());
