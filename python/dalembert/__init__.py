@@ -14,14 +14,14 @@ array([ 0. , -0.5])
 """
 
 from ._compare import Comparison, compare
-from ._history import Energy, Field, History, Motion
+from ._history import Derivatives, Energy, Field, History, Motion
 from ._problem import Problem, __version__, scenes
 from ._solve import reference, solve
 from ._sweep import Sweep, sweep
 
 __all__ = [
-    "Comparison", "Energy", "Field", "History", "Motion", "Problem", "Sweep", "compare", "reference", "scenes", "solve",
-    "sweep",
+    "Comparison", "Derivatives", "Energy", "Field", "History", "Motion", "Problem", "Sweep", "compare", "reference",
+    "scenes", "solve", "sweep",
 ]
 
 for _name in __all__:

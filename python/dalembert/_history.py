@@ -21,6 +21,7 @@ if TYPE_CHECKING:
     from ._problem import Problem
 
 Slice = Literal["points", "averages", "p1"]
+Parameter = Literal["length", "wave_speed", "modulus", "density", "damping", "gravity", "speed", "gap"]
 TableName = Literal["events", "contacts", "restitution", "flights", "stress_history"]
 
 
@@ -55,6 +56,25 @@ class Energy(NamedTuple):
     total: Any
     translational: Any
     vibrational: Any
+
+
+class Derivatives(NamedTuple):
+    """Derivatives of a table by a value of the problem, which at a threshold differ from side to side.
+
+    Parameters
+    ----------
+    left, right : ndarray
+        As the value grows towards that of the problem, and as it grows beyond: structured arrays with the names and
+        rows of the table. NaN, or None among exact numbers, where there is none: a number that jumps or has an infinite
+        derivative, and one that is not settled.
+    left_error, right_error : ndarray
+        How far each may be off.
+    """
+
+    left: Array
+    right: Array
+    left_error: Array
+    right_error: Array
 
 
 class Field(NamedTuple):
@@ -173,6 +193,35 @@ class History:
         below = "".join(f"<br>{escape(note)}" for note in notes)
         more = f"<br>… {len(self.contacts) - 10} more contacts" if len(self.contacts) > 10 else ""
         return f"<div>{title}History {escape(said)}<table>{table}</table>{more}{below}<br>{self.to_svg()}</div>"
+
+    def derivatives(self, by: Parameter, table: TableName = "events") -> Derivatives:
+        """Give the derivatives of a table by a value of the problem; all other values stay as they are.
+
+        Parameters
+        ----------
+        by : {"length", "wave_speed", "modulus", "density", "damping", "gravity", "speed", "gap"}
+            The value.
+        table : {"events", "contacts", "restitution", "flights"}, optional
+            The attribute whose numbers are meant.
+
+        Returns
+        -------
+        Derivatives
+            From both sides, with bounds. Fractions stay fractions.
+
+        Examples
+        --------
+        >>> found = solve("doyen-ern-piperno", exact=True).derivatives("speed")
+        >>> found.left["time"][2], found.right["time"][2]
+        (Fraction(3, 5), Fraction(3, 25))
+        """
+        found = [(name, sides) for name, sides in self._core.derivatives(by, table)]
+
+        def side(k: int, part: int) -> Array:
+            columns = {name: self._array(sides[k][part]) for name, sides in found}
+            return np.fromiter(zip(*columns.values()), [(name, column.dtype) for name, column in columns.items()])
+
+        return Derivatives(side(0, 0), side(1, 0), side(0, 1), side(1, 1))
 
     def to_svg(self) -> str:
         """Draw the sheet of ``dalembert plot``: field, stress, motion and energy.

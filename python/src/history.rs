@@ -5,7 +5,9 @@ use std::sync::atomic::AtomicBool;
 
 use dalembert::engine::{Motion, slices};
 use dalembert::number::{Answer, Scalar, show};
-use dalembert::{Drawing, Error, Needs, Number, Problem, Quantity, Side, Slice, Solution, Table, Units};
+use dalembert::{
+    Derivative, Drawing, Error, Needs, Number, Parameter, Problem, Quantity, Side, Slice, Solution, Table, Units,
+};
 use numpy::{PyArray1, PyReadonlyArray1};
 use pyo3::IntoPyObjectExt;
 use pyo3::prelude::*;
@@ -99,6 +101,18 @@ macro_rules! each {
     };
 }
 
+/// What a history lists, by name.
+const LISTS: [(&str, Table); 5] = [
+    ("events", Table::Events),
+    ("contacts", Table::Contacts),
+    ("restitution", Table::Restitution),
+    ("flights", Table::Flights),
+    ("stress", Table::Stress),
+];
+
+/// Numbers and how far each may be off, to the left and to the right.
+type Sides = [(Found, Found); 2];
+
 /// What happened, and what can be asked of it.
 #[pyclass(frozen, module = "dalembert._core")]
 pub(crate) struct History {
@@ -165,14 +179,7 @@ impl History {
 
     /// The columns of a table, by name.
     fn table(&self, py: Python<'_>, table: &Bound<'_, PyAny>) -> PyResult<Vec<(&'static str, Found)>> {
-        let known = [
-            ("events", Table::Events),
-            ("contacts", Table::Contacts),
-            ("restitution", Table::Restitution),
-            ("flights", Table::Flights),
-            ("stress", Table::Stress),
-        ];
-        let table = one_of("table", table, &known)?;
+        let table = one_of("table", table, &LISTS)?;
         self.ask(py, move |solution| {
             each!(solution, |history, digits| {
                 let of = history.end().carry();
@@ -180,6 +187,31 @@ impl History {
                     (name, Found::of(column.iter().map(Option::as_ref), &of, *digits))
                 };
                 Ok(history.ask_table(table)?.into_iter().map(found).collect())
+            })
+        })
+    }
+
+    /// Derivatives by a value of the problem from the left and from the right, and how far each may be off.
+    fn derivatives(&self, py: Python<'_>, by: &str, table: &Bound<'_, PyAny>) -> PyResult<Vec<(&'static str, Sides)>> {
+        let by: Parameter = by.parse().map_err(refuse)?;
+        let table = one_of("table", table, &LISTS)?;
+        let with_material = self.solved.1.has_material();
+        let listed = table.quantities().iter().copied().filter(|quantity| quantity.is_listed(with_material));
+        let quantities: Vec<Quantity> = listed.collect();
+        self.ask(py, move |solution| {
+            each!(solution, |history, digits| {
+                let (of, rows) = (history.end().carry(), history.derivatives(by, &quantities)?);
+                let side = |k: usize, left: bool| {
+                    let value = |row: &Vec<Option<Derivative<_>>>| {
+                        let [a, b] = row.get(k)?.as_ref()?.sides();
+                        if left { a } else { b }.ok().cloned()
+                    };
+                    let values: Vec<Option<_>> = rows.iter().map(value).collect();
+                    let bound = |x: &Option<_>| x.as_ref().map_or(f64::NAN, |x: &_| Scalar::log2_error(x).exp2());
+                    let bounds: Vec<f64> = values.iter().map(bound).collect();
+                    (Found::of(values.iter().map(Option::as_ref), &of, *digits), Found::Doubles(bounds))
+                };
+                Ok(quantities.iter().enumerate().map(|(k, q)| (q.key(), [side(k, true), side(k, false)])).collect())
             })
         })
     }

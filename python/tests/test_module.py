@@ -288,3 +288,20 @@ def test_sweep_says_why_there_is_no_number():
         dalembert.sweep(rod, "bounce_time", speed=[1])
     with pytest.raises(ValueError):
         dalembert.sweep(rod, "bounce_time", impact_speed=[1, 2], damping=[0, 0.1, 0.2])
+
+
+def test_derivatives_are_difference_quotients():
+    """Of a damped run: against two others next to it, and in fractions by hand: t_b = 2L/c."""
+    damped = rod(damping="0.1", impacts=2)
+    found = damped.solve().derivatives("speed")
+    step = Fraction(1, 10**4)
+    after, before = (damped.replace(impact_speed=3 + way * step).solve(digits=30).events["time"] for way in (1, -1))
+    for k, (left, right) in enumerate(zip(found.left["time"], found.right["time"])):
+        quotient = float((after[k] - before[k]) / (2 * Decimal("1e-4")))
+        # A central quotient is off by the third derivative times a sixth of the square of the step.
+        assert left == right and abs(left - quotient) < 1e-6
+        assert found.left_error["time"][k] < 1e-9
+    exact = rod().solve(exact=True).derivatives("length", "contacts")
+    assert exact.left["to"].tolist() == [2] and exact.right_error["to"].tolist() == [0]
+    with pytest.raises(ValueError, match="found `mass`, expected some of length"):
+        rod().solve().derivatives("mass")

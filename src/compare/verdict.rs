@@ -10,7 +10,8 @@
 //! - *Of each part of a column*, which are the first wave up the rod, the rest of the contact, and the flight, the
 //!   number that fits it best is within half of the value. A part counts where the value changes it by more than the
 //!   resolution of the data, which is an error of one step in time. What a scheme does wrong at an impact is not there
-//!   before it, or goes another way after it.
+//!   before it, or goes another way after it: so one of the parts before the flight has to count, unless the value leaves
+//!   nothing that the data resolve.
 //! - *Of the first sample*, which a scheme is given and does not compute, at most half of what the value changes is
 //!   left. Where it is the energy that the value changes there and at most a quarter is left, the start itself says
 //!   the value: then half of ‖e‖₂² may be left over all columns, and no column may get worse.
@@ -187,13 +188,13 @@ impl Judge<'_> {
         self.product(&ones, &ones, Some(part))
     }
 
-    /// Whether anything is off by more than half of what the step resolves.
-    fn tells(&self) -> bool {
+    /// Whether any of `errors` is more than half of what the step resolves.
+    fn tells(&self, errors: &[Vec<f64>]) -> bool {
         let half = self.model.step / 2.0;
         let told = |errors: &Vec<f64>| {
             (0..=self.ends.len()).any(|part| self.product(errors, errors, Some(part)) > half * half * self.span(part))
         };
-        self.base.iter().any(told)
+        errors.iter().any(told)
     }
 
     fn squares(&self, errors: &[Vec<f64>]) -> f64 {
@@ -385,7 +386,9 @@ impl Judge<'_> {
         let error = (scatter / weight / f64::max(count - 1.0, 1.0) + resolution * resolution).sqrt();
         // What is off by a factor has its errors off by it as well.
         let error = if matches!(hypothesis, Hypothesis::Factor(_)) { error * (1.0 + p).abs() } else { error };
-        let holds = holds && (early || by_itself) && count > 0.0 && p.abs() > 2.0 * error;
+        // Where nothing is left that the step resolves, the flight alone may tell.
+        let early = early || by_itself || !self.tells(found);
+        let holds = holds && early && count > 0.0 && p.abs() > 2.0 * error;
         holds.then(|| Fitted { value: p, error, left: self.squares(found) })
     }
 }
@@ -448,7 +451,7 @@ pub(super) fn verdicts(
     let unstable = gained(columns);
     let of_columns = of_columns.filter(|_| unstable.is_none());
     let hypotheses: Vec<_> = ALL.into_iter().chain(of_columns).collect();
-    if !judge.tells() {
+    if !judge.tells(&judge.base) {
         let told_from = if said.is_empty() { judge.told_from(&hypotheses) } else { Vec::new() };
         return Ok(Judgement { said, told_from });
     }
