@@ -84,7 +84,11 @@ impl Places {
         let end = motion.end();
         match self {
             Places::Doubles(list) => list.iter().map(|x| end.double(*x)).collect(),
-            Places::Numbers(list) => list.iter().map(|x| N::from_number(x, &end.precision())).collect(),
+            // Digits that a history gave for an event stand for it.
+            Places::Numbers(list) if end.as_double().is_none() => {
+                list.iter().map(|x| N::from_number(x, &end.precision())).collect()
+            }
+            Places::Numbers(list) => list.iter().map(|x| N::spelling(x, &end.precision())).collect(),
         }
     }
 }

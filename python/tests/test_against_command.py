@@ -117,8 +117,9 @@ def test_random_problems_in_long_numbers(command, numbers):
 @pytest.mark.parametrize("scene", ["doyen-ern-piperno", "getfem-dynamic-contact", "figure-4-r02"])
 @pytest.mark.parametrize("side", ["left", "right"])
 def test_values_at_times(command, scene, side):
-    times = np.linspace(0.05, 1.9, 38)
-    listed = ",".join(map(repr, times.tolist()))
+    # As texts, which stand for what they spell in both.
+    times = list(map(repr, np.linspace(0.05, 1.9, 38).tolist()))
+    listed = ",".join(times)
     # As the command does, a history for each quantity: an answer may leave longer numbers for those after it.
     history = lambda: dalembert.solve(scene, to=times[-1])
     x = [0, history().scales["length"] / 2]
