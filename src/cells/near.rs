@@ -4,7 +4,7 @@
 //! on one stretch on which its derivative has one sign beyond its own bound, and it is none where `f` stays clear.
 //! Anything else is open: the true motion may have an event that the computed one lacks, or the other way round.
 
-use super::series::{Basis, at_zero, bound, derivative};
+use super::series::{Basis, at_zero, derivative, spread};
 use crate::number::Rounded;
 
 /// Stretches shorter than this part of a strip are not cut any further, nor is a strip into more than so many.
@@ -22,7 +22,7 @@ fn halves<S: Rounded, const N: usize>(basis: &Basis<S>, series: &[Vec<S>; N]) ->
 /// Whether the derivative is positive throughout.
 fn increases<S: Rounded>(c: &[S]) -> bool {
     let slope = derivative(c);
-    slope.first().is_some_and(|mean| mean.to_f64() > bound(&slope, 1))
+    slope.first().is_some_and(|mean| mean.to_f64() > spread(&slope))
 }
 
 /// Where it first is open whether the end, in flight, touches the ground, as a part of the strip: `height` and its
@@ -39,24 +39,24 @@ pub(super) fn open_touch<S: Rounded>(
     while let Some((from, width, series)) = parts.pop() {
         count += 1;
         let [height, trace] = &series;
-        let (middle, spread) = (height[0].to_f64(), bound(height, 1));
-        if middle - spread > high {
+        let (middle, reach) = (height[0].to_f64(), spread(height));
+        if middle - reach > high {
             *rising = false;
             continue;
         }
-        if middle + spread < -high {
+        if middle + reach < -high {
             return None;
         }
         let start = at_zero(height, &height[0].zero()).to_f64();
-        let (middle, spread) = (trace[0].to_f64(), bound(trace, 1));
-        if *rising && (middle - spread > fast || increases(trace)) {
+        let (middle, reach) = (trace[0].to_f64(), spread(trace));
+        if *rising && (middle - reach > fast || increases(trace)) {
             continue;
         }
-        if start > high && (middle - spread).max(-middle - spread) > fast {
+        if start > high && (middle - reach).max(-middle - reach) > fast {
             *rising = false;
             continue;
         }
-        if !*rising && middle + spread < -fast {
+        if !*rising && middle + reach < -fast {
             continue;
         }
         if width < SHORTEST || count > MOST_PARTS {
@@ -82,12 +82,12 @@ pub(super) fn open_release<S: Rounded>(basis: &Basis<S>, trace: &[S], off: f64, 
     while let Some((from, width, series)) = parts.pop() {
         count += 1;
         let [trace] = &series;
-        let (middle, spread) = (trace[0].to_f64(), bound(trace, 1));
-        if middle + spread < -off {
+        let (middle, reach) = (trace[0].to_f64(), spread(trace));
+        if middle + reach < -off {
             begins = false;
             continue;
         }
-        if middle - spread > off {
+        if middle - reach > off {
             return None;
         }
         let pressed = from > 0.0 || at_zero(trace, &trace[0].zero()).to_f64() < -off;

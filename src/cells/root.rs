@@ -1,6 +1,6 @@
 //! The first time at which a smooth function turns negative, with earlier times excluded.
 
-use super::series::{Basis, at_one, at_zero, bound, derivative, evaluate};
+use super::series::{Basis, at_one, at_zero, bound, derivative, evaluate, spread};
 use crate::number::Rounded;
 
 /// Intervals shorter than this part of a segment are not cut any further.
@@ -21,15 +21,15 @@ pub(super) fn first_descent<S: Rounded>(basis: &Basis<S>, c: &[S], noise: f64) -
     let mut parts = vec![(zero.clone(), width, c.to_vec())];
     while let Some((from, width, c)) = parts.pop() {
         let centre = c[0].to_f64();
-        let spread = bound(&c, 1);
-        if centre > spread || centre.abs() + spread <= noise {
+        let reach = spread(&c);
+        if centre > reach || centre.abs() + reach <= noise {
             continue;
         }
-        if centre < -spread {
+        if centre < -reach {
             return Some((from, true));
         }
         let slope = derivative(&c);
-        let (mean, variation) = (slope[0].to_f64(), bound(&slope, 1));
+        let (mean, variation) = (slope[0].to_f64(), spread(&slope));
         if mean > variation {
             // Rising from a value that is not negative, as far as can be told.
             if at_zero(&c, &zero).to_f64() < -noise {

@@ -173,6 +173,22 @@ pub(super) fn bound<S: Rounded>(c: &[S], first: usize) -> f64 {
     c.iter().skip(first).map(|term| term.to_f64().abs()).sum()
 }
 
+/// How far the series is from its first term at most: `Σ_{k≥1}|c_k|`. In numbers longer than doubles it may cancel that
+/// term to less than the sum rounds, which is counted; in doubles the bounds that it is held against are greater.
+pub(super) fn spread<S: Rounded>(c: &[S]) -> f64 {
+    let sum = bound(c, 1);
+    match c.first() {
+        // A sum of n terms is off by at most n/2 roundings of it, and each term by one of its own.
+        Some(first) if first.log2_roundoff() < DOUBLE_BITS => {
+            sum + (c.len() as f64 + 1.0) * f64::EPSILON * (sum + first.to_f64().abs())
+        }
+        _ => sum,
+    }
+}
+
+/// Below the roundings of doubles.
+const DOUBLE_BITS: f64 = -60.0;
+
 /// Gauss–Legendre nodes and weights on `0 … 1`.
 pub(super) fn unit_rule<S: Rounded>(like: &S, n: usize) -> Vec<(S, S)> {
     let half = like.ratio(1, 2);

@@ -411,6 +411,21 @@ fn touches_and_releases_that_were_passed_over_are_found() {
     }
 }
 
+/// A touch of 4e-22 as a ray arrives, where sums in doubles took the end for clear of the ground.
+#[test]
+fn a_touch_below_the_roundings_of_doubles_is_found() {
+    let height = "0.191055482538231777061809153393313407474395634353600543678387";
+    let scene = format!(
+        "[rod]\nlength = 1\nwave_speed = 1\ndamping = 0.2568\n\
+         [start]\ndisplacement = [[0, \"{height}\"], [1, \"{height}\"]]\n\
+         velocity = [[0, -0.682], [0.2895, -0.682], [0.2895, 3.196], [1, 3.196]]\n\
+         [gravity]\nacceleration = 0.1903\n[run]\ntime = 0.3095\n"
+    );
+    let history = Scene::parse(&scene).unwrap().problem.digits(5).unwrap();
+    assert_eq!(history.events().len(), 2);
+    assert!(history.warnings().is_empty(), "{:?}", history.warnings());
+}
+
 #[test]
 fn no_event_is_missing_or_invented_next_to_a_threshold() {
     all(2, 1878);
