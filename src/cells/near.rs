@@ -25,42 +25,31 @@ fn increases<S: Rounded>(c: &[S]) -> bool {
     slope.first().is_some_and(|mean| mean.to_f64() > spread(&slope))
 }
 
-/// Where it first is open whether the end, in flight, touches the ground, as a part of the strip: `height` and its
-/// derivative `trace` are known within these bounds. `rising` says that since the release the end has gone up and is
-/// not yet clear of the ground.
-pub(super) fn open_touch<S: Rounded>(
+/// What is known of a part of a strip.
+enum Told {
+    /// Nothing happens in it.
+    Clear,
+    /// It happens in it, and what comes after is another question.
+    Over,
+    /// Halves of it may tell.
+    Open,
+}
+
+/// Where the first part begins, as a part of the strip, that `told` leaves open and that is not worth cutting.
+fn open<S: Rounded, const N: usize>(
     basis: &Basis<S>,
-    (height, trace): (&[S], &[S]),
-    (high, fast): (f64, f64),
-    rising: &mut bool,
+    series: [Vec<S>; N],
+    mut told: impl FnMut(f64, &[Vec<S>; N]) -> Told,
 ) -> Option<f64> {
-    let mut parts = vec![(0.0, 1.0, [height.to_vec(), trace.to_vec()])];
+    let mut parts = vec![(0.0, 1.0, series)];
     let mut count = 0;
     while let Some((from, width, series)) = parts.pop() {
         count += 1;
-        let [height, trace] = &series;
-        let (middle, reach) = (height[0].to_f64(), spread(height));
-        if middle - reach > high {
-            *rising = false;
-            continue;
-        }
-        if middle + reach < -high {
-            return None;
-        }
-        let start = at_zero(height, &height[0].zero()).to_f64();
-        let (middle, reach) = (trace[0].to_f64(), spread(trace));
-        if *rising && (middle - reach > fast || increases(trace)) {
-            continue;
-        }
-        if start > high && (middle - reach).max(-middle - reach) > fast {
-            *rising = false;
-            continue;
-        }
-        if !*rising && middle + reach < -fast {
-            continue;
-        }
-        if width < SHORTEST || count > MOST_PARTS {
-            return Some(from);
+        match told(from, &series) {
+            Told::Clear => continue,
+            Told::Over => return None,
+            Told::Open if width < SHORTEST || count > MOST_PARTS => return Some(from),
+            Told::Open => {}
         }
         let width = 0.5 * width;
         let [late, early] = halves(basis, &series);
@@ -70,38 +59,56 @@ pub(super) fn open_touch<S: Rounded>(
     None
 }
 
+/// Where it first is open whether the end, in flight, touches the ground, as a part of the strip: `height` and its
+/// derivative `trace` are known within these bounds. `rising` says that since the release the end has gone up and is
+/// not yet clear of the ground.
+pub(super) fn open_touch<S: Rounded>(
+    basis: &Basis<S>,
+    (height, trace): (&[S], &[S]),
+    (high, fast): (f64, f64),
+    rising: &mut bool,
+) -> Option<f64> {
+    open(basis, [height.to_vec(), trace.to_vec()], |_, [height, trace]| {
+        let (middle, reach) = (height[0].to_f64(), spread(height));
+        if middle - reach > high {
+            *rising = false;
+            return Told::Clear;
+        }
+        if middle + reach < -high {
+            return Told::Over;
+        }
+        let start = at_zero(height, &height[0].zero()).to_f64();
+        let (middle, reach) = (trace[0].to_f64(), spread(trace));
+        if *rising && (middle - reach > fast || increases(trace)) {
+            return Told::Clear;
+        }
+        if start > high && (middle - reach).max(-middle - reach) > fast {
+            *rising = false;
+            return Told::Clear;
+        }
+        if !*rising && middle + reach < -fast { Told::Clear } else { Told::Open }
+    })
+}
+
 /// Where it first is open whether the ground, in contact, lets go, as a part of the strip: the stress `trace` is known
-/// within `bound`. `begins` says that it may fall from zero here, by construction.
+/// within `off`. `begins` says that it may fall from zero here, by construction.
 pub(super) fn open_release<S: Rounded>(basis: &Basis<S>, trace: &[S], off: f64, mut begins: bool) -> Option<f64> {
     // Where no wave has arrived yet, and without weight, the stress is zero and not only small.
     if trace.iter().all(S::is_zero) {
         return None;
     }
-    let mut parts = vec![(0.0, 1.0, [trace.to_vec()])];
-    let mut count = 0;
-    while let Some((from, width, series)) = parts.pop() {
-        count += 1;
-        let [trace] = &series;
+    open(basis, [trace.to_vec()], |from, [trace]| {
         let (middle, reach) = (trace[0].to_f64(), spread(trace));
         if middle + reach < -off {
             begins = false;
-            continue;
+            return Told::Clear;
         }
         if middle - reach > off {
-            return None;
+            return Told::Over;
         }
         let pressed = from > 0.0 || at_zero(trace, &trace[0].zero()).to_f64() < -off;
         let falls = || increases(&trace.iter().map(|term| -term.clone()).collect::<Vec<_>>());
-        if (pressed || begins) && increases(trace) || begins && falls() {
-            continue;
-        }
-        if width < SHORTEST || count > MOST_PARTS {
-            return Some(from);
-        }
-        let width = 0.5 * width;
-        let [late, early] = halves(basis, &series);
-        parts.push((from + width, width, late));
-        parts.push((from, width, early));
-    }
-    None
+        let told = (pressed || begins) && increases(trace) || begins && falls();
+        if told { Told::Clear } else { Told::Open }
+    })
 }

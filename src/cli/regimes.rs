@@ -46,7 +46,11 @@ impl Regimes {
         let bar = source::bar(None, "{spinner} {pos} points, {elapsed}");
         // The curve takes R alone.
         let speeds = if self.curve { "1,2" } else { &self.speed_ratio };
-        let map = Map::new(&self.damping_ratio, speeds, Threads::of(self.threads), &|| bar.inc(1))?;
+        let threads = Threads::of(self.threads);
+        let mut map = Map::new(&self.damping_ratio, speeds, threads, &|| bar.inc(1))?;
+        if formats.iter().any(|format| matches!(format, Format::Svg | Format::Png | Format::Pdf)) {
+            map = map.with_edges(threads, &|| bar.inc(1));
+        }
         bar.finish_and_clear();
         for (path, format) in self.output.iter().zip(formats) {
             file::write(Some(path), &self.bytes(&map, format)?)?;

@@ -4,13 +4,14 @@ use serde::Serialize;
 
 use super::audit::{Audit, Books};
 use super::conventions::Conventions;
+use super::judgement::{Known, ToldFrom, Verdict};
 use super::map::Location;
 use super::norms::{Compared, Grid, norms};
 use super::ours::Ours;
 use super::samples::Samples;
 use super::touch::{Touch, matched, touches};
 use super::unfitted::spread;
-use super::verdict::{Known, ToldFrom, Verdict, verdicts};
+use super::verdict::verdicts;
 use crate::error::Error;
 use crate::problem::{Problem, Top};
 use crate::quantity::{Quantity, Rays};

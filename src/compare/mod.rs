@@ -7,6 +7,7 @@ mod comparison;
 mod conventions;
 pub mod data;
 mod fit;
+mod judgement;
 mod least;
 mod limit;
 mod map;

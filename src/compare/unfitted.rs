@@ -1,8 +1,8 @@
 //! What data show without a fit: empty columns, a lost start, energy from nowhere, half steps, and how far fronts are
 //! spread.
 
+use super::judgement::{Known, LEFT, Verdict};
 use super::norms::{Compared, Grid};
-use super::verdict::{Known, LEFT, Verdict};
 use crate::error::Error;
 use crate::motion::Side;
 use crate::number::Scalar;

@@ -20,56 +20,12 @@
 //!
 //! Of those that pass, the one with the least left over all columns is said.
 
-use serde::Serialize;
-
+use super::judgement::{Judgement, Known, LEFT, ToldFrom, Verdict};
 use super::model::{Model, Signal};
-use super::norms::{Compared, Grid};
 use super::unfitted::{empty, gained, half_step, is_empty, lost_start};
 use crate::error::Error;
-use crate::problem::{Parameter, Problem};
+use crate::problem::Parameter;
 use crate::quantity::{Measure, Quantity};
-use crate::solve::History;
-
-/// One number that is wrong.
-#[derive(Clone, Debug, PartialEq, Serialize)]
-pub(crate) struct Verdict {
-    /// Which: `wave_speed`.
-    pub(crate) kind: &'static str,
-    /// The column that it is about; `all` where it is all of them.
-    pub(crate) quantity: String,
-    /// By how much.
-    pub(crate) value: f64,
-    /// Its standard error; zero where it is counted.
-    pub(crate) error: f64,
-    /// In words.
-    pub(crate) text: String,
-}
-
-/// From what value on a number that is wrong would be said.
-#[derive(Clone, Debug, PartialEq, Serialize)]
-pub(crate) struct ToldFrom {
-    /// Which: `wave_speed`.
-    pub(crate) kind: &'static str,
-    /// The column that it is about; `all` where it is all of them.
-    pub(crate) quantity: &'static str,
-    /// The value: a share, a time, or an offset.
-    pub(crate) value: f64,
-}
-
-/// What is said of data.
-#[derive(Debug, Default)]
-pub(super) struct Judgement {
-    /// What is wrong.
-    pub(super) said: Vec<Verdict>,
-    /// Where no number is: from what value on each would have been said.
-    pub(super) told_from: Vec<ToldFrom>,
-}
-
-impl From<Vec<Verdict>> for Judgement {
-    fn from(said: Vec<Verdict>) -> Self {
-        Judgement { said, ..Judgement::default() }
-    }
-}
 
 /// A hypothesis, with one number `p` that is 0 where nothing is wrong.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -100,8 +56,6 @@ const ALL: [(&str, Hypothesis); 8] = [
     ("time_shift", Hypothesis::Late),
 ];
 
-/// At most so much of ‖e‖₂ is left by an explanation.
-pub(super) const LEFT: f64 = 0.5;
 /// Up to so much of a value what it changes is taken for linear.
 const LINEAR: f64 = 0.2;
 /// What difference quotients are taken over.
@@ -391,19 +345,6 @@ impl Judge<'_> {
         let holds = holds && early && count > 0.0 && p.abs() > 2.0 * error;
         holds.then(|| Fitted { value: p, error, left: self.squares(found) })
     }
-}
-
-/// What is known of the data besides their columns.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Known<'a> {
-    pub(super) problem: &'a Problem,
-    pub(super) history: &'a History<f64>,
-    pub(super) grid: &'a Grid,
-    pub(super) columns: &'a [Compared],
-    /// The median step.
-    pub(super) step: f64,
-    /// Contacts of ours that are missing, and contacts that ours does not have.
-    pub(super) contacts: [usize; 2],
 }
 
 /// What is wrong, as far as one number says it; `force_per` makes a stress or a strain the force of the ground, and

@@ -1,6 +1,7 @@
 //! A hypothesis that holds, in words.
 
-use super::verdict::{Fitted, Hypothesis, Judge, LEFT, NO_GRAVITY, Verdict};
+use super::judgement::{LEFT, Verdict};
+use super::verdict::{Fitted, Hypothesis, Judge, NO_GRAVITY};
 use crate::number::Scalar;
 use crate::problem::Parameter;
 use crate::quantity::Quantity;

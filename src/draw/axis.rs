@@ -73,7 +73,7 @@ impl Axis {
         signed(&crate::number::Scalar::decimal(&(value * self.factor), 3))
     }
 
-    /// A value to six digits with the unit of the label; as it is where that is a power of ten.
+    /// A value to six digits in the unit of the label; not divided where that is only a power of ten.
     pub(crate) fn told(&self, value: f64) -> String {
         let decimal = |value: f64| signed(&crate::number::Scalar::decimal(&value, 6));
         match self.unit.as_str() {

@@ -149,7 +149,7 @@ impl Panel {
         rows
     }
 
-    /// Puts the label of the axis upwards in the title where it is longer than the frame is high, in letters.
+    /// Moves the label of the vertical axis into the title where it is longer than the frame is high, in letters.
     pub(super) fn label_in_title(&mut self, high: f64) {
         if width(&self.y.label) <= high {
             return;
@@ -163,7 +163,7 @@ impl Panel {
         };
     }
 
-    /// The numbers beside the axis upwards.
+    /// The ticks of the vertical axis.
     fn up(&self, height: f64, em: f64) -> Vec<(f64, String)> {
         self.y.ticks((height / em / 2.4).max(2.5))
     }

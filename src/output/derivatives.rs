@@ -7,17 +7,6 @@ use crate::problem::Parameter;
 use crate::quantity::Quantity;
 use crate::solve::{Derivative, Derivatives};
 
-/// Derivatives by one value, of the quantities of a list.
-#[derive(Clone, Debug)]
-pub(crate) struct Derived<S> {
-    /// The value.
-    pub(crate) by: Parameter,
-    /// Of events.
-    pub(crate) events: Derivatives<S>,
-    /// Of contacts.
-    pub(crate) contacts: Derivatives<S>,
-}
-
 /// Adds columns of derivatives of `quantities` to `data`, whose rows are of the same list.
 pub(super) fn add_columns<S: Scalar>(
     data: &mut Dataset,

@@ -2,12 +2,12 @@
 
 use serde_json::{Value, json};
 
-use super::derivatives::Derived;
 use super::writer::{WIDTH, wrapped};
 use crate::motion::{Ending, EventKind, StressPiece};
+use crate::problem::Parameter;
 use crate::quantity::{Row, Units};
 use crate::reason::Warning;
-use crate::solve::ExactnessEnd;
+use crate::solve::{Derivatives, ExactnessEnd};
 
 /// What stands above the numbers.
 #[derive(Clone, Debug, Default)]
@@ -64,6 +64,17 @@ impl Head {
             Some(parameter) => json!({"reason": parameter.to_string()}),
         }
     }
+}
+
+/// Derivatives by one value, of the quantities of a list.
+#[derive(Clone, Debug)]
+pub(crate) struct Derived<S> {
+    /// The value.
+    pub(crate) by: Parameter,
+    /// Of events.
+    pub(crate) events: Derivatives<S>,
+    /// Of contacts.
+    pub(crate) contacts: Derivatives<S>,
 }
 
 /// A history, ready to be printed.

@@ -8,30 +8,21 @@ use super::dataset::{Column, Dataset};
 use super::writer::Npz;
 use crate::draw::{Axis, Key, Layer, Panel, Shape, Sheet, Size, Stroke};
 use crate::number::{Estimate, Number, Scalar, double_bound_text};
-use crate::sweep::{Map, PARTS, Regime, Spread, threshold, threshold_near};
-use crate::threads::Threads;
+use crate::sweep::{BANDS, Map, PARTS, Regime, Spread, threshold, threshold_near};
 
-/// Colours by `t_b/t₁`, each up to its number and with it.
-const BANDS: [(f64, &str, &str); 8] = [
-    (1.0, "#440154", "t_b = t₁"),
-    (1.25, "#46327e", "to 1.25 t₁"),
-    (1.5, "#365c8d", "to 1.5 t₁"),
-    (1.75, "#277f8e", "to 1.75 t₁"),
-    (2.0, "#1fa187", "to 2 t₁"),
-    (3.0, "#4ac16d", "to 3 t₁"),
-    (4.0, "#a0da39", "to 4 t₁"),
-    (f64::INFINITY, "#fde725", "later"),
+/// The colour of each band, and its name: those with a bounce, none, not decided.
+const COLORS: [(&str, &str); BANDS.len() + 2] = [
+    ("#440154", "t_b = t₁"),
+    ("#46327e", "to 1.25 t₁"),
+    ("#365c8d", "to 1.5 t₁"),
+    ("#277f8e", "to 1.75 t₁"),
+    ("#1fa187", "to 2 t₁"),
+    ("#4ac16d", "to 3 t₁"),
+    ("#a0da39", "to 4 t₁"),
+    ("#fde725", "later"),
+    ("#d9d9d9", "no bounce"),
+    ("#e31a1c", "not decided"),
 ];
-const NEVER: (&str, &str) = ("#d9d9d9", "no bounce");
-const UNDECIDED: (&str, &str) = ("#e31a1c", "not decided");
-
-fn color(regime: Regime) -> &'static str {
-    match regime {
-        Regime::Bounce(time) => BANDS.iter().find(|band| time <= band.0).map_or(UNDECIDED.0, |band| band.1),
-        Regime::Never => NEVER.0,
-        Regime::Undecided => UNDECIDED.0,
-    }
-}
 
 /// `t_b/t₁`; empty where there is no bounce, with the reason in a word.
 pub(crate) fn regimes_data(map: &Map) -> Dataset {
@@ -107,33 +98,32 @@ fn axis(label: &str, values: &[Number]) -> (Axis, Spread) {
 /// The map: a rectangle for each run of points of one colour, the threshold and `R = π` as lines.
 pub(crate) fn regimes_panel(map: &Map) -> Panel {
     let ((x, across), (y, up)) = (axis("R = r t₁", &map.damping), axis("M = μ/(g t₁)", &map.speed));
-    let undecided = map.regimes.contains(&Regime::Undecided).then_some(UNDECIDED);
-    let bands = || BANDS.iter().map(|band| (band.1, band.2)).chain([NEVER]).chain(undecided);
+    let known = if map.regimes.contains(&Regime::Undecided) { COLORS.len() } else { COLORS.len() - 1 };
     let corners = |[from, to]: [f64; 2], [low, high]: [f64; 2]| {
         [DVec2::new(across.border(from), up.border(high)), DVec2::new(across.border(to), up.border(low))]
     };
-    let mut runs: Vec<(&str, [DVec2; 2])> = Vec::new();
+    let mut runs: Vec<(usize, [DVec2; 2])> = Vec::new();
     for (row, regimes) in map.regimes.chunks(map.damping.len()).enumerate() {
         let (mut start, row) = (0, row as f64);
-        for run in regimes.chunk_by(|a, b| color(*a) == color(*b)) {
+        for run in regimes.chunk_by(|a, b| a.band() == b.band()) {
             let end = start + run.len();
-            runs.push((color(run[0]), corners([start as f64, end as f64], [row, row + 1.0])));
+            runs.push((run[0].band(), corners([start as f64, end as f64], [row, row + 1.0])));
             start = end;
         }
     }
-    // Over them what at the edges has another colour than its point.
+    // Over them what at the edges is in another band than its point.
     let part = |k: usize| k as f64 / PARTS as f64;
-    let mut edges: Vec<(&str, [DVec2; 2])> = Vec::new();
-    for (k, regimes) in map.edges(color, Threads::default()) {
+    let mut edges: Vec<(usize, [DVec2; 2])> = Vec::new();
+    for (k, regimes) in &map.edges {
         let (row, column) = ((k / map.damping.len()) as f64, (k % map.damping.len()) as f64);
-        for (j, regime) in regimes.iter().enumerate().filter(|(_, regime)| color(**regime) != color(map.regimes[k])) {
+        for (j, regime) in regimes.iter().enumerate().filter(|(_, regime)| regime.band() != map.regimes[*k].band()) {
             let (x, y) = (column + part(j % PARTS), row + part(j / PARTS));
-            edges.push((color(*regime), corners([x, x + part(1)], [y, y + part(1)])));
+            edges.push((regime.band(), corners([x, x + part(1)], [y, y + part(1)])));
         }
     }
-    let by_color = |rectangles: Vec<(&'static str, [DVec2; 2])>| {
-        let of = |color: &str| rectangles.iter().filter(|found| found.0 == color).map(|found| found.1).collect();
-        Shape::Runs(bands().map(|(color, _)| (color.to_string(), of(color))).collect())
+    let by_color = |rectangles: Vec<(usize, [DVec2; 2])>| {
+        let of = |band: usize| rectangles.iter().filter(|found| found.0 == band).map(|found| found.1).collect();
+        Shape::Runs((0..known).map(|band| (COLORS[band].0.to_string(), of(band))).collect())
     };
     // Closer and closer to I₀(R) = 2, where it is infinite.
     let (mut below, mut above) = (1.8, 1.81);
@@ -152,7 +142,7 @@ pub(crate) fn regimes_panel(map: &Map) -> Panel {
         Layer::new("threshold", Shape::Lines(vec![curve], solid)),
         Layer::new("curve", Shape::Lines(vec![pi], dashed)),
     ];
-    let mut legend: Vec<Key> = bands().map(|(color, text)| Key::Area(text.into(), color)).collect();
+    let mut legend: Vec<Key> = COLORS[..known].iter().map(|(color, text)| Key::Area((*text).into(), color)).collect();
     legend.push(Key::Line("M = (I₀(R) + I₁(R))/(2 − I₀(R))".into(), solid));
     legend.push(Key::Line("R = π".into(), dashed));
     Panel { title: "when the first contact ends".into(), x, y, layers, legend }

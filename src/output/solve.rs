@@ -3,9 +3,9 @@
 use serde_json::{Value, json};
 
 use super::dataset::{Cell, Column, Dataset};
-use super::derivatives::{self, Derived, add_columns};
+use super::derivatives::{self, add_columns};
 use super::outline::sparkline;
-use super::record::{Head, Record};
+use super::record::{Derived, Head, Record};
 use super::writer::table_digits;
 use crate::error::Error;
 use crate::motion::{Ending, EventKind, Motion, StressPiece, straight};

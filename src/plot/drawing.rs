@@ -5,7 +5,7 @@ use super::picture::{Along, Picture};
 use super::pictures::{sheet, time_axis};
 use crate::draw::{Canvas, Size, plain};
 use crate::error::Error;
-use crate::problem::Problem;
+use crate::problem::{Parameters, Problem};
 use crate::quantity::Units;
 use crate::solve::{History, Target};
 
@@ -39,17 +39,9 @@ pub struct Drawn {
 }
 
 impl Drawing {
-    fn gather<S: Target>(
-        &self,
-        pictures: &[Picture],
-        history: &History<S>,
-        problem: &Problem,
-        units: Units,
-    ) -> Result<(Asked, Gathered), Error> {
+    fn asked(&self, pictures: &[Picture]) -> Asked {
         let [from, to] = self.span.map_or([None, None], |span| span.map(Some));
-        let asked = Asked { pictures: pictures.to_vec(), along: Along::default(), deformed: false, from, to };
-        let scene = asked.gather(String::new(), problem, units, history)?;
-        Ok((asked, scene))
+        Asked { pictures: pictures.to_vec(), along: Along::default(), deformed: false, from, to }
     }
 
     /// Draws a history of a problem.
@@ -62,7 +54,8 @@ impl Drawing {
             Canvas::Page => &Picture::SHEET[..],
             Canvas::Screen { .. } => &[Picture::Along, Picture::Stress, Picture::Energy],
         };
-        let (asked, scene) = self.gather(pictures, history, problem, units)?;
+        let asked = self.asked(pictures);
+        let scene = asked.gather(String::new(), problem, units, history)?;
         let title = heading(self.title.as_deref(), problem, &scene, &asked);
         let greatest = scene.cells.as_ref().map_or(0.0, |cells| cells.greatest);
         // The units of one scene do not differ.
@@ -80,7 +73,7 @@ impl Drawing {
     ///
     /// **Errors**: as [`Drawing::draw`].
     pub fn drawn_span<S: Target>(&self, history: &History<S>, problem: &Problem) -> Result<[f64; 2], Error> {
-        Ok(self.gather(&[], history, problem, Units::default())?.1.span)
+        self.asked(&[]).span(history, Parameters::<f64>::of(problem, &())?.round_trip())
     }
 }
 

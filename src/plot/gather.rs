@@ -116,7 +116,7 @@ impl Asked {
     ) -> Result<Gathered, Error> {
         let rod = Parameters::<f64>::of(problem, &())?;
         let end = known_until(history);
-        let span = self.span(history, end, rod.round_trip())?;
+        let span = self.span(history, rod.round_trip())?;
         let contacts = history.contacts().iter();
         let contacts = contacts
             .map(|contact| [contact.from.to_f64(), contact.to.as_ref().map_or(end, Scalar::to_f64)])
@@ -159,7 +159,8 @@ impl Asked {
     }
 
     /// The span to be drawn: what is asked for, or so much of the history as shows its first contacts.
-    fn span<S: Target>(&self, history: &History<S>, end: f64, trip: f64) -> Result<[f64; 2], Error> {
+    pub(super) fn span<S: Target>(&self, history: &History<S>, trip: f64) -> Result<[f64; 2], Error> {
+        let end = known_until(history);
         let events: Vec<f64> = history.events().iter().map(|event| event.time.to_f64()).collect();
         let first = events.first().copied().filter(|first| *first > TRIPS * trip && self.to.is_none());
         let from = self.from.or(first.map(|first| first - TRIPS_AFTER * trip)).unwrap_or(0.0);

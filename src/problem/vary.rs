@@ -51,45 +51,41 @@ impl Parameter {
         Self::ALL.iter().find(|(_, parameter)| *parameter == self).map_or("", |(name, _)| name)
     }
 
-    /// Its value in the numbers of `S`.
+    /// Its value in the numbers of `S`, by which derivatives are taken.
     ///
-    /// **Errors**: [`Error::Derivative`] where `problem` has no such value.
+    /// **Errors**: [`Error::Derivative`] where `problem` has no such value, or a start that would have to be stretched.
     pub(crate) fn value_in<S: Scalar>(self, problem: &Problem, precision: &S::Precision) -> Result<S, Error> {
-        let rod = Parameters::<S>::of(problem, precision)?;
-        let lift = |number: &Number| S::from_number(number, precision);
-        let expected = match (self, &problem.rod.material, &problem.start) {
-            (Parameter::Length, _, Start::Profile(_)) => "a start without a profile, which would have to be stretched",
-            (Parameter::Length, ..) => return Ok(rod.length),
-            (Parameter::WaveSpeed, ..) => return Ok(rod.wave_speed),
-            (Parameter::Modulus, Material::Elastic { modulus, .. }, _) => return Ok(lift(modulus)),
-            (Parameter::Density, Material::Elastic { density, .. }, _) => return Ok(lift(density)),
-            (Parameter::Modulus | Parameter::Density, ..) => "a material: modulus and density",
-            (Parameter::Damping, ..) => return Ok(rod.damping),
-            (Parameter::Gravity, ..) => return Ok(rod.gravity),
-            (Parameter::Speed, _, Start::Profile(_)) => "an impact, or a start above the ground",
-            (Parameter::Speed, ..) => return Ok(rod.speed),
-            (Parameter::Gap, _, Start::Above { gap, .. }) => return Ok(lift(gap)),
-            (Parameter::Gap, ..) => "a start above the ground",
+        let stretched = self == Parameter::Length && matches!(problem.start, Start::Profile(_));
+        let expected = match self {
+            _ if stretched => "a start without a profile, which would have to be stretched",
+            Parameter::Modulus | Parameter::Density => "a material: modulus and density",
+            Parameter::Speed => "an impact, or a start above the ground",
+            _ => "a start above the ground",
         };
-        Err(Error::Derivative { parameter: self.name(), expected })
+        let value = if stretched { None } else { self.find(problem, precision)? };
+        value.ok_or(Error::Derivative { parameter: self.name(), expected })
     }
 
     /// Its value in `problem`; `None` where that has none.
     #[cfg(feature = "compare")]
     pub(crate) fn value(self, problem: &Problem) -> Option<f64> {
-        let rod = Parameters::<f64>::of(problem, &()).ok()?;
-        match (self, &problem.rod.material, &problem.start) {
+        self.find(problem, &()).ok().flatten()
+    }
+
+    fn find<S: Scalar>(self, problem: &Problem, precision: &S::Precision) -> Result<Option<S>, Error> {
+        let rod = Parameters::<S>::of(problem, precision)?;
+        let lift = |number: &Number| Some(S::from_number(number, precision));
+        Ok(match (self, &problem.rod.material, &problem.start) {
             (Parameter::Length, ..) => Some(rod.length),
             (Parameter::WaveSpeed, ..) => Some(rod.wave_speed),
-            (Parameter::Modulus, Material::Elastic { modulus, .. }, _) => Some(modulus.to_f64()),
-            (Parameter::Density, Material::Elastic { density, .. }, _) => Some(density.to_f64()),
+            (Parameter::Modulus, Material::Elastic { modulus, .. }, _) => lift(modulus),
+            (Parameter::Density, Material::Elastic { density, .. }, _) => lift(density),
             (Parameter::Damping, ..) => Some(rod.damping),
             (Parameter::Gravity, ..) => Some(rod.gravity),
-            (Parameter::Speed, _, Start::Uniform(_)) => Some(rod.speed),
-            (Parameter::Speed, _, Start::Above { speed, .. }) => Some(speed.to_f64()),
-            (Parameter::Gap, _, Start::Above { gap, .. }) => Some(gap.to_f64()),
+            (Parameter::Speed, _, Start::Uniform(_) | Start::Above { .. }) => Some(rod.speed),
+            (Parameter::Gap, _, Start::Above { gap, .. }) => lift(gap),
             _ => None,
-        }
+        })
     }
 
     /// `problem` with `value` in place of its own.

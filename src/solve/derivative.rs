@@ -2,7 +2,7 @@
 
 use std::fmt;
 
-use super::ladder::Observer;
+use super::observer::Observer;
 use super::plan::Plan;
 use crate::problem::{Parameter, Problem};
 use crate::quantity::Quantity;

@@ -4,7 +4,8 @@ use std::sync::Arc;
 
 use super::asked::{Longer, Open, Telling};
 use super::derivative::{Asked, Derivatives};
-use super::ladder::{Engined, Observer, Target};
+use super::ladder::{Engined, Target};
+use super::observer::Observer;
 use super::plan::{Engine, Plan, Rung};
 use super::{differences, fractions, long};
 use crate::cells::{ContactThenCells, Damped};
@@ -18,12 +19,14 @@ use crate::problem::{Parameter, Parameters, Problem};
 
 impl Target for f64 {
     fn run(problem: &Problem, plan: &Plan, rung: Rung, observe: &Observer) -> Result<Engined<f64>, Error> {
+        // What exact numbers confirm is in doubles.
+        let exact = matches!(rung, Rung::Fractions | Rung::Confirmed(_));
+        let longer = longer(problem, plan, if exact { Rung::Double } else { rung }, observe);
         match rung {
             Rung::Double => {}
-            Rung::Fractions => return fractions::in_doubles(problem, plan, observe),
-            rung => return long::in_doubles(problem, plan, rung, observe),
+            Rung::Fractions => return fractions::in_doubles(problem, plan, longer, observe),
+            rung => return long::in_doubles(problem, plan, (rung, longer), observe),
         }
-        let longer = longer(problem, plan, rung, observe);
         let problem = &*plan.reaching(problem);
         let engine: Engined<f64> = match plan.engine {
             Engine::Lattice => {
@@ -84,7 +87,7 @@ impl Target for f64 {
 
 /// The runs that tell a time from an event or a ray where one in `rung` does not: fractions for a rod without damping
 /// that has not bounced too often for them, and more and more bits.
-pub(super) fn longer(problem: &Problem, plan: &Plan, rung: Rung, observe: &Observer) -> Longer<f64> {
+fn longer(problem: &Problem, plan: &Plan, rung: Rung, observe: &Observer) -> Longer<f64> {
     let (rungs, exact_contacts) = (plan.telling(rung), plan.climb.exact_contacts.unwrap_or(0));
     let (problem, plan, observe) = (problem.clone(), plan.clone(), observe.clone());
     let run = move |rung: Rung| match rung {

@@ -2,12 +2,12 @@
 
 use std::sync::Arc;
 
-use super::asked::{Open, Telling};
+use super::asked::{Longer, Open, Telling};
 use super::converted::Converted;
 use super::derivative::{Asked, Derivatives};
-use super::engines::longer;
 use super::exact;
-use super::ladder::{Engined, Observer, Target};
+use super::ladder::{Engined, Target};
+use super::observer::Observer;
 use super::plan::{Plan, Rung};
 use crate::error::Error;
 use crate::lattice::Undamped;
@@ -25,15 +25,20 @@ impl Target for Rational {
     }
 }
 
-/// Doubles that fractions confirm.
+/// Doubles that fractions confirm; `longer` are the runs for times that these do not tell.
 ///
 /// **Errors**: [`Error::NotDecided`] where fractions end before the run does.
-pub(super) fn in_doubles(problem: &Problem, plan: &Plan, observe: &Observer) -> Result<Engined<f64>, Error> {
+pub(super) fn in_doubles(
+    problem: &Problem,
+    plan: &Plan,
+    longer: Longer<f64>,
+    observe: &Observer,
+) -> Result<Engined<f64>, Error> {
     let exact = match fractions(problem, plan, observe) {
         Err(Error::Irrational { .. }) => None,
         exact => Some(exact?).filter(|exact| !matches!(exact.ending(), Ending::ExactnessEnds { .. })),
     };
-    confirmed(problem, plan, exact.ok_or(Error::NotDecided { what: "by fractions", bits: 0 })?, observe)
+    confirmed(problem, plan, exact.ok_or(Error::NotDecided { what: "by fractions", bits: 0 })?, longer, observe)
 }
 
 /// Doubles, which answer faster than exact numbers, and within their bounds where all that they took for equal is
@@ -42,6 +47,7 @@ pub(super) fn confirmed<N>(
     problem: &Problem,
     plan: &Plan,
     exact: Undamped<N>,
+    longer: Longer<f64>,
     observe: &Observer,
 ) -> Result<Engined<f64>, Error>
 where
@@ -52,7 +58,7 @@ where
     let reached = plan.reaching(problem);
     let mut doubles = Undamped::<Estimate<f64>>::solve_within(&reached, &(), plan.lattice_limits(problem), &**observe)?;
     Ok(if doubles.confirm(&exact) {
-        Telling::of(Arc::new(doubles), problem, Open::Ask(longer(problem, plan, Rung::Double, observe)))
+        Telling::of(Arc::new(doubles), problem, Open::Ask(longer))
     } else {
         Arc::new(Converted::new(Arc::new(exact)))
     })

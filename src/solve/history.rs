@@ -3,7 +3,8 @@
 use std::sync::{Mutex, OnceLock, PoisonError};
 
 use super::derivative::{Asked, Derivatives};
-use super::ladder::{Attempt, Ladder, Observer, Query, Target, settled, unobserved};
+use super::ladder::{Attempt, Ladder, Query, Target, settled};
+use super::observer::{Observer, unobserved};
 use super::plan::{Plan, Rung};
 use super::question::{Numbers, Question};
 use crate::error::Error;

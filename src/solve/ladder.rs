@@ -1,27 +1,16 @@
 //! The precision ladder: an answer is computed in doubles, in longer numbers or in enclosures until its own bound
 //! settles it.
 
-use std::ops::ControlFlow;
-use std::sync::{Arc, LazyLock};
+use std::sync::Arc;
 
 use super::derivative::{Asked, Derivatives};
+use super::observer::{Observer, UNOBSERVED};
 use super::plan::{Engine, Goal, Lacks, Plan, Rung};
 use crate::error::Error;
 use crate::motion::{Ending, Motion, Scales};
 use crate::number::{Answer, Scalar};
 use crate::problem::Problem;
 use crate::reason::Warning;
-
-/// Receives from time to time how far a run is, in round trips, or in contacts where so many are asked for, and how
-/// many pieces it has; may end the run with [`Error::Interrupted`].
-pub type Observer = Arc<dyn Fn(usize, usize) -> ControlFlow<()> + Send + Sync>;
-
-static UNOBSERVED: LazyLock<Observer> = LazyLock::new(|| Arc::new(crate::lattice::unobserved));
-
-/// An observer that does nothing.
-pub(crate) fn unobserved() -> Observer {
-    UNOBSERVED.clone()
-}
 
 impl Plan {
     /// The answer to one `query` of `problem`, in numbers that carry their bound, and nothing that it does not ask for:

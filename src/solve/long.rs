@@ -2,13 +2,13 @@
 
 use std::sync::Arc;
 
-use super::asked::{Open, Telling, not_told};
+use super::asked::{Longer, Open, Telling, not_told};
 use super::converted::Converted;
 use super::derivative::{Asked, Derivatives};
 use super::differences;
-use super::engines::longer;
 use super::fractions::confirmed;
-use super::ladder::{Engined, Observer, Target};
+use super::ladder::{Engined, Target};
+use super::observer::Observer;
 use super::plan::{Engine, Plan, Rung};
 use crate::cells::{ContactThenCells, Damped};
 use crate::error::Error;
@@ -54,19 +54,17 @@ impl Target for Interval {
     }
 }
 
-/// An attempt in more bits than doubles have, read in doubles.
+/// An attempt in more bits than doubles have, read in doubles; `longer` are the runs for times that it does not tell.
 pub(super) fn in_doubles(
     problem: &Problem,
     plan: &Plan,
-    rung: Rung,
+    (rung, longer): (Rung, Longer<f64>),
     observe: &Observer,
 ) -> Result<Engined<f64>, Error> {
     Ok(match rung {
         Rung::Enclosures(bits) => Arc::new(Converted::new(enclosures(problem, plan, bits, observe)?)),
-        Rung::Confirmed(bits) => confirmed(problem, plan, roots(problem, plan, bits, observe)?, observe)?,
-        rung => {
-            Telling::of(read(problem, plan, rung, observe)?, problem, Open::Says(longer(problem, plan, rung, observe)))
-        }
+        Rung::Confirmed(bits) => confirmed(problem, plan, roots(problem, plan, bits, observe)?, longer, observe)?,
+        rung => Telling::of(read(problem, plan, rung, observe)?, problem, Open::Says(longer)),
     })
 }
 

@@ -1,7 +1,9 @@
 //! Long numbers and enclosures in a build without the feature `mp`: an error that names it.
 
+use super::asked::Longer;
 use super::derivative::{Asked, Derivatives};
-use super::ladder::{Engined, Observer, Target};
+use super::ladder::{Engined, Target};
+use super::observer::Observer;
 use super::plan::{Plan, Rung};
 use crate::error::Error;
 use crate::first_contact::Bounce;
@@ -31,7 +33,7 @@ macro_rules! absent {
 }
 absent!(Float as Estimate<Float>: carried => carried.into_value(), Interval as Interval: carried => carried);
 
-pub(super) fn in_doubles(_: &Problem, _: &Plan, _: Rung, _: &Observer) -> Result<Engined<f64>, Error> {
+pub(super) fn in_doubles(_: &Problem, _: &Plan, _: (Rung, Longer<f64>), _: &Observer) -> Result<Engined<f64>, Error> {
     Err(Error::NoMultiprecision)
 }
 

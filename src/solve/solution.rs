@@ -1,7 +1,8 @@
 //! The answer in the numbers that were asked for.
 
 use super::history::History;
-use super::ladder::{Observer, Target};
+use super::ladder::Target;
+use super::observer::Observer;
 use super::plan::Plan;
 use super::question::Numbers;
 use crate::error::Error;

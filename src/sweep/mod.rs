@@ -18,6 +18,6 @@ pub(crate) use grid::{Axis, Grid, SweepError};
 pub(crate) use journal::{Journal, journal_of};
 pub use point::Cell;
 pub(crate) use point::{Asked, Point};
-pub(crate) use regimes::{Map, PARTS, Regime, Spread, threshold, threshold_near};
+pub(crate) use regimes::{BANDS, Map, PARTS, Regime, Spread, threshold, threshold_near};
 pub(crate) use run::Sweep;
 pub use run::sweep;

@@ -27,6 +27,23 @@ pub(crate) struct Map {
     pub(crate) damping: Vec<Number>,
     pub(crate) speed: Vec<Number>,
     pub(crate) regimes: Vec<Regime>,
+    /// What a picture shows finer, once [`Map::with_edges`] has found it: the index of a point, and the regimes in
+    /// [`PARTS`] × [`PARTS`] parts of its rectangle, `M` by rows.
+    pub(crate) edges: Vec<(usize, Vec<Regime>)>,
+}
+
+/// The `t_b/t₁` up to which each band of a map reaches, in order.
+pub(crate) const BANDS: [f64; 8] = [1.0, 1.25, 1.5, 1.75, 2.0, 3.0, 4.0, f64::INFINITY];
+
+impl Regime {
+    /// The place of its band in [`BANDS`]; after these that without a bounce, and what is not decided.
+    pub(crate) fn band(self) -> usize {
+        match self {
+            Regime::Bounce(time) => BANDS.iter().position(|most| time <= *most).unwrap_or(BANDS.len() + 1),
+            Regime::Never => BANDS.len(),
+            Regime::Undecided => BANDS.len() + 1,
+        }
+    }
 }
 
 impl Map {
@@ -68,18 +85,15 @@ impl Map {
         })?;
         let columns: Vec<Regime> = columns.concat();
         let at = |k: usize| columns[k % dampings.len() * speeds.len() + k / dampings.len()];
-        Ok(Map { regimes: (0..columns.len()).map(at).collect(), damping: dampings, speed: speeds })
+        let regimes = (0..columns.len()).map(at).collect();
+        Ok(Map { regimes, damping: dampings, speed: speeds, edges: Vec::new() })
     }
 
-    /// The rectangles about points that are not of the class of a neighbour: the index of the point, and the regimes in
-    /// [`PARTS`] × [`PARTS`] parts of its rectangle, `M` by rows.
-    pub(crate) fn edges<C: PartialEq + Sync>(
-        &self,
-        class: impl Fn(Regime) -> C,
-        threads: Threads,
-    ) -> Vec<(usize, Vec<Regime>)> {
+    /// The same with [`Map::edges`]: the rectangles about points that are in another band than a neighbour. `done` is
+    /// called after each of these.
+    pub(crate) fn with_edges(self, threads: Threads, done: &(dyn Fn() + Sync)) -> Self {
         let (across, rod) = (self.damping.len(), unit_rod());
-        let kinds: Vec<C> = self.regimes.iter().map(|regime| class(*regime)).collect();
+        let kinds: Vec<usize> = self.regimes.iter().map(|regime| regime.band()).collect();
         let differs = |k: usize| {
             let (row, column) = (k / across, k % across);
             let beside = [(column > 0).then(|| k - 1), (column + 1 < across).then(|| k + 1)];
@@ -88,7 +102,7 @@ impl Map {
         };
         let (dampings, speeds) = (Spread::of(&self.damping), Spread::of(&self.speed));
         // All parts of a column share their kernels, as far as they have one damping.
-        let columns = threads.all(across, |column| {
+        let Ok(columns) = threads.all(across, |column| {
             let edge = (0..self.speed.len()).map(|row| row * across + column).filter(|k| differs(*k));
             let mut found: Vec<(usize, Vec<Regime>)> =
                 edge.map(|k| (k, vec![Regime::Undecided; PARTS * PARTS])).collect();
@@ -101,9 +115,10 @@ impl Map {
                     }
                 }
             }
+            found.iter().for_each(|_| done());
             Ok::<_, std::convert::Infallible>(found)
         });
-        columns.unwrap_or_default().concat()
+        Map { edges: columns.concat(), ..self }
     }
 }
 

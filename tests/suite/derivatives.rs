@@ -204,7 +204,7 @@ fn fractions_against_difference_quotients() {
 }
 
 #[test]
-#[ignore = "for make explore"]
+#[ignore = "minutes: make explore"]
 fn fractions_against_difference_quotients_at_length() {
     exact_against_quotients(1000, [700, 90]);
 }
@@ -338,7 +338,7 @@ fn euler_identities_under_damping() {
 }
 
 #[test]
-#[ignore = "for make explore"]
+#[ignore = "minutes: make explore"]
 fn euler_identities_under_damping_at_length() {
     euler_identities_damped(60, [55]);
 }
