@@ -4,14 +4,16 @@
 #   make test         runs all tests
 #   make page         builds the page, one HTML file that opens from disk, and make page-test tries it in Chromium
 #   make site         builds the site of docs/, with the page, the commands' help and the gallery in it
-#   make docs         works out docs/guide and docs/check.md anew
+#   make docs         works out docs/guide anew
 # GMP needs m4, and page-test Chromium; both are installed where they are missing. page-test needs Node 20 with npm too.
 
 CARGO ?= cargo
+# What builds the command for the page's test and the site.
+BUILD ?= build
 # Random tests draw the same cases every time, so that one commit has one answer. `make explore` draws others.
 export PROPTEST_RNG_SEED ?= 1878
 
-.PHONY: help demo demo-exact test docs explore page page-test site release m4 chromium
+.PHONY: help demo demo-exact test docs explore page page-test site site-test release m4 chromium
 
 help:
 	@echo "make demo         build the command in pure Rust and solve the bouncing bar of Doyen, Ern and Piperno"
@@ -19,9 +21,9 @@ help:
 	@echo "make test         run all tests, those of the documentation included"
 	@echo "make page         build the page: target/page/dalembert.html, one file that opens from disk"
 	@echo "make page-test    try the page in Chromium; needs Node 20 and npm"
-	@echo "make site         build the site of these pages: target/site/index.html, which opens from disk; needs Python 3.10"
+	@echo "make site         build the site of these pages: target/site/index.html, opens from disk; needs Python 3.10"
 	@echo "make release      binary, wheel, crate and page in target/dist, each tried; half an hour where nothing is built"
-	@echo "make docs         write the outputs and pictures of docs/guide, and docs/check.md, anew"
+	@echo "make docs         write the outputs and pictures of docs/guide anew"
 	@echo "make explore      run the random tests on cases never tried before"
 
 demo:
@@ -37,7 +39,6 @@ test: m4
 
 docs: m4
 	REBUILD_GUIDE=1 $(CARGO) test --test suite guide::
-	$(CARGO) run -- check --format markdown -o docs/check.md
 
 explore: m4
 	PROPTEST_RNG_SEED=$$(date +%s) $(CARGO) test --no-fail-fast --test suite -- properties first_contact_bounce
@@ -54,16 +55,25 @@ page:
 	$(CARGO) run --quiet $(PACKED) --package pack -- \
 		target/web/$(WASM)/release/dalembert_web.wasm web/page target/page/dalembert.html
 
-page-test: page chromium
-	$(CARGO) build
-	cd web/test && npm ci --silent --no-fund && node page.mjs
+page-test: page chromium web/test/node_modules
+	$(CARGO) $(BUILD)
+	cd web/test && node page.mjs
+
+web/test/node_modules: web/test/package-lock.json
+	cd web/test && npm ci --silent --no-fund && touch node_modules
 
 # Every picture and table of the site is made here; a link that leads nowhere ends it.
-site: page
-	$(CARGO) build
-	[ -d target/site-venv ] || python3 -m venv target/site-venv
-	target/site-venv/bin/pip install --quiet --requirement site/requirements.txt
+site: page target/site-venv
+	$(CARGO) $(BUILD)
 	NO_MKDOCS_2_WARNING=1 target/site-venv/bin/mkdocs build --quiet --strict --config-file site/mkdocs.yml
+
+site-test: site chromium web/test/node_modules
+	cd web/test && node site.mjs
+
+target/site-venv: site/requirements.txt
+	python3 -m venv $@
+	$@/bin/pip install --quiet --requirement $<
+	@touch $@
 
 release:
 	bash .ci/release

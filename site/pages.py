@@ -1,5 +1,5 @@
 """What `make site` adds to the pages of docs/: first steps from the README, the help of each command, the schema, the
-examples, pictures with their commands, and the page of the classroom."""
+examples, pictures with their commands, the catalogue of hard cases, and the page of the classroom."""
 
 import json
 import re
@@ -10,6 +10,8 @@ from pathlib import Path
 from mkdocs.structure.files import File
 
 ROOT = Path(__file__).parent.parent
+# Files of the repository that pages link to.
+FILES = ["examples/*.csv", "examples/*.toml", "python/examples/*.py", "CITATION.cff", "LICENSE-*", "src/draw/font/LICENSE"]
 COMMAND = ROOT / "target/debug/dalembert"
 COMMANDS = "solve sample plot reference explain cost compare sweep regimes figures check scenes".split()
 GALLERY = {
@@ -61,7 +63,8 @@ def colour(strain, most):
 
 def rod():
     """One period of the bar of Doyen, Ern and Piperno as an animated SVG, from values of the program."""
-    table = json.loads(run("reference doyen-ern-piperno --times 0..16/3:129 --points 0..10:11 --side right --format json"))
+    period = "--times 0..16/3:129 --points 0..10:11 --side right"
+    table = json.loads(run(f"reference doyen-ern-piperno {period} --format json"))
     names = [column["name"] for column in table["columns"]]
     rows = [dict(zip(names, row)) for row in table["rows"]]
     frames = [rows[k : k + 11] for k in range(0, len(rows), 11)]
@@ -80,7 +83,7 @@ def rod():
         parts.append(f'<rect x="4" width="2" {first}>{body}</rect>')
     ground = '<rect x="0" y="16" width="10" height="0.6" fill="#888"/>'
     return (
-        '<svg viewBox="0 0 10 17" style="max-height: 28rem; width: 100%" role="img" '
+        '<svg viewBox="0 0 10 17" style="max-height: 20rem; width: 100%" role="img" '
         f'aria-label="An elastic bar bounces on the ground">{ground}{"".join(parts)}</svg>'
     )
 
@@ -94,24 +97,42 @@ def on_files(files, config):
         "examples.md": examples(),
         "gallery.md": gallery(files, config),
         "python.md": (ROOT / "python/README.md").read_text() + "\n## Reference\n\n::: dalembert\n",
+        "check.md": run("check --format markdown"),
         "schema.md": f"# JSON schema\n\n`dalembert schema` prints it.\n\n```json\n{run('schema')}```\n",
         "changes.md": (ROOT / "CHANGELOG.md").read_text(),
     }
     for name, text in pages.items():
         files.append(File.generated(config, name, content=text))
-    page = ROOT / "target/page/dalembert.html"
-    files.append(File.generated(config, "live.html", content=page.read_bytes()))
+    kept = {f"files/{path.name}": path for pattern in FILES for path in ROOT.glob(pattern)}
+    kept |= {"live.html": ROOT / "target/page/dalembert.html", "assets/search.js": ROOT / "site/search.js"}
+    for name, path in kept.items():
+        files.append(File.generated(config, name, content=path.read_bytes()))
     return files
 
 
 def on_page_markdown(markdown, page, **_):
-    """Links to files of the repository that are pages of the site lead to those; the others become code."""
+    """Links to files of the repository lead to pages of the site, or to the files in it."""
     if page.file.src_uri == "page.md":
-        markdown += '\n<iframe src="live.html" title="The page" style="width: 100%; height: 48rem; border: 0"></iframe>\n'
+        markdown += (
+            '\n[The page by itself](live.html), which you may also save.\n'
+            '\n<iframe src="live.html" title="The page" style="width: 100%; height: 48rem; border: 0"></iframe>\n'
+        )
     here = "../" if page.file.src_uri.startswith("guide/") else ""
-    markdown = re.sub(r"\]\((?:\.\./)*examples/(\w+)\.rs\)", rf"]({here}examples.md#\1)", markdown)
-    markdown = re.sub(r"\]\((?:\.\./)*examples\)", f"]({here}examples.md)", markdown)
-    markdown = re.sub(r"\]\((?:\.\./)*python/README\.md\)", f"]({here}python.md)", markdown)
+    for link, target in [
+        (r"examples/(\w+)\.rs", r"examples.md#\1"),
+        (r"examples", "examples.md"),
+        (r"python/README\.md", "python.md"),
+        (r"CHANGELOG\.md", "changes.md"),
+        (r"(?:[\w-]+/)*([\w-]+\.(?:py|csv|toml|cff)|LICENSE[\w-]*)", r"files/\1"),
+    ]:
+        markdown = re.sub(rf"\]\((?:\.\./)*{link}\)", rf"]({here}{target})", markdown)
     markdown = re.sub(r"\]\((?:\.\./)+README\.md\)", f"]({here}start.md)", markdown)
-    markdown = re.sub(r"\]\((?:\.\./)*CHANGELOG\.md\)", f"]({here}changes.md)", markdown)
-    return re.sub(r"\[([^\]]*)\]\((?:[\w./-]*(?:LICENSE[\w-]*|CITATION\.cff|CONTRIBUTING\.md|\w+\.py|\w+\.csv|\w+\.toml))\)", r"`\1`", markdown)
+    return re.sub(r"\[([^\]]*)\]\((?:\.\./)*CONTRIBUTING\.md\)", r"`\1`", markdown)
+
+
+def on_post_page(output, page, **_):
+    """The theme has the search of pages that are opened from disk from the net; here it is a file beside them."""
+    here = "../" if page.file.src_uri.startswith("guide/") else ""
+    outside = "https://unpkg.com/iframe-worker/shim"
+    assert outside in output, "the theme has changed: see on_post_page"
+    return output.replace(outside, f"{here}assets/search.js")

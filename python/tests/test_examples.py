@@ -3,15 +3,38 @@
 import pathlib
 import subprocess
 import sys
+from fractions import Fraction
 
 import numpy as np
 import pytest
+
+import dalembert
 
 EXAMPLES = pathlib.Path(__file__).resolve().parents[1] / "examples"
 
 
 def output(name: str) -> str:
     return subprocess.run([sys.executable, EXAMPLES / name], capture_output=True, text=True, check=True).stdout
+
+
+def test_the_readme(tmp_path, monkeypatch):
+    """All of its Python, with data that are off by a thousandth."""
+    pytest.importorskip("pandas")
+    pytest.importorskip("matplotlib").use("Agg")
+    monkeypatch.chdir(tmp_path)
+    scene = dalembert.solve("doyen-ern-piperno")
+    for name, steps in [("run", 14001), ("coarse", 1401), ("fine", 2801)]:
+        t = np.linspace(0, 14, steps)
+        u, f = 1.001 * scene.ground_end(t).displacement, -900 * scene.strain(t)
+        np.savetxt("run.csv", np.column_stack([t, u, f])) if name == "run" else np.savez(name, t=t, u=u, force=f)
+    text = (EXAMPLES.parent / "README.md").read_text()
+    blocks = [block.split("```")[0] for block in text.split("```python\n")[1:]]
+    assert len(blocks) == 3
+    names = {}
+    for block in blocks:
+        exec(block, names)
+    assert names["m"].contacts["to"].tolist() == [2, 5, 8, 11]
+    assert names["rod"].impact_speed == Fraction(4, 3)
 
 
 def test_own_scheme():

@@ -15,7 +15,7 @@ use crate::routes::check::{CATALOGUE, Case, Checked, Group, Verdict, select};
 /// The catalogue of hard cases and of the paper's claims, worked out now by every route and held against the truth
 #[derive(Args, Debug)]
 #[command(after_help = "Examples:\n  dalembert check\n  dalembert check --only late --only figure-4\n  \
-    dalembert check --format markdown -o docs/check.md\n\nThe exit code is 1 if any promise is not kept.")]
+    dalembert check --format markdown -o check.md\n\nThe exit code is 1 if any promise is not kept.")]
 pub(super) struct Check {
     /// A case or a group, or `targets` for the published values of the built-in scenes; can be given several times
     #[arg(long, value_name = "NAME")]
@@ -31,8 +31,6 @@ pub(super) struct Check {
     output: Option<PathBuf>,
 }
 
-/// What makes the page of the repository.
-const PAGE: &str = "dalembert check --format markdown -o docs/check.md";
 /// The published values among the names of groups.
 const TARGETS: &str = "targets";
 
@@ -65,7 +63,7 @@ impl Check {
             Format::Table if self.summary => check_summary(&checked, &published),
             Format::Table => check_table(&checked, &published),
             Format::Json => format!("{:#}\n", check_json(&checked, &published)),
-            _ => check_page(&checked, &published, PAGE),
+            _ => check_page(&checked, &published),
         };
         file::write(self.output.as_deref(), text.as_bytes())?;
         let failed = checked.iter().flat_map(|(_, cases)| cases).any(|case| case.verdict == Verdict::Failed);

@@ -84,13 +84,13 @@ pub(crate) fn check_summary(groups: &Groups, published: &[Published]) -> String 
 }
 
 /// For the repository: nothing in it depends on the machine.
-pub(crate) fn check_page(groups: &Groups, published: &[Published], command: &str) -> String {
-    let mut out = format!(
-        "# Hard cases, and what the paper claims\n\nMade by `{command}`; a \
-         test holds it against what the program finds. Each number is asked of several routes that share as little as \
-         they can, and each route is held to what it promises. The truth stands in the catalogue, to as many digits \
-         as are printed; where a row says *proved*, enclosures prove them. `dalembert check` shows the answers, how \
-         many of their digits are right, and what each took on your machine.\n\n",
+pub(crate) fn check_page(groups: &Groups, published: &[Published]) -> String {
+    let mut out = String::from(
+        "# Hard cases, and what the paper claims\n\nPrinted by `dalembert check --format markdown`. Each number is asked \
+         of several routes that share as little as they can, and each route is held to what it promises. The truth \
+         stands in the catalogue, to as many digits as are printed; where a row says *proved*, enclosures prove them. \
+         `dalembert check` shows the answers, how many of their digits are right, and what each took on your \
+         machine.\n\n",
     );
     if !groups.is_empty() {
         out += &format!("**{}.**\n\n", count(groups));
