@@ -10,40 +10,35 @@ pub(crate) type Moments<S> = [[S; 2]; 3];
 /// The moments of stretches on which all is polynomial.
 pub(crate) fn of_stretches<S: Scalar>(stretches: &[Stretch<S>], points: &[S]) -> Result<Vec<Moments<S>>, Error> {
     let mut cells = Vec::with_capacity(points.len());
-    let mut rest = stretches.iter().cloned();
-    let mut now = rest.next();
+    let mut rest = stretches.iter().peekable();
     for pair in points.windows(2) {
         let (a, b) = (&pair[0], &pair[1]);
         let zero = || [a.zero(), a.zero()];
         let mut sums = [zero(), zero(), zero()];
-        while let Some(stretch) = now.take() {
+        while let Some(&stretch) = rest.peek() {
             let end = stretch.from.clone() + &stretch.width;
-            // Before the grid, in the cell, and beyond it.
+            // Before the grid, in the cell, and beyond it. Each part is one of the whole stretch: a part of a part
+            // would double the bound of where it begins, cell by cell.
             let skipped = a.clone() - &stretch.from;
-            let stretch = match skipped.positive()? {
+            let part = match skipped.positive()? {
                 true if !a.below(&end)? => {
-                    now = rest.next();
-                    if now.is_none() {
-                        break;
-                    }
+                    rest.next();
                     continue;
                 }
-                true => stretch.after(&skipped),
+                true => &Stretch { from: a.clone(), ..stretch.after(&skipped) },
                 false => stretch,
             };
             let within = end.below(b)?;
-            let way = if within { stretch.width.clone() } else { b.clone() - &stretch.from };
-            let offset = stretch.from.clone() - a;
-            for (sum, [area, moment]) in sums.iter_mut().zip(stretch.moments(&way)) {
+            let way = if within { part.width.clone() } else { b.clone() - &part.from };
+            let offset = part.from.clone() - a;
+            for (sum, [area, moment]) in sums.iter_mut().zip(part.moments(&way)) {
                 sum[1] = sum[1].clone() + moment + &(offset.clone() * &area);
                 sum[0] = sum[0].clone() + area;
             }
-            if within {
-                now = rest.next();
-            } else {
-                now = Some(stretch.after(&way));
+            if !within {
                 break;
             }
+            rest.next();
         }
         cells.push(sums);
     }

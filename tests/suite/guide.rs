@@ -123,6 +123,30 @@ fn pages_show_what_their_commands_print() {
     }
 }
 
+/// What the pages tell to type, with a code of one's own, `my_code` and `run.csv`, and with pictures as SVG: PNG and PDF
+/// are drawn from it. The figures of the paper are drawn once, in `pictures`.
+#[test]
+fn commands_of_pages_run() {
+    let work = tempfile::tempdir().unwrap();
+    let scene = std::fs::read_to_string(docs().join("scenes.md")).unwrap();
+    let scene = scene.split_once("```toml\n# rod.toml\n").unwrap().1.split_once("```").unwrap().0;
+    std::fs::write(work.path().join("rod.toml"), scene).unwrap();
+    output("dalembert reference doyen-ern-piperno --dt 0.01 --to 14 --side right -o run.csv", work.path());
+    let mut count = 0;
+    for page in ["output.md", "compare.md", "sweeps.md"] {
+        let text = std::fs::read_to_string(docs().join(page)).unwrap();
+        for block in text.split("```sh\n").skip(1).filter_map(|rest| rest.split_once("```")) {
+            let block = block.0.replace("\\\n", "").replace("my_code --print-times", "seq 5");
+            let block = block.replace(".png", ".svg").replace(".pdf", ".svg");
+            for line in block.lines().filter(|line| !line.starts_with("cargo") && !line.contains("figures")) {
+                output(&format!("{line} 2>notes || {{ cat notes >&2; false; }}"), work.path());
+                count += 1;
+            }
+        }
+    }
+    assert!(count >= 12, "{count} commands");
+}
+
 /// The files of the repository that a page links to are there.
 #[test]
 fn links_lead_to_files() {

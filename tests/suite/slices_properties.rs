@@ -66,6 +66,28 @@ fn warned(histories: &[&dyn Motion<Estimate<f64>>]) -> Result<[usize; 1], TestCa
     Ok([0])
 }
 
+/// What a cell carries comes from its own ends and its ray: a thousand cells are as well known as ten.
+#[test]
+fn fine_grids_are_known_as_well() {
+    let rod = Problem::builder().length(1).wave_speed(1).gravity(1).impact_speed(3).time(40).build().unwrap();
+    let history = rod.solve().unwrap();
+    let mut count = 0;
+    for (slice, n) in BOTH.into_iter().flat_map(|slice| [(slice, 100), (slice, 1000)]) {
+        let points: Vec<f64> = (0..=n).map(|k| f64::from(k) / f64::from(n)).collect();
+        // v = −g(2 − t)²/2 + … has values of some units: their roundings over the width of a cell, and few more.
+        let most = 1e3 * f64::from(n) * f64::EPSILON;
+        let carried = history.ask(
+            |motion| slices(motion, slice, &exact(&points), &exact(&[0.0, 0.3, 1.0, 2.0, 11.7]), None),
+            |table| table[3..].iter().flatten().collect(),
+        );
+        for x in carried.unwrap()[3..].iter().flatten() {
+            assert!(x.bound() <= most, "{slice:?}, {n} cells: {x:?} above {most:e}");
+            count += 1;
+        }
+    }
+    assert!(count > 30_000, "{count} numbers");
+}
+
 /// r = 1e-30 changes nothing that doubles hold.
 #[test]
 fn without_damping_they_are_fractions() {
