@@ -83,7 +83,7 @@ pub use glam;
 pub use motion::{Contact, Ending, Energy, Event, EventKind, Field, Ray, Side, StressHistory, StressPiece};
 pub use number::{Estimate, Float, Interval, Number, NumberError, Rational};
 #[cfg(feature = "svg")]
-pub use plot::{Canvas, Drawing, Drawn};
+pub use plot::{Canvas, Drawing, Drawn, Pose, Sizes};
 pub use problem::{
     Builder, Dimensionless, Material, Parameter, Parameters, Problem, ProblemError, ProblemErrorKind, Profile, Rod,
     Run, Speed, Start, Top, Written,

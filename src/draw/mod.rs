@@ -30,4 +30,4 @@ pub(crate) use render::Rendered;
 pub use sheet::Canvas;
 pub(crate) use sheet::{Sheet, Size};
 pub(crate) use svg::Anchor;
-pub(crate) use svg::{Stroke, plain};
+pub(crate) use svg::{Stroke, Svg, plain};

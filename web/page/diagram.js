@@ -1,8 +1,15 @@
 // The pictures over time: field, stress and energies, drawn by the engine as `dalembert plot` draws them.
-import { zoomed } from "./rod.js";
-
 /** Millimetres of a pixel. */
 const MM = 25.4 / 96;
+
+/**
+ * Width, height and letters of a place in mm. These are greater than usual as the place is, and as the reader has set
+ * the letters.
+ */
+export const sized = ({ clientWidth, clientHeight }, usual) => [clientWidth, clientHeight, 13 * Math.max(
+  parseFloat(getComputedStyle(document.documentElement).fontSize) / 16,
+  Math.min(clientWidth / usual, clientHeight / 290),
+)].map((pixels) => pixels * MM);
 
 export class Diagram {
   constructor(place, engine) {
@@ -14,9 +21,7 @@ export class Diagram {
     // A copy, by which later pictures are told from these.
     const asked = { ...view };
     this.asked = asked;
-    const { clientWidth, clientHeight } = this.place;
-    const size = [clientWidth, clientHeight, 13 * zoomed(this.place, 560)].map((pixels) => pixels * MM);
-    const found = await this.engine.ask("screen", shot.number, view.from, view.to, ...size);
+    const found = await this.engine.ask("screen", shot.number, view.from, view.to, ...sized(this.place, 560));
     if (!found || asked !== this.asked) return false;
     this.place.innerHTML = found.svg;
     this.place.firstElementChild.setAttribute("aria-hidden", "true");

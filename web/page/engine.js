@@ -15,9 +15,8 @@ function answers() {
     solve(number, text, milliseconds) {
       const fresh = new wasm_bindgen.Run(text, milliseconds);
       try {
-        const [strain, rise, length, least, most] = fresh.sizes();
         const found = {
-          number, sizes: { strain, rise, length, least, most }, end: fresh.end(), events: fresh.events(),
+          number, strain: fresh.strain(), end: fresh.end(), events: fresh.events(),
           parameters: fresh.parameters(), contacts: fresh.contacts(), ending: fresh.ending(),
           doubts: fresh.doubts(), span: fresh.span(),
         };
@@ -29,7 +28,7 @@ function answers() {
         throw error;
       }
     },
-    at: (number, time, points) => of(number, () => ({ values: run.at(time), rod: run.rod(time, points) })),
+    at: (number, time, ...look) => of(number, () => ({ values: run.at(time), rod: run.rod(time, ...look) })),
     screen: (number, ...rest) => of(number, () => drawn(run.screen(...rest))),
     page: (number, ...span) => of(number, () => drawn(run.page(...span))),
   };

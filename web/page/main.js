@@ -1,10 +1,8 @@
 // The page: what its parts do together.
 import { PRESETS } from "./presets.js";
 import { command, fragment, read, scene, toml, value } from "./scene.js";
-import { readColours } from "./colours.js";
-import { POINTS, drawRod, enlargement, lowered } from "./rod.js";
 import { Engine } from "./engine.js";
-import { Diagram } from "./diagram.js";
+import { Diagram, sized } from "./diagram.js";
 import { Sliders } from "./sliders.js";
 
 /** Milliseconds that a scene may take. */
@@ -68,7 +66,7 @@ function show(fresh) {
   sliders.ratios(shot.parameters);
   $("status").textContent = `c = ${shot.parameters[0]}, t₁ = ${shot.parameters[1]}; ${shot.ending}`;
   fillContacts();
-  return redraw();
+  return draw();
 }
 
 /** The answer to a scene; null, with the reason shown, where there is none. */
@@ -88,8 +86,8 @@ async function solved({ text, ...rest }) {
   }
 }
 
-/** A text with its subscripts. */
-const written = (text) => lowered(text).map((part, k) => {
+/** A text with its subscripts: `E_h` in parts, every other one a subscript. */
+const written = (text) => text.split(/_([A-Za-z])/).map((part, k) => {
   if (k % 2 === 0) return part;
   return Object.assign(document.createElement("sub"), { textContent: part });
 });
@@ -108,16 +106,10 @@ function setSpan(name) {
   $("span").value = name;
 }
 
-/** Draws all again. */
-function redraw() {
-  readColours();
-  return draw();
-}
-
 /** What the pictures show, for those who do not see them. */
 function describe() {
   const shown = `from t = ${Number(view.from.toPrecision(4))} to ${Number(view.to.toPrecision(4))}`;
-  const strain = Number(shot.sizes.strain.toPrecision(3));
+  const strain = Number(shot.strain.toPrecision(3));
   $("diagram").setAttribute("aria-label", `Over time, ${shown}: the strain along the rod, up to ${strain}; the strain at `
     + `the ground; the energies of the centre of mass and of the vibration. ${shot.contacts.length / COLUMNS.length} `
     + `contacts in the whole run, which ends at t = ${Number(shot.end.toPrecision(6))}.`);
@@ -172,8 +164,8 @@ function play(on) {
   else settle();
 }
 
-/** How many times displacements are enlarged. */
-const factor = () => ($("drawn").value === "true" ? 1 : Number($("drawn").value) * enlargement(shot.sizes));
+/** How many times what fits displacements are enlarged; undefined: they are as they are. */
+const enlarged = () => ($("drawn").value === "true" ? undefined : Number($("drawn").value));
 
 const within = (time) => Math.max(0, Math.min(time, shot.end));
 
@@ -196,11 +188,12 @@ function pose() {
   return (posing ??= (async () => {
     while (moved) {
       moved = false;
-      const found = await engine.ask("at", shot.number, now, POINTS).catch(({ message }) => say(message, []));
+      const look = [...sized($("rod"), 176), enlarged(), diagram.greatest];
+      const found = await engine.ask("at", shot.number, now, ...look).catch(({ message }) => say(message, []));
       if (!found) continue;
       const [h, E, E_h, E_z, end, strain] = found.values;
       fill($("values"), { h, E_h, E_z, E, "v(0,t)": end, "v_x(0,t)": strain });
-      drawRod($("rod"), shot, found.rod, diagram.greatest, factor(), [E_h, E_z].map(Number), Number(h));
+      $("rod").innerHTML = found.rod;
     }
     posing = null;
   })());
@@ -309,7 +302,7 @@ function zoom(factor, around = now) {
   const from = Math.max(0, Math.min(around - wide * Math.min(Math.max(part, 0), 1), shot.end - wide));
   view = { from, to: from + wide };
   $("span").value = wide === shot.end ? "all" : "";
-  redraw();
+  draw();
 }
 
 async function choose(k) {
@@ -333,7 +326,7 @@ function mark() {
 function setTheme(dark) {
   document.documentElement.dataset.theme = dark ? "dark" : "light";
   $("theme").textContent = dark ? "Light" : "Dark";
-  if (shot) redraw();
+  if (shot) draw();
 }
 
 async function copy(text, what) {
@@ -413,7 +406,7 @@ function listen() {
   $("span").addEventListener("change", () => {
     setSpan($("span").value);
     if (now < view.from || now > view.to) stepTo(view.from);
-    redraw();
+    draw();
   });
   $("drawn").addEventListener("change", () => moveTo(now));
   $("time").addEventListener("input", () => stepTo(view.from + $("time").value * (view.to - view.from)));
@@ -434,7 +427,7 @@ function listen() {
   $("save").addEventListener("click", () => busily(saveSvg));
   $("save-png").addEventListener("click", () => busily(savePng));
   addEventListener("hashchange", open);
-  new ResizeObserver(() => shot && redraw()).observe($("pictures"));
+  new ResizeObserver(() => shot && draw()).observe($("pictures"));
 }
 
 /** Takes scene and time from the link. */

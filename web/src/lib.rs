@@ -3,11 +3,11 @@
 use std::ops::ControlFlow;
 use std::sync::Arc;
 
-use dalembert::engine::{Motion, flights, restitution};
+use dalembert::engine::restitution;
 use dalembert::number::{Answer, Scalar, bound_of_log2, show};
 use dalembert::{
-    Canvas, Contact, Drawing, Drawn, Ending, Energy, Error, History, Numbers, Parameters, Plan, Question, Scene,
-    SceneError, Side, Solution, Units, Warning,
+    Canvas, Contact, Drawing, Drawn, Ending, Energy, Error, History, Numbers, Parameters, Plan, Pose, Question, Scene,
+    SceneError, Side, Sizes, Solution, Units, Warning,
 };
 use wasm_bindgen::prelude::*;
 
@@ -50,6 +50,7 @@ fn optional<S: Scalar>(x: Option<&S>) -> String {
 pub struct Run {
     scene: Scene,
     history: History<f64>,
+    sizes: Sizes,
 }
 
 #[wasm_bindgen]
@@ -68,7 +69,10 @@ impl Run {
             false => ControlFlow::Continue(()),
         });
         match plan.solve(&scene.problem, observe) {
-            Ok(Solution::Double(history)) => Ok(Run { scene, history }),
+            Ok(Solution::Double(history)) => {
+                let sizes = Sizes::of(&history).map_err(refuse)?;
+                Ok(Run { scene, history, sizes })
+            }
             Ok(_) => Err(refuse("found numbers other than doubles")),
             Err(Error::Interrupted) => Err(beyond(format!("no answer within {milliseconds} ms"))),
             Err(error @ (Error::NotDecided { .. } | Error::NoMultiprecision | Error::Open(_))) => Err(beyond(error)),
@@ -155,46 +159,24 @@ impl Run {
         Ok(found.map_err(refuse)?.iter().map(text).collect())
     }
 
-    /// `v` and `v_x` at so many points from the ground to the top: all `v`, then all `v_x`. Drawn is `v(0,t)` and the
-    /// sum of trapezoids under `v_x`.
-    pub fn rod(&self, time: f64, points: u32) -> Result<Vec<f64>, JsError> {
-        let time = time.carry();
-        self.draw(|motion| {
-            let points = grid(motion, f64::from(points - 1), |k| k, points);
-            let rates = motion.rates(&points, std::slice::from_ref(&time))?;
-            let mut strains: Vec<f64> = rates.iter().map(|[_, strain]| strain.to_f64()).collect();
-            let mut displacement = motion.ground_end(&time, Side::Right)?.0.to_f64();
-            let mut displacements = vec![displacement];
-            for (ends, strains) in points.windows(2).zip(strains.windows(2)) {
-                displacement += (ends[1].to_f64() - ends[0].to_f64()) * (strains[0] + strains[1]) / 2.0;
-                displacements.push(displacement);
-            }
-            displacements.append(&mut strains);
-            Ok(displacements)
-        })
+    /// The rod at a time, on a part of the screen in mm; displacements are so many times what fits, or as they are, and
+    /// `greatest` is the strain at which the colours end.
+    pub fn rod(
+        &self,
+        time: f64,
+        width: f64,
+        height: f64,
+        letters: f64,
+        enlarged: Option<f64>,
+        greatest: f64,
+    ) -> Result<String, JsError> {
+        let pose = Pose { width, height, letters, enlarged, greatest };
+        pose.draw(&self.history, &self.scene.problem, &self.sizes, time).map_err(refuse)
     }
 
-    /// For scales: the greatest `|v_x(0,t)|`, the greatest height of the centre of mass in a flight, `L`, and the least
-    /// and the greatest of energies at some times of the first contacts.
-    pub fn sizes(&self) -> Result<Vec<f64>, JsError> {
-        self.draw(|motion| {
-            let strains = motion.contacts().iter().map(|contact| contact.peak_strain.to_f64().abs());
-            let mut rise = motion.centre(&motion.end())?.0.to_f64();
-            for flight in flights(motion)? {
-                rise = flight.highest.iter().map(|(_, height)| height.to_f64()).fold(rise, f64::max);
-            }
-            let (mut least, mut most) = (0.0f64, 0.0f64);
-            for contact in motion.contacts().iter().take(3) {
-                let (from, to) = (contact.from.to_f64(), contact.to.as_ref().unwrap_or(&motion.end()).to_f64());
-                for time in [from].into_iter().chain(middles(from, to, 5)) {
-                    for energy in numbers(motion.energy(&time.carry())?) {
-                        (least, most) = (least.min(energy.to_f64()), most.max(energy.to_f64()));
-                    }
-                }
-            }
-            let strain = strains.fold(0.0, f64::max);
-            Ok(vec![strain, rise.max(0.0), motion.scales().length.to_f64(), least, most])
-        })
+    /// The greatest `|v_x(0,t)|`.
+    pub fn strain(&self) -> f64 {
+        self.sizes.strain
     }
 
     /// The first and the last time of what shows the first contacts.
@@ -220,11 +202,6 @@ impl Run {
         let Drawn { svg, greatest } = drawing.draw(&self.history, &self.scene.problem, units).map_err(refuse)?;
         Ok(Picture { svg, greatest })
     }
-
-    /// Numbers for a picture: as doubles, without their bounds.
-    fn draw(&self, query: impl Fn(&dyn Motion<Carried>) -> Result<Vec<f64>, Error>) -> Result<Vec<f64>, JsError> {
-        self.history.ask(query, |_| Vec::new()).map_err(refuse)
-    }
 }
 
 /// An SVG, and the strain at which its colours end.
@@ -234,20 +211,6 @@ pub struct Picture {
     pub greatest: f64,
 }
 
-/// A double with its bound.
-type Carried = <f64 as Answer>::Carried;
-
 fn numbers<S>(energy: Energy<S>) -> [S; 3] {
     [energy.total, energy.translational, energy.vibrational]
-}
-
-/// The points `x = at(k) L/parts` for so many k from 0 on.
-fn grid(motion: &dyn Motion<Carried>, parts: f64, at: fn(f64) -> f64, count: u32) -> Vec<Carried> {
-    let length = motion.scales().length;
-    (0..count).map(|k| length.clone() * &length.double(at(f64::from(k)) / parts)).collect()
-}
-
-/// The middles of `count` equal parts.
-fn middles(from: f64, to: f64, count: u32) -> impl Iterator<Item = f64> {
-    (0..count).map(move |k| from + (to - from) * (f64::from(k) + 0.5) / f64::from(count))
 }
