@@ -57,6 +57,7 @@ mod error;
 mod figures;
 mod first_contact;
 mod lattice;
+mod mapped;
 mod modal;
 mod motion;
 pub mod number;

@@ -73,6 +73,16 @@ impl Threads {
     }
 }
 
+/// `one` on this thread, while `other` is done on another.
+#[cfg(feature = "cli")]
+pub(crate) fn beside(other: &mut (dyn FnMut() + Send), one: &mut dyn FnMut()) {
+    // A panic of the other is one of both.
+    std::thread::scope(|scope| {
+        scope.spawn(other);
+        one();
+    });
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

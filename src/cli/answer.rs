@@ -5,6 +5,7 @@ use super::failure::Failure;
 use super::file::Format;
 use super::source;
 use crate::error::Error;
+use crate::mapped::mapped;
 use crate::motion::{Ending, Motion};
 use crate::number::{DOUBLE_DIGITS, Scalar, show};
 use crate::output::Head;
@@ -14,7 +15,7 @@ use crate::solve::{History, Plan, Question, Target, Visitor};
 
 /// What stands above the numbers of a scene.
 pub(super) fn head(scene: &Scene, plan: &Plan) -> Head {
-    let called = scene.called_effects().into_iter().map(Effect::name).collect();
+    let called = mapped(scene.called_effects(), Effect::name);
     Head {
         title: scene.title.clone(),
         number: plan.numbers.to_string(),

@@ -14,6 +14,7 @@ use crate::compare::{
     Axis, CompareError, Comparison, Compression, LEGEND, Limit, Options, Origin, Outcome, Parameter, Prepared,
 };
 use crate::draw::Size;
+use crate::mapped::{CollectVec, try_mapped};
 use crate::number::Number;
 use crate::output::{compare_data, compare_svg};
 use crate::quantity::Units;
@@ -138,7 +139,7 @@ impl Compare {
         self.check()?;
         let scene = source::read(&self.scene)?;
         let limits = self.limits()?;
-        let sources = self.data.iter().map(|path| Source::open(path)).collect::<Result<Vec<_>, _>>()?;
+        let sources = try_mapped(&self.data, |path| Source::open(path))?;
         let accuracy = scene.accuracy.as_ref().map(Number::to_f64);
         let units = Units::of(&scene.problem, scene.units);
         let prepared = Prepared::new(&scene.problem, &units, accuracy, sources, &self.options()).map_err(with_flag)?;
@@ -155,7 +156,7 @@ impl Compare {
         if let Some(path) = &self.junit {
             file::write(Some(path), junit(&outcomes).as_bytes())?;
         }
-        let failures: Vec<&Outcome> = outcomes.iter().filter(|outcome| outcome.failure.is_some()).collect();
+        let failures: Vec<&Outcome> = outcomes.iter().filter(|outcome| outcome.failure.is_some()).collect_vec();
         for failure in &failures {
             eprintln!("failed: {failure}");
         }

@@ -8,6 +8,7 @@ use super::failure::{self, Failure};
 use super::file::{self, Format};
 use crate::draw::Size;
 use crate::figures::{ALL, Data, Failed, Figure};
+use crate::mapped::{CollectVec, mapped};
 use crate::output::{figure_data, figure_sheet, figures_index, write_files};
 use crate::threads::Threads;
 
@@ -51,7 +52,7 @@ impl Figures {
             return Err(failure!("found the file {}, expected a folder", self.output.display()));
         }
         let chosen = |figure: &&Figure| self.only.is_empty() || self.only.contains(&figure.name);
-        let figures: Vec<&Figure> = ALL.iter().filter(chosen).collect();
+        let figures: Vec<&Figure> = ALL.iter().filter(chosen).collect_vec();
         let files = self.files(&figures)?;
         write_files(&self.output, &files).map_err(failure::cannot(&format!("write {}", self.output.display())))?;
         Ok(())
@@ -73,8 +74,8 @@ impl Figures {
             }
             Ok::<_, Failure>(files)
         })?;
-        let endings: Vec<&str> = PICTURES.iter().map(|picture| picture.0).collect();
+        let endings: Vec<&str> = mapped(PICTURES, |picture| picture.0);
         let index = figures_index(figures, &data, &endings).map_err(failed)?;
-        Ok(files.into_iter().flatten().chain([("README.md".to_string(), index.into_bytes())]).collect())
+        Ok(files.into_iter().flatten().chain([("README.md".to_string(), index.into_bytes())]).collect_vec())
     }
 }

@@ -11,6 +11,7 @@ use super::failure::Failure;
 use super::file::{self, Format, PICTURES};
 use super::source;
 use crate::draw::Size;
+use crate::mapped::{CollectVec, mapped, try_mapped};
 use crate::motion::Ending;
 use crate::number::{Number, Scalar};
 use crate::output::Head;
@@ -66,7 +67,7 @@ const ACCURACY: f64 = 1e-6;
 fn known() -> String {
     let columns = Needs::Time.quantities().map(Quantity::name);
     let columns = columns.filter(|name| matches!(Picture::named(name), Some(Picture::Quantity(_))));
-    Picture::NAMES.iter().map(|known| known.0).chain(columns).collect::<Vec<_>>().join(", ")
+    Picture::NAMES.iter().map(|known| known.0).chain(columns).collect_vec().join(", ")
 }
 
 fn named(name: &str) -> Result<Picture, String> {
@@ -77,7 +78,7 @@ impl Plot {
     pub(super) fn run(&self) -> Result<(), Failure> {
         // Before anything is solved.
         let format = |path: &PathBuf| Format::of(Some(path), None, PICTURES);
-        let formats = self.output.iter().map(format).collect::<Result<Vec<_>, Failure>>()?;
+        let formats = try_mapped(&self.output, format)?;
         let time = |time: &Option<Number>| time.as_ref().map(Number::to_f64);
         let (from, to) = (time(&self.from), time(&self.to));
         if let Some(from) = from.filter(|from| *from < 0.0) {
@@ -101,7 +102,7 @@ impl Plot {
             return Err(failure!("found --deformed with --field, expected one of them"));
         }
         let asked = Asked { pictures, along: self.field, deformed: self.deformed, from, to };
-        let scenes = self.scenes.iter().map(|name| source::read(name)).collect::<Result<Vec<_>, Failure>>()?;
+        let scenes = try_mapped(&self.scenes, |name| source::read(name))?;
         let mut gathered = Vec::new();
         for (name, scene) in self.scenes.iter().zip(&scenes) {
             gathered.push(self.gather(name, scene, &asked)?);
@@ -150,14 +151,14 @@ fn told_apart(scenes: &mut [Gathered]) {
         let rod = &scene.rod;
         [("L", rod.length), ("c", rod.wave_speed), ("r", rod.damping), ("g", rod.gravity), ("μ", rod.speed)]
     };
-    let all: Vec<_> = scenes.iter().map(values).collect();
-    let different: Vec<usize> = (0..5).filter(|k| all.iter().any(|values| values[*k] != all[0][*k])).collect();
+    let all: Vec<_> = mapped(&*scenes, values);
+    let different: Vec<usize> = (0..5).filter(|k| all.iter().any(|values| values[*k] != all[0][*k])).collect_vec();
     if different.is_empty() || different.len() > MOST_DIFFERENT {
         return;
     }
     for (scene, values) in scenes.iter_mut().zip(&all) {
         let told = different.iter().map(|k| format!("{} = {}", values[*k].0, values[*k].1.decimal(6)));
-        scene.name = told.collect::<Vec<_>>().join(", ");
+        scene.name = told.collect_vec().join(", ");
     }
 }
 

@@ -1,7 +1,6 @@
 //! `dalembert reference`.
 
 use std::path::PathBuf;
-use std::sync::mpsc::sync_channel;
 
 use clap::Args;
 
@@ -12,12 +11,14 @@ use super::file::{self, Format, formats};
 use super::source;
 use super::times::{CHUNK, Chunk, Times, TimesFile};
 use crate::error::Error;
+use crate::mapped::{CollectVec, mapped};
 use crate::motion::{Motion, Side};
 use crate::number::{List, Number, Scalar};
 use crate::output::{Described, Golden, Head, Language, Preamble, Rows, code};
 use crate::quantity::{Needs, Quantity, SLICE, Slice, Units};
 use crate::scene::Scene;
 use crate::solve::{History, Question, Target};
+use crate::threads::beside;
 
 /// Golden files: all quantities at chosen times as CSV, JSON or NPZ, or the exact solution as a function
 #[derive(Args, Debug)]
@@ -78,7 +79,7 @@ pub(super) struct Reference {
 const FORMATS: &[Format] = &[Format::Csv, Format::Json, Format::Npz];
 
 fn known() -> String {
-    Needs::Time.quantities().map(Quantity::name).collect::<Vec<_>>().join(", ")
+    Needs::Time.quantities().map(Quantity::name).collect_vec().join(", ")
 }
 
 fn column(name: &str) -> Result<Quantity, String> {
@@ -104,7 +105,7 @@ impl Reference {
         let times = self.times()?;
         let columns = match &self.points {
             Some(_) => Vec::new(),
-            None => self.columns.clone().unwrap_or_else(|| Needs::Time.quantities().collect()),
+            None => self.columns.clone().unwrap_or_else(|| Needs::Time.quantities().collect_vec()),
         };
         if let Some(twice) = (1..columns.len()).find(|k| columns[..*k].contains(&columns[*k])) {
             return Err(failure!("found the column {} twice, expected each once", columns[twice].name()));
@@ -175,24 +176,18 @@ impl Visit for Series<'_> {
             Some(_) => &SLICE[..],
             None => &self.columns,
         };
-        let described = described.iter().map(|column| Described::of(*column, &units)).collect();
+        let described = mapped(described, |column| Described::of(*column, &units));
         let keep = || failure::cannot("keep the rows");
         let mut rows = Rows::new(self.golden, described, head.digits).map_err(keep())?;
         let at_once = CHUNK / self.asked.points.as_ref().map_or(1, List::len).min(CHUNK);
-        std::thread::scope(|scope| {
-            let (send, receive) = sync_channel::<Vec<Vec<S::Carried>>>(2);
-            let rows = &mut rows;
-            let writer = scope.spawn(move || receive.iter().try_for_each(|table| rows.push(&table)));
-            let asked = self.times.chunks(at_once, |chunk| {
-                let table = self.ask(history, chunk.as_ref());
-                // Where nobody receives any more, the writer says why.
-                let _ = send.send(table?);
-                Ok(())
-            });
-            drop(send);
-            let written = writer.join().unwrap_or_else(|panic| std::panic::resume_unwind(panic));
-            asked.and(written.map_err(|error| keep()(error).into()))
+        let (mut table, mut written) = (Vec::new(), Ok(()));
+        self.times.chunks(at_once, &mut |chunk| {
+            let mut next = Ok(Vec::new());
+            beside(&mut || written = rows.push(&table), &mut || next = self.ask(history, chunk.as_ref()));
+            table = next?;
+            std::mem::replace(&mut written, Ok(())).map_err(|error| keep()(error).into())
         })?;
+        rows.push(&table).map_err(keep())?;
         drop(progress);
         let head = warned(history, head, false);
         let numbers = history.plan().numbers;

@@ -8,6 +8,7 @@ use super::failure::Failure;
 use super::file::{self, Format};
 use super::source;
 use crate::error::Error;
+use crate::mapped::CollectVec;
 use crate::motion::{Ending, Motion, Side};
 use crate::number::{List, Scalar};
 use crate::output::{self, Head, Quantity, sample, samples_data};
@@ -78,7 +79,7 @@ impl Report for Sample {
     }
 
     fn numbers<'a, S: Scalar>(&self, Sampled(samples, _): &'a Self::Data<S>) -> Vec<&'a S> {
-        samples.iter().flat_map(|sample| sample.values.iter().chain(&sample.point).chain([&sample.time])).collect()
+        samples.iter().flat_map(|sample| sample.values.iter().chain(&sample.point).chain([&sample.time])).collect_vec()
     }
 
     fn note<S: Scalar>(&self, Sampled(_, ends): &Self::Data<S>) -> Option<String> {

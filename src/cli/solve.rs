@@ -10,6 +10,7 @@ use super::failure::Failure;
 use super::file::{self, Format};
 use super::source;
 use crate::error::Error;
+use crate::mapped::CollectVec;
 use crate::motion::Motion;
 use crate::number::Scalar;
 use crate::output::{
@@ -98,7 +99,7 @@ impl Report for Solve {
             // There are no more contacts than events: a row has an event, and a contact beside it where there is one.
             let mut events = history.derivatives(by, &[&EVENT[..], &CONTACT].concat())?;
             let contacts = events.iter_mut().map(|row| row.split_off(EVENT.len().min(row.len())));
-            let contacts = contacts.filter(|row| !row.is_empty()).collect();
+            let contacts = contacts.filter(|row| !row.is_empty()).collect_vec();
             record.derivatives.push(Derived { by, events, contacts });
         }
         Ok(())

@@ -2,9 +2,8 @@
 
 use std::io::Read;
 use std::ops::ControlFlow;
-use std::sync::Arc;
 use std::sync::atomic::{AtomicUsize, Ordering};
-use std::sync::mpsc::{RecvTimeoutError, Sender, channel};
+use std::sync::{Arc, Condvar, Mutex, PoisonError};
 use std::thread::JoinHandle;
 use std::time::Duration;
 
@@ -73,7 +72,8 @@ pub(super) fn bar(total: Option<u64>, template: &str) -> ProgressBar {
 /// A progress bar on standard error: only on a terminal, and only for runs over a second.
 pub(super) struct Progress {
     bar: ProgressBar,
-    running: Option<Sender<()>>,
+    /// Whether the run has ended, and what wakes the thread that waits for it.
+    ended: Arc<(Mutex<bool>, Condvar)>,
     watch: Option<JoinHandle<()>>,
 }
 
@@ -94,15 +94,17 @@ impl Progress {
         let bar = bar(total, &template);
         bar.set_draw_target(ProgressDrawTarget::hidden());
         // A thread of its own shows it: a single step of a run in many digits can take longer than a second.
-        let (running, ended) = channel();
-        let shown = bar.clone();
+        let ended = Arc::<(Mutex<bool>, Condvar)>::default();
+        let (shown, known) = (bar.clone(), ended.clone());
         let watch = std::thread::spawn(move || {
-            if ended.recv_timeout(Duration::from_secs(1)) == Err(RecvTimeoutError::Timeout) {
+            let ended = known.0.lock().unwrap_or_else(PoisonError::into_inner);
+            let waited = known.1.wait_timeout_while(ended, Duration::from_secs(1), |ended| !*ended);
+            if !*waited.unwrap_or_else(PoisonError::into_inner).0 {
                 shown.set_draw_target(ProgressDrawTarget::stderr());
                 shown.enable_steady_tick(Duration::from_millis(100));
             }
         });
-        Progress { bar, running: Some(running), watch: Some(watch) }
+        Progress { bar, ended, watch: Some(watch) }
     }
 
     /// What an engine calls as it goes on.
@@ -121,7 +123,8 @@ impl Progress {
 
 impl Drop for Progress {
     fn drop(&mut self) {
-        drop(self.running.take());
+        *self.ended.0.lock().unwrap_or_else(PoisonError::into_inner) = true;
+        self.ended.1.notify_all();
         if let Some(watch) = self.watch.take() {
             // A thread that only waits does not fail.
             let _ = watch.join();

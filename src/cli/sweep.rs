@@ -12,6 +12,7 @@ use super::args::{NumberArgs, quantity};
 use super::failure::{self, Failure};
 use super::file::{self, Format, formats};
 use super::source;
+use crate::mapped::{mapped, try_mapped};
 use crate::number::Number;
 use crate::output::sweep_data;
 use crate::quantity::{Needs, Quantity};
@@ -88,7 +89,7 @@ impl Sweep {
     pub(super) fn run(&self) -> Result<ExitCode, Failure> {
         let format = Format::of(self.output.as_deref(), self.format, FORMATS)?;
         let scene = source::read(&self.scene)?;
-        let axes = self.vary.iter().map(|text| text.parse::<Axis>()).collect::<Result<Vec<_>, SweepError>>()?;
+        let axes = try_mapped(&self.vary, |text| text.parse::<Axis>())?;
         if let Some(time) = self.time.as_ref().filter(|time| time.to_f64() < 0.0) {
             return Err(SweepError::new(format!("time {time}"), "one from 0 on").into());
         }
@@ -112,8 +113,8 @@ impl Sweep {
         let identity = json!({
             "dalembert": env!("CARGO_PKG_VERSION"),
             "scene": scene.source(),
-            "vary": sweep.grid.axes.iter().map(vary).collect::<Vec<_>>(),
-            "quantity": sweep.asked.quantities.iter().map(|quantity| quantity.name()).collect::<Vec<_>>(),
+            "vary": mapped(&sweep.grid.axes, vary),
+            "quantity": mapped(&sweep.asked.quantities, |quantity| quantity.name()),
             "time": sweep.asked.time,
             "number": sweep.asked.numbers.to_string(),
             "points": [points.start, points.end],

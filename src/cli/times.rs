@@ -63,7 +63,7 @@ impl TimesFile {
         Ok(TimesFile { file, name, least, greatest })
     }
 
-    fn chunks(&self, at_once: usize, mut visit: impl FnMut(List) -> Result<(), Failure>) -> Result<(), Failure> {
+    fn chunks(&self, at_once: usize, visit: &mut dyn FnMut(List) -> Result<(), Failure>) -> Result<(), Failure> {
         let mut chunk = Vec::with_capacity(at_once);
         lines(&self.file, &self.name, |time| {
             chunk.push(time);
@@ -123,12 +123,12 @@ impl Times {
     pub(super) fn chunks(
         &self,
         at_once: usize,
-        mut visit: impl FnMut(Option<Chunk<'_>>) -> Result<(), Failure>,
+        visit: &mut dyn FnMut(Option<Chunk<'_>>) -> Result<(), Failure>,
     ) -> Result<(), Failure> {
         match self {
             Times::Events => visit(None),
             Times::File(file) => {
-                file.chunks(at_once, |list| visit(Some(Chunk { from: 0, to: list.len(), list: &list })))
+                file.chunks(at_once, &mut |list| visit(Some(Chunk { from: 0, to: list.len(), list: &list })))
             }
             Times::List(list) => (0..list.len())
                 .step_by(at_once)

@@ -1,5 +1,6 @@
 //! Axes: from where to where, in which unit, with which numbers.
 
+use crate::mapped::{CollectVec, MapEach, mapped};
 use std::fmt::Write;
 
 /// An axis: what it measures, from where to where.
@@ -97,7 +98,7 @@ impl Axis {
         if self.log {
             return self.log_ticks();
         }
-        let [from, to] = [self.from, self.to].map(|end| end * self.factor);
+        let [from, to] = [self.from, self.to].map_each(|end| end * self.factor);
         let step = step((to - from) / about.max(1.0));
         let places = usize::try_from(-(step.log10() + 1e-9).floor() as i32).unwrap_or(0);
         let first = (from / step - 1e-6).ceil() as i64;
@@ -105,7 +106,7 @@ impl Axis {
             .map(|k| k as f64 * step)
             .take_while(|value| *value <= to + 1e-6 * step)
             .map(|value| (value / self.factor, signed(&format!("{value:.places$}"))))
-            .collect()
+            .collect_vec()
     }
 
     fn log_ticks(&self) -> Vec<(f64, String)> {
@@ -114,7 +115,7 @@ impl Axis {
         let ticks = decades.flat_map(|decade| steps.iter().map(move |step| (decade, *step)));
         let ticks = ticks.map(|(decade, step)| (decade, step, step * 10f64.powi(decade)));
         let within = |value: &f64| (self.from * (1.0 - 1e-9)..=self.to * (1.0 + 1e-9)).contains(value);
-        let ticks: Vec<_> = ticks.filter(|(.., value)| within(value)).collect();
+        let ticks: Vec<_> = ticks.filter(|(.., value)| within(value)).collect_vec();
         // All of an axis in one form.
         let plain = ticks.iter().all(|(decade, ..)| (-2..=3).contains(decade));
         let text = |(decade, step, value): (i32, f64, f64)| match () {
@@ -122,7 +123,7 @@ impl Axis {
             () if step == 1.0 => (value, power_of_ten(decade)),
             () => (value, format!("{step}·{}", power_of_ten(decade))),
         };
-        ticks.into_iter().map(text).collect()
+        mapped(ticks, text)
     }
 }
 
@@ -134,7 +135,7 @@ fn spread(value: f64) -> f64 {
 /// 1, 2 or 5 times a power of ten, at least this.
 fn step(least: f64) -> f64 {
     let power = 10f64.powf(least.log10().floor());
-    [1.0, 2.0, 5.0, 10.0].map(|step| step * power).into_iter().find(|step| *step >= least * 0.999).unwrap_or(least)
+    [1.0, 2.0, 5.0, 10.0].map_each(|step| step * power).into_iter().find(|step| *step >= least * 0.999).unwrap_or(least)
 }
 
 /// A number with the sign that print has for minus; zero has none.

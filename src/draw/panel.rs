@@ -6,6 +6,7 @@ use super::axis::Axis;
 use super::clip;
 use super::color::{diverging, diverging_stops};
 use super::svg::{Anchor, Fill, Stroke, Svg, width};
+use crate::mapped::{MapEach, mapped};
 
 /// A picture with axes.
 #[derive(Clone, Debug)]
@@ -294,7 +295,7 @@ const OVERLAP: f64 = 0.04;
 
 /// What of a shape lies in a frame.
 fn draw_shape(svg: &mut Svg, shape: &Shape, place: &impl Fn(DVec2) -> DVec2, frame: [DVec2; 2]) {
-    let placed = |points: &[DVec2]| points.iter().map(|point| place(*point)).collect::<Vec<_>>();
+    let placed = |points: &[DVec2]| mapped(points, |point| place(*point));
     match shape {
         Shape::Lines(lines, stroke) => {
             let stretches = lines.iter().flat_map(|line| clip::line(&placed(line), frame));
@@ -308,7 +309,7 @@ fn draw_shape(svg: &mut Svg, shape: &Shape, place: &impl Fn(DVec2) -> DVec2, fra
         Shape::Runs(runs) => {
             let grown = |[a, b]: [DVec2; 2]| [a.min(b) - OVERLAP, a.max(b) + OVERLAP];
             for (color, corners) in runs {
-                let corners: Vec<_> = corners.iter().map(|ends| grown(ends.map(place))).collect();
+                let corners: Vec<_> = mapped(corners, |ends| grown(ends.map(place)));
                 svg.rectangles(&corners, color);
             }
         }
@@ -325,9 +326,9 @@ const ONE_COLOR: f64 = 1.0 / 200.0;
 
 /// A polygon in the colours of its values: exact where they are linear, as the steps of the palette are.
 fn draw_piece(svg: &mut Svg, piece: &Piece, place: &impl Fn(DVec2) -> DVec2) {
-    let corners: Vec<DVec2> = piece.corners.iter().map(|corner| place(*corner)).collect();
+    let corners: Vec<DVec2> = mapped(&piece.corners, |corner| place(*corner));
     let value = |corner: &DVec2| piece.middle + piece.slope.dot(*corner - piece.at);
-    let values: Vec<f64> = piece.corners.iter().map(value).collect();
+    let values: Vec<f64> = mapped(&piece.corners, value);
     let (least, most) = values.iter().fold((f64::INFINITY, f64::NEG_INFINITY), |(a, b), v| (a.min(*v), b.max(*v)));
     let drawn = clip::grown(&corners, OVERLAP);
     if most - least < ONE_COLOR {
@@ -335,7 +336,7 @@ fn draw_piece(svg: &mut Svg, piece: &Piece, place: &impl Fn(DVec2) -> DVec2) {
     }
     // The slope on paper: unit steps of the axes are stretched there.
     let origin = place(piece.at);
-    let [right, up] = [DVec2::X, DVec2::Y].map(|step| place(piece.at + step) - origin);
+    let [right, up] = [DVec2::X, DVec2::Y].map_each(|step| place(piece.at + step) - origin);
     let slope = DVec2::new(piece.slope.x / right.x, piece.slope.y / up.y);
     let along = slope / slope.length_squared();
     let end = |value: f64| origin + along * (value - piece.middle);
@@ -346,7 +347,7 @@ fn draw_mark(svg: &mut Svg, at: DVec2, mark: Mark, color: &'static str) {
     let r = 0.28 * svg.em;
     let ring = |count: i32, turn: f64, radius: &dyn Fn(i32) -> f64| -> Vec<DVec2> {
         let corner = |k: i32| DVec2::from_angle((f64::from(k) / f64::from(count) + turn) * std::f64::consts::TAU);
-        (0..count).map(|k| at + corner(k) * radius(k)).collect()
+        mapped(0..count, |k| at + corner(k) * radius(k))
     };
     let fill = Fill::Flat(color.into());
     let thin = Stroke::new(color, 0.07 * svg.em);

@@ -1,5 +1,6 @@
 //! An SVG as PNG and as PDF, in the embedded font.
 
+use crate::mapped::{CollectVec, MapEach};
 use krilla::Document;
 use krilla::geom::Size;
 use krilla::page::PageSettings;
@@ -35,12 +36,14 @@ impl Rendered {
     ///
     /// **Errors**: what the PNG writer says.
     pub(crate) fn png(&self, scale: f32) -> Result<Vec<u8>, String> {
-        let [width, height] = [self.0.size().width(), self.0.size().height()].map(|side| (side * scale).round() as u32);
+        let [width, height] =
+            [self.0.size().width(), self.0.size().height()].map_each(|side| (side * scale).round() as u32);
         let mut pixels = tiny_skia::Pixmap::new(width, height).ok_or("a picture without size")?;
         pixels.fill(tiny_skia::Color::WHITE);
         resvg::render(&self.0, tiny_skia::Transform::from_scale(scale, scale), &mut pixels.as_mut());
         // Nothing is transparent on white.
-        let colors: Vec<u8> = pixels.data().chunks_exact(4).flat_map(|pixel| [pixel[0], pixel[1], pixel[2]]).collect();
+        let colors: Vec<u8> =
+            pixels.data().chunks_exact(4).flat_map(|pixel| [pixel[0], pixel[1], pixel[2]]).collect_vec();
         let mut bytes = Vec::new();
         let mut encoder = png::Encoder::new(&mut bytes, width, height);
         encoder.set_color(png::ColorType::Rgb);
@@ -58,7 +61,7 @@ impl Rendered {
     ///
     /// **Errors**: what the PDF writer says.
     pub(crate) fn pdf(&self) -> Result<Vec<u8>, String> {
-        let [width, height] = [self.0.size().width(), self.0.size().height()].map(|side| side * POINTS);
+        let [width, height] = [self.0.size().width(), self.0.size().height()].map_each(|side| side * POINTS);
         let size = Size::from_wh(width, height).ok_or("a picture without size")?;
         let mut document = Document::new();
         let mut page = document.start_page_with(PageSettings::new(size));

@@ -2,6 +2,7 @@
 
 use std::fmt::{self, Write};
 
+use crate::mapped::MapEach;
 use glam::DVec2;
 
 /// The font of all pictures; where it is not known another one without serifs takes its place.
@@ -116,7 +117,7 @@ impl Svg {
     /// An empty page of this size with letters of the height `em`, all in mm.
     pub(crate) fn new(width: f64, height: f64, em: f64) -> Self {
         let mut svg = Svg { text: String::new(), em, gradients: 0 };
-        let [w, h] = [width, height].map(length);
+        let [w, h] = [width, height].map_each(length);
         svg.put(format_args!(
             "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{w}mm\" height=\"{h}mm\" viewBox=\"0 0 {w} {h}\" \
              font-family=\"{FAMILY}\" font-size=\"{}\" fill=\"#000000\" stroke-linejoin=\"round\">\n\
@@ -161,7 +162,7 @@ impl Svg {
             Fill::Gradient([from, to], stops) => {
                 self.gradients += 1;
                 let id = self.gradients;
-                let [x1, y1, x2, y2] = [from.x, from.y, to.x, to.y].map(length);
+                let [x1, y1, x2, y2] = [from.x, from.y, to.x, to.y].map_each(length);
                 self.put(format_args!(
                     "<linearGradient id=\"fill{id}\" gradientUnits=\"userSpaceOnUse\" x1=\"{x1}\" y1=\"{y1}\" \
                      x2=\"{x2}\" y2=\"{y2}\">"
@@ -183,7 +184,7 @@ impl Svg {
         self.put(format_args!("<path fill=\"{fill}\" d=\""));
         for ends in corners {
             // Rounded as places, so that neighbours meet.
-            let [left, top, right, bottom] = [ends[0].x, ends[0].y, ends[1].x, ends[1].y].map(length);
+            let [left, top, right, bottom] = [ends[0].x, ends[0].y, ends[1].x, ends[1].y].map_each(length);
             self.put(format_args!("M{left} {top}H{right}V{bottom}H{left}z"));
         }
         self.put(format_args!("\"/>\n"));
@@ -191,15 +192,15 @@ impl Svg {
 
     /// A frame.
     pub(crate) fn frame(&mut self, [from, to]: [DVec2; 2], stroke: Stroke) {
-        let (size, [x, y]) = (to - from, [from.x, from.y].map(length));
-        let [w, h] = [size.x, size.y].map(length);
+        let (size, [x, y]) = (to - from, [from.x, from.y].map_each(length));
+        let [w, h] = [size.x, size.y].map_each(length);
         let look = stroke_of(stroke);
         self.put(format_args!("<rect x=\"{x}\" y=\"{y}\" width=\"{w}\" height=\"{h}\" fill=\"none\"{look}/>\n"));
     }
 
     /// A closed mark about a point, or a ring where it has no fill.
     pub(crate) fn circle(&mut self, at: DVec2, radius: f64, fill: &str, stroke: Stroke) {
-        let [x, y, r] = [at.x, at.y, radius].map(length);
+        let [x, y, r] = [at.x, at.y, radius].map_each(length);
         let look = stroke_of(stroke);
         self.put(format_args!("<circle cx=\"{x}\" cy=\"{y}\" r=\"{r}\" fill=\"{fill}\"{look}/>\n"));
     }
@@ -212,7 +213,7 @@ impl Svg {
     /// A text that is read upwards.
     /// Letters are so many times as high as the others.
     pub(crate) fn text_upwards(&mut self, at: DVec2, anchor: Anchor, text: &str, size: f64) {
-        let [x, y] = [at.x, at.y].map(length);
+        let [x, y] = [at.x, at.y].map_each(length);
         let smaller = if size < 1.0 { format!(" font-size=\"{}\"", length(size * self.em)) } else { String::new() };
         self.place_text(at, anchor, &format!("{smaller} transform=\"rotate(-90 {x} {y})\""), text);
     }
@@ -223,7 +224,7 @@ impl Svg {
             Anchor::Middle => " text-anchor=\"middle\"",
             Anchor::End => " text-anchor=\"end\"",
         };
-        let [x, y] = [at.x, at.y].map(length);
+        let [x, y] = [at.x, at.y].map_each(length);
         self.put(format_args!("<text x=\"{x}\" y=\"{y}\"{anchor}{turned}>"));
         let mut low = false;
         for (part, lower) in parts(text) {

@@ -2,6 +2,7 @@
 
 use super::Failed;
 use super::first::{self, DAMPINGS, Double, Wanted, grid};
+use crate::mapped::{CollectVec, MapEach, mapped, try_mapped};
 use crate::motion::Side;
 use crate::number::{Estimate, Scalar};
 use crate::sweep::Map;
@@ -131,7 +132,7 @@ impl Data {
     /// The numbers without their bounds, for a picture.
     pub(crate) fn values(&self) -> Vec<Vec<Option<f64>>> {
         let plain = |number: &Option<Double>| number.as_ref().map(|number| *number.value());
-        self.rows.iter().map(|row| row.iter().map(plain).collect()).collect()
+        mapped(&self.rows, |row| mapped(row, plain))
     }
 }
 
@@ -177,9 +178,9 @@ impl Figure {
                     let energies = energies.unwrap_or_else(|| vec![None, None]);
                     let whole = speed.clone() * &speed / speed.int(2);
                     let shares = energies.clone().into_iter().map(|energy| energy.map(|energy| energy / &whole));
-                    [Some(speed), time].into_iter().chain(energies).chain(shares).collect()
+                    [Some(speed), time].into_iter().chain(energies).chain(shares).collect_vec()
                 });
-                plain(&["speed", "bounce_time", "E_h", "E_z", "E_h_share", "E_z_share"], rows.collect())
+                plain(&["speed", "bounce_time", "E_h", "E_z", "E_h_share", "E_z_share"], rows.collect_vec())
             }
             Of::Restitution => {
                 let grid = grid(&DAMPINGS.join(","), "0.0125..12.5:1000")?;
@@ -187,15 +188,15 @@ impl Figure {
                 let rows = found.into_iter().enumerate().map(|(k, ended)| {
                     let (time, restitution) = ended.unzip();
                     let point = grid.values(k).into_iter().map(|value| Some(exact(value.to_f64())));
-                    point.chain([time, restitution.and_then(|values| values[0].clone())]).collect()
+                    point.chain([time, restitution.and_then(|values| values[0].clone())]).collect_vec()
                 });
-                plain(&["damping", "speed", "bounce_time", "restitution_squared"], rows.collect())
+                plain(&["damping", "speed", "bounce_time", "restitution_squared"], rows.collect_vec())
             }
             Of::Translational | Of::Kept | Of::Decay => {
                 let grid = grid(&DAMPINGS.join(","), "3.2..12.5:373")?;
                 let found = first::contacts(&grid, Wanted::Shares, SHARP, threads)?;
                 let each = first::speeds(&grid).len().max(1);
-                let limits = DAMPINGS.iter().map(|damping| first::limits(damping)).collect::<Result<Vec<_>, _>>()?;
+                let limits = try_mapped(&DAMPINGS, |damping| first::limits(damping))?;
                 let rows = found.into_iter().enumerate().map(|(k, ended)| {
                     let limits = limits[k / each].clone();
                     let one = exact(1.0);
@@ -208,14 +209,14 @@ impl Figure {
                         _ => (over(kept), over(limits.kept), one),
                     };
                     let point = grid.values(k).into_iter().map(|value| Some(exact(value.to_f64())));
-                    point.chain([value, limit, Some(supposed)]).collect()
+                    point.chain([value, limit, Some(supposed)]).collect_vec()
                 });
                 let value = match self.of {
                     Of::Translational => "translational_part",
                     Of::Kept => "energy_kept",
                     _ => "energy_kept_over_decay",
                 };
-                plain(&["damping", "speed", value, "limit", "supposed_limit"], rows.collect())
+                plain(&["damping", "speed", value, "limit", "supposed_limit"], rows.collect_vec())
             }
             Of::Regions => {
                 // The corners of each region for L = c = 1, x = 1/2, t₁ = 2: where y and t are.
@@ -225,9 +226,11 @@ impl Figure {
                     (3.0, [[2.0, 0.0], [2.5, 0.0], [2.0, 0.5]].to_vec()),
                 ];
                 let rows = corners.iter().flat_map(|(region, corners)| {
-                    corners.iter().map(move |corner| [*region, corner[0], corner[1]].map(|x| Some(exact(x))).to_vec())
+                    corners
+                        .iter()
+                        .map(move |corner| [*region, corner[0], corner[1]].map_each(|x| Some(exact(x))).to_vec())
                 });
-                plain(&["region", "y", "t"], rows.collect())
+                plain(&["region", "y", "t"], rows.collect_vec())
             }
             Of::Regimes => {
                 let map = Map::new("0..4:240", "0.05..1e4:240:log", threads, &|| ())?.with_edges(threads, &|| ());
@@ -241,7 +244,7 @@ impl Figure {
                 let rows = speeds.into_iter().zip(tenth).zip(first).map(|((speed, tenth), first)| {
                     vec![Some(speed), first.and_then(|(_, values)| values[0].clone()), tenth]
                 });
-                plain(&["speed", "first_restitution_squared", "tenth_restitution_squared"], rows.collect())
+                plain(&["speed", "first_restitution_squared", "tenth_restitution_squared"], rows.collect_vec())
             }
         })
     }

@@ -4,6 +4,7 @@ use std::iter::once;
 
 use super::Failed;
 use crate::first_contact::FirstContact;
+use crate::mapped::{CollectVec, mapped, try_mapped};
 use crate::motion::{Motion, Side};
 use crate::number::{Analytic, Estimate, Number, Scalar};
 use crate::paper::formulas::limit;
@@ -49,7 +50,7 @@ pub(crate) fn contacts(grid: &Grid, wanted: Wanted, accuracy: f64, threads: Thre
 pub(crate) fn grid(dampings: &str, speeds: &str) -> Result<Grid, Failed> {
     let rod = Problem::uniform(1.into(), 1.into(), 1.into(), 1.into());
     let axes = [format!("rod.damping={dampings}"), format!("impact.speed={speeds}")];
-    Ok(Grid::new(rod, axes.iter().map(|axis| axis.parse::<Axis>()).collect::<Result<_, _>>()?)?)
+    Ok(Grid::new(rod, try_mapped(&axes, |axis| axis.parse::<Axis>())?)?)
 }
 
 fn contact(problem: &Problem, wanted: Wanted, accuracy: f64) -> Result<Ended, Failed> {
@@ -73,7 +74,7 @@ fn contact(problem: &Problem, wanted: Wanted, accuracy: f64) -> Result<Ended, Fa
         Ok(Some((whole, (to, values))))
     };
     let found = plan.ask::<f64, _>(problem, query, |ended| {
-        ended.iter().flat_map(|(whole, (_, values))| once(whole).chain(values.iter().flatten())).collect()
+        ended.iter().flat_map(|(whole, (_, values))| once(whole).chain(values.iter().flatten())).collect_vec()
     })?;
     Ok(found.map(|(_, ended)| ended))
 }
@@ -144,7 +145,7 @@ pub(crate) fn tenth(grid: &Grid, threads: Threads) -> Result<Vec<Option<Double>>
             let contact = motion.contacts().get(9);
             contact.map(|contact| restitution(motion, contact.times())).transpose()
         };
-        let found = rod.solve().ok()?.ask(query, |found| found.iter().flat_map(Restitution::numbers).collect());
+        let found = rod.solve().ok()?.ask(query, |found| found.iter().flat_map(Restitution::numbers).collect_vec());
         found.ok()??.energy_squared.ok()
     };
     threads.all(grid.len(), |index| Ok(one(index)))
@@ -153,5 +154,5 @@ pub(crate) fn tenth(grid: &Grid, threads: Threads) -> Result<Vec<Option<Double>>
 /// The values of the axis of speeds.
 pub(crate) fn speeds(grid: &Grid) -> Vec<Double> {
     let exact = |value: &Number| Estimate::exact(value.to_f64());
-    grid.axes.last().map_or_else(Vec::new, |axis| axis.values.iter().map(exact).collect())
+    grid.axes.last().map_or_else(Vec::new, |axis| mapped(&axis.values, exact))
 }

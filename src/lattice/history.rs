@@ -7,6 +7,7 @@ use super::march::{GroundMotion, march};
 use super::start::{Scaled, Units};
 use super::trace::{Part, Piece, Place};
 use crate::error::Error;
+use crate::mapped::CollectVec;
 use crate::motion::{Course, Ending, EventKind, Side, unobserved};
 use crate::number::{Bounded, Open};
 use crate::problem::{Problem, Run, Top};
@@ -122,7 +123,7 @@ impl<N: Bounded> Undamped<N> {
         let coincidence = history.coincidence_from().filter(|from| undetermined.is_none_or(|lost| *from < lost));
         let coincidence = coincidence.map(|from| Warning::Coincidence { from });
         let undetermined = undetermined.map(|from| Warning::NotDetermined { from });
-        history.course.warnings = coincidence.into_iter().chain(undetermined).collect();
+        history.course.warnings = coincidence.into_iter().chain(undetermined).collect_vec();
         Ok(history)
     }
 

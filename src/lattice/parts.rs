@@ -5,6 +5,7 @@ use std::cmp::Ordering;
 use super::history::Undamped;
 use super::start::Units;
 use super::trace::{Part, Place};
+use crate::mapped::mapped;
 use crate::motion::Stretch;
 use crate::number::{Bounded, Open};
 
@@ -90,38 +91,34 @@ impl<N: Bounded> Undamped<N> {
             (if rises { &mut up } else { &mut down }).push(part);
         })?;
         // What goes up is met from its last part on: x falls with the age.
-        let mut edges: Vec<_> = up.iter_mut().map(|part| part.shift.take()).collect();
+        let mut edges = mapped(&mut up, |part| part.shift.take());
         edges.rotate_left(1);
-        let up = up.into_iter().zip(edges).rev().map(|(part, shift)| One {
-            value: part.slope.clone() * &part.width + &part.value,
-            slope: -part.slope,
-            width: part.width,
-            shift,
-        });
-        let one = |Part { width, value, slope, shift, .. }| One { width, value, slope, shift };
-        join(up, down.into_iter().map(one), visit)
+        let mut rising = Vec::with_capacity(up.len());
+        while let (Some(Part { width, value, slope, .. }), Some(shift)) = (up.pop(), edges.pop()) {
+            rising.push(One { value: slope.clone() * &width + &value, slope: -slope, width, shift });
+        }
+        let falling = mapped(down, |Part { width, value, slope, shift, .. }| One { width, value, slope, shift });
+        join(rising, falling, visit)
     }
 }
 
 /// Two lists that end together, cut where either is.
-fn join<N: Bounded>(
-    up: impl Iterator<Item = One<N>>,
-    down: impl Iterator<Item = One<N>>,
-    visit: &mut dyn FnMut(Both<N>),
-) -> Result<(), Open> {
-    let (mut up, mut down) = (up.peekable(), down.peekable());
+fn join<N: Bounded>(up: Vec<One<N>>, down: Vec<One<N>>, visit: &mut dyn FnMut(Both<N>)) -> Result<(), Open> {
+    let (mut up, mut down) = (up.into_iter(), down.into_iter());
     let (mut p, mut q) = (up.next(), down.next());
     while let (Some(rising), Some(falling)) = (p, q) {
         // Both lists end at the top, whatever is known of their widths.
-        let last = up.peek().is_none() && down.peek().is_none();
+        let last = up.as_slice().is_empty() && down.as_slice().is_empty();
         let order = if last { Ordering::Equal } else { rising.width.compare(&falling.width)? };
         let width = if order.is_le() { rising.width.clone() } else { falling.width.clone() };
         let halves = |p: &N, q: &N| [(q.clone() + p).halved(), (q.clone() - p).halved()];
+        let mut shifts = Vec::from_iter(rising.shift.clone());
+        shifts.extend(falling.shift.clone());
         visit(Both {
             width: width.clone(),
             values: halves(&rising.value, &falling.value),
             slopes: halves(&rising.slope, &falling.slope),
-            shifts: rising.shift.iter().chain(&falling.shift).cloned().collect(),
+            shifts,
         });
         p = if order.is_le() { up.next() } else { Some(rising.after(&width)) };
         q = if order.is_ge() { down.next() } else { Some(falling.after(&width)) };

@@ -132,9 +132,9 @@ fn segments<N: Bounded>(profile: &Profile, length: &Number, precision: &N::Preci
         if from.compare(to).is_lt() {
             let strain = (lift(yb) - lift(ya)) / (lift(xb) - lift(xa));
             let rate = (lift(vb) - lift(va)) / (lift(sb) - lift(sa));
-            let ends = [from, to].map(lift);
-            let velocities = ends.clone().map(|x| lift(va) + rate.clone() * (x - lift(sa)));
-            segments.push(Segment { ends, velocities, strain });
+            let velocity = |x: N| lift(va) + rate.clone() * (x - lift(sa));
+            let velocities = [velocity(lift(from)), velocity(lift(to))];
+            segments.push(Segment { ends: [lift(from), lift(to)], velocities, strain });
         }
         // Whichever list's segment ends first is left behind; both where they end together.
         let order = xb.compare(sb);
@@ -160,11 +160,11 @@ fn before<N: Bounded>(segments: &[Segment<N>], units: &Units<N>, gravity: &N, to
     let one = units.length.one();
     let twice = units.length.clone().doubled();
     let mut before = Vec::with_capacity(2 * segments.len());
-    for Segment { ends, velocities, strain } in segments {
+    for Segment { ends: [a, b], velocities: [va, vb], strain } in segments {
         // q₀ at f = x/2L; the fixed top sends −q₀ + g f where the free one sends q₀ + g (1 − f).
         let stretch = strain.clone() * &units.wave_speed;
-        let [fa, fb] = ends.clone().map(|x| x / &twice);
-        let [qa, qb] = velocities.clone().map(|v| (v + &stretch) / &units.velocity);
+        let (fa, fb) = (a.clone() / &twice, b.clone() / &twice);
+        let (qa, qb) = ((va.clone() + &stretch) / &units.velocity, (vb.clone() + &stretch) / &units.velocity);
         let slope = (qb - &qa) / (fb - &fa);
         let (value, slope) = match top {
             Top::Free => (qa + gravity.clone() * (one.clone() - &fa), slope - gravity),
@@ -172,11 +172,11 @@ fn before<N: Bounded>(segments: &[Segment<N>], units: &Units<N>, gravity: &N, to
         };
         before.push((fa, value, slope));
     }
-    for Segment { ends, velocities, strain } in segments.iter().rev() {
+    for Segment { ends: [a, b], velocities: [va, vb], strain } in segments.iter().rev() {
         // p₀ + g (1 − f) at f = 1 − x/2L, from the top downwards.
         let stretch = strain.clone() * &units.wave_speed;
-        let [to, from] = ends.clone().map(|x| one.clone() - x / &twice);
-        let [pa, pb] = velocities.clone().map(|v| (v - &stretch) / &units.velocity);
+        let (to, from) = (one.clone() - a.clone() / &twice, one.clone() - b.clone() / &twice);
+        let (pa, pb) = ((va.clone() - &stretch) / &units.velocity, (vb.clone() - &stretch) / &units.velocity);
         let slope = (pa - &pb) / (to - &from) - gravity;
         let value = pb + gravity.clone() * (one.clone() - &from);
         before.push((from, value, slope));

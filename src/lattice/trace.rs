@@ -2,6 +2,7 @@
 
 use std::cmp::Ordering;
 
+use crate::mapped::MapEach;
 use crate::motion::{EventKind, Side};
 use crate::number::{Bounded, Open};
 use crate::problem::Top;
@@ -191,7 +192,7 @@ impl<N: Bounded> Part<N> {
     /// Without exact numbers inside.
     pub(super) fn without_exact(self) -> Self {
         let Part { offset, width, value, slope, .. } = self;
-        let [offset, width, value, slope] = [offset, width, value, slope].map(N::without_exact);
+        let [offset, width, value, slope] = [offset, width, value, slope].map_each(N::without_exact);
         Part { offset, width, value, slope, ..self }
     }
 }
@@ -337,13 +338,17 @@ impl<N: Bounded> Trace<N> {
     /// reflection at zero does not take two paths further apart than what drives them.
     pub(super) fn spread(&self, height: &N) -> f64 {
         // What has left the ground in this trip, and what the one before still brings.
-        let trips = [self.end.saturating_sub(2), self.end - 1].map(|index| self.slice(index));
-        let lines = trips.into_iter().flatten().map(|piece| piece.line.intercept.width().to_f64()).fold(0.0, f64::max);
-        let jump = |pair: &[Piece<N>]| {
-            let age = &pair[1].age;
-            (pair[1].line.value_at(age) - pair[0].line.value_at(age)).to_f64().abs() * age.width().to_f64()
-        };
-        let jumps: f64 = trips.into_iter().flat_map(|pieces| pieces.windows(2).map(jump)).sum();
+        let (mut lines, mut jumps) = (0.0f64, 0.0);
+        for index in [self.end.saturating_sub(2), self.end - 1] {
+            let pieces = self.slice(index);
+            for (k, Piece { age, line, .. }) in pieces.iter().enumerate() {
+                lines = lines.max(line.intercept.width().to_f64());
+                if let Some(before) = k.checked_sub(1) {
+                    let jump = line.value_at(age) - pieces[before].line.value_at(age);
+                    jumps += jump.to_f64().abs() * age.width().to_f64();
+                }
+            }
+        }
         // Doubles that were added without looking where they round to.
         (height.width().to_f64() + lines + jumps) * (1.0 + 1e-9)
     }

@@ -1,6 +1,7 @@
 //! The data at `t = 0`, in the numbers of an engine.
 
 use super::Field;
+use crate::mapped::mapped;
 use crate::number::{Number, Open, Scalar};
 use crate::problem::{Parameters, Problem, Start, Top};
 
@@ -22,20 +23,21 @@ impl<S: Scalar> AtStart<S> {
     pub(crate) fn of(problem: &Problem, given: &Parameters<S>) -> Self {
         let zero = given.length.zero();
         let lift = |n: &Number| S::from_number(n, &zero.precision());
-        let points = |list: &[(Number, Number)]| -> Vec<(S, S)> {
-            list.iter().map(|(x, value)| (lift(x), lift(value))).collect()
-        };
+        let points = |list: &[(Number, Number)]| -> Vec<(S, S)> { mapped(list, |(x, value)| (lift(x), lift(value))) };
         let mut corners: Vec<S> = Vec::new();
         let (displacement, velocity) = match &problem.start {
             Start::Profile(profile) => {
                 let data = (points(&profile.displacement), points(&profile.velocity));
-                corners.extend(data.0.iter().chain(&data.1).map(|(x, _)| x.clone()));
-                corners.extend([zero.clone(), given.length.clone()]);
+                for (x, _) in data.0.iter().chain(&data.1) {
+                    corners.push(x.clone());
+                }
+                corners.push(zero.clone());
+                corners.push(given.length.clone());
                 data
             }
             Start::Uniform(_) | Start::Above { .. } => {
-                let gap = problem.gap().map(|gap| (zero.clone(), lift(gap)));
-                (gap.into_iter().collect(), vec![(zero.clone(), -given.speed.clone())])
+                let gap = problem.gap().map_or_else(Vec::new, |gap| vec![(zero.clone(), lift(gap))]);
+                (gap, vec![(zero.clone(), -given.speed.clone())])
             }
         };
         if problem.rod.top == Top::Fixed {

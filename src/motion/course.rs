@@ -4,6 +4,7 @@ use std::fmt;
 
 use serde::{Serialize, Serializer};
 
+use crate::mapped::{CollectVec, MapEach, mapped};
 use crate::number::Scalar;
 use crate::reason::{Reason, Warning};
 
@@ -193,7 +194,7 @@ impl<S> Contact<S> {
 impl<S: Scalar> fmt::Display for Contact<S> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let to = self.to.as_ref().map_or_else(|| "no end".to_string(), Scalar::text);
-        let [from, impulse, peak] = [&self.from, &self.impulse, &self.peak_strain].map(Scalar::text);
+        let [from, impulse, peak] = [&self.from, &self.impulse, &self.peak_strain].map_each(Scalar::text);
         write!(f, "contact from t = {from} to {to}: impulse {impulse}, peak v_x(0,t) = {peak}")
     }
 }
@@ -207,7 +208,7 @@ impl<S: Clone> Contact<S> {
             let to = events.get(k + 1).map(|release| release.time.clone());
             Contact { from: impact.time.clone(), to, impulse, peak_strain }
         };
-        impacts.map(contact).collect()
+        impacts.map(contact).collect_vec()
     }
 }
 
@@ -240,7 +241,7 @@ impl<S> StressPiece<S> {
             to: f(self.to),
             left: f(self.left),
             right: f(self.right),
-            chebyshev: self.chebyshev.into_iter().map(f).collect(),
+            chebyshev: mapped(self.chebyshev, f),
         }
     }
 }
@@ -302,7 +303,7 @@ impl<S: Scalar> StressPiece<S> {
             let before = if k == 1 { coefficient(0) * &passed.int(2) } else { coefficient(k - 1) };
             (before - coefficient(k + 1)) / passed.int(2 * k as i64)
         };
-        let mut chebyshev: Vec<S> = (1..=self.chebyshev.len()).map(term).collect();
+        let mut chebyshev: Vec<S> = mapped(1..=self.chebyshev.len(), term);
         // Zero at −1, where T_k = (−1)^k.
         let start =
             chebyshev.iter().enumerate().fold(passed.zero(), |sum, (j, c)| if j % 2 == 0 { sum + c } else { sum - c });
@@ -328,7 +329,7 @@ pub struct StressHistory<S> {
 impl<S: Scalar> fmt::Display for StressHistory<S> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         for (k, piece) in self.pieces.iter().enumerate() {
-            let [from, to, left, right] = [&piece.from, &piece.to, &piece.left, &piece.right].map(Scalar::text);
+            let [from, to, left, right] = [&piece.from, &piece.to, &piece.left, &piece.right].map_each(Scalar::text);
             let to = match &self.ending {
                 Ending::ExactnessEnds { time, .. } if k + 1 == self.pieces.len() => format!("just before {time}"),
                 _ => to,
@@ -437,8 +438,8 @@ impl<S> Course<S> {
         Course {
             end: f(self.end),
             ending: self.ending,
-            events: self.events.into_iter().map(|event| event.map(&f)).collect(),
-            contacts: self.contacts.into_iter().map(|contact| contact.map(&f)).collect(),
+            events: mapped(self.events, |event| event.map(&f)),
+            contacts: mapped(self.contacts, |contact| contact.map(&f)),
             warnings: self.warnings,
         }
     }

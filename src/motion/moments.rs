@@ -2,6 +2,7 @@
 
 use super::Stretch;
 use crate::error::Error;
+use crate::mapped::CollectVec;
 use crate::number::Scalar;
 
 /// `∫ f dx` and `∫ f (x − a) dx` over a cell `a … b`, for `f` = `v`, `v_t`, `v_x`.
@@ -126,5 +127,5 @@ pub(crate) fn of_sums<S: Scalar>(sums: Vec<Sums<S>>, points: &[S], ground: S) ->
         start = end;
         moments
     });
-    moments.skip(1).collect()
+    moments.skip(1).collect_vec()
 }

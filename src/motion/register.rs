@@ -1,6 +1,7 @@
 //! The register of rays: when each is where.
 
 use super::{Event, EventKind, Motion, Scales};
+use crate::mapped::{CollectVec, mapped};
 use crate::number::Scalar;
 use crate::order::ascending;
 
@@ -70,7 +71,7 @@ impl<S: Scalar> RayRegister<S> {
         let most = (motion.scales().time.to_f64() * MOST_LATE).log2();
         let times = motion.events().iter().map(|event| &event.time);
         let off = times.filter(|time| time.log2_error() < most && time.to_f64() > 0.0 && !own(time));
-        let displaced = Self::with(motion, off.map(|time| (time.clone(), true)).collect());
+        let displaced = Self::with(motion, off.map(|time| (time.clone(), true)).collect_vec());
         [start, displaced]
     }
 
@@ -92,7 +93,7 @@ impl<S: Scalar> RayRegister<S> {
         let Scales { time: round_trip, wave_speed, .. } = motion.scales();
         let fraction = |time: &S| fraction(&(time.clone() / &round_trip));
         let found = ascending(ascending(found, |ray| ray.0.to_f64()), |ray| fraction(&ray.0));
-        let phases: Vec<_> = found.into_iter().map(|ray| (fraction(&ray.0), ray)).collect();
+        let phases: Vec<_> = mapped(found, |ray| (fraction(&ray.0), ray));
         let bounds = phases.iter().map(|(_, (time, _))| time.log2_error().exp2()).filter(|bound| bound.is_finite());
         let widest = bounds.fold(0.0, f64::max) / round_trip.to_f64();
         let mut rays = RayRegister { round_trip, wave_speed, end: motion.end(), known: Vec::new(), widest };
@@ -135,7 +136,7 @@ impl<S: Scalar> RayRegister<S> {
         let travel = point.to_f64() / self.wave_speed.to_f64();
         let about = |delay: f64| {
             let trips = (seconds - delay) / trip;
-            self.known_near(trips - trips.floor(), NEAR + self.widest).next().is_some()
+            !self.known_near(trips - trips.floor(), NEAR + self.widest).is_empty()
         };
         if !about(travel) && !about(-travel) {
             return Vec::new();
@@ -154,22 +155,29 @@ impl<S: Scalar> RayRegister<S> {
         for delay in delays {
             let at_ground = time.clone() - &delay;
             let place = fraction(&(at_ground.clone() / &self.round_trip));
-            met.extend(self.known_near(place, NEAR + widest).filter_map(|known| {
+            for known in self.known_near(place, NEAR + widest) {
                 let trips = (at_ground.clone() - known) / &self.round_trip;
-                let trips = (trips.clone() + trips.ratio(1, 2)).floor_int().filter(|trips| *trips >= 0)?;
-                Some(self.round_trip.int(trips) * &self.round_trip + known + &delay)
-            }));
+                if let Some(trips @ 0..) = (trips.clone() + trips.ratio(1, 2)).floor_int() {
+                    met.push(self.round_trip.int(trips) * &self.round_trip + known + &delay);
+                }
+            }
         }
         met
     }
 
     /// The rays at about this fraction of a round trip: 0 and 1 are neighbours.
-    fn known_near(&self, fraction: f64, apart: f64) -> impl Iterator<Item = &S> {
-        [fraction - 1.0, fraction, fraction + 1.0].into_iter().flat_map(move |fraction| {
-            let from = self.known.partition_point(|phase| phase.fraction < fraction - apart);
-            let near = self.known[from..].iter().take_while(move |phase| phase.fraction <= fraction + apart);
-            near.map(|phase| &phase.rays[0].0)
-        })
+    fn known_near(&self, fraction: f64, apart: f64) -> Vec<&S> {
+        let mut near = Vec::new();
+        for fraction in [fraction - 1.0, fraction, fraction + 1.0] {
+            let mut k = self.known.partition_point(|phase| phase.fraction < fraction - apart);
+            while let Some(phase) = self.known.get(k)
+                && phase.fraction <= fraction + apart
+            {
+                near.push(&phase.rays[0].0);
+                k += 1;
+            }
+        }
+        near
     }
 
     /// The rays that pass `point` from one time to another, in order; at the ground also those that come from the start

@@ -3,6 +3,7 @@
 use std::f64::consts::PI;
 
 use super::StressPiece;
+use crate::mapped::mapped;
 use crate::number::Scalar;
 
 /// The pieces cut into straight ones, each within `share` of the greatest `|v_x(0,·)|` at their ends.
@@ -13,31 +14,33 @@ use crate::number::Scalar;
 ///
 /// **Accuracy**: the tolerance, and that of the pieces.
 pub(crate) fn straight<S: Scalar>(pieces: &[StressPiece<S>], share: f64) -> Vec<StressPiece<S>> {
-    let ends = pieces.iter().flat_map(|piece| [&piece.left, &piece.right]);
-    let tolerance = share * ends.map(|end| end.to_f64().abs()).fold(0.0, f64::max);
-    pieces.iter().flat_map(|piece| cut(piece, tolerance)).collect()
+    let mut greatest = 0.0f64;
+    for StressPiece { left, right, .. } in pieces {
+        greatest = greatest.max(left.to_f64().abs()).max(right.to_f64().abs());
+    }
+    let mut parts = Vec::new();
+    for piece in pieces {
+        cut(piece, share * greatest, &mut parts);
+    }
+    parts
 }
 
 /// Halvings of which each may leave out a 64th of the tolerance.
 const MOST_HALVINGS: u32 = 30;
 
-fn cut<S: Scalar>(piece: &StressPiece<S>, tolerance: f64) -> Vec<StressPiece<S>> {
-    let coefficients = piece.chebyshev.iter().map(Scalar::to_f64).collect();
+fn cut<S: Scalar>(piece: &StressPiece<S>, tolerance: f64, parts: &mut Vec<StressPiece<S>>) {
+    let coefficients = mapped(&piece.chebyshev, Scalar::to_f64);
     let mut shares = Vec::new();
     halve(coefficients, (0.0, 1.0), tolerance, MOST_HALVINGS, &mut shares);
     shares.pop();
-    let inner = shares.into_iter().map(|share| {
-        let time = (piece.to.clone() - &piece.from) * piece.from.double(share) + &piece.from;
-        let value = piece.eval(&time);
-        (time, value)
-    });
-    let mut begin = (piece.from.clone(), piece.left.clone());
-    let ends: Vec<(S, S)> = inner.chain([(piece.to.clone(), piece.right.clone())]).collect();
-    let part = |(to, right): (S, S)| {
-        let (from, left) = std::mem::replace(&mut begin, (to.clone(), right.clone()));
-        StressPiece { from, to, left, right, chebyshev: Vec::new() }
-    };
-    ends.into_iter().map(part).collect()
+    let (mut from, mut left) = (piece.from.clone(), piece.left.clone());
+    for share in shares {
+        let to = (piece.to.clone() - &piece.from) * piece.from.double(share) + &piece.from;
+        let right = piece.eval(&to);
+        parts.push(StressPiece { from, to: to.clone(), left, right: right.clone(), chebyshev: Vec::new() });
+        (from, left) = (to, right);
+    }
+    parts.push(StressPiece { from, to: piece.to.clone(), left, right: piece.right.clone(), chebyshev: Vec::new() });
 }
 
 /// Where the parts of the polynomial with these Chebyshev coefficients end whose chords are within the tolerance, from
@@ -68,12 +71,12 @@ fn half(c: &[f64], middle: f64) -> Vec<f64> {
         }
         x * b1 - b2 + c[0]
     };
-    let values: Vec<f64> = (0..n).map(value).collect();
+    let values: Vec<f64> = mapped(0..n, value);
     let coefficient = |k: usize| {
         let sum: f64 = values.iter().enumerate().map(|(j, value)| value * angle(k, j)).sum();
         sum * if k == 0 { 1.0 } else { 2.0 } / n as f64
     };
-    (0..n).map(coefficient).collect()
+    mapped(0..n, coefficient)
 }
 
 #[cfg(test)]

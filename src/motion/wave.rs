@@ -1,6 +1,7 @@
 //! An undamped motion as two travelling waves.
 
 use super::Field;
+use crate::mapped::mapped;
 use crate::number::Scalar;
 use crate::problem::Top;
 
@@ -171,7 +172,7 @@ impl<S: Scalar> Waves<S> {
             slope: f(piece.slope),
         };
         Waves {
-            pieces: self.pieces.into_iter().map(piece).collect(),
+            pieces: mapped(self.pieces, piece),
             constant: f(self.constant),
             linear: f(self.linear),
             quadratic: f(self.quadratic),

@@ -3,6 +3,7 @@
 use std::ops::Range;
 
 use super::{Number, NumberError, Scalar, short};
+use crate::mapped::{CollectVec, mapped};
 
 /// The most values that one range may hold.
 const MOST: u32 = 10_000_000;
@@ -121,7 +122,7 @@ impl List {
     pub(crate) fn lift_part<S: Scalar>(&self, part: Range<usize>, precision: &S::Precision) -> Vec<S> {
         let lift = |number: &Number| S::spelling(number, precision);
         if let List::Numbers(numbers) = self {
-            return numbers[part].iter().map(lift).collect();
+            return mapped(&numbers[part], lift);
         }
         let number = |number: &Number| S::from_number(number, precision);
         let (one, last) = (S::from_number(&1.into(), precision), self.len() as i64 - 1);
@@ -136,7 +137,7 @@ impl List {
             (List::Steps(step, _), None) => one.int(k) * number(step),
             (List::Numbers(_), _) => one.zero(),
         };
-        part.map(|k| at(k as i64)).collect()
+        part.map(|k| at(k as i64)).collect_vec()
     }
 
     /// `a`, `b`, `q` for which the k-th of `last + 1` numbers is `(a (last − k) + b k)/q`, where all are below 2⁵³.

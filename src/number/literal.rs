@@ -7,6 +7,7 @@ use std::str::FromStr;
 use thiserror::Error;
 
 use super::rational::{self, Integer, Rational};
+use crate::mapped::CollectVec;
 
 /// A number as a person wrote it: `3`, `0.1`, `1e-9`, `1/3`, `2.5/7`. It stands for exactly the rational that it
 /// spells: `0.1` is 1/10, never the nearest double.
@@ -144,10 +145,10 @@ impl Magnitude {
     fn of(text: &str) -> Self {
         let (mantissa, exponent) = text.split_once(['e', 'E']).unwrap_or((text, "0"));
         let fraction = mantissa.split_once('.').map_or(0, |(_, fraction)| fraction.len());
-        let digits: Vec<u8> = mantissa.bytes().filter(u8::is_ascii_digit).map(|d| d - b'0').collect();
+        let digits: Vec<u8> = mantissa.bytes().filter(u8::is_ascii_digit).map(|d| d - b'0').collect_vec();
         let limb = |nine: &[u8]| nine.iter().fold(0, |limb, digit| 10 * limb + u64::from(*digit));
         let power = exponent.parse().unwrap_or(0) - fraction as i64;
-        Magnitude { limbs: digits.rchunks(9).map(limb).collect(), power }
+        Magnitude { limbs: digits.rchunks(9).map(limb).collect_vec(), power }
     }
 
     /// `|a·b|`, digit by digit.

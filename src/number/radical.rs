@@ -7,6 +7,7 @@ use std::sync::atomic::{self, AtomicU64};
 use rug::{Assign, Float, Integer, Rational};
 
 use super::float::{down, up};
+use crate::mapped::{MapEach, mapped};
 
 /// A positive square root, or a number of which nothing is known but that it is always the same.
 #[derive(Debug)]
@@ -116,11 +117,11 @@ impl Radical {
     }
 
     pub(super) fn scaled(&self, by: &Rational) -> Option<Self> {
-        Radical::checked(self.terms.iter().map(|(p, c)| (p.clone(), Rational::from(c * by))).collect())
+        Radical::checked(mapped(&self.terms, |(p, c)| (p.clone(), Rational::from(c * by))))
     }
 
     pub(super) fn neg(&self) -> Self {
-        Radical { terms: self.terms.iter().map(|(p, c)| (p.clone(), Rational::from(-c))).collect() }
+        Radical { terms: mapped(&self.terms, |(p, c)| (p.clone(), Rational::from(-c))) }
     }
 
     pub(super) fn add(&self, other: &Self) -> Option<Self> {
@@ -191,7 +192,7 @@ impl Radical {
         let has = |product: &Product| product.last().is_some_and(|root| root.order(&last) == Ordering::Equal);
         let (with, without): (Vec<_>, Vec<_>) = self.terms.iter().cloned().partition(|(product, _)| has(product));
         let mut factor: Vec<(Product, Rational)> =
-            with.into_iter().map(|(product, c)| (product[..product.len() - 1].to_vec(), c)).collect();
+            mapped(with, |(product, c)| (product[..product.len() - 1].to_vec(), c));
         factor.sort_by(|(p, _), (q, _)| product_order(p, q));
         Some((Radical { terms: without }, Radical { terms: factor }, last))
     }
@@ -234,7 +235,7 @@ impl Radical {
 
     /// Between two numbers of so many bits; `None` where something is only named.
     fn enclosed(&self, bits: u32) -> Option<[Float; 2]> {
-        let [mut lo, mut hi] = [0, 0].map(|zero| Float::with_val(bits, zero));
+        let [mut lo, mut hi] = [0, 0].map_each(|zero| Float::with_val(bits, zero));
         for (product, c) in &self.terms {
             // The size of the term first, whose factors are all positive.
             let size = Rational::from(c.abs_ref());

@@ -1,6 +1,7 @@
 //! The exact solution of an undamped rod as a function for other programs: Python, MATLAB, C.
 
 use super::reference::Preamble;
+use crate::mapped::{CollectVec, mapped};
 use crate::motion::{WavePiece, Waves};
 use crate::number::{Scalar, bound_of_log2};
 use crate::problem::Top;
@@ -82,7 +83,7 @@ fn written(
     let constants: String = match language {
         Language::Python => assigned.map(|line| line + "\n").collect(),
         Language::Matlab => assigned.map(|line| line + ";\n").collect(),
-        Language::C => assigned.collect::<Vec<_>>().join(", "),
+        Language::C => assigned.collect_vec().join(", "),
     };
     let row = |row: &[String; 4]| match language {
         Language::Python => format!("    ({}),\n", row.join(", ")),
@@ -95,7 +96,7 @@ fn written(
         ("@CONSTANTS@", constants),
         ("@SIGN@", sign.into()),
         ("@COUNT@", rows.len().to_string()),
-        ("@ROWS@", rows.iter().map(row).collect()),
+        ("@ROWS@", mapped(&rows, row).concat()),
         ("@NEAR@", NEAR.into()),
         // Last, because a title may hold anything.
         ("@REMARKS@", remarks),

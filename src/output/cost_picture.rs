@@ -4,6 +4,7 @@ use glam::DVec2;
 
 use super::cost::asked;
 use crate::draw::{Axis, Key, Layer, Mark, Panel, Shape, Sheet, Size, Stroke, plain, power_of_ten};
+use crate::mapped::{CollectVec, MapEach, mapped};
 use crate::routes::cost::{Family, Row, Table};
 
 /// Where the scale of errors is drawn together: the digits of a double get as much of the picture as the thousand
@@ -44,7 +45,7 @@ fn digits_at(place: f64, decades: f64) -> f64 {
 
 /// Ticks at all whole numbers of a range.
 fn whole(from: f64, to: f64, text: impl Fn(f64) -> String) -> Vec<(f64, String)> {
-    (from.ceil() as i32..=to.floor() as i32).map(|place| (place.into(), text(place.into()))).collect()
+    mapped(from.ceil() as i32..=to.floor() as i32, |place| (place.into(), text(place.into())))
 }
 
 /// The work–precision diagram: error against time, both by decades, a line for each route and a star on the plan's
@@ -63,7 +64,7 @@ pub(crate) fn cost_svg(cost: &Table, title: Option<&str>) -> String {
         let error = if row.log10_error.is_finite() { place_of(-row.log10_error, decades) } else { lowest };
         DVec2::new(row.timing.seconds.max(1e-12).log10(), error)
     };
-    let times: Vec<f64> = cost.rows.iter().map(|row| place(row).x).collect();
+    let times: Vec<f64> = mapped(&cost.rows, |row| place(row).x);
     let first = times.iter().copied().fold(f64::INFINITY, f64::min).floor();
     let last = times.iter().copied().fold(f64::NEG_INFINITY, f64::max).ceil().max(first + 1.0);
     let mut x = Axis::new("time [s]", "", [first, last]);
@@ -77,19 +78,19 @@ pub(crate) fn cost_svg(cost: &Table, title: Option<&str>) -> String {
     }));
     let (mut layers, mut legend) = (Vec::new(), Vec::new());
     if long {
-        let ends = [first, last].map(|time| DVec2::new(time, place_of(DOUBLES_END, decades))).to_vec();
+        let ends = [first, last].map_each(|time| DVec2::new(time, place_of(DOUBLES_END, decades))).to_vec();
         layers.push(Layer::new("doubles-end", Shape::Lines(vec![ends], Stroke::new("#666666", 0.2).dashed("1.5 1"))));
     }
     // The rows come by family, and in it by ladder.
     for rows in cost.rows.chunk_by(|a, b| a.family == b.family) {
         let ladders = rows.chunk_by(|a, b| a.ladder == b.ladder);
-        let lines: Vec<Vec<DVec2>> = ladders.map(|rows| rows.iter().map(place).collect()).collect();
+        let lines: Vec<Vec<DVec2>> = ladders.map(|rows| mapped(rows, place)).collect_vec();
         let (color, mark) = look(rows[0].family);
         layers.push(Layer::new("curve", Shape::Lines(lines.clone(), Stroke::new(color, 0.3))));
         layers.push(Layer::new("marks", Shape::Marks(lines.concat(), mark, color)));
         legend.push(Key::Mark(rows[0].family.name().into(), mark, color));
     }
-    let chosen: Vec<DVec2> = cost.rows.iter().filter(|row| row.chosen).map(place).collect();
+    let chosen: Vec<DVec2> = cost.rows.iter().filter(|row| row.chosen).map(place).collect_vec();
     for mark in [Mark::Ring, Mark::Star] {
         layers.push(Layer::new("chosen", Shape::Marks(chosen.clone(), mark, "#000000")));
     }

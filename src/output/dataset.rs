@@ -4,6 +4,7 @@ use std::borrow::Cow;
 
 use serde_json::Value;
 
+use crate::mapped::{MapEach, mapped};
 use crate::number::{Number, Scalar, bound_json, number_json, show, shown_bound_text};
 
 /// A number of any system, as writers ask it.
@@ -66,7 +67,7 @@ impl Cell {
     }
 
     pub(crate) fn numbers(all: &[impl Scalar]) -> Self {
-        Cell::Numbers(all.iter().map(|x| Box::new(x.clone()) as Box<dyn Shown>).collect())
+        Cell::Numbers(mapped(all, |x| Box::new(x.clone()) as Box<dyn Shown>))
     }
 
     pub(super) fn is_empty(&self) -> bool {
@@ -83,7 +84,7 @@ impl Cell {
             Cell::Plain(Value::Null) => none.into(),
             Cell::Plain(value) => plain(value),
             Cell::Number(x) => x.printed(digits),
-            Cell::Numbers(numbers) => numbers.iter().map(|x| x.printed(digits)).collect::<Vec<_>>().join(" "),
+            Cell::Numbers(numbers) => mapped(numbers, |x| x.printed(digits)).join(" "),
         }
     }
 
@@ -128,7 +129,7 @@ pub(crate) struct Column {
 
 impl Column {
     fn at(head: bool, name: bool, key: bool, text: Cow<'static, str>) -> Self {
-        let [head, name, key] = [head, name, key].map(|there| there.then(|| text.clone()));
+        let [head, name, key] = [head, name, key].map_each(|there| there.then(|| text.clone()));
         Column { head, name, key, unit: "", is_text: false, is_bounded: false, is_optional: false }
     }
 

@@ -2,6 +2,7 @@
 
 use super::dataset::{Cell, Column, Dataset};
 use super::record::Head;
+use crate::mapped::mapped;
 use crate::number::Scalar;
 use crate::problem::Parameter;
 use crate::quantity::Quantity;
@@ -51,7 +52,7 @@ pub(super) fn table<S: Scalar>(
     data.columns = vec![Column::table(what.to_string()).text(), Column::table("side").text()];
     data.columns.extend(quantities.iter().map(|(_, symbol)| Column::table(format!("∂ {symbol}"))));
     for (key, row) in keys.into_iter().zip(rows) {
-        let cells: Vec<_> = quantities.iter().map(|(k, _)| row.get(*k).and_then(Option::as_ref)).collect();
+        let cells: Vec<_> = mapped(quantities, |(k, _)| row.get(*k).and_then(Option::as_ref));
         let both = cells.iter().flatten().all(|cell| cell.value().is_some());
         let sides: &[(usize, &str)] = if both { &[(0, "both")] } else { &[(0, "left"), (1, "right")] };
         for (side, word) in sides {

@@ -6,6 +6,7 @@ use super::dataset::{Cell, Column, Dataset};
 use super::regimes::{regimes_data, regimes_panel};
 use crate::draw::{Anchor, Axis, Key, LINES, Layer, Mark, Panel, Shape, Sheet, Stroke};
 use crate::figures::{DAMPINGS, Data, Failed, Figure, Of, STRONG, dot, limits};
+use crate::mapped::{CollectVec, MapEach, mapped};
 use crate::number::Analytic;
 
 const LINE: f64 = 0.4;
@@ -21,15 +22,15 @@ pub(crate) fn figure_data(figure: &Figure, data: &Data) -> Dataset {
     if let Some(map) = &data.map {
         return regimes_data(map);
     }
-    let row = |row: &Vec<_>| row.iter().map(|value: &Option<_>| Cell::optional(value.as_ref())).collect();
-    let columns = data.columns.iter().map(|name| Column::new(*name)).collect();
-    let notes = [figure.shown, figure.corrected].map(String::from).to_vec();
-    Dataset { columns, rows: data.rows.iter().map(row).collect(), notes, ..Dataset::default() }
+    let row = |row: &Vec<_>| mapped(row, |value: &Option<_>| Cell::optional(value.as_ref()));
+    let columns = mapped(&data.columns, |name| Column::new(*name));
+    let notes = [figure.shown, figure.corrected].map_each(String::from).to_vec();
+    Dataset { columns, rows: mapped(&data.rows, row), notes, ..Dataset::default() }
 }
 
 /// What stands beside the files, whose pictures have these `endings`.
 pub(crate) fn figures_index(figures: &[&Figure], data: &[Data], endings: &[&str]) -> Result<String, Failed> {
-    let names: Vec<String> = endings.iter().map(|ending| ending.to_uppercase()).collect();
+    let names: Vec<String> = mapped(endings, |ending| ending.to_uppercase());
     let mut text = format!(
         "# Figures\n\nOf F. Wang and S. W. Hansen, *Explicit solutions and coefficient of restitution for an elastic \
          rod with viscous damping*, IMA Preprint 2473, 2016, worked out by dalembert {}: `dalembert figures`.\nEach is \
@@ -59,7 +60,8 @@ pub(crate) fn figures_index(figures: &[&Figure], data: &[Data], endings: &[&str]
         for damping in DAMPINGS {
             let limits = limits(damping)?;
             let numbers = [Some(limits.restitution), Some(limits.decay.sqrt()), limits.translational, limits.kept];
-            let cells: Vec<String> = numbers.iter().flatten().map(|number| format!("{:.12}", number.value())).collect();
+            let cells: Vec<String> =
+                numbers.iter().flatten().map(|number| format!("{:.12}", number.value())).collect_vec();
             text += &format!("| {damping} | {} |\n", cells.join(" | "));
         }
     }
@@ -128,13 +130,14 @@ fn kernel(rows: &[Row]) -> Panel {
     let y = Axis::new("Ψ_r(t)", "", Axis::range(rows.iter().filter_map(|row| row[3]), true));
     let (mut layers, mut legend) = (vec![level(&x, 0.0, Stroke::new("#808080", THIN))], Vec::new());
     for (k, damping) in STRONG.into_iter().enumerate() {
-        let (rows, stroke) = (of(rows, damping).collect::<Vec<_>>(), Stroke::new(LINES[k], LINE));
+        let (rows, stroke) = (of(rows, damping).collect_vec(), Stroke::new(LINES[k], LINE));
         // A jump lies between two rows of one time.
         let stretches: Vec<Vec<DVec2>> = rows
             .chunk_by(|a, b| a[1] != b[1])
-            .map(|rows| rows.iter().filter_map(|row| Some(DVec2::new(row[1]?, row[3]?))).collect())
-            .collect();
-        let jumps = stretches.windows(2).filter_map(|pair| Some(vec![*pair[0].last()?, *pair[1].first()?])).collect();
+            .map(|rows| rows.iter().filter_map(|row| Some(DVec2::new(row[1]?, row[3]?))).collect_vec())
+            .collect_vec();
+        let jumps =
+            stretches.windows(2).filter_map(|pair| Some(vec![*pair[0].last()?, *pair[1].first()?])).collect_vec();
         layers.push(lines("jumps", jumps, Stroke::new(LINES[k], 0.15).dashed("0.5 0.5")));
         layers.push(lines("curve", stretches, stroke));
         legend.push(Key::Line(format!("r = {damping}"), stroke));
@@ -153,7 +156,7 @@ fn energies(rows: &[Row], label: &str, columns: &[(usize, &str)]) -> Panel {
         let stroke = Stroke::new(LINES[k], LINE);
         layers.push(lines("curve", stretches(rows.iter(), 0, *column), stroke));
         let dot = rows.iter().filter(|row| row[0] == Some(2.0)).filter_map(|row| row[*column]);
-        layers.push(marks(dot.map(|value| DVec2::new(2.0, value)).collect(), UNDAMPED));
+        layers.push(marks(dot.map(|value| DVec2::new(2.0, value)).collect_vec(), UNDAMPED));
         if columns.len() > 1 {
             legend.push(Key::Line((*name).into(), stroke));
         }
@@ -212,7 +215,7 @@ fn regions(rows: &[Row]) -> Panel {
     let mut x = Axis::new("y", "", [-2.0, 3.0]);
     x.ticks = Some(
         [(-1.5, "x − c t₁"), (0.0, "0"), (0.5, "x"), (2.0, "2L"), (2.5, "x + c t₁")]
-            .map(|(y, text)| (y, text.into()))
+            .map_each(|(y, text)| (y, text.into()))
             .into(),
     );
     let mut y = Axis::new("time", "", [0.0, 2.2]);
@@ -220,9 +223,9 @@ fn regions(rows: &[Row]) -> Panel {
     let mut layers = Vec::new();
     for ((region, color), name) in [1.0, 2.0, 3.0].into_iter().zip(REGIONS).zip(["A", "B", "C"]) {
         let rows = rows.iter().filter(|row| row[0] == Some(region));
-        let corners: Vec<DVec2> = rows.filter_map(|row| Some(DVec2::new(row[1]?, row[2]?))).collect();
+        let corners: Vec<DVec2> = rows.filter_map(|row| Some(DVec2::new(row[1]?, row[2]?))).collect_vec();
         let middle = corners.iter().sum::<DVec2>() / corners.len().max(1) as f64;
-        let edge = corners.iter().chain(corners.first()).copied().collect();
+        let edge = corners.iter().chain(corners.first()).copied().collect_vec();
         layers.push(Layer::new("area", Shape::Areas(vec![corners], color)));
         layers.push(lines("curve", vec![edge], Stroke::new(BLACK, THIN)));
         layers.push(Layer::new("note", Shape::Note(middle, Anchor::Middle, name.into())));

@@ -3,6 +3,7 @@
 use serde_json::{Value, json};
 
 use super::writer::{WIDTH, wrapped};
+use crate::mapped::{CollectVec, mapped};
 use crate::motion::{Ending, EventKind, StressPiece};
 use crate::problem::Parameter;
 use crate::quantity::{Row, Units};
@@ -39,18 +40,18 @@ impl Head {
     }
 
     pub(super) fn warning_texts(&self) -> Vec<String> {
-        self.warnings.iter().map(ToString::to_string).collect()
+        mapped(&self.warnings, ToString::to_string)
     }
 
     /// A line for each warning.
     pub(super) fn warning_lines(&self) -> String {
-        self.warnings.iter().map(|warning| self.line(&format!("warning: {warning}"))).collect()
+        mapped(&self.warnings, |warning| self.line(&format!("warning: {warning}"))).concat()
     }
 
     /// What the numbers do not say.
     pub(super) fn notes(&self) -> Vec<String> {
         let end = self.exact_until.iter().map(|end| format!("{end}; the numbers are {}", self.number));
-        end.chain(self.warnings.iter().map(|warning| format!("warning: {warning}"))).collect()
+        end.chain(self.warnings.iter().map(|warning| format!("warning: {warning}"))).collect_vec()
     }
 
     /// Where fractions ended.

@@ -10,6 +10,7 @@ use serde_json::{Value, json};
 use super::record::Head;
 use super::write_filled;
 use super::writer::Npz;
+use crate::mapped::{CollectVec, mapped, try_mapped};
 use crate::number::{DOUBLE_DIGITS, Scalar, bound_of_log2, double_bound, number_json, show, shown_bound};
 use crate::quantity::{Quantity, Units};
 use crate::solve::Numbers;
@@ -137,7 +138,7 @@ impl Preamble<'_> {
             "kind": "reference",
             "dalembert": env!("CARGO_PKG_VERSION"),
             "title": self.head.title,
-            "scene": self.scene_lines().collect::<Vec<_>>().join("\n"),
+            "scene": self.scene_lines().collect_vec().join("\n"),
             "effects": self.head.effects,
             "until": self.until,
             "numbers": self.head.number,
@@ -146,9 +147,9 @@ impl Preamble<'_> {
             "signs": SIGNS,
             "side": SIDE,
             "ends": self.ends,
-            "warnings": self.head.warnings.iter().map(ToString::to_string).collect::<Vec<_>>(),
+            "warnings": mapped(&self.head.warnings, ToString::to_string),
             "cite": CITE,
-            "columns": columns.collect::<Vec<_>>(),
+            "columns": columns.collect_vec(),
         })
     }
 
@@ -221,8 +222,11 @@ impl Rows {
 
     /// Adds rows, given column by column.
     pub(crate) fn push<S: Scalar>(&mut self, table: &[Vec<S>]) -> io::Result<()> {
-        let greatest = |(bound, values): (&f64, &Vec<S>)| values.iter().map(|x| self.bound(x)).fold(*bound, f64::max);
-        self.bounds = self.bounds.iter().zip(table).map(greatest).collect();
+        for (k, values) in table.iter().enumerate() {
+            for value in values {
+                self.bounds[k] = self.bounds[k].max(self.bound(value));
+            }
+        }
         let count = table.first().map_or(0, Vec::len);
         if self.golden == Golden::Npz {
             for (file, values) in self.kept.iter_mut().zip(table) {
@@ -252,7 +256,7 @@ impl Rows {
         });
         write_filled(path, |file| match golden {
             Golden::Csv => {
-                let names: Vec<&str> = columns.iter().map(|column| column.name).collect();
+                let names: Vec<&str> = mapped(&columns, |column| column.name);
                 writeln!(file, "{}{}", preamble.comments(&columns, &bounds), names.join(","))?;
                 kept.try_for_each(|rows| io::copy(&mut rows?, file).map(|_| ()))
             }
@@ -272,9 +276,9 @@ impl Rows {
                         let mut bytes = [0; 8];
                         values.read_exact(&mut bytes).map(|()| f64::from_le_bytes(bytes))
                     };
-                    let values = (0..count).map(|_| next()).collect::<Result<Vec<f64>, _>>()?;
+                    let values = try_mapped(0..count, |_| next())?;
                     match column.is_flag() {
-                        true => npz.add(column.name, &[count], values.iter().map(|x| *x as i8).collect::<Vec<_>>()),
+                        true => npz.add(column.name, &[count], mapped(&values, |x| *x as i8)),
                         false => npz.add(column.name, &[count], values),
                     }?;
                 }

@@ -7,6 +7,7 @@ use glam::DVec2;
 use super::dataset::{Column, Dataset};
 use super::writer::Npz;
 use crate::draw::{Axis, Key, Layer, Panel, Shape, Sheet, Size, Stroke};
+use crate::mapped::{CollectVec, MapEach, mapped};
 use crate::number::{Estimate, Number, Scalar, double_bound_text};
 use crate::sweep::{BANDS, Map, PARTS, Regime, Spread, threshold, threshold_near};
 
@@ -35,8 +36,8 @@ pub(crate) fn regimes_data(map: &Map) -> Dataset {
         };
         vec![r.to_string().into(), m.to_string().into(), time.into(), word.into()]
     };
-    let columns = ["damping_ratio", "speed_ratio", "bounce_ratio", "regime"].map(Column::new).to_vec();
-    Dataset { columns, rows: map.regimes.iter().enumerate().map(row).collect(), ..Dataset::default() }
+    let columns = ["damping_ratio", "speed_ratio", "bounce_ratio", "regime"].map_each(Column::new).to_vec();
+    Dataset { columns, rows: map.regimes.iter().enumerate().map(row).collect_vec(), ..Dataset::default() }
 }
 
 /// `R` of each column and the `M` above which the bounce comes at `t₁`; empty where no M is high enough.
@@ -46,8 +47,8 @@ pub(crate) fn threshold_data(map: &Map) -> Dataset {
         let [m, bound] = m.map(|m| [m.text(), double_bound_text(&m)]).unwrap_or_default();
         vec![r.to_string().into(), m.into(), bound.into()]
     };
-    let columns = ["damping_ratio", "threshold", "uncertainty"].map(Column::new).to_vec();
-    Dataset { columns, rows: map.damping.iter().map(row).collect(), ..Dataset::default() }
+    let columns = ["damping_ratio", "threshold", "uncertainty"].map_each(Column::new).to_vec();
+    Dataset { columns, rows: mapped(&map.damping, row), ..Dataset::default() }
 }
 
 /// How often each regime comes, in words.
@@ -71,7 +72,7 @@ pub(crate) fn regimes_text(map: &Map) -> String {
 pub(crate) fn regimes_npz(map: &Map) -> io::Result<Vec<u8>> {
     let mut bytes = Cursor::new(Vec::new());
     let mut npz = Npz::new(&mut bytes, true);
-    let doubles = |list: &[Number]| list.iter().map(Number::to_f64).collect::<Vec<f64>>();
+    let doubles = |list: &[Number]| mapped(list, Number::to_f64);
     let (dampings, speeds) = (doubles(&map.damping), doubles(&map.speed));
     let value = |regime: &Regime| match regime {
         Regime::Bounce(time) => *time,
@@ -79,10 +80,10 @@ pub(crate) fn regimes_npz(map: &Map) -> io::Result<Vec<u8>> {
         Regime::Undecided => f64::NAN,
     };
     let shape = [speeds.len(), dampings.len()];
-    let thresholds = dampings.iter().map(|r| threshold_near(*r)).collect();
+    let thresholds = mapped(&dampings, |r| threshold_near(*r));
     npz.add("damping_ratio", &shape[1..], dampings)?;
     npz.add("speed_ratio", &shape[..1], speeds)?;
-    npz.add("bounce_ratio", &shape, map.regimes.iter().map(value).collect())?;
+    npz.add("bounce_ratio", &shape, mapped(&map.regimes, value))?;
     npz.add("threshold", &shape[1..], thresholds)?;
     npz.finish()?;
     Ok(bytes.into_inner())
@@ -91,7 +92,7 @@ pub(crate) fn regimes_npz(map: &Map) -> io::Result<Vec<u8>> {
 /// The axis of some values and where its parts begin and end: a value is the middle of its part.
 fn axis(label: &str, values: &[Number]) -> (Axis, Spread) {
     let spread = Spread::of(values);
-    let ends = [0.0, values.len() as f64].map(|steps| spread.border(steps));
+    let ends = [0.0, values.len() as f64].map_each(|steps| spread.border(steps));
     (if spread.log { Axis::log(label, ends) } else { Axis::new(label, "", ends) }, spread)
 }
 
@@ -122,8 +123,8 @@ pub(crate) fn regimes_panel(map: &Map) -> Panel {
         }
     }
     let by_color = |rectangles: Vec<(usize, [DVec2; 2])>| {
-        let of = |band: usize| rectangles.iter().filter(|found| found.0 == band).map(|found| found.1).collect();
-        Shape::Runs((0..known).map(|band| (COLORS[band].0.to_string(), of(band))).collect())
+        let of = |band: usize| rectangles.iter().filter(|found| found.0 == band).map(|found| found.1).collect_vec();
+        Shape::Runs(mapped(0..known, |band| (COLORS[band].0.to_string(), of(band))))
     };
     // Closer and closer to I₀(R) = 2, where it is infinite.
     let (mut below, mut above) = (1.8, 1.81);
@@ -132,8 +133,8 @@ pub(crate) fn regimes_panel(map: &Map) -> Panel {
         *(if threshold_near(middle).is_finite() { &mut below } else { &mut above }) = middle;
     }
     let curve = (0..=800).map(|k| below * (1.0 - (-f64::from(k) / 20.0).exp2()));
-    let curve = curve.map(|r| DVec2::new(r, threshold_near(r))).filter(|point| point.y.is_finite()).collect();
-    let pi = [y.from, y.to].map(|m| DVec2::new(std::f64::consts::PI, m)).to_vec();
+    let curve = curve.map(|r| DVec2::new(r, threshold_near(r))).filter(|point| point.y.is_finite()).collect_vec();
+    let pi = [y.from, y.to].map_each(|m| DVec2::new(std::f64::consts::PI, m)).to_vec();
     // Apart from every colour of the map, and from paper.
     let (solid, dashed) = (Stroke::new("#ff5a1f", 0.6), Stroke::new("#000000", 0.25).dashed("1.8 1.2"));
     let layers = vec![
@@ -142,7 +143,7 @@ pub(crate) fn regimes_panel(map: &Map) -> Panel {
         Layer::new("threshold", Shape::Lines(vec![curve], solid)),
         Layer::new("curve", Shape::Lines(vec![pi], dashed)),
     ];
-    let mut legend: Vec<Key> = COLORS[..known].iter().map(|(color, text)| Key::Area((*text).into(), color)).collect();
+    let mut legend: Vec<Key> = mapped(&COLORS[..known], |(color, text)| Key::Area((*text).into(), color));
     legend.push(Key::Line("M = (I₀(R) + I₁(R))/(2 − I₀(R))".into(), solid));
     legend.push(Key::Line("R = π".into(), dashed));
     Panel { title: "when the first contact ends".into(), x, y, layers, legend }

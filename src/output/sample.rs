@@ -6,6 +6,7 @@ use super::dataset::{Cell, Column, Dataset};
 use super::record::Head;
 use super::solve::{listed, named_units, units_json};
 use crate::error::Error;
+use crate::mapped::{CollectVec, mapped};
 use crate::motion::{Motion, Side};
 use crate::number::Scalar;
 use crate::quantity::Quantity::*;
@@ -89,7 +90,7 @@ pub(crate) fn sample<S: Scalar>(
 pub(crate) fn samples_data<S: Scalar>(samples: &[Sample<S>], quantity: Quantity, head: &Head) -> Dataset {
     let units = &head.units;
     let (quantities, places): (Vec<_>, Vec<usize>) = quantity.columns().iter().copied().unzip();
-    let values = samples.iter().map(|sample| places.iter().map(|place| sample.values.get(*place)).collect()).collect();
+    let values = mapped(samples, |sample| mapped(&places, |place| sample.values.get(*place)));
     let column = |quantity: quantity::Quantity| {
         let key = quantity.key();
         Column::new(key).keyed(format!("values/{key}"))
@@ -105,11 +106,11 @@ pub(crate) fn samples_data<S: Scalar>(samples: &[Sample<S>], quantity: Quantity,
     columns.extend(values);
     let row = |(sample, values): (&Sample<S>, Vec<Cell>)| {
         let place = [Cell::number(&sample.time), Cell::optional(sample.point.as_ref()), sample.side.to_string().into()];
-        place.into_iter().chain(values).collect()
+        place.into_iter().chain(values).collect_vec()
     };
-    let rows = samples.iter().zip(rows).map(row).collect();
+    let rows = samples.iter().zip(rows).map(row).collect_vec();
     let end = head.exact_until.as_ref().map_or_else(String::new, |end| format!("{end}; these are {}\n", head.number));
-    let measures: Vec<Measure> = quantities.iter().filter_map(|quantity| quantity.measure()).collect();
+    let measures: Vec<Measure> = quantities.iter().filter_map(|quantity| quantity.measure()).collect_vec();
     let below = end + &named_units(&measures, units) + &head.warning_lines();
     let space = if below.is_empty() { "" } else { "\n" };
     Dataset {

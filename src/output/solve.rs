@@ -8,6 +8,7 @@ use super::outline::sparkline;
 use super::record::{Derived, Head, Record};
 use super::writer::table_digits;
 use crate::error::Error;
+use crate::mapped::{CollectVec, MapEach, mapped};
 use crate::motion::{Ending, EventKind, Motion, StressPiece, straight};
 use crate::number::{DOUBLE_DIGITS, Scalar, bound_json, number_json, show, shown_bound_text};
 use crate::quantity::Quantity::{self, *};
@@ -87,7 +88,7 @@ pub(super) fn listed<S: Scalar>(
         let unit = quantity.measure().map_or("", |measure| units.name(measure));
         column(*quantity).with_unit(unit).bounded()
     };
-    (quantities.iter().filter(|quantity| present(quantity)).map(named).collect(), listed)
+    (quantities.iter().filter(|quantity| present(quantity)).map(named).collect_vec(), listed)
 }
 
 /// The part of a history that a CSV file holds.
@@ -144,7 +145,7 @@ fn events<S: Scalar>(record: &Record<S>, head: &Head) -> Dataset {
 
 fn contacts<S: Scalar>(record: &Record<S>, head: &Head) -> Dataset {
     let mut data = dataset(listed(&CONTACT, column, &head.units, defined(&record.contacts)), head);
-    let undefined = ["momentum", "energy_squared"].map(|name| format!("restitution/undefined/{name}"));
+    let undefined = ["momentum", "energy_squared"].map_each(|name| format!("restitution/undefined/{name}"));
     data.columns.extend(undefined.map(|key| Column::json(key).optional()));
     for (row, contact) in data.rows.iter_mut().zip(&record.contacts) {
         row.extend(undefined_ratios(contact).map(|reason| reason.map(ToString::to_string).into()));
@@ -162,7 +163,7 @@ fn csv_name(quantity: Quantity) -> String {
 
 /// Why `e_P` and `e_E²` of a contact are not defined, where they are not.
 fn undefined_ratios<S>(contact: &Row<S>) -> [Option<&Undefined>; 2] {
-    [MomentumRestitution, EnergyRestitution].map(|ratio| {
+    [MomentumRestitution, EnergyRestitution].map_each(|ratio| {
         let place = CONTACT.iter().position(|quantity| *quantity == ratio)?;
         contact.get(place)?.as_ref().err()
     })
@@ -191,7 +192,7 @@ fn pieces<S: Scalar>(pieces: &[StressPiece<S>], coefficients: bool, head: &Head)
 /// rest.
 pub(crate) fn record<S: Scalar>(history: &dyn Motion<S>, stress: bool) -> Result<Record<S>, Error> {
     Ok(Record {
-        kinds: history.events().iter().map(|event| event.kind).collect(),
+        kinds: mapped(history.events(), |event| event.kind),
         events: rows(history, &EVENT)?,
         contacts: rows(history, &CONTACT)?,
         flights: rows(history, &FLIGHT)?,
@@ -372,15 +373,15 @@ fn derivative_tables<S: Scalar>(record: &Record<S>, head: &Head) -> String {
             let listed = column(*quantity).head.is_some() && quantity.is_listed(head.units.has_material());
             listed.then(|| (k, quantity.symbol()))
         };
-        quantities.iter().enumerate().filter_map(shown).collect()
+        quantities.iter().enumerate().filter_map(shown).collect_vec()
     };
     let mut out = String::new();
     for Derived { by, events, contacts } in &record.derivatives {
-        let keys = record.kinds.iter().zip(&record.events).map(event).collect();
+        let keys = record.kinds.iter().zip(&record.events).map(event).collect_vec();
         out += &derivatives::table(("derivatives", keys), &symbols(&EVENT), (*by, events), head);
         // When a contact begins and ends is in the table above.
-        let keys = record.contacts.iter().map(contact).collect();
-        let symbols: Vec<_> = symbols(&CONTACT).into_iter().skip(2).collect();
+        let keys = mapped(&record.contacts, contact);
+        let symbols: Vec<_> = symbols(&CONTACT).into_iter().skip(2).collect_vec();
         out += &derivatives::table(("derivatives", keys), &symbols, (*by, contacts), head);
     }
     out
@@ -405,7 +406,7 @@ pub(super) fn named_units(measures: &[Measure], units: &Units) -> String {
             unit if unit.starts_with("per") => format!("{word} {unit}"),
             unit => format!("{word} in {unit}"),
         })
-        .collect();
+        .collect_vec();
     texts.dedup();
     if texts.is_empty() { String::new() } else { texts.join(", ") + "\n" }
 }

@@ -3,6 +3,7 @@
 use serde_json::{Value, json};
 
 use super::dataset::{Cell, Column, Dataset};
+use crate::mapped::{CollectVec, mapped};
 use crate::number::{Estimate, Scalar, show};
 use crate::routes::Published;
 use crate::scene::Target;
@@ -43,7 +44,7 @@ pub(crate) fn targets_data(all: &[Published], wide: bool) -> Dataset {
                     reached.agrees().into(),
                     target.source.clone().into(),
                 ])
-                .collect(),
+                .collect_vec(),
         );
     }
     let listed: String = sources.iter().enumerate().map(|(k, source)| format!("({}) {source}\n", k + 1)).collect();
@@ -54,7 +55,7 @@ pub(crate) fn targets_data(all: &[Published], wide: bool) -> Dataset {
         _ => format!("\n\n{listed}\n{count} published values: {agreed} agree, {} differ\n", count - agreed),
     };
     let above = title.map_or_else(String::new, |title| format!("{title}\n\n"));
-    let columns = several.then(|| Column::new("scene").text()).into_iter().chain(target_columns()).collect();
+    let columns = several.then(|| Column::new("scene").text()).into_iter().chain(target_columns()).collect_vec();
     let keys = (!wide && !several).then_some(1);
     Dataset { columns, rows, around: [above, below], keys, ..Dataset::default() }
 }
@@ -103,5 +104,5 @@ pub(crate) fn published_json(published: &[Published]) -> Value {
         let values = targets_data(std::slice::from_ref(published), false).objects();
         json!({ "scene": published.scene, "values": values })
     };
-    published.iter().map(scene).collect()
+    mapped(published, scene).into()
 }

@@ -5,6 +5,7 @@ use glam::DVec2;
 use super::picture::Along;
 use crate::draw::{Piece, clip};
 use crate::error::Error;
+use crate::mapped::{CollectVec, MapEach, mapped, try_mapped};
 use crate::motion::{Field, Side};
 use crate::number::Scalar;
 use crate::problem::Parameters;
@@ -66,14 +67,14 @@ pub(crate) fn of<S: Target>(
     let fine = strip
         .damped
         .then(|| strip.trip / PARTS.min((4.0 * MOST_CELLS as f64 / (strip.trips() * 16.0)).sqrt()).max(2.0));
-    let [rising, falling] = [0.0, strip.trip].map(|late| strip.knots(&breaks, late, fine));
+    let [rising, falling] = [0.0, strip.trip].map_each(|late| strip.knots(&breaks, late, fine));
     let polygons = strip.polygons(&rising, &falling);
-    let points: Vec<DVec2> = polygons.iter().flatten().flat_map(|polygon| samples(polygon)).collect();
+    let points: Vec<DVec2> = polygons.iter().flatten().flat_map(|polygon| samples(polygon)).collect_vec();
     let values = match polygons {
         Some(_) => ask(history, along, strip, &points),
         None => grid(history, along, strip),
     };
-    let values: Vec<f64> = values?.into_iter().map(|value| factor * value).collect();
+    let values: Vec<f64> = mapped(values?, |value| factor * value);
     let mut greatest = 0.0f64;
     let values = match polygons {
         Some(polygons) => {
@@ -86,7 +87,7 @@ pub(crate) fn of<S: Target>(
                     Piece { corners, at: at[0], middle: values[0], slope }
                 },
             );
-            Values::Linear(linear.collect())
+            Values::Linear(linear.collect_vec())
         }
         None => {
             greatest =
@@ -115,7 +116,7 @@ pub(super) fn settled<S: Scalar>(x: &S) -> f64 {
 fn ask<S: Target>(history: &History<S>, along: Along, strip: &Strip, points: &[DVec2]) -> Result<Vec<f64>, Error> {
     if !strip.damped {
         let waves = history.waves()?.map(|x| x.to_f64());
-        return Ok(points.iter().map(|point| along.part(waves.at(&point.y, &point.x))).collect());
+        return Ok(mapped(points, |point| along.part(waves.at(&point.y, &point.x))));
     }
     let values = history.ask(
         |motion| {
@@ -123,11 +124,11 @@ fn ask<S: Target>(history: &History<S>, along: Along, strip: &Strip, points: &[D
             let value = |point: &DVec2| {
                 Ok(along.part(motion.field(&like.double(point.y), &like.double(point.x), Side::Right)?))
             };
-            points.iter().map(value).collect::<Result<Vec<_>, Error>>()
+            try_mapped(points, value)
         },
-        |values| values.iter().collect(),
+        |values| values.iter().collect_vec(),
     )?;
-    Ok(values.iter().map(settled).collect())
+    Ok(mapped(&values, settled))
 }
 
 /// Values at the middles of the grid, from the ground up, row by row.
@@ -136,22 +137,22 @@ fn grid<S: Target>(history: &History<S>, along: Along, strip: &Strip) -> Result<
     let middle = |k: usize, count: usize| (k as f64 + 0.5) / count as f64;
     if !strip.damped {
         let place = |k: usize| strip.place(middle(k % across, across), middle(k / across, up));
-        return ask(history, along, strip, &(0..across * up).map(place).collect::<Vec<_>>());
+        return ask(history, along, strip, &mapped(0..across * up, place));
     }
     let found = history.ask(
         |motion| {
             let like = motion.end();
-            let points: Vec<_> = (0..up).map(|k| like.double(strip.place(0.0, middle(k, up)).y)).collect();
-            let times: Vec<_> = (0..across).map(|k| like.double(strip.place(middle(k, across), 0.0).x)).collect();
+            let points: Vec<_> = mapped(0..up, |k| like.double(strip.place(0.0, middle(k, up)).y));
+            let times: Vec<_> = mapped(0..across, |k| like.double(strip.place(middle(k, across), 0.0).x));
             motion.rates(&points, &times)
         },
-        |rates| rates.iter().flatten().collect(),
+        |rates| rates.iter().flatten().collect_vec(),
     )?;
     let value = |k: usize| {
         let [velocity, strain] = &found[(k % across) * up + k / across];
         settled(if along == Along::Velocity { velocity } else { strain })
     };
-    Ok((0..across * up).map(value).collect())
+    Ok(mapped(0..across * up, value))
 }
 
 impl Cells {
@@ -218,7 +219,7 @@ impl Strip {
             _ => (self.from, self.to + half),
         };
         let inner = breaks.iter().map(|ray| ray.time + late).filter(|knot| *knot > least && *knot < most);
-        let mut knots: Vec<f64> = [least].into_iter().chain(inner).chain([most]).collect();
+        let mut knots: Vec<f64> = [least].into_iter().chain(inner).chain([most]).collect_vec();
         knots.dedup_by(|b, a| *b - *a < 1e-9 * self.trip);
         let Some(fine) = fine else { return knots };
         let parts = |pair: &[f64]| {
@@ -226,7 +227,7 @@ impl Strip {
             let count = (width / fine - 1e-9).ceil().max(1.0) as usize;
             (0..count).map(move |k| from + width * k as f64 / count as f64)
         };
-        knots.windows(2).flat_map(parts).chain(knots.last().copied()).collect()
+        knots.windows(2).flat_map(parts).chain(knots.last().copied()).collect_vec()
     }
 
     /// What of each cell lies in the strip; `None` where there are too many.
@@ -239,7 +240,7 @@ impl Strip {
             let first = down.partition_point(|eta| *eta <= xi[0]).saturating_sub(1);
             for eta in down[first..].windows(2).take_while(|eta| eta[0] < xi[1] + self.trip) {
                 let corner = |xi: f64, eta: f64| DVec2::new(0.5 * (xi + eta), 0.5 * self.speed * (eta - xi));
-                let cell = [(0, 0), (1, 0), (1, 1), (0, 1)].map(|(a, b)| corner(xi[a], eta[b]));
+                let cell = [(0, 0), (1, 0), (1, 1), (0, 1)].map_each(|(a, b)| corner(xi[a], eta[b]));
                 let inside = self.clipped(cell.to_vec());
                 if !inside.is_empty() {
                     polygons.push(inside);

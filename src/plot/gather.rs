@@ -4,6 +4,7 @@ use super::cells::{self, Break, Cells, MOST_RAYS, Strip, settled};
 use super::picture::{Along, Picture};
 use crate::draw::Axis;
 use crate::error::Error;
+use crate::mapped::{CollectVec, MapEach, mapped};
 use crate::motion::straight;
 use crate::motion::{EventKind, Motion, RayRegister, Side, StressPiece};
 use crate::number::Scalar;
@@ -76,7 +77,7 @@ impl Gathered {
     pub(crate) fn cut(&self, asked: &Asked, axis: &Axis) -> Option<String> {
         let ([from, to], (shown, all)) = (self.span, (self.contacts.len(), self.of_contacts));
         (asked.from.is_none() && asked.to.is_none() && to != self.end).then(|| {
-            let [from, to, end] = [from, to, self.end].map(|time| axis.told(time));
+            let [from, to, end] = [from, to, self.end].map_each(|time| axis.told(time));
             format!("from t = {from} to {to} of {end}, {shown} of {all} contacts")
         })
     }
@@ -126,7 +127,7 @@ impl Asked {
             units,
             span,
             end,
-            contacts: contacts.collect(),
+            contacts: contacts.collect_vec(),
             of_contacts: history.contacts().len(),
             columns: Vec::new(),
             stress: Vec::new(),
@@ -140,7 +141,7 @@ impl Asked {
         if self.wants(Picture::Stress) {
             let pieces = history.stress_history()?.pieces.into_iter().map(|piece| piece.map(|x| x.to_f64()));
             let inside = pieces.filter(|piece| piece.to >= span[0] && piece.from <= span[1]);
-            gathered.stress = straight(&inside.collect::<Vec<_>>(), STRAIGHT);
+            gathered.stress = straight(&inside.collect_vec(), STRAIGHT);
         }
         if self.wants(Picture::Restitution) {
             for contact in 0..history.contacts().len().min(MOST_CONTACTS) {
@@ -161,7 +162,7 @@ impl Asked {
     /// The span to be drawn: what is asked for, or so much of the history as shows its first contacts.
     pub(super) fn span<S: Target>(&self, history: &History<S>, trip: f64) -> Result<[f64; 2], Error> {
         let end = known_until(history);
-        let events: Vec<f64> = history.events().iter().map(|event| event.time.to_f64()).collect();
+        let events: Vec<f64> = mapped(history.events(), |event| event.time.to_f64());
         let first = events.first().copied().filter(|first| *first > TRIPS * trip && self.to.is_none());
         let from = self.from.or(first.map(|first| first - TRIPS_AFTER * trip)).unwrap_or(0.0);
         if from >= end {
@@ -190,12 +191,14 @@ impl Asked {
         if columns.is_empty() {
             return Ok(());
         }
-        let all: Vec<Quantity> = [Quantity::Time, Quantity::Side].into_iter().chain(columns.iter().copied()).collect();
+        let all: Vec<Quantity> =
+            [Quantity::Time, Quantity::Side].into_iter().chain(columns.iter().copied()).collect_vec();
         let table = history.ask_columns(&all, None, |motion| times(motion, gathered, breaks))?;
-        let table: Vec<Vec<f64>> = table.iter().map(|column| column.iter().map(settled).collect()).collect();
+        let table: Vec<Vec<f64>> = mapped(&table, |column| mapped(column, settled));
         let (times, sides) = (&table[0], &table[1]);
         // A time at which a value is open, as beside a ray in enclosures, is left out of all lines.
-        let rows: Vec<usize> = (0..times.len()).filter(|k| table.iter().all(|column| column[*k].is_finite())).collect();
+        let rows: Vec<usize> =
+            (0..times.len()).filter(|k| table.iter().all(|column| column[*k].is_finite())).collect_vec();
         gathered.columns = columns
             .into_iter()
             .zip(&table[2..])
@@ -205,9 +208,9 @@ impl Asked {
                 let jumps =
                     |a: usize, b: usize| sides[a] < 0.0 && times[a] == times[b] && (values[a] - values[b]).abs() > seen;
                 let stretches = rows.chunk_by(|a, b| !jumps(*a, *b));
-                (column, stretches.map(|rows| rows.iter().map(|k| (times[*k], values[*k])).collect()).collect())
+                (column, stretches.map(|rows| mapped(rows, |k| (times[*k], values[*k]))).collect_vec())
             })
-            .collect();
+            .collect_vec();
         Ok(())
     }
 }
@@ -260,7 +263,7 @@ fn breaks<S: Target>(history: &History<S>, drawn: &Gathered) -> Result<Vec<Break
             let known = ray.jump && few && time.to_f64() > 0.0 && time.to_f64() < end.to_f64();
             let jump = match known {
                 true => {
-                    let [left, right] = [Side::Left, Side::Right].map(|side| motion.field(&middle, &time, side));
+                    let [left, right] = [Side::Left, Side::Right].map_each(|side| motion.field(&middle, &time, side));
                     Some((right?.strain.to_f64() - left?.strain.to_f64()).abs())
                 }
                 false => None,
@@ -290,15 +293,14 @@ fn times<S: Scalar>(motion: &dyn Motion<S>, drawn: &Gathered, breaks: &[Break]) 
     let count = if breaks.len() > MOST_BREAKS { DENSE } else { POINTS };
     let even = (0..=count).map(|k| from + (to - from) * k as f64 / count as f64);
     // The numbers of the engine itself where two limits may differ: they meet the rays.
-    let mut times: Vec<(f64, S)> =
-        motion.events().iter().map(|event| (event.time.to_f64(), event.time.clone())).collect();
+    let mut times: Vec<(f64, S)> = mapped(motion.events(), |event| (event.time.to_f64(), event.time.clone()));
     if breaks.len() <= MOST_BREAKS {
         match motion.waves() {
             Ok(waves) => {
                 let late = motion.scales().time / end.int(2);
                 for piece in waves.pieces {
                     let top = piece.from.clone() + &late;
-                    times.extend([piece.from, top].map(|time| (time.to_f64(), time)));
+                    times.extend([piece.from, top].map_each(|time| (time.to_f64(), time)));
                 }
             }
             Err(Error::NoWaves) => {
@@ -319,12 +321,12 @@ fn times<S: Scalar>(motion: &dyn Motion<S>, drawn: &Gathered, breaks: &[Break]) 
     if let Some(last) = times.last_mut().filter(|(time, _)| *time >= end.to_f64()) {
         last.1 = end;
     }
-    Ok(times.into_iter().map(|(_, time)| time).collect())
+    Ok(mapped(times, |(_, time)| time))
 }
 
 /// `v(x,t)` of points along the rod.
 fn world_lines<S: Target>(history: &History<S>, drawn: &Gathered, breaks: &[Break]) -> Result<Vec<(f64, Line)>, Error> {
-    let inner: Vec<f64> = (0..WORLD).map(|k| k as f64 / (WORLD - 1) as f64).collect();
+    let inner: Vec<f64> = mapped(0..WORLD, |k| k as f64 / (WORLD - 1) as f64);
     let found = history.ask(
         |motion| {
             let length = motion.scales().length;
@@ -337,8 +339,8 @@ fn world_lines<S: Target>(history: &History<S>, drawn: &Gathered, breaks: &[Brea
             }
             Ok(rows)
         },
-        |rows| rows.iter().map(|row| &row.1).collect(),
+        |rows| mapped(rows, |row| &row.1),
     )?;
-    let line = |k: usize| found.iter().skip(k).step_by(WORLD).map(|(t, v)| (t.to_f64(), v.to_f64())).collect();
-    Ok(inner.iter().enumerate().map(|(k, share)| (share * drawn.rod.length, line(k))).collect())
+    let line = |k: usize| found.iter().skip(k).step_by(WORLD).map(|(t, v)| (t.to_f64(), v.to_f64())).collect_vec();
+    Ok(inner.iter().enumerate().map(|(k, share)| (share * drawn.rod.length, line(k))).collect_vec())
 }

@@ -8,6 +8,7 @@ use super::picture::{Along, Picture};
 use crate::draw::{
     AREAS, Axis, Key, LINES, Layer, Mark, Panel, Piece, Shape, Sheet, Stroke, diverging, plain, thinned,
 };
+use crate::mapped::{CollectVec, MapEach, mapped};
 use crate::number::Scalar;
 use crate::quantity::{Measure, Quantity};
 
@@ -64,7 +65,7 @@ pub(crate) fn sheet(asked: &Asked, scenes: &[Gathered], title: Vec<String>) -> R
     }
     // One legend tells the scenes apart.
     if scenes.len() > 1 {
-        let names: Vec<String> = scenes.iter().map(|scene| plain(&scene.name)).collect();
+        let names: Vec<String> = mapped(scenes, |scene| plain(&scene.name));
         let mut told = false;
         for panel in &mut panels {
             let tells = panel.legend.iter().any(|key| names.iter().any(|name| key.text() == name));
@@ -82,7 +83,7 @@ pub(super) fn time_axis(scenes: &[Gathered]) -> Axis {
 }
 
 fn points(line: &[(f64, f64)]) -> Vec<DVec2> {
-    thinned(line.iter().map(|(t, value)| DVec2::new(*t, *value)).collect())
+    thinned(mapped(line, |(t, value)| DVec2::new(*t, *value)))
 }
 
 /// The times on the ground, with their keys: bands from the lower edge up to a height, and a mark above that edge for
@@ -93,19 +94,21 @@ fn contacts(scene: &Gathered, x: &Axis, y: &Axis, high: f64) -> Vec<(Layer, Key)
     let short = |contact: &[f64; 2]| contact[1] - contact[0] < SHORT * (x.to - x.from) && !cut(contact);
     let (marks, bands): (Vec<[f64; 2]>, Vec<[f64; 2]>) = scene.contacts.iter().copied().partition(short);
     let band = |[from, to]: &[f64; 2]| {
-        [(*from, y.from), (*to, y.from), (*to, high), (*from, high)].map(|(t, value)| DVec2::new(t, value)).to_vec()
+        [(*from, y.from), (*to, y.from), (*to, high), (*from, high)]
+            .map_each(|(t, value)| DVec2::new(t, value))
+            .to_vec()
     };
     let height = y.from + 0.5 * FLOOR * (y.to - y.from);
     let mark = |[from, to]: &[f64; 2]| DVec2::new((0.5 * (from + to)).clamp(x.from, x.to), height);
     let bands = (!bands.is_empty()).then(|| {
-        let bands = Shape::Areas(bands.iter().map(band).collect(), CONTACT);
+        let bands = Shape::Areas(mapped(&bands, band), CONTACT);
         (Layer::new("contacts", bands), Key::Area("contact".into(), CONTACT))
     });
     let marks = (!marks.is_empty()).then(|| {
-        let marks = Shape::Marks(marks.iter().map(mark).collect(), Mark::Triangle, CONTACT);
+        let marks = Shape::Marks(mapped(&marks, mark), Mark::Triangle, CONTACT);
         (Layer::new("contacts", marks), Key::Mark("short contact".into(), Mark::Triangle, CONTACT))
     });
-    bands.into_iter().chain(marks).collect()
+    bands.into_iter().chain(marks).collect_vec()
 }
 
 fn zero(x: &Axis) -> Layer {
@@ -136,7 +139,7 @@ fn lines(picture: Picture, scenes: &[Gathered]) -> Result<Panel, String> {
             })),
         }
     }
-    let units: Vec<&str> = scenes.iter().map(|scene| unit(picture, scene)).collect();
+    let units: Vec<&str> = mapped(scenes, |scene| unit(picture, scene));
     if let Some(other) = units.iter().find(|unit| **unit != units[0]) {
         let name = |unit: &str| if unit.is_empty() { "none".into() } else { format!("`{unit}`") };
         return Err(format!("found scenes in different units, {} and {}", name(units[0]), name(other)));
@@ -168,12 +171,12 @@ fn lines(picture: Picture, scenes: &[Gathered]) -> Result<Panel, String> {
             let ends = [pair[0].last()?, pair[1].first()?];
             Some(ends.map(|(t, value)| DVec2::new(*t, *value)).to_vec())
         });
-        let jumps: Vec<Vec<DVec2>> = jumps.collect();
+        let jumps: Vec<Vec<DVec2>> = jumps.collect_vec();
         if !jumps.is_empty() && jumps.len() <= MOST_JUMPS {
             layers.push(Layer::new("jumps", Shape::Lines(jumps, Stroke { width: 0.15, dash: JUMP, ..look })));
         }
         let stretches = curve.stretches.iter().filter(|stretch| stretch.len() > 1);
-        layers.push(Layer::new("curve", Shape::Lines(stretches.map(|stretch| points(stretch)).collect(), look)));
+        layers.push(Layer::new("curve", Shape::Lines(stretches.map(|stretch| points(stretch)).collect_vec(), look)));
         match (scenes.len(), each) {
             (1, 1) => (),
             (1, _) => legend.push(Key::Line(curve.symbol.into(), look)),
@@ -226,7 +229,7 @@ fn stress(scene: &Gathered) -> Curve<'_> {
     let mut stretches: Vec<Line> = Vec::new();
     for piece in &scene.stress {
         let [from, to] = [piece.from.max(scene.span[0]), piece.to.min(scene.span[1])];
-        let ends = [from, to].map(|t| (t, factor * piece.eval(&t)));
+        let ends = [from, to].map_each(|t| (t, factor * piece.eval(&t)));
         match stretches.last_mut() {
             Some(last) if last.last().is_some_and(|end| (end.1 - ends[0].1).abs() <= UNSEEN * factor * peak) => {
                 last.push(ends[1]);
@@ -243,7 +246,7 @@ fn restitution(scenes: &[Gathered]) -> Panel {
     let most = scenes.iter().map(|scene| scene.restitution.len()).max().unwrap_or(0);
     let mut x = Axis::new("bounce", "", [0.5, most.max(1) as f64 + 0.5]);
     if most <= 12 {
-        x.ticks = Some((1..=most).map(|k| (k as f64, k.to_string())).collect());
+        x.ticks = Some(mapped(1..=most, |k| (k as f64, k.to_string())));
     }
     let y = Axis::new("restitution", "", Axis::range(values.chain([1.0]), true));
     let one = vec![DVec2::new(x.from, 1.0), DVec2::new(x.to, 1.0)];
@@ -252,12 +255,12 @@ fn restitution(scenes: &[Gathered]) -> Panel {
     for (s, scene) in scenes.iter().enumerate() {
         for (q, (name, mark)) in series.into_iter().enumerate() {
             let color = LINES[if scenes.len() == 1 { q } else { s } % LINES.len()];
-            let numbered = scene.restitution.iter().enumerate().collect::<Vec<_>>();
+            let numbered = scene.restitution.iter().enumerate().collect_vec();
             // No line over a bounce for which it is not defined.
             let stretches = numbered.split(|(_, pair)| pair[q].is_none()).map(|known| {
-                known.iter().filter_map(|(k, pair)| Some(DVec2::new((k + 1) as f64, pair[q]?))).collect::<Vec<_>>()
+                known.iter().filter_map(|(k, pair)| Some(DVec2::new((k + 1) as f64, pair[q]?))).collect_vec()
             });
-            let lines: Vec<Vec<DVec2>> = stretches.filter(|line| !line.is_empty()).collect();
+            let lines: Vec<Vec<DVec2>> = stretches.filter(|line| !line.is_empty()).collect_vec();
             let dots = lines.concat();
             let line = Stroke { dash: DASHES[q], ..Stroke::new(color, 0.15) };
             layers.push(Layer::new("curve", Shape::Lines(lines, line)));
@@ -279,7 +282,7 @@ fn energy(scene: &Gathered, scenes: &[Gathered]) -> Panel {
         let found = scene.columns.iter().find(|found| found.0 == column);
         found.map_or_else(Vec::new, |found| found.1.concat())
     };
-    let edges = [Quantity::GravityEnergy, Quantity::TranslationalEnergy, Quantity::Energy].map(column);
+    let edges = [Quantity::GravityEnergy, Quantity::TranslationalEnergy, Quantity::Energy].map_each(column);
     let least = edges[0].iter().map(|(_, value)| *value).fold(f64::INFINITY, f64::min);
     let base = if least.is_finite() { least.min(0.0) } else { 0.0 };
     let x = time_axis(scenes);
@@ -291,13 +294,13 @@ fn energy(scene: &Gathered, scenes: &[Gathered]) -> Panel {
     let y = Axis::new("E", unit, [floor, most + space]);
     let gravity = if base < 0.0 { format!("gravity, from {} up", y.shown(base)) } else { "gravity".into() };
     let names = [gravity, "centre of mass".into(), "vibration E_z".into()];
-    let mut below: Vec<DVec2> = edges[0].iter().map(|(t, _)| DVec2::new(*t, base)).collect();
+    let mut below: Vec<DVec2> = mapped(&edges[0], |(t, _)| DVec2::new(*t, base));
     let (mut layers, mut legend) = (Vec::new(), Vec::new());
     // Without gravity its layer is empty.
     let weightless = scene.rod.gravity == 0.0;
     for ((edge, name), color) in edges.iter().zip(names).zip(AREAS).skip(usize::from(weightless)) {
-        let edge: Vec<DVec2> = edge.iter().map(|(t, value)| DVec2::new(*t, *value)).collect();
-        let area = [thinned(edge.clone()), thinned(below).into_iter().rev().collect()].concat();
+        let edge: Vec<DVec2> = mapped(edge, |(t, value)| DVec2::new(*t, *value));
+        let area = [thinned(edge.clone()), thinned(below).into_iter().rev().collect_vec()].concat();
         layers.push(Layer::new("area", Shape::Areas(vec![area], color)));
         legend.push(Key::Area(name, color));
         below = edge;
@@ -350,7 +353,7 @@ fn field(cells: &Cells, scene: &Gathered, greatest: f64) -> Shape {
         Values::Linear(pieces) => {
             let share =
                 |piece: &Piece| Piece { middle: piece.middle / unit, slope: piece.slope / unit, ..piece.clone() };
-            Shape::Pieces(pieces.iter().map(share).collect())
+            Shape::Pieces(mapped(pieces, share))
         }
         Values::Grid(across, values) => {
             let rows = values.len() / across;
@@ -372,7 +375,7 @@ fn field(cells: &Cells, scene: &Gathered, greatest: f64) -> Shape {
                     column += run.len();
                 }
             }
-            Shape::Runs(runs.into_iter().map(|(color, ends)| (diverging(f64::from(color) / 24.0), ends)).collect())
+            Shape::Runs(mapped(runs, |(color, ends)| (diverging(f64::from(color) / 24.0), ends)))
         }
     }
 }
@@ -383,15 +386,16 @@ fn rays(cells: &Cells, scene: &Gathered) -> Vec<Layer> {
     let end = scene.span[1];
     let path = |from: f64| {
         let height = |time: f64| length * (1.0 - ((time - from) / (0.5 * trip) - 1.0).abs());
-        let times = [from, from + 0.5 * trip, from + trip].map(|time| time.min(end));
+        let times = [from, from + 0.5 * trip, from + trip].map_each(|time| time.min(end));
         times.map(|time| DVec2::new(time, height(time))).to_vec()
     };
     let few = |lines: &Vec<Vec<DVec2>>| !lines.is_empty() && cells.breaks.len() <= MOST_RAYS;
     let of = |wanted: &dyn Fn(&Break) -> bool, class: &'static str, look: Stroke| {
-        let lines: Vec<Vec<DVec2>> = cells.breaks.iter().filter(|ray| wanted(ray)).map(|ray| path(ray.time)).collect();
+        let lines: Vec<Vec<DVec2>> =
+            cells.breaks.iter().filter(|ray| wanted(ray)).map(|ray| path(ray.time)).collect_vec();
         Some(lines).filter(few).map(|lines| Layer::new(class, Shape::Lines(lines, look)))
     };
-    let mut layers: Vec<Layer> = of(&|ray| !ray.jump, "kinks", KINK).into_iter().collect();
+    let mut layers: Vec<Layer> = of(&|ray| !ray.jump, "kinks", KINK).into_iter().collect_vec();
     let mut above = f64::INFINITY;
     for (least, look) in RAYS {
         layers.extend(of(&|ray| ray.jump && ray.share >= least && ray.share < above, "rays", look));
@@ -410,20 +414,19 @@ fn world(scene: &Gathered, x: Axis) -> Panel {
         share if share > 0.0 && share < 0.05 => 10f64.powf((0.3 / share).log10().floor()),
         _ => 1.0,
     };
-    let line =
-        |(point, line): &(f64, Line)| thinned(line.iter().map(|(t, v)| DVec2::new(*t, point + times * v)).collect());
-    let lines: Vec<Vec<DVec2>> = scene.world.iter().map(line).collect();
+    let line = |(point, line): &(f64, Line)| thinned(mapped(line, |(t, v)| DVec2::new(*t, point + times * v)));
+    let lines: Vec<Vec<DVec2>> = mapped(&scene.world, line);
     let heights = || lines.iter().flatten().map(|point| point.y);
     let [_, high] = Axis::range(heights(), true);
     let floor = heights().fold(0.0, f64::min) - FLOOR * (high - heights().fold(0.0, f64::min));
     let label = if times == 1.0 { "x + v".into() } else { format!("x + {times} v") };
     let y = Axis::new(&label, scene.units.name(Measure::Length), [floor, high]);
     let body = match (lines.first(), lines.last()) {
-        (Some(low), Some(top)) => [low.clone(), top.iter().rev().copied().collect()].concat(),
+        (Some(low), Some(top)) => [low.clone(), top.iter().rev().copied().collect_vec()].concat(),
         _ => Vec::new(),
     };
-    let ends = [lines.first(), lines.last()].into_iter().flatten().cloned().collect();
-    let inner = lines.iter().skip(1).take(lines.len().saturating_sub(2)).cloned().collect();
+    let ends = [lines.first(), lines.last()].into_iter().flatten().cloned().collect_vec();
+    let inner = lines.iter().skip(1).take(lines.len().saturating_sub(2)).cloned().collect_vec();
     let (bars, keys): (Vec<Layer>, Vec<Key>) = contacts(scene, &x, &y, 0.0).into_iter().unzip();
     let mut layers = vec![
         Layer::new("area", Shape::Areas(vec![body], AREAS[1])),
@@ -432,6 +435,6 @@ fn world(scene: &Gathered, x: Axis) -> Panel {
         Layer::new("curve", Shape::Lines(ends, Stroke::new(LINES[0], WIDTH))),
     ];
     layers.extend(bars);
-    let legend = [Key::Area("rod".into(), AREAS[1])].into_iter().chain(keys).collect();
+    let legend = [Key::Area("rod".into(), AREAS[1])].into_iter().chain(keys).collect_vec();
     Panel { title: "the rod where it is".into(), x, y, layers, legend }
 }

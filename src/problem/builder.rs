@@ -3,6 +3,7 @@
 use super::profile::Points;
 use super::validate::Draft;
 use super::{Material, Problem, ProblemError, Profile, Run, Speed, Start, Top, Written};
+use crate::mapped::mapped;
 use crate::number::Number;
 
 /// A problem put together value by value: see [`Problem::builder`]. A number is given as [`Written`] says; nothing is
@@ -213,5 +214,5 @@ impl Builder {
 }
 
 fn written<X: Into<Written>, V: Into<Written>>(points: impl IntoIterator<Item = (X, V)>) -> Points {
-    points.into_iter().map(|(x, v)| (x.into(), v.into())).collect()
+    mapped(points, |(x, v)| (x.into(), v.into()))
 }

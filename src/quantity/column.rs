@@ -3,6 +3,7 @@
 use super::table::{Needs, Quantity, Source};
 use super::unit::Units;
 use crate::error::Error;
+use crate::mapped::{CollectVec, mapped};
 use crate::motion::{Motion, Side, StressPiece};
 use crate::number::{Open, Scalar};
 use crate::threads::Threads;
@@ -85,7 +86,7 @@ struct Asked {
 
 impl Asked {
     fn of(columns: &[Quantity]) -> Self {
-        let mut sources: Vec<Source> = columns.iter().map(|column| column.source().0).collect();
+        let mut sources: Vec<Source> = mapped(columns, |column| column.source().0);
         sources.sort_unstable();
         sources.dedup();
         let (sided, plain): (Vec<Source>, Vec<Source>) = sources.into_iter().partition(|source| source.has_sides());
@@ -112,7 +113,7 @@ fn side_by_side<S: Scalar>(
     if times.len() <= size {
         return rows(times);
     }
-    let parts: Vec<&[S]> = times.chunks(size).collect();
+    let parts: Vec<&[S]> = times.chunks(size).collect_vec();
     let mut tables = threads.all(parts.len(), |k| rows(parts[k]))?.into_iter();
     let mut all = tables.next().unwrap_or_default();
     for table in tables {
@@ -197,7 +198,7 @@ impl<S: Scalar> Pushes<S> {
             sum = sum.clone() + piece.integral(&piece.to);
             (piece, before)
         };
-        Pushes { pieces: motion.stress_pieces().into_iter().map(with_sum).collect(), stiffness }
+        Pushes { pieces: mapped(motion.stress_pieces(), with_sum), stiffness }
     }
 
     fn at(&self, time: &S) -> Result<S, Open> {

@@ -5,6 +5,7 @@ use super::restitution::{Undefined, energy_shares, restitution};
 use super::table::{Quantity, Source};
 use super::unit::Units;
 use crate::error::Error;
+use crate::mapped::{CollectVec, mapped};
 use crate::motion::{EventKind, Motion};
 use crate::number::Scalar;
 use Quantity::*;
@@ -48,12 +49,11 @@ pub type Columns<S> = Vec<(&'static str, Vec<Option<S>>)>;
 /// **Errors**: what the history cannot answer.
 pub fn table<S: Scalar>(motion: &dyn Motion<S>, table: Table, units: &Units) -> Result<Columns<S>, Error> {
     let present = table.quantities().iter().copied().filter(|quantity| quantity.is_listed(units.has_material()));
-    let present: Vec<Quantity> = present.collect();
+    let present: Vec<Quantity> = present.collect_vec();
     let rows = values(motion, &present, units)?;
-    let column = |(k, quantity): (usize, &Quantity)| {
-        (quantity.key(), rows.iter().map(|row| row.get(k).cloned().flatten()).collect())
-    };
-    Ok(present.iter().enumerate().map(column).collect())
+    let column =
+        |(k, quantity): (usize, &Quantity)| (quantity.key(), mapped(&rows, |row| row.get(k).cloned().flatten()));
+    Ok(present.iter().enumerate().map(column).collect_vec())
 }
 
 /// The values of `quantities` of one kind for each event, contact, flight or piece, in units of the problem; `None` where

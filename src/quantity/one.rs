@@ -42,11 +42,16 @@ const NEXT: f64 = 0.25;
 impl Quantity {
     /// Every quantity that can be asked as one number, each name once.
     pub fn singles() -> impl Iterator<Item = Quantity> {
-        let plain = |quantity: &Quantity| !matches!(quantity, Quantity::Time | Quantity::Side);
-        let [first, run, time, contact] = [Needs::FirstContact, Needs::Run, Needs::Time, Needs::Contact];
-        let over_time = time.quantities().filter(plain);
-        let of_contact = contact.quantities().filter(move |quantity| time.named(quantity.name()).is_none());
-        first.quantities().chain(of_contact).chain(over_time).chain(run.quantities())
+        let mut singles = Vec::new();
+        for needs in [Needs::FirstContact, Needs::Contact, Needs::Time, Needs::Run] {
+            for quantity in needs.quantities() {
+                let over_time = needs == Needs::Contact && Needs::Time.named(quantity.name()).is_some();
+                if !over_time && !matches!(quantity, Quantity::Time | Quantity::Side) {
+                    singles.push(quantity);
+                }
+            }
+        }
+        singles.into_iter()
     }
 
     /// The one that is called so among [`Quantity::singles`].

@@ -1,6 +1,7 @@
 //! The coefficients of restitution of a contact.
 
 use crate::error::Error;
+use crate::mapped::CollectVec;
 use crate::motion::Motion;
 use crate::number::Scalar;
 
@@ -56,7 +57,7 @@ impl<S> Restitution<S> {
 
     /// Every number in it.
     pub(crate) fn numbers(&self) -> Vec<&S> {
-        self.momentum.iter().chain(&self.energy_squared).collect()
+        self.momentum.iter().chain(&self.energy_squared).collect_vec()
     }
 }
 
@@ -67,7 +68,7 @@ impl<S> EnergyShares<S> {
 
     /// Every number in it.
     pub(crate) fn numbers(&self) -> Vec<&S> {
-        self.translational.iter().chain(&self.kept).collect()
+        self.translational.iter().chain(&self.kept).collect_vec()
     }
 }
 

@@ -325,7 +325,9 @@ impl Source {
 impl Needs {
     /// The quantities that need this, in the order of a table.
     pub fn quantities(self) -> impl Iterator<Item = Quantity> {
-        Quantity::ALL.iter().copied().filter(move |quantity| quantity.needs() == self)
+        let mut all = Quantity::ALL.to_vec();
+        all.retain(|quantity| quantity.needs() == self);
+        all.into_iter()
     }
 
     /// The quantity of this name among them.

@@ -7,6 +7,7 @@ use std::cmp::Ordering;
 use super::differences::Marched;
 use super::value::NoAnswer;
 use crate::first_contact::{Bounce, FirstContact};
+use crate::mapped::MapEach;
 use crate::modal::Modal;
 use crate::motion::{EventKind, Field, Side};
 use crate::number::{Estimate, Scalar};
@@ -207,7 +208,7 @@ impl Account<Estimate<f64>> for Printed {
 
     fn centre(&self, rod: &Parameters<Estimate<f64>>, time: &Estimate<f64>) -> All<Estimate<f64>, 2> {
         let time = *time.value();
-        Ok([self.centre(time), self.momentum(time) / rod.length.value()].map(unbounded))
+        Ok([self.centre(time), self.momentum(time) / rod.length.value()].map_each(unbounded))
     }
 
     fn total_energy(&self, time: &Estimate<f64>) -> Found<Estimate<f64>> {
@@ -272,7 +273,7 @@ impl Account<Estimate<f64>> for Marched {
 
     fn centre(&self, _: &Parameters<Estimate<f64>>, time: &Estimate<f64>) -> All<Estimate<f64>, 2> {
         let at = self.at(*time.value()).ok_or_else(|| NoAnswer::gave_up("nothing is kept of that time"))?;
-        Ok([at.centre, at.velocity].map(unbounded))
+        Ok([at.centre, at.velocity].map_each(unbounded))
     }
 
     fn total_energy(&self, time: &Estimate<f64>) -> Found<Estimate<f64>> {

@@ -6,6 +6,7 @@
 //! linear interpolation, and act from a step on.
 
 use crate::error::Error;
+use crate::mapped::{CollectVec, mapped};
 use crate::motion::EventKind;
 use crate::problem::{Parameters, Problem, Profile, Run, Start, Top};
 
@@ -145,11 +146,11 @@ impl<'a> Grid<'a> {
             Start::Profile(profile) => profile,
         };
         let lift = |list: &[(crate::Number, crate::Number)]| -> Vec<(f64, f64)> {
-            list.iter().map(|(x, v)| (x.to_f64(), v.to_f64())).collect()
+            mapped(list, |(x, v)| (x.to_f64(), v.to_f64()))
         };
         let (mut displacement, velocity) = (lift(&profile.displacement), lift(&profile.velocity));
         displacement.extend(problem.gap().map(|gap| (0.0, gap.to_f64())));
-        let middles: Vec<f64> = (0..cells).map(|k| (k as f64 + 0.5) * width).collect();
+        let middles: Vec<f64> = mapped(0..cells, |k| (k as f64 + 0.5) * width);
         let strain = |x: f64| {
             (between(&displacement, x + 0.5 * width) - between(&displacement, x - 0.5 * width)) * rod.wave_speed / width
         };
@@ -159,8 +160,8 @@ impl<'a> Grid<'a> {
         Grid {
             fixed: problem.rod.top == Top::Fixed,
             step: width / rod.wave_speed,
-            p: middles.iter().map(|x| rate(*x) - strain(*x)).collect(),
-            q: middles.iter().map(|x| rate(*x) + strain(*x)).collect(),
+            p: mapped(&middles, |x| rate(*x) - strain(*x)),
+            q: mapped(&middles, |x| rate(*x) + strain(*x)),
             contact: height <= 0.0,
             time: 0.0,
             height,
@@ -190,7 +191,7 @@ impl<'a> Grid<'a> {
         let (dt, n) = (self.step, self.p.len());
         let fall = g * dt;
         let half = 0.5 * r * dt;
-        let old: Vec<f64> = self.p.iter().zip(&self.q).map(|(p, q)| p + q).collect();
+        let old: Vec<f64> = self.p.iter().zip(&self.q).map(|(p, q)| p + q).collect_vec();
         let rate = old.iter().sum::<f64>() / (2 * n) as f64;
         // Down to the ground in half a step, where p + q is 0 in contact and 2q in flight.
         let arriving = self.q[0] - 0.5 * fall - 0.5 * half * old[0];
@@ -217,15 +218,13 @@ impl<'a> Grid<'a> {
         let highest = turned - 0.5 * fall - 0.5 * half * sum;
         let from_below = |k: usize| self.p[k] - fall - half * old[k];
         let from_above = |k: usize| self.q[k] - fall - half * old[k];
-        let next: Vec<(f64, f64)> = (0..n)
-            .map(|k| {
-                // At the ends half of the trapezoid is behind already.
-                let (up, up_share) = if k == 0 { (lowest, 0.5 * half) } else { (from_below(k - 1), half) };
-                let (down, down_share) = if k + 1 == n { (highest, 0.5 * half) } else { (from_above(k + 1), half) };
-                let sum = (up + down) / (1.0 + up_share + down_share);
-                (up - up_share * sum, down - down_share * sum)
-            })
-            .collect();
+        let next: Vec<(f64, f64)> = mapped(0..n, |k| {
+            // At the ends half of the trapezoid is behind already.
+            let (up, up_share) = if k == 0 { (lowest, 0.5 * half) } else { (from_below(k - 1), half) };
+            let (down, down_share) = if k + 1 == n { (highest, 0.5 * half) } else { (from_above(k + 1), half) };
+            let sum = (up + down) / (1.0 + up_share + down_share);
+            (up - up_share * sum, down - down_share * sum)
+        });
         for (k, (p, q)) in next.into_iter().enumerate() {
             self.p[k] = p;
             self.q[k] = q;

@@ -3,6 +3,7 @@
 use super::account::{Account, Found, first_energy, not_given};
 use super::value::{NoAnswer, System, Value};
 use crate::error::Error;
+use crate::mapped::CollectVec;
 use crate::motion::{Motion, Scales, Side};
 use crate::number::Number;
 use crate::problem::{Parameters, Problem, Run};
@@ -89,7 +90,7 @@ impl Question {
     /// The answer in doubles by a plan, which works out nothing else.
     pub(super) fn ask_plan(&self, plan: &Plan) -> Result<Value, NoAnswer> {
         let query = |motion: &dyn Motion<_>| self.find_in(motion);
-        plan.ask::<f64, _>(&self.problem, query, |found| found.iter().collect())?.map(Into::into)
+        plan.ask::<f64, _>(&self.problem, query, |found| found.iter().collect_vec())?.map(Into::into)
     }
 
     /// The answer of a solution, settled to its digits.
@@ -103,7 +104,7 @@ impl Question {
     }
 
     fn ask_history<S: Target<Carried: System>>(&self, history: &History<S>) -> Result<Value, NoAnswer> {
-        history.ask(|motion| self.find_in(motion), |found| found.iter().collect())?.map(Into::into)
+        history.ask(|motion| self.find_in(motion), |found| found.iter().collect_vec())?.map(Into::into)
     }
 
     /// The answer of a motion. **Errors**: those that more bits may settle.

@@ -1,6 +1,7 @@
 //! What others have published of a scene, held against its history.
 
 use crate::error::Error;
+use crate::mapped::try_mapped;
 use crate::motion::Motion;
 use crate::number::{Estimate, Number, Scalar};
 use crate::quantity::{Units, columns, of_contact};
@@ -73,7 +74,7 @@ impl<S: Scalar> Reached<S> {
                 ours: ours(motion, target, units)?,
             })
         };
-        targets.iter().map(reached).collect()
+        try_mapped(targets, reached)
     }
 
     /// Ours less the published value.

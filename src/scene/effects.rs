@@ -3,6 +3,7 @@
 use serde::Serialize;
 
 use super::Scene;
+use crate::mapped::{CollectVec, mapped};
 use crate::problem::written::short;
 use crate::problem::{Material, Profile, Run, Start, Top};
 
@@ -102,12 +103,12 @@ impl Scene {
     /// # Ok::<(), dalembert::SceneError>(())
     /// ```
     pub fn effects(&self) -> Vec<EffectUse> {
-        Effect::ALL.into_iter().map(|effect| self.effect(effect)).collect()
+        mapped(Effect::ALL, |effect| self.effect(effect))
     }
 
     /// The effects that the scene calls for.
     pub fn called_effects(&self) -> Vec<Effect> {
-        self.effects().into_iter().filter(|e| e.called).map(|e| e.effect).collect()
+        self.effects().into_iter().filter(|e| e.called).map(|e| e.effect).collect_vec()
     }
 
     pub(crate) fn effect(&self, effect: Effect) -> EffectUse {

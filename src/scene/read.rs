@@ -8,6 +8,7 @@ use super::error::{SceneError, SceneErrorKind as Kind, position};
 use super::reader::{Key, Reader, Value, did_you_mean};
 use super::suggest;
 use super::target::Target;
+use crate::mapped::try_mapped;
 use crate::number::Number;
 use crate::problem::given::{Given, within};
 use crate::problem::profile::{Points, SHAPE};
@@ -308,7 +309,7 @@ impl<'a> Reader<'a> {
                 Err(self.error(point.span(), Kind::WrongType, found, "a point [x, value]"))
             }
         };
-        array.iter().map(point).collect::<Result<_, _>>().map(Some)
+        try_mapped(array, point).map(Some)
     }
 
     /// The line of every key.

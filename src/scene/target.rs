@@ -5,6 +5,7 @@ use std::ops::Range;
 use super::error::{SceneError, SceneErrorKind as Kind};
 use super::reader::{Reader, Value};
 use super::suggest;
+use crate::mapped::try_mapped;
 use crate::motion::Side;
 use crate::number::Number;
 use crate::quantity::{Measure, Needs, Quantity};
@@ -91,7 +92,7 @@ impl<'a> Reader<'a> {
             Some(document) => Reader { document, ..*self }.target(value.span(), has_material),
             None => Err(self.wrong_type(value, "target", "a table, [[target]]")),
         };
-        array.iter().map(table).collect()
+        try_mapped(array, table)
     }
 
     /// The published value of this table, which stands at `span`.

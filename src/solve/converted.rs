@@ -4,6 +4,7 @@ use std::sync::Arc;
 
 use super::asked::{Windows, not_told};
 use crate::error::Error;
+use crate::mapped::{mapped, try_mapped};
 use crate::motion::moments::{self, Moments};
 use crate::motion::{Course, Field, Motion, Pair, Ray, RayRegister, Scales, Side, StressPiece, Stretch, Waves};
 use crate::number::{Reads, Scalar, Spelling};
@@ -123,7 +124,7 @@ impl<N: Scalar, M: Reads<N>> Motion<M> for Converted<N, M> {
     }
 
     fn stress_pieces(&self) -> Vec<StressPiece<M>> {
-        self.engine.stress_pieces().into_iter().map(|piece| piece.map(M::read)).collect()
+        mapped(self.engine.stress_pieces(), |piece| piece.map(M::read))
     }
 
     fn strain(&self, time: &M, side: Side) -> Result<M, Error> {
@@ -143,9 +144,9 @@ impl<N: Scalar, M: Reads<N>> Motion<M> for Converted<N, M> {
 
     /// In one march, where no time is that of an event or of a ray at a point of its own.
     fn rates(&self, points: &[M], times: &[M]) -> Result<Vec<[M; 2]>, Error> {
-        let points = points.iter().map(|point| self.point(point)).collect::<Result<Vec<N>, Error>>()?;
-        let times = times.iter().map(|time| self.time(time)).collect::<Result<Vec<N>, Error>>()?;
-        Ok(self.engine.rates(&points, &times)?.into_iter().map(|pair| pair.map(M::read)).collect())
+        let points = try_mapped(points, |point| self.point(point))?;
+        let times = try_mapped(times, |time| self.time(time))?;
+        Ok(mapped(self.engine.rates(&points, &times)?, |pair| pair.map(M::read)))
     }
 
     fn highest(&self, release: usize) -> Option<(M, M)> {
@@ -159,15 +160,15 @@ impl<N: Scalar, M: Reads<N>> Motion<M> for Converted<N, M> {
     }
 
     fn rays(&self, trip: usize) -> Result<Vec<Ray<M>>, Error> {
-        Ok(self.engine.rays(trip)?.into_iter().map(|ray| ray.map(M::read)).collect())
+        Ok(mapped(self.engine.rays(trip)?, |ray| ray.map(M::read)))
     }
 
     fn corners(&self) -> Vec<M> {
-        self.engine.corners().into_iter().map(M::read).collect()
+        mapped(self.engine.corners(), M::read)
     }
 
     fn stretches(&self, time: &M) -> Result<Vec<Stretch<M>>, Error> {
-        Ok(self.engine.stretches(&self.time(time)?)?.into_iter().map(|stretch| stretch.map(M::read)).collect())
+        Ok(mapped(self.engine.stretches(&self.time(time)?)?, |stretch| stretch.map(M::read)))
     }
 
     fn moments(&self, time: &M, points: &[M]) -> Result<Vec<Moments<M>>, Error> {
@@ -175,9 +176,9 @@ impl<N: Scalar, M: Reads<N>> Motion<M> for Converted<N, M> {
             Err(Error::NoWaves) => {}
             stretches => return moments::of_stretches(&stretches?, points),
         }
-        let points = points.iter().map(|point| self.point(point)).collect::<Result<Vec<N>, Error>>()?;
+        let points = try_mapped(points, |point| self.point(point))?;
         let moments = self.engine.moments(&self.time(time)?, &points)?;
-        Ok(moments.into_iter().map(|cell| cell.map(|pair| pair.map(M::read))).collect())
+        Ok(mapped(moments, |cell| cell.map(|pair| pair.map(M::read))))
     }
 
     fn waves(&self) -> Result<Waves<M>, Error> {

@@ -4,6 +4,7 @@ use std::fmt;
 
 use super::observer::Observer;
 use super::plan::Plan;
+use crate::mapped::MapEach;
 use crate::problem::{Parameter, Problem};
 use crate::quantity::Quantity;
 
@@ -66,7 +67,7 @@ impl<S> Derivative<S> {
     pub fn sides(&self) -> [Result<&S, NoDerivative>; 2] {
         match self {
             Derivative::One(value) => [Ok(value), Ok(value)],
-            Derivative::Sides { left, right } => [left, right].map(|side| side.as_ref().map_err(|why| *why)),
+            Derivative::Sides { left, right } => [left, right].map_each(|side| side.as_ref().map_err(|why| *why)),
         }
     }
 

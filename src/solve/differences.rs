@@ -12,6 +12,7 @@ use super::history::History;
 use super::plan::Plan;
 use super::question::Numbers;
 use crate::error::Error;
+use crate::mapped::{CollectVec, MapEach, mapped};
 use crate::motion::Motion;
 use crate::number::{Bounded, Estimate, Float, Number, Scalar, bits_for_digits};
 use crate::problem::{Parameter, Problem};
@@ -82,7 +83,7 @@ impl Level {
     fn of(asked: &Asked<'_>, exponent: u32, zero: bool) -> Result<Self, Error> {
         let by: Number = format!("1e-{exponent}").parse().unwrap_or_else(|_| 1.into());
         let step = by.to_rational();
-        let problems = [-(step.clone() + &step), step].map(|step| asked.by.moved(asked.problem, &step));
+        let problems = [-(step.clone() + &step), step].map_each(|step| asked.by.moved(asked.problem, &step));
         let bits = bits_for_digits(2 * exponent) + SPARE_BITS;
         let run = |k: usize| match k {
             0 => rows(asked, asked.problem, exponent, bits).map(Some),
@@ -91,7 +92,7 @@ impl Level {
         let mut runs = Threads::default().all(3, run)?.into_iter();
         let mut next = || runs.next().flatten();
         let (base, scales) = next().unwrap_or_default();
-        let moved = [next(), next()].map(|run| run.map(|(rows, _)| rows));
+        let moved = [next(), next()].map_each(|run| run.map(|(rows, _)| rows));
         let value = match zero {
             true => Long::from_number(&asked.by.scale_of_zero(asked.problem), &bits),
             false => asked.by.value_in(asked.problem, &bits)?,
@@ -124,7 +125,7 @@ impl Level {
         };
         let mut found = Vec::with_capacity(self.base.len());
         for (i, row) in self.base.iter().enumerate() {
-            found.push((0..row.len()).map(|j| cell((i, j))).collect());
+            found.push(mapped(0..row.len(), |j| cell((i, j))));
         }
         (found, settled)
     }
@@ -178,7 +179,7 @@ impl Judge {
             (_, Err(why)) => return Some(Err(why)),
         };
         let change = now.clone() - &before;
-        let [was, is] = [&before, &now].map(size);
+        let [was, is] = [&before, &now].map_each(size);
         if size(&change) <= f64::max(was, is) / 10.0 + self.wanted * self.natural {
             let found = now.widened(&change);
             return self.is_fine(bound(&found), is).then_some(Ok(found));
@@ -232,10 +233,10 @@ fn rows(asked: &Asked<'_>, problem: &Problem, exponent: u32, bits: u32) -> Resul
             Some(Measure::Time) => time,
             _ => quantity.natural_scale(motion, &units).unwrap_or(1.0),
         };
-        let scales: Vec<f64> = asked.quantities.iter().map(scale).collect();
+        let scales: Vec<f64> = mapped(asked.quantities, scale);
         Ok((quantity::values(motion, asked.quantities, &units)?, scales))
     };
-    let (mut rows, scales) = history.ask(query, |(rows, _)| rows.iter().flatten().flatten().collect())?;
+    let (mut rows, scales) = history.ask(query, |(rows, _)| rows.iter().flatten().flatten().collect_vec())?;
     let zero = Long::from_number(&Number::from(0), &bits);
     for number in rows.iter_mut().flatten().flatten() {
         let error = (number.log2_error() + f64::from(bits)).exp2();

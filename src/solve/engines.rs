@@ -12,6 +12,7 @@ use crate::cells::{ContactThenCells, Damped};
 use crate::error::Error;
 use crate::first_contact::{Bounce, ContactHistory, FirstContact};
 use crate::lattice::Undamped;
+use crate::mapped::mapped;
 use crate::modal::Modal;
 use crate::motion::Side;
 use crate::number::{DOUBLE_DIGITS, Estimate, Reads};
@@ -78,10 +79,7 @@ impl Target for f64 {
             _ => asked.plan.goal.digits.ceil() as u32,
         };
         let found = differences::of(asked, digits)?;
-        Ok(found
-            .into_iter()
-            .map(|row| row.into_iter().map(|cell| cell.map(|it| it.map(Reads::read))).collect())
-            .collect())
+        Ok(mapped(found, |row| mapped(row, |cell| cell.map(|it| it.map(Reads::read)))))
     }
 }
 

@@ -4,6 +4,7 @@ use super::derivative::{Asked, Derivative, Derivatives, NoDerivative};
 use super::differences;
 use crate::error::Error;
 use crate::lattice::{Scaled, Undamped};
+use crate::mapped::MapEach;
 use crate::motion::Motion;
 use crate::number::{Bounded, DOUBLE_DIGITS, Dual, Estimate, Float, Number, Rational, Scalar};
 use crate::problem::{Material, Parameter, Parameters, Problem};
@@ -63,7 +64,7 @@ fn confirmed(rates: [OneSide; 2], quotient: Option<Option<&Derivative<Estimate<F
         Some(Some(quotients)) => {
             let [left, right] = rates;
             let [to_left, to_right] = quotients;
-            [(left, to_left), (right, to_right)].map(|(rate, quotient)| {
+            [(left, to_left), (right, to_right)].map_each(|(rate, quotient)| {
                 let (rate, quotient) = (rate, quotient?);
                 let near = |rate: &Rational| meets(rate, quotient);
                 rate.ok().filter(near).ok_or(unsettled)

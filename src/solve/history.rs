@@ -8,6 +8,7 @@ use super::observer::{Observer, unobserved};
 use super::plan::{Plan, Rung};
 use super::question::{Numbers, Question};
 use crate::error::Error;
+use crate::mapped::{CollectVec, mapped};
 use crate::motion::{
     Contact, Ending, Energy, Event, Field, Motion, Ray, Scales, Side, StressHistory, StressPiece, Waves,
 };
@@ -95,8 +96,8 @@ impl<S: Target> History<S> {
             observe,
         };
         if ask_events {
-            motion.events.get_or_init(|| events.into_iter().map(|event| event.map(S::strip)).collect());
-            motion.contacts.get_or_init(|| contacts.into_iter().map(|contact| contact.map(S::strip)).collect());
+            motion.events.get_or_init(|| mapped(events, |event| event.map(S::strip)));
+            motion.contacts.get_or_init(|| mapped(contacts, |contact| contact.map(S::strip)));
         }
         Ok(motion)
     }
@@ -225,14 +226,13 @@ impl<S: Target> History<S> {
 
     /// All impacts and releases, in order. The start at `t = 0` is the first impact where the rod stands on the ground.
     pub fn events(&self) -> &[Event<S>] {
-        self.events
-            .get_or_init(|| self.current().engine.events().iter().map(|event| event.clone().map(S::strip)).collect())
+        self.events.get_or_init(|| mapped(self.current().engine.events(), |event| event.clone().map(S::strip)))
     }
 
     /// All times on the ground, in order.
     pub fn contacts(&self) -> &[Contact<S>] {
         let strip = |contact: &Contact<S::Carried>| contact.clone().map(S::strip);
-        self.contacts.get_or_init(|| self.current().engine.contacts().iter().map(strip).collect())
+        self.contacts.get_or_init(|| mapped(self.current().engine.contacts(), strip))
     }
 
     /// The flights between the contacts, and how high they go.
@@ -240,7 +240,7 @@ impl<S: Target> History<S> {
     /// **Errors**: those of the ladder.
     pub fn flights(&self) -> Result<Vec<Flight<S>>, Error> {
         let found = self.ask(flights, |flights| Flight::numbers(flights))?;
-        Ok(found.into_iter().map(|flight| flight.map(S::strip)).collect())
+        Ok(mapped(found, |flight| flight.map(S::strip)))
     }
 
     /// `e_P` and `e_E²` of a contact, counted from 0.
@@ -284,7 +284,9 @@ impl<S: Target> History<S> {
             let whole = ends.map(|time| parts(engine, time)).collect::<Result<Vec<_>, Error>>()?;
             Ok((ratios(engine, (&from, to.as_ref()))?, whole))
         };
-        Ok(self.ask(query, |(found, whole)| if doubles { whole.iter().flatten().collect() } else { numbers(found) })?.0)
+        Ok(self
+            .ask(query, |(found, whole)| if doubles { whole.iter().flatten().collect_vec() } else { numbers(found) })?
+            .0)
     }
 
     /// `v_x(0,·)` piece by piece: strains, as [`StressHistory`] says.
@@ -292,7 +294,7 @@ impl<S: Target> History<S> {
     /// **Errors**: those of the ladder.
     pub fn stress_history(&self) -> Result<StressHistory<S>, Error> {
         let pieces = self.ask(|engine| Ok(engine.stress_pieces()), |pieces| StressPiece::numbers(pieces))?;
-        let pieces = pieces.into_iter().map(|piece| piece.map(S::strip)).collect();
+        let pieces = mapped(pieces, |piece| piece.map(S::strip));
         Ok(StressHistory { pieces, ending: self.ending.clone() })
     }
 
@@ -334,9 +336,9 @@ impl<S: Target> History<S> {
     ///
     /// **Accuracy**: that of the [`Plan`], each column by itself.
     pub fn columns(&self, columns: &[Quantity], times: &[S], side: Option<Side>) -> Result<Vec<Vec<S>>, Error> {
-        let times: Vec<_> = times.iter().map(Answer::carry).collect();
+        let times: Vec<_> = mapped(times, Answer::carry);
         let table = self.ask_columns(columns, side, |_| Ok(times.clone()))?;
-        Ok(table.into_iter().map(|column| column.into_iter().map(S::strip).collect()).collect())
+        Ok(mapped(table, |column| mapped(column, S::strip)))
     }
 
     /// [`History::columns`] in numbers that carry their bound, at times that may be those of the engine itself, or
@@ -352,7 +354,7 @@ impl<S: Target> History<S> {
             let scaled = quantity::of_one_size(engine, &self.units(), columns, &table);
             Ok((table, scaled))
         };
-        Ok(self.ask(query, |(_, scaled)| scaled.iter().collect())?.0)
+        Ok(self.ask(query, |(_, scaled)| scaled.iter().collect_vec())?.0)
     }
 
     /// `t`, `side`, `x`, `v`, `v_t`, `v_x` on the grid `points` at every time of `times`, column by column: values at
@@ -372,10 +374,10 @@ impl<S: Target> History<S> {
     /// # Ok::<(), dalembert::Error>(())
     /// ```
     pub fn slices(&self, slice: Slice, points: &[S], times: &[S], side: Option<Side>) -> Result<Vec<Vec<S>>, Error> {
-        let carry = |list: &[S]| list.iter().map(Answer::carry).collect::<Vec<_>>();
+        let carry = |list: &[S]| mapped(list, Answer::carry);
         let (points, times) = (carry(points), carry(times));
         let table = self.ask_slices(slice, side, |_| Ok((points.clone(), times.clone())))?;
-        Ok(table.into_iter().map(|column| column.into_iter().map(S::strip).collect()).collect())
+        Ok(mapped(table, |column| mapped(column, S::strip)))
     }
 
     /// [`History::slices`] in numbers that carry their bound, at points and times in the numbers of the engine.
@@ -391,7 +393,7 @@ impl<S: Target> History<S> {
             let scaled = quantity::of_one_size(engine, &self.units(), &quantity::SLICE, &table);
             Ok((table, scaled))
         };
-        Ok(self.ask(query, |(_, scaled)| scaled.iter().collect())?.0)
+        Ok(self.ask(query, |(_, scaled)| scaled.iter().collect_vec())?.0)
     }
 
     /// The columns of a table by name, such as the `from`, `to`, `impulse` and `peak_strain` of all contacts; with a
@@ -411,8 +413,8 @@ impl<S: Target> History<S> {
     /// # Ok::<(), dalembert::Error>(())
     /// ```
     pub fn table(&self, table: Table) -> Result<quantity::Columns<S>, Error> {
-        let strip = |column: Vec<Option<S::Carried>>| column.into_iter().map(|x| x.map(S::strip)).collect();
-        Ok(self.ask_table(table)?.into_iter().map(|(name, column)| (name, strip(column))).collect())
+        let strip = |column: Vec<Option<S::Carried>>| mapped(column, |x| x.map(S::strip));
+        Ok(mapped(self.ask_table(table)?, |(name, column)| (name, strip(column))))
     }
 
     /// [`History::table`] in numbers that carry their bound.
@@ -421,7 +423,7 @@ impl<S: Target> History<S> {
         let units = self.units();
         self.ask(
             |motion| quantity::table(motion, table, &units),
-            |columns| columns.iter().flat_map(|(_, column)| column.iter().flatten()).collect(),
+            |columns| columns.iter().flat_map(|(_, column)| column.iter().flatten()).collect_vec(),
         )
     }
 
@@ -463,7 +465,7 @@ impl<S: Target> History<S> {
     /// `v`, `v_t`, `v_x` at every point of `points` for every time of `times`: time by time, all points of one time
     /// together.
     pub fn field(&self, points: &[S], times: &[S], side: Side) -> Result<Vec<Field<S>>, Error> {
-        let points: Vec<_> = points.iter().map(Answer::carry).collect();
+        let points: Vec<_> = mapped(points, Answer::carry);
         let mut values = Vec::with_capacity(points.len() * times.len());
         for time in times {
             let time = time.carry();
@@ -479,8 +481,8 @@ impl<S: Target> History<S> {
     ///
     /// **Errors**: [`Error::NoRays`] under damping.
     pub fn rays(&self, trip: usize) -> Result<Vec<Ray<S>>, Error> {
-        let rays = self.ask(|motion| motion.rays(trip), |rays| rays.iter().map(|ray| &ray.from).collect())?;
-        Ok(rays.into_iter().map(|ray| ray.map(S::strip)).collect())
+        let rays = self.ask(|motion| motion.rays(trip), |rays| mapped(rays, |ray| &ray.from))?;
+        Ok(mapped(rays, |ray| ray.map(S::strip)))
     }
 
     /// The whole solution as two travelling waves: a piecewise quadratic function of one variable.

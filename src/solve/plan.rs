@@ -325,9 +325,15 @@ impl Plan {
     pub(super) fn telling(&self, rung: Rung) -> Vec<Rung> {
         let exact = self.engine == Engine::Lattice && !matches!(rung, Rung::Bits(_));
         let known = rung.bits().unwrap_or(0);
-        let bits = self.climb.bits.iter().flat_map(|bits| [1, 2, 4].map(|times| times * bits));
-        let longer = bits.filter(|bits| *bits > known).map(Rung::Bits);
-        exact.then_some(Rung::Fractions).into_iter().chain(longer).collect()
+        let mut rungs = if exact { vec![Rung::Fractions] } else { Vec::new() };
+        if let Some(bits) = &self.climb.bits {
+            for bits in [1, 2, 4].map(|times| times * bits) {
+                if bits > known {
+                    rungs.push(Rung::Bits(bits));
+                }
+            }
+        }
+        rungs
     }
 
     /// Whether exact numbers decide where events of a run through so many contacts coincide within their bounds.

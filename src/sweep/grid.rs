@@ -1,5 +1,6 @@
 //! Which values of a scene are varied, and the problem of each point.
 
+use crate::mapped::{CollectVec, mapped, try_mapped};
 use crate::number::{Number, Spelled};
 use crate::problem::validate::NUMBERS;
 use crate::problem::written::Written;
@@ -67,8 +68,8 @@ pub(super) fn values(text: &str) -> Result<Vec<Number>, SweepError> {
         let value = if geometric { a * (b / a).powf(k / steps) } else { (a * (steps - k) + b * k) / steps };
         Written::from(value).number().cloned().map_err(|error| SweepError::List(error.to_string()))
     };
-    let between = (1..count - 1).map(inner).collect::<Result<Vec<_>, _>>()?;
-    Ok(std::iter::once(from).chain(between).chain([to]).collect())
+    let between = try_mapped(1..count - 1, inner)?;
+    Ok(std::iter::once(from).chain(between).chain([to]).collect_vec())
 }
 
 /// Every combination of the values of some axes, the last one varying fastest.
@@ -90,7 +91,7 @@ impl Grid {
         }
         let count = axes.iter().try_fold(1usize, |count, axis| count.checked_mul(axis.values.len()));
         if count.is_none_or(|count| count > MOST_POINTS) {
-            let sizes = axes.iter().map(|axis| axis.values.len().to_string()).collect::<Vec<_>>().join(" × ");
+            let sizes = mapped(&axes, |axis| axis.values.len().to_string()).join(" × ");
             return Err(SweepError::new(format!("{sizes} points"), format!("at most {MOST_POINTS}")));
         }
         Ok(Grid { problem, axes })

@@ -4,6 +4,7 @@ use serde::{Deserialize, Serialize};
 use serde_json::Value;
 
 use super::grid::Grid;
+use crate::mapped::mapped;
 use crate::motion::Motion;
 use crate::number::{Number, Scalar, bound_json, number_json, shown_bound_text};
 use crate::problem::{Problem, ProblemError, Run};
@@ -124,7 +125,7 @@ impl Visitor for Found<'_> {
     fn visit<S: Target>(self, history: &History<S>) -> Cell {
         let digits = self.digits;
         let query = |motion: &dyn Motion<S::Carried>| self.one.of(motion, self.units, self.run);
-        let found = history.ask(query, |found| found.iter().map(|[_, plain]| plain).collect());
+        let found = history.ask(query, |found| mapped(found, |[_, plain]| plain));
         let cell = match found {
             Ok(Ok([value, _])) if !value.is_finite() => Cell::none("no finite number"),
             Ok(Ok([value, _])) => Cell {

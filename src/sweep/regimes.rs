@@ -2,6 +2,7 @@
 
 use super::grid::{Axis, Grid, SweepError, values};
 use crate::first_contact::{Bounce, FirstContact, Kernels};
+use crate::mapped::{CollectVec, MapEach, mapped};
 use crate::motion::{Ending, Motion};
 use crate::number::{Analytic, Estimate, Number, Scalar};
 use crate::problem::written::{Written, short};
@@ -65,15 +66,15 @@ impl Map {
         let grid = Grid::new(rod.clone(), vec![axis("impact.speed", speed)?, axis("rod.damping", damping)?])?;
         // Before any point is solved.
         for (axis, least) in grid.axes.iter().zip([f64::MIN_POSITIVE, 0.0]) {
-            let values: Vec<f64> = axis.values.iter().map(Number::to_f64).collect();
+            let values: Vec<f64> = mapped(&axis.values, Number::to_f64);
             if values.len() < 2 || values[0] < least || !values.is_sorted_by(|a, b| a < b) {
-                let found = axis.values.iter().map(Number::to_string).collect::<Vec<_>>().join(",");
+                let found = mapped(&axis.values, Number::to_string).join(",");
                 let expected = "two values or more that increase, R from zero and M from above zero";
                 return Err(SweepError::new(format!("the values {}", short(&found)), expected));
             }
         }
-        let [speeds, dampings] = [0, 1].map(|k: usize| grid.axes[k].values.clone());
-        let parts: Vec<&[Number]> = speeds.chunks(SHARING).collect();
+        let [speeds, dampings] = [0, 1].map_each(|k: usize| grid.axes[k].values.clone());
+        let parts: Vec<&[Number]> = speeds.chunks(SHARING).collect_vec();
         let columns = threads.all(dampings.len() * parts.len(), |k| {
             let kernels = Kernels::default();
             let mut regimes = Vec::with_capacity(SHARING);
@@ -85,7 +86,7 @@ impl Map {
         })?;
         let columns: Vec<Regime> = columns.concat();
         let at = |k: usize| columns[k % dampings.len() * speeds.len() + k / dampings.len()];
-        let regimes = (0..columns.len()).map(at).collect();
+        let regimes = mapped(0..columns.len(), at);
         Ok(Map { regimes, damping: dampings, speed: speeds, edges: Vec::new() })
     }
 
@@ -93,7 +94,7 @@ impl Map {
     /// called after each of these.
     pub(crate) fn with_edges(self, threads: Threads, done: &(dyn Fn() + Sync)) -> Self {
         let (across, rod) = (self.damping.len(), unit_rod());
-        let kinds: Vec<usize> = self.regimes.iter().map(|regime| regime.band()).collect();
+        let kinds: Vec<usize> = mapped(&self.regimes, |regime| regime.band());
         let differs = |k: usize| {
             let (row, column) = (k / across, k % across);
             let beside = [(column > 0).then(|| k - 1), (column + 1 < across).then(|| k + 1)];
@@ -105,7 +106,7 @@ impl Map {
         let Ok(columns) = threads.all(across, |column| {
             let edge = (0..self.speed.len()).map(|row| row * across + column).filter(|k| differs(*k));
             let mut found: Vec<(usize, Vec<Regime>)> =
-                edge.map(|k| (k, vec![Regime::Undecided; PARTS * PARTS])).collect();
+                edge.map(|k| (k, vec![Regime::Undecided; PARTS * PARTS])).collect_vec();
             for part in 0..PARTS {
                 let (damping, kernels) = (dampings.inside(column, part), Kernels::default());
                 for (k, regimes) in &mut found {
@@ -142,7 +143,7 @@ impl Spread {
             let (straight, geometric) = (from + (to - from) * place, from * (to / from).powf(place));
             (middle / geometric).ln().abs() < (middle / straight).ln().abs()
         };
-        let [from, to] = [from, to].map(|end| if log { end.ln() } else { end });
+        let [from, to] = [from, to].map_each(|end| if log { end.ln() } else { end });
         Spread { log, first: from, step: (to - from) / last.max(1) as f64 }
     }
 
@@ -191,7 +192,7 @@ fn by_plan(problem: &Problem, plan: &Plan) -> Regime {
         let end = motion.contact_times(0).and_then(|(_, end)| end);
         Ok((end, matches!(motion.ending(), Ending::NoBounce(_))))
     };
-    match plan.ask::<f64, _>(problem, query, |(end, _)| end.iter().collect()) {
+    match plan.ask::<f64, _>(problem, query, |(end, _)| end.iter().collect_vec()) {
         Ok((Some(time), _)) => Regime::Bounce(time.into_value()),
         Ok((None, true)) => Regime::Never,
         _ => Regime::Undecided,

@@ -3,6 +3,7 @@
 use std::io::{self, Cursor};
 
 use super::Npz;
+use crate::mapped::{CollectVec, mapped};
 use crate::output::dataset::{Cell, Column, Dataset};
 
 impl Dataset {
@@ -12,7 +13,7 @@ impl Dataset {
         let mut npz = Npz::new(&mut bytes, true);
         let count = &[self.rows.len()];
         if !self.shape.is_empty() {
-            npz.add("shape", &[self.shape.len()], self.shape.iter().map(|n| *n as i64).collect())?;
+            npz.add("shape", &[self.shape.len()], mapped(&self.shape, |n| *n as i64))?;
         }
         for (k, column) in self.columns.iter().enumerate() {
             let (Column { name: Some(name), is_text: false, .. }, cells) =
@@ -23,7 +24,7 @@ impl Dataset {
             let whole = |cell: &Cell| if let Cell::Plain(value) = cell { value.as_i64() } else { None };
             match cells.clone().map(whole).collect::<Option<Vec<i64>>>().filter(|all| !all.is_empty()) {
                 Some(whole) => npz.add(name, count, whole)?,
-                None => npz.add(name, count, cells.map(Cell::double).collect())?,
+                None => npz.add(name, count, cells.map(Cell::double).collect_vec())?,
             }
         }
         npz.finish()?;

@@ -1,5 +1,6 @@
 //! CSV: comments, names with units, rows.
 
+use crate::mapped::mapped;
 use crate::number::DOUBLE_DIGITS;
 use crate::output::dataset::{Cell, Column, Dataset};
 
@@ -26,13 +27,13 @@ impl Dataset {
                 writer.write_field(match cell {
                     Cell::Plain(_) => String::new(),
                     Cell::Number(x) => x.printed_bound(digits),
-                    Cell::Numbers(all) => all.iter().map(|x| x.printed_bound(digits)).collect::<Vec<_>>().join(" "),
+                    Cell::Numbers(all) => mapped(all, |x| x.printed_bound(digits)).join(" "),
                 })?;
             }
             writer.write_record(None::<&[u8]>)?;
         }
         let bytes = writer.into_inner().map_err(|error| csv::Error::from(error.into_error()))?;
-        let comments: String = self.notes.iter().map(|note| format!("# {note}\n")).collect();
+        let comments: String = mapped(&self.notes, |note| format!("# {note}\n")).concat();
         Ok(comments + &String::from_utf8_lossy(&bytes))
     }
 }

@@ -2,6 +2,7 @@
 
 use serde_json::{Map, Value};
 
+use crate::mapped::mapped;
 use crate::output::dataset::{Cell, Dataset};
 
 /// The JSON Schema of histories, samples, golden files, comparisons and sweeps.
@@ -24,7 +25,7 @@ impl Dataset {
 
     /// The rows as objects.
     pub(in crate::output) fn objects(&self) -> Vec<Value> {
-        self.rows.iter().map(|row| object(self, row)).collect()
+        mapped(&self.rows, |row| object(self, row))
     }
 }
 
@@ -38,10 +39,11 @@ fn object(data: &Dataset, row: &[Cell]) -> Value {
         let (value, bound) = match cell {
             Cell::Plain(value) => (value.clone(), Value::Null),
             Cell::Number(x) => (x.json(data.digits), x.json_bound(data.digits)),
-            Cell::Numbers(all) => (
-                all.iter().map(|x| x.json(data.digits)).collect(),
-                all.iter().map(|x| x.json_bound(data.digits)).collect(),
-            ),
+            Cell::Numbers(all) => {
+                let (values, bounds) =
+                    (mapped(all, |x| x.json(data.digits)), mapped(all, |x| x.json_bound(data.digits)));
+                (values.into(), bounds.into())
+            }
         };
         insert(&mut object, key, value);
         if column.is_bounded {

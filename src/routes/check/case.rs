@@ -3,6 +3,7 @@
 use std::time::Instant;
 
 use super::verdict::{Outcome, Promise, Row, Verdict};
+use crate::mapped::{CollectVec, mapped};
 use crate::motion::Side;
 use crate::number::Number;
 use crate::paper::Printed;
@@ -181,7 +182,7 @@ impl Entry {
             let answer = question.as_ref().map_err(Clone::clone).and_then(|asked| route.run(asked, f64::INFINITY));
             Row::judged(name(*route), *promise, truth.as_ref(), answer, start.elapsed().as_secs_f64())
         });
-        CheckedQuestion { what: self.what, truth: self.truth, rows: rows.collect() }
+        CheckedQuestion { what: self.what, truth: self.truth, rows: rows.collect_vec() }
     }
 }
 
@@ -282,7 +283,7 @@ pub(super) const fn claim(name: Text, verdict: Verdict, source: Text, about: Tex
 impl Case {
     /// Takes every route to every question. A build without long numbers takes those in doubles only.
     pub(crate) fn run(&'static self) -> Checked {
-        let asked: Vec<CheckedQuestion> = self.entries.iter().map(Entry::check).collect();
+        let asked: Vec<CheckedQuestion> = mapped(self.entries, Entry::check);
         let failed = asked.iter().flat_map(|asked| &asked.rows).any(|row| row.outcome == Outcome::Failed);
         Checked { case: self, asked, verdict: if failed { Verdict::Failed } else { self.verdict } }
     }

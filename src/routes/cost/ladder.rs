@@ -1,5 +1,6 @@
 //! Every route that can answer a question, at every setting, the cheapest first.
 
+use crate::mapped::CollectVec;
 use crate::quantity::Quantity;
 use crate::routes::long;
 use crate::routes::quantity::Question;
@@ -113,7 +114,7 @@ pub(super) fn ladders(question: &Question, plan: &Plan) -> (Vec<Ladder>, Vec<(Fa
     let doubles = |family: Family, first: f64, factor: f64, settings: Vec<(String, Route)>| -> Ladder {
         let expected = std::iter::once(Seconds(first)).chain(std::iter::repeat(Times(factor)));
         let steps = settings.into_iter().zip(expected);
-        steps.map(|((setting, route), expected)| Candidate::new(family, route, setting, DOUBLE, expected)).collect()
+        steps.map(|((setting, route), expected)| Candidate::new(family, route, setting, DOUBLE, expected)).collect_vec()
     };
     let cells = [1, 3, 5, 7, 9, 11, 13].map(|digits| (format!("to 1e-{digits}"), Route::Cells(digits)));
     take(Family::Cells, Ok(doubles(Family::Cells, 1e-4, 1.5, cells.into())));
@@ -122,7 +123,7 @@ pub(super) fn ladders(question: &Question, plan: &Plan) -> (Vec<Ladder>, Vec<(Fa
         _ => first.clone(),
     };
     let modes = (0..8).map(|k| 4 << (2 * k)).map(|count| (format!("N = {count}"), Route::Modes(count)));
-    take(Family::Modes, whole.clone().map(|()| doubles(Family::Modes, 1e-4, 4.0, modes.collect())));
+    take(Family::Modes, whole.clone().map(|()| doubles(Family::Modes, 1e-4, 4.0, modes.collect_vec())));
     let printed = [1, 2, 4, 6, 8, 10, 12, 14]
         .map(|digits| (format!("tolerance 1e-{digits}"), Route::PrintedIntegrals(10f64.powi(-digits))));
     let damped = match question.problem.rod.damping {
@@ -131,7 +132,7 @@ pub(super) fn ladders(question: &Question, plan: &Plan) -> (Vec<Ladder>, Vec<(Fa
     };
     take(Family::Printed, damped.map(|()| doubles(Family::Printed, 1e-2, 3.0, printed.into())));
     let differences = (0..7).map(|k| 8 << (2 * k)).map(|count| (format!("{count} cells"), Route::Differences(count)));
-    take(Family::Differences, Ok(doubles(Family::Differences, 1e-4, 16.0, differences.collect())));
+    take(Family::Differences, Ok(doubles(Family::Differences, 1e-4, 16.0, differences.collect_vec())));
     if long::AVAILABLE {
         take(Family::Enclosures, enclosures(question, plan, first));
     }
@@ -151,7 +152,7 @@ fn closed_form() -> Ladder {
     let long = long
         .map(|(digits, expected)| candidate(Numbers::Digits(digits), format!("{digits} digits"), digits + 6, expected));
     let doubles = candidate(Numbers::Double(None), "double".into(), DOUBLE, Seconds(1e-6));
-    std::iter::once(doubles).chain(long).collect()
+    std::iter::once(doubles).chain(long).collect_vec()
 }
 
 fn by_plan(family: Family, question: &Question, system: Numbers) -> Ladder {
@@ -187,7 +188,7 @@ fn enclosures(question: &Question, plan: &Plan, first: Result<(), String>) -> Re
         Numbers::Certified(digits) => Some(digits),
         _ => None,
     };
-    let mut settings: Vec<u32> = LONG.into_iter().chain([15]).chain(chosen).collect();
+    let mut settings: Vec<u32> = LONG.into_iter().chain([15]).chain(chosen).collect_vec();
     settings.sort_unstable();
     settings.dedup();
     let candidate = |(k, digits): (usize, u32)| {
@@ -196,5 +197,5 @@ fn enclosures(question: &Question, plan: &Plan, first: Result<(), String>) -> Re
         let candidate = Candidate::new(Family::Enclosures, route, format!("{digits} digits"), digits + 9, expected);
         Candidate { chosen: chosen == Some(digits), ..candidate }
     };
-    Ok(settings.into_iter().enumerate().map(candidate).collect())
+    Ok(settings.into_iter().enumerate().map(candidate).collect_vec())
 }

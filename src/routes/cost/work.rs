@@ -4,6 +4,7 @@ use std::time::{Duration, Instant};
 
 use super::clock::{Timing, check_budget, repeat};
 use super::ladder::{Candidate, Expected, Family, Ladder, ladders};
+use crate::mapped::mapped;
 use crate::number::Number;
 use crate::order::ascending;
 use crate::quantity::Quantity;
@@ -89,10 +90,9 @@ pub(crate) fn work_precision(
     let (all, without) = ladders(question, plan);
     let count: usize = all.iter().map(Vec::len).sum();
     let slot = SHARE * seconds / count.max(1) as f64;
-    let mut left_out: Vec<LeftOut> =
-        without.into_iter().map(|(family, why)| LeftOut { family, setting: None, why }).collect();
+    let mut left_out: Vec<LeftOut> = mapped(without, |(family, why)| LeftOut { family, setting: None, why });
     let mut taken: Vec<(Candidate, usize, Value, Timing)> = Vec::with_capacity(count);
-    let mut waiting: Vec<Waiting> = all.into_iter().map(Waiting::new).collect();
+    let mut waiting: Vec<Waiting> = mapped(all, Waiting::new);
     while let Some(next) = cheapest(&mut waiting) {
         let (candidate, expected, ladder) = next;
         observe(spent() / seconds, &format!("{}, {}", candidate.family.name(), candidate.setting));
@@ -145,17 +145,14 @@ pub(crate) fn work_precision(
             Err(error) => return Err(error),
         }
     };
-    let rows: Vec<Row> = taken
-        .into_iter()
-        .map(|(candidate, ladder, value, timing)| Row {
-            family: candidate.family,
-            ladder,
-            setting: candidate.setting,
-            log10_error: truth.log10_error(&value),
-            timing,
-            chosen: candidate.chosen,
-        })
-        .collect();
+    let rows: Vec<Row> = mapped(taken, |(candidate, ladder, value, timing)| Row {
+        family: candidate.family,
+        ladder,
+        setting: candidate.setting,
+        log10_error: truth.log10_error(&value),
+        timing,
+        chosen: candidate.chosen,
+    });
     // Settings stay in the order of their ladder.
     let rows = ascending(ascending(rows, |row| row.ladder as f64), |row| f64::from(row.family as u8));
     let left_out = ascending(left_out, |item| f64::from(item.family as u8));
