@@ -1,5 +1,6 @@
 """What `make site` adds to the pages of docs/: first steps from the README, the help of each command, the schema, the
-examples, pictures with their commands, the catalogue of hard cases, and the page of the classroom."""
+examples, the library's front page, pictures with their commands, the catalogue of hard cases, and the page of the
+classroom."""
 
 import json
 import re
@@ -41,6 +42,16 @@ def examples():
     for path in sorted((ROOT / "examples").glob("*.rs")):
         parts.append(f"## {path.stem}\n\n`cargo run --example {path.stem}`\n\n```rust\n{path.read_text()}```\n")
     return "# Examples in Rust\n\n" + "\n".join(parts)
+
+
+def rust():
+    """The front page of the crate's documentation, without its links."""
+    lines = (ROOT / "src/lib.rs").read_text().splitlines()
+    text = "\n".join(line[4:] for line in lines if line.startswith("//!")).replace("```\nuse ", "```rust\nuse ")
+    text = re.sub(r"\[(`[^`]+`)\](?!\()", r"\1", re.sub(r"(?m)^# Ok.*\n", "", text))
+    add = "```sh\ncargo add dalembert --path ../dalembert --no-default-features\n```"
+    last = "`cargo doc --open` in a clone shows every item, with its source and accuracy."
+    return f"# The library for Rust\n\n{add}\n\n{text}\n\n{last}\n"
 
 
 def gallery(files, config):
@@ -90,6 +101,7 @@ def rod():
 
 def on_files(files, config):
     readme = (ROOT / "README.md").read_text().replace("](docs/", "](").replace("# dalembert", "# First steps", 1)
+    readme = re.sub(r"(?m)^# Ok::.*\n", "", readme)
     pages = {
         "index.md": (ROOT / "site/index.md").read_text().replace("<!-- rod -->", rod()),
         "start.md": readme,
@@ -98,6 +110,7 @@ def on_files(files, config):
         "gallery.md": gallery(files, config),
         "python.md": (ROOT / "python/README.md").read_text() + "\n## Reference\n\n::: dalembert\n",
         "check.md": run("check --format markdown"),
+        "rust.md": rust(),
         "schema.md": f"# JSON schema\n\n`dalembert schema` prints it.\n\n```json\n{run('schema')}```\n",
         "changes.md": (ROOT / "CHANGELOG.md").read_text(),
     }

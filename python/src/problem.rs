@@ -20,8 +20,8 @@ type Spelt = (&'static str, Vec<[String; 2]>);
 
 fn points(name: &str, value: &Bound<'_, PyAny>) -> PyResult<Vec<(Written, Written)>> {
     let shape = format!("found {name} of another shape, expected points (x, value), an array of shape (n, 2)");
-    let pairs: Vec<(Bound<'_, PyAny>, Bound<'_, PyAny>)> = value.extract().map_err(|_| PyTypeError::new_err(shape))?;
-    pairs.iter().map(|(x, v)| Ok((written("x", x)?, written(name, v)?))).collect()
+    let pairs: Vec<[Bound<'_, PyAny>; 2]> = value.extract().map_err(|_| PyTypeError::new_err(shape))?;
+    pairs.iter().map(|[x, v]| Ok((written("x", x)?, written(name, v)?))).collect()
 }
 
 /// The physics in exact numbers, checked.

@@ -29,6 +29,16 @@ def test_numbers_of_every_type_are_the_same_problem():
     assert tenth.contacts["to"].tolist() == [Fraction(1, 5)]
 
 
+def test_profiles_are_points_of_any_kind():
+    points = [[0, -1], [1, -2]]
+    given = [points, tuple(map(tuple, points)), np.array(points), np.array(points, float), list(np.array(points))]
+    for velocity in given:
+        rod = dalembert.Problem(length=1, wave_speed=1, gravity=1, velocity=velocity)
+        assert rod.velocity == ((0, -1), (1, -2))
+    with pytest.raises(TypeError, match="of another shape"):
+        dalembert.Problem(length=1, wave_speed=1, velocity=[0, -1])
+
+
 def test_kinds_of_answers():
     rod = dalembert.Problem(**ROD)
     # v_x(0,t) = −(μ + g t)/c until the wave comes back.
