@@ -9,6 +9,9 @@ mod asked_times;
 mod certified_first_contact;
 #[cfg(feature = "mp")]
 mod certified_undamped;
+// Tests run in the order of their names: the longest one is among the first.
+#[cfg(feature = "mp")]
+mod chaotic;
 #[cfg(feature = "cli")]
 mod check_catalogue;
 #[cfg(feature = "mp")]
@@ -90,8 +93,6 @@ mod terminal;
 mod three_routes;
 #[cfg(feature = "mp")]
 mod undamped_bounds;
-#[cfg(feature = "mp")]
-mod undamped_chaotic;
 #[cfg(feature = "mp")]
 mod undamped_coincidences;
 #[cfg(feature = "mp")]
