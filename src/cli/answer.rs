@@ -5,10 +5,10 @@ use super::failure::Failure;
 use super::file::Format;
 use super::source;
 use crate::error::Error;
-use crate::mapped::mapped;
+use crate::mapped::{CollectVec, mapped};
 use crate::motion::{Ending, Motion};
-use crate::number::{DOUBLE_DIGITS, Scalar, show};
-use crate::output::Head;
+use crate::number::{DOUBLE_DIGITS, Scalar};
+use crate::output::{Head, Shown};
 use crate::quantity::{Measure, Units};
 use crate::scene::{Effect, Scene};
 use crate::solve::{History, Plan, Question, Target, Visitor};
@@ -38,18 +38,17 @@ fn known(scene: &Scene) -> Vec<String> {
 
 /// What a subcommand prints of a history, in any number system.
 pub(super) trait Report {
-    /// What is asked of the history.
-    type Data<N: Scalar>;
-    fn gather<N: Scalar>(&self, history: &dyn Motion<N>, head: &Head) -> Result<Self::Data<N>, Error>;
-    /// Every number in the data.
-    fn numbers<'a, N: Scalar>(&self, data: &'a Self::Data<N>) -> Vec<&'a N>;
-    fn bytes<N: Scalar>(&self, data: &Self::Data<N>, head: &Head, format: Format) -> Result<Vec<u8>, Failure>;
+    /// What is printed, whatever the numbers.
+    type Data;
+    /// What is asked of the history, and every number in it.
+    fn gather<N: Scalar>(&self, history: &dyn Motion<N>, head: &Head) -> Result<(Self::Data, Vec<N>), Error>;
+    fn bytes(&self, data: Self::Data, head: &Head, format: Format) -> Result<Vec<u8>, Failure>;
     /// Adds what several runs are needed for.
-    fn add<S: Target>(&self, _: &History<S>, _: &mut Self::Data<S::Carried>) -> Result<(), Error> {
+    fn add<S: Target>(&self, _: &History<S>, _: &mut Self::Data) -> Result<(), Error> {
         Ok(())
     }
     /// What is said beside the data, on standard error.
-    fn note<N: Scalar>(&self, _: &Self::Data<N>) -> Option<String> {
+    fn note(&self, _: &Self::Data) -> Option<String> {
         None
     }
 }
@@ -66,21 +65,25 @@ impl<R: Report> Visit for Printed<'_, R> {
     fn visit<S: Target>(&self, history: &History<S>, head: Head, progress: source::Progress) -> Result<(), Failure> {
         let Printed(report, output) = *self;
         let head = Head { wide: output.wide, ..head };
-        let gathered = history.ask(|motion| report.gather(motion, &head), |data| report.numbers(data));
+        let gathered = history.ask(|motion| report.gather(motion, &head), |(_, numbers)| numbers.iter().collect_vec());
         drop(progress);
-        let mut data = gathered?;
+        let (mut data, _) = gathered?;
         report.add(history, &mut data)?;
-        let format = output.format()?;
-        let head = warned(history, head, output.output.is_none() && format == Format::Table);
-        output.write(&report.bytes(&data, &head, format)?)?;
-        report.note(&data).iter().for_each(|note| eprintln!("note: {note}"));
-        Ok(())
+        print(report, output, data, Head { warnings: history.warnings(), ..head })
     }
 }
 
-/// The head with the warnings of the history, which are printed.
-pub(super) fn warned<S: Target>(history: &History<S>, head: Head, shown: bool) -> Head {
-    let head = Head { warnings: history.warnings(), ..head };
+fn print<R: Report>(report: &R, output: &OutputArgs, data: R::Data, head: Head) -> Result<(), Failure> {
+    let format = output.format()?;
+    let head = warned(head, output.output.is_none() && format == Format::Table);
+    let note = report.note(&data);
+    output.write(&report.bytes(data, &head, format)?)?;
+    note.iter().for_each(|note| eprintln!("note: {note}"));
+    Ok(())
+}
+
+/// The head, whose warnings are printed.
+pub(super) fn warned(head: Head, shown: bool) -> Head {
     // A table on the screen has them below it.
     if !shown {
         head.warnings.iter().for_each(|warning| eprintln!("warning: {warning}"));
@@ -89,11 +92,11 @@ pub(super) fn warned<S: Target>(history: &History<S>, head: Head, shown: bool) -
 }
 
 /// Why the history ends where it does, which is printed where that may be before what was asked for.
-pub(super) fn noted_end<S: Scalar>(ending: &Ending, end: &S, digits: u32) -> String {
+pub(super) fn noted_end(ending: &Ending, end: &dyn Shown, digits: u32) -> String {
     if ending.is_open() {
-        eprintln!("note: {}", ending.at(&show(end, DOUBLE_DIGITS)));
+        eprintln!("note: {}", ending.at(&end.printed(DOUBLE_DIGITS)));
     }
-    ending.at(&show(end, if digits == 0 { DOUBLE_DIGITS } else { digits }))
+    ending.at(&end.printed(if digits == 0 { DOUBLE_DIGITS } else { digits }))
 }
 
 /// Answers `question` of `scene`, and prints what `report` makes of the answer.

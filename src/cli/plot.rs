@@ -175,7 +175,7 @@ impl Visit for Gather<'_> {
         let units = Units::of(&self.scene.problem, self.scene.units);
         let found = self.asked.gather(self.name.into(), &self.scene.problem, units, history)?;
         drop(progress);
-        warned(history, head, false);
+        warned(Head { warnings: history.warnings(), ..head }, false);
         let (name, [from, to], end) = (self.name, found.span, found.end);
         let short = |time: f64| time.decimal(6);
         let asked_to = self.asked.to.unwrap_or(end);

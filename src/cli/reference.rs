@@ -189,7 +189,7 @@ impl Visit for Series<'_> {
         })?;
         rows.push(&table).map_err(keep())?;
         drop(progress);
-        let head = warned(history, head, false);
+        let head = warned(Head { warnings: history.warnings(), ..head }, false);
         let numbers = history.plan().numbers;
         let ends = matches!(self.times, Times::Events)
             .then(|| noted_end(history.ending(), &S::carry(history.end()), head.digits));
@@ -212,7 +212,7 @@ impl Visit for Function<'_> {
     fn visit<S: Target>(&self, history: &History<S>, head: Head, progress: source::Progress) -> Result<(), Failure> {
         let waves = history.ask_waves()?;
         drop(progress);
-        let head = warned(history, head, false);
+        let head = warned(Head { warnings: history.warnings(), ..head }, false);
         let numbers = history.plan().numbers;
         let ends = Some(noted_end(history.ending(), &S::carry(history.end()), head.digits));
         let (scene, until) = (self.scene.source(), history.end().to_f64());

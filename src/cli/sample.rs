@@ -8,10 +8,9 @@ use super::failure::Failure;
 use super::file::{self, Format};
 use super::source;
 use crate::error::Error;
-use crate::mapped::CollectVec;
 use crate::motion::{Ending, Motion, Side};
 use crate::number::{List, Scalar};
-use crate::output::{self, Head, Quantity, sample, samples_data};
+use crate::output::{self, Head, Quantity, Samples, sample, samples_data};
 use crate::solve::Question;
 
 /// Values of a quantity at chosen times
@@ -59,12 +58,12 @@ impl Sample {
 }
 
 /// The values, and why the history ends where that is not for the time asked for, as at rest.
-pub(super) struct Sampled<S>(Vec<output::Sample<S>>, Option<String>);
+pub(super) struct Sampled(Samples, Option<String>);
 
 impl Report for Sample {
-    type Data<S: Scalar> = Sampled<S>;
+    type Data = Sampled;
 
-    fn gather<S: Scalar>(&self, history: &dyn Motion<S>, _: &Head) -> Result<Self::Data<S>, Error> {
+    fn gather<S: Scalar>(&self, history: &dyn Motion<S>, head: &Head) -> Result<(Sampled, Vec<S>), Error> {
         let length = history.scales().length;
         let precision = length.precision();
         let times = self.times.lift::<S>(&precision);
@@ -75,23 +74,20 @@ impl Report for Sample {
         let samples = sample(history, self.quantity, &times, &points, self.side)?;
         let ends =
             (!matches!(history.ending(), Ending::Time | Ending::NextImpact)).then(|| history.ending().to_string());
-        Ok(Sampled(samples, ends))
+        let mut numbers = Vec::new();
+        for output::Sample { time, point, values, .. } in &samples {
+            numbers.extend_from_slice(values);
+            numbers.extend(point.clone());
+            numbers.push(time.clone());
+        }
+        Ok((Sampled(Samples::of(&samples, self.quantity, &head.units), ends), numbers))
     }
 
-    fn numbers<'a, S: Scalar>(&self, Sampled(samples, _): &'a Self::Data<S>) -> Vec<&'a S> {
-        samples.iter().flat_map(|sample| sample.values.iter().chain(&sample.point).chain([&sample.time])).collect_vec()
-    }
-
-    fn note<S: Scalar>(&self, Sampled(_, ends): &Self::Data<S>) -> Option<String> {
+    fn note(&self, Sampled(_, ends): &Sampled) -> Option<String> {
         ends.clone()
     }
 
-    fn bytes<S: Scalar>(
-        &self,
-        Sampled(samples, _): &Self::Data<S>,
-        head: &Head,
-        format: Format,
-    ) -> Result<Vec<u8>, Failure> {
-        file::rows(&samples_data(samples, self.quantity, head), format)
+    fn bytes(&self, Sampled(samples, _): Sampled, head: &Head, format: Format) -> Result<Vec<u8>, Failure> {
+        file::rows(&samples_data(samples, head), format)
     }
 }

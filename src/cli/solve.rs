@@ -1,6 +1,7 @@
 //! `dalembert solve`.
 
 use std::io::IsTerminal;
+use std::rc::Rc;
 
 use clap::Args;
 
@@ -10,14 +11,15 @@ use super::failure::Failure;
 use super::file::{self, Format};
 use super::source;
 use crate::error::Error;
-use crate::mapped::CollectVec;
+use crate::mapped::{CollectVec, mapped};
 use crate::motion::Motion;
 use crate::number::Scalar;
 use crate::output::{
-    CONTACT, Derived, EVENT, Head, LEGEND, Part, Record, history_json, history_part, history_table, outline, record,
+    CONTACT, Derived, EVENT, Form, Head, LEGEND, Part, Record, Shared, history_json, history_part, history_table,
+    outline, record,
 };
 use crate::problem::Parameter;
-use crate::solve::{History, Question, Target};
+use crate::solve::{Derivative, History, Question, Target};
 
 const EXAMPLES: &str = "Examples:\n  dalembert solve doyen-ern-piperno --exact\n  \
     dalembert solve rod.toml --digits 38 -o rod.json\n  \
@@ -75,29 +77,28 @@ impl Solve {
 }
 
 impl Report for Solve {
-    type Data<S: Scalar> = Record<S>;
+    type Data = Record;
 
-    fn gather<S: Scalar>(&self, history: &dyn Motion<S>, _: &Head) -> Result<Record<S>, Error> {
-        let stress = match self.output.format() {
-            Ok(Format::Json) => true,
-            Ok(Format::Csv) => matches!(self.part, Some(Part::Stress)),
-            _ => false,
+    fn gather<S: Scalar>(&self, history: &dyn Motion<S>, head: &Head) -> Result<(Record, Vec<S>), Error> {
+        let stress = match (self.output.format(), self.part) {
+            (Ok(Format::Json), _) => Some(Form::Series),
+            (Ok(Format::Csv), Some(Part::Stress)) if self.coefficients => Some(Form::Series),
+            (Ok(Format::Csv), Some(Part::Stress)) => Some(Form::Straight),
+            _ => None,
         };
-        let mut found = record(history, stress)?;
+        let (mut found, numbers) = record(history, stress, !self.numbers.in_doubles(), &head.units)?;
         if self.draws() {
             found.outline = outline(history);
         }
-        Ok(found)
+        Ok((found, numbers))
     }
 
-    fn numbers<'a, S: Scalar>(&self, record: &'a Record<S>) -> Vec<&'a S> {
-        record.numbers(!self.numbers.in_doubles())
-    }
-
-    fn add<S: Target>(&self, history: &History<S>, record: &mut Record<S::Carried>) -> Result<(), Error> {
+    fn add<S: Target>(&self, history: &History<S>, record: &mut Record) -> Result<(), Error> {
         for by in self.derivatives.iter().copied() {
             // There are no more contacts than events: a row has an event, and a contact beside it where there is one.
-            let mut events = history.derivatives(by, &[&EVENT[..], &CONTACT].concat())?;
+            let share = |cell: Option<Derivative<_>>| cell.map(|cell| cell.map(|x| Rc::new(x) as Shared));
+            let found = history.derivatives(by, &[&EVENT[..], &CONTACT].concat())?;
+            let mut events = mapped(found, |row| mapped(row, share));
             let contacts = events.iter_mut().map(|row| row.split_off(EVENT.len().min(row.len())));
             let contacts = contacts.filter(|row| !row.is_empty()).collect_vec();
             record.derivatives.push(Derived { by, events, contacts });
@@ -105,10 +106,11 @@ impl Report for Solve {
         Ok(())
     }
 
-    fn bytes<S: Scalar>(&self, record: &Record<S>, head: &Head, format: Format) -> Result<Vec<u8>, Failure> {
+    fn bytes(&self, record: Record, head: &Head, format: Format) -> Result<Vec<u8>, Failure> {
+        let record = &record;
         // A table on the screen says it.
         if self.output.output.is_some() || format != Format::Table {
-            noted_end(&record.end.1, &record.end.0, head.digits);
+            noted_end(&record.end.1, &*record.end.0, head.digits);
         }
         match format {
             Format::Table if self.legend => Ok(format!("{}\n{LEGEND}", history_table(record, head)).into_bytes()),

@@ -1,6 +1,7 @@
 //! What is written: named columns and rows, with what stands above and below them. Each format has one writer.
 
 use std::borrow::Cow;
+use std::rc::Rc;
 
 use serde_json::Value;
 
@@ -39,14 +40,18 @@ impl<S: Scalar> Shown for S {
     }
 }
 
+/// A number that several rows show.
+pub(crate) type Shared = Rc<dyn Shown>;
+
 /// A value of a row.
+#[derive(Clone)]
 pub(crate) enum Cell {
     /// A text, a count, a flag, a double without a bound, or nothing.
     Plain(Value),
     /// A number that carries its bound.
-    Number(Box<dyn Shown>),
+    Number(Shared),
     /// Several of them.
-    Numbers(Vec<Box<dyn Shown>>),
+    Numbers(Vec<Shared>),
 }
 
 impl<T: Into<Value>> From<T> for Cell {
@@ -59,7 +64,7 @@ impl Cell {
     pub(crate) const EMPTY: Self = Cell::Plain(Value::Null);
 
     pub(crate) fn number(x: &impl Scalar) -> Self {
-        Cell::Number(Box::new(x.clone()))
+        Cell::Number(Rc::new(x.clone()))
     }
 
     pub(crate) fn optional<S: Scalar>(x: Option<&S>) -> Self {
@@ -67,7 +72,11 @@ impl Cell {
     }
 
     pub(crate) fn numbers(all: &[impl Scalar]) -> Self {
-        Cell::Numbers(mapped(all, |x| Box::new(x.clone()) as Box<dyn Shown>))
+        Cell::Numbers(mapped(all, |x| Rc::new(x.clone()) as Shared))
+    }
+
+    pub(super) fn shared(x: Option<&Shared>) -> Self {
+        x.map_or(Cell::EMPTY, |x| Cell::Number(x.clone()))
     }
 
     pub(super) fn is_empty(&self) -> bool {
@@ -85,6 +94,14 @@ impl Cell {
             Cell::Plain(value) => plain(value),
             Cell::Number(x) => x.printed(digits),
             Cell::Numbers(numbers) => mapped(numbers, |x| x.printed(digits)).join(" "),
+        }
+    }
+
+    /// The bound of a number, as a text; nothing beside what is none.
+    pub(super) fn bound(&self, digits: u32) -> Self {
+        match self {
+            Cell::Number(x) => x.printed_bound(digits).into(),
+            Cell::Plain(_) | Cell::Numbers(_) => Cell::EMPTY,
         }
     }
 

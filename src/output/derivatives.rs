@@ -1,18 +1,17 @@
 //! Derivatives of events and contacts: columns beside them in data, tables of their own for a person.
 
-use super::dataset::{Cell, Column, Dataset};
+use super::dataset::{Cell, Column, Dataset, Shared};
 use super::record::Head;
 use crate::mapped::mapped;
-use crate::number::Scalar;
 use crate::problem::Parameter;
 use crate::quantity::Quantity;
 use crate::solve::{Derivative, Derivatives};
 
 /// Adds columns of derivatives of `quantities` to `data`, whose rows are of the same list.
-pub(super) fn add_columns<S: Scalar>(
+pub(super) fn add_columns(
     data: &mut Dataset,
     quantities: &[Quantity],
-    (by, rows): (Parameter, &Derivatives<S>),
+    (by, rows): (Parameter, &Derivatives<Shared>),
     name: fn(Quantity) -> String,
 ) {
     for (k, quantity) in quantities.iter().enumerate() {
@@ -23,7 +22,7 @@ pub(super) fn add_columns<S: Scalar>(
         data.rows
             .iter_mut()
             .zip(cells())
-            .for_each(|(row, cell)| row.push(Cell::optional(cell.and_then(Derivative::value))));
+            .for_each(|(row, cell)| row.push(Cell::shared(cell.and_then(Derivative::value))));
         // Most derivatives are the same from both sides.
         if !cells().flatten().any(|cell| cell.value().is_none()) {
             continue;
@@ -34,7 +33,7 @@ pub(super) fn add_columns<S: Scalar>(
             data.columns.push(Column::json(format!("{key}/undefined/{word}")).optional());
             for (row, cell) in data.rows.iter_mut().zip(cells()) {
                 let one = cell.filter(|cell| cell.value().is_none()).map(|cell| cell.sides()[side]);
-                row.push(Cell::optional(one.and_then(Result::ok)));
+                row.push(Cell::shared(one.and_then(Result::ok)));
                 row.push(one.and_then(Result::err).map(|why| why.to_string()).into());
             }
         }
@@ -42,10 +41,10 @@ pub(super) fn add_columns<S: Scalar>(
 }
 
 /// A table of the derivatives by one value: `keys` say of what each row is, which is two where the sides differ.
-pub(super) fn table<S: Scalar>(
+pub(super) fn table(
     (what, keys): (&str, Vec<String>),
     quantities: &[(usize, &str)],
-    (by, rows): (Parameter, &Derivatives<S>),
+    (by, rows): (Parameter, &Derivatives<Shared>),
     head: &Head,
 ) -> String {
     let mut data = Dataset { digits: head.digits, keys: (!head.wide).then_some(2), ..Dataset::default() };
@@ -58,7 +57,7 @@ pub(super) fn table<S: Scalar>(
         for (side, word) in sides {
             let mut line: Vec<Cell> = vec![key.clone().into(), (*word).into()];
             line.extend(cells.iter().map(|cell| match cell.map(|cell| cell.sides()[*side]) {
-                Some(Ok(value)) => Cell::number(value),
+                Some(Ok(value)) => Cell::shared(Some(value)),
                 Some(Err(why)) => why.to_string().into(),
                 None => Cell::EMPTY,
             }));

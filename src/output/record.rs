@@ -2,11 +2,12 @@
 
 use serde_json::{Value, json};
 
+use super::dataset::{Cell, Column, Shared};
 use super::writer::{WIDTH, wrapped};
 use crate::mapped::{CollectVec, mapped};
-use crate::motion::{Ending, EventKind, StressPiece};
+use crate::motion::{Ending, EventKind};
 use crate::problem::Parameter;
-use crate::quantity::{Row, Units};
+use crate::quantity::{Undefined, Units};
 use crate::reason::Warning;
 use crate::solve::{Derivatives, ExactnessEnd};
 
@@ -68,36 +69,43 @@ impl Head {
 }
 
 /// Derivatives by one value, of the quantities of a list.
-#[derive(Clone, Debug)]
-pub(crate) struct Derived<S> {
+pub(crate) struct Derived {
     /// The value.
     pub(crate) by: Parameter,
     /// Of events.
-    pub(crate) events: Derivatives<S>,
+    pub(crate) events: Derivatives<Shared>,
     /// Of contacts.
-    pub(crate) contacts: Derivatives<S>,
+    pub(crate) contacts: Derivatives<Shared>,
 }
 
-/// A history, ready to be printed.
-#[derive(Clone, Debug)]
-pub(crate) struct Record<S> {
+/// The columns of quantities, and a row of their numbers for each of what they belong to.
+pub(super) type Listed = (Vec<Column>, Vec<Vec<Cell>>);
+
+/// A history, ready to be printed, whatever its numbers.
+pub(crate) struct Record {
     /// Impacts and releases.
     pub(crate) kinds: Vec<EventKind>,
-    pub(crate) events: Vec<Row<S>>,
+    pub(super) events: Listed,
+    /// Whether a table says how far their times may be off.
+    pub(super) uncertain: bool,
     /// Contacts with their coefficients and the energies at their ends.
-    pub(crate) contacts: Vec<Row<S>>,
+    pub(super) contacts: Listed,
+    /// Why `e_P` and `e_E²` of each contact are not defined, where they are not.
+    pub(super) undefined: Vec<[Option<Undefined>; 2]>,
     /// Flights with their tops.
-    pub(crate) flights: Vec<Row<S>>,
+    pub(super) flights: Listed,
     /// Derivatives of events and contacts, where they are asked for.
-    pub(crate) derivatives: Vec<Derived<S>>,
+    pub(crate) derivatives: Vec<Derived>,
     /// The stress at the ground, where it is asked for.
-    pub(crate) stress: Vec<StressPiece<S>>,
+    pub(super) stress: Listed,
+    /// Whether a piece of it is curved.
+    pub(super) curved: bool,
     /// The stress at the ground in equal parts of the history, where a line of blocks shows it.
     pub(crate) outline: Vec<f64>,
     /// The last time that is known, and why.
-    pub(crate) end: (S, Ending),
+    pub(crate) end: (Shared, Ending),
     /// Bound on the error relative to the natural scales; zero where all is exact.
-    pub(crate) error: f64,
+    pub(super) error: f64,
     /// Impacts, and the digits that rounding may have taken over them; `None` where that is not followed.
-    pub(crate) lost: Option<(u32, f64)>,
+    pub(super) lost: Option<(u32, f64)>,
 }

@@ -3,14 +3,14 @@
 use clap::ValueEnum;
 
 use super::dataset::{Cell, Column, Dataset};
-use super::record::Head;
+use super::record::{Head, Listed};
 use super::solve::{listed, named_units, units_json};
 use crate::error::Error;
 use crate::mapped::{CollectVec, mapped};
 use crate::motion::{Motion, Side};
 use crate::number::Scalar;
 use crate::quantity::Quantity::*;
-use crate::quantity::{self, Measure};
+use crate::quantity::{self, Measure, Units};
 
 /// What `sample` can be asked for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, clap::ValueEnum)]
@@ -86,31 +86,48 @@ pub(crate) fn sample<S: Scalar>(
     Ok(rows)
 }
 
+/// The columns of samples of a quantity, and a row for each of them.
+pub(crate) struct Samples {
+    quantity: Quantity,
+    has_points: bool,
+    listed: Listed,
+}
+
+impl Samples {
+    /// Those of `quantity`.
+    pub(crate) fn of<S: Scalar>(samples: &[Sample<S>], quantity: Quantity, units: &Units) -> Self {
+        let quantities = mapped(quantity.columns(), |column| column.0);
+        let values = mapped(samples, |sample| mapped(quantity.columns(), |(_, place)| sample.values.get(*place)));
+        let column = |quantity: quantity::Quantity| {
+            let key = quantity.key();
+            Column::new(key).keyed(format!("values/{key}"))
+        };
+        let (values, rows) = listed(&quantities, column, units, values);
+        let point = Column::new("point").headed("x").with_unit(units.name(Measure::Length));
+        let has_points = samples.iter().any(|sample| sample.point.is_some());
+        let mut columns = vec![
+            Column::new("time").headed("t").with_unit(units.name(Measure::Time)),
+            if has_points { point } else { point.untabled() },
+            Column::new("side"),
+        ];
+        columns.extend(values);
+        let mut all = Vec::with_capacity(rows.len());
+        for (sample, values) in samples.iter().zip(rows) {
+            let (time, point) = (Cell::number(&sample.time), Cell::optional(sample.point.as_ref()));
+            let mut row = vec![time, point, sample.side.to_string().into()];
+            row.extend(values);
+            all.push(row);
+        }
+        Samples { quantity, has_points, listed: (columns, all) }
+    }
+}
+
 /// A row for each sample.
-pub(crate) fn samples_data<S: Scalar>(samples: &[Sample<S>], quantity: Quantity, head: &Head) -> Dataset {
+pub(crate) fn samples_data(Samples { quantity, has_points, listed }: Samples, head: &Head) -> Dataset {
     let units = &head.units;
-    let (quantities, places): (Vec<_>, Vec<usize>) = quantity.columns().iter().copied().unzip();
-    let values = mapped(samples, |sample| mapped(&places, |place| sample.values.get(*place)));
-    let column = |quantity: quantity::Quantity| {
-        let key = quantity.key();
-        Column::new(key).keyed(format!("values/{key}"))
-    };
-    let (values, rows) = listed(&quantities, column, units, values);
-    let point = Column::new("point").headed("x").with_unit(units.name(Measure::Length));
-    let has_points = samples.iter().any(|sample| sample.point.is_some());
-    let mut columns = vec![
-        Column::new("time").headed("t").with_unit(units.name(Measure::Time)),
-        if has_points { point } else { point.untabled() },
-        Column::new("side"),
-    ];
-    columns.extend(values);
-    let row = |(sample, values): (&Sample<S>, Vec<Cell>)| {
-        let place = [Cell::number(&sample.time), Cell::optional(sample.point.as_ref()), sample.side.to_string().into()];
-        place.into_iter().chain(values).collect_vec()
-    };
-    let rows = samples.iter().zip(rows).map(row).collect_vec();
+    let (columns, rows) = listed;
     let end = head.exact_until.as_ref().map_or_else(String::new, |end| format!("{end}; these are {}\n", head.number));
-    let measures: Vec<Measure> = quantities.iter().filter_map(|quantity| quantity.measure()).collect_vec();
+    let measures = quantity.columns().iter().filter_map(|(quantity, _)| quantity.measure()).collect_vec();
     let below = end + &named_units(&measures, units) + &head.warning_lines();
     let space = if below.is_empty() { "" } else { "\n" };
     Dataset {

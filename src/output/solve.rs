@@ -1,16 +1,18 @@
 //! A history: events, contacts, flights, the stress at the ground, and the end.
 
+use std::rc::Rc;
+
 use serde_json::{Value, json};
 
 use super::dataset::{Cell, Column, Dataset};
 use super::derivatives::{self, add_columns};
 use super::outline::sparkline;
-use super::record::{Derived, Head, Record};
+use super::record::{Derived, Head, Listed, Record};
 use super::writer::table_digits;
 use crate::error::Error;
 use crate::mapped::{CollectVec, MapEach, mapped};
 use crate::motion::{Ending, EventKind, Motion, StressPiece, straight};
-use crate::number::{DOUBLE_DIGITS, Scalar, bound_json, number_json, show, shown_bound_text};
+use crate::number::{DOUBLE_DIGITS, Scalar};
 use crate::quantity::Quantity::{self, *};
 use crate::quantity::{Measure, Row, Undefined, Units, rows};
 
@@ -32,6 +34,8 @@ pub(crate) const CONTACT: [Quantity; 13] = [
     TranslationalLeft,
     VibrationalLeft,
 ];
+/// The place of the greatest compression among these.
+const PEAK: usize = 3;
 const FLIGHT: [Quantity; 4] = [FlightBegins, FlightEnds, TopTime, Top];
 const PIECE: [Quantity; 6] =
     [PieceBegins, PieceEnds, PieceStrainBegins, PieceStrainEnds, PieceStressBegins, PieceStressEnds];
@@ -63,7 +67,7 @@ pub(super) fn listed<S: Scalar>(
     column: fn(Quantity) -> Column,
     units: &Units,
     rows: Vec<Vec<Option<&S>>>,
-) -> (Vec<Column>, Vec<Vec<Cell>>) {
+) -> Listed {
     let factor = |quantity: &Quantity, number: &S| {
         let measure = quantity.measure().filter(|_| units.has_material())?;
         let kept = matches!(measure, Measure::Time | Measure::Length | Measure::Velocity | Measure::Strain);
@@ -106,7 +110,8 @@ pub(crate) enum Part {
 /// How far the straight pieces of a curved stress history may be off, as a part of its peak.
 const STRAIGHT: f64 = 1e-6;
 
-fn dataset((columns, rows): (Vec<Column>, Vec<Vec<Cell>>), head: &Head) -> Dataset {
+fn dataset((columns, rows): &Listed, head: &Head) -> Dataset {
+    let (columns, rows) = (columns.clone(), rows.clone());
     Dataset { columns, rows, digits: head.digits, keys: (!head.wide).then_some(1), ..Dataset::default() }
 }
 
@@ -123,18 +128,16 @@ fn defined<S>(rows: &[Row<S>]) -> Vec<Vec<Option<&S>>> {
     defined
 }
 
-fn events<S: Scalar>(record: &Record<S>, head: &Head) -> Dataset {
-    let mut data = dataset(listed(&EVENT, column, &head.units, defined(&record.events)), head);
-    let times = || record.events.iter().map(|row| row.first().and_then(|time| time.as_ref().ok()));
-    let uncertain = times().flatten().any(|time| time.ends(1).is_none() && time.log2_error().is_finite());
+fn events(record: &Record, head: &Head) -> Dataset {
+    let mut data = dataset(&record.events, head);
     data.columns.insert(0, Column::new("kind").headed("event").text());
-    if uncertain {
+    if record.uncertain {
         data.columns.insert(2, Column::table("±"));
     }
-    for ((row, kind), time) in data.rows.iter_mut().zip(&record.kinds).zip(times()) {
+    for (row, kind) in data.rows.iter_mut().zip(&record.kinds) {
         row.insert(0, kind.to_string().into());
-        if uncertain {
-            row.insert(2, time.map(|time| shown_bound_text(time, table_digits(head.digits))).into());
+        if record.uncertain {
+            row.insert(2, row[1].bound(table_digits(head.digits)));
         }
     }
     for Derived { by, events, .. } in &record.derivatives {
@@ -143,12 +146,14 @@ fn events<S: Scalar>(record: &Record<S>, head: &Head) -> Dataset {
     data
 }
 
-fn contacts<S: Scalar>(record: &Record<S>, head: &Head) -> Dataset {
-    let mut data = dataset(listed(&CONTACT, column, &head.units, defined(&record.contacts)), head);
+fn contacts(record: &Record, head: &Head) -> Dataset {
+    let mut data = dataset(&record.contacts, head);
     let undefined = ["momentum", "energy_squared"].map_each(|name| format!("restitution/undefined/{name}"));
     data.columns.extend(undefined.map(|key| Column::json(key).optional()));
-    for (row, contact) in data.rows.iter_mut().zip(&record.contacts) {
-        row.extend(undefined_ratios(contact).map(|reason| reason.map(ToString::to_string).into()));
+    for (row, undefined) in data.rows.iter_mut().zip(&record.undefined) {
+        for reason in undefined {
+            row.push(reason.map(|reason| reason.to_string()).into());
+        }
     }
     for Derived { by, contacts, .. } in &record.derivatives {
         add_columns(&mut data, &CONTACT, (*by, contacts), csv_name);
@@ -162,69 +167,93 @@ fn csv_name(quantity: Quantity) -> String {
 }
 
 /// Why `e_P` and `e_E²` of a contact are not defined, where they are not.
-fn undefined_ratios<S>(contact: &Row<S>) -> [Option<&Undefined>; 2] {
+fn undefined_ratios<S>(contact: &Row<S>) -> [Option<Undefined>; 2] {
     [MomentumRestitution, EnergyRestitution].map_each(|ratio| {
         let place = CONTACT.iter().position(|quantity| *quantity == ratio)?;
-        contact.get(place)?.as_ref().err()
+        contact.get(place)?.as_ref().err().copied()
     })
 }
 
-fn flights<S: Scalar>(record: &Record<S>, head: &Head) -> Dataset {
-    dataset(listed(&FLIGHT, column, &head.units, defined(&record.flights)), head)
-}
-
-fn pieces<S: Scalar>(pieces: &[StressPiece<S>], coefficients: bool, head: &Head) -> Dataset {
+fn pieces<S: Scalar>(pieces: &[StressPiece<S>], coefficients: bool, units: &Units) -> Listed {
     let mut rows = Vec::with_capacity(pieces.len());
     for StressPiece { from, to, left, right, .. } in pieces {
         rows.push(vec![Some(from), Some(to), Some(left), Some(right), Some(left), Some(right)]);
     }
-    let mut data = dataset(listed(&PIECE, column, &head.units, rows), head);
+    let (mut columns, mut rows) = listed(&PIECE, column, units, rows);
     if coefficients {
-        data.columns.push(Column::data("chebyshev").bounded().optional());
-        for (row, piece) in data.rows.iter_mut().zip(pieces) {
+        columns.push(Column::data("chebyshev").bounded().optional());
+        for (row, piece) in rows.iter_mut().zip(pieces) {
             row.push(Cell::numbers(&piece.chebyshev));
         }
     }
-    data
+    (columns, rows)
 }
 
-/// Gathers what is printed of `history`; the stress at the ground only if asked for, as it can cost more than all the
-/// rest.
-pub(crate) fn record<S: Scalar>(history: &dyn Motion<S>, stress: bool) -> Result<Record<S>, Error> {
-    Ok(Record {
-        kinds: mapped(history.events(), |event| event.kind),
-        events: rows(history, &EVENT)?,
-        contacts: rows(history, &CONTACT)?,
-        flights: rows(history, &FLIGHT)?,
-        derivatives: Vec::new(),
-        stress: if stress { history.stress_pieces() } else { Vec::new() },
-        outline: Vec::new(),
-        end: (history.end(), history.ending().clone()),
-        error: history.error_estimate().to_f64(),
-        lost: history.digits_lost(),
-    })
+/// The stress at the ground, as it is printed.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Form {
+    /// In straight pieces.
+    Straight,
+    /// With the coefficients of its Chebyshev series.
+    Series,
 }
 
-impl<S> Record<S> {
-    /// Every number that is printed, with or without those that are ratios of others.
-    pub(crate) fn numbers(&self, ratios: bool) -> Vec<&S> {
-        let mut numbers = vec![&self.end.0];
-        for (quantities, rows) in [(&EVENT[..], &self.events), (&CONTACT, &self.contacts), (&FLIGHT, &self.flights)] {
-            for row in rows {
-                for (value, quantity) in row.iter().zip(quantities) {
-                    numbers.extend(value.iter().filter(|_| ratios || quantity.measure().is_some()));
+/// Gathers what is printed of `history`, with its numbers, with or without those that are ratios of others. The stress
+/// at the ground only if asked for, as it can cost more than all the rest.
+pub(crate) fn record<S: Scalar>(
+    history: &dyn Motion<S>,
+    stress: Option<Form>,
+    ratios: bool,
+    units: &Units,
+) -> Result<(Record, Vec<S>), Error> {
+    let mut numbers = vec![history.end()];
+    let mut gather = |quantities: &[Quantity]| {
+        let rows = rows(history, quantities)?;
+        for row in &rows {
+            for (value, quantity) in row.iter().zip(quantities) {
+                if let Ok(value) = value
+                    && (ratios || quantity.measure().is_some())
+                {
+                    numbers.push(value.clone());
                 }
             }
         }
-        numbers.extend_from_slice(&StressPiece::numbers(&self.stress));
-        numbers
+        Ok::<_, Error>((listed(quantities, column, units, defined(&rows)), rows))
+    };
+    let (events, _) = gather(&EVENT)?;
+    let (contacts, ends) = gather(&CONTACT)?;
+    let (flights, _) = gather(&FLIGHT)?;
+    let known = |time: &S| time.ends(1).is_none() && time.log2_error().is_finite();
+    let curve = if stress.is_some() { history.stress_pieces() } else { Vec::new() };
+    for number in StressPiece::numbers(&curve) {
+        numbers.push(number.clone());
     }
+    let stress = match stress {
+        Some(Form::Straight) => pieces(&straight(&curve, STRAIGHT), false, units),
+        _ => pieces(&curve, true, units),
+    };
+    let record = Record {
+        kinds: mapped(history.events(), |event| event.kind),
+        events,
+        uncertain: history.events().iter().any(|event| known(&event.time)),
+        contacts,
+        undefined: mapped(&ends, undefined_ratios),
+        flights,
+        derivatives: Vec::new(),
+        stress,
+        curved: curve.iter().any(|piece| piece.chebyshev.len() > 2),
+        outline: Vec::new(),
+        end: (Rc::new(history.end()), history.ending().clone()),
+        error: history.error_estimate().to_f64(),
+        lost: history.digits_lost(),
+    };
+    Ok((record, numbers))
 }
 
 /// The whole history, schema 1.
-pub(crate) fn history_json<S: Scalar>(record: &Record<S>, head: &Head) -> Value {
+pub(crate) fn history_json(record: &Record, head: &Head) -> Value {
     let mut contacts = contacts(record, head).objects();
-    let mut flights = flights(record, head).objects();
+    let mut flights = dataset(&record.flights, head).objects();
     // An object of values that there are not is none.
     for (list, key, value) in [(&mut contacts, "energy", "total"), (&mut flights, "highest", "time")] {
         list.iter_mut().filter(|row| row[key][value].is_null()).for_each(|row| row[key] = Value::Null);
@@ -239,7 +268,7 @@ pub(crate) fn history_json<S: Scalar>(record: &Record<S>, head: &Head) -> Value 
         "events": events(record, head).objects(),
         "contacts": contacts,
         "flights": flights,
-        "stress": {"pieces": pieces(&record.stress, true, head).objects()},
+        "stress": {"pieces": dataset(&record.stress, head).objects()},
         "end": end_json(record, head),
         "error_estimate": record.error,
         "digits_lost": record.lost.map(|(_, digits)| digits),
@@ -247,11 +276,11 @@ pub(crate) fn history_json<S: Scalar>(record: &Record<S>, head: &Head) -> Value 
     })
 }
 
-fn end_json<S: Scalar>(Record { end: (time, ending), .. }: &Record<S>, head: &Head) -> Value {
+fn end_json(Record { end: (time, ending), .. }: &Record, head: &Head) -> Value {
     let mut value = json!({
-        "time": number_json(time, head.digits),
+        "time": time.json(head.digits),
         "reason": if let Ending::ExactnessEnds { .. } = ending { "exactness ends".into() } else { ending.to_string() },
-        "uncertainty": {"time": bound_json(time, head.digits)},
+        "uncertainty": {"time": time.json_bound(head.digits)},
     });
     if let Ending::ExactnessEnds { kind, time, near } = ending {
         value["event"] = json!(kind);
@@ -270,23 +299,22 @@ pub(super) fn units_json(units: &Units) -> Value {
     Value::Object(names.into_iter().collect())
 }
 
-/// One part of the history; the stress in straight pieces, or with the `coefficients` of its Chebyshev series.
-pub(crate) fn history_part<S: Scalar>(record: &Record<S>, part: Part, coefficients: bool, head: &Head) -> Dataset {
+/// One part of the history; the stress with the `coefficients` of its Chebyshev series, or in straight pieces.
+pub(crate) fn history_part(record: &Record, part: Part, coefficients: bool, head: &Head) -> Dataset {
     let mut data = match part {
         Part::Events => events(record, head),
         Part::Contacts => contacts(record, head),
-        Part::Stress if coefficients => pieces(&record.stress, true, head),
-        Part::Stress => pieces(&straight(&record.stress, STRAIGHT), false, head),
+        Part::Stress => dataset(&record.stress, head),
     };
     data.notes = head.notes();
     if !matches!(record.end.1, Ending::Time | Ending::NextImpact) {
         let digits = if head.digits == 0 { DOUBLE_DIGITS } else { head.digits };
-        data.notes.push(record.end.1.at(&show(&record.end.0, digits)));
+        data.notes.push(record.end.1.at(&record.end.0.printed(digits)));
     }
     if part == Part::Stress && coefficients {
         let series = "the sum of chebyshev[k] T_k(x), x = 2(t - from)/(to - from) - 1";
         data.notes.push(format!("v_x(0,t) is linear from strain_from to strain_to, or {series}"));
-    } else if part == Part::Stress && record.stress.iter().any(|piece| piece.chebyshev.len() > 2) {
+    } else if part == Part::Stress && record.curved {
         data.notes.push(format!(
             "straight lines from strain_from to strain_to are within {STRAIGHT:e} of the greatest v_x(0,t); the \
              coefficients give the exact form"
@@ -317,8 +345,8 @@ M = μ/(g t₁)   speed ratio: from 1 on an undamped rod bounces after t₁ exac
 ";
 
 /// The whole history but for the stress: head, events, contacts, flights, end.
-pub(crate) fn history_table<S: Scalar>(record: &Record<S>, head: &Head) -> String {
-    let show = |x: &S| show(x, table_digits(head.digits));
+pub(crate) fn history_table(record: &Record, head: &Head) -> String {
+    let digits = table_digits(head.digits);
     let mut out = String::new();
     if let Some(title) = &head.title {
         out += &head.line(title);
@@ -330,29 +358,29 @@ pub(crate) fn history_table<S: Scalar>(record: &Record<S>, head: &Head) -> Strin
     }
     out += "\n";
     if !record.outline.is_empty() {
-        let peaks = record.contacts.iter().filter_map(|contact| Some(contact.get(3)?.as_ref().ok()?.to_f64()));
-        out += &sparkline(&record.outline, record.end.0.to_f64(), peaks.fold(0.0, f64::min), head);
+        let peaks = record.contacts.1.iter().map(|contact| contact[PEAK].double());
+        out += &sparkline(&record.outline, record.end.0.double(), peaks.fold(0.0, f64::min), head);
     }
     out += &format!("{}\n\n{}\n\n", events(record, head).table(), contacts(record, head).table());
-    if !record.contacts.is_empty() {
+    if !record.undefined.is_empty() {
         let measures = [Measure::Impulse, Measure::Stress, Measure::Force, Measure::Energy];
         out += &named_units(&measures, &head.units);
     }
-    for contact in &record.contacts {
-        let from = contact.first().and_then(|from| from.as_ref().ok()).map_or_else(String::new, show);
-        let mut reasons = undefined_ratios(contact).to_vec();
+    for (contact, reasons) in record.contacts.1.iter().zip(&record.undefined) {
+        let from = contact[0].text(digits, "");
+        let mut reasons = reasons.to_vec();
         reasons.dedup();
         for reason in reasons.into_iter().flatten() {
             out += &head.line(&format!("contact from {from}: {reason}"));
         }
     }
-    let mut flights = flights(record, head);
+    let mut flights = dataset(&record.flights, head);
     flights.rows.retain(|row| !row[2].is_empty());
     if !flights.rows.is_empty() {
         out += &format!("\n{}\n", flights.table());
     }
     out += &derivative_tables(record, head);
-    out += &format!("\n{}", head.line(&record.end.1.at(&show(&record.end.0))));
+    out += &format!("\n{}", head.line(&record.end.1.at(&record.end.0.printed(digits))));
     if let Some((impacts, lost)) = record.lost
         && lost >= MANY_LOST
     {
@@ -362,12 +390,10 @@ pub(crate) fn history_table<S: Scalar>(record: &Record<S>, head: &Head) -> Strin
 }
 
 /// The derivatives of events and contacts, a table of each for each value.
-fn derivative_tables<S: Scalar>(record: &Record<S>, head: &Head) -> String {
-    let first = |row: &Row<S>| {
-        row.first().and_then(|time| time.as_ref().ok()).map(|time| show(time, table_digits(head.digits)))
-    };
-    let event = |(kind, row): (&EventKind, &Row<S>)| format!("{kind} at {}", first(row).unwrap_or_default());
-    let contact = |row: &Row<S>| format!("contact from {}", first(row).unwrap_or_default());
+fn derivative_tables(record: &Record, head: &Head) -> String {
+    let first = |row: &Vec<Cell>| row[0].text(table_digits(head.digits), "");
+    let event = |(kind, row): (&EventKind, &Vec<Cell>)| format!("{kind} at {}", first(row));
+    let contact = |row: &Vec<Cell>| format!("contact from {}", first(row));
     let symbols = |quantities: &[Quantity]| -> Vec<(usize, &'static str)> {
         let shown = |(k, quantity): (usize, &Quantity)| {
             let listed = column(*quantity).head.is_some() && quantity.is_listed(head.units.has_material());
@@ -377,10 +403,10 @@ fn derivative_tables<S: Scalar>(record: &Record<S>, head: &Head) -> String {
     };
     let mut out = String::new();
     for Derived { by, events, contacts } in &record.derivatives {
-        let keys = record.kinds.iter().zip(&record.events).map(event).collect_vec();
+        let keys = record.kinds.iter().zip(&record.events.1).map(event).collect_vec();
         out += &derivatives::table(("derivatives", keys), &symbols(&EVENT), (*by, events), head);
         // When a contact begins and ends is in the table above.
-        let keys = mapped(&record.contacts, contact);
+        let keys = mapped(&record.contacts.1, contact);
         let symbols: Vec<_> = symbols(&CONTACT).into_iter().skip(2).collect_vec();
         out += &derivatives::table(("derivatives", keys), &symbols, (*by, contacts), head);
     }
