@@ -65,4 +65,5 @@ map_each! {
     3: a b c;
     4: a b c d;
     5: a b c d e;
+    7: a b c d e f g;
 }

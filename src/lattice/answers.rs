@@ -4,6 +4,7 @@ use super::history::{Centre, Moment, Undamped};
 use super::start::Units;
 use super::trace::{Line, Part, Piece};
 use crate::error::Error;
+use crate::mapped::MapEach;
 use crate::motion::{Course, Field, Motion, Pair, Ray, Scales, Side, StressPiece, Stretch, Waves};
 use crate::number::Bounded;
 
@@ -62,7 +63,7 @@ impl<N: Bounded> Motion<N> for Undamped<N> {
         let (trip, unit) = (self.last_trip(&moment)?, velocity.square() * length);
         if pair == Pair::EnergyParts {
             // On the rod `v_t = (p + q)/2` and `c v_x = (q − p)/2`, whose breaks are those of both.
-            return Ok(self.squares(&trip)?.map(|part| part * &unit));
+            return Ok(self.squares(&trip)?.map_each(|part| part * &unit));
         }
         let Centre { height, rate } = self.centre_at(&trip)?;
         if pair == Pair::Centre {

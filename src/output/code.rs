@@ -1,7 +1,7 @@
 //! The exact solution of an undamped rod as a function for other programs: Python, MATLAB, C.
 
 use super::reference::Preamble;
-use crate::mapped::{CollectVec, mapped};
+use crate::mapped::{CollectVec, MapEach, mapped};
 use crate::motion::{WavePiece, Waves};
 use crate::number::{Scalar, bound_of_log2};
 use crate::problem::Top;
@@ -47,7 +47,7 @@ pub(crate) fn code<S: Scalar>(waves: &Waves<S>, end: &S, language: Language, pre
         ("B", &waves.linear),
         ("D", &waves.quadratic),
     ]
-    .map(|(name, value)| (name, number(value)));
+    .map_each(|(name, value)| (name, number(value)));
     let mut rows: Vec<[String; 4]> = Vec::with_capacity(waves.pieces.len());
     for WavePiece { from, sum, rate, slope } in &waves.pieces {
         rows.push([number(from), number(sum), number(rate), number(slope)]);

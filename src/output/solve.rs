@@ -149,7 +149,7 @@ fn events(record: &Record, head: &Head) -> Dataset {
 fn contacts(record: &Record, head: &Head) -> Dataset {
     let mut data = dataset(&record.contacts, head);
     let undefined = ["momentum", "energy_squared"].map_each(|name| format!("restitution/undefined/{name}"));
-    data.columns.extend(undefined.map(|key| Column::json(key).optional()));
+    data.columns.extend(undefined.map_each(|key| Column::json(key).optional()));
     for (row, undefined) in data.rows.iter_mut().zip(&record.undefined) {
         for reason in undefined {
             row.push(reason.map(|reason| reason.to_string()).into());

@@ -3,7 +3,7 @@
 use super::column::same;
 use super::table::Quantity;
 use crate::error::Error;
-use crate::mapped::{mapped, try_mapped};
+use crate::mapped::{MapEach, mapped, try_mapped};
 use crate::motion::moments::Moments;
 use crate::motion::{Motion, Side};
 use crate::number::Scalar;
@@ -110,7 +110,7 @@ fn averages<S: Scalar>(moments: &[Moments<S>], points: &[S]) -> (Vec<S>, Vec<[S;
     let cells = points.windows(2).zip(moments).map(|(pair, moments)| {
         let width = pair[1].clone() - &pair[0];
         let middle = (pair[1].clone() + &pair[0]) / width.int(2);
-        (middle, moments.each_ref().map(|[area, _]| area.clone() / &width))
+        (middle, moments.each_ref().map_each(|[area, _]| area.clone() / &width))
     });
     cells.unzip()
 }

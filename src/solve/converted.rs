@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use super::asked::{Windows, not_told};
 use crate::error::Error;
-use crate::mapped::{mapped, try_mapped};
+use crate::mapped::{MapEach, mapped, try_mapped};
 use crate::motion::moments::{self, Moments};
 use crate::motion::{Course, Field, Motion, Pair, Ray, RayRegister, Scales, Side, StressPiece, Stretch, Waves};
 use crate::number::{Reads, Scalar, Spelling};
@@ -133,7 +133,7 @@ impl<N: Scalar, M: Reads<N>> Motion<M> for Converted<N, M> {
 
     fn pair(&self, pair: Pair, time: &M, side: Side) -> Result<[M; 2], Error> {
         let time = if pair == Pair::GroundEnd { self.time_at_ground(time)? } else { self.time(time)? };
-        Ok(self.engine.pair(pair, &time, side)?.map(M::read))
+        Ok(self.engine.pair(pair, &time, side)?.map_each(M::read))
     }
 
     fn field(&self, point: &M, time: &M, side: Side) -> Result<Field<M>, Error> {
@@ -146,7 +146,7 @@ impl<N: Scalar, M: Reads<N>> Motion<M> for Converted<N, M> {
     fn rates(&self, points: &[M], times: &[M]) -> Result<Vec<[M; 2]>, Error> {
         let points = try_mapped(points, |point| self.point(point))?;
         let times = try_mapped(times, |time| self.time(time))?;
-        Ok(mapped(self.engine.rates(&points, &times)?, |pair| pair.map(M::read)))
+        Ok(mapped(self.engine.rates(&points, &times)?, |pair| pair.map_each(M::read)))
     }
 
     fn highest(&self, release: usize) -> Option<(M, M)> {
@@ -178,7 +178,7 @@ impl<N: Scalar, M: Reads<N>> Motion<M> for Converted<N, M> {
         }
         let points = try_mapped(points, |point| self.point(point))?;
         let moments = self.engine.moments(&self.time(time)?, &points)?;
-        Ok(mapped(moments, |cell| cell.map(|pair| pair.map(M::read))))
+        Ok(mapped(moments, |cell| cell.map_each(|pair| pair.map_each(M::read))))
     }
 
     fn waves(&self) -> Result<Waves<M>, Error> {
