@@ -4,6 +4,7 @@ use super::budget::{AtEvent, LEAP_CELLS, Landing, MOST_LATE, Off, TakeOff, weigh
 use super::follow::{Follower, Goal};
 use super::near::{open_release, open_touch};
 use super::piece::{Mark, Unresolved};
+use super::proof::Proof;
 use super::series::{at_zero, bound, derivative, evaluate};
 use super::uncertainty::Uncertainty;
 use crate::motion::EventKind;
@@ -92,6 +93,11 @@ impl<S: RoundedSpecial> Follower<'_, S> {
             self.warnings.push(Warning::EventsOverlap { from });
         }
         self.height = zero;
+        if !self.contact {
+            self.prove(Proof::impact);
+        } else if let (Some(last), None) = (self.last_trace.clone(), slope) {
+            self.prove(|proof, run| proof.let_go_at_ray(run, &last, &run.state.segments[0].at));
+        }
         let rounding = self.rounding();
         self.budget.note_event(off, apart);
         let since = self.budget.since(apart);
@@ -162,6 +168,8 @@ impl<S: RoundedSpecial> Follower<'_, S> {
         }
         self.weigh();
         let flight = self.medium.take_off(&mut self.state, &self.height);
+        let begins = (flight.rate.to_f64(), flight.height.to_f64());
+        self.prove(|proof, run| proof.take_off(run.medium, &run.state, begins));
         let (round, first) = (self.state.round, self.state.segments[0].at.clone());
         let since = |(landing, at): &(i64, S)| ((round - landing) as f64) + (first.clone() - at).to_f64();
         let whole = self.landing.as_ref().is_some_and(|(landing, at)| *landing + 1 == round && *at == first);
@@ -216,6 +224,8 @@ impl<S: RoundedSpecial> Follower<'_, S> {
             phase: (phase, weight_rest(0.5 * damping) * sup),
         };
         self.budget.land(landing);
+        let size = rate.to_f64().abs() + self.medium.gravity.to_f64() + self.medium.slope.to_f64().abs();
+        self.prove(|proof, run| proof.shift(&run.state, size));
         self.medium.touch_down(&mut self.state, &flight);
         self.flight = None;
     }

@@ -12,9 +12,10 @@ use super::effort::{Effort, LEAST_LEAP, MOST_PIECES, MOST_SEGMENTS};
 use super::flight::Flight;
 use super::march::{Medium, State};
 use super::piece::{Checkpoint, Found, Mark, Piece, Unresolved};
+use super::proof::Proof;
 use super::root::first_descent;
 use super::series::{at_one, at_zero, bound, derivative, evaluate};
-use super::start::Data;
+use super::start::{Data, on_grid};
 use super::uncertainty::Uncertainty;
 use crate::error::Error;
 use crate::motion::{Ending, EventKind};
@@ -87,12 +88,21 @@ pub(super) struct Follower<'a, S> {
     pub(super) last_trace: Option<S>,
     /// How far values may be off before the first event.
     pub(super) before: Uncertainty,
+    /// The account of a run that is to be proved.
+    pub(super) proof: Option<Proof<S>>,
 }
 
 impl<'a, S: RoundedSpecial> Follower<'a, S> {
     /// At `t = 0`.
-    pub(super) fn new(medium: &'a Medium<S>, data: &'a Data<S>) -> Self {
-        let mut follower = Self::with(medium, data, data.march(medium, &mut |_| {}));
+    pub(super) fn new(medium: &'a Medium<S>, data: &'a Data<S>, proves: bool) -> Self {
+        let mut proof = proves.then(|| Proof::new(medium));
+        let state = data.march(medium, &mut |cell| {
+            if let Some(proof) = &mut proof {
+                proof.cell(medium, cell);
+            }
+        });
+        let mut follower = Follower { proof, ..Self::with(medium, data, state) };
+        follower.prove(Proof::start);
         follower.budget.add(FIRST_CELLS * follower.cell_error);
         follower.height = data.ground.clone();
         follower.rising = !data.ground.is_positive();
@@ -100,6 +110,7 @@ impl<'a, S: RoundedSpecial> Follower<'a, S> {
             follower.contact = true;
             follower.landed = 1;
             follower.landing = Some((0, data.slope.zero()));
+            follower.prove(|proof, _| proof.contact());
             let (velocity, after) = (data.end_velocity(), Uncertainty::default());
             follower.marks.push(Mark {
                 kind: EventKind::Impact,
@@ -173,6 +184,7 @@ impl<'a, S: RoundedSpecial> Follower<'a, S> {
             budget: Budget::new(2.0 * medium.kappa.to_f64()),
             last_trace: None,
             before: Uncertainty::default(),
+            proof: None,
         };
         follower.weigh();
         follower.add_chain();
@@ -295,6 +307,9 @@ impl<'a, S: RoundedSpecial> Follower<'a, S> {
         // Whether something happened at this very time already.
         let mut fresh = true;
         loop {
+            if self.open() {
+                return Ok(Ending::Time);
+            }
             let (pieces, segments) = (self.pieces.len(), self.state.segments.len());
             if pieces >= MOST_PIECES || segments > MOST_SEGMENTS || self.crossed > effort.cells {
                 return Ok(Ending::Undecided(Reason::Effort { cells: self.crossed, rays: segments }));
@@ -371,7 +386,7 @@ impl<'a, S: RoundedSpecial> Follower<'a, S> {
             };
             // Where a root is not told from the noise, both the function and what is known of it are off by so much.
             let vague = if found.as_ref().is_some_and(|(_, vague)| *vague) { 2.0 * noise } else { 0.0 };
-            let found = found.map(|(x, _)| x * &len);
+            let found = found.map(|(x, _)| if self.proof.is_some() { on_grid(x * &len) } else { x * &len });
             let nearby = |x: &S| x.to_f64() <= 32.0 * unit;
             let at_start = found.as_ref().is_some_and(&nearby);
             if at_start && !fresh {
@@ -398,7 +413,7 @@ impl<'a, S: RoundedSpecial> Follower<'a, S> {
                 }
                 let ends = left < len && found.as_ref().is_none_or(|x| *x > left);
                 if ends {
-                    self.advance(Some(&left), Off::default(), &trace, &height);
+                    self.advance(Some((&left, false)), Off::default(), &trace, &height);
                     return Ok(Ending::Time);
                 }
             }
@@ -406,7 +421,7 @@ impl<'a, S: RoundedSpecial> Follower<'a, S> {
                 Some(x) => {
                     let off = self.event_error(&trace, &height, &(x.clone() / &len), &len, vague);
                     let slope = evaluate(&derivative(&trace), &(x.clone() / &len)).to_f64() / len.to_f64();
-                    self.advance(Some(&x), off, &trace, &height);
+                    self.advance(Some((&x, true)), off, &trace, &height);
                     if self.contact {
                         self.event(off, Some(slope));
                     } else {
@@ -439,8 +454,8 @@ impl<'a, S: RoundedSpecial> Follower<'a, S> {
             Some(mark) => mark.after = last,
             None => self.before = last,
         }
-        let Follower { pieces, checkpoints, flights, marks, warnings, unresolved, before, end_error, .. } = self;
-        Found { pieces, checkpoints, flights, marks, warnings, unresolved, before, ending, end_error }
+        let Follower { pieces, checkpoints, flights, marks, warnings, unresolved, before, end_error, proof, .. } = self;
+        Found { pieces, checkpoints, flights, marks, warnings, unresolved, before, ending, end_error, proof }
     }
 
     /// A round trip begins: the state is kept, and what is summed up in it is computed anew.
@@ -448,6 +463,7 @@ impl<'a, S: RoundedSpecial> Follower<'a, S> {
         self.weigh();
         if self.flight.is_some() {
             self.ground = self.medium.ground_of(&self.state);
+            self.prove(|proof, run| proof.round(&run.state));
         }
         let (index, flight) = (self.pieces.len(), self.flight);
         self.checkpoints.push(Checkpoint { index, flight, state: self.state.clone(), ground: self.ground.clone() });
@@ -505,7 +521,10 @@ impl<'a, S: RoundedSpecial> Follower<'a, S> {
     fn leap(&mut self, trips: i64) {
         let from = self.state.time();
         let passing = self.medium.passing(&self.state);
-        self.medium.leap(&mut self.state, &self.ground, trips);
+        let before = (self.state.segments.len(), self.state.bound() + self.ground.to_f64().abs());
+        let least = self.least_over(trips as f64);
+        let count = self.medium.leap(&mut self.state, &self.ground, trips);
+        self.prove(|proof, run| proof.leap(run, trips as f64, least, &count, before));
         self.budget.leap(trips as f64, LEAP_CELLS * self.cell_error, passing);
         self.rising = false;
         self.pieces.push(Piece {
@@ -533,11 +552,28 @@ impl<'a, S: RoundedSpecial> Follower<'a, S> {
         let least = self.medium.least() * self.medium.gravity.to_f64();
         if most > 0.0 && most <= least {
             self.budget.add(most);
+            self.prove(|proof, _| proof.drop(most));
             self.medium.still(&mut self.state);
         } else {
             let joined = self.medium.join_all(&mut self.state);
             self.budget.add(joined as f64 * self.cell_error);
+            self.prove(|proof, run| proof.joins(run.medium, joined));
         }
+    }
+
+    /// No more than the least of `v(0,·)` over so many round trips: that of `h − B e^{−Rτ}`, concave or falling, as in
+    /// [`Self::leap_length`]; less a billionth of what it is the difference of.
+    fn least_over(&self, trips: f64) -> f64 {
+        let Some(flight) = self.flying() else { return f64::NEG_INFINITY };
+        let (damping, gravity) = (self.damping(), self.medium.gravity.to_f64());
+        let age = flight.age((self.state.round, &self.state.segments[0].at));
+        let (now, rate) = flight.at(&age);
+        let rho = damping / (2.0 * std::f64::consts::PI);
+        let bound = (0.5 * damping).exp() * self.state.bound() * ((1.0 + rho) / (1.0 - rho) / 12.0).sqrt();
+        let later = flight.at(&(age.clone() + age.double(trips))).0.to_f64();
+        let concave = rate.to_f64() >= -gravity / (2.0 * damping) * (1.0 - 1e-9);
+        let (start, fade) = if concave { (now.to_f64(), (-damping * trips).exp()) } else { (f64::INFINITY, 1.0) };
+        (start - bound).min(later - bound * fade) - 1e-9 * (now.to_f64().abs() + later.abs() + bound)
     }
 
     /// A ray that may be off in time passes the ground: in flight the height takes its jump at the wrong time.
@@ -569,8 +605,10 @@ impl<'a, S: RoundedSpecial> Follower<'a, S> {
         (trace, height)
     }
 
-    /// Marches over the first segment, or the part of it before `cut`.
-    fn advance(&mut self, cut: Option<&S>, off: Off, trace: &[S], height: &[S]) {
+    /// Marches over the first segment, or the part of it before `cut`, and whether it ends with an event there.
+    fn advance(&mut self, cut: Option<(&S, bool)>, off: Off, trace: &[S], height: &[S]) {
+        self.prove(|proof, run| proof.strip(run, cut, trace, height));
+        let cut = cut.map(|(cut, _)| cut);
         let from = self.state.time();
         let whole = self.state.segments[0].len.clone();
         let (mut trace, mut height) = (trace.to_vec(), height.to_vec());
@@ -589,7 +627,14 @@ impl<'a, S: RoundedSpecial> Follower<'a, S> {
         self.last_trace = Some(at_one(&trace, &zero));
         let segments = self.state.segments.len();
         self.crossed += segments as u64 + 2;
-        self.medium.strip(&mut self.state, self.contact, &mut |_| {});
+        let (mut proof, medium) = (self.proof.take(), self.medium);
+        medium.strip(&mut self.state, self.contact, &mut |cell| {
+            if let Some(proof) = &mut proof {
+                proof.cell(medium, cell);
+            }
+        });
+        self.proof = proof;
+        self.prove(|proof, run| proof.joins(run.medium, 1));
         let joined = (segments - self.state.segments.len()) as f64;
         self.budget.add((joined + if cut.is_some() { CUT_CELLS } else { 0.0 }) * self.cell_error);
         if let Some((centre, _)) = self.centre() {

@@ -63,6 +63,8 @@ pub struct Damped<S> {
     /// At each event, where that is known better.
     pub(super) at_events: Vec<Option<AtEvent>>,
     unresolved: Option<Unresolved<S>>,
+    /// Whether its bounds are proved.
+    pub(super) proved: bool,
     /// Cells that earlier questions have marched.
     pool: Pool<S>,
 }
@@ -91,9 +93,32 @@ impl<S: RoundedSpecial> Damped<S> {
         shorten: i64,
         observe: &dyn Fn(usize, usize) -> ControlFlow<()>,
     ) -> Result<Self, Error> {
+        Self::marched(problem, precision, effort, (shorten, false), observe)
+    }
+
+    /// The same from the start, with a proof of its bounds, as far as that goes.
+    ///
+    /// **Errors**: [`Error::NotDecided`] where not even the first event is shown.
+    #[cfg(feature = "mp")]
+    pub(crate) fn prove(
+        problem: &Problem,
+        precision: &S::Precision,
+        effort: Effort,
+        observe: &dyn Fn(usize, usize) -> ControlFlow<()>,
+    ) -> Result<Self, Error> {
+        Self::marched(problem, precision, effort, (1, true), observe)
+    }
+
+    fn marched(
+        problem: &Problem,
+        precision: &S::Precision,
+        effort: Effort,
+        (shorten, proves): (i64, bool),
+        observe: &dyn Fn(usize, usize) -> ControlFlow<()>,
+    ) -> Result<Self, Error> {
         let (medium, data) = medium(problem, precision, effort.digits, shorten)?;
         let goal = Goal::of(problem, precision, &data);
-        let mut follower = Follower::new(&medium, &data);
+        let mut follower = Follower::new(&medium, &data, proves);
         let ending = follower.run(&goal, effort, observe)?;
         let found = follower.found(ending);
         Self::record_of(medium, data, None, found, problem, precision)
@@ -147,7 +172,10 @@ impl<S: RoundedSpecial> Damped<S> {
         problem: &Problem,
         precision: &S::Precision,
     ) -> Result<Self, Error> {
-        let Found { pieces, checkpoints, flights, marks, mut warnings, unresolved, before, ending, end_error } = found;
+        let proved = found.proof.is_some();
+        let found = found.as_far_as_proved(&medium, &data)?;
+        let Found { pieces, checkpoints, flights, marks, mut warnings, unresolved, before, ending, end_error, .. } =
+            found;
         let unresolved = unresolved.map(|found| {
             let unit = &data.units.time;
             Unresolved { from: found.from * unit, longest: found.longest * unit.to_f64(), ..found }
@@ -175,6 +203,7 @@ impl<S: RoundedSpecial> Damped<S> {
             at_events: marks.iter().map(|mark| mark.at).collect(),
             uncertain: std::iter::once(before).chain(marks.iter().map(|mark| mark.after)).collect(),
             unresolved,
+            proved,
             pool: Pool::default(),
         };
         let event = |mark: Mark<S>| {

@@ -31,6 +31,7 @@
 //! `|s² − s + ⅙|/2`. The series of `G`, `H` and `e^{nG}` are alternating or have known coefficients, and are cut where
 //! what follows is below the accuracy.
 
+use std::cell::Cell;
 use std::collections::VecDeque;
 
 use super::cell::scale;
@@ -60,6 +61,21 @@ struct Circle<'a, S> {
     /// Coefficients of `D^{1−2m}` in `G`, and of `D^{−2m}` in `H`, `m ≥ 1`.
     lag: Vec<S>,
     turn: Vec<S>,
+    /// See [`LeapCount::dropped`].
+    dropped: Cell<f64>,
+}
+
+/// What a leap has summed up.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct LeapCount {
+    /// A bound of the functions that integration and products with s have dropped, all together.
+    pub(super) dropped: f64,
+    /// Terms of `G` and `H`.
+    pub(super) order: usize,
+    /// Powers of `G/2` on the characteristic.
+    pub(super) layers: usize,
+    /// Powers of `D⁻¹` in `e^{nG}`.
+    pub(super) powers: usize,
 }
 
 /// `target += factor · f`.
@@ -78,10 +94,16 @@ impl<S: RoundedSpecial> Circle<'_, S> {
         self.parts.iter().zip(f).fold(zero, |sum, ((_, len), c)| integral(c) * len + &sum)
     }
 
+    /// The last coefficient of what is integrated, or multiplied with s: a bound of what that drops.
+    fn drops(&self, c: &[S]) {
+        self.dropped.set(self.dropped.get() + c.last().map_or(0.0, |last| last.to_f64().abs()));
+    }
+
     /// `D⁻¹`, in place.
     fn antiderivative(&self, f: &mut [Vec<S>]) {
         let mut here = self.parts[0].0.zero();
         for ((_, len), c) in self.parts.iter().zip(f.iter_mut()) {
+            self.drops(c);
             self.basis.integrate(c);
             scale(c, len);
             c[0] = c[0].clone() + &here;
@@ -102,6 +124,7 @@ impl<S: RoundedSpecial> Circle<'_, S> {
     fn times_s(&self, f: &mut [Vec<S>], factor: &S) {
         for ((start, len), c) in self.parts.iter().zip(f) {
             let mut by_x = c.clone();
+            self.drops(c);
             times_x(&mut by_x);
             for (c, by_x) in c.iter_mut().zip(by_x) {
                 *c = (by_x * len + c.clone() * start) * factor;
@@ -177,14 +200,14 @@ fn binomials<S: RoundedSpecial>(damping: &S, power: i64, log2_accuracy: f64) -> 
 }
 
 impl<S: RoundedSpecial> Medium<S> {
-    /// The state of a flight `trips` round trips later.
+    /// The state of a flight `trips` round trips later, and what that has summed up.
     ///
     /// **Accuracy**: the truncation of a cell and a few dozen roundings, relative to the greatest `|q|`.
-    pub(super) fn leap(&self, state: &mut State<S>, ground: &S, trips: i64) {
+    pub(super) fn leap(&self, state: &mut State<S>, ground: &S, trips: i64) -> LeapCount {
         if state.bound() == 0.0 {
             // Only the centre of mass moves; over any number of round trips the series below would overflow.
             state.round += trips;
-            return;
+            return LeapCount::default();
         }
         let damping = self.kappa.clone() + &self.kappa;
         let (zero, half) = (damping.zero(), damping.ratio(1, 2));
@@ -199,6 +222,7 @@ impl<S: RoundedSpecial> Medium<S> {
             parts,
             lag: binomials(&damping, 1, self.log2_accuracy),
             turn: binomials(&damping, -1, self.log2_accuracy).into_iter().map(|c: S| -c).collect(),
+            dropped: Cell::new(0.0),
         };
         let (value, rate) = self.scaled(state, &circle, ground);
         let layers = self.layers(&damping);
@@ -221,8 +245,8 @@ impl<S: RoundedSpecial> Medium<S> {
             }
             wave = Some(rate);
         }
-        let Some(mut wave) = wave else { return };
-        self.pass(&circle, &mut wave, &damping, trips);
+        let Some(mut wave) = wave else { return LeapCount::default() };
+        let powers = self.pass(&circle, &mut wave, &damping, trips);
         // (out).
         let mut at_ground = wave.clone();
         add(&mut at_ground, &circle.turned(&wave), &-zero.one());
@@ -254,6 +278,7 @@ impl<S: RoundedSpecial> Medium<S> {
             self.unscaled(&mut state.segments, &circle, &rate, &ground);
         }
         state.round += trips;
+        LeapCount { dropped: circle.dropped.get(), order: circle.lag.len(), layers, powers }
     }
 
     /// How many powers of `G/2` count on the characteristic.
@@ -280,11 +305,13 @@ impl<S: RoundedSpecial> Medium<S> {
             // Z = Z(0) + J(κZ + push): each round adds a power of κ·len ≤ ½.
             let depth = self.kappa.clone() * len;
             let mut first = push.clone();
+            circle.drops(&first);
             self.basis.integrate(&mut first);
             scale(&mut first, len);
             first[0] = first[0].clone() + &here;
             let mut sum = first.clone();
             for _ in 0..self.rounds(&depth) {
+                circle.drops(&sum);
                 self.basis.integrate(&mut sum);
                 scale(&mut sum, &depth);
                 for (s, f) in sum.iter_mut().zip(&first) {
@@ -316,6 +343,7 @@ impl<S: RoundedSpecial> Medium<S> {
         let (mut here, mut shrunk) = (ground.clone(), ground.int(2));
         for ((segment, rate), (_, len)) in segments.iter_mut().zip(rate).zip(&circle.parts) {
             let mut value = rate.clone();
+            circle.drops(&value);
             self.basis.integrate(&mut value);
             scale(&mut value, len);
             value[0] = value[0].clone() + &here;
@@ -327,10 +355,10 @@ impl<S: RoundedSpecial> Medium<S> {
         }
     }
 
-    /// `e^{−Rn} e^{nG}`.
+    /// `e^{−Rn} e^{nG}`, and how many powers of `D⁻¹` that has taken.
     ///
     /// The coefficients `e_k` of the powers of `D⁻¹` follow from `E′ = nG′E`: `k e_k = n Σ i g_i e_{k−i}` over odd i.
-    fn pass(&self, circle: &Circle<'_, S>, wave: &mut Function<S>, damping: &S, trips: i64) {
+    fn pass(&self, circle: &Circle<'_, S>, wave: &mut Function<S>, damping: &S, trips: i64) -> usize {
         let n = damping.int(trips);
         let mut coefficients = vec![damping.one()];
         let mut power = wave.clone();
@@ -359,5 +387,6 @@ impl<S: RoundedSpecial> Medium<S> {
         for c in wave {
             scale(c, &decay);
         }
+        coefficients.len() - 1
     }
 }

@@ -113,7 +113,7 @@ impl<S: Rounded> Medium<S> {
     }
 
     /// Terms for a function that grows like `e^{multiple·κ|s|}` on a segment.
-    fn terms(&self, len: &S, multiple: f64) -> usize {
+    pub(super) fn terms(&self, len: &S, multiple: f64) -> usize {
         let (kappa, len) = (self.kappa.to_f64(), len.to_f64());
         let b = SIDE_BOUND * (1.0 + 2.0 * kappa) * len;
         terms_for(SIDE_BOUND, b, multiple * kappa * len, self.log2_accuracy).min(self.basis.size())
@@ -277,7 +277,7 @@ impl<S: Rounded> Medium<S> {
     pub(super) fn still(&self, state: &mut State<S>) {
         let first = state.segments[0].clone();
         let depth = self.kappa.clone();
-        let q = vec![depth.zero(); first.q.len().max(1)];
+        let q = vec![depth.zero(); self.terms(&depth.one(), 1.0)];
         let whole = Segment { len: depth.one(), decay: (-depth).exp(), q, ..first };
         state.segments = VecDeque::from([whole]);
     }
@@ -341,16 +341,17 @@ impl<S: Rounded> Medium<S> {
         };
         let values: Vec<S> = self.basis.nodes().iter().map(value).collect();
         let q = self.basis.through(&values, self.terms(&len, 1.0));
-        let low = self.basis.restrict(&q, &zero, &cut, a.q.len());
-        let high = self.basis.restrict(&q, &cut, &len.one(), b.q.len());
+        let low = self.basis.restrict(&q, &zero, &cut, self.basis.size());
+        let high = self.basis.restrict(&q, &cut, &len.one(), self.basis.size());
         let differs = |old: &[S], new: &[S], factor: &S| -> f64 {
-            let difference = old.iter().zip(new).map(|(x, y)| y.clone() * factor - x).collect::<Vec<_>>();
+            let old = old.iter().chain(std::iter::repeat(&zero));
+            let difference = old.zip(new).map(|(x, y)| y.clone() * factor - x).collect::<Vec<_>>();
             bound(&difference, 0)
         };
         if differs(&a.q, &low, &len.one()) + differs(&b.q, &high, &a.decay) > accuracy {
             return;
         }
-        let decay = a.decay.clone() * &b.decay;
+        let decay = (-(self.kappa.clone() * &len)).exp();
         let joined = Segment { at: a.at.clone(), len, decay, q, off: a.off };
         state.segments[k] = joined;
         state.segments.remove(k + 1);

@@ -14,6 +14,7 @@ mod bounds;
 mod budget;
 mod cell;
 mod contact_then_cells;
+mod defect;
 mod dependence;
 #[cfg(test)]
 mod displaced;
@@ -26,6 +27,7 @@ mod leap;
 mod march;
 mod near;
 mod piece;
+mod proof;
 mod record;
 mod rest;
 mod root;

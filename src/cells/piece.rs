@@ -3,6 +3,7 @@
 use super::budget::AtEvent;
 use super::flight::Flight;
 use super::march::State;
+use super::proof::Proof;
 use super::uncertainty::Uncertainty;
 use crate::motion::{Ending, EventKind};
 use crate::reason::Warning;
@@ -100,4 +101,5 @@ pub(super) struct Found<S> {
     pub(super) ending: Ending,
     /// How far its time may be off where it is an event.
     pub(super) end_error: f64,
+    pub(super) proof: Option<Proof<S>>,
 }

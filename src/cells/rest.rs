@@ -127,6 +127,10 @@ impl<S: RoundedSpecial> Follower<'_, S> {
     /// `since` is when that was first so. A round trip later the bound holds on whole lines of constant time, not only
     /// on a characteristic, and the field may be answered from the state at rest.
     pub(super) fn settle(&mut self, goal: &Goal<S>, since: &mut Option<S>) -> Option<Ending> {
+        // The state at rest is no proof of a time.
+        if self.proof.is_some() && matches!(goal, Goal::Time(_)) {
+            return None;
+        }
         let now = self.state.time();
         let time = match goal {
             Goal::Time(end) => (end.clone() - &now).to_f64(),

@@ -202,15 +202,25 @@ pub(super) fn unit_rule<S: Rounded>(like: &S, n: usize) -> Vec<(S, S)> {
 /// `|c_k| ≤ 2F ρ^{−k}` with `F = (a + bσ)e^{θσ}`, and what is left out after `n` terms is at most
 /// `2F ρ^{−n}/(1 − 1/ρ)`. The smallest `n` over a grid of `ρ` is taken: every `ρ` gives a valid bound.
 pub(super) fn terms_for(a: f64, b: f64, theta: f64, log2_accuracy: f64) -> usize {
-    let mut best = f64::INFINITY;
-    for j in 1..=80 {
+    let terms = on_ellipses(a, b, theta).map(|(log2_rho, log2_left)| (log2_left - log2_accuracy) / log2_rho);
+    terms.fold(f64::INFINITY, f64::min).ceil().clamp(3.0, 4096.0) as usize
+}
+
+/// What so many Chebyshev terms leave out of such a function.
+pub(super) fn left_by(terms: usize, a: f64, b: f64, theta: f64) -> f64 {
+    let left = on_ellipses(a, b, theta).map(|(log2_rho, log2_left)| log2_left - terms as f64 * log2_rho);
+    left.fold(f64::INFINITY, f64::min).exp2()
+}
+
+/// `log₂ρ` and `log₂` of `2F/(1 − 1/ρ)`.
+fn on_ellipses(a: f64, b: f64, theta: f64) -> impl Iterator<Item = (f64, f64)> {
+    (1..=80).map(move |j| {
         let log2_rho = f64::from(j) * 0.25;
         let rho = log2_rho.exp2();
         let sigma = 0.5 + (rho + 1.0 / rho) / 4.0;
         let log2_f = (a + b * sigma).log2() + theta * sigma * std::f64::consts::LOG2_E;
-        best = best.min((1.0 + log2_f - (1.0 - 1.0 / rho).log2() - log2_accuracy) / log2_rho);
-    }
-    best.ceil().clamp(3.0, 4096.0) as usize
+        (log2_rho, 1.0 + log2_f - (1.0 - 1.0 / rho).log2())
+    })
 }
 
 #[cfg(test)]

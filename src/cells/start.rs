@@ -89,6 +89,12 @@ impl<S: Rounded> Linear<S> {
     }
 }
 
+/// The nearest multiple of two roundings of 1, for a place in `0 … 1`: sums and differences of such are exact.
+pub(super) fn on_grid<S: Rounded>(place: S) -> S {
+    let one = place.one();
+    place + &one - &one
+}
+
 /// `φ₁(z) = (eᶻ − 1)/z = Σ zᵏ/(k+1)!` for `|z| ≤ 2`, without a division by `z`.
 fn phi_one<S: Rounded>(z: &S) -> S {
     let (mut sum, mut term) = (z.one(), z.one());
@@ -145,6 +151,10 @@ pub(super) struct Data<S> {
     pub(super) ground: S,
     /// The data, whole rod only.
     half: Vec<Linear<S>>,
+    /// The greatest that goes into the dimensionless data, before differences of displacements are taken.
+    pub(super) most: f64,
+    /// The shortest part of the rod between breaks, as a part of `c t₁`.
+    pub(super) shortest: f64,
 }
 
 impl<S: Rounded> Data<S> {
@@ -218,7 +228,12 @@ impl<S: Rounded> Data<S> {
                 len,
             }
         };
-        let half = breaks.windows(2).map(piece).collect();
+        let half: Vec<Linear<S>> = breaks.windows(2).map(piece).collect();
+        let shortest = half.iter().map(|piece| piece.len.to_f64()).fold(1.0, f64::min);
+        let of = |(_, v): &(S, S)| v.to_f64().abs();
+        let far = displacement.iter().map(of).fold(0.0, f64::max) / displacement_unit.to_f64();
+        let fast = velocity.iter().map(of).fold(0.0, f64::max) / scale.to_f64();
+        let most = 2.0 * far / shortest + 2.0 * fast / shortest + gravity.to_f64() + static_slope.to_f64().abs();
         let units = Units {
             displacement: displacement_unit,
             velocity: scale,
@@ -229,7 +244,7 @@ impl<S: Rounded> Data<S> {
         };
         let damping = parameters.damping.clone() * &units.time;
         let given = AtStart::of(problem, parameters);
-        Data { units, damping, given, gravity, slope: static_slope, ground: first, half }
+        Data { units, damping, given, gravity, slope: static_slope, ground: first, half, most, shortest }
     }
 
     /// `v_t(0⁺, 0)`.
@@ -251,7 +266,12 @@ impl<S: Rounded> Data<S> {
         let pieces = pieces.iter().flat_map(|piece| {
             let count = (piece.len.clone() / &medium.longest).to_f64().ceil().max(1.0) as i64;
             let len = piece.len.clone() / zero.int(count);
-            (0..count).map(move |k| piece.part(&(len.clone() * len.int(k)), len.clone())).collect::<Vec<_>>()
+            let ends: Vec<S> = (0..=count).map(|k| on_grid(piece.from.clone() + len.clone() * len.int(k))).collect();
+            let part = |pair: &[S]| Linear {
+                from: pair[0].clone(),
+                ..piece.part(&(pair[0].clone() - &piece.from), pair[1].clone() - &pair[0])
+            };
+            ends.windows(2).map(part).collect::<Vec<_>>()
         });
         let mut state = State { round: 0, segments: VecDeque::new() };
         for piece in pieces.collect::<Vec<_>>().into_iter().rev() {

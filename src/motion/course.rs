@@ -6,7 +6,7 @@ use serde::{Serialize, Serializer};
 
 use crate::mapped::{CollectVec, MapEach, mapped};
 use crate::number::Scalar;
-use crate::reason::{Reason, Warning};
+use crate::reason::{Near, Reason, Warning};
 
 fn optional<S: Scalar, Z: Serializer>(x: &Option<S>, z: Z) -> Result<Z::Ok, Z::Error> {
     match x {
@@ -369,6 +369,14 @@ pub enum Ending {
     },
     /// The first bounce: what follows it is not proved.
     Bounce,
+    /// What follows is not proved: something comes so close to happening that no bits that are worth trying tell whether
+    /// it does.
+    Unproved {
+        /// What is open.
+        what: Near,
+        /// By how much velocities may differ from then on.
+        differ: f64,
+    },
     /// The asked accuracy or effort does not settle what comes next.
     Undecided(Reason),
 }
@@ -377,7 +385,7 @@ pub enum Ending {
 impl Ending {
     /// Whether the history may be shorter than what was asked for, because what follows is not known.
     pub(crate) fn is_open(&self) -> bool {
-        matches!(self, Ending::ExactnessEnds { .. } | Ending::Undecided(_) | Ending::Bounce)
+        matches!(self, Ending::ExactnessEnds { .. } | Ending::Undecided(_) | Ending::Bounce | Ending::Unproved { .. })
     }
 
     /// The reason with the time that it holds for: `ends at t = 12: …`.
@@ -407,6 +415,14 @@ impl fmt::Display for Ending {
                 write!(f, "exactness ends before the impact at t = {time} ≈ {near}, which is no fraction")
             }
             Ending::Bounce => f.write_str("the first bounce: whether and when the rod lands again is not proved"),
+            Ending::Unproved { what, differ } => {
+                let open = match what {
+                    Near::Touch => "whether the end touches the ground next",
+                    Near::Release => "whether the end lets go of the ground next",
+                    Near::End => "what follows the motion that has faded",
+                };
+                write!(f, "{open} is not proved; velocities may differ by {differ:.1e} from there on")
+            }
             Ending::Undecided(reason) => write!(f, "undecided: {reason}"),
         }
     }

@@ -9,11 +9,12 @@ use super::differences;
 use super::fractions::confirmed;
 use super::ladder::{Engined, Target};
 use super::observer::Observer;
-use super::plan::{Engine, Plan, Rung};
-use crate::cells::{ContactThenCells, Damped};
+use super::plan::{Engine, Lacks, Plan, Rung};
+use crate::cells::{ContactThenCells, Damped, Effort};
 use crate::error::Error;
 use crate::first_contact::{Bounce, ContactHistory, FirstContact};
 use crate::lattice::Undamped;
+use crate::motion::{Ending, Motion};
 use crate::number::{Estimate, Float, Interval, IntervalPrecision, Reads, Scalar};
 use crate::problem::{Parameters, Problem};
 
@@ -132,9 +133,44 @@ fn enclosures(problem: &Problem, plan: &Plan, bits: u32, observe: &Observer) -> 
     let problem = &*plan.reaching(problem);
     match plan.engine {
         Engine::Lattice => Ok(Arc::new(roots(problem, plan, bits, observe)?)),
-        Engine::Cells => Err(Error::NotCertified),
-        Engine::ClosedForm | Engine::ClosedFormThenCells => {
-            Ok(Arc::new(ContactHistory::<Interval>::solve(problem, &IntervalPrecision::with_exact(bits))?))
-        }
+        Engine::Cells => Ok(proved(problem, plan, bits, observe)?),
+        Engine::ClosedForm => contact(problem, bits),
+        Engine::ClosedFormThenCells if bounces(problem, bits)? => match proved(problem, plan, bits, observe) {
+            Err(Error::NotDecided { .. }) if last_proof(plan, bits) => contact(problem, bits),
+            run => run,
+        },
+        Engine::ClosedFormThenCells => contact(problem, bits),
     }
+}
+
+/// The first contact in closed form.
+fn contact(problem: &Problem, bits: u32) -> Result<Engined<Interval>, Error> {
+    Ok(Arc::new(ContactHistory::<Interval>::solve(problem, &IntervalPrecision::with_exact(bits))?))
+}
+
+/// Whether the first contact ends with a bounce.
+fn bounces(problem: &Problem, bits: u32) -> Result<bool, Error> {
+    let rod = Parameters::<Interval>::of(problem, &IntervalPrecision::bits(bits))?;
+    match FirstContact::new(&rod).bounce() {
+        Bounce::At { .. } => Ok(true),
+        Bounce::Undecided { why, .. } if why.needs_bits() => {
+            Err(Error::NotDecided { what: "how the first contact ends", bits })
+        }
+        Bounce::Never(_) | Bounce::Undecided { .. } => Ok(false),
+    }
+}
+
+fn last_proof(plan: &Plan, bits: u32) -> bool {
+    plan.next(Rung::Enclosures(bits), Lacks::Bits(f64::INFINITY)).is_none()
+}
+
+/// A damped run with what is proved of it. Where more bits may prove more, they are asked for first.
+fn proved(problem: &Problem, plan: &Plan, bits: u32, observe: &Observer) -> Result<Engined<Interval>, Error> {
+    let digits = f64::from(bits) * std::f64::consts::LOG10_2;
+    let effort = Effort { digits, until_lost: false, ..plan.effort(Rung::Enclosures(bits)) };
+    let run = Damped::<Float>::prove(problem, &bits, effort, &**observe)?;
+    if matches!(run.ending(), Ending::Unproved { .. }) && !last_proof(plan, bits) {
+        return Err(Error::NotDecided { what: "what happens at the ground", bits });
+    }
+    Ok(Arc::new(Converted::new(Arc::new(run) as Engined<Float>)))
 }

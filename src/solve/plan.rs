@@ -191,12 +191,19 @@ const MODES: u32 = 4096;
 const MOST_BITS: u32 = 1 << 22;
 /// Bits of an enclosure beyond which a comparison is called undecided, where the digits asked for do not need more.
 const MOST_ENCLOSED: u32 = 1 << 13;
+/// The same of a damped march that is proved: its account is kept in doubles, which end at 2⁻¹⁰²².
+const MOST_PROVED: u32 = 900;
+/// What the proof of a damped march costs in bits: at first, and with each impact of a unit rod; foreseen through so
+/// many.
+const FIRST_PROOF: u32 = 16;
+const BITS_PER_IMPACT: u32 = 5;
+const MOST_FORESEEN: u32 = 40;
 
 impl Plan {
     /// The plan for `question` of `problem`.
     ///
     /// **Errors**: [`Error::DampedExact`]; [`Error::Accuracy`]; [`Error::Digits`] for none or absurdly many;
-    /// [`Error::NotCertified`]; [`Error::NoMultiprecision`] for digits in a build without the feature `mp`.
+    /// [`Error::NoMultiprecision`] for digits in a build without the feature `mp`.
     pub fn of(problem: &Problem, question: &Question) -> Result<Self, Error> {
         let numbers = question.numbers;
         check(problem, numbers)?;
@@ -220,8 +227,6 @@ impl Plan {
             (None, _) => Engine::Lattice,
             (Some(_), false) => Engine::Cells,
             (Some(_), true) if reach == Reach::FirstContact => Engine::ClosedForm,
-            // What is proved of a damped rod ends with its first contact.
-            (Some(_), true) if matches!(numbers, Numbers::Certified(_)) => Engine::ClosedForm,
             (Some(_), true) => Engine::ClosedFormThenCells,
         };
         let settles_events = keep_from.is_none() && !single;
@@ -242,7 +247,16 @@ impl Plan {
         let (rung, foreseen_loss) = match numbers {
             Numbers::Double(_) => (Rung::Double, 0.0),
             Numbers::Exact | Numbers::ExactThenDigits(_) => (Rung::Fractions, 0.0),
-            Numbers::Certified(digits) => (Rung::Enclosures(bits_for_digits(digits) + GUARD_BITS), 0.0),
+            Numbers::Certified(digits) => {
+                let wanted = bits_for_digits(digits) + GUARD_BITS;
+                let contacts = match &reach {
+                    Reach::Contacts(contacts) => (*contacts).min(MOST_FORESEEN),
+                    Reach::FirstContact | Reach::Time(_) => 1,
+                };
+                let marched = then_cells || engine == Engine::Cells;
+                let lost = if marched { FIRST_PROOF + BITS_PER_IMPACT * contacts } else { 0 };
+                (Rung::Enclosures((wanted + lost).min(MOST_PROVED.max(wanted))), 0.0)
+            }
             Numbers::Digits(digits) => {
                 let lost = match (engine, &reach) {
                     (Engine::Lattice, Reach::Time(end)) => foresee::bits_lost(problem, end.to_f64()),
@@ -477,7 +491,10 @@ impl Climb {
             most_bits: MOST_BITS,
             near_miss: wanted + NEAR_MISS,
             exact_roots: lattice.then_some(wanted * EXACT_ROOT + 1024),
-            most_enclosed: MOST_ENCLOSED.max(4 * wanted),
+            most_enclosed: match engine {
+                Engine::Cells | Engine::ClosedFormThenCells => MOST_PROVED,
+                Engine::Lattice | Engine::ClosedForm => MOST_ENCLOSED.max(4 * wanted),
+            },
             exact_contacts: lattice.then_some(MOST_EXACT),
         }
     }
@@ -512,9 +529,6 @@ fn check(problem: &Problem, numbers: Numbers) -> Result<(), Error> {
     }
     if let Some(found) = digits.filter(|digits| !(1..=MAX_DIGITS).contains(digits)) {
         return Err(Error::Digits { found, most: MAX_DIGITS });
-    }
-    if problem.rod.damping.is_some() && !problem.has_closed_form() && matches!(numbers, Numbers::Certified(_)) {
-        return Err(Error::NotCertified);
     }
     if cfg!(feature = "mp") || digits.is_none() { Ok(()) } else { Err(Error::NoMultiprecision) }
 }

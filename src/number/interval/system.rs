@@ -329,6 +329,31 @@ impl Reads<Interval> for Estimate<Float> {
     }
 }
 
+/// The numbers within the bound.
+impl Reads<Estimate<Float>> for Interval {
+    fn read(number: Estimate<Float>) -> Self {
+        let error = number.error() * (1.0 + 4.0 * f64::EPSILON);
+        let value = number.into_value();
+        let bits = value.prec();
+        // Half a rounding more than a double has.
+        let radius = Float::with_val(64, error) >> bits;
+        let end = |radius: Float, round| Float::with_val_round(bits, &value + &radius, round).0;
+        if !radius.is_finite() {
+            let all = Float::with_val(bits, rug::float::Special::Infinity);
+            return Interval::between(-all.clone(), all);
+        }
+        Interval::between(end(-radius.clone(), Round::Down), end(radius, Round::Up))
+    }
+
+    fn give(&self, precision: &u32) -> Estimate<Float> {
+        let middle = Float::with_val(*precision, self.mid());
+        let far = |end: &Float| Float::with_val_round(64, end - &middle, Round::Up).0.abs();
+        let (down, up) = (far(self.lo()), far(self.hi()));
+        let radius = if down > up { down } else { up };
+        Estimate::new(middle, (radius << *precision).to_f64() * (1.0 + 4.0 * f64::EPSILON))
+    }
+}
+
 /// The middle, within the radius.
 impl Reads<Interval> for Estimate<f64> {
     fn read(number: Interval) -> Self {

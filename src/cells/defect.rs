@@ -1,0 +1,293 @@
+//! What one step of a run may be off by: the difference of what is stored after it and the exact image of what is stored
+//! before it, bounded from the sizes of stored coefficients alone.
+//!
+//! **Rounding.** A step is a chain of sums and products of its inputs with constants. If no path from an input to the
+//! result has more than n roundings of u each, the result is off by at most `1.01 n u` times what the same chain gives
+//! of absolute values, as long as `n u < 0.01`. Sums of absolute coefficients do not grow by integration from 0 to x,
+//! by a product with `x` or `xᵏ`, and bound a function on its interval.
+//! **What is left out.** The coefficients that integration, products and interpolation drop, from the same recurrences
+//! in absolute values; and the rests of Riemann's and Taylor's sums. `docs/proofs.md` has the constants one by one.
+
+use super::cell::{Cell, terms};
+use super::leap::LeapCount;
+use super::march::{Medium, Segment, State};
+use super::series::{bound, left_by};
+use crate::number::Rounded;
+use crate::special::RoundedSpecial;
+
+/// More than doubles lose by underflow in a step; far below a rounding of the longest numbers that are allowed.
+const FLOOR: f64 = 1e-290;
+/// `Σ yᵏ/k!` for `y ≤ 1`, and more.
+const E: f64 = 3.0;
+
+/// What the steps in a medium may be off by.
+#[derive(Clone, Debug)]
+pub(super) struct Steps {
+    /// A rounding.
+    pub(super) unit: f64,
+    /// `κ`.
+    kappa: f64,
+    log2_accuracy: f64,
+    /// The most terms of a series.
+    pub(super) size: f64,
+    /// Of the weights that give `h′` and `z(0)`: what so many terms leave out.
+    weights: Vec<f64>,
+    /// Of `h′` along a characteristic, `e^{κs}` times it, the same.
+    falls: Vec<f64>,
+}
+
+/// The absolute values of coefficients.
+pub(super) fn sizes<S: Rounded>(c: &[S]) -> Vec<f64> {
+    c.iter().map(|term| term.to_f64().abs()).collect()
+}
+
+/// `∫₀ˣ` of absolute values, and a bound of what the dropped term makes of the function.
+fn integrate(c: &mut [f64]) -> f64 {
+    let n = c.len();
+    let left = c[n - 1] / n as f64;
+    let (mut below, mut start) = (2.0 * c[0], 0.0);
+    for k in 1..n {
+        let sum = below + c.get(k + 1).unwrap_or(&0.0);
+        below = std::mem::replace(&mut c[k], sum / (4.0 * k as f64));
+        start += c[k];
+    }
+    c[0] = start;
+    left
+}
+
+/// The product of absolute values with x, and the term that is dropped.
+fn times_x(c: &mut [f64]) -> f64 {
+    let left = c.last().map_or(0.0, |last| last / 2.0);
+    let mut below = 0.0;
+    for k in 0..c.len() {
+        let above = c.get(k + 1).copied().unwrap_or(0.0);
+        let from_below = if k == 1 { 2.0 * below } else { below };
+        below = std::mem::replace(&mut c[k], 0.0);
+        c[k] = below / 2.0 + (from_below + above) / 4.0;
+    }
+    left
+}
+
+/// `Σ_{i+j ≥ from} |a_i||b_j|`, where `b` is given by what so many of its terms leave.
+fn beyond(a: &[f64], rest: impl Fn(usize) -> f64, from: usize) -> f64 {
+    a.iter().enumerate().map(|(i, a)| a * rest(from.saturating_sub(i))).sum()
+}
+
+/// Coefficients of `e^{z x}` from the n-th on, `|z| ≤ 2`: `|c_k| ≤ 2e^{|z|} (|z|/4)ᵏ/k!`, and half of it each time.
+fn exponential_rest(z: f64, n: usize) -> f64 {
+    let mut term = 4.0 * z.abs().exp();
+    for k in 1..=n {
+        term *= z.abs() / (4.0 * k as f64);
+    }
+    term
+}
+
+impl Steps {
+    pub(super) fn of<S: RoundedSpecial>(medium: &Medium<S>) -> Self {
+        let (kappa, size) = (medium.kappa.to_f64(), medium.basis.size());
+        let depth = kappa * medium.longest.to_f64();
+        let grown = (4.0 * depth).exp();
+        let weights = (0..=size).map(|n| left_by(n, 1.5 * grown, grown, 3.0 * depth)).collect();
+        let falls = (0..=size).map(|n| left_by(n, 1.5, 1.0, depth)).collect();
+        let log2_accuracy = medium.log2_accuracy;
+        Steps { unit: medium.kappa.unit(), kappa, log2_accuracy, size: size as f64, weights, falls }
+    }
+
+    /// What series are cut at.
+    fn accuracy(&self) -> f64 {
+        self.log2_accuracy.exp2()
+    }
+
+    /// Of coefficients through values of this size, each off by so many roundings of it.
+    fn through(&self, most: f64, roundings: f64) -> f64 {
+        2.0 * self.size * (self.size + 64.0 + roundings) * self.unit * most
+    }
+
+    /// Of a series through the values of others on part of their interval, or of a product of two: Clenshaw's sum is off
+    /// by `16n²u` and a node by 15u, where a polynomial has slopes of `2n²` of itself.
+    fn anew(&self, most: f64) -> f64 {
+        320.0 * self.size.powi(3) * self.unit * most
+    }
+
+    /// Of both outgoing sides of a cell; and the greatest of the incoming ones.
+    pub(super) fn cell<S: RoundedSpecial>(&self, medium: &Medium<S>, cell: &Cell<'_, S>) -> (f64, f64) {
+        let y = cell.depth.0.to_f64() * cell.depth.1.to_f64();
+        let count = terms(y, self.log2_accuracy).min(medium.basis.powers.len() - 1);
+        let (mut p, mut q) = (sizes(cell.p), sizes(cell.q));
+        let (of_p, of_q): (f64, f64) = (p.iter().sum(), q.iter().sum());
+        let (short_p, short_q) = (p.len(), q.len());
+        let (mut left, mut factor) = (self.accuracy() * (of_p + of_q), 1.0);
+        for k in 0..=count {
+            left += 2.0 * E * (integrate(&mut p) + integrate(&mut q));
+            // Powers that have more terms than the side.
+            for (short, other) in [(short_p, of_q), (short_q, of_p)] {
+                if k >= short {
+                    left += factor * other * bound(&medium.basis.powers[k], short);
+                }
+            }
+            factor *= y / (k + 1) as f64;
+        }
+        let paths = (count as f64 + 2.0) * (self.size + 24.0);
+        let offset = cell.offset.to_f64().abs();
+        let shifted = if offset > 0.0 { 2.0 * self.grown(offset, cell.depth.0.to_f64(), short_p) } else { 0.0 };
+        (left + 2.0 * E * paths * self.unit * (of_p + of_q) + shifted + FLOOR, of_p.max(of_q))
+    }
+
+    /// Of `factor · e^{z x}` in n terms.
+    fn grown(&self, factor: f64, z: f64, n: usize) -> f64 {
+        factor * (3.0 * exponential_rest(z, n) + self.through(E, 32.0))
+    }
+
+    /// Of joining two segments of this size.
+    pub(super) fn joining(&self, least: f64, size: f64) -> f64 {
+        least * size + self.anew(size)
+    }
+
+    /// Of cutting a segment, but for what the two parts leave out.
+    pub(super) fn cut<S: RoundedSpecial>(&self, segment: &Segment<S>) -> f64 {
+        2.0 * self.anew(bound(&segment.q, 0)) + FLOOR
+    }
+
+    /// Of the trace over the first segment.
+    pub(super) fn trace<S: RoundedSpecial>(&self, medium: &Medium<S>, segment: &Segment<S>, contact: bool) -> f64 {
+        let depth = self.kappa * segment.len.to_f64();
+        let offset = if contact { 0.0 } else { medium.offset.to_f64().abs() };
+        let mut u = sizes(&segment.q);
+        let mut off = FLOOR;
+        if offset > 0.0 {
+            off += self.grown(offset, depth, u.len());
+            for (k, c) in u.iter_mut().enumerate() {
+                *c += offset * exponential_rest(depth, k);
+            }
+        }
+        u.resize(u.len().max(medium.terms(&segment.len, 2.0)), 0.0);
+        let norm: f64 = u.iter().sum();
+        let y = depth * depth;
+        let count = terms(y, self.log2_accuracy).min(medium.basis.powers.len() - 1);
+        let mut sum = vec![0.0; u.len()];
+        let mut layers = Vec::with_capacity(count + 1);
+        for _ in 0..=count {
+            let mut next = u.clone();
+            off += 2.0 * E * integrate(&mut next);
+            for (u, next) in u.iter_mut().zip(&next) {
+                *u += depth * next;
+            }
+            layers.push(std::mem::replace(&mut u, next));
+        }
+        for (k, layer) in layers.into_iter().enumerate().rev() {
+            if k < count {
+                let factor = y / (k + 1) as f64;
+                off += E * factor * times_x(&mut sum);
+                sum.iter_mut().for_each(|c| *c *= factor);
+            }
+            sum.iter_mut().zip(layer).for_each(|(sum, c)| *sum += c);
+        }
+        off += 2.0 * self.accuracy() * norm + 2.0 * E * (count as f64 + 2.0) * (self.size + 24.0) * self.unit * norm;
+        // Its product with e^{−2κ len x}, in so many terms.
+        let rest = |n: usize| exponential_rest(2.0 * depth, n);
+        let kept = medium.terms(&segment.len, 4.0);
+        let lost = beyond(&sum, rest, kept) + 3.0 * rest(self.size as usize) * norm;
+        off + 2.0 * lost + self.anew(E * E * E * norm) + 4.0 * self.unit * medium.slope.to_f64().abs()
+    }
+
+    /// Of `h′` and of `h` over a strip, whose first terms are of this size.
+    pub(super) fn rigid(&self, len: f64, first: f64) -> f64 {
+        let fall = 4.0 * self.kappa * len;
+        let n = self.size as usize;
+        // x^k has 2^{1−2k} at its end: Taylor's terms beyond the series.
+        let beyond = (1..n).fold(64.0, |term, k| term * fall / (4.0 * k as f64));
+        first * fall.exp() * (self.accuracy() + beyond + 16.0 * (self.size + 16.0).powi(2) * self.unit) + FLOOR
+    }
+
+    /// Of `h′` or `z(0)` as weighed means of `q`, where functions of x of this size may be part of it.
+    pub(super) fn weighed<S: RoundedSpecial>(&self, state: &State<S>, shifts: f64) -> f64 {
+        let n = self.size as usize;
+        let rest = |n: usize| self.weights[n];
+        let whole = self.weights[0];
+        let of = |segment: &Segment<S>| {
+            let q = sizes(&segment.q);
+            let shifted: f64 = (0..q.len()).map(|j| shifts * self.falls[j] * self.weights[n - j]).sum();
+            let norm = q.iter().sum::<f64>() + 2.0 * shifts * self.falls[0];
+            let off = 4.0 * (beyond(&q, rest, n) + shifted) + self.anew(whole * norm);
+            off * segment.len.to_f64()
+        };
+        2.0 * state.segments.iter().map(of).sum::<f64>() + FLOOR
+    }
+
+    /// Of adding functions of x of this size to `q`.
+    pub(super) fn shift<S: RoundedSpecial>(&self, state: &State<S>, size: f64) -> f64 {
+        let of = |segment: &Segment<S>| {
+            3.0 * size * self.falls[segment.q.len().min(self.size as usize)]
+                + self.through(8.0 * size, 128.0)
+                + 2.0 * self.unit * bound(&segment.q, 0)
+        };
+        state.segments.iter().map(of).sum::<f64>() + FLOOR
+    }
+
+    /// Of the first state, through values that are rounded data of this size over pieces of the rod no shorter than
+    /// `least`.
+    pub(super) fn start<S: RoundedSpecial>(&self, state: &State<S>, size: f64, least: f64) -> f64 {
+        let size = 64.0 * size;
+        let of = |segment: &Segment<S>| {
+            let depth = self.kappa * segment.len.to_f64();
+            3.0 * left_by(segment.q.len(), size, size, depth) + self.through(size, 512.0 + 16.0 / least)
+        };
+        2.0 * state.segments.iter().map(of).sum::<f64>() + FLOOR
+    }
+
+    /// What a leap makes at most of `|q|`, and of the height that it is given: of its parts in absolute values, where
+    /// an antiderivative of mean zero is at most half of a function.
+    fn gain(&self, count: &LeapCount, trips: f64) -> f64 {
+        let r = 2.0 * self.kappa;
+        let lag = 2.0 * (1.0 - (1.0 - r * r / 4.0).max(0.0).sqrt());
+        let (mut turn, mut term) = (1.0, 1.0);
+        for m in 1..=count.order {
+            term *= (2.0 * m as f64 - 1.0) / (2.0 * m as f64) * r * r / 4.0;
+            turn += term;
+        }
+        64.0 * turn * (4.0 * self.kappa + lag * (1.0 + trips)).exp()
+    }
+
+    /// Of a leap from a state of this size; `stray` is the `h′` that it still has, with what the height is off by.
+    pub(super) fn leap(&self, count: &LeapCount, trips: f64, (segments, size): (usize, f64), stray: f64) -> f64 {
+        let (n, order, layers) = (self.size, count.order as f64, count.layers as f64);
+        let powers = count.powers as f64;
+        let integrals = (2.0 * layers + 4.0) * (2.0 * order + 2.0) + powers;
+        let paths = 64.0 * n * (segments as f64 + 3.0) * (n + 8.0) * integrals + powers * (order + 8.0);
+        let left = 64.0 * (trips + layers + 16.0) * self.accuracy() + self.passed(count.powers, trips);
+        self.gain(count, trips) * ((paths * self.unit + left) * size + count.dropped * (1.0 + size) + stray) + FLOOR
+    }
+
+    /// What the powers of `D⁻¹` beyond so many leave out of `e^{nG}`: by Cauchy's estimate on a circle within `1/R`,
+    /// with `‖D⁻ᵏ‖ ≤ 1.39 · 0.18ᵏ`.
+    fn passed(&self, powers: usize, trips: f64) -> f64 {
+        const INVERSE: f64 = 0.18;
+        let r = 2.0 * self.kappa;
+        let on = |part: f64| {
+            let (ratio, square) = (INVERSE * r / part, part * part);
+            let grown = trips * r * (1.0 - (1.0 - square).sqrt()) / part;
+            grown * std::f64::consts::LOG2_E + (powers as f64 + 1.0) * ratio.log2() - (1.0 - ratio).log2()
+        };
+        let parts = (1..64).map(|k| f64::from(k) / 64.0).chain([0.99, 0.999]).filter(|part| *part > 2.0 * INVERSE * r);
+        2.0 * parts.map(on).fold(f64::INFINITY, f64::min).exp2()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn absolute_values_bound_what_signs_give() {
+        let basis = super::super::series::Basis::new(&1.0f64, 12, 4);
+        let mut c: Vec<f64> = (0..12).map(|k| (-1.3f64).powi(-k)).collect();
+        let mut most = sizes(&c);
+        let dropped = c[11] / 48.0;
+        basis.integrate(&mut c);
+        assert!(2.0 * dropped.abs() <= integrate(&mut most));
+        assert!(c.iter().zip(&most).all(|(c, most)| c.abs() <= most * (1.0 + 1e-15)));
+        super::super::series::times_x(&mut c);
+        times_x(&mut most);
+        assert!(c.iter().zip(&most).all(|(c, most)| c.abs() <= most * (1.0 + 1e-15)));
+    }
+}

@@ -1,0 +1,700 @@
+//! A damped run with a proof: what it shows of the true motion.
+//!
+//! The stored history is taken as exact data. Each step of it differs from the exact image of what was stored before by
+//! no more than its own defect (module `defect`). Neither `sup(|δp|, |δq|)` nor `∫ |δp| + |δq|` grows (module `cell`;
+//! `|p| = |q|` at both ends), so errors are added, step by step, and nothing is propagated. `docs/proofs.md` has the
+//! lemmas. Dimensionless: times in `t₁`, lengths in `c t₁`, velocities in `V`; `δ = δ_E + δ_W`:
+//!
+//! - **E**, `even`: `sup |δ_E|`, the sum of all defects so far.
+//! - **W**, `masses`: `∫ |δ_W|`. An event that is off by at most τ differs from the true one in what holds at the ground
+//!   for no longer than 2τ, where p is −q here and q there: `4τ max|q|`.
+//! - Away from rays that are off, `|δq| ≤ F = E + min(R(T + 1), e^R) W` and what the trace itself has been rounded by.
+//! - In flight `|δv(0,·)| ≤ H`, [`Follower::height_off`].
+//!
+//! What the signs below do not show ends the proof: at the beginning of the strip in question.
+
+use super::cell::Cell;
+use super::defect::Steps;
+use super::follow::Follower;
+use super::leap::LeapCount;
+use super::march::{Medium, State};
+use super::piece::Found;
+use super::series::{Basis, at_zero, bound, derivative, evaluate};
+use super::start::{Data, on_grid};
+use super::uncertainty::Uncertainty;
+use crate::error::Error;
+use crate::motion::Ending;
+use crate::number::Rounded;
+use crate::reason::{Near, Reason};
+use crate::special::RoundedSpecial;
+
+/// Parts of a strip that are looked at before a question is left open.
+const MOST_PARTS: usize = 400;
+/// Sums of doubles are enlarged by so much for their own roundings.
+const SLACK: f64 = 1e-9;
+/// Roundings of values that are asked for, besides those of three powers of the terms of a series.
+const ASKED: f64 = 4096.0;
+
+/// What is open: of what kind, and by how much velocities may differ from then on.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Open {
+    pub(super) what: Near,
+    pub(super) differ: f64,
+}
+
+/// How far values may be off between two events.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct Known {
+    pub(super) rise: f64,
+    pub(super) speed: f64,
+    pub(super) rate: f64,
+    pub(super) slope: f64,
+    pub(super) most: f64,
+}
+
+/// A release that the first strip of its flight has yet to show.
+#[derive(Clone, Debug)]
+struct Release<S> {
+    /// Pieces before the strip that ends with it.
+    pieces: usize,
+    /// The stress there, where it is at a ray.
+    left: Option<f64>,
+    /// How far the time may be off as far as the stress says, and how steep the stress is there.
+    late: f64,
+    steep: f64,
+    at: S,
+}
+
+/// The account of a run.
+#[derive(Clone, Debug)]
+pub(super) struct Proof<S> {
+    steps: Steps,
+    doubles: Basis<f64>,
+    even: f64,
+    masses: f64,
+    /// The most that a ray so far is off.
+    late: f64,
+    /// The steepest trace so far, and the greatest `|q|`.
+    slope: f64,
+    most: f64,
+    /// Where events have started rays, and how far those are off.
+    rays: Vec<(S, f64)>,
+    /// When the last event was.
+    since: f64,
+    /// E when centre of mass and vibration were taken apart.
+    began: f64,
+    /// What `h′` and `z(0)` of this flight are off by as means of the stored `q`: at its beginning, and now.
+    means: [f64; 2],
+    /// What the heights that this flight has summed up are off by, where it is not taken apart.
+    summed: f64,
+    /// The most that `v(0,·)` of the last flight was off by.
+    height: f64,
+    /// The most that a leap has been off by.
+    leapt: f64,
+    /// Whether the end has only risen since its release, and is not clear of the ground.
+    rising: bool,
+    release: Option<Release<S>>,
+    /// How far the landing is off that has just been shown.
+    pub(super) landed: Option<f64>,
+    /// How far the events are off.
+    pub(super) events: Vec<f64>,
+    /// Before the first event, and after each.
+    pub(super) known: Vec<Known>,
+    /// What is open, and how many pieces are shown.
+    pub(super) open: Option<(usize, Open)>,
+}
+
+/// The least and the greatest that a series may be, whose coefficients are off by so much of `size`.
+fn range<T: Rounded>(c: &[T], size: f64) -> (f64, f64) {
+    let (middle, spread) = (c[0].to_f64(), bound(c, 1));
+    let terms = c.len() as f64;
+    let rounding = 1e-12 * (middle.abs() + spread) + 320.0 * terms.powi(3) * c[0].unit() * size;
+    (middle - spread - rounding, middle + spread + rounding)
+}
+
+/// A part of a series, and the size of the whole.
+struct Part<'a, T> {
+    basis: &'a Basis<T>,
+    whole: &'a [T],
+    size: f64,
+}
+
+impl<'a, T: Rounded> Part<'a, T> {
+    fn of(basis: &'a Basis<T>, whole: &'a [T]) -> Self {
+        Part { basis, whole, size: bound(whole, 0) }
+    }
+
+    fn range(&self, from: f64, to: f64) -> (f64, f64) {
+        if from == 0.0 && to == 1.0 {
+            return range(self.whole, self.size);
+        }
+        let zero = self.whole[0].zero();
+        let part = self.basis.restrict(self.whole, &zero.double(from), &zero.double(to), self.basis.size());
+        range(&part, self.size)
+    }
+}
+
+/// Goes over parts, the earlier first, until each is settled; those that are not are halved.
+fn settle((from, to): (f64, f64), mut settled: impl FnMut(f64, f64) -> bool) -> bool {
+    let mut parts = vec![(from, to)];
+    let mut count = 0;
+    while let Some((from, to)) = parts.pop() {
+        if settled(from, to) {
+            continue;
+        }
+        count += 1;
+        let middle = 0.5 * (from + to);
+        if count > MOST_PARTS || middle <= from || middle >= to {
+            return false;
+        }
+        parts.extend([(middle, to), (from, middle)]);
+    }
+    true
+}
+
+/// Whether a series is below `−off` on a part.
+fn below<T: Rounded>(basis: &Basis<T>, c: &[T], part: (f64, f64), off: f64) -> bool {
+    let c = Part::of(basis, c);
+    // Where it surely is not, halves are of no use.
+    let mut not = false;
+    settle(part, |from, to| {
+        let (low, high) = c.range(from, to);
+        not = not || low > -off;
+        not || high < -off
+    }) && !not
+}
+
+/// Whether the end surely does not touch the ground on a part: it is clear of it, or still only rises.
+fn clear<T: Rounded>(
+    basis: &Basis<T>,
+    (height, trace): (&[T], &[T]),
+    part: (f64, f64),
+    (high, fast): (f64, f64),
+    rising: &mut bool,
+) -> bool {
+    let (height, trace) = (Part::of(basis, height), Part::of(basis, trace));
+    let (mut rises, mut not) = (*rising, false);
+    let shown = settle(part, |from, to| {
+        let (low, most) = height.range(from, to);
+        if low > high {
+            rises = false;
+            return true;
+        }
+        not = not || most < -high;
+        not || rises && trace.range(from, to).0 > fast
+    }) && !not;
+    *rising = rises;
+    shown
+}
+
+/// A stretch `x ± δ` on which `sign · g` is positive: δ, and the least and the greatest of it there.
+fn steep<T: Rounded>(basis: &Basis<T>, g: &[T], x: f64, sign: f64) -> Option<(f64, f64, f64)> {
+    let g = Part::of(basis, g);
+    (1..160).find_map(|k| {
+        let delta = (-f64::from(k)).exp2();
+        let (from, to) = (x - delta, x + delta);
+        if from < 0.0 || to > 1.0 {
+            return None;
+        }
+        let (low, high) = g.range(from, to);
+        let (least, most) = if sign > 0.0 { (low, high) } else { (-high, -low) };
+        (least > 0.0).then_some((delta, least, most))
+    })
+}
+
+fn doubles<S: Rounded>(c: &[S]) -> Vec<f64> {
+    c.iter().map(S::to_f64).collect()
+}
+
+impl<S: RoundedSpecial> Proof<S> {
+    pub(super) fn new(medium: &Medium<S>) -> Self {
+        let steps = Steps::of(medium);
+        Proof {
+            doubles: Basis::new(&1.0, medium.basis.size(), 1),
+            steps,
+            even: 0.0,
+            masses: 0.0,
+            late: 0.0,
+            slope: 0.0,
+            most: 0.0,
+            rays: Vec::new(),
+            since: 0.0,
+            began: 0.0,
+            means: [0.0; 2],
+            summed: 0.0,
+            height: 0.0,
+            leapt: 0.0,
+            rising: false,
+            release: None,
+            landed: None,
+            events: Vec::new(),
+            known: vec![Known::default()],
+            open: None,
+        }
+    }
+
+    fn add(&mut self, defect: f64) {
+        self.even += defect * (1.0 + SLACK);
+    }
+
+    /// A cell on its way past.
+    pub(super) fn cell(&mut self, medium: &Medium<S>, cell: &Cell<'_, S>) {
+        let (defect, most) = self.steps.cell(medium, cell);
+        self.most = self.most.max(most);
+        self.add(defect);
+    }
+
+    /// So many joinings may have been.
+    pub(super) fn joins(&mut self, medium: &Medium<S>, joined: usize) {
+        let size = 2.0 * self.most + medium.gravity.to_f64() + medium.slope.to_f64().abs();
+        let defect = self.steps.joining(medium.least(), size);
+        self.add(joined as f64 * defect);
+    }
+
+    /// What vibrates is dropped.
+    pub(super) fn drop(&mut self, most: f64) {
+        self.add(most);
+    }
+
+    /// A function of x of this size is added to `q`: the static state, or `h′`.
+    pub(super) fn shift(&mut self, state: &State<S>, size: f64) {
+        let defect = self.steps.shift(state, size);
+        self.add(defect);
+    }
+
+    /// A round trip of a flight that is taken apart begins.
+    pub(super) fn round(&mut self, state: &State<S>) {
+        self.means[1] = self.steps.weighed(state, 0.0);
+    }
+
+    /// Damping and gravity are rounded.
+    fn drift(&mut self, medium: &Medium<S>, trips: f64) {
+        let rate = medium.kappa.to_f64() * self.most + medium.gravity.to_f64() + medium.slope.to_f64().abs();
+        self.add(64.0 * self.steps.unit * rate * trips);
+    }
+
+    /// An event that is off by τ, where `|q| ≤ most`.
+    fn happens(&mut self, at: Option<S>, time: f64, late: f64, most: f64) {
+        self.masses += 4.0 * late * most * (1.0 + SLACK);
+        self.late = self.late.max(late);
+        self.rays.extend(at.map(|at| (at, late)));
+        self.since = time;
+    }
+
+    /// How far the ray may be off that comes down here.
+    fn ray_at(&self, at: &S) -> f64 {
+        let known = self.rays.iter().filter(|(ray, _)| ray == at).map(|(_, late)| *late);
+        known.fold(64.0 * self.steps.unit, f64::max)
+    }
+
+    /// From now on the flight is taken apart: `h′` and the height of its centre are of these sizes.
+    pub(super) fn take_off(&mut self, medium: &Medium<S>, state: &State<S>, (rate, height): (f64, f64)) {
+        let still = medium.gravity.to_f64() + medium.slope.to_f64().abs();
+        let size = still + rate.abs();
+        let shifts = self.steps.shift(state, still) + self.steps.shift(state, size);
+        self.add(shifts);
+        let mean = self.steps.weighed(state, size) + 64.0 * self.steps.unit * (size + height.abs());
+        self.means = [mean; 2];
+        self.began = self.even - shifts;
+        self.summed = 0.0;
+    }
+}
+
+impl<S: RoundedSpecial> Follower<'_, S> {
+    /// Works on the account of a proof, where there is one.
+    pub(super) fn prove(&mut self, work: impl FnOnce(&mut Proof<S>, &Self)) {
+        if let Some(mut proof) = self.proof.take() {
+            work(&mut proof, self);
+            self.proof = Some(proof);
+        }
+    }
+
+    /// Whether the proof has ended.
+    pub(super) fn open(&self) -> bool {
+        self.proof.as_ref().is_some_and(|proof| proof.open.is_some())
+    }
+}
+
+impl<S: RoundedSpecial> Proof<S> {
+    /// At the start.
+    pub(super) fn start(&mut self, run: &Follower<'_, S>) {
+        let (unit, data) = (self.steps.unit, run.data);
+        let defect = self.steps.start(&run.state, data.most, data.shortest);
+        self.add(defect);
+        // Places of breaks are rounded.
+        self.masses += 256.0 * unit * data.most * run.state.segments.len() as f64;
+        self.summed = 64.0 * unit * data.ground.to_f64().abs();
+        self.rising = !data.ground.is_positive();
+        self.most = self.most.max(run.state.bound());
+        self.joins(run.medium, 1);
+    }
+
+    /// F at a time.
+    fn trace_off(&self, damping: f64, time: f64) -> f64 {
+        (self.even + (damping * (time + 1.0)).min(damping.exp()) * self.masses) * (1.0 + SLACK)
+    }
+
+    /// `A` of [`Self::height_off`]: what `h′` of a flight is off by.
+    fn rate_off(&self, damping: f64) -> f64 {
+        (damping.exp() * (self.even + self.masses) + self.means[0]) * (1.0 + SLACK)
+    }
+
+    /// H, so long after the release.
+    ///
+    /// Taken apart: `h′ = ∫ e^{2Rx} q dη` and `z(0) = ∫ w (q − h′) dη`, `|w| ≤ ½e^R`, at the release and when the round
+    /// trip began; `δh″ + 2Rδh′ = 0` between; and since then `∫ |δq| dt ≤ E + (1 + R)W`.
+    /// Otherwise the defect of each step moves the end by its own mean and vibration: by `(s + 1)E` under a free top,
+    /// and by `½E` under a held one, besides what the sum of `∫ q dt` itself is off by.
+    fn height_off(&self, run: &Follower<'_, S>, flown: f64) -> f64 {
+        let (damping, both) = (run.damping(), self.even + self.masses);
+        let rate = 2.0 * damping;
+        let fall = if rate * flown < 1e-8 { flown } else { -(-rate * flown).exp_m1() / rate };
+        let off = if let Some(flight) = run.flying() {
+            let far = flight.height.to_f64().abs() + fall * flight.rate.to_f64().abs();
+            let far = far + run.medium.gravity.to_f64() * (flown * flown).min(flown / damping);
+            let grown = damping.exp();
+            let mean = self.means[0] + self.means[1];
+            self.masses + grown * both + (grown + fall) * self.rate_off(damping) + 2.0 * mean
+                + (2.0 + damping) * both
+                + 64.0 * self.steps.unit * (far + self.most)
+        } else if run.medium.free_top {
+            (fall + 3.0) * both + self.summed
+        } else {
+            2.0 * both + self.summed
+        };
+        off * (1.0 + SLACK)
+    }
+
+    /// How far values may be off, up to now.
+    fn note(&mut self, run: &Follower<'_, S>, time: f64, high: f64) {
+        let damping = run.damping();
+        let both = self.even + self.masses;
+        let reach = (2.0 + (1.0 + damping) * (time - self.since + 2.0)) * both;
+        let centre = run.centre().map_or(0.0, |(_, rate)| rate.to_f64().abs());
+        let most = 2.0 * (self.most + centre + run.medium.gravity.to_f64() + run.medium.slope.to_f64().abs());
+        let far = 1.0 + time;
+        let asked = ASKED * self.steps.unit * (self.steps.size.powi(3) * most + far * (self.slope + most)) + 4.0 * self.leapt;
+        self.height = if run.contact { self.height } else { self.height.max(high) };
+        let now = Known {
+            rise: self.height + reach + far * asked,
+            speed: self.trace_off(damping, time) + asked,
+            rate: self.rate_off(damping) + both + asked,
+            slope: 2.0 * self.slope,
+            most,
+        };
+        let last = self.known.len() - 1;
+        let Known { rise, speed, rate, slope, most } = self.known[last];
+        self.known[last] = Known {
+            rise: now.rise.max(rise),
+            speed: now.speed.max(speed),
+            rate: now.rate.max(rate),
+            slope: now.slope.max(slope),
+            most: now.most.max(most),
+        };
+    }
+
+    /// What an event leaves.
+    fn event(&mut self, late: f64) {
+        self.events.push(late);
+        let last = self.known[self.known.len() - 1];
+        self.known.push(last);
+    }
+
+    /// The contact that the run begins with.
+    pub(super) fn contact(&mut self) {
+        self.event(0.0);
+        self.known[1] = Known::default();
+    }
+
+    /// The impact that has been shown.
+    pub(super) fn impact(&mut self, run: &Follower<'_, S>) {
+        match self.landed.take() {
+            Some(late) => self.event(late),
+            // At a ray: a coincidence.
+            None => self.end(run, run.pieces.len(), Open { what: Near::Touch, differ: 2.0 * self.most }),
+        }
+    }
+
+    fn end(&mut self, run: &Follower<'_, S>, pieces: usize, open: Open) {
+        if self.open.is_none() {
+            // A release that is not shown takes the strip before it.
+            let pieces = self.release.as_ref().map_or(pieces, |release| release.pieces);
+            self.open = Some((pieces.min(run.pieces.len()), open));
+        }
+    }
+
+    /// The ground lets go at a ray, `left` having been the last stress.
+    pub(super) fn let_go_at_ray(&mut self, run: &Follower<'_, S>, left: &S, at: &S) {
+        let (late, pieces) = (self.ray_at(at), run.pieces.len().saturating_sub(1));
+        self.release = Some(Release { pieces, left: Some(left.to_f64()), late, steep: 0.0, at: at.clone() });
+    }
+
+    /// A strip is going to be marched, up to `cut` if there is one, with which the ground lets go or is hit if `event`.
+    pub(super) fn strip(&mut self, run: &Follower<'_, S>, cut: Option<(&S, bool)>, trace: &[S], height: &[S]) {
+        let first = &run.state.segments[0];
+        let (from, len) = (run.state.time().to_f64(), first.len.to_f64());
+        let time = from + cut.map_or(len, |(cut, _)| cut.to_f64());
+        self.drift(run.medium, len);
+        self.slope = self.slope.max(bound(&derivative(trace), 0) / len * (1.0 + SLACK));
+        let own = self.steps.trace(run.medium, first, run.contact);
+        let found = if run.contact {
+            self.held(run, (time, len), cut, trace, own)
+        } else {
+            self.flown(run, (time, len), cut, (trace, height), own)
+        };
+        if let Err(open) = found {
+            self.end(run, run.pieces.len(), open);
+        }
+        if let Some((cut, _)) = cut {
+            let fraction = cut.clone() / &first.len;
+            let (zero, one, size) = (cut.zero(), cut.one(), run.medium.basis.size());
+            let lost = |from: &S, to: &S, len: &S| {
+                bound(&run.medium.basis.restrict(&first.q, from, to, size), run.medium.terms(len, 1.0))
+            };
+            let rest = first.len.clone() - cut;
+            let lost = lost(&zero, &fraction, cut) + lost(&fraction, &one, &rest);
+            let defect = self.steps.cut(first) + lost;
+            self.add(defect);
+        }
+    }
+
+    /// A strip in contact.
+    ///
+    /// **Release at a root**: before, the stress is below −F; around `t̂` it has at least the slope s. So the end lets go
+    /// in `t̂ ± τ`, `τ = (F + |σ̂(t̂)|)/s`, at least once.
+    fn held(&mut self, run: &Follower<'_, S>, (time, len): (f64, f64), cut: Option<(&S, bool)>, trace: &[S], own: f64) -> Result<(), Open> {
+        let fast = self.trace_off(run.damping(), time) + own + 8.0 * self.slope * self.late;
+        let open = Open { what: Near::Release, differ: 2.0 * (bound(trace, 0) + fast) };
+        let pressed = |part| {
+            part == (0.0, 0.0)
+                || below(&self.doubles, &doubles(trace), part, fast)
+                || below(&run.medium.basis, trace, part, fast)
+        };
+        if len <= 8.0 * self.late {
+            return Err(open);
+        }
+        let Some((cut, true)) = cut else {
+            let to = cut.map_or(1.0, |(cut, _)| (cut.to_f64() / len).min(1.0));
+            return if pressed((0.0, to)) {
+                self.note(run, time, 0.0);
+                Ok(())
+            } else {
+                Err(open)
+            };
+        };
+        let at = cut.clone() / &run.state.segments[0].len;
+        let x = at.to_f64();
+        let rate = derivative(trace);
+        let found = steep(&self.doubles, &doubles(&rate), x, 1.0).or_else(|| steep(&run.medium.basis, &rate, x, 1.0));
+        let (delta, least, _) = found.ok_or(open)?;
+        let rest = evaluate(trace, &at).to_f64().abs() * (1.0 + SLACK) + own;
+        let steep = least / len * (1.0 - SLACK);
+        let late = (self.trace_off(run.damping(), time) + own + rest) / steep;
+        if delta * len < 4.0 * (late + self.late) || !pressed((0.0, x - delta)) {
+            return Err(open);
+        }
+        self.note(run, time, 0.0);
+        let place = on_grid(run.state.segments[0].at.clone() + cut);
+        let place = if place >= place.one() { place.clone() - place.one() } else { place };
+        self.release = Some(Release { pieces: run.pieces.len(), left: None, late, steep, at: place });
+        Ok(())
+    }
+
+    /// The first strip of a flight shows the release that it begins with.
+    ///
+    /// **At a ray**: the stress is below −F on its one side, and the velocity above F on its other.
+    /// **At a root**: by `t̂ + τ` the velocity is above F, where τ is as great as that needs.
+    fn released(&mut self, run: &Follower<'_, S>, release: &Release<S>, trace: &[S], own: f64) -> Result<f64, Open> {
+        let (zero, time) = (trace[0].zero(), run.state.time().to_f64());
+        let right = at_zero(trace, &zero).to_f64();
+        let size = bound(trace, 0);
+        let open = Open { what: Near::Release, differ: 2.0 * size };
+        let slack = own + SLACK * right.abs();
+        let fast = self.trace_off(run.damping(), time) + own + 8.0 * self.slope * self.late;
+        let late = match release.left {
+            Some(left) => {
+                if left > -fast - slack || right < fast + slack {
+                    return Err(open);
+                }
+                release.late
+            }
+            // No other ray is near.
+            None => {
+                let fast = self.trace_off(run.damping(), time) + own;
+                (2.0 * (fast + right.abs() + slack) / release.steep).max(release.late)
+            }
+        };
+        let most = right.abs().max(release.left.map_or(0.0, f64::abs)) + 4.0 * self.slope * late + fast;
+        self.happens(Some(release.at.clone()), time, late, most);
+        (self.summed, self.rising) = (0.0, true);
+        Ok(late)
+    }
+
+    /// A strip in flight.
+    ///
+    /// **Landing** at `t̂`, on a stretch `t̂ ± δ` on which `v̂_t ≤ −s`, `s > F`: `τ = (H + |v̂(0,t̂)|)/s` is less than δ, and
+    /// `v̂(0,·) > H` before the stretch, except at first while the end has only risen since its release (`v̂_t > F`; v is
+    /// never negative, so what rises does not touch). Then the true end touches the ground in `t̂ ± τ`, once, and not
+    /// before.
+    fn flown(
+        &mut self,
+        run: &Follower<'_, S>,
+        (time, len): (f64, f64),
+        cut: Option<(&S, bool)>,
+        (trace, height): (&[S], &[S]),
+        own: f64,
+    ) -> Result<(), Open> {
+        let rigid = run.centre().map_or(0.0, |(_, rate)| {
+            let first = 8.0 * (rate.to_f64().abs() + run.medium.gravity.to_f64());
+            self.steps.rigid(len, first)
+        });
+        let sums = (bound(trace, 0) + bound(height, 0)) * self.steps.unit * 16.0 * (self.steps.size + 8.0);
+        let own = own + rigid + sums;
+        let mut late = None;
+        if let Some(release) = self.release.clone() {
+            late = Some((self.released(run, &release, trace, own)?, release.left.is_none()));
+        }
+        // As this flight goes on, its height is summed up from what the trace is off by.
+        self.summed += own * len;
+        let high = self.height_off(run, time - self.since + self.late) + own * (1.0 + len);
+        let fast = self.trace_off(run.damping(), time) + own + 8.0 * self.slope * self.late;
+        let touch = |differ: f64| Open { what: Near::Touch, differ };
+        let lands = cut.is_some_and(|(_, event)| event);
+        let mut rising = self.rising;
+        if (rising || lands) && len <= 8.0 * self.late {
+            return Err(touch(2.0 * bound(trace, 0)));
+        }
+        let (quick, low) = (doubles(trace), doubles(height));
+        let mut from = 0.0;
+        if let Some((late, true)) = late {
+            // It rises faster and faster, and is above F from τ on.
+            let rate = doubles(&derivative(trace));
+            let rate = Part::of(&self.doubles, &rate);
+            let start = at_zero(trace, &trace[0].zero()).to_f64().abs() + own;
+            let fast = self.trace_off(run.damping(), time) + own;
+            let rises = (1..160).map(|k| (-f64::from(k)).exp2()).find(|to| {
+                let (least, _) = rate.range(0.0, *to);
+                (fast + start) * len <= late * least && to * len >= 2.0 * late
+            });
+            from = rises.ok_or(Open { what: Near::Release, differ: 2.0 * bound(trace, 0) })?;
+        }
+        if let Some((late, _)) = late {
+            self.release = None;
+            self.event(late);
+        }
+        let shown = |part: (f64, f64), rising: &mut bool| {
+            let mut again = *rising;
+            part.0 >= part.1
+                || clear(&self.doubles, (&low, &quick), part, (high, fast), rising)
+                || clear(&run.medium.basis, (height, trace), part, (high, fast), &mut again) && {
+                    *rising = again;
+                    true
+                }
+        };
+        let Some((cut, true)) = cut else {
+            let to = cut.map_or(1.0, |(cut, _)| (cut.to_f64() / len).min(1.0));
+            if !shown((from, to), &mut rising) {
+                return Err(touch(2.0 * (bound(trace, 0) + fast)));
+            }
+            self.note(run, time, high);
+            self.rising = rising;
+            return Ok(());
+        };
+        let at = cut.clone() / &run.state.segments[0].len;
+        let x = at.to_f64();
+        let found = steep(&self.doubles, &quick, x, -1.0).or_else(|| steep(&run.medium.basis, trace, x, -1.0));
+        let (delta, least, most) = found.ok_or_else(|| touch(2.0 * fast))?;
+        let rest = evaluate(height, &at).to_f64().abs();
+        let late = (high + rest) / (least * (1.0 - SLACK)) * (1.0 + SLACK);
+        let shown = x - delta <= from || shown((from, x - delta), &mut rising);
+        if least <= fast || delta * len < 4.0 * (late + self.late) || !shown || rising {
+            return Err(touch(2.0 * (most + fast)));
+        }
+        self.note(run, time, high);
+        let place = on_grid(run.state.segments[0].at.clone() + cut);
+        let place = if place >= place.one() { place.clone() - place.one() } else { place };
+        self.happens(Some(place), time, late, most + fast);
+        self.landed = Some(late);
+        Ok(())
+    }
+
+    /// So many round trips are going to be leapt over; `least` is no more than the height of the end meanwhile.
+    pub(super) fn leap(&mut self, run: &Follower<'_, S>, trips: f64, least: f64, count: &LeapCount, size: (usize, f64)) {
+        let time = run.state.time().to_f64();
+        self.drift(run.medium, trips);
+        let grown = run.damping().exp();
+        // h′ of what is stored as vibration, and what its height is off by.
+        let stray = 4.0 * grown * (grown * (self.even - self.began) + self.means[0] + self.means[1]);
+        let defect = self.steps.leap(count, trips, size, stray) + stray;
+        self.leapt = self.leapt.max(defect);
+        self.add(defect);
+        self.means[1] = self.steps.weighed(&run.state, 0.0);
+        let high = self.height_off(run, time - self.since + self.late);
+        if least > high && self.release.is_none() {
+            self.note(run, time, high);
+            self.rising = false;
+        } else {
+            self.end(run, run.pieces.len(), Open { what: Near::Touch, differ: 2.0 * self.most });
+        }
+    }
+}
+
+impl<S: RoundedSpecial> Found<S> {
+    /// What is proved of it, with the bounds that are; where that ends before it does, what is open there.
+    ///
+    /// **Errors**: [`Error::NotDecided`] where nothing is.
+    pub(super) fn as_far_as_proved(mut self, medium: &Medium<S>, data: &Data<S>) -> Result<Self, Error> {
+        let Some(proof) = self.proof.take() else { return Ok(self) };
+        let unit = proof.steps.unit;
+        let mut open = proof.open;
+        let off = proof.known.last().map_or(0.0, |known| known.rise + known.speed);
+        if open.is_none() && !ends_so(&self.ending, off, medium, data) {
+            open = Some((self.pieces.len(), Open { what: Near::End, differ: 0.0 }));
+        }
+        if let Some((pieces, Open { what, differ })) = open {
+            if pieces == 0 {
+                return Err(Error::not_decided("how the motion begins", data.slope.bits()));
+            }
+            self.pieces.truncate(pieces);
+            self.checkpoints.retain(|kept| kept.index <= pieces);
+            self.ending = Ending::Unproved { what, differ: differ * data.units.velocity.to_f64() };
+        }
+        self.marks.truncate(proof.events.len());
+        self.warnings.clear();
+        (self.unresolved, self.end_error) = (None, 0.0);
+        let known = |known: &Known, late: f64| {
+            let Known { rise, speed, rate, slope, most } = *known;
+            Uncertainty { rise, speed, rate, late: 0.0, slope, most, peak: most, rays: late }
+        };
+        let rounding = |time: f64| 16.0 * unit * (1.0 + time);
+        let latest = proof.events.iter().copied().fold(0.0, f64::max);
+        self.before = known(&proof.known[0], 0.0);
+        for (k, mark) in self.marks.iter_mut().enumerate() {
+            let time = mark.time.to_f64();
+            mark.time_error = if time == 0.0 { 0.0 } else { proof.events[k] + rounding(time) };
+            mark.at = None;
+            mark.after = known(&proof.known[k + 1], latest + rounding(time));
+        }
+        if let (Some(late), Ending::NextImpact) = (proof.landed, &self.ending) {
+            let end = self.pieces.last().map_or(0.0, |piece| piece.to().to_f64());
+            self.end_error = (late + rounding(end)) * (1.0 + SLACK);
+        }
+        Ok(self)
+    }
+}
+
+/// Whether the reason of an ending holds with so much to spare: what it compares are energies and bounds in doubles.
+fn ends_so<S: RoundedSpecial>(ending: &Ending, off: f64, medium: &Medium<S>, data: &Data<S>) -> bool {
+    let damping = 2.0 * medium.kappa.to_f64();
+    match ending {
+        Ending::Time | Ending::NextImpact | Ending::Undecided(_) => true,
+        Ending::NoFurtherImpact(Reason::StaysAbove { swing, height, .. }) => {
+            let unit = data.units.displacement.to_f64();
+            height - swing > 1e-6 * (height + swing) + 16.0 * off * unit * (1.0 + 1.0 / damping)
+        }
+        Ending::Rest(Reason::StaysPressed { part, .. }) | Ending::NoBounce(Reason::StaysPressed { part, .. }) => {
+            (1.0 - part) * medium.slope.to_f64().abs() > 1e-6 * medium.slope.to_f64().abs() + 4.0 * off
+        }
+        _ => false,
+    }
+}
