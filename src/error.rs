@@ -125,12 +125,6 @@ pub enum Error {
         /// What was tried.
         bits: u32,
     },
-    /// No engine that works in enclosures.
-    #[error(
-        "found a damped rod with a gap, an initial strain, an initial velocity that varies, or a fixed top, expected \
-         no damping, or a uniform start on the ground under a free top: only there are digits proved"
-    )]
-    NotCertified,
     /// More bits would be needed than are worth trying.
     #[error(
         "{digits} digits are not settled with {bits} bits; expected a shorter run, fewer digits, or certified ones, \

@@ -49,12 +49,17 @@ impl<S: RoundedSpecial> Damped<S> {
     pub(super) fn with_bounds(mut self) -> Result<Self, Error> {
         let event = |(k, event): (usize, &Event<Estimate<S>>)| {
             let Near { centre, end, rate, late, .. } = self.at_event(k);
+            // As the rod lies on the ground, and as it leaves without a jump of the stress, is proved to be zero.
+            let known = |value: &Estimate<S>| self.proved && value.value().is_zero();
             let (moves, push) = (event.centre_velocity.to_f64().abs(), self.push(event.time.value(), late)?);
             Ok(Event {
                 kind: event.kind,
                 time: within(event.time.value(), event.time_error),
-                end_velocity: within(event.end_velocity.value(), end),
-                centre: within(event.centre.value(), centre + late * (moves + push)),
+                end_velocity: within(event.end_velocity.value(), if known(&event.end_velocity) { 0.0 } else { end }),
+                centre: within(
+                    event.centre.value(),
+                    if known(&event.centre) { 0.0 } else { centre + late * (moves + push) },
+                ),
                 centre_velocity: within(event.centre_velocity.value(), rate + push),
                 time_error: event.time_error,
             })
@@ -205,7 +210,8 @@ impl<S: RoundedSpecial> Motion<Estimate<S>> for Damped<S> {
 
     fn stress_pieces(&self) -> Vec<StressPiece<Estimate<S>>> {
         let piece = |piece: StressPiece<S>| {
-            let strain = self.scaled(self.uncertainty(&piece.from)).strain;
+            let flies = self.proved && piece.chebyshev.is_empty();
+            let strain = if flies { 0.0 } else { self.scaled(self.uncertainty(&piece.from)).strain };
             bounded_piece(piece, strain)
         };
         self.pieces_of_stress().into_iter().map(piece).collect()
@@ -213,7 +219,8 @@ impl<S: RoundedSpecial> Motion<Estimate<S>> for Damped<S> {
 
     fn strain(&self, time: &Estimate<S>, side: Side) -> Result<Estimate<S>, Error> {
         let time = meant(&self.course.events, time);
-        Ok(within(&self.strain_of(time.value(), side)?, self.near(time).strain))
+        let flies = self.proved && self.presses(time.value(), side) == Some(false);
+        Ok(within(&self.strain_of(time.value(), side)?, if flies { 0.0 } else { self.near(time).strain }))
     }
 
     fn pair(&self, pair: Pair, time: &Estimate<S>, side: Side) -> Result<[Estimate<S>; 2], Error> {
@@ -224,6 +231,9 @@ impl<S: RoundedSpecial> Motion<Estimate<S>> for Damped<S> {
         Ok(match pair {
             Pair::GroundEnd => {
                 let [height, rate] = self.ground_of(time.value(), side)?;
+                if self.proved && self.presses(time.value(), side) == Some(true) {
+                    return Ok([Estimate::exact(height), Estimate::exact(rate)]);
+                }
                 self.moved(time, &height, &rate)
             }
             Pair::Centre => {

@@ -98,7 +98,7 @@ impl<S: RoundedSpecial> Damped<S> {
 
     /// The same from the start, with a proof of its bounds, as far as that goes.
     ///
-    /// **Errors**: [`Error::NotDecided`] where not even the first event is shown.
+    /// **Errors**: [`Error::NotDecided`] where not even the first strip is shown.
     #[cfg(feature = "mp")]
     pub(crate) fn prove(
         problem: &Problem,
@@ -365,6 +365,13 @@ impl<S: RoundedSpecial> Damped<S> {
             last.to = self.course.end.value().clone();
         }
         pieces
+    }
+
+    /// Whether the end lies on the ground, as far as the run goes; before its start it does not say.
+    pub(super) fn presses(&self, time: &S, side: Side) -> Option<bool> {
+        let given = side == Side::Left && time.is_zero();
+        let time = self.time(time).ok().filter(|_| !given)?;
+        self.record().piece(&time, side).map(|(piece, _)| piece.contact)
     }
 
     /// `v_x(0,t)`.

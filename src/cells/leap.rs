@@ -61,8 +61,18 @@ struct Circle<'a, S> {
     /// Coefficients of `D^{1−2m}` in `G`, and of `D^{−2m}` in `H`, `m ≥ 1`.
     lag: Vec<S>,
     turn: Vec<S>,
-    /// See [`LeapCount::dropped`].
+    /// See [`LeapCount::dropped`]; and by how much what is dropped now is multiplied later, at most.
     dropped: Cell<f64>,
+    weight: Cell<f64>,
+}
+
+/// What is left of a sum of absolute values from each term on.
+fn rests<S: RoundedSpecial>(terms: &[S]) -> Vec<f64> {
+    let mut rests: Vec<f64> = terms.iter().map(|term| term.to_f64().abs()).collect();
+    for k in (1..rests.len()).rev() {
+        rests[k - 1] += rests[k];
+    }
+    rests
 }
 
 /// What a leap has summed up.
@@ -96,7 +106,16 @@ impl<S: RoundedSpecial> Circle<'_, S> {
 
     /// The last coefficient of what is integrated, or multiplied with s: a bound of what that drops.
     fn drops(&self, c: &[S]) {
-        self.dropped.set(self.dropped.get() + c.last().map_or(0.0, |last| last.to_f64().abs()));
+        let last = c.last().map_or(0.0, |last| last.to_f64().abs());
+        self.dropped.set(self.dropped.get() + self.weight.get() * last);
+    }
+
+    /// Weighs what is dropped by `weight`, besides all else.
+    fn weighed<T>(&self, weight: f64, work: impl FnOnce() -> T) -> T {
+        let before = self.weight.replace(weight * self.weight.get());
+        let found = work();
+        self.weight.set(before);
+        found
     }
 
     /// `D⁻¹`, in place.
@@ -135,16 +154,14 @@ impl<S: RoundedSpecial> Circle<'_, S> {
     /// `Σ c_m D^{−2m}` of `f`, and before that `D⁻¹` if `odd`, then with `D^{2−2m}`.
     fn series(&self, f: &[Vec<S>], coefficients: &[S], odd: bool) -> Function<S> {
         let mut power = f.to_vec();
-        self.antiderivative(&mut power);
-        if !odd {
-            self.antiderivative(&mut power);
-        }
         let mut sum = vec![vec![self.parts[0].0.zero(); self.basis.size()]; f.len()];
-        for (m, factor) in coefficients.iter().enumerate() {
-            if m > 0 {
+        for (m, (factor, rest)) in coefficients.iter().zip(rests(coefficients)).enumerate() {
+            self.weighed(rest, || {
                 self.antiderivative(&mut power);
-                self.antiderivative(&mut power);
-            }
+                if m > 0 || !odd {
+                    self.antiderivative(&mut power);
+                }
+            });
             add(&mut sum, &power, factor);
         }
         sum
@@ -170,10 +187,12 @@ impl<S: RoundedSpecial> Circle<'_, S> {
             c[1] = -(len.clone() * &half);
         }
         let mut sum = vec![vec![zero; self.basis.size()]; self.parts.len()];
-        for (m, factor) in self.lag.iter().enumerate() {
+        for (m, (factor, rest)) in self.lag.iter().zip(rests(&self.lag)).enumerate() {
             if m > 0 {
-                self.antiderivative(&mut sawtooth);
-                self.antiderivative(&mut sawtooth);
+                self.weighed(rest, || {
+                    self.antiderivative(&mut sawtooth);
+                    self.antiderivative(&mut sawtooth);
+                });
             }
             add(&mut sum, &sawtooth, factor);
         }
@@ -223,17 +242,21 @@ impl<S: RoundedSpecial> Medium<S> {
             lag: binomials(&damping, 1, self.log2_accuracy),
             turn: binomials(&damping, -1, self.log2_accuracy).into_iter().map(|c: S| -c).collect(),
             dropped: Cell::new(0.0),
+            weight: Cell::new(1.0),
         };
         let (value, rate) = self.scaled(state, &circle, ground);
         let layers = self.layers(&damping);
         // (in), by Horner's rule.
         let gamma = circle.lagged_delta();
         let mut products = vec![(rate, value)];
+        let lag: f64 = circle.lag.iter().map(|factor| factor.to_f64().abs()).sum();
         for j in 1..=layers {
             let (mut rate, mut value) = products[j - 1].clone();
             let factor = damping.ratio(-1, 2 * j as i64);
-            circle.times_s(&mut rate, &factor);
-            circle.times_s(&mut value, &factor);
+            circle.weighed(lag.powi(j as i32), || {
+                circle.times_s(&mut rate, &factor);
+                circle.times_s(&mut value, &factor);
+            });
             products.push((rate, value));
         }
         let mut wave: Option<Function<S>> = None;
@@ -361,7 +384,6 @@ impl<S: RoundedSpecial> Medium<S> {
     fn pass(&self, circle: &Circle<'_, S>, wave: &mut Function<S>, damping: &S, trips: i64) -> usize {
         let n = damping.int(trips);
         let mut coefficients = vec![damping.one()];
-        let mut power = wave.clone();
         let mut below = 0usize;
         for k in 1..4000usize {
             let mut sum = damping.zero();
@@ -373,8 +395,6 @@ impl<S: RoundedSpecial> Medium<S> {
                 sum = sum + g.clone() * damping.int(i as i64) * &coefficients[k - i];
             }
             let next = sum * &n / damping.int(k as i64);
-            circle.antiderivative(&mut power);
-            add(wave, &power, &next);
             let size = next.to_f64().abs().log2() + 0.5 * k as f64 * INVERSE_SQUARE.log2();
             coefficients.push(next);
             // Two in a row, far down: from there on they fall faster than geometrically.
@@ -382,6 +402,11 @@ impl<S: RoundedSpecial> Medium<S> {
             if below >= 4 {
                 break;
             }
+        }
+        let mut power = wave.clone();
+        for (factor, rest) in coefficients.iter().zip(rests(&coefficients)).skip(1) {
+            circle.weighed(rest, || circle.antiderivative(&mut power));
+            add(wave, &power, factor);
         }
         let decay = (-(damping.clone() * &n)).exp();
         for c in wave {

@@ -564,7 +564,7 @@ impl Problem {
 
     /// The motion in proved decimal digits. **Accuracy**: *enclosure*.
     ///
-    /// **Errors**: [`Error::NotCertified`]; [`Error::Undecided`]; [`Error::NoMultiprecision`] without the feature `mp`.
+    /// **Errors**: [`Error::Undecided`]; [`Error::NoMultiprecision`] without the feature `mp`.
     pub fn certified(&self, digits: u32) -> Result<History<crate::number::Interval>, Error> {
         self.answer(&Question::run(Numbers::Certified(digits)))
     }

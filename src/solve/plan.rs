@@ -193,11 +193,6 @@ const MOST_BITS: u32 = 1 << 22;
 const MOST_ENCLOSED: u32 = 1 << 13;
 /// The same of a damped march that is proved: its account is kept in doubles, which end at 2⁻¹⁰²².
 const MOST_PROVED: u32 = 900;
-/// What the proof of a damped march costs in bits: at first, and with each impact of a unit rod; foreseen through so
-/// many.
-const FIRST_PROOF: u32 = 16;
-const BITS_PER_IMPACT: u32 = 5;
-const MOST_FORESEEN: u32 = 40;
 
 impl Plan {
     /// The plan for `question` of `problem`.
@@ -249,12 +244,8 @@ impl Plan {
             Numbers::Exact | Numbers::ExactThenDigits(_) => (Rung::Fractions, 0.0),
             Numbers::Certified(digits) => {
                 let wanted = bits_for_digits(digits) + GUARD_BITS;
-                let contacts = match &reach {
-                    Reach::Contacts(contacts) => (*contacts).min(MOST_FORESEEN),
-                    Reach::FirstContact | Reach::Time(_) => 1,
-                };
                 let marched = then_cells || engine == Engine::Cells;
-                let lost = if marched { FIRST_PROOF + BITS_PER_IMPACT * contacts } else { 0 };
+                let lost = if marched { foresee::proof_bits(problem, &reach) } else { 0 };
                 (Rung::Enclosures((wanted + lost).min(MOST_PROVED.max(wanted))), 0.0)
             }
             Numbers::Digits(digits) => {

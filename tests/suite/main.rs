@@ -6,6 +6,8 @@
 #[cfg(feature = "mp")]
 mod asked_times;
 #[cfg(feature = "mp")]
+mod certified_damped;
+#[cfg(feature = "mp")]
 mod certified_first_contact;
 #[cfg(feature = "mp")]
 mod certified_undamped;

@@ -53,7 +53,7 @@ fn run<S: Target>(problem: &Problem, question: &Question) -> Option<Arc<dyn Moti
         };
         match S::run(problem, &plan, rung, &(Arc::new(dalembert::engine::unobserved) as dalembert::Observer)) {
             Err(Error::Open(_) | Error::NotDecided { .. }) => (),
-            Err(Error::TooManyPieces { .. } | Error::NotCertified) => return None,
+            Err(Error::TooManyPieces { .. }) => return None,
             found => return Some(found.unwrap()),
         }
     }

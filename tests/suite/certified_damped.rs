@@ -1,0 +1,216 @@
+//! Damped runs that are proved: every enclosure holds what more digits and other programs say.
+
+use crate::common::{number, problem, reference};
+use dalembert::number::Scalar;
+use dalembert::{
+    Ending, EventKind, Float, History, Interval, Number, Parameters, Problem, Profile, Run, Side, Speed, Start, Top,
+};
+
+fn number_of(text: &str) -> Number {
+    text.parse().unwrap()
+}
+
+fn rod(damping: &str, speed: &str, gravity: &str, impacts: u32) -> Problem {
+    let mut rod = Problem::uniform(1.into(), 1.into(), number_of(gravity), number_of(speed));
+    (rod.rod.damping, rod.run) = (Some(number_of(damping)), Run::Impacts(impacts));
+    rod
+}
+
+/// Whether an enclosure holds a number that is known to so many digits of itself or of 1.
+fn holds(what: &str, found: &Interval, truth: &Float, digits: i32) {
+    let slack = Float::with_val(64, 10f64.powi(-digits)) * Float::with_val(64, truth.clone().abs() + 1);
+    let (low, high) = (Float::with_val(400, truth - &slack), Float::with_val(400, truth + &slack));
+    assert!(*found.lo() <= high && *found.hi() >= low, "{what}: {} is not {truth}", found.text());
+}
+
+/// Events, contacts and values between them, held against a run in so many more digits; how many were compared. What is
+/// proved may end earlier.
+fn compare(name: &str, proved: &History<Interval>, digits: &History<Float>, known: i32) -> usize {
+    let mut count = 0;
+    let mut check = |what: &str, found: &Interval, truth: &Float| {
+        holds(&format!("{name}: {what}"), found, truth, known);
+        count += 1;
+    };
+    assert!(proved.events().len() <= digits.events().len(), "{name}");
+    for (a, b) in proved.events().iter().zip(digits.events()) {
+        assert_eq!(a.kind, b.kind, "{name}");
+        check("time", &a.time, &b.time);
+        check("velocity", &a.end_velocity, &b.end_velocity);
+        check("centre", &a.centre, &b.centre);
+        check("rate", &a.centre_velocity, &b.centre_velocity);
+    }
+    for (a, b) in proved.contacts().iter().zip(digits.contacts()) {
+        if a.to.is_some() {
+            check("impulse", &a.impulse, &b.impulse);
+            check("peak", &a.peak_strain, &b.peak_strain);
+        }
+    }
+    let end = proved.end().to_f64();
+    for k in 1..6 {
+        let at = number_of(&format!("{:.6e}", end * f64::from(k) / 6.3));
+        let point = number_of(&format!("{:.6e}", 0.375 * digits.scales().length.to_f64()));
+        let enclosed = |text: &Number| <Interval as Scalar>::from_number(text, &proved.end().precision());
+        let long = |text: &Number| <Float as Scalar>::from_number(text, &digits.end().precision());
+        let (time, place) = (enclosed(&at), enclosed(&point));
+        let (long_time, long_place) = (long(&at), long(&point));
+        let (a, b) = (proved.centre(time.clone()).unwrap(), digits.centre(long_time.clone()).unwrap());
+        check("h", &a.0, &b.0);
+        check("h′", &a.1, &b.1);
+        let (a, b) = (proved.energy(time.clone()).unwrap(), digits.energy(long_time.clone()).unwrap());
+        check("energy", &a.total, &b.total);
+        check("vibration", &a.vibrational, &b.vibrational);
+        let a = &proved.field(&[place], std::slice::from_ref(&time), Side::Right).unwrap()[0];
+        let b = &digits.field(&[long_place], std::slice::from_ref(&long_time), Side::Right).unwrap()[0];
+        check("v", &a.displacement, &b.displacement);
+        check("v_t", &a.velocity, &b.velocity);
+        check("v_x", &a.strain, &b.strain);
+        let (a, b) = (proved.strain(time, Side::Right).unwrap(), digits.strain(long_time, Side::Right).unwrap());
+        check("strain", &a, &b);
+    }
+    count
+}
+
+#[test]
+fn enclosures_hold_what_more_digits_say() {
+    let mut count = 0;
+    for (damping, speed, gravity, impacts) in [("0.1", "3", "1", 3), ("0.05", "1", "1", 2), ("1.2", "9", "1", 2)] {
+        let problem = rod(damping, speed, gravity, impacts);
+        let (proved, digits) = (problem.certified(20).unwrap(), problem.digits(60).unwrap());
+        assert!(!matches!(proved.ending(), Ending::Unproved { .. }), "{damping} {speed}");
+        assert_eq!(proved.events().len(), digits.events().len());
+        count += compare(&format!("{damping} {speed}"), &proved, &digits, 55);
+    }
+    assert!(count >= 160, "{count}");
+}
+
+#[test]
+fn all_reference_values_are_proved_to_fifty_digits() {
+    let mut count = 0;
+    for case in reference("damped_bounces") {
+        let name = case["name"].as_str().unwrap();
+        let problem = problem(&case, Run::Time(number(&case["time"])));
+        let history = problem.certified(50).unwrap();
+        let expected = case["events"].as_array().unwrap();
+        assert_eq!(*history.ending(), Ending::Time, "{name}");
+        assert_eq!(history.events().len(), expected.len() + 1, "{name}");
+        for (event, expected) in history.events()[1..].iter().zip(expected) {
+            let kind = if expected["kind"] == "release" { EventKind::Release } else { EventKind::Impact };
+            assert_eq!(event.kind, kind, "{name}");
+            assert!(event.time.radius() < 1e-48, "{name}: {}", event.time.text());
+            for (found, key) in [(&event.time, "time"), (&event.centre, "h"), (&event.centre_velocity, "h_rate")] {
+                let truth = Float::with_val(64, number(&expected[key]).to_f64());
+                // What the other program gives is right to some 1e-11.
+                holds(name, found, &truth, 10);
+                count += 1;
+            }
+        }
+    }
+    assert!(count >= 90, "{count}");
+}
+
+#[test]
+fn fixed_tops_strained_starts_and_gaps_are_proved() {
+    let strained = |displacement: &[(&str, &str)], velocity: &[(&str, &str)]| {
+        let list = |points: &[(&str, &str)]| points.iter().map(|(x, v)| (number_of(x), number_of(v))).collect();
+        Start::Profile(Profile { displacement: list(displacement), velocity: list(velocity) })
+    };
+    let mut fixed = rod("0.3", "1", "0.5", 1);
+    (fixed.rod.top, fixed.run) = (Top::Fixed, Run::Time(number_of("7.3")));
+    let mut hanging = rod("0.2", "0", "0", 1);
+    hanging.rod.top = Top::Fixed;
+    hanging.start = strained(&[("0", "0.5"), ("1", "0")], &[("0", "0"), ("1", "0")]);
+    hanging.run = Run::Time(number_of("5.1"));
+    let mut bent = rod("0.3", "1", "0.7", 1);
+    bent.start = strained(&[("0", "0"), ("0.3", "-0.1"), ("1", "0.2")], &[("0", "-1"), ("0.7", "-2.5"), ("1", "0.5")]);
+    bent.run = Run::Time(number_of("6.1"));
+    let gap = Problem::builder()
+        .length(1)
+        .wave_speed(3)
+        .gravity("9.81")
+        .damping("0.4")
+        .impact_speed("0.5")
+        .gap("0.3")
+        .time("1.9")
+        .build()
+        .unwrap();
+    let mut count = 0;
+    for (name, problem) in [("fixed", fixed), ("hanging", hanging), ("bent", bent), ("gap", gap)] {
+        let (proved, digits) = (problem.certified(20).unwrap(), problem.digits(60).unwrap());
+        assert_eq!(proved.ending(), digits.ending(), "{name}");
+        assert_eq!(proved.events().len(), digits.events().len(), "{name}");
+        count += compare(name, &proved, &digits, 55);
+    }
+    assert!(count >= 170, "{count}");
+}
+
+/// Numbers that look random, the same on every machine.
+struct Dice(u64);
+
+impl Dice {
+    fn between(&mut self, low: f64, high: f64) -> f64 {
+        self.0 = self.0.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+        low + (high - low) * ((self.0 >> 11) as f64 / (1u64 << 53) as f64)
+    }
+
+    /// Between powers of ten, in so many digits.
+    fn size(&mut self, low: f64, high: f64) -> String {
+        format!("{:.4e}", 10f64.powf(self.between(low, high)))
+    }
+}
+
+/// A damped rod: free or held, in SI units or its own, from the ground, above it, or strained.
+fn any_rod(dice: &mut Dice) -> Problem {
+    let (mut rod, unit) = if dice.between(0.0, 1.0) < 0.3 {
+        (Problem::uniform(number_of(&dice.size(-1.0, 1.0)), number_of(&dice.size(3.0, 3.8)), number_of("9.81"), 0.into()), 0.02)
+    } else {
+        (Problem::uniform(number_of(&dice.size(-0.5, 0.5)), number_of(&dice.size(-0.5, 0.5)), number_of(&dice.size(-0.7, 0.3)), 0.into()), 1.0)
+    };
+    rod.rod.damping = Some(1.into());
+    let parameters = Parameters::<f64>::of(&rod, &()).unwrap();
+    let trip = parameters.round_trip();
+    rod.rod.damping = Some(number_of(&format!("{:.4e}", 10f64.powf(dice.between(-2.5, 0.3)) / trip)));
+    let critical = parameters.gravity * trip / unit;
+    let speed = format!("{:.5e}", critical * dice.between(0.1, 4.0));
+    rod.start = Start::Uniform(Speed::Given(number_of(&speed)));
+    let kind = dice.between(0.0, 1.0);
+    if kind < 0.2 {
+        rod.rod.top = Top::Fixed;
+    } else if kind < 0.5 {
+        let (length, strain) = (rod.rod.length.clone(), critical * trip);
+        let any = |dice: &mut Dice, by: f64| number_of(&format!("{:.4e}", by * dice.between(-1.0, 1.0)));
+        let ground = if kind < 0.35 { 0.into() } else { number_of(&format!("{:.4e}", strain * dice.between(0.1, 0.5))) };
+        let displacement = vec![(0.into(), ground), (length.clone(), any(dice, 0.2 * strain))];
+        let velocity = vec![(0.into(), number_of(&format!("-{speed}"))), (length, any(dice, critical))];
+        rod.start = Start::Profile(Profile { displacement, velocity });
+    }
+    rod.run = Run::Time(number_of(&format!("{:.4e}", trip * dice.between(2.0, 7.0))));
+    rod
+}
+
+/// Compares so many random scenes; how many are proved to their end, and how many numbers were compared.
+fn explore(seed: u64, scenes: usize) -> (usize, usize) {
+    let mut dice = Dice(seed);
+    let (mut whole, mut count) = (0, 0);
+    for k in 0..scenes {
+        let problem = any_rod(&mut dice);
+        let name = format!("{seed}, {k}: {problem:?}");
+        let (Ok(proved), Ok(digits)) = (problem.certified(12), problem.digits(40)) else { continue };
+        whole += usize::from(proved.ending() == digits.ending());
+        count += compare(&name, &proved, &digits, 36);
+    }
+    (whole, count)
+}
+
+#[test]
+fn random_damped_scenes_are_enclosed() {
+    let (whole, count) = explore(1878, 16);
+    assert!(whole >= 14 && count >= 600, "{whole} {count}");
+}
+
+/// `make explore`.
+#[test]
+#[ignore = "minutes"]
+fn explore_damped_scenes_that_are_proved() {
+    let (whole, count) = explore(2473, 2000);
+    assert!(whole >= 1900 && count >= 80_000, "{whole} {count}");
+}
