@@ -23,7 +23,7 @@
 //! | [`Problem::solve`] | doubles | the bound of each number is carried; longer numbers where it is too wide |
 //! | [`Problem::digits`] | decimal digits | rounded once from values known to more |
 //! | [`Problem::exact`] | fractions | no error, as far as they reach; undamped rods |
-//! | [`Problem::certified`] | enclosures | every digit is proved; undamped rods, and the first contact of damped ones |
+//! | [`Problem::certified`] | enclosures | every digit is proved; `docs/proofs.md` says what of |
 //!
 //! [`History::text`] is a number with the digits that were asked for. An [`Interval`] has its ends, `lo()` and `hi()`,
 //! and `{}` prints the digits that both prove. [`History::units`] turns strains and values per `ρS` into those of the

@@ -219,8 +219,10 @@ impl<S: RoundedSpecial> Motion<Estimate<S>> for Damped<S> {
 
     fn strain(&self, time: &Estimate<S>, side: Side) -> Result<Estimate<S>, Error> {
         let time = meant(&self.course.events, time);
-        let flies = self.proved && self.presses(time.value(), side) == Some(false);
-        Ok(within(&self.strain_of(time.value(), side)?, if flies { 0.0 } else { self.near(time).strain }))
+        let strain = self.strain_of(time.value(), side)?;
+        // Before the start, and in flight.
+        let known = self.proved && strain.is_zero() && self.presses(time.value(), side) != Some(true);
+        Ok(within(&strain, if known { 0.0 } else { self.near(time).strain }))
     }
 
     fn pair(&self, pair: Pair, time: &Estimate<S>, side: Side) -> Result<[Estimate<S>; 2], Error> {
@@ -231,7 +233,8 @@ impl<S: RoundedSpecial> Motion<Estimate<S>> for Damped<S> {
         Ok(match pair {
             Pair::GroundEnd => {
                 let [height, rate] = self.ground_of(time.value(), side)?;
-                if self.proved && self.presses(time.value(), side) == Some(true) {
+                let known = height.is_zero() && rate.is_zero();
+                if self.proved && known && self.presses(time.value(), side) != Some(false) {
                     return Ok([Estimate::exact(height), Estimate::exact(rate)]);
                 }
                 self.moved(time, &height, &rate)

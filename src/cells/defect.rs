@@ -217,7 +217,8 @@ impl Steps {
     /// Of adding functions of x of this size to `q`.
     pub(super) fn shift<S: RoundedSpecial>(&self, state: &State<S>, size: f64) -> f64 {
         let of = |segment: &Segment<S>| {
-            3.0 * size * self.falls[segment.q.len().min(self.size as usize)]
+            let len = segment.len.to_f64();
+            3.0 * size * left_by(segment.q.len(), 1.5, len, self.kappa * len)
                 + self.through(8.0 * size, 128.0)
                 + 2.0 * self.unit * bound(&segment.q, 0)
         };

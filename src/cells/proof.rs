@@ -281,10 +281,10 @@ impl<S: RoundedSpecial> Proof<S> {
         self.since = time;
     }
 
-    /// How far the ray may be off that comes down here.
+    /// How far the ray may be off that comes down here, besides by roundings.
     fn ray_at(&self, at: &S) -> f64 {
         let known = self.rays.iter().filter(|(ray, _)| ray == at).map(|(_, late)| *late);
-        known.fold(64.0 * self.steps.unit, f64::max)
+        known.fold(0.0, f64::max)
     }
 
     /// From now on the flight is taken apart: `h′` and the height of its centre are of these sizes.
@@ -354,7 +354,10 @@ impl<S: RoundedSpecial> Proof<S> {
             let far = far + run.medium.gravity.to_f64() * (flown * flown).min(flown / damping);
             let grown = damping.exp();
             let mean = self.means[0] + self.means[1];
-            self.masses + grown * both + (grown + fall) * self.rate_off(damping) + 2.0 * mean
+            self.masses
+                + grown * both
+                + (grown + fall) * self.rate_off(damping)
+                + 2.0 * mean
                 + (2.0 + damping) * both
                 + 64.0 * self.steps.unit * (far + self.most)
         } else if run.medium.free_top {
@@ -373,7 +376,8 @@ impl<S: RoundedSpecial> Proof<S> {
         let centre = run.centre().map_or(0.0, |(_, rate)| rate.to_f64().abs());
         let most = 2.0 * (self.most + centre + run.medium.gravity.to_f64() + run.medium.slope.to_f64().abs());
         let far = 1.0 + time;
-        let asked = ASKED * self.steps.unit * (self.steps.size.powi(3) * most + far * (self.slope + most)) + 4.0 * self.leapt;
+        let asked =
+            ASKED * self.steps.unit * (self.steps.size.powi(3) * most + far * (self.slope + most)) + 4.0 * self.leapt;
         self.height = if run.contact { self.height } else { self.height.max(high) };
         let now = Known {
             rise: self.height + reach + far * asked,
@@ -462,7 +466,14 @@ impl<S: RoundedSpecial> Proof<S> {
     ///
     /// **Release at a root**: before, the stress is below −F; around `t̂` it has at least the slope s. So the end lets go
     /// in `t̂ ± τ`, `τ = (F + |σ̂(t̂)|)/s`, at least once.
-    fn held(&mut self, run: &Follower<'_, S>, (time, len): (f64, f64), cut: Option<(&S, bool)>, trace: &[S], own: f64) -> Result<(), Open> {
+    fn held(
+        &mut self,
+        run: &Follower<'_, S>,
+        (time, len): (f64, f64),
+        cut: Option<(&S, bool)>,
+        trace: &[S],
+        own: f64,
+    ) -> Result<(), Open> {
         let fast = self.trace_off(run.damping(), time) + own + 8.0 * self.slope * self.late;
         let open = Open { what: Near::Release, differ: 2.0 * (bound(trace, 0) + fast) };
         let pressed = |part| {
@@ -525,7 +536,7 @@ impl<S: RoundedSpecial> Proof<S> {
             }
         };
         let most = right.abs().max(release.left.map_or(0.0, f64::abs)) + 4.0 * self.slope * late + fast;
-        self.happens(Some(release.at.clone()), time, late, most);
+        self.happens(Some(release.at.clone()), time, late + 64.0 * self.steps.unit, most);
         (self.summed, self.rising) = (0.0, true);
         Ok(late)
     }
@@ -619,7 +630,14 @@ impl<S: RoundedSpecial> Proof<S> {
     }
 
     /// So many round trips are going to be leapt over; `least` is no more than the height of the end meanwhile.
-    pub(super) fn leap(&mut self, run: &Follower<'_, S>, trips: f64, least: f64, count: &LeapCount, size: (usize, f64)) {
+    pub(super) fn leap(
+        &mut self,
+        run: &Follower<'_, S>,
+        trips: f64,
+        least: f64,
+        count: &LeapCount,
+        size: (usize, f64),
+    ) {
         let time = run.state.time().to_f64();
         self.drift(run.medium, trips);
         let grown = run.damping().exp();

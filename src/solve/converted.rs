@@ -96,6 +96,10 @@ impl<N: Scalar, M: Reads<N>> Converted<N, M> {
             return Ok(known);
         }
         let mut given = self.given(time);
+        // No ray comes before the start.
+        if given.vanishes() == Ok(true) && given.log2_error() == f64::NEG_INFINITY {
+            return Ok(given);
+        }
         if spelled(time).is_none() {
             let roundings = 8.0 * time.log2_roundoff().exp2() * time.to_f64();
             let met = self.rays.meant(point, given.clone(), roundings);

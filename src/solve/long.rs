@@ -168,9 +168,7 @@ fn last_proof(plan: &Plan, bits: u32) -> bool {
 fn proved(problem: &Problem, plan: &Plan, bits: u32, observe: &Observer) -> Result<Engined<Interval>, Error> {
     let digits = f64::from(bits) * std::f64::consts::LOG10_2;
     let effort = Effort { digits, until_lost: false, ..plan.effort(Rung::Enclosures(bits)) };
-    let t0 = std::time::Instant::now();
     let run = Damped::<Float>::prove(problem, &bits, effort, &**observe)?;
-    eprintln!("PROVE bits {bits} {:?} ending {} events {} end err {}", t0.elapsed(), run.ending(), run.events().len(), run.events().iter().map(|e| format!("{:.0}", e.time_error.log2())).collect::<Vec<_>>().join(" "));
     if matches!(run.ending(), Ending::Unproved { .. }) && !last_proof(plan, bits) {
         return Err(Error::NotDecided { what: "what happens at the ground", bits });
     }

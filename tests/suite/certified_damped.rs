@@ -161,9 +161,25 @@ impl Dice {
 /// A damped rod: free or held, in SI units or its own, from the ground, above it, or strained.
 fn any_rod(dice: &mut Dice) -> Problem {
     let (mut rod, unit) = if dice.between(0.0, 1.0) < 0.3 {
-        (Problem::uniform(number_of(&dice.size(-1.0, 1.0)), number_of(&dice.size(3.0, 3.8)), number_of("9.81"), 0.into()), 0.02)
+        (
+            Problem::uniform(
+                number_of(&dice.size(-1.0, 1.0)),
+                number_of(&dice.size(3.0, 3.8)),
+                number_of("9.81"),
+                0.into(),
+            ),
+            0.02,
+        )
     } else {
-        (Problem::uniform(number_of(&dice.size(-0.5, 0.5)), number_of(&dice.size(-0.5, 0.5)), number_of(&dice.size(-0.7, 0.3)), 0.into()), 1.0)
+        (
+            Problem::uniform(
+                number_of(&dice.size(-0.5, 0.5)),
+                number_of(&dice.size(-0.5, 0.5)),
+                number_of(&dice.size(-0.7, 0.3)),
+                0.into(),
+            ),
+            1.0,
+        )
     };
     rod.rod.damping = Some(1.into());
     let parameters = Parameters::<f64>::of(&rod, &()).unwrap();
@@ -178,7 +194,8 @@ fn any_rod(dice: &mut Dice) -> Problem {
     } else if kind < 0.5 {
         let (length, strain) = (rod.rod.length.clone(), critical * trip);
         let any = |dice: &mut Dice, by: f64| number_of(&format!("{:.4e}", by * dice.between(-1.0, 1.0)));
-        let ground = if kind < 0.35 { 0.into() } else { number_of(&format!("{:.4e}", strain * dice.between(0.1, 0.5))) };
+        let ground =
+            if kind < 0.35 { 0.into() } else { number_of(&format!("{:.4e}", strain * dice.between(0.1, 0.5))) };
         let displacement = vec![(0.into(), ground), (length.clone(), any(dice, 0.2 * strain))];
         let velocity = vec![(0.into(), number_of(&format!("-{speed}"))), (length, any(dice, critical))];
         rod.start = Start::Profile(Profile { displacement, velocity });
