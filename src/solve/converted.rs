@@ -8,6 +8,8 @@ use crate::mapped::{MapEach, mapped, try_mapped};
 use crate::motion::moments::{self, Moments};
 use crate::motion::{Course, Field, Motion, Pair, Ray, RayRegister, Scales, Side, StressPiece, Stretch, Waves};
 use crate::number::{Reads, Scalar, Spelling};
+#[cfg(feature = "mp")]
+use crate::problem::Parameters;
 
 /// The history of an engine in numbers `N`, read in numbers `M`.
 #[derive(Debug)]
@@ -18,6 +20,7 @@ pub(super) struct Converted<N: Scalar, M> {
     /// Where times that are spelled are not told from events or rays; exact numbers and enclosures know.
     windows: Option<Windows<N>>,
     course: Course<M>,
+    scales: Scales<M>,
 }
 
 /// How a time in doubles was spelled. A longer number does not say what it was rounded from.
@@ -35,7 +38,16 @@ impl<N: Scalar, M: Reads<N>> Converted<N, M> {
         let precision = engine.end().precision();
         let rounds = N::spelling(&1.into(), &precision).spelled_as().is_some();
         let windows = rounds.then(|| Windows::of(&*engine));
-        Converted { precision, rays: RayRegister::of(&*engine), windows, course, engine }
+        let scales = engine.scales().map(M::read);
+        Converted { precision, rays: RayRegister::of(&*engine), windows, course, scales, engine }
+    }
+
+    /// The same with what is known of the rod itself in numbers `M`.
+    #[cfg(feature = "mp")]
+    pub(super) fn of_rod(self, rod: &Parameters<M>) -> Self {
+        let Parameters { length, wave_speed, gravity, .. } = rod.clone();
+        let scales = Scales { time: rod.round_trip(), length, wave_speed, gravity, ..self.scales };
+        Converted { scales, ..self }
     }
 
     /// A time of this history. One that an event, or the end, was rounded to is that event's own.
@@ -83,7 +95,7 @@ impl<N: Scalar, M: Reads<N>> Converted<N, M> {
         if !point.is_finite() {
             return Err(Error::PointOutside { found: point.text(), length: length.text() });
         }
-        Ok(if M::read(length.clone()).text() == point.text() { length } else { point.give(&self.precision) })
+        Ok(if self.scales.length.text() == point.text() { length } else { point.give(&self.precision) })
     }
 
     /// A time at which `point` is asked about: that of a ray there, where the roundings of `M` alone set a computed one
@@ -190,7 +202,7 @@ impl<N: Scalar, M: Reads<N>> Motion<M> for Converted<N, M> {
     }
 
     fn scales(&self) -> Scales<M> {
-        self.engine.scales().map(M::read)
+        self.scales.clone()
     }
 
     fn error_estimate(&self) -> M {

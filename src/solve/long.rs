@@ -172,5 +172,6 @@ fn proved(problem: &Problem, plan: &Plan, bits: u32, observe: &Observer) -> Resu
     if matches!(run.ending(), Ending::Unproved { .. }) && !last_proof(plan, bits) {
         return Err(Error::NotDecided { what: "what happens at the ground", bits });
     }
-    Ok(Arc::new(Converted::new(Arc::new(run) as Engined<Float>)))
+    let rod = Parameters::of(problem, &IntervalPrecision::bits(bits))?;
+    Ok(Arc::new(Converted::new(Arc::new(run) as Engined<Float>).of_rod(&rod)))
 }

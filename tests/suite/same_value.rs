@@ -87,8 +87,8 @@ fn values<S: Scalar>(motion: &dyn Motion<S>, time: &S, side: Side) -> Result<Val
 /// Whether two accounts agree within the bounds of both and the rounding to doubles in which they are compared.
 fn same<A: Scalar, B: Scalar>(what: &str, ours: &Values<A>, truth: &Values<B>) -> Result<usize, TestCaseError> {
     for ((name, a), (_, b)) in ours.iter().zip(truth) {
-        // Its logarithm is a double.
-        let bound = (a.log2_error().exp2() + b.log2_error().exp2()) * (1.0 + 1e-12);
+        // An enclosure is read as its farther end; a logarithm is a double.
+        let bound = (a.log2_error().exp2().max(a.width().to_f64()) + b.log2_error().exp2()) * (1.0 + 1e-12);
         let (a, b) = (a.to_f64(), b.to_f64());
         let rounding = 2.0 * f64::EPSILON * a.abs().max(b.abs());
         prop_assert!((a - b).abs() <= bound + rounding, "{} {}: {:e} {:e} ± {:e}", what, name, a, b, bound);
