@@ -94,7 +94,7 @@ impl One {
             (Quantity::Release, Some(near), _) => event(EventKind::Release, near),
             (Quantity::LastEvent, ..) => match (motion.ending(), motion.events().last()) {
                 // The last event before an open question is not the last of the run.
-                (Ending::Undecided(_) | Ending::ExactnessEnds { .. }, _) => Err(ended()),
+                (Ending::Undecided(_) | Ending::ExactnessEnds { .. } | Ending::Unproved { .. }, _) => Err(ended()),
                 (Ending::Bounce, _) if *run != Run::Impacts(1) => Err(ended()),
                 (_, None) => Err(Missing::none("nothing happens in it")),
                 (_, Some(last)) => Ok(last.time.clone()),
