@@ -210,9 +210,21 @@ impl<S: RoundedSpecial> Motion<Estimate<S>> for Damped<S> {
 
     fn stress_pieces(&self) -> Vec<StressPiece<Estimate<S>>> {
         let piece = |piece: StressPiece<S>| {
-            let flies = self.proved && piece.chebyshev.is_empty();
-            let strain = if flies { 0.0 } else { self.scaled(self.uncertainty(&piece.from)).strain };
-            bounded_piece(piece, strain)
+            let found = self.uncertainty(&piece.from);
+            let Near { strain, .. } = self.scaled(found);
+            if !self.proved {
+                return bounded_piece(piece, strain);
+            }
+            // In flight there is none; and what begins or ends with a ray is off with it.
+            let Scales { time, velocity, wave_speed, .. } = self.scales;
+            let shifted = found.slope * found.rays * velocity / wave_speed;
+            let off = if piece.chebyshev.is_empty() { 0.0 } else { strain + shifted };
+            let StressPiece { from, to, left, right, chebyshev } = bounded_piece(piece, off);
+            let late = |at: Estimate<S>| {
+                let rounding = 16.0 * at.value().unit() * (at.to_f64() + time);
+                if at.value().is_zero() { at } else { wider(at, found.rays * time + rounding) }
+            };
+            StressPiece { from: late(from), to: late(to), left, right, chebyshev }
         };
         self.pieces_of_stress().into_iter().map(piece).collect()
     }

@@ -173,7 +173,7 @@ impl<S: RoundedSpecial> Damped<S> {
         precision: &S::Precision,
     ) -> Result<Self, Error> {
         let proved = found.proof.is_some();
-        let found = found.as_far_as_proved(&medium, &data)?;
+        let found = found.proved(&medium, &data)?;
         let Found { pieces, checkpoints, flights, marks, mut warnings, unresolved, before, ending, end_error, .. } =
             found;
         let unresolved = unresolved.map(|found| {

@@ -661,7 +661,7 @@ impl<S: RoundedSpecial> Found<S> {
     /// What is proved of it, with the bounds that are; where that ends before it does, what is open there.
     ///
     /// **Errors**: [`Error::NotDecided`] where nothing is.
-    pub(super) fn as_far_as_proved(mut self, medium: &Medium<S>, data: &Data<S>) -> Result<Self, Error> {
+    pub(super) fn proved(mut self, medium: &Medium<S>, data: &Data<S>) -> Result<Self, Error> {
         let Some(proof) = self.proof.take() else { return Ok(self) };
         let unit = proof.steps.unit;
         let mut open = proof.open;

@@ -9,7 +9,7 @@ use super::differences;
 use super::fractions::confirmed;
 use super::ladder::{Engined, Target};
 use super::observer::Observer;
-use super::plan::{Engine, Lacks, Plan, Rung};
+use super::plan::{Engine, Lacks, MOST_PROVED, Plan, Rung};
 use crate::cells::{ContactThenCells, Damped, Effort};
 use crate::error::Error;
 use crate::first_contact::{Bounce, ContactHistory, FirstContact};
@@ -135,10 +135,13 @@ fn enclosures(problem: &Problem, plan: &Plan, bits: u32, observe: &Observer) -> 
         Engine::Lattice => Ok(Arc::new(roots(problem, plan, bits, observe)?)),
         Engine::Cells => Ok(proved(problem, plan, bits, observe)?),
         Engine::ClosedForm => contact(problem, bits),
-        Engine::ClosedFormThenCells if bounces(problem, bits)? => match proved(problem, plan, bits, observe) {
-            Err(Error::NotDecided { .. }) if last_proof(plan, bits) => contact(problem, bits),
-            run => run,
-        },
+        // Of more digits than a march is proved to, the first contact has all.
+        Engine::ClosedFormThenCells if bits <= MOST_PROVED && bounces(problem, bits)? => {
+            match proved(problem, plan, bits, observe) {
+                Err(Error::NotDecided { .. }) if last_proof(plan, bits) => contact(problem, bits),
+                run => run,
+            }
+        }
         Engine::ClosedFormThenCells => contact(problem, bits),
     }
 }
@@ -166,6 +169,9 @@ fn last_proof(plan: &Plan, bits: u32) -> bool {
 
 /// A damped run with what is proved of it. Where more bits may prove more, they are asked for first.
 fn proved(problem: &Problem, plan: &Plan, bits: u32, observe: &Observer) -> Result<Engined<Interval>, Error> {
+    if bits > MOST_PROVED {
+        return Err(Error::Undecided { digits: plan.goal.digits as u32, bits: MOST_PROVED });
+    }
     let digits = f64::from(bits) * std::f64::consts::LOG10_2;
     let effort = Effort { digits, until_lost: false, ..plan.effort(Rung::Enclosures(bits)) };
     let run = Damped::<Float>::prove(problem, &bits, effort, &**observe)?;

@@ -192,7 +192,7 @@ const MOST_BITS: u32 = 1 << 22;
 /// Bits of an enclosure beyond which a comparison is called undecided, where the digits asked for do not need more.
 const MOST_ENCLOSED: u32 = 1 << 13;
 /// The same of a damped march that is proved: its account is kept in doubles, which end at 2⁻¹⁰²².
-const MOST_PROVED: u32 = 900;
+pub(super) const MOST_PROVED: u32 = 900;
 
 impl Plan {
     /// The plan for `question` of `problem`.
@@ -246,7 +246,7 @@ impl Plan {
                 let wanted = bits_for_digits(digits) + GUARD_BITS;
                 let marched = then_cells || engine == Engine::Cells;
                 let lost = if marched { foresee::proof_bits(problem, &reach) } else { 0 };
-                (Rung::Enclosures((wanted + lost).min(MOST_PROVED.max(wanted))), 0.0)
+                (Rung::Enclosures(if wanted < MOST_PROVED { (wanted + lost).min(MOST_PROVED) } else { wanted }), 0.0)
             }
             Numbers::Digits(digits) => {
                 let lost = match (engine, &reach) {
@@ -483,8 +483,8 @@ impl Climb {
             near_miss: wanted + NEAR_MISS,
             exact_roots: lattice.then_some(wanted * EXACT_ROOT + 1024),
             most_enclosed: match engine {
-                Engine::Cells | Engine::ClosedFormThenCells => MOST_PROVED,
-                Engine::Lattice | Engine::ClosedForm => MOST_ENCLOSED.max(4 * wanted),
+                Engine::Cells | Engine::ClosedFormThenCells if wanted + GUARD_BITS < MOST_PROVED => MOST_PROVED,
+                _ => MOST_ENCLOSED.max(4 * wanted),
             },
             exact_contacts: lattice.then_some(MOST_EXACT),
         }
