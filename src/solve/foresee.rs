@@ -6,7 +6,7 @@ use crate::number::{Estimate, Number};
 use crate::problem::{Parameters, Problem, Run};
 
 /// What the proof of a damped march costs in bits at first.
-const FIRST_PROOF: f64 = 24.0;
+const FIRST_PROOF: f64 = 44.0;
 /// The same with each impact, besides what the flight before it takes; foreseen through so many.
 const IMPACT: f64 = 3.5;
 const MOST_FORESEEN: f64 = 60.0;
