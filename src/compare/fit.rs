@@ -137,7 +137,7 @@ impl Fit {
             let of = |values: &[f64]| residuals(&varied(problem, parameters, values)?);
             let linear =
                 |values: &[f64], now: &[f64]| derivatives(problem, parameters, (values, &sizes), now, residuals);
-            least(values, &sizes, most, of, linear)
+            least(values, &sizes, (most, columns.len()), of, linear)
         };
         // Up to the second impact, and over all times.
         for until in [second.unwrap_or(last), last] {

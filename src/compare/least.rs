@@ -5,7 +5,7 @@
 pub(super) struct Least {
     /// The values.
     pub(super) values: Vec<f64>,
-    /// Their standard errors, from what remains and the normal matrix.
+    /// Their standard errors.
     pub(super) errors: Vec<f64>,
     /// Steps that were taken.
     pub(super) steps: usize,
@@ -16,6 +16,9 @@ pub(super) struct Least {
 /// Derivatives are known to about 1e-6: what is left of the square of one, when those before it are taken out, is
 /// rounding below this share.
 const TOLD: f64 = 1e-11;
+
+/// Stretches of samples whose errors are taken for independent.
+const BATCHES: usize = 20;
 
 /// Solves `A x = b` of a symmetric positive matrix, by Cholesky's decomposition; `None` where it is none.
 fn solve(matrix: &[Vec<f64>], right: &[f64]) -> Option<Vec<f64>> {
@@ -44,13 +47,16 @@ fn solve(matrix: &[Vec<f64>], right: &[f64]) -> Option<Vec<f64>> {
 
 /// The values that leave the least of `Σ r²`, from `start` in at most `most` steps, by Levenberg and Marquardt's method
 /// in unknowns divided by `scales`. `residuals` is `None` where there is no answer, and `linear` gives their
-/// derivatives. `None` where the residuals do not tell the unknowns apart.
+/// derivatives. `None` where the residuals do not tell the unknowns apart. They are those of
+/// so many columns, one after the other.
 ///
-/// **Accuracy**: the standard errors are those of independent residuals of one size.
+/// **Accuracy**: a standard error is the greater of two: that of independent residuals of one size, from the normal
+/// matrix, and that of the means of [`BATCHES`] stretches of samples, which is right where neighbours are off alike, as
+/// by what a scheme does wrong. Both are the same for noise.
 pub(super) fn least(
     start: &[f64],
     scales: &[f64],
-    most: usize,
+    (most, columns): (usize, usize),
     residuals: impl Fn(&[f64]) -> Option<Vec<f64>>,
     linear: impl Fn(&[f64], &[f64]) -> Option<Vec<Vec<f64>>>,
 ) -> Option<Least> {
@@ -60,8 +66,9 @@ pub(super) fn least(
     let mut now = residuals(&values)?;
     let (mut damping, mut settled, mut steps) = (0.0, false, 0);
     let mut normal = vec![vec![0.0; count]; count];
+    let mut slopes = vec![vec![0.0; now.len()]; count];
     while steps < most && !settled {
-        let slopes = linear(&values, &now)?;
+        slopes = linear(&values, &now)?;
         let dot = |i: usize, r: &[f64]| slopes[i].iter().zip(r).map(|(a, b)| a * b).sum::<f64>() * scales[i];
         let row = |i: usize| (0..count).map(|j| dot(i, &slopes[j]) * scales[j]).collect();
         normal = (0..count).map(row).collect();
@@ -89,11 +96,20 @@ pub(super) fn least(
             }
         }
     }
-    let rest = square(&now);
-    let variance = rest / now.len().saturating_sub(count).max(1) as f64;
+    let variance = square(&now) / now.len().saturating_sub(count).max(1) as f64;
+    let samples = (now.len() / columns).max(1);
+    let batches = BATCHES.min(samples);
     let error = |i: usize| {
         let unit: Vec<f64> = (0..count).map(|j| f64::from(u8::from(i == j))).collect();
-        Some((variance * solve(&normal, &unit)?[i]).sqrt() * scales[i])
+        let row = solve(&normal, &unit)?;
+        // What each residual adds to the value, by stretches. Together they add nothing.
+        let mut sums = vec![0.0; batches];
+        for (k, residual) in now.iter().enumerate() {
+            let slope: f64 = (0..count).map(|j| row[j] * slopes[j][k] * scales[j]).sum();
+            sums[k % samples * batches / samples] += slope * residual;
+        }
+        let together = square(&sums) * batches as f64 / batches.saturating_sub(1).max(1) as f64;
+        Some((variance * row[i]).max(together).sqrt() * scales[i])
     };
     let errors = (0..count).map(error).collect::<Option<_>>()?;
     Some(Least { values, errors, steps, settled })
@@ -109,11 +125,20 @@ mod tests {
         let data = [0.0, 1.0, 3.0];
         let residuals = |v: &[f64]| Some((0..3).map(|t| v[0] * t as f64 + v[1] - data[t]).collect::<Vec<f64>>());
         let linear = |_: &[f64], _: &[f64]| Some(vec![vec![0.0, 1.0, 2.0], vec![1.0; 3]]);
-        let found = least(&[7.0, -3.0], &[1.0, 1.0], 20, residuals, linear).unwrap();
+        let found = least(&[7.0, -3.0], &[1.0, 1.0], (20, 1), residuals, linear).unwrap();
         assert!((found.values[0] - 1.5).abs() < 1e-12 && (found.values[1] + 1.0 / 6.0).abs() < 1e-12);
         assert!(found.settled);
         // JᵀJ = [[5, 3], [3, 3]], its inverse [[1/2, −1/2], [−1/2, 5/6]], one degree of freedom.
         assert!((found.errors[0] - (1.0 / 12.0f64).sqrt()).abs() < 1e-12, "{found:?}");
         assert!((found.errors[1] - (5.0 / 36.0f64).sqrt()).abs() < 1e-12, "{found:?}");
+    }
+
+    /// The mean of forty samples, of which each two are the same one of twenty independent ±1: 1/√19, and not 1/√39.
+    #[test]
+    fn neighbours_that_are_off_alike_count_once() {
+        let data: Vec<f64> = (0..40).map(|k| if k / 2 % 2 == 0 { 1.0 } else { -1.0 }).collect();
+        let residuals = |v: &[f64]| Some(data.iter().map(|data| v[0] - data).collect::<Vec<f64>>());
+        let found = least(&[3.0], &[1.0], (20, 1), residuals, |_, _| Some(vec![vec![1.0; 40]])).unwrap();
+        assert!((found.errors[0] - (1.0 / 19.0f64).sqrt()).abs() < 1e-12, "{found:?}");
     }
 }

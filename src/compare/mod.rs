@@ -2,7 +2,6 @@
 
 mod agree;
 mod audit;
-mod between;
 mod comparison;
 mod conventions;
 pub mod data;

@@ -1,6 +1,5 @@
 //! The exact side: values, jumps and contacts of a history.
 
-use super::between::filled;
 use super::map::Location;
 use super::norms::Grid;
 use super::samples::Rounding;
@@ -29,8 +28,6 @@ pub(super) struct Ours<'a> {
     leaves: Vec<f64>,
 }
 
-/// With more times than this, most values are interpolated.
-const MANY: usize = 1 << 15;
 /// Jumps below this share of the scale of velocities are none.
 const SMALL: f64 = 1e-9;
 
@@ -100,9 +97,7 @@ impl<'a> Ours<'a> {
     /// The values of every quantity on `grid`, from later times where there are two.
     pub(super) fn values(&self, whats: &[Quantity], grid: &Grid) -> Result<Vec<Vec<f64>>, Error> {
         let Some(points) = &grid.points else {
-            let at = |times: &[f64]| self.history.columns(whats, times, Some(Side::Right));
-            let many = grid.times.len() > MANY;
-            return if many { filled(&grid.times, whats.len(), at) } else { at(&grid.times) };
+            return self.history.columns(whats, &grid.times, Some(Side::Right));
         };
         let mut all = vec![Vec::with_capacity(grid.times.len()); whats.len()];
         for row in grid.rows() {

@@ -48,7 +48,10 @@ pub struct History<S: Target> {
     problem: Problem,
     plan: Plan,
     observe: Observer,
-    attempt: Mutex<Attempt<S>>,
+    /// The attempt that has settled what happens, of which every query is asked first.
+    first: Attempt<S>,
+    /// The last one, in longer numbers where a query needed them.
+    last: Mutex<Attempt<S>>,
     events: OnceLock<Vec<Event<S>>>,
     contacts: OnceLock<Vec<Contact<S>>>,
     ending: Ending,
@@ -83,10 +86,11 @@ impl<S: Target> History<S> {
             Ok((engine.end(), events, contacts))
         };
         let (attempt, (end, events, contacts)) =
-            settled::<S, _, _>(query, what_happens, |query| ladder.settle::<S>(None, query))?;
+            settled::<S, _, _>(query, what_happens, |query| ladder.settle::<S>(Vec::new(), query))?;
         let motion = History {
             ending: attempt.engine.ending().clone(),
-            attempt: Mutex::new(attempt),
+            last: Mutex::new(attempt.clone()),
+            first: attempt,
             events: OnceLock::new(),
             contacts: OnceLock::new(),
             end: S::strip(end),
@@ -104,7 +108,7 @@ impl<S: Target> History<S> {
 
     fn current(&self) -> Attempt<S> {
         // An attempt is replaced whole: one that a panic left behind is as good as any.
-        self.attempt.lock().unwrap_or_else(PoisonError::into_inner).clone()
+        self.last.lock().unwrap_or_else(PoisonError::into_inner).clone()
     }
 
     /// The answer to any `query`, in numbers that carry their bound; `numbers` are those of the answer that are settled
@@ -137,14 +141,15 @@ impl<S: Target> History<S> {
         settled::<S, T, _>(query, numbers, |query| self.settle(query)).map(|((), answer)| answer)
     }
 
-    /// Settles a query from the last attempt on, and keeps the one that has settled it.
+    /// Settles a query by the first attempt, or else from the last one on, and keeps the one that has settled it.
     fn settle(&self, query: Query<'_, S>) -> Result<((), usize), Error> {
-        let current = self.current();
-        let rung = current.rung;
+        let last = self.current();
+        let rung = last.rung;
+        let known = if self.first.rung == rung { vec![last] } else { vec![self.first.clone(), last] };
         let ladder = Ladder { problem: &self.problem, plan: &self.plan, observe: &self.observe };
-        let (attempt, answer) = ladder.settle::<S>(Some(current), query).map_err(|error| self.explained(error))?;
-        if attempt.rung != rung {
-            let before = std::mem::replace(&mut *self.attempt.lock().unwrap_or_else(PoisonError::into_inner), attempt);
+        let (attempt, answer) = ladder.settle::<S>(known, query).map_err(|error| self.explained(error))?;
+        if attempt.rung != rung && attempt.rung != self.first.rung {
+            let before = std::mem::replace(&mut *self.last.lock().unwrap_or_else(PoisonError::into_inner), attempt);
             let covered = before.engine.covered().map(|(times, _)| times);
             self.covered.lock().unwrap_or_else(PoisonError::into_inner).extend(covered.into_iter().flatten());
         }
@@ -520,7 +525,9 @@ impl<S: Target> History<S> {
         let mut warnings = engine.warnings().to_vec();
         warnings.extend(self.problem.neglected());
         let mut covered = self.covered.lock().unwrap_or_else(PoisonError::into_inner).clone();
-        covered.extend(engine.covered().into_iter().flat_map(|(times, _)| times));
+        for engine in [&self.first.engine, &engine] {
+            covered.extend(engine.covered().into_iter().flat_map(|(times, _)| times));
+        }
         covered.sort_by(f64::total_cmp);
         covered.dedup();
         warnings.extend(covered.into_iter().map(|time| Warning::TimeNotTold { time }));

@@ -39,7 +39,7 @@ impl Plan {
         numbers: impl Fn(&T) -> Vec<&S::Carried>,
     ) -> Result<T, Error> {
         let ladder = Ladder { problem, plan: self, observe: &UNOBSERVED };
-        settled::<S, T, _>(query, numbers, |query| ladder.settle::<S>(None, query)).map(|(_, answer)| answer)
+        settled::<S, T, _>(query, numbers, |query| ladder.settle::<S>(Vec::new(), query)).map(|(_, answer)| answer)
     }
 }
 
@@ -121,7 +121,7 @@ pub(crate) fn settled<S: Target, T, A>(
 const SAME_DOUBT: usize = 3;
 
 impl Ladder<'_> {
-    /// The answer to `query`, settled: asked of `attempt` where there is one, and of attempts in more and more bits
+    /// The answer to `query`, settled: asked of the attempts that are `known`, and then of others in more and more bits,
     /// until every comparison on the way is decided and all numbers of the answer have the digits of the plan.
     ///
     /// **Accuracy**: each number is known to the digits of the plan, or to so many below the greatest number of the
@@ -131,17 +131,17 @@ impl Ladder<'_> {
     /// and of the query.
     pub(crate) fn settle<S: Target>(
         &self,
-        attempt: Option<Attempt<S>>,
+        known: Vec<Attempt<S>>,
         query: Query<'_, S>,
     ) -> Result<(Attempt<S>, usize), Error> {
-        let mut rung = attempt.as_ref().map_or(self.plan.rung, |attempt| attempt.rung);
-        let tried = attempt.as_ref().is_some_and(|attempt| attempt.tried);
+        let tried = known.iter().any(|attempt| attempt.tried);
+        let mut known = known.into_iter().map(|attempt| (attempt.rung, Some(attempt.engine)));
+        let (mut rung, mut engine) = known.next().unwrap_or((self.plan.rung, None));
         let mut reserve = None;
         let mut kept: Option<(Attempt<S>, usize, bool)> = None;
-        let mut known = attempt.map(|attempt| attempt.engine);
         let mut doubts: Vec<f64> = Vec::new();
         loop {
-            let answer = match known.take() {
+            let answer = match engine.take() {
                 Some(engine) => Ok(engine),
                 None => S::run(self.problem, self.plan, rung, self.observe),
             }
@@ -191,7 +191,7 @@ impl Ladder<'_> {
             let open = matches!((rung, lacks), (Rung::Confirmed(_) | Rung::Enclosures(_), Lacks::Bits(f64::INFINITY)));
             let next = self.plan.next(rung, lacks).filter(|_| reserve.is_none() || !open);
             match (next, reserve.take_if(|_| next.is_none()), reached) {
-                (Some(next), ..) => rung = next,
+                (Some(next), ..) => (rung, engine) = known.next().unwrap_or((next, None)),
                 (None, Some((attempt, answer)), _) => return Ok((Attempt { tried: true, ..attempt }, answer)),
                 (None, None, reached) => {
                     let kept = kept.filter(|(kept, _, settled)| *settled || kept.rung == Rung::Double);
