@@ -1,5 +1,7 @@
 //! From a scene and a question to what is printed of the history.
 
+use std::io::IsTerminal as _;
+
 use super::args::OutputArgs;
 use super::failure::Failure;
 use super::file::Format;
@@ -65,19 +67,29 @@ impl<R: Report> Visit for Printed<'_, R> {
     fn visit<S: Target>(&self, history: &History<S>, head: Head, progress: source::Progress) -> Result<(), Failure> {
         let Printed(report, output) = *self;
         let head = Head { wide: output.wide, ..head };
+        progress.stage("values of the answer");
         let gathered = history.ask(|motion| report.gather(motion, &head), |(_, numbers)| numbers.iter().collect_vec());
-        drop(progress);
         let (mut data, _) = gathered?;
         report.add(history, &mut data)?;
-        print(report, output, data, Head { warnings: history.warnings(), ..head })
+        print(report, output, data, (Head { warnings: history.warnings(), ..head }, progress))
     }
 }
 
-fn print<R: Report>(report: &R, output: &OutputArgs, data: R::Data, head: Head) -> Result<(), Failure> {
+fn print<R: Report>(
+    report: &R,
+    output: &OutputArgs,
+    data: R::Data,
+    (head, progress): (Head, source::Progress),
+) -> Result<(), Failure> {
     let format = output.format()?;
-    let head = warned(head, output.output.is_none() && format == Format::Table);
+    let head = progress.aside(|| warned(head, output.output.is_none() && format == Format::Table));
     let note = report.note(&data);
-    output.write(&report.bytes(data, &head, format)?)?;
+    progress.stage("text of the answer");
+    let bytes = report.bytes(data, &head, format)?;
+    // Nothing else stands on a terminal while the answer is printed.
+    let progress = (output.output.is_some() || !std::io::stdout().is_terminal()).then_some(progress);
+    output.write(&bytes)?;
+    drop(progress);
     note.iter().for_each(|note| eprintln!("note: {note}"));
     Ok(())
 }

@@ -107,6 +107,19 @@ impl Progress {
         Progress { bar, ended, watch: Some(watch) }
     }
 
+    /// The run has ended, and its answer is worked on.
+    pub(super) fn stage(&self, what: &'static str) {
+        if let Ok(style) = ProgressStyle::with_template("{spinner} {elapsed} {msg}") {
+            self.bar.set_style(style);
+        }
+        self.bar.set_message(what);
+    }
+
+    /// Does something that prints, with the bar out of its way.
+    pub(super) fn aside<T>(&self, print: impl FnOnce() -> T) -> T {
+        self.bar.suspend(print)
+    }
+
     /// What an engine calls as it goes on.
     pub(super) fn observer(&self) -> Observer {
         let (bar, calls) = (self.bar.clone(), AtomicUsize::new(0));
