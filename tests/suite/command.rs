@@ -360,6 +360,8 @@ fn explain_names_the_line_of_every_effect() {
     let line = effect("gravity")["line"].as_u64().unwrap();
     assert!(source.lines().nth(line as usize - 1).unwrap().starts_with("acceleration"));
     assert_eq!((&effect("damping")["called"], &effect("damping")["line"]), (&false.into(), &Value::Null));
+    // In fractions ∂t/∂μ of the last event, t = 74/3, is 12/5 from the left and 3123/15625 from the right.
+    assert!((plan["sensitivity"]["last"].as_f64().unwrap() - 36.0 / 37.0).abs() < 1e-12, "{plan}");
     refused(&["explain", "doyen-ern-piperno", "--format", "csv"], &["expected table or json"]);
 }
 

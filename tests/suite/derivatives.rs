@@ -408,3 +408,29 @@ fn the_command() {
     let words: Vec<&str> = row.split_whitespace().skip(4).collect();
     assert_eq!(words, ["0.12", "jumps", "0.8", "-0.2"]);
 }
+
+/// What `explain` measures, against difference quotients of the times that `solve` prints; in contact after contact of
+/// a damped rod, errors of the start die out.
+#[test]
+fn what_an_event_costs() {
+    let folder = tempfile::tempdir().unwrap();
+    let file = |speed: f64| {
+        let path = folder.path().join(format!("{speed}.toml"));
+        let rod = "rod = { length = 1, wave_speed = 1, damping = 0.1 }\ngravity.acceleration = 1\n";
+        std::fs::write(&path, format!("{rod}impact.speed = {speed}\nrun.impacts = 10\n")).unwrap();
+        path.to_str().unwrap().to_string()
+    };
+    let times = |speed: f64| -> Vec<f64> {
+        let solved = json(&["solve", &file(speed), "--format", "json"]);
+        solved["events"].as_array().unwrap().iter().map(|event| event["time"].as_f64().unwrap()).collect()
+    };
+    let found = &json(&["explain", &file(3.0), "--format", "json"])["sensitivity"];
+    let (here, more) = (times(3.0), times(3.0 + 1e-5));
+    let share = |k: usize| (more[k] - here[k]) / 1e-5 * 3.0 / here[k];
+    let changed: Vec<f64> = (0..here.len()).map(share).filter(|share| share.abs() > 1e-6).map(f64::abs).collect();
+    let (first, last) = (changed[0], changed[changed.len() - 1]);
+    assert_eq!((found["by"].as_str(), found["events"].as_u64()), (Some("speed"), Some(changed.len() as u64)));
+    assert!((found["last"].as_f64().unwrap() / last - 1.0).abs() < 1e-3, "{found} {last}");
+    let digits = (last / first).log10() / (changed.len() - 1) as f64;
+    assert!((found["digits_per_event"].as_f64().unwrap() - digits.max(0.0)).abs() < 1e-3, "{found} {digits}");
+}
