@@ -30,7 +30,7 @@ const ROUTES: [&str; 8] = [
     "enclosures",
 ];
 
-/// Under damping only the first contact is proved: the truth of a later event is not what ends the proof.
+/// The truth of a later event is proved, damped or not.
 #[cfg(feature = "mp")]
 #[test]
 fn the_truth_of_a_later_event() {
