@@ -1,6 +1,7 @@
 //! The first time at which a smooth function turns negative, with earlier times excluded.
 
 use super::series::{Basis, at_one, at_zero, bound, derivative, evaluate, spread};
+use crate::mapped::CollectVec;
 use crate::number::Rounded;
 
 /// Intervals shorter than this part of a segment are not cut any further.
@@ -85,9 +86,9 @@ fn descend<S: Rounded>(c: &[S], slope: &[S]) -> S {
     x
 }
 
-/// The smallest value on `0 … 1`. **Accuracy**: within `16u Σ|c_k|`: parts are halved until they are monotone, can't
-/// fall below what was found by more than that, or are shorter than `√u`, where the ends are within a few `u` of the
-/// least value.
+/// The smallest value on `0 … 1`. **Accuracy**: within `16u Σ|c_k|`: parts are halved until they are monotone, bend one
+/// way, can't fall below what was found by more than that, or are shorter than `√u`, where the ends are within a few `u`
+/// of the least value. Where a part bends upwards its least value is where the slope vanishes, or at an end.
 pub(super) fn smallest<S: Rounded>(basis: &Basis<S>, c: &[S]) -> Option<S> {
     let zero = c.first()?.zero();
     let unit = zero.log2_roundoff();
@@ -104,6 +105,17 @@ pub(super) fn smallest<S: Rounded>(basis: &Basis<S>, c: &[S]) -> Option<S> {
         // What the part can still fall below the least value found.
         let above = bound(&c, 1) - (c[0].clone() - &least).to_f64() <= roundoff;
         if above || slope[0].to_f64().abs() >= bound(&slope, 1) || log2_width < unit / 2.0 {
+            continue;
+        }
+        let bend = derivative(&slope);
+        if bend[0].to_f64().abs() >= bound(&bend, 1) {
+            let [fall, curve] = [&slope, &bend].map(|c| c.iter().map(|c| -c.clone()).collect_vec());
+            if !bend[0].is_negative() && !at_zero(&fall, &zero).is_negative() && at_one(&fall, &zero).is_negative() {
+                let value = evaluate(&c, &descend(&fall, &curve));
+                if value < least {
+                    least = value;
+                }
+            }
             continue;
         }
         let (half, one) = (zero.ratio(1, 2), zero.one());
@@ -138,5 +150,10 @@ mod tests {
         let root = first_descent(&basis, &dip, 1e-14).unwrap().0;
         assert!((root - 0.29999).abs() < 1e-9, "{root}");
         assert!((smallest(&basis, &dip).unwrap() + 1e-10).abs() < 1e-15);
+        // Two valleys, the second one deeper by 1e-9; and a hill, whose least value is at an end.
+        let valleys = series(&basis, |x| (x - 0.2) * (x - 0.2) * (x - 0.7) * (x - 0.7) - 1e-9 * x);
+        assert!((smallest(&basis, &valleys).unwrap() + 0.7e-9).abs() < 1e-15);
+        let hill = series(&basis, |x| 1.0 - (x - 0.4) * (x - 0.4));
+        assert!((smallest(&basis, &hill).unwrap() - 0.64).abs() < 1e-14);
     }
 }
