@@ -6,13 +6,13 @@
 
 use std::ops::ControlFlow;
 
+use super::account::Proof;
 use super::bounce::Held;
 use super::budget::{Budget, CUT_CELLS, FIRST_CELLS, LEAP_CELLS, MOST_LATE, Off};
 use super::effort::{Effort, LEAST_LEAP, MOST_PIECES, MOST_SEGMENTS};
 use super::flight::Flight;
 use super::march::{Medium, State};
 use super::piece::{Checkpoint, Found, Mark, Piece, Unresolved};
-use super::proof::Proof;
 use super::root::first_descent;
 use super::series::{at_one, at_zero, bound, derivative, evaluate};
 use super::start::{Data, on_grid};

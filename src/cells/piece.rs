@@ -1,9 +1,9 @@
 //! What a run leaves behind: what the ground felt, strip by strip, events, and states to start again from.
 
+use super::account::Proof;
 use super::budget::AtEvent;
 use super::flight::Flight;
 use super::march::State;
-use super::proof::Proof;
 use super::uncertainty::Uncertainty;
 use crate::motion::{Ending, EventKind};
 use crate::reason::Warning;

@@ -1,6 +1,5 @@
 //! How many bits a run is going to lose, foreseen in doubles.
 
-use super::plan::Reach;
 use crate::lattice::{Limits, Undamped, unobserved};
 use crate::number::{Estimate, Number};
 use crate::problem::{Parameters, Problem, Run};
@@ -12,20 +11,15 @@ const IMPACT: f64 = 3.5;
 const MOST_FORESEEN: f64 = 60.0;
 
 /// How many bits the proof of a damped march costs: an account without signs grows by some `12(1 + s)` with each impact,
-/// `s = (1 − e^{−2RT})/2R` after a flight of T round trips.
+/// `s = (1 − e^{−2RT})/2R` after a flight of T round trips; `contacts` is about how many there are, by the round trip.
 ///
 /// **Accuracy**: *estimate*. What is foreseen too little takes a second run.
-pub(super) fn proof_bits(problem: &Problem, reach: &Reach) -> u32 {
+pub(super) fn proof_bits(problem: &Problem, contacts: impl FnOnce(f64) -> f64) -> u32 {
     let Ok(rod) = Parameters::<f64>::of(problem, &()) else { return 0 };
     let trip = rod.round_trip();
     let flight = if rod.gravity > 0.0 { 2.0 * rod.speed / (rod.gravity * trip) } else { f64::INFINITY };
     let slowed = (0.5 / (rod.damping * trip)).min(flight.max(1.0));
-    let contacts = match reach {
-        Reach::Contacts(contacts) => f64::from(*contacts),
-        Reach::FirstContact => 1.0,
-        Reach::Time(time) => (time.to_f64() / (2.0 * trip)).ceil(),
-    };
-    (FIRST_PROOF + contacts.min(MOST_FORESEEN) * (IMPACT + (1.0 + slowed).log2())) as u32
+    (FIRST_PROOF + contacts(trip).min(MOST_FORESEEN) * (IMPACT + (1.0 + slowed).log2())) as u32
 }
 
 /// How many bits the history of an undamped rod loses to rounding until `end`: `log₂` of the factor by which its error

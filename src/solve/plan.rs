@@ -127,6 +127,17 @@ pub enum Reach {
     Time(Number),
 }
 
+impl Reach {
+    /// About how many contacts that is at most, `trip` being a round trip.
+    fn contacts(&self, trip: f64) -> f64 {
+        match self {
+            Reach::Contacts(contacts) => f64::from(*contacts),
+            Reach::FirstContact => 1.0,
+            Reach::Time(time) => (time.to_f64() / (2.0 * trip)).ceil(),
+        }
+    }
+}
+
 /// The numbers that one attempt is computed in, in the order in which they cost more.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "snake_case")]
@@ -245,7 +256,7 @@ impl Plan {
             Numbers::Certified(digits) => {
                 let wanted = bits_for_digits(digits) + GUARD_BITS;
                 let marched = then_cells || engine == Engine::Cells;
-                let lost = if marched { foresee::proof_bits(problem, &reach) } else { 0 };
+                let lost = if marched { foresee::proof_bits(problem, |trip| reach.contacts(trip)) } else { 0 };
                 (Rung::Enclosures(if wanted < MOST_PROVED { (wanted + lost).min(MOST_PROVED) } else { wanted }), 0.0)
             }
             Numbers::Digits(digits) => {
