@@ -4,6 +4,7 @@ use super::cell::Cell;
 use super::defect::Steps;
 use super::march::{Medium, State};
 use super::series::Basis;
+use super::uncertainty::Uncertainty;
 use crate::reason::Near;
 use crate::special::RoundedSpecial;
 
@@ -15,16 +16,6 @@ pub(super) const SLACK: f64 = 1e-9;
 pub(super) struct Open {
     pub(super) what: Near,
     pub(super) differ: f64,
-}
-
-/// How far values may be off between two events.
-#[derive(Clone, Copy, Debug, Default)]
-pub(super) struct Known {
-    pub(super) rise: f64,
-    pub(super) speed: f64,
-    pub(super) rate: f64,
-    pub(super) slope: f64,
-    pub(super) most: f64,
 }
 
 /// A release that the first strip of its flight has yet to show.
@@ -73,8 +64,8 @@ pub(super) struct Proof<S> {
     pub(super) landed: Option<f64>,
     /// How far the events are off.
     pub(super) events: Vec<f64>,
-    /// Before the first event, and after each.
-    pub(super) known: Vec<Known>,
+    /// How far values may be off before the first event, and after each.
+    pub(super) known: Vec<Uncertainty>,
     /// What is open, and how many pieces are shown.
     pub(super) open: Option<(usize, Open)>,
 }
@@ -101,7 +92,7 @@ impl<S: RoundedSpecial> Proof<S> {
             release: None,
             landed: None,
             events: Vec::new(),
-            known: vec![Known::default()],
+            known: vec![Uncertainty::default()],
             open: None,
         }
     }

@@ -1,5 +1,5 @@
-//! What one step of a run may be off by: the difference of what is stored after it and the exact image of what is stored
-//! before it, bounded from the sizes of stored coefficients alone.
+//! What one step of a run may be off by: the difference of what is stored after it and the exact image of what is
+//! stored before it, bounded from the sizes of stored coefficients alone.
 //!
 //! **Rounding.** A step is a chain of sums and products of its inputs with constants. If no path from an input to the
 //! result has more than n roundings of u each, the result is off by at most `1.01 n u` times what the same chain gives
@@ -103,8 +103,8 @@ impl Steps {
         2.0 * self.size * (self.size + 64.0 + roundings) * self.unit * most
     }
 
-    /// Of a series through the values of others on part of their interval, or of a product of two: Clenshaw's sum is off
-    /// by `16n²u` and a node by 15u, where a polynomial has slopes of `2n²` of itself.
+    /// Of a series through the values of others on part of their interval, or of a product of two: Clenshaw's sum is
+    /// off by `16n²u` and a node by 15u, where a polynomial has slopes of `2n²` of itself.
     fn anew(&self, most: f64) -> f64 {
         320.0 * self.size.powi(3) * self.unit * most
     }

@@ -17,7 +17,8 @@ const SMALLEST_STEP: f64 = 1e-12;
 impl<S: RoundedSpecial> Follower<'_, S> {
     /// How far a root in the strip may be off: the error of the function, and `vague` more, over its slope, or the root
     /// of twice the error over the second derivative if that is less. Where the function bends back, up to twice the
-    /// former. What Clenshaw's sum rounds, at most `(k + 2)u` of each coefficient, counts where the strip is long and the hop is short.
+    /// former. What Clenshaw's sum rounds, at most `(k + 2)u` of each coefficient, counts where the strip is long and
+    /// the hop is short.
     pub(super) fn event_error(&self, trace: &[S], height: &[S], x: &S, len: &S, vague: f64) -> Off {
         let strip = len.to_f64();
         let at = |c: &[S]| evaluate(c, x).to_f64();

@@ -475,7 +475,8 @@ impl<'a, S: RoundedSpecial> Follower<'a, S> {
     /// `|z(0)| ≤ ‖z_x‖/√6` on a rod of length ½; `e^{2Rτ} (|ȧ + Ra|² + ω²|a|²)` is constant in each mode `a`, and lies
     /// between `1 ∓ ρ` times `e^{2Rτ}(|ȧ|² + (2πk)²|a|²)`, `ρ = R/2π`; and `½ ∫ p² + q² dx ≤ ½ M²` half a round trip
     /// from now, above the characteristic on which `|q| ≤ M`. So `B = e^{R/2} M √((1 + ρ)/(1 − ρ)/12)`. Where
-    /// `h′ ≥ −g/2R` the fall is concave, and `h − B e^{−Rτ}` with it: both ends decide. Otherwise h falls all the time, and its end does.
+    /// `h′ ≥ −g/2R` the fall is concave, and `h − B e^{−Rτ}` with it: both ends decide. Otherwise h falls all the time,
+    /// and its end does.
     fn leap_length(&self, goal: &Goal<S>) -> Option<i64> {
         let flight = self.flying()?;
         let (damping, gravity) = (self.damping(), self.medium.gravity.to_f64());

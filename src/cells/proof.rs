@@ -6,14 +6,14 @@
 //! lemmas. Dimensionless: times in `t₁`, lengths in `c t₁`, velocities in `V`; `δ = δ_E + δ_W`:
 //!
 //! - **E**, `even`: `sup |δ_E|`, the sum of all defects so far.
-//! - **W**, `masses`: `∫ |δ_W|`. An event that is off by at most τ differs from the true one in what holds at the ground
-//!   for no longer than 2τ, where p is −q here and q there: `4τ max|q|`.
+//! - **W**, `masses`: `∫ |δ_W|`. An event that is off by at most τ differs from the true one in what holds at the
+//!   ground for no longer than 2τ, where p is −q here and q there: `4τ max|q|`.
 //! - Away from rays that are off, `|δq| ≤ F = E + min(R(T + 1), e^R) W` and what the trace itself has been rounded by.
 //! - In flight `|δv(0,·)| ≤ H`, [`Proof::height_off`].
 //!
 //! What the signs below do not show ends the proof: at the beginning of the strip in question.
 
-use super::account::{Known, Open, Proof, Release, SLACK};
+use super::account::{Open, Proof, Release, SLACK};
 use super::follow::Follower;
 use super::leap::LeapCount;
 use super::march::Medium;
@@ -109,22 +109,17 @@ impl<S: RoundedSpecial> Proof<S> {
         let asked =
             ASKED * self.steps.unit * (self.steps.size.powi(3) * most + far * (self.slope + most)) + 4.0 * self.leapt;
         self.height = if run.contact { self.height } else { self.height.max(high) };
-        let now = Known {
+        let now = Uncertainty {
             rise: self.height + reach + far * asked,
             speed: self.trace_off(damping, time) + asked,
             rate: self.rate_off(damping) + both + asked,
             slope: 2.0 * self.slope,
             most,
+            peak: most,
+            ..Uncertainty::default()
         };
         let last = self.known.len() - 1;
-        let Known { rise, speed, rate, slope, most } = self.known[last];
-        self.known[last] = Known {
-            rise: now.rise.max(rise),
-            speed: now.speed.max(speed),
-            rate: now.rate.max(rate),
-            slope: now.slope.max(slope),
-            most: now.most.max(most),
-        };
+        self.known[last] = self.known[last].max(now);
     }
 
     /// What an event leaves.
@@ -137,7 +132,7 @@ impl<S: RoundedSpecial> Proof<S> {
     /// The contact that the run begins with.
     pub(super) fn contact(&mut self) {
         self.event(0.0);
-        self.known[1] = Known::default();
+        self.known[1] = Uncertainty::default();
     }
 
     /// The impact that has been shown.
@@ -194,8 +189,8 @@ impl<S: RoundedSpecial> Proof<S> {
 
     /// A strip in contact.
     ///
-    /// **Release at a root**: before, the stress is below −F; around `t̂` it has at least the slope s. So the end lets go
-    /// in `t̂ ± τ`, `τ = (F + |σ̂(t̂)|)/s`, at least once.
+    /// **Release at a root**: before, the stress is below −F; around `t̂` it has at least the slope s. So the end lets
+    /// go in `t̂ ± τ`, `τ = (F + |σ̂(t̂)|)/s`, at least once.
     fn held(
         &mut self,
         run: &Follower<'_, S>,
@@ -273,10 +268,10 @@ impl<S: RoundedSpecial> Proof<S> {
 
     /// A strip in flight.
     ///
-    /// **Landing** at `t̂`, on a stretch `t̂ ± δ` on which `v̂_t ≤ −s`, `s > F`: `τ = (H + |v̂(0,t̂)|)/s` is less than δ, and
-    /// `v̂(0,·) > H` before the stretch, except at first while the end has only risen since its release (`v̂_t > F`; v is
-    /// never negative, so what rises does not touch). Then the true end touches the ground in `t̂ ± τ`, once, and not
-    /// before.
+    /// **Landing** at `t̂`, on a stretch `t̂ ± δ` on which `v̂_t ≤ −s`, `s > F`: `τ = (H + |v̂(0,t̂)|)/s` is less than
+    /// δ, and `v̂(0,·) > H` before the stretch, except at first while the end has only risen since its release (`v̂_t >
+    /// F`; v is never negative, so what rises does not touch). Then the true end touches the ground in `t̂ ± τ`, once,
+    /// and not before.
     fn flown(
         &mut self,
         run: &Follower<'_, S>,
@@ -410,18 +405,14 @@ impl<S: RoundedSpecial> Found<S> {
         self.marks.truncate(proof.events.len());
         self.warnings.clear();
         (self.unresolved, self.end_error) = (None, 0.0);
-        let known = |known: &Known, late: f64| {
-            let Known { rise, speed, rate, slope, most } = *known;
-            Uncertainty { rise, speed, rate, late: 0.0, slope, most, peak: most, rays: late }
-        };
         let rounding = |time: f64| 16.0 * unit * (1.0 + time);
         let latest = proof.events.iter().copied().fold(0.0, f64::max);
-        self.before = known(&proof.known[0], 0.0);
+        self.before = proof.known[0];
         for (k, mark) in self.marks.iter_mut().enumerate() {
             let time = mark.time.to_f64();
             mark.time_error = if time == 0.0 { 0.0 } else { proof.events[k] + rounding(time) };
             mark.at = None;
-            mark.after = known(&proof.known[k + 1], latest + rounding(time));
+            mark.after = Uncertainty { rays: latest + rounding(time), ..proof.known[k + 1] };
         }
         if let (Some(late), Ending::NextImpact) = (proof.landed, &self.ending) {
             let end = self.pieces.last().map_or(0.0, |piece| piece.to().to_f64());

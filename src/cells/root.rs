@@ -87,8 +87,8 @@ fn descend<S: Rounded>(c: &[S], slope: &[S]) -> S {
 }
 
 /// The smallest value on `0 … 1`. **Accuracy**: within `16u Σ|c_k|`: parts are halved until they are monotone, bend one
-/// way, can't fall below what was found by more than that, or are shorter than `√u`, where the ends are within a few `u`
-/// of the least value. Where a part bends upwards its least value is where the slope vanishes, or at an end.
+/// way, can't fall below what was found by more than that, or are shorter than `√u`, where the ends are within a few
+/// `u` of the least value. Where a part bends upwards its least value is where the slope vanishes, or at an end.
 pub(super) fn smallest<S: Rounded>(basis: &Basis<S>, c: &[S]) -> Option<S> {
     let zero = c.first()?.zero();
     let unit = zero.log2_roundoff();

@@ -1,5 +1,5 @@
-//! Signs of a series on parts of its interval, shown by its coefficients: `|c₀| > Σ_{k≥1}|c_k|`, on halves where the whole
-//! does not tell.
+//! Signs of a series on parts of its interval, shown by its coefficients: `|c₀| > Σ_{k≥1}|c_k|`, on halves where the
+//! whole does not tell.
 
 use super::series::{Basis, bound};
 use crate::number::Rounded;

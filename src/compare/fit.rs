@@ -98,8 +98,8 @@ fn derivatives(
 impl Fit {
     /// The values of `parameters` that explain `columns` best, from those of `problem`.
     ///
-    /// **Source**: Levenberg and Marquardt's method in three stages, the residuals of the first two as in `model`: up to
-    /// the second impact, then over all times, then sample by sample where no jump is within two steps. In the last
+    /// **Source**: Levenberg and Marquardt's method in three stages, the residuals of the first two as in `model`: up
+    /// to the second impact, then over all times, then sample by sample where no jump is within two steps. In the last
     /// stage each column weighs by what remained of it.
     ///
     /// **Errors**: [`FitError`] as an inner result; the outer one is the history's.

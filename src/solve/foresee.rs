@@ -10,8 +10,9 @@ const FIRST_PROOF: f64 = 44.0;
 const IMPACT: f64 = 3.5;
 const MOST_FORESEEN: f64 = 60.0;
 
-/// How many bits the proof of a damped march costs: an account without signs grows by some `12(1 + s)` with each impact,
-/// `s = (1 − e^{−2RT})/2R` after a flight of T round trips; `contacts` is about how many there are, by the round trip.
+/// How many bits the proof of a damped march costs: an account without signs grows by some `12(1 + s)` with each
+/// impact, `s = (1 − e^{−2RT})/2R` after a flight of T round trips; `contacts` is about how many there are, by the
+/// round trip.
 ///
 /// **Accuracy**: *estimate*. What is foreseen too little takes a second run.
 pub(super) fn proof_bits(problem: &Problem, contacts: impl FnOnce(f64) -> f64) -> u32 {

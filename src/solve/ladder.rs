@@ -121,8 +121,8 @@ pub(crate) fn settled<S: Target, T, A>(
 const SAME_DOUBT: usize = 3;
 
 impl Ladder<'_> {
-    /// The answer to `query`, settled: asked of the attempts that are `known`, and then of others in more and more bits,
-    /// until every comparison on the way is decided and all numbers of the answer have the digits of the plan.
+    /// The answer to `query`, settled: asked of the attempts that are `known`, and then of others in more and more
+    /// bits, until every comparison on the way is decided and all numbers of the answer have the digits of the plan.
     ///
     /// **Accuracy**: each number is known to the digits of the plan, or to so many below the greatest number of the
     /// answer as the plan says. In doubles the best that could be reached; its own bounds say what that is.

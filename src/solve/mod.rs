@@ -12,6 +12,7 @@
 //! | `ladder` | more bits until the answer is settled |
 //! | `derivative` | derivatives by a value of the problem |
 //! | `exact`, `differences` | how fractions have them, and how long numbers |
+//! | `sensitivity` | what a change of one value makes of the times of events |
 //! | `history` | the answer in one number system, of which everything else is asked |
 //! | `solution` | the answer in the numbers of its plan |
 
@@ -31,6 +32,8 @@ mod long;
 mod observer;
 mod plan;
 mod question;
+#[cfg(feature = "cli")]
+mod sensitivity;
 mod solution;
 
 pub use derivative::{Derivative, Derivatives, NoDerivative};
@@ -41,4 +44,6 @@ pub use observer::Observer;
 pub(crate) use observer::unobserved;
 pub use plan::{CERTIFIED_DIGITS, CellLimits, Climb, DEFAULT_ACCURACY, Engine, Goal, MAX_DIGITS, Plan, Reach, Rung};
 pub use question::{Numbers, Question, Want};
+#[cfg(feature = "cli")]
+pub(crate) use sensitivity::Sensitivity;
 pub use solution::{ExactnessEnd, Solution, Visitor};

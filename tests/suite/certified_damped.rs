@@ -224,9 +224,8 @@ fn random_damped_scenes_are_enclosed() {
     assert!(whole >= 14 && count >= 600, "{whole} {count}");
 }
 
-/// `make explore`.
 #[test]
-#[ignore = "minutes"]
+#[ignore = "minutes: make explore"]
 fn explore_damped_scenes_that_are_proved() {
     let (whole, count) = explore(2473, 2000);
     assert!(whole >= 1900 && count >= 80_000, "{whole} {count}");

@@ -1,0 +1,58 @@
+//! What a change of one value of a problem makes of the times of its events.
+
+use crate::number::Scalar;
+use crate::problem::{Parameter, Problem};
+use crate::quantity::Quantity;
+
+/// How a relative change of one value of a problem grows from event to event.
+///
+/// **Source**: the derivatives of the times of events.
+///
+/// **Accuracy**: *estimate*: the greatest of both sides, and the mean growth from the first event to the last.
+#[derive(Debug, serde::Serialize)]
+pub(crate) struct Sensitivity {
+    by: &'static str,
+    /// How many events after t = 0 it was measured over.
+    events: usize,
+    /// `|p ∂t/∂p|/t` of the last one.
+    last: f64,
+    /// Its growth, in decimal digits for each event; zero where it does not grow.
+    digits_per_event: f64,
+}
+
+/// Contacts that it is measured over at most.
+const MEASURED: u32 = 10;
+
+impl Sensitivity {
+    /// By the first of speed, gravity and length that it has; `None` where fewer than two events have
+    /// derivatives.
+    pub(crate) fn of(problem: &Problem) -> Option<Self> {
+        let known = |by: &Parameter| by.value_in::<f64>(problem, &()).is_ok_and(|value| value != 0.0);
+        let by = [Parameter::Speed, Parameter::Gravity, Parameter::Length].into_iter().find(known)?;
+        let value = by.value_in::<f64>(problem, &()).ok()?;
+        let history = problem.to_builder().impacts(MEASURED).build().ok()?.solve().ok()?;
+        let derivatives = history.derivatives(by, &[Quantity::EventTime]).ok()?;
+        let mut found = Vec::new();
+        for (event, row) in history.events().iter().zip(&derivatives) {
+            let sides = row[0].as_ref().map(|derivative| derivative.sides());
+            let slopes = sides.into_iter().flatten().flatten().map(|slope| slope.value().abs());
+            let most = slopes.fold(0.0, f64::max) * value.abs() / event.time;
+            found.extend((event.time > 0.0 && most > 0.0).then_some(most));
+        }
+        let (first, last) = (*found.first()?, *found.last()?);
+        let grown = (last / first).log10() / found.len().checked_sub(1).filter(|count| *count > 0)? as f64;
+        Some(Sensitivity { by: by.name(), events: found.len(), last, digits_per_event: grown.max(0.0) })
+    }
+}
+
+impl std::fmt::Display for Sensitivity {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        let Sensitivity { by, events, last, digits_per_event } = self;
+        let (last, digits) = (last.decimal(2), digits_per_event.decimal(2));
+        write!(
+            f,
+            "1 % more {by} changes the time of the last of {events} events by {last} %, to first order: each event \
+             costs {digits} digits"
+        )
+    }
+}
