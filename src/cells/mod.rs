@@ -20,6 +20,7 @@ mod contact_then_cells;
 mod defect;
 mod dependence;
 #[cfg(test)]
+#[path = "tests/displaced.rs"]
 mod displaced;
 mod effort;
 mod event;

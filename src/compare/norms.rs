@@ -198,45 +198,5 @@ pub fn order((coarse, error): (f64, f64), (fine, less): (f64, f64)) -> Option<f6
 }
 
 #[cfg(test)]
-mod tests {
-    use super::*;
-
-    /// A straight line against zero: the sums by hand.
-    #[test]
-    fn by_hand() {
-        let grid = Grid::new(vec![0.0, 1.0, 3.0], None);
-        let norms = norms(&grid, &[2.0, 2.0, 2.0], &[2.0, 3.0, -1.0], 1.0, 1, |k| k < 2);
-        // Weights ½, 3/2, 1; differences 0, 1, 3; ‖ours‖₁ = 6, ‖ours‖₂² = 12.
-        assert_eq!((norms.l1.absolute, norms.l1.relative), (4.5, Some(0.75)));
-        assert_eq!((norms.l2.absolute, norms.l2.relative), (10.5f64.sqrt(), Some(10.5f64.sqrt() / 12f64.sqrt())));
-        assert_eq!((norms.linf.absolute, norms.linf.time, norms.on_jumps), (3.0, 3.0, 1));
-        assert_eq!(norms.linf_off_jumps.map(|most| (most.absolute, most.time)), Some((1.0, 1.0)));
-    }
-
-    /// Values whose squares no double holds have the norms of the same values of an ordinary size.
-    #[test]
-    fn of_any_size() {
-        let grid = Grid::new(vec![0.0, 1.0, 3.0], None);
-        let of = |unit: f64| {
-            let [ours, theirs] = [[2.0, 2.0, 2.0], [2.0, 3.0, -1.0]].map(|list| list.map(|x| x * unit));
-            norms(&grid, &ours, &theirs, unit, 1, |k| k < 2)
-        };
-        for unit in [2f64.powi(1020), 2f64.powi(-1020)] {
-            let (found, plain) = (of(unit), of(1.0));
-            for (found, plain) in [(found.l1, plain.l1), (found.l2, plain.l2)] {
-                assert_eq!((found.absolute, found.relative), (plain.absolute * unit, plain.relative));
-            }
-            assert_eq!(found.linf, Greatest { absolute: 3.0 * unit, ..plain.linf });
-        }
-    }
-
-    /// Against nothing there is no relative norm.
-    #[test]
-    fn against_zero() {
-        let grid = Grid::new(vec![1.0], None);
-        for rounding in [0.0, 1e-13] {
-            let norms = norms(&grid, &[rounding], &[2.0], 1.0, 0, |_| false);
-            assert_eq!((norms.l1.absolute, norms.l1.relative, norms.linf_off_jumps), (2.0 - rounding, None, None));
-        }
-    }
-}
+#[path = "tests/norms.rs"]
+mod tests;

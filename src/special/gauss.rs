@@ -78,35 +78,5 @@ pub(super) fn step(x: &rug::Float, n: usize, q: u32) -> (rug::Float, rug::Float)
 }
 
 #[cfg(test)]
-mod tests {
-    use super::*;
-
-    /// An n-point rule integrates x^(2n−2) exactly, and not x^(2n).
-    #[test]
-    fn degree_of_exactness() {
-        for n in 1..60usize {
-            let rule = gauss_legendre(&1.0f64, n);
-            assert_eq!(rule.len(), n);
-            assert!(rule.windows(2).all(|pair| pair[0].0 < pair[1].0));
-            let moment = |k: usize| rule.iter().map(|(x, w)| w * x.powi(k as i32)).sum::<f64>();
-            let exact = |k: usize| 2.0 / (k as f64 + 1.0);
-            assert!((moment(2 * n - 2) - exact(2 * n - 2)).abs() < 4e-15, "{n}");
-            if n < 20 {
-                assert!((moment(2 * n) - exact(2 * n)).abs() > 1e-13, "{n}");
-            }
-        }
-    }
-
-    #[cfg(feature = "mp")]
-    #[test]
-    fn many_digits() {
-        let rule = gauss_legendre(&rug::Float::with_val(400, 1), 41);
-        let mut sum = rug::Float::with_val(400, 0);
-        for (x, w) in rule {
-            sum += w * x.exp();
-        }
-        let one = rug::Float::with_val(400, 1);
-        let wrong: rug::Float = sum - (one.clone().exp() - one.exp().recip());
-        assert!(wrong.to_f64().abs() < 1e-110, "{wrong}");
-    }
-}
+#[path = "tests/gauss.rs"]
+mod tests;

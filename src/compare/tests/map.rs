@@ -1,0 +1,34 @@
+use super::*;
+
+fn names(text: &str) -> Vec<String> {
+    text.split_whitespace().map(str::to_string).collect()
+}
+
+#[test]
+fn names_and_numbers() {
+    let u = Quantity::EndDisplacement;
+    let map = Map::of(Some("t=0, u=2,force=lam"), &names("time lam disp"), 3, false).unwrap();
+    assert_eq!((map.time, map.quantities.clone()), (Some(0), vec![(u, 2), (Quantity::Force, 1)]));
+    assert_eq!(map.places(), [0, 2, 1]);
+    // The names of a header, and what is none of ours left alone.
+    let map = Map::of(None, &names("step t u"), 3, false).unwrap();
+    assert_eq!((map.time, map.quantities), (Some(1), vec![(u, 2)]));
+    // With points, u is that there.
+    let map = Map::of(None, &names("t x u"), 3, false).unwrap();
+    assert_eq!((map.point, map.quantities), (Some(1), vec![(Quantity::PointDisplacement, 2)]));
+}
+
+#[test]
+fn what_is_refused() {
+    let of = |text: Option<&str>, header: &str, counted| Map::of(text, &names(header), 3, counted).unwrap_err();
+    assert_eq!(of(None, "", false), MapError::NoNames);
+    assert_eq!(of(Some("u=1"), "", false), MapError::NoTime { found: String::new() });
+    assert_eq!(of(Some("t=0,u=1"), "", true), MapError::TwoTimes);
+    assert_eq!(of(Some("t=0,u"), "", false), MapError::Form { found: "u".into() });
+    assert_eq!(of(Some("t=0,w=1"), "", false), MapError::Name { found: "w".into(), field: false });
+    assert_eq!(of(Some("t=0,u=1,u_end=2"), "", false), MapError::Twice { found: "u_end".into() });
+    assert_eq!(of(Some("t=0,u=3"), "", false), MapError::Column { found: "3".into(), expected: "0 to 2".into() });
+    assert_eq!(of(None, "t a b", false), MapError::Nothing { found: "t, a, b".into(), field: false });
+    assert_eq!(of(None, "t x force", false), MapError::Nothing { found: "t, x, force".into(), field: true });
+    assert_eq!(of(None, "t time u", false), MapError::Twice { found: "time".into() });
+}

@@ -1,0 +1,20 @@
+use super::*;
+
+/// T₂ and T₅ on 1 … 3, at a thousand times: within a millionth of the peak, and no more than four times the pieces
+/// that equal chords of the greatest curvature take.
+#[test]
+fn straight_pieces_follow_the_curve() {
+    let chebyshev = vec![0.25, 0.0, 1.0, 0.0, 0.0, 0.5];
+    let curve = StressPiece { from: 1.0, to: 3.0, left: 0.75, right: 1.75, chebyshev };
+    let parts = straight(std::slice::from_ref(&curve), 1e-6);
+    for k in 0..=1000 {
+        let time = 1.0 + f64::from(k) / 500.0;
+        let part = parts.iter().find(|part| time <= part.to).unwrap_or(&curve);
+        assert!((part.eval(&time) - curve.eval(&time)).abs() <= 1.75e-6, "{time}");
+    }
+    assert!(parts.windows(2).all(|pair| pair[0].to == pair[1].from && pair[0].right == pair[1].left));
+    // |f″| ≤ 4 + 0.5 · 200: chords of the width √(8 · 1.75e-6/104).
+    assert!(parts.len() < 4 * 5500, "{}", parts.len());
+    let line = StressPiece { chebyshev: Vec::new(), ..curve };
+    assert_eq!(straight(std::slice::from_ref(&line), 1e-6), [line]);
+}

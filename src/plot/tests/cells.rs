@@ -1,0 +1,33 @@
+use super::*;
+
+/// The polygons cover the strip once.
+#[test]
+fn cells_cover_the_strip() {
+    let strip = Strip { from: 0.3, to: 5.1, length: 2.0, speed: 3.0, trip: 4.0 / 3.0, damped: false };
+    let breaks: Vec<Break> =
+        (-3..40).map(|k| Break { time: 0.17 * f64::from(k * k) - 1.0, jump: true, share: 1.0 }).collect();
+    for fine in [None, Some(0.2)] {
+        let [up, down] = [0.0, strip.trip].map(|late| strip.knots(&breaks, late, fine));
+        let polygons = strip.polygons(&up, &down).unwrap();
+        let area = |polygon: &Vec<DVec2>| -> f64 {
+            (2..polygon.len())
+                .map(|k| 0.5 * (polygon[k - 1] - polygon[0]).perp_dot(polygon[k] - polygon[0]).abs())
+                .sum()
+        };
+        let whole: f64 = polygons.iter().map(area).sum();
+        assert!((whole - 4.8 * 2.0).abs() < 1e-9, "{whole}");
+    }
+}
+
+#[test]
+fn colours_end_at_round_numbers() {
+    assert_eq!([0.0, 5.15, 0.5, 2.74, 1.21, 9.06].map(round_above), [0.0, 6.0, 0.5, 3.0, 1.5, 10.0]);
+}
+
+#[test]
+fn slopes_are_those_of_linear_functions() {
+    let value = |point: DVec2| 3.0 - 2.0 * point.x + 0.5 * point.y;
+    let at = samples(&[DVec2::ZERO, DVec2::new(2.0, 1.0), DVec2::new(3.0, 5.0), DVec2::new(0.0, 4.0)]);
+    let found = slope([at[1] - at[0], at[2] - at[0]], [1, 2].map(|k| value(at[k]) - value(at[0])));
+    assert!((found - DVec2::new(-2.0, 0.5)).length() < 1e-12);
+}
