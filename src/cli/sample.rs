@@ -11,14 +11,16 @@ use crate::error::Error;
 use crate::motion::{Ending, Motion, Side};
 use crate::number::{List, Scalar};
 use crate::output::{self, Head, Quantity, Samples, sample, samples_data};
-use crate::solve::Question;
+use crate::problem::Parameter;
+use crate::solve::{History, Question, Target};
 
 /// Values of a quantity at chosen times
 #[derive(Args, Debug)]
 #[command(
     after_help = "Examples:\n  dalembert sample paper-strong --quantity stress --times 0.3,1.2,2 --side left\n  \
     dalembert sample doyen-ern-piperno --quantity end --times 0..16/3:9 --exact\n  \
-    dalembert sample paper-weak --quantity field --times 1/3 --points 0.25,0.9"
+    dalembert sample paper-weak --quantity field --times 1/3 --points 0.25,0.9\n  \
+    dalembert sample figure-4-r02 --quantity stress --times 0.1,0.3 --derivatives speed,damping"
 )]
 pub(super) struct Sample {
     /// A scene file, `-`, or a built-in scene. It is followed as far as the last time, whatever its own run says
@@ -35,6 +37,9 @@ pub(super) struct Sample {
     /// Which limit where there are two
     #[arg(long, value_enum, default_value_t)]
     side: Side,
+    /// Derivatives of the values by values of the scene, as with solve; time and point stay where they are
+    #[arg(long, value_name = "LIST", value_delimiter = ',')]
+    derivatives: Vec<Parameter>,
     #[command(flatten)]
     numbers: NumberArgs,
     #[command(flatten)]
@@ -81,6 +86,21 @@ impl Report for Sample {
             numbers.push(time.clone());
         }
         Ok((Sampled(Samples::of(&samples, self.quantity, &head.units), ends), numbers))
+    }
+
+    fn add<S: Target>(&self, history: &History<S>, Sampled(samples, _): &mut Sampled) -> Result<(), Error> {
+        for by in self.derivatives.iter().copied() {
+            let too_long = || Error::Derivative { parameter: by.name(), expected: "times and points of fewer digits" };
+            let points = match (&self.points, self.quantity) {
+                (Some(points), _) => points.numbers(),
+                (None, Quantity::Field) => List::Range(0.into(), history.problem().rod.length.clone(), 3).numbers(),
+                (None, _) => Some(Vec::new()),
+            };
+            let (times, points) = self.times.numbers().zip(points).ok_or_else(too_long)?;
+            let found = history.derivatives_at(by, &samples.quantities(), &times, &points, self.side)?;
+            samples.derivatives.push((by, output::shared(found)));
+        }
+        Ok(())
     }
 
     fn note(&self, Sampled(_, ends): &Sampled) -> Option<String> {

@@ -1,7 +1,6 @@
 //! `dalembert solve`.
 
 use std::io::IsTerminal;
-use std::rc::Rc;
 
 use clap::Args;
 
@@ -11,15 +10,15 @@ use super::failure::Failure;
 use super::file::{self, Format};
 use super::source;
 use crate::error::Error;
-use crate::mapped::{CollectVec, mapped};
+use crate::mapped::CollectVec;
 use crate::motion::Motion;
 use crate::number::Scalar;
 use crate::output::{
-    CONTACT, Derived, EVENT, Form, Head, LEGEND, Part, Record, Shared, history_json, history_part, history_table,
-    outline, record,
+    CONTACT, Derived, EVENT, Form, Head, LEGEND, Part, Record, history_json, history_part, history_table, outline,
+    record, shared,
 };
 use crate::problem::Parameter;
-use crate::solve::{Derivative, History, Question, Target};
+use crate::solve::{History, Question, Target};
 
 const EXAMPLES: &str = "Examples:\n  dalembert solve doyen-ern-piperno --exact\n  \
     dalembert solve rod.toml --digits 38 -o rod.json\n  \
@@ -96,9 +95,7 @@ impl Report for Solve {
     fn add<S: Target>(&self, history: &History<S>, record: &mut Record) -> Result<(), Error> {
         for by in self.derivatives.iter().copied() {
             // There are no more contacts than events: a row has an event, and a contact beside it where there is one.
-            let share = |cell: Option<Derivative<_>>| cell.map(|cell| cell.map(|x| Rc::new(x) as Shared));
-            let found = history.derivatives(by, &[&EVENT[..], &CONTACT].concat())?;
-            let mut events = mapped(found, |row| mapped(row, share));
+            let mut events = shared(history.derivatives(by, &[&EVENT[..], &CONTACT].concat())?);
             let contacts = events.iter_mut().map(|row| row.split_off(EVENT.len().min(row.len())));
             let contacts = contacts.filter(|row| !row.is_empty()).collect_vec();
             record.derivatives.push(Derived { by, events, contacts });

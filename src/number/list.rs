@@ -140,6 +140,14 @@ impl List {
         part.map(|k| at(k as i64)).collect_vec()
     }
 
+    /// All numbers as they would be written; `None` where one is too long to be read again.
+    pub(crate) fn numbers(&self) -> Option<Vec<Number>> {
+        match self {
+            List::Numbers(numbers) => Some(numbers.clone()),
+            _ => self.lift(&()).iter().map(Number::of_rational).collect(),
+        }
+    }
+
     /// `a`, `b`, `q` for which the k-th of `last + 1` numbers is `(a (last − k) + b k)/q`, where all are below 2⁵³.
     fn integers(&self) -> Option<[i64; 3]> {
         let last = self.len() as i128 - 1;

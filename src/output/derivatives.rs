@@ -1,11 +1,20 @@
 //! Derivatives of events and contacts: columns beside them in data, tables of their own for a person.
 
+use std::rc::Rc;
+
 use super::dataset::{Cell, Column, Dataset, Shared};
 use super::record::Head;
 use crate::mapped::mapped;
+use crate::number::Scalar;
 use crate::problem::Parameter;
 use crate::quantity::Quantity;
 use crate::solve::{Derivative, Derivatives};
+
+/// Derivatives in numbers that every writer takes.
+pub(crate) fn shared<S: Scalar>(found: Derivatives<S>) -> Derivatives<Shared> {
+    let share = |cell: Option<Derivative<S>>| cell.map(|cell| cell.map(|x| Rc::new(x) as Shared));
+    mapped(found, |row| mapped(row, share))
+}
 
 /// Adds columns of derivatives of `quantities` to `data`, whose rows are of the same list.
 pub(super) fn add_columns(

@@ -25,7 +25,8 @@ pub(crate) use compare::{compare_data, compare_svg};
 
 pub(crate) use cost::{cost_data, effects_data};
 pub(crate) use cost_picture::cost_svg;
-pub(crate) use dataset::{Dataset, Shared, Shown};
+pub(crate) use dataset::{Dataset, Shown};
+pub(crate) use derivatives::shared;
 pub(crate) use figures::{figure_data, figure_sheet, figures_index};
 pub(crate) use file::{write_files, write_filled, write_together};
 pub(crate) use outline::outline;

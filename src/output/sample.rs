@@ -2,15 +2,19 @@
 
 use clap::ValueEnum;
 
-use super::dataset::{Cell, Column, Dataset};
+use super::dataset::{Cell, Column, Dataset, Shared};
+use super::derivatives;
 use super::record::{Head, Listed};
 use super::solve::{listed, named_units, units_json};
+use super::writer::table_digits;
 use crate::error::Error;
 use crate::mapped::{CollectVec, mapped};
 use crate::motion::{Motion, Side};
 use crate::number::Scalar;
+use crate::problem::Parameter;
 use crate::quantity::Quantity::*;
 use crate::quantity::{self, Measure, Units};
+use crate::solve::Derivatives;
 
 /// What `sample` can be asked for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, clap::ValueEnum)]
@@ -91,6 +95,9 @@ pub(crate) struct Samples {
     quantity: Quantity,
     has_points: bool,
     listed: Listed,
+    /// Derivatives of the values, where they are asked for.
+    pub(crate) derivatives: Vec<(Parameter, Derivatives<Shared>)>,
+    has_material: bool,
 }
 
 impl Samples {
@@ -118,19 +125,37 @@ impl Samples {
             row.extend(values);
             all.push(row);
         }
-        Samples { quantity, has_points, listed: (columns, all) }
+        let has_material = units.has_material();
+        Samples { quantity, has_points, listed: (columns, all), derivatives: Vec::new(), has_material }
+    }
+
+    /// What is printed of each.
+    pub(crate) fn quantities(&self) -> Vec<quantity::Quantity> {
+        let all = self.quantity.columns().iter().map(|column| column.0);
+        all.filter(|quantity| quantity.is_listed(self.has_material)).collect_vec()
     }
 }
 
 /// A row for each sample.
-pub(crate) fn samples_data(Samples { quantity, has_points, listed }: Samples, head: &Head) -> Dataset {
-    let units = &head.units;
-    let (columns, rows) = listed;
+pub(crate) fn samples_data(samples: Samples, head: &Head) -> Dataset {
+    let (units, quantities) = (&head.units, samples.quantities());
+    let Samples { quantity, has_points, listed: (columns, rows), derivatives, .. } = samples;
+    let key = |row: &Vec<Cell>| {
+        let places = ["t = ", "x = "].into_iter().zip(row);
+        places
+            .filter(|(_, cell)| !cell.is_empty())
+            .map(|(name, cell)| format!("{name}{}", cell.text(table_digits(head.digits), "")))
+            .collect_vec()
+    };
+    let keys = mapped(&rows, |row| key(row).join("   "));
+    let symbols = quantities.iter().map(|quantity| quantity.symbol()).enumerate().collect_vec();
+    let tables = derivatives.iter().map(|by| derivatives::table(("at", keys.clone()), &symbols, (by.0, &by.1), head));
+    let tables = tables.collect_vec().concat();
     let end = head.exact_until.as_ref().map_or_else(String::new, |end| format!("{end}; these are {}\n", head.number));
     let measures = quantity.columns().iter().filter_map(|(quantity, _)| quantity.measure()).collect_vec();
     let below = end + &named_units(&measures, units) + &head.warning_lines();
     let space = if below.is_empty() { "" } else { "\n" };
-    Dataset {
+    let mut data = Dataset {
         header: vec![
             ("schema", 1.into()),
             ("title", head.title.clone().into()),
@@ -143,10 +168,14 @@ pub(crate) fn samples_data(Samples { quantity, has_points, listed }: Samples, he
         list: "rows",
         columns,
         rows,
-        around: [String::new(), format!("\n{space}{below}")],
+        around: [String::new(), format!("\n{tables}{space}{below}")],
         notes: head.notes(),
         digits: head.digits,
         keys: (!head.wide).then_some(2 + usize::from(has_points)),
         ..Dataset::default()
+    };
+    for (by, rows) in &derivatives {
+        derivatives::add_columns(&mut data, &quantities, (*by, rows), |quantity| quantity.key().into());
     }
+    data
 }

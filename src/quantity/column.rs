@@ -73,6 +73,35 @@ pub fn columns<S: Scalar>(
     })
 }
 
+/// The values of `quantities` along the rod, column by column: for every time at each point.
+///
+/// **Errors**: what the history cannot answer; [`Error::NotOverTime`] for what has no point.
+pub(crate) fn along<S: Scalar>(
+    motion: &dyn Motion<S>,
+    units: &Units,
+    quantities: &[Quantity],
+    (points, times): (&[S], &[S]),
+    side: Side,
+) -> Result<Vec<Vec<S>>, Error> {
+    if let Some(other) = quantities.iter().find(|quantity| quantity.needs() != Needs::PointAndTime) {
+        return Err(Error::NotOverTime { quantity: other.name() });
+    }
+    let mut table = Vec::new();
+    table.resize_with(quantities.len(), Vec::new);
+    for time in times {
+        for point in points {
+            let field = motion.field(point, time, side)?;
+            let [displacement, velocity, strain] = field.numbers();
+            let numbers = [point, displacement, velocity, strain];
+            for (column, quantity) in table.iter_mut().zip(quantities) {
+                let factor = quantity.factor(&motion.scales(), units);
+                column.push(quantity.scaled(numbers[quantity.source().1].clone(), factor.as_ref()));
+            }
+        }
+    }
+    Ok(table)
+}
+
 /// What is asked at each time, and where the answers stand in a row.
 struct Asked {
     /// What has two limits stands first.

@@ -24,7 +24,7 @@ mod table;
 mod unit;
 
 pub use column::columns;
-pub(crate) use column::of_one_size;
+pub(crate) use column::{along, of_one_size};
 #[cfg(feature = "compare")]
 pub(crate) use convert::Conversion;
 pub use flight::{Flight, flights};

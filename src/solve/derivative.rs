@@ -4,9 +4,12 @@ use std::fmt;
 
 use super::observer::Observer;
 use super::plan::Plan;
-use crate::mapped::MapEach;
+use crate::error::Error;
+use crate::mapped::{CollectVec, MapEach};
+use crate::motion::{Motion, Side};
+use crate::number::{Number, Scalar};
 use crate::problem::{Parameter, Problem};
-use crate::quantity::Quantity;
+use crate::quantity::{self, Quantity, UnitSystem, Units};
 
 /// The derivative of a number of a history by a value of the problem.
 ///
@@ -52,6 +55,38 @@ pub struct Asked<'a> {
     pub(super) observe: &'a Observer,
     pub(super) by: Parameter,
     pub(super) quantities: &'a [Quantity],
+    /// Where they are values at times, and not those of a list.
+    pub(super) at: Option<At<'a>>,
+}
+
+/// Times, points of the rod for quantities that have one, and which limit.
+#[derive(Clone, Copy)]
+pub(super) struct At<'a> {
+    pub(super) times: &'a [Number],
+    pub(super) points: &'a [Number],
+    pub(super) side: Side,
+}
+
+impl Asked<'_> {
+    /// The numbers that derivatives are taken of, in units of the problem: a row for each of the list, or for each time
+    /// and there for each point.
+    ///
+    /// **Errors**: what the history cannot answer.
+    pub(super) fn values<S: Scalar>(&self, motion: &dyn Motion<S>) -> Result<Vec<Vec<Option<S>>>, Error> {
+        let units = Units::of(self.problem, UnitSystem::default());
+        let Some(At { times, points, side }) = self.at else {
+            return quantity::values(motion, self.quantities, &units);
+        };
+        let precision = motion.end().precision();
+        let lift = |list: &[Number]| list.iter().map(|number| S::spelling(number, &precision)).collect_vec();
+        let table = if points.is_empty() {
+            quantity::columns(motion, &units, self.quantities, &lift(times), Some(side))?
+        } else {
+            quantity::along(motion, &units, self.quantities, (&lift(points), &lift(times)), side)?
+        };
+        let count = table.first().map_or(0, Vec::len);
+        Ok((0..count).map(|row| table.iter().map(|column| Some(column[row].clone())).collect_vec()).collect_vec())
+    }
 }
 
 impl<S> Derivative<S> {

@@ -16,7 +16,7 @@ use crate::mapped::{CollectVec, MapEach, mapped};
 use crate::motion::Motion;
 use crate::number::{Bounded, Estimate, Float, Number, Scalar, bits_for_digits};
 use crate::problem::{Parameter, Problem};
-use crate::quantity::{self, Measure, Quantity, UnitSystem, Units};
+use crate::quantity::{Measure, Quantity, UnitSystem, Units};
 use crate::threads::Threads;
 
 type Long = Estimate<Float>;
@@ -234,7 +234,7 @@ fn rows(asked: &Asked<'_>, problem: &Problem, exponent: u32, bits: u32) -> Resul
             _ => quantity.natural_scale(motion, &units).unwrap_or(1.0),
         };
         let scales: Vec<f64> = mapped(asked.quantities, scale);
-        Ok((quantity::values(motion, asked.quantities, &units)?, scales))
+        Ok((asked.values(motion)?, scales))
     };
     let (mut rows, scales) = history.ask(query, |(rows, _)| rows.iter().flatten().flatten().collect_vec())?;
     let zero = Long::from_number(&Number::from(0), &bits);

@@ -5,10 +5,9 @@ use super::differences;
 use crate::error::Error;
 use crate::lattice::{Scaled, Undamped};
 use crate::mapped::MapEach;
-use crate::motion::Motion;
 use crate::number::{Bounded, DOUBLE_DIGITS, Dual, Estimate, Float, Number, Rational, Scalar};
 use crate::problem::{Material, Parameter, Parameters, Problem};
-use crate::quantity::{self, Measure, Quantity, UnitSystem, Units};
+use crate::quantity::{Measure, Quantity};
 
 type Rows<S> = Vec<Vec<Option<S>>>;
 type OneSide = Result<Rational, NoDerivative>;
@@ -27,7 +26,7 @@ pub(super) fn derivatives(asked: &Asked<'_>) -> Result<Derivatives<Rational>, Er
     let base = {
         let limits = asked.plan.lattice_limits(problem);
         let history = Undamped::<Rational>::solve_within(problem, &(), limits, &**asked.observe)?;
-        values(asked, &history)?
+        asked.values(&history)?
     };
     let right = rates(asked, problem, &value, 1)?;
     // A speed at the start that is zero can only grow.
@@ -89,10 +88,6 @@ fn side(rows: &Rows<Dual>, number: &Rational, (row, column): (usize, usize)) -> 
     there.filter(|there| there.value() == number).and_then(Dual::rate).cloned().ok_or(NoDerivative::Unsettled)
 }
 
-fn values<S: Scalar>(asked: &Asked<'_>, motion: &dyn Motion<S>) -> Result<Rows<S>, Error> {
-    quantity::values(motion, asked.quantities, &Units::of(asked.problem, UnitSystem::default()))
-}
-
 /// The numbers of the problem with a value that grows, or shrinks, with their rates.
 fn rates(asked: &Asked<'_>, problem: &Problem, value: &Rational, sign: i64) -> Result<Rows<Dual>, Error> {
     let given = Parameters::<Rational>::of(problem, &())?;
@@ -116,7 +111,7 @@ fn rates(asked: &Asked<'_>, problem: &Problem, value: &Rational, sign: i64) -> R
     let scaled = Scaled::with(problem, &given, gap)?;
     let limits = asked.plan.lattice_limits(problem);
     let history = Undamped::<Dual>::solve_scaled(scaled, &problem.run, limits, &**asked.observe)?;
-    let mut rows = values(asked, &history)?;
+    let mut rows = asked.values(&history)?;
     for row in &mut rows {
         for (number, quantity) in row.iter_mut().zip(asked.quantities) {
             if let Some(number) = number {

@@ -2,7 +2,7 @@
 
 use std::sync::{Mutex, OnceLock, PoisonError};
 
-use super::derivative::{Asked, Derivatives};
+use super::derivative::{Asked, At, Derivatives};
 use super::ladder::{Attempt, Ladder, Query, Target, settled};
 use super::observer::{Observer, unobserved};
 use super::plan::{Plan, Rung};
@@ -217,6 +217,12 @@ impl<S: Target> History<S> {
     /// ```
     pub fn units(&self) -> Units {
         Units::of(&self.problem, UnitSystem::default())
+    }
+
+    /// What was solved.
+    #[cfg(feature = "cli")]
+    pub(crate) fn problem(&self) -> &Problem {
+        &self.problem
     }
 
     /// How it was solved.
@@ -459,7 +465,38 @@ impl<S: Target> History<S> {
     /// # Ok::<(), dalembert::Error>(())
     /// ```
     pub fn derivatives(&self, by: Parameter, quantities: &[Quantity]) -> Result<Derivatives<S::Carried>, Error> {
-        S::derivatives(&Asked { problem: &self.problem, plan: &self.plan, observe: &self.observe, by, quantities })
+        S::derivatives(&self.asked(by, quantities, None))
+    }
+
+    /// The derivatives of `quantities` at `times` by a value of the problem, a row for each time; with `points`, those of
+    /// quantities along the rod, a row for each time and there for each point. Time and point stay where they are: a
+    /// value that jumps where a ray passes has a derivative on that side of the ray only on which the ray leaves it.
+    ///
+    /// **Accuracy**, **Errors**: those of [`History::derivatives`] and [`History::columns`].
+    ///
+    /// ```
+    /// use dalembert::{Parameter, Problem, Quantity, Side};
+    /// let rod = Problem::builder().length(1).wave_speed(1).gravity(1).impact_speed(3).time(1).build()?;
+    /// // Behind the first front v_x(0,t) = −(μ + g t)/c, so that ∂/∂g is −t/c.
+    /// let history = rod.exact()?;
+    /// let found = history.derivatives_at(Parameter::Gravity, &[Quantity::Strain], &["1/3".parse()?], &[], Side::Right)?;
+    /// assert_eq!(found[0][0].as_ref().and_then(|by| by.value()).map(ToString::to_string), Some("-1/3".into()));
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    pub fn derivatives_at(
+        &self,
+        by: Parameter,
+        quantities: &[Quantity],
+        times: &[Number],
+        points: &[Number],
+        side: Side,
+    ) -> Result<Derivatives<S::Carried>, Error> {
+        let asked = self.asked(by, quantities, Some(At { times, points, side }));
+        S::derivatives(&asked).map_err(|error| self.explained(error))
+    }
+
+    fn asked<'a>(&'a self, by: Parameter, quantities: &'a [Quantity], at: Option<At<'a>>) -> Asked<'a> {
+        Asked { problem: &self.problem, plan: &self.plan, observe: &self.observe, by, quantities, at }
     }
 
     /// `v`, `v_t`, `v_x` at `(x,t)`; where a ray passes, the limit from later times.
