@@ -1,6 +1,7 @@
 //! The problem in its own units: one round trip, and the speed that gravity gives in it.
 
 use crate::error::Error;
+use crate::mapped::{CollectVec, MapEach};
 use crate::motion::AtStart;
 use crate::number::{Bounded, Number, Open};
 use crate::problem::{Parameters, Problem, Profile, Start, Top};
@@ -47,19 +48,19 @@ impl<N: Bounded> Scaled<N> {
     ///
     /// **Errors**: [`Error::Irrational`] where a fraction cannot hold a parameter.
     pub fn of(problem: &Problem, precision: &N::Precision) -> Result<Self, Error> {
-        let gap = problem.gap().map(|gap| N::from_number(gap, precision));
-        Self::with(problem, &Parameters::of(problem, precision)?, gap)
+        let given = Parameters::of(problem, precision)?;
+        Self::with(problem, &given, AtStart::of(problem, &given))
     }
 
-    /// The same with these values of the parameters and of the gap in place of those of `problem`.
-    pub(crate) fn with(problem: &Problem, given: &Parameters<N>, gap: Option<N>) -> Result<Self, Error> {
-        let precision = &given.length.precision();
+    /// The same with these numbers in place of those of `problem`.
+    pub(crate) fn with(problem: &Problem, given: &Parameters<N>, data: AtStart<N>) -> Result<Self, Error> {
         let round_trip = given.round_trip();
         let has_gravity = problem.gravity.as_ref().is_some_and(|gravity| !gravity.is_zero());
         let one = given.length.one();
         let gravity = if has_gravity { one.clone() } else { one.zero() };
         let fall = given.critical_speed();
-        let data = AtStart::of(problem, given);
+        let first = |list: &[(N, N)]| list.first().map_or_else(|| one.zero(), |(_, value)| value.clone());
+        let (displacement, speed) = (first(&data.displacement), first(&data.velocity));
         let units = |velocity: N| Units {
             round_trip: round_trip.clone(),
             velocity,
@@ -69,7 +70,7 @@ impl<N: Bounded> Scaled<N> {
         match &problem.start {
             Start::Uniform(_) | Start::Above { .. } => {
                 let velocity = if has_gravity { fall } else { given.speed.clone() };
-                let speed = given.speed.clone() / &velocity;
+                let speed = -speed / &velocity;
                 let before = match problem.rod.top {
                     Top::Free => vec![(one.zero(), gravity.clone() - &speed, -gravity.clone())],
                     Top::Fixed => vec![
@@ -77,15 +78,15 @@ impl<N: Bounded> Scaled<N> {
                         (one.clone().halved(), gravity.clone().halved() - &speed, -gravity.clone()),
                     ],
                 };
-                let ground_start = gap.unwrap_or_else(|| one.zero()) / &velocity / &round_trip;
+                let ground_start = displacement / &velocity / &round_trip;
                 let (top, ground_velocity) = (problem.rod.top, -speed);
                 Ok(Scaled { units: units(velocity), gravity, top, data, ground_start, ground_velocity, before })
             }
             Start::Profile(profile) => {
-                let segments = segments(profile, &problem.rod.length, precision);
+                let segments = segments(profile, (&problem.rod.length, &given.length), &data);
                 let velocity = if has_gravity { fall } else { greatest_speed(&segments, &given.wave_speed)? };
-                let ground_start = ground_value::<N>(&profile.displacement, precision) / &velocity / &round_trip;
-                let ground_velocity = ground_value::<N>(&profile.velocity, precision) / &velocity;
+                let ground_start = displacement / &velocity / &round_trip;
+                let ground_velocity = speed / &velocity;
                 let units = units(velocity);
                 let before = before(&segments, &units, &gravity, problem.rod.top);
                 Ok(Scaled { units, gravity, top: problem.rod.top, data, ground_start, ground_velocity, before })
@@ -111,33 +112,34 @@ struct Segment<N> {
     strain: N,
 }
 
-/// The value of a list at `x = 0`.
-fn ground_value<N: Bounded>(list: &[(Number, Number)], precision: &N::Precision) -> N {
-    N::from_number(list.first().map_or(&Number::from(0), |(_, value)| value), precision)
-}
-
-/// The stretches on which both lists of `profile` are linear.
-fn segments<N: Bounded>(profile: &Profile, length: &Number, precision: &N::Precision) -> Vec<Segment<N>> {
-    let rest = [(Number::from(0), Number::from(0)), (length.clone(), Number::from(0))];
-    let or_rest = |list: &'_ [(Number, Number)]| if list.is_empty() { rest.to_vec() } else { list.to_vec() };
-    let (displacement, velocity) = (or_rest(&profile.displacement), or_rest(&profile.velocity));
-    let lift = |number: &Number| N::from_number(number, precision);
+/// The stretches on which both lists of `profile`, whose numbers are `data`, are linear.
+fn segments<N: Bounded>(profile: &Profile, (place, length): (&Number, &N), data: &AtStart<N>) -> Vec<Segment<N>> {
+    let or_rest = |places: &[(Number, Number)], numbers: &[(N, N)]| -> Vec<(Number, N, N)> {
+        let zero = length.zero();
+        if places.is_empty() {
+            return vec![(0.into(), zero.clone(), zero.clone()), (place.clone(), length.clone(), zero)];
+        }
+        places
+            .iter()
+            .zip(numbers)
+            .map(|((place, _), (x, value))| (place.clone(), x.clone(), value.clone()))
+            .collect_vec()
+    };
+    let displacement = or_rest(&profile.displacement, &data.displacement);
+    let velocity = or_rest(&profile.velocity, &data.velocity);
     let mut segments = Vec::new();
     let (mut i, mut j) = (0, 0);
-    while let (Some([(xa, ya), (xb, yb)]), Some([(sa, va), (sb, vb)])) =
-        (displacement.get(i..i + 2), velocity.get(j..j + 2))
-    {
-        let from = if xa.compare(sa).is_gt() { xa } else { sa };
-        let to = if xb.compare(sb).is_lt() { xb } else { sb };
-        if from.compare(to).is_lt() {
-            let strain = (lift(yb) - lift(ya)) / (lift(xb) - lift(xa));
-            let rate = (lift(vb) - lift(va)) / (lift(sb) - lift(sa));
-            let velocity = |x: N| lift(va) + rate.clone() * (x - lift(sa));
-            let velocities = [velocity(lift(from)), velocity(lift(to))];
-            segments.push(Segment { ends: [lift(from), lift(to)], velocities, strain });
+    while let (Some([ya, yb]), Some([va, vb])) = (displacement.get(i..i + 2), velocity.get(j..j + 2)) {
+        let from = if ya.0.compare(&va.0).is_gt() { ya } else { va };
+        let to = if yb.0.compare(&vb.0).is_lt() { yb } else { vb };
+        if from.0.compare(&to.0).is_lt() {
+            let slope = |a: &(Number, N, N), b: &(Number, N, N)| (b.2.clone() - &a.2) / (b.1.clone() - &a.1);
+            let (strain, rate) = (slope(ya, yb), slope(va, vb));
+            let velocities = [from, to].map_each(|(_, x, _)| va.2.clone() + rate.clone() * (x.clone() - &va.1));
+            segments.push(Segment { ends: [from.1.clone(), to.1.clone()], velocities, strain });
         }
         // Whichever list's segment ends first is left behind; both where they end together.
-        let order = xb.compare(sb);
+        let order = yb.0.compare(&vb.0);
         i += usize::from(order.is_le());
         j += usize::from(order.is_ge());
     }

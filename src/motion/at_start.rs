@@ -11,23 +11,42 @@ use crate::problem::{Parameters, Problem, Start, Top};
 /// eight roundings of a jump is on it.
 #[derive(Clone, Debug)]
 pub(crate) struct AtStart<S> {
-    displacement: Vec<(S, S)>,
-    velocity: Vec<(S, S)>,
+    pub(crate) displacement: Vec<(S, S)>,
+    pub(crate) velocity: Vec<(S, S)>,
     /// The points from which it sends rays.
     pub(crate) corners: Vec<S>,
     zero: S,
 }
 
+/// Which number of a start that is no speed.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Datum {
+    /// A place along the rod.
+    Point,
+    /// The displacement there, by the place in its list; that of all points where there is one only.
+    Displacement(usize),
+    /// The velocity there.
+    Velocity(usize),
+}
+
 impl<S: Scalar> AtStart<S> {
     /// The data of `problem`, whose numbers are `given`.
     pub(crate) fn of(problem: &Problem, given: &Parameters<S>) -> Self {
+        let precision = given.length.precision();
+        AtStart::with(problem, given, &|_, number| S::from_number(number, &precision))
+    }
+
+    /// The same, with those numbers that `lift` makes of them.
+    pub(crate) fn with(problem: &Problem, given: &Parameters<S>, lift: &dyn Fn(Datum, &Number) -> S) -> Self {
         let zero = given.length.zero();
-        let lift = |n: &Number| S::from_number(n, &zero.precision());
-        let points = |list: &[(Number, Number)]| -> Vec<(S, S)> { mapped(list, |(x, value)| (lift(x), lift(value))) };
+        let points = |list: &[(Number, Number)], datum: fn(usize) -> Datum| -> Vec<(S, S)> {
+            mapped(list.iter().enumerate(), |(k, (x, value))| (lift(Datum::Point, x), lift(datum(k), value)))
+        };
         let mut corners: Vec<S> = Vec::new();
         let (displacement, velocity) = match &problem.start {
             Start::Profile(profile) => {
-                let data = (points(&profile.displacement), points(&profile.velocity));
+                let velocity = points(&profile.velocity, Datum::Velocity);
+                let data = (points(&profile.displacement, Datum::Displacement), velocity);
                 for (x, _) in data.0.iter().chain(&data.1) {
                     corners.push(x.clone());
                 }
@@ -36,7 +55,8 @@ impl<S: Scalar> AtStart<S> {
                 data
             }
             Start::Uniform(_) | Start::Above { .. } => {
-                let gap = problem.gap().map_or_else(Vec::new, |gap| vec![(zero.clone(), lift(gap))]);
+                let gap =
+                    problem.gap().map_or_else(Vec::new, |gap| vec![(zero.clone(), lift(Datum::Displacement(0), gap))]);
                 (gap, vec![(zero.clone(), -given.speed.clone())])
             }
         };

@@ -11,7 +11,7 @@ mod register;
 mod straight;
 mod wave;
 
-pub(crate) use at_start::AtStart;
+pub(crate) use at_start::{AtStart, Datum};
 pub use course::{Contact, Course, Ending, Energy, Event, EventKind, Side, StressHistory, StressPiece};
 pub use field::Field;
 pub use query::{Motion, Pair, Scales, unobserved};

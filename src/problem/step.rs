@@ -1,6 +1,6 @@
 //! Problems a small step apart, for difference quotients.
 
-use super::{Material, Parameter, Parameters, Problem, Rod, Speed, Start};
+use super::{Material, Parameter, Parameters, Problem, Profile, Rod, Speed, Start};
 use crate::number::{Number, Rational};
 
 impl Parameter {
@@ -11,8 +11,18 @@ impl Parameter {
         let by = |number: &Number, factor: Rational| Number::of_rational(&(number.to_rational() * factor));
         let more = |number: &Number| by(number, one.clone() + step);
         // Zero has values on one side only.
-        let from_zero = || (*step > Rational::default()).then(|| by(&self.scale_of_zero(problem), step.clone()))?;
+        let from_zero = || {
+            let there = *step > Rational::default() || !self.only_grows(problem);
+            there.then(|| by(&self.scale_of_zero(problem), step.clone()))?
+        };
+        let all = |list: &mut [(Number, Number)], of: fn(&mut (Number, Number)) -> &mut Number| {
+            list.iter_mut().map(of).try_for_each(|number| more(number).map(|moved| *number = moved))
+        };
         let mut moved = problem.clone();
+        if let (Parameter::Length, Start::Profile(profile)) = (self, &mut moved.start) {
+            all(&mut profile.displacement, |point| &mut point.0)?;
+            all(&mut profile.velocity, |point| &mut point.0)?;
+        }
         let Rod { length, material, damping, .. } = &mut moved.rod;
         match (self, material, &mut moved.start) {
             (Parameter::Length, ..) => *length = more(length)?,
@@ -34,6 +44,14 @@ impl Parameter {
                     *height = by(height, one.clone() / (one.clone() + step))?;
                 }
             }
+            (Parameter::StartDisplacement(point), _, Start::Profile(Profile { displacement: list, .. }))
+            | (Parameter::StartVelocity(point), _, Start::Profile(Profile { velocity: list, .. })) => match point {
+                None => all(list, |point| &mut point.1)?,
+                Some(k) => {
+                    let (_, value) = list.get_mut(k)?;
+                    *value = if value.is_zero() { from_zero()? } else { more(value)? };
+                }
+            },
             _ => return None,
         }
         Some(moved)
@@ -50,13 +68,20 @@ impl Parameter {
     }
 
     /// What a value that is zero is moved by a part of: `1/t₁`, `μ/t₁` or, without a speed, `c/1000 t₁`; for a speed
-    /// that of a fall from the gap.
+    /// that of a fall from the gap; for a point of the start the greatest value of its list, `L/1000` or `c/1000`.
     pub(crate) fn scale_of_zero(self, problem: &Problem) -> Number {
         let rod = Parameters::<f64>::of(problem, &());
         let scale = rod.map_or(1.0, |rod| match self {
             Parameter::Gravity if rod.speed > 0.0 => rod.speed / rod.round_trip(),
             Parameter::Gravity => rod.wave_speed / rod.round_trip() / 1000.0,
             Parameter::Speed => (2.0 * rod.gravity * problem.gap().map_or(0.0, Number::to_f64)).sqrt(),
+            Parameter::StartDisplacement(_) | Parameter::StartVelocity(_) => {
+                let list = self.list(problem).unwrap_or_default();
+                let most = list.iter().map(|(_, value)| value.to_f64().abs()).fold(0.0, f64::max);
+                let length = matches!(self, Parameter::StartDisplacement(_));
+                let least = if length { rod.length } else { rod.wave_speed } / 1000.0;
+                if most > 0.0 { most } else { least }
+            }
             _ => rod.round_trip().recip(),
         });
         format!("{scale:e}").parse().unwrap_or_else(|_| 1.into())

@@ -4,6 +4,8 @@
 use super::ProblemError;
 use super::{Material, Parameters, Problem, Start};
 use crate::error::Error;
+#[cfg(feature = "compare")]
+use crate::number::Rational;
 use crate::number::{Number, Scalar};
 
 /// A value of the problem by which derivatives are taken, and which can be fitted.
@@ -15,7 +17,7 @@ use crate::number::{Number, Scalar};
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Parameter {
-    /// `L`.
+    /// `L`; the points of a start that is not uniform stay at the same parts of it.
     Length,
     /// `c`; with a material by its modulus, the density as it is.
     WaveSpeed,
@@ -31,11 +33,15 @@ pub enum Parameter {
     Speed,
     /// How far the rod starts above the ground.
     Gap,
+    /// A factor of the displacement at the start, 1 as it is; or the value at one of its points, counted from 0.
+    StartDisplacement(Option<usize>),
+    /// The same of the velocity at the start.
+    StartVelocity(Option<usize>),
 }
 
 impl Parameter {
     /// All of them, with their names.
-    pub const ALL: [(&'static str, Parameter); 8] = [
+    pub const ALL: [(&'static str, Parameter); 10] = [
         ("length", Parameter::Length),
         ("wave_speed", Parameter::WaveSpeed),
         ("modulus", Parameter::Modulus),
@@ -44,26 +50,75 @@ impl Parameter {
         ("gravity", Parameter::Gravity),
         ("speed", Parameter::Speed),
         ("gap", Parameter::Gap),
+        ("displacement", Parameter::StartDisplacement(None)),
+        ("velocity", Parameter::StartVelocity(None)),
     ];
 
-    /// Its name.
+    /// Its name; that of the list for a point of the start.
     pub fn name(self) -> &'static str {
-        Self::ALL.iter().find(|(_, parameter)| *parameter == self).map_or("", |(name, _)| name)
+        let list = match self {
+            Parameter::StartDisplacement(_) => Parameter::StartDisplacement(None),
+            Parameter::StartVelocity(_) => Parameter::StartVelocity(None),
+            other => other,
+        };
+        Self::ALL.iter().find(|(_, parameter)| *parameter == list).map_or("", |(name, _)| name)
+    }
+
+    /// The step by which [`Parameter::moved`] brings it to `value`; `None` where there is none.
+    #[cfg(feature = "compare")]
+    fn step_to(self, problem: &Problem, value: f64) -> Option<Rational> {
+        let value = format!("{value:e}").parse::<Number>().ok()?.to_rational();
+        let now = self.value_in::<Rational>(problem, &()).ok()?;
+        let unit = if now == Rational::default() { self.scale_of_zero(problem).to_rational() } else { now.clone() };
+        Some((value - now) / unit)
+    }
+
+    /// The place in its list, for a point of the start.
+    pub(super) fn point(self) -> Option<usize> {
+        match self {
+            Parameter::StartDisplacement(point) | Parameter::StartVelocity(point) => point,
+            _ => None,
+        }
+    }
+
+    /// The list of the start that it is of.
+    pub(super) fn list(self, problem: &Problem) -> Option<&[(Number, Number)]> {
+        let Start::Profile(profile) = &problem.start else { return None };
+        match self {
+            Parameter::StartDisplacement(_) => Some(&profile.displacement),
+            Parameter::StartVelocity(_) => Some(&profile.velocity),
+            _ => None,
+        }
+    }
+
+    /// Whether it is zero and has no smaller values.
+    pub(crate) fn only_grows(self, problem: &Problem) -> bool {
+        let zero = |number: Option<&Number>| number.is_none_or(Number::is_zero);
+        match (self, &problem.start) {
+            (Parameter::Damping, _) => zero(problem.rod.damping.as_ref()),
+            (Parameter::Gravity, _) => zero(problem.gravity.as_ref()),
+            (Parameter::Speed, Start::Above { speed, .. }) => speed.is_zero(),
+            // The end is on the ground.
+            (Parameter::StartDisplacement(Some(0)), _) => {
+                zero(self.list(problem).and_then(|list| Some(&list.first()?.1)))
+            }
+            _ => false,
+        }
     }
 
     /// Its value in the numbers of `S`, by which derivatives are taken.
     ///
-    /// **Errors**: [`Error::Derivative`] where `problem` has no such value, or a start that would have to be stretched.
+    /// **Errors**: [`Error::Derivative`] where `problem` has no such value.
     pub(crate) fn value_in<S: Scalar>(self, problem: &Problem, precision: &S::Precision) -> Result<S, Error> {
-        let stretched = self == Parameter::Length && matches!(problem.start, Start::Profile(_));
         let expected = match self {
-            _ if stretched => "a start without a profile, which would have to be stretched",
+            Parameter::StartDisplacement(_) | Parameter::StartVelocity(_) => {
+                "a start that has it, and no more points than there are"
+            }
             Parameter::Modulus | Parameter::Density => "a material: modulus and density",
             Parameter::Speed => "an impact, or a start above the ground",
             _ => "a start above the ground",
         };
-        let value = if stretched { None } else { self.find(problem, precision)? };
-        value.ok_or(Error::Derivative { parameter: self.name(), expected })
+        self.find(problem, precision)?.ok_or(Error::Derivative { parameter: self.name(), expected })
     }
 
     /// Its value in `problem`; `None` where that has none.
@@ -84,6 +139,11 @@ impl Parameter {
             (Parameter::Gravity, ..) => Some(rod.gravity),
             (Parameter::Speed, _, Start::Uniform(_) | Start::Above { .. }) => Some(rod.speed),
             (Parameter::Gap, _, Start::Above { gap, .. }) => lift(gap),
+            (Parameter::StartDisplacement(point) | Parameter::StartVelocity(point), ..) => {
+                let list = self.list(problem).filter(|list| !list.is_empty());
+                let one = Number::from(1);
+                list.and_then(|list| point.map_or(Some(&one), |k| Some(&list.get(k)?.1))).and_then(lift)
+            }
             _ => None,
         })
     }
@@ -94,6 +154,12 @@ impl Parameter {
     #[cfg(feature = "compare")]
     pub(crate) fn set(self, problem: &Problem, value: f64) -> Result<Problem, ProblemError> {
         let given = |parameter: Parameter| parameter.value(problem).unwrap_or_default();
+        if matches!(problem.start, Start::Profile(_))
+            && (self == Parameter::Length || self.list(problem).is_some())
+            && let Some(problem) = self.step_to(problem, value).and_then(|step| self.moved(problem, &step))
+        {
+            return problem.to_builder().build();
+        }
         let builder = problem.to_builder();
         // A material is given as a whole.
         let material = |modulus: f64, density: f64| match &problem.rod.material {
@@ -116,6 +182,7 @@ impl Parameter {
             (Parameter::Gravity, ..) => builder.gravity(value),
             (Parameter::Speed, ..) => builder.impact_speed(value),
             (Parameter::Gap, ..) => builder.gap(value),
+            (Parameter::StartDisplacement(_) | Parameter::StartVelocity(_), ..) => builder,
         };
         builder.build()
     }
@@ -123,7 +190,10 @@ impl Parameter {
 
 impl std::fmt::Display for Parameter {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        f.pad(self.name())
+        match self.point() {
+            Some(point) => f.pad(&format!("{}[{point}]", self.name())),
+            None => f.pad(self.name()),
+        }
     }
 }
 
@@ -131,8 +201,18 @@ impl std::str::FromStr for Parameter {
     type Err = String;
 
     fn from_str(text: &str) -> Result<Self, String> {
-        let found = Self::ALL.iter().find(|(name, _)| *name == text.trim()).map(|(_, parameter)| *parameter);
+        let (name, point) = match text.trim().strip_suffix(']').and_then(|text| text.split_once('[')) {
+            Some((name, point)) => (name, Some(point.parse::<usize>().ok())),
+            None => (text.trim(), None),
+        };
+        let found = Self::ALL.iter().find(|(known, _)| *known == name).map(|(_, parameter)| *parameter);
+        let found = match (found, point) {
+            (found, None) => found,
+            (Some(Parameter::StartDisplacement(_)), Some(Some(k))) => Some(Parameter::StartDisplacement(Some(k))),
+            (Some(Parameter::StartVelocity(_)), Some(Some(k))) => Some(Parameter::StartVelocity(Some(k))),
+            _ => None,
+        };
         let names = || Self::ALL.map(|(name, _)| name).join(", ");
-        found.ok_or_else(|| format!("found `{text}`, expected some of {}", names()))
+        found.ok_or_else(|| format!("found `{text}`, expected some of {}, or a point: velocity[0]", names()))
     }
 }

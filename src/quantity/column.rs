@@ -73,7 +73,8 @@ pub fn columns<S: Scalar>(
     })
 }
 
-/// The values of `quantities` along the rod, column by column: for every time at each point.
+/// The values of `quantities` along the rod: for every time a row for each point, of nothing
+/// for one beyond the rod or for a time beyond the end.
 ///
 /// **Errors**: what the history cannot answer; [`Error::NotOverTime`] for what has no point.
 pub(crate) fn along<S: Scalar>(
@@ -82,24 +83,26 @@ pub(crate) fn along<S: Scalar>(
     quantities: &[Quantity],
     (points, times): (&[S], &[S]),
     side: Side,
-) -> Result<Vec<Vec<S>>, Error> {
+) -> Result<Vec<Vec<Option<S>>>, Error> {
     if let Some(other) = quantities.iter().find(|quantity| quantity.needs() != Needs::PointAndTime) {
         return Err(Error::NotOverTime { quantity: other.name() });
     }
-    let mut table = Vec::new();
-    table.resize_with(quantities.len(), Vec::new);
+    let mut rows = Vec::with_capacity(points.len() * times.len());
     for time in times {
         for point in points {
-            let field = motion.field(point, time, side)?;
-            let [displacement, velocity, strain] = field.numbers();
-            let numbers = [point, displacement, velocity, strain];
-            for (column, quantity) in table.iter_mut().zip(quantities) {
-                let factor = quantity.factor(&motion.scales(), units);
-                column.push(quantity.scaled(numbers[quantity.source().1].clone(), factor.as_ref()));
-            }
+            let field = match motion.field(point, time, side) {
+                Err(Error::PointOutside { .. } | Error::TimeOutside { .. }) => None,
+                field => Some(field?),
+            };
+            let value = |quantity: &Quantity| {
+                let [displacement, velocity, strain] = field.as_ref()?.numbers();
+                let number = [point, displacement, velocity, strain][quantity.source().1].clone();
+                Some(quantity.scaled(number, quantity.factor(&motion.scales(), units).as_ref()))
+            };
+            rows.push(mapped(quantities, value));
         }
     }
-    Ok(table)
+    Ok(rows)
 }
 
 /// What is asked at each time, and where the answers stand in a row.

@@ -4,8 +4,9 @@ use std::fmt;
 
 use super::observer::Observer;
 use super::plan::Plan;
+use super::question::Want;
 use crate::error::Error;
-use crate::mapped::{CollectVec, MapEach};
+use crate::mapped::{MapEach, mapped, try_mapped};
 use crate::motion::{Motion, Side};
 use crate::number::{Number, Scalar};
 use crate::problem::{Parameter, Problem};
@@ -52,6 +53,8 @@ pub type Derivatives<S> = Vec<Vec<Option<Derivative<S>>>>;
 pub struct Asked<'a> {
     pub(super) problem: &'a Problem,
     pub(super) plan: &'a Plan,
+    /// What a run with another value is to answer.
+    pub(super) want: Want,
     pub(super) observe: &'a Observer,
     pub(super) by: Parameter,
     pub(super) quantities: &'a [Quantity],
@@ -68,24 +71,46 @@ pub(super) struct At<'a> {
 }
 
 impl Asked<'_> {
-    /// The numbers that derivatives are taken of, in units of the problem: a row for each of the list, or for each time
+    /// The numbers that derivatives are taken of, in units of `problem`: a row for each of the list, or for each time
     /// and there for each point.
     ///
     /// **Errors**: what the history cannot answer.
-    pub(super) fn values<S: Scalar>(&self, motion: &dyn Motion<S>) -> Result<Vec<Vec<Option<S>>>, Error> {
-        let units = Units::of(self.problem, UnitSystem::default());
+    pub(super) fn values<S: Scalar>(
+        &self,
+        problem: &Problem,
+        motion: &dyn Motion<S>,
+    ) -> Result<Vec<Vec<Option<S>>>, Error> {
+        let units = Units::of(problem, UnitSystem::default());
         let Some(At { times, points, side }) = self.at else {
             return quantity::values(motion, self.quantities, &units);
         };
         let precision = motion.end().precision();
-        let lift = |list: &[Number]| list.iter().map(|number| S::spelling(number, &precision)).collect_vec();
-        let table = if points.is_empty() {
-            quantity::columns(motion, &units, self.quantities, &lift(times), Some(side))?
-        } else {
-            quantity::along(motion, &units, self.quantities, (&lift(points), &lift(times)), side)?
+        let lift = |list: &[Number]| -> Vec<S> { mapped(list, |number| S::spelling(number, &precision)) };
+        let times = lift(times);
+        if !points.is_empty() {
+            return quantity::along(motion, &units, self.quantities, (&lift(points), &times), side);
+        }
+        let rows = |times: &[S]| {
+            let table = quantity::columns(motion, &units, self.quantities, times, Some(side))?;
+            Ok(mapped(0..times.len(), |row| mapped(&table, |column| Some(column[row].clone()))))
         };
-        let count = table.first().map_or(0, Vec::len);
-        Ok((0..count).map(|row| table.iter().map(|column| Some(column[row].clone())).collect_vec()).collect_vec())
+        match rows(&times) {
+            // With another value it may end before.
+            Err(Error::TimeOutside { .. }) => {
+                let none = || vec![mapped(self.quantities, |_| None)];
+                let row = |time: &S| match rows(std::slice::from_ref(time)) {
+                    Err(Error::TimeOutside { .. }) => Ok(none()),
+                    found => found,
+                };
+                Ok(try_mapped(&times, row)?.concat())
+            }
+            found => found,
+        }
+    }
+
+    /// Whether a number is absent where the rod is too short for it: then there is but one side.
+    pub(super) fn is_stretched(&self) -> bool {
+        self.by == Parameter::Length && self.at.is_some_and(|at| !at.points.is_empty())
     }
 }
 

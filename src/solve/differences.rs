@@ -10,7 +10,7 @@
 use super::derivative::{Asked, Derivative, Derivatives, NoDerivative};
 use super::history::History;
 use super::plan::Plan;
-use super::question::Numbers;
+use super::question::{Numbers, Question};
 use crate::error::Error;
 use crate::mapped::{CollectVec, MapEach, mapped};
 use crate::motion::Motion;
@@ -76,6 +76,8 @@ struct Level {
     step: Long,
     /// The same as a part of the value.
     part: f64,
+    /// Whether a number that is absent says that there is no such value.
+    one_sided: bool,
 }
 
 impl Level {
@@ -98,7 +100,7 @@ impl Level {
             false => asked.by.value_in(asked.problem, &bits)?,
         };
         let step = value.clone() * Long::from_number(&by, &bits) / value.int(asked.by.power(asked.problem));
-        Ok(Level { base, scales, moved, step, part: part(exponent) })
+        Ok(Level { base, scales, moved, step, part: part(exponent), one_sided: asked.is_stretched() })
     }
 
     /// The quotients to both sides of a number that there is; `None` where no problem is on that side.
@@ -106,6 +108,7 @@ impl Level {
         let here = self.base.get(row)?.get(column)?.as_ref()?;
         let [left, right] = self.moved.each_ref().map(|moved| {
             let there = moved.as_ref()?.get(row).and_then(|row| row.get(column)?.as_ref());
+            (there.is_some() || !self.one_sided).then_some(())?;
             Some(there.ok_or(NoDerivative::Jumps).map(|there| (there.clone() - here) / &self.step))
         });
         Some([left.map(|left| left.map(|rise| -rise.halved())), right])
@@ -146,12 +149,19 @@ impl Judge {
         off <= self.wanted * (size + self.natural)
     }
 
+    /// The mean of both sides within what they differ by, and within what a second derivative of natural size makes of
+    /// the step: where it is not the same on both sides, both may be off alike.
+    fn within(&self, mean: Long, apart: &Long) -> Long {
+        let bend = mean.double(self.natural * self.step);
+        mean.widened(apart).widened(&bend)
+    }
+
     /// From the quotients to both sides, and those of the step before; `None` where a smaller step is needed.
     fn derivative(&self, now: [Option<OneSide>; 2], before: Option<[Option<OneSide>; 2]>) -> Option<Derivative<Long>> {
         if let [Some(Ok(left)), Some(Ok(right))] = &now {
             let (mean, apart) = mean(left, right);
             if self.is_fine(reach(&apart), size(&mean)) {
-                return Some(Derivative::One(mean.widened(&apart)));
+                return Some(Derivative::One(self.within(mean, &apart)));
             }
         }
         let [before_left, before_right] = before?;
@@ -160,7 +170,7 @@ impl Judge {
                 [Ok(left), Ok(right)] => {
                     let (mean, apart) = mean(&left, &right);
                     let same = apart.vanishes() == Ok(true);
-                    Some(if same { Derivative::One(mean.widened(&apart)) } else { sides(Ok(left), Ok(right)) })
+                    Some(if same { Derivative::One(self.within(mean, &apart)) } else { sides(Ok(left), Ok(right)) })
                 }
                 [left, right] => Some(sides(left, right)),
             },
@@ -223,7 +233,8 @@ fn reach(x: &Long) -> f64 {
 
 /// The numbers of a run, in numbers of so many bits, and the scale of each column.
 fn rows(asked: &Asked<'_>, problem: &Problem, exponent: u32, bits: u32) -> Result<(Rows, Vec<f64>), Error> {
-    let plan = Plan::of(problem, &asked.plan.question(Numbers::Digits(2 * exponent)))?;
+    let question = Question { want: asked.want.clone(), numbers: Numbers::Digits(2 * exponent) };
+    let plan = Plan::of(problem, &question)?;
     let history = History::<Float>::solve(problem, &plan, asked.observe.clone())?;
     let units = Units::of(problem, UnitSystem::default());
     let query = |motion: &dyn Motion<Long>| {
@@ -234,7 +245,7 @@ fn rows(asked: &Asked<'_>, problem: &Problem, exponent: u32, bits: u32) -> Resul
             _ => quantity.natural_scale(motion, &units).unwrap_or(1.0),
         };
         let scales: Vec<f64> = mapped(asked.quantities, scale);
-        Ok((asked.values(motion)?, scales))
+        Ok((asked.values(problem, motion)?, scales))
     };
     let (mut rows, scales) = history.ask(query, |(rows, _)| rows.iter().flatten().flatten().collect_vec())?;
     let zero = Long::from_number(&Number::from(0), &bits);

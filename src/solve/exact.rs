@@ -5,6 +5,7 @@ use super::differences;
 use crate::error::Error;
 use crate::lattice::{Scaled, Undamped};
 use crate::mapped::MapEach;
+use crate::motion::{AtStart, Datum};
 use crate::number::{Bounded, DOUBLE_DIGITS, Dual, Estimate, Float, Number, Rational, Scalar};
 use crate::problem::{Material, Parameter, Parameters, Problem};
 use crate::quantity::{Measure, Quantity};
@@ -18,7 +19,8 @@ type OneSide = Result<Rational, NoDerivative>;
 /// those of the runs.
 pub(super) fn derivatives(asked: &Asked<'_>) -> Result<Derivatives<Rational>, Error> {
     let value = asked.by.value_in::<Rational>(asked.problem, &())?;
-    if value.vanishes() == Ok(true) && asked.by != Parameter::Speed || asked.by == Parameter::Damping {
+    let zero = value.vanishes() == Ok(true);
+    if zero && matches!(asked.by, Parameter::Gravity | Parameter::Length) || asked.by == Parameter::Damping {
         let expected = "digits or doubles: a rod without it is another problem in fractions";
         return Err(Error::Derivative { parameter: asked.by.name(), expected });
     }
@@ -26,11 +28,10 @@ pub(super) fn derivatives(asked: &Asked<'_>) -> Result<Derivatives<Rational>, Er
     let base = {
         let limits = asked.plan.lattice_limits(problem);
         let history = Undamped::<Rational>::solve_within(problem, &(), limits, &**asked.observe)?;
-        asked.values(&history)?
+        asked.values(problem, &history)?
     };
     let right = rates(asked, problem, &value, 1)?;
-    // A speed at the start that is zero can only grow.
-    let left = if value.vanishes() == Ok(true) { None } else { Some(rates(asked, problem, &value, -1)?) };
+    let left = if asked.by.only_grows(problem) { None } else { Some(rates(asked, problem, &value, -1)?) };
     let quotients = match differences::of(asked, DOUBLE_DIGITS) {
         Err(Error::NoMultiprecision) => None,
         quotients => Some(quotients?),
@@ -41,8 +42,9 @@ pub(super) fn derivatives(asked: &Asked<'_>) -> Result<Derivatives<Rational>, Er
         for (j, number) in row.iter().enumerate() {
             cells.push(number.as_ref().map(|number| {
                 let right = side(&right, number, (i, j));
-                let left =
-                    left.as_ref().map_or_else(|| right.clone(), |rows| side(rows, number, (i, j)).map(|rate| -rate));
+                let there = |rows: &&Rows<Dual>| !asked.is_stretched() || rows[i][j].is_some();
+                let left = left.as_ref().filter(there);
+                let left = left.map_or_else(|| right.clone(), |rows| side(rows, number, (i, j)).map(|rate| -rate));
                 let quotient = quotients.as_ref().map(|rows| rows.get(i)?.get(j)?.as_ref());
                 confirmed([left, right], quotient)
             }));
@@ -107,11 +109,24 @@ fn rates(asked: &Asked<'_>, problem: &Problem, value: &Rational, sign: i64) -> R
         gravity: dual(given.gravity, Parameter::Gravity),
         speed: dual(given.speed, Parameter::Speed),
     };
-    let gap = problem.gap().map(|gap| dual(gap.to_rational(), Parameter::Gap));
-    let scaled = Scaled::with(problem, &given, gap)?;
+    let datum = |datum: Datum, number: &Number| {
+        let number = number.to_rational();
+        let rate = match (datum, asked.by) {
+            (Datum::Point, Parameter::Length) => number.clone() / value,
+            (Datum::Displacement(_), Parameter::Gap) => 1.into(),
+            (Datum::Displacement(_), Parameter::StartDisplacement(None)) => number.clone(),
+            (Datum::Velocity(_), Parameter::StartVelocity(None)) => number.clone(),
+            (Datum::Displacement(k), Parameter::StartDisplacement(Some(node)))
+            | (Datum::Velocity(k), Parameter::StartVelocity(Some(node))) => Rational::from(u32::from(k == node)),
+            _ => Rational::default(),
+        };
+        Dual::new(number, rate * Rational::from(sign))
+    };
+    let data = AtStart::with(problem, &given, &datum);
+    let scaled = Scaled::with(problem, &given, data)?;
     let limits = asked.plan.lattice_limits(problem);
     let history = Undamped::<Dual>::solve_scaled(scaled, &problem.run, limits, &**asked.observe)?;
-    let mut rows = asked.values(&history)?;
+    let mut rows = asked.values(problem, &history)?;
     for row in &mut rows {
         for (number, quantity) in row.iter_mut().zip(asked.quantities) {
             if let Some(number) = number {

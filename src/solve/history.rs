@@ -465,12 +465,13 @@ impl<S: Target> History<S> {
     /// # Ok::<(), dalembert::Error>(())
     /// ```
     pub fn derivatives(&self, by: Parameter, quantities: &[Quantity]) -> Result<Derivatives<S::Carried>, Error> {
-        S::derivatives(&self.asked(by, quantities, None))
+        S::derivatives(&self.asked(by, quantities))
     }
 
     /// The derivatives of `quantities` at `times` by a value of the problem, a row for each time; with `points`, those of
     /// quantities along the rod, a row for each time and there for each point. Time and point stay where they are: a
-    /// value that jumps where a ray passes has a derivative on that side of the ray only on which the ray leaves it.
+    /// value that jumps where a ray passes has a derivative on that side of the ray only on which the ray leaves it, and
+    /// one at the upper end by the length on the side of longer rods.
     ///
     /// **Accuracy**, **Errors**: those of [`History::derivatives`] and [`History::columns`].
     ///
@@ -491,12 +492,28 @@ impl<S: Target> History<S> {
         points: &[Number],
         side: Side,
     ) -> Result<Derivatives<S::Carried>, Error> {
-        let asked = self.asked(by, quantities, Some(At { times, points, side }));
-        S::derivatives(&asked).map_err(|error| self.explained(error))
+        let ordered = |a: &&Number, b: &&Number| a.compare(b);
+        let (Some(first), Some(last)) = (times.iter().min_by(ordered), times.iter().max_by(ordered)) else {
+            return Ok(Vec::new());
+        };
+        if let Some(time) = [first, last].into_iter().find(|time| !(0.0..=self.end.to_f64()).contains(&time.to_f64())) {
+            return Err(self.explained(Error::TimeOutside { found: time.to_string(), end: self.end.text() }));
+        }
+        let length = &self.problem.rod.length;
+        if let Some(point) = points.iter().find(|point| point.to_f64() < 0.0 || point.compare(length).is_gt()) {
+            return Err(Error::PointOutside { found: point.to_string(), length: length.to_string() });
+        }
+        // A run that is followed to an event ends sooner or later with other values.
+        let from = if quantities.iter().any(|quantity| quantity.is_of_past()) { 0.into() } else { first.clone() };
+        let Question { want, numbers } = Question::between(from, last.clone(), self.plan.numbers);
+        let plan = Plan::of(&self.problem, &Question { want: want.clone(), numbers })?;
+        let at = Some(At { times, points, side });
+        S::derivatives(&Asked { plan: &plan, want, at, ..self.asked(by, quantities) })
     }
 
-    fn asked<'a>(&'a self, by: Parameter, quantities: &'a [Quantity], at: Option<At<'a>>) -> Asked<'a> {
-        Asked { problem: &self.problem, plan: &self.plan, observe: &self.observe, by, quantities, at }
+    fn asked<'a>(&'a self, by: Parameter, quantities: &'a [Quantity]) -> Asked<'a> {
+        let Self { problem, plan, observe, .. } = self;
+        Asked { problem, plan, want: plan.want(), observe, by, quantities, at: None }
     }
 
     /// `v`, `v_t`, `v_x` at `(x,t)`; where a ray passes, the limit from later times.

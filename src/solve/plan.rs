@@ -293,11 +293,9 @@ impl Plan {
         Self::with(problem, Numbers::Digits(digits), self.engine, self.reach.clone(), keeps)
     }
 
-    /// The question that it answers, in other numbers.
-    #[cfg(feature = "mp")]
-    pub(super) fn question(&self, numbers: Numbers) -> Question {
-        let want = if self.reach == Reach::FirstContact { Want::FirstContact } else { Want::Run };
-        Question { want, numbers }
+    /// What it answers: events and contacts.
+    pub(super) fn want(&self) -> Want {
+        if self.reach == Reach::FirstContact { Want::FirstContact } else { Want::Run }
     }
 
     /// The rung after `rung`, by what the answer `lacks`; `None` where no more are worth trying.

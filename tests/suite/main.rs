@@ -49,6 +49,8 @@ mod damped_solve;
 mod damped_stiff;
 #[cfg(all(feature = "cli", feature = "mp"))]
 mod derivatives;
+#[cfg(all(feature = "cli", feature = "mp"))]
+mod derivatives_at;
 mod door;
 #[cfg(feature = "cli")]
 mod endings;
