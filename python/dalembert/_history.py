@@ -194,13 +194,14 @@ class History:
         more = f"<br>… {len(self.contacts) - 10} more contacts" if len(self.contacts) > 10 else ""
         return f"<div>{title}History {escape(said)}<table>{table}</table>{more}{below}<br>{self.to_svg()}</div>"
 
-    def derivatives(self, by: Parameter, table: TableName = "events") -> Derivatives:
+    def derivatives(self, by: Parameter | str, table: TableName = "events") -> Derivatives:
         """Give the derivatives of a table by a value of the problem; all other values stay as they are.
 
         Parameters
         ----------
-        by : {"length", "wave_speed", "modulus", "density", "damping", "gravity", "speed", "gap"}
-            The value.
+        by : {"length", "wave_speed", "modulus", "density", "damping", "gravity", "speed", "gap"} or str
+            The value; of a start that is not uniform ``"displacement"`` and ``"velocity"`` as a whole, or at a point:
+            ``"velocity[0]"``.
         table : {"events", "contacts", "restitution", "flights"}, optional
             The attribute whose numbers are meant.
 
@@ -215,7 +216,42 @@ class History:
         >>> found.left["time"][2], found.right["time"][2]
         (Fraction(3, 5), Fraction(3, 25))
         """
-        found = [(name, sides) for name, sides in self._core.derivatives(by, table)]
+        return self._derived(self._core.derivatives(by, table))
+
+    def derivatives_at(
+        self, by: str, names: Sequence[str], t: Numbers, x: Numbers = (), side: Side = "right"
+    ) -> Derivatives:
+        """Give the derivatives of columns at times, or of the field at points; time and point stay where they are.
+
+        Parameters
+        ----------
+        by : str
+            The value, as in `derivatives`.
+        names : sequence of str
+            Of the names of `columns`; with points of ``u``, ``v``, ``strain`` and ``stress``.
+        t : number or array_like
+            Times.
+        x : number or array_like, optional
+            Points of the rod.
+        side : {"right", "left"}, optional
+            Which limit at a jump.
+
+        Returns
+        -------
+        Derivatives
+            A row for each time, and there for each point.
+
+        Examples
+        --------
+        >>> found = solve("getfem-dynamic-contact", exact=True).derivatives_at("displacement[0]", ["u_end"], [0.5, 1.5])
+        >>> found.left["u_end"].tolist()
+        [Fraction(1, 2), Fraction(0, 1)]
+        """
+        places = [self._places(np.atleast_1d(np.asarray(place, dtype=object))) for place in (t, x)]
+        return self._derived(self._core.derivatives_at(by, list(names), places, side))
+
+    def _derived(self, raw: Sequence[tuple[str, Any]]) -> Derivatives:
+        found = [(name, sides) for name, sides in raw]
 
         def side(k: int, part: int) -> Array:
             columns = {name: self._array(sides[k][part]) for name, sides in found}

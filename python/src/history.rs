@@ -6,7 +6,8 @@ use std::sync::atomic::AtomicBool;
 use dalembert::engine::{Motion, slices};
 use dalembert::number::{Answer, Scalar, show};
 use dalembert::{
-    Derivative, Drawing, Error, Needs, Number, Parameter, Problem, Quantity, Side, Slice, Solution, Table, Units,
+    Derivative, Derivatives, Drawing, Error, Needs, Number, Parameter, Problem, Quantity, Side, Slice, Solution, Table,
+    Units,
 };
 use numpy::{PyArray1, PyReadonlyArray1};
 use pyo3::IntoPyObjectExt;
@@ -79,6 +80,15 @@ fn places(name: &str, given: &Bound<'_, PyAny>) -> PyResult<Places> {
 }
 
 impl Places {
+    /// As they are written.
+    fn numbers(self) -> Vec<Number> {
+        let spelled = |x: f64| format!("{x:e}").parse().unwrap_or_else(|_| Number::from(0));
+        match self {
+            Places::Doubles(list) => list.into_iter().map(spelled).collect(),
+            Places::Numbers(list) => list,
+        }
+    }
+
     /// In the numbers of an attempt.
     fn lift<N: Scalar>(&self, motion: &dyn Motion<N>) -> Vec<N> {
         let end = motion.end();
@@ -204,18 +214,29 @@ impl History {
         let quantities: Vec<Quantity> = listed.collect();
         self.ask(py, move |solution| {
             each!(solution, |history, digits| {
-                let (of, rows) = (history.end().carry(), history.derivatives(by, &quantities)?);
-                let side = |k: usize, left: bool| {
-                    let value = |row: &Vec<Option<Derivative<_>>>| {
-                        let [a, b] = row.get(k)?.as_ref()?.sides();
-                        if left { a } else { b }.ok().cloned()
-                    };
-                    let values: Vec<Option<_>> = rows.iter().map(value).collect();
-                    let bound = |x: &Option<_>| x.as_ref().map_or(f64::NAN, |x: &_| Scalar::log2_error(x).exp2());
-                    let bounds: Vec<f64> = values.iter().map(bound).collect();
-                    (Found::of(values.iter().map(Option::as_ref), &of, *digits), Found::Doubles(bounds))
-                };
-                Ok(quantities.iter().enumerate().map(|(k, q)| (q.key(), [side(k, true), side(k, false)])).collect())
+                Ok(sides(&history.derivatives(by, &quantities)?, &quantities, &history.end().carry(), *digits))
+            })
+        })
+    }
+
+    /// The same of columns at times, or of the field at points.
+    fn derivatives_at(
+        &self,
+        py: Python<'_>,
+        by: &str,
+        names: Vec<String>,
+        at: [Bound<'_, PyAny>; 2],
+        side: &Bound<'_, PyAny>,
+    ) -> PyResult<Vec<(&'static str, Sides)>> {
+        let by: Parameter = by.parse().map_err(refuse)?;
+        let [times, points] = &at;
+        let (times, points) = (places("time", times)?.numbers(), places("point", points)?.numbers());
+        let needs = if points.is_empty() { Needs::Time } else { Needs::PointAndTime };
+        let (quantities, side) = (named(&names, needs)?, side_of(side)?);
+        self.ask(py, move |solution| {
+            each!(solution, |history, digits| {
+                let found = history.derivatives_at(by, &quantities, &times, &points, side)?;
+                Ok(sides(&found, &quantities, &history.end().carry(), *digits))
             })
         })
     }
@@ -228,11 +249,7 @@ impl History {
         times: &Bound<'_, PyAny>,
         side: Option<&Bound<'_, PyAny>>,
     ) -> PyResult<Vec<Found>> {
-        let column = |name: &String| {
-            let known = || Needs::Time.quantities().map(Quantity::name).collect::<Vec<_>>().join(", ");
-            Needs::Time.named(name).ok_or_else(|| refuse(format!("found column {name}, expected one of {}", known())))
-        };
-        let columns = names.iter().map(column).collect::<PyResult<Vec<_>>>()?;
+        let columns = named(&names, Needs::Time)?;
         let (times, side) = (places("time", times)?, side.map(side_of).transpose()?);
         self.ask(py, move |solution| {
             each!(solution, |history, digits| {
@@ -298,6 +315,30 @@ impl History {
             })
         })
     }
+}
+
+/// The columns of these names.
+fn named(names: &[String], needs: Needs) -> PyResult<Vec<Quantity>> {
+    let column = |name: &String| {
+        let known = || needs.quantities().map(Quantity::name).collect::<Vec<_>>().join(", ");
+        needs.named(name).ok_or_else(|| refuse(format!("found column {name}, expected one of {}", known())))
+    };
+    names.iter().map(column).collect()
+}
+
+/// Columns of derivatives of `quantities`.
+fn sides<N: Scalar>(rows: &Derivatives<N>, quantities: &[Quantity], of: &N, digits: u32) -> Vec<(&'static str, Sides)> {
+    let side = |k: usize, left: bool| {
+        let value = |row: &Vec<Option<Derivative<N>>>| {
+            let [a, b] = row.get(k)?.as_ref()?.sides();
+            if left { a } else { b }.ok().cloned()
+        };
+        let values: Vec<Option<N>> = rows.iter().map(value).collect();
+        let bounds = values.iter().map(|x| x.as_ref().map_or(f64::NAN, |x| x.log2_error().exp2())).collect();
+        (Found::of(values.iter().map(Option::as_ref), of, digits), Found::Doubles(bounds))
+    };
+    let name = |q: &Quantity| if matches!(q.needs(), Needs::Time | Needs::PointAndTime) { q.name() } else { q.key() };
+    quantities.iter().enumerate().map(|(k, q)| (name(q), [side(k, true), side(k, false)])).collect()
 }
 
 fn side_of(side: &Bound<'_, PyAny>) -> PyResult<Side> {

@@ -300,6 +300,19 @@ def test_sweep_says_why_there_is_no_number():
         dalembert.sweep(rod, "bounce_time", impact_speed=[1, 2], damping=[0, 0.1, 0.2])
 
 
+def test_derivatives_at_times():
+    """Behind the first front v_x(0,t) = -(mu + g t)/c, and v_t = -g t there."""
+    exact = rod().solve(exact=True)
+    found = exact.derivatives_at("gravity", ["strain", "h"], [Fraction(1, 3), Fraction(1, 2)])
+    assert found.left["strain"].tolist() == found.right["strain"].tolist() == [Fraction(-1, 3), Fraction(-1, 2)]
+    along = exact.derivatives_at("gravity", ["v", "strain"], "1/2", ["0.1", "0.9"])
+    assert along.right["v"].tolist() == [Fraction(-1, 10), Fraction(-1, 2)]
+    doubles = rod().solve().derivatives_at("gravity", ["strain"], 0.25)
+    assert abs(doubles.left["strain"][0] + 0.25) <= doubles.left_error["strain"][0] + 1e-15
+    with pytest.raises(ValueError, match="found column time"):
+        exact.derivatives_at("gravity", ["time"], [1])
+
+
 def test_derivatives_are_difference_quotients():
     """Of a damped run: against two others next to it, and in fractions by hand: t_b = 2L/c."""
     damped = rod(damping="0.1", impacts=2)
