@@ -55,8 +55,9 @@ fn euler_identities(cases: u32, least: [u32; 3], rods: impl Strategy<Value = Pro
         let point = problem.rod.length.to_rational() * Rational::from((place, 4));
         let (times, points) = ([text(&time)], [text(&point)]);
         let columns = COLUMNS.map(|(quantity, _)| quantity);
-        let values = history.columns(&columns, &[time.clone()], Some(Side::Right)).unwrap();
-        let field = history.field(&[point.clone()], &[time.clone()], Side::Right).unwrap().remove(0);
+        let values = history.columns(&columns, std::slice::from_ref(&time), Some(Side::Right)).unwrap();
+        let field =
+            history.field(std::slice::from_ref(&point), std::slice::from_ref(&time), Side::Right).unwrap().remove(0);
         let of = |quantities: &[Quantity], points: &[Number]| -> Vec<(Parameter, Rational, Table)> {
             let table = |by| history.derivatives_at(by, quantities, &times, points, Side::Right).unwrap();
             given(&problem).into_iter().map(|(by, value)| (by, value, table(by))).collect()
