@@ -50,7 +50,7 @@ impl Regimes {
         let threads = Threads::of(self.threads);
         let mut map = Map::new(&self.damping_ratio, speeds, threads, &|| bar.inc(1))?;
         if formats.iter().any(|format| matches!(format, Format::Svg | Format::Png | Format::Pdf)) {
-            map = map.with_edges(threads, &|| bar.inc(1));
+            map = map.with_regions(threads, &|| bar.inc(1));
         }
         bar.finish_and_clear();
         for (path, format) in self.output.iter().zip(formats) {

@@ -40,6 +40,8 @@ pub(crate) enum Shape {
     Pieces(Vec<Piece>),
     /// Rows of equal colour: rectangles from corner to corner.
     Runs(Vec<(String, Vec<[DVec2; 2]>)>),
+    /// What an odd number of closed lines is about, inside of the frame.
+    Region(Vec<Vec<DVec2>>, &'static str),
     /// Marks.
     Marks(Vec<DVec2>, Mark, &'static str),
     /// A text beside a point.
@@ -313,6 +315,7 @@ fn draw_shape(svg: &mut Svg, shape: &Shape, place: &impl Fn(DVec2) -> DVec2, fra
                 svg.rectangles(&corners, color);
             }
         }
+        Shape::Region(lines, color) => svg.region(&mapped(lines, |line| placed(line)), color),
         Shape::Marks(points, mark, color) => {
             let inside = |point: &DVec2| frame[0].cmple(*point).all() && point.cmple(frame[1]).all();
             placed(points).into_iter().filter(inside).for_each(|point| draw_mark(svg, point, *mark, color));

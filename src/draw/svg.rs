@@ -179,6 +179,17 @@ impl Svg {
         self.put(format_args!("\" fill=\"{paint}\"/>\n"));
     }
 
+    /// What an odd number of closed lines is about.
+    pub(crate) fn region(&mut self, lines: &[Vec<DVec2>], fill: &str) {
+        self.put(format_args!("<path fill=\"{fill}\" fill-rule=\"evenodd\" d=\""));
+        for line in lines {
+            self.put(format_args!("M"));
+            self.points(line);
+            self.put(format_args!("z"));
+        }
+        self.put(format_args!("\"/>\n"));
+    }
+
     /// Rectangles of one colour, each from one corner to the opposite one.
     pub(crate) fn rectangles(&mut self, corners: &[[DVec2; 2]], fill: &str) {
         self.put(format_args!("<path fill=\"{fill}\" d=\""));

@@ -233,7 +233,7 @@ impl Figure {
                 plain(&["region", "y", "t"], rows.collect_vec())
             }
             Of::Regimes => {
-                let map = Map::new("0..4:240", "0.05..1e4:240:log", threads, &|| ())?.with_edges(threads, &|| ());
+                let map = Map::new("0..4:240", "0.05..1e4:240:log", threads, &|| ())?.with_regions(threads, &|| ());
                 Data { columns: Vec::new(), rows: Vec::new(), map: Some(map) }
             }
             Of::Tenth => {

@@ -9,7 +9,7 @@ use super::writer::Npz;
 use crate::draw::{Axis, Key, Layer, Panel, Shape, Sheet, Size, Stroke};
 use crate::mapped::{CollectVec, MapEach, mapped};
 use crate::number::{Estimate, Number, Scalar, double_bound_text};
-use crate::sweep::{BANDS, Map, PARTS, Regime, Spread, threshold, threshold_near};
+use crate::sweep::{BANDS, Map, Regime, Spread, threshold, threshold_near};
 
 /// The colour of each band, and its name: those with a bounce, none, not decided.
 const COLORS: [(&str, &str); BANDS.len() + 2] = [
@@ -96,36 +96,18 @@ fn axis(label: &str, values: &[Number]) -> (Axis, Spread) {
     (if spread.log { Axis::log(label, ends) } else { Axis::new(label, "", ends) }, spread)
 }
 
-/// The map: a rectangle for each run of points of one colour, the threshold and `R = π` as lines.
+/// The map: a region for each band, the threshold and `R = π` as lines.
 pub(crate) fn regimes_panel(map: &Map) -> Panel {
     let ((x, across), (y, up)) = (axis("R = r t₁", &map.damping), axis("M = μ/(g t₁)", &map.speed));
     let known = if map.regimes.contains(&Regime::Undecided) { COLORS.len() } else { COLORS.len() - 1 };
-    let corners = |[from, to]: [f64; 2], [low, high]: [f64; 2]| {
-        [DVec2::new(across.border(from), up.border(high)), DVec2::new(across.border(to), up.border(low))]
-    };
-    let mut runs: Vec<(usize, [DVec2; 2])> = Vec::new();
-    for (row, regimes) in map.regimes.chunks(map.damping.len()).enumerate() {
-        let (mut start, row) = (0, row as f64);
-        for run in regimes.chunk_by(|a, b| a.band() == b.band()) {
-            let end = start + run.len();
-            runs.push((run[0].band(), corners([start as f64, end as f64], [row, row + 1.0])));
-            start = end;
-        }
+    let whole = [[x.from, y.from], [x.to, y.from], [x.to, y.to], [x.from, y.to]].map_each(DVec2::from_array).to_vec();
+    let mut layers = vec![Layer::new("bands", Shape::Region(vec![whole], COLORS[known - 1].0))];
+    let place = |[steps, high]: [f64; 2]| DVec2::new(across.border(steps), up.border(high));
+    // Each band lies over those after it.
+    for (lines, (color, _)) in map.regions.iter().zip(COLORS).rev().filter(|(lines, _)| !lines.is_empty()) {
+        let lines = mapped(lines, |line| mapped(line, |point| place(*point)));
+        layers.push(Layer::new("bands", Shape::Region(lines, color)));
     }
-    // Over them what at the edges is in another band than its point.
-    let part = |k: usize| k as f64 / PARTS as f64;
-    let mut edges: Vec<(usize, [DVec2; 2])> = Vec::new();
-    for (k, regimes) in &map.edges {
-        let (row, column) = ((k / map.damping.len()) as f64, (k % map.damping.len()) as f64);
-        for (j, regime) in regimes.iter().enumerate().filter(|(_, regime)| regime.band() != map.regimes[*k].band()) {
-            let (x, y) = (column + part(j % PARTS), row + part(j / PARTS));
-            edges.push((regime.band(), corners([x, x + part(1)], [y, y + part(1)])));
-        }
-    }
-    let by_color = |rectangles: Vec<(usize, [DVec2; 2])>| {
-        let of = |band: usize| rectangles.iter().filter(|found| found.0 == band).map(|found| found.1).collect_vec();
-        Shape::Runs(mapped(0..known, |band| (COLORS[band].0.to_string(), of(band))))
-    };
     // Closer and closer to I₀(R) = 2, where it is infinite.
     let (mut below, mut above) = (1.8, 1.81);
     for _ in 0..60 {
@@ -137,12 +119,8 @@ pub(crate) fn regimes_panel(map: &Map) -> Panel {
     let pi = [y.from, y.to].map_each(|m| DVec2::new(std::f64::consts::PI, m)).to_vec();
     // Apart from every colour of the map, and from paper.
     let (solid, dashed) = (Stroke::new("#ff5a1f", 0.6), Stroke::new("#000000", 0.25).dashed("1.8 1.2"));
-    let layers = vec![
-        Layer::new("cells", by_color(runs)),
-        Layer::new("cells", by_color(edges)),
-        Layer::new("threshold", Shape::Lines(vec![curve], solid)),
-        Layer::new("curve", Shape::Lines(vec![pi], dashed)),
-    ];
+    layers.push(Layer::new("threshold", Shape::Lines(vec![curve], solid)));
+    layers.push(Layer::new("curve", Shape::Lines(vec![pi], dashed)));
     let mut legend: Vec<Key> = mapped(&COLORS[..known], |(color, text)| Key::Area((*text).into(), color));
     legend.push(Key::Line("M = (I₀(R) + I₁(R))/(2 − I₀(R))".into(), solid));
     legend.push(Key::Line("R = π".into(), dashed));

@@ -6,7 +6,7 @@ use super::cells::{Break, Cells, MOST_RAYS, Values};
 use super::gather::{Asked, Gathered, Line, UNSEEN};
 use super::picture::{Along, Picture};
 use crate::draw::{
-    AREAS, Axis, Key, LINES, Layer, Mark, Panel, Piece, Shape, Sheet, Stroke, diverging, plain, thinned,
+    AREAS, Anchor, Axis, Key, LINES, Layer, Mark, Panel, Piece, Shape, Sheet, Stroke, diverging, plain, thinned,
 };
 use crate::mapped::{CollectVec, MapEach, mapped};
 use crate::number::Scalar;
@@ -30,6 +30,8 @@ const JUMP: &str = "0.5 0.5";
 const WIDTH: f64 = 0.4;
 /// Lines of scenes and of quantities in one picture.
 const DASHES: [&str; 3] = ["", "2 0.9", "0.5 0.7"];
+/// Bars of so many scenes have their values above them.
+const MOST_TOLD: usize = 4;
 /// More jumps than this are not drawn.
 const MOST_JUMPS: usize = 2000;
 
@@ -244,6 +246,9 @@ fn restitution(scenes: &[Gathered]) -> Panel {
     let series = [("e_P", Mark::Diamond), ("e_E²", Mark::Dot)];
     let values = scenes.iter().flat_map(|scene| scene.restitution.iter().flatten().flatten().copied());
     let most = scenes.iter().map(|scene| scene.restitution.len()).max().unwrap_or(0);
+    if most <= 1 {
+        return single_bounce(scenes, series.map(|(name, _)| name));
+    }
     let mut x = Axis::new("bounce", "", [0.5, most.max(1) as f64 + 0.5]);
     if most <= 12 {
         x.ticks = Some(mapped(1..=most, |k| (k as f64, k.to_string())));
@@ -265,14 +270,51 @@ fn restitution(scenes: &[Gathered]) -> Panel {
             let line = Stroke { dash: DASHES[q], ..Stroke::new(color, 0.15) };
             layers.push(Layer::new("curve", Shape::Lines(lines, line)));
             layers.push(Layer::new("marks", Shape::Marks(dots, mark, color)));
-            // A single bounce is two points: their values stand beside them.
-            let value = scene.restitution.first().and_then(|pair| pair[q]).filter(|_| most == 1);
-            let value = value.map_or_else(String::new, |value| format!(" = {}", value.decimal(4)));
             let of = if scenes.len() == 1 { String::new() } else { format!(", {}", plain(&scene.name)) };
-            legend.push(Key::Mark(format!("{name}{value}{of}"), mark, color));
+            legend.push(Key::Mark(format!("{name}{of}"), mark, color));
         }
     }
     Panel { title: "restitution of each bounce".into(), x, y, layers, legend }
+}
+
+/// Bars, where no scene has a second bounce: a group for each coefficient, in it one for each scene, with its value.
+fn single_bounce(scenes: &[Gathered], names: [&str; 2]) -> Panel {
+    let mut x = Axis::new("first bounce", "", [0.4, 2.6]);
+    let of = ["momentum", "energy"];
+    x.ticks = Some(mapped(0..2, |q| (q as f64 + 1.0, format!("{} ({})", names[q], of[q]))));
+    let values = scenes.iter().flat_map(|scene| scene.restitution.iter().flatten().flatten().copied());
+    let y = Axis::new("restitution", "", Axis::range(values.chain([1.0]), true));
+    let one = vec![DVec2::new(x.from, 1.0), DVec2::new(x.to, 1.0)];
+    let wide = 0.8 / scenes.len().max(1) as f64;
+    let (mut layers, mut notes, mut legend) = (Vec::new(), Vec::new(), Vec::new());
+    for (s, scene) in scenes.iter().enumerate() {
+        let color = LINES[s % LINES.len()];
+        let mut bars = Vec::new();
+        for (q, name) in names.iter().enumerate() {
+            let left = q as f64 + 0.6 + s as f64 * wide;
+            let corner = |side: f64, height: f64| DVec2::new(left + side * wide, height);
+            let value = scene.restitution.first().and_then(|pair| pair[q]);
+            let text = match value {
+                Some(value) if scenes.len() == 1 => format!("{name} = {}", value.decimal(4)),
+                Some(value) => value.decimal(3),
+                None => "none".into(),
+            };
+            let top = value.unwrap_or(0.0);
+            bars.extend(value.map(|_| vec![corner(0.1, 0.0), corner(0.9, 0.0), corner(0.9, top), corner(0.1, top)]));
+            if scenes.len() <= MOST_TOLD {
+                let above = top.max(0.0) + 0.015 * (y.to - y.from);
+                notes.push(Layer::new("note", Shape::Note(corner(0.5, above), Anchor::Middle, text)));
+            }
+        }
+        layers.push(Layer::new("bars", Shape::Areas(bars, color)));
+        if scenes.len() > 1 {
+            legend.push(Key::Area(plain(&scene.name), color));
+        }
+    }
+    layers.push(zero(&x));
+    layers.push(Layer::new("zero", Shape::Lines(vec![one], Stroke::new("#808080", 0.15))));
+    layers.extend(notes);
+    Panel { title: "restitution of the bounce".into(), x, y, layers, legend }
 }
 
 /// Energies on top of each other: gravity from its least, the motion of the centre of mass, the vibration. The upper

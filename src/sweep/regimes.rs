@@ -1,5 +1,8 @@
 //! How the first contact ends, over the two numbers that decide it: `R = r t₁` and `M = μ/(g t₁)`.
 
+use std::collections::BTreeMap;
+
+use super::contour::{Edge, crossed, loops};
 use super::grid::{Axis, Grid, SweepError, values};
 use crate::first_contact::{Bounce, FirstContact, Kernels};
 use crate::mapped::{CollectVec, MapEach, mapped};
@@ -28,9 +31,9 @@ pub(crate) struct Map {
     pub(crate) damping: Vec<Number>,
     pub(crate) speed: Vec<Number>,
     pub(crate) regimes: Vec<Regime>,
-    /// What a picture shows finer, once [`Map::with_edges`] has found it: the index of a point, and the regimes in
-    /// [`PARTS`] × [`PARTS`] parts of its rectangle, `M` by rows.
-    pub(crate) edges: Vec<(usize, Vec<Regime>)>,
+    /// For a picture, once [`Map::with_regions`] has found them: of each band the closed lines about it and all before
+    /// it, in steps of the grid.
+    pub(crate) regions: Vec<Vec<Vec<[f64; 2]>>>,
 }
 
 /// The `t_b/t₁` up to which each band of a map reaches, in order.
@@ -87,44 +90,65 @@ impl Map {
         let columns: Vec<Regime> = columns.concat();
         let at = |k: usize| columns[k % dampings.len() * speeds.len() + k / dampings.len()];
         let regimes = mapped(0..columns.len(), at);
-        Ok(Map { regimes, damping: dampings, speed: speeds, edges: Vec::new() })
+        Ok(Map { regimes, damping: dampings, speed: speeds, regions: Vec::new() })
     }
 
-    /// The same with [`Map::edges`]: the rectangles about points that are in another band than a neighbour. `done` is
-    /// called after each of these.
-    pub(crate) fn with_edges(self, threads: Threads, done: &(dyn Fn() + Sync)) -> Self {
-        let (across, rod) = (self.damping.len(), unit_rod());
-        let kinds: Vec<usize> = mapped(&self.regimes, |regime| regime.band());
-        let differs = |k: usize| {
-            let (row, column) = (k / across, k % across);
-            let beside = [(column > 0).then(|| k - 1), (column + 1 < across).then(|| k + 1)];
-            let above = [(row > 0).then(|| k - across), (row + 1 < self.speed.len()).then(|| k + across)];
-            beside.into_iter().chain(above).flatten().any(|other| kinds[other] != kinds[k])
-        };
+    /// The same with [`Map::regions`]. Between two points in different bands each edge is halved until it is known to
+    /// some part of [`FINE`] of the picture; `done` is called after each edge.
+    pub(crate) fn with_regions(self, threads: Threads, done: &(dyn Fn() + Sync)) -> Self {
         let (dampings, speeds) = (Spread::of(&self.damping), Spread::of(&self.speed));
-        // All parts of a column share their kernels, as far as they have one damping.
-        let Ok(columns) = threads.all(across, |column| {
-            let edge = (0..self.speed.len()).map(|row| row * across + column).filter(|k| differs(*k));
-            let mut found: Vec<(usize, Vec<Regime>)> =
-                edge.map(|k| (k, vec![Regime::Undecided; PARTS * PARTS])).collect_vec();
-            for part in 0..PARTS {
-                let (damping, kernels) = (dampings.inside(column, part), Kernels::default());
-                for (k, regimes) in &mut found {
-                    for row in 0..PARTS {
-                        let speed = speeds.inside(*k / across, row);
-                        regimes[row * PARTS + part] = regime(&rod, &damping, &speed, &kernels);
-                    }
+        let (across, up) = (self.damping.len(), self.speed.len());
+        let rod = unit_rod();
+        let regime_at = |[x, y]: [f64; 2], kernels: &Kernels<Estimate<f64>>| {
+            regime(&rod, &dampings.number(x, &self.damping), &speeds.number(y, &self.speed), kernels).band()
+        };
+        // The points, about them those on the border of the picture, about these a ring that is in no band.
+        let size = [across + 4, up + 4];
+        let steps = |k: usize, count: usize| (k as f64 - 1.5).clamp(0.0, count as f64);
+        let place = |node: [usize; 2]| [steps(node[0], across), steps(node[1], up)];
+        let Ok(bands) = threads.all(size[0], |column| {
+            let kernels = Kernels::default();
+            let band = |row: usize| match [column, row] {
+                [x, y] if x == 0 || y == 0 || x + 1 == size[0] || y + 1 == size[1] => usize::MAX,
+                [x, y] if (2..across + 2).contains(&x) && (2..up + 2).contains(&y) => {
+                    self.regimes[(y - 2) * across + x - 2].band()
                 }
-            }
-            found.iter().for_each(|_| done());
-            Ok::<_, std::convert::Infallible>(found)
+                node => regime_at(place(node), &kernels),
+            };
+            Ok::<_, std::convert::Infallible>(mapped(0..size[1], band))
         });
-        Map { edges: columns.concat(), ..self }
+        let mut regions = Vec::new();
+        for level in 0..=BANDS.len() {
+            let inside = |[x, y]: [usize; 2]| bands[x][y] <= level;
+            let edges = crossed(size, &inside);
+            let Ok(crossings) = threads.all(edges.len(), |k| {
+                let [a, b] = edges[k];
+                // One damping has one set of kernels.
+                let mut kernels = Kernels::default();
+                let (mut within, mut beyond) = if inside(a) { (place(a), place(b)) } else { (place(b), place(a)) };
+                // The ring lies on the border.
+                let outer = [a, b].map_each(|[x, y]| bands[x][y]).contains(&usize::MAX);
+                let middle = |a: [f64; 2], b: [f64; 2]| [0.5 * (a[0] + b[0]), 0.5 * (a[1] + b[1])];
+                let halvings = (FINE / across.max(up) as f64).log2().ceil().max(2.0) as usize;
+                for _ in 0..if outer { 0 } else { halvings } {
+                    let point = middle(within, beyond);
+                    if a[0] != b[0] {
+                        kernels = Kernels::default();
+                    }
+                    *(if regime_at(point, &kernels) <= level { &mut within } else { &mut beyond }) = point;
+                }
+                done();
+                Ok::<_, std::convert::Infallible>(if outer { within } else { middle(within, beyond) })
+            });
+            let of: BTreeMap<Edge, [f64; 2]> = edges.iter().copied().zip(crossings).collect();
+            regions.push(mapped(loops(&edges, &inside), |line| mapped(line, |edge| of[&edge])));
+        }
+        Map { regions, ..self }
     }
 }
 
-/// Parts of a rectangle in a picture, along either axis.
-pub(crate) const PARTS: usize = 4;
+/// Parts of the longer side of a picture that no eye tells apart.
+const FINE: f64 = 4096.0;
 
 /// Values of an axis as middles of equal parts of it, in themselves or in their logarithms.
 pub(crate) struct Spread {
@@ -153,9 +177,16 @@ impl Spread {
         if self.log { place.exp() } else { place }
     }
 
-    /// The middle of a part of the rectangle of a value; zero where that would be below zero.
-    fn inside(&self, k: usize, part: usize) -> Number {
-        let value = self.border(k as f64 + (part as f64 + 0.5) / PARTS as f64).max(0.0);
+    /// The value so many steps beyond the lower border, between the values that it lies between; not below zero.
+    fn number(&self, steps: f64, values: &[Number]) -> Number {
+        let (below, share) = ((steps - 0.5).floor(), (steps - 0.5).fract());
+        let value = match (values.get(below as usize), values.get(below as usize + 1)) {
+            _ if below < 0.0 => self.border(steps).max(0.0),
+            (Some(a), _) if share == 0.0 => return a.clone(),
+            (Some(a), Some(b)) if self.log => a.to_f64() * (b.to_f64() / a.to_f64()).powf(share),
+            (Some(a), Some(b)) => a.to_f64() + share * (b.to_f64() - a.to_f64()),
+            _ => self.border(steps),
+        };
         Written::from(value).number().cloned().unwrap_or_else(|_| 0.into())
     }
 }
