@@ -5,7 +5,6 @@ mod definition;
 pub(crate) mod given;
 mod parameters;
 pub(crate) mod profile;
-#[cfg(any(feature = "compare", feature = "mp"))]
 mod step;
 pub(crate) mod validate;
 mod vary;

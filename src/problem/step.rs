@@ -58,7 +58,6 @@ impl Parameter {
     }
 
     /// The power of it that the problem has, and that [`Parameter::moved`] moves.
-    #[cfg(feature = "mp")]
     pub(crate) fn power(self, problem: &Problem) -> i64 {
         let square = match self {
             Parameter::WaveSpeed => matches!(problem.rod.material, Material::Elastic { .. }),

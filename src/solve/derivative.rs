@@ -10,7 +10,7 @@ use crate::mapped::{MapEach, mapped, try_mapped};
 use crate::motion::{Motion, Side};
 use crate::number::{Number, Scalar};
 use crate::problem::{Parameter, Problem};
-use crate::quantity::{self, Quantity, UnitSystem, Units};
+use crate::quantity::{self, Measure, Quantity, UnitSystem, Units};
 
 /// The derivative of a number of a history by a value of the problem.
 ///
@@ -106,6 +106,16 @@ impl Asked<'_> {
             }
             found => found,
         }
+    }
+
+    /// The natural scale of each column, in units of `problem`; ratios are about 1.
+    pub(super) fn scales<S: Scalar>(&self, problem: &Problem, motion: &dyn Motion<S>) -> Vec<f64> {
+        let units = Units::of(problem, UnitSystem::default());
+        let time = motion.scales().time.to_f64();
+        mapped(self.quantities, |quantity| match quantity.measure() {
+            Some(Measure::Time) => time,
+            _ => quantity.natural_scale(motion, &units).unwrap_or(1.0),
+        })
     }
 
     /// Whether a number is absent where the rod is too short for it: then there is but one side.

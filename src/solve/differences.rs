@@ -16,7 +16,6 @@ use crate::mapped::{CollectVec, MapEach, mapped};
 use crate::motion::Motion;
 use crate::number::{Bounded, Estimate, Float, Number, Scalar, bits_for_digits};
 use crate::problem::{Parameter, Problem};
-use crate::quantity::{Measure, Quantity, UnitSystem, Units};
 use crate::threads::Threads;
 
 type Long = Estimate<Float>;
@@ -236,17 +235,7 @@ fn rows(asked: &Asked<'_>, problem: &Problem, exponent: u32, bits: u32) -> Resul
     let question = Question { want: asked.want.clone(), numbers: Numbers::Digits(2 * exponent) };
     let plan = Plan::of(problem, &question)?;
     let history = History::<Float>::solve(problem, &plan, asked.observe.clone())?;
-    let units = Units::of(problem, UnitSystem::default());
-    let query = |motion: &dyn Motion<Long>| {
-        let time = motion.scales().time.to_f64();
-        // Ratios are about 1.
-        let scale = |quantity: &Quantity| match quantity.measure() {
-            Some(Measure::Time) => time,
-            _ => quantity.natural_scale(motion, &units).unwrap_or(1.0),
-        };
-        let scales: Vec<f64> = mapped(asked.quantities, scale);
-        Ok((asked.values(problem, motion)?, scales))
-    };
+    let query = |motion: &dyn Motion<Long>| Ok((asked.values(problem, motion)?, asked.scales(problem, motion)));
     let (mut rows, scales) = history.ask(query, |(rows, _)| rows.iter().flatten().flatten().collect_vec())?;
     let zero = Long::from_number(&Number::from(0), &bits);
     for number in rows.iter_mut().flatten().flatten() {

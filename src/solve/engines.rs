@@ -4,10 +4,11 @@ use std::sync::Arc;
 
 use super::asked::{Longer, Open, Telling};
 use super::derivative::{Asked, Derivatives};
+use super::history::History;
 use super::ladder::{Engined, Target};
 use super::observer::Observer;
-use super::plan::{Engine, Plan, Rung};
-use super::{differences, fractions, long};
+use super::plan::{DEFAULT_ACCURACY, Engine, Plan, Rung};
+use super::{differences, fractions, interpolated, long};
 use crate::cells::{ContactThenCells, Damped};
 use crate::error::Error;
 use crate::first_contact::{Bounce, ContactHistory, FirstContact};
@@ -72,12 +73,18 @@ impl Target for f64 {
         Ok(Telling::of(engine, problem, Open::Ask(longer)))
     }
 
-    /// As many digits as a double has where a run takes no time, otherwise one more than the run is asked for.
-    fn derivatives(asked: &Asked<'_>) -> Result<Derivatives<Estimate<f64>>, Error> {
-        let digits = match asked.plan.engine {
-            Engine::Lattice if asked.by != Parameter::Damping => DOUBLE_DIGITS,
-            _ => asked.plan.goal.digits.ceil() as u32,
-        };
+    /// As many digits as a double has where a run takes no time. Otherwise from doubles, where no more is asked for than
+    /// they have and nothing jumps or bends; where they do not settle it, one digit more than the run is asked for.
+    fn derivatives(asked: &Asked<'_>, history: &History<f64>) -> Result<Derivatives<Estimate<f64>>, Error> {
+        let quick = asked.plan.engine == Engine::Lattice && asked.by != Parameter::Damping;
+        let plain = asked.plan.goal.digits <= -DEFAULT_ACCURACY.log10();
+        if !quick
+            && plain
+            && let Ok(Some(found)) = interpolated::of(asked, history)
+        {
+            return Ok(found);
+        }
+        let digits = if quick { DOUBLE_DIGITS } else { asked.plan.goal.digits.ceil() as u32 };
         let found = differences::of(asked, digits)?;
         Ok(mapped(found, |row| mapped(row, |cell| cell.map(|it| it.map(Reads::read)))))
     }

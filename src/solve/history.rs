@@ -444,9 +444,11 @@ impl<S: Target> History<S> {
     /// `None`.
     ///
     /// **Accuracy**: *exact* in fractions; where the two sides differ, difference quotients have confirmed them. Otherwise
-    /// each derivative is *within its own bound*: it is a difference quotient of runs in long numbers, with a step as
-    /// small as the last of the digits asked for, and the bound has what the quotients of both sides, or of two steps,
-    /// differ by. A threshold that is nearer than the step counts as met.
+    /// each derivative is *within its own bound*. In doubles, as accurate as they are by default, that of a damped rod is
+    /// within 1e-5 of its natural size, mostly 1e-8, and takes three runs: it is that of a cubic through four, and the
+    /// bound what a quadratic differs by. Where these do not settle it, where more is asked for and in digits it is a
+    /// difference quotient of runs in long numbers, with a step as small as the last of the digits, and the bound has what
+    /// the quotients of both sides, or of two steps, differ by. A threshold that is nearer than the step counts as met.
     ///
     /// **Errors**: [`Error::Derivative`] where the problem has no such value, in fractions for damping, and for
     /// enclosures; [`Error::Digits`] for more than 60; [`Error::NoMultiprecision`] without the feature `mp`, but for
@@ -465,7 +467,7 @@ impl<S: Target> History<S> {
     /// # Ok::<(), dalembert::Error>(())
     /// ```
     pub fn derivatives(&self, by: Parameter, quantities: &[Quantity]) -> Result<Derivatives<S::Carried>, Error> {
-        S::derivatives(&self.asked(by, quantities))
+        S::derivatives(&self.asked(by, quantities), self)
     }
 
     /// The derivatives of `quantities` at `times` by a value of the problem, a row for each time; with `points`, those of
@@ -508,7 +510,7 @@ impl<S: Target> History<S> {
         let Question { want, numbers } = Question::between(from, last.clone(), self.plan.numbers);
         let plan = Plan::of(&self.problem, &Question { want: want.clone(), numbers })?;
         let at = Some(At { times, points, side });
-        S::derivatives(&Asked { plan: &plan, want, at, ..self.asked(by, quantities) })
+        S::derivatives(&Asked { plan: &plan, want, at, ..self.asked(by, quantities) }, self)
     }
 
     fn asked<'a>(&'a self, by: Parameter, quantities: &'a [Quantity]) -> Asked<'a> {

@@ -2,6 +2,7 @@
 
 use super::asked::Longer;
 use super::derivative::{Asked, Derivatives};
+use super::history::History;
 use super::ladder::{Engined, Target};
 use super::observer::Observer;
 use super::plan::{Plan, Rung};
@@ -25,7 +26,7 @@ macro_rules! absent {
             fn run(_: &Problem, _: &Plan, _: Rung, _: &Observer) -> Result<Engined<$name>, Error> {
                 Err(Error::NoMultiprecision)
             }
-            fn derivatives(_: &Asked<'_>) -> Result<Derivatives<$carried>, Error> {
+            fn derivatives(_: &Asked<'_>, _: &History<$name>) -> Result<Derivatives<$carried>, Error> {
                 Err(Error::NoMultiprecision)
             }
         }

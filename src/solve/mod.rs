@@ -26,6 +26,7 @@ mod exact;
 mod foresee;
 mod fractions;
 mod history;
+mod interpolated;
 mod ladder;
 #[cfg_attr(not(feature = "mp"), path = "long_absent.rs")]
 mod long;

@@ -1,0 +1,133 @@
+//! Derivatives as those of the cubic through four runs in doubles.
+//!
+//! With a step `h` of the value, relative to it, that of the cubic is off by about `h³ f⁗/4` and what doubles are known
+//! to, `n`, divided by h; the quadratic through three of the runs by `h² f‴/6` or `/3`. What the two differ by is taken
+//! for the error, and `h³` of the natural size besides. Both errors are of one size where `h³ = n`.
+//!
+//! Next to a kink the third difference is as great as the change of the slope, but for one half a step away, which makes
+//! the second difference as great: where either is, runs in long numbers settle it.
+
+use super::derivative::{Asked, Derivative, Derivatives};
+use super::history::History;
+use super::plan::Plan;
+use super::question::Question;
+use crate::error::Error;
+use crate::mapped::CollectVec;
+use crate::number::{Estimate, Number, Rational, Scalar};
+use crate::problem::{Parameter, Problem};
+use crate::threads::Threads;
+
+type Double = Estimate<f64>;
+type Rows = Vec<Vec<Option<Double>>>;
+
+/// Steps are between these parts of a value.
+const STEPS: [f64; 2] = [1e-5, 1e-3];
+/// Where a step does not settle it, one shorter by this does.
+const FINER: f64 = 10.0;
+/// A derivative may be off by so much of its size or of the natural one.
+const WANTED: f64 = 1e-5;
+/// A second derivative may be so many times its natural size.
+const BEND: f64 = 100.0;
+
+/// The derivatives that are `asked` for by three runs beside `history`; `None` where some are not settled to [`WANTED`].
+///
+/// **Errors**: those of the runs.
+pub(super) fn of(asked: &Asked<'_>, history: &History<f64>) -> Result<Option<Derivatives<Double>>, Error> {
+    let value = asked.by.value_in::<f64>(asked.problem, &())?;
+    if value == 0.0 && asked.by == Parameter::Gravity {
+        return Ok(None);
+    }
+    let (base, scales) = rows(asked, asked.problem, history)?;
+    let size = |(number, scale): (&Option<Double>, &f64)| {
+        let number = number.as_ref()?;
+        Some(number.bound() / number.value().abs().max(*scale))
+    };
+    let known = base.iter().flat_map(|row| row.iter().zip(&scales).filter_map(size)).fold(0.0, f64::max);
+    let part = known.cbrt().clamp(STEPS[0], STEPS[1]);
+    for part in [part, part / FINER] {
+        // A short decimal.
+        let step = format!("{part:.0e}").parse().unwrap_or_else(|_| 1.into());
+        if let Some(found) = with_step(asked, (&base, &scales), value, &step)? {
+            return Ok(Some(found));
+        }
+    }
+    Ok(None)
+}
+
+/// Those by runs so far apart, as a part of the value, of which the one with the value itself has the numbers `base`.
+fn with_step(
+    asked: &Asked<'_>,
+    (base, scales): (&Rows, &[f64]),
+    value: f64,
+    step: &Number,
+) -> Result<Option<Derivatives<Double>>, Error> {
+    let one_sided = asked.by.only_grows(asked.problem);
+    let offsets: [i64; 3] = if one_sided { [1, 2, 3] } else { [-1, 1, 2] };
+    let run = |k: usize| {
+        let by = step.to_rational() * Rational::from(offsets[k]);
+        let Some(problem) = asked.by.moved(asked.problem, &by) else { return Ok(Vec::new()) };
+        let plan = Plan::of(&problem, &Question { want: asked.want.clone(), numbers: asked.plan.numbers })?;
+        let history = History::<f64>::solve(&problem, &plan, asked.observe.clone())?;
+        rows(asked, &problem, &history).map(|(rows, _)| rows)
+    };
+    let runs = Threads::default().all(3, run)?;
+    let scale = if value == 0.0 { asked.by.scale_of_zero(asked.problem).to_f64() } else { value };
+    let cubic = Cubic { part: step.to_f64(), value: scale / asked.by.power(asked.problem) as f64, one_sided };
+    let slope = |(i, j): (usize, usize), number: &Double| {
+        let there = runs.iter().map(|run| run.get(i)?.get(j)?.as_ref()).collect::<Option<Vec<_>>>()?;
+        cubic.slope(number, &there, scales[j])
+    };
+    let mut found = Vec::with_capacity(base.len());
+    for (i, row) in base.iter().enumerate() {
+        let mut cells = Vec::with_capacity(row.len());
+        for (j, number) in row.iter().enumerate() {
+            cells.push(match number.as_ref().map(|number| slope((i, j), number)) {
+                None => None,
+                Some(Some(slope)) => Some(Derivative::One(slope)),
+                Some(None) => return Ok(None),
+            });
+        }
+        found.push(cells);
+    }
+    Ok(Some(found))
+}
+
+/// The numbers of a run, and the natural scale of each column.
+fn rows(asked: &Asked<'_>, problem: &Problem, history: &History<f64>) -> Result<(Rows, Vec<f64>), Error> {
+    history.ask(
+        |motion| Ok((asked.values(problem, motion)?, asked.scales(problem, motion))),
+        |(rows, _)| rows.iter().flatten().flatten().collect_vec(),
+    )
+}
+
+/// Where the runs are.
+struct Cubic {
+    /// The step as a part of the value.
+    part: f64,
+    /// The value, by which the problem has what is moved.
+    value: f64,
+    /// Whether all runs are to the right of the first one.
+    one_sided: bool,
+}
+
+impl Cubic {
+    /// The derivative of a number that has these values `there`; `None` where it is not settled.
+    fn slope(&self, here: &Double, there: &[&Double], scale: f64) -> Option<Double> {
+        let sum = |weights: [i64; 4], divisor: f64| {
+            let numbers = std::iter::once(here).chain(there.iter().copied()).zip(weights);
+            let sum = numbers.fold(here.zero(), |sum, (number, weight)| sum + number.clone() * here.int(weight));
+            sum / here.double(divisor)
+        };
+        let step = self.part * self.value;
+        // The places are 0, 1, 2 and 3, or 0, −1, 1 and 2.
+        let (quadratic, bend, third) = match self.one_sided {
+            true => (sum([-3, 4, -1, 0], 2.0 * step), sum([1, -2, 1, 0], step), sum([-1, 3, -3, 1], 3.0 * step)),
+            false => (sum([0, -1, 1, 0], 2.0 * step), sum([-2, 1, 1, 0], step), sum([-3, 1, 3, -1], 6.0 * step)),
+        };
+        let natural = here.value().abs().max(scale) / self.value;
+        let slope = (quadratic + &third).widened(&third).widened(&here.double(natural * self.part.powi(3)));
+        let size = slope.value().abs() + natural;
+        let settled = slope.bound() <= WANTED * size && bend.value().abs() <= BEND * self.part * size;
+        settled.then_some(slope)
+    }
+}
