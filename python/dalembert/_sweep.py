@@ -39,6 +39,27 @@ class Sweep:
         return f"<dalembert.Sweep: {', '.join(self.values)} of shape {shape}, {len(self.notes)} notes>"
 
 
+_PROFILES = ("displacement", "velocity")
+
+
+def _points(name: str, values: Any) -> NDArray[np.object_]:
+    """One list of points in each place of an array, whose last two axes are the points."""
+    try:
+        found = np.asarray(values, dtype=object)
+    except ValueError:  # Profiles with different numbers of points.
+        found = np.empty(len(values), dtype=object)
+        found[:] = values
+    if found.size and np.ndim(found.flat[0]) == 2:
+        return found
+    if found.ndim < 2 or found.shape[-1] != 2:
+        expected = "points (x, value) in the last two axes, (..., n, 2)"
+        raise TypeError(f"found {name} of shape {found.shape}, expected {expected}")
+    profiles = np.empty(found.shape[:-2], dtype=object)
+    for place in np.ndindex(*profiles.shape):
+        profiles[place] = found[place].tolist()
+    return profiles
+
+
 def sweep(
     scene: Scene,
     quantities: str | Sequence[str],
@@ -60,7 +81,8 @@ def sweep(
     accuracy : float, optional
         As in :func:`solve`.
     **varied : array_like
-        Numbers of :class:`Problem` by name, broadcast against each other.
+        Values of :class:`Problem` by name, broadcast against each other. The points of a `displacement` or `velocity`
+        are the last two axes, of shape ``(..., n, 2)``; in a list each profile may have points of its own number.
 
     Returns
     -------
@@ -84,7 +106,8 @@ def sweep(
     """
     names = [quantities] if isinstance(quantities, str) else list(quantities)
     # As in solve: a float stands for the shortest decimal that spells it, and all else for what it says.
-    given = {name: np.asarray(values, dtype=object) for name, values in varied.items()}
+    given = {name: _points(name, values) if name in _PROFILES else np.asarray(values, dtype=object)
+             for name, values in varied.items()}
     shape = np.broadcast_shapes(*(values.shape for values in given.values()))
     columns = [(name, np.broadcast_to(values, shape).ravel().tolist()) for name, values in given.items()]
     found, said = _core.sweep(Problem.from_scene(scene)._core, names, time, accuracy, columns)

@@ -135,22 +135,46 @@ impl Problem {
     }
 }
 
-/// The problem of a builder with all of `values` set.
-fn set(mut builder: Builder, values: &Bound<'_, PyDict>) -> PyResult<dalembert::Problem> {
-    for (key, value) in values {
-        let key: String = key.extract()?;
-        let name = key.as_str();
-        builder = match name {
-            "displacement" => builder.displacement(points(name, &value)?),
-            "velocity" => builder.velocity(points(name, &value)?),
-            "top" => builder.top(one_of(name, &value, &[("free", Top::Free), ("fixed", Top::Fixed)])?),
-            _ if Builder::numbers().any(|known| known == name) => builder.named(name, written(name, &value)?),
+/// A value of a problem, as a builder takes it.
+#[derive(Clone)]
+pub(crate) enum Given {
+    Number(Written),
+    Displacement(Vec<(Written, Written)>),
+    Velocity(Vec<(Written, Written)>),
+    Top(Top),
+}
+
+impl Given {
+    /// The value of this name.
+    pub(crate) fn of(name: &str, value: &Bound<'_, PyAny>) -> PyResult<Self> {
+        Ok(match name {
+            "displacement" => Given::Displacement(points(name, value)?),
+            "velocity" => Given::Velocity(points(name, value)?),
+            "top" => Given::Top(one_of(name, value, &[("free", Top::Free), ("fixed", Top::Fixed)])?),
+            _ if Builder::numbers().any(|known| known == name) => Given::Number(written(name, value)?),
             _ => {
                 let known = Builder::numbers().collect::<Vec<_>>().join(", ");
                 let expected = format!("one of {known}, displacement, velocity, top");
                 return Err(PyTypeError::new_err(format!("found the unknown value `{name}`, expected {expected}")));
             }
-        };
+        })
+    }
+
+    pub(crate) fn set(self, builder: Builder, name: &str) -> Builder {
+        match self {
+            Given::Number(number) => builder.named(name, number),
+            Given::Displacement(points) => builder.displacement(points),
+            Given::Velocity(points) => builder.velocity(points),
+            Given::Top(top) => builder.top(top),
+        }
+    }
+}
+
+/// The problem of a builder with all of `values` set.
+fn set(mut builder: Builder, values: &Bound<'_, PyDict>) -> PyResult<dalembert::Problem> {
+    for (name, value) in values {
+        let name: String = name.extract()?;
+        builder = Given::of(&name, &value)?.set(builder, &name);
     }
     builder.build().map_err(refuse)
 }

@@ -4,13 +4,12 @@ use std::ops::ControlFlow;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 
-use dalembert::{Builder, Numbers, Quantity, Written};
+use dalembert::{Numbers, Quantity};
 use numpy::PyArray1;
-use pyo3::exceptions::PyTypeError;
 use pyo3::prelude::*;
 
 use super::number::written;
-use super::problem::Problem;
+use super::problem::{Given, Problem};
 use super::{refuse, run};
 
 /// Values and bounds of one quantity, point by point.
@@ -35,13 +34,9 @@ pub(crate) fn sweep(
     };
     let quantities = quantities.iter().map(single).collect::<PyResult<Vec<_>>>()?;
     let time = time.map(|time| written("time", time)?.number().cloned().map_err(refuse)).transpose()?;
-    let mut columns: Vec<(String, Vec<Written>)> = Vec::new();
+    let mut columns: Vec<(String, Vec<Given>)> = Vec::new();
     for (name, values) in varied {
-        if !Builder::numbers().any(|known| known == name) {
-            let known = Builder::numbers().collect::<Vec<_>>().join(", ");
-            return Err(PyTypeError::new_err(format!("found the unknown value `{name}`, expected one of {known}")));
-        }
-        let values = values.iter().map(|value| written(&name, value)).collect::<PyResult<_>>()?;
+        let values = values.iter().map(|value| Given::of(&name, value)).collect::<PyResult<_>>()?;
         columns.push((name, values));
     }
     let count = columns.first().map_or(1, |column| column.1.len());
@@ -50,8 +45,7 @@ pub(crate) fn sweep(
     let (asked, seen) = (quantities.len(), stop.clone());
     let cells = run(py, &stop, move || {
         let problem = |k: usize| {
-            let set =
-                |builder: Builder, (name, values): &(String, Vec<Written>)| builder.named(name, values[k].clone());
+            let set = |builder, (name, values): &(String, Vec<Given>)| values[k].clone().set(builder, name);
             columns.iter().fold(start.to_builder(), set).build()
         };
         let go_on = || if seen.load(Ordering::Relaxed) { ControlFlow::Break(()) } else { ControlFlow::Continue(()) };

@@ -284,6 +284,28 @@ def test_sweep_has_the_numbers_of_solve():
     assert bounces >= 8
 
 
+def test_sweep_over_profiles():
+    """The last two axes are a profile, the others are broadcast: what each problem by itself answers."""
+    rod = dalembert.Problem(length=1, wave_speed=1, gravity=1, impact_speed=1)
+    depths, gravities = np.array([1, 2, 3]), [[0], [1]]
+    slopes = np.stack([np.zeros((3, 2)), np.stack([np.ones(3), -depths], axis=1)], axis=1)
+    found = dalembert.sweep(rod, "bounce_time", displacement=slopes, gravity=gravities)["bounce_time"]
+    assert found.shape == (2, 3)
+    by_hand = [[rod.replace(displacement=slope, gravity=g).solve().contacts["to"][0] for slope in slopes]
+               for g, in gravities]
+    # Without gravity the wave from the free top is back after L/c; with it one rod stays on the ground.
+    assert found[0].tolist() == [1, 1, 1] and np.isfinite(found).sum() == 5
+    assert np.allclose(found, by_hand, rtol=1e-9, atol=0, equal_nan=True)
+    # Profiles of their own numbers of points, and what holds the upper end.
+    profiles = [[(0, 0), (1, "-0.4")], [(0, 0), (0.5, 0), (1, "-0.4")]]
+    each = dalembert.sweep(rod, "bounce_time", velocity=[(0, -1), (1, -1)], displacement=profiles)["bounce_time"]
+    assert each.shape == (2,) and each[0] != each[1]
+    held = dalembert.sweep(rod, "bounce_time", top=["free", "fixed"], gravity=0)["bounce_time"]
+    assert held[0] == 2 and held[0] != held[1]
+    with pytest.raises(TypeError, match=r"found displacement of shape \(3,\), expected points \(x, value\) in"):
+        dalembert.sweep(rod, "bounce_time", displacement=depths)
+
+
 def test_sweep_says_why_there_is_no_number():
     """A rod that is damped too much does not bounce; a value that is none is a point's own fault."""
     rod = dalembert.Problem(length=1, wave_speed=1, impact_speed=1)
