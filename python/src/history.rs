@@ -168,7 +168,7 @@ impl History {
             let about = [history.ending().to_string(), plan.engine.to_string(), plan.numbers.to_string()];
             let warnings = first.into_iter().chain(history.warnings().iter().map(ToString::to_string)).collect();
             let scales = [scales.time, scales.velocity, scales.length, scales.wave_speed, scales.gravity];
-            (kind, cell(history.end(), *digits), about, warnings, scales.map(|x| x.to_f64()))
+            (kind, cell(history.end(), *digits), about, warnings, scales.map(|x| Scalar::to_f64(&x)))
         })
     }
 
