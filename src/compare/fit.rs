@@ -89,7 +89,7 @@ fn derivatives(
         next[i] += WIDTH * scales[i];
         let width = next[i] - values[i];
         let next = residuals(&varied(problem, parameters, &next)?)?;
-        let slope = |(now, next): (&f64, &f64)| if *now == 0.0 || *next == 0.0 { 0.0 } else { (next - now) / width };
+        let slope = |(now, next): (&f64, &f64)| if (next - now).is_nan() { 0.0 } else { (next - now) / width };
         Some(now.iter().zip(&next).map(slope).collect())
     };
     (0..values.len()).map(by).collect()
@@ -186,12 +186,13 @@ impl Fit {
 }
 
 fn rms(values: &[f64]) -> f64 {
-    let told = values.iter().filter(|value| **value != 0.0);
+    let told = values.iter().filter(|value| !value.is_nan());
     let (sum, count) = told.fold((0.0, 0.0), |(sum, count), value| (sum + value * value, count + 1.0));
     if count > 0.0 && sum > 0.0 { f64::sqrt(sum / count) } else { 1.0 }
 }
 
-/// `theirs − ours` of each column at every `stride`-th sample, divided by its weight; zero within two steps of a jump.
+/// `theirs − ours` of each column at every `stride`-th sample, divided by its weight; no number within two steps of a
+/// jump.
 ///
 /// **Errors**: those of the run.
 fn pointwise(
@@ -212,7 +213,7 @@ fn pointwise(
         let weight = weights.map_or(1.0, |weights| weights[place]);
         let jumps = (column.what.rays() == Rays::Jump).then(|| ours.passing(Location::of(column.what), &grid));
         let error = |k: usize| match &jumps {
-            Some(jumps) if (jumps[k] - grid.times[k]).abs() <= 2.0 * step => 0.0,
+            Some(jumps) if (jumps[k] - grid.times[k]).abs() <= 2.0 * step => f64::NAN,
             _ => (column.theirs[k * stride] - values[k]) / weight,
         };
         (0..grid.times.len()).map(error).collect()

@@ -47,7 +47,7 @@ fn solve(matrix: &[Vec<f64>], right: &[f64]) -> Option<Vec<f64>> {
 
 /// The values that leave the least of `Σ r²`, from `start` in at most `most` steps, by Levenberg and Marquardt's method
 /// in unknowns divided by `scales`. `residuals` is `None` where there is no answer, and `linear` gives their
-/// derivatives. `None` where the residuals do not tell the unknowns apart. They are those of
+/// derivatives. What is no number is left out. `None` where the residuals do not tell the unknowns apart. They are those of
 /// so many columns, one after the other.
 ///
 /// **Accuracy**: a standard error is the greater of two: that of independent residuals of one size, from the normal
@@ -60,7 +60,7 @@ pub(super) fn least(
     residuals: impl Fn(&[f64]) -> Option<Vec<f64>>,
     linear: impl Fn(&[f64], &[f64]) -> Option<Vec<Vec<f64>>>,
 ) -> Option<Least> {
-    let square = |r: &[f64]| r.iter().map(|r| r * r).sum::<f64>();
+    let square = |r: &[f64]| r.iter().filter(|r| !r.is_nan()).map(|r| r * r).sum::<f64>();
     let count = start.len();
     let mut values = start.to_vec();
     let mut now = residuals(&values)?;
@@ -69,7 +69,9 @@ pub(super) fn least(
     let mut slopes = vec![vec![0.0; now.len()]; count];
     while steps < most && !settled {
         slopes = linear(&values, &now)?;
-        let dot = |i: usize, r: &[f64]| slopes[i].iter().zip(r).map(|(a, b)| a * b).sum::<f64>() * scales[i];
+        let told = |pair: &(&f64, &f64)| !pair.1.is_nan();
+        let dot =
+            |i: usize, r: &[f64]| slopes[i].iter().zip(r).filter(told).map(|(a, b)| a * b).sum::<f64>() * scales[i];
         let row = |i: usize| (0..count).map(|j| dot(i, &slopes[j]) * scales[j]).collect();
         normal = (0..count).map(row).collect();
         let right: Vec<f64> = (0..count).map(|i| -dot(i, &now)).collect();
@@ -96,7 +98,8 @@ pub(super) fn least(
             }
         }
     }
-    let variance = square(&now) / now.len().saturating_sub(count).max(1) as f64;
+    let told = now.iter().filter(|r| !r.is_nan()).count();
+    let variance = square(&now) / told.saturating_sub(count).max(1) as f64;
     let samples = (now.len() / columns).max(1);
     let batches = BATCHES.min(samples);
     let error = |i: usize| {
@@ -104,7 +107,7 @@ pub(super) fn least(
         let row = solve(&normal, &unit)?;
         // What each residual adds to the value, by stretches. Together they add nothing.
         let mut sums = vec![0.0; batches];
-        for (k, residual) in now.iter().enumerate() {
+        for (k, residual) in now.iter().enumerate().filter(|(_, residual)| !residual.is_nan()) {
             let slope: f64 = (0..count).map(|j| row[j] * slopes[j][k] * scales[j]).sum();
             sums[k % samples * batches / samples] += slope * residual;
         }
