@@ -40,6 +40,9 @@
 //! the wheel), `svg` (pictures), `npz` (data in NumPy's files) and `plot` (pictures as PNG and PDF) only add to each
 //! other.
 
+#[macro_use]
+mod named;
+
 #[cfg(feature = "compare")]
 mod aligned;
 mod cells;

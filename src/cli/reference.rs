@@ -14,7 +14,7 @@ use crate::error::Error;
 use crate::mapped::{CollectVec, mapped};
 use crate::motion::{Motion, Side};
 use crate::number::{List, Number, Scalar};
-use crate::output::{Described, Golden, Head, Language, Preamble, Rows, code};
+use crate::output::{Golden, Head, Language, Preamble, Rows, code};
 use crate::quantity::{Needs, Quantity, SLICE, Slice, Units};
 use crate::scene::Scene;
 use crate::solve::{History, Question, Target};
@@ -176,7 +176,7 @@ impl Visit for Series<'_> {
             Some(_) => &SLICE[..],
             None => &self.columns,
         };
-        let described = mapped(described, |column| Described::of(*column, &units));
+        let described = mapped(described, |column| (*column, column.unit(&units)));
         let keep = || failure::cannot("keep the rows");
         let mut rows = Rows::new(self.golden, described, head.digits).map_err(keep())?;
         let at_once = CHUNK / self.asked.points.as_ref().map_or(1, List::len).min(CHUNK);

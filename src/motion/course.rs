@@ -25,26 +25,30 @@ fn list<S: Scalar, Z: Serializer>(list: &[S], z: Z) -> Result<Z::Ok, Z::Error> {
     z.collect_seq(list.iter().map(One))
 }
 
-/// Which of two values at a jump: the limit from earlier or from later times.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
-#[serde(rename_all = "snake_case")]
-#[cfg_attr(feature = "cli", derive(clap::ValueEnum))]
-pub enum Side {
-    /// The limit from earlier times, `t⁻`; at the start the given data.
-    Left,
-    /// The limit from later times, `t⁺`.
-    #[default]
-    Right,
+named! {
+    /// Which of two values at a jump: the limit from earlier or from later times.
+    #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
+    #[serde(rename_all = "snake_case")]
+    #[cfg_attr(feature = "cli", derive(clap::ValueEnum))]
+    pub enum Side {
+        /// The limit from earlier times, `t⁻`; at the start the given data.
+        Left = "left",
+        /// The limit from later times, `t⁺`.
+        #[default]
+        Right = "right",
+    }
 }
 
-/// What happens to the ground end.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
-#[serde(rename_all = "snake_case")]
-pub enum EventKind {
-    /// It lands: contact begins.
-    Impact,
-    /// It leaves: contact ends.
-    Release,
+named! {
+    /// What happens to the ground end.
+    #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+    #[serde(rename_all = "snake_case")]
+    pub enum EventKind {
+        /// It lands: contact begins.
+        Impact = "impact",
+        /// It leaves: contact ends.
+        Release = "release",
+    }
 }
 
 /// A change between contact and flight.
@@ -126,24 +130,6 @@ pub struct StressPiece<S> {
     /// Chebyshev coefficients of `v_x(0,·)` on the piece (first one whole, not halved); empty where it is linear.
     #[serde(serialize_with = "list")]
     pub chebyshev: Vec<S>,
-}
-
-impl fmt::Display for EventKind {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.pad(match self {
-            EventKind::Impact => "impact",
-            EventKind::Release => "release",
-        })
-    }
-}
-
-impl fmt::Display for Side {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.pad(match self {
-            Side::Left => "left",
-            Side::Right => "right",
-        })
-    }
 }
 
 impl<S> Event<S> {

@@ -31,7 +31,7 @@ pub(crate) use figures::{figure_data, figure_sheet, figures_index};
 pub(crate) use file::{write_files, write_filled, write_together};
 pub(crate) use outline::outline;
 pub(crate) use record::{Derived, Head, Record};
-pub(crate) use reference::{Described, Golden, Preamble, Rows};
+pub(crate) use reference::{Golden, Preamble, Rows};
 pub(crate) use regimes::{regimes_data, regimes_npz, regimes_svg, regimes_text, threshold_data};
 pub(crate) use sample::{Quantity, Sample, Samples, sample, samples_data};
 pub(crate) use solve::{CONTACT, EVENT, Form, history_json, history_part, history_table, record};

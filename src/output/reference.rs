@@ -12,7 +12,7 @@ use super::write_filled;
 use super::writer::Npz;
 use crate::mapped::{CollectVec, mapped, try_mapped};
 use crate::number::{DOUBLE_DIGITS, Scalar, bound_of_log2, double_bound, number_json, show, shown_bound};
-use crate::quantity::{Quantity, Units};
+use crate::quantity::Quantity;
 use crate::solve::Numbers;
 
 /// What a golden file is written as.
@@ -26,41 +26,12 @@ pub(crate) enum Golden {
     Npz,
 }
 
-/// A column of a golden file.
-#[derive(Clone, Debug)]
-pub(crate) struct Described {
-    /// The name in the file.
-    pub name: &'static str,
-    /// The symbol; empty where there is none.
-    pub symbol: &'static str,
-    /// What it is.
-    pub meaning: &'static str,
-    /// The unit; empty where there is none.
-    pub unit: &'static str,
-}
+/// A column of a golden file: what it is, and its unit.
+pub(crate) type Described = (Quantity, &'static str);
 
-impl Described {
-    /// The column of `quantity`.
-    pub(crate) fn of(quantity: Quantity, units: &Units) -> Self {
-        let (symbol, meaning) = (quantity.symbol(), quantity.meaning());
-        Described { name: quantity.name(), symbol, meaning, unit: quantity.unit(units) }
-    }
-
-    /// Whether the values are −1, 0 and 1, which stand for the sides of a jump, or 0 and 1 for contact.
-    fn is_flag(&self) -> bool {
-        self.is_side() || self.name == Quantity::Contact.name()
-    }
-
-    fn is_side(&self) -> bool {
-        self.name == Quantity::Side.name()
-    }
-
-    /// `v(0,t): displacement of the end [m]`.
-    fn line(&self) -> String {
-        let symbol = if self.symbol.is_empty() { String::new() } else { format!("{}: ", self.symbol) };
-        let unit = if self.unit.is_empty() { String::new() } else { format!(" [{}]", self.unit) };
-        format!("{symbol}{}{unit}", self.meaning)
-    }
+/// Whether the values are −1, 0 and 1, which stand for the sides of a jump, or 0 and 1 for contact.
+fn is_flag(quantity: Quantity) -> bool {
+    matches!(quantity, Quantity::Side | Quantity::Contact)
 }
 
 /// What a golden file says of itself.
@@ -118,11 +89,11 @@ impl Preamble<'_> {
 
     /// Everything as JSON.
     fn json(&self, columns: &[Described], bounds: &[f64], npz: bool) -> Value {
-        let columns = columns.iter().zip(bounds).map(|(column, bound)| {
+        let columns = columns.iter().zip(bounds).map(|((column, unit), bound)| {
             let mut value = json!({
-                "name": column.name, "symbol": column.symbol, "meaning": column.meaning, "unit": column.unit,
+                "name": column.name(), "symbol": column.symbol(), "meaning": column.meaning(), "unit": unit,
             });
-            if self.has_bounds() && !column.is_flag() {
+            if self.has_bounds() && !is_flag(*column) {
                 let text = bound_of_log2(*bound);
                 value["bound"] = match text.parse::<f64>() {
                     Ok(bound) if bound > 0.0 || text == "0" => bound.into(),
@@ -185,12 +156,14 @@ impl Preamble<'_> {
         }
         let mut text: String = self.lines().map(|line| format!("# {line}\n")).collect();
         text += &format!("# read: {READ}\n");
-        for (column, bound) in columns.iter().zip(bounds) {
-            let within = match self.has_bounds() && !column.is_flag() {
+        for ((column, unit), bound) in columns.iter().zip(bounds) {
+            let within = match self.has_bounds() && !is_flag(*column) {
                 true => format!("; within {}", bound_of_log2(*bound)),
                 false => String::new(),
             };
-            text += &format!("# column {}: {}{within}\n", column.name, column.line());
+            let symbol = if column.symbol().is_empty() { String::new() } else { format!("{}: ", column.symbol()) };
+            let unit = if unit.is_empty() { String::new() } else { format!(" [{unit}]") };
+            text += &format!("# column {}: {symbol}{}{unit}{within}\n", column.name(), column.meaning());
         }
         text
     }
@@ -256,7 +229,7 @@ impl Rows {
         });
         write_filled(path, |file| match golden {
             Golden::Csv => {
-                let names: Vec<&str> = mapped(&columns, |column| column.name);
+                let names: Vec<&str> = mapped(&columns, |(column, _)| column.name());
                 writeln!(file, "{}{}", preamble.comments(&columns, &bounds), names.join(","))?;
                 kept.try_for_each(|rows| io::copy(&mut rows?, file).map(|_| ()))
             }
@@ -270,16 +243,16 @@ impl Rows {
                 let mut npz = Npz::new(file, false);
                 let header = format!("{:#}", preamble.json(&columns, &bounds, true)).into_bytes();
                 npz.add("header", &[header.len()], header)?;
-                for (column, values) in columns.iter().zip(kept) {
+                for ((column, _), values) in columns.iter().zip(kept) {
                     let mut values = BufReader::new(values?);
                     let mut next = || {
                         let mut bytes = [0; 8];
                         values.read_exact(&mut bytes).map(|()| f64::from_le_bytes(bytes))
                     };
                     let values = try_mapped(0..count, |_| next())?;
-                    match column.is_flag() {
-                        true => npz.add(column.name, &[count], mapped(&values, |x| *x as i8)),
-                        false => npz.add(column.name, &[count], values),
+                    match is_flag(*column) {
+                        true => npz.add(column.name(), &[count], mapped(&values, |x| *x as i8)),
+                        false => npz.add(column.name(), &[count], values),
                     }?;
                 }
                 npz.finish()
@@ -317,23 +290,23 @@ impl Rows {
             _ => ["", ",", "\n"],
         };
         text.extend_from_slice(begin.as_bytes());
-        for (k, (column, values)) in self.columns.iter().zip(table).enumerate() {
+        for (k, ((column, _), values)) in self.columns.iter().zip(table).enumerate() {
             if k > 0 {
                 text.extend_from_slice(between.as_bytes());
             }
-            self.value(text, column, &values[row]);
+            self.value(text, *column, &values[row]);
         }
         text.extend_from_slice(end.as_bytes());
     }
 
-    fn value<S: Scalar>(&self, text: &mut Vec<u8>, column: &Described, value: &S) {
+    fn value<S: Scalar>(&self, text: &mut Vec<u8>, column: Quantity, value: &S) {
         let json = self.golden == Golden::Json;
-        if column.is_side() {
+        if column == Quantity::Side {
             let quote = if json { "\"" } else { "" };
             let word = ["left", "both", "right"][(value.to_f64() + 1.0) as usize];
             return [quote, word, quote].iter().for_each(|part| text.extend_from_slice(part.as_bytes()));
         }
-        if column.is_flag() {
+        if is_flag(column) {
             return text.push(if value.to_f64() > 0.0 { b'1' } else { b'0' });
         }
         match value.as_double() {

@@ -7,41 +7,27 @@ use crate::number::{Number, Scalar};
 use crate::problem::Parameters;
 use crate::problem::{Material, Problem};
 
-/// What a number measures.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
-#[serde(rename_all = "snake_case")]
-pub enum Measure {
-    /// A time.
-    Time,
-    /// A displacement, or the place of the centre of mass.
-    Length,
-    /// A velocity.
-    Velocity,
-    /// `v_x`: a strain.
-    Strain,
-    /// `E v_x`: a stress, negative in compression.
-    Stress,
-    /// `−E S v_x(0,t)`: the force of the ground on the rod, positive upwards.
-    Force,
-    /// `−E S ∫ v_x(0,t) dt`: momentum from the ground.
-    Impulse,
-    /// An energy.
-    Energy,
-}
-
-impl Measure {
-    /// The name in output: `impulse`.
-    pub fn name(self) -> &'static str {
-        match self {
-            Measure::Time => "time",
-            Measure::Length => "length",
-            Measure::Velocity => "velocity",
-            Measure::Strain => "strain",
-            Measure::Stress => "stress",
-            Measure::Force => "force",
-            Measure::Impulse => "impulse",
-            Measure::Energy => "energy",
-        }
+named! {
+    /// What a number measures.
+    #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+    #[serde(rename_all = "snake_case")]
+    pub enum Measure {
+        /// A time.
+        Time = "time",
+        /// A displacement, or the place of the centre of mass.
+        Length = "length",
+        /// A velocity.
+        Velocity = "velocity",
+        /// `v_x`: a strain.
+        Strain = "strain",
+        /// `E v_x`: a stress, negative in compression.
+        Stress = "stress",
+        /// `−E S v_x(0,t)`: the force of the ground on the rod, positive upwards.
+        Force = "force",
+        /// `−E S ∫ v_x(0,t) dt`: momentum from the ground.
+        Impulse = "impulse",
+        /// An energy.
+        Energy = "energy",
     }
 }
 

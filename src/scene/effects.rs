@@ -7,33 +7,35 @@ use crate::mapped::{CollectVec, mapped};
 use crate::problem::written::short;
 use crate::problem::{Material, Profile, Run, Start, Top};
 
-/// An effect that the solver knows. One that a scene does not call for costs it nothing.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize)]
-#[serde(rename_all = "snake_case")]
-#[non_exhaustive]
-pub enum Effect {
-    /// `g > 0`.
-    Gravity,
-    /// `r > 0`.
-    Damping,
-    /// The ground pushes and never pulls: in every scene.
-    UnilateralContact,
-    /// More than one contact.
-    RepeatedImpacts,
-    /// The top does not move.
-    FixedTop,
-    /// The undeformed rod starts above the ground.
-    InitialGap,
-    /// The rod starts deformed or above the ground, by a profile.
-    InitialStrain,
-    /// The rod starts with a velocity of its own at every point.
-    InitialVelocity,
-    /// Modulus and density, with an area or for a unit of it, give forces and energies their units.
-    SiForces,
-    /// Energies and the field at other times than the ends of contacts: what `sample` asks for.
-    FieldEnergies,
-    /// Fractions or more bits than doubles have: what digits and fractions take.
-    ArbitraryPrecision,
+named! {
+    /// An effect that the solver knows. One that a scene does not call for costs it nothing.
+    #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize)]
+    #[serde(rename_all = "snake_case")]
+    #[non_exhaustive]
+    pub enum Effect {
+        /// `g > 0`.
+        Gravity = "gravity",
+        /// `r > 0`.
+        Damping = "damping",
+        /// The ground pushes and never pulls: in every scene.
+        UnilateralContact = "unilateral_contact",
+        /// More than one contact.
+        RepeatedImpacts = "repeated_impacts",
+        /// The top does not move.
+        FixedTop = "fixed_top",
+        /// The undeformed rod starts above the ground.
+        InitialGap = "initial_gap",
+        /// The rod starts deformed or above the ground, by a profile.
+        InitialStrain = "initial_strain",
+        /// The rod starts with a velocity of its own at every point.
+        InitialVelocity = "initial_velocity",
+        /// Modulus and density, with an area or for a unit of it, give forces and energies their units.
+        SiForces = "si_forces",
+        /// Energies and the field at other times than the ends of contacts: what `sample` asks for.
+        FieldEnergies = "field_energies",
+        /// Fractions or more bits than doubles have: what digits and fractions take.
+        ArbitraryPrecision = "arbitrary_precision",
+    }
 }
 
 impl Effect {
@@ -49,33 +51,6 @@ impl Effect {
         Effect::InitialVelocity,
         Effect::SiForces,
     ];
-
-    /// The name in output: `unilateral_contact`.
-    ///
-    /// ```
-    /// assert_eq!(dalembert::Effect::SiForces.name(), "si_forces");
-    /// ```
-    pub fn name(self) -> &'static str {
-        match self {
-            Effect::Gravity => "gravity",
-            Effect::Damping => "damping",
-            Effect::UnilateralContact => "unilateral_contact",
-            Effect::RepeatedImpacts => "repeated_impacts",
-            Effect::FixedTop => "fixed_top",
-            Effect::InitialGap => "initial_gap",
-            Effect::InitialStrain => "initial_strain",
-            Effect::InitialVelocity => "initial_velocity",
-            Effect::SiForces => "si_forces",
-            Effect::FieldEnergies => "field_energies",
-            Effect::ArbitraryPrecision => "arbitrary_precision",
-        }
-    }
-}
-
-impl std::fmt::Display for Effect {
-    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        f.pad(self.name())
-    }
 }
 
 /// What a scene has to do with one effect.

@@ -38,59 +38,37 @@ impl std::fmt::Display for Promise {
     }
 }
 
-/// What came of a promise.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Outcome {
-    /// It is kept.
-    Kept,
-    /// Nothing was promised, and digits are lost as foreseen.
-    Breaks,
-    /// The route leaves the answer undecided, which it may.
-    Undecided,
-    /// It is not kept.
-    Failed,
-}
-
-impl Outcome {
-    /// The word in output.
-    pub(crate) fn name(self) -> &'static str {
-        match self {
-            Outcome::Kept => "kept",
-            Outcome::Breaks => "breaks",
-            Outcome::Undecided => "says so",
-            Outcome::Failed => "FAILED",
-        }
+named! {
+    /// What came of a promise.
+    #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+    pub(crate) enum Outcome {
+        /// It is kept.
+        Kept = "kept",
+        /// Nothing was promised, and digits are lost as foreseen.
+        Breaks = "breaks",
+        /// The route leaves the answer undecided, which it may.
+        Undecided = "says so",
+        /// It is not kept.
+        Failed = "FAILED",
     }
 }
 
-/// What a case comes to when all its promises are kept, or that they are not.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Verdict {
-    /// Every route keeps what it promises.
-    Holds,
-    /// The paper is right.
-    Reproduced,
-    /// The paper is off, and here is the truth.
-    Corrected,
-    /// The paper means the right thing and prints another.
-    Misprint,
-    /// The paper leaves it open, and here is an answer.
-    Settled,
-    /// Some route does not keep what it promises.
-    Failed,
-}
-
-impl Verdict {
-    /// The word in output.
-    pub(crate) fn name(self) -> &'static str {
-        match self {
-            Verdict::Holds => "holds",
-            Verdict::Reproduced => "reproduced",
-            Verdict::Corrected => "corrected",
-            Verdict::Misprint => "misprint",
-            Verdict::Settled => "settled",
-            Verdict::Failed => "FAILED",
-        }
+named! {
+    /// What a case comes to when all its promises are kept, or that they are not.
+    #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+    pub(crate) enum Verdict {
+        /// Every route keeps what it promises.
+        Holds = "holds",
+        /// The paper is right.
+        Reproduced = "reproduced",
+        /// The paper is off, and here is the truth.
+        Corrected = "corrected",
+        /// The paper means the right thing and prints another.
+        Misprint = "misprint",
+        /// The paper leaves it open, and here is an answer.
+        Settled = "settled",
+        /// Some route does not keep what it promises.
+        Failed = "FAILED",
     }
 }
 

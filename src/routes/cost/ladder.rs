@@ -7,40 +7,26 @@ use crate::routes::quantity::Question;
 use crate::routes::route::{Numbers, Route, within_first_contact};
 use crate::solve::{Engine, Plan};
 
-/// Routes that share a name in a table and a colour in a picture, in the order in which they are shown.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-pub(crate) enum Family {
-    /// The closed form of the first contact.
-    ClosedForm,
-    /// The lattice: undamped, from event to event.
-    Lattice,
-    /// What the plan of a damped scene does: the closed form of the first contact, then cells.
-    ContactThenCells,
-    /// Characteristic cells from the start.
-    Cells,
-    /// The modal sum.
-    Modes,
-    /// The paper's integrals by adaptive quadrature.
-    Printed,
-    /// Finite differences at CFL = 1.
-    Differences,
-    /// Intervals with ends rounded outwards.
-    Enclosures,
-}
-
-impl Family {
-    /// The name in output: `closed form`.
-    pub(crate) fn name(self) -> &'static str {
-        match self {
-            Family::ClosedForm => "closed form",
-            Family::Lattice => "lattice",
-            Family::ContactThenCells => "closed form, then cells",
-            Family::Cells => "cells",
-            Family::Modes => "modal sum",
-            Family::Printed => "printed integrals",
-            Family::Differences => "finite differences",
-            Family::Enclosures => "enclosures",
-        }
+named! {
+    /// Routes that share a name in a table and a colour in a picture, in the order in which they are shown.
+    #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+    pub(crate) enum Family {
+        /// The closed form of the first contact.
+        ClosedForm = "closed form",
+        /// The lattice: undamped, from event to event.
+        Lattice = "lattice",
+        /// What the plan of a damped scene does: the closed form of the first contact, then cells.
+        ContactThenCells = "closed form, then cells",
+        /// Characteristic cells from the start.
+        Cells = "cells",
+        /// The modal sum.
+        Modes = "modal sum",
+        /// The paper's integrals by adaptive quadrature.
+        Printed = "printed integrals",
+        /// Finite differences at CFL = 1.
+        Differences = "finite differences",
+        /// Intervals with ends rounded outwards.
+        Enclosures = "enclosures",
     }
 }
 
