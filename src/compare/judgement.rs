@@ -22,6 +22,9 @@ pub(super) struct Known<'a> {
 /// At most so much of ‖e‖₂ is left by an explanation.
 pub(super) const LEFT: f64 = 0.5;
 
+/// Fewer samples say nothing.
+pub(super) const FEWEST: usize = 8;
+
 /// One number that is wrong.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub(crate) struct Verdict {

@@ -1,7 +1,7 @@
 //! What data show without a fit: empty columns, a lost start, energy from nowhere, half steps, and how far fronts are
 //! spread.
 
-use super::judgement::{Known, LEFT, Verdict};
+use super::judgement::{FEWEST, Known, LEFT, Verdict};
 use super::norms::{Compared, Grid};
 use crate::error::Error;
 use crate::motion::Side;
@@ -37,6 +37,39 @@ pub(super) fn lost_start(columns: &[Compared]) -> Option<Verdict> {
         Verdict { kind: "start_velocity", quantity: "all".into(), value: -1.0, error: 0.0, text }
     })
 }
+
+/// A mass that is not that of the scene: before the first contact nothing happens that a scheme may do wrong, and the
+/// kinetic energy is another at the same speed.
+///
+/// **Source**: the factor by which the energy, and that by which the speed of the end, fits best, by least squares; what
+/// is left of the energy gives the standard error.
+pub(super) fn lighter(known: &Known<'_>) -> Option<Verdict> {
+    let Known { history, grid, columns, step, .. } = *known;
+    let first = history.contacts().first().map_or(f64::INFINITY, |contact| contact.from);
+    let count = grid.times.partition_point(|time| *time < first - 2.0 * step);
+    let factor = |what: Quantity| {
+        let column = columns.iter().find(|column| column.what == what)?;
+        let sum =
+            |f: &dyn Fn(f64, f64) -> f64| -> f64 { (0..count).map(|k| f(column.ours[k], column.theirs[k])).sum() };
+        let factor = sum(&|ours, theirs| ours * theirs) / sum(&|ours, _| ours * ours);
+        let left = sum(&|ours, theirs| (theirs - factor * ours).powi(2)) / sum(&|ours, _| ours * ours);
+        Some((factor, (left / count.saturating_sub(1).max(1) as f64).sqrt().max(ROUNDING)))
+    };
+    let ((energy, error), (speed, _)) = (factor(Quantity::KineticEnergy)?, factor(Quantity::EndVelocity)?);
+    let (off, by_speed) = (energy - 1.0, (speed * speed - 1.0).abs());
+    let told = off.abs() > 2.0 * error && by_speed < LEFT * LEFT * off.abs() && off.abs() < LEFT;
+    (count >= FEWEST && told).then(|| {
+        let (percent, error_percent) = ((100.0 * off).decimal(3), (100.0 * error).decimal(1));
+        let text = format!(
+            "mass off by {percent} ± {error_percent} %, as the kinetic energy before the first contact, at the same \
+             speed: check density, area and length"
+        );
+        Verdict { kind: "mass", quantity: "all".into(), value: off, error, text: text.replace('-', "−") }
+    })
+}
+
+/// Half of the last of six digits, in which numbers may be written.
+const ROUNDING: f64 = 5e-6;
 
 /// Energy from nowhere, as much as there was.
 pub(super) fn gained(columns: &[Compared]) -> Option<Verdict> {

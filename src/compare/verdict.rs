@@ -20,9 +20,9 @@
 //!
 //! Of those that pass, the one with the least left over all columns is said.
 
-use super::judgement::{Judgement, Known, LEFT, ToldFrom, Verdict};
+use super::judgement::{FEWEST, Judgement, Known, LEFT, ToldFrom, Verdict};
 use super::model::{Model, Signal};
-use super::unfitted::{empty, gained, half_step, is_empty, lost_start};
+use super::unfitted::{empty, gained, half_step, is_empty, lighter, lost_start};
 use crate::error::Error;
 use crate::problem::Parameter;
 use crate::quantity::{Measure, Quantity};
@@ -415,7 +415,7 @@ pub(super) fn verdicts(
     let mut told_from = Vec::new();
     if said.is_empty() {
         told_from = if unstable.is_none() { judge.told_from(&hypotheses) } else { Vec::new() };
-        said.extend(unstable.or_else(|| half_step(known, trip)));
+        said.extend(unstable.or_else(|| half_step(known, trip)).or_else(|| lighter(known)));
     }
     for (count, kind, whose) in [
         (contacts[0], "missed", "of ours that are not in theirs"),
@@ -429,8 +429,6 @@ pub(super) fn verdicts(
     Ok(Judgement { said, told_from })
 }
 
-/// Fewer samples say nothing.
-const FEWEST: usize = 8;
 /// So many samples are looked at.
 const SAMPLES: usize = 150;
 

@@ -1,7 +1,11 @@
 //! `dalembert compare` as a judge: many schemes, meshes and steps, each right and with one thing wrong.
 
+use std::fmt::Write as _;
+
+use dalembert::{Problem, Quantity, Side};
 use serde_json::Value;
 
+use crate::command::json;
 use crate::compare_peers::{compare, with};
 use crate::peers::{BAR, Rod, Row, SCHEMES, STEEL, Scheme};
 
@@ -189,4 +193,39 @@ fn faults_at_their_limits_are_named() {
     }
     println!("{count} at their limits");
     assert!(count >= 50 && broken.is_empty(), "{count}: {broken:#?}");
+}
+
+/// As the bar of Siconos' reference file, which has 0.99 of the scene's length: before the contact only its energy tells,
+/// and behind it nothing else is told from what the scheme does.
+#[test]
+fn a_mass_is_told_before_the_contact() {
+    let folder = tempfile::TempDir::new().unwrap();
+    let path = |name: &str| folder.path().join(name).display().to_string();
+    let scene = "rod = { length = 1, wave_speed = 1 }\nimpact = { speed = 1, gap = 0.5 }\nrun.time = 3\n";
+    std::fs::write(path("rod.toml"), scene).unwrap();
+    let rod = Problem::builder().length(1).wave_speed(1).impact_speed(1).gap("0.5").time(3).build().unwrap();
+    let columns = [Quantity::EndDisplacement, Quantity::EndVelocity, Quantity::KineticEnergy];
+    let times: Vec<f64> = (0..=300).map(|k| f64::from(k) / 100.0).collect();
+    let exact = rod.solve().unwrap().columns(&columns, &times, Some(Side::Right)).unwrap();
+    let run = |mass: f64, speed: f64| {
+        let mut text = String::from("t,u,v,kinetic\n");
+        for (k, time) in times.iter().enumerate() {
+            // Chatter at the ground, and energy that is lost there.
+            let (chatter, kept) = if *time < 0.5 { (0.0, 1.0) } else { (0.3 * (900.0 * time).sin(), 0.95) };
+            let (u, v, kinetic) = (exact[0][k], exact[1][k], exact[2][k]);
+            let kinetic = kinetic * mass * kept * speed * speed;
+            writeln!(text, "{time},{u},{},{kinetic:.6e}", v * speed + chatter).unwrap();
+        }
+        std::fs::write(path("run.csv"), text).unwrap();
+        let report = json(&["compare", &path("rod.toml"), &path("run.csv"), "--format", "json"]);
+        report["hints"].as_array().unwrap().clone()
+    };
+    let hints = run(0.99, 1.0);
+    assert!(hints.len() == 1 && hints[0]["kind"] == "mass", "{hints:?}");
+    let [value, error] = ["value", "error"].map(|key| hints[0][key].as_f64().unwrap());
+    assert!((value + 0.01).abs() <= 2.0 * error && error < 1e-4, "{hints:?}");
+    // Nothing is wrong with the mass of these: one is right, and the other one faster.
+    for hints in [run(1.0, 1.0), run(1.0, 1.01)] {
+        assert!(hints.iter().all(|hint| hint["kind"] != "mass"), "{hints:?}");
+    }
 }
