@@ -338,11 +338,11 @@ fn restitution_by_damping() {
     }
 }
 
-/// Both of Euler's identities of a damped rod, within what the bounds of the derivatives leave.
-fn euler_identities_damped(cases: u32, least: [u32; 1]) {
+/// A damped rod of decimals that hits the ground once, above it at first or not.
+fn damped() -> impl Strategy<Value = Problem> {
     let rod =
         (0.02f64..0.8, prop::option::weighted(0.7, 0.2f64..2.0), 0.5f64..3.0, prop::option::weighted(0.3, 0.1f64..1.0));
-    compares(cases, least, (rod, 0.5f64..2.0, any::<bool>()), |((r, g, m, gap), l, fixed)| {
+    (rod, 0.5f64..2.0, any::<bool>()).prop_map(|((r, g, m, gap), l, fixed)| {
         let number = |x: f64| number(&format!("{x:.3}"));
         let mut problem = Problem::uniform(number(l), number(1.5), number(g.unwrap_or(0.0)), number(m));
         problem.rod.damping = Some(number(r));
@@ -351,9 +351,51 @@ fn euler_identities_damped(cases: u32, least: [u32; 1]) {
             problem.start = Start::Above { gap: number(gap), speed: number(m) };
         }
         problem.run = Run::Impacts(1);
+        problem
+    })
+}
+
+/// Of a damped rod by one of its values: what doubles give against difference quotients of long numbers, whose bounds are
+/// those of 14 digits.
+fn doubles_against_long_numbers(cases: u32, least: [u32; 1]) {
+    compares(cases, least, (damped(), 0usize..6), |(problem, which)| {
+        let mut given = given(&problem);
+        given.push((Parameter::Damping, Rational::new()));
+        let by = given[which % given.len()].0;
+        let found = problem.solve().unwrap().derivatives(by, &EVENT).unwrap();
+        let expected = problem.digits(14).unwrap().derivatives(by, &EVENT).unwrap();
+        let mut compared = 0;
+        for (found, expected) in found.iter().flatten().zip(expected.iter().flatten()) {
+            let (Some(found), Some(expected)) = (found, expected) else { continue };
+            for (found, expected) in found.sides().into_iter().zip(expected.sides()) {
+                let (Ok(found), Ok(expected)) = (found, expected) else { continue };
+                let off = (expected.value().to_f64() - found.value()).abs();
+                let bound = found.bound() + expected.bound() + 2e-16 * found.value().abs();
+                prop_assert!(off <= bound, "by {:?}: {:?} {:?}", by, found, expected);
+                compared += 1;
+            }
+        }
+        Ok([compared])
+    });
+}
+
+#[test]
+fn doubles_against_quotients_of_long_numbers() {
+    doubles_against_long_numbers(12, [11]);
+}
+
+#[test]
+#[ignore = "minutes: make explore"]
+fn doubles_against_quotients_of_long_numbers_at_length() {
+    doubles_against_long_numbers(300, [290]);
+}
+
+/// Both of Euler's identities of a damped rod, within what the bounds of the derivatives leave.
+fn euler_identities_damped(cases: u32, least: [u32; 1]) {
+    compares(cases, least, damped(), |problem| {
         let history = problem.solve().unwrap();
         let mut given = given(&problem);
-        given.push((Parameter::Damping, number(r).to_rational()));
+        given.extend(problem.rod.damping.as_ref().map(|damping| (Parameter::Damping, damping.to_rational())));
         let table: Vec<_> = given
             .into_iter()
             .map(|(by, value)| (by, value.to_f64(), history.derivatives(by, &EVENT).unwrap()))
