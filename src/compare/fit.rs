@@ -17,7 +17,7 @@ use crate::solve::History;
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub(crate) struct FittedValue {
     /// Its name in the scene.
-    pub(crate) name: &'static str,
+    pub(crate) name: String,
     /// What the scene says.
     pub(crate) scene: f64,
     /// What explains the data best.
@@ -43,9 +43,10 @@ pub(crate) struct Fit {
 pub enum FitError {
     /// A value that the scene does not have.
     #[error(
-        "found {0} to be fitted, expected one that the scene has: a material, a start above the ground or an impact"
+        "found {0} to be fitted, expected one that the scene has: a material, a start above the ground, an impact, \
+         or points of a start"
     )]
-    Absent(&'static str),
+    Absent(String),
     /// Fewer samples than values.
     #[error("found {samples} values in the data, expected more than the {unknowns} that are to be fitted")]
     TooFew {
@@ -112,7 +113,7 @@ impl Fit {
         let start: Option<Vec<f64>> = parameters.iter().map(|parameter| parameter.value(problem)).collect();
         let Some(start) = start else {
             let absent = parameters.iter().find(|parameter| parameter.value(problem).is_none());
-            return Ok(Err(FitError::Absent(absent.map_or("", |parameter| parameter.name()))));
+            return Ok(Err(FitError::Absent(absent.map(ToString::to_string).unwrap_or_default())));
         };
         let (grid, columns) = (&agreement.grid, &agreement.quantities);
         let samples = grid.times.len() * columns.len();
@@ -167,7 +168,7 @@ impl Fit {
             Some(all.concat())
         };
         let Some(Least { values, errors, steps, settled }) = run(&values, left, &residuals) else {
-            let names: Vec<&str> = parameters.iter().map(|parameter| parameter.name()).collect();
+            let names: Vec<String> = parameters.iter().map(ToString::to_string).collect();
             return Ok(Err(FitError::NotTold(names.join(", "))));
         };
         let problem = varied(problem, parameters, &values).unwrap_or(near);
@@ -175,7 +176,7 @@ impl Fit {
         let fitted = parameters.iter().zip(start.iter().zip(values.iter().zip(&errors)));
         let values = fitted
             .map(|(parameter, (scene, (value, error)))| FittedValue {
-                name: parameter.name(),
+                name: parameter.to_string(),
                 scene: *scene,
                 value: *value,
                 error: *error,

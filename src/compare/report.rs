@@ -130,7 +130,7 @@ fn told_line(told_from: &[ToldFrom]) -> String {
 /// What was fitted, what remains of each column, and how the contacts then agree.
 fn fit_table(fit: &Fit, now: &Agreement, then: &Agreement) -> String {
     let row = |value: &FittedValue| {
-        vec![value.name.into(), value.scene.decimal(10), value.value.decimal(10), format!("{:.1e}", value.error)]
+        vec![value.name.clone(), value.scene.decimal(10), value.value.decimal(10), format!("{:.1e}", value.error)]
     };
     let values = table(&["fitted", "scene", "value", "standard error"], fit.values.iter().map(row).collect(), 1);
     let column = |(now, then): (&Compared, &Compared)| {

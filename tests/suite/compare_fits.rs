@@ -4,7 +4,7 @@ use std::fmt::Write as _;
 
 use dalembert::compare::data::Source;
 use dalembert::compare::{Options, Parameter, Prepared};
-use dalembert::{Problem, Quantity, Side, UnitSystem, Units};
+use dalembert::{Problem, Quantity, Side, Top, UnitSystem, Units};
 use serde_json::Value;
 
 /// The values of a rod that starts above the ground: length, wave speed, damping, gravity, speed, gap.
@@ -103,6 +103,23 @@ fn exact_data_of_many_rods_give_their_values() {
         }
     }
     assert!(found == RODS, "{found} of {RODS}: {missed:#?}");
+}
+
+/// A held rod that starts compressed: a point of its start and its length, whose points go with it.
+#[test]
+fn a_start_is_fitted() {
+    let rod = |length: f64, pushed: f64| {
+        let rod = Problem::builder().length(length).wave_speed(1).top(Top::Fixed);
+        rod.displacement([(0.0, pushed), (length / 2.0, pushed / 4.0), (length, 0.0)]).time(3).build().unwrap()
+    };
+    let times: Vec<f64> = (0..=60).map(|k| f64::from(k) / 20.0).collect();
+    let columns = [Quantity::EndDisplacement, Quantity::Strain];
+    let data = rod(1.0, 0.5).solve().unwrap().columns(&columns, &times, Some(Side::Right)).unwrap();
+    let names = ["length", "displacement[0]", "displacement[1]"];
+    let fit = fitted(&rod(1.03, 0.48), &names, &times, &columns, data);
+    for ((value, name), truth) in fit["values"].as_array().unwrap().iter().zip(names).zip([1.0, 0.5, 0.125]) {
+        assert!(value["name"] == name && (value["value"].as_f64().unwrap() / truth - 1.0).abs() <= 1e-9, "{fit}");
+    }
 }
 
 /// Without a force, a stress or a strain only L/c is told: no numbers are made up.
