@@ -31,7 +31,7 @@ const WIDTH: f64 = 0.4;
 /// Lines of scenes and of quantities in one picture.
 const DASHES: [&str; 3] = ["", "2 0.9", "0.5 0.7"];
 /// Bars of so many scenes have their values above them.
-const MOST_TOLD: usize = 4;
+const MOST_TOLD: usize = 3;
 /// More jumps than this are not drawn.
 const MOST_JUMPS: usize = 2000;
 
@@ -277,43 +277,48 @@ fn restitution(scenes: &[Gathered]) -> Panel {
     Panel { title: "restitution of each bounce".into(), x, y, layers, legend }
 }
 
-/// Bars, where no scene has a second bounce: a group for each coefficient, in it one for each scene, with its value.
+/// Bars, where no scene has a second bounce: a group for each coefficient, in it one for each scene. The value of a
+/// single scene stands below its bar, those of a few above theirs.
 fn single_bounce(scenes: &[Gathered], names: [&str; 2]) -> Panel {
+    let value = |scene: &Gathered, q: usize| scene.restitution.first().and_then(|pair| pair[q]);
+    let text = |value: Option<f64>| value.map_or_else(|| "none".into(), |value| value.decimal(4));
     let mut x = Axis::new("first bounce", "", [0.4, 2.6]);
-    let of = ["momentum", "energy"];
-    x.ticks = Some(mapped(0..2, |q| (q as f64 + 1.0, format!("{} ({})", names[q], of[q]))));
+    let tick = |(q, of): (usize, &str)| match scenes {
+        [scene] => format!("{} = {} ({of})", names[q], text(value(scene, q))),
+        _ => format!("{} ({of})", names[q]),
+    };
+    let of = ["momentum", "energy"].into_iter().enumerate();
+    x.ticks = Some(mapped(of, |(q, of)| (q as f64 + 1.0, tick((q, of)))));
     let values = scenes.iter().flat_map(|scene| scene.restitution.iter().flatten().flatten().copied());
-    let y = Axis::new("restitution", "", Axis::range(values.chain([1.0]), true));
+    let mut y = Axis::new("restitution", "", Axis::range(values.chain([1.0]), true));
+    let letters = 0.1 * (y.to - y.from);
+    y.to += if scenes.len() > 1 { letters } else { 0.0 };
     let one = vec![DVec2::new(x.from, 1.0), DVec2::new(x.to, 1.0)];
     let wide = 0.8 / scenes.len().max(1) as f64;
     let (mut layers, mut notes, mut legend) = (Vec::new(), Vec::new(), Vec::new());
     for (s, scene) in scenes.iter().enumerate() {
         let color = LINES[s % LINES.len()];
         let mut bars = Vec::new();
-        for (q, name) in names.iter().enumerate() {
+        for q in 0..names.len() {
             let left = q as f64 + 0.6 + s as f64 * wide;
             let corner = |side: f64, height: f64| DVec2::new(left + side * wide, height);
-            let value = scene.restitution.first().and_then(|pair| pair[q]);
-            let text = match value {
-                Some(value) if scenes.len() == 1 => format!("{name} = {}", value.decimal(4)),
-                Some(value) => value.decimal(3),
-                None => "none".into(),
-            };
-            let top = value.unwrap_or(0.0);
-            bars.extend(value.map(|_| vec![corner(0.1, 0.0), corner(0.9, 0.0), corner(0.9, top), corner(0.1, top)]));
-            if scenes.len() <= MOST_TOLD {
-                let above = top.max(0.0) + 0.015 * (y.to - y.from);
-                notes.push(Layer::new("note", Shape::Note(corner(0.5, above), Anchor::Middle, text)));
-            }
+            let value = value(scene, q);
+            bars.extend(
+                value.map(|top| [(0.1, 0.0), (0.9, 0.0), (0.9, top), (0.1, top)].map_each(|(a, b)| corner(a, b))),
+            );
+            // No line goes through a text.
+            let top = value.unwrap_or(0.0).max(0.0);
+            let above = if top + letters > 1.0 { top.max(1.0) } else { top } + 0.15 * letters;
+            notes.push(Layer::new("note", Shape::Note(corner(0.5, above), Anchor::Middle, text(value))));
         }
-        layers.push(Layer::new("bars", Shape::Areas(bars, color)));
+        layers.push(Layer::new("bars", Shape::Areas(mapped(bars, |bar| bar.to_vec()), color)));
         if scenes.len() > 1 {
             legend.push(Key::Area(plain(&scene.name), color));
         }
     }
     layers.push(zero(&x));
     layers.push(Layer::new("zero", Shape::Lines(vec![one], Stroke::new("#808080", 0.15))));
-    layers.extend(notes);
+    layers.extend(notes.into_iter().filter(|_| (2..=MOST_TOLD).contains(&scenes.len())));
     Panel { title: "restitution of the bounce".into(), x, y, layers, legend }
 }
 
@@ -480,3 +485,7 @@ fn world(scene: &Gathered, x: Axis) -> Panel {
     let legend = [Key::Area("rod".into(), AREAS[1])].into_iter().chain(keys).collect_vec();
     Panel { title: "the rod where it is".into(), x, y, layers, legend }
 }
+
+#[cfg(test)]
+#[path = "tests/pictures.rs"]
+mod tests;
