@@ -18,6 +18,7 @@ COMMANDS = "solve sample plot reference explain cost compare sweep regimes figur
 GALLERY = {
     "A periodic rod": "plot doyen-ern-piperno -o periodic.svg",
     "Damping": "plot figure-4-r01 figure-4-r03 --quantity stress,h -o damping.svg",
+    "Restitution": "plot figure-4-r01 figure-4-r02 figure-4-r03 --quantity restitution -o restitution.svg",
     "A landing without speed": "plot mu-1-period-36 --quantity xt --to 36 -o tangential.svg",
     "Velocity along the rod": "plot paper-strong --quantity xt --field velocity -o velocity.svg",
     "Chaos": "plot mu-3-2-chaotic --quantity xt --to 40 -o chaos.svg",
