@@ -281,10 +281,10 @@ fn restitution(scenes: &[Gathered]) -> Panel {
 /// single scene stands below its bar, those of a few above theirs.
 fn single_bounce(scenes: &[Gathered], names: [&str; 2]) -> Panel {
     let value = |scene: &Gathered, q: usize| scene.restitution.first().and_then(|pair| pair[q]);
-    let text = |value: Option<f64>| value.map_or_else(|| "none".into(), |value| value.decimal(4));
+    let text = |value: Option<f64>, digits: u32| value.map_or_else(|| "none".into(), |value| value.decimal(digits));
     let mut x = Axis::new("first bounce", "", [0.4, 2.6]);
     let tick = |(q, of): (usize, &str)| match scenes {
-        [scene] => format!("{} = {} ({of})", names[q], text(value(scene, q))),
+        [scene] => format!("{} = {} ({of})", names[q], text(value(scene, q), 4)),
         _ => format!("{} ({of})", names[q]),
     };
     let of = ["momentum", "energy"].into_iter().enumerate();
@@ -309,7 +309,7 @@ fn single_bounce(scenes: &[Gathered], names: [&str; 2]) -> Panel {
             // No line goes through a text.
             let top = value.unwrap_or(0.0).max(0.0);
             let above = if top + letters > 1.0 { top.max(1.0) } else { top } + 0.15 * letters;
-            notes.push(Layer::new("note", Shape::Note(corner(0.5, above), Anchor::Middle, text(value))));
+            notes.push(Layer::new("note", Shape::Note(corner(0.5, above), Anchor::Middle, text(value, 3))));
         }
         layers.push(Layer::new("bars", Shape::Areas(mapped(bars, |bar| bar.to_vec()), color)));
         if scenes.len() > 1 {
