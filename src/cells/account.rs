@@ -18,6 +18,13 @@ pub(super) struct Open {
     pub(super) differ: f64,
 }
 
+/// How fast a motion changes: bounds of `|p_t|` and `|q_t|` between rays, and of the sum of the jumps at rays.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Change {
+    pub(super) between: f64,
+    pub(super) jumps: f64,
+}
+
 /// A release that the first strip of its flight has yet to show.
 #[derive(Clone, Debug)]
 pub(super) struct Release<S> {
@@ -38,12 +45,14 @@ pub(super) struct Proof<S> {
     pub(super) doubles: Basis<f64>,
     pub(super) even: f64,
     pub(super) masses: f64,
-    /// The most that a ray so far is off.
+    /// Θ: how far the clock of the true motion may have been set since the start.
+    pub(super) shift: f64,
+    /// The most that a ray so far is off by that clock, less Θ.
     pub(super) late: f64,
-    /// The steepest trace so far, and the greatest `|q|`.
+    /// The fastest change of `p` and `q` between rays so far, and the greatest `|q|`.
     pub(super) slope: f64,
     pub(super) most: f64,
-    /// Where events have started rays, and how far those are off.
+    /// Where events have started rays, and how far those are off, less Θ.
     pub(super) rays: Vec<(S, f64)>,
     /// When the last event was.
     pub(super) since: f64,
@@ -51,8 +60,13 @@ pub(super) struct Proof<S> {
     pub(super) began: f64,
     /// What `h′` and `z(0)` of this flight are off by as means of the stored `q`: at its beginning, and now.
     pub(super) means: [f64; 2],
+    /// E when `z(0)` was last such a mean, and what has been summed up since.
+    pub(super) weighed: f64,
+    pub(super) trip: f64,
     /// What the heights that this flight has summed up are off by, where it is not taken apart.
     pub(super) summed: f64,
+    /// The mass that the last release has left.
+    pub(super) left: f64,
     /// The most that `v(0,·)` of the last flight was off by.
     pub(super) height: f64,
     /// The most that a leap has been off by.
@@ -78,6 +92,7 @@ impl<S: RoundedSpecial> Proof<S> {
             steps,
             even: 0.0,
             masses: 0.0,
+            shift: 0.0,
             late: 0.0,
             slope: 0.0,
             most: 0.0,
@@ -85,7 +100,10 @@ impl<S: RoundedSpecial> Proof<S> {
             since: 0.0,
             began: 0.0,
             means: [0.0; 2],
+            weighed: 0.0,
+            trip: 0.0,
             summed: 0.0,
+            left: 0.0,
             height: 0.0,
             leapt: 0.0,
             rising: false,
@@ -129,6 +147,7 @@ impl<S: RoundedSpecial> Proof<S> {
     /// A round trip of a flight that is taken apart begins.
     pub(super) fn round(&mut self, state: &State<S>) {
         self.means[1] = self.steps.weighed(state, 0.0);
+        (self.weighed, self.trip) = (self.even, 0.0);
     }
 
     /// Damping and gravity are rounded.
@@ -137,18 +156,30 @@ impl<S: RoundedSpecial> Proof<S> {
         self.add(64.0 * self.steps.unit * rate * trips);
     }
 
-    /// An event that is off by τ, where `|q| ≤ most`.
-    pub(super) fn happens(&mut self, at: Option<S>, time: f64, late: f64, most: f64) {
-        self.masses += 4.0 * late * most * (1.0 + SLACK);
-        self.late = self.late.max(late);
-        self.rays.extend(at.map(|at| (at, late)));
+    /// A ray starts that is off by so much, with a mass.
+    pub(super) fn starts(&mut self, at: S, time: f64, late: f64, mass: f64) {
+        self.masses += mass * (1.0 + SLACK);
+        self.late = self.late.max(late - self.shift);
+        self.rays.push((at, late - self.shift));
         self.since = time;
+    }
+
+    /// The clock of the true motion is set by at most τ, where the motion changes like this.
+    pub(super) fn set_clock(&mut self, late: f64, change: Change) {
+        self.shift += late * (1.0 + SLACK);
+        self.add(late * change.between);
+        self.masses += late * change.jumps * (1.0 + SLACK);
     }
 
     /// How far the ray may be off that comes down here, besides by roundings.
     pub(super) fn ray_at(&self, at: &S) -> f64 {
         let known = self.rays.iter().filter(|(ray, _)| ray == at).map(|(_, late)| *late);
-        known.fold(0.0, f64::max)
+        self.shift + known.reduce(f64::max).unwrap_or(0.0)
+    }
+
+    /// How far any ray may be off.
+    pub(super) fn latest(&self) -> f64 {
+        self.shift + self.late
     }
 
     /// From now on the flight is taken apart: `h′` and the height of its centre are of these sizes.
@@ -160,6 +191,7 @@ impl<S: RoundedSpecial> Proof<S> {
         let mean = self.steps.weighed(state, size) + 64.0 * self.steps.unit * (size + height.abs());
         self.means = [mean; 2];
         self.began = self.even - shifts;
+        (self.weighed, self.trip) = (self.even, 0.0);
         self.summed = 0.0;
     }
 }

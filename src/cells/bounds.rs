@@ -135,6 +135,8 @@ impl<S: RoundedSpecial> Damped<S> {
         // Where the time may be off without bound, so may all else already.
         let equal_times = found.late == 0.0 && time_error.is_finite();
         let off = if equal_times { *time_error } else { 0.0 };
+        // A proof has times by a clock that is set at impacts, and an event may be off by that one too.
+        let off = if self.proved { (*time_error - found.late * self.scales.time).max(0.0) } else { off };
         let near = self.scaled(Uncertainty { late: (off + rounding) / self.scales.time, ..found });
         let Some(AtEvent { rise, centre, speed, end, rate, .. }) = self.at_events[event] else { return near };
         let found = Uncertainty { rise, speed, rate, late: rounding / self.scales.time, ..found };
@@ -150,6 +152,13 @@ impl<S: RoundedSpecial> Damped<S> {
         let (rise, speed) = (rise * velocity * time, (speed + slope * late) * velocity);
         let (rate, strain) = ((rate + slope * late) * velocity, speed / wave_speed);
         Near { rise, centre: rise, speed, end: speed, strain, rate, late: late * time }
+    }
+
+    /// Whether the rod has yet to touch the ground, and moves as a whole.
+    fn is_rigid(&self, time: &Estimate<S>) -> bool {
+        let touches = self.course.events.first();
+        let before = |event: &Event<Estimate<S>>| time.to_f64() + time.bound() < event.time.to_f64() - event.time_error;
+        self.data.rigid && (time.value().is_zero() || touches.is_none_or(before))
     }
 
     /// What the force of the ground makes of `h′` while events are `late`: `h″ = −c² v_x(0,t)/L`.
@@ -264,6 +273,9 @@ impl<S: RoundedSpecial> Motion<Estimate<S>> for Damped<S> {
                 let translational = (speed.square() * speed.ratio(1, 2) + gravity.clone() * place) * length;
                 let of_height = self.scales.length * self.scales.gravity * height.bound();
                 let by_centre = self.square_off(speed.to_f64().abs(), rate.bound()) + of_height;
+                if self.proved && self.is_rigid(time) {
+                    return Ok([within(&translational, by_centre), Estimate::exact(translational.zero())]);
+                }
                 let vibration = self.vibration_of(time.value())?;
                 let off = self.energy_off(&vibration, self.root_off(time)?, self.by_rays(time));
                 [within(&translational, by_centre), within(&vibration, off)]

@@ -73,6 +73,15 @@ fn beyond(a: &[f64], rest: impl Fn(usize) -> f64, from: usize) -> f64 {
     a.iter().enumerate().map(|(i, a)| a * rest(from.saturating_sub(i))).sum()
 }
 
+/// How many roundings a value of the series with such coefficients is off by.
+///
+/// Clenshaw's recurrence `b_k = 2y b_{k+1} − b_{k+2} + c_k`, `|y| ≤ 1`, rounds by `6|b_{k+1}| + 2|b_{k+2}| + |c_k|` at
+/// most, which is as if `c_k` were off; with `|b_k| ≤ Σ_{j≥k} (j−k+1)|c_j|` that makes `Σ (2j+1)²|c_j|`. A node is off by
+/// 15 of them, where `T_j(2x−1)` has slopes of `2j²`.
+fn values(c: &[f64]) -> f64 {
+    c.iter().enumerate().map(|(j, c)| (38.0 * (j * j) as f64 + 1.0) * c).sum()
+}
+
 /// Coefficients of `e^{z x}` from the n-th on, `|z| ≤ 2`: `|c_k| ≤ 2e^{|z|} (|z|/4)ᵏ/k!`, and half of it each time.
 fn exponential_rest(z: f64, n: usize) -> f64 {
     let mut term = 4.0 * z.abs().exp();
@@ -103,10 +112,15 @@ impl Steps {
         2.0 * self.size * (self.size + 64.0 + roundings) * self.unit * most
     }
 
-    /// Of a series through the values of others on part of their interval, or of a product of two: Clenshaw's sum is
-    /// off by `16n²u` and a node by 15u, where a polynomial has slopes of `2n²` of itself.
-    fn anew(&self, most: f64) -> f64 {
-        320.0 * self.size.powi(3) * self.unit * most
+    /// Of a series through the values of another on part of its interval: a value is off by [`values`].
+    fn anew(&self, c: &[f64]) -> f64 {
+        let size: f64 = c.iter().sum();
+        2.0 * self.size * self.unit * values(c) + self.through(size, 0.0)
+    }
+
+    /// Of the product of two series.
+    fn product(&self, (a, of_a): (&[f64], f64), (b, of_b): (&[f64], f64)) -> f64 {
+        2.0 * self.size * self.unit * (of_b * values(a) + of_a * values(b)) + self.through(of_a * of_b, 0.0)
     }
 
     /// Of both outgoing sides of a cell; and the greatest of the incoming ones.
@@ -116,13 +130,15 @@ impl Steps {
         let (mut p, mut q) = (sizes(cell.p), sizes(cell.q));
         let (of_p, of_q): (f64, f64) = (p.iter().sum(), q.iter().sum());
         let (short_p, short_q) = (p.len(), q.len());
-        let (mut left, mut factor) = (self.accuracy() * (of_p + of_q), 1.0);
+        // What J^{k+1} lacks enters with yᵏ/k! and less; its value at the end, at most 1/(k+1)! of the data, with it.
+        let (mut left, mut factor, mut whole) = (self.accuracy() * (of_p + of_q), 1.0, 1.0);
         for k in 0..=count {
-            left += 2.0 * E * (integrate(&mut p) + integrate(&mut q));
+            left += 2.0 * E * factor * (integrate(&mut p) + integrate(&mut q));
+            whole /= (k + 1) as f64;
             // Powers that have more terms than the side.
             for (short, other) in [(short_p, of_q), (short_q, of_p)] {
                 if k >= short {
-                    left += factor * other * bound(&medium.basis.powers[k], short);
+                    left += factor * whole * other * bound(&medium.basis.powers[k], short);
                 }
             }
             factor *= y / (k + 1) as f64;
@@ -140,12 +156,12 @@ impl Steps {
 
     /// Of joining two segments of this size.
     pub(super) fn joining(&self, least: f64, size: f64) -> f64 {
-        least * size + self.anew(size)
+        least * size + self.through(38.0 * self.size * size, 0.0)
     }
 
     /// Of cutting a segment, but for what the two parts leave out.
     pub(super) fn cut<S: RoundedSpecial>(&self, segment: &Segment<S>) -> f64 {
-        2.0 * self.anew(bound(&segment.q, 0)) + FLOOR
+        2.0 * self.anew(&sizes(&segment.q)) + FLOOR
     }
 
     /// Of the trace over the first segment.
@@ -166,19 +182,22 @@ impl Steps {
         let count = terms(y, self.log2_accuracy).min(medium.basis.powers.len() - 1);
         let mut sum = vec![0.0; u.len()];
         let mut layers = Vec::with_capacity(count + 1);
-        for _ in 0..=count {
+        // A layer enters with yᵏ/k!, and what the next one lacks with κ len of that.
+        let mut factor = 1.0;
+        for k in 0..=count {
             let mut next = u.clone();
-            off += 2.0 * E * integrate(&mut next);
+            off += 2.0 * E * factor * depth * integrate(&mut next);
             for (u, next) in u.iter_mut().zip(&next) {
                 *u += depth * next;
             }
-            layers.push(std::mem::replace(&mut u, next));
+            layers.push((std::mem::replace(&mut u, next), factor));
+            factor *= y / (k + 1) as f64;
         }
-        for (k, layer) in layers.into_iter().enumerate().rev() {
+        for (k, (layer, factor)) in layers.into_iter().enumerate().rev() {
             if k < count {
-                let factor = y / (k + 1) as f64;
-                off += E * factor * times_x(&mut sum);
-                sum.iter_mut().for_each(|c| *c *= factor);
+                let next = y / (k + 1) as f64;
+                off += E * factor * next * times_x(&mut sum);
+                sum.iter_mut().for_each(|c| *c *= next);
             }
             sum.iter_mut().zip(layer).for_each(|(sum, c)| *sum += c);
         }
@@ -187,7 +206,10 @@ impl Steps {
         let rest = |n: usize| exponential_rest(2.0 * depth, n);
         let kept = medium.terms(&segment.len, 4.0);
         let lost = beyond(&sum, rest, kept) + 3.0 * rest(self.size as usize) * norm;
-        off + 2.0 * lost + self.anew(E * E * E * norm) + 4.0 * self.unit * medium.slope.to_f64().abs()
+        let of_sum: f64 = sum.iter().sum();
+        let decay: Vec<f64> = (0..self.size as usize).map(|n| 0.5 * rest(n)).collect();
+        let product = self.product((&sum, of_sum), (&decay, E * E)) + self.through(E * E * of_sum, 64.0);
+        off + 2.0 * lost + product + 4.0 * self.unit * medium.slope.to_f64().abs()
     }
 
     /// Of `h′` and of `h` over a strip, whose first terms are of this size.
@@ -208,7 +230,8 @@ impl Steps {
             let q = sizes(&segment.q);
             let shifted: f64 = (0..q.len()).map(|j| shifts * self.falls[j] * self.weights[n - j]).sum();
             let norm = q.iter().sum::<f64>() + 2.0 * shifts * self.falls[0];
-            let off = 4.0 * (beyond(&q, rest, n) + shifted) + self.anew(whole * norm);
+            let product = self.product((&q, norm), (&self.weights, whole)) + self.through(whole * norm, 64.0);
+            let off = 4.0 * (beyond(&q, rest, n) + shifted) + product;
             off * segment.len.to_f64()
         };
         2.0 * state.segments.iter().map(of).sum::<f64>() + FLOOR
@@ -253,7 +276,8 @@ impl Steps {
     pub(super) fn leap(&self, count: &LeapCount, trips: f64, (segments, size): (usize, f64), stray: f64) -> f64 {
         let (n, order, layers) = (self.size, count.order as f64, count.layers as f64);
         let powers = count.powers as f64;
-        let integrals = (2.0 * layers + 4.0) * (2.0 * order + 2.0) + powers;
+        // Besides the antiderivatives that the circle counts there are those from q to Z and back.
+        let integrals = count.integrals + 4.0;
         let paths = 64.0 * n * (segments as f64 + 3.0) * (n + 8.0) * integrals + powers * (order + 8.0);
         let left = 64.0 * (trips + layers + 16.0) * self.accuracy() + self.passed(count.powers, trips);
         self.gain(count, trips) * ((paths * self.unit + left) * size + count.dropped * (1.0 + size) + stray) + FLOOR

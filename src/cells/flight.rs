@@ -47,10 +47,14 @@ impl<S: RoundedSpecial> Flight<S> {
     /// `h` and `h′`.
     pub(super) fn at(&self, age: &S) -> (S, S) {
         let fall = -(self.drag.clone() * age);
-        let slowed = phi1(&fall) * age;
         let drop = phi2(&fall) * &age.square() * &self.gravity;
-        let rate = fall.exp() * &self.rate - slowed.clone() * &self.gravity;
-        (slowed * &self.rate + &self.height - drop, rate)
+        (phi1(&fall) * age * &self.rate + &self.height - drop, self.rate_at(age))
+    }
+
+    /// `h′`.
+    pub(super) fn rate_at(&self, age: &S) -> S {
+        let fall = -(self.drag.clone() * age);
+        fall.exp() * &self.rate - phi1(&fall) * age * &self.gravity
     }
 }
 
@@ -135,7 +139,7 @@ impl<S: RoundedSpecial> Medium<S> {
         let segment = &state.segments[0];
         let mut flight =
             Flight { from: (state.round, segment.at.clone()), height: zero, rate, drag, gravity: self.gravity.clone() };
-        self.shift(state, &|x| -flight.at(x).1);
+        self.shift(state, &|x| -flight.rate_at(x));
         flight.height = height.clone() - self.ground_of(state);
         flight
     }
@@ -143,9 +147,9 @@ impl<S: RoundedSpecial> Medium<S> {
     /// Puts them together again, at an age of the flight.
     pub(super) fn touch_down(&self, state: &mut State<S>, flight: &Flight<S>) {
         let age = flight.age((state.round, &state.segments[0].at));
-        let (_, rate) = flight.at(&age);
+        let rate = flight.rate_at(&age);
         let now = Flight { rate, ..flight.clone() };
-        self.shift(state, &|x| now.at(x).1 - self.gravity.clone() * x - &self.slope);
+        self.shift(state, &|x| now.rate_at(x) - self.gravity.clone() * x - &self.slope);
     }
 
     /// Goes over from one flight, or from the deviation from the static state, to another.
@@ -155,8 +159,8 @@ impl<S: RoundedSpecial> Medium<S> {
         }
         if let Some(to) = to {
             let age = to.age((state.round, &state.segments[0].at));
-            let now = Flight { rate: to.at(&age).1, ..to.clone() };
-            self.shift(state, &|x| self.gravity.clone() * x + &self.slope - now.at(x).1);
+            let now = Flight { rate: to.rate_at(&age), ..to.clone() };
+            self.shift(state, &|x| self.gravity.clone() * x + &self.slope - now.rate_at(x));
         }
     }
 

@@ -94,8 +94,7 @@ pub(super) struct Follower<'a, S> {
 
 impl<'a, S: RoundedSpecial> Follower<'a, S> {
     /// At `t = 0`.
-    pub(super) fn new(medium: &'a Medium<S>, data: &'a Data<S>, proves: bool) -> Self {
-        let mut proof = proves.then(|| Proof::new(medium));
+    pub(super) fn new(medium: &'a Medium<S>, data: &'a Data<S>, mut proof: Option<Proof<S>>) -> Self {
         let state = data.march(medium, &mut |cell| {
             if let Some(proof) = &mut proof {
                 proof.cell(medium, cell);
@@ -227,7 +226,7 @@ impl<'a, S: RoundedSpecial> Follower<'a, S> {
     pub(super) fn height_most(&self, len: f64) -> f64 {
         let flown = self.flying().map(|flight| {
             let age = flight.age((self.state.round, &self.state.segments[0].at)).to_f64();
-            [age, age + len].map(|age| (age, flight.at(&self.height.double(age)).1.to_f64()))
+            [age, age + len].map(|age| (age, flight.rate_at(&self.height.double(age)).to_f64()))
         });
         self.budget.end_most(flown, len)
     }
@@ -256,7 +255,7 @@ impl<'a, S: RoundedSpecial> Follower<'a, S> {
     pub(super) fn height_error(&self, len: f64) -> Off {
         let then = self.flying().map(|flight| {
             let age = flight.age((self.state.round, &self.state.segments[0].at)).to_f64() + len;
-            let rate = flight.at(&self.height.double(age)).1.to_f64();
+            let rate = flight.rate_at(&self.height.double(age)).to_f64();
             (age, rate, (self.place() + len).fract())
         });
         self.budget.end(then, len)
@@ -635,9 +634,9 @@ impl<'a, S: RoundedSpecial> Follower<'a, S> {
             }
         });
         self.proof = proof;
-        self.prove(|proof, run| proof.joins(run.medium, 1));
-        let joined = (segments - self.state.segments.len()) as f64;
-        self.budget.add((joined + if cut.is_some() { CUT_CELLS } else { 0.0 }) * self.cell_error);
+        let joined = segments - self.state.segments.len();
+        self.prove(|proof, run| proof.joins(run.medium, joined));
+        self.budget.add((joined as f64 + if cut.is_some() { CUT_CELLS } else { 0.0 }) * self.cell_error);
         if let Some((centre, _)) = self.centre() {
             self.ground = self.height.clone() - centre;
             self.budget.note_end(self.height_error(0.0));

@@ -2,6 +2,7 @@
 
 use std::ops::ControlFlow;
 
+use super::account::Proof;
 use super::bounce::Held;
 use super::budget::AtEvent;
 use super::effort::Effort;
@@ -118,7 +119,7 @@ impl<S: RoundedSpecial> Damped<S> {
     ) -> Result<Self, Error> {
         let (medium, data) = medium(problem, precision, effort.digits, shorten)?;
         let goal = Goal::of(problem, precision, &data);
-        let mut follower = Follower::new(&medium, &data, proves);
+        let mut follower = Follower::new(&medium, &data, proves.then(|| Proof::new(&medium)));
         let ending = follower.run(&goal, effort, observe)?;
         let found = follower.found(ending);
         Self::record_of(medium, data, None, found, problem, precision)
@@ -164,7 +165,7 @@ impl<S: RoundedSpecial> Damped<S> {
         Self::record_of(medium, data, Some(held), found, problem, precision)
     }
 
-    fn record_of(
+    pub(super) fn record_of(
         medium: Medium<S>,
         data: Data<S>,
         held: Option<Held<S>>,
@@ -268,6 +269,7 @@ impl<S: RoundedSpecial> Damped<S> {
     /// `h` and `h′` at a dimensionless time.
     fn centre_at(&self, t: &S) -> (S, S) {
         let (mean, rate) = match self.record().flight(t, Side::Left) {
+            _ if t.is_zero() && self.data.rigid => (self.data.ground.clone(), self.data.end_velocity()),
             Some(flight) => flight.at(&flight.age_at(t)),
             None => self.mean(t, &self.record().whole_line(t)),
         };
@@ -406,9 +408,9 @@ impl<S: RoundedSpecial> Damped<S> {
     pub(super) fn vibration_of(&self, time: &S) -> Result<S, Error> {
         let (t, units) = (self.time(time)?, &self.data.units);
         let nodes = self.record().whole_line(&t);
-        let (_, rate) = match self.record().flight(&t, Side::Left) {
-            Some(flight) => flight.at(&flight.age_at(&t)),
-            None => self.mean(&t, &nodes),
+        let rate = match self.record().flight(&t, Side::Left) {
+            Some(flight) => flight.rate_at(&flight.age_at(&t)),
+            None => self.mean(&t, &nodes).1,
         };
         // The difference first, so that a vibration in flight loses nothing.
         let square = |node: &Node<S>| (node.rigid.clone() - &rate + &node.motion).square() + node.strain.square();

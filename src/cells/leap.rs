@@ -64,6 +64,11 @@ struct Circle<'a, S> {
     /// See [`LeapCount::dropped`]; and by how much what is dropped now is multiplied later, at most.
     dropped: Cell<f64>,
     weight: Cell<f64>,
+    /// See [`LeapCount::integrals`]; and of what size a function is relative to the wave, at most.
+    integrals: Cell<f64>,
+    size: Cell<f64>,
+    /// What is smaller than this is left out.
+    accuracy: f64,
 }
 
 /// What is left of a sum of absolute values from each term on.
@@ -84,6 +89,8 @@ pub(super) struct LeapCount {
     pub(super) order: usize,
     /// Powers of `G/2` on the characteristic.
     pub(super) layers: usize,
+    /// Antiderivatives and products with s, each weighed by what its roundings become at most.
+    pub(super) integrals: f64,
     /// Powers of `D⁻¹` in `e^{nG}`.
     pub(super) powers: usize,
 }
@@ -110,6 +117,11 @@ impl<S: RoundedSpecial> Circle<'_, S> {
         self.dropped.set(self.dropped.get() + self.weight.get() * last);
     }
 
+    /// An antiderivative, or a product with s.
+    fn counts(&self) {
+        self.integrals.set(self.integrals.get() + self.weight.get() * self.size.get());
+    }
+
     /// Weighs what is dropped by `weight`, besides all else.
     fn weighed<T>(&self, weight: f64, work: impl FnOnce() -> T) -> T {
         let before = self.weight.replace(weight * self.weight.get());
@@ -121,6 +133,7 @@ impl<S: RoundedSpecial> Circle<'_, S> {
     /// `D⁻¹`, in place.
     fn antiderivative(&self, f: &mut [Vec<S>]) {
         let mut here = self.parts[0].0.zero();
+        self.counts();
         for ((_, len), c) in self.parts.iter().zip(f.iter_mut()) {
             self.drops(c);
             self.basis.integrate(c);
@@ -141,6 +154,7 @@ impl<S: RoundedSpecial> Circle<'_, S> {
 
     /// `f · s · factor`, in place.
     fn times_s(&self, f: &mut [Vec<S>], factor: &S) {
+        self.counts();
         for ((start, len), c) in self.parts.iter().zip(f) {
             let mut by_x = c.clone();
             self.drops(c);
@@ -155,7 +169,9 @@ impl<S: RoundedSpecial> Circle<'_, S> {
     fn series(&self, f: &[Vec<S>], coefficients: &[S], odd: bool) -> Function<S> {
         let mut power = f.to_vec();
         let mut sum = vec![vec![self.parts[0].0.zero(); self.basis.size()]; f.len()];
-        for (m, (factor, rest)) in coefficients.iter().zip(rests(coefficients)).enumerate() {
+        let small = self.accuracy / (self.weight.get() * self.size.get());
+        let terms = coefficients.iter().zip(rests(coefficients)).take_while(|(_, rest)| *rest >= small);
+        for (m, (factor, rest)) in terms.enumerate() {
             self.weighed(rest, || {
                 self.antiderivative(&mut power);
                 if m > 0 || !odd {
@@ -243,6 +259,9 @@ impl<S: RoundedSpecial> Medium<S> {
             turn: binomials(&damping, -1, self.log2_accuracy).into_iter().map(|c: S| -c).collect(),
             dropped: Cell::new(0.0),
             weight: Cell::new(1.0),
+            integrals: Cell::new(0.0),
+            size: Cell::new(1.0),
+            accuracy: self.log2_accuracy.exp2(),
         };
         let (value, rate) = self.scaled(state, &circle, ground);
         let layers = self.layers(&damping);
@@ -260,11 +279,13 @@ impl<S: RoundedSpecial> Medium<S> {
             products.push((rate, value));
         }
         let mut wave: Option<Function<S>> = None;
-        for (mut rate, value) in products.into_iter().rev() {
+        for (j, (mut rate, value)) in products.into_iter().enumerate().rev() {
             circle.centre(&mut rate);
             add(&mut rate, &gamma, &(circle.mean(&value) * &half));
             if let Some(wave) = wave {
-                add(&mut rate, &circle.lagged(&wave), &zero.one());
+                // G is still to be applied j times to what this drops.
+                let later = circle.weighed(lag.powi(j as i32), || circle.lagged(&wave));
+                add(&mut rate, &later, &zero.one());
             }
             wave = Some(rate);
         }
@@ -277,6 +298,7 @@ impl<S: RoundedSpecial> Medium<S> {
         let ground = at_zero(&at_ground[0], &zero) * zero.int(2);
         let mut terms = Vec::with_capacity(layers + 1);
         for j in 0..=layers {
+            circle.size.set(lag.powi(j as i32));
             let mut term = wave.clone();
             let turned = circle.turned(&wave);
             add(&mut term, &turned, &-half.clone());
@@ -291,6 +313,7 @@ impl<S: RoundedSpecial> Medium<S> {
         }
         let mut rate: Option<Function<S>> = None;
         for (j, mut term) in terms.into_iter().enumerate().rev() {
+            circle.size.set(lag.powi(j as i32 + 1));
             if let Some(mut above) = rate {
                 circle.times_s(&mut above, &zero.ratio(1, 2 * (j as i64 + 1)));
                 add(&mut term, &above, &zero.one());
@@ -301,7 +324,8 @@ impl<S: RoundedSpecial> Medium<S> {
             self.unscaled(&mut state.segments, &circle, &rate, &ground);
         }
         state.round += trips;
-        LeapCount { dropped: circle.dropped.get(), order: circle.lag.len(), layers, powers }
+        let (dropped, integrals) = (circle.dropped.get(), circle.integrals.get());
+        LeapCount { dropped, order: circle.lag.len(), layers, integrals, powers }
     }
 
     /// How many powers of `G/2` count on the characteristic.

@@ -13,12 +13,12 @@
 //!
 //! What the signs below do not show ends the proof: at the beginning of the strip in question.
 
-use super::account::{Open, Proof, Release, SLACK};
+use super::account::{Change, Open, Proof, Release, SLACK};
 use super::follow::Follower;
 use super::leap::LeapCount;
 use super::march::Medium;
 use super::piece::Found;
-use super::series::{at_zero, bound, derivative, evaluate};
+use super::series::{at_one, at_zero, bound, derivative, evaluate};
 use super::signs::{Part, below, clear, doubles, steep};
 use super::start::{Data, on_grid};
 use super::uncertainty::Uncertainty;
@@ -64,15 +64,16 @@ impl<S: RoundedSpecial> Proof<S> {
         (self.even + (damping * (time + 1.0)).min(damping.exp()) * self.masses) * (1.0 + SLACK)
     }
 
-    /// `A` of [`Self::height_off`]: what `h′` of a flight is off by.
+    /// `A`: what `h′` of a flight is off by.
     fn rate_off(&self, damping: f64) -> f64 {
         (damping.exp() * (self.even + self.masses) + self.means[0]) * (1.0 + SLACK)
     }
 
     /// H, so long after the release.
     ///
-    /// Taken apart: `h′ = ∫ e^{2Rx} q dη` and `z(0) = ∫ w (q − h′) dη`, `|w| ≤ ½e^R`, at the release and when the round
-    /// trip began; `δh″ + 2Rδh′ = 0` between; and since then `∫ |δq| dt ≤ E + (1 + R)W`.
+    /// Taken apart: at the release `|δv(0)|` is at most what that has left; since then `h` moves by `s A`, and
+    /// `z(0) = ∫ w (q − h′) dη` with `∫|w| ≤ ¼e^R`, `|w| ≤ ½e^R` may be off then and now; and since it was a mean of
+    /// what is stored, by the defects of the steps.
     /// Otherwise the defect of each step moves the end by its own mean and vibration: by `(s + 1)E` under a free top,
     /// and by `½E` under a held one, besides what the sum of `∫ q dt` itself is off by.
     fn height_off(&self, run: &Follower<'_, S>, flown: f64) -> f64 {
@@ -82,13 +83,12 @@ impl<S: RoundedSpecial> Proof<S> {
         let off = if let Some(flight) = run.flying() {
             let far = flight.height.to_f64().abs() + fall * flight.rate.to_f64().abs();
             let far = far + run.medium.gravity.to_f64() * (flown * flown).min(flown / damping);
-            let grown = damping.exp();
-            let mean = self.means[0] + self.means[1];
-            self.masses
-                + grown * both
-                + (grown + fall) * self.rate_off(damping)
-                + 2.0 * mean
-                + (2.0 + damping) * both
+            let (centre, mean) = (self.rate_off(damping), self.means[0] + self.means[1]);
+            let swing = damping.exp() * (0.25 * (self.even + centre) + 0.5 * self.masses);
+            self.left
+                + fall * centre
+                + 2.0 * (swing + mean)
+                + (self.even - self.weighed + self.trip)
                 + 64.0 * self.steps.unit * (far + self.most)
         } else if run.medium.free_top {
             (fall + 3.0) * both + self.summed
@@ -98,11 +98,41 @@ impl<S: RoundedSpecial> Proof<S> {
         off * (1.0 + SLACK)
     }
 
+    /// How fast the motion changes from the beginning of a strip on, in contact or in flight; a ray may have started
+    /// there with a `jump` of p, and with any where none is given.
+    ///
+    /// `(p_t, q_t)` solves the equations without gravity, with the same reflections: neither its sup norm nor the sum
+    /// of the masses at its rays grows. On the characteristic `q_t = q_η + q_ξ`, `q_ξ = −κ(p + q)`.
+    fn change(&self, run: &Follower<'_, S>, jump: Option<f64>) -> Change {
+        let (medium, zero) = (run.medium, run.height.zero());
+        let (kappa, offset) = (medium.kappa.to_f64(), 2.0 * medium.offset.to_f64().abs());
+        let (mut slope, mut jumps) = (0.0f64, 0.0);
+        let mut before: Option<f64> = None;
+        for segment in &run.state.segments {
+            let q = doubles(&segment.q);
+            slope = slope.max(bound(&derivative(&q), 0) / segment.len.to_f64() + kappa * bound(&q, 0));
+            if let Some(before) = before {
+                jumps += (at_zero(&segment.q, &zero).to_f64() - before).abs();
+            }
+            before = Some((at_one(&segment.q, &zero) * &segment.decay).to_f64());
+        }
+        let most = run.state.bound() + offset;
+        let falls = run.centre().map_or(0.0, |(_, rate)| {
+            let gravity = medium.gravity.to_f64();
+            gravity + 4.0 * kappa * (rate.to_f64().abs() + gravity)
+        });
+        let roundings = 64.0 * self.steps.size * f64::EPSILON * most * run.state.segments.len() as f64;
+        Change {
+            between: (slope + 2.0 * kappa * most + falls) * (1.0 + SLACK),
+            jumps: (jumps + jump.unwrap_or(2.0 * most)) * (1.0 + SLACK) + roundings,
+        }
+    }
+
     /// How far values may be off, up to now.
     fn note(&mut self, run: &Follower<'_, S>, time: f64, high: f64) {
         let damping = run.damping();
         let both = self.even + self.masses;
-        let reach = (2.0 + (1.0 + damping) * (time - self.since + 2.0)) * both;
+        let reach = 2.0 * both;
         let centre = run.centre().map_or(0.0, |(_, rate)| rate.to_f64().abs());
         let most = 2.0 * (self.most + centre + run.medium.gravity.to_f64() + run.medium.slope.to_f64().abs());
         let far = 1.0 + time;
@@ -113,7 +143,8 @@ impl<S: RoundedSpecial> Proof<S> {
             rise: self.height + reach + far * asked,
             speed: self.trace_off(damping, time) + asked,
             rate: self.rate_off(damping) + both + asked,
-            slope: 2.0 * self.slope,
+            late: self.shift,
+            slope: self.slope,
             most,
             peak: most,
             ..Uncertainty::default()
@@ -122,11 +153,11 @@ impl<S: RoundedSpecial> Proof<S> {
         self.known[last] = self.known[last].max(now);
     }
 
-    /// What an event leaves.
+    /// What an event leaves that is off by so much.
     fn event(&mut self, late: f64) {
         self.events.push(late);
         let last = self.known[self.known.len() - 1];
-        self.known.push(last);
+        self.known.push(Uncertainty { late: self.shift, ..last });
     }
 
     /// The contact that the run begins with.
@@ -138,7 +169,10 @@ impl<S: RoundedSpecial> Proof<S> {
     /// The impact that has been shown.
     pub(super) fn impact(&mut self, run: &Follower<'_, S>) {
         match self.landed.take() {
-            Some(late) => self.event(late),
+            Some(late) => {
+                self.event(late);
+                self.note(run, run.state.time().to_f64(), 0.0);
+            }
             // At a ray: a coincidence.
             None => self.end(run, run.pieces.len(), Open { what: Near::Touch, differ: 2.0 * self.most }),
         }
@@ -164,12 +198,15 @@ impl<S: RoundedSpecial> Proof<S> {
         let (from, len) = (run.state.time().to_f64(), first.len.to_f64());
         let time = from + cut.map_or(len, |(cut, _)| cut.to_f64());
         self.drift(run.medium, len);
-        self.slope = self.slope.max(bound(&derivative(trace), 0) / len * (1.0 + SLACK));
+        let jump = run.last_trace.as_ref().filter(|_| self.release.is_none());
+        let jump = jump.map(|last| (at_zero(trace, &last.zero()) - last).to_f64().abs());
+        let change = self.change(run, jump);
+        self.slope = self.slope.max(change.between).max(bound(&derivative(trace), 0) / len * (1.0 + SLACK));
         let own = self.steps.trace(run.medium, first, run.contact);
         let found = if run.contact {
             self.held(run, (time, len), cut, trace, own)
         } else {
-            self.flown(run, (time, len), cut, (trace, height), own)
+            self.flown(run, (time, len), cut, (trace, height), (own, change))
         };
         if let Err(open) = found {
             self.end(run, run.pieces.len(), open);
@@ -199,14 +236,14 @@ impl<S: RoundedSpecial> Proof<S> {
         trace: &[S],
         own: f64,
     ) -> Result<(), Open> {
-        let fast = self.trace_off(run.damping(), time) + own + 8.0 * self.slope * self.late;
+        let fast = self.trace_off(run.damping(), time) + own + 8.0 * self.slope * self.latest();
         let open = Open { what: Near::Release, differ: 2.0 * (bound(trace, 0) + fast) };
         let pressed = |part| {
             part == (0.0, 0.0)
                 || below(&self.doubles, &doubles(trace), part, fast)
                 || below(&run.medium.basis, trace, part, fast)
         };
-        if len <= 8.0 * self.late {
+        if len <= 8.0 * self.latest() {
             return Err(open);
         }
         let Some((cut, true)) = cut else {
@@ -226,7 +263,7 @@ impl<S: RoundedSpecial> Proof<S> {
         let rest = evaluate(trace, &at).to_f64().abs() * (1.0 + SLACK) + own;
         let steep = least / len * (1.0 - SLACK);
         let late = (self.trace_off(run.damping(), time) + own + rest) / steep;
-        if delta * len < 4.0 * (late + self.late) || !pressed((0.0, x - delta)) {
+        if delta * len < 4.0 * (late + self.latest()) || !pressed((0.0, x - delta)) {
             return Err(open);
         }
         self.note(run, time, 0.0);
@@ -246,7 +283,7 @@ impl<S: RoundedSpecial> Proof<S> {
         let size = bound(trace, 0);
         let open = Open { what: Near::Release, differ: 2.0 * size };
         let slack = own + SLACK * right.abs();
-        let fast = self.trace_off(run.damping(), time) + own + 8.0 * self.slope * self.late;
+        let fast = self.trace_off(run.damping(), time) + own + 8.0 * self.slope * self.latest();
         let late = match release.left {
             Some(left) => {
                 if left > -fast - slack || right < fast + slack {
@@ -261,7 +298,11 @@ impl<S: RoundedSpecial> Proof<S> {
             }
         };
         let most = right.abs().max(release.left.map_or(0.0, f64::abs)) + 4.0 * self.slope * late + fast;
-        self.happens(Some(release.at.clone()), time, late + 64.0 * self.steps.unit, most);
+        let late_ray = late + 64.0 * self.steps.unit;
+        // One motion has contact and the other flies for as long as they differ by: once, but maybe twice at a root.
+        let times = if release.left.is_some() { 2.0 } else { 4.0 };
+        self.left = times * late_ray * most;
+        self.starts(release.at.clone(), time, late_ray, self.left);
         (self.summed, self.rising) = (0.0, true);
         Ok(late)
     }
@@ -278,7 +319,7 @@ impl<S: RoundedSpecial> Proof<S> {
         (time, len): (f64, f64),
         cut: Option<(&S, bool)>,
         (trace, height): (&[S], &[S]),
-        own: f64,
+        (own, change): (f64, Change),
     ) -> Result<(), Open> {
         let rigid = run.centre().map_or(0.0, |(_, rate)| {
             let first = 8.0 * (rate.to_f64().abs() + run.medium.gravity.to_f64());
@@ -292,12 +333,13 @@ impl<S: RoundedSpecial> Proof<S> {
         }
         // As this flight goes on, its height is summed up from what the trace is off by.
         self.summed += own * len;
-        let high = self.height_off(run, time - self.since + self.late) + own * (1.0 + len);
-        let fast = self.trace_off(run.damping(), time) + own + 8.0 * self.slope * self.late;
+        self.trip += own * len;
+        let high = self.height_off(run, time - self.since + self.latest()) + own * (1.0 + len);
+        let fast = self.trace_off(run.damping(), time) + own + 8.0 * self.slope * self.latest();
         let touch = |differ: f64| Open { what: Near::Touch, differ };
         let lands = cut.is_some_and(|(_, event)| event);
         let mut rising = self.rising;
-        if (rising || lands) && len <= 8.0 * self.late {
+        if (rising || lands) && len <= 8.0 * self.latest() {
             return Err(touch(2.0 * bound(trace, 0)));
         }
         let (quick, low) = (doubles(trace), doubles(height));
@@ -316,7 +358,7 @@ impl<S: RoundedSpecial> Proof<S> {
         }
         if let Some((late, _)) = late {
             self.release = None;
-            self.event(late);
+            self.event(self.shift + late);
         }
         let shown = |part: (f64, f64), rising: &mut bool| {
             let mut again = *rising;
@@ -343,14 +385,22 @@ impl<S: RoundedSpecial> Proof<S> {
         let rest = evaluate(height, &at).to_f64().abs();
         let late = (high + rest) / (least * (1.0 - SLACK)) * (1.0 + SLACK);
         let shown = x - delta <= from || shown((from, x - delta), &mut rising);
-        if least <= fast || delta * len < 4.0 * (late + self.late) || !shown || rising {
+        if least <= fast || delta * len < 4.0 * (late + self.latest()) || !shown || rising {
             return Err(touch(2.0 * (most + fast)));
         }
         self.note(run, time, high);
         let place = on_grid(run.state.segments[0].at.clone() + cut);
         let place = if place >= place.one() { place.clone() - place.one() } else { place };
-        self.happens(Some(place), time, late, most + fast);
-        self.landed = Some(late);
+        // Either the clock is set, or p has the wrong sign for a while.
+        let mass = 2.0 * (most + fast);
+        if change.between + change.jumps < mass {
+            self.set_clock(late, change);
+            self.starts(place, time, 64.0 * self.steps.unit, 0.0);
+            self.landed = Some(self.shift);
+        } else {
+            self.starts(place, time, late, late * mass);
+            self.landed = Some(self.shift + late);
+        }
         Ok(())
     }
 
@@ -372,7 +422,7 @@ impl<S: RoundedSpecial> Proof<S> {
         self.leapt = self.leapt.max(defect);
         self.add(defect);
         self.means[1] = self.steps.weighed(&run.state, 0.0);
-        let high = self.height_off(run, time - self.since + self.late);
+        let high = self.height_off(run, time - self.since + self.latest());
         if least > high && self.release.is_none() {
             self.note(run, time, high);
             self.rising = false;

@@ -176,7 +176,7 @@ impl<S: RoundedSpecial> Record<'_, S> {
     fn inside(&self, (cell, flight): Passing<'_, '_, '_, S>, places: &[S], t: &S) -> Vec<(S, S, S)> {
         let points: Vec<(S, S)> = places.iter().map(|x| (t.clone() - x, t.clone() + x)).collect();
         let found = cell.at(&self.medium.basis, &points, self.medium.log2_accuracy);
-        let (rigid, half) = (flight.map(|flight| flight.at(&flight.age_at(t)).1), t.ratio(1, 2));
+        let (rigid, half) = (flight.map(|flight| flight.rate_at(&flight.age_at(t))), t.ratio(1, 2));
         let values = |((p, q), x): ((S, S), &S)| {
             let (motion, strain) = ((p.clone() + &q) * &half, (q - p) * &half);
             match &rigid {

@@ -149,6 +149,8 @@ pub(super) struct Data<S> {
     pub(super) given: AtStart<S>,
     /// `v(0,0)`.
     pub(super) ground: S,
+    /// Whether the rod starts undeformed, with one velocity.
+    pub(super) rigid: bool,
     /// The data, whole rod only.
     half: Vec<Linear<S>>,
     /// The greatest that goes into the dimensionless data, before differences of displacements are taken.
@@ -244,7 +246,8 @@ impl<S: Rounded> Data<S> {
         };
         let damping = parameters.damping.clone() * &units.time;
         let given = AtStart::of(problem, parameters);
-        Data { units, damping, given, gravity, slope: static_slope, ground: first, half, most, shortest }
+        let rigid = !matches!(problem.start, Start::Profile(_));
+        Data { units, damping, given, gravity, slope: static_slope, ground: first, rigid, half, most, shortest }
     }
 
     /// `v_t(0⁺, 0)`.

@@ -177,6 +177,8 @@ const MOST_DOUBLE_DIGITS: f64 = 15.0;
 const FAINT_DIGITS: f64 = 30.0;
 /// Bits beyond those of the digits asked for, on the first attempt with error bounds.
 const GUARD_BITS: u32 = 64;
+/// The same of a damped march that is to be proved, besides what that is foreseen to cost.
+const PROOF_GUARD_BITS: u32 = 24;
 /// So many bits more tell events apart that miss each other by a rounding of a double, or by its square.
 const NEAR_MISS: u32 = 256;
 /// Beyond so many contacts exact roots take minutes.
@@ -254,10 +256,15 @@ impl Plan {
             Numbers::Double(_) => (Rung::Double, 0.0),
             Numbers::Exact | Numbers::ExactThenDigits(_) => (Rung::Fractions, 0.0),
             Numbers::Certified(digits) => {
-                let wanted = bits_for_digits(digits) + GUARD_BITS;
+                let wanted = bits_for_digits(digits);
                 let marched = then_cells || engine == Engine::Cells;
-                let lost = if marched { foresee::proof_bits(problem, |trip| reach.contacts(trip)) } else { 0 };
-                (Rung::Enclosures(if wanted < MOST_PROVED { (wanted + lost).min(MOST_PROVED) } else { wanted }), 0.0)
+                let bits = if marched && wanted < MOST_PROVED {
+                    let lost = foresee::proof_bits(problem, |trip| reach.contacts(trip));
+                    (wanted + PROOF_GUARD_BITS + lost).min(MOST_PROVED)
+                } else {
+                    wanted + GUARD_BITS
+                };
+                (Rung::Enclosures(bits), 0.0)
             }
             Numbers::Digits(digits) => {
                 let lost = match (engine, &reach) {
