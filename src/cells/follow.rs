@@ -526,7 +526,7 @@ impl<'a, S: RoundedSpecial> Follower<'a, S> {
         let count = self.medium.leap(&mut self.state, &self.ground, trips);
         self.prove(|proof, run| proof.leap(run, trips as f64, least, &count, before));
         self.budget.leap(trips as f64, LEAP_CELLS * self.cell_error, passing);
-        self.rising = false;
+        (self.rising, self.last_trace) = (false, None);
         self.pieces.push(Piece {
             len: from.int(trips),
             from,
@@ -578,9 +578,9 @@ impl<'a, S: RoundedSpecial> Follower<'a, S> {
 
     /// A ray that may be off in time passes the ground: in flight the height takes its jump at the wrong time.
     fn pass_ray(&mut self, trace: &[S], off: Off) {
-        if let Some(last) = &self.last_trace {
-            self.budget.pass((at_zero(trace, &self.height.zero()) - last).to_f64().abs(), off);
-        }
+        let now = at_zero(trace, &self.height.zero());
+        let jump = self.last_trace.as_ref().map_or(2.0 * self.state.bound(), |last| (now - last).to_f64().abs());
+        self.budget.pass(jump, off);
     }
 
     /// `v_t + c v_x` at the ground and, in flight, `v(0,·)` over the strip.

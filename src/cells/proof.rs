@@ -7,7 +7,8 @@
 //!
 //! - **E**, `even`: `sup |δ_E|`, the sum of all defects so far.
 //! - **W**, `masses`: `∫ |δ_W|`. An event that is off by at most τ differs from the true one in what holds at the
-//!   ground for no longer than 2τ, where p is −q here and q there: `4τ max|q|`.
+//!   ground for no longer than τ, where p is −q here and q there: `2τ max|q|`.
+//! - **Θ**, `shift`: how far the clock of the true motion has been set at impacts, instead of that.
 //! - Away from rays that are off, `|δq| ≤ F = E + min(R(T + 1), e^R) W` and what the trace itself has been rounded by.
 //! - In flight `|δv(0,·)| ≤ H`, [`Proof::height_off`].
 //!
@@ -487,3 +488,7 @@ fn ends_so<S: RoundedSpecial>(ending: &Ending, off: f64, medium: &Medium<S>, dat
         _ => false,
     }
 }
+
+#[cfg(all(test, feature = "mp"))]
+#[path = "tests/proof.rs"]
+mod tests;

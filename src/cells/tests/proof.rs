@@ -1,0 +1,132 @@
+//! What is proved of a motion whose start is known to so much only holds of the one whose start is off by as much: no
+//! rounding is near, so that it is the propagation of errors that is held to account.
+
+use std::ops::ControlFlow;
+
+use rug::Float;
+
+use super::*;
+use crate::cells::effort::Effort;
+use crate::cells::follow::Goal;
+use crate::cells::history::Damped;
+use crate::cells::start::medium;
+use crate::motion::{Motion, Pair, Side};
+use crate::number::{Estimate, Number, Scalar};
+use crate::problem::{Problem, Profile, Run, Start};
+
+const BITS: u32 = 190;
+
+/// A run whose account begins with these sups and masses.
+fn proved(problem: &Problem, (even, masses): (f64, f64)) -> Damped<Float> {
+    let effort = Effort { until_lost: false, ..Effort::of(50.0) };
+    let (medium, data) = medium::<Float>(problem, &BITS, effort.digits, 1).unwrap();
+    let mut proof = Proof::new(&medium);
+    let unit = data.units.velocity.to_f64();
+    (proof.even, proof.masses) = (even / unit, masses / unit);
+    let mut follower = Follower::new(&medium, &data, Some(proof));
+    let goal = Goal::of(problem, &BITS, &data);
+    let ending = follower.run(&goal, effort, &|_, _| ControlFlow::Continue(())).unwrap();
+    let found = follower.found(ending);
+    Damped::record_of(medium, data, None, found, problem, &BITS).unwrap()
+}
+
+/// The most that a number is off, as a part of its bound; and how many were compared.
+#[derive(Default)]
+struct Held {
+    most: f64,
+    count: usize,
+}
+
+impl Held {
+    fn compare(&mut self, what: &str, found: &Estimate<Float>, truth: &Estimate<Float>) {
+        let off = (found.value().clone() - truth.value()).to_f64().abs();
+        let part = if off == 0.0 { 0.0 } else { off / found.bound() };
+        assert!(part <= 1.0, "{what}: off by {off:e}, bound {:e}", found.bound());
+        self.most = self.most.max(part);
+        self.count += 1;
+    }
+
+    fn all(&mut self, name: &str, known: &Damped<Float>, truth: &Damped<Float>) {
+        assert!(known.events().len() <= truth.events().len(), "{name}");
+        for (k, (a, b)) in known.events().iter().zip(truth.events()).enumerate() {
+            assert_eq!(a.kind, b.kind, "{name}");
+            self.compare(&format!("{name}: time {k}"), &a.time, &b.time);
+            self.compare(&format!("{name}: velocity {k}"), &a.end_velocity, &b.end_velocity);
+            self.compare(&format!("{name}: centre {k}"), &a.centre, &b.centre);
+            self.compare(&format!("{name}: rate {k}"), &a.centre_velocity, &b.centre_velocity);
+        }
+        let contacts = known.course().contacts.iter().zip(&truth.course().contacts);
+        for (a, b) in contacts.filter(|(a, b)| a.to.is_some() && b.to.is_some()) {
+            self.compare(&format!("{name}: impulse"), &a.impulse, &b.impulse);
+            self.compare(&format!("{name}: peak"), &a.peak_strain, &b.peak_strain);
+        }
+        let times: Vec<f64> = known.events().iter().map(|event| event.time.to_f64()).collect();
+        for pair in times.windows(2) {
+            let time = Estimate::exact(Float::with_val(BITS, pair[0] + 0.37 * (pair[1] - pair[0])));
+            for (a, b) in [Pair::GroundEnd, Pair::Centre, Pair::Energy, Pair::EnergyParts].map(|pair| {
+                (known.pair(pair, &time, Side::Left).unwrap(), truth.pair(pair, &time, Side::Left).unwrap())
+            }) {
+                a.iter().zip(&b).for_each(|(a, b)| self.compare(&format!("{name}: at {time:?}"), a, b));
+            }
+            for x in [0.21, 0.83] {
+                let point = Estimate::exact(Float::with_val(BITS, x));
+                let [a, b] = [known, truth].map(|motion| motion.field(&point, &time, Side::Left).unwrap());
+                self.compare(&format!("{name}: v"), &a.displacement, &b.displacement);
+                self.compare(&format!("{name}: v_t"), &a.velocity, &b.velocity);
+                self.compare(&format!("{name}: v_x"), &a.strain, &b.strain);
+            }
+        }
+    }
+}
+
+fn number(text: &str) -> Number {
+    text.parse().unwrap()
+}
+
+fn rod(damping: &str, impacts: u32) -> Problem {
+    let mut rod = Problem::uniform(1.into(), 1.into(), 1.into(), 1.into());
+    (rod.rod.damping, rod.run) = (Some(number(damping)), Run::Impacts(impacts));
+    rod
+}
+
+#[test]
+fn a_start_with_another_velocity_is_within_what_is_proved() {
+    let mut held = Held::default();
+    for damping in ["0.001", "0.02", "0.1", "0.4"] {
+        for speed in ["0.3", "3", "10", "100"] {
+            let start = |speed: Number| {
+                let profile = Profile { displacement: Vec::new(), velocity: vec![(0.into(), speed)] };
+                Problem { start: Start::Profile(profile), ..rod(damping, 4) }
+            };
+            // 1e-30 faster.
+            let faster = number(&(-number(speed).to_rational() - number("1e-30").to_rational()).to_string());
+            let known = proved(&start(number(&format!("-{speed}"))), (1e-30, 0.0));
+            let truth = proved(&start(faster), (0.0, 0.0));
+            held.all(&format!("r = {damping}, μ = {speed}"), &known, &truth);
+        }
+    }
+    assert!(held.count >= 1500 && held.most > 0.1, "{} {}", held.count, held.most);
+}
+
+#[test]
+fn a_start_with_another_kink_is_within_what_is_proved() {
+    let mut held = Held::default();
+    for (damping, bend) in [("0.001", "0.2"), ("0.05", "-0.3"), ("0.2", "0.5"), ("0.5", "-0.4")] {
+        for speed in ["0.6", "2", "7"] {
+            let start = |kink: &str| {
+                let kink = number(kink);
+                // v_x = bend up to the kink, and nothing beyond it.
+                let height = number(&(number(bend).to_rational() * kink.to_rational()).to_string());
+                let displacement = vec![(0.into(), 0.into()), (kink, height.clone()), (1.into(), height)];
+                let velocity = vec![(0.into(), number(&format!("-{speed}")))];
+                Problem { start: Start::Profile(Profile { displacement, velocity }), ..rod(damping, 3) }
+            };
+            // The jump of v_x is moved by 1e-30 of 2L: in q, and in p.
+            let mass = 1e-30 * number(bend).to_f64().abs();
+            let known = proved(&start("0.4"), (0.0, mass));
+            let truth = proved(&start(&format!("0.4{}1", "0".repeat(28))), (0.0, 0.0));
+            held.all(&format!("r = {damping}, μ = {speed}, bend {bend}"), &known, &truth);
+        }
+    }
+    assert!(held.count >= 800 && held.most > 0.1, "{} {}", held.count, held.most);
+}
