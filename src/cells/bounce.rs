@@ -6,9 +6,10 @@
 
 use std::collections::VecDeque;
 
-use super::budget::{CUT_CELLS, FIRST_CELLS, Off};
+use super::budget::{CUT_CELLS, FIRST_CELLS};
 use super::march::{Medium, State};
 use super::start::{Data, Units};
+use super::uncertainty::Off;
 use crate::first_contact::FirstContact;
 use crate::motion::Side;
 use crate::number::Estimate;

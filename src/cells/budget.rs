@@ -1,31 +1,15 @@
 //! What the numbers of a run may be off by: one sum, to which every step adds its own term.
 //!
-//! Derivations in `docs/bounds.md`. Dimensionless: velocities in `V`, times in `t₁`. There are two accounts, and the
+//! The whole on one page: `docs/bounds.md`. Dimensionless: velocities in `V`, times in `t₁`. There are two accounts, and the
 //! better one holds. One bounds `v` at equal times, and takes every ray that is off for itself: it serves any start and
 //! any damping. The other, where flights are taken apart, compares the vibration at equal times and the centre of mass
 //! at equal times since the last event, and follows with their signs what the time of that event and the velocity of
 //! the centre owe to each source of error.
 
-use super::dependence::{Dependence, Form};
+use super::dependence::{Dependence, Form, Landing, TakeOff};
 use super::effort::LEAST_LEAP;
-use super::uncertainty::Uncertainty;
+use super::uncertainty::{Off, Uncertainty};
 use crate::special::{phi1, phi2};
-
-/// What either account says of an error.
-#[derive(Clone, Copy, Debug, Default)]
-pub(super) struct Off {
-    /// The account that takes `v` as one.
-    pub(super) fixed: f64,
-    /// The account of flights that are taken apart.
-    pub(super) apart: f64,
-}
-
-impl Off {
-    /// The greater in both.
-    pub(super) fn max(self, other: Off) -> Off {
-        Off { fixed: self.fixed.max(other.fixed), apart: self.apart.max(other.apart) }
-    }
-}
 
 /// The errors of a cell that a state is off by which is interpolated from values.
 pub(super) const FIRST_CELLS: f64 = 8.0;
@@ -108,54 +92,6 @@ struct Rest {
     lumps: f64,
     /// A bound of `|δh′|` at the last take-off, of the part that `wave` bounds.
     mean: f64,
-}
-
-/// How a contact ends and a flight begins.
-#[derive(Clone, Copy, Debug, Default)]
-pub(super) struct TakeOff {
-    /// Where on the circle.
-    pub(super) at: f64,
-    /// How long the contact was.
-    pub(super) len: f64,
-    /// Whether that was a round trip, as between one ray's start and return.
-    pub(super) whole: bool,
-    /// How far the time may be off, and what it is rounded by.
-    pub(super) off: f64,
-    pub(super) rounding: f64,
-    /// The slope of the stress, where it has a root.
-    pub(super) slope: Option<f64>,
-    /// The jump of `q` on the ray that arrives, and that of `p` on the ray that starts.
-    pub(super) jump: (f64, f64),
-    /// `z_t(0,·)` of the vibration.
-    pub(super) end_rate: f64,
-    /// `h″`.
-    pub(super) fall: f64,
-    /// What `h′` is off by, where it is known otherwise.
-    pub(super) known: Option<f64>,
-}
-
-/// How a landing depends on the flight before it, and the contact after it on the landing.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Landing {
-    /// Where on the circle.
-    pub(super) at: f64,
-    /// `v_t` of the end, its greatest rate of change, and how far the time of the landing may be off in all.
-    pub(super) velocity: f64,
-    pub(super) curvature: f64,
-    pub(super) off: Off,
-    /// The age of the flight, `h′`, and `h″`.
-    pub(super) age: f64,
-    pub(super) rate: f64,
-    pub(super) fall: f64,
-    /// The range of `q` of the vibration, its total variation, and its greatest slope between rays.
-    pub(super) range: f64,
-    pub(super) variation: f64,
-    pub(super) slope: f64,
-    /// `z_tt` of the end, where no ray arrives; otherwise the greatest slope.
-    pub(super) bend: f64,
-    /// By how much `∫y` of a contact of one round trip changes with the phase of the vibration, and how far that may be
-    /// off.
-    pub(super) phase: (f64, f64),
 }
 
 /// `e^{−2Rτ}` and `(1 − e^{−2Rτ})/2R` at the age τ.
@@ -331,6 +267,9 @@ impl Budget {
 
     /// What the rest adds to the error of `v(0,·)` at this age: by its centre of mass and its vibration, or, in a
     /// flight that is not leapt over, by what reaches the ground in each round trip.
+    ///
+    /// By `h′ = ∫ e^{R(η−b)} q dη` and `z(0,b) = −∫ w (q − h′) dη`, `|w| ≤ ½e^R`; or, as the ground receives at most
+    /// `W/(1 − κ)` in each round trip, where what is left of `∫|q|` on its way down falls by `(1 − κ)|q(0,·)|`.
     fn not_followed(&self, age: f64) -> f64 {
         let ((even, Rest { wave, mean, .. }), grown) = (self.began, self.damping.exp());
         let (_, slowed) = aged(self.damping, age);
@@ -347,6 +286,10 @@ impl Budget {
     }
 
     /// What damping makes of stripes between these ages, besides letting them fade: no more than they are.
+    ///
+    /// A ray loses `1 − e^{−Rτ} ≤ Rτ` of its mass, a level R of the levels that it meets: at most `2Rτ`, whose mean is
+    /// taken from them. Over long flights `Z = e^{Rt} z` has `Z_tt − Z_xx = R²Z`: a mass m makes `|Z| ≤ ½m`, so that
+    /// `Z_t + Z_x` is off by `½R²τ m`, growing with itself, and `z_t + z_x` by `R|Z|` more at either end.
     fn scattered(&self, from: f64, age: f64) -> f64 {
         let left = (self.damping * (6.0 - FADES * from)).exp() + (-self.damping * from).exp();
         let turned = (0.5 * self.damping * self.damping * age).exp_m1() * (2.0 * self.damping).exp();
@@ -416,6 +359,9 @@ impl Budget {
 
     /// A leap, with this error of its own: what vibrates fades. `passing` is `Σ |jump| · time` of all rays, each time
     /// that they pass.
+    ///
+    /// `Z` moves by `e^{tG}`, `‖G‖ ≤ R²/8 (1 + R²/150)`; going over from and to the characteristic costs at most
+    /// `e^{6R}`.
     pub(super) fn leap(&mut self, trips: f64, error: f64, passing: f64) {
         // The centre of mass fades by e^{−2R} in each round trip, and is at most e^R of all.
         let fade = ((2.0 + self.damping.exp()) * (self.damping * (6.0 - FADES * trips)).exp()).min(1.0);

@@ -7,6 +7,8 @@
 //! vibration in its own clock is constant between rays, and a mass on each ray that is off in time: the stripe between
 //! where it is and where it should be. What damping changes of that is of the order `R`, and counted as a bound.
 
+use super::uncertainty::Off;
+
 /// A linear function of the sources, each between −1 and 1.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Form(Vec<f64>);
@@ -62,6 +64,54 @@ pub(super) struct Dependence {
     rate: Form,
     /// By their places.
     stripes: Vec<Stripe>,
+}
+
+/// How a contact ends and a flight begins.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct TakeOff {
+    /// Where on the circle.
+    pub(super) at: f64,
+    /// How long the contact was.
+    pub(super) len: f64,
+    /// Whether that was a round trip, as between one ray's start and return.
+    pub(super) whole: bool,
+    /// How far the time may be off, and what it is rounded by.
+    pub(super) off: f64,
+    pub(super) rounding: f64,
+    /// The slope of the stress, where it has a root.
+    pub(super) slope: Option<f64>,
+    /// The jump of `q` on the ray that arrives, and that of `p` on the ray that starts.
+    pub(super) jump: (f64, f64),
+    /// `z_t(0,·)` of the vibration.
+    pub(super) end_rate: f64,
+    /// `h″`.
+    pub(super) fall: f64,
+    /// What `h′` is off by, where it is known otherwise.
+    pub(super) known: Option<f64>,
+}
+
+/// How a landing depends on the flight before it, and the contact after it on the landing.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Landing {
+    /// Where on the circle.
+    pub(super) at: f64,
+    /// `v_t` of the end, its greatest rate of change, and how far the time of the landing may be off in all.
+    pub(super) velocity: f64,
+    pub(super) curvature: f64,
+    pub(super) off: Off,
+    /// The age of the flight, `h′`, and `h″`.
+    pub(super) age: f64,
+    pub(super) rate: f64,
+    pub(super) fall: f64,
+    /// The range of `q` of the vibration, its total variation, and its greatest slope between rays.
+    pub(super) range: f64,
+    pub(super) variation: f64,
+    pub(super) slope: f64,
+    /// `z_tt` of the end, where no ray arrives; otherwise the greatest slope.
+    pub(super) bend: f64,
+    /// By how much `∫y` of a contact of one round trip changes with the phase of the vibration, and how far that may be
+    /// off.
+    pub(super) phase: (f64, f64),
 }
 
 /// So many stripes and sources are followed one by one.
@@ -133,6 +183,16 @@ impl Dependence {
     /// The error of `v(0,·)` at the place `to` on the circle, in a flight that began at `from` and has let the
     /// vibration fade by `fade`: so much by the time of the last event and by `δh′`, and what the stripes bring.
     /// Besides, what rays may add that pass within `near`.
+    ///
+    /// With `S(x) = ½ − frac x` and its integral `½ frac x (1 − frac x)`, a mass m at the place u and a level k from u
+    /// to w bring the mean-free displacements `m S(s − u)` and `k (B(s − u) − B(s − w))` to the ground: Φ. At the age
+    /// τ, `s = (1 − e^{−2Rτ})/2R`, where ℓ is how late the last event is and `v_U` the velocity of the end after it,
+    ///
+    /// ```text
+    /// δv(0) = −(z_t(0,U) + h′) ℓ + s δh′ + Σ [e^{−Rτ} Φ(at L) − Φ(at U)]
+    /// ```
+    ///
+    /// Damping leaves all but `e^{−Rτ}` of the masses on the rays; what it scatters of them is a bound.
     pub(super) fn height(
         &self,
         (by_time, by_rate): (f64, f64),
@@ -198,6 +258,9 @@ impl Dependence {
 
     /// A landing, late by `late` and by `more` from a new source; `h″ = fall`, and of `δh′` is kept `kept`, of the
     /// vibration `fade`.
+    ///
+    /// `ℓ′ = −δv(0)/v` and `δh′ = e^{−2Rτ} δh′(0) + h″ (ℓ′ − ℓ)`, as long as `|v̇| δt ≤ |v|/100`; the rest is a new
+    /// source.
     pub(super) fn land(&mut self, (late, more): (Form, f64), (kept, fall): (f64, f64), fade: f64) {
         self.rate = self.rate.times(kept);
         self.rate.add(-fall, &self.late);
@@ -217,6 +280,17 @@ impl Dependence {
 
     /// A contact of one round trip: `δh′` keeps so much of itself, gains so much by the time of the landing, and
     /// `by_mass` of each mass by the place where it passes. All of the vibration turns round.
+    ///
+    /// It begins and ends with one ray, in truth as well: without damping and gravity nothing tells when it was.
+    /// Momentum: `h′ + 2Rh` changes by `−2∫ y dt`, `∫ y = ∫ w q ds`, `w = e^{−κs} + κ(1 − s) + …` from the series of
+    /// `cell::diagonal`. Hence
+    ///
+    /// ```text
+    /// δh′ ← (1 − 2∫ w e^{−Rs} ds) δh′ + (2R (z_t(0,U) − z_t(0,L)) − 2∫ w dq) ℓ′ − 2 Σ m_j (w(s_j) − e^{Rs_j} ∫ w e^{−Rs} ds)
+    /// ```
+    ///
+    /// and the mass of the ray that starts is `−ℓ′ (v_U + y(U⁻))`: the late landing and the late release together,
+    /// since the ray of the landing comes back to the release.
     pub(super) fn round_trip(&mut self, (keeps, by_late): (f64, f64), fade: f64, by_mass: impl Fn(f64) -> f64) {
         let mut rate = self.rate.times(keeps);
         rate.add(by_late, &self.late);
@@ -230,6 +304,9 @@ impl Dependence {
 
     /// Any contact that lasts `len` from a landing at the place `at` with `velocity`, where `h″ = fall`: what passes
     /// the ground turns round, and all fades by `fade`.
+    ///
+    /// At equal times `δh′ − h″ℓ′` less the mean of the vibration's error is one more level everywhere; the late
+    /// landing leaves the mass `2v ℓ′`.
     pub(super) fn contact(&mut self, (at, len): (f64, f64), (velocity, fall): (f64, f64), fade: f64) {
         // At equal times `δh′` is a constant of `q`, and the vibration is what has no mean.
         let mut all = self.rate.clone();
@@ -259,6 +336,9 @@ impl Dependence {
     /// A release after [`Self::contact`] at the place `at`, where `h″ = fall` in flight: at a root of the stress with
     /// this slope, or where a ray arrives, on which `q` jumps by `jump.0`. On the ray that starts p jumps by `jump.1`.
     /// The release is late by `more` besides, and by no more than `most` in all.
+    ///
+    /// At a ray it is as late as the ray is by its mass, `−m/(v_U − y(U⁻))`; at a root, the level there over the slope.
+    /// The ray that starts has the mass `−(v_U + y(U⁻)) ℓ`, and `δh′` is the mean of all.
     pub(super) fn release(
         &mut self,
         (at, fall): (f64, f64),

@@ -1,12 +1,13 @@
 //! What an event does to the state, and to the bound of its error.
 
 use super::account::Proof;
-use super::budget::{AtEvent, LEAP_CELLS, Landing, MOST_LATE, Off, TakeOff, weight_rest};
+use super::budget::{AtEvent, LEAP_CELLS, MOST_LATE, weight_rest};
+use super::dependence::{Landing, TakeOff};
 use super::follow::{Follower, Goal};
 use super::near::{open_release, open_touch};
 use super::piece::{Mark, Unresolved};
 use super::series::{at_zero, bound, derivative, evaluate};
-use super::uncertainty::Uncertainty;
+use super::uncertainty::{Off, Uncertainty};
 use crate::motion::EventKind;
 use crate::reason::{Near, Warning};
 use crate::special::RoundedSpecial;

@@ -8,15 +8,15 @@ use std::ops::ControlFlow;
 
 use super::account::Proof;
 use super::bounce::Held;
-use super::budget::{Budget, CUT_CELLS, FIRST_CELLS, LEAP_CELLS, MOST_LATE, Off};
-use super::effort::{Effort, LEAST_LEAP, MOST_PIECES, MOST_SEGMENTS};
+use super::budget::{Budget, CUT_CELLS, FIRST_CELLS, MOST_LATE};
+use super::effort::{Effort, MOST_PIECES, MOST_SEGMENTS};
 use super::flight::Flight;
 use super::march::{Medium, State};
 use super::piece::{Checkpoint, Found, Mark, Piece, Unresolved};
 use super::root::first_descent;
 use super::series::{at_one, at_zero, bound, derivative, evaluate};
 use super::start::{Data, on_grid};
-use super::uncertainty::Uncertainty;
+use super::uncertainty::{Off, Uncertainty};
 use crate::error::Error;
 use crate::motion::{Ending, EventKind};
 use crate::number::Estimate;
@@ -197,7 +197,7 @@ impl<'a, S: RoundedSpecial> Follower<'a, S> {
 
     /// A strip crosses two cells more on the longest path to the next characteristic, and the first strips of a chain
     /// all that there are on this one.
-    fn add_chain(&mut self) {
+    pub(super) fn add_chain(&mut self) {
         self.budget.add(self.state.segments.len() as f64 * self.cell_error);
     }
 
@@ -466,114 +466,6 @@ impl<'a, S: RoundedSpecial> Follower<'a, S> {
         }
         let (index, flight) = (self.pieces.len(), self.flight);
         self.checkpoints.push(Checkpoint { index, flight, state: self.state.clone(), ground: self.ground.clone() });
-    }
-
-    /// How many round trips can be leapt over: as long as the end surely stays above the ground.
-    ///
-    /// `v(0,t) = h + z(0,t)` with `|z(0,t)| ≤ B e^{−Rτ}` at the age τ from now. For `z` has mean zero, hence
-    /// `|z(0)| ≤ ‖z_x‖/√6` on a rod of length ½; `e^{2Rτ} (|ȧ + Ra|² + ω²|a|²)` is constant in each mode `a`, and lies
-    /// between `1 ∓ ρ` times `e^{2Rτ}(|ȧ|² + (2πk)²|a|²)`, `ρ = R/2π`; and `½ ∫ p² + q² dx ≤ ½ M²` half a round trip
-    /// from now, above the characteristic on which `|q| ≤ M`. So `B = e^{R/2} M √((1 + ρ)/(1 − ρ)/12)`. Where
-    /// `h′ ≥ −g/2R` the fall is concave, and `h − B e^{−Rτ}` with it: both ends decide. Otherwise h falls all the time,
-    /// and its end does.
-    fn leap_length(&self, goal: &Goal<S>) -> Option<i64> {
-        let flight = self.flying()?;
-        let (damping, gravity) = (self.damping(), self.medium.gravity.to_f64());
-        let age = flight.age((self.state.round, &self.state.segments[0].at));
-        let (height, rate) = flight.at(&age);
-        let most = self.state.bound() + self.noise();
-        let rho = damping / (2.0 * std::f64::consts::PI);
-        let bound = (0.5 * damping).exp() * most * ((1.0 + rho) / (1.0 - rho) / 12.0).sqrt();
-        let passing = self.medium.passing(&self.state);
-        let concave = rate.to_f64() >= -gravity / (2.0 * damping);
-        let clear = |trips: f64| {
-            let later = flight.at(&(age.clone() + age.double(trips))).0.to_f64();
-            let fade = if concave { (-damping * trips).exp() } else { 1.0 };
-            later > bound * fade + self.height_most(trips) + trips * passing
-        };
-        let mut most = match goal {
-            Goal::Time(end) => (end.clone() - self.state.time()).to_f64().floor() - 1.0,
-            Goal::Impacts(_) if gravity > 0.0 => 1e15,
-            Goal::Impacts(_) => return None,
-        };
-        if self.state.bound() > 0.0 {
-            most = most.min(super::leap::most_trips(damping).floor());
-        }
-        if height.to_f64() <= bound || most < LEAST_LEAP || !clear(LEAST_LEAP) {
-            return None;
-        }
-        let (mut low, mut high) = (LEAST_LEAP, 2.0 * LEAST_LEAP);
-        while high < most && clear(high) {
-            (low, high) = (high, 2.0 * high);
-        }
-        high = high.min(most);
-        if clear(high) {
-            low = high;
-        }
-        while high - low > 1.0 {
-            let middle = (0.5 * (low + high)).floor();
-            if clear(middle) { low = middle } else { high = middle }
-        }
-        Some(low as i64)
-    }
-
-    /// Leaps over so many round trips of a flight.
-    fn leap(&mut self, trips: i64) {
-        let from = self.state.time();
-        let passing = self.medium.passing(&self.state);
-        let before = (self.state.segments.len(), self.state.bound() + self.ground.to_f64().abs());
-        let least = self.least_over(trips as f64);
-        let count = self.medium.leap(&mut self.state, &self.ground, trips);
-        self.prove(|proof, run| proof.leap(run, trips as f64, least, &count, before));
-        self.budget.leap(trips as f64, LEAP_CELLS * self.cell_error, passing);
-        (self.rising, self.last_trace) = (false, None);
-        self.pieces.push(Piece {
-            len: from.int(trips),
-            from,
-            contact: false,
-            flight: self.flight,
-            cut: false,
-            still: false,
-            leap: trips,
-            trace: Vec::new(),
-            height: Vec::new(),
-        });
-        self.forget();
-        self.add_chain();
-        if let Some((height, _)) = self.centre() {
-            self.height = height + self.medium.ground_of(&self.state);
-        }
-        self.budget.note_end(self.height_error(0.0));
-    }
-
-    /// Forgets rays and vibrations that are below the truncation of a cell.
-    fn forget(&mut self) {
-        let most = self.state.bound();
-        let least = self.medium.least() * self.medium.gravity.to_f64();
-        if most > 0.0 && most <= least {
-            self.budget.add(most);
-            self.prove(|proof, _| proof.drop(most));
-            self.medium.still(&mut self.state);
-        } else {
-            let joined = self.medium.join_all(&mut self.state);
-            self.budget.add(joined as f64 * self.cell_error);
-            self.prove(|proof, run| proof.joins(run.medium, joined));
-        }
-    }
-
-    /// No more than the least of `v(0,·)` over so many round trips: that of `h − B e^{−Rτ}`, concave or falling, as in
-    /// [`Self::leap_length`]; less a billionth of what it is the difference of.
-    fn least_over(&self, trips: f64) -> f64 {
-        let Some(flight) = self.flying() else { return f64::NEG_INFINITY };
-        let (damping, gravity) = (self.damping(), self.medium.gravity.to_f64());
-        let age = flight.age((self.state.round, &self.state.segments[0].at));
-        let (now, rate) = flight.at(&age);
-        let rho = damping / (2.0 * std::f64::consts::PI);
-        let bound = (0.5 * damping).exp() * self.state.bound() * ((1.0 + rho) / (1.0 - rho) / 12.0).sqrt();
-        let later = flight.at(&(age.clone() + age.double(trips))).0.to_f64();
-        let concave = rate.to_f64() >= -gravity / (2.0 * damping) * (1.0 - 1e-9);
-        let (start, fade) = if concave { (now.to_f64(), (-damping * trips).exp()) } else { (f64::INFINITY, 1.0) };
-        (start - bound).min(later - bound * fade) - 1e-9 * (now.to_f64().abs() + later.abs() + bound)
     }
 
     /// A ray that may be off in time passes the ground: in flight the height takes its jump at the wrong time.

@@ -11,9 +11,9 @@
 use std::collections::VecDeque;
 use std::sync::OnceLock;
 
-use super::budget::Off;
 use super::cell::{Cell, cross, diagonal, scale};
 use super::series::{Basis, at_one, at_zero, bound, evaluate, terms_for, unit_rule};
+use super::uncertainty::Off;
 use crate::number::Rounded;
 
 /// The strongest damping `R` for which flights are leapt over: `R²‖D⁻²‖ ≤ 0.13`.

@@ -3,6 +3,22 @@
 use crate::motion::Event;
 use crate::number::{Estimate, Rounded, Scalar};
 
+/// What either account says of an error.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct Off {
+    /// The account that takes `v` as one.
+    pub(super) fixed: f64,
+    /// The account of flights that are taken apart.
+    pub(super) apart: f64,
+}
+
+impl Off {
+    /// The greater in both.
+    pub(super) fn max(self, other: Off) -> Off {
+        Off { fixed: self.fixed.max(other.fixed), apart: self.apart.max(other.apart) }
+    }
+}
+
 /// How far the values of a run may be off between two events, in natural scales, away from rays that are off in time.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Uncertainty {

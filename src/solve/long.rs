@@ -11,6 +11,7 @@ use super::history::History;
 use super::ladder::{Engined, Target};
 use super::observer::Observer;
 use super::plan::{Engine, Lacks, MOST_PROVED, Plan, Rung};
+use super::question::Numbers;
 use crate::cells::{ContactThenCells, Damped, Effort};
 use crate::error::Error;
 use crate::first_contact::{Bounce, ContactHistory, FirstContact};
@@ -94,7 +95,10 @@ fn estimates(problem: &Problem, plan: &Plan, bits: u32, observe: &Observer) -> R
             }
             Arc::new(history)
         }
-        Engine::Cells => Arc::new(Damped::<Float>::solve_observed(problem, &bits, effort, 1, &**observe)?),
+        Engine::Cells => match shown(problem, plan, bits, observe)? {
+            Some(run) => run,
+            None => Arc::new(Damped::<Float>::solve_observed(problem, &bits, effort, 1, &**observe)?),
+        },
         Engine::ClosedForm if !plan.settles_events => {
             Arc::new(ContactHistory::<Estimate<Float>>::solve(problem, &bits)?)
         }
@@ -107,9 +111,32 @@ fn estimates(problem: &Problem, plan: &Plan, bits: u32, observe: &Observer) -> R
             if plan.engine == Engine::ClosedForm {
                 return Ok(Arc::new(ContactThenCells::<Float>::first_contact(problem, &bits, bounce)?));
             }
+            if matches!(bounce, Bounce::At { .. })
+                && let Some(run) = shown(problem, plan, bits, observe)?
+            {
+                return Ok(run);
+            }
             Arc::new(ContactThenCells::<Float>::solve_observed(problem, &bits, effort, bounce, None, &**observe)?)
         }
     })
+}
+
+/// A damped run in so many bits with what is proved of it, where digits are asked for and it is proved to its end.
+fn shown(problem: &Problem, plan: &Plan, bits: u32, observe: &Observer) -> Result<Option<Engined<Float>>, Error> {
+    if !matches!(plan.numbers, Numbers::Digits(_)) || bits > MOST_PROVED {
+        return Ok(None);
+    }
+    match prove(problem, plan, bits, observe) {
+        Ok(run) if !matches!(run.ending(), Ending::Unproved { .. }) => Ok(Some(Arc::new(run))),
+        Ok(_) | Err(Error::NotDecided { .. }) => Ok(None),
+        Err(error) => Err(error),
+    }
+}
+
+fn prove(problem: &Problem, plan: &Plan, bits: u32, observe: &Observer) -> Result<Damped<Float>, Error> {
+    let digits = f64::from(bits) * std::f64::consts::LOG10_2;
+    let effort = Effort { digits, until_lost: false, ..plan.effort(Rung::Bits(bits)) };
+    Damped::<Float>::prove(problem, &bits, effort, &**observe)
 }
 
 /// `h′` at the bounce that doubles have found, in numbers of so many bits: the first flight, and all that follows, hangs on it.
@@ -173,9 +200,7 @@ fn proved(problem: &Problem, plan: &Plan, bits: u32, observe: &Observer) -> Resu
     if bits > MOST_PROVED {
         return Err(Error::Undecided { digits: plan.goal.digits as u32, bits: MOST_PROVED });
     }
-    let digits = f64::from(bits) * std::f64::consts::LOG10_2;
-    let effort = Effort { digits, until_lost: false, ..plan.effort(Rung::Enclosures(bits)) };
-    let run = Damped::<Float>::prove(problem, &bits, effort, &**observe)?;
+    let run = prove(problem, plan, bits, observe)?;
     if matches!(run.ending(), Ending::Unproved { .. }) && !last_proof(plan, bits) {
         return Err(Error::NotDecided { what: "what happens at the ground", bits });
     }
