@@ -35,6 +35,8 @@ pub(super) struct Release<S> {
     /// How far the time may be off as far as the stress says, and how steep the stress is there.
     pub(super) late: f64,
     pub(super) steep: f64,
+    /// How far the ray is off that lets it go, by no clock.
+    pub(super) ray: f64,
     pub(super) at: S,
 }
 
@@ -52,8 +54,8 @@ pub(super) struct Proof<S> {
     /// The fastest change of `p` and `q` between rays so far, and the greatest `|q|`.
     pub(super) slope: f64,
     pub(super) most: f64,
-    /// Where events have started rays, and how far those are off, less Θ.
-    pub(super) rays: Vec<(S, f64)>,
+    /// Where events have started rays, and how far those are off: by the clock, less Θ, and by none.
+    pub(super) rays: Vec<(S, [f64; 2])>,
     /// When the last event was.
     pub(super) since: f64,
     /// E when centre of mass and vibration were taken apart.
@@ -74,10 +76,10 @@ pub(super) struct Proof<S> {
     /// Whether the end has only risen since its release, and is not clear of the ground.
     pub(super) rising: bool,
     pub(super) release: Option<Release<S>>,
-    /// How far the landing is off that has just been shown.
-    pub(super) landed: Option<f64>,
-    /// How far the events are off.
-    pub(super) events: Vec<f64>,
+    /// How far the landing is off that has just been shown: see `events`.
+    pub(super) landed: Option<[f64; 2]>,
+    /// How far the events are off: by no clock, and by the one that holds then.
+    pub(super) events: Vec<[f64; 2]>,
     /// How far values may be off before the first event, and after each.
     pub(super) known: Vec<Uncertainty>,
     /// What is open, and how many pieces are shown.
@@ -156,11 +158,11 @@ impl<S: RoundedSpecial> Proof<S> {
         self.add(64.0 * self.steps.unit * rate * trips);
     }
 
-    /// A ray starts that is off by so much, with a mass.
-    pub(super) fn starts(&mut self, at: S, time: f64, late: f64, mass: f64) {
+    /// A ray starts that is off by so much, by no clock and by the one that holds now, with a mass.
+    pub(super) fn starts(&mut self, at: S, time: f64, [off, late]: [f64; 2], mass: f64) {
         self.masses += mass * (1.0 + SLACK);
         self.late = self.late.max(late - self.shift);
-        self.rays.push((at, late - self.shift));
+        self.rays.push((at, [late - self.shift, off]));
         self.since = time;
     }
 
@@ -171,10 +173,12 @@ impl<S: RoundedSpecial> Proof<S> {
         self.masses += late * change.jumps * (1.0 + SLACK);
     }
 
-    /// How far the ray may be off that comes down here, besides by roundings.
-    pub(super) fn ray_at(&self, at: &S) -> f64 {
-        let known = self.rays.iter().filter(|(ray, _)| ray == at).map(|(_, late)| *late);
-        self.shift + known.reduce(f64::max).unwrap_or(0.0)
+    /// How far the ray may be off that comes down here, besides by roundings: by no clock, and by the one that holds
+    /// now. Those of the start are where they should be.
+    pub(super) fn ray_at(&self, at: &S) -> [f64; 2] {
+        let known = self.rays.iter().filter(|(ray, _)| ray == at).map(|(_, off)| *off);
+        let [late, off] = known.reduce(|a, b| [a[0].max(b[0]), a[1].max(b[1])]).unwrap_or_default();
+        [off, self.shift + late]
     }
 
     /// How far any ray may be off.

@@ -135,8 +135,6 @@ impl<S: RoundedSpecial> Damped<S> {
         // Where the time may be off without bound, so may all else already.
         let equal_times = found.late == 0.0 && time_error.is_finite();
         let off = if equal_times { *time_error } else { 0.0 };
-        // A proof has times by a clock that is set at impacts, and an event may be off by that one too.
-        let off = if self.proved { (*time_error - found.late * self.scales.time).max(0.0) } else { off };
         let near = self.scaled(Uncertainty { late: (off + rounding) / self.scales.time, ..found });
         let Some(AtEvent { rise, centre, speed, end, rate, .. }) = self.at_events[event] else { return near };
         let found = Uncertainty { rise, speed, rate, late: rounding / self.scales.time, ..found };

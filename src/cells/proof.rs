@@ -15,6 +15,7 @@
 //! What the signs below do not show ends the proof: at the beginning of the strip in question.
 
 use super::account::{Change, Open, Proof, Release, SLACK};
+use super::budget::AtEvent;
 use super::follow::Follower;
 use super::leap::LeapCount;
 use super::march::Medium;
@@ -24,7 +25,7 @@ use super::signs::{Part, below, clear, doubles, steep};
 use super::start::{Data, on_grid};
 use super::uncertainty::Uncertainty;
 use crate::error::Error;
-use crate::motion::Ending;
+use crate::motion::{Ending, EventKind};
 use crate::reason::{Near, Reason};
 use crate::special::RoundedSpecial;
 
@@ -155,23 +156,23 @@ impl<S: RoundedSpecial> Proof<S> {
     }
 
     /// What an event leaves that is off by so much.
-    fn event(&mut self, late: f64) {
-        self.events.push(late);
+    fn event(&mut self, off: [f64; 2]) {
+        self.events.push(off);
         let last = self.known[self.known.len() - 1];
         self.known.push(Uncertainty { late: self.shift, ..last });
     }
 
     /// The contact that the run begins with.
     pub(super) fn contact(&mut self) {
-        self.event(0.0);
+        self.event([0.0; 2]);
         self.known[1] = Uncertainty::default();
     }
 
     /// The impact that has been shown.
     pub(super) fn impact(&mut self, run: &Follower<'_, S>) {
         match self.landed.take() {
-            Some(late) => {
-                self.event(late);
+            Some(off) => {
+                self.event(off);
                 self.note(run, run.state.time().to_f64(), 0.0);
             }
             // At a ray: a coincidence.
@@ -189,8 +190,8 @@ impl<S: RoundedSpecial> Proof<S> {
 
     /// The ground lets go at a ray, `left` having been the last stress.
     pub(super) fn let_go_at_ray(&mut self, run: &Follower<'_, S>, left: &S, at: &S) {
-        let (late, pieces) = (self.ray_at(at), run.pieces.len().saturating_sub(1));
-        self.release = Some(Release { pieces, left: Some(left.to_f64()), late, steep: 0.0, at: at.clone() });
+        let ([ray, late], pieces) = (self.ray_at(at), run.pieces.len().saturating_sub(1));
+        self.release = Some(Release { pieces, left: Some(left.to_f64()), late, steep: 0.0, ray, at: at.clone() });
     }
 
     /// A strip is going to be marched, up to `cut` if there is one, with which the ground lets go or is hit if `event`.
@@ -270,7 +271,8 @@ impl<S: RoundedSpecial> Proof<S> {
         self.note(run, time, 0.0);
         let place = on_grid(run.state.segments[0].at.clone() + cut);
         let place = if place >= place.one() { place.clone() - place.one() } else { place };
-        self.release = Some(Release { pieces: run.pieces.len(), left: None, late, steep, at: place });
+        self.release =
+            Some(Release { pieces: run.pieces.len(), left: None, late, steep, ray: f64::INFINITY, at: place });
         Ok(())
     }
 
@@ -278,7 +280,13 @@ impl<S: RoundedSpecial> Proof<S> {
     ///
     /// **At a ray**: the stress is below −F on its one side, and the velocity above F on its other.
     /// **At a root**: by `t̂ + τ` the velocity is above F, where τ is as great as that needs.
-    fn released(&mut self, run: &Follower<'_, S>, release: &Release<S>, trace: &[S], own: f64) -> Result<f64, Open> {
+    fn released(
+        &mut self,
+        run: &Follower<'_, S>,
+        release: &Release<S>,
+        trace: &[S],
+        own: f64,
+    ) -> Result<[f64; 2], Open> {
         let (zero, time) = (trace[0].zero(), run.state.time().to_f64());
         let right = at_zero(trace, &zero).to_f64();
         let size = bound(trace, 0);
@@ -303,9 +311,10 @@ impl<S: RoundedSpecial> Proof<S> {
         // One motion has contact and the other flies for as long as they differ by: once, but maybe twice at a root.
         let times = if release.left.is_some() { 2.0 } else { 4.0 };
         self.left = times * late_ray * most;
-        self.starts(release.at.clone(), time, late_ray, self.left);
+        let off = [release.ray.min(self.shift + late), late];
+        self.starts(release.at.clone(), time, off.map(|off| off + 64.0 * self.steps.unit), self.left);
         (self.summed, self.rising) = (0.0, true);
-        Ok(late)
+        Ok(off)
     }
 
     /// A strip in flight.
@@ -345,7 +354,7 @@ impl<S: RoundedSpecial> Proof<S> {
         }
         let (quick, low) = (doubles(trace), doubles(height));
         let mut from = 0.0;
-        if let Some((late, true)) = late {
+        if let Some(([_, late], true)) = late {
             // It rises faster and faster, and is above F from τ on.
             let rate = doubles(&derivative(trace));
             let rate = Part::of(&self.doubles, &rate);
@@ -357,9 +366,9 @@ impl<S: RoundedSpecial> Proof<S> {
             });
             from = rises.ok_or(Open { what: Near::Release, differ: 2.0 * bound(trace, 0) })?;
         }
-        if let Some((late, _)) = late {
+        if let Some((off, _)) = late {
             self.release = None;
-            self.event(self.shift + late);
+            self.event(off);
         }
         let shown = |part: (f64, f64), rising: &mut bool| {
             let mut again = *rising;
@@ -396,11 +405,12 @@ impl<S: RoundedSpecial> Proof<S> {
         let mass = 2.0 * (most + fast);
         if change.between + change.jumps < mass {
             self.set_clock(late, change);
-            self.starts(place, time, 64.0 * self.steps.unit, 0.0);
-            self.landed = Some(self.shift);
+            let rounding = 64.0 * self.steps.unit;
+            self.starts(place, time, [self.shift + rounding, rounding], 0.0);
+            self.landed = Some([self.shift, 0.0]);
         } else {
-            self.starts(place, time, late, late * mass);
-            self.landed = Some(self.shift + late);
+            self.landed = Some([self.shift + late, late]);
+            self.starts(place, time, [self.shift + late, late], late * mass);
         }
         Ok(())
     }
@@ -439,7 +449,7 @@ impl<S: RoundedSpecial> Found<S> {
     /// **Errors**: [`Error::NotDecided`] where nothing is.
     pub(super) fn proved(mut self, medium: &Medium<S>, data: &Data<S>) -> Result<Self, Error> {
         let Some(proof) = self.proof.take() else { return Ok(self) };
-        let unit = proof.steps.unit;
+        let (unit, damping) = (proof.steps.unit, 2.0 * medium.kappa.to_f64());
         let mut open = proof.open;
         let off = proof.known.last().map_or(0.0, |known| known.rise + known.speed);
         if open.is_none() && !ends_so(&self.ending, off, medium, data) {
@@ -457,15 +467,22 @@ impl<S: RoundedSpecial> Found<S> {
         self.warnings.clear();
         (self.unresolved, self.end_error) = (None, 0.0);
         let rounding = |time: f64| 16.0 * unit * (1.0 + time);
-        let latest = proof.events.iter().copied().fold(0.0, f64::max);
+        let latest = proof.events.iter().map(|[off, _]| *off).fold(0.0, f64::max);
         self.before = proof.known[0];
         for (k, mark) in self.marks.iter_mut().enumerate() {
             let time = mark.time.to_f64();
-            mark.time_error = if time == 0.0 { 0.0 } else { proof.events[k] + rounding(time) };
-            mark.at = None;
+            let [off, late] = proof.events[k];
+            mark.time_error = if time == 0.0 { 0.0 } else { off + rounding(time) };
+            let (after, released) = (proof.known[k + 1], mark.kind == EventKind::Release);
+            let contact = if released { proof.known[k] } else { after };
+            let late = late + rounding(time);
+            let (rise, speed) = (contact.rise + late * after.most, after.speed + late * after.slope);
+            let rate = after.rate + 4.0 * late * after.most;
+            let momentum = rate + 2.0 * damping * rise;
+            mark.at = Some(AtEvent { rise, centre: rise, speed, end: speed, rate, momentum });
             mark.after = Uncertainty { rays: latest + rounding(time), ..proof.known[k + 1] };
         }
-        if let (Some(late), Ending::NextImpact) = (proof.landed, &self.ending) {
+        if let (Some([late, _]), Ending::NextImpact) = (proof.landed, &self.ending) {
             let end = self.pieces.last().map_or(0.0, |piece| piece.to().to_f64());
             self.end_error = (late + rounding(end)) * (1.0 + SLACK);
         }
