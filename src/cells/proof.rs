@@ -508,4 +508,5 @@ fn ends_so<S: RoundedSpecial>(ending: &Ending, off: f64, medium: &Medium<S>, dat
 
 #[cfg(all(test, feature = "mp"))]
 #[path = "tests/proof.rs"]
+#[allow(clippy::unwrap_used)]
 mod tests;
