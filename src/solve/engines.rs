@@ -4,7 +4,6 @@ use std::sync::Arc;
 
 use super::asked::{Longer, Open, Telling};
 use super::derivative::{Asked, Derivatives};
-use super::history::History;
 use super::ladder::{Engined, Target};
 use super::observer::Observer;
 use super::plan::{DEFAULT_ACCURACY, Engine, Plan, Rung};
@@ -75,12 +74,12 @@ impl Target for f64 {
 
     /// As many digits as a double has where a run takes no time. Otherwise from doubles, where no more is asked for than
     /// they have and nothing jumps or bends; where they do not settle it, one digit more than the run is asked for.
-    fn derivatives(asked: &Asked<'_>, history: &History<f64>) -> Result<Derivatives<Estimate<f64>>, Error> {
+    fn derivatives(asked: &Asked<'_>, run: &Engined<f64>) -> Result<Derivatives<Estimate<f64>>, Error> {
         let quick = asked.plan.engine == Engine::Lattice && asked.by != Parameter::Damping;
         let plain = asked.plan.goal.digits <= -DEFAULT_ACCURACY.log10();
         if !quick
             && plain
-            && let Ok(Some(found)) = interpolated::of(asked, history)
+            && let Ok(Some(found)) = interpolated::of(asked, run)
         {
             return Ok(found);
         }

@@ -6,7 +6,6 @@ use super::asked::{Longer, Open, Telling};
 use super::converted::Converted;
 use super::derivative::{Asked, Derivatives};
 use super::exact;
-use super::history::History;
 use super::ladder::{Engined, Target};
 use super::observer::Observer;
 use super::plan::{Plan, Rung};
@@ -21,7 +20,7 @@ impl Target for Rational {
         Ok(Arc::new(fractions(problem, plan, observe)?))
     }
 
-    fn derivatives(asked: &Asked<'_>, _: &History<Self>) -> Result<Derivatives<Rational>, Error> {
+    fn derivatives(asked: &Asked<'_>, _: &Engined<Self>) -> Result<Derivatives<Rational>, Error> {
         exact::derivatives(asked)
     }
 }

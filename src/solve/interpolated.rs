@@ -8,11 +8,12 @@
 //! the second difference as great: where either is, runs in long numbers settle it.
 
 use super::derivative::{Asked, Derivative, Derivatives};
-use super::history::History;
+use super::ladder::{Engined, Ladder, settled};
 use super::plan::Plan;
 use super::question::Question;
 use crate::error::Error;
 use crate::mapped::CollectVec;
+use crate::motion::Motion;
 use crate::number::{Estimate, Number, Rational, Scalar};
 use crate::problem::{Parameter, Problem};
 use crate::threads::Threads;
@@ -29,15 +30,15 @@ const WANTED: f64 = 1e-5;
 /// A second derivative may be so many times its natural size.
 const BEND: f64 = 100.0;
 
-/// The derivatives that are `asked` for by three runs beside `history`; `None` where some are not settled to [`WANTED`].
+/// The derivatives that are `asked` for by three runs beside this `run`; `None` where some are not settled to [`WANTED`].
 ///
 /// **Errors**: those of the runs.
-pub(super) fn of(asked: &Asked<'_>, history: &History<f64>) -> Result<Option<Derivatives<Double>>, Error> {
+pub(super) fn of(asked: &Asked<'_>, run: &Engined<f64>) -> Result<Option<Derivatives<Double>>, Error> {
     let value = asked.by.value_in::<f64>(asked.problem, &())?;
     if value == 0.0 && asked.by == Parameter::Gravity {
         return Ok(None);
     }
-    let (base, scales) = rows(asked, asked.problem, history)?;
+    let (base, scales) = rows(asked, asked.problem, &**run)?;
     let size = |(number, scale): (&Option<Double>, &f64)| {
         let number = number.as_ref()?;
         Some(number.bound() / number.value().abs().max(*scale))
@@ -67,8 +68,13 @@ fn with_step(
         let by = step.to_rational() * Rational::from(offsets[k]);
         let Some(problem) = asked.by.moved(asked.problem, &by) else { return Ok(Vec::new()) };
         let plan = Plan::of(&problem, &Question { want: asked.want.clone(), numbers: asked.plan.numbers })?;
-        let history = History::<f64>::solve(&problem, &plan, asked.observe.clone())?;
-        rows(asked, &problem, &history).map(|(rows, _)| rows)
+        let ladder = Ladder { problem: &problem, plan: &plan, observe: asked.observe };
+        let found = settled::<f64, _, _>(
+            |motion| rows(asked, &problem, motion),
+            |(rows, _)| rows.iter().flatten().flatten().collect_vec(),
+            |query| ladder.settle::<f64>(Vec::new(), query),
+        )?;
+        Ok::<Rows, Error>(found.1.0)
     };
     let runs = Threads::default().all(3, run)?;
     let scale = if value == 0.0 { asked.by.scale_of_zero(asked.problem).to_f64() } else { value };
@@ -93,11 +99,8 @@ fn with_step(
 }
 
 /// The numbers of a run, and the natural scale of each column.
-fn rows(asked: &Asked<'_>, problem: &Problem, history: &History<f64>) -> Result<(Rows, Vec<f64>), Error> {
-    history.ask(
-        |motion| Ok((asked.values(problem, motion)?, asked.scales(problem, motion))),
-        |(rows, _)| rows.iter().flatten().flatten().collect_vec(),
-    )
+fn rows(asked: &Asked<'_>, problem: &Problem, motion: &dyn Motion<Double>) -> Result<(Rows, Vec<f64>), Error> {
+    Ok((asked.values(problem, motion)?, asked.scales(problem, motion)))
 }
 
 /// Where the runs are.

@@ -4,7 +4,6 @@
 use std::sync::Arc;
 
 use super::derivative::{Asked, Derivatives};
-use super::history::History;
 use super::observer::{Observer, UNOBSERVED};
 use super::plan::{Engine, Goal, Lacks, Plan, Rung};
 use crate::error::Error;
@@ -54,10 +53,10 @@ pub trait Target: Answer {
     /// **Errors**: those of the engine; [`Error::NotDecided`] where these numbers do not settle a comparison.
     fn run(problem: &Problem, plan: &Plan, rung: Rung, observe: &Observer) -> Result<Engined<Self>, Error>;
 
-    /// The derivatives of what `history` is asked for, by the numbers that this system has them from.
+    /// The derivatives of what is asked of a history whose engine is `run`, by the numbers that this system has them from.
     ///
     /// **Errors**: those of runs with other values; [`Error::Derivative`].
-    fn derivatives(asked: &Asked<'_>, history: &History<Self>) -> Result<Derivatives<Self::Carried>, Error>;
+    fn derivatives(asked: &Asked<'_>, run: &Engined<Self>) -> Result<Derivatives<Self::Carried>, Error>;
 }
 
 /// A problem and its plan, of which attempts are made.

@@ -7,7 +7,6 @@ use super::converted::Converted;
 use super::derivative::{Asked, Derivatives};
 use super::differences;
 use super::fractions::confirmed;
-use super::history::History;
 use super::ladder::{Engined, Target};
 use super::observer::Observer;
 use super::plan::{Engine, Lacks, MOST_PROVED, Plan, Rung};
@@ -39,7 +38,7 @@ impl Target for Float {
         }
     }
 
-    fn derivatives(asked: &Asked<'_>, _: &History<Self>) -> Result<Derivatives<Estimate<Float>>, Error> {
+    fn derivatives(asked: &Asked<'_>, _: &Engined<Self>) -> Result<Derivatives<Estimate<Float>>, Error> {
         differences::of(asked, asked.plan.goal.digits.ceil() as u32)
     }
 }
@@ -52,7 +51,7 @@ impl Target for Interval {
         enclosures(problem, plan, bits_of(rung), observe)
     }
 
-    fn derivatives(asked: &Asked<'_>, _: &History<Self>) -> Result<Derivatives<Interval>, Error> {
+    fn derivatives(asked: &Asked<'_>, _: &Engined<Self>) -> Result<Derivatives<Interval>, Error> {
         Err(Error::Derivative { parameter: asked.by.name(), expected: "digits that need not be proved" })
     }
 }

@@ -2,7 +2,6 @@
 
 use super::asked::Longer;
 use super::derivative::{Asked, Derivatives};
-use super::history::History;
 use super::ladder::{Engined, Target};
 use super::observer::Observer;
 use super::plan::{Plan, Rung};
@@ -26,7 +25,7 @@ macro_rules! absent {
             fn run(_: &Problem, _: &Plan, _: Rung, _: &Observer) -> Result<Engined<$name>, Error> {
                 Err(Error::NoMultiprecision)
             }
-            fn derivatives(_: &Asked<'_>, _: &History<$name>) -> Result<Derivatives<$carried>, Error> {
+            fn derivatives(_: &Asked<'_>, _: &Engined<$name>) -> Result<Derivatives<$carried>, Error> {
                 Err(Error::NoMultiprecision)
             }
         }

@@ -19,6 +19,7 @@
 mod asked;
 mod converted;
 mod derivative;
+mod derived;
 #[cfg_attr(not(feature = "mp"), path = "differences_absent.rs")]
 mod differences;
 mod engines;
