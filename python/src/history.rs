@@ -155,6 +155,8 @@ impl History {
 impl History {
     /// `double`, `exact`, `digits` or `certified`; the end; why it is the end, the engine, and what was asked;
     /// warnings; `t₁`, the greatest speed, `L`, `c` and `g`.
+    // Without long numbers there are no enclosures to have scales.
+    #[allow(unreachable_code)]
     fn facts(&self) -> (&'static str, Cell, [String; 3], Vec<String>, [f64; 5]) {
         let (kind, first) = match &*self.solution {
             Solution::Double(_) => ("double", None),
