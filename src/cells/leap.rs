@@ -71,14 +71,19 @@ struct Circle<'a, S> {
     accuracy: f64,
 }
 
-/// What is left of a sum of absolute values from each term on.
-fn rests<S: RoundedSpecial>(terms: &[S]) -> Vec<f64> {
+/// What is left of a sum of absolute values from each term on, where a function in one term is at most `norm` of that
+/// in the term before.
+fn rests<S: RoundedSpecial>(terms: &[S], norm: f64) -> Vec<f64> {
     let mut rests: Vec<f64> = terms.iter().map(|term| term.to_f64().abs()).collect();
     for k in (1..rests.len()).rev() {
-        rests[k - 1] += rests[k];
+        rests[k - 1] += norm * rests[k];
     }
     rests
 }
+
+/// `‖D⁻¹‖` on functions of mean zero, as the account has it; and that of its square.
+const HALF: f64 = 0.5;
+const QUARTER: f64 = HALF * HALF;
 
 /// What a leap has summed up.
 #[derive(Clone, Copy, Debug, Default)]
@@ -170,16 +175,19 @@ impl<S: RoundedSpecial> Circle<'_, S> {
         let mut power = f.to_vec();
         let mut sum = vec![vec![self.parts[0].0.zero(); self.basis.size()]; f.len()];
         let small = self.accuracy / (self.weight.get() * self.size.get());
-        let terms = coefficients.iter().zip(rests(coefficients)).take_while(|(_, rest)| *rest >= small);
-        for (m, (factor, rest)) in terms.enumerate() {
+        let enough = rests(coefficients, 1.0).into_iter().take_while(|rest| *rest >= small).count();
+        let size = self.size.get();
+        for (m, (factor, rest)) in coefficients.iter().zip(rests(coefficients, QUARTER)).take(enough).enumerate() {
             self.weighed(rest, || {
                 self.antiderivative(&mut power);
                 if m > 0 || !odd {
                     self.antiderivative(&mut power);
                 }
             });
+            self.size.set(QUARTER * self.size.get());
             add(&mut sum, &power, factor);
         }
+        self.size.set(size);
         sum
     }
 
@@ -203,15 +211,18 @@ impl<S: RoundedSpecial> Circle<'_, S> {
             c[1] = -(len.clone() * &half);
         }
         let mut sum = vec![vec![zero; self.basis.size()]; self.parts.len()];
-        for (m, (factor, rest)) in self.lag.iter().zip(rests(&self.lag)).enumerate() {
+        let size = self.size.get();
+        for (m, (factor, rest)) in self.lag.iter().zip(rests(&self.lag, QUARTER)).enumerate() {
             if m > 0 {
                 self.weighed(rest, || {
                     self.antiderivative(&mut sawtooth);
                     self.antiderivative(&mut sawtooth);
                 });
             }
+            self.size.set(QUARTER * self.size.get());
             add(&mut sum, &sawtooth, factor);
         }
+        self.size.set(size);
         sum
     }
 }
@@ -268,7 +279,8 @@ impl<S: RoundedSpecial> Medium<S> {
         // (in), by Horner's rule.
         let gamma = circle.lagged_delta();
         let mut products = vec![(rate, value)];
-        let lag: f64 = circle.lag.iter().map(|factor| factor.to_f64().abs()).sum();
+        // ‖G‖, by the same.
+        let lag = HALF * rests(&circle.lag, QUARTER).first().copied().unwrap_or(0.0);
         for j in 1..=layers {
             let (mut rate, mut value) = products[j - 1].clone();
             let factor = damping.ratio(-1, 2 * j as i64);
@@ -428,10 +440,12 @@ impl<S: RoundedSpecial> Medium<S> {
             }
         }
         let mut power = wave.clone();
-        for (factor, rest) in coefficients.iter().zip(rests(&coefficients)).skip(1) {
+        for (factor, rest) in coefficients.iter().zip(rests(&coefficients, HALF)).skip(1) {
             circle.weighed(rest, || circle.antiderivative(&mut power));
+            circle.size.set(HALF * circle.size.get());
             add(wave, &power, factor);
         }
+        circle.size.set(1.0);
         let decay = (-(damping.clone() * &n)).exp();
         for c in wave {
             scale(c, &decay);
