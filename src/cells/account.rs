@@ -48,7 +48,7 @@ pub(super) struct Proof<S> {
     pub(super) even: f64,
     pub(super) masses: f64,
     /// Θ: how far the clock of the true motion may have been set since the start.
-    pub(super) shift: f64,
+    pub(super) clock: f64,
     /// The most that a ray so far is off by that clock, less Θ.
     pub(super) late: f64,
     /// The fastest change of `p` and `q` between rays so far, and the greatest `|q|`.
@@ -94,7 +94,7 @@ impl<S: RoundedSpecial> Proof<S> {
             steps,
             even: 0.0,
             masses: 0.0,
-            shift: 0.0,
+            clock: 0.0,
             late: 0.0,
             slope: 0.0,
             most: 0.0,
@@ -161,14 +161,14 @@ impl<S: RoundedSpecial> Proof<S> {
     /// A ray starts that is off by so much, by no clock and by the one that holds now, with a mass.
     pub(super) fn starts(&mut self, at: S, time: f64, [off, late]: [f64; 2], mass: f64) {
         self.masses += mass * (1.0 + SLACK);
-        self.late = self.late.max(late - self.shift);
-        self.rays.push((at, [late - self.shift, off]));
+        self.late = self.late.max(late - self.clock);
+        self.rays.push((at, [late - self.clock, off]));
         self.since = time;
     }
 
     /// The clock of the true motion is set by at most τ, where the motion changes like this.
     pub(super) fn set_clock(&mut self, late: f64, change: Change) {
-        self.shift += late * (1.0 + SLACK);
+        self.clock += late * (1.0 + SLACK);
         self.add(late * change.between);
         self.masses += late * change.jumps * (1.0 + SLACK);
     }
@@ -178,12 +178,12 @@ impl<S: RoundedSpecial> Proof<S> {
     pub(super) fn ray_at(&self, at: &S) -> [f64; 2] {
         let known = self.rays.iter().filter(|(ray, _)| ray == at).map(|(_, off)| *off);
         let [late, off] = known.reduce(|a, b| [a[0].max(b[0]), a[1].max(b[1])]).unwrap_or_default();
-        [off, self.shift + late]
+        [off, self.clock + late]
     }
 
     /// How far any ray may be off.
     pub(super) fn latest(&self) -> f64 {
-        self.shift + self.late
+        self.clock + self.late
     }
 
     /// From now on the flight is taken apart: `h′` and the height of its centre are of these sizes.

@@ -1,10 +1,10 @@
 //! What the numbers of a run may be off by: one sum, to which every step adds its own term.
 //!
-//! The whole on one page: `docs/bounds.md`. Dimensionless: velocities in `V`, times in `t₁`. There are two accounts, and the
-//! better one holds. One bounds `v` at equal times, and takes every ray that is off for itself: it serves any start and
-//! any damping. The other, where flights are taken apart, compares the vibration at equal times and the centre of mass
-//! at equal times since the last event, and follows with their signs what the time of that event and the velocity of
-//! the centre owe to each source of error.
+//! The whole on one page: `docs/bounds.md`. Dimensionless: velocities in `V`, times in `t₁`. There are two accounts,
+//! and the better one holds. One bounds `v` at equal times, and takes every ray that is off for itself: it serves any
+//! start and any damping. The other, where flights are taken apart, compares the vibration at equal times and the
+//! centre of mass at equal times since the last event, and follows with their signs what the time of that event and the
+//! velocity of the centre owe to each source of error.
 
 use super::dependence::{Dependence, Form, Landing, TakeOff};
 use super::effort::LEAST_LEAP;

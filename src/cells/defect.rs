@@ -76,8 +76,8 @@ fn beyond(a: &[f64], rest: impl Fn(usize) -> f64, from: usize) -> f64 {
 /// How many roundings a value of the series with such coefficients is off by.
 ///
 /// Clenshaw's recurrence `b_k = 2y b_{k+1} − b_{k+2} + c_k`, `|y| ≤ 1`, rounds by `6|b_{k+1}| + 2|b_{k+2}| + |c_k|` at
-/// most, which is as if `c_k` were off; with `|b_k| ≤ Σ_{j≥k} (j−k+1)|c_j|` that makes `Σ (2j+1)²|c_j|`. A node is off by
-/// 15 of them, where `T_j(2x−1)` has slopes of `2j²`.
+/// most, which is as if `c_k` were off; with `|b_k| ≤ Σ_{j≥k} (j−k+1)|c_j|` that makes `Σ (2j+1)²|c_j|`. A node is off
+/// by 15 of them, where `T_j(2x−1)` has slopes of `2j²`.
 fn values(c: &[f64]) -> f64 {
     c.iter().enumerate().map(|(j, c)| (38.0 * (j * j) as f64 + 1.0) * c).sum()
 }

@@ -4,12 +4,12 @@
 //! strip; `start` makes the first state from the data at `t = 0` and `bounce` from the closed form of the first
 //! contact; `flight` takes a flight apart into centre of mass and vibration, and `leap` goes over many of its round
 //! trips at once. `root` finds events, `near` what the bound leaves open of them, `effort` limits a run, `follow`
-//! decides what happens at the ground, `leapt` where a leap is due, `event` does it, `piece` is what remains of it,
-//! `budget` adds up what all of it may be off by, with the signs that `dependence` follows; `proof` proves each event
-//! by its `signs`, from the `account` of the `defect` of each step; `rest` says when nothing more can happen. `record`
-//! gets the field back, from cells that `strips` keeps for the next question, `history` answers questions, `bounds`
-//! gives the answers the bounds that the `uncertainty` of the run makes of them, `contact_then_cells` puts the closed
-//! form of the first contact before them.
+//! decides what happens at the ground, `long_flight` where a leap is due, `event` does it, `piece` is what remains of
+//! it, `budget` adds up what all of it may be off by, with the signs that `dependence` follows; `proof` proves each
+//! event by its `signs`, from the `account` of the `defect` of each step; `rest` says when nothing more can happen.
+//! `record` gets the field back, from cells that `strips` keeps for the next question, `history` answers questions,
+//! `bounds` gives the answers the bounds that the `uncertainty` of the run makes of them, `contact_then_cells` puts the
+//! closed form of the first contact before them.
 
 mod account;
 mod bounce;
@@ -28,7 +28,7 @@ mod flight;
 mod follow;
 mod history;
 mod leap;
-mod leapt;
+mod long_flight;
 mod march;
 mod near;
 mod piece;

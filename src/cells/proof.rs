@@ -8,7 +8,7 @@
 //! - **E**, `even`: `sup |δ_E|`, the sum of all defects so far.
 //! - **W**, `masses`: `∫ |δ_W|`. An event that is off by at most τ differs from the true one in what holds at the
 //!   ground for no longer than τ, where p is −q here and q there: `2τ max|q|`.
-//! - **Θ**, `shift`: how far the clock of the true motion has been set at impacts, instead of that.
+//! - **Θ**, `clock`: how far the clock of the true motion has been set at impacts, instead of that.
 //! - Away from rays that are off, `|δq| ≤ F = E + min(R(T + 1), e^R) W` and what the trace itself has been rounded by.
 //! - In flight `|δv(0,·)| ≤ H`, [`Proof::height_off`].
 //!
@@ -100,11 +100,12 @@ impl<S: RoundedSpecial> Proof<S> {
         off * (1.0 + SLACK)
     }
 
-    /// How fast the motion changes from the beginning of a strip on, in contact or in flight; a ray may have started
-    /// there with a `jump` of p, and with any where none is given.
+    /// How fast the motion changes from the beginning of a strip on, as long as it goes on as it is, in contact or in
+    /// flight. Where `jump` is known, that of p on the ray that starts with the strip is no more.
     ///
-    /// `(p_t, q_t)` solves the equations without gravity, with the same reflections: neither its sup norm nor the sum
-    /// of the masses at its rays grows. On the characteristic `q_t = q_η + q_ξ`, `q_ξ = −κ(p + q)`.
+    /// `(p_t, q_t)` solves the equations without gravity, with the same reflections: what comes of its continuous part
+    /// is at most as great as that, and what comes of its masses has no more mass. On the characteristic
+    /// `q_t = q_η + q_ξ`, `q_ξ = −κ(p + q)`.
     fn change(&self, run: &Follower<'_, S>, jump: Option<f64>) -> Change {
         let (medium, zero) = (run.medium, run.height.zero());
         let (kappa, offset) = (medium.kappa.to_f64(), 2.0 * medium.offset.to_f64().abs());
@@ -134,7 +135,6 @@ impl<S: RoundedSpecial> Proof<S> {
     fn note(&mut self, run: &Follower<'_, S>, time: f64, high: f64) {
         let damping = run.damping();
         let both = self.even + self.masses;
-        let reach = 2.0 * both;
         let centre = run.centre().map_or(0.0, |(_, rate)| rate.to_f64().abs());
         let most = 2.0 * (self.most + centre + run.medium.gravity.to_f64() + run.medium.slope.to_f64().abs());
         let far = 1.0 + time;
@@ -142,10 +142,10 @@ impl<S: RoundedSpecial> Proof<S> {
             ASKED * self.steps.unit * (self.steps.size.powi(3) * most + far * (self.slope + most)) + 4.0 * self.leapt;
         self.height = if run.contact { self.height } else { self.height.max(high) };
         let now = Uncertainty {
-            rise: self.height + reach + far * asked,
+            rise: self.height + 2.0 * both + far * asked,
             speed: self.trace_off(damping, time) + asked,
             rate: self.rate_off(damping) + both + asked,
-            late: self.shift,
+            late: self.clock,
             slope: self.slope,
             most,
             peak: most,
@@ -159,7 +159,7 @@ impl<S: RoundedSpecial> Proof<S> {
     fn event(&mut self, off: [f64; 2]) {
         self.events.push(off);
         let last = self.known[self.known.len() - 1];
-        self.known.push(Uncertainty { late: self.shift, ..last });
+        self.known.push(Uncertainty { late: self.clock, ..last });
     }
 
     /// The contact that the run begins with.
@@ -311,7 +311,7 @@ impl<S: RoundedSpecial> Proof<S> {
         // One motion has contact and the other flies for as long as they differ by: once, but maybe twice at a root.
         let times = if release.left.is_some() { 2.0 } else { 4.0 };
         self.left = times * late_ray * most;
-        let off = [release.ray.min(self.shift + late), late];
+        let off = [release.ray.min(self.clock + late), late];
         self.starts(release.at.clone(), time, off.map(|off| off + 64.0 * self.steps.unit), self.left);
         (self.summed, self.rising) = (0.0, true);
         Ok(off)
@@ -406,11 +406,11 @@ impl<S: RoundedSpecial> Proof<S> {
         if change.between + change.jumps < mass {
             self.set_clock(late, change);
             let rounding = 64.0 * self.steps.unit;
-            self.starts(place, time, [self.shift + rounding, rounding], 0.0);
-            self.landed = Some([self.shift, 0.0]);
+            self.starts(place, time, [self.clock + rounding, rounding], 0.0);
+            self.landed = Some([self.clock, 0.0]);
         } else {
-            self.landed = Some([self.shift + late, late]);
-            self.starts(place, time, [self.shift + late, late], late * mass);
+            self.landed = Some([self.clock + late, late]);
+            self.starts(place, time, [self.clock + late, late], late * mass);
         }
         Ok(())
     }

@@ -41,8 +41,9 @@ pub(super) struct Solve {
     /// What a CSV holds; by default the events
     #[arg(long, value_enum)]
     part: Option<Part>,
-    /// Derivatives of events and contacts by values of the scene: length, wave_speed, modulus, density, damping, gravity,
-    /// speed, gap, displacement or velocity of the start, velocity[0] of its first point; all others stay as they are
+    /// Derivatives of events and contacts by values of the scene: length, wave_speed, modulus, density, damping,
+    /// gravity, speed, gap, displacement or velocity of the start, velocity[0] of its first point; all others stay as
+    /// they are
     #[arg(long, value_name = "LIST", value_delimiter = ',')]
     derivatives: Vec<Parameter>,
     /// With --part stress: the Chebyshev coefficients of curved pieces, not straight lines within 1e-6 of the peak

@@ -47,8 +47,8 @@ fn solve(matrix: &[Vec<f64>], right: &[f64]) -> Option<Vec<f64>> {
 
 /// The values that leave the least of `Σ r²`, from `start` in at most `most` steps, by Levenberg and Marquardt's method
 /// in unknowns divided by `scales`. `residuals` is `None` where there is no answer, and `linear` gives their
-/// derivatives. What is no number is left out. `None` where the residuals do not tell the unknowns apart. They are those of
-/// so many columns, one after the other.
+/// derivatives. What is no number is left out. `None` where the residuals do not tell the unknowns apart. They are
+/// those of so many columns, one after the other.
 ///
 /// **Accuracy**: a standard error is the greater of two: that of independent residuals of one size, from the normal
 /// matrix, and that of the means of [`BATCHES`] stretches of samples, which is right where neighbours are off alike, as

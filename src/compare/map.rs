@@ -158,8 +158,8 @@ impl Map {
         }
     }
 
-    /// What brings each of [`places`](Self::places) to the units of the scene, where its name says that it is in another
-    /// one, and what is to be said of that. A scene without units has its numbers as they are.
+    /// What brings each of [`places`](Self::places) to the units of the scene, where its name says that it is in
+    /// another one, and what is to be said of that. A scene without units has its numbers as they are.
     ///
     /// **Errors**: [`MapError::Unit`].
     pub(crate) fn conversions(&self, names: &[String], units: &Units) -> Result<(Vec<Conversion>, String), MapError> {

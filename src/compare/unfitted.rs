@@ -41,8 +41,8 @@ pub(super) fn lost_start(columns: &[Compared]) -> Option<Verdict> {
 /// A mass that is not that of the scene: before the first contact nothing happens that a scheme may do wrong, and the
 /// kinetic energy is another at the same speed.
 ///
-/// **Source**: the factor by which the energy, and that by which the speed of the end, fits best, by least squares; what
-/// is left of the energy gives the standard error.
+/// **Source**: the factor by which the energy, and that by which the speed of the end, fits best, by least squares;
+/// what is left of the energy gives the standard error.
 pub(super) fn lighter(known: &Known<'_>) -> Option<Verdict> {
     let Known { history, grid, columns, step, .. } = *known;
     let first = history.contacts().first().map_or(f64::INFINITY, |contact| contact.from);

@@ -296,10 +296,10 @@ impl<N: BoundedSpecial> FirstContact<N> {
     /// twice the bits by which it has faded.
     ///
     /// For `g = 0`, `W = e^{Rτ} v` obeys `W_ττ − W_xx = R² W` in lengths `c t₁`, so `W_τ ± W_x`, which pass both ends
-    /// without growing, are at most what they were at first, μ, and `R² ∫ sup|W|`. For `R < π` no mode of W grows faster
-    /// than τ, as `Ω_n² = ω_n² − R² > 0`, and for n ≥ 1 `Ω_n ≥ π√((2n+1)² − 1)`: with coefficients `4μ/((2n+1)π)` at
-    /// first, `sup|W| ≤ 2μ(τ+1)`. So
-    /// `|v_τ ± v_x| ≤ e^{−Rτ}(sup|W_τ ± W_x| + R sup|W|) ≤ e^{−Rτ} μ (1 + R(τ+1))²`, which falls from `R(τ+1) = 1` on.
+    /// without growing, are at most what they were at first, μ, and `R² ∫ sup|W|`. For `R < π` no mode of W grows
+    /// faster than τ, as `Ω_n² = ω_n² − R² > 0`, and for n ≥ 1 `Ω_n ≥ π√((2n+1)² − 1)`: with coefficients
+    /// `4μ/((2n+1)π)` at first, `sup|W| ≤ 2μ(τ+1)`. So `|v_τ ± v_x| ≤ e^{−Rτ}(sup|W_τ ± W_x| + R sup|W|) ≤ e^{−Rτ} μ (1
+    /// + R(τ+1))²`, which falls from `R(τ+1) = 1` on.
     pub(crate) fn faded(&self, tau: f64) -> Option<f64> {
         let r = self.damping.to_f64();
         let growth = 1.0 + r * (tau + 1.0);

@@ -355,8 +355,8 @@ pub enum Ending {
     },
     /// The first bounce: what follows it is not proved.
     Bounce,
-    /// What follows is not proved: something comes so close to happening that no bits that are worth trying tell whether
-    /// it does.
+    /// What follows is not proved: something comes so close to happening that no bits that are worth trying tell
+    /// whether it does.
     Unproved {
         /// What is open.
         what: Near,

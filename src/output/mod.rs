@@ -1,4 +1,5 @@
-//! Tables, JSON, CSV, and the pictures of what is no history. Output computes no physics: it asks the history and the quantities.
+//! Tables, JSON, CSV, and the pictures of what is no history. Output computes no physics: it asks the history and the
+//! quantities.
 
 mod check;
 mod code;

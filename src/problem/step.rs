@@ -4,8 +4,9 @@ use super::{Material, Parameter, Parameters, Problem, Profile, Rod, Speed, Start
 use crate::number::{Number, Rational};
 
 impl Parameter {
-    /// `problem` with this value greater by the part `step` of itself, or by `step` times a scale of its own where it is
-    /// zero; its square by the part `step` where that is what the problem has. `None` where no problem has such a value.
+    /// `problem` with this value greater by the part `step` of itself, or by `step` times a scale of its own where it
+    /// is zero; its square by the part `step` where that is what the problem has. `None` where no problem has such a
+    /// value.
     pub(crate) fn moved(self, problem: &Problem, step: &Rational) -> Option<Problem> {
         let one = Rational::from(1);
         let by = |number: &Number, factor: Rational| Number::of_rational(&(number.to_rational() * factor));

@@ -82,8 +82,8 @@ const ACCURACY: (f64, f64) = (1e-300, 0.1);
 ///
 /// # Published values
 /// A scene may list what others have published of it; `dalembert scenes NAME --targets` prints it beside ours. With a
-/// `time` the quantity is a [quantity over time](crate::Quantity) by its name, such as `u_end`, `stress` or `E_total`, but
-/// for the impulse; without a time one of a contact, such as `impact` and `release` (times), `duration`, `impulse`,
+/// `time` the quantity is a [quantity over time](crate::Quantity) by its name, such as `u_end`, `stress` or `E_total`,
+/// but for the impulse; without a time one of a contact, such as `impact` and `release` (times), `duration`, `impulse`,
 /// `peak_force` or `e_E2`.
 ///
 /// ```toml

@@ -1,8 +1,8 @@
 //! Times that are asked for next to an event or a ray: each stands for exactly what it spells.
 //!
-//! A time that is not told from that of an event or of a displaced ray within both bounds lies before it, on it or after
-//! it. It is asked of longer runs, which are made for such times alone and kept; where none of them tells, the answer
-//! covers both sides. All other times are answered as if there were none of this.
+//! A time that is not told from that of an event or of a displaced ray within both bounds lies before it, on it or
+//! after it. It is asked of longer runs, which are made for such times alone and kept; where none of them tells, the
+//! answer covers both sides. All other times are answered as if there were none of this.
 
 use std::sync::{Arc, Mutex, OnceLock, PoisonError};
 

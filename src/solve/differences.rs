@@ -3,9 +3,9 @@
 //! With a step `h` of the value, relative to it, and numbers of twice as many digits, `(f(1 + h) − f(1))/h` has half of
 //! them. It is off by `h f″/2`, and the quotient to the left, whose step is twice as long, by `−h f″`: what they differ
 //! by bounds the error of `(2 right + left)/3`, where `f″` cancels, as long as `f″` does not change by its own size
-//! within the steps. The steps are not the same, so that no root or jump that is odd about the value looks smooth. Where
-//! the quotients differ by more than a step of the size asked for lets a smooth function differ, the step is squared:
-//! the error of a one-sided quotient shrinks with it, and what does not is a kink, a root or a jump.
+//! within the steps. The steps are not the same, so that no root or jump that is odd about the value looks smooth.
+//! Where the quotients differ by more than a step of the size asked for lets a smooth function differ, the step is
+//! squared: the error of a one-sided quotient shrinks with it, and what does not is a kink, a root or a jump.
 
 use super::derivative::{Asked, Derivative, Derivatives, NoDerivative};
 use super::history::History;

@@ -72,8 +72,9 @@ impl Target for f64 {
         Ok(Telling::of(engine, problem, Open::Ask(longer)))
     }
 
-    /// As many digits as a double has where a run takes no time. Otherwise from doubles, where no more is asked for than
-    /// they have and nothing jumps or bends; where they do not settle it, one digit more than the run is asked for.
+    /// As many digits as a double has where a run takes no time. Otherwise from doubles, where no more is asked for
+    /// than they have and nothing jumps or bends; where they do not settle it, one digit more than the run is asked
+    /// for.
     fn derivatives(asked: &Asked<'_>, run: &Engined<f64>) -> Result<Derivatives<Estimate<f64>>, Error> {
         let quick = asked.plan.engine == Engine::Lattice && asked.by != Parameter::Damping;
         let plain = asked.plan.goal.digits <= -DEFAULT_ACCURACY.log10();
@@ -101,8 +102,8 @@ fn longer(problem: &Problem, plan: &Plan, rung: Rung, observe: &Observer) -> Lon
     Longer { rungs, exact_contacts, run: Box::new(run) }
 }
 
-/// How the first contact ends by the sum over so many modes, which does not cancel late in the contact as that over rays
-/// does.
+/// How the first contact ends by the sum over so many modes, which does not cancel late in the contact as that over
+/// rays does.
 fn by_modes(
     contact: &FirstContact<Estimate<f64>>,
     problem: &Problem,

@@ -4,8 +4,8 @@ use crate::lattice::{Limits, Undamped, unobserved};
 use crate::number::{Estimate, Number};
 use crate::problem::{Parameters, Problem, Run};
 
-/// What the proof of a damped march costs in bits: through the first flight; with each impact, foreseen through so many;
-/// and with each impact for each time that flights double.
+/// What the proof of a damped march costs in bits: through the first flight; with each impact, foreseen through so
+/// many; and with each impact for each time that flights double.
 const FIRST_PROOF: f64 = 28.0;
 const IMPACT: f64 = 2.2;
 const LONGER: f64 = 0.45;
@@ -13,8 +13,8 @@ const MOST_FORESEEN: f64 = 60.0;
 
 /// How many bits the proof of a damped march costs; `contacts` is about how many there are, by the round trip.
 ///
-/// **Accuracy**: *estimate*, from what runs have lost: unit rods 46 to 73 bits with ten impacts, a rod of steel 128 with
-/// twenty. What is foreseen too little takes a second run.
+/// **Accuracy**: *estimate*, from what runs have lost: unit rods 46 to 73 bits with ten impacts, a rod of steel 128
+/// with twenty. What is foreseen too little takes a second run.
 pub(super) fn proof_bits(problem: &Problem, contacts: impl FnOnce(f64) -> f64) -> u32 {
     let Ok(rod) = Parameters::<f64>::of(problem, &()) else { return 0 };
     let trip = rod.round_trip();

@@ -25,8 +25,8 @@ use crate::reason::Warning;
 /// [`Error::TimeOutside`], or [`Error::BeyondEnd`] and [`Error::BeyondExactness`] where the history ends for a reason
 /// of its own; about a point outside of the rod [`Error::PointOutside`].
 ///
-/// A time stands for exactly what it spells where it is a [`Scalar::spelling`], as those of the command are: longer runs
-/// and fractions tell on which side of an event or a ray it lies, or the bound covers both sides and
+/// A time stands for exactly what it spells where it is a [`Scalar::spelling`], as those of the command are: longer
+/// runs and fractions tell on which side of an event or a ray it lies, or the bound covers both sides and
 /// [`History::warnings`] names it. A time that was computed stands for the event or the ray that some roundings set
 /// apart; that of an event, as the history gives it, for the event.
 ///

@@ -4,8 +4,8 @@
 //! to, `n`, divided by h; the quadratic through three of the runs by `h² f‴/6` or `/3`. What the two differ by is taken
 //! for the error, and `h³` of the natural size besides. Both errors are of one size where `h³ = n`.
 //!
-//! Next to a kink the third difference is as great as the change of the slope, but for one half a step away, which makes
-//! the second difference as great: where either is, runs in long numbers settle it.
+//! Next to a kink the third difference is as great as the change of the slope, but for one half a step away, which
+//! makes the second difference as great: where either is, runs in long numbers settle it.
 
 use super::derivative::{Asked, Derivative, Derivatives};
 use super::ladder::{Engined, Ladder, settled};
@@ -30,7 +30,8 @@ const WANTED: f64 = 1e-5;
 /// A second derivative may be so many times its natural size.
 const BEND: f64 = 100.0;
 
-/// The derivatives that are `asked` for by three runs beside this `run`; `None` where some are not settled to [`WANTED`].
+/// The derivatives that are `asked` for by three runs beside this `run`; `None` where some are not settled to
+/// [`WANTED`].
 ///
 /// **Errors**: those of the runs.
 pub(super) fn of(asked: &Asked<'_>, run: &Engined<f64>) -> Result<Option<Derivatives<Double>>, Error> {

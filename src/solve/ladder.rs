@@ -53,7 +53,8 @@ pub trait Target: Answer {
     /// **Errors**: those of the engine; [`Error::NotDecided`] where these numbers do not settle a comparison.
     fn run(problem: &Problem, plan: &Plan, rung: Rung, observe: &Observer) -> Result<Engined<Self>, Error>;
 
-    /// The derivatives of what is asked of a history whose engine is `run`, by the numbers that this system has them from.
+    /// The derivatives of what is asked of a history whose engine is `run`, by the numbers that this system has them
+    /// from.
     ///
     /// **Errors**: those of runs with other values; [`Error::Derivative`].
     fn derivatives(asked: &Asked<'_>, run: &Engined<Self>) -> Result<Derivatives<Self::Carried>, Error>;

@@ -10,7 +10,6 @@ use super::fractions::confirmed;
 use super::ladder::{Engined, Target};
 use super::observer::Observer;
 use super::plan::{Engine, Lacks, MOST_PROVED, Plan, Rung};
-use super::question::Numbers;
 use crate::cells::{ContactThenCells, Damped, Effort};
 use crate::error::Error;
 use crate::first_contact::{Bounce, ContactHistory, FirstContact};
@@ -120,9 +119,9 @@ fn estimates(problem: &Problem, plan: &Plan, bits: u32, observe: &Observer) -> R
     })
 }
 
-/// A damped run in so many bits with what is proved of it, where digits are asked for and it is proved to its end.
+/// A damped run in so many bits with what is proved of it, where the plan proves it and that reaches its end.
 fn shown(problem: &Problem, plan: &Plan, bits: u32, observe: &Observer) -> Result<Option<Engined<Float>>, Error> {
-    if !matches!(plan.numbers, Numbers::Digits(_)) || bits > MOST_PROVED {
+    if !plan.proves(bits) {
         return Ok(None);
     }
     match prove(problem, plan, bits, observe) {
@@ -138,7 +137,8 @@ fn prove(problem: &Problem, plan: &Plan, bits: u32, observe: &Observer) -> Resul
     Damped::<Float>::prove(problem, &bits, effort, &**observe)
 }
 
-/// `h′` at the bounce that doubles have found, in numbers of so many bits: the first flight, and all that follows, hangs on it.
+/// `h′` at the bounce that doubles have found, in numbers of so many bits: the first flight, and all that follows,
+/// hangs on it.
 pub(super) fn rate_after(problem: &Problem, bounce: &Bounce<Estimate<f64>>, bits: u32) -> Option<Estimate<f64>> {
     let Bounce::At { time, trips, .. } = bounce else { return None };
     let contact = FirstContact::new(&Parameters::<Estimate<Float>>::of(problem, &bits).ok()?);

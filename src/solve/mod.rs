@@ -19,7 +19,6 @@
 mod asked;
 mod converted;
 mod derivative;
-mod derived;
 #[cfg_attr(not(feature = "mp"), path = "differences_absent.rs")]
 mod differences;
 mod engines;
@@ -27,6 +26,7 @@ mod exact;
 mod foresee;
 mod fractions;
 mod history;
+mod history_derivatives;
 mod interpolated;
 mod ladder;
 #[cfg_attr(not(feature = "mp"), path = "long_absent.rs")]

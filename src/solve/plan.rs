@@ -342,7 +342,8 @@ impl Plan {
         }
     }
 
-    /// The numbers that are asked, one after the other, where those of `rung` do not tell a time from an event or a ray.
+    /// The numbers that are asked, one after the other, where those of `rung` do not tell a time from an event or a
+    /// ray.
     pub(super) fn telling(&self, rung: Rung) -> Vec<Rung> {
         let exact = self.engine == Engine::Lattice && !matches!(rung, Rung::Bits(_));
         let known = rung.bits().unwrap_or(0);
@@ -466,6 +467,13 @@ impl Plan {
             _ => (double_digits, double_cells),
         };
         Effort { digits, cells, until_lost: self.climb.bits.is_some(), most_digits, marched_trips }
+    }
+
+    /// Whether a run in so many bits is one that is proved: digits of a damped rod, as far as the account of proofs
+    /// goes.
+    #[cfg(feature = "mp")]
+    pub(super) fn proves(&self, bits: u32) -> bool {
+        self.cells.is_some() && matches!(self.numbers, Numbers::Digits(_)) && bits <= MOST_PROVED
     }
 
     /// What an undamped march may store and forget.

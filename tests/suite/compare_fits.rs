@@ -63,8 +63,8 @@ impl Numbers {
 
 const RODS: usize = 16;
 
-/// Rods of every size, damped and not, above the ground and on it, each value of the scene off by up to 5 %: found again
-/// to 1e-9 from exact data, past the release and into the flight, in at most 20 steps.
+/// Rods of every size, damped and not, above the ground and on it, each value of the scene off by up to 5 %: found
+/// again to 1e-9 from exact data, past the release and into the flight, in at most 20 steps.
 #[test]
 fn exact_data_of_many_rods_give_their_values() {
     let mut numbers = Numbers(1878);

@@ -138,8 +138,8 @@ fn right_runs_get_no_hint() {
 }
 
 /// A report that names no number says from what size on one would have been named; that of the right run of each scheme
-/// is held to it. Faults of every scheme, backward Euler and HHT included: each that is as great as that is named. Those
-/// below it are drowned by the errors of their scheme, and may be named or not.
+/// is held to it. Faults of every scheme, backward Euler and HHT included: each that is as great as that is named.
+/// Those below it are drowned by the errors of their scheme, and may be named or not.
 #[test]
 fn faults_are_named() {
     let (mut count, mut named, mut told) = (0, 0, 0);
@@ -195,8 +195,8 @@ fn faults_at_their_limits_are_named() {
     assert!(count >= 50 && broken.is_empty(), "{count}: {broken:#?}");
 }
 
-/// As the bar of Siconos' reference file, which has 0.99 of the scene's length: before the contact only its energy tells,
-/// and behind it nothing else is told from what the scheme does.
+/// As the bar of Siconos' reference file, which has 0.99 of the scene's length: before the contact only its energy
+/// tells, and behind it nothing else is told from what the scheme does.
 #[test]
 fn a_mass_is_told_before_the_contact() {
     let folder = tempfile::TempDir::new().unwrap();

@@ -1,4 +1,5 @@
-//! Derivatives by the values of a problem: by hand, by Euler's identities, and in fractions against difference quotients.
+//! Derivatives by the values of a problem: by hand, by Euler's identities, and in fractions against difference
+//! quotients.
 
 use std::str::FromStr;
 
@@ -78,7 +79,8 @@ fn a_weak_first_contact() {
     }
 }
 
-/// A rod of small fractions, undamped, which hits the ground, `gap` above it or not, at a multiple of the critical speed.
+/// A rod of small fractions, undamped, which hits the ground, `gap` above it or not, at a multiple of the critical
+/// speed.
 pub(crate) fn undamped() -> impl Strategy<Value = Problem> {
     let small = || (1i64..=12, 1i64..=6);
     let gravity = prop::option::weighted(0.8, small());
@@ -101,8 +103,8 @@ pub(crate) fn undamped() -> impl Strategy<Value = Problem> {
     )
 }
 
-/// A rod of small fractions, undamped, that is neither straight nor at one speed at its start, mostly on the ground: what
-/// falls mostly lands at no fraction.
+/// A rod of small fractions, undamped, that is neither straight nor at one speed at its start, mostly on the ground:
+/// what falls mostly lands at no fraction.
 pub(crate) fn linear_starts() -> impl Strategy<Value = Problem> {
     let value = || (-6i64..=6, 1i64..=4);
     let values = || prop::collection::vec(value(), 3);
@@ -170,8 +172,8 @@ pub(crate) fn dimension(by: Parameter) -> (i32, i32) {
 }
 
 /// Euler's identities over all dimensional data, exactly: `Σ a p ∂f/∂p = b f` where p has the dimension to the power a
-/// and f to the power b. Where derivatives are not the same from both sides, the sides meet them by difference quotients
-/// below.
+/// and f to the power b. Where derivatives are not the same from both sides, the sides meet them by difference
+/// quotients below.
 fn euler_identities_in_fractions(cases: u32, least: [u32; 2], rods: impl Strategy<Value = Problem>) {
     compares(cases, least, rods, |problem| {
         let history = problem.exact().unwrap();
@@ -355,8 +357,8 @@ fn damped() -> impl Strategy<Value = Problem> {
     })
 }
 
-/// Of a damped rod by one of its values: what doubles give against difference quotients of long numbers, whose bounds are
-/// those of 14 digits.
+/// Of a damped rod by one of its values: what doubles give against difference quotients of long numbers, whose bounds
+/// are those of 14 digits.
 fn doubles_against_long_numbers(cases: u32, least: [u32; 1]) {
     compares(cases, least, (damped(), 0usize..6), |(problem, which)| {
         let mut given = given(&problem);
@@ -450,7 +452,8 @@ fn thresholds() {
     let touch = history.events().iter().position(|event| (event.time - 31.0).abs() < 1e-9).unwrap();
     let reasons = found[touch][0].as_ref().unwrap().sides().map(|side| side.is_err());
     assert!(reasons.contains(&true), "{:?}", found[touch]);
-    // The bounce leaves t₁ with the rate of the root in the second round trip, u = 0; μ = 2 (I₀ + I₁)/(2 − I₀) at R = 2/5.
+    // The bounce leaves t₁ with the rate of the root in the second round trip, u = 0, and μ = 2 (I₀ + I₁)/(2 − I₀) at
+    // R = 2/5.
     let long = |n: u32| {
         let x = Float::with_val(400, 2) / 5u32;
         let mut term = if n == 1 { Float::with_val(400, &x / 2u32) } else { Float::with_val(400, 1) };

@@ -33,8 +33,8 @@ fn text(x: &Rational) -> Number {
 
 type Table = Vec<Vec<Option<Derivative<Rational>>>>;
 
-/// `Σ a p ∂f/∂p` over the values p of the problem, which have the dimension to the power a; `None` where a derivative is
-/// not the same from both sides.
+/// `Σ a p ∂f/∂p` over the values p of the problem, which have the dimension to the power a; `None` where a derivative
+/// is not the same from both sides.
 fn sum(tables: &[(Parameter, Rational, Table)], (row, column): (usize, usize), power: usize) -> Option<Rational> {
     let term = |(by, value, table): &(Parameter, Rational, Table)| {
         if value.is_zero() {

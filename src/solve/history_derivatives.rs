@@ -17,12 +17,13 @@ impl<S: Target> History<S> {
     /// density, one by gravity at the same impact speed. What there is not, such as the end of a contact that lasts, is
     /// `None`.
     ///
-    /// **Accuracy**: *exact* in fractions; where the two sides differ, difference quotients have confirmed them. Otherwise
-    /// each derivative is *within its own bound*. In doubles, as accurate as they are by default, that of a damped rod is
-    /// within 1e-5 of its natural size, mostly 1e-8, and takes three runs: it is that of a cubic through four, and the
-    /// bound what a quadratic differs by. Where these do not settle it, where more is asked for and in digits it is a
-    /// difference quotient of runs in long numbers, with a step as small as the last of the digits, and the bound has what
-    /// the quotients of both sides, or of two steps, differ by. A threshold that is nearer than the step counts as met.
+    /// **Accuracy**: *exact* in fractions; where the two sides differ, difference quotients have confirmed them.
+    /// Otherwise each derivative is *within its own bound*. In doubles, as accurate as they are by default, that of a
+    /// damped rod is within 1e-5 of its natural size, mostly 1e-8, and takes three runs: it is that of a cubic through
+    /// four, and the bound what a quadratic differs by. Where these do not settle it, where more is asked for and in
+    /// digits it is a difference quotient of runs in long numbers, with a step as small as the last of the digits, and
+    /// the bound has what the quotients of both sides, or of two steps, differ by. A threshold that is nearer than the
+    /// step counts as met.
     ///
     /// **Errors**: [`Error::Derivative`] where the problem has no such value, in fractions for damping, and for
     /// enclosures; [`Error::Digits`] for more than 60; [`Error::NoMultiprecision`] without the feature `mp`, but for
@@ -44,10 +45,10 @@ impl<S: Target> History<S> {
         S::derivatives(&self.asked(by, quantities), self.run())
     }
 
-    /// The derivatives of `quantities` at `times` by a value of the problem, a row for each time; with `points`, those of
-    /// quantities along the rod, a row for each time and there for each point. Time and point stay where they are: a
-    /// value that jumps where a ray passes has a derivative on that side of the ray only on which the ray leaves it, and
-    /// one at the upper end by the length on the side of longer rods.
+    /// The derivatives of `quantities` at `times` by a value of the problem, a row for each time; with `points`, those
+    /// of quantities along the rod, a row for each time and there for each point. Time and point stay where they are: a
+    /// value that jumps where a ray passes has a derivative on that side of the ray only on which the ray leaves it,
+    /// and one at the upper end by the length on the side of longer rods.
     ///
     /// **Accuracy**, **Errors**: those of [`History::derivatives`] and [`History::columns`].
     ///
