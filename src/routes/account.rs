@@ -7,93 +7,80 @@ use std::cmp::Ordering;
 use super::differences::Marched;
 use super::value::NoAnswer;
 use crate::first_contact::{Bounce, FirstContact};
-use crate::mapped::MapEach;
 use crate::modal::Modal;
-use crate::motion::{EventKind, Field, Side};
+use crate::motion::{EventKind, Side};
 use crate::number::{Estimate, Scalar};
 use crate::paper::{Printed, UndampedContact, formulas};
 use crate::problem::Parameters;
-use crate::special;
+use crate::quantity::Quantity;
+use crate::special::BoundedSpecial;
 
 /// One number of a motion, or why it is not given.
 pub(crate) type Found<S> = Result<S, NoAnswer>;
-/// Several at once.
-type All<S, const N: usize> = Result<[S; N], NoAnswer>;
+type Double = Estimate<f64>;
 
-/// An account of the first contact of `rod`, and of the flight after it: a few basic quantities, and all others from
-/// them where the account has no formula of its own. Energies are per linear density. A number without any bound has an
-/// infinite one.
+/// Where and when a quantity is asked for: zero means nothing to one that has no place or time.
+pub(crate) struct At<'a, S> {
+    pub(super) rod: &'a Parameters<S>,
+    pub(super) point: S,
+    pub(super) time: S,
+    pub(super) side: Side,
+}
+
+/// An account of the first contact of a rod, and of the flight after it.
 pub(crate) trait Account<S: Scalar> {
-    /// `t_b`.
-    fn release(&self, rod: &Parameters<S>) -> Found<S>;
+    /// A quantity for which the account has a formula of its own; `None` for any other. Energies are per linear
+    /// density. A number without any bound has an infinite one.
+    fn own(&self, quantity: Quantity, at: &At<'_, S>) -> Option<Found<S>>;
+}
 
-    /// `v_x(0,t)`.
-    fn strain(&self, time: &S, side: Side) -> Found<S>;
-
-    /// `h` and `h′`.
-    fn centre(&self, rod: &Parameters<S>, time: &S) -> All<S, 2>;
-
-    /// `E`.
-    fn total_energy(&self, time: &S) -> Found<S>;
-
-    /// `v`, `v_t`, `v_x` at `(x,t)`.
-    fn field(&self, _point: &S, _time: &S, _side: Side) -> All<S, 3> {
-        not_given()
+/// A quantity by the formula of an account, or by others that it has.
+pub(super) fn find<S: Scalar>(account: &dyn Account<S>, quantity: Quantity, at: &At<'_, S>) -> Found<S> {
+    if let Some(found) = account.own(quantity, at) {
+        return found;
     }
-
-    /// `t*` and `h(t*)`.
-    fn top(&self) -> All<S, 2> {
-        not_given()
-    }
-
-    /// The last impact or release.
-    fn last_event(&self, rod: &Parameters<S>) -> Found<S> {
-        self.release(rod)
-    }
-
-    fn height(&self, rod: &Parameters<S>, time: &S) -> Found<S> {
-        self.centre(rod, time).map(|[height, _]| height)
-    }
-
-    /// (3.63).
-    fn translational_energy(&self, rod: &Parameters<S>, time: &S) -> Found<S> {
-        self.centre(rod, time).map(|centre| translational(rod, centre))
-    }
-
-    fn vibrational_energy(&self, rod: &Parameters<S>, time: &S) -> Found<S> {
-        Ok(self.total_energy(time)? - self.translational_energy(rod, time)?)
-    }
-
-    /// `e_P = h′(t_b)/μ`.
-    fn momentum_restitution(&self, rod: &Parameters<S>) -> Found<S> {
-        let [_, velocity] = self.centre(rod, &self.release(rod)?)?;
-        Ok(velocity / &rod.speed)
-    }
-
-    /// (4.71): `e_E² = E_h(t_b)/E_h(0)`.
-    fn restitution(&self, rod: &Parameters<S>) -> Found<S> {
-        let first = first_energy(rod);
-        if first.positive() != Ok(true) {
-            return Err(NoAnswer::none("E_h ≤ 0 where the contact begins: nothing to compare with"));
+    let of = |quantity: Quantity| find(account, quantity, at);
+    let end = || Ok::<_, NoAnswer>(At { time: of(Quantity::BounceTime)?, point: at.rod.length.zero(), ..*at });
+    match quantity {
+        Quantity::LastEvent => of(Quantity::BounceTime),
+        Quantity::Stress | Quantity::Force => of(Quantity::Strain),
+        Quantity::TranslationalEnergy => {
+            Ok(translational(at.rod, [of(Quantity::Centre)?, of(Quantity::CentreVelocity)?]))
         }
-        let last = translational(rod, self.centre(rod, &self.release(rod)?)?);
-        if last.negative() == Ok(true) {
-            return Err(NoAnswer::none("E_h < 0 where the contact ends"));
+        Quantity::VibrationalEnergy => Ok(of(Quantity::Energy)? - of(Quantity::TranslationalEnergy)?),
+        // `e_P = h′(t_b)/μ`.
+        Quantity::MomentumRestitution => Ok(find(account, Quantity::CentreVelocity, &end()?)? / &at.rod.speed),
+        // (4.71): `e_E² = E_h(t_b)/E_h(0)`.
+        Quantity::EnergyRestitution => {
+            let first = first_energy(at.rod);
+            if first.positive() != Ok(true) {
+                return Err(NoAnswer::none("E_h ≤ 0 where the contact begins: nothing to compare with"));
+            }
+            let last = find(account, Quantity::TranslationalEnergy, &end()?)?;
+            if last.negative() == Ok(true) {
+                return Err(NoAnswer::none("E_h < 0 where the contact ends"));
+            }
+            Ok(last / first)
         }
-        Ok(last / first)
+        Quantity::TranslationalShare => {
+            let end = end()?;
+            Ok(find(account, Quantity::TranslationalEnergy, &end)? / find(account, Quantity::Energy, &end)?)
+        }
+        Quantity::EnergyKept => Ok(find(account, Quantity::Energy, &end()?)? / first_energy(at.rod)),
+        _ => Err(not_given()),
     }
 }
 
-pub(super) fn not_given<T>() -> Result<T, NoAnswer> {
-    Err(NoAnswer::gave_up("this route does not give that"))
+fn not_given() -> NoAnswer {
+    NoAnswer::gave_up("this route does not give that")
 }
 
 /// `E_h` where the first contact begins: `μ²L/2` for the paper's start.
-pub(super) fn first_energy<S: Scalar>(rod: &Parameters<S>) -> S {
+fn first_energy<S: Scalar>(rod: &Parameters<S>) -> S {
     rod.speed.square() * &rod.length / rod.length.int(2)
 }
 
-/// `E_h = L h′²/2 + L g h`.
+/// (3.63): `E_h = L h′²/2 + L g h`.
 fn translational<S: Scalar>(rod: &Parameters<S>, [height, velocity]: [S; 2]) -> S {
     (velocity.square() / velocity.int(2) + height * &rod.gravity) * &rod.length
 }
@@ -109,7 +96,7 @@ pub(crate) struct ByClosedForm<N> {
     bounce: OnceCell<Bounce<N>>,
 }
 
-impl<N: special::BoundedSpecial> ByClosedForm<N> {
+impl<N: BoundedSpecial> ByClosedForm<N> {
     pub(crate) fn new(rod: &Parameters<N>) -> Self {
         ByClosedForm { contact: FirstContact::new(rod), bounce: OnceCell::new() }
     }
@@ -117,167 +104,133 @@ impl<N: special::BoundedSpecial> ByClosedForm<N> {
     fn bounce(&self) -> &Bounce<N> {
         self.bounce.get_or_init(|| self.contact.bounce())
     }
+
+    fn centre(&self, at: &At<'_, N>) -> (N, N) {
+        // No contact is shorter than a round trip.
+        if at.rod.round_trip().below(&at.time) == Ok(true)
+            && let Bounce::At { time: end, .. } = self.bounce()
+            && end.below(&at.time) == Ok(true)
+        {
+            return self.contact.rebound(end).flight(&at.time);
+        }
+        self.contact.centre(&at.time)
+    }
+
+    fn top(&self) -> Found<(N, N)> {
+        let Bounce::At { time: end, .. } = self.bounce() else { return Err(NoAnswer::none("no bounce")) };
+        self.contact.rebound(end).highest().ok_or_else(|| NoAnswer::none("no top"))
+    }
 }
 
-impl<N: special::BoundedSpecial> Account<N> for ByClosedForm<N> {
-    fn release(&self, _: &Parameters<N>) -> Found<N> {
-        match self.bounce() {
-            Bounce::At { time, .. } => Ok(time.clone()),
-            Bounce::Never(reason) => Err(NoAnswer::none(reason.to_string())),
-            Bounce::Undecided { why, .. } => Err(NoAnswer::gave_up(why)),
-        }
-    }
-
-    fn strain(&self, time: &N, side: Side) -> Found<N> {
-        Ok(self.contact.strain(time, side))
-    }
-
-    fn field(&self, point: &N, time: &N, side: Side) -> All<N, 3> {
-        let Field { displacement, velocity, strain } = self.contact.field(point, time, side);
-        Ok([displacement, velocity, strain])
-    }
-
-    fn centre(&self, rod: &Parameters<N>, time: &N) -> All<N, 2> {
-        // No contact is shorter than a round trip.
-        if rod.round_trip().below(time) == Ok(true)
-            && let Bounce::At { time: end, .. } = self.bounce()
-            && end.below(time) == Ok(true)
-        {
-            return Ok(self.contact.rebound(end).flight(time).into());
-        }
-        Ok(self.contact.centre(time).into())
-    }
-
-    fn total_energy(&self, time: &N) -> Found<N> {
-        Ok(self.contact.energy(time).total)
-    }
-
-    fn vibrational_energy(&self, _: &Parameters<N>, time: &N) -> Found<N> {
-        Ok(self.contact.energy(time).vibrational)
-    }
-
-    fn top(&self) -> All<N, 2> {
-        let Bounce::At { time: end, .. } = self.bounce() else { return Err(NoAnswer::none("no bounce")) };
-        self.contact.rebound(end).highest().map(Into::into).ok_or_else(|| NoAnswer::none("no top"))
+impl<N: BoundedSpecial> Account<N> for ByClosedForm<N> {
+    fn own(&self, quantity: Quantity, at: &At<'_, N>) -> Option<Found<N>> {
+        let field = || self.contact.field(&at.point, &at.time, at.side);
+        Some(Ok(match quantity {
+            Quantity::BounceTime => match self.bounce() {
+                Bounce::At { time, .. } => time.clone(),
+                Bounce::Never(reason) => return Some(Err(NoAnswer::none(reason.to_string()))),
+                Bounce::Undecided { why, .. } => return Some(Err(NoAnswer::gave_up(why))),
+            },
+            Quantity::Strain => self.contact.strain(&at.time, at.side),
+            Quantity::PointDisplacement => field().displacement,
+            Quantity::PointVelocity => field().velocity,
+            Quantity::PointStrain => field().strain,
+            Quantity::Centre => self.centre(at).0,
+            Quantity::CentreVelocity => self.centre(at).1,
+            Quantity::TranslationalEnergy => translational(at.rod, self.centre(at).into()),
+            Quantity::Energy => self.contact.energy(&at.time).total,
+            Quantity::VibrationalEnergy => self.contact.energy(&at.time).vibrational,
+            Quantity::TopTime => return Some(self.top().map(|top| top.0)),
+            Quantity::Top => return Some(self.top().map(|top| top.1)),
+            _ => return None,
+        }))
     }
 }
 
 /// Looks in each round trip by which a release is found that no proof brackets.
 const LOOKS: i64 = 8;
 
-fn found(release: Option<f64>) -> Found<Estimate<f64>> {
+fn looked_for(release: Option<f64>) -> Found<Double> {
     release.map(unbounded).ok_or_else(|| NoAnswer::gave_up("no tensile stress in 64 round trips"))
 }
 
-impl Account<Estimate<f64>> for Modal<f64> {
-    fn release(&self, rod: &Parameters<Estimate<f64>>) -> Found<Estimate<f64>> {
-        let trip = rod.round_trip().into_value();
-        found(formulas::first_release(trip, LOOKS, |t, side| self.strain(&t, side).into_value()))
-    }
-
-    fn strain(&self, time: &Estimate<f64>, side: Side) -> Found<Estimate<f64>> {
-        Ok(self.strain(time.value(), side))
-    }
-
-    fn field(&self, point: &Estimate<f64>, time: &Estimate<f64>, side: Side) -> All<Estimate<f64>, 3> {
-        let Field { displacement, velocity, strain } = self.field(point.value(), time.value(), side);
-        Ok([displacement, velocity, strain])
-    }
-
-    fn centre(&self, _: &Parameters<Estimate<f64>>, time: &Estimate<f64>) -> All<Estimate<f64>, 2> {
-        Ok(self.centre(time.value()).into())
-    }
-
-    fn total_energy(&self, time: &Estimate<f64>) -> Found<Estimate<f64>> {
-        Ok(self.energy(time.value()))
+impl Account<Double> for Modal<f64> {
+    fn own(&self, quantity: Quantity, at: &At<'_, Double>) -> Option<Found<Double>> {
+        let time = at.time.value();
+        let field = || self.field(at.point.value(), time, at.side);
+        Some(Ok(match quantity {
+            Quantity::BounceTime => {
+                let trip = at.rod.round_trip().into_value();
+                let stress = |t: f64, side: Side| self.strain(&t, side).into_value();
+                return Some(looked_for(formulas::first_release(trip, LOOKS, stress)));
+            }
+            Quantity::Strain => self.strain(time, at.side),
+            Quantity::PointDisplacement => field().displacement,
+            Quantity::PointVelocity => field().velocity,
+            Quantity::PointStrain => field().strain,
+            Quantity::Centre => self.centre(time).0,
+            Quantity::CentreVelocity => self.centre(time).1,
+            Quantity::TranslationalEnergy => translational(at.rod, self.centre(time).into()),
+            Quantity::Energy => self.energy(time),
+            _ => return None,
+        }))
     }
 }
 
-impl Account<Estimate<f64>> for Printed {
-    fn release(&self, rod: &Parameters<Estimate<f64>>) -> Found<Estimate<f64>> {
-        found(self.release(rod.round_trip().into_value(), LOOKS))
-    }
-
-    fn strain(&self, time: &Estimate<f64>, _: Side) -> Found<Estimate<f64>> {
-        Ok(unbounded(self.strain(*time.value())))
-    }
-
-    fn height(&self, _: &Parameters<Estimate<f64>>, time: &Estimate<f64>) -> Found<Estimate<f64>> {
-        Ok(unbounded(self.centre(*time.value())))
-    }
-
-    fn centre(&self, rod: &Parameters<Estimate<f64>>, time: &Estimate<f64>) -> All<Estimate<f64>, 2> {
-        let time = *time.value();
-        Ok([self.centre(time), self.momentum(time) / rod.length.value()].map_each(unbounded))
-    }
-
-    fn total_energy(&self, time: &Estimate<f64>) -> Found<Estimate<f64>> {
-        Ok(unbounded(self.energy(*time.value())))
+impl Account<Double> for Printed {
+    fn own(&self, quantity: Quantity, at: &At<'_, Double>) -> Option<Found<Double>> {
+        let time = *at.time.value();
+        Some(Ok(unbounded(match quantity {
+            Quantity::BounceTime => return Some(looked_for(self.release(at.rod.round_trip().into_value(), LOOKS))),
+            Quantity::Strain => self.strain(time),
+            Quantity::Centre => self.centre(time),
+            Quantity::CentreVelocity => self.momentum(time) / at.rod.length.value(),
+            Quantity::Energy => self.energy(time),
+            _ => return None,
+        })))
     }
 }
 
 impl<S: Scalar + PartialOrd> Account<S> for UndampedContact<S> {
-    fn release(&self, _: &Parameters<S>) -> Found<S> {
-        Ok(self.bounce_time())
-    }
-
-    fn strain(&self, time: &S, side: Side) -> Found<S> {
-        Ok(self.strain(time, side))
-    }
-
-    /// `h′` from the momentum as it is printed.
-    fn centre(&self, rod: &Parameters<S>, time: &S) -> All<S, 2> {
-        Ok([self.centre(time).0, self.momentum(time) / &rod.length])
-    }
-
-    fn total_energy(&self, _: &S) -> Found<S> {
-        Ok(self.total_energy())
-    }
-
-    fn translational_energy(&self, _: &Parameters<S>, time: &S) -> Found<S> {
-        Ok(self.translational_energy(time))
-    }
-
-    fn vibrational_energy(&self, _: &Parameters<S>, time: &S) -> Found<S> {
-        let at_bounce = time.compare(&self.bounce_time()).is_ok_and(Ordering::is_eq);
-        if at_bounce { Ok(self.vibrational_energy_at_bounce()) } else { not_given() }
-    }
-
-    fn momentum_restitution(&self, _: &Parameters<S>) -> Found<S> {
-        Ok(self.momentum_restitution())
-    }
-
-    fn restitution(&self, _: &Parameters<S>) -> Found<S> {
-        self.energy_restitution_squared().ok_or_else(|| NoAnswer::none("nothing moves"))
-    }
-
-    fn top(&self) -> All<S, 2> {
-        self.highest().map(Into::into).ok_or_else(|| NoAnswer::none("no top"))
+    fn own(&self, quantity: Quantity, at: &At<'_, S>) -> Option<Found<S>> {
+        let (time, no_top) = (&at.time, || NoAnswer::none("no top"));
+        Some(match quantity {
+            Quantity::BounceTime => Ok(self.bounce_time()),
+            Quantity::Strain => Ok(self.strain(time, at.side)),
+            Quantity::Centre => Ok(self.centre(time).0),
+            Quantity::CentreVelocity => Ok(self.momentum(time) / &at.rod.length),
+            Quantity::Energy => Ok(self.total_energy()),
+            Quantity::TranslationalEnergy => Ok(self.translational_energy(time)),
+            Quantity::VibrationalEnergy => {
+                let at_bounce = time.compare(&self.bounce_time()).is_ok_and(Ordering::is_eq);
+                if at_bounce { Ok(self.vibrational_energy_at_bounce()) } else { Err(not_given()) }
+            }
+            Quantity::MomentumRestitution => Ok(self.momentum_restitution()),
+            Quantity::EnergyRestitution => {
+                self.energy_restitution_squared().ok_or_else(|| NoAnswer::none("nothing moves"))
+            }
+            Quantity::TopTime => self.highest().map(|top| top.0).ok_or_else(no_top),
+            Quantity::Top => self.highest().map(|top| top.1).ok_or_else(no_top),
+            _ => return None,
+        })
     }
 }
 
-impl Account<Estimate<f64>> for Marched {
-    fn release(&self, _: &Parameters<Estimate<f64>>) -> Found<Estimate<f64>> {
-        let release = self.events.iter().find(|event| event.0 == EventKind::Release);
-        release.map(|event| unbounded(event.1)).ok_or_else(|| NoAnswer::gave_up("no release found"))
-    }
-
-    fn last_event(&self, _: &Parameters<Estimate<f64>>) -> Found<Estimate<f64>> {
-        let last = self.events.last().map(|event| unbounded(event.1));
-        last.ok_or_else(|| NoAnswer::gave_up("no event found"))
-    }
-
-    fn strain(&self, _: &Estimate<f64>, _: Side) -> Found<Estimate<f64>> {
-        Ok(unbounded(self.stress))
-    }
-
-    fn centre(&self, _: &Parameters<Estimate<f64>>, time: &Estimate<f64>) -> All<Estimate<f64>, 2> {
-        let at = self.at(*time.value()).ok_or_else(|| NoAnswer::gave_up("nothing is kept of that time"))?;
-        Ok([at.centre, at.velocity].map_each(unbounded))
-    }
-
-    fn total_energy(&self, time: &Estimate<f64>) -> Found<Estimate<f64>> {
-        let at = self.at(*time.value()).ok_or_else(|| NoAnswer::gave_up("nothing is kept of that time"))?;
-        Ok(unbounded(at.energy))
+impl Account<Double> for Marched {
+    fn own(&self, quantity: Quantity, at: &At<'_, Double>) -> Option<Found<Double>> {
+        let of = |value: Option<f64>, missing: &str| value.map(unbounded).ok_or_else(|| NoAnswer::gave_up(missing));
+        let kept = |k: usize| of(self.at(*at.time.value()).map(|kept| kept[k]), "nothing is kept of that time");
+        Some(match quantity {
+            Quantity::BounceTime => {
+                let release = self.events.iter().find(|event| event.0 == EventKind::Release);
+                of(release.map(|event| event.1), "no release found")
+            }
+            Quantity::LastEvent => of(self.events.last().map(|event| event.1), "no event found"),
+            Quantity::Strain => Ok(unbounded(self.stress)),
+            Quantity::Centre => kept(0),
+            Quantity::CentreVelocity => kept(1),
+            Quantity::Energy => kept(2),
+            _ => return None,
+        })
     }
 }

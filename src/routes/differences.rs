@@ -5,8 +5,10 @@
 //! jump is never smeared; but damping sees it a quarter of a step early or late. Events are found between two steps by
 //! linear interpolation, and act from a step on.
 
+use glam::{DVec2, DVec3};
+
 use crate::error::Error;
-use crate::mapped::{CollectVec, mapped};
+use crate::mapped::mapped;
 use crate::motion::EventKind;
 use crate::problem::{Parameters, Problem, Profile, Run, Start, Top};
 
@@ -17,50 +19,26 @@ pub(crate) struct Marched {
     pub(crate) events: Vec<(EventKind, f64)>,
     /// `v_x(0,t)` at the end of the run.
     pub(crate) stress: f64,
-    kept: Vec<Snapshot>,
+    kept: Vec<(f64, DVec3)>,
 }
 
 impl Marched {
-    /// The motion at `time`, if that is the first release or the end.
-    pub(crate) fn at(&self, time: f64) -> Option<&Snapshot> {
-        self.kept.iter().find(|snapshot| snapshot.time == time)
-    }
-}
-
-/// `h`, `h′` and `E` at a time.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct Snapshot {
-    time: f64,
-    pub(crate) centre: f64,
-    pub(crate) velocity: f64,
-    pub(crate) energy: f64,
-}
-
-impl Snapshot {
-    /// Linear in between.
-    fn between(self, next: Snapshot, time: f64) -> Snapshot {
-        let share = if next.time > self.time { (time - self.time) / (next.time - self.time) } else { 0.0 };
-        let mix = |a: f64, b: f64| a + share * (b - a);
-        Snapshot {
-            time,
-            centre: mix(self.centre, next.centre),
-            velocity: mix(self.velocity, next.velocity),
-            energy: mix(self.energy, next.energy),
-        }
+    /// `h`, `h′` and `E` at `time`, if that is the first release or the end.
+    pub(crate) fn at(&self, time: f64) -> Option<DVec3> {
+        self.kept.iter().find(|kept| kept.0 == time).map(|kept| kept.1)
     }
 }
 
 /// Round trips after which a run that is asked for impacts is given up.
 const MOST_TRIPS: f64 = 1e4;
 
-struct Grid<'a> {
-    rod: &'a Parameters<f64>,
+struct Grid {
+    rod: Parameters<f64>,
     fixed: bool,
     step: f64,
     width: f64,
     /// `p = v_t − c v_x` and `q = v_t + c v_x` in the middles of the cells.
-    p: Vec<f64>,
-    q: Vec<f64>,
+    waves: Vec<DVec2>,
     contact: bool,
     /// `v(0,·)`.
     height: f64,
@@ -74,54 +52,54 @@ struct Grid<'a> {
 /// **Source**: `(∂_t + c∂_x) p = −g − r(p + q)`, `(∂_t − c∂_x) q = −g − r(p + q)`; at the ground p = −q in contact,
 /// released when q becomes positive, and p = q in flight.
 ///
-/// **Units**: those of the problem.
-///
 /// **Accuracy**: an *f64 estimate*, of first order in `1/cells`; without damping the invariants are exact while events
 /// fall on steps.
 ///
 /// **Errors**: those of the parameters.
 pub(crate) fn march(problem: &Problem, cells: usize) -> Result<Marched, Error> {
     let rod = Parameters::<f64>::of(problem, &())?;
-    let mut grid = Grid::new(problem, &rod, cells.max(2));
-    let mut marched = Marched { events: Vec::new(), stress: 0.0, kept: Vec::new() };
-    if grid.contact {
-        marched.events.push((EventKind::Impact, 0.0));
-    }
     let (end, impacts) = match &problem.run {
         Run::Time(time) => (time.to_f64(), u32::MAX),
         Run::Impacts(count) => (MOST_TRIPS * rod.round_trip(), *count),
     };
-    let mut before = grid.snapshot();
+    let mut grid = Grid::new(problem, rod, cells.max(2));
+    let mut marched = Marched { events: Vec::new(), stress: 0.0, kept: Vec::new() };
+    if grid.contact {
+        marched.events.push((EventKind::Impact, 0.0));
+    }
+    let (mut before, mut releases) = ((0.0, grid.state()), 0);
     let mut last_force = [(0.0, 0.0); 2];
     // The stress is known at half steps: one more lets it be asked at the end.
     while grid.time <= end {
-        let was = (grid.contact, grid.height);
+        let (contact, height) = (grid.contact, grid.height);
         let (force, pushed) = grid.advance();
-        let now = grid.snapshot();
+        let now = (grid.time, grid.state());
+        // Linear between two steps.
+        let at = |time: f64| (time, before.1 + (now.1 - before.1) * ((time - before.0) / (now.0 - before.0)));
         let half = grid.time - 0.5 * grid.step;
-        last_force = [last_force[1], (half, if grid.contact { force } else { 0.0 })];
-        if was.0 && !grid.contact {
+        last_force = [last_force[1], (half, force)];
+        if contact && !grid.contact {
             // Between the last half step and this one; a jump may be anywhere between.
             let (from, share) = (last_force[0].0, last_force[0].1 / (last_force[0].1 - pushed));
             let time = from + (half - from) * if share.is_finite() { share.clamp(0.0, 1.0) } else { 1.0 };
             if time <= end {
+                releases += 1;
                 marched.events.push((EventKind::Release, time));
                 if marched.kept.is_empty() {
-                    marched.kept.push(before.between(now, time));
+                    marched.kept.push(at(time));
                 }
             }
-            let releases = marched.events.iter().filter(|event| event.0 == EventKind::Release).count();
-            if releases as u32 >= impacts {
+            if releases >= impacts {
                 break;
             }
-        } else if !was.0 && grid.contact {
-            let time = now.time - grid.step * (1.0 - (was.1 / (was.1 - pushed)).clamp(0.0, 1.0));
+        } else if !contact && grid.contact {
+            let time = grid.time - grid.step * (1.0 - (height / (height - pushed)).clamp(0.0, 1.0));
             if time <= end {
                 marched.events.push((EventKind::Impact, time));
             }
         }
-        if now.time >= end {
-            marched.kept.push(before.between(now, end));
+        if grid.time >= end {
+            marched.kept.push(at(end));
         }
         before = now;
     }
@@ -137,112 +115,94 @@ fn interpolated([(t0, s0), (t1, s1)]: [(f64, f64); 2], time: f64) -> f64 {
     s0 + (s1 - s0) * (time - t0) / (t1 - t0)
 }
 
-impl<'a> Grid<'a> {
-    fn new(problem: &Problem, rod: &'a Parameters<f64>, cells: usize) -> Self {
+impl Grid {
+    fn new(problem: &Problem, rod: Parameters<f64>, cells: usize) -> Self {
         let width = rod.length / cells as f64;
         let empty = Profile::default();
         let profile = match &problem.start {
             Start::Uniform(_) | Start::Above { .. } => &empty,
             Start::Profile(profile) => profile,
         };
-        let lift = |list: &[(crate::Number, crate::Number)]| -> Vec<(f64, f64)> {
-            mapped(list, |(x, v)| (x.to_f64(), v.to_f64()))
+        let lift = |list: &[(crate::Number, crate::Number)]| -> Vec<DVec2> {
+            mapped(list, |(x, v)| DVec2::new(x.to_f64(), v.to_f64()))
         };
         let (mut displacement, velocity) = (lift(&profile.displacement), lift(&profile.velocity));
-        displacement.extend(problem.gap().map(|gap| (0.0, gap.to_f64())));
-        let middles: Vec<f64> = mapped(0..cells, |k| (k as f64 + 0.5) * width);
-        let strain = |x: f64| {
-            (between(&displacement, x + 0.5 * width) - between(&displacement, x - 0.5 * width)) * rod.wave_speed / width
+        displacement.extend(problem.gap().map(|gap| DVec2::new(0.0, gap.to_f64())));
+        let place = |x: f64| between(&displacement, x);
+        let wave = |k: usize| {
+            let x = (k as f64 + 0.5) * width;
+            let strain = (place(x + 0.5 * width) - place(x - 0.5 * width)) * rod.wave_speed / width;
+            let rate = between(&velocity, x) - rod.speed;
+            DVec2::new(rate - strain, rate + strain)
         };
-        let rate = |x: f64| between(&velocity, x) - rod.speed;
-        let centre = middles.iter().map(|x| between(&displacement, *x)).sum::<f64>() / cells as f64;
-        let height = between(&displacement, 0.0);
-        Grid {
-            fixed: problem.rod.top == Top::Fixed,
-            step: width / rod.wave_speed,
-            p: mapped(&middles, |x| rate(*x) - strain(*x)),
-            q: mapped(&middles, |x| rate(*x) + strain(*x)),
-            contact: height <= 0.0,
-            time: 0.0,
-            height,
-            centre,
-            width,
-            rod,
-        }
+        let centre = (0..cells).map(|k| place((k as f64 + 0.5) * width)).sum::<f64>() / cells as f64;
+        let (waves, height) = (mapped(0..cells, wave), place(0.0));
+        let (fixed, step) = (problem.rod.top == Top::Fixed, width / rod.wave_speed);
+        Grid { fixed, step, waves, contact: height <= 0.0, time: 0.0, height, centre, width, rod }
     }
 
-    /// `v_t = s/2`, `c v_x = (q − p)/2`.
-    fn snapshot(&self) -> Snapshot {
-        let Parameters { length, gravity, .. } = *self.rod;
-        let cells = self.p.len() as f64;
-        let (mut rate, mut squares) = (0.0, 0.0);
-        for (p, q) in self.p.iter().zip(&self.q) {
-            rate += 0.5 * (p + q);
-            squares += 0.25 * (p * p + q * q);
-        }
-        let energy = squares * self.width + length * gravity * self.centre;
-        Snapshot { time: self.time, centre: self.centre, velocity: rate / cells, energy }
+    /// `h′`, of `v_t = (p + q)/2`.
+    fn velocity(&self) -> f64 {
+        self.waves.iter().map(|wave| wave.element_sum()).sum::<f64>() / (2 * self.waves.len()) as f64
+    }
+
+    /// `h`, `h′` and `E`.
+    fn state(&self) -> DVec3 {
+        let squares: f64 = self.waves.iter().map(|wave| 0.25 * wave.length_squared()).sum();
+        let energy = squares * self.width + self.rod.length * self.rod.gravity * self.centre;
+        DVec3::new(self.centre, self.velocity(), energy)
     }
 
     /// One step. The first number is the stress at the ground half a step on; the second says by how much it was pulled
     /// where it lets go, and how deep it had fallen where it lands.
     fn advance(&mut self) -> (f64, f64) {
-        let Parameters { wave_speed: c, damping: r, gravity: g, .. } = *self.rod;
-        let (dt, n) = (self.step, self.p.len());
-        let fall = g * dt;
-        let half = 0.5 * r * dt;
-        let old: Vec<f64> = self.p.iter().zip(&self.q).map(|(p, q)| p + q).collect_vec();
-        let rate = old.iter().sum::<f64>() / (2 * n) as f64;
-        // Down to the ground in half a step, where p + q is 0 in contact and 2q in flight.
-        let arriving = self.q[0] - 0.5 * fall - 0.5 * half * old[0];
-        let flying = arriving / (1.0 + half);
+        let Parameters { wave_speed: c, damping: r, gravity: g, .. } = self.rod;
+        let (dt, n, rate) = (self.step, self.waves.len(), self.velocity());
+        let (fall, half) = (g * dt, 0.5 * r * dt);
+        // A wave after a share of a step that begins with `p + q = sum`, but for the end of the trapezoid.
+        let after = |share: f64, wave: f64, sum: f64| wave - share * fall - share * half * sum;
+        // From an end half a step back into the rod: p + q is 0 at one that is held, and twice the wave at a free one.
+        let turned = |held: bool, arriving: f64| match held {
+            true => after(0.5, -arriving, 0.0),
+            false => after(0.5, arriving / (1.0 + half), 2.0 * arriving / (1.0 + half)),
+        };
+        let arriving = |inner: DVec2, wave: f64| after(0.5, wave, inner.element_sum());
+        let (ground, top) = (arriving(self.waves[0], self.waves[0].y), self.waves[n - 1]);
         let mut moved = 0.0;
-        if self.contact && arriving > 0.0 {
+        if self.contact && ground > 0.0 {
             self.contact = false;
-            moved = arriving / c;
+            moved = ground / c;
         } else if !self.contact {
-            self.height += dt * flying;
+            self.height += dt * (ground / (1.0 + half));
             if self.height < 0.0 {
                 moved = self.height;
                 self.height = 0.0;
                 self.contact = true;
             }
         }
-        let (leaving, sum) = if self.contact { (-arriving, 0.0) } else { (flying, 2.0 * flying) };
-        let lowest = leaving - 0.5 * fall - 0.5 * half * sum;
-        let top = if self.fixed { -1.0 } else { 1.0 };
-        // Up to the top and back within one step; held, it sees no sum at the turn.
-        let turned = top * (self.p[n - 1] - 0.5 * fall - 0.5 * half * old[n - 1]);
-        let (turned, sum) =
-            if self.fixed { (turned, 0.0) } else { (turned / (1.0 + half), 2.0 * turned / (1.0 + half)) };
-        let highest = turned - 0.5 * fall - 0.5 * half * sum;
-        let from_below = |k: usize| self.p[k] - fall - half * old[k];
-        let from_above = |k: usize| self.q[k] - fall - half * old[k];
-        let next: Vec<(f64, f64)> = mapped(0..n, |k| {
+        let (lowest, highest) = (turned(self.contact, ground), turned(self.fixed, arriving(top, top.x)));
+        let from = |cell: usize, wave: f64| (after(1.0, wave, self.waves[cell].element_sum()), half);
+        let next = |k: usize| {
             // At the ends half of the trapezoid is behind already.
-            let (up, up_share) = if k == 0 { (lowest, 0.5 * half) } else { (from_below(k - 1), half) };
-            let (down, down_share) = if k + 1 == n { (highest, 0.5 * half) } else { (from_above(k + 1), half) };
+            let (up, up_share) = if k == 0 { (lowest, 0.5 * half) } else { from(k - 1, self.waves[k - 1].x) };
+            let (down, down_share) = if k + 1 == n { (highest, 0.5 * half) } else { from(k + 1, self.waves[k + 1].y) };
             let sum = (up + down) / (1.0 + up_share + down_share);
-            (up - up_share * sum, down - down_share * sum)
-        });
-        for (k, (p, q)) in next.into_iter().enumerate() {
-            self.p[k] = p;
-            self.q[k] = q;
-        }
-        let after = self.p.iter().zip(&self.q).map(|(p, q)| p + q).sum::<f64>() / (2 * n) as f64;
-        self.centre += 0.5 * dt * (rate + after);
+            DVec2::new(up - up_share * sum, down - down_share * sum)
+        };
+        self.waves = mapped(0..n, next);
+        self.centre += 0.5 * dt * (rate + self.velocity());
         self.time += dt;
-        (if self.contact { arriving / c } else { 0.0 }, moved)
+        (if self.contact { ground / c } else { 0.0 }, moved)
     }
 }
 
 /// Linear between points, zero without any; the mean of both at a jump.
-fn between(points: &[(f64, f64)], x: f64) -> f64 {
-    let next = points.partition_point(|(at, _)| *at <= x);
+fn between(points: &[DVec2], x: f64) -> f64 {
+    let next = points.partition_point(|point| point.x <= x);
     let low = next.checked_sub(1).and_then(|k| points.get(k));
     match (low, points.get(next)) {
-        (Some((x0, v0)), Some((x1, v1))) => v0 + (v1 - v0) * (x - x0) / (x1 - x0),
-        (Some((_, v)), None) | (None, Some((_, v))) => *v,
+        (Some(a), Some(b)) => a.y + (b.y - a.y) * (x - a.x) / (b.x - a.x),
+        (Some(end), None) | (None, Some(end)) => end.y,
         (None, None) => 0.0,
     }
 }

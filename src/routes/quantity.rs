@@ -1,6 +1,6 @@
 //! One number of a problem, asked of any account of its motion.
 
-use super::account::{Account, Found, first_energy, not_given};
+use super::account::{Account, At, Found, find};
 use super::value::{NoAnswer, System, Value};
 use crate::error::Error;
 use crate::mapped::CollectVec;
@@ -39,7 +39,7 @@ impl Question {
     /// `quantity` of `scene` at `time`; without one at three quarters of a round trip. Without a quantity it is the
     /// bounce time, or, where the scene calls for more than one contact, the time of the last event.
     ///
-    /// **Errors**: [`NoAnswer::Time`] for a time below zero, or for a quantity that is not asked at a time.
+    /// **Errors**: [`NoAnswer::GaveUp`] for a time below zero, or for a quantity that is not asked at a time.
     pub(crate) fn of_scene(scene: &Scene, quantity: Option<Quantity>, time: Option<Number>) -> Result<Self, NoAnswer> {
         let mut problem = scene.problem.clone();
         let quantity = quantity.unwrap_or(match problem.run {
@@ -48,12 +48,12 @@ impl Question {
         });
         let over_time = quantity.needs() == Needs::Time;
         let expected = match &time {
-            Some(_) if !over_time => Some(format!("none: {} is not asked at a time", quantity.name())),
-            Some(time) if time.to_f64() < 0.0 => Some("one from 0 on".into()),
+            Some(time) if !over_time => Some((time, format!("none: {} is not asked at a time", quantity.name()))),
+            Some(time) if time.to_f64() < 0.0 => Some((time, "one from 0 on".into())),
             _ => None,
         };
-        if let (Some(expected), Some(time)) = (expected, &time) {
-            return Err(NoAnswer::Time { found: time.to_string(), expected });
+        if let Some((time, expected)) = expected {
+            return Err(NoAnswer::gave_up(format!("found time {time}, expected {expected}")));
         }
         let time = if time.is_none() && over_time { Some(default_time(&problem)?) } else { time };
         match (&time, quantity.needs()) {
@@ -74,11 +74,23 @@ impl Question {
             wave_speed: rod.wave_speed.clone(),
             gravity: rod.gravity.clone(),
         };
-        let factor = self.one.quantity.factor(&scales, &self.units);
-        let find = |side: Side| Ok(self.one.quantity.scaled(self.find(rod, motion, side)?, factor.as_ref()));
+        let quantity = self.one.quantity;
+        let factor = quantity.factor(&scales, &self.units);
+        let lift = |number: &Number| S::from_number(number, &rod.length.precision());
+        let (zero, point) = (rod.length.zero(), self.one.point.as_ref().map(lift));
+        let at = |side: Side| At { rod, point: point.clone().unwrap_or(zero.clone()), time: zero.clone(), side };
+        let bounce = || find(motion, Quantity::BounceTime, &at(Side::Right));
+        let find = |side: Side| {
+            let time = match &self.one.time {
+                Some(time) => lift(time),
+                None if matches!(quantity.needs(), Needs::Time | Needs::PointAndTime) => bounce()?,
+                None => zero.clone(),
+            };
+            Ok(quantity.scaled(find(motion, quantity, &At { time, ..at(side) })?, factor.as_ref()))
+        };
         // A release that is found without a bound counts as exact, as it does where values are asked at it.
         let unbounded = |time: &S| time.log2_error() == f64::INFINITY;
-        let bounce = || motion.release(rod).map(|time| if unbounded(&time) { time.nominal() } else { time });
+        let bounce = || bounce().map(|time| if unbounded(&time) { time.nominal() } else { time });
         self.claim(rod, find, bounce).map(Into::into)
     }
 
@@ -152,44 +164,12 @@ impl Question {
             other => other,
         })
     }
-
-    /// The answer of an account, without a unit.
-    fn find<S: System>(&self, rod: &Parameters<S>, motion: &dyn Account<S>, side: Side) -> Found<S> {
-        let lift = |number: &Number| S::from_number(number, &rod.length.precision());
-        let time = || self.one.time.as_ref().map_or_else(|| motion.release(rod), |time| Ok(lift(time)));
-        let field = || match &self.one.point {
-            Some(point) => motion.field(&lift(point), &time()?, side),
-            None => Err(NoAnswer::none("no point is given")),
-        };
-        match self.one.quantity {
-            Quantity::BounceTime => motion.release(rod),
-            Quantity::LastEvent => motion.last_event(rod),
-            Quantity::Strain | Quantity::Stress | Quantity::Force => motion.strain(&time()?, side),
-            Quantity::PointDisplacement => field().map(|[v, _, _]| v),
-            Quantity::PointVelocity => field().map(|[_, v_t, _]| v_t),
-            Quantity::PointStrain => field().map(|[_, _, v_x]| v_x),
-            Quantity::Centre => motion.height(rod, &time()?),
-            Quantity::CentreVelocity => motion.centre(rod, &time()?).map(|[_, velocity]| velocity),
-            Quantity::Energy => motion.total_energy(&time()?),
-            Quantity::TranslationalEnergy => motion.translational_energy(rod, &time()?),
-            Quantity::VibrationalEnergy => motion.vibrational_energy(rod, &time()?),
-            Quantity::MomentumRestitution => motion.momentum_restitution(rod),
-            Quantity::EnergyRestitution => motion.restitution(rod),
-            Quantity::TranslationalShare => {
-                let end = motion.release(rod)?;
-                Ok(motion.translational_energy(rod, &end)? / motion.total_energy(&end)?)
-            }
-            Quantity::EnergyKept => Ok(motion.total_energy(&motion.release(rod)?)? / first_energy(rod)),
-            Quantity::TopTime => motion.top().map(|[time, _]| time),
-            Quantity::Top => motion.top().map(|[_, height]| height),
-            _ => not_given(),
-        }
-    }
 }
 
 /// Three quarters of a round trip, to three digits: an ordinary time within the first contact.
 fn default_time(problem: &Problem) -> Result<Number, NoAnswer> {
     let time = 0.75 * Parameters::<f64>::of(problem, &())?.round_trip();
     let text = format!("{time:.2e}");
-    text.parse().map_err(|_| NoAnswer::Time { found: text, expected: "a round trip between 1e-300 and 1e300".into() })
+    let expected = "a round trip between 1e-300 and 1e300";
+    text.parse().map_err(|_| NoAnswer::gave_up(format!("found time {text}, expected {expected}")))
 }

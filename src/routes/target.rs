@@ -9,6 +9,8 @@ use crate::reason::Warning;
 use crate::scene::{Scene, Target, builtin};
 use crate::solve::{Numbers, Plan, Question, Solution, unobserved};
 
+type Double = Estimate<f64>;
+
 /// A scene with its published values and ours.
 #[derive(Clone, Debug)]
 pub(crate) struct Published {
@@ -16,7 +18,7 @@ pub(crate) struct Published {
     pub(crate) scene: String,
     pub(crate) title: Option<String>,
     pub(crate) units: Units,
-    pub(crate) reached: Vec<Reached<Estimate<f64>>>,
+    pub(crate) reached: Vec<Reached>,
     pub(crate) warnings: Vec<Warning>,
 }
 
@@ -31,8 +33,9 @@ impl Published {
             Solution::Double(history) => history,
             _ => return Err(Error::NoMultiprecision),
         };
-        let gather = |motion: &dyn Motion<Estimate<f64>>| Reached::all(motion, &scene.targets, &units);
-        let reached = history.ask(gather, |_| Vec::new())?;
+        let reached =
+            |motion: &dyn Motion<Double>| try_mapped(&scene.targets, |target| Reached::of(target, motion, &units));
+        let reached = history.ask(reached, |_| Vec::new())?;
         let (scene, title) = (called.to_string(), scene.title.clone());
         Ok(Published { scene, title, units, reached, warnings: history.warnings() })
     }
@@ -54,53 +57,43 @@ impl Published {
 
 /// A published value and ours.
 #[derive(Clone, Debug)]
-pub(crate) struct Reached<S> {
+pub(crate) struct Reached {
     pub(crate) target: Target,
     /// As a number of the history.
-    pub(crate) published: S,
-    pub(crate) ours: S,
+    pub(crate) published: Double,
+    pub(crate) ours: Double,
 }
 
-impl<S: Scalar> Reached<S> {
-    /// What `motion` has for each of `targets`.
-    ///
-    /// **Errors**: [`Error::NoContact`], and those of the history.
-    pub(crate) fn all(motion: &dyn Motion<S>, targets: &[Target], units: &Units) -> Result<Vec<Self>, Error> {
-        let precision = motion.end().precision();
-        let reached = |target: &Target| {
-            Ok(Reached {
-                target: target.clone(),
-                published: S::from_number(&target.published, &precision),
-                ours: ours(motion, target, units)?,
-            })
+impl Reached {
+    fn of(target: &Target, motion: &dyn Motion<Double>, units: &Units) -> Result<Self, Error> {
+        let ours = match &target.time {
+            None => {
+                let contact = target.contact - 1;
+                let none = |_| Error::NoContact { contact, found: motion.contacts().len() };
+                of_contact(motion, units, target.quantity, contact)?.map_err(none)?
+            }
+            Some(time) => {
+                let at = |time: Double| {
+                    columns(motion, units, &[target.quantity], &[time], Some(target.side))
+                        .map(|mut t| t.remove(0).remove(0))
+                };
+                let value = at(Double::from_number(time, &()))?;
+                if target.from_start { value - at(Double::exact(0.0))? } else { value }
+            }
         };
-        try_mapped(targets, reached)
+        Ok(Reached { target: target.clone(), published: Double::from_number(&target.published, &()), ours })
     }
 
     /// Ours less the published value.
-    pub(crate) fn difference(&self) -> S {
+    pub(crate) fn difference(&self) -> Double {
         self.ours.clone() - &self.published
     }
 
     /// Whether the difference is within what the published value may be off, and its own bound.
     pub(crate) fn agrees(&self) -> bool {
         let difference = self.difference();
-        difference.to_f64().abs() <= self.target.tolerance() + difference.log2_error().exp2()
+        difference.value().abs() <= self.target.tolerance() + difference.bound()
     }
-}
-
-fn ours<S: Scalar>(motion: &dyn Motion<S>, target: &Target, units: &Units) -> Result<S, Error> {
-    let Some(time) = &target.time else {
-        let contact = target.contact - 1;
-        let none = || Error::NoContact { contact, found: motion.contacts().len() };
-        return of_contact(motion, units, target.quantity, contact)?.map_err(|_| none());
-    };
-    let at = |time: S| {
-        let mut table = columns(motion, units, &[target.quantity], &[time], Some(target.side))?;
-        Ok::<_, Error>(table.remove(0).remove(0))
-    };
-    let value = at(S::from_number(time, &motion.end().precision()))?;
-    Ok(if target.from_start { value - at(motion.end().zero())? } else { value })
 }
 
 #[cfg(test)]

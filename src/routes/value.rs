@@ -69,30 +69,29 @@ pub(crate) trait System: Bounded + Into<Value> {
 }
 
 macro_rules! systems {
-    ($($name:ty: $number:ident => $value:expr, $exponential:expr;)*) => {$(
-        #[allow(unreachable_code, reason = "without `mp` there are only doubles and fractions")]
+    ($($name:ty: $variant:ident, $exponential:expr;)*) => {$(
         impl From<$name> for Value {
-            fn from($number: $name) -> Self {
-                $value
+            #[allow(clippy::useless_conversion, reason = "an enclosure is boxed")]
+            fn from(value: $name) -> Self {
+                Value::$variant(value.into())
             }
         }
 
-        #[allow(unreachable_code, reason = "without `mp` there are only doubles and fractions")]
         impl System for $name {
             fn exponential(&self) -> Option<Self> {
-                let $number = self;
-                $exponential
+                let exponential: fn(&Self) -> Option<Self> = $exponential;
+                exponential(self)
             }
         }
     )*};
 }
-systems!(
-    Interval: x => Value::Enclosure(Box::new(x)), Some(Analytic::exp(x));
-    Estimate<f64>: x => Value::Double(x), Some(Analytic::exp(x));
-    Estimate<Float>: x => Value::Float(x), Some(Analytic::exp(x));
+systems! {
+    Interval: Enclosure, |x| Some(Analytic::exp(x));
+    Estimate<f64>: Double, |x| Some(Analytic::exp(x));
+    Estimate<Float>: Float, |x| Some(Analytic::exp(x));
     // No fraction but zero has a rational exponential.
-    Rational: x => Value::Fraction(x), (x.vanishes() == Ok(true)).then(|| x.one());
-);
+    Rational: Fraction, |x| (x.vanishes() == Ok(true)).then(|| x.one());
+}
 
 /// Why there is no answer, or nothing can be asked.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
@@ -103,13 +102,7 @@ pub(crate) enum NoAnswer {
     /// The rod has no such quantity.
     #[error("found {quantity} asked of a scene that has none: {why}; expected another quantity")]
     NoSuchQuantity { quantity: &'static str, why: String },
-    /// A time makes no sense here.
-    #[error("found time {found}, expected {expected}")]
-    Time { found: String, expected: String },
-    /// A budget that is no time.
-    #[error("found {found} seconds, expected more than 0 and at most 86400")]
-    Seconds { found: f64 },
-    /// This route has no answer.
+    /// This route has no answer, or nothing can be asked.
     #[error("{0}")]
     GaveUp(String),
 }

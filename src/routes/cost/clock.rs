@@ -21,26 +21,24 @@ const SHORTEST: f64 = 4e-5;
 const MOST_SAMPLES: usize = 31;
 
 impl Timing {
-    /// Median and distance of the quartiles of `samples`, which are sorted.
+    /// Median and distance of the quartiles of `samples`, linear between them.
     pub(super) fn of(samples: &mut [f64]) -> Self {
         samples.sort_by(f64::total_cmp);
-        let at = |part: f64| quantile(samples, part);
+        let at = |part: f64| {
+            let place = part * (samples.len().max(1) - 1) as f64;
+            let at = |k: usize| samples.get(k).or(samples.last()).copied().unwrap_or(f64::NAN);
+            let (low, share) = (place.floor() as usize, place.fract());
+            at(low) + share * (at(low + 1) - at(low))
+        };
         let spread = (samples.len() > 1).then(|| at(0.75) - at(0.25));
         Timing { seconds: at(0.5), spread, runs: samples.len() }
     }
 }
 
-/// **Errors**: [`NoAnswer::Seconds`] for a budget that is no time.
+/// **Errors**: [`NoAnswer::GaveUp`] for a budget that is no time.
 pub(super) fn check_budget(seconds: f64) -> Result<(), NoAnswer> {
-    if seconds > 0.0 && seconds <= 86_400.0 { Ok(()) } else { Err(NoAnswer::Seconds { found: seconds }) }
-}
-
-/// A quantile of sorted samples, linear between them.
-pub(super) fn quantile(sorted: &[f64], part: f64) -> f64 {
-    let place = part * (sorted.len().max(1) - 1) as f64;
-    let at = |k: usize| sorted.get(k).or(sorted.last()).copied().unwrap_or(f64::NAN);
-    let (low, share) = (place.floor() as usize, place.fract());
-    at(low) + share * (at(low + 1) - at(low))
+    let refused = || NoAnswer::gave_up(format!("found {seconds} seconds, expected more than 0 and at most 86400"));
+    if seconds > 0.0 && seconds <= 86_400.0 { Ok(()) } else { Err(refused()) }
 }
 
 /// Seconds that one call takes, averaged over `batch` calls.

@@ -2,7 +2,8 @@
 
 use std::time::Instant;
 
-use super::clock::{Timing, batch, check_budget, quantile, sample};
+use super::clock::{Timing, batch, check_budget, sample};
+use crate::mapped::mapped;
 use crate::number::Number;
 use crate::problem::{Parameters, Problem, Run, Speed, Start, Top};
 use crate::routes::route::{run_engine, run_planned};
@@ -22,10 +23,8 @@ pub(crate) struct Difference {
     /// The same with the effect switched off, which changes nothing where the scene does not call for it; for the plan
     /// itself, the engine called directly.
     pub(crate) without: Timing,
-    /// The median of the differences of neighbouring runs, seconds.
-    pub(crate) seconds: f64,
-    /// The distance of the quartiles of these differences, seconds.
-    pub(crate) spread: f64,
+    /// The differences of neighbouring runs.
+    pub(crate) costs: Timing,
 }
 
 impl Difference {
@@ -37,12 +36,12 @@ impl Difference {
     /// What the median of the differences may be by chance, seconds: three times `spread/√runs`, near its standard
     /// deviation.
     pub(crate) fn noise(&self) -> f64 {
-        3.0 * self.spread / (self.with.runs.max(1) as f64).sqrt()
+        3.0 * self.costs.spread.unwrap_or(0.0) / (self.costs.runs as f64).sqrt()
     }
 
     /// Whether the difference cannot be told from nothing.
     pub(crate) fn is_noise(&self) -> bool {
-        self.seconds.abs() <= self.noise()
+        self.costs.seconds.abs() <= self.noise()
     }
 }
 
@@ -57,7 +56,7 @@ const LIST: [Effect; 5] =
 /// **Accuracy**: medians of differences on this machine, now; [`Difference::is_noise`] says what is not to be told from
 /// nothing.
 ///
-/// **Errors**: [`NoAnswer::Seconds`], and those of the solver.
+/// **Errors**: a budget that is no time, and those of the solver.
 pub(crate) fn effects(
     scene: &Scene,
     energies: bool,
@@ -128,25 +127,19 @@ fn in_turns(
     let began = Instant::now();
     with()?;
     let batched = batch(began.elapsed().as_secs_f64());
-    let (mut a, mut b, mut differences) = (Vec::new(), Vec::new(), Vec::new());
-    let mut pair = 0.0;
-    while a.len() < 3 || (a.len() < MOST_PAIRS && start.elapsed().as_secs_f64() + pair < slot) {
+    let (mut pairs, mut pair): (Vec<[f64; 2]>, f64) = (Vec::new(), 0.0);
+    while pairs.len() < 3 || (pairs.len() < MOST_PAIRS && start.elapsed().as_secs_f64() + pair < slot) {
         let began = Instant::now();
         // Who goes first changes, so that going first favours neither.
-        let (x, y) = if a.len() % 2 == 0 {
-            let x = sample(batched, &with);
-            (x, sample(batched, &without))
+        pairs.push(if pairs.len() % 2 == 0 {
+            [sample(batched, &with), sample(batched, &without)]
         } else {
-            let y = sample(batched, &without);
-            (sample(batched, &with), y)
-        };
-        a.push(x);
-        b.push(y);
-        differences.push(x - y);
+            let [without, with] = [sample(batched, &without), sample(batched, &with)];
+            [with, without]
+        });
         pair = began.elapsed().as_secs_f64();
     }
-    differences.sort_by(f64::total_cmp);
-    let spread = quantile(&differences, 0.75) - quantile(&differences, 0.25);
-    let (with, without) = (Timing::of(&mut a), Timing::of(&mut b));
-    Ok(Difference { effect: None, called: true, with, without, seconds: quantile(&differences, 0.5), spread })
+    let of = |part: fn(&[f64; 2]) -> f64| Timing::of(&mut mapped(&pairs, part));
+    let (with, without, costs) = (of(|pair| pair[0]), of(|pair| pair[1]), of(|pair| pair[0] - pair[1]));
+    Ok(Difference { effect: None, called: true, with, without, costs })
 }

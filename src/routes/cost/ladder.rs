@@ -37,25 +37,11 @@ pub(super) struct Candidate {
     pub(super) setting: String,
     /// Decimal digits that the numbers of this setting hold.
     pub(super) digits: u32,
+    /// How many times as long it is expected to take as the setting before it; of the first one, seconds.
+    pub(super) times: f64,
     /// Whether this is what the plan does.
     pub(super) chosen: bool,
-    pub(super) expected: Expected,
 }
-
-impl Candidate {
-    fn new(family: Family, route: Route, setting: String, digits: u32, expected: Expected) -> Self {
-        Candidate { family, route, setting, digits, chosen: false, expected }
-    }
-}
-
-/// How long a setting is expected to take.
-#[derive(Clone, Copy)]
-pub(super) enum Expected {
-    Seconds(f64),
-    /// As long as the setting before it, times this.
-    Times(f64),
-}
-use Expected::{Seconds, Times};
 
 /// Settings of one route, the cheapest first.
 pub(super) type Ladder = Vec<Candidate>;
@@ -89,79 +75,84 @@ pub(super) fn ladders(question: &Question, plan: &Plan) -> (Vec<Ladder>, Vec<(Fa
         // In longer numbers the plan takes the lattice.
         numbers if !damped && family == Family::ClosedForm => {
             let mut planned = by_plan(Family::Lattice, question, numbers);
-            let doubles = Route::Lattice(Numbers::Double(None));
-            let doubles = Candidate::new(Family::Lattice, doubles, "double".into(), DOUBLE, Seconds(1e-6));
-            let chosen = std::mem::replace(&mut planned[0], doubles);
-            take(family, Ok(vec![Candidate { family, ..chosen }]));
+            let doubles = vec![("double".into(), Route::Lattice(Numbers::Double(None)))];
+            let doubles = in_doubles(Family::Lattice, [1e-6, 1.0], doubles).into_iter();
+            let chosen: Ladder = planned.splice(..1, doubles).collect();
+            take(family, Ok(chosen.into_iter().map(|chosen| Candidate { family, ..chosen }).collect_vec()));
             take(Family::Lattice, Ok(planned));
         }
         numbers => take(family, Ok(by_plan(family, question, numbers))),
     }
-    let doubles = |family: Family, first: f64, factor: f64, settings: Vec<(String, Route)>| -> Ladder {
-        let expected = std::iter::once(Seconds(first)).chain(std::iter::repeat(Times(factor)));
-        let steps = settings.into_iter().zip(expected);
-        steps.map(|((setting, route), expected)| Candidate::new(family, route, setting, DOUBLE, expected)).collect_vec()
-    };
     let cells = [1, 3, 5, 7, 9, 11, 13].map(|digits| (format!("to 1e-{digits}"), Route::Cells(digits)));
-    take(Family::Cells, Ok(doubles(Family::Cells, 1e-4, 1.5, cells.into())));
+    take(Family::Cells, Ok(in_doubles(Family::Cells, [1e-4, 1.5], cells)));
     let whole = match question.one.quantity {
         Quantity::VibrationalEnergy => Err("gives the whole energy; E_z would be the difference of two".into()),
         _ => first.clone(),
     };
     let modes = (0..8).map(|k| 4 << (2 * k)).map(|count| (format!("N = {count}"), Route::Modes(count)));
-    take(Family::Modes, whole.clone().map(|()| doubles(Family::Modes, 1e-4, 4.0, modes.collect_vec())));
+    take(Family::Modes, whole.clone().map(|()| in_doubles(Family::Modes, [1e-4, 4.0], modes)));
+    let whole =
+        if damped { whole } else { whole.and(Err("without damping the paper itself has done its integrals".into())) };
     let printed = [1, 2, 4, 6, 8, 10, 12, 14]
         .map(|digits| (format!("tolerance 1e-{digits}"), Route::PrintedIntegrals(10f64.powi(-digits))));
-    let damped = match question.problem.rod.damping {
-        Some(_) => whole,
-        None => whole.and(Err("without damping the paper itself has done its integrals".into())),
-    };
-    take(Family::Printed, damped.map(|()| doubles(Family::Printed, 1e-2, 3.0, printed.into())));
+    take(Family::Printed, whole.map(|()| in_doubles(Family::Printed, [1e-2, 3.0], printed)));
     let differences = (0..7).map(|k| 8 << (2 * k)).map(|count| (format!("{count} cells"), Route::Differences(count)));
-    take(Family::Differences, Ok(doubles(Family::Differences, 1e-4, 16.0, differences.collect_vec())));
+    take(Family::Differences, Ok(in_doubles(Family::Differences, [1e-4, 16.0], differences)));
     if long::AVAILABLE {
         take(Family::Enclosures, enclosures(question, plan, first));
     }
     (ladders, left_out)
 }
 
-/// The settings of long numbers, of which a build without them has none.
-fn long_settings(expected: [Expected; 4]) -> impl Iterator<Item = (u32, Expected)> {
-    LONG.into_iter().zip(expected).filter(|_| long::AVAILABLE)
+/// Settings in doubles: the seconds of the first, and how many times as long as the one before each other takes.
+fn in_doubles(
+    family: Family,
+    [first, growth]: [f64; 2],
+    settings: impl IntoIterator<Item = (String, Route)>,
+) -> Ladder {
+    let step = |(k, (setting, route)): (usize, (String, Route))| {
+        let times = if k == 0 { first } else { growth };
+        Candidate { family, route, setting, digits: DOUBLE, times, chosen: false }
+    };
+    settings.into_iter().enumerate().map(step).collect_vec()
+}
+
+/// Settings in long numbers, with so many digits to spare; none in a build without such numbers.
+fn in_digits(
+    family: Family,
+    growths: [f64; 4],
+    spare: u32,
+    route: fn(Numbers) -> Route,
+) -> impl Iterator<Item = Candidate> {
+    LONG.into_iter().zip(growths).filter(|_| long::AVAILABLE).map(move |(digits, times)| {
+        let (route, setting) = (route(Numbers::Digits(digits)), format!("{digits} digits"));
+        Candidate { family, route, setting, digits: digits + spare, times, chosen: false }
+    })
 }
 
 fn closed_form() -> Ladder {
-    let candidate = |numbers: Numbers, setting: String, digits: u32, expected: Expected| {
-        Candidate::new(Family::ClosedForm, Route::ClosedForm(numbers), setting, digits, expected)
-    };
-    let long = long_settings([Seconds(0.01), Times(3.0), Times(10.0), Times(20.0)]);
-    let long = long
-        .map(|(digits, expected)| candidate(Numbers::Digits(digits), format!("{digits} digits"), digits + 6, expected));
-    let doubles = candidate(Numbers::Double(None), "double".into(), DOUBLE, Seconds(1e-6));
-    std::iter::once(doubles).chain(long).collect_vec()
+    let double = [("double".into(), Route::ClosedForm(Numbers::Double(None)))];
+    let mut ladder = in_doubles(Family::ClosedForm, [1e-6, 1.0], double);
+    ladder.extend(in_digits(Family::ClosedForm, [1e3, 3.0, 10.0, 20.0], 6, Route::ClosedForm));
+    ladder
 }
 
 fn by_plan(family: Family, question: &Question, system: Numbers) -> Ladder {
-    let planned = |numbers: Numbers, setting: String, digits: u32, expected: Expected| {
-        Candidate::new(family, Route::Planned(numbers), setting, digits, expected)
-    };
+    let (route, setting) = (Route::Planned(system), system.to_string());
     let digits = match system {
         Numbers::Digits(digits) | Numbers::ExactThenDigits(digits) => digits + 8,
         _ => DOUBLE,
     };
-    let chosen = planned(system, system.to_string(), digits, Seconds(0.0));
-    let mut ladder = vec![Candidate { chosen: true, ..chosen }];
+    let mut ladder = vec![Candidate { family, route, setting, digits, times: 0.0, chosen: true }];
     let fractions = Route::Lattice(Numbers::Exact);
     if family == Family::Lattice && fractions.run(question, f64::INFINITY).is_ok() {
-        ladder.push(Candidate::new(family, fractions, "fractions".into(), DOUBLE, Times(30.0)));
+        ladder.extend(in_doubles(family, [30.0, 1.0], [("fractions".into(), fractions)]));
     }
     // Cells cost about the cube of their digits, of which the plan takes eight more than asked; the lattice hardly more
     // for long numbers.
     let growths = if family == Family::Lattice { [3.0, 1.5, 2.0, 4.0] } else { [30.0, 4.0, 15.0, 30.0] };
-    let others = long_settings(growths.map(Times)).filter(|(digits, _)| system != Numbers::Digits(*digits));
-    ladder.extend(
-        others.map(|(digits, growth)| planned(Numbers::Digits(digits), format!("{digits} digits"), digits + 8, growth)),
-    );
+    let others = in_digits(family, growths, 8, Route::Planned);
+    ladder.extend(others.filter(|other| system != Numbers::Digits(other.digits - 8)));
     ladder
 }
 
@@ -177,11 +168,13 @@ fn enclosures(question: &Question, plan: &Plan, first: Result<(), String>) -> Re
     let mut settings: Vec<u32> = LONG.into_iter().chain([15]).chain(chosen).collect_vec();
     settings.sort_unstable();
     settings.dedup();
-    let candidate = |(k, digits): (usize, u32)| {
-        let route = Route::Planned(Numbers::Certified(digits));
-        let expected = if k == 0 { Seconds(1e-3) } else { Times(4.0) };
-        let candidate = Candidate::new(Family::Enclosures, route, format!("{digits} digits"), digits + 9, expected);
-        Candidate { chosen: chosen == Some(digits), ..candidate }
+    let candidate = |(k, digits): (usize, u32)| Candidate {
+        family: Family::Enclosures,
+        route: Route::Planned(Numbers::Certified(digits)),
+        setting: format!("{digits} digits"),
+        digits: digits + 9,
+        times: if k == 0 { 1e-3 } else { 4.0 },
+        chosen: chosen == Some(digits),
     };
     Ok(settings.into_iter().enumerate().map(candidate).collect_vec())
 }

@@ -3,7 +3,7 @@
 use std::time::{Duration, Instant};
 
 use super::clock::{Timing, check_budget, repeat};
-use super::ladder::{Candidate, Expected, Family, Ladder, ladders};
+use super::ladder::{Candidate, Family, Ladder, ladders};
 use crate::mapped::mapped;
 use crate::number::Number;
 use crate::order::ascending;
@@ -76,7 +76,7 @@ const SHARE: f64 = 0.5;
 /// **Accuracy**: times are medians on this machine, now; errors are measured against [`Truth::computed`] with thirty
 /// digits more than the most precise row.
 ///
-/// **Errors**: [`NoAnswer::Seconds`]; [`NoAnswer::NoSuchQuantity`] where the scene has no such quantity; those of the
+/// **Errors**: a budget that is no time; [`NoAnswer::NoSuchQuantity`] where the scene has no such quantity; those of the
 /// solver.
 pub(crate) fn work_precision(
     question: &Question,
@@ -92,17 +92,18 @@ pub(crate) fn work_precision(
     let slot = SHARE * seconds / count.max(1) as f64;
     let mut left_out: Vec<LeftOut> = mapped(without, |(family, why)| LeftOut { family, setting: None, why });
     let mut taken: Vec<(Candidate, usize, Value, Timing)> = Vec::with_capacity(count);
-    let mut waiting: Vec<Waiting> = mapped(all, Waiting::new);
-    while let Some(next) = cheapest(&mut waiting) {
-        let (candidate, expected, ladder) = next;
+    let mut waiting: Vec<Waiting> = mapped(all, |mut rest| {
+        rest.reverse();
+        Waiting { rest, before: 1.0 }
+    });
+    while let Some((candidate, expected, ladder)) = cheapest(&mut waiting) {
         observe(spent() / seconds, &format!("{}, {}", candidate.family.name(), candidate.setting));
         // Rows of long numbers make the truth as dear as they are.
         let share = if candidate.digits > 20 { FOR_TRUTH } else { 1.0 };
         let left = seconds - spent();
         if !candidate.chosen && expected * share > left {
-            let why = format!("not expected to fit into {seconds} seconds");
-            left_out.push(LeftOut { family: candidate.family, setting: Some(candidate.setting), why });
-            waiting[ladder].rest = Vec::new().into_iter().peekable();
+            left_out.push(candidate.left_out(format!("not expected to fit into {seconds} seconds")));
+            waiting[ladder].rest.clear();
             continue;
         }
         let began = Instant::now();
@@ -123,8 +124,7 @@ pub(crate) fn work_precision(
             Err(error) => {
                 // A coarser setting may fail where a finer one does not.
                 waiting[ladder].before = once.max(1e-7);
-                let (family, setting) = (candidate.family, Some(candidate.setting));
-                left_out.push(LeftOut { family, setting, why: error.to_string() });
+                left_out.push(candidate.left_out(error.to_string()));
             }
         }
     }
@@ -135,12 +135,10 @@ pub(crate) fn work_precision(
             Ok(truth) => break truth,
             // What nothing can be held against is left out, down to doubles.
             Err(error) if taken.iter().any(|row| row.0.digits < digits) => {
-                let (kept, lost) = taken.into_iter().partition(|row| row.0.digits < digits);
+                let (kept, lost): (Vec<_>, Vec<_>) = taken.into_iter().partition(|row| row.0.digits < digits);
                 taken = kept;
-                left_out.extend(lost.into_iter().map(|(candidate, ..): (Candidate, _, _, _)| {
-                    let why = format!("no truth to hold it against: {error}");
-                    LeftOut { family: candidate.family, setting: Some(candidate.setting), why }
-                }));
+                let why = format!("no truth to hold it against: {error}");
+                left_out.extend(lost.into_iter().map(|(candidate, ..)| candidate.left_out(why.clone())));
             }
             Err(error) => return Err(error),
         }
@@ -166,31 +164,24 @@ pub(crate) fn work_precision(
     })
 }
 
+impl Candidate {
+    fn left_out(self, why: String) -> LeftOut {
+        LeftOut { family: self.family, setting: Some(self.setting), why }
+    }
+}
+
 /// A ladder whose lowest settings have been taken.
 struct Waiting {
-    rest: std::iter::Peekable<std::vec::IntoIter<Candidate>>,
+    /// The next one last.
+    rest: Ladder,
     /// Seconds that the last setting took.
     before: f64,
 }
 
-impl Waiting {
-    fn new(ladder: Ladder) -> Self {
-        Waiting { rest: ladder.into_iter().peekable(), before: 1.0 }
-    }
-
-    fn expected(&mut self) -> Option<f64> {
-        let before = self.before;
-        self.rest.peek().map(|candidate| match candidate.expected {
-            Expected::Seconds(seconds) => seconds,
-            Expected::Times(factor) => factor * before,
-        })
-    }
-}
-
 /// The setting that is expected to take the least, with that time and the place of its ladder.
 fn cheapest(waiting: &mut [Waiting]) -> Option<(Candidate, f64, usize)> {
-    let expected = waiting.iter_mut().enumerate().filter_map(|(k, ladder)| Some((k, ladder.expected()?)));
+    let expected =
+        waiting.iter().enumerate().filter_map(|(k, ladder)| Some((k, ladder.rest.last()?.times * ladder.before)));
     let (k, expected) = expected.min_by(|a, b| a.1.total_cmp(&b.1))?;
-    let candidate = waiting[k].rest.next()?;
-    Some((candidate, expected, k))
+    Some((waiting[k].rest.pop()?, expected, k))
 }
