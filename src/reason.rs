@@ -1,23 +1,34 @@
 //! Why a history ends where it does, and what a user should know of it, as data.
 
-use std::fmt::{Display, Formatter, Result};
+use thiserror::Error;
 
 use crate::number::Scalar;
 
 /// Why nothing follows the end of a history, or why what follows is not known. Times, speeds and heights are in the
 /// units of the problem.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, Error, PartialEq)]
 pub enum Reason {
     /// The first contact has no bounce.
+    #[error(transparent)]
     NoBounce(NoBounceReason),
     /// Whether the first contact ends could not be shown.
+    #[error(transparent)]
     Doubt(Doubt),
     /// Two whole round trips on the ground, or off it, repeat for ever.
+    #[error(
+        "the end {} two whole round trips, which repeat for ever",
+        if *.contact { "stays on the ground for" } else { "does not come down in" }
+    )]
     Repeats {
         /// Whether on the ground.
         contact: bool,
     },
     /// From a time on the ground end swings above the ground without ever reaching it.
+    #[error(
+        "from t = {} on the ground end swings by at most {swing:.3e}, ever less, about a height that is never \
+         below {height:.3e}",
+        short(.from)
+    )]
     StaysAbove {
         /// From this time on.
         from: f64,
@@ -27,6 +38,11 @@ pub enum Reason {
         height: f64,
     },
     /// From a time on the waves pull less than the rod presses with at rest.
+    #[error(
+        "from t = {} on the waves pull with at most {part:.3} of what the rod presses with at rest, and they \
+         never grow",
+        short(.from)
+    )]
     StaysPressed {
         /// From this time on.
         from: f64,
@@ -34,6 +50,7 @@ pub enum Reason {
         part: f64,
     },
     /// From a time on no part of the rod moves faster than the accuracy resolves.
+    #[error("from t = {} on nothing moves faster than {speed:.1e}, which is within the accuracy{state}", short(.from))]
     Still {
         /// From this time on.
         from: f64,
@@ -43,6 +60,10 @@ pub enum Reason {
         state: StillState,
     },
     /// The next touch is not told from a miss.
+    #[error(
+        "within a round trip comes a touch that {bits} bits do not tell from a miss; either way v(0,t) is the same \
+         up to {spread:.1e} for one round trip, and up to three times more after each one more"
+    )]
     Touch {
         /// Bits of the numbers.
         bits: u32,
@@ -50,6 +71,10 @@ pub enum Reason {
         spread: f64,
     },
     /// The motion takes more than is computed of it.
+    #[error(
+        "after {cells} cells the motion is followed no farther: the rod carries {rays} rays, two for each bounce \
+         that has not faded"
+    )]
     Effort {
         /// Cells that were crossed.
         cells: u64,
@@ -57,28 +82,39 @@ pub enum Reason {
         rays: usize,
     },
     /// More digits than the motion after a damped first contact is computed to.
+    #[error("beyond {0} digits only the first contact is computed, not the flight after it")]
     MostDigits(u32),
 }
 
 /// What follows from a motion below the accuracy.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, Error, PartialEq)]
 pub enum StillState {
     /// The rod stands on the ground and presses as at rest.
+    #[error(": the rod presses on the ground as it does at rest")]
     Pressed,
     /// The ground end stays at a height.
+    #[error(": the ground end stays at the height {0:.6e}")]
     Above(f64),
     /// Later events are below the accuracy too.
+    #[error(", and so is every event that may still come")]
     Faint,
     /// Whether another event comes takes more digits to tell.
+    #[error(": whether the ground end still lets go or lands takes more digits to tell")]
     Open,
 }
 
 /// Why the stress of a first contact never becomes tensile.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, Error, PartialEq)]
 pub enum NoBounceReason {
     /// Neither speed nor gravity.
+    #[error("neither speed nor gravity: nothing moves")]
     NothingMoves,
     /// `R ≥ π`: the lowest mode is overdamped and outweighs all others from `t₁` on.
+    #[error(
+        "r t₁ = {damping_ratio:.6} ≥ π: the lowest mode is overdamped; at t₁ it presses {} times as hard as all \
+         others together could pull, and it outgrows them from there",
+        if *.margin < 1000.0 { format!("{margin:.3}") } else { "more than 1000".into() }
+    )]
     Overdamped {
         /// `R = r t₁`.
         damping_ratio: f64,
@@ -86,6 +122,10 @@ pub enum NoBounceReason {
         margin: f64,
     },
     /// The transient can no longer lift what the static stress holds down.
+    #[error(
+        "from t = {trips} t₁ on the transient stays below {part:.4} of the static stress gL/c², and the rod \
+         settles under its weight"
+    )]
     SettlesUnderWeight {
         /// From this many round trips on.
         trips: i64,
@@ -95,23 +135,34 @@ pub enum NoBounceReason {
 }
 
 /// Why neither a bounce nor its absence could be shown.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, Error, PartialEq)]
 pub enum Doubt {
     /// An impact speed below zero, or a parameter that is not finite.
+    #[error("an impact speed below zero, or a number that is not finite")]
     Parameters,
     /// Whether gravity or damping vanish, or which speed is greater, is not settled.
+    #[error("whether a parameter is zero or greater than another one cannot be told")]
     Sizes,
     /// `r t₁` may be on either side of π.
+    #[error("r t₁ cannot be told from π, from which on there is no bounce")]
     NearPi,
     /// Just after this lattice time the stress may have either sign.
+    #[error("just after t = {0} t₁ the stress cannot be told from zero")]
     AtLattice(i64),
     /// In the cell after this lattice time the stress is below every number that the precision holds.
+    #[error("between {} t₁ and {} t₁ the stress is below every number that this precision holds", .0, .0 + 1)]
     Faint(i64),
     /// In the cell after this lattice time rounding reaches so much of the stress.
+    #[error("between {} t₁ and {} t₁ rounding reaches {:.1e} of the stress", .0, .0 + 1, .1)]
     Rounding(i64, f64),
     /// Near this many round trips the stress may have either sign.
+    #[error("near t = {0:.9} t₁ the stress cannot be told from zero")]
     NearZero(f64),
     /// `r t₁` is so close below π that the bounce comes after the cells that are searched.
+    #[error(
+        "r t₁ = {damping_ratio} is just below π: no bounce within the limit of {cells} round trips; without \
+         gravity it comes at about {expected:.4e} t₁"
+    )]
     Late {
         /// `R = r t₁`.
         damping_ratio: f64,
@@ -121,13 +172,19 @@ pub enum Doubt {
         expected: f64,
     },
     /// No bounce in so many cells, which is all that are searched.
+    #[error("no bounce in {0} round trips, which is the limit")]
     NoneFound(i64),
 }
 
 /// What a user should know of an answer beside its numbers. Times are in the units of the problem.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, Error, PartialEq)]
 pub enum Warning {
     /// The bound does not tell whether something happens at the ground; later bounds hold either way.
+    #[error(
+        "at t = {} {what}: the bounds do not tell; from then on velocities may differ by {differ:.1e}, which \
+         later bounds include",
+        .time.decimal(12)
+    )]
     NotTold {
         /// At this time.
         time: f64,
@@ -137,27 +194,40 @@ pub enum Warning {
         differ: f64,
     },
     /// A time that was asked for is not told from that of an event or a ray; its values cover both sides.
+    #[error("t = {time} is not told from the time of an event or a ray: its values cover both sides")]
     TimeNotTold {
         /// The time.
         time: f64,
     },
     /// The bound of the error no longer tells events apart.
+    #[error("from t = {from} on the bound of the error no longer tells events apart")]
     EventsOverlap {
         /// From this time on.
         from: f64,
     },
     /// Events are not determined in the numbers that were asked for.
+    #[error("from t = {} on, the events are not determined in this precision: ask for more digits", short(.from))]
     NotDetermined {
         /// From this time on.
         from: f64,
     },
     /// Two events, or an event and a ray, coincide within their error bounds and are taken for one.
+    #[error(
+        "from t = {} on, an event and a ray that coincide within their error bounds are taken for one{}",
+        short(.from),
+        if cfg!(feature = "mp") { "" } else { ": a build with long numbers decides" }
+    )]
     Coincidence {
         /// From this time on.
         from: f64,
     },
     /// Hops that are not told apart from contact, or touches from flight; the peak of a contact leaves out what lasts
     /// no longer.
+    #[error(
+        "from t = {} on hops shorter than {longest:.1e} are not told apart from contact, at {landings} {}",
+        .from.decimal(9),
+        if *.landings == 1 { "landing" } else { "landings" }
+    )]
     HopsUnresolved {
         /// From this time on.
         from: f64,
@@ -167,6 +237,12 @@ pub enum Warning {
         landings: usize,
     },
     /// A fall from `drop_height` that the damping would not let become so fast.
+    #[error(
+        "the speed at impact, √(2 g drop_height) = {}, takes no account of drag; with this damping no fall is \
+         faster than g/2r = {}: a gap of this height with speed = 0 falls with the damping",
+        .speed.decimal(3),
+        .terminal.decimal(3)
+    )]
     DragNeglected {
         /// `μ = √(2 g drop_height)`.
         speed: f64,
@@ -176,13 +252,16 @@ pub enum Warning {
 }
 
 /// What the bound of an error does not tell.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Error, PartialEq, Eq)]
 pub enum Near {
     /// Whether the end, which comes as close to the ground as its bound, touches it.
+    #[error("the end touches the ground or passes just above it")]
     Touch,
     /// Whether the end, where the stress comes as close to zero as its bound, lets go.
+    #[error("the ground lets go or just holds")]
     Release,
     /// Whether an event comes before the end of the run.
+    #[error("an event comes just before the end of the run or just after it")]
     End,
 }
 
@@ -200,152 +279,11 @@ impl Doubt {
     }
 }
 
-impl Display for Reason {
-    fn fmt(&self, f: &mut Formatter<'_>) -> Result {
-        match self {
-            Reason::NoBounce(reason) => reason.fmt(f),
-            Reason::Doubt(doubt) => doubt.fmt(f),
-            Reason::Repeats { contact: true } => {
-                f.write_str("the end stays on the ground for two whole round trips, which repeat for ever")
-            }
-            Reason::Repeats { contact: false } => {
-                f.write_str("the end does not come down in two whole round trips, which repeat for ever")
-            }
-            Reason::StaysAbove { from, swing, height } => write!(
-                f,
-                "from t = {} on the ground end swings by at most {swing:.3e}, ever less, about a height that is never \
-                 below {height:.3e}",
-                short(*from)
-            ),
-            Reason::StaysPressed { from, part } => write!(
-                f,
-                "from t = {} on the waves pull with at most {part:.3} of what the rod presses with at rest, and they \
-                 never grow",
-                short(*from)
-            ),
-            Reason::Still { from, speed, state } => {
-                let from = short(*from);
-                write!(f, "from t = {from} on nothing moves faster than {speed:.1e}, which is within the accuracy")?;
-                match state {
-                    StillState::Pressed => f.write_str(": the rod presses on the ground as it does at rest"),
-                    StillState::Above(height) => write!(f, ": the ground end stays at the height {height:.6e}"),
-                    StillState::Faint => f.write_str(", and so is every event that may still come"),
-                    StillState::Open => {
-                        f.write_str(": whether the ground end still lets go or lands takes more digits to tell")
-                    }
-                }
-            }
-            Reason::Touch { bits, spread } => write!(
-                f,
-                "within a round trip comes a touch that {bits} bits do not tell from a miss; either way v(0,t) is the \
-                 same up to {spread:.1e} for one round trip, and up to three times more after each one more"
-            ),
-            Reason::Effort { cells, rays } => write!(
-                f,
-                "after {cells} cells the motion is followed no farther: the rod carries {rays} rays, two for each \
-                 bounce that has not faded"
-            ),
-            Reason::MostDigits(most) => {
-                write!(f, "beyond {most} digits only the first contact is computed, not the flight after it")
-            }
-        }
-    }
-}
-
 /// A time in words.
-fn short(time: f64) -> String {
-    if time == 0.0 || (1e-3..1e6).contains(&time) {
+fn short(time: &f64) -> String {
+    if *time == 0.0 || (1e-3..1e6).contains(time) {
         format!("{}", (time * 1e6).round() / 1e6)
     } else {
         format!("{time:.6e}")
-    }
-}
-
-impl Display for NoBounceReason {
-    fn fmt(&self, f: &mut Formatter<'_>) -> Result {
-        match self {
-            NoBounceReason::NothingMoves => f.write_str("neither speed nor gravity: nothing moves"),
-            NoBounceReason::Overdamped { damping_ratio, margin } => {
-                let times = if *margin < 1000.0 { format!("{margin:.3}") } else { "more than 1000".into() };
-                write!(
-                    f,
-                    "r t₁ = {damping_ratio:.6} ≥ π: the lowest mode is overdamped; at t₁ it presses {times} times as \
-                     hard as all others together could pull, and it outgrows them from there"
-                )
-            }
-            NoBounceReason::SettlesUnderWeight { trips, part } => write!(
-                f,
-                "from t = {trips} t₁ on the transient stays below {part:.4} of the static stress gL/c², and the rod \
-                 settles under its weight"
-            ),
-        }
-    }
-}
-
-impl Display for Doubt {
-    fn fmt(&self, f: &mut Formatter<'_>) -> Result {
-        match self {
-            Doubt::Parameters => f.write_str("an impact speed below zero, or a number that is not finite"),
-            Doubt::Sizes => f.write_str("whether a parameter is zero or greater than another one cannot be told"),
-            Doubt::NearPi => f.write_str("r t₁ cannot be told from π, from which on there is no bounce"),
-            Doubt::AtLattice(k) => write!(f, "just after t = {k} t₁ the stress cannot be told from zero"),
-            Doubt::Faint(k) => {
-                write!(f, "between {k} t₁ and {} t₁ the stress is below every number that this precision holds", k + 1)
-            }
-            Doubt::Rounding(k, part) => {
-                write!(f, "between {k} t₁ and {} t₁ rounding reaches {part:.1e} of the stress", k + 1)
-            }
-            Doubt::NearZero(trips) => write!(f, "near t = {trips:.9} t₁ the stress cannot be told from zero"),
-            Doubt::Late { damping_ratio, cells, expected } => write!(
-                f,
-                "r t₁ = {damping_ratio} is just below π: no bounce within the limit of {cells} round trips; without \
-                 gravity it comes at about {expected:.4e} t₁"
-            ),
-            Doubt::NoneFound(cells) => write!(f, "no bounce in {cells} round trips, which is the limit"),
-        }
-    }
-}
-
-impl Display for Warning {
-    fn fmt(&self, f: &mut Formatter<'_>) -> Result {
-        match self {
-            Warning::NotTold { time, what, differ } => {
-                let what = match what {
-                    Near::Touch => "the end touches the ground or passes just above it",
-                    Near::Release => "the ground lets go or just holds",
-                    Near::End => "an event comes just before the end of the run or just after it",
-                };
-                let time = time.decimal(12);
-                write!(f, "at t = {time} {what}: the bounds do not tell; from then on velocities may differ by ")?;
-                write!(f, "{differ:.1e}, which later bounds include")
-            }
-            Warning::TimeNotTold { time } => {
-                write!(f, "t = {time} is not told from the time of an event or a ray: its values cover both sides")
-            }
-            Warning::EventsOverlap { from } => {
-                write!(f, "from t = {from} on the bound of the error no longer tells events apart")
-            }
-            Warning::NotDetermined { from } => {
-                let from = short(*from);
-                write!(f, "from t = {from} on, the events are not determined in this precision: ask for more digits")
-            }
-            Warning::Coincidence { from } => {
-                let from = short(*from);
-                write!(f, "from t = {from} on, an event and a ray that coincide within their error bounds are taken ")?;
-                f.write_str(if cfg!(feature = "mp") { "for one" } else { "for one: a build with long numbers decides" })
-            }
-            Warning::HopsUnresolved { from, longest, landings } => {
-                let (from, word) = (from.decimal(9), if *landings == 1 { "landing" } else { "landings" });
-                write!(f, "from t = {from} on hops shorter than {longest:.1e} are not told apart from contact, ")?;
-                write!(f, "at {landings} {word}")
-            }
-            Warning::DragNeglected { speed, terminal } => write!(
-                f,
-                "the speed at impact, √(2 g drop_height) = {}, takes no account of drag; with this damping no fall is \
-                 faster than g/2r = {}: a gap of this height with speed = 0 falls with the damping",
-                speed.decimal(3),
-                terminal.decimal(3)
-            ),
-        }
     }
 }
