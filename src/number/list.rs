@@ -2,49 +2,11 @@
 
 use std::ops::Range;
 
-use super::{Number, NumberError, Scalar, short};
+use super::{Number, NumberError, Scalar, rational, short};
 use crate::mapped::{CollectVec, mapped};
 
 /// The most values that one range may hold.
 const MOST: u32 = 10_000_000;
-
-/// What a list is written as: `V1,V2,…`, `A..B:N` or `A..B:N:log`.
-#[derive(Clone, Debug, PartialEq)]
-pub(crate) enum Spelled {
-    Numbers(Vec<Number>),
-    /// So many numbers from one to another, both included: in geometric progression, or equally spaced.
-    Range {
-        from: Number,
-        to: Number,
-        count: u32,
-        geometric: bool,
-    },
-}
-
-impl Spelled {
-    /// Reads `text`; `:log` only where a `geometric` progression makes sense.
-    pub(crate) fn of(text: &str, geometric: bool) -> Result<Self, String> {
-        let number = |text: &str| text.parse().map_err(|error: NumberError| error.to_string());
-        let refused = |expected: &str| format!("found `{}`, expected {expected}", short(text));
-        let Some((from, rest)) = text.split_once("..") else {
-            return Ok(Spelled::Numbers(text.split(',').map(number).collect::<Result<_, _>>()?));
-        };
-        let mut rest = rest.split(':');
-        let (to, count, log) = match (rest.next(), rest.next(), rest.next(), rest.next()) {
-            (Some(to), Some(count), None, _) => (to, count, false),
-            (Some(to), Some(count), Some("log"), None) if geometric => (to, count, true),
-            _ if geometric => return Err(refused("V1,V2,…, A..B:N or A..B:N:log")),
-            _ => return Err(refused("A..B:N")),
-        };
-        let count = count.trim().parse().ok().filter(|count| (2..=MOST).contains(count));
-        let count = count.ok_or_else(|| refused(&format!("a count of 2 to {MOST} in A..B:N")))?;
-        let (from, to): (Number, Number) = (number(from)?, number(to)?);
-        if log && !(from.to_f64() > 0.0 && to.to_f64() > 0.0) {
-            return Err(refused("two ends above zero for :log"));
-        }
-        Ok(Spelled::Range { from, to, count, geometric: log })
-    }
-}
 
 /// Numbers, or equally spaced ones that are worked out when they are needed.
 #[derive(Clone, Debug)]
@@ -59,10 +21,30 @@ pub(crate) enum List {
 impl List {
     /// The numbers that `0.1,1/3` or `0..2:5` spells.
     pub(crate) fn equally_spaced(text: &str) -> Result<List, String> {
-        Ok(match Spelled::of(text, false)? {
-            Spelled::Numbers(numbers) => List::Numbers(numbers),
-            Spelled::Range { from, to, count, .. } => List::Range(from, to, count),
-        })
+        Ok(List::read(text, false)?.0)
+    }
+
+    /// The numbers that `V1,V2,…`, `A..B:N` or, only where a `geometric` progression makes sense, `A..B:N:log` spells,
+    /// and whether it is such a progression.
+    pub(crate) fn read(text: &str, geometric: bool) -> Result<(List, bool), String> {
+        let number = |text: &str| text.parse().map_err(|error: NumberError| error.to_string());
+        let refused = |expected: &str| format!("found `{}`, expected {expected}", short(text));
+        let Some((from, rest)) = text.split_once("..") else {
+            return Ok((List::Numbers(text.split(',').map(number).collect::<Result<_, _>>()?), false));
+        };
+        let (to, count, log) = match *rest.split(':').collect_vec() {
+            [to, count] => (to, count, false),
+            [to, count, "log"] if geometric => (to, count, true),
+            _ if geometric => return Err(refused("V1,V2,…, A..B:N or A..B:N:log")),
+            _ => return Err(refused("A..B:N")),
+        };
+        let count = count.trim().parse().ok().filter(|count| (2..=MOST).contains(count));
+        let count = count.ok_or_else(|| refused(&format!("a count of 2 to {MOST} in A..B:N")))?;
+        let (from, to): (Number, Number) = (number(from)?, number(to)?);
+        if log && !(from.to_f64() > 0.0 && to.to_f64() > 0.0) {
+            return Err(refused("two ends above zero for :log"));
+        }
+        Ok((List::Range(from, to, count), log))
     }
 
     /// The multiples of `step` from 0 to `to`.
@@ -91,10 +73,9 @@ impl List {
     }
 
     pub(crate) fn greatest(&self) -> Option<Number> {
-        let greater = |a: Number, b: &Number| if b.compare(&a).is_gt() { b.clone() } else { a };
         match self {
-            List::Numbers(numbers) => numbers.iter().cloned().reduce(|a, b| greater(a, &b)),
-            List::Range(from, to, _) => Some(greater(from.clone(), to)),
+            List::Numbers(numbers) => numbers.iter().rev().max_by(|a, b| a.compare(b)).cloned(),
+            List::Range(from, to, _) => [to, from].into_iter().max_by(|a, b| a.compare(b)).cloned(),
             List::Steps(step, count) => {
                 (f64::from(count - 1) * step.to_f64() * (1.0 + f64::EPSILON)).to_string().parse().ok()
             }
@@ -102,10 +83,9 @@ impl List {
     }
 
     pub(crate) fn least(&self) -> Option<Number> {
-        let less = |a: Number, b: &Number| if b.compare(&a).is_lt() { b.clone() } else { a };
         match self {
-            List::Numbers(numbers) => numbers.iter().cloned().reduce(|a, b| less(a, &b)),
-            List::Range(from, to, _) => Some(less(from.clone(), to)),
+            List::Numbers(numbers) => numbers.iter().min_by(|a, b| a.compare(b)).cloned(),
+            List::Range(from, to, _) => [from, to].into_iter().min_by(|a, b| a.compare(b)).cloned(),
             List::Steps(..) => Some(0.into()),
         }
     }
@@ -154,17 +134,24 @@ impl List {
         let (from, to, divisor) = match self {
             List::Numbers(_) => return None,
             List::Range(from, to, _) => {
-                let ((a, b), (c, d)) = (from.integers()?, to.integers()?);
+                let ([a, b], [c, d]) = (small(from)?, small(to)?);
                 (a * d, c * b, b.checked_mul(d)?.checked_mul(last)?)
             }
             List::Steps(step, _) => {
-                let (a, b) = step.integers()?;
+                let [a, b] = small(step)?;
                 (0, a, b)
             }
         };
         let most = from.abs().max(to.abs()).checked_mul(last)?.max(divisor);
         (most < 1 << 53).then_some([from as i64, to as i64, divisor as i64])
     }
+}
+
+/// Numerator and denominator; `None` where they are 2⁵³ or more.
+fn small(number: &Number) -> Option<[i128; 2]> {
+    let (p, q) = rational::parts(&number.to_rational());
+    let parts = [i128::try_from(&p).ok()?, i128::try_from(&q).ok()?];
+    parts.iter().all(|part| part.abs() < 1 << 53).then_some(parts)
 }
 
 #[cfg(test)]

@@ -7,7 +7,6 @@ use std::str::FromStr;
 use thiserror::Error;
 
 use super::rational::{self, Integer, Rational};
-use crate::mapped::CollectVec;
 
 /// A number as a person wrote it: `3`, `0.1`, `1e-9`, `1/3`, `2.5/7`. It stands for exactly the rational that it
 /// spells: `0.1` is 1/10, never the nearest double.
@@ -84,33 +83,7 @@ impl Number {
         if (self.value - other.value).abs() > slack {
             return self.value.total_cmp(&other.value);
         }
-        // So close, the two have the same sign or are both zero; a/b against c/d is a·d against c·b.
-        let (a, b) = self.parts();
-        let (c, d) = other.parts();
-        let order = Magnitude::product(a, d).compare(&Magnitude::product(c, b));
-        if self.value < 0.0 { order.reverse() } else { order }
-    }
-
-    /// Numerator and denominator as integers below 2⁵³; `None` where they are greater.
-    #[cfg(feature = "cli")]
-    pub(crate) fn integers(&self) -> Option<(i128, i128)> {
-        let integers = |decimal: &str| {
-            let (mantissa, exponent) = decimal.split_once(['e', 'E']).unwrap_or((decimal, "0"));
-            let (whole, fraction) = mantissa.split_once('.').unwrap_or((mantissa, ""));
-            let digits: i128 = format!("{whole}{fraction}").parse().ok()?;
-            let power = exponent.parse::<i32>().ok()? - i32::try_from(fraction.len()).ok()?;
-            let ten = 10i128.checked_pow(power.unsigned_abs())?;
-            if power < 0 { Some((digits, ten)) } else { Some((digits.checked_mul(ten)?, 1)) }
-        };
-        let (numerator, denominator) = self.parts();
-        let ((a, b), (c, d)) = (integers(numerator)?, integers(denominator)?);
-        let (top, bottom) = (a.checked_mul(d)?, b.checked_mul(c)?);
-        let (mut divisor, mut rest) = (top.abs(), bottom.abs());
-        while rest != 0 {
-            (divisor, rest) = (rest, divisor % rest);
-        }
-        let parts = (top / divisor * bottom.signum(), bottom.abs() / divisor);
-        (parts.0.abs().max(parts.1) < 1 << 53).then_some(parts)
+        self.to_rational().cmp(&other.to_rational())
     }
 
     /// Numerator and denominator, each a decimal.
@@ -123,62 +96,10 @@ impl Number {
         let (numerator, denominator) = self.parts();
         decimal_to_rational(numerator) / decimal_to_rational(denominator)
     }
-}
 
-impl Number {
     /// The number that `fraction` spells; `None` beyond the sizes that are read.
     pub(crate) fn of_rational(fraction: &Rational) -> Option<Number> {
         fraction.to_string().parse().ok()
-    }
-}
-
-/// The magnitude of a decimal: `limbs`, of nine decimal digits each and the least first, times `10^power`.
-struct Magnitude {
-    limbs: Vec<u64>,
-    power: i64,
-}
-
-const LIMB: u64 = 1_000_000_000;
-
-impl Magnitude {
-    /// The magnitude of a checked decimal.
-    fn of(text: &str) -> Self {
-        let (mantissa, exponent) = text.split_once(['e', 'E']).unwrap_or((text, "0"));
-        let fraction = mantissa.split_once('.').map_or(0, |(_, fraction)| fraction.len());
-        let digits: Vec<u8> = mantissa.bytes().filter(u8::is_ascii_digit).map(|d| d - b'0').collect_vec();
-        let limb = |nine: &[u8]| nine.iter().fold(0, |limb, digit| 10 * limb + u64::from(*digit));
-        let power = exponent.parse().unwrap_or(0) - fraction as i64;
-        Magnitude { limbs: digits.rchunks(9).map(limb).collect_vec(), power }
-    }
-
-    /// `|a·b|`, digit by digit.
-    fn product(a: &str, b: &str) -> Self {
-        let (a, b) = (Magnitude::of(a), Magnitude::of(b));
-        let mut limbs = vec![0; a.limbs.len() + b.limbs.len()];
-        for (i, x) in a.limbs.iter().enumerate() {
-            let mut carry = 0;
-            for (limb, y) in limbs[i..].iter_mut().zip(b.limbs.iter().chain([&0])) {
-                carry += *limb + x * y;
-                *limb = carry % LIMB;
-                carry /= LIMB;
-            }
-        }
-        Magnitude { limbs, power: a.power + b.power }
-    }
-
-    /// The significant digits and the power of ten of the first of them.
-    fn leading(&self) -> (i64, String) {
-        let digits: String = self.limbs.iter().rev().map(|limb| format!("{limb:09}")).collect();
-        let digits = digits.trim_start_matches('0');
-        (self.power + digits.len() as i64, digits.trim_end_matches('0').to_string())
-    }
-
-    fn compare(&self, other: &Self) -> Ordering {
-        let ((p, a), (q, b)) = (self.leading(), other.leading());
-        match (a.is_empty(), b.is_empty()) {
-            (false, false) => p.cmp(&q).then_with(|| a.cmp(&b)),
-            (a, b) => b.cmp(&a),
-        }
     }
 }
 

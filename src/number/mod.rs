@@ -50,7 +50,7 @@ pub use interval::{Interval, IntervalPrecision};
 #[cfg(feature = "cli")]
 pub(crate) use json::{bound_json, number_json};
 #[cfg(feature = "cli")]
-pub(crate) use list::{List, Spelled};
+pub(crate) use list::List;
 pub(crate) use literal::short;
 pub use literal::{Number, NumberError};
 pub use rational::Rational;

@@ -1,7 +1,7 @@
 //! Which values of a scene are varied, and the problem of each point.
 
 use crate::mapped::{CollectVec, mapped, try_mapped};
-use crate::number::{Number, Spelled};
+use crate::number::{List, Number};
 use crate::problem::validate::NUMBERS;
 use crate::problem::written::Written;
 use crate::problem::{Problem, ProblemError};
@@ -36,7 +36,7 @@ pub(crate) struct Axis {
 impl std::str::FromStr for Axis {
     type Err = SweepError;
 
-    /// `PATH=VALUES`, with the values as [`Spelled`] reads them.
+    /// `PATH=VALUES`, with the values as [`List::read`] reads them.
     fn from_str(text: &str) -> Result<Self, SweepError> {
         let found = |found: &str| format!("`{found}`");
         let (path, list) = text
@@ -58,10 +58,8 @@ impl std::str::FromStr for Axis {
 ///
 /// **Errors**: [`SweepError`] for what is written otherwise.
 pub(super) fn values(text: &str) -> Result<Vec<Number>, SweepError> {
-    let (from, to, count, geometric) = match Spelled::of(text, true).map_err(SweepError::List)? {
-        Spelled::Numbers(numbers) => return Ok(numbers),
-        Spelled::Range { from, to, count, geometric } => (from, to, count, geometric),
-    };
+    let (list, geometric) = List::read(text, true).map_err(SweepError::List)?;
+    let List::Range(from, to, count) = list else { return Ok(list.numbers().unwrap_or_default()) };
     let (a, b, steps) = (from.to_f64(), to.to_f64(), f64::from(count - 1));
     let inner = |k: u32| {
         let k = f64::from(k);
