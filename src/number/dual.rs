@@ -85,17 +85,7 @@ impl Div<&Dual> for Dual {
     }
 }
 
-macro_rules! by_value {
-    ($($trait:ident $method:ident),*) => {$(
-        impl $trait for Dual {
-            type Output = Self;
-            fn $method(self, other: Self) -> Self {
-                self.$method(&other)
-            }
-        }
-    )*};
-}
-by_value!(Add add, Sub sub, Mul mul, Div div);
+by_value!([] Dual);
 
 impl Scalar for Dual {
     type Precision = ();

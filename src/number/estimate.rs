@@ -127,26 +127,26 @@ impl<S: Rounded> Neg for Estimate<S> {
     }
 }
 
-impl<'a, S: Rounded> Add<&'a Estimate<S>> for Estimate<S> {
+impl<S: Rounded> Add<&Estimate<S>> for Estimate<S> {
     type Output = Self;
     #[inline]
-    fn add(self, other: &'a Self) -> Self {
+    fn add(self, other: &Self) -> Self {
         Estimate::once(self.value + &other.value, self.error + other.error)
     }
 }
 
-impl<'a, S: Rounded> Sub<&'a Estimate<S>> for Estimate<S> {
+impl<S: Rounded> Sub<&Estimate<S>> for Estimate<S> {
     type Output = Self;
     #[inline]
-    fn sub(self, other: &'a Self) -> Self {
+    fn sub(self, other: &Self) -> Self {
         Estimate::once(self.value - &other.value, self.error + other.error)
     }
 }
 
-impl<'a, S: Rounded> Mul<&'a Estimate<S>> for Estimate<S> {
+impl<S: Rounded> Mul<&Estimate<S>> for Estimate<S> {
     type Output = Self;
     #[inline]
-    fn mul(self, other: &'a Self) -> Self {
+    fn mul(self, other: &Self) -> Self {
         let (a, b) = (self.value.to_f64().abs(), other.value.to_f64().abs());
         // In this order a product of errors beyond the range of doubles is still a number.
         let both = self.error * self.value.unit() * other.error;
@@ -154,11 +154,11 @@ impl<'a, S: Rounded> Mul<&'a Estimate<S>> for Estimate<S> {
     }
 }
 
-impl<'a, S: Rounded> Div<&'a Estimate<S>> for Estimate<S> {
+impl<S: Rounded> Div<&Estimate<S>> for Estimate<S> {
     type Output = Self;
     /// `|a/b − a′/b′| ≤ (|a − a′| + |a/b| |b − b′|)/|b′|`.
     #[inline]
-    fn div(self, other: &'a Self) -> Self {
+    fn div(self, other: &Self) -> Self {
         let least = other.value.to_f64().abs() - other.bound();
         let value = self.value / &other.value;
         let error = self.error + value.to_f64().abs() * other.error;
@@ -174,18 +174,7 @@ impl<'a, S: Rounded> Div<&'a Estimate<S>> for Estimate<S> {
     }
 }
 
-macro_rules! by_value {
-    ($($trait:ident $method:ident),*) => {$(
-        impl<S: Rounded> $trait for Estimate<S> {
-            type Output = Self;
-            #[inline]
-            fn $method(self, other: Self) -> Self {
-                self.$method(&other)
-            }
-        }
-    )*};
-}
-by_value!(Add add, Sub sub, Mul mul, Div div);
+by_value!([S: Rounded] Estimate<S>);
 
 impl<S: Rounded> Scalar for Estimate<S> {
     type Precision = S::Precision;

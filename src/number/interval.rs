@@ -9,8 +9,10 @@ use std::cmp::Ordering;
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
 use rug::float::{Round, Special};
+use rug::ops::{AddAssignRound, SubAssignRound};
 use rug::{Float, Rational};
 
+use super::Estimate;
 use super::float::{down, up};
 use super::radical::Radical;
 
@@ -84,9 +86,7 @@ impl Interval {
     /// From `lo` to `hi`; everything, where one of them is no number.
     fn checked(lo: Float, hi: Float, inside: Inside) -> Self {
         if lo.is_nan() || hi.is_nan() {
-            let bits = lo.prec();
-            let ends = (Float::with_val(bits, Special::NegInfinity), Float::with_val(bits, Special::Infinity));
-            return Interval { lo: ends.0, hi: ends.1, inside };
+            return Interval { inside, ..Interval::everything(lo.prec()) };
         }
         if matches!(&inside, Inside::Known(number) if number.vanishes()) {
             let zero = Float::with_val(lo.prec(), 0);
@@ -95,14 +95,17 @@ impl Interval {
         Interval { lo, hi, inside }
     }
 
+    /// From −∞ to ∞.
+    pub(crate) fn everything(bits: u32) -> Self {
+        let [lo, hi] = [Special::NegInfinity, Special::Infinity].map(|end| Float::with_val(bits, end));
+        Interval { lo, hi, inside: Inside::Off }
+    }
+
     /// All numbers from `lo` to `hi`.
     ///
     /// **Errors**: everything from −∞ to ∞ where an end is no number or they are in the wrong order.
     pub fn between(lo: Float, hi: Float) -> Self {
-        if lo > hi {
-            return Interval::checked(Float::with_val(lo.prec(), Special::Nan), hi, Inside::Off);
-        }
-        Interval::checked(lo, hi, Inside::Off)
+        if lo > hi { Interval::everything(lo.prec()) } else { Interval::checked(lo, hi, Inside::Off) }
     }
 
     /// A fraction. **Accuracy**: *enclosure* of one unit in the last place, a point where it fits.
@@ -160,11 +163,25 @@ impl Interval {
         (lo <= hi).then(|| Interval { lo: lo.clone(), hi: hi.clone(), inside: self.inside.clone() })
     }
 
-    /// The least interval around both.
-    pub fn hull(&self, other: &Self) -> Self {
-        let lo = if self.lo <= other.lo { &self.lo } else { &other.lo };
-        let hi = if self.hi >= other.hi { &self.hi } else { &other.hi };
-        Interval { lo: lo.clone(), hi: hi.clone(), inside: Inside::Off }
+    /// The middle in so many bits, and a bound of how far the number meant lies from it.
+    pub(crate) fn estimate(&self, bits: u32) -> Estimate<Float> {
+        let middle = Float::with_val(bits, self.mid());
+        let far = |end: &Float| Float::with_val_round(64, end - &middle, Round::AwayZero).0.abs();
+        let radius = far(&self.lo).max(&far(&self.hi)) << bits;
+        let error = if radius.is_finite() { radius.to_f64_round(Round::Up) } else { f64::INFINITY };
+        Estimate::new(middle, error)
+    }
+
+    /// Everything within the bound of `x`. A part in 10⁹ and 10⁻³⁰⁰ are for the doubles in it.
+    pub(crate) fn within(x: &Estimate<Float>) -> Self {
+        let (middle, bits) = (x.value(), x.value().prec());
+        let radius = Float::with_val(64, x.error() * (1.0 + 1e-9) + 1e-300) >> bits;
+        if x.error() == 0.0 {
+            return Interval::between(middle.clone(), middle.clone());
+        } else if !radius.is_finite() {
+            return Interval::everything(bits);
+        }
+        Interval::between(down(bits, middle - &radius), up(bits, middle + &radius))
     }
 
     fn exact_sign(&self) -> Option<Ordering> {
@@ -174,41 +191,17 @@ impl Interval {
         }
     }
 
-    /// The sign of the number meant, where it is known.
-    pub fn sign(&self) -> Option<Ordering> {
-        if self.lo.cmp0() == Some(Ordering::Greater) {
-            return Some(Ordering::Greater);
-        }
-        if self.hi.cmp0() == Some(Ordering::Less) {
-            return Some(Ordering::Less);
-        }
-        if self.lo.is_zero() && self.hi.is_zero() {
-            return Some(Ordering::Equal);
-        }
-        self.exact_sign()
-    }
-
-    /// The same ends for a monotone function.
-    fn rising(&self, low: impl FnOnce(&Float) -> Float, high: impl FnOnce(&Float) -> Float) -> Self {
-        let inside = self.inside.map(|_| None);
-        Interval::checked(low(&self.lo), high(&self.hi), inside)
-    }
-
     /// `f` of the middle, give or take the radius, for functions of slope at most 1 and size at most 1.
     fn lipschitz(&self, f: impl Fn(&Float, Round) -> Float) -> Self {
         let bits = self.lo.prec();
         let (mid, one) = (self.mid(), Float::with_val(bits, 1));
-        let above = up(bits, &self.hi - &mid);
-        let below = up(bits, &mid - &self.lo);
-        let radius = if above > below { above } else { below };
+        let radius = up(bits, &self.hi - &mid).max(&up(bits, &mid - &self.lo));
         let (lo, hi) = (down(bits, &f(&mid, Round::Down) - &radius), up(bits, &f(&mid, Round::Up) + &radius));
         let inside = self.inside.map(|_| None);
-        if lo.is_nan() || hi.is_nan() || lo < -one.clone() && hi > one {
+        if lo.is_nan() || hi.is_nan() {
             return Interval { lo: -one.clone(), hi: one, inside };
         }
-        let lo = if lo < -one.clone() { -one.clone() } else { lo };
-        let hi = if hi > one { one } else { hi };
-        Interval { lo, hi, inside }
+        Interval { lo: lo.clamp(&-1, &1), hi: hi.clamp(&-1, &1), inside }
     }
 }
 
@@ -219,25 +212,19 @@ impl Neg for Interval {
     }
 }
 
-impl<'a> Add<&'a Interval> for Interval {
+impl Add<&Interval> for Interval {
     type Output = Interval;
-    fn add(mut self, other: &'a Interval) -> Interval {
+    fn add(mut self, other: &Interval) -> Interval {
         let inside = self.inside.with(&other.inside, Radical::add);
-        add_round(&mut self.lo, &other.lo, Round::Down);
-        add_round(&mut self.hi, &other.hi, Round::Up);
+        self.lo.add_assign_round(&other.lo, Round::Down);
+        self.hi.add_assign_round(&other.hi, Round::Up);
         Interval::checked(self.lo, self.hi, inside)
     }
 }
 
-fn add_round(to: &mut Float, other: &Float, round: Round) {
-    use rug::ops::AddAssignRound;
-    to.add_assign_round(other, round);
-}
-
-impl<'a> Sub<&'a Interval> for Interval {
+impl Sub<&Interval> for Interval {
     type Output = Interval;
-    fn sub(mut self, other: &'a Interval) -> Interval {
-        use rug::ops::SubAssignRound;
+    fn sub(mut self, other: &Interval) -> Interval {
         let inside = self.inside.with(&other.inside, Radical::sub);
         self.lo.sub_assign_round(&other.hi, Round::Down);
         self.hi.sub_assign_round(&other.lo, Round::Up);
@@ -245,16 +232,16 @@ impl<'a> Sub<&'a Interval> for Interval {
     }
 }
 
-impl<'a> Mul<&'a Interval> for Interval {
+impl Mul<&Interval> for Interval {
     type Output = Interval;
-    fn mul(self, other: &'a Interval) -> Interval {
+    fn mul(self, other: &Interval) -> Interval {
         let bits = self.lo.prec();
         let inside = self.inside.with(&other.inside, Radical::mul);
         let (a, b, c, d) = (&self.lo, &self.hi, &other.lo, &other.hi);
         let positive = |x: &Float| x.cmp0() != Some(Ordering::Less);
         let negative = |x: &Float| x.cmp0() != Some(Ordering::Greater);
         if self.lo.is_infinite() || self.hi.is_infinite() || c.is_infinite() || d.is_infinite() {
-            return Interval::checked(Float::with_val(bits, Special::Nan), self.hi, inside);
+            return Interval { inside, ..Interval::everything(bits) };
         }
         // The end of one factor that makes each end of the product.
         let (lo, hi) = match (positive(a), negative(b), positive(c), negative(d)) {
@@ -269,23 +256,23 @@ impl<'a> Mul<&'a Interval> for Interval {
             _ => {
                 let (lo1, lo2) = (down(bits, a * d), down(bits, b * c));
                 let (hi1, hi2) = (up(bits, a * c), up(bits, b * d));
-                (if lo1 < lo2 { lo1 } else { lo2 }, if hi1 > hi2 { hi1 } else { hi2 })
+                (lo1.min(&lo2), hi1.max(&hi2))
             }
         };
         Interval::checked(lo, hi, inside)
     }
 }
 
-impl<'a> Div<&'a Interval> for Interval {
+impl Div<&Interval> for Interval {
     type Output = Interval;
-    fn div(self, other: &'a Interval) -> Interval {
+    fn div(self, other: &Interval) -> Interval {
         let bits = self.lo.prec();
         let inside = self.inside.with(&other.inside, Radical::div);
         let (a, b, c, d) = (&self.lo, &self.hi, &other.lo, &other.hi);
         let positive = |x: &Float| x.cmp0() == Some(Ordering::Greater);
         let negative = |x: &Float| x.cmp0() == Some(Ordering::Less);
         if !(positive(c) || negative(d)) || [a, b, c, d].iter().any(|end| end.is_infinite()) {
-            return Interval::checked(Float::with_val(bits, Special::Nan), self.hi, inside);
+            return Interval { inside, ..Interval::everything(bits) };
         }
         let over = |x: &Float, y: &Float, round| Float::with_val_round(bits, x / y, round).0;
         let (lo, hi) = if positive(c) {
@@ -299,14 +286,4 @@ impl<'a> Div<&'a Interval> for Interval {
     }
 }
 
-macro_rules! by_value {
-    ($($op:ident $name:ident),*) => { $(
-        impl $op for Interval {
-            type Output = Interval;
-            fn $name(self, other: Interval) -> Interval {
-                $op::$name(self, &other)
-            }
-        }
-    )* };
-}
-by_value!(Add add, Sub sub, Mul mul, Div div);
+by_value!([] Interval);

@@ -13,6 +13,25 @@
 //! Formulas are written once: [`Scalar`] has the field operations and the square root, [`Analytic`] the elementary
 //! functions; [`Rounded`] numbers round, and [`Bounded`] ones answer for their own error.
 
+/// The operators with the right operand by value, from those by reference.
+macro_rules! by_value {
+    ([$($bound:tt)*] $type:ty) => {
+        by_value!(@ [$($bound)*] $type, Add add);
+        by_value!(@ [$($bound)*] $type, Sub sub);
+        by_value!(@ [$($bound)*] $type, Mul mul);
+        by_value!(@ [$($bound)*] $type, Div div);
+    };
+    (@ [$($bound:tt)*] $type:ty, $trait:ident $method:ident) => {
+        impl<$($bound)*> $trait for $type {
+            type Output = Self;
+            #[inline]
+            fn $method(self, other: Self) -> Self {
+                $trait::$method(self, &other)
+            }
+        }
+    };
+}
+
 #[cfg(not(feature = "mp"))]
 mod absent;
 mod bounded;

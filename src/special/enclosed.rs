@@ -2,7 +2,7 @@
 //! width.
 
 use rug::Float;
-use rug::float::{Round, Special as NoNumber};
+use rug::float::Round;
 
 use super::bessel::Special;
 use super::estimated::BoundedSpecial;
@@ -12,42 +12,16 @@ use crate::number::{Estimate, Interval, Scalar};
 
 /// The middle, with the radius as its bound.
 fn estimate(x: &Interval) -> Estimate<Float> {
-    let (middle, bits) = (x.mid(), x.lo().prec());
-    let far = |end: &Float| Float::with_val_round(64, end - &middle, Round::AwayZero).0.abs();
-    let (low, high) = (far(x.lo()), far(x.hi()));
-    let radius = if low > high { low } else { high };
-    let error = if radius.is_finite() { (radius << bits).to_f64_round(Round::Up) } else { f64::INFINITY };
-    Estimate::new(middle, error)
-}
-
-/// Everything within the bound. A part in 10⁹ and 10⁻³⁰⁰ are for the doubles in it.
-fn enclosure(x: &Estimate<Float>) -> Interval {
-    let (middle, bits) = (x.value(), x.value().prec());
-    if middle.is_zero() && x.error() == 0.0 {
-        return Interval::between(middle.clone(), middle.clone());
-    }
-    let radius = Float::with_val(64, x.error() * (1.0 + 1e-9) + 1e-300) >> bits;
-    if x.error().is_nan() || !radius.is_finite() {
-        return everything(bits);
-    }
-    let end = |round| match round {
-        Round::Down => Float::with_val_round(bits, middle - &radius, round).0,
-        _ => Float::with_val_round(bits, middle + &radius, round).0,
-    };
-    Interval::between(end(Round::Down), end(Round::Up))
-}
-
-fn everything(bits: u32) -> Interval {
-    Interval::between(Float::with_val(bits, NoNumber::NegInfinity), Float::with_val(bits, NoNumber::Infinity))
+    x.estimate(x.lo().prec())
 }
 
 impl Special for Interval {
     fn in_scaled(&self, n: u32) -> Self {
-        enclosure(&estimate(self).in_scaled(n))
+        Interval::within(&estimate(self).in_scaled(n))
     }
 
     fn ray_start(ray: &Ray<Self>) -> Self {
-        enclosure(&ray.map(estimate).start())
+        Interval::within(&ray.map(estimate).start())
     }
 
     fn ray_sums<const K: usize>(
@@ -56,7 +30,7 @@ impl Special for Interval {
         weight: impl Fn(i64) -> [i64; K],
     ) -> RaySums<Self, K> {
         let found = ray.map(estimate).sums(first, weight);
-        RaySums { start: enclosure(&found.start), sums: found.sums.map(|sum| enclosure(&sum)) }
+        RaySums { start: Interval::within(&found.start), sums: found.sums.map(|sum| Interval::within(&sum)) }
     }
 
     fn gauss_legendre(&self, n: usize) -> Vec<(Self, Self)> {
@@ -144,7 +118,7 @@ fn enclosed_rule(bits: u32, n: usize) -> Vec<(Interval, Interval)> {
     let mut rule: Vec<_> = upper.iter().skip(n % 2).rev().map(|(x, w)| (-x.clone(), w.clone())).collect();
     rule.extend(upper);
     let apart = |pair: &[(Interval, Interval)]| pair[0].0.hi() < pair[1].0.lo();
-    if rule.windows(2).all(apart) { rule } else { vec![(everything(bits), everything(bits)); n] }
+    if rule.windows(2).all(apart) { rule } else { vec![(Interval::everything(bits), Interval::everything(bits)); n] }
 }
 
 fn prove(x: &Float, n: usize, bits: u32) -> (Interval, Interval) {

@@ -17,7 +17,8 @@ fn fraction() -> impl Strategy<Value = Rational> {
 fn around(x: &Rational, before: &Rational, after: &Rational, bits: u32) -> Interval {
     let precision = IntervalPrecision::bits(bits);
     let lo = Interval::rational(&(x.clone() - before.clone().abs()), precision);
-    lo.hull(&Interval::rational(&(x.clone() + after.clone().abs()), precision))
+    let hi = Interval::rational(&(x.clone() + after.clone().abs()), precision);
+    Interval::between(lo.lo().clone(), hi.hi().clone())
 }
 
 fn slack() -> impl Strategy<Value = (Rational, Rational)> {

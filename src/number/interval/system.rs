@@ -7,7 +7,6 @@ use rug::float::{Constant, Round};
 use rug::{Assign, Float, Rational};
 
 use super::super::float::{down, up};
-use super::super::fraction::spelled_as;
 use super::super::radical::Radical;
 use super::super::{Analytic, Answer, Bounded, Estimate, Number, Open, Reads, Scalar, show};
 use super::{Inside, Interval, IntervalPrecision};
@@ -55,9 +54,9 @@ impl Scalar for Interval {
 
     /// Of what may reach below zero by its width alone, see [`Analytic::sqrt`].
     fn try_sqrt(&self) -> Option<Self> {
-        match Interval::sign(self) {
-            Some(Ordering::Less) => None,
-            Some(Ordering::Equal) => Some(self.zero()),
+        match Scalar::sign(self) {
+            Ok(Ordering::Less) => None,
+            Ok(Ordering::Equal) => Some(self.zero()),
             _ => Some(self.sqrt()),
         }
     }
@@ -81,7 +80,12 @@ impl Scalar for Interval {
     }
 
     fn sign(&self) -> Result<Ordering, Open> {
-        Interval::sign(self).ok_or(Open)
+        match (self.lo.cmp0(), self.hi.cmp0()) {
+            (Some(Ordering::Greater), _) => Ok(Ordering::Greater),
+            (_, Some(Ordering::Less)) => Ok(Ordering::Less),
+            (Some(Ordering::Equal), Some(Ordering::Equal)) => Ok(Ordering::Equal),
+            _ => self.exact_sign().ok_or(Open),
+        }
     }
 
     fn compare(&self, other: &Self) -> Result<Ordering, Open> {
@@ -214,6 +218,15 @@ impl Scalar for Interval {
     }
 }
 
+macro_rules! rising {
+    ($($name:ident: $of:ident),*) => {$(
+        fn $name(&self) -> Self {
+            let (bits, inside) = (self.lo.prec(), self.inside.map(|_| None));
+            Interval::checked(down(bits, self.lo.$of()), up(bits, self.hi.$of()), inside)
+        }
+    )*};
+}
+
 impl Analytic for Interval {
     /// Of what is not negative: the part below zero, which only width can make, is left out.
     fn sqrt(&self) -> Self {
@@ -224,22 +237,7 @@ impl Analytic for Interval {
         let inside = self.inside.map(|number| if known { number.sqrt() } else { None });
         Interval::checked(lo, up(bits, self.hi.sqrt_ref()), inside)
     }
-    fn exp(&self) -> Self {
-        let bits = self.lo.prec();
-        self.rising(|x| down(bits, x.exp_ref()), |x| up(bits, x.exp_ref()))
-    }
-    fn exp_m1(&self) -> Self {
-        let bits = self.lo.prec();
-        self.rising(|x| down(bits, x.exp_m1_ref()), |x| up(bits, x.exp_m1_ref()))
-    }
-    fn ln(&self) -> Self {
-        let bits = self.lo.prec();
-        self.rising(|x| down(bits, x.ln_ref()), |x| up(bits, x.ln_ref()))
-    }
-    fn ln_1p(&self) -> Self {
-        let bits = self.lo.prec();
-        self.rising(|x| down(bits, x.ln_1p_ref()), |x| up(bits, x.ln_1p_ref()))
-    }
+    rising!(exp: exp_ref, exp_m1: exp_m1_ref, ln: ln_ref, ln_1p: ln_1p_ref);
     fn cos(&self) -> Self {
         let bits = self.lo.prec();
         self.lipschitz(|x, round| Float::with_val_round(bits, x.cos_ref(), round).0)
@@ -312,15 +310,7 @@ impl Answer for Interval {
 /// The middle, within the radius.
 impl Reads<Interval> for Estimate<Float> {
     fn read(number: Interval) -> Self {
-        let middle = number.mid();
-        let radius = number.radius();
-        let roundoffs = if radius.is_zero() {
-            0.0
-        } else {
-            (Float::with_val_round(53, radius << middle.prec(), Round::Up).0).to_f64()
-        };
-        let size = middle.to_f64().abs();
-        Estimate::new(middle, roundoffs * (1.0 + f64::EPSILON) + size)
+        number.estimate(number.lo.prec())
     }
 
     fn give(&self, precision: &IntervalPrecision) -> Interval {
@@ -332,25 +322,11 @@ impl Reads<Interval> for Estimate<Float> {
 /// The numbers within the bound.
 impl Reads<Estimate<Float>> for Interval {
     fn read(number: Estimate<Float>) -> Self {
-        let error = number.error() * (1.0 + 4.0 * f64::EPSILON);
-        let value = number.into_value();
-        let bits = value.prec();
-        // Half a rounding more than a double has.
-        let radius = Float::with_val(64, error) >> bits;
-        let end = |radius: Float, round| Float::with_val_round(bits, &value + &radius, round).0;
-        if !radius.is_finite() {
-            let all = Float::with_val(bits, rug::float::Special::Infinity);
-            return Interval::between(-all.clone(), all);
-        }
-        Interval::between(end(-radius.clone(), Round::Down), end(radius, Round::Up))
+        Interval::within(&number)
     }
 
     fn give(&self, precision: &u32) -> Estimate<Float> {
-        let middle = Float::with_val(*precision, self.mid());
-        let far = |end: &Float| Float::with_val_round(64, end - &middle, Round::Up).0.abs();
-        let (down, up) = (far(self.lo()), far(self.hi()));
-        let radius = if down > up { down } else { up };
-        Estimate::new(middle, (radius << *precision).to_f64() * (1.0 + 4.0 * f64::EPSILON))
+        self.estimate(*precision)
     }
 }
 
@@ -361,9 +337,6 @@ impl Reads<Interval> for Estimate<f64> {
     }
 
     fn give(&self, precision: &IntervalPrecision) -> Interval {
-        match spelled_as(*self.value(), self.spelled_as()) {
-            Some(number) => Interval::from_number(&number, precision),
-            None => Interval::rational(&Rational::from_f64(*self.value()).unwrap_or_default(), *precision),
-        }
+        Interval::rational(&Reads::<Rational>::give(self, &()), *precision)
     }
 }
