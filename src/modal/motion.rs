@@ -1,9 +1,9 @@
 //! What is asked of the modes: stress, field, centre of mass, energy.
 
 use crate::motion::{Field, Side};
-use crate::number::{Estimate, Rounded, Scalar};
+use crate::number::{Analytic, Estimate, Rounded, Scalar};
 use crate::problem::Parameters;
-use crate::special::phi1;
+use crate::special::{RoundedSpecial, phi1};
 
 use super::sums::{History, MOST_MODES, Shape, series};
 
@@ -25,21 +25,22 @@ use super::sums::{History, MOST_MODES, Shape, series};
 /// ```
 #[derive(Clone, Debug)]
 pub struct Modal<S> {
-    rod: Parameters<S>,
-    round_trip: S,
+    rod: Parameters<Estimate<S>>,
+    round_trip: Estimate<S>,
     /// `μ₀`.
-    critical: S,
+    critical: Estimate<S>,
     /// `R`.
-    pub(super) damping: S,
+    pub(super) damping: Estimate<S>,
     pub(super) modes: i64,
 }
 
-impl<S: Rounded> Modal<S> {
+impl<S: RoundedSpecial> Modal<S> {
     /// The sum over at least `modes` modes.
     pub fn new(rod: &Parameters<S>, modes: u32) -> Self {
+        let rod = rod.carry();
         let round_trip = rod.round_trip();
         let damping = rod.damping.clone() * &round_trip;
-        Modal { critical: rod.critical_speed(), rod: rod.clone(), round_trip, damping, modes: i64::from(modes.max(2)) }
+        Modal { critical: rod.critical_speed(), rod, round_trip, damping, modes: i64::from(modes.max(2)) }
     }
 
     /// `v_x(0,t)`: the stress at the ground divided by the modulus.
@@ -47,19 +48,19 @@ impl<S: Rounded> Modal<S> {
     /// **Source**: (2.28).
     pub fn strain(&self, time: &S, side: Side) -> Estimate<S> {
         let [impact, weight] = self.ground(&self.trips(time), side);
-        self.combine(impact, weight, &Estimate::rounded(-self.rod.wave_speed.one() / &self.rod.wave_speed, 1.0))
+        self.combine(impact, weight, &(-self.rod.wave_speed.one() / &self.rod.wave_speed))
     }
 
     /// `e^{−rt} H_r` and `e^{−rt} G_r/t₁` at `t/t₁`; the second is left out where nothing weighs.
-    pub(crate) fn ground(&self, trips: &S, side: Side) -> [Estimate<S>; 2] {
+    pub(crate) fn ground(&self, trips: &Estimate<S>, side: Side) -> [Estimate<S>; 2] {
         let ground = trips.zero();
         let first = series(0, History::Sine, Shape::Cosine);
-        if self.critical.is_zero() {
+        if self.critical.value().is_zero() {
             let [impact] = self.sums(trips, &ground, side, [first]);
-            return [impact, exact(&trips.zero())];
+            return [impact, ground];
         }
         let [impact, weight] = self.sums(trips, &ground, side, [first, series(2, History::Rising, Shape::Cosine)]);
-        [impact, exact(&trips.ratio(1, 2)) - weight]
+        [impact, trips.ratio(1, 2) - weight]
     }
 
     /// `v`, `v_t`, `v_x` at `(x,t)`.
@@ -67,7 +68,7 @@ impl<S: Rounded> Modal<S> {
     /// **Source**: (2.24).
     pub fn field(&self, point: &S, time: &S, side: Side) -> Field<Estimate<S>> {
         let trips = self.trips(time);
-        let a = point.clone() / &self.rod.length / point.int(2);
+        let a = Estimate::exact(point.clone()) / &self.rod.length / trips.int(2);
         let list = [
             series(1, History::Sine, Shape::Sine),
             series(1, History::Falling, Shape::Sine),
@@ -76,14 +77,14 @@ impl<S: Rounded> Modal<S> {
             series(2, History::Rising, Shape::Cosine),
         ];
         let [fallen, slowed, force, sag, bend] = self.sums(&trips, &a, side, list);
-        let (a, one) = (Estimate::rounded(a, 2.0), exact(&trips.one()));
+        let one = trips.one();
         let half = one.ratio(1, 2);
         let sag = sag - a.clone() * &(one.clone() - &a) * &half;
         let bend = bend + &a - half;
         Field {
-            displacement: self.combine(-fallen.clone(), sag, &Estimate::rounded(self.round_trip.clone(), 1.0)),
+            displacement: self.combine(-fallen.clone(), sag, &self.round_trip),
             velocity: self.combine(-slowed, -fallen, &one),
-            strain: self.combine(-force, bend, &(one.clone() / exact(&self.rod.wave_speed))),
+            strain: self.combine(-force, bend, &(one.clone() / &self.rod.wave_speed)),
         }
     }
 
@@ -97,10 +98,10 @@ impl<S: Rounded> Modal<S> {
             series(2, History::Falling, Shape::Mean),
             series(4, History::Rising, Shape::Mean),
         ];
-        let two = exact(&trips.int(2));
+        let two = trips.int(2);
         let [fallen, slowed, sag] = self.sums(&trips, &trips.zero(), Side::Right, list).map(|sum| sum * &two);
         let sag = sag - two.ratio(1, 12);
-        let height = self.combine(-fallen.clone(), sag, &Estimate::rounded(self.round_trip.clone(), 1.0));
+        let height = self.combine(-fallen.clone(), sag, &self.round_trip);
         (height, self.combine(-slowed, -fallen, &two.one()))
     }
 
@@ -121,78 +122,82 @@ impl<S: Rounded> Modal<S> {
         let fade = (-(r.clone() * &trips)).exp();
         let leading = (mu.clone() * &fade).square() * &trips.int(16);
         let mut sum = trips.zero();
-        let mut largest = 0.0f64;
         for n in (0..modes).rev() {
             let omega = pi.clone() * &trips.int(2 * n + 1);
-            let (c, s) = self.pair(&omega, &trips);
-            let damped = s.clone() * r;
+            let [s, falling, rising] = self.direct(&omega, &trips);
             let four = trips.int(4) / &omega;
-            let rate = -((c.clone() - &damped) * mu + s.clone() * mu0) * &four;
-            let held = (trips.one() - &(c + &damped)) / &omega * mu0;
+            let rate = -(falling * mu + s.clone() * mu0) * &four;
+            let held = (trips.one() - &rising) / &omega * mu0;
             let strain = -(s * &omega * mu + held) * &four;
-            let part = rate.square() + strain.square();
-            largest += part.to_f64();
-            sum = sum + (part - leading.clone() / &omega.square());
+            sum = sum + (rate.square() + strain.square() - leading.clone() / &omega.square());
         }
         sum = sum + leading / &trips.int(8);
         let (m, m0, f) = (mu.to_f64(), mu0.to_f64(), fade.to_f64());
         let n = modes as f64;
         let tail = (3.7 * r.to_f64() * m * m * f * f + 9.7 * m * m0 * f + 8.0 * m0 * m0 / n) / n / n / 31.0;
         let tail = if modes == MOST_MODES && std::f64::consts::PI * n < r.to_f64() { f64::INFINITY } else { tail };
-        // Each mode has the roundings of its frequency, 16R²τ² at most near R = ω, and of its phase, 8ωτ.
-        let turned = r.to_f64() * trips.to_f64();
-        let phases = 160.0 * trips.to_f64() * (m * f + m0).powi(2) * (1.0 + n.ln());
-        let each = (largest + 2.0 * m * m * f * f) * (n + 60.0 + 12.0 * turned + 40.0 * turned * turned);
-        let elastic = self.within(sum / &trips.int(4), each + phases, tail.ln(), 0.25);
-        (elastic + height * exact(&self.rod.gravity)) * exact(&self.rod.length)
+        let elastic = within(sum, tail.ln()) / &trips.int(4);
+        (elastic + height * &self.rod.gravity) * &self.rod.length
     }
 
     /// `t/t₁`, and exactly k at the k-th lattice time.
-    fn trips(&self, time: &S) -> S {
-        let trips = time.clone() / &self.round_trip;
-        match (trips.clone() + trips.ratio(1, 2)).floor_int() {
-            Some(k) if time.meets(&(self.round_trip.int(k) * &self.round_trip)) => time.int(k),
+    fn trips(&self, time: &S) -> Estimate<S> {
+        let (trips, period) = (Estimate::exact(time.clone()) / &self.round_trip, self.round_trip.value());
+        match (trips.value().clone() + time.ratio(1, 2)).floor_int() {
+            Some(k) if time.meets(&(period.int(k) * period)) => trips.int(k),
             _ => trips,
         }
     }
 
     /// `(μ impact + μ₀ weight) factor`.
     fn combine(&self, impact: Estimate<S>, weight: Estimate<S>, factor: &Estimate<S>) -> Estimate<S> {
-        let critical = Estimate::rounded(self.critical.clone(), 2.0);
-        (impact * exact(&self.rod.speed) + weight * critical) * factor
+        (impact * &self.rod.speed + weight * &self.critical) * factor
     }
 
-    /// `value`, within `factor` times so many roundings and `e^log_tail`; a value that is no number is not known.
-    pub(super) fn within(&self, value: S, roundings: f64, log_tail: f64, factor: f64) -> Estimate<S> {
-        let tail = (log_tail - self.damping.log2_roundoff() * std::f64::consts::LN_2).exp();
-        let error = factor * (roundings + tail);
-        let known = value.is_finite() && !error.is_nan();
-        Estimate::new(value, if known { error.max(f64::MIN_POSITIVE) } else { f64::INFINITY })
+    /// Damped `S`, `C − RS`, `C + RS` of one mode.
+    ///
+    /// `q = (ω−R)(ω+R)` is off by less than `8uω(ω+R)`, with the rounding of R, and `|dS/dq| = |τC − S|/2|q|` and
+    /// `|dC/dq| = τ|S|/2` are below `min(τ³/6, (τ + |q|^{−1/2})/2|q|)` and `min(τ²/2, τ|q|^{−1/2}/2)` times the growth,
+    /// 1 or `cosh κτ`.
+    pub(super) fn direct(&self, omega: &Estimate<S>, trips: &Estimate<S>) -> [Estimate<S>; 3] {
+        let (c, s, q) = self.pair(omega.value(), trips.value());
+        let (w, r, tau, q) = (omega.to_f64(), self.damping.to_f64(), trips.to_f64(), q.to_f64());
+        let growth = if q < 0.0 { c.to_f64().abs() } else { (-r * tau).exp() };
+        let root = q.abs().sqrt();
+        let blur = 8.0 * w * (w + r) * growth;
+        let relative = 12.0 + 4.0 * r * tau;
+        let off_s = blur * (tau.powi(3) / 6.0).min((tau + 1.0 / root) / (2.0 * q.abs())) + relative * s.to_f64().abs();
+        let off_c = blur * (tau * tau / 2.0).min(tau / (2.0 * root)) + relative * growth;
+        let (c, s) = (Estimate::new(c, off_c), Estimate::new(s, off_s));
+        let damped = s.clone() * &self.damping;
+        [s, c.clone() - &damped, c + &damped]
     }
 
-    /// `e^{−Rτ} C` and `e^{−Rτ} S`, regular where `ω = R`.
+    /// `e^{−Rτ} C` and `e^{−Rτ} S`, regular where `ω = R`, and `Ω²`.
     ///
     /// For `ω < R`, with `κ² = R² − ω²`: `e^{−Rτ} cosh κτ = e^{−(R−κ)τ} (1 + e^{−2κτ})/2`, the sine
     /// `τ e^{−(R−κ)τ} φ₁(−2κτ)`, and `R − κ = ω²/(R + κ)`.
-    pub(super) fn pair(&self, omega: &S, trips: &S) -> (S, S) {
-        let r = &self.damping;
+    fn pair(&self, omega: &S, trips: &S) -> (S, S, S) {
+        let r = self.damping.value();
         let square = (omega.clone() - r) * &(omega.clone() + r);
         if square.is_negative() {
-            let kappa = (-square).sqrt();
+            let kappa = (-square.clone()).sqrt();
             let slow = (-(omega.square() / &(r.clone() + &kappa) * trips)).exp();
             let fall = -(kappa * trips * &trips.int(2));
             let even = (fall.exp() + trips.one()) / &trips.int(2);
-            return (even * &slow, phi1(&fall) * trips * &slow);
+            return (even * &slow, phi1(&fall) * trips * &slow, square);
         }
         let frequency = square.sqrt();
         let fade = (-(r.clone() * trips)).exp();
         let angle = frequency.clone() * trips;
         let sine = if frequency.is_zero() { trips.clone() } else { angle.sin() / &frequency };
-        (angle.cos() * &fade, sine * &fade)
+        (angle.cos() * &fade, sine * &fade, square)
     }
 }
 
-/// A parameter, which counts as exact.
-fn exact<S: Rounded>(value: &S) -> Estimate<S> {
-    Estimate::exact(value.clone())
+/// `value`, with `e^log_tail` left out of it; a value that is no number is not known.
+pub(super) fn within<S: Rounded>(value: Estimate<S>, log_tail: f64) -> Estimate<S> {
+    let error = value.error() + (log_tail - value.log2_roundoff() * std::f64::consts::LN_2).exp();
+    let known = value.is_finite() && !error.is_nan();
+    Estimate::new(value.into_value(), if known { error.max(f64::MIN_POSITIVE) } else { f64::INFINITY })
 }

@@ -112,5 +112,5 @@ fn by_modes(
     let modal = Modal::new(&Parameters::<f64>::of(problem, &())?, modes);
     // The last moment of a cell belongs to it.
     let side = |trips: &f64, k: i64| if *trips == (k + 1) as f64 { Side::Left } else { Side::Right };
-    Ok(contact.bounce_by(&|trips, k| modal.ground(trips.value(), side(trips.value(), k))))
+    Ok(contact.bounce_by(&|trips, k| modal.ground(trips, side(trips.value(), k))))
 }
