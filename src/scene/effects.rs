@@ -4,8 +4,9 @@ use serde::Serialize;
 
 use super::Scene;
 use crate::mapped::{CollectVec, mapped};
+use crate::number::Number;
 use crate::problem::written::short;
-use crate::problem::{Material, Profile, Run, Start, Top};
+use crate::problem::{Material, Problem, Run, Start, Top};
 
 named! {
     /// An effect that the solver knows. One that a scene does not call for costs it nothing.
@@ -87,117 +88,78 @@ impl Scene {
     }
 
     pub(crate) fn effect(&self, effect: Effect) -> EffectUse {
-        let (called, key, because) = match effect {
-            Effect::Gravity => self.gravity(),
-            Effect::Damping => self.damping(),
-            Effect::UnilateralContact => (true, None, "the ground is in every scene".into()),
-            Effect::RepeatedImpacts => self.repeated_impacts(),
-            Effect::FixedTop => self.fixed_top(),
-            Effect::InitialGap => self.initial_gap(),
-            Effect::InitialStrain => self.initial_strain(),
-            Effect::InitialVelocity => self.initial_velocity(),
-            Effect::SiForces => self.si_forces(),
-            Effect::FieldEnergies => (
-                false,
-                None,
-                "energies at the ends of contacts only; `sample` asks for the field and for other times".into(),
-            ),
-            Effect::ArbitraryPrecision => (false, None, "a scene does not ask for it".into()),
-        };
-        EffectUse { effect, called, line: key.and_then(|key| self.line_of(key)), because }
-    }
-
-    fn gravity(&self) -> Decision {
-        let because = match &self.problem.gravity {
-            Some(g) => format!("acceleration = {}", short(&g.to_string())),
-            None => "no acceleration: flight is straight, and no weight enters the stress".into(),
-        };
-        (self.problem.gravity.is_some(), Some("gravity.acceleration"), because)
-    }
-
-    fn damping(&self) -> Decision {
-        let because = match &self.problem.rod.damping {
-            Some(r) => format!("damping = {}", short(&r.to_string())),
-            None => "no damping: no Bessel function is evaluated, and energy is constant".into(),
-        };
-        (self.problem.rod.damping.is_some(), Some("rod.damping"), because)
-    }
-
-    fn repeated_impacts(&self) -> Decision {
-        match &self.problem.run {
-            Run::Impacts(1) => {
-                let because = "one contact and the flight after it: later impacts are not computed";
-                (false, Some("run.impacts"), because.into())
-            }
-            Run::Impacts(impacts) => (true, Some("run.impacts"), format!("impacts = {impacts}")),
-            Run::Time(time) => {
-                (true, Some("run.time"), format!("every impact up to time = {}", short(&time.to_string())))
-            }
-        }
-    }
-
-    fn fixed_top(&self) -> Decision {
-        match self.problem.rod.top {
-            Top::Fixed => (true, Some("rod.top"), "top = \"fixed\"".into()),
-            Top::Free => {
-                (false, Some("rod.top"), "the top is free: waves come back with the same strain reversed".into())
-            }
-        }
-    }
-
-    fn profile(&self) -> Option<&Profile> {
-        match &self.problem.start {
+        let Problem { rod, start, gravity, run } = &self.problem;
+        let shown = |key: &str, number: &Number| format!("{key} = {}", short(&number.to_string()));
+        let profile = match start {
             Start::Profile(profile) => Some(profile),
             Start::Uniform(_) | Start::Above { .. } => None,
-        }
-    }
-
-    fn initial_gap(&self) -> Decision {
-        let key = Some("impact.gap");
-        match (self.problem.gap(), &self.problem.start) {
-            (Some(gap), _) => {
-                (true, key, format!("gap = {}: t = 0 is the start, before the first touch", short(&gap.to_string())))
+        };
+        let points = |name: &str, points: Option<&Vec<(Number, Number)>>| {
+            let points = points.filter(|points| points.iter().any(|(_, v)| !v.is_zero()))?;
+            Some(format!("the {name} has {} points", points.len()))
+        };
+        // The key that decides so; why the effect is called for, if it is; what is not computed where it is not.
+        let (key, called, otherwise) = match effect {
+            Effect::UnilateralContact => ("", Some("the ground is in every scene".into()), ""),
+            Effect::Gravity => (
+                "gravity.acceleration",
+                gravity.as_ref().map(|g| shown("acceleration", g)),
+                "no acceleration: flight is straight, and no weight enters the stress",
+            ),
+            Effect::Damping => (
+                "rod.damping",
+                rod.damping.as_ref().map(|r| shown("damping", r)),
+                "no damping: no Bessel function is evaluated, and energy is constant",
+            ),
+            Effect::RepeatedImpacts => match run {
+                Run::Impacts(1) => {
+                    ("run.impacts", None, "one contact and the flight after it: later impacts are not computed")
+                }
+                Run::Impacts(impacts) => ("run.impacts", Some(format!("impacts = {impacts}")), ""),
+                Run::Time(time) => ("run.time", Some(format!("every impact up to {}", shown("time", time))), ""),
+            },
+            Effect::FixedTop => (
+                "rod.top",
+                (rod.top == Top::Fixed).then(|| "top = \"fixed\"".into()),
+                "the top is free: waves come back with the same strain reversed",
+            ),
+            Effect::InitialGap => {
+                let above = |gap| format!("{}: t = 0 is the start, before the first touch", shown("gap", gap));
+                let touch = "t = 0 is the first touch: no flight before it is computed";
+                let otherwise = if profile.is_some() { "the start is a profile" } else { touch };
+                ("impact.gap", self.problem.gap().map(above), otherwise)
             }
-            (None, Start::Profile(_)) => (false, key, "the start is a profile".into()),
-            (None, _) => (false, key, "t = 0 is the first touch: no flight before it is computed".into()),
-        }
-    }
-
-    fn initial_strain(&self) -> Decision {
-        let points = self.profile().map(|profile| profile.displacement.as_slice()).unwrap_or_default();
-        let key = Some("start.displacement");
-        if points.iter().any(|(_, v)| !v.is_zero()) {
-            return (true, key, format!("the displacement has {} points", points.len()));
-        }
-        (false, key, "the rod starts undeformed: no initial strain is carried".into())
-    }
-
-    fn initial_velocity(&self) -> Decision {
-        let points = self.profile().map(|profile| profile.velocity.as_slice()).unwrap_or_default();
-        let key = Some("start.velocity");
-        if points.iter().any(|(_, v)| !v.is_zero()) {
-            return (true, key, format!("the velocity has {} points", points.len()));
-        }
-        let because =
-            if self.profile().is_some() { "the rod starts at rest" } else { "the rod starts with one velocity" };
-        (false, key, format!("{because}: no velocity profile is carried"))
-    }
-
-    fn si_forces(&self) -> Decision {
-        match self.problem.rod.material {
-            Material::Elastic { area: Some(_), .. } => {
-                (true, Some("rod.modulus"), "modulus, density and area are given".into())
+            Effect::InitialStrain => (
+                "start.displacement",
+                points("displacement", profile.map(|profile| &profile.displacement)),
+                "the rod starts undeformed: no initial strain is carried",
+            ),
+            Effect::InitialVelocity => (
+                "start.velocity",
+                points("velocity", profile.map(|profile| &profile.velocity)),
+                match profile {
+                    Some(_) => "the rod starts at rest: no velocity profile is carried",
+                    None => "the rod starts with one velocity: no velocity profile is carried",
+                },
+            ),
+            Effect::SiForces => match &rod.material {
+                Material::Elastic { area: Some(_), .. } => {
+                    ("rod.modulus", Some("modulus, density and area are given".into()), "")
+                }
+                Material::Elastic { area: None, .. } => {
+                    let because = "modulus and density are given: forces and energies are per area";
+                    ("rod.modulus", Some(because.into()), "")
+                }
+                Material::WaveSpeed(_) => {
+                    ("rod.wave_speed", None, "only the wave speed is given: strains v_x, and no forces in newtons")
+                }
+            },
+            Effect::FieldEnergies => {
+                ("", None, "energies at the ends of contacts only; `sample` asks for the field and for other times")
             }
-            Material::Elastic { area: None, .. } => {
-                (true, Some("rod.modulus"), "modulus and density are given: forces and energies are per area".into())
-            }
-            Material::WaveSpeed(_) => {
-                let because = "only the wave speed is given: strains v_x, and no forces in newtons";
-                (false, Some("rod.wave_speed"), because.into())
-            }
-        }
+            Effect::ArbitraryPrecision => ("", None, "a scene does not ask for it"),
+        };
+        let (line, is_called) = (self.line_of(key), called.is_some());
+        EffectUse { effect, called: is_called, line, because: called.unwrap_or_else(|| otherwise.into()) }
     }
 }
-
-/// Whether an effect is called for, the key that decides so, and why.
-type Decision = (bool, Option<&'static str>, String);
