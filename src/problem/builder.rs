@@ -35,7 +35,7 @@ macro_rules! setters {
         $(#[$doc])*
         #[must_use]
         pub fn $setter(mut self, value: impl Into<Written>) -> Self {
-            self.draft.numbers.set($path, value.into());
+            self.draft.numbers.insert($path, value.into());
             self
         }
     )*};
@@ -83,7 +83,7 @@ impl Builder {
     #[must_use]
     pub fn named(mut self, name: &str, value: impl Into<Written>) -> Self {
         if let Some((_, path)) = Self::NAMED.iter().chain(&OTHERS).find(|(known, _)| *known == name) {
-            self.draft.numbers.set(path, value.into());
+            self.draft.numbers.insert(path, value.into());
         }
         self
     }
@@ -122,7 +122,7 @@ impl Builder {
         mut self,
         points: impl IntoIterator<Item = (X, V)>,
     ) -> Self {
-        self.draft.profiles.set("start.displacement", written(points));
+        self.draft.profiles.insert("start.displacement", written(points));
         self
     }
 
@@ -130,21 +130,21 @@ impl Builder {
     /// same `x` twice.
     #[must_use]
     pub fn velocity<X: Into<Written>, V: Into<Written>>(mut self, points: impl IntoIterator<Item = (X, V)>) -> Self {
-        self.draft.profiles.set("start.velocity", written(points));
+        self.draft.profiles.insert("start.velocity", written(points));
         self
     }
 
     /// How many contacts to follow, each with the flight after it; without it and without a `time`, one.
     #[must_use]
     pub fn impacts(mut self, impacts: u32) -> Self {
-        self.draft.numbers.set("run.impacts", impacts.into());
+        self.draft.numbers.insert("run.impacts", impacts.into());
         self
     }
 
     /// The value at a path of a scene file, one of [`NUMBERS`](super::validate::NUMBERS).
     #[cfg(feature = "cli")]
     pub(crate) fn at(mut self, path: &'static str, value: &Number) -> Self {
-        self.draft.numbers.set(path, value.into());
+        self.draft.numbers.insert(path, value.into());
         self.base.from_scene = true;
         self
     }
@@ -163,23 +163,23 @@ impl Builder {
     pub fn build(self) -> Result<Problem, ProblemError> {
         let Builder { draft, mut base } = self;
         for group in EXCLUSIVE.iter().filter(|group| group.iter().any(|path| draft.has(path))) {
-            base.numbers.leave_out(group);
+            base.numbers.retain(|path, _| !group.contains(path));
         }
         if IMPACT.iter().any(|path| draft.has(path)) {
-            base.profiles = Default::default();
+            base.profiles.clear();
         }
         if !draft.profiles.is_empty() {
-            base.numbers.leave_out(IMPACT);
+            base.numbers.retain(|path, _| !IMPACT.contains(path));
         }
-        base.numbers.set_all(draft.numbers);
-        base.profiles.set_all(draft.profiles);
+        base.numbers.extend(draft.numbers);
+        base.profiles.extend(draft.profiles);
         base.top = draft.top.or(base.top);
         base.check()
     }
 
     pub(super) fn from_problem(problem: &Problem) -> Self {
         let mut base = Draft { top: Some(problem.rod.top), ..Draft::default() };
-        let mut set = |path, number: &Number| base.numbers.set(path, number.clone().into());
+        let mut set = |path, number: &Number| _ = base.numbers.insert(path, number.clone().into());
         set("rod.length", &problem.rod.length);
         problem.rod.damping.iter().for_each(|r| set("rod.damping", r));
         problem.gravity.iter().for_each(|g| set("gravity.acceleration", g));
@@ -205,7 +205,7 @@ impl Builder {
             Start::Profile(Profile { displacement, velocity }) => {
                 let both = [("start.displacement", displacement), ("start.velocity", velocity)];
                 for (path, points) in both.into_iter().filter(|(_, points)| !points.is_empty()) {
-                    base.profiles.set(path, written(points.iter().map(|(x, v)| (x, v))));
+                    base.profiles.insert(path, written(points.iter().map(|(x, v)| (x, v))));
                 }
             }
         }

@@ -1,5 +1,7 @@
 //! What a user gave: values by their path, and a number with the limits that it is held to.
 
+use std::collections::BTreeMap;
+
 use super::written::has_unit;
 use super::{ProblemError, ProblemErrorKind as Kind, Written};
 use crate::number::{Number, NumberError};
@@ -7,41 +9,8 @@ use crate::number::{Number, NumberError};
 /// Every quantity with a unit: energies are products of at most seven of them and stay within 1e±300.
 pub(super) const UNITS: (f64, f64) = (1e-40, 1e40);
 
-/// Values by their path in a scene file, each once.
-#[derive(Clone, Debug)]
-pub(crate) struct ByPath<T>(Vec<(&'static str, T)>);
-
-impl<T> Default for ByPath<T> {
-    fn default() -> Self {
-        ByPath(Vec::new())
-    }
-}
-
-impl<T> ByPath<T> {
-    pub(super) fn get(&self, path: &str) -> Option<&T> {
-        self.0.iter().find(|(known, _)| *known == path).map(|(_, value)| value)
-    }
-
-    /// A value in place of what the path had.
-    pub(crate) fn set(&mut self, path: &'static str, value: T) {
-        self.0.retain(|(known, _)| *known != path);
-        self.0.push((path, value));
-    }
-
-    /// All values of another list in place of its own.
-    pub(super) fn set_all(&mut self, others: Self) {
-        others.0.into_iter().for_each(|(path, value)| self.set(path, value));
-    }
-
-    /// Leaves out these paths.
-    pub(super) fn leave_out(&mut self, paths: &[&str]) {
-        self.0.retain(|(path, _)| !paths.contains(path));
-    }
-
-    pub(super) fn is_empty(&self) -> bool {
-        self.0.is_empty()
-    }
-}
+/// Values by their path in a scene file.
+pub(crate) type ByPath<T> = BTreeMap<&'static str, T>;
 
 /// A value that is a number, with what messages about it need.
 pub(crate) struct Given<'a> {

@@ -20,7 +20,7 @@ pub(crate) type Points = Vec<(Written, Written)>;
 /// The profile of a rod of this length, from the points of `start.displacement` and `start.velocity`; what is not given
 /// is zero.
 pub(super) fn check(given: &ByPath<Points>, length: &Number) -> Result<Profile, ProblemError> {
-    let read = |key| given.get(&format!("start.{key}")).map_or(Ok(Vec::new()), |points| read(key, points, length));
+    let read = |key| given.get(&*format!("start.{key}")).map_or(Ok(Vec::new()), |points| read(key, points, length));
     Ok(Profile { displacement: read("displacement")?, velocity: read("velocity")? })
 }
 

@@ -234,12 +234,12 @@ impl<'a> Reader<'a> {
         let mut draft = Draft { from_scene: true, top: self.top()?, ..Draft::default() };
         for path in NUMBERS {
             if let Some(number) = self.number(path)? {
-                draft.numbers.set(path, number);
+                draft.numbers.insert(path, number);
             }
         }
         for path in ["start.displacement", "start.velocity"] {
             if let Some(points) = self.points(path)? {
-                draft.profiles.set(path, points);
+                draft.profiles.insert(path, points);
             }
         }
         Ok(draft)
