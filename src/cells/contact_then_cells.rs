@@ -11,7 +11,7 @@ use crate::error::Error;
 use crate::first_contact::{Bounce, ContactHistory, FirstContact};
 use crate::motion::moments::Moments;
 use crate::motion::{Contact, Course, Ending, Field, Motion, Pair, Scales, Side, StressPiece, unobserved};
-use crate::number::{Estimate, Scalar};
+use crate::number::{Answer, Estimate, Scalar};
 use crate::problem::{Parameters, Problem, Run};
 use crate::reason::Reason;
 use crate::special::RoundedSpecial;

@@ -72,20 +72,6 @@ impl<N: BoundedSpecial> FirstContact<N> {
         [whole + part(&|node| node.deviation.square()), part(&|node| node.strain.square())]
     }
 
-    /// `E_h(t)/E(t)` and `E(t)/E(0)`: the factors of `e_E²` at `t = t_b`.
-    ///
-    /// **Source**: (4.73).
-    ///
-    /// **Errors**: `None` where `μ = 0`.
-    pub fn restitution_factors(&self, time: &N) -> Option<(N, N)> {
-        if self.speed.vanishes() == Ok(true) {
-            return None;
-        }
-        let energy = self.energy(time);
-        let start = self.rod.speed.square() * &self.rod.length / self.rod.speed.int(2);
-        Some((energy.translational / &energy.total, energy.total / &start))
-    }
-
     /// `E_z`, or the part of it that `square` takes of a node: with the number of nodes for a small part of its natural
     /// size, and once more where what these leave is more than the rounding errors. The impact finds the rod
     /// undeformed.

@@ -213,12 +213,6 @@ impl<N: BoundedSpecial> FirstContact<N> {
         -(self.weighted(&self.ground(trips, k)) * &self.slowness)
     }
 
-    /// `e^{−rt} H_r(t)`, with its sign and jumps as in (2.27): the stress for `μ = c` and `g = 0`, turned around.
-    pub fn impact_kernel(&self, time: &N, side: Side) -> N {
-        let at = |trips: &Trips<N>| self.ground(&trips.number, trips.returned(side)).impact;
-        self.trips(time).as_ref().map_or_else(|| unknown(time), at)
-    }
-
     /// `V`, `V_t`, `V_x` at the travel time `a` from the ground, `0 ≤ a ≤ 1/2`, with so many rays arrived upwards and
     /// downwards.
     pub(super) fn field_shares(&self, a: &N, trips: &N, arrived: [i64; 2], free: &FreeFall<N>) -> [Shares<N>; 3] {

@@ -73,13 +73,6 @@ impl<N: BoundedSpecial> Rebound<N> {
         Some((self.time.clone() + log_mean(&drag) * &rise, height))
     }
 
-    /// `E_h = L h′²/2 + L g h` at `t_b`: the translational energy.
-    ///
-    /// **Source**: (3.63).
-    pub fn translational_energy(&self) -> N {
-        translational(&self.rod, &self.centre, &self.velocity)
-    }
-
     /// `e_P = −P(t_b)/P(0) = h¹/μ`: the momentum coefficient of restitution.
     ///
     /// **Source**: section 4.1.

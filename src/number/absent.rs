@@ -6,59 +6,27 @@
 use std::cmp::Ordering;
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
-use super::{Analytic, Bounded, Estimate, Number, Open, Reads, Rounded, Scalar};
+use super::{Analytic, Estimate, Number, Open, Reads, Rounded, Scalar};
 
-macro_rules! absent {
-    ($(#[$doc:meta] $name:ident),*) => {$(
-        #[$doc]
-        #[derive(Clone, Debug, PartialEq, PartialOrd)]
-        pub enum $name {}
+/// In a build with the feature `mp`, `rug::Float`.
+#[derive(Clone, Debug, PartialEq, PartialOrd)]
+pub enum Float {}
 
-        absent!(@operator $name, Add add, Sub sub, Mul mul, Div div);
+/// In a build with the feature `mp`, an enclosure.
+pub type Interval = Estimate<Float>;
 
-        impl Neg for $name {
-            type Output = Self;
-            fn neg(self) -> Self {
-                self
-            }
-        }
-
-        impl Scalar for $name {
-            type Precision = $name;
-
-            fn from_number(_: &Number, precision: &Self) -> Self {
-                match *precision {}
-            }
-            absent!(@none precision() -> Self, int(_: i64) -> Self, double(_: f64) -> Self, try_sqrt() -> Option<Self>,
-                to_f64() -> f64, roundoff() -> Self, bits() -> Option<u32>, sign() -> Result<Ordering, Open>,
-                floor_int() -> Option<i64>, is_finite() -> bool, text() -> String);
-        }
-
-        impl Analytic for $name {
-            absent!(@none sqrt() -> Self, exp() -> Self, exp_m1() -> Self, ln() -> Self, ln_1p() -> Self, cos() -> Self,
-                sin() -> Self, pi() -> Self);
-        }
-
-        impl Rounded for $name {
-            absent!(@none unit() -> f64, in_roundoffs() -> f64);
-        }
-
-        impl Bounded for $name {}
-    )*};
-    // Methods that nothing can call.
-    (@none $($method:ident($($_:tt: $of:ty)?) -> $answer:ty),*) => {$(
+/// Methods that nothing can call.
+macro_rules! none {
+    ($($method:ident($($_:tt: $of:ty)?) -> $answer:ty),*) => {$(
         fn $method(&self $(, $_: $of)?) -> $answer {
             match *self {}
         }
     )*};
-    (@operator $name:ident, $($trait:ident $method:ident),*) => {$(
-        impl $trait for $name {
-            type Output = Self;
-            fn $method(self, _: Self) -> Self {
-                self
-            }
-        }
-        impl $trait<&$name> for $name {
+}
+
+macro_rules! operators {
+    ($($trait:ident $method:ident),*) => {$(
+        impl $trait<&Float> for Float {
             type Output = Self;
             fn $method(self, _: &Self) -> Self {
                 self
@@ -66,13 +34,35 @@ macro_rules! absent {
         }
     )*};
 }
+operators!(Add add, Sub sub, Mul mul, Div div);
+by_value!([] Float);
 
-absent!(
-    /// In a build with the feature `mp`, `rug::Float`.
-    Float,
-    /// In a build with the feature `mp`, an enclosure.
-    Interval
-);
+impl Neg for Float {
+    type Output = Self;
+    fn neg(self) -> Self {
+        self
+    }
+}
+
+impl Scalar for Float {
+    type Precision = Float;
+
+    fn from_number(_: &Number, precision: &Self) -> Self {
+        match *precision {}
+    }
+    none!(precision() -> Self, int(_: i64) -> Self, double(_: f64) -> Self, try_sqrt() -> Option<Self>, to_f64() -> f64,
+        roundoff() -> Self, bits() -> Option<u32>, sign() -> Result<Ordering, Open>, floor_int() -> Option<i64>,
+        is_finite() -> bool, text() -> String);
+}
+
+impl Analytic for Float {
+    none!(sqrt() -> Self, exp() -> Self, exp_m1() -> Self, ln() -> Self, ln_1p() -> Self, cos() -> Self, sin() -> Self,
+        pi() -> Self);
+}
+
+impl Rounded for Float {
+    none!(unit() -> f64, in_roundoffs() -> f64);
+}
 
 impl Reads<Estimate<Float>> for Estimate<f64> {
     fn read(number: Estimate<Float>) -> Self {

@@ -121,6 +121,22 @@ pub trait Answer: Scalar {
     fn strip(carried: Self::Carried) -> Self;
 }
 
+impl<S: Rounded> Answer for S {
+    type Carried = Estimate<S>;
+
+    fn carry(&self) -> Estimate<S> {
+        Estimate::rounded(self.clone(), 1.0)
+    }
+
+    fn exactly(&self) -> Estimate<S> {
+        Estimate::exact(self.clone())
+    }
+
+    fn strip(carried: Estimate<S>) -> S {
+        carried.into_value()
+    }
+}
+
 impl<S: Rounded> Bounded for Estimate<S> {
     #[inline]
     fn roundoffs(&self) -> f64 {

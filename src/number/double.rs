@@ -2,7 +2,7 @@
 
 use std::cmp::Ordering;
 
-use super::{Analytic, Answer, Estimate, Number, Open, Rounded, Scalar};
+use super::{Analytic, Number, Open, Rounded, Scalar};
 
 impl Scalar for f64 {
     type Precision = ();
@@ -128,21 +128,5 @@ impl Rounded for f64 {
     #[inline]
     fn in_roundoffs(&self) -> f64 {
         self.abs() / (f64::EPSILON / 2.0)
-    }
-}
-
-impl Answer for f64 {
-    type Carried = Estimate<f64>;
-
-    fn carry(&self) -> Estimate<f64> {
-        Estimate::rounded(*self, 1.0)
-    }
-
-    fn exactly(&self) -> Estimate<f64> {
-        Estimate::exact(*self)
-    }
-
-    fn strip(carried: Estimate<f64>) -> f64 {
-        *carried.value()
     }
 }

@@ -7,7 +7,7 @@ use rug::ops::Pow;
 use rug::{Float, Integer, Rational};
 
 use super::fraction::spelled_as;
-use super::{Analytic, Answer, Estimate, Number, Open, Reads, Rounded, Scalar};
+use super::{Analytic, Estimate, Number, Open, Reads, Rounded, Scalar};
 
 impl Scalar for Float {
     /// Bits of the significand.
@@ -95,22 +95,6 @@ impl Rounded for Float {
 
     fn in_roundoffs(&self) -> f64 {
         (self.clone() << self.prec()).to_f64().abs()
-    }
-}
-
-impl Answer for Float {
-    type Carried = Estimate<Float>;
-
-    fn carry(&self) -> Estimate<Float> {
-        Estimate::rounded(self.clone(), 1.0)
-    }
-
-    fn exactly(&self) -> Estimate<Float> {
-        Estimate::exact(self.clone())
-    }
-
-    fn strip(carried: Estimate<Float>) -> Float {
-        carried.into_value()
     }
 }
 

@@ -200,7 +200,7 @@ impl Draft {
     }
 
     pub(super) fn has(&self, path: &str) -> bool {
-        self.numbers.get(path).is_some()
+        self.numbers.contains_key(path)
     }
 
     fn given(&self, path: &'static str) -> Result<Option<Given<'_>>, ProblemError> {

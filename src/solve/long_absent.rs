@@ -10,28 +10,29 @@ use crate::first_contact::Bounce;
 use crate::number::{Answer, Estimate, Float, Interval};
 use crate::problem::Problem;
 
+impl Answer for Interval {
+    type Carried = Interval;
+    fn carry(&self) -> Interval {
+        self.clone()
+    }
+    fn strip(carried: Interval) -> Interval {
+        carried
+    }
+}
+
 macro_rules! absent {
-    ($($name:ident as $carried:ty: $stripped:ident => $strip:expr),*) => {$(
-        impl Answer for $name {
-            type Carried = $carried;
-            fn carry(&self) -> $carried {
-                match *self {}
-            }
-            fn strip($stripped: $carried) -> $name {
-                $strip
-            }
-        }
+    ($($name:ident),*) => {$(
         impl Target for $name {
             fn run(_: &Problem, _: &Plan, _: Rung, _: &Observer) -> Result<Engined<$name>, Error> {
                 Err(Error::NoMultiprecision)
             }
-            fn derivatives(_: &Asked<'_>, _: &Engined<$name>) -> Result<Derivatives<$carried>, Error> {
+            fn derivatives(_: &Asked<'_>, _: &Engined<$name>) -> Result<Derivatives<Interval>, Error> {
                 Err(Error::NoMultiprecision)
             }
         }
     )*};
 }
-absent!(Float as Estimate<Float>: carried => carried.into_value(), Interval as Interval: carried => carried);
+absent!(Float, Interval);
 
 pub(super) fn in_doubles(_: &Problem, _: &Plan, _: (Rung, Longer<f64>), _: &Observer) -> Result<Engined<f64>, Error> {
     Err(Error::NoMultiprecision)

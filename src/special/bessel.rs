@@ -3,7 +3,7 @@
 use super::gauss::gauss_legendre;
 use super::phi;
 use super::ray::{Ray, RaySums, RoundedSums};
-use crate::number::{Analytic, Answer, Estimate, Rounded};
+use crate::number::{Analytic, Rounded};
 
 /// A number system with the special functions of the first contact.
 ///
@@ -36,7 +36,7 @@ pub trait Special: Analytic {
 }
 
 /// A number system that rounds, with the special functions of exact arguments and the roundings in their values.
-pub trait RoundedSpecial: Rounded + Answer<Carried = Estimate<Self>> {
+pub trait RoundedSpecial: Rounded {
     /// `e^{−z} I_n(z)` for `z ≥ 0`, and its roundings.
     fn in_scaled_rounded(&self, n: u32) -> (Self, f64);
 

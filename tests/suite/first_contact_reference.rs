@@ -1,7 +1,7 @@
 //! The reference values of an independent ball-arithmetic program.
 
 use dalembert::engine::FirstContact;
-use dalembert::number::Scalar;
+use dalembert::number::{Answer, Scalar};
 use dalembert::special::RoundedSpecial;
 use dalembert::{Estimate, Number, Parameters, Side};
 use serde_json::Value;

@@ -19,8 +19,9 @@ fn known(x: f64) -> Estimate<f64> {
 
 /// `E_h/E` and `E/E(0)` at t = 2.
 fn factors(contact: &FirstContact<Estimate<f64>>) -> (f64, f64) {
-    let (part, left) = contact.restitution_factors(&known(2.0)).unwrap();
-    (part.into_value(), left.into_value())
+    let energy = contact.energy(&known(2.0));
+    let (total, rod) = (energy.total.into_value(), contact.rod());
+    (energy.translational.into_value() / total, total / (rod.speed.value().powi(2) * rod.length.value() / 2.0))
 }
 
 /// `I_n`, by the integral after (2.22), (2.16) for n = 0: the first kind, whatever the text says.
