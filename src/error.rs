@@ -217,7 +217,7 @@ pub struct ProblemError {
     pub expected: String,
 }
 
-/// Which rule a problem breaks.
+/// Which rule a problem, or the scene that it is read from, breaks.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 #[non_exhaustive]
 pub enum ProblemErrorKind {
@@ -233,6 +233,14 @@ pub enum ProblemErrorKind {
     Profile,
     /// Values that are each possible, in a combination that double precision cannot hold.
     Combination,
+    /// A scene that is longer than the limit.
+    TooLong,
+    /// A scene that is not TOML.
+    Syntax,
+    /// A key that no scene has.
+    UnknownKey,
+    /// A value of a scene of the wrong type.
+    WrongType,
 }
 
 impl ProblemError {

@@ -98,7 +98,7 @@ pub use quantity::{
 pub use reason::{Doubt, Near, NoBounceReason, Reason, StillState, Warning};
 #[cfg(feature = "mp")]
 pub use rug;
-pub use scene::{Effect, EffectUse, Scene, SceneError, SceneErrorKind, Target, builtin};
+pub use scene::{Effect, EffectUse, Scene, SceneError, Target, builtin};
 pub use solve::{
     CERTIFIED_DIGITS, DEFAULT_ACCURACY, Derivative, Derivatives, Engine, ExactnessEnd, History, NoDerivative, Numbers,
     Observer, Plan, Question, Reach, Rung, Solution, Want,

@@ -9,13 +9,16 @@ use rug::{Assign, Float, Integer, Rational};
 use super::float::{down, up};
 use crate::mapped::{MapEach, mapped};
 
-/// A positive square root, or a number of which nothing is known but that it is always the same.
-#[derive(Debug)]
-enum Root {
-    /// `√radicand`.
-    Of(Radical),
+/// A positive square root, or a number of which nothing is known but that it is always the same. By depth first, so
+/// that a radicand has only roots before its own.
+#[derive(Debug, PartialEq, Eq, PartialOrd, Ord)]
+struct Root {
+    /// How many roots stand in each other.
+    depth: u32,
+    /// What stands under the root; `None` where the number is only named.
+    radicand: Option<Radical>,
     /// Told from others by this.
-    Named(u64),
+    name: u64,
 }
 
 /// A product of roots in order, each once, and of named numbers, as often as it takes; empty for 1.
@@ -27,7 +30,7 @@ type Product = Vec<Arc<Root>>;
 /// in a way that was not seen; only the digits then tell, and never say zero. So no sign told is ever wrong.
 ///
 /// Operations give `None` where the result outgrows [`MOST_TERMS`] or [`MOST_BITS`].
-#[derive(Clone, Debug, Default)]
+#[derive(Clone, Debug, Default, PartialEq, Eq, PartialOrd, Ord)]
 pub(super) struct Radical {
     terms: Vec<(Product, Rational)>,
 }
@@ -42,34 +45,6 @@ const SMALL_FACTOR: u32 = 200;
 /// Digits of no more bits are asked for a sign.
 const MOST_SIGN_BITS: u32 = 4096;
 
-impl Root {
-    fn depth(&self) -> u32 {
-        match self {
-            Root::Of(radicand) => radicand.depth() + 1,
-            Root::Named(_) => 1,
-        }
-    }
-
-    /// By depth first, so that a radicand has only roots before its own.
-    fn order(&self, other: &Root) -> Ordering {
-        if std::ptr::eq(self, other) {
-            return Ordering::Equal;
-        }
-        match (self, other) {
-            (Root::Named(a), Root::Named(b)) => a.cmp(b),
-            (Root::Of(a), Root::Of(b)) => self.depth().cmp(&other.depth()).then_with(|| a.order(b)),
-            (Root::Named(_), _) => 1.cmp(&other.depth()).then(Ordering::Less),
-            (_, Root::Named(_)) => self.depth().cmp(&1).then(Ordering::Greater),
-        }
-    }
-}
-
-fn product_order(a: &Product, b: &Product) -> Ordering {
-    a.len()
-        .cmp(&b.len())
-        .then_with(|| a.iter().zip(b).map(|(x, y)| x.order(y)).find(|order| order.is_ne()).unwrap_or(Ordering::Equal))
-}
-
 impl Radical {
     pub(super) fn rational(x: Rational) -> Option<Self> {
         Radical::checked(vec![(Vec::new(), x)])
@@ -79,7 +54,11 @@ impl Radical {
     pub(super) fn named() -> Self {
         static NEXT: AtomicU64 = AtomicU64::new(0);
         let name = NEXT.fetch_add(1, atomic::Ordering::Relaxed);
-        Radical { terms: vec![(vec![Arc::new(Root::Named(name))], Rational::from(1))] }
+        Radical::root(Arc::new(Root { depth: 1, radicand: None, name }))
+    }
+
+    fn root(root: Arc<Root>) -> Self {
+        Radical { terms: vec![(vec![root], Rational::from(1))] }
     }
 
     fn checked(mut terms: Vec<(Product, Rational)>) -> Option<Self> {
@@ -89,17 +68,7 @@ impl Radical {
     }
 
     fn depth(&self) -> u32 {
-        self.terms.iter().flat_map(|(product, _)| product.iter().map(|root| root.depth())).max().unwrap_or(0)
-    }
-
-    fn order(&self, other: &Self) -> Ordering {
-        self.terms.len().cmp(&other.terms.len()).then_with(|| {
-            let pairs = self.terms.iter().zip(&other.terms);
-            pairs
-                .map(|((p, c), (q, d))| product_order(p, q).then_with(|| c.cmp(d)))
-                .find(|order| order.is_ne())
-                .unwrap_or(Ordering::Equal)
-        })
+        self.terms.iter().flat_map(|(product, _)| product.iter().map(|root| root.depth)).max().unwrap_or(0)
     }
 
     /// Whether all coefficients are zero, which makes the number zero.
@@ -129,7 +98,7 @@ impl Radical {
         let (mut ours, mut theirs) = (self.terms.iter().peekable(), other.terms.iter().peekable());
         loop {
             let order = match (ours.peek(), theirs.peek()) {
-                (Some((p, _)), Some((q, _))) => product_order(p, q),
+                (Some((p, _)), Some((q, _))) => p.cmp(q),
                 (Some(_), None) => Ordering::Less,
                 (None, Some(_)) => Ordering::Greater,
                 (None, None) => return Radical::checked(sum),
@@ -164,13 +133,11 @@ impl Radical {
                 let (mut product, mut radicands) = (Vec::with_capacity(p.len() + q.len()), Vec::new());
                 let mut rest = q.iter().peekable();
                 for root in p {
-                    while let Some(next) = rest.next_if(|next| next.order(root) == Ordering::Less) {
+                    while let Some(next) = rest.next_if(|next| *next < root) {
                         product.push(next.clone());
                     }
-                    match root.as_ref() {
-                        Root::Of(radicand) if rest.next_if(|next| next.order(root) == Ordering::Equal).is_some() => {
-                            radicands.push(radicand);
-                        }
+                    match &root.radicand {
+                        Some(radicand) if rest.next_if(|next| *next == root).is_some() => radicands.push(radicand),
                         _ => product.push(root.clone()),
                     }
                 }
@@ -188,19 +155,18 @@ impl Radical {
     /// `(A, B, ρ)` with `self = A + Bρ` for the last of its roots.
     fn split(&self) -> Option<(Self, Self, Arc<Root>)> {
         let roots = self.terms.iter().filter_map(|(product, _)| product.last());
-        let last = roots.max_by(|a, b| a.order(b))?.clone();
-        let has = |product: &Product| product.last().is_some_and(|root| root.order(&last) == Ordering::Equal);
+        let last = roots.max()?.clone();
+        let has = |product: &Product| product.last() == Some(&last);
         let (with, without): (Vec<_>, Vec<_>) = self.terms.iter().cloned().partition(|(product, _)| has(product));
         let mut factor: Vec<(Product, Rational)> =
             mapped(with, |(product, c)| (product[..product.len() - 1].to_vec(), c));
-        factor.sort_by(|(p, _), (q, _)| product_order(p, q));
+        factor.sort();
         Some((Radical { terms: without }, Radical { terms: factor }, last))
     }
 
     /// `A² − B²ρ²` of [`Radical::split`]; `None` for a root that is only named.
     fn norm(a: &Self, b: &Self, root: &Root) -> Option<Self> {
-        let Root::Of(radicand) = root else { return None };
-        a.mul(a)?.sub(&b.mul(b)?.mul(radicand)?)
+        a.mul(a)?.sub(&b.mul(b)?.mul(root.radicand.as_ref()?)?)
     }
 
     /// `None` also for division by zero.
@@ -213,7 +179,7 @@ impl Radical {
             return if c.is_zero() { None } else { Radical::rational(c.recip()) };
         }
         let (a, b, root) = self.split()?;
-        let conjugate = a.sub(&b.mul(&Radical { terms: vec![(vec![root.clone()], Rational::from(1))] })?)?;
+        let conjugate = a.sub(&b.mul(&Radical::root(root.clone()))?)?;
         conjugate.mul(&Radical::norm(&a, &b, &root)?.inverse()?)
     }
 
@@ -241,8 +207,7 @@ impl Radical {
             let size = Rational::from(c.abs_ref());
             let (mut least, mut most) = (down(bits, &size), up(bits, &size));
             for root in product {
-                let Root::Of(radicand) = root.as_ref() else { return None };
-                let [below, above] = radicand.enclosed(bits)?;
+                let [below, above] = root.radicand.as_ref()?.enclosed(bits)?;
                 if below.cmp0() == Some(Ordering::Greater) {
                     least = down(bits, &least * &down(bits, below.sqrt_ref()));
                 } else {
@@ -258,7 +223,7 @@ impl Radical {
         Some([lo, hi])
     }
 
-    pub(super) fn cmp(&self, other: &Self) -> Option<Ordering> {
+    pub(super) fn compare(&self, other: &Self) -> Option<Ordering> {
         self.sub(other)?.sign()
     }
 
@@ -281,10 +246,8 @@ impl Radical {
         let factor = square_factor(&content);
         let radicand = whole.scaled(&Rational::from(Integer::from(factor.square_ref())).recip())?;
         let scale = Rational::from((factor, below));
-        if radicand.depth() >= MOST_DEPTH {
-            return None;
-        }
-        Radical::checked(vec![(vec![Arc::new(Root::Of(radicand))], scale)])
+        let root = Root { depth: radicand.depth() + 1, radicand: Some(radicand), name: 0 };
+        if root.depth > MOST_DEPTH { None } else { Radical::checked(vec![(vec![Arc::new(root)], scale)]) }
     }
 
     /// A root of either sign that needs no new one.
@@ -305,7 +268,7 @@ impl Radical {
         [a.add(&n)?, a.sub(&n)?].into_iter().find_map(|twice| {
             let u = twice.scaled(&half)?.root_within()?;
             let v = b.scaled(&half)?.div(&u)?;
-            u.add(&v.mul(&Radical { terms: vec![(vec![root.clone()], Rational::from(1))] })?)
+            u.add(&v.mul(&Radical::root(root.clone()))?)
         })
     }
 }

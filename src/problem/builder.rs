@@ -41,9 +41,6 @@ macro_rules! setters {
     )*};
 }
 
-/// Single numbers whose setters are not as simple, and their names.
-const OTHERS: [(&str, &str); 1] = [("impacts", "run.impacts")];
-
 impl Builder {
     setters! {
         /// `L > 0`: the length.
@@ -70,19 +67,21 @@ impl Builder {
         drop_height => "impact.drop_height",
         /// The time up to which to follow the motion, which is included.
         time => "run.time",
+        /// How many contacts to follow, each with the flight after it; without it and without a `time`, one.
+        impacts => "run.impacts",
     }
 
-    /// The names of single numbers: the setters', and the impacts.
+    /// The names of the setters of single numbers.
     #[doc(hidden)]
     pub fn numbers() -> impl Iterator<Item = &'static str> {
-        Self::NAMED.iter().chain(&OTHERS).map(|(name, _)| *name)
+        Self::NAMED.iter().map(|(name, _)| *name)
     }
 
     /// The number of this name, one of [`Builder::numbers`]; any other changes nothing.
     #[doc(hidden)]
     #[must_use]
     pub fn named(mut self, name: &str, value: impl Into<Written>) -> Self {
-        if let Some((_, path)) = Self::NAMED.iter().chain(&OTHERS).find(|(known, _)| *known == name) {
+        if let Some((_, path)) = Self::NAMED.iter().find(|(known, _)| *known == name) {
             self.draft.numbers.insert(path, value.into());
         }
         self
@@ -131,13 +130,6 @@ impl Builder {
     #[must_use]
     pub fn velocity<X: Into<Written>, V: Into<Written>>(mut self, points: impl IntoIterator<Item = (X, V)>) -> Self {
         self.draft.profiles.insert("start.velocity", written(points));
-        self
-    }
-
-    /// How many contacts to follow, each with the flight after it; without it and without a `time`, one.
-    #[must_use]
-    pub fn impacts(mut self, impacts: u32) -> Self {
-        self.draft.numbers.insert("run.impacts", impacts.into());
         self
     }
 

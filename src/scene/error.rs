@@ -10,9 +10,9 @@ use crate::problem::ProblemErrorKind;
 /// What is wrong with a scene: what was found, where, and what was expected.
 ///
 /// ```
-/// use dalembert::{Scene, SceneErrorKind};
+/// use dalembert::{ProblemErrorKind, Scene};
 /// let error = Scene::parse("[rod]\nlength = -1\nwave_speed = 1\n[impact]\nspeed = 3\n").unwrap_err();
-/// assert_eq!(error.kind, SceneErrorKind::OutOfRange);
+/// assert_eq!(error.kind, ProblemErrorKind::OutOfRange);
 /// assert_eq!(error.to_string(), "line 2, column 10: found length = -1, expected a length above zero");
 /// assert_eq!((error.line, error.column, error.span), (2, 10, 15..17));
 /// ```
@@ -21,7 +21,7 @@ use crate::problem::ProblemErrorKind;
 #[non_exhaustive]
 pub struct SceneError {
     /// Which rule the scene breaks.
-    pub kind: SceneErrorKind,
+    pub kind: ProblemErrorKind,
     /// What was found, the offending value included.
     pub found: String,
     /// What was expected in its place.
@@ -33,32 +33,6 @@ pub struct SceneError {
     /// Column of the first of them in characters, from 1.
     pub column: usize,
     pub(super) text: Arc<str>,
-}
-
-/// Which rule a scene breaks.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-#[non_exhaustive]
-pub enum SceneErrorKind {
-    /// The source is longer than the limit.
-    TooLong,
-    /// Not TOML.
-    Syntax,
-    /// A key that no scene has.
-    UnknownKey,
-    /// A key that this scene needs and does not have.
-    MissingKey,
-    /// A value of the wrong type.
-    WrongType,
-    /// A text or literal that spells no usable number.
-    NotANumber,
-    /// A value outside of its range.
-    OutOfRange,
-    /// Two keys that exclude each other.
-    Contradiction,
-    /// A start whose points do not run along the rod.
-    Profile,
-    /// Values that are each possible, in a combination that double precision cannot hold.
-    Combination,
 }
 
 impl SceneError {
@@ -75,7 +49,7 @@ impl SceneError {
     pub(super) fn new(
         source: &str,
         span: Range<usize>,
-        kind: SceneErrorKind,
+        kind: ProblemErrorKind,
         found: impl Into<String>,
         expected: impl Into<String>,
     ) -> Self {
@@ -101,17 +75,4 @@ fn floor_boundary(source: &str, offset: usize) -> usize {
         offset -= 1;
     }
     offset
-}
-
-impl From<ProblemErrorKind> for SceneErrorKind {
-    fn from(kind: ProblemErrorKind) -> Self {
-        match kind {
-            ProblemErrorKind::Missing => SceneErrorKind::MissingKey,
-            ProblemErrorKind::NotANumber => SceneErrorKind::NotANumber,
-            ProblemErrorKind::OutOfRange => SceneErrorKind::OutOfRange,
-            ProblemErrorKind::Contradiction => SceneErrorKind::Contradiction,
-            ProblemErrorKind::Profile => SceneErrorKind::Profile,
-            ProblemErrorKind::Combination => SceneErrorKind::Combination,
-        }
-    }
 }

@@ -9,6 +9,6 @@ mod suggest;
 mod target;
 
 pub use effects::{Effect, EffectUse};
-pub use error::{SceneError, SceneErrorKind};
+pub use error::SceneError;
 pub use read::Scene;
 pub use target::Target;

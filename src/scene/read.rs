@@ -4,7 +4,7 @@ use std::ops::Range;
 
 use toml::de::DeTable;
 
-use super::error::{SceneError, SceneErrorKind as Kind, position};
+use super::error::{SceneError, position};
 use super::reader::{Key, Reader, Value, did_you_mean};
 use super::suggest;
 use super::target::Target;
@@ -14,7 +14,7 @@ use crate::problem::given::{Given, within};
 use crate::problem::profile::{Points, SHAPE};
 use crate::problem::validate::{Draft, NUMBERS};
 use crate::problem::written::{has_unit, short};
-use crate::problem::{Material, Problem, ProblemError, ProblemErrorKind, Top};
+use crate::problem::{Material, Problem, ProblemError, ProblemErrorKind as Kind, Top};
 use crate::quantity::UnitSystem;
 
 /// Every table with its keys; the first is the scene itself.
@@ -203,7 +203,7 @@ impl<'a> Reader<'a> {
             ("", _) => (self.document, "the scene".to_string(), 0..0),
             ("rod", None) => {
                 let expected = "the table [rod] with length and wave_speed";
-                return Err(self.error(0..0, Kind::MissingKey, "no [rod]", expected));
+                return Err(self.error(0..0, Kind::Missing, "no [rod]", expected));
             }
             (_, None) => return Ok(()),
             (_, Some((key, value))) => match value.get_ref().as_table() {
@@ -219,7 +219,7 @@ impl<'a> Reader<'a> {
             _ => return Ok(()),
         };
         if table.is_empty() {
-            return Err(self.error(span, Kind::MissingKey, format!("{found} in {shown}"), expected));
+            return Err(self.error(span, Kind::Missing, format!("{found} in {shown}"), expected));
         }
         Ok(())
     }
@@ -248,20 +248,19 @@ impl<'a> Reader<'a> {
     /// The error of a problem, at its place: the key where it is about what stands beside it or is missing, or the
     /// value.
     fn located(&self, error: ProblemError) -> SceneError {
-        use ProblemErrorKind::{Contradiction, Missing};
         let ProblemError { kind, path, mut found, expected } = error;
         let (path, point) = path.split_once('[').unwrap_or((&path, ""));
         let span = match self.get(path) {
             None => 0..0,
-            Some((key, value)) if matches!(kind, Missing | Contradiction) => {
-                if kind == Missing && value.get_ref().as_table().is_some() {
+            Some((key, value)) if matches!(kind, Kind::Missing | Kind::Contradiction) => {
+                if kind == Kind::Missing && value.get_ref().as_table().is_some() {
                     found += &format!(" in [{path}]");
                 }
                 key.span()
             }
             Some((_, value)) => coordinate(value, point).unwrap_or(value).span(),
         };
-        self.error(span, kind.into(), found, expected)
+        self.error(span, kind, found, expected)
     }
 
     fn top(&self) -> Result<Option<Top>, SceneError> {
@@ -293,7 +292,7 @@ impl<'a> Reader<'a> {
             return Ok(Some(given.number.clone()));
         }
         let expected = "a relative accuracy between 1e-300 and 0.1";
-        Err(self.located(given.error(ProblemErrorKind::OutOfRange, "", expected)))
+        Err(self.located(given.error(Kind::OutOfRange, "", expected)))
     }
 
     /// The points of a profile.

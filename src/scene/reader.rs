@@ -6,12 +6,12 @@ use std::ops::Range;
 use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
-use super::error::{SceneError, SceneErrorKind as Kind};
+use super::error::SceneError;
 use super::suggest;
 use crate::number::Number;
-use crate::problem::Written;
 use crate::problem::given::Given;
 use crate::problem::written::short;
+use crate::problem::{ProblemErrorKind as Kind, Written};
 
 pub(super) type Key<'a> = Spanned<Cow<'a, str>>;
 pub(super) type Value<'a> = Spanned<DeValue<'a>>;
@@ -48,7 +48,7 @@ impl<'a> Reader<'a> {
         let Some((_, value)) = self.get(key) else { return Ok(None) };
         let written = self.written(value, key)?;
         let number = Given::new("", key, &written).map(|given| Some(given.number.clone()));
-        number.map_err(|error| self.error(value.span(), error.kind.into(), error.found, error.expected))
+        number.map_err(|error| self.error(value.span(), error.kind, error.found, error.expected))
     }
 
     /// The place among `known` of the word at `key`.

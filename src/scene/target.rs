@@ -2,12 +2,13 @@
 
 use std::ops::Range;
 
-use super::error::{SceneError, SceneErrorKind as Kind};
+use super::error::SceneError;
 use super::reader::{Reader, Value};
 use super::suggest;
 use crate::mapped::try_mapped;
 use crate::motion::Side;
 use crate::number::Number;
+use crate::problem::ProblemErrorKind as Kind;
 use crate::quantity::{Measure, Needs, Quantity};
 
 /// A value that others have published for a scene.
@@ -100,7 +101,7 @@ impl<'a> Reader<'a> {
         let near = |key: &str| suggest::nearest(key, KEYS).map(String::from);
         self.check_known((self.document, "[[target]]"), KEYS, near)?;
         let missing = |key: &str, expected: &str| {
-            self.error(span.clone(), Kind::MissingKey, format!("no {key} in [[target]]"), expected)
+            self.error(span.clone(), Kind::Missing, format!("no {key} in [[target]]"), expected)
         };
         let (quantities, names): (Vec<Quantity>, Vec<&str>) =
             publishable().map(|quantity| (quantity, quantity.name())).unzip();
@@ -138,7 +139,7 @@ impl<'a> Reader<'a> {
         if !quantity.is_listed(has_material) {
             let found = format!("the {} in [[target]]", quantity.name());
             let expected = "modulus and density in [rod], or strain";
-            return Err(self.error(span, Kind::MissingKey, found, expected));
+            return Err(self.error(span, Kind::Missing, found, expected));
         }
         Ok(Target {
             quantity,

@@ -1,8 +1,7 @@
 //! The builder, and that it and a scene file end in the same checks.
 
 use dalembert::{
-    Builder, Material, Number, Problem, ProblemError, ProblemErrorKind as Kind, Run, Scene, SceneErrorKind, Speed,
-    Start, Top, Written,
+    Builder, Material, Number, Problem, ProblemError, ProblemErrorKind as Kind, Run, Scene, Speed, Start, Top, Written,
 };
 use proptest::prelude::*;
 use proptest::strategy::ValueTree;
@@ -434,7 +433,7 @@ fn through_both_doors(draft: &Draft) -> Result<Problem, ProblemError> {
             let message = error.to_string().replace(", expected", place);
             let message = WORDS.iter().fold(message, |text, (builder, scene)| text.replace(builder, scene));
             assert_eq!(format!("found {}, expected {}", scene.found, scene.expected), message, "{toml}");
-            assert_eq!(scene.kind, SceneErrorKind::from(error.kind), "{toml}");
+            assert_eq!(scene.kind, error.kind, "{toml}");
         }
         (scene, built) => panic!("{toml}\n{scene:?}\n{built:?}"),
     }

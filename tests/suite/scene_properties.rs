@@ -1,6 +1,6 @@
 //! Whatever stands in a scene file, reading it ends in a scene or in an error that points into the file.
 
-use dalembert::{Material, Number, Run, Scene, SceneErrorKind, Speed, Start, builtin};
+use dalembert::{Material, Number, ProblemErrorKind, Run, Scene, Speed, Start, builtin};
 use proptest::prelude::*;
 
 /// The error, if there is one, points at characters of the source.
@@ -128,7 +128,7 @@ proptest! {
         let scene = match Scene::parse(&source) {
             Ok(scene) => scene,
             // Numbers of ordinary size can still make a speed ratio that is out of range.
-            Err(error) if error.kind == SceneErrorKind::Combination => return Err(TestCaseError::reject("combination")),
+            Err(error) if error.kind == ProblemErrorKind::Combination => return Err(TestCaseError::reject("combination")),
             Err(error) => return Err(TestCaseError::fail(error.to_string())),
         };
         let kept = |text: &str| text.parse::<Number>().unwrap();

@@ -99,7 +99,7 @@ impl Scalar for Interval {
             return Ok(Ordering::Equal);
         }
         match (&self.inside, &other.inside) {
-            (Inside::Known(a), Inside::Known(b)) => a.cmp(b).ok_or(Open),
+            (Inside::Known(a), Inside::Known(b)) => a.compare(b).ok_or(Open),
             _ => Err(Open),
         }
     }
@@ -208,7 +208,7 @@ impl Scalar for Interval {
         if other.lo >= self.hi {
             return other;
         }
-        let inside = self.inside.with(&other.inside, |a, b| match a.cmp(b)? {
+        let inside = self.inside.with(&other.inside, |a, b| match a.compare(b)? {
             Ordering::Less => Some(b.clone()),
             _ => Some(a.clone()),
         });
