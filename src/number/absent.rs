@@ -6,27 +6,48 @@
 use std::cmp::Ordering;
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
-use super::{Analytic, Estimate, Number, Open, Reads, Rounded, Scalar};
+use super::{Analytic, Bounded, Estimate, Number, Open, Reads, Rounded, Scalar};
 
-/// In a build with the feature `mp`, `rug::Float`.
-#[derive(Clone, Debug, PartialEq, PartialOrd)]
-pub enum Float {}
+macro_rules! absent {
+    ($(#[$doc:meta] $name:ident),*) => {$(
+        #[$doc]
+        #[derive(Clone, Debug, PartialEq, PartialOrd)]
+        pub enum $name {}
 
-/// In a build with the feature `mp`, an enclosure.
-pub type Interval = Estimate<Float>;
+        absent!(@operator $name, Add add, Sub sub, Mul mul, Div div);
+        by_value!([] $name);
 
-/// Methods that nothing can call.
-macro_rules! none {
-    ($($method:ident($($_:tt: $of:ty)?) -> $answer:ty),*) => {$(
+        impl Neg for $name {
+            type Output = Self;
+            fn neg(self) -> Self {
+                self
+            }
+        }
+
+        impl Scalar for $name {
+            type Precision = $name;
+
+            fn from_number(_: &Number, precision: &Self) -> Self {
+                match *precision {}
+            }
+            absent!(@none precision() -> Self, int(_: i64) -> Self, double(_: f64) -> Self, try_sqrt() -> Option<Self>,
+                to_f64() -> f64, roundoff() -> Self, bits() -> Option<u32>, sign() -> Result<Ordering, Open>,
+                floor_int() -> Option<i64>, is_finite() -> bool, text() -> String);
+        }
+
+        impl Analytic for $name {
+            absent!(@none sqrt() -> Self, exp() -> Self, exp_m1() -> Self, ln() -> Self, ln_1p() -> Self, cos() -> Self,
+                sin() -> Self, pi() -> Self);
+        }
+    )*};
+    // Methods that nothing can call.
+    (@none $($method:ident($($_:tt: $of:ty)?) -> $answer:ty),*) => {$(
         fn $method(&self $(, $_: $of)?) -> $answer {
             match *self {}
         }
     )*};
-}
-
-macro_rules! operators {
-    ($($trait:ident $method:ident),*) => {$(
-        impl $trait<&Float> for Float {
+    (@operator $name:ident, $($trait:ident $method:ident),*) => {$(
+        impl $trait<&$name> for $name {
             type Output = Self;
             fn $method(self, _: &Self) -> Self {
                 self
@@ -34,35 +55,19 @@ macro_rules! operators {
         }
     )*};
 }
-operators!(Add add, Sub sub, Mul mul, Div div);
-by_value!([] Float);
 
-impl Neg for Float {
-    type Output = Self;
-    fn neg(self) -> Self {
-        self
-    }
-}
-
-impl Scalar for Float {
-    type Precision = Float;
-
-    fn from_number(_: &Number, precision: &Self) -> Self {
-        match *precision {}
-    }
-    none!(precision() -> Self, int(_: i64) -> Self, double(_: f64) -> Self, try_sqrt() -> Option<Self>, to_f64() -> f64,
-        roundoff() -> Self, bits() -> Option<u32>, sign() -> Result<Ordering, Open>, floor_int() -> Option<i64>,
-        is_finite() -> bool, text() -> String);
-}
-
-impl Analytic for Float {
-    none!(sqrt() -> Self, exp() -> Self, exp_m1() -> Self, ln() -> Self, ln_1p() -> Self, cos() -> Self, sin() -> Self,
-        pi() -> Self);
-}
+absent!(
+    /// In a build with the feature `mp`, `rug::Float`.
+    Float,
+    /// In a build with the feature `mp`, an enclosure.
+    Interval
+);
 
 impl Rounded for Float {
-    none!(unit() -> f64, in_roundoffs() -> f64);
+    absent!(@none unit() -> f64, in_roundoffs() -> f64);
 }
+
+impl Bounded for Interval {}
 
 impl Reads<Estimate<Float>> for Estimate<f64> {
     fn read(number: Estimate<Float>) -> Self {

@@ -13,7 +13,7 @@ use crate::problem::Problem;
 impl Answer for Interval {
     type Carried = Interval;
     fn carry(&self) -> Interval {
-        self.clone()
+        match *self {}
     }
     fn strip(carried: Interval) -> Interval {
         carried
@@ -21,18 +21,18 @@ impl Answer for Interval {
 }
 
 macro_rules! absent {
-    ($($name:ident),*) => {$(
+    ($($name:ident as $carried:ty),*) => {$(
         impl Target for $name {
             fn run(_: &Problem, _: &Plan, _: Rung, _: &Observer) -> Result<Engined<$name>, Error> {
                 Err(Error::NoMultiprecision)
             }
-            fn derivatives(_: &Asked<'_>, _: &Engined<$name>) -> Result<Derivatives<Interval>, Error> {
+            fn derivatives(_: &Asked<'_>, _: &Engined<$name>) -> Result<Derivatives<$carried>, Error> {
                 Err(Error::NoMultiprecision)
             }
         }
     )*};
 }
-absent!(Float, Interval);
+absent!(Float as Estimate<Float>, Interval as Interval);
 
 pub(super) fn in_doubles(_: &Problem, _: &Plan, _: (Rung, Longer<f64>), _: &Observer) -> Result<Engined<f64>, Error> {
     Err(Error::NoMultiprecision)
