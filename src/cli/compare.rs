@@ -10,9 +10,7 @@ use super::failure::Failure;
 use super::file::{self, Format, ROWS, ROWS_OR_PICTURE, formats};
 use super::source;
 use crate::compare::data::Source;
-use crate::compare::{
-    Axis, CompareError, Comparison, Compression, LEGEND, Limit, Options, Origin, Outcome, Parameter, Prepared,
-};
+use crate::compare::{CompareError, Comparison, LEGEND, Limit, Options, Outcome, Prepared};
 use crate::draw::Size;
 use crate::mapped::{CollectVec, try_mapped};
 use crate::number::Number;
@@ -38,42 +36,8 @@ pub(super) struct Compare {
     /// show the order of convergence
     #[arg(required = true)]
     data: Vec<PathBuf>,
-    /// Which column is what, by its name or its number from 0: t=0,u=1,force=f_n; by default the names of the columns
-    #[arg(long, value_name = "NAME=COLUMN,…")]
-    map: Option<String>,
-    /// Step between rows, where no column holds the time
-    #[arg(long, value_name = "DT", allow_hyphen_values = true)]
-    dt: Option<Number>,
-    /// Time of the first row, with --dt
-    #[arg(long, value_name = "T", requires = "dt", allow_hyphen_values = true)]
-    t0: Option<Number>,
-    /// Added to the times of the data
-    #[arg(long, value_name = "DT", allow_hyphen_values = true)]
-    shift: Option<Number>,
-    /// Sign of forces, stresses and strains in compression; by default forces are +, stresses and strains −
-    #[arg(long, value_enum, value_name = "SIGN", allow_hyphen_values = true)]
-    compression: Option<Compression>,
-    /// Where displacements are zero
-    #[arg(long, value_enum, default_value_t)]
-    u_origin: Origin,
-    /// Which way displacements and velocities count
-    #[arg(long, value_enum, default_value_t)]
-    axis: Axis,
-    /// Factor that brings the energies of the data to those of the rod
-    #[arg(long, value_name = "FACTOR", default_value = "1", allow_hyphen_values = true)]
-    energy_scale: Number,
-    /// Round trips from a jump where `L∞ off jumps` begins; by default 0.02, or two steps where that is more
-    #[arg(long, value_name = "TRIPS", allow_hyphen_values = true)]
-    window: Option<Number>,
-    /// Width of the mesh of each file, for the order of convergence; by default the step of its times
-    #[arg(long, value_name = "LIST", value_delimiter = ',')]
-    widths: Vec<Number>,
-    /// Values of the scene to fit to the data: length, wave_speed, modulus, density, damping, gravity, speed, gap
-    #[arg(long, value_name = "LIST", value_delimiter = ',')]
-    fit: Vec<Parameter>,
-    /// How far the data are to go; by default as far as the run of the scene
-    #[arg(long, value_name = "T", allow_hyphen_values = true)]
-    to: Option<Number>,
+    #[command(flatten)]
+    options: Options,
     /// Exit with code 1 where something is above a bound: u.l2=0.1 (of l1, l2, linf, linf_off_jumps, relative to ours),
     /// energy=0.02 and impulse=0.05 (relative), momentum, penetration, tension, missed=0, invented=0
     #[arg(long, value_name = "NAME=BOUND,…", value_delimiter = ',')]
@@ -142,7 +106,7 @@ impl Compare {
         let sources = try_mapped(&self.data, |path| Source::open(path))?;
         let accuracy = scene.accuracy.as_ref().map(Number::to_f64);
         let units = Units::of(&scene.problem, scene.units);
-        let prepared = Prepared::new(&scene.problem, &units, accuracy, sources, &self.options()).map_err(with_flag)?;
+        let prepared = Prepared::new(&scene.problem, &units, accuracy, sources, &self.options).map_err(with_flag)?;
         let progress = source::Progress::of(&scene, &prepared.plan);
         let comparison = prepared.compare(progress.observer()).map_err(with_flag)?;
         drop(progress);
@@ -177,23 +141,6 @@ impl Compare {
             }
         }
         Ok(limits)
-    }
-
-    fn options(&self) -> Options {
-        Options {
-            map: self.map.clone(),
-            dt: self.dt.clone(),
-            t0: self.t0.clone(),
-            shift: self.shift.clone(),
-            compression: self.compression,
-            origin: self.u_origin,
-            axis: self.axis,
-            energy_scale: Some(self.energy_scale.clone()),
-            window: self.window.clone(),
-            widths: self.widths.clone(),
-            to: self.to.clone(),
-            fit: self.fit.clone(),
-        }
     }
 
     fn check(&self) -> Result<(), Failure> {

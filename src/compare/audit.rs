@@ -72,12 +72,9 @@ pub(super) struct Books<'a> {
 impl Books<'_> {
     /// The first sample with the greatest `value` above zero.
     fn most(&self, value: impl Fn(usize) -> f64) -> Extreme {
-        (self.start..self.times.len()).map(|k| Extreme { value: value(k), time: self.times[k] }).fold(
-            Extreme { value: 0.0, time: self.times.first().copied().unwrap_or(0.0) },
-            |most, found| {
-                if found.value > most.value { found } else { most }
-            },
-        )
+        let none = Extreme { value: 0.0, time: self.times.first().copied().unwrap_or(0.0) };
+        let all = (self.start..self.times.len()).map(|k| Extreme { value: value(k), time: self.times[k] });
+        all.fold(none, |most, found| if found.value > most.value { found } else { most })
     }
 
     /// `∫ value dt` by the trapezoidal rule.
@@ -112,23 +109,16 @@ impl Books<'_> {
         Audit {
             penetration: self.displacement.map(|v| self.most(|k| -v[k])),
             tension: self.force.map(|force| self.most(|k| -force[k])),
-            complementarity: self
-                .displacement
-                .zip(self.force)
-                .map(|(v, force)| self.integral(|k| (v[k] * force[k]).abs())),
+            complementarity: self.displacement.zip(self.force).map(|(v, f)| self.integral(|k| (v[k] * f[k]).abs())),
             energy_change,
             momentum,
             ..Audit::default()
         }
     }
 
-    /// Times between 0 and `end` that the samples leave out.
-    pub(super) fn not_covered(&self, end: f64) -> Vec<[f64; 2]> {
+    /// Times between 0 and `end` that the samples leave out, whose `median` step is known.
+    pub(super) fn not_covered(&self, median: f64, end: f64) -> Vec<[f64; 2]> {
         let (Some(first), Some(last)) = (self.times.first(), self.times.last()) else { return vec![[0.0, end]] };
-        let steps = self.times.windows(2).map(|pair| pair[1] - pair[0]);
-        let mut steps: Vec<f64> = steps.filter(|step| *step > 0.0).collect();
-        let middle = steps.len() / 2;
-        let median = if steps.is_empty() { 0.0 } else { *steps.select_nth_unstable_by(middle, f64::total_cmp).1 };
         let long = |from: &f64, to: &f64| to - from > HOLE * median;
         let holes = self.times.windows(2).filter(|pair| long(&pair[0], &pair[1])).map(|pair| [pair[0], pair[1]]);
         let before = (*first > median).then_some([0.0, *first]);

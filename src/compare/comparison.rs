@@ -1,96 +1,38 @@
 //! From data to a report: what may be said of them, the run that they call for, and what comes of it.
 
-use super::agree::{Agreement, Settings};
-use super::conventions::{Axis, Compression, Conventions, Origin};
+use super::agree::Agreement;
 use super::data::{DataError, Source};
 use super::fit::{Fit, FitError};
 use super::limit::{Limit, Order, Outcome, orders, outcomes};
 use super::map::{Map, MapError};
+use super::options::Options;
+use super::ours::Ours;
 use super::samples::{Clock, Samples};
+use super::unfitted::Judgement;
+use super::verdict::judged;
 use crate::error::Error;
 use crate::number::Number;
-use crate::problem::{Parameter, Parameters, Problem, Run};
+use crate::problem::{Parameters, Problem, Run};
 use crate::quantity::Units;
 use crate::reason::Warning;
 use crate::solve::{Numbers, Observer, Plan, Question, Solution};
 
-/// What is said of data besides themselves; messages call it by these names.
-#[derive(Clone, Debug, Default)]
-pub struct Options {
-    /// Which column is what: `t=0,u=1,force=f_n`; by default the names of the columns.
-    pub map: Option<String>,
-    /// The step between rows, where no column holds the time.
-    pub dt: Option<Number>,
-    /// The time of the first row, with `dt`.
-    pub t0: Option<Number>,
-    /// Added to the times of the data.
-    pub shift: Option<Number>,
-    /// The sign of forces, stresses and strains in compression; by default forces are +, stresses and strains −.
-    pub compression: Option<Compression>,
-    /// Where displacements are zero.
-    pub origin: Origin,
-    /// Which way displacements and velocities count.
-    pub axis: Axis,
-    /// The factor that brings the energies of the data to those of the rod; 1 where nothing is said.
-    pub energy_scale: Option<Number>,
-    /// Round trips from a jump where `L∞ off jumps` begins.
-    pub window: Option<Number>,
-    /// The width of the mesh of each source, for the order of convergence; by default the step of its times.
-    pub widths: Vec<Number>,
-    /// How far the data are to go; by default as far as the run of the scene.
-    pub to: Option<Number>,
-    /// The values of the scene that are fitted to the data.
-    pub fit: Vec<Parameter>,
-}
-
 /// Why data cannot be compared.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum CompareError {
-    /// The data.
     #[error(transparent)]
     Data(#[from] DataError),
-    /// Their columns.
     #[error("{file}: {error}")]
-    Map {
-        /// The source.
-        file: String,
-        /// What is wrong with them.
-        error: MapError,
-    },
-    /// What is said of them.
+    Map { file: String, error: MapError },
     #[error("found {found}, expected {expected}")]
-    Option {
-        /// Which of [`Options`] it is said by.
-        key: &'static str,
-        /// What was found.
-        found: String,
-        /// What was expected.
-        expected: String,
-    },
-    /// Their times, against the scene's own run.
+    Option { key: &'static str, found: String, expected: String },
     #[error(
         "{file}: found times up to {last}, expected times of the scene's own run, which ends at t = {end}: are they \
          in {unit}? For a run as long, say so in the scene: time = {last} in [run]"
     )]
-    Span {
-        /// The source.
-        file: String,
-        /// Its last time.
-        last: f64,
-        /// The end of the run.
-        end: f64,
-        /// What the times may be in.
-        unit: &'static str,
-    },
-    /// What is to be fitted.
+    Span { file: String, last: f64, end: f64, unit: &'static str },
     #[error("{file}: {error}")]
-    Fit {
-        /// The source.
-        file: String,
-        /// What is wrong with it.
-        error: FitError,
-    },
-    /// The history.
+    Fit { file: String, error: FitError },
     #[error(transparent)]
     History(#[from] Error),
 }
@@ -109,41 +51,16 @@ impl CompareError {
 }
 
 impl Options {
-    /// Refuses what cannot be meant of `count` sources.
-    fn check(&self, count: usize) -> Result<(), CompareError> {
-        let refuse = |key, found: String, expected: String| Err(CompareError::Option { key, found, expected });
-        if !self.widths.is_empty() && self.widths.len() != count {
-            return refuse("widths", format!("{} widths", self.widths.len()), format!("{count}, one for each file"));
-        }
-        if self.t0.is_some() && self.dt.is_none() {
-            return refuse("dt", "t0 without dt".into(), "both, or a column of times".into());
-        }
-        let named =
-            [("dt", &self.dt), ("window", &self.window), ("energy_scale", &self.energy_scale), ("to", &self.to)];
-        let lengths = named.into_iter().flat_map(|(name, number)| number.iter().map(move |number| (name, number)));
-        for (name, number) in lengths.chain(self.widths.iter().map(|width| ("widths", width))) {
-            if number.to_f64() <= 0.0 {
-                return refuse(name, format!("{name} {number}"), "more than zero".into());
-            }
-        }
-        Ok(())
-    }
-
-    fn settings(&self, problem: &Problem) -> Settings {
-        let conventions = Conventions {
-            compression: self.compression,
-            origin: self.origin,
-            axis: self.axis,
-            energy_scale: self.energy_scale.as_ref().map_or(1.0, Number::to_f64),
-        };
-        let last = |history: crate::solve::History<f64>| history.contacts().last().and_then(|contact| contact.to);
-        let until = match (&self.to, &problem.run) {
+    /// How far the data should go: `to`, or the end of the scene's own run, where that is a time or soon found.
+    fn until(&self, problem: &Problem) -> Option<f64> {
+        match (&self.to, &problem.run) {
             (Some(to), _) => Some(to.to_f64()),
             (None, Run::Time(time)) => Some(time.to_f64()),
-            (None, Run::Impacts(count)) if *count <= MOST_IMPACTS => problem.solve().ok().and_then(last),
+            (None, Run::Impacts(count)) if *count <= MOST_IMPACTS => {
+                problem.solve().ok()?.contacts().last().and_then(|contact| contact.to)
+            }
             (None, Run::Impacts(_)) => None,
-        };
-        Settings { conventions, until, judge: true, window: self.window.as_ref().map(Number::to_f64) }
+        }
     }
 
     fn samples(&self, source: Source, length: f64, units: &Units) -> Result<Samples, CompareError> {
@@ -183,9 +100,8 @@ pub struct Prepared {
     /// How the run is to be solved.
     pub plan: Plan,
     data: Vec<(String, Samples)>,
-    settings: Settings,
-    widths: Vec<f64>,
-    fit: Vec<Parameter>,
+    until: Option<f64>,
+    options: Options,
 }
 
 /// Data beside the exact history: what is reported.
@@ -204,8 +120,8 @@ pub struct Comparison {
 pub struct ComparedFile {
     /// Its name.
     pub(crate) file: String,
-    /// What came of it.
     pub(crate) agreement: Agreement,
+    pub(crate) judgement: Judgement,
     /// The values that explain it best, and what comes of it with them.
     pub(crate) fit: Option<(Fit, Agreement)>,
 }
@@ -264,40 +180,44 @@ impl Prepared {
         }
         // A round trip more shows a contact that begins in the data a little too early.
         let last = last + rod.round_trip();
-        let settings = options.settings(problem);
-        let problem = match settings.until {
+        let until = options.until(problem);
+        let problem = match until {
             Some(time) if time >= last => problem.clone(),
             _ => problem.to_builder().time(last).build().map_err(Error::from)?,
         };
         let plan = Plan::of(&problem, &Question::run(Numbers::Double(accuracy)))?;
-        let widths = options.widths.iter().map(Number::to_f64).collect();
-        Ok(Prepared { problem, plan, data, settings, widths, fit: options.fit.clone() })
+        Ok(Prepared { problem, plan, data, until, options: options.clone() })
     }
 
     /// Solves the run and compares.
     ///
     /// **Errors**: those of the history, and of a fit.
     pub fn compare(self, observer: Observer) -> Result<Comparison, CompareError> {
-        let Prepared { problem, plan, data, settings, widths, fit } = self;
+        let Prepared { problem, plan, data, until, options } = self;
         let Solution::Double(history) = plan.solve(&problem, observer)? else {
             return Err(Error::NoMultiprecision.into());
         };
         let mut files = Vec::new();
         for (file, samples) in data {
-            let again = (!fit.is_empty()).then(|| samples.clone());
-            let agreement = Agreement::of(&problem, &history, samples, &settings)?;
-            let mut fitted = None;
+            let ours = Ours::of(&problem, &history)?;
+            let again = (!options.fit.is_empty()).then(|| samples.clone());
+            let agreement = Agreement::of(&problem, &ours, samples, &options, until)?;
+            let judgement = judged(&problem, &ours, &agreement)?;
+            let mut fit = None;
             if let Some(samples) = again {
-                let found = Fit::of(&problem, &history, &agreement, &fit)?;
+                let found = Fit::of(&problem, &ours, &agreement, &options.fit)?;
                 let found = found.map_err(|error| CompareError::Fit { file: file.clone(), error })?;
-                let settings = Settings { judge: false, ..settings.clone() };
-                let then = Agreement::of(&found.problem, &found.history, samples, &settings)?;
-                fitted = Some((found, then));
+                let ours = Ours::of(&found.problem, &found.history)?;
+                let then = Agreement::of(&found.problem, &ours, samples, &options, until)?;
+                fit = Some((found, then));
             }
-            files.push(ComparedFile { file, agreement, fit: fitted });
+            files.push(ComparedFile { file, agreement, judgement, fit });
         }
         let compared: Vec<&Agreement> = files.iter().map(|file| &file.agreement).collect();
-        let widths = if widths.is_empty() { compared.iter().map(|file| file.step).collect() } else { widths };
+        let widths: Vec<f64> = match options.widths.as_slice() {
+            [] => compared.iter().map(|file| file.step).collect(),
+            widths => widths.iter().map(Number::to_f64).collect(),
+        };
         let orders = orders(&compared, &widths);
         Ok(Comparison { orders, warnings: history.warnings(), files })
     }

@@ -104,9 +104,9 @@ impl Fit {
     /// stage each column weighs by what remained of it.
     ///
     /// **Errors**: [`FitError`] as an inner result; the outer one is the history's.
-    pub(crate) fn of(
+    pub(super) fn of(
         problem: &Problem,
-        history: &History<f64>,
+        ours: &Ours<'_>,
         agreement: &Agreement,
         parameters: &[Parameter],
     ) -> Result<Result<Self, FitError>, Error> {
@@ -115,7 +115,7 @@ impl Fit {
             let absent = parameters.iter().find(|parameter| parameter.value(problem).is_none());
             return Ok(Err(FitError::Absent(absent.map(ToString::to_string).unwrap_or_default())));
         };
-        let (grid, columns) = (&agreement.grid, &agreement.quantities);
+        let (history, grid, columns) = (ours.history, &agreement.grid, &agreement.quantities);
         let samples = grid.times.len() * columns.len();
         if samples <= parameters.len() {
             return Ok(Err(FitError::TooFew { samples, unknowns: parameters.len() }));
@@ -132,7 +132,6 @@ impl Fit {
         let release = history.contacts().iter().find_map(|contact| contact.to).unwrap_or(f64::INFINITY);
         let second = history.events().iter().map(|event| event.time).find(|time| *time > release);
         let last = grid.times.last().copied().unwrap_or_default();
-        let ours = Ours::of(problem, history)?;
         let (mut values, mut left) = (start.clone(), STEPS);
         let run = |values: &[f64], most: usize, residuals: Residuals<'_>| {
             let of = |values: &[f64]| residuals(&varied(problem, parameters, values)?);
@@ -142,9 +141,7 @@ impl Fit {
         };
         // Up to the second impact, and over all times.
         for until in [second.unwrap_or(last), last] {
-            let per = |what| ours.force_per(what);
-            let model =
-                Model::of(problem, history, (&grid.times, agreement.step), columns, per, (until, SAMPLES / 10))?;
+            let model = Model::of(problem, ours, agreement, until, SAMPLES / 10)?;
             let residuals = |problem: &Problem| {
                 let all = model.values(problem, |time| time).ok()?;
                 let of = model.signals.iter().zip(&all).flat_map(|(signal, ours)| {

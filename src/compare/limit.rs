@@ -1,11 +1,13 @@
 //! Bounds for the tests of other projects, and the order that several files show.
 
+use std::collections::BTreeMap;
+
 use serde::Serialize;
 
 use super::agree::Agreement;
 use super::audit::Extreme;
 use super::map::compared;
-use super::norms::{Norms, order};
+use super::norms::{NORMS, Norm, Norms, order};
 use super::touch::Touch;
 use crate::quantity::Quantity;
 
@@ -33,29 +35,6 @@ pub struct Outcome {
 const AUDITED: [&str; 8] =
     ["coverage", "energy", "momentum", "impulse", "penetration", "tension", "missed", "invented"];
 
-#[derive(Clone, Copy, Debug, PartialEq)]
-enum NormName {
-    L1,
-    L2,
-    Linf,
-    LinfOffJumps,
-}
-
-const NORMS: [(&str, NormName); 4] =
-    [("l1", NormName::L1), ("l2", NormName::L2), ("linf", NormName::Linf), ("linf_off_jumps", NormName::LinfOffJumps)];
-
-impl NormName {
-    /// Absolute and relative; `None` where no sample counts.
-    fn of(self, norms: &Norms) -> Option<(f64, Option<f64>)> {
-        match self {
-            NormName::L1 => Some((norms.l1.absolute, norms.l1.relative)),
-            NormName::L2 => Some((norms.l2.absolute, norms.l2.relative)),
-            NormName::Linf => Some((norms.linf.absolute, norms.linf.relative)),
-            NormName::LinfOffJumps => norms.linf_off_jumps.map(|most| (most.absolute, most.relative)),
-        }
-    }
-}
-
 impl std::fmt::Display for Limit {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         write!(f, "{} {} {:e}", self.name, if self.below { '≥' } else { '≤' }, self.bound)
@@ -77,15 +56,24 @@ impl std::str::FromStr for Limit {
 const FORM: &str = "QUANTITY.NORM=BOUND with l1, l2, linf or linf_off_jumps, order.QUANTITY=BOUND, or one of coverage, \
                     energy, momentum, impulse, penetration, tension, missed and invented with its bound";
 
+/// What the orders of convergence are called by.
+const ORDER: &str = "order.";
+/// The place of the norm that is meant where none is named.
+const L2: usize = 1;
+
+/// The quantity and the place of the norm in `u.l2`.
+fn split(name: &str) -> Option<(&str, usize)> {
+    let (quantity, norm) = name.rsplit_once('.')?;
+    Some((quantity, NORMS.iter().position(|known| known.0 == norm)?))
+}
+
 impl Limit {
     /// A bound of `name`, failing `below` it or above.
     ///
     /// **Errors**: a name that is none, a bound below zero.
     pub fn new(name: &str, bound: f64, below: bool) -> Result<Self, String> {
         let name = name.trim();
-        let norm = |text: &str| NORMS.iter().any(|(name, _)| *name == text);
-        let of_norm = name.rsplit_once('.').is_some_and(|(_, last)| norm(last));
-        let known = AUDITED.contains(&name) || name.starts_with("order.") || of_norm;
+        let known = AUDITED.contains(&name) || name.starts_with(ORDER) || split(name).is_some();
         // A bound that is no number is none.
         if !known || bound.is_nan() || bound < 0.0 {
             return Err(format!("found `{name}={bound}`, expected {FORM}"));
@@ -127,26 +115,23 @@ impl Limit {
             }
             "impulse" => {
                 let off = |(a, b): &(Option<Touch>, Option<Touch>)| {
-                    let (a, b) = (a.as_ref()?.impulse?, b.as_ref()?.impulse?);
-                    Some((b / a - 1.0).abs())
+                    let (a, b) = (a.as_ref()?, b.as_ref()?);
+                    // Of whole contacts.
+                    a.to.zip(b.to)?;
+                    Some((b.impulse? / a.impulse? - 1.0).abs())
                 };
-                let whole = |(a, b): &&(Option<Touch>, Option<Touch>)| {
-                    [a, b].into_iter().all(|touch| touch.as_ref().is_some_and(|touch| touch.to.is_some()))
-                };
-                let most = agreement.contacts.iter().filter(whole).filter_map(off).reduce(f64::max);
+                let most = agreement.contacts.iter().filter_map(off).reduce(f64::max);
                 most.ok_or_else(|| lacks("a force and a whole contact"))?
             }
             name => {
-                let (quantity, norm) = name.rsplit_once('.').unwrap_or((name, "l2"));
-                let norm = NORMS.iter().find(|(name, _)| *name == norm).map_or(NormName::L2, |(_, norm)| *norm);
+                let (quantity, norm) = split(name).unwrap_or((name, L2));
                 let what = compared(quantity, agreement.grid.points.is_some());
-                let compared = agreement.quantities.iter().find(|compared| Some(compared.what) == what);
-                let compared = compared.ok_or_else(|| {
+                let compared = what.and_then(|what| agreement.column(what)).ok_or_else(|| {
                     let names: Vec<&str> = agreement.quantities.iter().map(|compared| compared.what.name()).collect();
                     format!("found a bound of {quantity}, expected one of {}", names.join(", "))
                 })?;
                 // Where no sample counts there is no difference.
-                norm.of(&compared.norms).map_or(0.0, |(absolute, relative)| relative.unwrap_or(absolute))
+                NORMS[norm].2(&compared.norms).map_or(0.0, |norm| norm.relative.unwrap_or(norm.absolute))
             }
         }))
     }
@@ -161,7 +146,7 @@ pub(crate) fn outcomes(
     limits: &[Limit],
 ) -> Result<Vec<Outcome>, String> {
     let mut all = Vec::new();
-    let is_order = |limit: &&Limit| limit.name.starts_with("order.");
+    let is_order = |limit: &&Limit| limit.name.starts_with(ORDER);
     for (file, agreement) in files.iter().filter(|_| !limits.is_empty()) {
         let coverage = &agreement.coverage;
         let failure = coverage.breaks_off.then(|| format!("they end at t = {}", coverage.time[0]));
@@ -173,21 +158,15 @@ pub(crate) fn outcomes(
         }
     }
     for limit in limits.iter().filter(is_order) {
-        let name = limit.name.trim_start_matches("order.");
-        let (quantity, norm) =
-            name.rsplit_once('.').filter(|(_, norm)| NORMS.iter().any(|n| n.0 == *norm)).unwrap_or((name, "l2"));
+        let name = limit.name.trim_start_matches(ORDER);
+        let (quantity, norm) = split(name).unwrap_or((name, L2));
         let what = compared(quantity, false).map(Quantity::name);
         let rows: Vec<&Order> = orders.iter().filter(|order| Some(order.quantity) == what).collect();
         if rows.is_empty() {
             return Err(format!("found a bound of {}, expected several files with {quantity}", limit.name));
         }
         for order in rows {
-            let found = match norm {
-                "l1" => order.l1,
-                "linf" => order.linf,
-                "linf_off_jumps" => order.linf_off_jumps,
-                _ => order.l2,
-            };
+            let found = order.orders.get(NORMS[norm].0).copied().flatten();
             let widths = format!("widths {} to {}", order.widths[0], order.widths[1]);
             all.push(limit.outcome(&widths, found.filter(|_| order.meaningless.is_none())));
         }
@@ -200,10 +179,9 @@ pub(crate) fn outcomes(
 pub(crate) struct Order {
     pub(crate) quantity: &'static str,
     pub(crate) widths: [f64; 2],
-    pub(crate) l1: Option<f64>,
-    pub(crate) l2: Option<f64>,
-    pub(crate) linf: Option<f64>,
-    pub(crate) linf_off_jumps: Option<f64>,
+    /// In each norm.
+    #[serde(flatten)]
+    pub(crate) orders: BTreeMap<&'static str, Option<f64>>,
     /// Why it says nothing.
     pub(crate) meaningless: Option<&'static str>,
 }
@@ -216,11 +194,11 @@ pub(crate) fn orders(files: &[&Agreement], widths: &[f64]) -> Vec<Order> {
     let mut rows = Vec::new();
     for compared in files.first().iter().flat_map(|file| &file.quantities) {
         for (pair, widths) in files.windows(2).zip(widths.windows(2)) {
-            let norms = |file: &Agreement| file.quantities.iter().find(|c| c.what == compared.what).map(|c| c.norms);
-            let Some((coarse, fine)) = norms(pair[0]).zip(norms(pair[1])) else { continue };
-            let between = |name: NormName| {
-                let (error, less) = name.of(&coarse).zip(name.of(&fine))?;
-                order((widths[0], error.0), (widths[1], less.0))
+            let [coarse, fine] = [pair[0], pair[1]].map(|file| file.column(compared.what).map(|c| c.norms));
+            let Some((coarse, fine)) = coarse.zip(fine) else { continue };
+            let between = |norm: fn(&Norms) -> Option<Norm>| {
+                let (error, less) = norm(&coarse).zip(norm(&fine))?;
+                order((widths[0], error.absolute), (widths[1], less.absolute))
             };
             let apart = |a: f64, b: f64| (a - b).abs() > LONGER * pair[0].step.max(pair[1].step);
             let [coarse_end, fine_end] = [pair[0], pair[1]].map(|file| file.coverage.time[0]);
@@ -237,10 +215,7 @@ pub(crate) fn orders(files: &[&Agreement], widths: &[f64]) -> Vec<Order> {
                 meaningless,
                 quantity: compared.what.name(),
                 widths: [widths[0], widths[1]],
-                l1: between(NormName::L1),
-                l2: between(NormName::L2),
-                linf: between(NormName::Linf),
-                linf_off_jumps: between(NormName::LinfOffJumps),
+                orders: NORMS.into_iter().map(|(name, _, norm)| (name, between(norm))).collect(),
             });
         }
     }

@@ -3,15 +3,14 @@
 mod agree;
 mod audit;
 mod comparison;
-mod conventions;
 pub mod data;
 mod fit;
-mod judgement;
 mod least;
 mod limit;
 mod map;
 mod model;
 mod norms;
+mod options;
 mod ours;
 mod report;
 mod samples;
@@ -21,12 +20,12 @@ mod verdict;
 mod wording;
 
 pub use crate::problem::Parameter;
-pub use comparison::{CompareError, ComparedFile, Comparison, Options, Prepared};
-pub use conventions::{Axis, Compression, Origin};
+pub use comparison::{CompareError, ComparedFile, Comparison, Prepared};
 pub use fit::FitError;
 pub use limit::{Limit, Outcome};
 pub use map::MapError;
 #[cfg(feature = "cli")]
 pub(crate) use norms::Compared;
 pub use norms::{Grid, norms, order};
+pub use options::{Axis, Compression, Options, Origin};
 pub use report::LEGEND;

@@ -1,10 +1,12 @@
 //! What other values of the scene would have given at the times of the data, and the columns that are held against it.
 
+use super::agree::Agreement;
 use super::norms::{Compared, Grid};
+use super::ours::Ours;
 use crate::error::Error;
 use crate::motion::Side;
 use crate::problem::{Parameter, Problem};
-use crate::quantity::{Measure, Quantity, Rays, Units};
+use crate::quantity::{Measure, Quantity, Rays};
 use crate::solve::History;
 
 /// A column as it is held against a run: itself where it has no jumps, its integral over time where it has them. An
@@ -34,6 +36,8 @@ impl Signal {
 #[derive(Debug)]
 pub(super) struct Model<'a> {
     pub(super) problem: &'a Problem,
+    /// `ρS L`, or `L` where forces are per `ρS`.
+    mass: f64,
     pub(super) times: Vec<f64>,
     pub(super) signals: Vec<Signal>,
     /// What each sample weighs.
@@ -58,44 +62,34 @@ fn integral(times: &[f64], values: &[f64], start: f64) -> Vec<f64> {
     std::iter::once(start).chain(sums).take(times.len()).collect()
 }
 
-/// `ρS L`, or `L` where forces are per `ρS`.
-pub(super) fn mass(problem: &Problem) -> f64 {
-    line_density(problem) * Parameter::Length.value(problem).unwrap_or_default()
-}
-
-/// `ρS`, or 1 where forces are per `ρS`.
-fn line_density(problem: &Problem) -> f64 {
-    Units::of(problem, crate::quantity::UnitSystem::Si).factor::<f64>(Measure::Impulse, &()).unwrap_or(1.0)
-}
-
 impl<'a> Model<'a> {
-    /// The columns at the samples up to `until`, at most about `most` of them; `force_per` makes a stress or a strain
-    /// the force of the ground.
+    /// The columns at the samples up to `until`, at most about `most` of them.
     pub(super) fn of(
         problem: &'a Problem,
-        history: &History<f64>,
-        (times, step): (&[f64], f64),
-        columns: &[Compared],
-        force_per: impl Fn(Quantity) -> f64,
-        (until, most): (f64, usize),
+        ours: &Ours<'_>,
+        agreement: &Agreement,
+        until: f64,
+        most: usize,
     ) -> Result<Self, Error> {
-        let speed = history.scales().velocity;
+        let (history, times, step) = (ours.history, &agreement.grid.times, agreement.step);
+        let (speed, trip) = (history.scales().velocity, history.scales().time);
         let wave_speed = Parameter::WaveSpeed.value(problem).unwrap_or(1.0);
-        let trip = history.scales().time;
+        let [mass, ..] = ours.momentum();
         let count = times.partition_point(|time| *time <= until);
         let kept: Vec<usize> = (0..count).step_by(count.div_ceil(most).max(1)).collect();
         let mut signals = Vec::new();
-        for Compared { what, ours, theirs, .. } in columns {
+        for Compared { what, ours: own, theirs, .. } in &agreement.quantities {
             let rate = match what.measure() {
                 _ if *what == Quantity::CentreVelocity => speed / trip,
-                Some(Measure::Energy) => mass(problem) * speed * speed / trip,
+                Some(Measure::Energy) => mass * speed * speed / trip,
                 Some(Measure::Force | Measure::Stress | Measure::Strain | Measure::Impulse) => {
-                    line_density(problem) * wave_speed * speed
+                    ours.line() * wave_speed * speed
                 }
                 Some(_) => speed,
                 None => continue,
             };
-            let of_force = |values: &[f64]| values.iter().map(|value| value * force_per(*what)).collect::<Vec<f64>>();
+            let of_force =
+                |values: &[f64]| values.iter().map(|value| value * ours.force_per(*what)).collect::<Vec<f64>>();
             let (model, values) = match what {
                 Quantity::EndVelocity => (Quantity::EndDisplacement, theirs.clone()),
                 Quantity::TopVelocity => (Quantity::TopDisplacement, theirs.clone()),
@@ -106,7 +100,7 @@ impl<'a> Model<'a> {
                 let start = history.columns(&[model, *what], &times[..1], Some(Side::Right))?;
                 let mut values = values;
                 // A row with the stress that is there before the start, on which nothing has acted yet.
-                let before = ours[0] != start[1][0] && ours[0] != 0.0;
+                let before = own[0] != start[1][0] && own[0] != 0.0;
                 if let (true, Some(next)) = (before, values.get(1).copied()) {
                     values[0] = next;
                 }
@@ -120,7 +114,7 @@ impl<'a> Model<'a> {
         }
         let times: Vec<f64> = kept.iter().map(|k| times[*k]).collect();
         let weights = Grid::new(times.clone(), None).weights;
-        Ok(Model { problem, times, signals, weights, step })
+        Ok(Model { problem, mass, times, signals, weights, step })
     }
 
     /// The values of each signal in `problem`, at `at` of the times. Before `t = 0` the rod has fallen as a whole.
@@ -152,7 +146,7 @@ impl<'a> Model<'a> {
     /// **Source**: to first order in the share. The mass at the top moves with it as a piece of the rod would that is
     /// as heavy; that at the ground is stopped at an impact and set off at a release, at once.
     pub(super) fn with_end_mass(&self, share: f64) -> Result<Vec<Vec<f64>>, Error> {
-        let (length, own) = (Parameter::Length.value(self.problem).unwrap_or_default(), mass(self.problem));
+        let (length, own) = (Parameter::Length.value(self.problem).unwrap_or_default(), self.mass);
         let problem = Parameter::Length.set(self.problem, length * (1.0 + share / 2.0))?;
         let mut all = self.values(&problem, |time| time)?;
         let (extra, rod) = (own * share / 2.0, own * (1.0 + share / 2.0));

@@ -6,24 +6,16 @@ use serde::Serialize;
 
 use crate::quantity::Quantity;
 
-/// A norm of the difference `theirs − ours`.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+/// A norm of the difference `theirs − ours`; for the greatest difference with its place.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
 pub struct Norm {
     /// `‖theirs − ours‖`.
     pub absolute: f64,
     /// The same divided by `‖ours‖` at the same samples; `None` where ours is zero there.
     pub relative: Option<f64>,
-}
-
-/// The greatest difference, and where it is.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
-pub struct Greatest {
-    /// `max |theirs − ours|`.
-    pub absolute: f64,
-    /// The same divided by `max |ours|`; `None` where ours is zero.
-    pub relative: Option<f64>,
     /// When.
-    pub time: f64,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub time: Option<f64>,
     /// Where in the rod, for a field.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub point: Option<f64>,
@@ -50,10 +42,18 @@ pub struct Norms {
     /// `√∫ (theirs − ours)²`.
     pub l2: Norm,
     /// `max |theirs − ours|` over all samples.
-    pub linf: Greatest,
+    pub linf: Norm,
     /// The same over samples away from jumps; `None` where there are none.
-    pub linf_off_jumps: Option<Greatest>,
+    pub linf_off_jumps: Option<Norm>,
 }
+
+/// The norms: what data and tables call them.
+pub(super) const NORMS: [(&str, &str, fn(&Norms) -> Option<Norm>); 4] = [
+    ("l1", "L1", |norms| Some(norms.l1)),
+    ("l2", "L2", |norms| Some(norms.l2)),
+    ("linf", "L∞", |norms| Some(norms.linf)),
+    ("linf_off_jumps", "L∞ off jumps", |norms| norms.linf_off_jumps),
+];
 
 /// Where and when samples are, and what they weigh.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -94,13 +94,9 @@ impl Grid {
         };
         Grid { times, points, weights }
     }
-
-    /// The rows of a field: the samples of one time, or of one limit of it, with points that increase.
-    pub fn rows(&self) -> Vec<Range<usize>> {
-        self.points.as_ref().map_or_else(Vec::new, |points| rows(&self.times, points))
-    }
 }
 
+/// The rows of a field: the samples of one time, or of one limit of it, with points that increase.
 fn rows(times: &[f64], points: &[f64]) -> Vec<Range<usize>> {
     let ends =
         (1..=times.len()).filter(|k| *k == times.len() || times[*k] > times[k - 1] || points[*k] <= points[k - 1]);
@@ -115,10 +111,6 @@ fn trapezoid(places: &[f64]) -> Vec<f64> {
         return vec![1.0; places.len()];
     }
     (0..=last).map(|k| (places[(k + 1).min(last)] - places[k.saturating_sub(1)]) / 2.0).collect()
-}
-
-fn ratio(a: f64, b: f64) -> Option<f64> {
-    (b > 0.0).then(|| a / b)
 }
 
 /// The power of two next to the greatest of some values, within what has an inverse; 1 where all are zero.
@@ -166,23 +158,21 @@ pub fn norms(
         (own, scale) = ([0.0; 2], [0.0; 2]);
     }
     let unit = 2.0 * unit;
-    let of = |absolute: f64, own: f64| (absolute * unit, ratio(absolute * (unit / own_unit), own));
     let norm = |absolute: f64, own: f64| {
-        let (absolute, relative) = of(absolute, own);
-        Norm { absolute, relative }
+        let relative = (own > 0.0).then(|| absolute * (unit / own_unit) / own);
+        Norm { absolute: absolute * unit, relative, time: None, point: None }
     };
     let greatest = [0, 1].map(|which| {
         let (k, absolute) = greatest[which]?;
-        let (absolute, relative) = of(absolute, scale[which]);
-        Some(Greatest { absolute, relative, time: grid.times[k], point: grid.points.as_ref().map(|points| points[k]) })
+        let point = grid.points.as_ref().map(|points| points[k]);
+        Some(Norm { time: Some(grid.times[k]), point, ..norm(absolute, scale[which]) })
     });
-    let none = Greatest { absolute: 0.0, relative: None, time: 0.0, point: None };
     Norms {
         samples: ours.len(),
         on_jumps,
         l1: norm(sums[0], own[0]),
         l2: norm(sums[1].sqrt(), own[1].sqrt()),
-        linf: greatest[0].unwrap_or(none),
+        linf: greatest[0].unwrap_or(Norm { time: Some(0.0), ..Norm::default() }),
         linf_off_jumps: greatest[1],
     }
 }

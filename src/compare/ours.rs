@@ -15,7 +15,7 @@ use crate::special::gauss_legendre;
 /// A history with the times at which the end at the ground sees a ray.
 #[derive(Debug)]
 pub(super) struct Ours<'a> {
-    history: &'a History<f64>,
+    pub(super) history: &'a History<f64>,
     rod: Parameters<f64>,
     material: [f64; 3],
     pieces: Vec<StressPiece<f64>>,
@@ -46,22 +46,16 @@ impl<'a> Ours<'a> {
         let pieces = history.stress_history()?.pieces;
         // At the ground since the start, and before it where rays have not been there yet.
         let at_ground = |from: f64, to: f64| {
-            let passing = |motion: &dyn Motion<Estimate<f64>>| {
-                Ok(RayRegister::of(motion)
-                    .passing(&motion.end().zero(), from, to)
-                    .into_iter()
-                    .map(|ray| ray.time)
-                    .collect())
+            let rays = |motion: &dyn Motion<Estimate<f64>>| {
+                Ok(RayRegister::of(motion).passing(&motion.end().zero(), from, to))
             };
-            let times: Vec<Estimate<f64>> = history.ask(passing, |_| Vec::new())?;
-            Ok::<_, Error>(times.into_iter().map(Estimate::into_value).collect::<Vec<f64>>())
+            let rays = history.ask(rays, |_| Vec::new())?;
+            Ok::<Vec<f64>, Error>(rays.into_iter().map(|ray| ray.time.into_value()).collect())
         };
-        let candidates: Vec<f64> = at_ground(0.0, *history.end())?;
+        let candidates = at_ground(0.0, *history.end())?;
         let seen = [Quantity::EndVelocity, Quantity::Strain];
-        let (before, after) = (
-            history.columns(&seen, &candidates, Some(Side::Left))?,
-            history.columns(&seen, &candidates, Some(Side::Right))?,
-        );
+        let before = history.columns(&seen, &candidates, Some(Side::Left))?;
+        let after = history.columns(&seen, &candidates, Some(Side::Right))?;
         let jump = |column: usize, k: usize| (before[column][k] - after[column][k]).abs();
         let least = SMALL * history.scales().velocity;
         let differ = |k: usize| jump(0, k).max(jump(1, k) * rod.wave_speed) > least;
@@ -75,7 +69,7 @@ impl<'a> Ours<'a> {
     }
 
     /// `ρS`, or 1 where forces are per `ρS`.
-    fn line(&self) -> f64 {
+    pub(super) fn line(&self) -> f64 {
         self.material[1] * self.material[2]
     }
 
@@ -96,12 +90,21 @@ impl<'a> Ours<'a> {
 
     /// The values of every quantity on `grid`, from later times where there are two.
     pub(super) fn values(&self, whats: &[Quantity], grid: &Grid) -> Result<Vec<Vec<f64>>, Error> {
-        let Some(points) = &grid.points else {
-            return self.history.columns(whats, &grid.times, Some(Side::Right));
-        };
-        let mut all = vec![Vec::with_capacity(grid.times.len()); whats.len()];
-        for row in grid.rows() {
-            for field in self.history.field(&points[row.clone()], &[grid.times[row.start]], Side::Right)? {
+        self.at(whats, grid.points.as_deref(), &grid.times, Side::Right)
+    }
+
+    /// The values of every quantity at these times, for a field each at its point.
+    fn at(
+        &self,
+        whats: &[Quantity],
+        points: Option<&[f64]>,
+        times: &[f64],
+        side: Side,
+    ) -> Result<Vec<Vec<f64>>, Error> {
+        let Some(points) = points else { return self.history.columns(whats, times, Some(side)) };
+        let mut all = vec![Vec::with_capacity(times.len()); whats.len()];
+        for (point, time) in points.iter().zip(times) {
+            for field in self.history.field(&[*point], &[*time], side)? {
                 for (values, what) in all.iter_mut().zip(whats) {
                     values.push(self.part(*what, &field));
                 }
@@ -135,12 +138,9 @@ impl<'a> Ours<'a> {
             if (jump - time).abs() > may || (jump - time).abs() > rounding.at(*time) {
                 continue;
             }
-            let limits = |time: f64| {
-                Ok::<_, Error>((
-                    self.limit(what, grid, k, time, Side::Left)?,
-                    self.limit(what, grid, k, time, Side::Right)?,
-                ))
-            };
+            let point = grid.points.as_ref().map(|points| &points[k..=k]);
+            let limit = |time: f64, side| Ok::<f64, Error>(self.at(&[what], point, &[time], side)?[0][0]);
+            let limits = |time: f64| Ok::<_, Error>((limit(time, Side::Left)?, limit(time, Side::Right)?));
             let (left, right) = limits(jump.max(0.0))?;
             count += usize::from(left != right);
             if let Some(side) = sides[k] {
@@ -158,19 +158,6 @@ impl<'a> Ours<'a> {
             }
         }
         Ok(count)
-    }
-
-    fn limit(&self, what: Quantity, grid: &Grid, k: usize, time: f64, side: Side) -> Result<f64, Error> {
-        match &grid.points {
-            Some(points) => {
-                let fields = self.history.field(&points[k..=k], &[time], side)?;
-                Ok(fields.first().map_or(0.0, |field| self.part(what, field)))
-            }
-            None => {
-                let values = self.history.columns(&[what], &[time], Some(side))?;
-                Ok(values.first().and_then(|values| values.first()).copied().unwrap_or(0.0))
-            }
-        }
     }
 
     /// For each sample the time nearest to it at which a ray passes the point that the quantity is at; infinite where
@@ -202,14 +189,8 @@ impl<'a> Ours<'a> {
 
     /// The displacements at `t = 0`, one for all samples or one each; `None` for what is no displacement.
     pub(super) fn start(&self, what: Quantity, points: Option<&[f64]>) -> Result<Option<Vec<f64>>, Error> {
-        match points {
-            _ if !what.has_origin() => Ok(None),
-            Some(points) => {
-                let fields = self.history.field(points, &[0.0], Side::Right)?;
-                Ok(Some(fields.into_iter().map(|field| field.displacement).collect()))
-            }
-            None => Ok(self.history.columns(&[what], &[0.0], Some(Side::Right))?.into_iter().next()),
-        }
+        let times = vec![0.0; points.map_or(1, <[f64]>::len)];
+        if what.has_origin() { Ok(self.at(&[what], points, &times, Side::Right)?.pop()) } else { Ok(None) }
     }
 
     /// Our contacts, with the moments of their force.
@@ -233,9 +214,9 @@ impl<'a> Ours<'a> {
                     moments.add(time, factor * piece.eval(&time), half * weight);
                 }
             }
-            moments.reach(factor * contact.peak_strain);
-            let impulse = Some(self.line() * contact.impulse);
-            touches.push(Touch { impulse, ..moments.touch(contact.from, contact.to) });
+            let touch = moments.touch(contact.from, contact.to);
+            let peak = touch.peak.map(|peak| peak.max(factor * contact.peak_strain));
+            touches.push(Touch { impulse: Some(self.line() * contact.impulse), peak, ..touch });
         }
         touches
     }

@@ -6,10 +6,10 @@ use super::agree::{Agreement, Coverage};
 use super::audit::Extreme;
 use super::comparison::{ComparedFile, Comparison};
 use super::fit::{Fit, FittedValue};
-use super::judgement::ToldFrom;
 use super::limit::Order;
-use super::norms::{Compared, Greatest, Norm};
+use super::norms::{Compared, NORMS, Norm};
 use super::touch::Touch;
+use super::unfitted::ToldFrom;
 use crate::aligned::table;
 use crate::number::Scalar;
 use crate::quantity::{Quantity, Rays, Units};
@@ -71,7 +71,7 @@ fn share(x: Option<f64>) -> String {
 
 /// The whole report of one file.
 fn file_table(compared: &ComparedFile, title: Option<&str>, units: &Units) -> String {
-    let ComparedFile { file, agreement, .. } = compared;
+    let ComparedFile { file, agreement, judgement, fit } = compared;
     let times = &agreement.grid.times;
     let (first, last) = (times.first().copied().unwrap_or(0.0), times.last().copied().unwrap_or(0.0));
     let mut out = title.map_or_else(String::new, |title| format!("{title}\n"));
@@ -93,10 +93,10 @@ fn file_table(compared: &ComparedFile, title: Option<&str>, units: &Units) -> St
         out += &format!("\n{}", audit_lines(agreement, units));
     }
     out.push('\n');
-    for hint in &agreement.hints {
+    for hint in &judgement.hints {
         out += &format!("hint: {}\n", hint.text);
     }
-    if agreement.hints.is_empty() {
+    if judgement.hints.is_empty() {
         let merged = agreement.contacts.iter().filter_map(|(_, theirs)| theirs.as_ref()).map(|touch| touch.merged);
         let chatter: Vec<usize> = merged.filter(|merged| *merged > 0).collect();
         out += "no hint: no single wrong number explains what differs";
@@ -104,14 +104,14 @@ fn file_table(compared: &ComparedFile, title: Option<&str>, units: &Units) -> St
             let counted = |count: usize, one: &str| format!("{count} {one}{}", if count == 1 { "" } else { "s" });
             let (gaps, contacts) = (counted(chatter.iter().sum(), "gap"), counted(chatter.len(), "contact"));
             out += &format!("; the contact chatters: {gaps} closed in {contacts}");
-        } else if let Some(width) = agreement.spread {
+        } else if let Some(width) = judgement.spread {
             let steps = width / agreement.step;
             out += &format!("; the fronts are spread over {} ({steps:.1} steps), as by dispersion", width.decimal(3));
         }
         out.push('\n');
-        out += &told_line(&agreement.told_from);
+        out += &told_line(&judgement.told_from);
     }
-    if let Some((fit, then)) = &compared.fit {
+    if let Some((fit, then)) = fit {
         out += &format!("\n{}\n", fit_table(fit, agreement, then));
     }
     out
@@ -139,16 +139,12 @@ fn fit_table(fit: &Fit, now: &Agreement, then: &Agreement) -> String {
     };
     let columns = now.quantities.iter().zip(&then.quantities).map(column).collect();
     let columns = table(&["L2 of", "scene", "fitted"], columns, 1);
-    let apart = |a: Option<f64>, b: Option<f64>| a.zip(b).map_or_else(|| "–".into(), |(a, b)| size(Some(b - a)));
     let contact = |(k, (ours, theirs)): (usize, &(Option<Touch>, Option<Touch>))| {
-        let (Some(a), Some(b)) = (ours, theirs) else { return vec![(k + 1).to_string(), "unpaired".into()] };
-        vec![
-            (k + 1).to_string(),
-            apart(Some(a.from), Some(b.from)),
-            apart(a.to, b.to),
-            apart(a.impulse, b.impulse),
-            apart(a.centroid, b.centroid),
-        ]
+        let texts = match (ours, theirs) {
+            (Some(a), Some(b)) => a.apart(b)[..4].iter().map(|x| size(*x)).collect(),
+            _ => vec!["unpaired".into()],
+        };
+        [vec![(k + 1).to_string()], texts].concat()
     };
     let contacts: Vec<_> = then.contacts.iter().enumerate().map(contact).collect();
     let contacts = match contacts.is_empty() {
@@ -164,63 +160,51 @@ fn norms_table(agreement: &Agreement, units: &Units) -> String {
     let mut rows = Vec::new();
     for Compared { what, norms, .. } in &agreement.quantities {
         let unit = what.unit(units);
-        let plain = |norm: Norm| [size(Some(norm.absolute)), share(norm.relative), String::new()];
-        let greatest = |most: Greatest| {
-            let point = most.point.map_or_else(String::new, |x| format!(", x = {}", number(x)));
-            [size(Some(most.absolute)), share(most.relative), format!("{}{point}", number(most.time))]
-        };
-        let none = || ["–".to_string(), "–".into(), String::new()];
         let name = if unit.is_empty() { what.name().to_string() } else { format!("{}, {unit}", what.name()) };
         let on_jumps = match norms.on_jumps {
             0 => String::new(),
             1 => "1 sample on a jump".to_string(),
             count => format!("{count} samples on jumps"),
         };
-        let jumps = what.rays() == Rays::Jump;
-        let lines = [
-            (name, "L1", plain(norms.l1)),
-            (on_jumps, "L2", plain(norms.l2)),
-            (String::new(), "L∞", greatest(norms.linf)),
-            (String::new(), "L∞ off jumps", norms.linf_off_jumps.map_or_else(none, greatest)),
-        ];
-        for (name, norm, [absolute, relative, at]) in lines.into_iter().take(if jumps { 4 } else { 3 }) {
-            rows.push(vec![name, norm.into(), absolute, relative, at]);
+        let names = [name, on_jumps, String::new(), String::new()];
+        let shown = if what.rays() == Rays::Jump { 4 } else { 3 };
+        for (name, (_, title, norm)) in names.into_iter().zip(NORMS).take(shown) {
+            let norm = norm(norms);
+            let point = norm.and_then(|norm| norm.point).map_or_else(String::new, |x| format!(", x = {}", number(x)));
+            let at = norm.and_then(|norm| norm.time).map_or_else(String::new, |time| number(time) + &point);
+            let absolute = size(norm.map(|norm| norm.absolute));
+            rows.push(vec![name, title.into(), absolute, share(norm.and_then(|norm| norm.relative)), at]);
         }
     }
     table(&["quantity", "norm", "absolute", "relative", "at t"], rows, 2)
 }
 
 fn contacts_table(contacts: &[(Option<Touch>, Option<Touch>)], units: &Units) -> String {
-    let columns = |touch: &Touch| [Some(touch.from), touch.to, touch.impulse, touch.centroid, touch.peak];
-    let row = |name: String, whose: String, values: [Option<f64>; 5]| {
-        let numbers = values.into_iter().map(|value| value.map_or_else(|| "–".into(), number));
-        [name, whose].into_iter().chain(numbers).collect::<Vec<String>>()
+    let row = |name: &str, whose: String, values: [Option<f64>; 5]| {
+        let numbers = values.map(|value| value.map_or_else(|| "–".into(), number));
+        [&[name.to_string(), whose][..], &numbers].concat()
     };
     let mut rows = Vec::new();
     for (k, (ours, theirs)) in contacts.iter().enumerate() {
-        let name = (k + 1).to_string();
-        let merged = theirs.as_ref().map_or(0, |touch| touch.merged);
-        let whose = match merged {
+        let name = &(k + 1).to_string();
+        let whose = match theirs.as_ref().map_or(0, |touch| touch.merged) {
             0 => "theirs".to_string(),
             1 => "theirs, 1 gap closed".to_string(),
             count => format!("theirs, {count} gaps closed"),
         };
         match (ours, theirs) {
             (Some(a), Some(b)) => {
-                let (a, b) = (columns(a), columns(b));
-                rows.push(row(name, "ours".into(), a));
-                rows.push(row(String::new(), whose, b));
-                let apart: Vec<Option<f64>> = a.iter().zip(b).map(|(a, b)| a.zip(b).map(|(a, b)| b - a)).collect();
-                let apart = apart.try_into().unwrap_or([None; 5]);
-                rows.push(row(String::new(), "difference".into(), apart));
+                rows.push(row(name, "ours".into(), a.numbers()));
+                rows.push(row("", whose, b.numbers()));
+                rows.push(row("", "difference".into(), a.apart(b)));
             }
             (Some(a), None) => {
                 let why = if a.below_step { "below their step" } else { "missing in theirs" };
-                rows.push(row(name, format!("ours, {why}"), columns(a)));
+                rows.push(row(name, format!("ours, {why}"), a.numbers()));
             }
             (None, Some(b)) => {
                 let why = if b.below_step { "below the step" } else { "not in ours" };
-                rows.push(row(name, format!("{whose}, {why}"), columns(b)));
+                rows.push(row(name, format!("{whose}, {why}"), b.numbers()));
             }
             (None, None) => {}
         }
@@ -276,9 +260,9 @@ fn orders_table(orders: &[Order]) -> String {
     let rows = orders.iter().map(|row| {
         let widths = format!("{} → {}", number(row.widths[0]), number(row.widths[1]));
         let order = |x: Option<f64>| order(x.filter(|_| row.meaningless.is_none()));
-        vec![row.quantity.into(), widths, order(row.l1), order(row.l2), order(row.linf), order(row.linf_off_jumps)]
+        [row.quantity.into(), widths].into_iter().chain(row.orders.values().map(|x| order(*x))).collect()
     });
-    let header = ["observed order", "width", "L1", "L2", "L∞", "L∞ off jumps"];
+    let header = [&["observed order", "width"][..], &NORMS.map(|norm| norm.1)].concat();
     let mut out = table(&header, rows.collect(), 2) + "\n";
     for Order { quantity, widths, meaningless, .. } in orders {
         let said =
@@ -301,18 +285,21 @@ fn fit_json(fit: &Fit, then: &Agreement) -> Value {
     })
 }
 
+/// An object with the members of another one too.
+fn joined(mut value: Value, more: Value) -> Value {
+    if let (Some(object), Value::Object(more)) = (value.as_object_mut(), more) {
+        object.extend(more);
+    }
+    value
+}
+
 /// One file, schema 1.
-fn file_json(compared: &ComparedFile, units: &Units) -> serde_json::Map<String, Value> {
-    let ComparedFile { file, agreement, .. } = compared;
+fn file_json(ComparedFile { file, agreement, judgement, fit }: &ComparedFile, units: &Units) -> Value {
     let quantities = agreement.quantities.iter().map(|Compared { what, norms, .. }| {
-        let mut value = json!({"name": what.name(), "unit": what.unit(units)});
-        if let (Some(object), Value::Object(norms)) = (value.as_object_mut(), json!(norms)) {
-            object.extend(norms);
-        }
-        value
+        joined(json!({"name": what.name(), "unit": what.unit(units)}), json!(norms))
     });
     let contacts = agreement.contacts.iter().map(|(ours, theirs)| json!({"ours": ours, "theirs": theirs}));
-    let value = json!({
+    json!({
         "file": file,
         "weights": WEIGHTS,
         "step": agreement.step,
@@ -323,15 +310,11 @@ fn file_json(compared: &ComparedFile, units: &Units) -> serde_json::Map<String, 
         "quantities": quantities.collect::<Vec<_>>(),
         "contacts": contacts.collect::<Vec<_>>(),
         "audit": agreement.audit,
-        "hints": agreement.hints,
-        "told_from": agreement.told_from,
-        "spread": agreement.spread,
-        "fit": compared.fit.as_ref().map(|(fit, then)| fit_json(fit, then)),
-    });
-    match value {
-        Value::Object(map) => map,
-        _ => serde_json::Map::new(),
-    }
+        "hints": judgement.hints,
+        "told_from": judgement.told_from,
+        "spread": judgement.spread,
+        "fit": fit.as_ref().map(|(fit, then)| fit_json(fit, then)),
+    })
 }
 
 impl Comparison {
@@ -344,13 +327,13 @@ impl Comparison {
 
     /// Everything, schema 1: of one file its members stand at the top, of several under `files`, with their `orders`.
     pub fn json(&self, title: Option<&str>, units: &Units) -> Value {
-        let mut value = serde_json::Map::from_iter([("schema".into(), 1.into()), ("title".into(), title.into())]);
-        if let [one] = self.files.as_slice() {
-            value.extend(file_json(one, units));
-        } else {
-            let files = self.files.iter().map(|file| Value::Object(file_json(file, units))).collect();
-            value.extend([("files".into(), files), ("orders".into(), json!(self.orders))]);
-        }
-        Value::Object(value)
+        let found = match self.files.as_slice() {
+            [one] => file_json(one, units),
+            files => {
+                let files: Vec<Value> = files.iter().map(|file| file_json(file, units)).collect();
+                json!({"files": files, "orders": self.orders})
+            }
+        };
+        joined(json!({"schema": 1, "title": title}), found)
     }
 }

@@ -30,6 +30,18 @@ fn is_zero(count: &usize) -> bool {
 }
 
 impl Touch {
+    /// What is known of it, but for how it was read.
+    pub(super) fn numbers(&self) -> [Option<f64>; 5] {
+        [Some(self.from), self.to, self.impulse, self.centroid, self.peak]
+    }
+
+    /// How much more these are of `other`.
+    pub(super) fn apart(&self, other: &Touch) -> [Option<f64>; 5] {
+        let mut apart = other.numbers();
+        apart.iter_mut().zip(self.numbers()).for_each(|(b, a)| *b = a.zip(*b).map(|(a, b)| b - a));
+        apart
+    }
+
     /// About when it is.
     fn middle(&self) -> f64 {
         self.centroid.unwrap_or_else(|| self.to.map_or(self.from, |to| f64::midpoint(self.from, to)))
@@ -75,11 +87,6 @@ impl Moments {
         let t = time - self.about;
         let [m0, m1] = &mut self.sums;
         (*m0, *m1) = (*m0 + weight * force, *m1 + weight * force * t);
-        self.peak = self.peak.max(force);
-    }
-
-    /// A value that `peak` is at least.
-    pub(super) fn reach(&mut self, force: f64) {
         self.peak = self.peak.max(force);
     }
 

@@ -1,13 +1,54 @@
 //! What data show without a fit: empty columns, a lost start, energy from nowhere, half steps, and how far fronts are
 //! spread.
 
-use super::judgement::{FEWEST, Known, LEFT, Verdict};
-use super::norms::{Compared, Grid};
+use serde::Serialize;
+
+use super::agree::Agreement;
+use super::norms::Compared;
+use super::ours::Ours;
 use crate::error::Error;
 use crate::motion::Side;
 use crate::number::Scalar;
 use crate::quantity::{Quantity, Rays};
-use crate::solve::History;
+
+/// One number that is wrong.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub(crate) struct Verdict {
+    /// Which: `wave_speed`.
+    pub(crate) kind: &'static str,
+    /// The column that it is about; `all` where it is all of them.
+    pub(crate) quantity: &'static str,
+    /// By how much.
+    pub(crate) value: f64,
+    /// Its standard error; zero where it is counted.
+    pub(crate) error: f64,
+    /// In words.
+    pub(crate) text: String,
+}
+
+/// From what value on a number that is wrong would be said: a share, a time, or an offset.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub(crate) struct ToldFrom {
+    pub(crate) kind: &'static str,
+    pub(crate) quantity: &'static str,
+    pub(crate) value: f64,
+}
+
+/// What is said of data.
+#[derive(Debug, Default)]
+pub(crate) struct Judgement {
+    /// What is wrong.
+    pub(crate) hints: Vec<Verdict>,
+    /// Where no number is: from what value on each would have been said.
+    pub(crate) told_from: Vec<ToldFrom>,
+    /// Over how long a time the fronts are spread.
+    pub(crate) spread: Option<f64>,
+}
+
+/// At most so much of ‖e‖₂ is left by an explanation.
+pub(super) const LEFT: f64 = 0.5;
+/// Fewer samples say nothing.
+pub(super) const FEWEST: usize = 8;
 
 pub(super) fn is_empty(column: &Compared) -> bool {
     column.theirs.iter().all(|value| *value == 0.0) && column.norms.l2.relative.is_some_and(|share| share > LEFT)
@@ -16,7 +57,7 @@ pub(super) fn is_empty(column: &Compared) -> bool {
 pub(super) fn empty(column: &Compared) -> Verdict {
     let name = column.what.name();
     let text = format!("{name} is zero throughout: an empty column?");
-    Verdict { kind: "empty", quantity: name.into(), value: 0.0, error: 0.0, text }
+    Verdict { kind: "empty", quantity: name, value: 0.0, error: 0.0, text }
 }
 
 fn energy(columns: &[Compared]) -> Option<&Compared> {
@@ -34,7 +75,7 @@ pub(super) fn lost_start(columns: &[Compared]) -> Option<Verdict> {
             lost.decimal(4),
             first.decimal(4)
         );
-        Verdict { kind: "start_velocity", quantity: "all".into(), value: -1.0, error: 0.0, text }
+        Verdict { kind: "start_velocity", quantity: "all", value: -1.0, error: 0.0, text }
     })
 }
 
@@ -43,12 +84,12 @@ pub(super) fn lost_start(columns: &[Compared]) -> Option<Verdict> {
 ///
 /// **Source**: the factor by which the energy, and that by which the speed of the end, fits best, by least squares;
 /// what is left of the energy gives the standard error.
-pub(super) fn lighter(known: &Known<'_>) -> Option<Verdict> {
-    let Known { history, grid, columns, step, .. } = *known;
-    let first = history.contacts().first().map_or(f64::INFINITY, |contact| contact.from);
+pub(super) fn lighter(ours: &Ours<'_>, agreement: &Agreement) -> Option<Verdict> {
+    let Agreement { grid, step, .. } = agreement;
+    let first = ours.history.contacts().first().map_or(f64::INFINITY, |contact| contact.from);
     let count = grid.times.partition_point(|time| *time < first - 2.0 * step);
     let factor = |what: Quantity| {
-        let column = columns.iter().find(|column| column.what == what)?;
+        let column = agreement.column(what)?;
         let sum =
             |f: &dyn Fn(f64, f64) -> f64| -> f64 { (0..count).map(|k| f(column.ours[k], column.theirs[k])).sum() };
         let factor = sum(&|ours, theirs| ours * theirs) / sum(&|ours, _| ours * ours);
@@ -64,7 +105,7 @@ pub(super) fn lighter(known: &Known<'_>) -> Option<Verdict> {
             "mass off by {percent} ± {error_percent} %, as the kinetic energy before the first contact, at the same \
              speed: check density, area and length"
         );
-        Verdict { kind: "mass", quantity: "all".into(), value: off, error, text: text.replace('-', "−") }
+        Verdict { kind: "mass", quantity: "all", value: off, error, text: text.replace('-', "−") }
     })
 }
 
@@ -79,7 +120,7 @@ pub(super) fn gained(columns: &[Compared]) -> Option<Verdict> {
     let share = most / first - 1.0;
     (first > 0.0 && share > 1.0).then(|| {
         let text = format!("energy up by {} %, from nowhere: the scheme is unstable", (100.0 * share).decimal(4));
-        Verdict { kind: "energy_gain", quantity: energy.what.name().into(), value: share, error: 0.0, text }
+        Verdict { kind: "energy_gain", quantity: energy.what.name(), value: share, error: 0.0, text }
     })
 }
 
@@ -88,7 +129,8 @@ pub(super) fn gained(columns: &[Compared]) -> Option<Verdict> {
 /// **Source**: `∫ e² dt = J² W/12` for a ramp of the width `W` about a jump `J`; the median over the jumps at both
 /// ends of the first contact, and at the top when the first wave is there. The start is left out: before it there are
 /// no data.
-pub(super) fn spread(history: &History<f64>, grid: &Grid, columns: &[Compared]) -> Result<Option<f64>, Error> {
+pub(super) fn spread(ours: &Ours<'_>, agreement: &Agreement) -> Result<Option<f64>, Error> {
+    let (history, Agreement { grid, quantities: columns, .. }) = (ours.history, agreement);
     let trip = history.scales().time;
     let released = history.contacts().iter().find_map(|contact| contact.to).unwrap_or(f64::INFINITY);
     let events = history.events().iter().map(|event| event.time);
@@ -108,15 +150,16 @@ pub(super) fn spread(history: &History<f64>, grid: &Grid, columns: &[Compared]) 
         }
     }
     widths.sort_by(f64::total_cmp);
-    Ok(widths.get(widths.len() / 2).copied())
+    Ok(widths.get(widths.len() / 2).copied().filter(|width| *width > agreement.step))
 }
 
 /// Velocities that are half a step from their times: of a top, or an end, that nothing has reached yet but gravity.
 ///
 /// **Source**: there every scheme has the velocity to a rounding, and `v − ours = ∓(Δt/2) v_tt`.
-pub(super) fn half_step(known: &Known<'_>, trip: f64) -> Option<Verdict> {
-    let Known { history, grid, columns, step, .. } = *known;
-    let first = history.contacts().first().map_or(f64::INFINITY, |contact| contact.from);
+pub(super) fn half_step(ours: &Ours<'_>, agreement: &Agreement) -> Option<Verdict> {
+    let Agreement { grid, quantities: columns, step, .. } = agreement;
+    let (trip, first) = (ours.history.scales().time, ours.history.contacts().first());
+    let first = first.map_or(f64::INFINITY, |contact| contact.from);
     let of = |column: &Compared| {
         let until = match column.what {
             Quantity::EndVelocity => first,
@@ -138,7 +181,7 @@ pub(super) fn half_step(known: &Known<'_>, trip: f64) -> Option<Verdict> {
             let name = column.what.name();
             let text =
                 format!("{name} is {:.2} steps {side}: is it the velocity between two steps?", late.abs() / step);
-            Verdict { kind: "half_step", quantity: name.into(), value: late, error, text }
+            Verdict { kind: "half_step", quantity: name, value: late, error, text }
         })
     };
     columns.iter().find_map(of)

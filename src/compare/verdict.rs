@@ -20,11 +20,14 @@
 //!
 //! Of those that pass, the one with the least left over all columns is said.
 
-use super::judgement::{FEWEST, Judgement, Known, LEFT, ToldFrom, Verdict};
+use super::agree::Agreement;
 use super::model::{Model, Signal};
-use super::unfitted::{empty, gained, half_step, is_empty, lighter, lost_start};
+use super::ours::Ours;
+use super::unfitted::{
+    FEWEST, Judgement, LEFT, ToldFrom, Verdict, empty, gained, half_step, is_empty, lighter, lost_start, spread,
+};
 use crate::error::Error;
-use crate::problem::Parameter;
+use crate::problem::{Parameter, Problem};
 use crate::quantity::{Measure, Quantity};
 
 /// A hypothesis, with one number `p` that is 0 where nothing is wrong.
@@ -42,6 +45,16 @@ pub(super) enum Hypothesis {
     Factor(usize),
     /// A column is off by `p` times what its rate makes in a round trip.
     Origin(usize),
+}
+
+impl Hypothesis {
+    /// The column that it is about, where it is one.
+    fn place(self) -> Option<usize> {
+        match self {
+            Hypothesis::Factor(place) | Hypothesis::Origin(place) => Some(place),
+            _ => None,
+        }
+    }
 }
 
 /// The hypotheses about all columns, with their kind.
@@ -142,6 +155,11 @@ impl Judge<'_> {
         self.product(&ones, &ones, Some(part))
     }
 
+    /// `Σ w a b` over all samples of the columns that are `concerned`.
+    fn over(&self, concerned: &[bool], a: &[Vec<f64>], b: &[Vec<f64>]) -> f64 {
+        (0..a.len()).filter(|j| concerned[*j]).map(|j| self.product(&a[j], &b[j], None)).sum()
+    }
+
     /// Whether any of `errors` is more than half of what the step resolves.
     fn tells(&self, errors: &[Vec<f64>]) -> bool {
         let half = self.model.step / 2.0;
@@ -186,27 +204,23 @@ impl Judge<'_> {
     /// changed by a step, and a value is twice what a step resolves. Signals are linear in p up to about [`LINEAR`];
     /// what is told from more is left out.
     fn told_from(&self, hypotheses: &[(&'static str, Hypothesis)]) -> Vec<ToldFrom> {
-        let known = hypotheses
-            .iter()
-            .filter_map(|(kind, hypothesis)| Some((*kind, *hypothesis, self.slopes(*hypothesis, 0.0, &self.base)?)));
-        let known: Vec<_> = known.collect();
+        let slopes = |(kind, hypothesis): &(&'static str, Hypothesis)| {
+            Some((*kind, *hypothesis, self.slopes(*hypothesis, 0.0, &self.base)?))
+        };
+        let known: Vec<_> = hypotheses.iter().filter_map(slopes).collect();
         let told = |(kind, hypothesis, slope): &(&'static str, Hypothesis, Vec<Vec<f64>>)| {
             let concerned = self.concerned(*hypothesis, slope);
-            let over = |a: &[Vec<f64>], b: &[Vec<f64>]| -> f64 {
-                (0..a.len()).filter(|j| concerned[*j]).map(|j| self.product(&a[j], &b[j], None)).sum()
-            };
+            let over = |a: &[Vec<f64>], b: &[Vec<f64>]| self.over(&concerned, a, b);
             let (own, errors) = (over(slope, slope), over(&self.base, &self.base));
             let ratio = |factor: f64, own: f64, errors: f64| factor * (errors / own).sqrt();
             let mut least = ratio(5.0, own, errors);
-            for (_, other, rival) in known.iter().filter(|(_, other, _)| other != hypothesis) {
+            // A factor of a column is asked of that column alone.
+            for (.., rival) in known.iter().filter(|(_, other, _)| other != hypothesis && other.place().is_none()) {
                 let theirs = over(rival, rival);
                 let cosine = if theirs > 0.0 { over(slope, rival).powi(2) / (own * theirs) } else { 0.0 };
-                // A factor of a column is asked of that column alone.
-                if !matches!(other, Hypothesis::Factor(_) | Hypothesis::Origin(_)) {
-                    least = least.max(ratio(2.0, own * (1.0 - cosine), errors));
-                }
+                least = least.max(ratio(2.0, own * (1.0 - cosine), errors));
             }
-            let by_itself = matches!(hypothesis, Hypothesis::Factor(_) | Hypothesis::Origin(_));
+            let by_itself = hypothesis.place();
             let mut by_step = f64::INFINITY;
             for j in (0..slope.len()).filter(|j| concerned[*j]) {
                 let square = |values: &[f64], part| self.product(values, values, part);
@@ -218,7 +232,7 @@ impl Judge<'_> {
                         continue;
                     }
                     least = least.max(ratio(4.0, own, square(&self.base[j], Some(part))));
-                    if by_itself || part < self.ends.len() {
+                    if by_itself.is_some() || part < self.ends.len() {
                         by_step = by_step.min(self.model.step * (self.span(part) / own).sqrt());
                     }
                 }
@@ -229,11 +243,8 @@ impl Judge<'_> {
                 _ => 1.0,
             };
             let share = least.max(2.0 * by_step);
-            let most = if by_itself { 1.0 } else { LINEAR };
-            let quantity = match hypothesis {
-                Hypothesis::Factor(place) | Hypothesis::Origin(place) => self.model.signals[*place].what.name(),
-                _ => "all",
-            };
+            let most = if by_itself.is_some() { 1.0 } else { LINEAR };
+            let quantity = by_itself.map_or("all", |place| self.model.signals[place].what.name());
             // The mass of the ends is known to first order only.
             let known = share <= most && *hypothesis != Hypothesis::EndMass;
             known.then_some(ToldFrom { kind, quantity, value: share * unit })
@@ -244,40 +255,28 @@ impl Judge<'_> {
     /// The value that leaves the least, where the conditions at the head of this module hold.
     fn fit(&self, hypothesis: Hypothesis) -> Option<Fitted> {
         let errors = |p: f64| self.predict(hypothesis, p).map(|values| self.errors(&values));
-        let slopes = |p: f64, now: &[Vec<f64>]| self.slopes(hypothesis, p, now);
-        let (mut p, mut found) = (0.0, self.base.clone());
-        let slope = slopes(p, &found)?;
+        let mut slope = self.slopes(hypothesis, 0.0, &self.base)?;
         let concerned = self.concerned(hypothesis, &slope);
-        let squares = |errors: &[Vec<f64>]| -> f64 {
-            let told = errors.iter().zip(&concerned).filter(|(_, concerned)| **concerned);
-            told.map(|(errors, _)| self.product(errors, errors, None)).sum()
-        };
-        let base = squares(&found);
-        let mut left = base;
+        let square = |errors: &[Vec<f64>]| self.over(&concerned, errors, errors);
+        let base = square(&self.base);
+        let (mut p, mut found, mut left) = (0.0, self.base.clone(), base);
         if matches!(hypothesis, Hypothesis::Value(Parameter::Speed | Parameter::Gravity))
             && let Some(other) = errors(NOTHING)
-            && squares(&other) < left
+            && square(&other) < left
         {
-            left = squares(&other);
-            (p, found) = (NOTHING, other);
+            slope = self.slopes(hypothesis, NOTHING, &other)?;
+            (p, left, found) = (NOTHING, square(&other), other);
         }
-        let mut slope = if p == 0.0 { slope } else { slopes(p, &found)? };
         for turn in 0..STEPS {
-            let sum = |f: &dyn Fn(usize) -> f64| (0..slope.len()).filter(|j| concerned[*j]).map(f).sum::<f64>();
-            let gain = sum(&|j| self.product(&slope[j], &found[j], None));
-            let mut step = gain / sum(&|j| self.product(&slope[j], &slope[j], None));
-            let mut tries = 0;
-            let better = loop {
-                let tried = errors(p + step).map(|errors| (squares(&errors), errors));
-                match tried {
-                    Some((square, errors)) if square < left => break Some((square, errors)),
-                    _ if tries == 2 => break None,
-                    _ => (step, tries) = (step / 4.0, tries + 1),
-                }
-            };
-            let Some((square, errors)) = better else { break };
+            let step = self.over(&concerned, &slope, &found) / self.over(&concerned, &slope, &slope);
+            let better = [step, step / 4.0, step / 16.0].into_iter().find_map(|step| {
+                let tried = errors(p + step)?;
+                let square = square(&tried);
+                (square < left).then_some((step, square, tried))
+            });
+            let Some((step, square, errors)) = better else { break };
             (p, found, left) = (p + step, errors, square);
-            slope = slopes(p, &found)?;
+            slope = self.slopes(hypothesis, p, &found)?;
             // Well known enough, or without a chance.
             if step.abs() < 1e-3 * p.abs() || (turn > 1 && left > HOPELESS * base) {
                 break;
@@ -296,13 +295,10 @@ impl Judge<'_> {
         found: &[Vec<f64>],
     ) -> Option<Fitted> {
         let square = |errors: &[f64], part| self.product(errors, errors, part);
-        let of = |errors: &[Vec<f64>]| -> f64 {
-            (0..errors.len()).filter(|j| concerned[*j]).map(|j| square(&errors[j], None)).sum()
-        };
-        let by_itself = matches!(hypothesis, Hypothesis::Factor(_) | Hypothesis::Origin(_));
+        let by_itself = hypothesis.place().is_some();
         let total = |errors: &[Vec<f64>]| match by_itself {
             true => self.squares(errors),
-            false => of(errors),
+            false => self.over(concerned, errors, errors),
         };
         let mut holds = true;
         let mut start_tells = false;
@@ -347,86 +343,82 @@ impl Judge<'_> {
     }
 }
 
-/// What is wrong, as far as one number says it; `force_per` makes a stress or a strain the force of the ground, and
-/// `factors` names those that are often forgotten.
+/// What is wrong, as far as one number says it.
 ///
 /// **Errors**: what the history cannot answer.
-pub(super) fn verdicts(
-    known: &Known<'_>,
-    force_per: impl Fn(Quantity) -> f64,
-    factors: impl Fn(Quantity) -> Vec<(f64, &'static str)>,
-) -> Result<Judgement, Error> {
-    let Known { problem, history, grid, columns, step, contacts } = *known;
+pub(super) fn judged(problem: &Problem, ours: &Ours<'_>, agreement: &Agreement) -> Result<Judgement, Error> {
+    if agreement.grid.points.is_some() {
+        return Ok(Judgement::default());
+    }
+    let (hints, told_from) = hints(problem, ours, agreement)?;
+    Ok(Judgement { hints, told_from, spread: spread(ours, agreement)? })
+}
+
+fn hints(problem: &Problem, ours: &Ours<'_>, agreement: &Agreement) -> Result<(Vec<Verdict>, Vec<ToldFrom>), Error> {
+    let (history, columns) = (ours.history, agreement.quantities.as_slice());
     let mut said: Vec<Verdict> = columns.iter().filter(|column| is_empty(column)).map(empty).collect();
     if let Some(lost) = lost_start(columns) {
-        return Ok(vec![lost].into());
+        return Ok((vec![lost], Vec::new()));
     }
-    if grid.times.len() < FEWEST {
-        return Ok(said.into());
+    if agreement.grid.times.len() < FEWEST {
+        return Ok((said, Vec::new()));
     }
     // The first contact and the flight after it.
     let release = history.contacts().iter().find_map(|contact| contact.to).unwrap_or(f64::INFINITY);
     let until = history.events().iter().map(|event| event.time).find(|time| *time > release);
-    let until = until.unwrap_or(f64::INFINITY);
-    let model = Model::of(problem, history, (&grid.times, step), columns, force_per, (until, SAMPLES))?;
+    let model = Model::of(problem, ours, agreement, until.unwrap_or(f64::INFINITY), SAMPLES)?;
+    if model.times.len() < FEWEST {
+        return Ok((said, Vec::new()));
+    }
     let trip = history.scales().time;
     let first = history.contacts().first().map_or(0.0, |contact| contact.from);
     let exact = model.values(problem, |time| time)?;
     let ends = [first, first + trip / 2.0, release].into_iter().filter(|end| *end > 0.0).collect();
     let mut judge = Judge { model, base: Vec::new(), exact, ends, trip };
     judge.base = judge.errors(&judge.exact);
-    if judge.model.times.len() < FEWEST {
-        return Ok(said.into());
-    }
-    let filled = (0..judge.model.signals.len()).filter(|k| !judge.model.signals[*k].is_empty);
-    let of_columns = filled.flat_map(|k| {
-        let what = judge.model.signals[k].what;
-        let origin = matches!(what.measure(), Some(Measure::Length)).then_some(("origin", Hypothesis::Origin(k)));
-        let kind = match what.measure() {
+    let unstable = gained(columns);
+    let mut hypotheses = ALL.to_vec();
+    for (k, signal) in judge.model.signals.iter().enumerate().filter(|(_, s)| unstable.is_none() && !s.is_empty) {
+        let kind = match signal.what.measure() {
             Some(Measure::Energy) => "energy_factor",
             Some(Measure::Force | Measure::Stress | Measure::Strain | Measure::Impulse) => "force_factor",
             _ => "factor",
         };
-        std::iter::once((kind, Hypothesis::Factor(k))).chain(origin)
-    });
-    let unstable = gained(columns);
-    let of_columns = of_columns.filter(|_| unstable.is_none());
-    let hypotheses: Vec<_> = ALL.into_iter().chain(of_columns).collect();
+        hypotheses.push((kind, Hypothesis::Factor(k)));
+        if signal.what.measure() == Some(Measure::Length) {
+            hypotheses.push(("origin", Hypothesis::Origin(k)));
+        }
+    }
     if !judge.tells(&judge.base) {
         let told_from = if said.is_empty() { judge.told_from(&hypotheses) } else { Vec::new() };
-        return Ok(Judgement { said, told_from });
+        return Ok((said, told_from));
     }
     // A column that is wrong by itself is put right before the others are looked at.
     loop {
-        let mut best: Option<(&'static str, Hypothesis, Fitted)> = None;
-        for (kind, hypothesis) in hypotheses.iter().copied() {
-            let Some(fitted) = judge.fit(hypothesis) else { continue };
-            if best.as_ref().is_none_or(|(.., best)| fitted.left < best.left) {
-                best = Some((kind, hypothesis, fitted));
-            }
-        }
+        let fits =
+            hypotheses.iter().filter_map(|(kind, hypothesis)| Some((*kind, *hypothesis, judge.fit(*hypothesis)?)));
+        let best = fits.min_by(|(.., a), (.., b)| a.left.total_cmp(&b.left));
         let Some((kind, hypothesis, fitted)) = best else { break };
-        said.push(judge.verdict(kind, hypothesis, &fitted, &factors));
-        let again = said.len() <= columns.len() && judge.put_right(hypothesis, fitted.value);
-        if !again {
+        said.push(judge.verdict(kind, hypothesis, &fitted, ours));
+        if said.len() > columns.len() || !judge.put_right(hypothesis, fitted.value) {
             break;
         }
     }
     let mut told_from = Vec::new();
     if said.is_empty() {
         told_from = if unstable.is_none() { judge.told_from(&hypotheses) } else { Vec::new() };
-        said.extend(unstable.or_else(|| half_step(known, trip)).or_else(|| lighter(known)));
+        said.extend(unstable.or_else(|| half_step(ours, agreement)).or_else(|| lighter(ours, agreement)));
     }
     for (count, kind, whose) in [
-        (contacts[0], "missed", "of ours that are not in theirs"),
-        (contacts[1], "invented", "of theirs that are not in ours"),
+        (agreement.audit.missed, "missed", "of ours that are not in theirs"),
+        (agreement.audit.invented, "invented", "of theirs that are not in ours"),
     ] {
         if count > 0 {
             let text = format!("contacts {whose}: {count}; see the table of contacts");
-            said.push(Verdict { kind, quantity: "contact".into(), value: count as f64, error: 0.0, text });
+            said.push(Verdict { kind, quantity: "contact", value: count as f64, error: 0.0, text });
         }
     }
-    Ok(Judgement { said, told_from })
+    Ok((said, told_from))
 }
 
 /// So many samples are looked at.

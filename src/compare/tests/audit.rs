@@ -29,7 +29,7 @@ fn by_hand() {
 
 #[test]
 fn coverage() {
-    let covered = |times: &[f64], end: f64| Books { times, ..Books::default() }.not_covered(end);
+    let covered = |times: &[f64], end: f64| Books { times, ..Books::default() }.not_covered(1.0, end);
     assert_eq!(covered(&[0.0, 1.0, 2.0], 2.0), Vec::<[f64; 2]>::new());
     assert_eq!(covered(&[3.0, 4.0, 5.0, 16.0], 20.0), [[0.0, 3.0], [5.0, 16.0], [16.0, 20.0]]);
 }
