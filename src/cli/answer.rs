@@ -9,49 +9,24 @@ use super::source;
 use crate::error::Error;
 use crate::mapped::{CollectVec, mapped};
 use crate::motion::{Ending, Motion};
-use crate::number::{DOUBLE_DIGITS, Scalar};
+use crate::number::{DOUBLE_DIGITS, Scalar as _};
 use crate::output::{Head, Shown};
 use crate::quantity::{Measure, Units};
 use crate::scene::{Effect, Scene};
 use crate::solve::{History, Plan, Question, Target, Visitor};
 
 /// What stands above the numbers of a scene.
-pub(super) fn head(scene: &Scene, plan: &Plan) -> Head {
-    let called = mapped(scene.called_effects(), Effect::name);
+fn head(scene: &Scene, plan: &Plan) -> Head {
+    let units = Units::of(&scene.problem, scene.units);
+    let time = |time: f64| format!("{} {}", time.decimal(6), units.name(Measure::Time)).trim_end().to_string();
     Head {
         title: scene.title.clone(),
         number: plan.numbers.to_string(),
-        effects: called,
-        parameters: known(scene).join("    "),
-        wide: false,
-        digits: 0,
-        units: Units::of(&scene.problem, scene.units),
-        warnings: Vec::new(),
-        exact_until: None,
-    }
-}
-
-/// `c`, `t₁`, `R` and `M` to six digits.
-fn known(scene: &Scene) -> Vec<String> {
-    let units = Units::of(&scene.problem, scene.units);
-    let time = |time: f64| format!("{} {}", time.decimal(6), units.name(Measure::Time)).trim_end().to_string();
-    units.parameters(&scene.problem, time)
-}
-
-/// What a subcommand prints of a history, in any number system.
-pub(super) trait Report {
-    /// What is printed, whatever the numbers.
-    type Data;
-    /// What is asked of the history, and every number in it.
-    fn gather<N: Scalar>(&self, history: &dyn Motion<N>, head: &Head) -> Result<(Self::Data, Vec<N>), Error>;
-    fn bytes(&self, data: Self::Data, head: &Head, format: Format) -> Result<Vec<u8>, Failure>;
-    /// Adds what several runs are needed for.
-    fn add<S: Target>(&self, _: &History<S>, _: &mut Self::Data) -> Result<(), Error> {
-        Ok(())
-    }
-    /// What is said beside the data, on standard error.
-    fn note(&self, _: &Self::Data) -> Option<String> {
-        None
+        effects: mapped(scene.called_effects(), Effect::name),
+        // `c`, `t₁`, `R` and `M` to six digits.
+        parameters: units.parameters(&scene.problem, time).join("    "),
+        units,
+        ..Head::default()
     }
 }
 
@@ -60,38 +35,36 @@ pub(super) trait Visit {
     fn visit<S: Target>(&self, history: &History<S>, head: Head, progress: source::Progress) -> Result<(), Failure>;
 }
 
-/// A report, and what it looks like.
-pub(super) struct Printed<'a, R>(&'a R, &'a OutputArgs);
+/// What makes the bytes of an answer.
+pub(super) type Bytes<'a> = Box<dyn FnOnce(&Head, Format) -> Result<Vec<u8>, Failure> + 'a>;
 
-impl<R: Report> Visit for Printed<'_, R> {
-    fn visit<S: Target>(&self, history: &History<S>, head: Head, progress: source::Progress) -> Result<(), Failure> {
-        let Printed(report, output) = *self;
-        let head = Head { wide: output.wide, ..head };
-        progress.stage("values of the answer");
-        let gathered = history.ask(|motion| report.gather(motion, &head), |(_, numbers)| numbers.iter().collect_vec());
-        let (mut data, _) = gathered?;
-        report.add(history, &mut data)?;
-        print(report, output, data, (Head { warnings: history.warnings(), ..head }, progress))
-    }
-}
-
-fn print<R: Report>(
-    report: &R,
+/// Prints what `bytes` makes of an answer, below the warnings of `head`.
+pub(super) fn print(
     output: &OutputArgs,
-    data: R::Data,
-    (head, progress): (Head, source::Progress),
+    head: Head,
+    progress: source::Progress,
+    bytes: Bytes<'_>,
 ) -> Result<(), Failure> {
     let format = output.format()?;
+    let head = Head { wide: output.wide, ..head };
     let head = progress.aside(|| warned(head, output.output.is_none() && format == Format::Table));
-    let note = report.note(&data);
     progress.stage("text of the answer");
-    let bytes = report.bytes(data, &head, format)?;
+    let bytes = bytes(&head, format)?;
     // Nothing else stands on a terminal while the answer is printed.
     let progress = (output.output.is_some() || !std::io::stdout().is_terminal()).then_some(progress);
     output.write(&bytes)?;
     drop(progress);
-    note.iter().for_each(|note| eprintln!("note: {note}"));
     Ok(())
+}
+
+/// What `gather` asks of the history: data, whatever the numbers, and every number in them.
+pub(super) fn gathered<S: Target, T>(
+    history: &History<S>,
+    progress: &source::Progress,
+    gather: impl Fn(&dyn Motion<S::Carried>) -> Result<(T, Vec<S::Carried>), Error>,
+) -> Result<T, Error> {
+    progress.stage("values of the answer");
+    Ok(history.ask(gather, |(_, numbers)| numbers.iter().collect_vec())?.0)
 }
 
 /// The head, whose warnings are printed.
@@ -109,16 +82,6 @@ pub(super) fn noted_end(ending: &Ending, end: &dyn Shown, digits: u32) -> String
         eprintln!("note: {}", ending.at(&end.printed(DOUBLE_DIGITS)));
     }
     ending.at(&end.printed(if digits == 0 { DOUBLE_DIGITS } else { digits }))
-}
-
-/// Answers `question` of `scene`, and prints what `report` makes of the answer.
-pub(super) fn answer(
-    scene: &Scene,
-    question: &Question,
-    output: &OutputArgs,
-    report: &impl Report,
-) -> Result<(), Failure> {
-    solve(scene, question, &Printed(report, output))
 }
 
 /// Solves `scene` for `question`, and hands the history over.

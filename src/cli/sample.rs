@@ -2,15 +2,15 @@
 
 use clap::Args;
 
-use super::answer::{Report, answer};
+use super::answer::{Visit, gathered, print, solve};
 use super::args::{NumberArgs, OutputArgs};
 use super::failure::Failure;
-use super::file::{self, Format};
+use super::file;
 use super::source;
 use crate::error::Error;
 use crate::motion::{Ending, Motion, Side};
 use crate::number::{List, Scalar};
-use crate::output::{self, Head, Quantity, Samples, sample, samples_data};
+use crate::output::{Head, Quantity, Samples, samples, samples_data, shared};
 use crate::problem::Parameter;
 use crate::solve::{History, Question, Target};
 
@@ -58,37 +58,23 @@ impl Sample {
         if last.to_f64() < 0.0 {
             return Err(failure!("found time {last}, expected times from 0 on"));
         }
-        answer(&scene, &Question::between(first, last, self.numbers.numbers(&scene)), &self.output, self)
+        solve(&scene, &Question::between(first, last, self.numbers.numbers(&scene)), self)
     }
-}
 
-/// The values, and why the history ends where that is not for the time asked for, as at rest.
-pub(super) struct Sampled(Samples, Option<String>);
-
-impl Report for Sample {
-    type Data = Sampled;
-
-    fn gather<S: Scalar>(&self, history: &dyn Motion<S>, head: &Head) -> Result<(Sampled, Vec<S>), Error> {
+    fn gather<S: Scalar>(&self, history: &dyn Motion<S>, head: &Head) -> Result<(Samples, Vec<S>), Error> {
         let length = history.scales().length;
         let precision = length.precision();
-        let times = self.times.lift::<S>(&precision);
         let points = match &self.points {
             Some(points) => points.lift::<S>(&precision),
             None => vec![length.zero(), length.clone() / length.int(2), length],
         };
-        let samples = sample(history, self.quantity, &times, &points, self.side)?;
-        let ends =
-            (!matches!(history.ending(), Ending::Time | Ending::NextImpact)).then(|| history.ending().to_string());
-        let mut numbers = Vec::new();
-        for output::Sample { time, point, values, .. } in &samples {
-            numbers.extend_from_slice(values);
-            numbers.extend(point.clone());
-            numbers.push(time.clone());
-        }
-        Ok((Sampled(Samples::of(&samples, self.quantity, &head.units), ends), numbers))
+        samples(history, self.quantity, (&self.times.lift(&precision), &points), self.side, &head.units)
     }
+}
 
-    fn add<S: Target>(&self, history: &History<S>, Sampled(samples, _): &mut Sampled) -> Result<(), Error> {
+impl Visit for Sample {
+    fn visit<S: Target>(&self, history: &History<S>, head: Head, progress: source::Progress) -> Result<(), Failure> {
+        let mut samples = gathered(history, &progress, |motion| self.gather(motion, &head))?;
         for by in self.derivatives.iter().copied() {
             let too_long = || Error::Derivative { parameter: by.name(), expected: "times and points of fewer digits" };
             let points = match (&self.points, self.quantity) {
@@ -97,17 +83,15 @@ impl Report for Sample {
                 (None, _) => Some(Vec::new()),
             };
             let (times, points) = self.times.numbers().zip(points).ok_or_else(too_long)?;
-            let found = history.derivatives_at(by, &samples.quantities(), &times, &points, self.side)?;
-            samples.derivatives.push((by, output::shared(found)));
+            let found = history.derivatives_at(by, &samples.quantities, &times, &points, self.side)?;
+            samples.derivatives.push((by, shared(found)));
+        }
+        let head = Head { warnings: history.warnings(), ..head };
+        print(&self.output, head, progress, Box::new(|head, format| file::rows(&samples_data(samples, head), format)))?;
+        // Where that is not for the time asked for, as at rest.
+        if !matches!(history.ending(), Ending::Time | Ending::NextImpact) {
+            eprintln!("note: {}", history.ending());
         }
         Ok(())
-    }
-
-    fn note(&self, Sampled(_, ends): &Sampled) -> Option<String> {
-        ends.clone()
-    }
-
-    fn bytes(&self, Sampled(samples, _): Sampled, head: &Head, format: Format) -> Result<Vec<u8>, Failure> {
-        file::rows(&samples_data(samples, head), format)
     }
 }

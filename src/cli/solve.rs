@@ -4,7 +4,7 @@ use std::io::IsTerminal;
 
 use clap::Args;
 
-use super::answer::{Report, answer, noted_end};
+use super::answer::{Visit, gathered, noted_end, print, solve};
 use super::args::{NumberArgs, OutputArgs};
 use super::failure::Failure;
 use super::file::{self, Format};
@@ -65,7 +65,7 @@ impl Solve {
             return Err(failure!("found --derivatives with --part stress, expected them of events or contacts"));
         }
         let scene = source::read(&self.scene)?;
-        answer(&scene, &Question::run(self.numbers.numbers(&scene)), &self.output, self)
+        solve(&scene, &Question::run(self.numbers.numbers(&scene)), self)
     }
 
     /// Whether the stress is drawn above the table: for a person at a terminal that has more than plain letters. It has
@@ -74,10 +74,6 @@ impl Solve {
         let table = self.output.output.is_none() && matches!(self.output.format(), Ok(Format::Table));
         table && std::io::stdout().is_terminal() && std::env::var_os("TERM").is_none_or(|term| term != "dumb")
     }
-}
-
-impl Report for Solve {
-    type Data = Record;
 
     fn gather<S: Scalar>(&self, history: &dyn Motion<S>, head: &Head) -> Result<(Record, Vec<S>), Error> {
         let stress = match (self.output.format(), self.part) {
@@ -93,19 +89,7 @@ impl Report for Solve {
         Ok((found, numbers))
     }
 
-    fn add<S: Target>(&self, history: &History<S>, record: &mut Record) -> Result<(), Error> {
-        for by in self.derivatives.iter().copied() {
-            // There are no more contacts than events: a row has an event, and a contact beside it where there is one.
-            let mut events = shared(history.derivatives(by, &[&EVENT[..], &CONTACT].concat())?);
-            let contacts = events.iter_mut().map(|row| row.split_off(EVENT.len().min(row.len())));
-            let contacts = contacts.filter(|row| !row.is_empty()).collect_vec();
-            record.derivatives.push(Derived { by, events, contacts });
-        }
-        Ok(())
-    }
-
-    fn bytes(&self, record: Record, head: &Head, format: Format) -> Result<Vec<u8>, Failure> {
-        let record = &record;
+    fn bytes(&self, record: &Record, head: &Head, format: Format) -> Result<Vec<u8>, Failure> {
         // A table on the screen says it.
         if self.output.output.is_some() || format != Format::Table {
             noted_end(&record.end.1, &*record.end.0, head.digits);
@@ -116,5 +100,20 @@ impl Report for Solve {
             Format::Json => Ok(file::json(&history_json(record, head))),
             _ => file::rows(&history_part(record, self.part.unwrap_or_default(), self.coefficients, head), format),
         }
+    }
+}
+
+impl Visit for Solve {
+    fn visit<S: Target>(&self, history: &History<S>, head: Head, progress: source::Progress) -> Result<(), Failure> {
+        let mut record = gathered(history, &progress, |motion| self.gather(motion, &head))?;
+        for by in self.derivatives.iter().copied() {
+            // There are no more contacts than events: a row has an event, and a contact beside it where there is one.
+            let mut events = shared(history.derivatives(by, &[&EVENT[..], &CONTACT].concat())?);
+            let contacts = events.iter_mut().map(|row| row.split_off(EVENT.len().min(row.len())));
+            let contacts = contacts.filter(|row| !row.is_empty()).collect_vec();
+            record.derivatives.push(Derived { by, events, contacts });
+        }
+        let head = Head { warnings: history.warnings(), ..head };
+        print(&self.output, head, progress, Box::new(|head, format| self.bytes(&record, head, format)))
     }
 }

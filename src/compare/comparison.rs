@@ -7,7 +7,7 @@ use super::limit::{Limit, Order, Outcome, orders, outcomes};
 use super::map::{Map, MapError};
 use super::options::Options;
 use super::ours::Ours;
-use super::samples::{Clock, Samples};
+use super::samples::Samples;
 use super::unfitted::Judgement;
 use super::verdict::judged;
 use crate::error::Error;
@@ -66,21 +66,22 @@ impl Options {
     fn samples(&self, source: Source, length: f64, units: &Units) -> Result<Samples, CompareError> {
         let of = |number: &Option<Number>| number.as_ref().map_or(0.0, Number::to_f64);
         let counted = self.dt.is_some();
-        let sized = source.is_sized();
-        let guess = (sized && self.map.is_none() && !counted && source.names().is_empty() && source.width() > 3)
-            .then_some(PLAIN);
-        let map = Map::of(guess.or(self.map.as_deref()), source.names(), source.width(), counted).and_then(|map| {
-            let names = if self.map.is_none() { source.names() } else { &[] };
+        let sized = source.is_sized;
+        let guess =
+            (sized && self.map.is_none() && !counted && source.names.is_empty() && source.width > 3).then_some(PLAIN);
+        let map = Map::of(guess.or(self.map.as_deref()), &source.names, source.width, counted).and_then(|map| {
+            let names = if self.map.is_none() { source.names.as_slice() } else { &[] };
             let (conversions, converted) = map.conversions(names, units)?;
             Ok((map, conversions, converted))
         });
-        let map = map.map_err(|error| match (error, source.misnamed()) {
-            (MapError::NoNames, Some(found)) => MapError::Names { found, expected: source.width() },
-            (error, _) => error,
-        });
-        let (map, conversions, converted) =
-            map.map_err(|error| CompareError::Map { file: source.file().into(), error })?;
-        let clock = counted.then(|| Clock { start: of(&self.t0), step: of(&self.dt) });
+        let (map, conversions, converted) = map.map_err(|error| {
+            let error = match (error, source.misnamed) {
+                (MapError::NoNames, Some(found)) => MapError::Names { found, expected: source.width },
+                (error, _) => error,
+            };
+            CompareError::Map { file: source.file.clone(), error }
+        })?;
+        let clock = counted.then(|| (of(&self.t0), of(&self.dt)));
         let mut columns = source.columns(&map.places(), map.side)?;
         for (values, conversion) in columns.values.iter_mut().zip(conversions) {
             values.iter_mut().for_each(|value| *value = conversion.apply(*value));
@@ -167,7 +168,7 @@ impl Prepared {
     ) -> Result<Self, CompareError> {
         options.check(sources.len())?;
         let rod = Parameters::<f64>::of(problem, &())?;
-        let read = |source: Source| Ok((source.file().to_string(), options.samples(source, rod.length, units)?));
+        let read = |source: Source| Ok((source.file.clone(), options.samples(source, rod.length, units)?));
         let data = sources.into_iter().map(read).collect::<Result<Vec<_>, CompareError>>()?;
         let last = data.iter().filter_map(|(_, samples)| samples.grid.times.last()).fold(0.0, |a: f64, b| a.max(*b));
         for (file, samples) in &data {

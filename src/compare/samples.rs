@@ -6,13 +6,6 @@ use super::norms::Grid;
 use crate::motion::Side;
 use crate::quantity::Quantity;
 
-/// Times that are counted, and not in the file: `start + k step`.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct Clock {
-    pub(crate) start: f64,
-    pub(crate) step: f64,
-}
-
 /// The rows from `t = 0` on.
 #[derive(Clone, Debug)]
 pub(crate) struct Samples {
@@ -67,14 +60,15 @@ impl Rounding {
 }
 
 impl Samples {
-    /// The samples in `columns` as `map` reads them, on a clock that is `shift` behind ours. Two rows at one time are
-    /// the limits of a jump, the earlier first; a field needs the column of sides for that.
+    /// The samples in `columns` as `map` reads them, on a clock that is `shift` behind ours; where the times are not in
+    /// the file they are `start + k step`. Two rows at one time are the limits of a jump, the earlier first; a field
+    /// needs the column of sides for that.
     ///
     /// **Errors**: times that do not increase, points outside of the rod, no time after 0.
     pub(crate) fn of(
-        columns: Columns,
+        mut columns: Columns,
         map: &Map,
-        clock: Option<Clock>,
+        counted: Option<(f64, f64)>,
         shift: f64,
         length: f64,
     ) -> Result<Self, DataError> {
@@ -82,49 +76,44 @@ impl Samples {
         if rows == 0 {
             return Err(columns.whole(DataErrorKind::Empty));
         }
-        let place = |k: usize| map.places().get(k).copied().unwrap_or(0);
-        let at_points = map.point.is_some();
-        let mut at = 0;
-        let mut times: Vec<f64> = match (map.time, clock) {
-            (Some(_), _) => {
-                at += 1;
-                columns.values[0].clone()
-            }
-            (None, Some(Clock { start, step })) => (0..rows).map(|k| start + k as f64 * step).collect(),
+        let mut values = std::mem::take(&mut columns.values).into_iter();
+        let mut times: Vec<f64> = match (map.time, counted) {
+            (Some(_), _) => values.next().unwrap_or_default(),
+            (None, Some((start, step))) => (0..rows).map(|k| start + k as f64 * step).collect(),
             (None, None) => Vec::new(),
         };
-        let side_at = at + usize::from(at_points);
+        let points = map.point.and_then(|_| values.next());
+        let said = map.side.and_then(|_| values.next());
+        let refuse = |row: usize, place: Option<usize>, kind| Err(columns.refuse(row, place.unwrap_or(0), kind));
         let mut sides = vec![None; times.len()];
-        let said = map.side.map(|_| &columns.values[side_at]);
-        for (k, found) in said.into_iter().flatten().enumerate() {
+        for (k, found) in said.iter().flatten().enumerate() {
             sides[k] = match *found {
                 -1.0 => Some(Side::Left),
                 0.0 => None,
                 1.0 => Some(Side::Right),
-                other => return Err(columns.refuse(k, place(side_at), DataErrorKind::Side(other.to_string()))),
+                other => return refuse(k, map.side, DataErrorKind::Side(other.to_string())),
             };
         }
         let limits = [Some(Side::Left), Some(Side::Right)];
         for k in 1..times.len() {
             let (before, found) = (times[k - 1], times[k]);
-            if found == before && !at_points && said.is_none() && sides[k - 1].is_none() {
+            if found == before && points.is_none() && said.is_none() && sides[k - 1].is_none() {
                 sides[k - 1..=k].copy_from_slice(&limits);
             }
-            let follows = found > before || (found == before && (at_points || sides[k - 1..=k] == limits));
+            let follows = found > before || (found == before && (points.is_some() || sides[k - 1..=k] == limits));
             if !follows {
-                return Err(columns.refuse(k, place(0), DataErrorKind::NotIncreasing { before, found }));
+                return refuse(k, map.places().first().copied(), DataErrorKind::NotIncreasing { before, found });
             }
         }
         times.iter_mut().for_each(|time| *time += shift);
-        let points = at_points.then(|| columns.values[at].clone());
         for (k, found) in points.iter().flatten().enumerate() {
             if !(0.0..=length).contains(found) {
-                return Err(columns.refuse(k, place(at), DataErrorKind::PointOutside { found: *found, length }));
+                return refuse(k, map.point, DataErrorKind::PointOutside { found: *found, length });
             }
             let same = |before: &usize| times[*before] == times[k] && sides[*before..=k] != limits;
             let before = k.checked_sub(1).filter(same);
             if let Some(before) = before.and_then(|k| points.as_ref().map(|points| points[k])).filter(|x| x >= found) {
-                return Err(columns.refuse(k, place(at), DataErrorKind::PointsNotIncreasing { before, found: *found }));
+                return refuse(k, map.point, DataErrorKind::PointsNotIncreasing { before, found: *found });
             }
         }
         let from = times.partition_point(|time| *time < 0.0);
@@ -132,17 +121,15 @@ impl Samples {
         if last <= 0.0 {
             return Err(columns.whole(DataErrorKind::NoOverlap { last }));
         }
-        if !at_points && times[from] == last {
+        if points.is_none() && times[from] == last {
             return Err(columns.whole(DataErrorKind::OneTime(last)));
         }
         let cut = |mut values: Vec<f64>| values.split_off(from);
-        let first = side_at + usize::from(map.side.is_some());
         let (times, points, sides) = (cut(times), points.map(&cut), sides.split_off(from));
         let mut steps: Vec<f64> = times.windows(2).map(|pair| pair[1] - pair[0]).filter(|step| *step > 0.0).collect();
         let middle = steps.len() / 2;
         let step = if steps.is_empty() { 0.0 } else { *steps.select_nth_unstable_by(middle, f64::total_cmp).1 };
         let rounding = Rounding::of(&times, step);
-        let values = columns.values.into_iter().skip(first);
         let quantities = map.quantities.iter().map(|(what, _)| *what).zip(values.map(&cut)).collect();
         let unused = map.unused.join(", ");
         let notes = (!unused.is_empty()).then(|| format!("not used: {unused}")).into_iter().collect();

@@ -10,15 +10,10 @@ use crate::number::{Number, Scalar, bound_json, number_json, show, shown_bound_t
 
 /// A number of any system, as writers ask it.
 pub(crate) trait Shown {
-    /// [`show`].
     fn printed(&self, digits: u32) -> String;
-    /// [`shown_bound_text`].
     fn printed_bound(&self, digits: u32) -> String;
-    /// [`number_json`].
     fn json(&self, digits: u32) -> Value;
-    /// [`bound_json`].
     fn json_bound(&self, digits: u32) -> Value;
-    /// The nearest double.
     fn double(&self) -> f64;
 }
 
@@ -188,11 +183,6 @@ impl Column {
     /// With this key in JSON.
     pub(crate) fn keyed(self, key: impl Into<Cow<'static, str>>) -> Self {
         Column { key: Some(key.into()), ..self }
-    }
-
-    /// Not in tables.
-    pub(crate) fn untabled(self) -> Self {
-        Column { head: None, ..self }
     }
 
     /// Its values are words.

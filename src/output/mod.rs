@@ -34,7 +34,7 @@ pub(crate) use outline::outline;
 pub(crate) use record::{Derived, Head, Record};
 pub(crate) use reference::{Golden, Preamble, Rows};
 pub(crate) use regimes::{regimes_data, regimes_npz, regimes_svg, regimes_text, threshold_data};
-pub(crate) use sample::{Quantity, Sample, Samples, sample, samples_data};
+pub(crate) use sample::{Quantity, Samples, samples, samples_data};
 pub(crate) use solve::{CONTACT, EVENT, Form, history_json, history_part, history_table, record};
 pub(crate) use solve::{LEGEND, Part};
 pub(crate) use sweep::sweep_data;

@@ -34,7 +34,7 @@ pub(crate) enum Quantity {
 }
 
 impl Quantity {
-    /// What is printed of it, each with the place of its number in [`Sample::values`].
+    /// What is printed of it, each with the place of its number in what the history answers.
     fn columns(self) -> &'static [(quantity::Quantity, usize)] {
         match self {
             Quantity::Stress => &[(Strain, 0), (Stress, 0), (Force, 0)],
@@ -47,99 +47,73 @@ impl Quantity {
     }
 }
 
-/// A value of a quantity, or several.
-#[derive(Clone, Debug)]
-pub(crate) struct Sample<S> {
-    /// `t`.
-    pub time: S,
-    /// `x`, for the field.
-    pub point: Option<S>,
-    /// Which limit.
-    pub side: Side,
-    /// As the history answers them: see [`Motion`].
-    pub values: Vec<S>,
-}
-
-/// The values of `quantity` at every time and, for the field, at every point.
-pub(crate) fn sample<S: Scalar>(
-    history: &dyn Motion<S>,
-    quantity: Quantity,
-    times: &[S],
-    points: &[S],
-    side: Side,
-) -> Result<Vec<Sample<S>>, Error> {
-    let mut rows = Vec::new();
-    for time in times {
-        let mut row = |point, values| rows.push(Sample { time: time.clone(), point, side, values });
-        match quantity {
-            Quantity::Stress => row(None, vec![history.strain(time, side)?]),
-            Quantity::End => row(None, history.ground_end(time, side).map(|(v, rate)| vec![v, rate])?),
-            Quantity::Top => row(None, history.top_end(time, side).map(|(v, rate)| vec![v, rate])?),
-            Quantity::Centre => row(None, history.centre(time).map(|(h, rate)| vec![h, rate])?),
-            Quantity::Energy => {
-                row(None, history.energy(time).map(|e| vec![e.total, e.translational, e.vibrational])?);
-            }
-            Quantity::Field => {
-                for point in points {
-                    let field = history.field(point, time, side)?;
-                    row(Some(point.clone()), vec![field.displacement, field.velocity, field.strain]);
-                }
-            }
-        }
-    }
-    Ok(rows)
-}
-
-/// The columns of samples of a quantity, and a row for each of them.
+/// Values of a quantity, ready to be printed.
 pub(crate) struct Samples {
     quantity: Quantity,
+    /// What is printed of each.
+    pub(crate) quantities: Vec<quantity::Quantity>,
     has_points: bool,
     listed: Listed,
     /// Derivatives of the values, where they are asked for.
     pub(crate) derivatives: Vec<(Parameter, Derivatives<Shared>)>,
-    has_material: bool,
 }
 
-impl Samples {
-    /// Those of `quantity`.
-    pub(crate) fn of<S: Scalar>(samples: &[Sample<S>], quantity: Quantity, units: &Units) -> Self {
-        let quantities = mapped(quantity.columns(), |column| column.0);
-        let values = mapped(samples, |sample| mapped(quantity.columns(), |(_, place)| sample.values.get(*place)));
-        let column = |quantity: quantity::Quantity| {
-            let key = quantity.key();
-            Column::new(key).keyed(format!("values/{key}"))
+/// The values of `quantity` at every time and, for the field, at every point; and every number among them.
+pub(crate) fn samples<S: Scalar>(
+    history: &dyn Motion<S>,
+    quantity: Quantity,
+    (times, points): (&[S], &[S]),
+    side: Side,
+    units: &Units,
+) -> Result<(Samples, Vec<S>), Error> {
+    let mut found: Vec<(&S, Option<&S>, Vec<S>)> = Vec::new();
+    let pair = |(value, rate): (S, S)| vec![value, rate];
+    for time in times {
+        let values = match quantity {
+            Quantity::Stress => vec![history.strain(time, side)?],
+            Quantity::End => pair(history.ground_end(time, side)?),
+            Quantity::Top => pair(history.top_end(time, side)?),
+            Quantity::Centre => pair(history.centre(time)?),
+            Quantity::Energy => mapped(history.energy(time)?.numbers(), Clone::clone),
+            Quantity::Field => {
+                for point in points {
+                    found.push((time, Some(point), mapped(history.field(point, time, side)?.numbers(), Clone::clone)));
+                }
+                continue;
+            }
         };
-        let (values, rows) = listed(&quantities, column, units, values);
-        let point = Column::new("point").headed("x").with_unit(units.name(Measure::Length));
-        let has_points = samples.iter().any(|sample| sample.point.is_some());
-        let mut columns = vec![
-            Column::new("time").headed("t").with_unit(units.name(Measure::Time)),
-            if has_points { point } else { point.untabled() },
-            Column::new("side"),
-        ];
-        columns.extend(values);
-        let mut all = Vec::with_capacity(rows.len());
-        for (sample, values) in samples.iter().zip(rows) {
-            let (time, point) = (Cell::number(&sample.time), Cell::optional(sample.point.as_ref()));
-            let mut row = vec![time, point, sample.side.to_string().into()];
-            row.extend(values);
-            all.push(row);
-        }
-        let has_material = units.has_material();
-        Samples { quantity, has_points, listed: (columns, all), derivatives: Vec::new(), has_material }
+        found.push((time, None, values));
     }
-
-    /// What is printed of each.
-    pub(crate) fn quantities(&self) -> Vec<quantity::Quantity> {
-        let all = self.quantity.columns().iter().map(|column| column.0);
-        all.filter(|quantity| quantity.is_listed(self.has_material)).collect_vec()
+    let has_points = quantity == Quantity::Field && !found.is_empty();
+    let asked = mapped(quantity.columns(), |column| column.0);
+    let values = mapped(&found, |(.., values)| mapped(quantity.columns(), |(_, place)| values.get(*place)));
+    let column = |quantity: quantity::Quantity| {
+        let key = quantity.key();
+        Column::new(key).keyed(format!("values/{key}"))
+    };
+    let (listed, rows) = listed(&asked, column, units, values);
+    let point = if has_points { Column::new("point").headed("x") } else { Column::data("point") };
+    let mut columns = vec![
+        Column::new("time").headed("t").with_unit(units.name(Measure::Time)),
+        point.with_unit(units.name(Measure::Length)),
+        Column::new("side"),
+    ];
+    columns.extend(listed);
+    let (mut all, mut numbers) = (Vec::with_capacity(rows.len()), Vec::new());
+    for ((time, point, values), cells) in found.into_iter().zip(rows) {
+        let mut row = vec![Cell::number(time), Cell::optional(point), side.to_string().into()];
+        row.extend(cells);
+        all.push(row);
+        numbers.extend(values.into_iter().chain(point.cloned()).chain([time.clone()]));
     }
+    let quantities = asked.into_iter().filter(|quantity| quantity.is_listed(units.has_material())).collect_vec();
+    Ok((Samples { quantity, quantities, has_points, listed: (columns, all), derivatives: Vec::new() }, numbers))
 }
 
 /// A row for each sample.
 pub(crate) fn samples_data(samples: Samples, head: &Head) -> Dataset {
-    let (units, quantities) = (&head.units, samples.quantities());
-    let Samples { quantity, has_points, listed: (columns, rows), derivatives, .. } = samples;
+    let units = &head.units;
+    let Samples { quantity, quantities, has_points, listed: (columns, rows), derivatives } = samples;
     let key = |row: &Vec<Cell>| {
         let places = ["t = ", "x = "].into_iter().zip(row);
         places

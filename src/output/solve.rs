@@ -117,15 +117,7 @@ fn dataset((columns, rows): &Listed, head: &Head) -> Dataset {
 
 /// The numbers of rows, where they are defined.
 fn defined<S>(rows: &[Row<S>]) -> Vec<Vec<Option<&S>>> {
-    let mut defined = Vec::with_capacity(rows.len());
-    for row in rows {
-        let mut values = Vec::with_capacity(row.len());
-        for value in row {
-            values.push(value.as_ref().ok());
-        }
-        defined.push(values);
-    }
-    defined
+    mapped(rows, |row| mapped(row, |value| value.as_ref().ok()))
 }
 
 fn events(record: &Record, head: &Head) -> Dataset {

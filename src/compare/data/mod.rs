@@ -1,6 +1,5 @@
 //! Other people's data: columns of numbers from text, `.npy` and `.npz`.
 
-mod arrays;
 mod error;
 #[cfg_attr(not(feature = "npz"), path = "numpy_absent.rs")]
 mod numpy;
@@ -9,4 +8,4 @@ mod text;
 
 pub use error::{DataError, DataErrorKind};
 pub(crate) use source::Columns;
-pub use source::Source;
+pub use source::{Column, Source};

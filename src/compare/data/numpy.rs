@@ -1,41 +1,37 @@
 //! Columns in NumPy's arrays.
 
-use std::io::{Cursor, Read};
+use std::io::Cursor;
 
 use ndarray::{ArrayD, Axis, IxDyn, OwnedRepr};
 use ndarray_npy::{NpzReader, ReadNpyError, ReadNpyExt, ReadNpzError, ReadableElement};
 
-use super::arrays::{Arrays, called, is_array};
-use super::error::{DataError, DataErrorKind};
+use super::error::DataErrorKind;
+use super::source::Column;
 use crate::number::short;
 
-/// Reads an array or an archive of arrays: an array of one axis is a column, one of two axes has a column for each
-/// index of its second. A number alone is no column.
+/// Reads an array or an archive of arrays, there with their names: an array of one axis is a column, one of two axes has
+/// a column for each index of its second. A number alone is no column.
 ///
 /// **Errors**: a file that cannot be read.
-pub(super) fn read(mut reader: impl Read, file: &str) -> Result<Arrays, DataError> {
-    let unreadable = |error: &dyn std::fmt::Display| DataErrorKind::Unreadable(error.to_string()).at(file, None);
-    let mut bytes = Vec::new();
-    reader.read_to_end(&mut bytes).map_err(|error| unreadable(&error))?;
-    if is_array(&bytes) {
-        let refuse = |kind: DataErrorKind| kind.at(file, None);
-        let array = numbers(&mut Array(&bytes)).map_err(refuse)?;
+pub(super) fn read(bytes: Vec<u8>, is_array: bool) -> Result<Vec<(Option<String>, Vec<Column>)>, DataErrorKind> {
+    if is_array {
+        let array = numbers(&mut Array(&bytes))?;
         let shape = array.shape().to_vec();
         let columns = columns(array);
         let none = columns.is_empty() || columns.iter().any(Result::is_err);
-        return if none { Err(refuse(DataErrorKind::Shape(shape))) } else { Ok((Vec::new(), columns)) };
+        return if none { Err(DataErrorKind::Shape(shape)) } else { Ok(vec![(None, columns)]) };
     }
-    let mut archive = NpzReader::new(Cursor::new(bytes)).map_err(|error| unreadable(&error))?;
-    let (mut names, mut all) = (Vec::new(), Vec::new());
-    for name in archive.names().map_err(|error| unreadable(&error))? {
+    let unreadable = |error: ReadNpzError| DataErrorKind::Unreadable(error.to_string());
+    let mut archive = NpzReader::new(Cursor::new(bytes)).map_err(unreadable)?;
+    let names = archive.names().map_err(unreadable)?;
+    let read = |name: String| {
         let columns = numbers(&mut Entry(&mut archive, &name)).map_or_else(|kind| vec![Err(kind)], columns);
-        names.extend(called(&name, columns.len()));
-        all.extend(columns);
-    }
-    Ok((names, all))
+        (Some(name), columns)
+    };
+    Ok(names.into_iter().map(read).collect())
 }
 
-fn columns(array: ArrayD<f64>) -> Vec<Result<Vec<f64>, DataErrorKind>> {
+fn columns(array: ArrayD<f64>) -> Vec<Column> {
     match array.shape() {
         [] => Vec::new(),
         [_] => vec![Ok(array.into_iter().collect())],

@@ -1,11 +1,9 @@
 //! NumPy's files in a build without the feature `npz`: refused by that name.
 
-use std::io::Read;
+use super::error::DataErrorKind;
+use super::source::Column;
 
-use super::arrays::Arrays;
-use super::error::{DataError, DataErrorKind};
-
-pub(super) fn read(_: impl Read, file: &str) -> Result<Arrays, DataError> {
+pub(super) fn read(_: Vec<u8>, _: bool) -> Result<Vec<(Option<String>, Vec<Column>)>, DataErrorKind> {
     let why = "found an array of NumPy in a build without the feature `npz`, expected text";
-    Err(DataErrorKind::Unreadable(why.into()).at(file, None))
+    Err(DataErrorKind::Unreadable(why.into()))
 }

@@ -4,24 +4,29 @@ use std::fs::File;
 use std::io::{BufRead, BufReader, Read};
 use std::path::Path;
 
-use super::arrays::{called, is_array};
 use super::error::{DataError, DataErrorKind};
 use super::numpy;
 use super::text::{Lines, Text};
 
+/// A column of an array, or why it is none of numbers: it may not be asked for.
+pub type Column = Result<Vec<f64>, DataErrorKind>;
+
 /// A source of columns, opened far enough to know how many there are and what they are called.
-#[derive(Debug)]
 pub struct Source {
-    file: String,
-    names: Vec<String>,
-    width: usize,
+    pub(crate) file: String,
+    /// The names of the columns; empty where they have none.
+    pub(crate) names: Vec<String>,
+    pub(crate) width: usize,
+    /// How many names a header has, where they are not as many as the columns.
+    pub(crate) misnamed: Option<usize>,
+    /// Whether a first line `rows columns` was skipped.
+    pub(crate) is_sized: bool,
     body: Body,
 }
 
-#[derive(Debug)]
 enum Body {
     Text(Box<Text>),
-    Arrays(Vec<Result<Vec<f64>, DataErrorKind>>),
+    Arrays(Vec<Column>),
 }
 
 /// The columns that were asked for, in that order, all of one length.
@@ -31,6 +36,19 @@ pub(crate) struct Columns {
     pub(crate) values: Vec<Vec<f64>>,
     lines: Lines,
 }
+
+/// The arrays of a file of NumPy, with their names in an archive.
+fn arrays(mut reader: impl Read, file: &str) -> Result<Vec<(Option<String>, Vec<Column>)>, DataError> {
+    let mut bytes = Vec::new();
+    let read = reader.read_to_end(&mut bytes).map_err(|error| DataErrorKind::Unreadable(error.to_string()));
+    let is_array = bytes.starts_with(ARRAY);
+    read.and_then(|_| numpy::read(bytes, is_array)).map_err(|kind| kind.at(file, None))
+}
+
+/// What an array of NumPy begins with.
+const ARRAY: &[u8] = b"\x93NUMPY";
+/// What an archive of them begins with.
+const ARCHIVE: &[u8] = b"PK\x03\x04";
 
 impl Source {
     /// Opens a file, or standard input for `-`: `.npy` and `.npz` by their first bytes, text otherwise. Of a folder each
@@ -48,72 +66,60 @@ impl Source {
             if piped { Box::new(std::io::stdin()) } else { Box::new(File::open(path).map_err(read)?) };
         let mut reader = BufReader::with_capacity(1 << 16, opened);
         let start = reader.fill_buf().map_err(read)?;
-        let (names, width, body) = if is_array(start) || start.starts_with(b"PK\x03\x04") {
-            let (names, columns) = numpy::read(reader, &file)?;
-            (names, columns.len(), Body::Arrays(columns))
-        } else {
-            let text = Text::open(reader, &file)?;
-            (text.names.clone(), text.width(), Body::Text(Box::new(text)))
-        };
-        Ok(Source { file, names, width, body })
+        if start.starts_with(ARRAY) || start.starts_with(ARCHIVE) {
+            let found = arrays(reader, &file)?;
+            return Ok(Self::of(&file, found));
+        }
+        let mut text = Text::open(reader, &file)?;
+        let (names, width) = (std::mem::take(&mut text.names), text.width);
+        Ok(Source {
+            file,
+            names,
+            width,
+            misnamed: text.misnamed,
+            is_sized: text.sized,
+            body: Body::Text(Box::new(text)),
+        })
     }
 
     fn folder(path: &Path) -> Result<Self, DataError> {
         let file = path.display().to_string();
-        let unreadable =
-            |why: &dyn std::fmt::Display, file: &str| DataErrorKind::Unreadable(why.to_string()).at(file, None);
-        let entries = std::fs::read_dir(path).map_err(|error| unreadable(&error, &file))?;
+        let unreadable = |why: String, file: &str| DataErrorKind::Unreadable(why).at(file, None);
+        let entries = std::fs::read_dir(path).map_err(|error| unreadable(error.to_string(), &file))?;
         let mut paths: Vec<_> = entries.filter_map(|entry| Some(entry.ok()?.path())).collect();
         paths.retain(|path| path.extension().is_some_and(|extension| extension == "npy"));
         paths.sort();
         if paths.is_empty() {
             let none = "found no .npy in the folder, expected one for each quantity, such as t.npy and u.npy";
-            return Err(unreadable(&none, &file));
+            return Err(unreadable(none.into(), &file));
         }
-        let (mut names, mut all) = (Vec::new(), Vec::new());
+        let mut all = Vec::new();
         for path in paths {
             let shown = path.display().to_string();
-            let opened = File::open(&path).map_err(|error| unreadable(&error, &shown))?;
-            let columns = numpy::read(opened, &shown)?.1;
+            let opened = File::open(&path).map_err(|error| unreadable(error.to_string(), &shown))?;
             let stem = path.file_stem().unwrap_or_default().to_string_lossy();
-            names.extend(called(&stem, columns.len()));
+            all.extend(arrays(opened, &shown)?.into_iter().map(|(_, columns)| (Some(stem.to_string()), columns)));
+        }
+        Ok(Self::of(&file, all))
+    }
+
+    /// The columns of arrays, called as these: `name[k]` where there are several.
+    fn of(file: &str, arrays: Vec<(Option<String>, Vec<Column>)>) -> Self {
+        let (mut names, mut all) = (Vec::new(), Vec::new());
+        for (name, columns) in arrays {
+            let several = columns.len() > 1;
+            let called = |(name, k)| if several { format!("{name}[{k}]") } else { name };
+            names.extend(name.into_iter().flat_map(|name| vec![name; columns.len()].into_iter().zip(0..).map(called)));
             all.extend(columns);
         }
-        Ok(Self::arrays(&file, names, all))
-    }
-
-    /// The names of the columns; empty where they have none.
-    pub(crate) fn names(&self) -> &[String] {
-        &self.names
-    }
-
-    /// How many names a header has, where they are not as many as the columns.
-    pub(crate) fn misnamed(&self) -> Option<usize> {
-        match &self.body {
-            Body::Text(text) => text.misnamed,
-            Body::Arrays(_) => None,
-        }
-    }
-
-    /// Whether a first line `rows columns` was skipped.
-    pub(crate) fn is_sized(&self) -> bool {
-        matches!(&self.body, Body::Text(text) if text.sized)
-    }
-
-    /// What it is called.
-    pub fn file(&self) -> &str {
-        &self.file
-    }
-
-    /// How many columns there are.
-    pub(crate) fn width(&self) -> usize {
-        self.width
+        Self::arrays(file, names, all)
     }
 
     /// Columns that are held in memory, with their names or without; one that is no column of numbers has the reason in
     /// its place.
-    pub fn arrays(file: &str, names: Vec<String>, columns: Vec<Result<Vec<f64>, DataErrorKind>>) -> Self {
-        Source { file: file.into(), names, width: columns.len(), body: Body::Arrays(columns) }
+    pub fn arrays(file: &str, names: Vec<String>, columns: Vec<Column>) -> Self {
+        let (width, body) = (columns.len(), Body::Arrays(columns));
+        Source { file: file.into(), names, width, misnamed: None, is_sized: false, body }
     }
 
     /// Reads the columns of these places, counted from 0; in that at `side` a text has words for −1, 0 and 1.
@@ -148,7 +154,6 @@ impl Source {
 }
 
 impl Columns {
-    /// How many rows there are.
     pub(crate) fn rows(&self) -> usize {
         self.values.first().map_or(0, Vec::len)
     }

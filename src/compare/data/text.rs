@@ -22,13 +22,7 @@ pub(super) struct Text {
     /// The line that was read last, and its number.
     line: Vec<u8>,
     number: usize,
-    width: usize,
-}
-
-impl std::fmt::Debug for Text {
-    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        f.debug_struct("Text").field("names", &self.names).field("width", &self.width).finish_non_exhaustive()
-    }
+    pub(super) width: usize,
 }
 
 /// Where rows stand in a text: the first row of every stretch without empty lines and comments, with its line. Empty
@@ -176,11 +170,6 @@ impl Text {
             return Ok(text);
         }
         Err(DataErrorKind::Empty.at(file, None))
-    }
-
-    /// How many columns there are.
-    pub(super) fn width(&self) -> usize {
-        self.width
     }
 
     /// Reads the next line that is not empty; `false` at the end.
