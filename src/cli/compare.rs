@@ -10,7 +10,7 @@ use super::failure::Failure;
 use super::file::{self, Format, ROWS, ROWS_OR_PICTURE, formats};
 use super::source;
 use crate::compare::data::Source;
-use crate::compare::{CompareError, Comparison, LEGEND, Limit, Options, Outcome, Prepared};
+use crate::compare::{CompareError, LEGEND, Limit, Options, Outcome, Prepared};
 use crate::draw::Size;
 use crate::mapped::{CollectVec, try_mapped};
 use crate::number::Number;
@@ -91,13 +91,6 @@ fn junit(outcomes: &[Outcome]) -> String {
     out + "</testsuite>\n"
 }
 
-/// What is printed.
-struct Report<'a> {
-    comparison: &'a Comparison,
-    title: Option<&'a str>,
-    units: &'a Units,
-}
-
 impl Compare {
     pub(super) fn run(&self) -> Result<ExitCode, Failure> {
         self.check()?;
@@ -113,10 +106,16 @@ impl Compare {
         for warning in &comparison.warnings {
             eprintln!("warning: {warning}");
         }
-        let report = Report { comparison: &comparison, title: scene.title.as_deref(), units: &units };
+        let (title, first) = (scene.title.as_deref(), &comparison.files[0]);
+        let bytes = |format| match format {
+            Format::Json => Ok(file::json(&comparison.json(title, &units))),
+            Format::Csv => file::rows(&compare_data(first), format),
+            Format::Table => Ok(comparison.table(title, &units).into_bytes()),
+            picture => file::picture(picture, compare_svg(first, title, &units), Size::Page),
+        };
         // Before anything is written.
         let outcomes = comparison.outcomes(&limits).map_err(|error| failure!("{error}").help(BOUNDS))?;
-        file::write_each(&self.output, self.format, |format| report.bytes(format))?;
+        file::write_each(&self.output, self.format, bytes)?;
         if let Some(path) = &self.junit {
             file::write(Some(path), junit(&outcomes).as_bytes())?;
         }
@@ -158,18 +157,6 @@ impl Compare {
             return Err(failure!("found `-` twice, expected standard input to be read once"));
         }
         Ok(())
-    }
-}
-
-impl Report<'_> {
-    fn bytes(&self, format: Format) -> Result<Vec<u8>, Failure> {
-        let Report { comparison, title, units } = *self;
-        Ok(match format {
-            Format::Json => file::json(&comparison.json(title, units)),
-            Format::Csv => file::rows(&compare_data(&comparison.files[0]), format)?,
-            Format::Table => comparison.table(title, units).into_bytes(),
-            picture => file::picture(picture, compare_svg(&comparison.files[0], title, units), Size::Page)?,
-        })
     }
 }
 

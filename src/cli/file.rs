@@ -9,20 +9,8 @@ use super::failure::{self, Failure};
 use crate::draw::Rendered;
 use crate::draw::Size;
 use crate::mapped::mapped;
+pub(super) use crate::output::Format;
 use crate::output::{Dataset, write_together};
-
-/// What is written.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Format {
-    Table,
-    Json,
-    Csv,
-    Npz,
-    Markdown,
-    Svg,
-    Png,
-    Pdf,
-}
 
 /// Each format with its word after `--format`, its ending, and whom it is for.
 const FORMATS: [(Format, &str, &str, &str); 8] = [

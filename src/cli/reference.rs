@@ -9,12 +9,12 @@ use super::args::NumberArgs;
 use super::failure::{self, Failure};
 use super::file::{self, Format, formats};
 use super::source;
-use super::times::{CHUNK, Chunk, Times, TimesFile};
+use super::times::{CHUNK, Chunk, Times};
 use crate::error::Error;
 use crate::mapped::{CollectVec, mapped};
 use crate::motion::{Motion, Side};
 use crate::number::{List, Number, Scalar};
-use crate::output::{Golden, Head, Language, Preamble, Rows, code};
+use crate::output::{Head, Language, Preamble, Rows, code};
 use crate::quantity::{Needs, Quantity, SLICE, Slice, Units};
 use crate::scene::Scene;
 use crate::solve::{History, Question, Target};
@@ -97,11 +97,6 @@ impl Reference {
         if self.bare && format != Format::Csv {
             return Err(failure!("found --bare, expected it with CSV only: JSON and NPZ have no comments"));
         }
-        let golden = match format {
-            Format::Json => Golden::Json,
-            Format::Npz => Golden::Npz,
-            _ => Golden::Csv,
-        };
         let times = self.times()?;
         let columns = match &self.points {
             Some(_) => Vec::new(),
@@ -113,18 +108,31 @@ impl Reference {
         let question = match times.ends()? {
             None => Question::run(numbers),
             // What has happened before the first time is part of these.
-            Some((_, last)) if columns.iter().any(|column| column.is_of_past()) => {
+            Some([_, last]) if columns.iter().any(|column| column.is_of_past()) => {
                 Question::between(0.into(), last, numbers)
             }
-            Some((first, last)) => Question::between(first, last, numbers),
+            Some([first, last]) => Question::between(first, last, numbers),
         };
-        solve(&scene, &question, &Series { asked: self, scene: &scene, golden, times, columns })
+        solve(&scene, &question, &Series { asked: self, scene: &scene, format, times, columns })
+    }
+
+    /// What the file says of itself, and standard error of what may not be as asked.
+    fn preamble<'a, S: Target>(
+        &self,
+        history: &History<S>,
+        head: Head,
+        (scene, each, ends): (&'a Scene, &'a str, bool),
+    ) -> Preamble<'a> {
+        let head = warned(Head { warnings: history.warnings(), ..head }, false);
+        let ends = ends.then(|| noted_end(history.ending(), &S::carry(history.end()), head.digits));
+        let (numbers, until) = (history.plan().numbers, history.end().to_f64());
+        Preamble { head, scene: scene.source(), numbers, each, until, bare: self.bare, ends }
     }
 
     fn times(&self) -> Result<Times, Failure> {
         Ok(match (&self.times, &self.times_from, &self.dt, &self.to) {
             (Some(list), ..) => Times::List(list.clone()),
-            (_, Some(path), ..) => Times::File(TimesFile::open(path)?),
+            (_, Some(path), ..) => Times::open(path)?,
             (_, _, Some(dt), Some(to)) => Times::List(List::steps(dt, to).map_err(|error| failure!("{error}"))?),
             _ => Times::Events,
         })
@@ -135,7 +143,7 @@ impl Reference {
 struct Series<'a> {
     asked: &'a Reference,
     scene: &'a Scene,
-    golden: Golden,
+    format: Format,
     times: Times,
     columns: Vec<Quantity>,
 }
@@ -156,7 +164,7 @@ impl Series<'_> {
     /// The rows of some times.
     fn ask<S: Target>(&self, history: &History<S>, chunk: Option<&Chunk<'_>>) -> Result<Vec<Vec<S::Carried>>, Error> {
         let times = |motion: &dyn Motion<S::Carried>| match chunk {
-            Some(chunk) => Ok(chunk.lift(&motion.end().precision())),
+            Some((list, part)) => Ok(list.lift_part(part.clone(), &motion.end().precision())),
             None => event_times(motion),
         };
         match &self.asked.points {
@@ -178,7 +186,7 @@ impl Visit for Series<'_> {
         };
         let described = mapped(described, |column| (*column, column.unit(&units)));
         let keep = || failure::cannot("keep the rows");
-        let mut rows = Rows::new(self.golden, described, head.digits).map_err(keep())?;
+        let mut rows = Rows::new(self.format, described, head.digits).map_err(keep())?;
         let at_once = CHUNK / self.asked.points.as_ref().map_or(1, List::len).min(CHUNK);
         let (mut table, mut written) = (Vec::new(), Ok(()));
         self.times.chunks(at_once, &mut |chunk| {
@@ -189,13 +197,8 @@ impl Visit for Series<'_> {
         })?;
         rows.push(&table).map_err(keep())?;
         drop(progress);
-        let head = warned(Head { warnings: history.warnings(), ..head }, false);
-        let numbers = history.plan().numbers;
-        let ends = matches!(self.times, Times::Events)
-            .then(|| noted_end(history.ending(), &S::carry(history.end()), head.digits));
-        let (scene, until) = (self.scene.source(), history.end().to_f64());
-        let preamble =
-            Preamble { head: &head, scene, numbers, each: "each column", until, bare: self.asked.bare, ends };
+        let ends = matches!(self.times, Times::Events);
+        let preamble = self.asked.preamble(history, head, (self.scene, "each column", ends));
         let path = self.asked.output.as_deref();
         Ok(rows.finish(&preamble, path).map_err(file::unwritten(path))?)
     }
@@ -212,11 +215,7 @@ impl Visit for Function<'_> {
     fn visit<S: Target>(&self, history: &History<S>, head: Head, progress: source::Progress) -> Result<(), Failure> {
         let waves = history.ask_waves()?;
         drop(progress);
-        let head = warned(Head { warnings: history.warnings(), ..head }, false);
-        let numbers = history.plan().numbers;
-        let ends = Some(noted_end(history.ending(), &S::carry(history.end()), head.digits));
-        let (scene, until) = (self.scene.source(), history.end().to_f64());
-        let preamble = Preamble { head: &head, scene, numbers, each: "each coefficient", until, bare: false, ends };
+        let preamble = self.asked.preamble(history, head, (self.scene, "each coefficient", true));
         let text = code(&waves, &S::carry(history.end()), self.language, &preamble);
         file::write(self.asked.output.as_deref(), text.as_bytes())
     }

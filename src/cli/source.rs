@@ -2,8 +2,9 @@
 
 use std::io::Read;
 use std::ops::ControlFlow;
+use std::sync::Arc;
 use std::sync::atomic::{AtomicUsize, Ordering};
-use std::sync::{Arc, Condvar, Mutex, PoisonError};
+use std::sync::mpsc::{RecvTimeoutError, Sender, channel};
 use std::thread::JoinHandle;
 use std::time::Duration;
 
@@ -72,9 +73,8 @@ pub(super) fn bar(total: Option<u64>, template: &str) -> ProgressBar {
 /// A progress bar on standard error: only on a terminal, and only for runs over a second.
 pub(super) struct Progress {
     bar: ProgressBar,
-    /// Whether the run has ended, and what wakes the thread that waits for it.
-    ended: Arc<(Mutex<bool>, Condvar)>,
-    watch: Option<JoinHandle<()>>,
+    /// The thread that waits for a second, and what wakes it by its end.
+    watch: Option<(Sender<()>, JoinHandle<()>)>,
 }
 
 impl Progress {
@@ -94,17 +94,15 @@ impl Progress {
         let bar = bar(total, &template);
         bar.set_draw_target(ProgressDrawTarget::hidden());
         // A thread of its own shows it: a single step of a run in many digits can take longer than a second.
-        let ended = Arc::<(Mutex<bool>, Condvar)>::default();
-        let (shown, known) = (bar.clone(), ended.clone());
+        let (running, ended) = channel::<()>();
+        let shown = bar.clone();
         let watch = std::thread::spawn(move || {
-            let ended = known.0.lock().unwrap_or_else(PoisonError::into_inner);
-            let waited = known.1.wait_timeout_while(ended, Duration::from_secs(1), |ended| !*ended);
-            if !*waited.unwrap_or_else(PoisonError::into_inner).0 {
+            if ended.recv_timeout(Duration::from_secs(1)) == Err(RecvTimeoutError::Timeout) {
                 shown.set_draw_target(ProgressDrawTarget::stderr());
                 shown.enable_steady_tick(Duration::from_millis(100));
             }
         });
-        Progress { bar, ended, watch: Some(watch) }
+        Progress { bar, watch: Some((running, watch)) }
     }
 
     /// The run has ended, and its answer is worked on.
@@ -136,9 +134,8 @@ impl Progress {
 
 impl Drop for Progress {
     fn drop(&mut self) {
-        *self.ended.0.lock().unwrap_or_else(PoisonError::into_inner) = true;
-        self.ended.1.notify_all();
-        if let Some(watch) = self.watch.take() {
+        if let Some((running, watch)) = self.watch.take() {
+            drop(running);
             // A thread that only waits does not fail.
             let _ = watch.join();
         }

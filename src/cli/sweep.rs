@@ -93,19 +93,17 @@ impl Sweep {
         if let Some(time) = self.time.as_ref().filter(|time| time.to_f64() < 0.0) {
             return Err(SweepError::new(format!("time {time}"), "one from 0 on").into());
         }
-        let mut quantities: Vec<Quantity> = Vec::new();
-        for quantity in &self.quantity {
+        for (k, quantity) in self.quantity.iter().enumerate() {
             if let Some(time) = self.time.as_ref().filter(|_| quantity.needs() != Needs::Time) {
                 let expected = format!("none: {} is not asked at a time", quantity.name());
                 return Err(SweepError::new(format!("time {time}"), expected).into());
             }
-            if quantities.contains(quantity) {
+            if self.quantity[..k].contains(quantity) {
                 return Err(SweepError::new(format!("{} asked twice", quantity.name()), "each quantity once").into());
             }
-            quantities.push(*quantity);
         }
-        let asked =
-            Asked { quantities, time: self.time.clone(), numbers: self.numbers.numbers(&scene), units: scene.units };
+        let (quantities, time, numbers) = (self.quantity.clone(), self.time.clone(), self.numbers.numbers(&scene));
+        let asked = Asked { quantities, time, numbers, units: scene.units };
         let sweep = sweep::Sweep { grid: Grid::new(scene.problem.clone(), axes)?, asked };
         let points = self.shard.map_or(0..sweep.grid.len(), |shard| shard.points(sweep.grid.len()));
         let vary = |axis: &Axis| json!({"path": axis.path, "values": axis.values});

@@ -1,9 +1,12 @@
-//! What accuracy and effects cost.
+//! What accuracy and effects cost: rows, and the work–precision diagram.
 
+use glam::DVec2;
 use serde_json::json;
 
 use super::dataset::{Column, Dataset};
-use crate::routes::cost::{Difference, Row, Table};
+use crate::draw::{Axis, Key, Layer, Mark, Panel, Shape, Sheet, Size, Stroke, plain, power_of_ten};
+use crate::mapped::{CollectVec, MapEach, mapped};
+use crate::routes::cost::{Difference, Family, Row, Table};
 
 /// A time in the unit that suits it, to three digits: `3.21 ms`.
 pub(crate) fn duration(seconds: f64) -> String {
@@ -34,7 +37,7 @@ fn error(row: &Row) -> String {
 }
 
 /// What is asked: `t_b`, or `h(t) at t = 1.5`.
-pub(super) fn asked(table: &Table) -> String {
+fn asked(table: &Table) -> String {
     match &table.time {
         Some(time) => format!("{} at t = {time}", table.quantity.symbol()),
         None => table.quantity.symbol().into(),
@@ -128,6 +131,98 @@ pub(crate) fn effects_data(rows: &[Difference], title: Option<&str>) -> Dataset 
         around: [title.map_or_else(String::new, |title| format!("{title}\n\n")), below.into()],
         ..Dataset::of(rows.iter().map(row))
     }
+}
+
+/// Where the scale of errors is drawn together: the digits of a double get as much of the picture as the thousand
+/// beyond them.
+const DOUBLES_END: f64 = 18.0;
+/// Digits at the ticks beyond, equally far apart.
+const BEYOND: [f64; 8] = [DOUBLES_END, 50.0, 100.0, 300.0, 1000.0, 3000.0, 10_000.0, 30_000.0];
+
+/// Colours that stay apart for every kind of sight (Okabe and Ito), and a mark for each route.
+fn look(family: Family) -> (&'static str, Mark) {
+    match family {
+        Family::ClosedForm => ("#0072b2", Mark::Dot),
+        Family::Lattice => ("#009e73", Mark::Square),
+        Family::ContactThenCells => ("#009e73", Mark::Square),
+        Family::Cells => ("#d55e00", Mark::Diamond),
+        Family::Modes => ("#cc79a7", Mark::Triangle),
+        Family::Printed => ("#8c6d1f", Mark::TriangleDown),
+        Family::Differences => ("#56b4e9", Mark::Pentagon),
+        Family::Enclosures => ("#000000", Mark::Cross),
+    }
+}
+
+/// The place of an error of `10^−digits` on the scale, upwards; a tick is 1.
+fn place_of(digits: f64, decades: f64) -> f64 {
+    if digits <= DOUBLES_END {
+        return -digits / decades;
+    }
+    let k = BEYOND.iter().rposition(|tick| *tick <= digits).unwrap_or(0).min(BEYOND.len() - 2);
+    let share = (digits / BEYOND[k]).ln() / (BEYOND[k + 1] / BEYOND[k]).ln();
+    -(DOUBLES_END / decades + k as f64 + share)
+}
+
+/// The digits at a place: the inverse at ticks.
+fn digits_at(place: f64, decades: f64) -> f64 {
+    let beyond = -place - DOUBLES_END / decades;
+    if beyond < 0.5 { -place * decades } else { BEYOND[(beyond.round() as usize).min(BEYOND.len() - 1)] }
+}
+
+/// Ticks at all whole numbers of a range.
+fn whole(from: f64, to: f64, text: impl Fn(f64) -> String) -> Vec<(f64, String)> {
+    mapped(from.ceil() as i32..=to.floor() as i32, |place| (place.into(), text(place.into())))
+}
+
+/// The work–precision diagram: error against time, both by decades, a line for each route and a star on the plan's
+/// choice. Answers without any error stand on the lowest line, which says so; beyond double precision the decades of
+/// the error are drawn together, as the ticks say.
+pub(crate) fn cost_svg(cost: &Table, title: Option<&str>) -> String {
+    let finite = |row: &&Row| row.log10_error.is_finite();
+    let digits = cost.rows.iter().filter(finite).map(|row| -row.log10_error);
+    let (least, most) = digits.fold((0.0, 0.0), |(least, most), d| (f64::min(least, d), f64::max(most, d)));
+    let long = most > DOUBLES_END;
+    let decades = if long { 3.0 } else { 2.0 };
+    let exact = cost.rows.iter().any(|row| !row.log10_error.is_finite());
+    // Answers without error have a line of their own below all others.
+    let lowest = place_of(if long { most } else { DOUBLES_END }, decades).floor() - if exact { 1.0 } else { 0.0 };
+    let place = |row: &Row| {
+        let error = if row.log10_error.is_finite() { place_of(-row.log10_error, decades) } else { lowest };
+        DVec2::new(row.timing.seconds.max(1e-12).log10(), error)
+    };
+    let times: Vec<f64> = mapped(&cost.rows, |row| place(row).x);
+    let first = times.iter().copied().fold(f64::INFINITY, f64::min).floor();
+    let last = times.iter().copied().fold(f64::NEG_INFINITY, f64::max).ceil().max(first + 1.0);
+    let mut x = Axis::new("time [s]", "", [first, last]);
+    x.ticks = Some(whole(first, last, |power| power_of_ten(power as i32)));
+    // Marks on the lowest line are whole.
+    let low = if exact { lowest - 0.4 } else { lowest };
+    let mut y = Axis::new("relative error", "", [low, place_of(least, decades).ceil() + 0.3]);
+    y.ticks = Some(whole(y.from, y.to, |place| match place {
+        place if exact && place <= lowest + 0.5 => "no error".into(),
+        place => power_of_ten(-digits_at(place, decades) as i32),
+    }));
+    let (mut layers, mut legend) = (Vec::new(), Vec::new());
+    if long {
+        let ends = [first, last].map_each(|time| DVec2::new(time, place_of(DOUBLES_END, decades))).to_vec();
+        layers.push(Layer::new("doubles-end", Shape::Lines(vec![ends], Stroke::new("#666666", 0.2).dashed("1.5 1"))));
+    }
+    // The rows come by family, and in it by ladder.
+    for rows in cost.rows.chunk_by(|a, b| a.family == b.family) {
+        let ladders = rows.chunk_by(|a, b| a.ladder == b.ladder);
+        let lines: Vec<Vec<DVec2>> = ladders.map(|rows| mapped(rows, place)).collect_vec();
+        let (color, mark) = look(rows[0].family);
+        layers.push(Layer::new("curve", Shape::Lines(lines.clone(), Stroke::new(color, 0.3))));
+        layers.push(Layer::new("marks", Shape::Marks(lines.concat(), mark, color)));
+        legend.push(Key::Mark(rows[0].family.name().into(), mark, color));
+    }
+    let chosen: Vec<DVec2> = cost.rows.iter().filter(|row| row.chosen).map(place).collect_vec();
+    for mark in [Mark::Ring, Mark::Star] {
+        layers.push(Layer::new("chosen", Shape::Marks(chosen.clone(), mark, "#000000")));
+    }
+    legend.push(Key::Mark("the plan's choice".into(), Mark::Star, "#000000"));
+    let panel = Panel { title: format!("{}: error against time", asked(cost)), x, y, layers, legend };
+    Sheet { title: vec![plain(title.unwrap_or("What accuracy costs"))], panels: vec![panel] }.svg(Size::Page)
 }
 
 #[cfg(test)]

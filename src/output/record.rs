@@ -3,7 +3,7 @@
 use serde_json::{Value, json};
 
 use super::dataset::{Cell, Column, Shared};
-use super::writer::{WIDTH, wrapped};
+use super::table::{WIDTH, wrapped};
 use crate::mapped::{CollectVec, mapped};
 use crate::motion::{Ending, EventKind};
 use crate::problem::Parameter;

@@ -7,24 +7,14 @@ use std::path::Path;
 
 use serde_json::{Value, json};
 
+use super::npz::Npz;
 use super::record::Head;
 use super::write_filled;
-use super::writer::Npz;
+use super::writer::Format;
 use crate::mapped::{CollectVec, mapped, try_mapped};
 use crate::number::{DOUBLE_DIGITS, Scalar, bound_of_log2, double_bound, number_json, show, shown_bound};
 use crate::quantity::Quantity;
 use crate::solve::Numbers;
-
-/// What a golden file is written as.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, clap::ValueEnum)]
-pub(crate) enum Golden {
-    /// Rows below a header of comments
-    Csv,
-    /// An object with the header's entries and the rows
-    Json,
-    /// One array for each column, for NumPy
-    Npz,
-}
 
 /// A column of a golden file: what it is, and its unit.
 pub(crate) type Described = (Quantity, &'static str);
@@ -38,7 +28,7 @@ fn is_flag(quantity: Quantity) -> bool {
 #[derive(Debug)]
 pub(crate) struct Preamble<'a> {
     /// Title, numbers, warnings.
-    pub head: &'a Head,
+    pub head: Head,
     /// The text of the scene.
     pub scene: &'a str,
     /// The numbers that were asked for.
@@ -172,7 +162,7 @@ impl Preamble<'_> {
 /// The rows of a golden file, kept aside until their bounds are known.
 #[derive(Debug)]
 pub(crate) struct Rows {
-    golden: Golden,
+    format: Format,
     columns: Vec<Described>,
     digits: u32,
     /// One file with the text of all rows, or one with the doubles of each column.
@@ -186,11 +176,11 @@ const BUFFER: usize = 1 << 16;
 
 impl Rows {
     /// No rows yet. `digits` is how many a long number has, 0 for doubles and fractions.
-    pub(crate) fn new(golden: Golden, columns: Vec<Described>, digits: u32) -> io::Result<Self> {
-        let files = if golden == Golden::Npz { columns.len() } else { 1 };
+    pub(crate) fn new(format: Format, columns: Vec<Described>, digits: u32) -> io::Result<Self> {
+        let files = if format == Format::Npz { columns.len() } else { 1 };
         let kept = (0..files).map(|_| tempfile::tempfile().map(|file| BufWriter::with_capacity(BUFFER, file)));
         let (kept, bounds) = (kept.collect::<Result<_, _>>()?, vec![f64::NEG_INFINITY; columns.len()]);
-        Ok(Rows { golden, columns, digits, kept, bounds, count: 0 })
+        Ok(Rows { format, columns, digits, kept, bounds, count: 0 })
     }
 
     /// Adds rows, given column by column.
@@ -201,7 +191,7 @@ impl Rows {
             }
         }
         let count = table.first().map_or(0, Vec::len);
-        if self.golden == Golden::Npz {
+        if self.format == Format::Npz {
             for (file, values) in self.kept.iter_mut().zip(table) {
                 values.iter().try_for_each(|value| file.write_all(&written(value).to_le_bytes()))?;
             }
@@ -221,25 +211,20 @@ impl Rows {
 
     /// Writes the file, or to standard output.
     pub(crate) fn finish(self, preamble: &Preamble<'_>, path: Option<&Path>) -> io::Result<()> {
-        let Rows { golden, columns, kept, bounds, count, .. } = self;
+        let Rows { format, columns, kept, bounds, count, .. } = self;
         let mut kept = kept.into_iter().map(|file| {
             let mut file = file.into_inner().map_err(io::IntoInnerError::into_error)?;
             file.rewind()?;
             Ok::<_, io::Error>(file)
         });
-        write_filled(path, |file| match golden {
-            Golden::Csv => {
-                let names: Vec<&str> = mapped(&columns, |(column, _)| column.name());
-                writeln!(file, "{}{}", preamble.comments(&columns, &bounds), names.join(","))?;
-                kept.try_for_each(|rows| io::copy(&mut rows?, file).map(|_| ()))
-            }
-            Golden::Json => {
+        write_filled(path, |file| match format {
+            Format::Json => {
                 let header = format!("{:#}", preamble.json(&columns, &bounds, false));
                 write!(file, "{},\n  \"rows\": [", header.trim_end_matches("\n}"))?;
                 kept.try_for_each(|rows| io::copy(&mut rows?, file).map(|_| ()))?;
                 file.write_all(b"\n  ]\n}\n")
             }
-            Golden::Npz => {
+            Format::Npz => {
                 let mut npz = Npz::new(file, false);
                 let header = format!("{:#}", preamble.json(&columns, &bounds, true)).into_bytes();
                 npz.add("header", &[header.len()], header)?;
@@ -257,6 +242,11 @@ impl Rows {
                 }
                 npz.finish()
             }
+            _ => {
+                let names: Vec<&str> = mapped(&columns, |(column, _)| column.name());
+                writeln!(file, "{}{}", preamble.comments(&columns, &bounds), names.join(","))?;
+                kept.try_for_each(|rows| io::copy(&mut rows?, file).map(|_| ()))
+            }
         })
     }
 }
@@ -273,7 +263,7 @@ impl Rows {
             // What is zero within its bound is at most that bound.
             Some(_) if value.vanishes() == Ok(true) => value.log2_error() + 1.0,
             Some(_) => value.log2_error(),
-            None if self.golden == Golden::Npz => double_bound(value),
+            None if self.format == Format::Npz => double_bound(value),
             None => shown_bound(value, self.shown()),
         }
     }
@@ -284,9 +274,9 @@ impl Rows {
     }
 
     fn row<S: Scalar>(&self, text: &mut Vec<u8>, table: &[Vec<S>], row: usize) {
-        let [begin, between, end] = match self.golden {
-            Golden::Json if self.count + row == 0 => ["\n    [", ", ", "]"],
-            Golden::Json => [",\n    [", ", ", "]"],
+        let [begin, between, end] = match self.format {
+            Format::Json if self.count + row == 0 => ["\n    [", ", ", "]"],
+            Format::Json => [",\n    [", ", ", "]"],
             _ => ["", ",", "\n"],
         };
         text.extend_from_slice(begin.as_bytes());
@@ -300,7 +290,7 @@ impl Rows {
     }
 
     fn value<S: Scalar>(&self, text: &mut Vec<u8>, column: Quantity, value: &S) {
-        let json = self.golden == Golden::Json;
+        let json = self.format == Format::Json;
         if column == Quantity::Side {
             let quote = if json { "\"" } else { "" };
             let word = ["left", "both", "right"][(value.to_f64() + 1.0) as usize];

@@ -5,7 +5,7 @@ use std::io::{self, Cursor};
 use glam::DVec2;
 
 use super::dataset::{Column, Dataset};
-use super::writer::Npz;
+use super::npz::Npz;
 use crate::draw::{Axis, Key, Layer, Panel, Shape, Sheet, Size, Stroke};
 use crate::mapped::{CollectVec, MapEach, mapped};
 use crate::number::{Estimate, Number, Scalar, double_bound_text};

@@ -6,7 +6,7 @@ use super::dataset::{Cell, Column, Dataset, Shared};
 use super::derivatives;
 use super::record::{Head, Listed};
 use super::solve::{listed, named_units, units_json};
-use super::writer::table_digits;
+use super::table::table_digits;
 use crate::error::Error;
 use crate::mapped::{CollectVec, mapped};
 use crate::motion::{Motion, Side};

@@ -8,7 +8,7 @@ use super::dataset::{Cell, Column, Dataset};
 use super::derivatives::{self, add_columns};
 use super::outline::sparkline;
 use super::record::{Derived, Head, Listed, Record};
-use super::writer::table_digits;
+use super::table::table_digits;
 use crate::error::Error;
 use crate::mapped::{CollectVec, MapEach, mapped};
 use crate::motion::{Ending, EventKind, Motion, StressPiece, straight};

@@ -3,7 +3,7 @@
 use serde_json::{Map, Value, json};
 
 use super::dataset::{Cell, Column, Dataset};
-use super::writer::{WIDTH, wrapped};
+use super::table::{WIDTH, wrapped};
 use crate::mapped::{MapEach, mapped};
 use crate::number::{DOUBLE_DIGITS, Estimate, Rounded, show};
 use crate::sweep::{self, Point, Sweep};

@@ -1,8 +1,8 @@
 //! Tables for a person.
 
+use super::dataset::{Cell, Column, Dataset};
 use crate::aligned::table as aligned;
 use crate::mapped::{CollectVec, mapped};
-use crate::output::dataset::{Cell, Column, Dataset};
 
 /// Characters that a table may be wide where nothing else is asked for.
 pub(crate) const WIDTH: usize = 80;
@@ -35,7 +35,7 @@ impl Dataset {
 }
 
 /// Significant digits of a number in a table, where a long one has so many, or 0.
-pub(in crate::output) fn table_digits(digits: u32) -> u32 {
+pub(super) fn table_digits(digits: u32) -> u32 {
     if digits == 0 { TABLE_DIGITS } else { digits }
 }
 
