@@ -76,26 +76,6 @@ fn varied(problem: &Problem, parameters: &[Parameter], values: &[f64]) -> Option
     parameters.iter().zip(values).try_fold(problem.clone(), set)
 }
 
-/// The derivatives of residuals by each parameter, as difference quotients of our own runs. What is left out on either
-/// side of one has none.
-fn derivatives(
-    problem: &Problem,
-    parameters: &[Parameter],
-    (values, scales): (&[f64], &[f64]),
-    now: &[f64],
-    residuals: Residuals<'_>,
-) -> Option<Vec<Vec<f64>>> {
-    let by = |i: usize| {
-        let mut next = values.to_vec();
-        next[i] += WIDTH * scales[i];
-        let width = next[i] - values[i];
-        let next = residuals(&varied(problem, parameters, &next)?)?;
-        let slope = |(now, next): (&f64, &f64)| if (next - now).is_nan() { 0.0 } else { (next - now) / width };
-        Some(now.iter().zip(&next).map(slope).collect())
-    };
-    (0..values.len()).map(by).collect()
-}
-
 impl Fit {
     /// The values of `parameters` that explain `columns` best, from those of `problem`.
     ///
@@ -110,11 +90,10 @@ impl Fit {
         agreement: &Agreement,
         parameters: &[Parameter],
     ) -> Result<Result<Self, FitError>, Error> {
-        let start: Option<Vec<f64>> = parameters.iter().map(|parameter| parameter.value(problem)).collect();
-        let Some(start) = start else {
-            let absent = parameters.iter().find(|parameter| parameter.value(problem).is_none());
-            return Ok(Err(FitError::Absent(absent.map(ToString::to_string).unwrap_or_default())));
-        };
+        if let Some(absent) = parameters.iter().find(|parameter| parameter.value(problem).is_none()) {
+            return Ok(Err(FitError::Absent(absent.to_string())));
+        }
+        let start: Vec<f64> = parameters.iter().filter_map(|parameter| parameter.value(problem)).collect();
         let (history, grid, columns) = (ours.history, &agreement.grid, &agreement.quantities);
         let samples = grid.times.len() * columns.len();
         if samples <= parameters.len() {
@@ -135,21 +114,24 @@ impl Fit {
         let (mut values, mut left) = (start.clone(), STEPS);
         let run = |values: &[f64], most: usize, residuals: Residuals<'_>| {
             let of = |values: &[f64]| residuals(&varied(problem, parameters, values)?);
-            let linear =
-                |values: &[f64], now: &[f64]| derivatives(problem, parameters, (values, &sizes), now, residuals);
-            least(values, &sizes, (most, columns.len()), of, linear)
+            // Difference quotients of our own runs. What is left out on either side of one has none.
+            let linear = |values: &[f64], now: &[f64]| {
+                let by = |i: usize| {
+                    let mut next = values.to_vec();
+                    next[i] += WIDTH * sizes[i];
+                    let (width, next) = (next[i] - values[i], of(&next)?);
+                    let slope =
+                        |(now, next): (&f64, &f64)| if (next - now).is_nan() { 0.0 } else { (next - now) / width };
+                    Some(now.iter().zip(&next).map(slope).collect())
+                };
+                (0..values.len()).map(by).collect()
+            };
+            least(values, &sizes, (most, columns.len()), &of, linear)
         };
         // Up to the second impact, and over all times.
         for until in [second.unwrap_or(last), last] {
             let model = Model::of(problem, ours, agreement, until, SAMPLES / 10)?;
-            let residuals = |problem: &Problem| {
-                let all = model.values(problem, |time| time).ok()?;
-                let of = model.signals.iter().zip(&all).flat_map(|(signal, ours)| {
-                    let error = move |(theirs, ours): (&f64, &f64)| (theirs - ours) / signal.rate;
-                    signal.theirs.iter().zip(ours).map(error)
-                });
-                Some(of.collect())
-            };
+            let residuals = |problem: &Problem| Some(model.errors(&model.values(problem, |time| time).ok()?).concat());
             // The start may be far from the data; half a dozen steps bring it near. What only later times or the
             // samples one by one tell is left for them.
             if let Some(found) = run(&values, left.min(STEPS / 3), &residuals) {

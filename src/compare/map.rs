@@ -88,18 +88,8 @@ fn known(field: bool) -> String {
     format!("{} (u and v for short)", names.collect::<Vec<_>>().join(", "))
 }
 
-/// Whether a name is that of the times, of the points, or of the sides.
-fn is_time(name: &str) -> bool {
-    matches!(name.to_lowercase().as_str(), "t" | "time")
-}
-
-fn is_point(name: &str) -> bool {
-    matches!(name.to_lowercase().as_str(), "x" | "point")
-}
-
-fn is_side(name: &str) -> bool {
-    name.to_lowercase() == Quantity::Side.name()
-}
+/// The names of the column of times, of points, and of sides.
+const PLACES: [&[&str]; 3] = [&["t", "time"], &["x", "point"], &["side"]];
 
 /// The name and the unit of `force [N]`, `t (s)`; `u[0]` is a name.
 fn name_and_unit(header: &str) -> (&str, Option<&str>) {
@@ -120,30 +110,26 @@ impl Map {
             Some(text) => text.split(',').map(|entry| entry_of(entry, names, width)).collect::<Result<_, _>>()?,
             None => names.iter().map(|name| name_and_unit(name).0.to_string()).zip(0..).collect(),
         };
-        let find = |is: fn(&str) -> bool| {
-            let mut found = entries.iter().filter(|(name, _)| is(name));
+        let is = |name: &str, known: &[&str]| known.contains(&name.to_lowercase().as_str());
+        let find = |known: &[&str]| {
+            let mut found = entries.iter().filter(|(name, _)| is(name, known));
             match (found.next(), found.next()) {
                 (_, Some((name, _))) => Err(MapError::Twice { found: name.clone() }),
                 (first, None) => Ok(first.map(|(_, place)| *place)),
             }
         };
-        let (time, point, side) = (find(is_time)?, find(is_point)?, find(is_side)?);
+        let (time, point, side) = (find(PLACES[0])?, find(PLACES[1])?, find(PLACES[2])?);
         let field = point.is_some();
         let mut map = Map { time, point, side, quantities: Vec::new(), unused: Vec::new() };
-        let is_place = |name: &str| is_time(name) || is_point(name) || is_side(name);
+        let is_place = |name: &str| PLACES.into_iter().any(|known| is(name, known));
         for (name, place) in entries.iter().filter(|(name, _)| !is_place(name)) {
-            match compared(name, field) {
-                // Of several columns of one quantity the first is taken, where nobody says which.
-                Some(quantity) if map.quantities.iter().any(|(other, _)| *other == quantity) => {
-                    if text.is_none() {
-                        map.unused.push(name.clone());
-                        continue;
-                    }
-                    return Err(MapError::Twice { found: name.clone() });
-                }
-                Some(quantity) => map.quantities.push((quantity, *place)),
-                // Columns that nobody asked for may be anything.
-                None if text.is_none() => map.unused.push(name.clone()),
+            let found = compared(name, field);
+            let twice = found.is_some_and(|found| map.quantities.iter().any(|(other, _)| *other == found));
+            match found {
+                Some(quantity) if !twice => map.quantities.push((quantity, *place)),
+                // Columns that nobody asked for may be anything; of several of one quantity the first is taken.
+                _ if text.is_none() => map.unused.push(name.clone()),
+                Some(_) => return Err(MapError::Twice { found: name.clone() }),
                 None => return Err(MapError::Name { found: name.clone(), field }),
             }
         }

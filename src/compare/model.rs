@@ -141,6 +141,14 @@ impl<'a> Model<'a> {
         Ok(all)
     }
 
+    /// How far theirs are from these `values`, as times.
+    pub(super) fn errors(&self, values: &[Vec<f64>]) -> Vec<Vec<f64>> {
+        let of = |(signal, values): (&Signal, &Vec<f64>)| {
+            signal.theirs.iter().zip(values).map(|(theirs, ours)| (theirs - ours) / signal.rate).collect()
+        };
+        self.signals.iter().zip(values).map(of).collect()
+    }
+
     /// What a rod gives whose ends carry `share` of its mass more in all.
     ///
     /// **Source**: to first order in the share. The mass at the top moves with it as a piece of the rod would that is

@@ -3,7 +3,7 @@
 use super::map::Location;
 use super::norms::Grid;
 use super::samples::Rounding;
-use super::touch::{Moments, Touch};
+use super::touch::{Touch, pressed};
 use crate::error::Error;
 use crate::motion::{Field, Motion, RayRegister, Side, StressPiece};
 use crate::number::{Estimate, Number, Scalar};
@@ -202,19 +202,17 @@ impl<'a> Ours<'a> {
         let mut touches = Vec::new();
         for contact in self.history.contacts() {
             let end = contact.to.unwrap_or(f64::INFINITY);
-            let mut moments = Moments::about(contact.from);
+            let mut force = Vec::new();
             while let Some(piece) = pieces.next_if(|piece| piece.from < end) {
-                let middle = f64::midpoint(piece.from, piece.to);
-                if middle < contact.from {
-                    continue;
-                }
-                let half = (piece.to - piece.from) / 2.0;
-                for (node, weight) in gauss_legendre(&1.0_f64, piece.chebyshev.len().max(2)) {
+                let (middle, half) = (f64::midpoint(piece.from, piece.to), (piece.to - piece.from) / 2.0);
+                let nodes = gauss_legendre(&1.0_f64, piece.chebyshev.len().max(2)).into_iter();
+                let nodes = nodes.filter(|_| middle >= contact.from).map(|(node, weight)| {
                     let time = middle + half * node;
-                    moments.add(time, factor * piece.eval(&time), half * weight);
-                }
+                    [time, factor * piece.eval(&time), half * weight]
+                });
+                force.extend(nodes);
             }
-            let touch = moments.touch(contact.from, contact.to);
+            let touch = pressed(contact.from, contact.to, force.into_iter());
             let peak = touch.peak.map(|peak| peak.max(factor * contact.peak_strain));
             touches.push(Touch { impulse: Some(self.line() * contact.impulse), peak, ..touch });
         }

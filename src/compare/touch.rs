@@ -68,40 +68,15 @@ impl Touch {
     }
 }
 
-/// Moments of a force about a time.
-#[derive(Clone, Copy, Debug, Default)]
-pub(super) struct Moments {
-    about: f64,
-    sums: [f64; 2],
-    peak: f64,
-}
-
-impl Moments {
-    /// No force yet.
-    pub(super) fn about(time: f64) -> Self {
-        Moments { about: time, ..Moments::default() }
+/// The contact from `from` to `to` with a force: at each of these times so much, with its weight in time.
+pub(super) fn pressed(from: f64, to: Option<f64>, force: impl Iterator<Item = [f64; 3]>) -> Touch {
+    let (mut impulse, mut moment, mut peak) = (0.0, 0.0, 0.0f64);
+    for [time, force, weight] in force {
+        (impulse, moment) = (impulse + weight * force, moment + weight * force * (time - from));
+        peak = peak.max(force);
     }
-
-    /// Adds a force at a time, with its weight in time.
-    pub(super) fn add(&mut self, time: f64, force: f64, weight: f64) {
-        let t = time - self.about;
-        let [m0, m1] = &mut self.sums;
-        (*m0, *m1) = (*m0 + weight * force, *m1 + weight * force * t);
-        self.peak = self.peak.max(force);
-    }
-
-    /// The contact with these moments.
-    pub(super) fn touch(&self, from: f64, to: Option<f64>) -> Touch {
-        let [m0, m1] = self.sums;
-        Touch {
-            from,
-            to,
-            impulse: Some(m0),
-            centroid: (m0 > 0.0).then(|| self.about + m1 / m0),
-            peak: Some(self.peak),
-            ..Touch::default()
-        }
-    }
+    let centroid = (impulse > 0.0).then(|| from + moment / impulse);
+    Touch { from, to, impulse: Some(impulse), centroid, peak: Some(peak), ..Touch::default() }
 }
 
 /// The contacts in samples: a sample is on the ground where `touches` says so, and pushes with `force` where that is
@@ -130,13 +105,8 @@ pub(super) fn touches(
         let touch = match force {
             None => Touch { from, to, ..Touch::default() },
             Some(force) => {
-                let mut moments = Moments::about(from);
-                for k in before..after {
-                    let half = (times[k + 1] - times[k]) / 2.0;
-                    moments.add(times[k], force[k], half);
-                    moments.add(times[k + 1], force[k + 1], half);
-                }
-                moments.touch(from, to)
+                let at = |k: usize, step: usize| [times[k], force[k], (times[step + 1] - times[step]) / 2.0];
+                pressed(from, to, (before..after).flat_map(|k| [at(k, k), at(k + 1, k)]))
             }
         };
         Touch { merged, ..touch }.beside(times)

@@ -21,7 +21,7 @@
 //! Of those that pass, the one with the least left over all columns is said.
 
 use super::agree::Agreement;
-use super::model::{Model, Signal};
+use super::model::Model;
 use super::ours::Ours;
 use super::unfitted::{
     FEWEST, Judgement, LEFT, ToldFrom, Verdict, empty, gained, half_step, is_empty, lighter, lost_start, spread,
@@ -104,13 +104,6 @@ pub(super) struct Judge<'a> {
 }
 
 impl Judge<'_> {
-    fn errors(&self, values: &[Vec<f64>]) -> Vec<Vec<f64>> {
-        let of = |(signal, values): (&Signal, &Vec<f64>)| {
-            signal.theirs.iter().zip(values).map(|(theirs, ours)| (theirs - ours) / signal.rate).collect()
-        };
-        self.model.signals.iter().zip(values).map(of).collect()
-    }
-
     /// What the hypothesis makes of our signals.
     fn predict(&self, hypothesis: Hypothesis, p: f64) -> Option<Vec<Vec<f64>>> {
         let (model, trip) = (&self.model, self.trip);
@@ -175,7 +168,7 @@ impl Judge<'_> {
 
     /// The derivatives of the errors by the number at `p`, where they are `now`.
     fn slopes(&self, hypothesis: Hypothesis, p: f64, now: &[Vec<f64>]) -> Option<Vec<Vec<f64>>> {
-        let next = self.errors(&self.predict(hypothesis, p + WIDTH)?);
+        let next = self.model.errors(&self.predict(hypothesis, p + WIDTH)?);
         let slope = |(now, next): (&Vec<f64>, &Vec<f64>)| {
             now.iter().zip(next).map(|(now, next)| (now - next) / WIDTH).collect()
         };
@@ -254,7 +247,7 @@ impl Judge<'_> {
 
     /// The value that leaves the least, where the conditions at the head of this module hold.
     fn fit(&self, hypothesis: Hypothesis) -> Option<Fitted> {
-        let errors = |p: f64| self.predict(hypothesis, p).map(|values| self.errors(&values));
+        let errors = |p: f64| self.predict(hypothesis, p).map(|values| self.model.errors(&values));
         let mut slope = self.slopes(hypothesis, 0.0, &self.base)?;
         let concerned = self.concerned(hypothesis, &slope);
         let square = |errors: &[Vec<f64>]| self.over(&concerned, errors, errors);
@@ -375,7 +368,7 @@ fn hints(problem: &Problem, ours: &Ours<'_>, agreement: &Agreement) -> Result<(V
     let exact = model.values(problem, |time| time)?;
     let ends = [first, first + trip / 2.0, release].into_iter().filter(|end| *end > 0.0).collect();
     let mut judge = Judge { model, base: Vec::new(), exact, ends, trip };
-    judge.base = judge.errors(&judge.exact);
+    judge.base = judge.model.errors(&judge.exact);
     let unstable = gained(columns);
     let mut hypotheses = ALL.to_vec();
     for (k, signal) in judge.model.signals.iter().enumerate().filter(|(_, s)| unstable.is_none() && !s.is_empty) {
@@ -433,7 +426,7 @@ impl Judge<'_> {
             _ => return false,
         };
         self.model.signals[place].theirs.iter_mut().for_each(|value| *value = (*value - offset) / factor);
-        self.base = self.errors(&self.exact);
+        self.base = self.model.errors(&self.exact);
         true
     }
 }
