@@ -51,8 +51,6 @@ impl Format {
 
     /// What is written to `path`, one of those `known`: a picture by its ending, else what is `asked`, else what the
     /// ending says; without an ending the first.
-    ///
-    /// **Errors**: an ending of none; a format that this build does not have.
     pub(super) fn of(path: Option<&Path>, asked: Option<Format>, known: &[Format]) -> Result<Format, Failure> {
         let named = path.filter(|path| *path != Path::new("-"));
         let ending = named.map(|path| path.extension().unwrap_or_default().to_string_lossy().to_lowercase());

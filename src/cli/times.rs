@@ -53,8 +53,6 @@ fn lines(mut file: &File, name: &str, mut visit: impl FnMut(Number) -> Result<()
 impl Times {
     /// Checks the file at `path`, or standard input for `-`: one time a line; empty lines and what follows a `#` do
     /// not count.
-    ///
-    /// **Errors**: the first line that is no time, with its number.
     pub(super) fn open(path: &Path) -> Result<Self, Failure> {
         let stdin = path == Path::new("-");
         let name = if stdin { "standard input".to_string() } else { path.display().to_string() };

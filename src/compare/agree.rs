@@ -23,7 +23,6 @@ pub(crate) struct Agreement {
     pub(crate) contacts: Vec<(Option<Touch>, Option<Touch>)>,
     pub(crate) audit: Audit,
     pub(crate) coverage: Coverage,
-    /// The median step of the samples.
     pub(crate) step: f64,
     /// How far from a jump a sample counts as away from it.
     pub(crate) window: f64,
@@ -44,7 +43,6 @@ pub(crate) struct Coverage {
 }
 
 impl Coverage {
-    /// The share of the time.
     pub(crate) fn share(&self) -> f64 {
         if self.time[1] > 0.0 { (self.time[0] / self.time[1]).min(1.0) } else { 1.0 }
     }
@@ -62,8 +60,6 @@ impl Agreement {
     /// is that of the jump, as well as the times tell, or against the limit that its row is said to hold.
     ///
     /// **Accuracy**: that of the history, in doubles.
-    ///
-    /// **Errors**: what the history cannot answer.
     pub(super) fn of(
         problem: &Problem,
         ours: &Ours<'_>,

@@ -5,9 +5,7 @@ use serde::Serialize;
 /// A greatest value, and when it is reached.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
 pub(crate) struct Extreme {
-    /// The value; zero where there is none.
     pub value: f64,
-    /// When; the first of several.
     pub time: f64,
 }
 
@@ -18,11 +16,9 @@ pub(crate) struct EnergyChange {
     pub change: f64,
     /// The most that it is above that at the start.
     pub gain: Extreme,
-    /// The most that it is below.
     pub loss: Extreme,
     /// `change` divided by our energy at the start, `None` where that is zero.
     pub relative: Option<f64>,
-    /// How great our energy is at the start.
     #[serde(skip)]
     pub start: f64,
 }
@@ -36,7 +32,6 @@ pub(crate) struct Audit {
     pub tension: Option<Extreme>,
     /// `∫ |v F| dt`, zero where contact and gap exclude each other.
     pub complementarity: Option<f64>,
-    /// Energy that comes from nowhere, or goes there.
     pub energy_change: Option<EnergyChange>,
     /// `[P] + 2r [∫ P dt] + ρS L g [t] − ∫ F dt` over all samples, with `P = ρS L h′`.
     pub momentum: Option<f64>,
@@ -53,17 +48,13 @@ pub(crate) struct Audit {
 /// What an audit needs of samples: columns in our conventions and units.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Books<'a> {
-    /// Times.
     pub times: &'a [f64],
     /// How many of them are the start, where the ground does not act yet.
     pub start: usize,
-    /// `v(0,t)`.
     pub displacement: Option<&'a [f64]>,
     /// `F`: the force of the ground, or what is proportional to it.
     pub force: Option<&'a [f64]>,
-    /// `E`, ours and theirs.
     pub energy: Option<[&'a [f64]; 2]>,
-    /// `h′`.
     pub centre_velocity: Option<&'a [f64]>,
     /// `ρS L` (or `L`, where forces are per `ρS`), `g` and `r`; `None` where the top is fixed and the ground not alone.
     pub momentum: Option<[f64; 3]>,

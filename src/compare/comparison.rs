@@ -119,7 +119,6 @@ pub struct Comparison {
 /// One source that was compared.
 #[derive(Debug)]
 pub struct ComparedFile {
-    /// Its name.
     pub(crate) file: String,
     pub(crate) agreement: Agreement,
     pub(crate) judgement: Judgement,

@@ -16,9 +16,7 @@ use crate::solve::History;
 /// A value that was fitted.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub(crate) struct FittedValue {
-    /// Its name in the scene.
     pub(crate) name: String,
-    /// What the scene says.
     pub(crate) scene: f64,
     /// What explains the data best.
     pub(crate) value: f64,
@@ -32,30 +30,23 @@ pub(crate) struct Fit {
     pub(crate) values: Vec<FittedValue>,
     pub(crate) steps: usize,
     pub(crate) settled: bool,
-    /// The problem with the fitted values.
     pub(crate) problem: Problem,
-    /// The data against its history.
     pub(crate) history: History<f64>,
 }
 
 /// Why values cannot be fitted.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum FitError {
-    /// A value that the scene does not have.
     #[error(
         "found {0} to be fitted, expected one that the scene has: a material, a start above the ground, an impact, \
          or points of a start"
     )]
     Absent(String),
-    /// Fewer samples than values.
     #[error("found {samples} values in the data, expected more than the {unknowns} that are to be fitted")]
     TooFew {
-        /// Values in the data.
         samples: usize,
-        /// Values to be fitted.
         unknowns: usize,
     },
-    /// Data that say nothing of some value.
     #[error("found data that do not tell {0} apart, expected fewer values to be fitted, or more columns")]
     NotTold(String),
 }
@@ -82,8 +73,6 @@ impl Fit {
     /// **Source**: Levenberg and Marquardt's method in three stages, the residuals of the first two as in `model`: up
     /// to the second impact, then over all times, then sample by sample where no jump is within two steps. In the last
     /// stage each column weighs by what remained of it.
-    ///
-    /// **Errors**: [`FitError`] as an inner result; the outer one is the history's.
     pub(super) fn of(
         problem: &Problem,
         ours: &Ours<'_>,
@@ -173,8 +162,6 @@ fn rms(values: &[f64]) -> f64 {
 
 /// `theirs − ours` of each column at every `stride`-th sample, divided by its weight; no number within two steps of a
 /// jump.
-///
-/// **Errors**: those of the run.
 fn pointwise(
     problem: &Problem,
     columns: &[Compared],

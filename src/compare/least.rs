@@ -3,11 +3,8 @@
 /// What a fit found.
 #[derive(Clone, Debug)]
 pub(super) struct Least {
-    /// The values.
     pub(super) values: Vec<f64>,
-    /// Their standard errors.
     pub(super) errors: Vec<f64>,
-    /// Steps that were taken.
     pub(super) steps: usize,
     /// Whether the last step was within rounding of the values.
     pub(super) settled: bool,

@@ -56,7 +56,6 @@ impl std::str::FromStr for Limit {
 const FORM: &str = "QUANTITY.NORM=BOUND with l1, l2, linf or linf_off_jumps, order.QUANTITY=BOUND, or one of coverage, \
                     energy, momentum, impulse, penetration, tension, missed and invented with its bound";
 
-/// What the orders of convergence are called by.
 const ORDER: &str = "order.";
 /// The place of the norm that is meant where none is named.
 const L2: usize = 1;
@@ -95,8 +94,6 @@ impl Limit {
     }
 
     /// What a file has of it: a norm relative to ours, or absolute where ours is zero, energy likewise.
-    ///
-    /// **Errors**: what the data do not have.
     fn found(&self, agreement: &Agreement) -> Result<Option<f64>, String> {
         let audit = &agreement.audit;
         let lacks = |needs: &str| format!("found a bound of {}, expected data with {needs}", self.name);
@@ -138,8 +135,6 @@ impl Limit {
 }
 
 /// What comes of `limits`, for each file and each bound. A run that breaks off fails whatever is bounded.
-///
-/// **Errors**: what the data do not have.
 pub(crate) fn outcomes(
     files: &[(&str, &Agreement)],
     orders: &[Order],
@@ -179,7 +174,6 @@ pub(crate) fn outcomes(
 pub(crate) struct Order {
     pub(crate) quantity: &'static str,
     pub(crate) widths: [f64; 2],
-    /// In each norm.
     #[serde(flatten)]
     pub(crate) orders: BTreeMap<&'static str, Option<f64>>,
     /// Why it says nothing.

@@ -16,7 +16,6 @@ pub(crate) enum Location {
 }
 
 impl Location {
-    /// Where `quantity` is.
     pub(crate) fn of(quantity: Quantity) -> Self {
         match quantity {
             Quantity::TopDisplacement | Quantity::TopVelocity => Location::Top,
@@ -40,11 +39,9 @@ pub(crate) fn compared(name: &str, field: bool) -> Option<Quantity> {
 pub(crate) struct Map {
     /// The column of times; `None` where they are counted.
     pub(crate) time: Option<usize>,
-    /// The column of points, for a field.
     pub(crate) point: Option<usize>,
     /// The column of sides: which limit a row holds at a jump.
     pub(crate) side: Option<usize>,
-    /// The quantities.
     pub(crate) quantities: Vec<(Quantity, usize)>,
     /// The names of columns that nothing is called by.
     pub(crate) unused: Vec<String>,
@@ -103,8 +100,6 @@ fn name_and_unit(header: &str) -> (&str, Option<&str>) {
 impl Map {
     /// The map that `text` asks for, `NAME=COLUMN` separated by commas; without it the names of the columns themselves.
     /// `counted` says that times come from `dt`.
-    ///
-    /// **Errors**: [`MapError`].
     pub(crate) fn of(text: Option<&str>, names: &[String], width: usize, counted: bool) -> Result<Self, MapError> {
         let entries: Vec<(String, usize)> = match text {
             Some(text) => text.split(',').map(|entry| entry_of(entry, names, width)).collect::<Result<_, _>>()?,
@@ -146,8 +141,6 @@ impl Map {
 
     /// What brings each of [`places`](Self::places) to the units of the scene, where its name says that it is in
     /// another one, and what is to be said of that. A scene without units has its numbers as they are.
-    ///
-    /// **Errors**: [`MapError::Unit`].
     pub(crate) fn conversions(&self, names: &[String], units: &Units) -> Result<(Vec<Conversion>, String), MapError> {
         let own = |place: Option<usize>, measure| place.map(|place| (place, Some((measure, units.name(measure)))));
         let quantities = self

@@ -118,8 +118,6 @@ impl<'a> Model<'a> {
     }
 
     /// The values of each signal in `problem`, at `at` of the times. Before `t = 0` the rod has fallen as a whole.
-    ///
-    /// **Errors**: those of the run.
     pub(super) fn values(&self, problem: &Problem, at: impl Fn(f64) -> f64) -> Result<Vec<Vec<f64>>, Error> {
         let times: Vec<f64> = self.times.iter().map(|time| at(*time)).collect();
         let last = times.iter().copied().fold(0.0, f64::max);

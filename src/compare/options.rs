@@ -120,8 +120,6 @@ impl Options {
     }
 
     /// Brings all quantities to our conventions.
-    ///
-    /// **Errors**: what the history cannot answer of the start.
     pub(super) fn apply(
         &self,
         ours: &Ours<'_>,

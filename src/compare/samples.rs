@@ -12,7 +12,6 @@ pub(crate) struct Samples {
     pub(crate) grid: Grid,
     /// In the conventions of the file.
     pub(crate) quantities: Vec<(Quantity, Vec<f64>)>,
-    /// The median step between times.
     pub(crate) step: f64,
     /// How many rows lie before `t = 0`.
     pub(crate) outside: usize,
@@ -63,8 +62,6 @@ impl Samples {
     /// The samples in `columns` as `map` reads them, on a clock that is `shift` behind ours; where the times are not in
     /// the file they are `start + k step`. Two rows at one time are the limits of a jump, the earlier first; a field
     /// needs the column of sides for that.
-    ///
-    /// **Errors**: times that do not increase, points outside of the rod, no time after 0.
     pub(crate) fn of(
         mut columns: Columns,
         map: &Map,

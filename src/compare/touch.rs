@@ -13,7 +13,6 @@ pub(crate) struct Touch {
     pub impulse: Option<f64>,
     /// `∫ t F dt / ∫ F dt`.
     pub centroid: Option<f64>,
-    /// The greatest `F`.
     pub peak: Option<f64>,
     /// How many short separations were taken as part of it.
     #[serde(skip_serializing_if = "is_zero")]
@@ -58,7 +57,6 @@ impl Touch {
         (if either > 0.0 { both / either } else { 0.0 }) + self.impulse.zip(theirs.impulse).map_or(0.0, share)
     }
 
-    /// The same, beside samples at `times`.
     pub(super) fn beside(self, times: &[f64]) -> Self {
         let Some(to) = self.to else { return self };
         let first = times.partition_point(|time| *time <= self.from).saturating_sub(1);

@@ -18,11 +18,9 @@ pub(crate) struct Verdict {
     pub(crate) kind: &'static str,
     /// The column that it is about; `all` where it is all of them.
     pub(crate) quantity: &'static str,
-    /// By how much.
     pub(crate) value: f64,
     /// Its standard error; zero where it is counted.
     pub(crate) error: f64,
-    /// In words.
     pub(crate) text: String,
 }
 
@@ -37,7 +35,6 @@ pub(crate) struct ToldFrom {
 /// What is said of data.
 #[derive(Debug, Default)]
 pub(crate) struct Judgement {
-    /// What is wrong.
     pub(crate) hints: Vec<Verdict>,
     /// Where no number is: from what value on each would have been said.
     pub(crate) told_from: Vec<ToldFrom>,

@@ -337,8 +337,6 @@ impl Judge<'_> {
 }
 
 /// What is wrong, as far as one number says it.
-///
-/// **Errors**: what the history cannot answer.
 pub(super) fn judged(problem: &Problem, ours: &Ours<'_>, agreement: &Agreement) -> Result<Judgement, Error> {
     if agreement.grid.points.is_some() {
         return Ok(Judgement::default());

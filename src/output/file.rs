@@ -7,8 +7,6 @@ use std::path::Path;
 use tempfile::NamedTempFile;
 
 /// Writes bytes to each path, or to standard output for `-` or none: all files appear, each complete, or none.
-///
-/// **Errors**: with the place of the one that cannot be written.
 pub(crate) fn write_together(files: &[(Option<&Path>, &[u8])]) -> Result<(), (usize, io::Error)> {
     let (mut staged, mut printed) = (Vec::new(), Vec::new());
     for (k, (path, bytes)) in files.iter().enumerate() {

@@ -11,8 +11,6 @@ use crate::number::short;
 
 /// Reads an array or an archive of arrays, there with their names: an array of one axis is a column, one of two axes has
 /// a column for each index of its second. A number alone is no column.
-///
-/// **Errors**: a file that cannot be read.
 pub(super) fn read(bytes: Vec<u8>, is_array: bool) -> Result<Vec<(Option<String>, Vec<Column>)>, DataErrorKind> {
     if is_array {
         let array = numbers(&mut Array(&bytes))?;

@@ -123,8 +123,6 @@ impl Source {
     }
 
     /// Reads the columns of these places, counted from 0; in that at `side` a text has words for −1, 0 and 1.
-    ///
-    /// **Errors**: [`DataError`] for a ragged row, and for what is no finite number in one of these columns.
     pub(crate) fn columns(self, which: &[usize], side: Option<usize>) -> Result<Columns, DataError> {
         let (values, lines) = match self.body {
             Body::Text(text) => text.read(which, side, &self.file)?,

@@ -117,8 +117,6 @@ fn names(header: &str, separator: Option<char>) -> Vec<String> {
 impl Text {
     /// Reads up to the first row. A first line that begins with a word is the header; so is the last comment before
     /// the first row where it has as many words as the row has numbers.
-    ///
-    /// **Errors**: a file that cannot be read, is not text, or holds no row.
     pub(super) fn open(mut reader: BufReader<Box<dyn Read + Send>>, file: &str) -> Result<Self, DataError> {
         let start = reader.fill_buf().map_err(|error| DataErrorKind::Unreadable(error.to_string()).at(file, None))?;
         let end = if start.contains(&b'\r') && !start.contains(&b'\n') { b'\r' } else { b'\n' };
@@ -200,8 +198,6 @@ impl Text {
     }
 
     /// Reads all rows, of each the fields at `which`, and that at `words` as a side.
-    ///
-    /// **Errors**: a row of another width, a field that is no number.
     pub(super) fn read(
         mut self,
         which: &[usize],
