@@ -43,10 +43,7 @@ pub enum FitError {
     )]
     Absent(String),
     #[error("found {samples} values in the data, expected more than the {unknowns} that are to be fitted")]
-    TooFew {
-        samples: usize,
-        unknowns: usize,
-    },
+    TooFew { samples: usize, unknowns: usize },
     #[error("found data that do not tell {0} apart, expected fewer values to be fitted, or more columns")]
     NotTold(String),
 }

@@ -2,7 +2,7 @@
 
 use serde_json::{Value, json};
 
-use super::dataset::{Cell, Column, Shared};
+use super::dataset::{Dataset, Shared};
 use super::table::{WIDTH, wrapped};
 use crate::mapped::{CollectVec, mapped};
 use crate::motion::{Ending, EventKind};
@@ -38,6 +38,12 @@ impl Head {
     /// A line of prose, in several where it is wider than a table may be.
     pub(super) fn line(&self, text: &str) -> String {
         if self.wide { format!("{text}\n") } else { wrapped(text, WIDTH, "    ") + "\n" }
+    }
+
+    /// Rows as this says how wide their table may be and how long their numbers.
+    pub(super) fn shaped(&self, data: &Dataset) -> Dataset {
+        let (columns, rows) = (data.columns.clone(), data.rows.clone());
+        Dataset { columns, rows, digits: self.digits, keys: (!self.wide).then_some(1), ..Dataset::default() }
     }
 
     pub(super) fn warning_texts(&self) -> Vec<String> {
@@ -78,26 +84,23 @@ pub(crate) struct Derived {
     pub(crate) contacts: Derivatives<Shared>,
 }
 
-/// The columns of quantities, and a row of their numbers for each of what they belong to.
-pub(super) type Listed = (Vec<Column>, Vec<Vec<Cell>>);
-
 /// A history, ready to be printed, whatever its numbers.
 pub(crate) struct Record {
     /// Impacts and releases.
     pub(crate) kinds: Vec<EventKind>,
-    pub(super) events: Listed,
+    pub(super) events: Dataset,
     /// Whether a table says how far their times may be off.
     pub(super) uncertain: bool,
     /// Contacts with their coefficients and the energies at their ends.
-    pub(super) contacts: Listed,
+    pub(super) contacts: Dataset,
     /// Why `e_P` and `e_E²` of each contact are not defined, where they are not.
     pub(super) undefined: Vec<[Option<Undefined>; 2]>,
     /// Flights with their tops.
-    pub(super) flights: Listed,
+    pub(super) flights: Dataset,
     /// Derivatives of events and contacts, where they are asked for.
     pub(crate) derivatives: Vec<Derived>,
     /// The stress at the ground, where it is asked for.
-    pub(super) stress: Listed,
+    pub(super) stress: Dataset,
     /// Whether a piece of it is curved.
     pub(super) curved: bool,
     /// The stress at the ground in equal parts of the history, where a line of blocks shows it.

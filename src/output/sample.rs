@@ -4,7 +4,7 @@ use clap::ValueEnum;
 
 use super::dataset::{Cell, Column, Dataset, Shared};
 use super::derivatives;
-use super::record::{Head, Listed};
+use super::record::Head;
 use super::solve::{listed, named_units, units_json};
 use super::table::table_digits;
 use crate::error::Error;
@@ -53,7 +53,7 @@ pub(crate) struct Samples {
     /// What is printed of each.
     pub(crate) quantities: Vec<quantity::Quantity>,
     has_points: bool,
-    listed: Listed,
+    data: Dataset,
     /// Derivatives of the values, where they are asked for.
     pub(crate) derivatives: Vec<(Parameter, Derivatives<Shared>)>,
 }
@@ -91,29 +91,38 @@ pub(crate) fn samples<S: Scalar>(
         let key = quantity.key();
         Column::new(key).keyed(format!("values/{key}"))
     };
-    let (listed, rows) = listed(&asked, column, units, values);
+    let listed = listed(history, &asked, column, units, &values);
     let point = if has_points { Column::new("point").headed("x") } else { Column::data("point") };
     let mut columns = vec![
         Column::new("time").headed("t").with_unit(units.name(Measure::Time)),
         point.with_unit(units.name(Measure::Length)),
         Column::new("side"),
     ];
-    columns.extend(listed);
-    let (mut all, mut numbers) = (Vec::with_capacity(rows.len()), Vec::new());
-    for ((time, point, values), cells) in found.into_iter().zip(rows) {
+    columns.extend(listed.columns);
+    let (mut all, mut numbers) = (Vec::with_capacity(found.len()), Vec::new());
+    for ((time, point, values), cells) in found.into_iter().zip(listed.rows) {
         let mut row = vec![Cell::number(time), Cell::optional(point), side.to_string().into()];
         row.extend(cells);
         all.push(row);
         numbers.extend(values.into_iter().chain(point.cloned()).chain([time.clone()]));
     }
     let quantities = asked.into_iter().filter(|quantity| quantity.is_listed(units.has_material())).collect_vec();
-    Ok((Samples { quantity, quantities, has_points, listed: (columns, all), derivatives: Vec::new() }, numbers))
+    Ok((
+        Samples {
+            quantity,
+            quantities,
+            has_points,
+            data: Dataset { columns, rows: all, ..Dataset::default() },
+            derivatives: Vec::new(),
+        },
+        numbers,
+    ))
 }
 
 /// A row for each sample.
 pub(crate) fn samples_data(samples: Samples, head: &Head) -> Dataset {
     let units = &head.units;
-    let Samples { quantity, quantities, has_points, listed: (columns, rows), derivatives } = samples;
+    let Samples { quantity, quantities, has_points, data: Dataset { columns, rows, .. }, derivatives } = samples;
     let key = |row: &Vec<Cell>| {
         let places = ["t = ", "x = "].into_iter().zip(row);
         places

@@ -7,7 +7,7 @@ use serde_json::{Value, json};
 use super::dataset::{Cell, Column, Dataset};
 use super::derivatives::{self, add_columns};
 use super::outline::sparkline;
-use super::record::{Derived, Head, Listed, Record};
+use super::record::{Derived, Head, Record};
 use super::table::table_digits;
 use crate::error::Error;
 use crate::mapped::{CollectVec, MapEach, mapped};
@@ -63,36 +63,26 @@ fn column(quantity: Quantity) -> Column {
 /// The columns of the quantities that these units have, and the rows of their numbers, each with one for every
 /// quantity, as a history answers them.
 pub(super) fn listed<S: Scalar>(
+    history: &dyn Motion<S>,
     quantities: &[Quantity],
     column: fn(Quantity) -> Column,
     units: &Units,
-    rows: Vec<Vec<Option<&S>>>,
-) -> Listed {
-    let factor = |quantity: &Quantity, number: &S| {
-        let measure = quantity.measure().filter(|_| units.has_material())?;
-        let kept = matches!(measure, Measure::Time | Measure::Length | Measure::Velocity | Measure::Strain);
-        if kept { None } else { units.factor(measure, &number.precision()) }
-    };
-    let present = |quantity: &Quantity| quantity.is_listed(units.has_material());
-    let mut listed: Vec<Vec<Cell>> = Vec::with_capacity(rows.len());
-    listed.resize_with(rows.len(), Vec::new);
-    for (k, quantity) in quantities.iter().enumerate().filter(|(_, quantity)| present(quantity)) {
-        let mut known: Option<Option<S>> = None;
-        for (cells, values) in listed.iter_mut().zip(&rows) {
-            cells.push(match values[k] {
-                None => Cell::EMPTY,
-                Some(value) => match known.get_or_insert_with(|| factor(quantity, value)) {
-                    Some(factor) => Cell::number(&(value.clone() * &*factor)),
-                    None => Cell::number(value),
-                },
+    rows: &[Vec<Option<&S>>],
+) -> Dataset {
+    let mut data = Dataset { rows: mapped(rows, |_| Vec::new()), ..Dataset::default() };
+    let present = |(_, quantity): &(usize, &Quantity)| quantity.is_listed(units.has_material());
+    for (k, quantity) in quantities.iter().enumerate().filter(present) {
+        let factor = quantity.factor(&history.scales(), units);
+        for (cells, values) in data.rows.iter_mut().zip(rows) {
+            cells.push(match (values[k], &factor) {
+                (Some(value), Some(factor)) => Cell::number(&(value.clone() * factor)),
+                (value, _) => Cell::optional(value),
             });
         }
-    }
-    let named = |quantity: &Quantity| {
         let unit = quantity.measure().map_or("", |measure| units.name(measure));
-        column(*quantity).with_unit(unit).bounded()
-    };
-    (quantities.iter().filter(|quantity| present(quantity)).map(named).collect_vec(), listed)
+        data.columns.push(column(*quantity).with_unit(unit).bounded());
+    }
+    data
 }
 
 /// The part of a history that a CSV file holds.
@@ -110,18 +100,8 @@ pub(crate) enum Part {
 /// How far the straight pieces of a curved stress history may be off, as a part of its peak.
 const STRAIGHT: f64 = 1e-6;
 
-fn dataset((columns, rows): &Listed, head: &Head) -> Dataset {
-    let (columns, rows) = (columns.clone(), rows.clone());
-    Dataset { columns, rows, digits: head.digits, keys: (!head.wide).then_some(1), ..Dataset::default() }
-}
-
-/// The numbers of rows, where they are defined.
-fn defined<S>(rows: &[Row<S>]) -> Vec<Vec<Option<&S>>> {
-    mapped(rows, |row| mapped(row, |value| value.as_ref().ok()))
-}
-
 fn events(record: &Record, head: &Head) -> Dataset {
-    let mut data = dataset(&record.events, head);
+    let mut data = head.shaped(&record.events);
     data.columns.insert(0, Column::new("kind").headed("event").text());
     if record.uncertain {
         data.columns.insert(2, Column::table("±"));
@@ -139,7 +119,7 @@ fn events(record: &Record, head: &Head) -> Dataset {
 }
 
 fn contacts(record: &Record, head: &Head) -> Dataset {
-    let mut data = dataset(&record.contacts, head);
+    let mut data = head.shaped(&record.contacts);
     let undefined = ["momentum", "energy_squared"].map_each(|name| format!("restitution/undefined/{name}"));
     data.columns.extend(undefined.map_each(|key| Column::json(key).optional()));
     for (row, undefined) in data.rows.iter_mut().zip(&record.undefined) {
@@ -166,19 +146,11 @@ fn undefined_ratios<S>(contact: &Row<S>) -> [Option<Undefined>; 2] {
     })
 }
 
-fn pieces<S: Scalar>(pieces: &[StressPiece<S>], coefficients: bool, units: &Units) -> Listed {
-    let mut rows = Vec::with_capacity(pieces.len());
-    for StressPiece { from, to, left, right, .. } in pieces {
-        rows.push(vec![Some(from), Some(to), Some(left), Some(right), Some(left), Some(right)]);
-    }
-    let (mut columns, mut rows) = listed(&PIECE, column, units, rows);
-    if coefficients {
-        columns.push(Column::data("chebyshev").bounded().optional());
-        for (row, piece) in rows.iter_mut().zip(pieces) {
-            row.push(Cell::numbers(&piece.chebyshev));
-        }
-    }
-    (columns, rows)
+fn pieces<S: Scalar>(history: &dyn Motion<S>, pieces: &[StressPiece<S>], units: &Units) -> Dataset {
+    let rows = mapped(pieces, |StressPiece { from, to, left, right, .. }| {
+        vec![Some(from), Some(to), Some(left), Some(right), Some(left), Some(right)]
+    });
+    listed(history, &PIECE, column, units, &rows)
 }
 
 /// The stress at the ground, as it is printed.
@@ -210,7 +182,8 @@ pub(crate) fn record<S: Scalar>(
                 }
             }
         }
-        Ok::<_, Error>((listed(quantities, column, units, defined(&rows)), rows))
+        let defined = mapped(&rows, |row| mapped(row, |value| value.as_ref().ok()));
+        Ok::<_, Error>((listed(history, quantities, column, units, &defined), rows))
     };
     let (events, _) = gather(&EVENT)?;
     let (contacts, ends) = gather(&CONTACT)?;
@@ -220,9 +193,15 @@ pub(crate) fn record<S: Scalar>(
     for number in StressPiece::numbers(&curve) {
         numbers.push(number.clone());
     }
-    let stress = match stress {
-        Some(Form::Straight) => pieces(&straight(&curve, STRAIGHT), false, units),
-        _ => pieces(&curve, true, units),
+    let stress = if stress == Some(Form::Straight) {
+        pieces(history, &straight(&curve, STRAIGHT), units)
+    } else {
+        let mut stress = pieces(history, &curve, units);
+        stress.columns.push(Column::data("chebyshev").bounded().optional());
+        for (row, piece) in stress.rows.iter_mut().zip(&curve) {
+            row.push(Cell::numbers(&piece.chebyshev));
+        }
+        stress
     };
     let record = Record {
         kinds: mapped(history.events(), |event| event.kind),
@@ -245,7 +224,7 @@ pub(crate) fn record<S: Scalar>(
 /// The whole history, schema 1.
 pub(crate) fn history_json(record: &Record, head: &Head) -> Value {
     let mut contacts = contacts(record, head).objects();
-    let mut flights = dataset(&record.flights, head).objects();
+    let mut flights = head.shaped(&record.flights).objects();
     // An object of values that there are not is none.
     for (list, key, value) in [(&mut contacts, "energy", "total"), (&mut flights, "highest", "time")] {
         list.iter_mut().filter(|row| row[key][value].is_null()).for_each(|row| row[key] = Value::Null);
@@ -260,7 +239,7 @@ pub(crate) fn history_json(record: &Record, head: &Head) -> Value {
         "events": events(record, head).objects(),
         "contacts": contacts,
         "flights": flights,
-        "stress": {"pieces": dataset(&record.stress, head).objects()},
+        "stress": {"pieces": head.shaped(&record.stress).objects()},
         "end": end_json(record, head),
         "error_estimate": record.error,
         "digits_lost": record.lost.map(|(_, digits)| digits),
@@ -296,7 +275,7 @@ pub(crate) fn history_part(record: &Record, part: Part, coefficients: bool, head
     let mut data = match part {
         Part::Events => events(record, head),
         Part::Contacts => contacts(record, head),
-        Part::Stress => dataset(&record.stress, head),
+        Part::Stress => head.shaped(&record.stress),
     };
     data.notes = head.notes();
     if !matches!(record.end.1, Ending::Time | Ending::NextImpact) {
@@ -350,7 +329,7 @@ pub(crate) fn history_table(record: &Record, head: &Head) -> String {
     }
     out += "\n";
     if !record.outline.is_empty() {
-        let peaks = record.contacts.1.iter().map(|contact| contact[PEAK].double());
+        let peaks = record.contacts.rows.iter().map(|contact| contact[PEAK].double());
         out += &sparkline(&record.outline, record.end.0.double(), peaks.fold(0.0, f64::min), head);
     }
     out += &format!("{}\n\n{}\n\n", events(record, head).table(), contacts(record, head).table());
@@ -358,7 +337,7 @@ pub(crate) fn history_table(record: &Record, head: &Head) -> String {
         let measures = [Measure::Impulse, Measure::Stress, Measure::Force, Measure::Energy];
         out += &named_units(&measures, &head.units);
     }
-    for (contact, reasons) in record.contacts.1.iter().zip(&record.undefined) {
+    for (contact, reasons) in record.contacts.rows.iter().zip(&record.undefined) {
         let from = contact[0].text(digits, "");
         let mut reasons = reasons.to_vec();
         reasons.dedup();
@@ -366,7 +345,7 @@ pub(crate) fn history_table(record: &Record, head: &Head) -> String {
             out += &head.line(&format!("contact from {from}: {reason}"));
         }
     }
-    let mut flights = dataset(&record.flights, head);
+    let mut flights = head.shaped(&record.flights);
     flights.rows.retain(|row| !row[2].is_empty());
     if !flights.rows.is_empty() {
         out += &format!("\n{}\n", flights.table());
@@ -395,10 +374,10 @@ fn derivative_tables(record: &Record, head: &Head) -> String {
     };
     let mut out = String::new();
     for Derived { by, events, contacts } in &record.derivatives {
-        let keys = record.kinds.iter().zip(&record.events.1).map(event).collect_vec();
+        let keys = record.kinds.iter().zip(&record.events.rows).map(event).collect_vec();
         out += &derivatives::table(("derivatives", keys), &symbols(&EVENT), (*by, events), head);
         // When a contact begins and ends is in the table above.
-        let keys = mapped(&record.contacts.1, contact);
+        let keys = mapped(&record.contacts.rows, contact);
         let symbols: Vec<_> = symbols(&CONTACT).into_iter().skip(2).collect_vec();
         out += &derivatives::table(("derivatives", keys), &symbols, (*by, contacts), head);
     }
