@@ -6,7 +6,7 @@ use std::path::Path;
 
 use super::error::{DataError, DataErrorKind};
 use super::numpy;
-use super::text::{Lines, Text};
+use super::text::Text;
 
 /// A column of an array, or why it is none of numbers: it may not be asked for.
 pub type Column = Result<Vec<f64>, DataErrorKind>;
@@ -34,7 +34,8 @@ enum Body {
 pub(crate) struct Columns {
     file: String,
     pub(crate) values: Vec<Vec<f64>>,
-    lines: Lines,
+    /// The number of each row's line, of a text.
+    lines: Vec<usize>,
 }
 
 /// The arrays of a file of NumPy, with their names in an archive.
@@ -138,7 +139,7 @@ impl Source {
                     }
                     values.push(column);
                 }
-                (values, Lines::default())
+                (values, Vec::new())
             }
         };
         let columns = Columns { file: self.file, values, lines };
@@ -163,7 +164,7 @@ impl Columns {
 
     /// `kind` at a row and a column, both counted from 0.
     pub(crate) fn refuse(&self, row: usize, column: usize, kind: DataErrorKind) -> DataError {
-        let place = match self.lines.of(row) {
+        let place = match self.lines.get(row) {
             Some(line) => format!("line {line}, column {}", column + 1),
             None => format!("row {}, column {}", row + 1, column + 1),
         };

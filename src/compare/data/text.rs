@@ -5,11 +5,12 @@ use std::io::{BufRead, BufReader, Read};
 use super::error::{DataError, DataErrorKind};
 use crate::number::{Number, short};
 
+/// A line that is not empty, with its number.
+type Line = Result<(usize, String), DataError>;
+
 /// A text, read up to its first row.
 pub(super) struct Text {
-    reader: BufReader<Box<dyn Read + Send>>,
-    /// What a line ends with: `\n`, before which a `\r` is white space, or `\r` alone.
-    end: u8,
+    lines: Box<dyn Iterator<Item = Line> + Send>,
     separator: Option<char>,
     /// The names of the columns; empty where there are none.
     pub(super) names: Vec<String>,
@@ -17,31 +18,26 @@ pub(super) struct Text {
     pub(super) misnamed: Option<usize>,
     /// Whether a first line `rows columns` was skipped.
     pub(super) sized: bool,
-    /// A line that was read ahead, and its number.
-    held: Option<(Vec<u8>, usize)>,
-    /// The line that was read last, and its number.
-    line: Vec<u8>,
-    number: usize,
     pub(super) width: usize,
 }
 
-/// Where rows stand in a text: the first row of every stretch without empty lines and comments, with its line. Empty
-/// where rows have no lines.
-#[derive(Debug, Default)]
-pub(super) struct Lines(Vec<(usize, usize)>);
+/// The lines of a text; a `\r` before the end of one is white space.
+fn lines(reader: impl BufRead, end: u8, file: String) -> impl Iterator<Item = Line> {
+    reader.split(end).zip(1..).filter_map(move |(line, number)| {
+        let line = match line {
+            Ok(line) if line.trim_ascii().is_empty() => return None,
+            Ok(line) => line,
+            Err(error) => return Some(Err(DataErrorKind::Unreadable(error.to_string()).at(&file, None))),
+        };
+        // A zero is half of a character of UTF-16.
+        let text = String::from_utf8(line).ok().filter(|text| !text.contains('\0'));
+        let not_text = || DataErrorKind::NotText.at(&file, Some(format!("line {number}")));
+        Some(text.map(|text| (number, text)).ok_or_else(not_text))
+    })
+}
 
-impl Lines {
-    pub(super) fn note(&mut self, row: usize, line: usize) {
-        if self.of(row) != Some(line) {
-            self.0.push((row, line));
-        }
-    }
-
-    /// The line of a row, counted from 1, the row from 0.
-    pub(super) fn of(&self, row: usize) -> Option<usize> {
-        let k = self.0.partition_point(|(first, _)| *first <= row).checked_sub(1)?;
-        self.0.get(k).map(|(first, line)| line + row - first)
-    }
+fn trimmed(line: &str) -> &str {
+    line.trim_start_matches('\u{feff}').trim()
 }
 
 /// What a comment begins with.
@@ -120,125 +116,84 @@ impl Text {
     pub(super) fn open(mut reader: BufReader<Box<dyn Read + Send>>, file: &str) -> Result<Self, DataError> {
         let start = reader.fill_buf().map_err(|error| DataErrorKind::Unreadable(error.to_string()).at(file, None))?;
         let end = if start.contains(&b'\r') && !start.contains(&b'\n') { b'\r' } else { b'\n' };
-        let (line, none) = (Vec::new(), Vec::new());
-        let mut text = Text {
-            reader,
-            end,
-            separator: None,
-            names: none,
-            misnamed: None,
-            sized: false,
-            held: None,
-            line,
-            number: 0,
-            width: 0,
-        };
-        let mut comment = String::new();
-        let mut header: Option<String> = None;
-        while text.next(file)? {
-            let row = text.row(file)?.to_string();
+        let mut lines = lines(reader, end, file.into());
+        let (mut comment, mut header) = (String::new(), None);
+        while let Some((number, line)) = lines.next().transpose()? {
+            let row = trimmed(&line);
             if let Some(words) = row.strip_prefix(COMMENTS) {
                 comment = words.trim_start_matches(COMMENTS).trim().to_string();
                 continue;
             }
-            text.separator = separator(&row);
-            let first = fields(&row, text.separator).find(|field| !field.is_empty());
+            let separator = separator(row);
+            let first = fields(row, separator).find(|field| !field.is_empty());
             if header.is_none() && first.is_some_and(|field| side(field).is_none()) {
-                header = Some(row);
+                header = Some(row.to_string());
                 continue;
             }
-            text.width = fields(&row, text.separator).count();
+            let (mut width, sizes) = (fields(row, separator).count(), sizes(row, separator));
+            let (mut first, mut sized) = (vec![(number, line)], false);
             // A line `rows columns` above as many columns, as NumPy's writers and Siconos have it.
-            if let (None, 2, Some(width)) = (&header, text.width, sizes(&row, text.separator)) {
-                let (line, number) = (text.line.clone(), text.number);
-                if text.next(file)? && fields(text.row(file)?, text.separator).count() == width && width > 2 {
-                    text.width = width;
-                    text.sized = true;
-                } else {
-                    text.held = Some((std::mem::replace(&mut text.line, line), text.number));
-                    text.number = number;
+            if let (None, 2, Some(columns)) = (&header, width, sizes) {
+                first.extend(lines.next().transpose()?);
+                sized = columns > 2
+                    && first.get(1).is_some_and(|(_, line)| fields(trimmed(line), separator).count() == columns);
+                if sized {
+                    width = columns;
+                    first.remove(0);
                 }
             }
             let words = header.as_ref().unwrap_or(&comment);
-            text.names = names(words, separator(words));
-            if text.names.len() != text.width {
-                text.misnamed = header.map(|_| text.names.len());
-                text.names.clear();
+            let mut names = names(words, self::separator(words));
+            let misnamed = header.filter(|_| names.len() != width).map(|_| names.len());
+            if names.len() != width {
+                names.clear();
             }
-            return Ok(text);
+            let lines = Box::new(first.into_iter().map(Ok).chain(lines));
+            return Ok(Text { lines, separator, names, misnamed, sized, width });
         }
         Err(DataErrorKind::Empty.at(file, None))
     }
 
-    /// Reads the next line that is not empty; `false` at the end.
-    fn next(&mut self, file: &str) -> Result<bool, DataError> {
-        if let Some((line, number)) = self.held.take() {
-            (self.line, self.number) = (line, number);
-            return Ok(!self.line.is_empty());
-        }
-        loop {
-            self.line.clear();
-            let read = self.reader.read_until(self.end, &mut self.line);
-            self.number += 1;
-            match read {
-                Ok(0) => return Ok(false),
-                Ok(_) if self.line.trim_ascii().is_empty() => {}
-                Ok(_) => return Ok(true),
-                Err(error) => return Err(DataErrorKind::Unreadable(error.to_string()).at(file, None)),
-            }
-        }
-    }
-
-    fn row(&self, file: &str) -> Result<&str, DataError> {
-        let place = || Some(format!("line {}", self.number));
-        // A zero is half of a character of UTF-16.
-        let text = std::str::from_utf8(&self.line).ok().filter(|text| !text.contains('\0'));
-        let text = text.ok_or_else(|| DataErrorKind::NotText.at(file, place()))?;
-        Ok(text.trim_start_matches('\u{feff}').trim())
-    }
-
-    /// Reads all rows, of each the fields at `which`, and that at `words` as a side.
+    /// Reads all rows, of each the fields at `which`, and that at `words` as a side; and the number of each row's line.
     pub(super) fn read(
-        mut self,
+        self,
         which: &[usize],
         words: Option<usize>,
         file: &str,
-    ) -> Result<(Vec<Vec<f64>>, Lines), DataError> {
+    ) -> Result<(Vec<Vec<f64>>, Vec<usize>), DataError> {
         let mut values: Vec<Vec<f64>> = vec![Vec::new(); which.len()];
-        let mut lines = Lines::default();
-        let mut rows = 0;
+        let mut numbers = Vec::new();
         // Of each field, the columns that take it.
         let takers: Vec<Vec<usize>> =
             (0..self.width).map(|place| (0..which.len()).filter(|k| which[*k] == place).collect()).collect();
-        loop {
-            let row = self.row(file)?;
-            if !row.starts_with(COMMENTS) {
-                lines.note(rows, self.number);
-                let mut found = 0;
-                for field in fields(row, self.separator) {
-                    for taker in takers.get(found).into_iter().flatten() {
-                        let is_side = words == Some(found);
-                        let Some(value) = (if is_side { side(field) } else { number(field) }) else {
-                            let place = Some(format!("line {}, column {}", self.number, found + 1));
-                            let kind = match is_side {
-                                true => DataErrorKind::Side(short(field)),
-                                false => DataErrorKind::not_a_number(field),
-                            };
-                            return Err(kind.at(file, place));
-                        };
-                        values[*taker].push(value);
-                    }
-                    found += 1;
-                }
-                if found != self.width {
-                    let (place, expected) = (Some(format!("line {}", self.number)), self.width);
-                    return Err(DataErrorKind::Ragged { found, expected }.at(file, place));
-                }
-                rows += 1;
+        for line in self.lines {
+            let (line_number, line) = line?;
+            let row = trimmed(&line);
+            if row.starts_with(COMMENTS) {
+                continue;
             }
-            if !self.next(file)? {
-                return Ok((values, lines));
+            numbers.push(line_number);
+            let mut found = 0;
+            for field in fields(row, self.separator) {
+                for taker in takers.get(found).into_iter().flatten() {
+                    let is_side = words == Some(found);
+                    let Some(value) = (if is_side { side(field) } else { number(field) }) else {
+                        let place = Some(format!("line {line_number}, column {}", found + 1));
+                        let kind = match is_side {
+                            true => DataErrorKind::Side(short(field)),
+                            false => DataErrorKind::not_a_number(field),
+                        };
+                        return Err(kind.at(file, place));
+                    };
+                    values[*taker].push(value);
+                }
+                found += 1;
+            }
+            if found != self.width {
+                let (place, expected) = (Some(format!("line {line_number}")), self.width);
+                return Err(DataErrorKind::Ragged { found, expected }.at(file, place));
             }
         }
+        Ok((values, numbers))
     }
 }
