@@ -12,9 +12,8 @@ use crate::draw::Size;
 use crate::number::Number;
 use crate::output::{cost_data, cost_svg, effects_data};
 use crate::quantity::{Measure, Quantity};
-use crate::routes::cost::{self, Difference, Table};
+use crate::routes::cost;
 use crate::routes::{Question, plan};
-use crate::scene::Scene;
 
 /// What accuracy costs in time: one quantity by every route that can give it, measured now, on this machine
 #[derive(Args, Debug)]
@@ -47,18 +46,34 @@ pub(super) struct Cost {
     output: Vec<PathBuf>,
 }
 
-enum Measured {
-    Work(Table),
-    Effects(Vec<Difference>),
-}
-
 impl Cost {
     pub(super) fn run(&self) -> Result<(), Failure> {
         let scene = source::read(&self.scene)?;
         // Before ten seconds are spent.
         self.check()?;
-        let measured = self.measure(&scene)?;
-        file::write_each(&self.output, self.format, |format| measured.bytes(format, scene.title.as_deref()))
+        let title = scene.title.as_deref();
+        let bar = source::bar(Some(1000), "{bar:40} {percent} %, {msg}");
+        let observe = |share: f64, what: &str| {
+            bar.set_message(what.to_string());
+            bar.set_position((1000.0 * share.min(1.0)) as u64);
+        };
+        let (data, svg) = if self.effects {
+            let of_energy = |quantity: Quantity| {
+                quantity.measure() == Some(Measure::Energy) || quantity == Quantity::EnergyRestitution
+            };
+            let energies = self.quantity.is_some_and(of_energy);
+            (effects_data(&cost::effects(&scene, energies, self.seconds, observe)?, title), None)
+        } else {
+            let question = Question::of_scene(&scene, self.quantity, self.time.clone())?;
+            let plan = plan(&question, self.numbers.numbers(&scene))?;
+            let table = cost::work_precision(&question, &plan, self.seconds, observe)?;
+            (cost_data(&table, title), Some(cost_svg(&table, title)))
+        };
+        bar.finish_and_clear();
+        file::write_each(&self.output, self.format, |format| match &svg {
+            Some(svg) if format.is_picture() => file::picture(format, svg.clone(), Size::Page),
+            _ => file::rows(&data, format),
+        })
     }
 
     fn check(&self) -> Result<(), Failure> {
@@ -68,37 +83,5 @@ impl Cost {
             }
             _ => Ok(()),
         })
-    }
-
-    fn measure(&self, scene: &Scene) -> Result<Measured, Failure> {
-        let bar = source::bar(Some(1000), "{bar:40} {percent} %, {msg}");
-        let observe = |share: f64, what: &str| {
-            bar.set_message(what.to_string());
-            bar.set_position((1000.0 * share.min(1.0)) as u64);
-        };
-        let measured = if self.effects {
-            let of_energy = |quantity: Quantity| {
-                quantity.measure() == Some(Measure::Energy) || quantity == Quantity::EnergyRestitution
-            };
-            let energies = self.quantity.is_some_and(of_energy);
-            cost::effects(scene, energies, self.seconds, observe).map(Measured::Effects)
-        } else {
-            let question = Question::of_scene(scene, self.quantity, self.time.clone())?;
-            let plan = plan(&question, self.numbers.numbers(scene))?;
-            cost::work_precision(&question, &plan, self.seconds, observe).map(Measured::Work)
-        };
-        bar.finish_and_clear();
-        Ok(measured?)
-    }
-}
-
-impl Measured {
-    fn bytes(&self, format: Format, title: Option<&str>) -> Result<Vec<u8>, Failure> {
-        match self {
-            Measured::Work(table) if format.is_picture() => file::picture(format, cost_svg(table, title), Size::Page),
-            Measured::Work(table) => file::rows(&cost_data(table, title), format),
-            // Pictures that cannot be drawn are refused before anything is measured.
-            Measured::Effects(rows) => file::rows(&effects_data(rows, title), format),
-        }
     }
 }

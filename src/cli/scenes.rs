@@ -10,7 +10,7 @@ use super::failure::{Failure, cannot};
 use super::file::{self, Format};
 use super::source;
 use crate::aligned::table;
-use crate::mapped::CollectVec;
+use crate::mapped::{CollectVec, try_mapped};
 use crate::output::targets_data;
 use crate::routes::Published;
 use crate::scene::builtin;
@@ -56,22 +56,15 @@ impl Scenes {
         self.output.write(text.as_bytes())?;
         Ok(ExitCode::SUCCESS)
     }
-}
 
-impl Scenes {
     /// The published values of a scene, of the scenes in a folder, or of all that are built in; 1 where one differs.
     fn published(&self) -> Result<ExitCode, Failure> {
         let all = match &self.name {
             None => Published::builtin()?,
-            Some(name) => {
-                let mut all = Vec::new();
-                for name in scene_files(name)? {
-                    let scene = source::read(&name)?;
-                    let found = Published::of(&name, &scene).map_err(|error| failure!("{name}: {error}"))?;
-                    all.push(found);
-                }
-                all
-            }
+            Some(name) => try_mapped(scene_files(name)?, |name| {
+                let found = Published::of(&name, &source::read(&name)?);
+                found.map_err(|error| failure!("{name}: {error}"))
+            })?,
         };
         for published in &all {
             for warning in &published.warnings {

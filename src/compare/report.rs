@@ -49,6 +49,11 @@ fn number(x: f64) -> String {
     x.decimal(6)
 }
 
+/// `1 gap`, `2 gaps`.
+fn counted(count: usize, one: &str) -> String {
+    format!("{count} {one}{}", if count == 1 { "" } else { "s" })
+}
+
 /// `12.34`, `1.234e-5`, or `–`.
 fn size(x: Option<f64>) -> String {
     match x {
@@ -101,7 +106,6 @@ fn file_table(compared: &ComparedFile, title: Option<&str>, units: &Units) -> St
         let chatter: Vec<usize> = merged.filter(|merged| *merged > 0).collect();
         out += "no hint: no single wrong number explains what differs";
         if !chatter.is_empty() {
-            let counted = |count: usize, one: &str| format!("{count} {one}{}", if count == 1 { "" } else { "s" });
             let (gaps, contacts) = (counted(chatter.iter().sum(), "gap"), counted(chatter.len(), "contact"));
             out += &format!("; the contact chatters: {gaps} closed in {contacts}");
         } else if let Some(width) = judgement.spread {
@@ -152,8 +156,7 @@ fn fit_table(fit: &Fit, now: &Agreement, then: &Agreement) -> String {
         false => format!("\n\n{}", table(&["theirs − fitted", "from", "to", "impulse", "centroid"], contacts, 1)),
     };
     let end = if fit.settled { "" } else { "; it had not settled" };
-    let counted = if fit.steps == 1 { "step" } else { "steps" };
-    format!("{values}\nin {} {counted}{end}\n\n{columns}{contacts}", fit.steps)
+    format!("{values}\nin {}{end}\n\n{columns}{contacts}", counted(fit.steps, "step"))
 }
 
 fn norms_table(agreement: &Agreement, units: &Units) -> String {
@@ -189,8 +192,7 @@ fn contacts_table(contacts: &[(Option<Touch>, Option<Touch>)], units: &Units) ->
         let name = &(k + 1).to_string();
         let whose = match theirs.as_ref().map_or(0, |touch| touch.merged) {
             0 => "theirs".to_string(),
-            1 => "theirs, 1 gap closed".to_string(),
-            count => format!("theirs, {count} gaps closed"),
+            count => format!("theirs, {} closed", counted(count, "gap")),
         };
         match (ours, theirs) {
             (Some(a), Some(b)) => {

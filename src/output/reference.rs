@@ -249,14 +249,7 @@ impl Rows {
             }
         })
     }
-}
 
-/// The double that is written: zero for what is zero within its bound, and never a negative zero.
-fn written<S: Scalar>(value: &S) -> f64 {
-    if value.vanishes() == Ok(true) { 0.0 } else { value.to_f64() }
-}
-
-impl Rows {
     /// `log₂` of how far the number meant may lie from what is written.
     fn bound<S: Scalar>(&self, value: &S) -> f64 {
         match value.as_double() {
@@ -306,4 +299,9 @@ impl Rows {
             None => text.extend_from_slice(show(value, self.shown()).as_bytes()),
         }
     }
+}
+
+/// The double that is written: zero for what is zero within its bound, and never a negative zero.
+fn written<S: Scalar>(value: &S) -> f64 {
+    if value.vanishes() == Ok(true) { 0.0 } else { value.to_f64() }
 }
