@@ -11,7 +11,7 @@ use super::samples::Samples;
 use super::touch::{Touch, matched, touches};
 use crate::error::Error;
 use crate::number::Number;
-use crate::problem::{Problem, Top};
+use crate::problem::Top;
 use crate::quantity::{Quantity, Rays};
 
 /// Data beside a history.
@@ -54,19 +54,13 @@ const WINDOW: f64 = 0.02;
 const PUSHES: f64 = 1e-6;
 
 impl Agreement {
-    /// Compares `samples` with `ours` of `problem`; they should go up to `until`.
+    /// Compares `samples` with `ours`; they should go up to `until`.
     ///
     /// **Source**: each sample of a quantity that jumps is scored against the nearer of its two limits where its time
     /// is that of the jump, as well as the times tell, or against the limit that its row is said to hold.
     ///
     /// **Accuracy**: that of the history, in doubles.
-    pub(super) fn of(
-        problem: &Problem,
-        ours: &Ours<'_>,
-        samples: Samples,
-        options: &Options,
-        until: Option<f64>,
-    ) -> Result<Self, Error> {
+    pub(super) fn of(ours: &Ours<'_>, samples: Samples, options: &Options, until: Option<f64>) -> Result<Self, Error> {
         let Samples { grid, mut quantities, step, outside, notes, rounding, sides } = samples;
         let trip = ours.history.scales().time;
         options.apply(ours, &mut quantities, grid.points.as_deref())?;
@@ -91,7 +85,7 @@ impl Agreement {
         agreement.coverage = agreement.covered(ours, until);
         if agreement.grid.points.is_none() {
             let start = agreement.grid.times.iter().take_while(|time| **time <= rounding.at(**time)).count();
-            agreement.keep_books(problem, ours, until, start);
+            agreement.keep_books(ours, until, start);
         }
         Ok(agreement)
     }
@@ -110,7 +104,7 @@ impl Agreement {
 
     /// Contacts and audit. The first `start` samples are at `t = 0`: what is given, before it or after it, and none of
     /// the ground's doing.
-    fn keep_books(&mut self, problem: &Problem, ours: &Ours<'_>, until: Option<f64>, start: usize) {
+    fn keep_books(&mut self, ours: &Ours<'_>, until: Option<f64>, start: usize) {
         let times = &self.grid.times;
         let (Some(first), Some(last)) = (times.first().copied(), times.last().copied()) else { return };
         let theirs = |what: Quantity| self.column(what).map(|compared| compared.theirs.as_slice());
@@ -154,7 +148,7 @@ impl Agreement {
             force,
             energy: self.column(Quantity::Energy).map(|energy| [energy.ours.as_slice(), energy.theirs.as_slice()]),
             centre_velocity: theirs(Quantity::CentreVelocity),
-            momentum: (problem.rod.top == Top::Free).then(|| ours.momentum()),
+            momentum: (ours.history.problem().rod.top == Top::Free).then(|| ours.momentum()),
         };
         let mut audit = Audit { not_covered: books.not_covered(self.step, until.unwrap_or(last)), ..books.audit() };
         for row in &contacts {

@@ -199,16 +199,16 @@ impl Prepared {
         };
         let mut files = Vec::new();
         for (file, samples) in data {
-            let ours = Ours::of(&problem, &history)?;
+            let ours = Ours::of(&history)?;
             let again = (!options.fit.is_empty()).then(|| samples.clone());
-            let agreement = Agreement::of(&problem, &ours, samples, &options, until)?;
-            let judgement = judged(&problem, &ours, &agreement)?;
+            let agreement = Agreement::of(&ours, samples, &options, until)?;
+            let judgement = judged(&ours, &agreement)?;
             let mut fit = None;
             if let Some(samples) = again {
-                let found = Fit::of(&problem, &ours, &agreement, &options.fit)?;
+                let found = Fit::of(&ours, &agreement, &options.fit)?;
                 let found = found.map_err(|error| CompareError::Fit { file: file.clone(), error })?;
-                let ours = Ours::of(&found.problem, &found.history)?;
-                let then = Agreement::of(&found.problem, &ours, samples, &options, until)?;
+                let ours = Ours::of(&found.history)?;
+                let then = Agreement::of(&ours, samples, &options, until)?;
                 fit = Some((found, then));
             }
             files.push(ComparedFile { file, agreement, judgement, fit });

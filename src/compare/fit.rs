@@ -30,7 +30,6 @@ pub(crate) struct Fit {
     pub(crate) values: Vec<FittedValue>,
     pub(crate) steps: usize,
     pub(crate) settled: bool,
-    pub(crate) problem: Problem,
     pub(crate) history: History<f64>,
 }
 
@@ -65,17 +64,17 @@ fn varied(problem: &Problem, parameters: &[Parameter], values: &[f64]) -> Option
 }
 
 impl Fit {
-    /// The values of `parameters` that explain `columns` best, from those of `problem`.
+    /// The values of `parameters` that explain `columns` best, from those of the problem of `ours`.
     ///
     /// **Source**: Levenberg and Marquardt's method in three stages, the residuals of the first two as in `model`: up
     /// to the second impact, then over all times, then sample by sample where no jump is within two steps. In the last
     /// stage each column weighs by what remained of it.
     pub(super) fn of(
-        problem: &Problem,
         ours: &Ours<'_>,
         agreement: &Agreement,
         parameters: &[Parameter],
     ) -> Result<Result<Self, FitError>, Error> {
+        let problem = ours.history.problem();
         if let Some(absent) = parameters.iter().find(|parameter| parameter.value(problem).is_none()) {
             return Ok(Err(FitError::Absent(absent.to_string())));
         }
@@ -116,7 +115,7 @@ impl Fit {
         };
         // Up to the second impact, and over all times.
         for until in [second.unwrap_or(last), last] {
-            let model = Model::of(problem, ours, agreement, until, SAMPLES / 10)?;
+            let model = Model::of(ours, agreement, until, SAMPLES / 10)?;
             let residuals = |problem: &Problem| Some(model.errors(&model.values(problem, |time| time).ok()?).concat());
             // The start may be far from the data; half a dozen steps bring it near. What only later times or the
             // samples one by one tell is left for them.
@@ -147,7 +146,7 @@ impl Fit {
                 error: *error,
             })
             .collect();
-        Ok(Ok(Fit { values, steps: STEPS - left + steps, settled, problem, history }))
+        Ok(Ok(Fit { values, steps: STEPS - left + steps, settled, history }))
     }
 }
 
@@ -167,8 +166,7 @@ fn pointwise(
     weights: Option<&[f64]>,
 ) -> Result<Vec<Vec<f64>>, Error> {
     let history = solved(problem, times.last().copied().unwrap_or_default())?;
-    let problem = problem.to_builder().time(*history.end()).build()?;
-    let ours = Ours::of(&problem, &history)?;
+    let ours = Ours::of(&history)?;
     let kept: Vec<f64> = times.iter().copied().step_by(stride).collect();
     let grid = Grid::new(kept, None);
     let whats: Vec<Quantity> = columns.iter().map(|column| column.what).collect();

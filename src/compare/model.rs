@@ -64,13 +64,8 @@ fn integral(times: &[f64], values: &[f64], start: f64) -> Vec<f64> {
 
 impl<'a> Model<'a> {
     /// The columns at the samples up to `until`, at most about `most` of them.
-    pub(super) fn of(
-        problem: &'a Problem,
-        ours: &Ours<'_>,
-        agreement: &Agreement,
-        until: f64,
-        most: usize,
-    ) -> Result<Self, Error> {
+    pub(super) fn of(ours: &Ours<'a>, agreement: &Agreement, until: f64, most: usize) -> Result<Self, Error> {
+        let problem = ours.history.problem();
         let (history, times, step) = (ours.history, &agreement.grid.times, agreement.step);
         let (speed, trip) = (history.scales().velocity, history.scales().time);
         let wave_speed = Parameter::WaveSpeed.value(problem).unwrap_or(1.0);

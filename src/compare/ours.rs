@@ -7,7 +7,7 @@ use super::touch::{Touch, pressed};
 use crate::error::Error;
 use crate::motion::{Field, Motion, RayRegister, Side, StressPiece};
 use crate::number::{Estimate, Number, Scalar};
-use crate::problem::{Material, Parameters, Problem};
+use crate::problem::{Material, Parameters};
 use crate::quantity::{Measure, Quantity, Rays};
 use crate::solve::History;
 use crate::special::gauss_legendre;
@@ -32,10 +32,11 @@ pub(super) struct Ours<'a> {
 const SMALL: f64 = 1e-9;
 
 impl<'a> Ours<'a> {
-    /// The exact side of `problem`, solved by `history`.
+    /// The exact side of a history.
     ///
     /// **Source**: the register of rays. A time at which one is at the ground counts where the two limits differ.
-    pub(super) fn of(problem: &Problem, history: &'a History<f64>) -> Result<Self, Error> {
+    pub(super) fn of(history: &'a History<f64>) -> Result<Self, Error> {
+        let problem = history.problem();
         let rod = Parameters::<f64>::of(problem, &())?;
         let material = match &problem.rod.material {
             Material::WaveSpeed(_) => [rod.wave_speed * rod.wave_speed, 1.0, 1.0],

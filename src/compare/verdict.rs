@@ -27,7 +27,7 @@ use super::unfitted::{
     FEWEST, Judgement, LEFT, ToldFrom, Verdict, empty, gained, half_step, is_empty, lighter, lost_start, spread,
 };
 use crate::error::Error;
-use crate::problem::{Parameter, Problem};
+use crate::problem::Parameter;
 use crate::quantity::{Measure, Quantity};
 
 /// A hypothesis, with one number `p` that is 0 where nothing is wrong.
@@ -337,15 +337,15 @@ impl Judge<'_> {
 }
 
 /// What is wrong, as far as one number says it.
-pub(super) fn judged(problem: &Problem, ours: &Ours<'_>, agreement: &Agreement) -> Result<Judgement, Error> {
+pub(super) fn judged(ours: &Ours<'_>, agreement: &Agreement) -> Result<Judgement, Error> {
     if agreement.grid.points.is_some() {
         return Ok(Judgement::default());
     }
-    let (hints, told_from) = hints(problem, ours, agreement)?;
+    let (hints, told_from) = hints(ours, agreement)?;
     Ok(Judgement { hints, told_from, spread: spread(ours, agreement)? })
 }
 
-fn hints(problem: &Problem, ours: &Ours<'_>, agreement: &Agreement) -> Result<(Vec<Verdict>, Vec<ToldFrom>), Error> {
+fn hints(ours: &Ours<'_>, agreement: &Agreement) -> Result<(Vec<Verdict>, Vec<ToldFrom>), Error> {
     let (history, columns) = (ours.history, agreement.quantities.as_slice());
     let mut said: Vec<Verdict> = columns.iter().filter(|column| is_empty(column)).map(empty).collect();
     if let Some(lost) = lost_start(columns) {
@@ -357,13 +357,13 @@ fn hints(problem: &Problem, ours: &Ours<'_>, agreement: &Agreement) -> Result<(V
     // The first contact and the flight after it.
     let release = history.contacts().iter().find_map(|contact| contact.to).unwrap_or(f64::INFINITY);
     let until = history.events().iter().map(|event| event.time).find(|time| *time > release);
-    let model = Model::of(problem, ours, agreement, until.unwrap_or(f64::INFINITY), SAMPLES)?;
+    let model = Model::of(ours, agreement, until.unwrap_or(f64::INFINITY), SAMPLES)?;
     if model.times.len() < FEWEST {
         return Ok((said, Vec::new()));
     }
     let trip = history.scales().time;
     let first = history.contacts().first().map_or(0.0, |contact| contact.from);
-    let exact = model.values(problem, |time| time)?;
+    let exact = model.values(model.problem, |time| time)?;
     let ends = [first, first + trip / 2.0, release].into_iter().filter(|end| *end > 0.0).collect();
     let mut judge = Judge { model, base: Vec::new(), exact, ends, trip };
     judge.base = judge.model.errors(&judge.exact);
