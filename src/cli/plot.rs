@@ -176,29 +176,24 @@ impl Visit for Gather<'_> {
         let found = self.asked.gather(self.name.into(), &self.scene.problem, units, history)?;
         drop(progress);
         warned(Head { warnings: history.warnings(), ..head }, false);
-        let (name, [from, to], end) = (self.name, found.span, found.end);
+        let ([from, to], end) = (found.span, found.end);
+        let note = |text: String| eprintln!("note: {}: {text}", self.name);
         let short = |time: f64| time.decimal(6);
-        let asked_to = self.asked.to.unwrap_or(end);
+        let runs_on = matches!(history.ending(), Ending::Time | Ending::NextImpact);
+        let short_of = self.asked.to.map_or(!runs_on, |asked| asked > end * (1.0 + 1e-12));
         if end < history.end().to_f64() {
-            eprintln!("note: {name}: drawn up to t = {}, as far as the events are settled", short(to));
-        } else if asked_to > end * (1.0 + 1e-12) {
-            eprintln!("note: {name}: the history ends at t = {}: {}", short(end), history.ending());
+            note(format!("drawn up to t = {}, as far as the events are settled", short(to)));
         } else if self.asked.to.is_none() && (to < end || from > self.asked.from.unwrap_or(0.0)) {
-            eprintln!(
-                "note: {name}: drawn from t = {} to {} of {}; --from and --to draw another span",
-                short(from),
-                short(to),
-                short(end)
-            );
-        } else if !matches!(history.ending(), Ending::Time | Ending::NextImpact) && self.asked.to.is_none() {
-            eprintln!("note: {name}: the history ends at t = {}: {}", short(end), history.ending());
+            let (from, to, end) = (short(from), short(to), short(end));
+            note(format!("drawn from t = {from} to {to} of {end}; --from and --to draw another span"));
+        } else if short_of {
+            note(format!("the history ends at t = {}: {}", short(end), history.ending()));
         }
         if let Some(columns) = found.coarse() {
-            let columns = columns.decimal(2);
-            eprintln!(
-                "note: {name}: xt has {columns} columns for a round trip, too few for its waves; --from and --to draw \
-                 another span"
-            );
+            note(format!(
+                "xt has {} columns for a round trip, too few for its waves; --from and --to draw another span",
+                columns.decimal(2)
+            ));
         }
         self.found.replace(Some(found));
         Ok(())
