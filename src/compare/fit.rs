@@ -111,7 +111,7 @@ impl Fit {
                 };
                 (0..values.len()).map(by).collect()
             };
-            least(values, &sizes, (most, columns.len()), &of, linear)
+            least(values, &sizes, (most, columns.len()), of, linear)
         };
         // Up to the second impact, and over all times.
         for until in [second.unwrap_or(last), last] {

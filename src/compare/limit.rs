@@ -7,7 +7,7 @@ use serde::Serialize;
 use super::agree::Agreement;
 use super::audit::Extreme;
 use super::map::compared;
-use super::norms::{NORMS, Norm, Norms, order};
+use super::norms::{NORMS, OfNorms, order};
 use super::touch::Touch;
 use crate::quantity::Quantity;
 
@@ -190,7 +190,7 @@ pub(crate) fn orders(files: &[&Agreement], widths: &[f64]) -> Vec<Order> {
         for (pair, widths) in files.windows(2).zip(widths.windows(2)) {
             let [coarse, fine] = [pair[0], pair[1]].map(|file| file.column(compared.what).map(|c| c.norms));
             let Some((coarse, fine)) = coarse.zip(fine) else { continue };
-            let between = |norm: fn(&Norms) -> Option<Norm>| {
+            let between = |norm: OfNorms| {
                 let (error, less) = norm(&coarse).zip(norm(&fine))?;
                 order((widths[0], error.absolute), (widths[1], less.absolute))
             };

@@ -47,8 +47,11 @@ pub struct Norms {
     pub linf_off_jumps: Option<Norm>,
 }
 
+/// One of the norms; `None` where no sample counts.
+pub(super) type OfNorms = fn(&Norms) -> Option<Norm>;
+
 /// The norms: what data and tables call them.
-pub(super) const NORMS: [(&str, &str, fn(&Norms) -> Option<Norm>); 4] = [
+pub(super) const NORMS: [(&str, &str, OfNorms); 4] = [
     ("l1", "L1", |norms| Some(norms.l1)),
     ("l2", "L2", |norms| Some(norms.l2)),
     ("linf", "L∞", |norms| Some(norms.linf)),

@@ -6,12 +6,12 @@ use ndarray::{ArrayD, Axis, IxDyn, OwnedRepr};
 use ndarray_npy::{NpzReader, ReadNpyError, ReadNpyExt, ReadNpzError, ReadableElement};
 
 use super::error::DataErrorKind;
-use super::source::Column;
+use super::source::{Arrays, Column};
 use crate::number::short;
 
 /// Reads an array or an archive of arrays, there with their names: an array of one axis is a column, one of two axes has
 /// a column for each index of its second. A number alone is no column.
-pub(super) fn read(bytes: Vec<u8>, is_array: bool) -> Result<Vec<(Option<String>, Vec<Column>)>, DataErrorKind> {
+pub(super) fn read(bytes: Vec<u8>, is_array: bool) -> Result<Arrays, DataErrorKind> {
     if is_array {
         let array = numbers(&mut Array(&bytes))?;
         let shape = array.shape().to_vec();

@@ -1,9 +1,9 @@
 //! NumPy's files in a build without the feature `npz`: refused by that name.
 
 use super::error::DataErrorKind;
-use super::source::Column;
+use super::source::Arrays;
 
-pub(super) fn read(_: Vec<u8>, _: bool) -> Result<Vec<(Option<String>, Vec<Column>)>, DataErrorKind> {
+pub(super) fn read(_: Vec<u8>, _: bool) -> Result<Arrays, DataErrorKind> {
     let why = "found an array of NumPy in a build without the feature `npz`, expected text";
     Err(DataErrorKind::Unreadable(why.into()))
 }

@@ -11,6 +11,9 @@ use super::text::Text;
 /// A column of an array, or why it is none of numbers: it may not be asked for.
 pub type Column = Result<Vec<f64>, DataErrorKind>;
 
+/// The columns of arrays, which have names in an archive.
+pub(super) type Arrays = Vec<(Option<String>, Vec<Column>)>;
+
 /// A source of columns, opened far enough to know how many there are and what they are called.
 pub struct Source {
     pub(crate) file: String,
@@ -39,7 +42,7 @@ pub(crate) struct Columns {
 }
 
 /// The arrays of a file of NumPy, with their names in an archive.
-fn arrays(mut reader: impl Read, file: &str) -> Result<Vec<(Option<String>, Vec<Column>)>, DataError> {
+fn arrays(mut reader: impl Read, file: &str) -> Result<Arrays, DataError> {
     let mut bytes = Vec::new();
     let read = reader.read_to_end(&mut bytes).map_err(|error| DataErrorKind::Unreadable(error.to_string()));
     let is_array = bytes.starts_with(ARRAY);
@@ -105,7 +108,7 @@ impl Source {
     }
 
     /// The columns of arrays, called as these: `name[k]` where there are several.
-    fn of(file: &str, arrays: Vec<(Option<String>, Vec<Column>)>) -> Self {
+    fn of(file: &str, arrays: Arrays) -> Self {
         let (mut names, mut all) = (Vec::new(), Vec::new());
         for (name, columns) in arrays {
             let several = columns.len() > 1;
