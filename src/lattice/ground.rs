@@ -20,7 +20,7 @@ use super::limits::{Halt, Stop, Until};
 use super::march::March;
 use super::trace::{GroundEvent, Line, Piece, at_deviating, place_to};
 use crate::mapped::MapEach;
-use crate::motion::EventKind;
+use crate::motion::{Ending, EventKind};
 use crate::number::{Bounded, Open};
 
 /// What arrives at the ground between two breaks, `from … to`.
@@ -40,7 +40,7 @@ pub(super) struct Stretch<N> {
     knots: [Option<i64>; 2],
 }
 
-impl<N: Bounded> March<N> {
+impl<N: Bounded> March<'_, N> {
     /// The sign of `x`. Where it is zero only within a bound that is wider than half of the digits of the greatest
     /// value, it is not determined: the stored value decides, which is as good as any, and so it may be with every
     /// event from here on.
@@ -81,7 +81,7 @@ impl<N: Bounded> March<N> {
                     let spread = self.trace.spread(height);
                     self.events.truncate(known.0);
                     self.trace.truncate(known.1);
-                    return Err(Halt::Open { trip, age, spread });
+                    return Err(self.open(trip, &age, spread));
                 }
             }
         }
@@ -93,10 +93,11 @@ impl<N: Bounded> March<N> {
     fn next_stretch(&mut self, first: usize, end: usize, fallen: Option<&N>) -> Result<usize, Stop<N>> {
         let mut stretch = self.arriving(first, end, fallen);
         let next = stretch.incoming.end;
-        let stop = match &self.until {
+        let stop = match self.until {
             Until::Time { trip, age } if *trip == self.trip_number() => age.clone(),
             _ => return self.follow(stretch).map(|()| next),
         };
+        let halt = Halt { trip: self.trip_number(), age: stop.clone(), ending: Ending::Time };
         if place_to(&stop, &stretch.from)?.is_le() {
             // What comes after the last time is its limit from the right.
             self.meet_break(&stretch)?;
@@ -112,7 +113,7 @@ impl<N: Bounded> March<N> {
         } else {
             return self.follow(stretch).map(|()| next);
         }
-        Err(Stop::Halt(Halt::Time))
+        Err(Stop::Halt(halt))
     }
 
     /// What arrives where piece `first` comes back, `fallen` lower, with all pieces after it whose line it continues.
@@ -219,9 +220,9 @@ impl<N: Bounded> March<N> {
     fn record(&mut self, kind: EventKind, age: N, end_velocity: N, stretch: &Stretch<N>) -> Result<(), Stop<N>> {
         let trip = self.trip_number();
         self.contact = kind == EventKind::Impact;
-        if self.contact && matches!(self.until, Until::Contacts(most) if most == self.contacts) {
+        if self.contact && matches!(self.until, Until::Contacts(most) if *most == self.contacts) {
             self.leave(&age, &stretch.line, None);
-            return Err(Stop::Halt(Halt::NextImpact { trip, age }));
+            return Err(Stop::Halt(Halt { trip, age, ending: Ending::NextImpact }));
         }
         self.contacts += u32::from(self.contact);
         let pieces = self.trace.pieces();
@@ -306,8 +307,9 @@ impl<N: Bounded> March<N> {
             }
         }
         let Some(root) = disc.try_sqrt() else {
-            let (trip, from, q, slope) = (self.trip_number(), from.clone(), q.clone(), slope.clone());
-            return Err(Stop::Halt(Halt::Irrational { trip, from, q, slope, disc }));
+            let trip = self.trip_number();
+            let (age, ending) = before_surd(&self.problem.units.round_trip, trip, [from, q, slope, &disc])?;
+            return Err(Stop::Halt(Halt { trip, age, ending }));
         };
         // Of the two forms of the root, the one that adds; where enclosures carry the exact number, the one without a
         // quotient by a root keeps it.
@@ -320,3 +322,25 @@ impl<N: Bounded> March<N> {
         Ok(Some((from.clone().nominal() + flown).with_identity()))
     }
 }
+
+/// Everything before an irrational landing is exact; the history ends at a fraction just below it.
+fn before_surd<N: Bounded>(unit: &N, trip: usize, [from, q, slope, disc]: [&N; 4]) -> Result<(N, Ending), Open> {
+    let scale = unit.clone() / slope;
+    let rational = (q.int(trip as i64) + from) * unit - scale.clone() * q;
+    let (later, square) = (slope.negative()?, scale.square() * disc);
+    let time = rational.surd(later, &square);
+    // A step of Newton's makes of the 53 bits of a root twice as many.
+    let root = square.double(square.to_f64().sqrt());
+    let root = (root.clone() + square / &root).halved();
+    let near = (if later { rational + root } else { rational - root }).to_f64();
+    let (q, slope, disc) = (q.to_f64(), slope.to_f64(), disc.to_f64());
+    let flown = (-q - disc.sqrt()) / slope;
+    // A short fraction where one fits between the beginning of the piece and the root.
+    let ticks = ((from.to_f64() + flown) * MILLION as f64 - 1e-3).floor();
+    let short = from.int(ticks as i64) / from.int(MILLION);
+    let below = if from.below(&short)? { short } else { from.clone() + from.double(flown * (1.0 - 1e-9)) };
+    Ok((below, Ending::ExactnessEnds { kind: EventKind::Impact, time, near }))
+}
+
+/// Parts of a round trip to which the end of an exact history is rounded down.
+const MILLION: i64 = 1_000_000;

@@ -8,10 +8,10 @@ use super::start::{Scaled, Units};
 use super::trace::{Part, Piece, Place};
 use crate::error::Error;
 use crate::mapped::CollectVec;
-use crate::motion::{Course, Ending, EventKind, Side, unobserved};
+use crate::motion::{Course, Ending, Side, unobserved};
 use crate::number::{Bounded, Open};
 use crate::problem::{Problem, Run, Top};
-use crate::reason::{Reason, Warning};
+use crate::reason::Warning;
 
 /// The history of an undamped rod: [`crate::engine::Motion`] by the ground trace of the upward invariant.
 ///
@@ -86,44 +86,22 @@ impl<N: Bounded> Undamped<N> {
             }
         };
         let ground = march(&scaled, &until, limits, observe)?;
-        Self::assemble(scaled, ground, until)
-    }
-
-    fn assemble(problem: Scaled<N>, ground: GroundMotion<N>, until: Until<N>) -> Result<Self, Error> {
-        let trips = ground.trace.trips();
-        let Units { round_trip, velocity, .. } = &problem.units;
-        let moment = |trip: usize, age: &N| Moment { index: trip + 1, age: age.clone() };
-        let over = moment(trips, &problem.gravity.zero());
-        let (end, ending) = match (&ground.halt, until) {
-            (Halt::Time, Until::Time { trip, age }) => (moment(trip, &age), Ending::Time),
-            (Halt::Time, Until::Contacts(_)) => (over, Ending::Time),
-            (Halt::NextImpact { trip, age }, _) => (moment(*trip, age), Ending::NextImpact),
-            (Halt::NoFurtherImpact, _) => (over, Ending::NoFurtherImpact(Reason::Repeats { contact: false })),
-            (Halt::NoBounce, _) => (over, Ending::NoBounce(Reason::Repeats { contact: true })),
-            (Halt::Open { trip, age, spread }, _) => {
-                let spread = spread * (velocity.clone() * round_trip).to_f64();
-                let why = Reason::Touch { bits: age.bits().unwrap_or(0), spread };
-                // What began before the age that is not known is known.
-                let age = if age.is_finite() { age.clone() } else { age.zero() };
-                (moment(*trip, &age), Ending::Undecided(why))
-            }
-            (Halt::Irrational { trip, from, q, slope, disc }, _) => {
-                let (below, ending) = before_surd(round_trip, *trip, [from, q, slope, disc])?;
-                (moment(*trip, &below), ending)
-            }
-        };
+        let (trips, Halt { trip, age, ending }) = (ground.trace.trips(), ground.halt.clone());
         // The stored trips end where the next begins: the last instant that is known.
-        let beyond = end.index > trips && ending != Ending::Time;
-        let end = if beyond { Moment { index: trips, age: end.age.one() } } else { end };
-        let course = Course::new(time_of(&end, round_trip), ending);
-        let mut history = Undamped { end, course, problem, ground };
+        let beyond = trip >= trips && ending != Ending::Time;
+        let end = if beyond { Moment { index: trips, age: age.one() } } else { Moment { index: trip + 1, age } };
+        let course = Course::new(time_of(&end, &scaled.units.round_trip), ending);
+        let mut history = Undamped { end, course, problem: scaled, ground };
         history.course.events = history.in_scene_units()?;
         history.course.contacts = history.summed_contacts();
         let undetermined = history.undetermined_from();
-        let coincidence = history.coincidence_from().filter(|from| undetermined.is_none_or(|lost| *from < lost));
-        let coincidence = coincidence.map(|from| Warning::Coincidence { from });
-        let undetermined = undetermined.map(|from| Warning::NotDetermined { from });
-        history.course.warnings = coincidence.into_iter().chain(undetermined).collect_vec();
+        let coincidence = history.ground.coincidence.map(|trip| history.beginning(trip));
+        let coincidence = coincidence.filter(|from| undetermined.is_none_or(|lost| *from < lost));
+        let warnings = [
+            coincidence.map(|from| Warning::Coincidence { from }),
+            undetermined.map(|from| Warning::NotDetermined { from }),
+        ];
+        history.course.warnings = warnings.into_iter().flatten().collect_vec();
         Ok(history)
     }
 
@@ -144,7 +122,7 @@ impl<N: Bounded> Undamped<N> {
 
     /// The time from which events are not determined in this precision; `None` where all are.
     pub fn undetermined_from(&self) -> Option<f64> {
-        Some(self.ground.undetermined? as f64 * self.problem.units.round_trip.to_f64())
+        self.ground.undetermined.map(|trip| self.beginning(trip))
     }
 
     /// Whether `exact` has the same pieces and events, one by one: then what this history took for equal is equal, and
@@ -171,9 +149,9 @@ impl<N: Bounded> Undamped<N> {
         same
     }
 
-    /// The time from which events that coincide within their bounds are taken for one; `None` where none do.
-    pub fn coincidence_from(&self) -> Option<f64> {
-        Some(self.ground.coincidence? as f64 * self.problem.units.round_trip.to_f64())
+    /// When a round trip begins.
+    fn beginning(&self, trip: usize) -> f64 {
+        trip as f64 * self.problem.units.round_trip.to_f64()
     }
 
     pub(super) fn time_of(&self, moment: &Moment<N>) -> N {
@@ -346,26 +324,5 @@ fn trip_and_age<N: Bounded>(time: &N, units: &Units<N>) -> Option<(usize, N)> {
     Some((usize::try_from(trip).ok()?, age.clone() - age.int(trip)))
 }
 
-/// Everything before an irrational landing is exact; the history ends at a fraction just below it.
-fn before_surd<N: Bounded>(unit: &N, trip: usize, [from, q, slope, disc]: [&N; 4]) -> Result<(N, Ending), Open> {
-    let scale = unit.clone() / slope;
-    let rational = (q.int(trip as i64) + from) * unit - scale.clone() * q;
-    let (later, square) = (slope.negative()?, scale.square() * disc);
-    let time = rational.surd(later, &square);
-    // A step of Newton's makes of the 53 bits of a root twice as many.
-    let root = square.double(square.to_f64().sqrt());
-    let root = (root.clone() + square / &root).halved();
-    let near = (if later { rational + root } else { rational - root }).to_f64();
-    let (q, slope, disc) = (q.to_f64(), slope.to_f64(), disc.to_f64());
-    let flown = (-q - disc.sqrt()) / slope;
-    // A short fraction where one fits between the beginning of the piece and the root.
-    let ticks = ((from.to_f64() + flown) * MILLION as f64 - 1e-3).floor();
-    let short = from.int(ticks as i64) / from.int(MILLION);
-    let below = if from.below(&short)? { short } else { from.clone() + from.double(flown * (1.0 - 1e-9)) };
-    Ok((below, Ending::ExactnessEnds { kind: EventKind::Impact, time, near }))
-}
-
 /// Round trips of more pieces are summed without exact numbers.
 const MANY_PARTS: usize = 32;
-/// Parts of a round trip to which the end of an exact history is rounded down.
-const MILLION: i64 = 1_000_000;

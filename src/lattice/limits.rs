@@ -1,5 +1,6 @@
 //! How far a march goes, what it may take, and why it ends.
 
+use crate::motion::Ending;
 use crate::problem::{Parameters, Problem};
 
 /// How much a march may take.
@@ -41,44 +42,15 @@ pub enum Until<N> {
     },
 }
 
-/// Why a march ended.
+/// Where a march ended, and why.
 #[derive(Clone, Debug)]
-pub enum Halt<N> {
-    /// The time asked for.
-    Time,
-    /// The impact after the contacts asked for.
-    NextImpact {
-        /// The round trip.
-        trip: usize,
-        /// The age in it.
-        age: N,
-    },
-    /// In flight, and two round trips have repeated without an event.
-    NoFurtherImpact,
-    /// In contact, and two round trips have repeated without an event.
-    NoBounce,
-    /// A comparison of enclosures is open at or after this trip and age: what is there before it holds.
-    Open {
-        /// The round trip.
-        trip: usize,
-        /// The age in it.
-        age: N,
-        /// How far apart two solutions may be that go on from here, see [`super::Trace`], in lattice units.
-        spread: f64,
-    },
-    /// The next landing is at `trip + from + (−q − √disc)/slope`, which is no fraction.
-    Irrational {
-        /// The round trip.
-        trip: usize,
-        /// The beginning of the piece, as an age in it.
-        from: N,
-        /// `q` there.
-        q: N,
-        /// `dq/dt`.
-        slope: N,
-        /// `q² − 2 v dq/dt > 0`, no square.
-        disc: N,
-    },
+pub struct Halt<N> {
+    /// The round trip, from 0.
+    pub trip: usize,
+    /// The age in it.
+    pub age: N,
+    /// Why. What is there before an open comparison or an irrational landing holds.
+    pub ending: Ending,
 }
 
 /// What ends the march inside of a stretch.

@@ -3,11 +3,13 @@
 use std::ops::ControlFlow;
 
 use super::limits::{Halt, Limits, Until};
-use super::start::Scaled;
+use super::start::{Scaled, Units};
 use super::trace::{GroundEvent, Place, Trace};
 use crate::error::Error;
+use crate::motion::Ending;
 use crate::number::{Bounded, Open};
 use crate::problem::Top;
+use crate::reason::Reason;
 
 /// More round trips than this are not left out at once: their number must fit the arithmetic.
 const MOST_LEAPT: usize = if usize::BITS < 64 { usize::MAX >> 2 } else { usize::MAX >> 12 };
@@ -19,7 +21,7 @@ pub struct GroundMotion<N> {
     pub trace: Trace<N>,
     /// Impacts and releases.
     pub events: Vec<GroundEvent<N>>,
-    /// Why it ended.
+    /// Where it ended, and why.
     pub halt: Halt<N>,
     /// How often the end landed, forgotten landings included.
     pub contacts: u32,
@@ -35,10 +37,11 @@ pub struct GroundMotion<N> {
 }
 
 /// The march, where it stands.
-pub(super) struct March<N> {
+pub(super) struct March<'a, N> {
+    pub(super) problem: &'a Scaled<N>,
     pub(super) trace: Trace<N>,
     pub(super) events: Vec<GroundEvent<N>>,
-    pub(super) until: Until<N>,
+    pub(super) until: &'a Until<N>,
     pub(super) contact: bool,
     pub(super) contacts: u32,
     /// `v(0,·)`.
@@ -76,9 +79,10 @@ pub fn march<N: Bounded>(
 ) -> Result<GroundMotion<N>, Error> {
     let zero = problem.gravity.zero();
     let mut state = March {
+        problem,
         trace: Trace::new(&problem.before, problem.top, problem.gravity.clone()),
         events: Vec::new(),
-        until: until.clone(),
+        until,
         contact: false,
         contacts: 0,
         height: problem.ground_start.clone(),
@@ -125,32 +129,45 @@ pub fn march<N: Bounded>(
         if quiet && !state.contact && state.height.to_f64() - height.to_f64() >= 2.0 {
             trip += state.leap(trip);
         }
-        if matches!(until, Until::Time { trip: last, .. } if *last < trip) {
-            break Halt::Time;
-        }
-        if matches!(until, Until::Contacts(_)) && trip >= quiet_since + 2 {
-            match state.repeats(problem, &height) {
+        match until {
+            Until::Time { trip: last, age } if *last < trip => {
+                break Halt { trip: *last, age: age.clone(), ending: Ending::Time };
+            }
+            Until::Contacts(_) if trip >= quiet_since + 2 => match state.repeats(&height) {
                 Ok(None) => (),
                 Ok(Some(halt)) => break halt,
-                Err(Open) => break Halt::Open { trip, age: height.zero(), spread: state.trace.spread(&state.height) },
-            }
+                Err(Open) => break state.open(trip, &height.zero(), state.trace.spread(&state.height)),
+            },
+            _ => (),
         }
     };
     let March { trace, events, contacts, relative_error, undetermined, coincidence, .. } = state;
     Ok(GroundMotion { trace, events, halt, contacts, relative_error, undetermined, coincidence })
 }
 
-impl<N: Bounded> March<N> {
+impl<N: Bounded> March<'_, N> {
+    /// The end before a comparison that is open at or after this age; solutions that go on from there may be `spread`
+    /// apart, in lattice units.
+    pub(super) fn open(&self, trip: usize, age: &N, spread: f64) -> Halt<N> {
+        let Units { velocity, round_trip, .. } = &self.problem.units;
+        let spread = spread * (velocity.clone() * round_trip).to_f64();
+        let ending = Ending::Undecided(Reason::Touch { bits: age.bits().unwrap_or(0), spread });
+        // What began before the age that is not known is known.
+        Halt { trip, age: if age.is_finite() { age.clone() } else { age.zero() }, ending }
+    }
+
     /// Two round trips without an event repeat for ever, up to the drift of a rod that flies freely without gravity;
     /// `height` is that of a trip before.
-    fn repeats(&self, problem: &Scaled<N>, height: &N) -> Result<Option<Halt<N>>, Open> {
-        if self.contact {
-            return Ok(Some(Halt::NoBounce));
-        }
-        if self.trace.falls_freely() || (problem.top == Top::Free && self.height.below(height)?) {
+    fn repeats(&self, height: &N) -> Result<Option<Halt<N>>, Open> {
+        let why = Reason::Repeats { contact: self.contact };
+        let ending = if self.contact {
+            Ending::NoBounce(why)
+        } else if self.trace.falls_freely() || (self.problem.top == Top::Free && self.height.below(height)?) {
             return Ok(None);
-        }
-        Ok(Some(Halt::NoFurtherImpact))
+        } else {
+            Ending::NoFurtherImpact(why)
+        };
+        Ok(Some(Halt { trip: self.trace.trips(), age: self.zero.clone(), ending }))
     }
 
     /// Leaves out round trips of a long flight under gravity that only repeat the one before `trip`: as many as end

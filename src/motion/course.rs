@@ -2,28 +2,11 @@
 
 use std::fmt;
 
-use serde::{Serialize, Serializer};
+use serde::Serialize;
 
 use crate::mapped::{CollectVec, MapEach, mapped};
 use crate::number::Scalar;
 use crate::reason::{Near, Reason, Warning};
-
-fn optional<S: Scalar, Z: Serializer>(x: &Option<S>, z: Z) -> Result<Z::Ok, Z::Error> {
-    match x {
-        Some(x) => x.serialize(z),
-        None => z.serialize_none(),
-    }
-}
-
-fn list<S: Scalar, Z: Serializer>(list: &[S], z: Z) -> Result<Z::Ok, Z::Error> {
-    struct One<'a, S>(&'a S);
-    impl<S: Scalar> Serialize for One<'_, S> {
-        fn serialize<Z: Serializer>(&self, z: Z) -> Result<Z::Ok, Z::Error> {
-            self.0.serialize(z)
-        }
-    }
-    z.collect_seq(list.iter().map(One))
-}
 
 named! {
     /// Which of two values at a jump: the limit from earlier or from later times.
@@ -52,83 +35,63 @@ named! {
 }
 
 /// A change between contact and flight.
-#[derive(Clone, Debug, PartialEq, Serialize)]
-#[serde(bound = "S: Scalar")]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Event<S> {
     /// Landing or leaving.
     pub kind: EventKind,
     /// `t`.
-    #[serde(serialize_with = "Scalar::serialize")]
     pub time: S,
     /// `v_t(0,t)`: just before an impact, just after a release. At a landing without speed that a ray turns into an
     /// impact, the `v_t + c v_x < 0` which that ray brings.
-    #[serde(serialize_with = "Scalar::serialize")]
     pub end_velocity: S,
     /// `h(t)`: the centre of mass, relative to its place in the undeformed rod on the ground.
-    #[serde(serialize_with = "Scalar::serialize")]
     pub centre: S,
     /// `h′(t)`.
-    #[serde(serialize_with = "Scalar::serialize")]
     pub centre_velocity: S,
     /// How far `time` may be off, in its own unit: zero where it is exact.
     pub time_error: f64,
 }
 
 /// A time on the ground.
-#[derive(Clone, Debug, PartialEq, Serialize)]
-#[serde(bound = "S: Scalar")]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Contact<S> {
     /// Its beginning.
-    #[serde(serialize_with = "Scalar::serialize")]
     pub from: S,
     /// Its end; `None` where the history ends before.
-    #[serde(serialize_with = "optional")]
     pub to: Option<S>,
     /// `−c² ∫ v_x(0,t) dt ≥ 0` over the contact: momentum per linear density `ρS` that the ground gives;
     /// [`History::units`](crate::History::units) has the factor that makes it that of the rod.
-    #[serde(serialize_with = "Scalar::serialize")]
     pub impulse: S,
     /// The most compressive strain `v_x(0,t)` of the contact, `≤ 0`; [`History::units`](crate::History::units) has the
     /// factors that make it a stress and a force.
-    #[serde(serialize_with = "Scalar::serialize")]
     pub peak_strain: S,
 }
 
 /// The energies (3.54), (3.61)–(3.63), per linear density `ρS`; [`History::units`](crate::History::units) has the
 /// factor that makes them those of the rod.
-#[derive(Clone, Debug, PartialEq, Serialize)]
-#[serde(bound = "S: Scalar")]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Energy<S> {
     /// `E = E_h + E_z`.
-    #[serde(serialize_with = "Scalar::serialize")]
     pub total: S,
     /// `E_h = L h′²/2 + L g h`: the motion of the centre of mass.
-    #[serde(serialize_with = "Scalar::serialize")]
     pub translational: S,
     /// `E_z = ½ ∫ ((v_t − h′)² + c² v_x²) dx`, a sum of squares.
-    #[serde(serialize_with = "Scalar::serialize")]
     pub vibrational: S,
 }
 
 /// A stretch of the stress history without jump or kink. Its values are strains `v_x(0,·)`, stress divided by the
 /// modulus: see [`StressHistory`].
-#[derive(Clone, Debug, PartialEq, Serialize)]
-#[serde(bound = "S: Scalar")]
+#[derive(Clone, Debug, PartialEq)]
 pub struct StressPiece<S> {
     /// Its beginning.
-    #[serde(serialize_with = "Scalar::serialize")]
     pub from: S,
     /// Its end.
-    #[serde(serialize_with = "Scalar::serialize")]
     pub to: S,
     /// `v_x(0, from⁺)`.
-    #[serde(serialize_with = "Scalar::serialize")]
     pub left: S,
     /// `v_x(0, to⁻)`.
-    #[serde(serialize_with = "Scalar::serialize")]
     pub right: S,
     /// Chebyshev coefficients of `v_x(0,·)` on the piece (first one whole, not halved); empty where it is linear.
-    #[serde(serialize_with = "list")]
     pub chebyshev: Vec<S>,
 }
 
@@ -262,9 +225,7 @@ impl<S: Scalar> StressPiece<S> {
             None => b1,
         }
     }
-}
 
-impl<S: Scalar> StressPiece<S> {
     /// `∫ v_x(0,s) ds` from the beginning of the piece to a time of it.
     ///
     /// **Source**: `∫ T_k = T_{k+1}/(2(k+1)) − T_{k−1}/(2(k−1))`, from −1 on.
@@ -301,8 +262,7 @@ impl<S: Scalar> StressPiece<S> {
 
 /// `v_x(0,·)`: the strain at the ground, piece by piece, from `t = 0` to the end of the history. The paper calls it the
 /// stress: it is the stress divided by the modulus.
-#[derive(Clone, Debug, PartialEq, Serialize)]
-#[serde(bound = "S: Scalar")]
+#[derive(Clone, Debug, PartialEq)]
 pub struct StressHistory<S> {
     /// The pieces, in order and without a gap.
     pub pieces: Vec<StressPiece<S>>,
@@ -380,12 +340,6 @@ impl Ending {
             Ending::ExactnessEnds { .. } => self.to_string(),
             reason => format!("ends at t = {end}: {reason}"),
         }
-    }
-}
-
-impl Serialize for Ending {
-    fn serialize<Z: Serializer>(&self, z: Z) -> Result<Z::Ok, Z::Error> {
-        z.collect_str(self)
     }
 }
 

@@ -2,7 +2,6 @@
 
 mod at_start;
 mod course;
-mod field;
 pub(crate) mod moments;
 mod query;
 mod ray;
@@ -13,10 +12,9 @@ mod wave;
 
 pub(crate) use at_start::{AtStart, Datum};
 pub use course::{Contact, Course, Ending, Energy, Event, EventKind, Side, StressHistory, StressPiece};
-pub use field::Field;
 pub use query::{Motion, Pair, Scales, unobserved};
 pub use ray::{Ray, reflection};
 pub use register::{Passing, RayRegister};
 #[cfg(feature = "svg")]
 pub(crate) use straight::straight;
-pub use wave::{Stretch, WavePiece, Waves};
+pub use wave::{Field, Stretch, WavePiece, Waves};

@@ -1,9 +1,31 @@
-//! An undamped motion as two travelling waves.
+//! The field along the rod; an undamped motion as two travelling waves.
 
-use super::Field;
 use crate::mapped::mapped;
 use crate::number::Scalar;
 use crate::problem::Top;
+
+/// The displacement and its derivatives at a point.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Field<S> {
+    /// `v`.
+    pub displacement: S,
+    /// `v_t`.
+    pub velocity: S,
+    /// `v_x`.
+    pub strain: S,
+}
+
+impl<S> Field<S> {
+    /// The same values in other numbers.
+    pub fn map<T>(self, f: impl Fn(S) -> T) -> Field<T> {
+        Field { displacement: f(self.displacement), velocity: f(self.velocity), strain: f(self.strain) }
+    }
+
+    /// Every number in it.
+    pub(crate) fn numbers(&self) -> [&S; 3] {
+        [&self.displacement, &self.velocity, &self.strain]
+    }
+}
 
 /// The exact solution of an undamped rod:
 /// `v(x,t) = (P(t − x/c) ± P(t + x/c − t₁))/2 + a + b x + d x²`, with `+` under a free top and `−` under a fixed one,

@@ -91,10 +91,6 @@ impl Scalar for f64 {
         Some(*self)
     }
 
-    fn serialize<Z: serde::Serializer>(&self, serializer: Z) -> Result<Z::Ok, Z::Error> {
-        serializer.serialize_f64(*self)
-    }
-
     fn text(&self) -> String {
         // Display never uses an exponent; Debug does so for very large and very small values.
         format!("{self:?}")

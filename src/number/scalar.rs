@@ -138,11 +138,6 @@ pub trait Scalar:
         None
     }
 
-    /// Serializes the number: as its text, but a double as a number.
-    fn serialize<Z: serde::Serializer>(&self, serializer: Z) -> Result<Z::Ok, Z::Error> {
-        serializer.serialize_str(&self.text())
-    }
-
     /// The shortest faithful text: `0.1` for a double, `3/2` for a fraction, all digits for a `Float`.
     fn text(&self) -> String;
 
