@@ -1,4 +1,4 @@
-//! Lists in the order of a number.
+//! Lists in order.
 
 use crate::mapped::mapped;
 
@@ -15,6 +15,16 @@ pub(crate) fn ascending<T>(items: Vec<T>, key: impl Fn(&T) -> f64) -> Vec<T> {
         sorted.extend(items[place].take());
     }
     sorted
+}
+
+/// How many items of a list have `passed`, which are the first of it: by bisection, up to the first error.
+pub(crate) fn partition<T, E>(list: &[T], passed: impl Fn(&T) -> Result<bool, E>) -> Result<usize, E> {
+    let (mut from, mut to) = (0, list.len());
+    while from < to {
+        let middle = (from + to) / 2;
+        if passed(&list[middle])? { from = middle + 1 } else { to = middle }
+    }
+    Ok(from)
 }
 
 fn sort(order: &mut [(f64, usize)]) {

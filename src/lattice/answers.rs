@@ -2,11 +2,15 @@
 
 use super::history::{Centre, Moment, Undamped};
 use super::start::Units;
-use super::trace::{Line, Part, Piece};
+use super::trace::{Line, Part, Piece, Place};
 use crate::error::Error;
 use crate::mapped::MapEach;
-use crate::motion::{Course, Field, Motion, Pair, Ray, Scales, Side, StressPiece, Stretch, Waves};
+use crate::motion::{Course, Field, Motion, Pair, Ray, Scales, Side, StressPiece, Stretch, WavePiece, Waves};
 use crate::number::Bounded;
+use crate::problem::Top;
+
+/// More pieces than this are no function to be written into a program.
+const MOST_PIECES: usize = 1_000_000;
 
 impl<N: Bounded> Motion<N> for Undamped<N> {
     fn course(&self) -> &Course<N> {
@@ -81,9 +85,7 @@ impl<N: Bounded> Motion<N> for Undamped<N> {
 
     fn field(&self, point: &N, time: &N, side: Side) -> Result<Field<N>, Error> {
         let units = &self.problem.units;
-        if point.negative()? || units.length.below(point)? || !point.is_finite() {
-            return Err(Error::PointOutside { found: point.text(), length: units.length.text() });
-        }
+        self.check(point)?;
         if side == Side::Left && time.vanishes()? {
             return Ok(self.problem.data.at(point)?);
         }
@@ -106,15 +108,12 @@ impl<N: Bounded> Motion<N> for Undamped<N> {
 
     /// From the stretches of each time, on which both are linear.
     fn rates(&self, points: &[N], times: &[N]) -> Result<Vec<[N; 2]>, Error> {
-        let length = &self.problem.units.length;
         let mut rates = Vec::with_capacity(points.len() * times.len());
         for time in times {
             let stretches = self.stretches(time)?;
             let mut k = 0;
             for point in points {
-                if point.negative()? || length.below(point)? || !point.is_finite() {
-                    return Err(Error::PointOutside { found: point.text(), length: length.text() });
-                }
+                self.check(point)?;
                 // What lies at the edge of two stretches within rounding is the end of the lower one.
                 while k + 1 < stretches.len() && stretches[k + 1].from.below(point) == Ok(true) {
                     k += 1;
@@ -140,7 +139,35 @@ impl<N: Bounded> Motion<N> for Undamped<N> {
     }
 
     fn rays(&self, trip: usize) -> Result<Vec<Ray<N>>, Error> {
-        Ok(self.rays_of(trip))
+        let trace = &self.ground.trace;
+        if trip >= trace.trips() {
+            return Ok(Vec::new());
+        }
+        let units = &self.problem.units;
+        let mut rays = Vec::new();
+        for piece in 0..trace.slice(trip + 1).len() {
+            let mut here = Place { index: trip + 1, piece, age: units.length.zero() };
+            let after = trace.piece(&here);
+            here.age = after.age;
+            let left = trace.place_before(here.index, piece, &here.age);
+            let before = trace.piece(&left);
+            let jump = after.line.value_at(&here.age) - before.line.value_at(&left.age);
+            let kink = after.line.slope - &before.line.slope;
+            if jump.vanishes() == Ok(true) && kink.vanishes() == Ok(true) {
+                continue;
+            }
+            let half = (jump * &units.velocity).halved();
+            let strain = half.clone() / &units.wave_speed;
+            let from = (here.age.int(trip as i64) + &here.age) * &units.round_trip;
+            let up = [-strain.clone(), half.clone()];
+            let down = match self.problem.top {
+                Top::Free => [strain, half],
+                Top::Fixed => [-strain, -half],
+            };
+            let kink = (kink * &units.velocity / &units.round_trip).halved();
+            rays.push(Ray { to: from.clone() + &units.round_trip, from, up, down, kink });
+        }
+        Ok(rays)
     }
 
     fn corners(&self) -> Vec<N> {
@@ -167,8 +194,62 @@ impl<N: Bounded> Motion<N> for Undamped<N> {
         Ok(false)
     }
 
+    /// With `p` of the ground trace, `v_t − c v_x` is `p(t − x/c) − g x/c`, and `v_t + c v_x` is
+    /// `±p(t + x/c − t₁) + g x/c`, less `g t₁` under a free top, which half of it in each `p` stands for.
     fn waves(&self) -> Result<Waves<N>, Error> {
-        self.travelling()
+        let Units { round_trip, velocity, wave_speed, length } = &self.problem.units;
+        let trace = &self.ground.trace;
+        if trace.begin() > 1 {
+            let start = (round_trip.int(trace.begin() as i64 - 1) * round_trip).text();
+            return Err(Error::TimeForgotten { found: "0".into(), start });
+        }
+        let pull = match self.problem.top {
+            Top::Free => self.problem.gravity.clone().halved(),
+            Top::Fixed => velocity.zero(),
+        };
+        let mut pieces: Vec<WavePiece<N>> = Vec::new();
+        for index in 0..=trace.trips() {
+            for piece in 0..trace.slice(index).len() {
+                let here = trace.piece(&Place { index, piece, age: velocity.zero() });
+                let from = (here.age.int(index as i64 - 1) + &here.age) * round_trip;
+                let rate = (here.line.value_at(&here.age) - &pull) * velocity;
+                let slope = here.line.slope * velocity / round_trip;
+                let sum = match pieces.last() {
+                    None => velocity.zero(),
+                    Some(last) => {
+                        let (before, arrived) = last.at(&from);
+                        if last.slope.same(&slope) && arrived.same(&rate) {
+                            continue;
+                        }
+                        before
+                    }
+                };
+                pieces.push(WavePiece { from, sum, rate, slope });
+            }
+            if pieces.len() > MOST_PIECES {
+                let time = round_trip.to_f64() * index as f64;
+                return Err(Error::TooManyPieces { limit: MOST_PIECES, time });
+            }
+        }
+        // g itself, from that of the lattice.
+        let curvature = self.problem.gravity.clone() * velocity / round_trip / wave_speed.square();
+        let start = self.problem.ground_start.clone() * velocity * round_trip;
+        let zero = velocity.zero();
+        let mut waves = Waves {
+            linear: match self.problem.top {
+                Top::Free => -(curvature.clone() * length),
+                Top::Fixed => zero.clone(),
+            },
+            quadratic: curvature.halved(),
+            constant: zero.clone(),
+            top: self.problem.top,
+            round_trip: round_trip.clone(),
+            wave_speed: wave_speed.clone(),
+            length: length.clone(),
+            pieces,
+        };
+        waves.constant = start - waves.at(&zero, &zero).displacement;
+        Ok(waves)
     }
 
     fn scales(&self) -> Scales<N> {
@@ -190,6 +271,12 @@ impl<N: Bounded> Motion<N> for Undamped<N> {
 }
 
 impl<N: Bounded> Undamped<N> {
+    fn check(&self, point: &N) -> Result<(), Error> {
+        let length = &self.problem.units.length;
+        let outside = point.negative()? || length.below(point)? || !point.is_finite();
+        if outside { Err(Error::PointOutside { found: point.text(), length: length.text() }) } else { Ok(()) }
+    }
+
     /// The stress from the beginning of a piece of `trip` to a moment; `None` where that is no time within the bounds.
     fn stress_piece(&self, from: &Piece<N>, trip: usize, to: &Moment<N>) -> Option<StressPiece<N>> {
         let Units { wave_speed, velocity, .. } = &self.problem.units;

@@ -105,16 +105,6 @@ impl<N: Bounded> Undamped<N> {
         Ok(history)
     }
 
-    /// The units of the lattice.
-    pub fn units(&self) -> &Units<N> {
-        &self.problem.units
-    }
-
-    /// The end `x = L`.
-    pub fn top(&self) -> Top {
-        self.problem.top
-    }
-
     /// The motion of the ground end: pieces and events, in lattice units.
     pub fn ground(&self) -> &GroundMotion<N> {
         &self.ground
@@ -219,11 +209,10 @@ impl<N: Bounded> Undamped<N> {
 
     /// `∫ p` from one moment to another.
     fn integral(&self, from: &Moment<N>, until: &Moment<N>) -> Result<N, Open> {
-        let (mut sum, exact) = (from.age.zero(), self.sums_stay_short(from.index));
+        let (mut sum, summed) = (from.age.zero(), self.summed(from.index));
         let (from, until) = (self.place(from, Side::Right)?, self.place(until, Side::Left)?);
         self.ground.trace.window(&from, &until, &mut |part| {
-            let part = if exact { part } else { part.without_exact() };
-            sum = sum.clone() + part.integral();
+            sum = sum.clone() + summed(part).integral();
         });
         Ok(sum)
     }
@@ -242,8 +231,9 @@ impl<N: Bounded> Undamped<N> {
         Ok((down - up + gravity.clone() * height.square()).halved())
     }
 
-    fn sums_stay_short(&self, index: usize) -> bool {
-        self.ground.trace.slice(index).len() <= MANY_PARTS
+    /// What sums over this round trip take of its parts.
+    fn summed(&self, index: usize) -> fn(Part<N>) -> Part<N> {
+        if self.ground.trace.slice(index).len() <= MANY_PARTS { |part| part } else { Part::without_exact }
     }
 
     /// What travels in the rod at the end of a window of one round trip: with `s` from 0 to 1 back from there,
@@ -259,8 +249,8 @@ impl<N: Bounded> Undamped<N> {
         if self.problem.top == Top::Fixed {
             return self.visit_ways(from, until, &mut |_, part| visit(part));
         }
-        let exact = self.sums_stay_short(until.index);
-        self.ground.trace.window(from, until, &mut |part| visit(if exact { part } else { part.without_exact() }));
+        let summed = self.summed(until.index);
+        self.ground.trace.window(from, until, &mut |part| visit(summed(part)));
         Ok(())
     }
 
@@ -272,8 +262,8 @@ impl<N: Bounded> Undamped<N> {
         visit: &mut dyn FnMut(bool, Part<N>),
     ) -> Result<(), Open> {
         let trace = &self.ground.trace;
-        let exact = self.sums_stay_short(until.index);
-        let mut visit = |up: bool, part: Part<N>| visit(up, if exact { part } else { part.without_exact() });
+        let summed = self.summed(until.index);
+        let mut visit = |up: bool, part: Part<N>| visit(up, summed(part));
         let (gravity, half) = (&self.problem.gravity, until.age.one().halved());
         let now = Moment { index: until.index, age: until.age.clone() };
         let middle = self.place(&self.shifted(&now, &-half.clone())?, Side::Right)?;

@@ -17,8 +17,7 @@
 //!
 //! Reading order: `start` (units and start), `trace` (what is stored), `limits` (how far, and why no farther), `march`
 //! (trip after trip), `ground` (contact law and events), `history` (times on the lattice), `events` and `answers` (what
-//! can be asked), `parts` (kinetic and strain energy apart), `rays` (the jumps of Proposition 2),
-//! `waves` (the whole solution as two travelling waves).
+//! can be asked), `parts` (kinetic and strain energy apart).
 
 mod answers;
 mod events;
@@ -27,10 +26,8 @@ mod history;
 mod limits;
 mod march;
 mod parts;
-mod rays;
 mod start;
 mod trace;
-mod waves;
 
 pub(crate) use crate::motion::unobserved;
 pub use history::Undamped;

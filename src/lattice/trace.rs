@@ -5,6 +5,7 @@ use std::cmp::Ordering;
 use crate::mapped::MapEach;
 use crate::motion::{EventKind, Side};
 use crate::number::{Bounded, Open};
+use crate::order::partition;
 use crate::problem::Top;
 
 /// `intercept + slope·f` at age `f`.
@@ -373,16 +374,10 @@ impl<N: Bounded> Trace<N> {
     /// The place of `age` in trip `index` (0: before the start): in the piece that begins there, or from the left in
     /// the one before it, which may be the last of the trip before.
     pub(super) fn place(&self, index: usize, age: &N, side: Side) -> Result<Place<N>, Open> {
-        let pieces = self.slice(index);
-        let (mut begun, mut later) = (0, pieces.len());
-        while begun < later {
-            let middle = (begun + later) / 2;
-            let has_begun = match side {
-                Side::Left => place_to(age, &pieces[middle].age)?.is_gt(),
-                Side::Right => place_to(age, &pieces[middle].age)?.is_ge(),
-            };
-            if has_begun { begun = middle + 1 } else { later = middle }
-        }
+        let begun = partition(self.slice(index), |piece| {
+            let order = place_to(age, &piece.age)?;
+            Ok(order.is_gt() || side == Side::Right && order.is_eq())
+        })?;
         Ok(self.place_before(index, begun, age))
     }
 

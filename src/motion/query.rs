@@ -7,6 +7,7 @@ use super::moments::{self, Moments};
 use super::{Contact, Course, Ending, Energy, Event, EventKind, Field, Ray, Side, StressPiece, Stretch, Waves};
 use crate::error::Error;
 use crate::number::Scalar;
+use crate::order::partition;
 use crate::reason::Warning;
 
 /// The scales of a motion: what its quantities are to be compared with.
@@ -189,17 +190,12 @@ pub trait Motion<S: Scalar>: fmt::Debug + Send + Sync {
         if side == Side::Right && *self.ending() == Ending::NextImpact && !time.below(&like)? {
             return Ok(like.one());
         }
-        let (events, mut from) = (self.events(), 0);
-        let mut to = events.len();
-        while from < to {
-            let middle = (from + to) / 2;
-            let passed = match side {
-                Side::Left => events[middle].time.below(time)?,
-                Side::Right => !time.below(&events[middle].time)?,
-            };
-            if passed { from = middle + 1 } else { to = middle }
-        }
-        let contact = from.checked_sub(1).is_some_and(|last| events[last].kind == EventKind::Impact);
+        let events = self.events();
+        let passed = partition(events, |event| match side {
+            Side::Left => event.time.below(time),
+            Side::Right => Ok(!time.below(&event.time)?),
+        })?;
+        let contact = passed.checked_sub(1).is_some_and(|last| events[last].kind == EventKind::Impact);
         Ok(like.int(contact.into()))
     }
 

@@ -6,6 +6,7 @@ use crate::error::Error;
 use crate::mapped::{CollectVec, mapped};
 use crate::motion::{Motion, Side, StressPiece};
 use crate::number::{Open, Scalar};
+use crate::order::partition;
 use crate::threads::Threads;
 
 /// The values of `columns` at every time of `times`, column by column. Where `side` is `None` and the two limits of any
@@ -203,16 +204,6 @@ impl Source {
         }
         Ok(())
     }
-}
-
-/// The first of `list` for which `passed` no longer holds, by bisection.
-fn partition<T>(list: &[T], passed: impl Fn(&T) -> Result<bool, Open>) -> Result<usize, Open> {
-    let (mut from, mut to) = (0, list.len());
-    while from < to {
-        let middle = (from + to) / 2;
-        if passed(&list[middle])? { from = middle + 1 } else { to = middle }
-    }
-    Ok(from)
 }
 
 /// `−c² ∫₀ᵗ v_x(0,s) ds`: pieces of the stress, each with what came before it.
