@@ -2,7 +2,7 @@
 
 use std::fmt;
 
-use super::observer::Observer;
+use super::ladder::Observer;
 use super::plan::Plan;
 use super::question::Want;
 use crate::error::Error;

@@ -4,8 +4,7 @@ use std::sync::Arc;
 
 use super::asked::{Longer, Open, Telling};
 use super::derivative::{Asked, Derivatives};
-use super::ladder::{Engined, Target};
-use super::observer::Observer;
+use super::ladder::{Engined, Observer, Target};
 use super::plan::{DEFAULT_ACCURACY, Engine, Plan, Rung};
 use super::{differences, fractions, interpolated, long};
 use crate::cells::{ContactThenCells, Damped};

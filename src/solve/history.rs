@@ -2,8 +2,7 @@
 
 use std::sync::{Mutex, OnceLock, PoisonError};
 
-use super::ladder::{Attempt, Engined, Ladder, Query, Target, settled};
-use super::observer::{Observer, unobserved};
+use super::ladder::{Attempt, Engined, Ladder, Observer, Query, Target, settled, unobserved};
 use super::plan::{Plan, Rung};
 use super::question::{Numbers, Question};
 use crate::error::Error;
@@ -84,8 +83,7 @@ impl<S: Target> History<S> {
             let contacts = if ask_events { engine.contacts().to_vec() } else { Vec::new() };
             Ok((engine.end(), events, contacts))
         };
-        let (attempt, (end, events, contacts)) =
-            settled::<S, _, _>(query, what_happens, |query| ladder.settle::<S>(Vec::new(), query))?;
+        let (attempt, (end, events, contacts)) = ladder.ask::<S, _>(query, what_happens)?;
         let motion = History {
             ending: attempt.engine.ending().clone(),
             last: Mutex::new(attempt.clone()),

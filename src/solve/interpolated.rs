@@ -8,7 +8,7 @@
 //! makes the second difference as great: where either is, runs in long numbers settle it.
 
 use super::derivative::{Asked, Derivative, Derivatives};
-use super::ladder::{Engined, Ladder, settled};
+use super::ladder::{Engined, Ladder};
 use super::plan::Plan;
 use super::question::Question;
 use crate::error::Error;
@@ -70,10 +70,9 @@ fn with_step(
         let Some(problem) = asked.by.moved(asked.problem, &by) else { return Ok(Vec::new()) };
         let plan = Plan::of(&problem, &Question { want: asked.want.clone(), numbers: asked.plan.numbers })?;
         let ladder = Ladder { problem: &problem, plan: &plan, observe: asked.observe };
-        let found = settled::<f64, _, _>(
+        let found = ladder.ask::<f64, _>(
             |motion| rows(asked, &problem, motion),
             |(rows, _)| rows.iter().flatten().flatten().collect_vec(),
-            |query| ladder.settle::<f64>(Vec::new(), query),
         )?;
         Ok::<Rows, Error>(found.1.0)
     };

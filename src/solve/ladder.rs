@@ -1,10 +1,10 @@
 //! The precision ladder: an answer is computed in doubles, in longer numbers or in enclosures until its own bound
 //! settles it.
 
-use std::sync::Arc;
+use std::ops::ControlFlow;
+use std::sync::{Arc, LazyLock};
 
 use super::derivative::{Asked, Derivatives};
-use super::observer::{Observer, UNOBSERVED};
 use super::plan::{Engine, Goal, Lacks, Plan, Rung};
 use crate::error::Error;
 use crate::motion::{Ending, Motion, Scales};
@@ -39,8 +39,19 @@ impl Plan {
         numbers: impl Fn(&T) -> Vec<&S::Carried>,
     ) -> Result<T, Error> {
         let ladder = Ladder { problem, plan: self, observe: &UNOBSERVED };
-        settled::<S, T, _>(query, numbers, |query| ladder.settle::<S>(Vec::new(), query)).map(|(_, answer)| answer)
+        ladder.ask::<S, T>(query, numbers).map(|(_, answer)| answer)
     }
+}
+
+/// Receives from time to time how far a run is, in round trips, or in contacts where so many are asked for, and how
+/// many pieces it has; may end the run with [`Error::Interrupted`](crate::Error::Interrupted).
+pub type Observer = Arc<dyn Fn(usize, usize) -> ControlFlow<()> + Send + Sync>;
+
+static UNOBSERVED: LazyLock<Observer> = LazyLock::new(|| Arc::new(crate::lattice::unobserved));
+
+/// An observer that does nothing.
+pub(crate) fn unobserved() -> Observer {
+    UNOBSERVED.clone()
 }
 
 /// An engine that has run.
@@ -69,17 +80,12 @@ pub(crate) struct Ladder<'a> {
 }
 
 /// An attempt: its numbers, and the engine that has run in them.
+#[derive(Clone)]
 pub(crate) struct Attempt<S: Answer> {
     pub(crate) rung: Rung,
     pub(crate) engine: Engined<S>,
     /// Whether exact numbers have been tried where events coincide within their bounds, and did not decide either.
     tried: bool,
-}
-
-impl<S: Answer> Clone for Attempt<S> {
-    fn clone(&self) -> Self {
-        Attempt { rung: self.rung, engine: self.engine.clone(), tried: self.tried }
-    }
 }
 
 /// A number of an answer, as far as it matters whether it is settled.
@@ -122,6 +128,15 @@ pub(crate) fn settled<S: Target, T, A>(
 const SAME_DOUBT: usize = 3;
 
 impl Ladder<'_> {
+    /// The answer to `query`, as [`Ladder::settle`], and the attempt that has it.
+    pub(crate) fn ask<S: Target, T>(
+        &self,
+        query: impl Fn(&dyn Motion<S::Carried>) -> Result<T, Error>,
+        numbers: impl Fn(&T) -> Vec<&S::Carried>,
+    ) -> Result<(Attempt<S>, T), Error> {
+        settled::<S, T, _>(query, numbers, |query| self.settle::<S>(Vec::new(), query))
+    }
+
     /// The answer to `query`, settled: asked of the attempts that are `known`, and then of others in more and more
     /// bits, until every comparison on the way is decided and all numbers of the answer have the digits of the plan.
     ///
@@ -247,7 +262,8 @@ impl Ladder<'_> {
 fn coincides<S: Scalar>(plan: &Plan, engine: &dyn Motion<S>) -> bool {
     let contacts = engine.digits_lost().map_or(0, |(contacts, _)| contacts);
     let taken_for_one = || engine.warnings().iter().any(|warning| matches!(warning, Warning::Coincidence { .. }));
-    plan.tries_exact(contacts) && (taken_for_one() || plan.engine == Engine::Lattice && ends_at_event(engine))
+    plan.climb.exact_contacts.is_some_and(|most| contacts <= most)
+        && (taken_for_one() || plan.engine == Engine::Lattice && ends_at_event(engine))
 }
 
 /// Whether the last event is not told from the end of the run, which it may come after.

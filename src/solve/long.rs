@@ -7,8 +7,7 @@ use super::converted::Converted;
 use super::derivative::{Asked, Derivatives};
 use super::differences;
 use super::fractions::confirmed;
-use super::ladder::{Engined, Target};
-use super::observer::Observer;
+use super::ladder::{Engined, Observer, Target};
 use super::plan::{Engine, Lacks, MOST_PROVED, Plan, Rung};
 use crate::cells::{ContactThenCells, Damped, Effort};
 use crate::error::Error;
@@ -23,14 +22,14 @@ impl Target for Float {
         match rung {
             Rung::Enclosures(bits) => Ok(Arc::new(Converted::new(enclosures(problem, plan, bits, observe)?))),
             rung => {
-                let bits = bits_of(rung);
+                let bits = rung.bits();
                 let run = estimates(problem, plan, bits, observe)?;
                 // Of an undamped rod an event may be at the very time.
                 if plan.engine == Engine::Lattice {
                     return Ok(run);
                 }
                 let digits = plan.goal.digits as u32;
-                let last = plan.rung.bits().is_some_and(|first| bits >= MOST_TIMES * first);
+                let last = bits >= MOST_TIMES * plan.rung.bits();
                 let error = if last { Error::Unsettled { digits, bits } } else { not_told(Some(bits)) };
                 Ok(Telling::<Float>::of(run, problem, Open::Refuse(error)))
             }
@@ -47,7 +46,7 @@ const MOST_TIMES: u32 = 4;
 
 impl Target for Interval {
     fn run(problem: &Problem, plan: &Plan, rung: Rung, observe: &Observer) -> Result<Engined<Interval>, Error> {
-        enclosures(problem, plan, bits_of(rung), observe)
+        enclosures(problem, plan, rung.bits(), observe)
     }
 
     fn derivatives(asked: &Asked<'_>, _: &Engined<Self>) -> Result<Derivatives<Interval>, Error> {
@@ -71,14 +70,7 @@ pub(super) fn in_doubles(
 
 /// An attempt in so many bits, read in doubles, which says where it does not tell a time from an event or a ray.
 pub(super) fn read(problem: &Problem, plan: &Plan, rung: Rung, observe: &Observer) -> Result<Engined<f64>, Error> {
-    Ok(Arc::new(Converted::new(estimates(problem, plan, bits_of(rung), observe)?)))
-}
-
-fn bits_of(rung: Rung) -> u32 {
-    match rung {
-        Rung::Bits(bits) | Rung::Confirmed(bits) | Rung::Enclosures(bits) => bits,
-        Rung::Double | Rung::Fractions => f64::MANTISSA_DIGITS,
-    }
+    Ok(Arc::new(Converted::new(estimates(problem, plan, rung.bits(), observe)?)))
 }
 
 fn estimates(problem: &Problem, plan: &Plan, bits: u32, observe: &Observer) -> Result<Engined<Float>, Error> {

@@ -2,8 +2,7 @@
 
 use super::asked::Longer;
 use super::derivative::{Asked, Derivatives};
-use super::ladder::{Engined, Target};
-use super::observer::Observer;
+use super::ladder::{Engined, Observer, Target};
 use super::plan::{Plan, Rung};
 use crate::error::Error;
 use crate::first_contact::Bounce;

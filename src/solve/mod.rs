@@ -8,7 +8,6 @@
 //! | `engines`, `fractions`, `long` | the planned engine in the numbers of one attempt |
 //! | `asked` | times that are not told from that of an event or a ray |
 //! | `converted` | a history in one number system, read in another |
-//! | `observer` | who is told how far a run is |
 //! | `ladder` | more bits until the answer is settled |
 //! | `derivative` | derivatives by a value of the problem |
 //! | `exact`, `differences` | how fractions have them, and how long numbers |
@@ -31,7 +30,6 @@ mod interpolated;
 mod ladder;
 #[cfg_attr(not(feature = "mp"), path = "long_absent.rs")]
 mod long;
-mod observer;
 mod plan;
 mod question;
 #[cfg(feature = "cli")]
@@ -40,10 +38,9 @@ mod solution;
 
 pub use derivative::{Derivative, Derivatives, NoDerivative};
 pub use history::History;
-pub use ladder::Target;
-pub use observer::Observer;
 #[cfg(feature = "cli")]
-pub(crate) use observer::unobserved;
+pub(crate) use ladder::unobserved;
+pub use ladder::{Observer, Target};
 pub use plan::{CERTIFIED_DIGITS, CellLimits, Climb, DEFAULT_ACCURACY, Engine, Goal, MAX_DIGITS, Plan, Reach, Rung};
 pub use question::{Numbers, Question, Want};
 #[cfg(feature = "cli")]

@@ -9,6 +9,7 @@ use super::question::{Numbers, Question, Want};
 use crate::cells::Effort;
 use crate::error::Error;
 use crate::lattice::Limits;
+use crate::mapped::CollectVec;
 use crate::number::{Number, bits_for_digits};
 use crate::problem::{Parameters, Problem, Run};
 
@@ -125,17 +126,6 @@ pub enum Reach {
     FirstContact,
     /// Up to this time, included.
     Time(Number),
-}
-
-impl Reach {
-    /// About how many contacts that is at most, `trip` being a round trip.
-    fn contacts(&self, trip: f64) -> f64 {
-        match self {
-            Reach::Contacts(contacts) => f64::from(*contacts),
-            Reach::FirstContact => 1.0,
-            Reach::Time(time) => (time.to_f64() / (2.0 * trip)).ceil(),
-        }
-    }
 }
 
 /// The numbers that one attempt is computed in, in the order in which they cost more.
@@ -259,7 +249,11 @@ impl Plan {
                 let wanted = bits_for_digits(digits);
                 let marched = then_cells || engine == Engine::Cells;
                 let bits = if marched && wanted < MOST_PROVED {
-                    let lost = foresee::proof_bits(problem, |trip| reach.contacts(trip));
+                    let lost = foresee::proof_bits(problem, |trip| match &reach {
+                        Reach::Contacts(contacts) => f64::from(*contacts),
+                        Reach::FirstContact => 1.0,
+                        Reach::Time(time) => (time.to_f64() / (2.0 * trip)).ceil(),
+                    });
                     (wanted + PROOF_GUARD_BITS + lost).min(MOST_PROVED)
                 } else {
                     wanted + GUARD_BITS
@@ -346,21 +340,9 @@ impl Plan {
     /// ray.
     pub(super) fn telling(&self, rung: Rung) -> Vec<Rung> {
         let exact = self.engine == Engine::Lattice && !matches!(rung, Rung::Bits(_));
-        let known = rung.bits().unwrap_or(0);
-        let mut rungs = if exact { vec![Rung::Fractions] } else { Vec::new() };
-        if let Some(bits) = &self.climb.bits {
-            for bits in [1, 2, 4].map(|times| times * bits) {
-                if bits > known {
-                    rungs.push(Rung::Bits(bits));
-                }
-            }
-        }
-        rungs
-    }
-
-    /// Whether exact numbers decide where events of a run through so many contacts coincide within their bounds.
-    pub(crate) fn tries_exact(&self, contacts: u32) -> bool {
-        self.climb.exact_contacts.is_some_and(|most| contacts <= most)
+        let longer = self.climb.bits.into_iter().flat_map(|bits| [bits, 2 * bits, 4 * bits]);
+        let longer = longer.filter(|bits| *bits > rung.bits()).map(Rung::Bits);
+        exact.then_some(Rung::Fractions).into_iter().chain(longer).collect_vec()
     }
 
     /// Why this engine and these numbers, a sentence each.
@@ -549,11 +531,11 @@ fn check(problem: &Problem, numbers: Numbers) -> Result<(), Error> {
 }
 
 impl Rung {
-    /// How many bits numbers with an error bound have.
-    pub(super) fn bits(self) -> Option<u32> {
+    /// Bits of the significand; those of a double where it is one that fractions confirm.
+    pub(super) fn bits(self) -> u32 {
         match self {
-            Rung::Bits(bits) => Some(bits),
-            Rung::Double | Rung::Fractions | Rung::Confirmed(_) | Rung::Enclosures(_) => None,
+            Rung::Bits(bits) | Rung::Confirmed(bits) | Rung::Enclosures(bits) => bits,
+            Rung::Double | Rung::Fractions => f64::MANTISSA_DIGITS,
         }
     }
 }

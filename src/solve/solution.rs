@@ -1,8 +1,7 @@
 //! The answer in the numbers that were asked for.
 
 use super::history::History;
-use super::ladder::Target;
-use super::observer::Observer;
+use super::ladder::{Observer, Target};
 use super::plan::Plan;
 use super::question::Numbers;
 use crate::error::Error;
