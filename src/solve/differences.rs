@@ -7,20 +7,18 @@
 //! Where the quotients differ by more than a step of the size asked for lets a smooth function differ, the step is
 //! squared: the error of a one-sided quotient shrinks with it, and what does not is a kink, a root or a jump.
 
-use super::derivative::{Asked, Derivative, Derivatives, NoDerivative};
+use super::derivative::{Asked, Derivative, Derivatives, NoDerivative, Rows, at, of_each};
 use super::history::History;
 use super::plan::Plan;
 use super::question::{Numbers, Question};
 use crate::error::Error;
-use crate::mapped::{CollectVec, MapEach, mapped};
+use crate::mapped::{CollectVec, MapEach};
 use crate::motion::Motion;
 use crate::number::{Bounded, Estimate, Float, Number, Scalar, bits_for_digits};
 use crate::problem::{Parameter, Problem};
 use crate::threads::Threads;
 
 type Long = Estimate<Float>;
-/// Numbers by row and column.
-type Rows = Vec<Vec<Option<Long>>>;
 type OneSide = Result<Long, NoDerivative>;
 
 /// Beyond these steps have more digits than numbers are written in.
@@ -66,11 +64,11 @@ fn part(exponent: u32) -> f64 {
 
 /// Runs that are a step apart.
 struct Level {
-    base: Rows,
+    base: Rows<Long>,
     /// The natural scale of each column.
     scales: Vec<f64>,
     /// Two steps to the left and one to the right; `None` where no problem has such a value.
-    moved: [Option<Rows>; 2],
+    moved: [Option<Rows<Long>>; 2],
     /// The step, in the units of the value.
     step: Long,
     /// The same as a part of the value.
@@ -103,10 +101,10 @@ impl Level {
     }
 
     /// The quotients to both sides of a number that there is; `None` where no problem is on that side.
-    fn quotients(&self, (row, column): (usize, usize)) -> Option<[Option<OneSide>; 2]> {
-        let here = self.base.get(row)?.get(column)?.as_ref()?;
+    fn quotients(&self, place: (usize, usize)) -> Option<[Option<OneSide>; 2]> {
+        let here = at(&self.base, place)?;
         let [left, right] = self.moved.each_ref().map(|moved| {
-            let there = moved.as_ref()?.get(row).and_then(|row| row.get(column)?.as_ref());
+            let there = at(moved.as_ref()?, place);
             (there.is_some() || !self.one_sided).then_some(())?;
             Some(there.ok_or(NoDerivative::Jumps).map(|there| (there.clone() - here) / &self.step))
         });
@@ -116,19 +114,15 @@ impl Level {
     /// The derivatives by these runs, those with a greater step at hand; and whether all are settled.
     fn derivatives(&self, before: Option<&Level>, wanted: f64) -> (Derivatives<Long>, bool) {
         let mut settled = true;
-        let mut cell = |place: (usize, usize)| {
-            let now = self.quotients(place)?;
-            let natural = self.base[place.0][place.1].as_ref().map_or(0.0, size).max(self.scales[place.1]);
+        let found = of_each(&self.base, |place, number| {
+            let natural = size(number).max(self.scales[place.1]);
             let judge = Judge { wanted, natural: natural / size(&self.step) * self.part, step: self.part };
-            let found = judge.derivative(now, before.and_then(|before| before.quotients(place)));
+            let before = before.and_then(|before| before.quotients(place));
+            let found = self.quotients(place).and_then(|now| judge.derivative(now, before));
             settled &= found.is_some();
             let why = NoDerivative::Unsettled;
-            Some(found.unwrap_or(Derivative::Sides { left: Err(why), right: Err(why) }))
-        };
-        let mut found = Vec::with_capacity(self.base.len());
-        for (i, row) in self.base.iter().enumerate() {
-            found.push(mapped(0..row.len(), |j| cell((i, j))));
-        }
+            found.unwrap_or(Derivative::Sides { left: Err(why), right: Err(why) })
+        });
         (found, settled)
     }
 }
@@ -231,7 +225,7 @@ fn reach(x: &Long) -> f64 {
 }
 
 /// The numbers of a run, in numbers of so many bits, and the scale of each column.
-fn rows(asked: &Asked<'_>, problem: &Problem, exponent: u32, bits: u32) -> Result<(Rows, Vec<f64>), Error> {
+fn rows(asked: &Asked<'_>, problem: &Problem, exponent: u32, bits: u32) -> Result<(Rows<Long>, Vec<f64>), Error> {
     let question = Question { want: asked.want.clone(), numbers: Numbers::Digits(2 * exponent) };
     let plan = Plan::of(problem, &question)?;
     let history = History::<Float>::solve(problem, &plan, asked.observe.clone())?;

@@ -1,20 +1,21 @@
-//! The planned engine, run in doubles.
+//! The planned engine, run in doubles and in fractions.
 
 use std::sync::Arc;
 
 use super::asked::{Longer, Open, Telling};
+use super::converted::Converted;
 use super::derivative::{Asked, Derivatives};
 use super::ladder::{Engined, Observer, Target};
 use super::plan::{DEFAULT_ACCURACY, Engine, Plan, Rung};
-use super::{differences, fractions, interpolated, long};
+use super::{differences, exact, interpolated, long};
 use crate::cells::{ContactThenCells, Damped};
 use crate::error::Error;
 use crate::first_contact::{Bounce, ContactHistory, FirstContact};
 use crate::lattice::Undamped;
 use crate::mapped::mapped;
 use crate::modal::Modal;
-use crate::motion::Side;
-use crate::number::{DOUBLE_DIGITS, Estimate, Reads};
+use crate::motion::{Ending, Motion, Side};
+use crate::number::{Bounded, DOUBLE_DIGITS, Estimate, Rational, Reads};
 use crate::problem::{Parameter, Parameters, Problem};
 
 impl Target for f64 {
@@ -24,7 +25,14 @@ impl Target for f64 {
         let longer = longer(problem, plan, if exact { Rung::Double } else { rung }, observe);
         match rung {
             Rung::Double => {}
-            Rung::Fractions => return fractions::in_doubles(problem, plan, longer, observe),
+            Rung::Fractions => {
+                let exact = match fractions(problem, plan, observe) {
+                    Err(Error::Irrational { .. }) => None,
+                    exact => Some(exact?).filter(|exact| !matches!(exact.ending(), Ending::ExactnessEnds { .. })),
+                };
+                let exact = exact.ok_or(Error::NotDecided { what: "by fractions", bits: 0 })?;
+                return confirmed(problem, plan, exact, longer, observe);
+            }
             rung => return long::in_doubles(problem, plan, (rung, longer), observe),
         }
         let problem = &*plan.reaching(problem);
@@ -46,26 +54,16 @@ impl Target for f64 {
                     let undecided = Error::NotDecided { what: "how the first contact ends", bits: 53 };
                     bounce = by_modes(&contact, problem, plan.modes.ok_or(undecided)?)?;
                 }
-                match (plan.engine, plan.settles_events) {
-                    (Engine::ClosedForm, false) => {
-                        let history = Arc::new(ContactHistory::new(contact, bounce, None)?);
-                        return Ok(Telling::of(history, problem, Open::Ask(longer)));
-                    }
-                    (Engine::ClosedForm, true) => {
-                        let history = Arc::new(ContactThenCells::<f64>::first_contact(problem, &(), bounce)?);
-                        return Ok(Telling::of(history, problem, Open::Ask(longer)));
-                    }
-                    _ => {}
+                if plan.engine == Engine::ClosedFormThenCells {
+                    let rate = plan.rate_bits.and_then(|bits| long::rate_after(problem, &bounce, bits));
+                    let effort = plan.effort(rung);
+                    let run = ContactThenCells::<f64>::solve_observed(problem, &(), effort, bounce, rate, &**observe)?;
+                    Arc::new(run)
+                } else if plan.settles_events {
+                    Arc::new(ContactThenCells::<f64>::first_contact(problem, &(), bounce)?)
+                } else {
+                    Arc::new(ContactHistory::new(contact, bounce, None)?)
                 }
-                let rate = plan.rate_bits.and_then(|bits| long::rate_after(problem, &bounce, bits));
-                Arc::new(ContactThenCells::<f64>::solve_observed(
-                    problem,
-                    &(),
-                    plan.effort(rung),
-                    bounce,
-                    rate,
-                    &**observe,
-                )?)
             }
         };
         Ok(Telling::of(engine, problem, Open::Ask(longer)))
@@ -89,13 +87,54 @@ impl Target for f64 {
     }
 }
 
+impl Target for Rational {
+    fn run(problem: &Problem, plan: &Plan, _: Rung, observe: &Observer) -> Result<Engined<Rational>, Error> {
+        Ok(Arc::new(fractions(problem, plan, observe)?))
+    }
+
+    fn derivatives(asked: &Asked<'_>, _: &Engined<Self>) -> Result<Derivatives<Rational>, Error> {
+        exact::derivatives(asked)
+    }
+}
+
+/// Doubles, which answer faster than exact numbers, and within their bounds where all that they took for equal is
+/// equal; otherwise the exact ones.
+pub(super) fn confirmed<N>(
+    problem: &Problem,
+    plan: &Plan,
+    exact: Undamped<N>,
+    longer: Longer<f64>,
+    observe: &Observer,
+) -> Result<Engined<f64>, Error>
+where
+    N: Bounded,
+    Undamped<N>: Motion<N>,
+    Estimate<f64>: Reads<N>,
+{
+    let reached = plan.reaching(problem);
+    let mut doubles = Undamped::<Estimate<f64>>::solve_within(&reached, &(), plan.lattice_limits(problem), &**observe)?;
+    Ok(if doubles.confirm(&exact) {
+        Telling::of(Arc::new(doubles), problem, Open::Ask(longer))
+    } else {
+        Arc::new(Converted::new(Arc::new(exact)))
+    })
+}
+
+fn fractions(problem: &Problem, plan: &Plan, observe: &Observer) -> Result<Undamped<Rational>, Error> {
+    let problem = &*plan.reaching(problem);
+    Undamped::<Rational>::solve_within(problem, &(), plan.lattice_limits(problem), &**observe)
+}
+
 /// The runs that tell a time from an event or a ray where one in `rung` does not: fractions for a rod without damping
 /// that has not bounced too often for them, and more and more bits.
 fn longer(problem: &Problem, plan: &Plan, rung: Rung, observe: &Observer) -> Longer<f64> {
     let (rungs, exact_contacts) = (plan.telling(rung), plan.climb.exact_contacts.unwrap_or(0));
     let (problem, plan, observe) = (problem.clone(), plan.clone(), observe.clone());
     let run = move |rung: Rung| match rung {
-        Rung::Fractions => fractions::read(&problem, &plan, &observe),
+        Rung::Fractions => {
+            let exact: Engined<Rational> = Arc::new(fractions(&problem, &plan, &observe)?);
+            Ok(Arc::new(Converted::new(exact)) as Engined<f64>)
+        }
         rung => long::read(&problem, &plan, rung, &observe),
     };
     Longer { rungs, exact_contacts, run: Box::new(run) }

@@ -1,6 +1,6 @@
 //! Derivatives in fractions: the undamped history in numbers `a + b ε`, for a value that grows and one that shrinks.
 
-use super::derivative::{Asked, Derivative, Derivatives, NoDerivative};
+use super::derivative::{Asked, Derivative, Derivatives, NoDerivative, Rows, at, of_each};
 use super::differences;
 use crate::error::Error;
 use crate::lattice::{Scaled, Undamped};
@@ -10,7 +10,6 @@ use crate::number::{Bounded, DOUBLE_DIGITS, Dual, Estimate, Float, Number, Ratio
 use crate::problem::{Material, Parameter, Parameters, Problem};
 use crate::quantity::{Measure, Quantity};
 
-type Rows<S> = Vec<Vec<Option<S>>>;
 type OneSide = Result<Rational, NoDerivative>;
 
 /// The derivatives that are `asked` for.
@@ -36,22 +35,13 @@ pub(super) fn derivatives(asked: &Asked<'_>) -> Result<Derivatives<Rational>, Er
         Err(Error::NoMultiprecision) => None,
         quotients => Some(quotients?),
     };
-    let mut found = Vec::with_capacity(base.len());
-    for (i, row) in base.iter().enumerate() {
-        let mut cells = Vec::with_capacity(row.len());
-        for (j, number) in row.iter().enumerate() {
-            cells.push(number.as_ref().map(|number| {
-                let right = side(&right, number, (i, j));
-                let there = |rows: &&Rows<Dual>| !asked.is_stretched() || rows[i][j].is_some();
-                let left = left.as_ref().filter(there);
-                let left = left.map_or_else(|| right.clone(), |rows| side(rows, number, (i, j)).map(|rate| -rate));
-                let quotient = quotients.as_ref().map(|rows| rows.get(i)?.get(j)?.as_ref());
-                confirmed([left, right], quotient)
-            }));
-        }
-        found.push(cells);
-    }
-    Ok(found)
+    Ok(of_each(&base, |place, number| {
+        let right = side(&right, number, place);
+        let there = |rows: &&Rows<Dual>| !asked.is_stretched() || at(rows, place).is_some();
+        let left = left.as_ref().filter(there);
+        let left = left.map_or_else(|| right.clone(), |rows| side(rows, number, place).map(|rate| -rate));
+        confirmed([left, right], quotients.as_ref().map(|quotients| at(quotients, place)))
+    }))
 }
 
 /// The rates on both sides, as far as difference quotients confirm them; without these, where both are one.
@@ -85,9 +75,9 @@ fn meets(rate: &Rational, quotient: &Estimate<Float>) -> bool {
 }
 
 /// The rate of a number on a side, where the same number is there: otherwise events do not move in first order only.
-fn side(rows: &Rows<Dual>, number: &Rational, (row, column): (usize, usize)) -> OneSide {
-    let there = rows.get(row).and_then(|row| row.get(column)?.as_ref());
-    there.filter(|there| there.value() == number).and_then(Dual::rate).cloned().ok_or(NoDerivative::Unsettled)
+fn side(rows: &Rows<Dual>, number: &Rational, place: (usize, usize)) -> OneSide {
+    let there = at(rows, place).filter(|there| there.value() == number);
+    there.and_then(Dual::rate).cloned().ok_or(NoDerivative::Unsettled)
 }
 
 /// The numbers of the problem with a value that grows, or shrinks, with their rates.

@@ -7,7 +7,7 @@
 //! Next to a kink the third difference is as great as the change of the slope, but for one half a step away, which
 //! makes the second difference as great: where either is, runs in long numbers settle it.
 
-use super::derivative::{Asked, Derivative, Derivatives};
+use super::derivative::{Asked, Derivative, Derivatives, Rows, at, of_each};
 use super::ladder::{Engined, Ladder};
 use super::plan::Plan;
 use super::question::Question;
@@ -19,7 +19,6 @@ use crate::problem::{Parameter, Problem};
 use crate::threads::Threads;
 
 type Double = Estimate<f64>;
-type Rows = Vec<Vec<Option<Double>>>;
 
 /// Steps are between these parts of a value.
 const STEPS: [f64; 2] = [1e-5, 1e-3];
@@ -59,7 +58,7 @@ pub(super) fn of(asked: &Asked<'_>, run: &Engined<f64>) -> Result<Option<Derivat
 /// Those by runs so far apart, as a part of the value, of which the one with the value itself has the numbers `base`.
 fn with_step(
     asked: &Asked<'_>,
-    (base, scales): (&Rows, &[f64]),
+    (base, scales): (&Rows<Double>, &[f64]),
     value: f64,
     step: &Number,
 ) -> Result<Option<Derivatives<Double>>, Error> {
@@ -74,32 +73,23 @@ fn with_step(
             |motion| rows(asked, &problem, motion),
             |(rows, _)| rows.iter().flatten().flatten().collect_vec(),
         )?;
-        Ok::<Rows, Error>(found.1.0)
+        Ok::<Rows<Double>, Error>(found.1.0)
     };
     let runs = Threads::default().all(3, run)?;
     let scale = if value == 0.0 { asked.by.scale_of_zero(asked.problem).to_f64() } else { value };
     let cubic = Cubic { part: step.to_f64(), value: scale / asked.by.power(asked.problem) as f64, one_sided };
-    let slope = |(i, j): (usize, usize), number: &Double| {
-        let there = runs.iter().map(|run| run.get(i)?.get(j)?.as_ref()).collect::<Option<Vec<_>>>()?;
-        cubic.slope(number, &there, scales[j])
-    };
-    let mut found = Vec::with_capacity(base.len());
-    for (i, row) in base.iter().enumerate() {
-        let mut cells = Vec::with_capacity(row.len());
-        for (j, number) in row.iter().enumerate() {
-            cells.push(match number.as_ref().map(|number| slope((i, j), number)) {
-                None => None,
-                Some(Some(slope)) => Some(Derivative::One(slope)),
-                Some(None) => return Ok(None),
-            });
-        }
-        found.push(cells);
-    }
-    Ok(Some(found))
+    let mut settled = true;
+    let found = of_each(base, |place, number| {
+        let there = runs.iter().map(|run| at(run, place)).collect::<Option<Vec<_>>>();
+        let slope = there.and_then(|there| cubic.slope(number, &there, scales[place.1]));
+        settled &= slope.is_some();
+        Derivative::One(slope.unwrap_or_else(|| number.zero()))
+    });
+    Ok(settled.then_some(found))
 }
 
 /// The numbers of a run, and the natural scale of each column.
-fn rows(asked: &Asked<'_>, problem: &Problem, motion: &dyn Motion<Double>) -> Result<(Rows, Vec<f64>), Error> {
+fn rows(asked: &Asked<'_>, problem: &Problem, motion: &dyn Motion<Double>) -> Result<(Rows<Double>, Vec<f64>), Error> {
     Ok((asked.values(problem, motion)?, asked.scales(problem, motion)))
 }
 

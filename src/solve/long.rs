@@ -6,7 +6,7 @@ use super::asked::{Longer, Open, Telling, not_told};
 use super::converted::Converted;
 use super::derivative::{Asked, Derivatives};
 use super::differences;
-use super::fractions::confirmed;
+use super::engines::confirmed;
 use super::ladder::{Engined, Observer, Target};
 use super::plan::{Engine, Lacks, MOST_PROVED, Plan, Rung};
 use crate::cells::{ContactThenCells, Damped, Effort};

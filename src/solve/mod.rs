@@ -5,7 +5,7 @@
 //! | `question` | what is asked, and in which numbers |
 //! | `plan` | everything that is decided before running |
 //! | `foresee` | the digits that a chaotic run is going to lose |
-//! | `engines`, `fractions`, `long` | the planned engine in the numbers of one attempt |
+//! | `engines`, `long` | the planned engine in the numbers of one attempt |
 //! | `asked` | times that are not told from that of an event or a ray |
 //! | `converted` | a history in one number system, read in another |
 //! | `ladder` | more bits until the answer is settled |
@@ -23,9 +23,7 @@ mod differences;
 mod engines;
 mod exact;
 mod foresee;
-mod fractions;
 mod history;
-mod history_derivatives;
 mod interpolated;
 mod ladder;
 #[cfg_attr(not(feature = "mp"), path = "long_absent.rs")]
