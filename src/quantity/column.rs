@@ -26,10 +26,7 @@ pub fn columns<S: Scalar>(
         return Err(Error::NotOverTime { quantity: other.name() });
     }
     let Asked { sided, plain, places, count } = Asked::of(columns);
-    let mut factors: Vec<Option<S>> = Vec::with_capacity(columns.len());
-    for column in columns {
-        factors.push(column.factor(&motion.scales(), units));
-    }
+    let factors = mapped(columns, |column| column.factor(&motion.scales(), units));
     let pushes = if plain.contains(&Source::Impulse) { Some(Pushes::of(motion)) } else { None };
     side_by_side(times, |times| {
         let mut table: Vec<Vec<S>> = Vec::new();
@@ -66,7 +63,11 @@ pub fn columns<S: Scalar>(
             let rows = [&left, &right];
             for row in &rows[usize::from(!jumps)..] {
                 for (k, values) in table.iter_mut().enumerate() {
-                    values.push(columns[k].scaled(row[places[k]].clone(), factors[k].as_ref()));
+                    let value = row[places[k]].clone();
+                    values.push(match &factors[k] {
+                        Some(factor) => value * factor,
+                        None => value,
+                    });
                 }
             }
         }
@@ -91,19 +92,29 @@ pub(crate) fn along<S: Scalar>(
     let mut rows = Vec::with_capacity(points.len() * times.len());
     for time in times {
         for point in points {
-            let field = match motion.field(point, time, side) {
-                Err(Error::PointOutside { .. } | Error::TimeOutside { .. }) => None,
-                field => Some(field?),
-            };
-            let value = |quantity: &Quantity| {
-                let [displacement, velocity, strain] = field.as_ref()?.numbers();
-                let number = [point, displacement, velocity, strain][quantity.source().1].clone();
-                Some(quantity.scaled(number, quantity.factor(&motion.scales(), units).as_ref()))
-            };
-            rows.push(mapped(quantities, value));
+            rows.push(match at(motion, units, quantities, (point, time), side) {
+                Err(Error::PointOutside { .. } | Error::TimeOutside { .. }) => mapped(quantities, |_| None),
+                row => mapped(row?, Some),
+            });
         }
     }
     Ok(rows)
+}
+
+/// The values of `quantities` along the rod at a point and a time.
+///
+/// **Errors**: what the history cannot answer.
+pub(super) fn at<S: Scalar>(
+    motion: &dyn Motion<S>,
+    units: &Units,
+    quantities: &[Quantity],
+    (point, time): (&S, &S),
+    side: Side,
+) -> Result<Vec<S>, Error> {
+    let field = motion.field(point, time, side)?;
+    let [displacement, velocity, strain] = field.numbers();
+    let numbers = [point, displacement, velocity, strain];
+    Ok(mapped(quantities, |quantity| quantity.in_unit(numbers[quantity.source().1].clone(), &motion.scales(), units)))
 }
 
 /// What is asked at each time, and where the answers stand in a row.

@@ -1,11 +1,13 @@
 //! Quantities of all events, contacts, flights and pieces of the stress: a list for each.
 
+use std::iter::repeat;
+
 use super::flight::flights;
 use super::restitution::{Undefined, energy_shares, restitution};
 use super::table::{Quantity, Source};
 use super::unit::Units;
 use crate::error::Error;
-use crate::mapped::{CollectVec, mapped};
+use crate::mapped::{CollectVec, mapped, try_mapped};
 use crate::motion::{EventKind, Motion};
 use crate::number::Scalar;
 use Quantity::*;
@@ -65,16 +67,10 @@ pub(crate) fn values<S: Scalar>(
     quantities: &[Quantity],
     units: &Units,
 ) -> Result<Vec<Vec<Option<S>>>, Error> {
-    let mut values = Vec::new();
-    for row in rows(motion, quantities)? {
-        let mut cells = Vec::with_capacity(row.len());
-        for (value, quantity) in row.into_iter().zip(quantities) {
-            let factor = quantity.factor(&motion.scales(), units);
-            cells.push(value.ok().map(|value| quantity.scaled(value, factor.as_ref())));
-        }
-        values.push(cells);
-    }
-    Ok(values)
+    let value = |(value, quantity): (Result<S, Undefined>, &Quantity)| {
+        Some(quantity.in_unit(value.ok()?, &motion.scales(), units))
+    };
+    Ok(mapped(rows(motion, quantities)?, |row| mapped(row.into_iter().zip(quantities), value)))
 }
 
 /// The values of quantities of one kind for each event, contact, flight or piece, as the history answers them, or why
@@ -88,7 +84,7 @@ pub(crate) fn rows<S: Scalar>(motion: &dyn Motion<S>, quantities: &[Quantity]) -
         let (source, place) = quantity.source();
         // Neighbours have one source.
         if known.as_ref().is_none_or(|known| known.0 != source) {
-            known = Some((source, source.rows(motion, None)?));
+            known = Some((source, source.rows(motion)?));
         }
         let answers = known.iter().flat_map(|(_, rows)| rows);
         for (k, answer) in answers.enumerate() {
@@ -113,69 +109,49 @@ pub(crate) fn of_contact<S: Scalar>(
     contact: usize,
 ) -> Result<Result<S, Undefined>, Error> {
     let (source, place) = quantity.source();
-    let row = source.rows(motion, Some(contact))?.pop().unwrap_or_default();
-    let value = row.into_iter().nth(place).ok_or(Error::NoContact { contact, found: motion.contacts().len() })?;
-    let factor = quantity.factor(&motion.scales(), units);
-    Ok(value.map(|value| quantity.scaled(value, factor.as_ref())))
+    let row = match (source, motion.contact_times(contact)) {
+        // When it begins and ends is known without what happens in it.
+        (Source::Span | Source::Restitution | Source::Shares | Source::Left, Some((from, to))) => {
+            Some(source.of_times(motion, &from, to.as_ref())?)
+        }
+        (Source::Span | Source::Restitution | Source::Shares | Source::Left, None) => None,
+        _ => source.rows(motion)?.into_iter().nth(contact),
+    };
+    let value = row.and_then(|row| row.into_iter().nth(place));
+    let value = value.ok_or(Error::NoContact { contact, found: motion.contacts().len() })?;
+    Ok(value.map(|value| quantity.in_unit(value, &motion.scales(), units)))
 }
 
 /// The answers to one question for one contact, event, flight or piece.
 pub(crate) type Row<S> = Vec<Result<S, Undefined>>;
 
 impl Source {
-    /// Its answers for every contact, event, flight or piece; for the `only` one, counted from 0, where that is given.
-    pub(super) fn rows<S: Scalar>(self, motion: &dyn Motion<S>, only: Option<usize>) -> Result<Vec<Row<S>>, Error> {
-        let wanted = |k: usize| only.is_none_or(|only| only == k);
-        let unfinished = Undefined::Unfinished;
-        let mut rows: Vec<Row<S>> = Vec::new();
-        match self {
-            Source::Event => {
-                for event in motion.events().iter().enumerate().filter(|(k, _)| wanted(*k)).map(|(_, event)| event) {
-                    rows.push(known(&event.numbers()));
-                }
-            }
+    /// Its answers for every contact, event, flight or piece.
+    fn rows<S: Scalar>(self, motion: &dyn Motion<S>) -> Result<Vec<Row<S>>, Error> {
+        Ok(match self {
+            Source::Event => mapped(motion.events(), |event| known(&event.numbers())),
             Source::Ends => {
-                let of = |kind: EventKind, k: usize| {
-                    let mut events = motion.events().iter().filter(|event| event.kind == kind);
-                    events.nth(k).map(|event| event.end_velocity.clone()).ok_or(unfinished)
+                let velocities = |kind: EventKind| {
+                    let events = motion.events().iter().filter(move |event| event.kind == kind);
+                    events.map(|event| Ok(event.end_velocity.clone())).chain(repeat(Err(Undefined::Unfinished)))
                 };
-                for k in (0..motion.contacts().len()).filter(|k| wanted(*k)) {
-                    rows.push(vec![of(EventKind::Impact, k), of(EventKind::Release, k)]);
-                }
+                let ends = velocities(EventKind::Impact).zip(velocities(EventKind::Release));
+                mapped(ends.take(motion.contacts().len()), |(impact, release)| vec![impact, release])
             }
-            Source::Push => {
-                for (_, contact) in motion.contacts().iter().enumerate().filter(|(k, _)| wanted(*k)) {
-                    rows.push(known(&[&contact.impulse, &contact.peak_strain]));
-                }
-            }
-            Source::Flight => {
-                for (_, flight) in flights(motion)?.into_iter().enumerate().filter(|(k, _)| wanted(*k)) {
-                    let (time, top) = flight.highest.unzip();
-                    let turns = |x: Option<S>| x.ok_or(Undefined::NoTurn);
-                    rows.push(vec![Ok(flight.from), flight.to.ok_or(Undefined::Lasts), turns(time), turns(top)]);
-                }
-            }
+            Source::Push => mapped(motion.contacts(), |contact| known(&[&contact.impulse, &contact.peak_strain])),
+            Source::Flight => mapped(flights(motion)?, |flight| {
+                let (time, top) = flight.highest.unzip();
+                let turns = |x: Option<S>| x.ok_or(Undefined::NoTurn);
+                vec![Ok(flight.from), flight.to.ok_or(Undefined::Lasts), turns(time), turns(top)]
+            }),
             Source::Piece => {
-                for (_, piece) in motion.stress_pieces().iter().enumerate().filter(|(k, _)| wanted(*k)) {
-                    rows.push(known(&[&piece.from, &piece.to, &piece.left, &piece.right]));
-                }
+                mapped(&motion.stress_pieces(), |piece| known(&[&piece.from, &piece.to, &piece.left, &piece.right]))
             }
             Source::Span | Source::Restitution | Source::Shares | Source::Left => {
-                // When one contact begins and ends is known without what happens in it.
-                let count = if only.is_none() { motion.contacts().len() } else { 1 };
-                for k in 0..count {
-                    let times = match only {
-                        Some(contact) => motion.contact_times(contact),
-                        None => motion.contacts().get(k).map(|contact| (contact.from.clone(), contact.to.clone())),
-                    };
-                    if let Some((from, to)) = times {
-                        rows.push(self.of_times(motion, &from, to.as_ref())?);
-                    }
-                }
+                try_mapped(motion.contacts(), |contact| self.of_times(motion, &contact.from, contact.to.as_ref()))?
             }
-            _ => (),
-        }
-        Ok(rows)
+            _ => Vec::new(),
+        })
     }
 
     /// Its answers for the contact from one time to another.
@@ -201,9 +177,5 @@ impl Source {
 
 /// A row of numbers that there are.
 fn known<S: Clone>(numbers: &[&S]) -> Row<S> {
-    let mut row = Vec::with_capacity(numbers.len());
-    for number in numbers {
-        row.push(Ok((*number).clone()));
-    }
-    row
+    mapped(numbers, |number| Ok((*number).clone()))
 }

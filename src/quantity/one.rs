@@ -1,6 +1,6 @@
 //! One number of a motion: of the run, of its first contact, or at a time.
 
-use super::column::columns;
+use super::column::{at, columns};
 use super::listing::of_contact;
 use super::restitution::Undefined;
 use super::table::{Needs, Quantity};
@@ -114,14 +114,7 @@ impl One {
                 };
                 let answer = |time: S| match (needs, &self.point) {
                     (Needs::PointAndTime, Some(point)) => {
-                        let field = motion.field(&lift(point), &time, self.side)?;
-                        let value = match quantity {
-                            Quantity::PointDisplacement => field.displacement,
-                            Quantity::PointVelocity => field.velocity,
-                            _ => field.strain,
-                        };
-                        let factor = quantity.factor(&motion.scales(), units);
-                        Ok(quantity.scaled(value, factor.as_ref()))
+                        at(motion, units, &[quantity], (&lift(point), &time), self.side).map(|mut row| row.remove(0))
                     }
                     _ => {
                         columns(motion, units, &[quantity], &[time], Some(self.side)).map(|mut t| t.remove(0).remove(0))

@@ -296,14 +296,8 @@ impl Source {
 
     /// How many numbers it gives.
     pub(super) fn answers(self) -> usize {
-        match self {
-            Source::Field | Source::Event | Source::Flight | Source::Piece => 4,
-            Source::Energy | Source::Span | Source::Left => 3,
-            Source::End | Source::Top | Source::Centre | Source::Parts => 2,
-            Source::Ends | Source::Push | Source::Restitution | Source::Shares => 2,
-            Source::Time | Source::Side | Source::Strain | Source::Contact | Source::Impulse => 1,
-            Source::Bounce | Source::Last | Source::Shortest => 1,
-        }
+        let sources = Quantity::ALL.iter().map(|quantity| quantity.source());
+        sources.filter(|(source, _)| *source == self).map(|(_, answer)| answer + 1).max().unwrap_or(0)
     }
 
     fn needs(self) -> Needs {
@@ -456,8 +450,8 @@ impl Quantity {
     }
 
     /// A number of [`Quantity::source`] in its unit.
-    pub(crate) fn scaled<S: Scalar>(self, value: S, factor: Option<&S>) -> S {
-        match factor {
+    pub(crate) fn in_unit<S: Scalar>(self, value: S, scales: &Scales<S>, units: &Units) -> S {
+        match self.factor(scales, units) {
             Some(factor) => value * factor,
             None => value,
         }

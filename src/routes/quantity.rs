@@ -75,7 +75,6 @@ impl Question {
             gravity: rod.gravity.clone(),
         };
         let quantity = self.one.quantity;
-        let factor = quantity.factor(&scales, &self.units);
         let lift = |number: &Number| S::from_number(number, &rod.length.precision());
         let (zero, point) = (rod.length.zero(), self.one.point.as_ref().map(lift));
         let at = |side: Side| At { rod, point: point.clone().unwrap_or(zero.clone()), time: zero.clone(), side };
@@ -86,7 +85,7 @@ impl Question {
                 None if matches!(quantity.needs(), Needs::Time | Needs::PointAndTime) => bounce()?,
                 None => zero.clone(),
             };
-            Ok(quantity.scaled(find(motion, quantity, &At { time, ..at(side) })?, factor.as_ref()))
+            Ok(quantity.in_unit(find(motion, quantity, &At { time, ..at(side) })?, &scales, &self.units))
         };
         // A release that is found without a bound counts as exact, as it does where values are asked at it.
         let unbounded = |time: &S| time.log2_error() == f64::INFINITY;
