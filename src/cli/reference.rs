@@ -213,7 +213,7 @@ struct Function<'a> {
 
 impl Visit for Function<'_> {
     fn visit<S: Target>(&self, history: &History<S>, head: Head, progress: source::Progress) -> Result<(), Failure> {
-        let waves = history.ask_waves()?;
+        let waves = history.ask(|motion| motion.waves(), |waves| waves.numbers())?;
         drop(progress);
         let preamble = self.asked.preamble(history, head, (self.scene, "each coefficient", true));
         let text = code(&waves, &S::carry(history.end()), self.language, &preamble);

@@ -4,13 +4,13 @@
 //! after it. It is asked of longer runs, which are made for such times alone and kept; where none of them tells, the
 //! answer covers both sides. All other times are answered as if there were none of this.
 
-use std::sync::{Arc, Mutex, OnceLock, PoisonError};
+use std::sync::{Arc, Mutex, MutexGuard, OnceLock, PoisonError};
 
 use super::ladder::Engined;
 use super::plan::Rung;
 use crate::error::Error;
 use crate::motion::moments::Moments;
-use crate::motion::{Contact, Course, Ending, Event, Field, Motion, Pair, Ray, RayRegister, Scales, Side};
+use crate::motion::{Course, Ending, Field, Motion, Pair, Ray, RayRegister, Scales, Side};
 use crate::motion::{StressPiece, Stretch, Waves};
 use crate::number::{Answer, Estimate, Rational, Rounded, Scalar, Spelling, spelled_as};
 use crate::problem::{Material, Problem, Start};
@@ -160,7 +160,7 @@ impl<S: Rounded + Answer<Carried = Estimate<S>>> Telling<S> {
 
     /// A longer run, which is made when it is asked for first.
     fn made(&self, longer: &Longer<S>, rung: Rung) -> Option<Engined<S>> {
-        let mut made = self.made.lock().unwrap_or_else(PoisonError::into_inner);
+        let mut made = locked(&self.made);
         if let Some((_, run)) = made.iter().find(|(known, _)| *known == rung) {
             return run.clone();
         }
@@ -202,7 +202,7 @@ impl<S: Rounded + Answer<Carried = Estimate<S>>> Telling<S> {
         if met.is_empty() {
             met.push(time.clone());
         }
-        self.covered.lock().unwrap_or_else(PoisonError::into_inner).push(time.to_f64());
+        locked(&self.covered).push(time.to_f64());
         let mut found: Option<T> = None;
         for met in met {
             let late = met.double(met.bound() + time.bound());
@@ -225,6 +225,11 @@ impl<S: Rounded + Answer<Carried = Estimate<S>>> Telling<S> {
         }
         found.map_or_else(|| ask(&*self.engine, time, side), Ok)
     }
+}
+
+/// What is kept is replaced whole: what a panic left behind is as good as any.
+pub(super) fn locked<T>(kept: &Mutex<T>) -> MutexGuard<'_, T> {
+    kept.lock().unwrap_or_else(PoisonError::into_inner)
 }
 
 /// The number that covers both, within their bounds.
@@ -291,7 +296,7 @@ impl<S: Rounded + Answer<Carried = Estimate<S>>> Motion<Estimate<S>> for Telling
     }
 
     fn covered(&self) -> Option<(Vec<f64>, &dyn Motion<Estimate<S>>)> {
-        let covered = self.covered.lock().unwrap_or_else(PoisonError::into_inner);
+        let covered = locked(&self.covered);
         (!covered.is_empty()).then(|| (covered.clone(), &*self.engine))
     }
 
@@ -309,12 +314,6 @@ impl<S: Rounded + Answer<Carried = Estimate<S>>> Motion<Estimate<S>> for Telling
     }
     fn ending(&self) -> &Ending {
         self.engine.ending()
-    }
-    fn events(&self) -> &[Event<Estimate<S>>] {
-        self.engine.events()
-    }
-    fn contacts(&self) -> &[Contact<Estimate<S>>] {
-        self.engine.contacts()
     }
     fn contact_times(&self, contact: usize) -> Option<(Estimate<S>, Option<Estimate<S>>)> {
         self.engine.contact_times(contact)

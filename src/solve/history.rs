@@ -1,12 +1,13 @@
 //! The answer: what happened, and everything that can be asked of it.
 
-use std::sync::{Mutex, OnceLock, PoisonError};
+use std::sync::{Mutex, OnceLock};
 
+use super::asked::locked;
 use super::ladder::{Attempt, Engined, Ladder, Observer, Query, Target, settled, unobserved};
 use super::plan::{Plan, Rung};
 use super::question::{Numbers, Question};
 use crate::error::Error;
-use crate::mapped::{CollectVec, mapped};
+use crate::mapped::{CollectVec, mapped, try_mapped};
 use crate::motion::{
     Contact, Ending, Energy, Event, Field, Motion, Ray, Scales, Side, StressHistory, StressPiece, Waves,
 };
@@ -58,18 +59,6 @@ pub struct History<S: Target> {
     covered: Mutex<Vec<f64>>,
 }
 
-/// The numbers of all that happens.
-fn what_happens<N>((end, events, contacts): &(N, Vec<Event<N>>, Vec<Contact<N>>)) -> Vec<&N> {
-    let mut numbers = vec![end];
-    for event in events {
-        numbers.extend(event.numbers());
-    }
-    for contact in contacts {
-        numbers.extend(contact.numbers());
-    }
-    numbers
-}
-
 impl<S: Target> History<S> {
     /// Solves `problem` by `plan`.
     ///
@@ -79,11 +68,13 @@ impl<S: Target> History<S> {
         let ladder = Ladder { problem, plan, observe: &observe };
         let ask_events = plan.settles_events;
         let query = |engine: &dyn Motion<S::Carried>| {
-            let events = if ask_events { engine.events().to_vec() } else { Vec::new() };
-            let contacts = if ask_events { engine.contacts().to_vec() } else { Vec::new() };
-            Ok((engine.end(), events, contacts))
+            let (events, contacts) = if ask_events { (engine.events(), engine.contacts()) } else { Default::default() };
+            Ok((engine.end(), events.to_vec(), contacts.to_vec()))
         };
-        let (attempt, (end, events, contacts)) = ladder.ask::<S, _>(query, what_happens)?;
+        let (attempt, (end, events, contacts)) = ladder.ask::<S, _>(query, |(end, events, contacts)| {
+            let happens = events.iter().flat_map(Event::numbers).chain(contacts.iter().flat_map(Contact::numbers));
+            std::iter::once(end).chain(happens).collect_vec()
+        })?;
         let motion = History {
             ending: attempt.engine.ending().clone(),
             last: Mutex::new(attempt.clone()),
@@ -113,8 +104,7 @@ impl<S: Target> History<S> {
     }
 
     fn current(&self) -> Attempt<S> {
-        // An attempt is replaced whole: one that a panic left behind is as good as any.
-        self.last.lock().unwrap_or_else(PoisonError::into_inner).clone()
+        locked(&self.last).clone()
     }
 
     /// The answer to any `query`, in numbers that carry their bound; `numbers` are those of the answer that are settled
@@ -155,9 +145,9 @@ impl<S: Target> History<S> {
         let ladder = Ladder { problem: &self.problem, plan: &self.plan, observe: &self.observe };
         let (attempt, answer) = ladder.settle::<S>(known, query).map_err(|error| self.explained(error))?;
         if attempt.rung != rung && attempt.rung != self.first.rung {
-            let before = std::mem::replace(&mut *self.last.lock().unwrap_or_else(PoisonError::into_inner), attempt);
+            let before = std::mem::replace(&mut *locked(&self.last), attempt);
             let covered = before.engine.covered().map(|(times, _)| times);
-            self.covered.lock().unwrap_or_else(PoisonError::into_inner).extend(covered.into_iter().flatten());
+            locked(&self.covered).extend(covered.into_iter().flatten());
         }
         Ok(((), answer))
     }
@@ -452,15 +442,11 @@ impl<S: Target> History<S> {
     /// together.
     pub fn field(&self, points: &[S], times: &[S], side: Side) -> Result<Vec<Field<S>>, Error> {
         let points: Vec<_> = mapped(points, Answer::carry);
-        let mut values = Vec::with_capacity(points.len() * times.len());
-        for time in times {
-            let time = time.carry();
-            for point in &points {
-                let value = self.ask(|engine| engine.field(point, &time, side), |field| field.numbers().to_vec())?;
-                values.push(value.map(S::strip));
-            }
-        }
-        Ok(values)
+        let value = |(time, point): (S::Carried, _)| {
+            let value = self.ask(|engine| engine.field(point, &time, side), |field| field.numbers().to_vec())?;
+            Ok(value.map(S::strip))
+        };
+        try_mapped(times.iter().flat_map(|time| points.iter().map(|point| (time.carry(), point))), value)
     }
 
     /// The rays that leave the ground in round trip `trip`, counted from 0, with the jumps that they carry.
@@ -475,12 +461,7 @@ impl<S: Target> History<S> {
     ///
     /// **Errors**: [`Error::NoWaves`] under damping; [`Error::TooManyPieces`].
     pub fn waves(&self) -> Result<Waves<S>, Error> {
-        Ok(self.ask_waves()?.map(S::strip))
-    }
-
-    /// [`History::waves`] in numbers that carry their bound.
-    pub(crate) fn ask_waves(&self) -> Result<Waves<S::Carried>, Error> {
-        self.ask(|engine| engine.waves(), |waves| waves.numbers())
+        Ok(self.ask(|engine| engine.waves(), |waves| waves.numbers())?.map(S::strip))
     }
 
     /// The natural scales of the motion.
@@ -505,7 +486,7 @@ impl<S: Target> History<S> {
         let engine = self.current().engine;
         let mut warnings = engine.warnings().to_vec();
         warnings.extend(self.problem.neglected());
-        let mut covered = self.covered.lock().unwrap_or_else(PoisonError::into_inner).clone();
+        let mut covered = locked(&self.covered).clone();
         for engine in [&self.first.engine, &engine] {
             covered.extend(engine.covered().into_iter().flat_map(|(times, _)| times));
         }
