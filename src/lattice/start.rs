@@ -1,7 +1,7 @@
 //! The problem in its own units: one round trip, and the speed that gravity gives in it.
 
 use crate::error::Error;
-use crate::mapped::{CollectVec, MapEach};
+use crate::mapped::{CollectVec, MapEach, mapped};
 use crate::motion::AtStart;
 use crate::number::{Bounded, Number, Open};
 use crate::problem::{Parameters, Problem, Profile, Start, Top};
@@ -161,27 +161,22 @@ fn greatest_speed<N: Bounded>(segments: &[Segment<N>], wave_speed: &N) -> Result
 fn before<N: Bounded>(segments: &[Segment<N>], units: &Units<N>, gravity: &N, top: Top) -> Vec<(N, N, N)> {
     let one = units.length.one();
     let twice = units.length.clone().doubled();
-    let mut before = Vec::with_capacity(2 * segments.len());
-    for Segment { ends: [a, b], velocities: [va, vb], strain } in segments {
-        // q₀ at f = x/2L; the fixed top sends −q₀ + g f where the free one sends q₀ + g (1 − f).
+    let piece = |(up, Segment { ends: [a, b], velocities: [va, vb], strain }): (bool, &Segment<N>)| {
+        // q₀ at f = x/2L; p₀ at f = 1 − x/2L, from the top downwards.
         let stretch = strain.clone() * &units.wave_speed;
-        let (fa, fb) = (a.clone() / &twice, b.clone() / &twice);
-        let (qa, qb) = ((va.clone() + &stretch) / &units.velocity, (vb.clone() + &stretch) / &units.velocity);
-        let slope = (qb - &qa) / (fb - &fa);
+        let place = |x: &N| if up { one.clone() - x.clone() / &twice } else { x.clone() / &twice };
+        let wave = |v: &N| if up { v.clone() - &stretch } else { v.clone() + &stretch } / &units.velocity;
+        let ends = [(place(a), wave(va)), (place(b), wave(vb))];
+        let [first, second] = ends;
+        let ((from, value), (to, last)) = if up { (second, first) } else { (first, second) };
+        let slope = (last - &value) / (to - &from);
+        // The fixed top sends −q₀ + g f where the free one sends q₀ + g (1 − f); p₀ is sent with g (1 − f) by both.
         let (value, slope) = match top {
-            Top::Free => (qa + gravity.clone() * (one.clone() - &fa), slope - gravity),
-            Top::Fixed => (gravity.clone() * &fa - qa, gravity.clone() - slope),
+            Top::Fixed if !up => (gravity.clone() * &from - value, gravity.clone() - slope),
+            _ => (value + gravity.clone() * (one.clone() - &from), slope - gravity),
         };
-        before.push((fa, value, slope));
-    }
-    for Segment { ends: [a, b], velocities: [va, vb], strain } in segments.iter().rev() {
-        // p₀ + g (1 − f) at f = 1 − x/2L, from the top downwards.
-        let stretch = strain.clone() * &units.wave_speed;
-        let (to, from) = (one.clone() - a.clone() / &twice, one.clone() - b.clone() / &twice);
-        let (pa, pb) = ((va.clone() - &stretch) / &units.velocity, (vb.clone() - &stretch) / &units.velocity);
-        let slope = (pa - &pb) / (to - &from) - gravity;
-        let value = pb + gravity.clone() * (one.clone() - &from);
-        before.push((from, value, slope));
-    }
-    before
+        (from, value, slope)
+    };
+    let down = segments.iter().map(|segment| (false, segment));
+    mapped(down.chain(segments.iter().rev().map(|segment| (true, segment))), piece)
 }

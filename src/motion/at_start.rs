@@ -42,24 +42,20 @@ impl<S: Scalar> AtStart<S> {
         let points = |list: &[(Number, Number)], datum: fn(usize) -> Datum| -> Vec<(S, S)> {
             mapped(list.iter().enumerate(), |(k, (x, value))| (lift(Datum::Point, x), lift(datum(k), value)))
         };
-        let mut corners: Vec<S> = Vec::new();
         let (displacement, velocity) = match &problem.start {
             Start::Profile(profile) => {
-                let velocity = points(&profile.velocity, Datum::Velocity);
-                let data = (points(&profile.displacement, Datum::Displacement), velocity);
-                for (x, _) in data.0.iter().chain(&data.1) {
-                    corners.push(x.clone());
-                }
-                corners.push(zero.clone());
-                corners.push(given.length.clone());
-                data
+                (points(&profile.displacement, Datum::Displacement), points(&profile.velocity, Datum::Velocity))
             }
             Start::Uniform(_) | Start::Above { .. } => {
-                let gap =
-                    problem.gap().map_or_else(Vec::new, |gap| vec![(zero.clone(), lift(Datum::Displacement(0), gap))]);
-                (gap, vec![(zero.clone(), -given.speed.clone())])
+                let gap = problem.gap().map(|gap| (zero.clone(), lift(Datum::Displacement(0), gap)));
+                (Vec::from_iter(gap), vec![(zero.clone(), -given.speed.clone())])
             }
         };
+        let mut corners: Vec<S> = Vec::new();
+        if let Start::Profile(_) = &problem.start {
+            corners.extend(displacement.iter().chain(&velocity).map(|(x, _)| x.clone()));
+            corners.extend([zero.clone(), given.length.clone()]);
+        }
         if problem.rod.top == Top::Fixed {
             corners.push(given.length.clone());
         }

@@ -134,9 +134,7 @@ impl<S> Contact<S> {
 
     /// Every number in it.
     pub(crate) fn numbers(&self) -> Vec<&S> {
-        let mut numbers = vec![&self.from, &self.impulse, &self.peak_strain];
-        numbers.extend(&self.to);
-        numbers
+        [&self.from, &self.impulse, &self.peak_strain].into_iter().chain(&self.to).collect_vec()
     }
 }
 
@@ -176,11 +174,7 @@ impl<S> Energy<S> {
 impl<S> StressPiece<S> {
     /// Where pieces begin and end, and the values there.
     pub(crate) fn numbers(pieces: &[Self]) -> Vec<&S> {
-        let mut numbers = Vec::with_capacity(4 * pieces.len());
-        for piece in pieces {
-            numbers.extend_from_slice(&[&piece.from, &piece.to, &piece.left, &piece.right]);
-        }
-        numbers
+        pieces.iter().flat_map(|piece| [&piece.from, &piece.to, &piece.left, &piece.right]).collect_vec()
     }
 
     /// The same piece in other numbers.

@@ -6,6 +6,7 @@ use std::ops::ControlFlow;
 use super::moments::{self, Moments};
 use super::{Contact, Course, Ending, Energy, Event, EventKind, Field, Ray, Side, StressPiece, Stretch, Waves};
 use crate::error::Error;
+use crate::mapped::try_mapped;
 use crate::number::Scalar;
 use crate::order::partition;
 use crate::reason::Warning;
@@ -141,14 +142,11 @@ pub trait Motion<S: Scalar>: fmt::Debug + Send + Sync {
     /// `v_t` and `v_x` at every point of `points` for every time of `times`, both in increasing order: time by time,
     /// all points of one time together. Where a ray passes, the value on one of its sides.
     fn rates(&self, points: &[S], times: &[S]) -> Result<Vec<[S; 2]>, Error> {
-        let mut rates = Vec::with_capacity(points.len() * times.len());
-        for time in times {
-            for point in points {
-                let Field { velocity, strain, .. } = self.field(point, time, Side::Right)?;
-                rates.push([velocity, strain]);
-            }
-        }
-        Ok(rates)
+        let places = times.iter().flat_map(|time| points.iter().map(move |point| (point, time)));
+        try_mapped(places, |(point, time)| {
+            let Field { velocity, strain, .. } = self.field(point, time, Side::Right)?;
+            Ok([velocity, strain])
+        })
     }
 
     /// `t*` and `h(t*)`: where the centre of mass turns in the flight after the release that is this event, if nothing

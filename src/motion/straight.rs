@@ -14,10 +14,8 @@ use crate::number::Scalar;
 ///
 /// **Accuracy**: the tolerance, and that of the pieces.
 pub(crate) fn straight<S: Scalar>(pieces: &[StressPiece<S>], share: f64) -> Vec<StressPiece<S>> {
-    let mut greatest = 0.0f64;
-    for StressPiece { left, right, .. } in pieces {
-        greatest = greatest.max(left.to_f64().abs()).max(right.to_f64().abs());
-    }
+    let ends = pieces.iter().flat_map(|piece| [&piece.left, &piece.right]);
+    let greatest = ends.fold(0.0, |most: f64, strain| most.max(strain.to_f64().abs()));
     let mut parts = Vec::new();
     for piece in pieces {
         cut(piece, share * greatest, &mut parts);

@@ -1,6 +1,6 @@
 //! The field along the rod; an undamped motion as two travelling waves.
 
-use crate::mapped::mapped;
+use crate::mapped::{CollectVec, mapped};
 use crate::number::Scalar;
 use crate::problem::Top;
 
@@ -178,11 +178,8 @@ impl<S: Scalar> Waves<S> {
 
     /// Every number in them.
     pub(crate) fn numbers(&self) -> Vec<&S> {
-        let mut numbers = vec![&self.constant, &self.linear, &self.quadratic];
-        for piece in &self.pieces {
-            numbers.extend_from_slice(&[&piece.from, &piece.sum, &piece.rate, &piece.slope]);
-        }
-        numbers
+        let pieces = self.pieces.iter().flat_map(|piece| [&piece.from, &piece.sum, &piece.rate, &piece.slope]);
+        [&self.constant, &self.linear, &self.quadratic].into_iter().chain(pieces).collect_vec()
     }
 
     /// The same waves in other numbers.

@@ -136,10 +136,8 @@ impl Asked {
         let (sided, plain): (Vec<Source>, Vec<Source>) = sources.into_iter().partition(|source| source.has_sides());
         let asked = [&sided[..], &plain[..]].concat();
         let before = |end: usize| asked[..end].iter().map(|source| source.answers()).sum::<usize>();
-        let mut places = Vec::with_capacity(columns.len());
-        for (source, index) in columns.iter().map(|column| column.source()) {
-            places.push(index + before(asked.iter().position(|known| *known == source).unwrap_or(0)));
-        }
+        let place = |(source, index)| index + before(asked.iter().position(|known| *known == source).unwrap_or(0));
+        let places = mapped(columns, |column| place(column.source()));
         Asked { places, count: before(asked.len()), sided, plain }
     }
 }

@@ -1,6 +1,9 @@
 //! The flights between the contacts, and how high they go.
 
+use std::iter::once;
+
 use crate::error::Error;
+use crate::mapped::CollectVec;
 use crate::motion::{EventKind, Motion};
 use crate::number::Scalar;
 
@@ -26,15 +29,10 @@ impl<S> Flight<S> {
 
     /// Every number in them.
     pub(crate) fn numbers(flights: &[Self]) -> Vec<&S> {
-        let mut numbers = Vec::new();
-        for flight in flights {
-            numbers.push(&flight.from);
-            numbers.extend(&flight.to);
-            if let Some((time, centre)) = &flight.highest {
-                numbers.extend_from_slice(&[time, centre]);
-            }
-        }
-        numbers
+        let numbers = flights.iter().flat_map(|Flight { from, to, highest }| {
+            once(from).chain(to).chain(highest.iter().flat_map(|(time, height)| [time, height]))
+        });
+        numbers.collect_vec()
     }
 }
 

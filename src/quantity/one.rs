@@ -42,16 +42,12 @@ const NEXT: f64 = 0.25;
 impl Quantity {
     /// Every quantity that can be asked as one number, each name once.
     pub fn singles() -> impl Iterator<Item = Quantity> {
-        let mut singles = Vec::new();
-        for needs in [Needs::FirstContact, Needs::Contact, Needs::Time, Needs::Run] {
-            for quantity in needs.quantities() {
-                let over_time = needs == Needs::Contact && Needs::Time.named(quantity.name()).is_some();
-                if !over_time && !matches!(quantity, Quantity::Time | Quantity::Side) {
-                    singles.push(quantity);
-                }
-            }
-        }
-        singles.into_iter()
+        let all =
+            [Needs::FirstContact, Needs::Contact, Needs::Time, Needs::Run].into_iter().flat_map(Needs::quantities);
+        all.filter(|quantity| {
+            let over_time = quantity.needs() == Needs::Contact && Needs::Time.named(quantity.name()).is_some();
+            !over_time && !matches!(quantity, Quantity::Time | Quantity::Side)
+        })
     }
 
     /// The one that is called so among [`Quantity::singles`].
@@ -127,13 +123,9 @@ impl One {
                 }
             }
         };
-        let unscaled = |value: &S| match self.quantity.factor(&motion.scales(), units) {
-            Some(factor) => value.clone() / factor,
-            None => value.clone(),
-        };
-        Ok(found.map(|value| {
-            let plain = unscaled(&value);
-            [value, plain]
+        Ok(found.map(|value| match self.quantity.factor(&motion.scales(), units) {
+            Some(factor) => [value.clone(), value / factor],
+            None => [value.clone(), value],
         }))
     }
 }

@@ -319,9 +319,7 @@ impl Source {
 impl Needs {
     /// The quantities that need this, in the order of a table.
     pub fn quantities(self) -> impl Iterator<Item = Quantity> {
-        let mut all = Quantity::ALL.to_vec();
-        all.retain(|quantity| quantity.needs() == self);
-        all.into_iter()
+        Quantity::ALL.iter().copied().filter(move |quantity| quantity.needs() == self)
     }
 
     /// The quantity of this name among them.

@@ -7,6 +7,7 @@ use std::sync::{Arc, LazyLock};
 use super::derivative::{Asked, Derivatives};
 use super::plan::{Engine, Goal, Lacks, Plan, Rung};
 use crate::error::Error;
+use crate::mapped::mapped;
 use crate::motion::{Ending, Motion, Scales};
 use crate::number::{Answer, Scalar};
 use crate::problem::Problem;
@@ -96,11 +97,7 @@ pub(crate) struct Size {
 }
 
 fn sizes<S: Scalar>(numbers: Vec<&S>) -> Vec<Size> {
-    let mut sizes = Vec::with_capacity(numbers.len());
-    for x in numbers {
-        sizes.push(Size { log2: x.to_f64().abs().log2(), log2_error: x.log2_error() });
-    }
-    sizes
+    mapped(numbers, |x| Size { log2: x.to_f64().abs().log2(), log2_error: x.log2_error() })
 }
 
 /// What the ladder asks of each attempt: which answer it is, counted from 0, and the numbers of it. So the ladder is
