@@ -16,8 +16,7 @@
 
 use std::cmp::Ordering;
 
-use super::limits::{Halt, Stop, Until};
-use super::march::March;
+use super::march::{Halt, March, Stop, Until};
 use super::trace::{GroundEvent, Line, Piece, at_deviating, place_to};
 use crate::mapped::MapEach;
 use crate::motion::{Ending, EventKind};

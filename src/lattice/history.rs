@@ -2,8 +2,7 @@
 
 use std::ops::ControlFlow;
 
-use super::limits::{Halt, Limits, Until};
-use super::march::{GroundMotion, march};
+use super::march::{GroundMotion, Halt, Limits, Until, march};
 use super::start::{Scaled, Units};
 use super::trace::{Part, Piece, Place};
 use crate::error::Error;

@@ -15,7 +15,7 @@
 //! All of it is written on numbers that answer for their own error ([`crate::number::Bounded`]): estimates, fractions
 //! and enclosures.
 //!
-//! Reading order: `start` (units and start), `trace` (what is stored), `limits` (how far, and why no farther), `march`
+//! Reading order: `start` (units and start), `trace` (what is stored), `march`
 //! (trip after trip), `ground` (contact law and events), `history` (times on the lattice), `events` and `answers` (what
 //! can be asked), `parts` (kinetic and strain energy apart).
 
@@ -23,7 +23,6 @@ mod answers;
 mod events;
 mod ground;
 mod history;
-mod limits;
 mod march;
 mod parts;
 mod start;
@@ -31,7 +30,6 @@ mod trace;
 
 pub(crate) use crate::motion::unobserved;
 pub use history::Undamped;
-pub use limits::{Halt, Limits, Until};
-pub use march::{GroundMotion, march};
+pub use march::{GroundMotion, Halt, Limits, Until, march};
 pub use start::{Scaled, Units};
 pub use trace::{GroundEvent, Line, Piece, Trace};

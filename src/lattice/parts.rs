@@ -9,25 +9,6 @@ use crate::mapped::mapped;
 use crate::motion::Stretch;
 use crate::number::{Bounded, Open};
 
-/// A stretch of the rod on which one invariant is linear, in the order of `x`.
-struct One<N> {
-    /// What is left of its width, in parts of `2L`.
-    width: N,
-    /// The value where what is left begins.
-    value: N,
-    slope: N,
-    /// `[p]` across its beginning, and the deviation of that in place; see [`Part`].
-    shift: Option<(N, N)>,
-}
-
-impl<N: Bounded> One<N> {
-    /// What is left of it after `width`.
-    fn after(self, width: &N) -> Self {
-        let value = self.slope.clone() * width + &self.value;
-        One { width: self.width - width, value, slope: self.slope, shift: None }
-    }
-}
-
 /// A stretch of the rod on which both invariants are linear.
 struct Both<N> {
     width: N,
@@ -90,20 +71,19 @@ impl<N: Bounded> Undamped<N> {
             let part = Part { value, slope: part.slope + gravity, ..part };
             (if rises { &mut up } else { &mut down }).push(part);
         })?;
-        // What goes up is met from its last part on: x falls with the age.
+        // What goes up is met from its last part on: x falls with the age, and a jump is across the other end.
         let mut edges = mapped(&mut up, |part| part.shift.take());
         edges.rotate_left(1);
-        let mut rising = Vec::with_capacity(up.len());
-        while let (Some(Part { width, value, slope, .. }), Some(shift)) = (up.pop(), edges.pop()) {
-            rising.push(One { value: slope.clone() * &width + &value, slope: -slope, width, shift });
-        }
-        let falling = mapped(down, |Part { width, value, slope, shift, .. }| One { width, value, slope, shift });
-        join(rising, falling, visit)
+        let turned = |(part, shift): (Part<N>, _)| {
+            let value = part.slope.clone() * &part.width + &part.value;
+            Part { value, slope: -part.slope, shift, ..part }
+        };
+        join(mapped(up.into_iter().zip(edges).rev(), turned), down, visit)
     }
 }
 
-/// Two lists that end together, cut where either is.
-fn join<N: Bounded>(up: Vec<One<N>>, down: Vec<One<N>>, visit: &mut dyn FnMut(Both<N>)) -> Result<(), Open> {
+/// Two lists in the order of x that end together, cut where either is.
+fn join<N: Bounded>(up: Vec<Part<N>>, down: Vec<Part<N>>, visit: &mut dyn FnMut(Both<N>)) -> Result<(), Open> {
     let (mut up, mut down) = (up.into_iter(), down.into_iter());
     let (mut p, mut q) = (up.next(), down.next());
     while let (Some(rising), Some(falling)) = (p, q) {

@@ -160,6 +160,12 @@ impl<N: Bounded> Part<N> {
         [at_deviating(&self.value, &self.slope, late), at_deviating(&end, &self.slope, self.late_end.as_ref())]
     }
 
+    /// What is left of it after its first `width`.
+    pub(super) fn after(self, width: &N) -> Self {
+        let value = self.slope.clone() * width + &self.value;
+        Part { width: self.width - width, value, shift: None, ..self }
+    }
+
     /// `∫ p ds`.
     pub(super) fn integral(&self) -> N {
         let mean = self.value.clone() + (self.slope.clone() * &self.width).halved();
