@@ -26,7 +26,7 @@ impl Target for f64 {
         match rung {
             Rung::Double => {}
             Rung::Fractions => {
-                let exact = match fractions(problem, plan, observe) {
+                let exact = match plan.lattice::<Rational>(problem, &(), observe) {
                     Err(Error::Irrational { .. }) => None,
                     exact => Some(exact?).filter(|exact| !matches!(exact.ending(), Ending::ExactnessEnds { .. })),
                 };
@@ -38,8 +38,7 @@ impl Target for f64 {
         let problem = &*plan.reaching(problem);
         let engine: Engined<f64> = match plan.engine {
             Engine::Lattice => {
-                let history =
-                    Undamped::<Estimate<f64>>::solve_within(problem, &(), plan.lattice_limits(problem), &**observe)?;
+                let history = plan.lattice::<Estimate<f64>>(problem, &(), observe)?;
                 if cfg!(feature = "mp") && history.undetermined_from().is_some() {
                     return Err(Error::NotDecided { what: "in which order the events come", bits: 53 });
                 }
@@ -89,7 +88,7 @@ impl Target for f64 {
 
 impl Target for Rational {
     fn run(problem: &Problem, plan: &Plan, _: Rung, observe: &Observer) -> Result<Engined<Rational>, Error> {
-        Ok(Arc::new(fractions(problem, plan, observe)?))
+        Ok(Arc::new(plan.lattice::<Rational>(problem, &(), observe)?))
     }
 
     fn derivatives(asked: &Asked<'_>, _: &Engined<Self>) -> Result<Derivatives<Rational>, Error> {
@@ -111,18 +110,12 @@ where
     Undamped<N>: Motion<N>,
     Estimate<f64>: Reads<N>,
 {
-    let reached = plan.reaching(problem);
-    let mut doubles = Undamped::<Estimate<f64>>::solve_within(&reached, &(), plan.lattice_limits(problem), &**observe)?;
+    let mut doubles = plan.lattice::<Estimate<f64>>(problem, &(), observe)?;
     Ok(if doubles.confirm(&exact) {
         Telling::of(Arc::new(doubles), problem, Open::Ask(longer))
     } else {
         Arc::new(Converted::new(Arc::new(exact)))
     })
-}
-
-fn fractions(problem: &Problem, plan: &Plan, observe: &Observer) -> Result<Undamped<Rational>, Error> {
-    let problem = &*plan.reaching(problem);
-    Undamped::<Rational>::solve_within(problem, &(), plan.lattice_limits(problem), &**observe)
 }
 
 /// The runs that tell a time from an event or a ray where one in `rung` does not: fractions for a rod without damping
@@ -132,7 +125,7 @@ fn longer(problem: &Problem, plan: &Plan, rung: Rung, observe: &Observer) -> Lon
     let (problem, plan, observe) = (problem.clone(), plan.clone(), observe.clone());
     let run = move |rung: Rung| match rung {
         Rung::Fractions => {
-            let exact: Engined<Rational> = Arc::new(fractions(&problem, &plan, &observe)?);
+            let exact: Engined<Rational> = Arc::new(plan.lattice(&problem, &(), &observe)?);
             Ok(Arc::new(Converted::new(exact)) as Engined<f64>)
         }
         rung => long::read(&problem, &plan, rung, &observe),

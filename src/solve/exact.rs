@@ -24,11 +24,7 @@ pub(super) fn derivatives(asked: &Asked<'_>) -> Result<Derivatives<Rational>, Er
         return Err(Error::Derivative { parameter: asked.by.name(), expected });
     }
     let problem = &*asked.plan.reaching(asked.problem);
-    let base = {
-        let limits = asked.plan.lattice_limits(problem);
-        let history = Undamped::<Rational>::solve_within(problem, &(), limits, &**asked.observe)?;
-        asked.values(problem, &history)?
-    };
+    let base = asked.values(problem, &asked.plan.lattice::<Rational>(problem, &(), asked.observe)?)?;
     let right = rates(asked, problem, &value, 1)?;
     let left = if asked.by.only_grows(problem) { None } else { Some(rates(asked, problem, &value, -1)?) };
     let quotients = match differences::of(asked, DOUBLE_DIGITS) {

@@ -78,8 +78,7 @@ fn estimates(problem: &Problem, plan: &Plan, bits: u32, observe: &Observer) -> R
     let effort = plan.effort(Rung::Bits(bits));
     Ok(match plan.engine {
         Engine::Lattice => {
-            let limits = plan.lattice_limits(problem);
-            let history = Undamped::<Estimate<Float>>::solve_within(problem, &bits, limits, &**observe)?;
+            let history = plan.lattice::<Estimate<Float>>(problem, &bits, observe)?;
             if history.undetermined_from().is_some() {
                 return Err(Error::NotDecided { what: "in which order the events come", bits });
             }
@@ -144,8 +143,7 @@ pub(super) fn rate_after(problem: &Problem, bounce: &Bounce<Estimate<f64>>, bits
 
 /// Enclosures with exact roots inside, of an undamped rod.
 fn roots(problem: &Problem, plan: &Plan, bits: u32, observe: &Observer) -> Result<Undamped<Interval>, Error> {
-    let (problem, precision) = (&*plan.reaching(problem), IntervalPrecision::with_exact(bits));
-    Undamped::<Interval>::solve_within(problem, &precision, plan.lattice_limits(problem), &**observe)
+    plan.lattice(problem, &IntervalPrecision::with_exact(bits), observe)
 }
 
 fn enclosures(problem: &Problem, plan: &Plan, bits: u32, observe: &Observer) -> Result<Engined<Interval>, Error> {

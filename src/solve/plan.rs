@@ -5,12 +5,13 @@ use std::borrow::Cow;
 use serde::Serialize;
 
 use super::foresee;
+use super::ladder::Observer;
 use super::question::{Numbers, Question, Want};
 use crate::cells::Effort;
 use crate::error::Error;
-use crate::lattice::Limits;
+use crate::lattice::{Limits, Undamped};
 use crate::mapped::CollectVec;
-use crate::number::{Number, bits_for_digits};
+use crate::number::{Bounded, Number, bits_for_digits};
 use crate::problem::{Parameters, Problem, Run};
 
 /// How a question is going to be answered. No engine and no caller decides any of it again.
@@ -456,6 +457,16 @@ impl Plan {
     #[cfg(feature = "mp")]
     pub(super) fn proves(&self, bits: u32) -> bool {
         self.cells.is_some() && matches!(self.numbers, Numbers::Digits(_)) && bits <= MOST_PROVED
+    }
+
+    /// The run of an undamped rod.
+    pub(super) fn lattice<N: Bounded>(
+        &self,
+        problem: &Problem,
+        precision: &N::Precision,
+        observe: &Observer,
+    ) -> Result<Undamped<N>, Error> {
+        Undamped::solve_within(&self.reaching(problem), precision, self.lattice_limits(problem), &**observe)
     }
 
     /// What an undamped march may store and forget.
