@@ -77,8 +77,6 @@ pub fn columns<S: Scalar>(
 
 /// The values of `quantities` along the rod: for every time a row for each point, of nothing
 /// for one beyond the rod or for a time beyond the end.
-///
-/// **Errors**: what the history cannot answer; [`Error::NotOverTime`] for what has no point.
 pub(crate) fn along<S: Scalar>(
     motion: &dyn Motion<S>,
     units: &Units,
@@ -102,8 +100,6 @@ pub(crate) fn along<S: Scalar>(
 }
 
 /// The values of `quantities` along the rod at a point and a time.
-///
-/// **Errors**: what the history cannot answer.
 pub(super) fn at<S: Scalar>(
     motion: &dyn Motion<S>,
     units: &Units,

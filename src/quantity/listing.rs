@@ -60,8 +60,6 @@ pub fn table<S: Scalar>(motion: &dyn Motion<S>, table: Table, units: &Units) -> 
 
 /// The values of `quantities` of one kind for each event, contact, flight or piece, in units of the problem; `None` where
 /// there is none.
-///
-/// **Errors**: what the history cannot answer.
 pub(crate) fn values<S: Scalar>(
     motion: &dyn Motion<S>,
     quantities: &[Quantity],
@@ -75,8 +73,6 @@ pub(crate) fn values<S: Scalar>(
 
 /// The values of quantities of one kind for each event, contact, flight or piece, as the history answers them, or why
 /// there is none.
-///
-/// **Errors**: what the history cannot answer.
 pub(crate) fn rows<S: Scalar>(motion: &dyn Motion<S>, quantities: &[Quantity]) -> Result<Vec<Row<S>>, Error> {
     let mut all: Vec<Row<S>> = Vec::new();
     let mut known: Option<(Source, Vec<Row<S>>)> = None;

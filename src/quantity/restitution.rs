@@ -61,17 +61,6 @@ impl<S> Restitution<S> {
     }
 }
 
-impl<S> EnergyShares<S> {
-    pub(crate) fn map<T>(self, f: impl Fn(S) -> T) -> EnergyShares<T> {
-        EnergyShares { translational: self.translational.map(&f), kept: self.kept.map(&f) }
-    }
-
-    /// Every number in it.
-    pub(crate) fn numbers(&self) -> Vec<&S> {
-        self.translational.iter().chain(&self.kept).collect_vec()
-    }
-}
-
 /// The coefficients of restitution of the contact that begins at `from` and ends at `to`.
 ///
 /// **Source**: section 4.1 and (4.71), with the state at the beginning of the contact for that at `t = 0`: the same for

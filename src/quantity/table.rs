@@ -8,29 +8,20 @@ use Measure::{Energy, Force, Impulse, Length, Strain, Stress, Time, Velocity};
 /// A question to a motion; it may answer several quantities.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub(super) enum Source {
-    /// `t`.
     Time,
     /// Which limit a row holds.
     Side,
-    /// [`Motion::ground_end`].
     End,
-    /// [`Motion::strain`].
     Strain,
-    /// [`Motion::top_end`].
     Top,
-    /// Whether the end is on the ground.
     Contact,
-    /// [`Motion::centre`].
     Centre,
-    /// [`Motion::energy`].
     Energy,
-    /// [`Motion::energy_parts`].
     Parts,
     /// What the ground has given since `t = 0`.
     Impulse,
     /// `x`, and [`Motion::field`].
     Field,
-    /// [`Motion::events`].
     Event,
     /// [`Motion::contacts`]: beginning, end, length.
     Span,
@@ -38,15 +29,11 @@ pub(super) enum Source {
     Ends,
     /// [`Motion::contacts`]: impulse, peak strain.
     Push,
-    /// [`restitution`](super::restitution).
     Restitution,
-    /// [`energy_shares`](super::energy_shares).
     Shares,
     /// [`Motion::energy`] at the end of a contact.
     Left,
-    /// [`flights`](super::flights).
     Flight,
-    /// [`Motion::stress_pieces`].
     Piece,
     /// The first release.
     Bounce,

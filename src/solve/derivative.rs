@@ -89,8 +89,6 @@ pub(super) struct At<'a> {
 impl Asked<'_> {
     /// The numbers that derivatives are taken of, in units of `problem`: a row for each of the list, or for each time
     /// and there for each point.
-    ///
-    /// **Errors**: what the history cannot answer.
     pub(super) fn values<S: Scalar>(&self, problem: &Problem, motion: &dyn Motion<S>) -> Result<Rows<S>, Error> {
         let units = Units::of(problem, UnitSystem::default());
         let Some(At { times, points, side }) = self.at else {

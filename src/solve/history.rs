@@ -13,10 +13,7 @@ use crate::motion::{
 };
 use crate::number::{Answer, Number, Scalar, show};
 use crate::problem::Problem;
-use crate::quantity::{
-    self, EnergyShares, Flight, Quantity, Restitution, Slice, Table, UnitSystem, Units, energy_shares, flights,
-    restitution,
-};
+use crate::quantity::{self, Flight, Quantity, Restitution, Slice, Table, UnitSystem, Units, flights, restitution};
 use crate::reason::Warning;
 
 /// The motion of a rod: its impacts and releases, and the values of every quantity at any time, in numbers `S`.
@@ -61,9 +58,6 @@ pub struct History<S: Target> {
 
 impl<S: Target> History<S> {
     /// Solves `problem` by `plan`.
-    ///
-    /// **Errors**: those of the engine; [`Error::Unsettled`], [`Error::Undecided`] where too many bits do not settle
-    /// the events.
     pub(crate) fn solve(problem: &Problem, plan: &Plan, observe: Observer) -> Result<Self, Error> {
         let ladder = Ladder { problem, plan, observe: &observe };
         let ask_events = plan.settles_events;
@@ -251,48 +245,24 @@ impl<S: Target> History<S> {
 
     /// `e_P` and `e_E²` of a contact, counted from 0.
     ///
-    /// **Accuracy**: in doubles that of `h` and `h′` at both ends, of which these are ratios; otherwise their own.
+    /// **Accuracy**: in doubles that of `h` and `h′` at both ends, of which these are ratios: where one of them is next
+    /// to nothing, no double is as accurate as its ratio would need. Otherwise their own.
     ///
     /// **Errors**: [`Error::NoContact`] where the history has fewer contacts.
     pub fn restitution(&self, contact: usize) -> Result<Restitution<S>, Error> {
-        let centre = |engine: &dyn Motion<S::Carried>, time: &_| engine.centre(time).map(|(h, rate)| vec![h, rate]);
-        Ok(self.ask_ratios(contact, restitution, Restitution::numbers, centre)?.map(S::strip))
-    }
-
-    /// The two factors of `e_E²` of a contact, counted from 0.
-    ///
-    /// **Accuracy**: in doubles that of the energies at both ends, of which these are ratios; otherwise their own.
-    ///
-    /// **Errors**: [`Error::NoContact`] where the history has fewer contacts.
-    pub fn energy_shares(&self, contact: usize) -> Result<EnergyShares<S>, Error> {
-        let energy = |engine: &dyn Motion<S::Carried>, time: &_| {
-            let Energy { total, translational, vibrational } = engine.energy(time)?;
-            Ok(vec![total, translational, vibrational])
-        };
-        Ok(self.ask_ratios(contact, energy_shares, EnergyShares::numbers, energy)?.map(S::strip))
-    }
-
-    /// Ratios of what there is at both ends of a contact. Where one of these is next to nothing, no double is as
-    /// accurate as its ratio would need: doubles are held to the accuracy of the `parts`.
-    fn ask_ratios<T>(
-        &self,
-        contact: usize,
-        ratios: impl Fn(&dyn Motion<S::Carried>, (&S::Carried, Option<&S::Carried>)) -> Result<T, Error>,
-        numbers: impl Fn(&T) -> Vec<&S::Carried>,
-        parts: impl Fn(&dyn Motion<S::Carried>, &S::Carried) -> Result<Vec<S::Carried>, Error>,
-    ) -> Result<T, Error> {
         let doubles = matches!(self.plan().numbers, Numbers::Double(_));
         let query = |engine: &dyn Motion<S::Carried>| {
             let times = engine.contact_times(contact);
             let missing = || Error::NoContact { contact, found: engine.contacts().len() };
             let (from, to) = times.ok_or_else(missing)?;
-            let ends = std::iter::once(&from).chain(&to);
-            let whole = ends.map(|time| parts(engine, time)).collect::<Result<Vec<_>, Error>>()?;
-            Ok((ratios(engine, (&from, to.as_ref()))?, whole))
+            let centres = try_mapped(std::iter::once(&from).chain(&to), |time| engine.centre(time))?;
+            Ok((restitution(engine, (&from, to.as_ref()))?, centres))
         };
-        Ok(self
-            .ask(query, |(found, whole)| if doubles { whole.iter().flatten().collect_vec() } else { numbers(found) })?
-            .0)
+        let (found, _) = self.ask(query, |(found, centres)| match doubles {
+            true => centres.iter().flat_map(|(h, rate)| [h, rate]).collect_vec(),
+            false => Restitution::numbers(found),
+        })?;
+        Ok(found.map(S::strip))
     }
 
     /// `v_x(0,·)` piece by piece: strains, as [`StressHistory`] says.

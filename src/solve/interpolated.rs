@@ -31,8 +31,6 @@ const BEND: f64 = 100.0;
 
 /// The derivatives that are `asked` for by three runs beside this `run`; `None` where some are not settled to
 /// [`WANTED`].
-///
-/// **Errors**: those of the runs.
 pub(super) fn of(asked: &Asked<'_>, run: &Engined<f64>) -> Result<Option<Derivatives<Double>>, Error> {
     let value = asked.by.value_in::<f64>(asked.problem, &())?;
     if value == 0.0 && asked.by == Parameter::Gravity {
