@@ -92,9 +92,7 @@ pub use problem::{
     Builder, Dimensionless, Material, Parameter, Parameters, Problem, ProblemError, ProblemErrorKind, Profile, Rod,
     Run, Speed, Start, Top, Written,
 };
-pub use quantity::{
-    EnergyShares, Flight, Measure, Needs, Quantity, Restitution, Slice, Table, Undefined, UnitSystem, Units,
-};
+pub use quantity::{Flight, Measure, Needs, Quantity, Restitution, Slice, Table, Undefined, UnitSystem, Units};
 pub use reason::{Doubt, Near, NoBounceReason, Reason, StillState, Warning};
 #[cfg(feature = "mp")]
 pub use rug;

@@ -60,10 +60,7 @@ fn contact(problem: &Problem, wanted: Wanted, accuracy: f64) -> Result<Ended, Fa
         let values = match wanted {
             Wanted::Time => Vec::new(),
             Wanted::Restitution => vec![restitution(motion, (&from, Some(&to)))?.energy_squared.ok()],
-            Wanted::Shares => {
-                let shares = energy_shares(motion, (&from, Some(&to)))?;
-                vec![shares.translational, shares.kept]
-            }
+            Wanted::Shares => energy_shares(motion, (&from, Some(&to)))?.map(Result::ok).to_vec(),
             Wanted::Energies => {
                 let energy = motion.energy(&to)?;
                 vec![Some(energy.translational), Some(energy.vibrational)]

@@ -158,11 +158,7 @@ impl Source {
                 let found = restitution(motion, (from, to))?;
                 vec![found.momentum, found.energy_squared]
             }
-            (Source::Shares, _) => {
-                let shares = energy_shares(motion, (from, to))?;
-                let why = if to.is_none() { unfinished } else { Undefined::NoEnergy };
-                vec![shares.translational.ok_or(why), shares.kept.ok_or(why)]
-            }
+            (Source::Shares, _) => energy_shares(motion, (from, to))?.into(),
             (Source::Left, Some(to)) => known(&motion.energy(to)?.numbers()),
             (Source::Left, None) => vec![Err(unfinished), Err(unfinished), Err(unfinished)],
             (_, Some(to)) => vec![Ok(from.clone()), Ok(to.clone()), Ok(to.clone() - from)],

@@ -36,7 +36,9 @@ pub use listing::{Columns, Table, table};
 pub(crate) use listing::{Row, rows};
 #[cfg(feature = "cli")]
 pub(crate) use one::{Missing, One};
-pub use restitution::{EnergyShares, Restitution, Undefined, energy_shares, restitution};
+#[cfg(feature = "cli")]
+pub(crate) use restitution::energy_shares;
+pub use restitution::{Restitution, Undefined, restitution};
 pub(crate) use slice::SLICE;
 pub use slice::{Slice, slices};
 pub use table::{Needs, Quantity};

@@ -14,16 +14,6 @@ pub struct Restitution<S> {
     pub energy_squared: Result<S, Undefined>,
 }
 
-/// The two factors of `e_E²` (4.73).
-#[derive(Clone, Debug, PartialEq)]
-pub struct EnergyShares<S> {
-    /// `E_h(to)/E(to)`: what part of the energy that is left moves the centre of mass. `None` where the contact does
-    /// not end or no energy is left.
-    pub translational: Option<S>,
-    /// `E(to)/E(from)`: what part of the energy damping leaves.
-    pub kept: Option<S>,
-}
-
 /// Why a quantity of a contact or a flight is not defined.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum Undefined {
@@ -92,18 +82,18 @@ pub fn restitution<S: Scalar>(history: &dyn Motion<S>, (from, to): (&S, Option<&
     Ok(Restitution { momentum, energy_squared })
 }
 
-/// The factors of `e_E²` of the contact that begins at `from` and ends at `to`.
+/// The factors of `e_E²` of the contact that begins at `from` and ends at `to`: `E_h(to)/E(to)`, what part of the energy
+/// that is left moves the centre of mass, and `E(to)/E(from)`, what part damping leaves.
 ///
 /// **Source**: (4.73). **Accuracy**: that of the energies. **Errors**: what the history cannot answer.
-pub fn energy_shares<S: Scalar>(
+pub(crate) fn energy_shares<S: Scalar>(
     history: &dyn Motion<S>,
     (from, to): (&S, Option<&S>),
-) -> Result<EnergyShares<S>, Error> {
-    let Some(to) = to else { return Ok(EnergyShares { translational: None, kept: None }) };
+) -> Result<[Result<S, Undefined>; 2], Error> {
+    let Some(to) = to else { return Ok([Err(Undefined::Unfinished), Err(Undefined::Unfinished)]) };
     let (before, after) = (history.energy(from)?, history.energy(to)?);
-    let ratio = |part: &S, whole: &S| Ok::<_, Error>((!whole.vanishes()?).then(|| part.clone() / whole));
-    Ok(EnergyShares {
-        translational: ratio(&after.translational, &after.total)?,
-        kept: ratio(&after.total, &before.total)?,
-    })
+    let ratio = |part: &S, whole: &S| {
+        Ok::<_, Error>(if whole.vanishes()? { Err(Undefined::NoEnergy) } else { Ok(part.clone() / whole) })
+    };
+    Ok([ratio(&after.translational, &after.total)?, ratio(&after.total, &before.total)?])
 }
