@@ -2,14 +2,19 @@
 
 use std::sync::Arc;
 
-use super::asked::{Windows, not_told};
+use super::asked::{Longer, Open, Telling, Windows, not_told};
+use super::ladder::Engined;
+use super::plan::Plan;
+use super::question::Observer;
 use crate::error::Error;
+use crate::lattice::Undamped;
 use crate::mapped::{MapEach, mapped, try_mapped};
 use crate::motion::moments::{self, Moments};
 use crate::motion::{Course, Field, Motion, Pair, Ray, RayRegister, Scales, Side, StressPiece, Stretch, Waves};
-use crate::number::{Reads, Scalar, Spelling};
+use crate::number::{Bounded, Estimate, Reads, Scalar, Spelling};
 #[cfg(feature = "mp")]
 use crate::problem::Parameters;
+use crate::problem::Problem;
 
 /// The history of an engine in numbers `N`, read in numbers `M`.
 #[derive(Debug)]
@@ -212,6 +217,28 @@ impl<N: Scalar, M: Reads<N>> Motion<M> for Converted<N, M> {
     fn digits_lost(&self) -> Option<(u32, f64)> {
         self.engine.digits_lost()
     }
+}
+
+/// Doubles, which answer faster than exact numbers, and within their bounds where all that they took for equal is
+/// equal; otherwise the exact ones.
+pub(super) fn confirmed<N>(
+    problem: &Problem,
+    plan: &Plan,
+    exact: Undamped<N>,
+    longer: Longer<f64>,
+    observe: &Observer,
+) -> Result<Engined<f64>, Error>
+where
+    N: Bounded,
+    Undamped<N>: Motion<N>,
+    Estimate<f64>: Reads<N>,
+{
+    let mut doubles = plan.lattice::<Estimate<f64>>(problem, &(), observe)?;
+    Ok(if doubles.confirm(&exact) {
+        Telling::of(Arc::new(doubles), problem, Open::Ask(longer))
+    } else {
+        Arc::new(Converted::new(Arc::new(exact)))
+    })
 }
 
 #[cfg(all(test, feature = "mp"))]

@@ -3,19 +3,19 @@
 use std::sync::Arc;
 
 use super::asked::{Longer, Open, Telling};
-use super::converted::Converted;
+use super::converted::{Converted, confirmed};
 use super::derivative::{Asked, Derivatives};
-use super::ladder::{Engined, Observer, Target};
+use super::ladder::{Engined, Target};
 use super::plan::{DEFAULT_ACCURACY, Engine, Plan, Rung};
+use super::question::Observer;
 use super::{differences, exact, interpolated, long};
 use crate::cells::{ContactThenCells, Damped};
 use crate::error::Error;
 use crate::first_contact::{Bounce, ContactHistory, FirstContact};
-use crate::lattice::Undamped;
 use crate::mapped::mapped;
 use crate::modal::Modal;
 use crate::motion::{Ending, Motion, Side};
-use crate::number::{Bounded, DOUBLE_DIGITS, Estimate, Rational, Reads};
+use crate::number::{DOUBLE_DIGITS, Estimate, Rational, Reads};
 use crate::problem::{Parameter, Parameters, Problem};
 
 impl Target for f64 {
@@ -94,28 +94,6 @@ impl Target for Rational {
     fn derivatives(asked: &Asked<'_>, _: &Engined<Self>) -> Result<Derivatives<Rational>, Error> {
         exact::derivatives(asked)
     }
-}
-
-/// Doubles, which answer faster than exact numbers, and within their bounds where all that they took for equal is
-/// equal; otherwise the exact ones.
-pub(super) fn confirmed<N>(
-    problem: &Problem,
-    plan: &Plan,
-    exact: Undamped<N>,
-    longer: Longer<f64>,
-    observe: &Observer,
-) -> Result<Engined<f64>, Error>
-where
-    N: Bounded,
-    Undamped<N>: Motion<N>,
-    Estimate<f64>: Reads<N>,
-{
-    let mut doubles = plan.lattice::<Estimate<f64>>(problem, &(), observe)?;
-    Ok(if doubles.confirm(&exact) {
-        Telling::of(Arc::new(doubles), problem, Open::Ask(longer))
-    } else {
-        Arc::new(Converted::new(Arc::new(exact)))
-    })
 }
 
 /// The runs that tell a time from an event or a ray where one in `rung` does not: fractions for a rod without damping

@@ -3,9 +3,9 @@
 use std::sync::{Mutex, OnceLock};
 
 use super::asked::locked;
-use super::ladder::{Attempt, Engined, Ladder, Observer, Query, Target, settled, unobserved};
+use super::ladder::{Attempt, Engined, Ladder, Query, Target, settled};
 use super::plan::{Plan, Rung};
-use super::question::{Numbers, Question};
+use super::question::{Numbers, Observer, Question, unobserved};
 use crate::error::Error;
 use crate::mapped::{CollectVec, mapped, try_mapped};
 use crate::motion::{

@@ -1,11 +1,11 @@
 //! The precision ladder: an answer is computed in doubles, in longer numbers or in enclosures until its own bound
 //! settles it.
 
-use std::ops::ControlFlow;
-use std::sync::{Arc, LazyLock};
+use std::sync::Arc;
 
 use super::derivative::{Asked, Derivatives};
 use super::plan::{Engine, Goal, Lacks, Plan, Rung};
+use super::question::{Observer, UNOBSERVED};
 use crate::error::Error;
 use crate::mapped::mapped;
 use crate::motion::{Ending, Motion, Scales};
@@ -42,17 +42,6 @@ impl Plan {
         let ladder = Ladder { problem, plan: self, observe: &UNOBSERVED };
         ladder.ask::<S, T>(query, numbers).map(|(_, answer)| answer)
     }
-}
-
-/// Receives from time to time how far a run is, in round trips, or in contacts where so many are asked for, and how
-/// many pieces it has; may end the run with [`Error::Interrupted`](crate::Error::Interrupted).
-pub type Observer = Arc<dyn Fn(usize, usize) -> ControlFlow<()> + Send + Sync>;
-
-static UNOBSERVED: LazyLock<Observer> = LazyLock::new(|| Arc::new(crate::lattice::unobserved));
-
-/// An observer that does nothing.
-pub(crate) fn unobserved() -> Observer {
-    UNOBSERVED.clone()
 }
 
 /// An engine that has run.

@@ -3,12 +3,12 @@
 use std::sync::Arc;
 
 use super::asked::{Longer, Open, Telling, not_told};
-use super::converted::Converted;
+use super::converted::{Converted, confirmed};
 use super::derivative::{Asked, Derivatives};
 use super::differences;
-use super::engines::confirmed;
-use super::ladder::{Engined, Observer, Target};
+use super::ladder::{Engined, Target};
 use super::plan::{Engine, Lacks, MOST_PROVED, Plan, Rung};
+use super::question::Observer;
 use crate::cells::{ContactThenCells, Damped, Effort};
 use crate::error::Error;
 use crate::first_contact::{Bounce, ContactHistory, FirstContact};

@@ -2,8 +2,9 @@
 
 use super::asked::Longer;
 use super::derivative::{Asked, Derivatives};
-use super::ladder::{Engined, Observer, Target};
+use super::ladder::{Engined, Target};
 use super::plan::{Plan, Rung};
+use super::question::Observer;
 use crate::error::Error;
 use crate::first_contact::Bounce;
 use crate::number::{Answer, Estimate, Float, Interval};

@@ -2,7 +2,7 @@
 //!
 //! | file | |
 //! |---|---|
-//! | `question` | what is asked, and in which numbers |
+//! | `question` | what is asked, in which numbers, and who is told how far a run is |
 //! | `plan` | everything that is decided before running |
 //! | `foresee` | the digits that a chaotic run is going to lose |
 //! | `engines`, `long` | the planned engine in the numbers of one attempt |
@@ -24,6 +24,7 @@ mod engines;
 mod exact;
 mod foresee;
 mod history;
+mod history_derivatives;
 mod interpolated;
 mod ladder;
 #[cfg_attr(not(feature = "mp"), path = "long_absent.rs")]
@@ -36,11 +37,11 @@ mod solution;
 
 pub use derivative::{Derivative, Derivatives, NoDerivative};
 pub use history::History;
-#[cfg(feature = "cli")]
-pub(crate) use ladder::unobserved;
-pub use ladder::{Observer, Target};
+pub use ladder::Target;
 pub use plan::{CERTIFIED_DIGITS, CellLimits, Climb, DEFAULT_ACCURACY, Engine, Goal, MAX_DIGITS, Plan, Reach, Rung};
-pub use question::{Numbers, Question, Want};
+#[cfg(feature = "cli")]
+pub(crate) use question::unobserved;
+pub use question::{Numbers, Observer, Question, Want};
 #[cfg(feature = "cli")]
 pub(crate) use sensitivity::Sensitivity;
 pub use solution::{ExactnessEnd, Solution, Visitor};

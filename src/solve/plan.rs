@@ -5,8 +5,7 @@ use std::borrow::Cow;
 use serde::Serialize;
 
 use super::foresee;
-use super::ladder::Observer;
-use super::question::{Numbers, Question, Want};
+use super::question::{Numbers, Observer, Question, Want};
 use crate::cells::Effort;
 use crate::error::Error;
 use crate::lattice::{Limits, Undamped};
@@ -103,18 +102,20 @@ pub struct CellLimits {
     pub marched_trips: [f64; 2],
 }
 
-/// The engine that a plan chooses.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
-#[serde(rename_all = "snake_case")]
-pub enum Engine {
-    /// The undamped rod, event by event on the characteristic lattice.
-    Lattice,
-    /// The damped first contact in closed form, and nothing after it.
-    ClosedForm,
-    /// The damped first contact in closed form, then strips of characteristic cells from the bounce on.
-    ClosedFormThenCells,
-    /// Strips of characteristic cells from the start: a damped rod whose first contact has no closed form.
-    Cells,
+named! {
+    /// The engine that a plan chooses.
+    #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+    #[serde(rename_all = "snake_case")]
+    pub enum Engine {
+        /// The undamped rod, event by event on the characteristic lattice.
+        Lattice = "characteristic lattice, event by event, without a time step",
+        /// The damped first contact in closed form, and nothing after it.
+        ClosedForm = "closed form of the first contact",
+        /// The damped first contact in closed form, then strips of characteristic cells from the bounce on.
+        ClosedFormThenCells = "closed form of the first contact, then strips of characteristic cells",
+        /// Strips of characteristic cells from the start: a damped rod whose first contact has no closed form.
+        Cells = "strips of characteristic cells",
+    }
 }
 
 /// How far the motion is followed.
@@ -242,13 +243,13 @@ impl Plan {
     ) -> Self {
         let (long, doubles) = (cfg!(feature = "mp"), matches!(numbers, Numbers::Double(_)));
         let (closed, then_cells) = (engine == Engine::ClosedForm, engine == Engine::ClosedFormThenCells);
+        let marched = then_cells || engine == Engine::Cells;
         let cells = CellLimits { long_cells: CELLS.long_cells.filter(|_| doubles), ..CELLS };
         let (rung, foreseen_loss) = match numbers {
             Numbers::Double(_) => (Rung::Double, 0.0),
             Numbers::Exact | Numbers::ExactThenDigits(_) => (Rung::Fractions, 0.0),
             Numbers::Certified(digits) => {
                 let wanted = bits_for_digits(digits);
-                let marched = then_cells || engine == Engine::Cells;
                 let bits = if marched && wanted < MOST_PROVED {
                     let lost = foresee::proof_bits(problem, |trip| match &reach {
                         Reach::Contacts(contacts) => f64::from(*contacts),
@@ -273,10 +274,22 @@ impl Plan {
             }
         };
         let goal = Goal::of(numbers);
+        let (wanted, lattice) = (bits_for_digits(goal.digits.ceil() as u32), engine == Engine::Lattice);
+        let climb = Climb {
+            bits: long.then_some((wanted + GUARD_BITS).max(FEWEST_BITS)),
+            most_bits: MOST_BITS,
+            near_miss: wanted + NEAR_MISS,
+            exact_roots: lattice.then_some(wanted * EXACT_ROOT + 1024),
+            most_enclosed: match marched && wanted + GUARD_BITS < MOST_PROVED {
+                true => MOST_PROVED,
+                false => MOST_ENCLOSED.max(4 * wanted),
+            },
+            exact_contacts: lattice.then_some(MOST_EXACT),
+        };
         Plan {
-            climb: Climb::of(goal, engine),
+            climb,
             goal,
-            cells: (then_cells || engine == Engine::Cells).then_some(cells),
+            cells: marched.then_some(cells),
             modes: ((closed || then_cells) && doubles && !long).then_some(MODES),
             rate_bits: (then_cells && doubles && long).then_some(FEWEST_BITS),
             engine,
@@ -491,23 +504,6 @@ impl Goal {
     }
 }
 
-impl Climb {
-    fn of(goal: Goal, engine: Engine) -> Self {
-        let (wanted, lattice) = (bits_for_digits(goal.digits.ceil() as u32), engine == Engine::Lattice);
-        Climb {
-            bits: cfg!(feature = "mp").then_some((wanted + GUARD_BITS).max(FEWEST_BITS)),
-            most_bits: MOST_BITS,
-            near_miss: wanted + NEAR_MISS,
-            exact_roots: lattice.then_some(wanted * EXACT_ROOT + 1024),
-            most_enclosed: match engine {
-                Engine::Cells | Engine::ClosedFormThenCells if wanted + GUARD_BITS < MOST_PROVED => MOST_PROVED,
-                _ => MOST_ENCLOSED.max(4 * wanted),
-            },
-            exact_contacts: lattice.then_some(MOST_EXACT),
-        }
-    }
-}
-
 /// A quarter of a round trip after `to`: where a ray arrives at the end of a damped march, the limit from later times
 /// is that of the strip after it.
 fn beyond(problem: &Problem, to: &Number) -> Number {
@@ -548,17 +544,6 @@ impl Rung {
             Rung::Bits(bits) | Rung::Confirmed(bits) | Rung::Enclosures(bits) => bits,
             Rung::Double | Rung::Fractions => f64::MANTISSA_DIGITS,
         }
-    }
-}
-
-impl std::fmt::Display for Engine {
-    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        f.write_str(match self {
-            Engine::Lattice => "characteristic lattice, event by event, without a time step",
-            Engine::ClosedForm => "closed form of the first contact",
-            Engine::ClosedFormThenCells => "closed form of the first contact, then strips of characteristic cells",
-            Engine::Cells => "strips of characteristic cells",
-        })
     }
 }
 

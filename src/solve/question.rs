@@ -1,4 +1,7 @@
-//! What is asked of a problem, and in which numbers.
+//! What is asked of a problem, in which numbers, and who is told how far a run is.
+
+use std::ops::ControlFlow;
+use std::sync::{Arc, LazyLock};
 
 use serde::Serialize;
 
@@ -106,4 +109,15 @@ impl std::fmt::Display for Numbers {
             Numbers::Certified(digits) => write!(f, "{digits} digits, proved"),
         }
     }
+}
+
+/// Receives from time to time how far a run is, in round trips, or in contacts where so many are asked for, and how
+/// many pieces it has; may end the run with [`Error::Interrupted`](crate::Error::Interrupted).
+pub type Observer = Arc<dyn Fn(usize, usize) -> ControlFlow<()> + Send + Sync>;
+
+pub(super) static UNOBSERVED: LazyLock<Observer> = LazyLock::new(|| Arc::new(crate::lattice::unobserved));
+
+/// An observer that does nothing.
+pub(crate) fn unobserved() -> Observer {
+    UNOBSERVED.clone()
 }

@@ -1,9 +1,9 @@
 //! The answer in the numbers that were asked for.
 
 use super::history::History;
-use super::ladder::{Observer, Target};
+use super::ladder::Target;
 use super::plan::Plan;
-use super::question::Numbers;
+use super::question::{Numbers, Observer};
 use crate::error::Error;
 use crate::motion::Ending;
 use crate::number::{Float, Interval, Rational};
