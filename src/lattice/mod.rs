@@ -16,11 +16,10 @@
 //! and enclosures.
 //!
 //! Reading order: `start` (units and start), `trace` (what is stored), `march`
-//! (trip after trip), `ground` (contact law and events), `history` (times on the lattice), `events` and `answers` (what
+//! (trip after trip), `ground` (contact law and events), `history` (times on the lattice), `answers` (what
 //! can be asked), `parts` (kinetic and strain energy apart).
 
 mod answers;
-mod events;
 mod ground;
 mod history;
 mod march;

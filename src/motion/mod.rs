@@ -4,7 +4,6 @@ mod at_start;
 mod course;
 pub(crate) mod moments;
 mod query;
-mod ray;
 mod register;
 #[cfg(feature = "svg")]
 mod straight;
@@ -13,8 +12,7 @@ mod wave;
 pub(crate) use at_start::{AtStart, Datum};
 pub use course::{Contact, Course, Ending, Energy, Event, EventKind, Side, StressHistory, StressPiece};
 pub use query::{Motion, Pair, Scales, unobserved};
-pub use ray::{Ray, reflection};
 pub use register::{Passing, RayRegister};
 #[cfg(feature = "svg")]
 pub(crate) use straight::straight;
-pub use wave::{Field, Stretch, WavePiece, Waves};
+pub use wave::{Field, Ray, Stretch, WavePiece, Waves, reflection};

@@ -2,8 +2,7 @@
 
 use std::iter::repeat;
 
-use super::flight::flights;
-use super::restitution::{Undefined, energy_shares, restitution};
+use super::restitution::{Undefined, energy_shares, flights, restitution};
 use super::table::{Quantity, Source};
 use super::unit::Units;
 use crate::error::Error;

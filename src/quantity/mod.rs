@@ -9,12 +9,11 @@
 //! | `column`, `slice` | quantities over time, and along the rod |
 //! | `listing` | quantities of all contacts, events, flights and pieces |
 //! | `one` | one number of a run |
-//! | `restitution`, `flight` | coefficients of a contact, and how high a flight goes |
+//! | `restitution` | coefficients of a contact, and how high a flight goes |
 
 mod column;
 #[cfg(feature = "compare")]
 mod convert;
-mod flight;
 mod listing;
 #[cfg(feature = "cli")]
 mod one;
@@ -27,7 +26,6 @@ pub use column::columns;
 pub(crate) use column::{along, of_one_size};
 #[cfg(feature = "compare")]
 pub(crate) use convert::Conversion;
-pub use flight::{Flight, flights};
 #[cfg(feature = "cli")]
 pub(crate) use listing::of_contact;
 pub(crate) use listing::values;
@@ -38,7 +36,7 @@ pub(crate) use listing::{Row, rows};
 pub(crate) use one::{Missing, One};
 #[cfg(feature = "cli")]
 pub(crate) use restitution::energy_shares;
-pub use restitution::{Restitution, Undefined, restitution};
+pub use restitution::{Flight, Restitution, Undefined, flights, restitution};
 pub(crate) use slice::SLICE;
 pub use slice::{Slice, slices};
 pub use table::{Needs, Quantity};

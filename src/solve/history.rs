@@ -236,8 +236,6 @@ impl<S: Target> History<S> {
     }
 
     /// The flights between the contacts, and how high they go.
-    ///
-    /// **Errors**: those of the ladder.
     pub fn flights(&self) -> Result<Vec<Flight<S>>, Error> {
         let found = self.ask(flights, |flights| Flight::numbers(flights))?;
         Ok(mapped(found, |flight| flight.map(S::strip)))
@@ -266,8 +264,6 @@ impl<S: Target> History<S> {
     }
 
     /// `v_x(0,·)` piece by piece: strains, as [`StressHistory`] says.
-    ///
-    /// **Errors**: those of the ladder.
     pub fn stress_history(&self) -> Result<StressHistory<S>, Error> {
         let pieces = self.ask(|engine| Ok(engine.stress_pieces()), |pieces| StressPiece::numbers(pieces))?;
         let pieces = mapped(pieces, |piece| piece.map(S::strip));
@@ -376,8 +372,6 @@ impl<S: Target> History<S> {
     /// material in its units. What there is not, such as the end of a contact that lasts, is `None`.
     ///
     /// **Accuracy**: that of the [`Plan`].
-    ///
-    /// **Errors**: those of the ladder.
     ///
     /// ```
     /// use dalembert::{Problem, Table};
