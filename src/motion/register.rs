@@ -54,8 +54,7 @@ impl<S: Scalar> RayRegister<S> {
     pub fn of(motion: &dyn Motion<S>) -> Self {
         let mut found = Self::of_start(motion);
         for event in motion.events().iter().filter(|event| event.time.to_f64() != 0.0) {
-            let jump = event.kind == EventKind::Impact && event.end_velocity.vanishes() != Ok(true);
-            found.push((event.time.clone(), jump));
+            found.push(ray_of(event));
         }
         Self::with(motion, found)
     }
@@ -84,8 +83,7 @@ impl<S: Scalar> RayRegister<S> {
             found.extend([(-late.clone(), true), (late - &round_trip, true)]);
         }
         let stands = motion.events().first().filter(|event| event.time.to_f64() == 0.0);
-        let jump = |event: &Event<S>| event.kind == EventKind::Impact && event.end_velocity.vanishes() != Ok(true);
-        found.extend(stands.map(|event| (event.time.clone(), jump(event))));
+        found.extend(stands.map(ray_of));
         found
     }
 
@@ -219,6 +217,11 @@ impl<S: Scalar> RayRegister<S> {
         });
         found
     }
+}
+
+/// When it leaves the ground, and whether it may carry a jump.
+fn ray_of<S: Scalar>(event: &Event<S>) -> (S, bool) {
+    (event.time.clone(), event.kind == EventKind::Impact && event.end_velocity.vanishes() != Ok(true))
 }
 
 /// The fraction of a number of round trips.

@@ -74,19 +74,12 @@ pub(crate) fn values<S: Scalar>(
 /// there is none.
 pub(crate) fn rows<S: Scalar>(motion: &dyn Motion<S>, quantities: &[Quantity]) -> Result<Vec<Row<S>>, Error> {
     let mut all: Vec<Row<S>> = Vec::new();
-    let mut known: Option<(Source, Vec<Row<S>>)> = None;
-    for quantity in quantities {
-        let (source, place) = quantity.source();
-        // Neighbours have one source.
-        if known.as_ref().is_none_or(|known| known.0 != source) {
-            known = Some((source, source.rows(motion)?));
-        }
-        let answers = known.iter().flat_map(|(_, rows)| rows);
-        for (k, answer) in answers.enumerate() {
-            if all.len() <= k {
-                all.push(Vec::with_capacity(quantities.len()));
-            }
-            all[k].extend(answer.get(place).cloned());
+    // Neighbours have one source.
+    for quantities in quantities.chunk_by(|a, b| a.source().0 == b.source().0) {
+        let rows = quantities[0].source().0.rows(motion)?;
+        all.resize_with(all.len().max(rows.len()), || Vec::with_capacity(quantities.len()));
+        for (row, answers) in all.iter_mut().zip(rows) {
+            row.extend(quantities.iter().filter_map(|quantity| answers.get(quantity.source().1).cloned()));
         }
     }
     Ok(all)
