@@ -114,13 +114,6 @@ impl<S> Event<S> {
     }
 }
 
-impl<S: Scalar> fmt::Display for Event<S> {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let [time, end, centre, rate] = self.numbers().map(Scalar::text);
-        write!(f, "{} at t = {time}: v_t(0,t) = {end}, h = {centre}, h′ = {rate}", self.kind)
-    }
-}
-
 impl<S> Contact<S> {
     /// The same contact in other numbers.
     pub fn map<T>(self, f: impl Fn(S) -> T) -> Contact<T> {
@@ -135,14 +128,6 @@ impl<S> Contact<S> {
     /// Every number in it.
     pub(crate) fn numbers(&self) -> Vec<&S> {
         [&self.from, &self.impulse, &self.peak_strain].into_iter().chain(&self.to).collect_vec()
-    }
-}
-
-impl<S: Scalar> fmt::Display for Contact<S> {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let to = self.to.as_ref().map_or_else(|| "no end".to_string(), Scalar::text);
-        let [from, impulse, peak] = [&self.from, &self.impulse, &self.peak_strain].map_each(Scalar::text);
-        write!(f, "contact from t = {from} to {to}: impulse {impulse}, peak v_x(0,t) = {peak}")
     }
 }
 

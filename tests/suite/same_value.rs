@@ -137,12 +137,12 @@ fn in_numbers<S: Target, T: Scalar>(
     }
     // At each event by the time that this history has for it.
     for (ours, exact) in whole.events().iter().zip(truth.events()) {
-        prop_assert_eq!(ours.kind, exact.kind, "{}: {} {}", numbers, ours, exact);
+        prop_assert_eq!(ours.kind, exact.kind, "{}: {:?} {:?}", numbers, ours, exact);
         for side in [Side::Left, Side::Right] {
             let (Ok(found), Ok(truth)) = (values(&*whole, &ours.time, side), values(truth, &exact.time, side)) else {
                 continue;
             };
-            compared += same(&format!("{numbers} {side:?} of event {ours}"), &found, &truth)?;
+            compared += same(&format!("{numbers} {side:?} of event {ours:?}"), &found, &truth)?;
         }
     }
     Ok(compared)
