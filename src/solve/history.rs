@@ -3,7 +3,7 @@
 use std::sync::{Mutex, OnceLock};
 
 use super::asked::locked;
-use super::ladder::{Attempt, Engined, Ladder, Query, Target, settled};
+use super::ladder::{Attempt, Ladder, Query, Target, settled};
 use super::plan::{Plan, Rung};
 use super::question::{Numbers, Observer, Question, unobserved};
 use crate::error::Error;
@@ -43,9 +43,9 @@ use crate::reason::Warning;
 pub struct History<S: Target> {
     problem: Problem,
     plan: Plan,
-    observe: Observer,
+    pub(super) observe: Observer,
     /// The attempt that has settled what happens, of which every query is asked first.
-    first: Attempt<S>,
+    pub(super) first: Attempt<S>,
     /// The last one, in longer numbers where a query needed them.
     last: Mutex<Attempt<S>>,
     events: OnceLock<Vec<Event<S>>>,
@@ -86,15 +86,6 @@ impl<S: Target> History<S> {
             motion.contacts.get_or_init(|| mapped(contacts, |contact| contact.map(S::strip)));
         }
         Ok(motion)
-    }
-
-    /// The engine that has settled what happens.
-    pub(super) fn run(&self) -> &Engined<S> {
-        &self.first.engine
-    }
-
-    pub(super) fn observer(&self) -> &Observer {
-        &self.observe
     }
 
     fn current(&self) -> Attempt<S> {

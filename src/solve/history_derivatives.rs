@@ -42,7 +42,7 @@ impl<S: Target> History<S> {
     /// # Ok::<(), dalembert::Error>(())
     /// ```
     pub fn derivatives(&self, by: Parameter, quantities: &[Quantity]) -> Result<Derivatives<S::Carried>, Error> {
-        S::derivatives(&self.asked(by, quantities), self.run())
+        S::derivatives(&self.asked(by, quantities), &self.first.engine)
     }
 
     /// The derivatives of `quantities` at `times` by a value of the problem, a row for each time; with `points`, those
@@ -86,11 +86,11 @@ impl<S: Target> History<S> {
         let Question { want, numbers } = Question::between(from, last.clone(), self.plan().numbers);
         let plan = Plan::of(self.problem(), &Question { want: want.clone(), numbers })?;
         let at = Some(At { times, points, side });
-        S::derivatives(&Asked { plan: &plan, want, at, ..self.asked(by, quantities) }, self.run())
+        S::derivatives(&Asked { plan: &plan, want, at, ..self.asked(by, quantities) }, &self.first.engine)
     }
 
     fn asked<'a>(&'a self, by: Parameter, quantities: &'a [Quantity]) -> Asked<'a> {
-        let (problem, plan, observe) = (self.problem(), self.plan(), self.observer());
+        let (problem, plan, observe) = (self.problem(), self.plan(), &self.observe);
         Asked { problem, plan, want: plan.want(), observe, by, quantities, at: None }
     }
 }
