@@ -58,40 +58,29 @@ impl<N: Bounded> Scaled<N> {
         let has_gravity = problem.gravity.as_ref().is_some_and(|gravity| !gravity.is_zero());
         let one = given.length.one();
         let gravity = if has_gravity { one.clone() } else { one.zero() };
-        let fall = given.critical_speed();
         let first = |list: &[(N, N)]| list.first().map_or_else(|| one.zero(), |(_, value)| value.clone());
-        let (displacement, speed) = (first(&data.displacement), first(&data.velocity));
-        let units = |velocity: N| Units {
-            round_trip: round_trip.clone(),
-            velocity,
-            length: given.length.clone(),
-            wave_speed: given.wave_speed.clone(),
+        let segments = match &problem.start {
+            Start::Uniform(_) | Start::Above { .. } => None,
+            Start::Profile(profile) => Some(segments(profile, (&problem.rod.length, &given.length), &data)),
         };
-        match &problem.start {
-            Start::Uniform(_) | Start::Above { .. } => {
-                let velocity = if has_gravity { fall } else { given.speed.clone() };
-                let speed = -speed / &velocity;
-                let before = match problem.rod.top {
-                    Top::Free => vec![(one.zero(), gravity.clone() - &speed, -gravity.clone())],
-                    Top::Fixed => vec![
-                        (one.zero(), speed.clone(), gravity.clone()),
-                        (one.clone().halved(), gravity.clone().halved() - &speed, -gravity.clone()),
-                    ],
-                };
-                let ground_start = displacement / &velocity / &round_trip;
-                let (top, ground_velocity) = (problem.rod.top, -speed);
-                Ok(Scaled { units: units(velocity), gravity, top, data, ground_start, ground_velocity, before })
-            }
-            Start::Profile(profile) => {
-                let segments = segments(profile, (&problem.rod.length, &given.length), &data);
-                let velocity = if has_gravity { fall } else { greatest_speed(&segments, &given.wave_speed)? };
-                let ground_start = displacement / &velocity / &round_trip;
-                let ground_velocity = speed / &velocity;
-                let units = units(velocity);
-                let before = before(&segments, &units, &gravity, problem.rod.top);
-                Ok(Scaled { units, gravity, top: problem.rod.top, data, ground_start, ground_velocity, before })
-            }
-        }
+        let velocity = match &segments {
+            _ if has_gravity => given.critical_speed(),
+            None => given.speed.clone(),
+            Some(segments) => greatest_speed(segments, &given.wave_speed)?,
+        };
+        let (length, wave_speed, top) = (given.length.clone(), given.wave_speed.clone(), problem.rod.top);
+        let ground_start = first(&data.displacement) / &velocity / &round_trip;
+        let ground_velocity = first(&data.velocity) / &velocity;
+        let units = Units { round_trip, velocity, length, wave_speed };
+        let before = match (segments, top) {
+            (Some(segments), _) => before(&segments, &units, &gravity, top),
+            (None, Top::Free) => vec![(one.zero(), gravity.clone() + &ground_velocity, -gravity.clone())],
+            (None, Top::Fixed) => vec![
+                (one.zero(), -ground_velocity.clone(), gravity.clone()),
+                (one.clone().halved(), gravity.clone().halved() + &ground_velocity, -gravity.clone()),
+            ],
+        };
+        Ok(Scaled { units, gravity, top, data, ground_start, ground_velocity, before })
     }
 }
 
