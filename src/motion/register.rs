@@ -165,17 +165,11 @@ impl<S: Scalar> RayRegister<S> {
 
     /// The rays at about this fraction of a round trip: 0 and 1 are neighbours.
     fn known_near(&self, fraction: f64, apart: f64) -> Vec<&S> {
-        let mut near = Vec::new();
-        for fraction in [fraction - 1.0, fraction, fraction + 1.0] {
-            let mut k = self.known.partition_point(|phase| phase.fraction < fraction - apart);
-            while let Some(phase) = self.known.get(k)
-                && phase.fraction <= fraction + apart
-            {
-                near.push(&phase.rays[0].0);
-                k += 1;
-            }
-        }
-        near
+        let near = [fraction - 1.0, fraction, fraction + 1.0].into_iter().flat_map(|fraction| {
+            let from = self.known.partition_point(|phase| phase.fraction < fraction - apart);
+            self.known[from..].iter().take_while(move |phase| phase.fraction <= fraction + apart)
+        });
+        near.map(|phase| &phase.rays[0].0).collect_vec()
     }
 
     /// The rays that pass `point` from one time to another, in order; at the ground also those that come from the start

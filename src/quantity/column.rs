@@ -29,8 +29,7 @@ pub fn columns<S: Scalar>(
     let factors = mapped(columns, |column| column.factor(&motion.scales(), units));
     let pushes = if plain.contains(&Source::Impulse) { Some(Pushes::of(motion)) } else { None };
     side_by_side(times, |times| {
-        let mut table: Vec<Vec<S>> = Vec::new();
-        table.resize_with(columns.len(), || Vec::with_capacity(times.len()));
+        let mut table: Vec<Vec<S>> = mapped(columns, |_| Vec::with_capacity(times.len()));
         let (mut left, mut right) = (Vec::with_capacity(count), Vec::with_capacity(count));
         for time in times {
             let ask = |sources: &[Source], side: Side, limit: i64, row: &mut Vec<S>| {
