@@ -47,18 +47,25 @@ impl Plan {
 /// An engine that has run.
 pub(crate) type Engined<S> = Arc<dyn Motion<<S as Answer>::Carried>>;
 
-/// A number system of answers, and how an attempt in the numbers of a rung is read in it.
+/// A number system of answers, and how an attempt in the numbers of a rung is read in it; one that is not built in has
+/// [`Error::NoMultiprecision`] for both.
 pub trait Target: Answer {
     /// Runs the planned engine in the numbers of `rung`.
     ///
     /// **Errors**: those of the engine; [`Error::NotDecided`] where these numbers do not settle a comparison.
-    fn run(problem: &Problem, plan: &Plan, rung: Rung, observe: &Observer) -> Result<Engined<Self>, Error>;
+    fn run(problem: &Problem, plan: &Plan, rung: Rung, observe: &Observer) -> Result<Engined<Self>, Error> {
+        let _ = (problem, plan, rung, observe);
+        Err(Error::NoMultiprecision)
+    }
 
     /// The derivatives of what is asked of a history whose engine is `run`, by the numbers that this system has them
     /// from.
     ///
     /// **Errors**: those of runs with other values; [`Error::Derivative`].
-    fn derivatives(asked: &Asked<'_>, run: &Engined<Self>) -> Result<Derivatives<Self::Carried>, Error>;
+    fn derivatives(asked: &Asked<'_>, run: &Engined<Self>) -> Result<Derivatives<Self::Carried>, Error> {
+        let _ = (asked, run);
+        Err(Error::NoMultiprecision)
+    }
 }
 
 /// A problem and its plan, of which attempts are made.

@@ -1,7 +1,6 @@
 //! Long numbers and enclosures in a build without the feature `mp`: an error that names it.
 
 use super::asked::Longer;
-use super::derivative::{Asked, Derivatives};
 use super::ladder::{Engined, Target};
 use super::plan::{Plan, Rung};
 use super::question::Observer;
@@ -20,19 +19,8 @@ impl Answer for Interval {
     }
 }
 
-macro_rules! absent {
-    ($($name:ident as $carried:ty),*) => {$(
-        impl Target for $name {
-            fn run(_: &Problem, _: &Plan, _: Rung, _: &Observer) -> Result<Engined<$name>, Error> {
-                Err(Error::NoMultiprecision)
-            }
-            fn derivatives(_: &Asked<'_>, _: &Engined<$name>) -> Result<Derivatives<$carried>, Error> {
-                Err(Error::NoMultiprecision)
-            }
-        }
-    )*};
-}
-absent!(Float as Estimate<Float>, Interval as Interval);
+impl Target for Float {}
+impl Target for Interval {}
 
 pub(super) fn in_doubles(_: &Problem, _: &Plan, _: (Rung, Longer<f64>), _: &Observer) -> Result<Engined<f64>, Error> {
     Err(Error::NoMultiprecision)
