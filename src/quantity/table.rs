@@ -281,10 +281,13 @@ impl Source {
         matches!(self, Source::End | Source::Strain | Source::Top | Source::Contact)
     }
 
-    /// How many numbers it gives.
+    /// How many numbers it gives at a time.
     pub(super) fn answers(self) -> usize {
-        let sources = Quantity::ALL.iter().map(|quantity| quantity.source());
-        sources.filter(|(source, _)| *source == self).map(|(_, answer)| answer + 1).max().unwrap_or(0)
+        match self {
+            Source::Energy => 3,
+            Source::End | Source::Top | Source::Centre | Source::Parts => 2,
+            _ => 1,
+        }
     }
 
     fn needs(self) -> Needs {
