@@ -1,6 +1,5 @@
 //! What can be asked of a motion, whatever engine answers.
 
-use std::fmt;
 use std::ops::ControlFlow;
 
 use super::moments::{self, Moments};
@@ -57,7 +56,7 @@ pub enum Pair {
 /// `0 … end()` is [`Error::TimeOutside`], a point outside of the rod is [`Error::PointOutside`].
 ///
 /// An engine answers the first six; the rest follows from them, where it has no better answer of its own.
-pub trait Motion<S: Scalar>: fmt::Debug + Send + Sync {
+pub trait Motion<S: Scalar>: Send + Sync {
     /// What has happened, up to the end.
     fn course(&self) -> &Course<S>;
 

@@ -17,7 +17,6 @@ use crate::problem::{Material, Problem, Start};
 use crate::reason::Warning;
 
 /// Where a motion has rays: those of the start, and those of events that are off in time.
-#[derive(Debug)]
 pub(super) struct Windows<N> {
     start: RayRegister<N>,
     displaced: RayRegister<N>,
@@ -246,12 +245,6 @@ fn hull<S: Rounded>(a: Estimate<S>, b: &Estimate<S>) -> Estimate<S> {
     // The step and the sum are rounded, and so is half of what lies between both ends.
     let rounding = 4.0 * (middle.to_f64().abs() + step.to_f64().abs());
     Estimate::new(middle, (high - low) / 2.0 + rounding)
-}
-
-impl<S: Rounded + Answer<Carried = Estimate<S>>> std::fmt::Debug for Telling<S> {
-    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        self.engine.fmt(f)
-    }
 }
 
 impl<S: Rounded + Answer<Carried = Estimate<S>>> Motion<Estimate<S>> for Telling<S> {

@@ -17,7 +17,6 @@ use crate::problem::Parameters;
 use crate::problem::Problem;
 
 /// The history of an engine in numbers `N`, read in numbers `M`.
-#[derive(Debug)]
 pub(super) struct Converted<N: Scalar, M> {
     engine: Arc<dyn Motion<N>>,
     precision: N::Precision,
