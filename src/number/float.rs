@@ -158,7 +158,7 @@ pub fn decimal(x: &Rational, digits: u32) -> String {
 }
 
 /// `value` in so many bits, rounded down.
-pub(super) fn down<T>(bits: u32, value: T) -> Float
+pub(crate) fn down<T>(bits: u32, value: T) -> Float
 where
     Float: rug::ops::AssignRound<T, Round = Round, Ordering = Ordering>,
 {
@@ -166,7 +166,7 @@ where
 }
 
 /// `value` in so many bits, rounded up.
-pub(super) fn up<T>(bits: u32, value: T) -> Float
+pub(crate) fn up<T>(bits: u32, value: T) -> Float
 where
     Float: rug::ops::AssignRound<T, Round = Round, Ordering = Ordering>,
 {

@@ -63,6 +63,8 @@ pub(crate) use dual::Dual;
 pub use estimate::Estimate;
 #[cfg(feature = "mp")]
 pub use float::decimal;
+#[cfg(feature = "mp")]
+pub(crate) use float::{down, up};
 pub(crate) use fraction::spelled_as;
 #[cfg(feature = "mp")]
 pub use interval::{Interval, IntervalPrecision};

@@ -8,7 +8,7 @@ use super::bessel::Special;
 use super::estimated::BoundedSpecial;
 use super::gauss::{gauss_legendre, step};
 use super::ray::{Ray, RaySums};
-use crate::number::{Estimate, Interval, Scalar};
+use crate::number::{Estimate, Interval, Scalar, down, up};
 
 /// The middle, with the radius as its bound.
 fn estimate(x: &Interval) -> Estimate<Float> {
@@ -57,29 +57,6 @@ impl BoundedSpecial for Interval {
     }
 }
 
-/// `P_n(x)` and `P_n′(x)` within the returned `2^−q` in absolute terms, for the exact number x inside of (−1,1).
-struct Legendre {
-    value: Interval,
-    slope: Interval,
-}
-
-/// The recurrence is followed in `q` bits. Each step adds less than `9·2^−q` to its value, `|P_k| ≤ 1`, and errors grow
-/// as `e_k ≤ 2e_{k−1} + e_{k−2}`, by less than `1 + √2` with each step: all in all less than `2^{1.28n + 4 − q}`, which
-/// is the width.
-fn legendre(x: &Float, n: usize, q: u32) -> Legendre {
-    let (value, before) = step(x, n, q);
-    let off = Float::with_val(64, 1) >> (q - grown(n));
-    let around = |y: &Float| {
-        let (lo, hi) = (Float::with_val(q, y - &off), Float::with_val(q, y + &off));
-        Interval::between(lo, hi)
-    };
-    let (value, before, x) = (around(&value), around(&before), Interval::between(x.clone(), x.clone()));
-    let x = value.zero() + &x;
-    let square = (x.one() - &x) * &(x.one() + &x);
-    let slope = (before - x.clone() * &value) * &x.int(n as i64) / square;
-    Legendre { value, slope }
-}
-
 /// Bits that the recurrence may lose, rounded up.
 fn grown(n: usize) -> u32 {
     (1.28 * n as f64) as u32 + 6
@@ -121,24 +98,29 @@ fn enclosed_rule(bits: u32, n: usize) -> Vec<(Interval, Interval)> {
     if rule.windows(2).all(apart) { rule } else { vec![(Interval::everything(bits), Interval::everything(bits)); n] }
 }
 
+/// The root next to x, inside of (−1,1), and its weight.
+///
+/// The recurrence is followed in `q` bits. Each step adds less than `9·2^−q` to its value, `|P_k| ≤ 1`, and errors grow
+/// as `e_k ≤ 2e_{k−1} + e_{k−2}`, by less than `1 + √2` with each step: all in all less than `2^{1.28n + 4 − q}`, which
+/// is the width.
 fn prove(x: &Float, n: usize, bits: u32) -> (Interval, Interval) {
-    let m = n as i64;
-    let found = legendre(x, n, bits + grown(n) + 5 * (n as u32 + 2).ilog2() + 24);
-    let one = found.value.one();
+    let (m, q) = (n as i64, bits + grown(n) + 5 * (n as u32 + 2).ilog2() + 24);
+    let (value, before) = step(x, n, q);
+    let off = Float::with_val(64, 1) >> (q - grown(n));
+    let around = |y: &Float| Interval::between(Float::with_val(q, y - &off), Float::with_val(q, y + &off));
+    let (value, before) = (around(&value), around(&before));
+    let one = value.one();
     let point = one.zero() + &Interval::between(x.clone(), x.clone());
-    let step = found.value.clone() / &found.slope;
+    let square = |x: &Interval| (one.clone() - x) * &(one.clone() + x);
+    let slope = (before - point.clone() * &value) * &one.int(m) / square(&point);
+    let step = value.clone() / &slope;
     let (second, third) = (one.int(m + 1).square().square() / one.int(16), one.int(m + 1).square() / one.int(6));
     let away = (step.magnitude() * &one.int(m)).square() * &second;
-    let node = (point.clone() - step).widened(&(away.clone() / &found.slope));
-    let square = |x: &Interval| (one.clone() - x) * &(one.clone() + x);
-    let bend = (point.clone() * &found.slope * &one.int(2) - found.value * &one.int(m * (m + 1))) / square(&point);
-    let slope = (found.slope + bend * &(node.clone() - &point)).widened(&(away * third));
+    let node = (point.clone() - step).widened(&(away.clone() / &slope));
+    let bend = (point.clone() * &slope * &one.int(2) - value * &one.int(m * (m + 1))) / square(&point);
+    let slope = (slope + bend * &(node.clone() - &point)).widened(&(away * third));
     let weight = one.int(2) / (square(&node) * &slope.square());
-    let rounded = |x: Interval| {
-        let ends =
-            (Float::with_val_round(bits, x.lo(), Round::Down).0, Float::with_val_round(bits, x.hi(), Round::Up).0);
-        Interval::between(ends.0, ends.1)
-    };
+    let rounded = |x: Interval| Interval::between(down(bits, x.lo()), up(bits, x.hi()));
     (rounded(node), rounded(weight))
 }
 

@@ -1,8 +1,6 @@
 //! Special functions, each once by name, with an implementation for each number system by [`Special`]: scaled Bessel
 //! functions, the sums over `ψ_n` that a ray carries, `φ` functions, Gauss–Legendre.
 
-#[cfg(feature = "mp")]
-mod backward;
 mod bessel;
 #[cfg(feature = "mp")]
 mod enclosed;
@@ -13,7 +11,6 @@ mod hypergeometric;
 #[cfg(feature = "mp")]
 mod long;
 mod phi;
-mod precision;
 mod ray;
 
 pub use bessel::{RoundedSpecial, Special, i0_scaled, i1_scaled, in_scaled};
@@ -22,5 +19,5 @@ pub use gauss::gauss_legendre;
 #[cfg(feature = "mp")]
 pub use hypergeometric::{in_bounded, in_scaled_bounded, psi_bounded};
 pub use phi::{log_mean, log_rest, phi1, phi2};
-use precision::{bits, negative_power};
+use ray::bits;
 pub use ray::{Ray, RaySums, RoundedSums};

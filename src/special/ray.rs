@@ -4,8 +4,7 @@
 //! `ρ_n = ψ_n/ψ_{n−1}` obey `ρ_n = ξ/(n + (r²η/4) ρ_{n+1})`, which has no cancellation, is stable downwards, and is
 //! `ξ/n` at `r = 0`: no formula here divides by `r`.
 
-use super::{bits, negative_power};
-use crate::number::{Analytic, Rounded};
+use crate::number::{Analytic, Rounded, Scalar};
 
 /// A ray of travel time `a` at age `t`: `ξ = t − a`, `η = t + a`, damping `r`.
 #[derive(Clone, Debug)]
@@ -203,4 +202,15 @@ impl<S: Rounded> Ray<S> {
         };
         RoundedSums { values: RaySums { start, sums }, start_roundings, sum_roundings, terms, mean }
     }
+}
+
+/// Bits of the significand, as far as sums are to be carried.
+pub(super) fn bits<S: Scalar>(like: &S) -> f64 {
+    (-like.log2_roundoff()).clamp(1.0, 1e6)
+}
+
+/// `2^{−n}` for the whole part of n, zero below the normal doubles.
+#[inline]
+fn negative_power(n: f64) -> f64 {
+    if (0.0..1022.0).contains(&n) { f64::from_bits((1023 - n as u64) << 52) } else { 0.0 }
 }
