@@ -57,11 +57,6 @@ pub struct Trips<N> {
 }
 
 impl<N> Trips<N> {
-    /// The same time in other numbers.
-    pub fn map<M>(&self, f: impl Fn(&N) -> M) -> Trips<M> {
-        Trips { exact: f(&self.exact), number: f(&self.number), passed: self.passed, on_lattice: self.on_lattice }
-    }
-
     /// `k` where the time is `k t₁`.
     pub fn lattice(&self) -> Option<i64> {
         self.on_lattice.then_some(self.passed)

@@ -26,7 +26,7 @@ use crate::special::BoundedSpecial;
 ///
 /// **Accuracy**: *within its own bound*: estimates in [`Estimate`](crate::number::Estimate), enclosures in intervals.
 /// The history ends with the contact, because the flight that follows is only known as far as no impact ends it: see
-/// [`ContactHistory::flight`].
+/// [`Rebound::flight`].
 ///
 /// ```
 /// use dalembert::{Estimate, Number, Problem};
@@ -214,22 +214,6 @@ impl<N: BoundedSpecial> ContactHistory<N> {
             let (centre, velocity) = self.contact.centre_at(&self.followed);
             Box::new(Rebound { time: self.end.clone(), centre, velocity, rod: self.contact.rod.clone() })
         }))
-    }
-
-    /// `h(t)` and `h′(t)` in the flight after the bounce, provided that no impact has come before.
-    ///
-    /// **Source**: (3.43), (3.44). **Accuracy**: *within its own bound*. **Errors**: [`Error::TimeOutside`] before the
-    /// bounce or where there is none.
-    pub fn flight(&self, time: &N) -> Result<(N, N), Error> {
-        let outside = || Error::TimeOutside { found: time.text(), end: self.end.text() };
-        let rebound = self.rebound().ok_or_else(outside)?;
-        if time.coincides(&self.end) {
-            return Ok((rebound.centre.clone(), rebound.velocity.clone()));
-        }
-        if open("whether that time is in the flight", time, time.below(&self.end))? {
-            return Err(outside());
-        }
-        Ok(rebound.flight(&time.clone().without_exact()))
     }
 
     fn moment(&self, time: &N) -> Result<Moment<'_, N>, Error> {

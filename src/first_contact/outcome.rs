@@ -34,14 +34,3 @@ pub enum BounceKind {
     /// It rises through zero.
     Root,
 }
-
-impl<N> Bounce<N> {
-    /// The same answer in other numbers.
-    pub fn map<M>(&self, f: impl Fn(&N) -> M) -> Bounce<M> {
-        match self {
-            Bounce::At { time, trips, kind } => Bounce::At { time: f(time), trips: trips.map(f), kind: *kind },
-            Bounce::Never(reason) => Bounce::Never(reason.clone()),
-            Bounce::Undecided { until, why } => Bounce::Undecided { until: f(until), why: why.clone() },
-        }
-    }
-}
