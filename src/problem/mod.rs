@@ -5,7 +5,6 @@ mod definition;
 pub(crate) mod given;
 mod parameters;
 pub(crate) mod profile;
-mod step;
 pub(crate) mod validate;
 mod vary;
 pub(crate) mod written;

@@ -2,11 +2,9 @@
 
 #[cfg(feature = "compare")]
 use super::ProblemError;
-use super::{Material, Parameters, Problem, Start};
+use super::{Material, Parameters, Problem, Profile, Rod, Speed, Start};
 use crate::error::Error;
-#[cfg(feature = "compare")]
-use crate::number::Rational;
-use crate::number::{Number, Scalar};
+use crate::number::{Number, Rational, Scalar};
 
 /// A value of the problem by which derivatives are taken, and which can be fitted.
 ///
@@ -129,23 +127,100 @@ impl Parameter {
 
     fn find<S: Scalar>(self, problem: &Problem, precision: &S::Precision) -> Result<Option<S>, Error> {
         let rod = Parameters::<S>::of(problem, precision)?;
-        let lift = |number: &Number| Some(S::from_number(number, precision));
-        Ok(match (self, &problem.rod.material, &problem.start) {
-            (Parameter::Length, ..) => Some(rod.length),
-            (Parameter::WaveSpeed, ..) => Some(rod.wave_speed),
-            (Parameter::Modulus, Material::Elastic { modulus, .. }, _) => lift(modulus),
-            (Parameter::Density, Material::Elastic { density, .. }, _) => lift(density),
-            (Parameter::Damping, ..) => Some(rod.damping),
-            (Parameter::Gravity, ..) => Some(rod.gravity),
-            (Parameter::Speed, _, Start::Uniform(_) | Start::Above { .. }) => Some(rod.speed),
-            (Parameter::Gap, _, Start::Above { gap, .. }) => lift(gap),
-            (Parameter::StartDisplacement(point) | Parameter::StartVelocity(point), ..) => {
-                let list = self.list(problem).filter(|list| !list.is_empty());
-                let one = Number::from(1);
-                list.and_then(|list| point.map_or(Some(&one), |k| Some(&list.get(k)?.1))).and_then(lift)
+        Ok(match (self, &problem.start) {
+            (Parameter::WaveSpeed, _) => Some(rod.wave_speed),
+            (Parameter::Speed, Start::Uniform(_) | Start::Above { .. }) => Some(rod.speed),
+            (Parameter::StartDisplacement(None) | Parameter::StartVelocity(None), _) => {
+                self.list(problem).filter(|list| !list.is_empty()).map(|_| rod.length.one())
+            }
+            _ => self.number(&mut problem.clone()).map(|number| S::from_number(number, precision)),
+        })
+    }
+
+    /// The number that it is, or whose root it is, zero where nothing is given; `None` where no problem of this kind
+    /// has one.
+    fn number(self, problem: &mut Problem) -> Option<&mut Number> {
+        let Rod { length, material, damping, .. } = &mut problem.rod;
+        match (self, material, &mut problem.start) {
+            (Parameter::Length, ..) => Some(length),
+            (Parameter::Damping, ..) => Some(damping.get_or_insert(0.into())),
+            (Parameter::Gravity, ..) => Some(problem.gravity.get_or_insert(0.into())),
+            (Parameter::WaveSpeed, Material::WaveSpeed(value), _)
+            | (Parameter::WaveSpeed | Parameter::Modulus, Material::Elastic { modulus: value, .. }, _)
+            | (Parameter::Density, Material::Elastic { density: value, .. }, _)
+            | (Parameter::Gap, _, Start::Above { gap: value, .. })
+            | (Parameter::Speed, _, Start::Uniform(Speed::Given(value) | Speed::DropHeight(value)))
+            | (Parameter::Speed, _, Start::Above { speed: value, .. }) => Some(value),
+            (Parameter::StartDisplacement(Some(k)), _, Start::Profile(Profile { displacement: list, .. }))
+            | (Parameter::StartVelocity(Some(k)), _, Start::Profile(Profile { velocity: list, .. })) => {
+                list.get_mut(k).map(|(_, value)| value)
             }
             _ => None,
-        })
+        }
+    }
+
+    /// `problem` with this value greater by the part `step` of itself, or by `step` times a scale of its own where it
+    /// is zero; its square by the part `step` where that is what the problem has. `None` where no problem has such a
+    /// value.
+    pub(crate) fn moved(self, problem: &Problem, step: &Rational) -> Option<Problem> {
+        let factor = Rational::from(1) + step;
+        let by = |number: &Number, factor: &Rational| Number::of_rational(&(number.to_rational() * factor));
+        let grow = |number: &mut Number| by(number, &factor).map(|grown| *number = grown);
+        let mut moved = problem.clone();
+        match (self, &mut moved.start) {
+            (Parameter::Length, Start::Profile(Profile { displacement, velocity })) => {
+                displacement.iter_mut().chain(velocity).try_for_each(|(x, _)| grow(x))?;
+            }
+            (Parameter::StartDisplacement(None), Start::Profile(Profile { displacement: list, .. }))
+            | (Parameter::StartVelocity(None), Start::Profile(Profile { velocity: list, .. })) => {
+                return list.iter_mut().try_for_each(|(_, value)| grow(value)).map(|()| moved);
+            }
+            // The speed that a fall from a height gives stays as it is.
+            (Parameter::Gravity, Start::Uniform(Speed::DropHeight(height))) => {
+                *height = by(height, &(Rational::from(1) / &factor))?;
+            }
+            _ => {}
+        }
+        let number = self.number(&mut moved)?;
+        if !number.is_zero() {
+            grow(number)?;
+        } else if *step > Rational::default() || !self.only_grows(problem) {
+            *number = by(&self.scale_of_zero(problem), step)?;
+        } else {
+            // Zero has values on one side only.
+            return None;
+        }
+        Some(moved)
+    }
+
+    /// The power of it that the problem has, and that [`Parameter::moved`] moves.
+    pub(crate) fn power(self, problem: &Problem) -> i64 {
+        let square = match self {
+            Parameter::WaveSpeed => matches!(problem.rod.material, Material::Elastic { .. }),
+            Parameter::Speed => matches!(problem.start, Start::Uniform(Speed::DropHeight(_))),
+            _ => false,
+        };
+        if square { 2 } else { 1 }
+    }
+
+    /// What a value that is zero is moved by a part of: `1/t₁`, `μ/t₁` or, without a speed, `c/1000 t₁`; for a speed
+    /// that of a fall from the gap; for a point of the start the greatest value of its list, `L/1000` or `c/1000`.
+    pub(crate) fn scale_of_zero(self, problem: &Problem) -> Number {
+        let rod = Parameters::<f64>::of(problem, &());
+        let scale = rod.map_or(1.0, |rod| match self {
+            Parameter::Gravity if rod.speed > 0.0 => rod.speed / rod.round_trip(),
+            Parameter::Gravity => rod.wave_speed / rod.round_trip() / 1000.0,
+            Parameter::Speed => (2.0 * rod.gravity * problem.gap().map_or(0.0, Number::to_f64)).sqrt(),
+            Parameter::StartDisplacement(_) | Parameter::StartVelocity(_) => {
+                let list = self.list(problem).unwrap_or_default();
+                let most = list.iter().map(|(_, value)| value.to_f64().abs()).fold(0.0, f64::max);
+                let length = matches!(self, Parameter::StartDisplacement(_));
+                let least = if length { rod.length } else { rod.wave_speed } / 1000.0;
+                if most > 0.0 { most } else { least }
+            }
+            _ => rod.round_trip().recip(),
+        });
+        format!("{scale:e}").parse().unwrap_or_else(|_| 1.into())
     }
 
     /// `problem` with `value` in place of its own.

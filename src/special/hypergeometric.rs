@@ -301,17 +301,11 @@ fn hypergeometric(y: &Float, n: u32, bits: u32) -> Option<(Float, f64)> {
 
 /// Where the terms of `₀F₁` fall below `2^{−bits}`, about.
 fn expected_terms(y: &Float, n: u32, bits: u32) -> f64 {
-    let (y, n) = (y.to_f64().max(1e-300).log2(), f64::from(n));
-    let goal = -f64::from(bits) - 70.0;
-    let log = |m: f64| m * y - m * (m / std::f64::consts::E).log2() - (m + n) * ((m + n) / std::f64::consts::E).log2();
-    let log = |m: f64| log(m) + if n > 0.0 { n * (n / std::f64::consts::E).log2() } else { 0.0 };
-    let (mut low, mut high) = ((y / 2.0).exp2().max(1.0), (y / 2.0).exp2().max(1.0) * 8.0 + 16.0);
-    while log(high) > goal {
-        high *= 2.0;
+    let (y, n) = (y.to_f64(), f64::from(n));
+    let (mut m, mut log) = (0.0, 0.0);
+    while log > -f64::from(bits) - 70.0 {
+        m += 1.0;
+        log += (y / (m * (m + n))).log2();
     }
-    while high - low > 1.0 + 0.01 * low {
-        let middle = 0.5 * (low + high);
-        if log(middle) > goal { low = middle } else { high = middle }
-    }
-    high + 1.0
+    m + 1.0
 }
