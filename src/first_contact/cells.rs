@@ -1,6 +1,7 @@
 //! One cell between two lattice times: has the transient died away, and where is the first root of the stress.
 
 use std::cell::RefCell;
+use std::collections::BTreeMap;
 use std::rc::Rc;
 
 use super::field::{FirstContact, Shares, Trips};
@@ -21,8 +22,8 @@ pub(super) struct Search<'a, N> {
     pub(super) kernels: Option<&'a Kernels<N>>,
 }
 
-/// Lists that are worked out once, by what they belong to, in its order.
-type Known<K, T> = RefCell<Vec<(K, Rc<[T]>)>>;
+/// Lists that are worked out once, by what they belong to.
+type Known<K, T> = RefCell<BTreeMap<K, Rc<[T]>>>;
 
 /// What the search for the bounce asks of the rays of one damping, each worked out once for many speeds: the motion is
 /// linear in `μ` and `g`.
@@ -42,15 +43,12 @@ impl<N> Default for Kernels<N> {
 
 /// What a table holds for `key`, worked out where it does not.
 fn known<K: Ord, T>(table: &Known<K, T>, key: K, find: impl FnOnce() -> Rc<[T]>) -> Rc<[T]> {
-    let place = table.borrow().binary_search_by(|(held, _)| held.cmp(&key));
-    match place {
-        Ok(place) => table.borrow()[place].1.clone(),
-        Err(place) => {
-            let list = find();
-            table.borrow_mut().insert(place, (key, list.clone()));
-            list
-        }
-    }
+    let held = table.borrow().get(&key).cloned();
+    held.unwrap_or_else(|| {
+        let list = find();
+        table.borrow_mut().insert(key, list.clone());
+        list
+    })
 }
 
 /// The force in a cell, over `scale`: within `error` of a Chebyshev sum.

@@ -83,7 +83,24 @@ pub(super) fn first_root(sum: &[f64], error: f64, sign: impl Fn(f64) -> Sign) ->
         if slope > 0.0 {
             match known(hi) {
                 Some(true) => continue,
-                Some(false) => return narrow(sum, lo, hi, slope, bend, steepness, known),
+                Some(false) => {
+                    // Cut until the slope is at least half of what it is in the middle.
+                    let (mut a, mut b, mut least) = (lo, hi, slope);
+                    for _ in 0..40 {
+                        let mid = 0.5 * (a + b);
+                        let middle = evaluate(sum, mid).1.abs();
+                        least = least.max(middle - bend * (b - a) / 2.0 - steepness);
+                        if least >= 0.5 * middle {
+                            break;
+                        }
+                        match known(mid) {
+                            Some(true) => a = mid,
+                            Some(false) => b = mid,
+                            None => break,
+                        }
+                    }
+                    return FirstRoot::Between { lo: a, hi: b, slope: least };
+                }
                 // The function falls towards something that cannot be told from zero.
                 None => {}
             }
@@ -97,33 +114,6 @@ pub(super) fn first_root(sum: &[f64], error: f64, sign: impl Fn(f64) -> Sign) ->
         stack.push((lo, cut));
     }
     FirstRoot::None
-}
-
-/// A shorter bracket of the same root, on which the slope is at least half of what it is in the middle.
-fn narrow(
-    sum: &[f64],
-    lo: f64,
-    hi: f64,
-    slope: f64,
-    bend: f64,
-    steepness: f64,
-    known: impl Fn(f64) -> Sign,
-) -> FirstRoot {
-    let (mut a, mut b, mut least) = (lo, hi, slope);
-    for _ in 0..40 {
-        let mid = 0.5 * (a + b);
-        let middle = evaluate(sum, mid).1.abs();
-        least = least.max(middle - bend * (b - a) / 2.0 - steepness);
-        if least >= 0.5 * middle {
-            break;
-        }
-        match known(mid) {
-            Some(true) => a = mid,
-            Some(false) => b = mid,
-            None => break,
-        }
-    }
-    FirstRoot::Between { lo: a, hi: b, slope: least }
 }
 
 #[cfg(test)]
