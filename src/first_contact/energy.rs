@@ -5,7 +5,6 @@ use std::cmp::Ordering;
 use super::field::{FirstContact, Trips, unknown};
 use super::rebound::translational;
 use crate::motion::{Energy, Side};
-use crate::number::Scalar;
 use crate::special::BoundedSpecial;
 
 /// One node: weight in `∫ da`, `v_t − h′`, `c v_x`.
@@ -53,7 +52,11 @@ impl<N: BoundedSpecial> FirstContact<N> {
     /// assert!((energy.vibrational.value() - 2.0 / 3.0).abs() < 1e-14);
     /// ```
     pub fn energy(&self, time: &N) -> Energy<N> {
-        self.trips(time).map_or_else(|| nothing(time), |trips| self.energy_at(&trips))
+        let unknown = || unknown(time);
+        self.trips(time).map_or_else(
+            || Energy { total: unknown(), translational: unknown(), vibrational: unknown() },
+            |trips| self.energy_at(&trips),
+        )
     }
 
     pub(super) fn energy_at(&self, trips: &Trips<N>) -> Energy<N> {
@@ -250,11 +253,6 @@ impl<N: BoundedSpecial> FirstContact<N> {
         let cube = self.damping.square() * &self.damping * &a.double(goal.exp2() / 6.0);
         sum.widened(&cube)
     }
-}
-
-/// Energies of which nothing is known.
-fn nothing<N: Scalar>(like: &N) -> Energy<N> {
-    Energy { total: unknown(like), translational: unknown(like), vibrational: unknown(like) }
 }
 
 /// The number of nodes that leave less than `2^goal`.

@@ -82,12 +82,6 @@ impl<N: Scalar> Shares<N> {
     }
 }
 
-/// What all points of the rod have in common: free fall.
-pub(super) struct FreeFall<N> {
-    value: Shares<N>,
-    rate: Shares<N>,
-}
-
 /// More rays than this are not summed.
 const MOST_RAYS: i64 = 1 << 20;
 
@@ -150,11 +144,6 @@ impl<N: BoundedSpecial> FirstContact<N> {
         self.speed.clone() + &self.critical
     }
 
-    /// `factor (μ impact + μ₀ weight)`.
-    pub(super) fn combine(&self, shares: &Shares<N>, factor: &N) -> N {
-        self.weighted(shares) * factor
-    }
-
     /// `μ impact + μ₀ weight`.
     pub(super) fn weighted(&self, shares: &Shares<N>) -> N {
         let impact = shares.impact.clone() * &self.speed;
@@ -210,9 +199,9 @@ impl<N: BoundedSpecial> FirstContact<N> {
 
     /// `V`, `V_t`, `V_x` at the travel time `a` from the ground, `0 ≤ a ≤ 1/2`, with so many rays arrived upwards and
     /// downwards.
-    pub(super) fn field_shares(&self, a: &N, trips: &N, arrived: [i64; 2], free: &FreeFall<N>) -> [Shares<N>; 3] {
+    pub(super) fn field_shares(&self, a: &N, trips: &N, arrived: [i64; 2], free: &[Shares<N>; 2]) -> [Shares<N>; 3] {
         let r = &self.damping;
-        let (mut value, mut rate) = (free.value.clone(), free.rate.clone());
+        let [mut value, mut rate] = free.clone();
         let mut slope = Shares { impact: r.zero(), weight: r.zero() };
         let half_square = r.square() / r.int(2);
         for j in 0..arrived[0].max(arrived[1]) {
@@ -239,14 +228,12 @@ impl<N: BoundedSpecial> FirstContact<N> {
         [value, rate, slope]
     }
 
-    /// Free fall at `t/t₁`: `v/t₁` and `v_t`.
-    pub(super) fn free_fall(&self, trips: &N) -> FreeFall<N> {
+    /// Free fall at `t/t₁`, which all points of the rod have in common: `v/t₁` and `v_t`.
+    pub(super) fn free_fall(&self, trips: &N) -> [Shares<N>; 2] {
         let fall = -(self.damping.int(2) * &self.damping * trips);
         let (fallen, dropped) = (-(fall.phi1() * trips), -(fall.phi2() * &trips.square()));
-        FreeFall {
-            rate: Shares { impact: -fall.exp(), weight: fallen.clone() },
-            value: Shares { impact: fallen, weight: dropped },
-        }
+        let rate = Shares { impact: -fall.exp(), weight: fallen.clone() };
+        [Shares { impact: fallen, weight: dropped }, rate]
     }
 
     /// `v`, `v_t`, `v_x` at `(x,t)`.
@@ -338,13 +325,13 @@ impl<N: BoundedSpecial> FirstContact<N> {
 
     pub(super) fn centre_at(&self, trips: &Trips<N>) -> (N, N) {
         let [height, rate] = self.centre_shares(&trips.number, trips.returned(Side::Left));
-        (self.combine(&height, &self.round_trip).without_exact(), self.weighted(&rate))
+        ((self.weighted(&height) * &self.round_trip).without_exact(), self.weighted(&rate))
     }
 
     /// `h/t₁` and `h′`, with `k` returned rays.
     pub(super) fn centre_shares(&self, trips: &N, k: i64) -> [Shares<N>; 2] {
         let r = &self.damping;
-        let FreeFall { value: mut height, mut rate } = self.free_fall(trips);
+        let [mut height, mut rate] = self.free_fall(trips);
         for j in 0..=k {
             let ray = if j == 0 { Ray::at_source(r, trips) } else { Ray::new(r, &r.int(j), trips) };
             // c/L is 2 in these units; every ray but the first counts twice.

@@ -165,6 +165,7 @@ pub(super) fn expansion(z: &Float, n: i64) -> Float {
 }
 
 /// `mantissa · 2^{−shift}`, a number y ≥ 0 rounded down; short numbers stay short.
+#[derive(Clone)]
 struct Factor {
     mantissa: Integer,
     shift: u32,
@@ -192,23 +193,22 @@ impl Factor {
         }
     }
 
-    /// The square, rounded down, times `other` where one is given, rounded down.
-    fn square_times(&self, other: Option<&Factor>, scale: u32) -> Self {
-        let mut result = Factor { mantissa: self.mantissa.clone().square(), shift: 2 * self.shift };
+    /// The product, rounded down.
+    fn times(&self, other: &Factor, scale: u32) -> Self {
+        let mantissa = Integer::from(&self.mantissa * &other.mantissa);
+        let mut result = Factor { mantissa, shift: self.shift + other.shift };
         result.cut(scale);
-        if let Some(other) = other {
-            result.mantissa *= &other.mantissa;
-            result.shift += other.shift;
-            result.cut(scale);
-        }
         result
     }
 
     /// `yᵏ`, k ≥ 1.
     fn power(&self, k: u32, scale: u32) -> Self {
-        let mut result = Factor { mantissa: self.mantissa.clone(), shift: self.shift };
+        let mut result = self.clone();
         for bit in (0..k.ilog2()).rev() {
-            result = result.square_times((k >> bit & 1 == 1).then_some(self), scale);
+            result = result.times(&result, scale);
+            if k >> bit & 1 == 1 {
+                result = result.times(self, scale);
+            }
         }
         result
     }
