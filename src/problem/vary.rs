@@ -1,8 +1,8 @@
 //! A problem with other values: what a derivative is taken by, and what a fit turns.
 
-#[cfg(feature = "compare")]
-use super::ProblemError;
 use super::{Material, Parameters, Problem, Profile, Rod, Speed, Start};
+#[cfg(feature = "compare")]
+use super::{ProblemError, given::Given};
 use crate::error::Error;
 use crate::number::{Number, Rational, Scalar};
 
@@ -228,38 +228,27 @@ impl Parameter {
     /// **Errors**: a value that no problem has.
     #[cfg(feature = "compare")]
     pub(crate) fn set(self, problem: &Problem, value: f64) -> Result<Problem, ProblemError> {
-        let given = |parameter: Parameter| parameter.value(problem).unwrap_or_default();
         if matches!(problem.start, Start::Profile(_))
             && (self == Parameter::Length || self.list(problem).is_some())
             && let Some(problem) = self.step_to(problem, value).and_then(|step| self.moved(problem, &step))
         {
             return problem.to_builder().build();
         }
-        let builder = problem.to_builder();
-        // A material is given as a whole.
-        let material = |modulus: f64, density: f64| match &problem.rod.material {
-            Material::Elastic { area: Some(area), .. } => builder.clone().material(modulus, density, area.clone()),
-            Material::Elastic { area: None, .. } => builder.clone().modulus(modulus).density(density),
-            Material::WaveSpeed(_) => builder.clone().wave_speed((modulus / density).sqrt()),
-        };
-        let builder = match (self, &problem.rod.material, &problem.start) {
-            (Parameter::Length, ..) => builder.length(value),
-            (Parameter::WaveSpeed, Material::WaveSpeed(_), _) => builder.wave_speed(value),
-            (Parameter::WaveSpeed, ..) => {
-                let density = given(Parameter::Density);
-                material(value * value * density, density)
-            }
-            (Parameter::Modulus, ..) => material(value, given(Parameter::Density)),
-            (Parameter::Density, ..) => material(given(Parameter::Modulus), value),
-            (Parameter::Damping, ..) => builder.damping(value),
+        let written = |value: f64| Given::new("", self.name(), &value.into()).map(|given| given.number.clone());
+        let given = |parameter: Parameter| parameter.value(problem).unwrap_or_default();
+        let mut set = problem.clone();
+        if let (Parameter::Speed | Parameter::Gravity, Start::Uniform(speed)) = (self, &mut set.start) {
             // The speed that a fall from a height gives stays as it is.
-            (Parameter::Gravity, _, Start::Uniform(_)) => builder.gravity(value).impact_speed(given(Parameter::Speed)),
-            (Parameter::Gravity, ..) => builder.gravity(value),
-            (Parameter::Speed, ..) => builder.impact_speed(value),
-            (Parameter::Gap, ..) => builder.gap(value),
-            (Parameter::StartDisplacement(_) | Parameter::StartVelocity(_), ..) => builder,
+            *speed = Speed::Given(written(given(Parameter::Speed))?);
+        }
+        let value = match (self, self.power(problem)) {
+            (Parameter::WaveSpeed, 2) => value * value * given(Parameter::Density),
+            _ => value,
         };
-        builder.build()
+        if let Some(number) = self.number(&mut set) {
+            *number = written(value)?;
+        }
+        set.to_builder().build()
     }
 }
 
