@@ -130,7 +130,7 @@ pub fn decimal(x: &Rational, digits: u32) -> String {
         return "0".into();
     }
     // Scale to an integer of `digits` digits; the first guess at the exponent can be one off.
-    let mut exponent = decimal_exponent(x);
+    let mut exponent = Float::with_val(64, x).abs().log10().floor_int().unwrap_or(0);
     let (mantissa, exponent) = loop {
         let scaled = scale(x, digits as i64 - 1 - exponent);
         let text = scaled.abs().round().numer().to_string();
@@ -171,11 +171,6 @@ where
     Float: rug::ops::AssignRound<T, Round = Round, Ordering = Ordering>,
 {
     Float::with_val_round(bits, value, Round::Up).0
-}
-
-/// `⌊log₁₀|x|⌋`, or one more or less.
-fn decimal_exponent(x: &Rational) -> i64 {
-    Float::with_val(64, x).abs().log10().floor_int().unwrap_or(0)
 }
 
 /// `x · 10^power`.

@@ -145,7 +145,11 @@ pub(super) fn spelled(x: f64) -> Option<Number> {
 /// How a number is spelled that is rounded to `x`.
 pub(super) fn spelling(x: f64, number: &Number) -> Spelling {
     let same = |other: Option<Number>| other.is_some_and(|other| other.compare(number).is_eq());
-    match number.is_short() || same(x.to_string().parse().ok()) {
+    let text = number.to_string();
+    let mantissa = text.split(['e', 'E']).next().unwrap_or_default();
+    // A decimal of no more digits than any double holds.
+    let short = !text.contains('/') && mantissa.bytes().filter(u8::is_ascii_digit).count() <= 15;
+    match short || same(x.to_string().parse().ok()) {
         true => Spelling::Decimal,
         false if same(spelled(x)) => Spelling::Fraction,
         false => Spelling::Near,

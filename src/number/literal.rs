@@ -59,12 +59,6 @@ impl Number {
         self.value == 0.0
     }
 
-    /// Whether it is a decimal of no more digits than any double holds.
-    pub(super) fn is_short(&self) -> bool {
-        let mantissa = self.text.split(['e', 'E']).next().unwrap_or_default();
-        !self.text.contains('/') && mantissa.bytes().filter(u8::is_ascii_digit).count() <= 15
-    }
-
     /// The order of two numbers by value: `1/2` and `0.5` are equal here.
     ///
     /// **Accuracy**: *exact*.

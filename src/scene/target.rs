@@ -34,13 +34,6 @@ pub struct Target {
     pub source: String,
 }
 
-/// What can be published of a scene: what belongs to a contact, and what has a value at every time, but for times and the
-/// impulse, whose name is that of a contact's.
-fn publishable() -> impl Iterator<Item = Quantity> {
-    let measured = |quantity: &Quantity| !matches!(quantity.measure(), None | Some(Measure::Time | Measure::Impulse));
-    Needs::Contact.quantities().chain(Needs::Time.quantities().filter(measured))
-}
-
 impl Target {
     /// What was published, in words: `u_top from the start`, `release 2`.
     pub fn label(&self) -> String {
@@ -103,8 +96,12 @@ impl<'a> Reader<'a> {
         let missing = |key: &str, expected: &str| {
             self.error(span.clone(), Kind::Missing, format!("no {key} in [[target]]"), expected)
         };
-        let (quantities, names): (Vec<Quantity>, Vec<&str>) =
-            publishable().map(|quantity| (quantity, quantity.name())).unzip();
+        // What belongs to a contact, and what has a value at every time, but for times and the impulse, whose name is
+        // that of a contact's.
+        let measured =
+            |quantity: &Quantity| !matches!(quantity.measure(), None | Some(Measure::Time | Measure::Impulse));
+        let publishable = Needs::Contact.quantities().chain(Needs::Time.quantities().filter(measured));
+        let (quantities, names): (Vec<Quantity>, Vec<&str>) = publishable.map(|it| (it, it.name())).unzip();
         let place = self.choice("quantity", &names)?.ok_or_else(|| missing("quantity", &names.join(", ")))?;
         let quantity = quantities[place];
         let refuse = |key: &str, expected: &str| match self.get(key) {
