@@ -30,7 +30,8 @@ const EXCLUSIVE: [&[&str]; 4] = [
 /// The setters of single numbers, and their names.
 macro_rules! setters {
     ($($(#[$doc:meta])* $setter:ident => $path:literal),* $(,)?) => {
-        const NAMED: &[(&str, &str)] = &[$((stringify!($setter), $path)),*];
+        /// The names of the setters, and the paths in a scene file.
+        pub(crate) const NUMBERS: &[(&str, &str)] = &[$((stringify!($setter), $path)),*];
         $(
         $(#[$doc])*
         #[must_use]
@@ -74,14 +75,14 @@ impl Builder {
     /// The names of the setters of single numbers.
     #[doc(hidden)]
     pub fn numbers() -> impl Iterator<Item = &'static str> {
-        Self::NAMED.iter().map(|(name, _)| *name)
+        Self::NUMBERS.iter().map(|(name, _)| *name)
     }
 
     /// The number of this name, one of [`Builder::numbers`]; any other changes nothing.
     #[doc(hidden)]
     #[must_use]
     pub fn named(mut self, name: &str, value: impl Into<Written>) -> Self {
-        if let Some((_, path)) = Self::NAMED.iter().find(|(known, _)| *known == name) {
+        if let Some((_, path)) = Self::NUMBERS.iter().find(|(known, _)| *known == name) {
             self.draft.numbers.insert(path, value.into());
         }
         self
@@ -133,7 +134,7 @@ impl Builder {
         self
     }
 
-    /// The value at a path of a scene file, one of [`NUMBERS`](super::validate::NUMBERS).
+    /// The value at a path of a scene file, one of [`Builder::NUMBERS`].
     #[cfg(feature = "cli")]
     pub(crate) fn at(mut self, path: &'static str, value: &Number) -> Self {
         self.draft.numbers.insert(path, value.into());

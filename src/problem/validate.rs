@@ -13,28 +13,12 @@ const MAX_IMPACTS: u32 = 10_000_000;
 /// A fall is followed trip by trip, like every flight that ends in a touch.
 const MAX_FALL: f64 = 1e6;
 
-/// The numbers that a problem can have, by their path in a scene file.
-pub(crate) const NUMBERS: [&str; 12] = [
-    "rod.length",
-    "rod.wave_speed",
-    "rod.modulus",
-    "rod.density",
-    "rod.area",
-    "rod.damping",
-    "gravity.acceleration",
-    "impact.speed",
-    "impact.gap",
-    "impact.drop_height",
-    "run.time",
-    "run.impacts",
-];
-
 /// The values of a problem before any check, by their path in a scene file.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Draft {
     /// Whether messages use the keys of a scene file; otherwise the setters of the builder.
     pub(crate) from_scene: bool,
-    /// Some of [`NUMBERS`].
+    /// By the paths of [`Builder::NUMBERS`](super::Builder::NUMBERS).
     pub(crate) numbers: ByPath<Written>,
     /// `start.displacement` and `start.velocity`.
     pub(crate) profiles: ByPath<Points>,

@@ -12,9 +12,9 @@ use crate::mapped::try_mapped;
 use crate::number::Number;
 use crate::problem::given::{Given, within};
 use crate::problem::profile::{Points, SHAPE};
-use crate::problem::validate::{Draft, NUMBERS};
+use crate::problem::validate::Draft;
 use crate::problem::written::{has_unit, short};
-use crate::problem::{Material, Problem, ProblemError, ProblemErrorKind as Kind, Top};
+use crate::problem::{Builder, Material, Problem, ProblemError, ProblemErrorKind as Kind, Top};
 use crate::quantity::UnitSystem;
 
 /// Every table with its keys; the first is the scene itself.
@@ -232,7 +232,7 @@ impl<'a> Reader<'a> {
             return Err(self.wrong_type(value, "impacts", "a whole number"));
         }
         let mut draft = Draft { from_scene: true, top: self.top()?, ..Draft::default() };
-        for path in NUMBERS {
+        for (_, path) in Builder::NUMBERS {
             if let Some(number) = self.number(path)? {
                 draft.numbers.insert(path, number);
             }

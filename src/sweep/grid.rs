@@ -2,9 +2,7 @@
 
 use crate::mapped::{CollectVec, mapped, try_mapped};
 use crate::number::{List, Number};
-use crate::problem::validate::NUMBERS;
-use crate::problem::written::Written;
-use crate::problem::{Problem, ProblemError};
+use crate::problem::{Builder, Problem, ProblemError, Written};
 
 /// The most points of a sweep.
 const MOST_POINTS: usize = 10_000_000;
@@ -42,9 +40,10 @@ impl std::str::FromStr for Axis {
         let (path, list) = text
             .split_once('=')
             .ok_or_else(|| SweepError::new(found(text), "PATH=V1,V2,…, PATH=A..B:N or PATH=A..B:N:log"))?;
-        let known = NUMBERS.into_iter().find(|known| *known == path.trim());
+        let paths = Builder::NUMBERS.iter().map(|(_, path)| *path);
+        let known = paths.clone().find(|known| *known == path.trim());
         let path = known.ok_or_else(|| {
-            let expected = format!("a number of a scene: {}", NUMBERS.join(", "));
+            let expected = format!("a number of a scene: {}", paths.collect_vec().join(", "));
             SweepError::new(format!("the path `{}`", path.trim()), expected)
         })?;
         Ok(Axis { path, values: values(list)? })
