@@ -53,8 +53,8 @@ impl SceneError {
         found: impl Into<String>,
         expected: impl Into<String>,
     ) -> Self {
-        let start = floor_boundary(source, span.start);
-        let end = floor_boundary(source, span.end).max(start);
+        let start = source.floor_char_boundary(span.start);
+        let end = source.floor_char_boundary(span.end).max(start);
         let (line, column) = position(source, start);
         let (found, expected) = (found.into(), expected.into());
         SceneError { kind, found, expected, span: start..end, line, column, text: source.into() }
@@ -63,16 +63,7 @@ impl SceneError {
 
 /// Line and column of a byte, both from 1; columns count characters.
 pub(super) fn position(source: &str, offset: usize) -> (usize, usize) {
-    let before = &source[..floor_boundary(source, offset)];
+    let before = &source[..source.floor_char_boundary(offset)];
     let line_start = before.rfind('\n').map_or(0, |newline| newline + 1);
     (before.matches('\n').count() + 1, before[line_start..].chars().count() + 1)
-}
-
-/// The last character boundary at or before `offset`.
-fn floor_boundary(source: &str, offset: usize) -> usize {
-    let mut offset = offset.min(source.len());
-    while !source.is_char_boundary(offset) {
-        offset -= 1;
-    }
-    offset
 }
