@@ -92,20 +92,17 @@ impl<S: RoundedSpecial> Modal<S> {
             let step = trips.one() / &omega;
             let (alpha, beta) = (omega.clone() * trips, omega.clone() * a);
             let (turn, lift) = (alpha.cos(), alpha.sin());
-            // Re(D e^{iα}), and the damped part, for each motion.
-            let mut motions = [None, None, None];
-            if omega.to_f64() < 2.0 * r {
-                for (m, exact) in self.direct(&omega, trips).into_iter().enumerate().filter(|(m, _)| used[*m]) {
-                    let [re, im] = polynomial(&expansion.powers[m], &step);
-                    motions[m] = Some((-(re * &turn - im * &lift), exact));
-                }
+            let none = [trips.zero(), trips.zero(), trips.zero()];
+            let (exact, own) = if omega.to_f64() < 2.0 * r {
+                (none.clone().map(|zero| [zero.clone(), zero]), self.direct(&omega, trips))
             } else {
-                for (m, exact) in self.rotating(&omega, trips).into_iter().enumerate().filter(|(m, _)| used[*m]) {
-                    let (head, [re, im]) = (polynomial(&expansion.powers[m], &step), exact);
-                    // The phase turns a difference, which is small where the phase is not well known.
-                    let (re, im) = (re - &head[0], im - &head[1]);
-                    motions[m] = Some((re * &turn - im * &lift, trips.zero()));
-                }
+                (self.rotating(&omega, trips), none)
+            };
+            // Re(D e^{iα}) for each motion: the phase turns a difference, which is small where it is not well known.
+            let mut rests = [None, None, None];
+            for (m, [re, im]) in exact.into_iter().enumerate().filter(|(m, _)| used[*m]) {
+                let head = polynomial(&expansion.powers[m], &step);
+                rests[m] = Some((re - &head[0]) * &turn - (im - &head[1]) * &lift);
             }
             let (sine, cosine) = (beta.sin(), beta.cos());
             let mut power = trips.int(4);
@@ -114,7 +111,7 @@ impl<S: RoundedSpecial> Modal<S> {
                 std::mem::replace(&mut power, next)
             });
             for (k, term) in list.iter().enumerate() {
-                let Some((rest, own)) = &motions[term.motion as usize] else { continue };
+                let (Some(rest), own) = (&rests[term.motion as usize], &own[term.motion as usize]) else { continue };
                 let place = match term.shape {
                     Shape::Sine => powers[term.power].clone() * &sine,
                     Shape::Cosine => powers[term.power].clone() * &cosine,
