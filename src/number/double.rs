@@ -4,6 +4,11 @@ use std::cmp::Ordering;
 
 use super::{Analytic, Number, Open, Rounded, Scalar};
 
+/// The shortest decimal that rounds to `x`, with an exponent where it would have many zeros.
+pub(crate) fn shortest(x: f64) -> String {
+    if x == 0.0 || (1e-5..1e16).contains(&x.abs()) { x.to_string() } else { format!("{x:e}") }
+}
+
 impl Scalar for f64 {
     type Precision = ();
 
@@ -70,21 +75,8 @@ impl Scalar for f64 {
         if digits >= 16 {
             return self.text();
         }
-        let digits = digits.max(1) as usize;
-        let text = format!("{self:.*e}", digits - 1);
-        let (mantissa, exponent) = text.split_once('e').unwrap_or((&text, "0"));
-        let exponent: i32 = exponent.parse().unwrap_or(0);
-        let trim = |text: &str| match text.contains('.') {
-            true => text.trim_end_matches('0').trim_end_matches('.').to_string(),
-            false => text.to_string(),
-        };
-        if (-5..16).contains(&exponent) {
-            // From the rounded text, so that 123456 to two digits is 120000.
-            let rounded: f64 = text.parse().unwrap_or(*self);
-            let places = usize::try_from(digits as i32 - 1 - exponent).unwrap_or(0);
-            return trim(&format!("{rounded:.places$}"));
-        }
-        format!("{}e{exponent}", trim(mantissa))
+        let rounded = format!("{self:.*e}", digits.max(1) as usize - 1).parse().ok();
+        shortest(rounded.filter(|rounded| f64::is_finite(*rounded)).unwrap_or(*self))
     }
 
     fn as_double(&self) -> Option<f64> {

@@ -59,6 +59,7 @@ mod text;
 #[cfg(not(feature = "mp"))]
 pub use absent::{Float, Interval};
 pub use bounded::{Answer, Bounded};
+pub(crate) use double::shortest;
 pub(crate) use dual::Dual;
 pub use estimate::Estimate;
 #[cfg(feature = "mp")]

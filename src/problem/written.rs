@@ -1,7 +1,7 @@
 //! A number as it was written, before it is checked.
 
 pub(crate) use crate::number::short;
-use crate::number::{Number, NumberError, Rational};
+use crate::number::{Number, NumberError, Rational, shortest};
 
 /// A number as it was written: an integer, a text such as `"1/3"` or `"0.1"`, a [`Number`], or a double, which stands
 /// for the shortest decimal that spells it: `0.1` is 1/10. A [`Rational`] too,
@@ -43,8 +43,7 @@ impl From<Number> for Written {
 
 impl From<f64> for Written {
     fn from(x: f64) -> Self {
-        // Both forms are the shortest decimal; the first would spell 1e40 with 41 digits.
-        let text = if x == 0.0 || (1e-5..1e16).contains(&x.abs()) { x.to_string() } else { format!("{x:e}") };
+        let text = shortest(x);
         Written::new(&text, &text)
     }
 }
