@@ -22,7 +22,7 @@ impl Scalar for Rational {
     }
 
     fn double(&self, x: f64) -> Self {
-        rational::of_double(x).unwrap_or_default()
+        Rational::try_from(x).unwrap_or_default()
     }
 
     fn try_sqrt(&self) -> Option<Self> {
@@ -120,12 +120,12 @@ impl Answer for Rational {
 impl Reads<Rational> for Estimate<f64> {
     fn read(number: Rational) -> Self {
         let value = Scalar::to_f64(&number);
-        let exact = rational::of_double(value).is_some_and(|value| value == number);
+        let exact = Rational::try_from(value).is_ok_and(|value| value == number);
         if exact { Estimate::exact(value) } else { Estimate::rounded(value, 1.0) }
     }
 
     fn give(&self, (): &()) -> Rational {
-        let exactly = || rational::of_double(*self.value()).unwrap_or_default();
+        let exactly = || Rational::try_from(*self.value()).unwrap_or_default();
         spelled_as(*self.value(), self.spelled_as()).map_or_else(exactly, |number| number.to_rational())
     }
 }

@@ -101,10 +101,13 @@ impl Number {
 fn decimal_to_rational(text: &str) -> Rational {
     let (mantissa, exponent) = text.split_once(['e', 'E']).unwrap_or((text, "0"));
     let (whole, fraction) = mantissa.split_once('.').unwrap_or((mantissa, ""));
-    let digits: Integer = format!("{whole}{fraction}").parse().unwrap_or_default();
     let power = exponent.parse().unwrap_or(0) - fraction.len() as i64;
-    let factor = rational::power_of_ten(u32::try_from(power.unsigned_abs()).unwrap_or(u32::MAX));
-    if power < 0 { rational::quotient(digits, factor) } else { Rational::from(digits * factor) }
+    let zeros = "0".repeat(usize::try_from(power.unsigned_abs()).unwrap_or(0));
+    let integer = |text: String| text.parse::<Integer>().unwrap_or_default();
+    match power < 0 {
+        true => rational::quotient(integer(format!("{whole}{fraction}")), integer(format!("1{zeros}"))),
+        false => integer(format!("{whole}{fraction}{zeros}")).into(),
+    }
 }
 
 impl FromStr for Number {

@@ -16,16 +16,6 @@ pub(super) fn parts(x: &Rational) -> (Integer, Integer) {
     (x.numerator().clone(), x.denominator().clone().into())
 }
 
-/// `10^n`.
-pub(super) fn power_of_ten(n: u32) -> Integer {
-    Integer::from(10).pow(n as usize)
-}
-
-/// A double as it is; `None` for what is no number.
-pub(super) fn of_double(x: f64) -> Option<Rational> {
-    x.try_into().ok()
-}
-
 /// The nearest double.
 pub(super) fn nearest_double(x: &Rational) -> f64 {
     x.to_f64().value()

@@ -6,7 +6,7 @@ use rug::Float;
 pub(super) use rug::Integer;
 pub use rug::Rational;
 use rug::float::Round;
-use rug::ops::{DivRounding, Pow};
+use rug::ops::DivRounding;
 
 pub(super) fn quotient(p: Integer, q: Integer) -> Rational {
     Rational::from((p, q))
@@ -15,16 +15,6 @@ pub(super) fn quotient(p: Integer, q: Integer) -> Rational {
 /// Numerator and denominator.
 pub(super) fn parts(x: &Rational) -> (Integer, Integer) {
     (x.numer().clone(), x.denom().clone())
-}
-
-/// `10^n`.
-pub(super) fn power_of_ten(n: u32) -> Integer {
-    Integer::from(10).pow(n)
-}
-
-/// A double as it is; `None` for what is no number.
-pub(super) fn of_double(x: f64) -> Option<Rational> {
-    Rational::from_f64(x)
 }
 
 /// The nearest double. `Rational::to_f64` truncates; a `Float` rounds to nearest.
