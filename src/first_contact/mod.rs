@@ -7,11 +7,10 @@
 
 mod bounce;
 mod cells;
-mod energy;
 mod field;
 mod first_root;
 mod history;
-mod moments;
+mod integrals;
 mod peak;
 mod pieces;
 mod rebound;

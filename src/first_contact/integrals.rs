@@ -1,10 +1,12 @@
-//! The energies during the first contact: `E_z` as a sum of squares, by Gauss–Legendre between the rays.
+//! Integrals along the rod during the first contact, by Gauss–Legendre between points and rays: energies, `E_z` as a sum
+//! of squares, and moments over the cells of a grid.
 
 use std::cmp::Ordering;
 
 use super::field::{FirstContact, Trips, unknown};
 use super::rebound::translational;
-use crate::motion::{Energy, Side};
+use crate::motion::{Energy, Side, moments};
+use crate::number::Scalar;
 use crate::special::BoundedSpecial;
 
 /// One node: weight in `∫ da`, `v_t − h′`, `c v_x`.
@@ -15,14 +17,14 @@ struct Node<N> {
 }
 
 /// A stretch of the rod between two rays, and how many rays have arrived there upwards and downwards.
-pub(super) struct Stretch<N> {
-    pub(super) from: N,
-    pub(super) to: N,
-    pub(super) arrived: [i64; 2],
+struct Stretch<N> {
+    from: N,
+    to: N,
+    arrived: [i64; 2],
 }
 
 /// Bernstein ellipses that are tried.
-pub(super) const RADII: [f64; 11] = [1.1, 1.25, 1.5, 2.0, 4.0, 8.0, 16.0, 32.0, 64.0, 128.0, 256.0];
+const RADII: [f64; 11] = [1.1, 1.25, 1.5, 2.0, 4.0, 8.0, 16.0, 32.0, 64.0, 128.0, 256.0];
 
 /// Most nodes between two rays; only damping far beyond `r t₁ = 100` could ask for more.
 const MOST_NODES: usize = 4000;
@@ -32,6 +34,9 @@ const FIRST_SIZE: f64 = -12.0;
 const LEAST_SIZE: f64 = -960.0;
 /// Numbers up to this length take the sums without cancellation at the first return; longer ones have bits to spare.
 const MOST_BITS_WITHOUT_CANCELLATION: u32 = 64;
+
+/// The rule leaves at most this part of a roundoff of `μ + μ₀`, as `log₂`.
+const LEFT: f64 = -6.0;
 
 impl<N: BoundedSpecial> FirstContact<N> {
     /// `E`, `E_h`, `E_z` at a time of the contact.
@@ -147,7 +152,7 @@ impl<N: BoundedSpecial> FirstContact<N> {
     /// The stretches between the rays in the rod, of which there are one upwards and one downwards but at lattice
     /// times. What lies above them is at most as long as the second number: where a ray is not told from the top, they
     /// end at the ray.
-    pub(super) fn stretches(&self, trips: &Trips<N>) -> (Vec<Stretch<N>>, N) {
+    fn stretches(&self, trips: &Trips<N>) -> (Vec<Stretch<N>>, N) {
         let (k, zero, half) = (trips.passed, self.damping.zero(), self.damping.ratio(1, 2));
         if trips.on_lattice {
             return (vec![Stretch { from: zero.clone(), to: half, arrived: [k, k] }], zero);
@@ -253,15 +258,97 @@ impl<N: BoundedSpecial> FirstContact<N> {
         let cube = self.damping.square() * &self.damping * &a.double(goal.exp2() / 6.0);
         sum.widened(&cube)
     }
+
+    /// `∫ f dx` and `∫ f (x − a) dx` over each cell `a … b` between neighbours of `points`, for `f` = `v`, `v_t`,
+    /// `v_x`.
+    ///
+    /// **Accuracy**: *within its own bound*, which holds rounding and quadrature. Where a ray is not told from a point
+    /// of the grid, or from the top, a cell ends at the ray, and what lies between is at most
+    /// [`FirstContact::total_speed`] times their distance.
+    pub(super) fn moments_at(&self, points: &[N], trips: &Trips<N>) -> Vec<moments::Moments<N>> {
+        let (stretches, _) = self.stretches(trips);
+        let (zero, reach) = (self.damping.zero(), self.rod.length.clone() * &self.damping.int(2));
+        let ends: Vec<N> = std::iter::once(zero.clone()).chain(points.iter().cloned()).collect();
+        let places: Vec<N> = ends.iter().map(|x| (x.clone() / &reach).without_exact()).collect();
+        let cells: Vec<_> = places.windows(2).map(|pair| parts(&stretches, &pair[0], &pair[1])).collect();
+
+        let moved = cells.iter().flat_map(|(parts, _)| parts).filter(|part| part.arrived[0] > 0);
+        let widest = moved.map(|part| (part.to.clone() - &part.from).to_f64() / 2.0).fold(0.0, f64::max);
+        let (left, rule) = self.rule(trips, widest);
+        let free = self.free_fall(&trips.number);
+        let sums = cells.iter().zip(ends.windows(2)).map(|((parts, doubt), pair)| {
+            let node = |part: &Stretch<N>, at: &N, weight: &N| {
+                let half = (part.to.clone() - &part.from) / zero.int(2);
+                let a = (at.one() + at) * &half + &part.from;
+                let [_, rate, slope] = self.field_shares(&a, &trips.number, part.arrived, &free);
+                moments::Node {
+                    weight: weight.clone() * &half * &reach,
+                    x: a * &reach,
+                    velocity: self.weighted(&rate),
+                    strain: self.weighted(&slope) * &self.slowness,
+                }
+            };
+            let nodes = parts.iter().flat_map(|part| rule.iter().map(move |(at, weight)| node(part, at, weight)));
+            let width = pair[1].clone() - &pair[0];
+            let off = (left.clone() * &width + self.total_speed() * doubt * &reach).without_exact();
+            moments::Sums::of(&pair[0], nodes).widened(&width, &off, &(off.clone() * &self.slowness))
+        });
+        moments::of_sums(sums.collect(), points, zero.clone())
+    }
+
+    /// A rule for intervals of this half-width at most, and what it leaves of `v_t` and `c v_x` for each length.
+    ///
+    /// n nodes on an interval of half-width w leave less than `(64/15) w M ρ^{−2n}/(1 − ρ⁻²)`, where M bounds the
+    /// integrand on the Bernstein ellipse ρ. There a place relative to a cell that holds the interval, which is between
+    /// 0 and 1 inside, is at most ρ; the integrands hold its square at most.
+    fn rule(&self, trips: &Trips<N>, half: f64) -> (N, Vec<(N, N)>) {
+        let tau = trips.number.to_f64();
+        let (mu, mu0) = (self.speed.to_f64(), self.critical.to_f64());
+        let ellipses = RADII.map(|rho| {
+            let amplitude = self.amplitude(tau, (rho - 1.0 / rho) / 2.0 * half, mu, mu0);
+            let factor = 32.0 / 15.0 * rho * rho / (1.0 - 1.0 / (rho * rho));
+            [amplitude.log2() + factor.log2(), 2.0 * rho.log2()]
+        });
+        let n = nodes(&ellipses, self.damping.log2_roundoff() + LEFT + (mu + mu0).log2());
+        // A part in a thousand more is for the doubles in it.
+        let two = self.damping.int(2);
+        let left = (two.ln() * &two.double(rest(&ellipses, n) + 1e-3)).exp();
+        (left, self.damping.gauss_legendre(n))
+    }
+}
+
+/// The parts of `from … to` between rays, and how far these may miss an end, where a ray is not told from it.
+fn parts<N: Scalar>(stretches: &[Stretch<N>], from: &N, to: &N) -> (Vec<Stretch<N>>, N) {
+    let mut doubt = from.zero();
+    let (Some(lower), Some(upper)) = (stretches.first(), stretches.last()) else { return (Vec::new(), doubt) };
+    let part = |from: &N, to: &N, of: &Stretch<N>| Stretch { from: from.clone(), to: to.clone(), ..*of };
+    let cut = &lower.to;
+    let sides = [from, to].map(|end| match cut.compare(end) {
+        Ok(order @ (Ordering::Less | Ordering::Greater)) => Some(order),
+        _ => {
+            doubt = doubt.clone() + (cut.clone() - end).magnitude();
+            None
+        }
+    });
+    let parts = match sides {
+        [Some(Ordering::Greater), Some(Ordering::Greater)] => vec![part(from, to, lower)],
+        [Some(Ordering::Greater), Some(_)] => vec![part(from, cut, lower), part(cut, to, upper)],
+        [Some(Ordering::Greater), None] => vec![part(from, cut, lower)],
+        [Some(_), _] => vec![part(from, to, upper)],
+        [None, Some(Ordering::Less)] => vec![part(cut, to, upper)],
+        // The cell is no wider than the doubt.
+        [None, _] => Vec::new(),
+    };
+    (parts, doubt)
 }
 
 /// The number of nodes that leave less than `2^goal`.
-pub(super) fn nodes(ellipses: &[[f64; 2]], goal: f64) -> usize {
+fn nodes(ellipses: &[[f64; 2]], goal: f64) -> usize {
     let best = ellipses.iter().map(|[log, step]| (log - goal) / step).fold(f64::INFINITY, f64::min);
     best.ceil().clamp(2.0, MOST_NODES as f64) as usize
 }
 
 /// `log₂` of what n nodes leave.
-pub(super) fn rest(ellipses: &[[f64; 2]], n: usize) -> f64 {
+fn rest(ellipses: &[[f64; 2]], n: usize) -> f64 {
     ellipses.iter().map(|[log, step]| log - n as f64 * step).fold(f64::INFINITY, f64::min)
 }
