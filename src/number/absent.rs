@@ -31,8 +31,7 @@ macro_rules! absent {
                 match *precision {}
             }
             absent!(@none precision() -> Self, int(_: i64) -> Self, double(_: f64) -> Self, try_sqrt() -> Option<Self>,
-                to_f64() -> f64, roundoff() -> Self, bits() -> Option<u32>, sign() -> Result<Ordering, Open>,
-                floor_int() -> Option<i64>, is_finite() -> bool, text() -> String);
+                to_f64() -> f64, sign() -> Result<Ordering, Open>, floor_int() -> Option<i64>, text() -> String);
         }
 
         impl Analytic for $name {

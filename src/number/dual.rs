@@ -117,14 +117,6 @@ impl Scalar for Dual {
         Scalar::to_f64(&self.value)
     }
 
-    fn roundoff(&self) -> Self {
-        self.zero()
-    }
-
-    fn bits(&self) -> Option<u32> {
-        None
-    }
-
     fn sign(&self) -> Result<Ordering, Open> {
         if self.known { Ok(Scalar::sign(&self.value)?.then(Scalar::sign(&self.rate)?)) } else { Err(Open) }
     }

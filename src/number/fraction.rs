@@ -34,20 +34,8 @@ impl Scalar for Rational {
         rational::nearest_double(self)
     }
 
-    fn roundoff(&self) -> Self {
-        Rational::default()
-    }
-
     fn floor_int(&self) -> Option<i64> {
         rational::floor(self)
-    }
-
-    fn bits(&self) -> Option<u32> {
-        None
-    }
-
-    fn is_finite(&self) -> bool {
-        true
     }
 
     fn sign(&self) -> Result<Ordering, Open> {

@@ -67,10 +67,14 @@ pub trait Scalar:
     fn to_f64(&self) -> f64;
 
     /// The unit roundoff `u` of this number's precision: `2⁻⁵³` for `f64`, zero for exact systems.
-    fn roundoff(&self) -> Self;
+    fn roundoff(&self) -> Self {
+        self.zero()
+    }
 
     /// Bits of the significand; `None` for exact systems.
-    fn bits(&self) -> Option<u32>;
+    fn bits(&self) -> Option<u32> {
+        None
+    }
 
     /// Whether the number is negative, zero or positive. A number that carries a bound is zero within it.
     ///
@@ -113,7 +117,9 @@ pub trait Scalar:
     fn floor_int(&self) -> Option<i64>;
 
     /// Whether the number is finite (fractions always are).
-    fn is_finite(&self) -> bool;
+    fn is_finite(&self) -> bool {
+        true
+    }
 
     /// The number to so many significant digits, correctly rounded; exact numbers as they are.
     fn decimal(&self, digits: u32) -> String {
