@@ -1,6 +1,6 @@
 //! Numbers that answer for their own error.
 
-use super::{Estimate, Rounded, Scalar};
+use super::{Estimate, Interval, Rational, Rounded, Scalar};
 
 /// A number that answers for its own error: by having none, by enclosing it, or by carrying a bound of it.
 ///
@@ -120,6 +120,24 @@ pub trait Answer: Scalar {
     /// The number without what is carried beside it.
     fn strip(carried: Self::Carried) -> Self;
 }
+
+/// Exact numbers and enclosures, which carry nothing beside themselves.
+macro_rules! carried_as_they_are {
+    ($($type:ty),*) => {$(
+        impl Answer for $type {
+            type Carried = $type;
+
+            fn carry(&self) -> $type {
+                self.clone()
+            }
+
+            fn strip(carried: $type) -> $type {
+                carried
+            }
+        }
+    )*};
+}
+carried_as_they_are!(Rational, Interval);
 
 impl<S: Rounded> Answer for S {
     type Carried = Estimate<S>;

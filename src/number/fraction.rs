@@ -3,7 +3,7 @@
 use std::cmp::Ordering;
 
 use super::rational::{self, Integer, Rational};
-use super::{Answer, Bounded, Estimate, Number, Open, Reads, Scalar, Spelling};
+use super::{Bounded, Estimate, Number, Open, Reads, Scalar, Spelling};
 
 /// Square factors below this leave the root of a surd that is printed.
 const SMALL_FACTOR: u32 = 10_000;
@@ -89,18 +89,6 @@ impl Scalar for Rational {
 impl Bounded for Rational {
     fn halved(self) -> Self {
         rational::half(self)
-    }
-}
-
-impl Answer for Rational {
-    type Carried = Rational;
-
-    fn carry(&self) -> Rational {
-        self.clone()
-    }
-
-    fn strip(carried: Rational) -> Rational {
-        carried
     }
 }
 

@@ -6,18 +6,8 @@ use super::plan::{Plan, Rung};
 use super::question::Observer;
 use crate::error::Error;
 use crate::first_contact::Bounce;
-use crate::number::{Answer, Estimate, Float, Interval};
+use crate::number::{Estimate, Float, Interval};
 use crate::problem::Problem;
-
-impl Answer for Interval {
-    type Carried = Interval;
-    fn carry(&self) -> Interval {
-        match *self {}
-    }
-    fn strip(carried: Interval) -> Interval {
-        carried
-    }
-}
 
 impl Target for Float {}
 impl Target for Interval {}

@@ -8,7 +8,7 @@ use rug::{Assign, Float, Rational};
 
 use super::super::float::{down, up};
 use super::super::radical::Radical;
-use super::super::{Analytic, Answer, Bounded, Estimate, Number, Open, Reads, Scalar, show};
+use super::super::{Analytic, Bounded, Estimate, Number, Open, Reads, Scalar, show};
 use super::{Inside, Interval, IntervalPrecision};
 
 /// The digits that both ends prove, or so many of them as a precision asks for; both ends where they prove none.
@@ -292,18 +292,6 @@ impl Bounded for Interval {
 
     fn without_exact(self) -> Self {
         Interval { inside: Inside::Off, ..self }
-    }
-}
-
-impl Answer for Interval {
-    type Carried = Interval;
-
-    fn carry(&self) -> Interval {
-        self.clone()
-    }
-
-    fn strip(carried: Interval) -> Interval {
-        carried
     }
 }
 
