@@ -1,7 +1,7 @@
 //! Thresholds, limits and the flight: as printed, or in the closed form that follows from the print.
 
-pub(crate) use super::bessel::i0;
 use super::printed::Printed;
+pub(crate) use super::printed::i0;
 use super::quadrature::Quadrature;
 use crate::motion::Side;
 use crate::special::{Special, i0_scaled, i1_scaled};

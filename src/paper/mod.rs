@@ -4,12 +4,10 @@
 //! | module | |
 //! |---|---|
 //! | `undamped` | the closed forms of `r = 0` |
-//! | `printed` | the integrals of the damped first contact, by adaptive quadrature |
+//! | `printed` | the integrals of the damped first contact, by adaptive quadrature; Bessel functions by (2.16) |
 //! | `formulas` | thresholds, limits and the flight, as printed or as they follow from the print |
-//! | `bessel` | Bessel functions by the integral (2.16) |
 //! | `quadrature` | adaptive Gauss–Kronrod |
 
-mod bessel;
 #[cfg(feature = "cli")]
 pub(crate) mod formulas;
 mod printed;
