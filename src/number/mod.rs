@@ -44,8 +44,6 @@ mod fraction;
 #[cfg(feature = "mp")]
 mod interval;
 #[cfg(feature = "cli")]
-mod json;
-#[cfg(feature = "cli")]
 mod list;
 mod literal;
 #[cfg(feature = "mp")]
@@ -70,8 +68,6 @@ pub(crate) use fraction::spelled_as;
 #[cfg(feature = "mp")]
 pub use interval::{Interval, IntervalPrecision};
 #[cfg(feature = "cli")]
-pub(crate) use json::{bound_json, number_json};
-#[cfg(feature = "cli")]
 pub(crate) use list::List;
 pub(crate) use literal::short;
 pub use literal::{Number, NumberError};
@@ -83,4 +79,4 @@ pub use scalar::{Analytic, Open, Reads, Rounded, Scalar, Spelling};
 pub use text::{DOUBLE_DIGITS, bits_for_digits, bound_of_log2, double_bound_text, show, shown_bound_text};
 #[doc(hidden)]
 #[cfg(feature = "cli")]
-pub(crate) use text::{double_bound, shown_bound};
+pub(crate) use text::{bound_json, double_bound, number_json, shown_bound};
