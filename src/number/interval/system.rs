@@ -295,10 +295,12 @@ impl Bounded for Interval {
     }
 }
 
-/// The middle, within the radius.
+/// The middle, within the radius and a rounding, as every long number that is printed.
 impl Reads<Interval> for Estimate<Float> {
     fn read(number: Interval) -> Self {
-        number.estimate(number.lo.prec())
+        let near = number.estimate(number.lo.prec());
+        let error = near.error() + near.to_f64().abs();
+        Estimate::new(near.into_value(), error)
     }
 
     fn give(&self, precision: &IntervalPrecision) -> Interval {
