@@ -51,8 +51,9 @@ pub(super) struct Proof<S> {
     pub(super) clock: f64,
     /// The most that a ray so far is off by that clock, less Θ.
     pub(super) late: f64,
-    /// The fastest change of `p` and `q` between rays so far, and the greatest `|q|`.
+    /// The fastest change of `p` and `q` between rays so far, the most that they jump by in all, and the greatest `|q|`.
     pub(super) slope: f64,
+    pub(super) jumps: f64,
     pub(super) most: f64,
     /// Where events have started rays, and how far those are off: by the clock, less Θ, and by none.
     pub(super) rays: Vec<(S, [f64; 2])>,
@@ -97,6 +98,7 @@ impl<S: RoundedSpecial> Proof<S> {
             clock: 0.0,
             late: 0.0,
             slope: 0.0,
+            jumps: 0.0,
             most: 0.0,
             rays: Vec::new(),
             since: 0.0,

@@ -120,8 +120,45 @@ impl<S: RoundedSpecial> Damped<S> {
     fn near(&self, time: &Estimate<S>) -> Near {
         match self.event_at(time).filter(|_| time.bound() > 0.0) {
             Some(event) => self.at_event(event),
-            None => self.scaled(self.uncertainty(time.value())),
+            None => {
+                let found = self.uncertainty(time.value());
+                let (apart, near) = (self.apart(time), self.scaled(found));
+                let moves = found.slope * apart / self.scales.time * self.scales.velocity;
+                Near {
+                    rise: near.rise + apart * moves,
+                    speed: near.speed + moves,
+                    end: near.end + moves,
+                    strain: near.strain + moves / self.scales.wave_speed,
+                    rate: near.rate + moves,
+                    late: near.late + apart,
+                    ..near
+                }
+            }
         }
+    }
+
+    /// How far the time meant may be from the one that is stored, where that is more than rounding: of a proved run,
+    /// which is asked about enclosures.
+    fn apart(&self, time: &Estimate<S>) -> f64 {
+        let rounding = 8.0 * time.value().unit() * time.to_f64();
+        if self.proved { (time.bound() - rounding).max(0.0) } else { 0.0 }
+    }
+
+    /// What that makes of `E_z`, and of the kinetic and the strain energy alone, per ρS.
+    ///
+    /// With M a bound of `|v_t|`, `|c v_x|`, `|h′|`: the ends take at most `c M²`, damping `2rL M²` and gravity `gL M`
+    /// from the energy, and `L|h′h″| ≤ M (2cM + 2rLM + gL)`. Each part alone is `½ ∫ f² dx`: between rays f changes at
+    /// most at the rate s, and rays, which jump by J in all, move at c: at most `L M s + c M J`.
+    fn energies_apart(&self, time: &Estimate<S>) -> [f64; 2] {
+        let apart = self.apart(time);
+        if apart == 0.0 {
+            return [0.0; 2];
+        }
+        let Scales { time: trip, velocity, length, wave_speed: c, gravity } = self.scales;
+        let Uncertainty { most, slope, jumps, .. } = self.uncertainty(time.value());
+        let (most, drag) = (most * velocity, 2.0 * self.medium.kappa.to_f64() / trip);
+        let whole = most * (3.0 * c * most + length * (4.0 * drag * most + 2.0 * gravity));
+        [apart * whole, apart * most * velocity * (length * slope / trip + c * jumps)]
     }
 
     /// The bounds at an event: those of the contact that it begins or ends, whenever that is; but its time is rounded.
@@ -169,6 +206,7 @@ impl<S: RoundedSpecial> Damped<S> {
         let right = strain(Side::Right)?;
         // Before the start there is nothing.
         let most = strain(Side::Left).map_or(right, |left| left.max(right));
+        let most = most + self.scaled(Uncertainty { late: late / self.scales.time, ..self.uncertainty(time) }).strain;
         Ok(late * wave_speed * wave_speed * most / length)
     }
 
@@ -262,7 +300,7 @@ impl<S: RoundedSpecial> Motion<Estimate<S>> for Damped<S> {
                 let [height, rate] = self.centre_of(time.value())?;
                 let near = self.near(time);
                 let (moves, push) = (rate.to_f64().abs(), self.push(time.value(), near.late)?);
-                [within(&height, near.centre + near.late * (moves + push)), within(&rate, near.rate + push)]
+                [within(&height, near.centre + near.late * (moves + near.rate + push)), within(&rate, near.rate + push)]
             }
             Pair::Energy => {
                 let (height, rate) = self.centre(time)?;
@@ -275,13 +313,15 @@ impl<S: RoundedSpecial> Motion<Estimate<S>> for Damped<S> {
                     return Ok([within(&translational, by_centre), Estimate::exact(translational.zero())]);
                 }
                 let vibration = self.vibration_of(time.value())?;
+                let [apart, _] = self.energies_apart(time);
                 let off = self.energy_off(&vibration, self.root_off(time)?, self.by_rays(time));
-                [within(&translational, by_centre), within(&vibration, off)]
+                [within(&translational, by_centre), within(&vibration, off + apart)]
             }
             // Of each mean square as of the vibration.
             Pair::EnergyParts => {
+                let [_, apart] = self.energies_apart(time);
                 let (off, by_rays) = (self.root_off(time)?, self.by_rays(time));
-                self.parts_of(time.value())?.map(|part| within(&part, self.energy_off(&part, off, by_rays)))
+                self.parts_of(time.value())?.map(|part| within(&part, self.energy_off(&part, off, by_rays) + apart))
             }
         })
     }
@@ -289,9 +329,13 @@ impl<S: RoundedSpecial> Motion<Estimate<S>> for Damped<S> {
     fn field(&self, point: &Estimate<S>, time: &Estimate<S>, side: Side) -> Result<Field<Estimate<S>>, Error> {
         let time = meant(&self.course.events, time);
         let field = self.field_of(point.value(), time.value(), side)?;
-        let strain = within(&field.strain, self.near(time).strain);
+        // A point that is an enclosure is as if the time were one, but for `c` and for what is integrated to it.
+        let (placed, c) = (self.apart(point), self.scales.wave_speed);
+        let near = self.near(&wider(time.clone(), placed / c));
         let [displacement, velocity] = self.moved(time, &field.displacement, &field.velocity);
-        Ok(Field { displacement, velocity, strain })
+        let strain = within(&field.strain, near.strain);
+        let moved = placed * (field.strain.to_f64().abs() + near.strain);
+        Ok(Field { displacement: wider(displacement, moved), velocity: within(velocity.value(), near.speed), strain })
     }
 
     fn corners(&self) -> Vec<Estimate<S>> {

@@ -147,6 +147,7 @@ impl<S: RoundedSpecial> Proof<S> {
             rate: self.rate_off(damping) + both + asked,
             late: self.clock,
             slope: self.slope,
+            jumps: self.jumps,
             most,
             peak: most,
             ..Uncertainty::default()
@@ -204,6 +205,7 @@ impl<S: RoundedSpecial> Proof<S> {
         let jump = jump.map(|last| (at_zero(trace, &last.zero()) - last).to_f64().abs());
         let change = self.change(run, jump);
         self.slope = self.slope.max(change.between).max(bound(&derivative(trace), 0) / len * (1.0 + SLACK));
+        self.jumps = self.jumps.max(change.jumps);
         let own = self.steps.trace(run.medium, first, run.contact);
         let found = if run.contact {
             self.held(run, (time, len), cut, trace, own)

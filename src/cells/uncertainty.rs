@@ -36,6 +36,8 @@ pub(super) struct Uncertainty {
     pub(super) most: f64,
     /// The most of `v_t ± c v_x` about the centre of mass, in `V`: what a ray that is off in time makes of energies.
     pub(super) peak: f64,
+    /// `Σ` of the jumps of `v_t ± c v_x` at rays, in `V`; of a proof alone.
+    pub(super) jumps: f64,
     /// How far rays may be off, in `t₁`: what the limits next to them, and peaks, are off by is that times the slope.
     pub(super) rays: f64,
 }
@@ -51,6 +53,7 @@ impl Uncertainty {
             slope: self.slope.max(other.slope),
             most: self.most.max(other.most),
             peak: self.peak.max(other.peak),
+            jumps: self.jumps.max(other.jumps),
             rays: self.rays.max(other.rays),
         }
     }

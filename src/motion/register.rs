@@ -131,16 +131,19 @@ impl<S: Scalar> RayRegister<S> {
     pub fn near(&self, point: &S, time: &S) -> Vec<S> {
         // Doubles settle nearly all.
         let (trip, seconds) = (self.round_trip.to_f64(), time.to_f64());
-        let travel = point.to_f64() / self.wave_speed.to_f64();
+        let wave_speed = self.wave_speed.to_f64();
+        let travel = point.to_f64() / wave_speed;
+        let asked = (time.log2_error().exp2() + point.log2_error().exp2() / wave_speed) / trip;
+        let widest = (self.widest + asked).min(1.0);
         let about = |delay: f64| {
             let trips = (seconds - delay) / trip;
-            !self.known_near(trips - trips.floor(), NEAR + self.widest).is_empty()
+            !self.known_near(trips - trips.floor(), NEAR + widest).is_empty()
         };
         if !about(travel) && !about(-travel) {
             return Vec::new();
         }
         let open = |met: &S| met.log2_error() < f64::INFINITY && (met.clone() - time).vanishes() != Ok(false);
-        let mut near = self.about(point, time, self.widest);
+        let mut near = self.about(point, time, widest);
         near.retain(open);
         near
     }

@@ -5,8 +5,7 @@ use super::unit::Units;
 use crate::error::Error;
 use crate::mapped::{CollectVec, mapped};
 use crate::motion::{Motion, Side, StressPiece};
-use crate::number::{Open, Scalar};
-use crate::order::partition;
+use crate::number::Scalar;
 use crate::threads::Threads;
 
 /// The values of `columns` at every time of `times`, column by column. Where `side` is `None` and the two limits of any
@@ -36,7 +35,7 @@ pub fn columns<S: Scalar>(
                 for source in sources {
                     match (source, &pushes) {
                         (Source::Side, _) => row.push(time.int(limit)),
-                        (Source::Impulse, Some(pushes)) => row.push(pushes.at(time)?),
+                        (Source::Impulse, Some(pushes)) => row.push(pushes.at(time)),
                         (source, _) => source.ask(motion, time, side, row)?,
                     }
                 }
@@ -214,6 +213,8 @@ impl Source {
 struct Pushes<S> {
     pieces: Vec<(StressPiece<S>, S)>,
     stiffness: S,
+    /// A bound of `|v_x(0,·)|`.
+    most: f64,
 }
 
 impl<S: Scalar> Pushes<S> {
@@ -225,14 +226,26 @@ impl<S: Scalar> Pushes<S> {
             sum = sum.clone() + piece.integral(&piece.to);
             (piece, before)
         };
-        Pushes { pieces: mapped(motion.stress_pieces(), with_sum), stiffness }
+        let pieces = mapped(motion.stress_pieces(), with_sum);
+        let size = |value: &S| 2.0 * value.to_f64().abs() + value.width().to_f64();
+        let of = |(piece, _): &(StressPiece<S>, S)| {
+            size(&piece.left).max(size(&piece.right)).max(piece.chebyshev.iter().map(size).sum())
+        };
+        let most = pieces.iter().map(of).fold(0.0, f64::max);
+        Pushes { pieces, stiffness, most }
     }
 
-    fn at(&self, time: &S) -> Result<S, Open> {
-        let begun = partition(&self.pieces, |(piece, _)| Ok(!time.below(&piece.from)?))?;
-        Ok(match begun.checked_sub(1).map(|last| &self.pieces[last]) {
-            Some((piece, before)) => (piece.integral(time) + before) * &self.stiffness,
-            None => time.zero(),
-        })
+    /// Where a time is not told from the break of two pieces, `∫` from the break to it is at most so long times the
+    /// greatest stress.
+    fn at(&self, time: &S) -> S {
+        // In the precision of the pieces.
+        let time = &(self.stiffness.zero() + time);
+        let begun = self.pieces.partition_point(|(piece, _)| !time.below(&piece.from).unwrap_or(false));
+        let Some((piece, before)) = begun.checked_sub(1).map(|last| &self.pieces[last]) else { return time.zero() };
+        let pushed = match time.below(&piece.from) {
+            Ok(_) => piece.integral(time) + before,
+            Err(_) => before.clone().widened(&((time.clone() - &piece.from) * &time.double(self.most))),
+        };
+        pushed * &self.stiffness
     }
 }

@@ -116,8 +116,10 @@ impl<N: Scalar, M: Reads<N>> Converted<N, M> {
         if given.vanishes() == Ok(true) && given.log2_error() == f64::NEG_INFINITY {
             return Ok(given);
         }
-        if spelled(time).is_none() {
-            let roundings = 8.0 * time.log2_roundoff().exp2() * time.to_f64();
+        let roundings = 8.0 * time.log2_roundoff().exp2() * time.to_f64();
+        // An enclosure of more than roundings is that of no ray.
+        let wide = spelled(time).is_none() && given.log2_error() > roundings.log2();
+        if spelled(time).is_none() && !wide {
             let met = self.rays.meant(point, given.clone(), roundings);
             if met.compare(&given).is_ok_and(std::cmp::Ordering::is_ne) {
                 return Ok(met);
@@ -128,6 +130,7 @@ impl<N: Scalar, M: Reads<N>> Converted<N, M> {
         let near = match spelled(time) {
             // What more digits than a double has were rounded from is known no better.
             Some(Spelling::Near) => windows.all(point, &given),
+            None if wide => windows.all(point, &given),
             _ => windows.displaced(point, &given),
         };
         if near.is_empty() { Ok(given) } else { Err(not_told(given.bits())) }
@@ -160,6 +163,10 @@ impl<N: Scalar, M: Reads<N>> Motion<M> for Converted<N, M> {
         let point = self.point(point)?;
         let field = self.engine.field(&point, &self.time_at(&point, time)?, side)?;
         Ok(field.map(M::read))
+    }
+
+    fn in_contact(&self, time: &M, side: Side) -> Result<M, Error> {
+        self.engine.in_contact(&self.time_at_ground(time)?, side).map(M::read)
     }
 
     /// In one march, where no time is that of an event or of a ray at a point of its own.

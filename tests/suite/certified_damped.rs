@@ -3,7 +3,8 @@
 use crate::common::{number, problem, reference};
 use dalembert::number::Scalar;
 use dalembert::{
-    Ending, EventKind, Float, History, Interval, Number, Parameters, Problem, Profile, Run, Side, Speed, Start, Top,
+    Ending, Estimate, EventKind, Field, Float, History, Interval, Needs, Number, Parameters, Problem, Profile,
+    Quantity, Run, Side, Speed, Start, Top,
 };
 
 fn number_of(text: &str) -> Number {
@@ -43,6 +44,17 @@ fn compare(name: &str, proved: &History<Interval>, digits: &History<Float>, know
         if a.to.is_some() {
             check("impulse", &a.impulse, &b.impulse);
             check("peak", &a.peak_strain, &b.peak_strain);
+        }
+    }
+    let quantities: Vec<Quantity> = Needs::Time.quantities().collect();
+    for k in 0..proved.events().len() {
+        for side in [Side::Left, Side::Right] {
+            // The time of the event in the run that answers.
+            let a = proved.ask_columns(&quantities, Some(side), |run| Ok(vec![run.events()[k].time.clone()])).unwrap();
+            let b = digits.ask_columns(&quantities, Some(side), |run| Ok(vec![run.events()[k].time.clone()])).unwrap();
+            for ((quantity, a), b) in quantities.iter().zip(&a).zip(&b) {
+                check(quantity.name(), &a[0], b[0].value());
+            }
         }
     }
     let end = proved.end().to_f64();
@@ -141,6 +153,65 @@ fn fixed_tops_strained_starts_and_gaps_are_proved() {
         count += compare(name, &proved, &digits, 55);
     }
     assert!(count >= 170, "{count}");
+}
+
+/// Enclosures of a time and of a point are answered by what holds for all in them, or not at all.
+#[test]
+fn enclosed_times_and_points_are_covered() {
+    let mut problem = rod("0.3", "3", "1", 3);
+    problem.run = Run::Time(number_of("12"));
+    let (proved, digits) = (problem.certified(12).unwrap(), problem.digits(30).unwrap());
+    let (mut held, mut refused) = (0, 0);
+    for k in (1..120).step_by(9) {
+        let text = |offset: f64| number_of(&format!("{:.9}", f64::from(k) / 10.0 + 0.013 + offset));
+        let at = |offset: f64| <Float as Scalar>::from_number(&text(offset), &digits.end().precision());
+        let enclosed = |offset: f64| <Interval as Scalar>::from_number(&text(offset), &proved.end().precision());
+        let wide = 10f64.powi(-(k % 4) - 2);
+        let time = enclosed(0.0).widened(&proved.end().double(wide));
+        let place = |offset: f64| digits.end().double(0.4 + offset);
+        let point = proved.end().double(0.4).widened(&proved.end().double(wide));
+        let found = proved.ask(
+            |run| {
+                let [kinetic, strain] = run.energy_parts(&time)?;
+                let (energy, (h, rate)) = (run.energy(&time)?, run.centre(&time)?);
+                let Field { displacement, velocity, strain: slope } = run.field(&point, &time, Side::Right)?;
+                let field = [displacement, velocity, slope];
+                Ok([kinetic, strain, energy.translational, energy.vibrational, h, rate]
+                    .into_iter()
+                    .chain(field)
+                    .collect())
+            },
+            |_: &Vec<Interval>| Vec::new(),
+        );
+        let Ok(found) = found else {
+            refused += 1;
+            continue;
+        };
+        for part in [-1.0, 0.3, 1.0] {
+            let (t, x) = (at(part * wide), place(-part * wide));
+            let truth = digits
+                .ask(
+                    |run| {
+                        let t = Estimate::exact(t.clone());
+                        let [kinetic, strain] = run.energy_parts(&t)?;
+                        let (energy, (h, rate)) = (run.energy(&t)?, run.centre(&t)?);
+                        let Field { displacement, velocity, strain: slope } =
+                            run.field(&Estimate::exact(x.clone()), &t, Side::Right)?;
+                        let field = [displacement, velocity, slope];
+                        let all = [kinetic, strain, energy.translational, energy.vibrational, h, rate];
+                        Ok(all.into_iter().chain(field).collect())
+                    },
+                    |_: &Vec<Estimate<Float>>| Vec::new(),
+                )
+                .unwrap();
+            for (k, (found, truth)) in found.iter().zip(&truth).enumerate() {
+                holds(&format!("number {k} at {} ± {wide}", text(0.0)), found, truth.value(), 20);
+                held += 1;
+            }
+        }
+    }
+    // A ray may be among the times at the point.
+    assert!(held >= 200 && refused <= 6, "{held} {refused}");
 }
 
 /// Numbers that look random, the same on every machine.
