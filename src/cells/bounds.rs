@@ -123,6 +123,9 @@ impl<S: RoundedSpecial> Damped<S> {
             None => {
                 let found = self.uncertainty(time.value());
                 let (apart, near) = (self.apart(time), self.scaled(found));
+                if apart == 0.0 {
+                    return near;
+                }
                 let moves = found.slope * apart / self.scales.time * self.scales.velocity;
                 Near {
                     rise: near.rise + apart * moves,
