@@ -121,12 +121,8 @@ impl<S: RoundedSpecial> Damped<S> {
         match self.event_at(time).filter(|_| time.bound() > 0.0) {
             Some(event) => self.at_event(event),
             None => {
-                let found = self.uncertainty(time.value());
-                let (apart, near) = (self.apart(time), self.scaled(found));
-                if apart == 0.0 {
-                    return near;
-                }
-                let moves = found.slope * apart / self.scales.time * self.scales.velocity;
+                let (apart, near) = (self.apart(time), self.scaled(self.uncertainty(time.value())));
+                let moves = self.change(time.value(), apart);
                 Near {
                     rise: near.rise + apart * moves,
                     speed: near.speed + moves,
@@ -138,6 +134,11 @@ impl<S: RoundedSpecial> Damped<S> {
                 }
             }
         }
+    }
+
+    /// What velocities between rays, and `c v_x`, change by at most in so long.
+    fn change(&self, time: &S, late: f64) -> f64 {
+        self.uncertainty(time).slope * late / self.scales.time * self.scales.velocity
     }
 
     /// How far the time meant may be from the one that is stored, where that is more than rounding: of a proved run,
@@ -209,8 +210,7 @@ impl<S: RoundedSpecial> Damped<S> {
         let right = strain(Side::Right)?;
         // Before the start there is nothing.
         let most = strain(Side::Left).map_or(right, |left| left.max(right));
-        let most = most + self.scaled(Uncertainty { late: late / self.scales.time, ..self.uncertainty(time) }).strain;
-        Ok(late * wave_speed * wave_speed * most / length)
+        Ok(late * wave_speed * (wave_speed * most + self.change(time, late)) / length)
     }
 
     /// A displacement and its rate of change.
@@ -303,7 +303,8 @@ impl<S: RoundedSpecial> Motion<Estimate<S>> for Damped<S> {
                 let [height, rate] = self.centre_of(time.value())?;
                 let near = self.near(time);
                 let (moves, push) = (rate.to_f64().abs(), self.push(time.value(), near.late)?);
-                [within(&height, near.centre + near.late * (moves + near.rate + push)), within(&rate, near.rate + push)]
+                let moves = moves + self.change(time.value(), near.late) + push;
+                [within(&height, near.centre + near.late * moves), within(&rate, near.rate + push)]
             }
             Pair::Energy => {
                 let (height, rate) = self.centre(time)?;
@@ -337,7 +338,7 @@ impl<S: RoundedSpecial> Motion<Estimate<S>> for Damped<S> {
         let near = self.near(&wider(time.clone(), placed / c));
         let [displacement, velocity] = self.moved(time, &field.displacement, &field.velocity);
         let strain = within(&field.strain, near.strain);
-        let moved = placed * (field.strain.to_f64().abs() + near.strain);
+        let moved = placed * (field.strain.to_f64().abs() + self.change(time.value(), placed / c) / c);
         Ok(Field { displacement: wider(displacement, moved), velocity: within(velocity.value(), near.speed), strain })
     }
 
