@@ -1,7 +1,7 @@
 //! Axes: from where to where, in which unit, with which numbers.
 
 use crate::mapped::{CollectVec, MapEach, mapped};
-use std::fmt::Write;
+use crate::number::Scalar;
 
 /// An axis: what it measures, from where to where.
 #[derive(Clone, Debug)]
@@ -36,20 +36,13 @@ impl Axis {
             most => 3 * (most.log10() / 3.0).floor() as i32,
         };
         let prefix = PREFIXES.iter().find(|prefix| prefix.0 == power).filter(|_| PREFIXED.contains(&unit));
-        let unit = match (prefix, power, unit) {
-            (_, 0, "") => String::new(),
-            (Some((_, prefix)), ..) => format!("{prefix}{unit}"),
-            (None, 0, unit) => unit.into(),
-            (None, power, "") => power_of_ten(power),
-            (None, power, unit) => format!("{} {unit}", power_of_ten(power)),
+        let unit = match prefix {
+            Some((_, prefix)) => format!("{prefix}{unit}"),
+            None if power == 0 => unit.into(),
+            None => format!("{} {unit}", power_of_ten(power)).trim_end().into(),
         };
         let label = if unit.is_empty() { symbol.into() } else { format!("{symbol} [{unit}]") };
         Axis { label, from, to, log: false, factor: 10f64.powi(-power), unit, ticks: None }
-    }
-
-    /// Makes it reach as far as another one of the same quantity; the unit of its label stays.
-    pub(crate) fn widen(&mut self, [from, to]: [f64; 2]) {
-        (self.from, self.to) = (from.min(self.from), to.max(self.to));
     }
 
     /// The axis of a number without a unit, by factors.
@@ -71,16 +64,14 @@ impl Axis {
 
     /// A value to three digits, in the unit of the label.
     pub(crate) fn shown(&self, value: f64) -> String {
-        signed(&crate::number::Scalar::decimal(&(value * self.factor), 3))
+        signed(&(value * self.factor).decimal(3))
     }
 
     /// A value to six digits in the unit of the label; not divided where that is only a power of ten.
     pub(crate) fn told(&self, value: f64) -> String {
-        let decimal = |value: f64| signed(&crate::number::Scalar::decimal(&value, 6));
         match self.unit.as_str() {
-            "" => decimal(value),
-            unit if unit.starts_with("10") => decimal(value),
-            unit => format!("{} {unit}", decimal(value * self.factor)),
+            unit if unit.is_empty() || unit.starts_with("10") => signed(&value.decimal(6)),
+            unit => format!("{} {unit}", signed(&(value * self.factor).decimal(6))),
         }
     }
 
@@ -112,8 +103,8 @@ impl Axis {
     fn log_ticks(&self) -> Vec<(f64, String)> {
         let steps = if self.to / self.from > 300.0 { &[1.0][..] } else { &[1.0, 2.0, 5.0] };
         let decades = self.from.log10().floor() as i32..=self.to.log10().ceil() as i32;
-        let ticks = decades.flat_map(|decade| steps.iter().map(move |step| (decade, *step)));
-        let ticks = ticks.map(|(decade, step)| (decade, step, step * 10f64.powi(decade)));
+        let of = |decade: i32| steps.iter().map(move |step| (decade, *step, step * 10f64.powi(decade)));
+        let ticks = decades.flat_map(of);
         let within = |value: &f64| (self.from * (1.0 - 1e-9)..=self.to * (1.0 + 1e-9)).contains(value);
         let ticks: Vec<_> = ticks.filter(|(.., value)| within(value)).collect_vec();
         // All of an axis in one form.
@@ -149,19 +140,9 @@ pub(crate) fn signed(text: &str) -> String {
 
 /// `10⁻³`.
 pub(crate) fn power_of_ten(exponent: i32) -> String {
-    let mut text = String::from("10");
-    for digit in exponent.to_string().chars() {
-        let raised = match digit {
-            '-' => '⁻',
-            '1' => '¹',
-            '2' => '²',
-            '3' => '³',
-            digit => digit.to_digit(10).and_then(|digit| char::from_u32(0x2070 + digit)).unwrap_or(digit),
-        };
-        // Writing to a text does not fail.
-        let _ = text.write_char(raised);
-    }
-    text
+    const RAISED: [char; 10] = ['⁰', '¹', '²', '³', '⁴', '⁵', '⁶', '⁷', '⁸', '⁹'];
+    let raised = |sign: char| sign.to_digit(10).map_or('⁻', |digit| RAISED[digit as usize]);
+    "10".chars().chain(exponent.to_string().chars().map(raised)).collect()
 }
 
 #[cfg(test)]

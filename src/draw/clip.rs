@@ -24,6 +24,11 @@ pub(crate) fn polygon(mut points: Vec<DVec2>, [low, high]: [DVec2; 2]) -> Vec<DV
     points
 }
 
+/// The area of a convex polygon, negative where it turns to the right.
+pub(crate) fn area(points: &[DVec2]) -> f64 {
+    (2..points.len()).map(|k| (points[k - 1] - points[0]).perp_dot(points[k] - points[0])).sum::<f64>() / 2.0
+}
+
 /// What of a line through points lies between two corners, in stretches.
 pub(crate) fn line(points: &[DVec2], corners: [DVec2; 2]) -> Vec<Vec<DVec2>> {
     let mut stretches: Vec<Vec<DVec2>> = Vec::new();

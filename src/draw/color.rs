@@ -9,23 +9,8 @@ pub(crate) const LINES: [&str; 7] = ["#0072b2", "#d55e00", "#009e73", "#cc79a7",
 pub(crate) const AREAS: [&str; 3] = ["#a5d9c8", "#7fb8d8", "#f0a860"];
 
 /// From blue over white to red, as ColorBrewer has it: −1 to 1 in equal steps.
-const DIVERGING: [[u8; 3]; 11] = [
-    [5, 48, 97],
-    [33, 102, 172],
-    [67, 147, 195],
-    [146, 197, 222],
-    [209, 229, 240],
-    [247, 247, 247],
-    [253, 219, 199],
-    [244, 165, 130],
-    [214, 96, 77],
-    [178, 24, 43],
-    [103, 0, 31],
-];
-
-fn hex([r, g, b]: [u8; 3]) -> String {
-    format!("#{r:02x}{g:02x}{b:02x}")
-}
+const DIVERGING: [u32; 11] =
+    [0x053061, 0x2166ac, 0x4393c3, 0x92c5de, 0xd1e5f0, 0xf7f7f7, 0xfddbc7, 0xf4a582, 0xd6604d, 0xb2182b, 0x67001f];
 
 /// The colour of a value from −1 to 1.
 pub(crate) fn diverging(value: f64) -> String {
@@ -33,11 +18,11 @@ pub(crate) fn diverging(value: f64) -> String {
     let place = (value.clamp(-1.0, 1.0) + 1.0) / 2.0 * last as f64;
     let below = (place.floor() as usize).min(last - 1);
     let share = place - below as f64;
-    let mix = |k: usize| {
-        let [a, b] = [below, below + 1].map_each(|color| f64::from(DIVERGING[color][k]));
+    let mix = |bits: u32| {
+        let [a, b] = [below, below + 1].map_each(|color| f64::from((DIVERGING[color] >> bits) & 0xff));
         (a + (b - a) * share).round() as u8
     };
-    hex([mix(0), mix(1), mix(2)])
+    format!("#{:02x}{:02x}{:02x}", mix(16), mix(8), mix(0))
 }
 
 /// Shares of the way from one value to another at which the colours change their course, with the colours: linear

@@ -1,12 +1,14 @@
 //! One picture with its axes: layers over each other, a title, and a legend above the frame, where no data is.
 
+use std::cmp::Ordering;
+
 use glam::DVec2;
 
 use super::axis::Axis;
 use super::clip;
 use super::color::{diverging, diverging_stops};
 use super::svg::{Anchor, Fill, Stroke, Svg, width};
-use crate::mapped::{MapEach, mapped};
+use crate::mapped::{CollectVec, MapEach, mapped};
 
 /// A picture with axes.
 #[derive(Clone, Debug)]
@@ -95,15 +97,19 @@ impl Key {
         text
     }
 
+    /// How wide its sign is, in heights of a letter.
+    fn sign(&self) -> f64 {
+        match self {
+            Key::Line(..) => 2.3,
+            Key::Area(..) => 1.6,
+            Key::Mark(..) => 1.3,
+            Key::Colors(_, [least, _, most]) => COLORS + 1.3 + width(least) + width(most),
+        }
+    }
+
     /// In heights of a letter.
     fn width(&self) -> f64 {
-        let sign = match self {
-            Key::Line(..) => 2.4,
-            Key::Area(..) => 1.7,
-            Key::Mark(..) => 1.4,
-            Key::Colors(_, [least, _, most]) => COLORS + 1.4 + width(least) + width(most),
-        };
-        sign + width(self.text()) + 1.2
+        self.sign() + width(self.text()) + 1.3
     }
 }
 
@@ -131,6 +137,16 @@ pub(super) struct Place {
 }
 
 impl Panel {
+    /// Axes without anything between them.
+    pub(crate) fn new(title: impl Into<String>, x: Axis, y: Axis) -> Self {
+        Panel { title: title.into(), x, y, layers: Vec::new(), legend: Vec::new() }
+    }
+
+    /// Puts a layer over all others.
+    pub(crate) fn add(&mut self, class: &'static str, shape: Shape) {
+        self.layers.push(Layer::new(class, shape));
+    }
+
     /// The rows of the legend in a width of so many letters; in a stack the first one follows the title.
     fn rows(&self, most: f64, stacked: bool) -> Vec<Vec<&Key>> {
         let mut rows: Vec<Vec<&Key>> = Vec::new();
@@ -193,17 +209,12 @@ impl Panel {
         };
         svg.open("panel", "");
         self.draw_head(svg, DVec2::new(left, from.y), wide, stacked);
-        let across = self.x.ticks(size.x / em / 4.5);
-        let up = self.up(size.y, em);
+        let right = |(value, text): (f64, String)| (from.x + self.x.share(value) * size.x, text);
+        let above = |(value, text): (f64, String)| (to.y - self.y.share(value) * size.y, text);
+        let (across, up) = (mapped(self.x.ticks(size.x / em / 4.5), right), mapped(self.up(size.y, em), above));
         svg.open("grid", "");
-        for (value, _) in &across {
-            let x = from.x + self.x.share(*value) * size.x;
-            svg.line(&[DVec2::new(x, from.y), DVec2::new(x, to.y)], GRID);
-        }
-        for (value, _) in &up {
-            let y = to.y - self.y.share(*value) * size.y;
-            svg.line(&[DVec2::new(from.x, y), DVec2::new(to.x, y)], GRID);
-        }
+        across.iter().for_each(|(x, _)| svg.line(&[DVec2::new(*x, from.y), DVec2::new(*x, to.y)], GRID));
+        up.iter().for_each(|(y, _)| svg.line(&[DVec2::new(from.x, *y), DVec2::new(to.x, *y)], GRID));
         svg.close();
         for layer in &self.layers {
             // Neighbours of a field meet without a seam.
@@ -215,24 +226,22 @@ impl Panel {
         svg.frame([from, to], FRAME);
         if foot {
             svg.open("axis-x", "");
-            for (value, text) in &across {
-                let x = from.x + self.x.share(*value) * size.x;
+            for (x, text) in across {
                 svg.line(&[DVec2::new(x, to.y), DVec2::new(x, to.y + TICK * em)], FRAME);
-                svg.text(DVec2::new(x, to.y + (TICK + 1.0) * em), Anchor::Middle, text);
+                svg.text(DVec2::new(x, to.y + (TICK + 1.0) * em), Anchor::Middle, &text);
             }
             svg.text(DVec2::new(from.x + size.x / 2.0, to.y + (TICK + 2.35) * em), Anchor::Middle, &self.x.label);
             svg.close();
         }
         svg.open("axis-y", "");
-        for (value, text) in &up {
-            let y = to.y - self.y.share(*value) * size.y;
+        for (y, text) in up {
             svg.line(&[DVec2::new(from.x - TICK * em, y), DVec2::new(from.x, y)], FRAME);
-            svg.text(DVec2::new(from.x - (TICK + 0.3) * em, y + 0.36 * em), Anchor::End, text);
+            svg.text(DVec2::new(from.x - (TICK + 0.3) * em, y + 0.36 * em), Anchor::End, &text);
         }
         if !self.y.label.is_empty() {
             // A label that is longer than the frame is written smaller.
             let label = DVec2::new(left + 0.85 * em, from.y + size.y / 2.0);
-            svg.text_upwards(label, Anchor::Middle, &self.y.label, (size.y / em / width(&self.y.label)).min(1.0));
+            svg.text_upwards(label, &self.y.label, (size.y / em / width(&self.y.label)).min(1.0));
         }
         svg.close();
         svg.close();
@@ -265,18 +274,9 @@ fn draw_key(svg: &mut Svg, key: &Key, at: DVec2) {
     let em = svg.em;
     let to = |x: f64, y: f64| at + DVec2::new(x, y) * em;
     match key {
-        Key::Line(text, stroke) => {
-            svg.line(&[to(0.0, -0.35), to(1.9, -0.35)], *stroke);
-            svg.text(to(2.3, 0.0), Anchor::Start, text);
-        }
-        Key::Area(text, fill) => {
-            svg.rectangles(&[[to(0.0, -0.8), to(1.2, 0.05)]], fill);
-            svg.text(to(1.6, 0.0), Anchor::Start, text);
-        }
-        Key::Mark(text, mark, color) => {
-            draw_mark(svg, to(0.5, -0.35), *mark, color);
-            svg.text(to(1.3, 0.0), Anchor::Start, text);
-        }
+        Key::Line(_, stroke) => svg.line(&[to(0.0, -0.35), to(1.9, -0.35)], *stroke),
+        Key::Area(_, fill) => svg.rectangles(&[[to(0.0, -0.8), to(1.2, 0.05)]], fill),
+        Key::Mark(_, mark, color) => draw_mark(svg, to(0.5, -0.35), *mark, color),
         Key::Colors(text, [least, middle, most]) => {
             svg.text(at, Anchor::Start, text);
             let mut x = width(text) + 0.9;
@@ -285,9 +285,10 @@ fn draw_key(svg: &mut Svg, key: &Key, at: DVec2) {
             let corners = [to(x, -0.8), to(x + COLORS, -0.8), to(x + COLORS, 0.05), to(x, 0.05)];
             svg.polygon(&corners, &Fill::Gradient([corners[0], corners[1]], diverging_stops(-1.0, 1.0)));
             svg.text(to(x + COLORS / 2.0, 0.0), Anchor::Middle, middle);
-            svg.text(to(x + COLORS + 0.3, 0.0), Anchor::Start, most);
+            return svg.text(to(x + COLORS + 0.3, 0.0), Anchor::Start, most);
         }
     }
+    svg.text(to(key.sign(), 0.0), Anchor::Start, key.text());
 }
 
 /// A frame that cuts nothing.
@@ -381,20 +382,13 @@ pub(crate) fn thinned(points: Vec<DVec2>) -> Vec<DVec2> {
     if step <= 2 {
         return points;
     }
-    let mut ends = Vec::new();
-    for chunk in points.chunks(step) {
-        let (mut least, mut most) = (chunk[0], chunk[0]);
-        for point in chunk {
-            if point.y < least.y {
-                least = *point;
-            }
-            if point.y >= most.y {
-                most = *point;
-            }
-        }
-        ends.extend(if least.x <= most.x { [least, most] } else { [most, least] });
-    }
-    ends
+    let higher = |a: &&DVec2, b: &&DVec2| a.y.partial_cmp(&b.y).unwrap_or(Ordering::Equal);
+    let ends = |chunk: &[DVec2]| {
+        let [least, most] =
+            [chunk.iter().min_by(higher), chunk.iter().max_by(higher)].map_each(|end| *end.unwrap_or(&chunk[0]));
+        if least.x <= most.x { [least, most] } else { [most, least] }
+    };
+    points.chunks(step).flat_map(ends).collect_vec()
 }
 
 #[cfg(test)]

@@ -33,8 +33,6 @@ impl Rendered {
     }
 
     /// A PNG on white; `scale` pixels are one of the SVG.
-    ///
-    /// **Errors**: what the PNG writer says.
     pub(crate) fn png(&self, scale: f32) -> Result<Vec<u8>, String> {
         let [width, height] =
             [self.0.size().width(), self.0.size().height()].map_each(|side| (side * scale).round() as u32);
@@ -58,8 +56,6 @@ impl Rendered {
     }
 
     /// A PDF of one page of the size of the SVG, its texts as text in the embedded font.
-    ///
-    /// **Errors**: what the PDF writer says.
     pub(crate) fn pdf(&self) -> Result<Vec<u8>, String> {
         let [width, height] = [self.0.size().width(), self.0.size().height()].map_each(|side| side * POINTS);
         let size = Size::from_wh(width, height).ok_or("a picture without size")?;

@@ -2,7 +2,7 @@
 
 use glam::DVec2;
 
-use super::panel::{Panel, Place};
+use super::panel::{Key, Panel, Place};
 use super::svg::{Anchor, Svg, width};
 use crate::mapped::CollectVec;
 
@@ -52,30 +52,14 @@ const LABEL: f64 = 1.5;
 const GAP: f64 = 0.9;
 
 impl Size {
-    fn width(self) -> f64 {
+    /// In mm: the width; the height of letters where at most two pictures share it, and more; the height of a frame
+    /// alone in its row, and not. Letters are of 8 points; on a slide they are as large on a screen as 18 points on a
+    /// page, or 13.
+    fn measures(self) -> (f64, [f64; 2], [f64; 2]) {
         match self {
-            Size::Column => 85.0,
-            Size::Page => 170.0,
-            Size::Slide => 254.0,
-        }
-    }
-
-    /// The height of letters, mm: 8 points; on a slide what is as large on a screen as 18 points on a page, or 13 where
-    /// more than two pictures share it.
-    fn em(self, panels: usize) -> f64 {
-        match (self, panels) {
-            (Size::Slide, 0..=2) => 4.4,
-            (Size::Slide, _) => 3.2,
-            _ => 2.82,
-        }
-    }
-
-    /// Of the frame of one of so many pictures in a column.
-    fn frame(self, across: usize) -> f64 {
-        match (self, across) {
-            (Size::Column, _) => 38.0,
-            (_, 1) => 80.0,
-            _ => 46.0,
+            Size::Column => (85.0, [2.82; 2], [38.0; 2]),
+            Size::Page => (170.0, [2.82; 2], [80.0, 46.0]),
+            Size::Slide => (254.0, [4.4, 3.2], [80.0, 46.0]),
         }
     }
 
@@ -87,10 +71,20 @@ impl Size {
 }
 
 impl Sheet {
+    /// Leaves out of the legends what stands in one before, of these texts.
+    pub(crate) fn say_once(&mut self, of: impl Fn(&str) -> bool) {
+        let mut said: Vec<String> = Vec::new();
+        for panel in &mut self.panels {
+            panel.legend.retain(|key| !said.iter().any(|text| text == key.text()));
+            said.extend(panel.legend.iter().map(Key::text).filter(|text| of(text)).map(String::from));
+        }
+    }
+
     /// The sheet as SVG.
     pub(crate) fn svg(&self, size: Size) -> String {
-        let (em, wide) = (size.em(self.panels.len()), size.width());
+        let (wide, letters, frames) = size.measures();
         let across = if size == Size::Column || self.panels.len() < 2 { 1 } else { 2 };
+        let em = letters[usize::from(self.panels.len() > 2)];
         let rows: Vec<&[Panel]> = self.panels.chunks(across).collect_vec();
         let title: Vec<&str> = self.title.iter().flat_map(|line| wrapped(line, (wide - 2.0 * em) / em)).collect_vec();
         let above = em * (0.9 + TITLE * title.len() as f64);
@@ -100,7 +94,7 @@ impl Sheet {
         let around: f64 = rows.iter().map(|row| head(row) + em * (FOOT + GAP)).sum();
         let frame = match size {
             Size::Slide => (wide * 9.0 / 16.0 - above - around) / rows.len().max(1) as f64,
-            _ => size.frame(across),
+            _ => frames[across - 1],
         };
         let mut svg = Svg::new(wide, above + around + frame * rows.len() as f64, em);
         for (k, line) in title.iter().enumerate() {
@@ -127,11 +121,7 @@ impl Sheet {
     /// The pictures of one span of times in a rectangle, one below the other; the first is twice as high as the others.
     /// What stands in one legend is not said again.
     pub(crate) fn stacked(mut self, width: f64, height: f64, em: f64) -> String {
-        let mut said: Vec<String> = Vec::new();
-        for panel in &mut self.panels {
-            panel.legend.retain(|key| !said.iter().any(|text| text == key.text()));
-            said.extend(panel.legend.iter().map(|key| key.text().to_string()));
-        }
+        self.say_once(|_| true);
         let mut svg = Svg::new(width, height, em);
         let wide = width - 0.8 * em;
         let around: f64 = self.panels.iter().map(|panel| panel.head(wide, em, true)).sum();

@@ -1,8 +1,8 @@
 //! An SVG as it is written, in millimetres.
 
-use std::fmt::{self, Write};
+use std::fmt;
 
-use crate::mapped::MapEach;
+use crate::mapped::{MapEach, mapped};
 use glam::DVec2;
 
 /// The font of all pictures; where it is not known another one without serifs takes its place.
@@ -76,10 +76,7 @@ fn parts(text: &str) -> Vec<(String, bool)> {
     let mut letters = text.chars().peekable();
     while let Some(letter) = letters.next() {
         let low = match (letter, letters.peek()) {
-            ('_', Some('_')) => {
-                letters.next();
-                None
-            }
+            ('_', Some('_')) => letters.next().and(None),
             ('_', Some('{')) => {
                 letters.next();
                 Some(letters.by_ref().take_while(|letter| *letter != '}').collect::<String>())
@@ -116,43 +113,27 @@ pub(crate) fn width(text: &str) -> f64 {
 impl Svg {
     /// An empty page of this size with letters of the height `em`, all in mm.
     pub(crate) fn new(width: f64, height: f64, em: f64) -> Self {
-        let mut svg = Svg { text: String::new(), em, gradients: 0 };
-        let [w, h] = [width, height].map_each(length);
-        svg.put(format_args!(
+        let [w, h, size] = [width, height, em].map_each(length);
+        let text = format!(
             "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{w}mm\" height=\"{h}mm\" viewBox=\"0 0 {w} {h}\" \
-             font-family=\"{FAMILY}\" font-size=\"{}\" fill=\"#000000\" stroke-linejoin=\"round\">\n\
-             <rect width=\"{w}\" height=\"{h}\" fill=\"#ffffff\"/>\n",
-            length(em)
-        ));
-        svg
-    }
-
-    fn put(&mut self, text: fmt::Arguments<'_>) {
-        // Writing to a text does not fail.
-        let _ = self.text.write_fmt(text);
+             font-family=\"{FAMILY}\" font-size=\"{size}\" fill=\"#000000\" stroke-linejoin=\"round\">\n\
+             <rect width=\"{w}\" height=\"{h}\" fill=\"#ffffff\"/>\n"
+        );
+        Svg { text, em, gradients: 0 }
     }
 
     /// Begins a group that [`Svg::close`] ends: its class, and other attributes.
     pub(crate) fn open(&mut self, class: &str, attributes: &str) {
-        self.put(format_args!("<g class=\"{}\"{attributes}>\n", escaped(class)));
+        self.text += &format!("<g class=\"{}\"{attributes}>\n", escaped(class));
     }
 
     pub(crate) fn close(&mut self) {
-        self.put(format_args!("</g>\n"));
-    }
-
-    fn points(&mut self, points: &[DVec2]) {
-        for (k, point) in points.iter().enumerate() {
-            let space = if k == 0 { "" } else { " " };
-            self.put(format_args!("{space}{},{}", length(point.x), length(point.y)));
-        }
+        self.text += "</g>\n";
     }
 
     /// A line through points.
     pub(crate) fn line(&mut self, points: &[DVec2], stroke: Stroke) {
-        self.put(format_args!("<polyline points=\""));
-        self.points(points);
-        self.put(format_args!("\" fill=\"none\"{}/>\n", stroke_of(stroke)));
+        self.text += &format!("<polyline points=\"{}\" fill=\"none\"{stroke}/>\n", places(points));
     }
 
     /// What is inside of a line through points.
@@ -163,57 +144,46 @@ impl Svg {
                 self.gradients += 1;
                 let id = self.gradients;
                 let [x1, y1, x2, y2] = [from.x, from.y, to.x, to.y].map_each(length);
-                self.put(format_args!(
+                self.text += &format!(
                     "<linearGradient id=\"fill{id}\" gradientUnits=\"userSpaceOnUse\" x1=\"{x1}\" y1=\"{y1}\" \
                      x2=\"{x2}\" y2=\"{y2}\">"
-                ));
+                );
                 for (share, color) in stops {
-                    self.put(format_args!("<stop offset=\"{share:.4}\" stop-color=\"{color}\"/>"));
+                    self.text += &format!("<stop offset=\"{share:.4}\" stop-color=\"{color}\"/>");
                 }
-                self.put(format_args!("</linearGradient>\n"));
+                self.text += "</linearGradient>\n";
                 format!("url(#fill{id})")
             }
         };
-        self.put(format_args!("<polygon points=\""));
-        self.points(points);
-        self.put(format_args!("\" fill=\"{paint}\"/>\n"));
+        self.text += &format!("<polygon points=\"{}\" fill=\"{paint}\"/>\n", places(points));
     }
 
     /// What an odd number of closed lines is about.
     pub(crate) fn region(&mut self, lines: &[Vec<DVec2>], fill: &str) {
-        self.put(format_args!("<path fill=\"{fill}\" fill-rule=\"evenodd\" d=\""));
-        for line in lines {
-            self.put(format_args!("M"));
-            self.points(line);
-            self.put(format_args!("z"));
-        }
-        self.put(format_args!("\"/>\n"));
+        let path = mapped(lines, |line| format!("M{}z", places(line))).concat();
+        self.text += &format!("<path fill=\"{fill}\" fill-rule=\"evenodd\" d=\"{path}\"/>\n");
     }
 
     /// Rectangles of one colour, each from one corner to the opposite one.
     pub(crate) fn rectangles(&mut self, corners: &[[DVec2; 2]], fill: &str) {
-        self.put(format_args!("<path fill=\"{fill}\" d=\""));
-        for ends in corners {
-            // Rounded as places, so that neighbours meet.
-            let [left, top, right, bottom] = [ends[0].x, ends[0].y, ends[1].x, ends[1].y].map_each(length);
-            self.put(format_args!("M{left} {top}H{right}V{bottom}H{left}z"));
-        }
-        self.put(format_args!("\"/>\n"));
+        // Rounded as places, so that neighbours meet.
+        let path = mapped(corners, |[a, b]| {
+            let [left, top, right, bottom] = [a.x, a.y, b.x, b.y].map_each(length);
+            format!("M{left} {top}H{right}V{bottom}H{left}z")
+        });
+        self.text += &format!("<path fill=\"{fill}\" d=\"{}\"/>\n", path.concat());
     }
 
     /// A frame.
     pub(crate) fn frame(&mut self, [from, to]: [DVec2; 2], stroke: Stroke) {
-        let (size, [x, y]) = (to - from, [from.x, from.y].map_each(length));
-        let [w, h] = [size.x, size.y].map_each(length);
-        let look = stroke_of(stroke);
-        self.put(format_args!("<rect x=\"{x}\" y=\"{y}\" width=\"{w}\" height=\"{h}\" fill=\"none\"{look}/>\n"));
+        let [x, y, w, h] = [from.x, from.y, to.x - from.x, to.y - from.y].map_each(length);
+        self.text += &format!("<rect x=\"{x}\" y=\"{y}\" width=\"{w}\" height=\"{h}\" fill=\"none\"{stroke}/>\n");
     }
 
     /// A closed mark about a point, or a ring where it has no fill.
     pub(crate) fn circle(&mut self, at: DVec2, radius: f64, fill: &str, stroke: Stroke) {
         let [x, y, r] = [at.x, at.y, radius].map_each(length);
-        let look = stroke_of(stroke);
-        self.put(format_args!("<circle cx=\"{x}\" cy=\"{y}\" r=\"{r}\" fill=\"{fill}\"{look}/>\n"));
+        self.text += &format!("<circle cx=\"{x}\" cy=\"{y}\" r=\"{r}\" fill=\"{fill}\"{stroke}/>\n");
     }
 
     /// A text on its base line, with subscripts.
@@ -221,12 +191,11 @@ impl Svg {
         self.place_text(at, anchor, "", text);
     }
 
-    /// A text that is read upwards.
-    /// Letters are so many times as high as the others.
-    pub(crate) fn text_upwards(&mut self, at: DVec2, anchor: Anchor, text: &str, size: f64) {
+    /// A text about its middle that is read upwards. Letters are so many times as high as the others.
+    pub(crate) fn text_upwards(&mut self, at: DVec2, text: &str, size: f64) {
         let [x, y] = [at.x, at.y].map_each(length);
         let smaller = if size < 1.0 { format!(" font-size=\"{}\"", length(size * self.em)) } else { String::new() };
-        self.place_text(at, anchor, &format!("{smaller} transform=\"rotate(-90 {x} {y})\""), text);
+        self.place_text(at, Anchor::Middle, &format!("{smaller} transform=\"rotate(-90 {x} {y})\""), text);
     }
 
     fn place_text(&mut self, at: DVec2, anchor: Anchor, turned: &str, text: &str) {
@@ -235,40 +204,37 @@ impl Svg {
             Anchor::Middle => " text-anchor=\"middle\"",
             Anchor::End => " text-anchor=\"end\"",
         };
-        let [x, y] = [at.x, at.y].map_each(length);
-        self.put(format_args!("<text x=\"{x}\" y=\"{y}\"{anchor}{turned}>"));
+        let [x, y, down, up, small] = [at.x, at.y, LOW.1 * self.em, -LOW.1 * self.em, LOW.0 * self.em].map_each(length);
+        self.text += &format!("<text x=\"{x}\" y=\"{y}\"{anchor}{turned}>");
         let mut low = false;
         for (part, lower) in parts(text) {
-            let shift = match (low, lower) {
-                (false, true) => LOW.1 * self.em,
-                (true, false) => -LOW.1 * self.em,
-                _ => 0.0,
+            let part = escaped(&part);
+            self.text += &match (low, lower) {
+                (false, true) => format!("<tspan dy=\"{down}\" font-size=\"{small}\">{part}</tspan>"),
+                (true, false) => format!("<tspan dy=\"{up}\">{part}</tspan>"),
+                _ => part,
             };
             low = lower;
-            let part = escaped(&part);
-            match (shift == 0.0, lower) {
-                (true, _) => self.put(format_args!("{part}")),
-                (false, true) => self.put(format_args!(
-                    "<tspan dy=\"{}\" font-size=\"{}\">{part}</tspan>",
-                    length(shift),
-                    length(LOW.0 * self.em)
-                )),
-                (false, false) => self.put(format_args!("<tspan dy=\"{}\">{part}</tspan>", length(shift))),
-            }
         }
-        self.put(format_args!("</text>\n"));
+        self.text += "</text>\n";
     }
 
     /// The whole picture.
-    pub(crate) fn finish(mut self) -> String {
-        self.text += "</svg>\n";
-        self.text
+    pub(crate) fn finish(self) -> String {
+        self.text + "</svg>\n"
     }
 }
 
-fn stroke_of(stroke: Stroke) -> String {
-    let dash = if stroke.dash.is_empty() { String::new() } else { format!(" stroke-dasharray=\"{}\"", stroke.dash) };
-    format!(" stroke=\"{}\" stroke-width=\"{}\"{dash}", stroke.color, length(stroke.width))
+fn places(points: &[DVec2]) -> String {
+    mapped(points, |point| format!("{},{}", length(point.x), length(point.y))).join(" ")
+}
+
+/// As attributes.
+impl fmt::Display for Stroke {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, " stroke=\"{}\" stroke-width=\"{}\"", self.color, length(self.width))?;
+        if self.dash.is_empty() { Ok(()) } else { write!(f, " stroke-dasharray=\"{}\"", self.dash) }
+    }
 }
 
 #[cfg(test)]

@@ -1,11 +1,10 @@
 //! Which figures there are, what is reproduced and corrected in each, and their numbers.
 
 use super::Failed;
-use super::first::{self, DAMPINGS, Double, Wanted, grid};
+use super::first::{self, DAMPINGS, Double, ENERGIES, Limits, RESTITUTION, SHARES, grid};
 use crate::mapped::{CollectVec, MapEach, mapped, try_mapped};
-use crate::motion::Side;
 use crate::number::{Estimate, Scalar};
-use crate::sweep::Map;
+use crate::sweep::{Grid, Map};
 use crate::threads::Threads;
 
 /// A figure of the paper, or one that it could not have.
@@ -146,106 +145,81 @@ impl Figure {
     ///
     /// **Accuracy**: *within its own bound*, which is at most 1e-10 for Figure 4, 1e-9 for the tenth bounce and 1e-13
     /// for the others, relative to the numbers or to 1.
-    ///
-    /// **Errors**: those of the histories.
     pub(crate) fn data(&self, threads: Threads) -> Result<Data, Failed> {
-        let plain = |columns: &[&'static str], rows| Data { columns: columns.to_vec(), rows, map: None };
-        Ok(match self.of {
+        let point = |grid: &Grid, k: usize| mapped(grid.values(k), |value| Some(exact(value.to_f64())));
+        let (columns, rows): (&[&'static str], Vec<Vec<Option<Double>>>) = match self.of {
             Of::Kernel => {
-                let mut rows = Vec::new();
-                for damping in STRONG {
-                    let (values, bounce) = first::kernel(damping, PER_TRIP)?;
-                    let bounce = bounce.map(|bounce| bounce.0);
-                    rows.extend(values.into_iter().map(|(time, side, value)| {
-                        let side = if side == Side::Left { -1.0 } else { 1.0 };
-                        vec![
-                            damping.parse().ok().map(exact),
-                            Some(exact(time)),
-                            Some(exact(side)),
-                            Some(value),
-                            bounce.clone(),
-                        ]
-                    }));
-                }
-                plain(&["damping", "t", "side", "psi", "bounce_time"], rows)
+                let rows = try_mapped(&STRONG, |damping| first::kernel(damping, PER_TRIP))?;
+                (&["damping", "t", "side", "psi", "bounce_time"], rows.concat())
             }
             Of::Vibration | Of::Shares => {
                 let grid = grid("0", "0.01..8:800")?;
-                let speeds = first::speeds(&grid);
-                let found = first::contacts(&grid, Wanted::Energies, SHARP, threads)?;
-                let rows = speeds.into_iter().zip(found).map(|(speed, ended)| {
+                let found = first::contacts(&grid, ENERGIES, SHARP, threads)?;
+                let rows = first::speeds(&grid).into_iter().zip(found).map(|(speed, ended)| {
                     let (time, energies) = ended.unzip();
                     let energies = energies.unwrap_or_else(|| vec![None, None]);
                     let whole = speed.clone() * &speed / speed.int(2);
                     let shares = energies.clone().into_iter().map(|energy| energy.map(|energy| energy / &whole));
                     [Some(speed), time].into_iter().chain(energies).chain(shares).collect_vec()
                 });
-                plain(&["speed", "bounce_time", "E_h", "E_z", "E_h_share", "E_z_share"], rows.collect_vec())
+                (&["speed", "bounce_time", "E_h", "E_z", "E_h_share", "E_z_share"], rows.collect_vec())
             }
             Of::Restitution => {
                 let grid = grid(&DAMPINGS.join(","), "0.0125..12.5:1000")?;
-                let found = first::contacts(&grid, Wanted::Restitution, IN_DOUBLES, threads)?;
+                let found = first::contacts(&grid, RESTITUTION, IN_DOUBLES, threads)?;
                 let rows = found.into_iter().enumerate().map(|(k, ended)| {
                     let (time, restitution) = ended.unzip();
-                    let point = grid.values(k).into_iter().map(|value| Some(exact(value.to_f64())));
-                    point.chain([time, restitution.and_then(|values| values[0].clone())]).collect_vec()
+                    [point(&grid, k), vec![time, restitution.and_then(|values| values[0].clone())]].concat()
                 });
-                plain(&["damping", "speed", "bounce_time", "restitution_squared"], rows.collect_vec())
+                (&["damping", "speed", "bounce_time", "restitution_squared"], rows.collect_vec())
             }
             Of::Translational | Of::Kept | Of::Decay => {
                 let grid = grid(&DAMPINGS.join(","), "3.2..12.5:373")?;
-                let found = first::contacts(&grid, Wanted::Shares, SHARP, threads)?;
-                let each = first::speeds(&grid).len().max(1);
+                let found = first::contacts(&grid, SHARES, SHARP, threads)?;
                 let limits = try_mapped(&DAMPINGS, |damping| first::limits(damping))?;
+                let each = found.len() / limits.len();
                 let rows = found.into_iter().enumerate().map(|(k, ended)| {
-                    let limits = limits[k / each].clone();
-                    let one = exact(1.0);
-                    let [translational, kept] =
-                        ended.map_or([None, None], |ended| [ended.1[0].clone(), ended.1[1].clone()]);
-                    let over = |kept: Option<Double>| kept.map(|kept| kept / &limits.decay);
-                    let (value, limit, supposed) = match self.of {
-                        Of::Translational => (translational, limits.translational, one),
-                        Of::Kept => (kept, limits.kept, limits.decay),
-                        _ => (over(kept), over(limits.kept), one),
+                    let Limits { translational, kept, decay, .. } = limits[k / each].clone();
+                    let shares = ended.map_or([None, None], |(_, shares)| [shares[0].clone(), shares[1].clone()]);
+                    let ([value, limit], supposed) = match (self.of, shares) {
+                        (Of::Translational, [share, _]) => ([share, translational], exact(1.0)),
+                        (Of::Kept, [_, share]) => ([share, kept], decay),
+                        (_, [_, share]) => ([share, kept].map_each(|kept| kept.map(|kept| kept / &decay)), exact(1.0)),
                     };
-                    let point = grid.values(k).into_iter().map(|value| Some(exact(value.to_f64())));
-                    point.chain([value, limit, Some(supposed)]).collect_vec()
+                    [point(&grid, k), vec![value, limit, Some(supposed)]].concat()
                 });
-                let value = match self.of {
-                    Of::Translational => "translational_part",
-                    Of::Kept => "energy_kept",
-                    _ => "energy_kept_over_decay",
+                let columns: &[&'static str] = match self.of {
+                    Of::Translational => &["damping", "speed", "translational_part", "limit", "supposed_limit"],
+                    Of::Kept => &["damping", "speed", "energy_kept", "limit", "supposed_limit"],
+                    _ => &["damping", "speed", "energy_kept_over_decay", "limit", "supposed_limit"],
                 };
-                plain(&["damping", "speed", value, "limit", "supposed_limit"], rows.collect_vec())
+                (columns, rows.collect_vec())
             }
             Of::Regions => {
                 // The corners of each region for L = c = 1, x = 1/2, t₁ = 2: where y and t are.
-                let corners = [
-                    (1.0, [[-1.5, 0.0], [0.0, 0.0], [0.0, 1.5]].to_vec()),
-                    (2.0, [[0.0, 0.0], [2.0, 0.0], [2.0, 0.5], [0.5, 2.0], [0.0, 1.5]].to_vec()),
-                    (3.0, [[2.0, 0.0], [2.5, 0.0], [2.0, 0.5]].to_vec()),
+                let corners: [&[[f64; 2]]; 3] = [
+                    &[[-1.5, 0.0], [0.0, 0.0], [0.0, 1.5]],
+                    &[[0.0, 0.0], [2.0, 0.0], [2.0, 0.5], [0.5, 2.0], [0.0, 1.5]],
+                    &[[2.0, 0.0], [2.5, 0.0], [2.0, 0.5]],
                 ];
-                let rows = corners.iter().flat_map(|(region, corners)| {
-                    corners
-                        .iter()
-                        .map(move |corner| [*region, corner[0], corner[1]].map_each(|x| Some(exact(x))).to_vec())
-                });
-                plain(&["region", "y", "t"], rows.collect_vec())
+                let corners = [1.0, 2.0, 3.0].into_iter().zip(corners);
+                let rows = corners.flat_map(|(region, corners)| corners.iter().map(move |[y, t]| [region, *y, *t]));
+                (&["region", "y", "t"], mapped(rows, |row| row.map_each(|x| Some(exact(x))).to_vec()))
             }
             Of::Regimes => {
                 let map = Map::new("0..4:240", "0.05..1e4:240:log", threads, &|| ())?.with_regions(threads, &|| ());
-                Data { columns: Vec::new(), rows: Vec::new(), map: Some(map) }
+                return Ok(Data { columns: Vec::new(), rows: Vec::new(), map: Some(map) });
             }
             Of::Tenth => {
                 let grid = grid("0", "0.005..10:2000")?;
-                let speeds = first::speeds(&grid);
                 let tenth = first::tenth(&grid, threads)?;
-                let first = first::contacts(&grid, Wanted::Restitution, SHARP, threads)?;
-                let rows = speeds.into_iter().zip(tenth).zip(first).map(|((speed, tenth), first)| {
+                let first = first::contacts(&grid, RESTITUTION, SHARP, threads)?;
+                let rows = first::speeds(&grid).into_iter().zip(tenth).zip(first).map(|((speed, tenth), first)| {
                     vec![Some(speed), first.and_then(|(_, values)| values[0].clone()), tenth]
                 });
-                plain(&["speed", "first_restitution_squared", "tenth_restitution_squared"], rows.collect_vec())
+                (&["speed", "first_restitution_squared", "tenth_restitution_squared"], rows.collect_vec())
             }
-        })
+        };
+        Ok(Data { columns: columns.to_vec(), rows, map: None })
     }
 }

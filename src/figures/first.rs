@@ -3,6 +3,7 @@
 use std::iter::once;
 
 use super::Failed;
+use crate::error::Error;
 use crate::first_contact::FirstContact;
 use crate::mapped::{CollectVec, mapped, try_mapped};
 use crate::motion::{Motion, Side};
@@ -21,27 +22,24 @@ pub(crate) const DAMPINGS: [&str; 4] = ["0", "0.1", "0.2", "0.3"];
 pub(crate) type Double = Estimate<f64>;
 /// A first contact that ends with a bounce: `t_b`, and what is asked there.
 pub(crate) type Ended = Option<(Double, Vec<Option<Double>>)>;
-/// `t`, which limit, and the value.
-type Sided = (f64, Side, Double);
 
-/// What is asked of a first contact at its bounce.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) enum Wanted {
-    /// Nothing but `t_b`.
-    Time,
-    /// `e_E²`.
-    Restitution,
-    /// `E_h(t_b)/E(t_b)` and `E(t_b)/E(0)`.
-    Shares,
-    /// `E_h(t_b)` and `E_z(t_b)`.
-    Energies,
-}
+/// What is asked of a first contact between its impact and its bounce.
+pub(super) type Wanted = fn(&dyn Motion<Double>, [&Double; 2]) -> Result<Vec<Option<Double>>, Error>;
 
-/// The first contacts of a grid over `impact.speed` and `rod.damping`, the speed varying fastest.
-///
-/// **Accuracy**: *within its own bound*, and `accuracy` of the numbers, or of 1 where they are less.
-///
-/// **Errors**: those of the history.
+/// `e_E²`.
+pub(super) const RESTITUTION: Wanted =
+    |motion, [from, to]| Ok(vec![restitution(motion, (from, Some(to)))?.energy_squared.ok()]);
+
+/// `E_h(t_b)/E(t_b)` and `E(t_b)/E(0)`.
+pub(super) const SHARES: Wanted =
+    |motion, [from, to]| Ok(energy_shares(motion, (from, Some(to)))?.map(Result::ok).to_vec());
+
+/// `E_h(t_b)` and `E_z(t_b)`.
+pub(super) const ENERGIES: Wanted =
+    |motion, [_, to]| motion.energy(to).map(|energy| vec![Some(energy.translational), Some(energy.vibrational)]);
+
+/// The first contacts of a grid over `impact.speed` and `rod.damping`, the speed varying fastest, to `accuracy` of the
+/// numbers, or of 1 where they are less.
 pub(crate) fn contacts(grid: &Grid, wanted: Wanted, accuracy: f64, threads: Threads) -> Result<Vec<Ended>, Failed> {
     threads.all(grid.len(), |index| contact(&grid.problem(index)?, wanted, accuracy))
 }
@@ -57,15 +55,7 @@ fn contact(problem: &Problem, wanted: Wanted, accuracy: f64) -> Result<Ended, Fa
     let plan = Plan::of(problem, &Question::bounce(Numbers::Double(Some(accuracy))))?;
     let query = |motion: &dyn Motion<Double>| {
         let Some((from, Some(to))) = motion.contact_times(0) else { return Ok(None) };
-        let values = match wanted {
-            Wanted::Time => Vec::new(),
-            Wanted::Restitution => vec![restitution(motion, (&from, Some(&to)))?.energy_squared.ok()],
-            Wanted::Shares => energy_shares(motion, (&from, Some(&to)))?.map(Result::ok).to_vec(),
-            Wanted::Energies => {
-                let energy = motion.energy(&to)?;
-                vec![Some(energy.translational), Some(energy.vibrational)]
-            }
-        };
+        let values = wanted(motion, [&from, &to])?;
         // The time relative to itself, and the others to 1.
         let whole = to.clone() / Double::exact(*to.value());
         Ok(Some((whole, (to, values))))
@@ -88,14 +78,10 @@ pub(crate) struct Limits {
     pub(crate) decay: Double,
 }
 
-/// The limits for a damping.
-///
-/// **Source**: the motion is linear in `μ` and `g`, so for `μ → ∞` all ratios are those of `g = 0`.
-///
-/// **Accuracy**: *within its own bound*, 1e-13.
+/// The limits for a damping: the motion is linear in `μ` and `g`, so for `μ → ∞` all ratios are those of `g = 0`.
 pub(crate) fn limits(damping: &str) -> Result<Limits, Failed> {
     let rod = Problem::builder().length(1).wave_speed(1).damping(damping).impact_speed(1).build()?;
-    let shares = contact(&rod, Wanted::Shares, 1e-13)?.map_or(Vec::new(), |(_, shares)| shares);
+    let shares = contact(&rod, SHARES, 1e-13)?.map_or(Vec::new(), |(_, shares)| shares);
     let share = |k: usize| shares.get(k).cloned().flatten();
     let r = Double::from_number(&damping.parse()?, &());
     let decay = (-r.int(4) * &r).exp();
@@ -107,34 +93,31 @@ pub(crate) fn dot(damping: &str) -> f64 {
     2.0 * threshold_near(2.0 * damping.parse().unwrap_or(f64::NAN))
 }
 
-/// `Ψ_r(t)` of Figure 1: `g = 0`, `t₁ = μ = c = 1`, with two values at whole `t`, and `t_b`.
+/// Rows of Figure 1: `r`, `t`, which limit, `Ψ_r(t)` for `g = 0`, `t₁ = μ = c = 1`, and `t_b`. Two are of each whole `t`.
 ///
 /// **Source**: (2.28), `Ψ_r = e^{rt} v_x(0,t)` while the end is held.
-pub(crate) fn kernel(damping: &str, per_trip: i32) -> Result<(Vec<Sided>, Ended), Failed> {
+pub(crate) fn kernel(damping: &str, per_trip: i32) -> Result<Vec<Vec<Option<Double>>>, Failed> {
     let rod = Problem::builder().length("1/2").wave_speed(1).damping(damping).impact_speed(1).build()?;
     let form = FirstContact::new(&Parameters::<Double>::of(&rod, &())?);
     let r = Double::from_number(&damping.parse()?, &());
-    let value = |k: i32, side: Side| {
-        let time = f64::from(k) / f64::from(per_trip);
-        let exact = Estimate::exact(time);
-        (time, side, (r.clone() * &exact).exp() * form.strain(&exact, side))
-    };
-    let mut rows = Vec::new();
-    for k in 0..=4 * per_trip {
-        if k > 0 && k % per_trip == 0 {
-            rows.push(value(k, Side::Left));
-        }
-        if k < 4 * per_trip {
-            rows.push(value(k, Side::Right));
-        }
-    }
     // As sharp as doubles can be: the index prints 14 decimals.
-    Ok((rows, contact(&rod, Wanted::Time, 1e-15)?))
+    let bounce = contact(&rod, |_, _| Ok(Vec::new()), 1e-15)?.map(|bounce| bounce.0);
+    let row = |(k, side): (i32, Side)| {
+        let time = Double::exact(f64::from(k) / f64::from(per_trip));
+        let value = (r.clone() * &time).exp() * form.strain(&time, side);
+        let side = Double::exact(if side == Side::Left { -1.0 } else { 1.0 });
+        vec![damping.parse().ok().map(Double::exact), Some(time), Some(side), Some(value), bounce.clone()]
+    };
+    let sides = |k: i32| match k {
+        0 => vec![(k, Side::Right)],
+        k if k == 4 * per_trip => vec![(k, Side::Left)],
+        k if k % per_trip == 0 => vec![(k, Side::Left), (k, Side::Right)],
+        k => vec![(k, Side::Right)],
+    };
+    Ok(mapped((0..=4 * per_trip).flat_map(sides), row))
 }
 
 /// `e_E²` of the tenth contact over `impact.speed`, without damping; `None` where it is not defined or not settled.
-///
-/// **Accuracy**: *within its own bound*, 1e-9.
 pub(crate) fn tenth(grid: &Grid, threads: Threads) -> Result<Vec<Option<Double>>, Failed> {
     let one = |index: usize| {
         let rod = grid.problem(index).ok()?.with_run(crate::Run::Impacts(10)).ok()?;

@@ -370,13 +370,7 @@ impl<N: BoundedSpecial> Motion<N> for ContactHistory<N> {
         let critical = rod.gravity.clone() * &self.contact.round_trip;
         // Either is a scale where it cannot be told which is greater.
         let velocity = if rod.speed.near().0 >= critical.near().0 { rod.speed.clone() } else { critical };
-        Scales {
-            time: self.contact.round_trip(),
-            velocity,
-            length: rod.length.clone(),
-            wave_speed: rod.wave_speed.clone(),
-            gravity: rod.gravity.clone(),
-        }
+        Scales { time: self.contact.round_trip(), velocity, ..Scales::of(rod) }
     }
 
     /// Zero: every number holds its own.

@@ -8,6 +8,7 @@ use crate::error::Error;
 use crate::mapped::try_mapped;
 use crate::number::Scalar;
 use crate::order::partition;
+use crate::problem::Parameters;
 use crate::reason::Warning;
 
 /// The scales of a motion: what its quantities are to be compared with.
@@ -24,6 +25,14 @@ pub struct Scales<S> {
     pub wave_speed: S,
     /// `g`.
     pub gravity: S,
+}
+
+impl<S: Scalar> Scales<S> {
+    /// Those of a rod that lands with its impact speed.
+    pub(crate) fn of(rod: &Parameters<S>) -> Self {
+        let Parameters { length, wave_speed, gravity, speed, .. } = rod.clone();
+        Scales { time: rod.round_trip(), velocity: speed, length, wave_speed, gravity }
+    }
 }
 
 impl<S> Scales<S> {

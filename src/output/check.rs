@@ -7,15 +7,14 @@ use super::target::{published_json, published_page, targets_data};
 use crate::aligned::table;
 use crate::mapped::{CollectVec, mapped};
 use crate::routes::Published;
-use crate::routes::RightDigits;
 use crate::routes::check::{Checked, CheckedQuestion, Group};
 
 /// How many digits are right, in words.
-fn digits(right: RightDigits) -> String {
+fn digits(right: Option<f64>) -> String {
     match right {
-        RightDigits::NoNumber => "–".into(),
-        RightDigits::All => "all".into(),
-        RightDigits::Digits(digits) => format!("{digits:.1}"),
+        None => "–".into(),
+        Some(f64::INFINITY) => "all".into(),
+        Some(digits) => format!("{digits:.1}"),
     }
 }
 
@@ -125,9 +124,8 @@ pub(crate) fn check_json(groups: &Groups, published: &[Published]) -> Value {
         let asked = checked.asked.iter().map(|asked| {
             let rows = asked.rows.iter().map(|row| {
                 let right = match row.digits {
-                    RightDigits::NoNumber => Value::Null,
-                    RightDigits::All => json!("all"),
-                    RightDigits::Digits(digits) => json!(digits),
+                    Some(f64::INFINITY) => json!("all"),
+                    digits => json!(digits),
                 };
                 json!({
                     "route": row.route,

@@ -102,7 +102,7 @@ pub(crate) fn regimes_panel(map: &Map) -> Panel {
     let known = if map.regimes.contains(&Regime::Undecided) { COLORS.len() } else { COLORS.len() - 1 };
     let whole = [[x.from, y.from], [x.to, y.from], [x.to, y.to], [x.from, y.to]].map_each(DVec2::from_array).to_vec();
     let mut layers = vec![Layer::new("bands", Shape::Region(vec![whole], COLORS[known - 1].0))];
-    let place = |[steps, high]: [f64; 2]| DVec2::new(across.border(steps), up.border(high));
+    let place = |steps: DVec2| DVec2::new(across.border(steps.x), up.border(steps.y));
     // Each band lies over those after it.
     for (lines, (color, _)) in map.regions.iter().zip(COLORS).rev().filter(|(lines, _)| !lines.is_empty()) {
         let lines = mapped(lines, |line| mapped(line, |point| place(*point)));

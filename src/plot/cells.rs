@@ -56,8 +56,6 @@ const FEW_COLUMNS: f64 = 8.0;
 ///
 /// **Source**: between the rays of an undamped rod velocity and strain are linear in `x` and `t` (d'Alembert), and a
 /// cell is one polygon. Between those of a damped rod they are smooth, and a cell is cut into parts.
-///
-/// **Accuracy**: that of the history at three points of each polygon; linear between them.
 pub(crate) fn of<S: Target>(
     history: &History<S>,
     (along, factor): (Along, f64),
@@ -68,30 +66,23 @@ pub(crate) fn of<S: Target>(
         .damped
         .then(|| strip.trip / PARTS.min((4.0 * MOST_CELLS as f64 / (strip.trips() * 16.0)).sqrt()).max(2.0));
     let [rising, falling] = [0.0, strip.trip].map_each(|late| strip.knots(&breaks, late, fine));
-    let polygons = strip.polygons(&rising, &falling);
-    let points: Vec<DVec2> = polygons.iter().flatten().flat_map(|polygon| samples(polygon)).collect_vec();
-    let values = match polygons {
-        Some(_) => ask(history, along, strip, &points),
-        None => grid(history, along, strip),
-    };
-    let values: Vec<f64> = mapped(values?, |value| factor * value);
     let mut greatest = 0.0f64;
-    let values = match polygons {
+    let values = match strip.polygons(&rising, &falling) {
         Some(polygons) => {
+            let points: Vec<DVec2> = polygons.iter().flat_map(|polygon| samples(polygon)).collect_vec();
+            let values = mapped(ask(history, along, strip, &points)?, |value| factor * value);
             let pieces = polygons.into_iter().zip(values.chunks(3)).zip(points.chunks(3));
-            let linear = pieces.filter(|((_, values), _)| values.iter().all(|value| value.is_finite())).map(
-                |((corners, values), at)| {
-                    let slope = slope([at[1] - at[0], at[2] - at[0]], [values[1] - values[0], values[2] - values[0]]);
-                    let ends = corners.iter().map(|corner| (values[0] + slope.dot(*corner - at[0])).abs());
-                    greatest = ends.fold(greatest, f64::max);
-                    Piece { corners, at: at[0], middle: values[0], slope }
-                },
-            );
-            Values::Linear(linear.collect_vec())
+            let pieces = pieces.filter(|((_, values), _)| values.iter().all(|value| value.is_finite()));
+            Values::Linear(mapped(pieces, |((corners, values), at)| {
+                let slope = slope([at[1] - at[0], at[2] - at[0]], [values[1] - values[0], values[2] - values[0]]);
+                let ends = corners.iter().map(|corner| (values[0] + slope.dot(*corner - at[0])).abs());
+                greatest = ends.fold(greatest, f64::max);
+                Piece { corners, at: at[0], middle: values[0], slope }
+            }))
         }
         None => {
-            greatest =
-                values.iter().filter(|value| value.is_finite()).fold(0.0, |greatest, value| greatest.max(value.abs()));
+            let values = mapped(grid(history, along, strip)?, |value| factor * value);
+            greatest = values.iter().filter(|value| value.is_finite()).fold(0.0, |most, value| most.max(value.abs()));
             Values::Grid(GRID[0], values)
         }
     };
@@ -256,9 +247,8 @@ impl Strip {
     /// What of a convex polygon lies in the strip; empty where that is nothing.
     fn clipped(&self, polygon: Vec<DVec2>) -> Vec<DVec2> {
         let polygon = clip::polygon(polygon, [DVec2::new(self.from, 0.0), DVec2::new(self.to, self.length)]);
-        let area: f64 =
-            (2..polygon.len()).map(|k| (polygon[k - 1] - polygon[0]).perp_dot(polygon[k] - polygon[0])).sum();
-        if area.abs() < 1e-9 * self.length * self.trip { Vec::new() } else { polygon }
+        let none = 2.0 * clip::area(&polygon).abs() < 1e-9 * self.length * self.trip;
+        if none { Vec::new() } else { polygon }
     }
 }
 

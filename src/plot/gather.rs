@@ -5,8 +5,8 @@ use super::picture::{Along, Picture};
 use crate::draw::Axis;
 use crate::error::Error;
 use crate::mapped::{CollectVec, MapEach, mapped};
-use crate::motion::straight;
 use crate::motion::{EventKind, Motion, RayRegister, Side, StressPiece};
+use crate::motion::{WavePiece, straight};
 use crate::number::Scalar;
 use crate::order::ascending;
 use crate::problem::{Parameters, Problem};
@@ -54,6 +54,12 @@ pub(crate) struct Gathered {
     pub(crate) world: Vec<(f64, Line)>,
 }
 
+/// A rod, and the span that is drawn of its motion.
+struct Drawn {
+    rod: Parameters<f64>,
+    span: [f64; 2],
+}
+
 /// Round trips that are drawn where nothing is said: as many as can be told apart.
 const TRIPS: f64 = 12.0;
 /// After the last event that is drawn.
@@ -73,6 +79,11 @@ const MOST_CONTACTS: usize = 400;
 const WORLD: usize = 5;
 
 impl Gathered {
+    /// A column that was asked for, in stretches without a jump.
+    pub(super) fn lines(&self, column: Quantity) -> Vec<Line> {
+        self.columns.iter().find(|found| found.0 == column).map_or_else(Vec::new, |found| found.1.clone())
+    }
+
     /// What of the history is drawn, where that is less than all and no span was asked for.
     pub(crate) fn cut(&self, asked: &Asked, axis: &Axis) -> Option<String> {
         let ([from, to], (shown, all)) = (self.span, (self.contacts.len(), self.of_contacts));
@@ -94,17 +105,6 @@ impl Asked {
         self.pictures.contains(&picture)
     }
 
-    fn columns(&self) -> Vec<Quantity> {
-        let mut columns: Vec<Quantity> = Vec::new();
-        let pictures = self.pictures.iter().flat_map(|picture| picture.columns());
-        pictures.for_each(|column| {
-            if !columns.contains(&column) {
-                columns.push(column)
-            }
-        });
-        columns
-    }
-
     /// Asks a history for all that the pictures show.
     ///
     /// **Errors**: those of the history; [`Error::TimeOutside`] for a span that it does not reach.
@@ -122,59 +122,48 @@ impl Asked {
         let contacts = contacts
             .map(|contact| [contact.from.to_f64(), contact.to.as_ref().map_or(end, Scalar::to_f64)])
             .filter(|[from, to]| *to >= span[0] && *from <= span[1]);
-        let mut gathered = Gathered {
-            name,
-            units,
-            span,
-            end,
-            contacts: contacts.collect_vec(),
-            of_contacts: history.contacts().len(),
-            columns: Vec::new(),
-            stress: Vec::new(),
-            restitution: Vec::new(),
-            cells: None,
-            world: Vec::new(),
-            rod,
-        };
-        let breaks = breaks(history, &gathered)?;
-        self.gather_columns(history, &breaks, &mut gathered)?;
+        let drawn = Drawn { rod, span };
+        let breaks = breaks(history, &drawn)?;
+        let columns = self.gather_columns(history, &drawn, &breaks)?;
+        let (mut stress, mut restitution, mut cells, mut world) = (Vec::new(), Vec::new(), None, Vec::new());
         if self.wants(Picture::Stress) {
             let pieces = history.stress_history()?.pieces.into_iter().map(|piece| piece.map(|x| x.to_f64()));
             let inside = pieces.filter(|piece| piece.to >= span[0] && piece.from <= span[1]);
-            gathered.stress = straight(&inside.collect_vec(), STRAIGHT);
+            stress = straight(&inside.collect_vec(), STRAIGHT);
         }
         if self.wants(Picture::Restitution) {
             for contact in 0..history.contacts().len().min(MOST_CONTACTS) {
                 let found = history.restitution(contact)?;
                 let value = |x: &Result<S, _>| x.as_ref().ok().map(Scalar::to_f64);
-                gathered.restitution.push([value(&found.momentum), value(&found.energy_squared)]);
+                restitution.push([value(&found.momentum), value(&found.energy_squared)]);
             }
         }
         if self.wants(Picture::Along) && self.deformed {
-            gathered.world = world_lines(history, &gathered, &breaks)?;
+            world = world_lines(history, &drawn, &breaks)?;
         } else if self.wants(Picture::Along) {
-            let field = (self.along, self.along.factor(&gathered.units));
-            gathered.cells = Some(cells::of(history, field, &Strip::of(&gathered.rod, span), breaks)?);
+            let factor = units.factor::<f64>(self.along.told(&units).0, &()).unwrap_or(1.0);
+            cells = Some(cells::of(history, (self.along, factor), &Strip::of(&drawn.rod, span), breaks)?);
         }
-        Ok(gathered)
+        let (contacts, of_contacts) = (contacts.collect_vec(), history.contacts().len());
+        let Drawn { rod, span } = drawn;
+        Ok(Gathered { name, units, rod, span, end, contacts, of_contacts, columns, stress, restitution, cells, world })
     }
 
     /// The span to be drawn: what is asked for, or so much of the history as shows its first contacts.
     pub(super) fn span<S: Target>(&self, history: &History<S>, trip: f64) -> Result<[f64; 2], Error> {
         let end = known_until(history);
-        let events: Vec<f64> = mapped(history.events(), |event| event.time.to_f64());
-        let first = events.first().copied().filter(|first| *first > TRIPS * trip && self.to.is_none());
+        let events: Vec<_> = mapped(history.events(), |event| (event.time.to_f64(), event.kind));
+        let first = events.first().map(|first| first.0).filter(|first| *first > TRIPS * trip && self.to.is_none());
         let from = self.from.or(first.map(|first| first - TRIPS_AFTER * trip)).unwrap_or(0.0);
         if from >= end {
             return Err(history.explained(Error::TimeOutside { found: from.to_string(), end: end.to_string() }));
         }
         let to = self.to.unwrap_or_else(|| {
             let last = from + (TRIPS + 2.0 * TRIPS_AFTER) * trip;
-            let mut near = events.iter().copied().filter(|event| *event > from && *event <= last);
-            match near.next_back() {
+            match events.iter().rfind(|event| event.0 > from && event.0 <= last) {
                 _ if end <= from + TRIPS * trip => end,
                 // A long flight is cut; a rod that stays on the ground is seen to come to rest.
-                Some(last) if in_flight(history, last) => last + TRIPS_AFTER * trip,
+                Some((last, EventKind::Release)) => last + TRIPS_AFTER * trip,
                 _ => from + TRIPS * trip,
             }
         });
@@ -184,34 +173,34 @@ impl Asked {
     fn gather_columns<S: Target>(
         &self,
         history: &History<S>,
+        drawn: &Drawn,
         breaks: &[Break],
-        gathered: &mut Gathered,
-    ) -> Result<(), Error> {
-        let columns = self.columns();
-        if columns.is_empty() {
-            return Ok(());
+    ) -> Result<Vec<(Quantity, Vec<Line>)>, Error> {
+        let mut columns = vec![Quantity::Time, Quantity::Side];
+        for column in self.pictures.iter().flat_map(Picture::columns) {
+            if !columns.contains(&column) {
+                columns.push(column);
+            }
         }
-        let all: Vec<Quantity> =
-            [Quantity::Time, Quantity::Side].into_iter().chain(columns.iter().copied()).collect_vec();
-        let table = history.ask_columns(&all, None, |motion| times(motion, gathered, breaks))?;
+        if columns.len() == 2 {
+            return Ok(Vec::new());
+        }
+        let table = history.ask_columns(&columns, None, |motion| times(motion, drawn, breaks))?;
         let table: Vec<Vec<f64>> = mapped(&table, |column| mapped(column, settled));
         let (times, sides) = (&table[0], &table[1]);
         // A time at which a value is open, as beside a ray in enclosures, is left out of all lines.
         let rows: Vec<usize> =
             (0..times.len()).filter(|k| table.iter().all(|column| column[*k].is_finite())).collect_vec();
-        gathered.columns = columns
-            .into_iter()
-            .zip(&table[2..])
-            .map(|(column, values)| {
-                // A jump lies between two rows of one time; one that is not seen is none.
-                let seen = UNSEEN * rows.iter().map(|k| values[*k].abs()).fold(0.0, f64::max);
-                let jumps =
-                    |a: usize, b: usize| sides[a] < 0.0 && times[a] == times[b] && (values[a] - values[b]).abs() > seen;
-                let stretches = rows.chunk_by(|a, b| !jumps(*a, *b));
-                (column, stretches.map(|rows| mapped(rows, |k| (times[*k], values[*k]))).collect_vec())
-            })
-            .collect_vec();
-        Ok(())
+        let of = |(column, values): (Quantity, &Vec<f64>)| {
+            // A jump lies between two rows of one time; one that is not seen is none.
+            let seen = UNSEEN * rows.iter().map(|k| values[*k].abs()).fold(0.0, f64::max);
+            let jumps =
+                |a: usize, b: usize| sides[a] < 0.0 && times[a] == times[b] && (values[a] - values[b]).abs() > seen;
+            let stretches = rows.chunk_by(|a, b| !jumps(*a, *b));
+            let lines = stretches.map(|rows| mapped(rows, |k| (times[*k], values[*k])));
+            (column, lines.collect_vec())
+        };
+        Ok(mapped(columns.into_iter().zip(&table).skip(2), of))
     }
 }
 
@@ -219,22 +208,13 @@ impl Asked {
 fn known_until<S: Target>(history: &History<S>) -> f64 {
     let open = history.warnings().into_iter().filter_map(|warning| match warning {
         Warning::EventsOverlap { from } | Warning::NotDetermined { from } => Some(from),
-        Warning::Coincidence { .. }
-        | Warning::HopsUnresolved { .. }
-        | Warning::NotTold { .. }
-        | Warning::TimeNotTold { .. }
-        | Warning::DragNeglected { .. } => None,
+        _ => None,
     });
     open.fold(history.end().to_f64(), f64::min)
 }
 
-/// Whether a flight begins with the event at this time.
-fn in_flight<S: Target>(history: &History<S>, time: f64) -> bool {
-    history.events().iter().any(|event| event.time.to_f64() == time && event.kind == EventKind::Release)
-}
-
 /// The rays of a history, by the time at which each leaves the ground: every ray that is in the rod during the span.
-fn breaks<S: Target>(history: &History<S>, drawn: &Gathered) -> Result<Vec<Break>, Error> {
+fn breaks<S: Target>(history: &History<S>, drawn: &Drawn) -> Result<Vec<Break>, Error> {
     let trip = drawn.rod.round_trip();
     let [from, to] = drawn.span;
     let inside = |time: &f64| *time >= from - 1.001 * trip && *time <= to;
@@ -242,11 +222,11 @@ fn breaks<S: Target>(history: &History<S>, drawn: &Gathered) -> Result<Vec<Break
     if drawn.rod.damping == 0.0 {
         let waves = history.waves()?.map(|x| x.to_f64());
         let greatest = waves.pieces.iter().map(|piece| piece.rate.abs()).fold(f64::MIN_POSITIVE, f64::max);
-        breaks.extend(waves.pieces.windows(2).filter(|pair| inside(&pair[1].from)).map(|pair| {
+        let of = |pair: &[WavePiece<f64>]| {
             let jump = (pair[1].rate - pair[0].at(&pair[1].from).1).abs();
             Break { time: pair[1].from, jump: jump > 1e-9 * greatest, share: jump / greatest }
-        }));
-        return Ok(breaks);
+        };
+        return Ok(waves.pieces.windows(2).filter(|pair| inside(&pair[1].from)).map(of).collect_vec());
     }
     // A ray of a damped rod comes back for ever, and fades.
     let faded = drawn.rod.damping.recip() * -FADED.ln();
@@ -260,14 +240,11 @@ fn breaks<S: Target>(history: &History<S>, drawn: &Gathered) -> Result<Vec<Break
         let mut found = Vec::with_capacity(rays.len());
         for ray in rays {
             let time = ray.time.clone() + &late;
-            let known = ray.jump && few && time.to_f64() > 0.0 && time.to_f64() < end.to_f64();
-            let jump = match known {
-                true => {
-                    let [left, right] = [Side::Left, Side::Right].map_each(|side| motion.field(&middle, &time, side));
-                    Some((right?.strain.to_f64() - left?.strain.to_f64()).abs())
-                }
-                false => None,
-            };
+            let mut jump = None;
+            if ray.jump && few && time.to_f64() > 0.0 && time.to_f64() < end.to_f64() {
+                let [left, right] = [Side::Left, Side::Right].map_each(|side| motion.field(&middle, &time, side));
+                jump = Some((right?.strain.to_f64() - left?.strain.to_f64()).abs());
+            }
             found.push((ray, jump));
         }
         Ok(found)
@@ -287,7 +264,7 @@ fn breaks<S: Target>(history: &History<S>, drawn: &Gathered) -> Result<Vec<Break
 const FADED: f64 = 1e-3;
 
 /// Times at which lines are drawn: evenly spaced, at events, and where rays are at the ends.
-fn times<S: Scalar>(motion: &dyn Motion<S>, drawn: &Gathered, breaks: &[Break]) -> Result<Vec<S>, Error> {
+fn times<S: Scalar>(motion: &dyn Motion<S>, drawn: &Drawn, breaks: &[Break]) -> Result<Vec<S>, Error> {
     let (end, [from, to]) = (motion.end(), drawn.span);
     let trip = drawn.rod.round_trip();
     let count = if breaks.len() > MOST_BREAKS { DENSE } else { POINTS };
@@ -325,7 +302,7 @@ fn times<S: Scalar>(motion: &dyn Motion<S>, drawn: &Gathered, breaks: &[Break]) 
 }
 
 /// `v(x,t)` of points along the rod.
-fn world_lines<S: Target>(history: &History<S>, drawn: &Gathered, breaks: &[Break]) -> Result<Vec<(f64, Line)>, Error> {
+fn world_lines<S: Target>(history: &History<S>, drawn: &Drawn, breaks: &[Break]) -> Result<Vec<(f64, Line)>, Error> {
     let inner: Vec<f64> = mapped(0..WORLD, |k| k as f64 / (WORLD - 1) as f64);
     let found = history.ask(
         |motion| {

@@ -71,33 +71,12 @@ impl Picture {
 }
 
 impl Along {
-    /// What it is with these units: a stress where there is a modulus.
-    pub(super) fn measure(self, units: &Units) -> Measure {
+    /// What it is with these units, a stress where there is a modulus, with its symbol and its name.
+    pub(super) fn told(self, units: &Units) -> (Measure, &'static str, &'static str) {
         match self {
-            Along::Stress if units.has_material() => Measure::Stress,
-            Along::Stress | Along::Strain => Measure::Strain,
-            Along::Velocity => Measure::Velocity,
-        }
-    }
-
-    pub(super) fn factor(self, units: &Units) -> f64 {
-        units.factor::<f64>(self.measure(units), &()).unwrap_or(1.0)
-    }
-
-    /// `E v_x`.
-    pub(super) fn symbol(self, units: &Units) -> &'static str {
-        match self.measure(units) {
-            Measure::Stress => "E v_x",
-            Measure::Velocity => "v_t",
-            _ => "v_x",
-        }
-    }
-
-    pub(super) fn name(self, units: &Units) -> &'static str {
-        match self.measure(units) {
-            Measure::Stress => "stress",
-            Measure::Velocity => "velocity",
-            _ => "strain",
+            Along::Stress if units.has_material() => (Measure::Stress, "E v_x", "stress"),
+            Along::Stress | Along::Strain => (Measure::Strain, "v_x", "strain"),
+            Along::Velocity => (Measure::Velocity, "v_t", "velocity"),
         }
     }
 }

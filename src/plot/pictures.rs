@@ -1,12 +1,14 @@
 //! Panels of what a history answers.
 
+use std::collections::BTreeMap;
+
 use glam::DVec2;
 
 use super::cells::{Break, Cells, MOST_RAYS, Values};
 use super::gather::{Asked, Gathered, Line, UNSEEN};
-use super::picture::{Along, Picture};
+use super::picture::Picture;
 use crate::draw::{
-    AREAS, Anchor, Axis, Key, LINES, Layer, Mark, Panel, Piece, Shape, Sheet, Stroke, diverging, plain, thinned,
+    AREAS, Anchor, Axis, Key, LINES, Mark, Panel, Piece, Shape, Sheet, Stroke, diverging, plain, thinned,
 };
 use crate::mapped::{CollectVec, MapEach, mapped};
 use crate::number::Scalar;
@@ -55,27 +57,17 @@ pub(crate) fn sheet(asked: &Asked, scenes: &[Gathered], title: Vec<String>) -> R
                     panels.push(panel);
                 }
                 let of_scene = &mut panels[first..];
-                let [low, high] = of_scene.iter().fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], panel| {
-                    [low.min(panel.y.from), high.max(panel.y.to)]
-                });
-                for panel in of_scene {
-                    panel.y.widen([low, high]);
-                }
+                let low = of_scene.iter().map(|panel| panel.y.from).fold(f64::INFINITY, f64::min);
+                let high = of_scene.iter().map(|panel| panel.y.to).fold(f64::NEG_INFINITY, f64::max);
+                of_scene.iter_mut().for_each(|panel| (panel.y.from, panel.y.to) = (low, high));
             }
             _ => panels.push(lines(*picture, scenes)?),
         }
     }
+    let mut sheet = Sheet { title, panels };
     // One legend tells the scenes apart.
-    if scenes.len() > 1 {
-        let names: Vec<String> = mapped(scenes, |scene| plain(&scene.name));
-        let mut told = false;
-        for panel in &mut panels {
-            let tells = panel.legend.iter().any(|key| names.iter().any(|name| key.text() == name));
-            panel.legend.retain(|key| !told || !names.iter().any(|name| key.text() == name));
-            told |= tells;
-        }
-    }
-    Ok(Sheet { title, panels })
+    sheet.say_once(|text| scenes.len() > 1 && scenes.iter().any(|scene| text == plain(&scene.name)));
+    Ok(sheet)
 }
 
 pub(super) fn time_axis(scenes: &[Gathered]) -> Axis {
@@ -85,44 +77,37 @@ pub(super) fn time_axis(scenes: &[Gathered]) -> Axis {
 }
 
 fn points(line: &[(f64, f64)]) -> Vec<DVec2> {
-    thinned(mapped(line, |(t, value)| DVec2::new(*t, *value)))
+    mapped(line, |point| (*point).into())
 }
 
-/// The times on the ground, with their keys: bands from the lower edge up to a height, and a mark above that edge for
-/// each that is too short for a band.
-fn contacts(scene: &Gathered, x: &Axis, y: &Axis, high: f64) -> Vec<(Layer, Key)> {
+/// Adds the times on the ground: bands from the lower edge up to a height, and a mark above that edge for each that is
+/// too short for a band.
+fn contacts(panel: &mut Panel, scene: &Gathered, high: f64) {
+    let Panel { x, y, .. } = &*panel;
     // One that the span cuts is drawn as far as it is in it.
     let cut = |[from, to]: &[f64; 2]| *from < x.from || *to > x.to;
     let short = |contact: &[f64; 2]| contact[1] - contact[0] < SHORT * (x.to - x.from) && !cut(contact);
     let (marks, bands): (Vec<[f64; 2]>, Vec<[f64; 2]>) = scene.contacts.iter().copied().partition(short);
     let band = |[from, to]: &[f64; 2]| {
-        [(*from, y.from), (*to, y.from), (*to, high), (*from, high)]
-            .map_each(|(t, value)| DVec2::new(t, value))
-            .to_vec()
+        [(*from, y.from), (*to, y.from), (*to, high), (*from, high)].map_each(DVec2::from).to_vec()
     };
     let height = y.from + 0.5 * FLOOR * (y.to - y.from);
     let mark = |[from, to]: &[f64; 2]| DVec2::new((0.5 * (from + to)).clamp(x.from, x.to), height);
-    let bands = (!bands.is_empty()).then(|| {
-        let bands = Shape::Areas(mapped(&bands, band), CONTACT);
-        (Layer::new("contacts", bands), Key::Area("contact".into(), CONTACT))
-    });
-    let marks = (!marks.is_empty()).then(|| {
-        let marks = Shape::Marks(mapped(&marks, mark), Mark::Triangle, CONTACT);
-        (Layer::new("contacts", marks), Key::Mark("short contact".into(), Mark::Triangle, CONTACT))
-    });
-    bands.into_iter().chain(marks).collect_vec()
+    let (bands, marks) = (mapped(&bands, band), mapped(&marks, mark));
+    if !bands.is_empty() {
+        panel.add("contacts", Shape::Areas(bands, CONTACT));
+        panel.legend.push(Key::Area("contact".into(), CONTACT));
+    }
+    if !marks.is_empty() {
+        panel.add("contacts", Shape::Marks(marks, Mark::Triangle, CONTACT));
+        panel.legend.push(Key::Mark("short contact".into(), Mark::Triangle, CONTACT));
+    }
 }
 
-fn zero(x: &Axis) -> Layer {
-    let line = vec![DVec2::new(x.from, 0.0), DVec2::new(x.to, 0.0)];
-    Layer::new("zero", Shape::Lines(vec![line], Stroke::new("#808080", 0.15)))
-}
-
-/// One line of a scene: its smooth stretches, with the symbol of the quantity.
-struct Curve<'a> {
-    symbol: &'static str,
-    scene: &'a Gathered,
-    stretches: Vec<Line>,
+/// Adds a line at a height.
+fn level(panel: &mut Panel, y: f64) {
+    let line = [panel.x.from, panel.x.to].map_each(|x| DVec2::new(x, y)).to_vec();
+    panel.add("zero", Shape::Lines(vec![line], Stroke::new("#808080", 0.15)));
 }
 
 /// Lines over time, or over bounces, of all scenes.
@@ -130,18 +115,14 @@ fn lines(picture: Picture, scenes: &[Gathered]) -> Result<Panel, String> {
     if picture == Picture::Restitution {
         return Ok(restitution(scenes));
     }
-    let mut curves: Vec<Curve<'_>> = Vec::new();
-    for scene in scenes {
-        match picture {
-            Picture::Stress => curves.push(stress(scene)),
-            picture => curves.extend(picture.columns().into_iter().map(|column| {
-                let found = scene.columns.iter().find(|found| found.0 == column);
-                let stretches = found.map_or_else(Vec::new, |found| found.1.clone());
-                Curve { symbol: symbol(column), scene, stretches }
-            })),
-        }
-    }
-    let units: Vec<&str> = mapped(scenes, |scene| unit(picture, scene));
+    let columns = if picture == Picture::Stress { vec![Quantity::Stress] } else { picture.columns() };
+    let stretches = |scene, column| if picture == Picture::Stress { stress(scene) } else { scene.lines(column) };
+    let curves = scenes.iter().flat_map(|scene| columns.iter().map(move |column| (scene, *column)));
+    let curves: Vec<(&Gathered, Vec<Line>)> = mapped(curves, |(scene, column)| (scene, stretches(scene, column)));
+    let units: Vec<&str> = mapped(scenes, |scene| match picture {
+        Picture::Stress if !scene.units.has_material() => "",
+        _ => columns[0].unit(&scene.units),
+    });
     if let Some(other) = units.iter().find(|unit| **unit != units[0]) {
         let name = |unit: &str| if unit.is_empty() { "none".into() } else { format!("`{unit}`") };
         return Err(format!("found scenes in different units, {} and {}", name(units[0]), name(other)));
@@ -155,44 +136,40 @@ fn lines(picture: Picture, scenes: &[Gathered]) -> Result<Panel, String> {
         _ => ("both ends and the centre of mass", "displacement"),
     };
     let x = time_axis(scenes);
-    let values = curves.iter().flat_map(|curve| curve.stretches.iter().flatten()).map(|(_, value)| *value);
+    let values = curves.iter().flat_map(|curve| curve.1.iter().flatten()).map(|(_, value)| *value);
     let y = Axis::new(label, units.first().copied().unwrap_or(""), Axis::range(values, true));
-    let (mut layers, mut legend) = (Vec::new(), Vec::new());
+    let mut panel = Panel::new(title, x, y);
     if let [scene] = scenes {
-        (layers, legend) = contacts(scene, &x, &y, y.to).into_iter().unzip();
+        let high = panel.y.to;
+        contacts(&mut panel, scene, high);
     }
-    layers.push(zero(&x));
-    let each = curves.len() / scenes.len().max(1);
-    for (k, curve) in curves.iter().enumerate() {
-        let (of_scene, of_quantity) = (k / each.max(1), k % each.max(1));
+    level(&mut panel, 0.0);
+    let each = columns.len();
+    for (k, (scene, stretches)) in curves.iter().enumerate() {
+        let (of_scene, of_quantity) = (k / each, k % each);
         // One scene has a colour for each quantity, several a colour for each scene. Dashes show a line below that
         // coincides with them.
         let color = if scenes.len() == 1 { of_quantity } else { of_scene };
         let look = Stroke::new(LINES[color % LINES.len()], WIDTH).dashed(DASHES[of_quantity % DASHES.len()]);
-        let jumps = curve.stretches.windows(2).filter_map(|pair| {
-            let ends = [pair[0].last()?, pair[1].first()?];
-            Some(ends.map(|(t, value)| DVec2::new(*t, *value)).to_vec())
-        });
+        let jumps = stretches.windows(2).filter_map(|pair| Some(points(&[*pair[0].last()?, *pair[1].first()?])));
         let jumps: Vec<Vec<DVec2>> = jumps.collect_vec();
         if !jumps.is_empty() && jumps.len() <= MOST_JUMPS {
-            layers.push(Layer::new("jumps", Shape::Lines(jumps, Stroke { width: 0.15, dash: JUMP, ..look })));
+            panel.add("jumps", Shape::Lines(jumps, Stroke { width: 0.15, dash: JUMP, ..look }));
         }
-        let stretches = curve.stretches.iter().filter(|stretch| stretch.len() > 1);
-        layers.push(Layer::new("curve", Shape::Lines(stretches.map(|stretch| points(stretch)).collect_vec(), look)));
-        match (scenes.len(), each) {
-            (1, 1) => (),
-            (1, _) => legend.push(Key::Line(curve.symbol.into(), look)),
-            _ if of_quantity == 0 => legend.push(Key::Line(plain(&curve.scene.name), look)),
-            _ => (),
+        let stretches = stretches.iter().filter(|stretch| stretch.len() > 1);
+        panel.add("curve", Shape::Lines(stretches.map(|stretch| thinned(points(stretch))).collect_vec(), look));
+        if scenes.len() > 1 && of_quantity == 0 {
+            panel.legend.push(Key::Line(plain(&scene.name), look));
+        } else if scenes.len() == 1 && each > 1 {
+            panel.legend.push(Key::Line(symbol(columns[of_quantity]).into(), look));
         }
     }
     if scenes.len() > 1 && each > 1 {
-        let keys = curves.iter().take(each).zip(DASHES.iter().cycle());
-        legend.extend(
-            keys.map(|(curve, dash)| Key::Line(curve.symbol.into(), Stroke::new("#000000", WIDTH).dashed(dash))),
-        );
+        for (column, dash) in columns.iter().zip(DASHES.iter().cycle()) {
+            panel.legend.push(Key::Line(symbol(*column).into(), Stroke::new("#000000", WIDTH).dashed(dash)));
+        }
     }
-    Ok(Panel { title: title.into(), x, y, layers, legend })
+    Ok(panel)
 }
 
 /// What a column is, in a few words.
@@ -215,16 +192,8 @@ fn symbol(column: Quantity) -> &'static str {
     }
 }
 
-fn unit(picture: Picture, scene: &Gathered) -> &'static str {
-    match picture {
-        Picture::Stress if scene.units.has_material() => scene.units.name(Measure::Stress),
-        Picture::Motion => scene.units.name(Measure::Length),
-        Picture::Quantity(column) => column.unit(&scene.units),
-        Picture::Along | Picture::Stress | Picture::Energy | Picture::Restitution => "",
-    }
-}
-
-fn stress(scene: &Gathered) -> Curve<'_> {
+/// The stress at the ground, or without a material the strain.
+fn stress(scene: &Gathered) -> Vec<Line> {
     let factor = scene.units.factor::<f64>(Measure::Stress, &()).unwrap_or(1.0);
     let peak =
         scene.stress.iter().flat_map(|piece| [piece.left, piece.right]).fold(0.0, |peak, v| f64::max(peak, v.abs()));
@@ -239,63 +208,56 @@ fn stress(scene: &Gathered) -> Curve<'_> {
             _ => stretches.push(ends.to_vec()),
         }
     }
-    Curve { symbol: "v_x(0,t)", scene, stretches }
+    stretches
 }
 
 fn restitution(scenes: &[Gathered]) -> Panel {
     let series = [("e_P", Mark::Diamond), ("e_E²", Mark::Dot)];
     let values = scenes.iter().flat_map(|scene| scene.restitution.iter().flatten().flatten().copied());
+    let y = Axis::new("restitution", "", Axis::range(values.chain([1.0]), true));
     let most = scenes.iter().map(|scene| scene.restitution.len()).max().unwrap_or(0);
     if most <= 1 {
-        return single_bounce(scenes, series.map(|(name, _)| name));
+        return single_bounce(scenes, series.map(|(name, _)| name), y);
     }
-    let mut x = Axis::new("bounce", "", [0.5, most.max(1) as f64 + 0.5]);
+    let mut x = Axis::new("bounce", "", [0.5, most as f64 + 0.5]);
     if most <= 12 {
         x.ticks = Some(mapped(1..=most, |k| (k as f64, k.to_string())));
     }
-    let y = Axis::new("restitution", "", Axis::range(values.chain([1.0]), true));
-    let one = vec![DVec2::new(x.from, 1.0), DVec2::new(x.to, 1.0)];
-    let mut layers = vec![Layer::new("zero", Shape::Lines(vec![one], Stroke::new("#808080", 0.15)))];
-    let mut legend = Vec::new();
+    let mut panel = Panel::new("restitution of each bounce", x, y);
+    level(&mut panel, 1.0);
     for (s, scene) in scenes.iter().enumerate() {
+        let of = if scenes.len() == 1 { String::new() } else { format!(", {}", plain(&scene.name)) };
         for (q, (name, mark)) in series.into_iter().enumerate() {
             let color = LINES[if scenes.len() == 1 { q } else { s } % LINES.len()];
             let numbered = scene.restitution.iter().enumerate().collect_vec();
             // No line over a bounce for which it is not defined.
-            let stretches = numbered.split(|(_, pair)| pair[q].is_none()).map(|known| {
-                known.iter().filter_map(|(k, pair)| Some(DVec2::new((k + 1) as f64, pair[q]?))).collect_vec()
-            });
-            let lines: Vec<Vec<DVec2>> = stretches.filter(|line| !line.is_empty()).collect_vec();
-            let dots = lines.concat();
-            let line = Stroke { dash: DASHES[q], ..Stroke::new(color, 0.15) };
-            layers.push(Layer::new("curve", Shape::Lines(lines, line)));
-            layers.push(Layer::new("marks", Shape::Marks(dots, mark, color)));
-            let of = if scenes.len() == 1 { String::new() } else { format!(", {}", plain(&scene.name)) };
-            legend.push(Key::Mark(format!("{name}{of}"), mark, color));
+            let stretches = numbered.split(|(_, pair)| pair[q].is_none()).filter(|known| !known.is_empty());
+            let place = |(k, pair): &(usize, &[Option<f64>; 2])| Some(DVec2::new((k + 1) as f64, pair[q]?));
+            let lines = stretches.map(|known| known.iter().filter_map(place).collect_vec()).collect_vec();
+            panel.add("curve", Shape::Lines(lines.clone(), Stroke::new(color, 0.15).dashed(DASHES[q])));
+            panel.add("marks", Shape::Marks(lines.concat(), mark, color));
+            panel.legend.push(Key::Mark(format!("{name}{of}"), mark, color));
         }
     }
-    Panel { title: "restitution of each bounce".into(), x, y, layers, legend }
+    panel
 }
 
 /// Bars, where no scene has a second bounce: a group for each coefficient, in it one for each scene. The value of a
 /// single scene stands below its bar, those of a few above theirs.
-fn single_bounce(scenes: &[Gathered], names: [&str; 2]) -> Panel {
+fn single_bounce(scenes: &[Gathered], names: [&str; 2], mut y: Axis) -> Panel {
     let value = |scene: &Gathered, q: usize| scene.restitution.first().and_then(|pair| pair[q]);
     let text = |value: Option<f64>, digits: u32| value.map_or_else(|| "none".into(), |value| value.decimal(digits));
     let mut x = Axis::new("first bounce", "", [0.4, 2.6]);
     let tick = |(q, of): (usize, &str)| match scenes {
-        [scene] => format!("{} = {} ({of})", names[q], text(value(scene, q), 4)),
-        _ => format!("{} ({of})", names[q]),
+        [scene] => (q as f64 + 1.0, format!("{} = {} ({of})", names[q], text(value(scene, q), 4))),
+        _ => (q as f64 + 1.0, format!("{} ({of})", names[q])),
     };
-    let of = ["momentum", "energy"].into_iter().enumerate();
-    x.ticks = Some(mapped(of, |(q, of)| (q as f64 + 1.0, tick((q, of)))));
-    let values = scenes.iter().flat_map(|scene| scene.restitution.iter().flatten().flatten().copied());
-    let mut y = Axis::new("restitution", "", Axis::range(values.chain([1.0]), true));
+    x.ticks = Some(mapped(["momentum", "energy"].into_iter().enumerate(), tick));
     let letters = 0.1 * (y.to - y.from);
     y.to += if scenes.len() > 1 { letters } else { 0.0 };
-    let one = vec![DVec2::new(x.from, 1.0), DVec2::new(x.to, 1.0)];
     let wide = 0.8 / scenes.len().max(1) as f64;
-    let (mut layers, mut notes, mut legend) = (Vec::new(), Vec::new(), Vec::new());
+    let mut panel = Panel::new("restitution of the bounce", x, y);
+    let mut notes = Vec::new();
     for (s, scene) in scenes.iter().enumerate() {
         let color = LINES[s % LINES.len()];
         let mut bars = Vec::new();
@@ -304,32 +266,32 @@ fn single_bounce(scenes: &[Gathered], names: [&str; 2]) -> Panel {
             let corner = |side: f64, height: f64| DVec2::new(left + side * wide, height);
             let value = value(scene, q);
             bars.extend(
-                value.map(|top| [(0.1, 0.0), (0.9, 0.0), (0.9, top), (0.1, top)].map_each(|(a, b)| corner(a, b))),
+                value.map(|top| {
+                    [(0.1, 0.0), (0.9, 0.0), (0.9, top), (0.1, top)].map_each(|(a, b)| corner(a, b)).to_vec()
+                }),
             );
             // No line goes through a text.
             let top = value.unwrap_or(0.0).max(0.0);
             let above = if top + letters > 1.0 { top.max(1.0) } else { top } + 0.15 * letters;
-            notes.push(Layer::new("note", Shape::Note(corner(0.5, above), Anchor::Middle, text(value, 3))));
+            notes.push(Shape::Note(corner(0.5, above), Anchor::Middle, text(value, 3)));
         }
-        layers.push(Layer::new("bars", Shape::Areas(mapped(bars, |bar| bar.to_vec()), color)));
+        panel.add("bars", Shape::Areas(bars, color));
         if scenes.len() > 1 {
-            legend.push(Key::Area(plain(&scene.name), color));
+            panel.legend.push(Key::Area(plain(&scene.name), color));
         }
     }
-    layers.push(zero(&x));
-    layers.push(Layer::new("zero", Shape::Lines(vec![one], Stroke::new("#808080", 0.15))));
-    layers.extend(notes.into_iter().filter(|_| (2..=MOST_TOLD).contains(&scenes.len())));
-    Panel { title: "restitution of the bounce".into(), x, y, layers, legend }
+    [0.0, 1.0].into_iter().for_each(|y| level(&mut panel, y));
+    if (2..=MOST_TOLD).contains(&scenes.len()) {
+        notes.into_iter().for_each(|note| panel.add("note", note));
+    }
+    panel
 }
 
 /// Energies on top of each other: gravity from its least, the motion of the centre of mass, the vibration. The upper
 /// edge is `E`.
 fn energy(scene: &Gathered, scenes: &[Gathered]) -> Panel {
-    let column = |column: Quantity| {
-        let found = scene.columns.iter().find(|found| found.0 == column);
-        found.map_or_else(Vec::new, |found| found.1.concat())
-    };
-    let edges = [Quantity::GravityEnergy, Quantity::TranslationalEnergy, Quantity::Energy].map_each(column);
+    let edges = [Quantity::GravityEnergy, Quantity::TranslationalEnergy, Quantity::Energy];
+    let edges = edges.map_each(|column| scene.lines(column).concat());
     let least = edges[0].iter().map(|(_, value)| *value).fold(f64::INFINITY, f64::min);
     let base = if least.is_finite() { least.min(0.0) } else { 0.0 };
     let x = time_axis(scenes);
@@ -341,79 +303,63 @@ fn energy(scene: &Gathered, scenes: &[Gathered]) -> Panel {
     let y = Axis::new("E", unit, [floor, most + space]);
     let gravity = if base < 0.0 { format!("gravity, from {} up", y.shown(base)) } else { "gravity".into() };
     let names = [gravity, "centre of mass".into(), "vibration E_z".into()];
+    let mut panel = Panel::new("energy: the upper edge is E", x, y);
     let mut below: Vec<DVec2> = mapped(&edges[0], |(t, _)| DVec2::new(*t, base));
-    let (mut layers, mut legend) = (Vec::new(), Vec::new());
     // Without gravity its layer is empty.
     let weightless = scene.rod.gravity == 0.0;
     for ((edge, name), color) in edges.iter().zip(names).zip(AREAS).skip(usize::from(weightless)) {
-        let edge: Vec<DVec2> = mapped(edge, |(t, value)| DVec2::new(*t, *value));
+        let edge = points(edge);
         let area = [thinned(edge.clone()), thinned(below).into_iter().rev().collect_vec()].concat();
-        layers.push(Layer::new("area", Shape::Areas(vec![area], color)));
-        legend.push(Key::Area(name, color));
+        panel.add("area", Shape::Areas(vec![area], color));
+        panel.legend.push(Key::Area(name, color));
         below = edge;
     }
-    layers.push(Layer::new("curve", Shape::Lines(vec![thinned(below)], Stroke::new("#000000", 0.25))));
-    layers.push(zero(&x));
-    let (bars, keys): (Vec<Layer>, Vec<Key>) = contacts(scene, &x, &y, base).into_iter().unzip();
-    layers.extend(bars);
-    legend.extend(keys);
-    Panel { title: "energy: the upper edge is E".into(), x, y, layers, legend }
+    panel.add("curve", Shape::Lines(vec![thinned(below)], Stroke::new("#000000", 0.25)));
+    level(&mut panel, 0.0);
+    contacts(&mut panel, scene, base);
+    panel
 }
 
 /// The rod over time.
 fn along(asked: &Asked, scene: &Gathered, scenes: &[Gathered]) -> Panel {
     let x = time_axis(scenes);
-    let unit = scene.units.name(Measure::Length);
     if asked.deformed {
         return world(scene, x);
     }
-    let length = scene.rod.length;
-    let y = Axis::new("x", unit, [-FLOOR * length, length]);
-    let (mut layers, mut legend) = (Vec::new(), Vec::new());
+    let (length, units) = (scene.rod.length, &scene.units);
+    let (measure, symbol, name) = asked.along.told(units);
+    let coarse = if scene.coarse().is_some() { ", too coarse for its waves" } else { "" };
+    let title = format!("{name} along the rod{coarse}");
+    let mut panel = Panel::new(title, x, Axis::new("x", units.name(Measure::Length), [-FLOOR * length, length]));
     if let Some(cells) = &scene.cells {
         // Scenes side by side have one scale of colours.
         let greatest = scenes.iter().filter_map(|scene| scene.cells.as_ref()).map(|cells| cells.greatest);
         let greatest = greatest.fold(0.0, f64::max);
-        layers.push(Layer::new("cells", field(cells, scene, greatest)));
-        layers.extend(rays(cells, scene));
-        legend.push(colors(asked.along, greatest, scene));
+        panel.add("cells", field(cells, scene, greatest));
+        rays(&mut panel, cells, scene);
+        let axis = Axis::new(symbol, units.name(measure), [-greatest, greatest]);
+        let most = axis.shown(greatest);
+        panel.legend.push(Key::Colors(axis.label, [format!("−{most}"), "0".into(), most]));
     }
-    let (bars, keys): (Vec<Layer>, Vec<Key>) = contacts(scene, &x, &y, 0.0).into_iter().unzip();
-    layers.extend(bars);
-    legend.extend(keys);
-    let coarse = if scene.coarse().is_some() { ", too coarse for its waves" } else { "" };
-    let title = format!("{} along the rod{coarse}", asked.along.name(&scene.units));
-    Panel { title, x, y, layers, legend }
-}
-
-/// The key to the colours.
-fn colors(along: Along, greatest: f64, scene: &Gathered) -> Key {
-    let unit = scene.units.name(along.measure(&scene.units));
-    let axis = Axis::new(along.symbol(&scene.units), unit, [-greatest, greatest]);
-    let most = axis.shown(greatest);
-    Key::Colors(axis.label, [format!("−{most}"), "0".into(), most])
+    contacts(&mut panel, scene, 0.0);
+    panel
 }
 
 fn field(cells: &Cells, scene: &Gathered, greatest: f64) -> Shape {
     let unit = if greatest > 0.0 { greatest } else { 1.0 };
     match &cells.values {
-        Values::Linear(pieces) => {
-            let share =
-                |piece: &Piece| Piece { middle: piece.middle / unit, slope: piece.slope / unit, ..piece.clone() };
-            Shape::Pieces(mapped(pieces, share))
-        }
+        Values::Linear(pieces) => Shape::Pieces(mapped(pieces, |piece| Piece {
+            middle: piece.middle / unit,
+            slope: piece.slope / unit,
+            ..piece.clone()
+        })),
         Values::Grid(across, values) => {
-            let rows = values.len() / across;
-            let [from, to] = scene.span;
-            let place = |column: usize, row: usize| {
-                DVec2::new(
-                    from + (to - from) * column as f64 / *across as f64,
-                    scene.rod.length * row as f64 / rows as f64,
-                )
-            };
+            let (rows, [from, to]) = (values.len() / across, scene.span);
+            let time = |column: usize| from + (to - from) * column as f64 / *across as f64;
+            let place = |column, row: usize| DVec2::new(time(column), scene.rod.length * row as f64 / rows as f64);
             // Few colours, so that neighbours are often one rectangle.
             let color = |value: &f64| (value / unit * 24.0).round() as i32;
-            let mut runs: std::collections::BTreeMap<i32, Vec<[DVec2; 2]>> = std::collections::BTreeMap::new();
+            let mut runs: BTreeMap<i32, Vec<[DVec2; 2]>> = BTreeMap::new();
             for (row, values) in values.chunks(*across).enumerate() {
                 let mut column = 0;
                 for run in values.chunk_by(|a, b| color(a) == color(b)) {
@@ -427,8 +373,11 @@ fn field(cells: &Cells, scene: &Gathered, greatest: f64) -> Shape {
     }
 }
 
-/// Lines up from the ground and back: jumps, and what only bends the field.
-fn rays(cells: &Cells, scene: &Gathered) -> Vec<Layer> {
+/// Adds lines up from the ground and back: jumps, and what only bends the field.
+fn rays(panel: &mut Panel, cells: &Cells, scene: &Gathered) {
+    if cells.breaks.len() > MOST_RAYS {
+        return;
+    }
     let (length, trip) = (scene.rod.length, scene.rod.round_trip());
     let end = scene.span[1];
     let path = |from: f64| {
@@ -436,19 +385,19 @@ fn rays(cells: &Cells, scene: &Gathered) -> Vec<Layer> {
         let times = [from, from + 0.5 * trip, from + trip].map_each(|time| time.min(end));
         times.map(|time| DVec2::new(time, height(time))).to_vec()
     };
-    let few = |lines: &Vec<Vec<DVec2>>| !lines.is_empty() && cells.breaks.len() <= MOST_RAYS;
-    let of = |wanted: &dyn Fn(&Break) -> bool, class: &'static str, look: Stroke| {
-        let lines: Vec<Vec<DVec2>> =
-            cells.breaks.iter().filter(|ray| wanted(ray)).map(|ray| path(ray.time)).collect_vec();
-        Some(lines).filter(few).map(|lines| Layer::new(class, Shape::Lines(lines, look)))
+    let mut add = |wanted: &dyn Fn(&Break) -> bool, class: &'static str, look: Stroke| {
+        let rays = cells.breaks.iter().filter(|ray| wanted(ray));
+        let lines: Vec<Vec<DVec2>> = rays.map(|ray| path(ray.time)).collect_vec();
+        if !lines.is_empty() {
+            panel.add(class, Shape::Lines(lines, look));
+        }
     };
-    let mut layers: Vec<Layer> = of(&|ray| !ray.jump, "kinks", KINK).into_iter().collect_vec();
+    add(&|ray| !ray.jump, "kinks", KINK);
     let mut above = f64::INFINITY;
     for (least, look) in RAYS {
-        layers.extend(of(&|ray| ray.jump && ray.share >= least && ray.share < above, "rays", look));
+        add(&|ray| ray.jump && ray.share >= least && ray.share < above, "rays", look);
         above = least;
     }
-    layers
 }
 
 /// World lines of points along the rod, with displacements as large as they can be seen.
@@ -468,22 +417,17 @@ fn world(scene: &Gathered, x: Axis) -> Panel {
     let floor = heights().fold(0.0, f64::min) - FLOOR * (high - heights().fold(0.0, f64::min));
     let label = if times == 1.0 { "x + v".into() } else { format!("x + {times} v") };
     let y = Axis::new(&label, scene.units.name(Measure::Length), [floor, high]);
-    let body = match (lines.first(), lines.last()) {
-        (Some(low), Some(top)) => [low.clone(), top.iter().rev().copied().collect_vec()].concat(),
-        _ => Vec::new(),
-    };
-    let ends = [lines.first(), lines.last()].into_iter().flatten().cloned().collect_vec();
-    let inner = lines.iter().skip(1).take(lines.len().saturating_sub(2)).cloned().collect_vec();
-    let (bars, keys): (Vec<Layer>, Vec<Key>) = contacts(scene, &x, &y, 0.0).into_iter().unzip();
-    let mut layers = vec![
-        Layer::new("area", Shape::Areas(vec![body], AREAS[1])),
-        zero(&x),
-        Layer::new("curve", Shape::Lines(inner, Stroke::new("#000000", 0.12))),
-        Layer::new("curve", Shape::Lines(ends, Stroke::new(LINES[0], WIDTH))),
-    ];
-    layers.extend(bars);
-    let legend = [Key::Area("rod".into(), AREAS[1])].into_iter().chain(keys).collect_vec();
-    Panel { title: "the rod where it is".into(), x, y, layers, legend }
+    let mut panel = Panel::new("the rod where it is", x, y);
+    if let [low, inner @ .., top] = lines.as_slice() {
+        let body = [low.clone(), top.iter().rev().copied().collect_vec()].concat();
+        panel.add("area", Shape::Areas(vec![body], AREAS[1]));
+        level(&mut panel, 0.0);
+        panel.add("curve", Shape::Lines(inner.to_vec(), Stroke::new("#000000", 0.12)));
+        panel.add("curve", Shape::Lines(vec![low.clone(), top.clone()], Stroke::new(LINES[0], WIDTH)));
+    }
+    panel.legend.push(Key::Area("rod".into(), AREAS[1]));
+    contacts(&mut panel, scene, 0.0);
+    panel
 }
 
 #[cfg(test)]

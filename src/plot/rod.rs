@@ -4,6 +4,7 @@ use glam::DVec2;
 
 use crate::draw::{AREAS, Anchor, Stroke, Svg, diverging};
 use crate::error::Error;
+use crate::mapped::mapped;
 use crate::motion::{Motion, Side};
 use crate::number::Scalar;
 use crate::problem::{Problem, Top};
@@ -87,11 +88,11 @@ impl Pose {
         let length = problem.rod.length.to_f64();
         let query = |motion: &dyn Motion<S::Carried>| {
             let time = motion.end().double(time);
-            let points: Vec<_> = (0..=PARTS).map(|k| time.double(length * k as f64 / PARTS as f64)).collect();
+            let points = mapped(0..=PARTS, |k| time.double(length * k as f64 / PARTS as f64));
             let rates = motion.rates(&points, std::slice::from_ref(&time))?;
             let energy = motion.energy(&time)?;
             Ok(Found {
-                strains: rates.iter().map(|[_, strain]| strain.to_f64()).collect(),
+                strains: mapped(rates, |[_, strain]| strain.to_f64()),
                 end: motion.ground_end(&time, Side::Right)?.0.to_f64(),
                 centre: motion.centre(&time)?.0.to_f64(),
                 energy: [energy.translational.to_f64(), energy.vibrational.to_f64()],
@@ -116,23 +117,17 @@ impl Pose {
 
         let mut svg = Svg::new(width, height, letters);
         let part = length / PARTS as f64;
-        let (mut shift, mut low) = (found.end, place(factor * found.end));
-        let foot = low;
-        let mut shown: Vec<(f64, String)> = Vec::new();
-        for (k, ends) in found.strains.windows(2).enumerate() {
+        let (mut shift, foot) = (found.end, place(factor * found.end));
+        let mut low = foot;
+        let shown = mapped(found.strains.windows(2).enumerate(), |(k, ends)| {
             let strain = (ends[0] + ends[1]) / 2.0;
             shift += strain * part;
-            let high = place(part * (k + 1) as f64 + factor * shift);
-            let color = diverging(if greatest > 0.0 { strain / greatest } else { 0.0 });
-            match shown.last_mut().filter(|last| last.1 == color) {
-                Some(last) => last.0 = high,
-                None => shown.push((high, color)),
-            }
-            low = high;
-        }
+            low = place(part * (k + 1) as f64 + factor * shift);
+            (low, diverging(if greatest > 0.0 { strain / greatest } else { 0.0 }))
+        });
         // Each reaches to the foot, and the next one covers it: neighbours leave no seam.
-        for (high, color) in shown.into_iter().rev() {
-            svg.rectangles(&[[DVec2::new(left, high), DVec2::new(left + thick, foot)]], &color);
+        for (high, color) in shown.chunk_by(|a, b| a.1 == b.1).rev().filter_map(<[_]>::last) {
+            svg.rectangles(&[[DVec2::new(left, *high), DVec2::new(left + thick, foot)]], color);
         }
         svg.frame([DVec2::new(left, low), DVec2::new(left + thick, foot)], line(1.2));
         let middle = place(length / 2.0 + factor * found.centre);

@@ -19,7 +19,7 @@ use crate::special::BoundedSpecial;
 pub(crate) type Found<S> = Result<S, NoAnswer>;
 type Double = Estimate<f64>;
 
-/// Where and when a quantity is asked for: zero means nothing to one that has no place or time.
+/// Where and when a quantity is asked for; zeros where it has no place or no time.
 pub(crate) struct At<'a, S> {
     pub(super) rod: &'a Parameters<S>,
     pub(super) point: S,

@@ -54,8 +54,6 @@ struct Grid {
 ///
 /// **Accuracy**: an *f64 estimate*, of first order in `1/cells`; without damping the invariants are exact while events
 /// fall on steps.
-///
-/// **Errors**: those of the parameters.
 pub(crate) fn march(problem: &Problem, cells: usize) -> Result<Marched, Error> {
     let rod = Parameters::<f64>::of(problem, &())?;
     let (end, impacts) = match &problem.run {

@@ -14,11 +14,8 @@ pub(crate) const AVAILABLE: bool = true;
 /// Bits beyond the digits that the closed form is asked for.
 const SPARE_BITS: u32 = 16;
 
-/// The numbers that a formula is evaluated in to many digits.
-pub(crate) type Digits = Float;
-
 /// A formula in many digits; its argument makes `p/q` in that many.
-pub(crate) type Formula = fn(&dyn Fn(i32, i32) -> Digits) -> Digits;
+pub(crate) type Formula = fn(&dyn Fn(i32, i32) -> Float) -> Float;
 
 fn middle(value: &Value) -> Option<Rational> {
     match value {
@@ -39,10 +36,10 @@ pub(super) fn log10_apart(a: &Value, b: &Value) -> f64 {
     if apart.is_zero() { f64::NEG_INFINITY } else { apart.log10().to_f64() }
 }
 
-/// Whether an enclosure holds a number that is within `10^place` of `truth`, or `truth` itself for `place = None`.
-pub(super) fn holds(value: &Value, truth: &Value, place: Option<i32>) -> bool {
+/// Whether an enclosure holds a number that is within `10^place` of `truth`, a whole place or −∞.
+pub(super) fn holds(value: &Value, truth: &Value, place: f64) -> bool {
     let (Value::Enclosure(value), Some(truth)) = (value, middle(truth)) else { return false };
-    let slack = place.map_or_else(Rational::new, |place| Rational::from(10).pow(place));
+    let slack = if place.is_finite() { Rational::from(10).pow(place as i32) } else { Rational::new() };
     *value.lo() <= truth.clone() + &slack && *value.hi() >= truth - slack
 }
 

@@ -9,9 +9,7 @@ use crate::number::{Rational, Scalar};
 
 pub(crate) const AVAILABLE: bool = false;
 
-pub(crate) type Digits = f64;
-
-pub(crate) type Formula = fn(&dyn Fn(i32, i32) -> Digits) -> Digits;
+pub(crate) type Formula = fn(&dyn Fn(i32, i32) -> f64) -> f64;
 
 /// `log₁₀ |a − b|`. **Accuracy**: the difference is rounded once.
 pub(super) fn log10_apart(a: &Value, b: &Value) -> f64 {
@@ -23,7 +21,7 @@ pub(super) fn log10_apart(a: &Value, b: &Value) -> f64 {
     Scalar::to_f64(&(a - b)).abs().log10()
 }
 
-pub(super) fn holds(_: &Value, _: &Value, _: Option<i32>) -> bool {
+pub(super) fn holds(_: &Value, _: &Value, _: f64) -> bool {
     false
 }
 

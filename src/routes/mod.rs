@@ -32,4 +32,3 @@ mod value;
 pub(crate) use quantity::Question;
 pub(crate) use route::plan;
 pub(crate) use target::Published;
-pub(crate) use truth::RightDigits;

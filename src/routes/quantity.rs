@@ -31,15 +31,12 @@ pub(crate) struct Question {
     pub(crate) one: One,
     pub(crate) units: Units,
     pub(crate) claimed: Claimed,
-    /// Nothing before this time is asked for.
-    pub(crate) from: Option<f64>,
 }
 
 impl Question {
     /// `quantity` of `scene` at `time`; without one at three quarters of a round trip. Without a quantity it is the
-    /// bounce time, or, where the scene calls for more than one contact, the time of the last event.
-    ///
-    /// **Errors**: [`NoAnswer::GaveUp`] for a time below zero, or for a quantity that is not asked at a time.
+    /// bounce time, or, where the scene calls for more than one contact, the time of the last event. A time below zero
+    /// is refused, and one for a quantity that is not asked at a time.
     pub(crate) fn of_scene(scene: &Scene, quantity: Option<Quantity>, time: Option<Number>) -> Result<Self, NoAnswer> {
         let mut problem = scene.problem.clone();
         let quantity = quantity.unwrap_or(match problem.run {
@@ -62,18 +59,11 @@ impl Question {
             (None, _) => (),
         }
         let (one, units) = (One::new(quantity, time), Units::of(&problem, scene.units));
-        Ok(Question { problem, one, units, claimed: Claimed::Itself, from: None })
+        Ok(Question { problem, one, units, claimed: Claimed::Itself })
     }
 
     /// The answer of one account of the motion of `rod`.
     pub(crate) fn ask<S: System>(&self, rod: &Parameters<S>, motion: &dyn Account<S>) -> Result<Value, NoAnswer> {
-        let scales = Scales {
-            time: rod.round_trip(),
-            velocity: rod.speed.clone(),
-            length: rod.length.clone(),
-            wave_speed: rod.wave_speed.clone(),
-            gravity: rod.gravity.clone(),
-        };
         let quantity = self.one.quantity;
         let lift = |number: &Number| S::from_number(number, &rod.length.precision());
         let (zero, point) = (rod.length.zero(), self.one.point.as_ref().map(lift));
@@ -85,7 +75,7 @@ impl Question {
                 None if matches!(quantity.needs(), Needs::Time | Needs::PointAndTime) => bounce()?,
                 None => zero.clone(),
             };
-            Ok(quantity.in_unit(find(motion, quantity, &At { time, ..at(side) })?, &scales, &self.units))
+            Ok(quantity.in_unit(find(motion, quantity, &At { time, ..at(side) })?, &Scales::of(rod), &self.units))
         };
         // A release that is found without a bound counts as exact, as it does where values are asked at it.
         let unbounded = |time: &S| time.log2_error() == f64::INFINITY;

@@ -14,15 +14,15 @@ use crate::paper::{Printed, UndampedContact};
 use crate::problem::{Parameters, Problem, Run};
 use crate::quantity::{One, Quantity};
 pub(crate) use crate::solve::Numbers;
-use crate::solve::{self, Plan, Solution, Want};
+use crate::solve::{self, Plan, Solution};
 
 /// A route at a setting.
 #[derive(Clone, Copy, Debug)]
 pub(crate) enum Route {
     /// A formula in plain doubles, as it stands in print or as a reader would program it.
     Formula(&'static str, fn() -> f64),
-    /// A formula in numbers of so many digits.
-    LongFormula(&'static str, u32, long::Formula),
+    /// A formula in numbers of 36 digits.
+    LongFormula(&'static str, long::Formula),
     /// The closed form of the first contact, in these numbers alone.
     ClosedForm(Numbers),
     /// The paper's closed forms of `r = 0`, in fractions.
@@ -42,17 +42,6 @@ pub(crate) enum Route {
 }
 
 impl Route {
-    /// Whether it may need long numbers.
-    pub(crate) fn is_long(self) -> bool {
-        match self {
-            Route::ClosedForm(numbers) => !matches!(numbers, Numbers::Double(_)),
-            // An accuracy may take more than doubles.
-            Route::Planned(numbers) => numbers != Numbers::Double(None),
-            Route::LongFormula(..) => true,
-            _ => false,
-        }
-    }
-
     /// The answer of this route to `question`, in about so many seconds where it can stop itself.
     pub(crate) fn run(self, question: &Question, seconds: f64) -> Result<Value, NoAnswer> {
         let problem = &question.problem;
@@ -75,7 +64,7 @@ impl Route {
             }
             Route::Differences(cells) => question.ask(&Parameters::of(problem, &())?, &march(problem, cells)?),
             Route::Planned(numbers) => planned(question, numbers),
-            Route::LongFormula(_, digits, formula) => Ok(long::formula(digits, formula)),
+            Route::LongFormula(_, formula) => Ok(long::formula(36, formula)),
             Route::ClosedForm(Numbers::Digits(digits)) => long::closed_form(question, digits),
             Route::Lattice(Numbers::Exact) => question.ask_engine(&Undamped::<Rational>::solve(problem, &())?),
             Route::PrintedForms => {
@@ -89,19 +78,10 @@ impl Route {
     }
 }
 
-/// What the solver is asked so that it answers `question`, and no more.
-fn asked(question: &Question, numbers: Numbers) -> solve::Question {
-    let One { quantity, time, .. } = &question.one;
-    let asked = solve::Question::of(*quantity, time.as_ref(), numbers);
-    match (question.from.and_then(|from| from.to_string().parse().ok()), asked.want) {
-        (Some(from), Want::Between(_, to)) => solve::Question::between(from, to, numbers),
-        (_, want) => solve::Question { want, numbers },
-    }
-}
-
-/// The plan that answers `question` in these numbers.
+/// The plan that answers `question` in these numbers, and no more.
 pub(crate) fn plan(question: &Question, numbers: Numbers) -> Result<Plan, NoAnswer> {
-    Ok(Plan::of(&question.problem, &asked(question, numbers))?)
+    let One { quantity, time, .. } = &question.one;
+    Ok(Plan::of(&question.problem, &solve::Question::of(*quantity, time.as_ref(), numbers))?)
 }
 
 /// The answer to `question` as its plan finds it.

@@ -24,8 +24,6 @@ pub(crate) struct Published {
 
 impl Published {
     /// What `scene` lists, beside its history in doubles to its accuracy.
-    ///
-    /// **Errors**: those of the run, and [`Error::NoContact`].
     pub(crate) fn of(called: &str, scene: &Scene) -> Result<Self, Error> {
         let (problem, units) = (&scene.problem, Units::of(&scene.problem, scene.units));
         let numbers = Numbers::Double(scene.accuracy.as_ref().map(Number::to_f64));
@@ -41,8 +39,6 @@ impl Published {
     }
 
     /// Every built-in scene that has published values.
-    ///
-    /// **Errors**: those of [`of`](Self::of); no built-in scene has any.
     pub(crate) fn builtin() -> Result<Vec<Self>, Error> {
         let scenes = builtin::ALL.iter().filter_map(|builtin| Some((builtin.name, Scene::parse(builtin.source).ok()?)));
         scenes.filter(|(_, scene)| !scene.targets.is_empty()).map(|(name, scene)| Self::of(name, &scene)).collect()

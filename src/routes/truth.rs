@@ -15,30 +15,6 @@ pub(crate) struct Truth {
     pub(crate) log10_half_width: f64,
     /// Whether the value is exact or enclosed, not estimated.
     pub(crate) proved: bool,
-    /// The decimal place of the last digit of a truth that is spelt.
-    last_place: Option<i32>,
-}
-
-/// How many digits of an answer are right.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) enum RightDigits {
-    /// None can be counted: there is no number.
-    NoNumber,
-    /// `−log₁₀` of the relative error, as far as the truth is known.
-    Digits(f64),
-    /// The truth itself.
-    All,
-}
-
-impl RightDigits {
-    /// As a number: infinite for the truth itself, zero where there is nothing to count.
-    pub(crate) fn count(self) -> f64 {
-        match self {
-            RightDigits::NoNumber => 0.0,
-            RightDigits::Digits(digits) => digits,
-            RightDigits::All => f64::INFINITY,
-        }
-    }
 }
 
 impl Truth {
@@ -48,20 +24,16 @@ impl Truth {
         let number: Number = text.parse().ok()?;
         let (mantissa, exponent) = text.split_once('e').unwrap_or((text, "0"));
         // A whole unit: the last digit may have been cut instead of rounded.
-        let last_place = mantissa.split_once('.').map(|(_, after)| exponent.parse().unwrap_or(0) - after.len() as i32);
-        let log10_half_width = last_place.map_or(f64::NEG_INFINITY, f64::from);
-        Some(Truth { value: number.to_rational().into(), log10_half_width, proved: true, last_place })
+        let last_place = |after: &str| exponent.parse().unwrap_or(0.0) - after.len() as f64;
+        let log10_half_width = mantissa.split_once('.').map_or(f64::NEG_INFINITY, |(_, after)| last_place(after));
+        Some(Truth { value: number.to_rational().into(), log10_half_width, proved: true })
     }
 
     /// The answer to `question` with `digits` decimal digits or more: a fraction where the undamped run stays in
-    /// fractions, else an enclosure where there is one, else twice in long numbers by the
-    /// planned engine. A build without long numbers has its best doubles where fractions end.
-    ///
-    /// **Errors**: those of the solver; [`NoAnswer::NoSuchQuantity`].
+    /// fractions, else an enclosure where there is one, else twice in long numbers by the planned engine. A build
+    /// without long numbers has its best doubles where fractions end.
     pub(crate) fn computed(question: &Question, digits: u32) -> Result<Self, NoAnswer> {
-        let of = |value: Value, log10_half_width: f64, proved: bool| {
-            Ok(Truth { value, log10_half_width, proved, last_place: None })
-        };
+        let of = |value: Value, log10_half_width: f64, proved: bool| Ok(Truth { value, log10_half_width, proved });
         let run = |route: Route| route.run(question, f64::INFINITY);
         if question.problem.rod.damping.is_none()
             && let Ok(value) = run(Route::Lattice(Numbers::Exact))
@@ -110,18 +82,15 @@ impl Truth {
         self.log10_scale().floor() - self.log10_half_width
     }
 
-    /// How many digits of `value` are right: of an enclosure those that both ends have in common with the truth, none
-    /// where it lies outside.
-    pub(crate) fn right_digits(&self, value: &Value) -> RightDigits {
+    /// How many digits of `value` are right, `−log₁₀` of the relative error as far as the truth is known: of an enclosure
+    /// those that both ends have in common with the truth, none where it lies outside; infinite for the truth itself.
+    pub(crate) fn right_digits(&self, value: &Value) -> f64 {
         let log10_error = match value.log10_radius() {
             None => self.log10_error(value),
-            Some(_) if !long::holds(value, &self.value, self.last_place) => f64::INFINITY,
+            Some(_) if !long::holds(value, &self.value, self.log10_half_width) => f64::INFINITY,
             Some(radius) => radius - self.log10_scale(),
         };
-        if log10_error == f64::NEG_INFINITY && self.log10_half_width == f64::NEG_INFINITY {
-            return RightDigits::All;
-        }
-        RightDigits::Digits((-log10_error).clamp(0.0, self.most_digits()))
+        (-log10_error).clamp(0.0, self.most_digits())
     }
 }
 

@@ -7,20 +7,14 @@ use crate::problem::{Builder, Problem, ProblemError, Written};
 /// The most points of a sweep.
 const MOST_POINTS: usize = 10_000_000;
 
-/// What is wrong with a sweep.
+/// What is wrong with a sweep: what was found, and what was expected.
 #[derive(Debug, thiserror::Error)]
-pub(crate) enum SweepError {
-    /// What was found, and what was expected.
-    #[error("found {found}, expected {expected}")]
-    Refused { found: String, expected: String },
-    /// What is no list of numbers.
-    #[error("{0}")]
-    List(String),
-}
+#[error("{0}")]
+pub(crate) struct SweepError(String);
 
 impl SweepError {
-    pub(crate) fn new(found: impl Into<String>, expected: impl Into<String>) -> Self {
-        SweepError::Refused { found: found.into(), expected: expected.into() }
+    pub(crate) fn new(found: impl std::fmt::Display, expected: impl std::fmt::Display) -> Self {
+        SweepError(format!("found {found}, expected {expected}"))
     }
 }
 
@@ -50,20 +44,16 @@ impl std::str::FromStr for Axis {
     }
 }
 
-/// The values that a list spells.
-///
-/// **Accuracy**: listed values and both ends of a range as they are written; what lies between is the shortest decimal
-/// of the double.
-///
-/// **Errors**: [`SweepError`] for what is written otherwise.
+/// The values that a list spells: listed values and both ends of a range as they are written; what lies between is the
+/// shortest decimal of the double.
 pub(super) fn values(text: &str) -> Result<Vec<Number>, SweepError> {
-    let (list, geometric) = List::read(text, true).map_err(SweepError::List)?;
+    let (list, geometric) = List::read(text, true).map_err(SweepError)?;
     let List::Range(from, to, count) = list else { return Ok(list.numbers().unwrap_or_default()) };
     let (a, b, steps) = (from.to_f64(), to.to_f64(), f64::from(count - 1));
     let inner = |k: u32| {
         let k = f64::from(k);
         let value = if geometric { a * (b / a).powf(k / steps) } else { (a * (steps - k) + b * k) / steps };
-        Written::from(value).number().cloned().map_err(|error| SweepError::List(error.to_string()))
+        Written::from(value).number().cloned().map_err(|error| SweepError(error.to_string()))
     };
     let between = try_mapped(1..count - 1, inner)?;
     Ok(std::iter::once(from).chain(between).chain([to]).collect_vec())
@@ -77,9 +67,8 @@ pub(crate) struct Grid {
 }
 
 impl Grid {
-    /// The points of `problem` with the values of `axes` in place of its own.
-    ///
-    /// **Errors**: [`SweepError`] for an axis that comes twice, or for too many points.
+    /// The points of `problem` with the values of `axes` in place of its own. An axis that comes twice is refused, and
+    /// too many points.
     pub(crate) fn new(problem: Problem, axes: Vec<Axis>) -> Result<Self, SweepError> {
         for (k, axis) in axes.iter().enumerate() {
             if axes[..k].iter().any(|other| other.path == axis.path) {
@@ -112,8 +101,6 @@ impl Grid {
     }
 
     /// The problem of a point.
-    ///
-    /// **Errors**: [`ProblemError`] where its values do not go together.
     pub(crate) fn problem(&self, index: usize) -> Result<Problem, ProblemError> {
         let values = self.axes.iter().zip(self.values(index));
         values.fold(self.problem.to_builder(), |builder, (axis, value)| builder.at(axis.path, value)).build()

@@ -11,7 +11,7 @@ use std::sync::{Mutex, PoisonError};
 
 use serde_json::Value;
 
-use super::point::Point;
+use super::run::Point;
 
 /// The journal of a sweep that writes to a file.
 #[derive(Debug)]

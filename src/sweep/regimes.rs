@@ -2,6 +2,8 @@
 
 use std::collections::BTreeMap;
 
+use glam::DVec2;
+
 use super::contour::{Edge, crossed, loops};
 use super::grid::{Axis, Grid, SweepError, values};
 use crate::first_contact::{Bounce, FirstContact, Kernels};
@@ -33,7 +35,7 @@ pub(crate) struct Map {
     pub(crate) regimes: Vec<Regime>,
     /// For a picture, once [`Map::with_regions`] has found them: of each band the closed lines about it and all before
     /// it, in steps of the grid.
-    pub(crate) regions: Vec<Vec<Vec<[f64; 2]>>>,
+    pub(crate) regions: Vec<Vec<Vec<DVec2>>>,
 }
 
 /// The `t_b/t₁` up to which each band of a map reaches, in order.
@@ -51,13 +53,8 @@ impl Regime {
 }
 
 impl Map {
-    /// The map for the ranges `damping` of R and `speed` of M, as [`Axis`] has them; `done` is called after each point.
-    ///
-    /// **Source**: a rod with `t₁ = g = 1` has `R = r` and `M = μ`.
-    ///
-    /// **Accuracy**: within [`DEFAULT_ACCURACY`](crate::DEFAULT_ACCURACY); the same for any number of threads.
-    ///
-    /// **Errors**: [`SweepError`] for what is no range.
+    /// The map for the ranges `damping` of R and `speed` of M, as [`Axis`] has them: a rod with `t₁ = g = 1` has `R = r`
+    /// and `M = μ`. It is the same for any number of threads; `done` is called after each point.
     pub(crate) fn new(
         damping: &str,
         speed: &str,
@@ -88,8 +85,8 @@ impl Map {
             Ok(regimes)
         })?;
         let columns: Vec<Regime> = columns.concat();
-        let at = |k: usize| columns[k % dampings.len() * speeds.len() + k / dampings.len()];
-        let regimes = mapped(0..columns.len(), at);
+        let rows = (0..speeds.len()).flat_map(|row| columns.iter().skip(row).step_by(speeds.len()).copied());
+        let regimes = rows.collect_vec();
         Ok(Map { regimes, damping: dampings, speed: speeds, regions: Vec::new() })
     }
 
@@ -99,13 +96,13 @@ impl Map {
         let (dampings, speeds) = (Spread::of(&self.damping), Spread::of(&self.speed));
         let (across, up) = (self.damping.len(), self.speed.len());
         let rod = unit_rod();
-        let regime_at = |[x, y]: [f64; 2], kernels: &Kernels<Estimate<f64>>| {
-            regime(&rod, &dampings.number(x, &self.damping), &speeds.number(y, &self.speed), kernels).band()
+        let regime_at = |at: DVec2, kernels: &Kernels<Estimate<f64>>| {
+            regime(&rod, &dampings.number(at.x, &self.damping), &speeds.number(at.y, &self.speed), kernels).band()
         };
         // The points, about them those on the border of the picture, about these a ring that is in no band.
         let size = [across + 4, up + 4];
         let steps = |k: usize, count: usize| (k as f64 - 1.5).clamp(0.0, count as f64);
-        let place = |node: [usize; 2]| [steps(node[0], across), steps(node[1], up)];
+        let place = |node: [usize; 2]| DVec2::new(steps(node[0], across), steps(node[1], up));
         let Ok(bands) = threads.all(size[0], |column| {
             let kernels = Kernels::default();
             let band = |row: usize| match [column, row] {
@@ -128,19 +125,18 @@ impl Map {
                 let (mut within, mut beyond) = if inside(a) { (place(a), place(b)) } else { (place(b), place(a)) };
                 // The ring lies on the border.
                 let outer = [a, b].map_each(|[x, y]| bands[x][y]).contains(&usize::MAX);
-                let middle = |a: [f64; 2], b: [f64; 2]| [0.5 * (a[0] + b[0]), 0.5 * (a[1] + b[1])];
                 let halvings = (FINE / across.max(up) as f64).log2().ceil().max(2.0) as usize;
                 for _ in 0..if outer { 0 } else { halvings } {
-                    let point = middle(within, beyond);
+                    let point = within.midpoint(beyond);
                     if a[0] != b[0] {
                         kernels = Kernels::default();
                     }
                     *(if regime_at(point, &kernels) <= level { &mut within } else { &mut beyond }) = point;
                 }
                 done();
-                Ok::<_, std::convert::Infallible>(if outer { within } else { middle(within, beyond) })
+                Ok::<_, std::convert::Infallible>(if outer { within } else { within.midpoint(beyond) })
             });
-            let of: BTreeMap<Edge, [f64; 2]> = edges.iter().copied().zip(crossings).collect();
+            let of: BTreeMap<Edge, DVec2> = edges.iter().copied().zip(crossings).collect();
             regions.push(mapped(loops(&edges, &inside), |line| mapped(line, |edge| of[&edge])));
         }
         Map { regions, ..self }
@@ -230,11 +226,8 @@ fn by_plan(problem: &Problem, plan: &Plan) -> Regime {
     }
 }
 
-/// The `M` above which the bounce comes at `t₁`: `(I₀(R) + I₁(R))/(2 − I₀(R))`; none from `I₀(R) = 2` on.
-///
-/// **Source**: (2.32) in closed form.
-///
-/// **Accuracy**: *within its own bound*.
+/// The `M` above which the bounce comes at `t₁`, (2.32) in closed form: `(I₀(R) + I₁(R))/(2 − I₀(R))`; none from
+/// `I₀(R) = 2` on.
 pub(crate) fn threshold(damping_ratio: &Estimate<f64>) -> Option<Estimate<f64>> {
     let (i0, i1) = (i0_scaled(damping_ratio), i1_scaled(damping_ratio));
     let below = (-damping_ratio.clone()).exp() * damping_ratio.int(2) - &i0;

@@ -23,9 +23,6 @@ fn lines_are_cut_at_the_border() {
 #[test]
 fn polygons_are_cut_and_grown() {
     let diamond = points(&[[0.5, -0.5], [1.5, 0.5], [0.5, 1.5], [-0.5, 0.5]]);
-    let area = |corners: &[DVec2]| -> f64 {
-        (2..corners.len()).map(|k| (corners[k - 1] - corners[0]).perp_dot(corners[k] - corners[0])).sum::<f64>() / 2.0
-    };
     assert_eq!(area(&polygon(diamond.clone(), SQUARE)), 1.0);
     let square = points(&[[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]]);
     for turned in [square.clone(), square.into_iter().rev().collect()] {

@@ -9,12 +9,7 @@ fn cells_cover_the_strip() {
     for fine in [None, Some(0.2)] {
         let [up, down] = [0.0, strip.trip].map(|late| strip.knots(&breaks, late, fine));
         let polygons = strip.polygons(&up, &down).unwrap();
-        let area = |polygon: &Vec<DVec2>| -> f64 {
-            (2..polygon.len())
-                .map(|k| 0.5 * (polygon[k - 1] - polygon[0]).perp_dot(polygon[k] - polygon[0]).abs())
-                .sum()
-        };
-        let whole: f64 = polygons.iter().map(area).sum();
+        let whole: f64 = polygons.iter().map(|polygon| clip::area(polygon).abs()).sum();
         assert!((whole - 4.8 * 2.0).abs() < 1e-9, "{whole}");
     }
 }

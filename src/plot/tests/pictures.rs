@@ -6,8 +6,8 @@ use crate::quantity::Units;
 /// Bars are as high as the coefficients are, and no text lies on the line at 1.
 #[test]
 fn a_single_bounce_is_bars_of_its_coefficients() {
-    let asked =
-        Asked { pictures: vec![Picture::Restitution], along: Along::default(), deformed: false, from: None, to: None };
+    let pictures = vec![Picture::Restitution];
+    let asked = Asked { pictures, along: Default::default(), deformed: false, from: None, to: None };
     let gathered = |speed: i64| {
         let rod = Problem::builder().length(1).wave_speed(1).gravity(1).impact_speed(speed).build().unwrap();
         asked.gather(format!("{speed}"), &rod, Units::default(), &rod.solve().unwrap()).unwrap()

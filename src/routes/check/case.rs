@@ -123,19 +123,9 @@ impl Entry {
         Entry { place: (point, time), ..self }
     }
 
-    /// The later limit minus the earlier.
-    pub(super) const fn jump(self) -> Entry {
-        Entry { claimed: Claimed::Jump, ..self }
-    }
-
-    /// `e^{2r t_b}` times that.
-    pub(super) const fn times_growth(self) -> Entry {
-        Entry { claimed: Claimed::TimesGrowth, ..self }
-    }
-
-    /// What its root exceeds `e^{−r t_b}` by.
-    pub(super) const fn root_beyond_decay(self) -> Entry {
-        Entry { claimed: Claimed::RootBeyondDecay, ..self }
+    /// What is made of the answer.
+    pub(super) const fn claims(self, claimed: Claimed) -> Entry {
+        Entry { claimed, ..self }
     }
 
     /// A formula in doubles that gives so many digits.
@@ -150,7 +140,7 @@ impl Entry {
 
     /// A formula in 36 digits.
     pub(super) const fn by_digits(self, what: Text, formula: long::Formula) -> Entry {
-        self.first_by((Route::LongFormula(what, 36, formula), Promise::Digits(36)))
+        self.first_by((Route::LongFormula(what, formula), Promise::Digits(36)))
     }
 
     const fn first_by(mut self, formula: Promised) -> Entry {
@@ -166,44 +156,44 @@ impl Entry {
         let number = |text: &str| (!text.is_empty()).then(|| text.parse::<Number>()).transpose();
         let (problem, quantity) = (self.rod.problem()?, self.quantity);
         let (point, time) = (number(self.place.0)?, number(self.place.1)?);
-        // The centre of mass at the end of a run needs nothing of what lies long before.
-        let end = matches!((&problem.run, quantity), (Run::Time(_), Quantity::Centre));
-        let from = time.as_ref().map(Number::to_f64).filter(|_| end);
         let one = One { quantity, point, time, side: self.side };
-        Ok(Question { problem, one, units: Units::default(), claimed: self.claimed, from })
+        Ok(Question { problem, one, units: Units::default(), claimed: self.claimed })
     }
 
     pub(super) fn check(&self) -> CheckedQuestion {
         let truth = Truth::spelt(self.truth);
         let question = self.question();
         let routes = self.formulas.iter().flatten().chain(self.routes);
-        let rows = routes.filter(|(route, _)| long::AVAILABLE || !route.is_long()).map(|(route, promise)| {
+        let rows = routes.filter_map(|(route, promise)| {
+            let (name, long) = described(*route);
             let start = Instant::now();
-            let answer = question.as_ref().map_err(Clone::clone).and_then(|asked| route.run(asked, f64::INFINITY));
-            Row::judged(name(*route), *promise, truth.as_ref(), answer, start.elapsed().as_secs_f64())
+            let answer = || question.as_ref().map_err(Clone::clone).and_then(|asked| route.run(asked, f64::INFINITY));
+            let judged = |answer| Row::judged(name, *promise, truth.as_ref(), answer, start.elapsed().as_secs_f64());
+            (long::AVAILABLE || !long).then(|| judged(answer()))
         });
         CheckedQuestion { what: self.what, truth: self.truth, rows: rows.collect_vec() }
     }
 }
 
-/// The name of a route in the catalogue.
-fn name(route: Route) -> String {
+/// The name of a route in the catalogue, and whether it may need long numbers.
+fn described(route: Route) -> (String, bool) {
     match route {
-        Route::Formula(what, _) => format!("{what}, plain doubles"),
-        Route::LongFormula(what, digits, _) => format!("{what}, {digits} digits"),
-        Route::ClosedForm(Numbers::Digits(digits)) => format!("closed form, {digits} digits"),
-        Route::ClosedForm(_) => "closed form, doubles".into(),
-        Route::PrintedForms => "printed form, fractions".into(),
-        Route::PrintedIntegrals(_) => "printed integrals, doubles".into(),
-        Route::Modes(_) => "modal sum, doubles".into(),
-        Route::Lattice(Numbers::Exact) => "lattice, fractions".into(),
-        Route::Lattice(_) => "lattice, doubles".into(),
-        Route::Cells(_) => "cells, doubles".into(),
-        Route::Differences(_) => "finite differences".into(),
-        Route::Planned(Numbers::Double(Some(accuracy))) => format!("the plan, to {accuracy:e}"),
-        Route::Planned(Numbers::Digits(digits)) => format!("the plan, {digits} digits"),
-        Route::Planned(Numbers::Certified(digits)) => format!("the plan, {digits} digits proved"),
-        Route::Planned(_) => "the plan".into(),
+        Route::Formula(what, _) => (format!("{what}, plain doubles"), false),
+        Route::LongFormula(what, _) => (format!("{what}, 36 digits"), true),
+        Route::ClosedForm(Numbers::Digits(digits)) => (format!("closed form, {digits} digits"), true),
+        Route::ClosedForm(_) => ("closed form, doubles".into(), false),
+        Route::PrintedForms => ("printed form, fractions".into(), false),
+        Route::PrintedIntegrals(_) => ("printed integrals, doubles".into(), false),
+        Route::Modes(_) => ("modal sum, doubles".into(), false),
+        Route::Lattice(Numbers::Exact) => ("lattice, fractions".into(), false),
+        Route::Lattice(_) => ("lattice, doubles".into(), false),
+        Route::Cells(_) => ("cells, doubles".into(), false),
+        Route::Differences(_) => ("finite differences".into(), false),
+        // An accuracy may take more than doubles.
+        Route::Planned(Numbers::Double(Some(accuracy))) => (format!("the plan, to {accuracy:e}"), true),
+        Route::Planned(Numbers::Digits(digits)) => (format!("the plan, {digits} digits"), true),
+        Route::Planned(Numbers::Certified(digits)) => (format!("the plan, {digits} digits proved"), true),
+        Route::Planned(_) => ("the plan".into(), false),
     }
 }
 

@@ -6,6 +6,7 @@ use super::verdict::Promise::{Bound, Digits, Exact};
 use super::verdict::Verdict::{Misprint, Reproduced, Settled};
 use crate::paper::formulas;
 use crate::quantity::Quantity::{BounceTime, PointDisplacement, PointStrain, PointVelocity, Strain};
+use crate::routes::quantity::Claimed;
 
 /// g = 0, c = t₁ = μ = 1.
 const fn figure_1(damping: &'static str) -> Rod {
@@ -50,19 +51,19 @@ pub(super) const SECTION_2: Group = group("section-2", "Section 2: the contact a
     claim("proposition-2", Reproduced, "Proposition 2",
         "jumps on the rays, times e^{−rt}: c = L = 1, r = 0.4, g = 0.6, μ = 1.7", &[
         ask("[v_x](0, t₁) = 2μe^{−rt₁}/c", JUMPS, Strain, "1.527718477998553410862348109052913506176", JUMP)
-            .at("2").jump()
+            .at("2").claims(Claimed::Jump)
             .by("2μe^{−rt}/c", 14, || 3.4 * (-0.8f64).exp()),
         ask("[v_x](½, ½) = −μe^{−rt}/c", JUMPS, PointStrain, "-1.391842280232569159738890364652367021410", JUMP)
-            .at_point("0.5", "0.5").jump()
+            .at_point("0.5", "0.5").claims(Claimed::Jump)
             .by("(ii) [φ]/2c", 14, || -1.7 * (-0.2f64).exp()),
         ask("[v_t](½, ½) = +μe^{−rt}", JUMPS, PointVelocity, "1.391842280232569159738890364652367021410", JUMP)
-            .at_point("0.5", "0.5").jump()
+            .at_point("0.5", "0.5").claims(Claimed::Jump)
             .by("(ii) −[φ]/2", 14, || 1.7 * (-0.2f64).exp()),
         ask("[v_x](½, 3/2) = +μe^{−rt}/c", JUMPS, PointStrain, "0.9329797813598449354683801592953653880649", JUMP)
-            .at_point("0.5", "1.5").jump()
+            .at_point("0.5", "1.5").claims(Claimed::Jump)
             .by("(i) [φ]/2c", 14, || 1.7 * (-0.6f64).exp()),
         ask("[v_t](1, 1) = 2μe^{−rt}", JUMPS, PointVelocity, "2.279088156521173622531071945502608644586", JUMP)
-            .at_point("1", "1").jump()
+            .at_point("1", "1").claims(Claimed::Jump)
             .by("(iii) difference of [φ]/2", 14, || 3.4 * (-0.4f64).exp()),
     ]),
     claim("stress", Reproduced, "(2.28)", "the stress at the ground: c = L = g = μ = 1, r = 0.1", &[

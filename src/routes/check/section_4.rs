@@ -5,6 +5,7 @@ use super::verdict::Promise::{Bound, Digits, Exact};
 use super::verdict::Verdict::{Corrected, Reproduced, Settled};
 use crate::paper::formulas;
 use crate::quantity::Quantity::{BounceTime, EnergyKept, EnergyRestitution, MomentumRestitution, TranslationalShare};
+use crate::routes::quantity::Claimed;
 
 /// μ → ∞: nothing is left of gravity.
 const fn limit(damping: &'static str) -> Rod {
@@ -81,11 +82,11 @@ pub(super) const SECTION_4: Group = group("section-4", "Section 4: coefficients 
     claim("figure-7", Corrected, "Figure 7",
         "\"a common limit (approximately C₀ = 1)\" of E(t₁)/E(0) e^{2rt₁}: three limits, none of them 1", &[
         ask("lim, r = 0.1", limit("0.1"), EnergyKept, "1.000668923858792484851230398489368945625", FACTOR)
-            .times_growth().breaks("1 as printed", 4, || 1.0),
+            .claims(Claimed::TimesGrowth).breaks("1 as printed", 4, || 1.0),
         ask("lim, r = 0.2", limit("0.2"), EnergyKept, "1.005413372756512772887143260672753782987", FACTOR)
-            .times_growth().breaks("1 as printed", 3, || 1.0),
+            .claims(Claimed::TimesGrowth).breaks("1 as printed", 3, || 1.0),
         ask("lim, r = 0.3", limit("0.3"), EnergyKept, "1.018665828692668523986377532213577496259", FACTOR)
-            .times_growth().breaks("1 as printed", 2, || 1.0),
+            .claims(Claimed::TimesGrowth).breaks("1 as printed", 2, || 1.0),
     ]),
     claim("limit-4.74", Corrected, "(4.74)", "lim E_h(t₁)/E(t₁) = 1 for μ → ∞ with damping: it is less", &[
         ask("lim, r = 0.1", limit("0.1"), TranslationalShare, "0.9999664683750782862671076809725956262541", FACTOR)
@@ -111,10 +112,10 @@ pub(super) const SECTION_4: Group = group("section-4", "Section 4: coefficients 
         "\"verify this numerically … to within 0.001 for each curve\": at the right ends of Figures 5 to 7, μ = \
          12.5, the curves are five times as far from e^{−rt₁}", &[
         ask("e_E − e^{−rt₁}, r = 0.1", HIGH_1, EnergyRestitution, "-0.004979630662738762029319588014749494820138", FAR)
-            .root_beyond_decay().breaks(WITHIN, 1, || -0.001),
+            .claims(Claimed::RootBeyondDecay).breaks(WITHIN, 1, || -0.001),
         ask("e_E − e^{−rt₁}, r = 0.2", HIGH_2, EnergyRestitution, "-0.005504555608256541947969599758874854269478", FAR)
-            .root_beyond_decay().breaks(WITHIN, 1, || -0.001),
+            .claims(Claimed::RootBeyondDecay).breaks(WITHIN, 1, || -0.001),
         ask("e_E − e^{−rt₁}, r = 0.3", HIGH_3, EnergyRestitution, "-0.005511821740038788683030255217195912212474", FAR)
-            .root_beyond_decay().breaks(WITHIN, 1, || -0.001),
+            .claims(Claimed::RootBeyondDecay).breaks(WITHIN, 1, || -0.001),
     ]),
 ]);

@@ -1,6 +1,6 @@
 //! What a route promises, whether it keeps that, and what a case comes to.
 
-use crate::routes::truth::{RightDigits, Truth};
+use crate::routes::truth::Truth;
 use crate::routes::value::{NoAnswer, Value};
 
 /// The one truth that is no number.
@@ -79,7 +79,8 @@ pub(crate) struct Row {
     pub(crate) route: String,
     pub(crate) found: Result<Value, NoAnswer>,
     pub(crate) promise: Promise,
-    pub(crate) digits: RightDigits,
+    /// How many of its digits are right: `None` where there is no number, infinite for the truth itself.
+    pub(crate) digits: Option<f64>,
     pub(crate) outcome: Outcome,
     pub(crate) seconds: f64,
 }
@@ -93,11 +94,8 @@ impl Row {
         answer: Result<Value, NoAnswer>,
         seconds: f64,
     ) -> Self {
-        let digits = match (truth, &answer) {
-            (Some(truth), Ok(answer)) => truth.right_digits(answer),
-            _ => RightDigits::NoNumber,
-        };
-        let outcome = outcome(promise, truth, &answer, digits);
+        let digits = truth.and_then(|truth| Some(truth.right_digits(answer.as_ref().ok()?)));
+        let outcome = outcome(promise, truth, &answer, digits.unwrap_or(0.0));
         Row { route, found: answer, promise, digits, outcome, seconds }
     }
 
@@ -111,26 +109,24 @@ impl Row {
     }
 }
 
-fn outcome(promise: Promise, truth: Option<&Truth>, answer: &Result<Value, NoAnswer>, digits: RightDigits) -> Outcome {
+fn outcome(promise: Promise, truth: Option<&Truth>, answer: &Result<Value, NoAnswer>, digits: f64) -> Outcome {
     let kept = |holds: bool| if holds { Outcome::Kept } else { Outcome::Failed };
-    let (answer, truth) = match (answer, truth) {
-        (Ok(answer), Some(truth)) => (answer, truth),
-        (Err(NoAnswer::NoSuchQuantity { .. }), None) => return kept(!matches!(promise, Promise::Fewer(_))),
-        (Err(NoAnswer::NoSuchQuantity { .. }), Some(_)) | (Ok(_), None) => {
-            return if matches!(promise, Promise::Fewer(_)) { Outcome::Breaks } else { Outcome::Failed };
+    let broken = |breaks: bool| if breaks { Outcome::Breaks } else { Outcome::Failed };
+    match (answer, truth, promise) {
+        (Err(NoAnswer::NoSuchQuantity { .. }), None, promise) => kept(!matches!(promise, Promise::Fewer(_))),
+        (Err(NoAnswer::NoSuchQuantity { .. }), Some(_), promise) | (Ok(_), None, promise) => {
+            broken(matches!(promise, Promise::Fewer(_)))
         }
-        (Err(_), _) => return if promise == Promise::Bound(0) { Outcome::Undecided } else { Outcome::Failed },
-    };
-    match promise {
-        Promise::Fewer(most) if digits.count() < f64::from(most) => Outcome::Breaks,
-        Promise::Fewer(_) => Outcome::Failed,
-        Promise::Digits(least) | Promise::Enclosed(least) => kept(digits.count() >= f64::from(least)),
-        Promise::Exact => kept(digits == RightDigits::All),
-        Promise::Bound(least) => {
+        (Err(_), _, Promise::Bound(0)) => Outcome::Undecided,
+        (Err(_), ..) => Outcome::Failed,
+        (Ok(_), Some(_), Promise::Fewer(most)) => broken(digits < f64::from(most)),
+        (Ok(_), Some(_), Promise::Digits(least) | Promise::Enclosed(least)) => kept(digits >= f64::from(least)),
+        (Ok(_), Some(_), Promise::Exact) => kept(digits == f64::INFINITY),
+        (Ok(answer), Some(truth), Promise::Bound(least)) => {
             let scale = 10f64.powf(truth.log10_scale());
             let useful = answer.bound() <= 10f64.powi(-(least as i32)) * scale;
             // No more can be seen than the truth is known to.
-            let within = digits.count() >= truth.most_digits() || 10f64.powf(-digits.count()) * scale <= answer.bound();
+            let within = digits >= truth.most_digits() || 10f64.powf(-digits) * scale <= answer.bound();
             kept(useful && within)
         }
     }

@@ -35,7 +35,7 @@ impl Timing {
     }
 }
 
-/// **Errors**: [`NoAnswer::GaveUp`] for a budget that is no time.
+/// Refuses a budget that is no time.
 pub(super) fn check_budget(seconds: f64) -> Result<(), NoAnswer> {
     let refused = || NoAnswer::gave_up(format!("found {seconds} seconds, expected more than 0 and at most 86400"));
     if seconds > 0.0 && seconds <= 86_400.0 { Ok(()) } else { Err(refused()) }

@@ -52,11 +52,6 @@ const LIST: [Effect; 5] =
 
 /// The time that every effect and the plan itself cost `scene`, in about `seconds` in all. The energies of the field
 /// count as called for where `energies` says so: then one energy at the end of the history is part of the scene.
-///
-/// **Accuracy**: medians of differences on this machine, now; [`Difference::is_noise`] says what is not to be told from
-/// nothing.
-///
-/// **Errors**: a budget that is no time, and those of the solver.
 pub(crate) fn effects(
     scene: &Scene,
     energies: bool,

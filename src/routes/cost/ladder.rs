@@ -37,8 +37,8 @@ pub(super) struct Candidate {
     pub(super) setting: String,
     /// Decimal digits that the numbers of this setting hold.
     pub(super) digits: u32,
-    /// How many times as long it is expected to take as the setting before it; of the first one, seconds.
-    pub(super) times: f64,
+    /// Seconds that it is expected to take; how many times as long as the setting before it until that has run.
+    pub(super) expected: f64,
     /// Whether this is what the plan does.
     pub(super) chosen: bool,
 }
@@ -74,12 +74,12 @@ pub(super) fn ladders(question: &Question, plan: &Plan) -> (Vec<Ladder>, Vec<(Fa
         Numbers::Certified(_) => take(family, Err("the plan takes enclosures".into())),
         // In longer numbers the plan takes the lattice.
         numbers if !damped && family == Family::ClosedForm => {
+            let doubles = [("double".into(), Route::Lattice(Numbers::Double(None)))];
+            let mut lattice = in_doubles(Family::Lattice, [1e-6, 1.0], doubles);
             let mut planned = by_plan(Family::Lattice, question, numbers);
-            let doubles = vec![("double".into(), Route::Lattice(Numbers::Double(None)))];
-            let doubles = in_doubles(Family::Lattice, [1e-6, 1.0], doubles).into_iter();
-            let chosen: Ladder = planned.splice(..1, doubles).collect();
-            take(family, Ok(chosen.into_iter().map(|chosen| Candidate { family, ..chosen }).collect_vec()));
-            take(Family::Lattice, Ok(planned));
+            take(family, Ok(vec![Candidate { family, ..planned.remove(0) }]));
+            lattice.extend(planned);
+            take(Family::Lattice, Ok(lattice));
         }
         numbers => take(family, Ok(by_plan(family, question, numbers))),
     }
@@ -111,8 +111,8 @@ fn in_doubles(
     settings: impl IntoIterator<Item = (String, Route)>,
 ) -> Ladder {
     let step = |(k, (setting, route)): (usize, (String, Route))| {
-        let times = if k == 0 { first } else { growth };
-        Candidate { family, route, setting, digits: DOUBLE, times, chosen: false }
+        let expected = if k == 0 { first } else { growth };
+        Candidate { family, route, setting, digits: DOUBLE, expected, chosen: false }
     };
     settings.into_iter().enumerate().map(step).collect_vec()
 }
@@ -124,9 +124,9 @@ fn in_digits(
     spare: u32,
     route: fn(Numbers) -> Route,
 ) -> impl Iterator<Item = Candidate> {
-    LONG.into_iter().zip(growths).filter(|_| long::AVAILABLE).map(move |(digits, times)| {
+    LONG.into_iter().zip(growths).filter(|_| long::AVAILABLE).map(move |(digits, expected)| {
         let (route, setting) = (route(Numbers::Digits(digits)), format!("{digits} digits"));
-        Candidate { family, route, setting, digits: digits + spare, times, chosen: false }
+        Candidate { family, route, setting, digits: digits + spare, expected, chosen: false }
     })
 }
 
@@ -143,7 +143,7 @@ fn by_plan(family: Family, question: &Question, system: Numbers) -> Ladder {
         Numbers::Digits(digits) | Numbers::ExactThenDigits(digits) => digits + 8,
         _ => DOUBLE,
     };
-    let mut ladder = vec![Candidate { family, route, setting, digits, times: 0.0, chosen: true }];
+    let mut ladder = vec![Candidate { family, route, setting, digits, expected: 0.0, chosen: true }];
     let fractions = Route::Lattice(Numbers::Exact);
     if family == Family::Lattice && fractions.run(question, f64::INFINITY).is_ok() {
         ladder.extend(in_doubles(family, [30.0, 1.0], [("fractions".into(), fractions)]));
@@ -173,7 +173,7 @@ fn enclosures(question: &Question, plan: &Plan, first: Result<(), String>) -> Re
         route: Route::Planned(Numbers::Certified(digits)),
         setting: format!("{digits} digits"),
         digits: digits + 9,
-        times: if k == 0 { 1e-3 } else { 4.0 },
+        expected: if k == 0 { 1e-3 } else { 4.0 },
         chosen: chosen == Some(digits),
     };
     Ok(settings.into_iter().enumerate().map(candidate).collect_vec())

@@ -4,7 +4,7 @@ use std::time::{Duration, Instant};
 
 use super::clock::{Timing, check_budget, repeat};
 use super::ladder::{Candidate, Family, Ladder, ladders};
-use crate::mapped::mapped;
+use crate::mapped::{CollectVec, mapped};
 use crate::number::Number;
 use crate::order::ascending;
 use crate::quantity::Quantity;
@@ -72,12 +72,6 @@ const SHARE: f64 = 0.5;
 ///
 /// The plan's own run always is among the rows. All others come the cheapest first, by what the setting before took;
 /// one that is not expected to fit is left out, and so are those above it.
-///
-/// **Accuracy**: times are medians on this machine, now; errors are measured against [`Truth::computed`] with thirty
-/// digits more than the most precise row.
-///
-/// **Errors**: a budget that is no time; [`NoAnswer::NoSuchQuantity`] where the scene has no such quantity; those of the
-/// solver.
 pub(crate) fn work_precision(
     question: &Question,
     plan: &Plan,
@@ -92,40 +86,39 @@ pub(crate) fn work_precision(
     let slot = SHARE * seconds / count.max(1) as f64;
     let mut left_out: Vec<LeftOut> = mapped(without, |(family, why)| LeftOut { family, setting: None, why });
     let mut taken: Vec<(Candidate, usize, Value, Timing)> = Vec::with_capacity(count);
-    let mut waiting: Vec<Waiting> = mapped(all, |mut rest| {
-        rest.reverse();
-        Waiting { rest, before: 1.0 }
-    });
-    while let Some((candidate, expected, ladder)) = cheapest(&mut waiting) {
+    // The next setting last.
+    let mut waiting: Vec<Ladder> = mapped(all, |ladder| ladder.into_iter().rev().collect_vec());
+    while let Some((candidate, ladder)) = cheapest(&mut waiting) {
         observe(spent() / seconds, &format!("{}, {}", candidate.family.name(), candidate.setting));
         // Rows of long numbers make the truth as dear as they are.
         let share = if candidate.digits > 20 { FOR_TRUTH } else { 1.0 };
         let left = seconds - spent();
-        if !candidate.chosen && expected * share > left {
+        if !candidate.chosen && candidate.expected * share > left {
             left_out.push(candidate.left_out(format!("not expected to fit into {seconds} seconds")));
-            waiting[ladder].rest.clear();
+            waiting[ladder].clear();
             continue;
         }
         let began = Instant::now();
         // A run that can stop itself leaves most of the time to others.
         let answer = candidate.route.run(question, left / 4.0);
         let once = began.elapsed().as_secs_f64();
+        let mut took = once;
         match answer {
             Ok(value) => {
                 let left = (seconds - spent()).max(0.0);
                 // Three samples at least, where that is little of what is left.
                 let room = slot.max((4.0 * once).min(left / 8.0)).min(left);
                 let timing = repeat(once, Duration::from_secs_f64(room), || candidate.route.run(question, left));
-                waiting[ladder].before = timing.seconds.max(1e-7);
+                took = timing.seconds;
                 taken.push((candidate, ladder, value, timing));
             }
             // What the plan cannot answer the scene does not have.
             Err(error) if candidate.chosen => return Err(error),
-            Err(error) => {
-                // A coarser setting may fail where a finer one does not.
-                waiting[ladder].before = once.max(1e-7);
-                left_out.push(candidate.left_out(error.to_string()));
-            }
+            // A coarser setting may fail where a finer one does not.
+            Err(error) => left_out.push(candidate.left_out(error.to_string())),
+        }
+        if let Some(next) = waiting[ladder].last_mut() {
+            next.expected *= took.max(1e-7);
         }
     }
     let truth = loop {
@@ -170,18 +163,9 @@ impl Candidate {
     }
 }
 
-/// A ladder whose lowest settings have been taken.
-struct Waiting {
-    /// The next one last.
-    rest: Ladder,
-    /// Seconds that the last setting took.
-    before: f64,
-}
-
-/// The setting that is expected to take the least, with that time and the place of its ladder.
-fn cheapest(waiting: &mut [Waiting]) -> Option<(Candidate, f64, usize)> {
-    let expected =
-        waiting.iter().enumerate().filter_map(|(k, ladder)| Some((k, ladder.rest.last()?.times * ladder.before)));
-    let (k, expected) = expected.min_by(|a, b| a.1.total_cmp(&b.1))?;
-    Some((waiting[k].rest.pop()?, expected, k))
+/// The setting that is expected to take the least, with the place of its ladder.
+fn cheapest(waiting: &mut [Ladder]) -> Option<(Candidate, usize)> {
+    let next = waiting.iter().enumerate().filter_map(|(k, rest)| Some((k, rest.last()?.expected)));
+    let (k, _) = next.min_by(|a, b| a.1.total_cmp(&b.1))?;
+    Some((waiting[k].pop()?, k))
 }
