@@ -97,19 +97,15 @@ impl Key {
         text
     }
 
-    /// How wide its sign is, in heights of a letter.
-    fn sign(&self) -> f64 {
-        match self {
-            Key::Line(..) => 2.3,
-            Key::Area(..) => 1.6,
-            Key::Mark(..) => 1.3,
-            Key::Colors(_, [least, _, most]) => COLORS + 1.3 + width(least) + width(most),
-        }
-    }
-
     /// In heights of a letter.
     fn width(&self) -> f64 {
-        self.sign() + width(self.text()) + 1.3
+        let sign = match self {
+            Key::Line(..) => 2.4,
+            Key::Area(..) => 1.7,
+            Key::Mark(..) => 1.4,
+            Key::Colors(_, [least, _, most]) => COLORS + 1.4 + width(least) + width(most),
+        };
+        sign + width(self.text()) + 1.2
     }
 }
 
@@ -273,10 +269,19 @@ impl Panel {
 fn draw_key(svg: &mut Svg, key: &Key, at: DVec2) {
     let em = svg.em;
     let to = |x: f64, y: f64| at + DVec2::new(x, y) * em;
-    match key {
-        Key::Line(_, stroke) => svg.line(&[to(0.0, -0.35), to(1.9, -0.35)], *stroke),
-        Key::Area(_, fill) => svg.rectangles(&[[to(0.0, -0.8), to(1.2, 0.05)]], fill),
-        Key::Mark(_, mark, color) => draw_mark(svg, to(0.5, -0.35), *mark, color),
+    let beside = match key {
+        Key::Line(_, stroke) => {
+            svg.line(&[to(0.0, -0.35), to(1.9, -0.35)], *stroke);
+            2.3
+        }
+        Key::Area(_, fill) => {
+            svg.rectangles(&[[to(0.0, -0.8), to(1.2, 0.05)]], fill);
+            1.6
+        }
+        Key::Mark(_, mark, color) => {
+            draw_mark(svg, to(0.5, -0.35), *mark, color);
+            1.3
+        }
         Key::Colors(text, [least, middle, most]) => {
             svg.text(at, Anchor::Start, text);
             let mut x = width(text) + 0.9;
@@ -287,8 +292,8 @@ fn draw_key(svg: &mut Svg, key: &Key, at: DVec2) {
             svg.text(to(x + COLORS / 2.0, 0.0), Anchor::Middle, middle);
             return svg.text(to(x + COLORS + 0.3, 0.0), Anchor::Start, most);
         }
-    }
-    svg.text(to(key.sign(), 0.0), Anchor::Start, key.text());
+    };
+    svg.text(to(beside, 0.0), Anchor::Start, key.text());
 }
 
 /// A frame that cuts nothing.
