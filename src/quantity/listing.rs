@@ -85,10 +85,7 @@ pub(crate) fn rows<S: Scalar>(motion: &dyn Motion<S>, quantities: &[Quantity]) -
     Ok(all)
 }
 
-/// The value of `quantity` of a contact or a flight, counted from 0, in units of the problem.
-///
-/// **Errors**: [`Error::NoContact`], and what the history cannot answer. What is not defined has the reason in its
-/// place.
+/// The value of `quantity` of a contact or a flight, counted from 0, in units of the problem, or why it has none.
 #[cfg(feature = "cli")]
 pub(crate) fn of_contact<S: Scalar>(
     motion: &dyn Motion<S>,

@@ -64,10 +64,7 @@ impl One {
     }
 
     /// The number, in units of the problem, whose run is `run`; and the same as the motion has it, without a unit.
-    ///
-    /// **Accuracy**: that of the history's answers, and a rounding for the factor of the unit.
-    ///
-    /// **Errors**: what the history cannot answer. What there is not has the reason in its place.
+    /// What there is not has the reason in its place.
     pub(crate) fn of<S: Scalar>(
         &self,
         motion: &dyn Motion<S>,

@@ -34,9 +34,6 @@ const WEAKEST: u32 = 6;
 const CURVATURE: u32 = 4;
 
 /// The derivatives that are `asked` for, to about so many digits of their natural size.
-///
-/// **Errors**: [`Error::Digits`] for more than are taken; [`Error::Derivative`] where the problem has no such value;
-/// those of the runs.
 pub(super) fn of(asked: &Asked<'_>, digits: u32) -> Result<Derivatives<Long>, Error> {
     if digits > MOST_DIGITS {
         return Err(Error::Digits { found: digits, most: MOST_DIGITS });

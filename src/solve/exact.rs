@@ -12,10 +12,7 @@ use crate::quantity::{Measure, Quantity};
 
 type OneSide = Result<Rational, NoDerivative>;
 
-/// The derivatives that are `asked` for.
-///
-/// **Errors**: [`Error::Derivative`] for damping, for a gravity that is zero, and where the problem has no such value;
-/// those of the runs.
+/// The derivatives that are `asked` for; none for damping and for a gravity that is zero.
 pub(super) fn derivatives(asked: &Asked<'_>) -> Result<Derivatives<Rational>, Error> {
     let value = asked.by.value_in::<Rational>(asked.problem, &())?;
     let zero = value.vanishes() == Ok(true);

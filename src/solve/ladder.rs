@@ -135,9 +135,6 @@ impl Ladder<'_> {
     ///
     /// **Accuracy**: each number is known to the digits of the plan, or to so many below the greatest number of the
     /// answer as the plan says. In doubles the best that could be reached; its own bounds say what that is.
-    ///
-    /// **Errors**: [`Error::Unsettled`] and [`Error::Undecided`] where too many bits do not settle it; those of the run
-    /// and of the query.
     pub(crate) fn settle<S: Target>(
         &self,
         known: Vec<Attempt<S>>,
