@@ -69,6 +69,22 @@ fn first_contact(c: &mut Criterion) {
     group.finish();
 }
 
+/// Ten damped impacts, r = 0.1, μ = 10: the march in doubles, and the one whose events are proved.
+fn bounces(c: &mut Criterion) {
+    let mut group = c.benchmark_group("ten damped impacts");
+    let mut problem = rod("0.1", "1", "1", "10");
+    problem.run = Run::Impacts(10);
+    group.sample_size(10);
+    group.bench_function("doubles", |b| b.iter(|| black_box(&problem).solve().unwrap().events().len()));
+    for digits in [15, 30] {
+        group.bench_function(format!("{digits} proved digits"), |b| {
+            b.iter(|| black_box(&problem).certified(digits).unwrap().events().len());
+        });
+    }
+    group.bench_function("30 digits", |b| b.iter(|| black_box(&problem).digits(30).unwrap().events().len()));
+    group.finish();
+}
+
 /// A piece of the chaotic march, μ = 3/2 to t = 200, with what is behind forgotten.
 fn chaotic(c: &mut Criterion) {
     let mut group = c.benchmark_group("chaotic, a piece");
@@ -93,5 +109,5 @@ fn chaotic(c: &mut Criterion) {
     group.finish();
 }
 
-criterion_group!(benches, undamped, first_contact, chaotic);
+criterion_group!(benches, undamped, first_contact, bounces, chaotic);
 criterion_main!(benches);
