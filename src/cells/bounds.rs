@@ -11,7 +11,7 @@ use crate::number::{Estimate, Rounded, Scalar};
 use crate::special::RoundedSpecial;
 
 /// Bounds near a time, in the units of the problem.
-struct Near {
+struct Bounds {
     /// Of displacements, as far as the events are in time.
     rise: f64,
     /// Of `h` likewise.
@@ -27,10 +27,10 @@ struct Near {
     late: f64,
 }
 
-impl Near {
+impl Bounds {
     /// The less in all, and the greater lateness.
-    fn min(self, other: &Near) -> Near {
-        Near {
+    fn min(self, other: &Bounds) -> Bounds {
+        Bounds {
             rise: self.rise.min(other.rise),
             centre: self.centre.min(other.centre),
             speed: self.speed.min(other.speed),
@@ -48,7 +48,7 @@ impl<S: RoundedSpecial> Damped<S> {
     /// **Errors**: those of a question at an event.
     pub(super) fn with_bounds(mut self) -> Result<Self, Error> {
         let event = |(k, event): (usize, &Event<Estimate<S>>)| {
-            let Near { centre, end, rate, late, .. } = self.at_event(k);
+            let Bounds { centre, end, rate, late, .. } = self.at_event(k);
             // As the rod lies on the ground, and as it leaves without a jump of the stress, is proved to be zero.
             let known = |value: &Estimate<S>| self.proved && value.value().is_zero();
             let (moves, push) = (event.centre_velocity.to_f64().abs(), self.push(event.time.value(), late)?);
@@ -93,7 +93,7 @@ impl<S: RoundedSpecial> Damped<S> {
             Some(length * (both + gravity * (from.bound() + to.bound())))
         });
         let last = to.unwrap_or(&self.course.end).to_f64();
-        let Near { rise, speed, .. } = self.scaled(self.uncertainty(from.value()));
+        let Bounds { rise, speed, .. } = self.scaled(self.uncertainty(from.value()));
         by_momentum.unwrap_or((last - from.to_f64()) * speed * c + 2.0 * rise * c)
     }
 
@@ -117,13 +117,13 @@ impl<S: RoundedSpecial> Damped<S> {
     }
 
     /// The bounds near a time; at that of an event, which has the bound of the event, those of the event itself.
-    fn near(&self, time: &Estimate<S>) -> Near {
+    fn near(&self, time: &Estimate<S>) -> Bounds {
         match self.event_at(time).filter(|_| time.bound() > 0.0) {
             Some(event) => self.at_event(event),
             None => {
                 let (apart, near) = (self.apart(time), self.scaled(self.uncertainty(time.value())));
                 let moves = self.change(time.value(), apart);
-                Near {
+                Bounds {
                     rise: near.rise + apart * moves,
                     speed: near.speed + moves,
                     end: near.end + moves,
@@ -167,7 +167,7 @@ impl<S: RoundedSpecial> Damped<S> {
 
     /// The bounds at an event: those of the contact that it begins or ends, whenever that is; but its time is rounded.
     /// Where they are those of equal times, the event itself is off.
-    fn at_event(&self, event: usize) -> Near {
+    fn at_event(&self, event: usize) -> Bounds {
         let events = &self.course.events;
         let contact = event - usize::from(event > 0 && events[event].kind == EventKind::Release);
         let found = self.uncertainty(events[contact].time.value());
@@ -181,16 +181,16 @@ impl<S: RoundedSpecial> Damped<S> {
         let found = Uncertainty { rise, speed, rate, late: rounding / self.scales.time, ..found };
         let unit = self.scales.velocity * self.scales.time;
         let own = self.scaled(found);
-        let own = Near { centre: centre * unit, end: own.speed + (end - speed) * self.scales.velocity, ..own };
+        let own = Bounds { centre: centre * unit, end: own.speed + (end - speed) * self.scales.velocity, ..own };
         if equal_times { near.min(&own) } else { own }
     }
 
-    fn scaled(&self, found: Uncertainty) -> Near {
+    fn scaled(&self, found: Uncertainty) -> Bounds {
         let Uncertainty { rise, speed, rate, late, slope, .. } = found;
         let Scales { time, velocity, wave_speed, .. } = self.scales;
         let (rise, speed) = (rise * velocity * time, (speed + slope * late) * velocity);
         let (rate, strain) = ((rate + slope * late) * velocity, speed / wave_speed);
-        Near { rise, centre: rise, speed, end: speed, strain, rate, late: late * time }
+        Bounds { rise, centre: rise, speed, end: speed, strain, rate, late: late * time }
     }
 
     /// Whether the rod has yet to touch the ground, and moves as a whole.
@@ -259,7 +259,7 @@ impl<S: RoundedSpecial> Motion<Estimate<S>> for Damped<S> {
     fn stress_pieces(&self) -> Vec<StressPiece<Estimate<S>>> {
         let piece = |piece: StressPiece<S>| {
             let found = self.uncertainty(&piece.from);
-            let Near { strain, .. } = self.scaled(found);
+            let Bounds { strain, .. } = self.scaled(found);
             if !self.proved {
                 return bounded_piece(piece, strain);
             }
@@ -367,7 +367,7 @@ impl<S: RoundedSpecial> Motion<Estimate<S>> for Damped<S> {
         let [height, _] = self.ground_of(time.value(), Side::Left)?;
         let [_, rate] = self.centre_of(time.value())?;
         let Scales { time: trip, velocity, length, wave_speed: c, .. } = self.scales;
-        let Near { rise, speed, late, .. } = self.near(time);
+        let Bounds { rise, speed, late, .. } = self.near(time);
         let most = self.uncertainty(time.value()).most * velocity + rate.to_f64().abs();
         let between = speed + left_out * most;
         let rounding = 8.0 * time.value().unit() * (time.to_f64() + trip);
@@ -399,7 +399,7 @@ impl<S: RoundedSpecial> Motion<Estimate<S>> for Damped<S> {
         let found = self.rates_of(&plain, &times.iter().map(|time| time.value().clone()).collect::<Vec<_>>())?;
         let mut rates = Vec::with_capacity(found.len());
         for (time, of_time) in times.iter().zip(found.chunks(plain.len().max(1))) {
-            let Near { speed, strain, .. } = self.near(time);
+            let Bounds { speed, strain, .. } = self.near(time);
             rates.extend(of_time.iter().map(|[v_t, v_x]| [within(v_t, speed), within(v_x, strain)]));
         }
         Ok(rates)
@@ -408,7 +408,7 @@ impl<S: RoundedSpecial> Motion<Estimate<S>> for Damped<S> {
     fn highest(&self, release: usize) -> Option<(Estimate<S>, Estimate<S>)> {
         let (time, height) = self.turn_after(release)?;
         // dt*/dh′ = 1/(g + 2rh′); and what the height loses there is of second order.
-        let (Near { rise, rate, .. }, gravity) = (self.near(&within(&time, 0.0)), self.scales.gravity);
+        let (Bounds { rise, rate, .. }, gravity) = (self.near(&within(&time, 0.0)), self.scales.gravity);
         let late = self.course.events[release].time_error + rate / gravity;
         Some((within(&time, late), within(&height, rise + gravity * late * late)))
     }
