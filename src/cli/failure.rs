@@ -62,14 +62,7 @@ impl fmt::Display for Failure {
 }
 
 /// A failure to read or write, with what was tried.
-#[derive(Debug, thiserror::Error)]
-#[error("cannot {what}: {error}")]
-pub(super) struct Io {
-    what: String,
-    error: std::io::Error,
-}
-
-pub(super) fn cannot(what: &str) -> impl FnOnce(std::io::Error) -> Io + use<> {
+pub(super) fn cannot(what: &str) -> impl FnOnce(std::io::Error) -> Failure + use<> {
     let what = what.to_string();
-    move |error| Io { what, error }
+    move |error| failure!("cannot {what}: {error}")
 }

@@ -54,8 +54,7 @@ impl Figures {
         let chosen = |figure: &&Figure| self.only.is_empty() || self.only.contains(&figure.name);
         let figures: Vec<&Figure> = ALL.iter().filter(chosen).collect_vec();
         let files = self.files(&figures)?;
-        write_files(&self.output, &files).map_err(failure::cannot(&format!("write {}", self.output.display())))?;
-        Ok(())
+        write_files(&self.output, &files).map_err(failure::cannot(&format!("write {}", self.output.display())))
     }
 
     fn files(&self, figures: &[&Figure]) -> Result<Vec<(String, Vec<u8>)>, Failure> {

@@ -82,7 +82,7 @@ impl Format {
 }
 
 /// That `path`, or standard output, cannot be written.
-pub(super) fn unwritten(path: Option<&Path>) -> impl FnOnce(std::io::Error) -> failure::Io + use<> {
+pub(super) fn unwritten(path: Option<&Path>) -> impl FnOnce(std::io::Error) -> Failure + use<> {
     let path = path.filter(|path| *path != Path::new("-"));
     failure::cannot(&format!("write {}", path.map_or("standard output".into(), |path| path.display().to_string())))
 }
@@ -94,7 +94,7 @@ pub(super) fn write(path: Option<&Path>, bytes: &[u8]) -> Result<(), Failure> {
 
 /// Writes all of several files, or none.
 fn write_all(files: &[(Option<&Path>, &[u8])]) -> Result<(), Failure> {
-    Ok(write_together(files).map_err(|(k, error)| unwritten(files[k].0)(error))?)
+    write_together(files).map_err(|(k, error)| unwritten(files[k].0)(error))
 }
 
 /// Writes each file, all of them or none; rows are printed too, if no file holds any.

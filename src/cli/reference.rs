@@ -193,14 +193,14 @@ impl Visit for Series<'_> {
             let mut next = Ok(Vec::new());
             beside(&mut || written = rows.push(&table), &mut || next = self.ask(history, chunk.as_ref()));
             table = next?;
-            std::mem::replace(&mut written, Ok(())).map_err(|error| keep()(error).into())
+            std::mem::replace(&mut written, Ok(())).map_err(keep())
         })?;
         rows.push(&table).map_err(keep())?;
         drop(progress);
         let ends = matches!(self.times, Times::Events);
         let preamble = self.asked.preamble(history, head, (self.scene, "each column", ends));
         let path = self.asked.output.as_deref();
-        Ok(rows.finish(&preamble, path).map_err(file::unwritten(path))?)
+        rows.finish(&preamble, path).map_err(file::unwritten(path))
     }
 }
 

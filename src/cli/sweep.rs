@@ -152,7 +152,7 @@ impl Sweep {
         };
         let found = sweep.run(points, known, Threads::of(self.threads), &done);
         bar.finish_and_clear();
-        Ok(found.map_err(failure::cannot("keep finished points"))?)
+        found.map_err(failure::cannot("keep finished points"))
     }
 }
 
@@ -167,6 +167,6 @@ fn unopened(output: &Path, error: std::io::Error) -> Failure {
         ErrorKind::InvalidData => {
             SweepError::new(format!("{journal} of another sweep"), "the same command, or the file removed").into()
         }
-        _ => failure::cannot(&format!("write {journal}"))(error).into(),
+        _ => failure::cannot(&format!("write {journal}"))(error),
     }
 }

@@ -185,12 +185,10 @@ impl Column {
         Column { key: Some(key.into()), ..self }
     }
 
-    /// Its values are words.
     pub(crate) fn text(self) -> Self {
         Column { is_text: true, ..self }
     }
 
-    /// In this unit.
     pub(crate) fn with_unit(self, unit: &'static str) -> Self {
         Column { unit, ..self }
     }

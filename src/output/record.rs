@@ -14,11 +14,9 @@ use crate::solve::{Derivatives, ExactnessEnd};
 /// What stands above the numbers.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Head {
-    /// The title of the scene.
     pub title: Option<String>,
     /// The number system in words.
     pub number: String,
-    /// The effects that the scene calls for.
     pub effects: Vec<&'static str>,
     /// Digits that a `Float` shows.
     pub digits: u32,
@@ -28,7 +26,6 @@ pub(crate) struct Head {
     pub wide: bool,
     /// What gives strains and values per `ρS` a unit.
     pub units: Units,
-    /// What the user should know.
     pub warnings: Vec<Warning>,
     /// What fractions could not hold, if a run in digits stands in for them.
     pub exact_until: Option<ExactnessEnd>,
@@ -50,7 +47,6 @@ impl Head {
         mapped(&self.warnings, ToString::to_string)
     }
 
-    /// A line for each warning.
     pub(super) fn warning_lines(&self) -> String {
         mapped(&self.warnings, |warning| self.line(&format!("warning: {warning}"))).concat()
     }
@@ -76,11 +72,8 @@ impl Head {
 
 /// Derivatives by one value, of the quantities of a list.
 pub(crate) struct Derived {
-    /// The value.
     pub(crate) by: Parameter,
-    /// Of events.
     pub(crate) events: Derivatives<Shared>,
-    /// Of contacts.
     pub(crate) contacts: Derivatives<Shared>,
 }
 
@@ -95,9 +88,7 @@ pub(crate) struct Record {
     pub(super) contacts: Dataset,
     /// Why `e_P` and `e_E²` of each contact are not defined, where they are not.
     pub(super) undefined: Vec<[Option<Undefined>; 2]>,
-    /// Flights with their tops.
     pub(super) flights: Dataset,
-    /// Derivatives of events and contacts, where they are asked for.
     pub(crate) derivatives: Vec<Derived>,
     /// The stress at the ground, where it is asked for.
     pub(super) stress: Dataset,

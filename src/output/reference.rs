@@ -27,11 +27,8 @@ fn is_flag(quantity: Quantity) -> bool {
 /// What a golden file says of itself.
 #[derive(Debug)]
 pub(crate) struct Preamble<'a> {
-    /// Title, numbers, warnings.
     pub head: Head,
-    /// The text of the scene.
     pub scene: &'a str,
-    /// The numbers that were asked for.
     pub numbers: Numbers,
     /// What has a bound.
     pub each: &'a str,
@@ -43,7 +40,6 @@ pub(crate) struct Preamble<'a> {
     pub bare: bool,
 }
 
-/// The sign conventions of all golden files.
 const SIGNS: &str = "x and displacements upwards from the undeformed rod on the ground; strain and stress positive in \
                      tension, force positive in compression";
 const SIDE: &str = "left is the limit from earlier times, right from later ones; both: they are the same";
@@ -72,7 +68,6 @@ impl Preamble<'_> {
         if npz { format!("{promise}; here rounded to the nearest double") } else { promise }
     }
 
-    /// The scene without comments.
     fn scene_lines(&self) -> impl Iterator<Item = &str> {
         self.scene.lines().map(str::trim_end).filter(|line| !line.is_empty() && !line.trim_start().starts_with('#'))
     }
@@ -261,7 +256,6 @@ impl Rows {
         }
     }
 
-    /// Digits of a long number.
     fn shown(&self) -> u32 {
         if self.digits == 0 { DOUBLE_DIGITS } else { self.digits }
     }

@@ -54,7 +54,6 @@ pub(crate) struct Samples {
     pub(crate) quantities: Vec<quantity::Quantity>,
     has_points: bool,
     data: Dataset,
-    /// Derivatives of the values, where they are asked for.
     pub(crate) derivatives: Vec<(Parameter, Derivatives<Shared>)>,
 }
 
