@@ -13,7 +13,7 @@ use super::verdict::judged;
 use crate::error::Error;
 use crate::number::Number;
 use crate::problem::{Parameters, Problem, Run};
-use crate::quantity::Units;
+use crate::quantity::{Quantity, Units};
 use crate::reason::Warning;
 use crate::solve::{Numbers, Observer, Plan, Question, Solution};
 
@@ -82,7 +82,8 @@ impl Options {
             CompareError::Map { file: source.file.clone(), error }
         })?;
         let clock = counted.then(|| (of(&self.t0), of(&self.dt)));
-        let mut columns = source.columns(&map.places(), map.side)?;
+        let places: Vec<usize> = map.columns.iter().map(|(_, place)| *place).collect();
+        let mut columns = source.columns(&places, map.place(Quantity::Side))?;
         for (values, conversion) in columns.values.iter_mut().zip(conversions) {
             values.iter_mut().for_each(|value| *value = conversion.apply(*value));
         }

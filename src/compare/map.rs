@@ -37,12 +37,8 @@ pub(crate) fn compared(name: &str, field: bool) -> Option<Quantity> {
 /// Which places of a file hold what.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Map {
-    /// The column of times; `None` where they are counted.
-    pub(crate) time: Option<usize>,
-    pub(crate) point: Option<usize>,
-    /// The column of sides: which limit a row holds at a jump.
-    pub(crate) side: Option<usize>,
-    pub(crate) quantities: Vec<(Quantity, usize)>,
+    /// The columns that are read: first those of [`PLACES`], but for times that are counted, then what is compared.
+    pub(crate) columns: Vec<(Quantity, usize)>,
     /// The names of columns that nothing is called by.
     pub(crate) unused: Vec<String>,
 }
@@ -85,8 +81,9 @@ fn known(field: bool) -> String {
     format!("{} (u and v for short)", names.collect::<Vec<_>>().join(", "))
 }
 
-/// The names of the column of times, of points, and of sides.
-const PLACES: [&[&str]; 3] = [&["t", "time"], &["x", "point"], &["side"]];
+/// Where and when a row is, by the names of the columns that say it.
+const PLACES: [(Quantity, &[&str]); 3] =
+    [(Quantity::Time, &["t", "time"]), (Quantity::Point, &["x", "point"]), (Quantity::Side, &["side"])];
 
 /// The name and the unit of `force [N]`, `t (s)`; `u[0]` is a name.
 fn name_and_unit(header: &str) -> (&str, Option<&str>) {
@@ -106,56 +103,56 @@ impl Map {
             None => names.iter().map(|name| name_and_unit(name).0.to_string()).zip(0..).collect(),
         };
         let is = |name: &str, known: &[&str]| known.contains(&name.to_lowercase().as_str());
-        let find = |known: &[&str]| {
+        let mut map = Map { columns: Vec::new(), unused: Vec::new() };
+        for (what, known) in PLACES {
             let mut found = entries.iter().filter(|(name, _)| is(name, known));
-            match (found.next(), found.next()) {
-                (_, Some((name, _))) => Err(MapError::Twice { found: name.clone() }),
-                (first, None) => Ok(first.map(|(_, place)| *place)),
+            map.columns.extend(found.next().map(|(_, place)| (what, *place)));
+            if let Some((name, _)) = found.next() {
+                return Err(MapError::Twice { found: name.clone() });
             }
-        };
-        let (time, point, side) = (find(PLACES[0])?, find(PLACES[1])?, find(PLACES[2])?);
-        let field = point.is_some();
-        let mut map = Map { time, point, side, quantities: Vec::new(), unused: Vec::new() };
-        let is_place = |name: &str| PLACES.into_iter().any(|known| is(name, known));
+        }
+        let (field, places) = (map.place(Quantity::Point).is_some(), map.columns.len());
+        let is_place = |name: &str| PLACES.into_iter().any(|(_, known)| is(name, known));
         for (name, place) in entries.iter().filter(|(name, _)| !is_place(name)) {
             let found = compared(name, field);
-            let twice = found.is_some_and(|found| map.quantities.iter().any(|(other, _)| *other == found));
+            let twice = found.is_some_and(|found| map.place(found).is_some());
             match found {
-                Some(quantity) if !twice => map.quantities.push((quantity, *place)),
+                Some(quantity) if !twice => map.columns.push((quantity, *place)),
                 // Columns that nobody asked for may be anything; of several of one quantity the first is taken.
                 _ if text.is_none() => map.unused.push(name.clone()),
                 Some(_) => return Err(MapError::Twice { found: name.clone() }),
                 None => return Err(MapError::Name { found: name.clone(), field }),
             }
         }
-        match (map.time, counted) {
-            (Some(_), true) if text.is_some() => Err(MapError::TwoTimes),
-            (None, false) if names.is_empty() && text.is_none() => Err(MapError::NoNames),
-            (None, false) if names.is_empty() => Err(MapError::NoTime { found: String::new() }),
-            (None, false) => Err(MapError::NoTime { found: format!(" in {}", names.join(", ")) }),
-            _ if map.quantities.is_empty() && names.is_empty() => Err(MapError::NoNames),
-            _ if map.quantities.is_empty() => Err(MapError::Nothing { found: names.join(", "), field }),
-            (time, counted) => Ok(Map { time: time.filter(|_| !counted), ..map }),
+        let is_empty = map.columns.len() == places;
+        match (map.place(Quantity::Time), counted) {
+            (Some(_), true) if text.is_some() => return Err(MapError::TwoTimes),
+            (None, false) if names.is_empty() && text.is_none() => return Err(MapError::NoNames),
+            (None, false) if names.is_empty() => return Err(MapError::NoTime { found: String::new() }),
+            (None, false) => return Err(MapError::NoTime { found: format!(" in {}", names.join(", ")) }),
+            _ if is_empty && names.is_empty() => return Err(MapError::NoNames),
+            _ if is_empty => return Err(MapError::Nothing { found: names.join(", "), field }),
+            _ => map.columns.retain(|(what, _)| !(counted && *what == Quantity::Time)),
         }
+        Ok(map)
     }
 
-    /// What brings each of [`places`](Self::places) to the units of the scene, where its name says that it is in
+    /// The place of a column.
+    pub(crate) fn place(&self, what: Quantity) -> Option<usize> {
+        self.columns.iter().find(|(other, _)| *other == what).map(|(_, place)| *place)
+    }
+
+    /// What brings each of the columns to the units of the scene, where its name says that it is in
     /// another one, and what is to be said of that. A scene without units has its numbers as they are.
     pub(crate) fn conversions(&self, names: &[String], units: &Units) -> Result<(Vec<Conversion>, String), MapError> {
-        let own = |place: Option<usize>, measure| place.map(|place| (place, Some((measure, units.name(measure)))));
-        let quantities = self
-            .quantities
-            .iter()
-            .map(|(quantity, place)| (*place, quantity.measure().map(|measure| (measure, quantity.unit(units)))));
-        let side = self.side.map(|place| (place, None));
-        let read = own(self.time, Measure::Time).into_iter().chain(own(self.point, Measure::Length)).chain(side);
         let (mut all, mut said) = (Vec::new(), Vec::new());
-        for (place, expected) in read.chain(quantities) {
-            let header = names.get(place).map_or("", String::as_str);
-            let (Some(unit), Some((measure, expected))) = (name_and_unit(header).1, expected) else {
+        for (quantity, place) in &self.columns {
+            let header = names.get(*place).map_or("", String::as_str);
+            let (Some(unit), Some(measure)) = (name_and_unit(header).1, quantity.measure()) else {
                 all.push(Conversion::NONE);
                 continue;
             };
+            let expected = quantity.unit(units);
             let is_number = measure == Measure::Strain;
             if expected.is_empty() && !is_number {
                 said.push(format!("{header} as it is, the scene having no units"));
@@ -178,12 +175,6 @@ impl Map {
             all.push(conversion);
         }
         Ok((all, said.join(", ")))
-    }
-
-    /// The places that are read: times, points, sides, quantities.
-    pub(crate) fn places(&self) -> Vec<usize> {
-        let quantities = self.quantities.iter().map(|(_, place)| *place);
-        self.time.into_iter().chain(self.point).chain(self.side).chain(quantities).collect()
     }
 }
 

@@ -74,21 +74,21 @@ impl Samples {
             return Err(columns.whole(DataErrorKind::Empty));
         }
         let mut values = std::mem::take(&mut columns.values).into_iter();
-        let mut times: Vec<f64> = match (map.time, counted) {
-            (Some(_), _) => values.next().unwrap_or_default(),
+        let mut of = |what| map.place(what).and_then(|_| values.next());
+        let mut times: Vec<f64> = match (of(Quantity::Time), counted) {
+            (Some(times), _) => times,
             (None, Some((start, step))) => (0..rows).map(|k| start + k as f64 * step).collect(),
             (None, None) => Vec::new(),
         };
-        let points = map.point.and_then(|_| values.next());
-        let said = map.side.and_then(|_| values.next());
-        let refuse = |row: usize, place: Option<usize>, kind| Err(columns.refuse(row, place.unwrap_or(0), kind));
+        let (points, said) = (of(Quantity::Point), of(Quantity::Side));
+        let refuse = |row: usize, what: Quantity, kind| Err(columns.refuse(row, map.place(what).unwrap_or(0), kind));
         let mut sides = vec![None; times.len()];
         for (k, found) in said.iter().flatten().enumerate() {
             sides[k] = match *found {
                 -1.0 => Some(Side::Left),
                 0.0 => None,
                 1.0 => Some(Side::Right),
-                other => return refuse(k, map.side, DataErrorKind::Side(other.to_string())),
+                other => return refuse(k, Quantity::Side, DataErrorKind::Side(other.to_string())),
             };
         }
         let limits = [Some(Side::Left), Some(Side::Right)];
@@ -99,18 +99,18 @@ impl Samples {
             }
             let follows = found > before || (found == before && (points.is_some() || sides[k - 1..=k] == limits));
             if !follows {
-                return refuse(k, map.places().first().copied(), DataErrorKind::NotIncreasing { before, found });
+                return Err(columns.refuse(k, map.columns[0].1, DataErrorKind::NotIncreasing { before, found }));
             }
         }
         times.iter_mut().for_each(|time| *time += shift);
         for (k, found) in points.iter().flatten().enumerate() {
             if !(0.0..=length).contains(found) {
-                return refuse(k, map.point, DataErrorKind::PointOutside { found: *found, length });
+                return refuse(k, Quantity::Point, DataErrorKind::PointOutside { found: *found, length });
             }
             let same = |before: &usize| times[*before] == times[k] && sides[*before..=k] != limits;
             let before = k.checked_sub(1).filter(same);
             if let Some(before) = before.and_then(|k| points.as_ref().map(|points| points[k])).filter(|x| x >= found) {
-                return refuse(k, map.point, DataErrorKind::PointsNotIncreasing { before, found: *found });
+                return refuse(k, Quantity::Point, DataErrorKind::PointsNotIncreasing { before, found: *found });
             }
         }
         let from = times.partition_point(|time| *time < 0.0);
@@ -127,7 +127,9 @@ impl Samples {
         let middle = steps.len() / 2;
         let step = if steps.is_empty() { 0.0 } else { *steps.select_nth_unstable_by(middle, f64::total_cmp).1 };
         let rounding = Rounding::of(&times, step);
-        let quantities = map.quantities.iter().map(|(what, _)| *what).zip(values.map(&cut)).collect();
+        let whats = map.columns.iter().map(|(what, _)| *what);
+        let is_place = |what: &Quantity| matches!(what, Quantity::Time | Quantity::Point | Quantity::Side);
+        let quantities = whats.skip_while(|what| is_place(what)).zip(values.map(&cut)).collect();
         let unused = map.unused.join(", ");
         let notes = (!unused.is_empty()).then(|| format!("not used: {unused}")).into_iter().collect();
         Ok(Samples { grid: Grid::new(times, points), quantities, step, outside: from, notes, rounding, sides })

@@ -389,21 +389,20 @@ const MANY_LOST: f64 = 3.0;
 
 /// The units of what the scene's own do not tell, in a line: `impulse in N s, energies in J`.
 pub(super) fn named_units(measures: &[Measure], units: &Units) -> String {
-    let word = |measure: &Measure| match measure {
-        Measure::Impulse => Some("impulse"),
-        Measure::Stress => Some("stress").filter(|_| units.has_material()),
-        Measure::Force => Some("force").filter(|_| units.has_material()),
-        Measure::Energy => Some("energies"),
-        Measure::Time | Measure::Length | Measure::Velocity | Measure::Strain => None,
-    };
-    let known = measures.iter().filter_map(|measure| Some((word(measure)?, units.name(*measure))));
-    let mut texts: Vec<String> = known
-        .map(|(word, unit)| match unit {
+    let text = |measure: &Measure| {
+        let word = match measure {
+            Measure::Impulse => "impulse",
+            Measure::Energy => "energies",
+            Measure::Stress | Measure::Force if units.has_material() => measure.name(),
+            _ => return None,
+        };
+        Some(match units.name(*measure) {
             "" => format!("{word} in the units of the scene"),
             unit if unit.starts_with("per") => format!("{word} {unit}"),
             unit => format!("{word} in {unit}"),
         })
-        .collect_vec();
+    };
+    let mut texts: Vec<String> = measures.iter().filter_map(text).collect_vec();
     texts.dedup();
     if texts.is_empty() { String::new() } else { texts.join(", ") + "\n" }
 }

@@ -8,14 +8,13 @@ fn names(text: &str) -> Vec<String> {
 fn names_and_numbers() {
     let u = Quantity::EndDisplacement;
     let map = Map::of(Some("t=0, u=2,force=lam"), &names("time lam disp"), 3, false).unwrap();
-    assert_eq!((map.time, map.quantities.clone()), (Some(0), vec![(u, 2), (Quantity::Force, 1)]));
-    assert_eq!(map.places(), [0, 2, 1]);
+    assert_eq!(map.columns, [(Quantity::Time, 0), (u, 2), (Quantity::Force, 1)]);
     // The names of a header, and what is none of ours left alone.
     let map = Map::of(None, &names("step t u"), 3, false).unwrap();
-    assert_eq!((map.time, map.quantities), (Some(1), vec![(u, 2)]));
+    assert_eq!(map.columns, [(Quantity::Time, 1), (u, 2)]);
     // With points, u is that there.
     let map = Map::of(None, &names("t x u"), 3, false).unwrap();
-    assert_eq!((map.point, map.quantities), (Some(1), vec![(Quantity::PointDisplacement, 2)]));
+    assert_eq!(map.columns, [(Quantity::Time, 0), (Quantity::Point, 1), (Quantity::PointDisplacement, 2)]);
 }
 
 #[test]
