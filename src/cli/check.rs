@@ -13,7 +13,6 @@ use crate::output::{check_json, check_page, check_summary, check_table};
 use crate::routes::Published;
 use crate::routes::check::{CATALOGUE, Case, Checked, Group, Verdict, select};
 
-/// The catalogue of hard cases and of the paper's claims, worked out now by every route and held against the truth
 #[derive(Args, Debug)]
 #[command(after_help = "Examples:\n  dalembert check\n  dalembert check --only late --only figure-4\n  \
     dalembert check --format markdown -o check.md\n\nThe exit code is 1 if any promise is not kept.")]

@@ -26,7 +26,6 @@ const EXAMPLES: &str = "Examples:\n  dalembert compare doyen-ern-piperno run.csv
     the scene. The exit code is 1 where a bound fails; with any bound, data \
     that end before the run of the scene do, or before --to, fail.";
 
-/// Your data against the exact history: norms, contacts, an audit, and hints at what may be wrong
 #[derive(Args, Debug)]
 #[command(after_help = EXAMPLES, after_long_help = format!("{EXAMPLES}\n\nWords of the report:\n{LEGEND}"))]
 pub(super) struct Compare {

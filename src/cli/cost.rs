@@ -15,7 +15,6 @@ use crate::quantity::{Measure, Quantity};
 use crate::routes::cost;
 use crate::routes::{Question, plan};
 
-/// What accuracy costs in time: one quantity by every route that can give it, measured now, on this machine
 #[derive(Args, Debug)]
 #[command(after_help = "Examples:\n  dalembert cost figure-4-r02 --quantity e_E2 -o cost.svg\n  \
     dalembert cost figure-4-r02 --quantity energy --time 2 --seconds 60\n  \

@@ -13,7 +13,6 @@ use crate::output::{WIDTH, wrapped};
 use crate::scene::{Effect, EffectUse, Scene};
 use crate::solve::{Numbers, Plan, Question, Sensitivity};
 
-/// The plan: which effects a scene calls for, which engine and numbers solve it, and what is left out
 #[derive(Args, Debug)]
 pub(super) struct Explain {
     /// A scene file, `-`, or a built-in scene

@@ -12,7 +12,6 @@ use crate::mapped::{CollectVec, mapped};
 use crate::output::{figure_data, figure_sheet, figures_index, write_files};
 use crate::threads::Threads;
 
-/// The figures of the paper from its parameters, and two more: SVG, PNG, PDF and CSV, with an index
 #[derive(Args, Debug)]
 #[command(
     after_help = "Figures: 1 to 8 of the paper, `regimes` and `tenth-bounce`. README.md in DIR says of each what is \
@@ -34,10 +33,10 @@ pub(super) struct Figures {
     output: PathBuf,
 }
 
-/// What each figure is drawn as, by the endings of the files, the one that the index shows first.
-const PICTURES: &[(&str, Format)] = match cfg!(feature = "plot") {
-    true => &[("png", Format::Png), ("svg", Format::Svg), ("pdf", Format::Pdf)],
-    false => &[("svg", Format::Svg)],
+/// What each figure is drawn as, the one that the index shows first.
+const PICTURES: &[Format] = match cfg!(feature = "plot") {
+    true => &[Format::Png, Format::Svg, Format::Pdf],
+    false => &[Format::Svg],
 };
 
 fn named(name: &str) -> Result<&'static str, String> {
@@ -68,12 +67,13 @@ impl Figures {
             let (figure, data) = (figures[k], &data[k]);
             let svg = figure_sheet(figure, data).map_err(failed)?.svg(self.size);
             let mut files = vec![(figure.file() + ".csv", file::rows(&figure_data(figure, data), Format::Csv)?)];
-            for (ending, kind) in PICTURES {
-                files.push((format!("{}.{ending}", figure.file()), file::picture(*kind, svg.clone(), self.size)?));
+            for format in PICTURES {
+                let picture = file::picture(*format, svg.clone(), self.size)?;
+                files.push((format!("{}.{}", figure.file(), format.ending()), picture));
             }
             Ok::<_, Failure>(files)
         })?;
-        let endings: Vec<&str> = mapped(PICTURES, |picture| picture.0);
+        let endings: Vec<&str> = mapped(PICTURES, |format| format.ending());
         let index = figures_index(figures, &data, &endings).map_err(failed)?;
         Ok(files.into_iter().flatten().chain([("README.md".to_string(), index.into_bytes())]).collect_vec())
     }

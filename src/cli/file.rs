@@ -45,7 +45,7 @@ impl Format {
         PICTURES.contains(&self)
     }
 
-    fn ending(self) -> &'static str {
+    pub(super) fn ending(self) -> &'static str {
         FORMATS[self as usize].2
     }
 

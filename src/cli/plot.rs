@@ -20,7 +20,6 @@ use crate::quantity::{Needs, Quantity, Units};
 use crate::scene::Scene;
 use crate::solve::{History, Numbers, Question, Target};
 
-/// Pictures of a scene, or of several to compare: the rod over time, stress, motion, energy, restitution
 #[derive(Args, Debug)]
 #[command(after_help = format!("\
     Without --quantity, one scene is told in four pictures: the field along the rod with its rays and contacts, the \

@@ -20,7 +20,6 @@ use crate::scene::Scene;
 use crate::solve::{History, Question, Target};
 use crate::threads::beside;
 
-/// Golden files: all quantities at chosen times as CSV, JSON or NPZ, or the exact solution as a function
 #[derive(Args, Debug)]
 #[command(after_help = format!("\
     Without times, the rows are the start, every impact and release, and the end. Where a jump passes, a time has two \

@@ -13,7 +13,6 @@ use crate::output::{regimes_data, regimes_npz, regimes_svg, regimes_text, thresh
 use crate::sweep::Map;
 use crate::threads::Threads;
 
-/// When and whether the first contact ends, over all dampings and impact speeds
 #[derive(Args, Debug)]
 #[command(after_help = "Examples:\n  dalembert regimes -o regimes.png\n  dalembert regimes --damping-ratio 0..4:1000 \
     --speed-ratio 0.05..1e4:1000:log -o regimes.npz\n\nAll first contacts are those of two numbers, R = r t₁ and \

@@ -14,7 +14,6 @@ use crate::output::{Head, Quantity, Samples, samples, samples_data, shared};
 use crate::problem::Parameter;
 use crate::solve::{History, Question, Target};
 
-/// Values of a quantity at chosen times
 #[derive(Args, Debug)]
 #[command(
     after_help = "Examples:\n  dalembert sample paper-strong --quantity stress --times 0.3,1.2,2 --side left\n  \

@@ -15,7 +15,6 @@ use crate::output::targets_data;
 use crate::routes::Published;
 use crate::scene::builtin;
 
-/// List the built-in scenes, print one, or hold it against what others have published
 #[derive(Args, Debug)]
 #[command(
     after_help = "Examples:\n  dalembert scenes ansys-vm265\n  dalembert scenes ansys-vm265 --targets --format json\n  \

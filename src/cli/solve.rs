@@ -25,7 +25,6 @@ const EXAMPLES: &str = "Examples:\n  dalembert solve doyen-ern-piperno --exact\n
     dalembert solve doyen-ern-piperno --derivatives speed,gravity\n  \
     dalembert scenes paper-weak | dalembert solve - --format csv --part stress";
 
-/// Solve a scene: events, contacts, restitution, energies, stress history
 #[derive(Args, Debug)]
 #[command(after_help = EXAMPLES, after_long_help = format!("{EXAMPLES}\n\nSymbols:\n{LEGEND}"))]
 pub(super) struct Solve {

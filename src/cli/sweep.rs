@@ -19,7 +19,6 @@ use crate::quantity::{Needs, Quantity};
 use crate::sweep::{self, Asked, Axis, Grid, Journal, Point, SweepError, journal_of};
 use crate::threads::Threads;
 
-/// Numbers of a scene over a grid of its values, on all cores
 #[derive(Args, Debug)]
 #[command(after_help = "Examples:\n  dalembert sweep figure-4-r02 --vary impact.speed=0.05..12.5:500:log \
     --vary rod.damping=0,0.1,0.2,0.3 --quantity bounce_time,e_E2 -o figure-4.csv\n  dalembert sweep rod.toml \
