@@ -46,7 +46,6 @@ pub(super) fn print(
     bytes: Bytes<'_>,
 ) -> Result<(), Failure> {
     let format = output.format()?;
-    let head = Head { wide: output.wide, ..head };
     let head = progress.aside(|| warned(head, output.output.is_none() && format == Format::Table));
     progress.stage("text of the answer");
     let bytes = bytes(&head, format)?;

@@ -67,12 +67,13 @@ impl Sample {
             Some(points) => points.lift::<S>(&precision),
             None => vec![length.zero(), length.clone() / length.int(2), length],
         };
-        samples(history, self.quantity, (&self.times.lift(&precision), &points), self.side, &head.units)
+        samples(history, self.quantity, (&self.times.lift(&precision), &points), self.side, head)
     }
 }
 
 impl Visit for Sample {
     fn visit<S: Target>(&self, history: &History<S>, head: Head, progress: source::Progress) -> Result<(), Failure> {
+        let head = Head { wide: self.output.wide, ..head };
         let mut samples = gathered(history, &progress, |motion| self.gather(motion, &head))?;
         for by in self.derivatives.iter().copied() {
             let too_long = || Error::Derivative { parameter: by.name(), expected: "times and points of fewer digits" };

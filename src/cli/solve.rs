@@ -81,14 +81,14 @@ impl Solve {
             (Ok(Format::Csv), Some(Part::Stress)) => Some(Form::Straight),
             _ => None,
         };
-        let (mut found, numbers) = record(history, stress, !self.numbers.in_doubles(), &head.units)?;
+        let (mut found, numbers) = record(history, stress, !self.numbers.in_doubles(), head)?;
         if self.draws() {
             found.outline = outline(history);
         }
         Ok((found, numbers))
     }
 
-    fn bytes(&self, record: &Record, head: &Head, format: Format) -> Result<Vec<u8>, Failure> {
+    fn bytes(&self, record: Record, head: &Head, format: Format) -> Result<Vec<u8>, Failure> {
         // A table on the screen says it.
         if self.output.output.is_some() || format != Format::Table {
             noted_end(&record.end.1, &*record.end.0, head.digits);
@@ -96,7 +96,7 @@ impl Solve {
         match format {
             Format::Table if self.legend => Ok(format!("{}\n{LEGEND}", history_table(record, head)).into_bytes()),
             Format::Table => Ok(history_table(record, head).into_bytes()),
-            Format::Json => Ok(file::json(&history_json(record, head))),
+            Format::Json => Ok(file::json(&history_json(&record, head))),
             _ => file::rows(&history_part(record, self.part.unwrap_or_default(), self.coefficients, head), format),
         }
     }
@@ -104,15 +104,16 @@ impl Solve {
 
 impl Visit for Solve {
     fn visit<S: Target>(&self, history: &History<S>, head: Head, progress: source::Progress) -> Result<(), Failure> {
+        let head = Head { wide: self.output.wide, ..head };
         let mut record = gathered(history, &progress, |motion| self.gather(motion, &head))?;
         for by in self.derivatives.iter().copied() {
             // There are no more contacts than events: a row has an event, and a contact beside it where there is one.
             let mut events = shared(history.derivatives(by, &[&EVENT[..], &CONTACT].concat())?);
             let contacts = events.iter_mut().map(|row| row.split_off(EVENT.len().min(row.len())));
             let contacts = contacts.filter(|row| !row.is_empty()).collect_vec();
-            record.derivatives.push(Derived { by, events, contacts });
+            record.add(Derived { by, events, contacts });
         }
         let head = Head { warnings: history.warnings(), ..head };
-        print(&self.output, head, progress, Box::new(|head, format| self.bytes(&record, head, format)))
+        print(&self.output, head, progress, Box::new(|head, format| self.bytes(record, head, format)))
     }
 }

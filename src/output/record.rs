@@ -5,7 +5,7 @@ use serde_json::{Value, json};
 use super::dataset::{Dataset, Shared};
 use super::table::{WIDTH, wrapped};
 use crate::mapped::{CollectVec, mapped};
-use crate::motion::{Ending, EventKind};
+use crate::motion::Ending;
 use crate::problem::Parameter;
 use crate::quantity::{Undefined, Units};
 use crate::reason::Warning;
@@ -35,12 +35,6 @@ impl Head {
     /// A line of prose, in several where it is wider than a table may be.
     pub(super) fn line(&self, text: &str) -> String {
         if self.wide { format!("{text}\n") } else { wrapped(text, WIDTH, "    ") + "\n" }
-    }
-
-    /// Rows as this says how wide their table may be and how long their numbers.
-    pub(super) fn shaped(&self, data: &Dataset) -> Dataset {
-        let (columns, rows) = (data.columns.clone(), data.rows.clone());
-        Dataset { columns, rows, digits: self.digits, keys: (!self.wide).then_some(1), ..Dataset::default() }
     }
 
     pub(super) fn warning_texts(&self) -> Vec<String> {
@@ -80,16 +74,13 @@ pub(crate) struct Derived {
 /// A history, ready to be printed, whatever its numbers.
 pub(crate) struct Record {
     /// Impacts and releases.
-    pub(crate) kinds: Vec<EventKind>,
     pub(super) events: Dataset,
-    /// Whether a table says how far their times may be off.
-    pub(super) uncertain: bool,
     /// Contacts with their coefficients and the energies at their ends.
     pub(super) contacts: Dataset,
     /// Why `e_P` and `e_E²` of each contact are not defined, where they are not.
     pub(super) undefined: Vec<[Option<Undefined>; 2]>,
     pub(super) flights: Dataset,
-    pub(crate) derivatives: Vec<Derived>,
+    pub(super) derivatives: Vec<Derived>,
     /// The stress at the ground, where it is asked for.
     pub(super) stress: Dataset,
     /// Whether a piece of it is curved.

@@ -13,7 +13,7 @@ use crate::motion::{Motion, Side};
 use crate::number::Scalar;
 use crate::problem::Parameter;
 use crate::quantity::Quantity::*;
-use crate::quantity::{self, Measure, Units};
+use crate::quantity::{self, Measure};
 use crate::solve::Derivatives;
 
 /// What `sample` can be asked for.
@@ -63,7 +63,7 @@ pub(crate) fn samples<S: Scalar>(
     quantity: Quantity,
     (times, points): (&[S], &[S]),
     side: Side,
-    units: &Units,
+    head: &Head,
 ) -> Result<(Samples, Vec<S>), Error> {
     let mut found: Vec<(&S, Option<&S>, Vec<S>)> = Vec::new();
     let pair = |(value, rate): (S, S)| vec![value, rate];
@@ -83,6 +83,7 @@ pub(crate) fn samples<S: Scalar>(
         };
         found.push((time, None, values));
     }
+    let units = &head.units;
     let has_points = quantity == Quantity::Field && !found.is_empty();
     let asked = mapped(quantity.columns(), |column| column.0);
     let values = mapped(&found, |(.., values)| mapped(quantity.columns(), |(_, place)| values.get(*place)));
@@ -90,7 +91,7 @@ pub(crate) fn samples<S: Scalar>(
         let key = quantity.key();
         Column::new(key).keyed(format!("values/{key}"))
     };
-    let listed = listed(history, &asked, column, units, &values);
+    let listed = listed(history, &asked, column, head, &values);
     let point = if has_points { Column::new("point").headed("x") } else { Column::data("point") };
     let mut columns = vec![
         Column::new("time").headed("t").with_unit(units.name(Measure::Time)),

@@ -11,7 +11,7 @@ use super::record::{Derived, Head, Record};
 use super::table::table_digits;
 use crate::error::Error;
 use crate::mapped::{CollectVec, MapEach, mapped};
-use crate::motion::{Ending, EventKind, Motion, StressPiece, straight};
+use crate::motion::{Ending, Motion, StressPiece, straight};
 use crate::number::{DOUBLE_DIGITS, Scalar};
 use crate::quantity::Quantity::{self, *};
 use crate::quantity::{Measure, Row, Undefined, Units, rows};
@@ -66,10 +66,12 @@ pub(super) fn listed<S: Scalar>(
     history: &dyn Motion<S>,
     quantities: &[Quantity],
     column: fn(Quantity) -> Column,
-    units: &Units,
+    head: &Head,
     rows: &[Vec<Option<&S>>],
 ) -> Dataset {
-    let mut data = Dataset { rows: mapped(rows, |_| Vec::new()), ..Dataset::default() };
+    let units = &head.units;
+    let mut data = Dataset { rows: mapped(rows, |_| Vec::new()), digits: head.digits, ..Dataset::default() };
+    data.keys = (!head.wide).then_some(1);
     let present = |(_, quantity): &(usize, &Quantity)| quantity.is_listed(units.has_material());
     for (k, quantity) in quantities.iter().enumerate().filter(present) {
         let factor = quantity.factor(&history.scales(), units);
@@ -100,37 +102,13 @@ pub(crate) enum Part {
 /// How far the straight pieces of a curved stress history may be off, as a part of its peak.
 const STRAIGHT: f64 = 1e-6;
 
-fn events(record: &Record, head: &Head) -> Dataset {
-    let mut data = head.shaped(&record.events);
-    data.columns.insert(0, Column::new("kind").headed("event").text());
-    if record.uncertain {
-        data.columns.insert(2, Column::table("±"));
+impl Record {
+    /// Adds derivatives by one value of the scene.
+    pub(crate) fn add(&mut self, derived: Derived) {
+        add_columns(&mut self.events, &EVENT, (derived.by, &derived.events), csv_name);
+        add_columns(&mut self.contacts, &CONTACT, (derived.by, &derived.contacts), csv_name);
+        self.derivatives.push(derived);
     }
-    for (row, kind) in data.rows.iter_mut().zip(&record.kinds) {
-        row.insert(0, kind.to_string().into());
-        if record.uncertain {
-            row.insert(2, row[1].bound(table_digits(head.digits)));
-        }
-    }
-    for Derived { by, events, .. } in &record.derivatives {
-        add_columns(&mut data, &EVENT, (*by, events), csv_name);
-    }
-    data
-}
-
-fn contacts(record: &Record, head: &Head) -> Dataset {
-    let mut data = head.shaped(&record.contacts);
-    let undefined = ["momentum", "energy_squared"].map_each(|name| format!("restitution/undefined/{name}"));
-    data.columns.extend(undefined.map_each(|key| Column::json(key).optional()));
-    for (row, undefined) in data.rows.iter_mut().zip(&record.undefined) {
-        for reason in undefined {
-            row.push(reason.map(|reason| reason.to_string()).into());
-        }
-    }
-    for Derived { by, contacts, .. } in &record.derivatives {
-        add_columns(&mut data, &CONTACT, (*by, contacts), csv_name);
-    }
-    data
 }
 
 /// The name of a quantity in CSV.
@@ -146,11 +124,11 @@ fn undefined_ratios<S>(contact: &Row<S>) -> [Option<Undefined>; 2] {
     })
 }
 
-fn pieces<S: Scalar>(history: &dyn Motion<S>, pieces: &[StressPiece<S>], units: &Units) -> Dataset {
+fn pieces<S: Scalar>(history: &dyn Motion<S>, pieces: &[StressPiece<S>], head: &Head) -> Dataset {
     let rows = mapped(pieces, |StressPiece { from, to, left, right, .. }| {
         vec![Some(from), Some(to), Some(left), Some(right), Some(left), Some(right)]
     });
-    listed(history, &PIECE, column, units, &rows)
+    listed(history, &PIECE, column, head, &rows)
 }
 
 /// The stress at the ground, as it is printed.
@@ -168,7 +146,7 @@ pub(crate) fn record<S: Scalar>(
     history: &dyn Motion<S>,
     stress: Option<Form>,
     ratios: bool,
-    units: &Units,
+    head: &Head,
 ) -> Result<(Record, Vec<S>), Error> {
     let mut numbers = vec![history.end()];
     let mut gather = |quantities: &[Quantity]| {
@@ -183,20 +161,34 @@ pub(crate) fn record<S: Scalar>(
             }
         }
         let defined = mapped(&rows, |row| mapped(row, |value| value.as_ref().ok()));
-        Ok::<_, Error>((listed(history, quantities, column, units, &defined), rows))
+        Ok::<_, Error>((listed(history, quantities, column, head, &defined), rows))
     };
-    let (events, _) = gather(&EVENT)?;
-    let (contacts, ends) = gather(&CONTACT)?;
+    let (mut events, _) = gather(&EVENT)?;
+    let (mut contacts, ends) = gather(&CONTACT)?;
     let (flights, _) = gather(&FLIGHT)?;
     let known = |time: &S| time.ends(1).is_none() && time.log2_error().is_finite();
+    let uncertain = history.events().iter().any(|event| known(&event.time));
+    events.columns.insert(0, Column::new("kind").headed("event").text());
+    events.columns.splice(2..2, uncertain.then(|| Column::table("±")));
+    for (row, event) in events.rows.iter_mut().zip(history.events()) {
+        row.insert(0, event.kind.to_string().into());
+        let bound = row[1].bound(table_digits(head.digits));
+        row.splice(2..2, uncertain.then_some(bound));
+    }
+    let undefined = mapped(&ends, undefined_ratios);
+    let keys = ["momentum", "energy_squared"].map_each(|name| format!("restitution/undefined/{name}"));
+    contacts.columns.extend(keys.map_each(|key| Column::json(key).optional()));
+    for (row, undefined) in contacts.rows.iter_mut().zip(&undefined) {
+        row.extend(undefined.map_each(|reason| reason.map(|reason| reason.to_string()).into()));
+    }
     let curve = if stress.is_some() { history.stress_pieces() } else { Vec::new() };
     for number in StressPiece::numbers(&curve) {
         numbers.push(number.clone());
     }
     let stress = if stress == Some(Form::Straight) {
-        pieces(history, &straight(&curve, STRAIGHT), units)
+        pieces(history, &straight(&curve, STRAIGHT), head)
     } else {
-        let mut stress = pieces(history, &curve, units);
+        let mut stress = pieces(history, &curve, head);
         stress.columns.push(Column::data("chebyshev").bounded().optional());
         for (row, piece) in stress.rows.iter_mut().zip(&curve) {
             row.push(Cell::numbers(&piece.chebyshev));
@@ -204,11 +196,9 @@ pub(crate) fn record<S: Scalar>(
         stress
     };
     let record = Record {
-        kinds: mapped(history.events(), |event| event.kind),
         events,
-        uncertain: history.events().iter().any(|event| known(&event.time)),
         contacts,
-        undefined: mapped(&ends, undefined_ratios),
+        undefined,
         flights,
         derivatives: Vec::new(),
         stress,
@@ -223,8 +213,7 @@ pub(crate) fn record<S: Scalar>(
 
 /// The whole history, schema 1.
 pub(crate) fn history_json(record: &Record, head: &Head) -> Value {
-    let mut contacts = contacts(record, head).objects();
-    let mut flights = head.shaped(&record.flights).objects();
+    let (mut contacts, mut flights) = (record.contacts.objects(), record.flights.objects());
     // An object of values that there are not is none.
     for (list, key, value) in [(&mut contacts, "energy", "total"), (&mut flights, "highest", "time")] {
         list.iter_mut().filter(|row| row[key][value].is_null()).for_each(|row| row[key] = Value::Null);
@@ -236,10 +225,10 @@ pub(crate) fn history_json(record: &Record, head: &Head) -> Value {
         "effects": head.effects,
         "units": units_json(&head.units),
         "exact_until": head.exact_until_json(),
-        "events": events(record, head).objects(),
+        "events": record.events.objects(),
         "contacts": contacts,
         "flights": flights,
-        "stress": {"pieces": head.shaped(&record.stress).objects()},
+        "stress": {"pieces": record.stress.objects()},
         "end": end_json(record, head),
         "error_estimate": record.error,
         "digits_lost": record.lost.map(|(_, digits)| digits),
@@ -271,11 +260,11 @@ pub(super) fn units_json(units: &Units) -> Value {
 }
 
 /// One part of the history; the stress with the `coefficients` of its Chebyshev series, or in straight pieces.
-pub(crate) fn history_part(record: &Record, part: Part, coefficients: bool, head: &Head) -> Dataset {
+pub(crate) fn history_part(record: Record, part: Part, coefficients: bool, head: &Head) -> Dataset {
     let mut data = match part {
-        Part::Events => events(record, head),
-        Part::Contacts => contacts(record, head),
-        Part::Stress => head.shaped(&record.stress),
+        Part::Events => record.events,
+        Part::Contacts => record.contacts,
+        Part::Stress => record.stress,
     };
     data.notes = head.notes();
     if !matches!(record.end.1, Ending::Time | Ending::NextImpact) {
@@ -316,7 +305,7 @@ M = μ/(g t₁)   speed ratio: from 1 on an undamped rod bounces after t₁ exac
 ";
 
 /// The whole history but for the stress: head, events, contacts, flights, end.
-pub(crate) fn history_table(record: &Record, head: &Head) -> String {
+pub(crate) fn history_table(mut record: Record, head: &Head) -> String {
     let digits = table_digits(head.digits);
     let mut out = String::new();
     if let Some(title) = &head.title {
@@ -332,7 +321,7 @@ pub(crate) fn history_table(record: &Record, head: &Head) -> String {
         let peaks = record.contacts.rows.iter().map(|contact| contact[PEAK].double());
         out += &sparkline(&record.outline, record.end.0.double(), peaks.fold(0.0, f64::min), head);
     }
-    out += &format!("{}\n\n{}\n\n", events(record, head).table(), contacts(record, head).table());
+    out += &format!("{}\n\n{}\n\n", record.events.table(), record.contacts.table());
     if !record.undefined.is_empty() {
         let measures = [Measure::Impulse, Measure::Stress, Measure::Force, Measure::Energy];
         out += &named_units(&measures, &head.units);
@@ -345,12 +334,11 @@ pub(crate) fn history_table(record: &Record, head: &Head) -> String {
             out += &head.line(&format!("contact from {from}: {reason}"));
         }
     }
-    let mut flights = head.shaped(&record.flights);
-    flights.rows.retain(|row| !row[2].is_empty());
-    if !flights.rows.is_empty() {
-        out += &format!("\n{}\n", flights.table());
+    record.flights.rows.retain(|row| !row[2].is_empty());
+    if !record.flights.rows.is_empty() {
+        out += &format!("\n{}\n", record.flights.table());
     }
-    out += &derivative_tables(record, head);
+    out += &derivative_tables(&record, head);
     out += &format!("\n{}", head.line(&record.end.1.at(&record.end.0.printed(digits))));
     if let Some((impacts, lost)) = record.lost
         && lost >= MANY_LOST
@@ -362,9 +350,9 @@ pub(crate) fn history_table(record: &Record, head: &Head) -> String {
 
 /// The derivatives of events and contacts, a table of each for each value.
 fn derivative_tables(record: &Record, head: &Head) -> String {
-    let first = |row: &Vec<Cell>| row[0].text(table_digits(head.digits), "");
-    let event = |(kind, row): (&EventKind, &Vec<Cell>)| format!("{kind} at {}", first(row));
-    let contact = |row: &Vec<Cell>| format!("contact from {}", first(row));
+    let text = |cell: &Cell| cell.text(table_digits(head.digits), "");
+    let event = |row: &Vec<Cell>| format!("{} at {}", text(&row[0]), text(&row[1]));
+    let contact = |row: &Vec<Cell>| format!("contact from {}", text(&row[0]));
     let symbols = |quantities: &[Quantity]| -> Vec<(usize, &'static str)> {
         let shown = |(k, quantity): (usize, &Quantity)| {
             let listed = column(*quantity).head.is_some() && quantity.is_listed(head.units.has_material());
@@ -374,7 +362,7 @@ fn derivative_tables(record: &Record, head: &Head) -> String {
     };
     let mut out = String::new();
     for Derived { by, events, contacts } in &record.derivatives {
-        let keys = record.kinds.iter().zip(&record.events.rows).map(event).collect_vec();
+        let keys = mapped(&record.events.rows, event);
         out += &derivatives::table(("derivatives", keys), &symbols(&EVENT), (*by, events), head);
         // When a contact begins and ends is in the table above.
         let keys = mapped(&record.contacts.rows, contact);
