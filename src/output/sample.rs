@@ -52,7 +52,6 @@ pub(crate) struct Samples {
     quantity: Quantity,
     /// What is printed of each.
     pub(crate) quantities: Vec<quantity::Quantity>,
-    has_points: bool,
     data: Dataset,
     pub(crate) derivatives: Vec<(Parameter, Derivatives<Shared>)>,
 }
@@ -91,46 +90,30 @@ pub(crate) fn samples<S: Scalar>(
         let key = quantity.key();
         Column::new(key).keyed(format!("values/{key}"))
     };
-    let listed = listed(history, &asked, column, head, &values);
+    let mut data = listed(history, &asked, column, head, &values);
     let point = if has_points { Column::new("point").headed("x") } else { Column::data("point") };
-    let mut columns = vec![
-        Column::new("time").headed("t").with_unit(units.name(Measure::Time)),
-        point.with_unit(units.name(Measure::Length)),
-        Column::new("side"),
-    ];
-    columns.extend(listed.columns);
-    let (mut all, mut numbers) = (Vec::with_capacity(found.len()), Vec::new());
-    for ((time, point, values), cells) in found.into_iter().zip(listed.rows) {
-        let mut row = vec![Cell::number(time), Cell::optional(point), side.to_string().into()];
-        row.extend(cells);
-        all.push(row);
+    let time = Column::new("time").headed("t").with_unit(units.name(Measure::Time));
+    data.columns.splice(0..0, [time, point.with_unit(units.name(Measure::Length)), Column::new("side")]);
+    data.keys = data.keys.map(|_| 2 + usize::from(has_points));
+    let mut numbers = Vec::new();
+    for ((time, point, values), row) in found.into_iter().zip(&mut data.rows) {
+        row.splice(0..0, [Cell::number(time), Cell::optional(point), side.to_string().into()]);
         numbers.extend(values.into_iter().chain(point.cloned()).chain([time.clone()]));
     }
     let quantities = asked.into_iter().filter(|quantity| quantity.is_listed(units.has_material())).collect_vec();
-    Ok((
-        Samples {
-            quantity,
-            quantities,
-            has_points,
-            data: Dataset { columns, rows: all, ..Dataset::default() },
-            derivatives: Vec::new(),
-        },
-        numbers,
-    ))
+    Ok((Samples { quantity, quantities, data, derivatives: Vec::new() }, numbers))
 }
 
 /// A row for each sample.
 pub(crate) fn samples_data(samples: Samples, head: &Head) -> Dataset {
     let units = &head.units;
-    let Samples { quantity, quantities, has_points, data: Dataset { columns, rows, .. }, derivatives } = samples;
+    let Samples { quantity, quantities, data, derivatives } = samples;
     let key = |row: &Vec<Cell>| {
-        let places = ["t = ", "x = "].into_iter().zip(row);
-        places
-            .filter(|(_, cell)| !cell.is_empty())
-            .map(|(name, cell)| format!("{name}{}", cell.text(table_digits(head.digits), "")))
-            .collect_vec()
+        let places = ["t = ", "x = "].into_iter().zip(row).filter(|(_, cell)| !cell.is_empty());
+        let texts = places.map(|(name, cell)| format!("{name}{}", cell.text(table_digits(head.digits), "")));
+        texts.collect_vec().join("   ")
     };
-    let keys = mapped(&rows, |row| key(row).join("   "));
+    let keys = mapped(&data.rows, key);
     let symbols = quantities.iter().map(|quantity| quantity.symbol()).enumerate().collect_vec();
     let tables = derivatives.iter().map(|by| derivatives::table(("at", keys.clone()), &symbols, (by.0, &by.1), head));
     let tables = tables.collect_vec().concat();
@@ -149,13 +132,9 @@ pub(crate) fn samples_data(samples: Samples, head: &Head) -> Dataset {
             ("warnings", head.warning_texts().into()),
         ],
         list: "rows",
-        columns,
-        rows,
         around: [String::new(), format!("\n{tables}{space}{below}")],
         notes: head.notes(),
-        digits: head.digits,
-        keys: (!head.wide).then_some(2 + usize::from(has_points)),
-        ..Dataset::default()
+        ..data
     };
     for (by, rows) in &derivatives {
         derivatives::add_columns(&mut data, &quantities, (*by, rows), |quantity| quantity.key().into());
