@@ -81,10 +81,8 @@ fn junit(outcomes: &[Outcome]) -> String {
     );
     for outcome in outcomes {
         let (file, name) = (escaped(&outcome.file), escaped(&outcome.expected));
-        let body = outcome
-            .failure
-            .as_ref()
-            .map_or_else(String::new, |found| format!("<failure message=\"found {}\"/>", escaped(found)));
+        let failure = |found: &String| format!("<failure message=\"found {}\"/>", escaped(found));
+        let body = outcome.failure.as_ref().map_or_else(String::new, failure);
         out += &format!("  <testcase classname=\"{file}\" name=\"{name}\">{body}</testcase>\n");
     }
     out + "</testsuite>\n"

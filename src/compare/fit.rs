@@ -137,15 +137,13 @@ impl Fit {
         };
         let problem = varied(problem, parameters, &values).unwrap_or(near);
         let history = solved(&problem, last)?;
-        let fitted = parameters.iter().zip(start.iter().zip(values.iter().zip(&errors)));
-        let values = fitted
-            .map(|(parameter, (scene, (value, error)))| FittedValue {
-                name: parameter.to_string(),
-                scene: *scene,
-                value: *value,
-                error: *error,
-            })
-            .collect();
+        let fitted = |k: usize| FittedValue {
+            name: parameters[k].to_string(),
+            scene: start[k],
+            value: values[k],
+            error: errors[k],
+        };
+        let values = (0..parameters.len()).map(fitted).collect();
         Ok(Ok(Fit { values, steps: STEPS - left + steps, settled, history }))
     }
 }

@@ -49,6 +49,14 @@ fn number(x: f64) -> String {
     x.decimal(6)
 }
 
+/// `peak, N`.
+fn with_unit(name: &str, what: Quantity, units: &Units) -> String {
+    match what.unit(units) {
+        "" => name.to_string(),
+        unit => format!("{name}, {unit}"),
+    }
+}
+
 /// `1 gap`, `2 gaps`.
 fn counted(count: usize, one: &str) -> String {
     format!("{count} {one}{}", if count == 1 { "" } else { "s" })
@@ -162,8 +170,7 @@ fn fit_table(fit: &Fit, now: &Agreement, then: &Agreement) -> String {
 fn norms_table(agreement: &Agreement, units: &Units) -> String {
     let mut rows = Vec::new();
     for Compared { what, norms, .. } in &agreement.quantities {
-        let unit = what.unit(units);
-        let name = if unit.is_empty() { what.name().to_string() } else { format!("{}, {unit}", what.name()) };
+        let name = with_unit(what.name(), *what, units);
         let on_jumps = match norms.on_jumps {
             0 => String::new(),
             1 => "1 sample on a jump".to_string(),
@@ -211,11 +218,8 @@ fn contacts_table(contacts: &[(Option<Touch>, Option<Touch>)], units: &Units) ->
             (None, None) => {}
         }
     }
-    let named = |name: &str, column: Quantity| match column.unit(units) {
-        "" => name.to_string(),
-        unit => format!("{name}, {unit}"),
-    };
-    let (impulse, peak) = (named("impulse", Quantity::Impulse), named("peak", Quantity::Force));
+    let impulse = with_unit("impulse", Quantity::Impulse, units);
+    let peak = with_unit("peak", Quantity::Force, units);
     table(&["contact", "", "from", "to", &impulse, "centroid", &peak], rows, 2)
 }
 

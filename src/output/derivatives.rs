@@ -28,10 +28,9 @@ pub(super) fn add_columns(
         let (name, key) = (format!("{}_by_{by}", name(*quantity)), format!("derivatives/{}/{by}", quantity.key()));
         let column = Column::data(name.clone()).keyed(key.clone());
         data.columns.push(column.bounded().optional());
-        data.rows
-            .iter_mut()
-            .zip(cells())
-            .for_each(|(row, cell)| row.push(Cell::shared(cell.and_then(Derivative::value))));
+        for (row, cell) in data.rows.iter_mut().zip(cells()) {
+            row.push(Cell::shared(cell.and_then(Derivative::value)));
+        }
         // Most derivatives are the same from both sides.
         if !cells().flatten().any(|cell| cell.value().is_none()) {
             continue;

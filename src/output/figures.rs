@@ -132,10 +132,8 @@ fn kernel(rows: &[Row]) -> Panel {
     for (k, damping) in STRONG.into_iter().enumerate() {
         let (rows, stroke) = (of(rows, damping).collect_vec(), Stroke::new(LINES[k], LINE));
         // A jump lies between two rows of one time.
-        let stretches: Vec<Vec<DVec2>> = rows
-            .chunk_by(|a, b| a[1] != b[1])
-            .map(|rows| rows.iter().filter_map(|row| Some(DVec2::new(row[1]?, row[3]?))).collect_vec())
-            .collect_vec();
+        let points = |rows: &[&Row]| rows.iter().filter_map(|row| Some(DVec2::new(row[1]?, row[3]?))).collect_vec();
+        let stretches: Vec<Vec<DVec2>> = mapped(rows.chunk_by(|a, b| a[1] != b[1]), points);
         let jumps =
             stretches.windows(2).filter_map(|pair| Some(vec![*pair[0].last()?, *pair[1].first()?])).collect_vec();
         layers.push(lines("jumps", jumps, Stroke::new(LINES[k], 0.15).dashed("0.5 0.5")));
@@ -176,13 +174,9 @@ fn restitution(rows: &[Row]) -> Result<Panel, Failed> {
         let curve = stretches(of(rows, damping), 1, 3);
         // Where t_b = t₁ begins: between two points of the curve.
         let at = dot(damping);
-        dots.extend(
-            curve
-                .iter()
-                .flat_map(|line| line.windows(2))
-                .filter(|pair| (pair[0].x..pair[1].x).contains(&at))
-                .map(|pair| pair[0].lerp(pair[1], (at - pair[0].x) / (pair[1].x - pair[0].x))),
-        );
+        let pairs = curve.iter().flat_map(|line| line.windows(2));
+        let about = pairs.filter(|pair| (pair[0].x..pair[1].x).contains(&at));
+        dots.extend(about.map(|pair| pair[0].lerp(pair[1], (at - pair[0].x) / (pair[1].x - pair[0].x))));
         layers.push(lines("curve", curve, stroke));
         legend.push(Key::Line(format!("r = {damping}"), stroke));
     }
@@ -213,11 +207,8 @@ fn shares(rows: &[Row], label: &str) -> Panel {
 
 fn regions(rows: &[Row]) -> Panel {
     let mut x = Axis::new("y", "", [-2.0, 3.0]);
-    x.ticks = Some(
-        [(-1.5, "x − c t₁"), (0.0, "0"), (0.5, "x"), (2.0, "2L"), (2.5, "x + c t₁")]
-            .map_each(|(y, text)| (y, text.into()))
-            .into(),
-    );
+    let ticks = [(-1.5, "x − c t₁"), (0.0, "0"), (0.5, "x"), (2.0, "2L"), (2.5, "x + c t₁")];
+    x.ticks = Some(ticks.map_each(|(y, text)| (y, text.into())).into());
     let mut y = Axis::new("time", "", [0.0, 2.2]);
     y.ticks = Some(vec![(0.0, "0".into()), (2.0, "t₁".into())]);
     let mut layers = Vec::new();

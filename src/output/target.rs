@@ -24,28 +24,24 @@ pub(crate) fn targets_data(all: &[Published], wide: bool) -> Dataset {
         });
         let time = target.time.as_ref().map(|time| Estimate::<f64>::from_number(time, &()));
         let (label, spelled) = (target.label(), target.time.as_ref().map(ToString::to_string));
-        let scene: Vec<Cell> = if several { vec![published.scene.clone().into()] } else { Vec::new() };
-        rows.push(
-            scene
-                .into_iter()
-                .chain([
-                    if unit.is_empty() { label.clone() } else { format!("{label}, {unit}") }.into(),
-                    label.into(),
-                    unit.into(),
-                    spelled.into(),
-                    Cell::optional(time.as_ref()),
-                    target.published.to_string().into(),
-                    Cell::number(&reached.published),
-                    Cell::number(&reached.ours),
-                    show(&reached.difference(), DIFFERENCE_DIGITS).into(),
-                    Cell::number(&reached.difference()),
-                    target.tolerance().into(),
-                    format!("{} ({})", if reached.agrees() { "yes" } else { "NO" }, place + 1).into(),
-                    reached.agrees().into(),
-                    target.source.clone().into(),
-                ])
-                .collect_vec(),
-        );
+        let mut row: Vec<Cell> = if several { vec![published.scene.clone().into()] } else { Vec::new() };
+        row.extend([
+            if unit.is_empty() { label.clone() } else { format!("{label}, {unit}") }.into(),
+            label.into(),
+            unit.into(),
+            spelled.into(),
+            Cell::optional(time.as_ref()),
+            target.published.to_string().into(),
+            Cell::number(&reached.published),
+            Cell::number(&reached.ours),
+            show(&reached.difference(), DIFFERENCE_DIGITS).into(),
+            Cell::number(&reached.difference()),
+            target.tolerance().into(),
+            format!("{} ({})", if reached.agrees() { "yes" } else { "NO" }, place + 1).into(),
+            reached.agrees().into(),
+            target.source.clone().into(),
+        ]);
+        rows.push(row);
     }
     let listed: String = sources.iter().enumerate().map(|(k, source)| format!("({}) {source}\n", k + 1)).collect();
     let title = all.first().filter(|_| !several).and_then(|published| published.title.as_ref());
