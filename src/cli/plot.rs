@@ -16,7 +16,7 @@ use crate::motion::Ending;
 use crate::number::{Number, Scalar};
 use crate::output::Head;
 use crate::plot::{Along, Asked, Gathered, Picture, heading, sheet};
-use crate::quantity::{Needs, Quantity, Units};
+use crate::quantity::{Needs, Quantity};
 use crate::scene::Scene;
 use crate::solve::{History, Numbers, Question, Target};
 
@@ -171,8 +171,7 @@ struct Gather<'a> {
 
 impl Visit for Gather<'_> {
     fn visit<S: Target>(&self, history: &History<S>, head: Head, progress: source::Progress) -> Result<(), Failure> {
-        let units = Units::of(&self.scene.problem, self.scene.units);
-        let found = self.asked.gather(self.name.into(), &self.scene.problem, units, history)?;
+        let found = self.asked.gather(self.name.into(), &self.scene.problem, head.units.clone(), history)?;
         drop(progress);
         warned(Head { warnings: history.warnings(), ..head }, false);
         let ([from, to], end) = (found.span, found.end);

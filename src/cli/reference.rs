@@ -15,7 +15,7 @@ use crate::mapped::{CollectVec, mapped};
 use crate::motion::{Motion, Side};
 use crate::number::{List, Number, Scalar};
 use crate::output::{Head, Language, Preamble, Rows, code};
-use crate::quantity::{Needs, Quantity, SLICE, Slice, Units};
+use crate::quantity::{Needs, Quantity, SLICE, Slice};
 use crate::scene::Scene;
 use crate::solve::{History, Question, Target};
 use crate::threads::beside;
@@ -178,12 +178,11 @@ impl Series<'_> {
 impl Visit for Series<'_> {
     /// Rows are written while the next ones are asked for.
     fn visit<S: Target>(&self, history: &History<S>, head: Head, progress: source::Progress) -> Result<(), Failure> {
-        let units = Units::of(&self.scene.problem, self.scene.units);
         let described = match &self.asked.points {
             Some(_) => &SLICE[..],
             None => &self.columns,
         };
-        let described = mapped(described, |column| (*column, column.unit(&units)));
+        let described = mapped(described, |column| (*column, column.unit(&head.units)));
         let keep = || failure::cannot("keep the rows");
         let mut rows = Rows::new(self.format, described, head.digits).map_err(keep())?;
         let at_once = CHUNK / self.asked.points.as_ref().map_or(1, List::len).min(CHUNK);
