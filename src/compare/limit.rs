@@ -31,7 +31,7 @@ pub struct Outcome {
     pub failure: Option<String>,
 }
 
-/// What can be bounded besides the norms of quantities, with its meaning.
+/// What can be bounded besides the norms of quantities.
 const AUDITED: [&str; 8] =
     ["coverage", "energy", "momentum", "impulse", "penetration", "tension", "missed", "invented"];
 
@@ -88,17 +88,17 @@ impl Limit {
 
     fn outcome(&self, file: &str, found: Option<f64>) -> Outcome {
         let within = |found: f64| if self.below { found >= self.bound } else { found <= self.bound };
-        let said = |found: Option<f64>| found.map_or_else(|| "none".into(), |found| format!("{found:.3e}"));
-        let failure = (!found.is_some_and(within)).then(|| said(found));
+        let said = || found.map_or_else(|| "none".into(), |found| format!("{found:.3e}"));
+        let failure = (!found.is_some_and(within)).then(said);
         Outcome { file: file.into(), expected: self.to_string(), failure }
     }
 
     /// What a file has of it: a norm relative to ours, or absolute where ours is zero, energy likewise.
-    fn found(&self, agreement: &Agreement) -> Result<Option<f64>, String> {
+    fn found(&self, agreement: &Agreement) -> Result<f64, String> {
         let audit = &agreement.audit;
         let lacks = |needs: &str| format!("found a bound of {}, expected data with {needs}", self.name);
         let extreme = |extreme: &Option<Extreme>, needs| extreme.map(|most| most.value).ok_or_else(|| lacks(needs));
-        Ok(Some(match self.name.as_str() {
+        Ok(match self.name.as_str() {
             "coverage" => agreement.coverage.share(),
             "missed" => audit.missed as f64,
             "invented" => audit.invented as f64,
@@ -130,7 +130,7 @@ impl Limit {
                 // Where no sample counts there is no difference.
                 NORMS[norm].2(&compared.norms).map_or(0.0, |norm| norm.relative.unwrap_or(norm.absolute))
             }
-        }))
+        })
     }
 }
 
@@ -149,7 +149,7 @@ pub(crate) fn outcomes(
         all.push(Outcome { file: (*file).into(), expected, failure });
         for limit in limits.iter().filter(|limit| !is_order(limit)) {
             let found = limit.found(agreement).map_err(|error| format!("{file}: {error}"))?;
-            all.push(limit.outcome(file, found));
+            all.push(limit.outcome(file, Some(found)));
         }
     }
     for limit in limits.iter().filter(is_order) {
