@@ -51,6 +51,26 @@ impl CompareError {
 }
 
 impl Options {
+    /// Refuses what cannot be meant of `count` sources.
+    fn check(&self, count: usize) -> Result<(), CompareError> {
+        let refuse = |key, found: String, expected: String| Err(CompareError::Option { key, found, expected });
+        if !self.widths.is_empty() && self.widths.len() != count {
+            return refuse("widths", format!("{} widths", self.widths.len()), format!("{count}, one for each file"));
+        }
+        if self.t0.is_some() && self.dt.is_none() {
+            return refuse("dt", "t0 without dt".into(), "both, or a column of times".into());
+        }
+        let named =
+            [("dt", &self.dt), ("window", &self.window), ("energy_scale", &self.energy_scale), ("to", &self.to)];
+        let lengths = named.into_iter().flat_map(|(name, number)| number.iter().map(move |number| (name, number)));
+        for (name, number) in lengths.chain(self.widths.iter().map(|width| ("widths", width))) {
+            if number.to_f64() <= 0.0 {
+                return refuse(name, format!("{name} {number}"), "more than zero".into());
+            }
+        }
+        Ok(())
+    }
+
     /// How far the data should go: `to`, or the end of the scene's own run, where that is a time or soon found.
     fn until(&self, problem: &Problem) -> Option<f64> {
         match (&self.to, &problem.run) {

@@ -67,11 +67,9 @@ pub(super) fn lost_start(columns: &[Compared]) -> Option<Verdict> {
     let [first, second] = energy.theirs.get(..2)?.try_into().ok()?;
     let lost: f64 = first - second;
     (lost > first / 2.0 && energy.ours[1] > energy.ours[0] / 2.0).then(|| {
-        let text = format!(
-            "{} of {} of the energy are lost in the first step: is the initial velocity ignored?",
-            lost.decimal(4),
-            first.decimal(4)
-        );
+        let (lost, first) = (lost.decimal(4), first.decimal(4));
+        let text =
+            format!("{lost} of {first} of the energy are lost in the first step: is the initial velocity ignored?");
         Verdict { kind: "start_velocity", quantity: "all", value: -1.0, error: 0.0, text }
     })
 }
@@ -174,10 +172,9 @@ pub(super) fn half_step(ours: &Ours<'_>, agreement: &Agreement) -> Option<Verdic
         let is_half = (late.abs() / step - 0.5).abs() < LEFT * 0.5;
         let error = (left / square / (count as f64 - 2.0)).sqrt();
         (count > 3 && is_half && error < late.abs() / 2.0).then(|| {
-            let side = if late > 0.0 { "late" } else { "early" };
-            let name = column.what.name();
-            let text =
-                format!("{name} is {:.2} steps {side}: is it the velocity between two steps?", late.abs() / step);
+            let (name, side) = (column.what.name(), if late > 0.0 { "late" } else { "early" });
+            let steps = late.abs() / step;
+            let text = format!("{name} is {steps:.2} steps {side}: is it the velocity between two steps?");
             Verdict { kind: "half_step", quantity: name, value: late, error, text }
         })
     };

@@ -1,4 +1,4 @@
-//! What is wrong with data, and where.
+//! What is wrong with data, and where; columns that may be wrong.
 
 use crate::number::short;
 
@@ -60,3 +60,9 @@ impl DataErrorKind {
         DataError { file: file.into(), place, kind: self }
     }
 }
+
+/// A column of an array, or why it is none of numbers: it may not be asked for.
+pub type Column = Result<Vec<f64>, DataErrorKind>;
+
+/// The columns of arrays, which have names in an archive.
+pub(super) type Arrays = Vec<(Option<String>, Vec<Column>)>;

@@ -6,6 +6,6 @@ mod numpy;
 mod source;
 mod text;
 
-pub use error::{DataError, DataErrorKind};
+pub use error::{Column, DataError, DataErrorKind};
 pub(crate) use source::Columns;
-pub use source::{Column, Source};
+pub use source::Source;

@@ -5,8 +5,7 @@ use std::io::Cursor;
 use ndarray::{ArrayD, Axis, IxDyn, OwnedRepr};
 use ndarray_npy::{NpzReader, ReadNpyError, ReadNpyExt, ReadNpzError, ReadableElement};
 
-use super::error::DataErrorKind;
-use super::source::{Arrays, Column};
+use super::error::{Arrays, Column, DataErrorKind};
 use crate::number::short;
 
 /// Reads an array or an archive of arrays, there with their names: an array of one axis is a column, one of two axes has

@@ -4,15 +4,9 @@ use std::fs::File;
 use std::io::{BufRead, BufReader, Read};
 use std::path::Path;
 
-use super::error::{DataError, DataErrorKind};
+use super::error::{Arrays, Column, DataError, DataErrorKind};
 use super::numpy;
 use super::text::Text;
-
-/// A column of an array, or why it is none of numbers: it may not be asked for.
-pub type Column = Result<Vec<f64>, DataErrorKind>;
-
-/// The columns of arrays, which have names in an archive.
-pub(super) type Arrays = Vec<(Option<String>, Vec<Column>)>;
 
 /// A source of columns, opened far enough to know how many there are and what they are called.
 pub struct Source {
