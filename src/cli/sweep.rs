@@ -41,8 +41,8 @@ pub(super) struct Sweep {
     #[command(flatten)]
     numbers: NumberArgs,
     /// Only the i-th of n consecutive parts of the points, for job arrays
-    #[arg(long, value_name = "I/N")]
-    shard: Option<Shard>,
+    #[arg(long, value_name = "I/N", value_parser = shard)]
+    shard: Option<[usize; 2]>,
     /// Go on with the sweep that FILE.unfinished holds
     #[arg(long, requires = "output")]
     resume: bool,
@@ -59,28 +59,11 @@ pub(super) struct Sweep {
 
 const FORMATS: &[Format] = &[Format::Table, Format::Json, Format::Csv, Format::Npz];
 
-#[derive(Clone, Copy, Debug)]
-struct Shard {
-    part: usize,
-    parts: usize,
-}
-
-impl std::str::FromStr for Shard {
-    type Err = String;
-
-    fn from_str(text: &str) -> Result<Self, String> {
-        let numbers = text.split_once('/').and_then(|(i, n)| Some((i.parse().ok()?, n.parse().ok()?)));
-        let shard = numbers.map(|(part, parts)| Shard { part, parts });
-        let known = shard.filter(|shard| (1..=shard.parts).contains(&shard.part));
-        known.ok_or_else(|| format!("found `{text}`, expected I/N such as 3/8, the third of eight parts"))
-    }
-}
-
-impl Shard {
-    fn points(self, count: usize) -> Range<usize> {
-        let start = |part: usize| (count as u128 * part as u128 / self.parts as u128) as usize;
-        start(self.part - 1)..start(self.part)
-    }
+/// A part, counted from 1, and how many there are.
+fn shard(text: &str) -> Result<[usize; 2], String> {
+    let numbers = text.split_once('/').and_then(|(i, n)| Some([i.parse().ok()?, n.parse().ok()?]));
+    let known = numbers.filter(|[part, parts]| (1..=*parts).contains(part));
+    known.ok_or_else(|| format!("found `{text}`, expected I/N such as 3/8, the third of eight parts"))
 }
 
 impl Sweep {
@@ -104,7 +87,9 @@ impl Sweep {
         let (quantities, time, numbers) = (self.quantity.clone(), self.time.clone(), self.numbers.numbers(&scene));
         let asked = Asked { quantities, time, numbers, units: scene.units };
         let sweep = sweep::Sweep { grid: Grid::new(scene.problem.clone(), axes)?, asked };
-        let points = self.shard.map_or(0..sweep.grid.len(), |shard| shard.points(sweep.grid.len()));
+        let [part, parts] = self.shard.unwrap_or([1, 1]);
+        let start = |part: usize| (sweep.grid.len() as u128 * part as u128 / parts as u128) as usize;
+        let points = start(part - 1)..start(part);
         let vary = |axis: &Axis| json!({"path": axis.path, "values": axis.values});
         // All that the points depend on.
         let identity = json!({
@@ -117,14 +102,9 @@ impl Sweep {
             "points": [points.start, points.end],
         });
         let path = self.output.as_deref().filter(|path| *path != Path::new("-"));
-        let (journal, known) = match path {
-            Some(path) => {
-                let opened = Journal::open(path, &identity, self.resume).map_err(|error| unopened(path, error))?;
-                (Some(opened.0), opened.1)
-            }
-            None => (None, Vec::new()),
-        };
-        let found = self.solve(&sweep, points, known, journal.as_ref())?;
+        let open = |path| Journal::open(path, &identity, self.resume).map_err(|error| unopened(path, error));
+        let (journal, known) = path.map(open).transpose()?.unzip();
+        let found = self.solve(&sweep, points, known.unwrap_or_default(), journal.as_ref())?;
         let bytes = file::rows(&sweep_data(&sweep, &found, scene.title.as_deref()), format)?;
         file::write(path, &bytes)?;
         if let Some((journal, path)) = journal.zip(path) {
