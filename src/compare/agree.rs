@@ -3,7 +3,6 @@
 use serde::Serialize;
 
 use super::audit::{Audit, Books};
-use super::map::Location;
 use super::norms::{Compared, Grid, norms};
 use super::options::Options;
 use super::ours::Ours;
@@ -12,7 +11,7 @@ use super::touch::{Touch, matched, touches};
 use crate::error::Error;
 use crate::number::Number;
 use crate::problem::Top;
-use crate::quantity::{Quantity, Rays};
+use crate::quantity::Quantity;
 
 /// Data beside a history.
 #[derive(Debug, Default)]
@@ -69,14 +68,10 @@ impl Agreement {
         let whats: Vec<Quantity> = quantities.iter().map(|(what, _)| *what).collect();
         let values = ours.values(&whats, &grid)?;
         let mut compared = Vec::new();
-        let mut passing = (Location::Ground, ours.passing(Location::Ground, &grid));
         for ((what, theirs), mut values) in quantities.into_iter().zip(values) {
-            let location = Location::of(what);
-            if location != passing.0 {
-                passing = (location, ours.passing(location, &grid));
-            }
-            let on_jumps = ours.nearer(what, &grid, (&passing.1, &rounding, &sides), &theirs, &mut values)?;
-            let away = |k: usize| what.rays() != Rays::Jump || (passing.1[k] - grid.times[k]).abs() > window;
+            let passing = ours.passing(what, &grid);
+            let on_jumps = ours.nearer(what, &grid, (&passing, &rounding, &sides), &theirs, &mut values)?;
+            let away = |k: usize| passing.get(k).is_none_or(|jump| (jump - grid.times[k]).abs() > window);
             let norms = norms(&grid, &values, &theirs, ours.scale(what), on_jumps, away);
             compared.push(Compared { what, ours: values, theirs, norms });
         }

@@ -4,13 +4,12 @@ use serde::Serialize;
 
 use super::agree::Agreement;
 use super::least::{Least, least};
-use super::map::Location;
 use super::model::{Model, solved};
 use super::norms::{Compared, Grid};
 use super::ours::Ours;
 use crate::error::Error;
 use crate::problem::{Parameter, Problem};
-use crate::quantity::{Quantity, Rays};
+use crate::quantity::Quantity;
 use crate::solve::History;
 
 /// A value that was fitted.
@@ -171,9 +170,9 @@ fn pointwise(
     let all = ours.values(&whats, &grid)?;
     let of = |((column, values), place): ((&Compared, Vec<f64>), usize)| {
         let weight = weights.map_or(1.0, |weights| weights[place]);
-        let jumps = (column.what.rays() == Rays::Jump).then(|| ours.passing(Location::of(column.what), &grid));
-        let error = |k: usize| match &jumps {
-            Some(jumps) if (jumps[k] - grid.times[k]).abs() <= 2.0 * step => f64::NAN,
+        let passing = ours.passing(column.what, &grid);
+        let error = |k: usize| match passing.get(k) {
+            Some(jump) if (jump - grid.times[k]).abs() <= 2.0 * step => f64::NAN,
             _ => (column.theirs[k * stride] - values[k]) / weight,
         };
         (0..grid.times.len()).map(error).collect()

@@ -2,30 +2,6 @@
 
 use crate::quantity::{Conversion, Measure, Needs, Quantity, Units};
 
-/// Where along the rod a quantity is.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Location {
-    /// At the ground, or nowhere: what jumps there jumps in it.
-    Ground,
-    /// At the ground, as a switch: contact begins and ends without a jump of the stress too.
-    Switch,
-    /// At the upper end.
-    Top,
-    /// At points along the rod.
-    Point,
-}
-
-impl Location {
-    pub(crate) fn of(quantity: Quantity) -> Self {
-        match quantity {
-            Quantity::TopDisplacement | Quantity::TopVelocity => Location::Top,
-            Quantity::Contact => Location::Switch,
-            along if along.needs() == Needs::PointAndTime => Location::Point,
-            _ => Location::Ground,
-        }
-    }
-}
-
 /// What of `field`, or over time, is called so and can be compared.
 pub(crate) fn compared(name: &str, field: bool) -> Option<Quantity> {
     let needs = if field { Needs::PointAndTime } else { Needs::Time };

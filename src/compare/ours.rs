@@ -1,6 +1,5 @@
 //! The exact side: values, jumps and contacts of a history.
 
-use super::map::Location;
 use super::norms::Grid;
 use super::samples::Rounding;
 use super::touch::{Touch, pressed};
@@ -134,9 +133,8 @@ impl<'a> Ours<'a> {
         ours: &mut [f64],
     ) -> Result<usize, Error> {
         let mut count = 0;
-        let may = if what.rays() == Rays::Jump { rounding.most } else { -1.0 };
         for (k, (jump, time)) in passing.iter().zip(&grid.times).enumerate() {
-            if (jump - time).abs() > may || (jump - time).abs() > rounding.at(*time) {
+            if (jump - time).abs() > rounding.most || (jump - time).abs() > rounding.at(*time) {
                 continue;
             }
             let point = grid.points.as_ref().map(|points| &points[k..=k]);
@@ -162,20 +160,22 @@ impl<'a> Ours<'a> {
     }
 
     /// For each sample the time nearest to it at which a ray passes the point that the quantity is at; infinite where
-    /// none ever does.
-    pub(super) fn passing(&self, location: Location, grid: &Grid) -> Vec<f64> {
+    /// none ever does. Empty for what does not jump.
+    pub(super) fn passing(&self, what: Quantity, grid: &Grid) -> Vec<f64> {
         let trip = self.rod.round_trip();
         let up_and_down = |travel: f64, time: f64| {
             let ways = [travel, trip - travel].map(|delay| nearest(&self.leaves, time - delay) + delay);
             if (ways[0] - time).abs() < (ways[1] - time).abs() { ways[0] } else { ways[1] }
         };
-        let at = |(k, time): (usize, &f64)| match (location, &grid.points) {
-            (Location::Point, Some(points)) => up_and_down(points[k] / self.rod.wave_speed, *time),
-            (Location::Top, _) => up_and_down(trip / 2.0, *time),
-            (Location::Switch, _) => nearest(&self.switches, *time),
+        let at = |(k, time): (usize, &f64)| match (what, &grid.points) {
+            // Contact begins and ends without a jump of the stress too.
+            (Quantity::Contact, _) => nearest(&self.switches, *time),
+            (Quantity::TopDisplacement | Quantity::TopVelocity, _) => up_and_down(trip / 2.0, *time),
+            (_, Some(points)) => up_and_down(points[k] / self.rod.wave_speed, *time),
             _ => nearest(&self.jumps, *time),
         };
-        grid.times.iter().enumerate().map(at).collect()
+        let jumps = what.rays() == Rays::Jump;
+        grid.times.iter().enumerate().filter(|_| jumps).map(at).collect()
     }
 
     /// What a displacement or a velocity is compared with; zero for what is not told from zero by it.
