@@ -54,12 +54,13 @@ pub(super) fn solved(problem: &Problem, until: f64) -> Result<History<f64>, Erro
 
 /// `start + ∫ values dt` by the trapezoidal rule.
 fn integral(times: &[f64], values: &[f64], start: f64) -> Vec<f64> {
-    let steps = times.windows(2).zip(values.windows(2)).map(|(t, v)| (t[1] - t[0]) * f64::midpoint(v[0], v[1]));
-    let sums = steps.scan(start, |sum, step| {
-        *sum += step;
-        Some(*sum)
+    let mut sum = start;
+    let step = |k: usize| (times[k] - times[k - 1]) * f64::midpoint(values[k - 1], values[k]);
+    let sums = (0..times.len()).map(|k| {
+        sum += if k > 0 { step(k) } else { 0.0 };
+        sum
     });
-    std::iter::once(start).chain(sums).take(times.len()).collect()
+    sums.collect()
 }
 
 impl<'a> Model<'a> {
@@ -83,26 +84,22 @@ impl<'a> Model<'a> {
                 Some(_) => speed,
                 None => continue,
             };
-            let of_force =
-                |values: &[f64]| values.iter().map(|value| value * ours.force_per(*what)).collect::<Vec<f64>>();
-            let (model, values) = match what {
-                Quantity::EndVelocity => (Quantity::EndDisplacement, theirs.clone()),
-                Quantity::TopVelocity => (Quantity::TopDisplacement, theirs.clone()),
-                Quantity::Force | Quantity::Stress | Quantity::Strain => (Quantity::Impulse, of_force(theirs)),
-                _ => (*what, theirs.clone()),
+            let model = match what {
+                Quantity::EndVelocity => Quantity::EndDisplacement,
+                Quantity::TopVelocity => Quantity::TopDisplacement,
+                Quantity::Force | Quantity::Stress | Quantity::Strain => Quantity::Impulse,
+                _ => *what,
             };
-            let values = if what.rays() == Rays::Jump {
+            let mut values: Vec<f64> = theirs.iter().map(|value| value * ours.force_per(*what)).collect();
+            if what.rays() == Rays::Jump {
                 let start = history.columns(&[model, *what], &times[..1], Some(Side::Right))?;
-                let mut values = values;
                 // A row with the stress that is there before the start, on which nothing has acted yet.
                 let before = own[0] != start[1][0] && own[0] != 0.0;
                 if let (true, Some(next)) = (before, values.get(1).copied()) {
                     values[0] = next;
                 }
-                integral(times, &values, start[0][0])
-            } else {
-                values
-            };
+                values = integral(times, &values, start[0][0]);
+            }
             let is_empty = theirs.iter().all(|value| *value == 0.0);
             let theirs = kept.iter().map(|k| values[*k]).collect();
             signals.push(Signal { what: *what, model, theirs, is_empty, rate });
