@@ -1,11 +1,11 @@
 //! What is asked of the modes: stress, field, centre of mass, energy.
 
 use crate::motion::{Field, Side};
-use crate::number::{Analytic, Estimate, Rounded, Scalar};
+use crate::number::{Analytic, Estimate, Scalar};
 use crate::problem::Parameters;
 use crate::special::{RoundedSpecial, phi1};
 
-use super::sums::{History, MOST_MODES, Shape, series};
+use super::sums::{History, MOST_MODES, Shape, series, within};
 
 /// The first contact by its modes.
 ///
@@ -193,11 +193,4 @@ impl<S: RoundedSpecial> Modal<S> {
         let sine = if frequency.is_zero() { trips.clone() } else { angle.sin() / &frequency };
         (angle.cos() * &fade, sine * &fade, square)
     }
-}
-
-/// `value`, with `e^log_tail` left out of it; a value that is no number is not known.
-pub(super) fn within<S: Rounded>(value: Estimate<S>, log_tail: f64) -> Estimate<S> {
-    let error = value.error() + (log_tail - value.log2_roundoff() * std::f64::consts::LN_2).exp();
-    let known = value.is_finite() && !error.is_nan();
-    Estimate::new(value.into_value(), if known { error.max(f64::MIN_POSITIVE) } else { f64::INFINITY })
 }

@@ -3,7 +3,6 @@
 use std::f64::consts::PI;
 
 use super::Modal;
-use super::motion::within;
 use crate::mapped::{CollectVec, MapEach, mapped};
 use crate::motion::Side;
 use crate::number::{Analytic, Estimate, Rounded, Scalar};
@@ -299,4 +298,11 @@ fn lattice<S: Rounded>(alpha: &Estimate<S>, side: Side, numbers: &[Estimate<S>])
         list.push(if whole % 2 == 0 { sum } else { -sum });
     }
     Some(list)
+}
+
+/// `value`, with `e^log_tail` left out of it; a value that is no number is not known.
+pub(super) fn within<S: Rounded>(value: Estimate<S>, log_tail: f64) -> Estimate<S> {
+    let error = value.error() + (log_tail - value.log2_roundoff() * std::f64::consts::LN_2).exp();
+    let known = value.is_finite() && !error.is_nan();
+    Estimate::new(value.into_value(), if known { error.max(f64::MIN_POSITIVE) } else { f64::INFINITY })
 }

@@ -140,6 +140,7 @@ impl<S: Target> History<S> {
     /// An error of a question, with why the history ends before the time that was asked for.
     pub(crate) fn explained(&self, error: Error) -> Error {
         let Error::TimeOutside { found, end } = error else { return error };
+        let (found, end) = told_apart(found, end);
         let after = found.parse::<Number>().is_ok_and(|time| time.to_f64() > 0.0);
         match &self.ending {
             ending @ Ending::ExactnessEnds { .. } if after => {
@@ -462,6 +463,17 @@ impl<S: Target> std::fmt::Debug for History<S> {
             .field("plan", plan)
             .field("end", end)
             .finish_non_exhaustive()
+    }
+}
+
+/// Two times as doubles print them, where that is shorter and tells them apart.
+fn told_apart(found: String, end: String) -> (String, String) {
+    let double = |text: &String| Some(text.parse::<Number>().ok()?.to_f64());
+    let both = double(&found).zip(double(&end)).filter(|(found, end)| found != end);
+    let shorter = |text: String, value: f64| if text.len() > 24 { value.to_string() } else { text };
+    match both {
+        Some((value, last)) => (shorter(found, value), shorter(end, last)),
+        None => (found, end),
     }
 }
 
