@@ -238,8 +238,9 @@ impl<S: Scalar> Pushes<S> {
     /// Where a time is not told from the break of two pieces, `∫` from the break to it is at most so long times the
     /// greatest stress.
     fn at(&self, time: &S) -> S {
-        // In the precision of the pieces.
-        let time = &(self.stiffness.zero() + time);
+        // A time in fewer bits than the pieces have.
+        let longer = (time.log2_roundoff() > self.stiffness.log2_roundoff()).then(|| self.stiffness.zero() + time);
+        let time = longer.as_ref().unwrap_or(time);
         let begun = self.pieces.partition_point(|(piece, _)| !time.below(&piece.from).unwrap_or(false));
         let Some((piece, before)) = begun.checked_sub(1).map(|last| &self.pieces[last]) else { return time.zero() };
         let pushed = match time.below(&piece.from) {
