@@ -286,7 +286,8 @@ impl Dependence {
     /// `cell::diagonal`. Hence
     ///
     /// ```text
-    /// δh′ ← (1 − 2∫ w e^{−Rs} ds) δh′ + (2R (z_t(0,U) − z_t(0,L)) − 2∫ w dq) ℓ′ − 2 Σ m_j (w(s_j) − e^{Rs_j} ∫ w e^{−Rs} ds)
+    /// δh′ ← (1 − 2∫ w e^{−Rs} ds) δh′ + (2R (z_t(0,U) − z_t(0,L)) − 2∫ w dq) ℓ′
+    ///       − 2 Σ m_j (w(s_j) − e^{Rs_j} ∫ w e^{−Rs} ds)
     /// ```
     ///
     /// and the mass of the ray that starts is `−ℓ′ (v_U + y(U⁻))`: the late landing and the late release together,

@@ -24,7 +24,8 @@ use crate::scene::builtin;
 pub(super) struct Scenes {
     /// The scene to print; with --targets also a scene file, `-`, or a folder with scene files
     name: Option<String>,
-    /// Print the published values of the scene, its [[target]]s, beside ours; without a scene those of all built-in ones
+    /// Print the published values of the scene, its [[target]]s, beside ours; without a scene those of all built-in
+    /// ones
     #[arg(long)]
     targets: bool,
     #[command(flatten)]

@@ -10,8 +10,8 @@
 //! - *Of each part of a column*, which are the first wave up the rod, the rest of the contact, and the flight, the
 //!   number that fits it best is within half of the value. A part counts where the value changes it by more than the
 //!   resolution of the data, which is an error of one step in time. What a scheme does wrong at an impact is not there
-//!   before it, or goes another way after it: so one of the parts before the flight has to count, unless the value leaves
-//!   nothing that the data resolve.
+//!   before it, or goes another way after it: so one of the parts before the flight has to count, unless the value
+//!   leaves nothing that the data resolve.
 //! - *Of the first sample*, which a scheme is given and does not compute, at most half of what the value changes is
 //!   left. Where it is the energy that the value changes there and at most a quarter is left, the start itself says
 //!   the value: then half of ‖e‖₂² may be left over all columns, and no column may get worse.

@@ -93,7 +93,8 @@ pub(crate) fn dot(damping: &str) -> f64 {
     2.0 * threshold_near(2.0 * damping.parse().unwrap_or(f64::NAN))
 }
 
-/// Rows of Figure 1: `r`, `t`, which limit, `Ψ_r(t)` for `g = 0`, `t₁ = μ = c = 1`, and `t_b`. Two are of each whole `t`.
+/// Rows of Figure 1: `r`, `t`, which limit, `Ψ_r(t)` for `g = 0`, `t₁ = μ = c = 1`, and `t_b`. Two are of each whole
+/// `t`.
 ///
 /// **Source**: (2.28), `Ψ_r = e^{rt} v_x(0,t)` while the end is held.
 pub(crate) fn kernel(damping: &str, per_trip: i32) -> Result<Vec<Vec<Option<Double>>>, Failed> {

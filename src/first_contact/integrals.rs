@@ -1,5 +1,5 @@
-//! Integrals along the rod during the first contact, by Gauss–Legendre between points and rays: energies, `E_z` as a sum
-//! of squares, and moments over the cells of a grid.
+//! Integrals along the rod during the first contact, by Gauss–Legendre between points and rays: energies, `E_z` as a
+//! sum of squares, and moments over the cells of a grid.
 
 use std::cmp::Ordering;
 

@@ -46,7 +46,8 @@ pub struct Passing<S> {
 /// Rays are compared in the numbers of the run where doubles tell them apart by less than this part of a round trip:
 /// doubles hold a fraction of a million round trips to 1e-10.
 const NEAR: f64 = 1e-6;
-/// A ray that may be off by more than this part of a round trip is left out: the run warns that its events are in doubt.
+/// A ray that may be off by more than this part of a round trip is left out: the run warns that its events are in
+/// doubt.
 const MOST_LATE: f64 = 0.01;
 
 impl<S: Scalar> RayRegister<S> {

@@ -45,8 +45,8 @@ impl Dataset {
         mapped(&self.rows, |row| object(self, row))
     }
 
-    /// The rows below the names of their columns, the bounds of numbers in columns of their own after all others, and the
-    /// notes in comments above, which readers of CSV skip.
+    /// The rows below the names of their columns, the bounds of numbers in columns of their own after all others, and
+    /// the notes in comments above, which readers of CSV skip.
     pub(crate) fn csv(&self) -> Result<String, csv::Error> {
         let digits = if self.digits == 0 { DOUBLE_DIGITS } else { self.digits };
         let named = |column: &&Column| column.name.is_some();

@@ -57,8 +57,8 @@ pub fn table<S: Scalar>(motion: &dyn Motion<S>, table: Table, units: &Units) -> 
     Ok(present.iter().enumerate().map(column).collect_vec())
 }
 
-/// The values of `quantities` of one kind for each event, contact, flight or piece, in units of the problem; `None` where
-/// there is none.
+/// The values of `quantities` of one kind for each event, contact, flight or piece, in units of the problem; `None`
+/// where there is none.
 pub(crate) fn values<S: Scalar>(
     motion: &dyn Motion<S>,
     quantities: &[Quantity],

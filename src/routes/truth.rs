@@ -82,8 +82,9 @@ impl Truth {
         self.log10_scale().floor() - self.log10_half_width
     }
 
-    /// How many digits of `value` are right, `−log₁₀` of the relative error as far as the truth is known: of an enclosure
-    /// those that both ends have in common with the truth, none where it lies outside; infinite for the truth itself.
+    /// How many digits of `value` are right, `−log₁₀` of the relative error as far as the truth is known: of an
+    /// enclosure those that both ends have in common with the truth, none where it lies outside; infinite for the truth
+    /// itself.
     pub(crate) fn right_digits(&self, value: &Value) -> f64 {
         let log10_error = match value.log10_radius() {
             None => self.log10_error(value),

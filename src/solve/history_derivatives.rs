@@ -57,7 +57,8 @@ impl<S: Target> History<S> {
     /// let rod = Problem::builder().length(1).wave_speed(1).gravity(1).impact_speed(3).time(1).build()?;
     /// // Behind the first front v_x(0,t) = −(μ + g t)/c, so that ∂/∂g is −t/c.
     /// let history = rod.exact()?;
-    /// let found = history.derivatives_at(Parameter::Gravity, &[Quantity::Strain], &["1/3".parse()?], &[], Side::Right)?;
+    /// let (of, at) = ([Quantity::Strain], ["1/3".parse()?]);
+    /// let found = history.derivatives_at(Parameter::Gravity, &of, &at, &[], Side::Right)?;
     /// assert_eq!(found[0][0].as_ref().and_then(|by| by.value()).map(ToString::to_string), Some("-1/3".into()));
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```

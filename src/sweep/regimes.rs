@@ -53,8 +53,8 @@ impl Regime {
 }
 
 impl Map {
-    /// The map for the ranges `damping` of R and `speed` of M, as [`Axis`] has them: a rod with `t₁ = g = 1` has `R = r`
-    /// and `M = μ`. It is the same for any number of threads; `done` is called after each point.
+    /// The map for the ranges `damping` of R and `speed` of M, as [`Axis`] has them: a rod with `t₁ = g = 1` has `R =
+    /// r` and `M = μ`. It is the same for any number of threads; `done` is called after each point.
     pub(crate) fn new(
         damping: &str,
         speed: &str,

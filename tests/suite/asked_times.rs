@@ -1,8 +1,9 @@
-//! A time that is asked for stands for exactly what it spells: at the times that a run prints for its events, a rounding
-//! away from them, both limits are those of the side that the time is on, or the bound covers both and a warning says so.
+//! A time that is asked for stands for exactly what it spells: at the times that a run prints for its events, a
+//! rounding away from them, both limits are those of the side that the time is on, or the bound covers both and a
+//! warning says so.
 //!
-//! The truth is the run in sixty digits; where its events say that the end is in flight, or on the ground, the stress, or
-//! the velocity of the end, is zero by that alone.
+//! The truth is the run in sixty digits; where its events say that the end is in flight, or on the ground, the stress,
+//! or the velocity of the end, is zero by that alone.
 
 use std::sync::Arc;
 

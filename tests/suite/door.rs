@@ -47,8 +47,8 @@ fn a_plan_reaches_what_is_asked_and_no_more() {
     }
 }
 
-/// `t_b`, the impulse, `e_E²` and `E_z` that are asked for alone are those of the whole first contact, within the bounds
-/// of both.
+/// `t_b`, the impulse, `e_E²` and `E_z` that are asked for alone are those of the whole first contact, within the
+/// bounds of both.
 #[test]
 fn single_numbers_are_those_of_the_whole() {
     let mut compared = 0;

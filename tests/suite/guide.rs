@@ -123,8 +123,8 @@ fn pages_show_what_their_commands_print() {
     }
 }
 
-/// What the pages tell to type, with a code of one's own, `my_code` and `run.csv`, and with pictures as SVG: PNG and PDF
-/// are drawn from it. The figures of the paper are drawn once, in `pictures`.
+/// What the pages tell to type, with a code of one's own, `my_code` and `run.csv`, and with pictures as SVG: PNG and
+/// PDF are drawn from it. The figures of the paper are drawn once, in `pictures`.
 #[test]
 fn commands_of_pages_run() {
     let work = tempfile::tempdir().unwrap();

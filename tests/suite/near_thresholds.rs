@@ -8,7 +8,8 @@
 //! v(0,t) = d + e^{−rt} ∫₀ᵗ I₀(r√(t² − s²)) ψ(s) ds − g (t/2r − (1 − e^{−2rt})/4r²)
 //! ```
 //!
-//! and with the end held, from the strain −α and the velocity `Ms` near the ground, before a wave arrives from elsewhere,
+//! and with the end held, from the strain −α and the velocity `Ms` near the ground, before a wave arrives
+//! from elsewhere,
 //!
 //! ```text
 //! c v_x(0,t) = −cα − g e^{−rt} t (I₀(rt) + I₁(rt)) + M e^{−rt} (t + ½r² ∫₀ᵗ s² Σ_k (r²(t² − s²)/4)ᵏ/k!(k + 1)! ds)

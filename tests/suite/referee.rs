@@ -108,7 +108,8 @@ fn the_end_of_a_vibration_that_fades() {
     assert!(refuted.len() >= 2 && refuted.iter().any(|(_, by)| *by > 1.15), "{refuted:?}");
 }
 
-/// A stripe of mass m brings at most `min(R(T + 1), e^R) m` of q beside itself in T round trips; one round trip's worth,
+/// A stripe of mass m brings at most `min(R(T + 1), e^R) m` of q beside itself in T round trips; one round trip's
+/// worth,
 /// `R m`, is not enough.
 #[test]
 fn what_a_stripe_scatters() {
@@ -139,8 +140,8 @@ fn what_a_stripe_scatters() {
     assert!(refuted >= 2, "{refuted}");
 }
 
-/// `‖G‖ ≤ R²/8 (1 + R²/150)`, where G takes the k-th mode by `i(√(ω² − R²) − ω)`, `ω = 2πk`, and its norm is the integral
-/// of its kernel; `R²/8` alone is not enough.
+/// `‖G‖ ≤ R²/8 (1 + R²/150)`, where G takes the k-th mode by `i(√(ω² − R²) − ω)`, `ω = 2πk`, and its norm is the
+/// integral of its kernel; `R²/8` alone is not enough.
 #[test]
 fn what_a_round_trip_adds() {
     let tau = 2.0 * std::f64::consts::PI;

@@ -8,8 +8,8 @@ use ndarray_npy::{NpzReader, ReadNpyError, ReadNpyExt, ReadNpzError, ReadableEle
 use super::error::{Arrays, Column, DataErrorKind};
 use crate::number::short;
 
-/// Reads an array or an archive of arrays, there with their names: an array of one axis is a column, one of two axes has
-/// a column for each index of its second. A number alone is no column.
+/// Reads an array or an archive of arrays, there with their names: an array of one axis is a column, one of two axes
+/// has a column for each index of its second. A number alone is no column.
 pub(super) fn read(bytes: Vec<u8>, is_array: bool) -> Result<Arrays, DataErrorKind> {
     if is_array {
         let array = numbers(&mut Array(&bytes))?;
