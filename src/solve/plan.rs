@@ -388,7 +388,11 @@ impl Plan {
                 )
             }
             Numbers::Digits(digits) => {
-                format!("{digits} digits are asked for: bits are added until the error bound leaves that many")
+                let proved = match self.cells {
+                    Some(_) => format!("; the run is proved, up to {MOST_PROVED} bits and where nothing stays open"),
+                    None => String::new(),
+                };
+                format!("{digits} digits are asked for: bits are added until the error bound leaves that many{proved}")
             }
             Numbers::Certified(digits) => format!(
                 "{digits} proved digits are asked for: enclosures, with bits added until every comparison is settled \
