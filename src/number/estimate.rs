@@ -319,6 +319,10 @@ impl<S: Rounded> Scalar for Estimate<S> {
         Estimate::exact(self.value.one())
     }
 
+    fn alike(&self, other: &Self) -> bool {
+        self.value == other.value
+    }
+
     fn widened(self, by: &Self) -> Self {
         Estimate { error: self.error + by.error_of_zero(), value: self.value }
     }

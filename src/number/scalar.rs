@@ -133,6 +133,12 @@ pub trait Scalar:
         None
     }
 
+    /// Whether both are stored alike. Two enclosures that were computed alike are, although no comparison says that the
+    /// numbers in them are equal.
+    fn alike(&self, other: &Self) -> bool {
+        self.compare(other).is_ok_and(std::cmp::Ordering::is_eq)
+    }
+
     /// How many of so many significant digits are proved: those of an enclosure in which both of its ends agree, one or
     /// two more where they agree in these only; all of other numbers.
     fn proved(&self, digits: u32) -> u32 {

@@ -183,7 +183,7 @@ pub(crate) fn of_one_size<S: Scalar>(
 /// Whether two limits are surely the same. Two enclosures that were computed alike are, although their difference
 /// does not show it.
 pub(super) fn same<S: Scalar>(a: &S, b: &S) -> bool {
-    a.compare(b).is_ok_and(std::cmp::Ordering::is_eq) || (a.ends(0).is_some() && a.text() == b.text())
+    a.compare(b).is_ok_and(std::cmp::Ordering::is_eq) || (a.ends(0).is_some() && a.alike(b))
 }
 
 impl Source {

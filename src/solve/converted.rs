@@ -80,7 +80,7 @@ impl<N: Scalar, M: Reads<N>> Converted<N, M> {
         let end = self.engine.end();
         // What is spelled stands for itself; the end is where a run that was asked for so long ends.
         if spelled(time).is_some() {
-            return (M::read(end.clone()).text() == time.text()).then_some(end);
+            return M::read(end.clone()).alike(time).then_some(end);
         }
         let mut known = self.engine.events().iter().map(|event| &event.time).chain([&end]);
         // Both are rounded, each to its own bits.
@@ -89,7 +89,7 @@ impl<N: Scalar, M: Reads<N>> Converted<N, M> {
             let rounding = time.magnitude() * (known.roundoff() + time.roundoff());
             rounding.below(&(known - time).magnitude()) == Ok(false)
         };
-        let exactly = |known: &&N| M::read((*known).clone()).text() == time.text();
+        let exactly = |known: &&N| M::read((*known).clone()).alike(time);
         known.clone().find(exactly).or_else(|| known.find(same)).cloned()
     }
 
@@ -99,7 +99,12 @@ impl<N: Scalar, M: Reads<N>> Converted<N, M> {
         if !point.is_finite() {
             return Err(Error::PointOutside { found: point.text(), length: length.text() });
         }
-        Ok(if self.scales.length.text() == point.text() { length } else { point.give(&self.precision) })
+        // An enclosure of the length in other bits is one of it too.
+        let rounding = 8.0 * point.log2_roundoff().exp2() * point.to_f64();
+        let rounded = point.ends(0).is_some()
+            && point.log2_error() <= rounding.log2()
+            && (self.scales.length.clone() - point).vanishes() != Ok(false);
+        Ok(if rounded || self.scales.length.alike(point) { length } else { point.give(&self.precision) })
     }
 
     /// A time at which `point` is asked about: that of a ray there, where the roundings of `M` alone set a computed one

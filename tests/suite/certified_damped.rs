@@ -155,6 +155,31 @@ fn fixed_tops_strained_starts_and_gaps_are_proved() {
     assert!(count >= 170, "{count}");
 }
 
+/// A flight of 8e-25 s: its release and the impact after it have the same 17 digits and other values.
+#[test]
+fn events_that_print_alike_keep_their_own_values() {
+    let problem = Problem::builder()
+        .length("1.276")
+        .modulus("210e9")
+        .density("7850")
+        .damping("33.997")
+        .impact_speed("0.0000825601822368929412791531885278")
+        .gravity("9.81")
+        .impacts(3)
+        .build()
+        .unwrap();
+    let (proved, digits) = (problem.certified(12).unwrap(), problem.digits(40).unwrap());
+    let [release, impact] = [3, 4].map(|k| &proved.events()[k]);
+    assert_eq!((release.kind, impact.kind), (EventKind::Release, EventKind::Impact));
+    assert_eq!(release.time.text(), impact.time.text());
+    assert!(release.time.hi() < impact.time.lo());
+    for contact in 0..3 {
+        let found = proved.restitution(contact).unwrap().momentum.unwrap();
+        let truth = digits.restitution(contact).unwrap().momentum.unwrap();
+        holds("e_P", &found, &truth, 38);
+    }
+}
+
 /// Enclosures of a time and of a point are answered by what holds for all in them, or not at all.
 #[test]
 fn enclosed_times_and_points_are_covered() {

@@ -166,6 +166,10 @@ impl Scalar for Interval {
         if lo == hi { lo } else { format!("[{lo}, {hi}]") }
     }
 
+    fn alike(&self, other: &Self) -> bool {
+        self.lo == other.lo && self.hi == other.hi
+    }
+
     fn widened(self, by: &Self) -> Self {
         let mut by = by.clone().magnitude();
         by.lo.assign(-&by.hi);
