@@ -155,7 +155,8 @@ impl<S: RoundedSpecial> Damped<S> {
     /// most at the rate s, and rays, which jump by J in all, move at c: at most `L M s + c M J`.
     fn energies_apart(&self, time: &Estimate<S>) -> [f64; 2] {
         let apart = self.apart(time);
-        if apart == 0.0 {
+        // An event is bounded as that.
+        if apart == 0.0 || self.event_at(time).is_some() {
             return [0.0; 2];
         }
         let Scales { time: trip, velocity, length, wave_speed: c, gravity } = self.scales;
