@@ -51,7 +51,7 @@ pub(super) struct Proof<S> {
     pub(super) clock: f64,
     /// The most that a ray so far is off by that clock, less Θ.
     pub(super) late: f64,
-    /// The fastest change of `p` and `q` between rays so far, the most that they jump by in all, and the greatest `|q|`.
+    /// The fastest change of `p` and `q` between rays so far, the sum of their jumps, and the greatest `|q|`.
     pub(super) slope: f64,
     pub(super) jumps: f64,
     pub(super) most: f64,

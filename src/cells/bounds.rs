@@ -155,7 +155,7 @@ impl<S: RoundedSpecial> Damped<S> {
     /// most at the rate s, and rays, which jump by J in all, move at c: at most `L M s + c M J`.
     fn energies_apart(&self, time: &Estimate<S>) -> [f64; 2] {
         let apart = self.apart(time);
-        // An event is bounded as that.
+        // At an event its own bounds count.
         if apart == 0.0 || self.event_at(time).is_some() {
             return [0.0; 2];
         }

@@ -32,6 +32,12 @@ fn spelled<M: Scalar>(time: &M) -> Option<Spelling> {
     time.as_double().and_then(|_| time.spelled_as())
 }
 
+/// Whether a time is an enclosure of more than roundings.
+fn is_wide<N: Scalar, M: Scalar>(time: &M, given: &N) -> bool {
+    let roundings = 8.0 * time.log2_roundoff().exp2() * time.to_f64();
+    spelled(time).is_none() && given.log2_error() > roundings.log2()
+}
+
 impl<N: Scalar, M: Reads<N>> Converted<N, M> {
     pub(super) fn new(engine: Arc<dyn Motion<N>>) -> Self {
         let mut course = engine.course().clone().map(M::read);
@@ -57,7 +63,16 @@ impl<N: Scalar, M: Reads<N>> Converted<N, M> {
     /// A time of this history. One that an event, or the end, was rounded to is that event's own.
     fn time(&self, time: &M) -> Result<N, Error> {
         self.finite(time)?;
-        Ok(self.known(time).unwrap_or_else(|| self.given(time)))
+        if let Some(known) = self.known(time) {
+            return Ok(known);
+        }
+        let given = self.given(time);
+        // What the ground does to the whole rod may change in a wide enclosure.
+        let open = |windows: &Windows<N>| !windows.all(&given.zero(), &given).is_empty();
+        match &self.windows {
+            Some(windows) if is_wide(time, &given) && open(windows) => Err(not_told(given.bits())),
+            _ => Ok(given),
+        }
     }
 
     /// A time that is none of the engine's own.
@@ -122,8 +137,8 @@ impl<N: Scalar, M: Reads<N>> Converted<N, M> {
             return Ok(given);
         }
         let roundings = 8.0 * time.log2_roundoff().exp2() * time.to_f64();
-        // An enclosure of more than roundings is that of no ray.
-        let wide = spelled(time).is_none() && given.log2_error() > roundings.log2();
+        // A wide enclosure stands for no ray.
+        let wide = is_wide(time, &given);
         if spelled(time).is_none() && !wide {
             let met = self.rays.meant(point, given.clone(), roundings);
             if met.compare(&given).is_ok_and(std::cmp::Ordering::is_ne) {
