@@ -44,6 +44,9 @@ fn the_truth_of_a_later_event() {
     let last = scene.problem.solve().unwrap().events().last().unwrap().time;
     let truth = found["truth"].as_f64().unwrap();
     assert!(found["truth_proved"] == true && (truth - last).abs() < 1e-12 * last, "{found:#} {last}");
+    // Proofs reach it: no setting of theirs is left out but for its time.
+    let left_out = found["left_out"].as_array().unwrap();
+    assert!(left_out.iter().all(|item| item["route"] != "enclosures" || item["setting"].is_string()), "{found:#}");
     let found = json(&["mu-1-period-36", "--quantity", "last_event", "--seconds", "0.5"]);
     assert!(found["truth_proved"] == true, "{found:#}");
     assert!(found["truth_log10_half_width"].as_f64().is_none_or(|width| width < -19.0), "{found:#}");
