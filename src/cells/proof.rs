@@ -21,7 +21,7 @@ use super::leap::LeapCount;
 use super::march::Medium;
 use super::piece::Found;
 use super::series::{at_one, at_zero, bound, derivative, evaluate};
-use super::signs::{Part, below, clear, doubles, steep};
+use super::signs::{Part, clear, doubles};
 use super::start::{Data, on_grid};
 use super::uncertainty::Uncertainty;
 use crate::error::Error;
@@ -242,17 +242,19 @@ impl<S: RoundedSpecial> Proof<S> {
     ) -> Result<(), Open> {
         let fast = self.trace_off(run.damping(), time) + own + 8.0 * self.slope * self.latest();
         let open = Open { what: Near::Release, differ: 2.0 * (bound(trace, 0) + fast) };
-        let pressed = |part| {
-            part == (0.0, 0.0)
-                || below(&self.doubles, &doubles(trace), part, fast)
-                || below(&run.medium.basis, trace, part, fast)
+        let (zero, one) = (trace[0].zero(), trace[0].one());
+        let pressed = |to: S| {
+            let part = (zero.clone(), to);
+            part.1.is_zero()
+                || Part::in_doubles(&self.doubles, &doubles(trace)).below(part.clone(), fast)
+                || Part::of(&run.medium.basis, trace).below(part, fast)
         };
         if len <= 8.0 * self.latest() {
             return Err(open);
         }
         let Some((cut, true)) = cut else {
-            let to = cut.map_or(1.0, |(cut, _)| (cut.to_f64() / len).min(1.0));
-            return if pressed((0.0, to)) {
+            let to = cut.map_or(one, |(cut, _)| cut.clone() / &run.state.segments[0].len);
+            return if pressed(to) {
                 self.note(run, time, 0.0);
                 Ok(())
             } else {
@@ -260,14 +262,14 @@ impl<S: RoundedSpecial> Proof<S> {
             };
         };
         let at = cut.clone() / &run.state.segments[0].len;
-        let x = at.to_f64();
         let rate = derivative(trace);
-        let found = steep(&self.doubles, &doubles(&rate), x, 1.0).or_else(|| steep(&run.medium.basis, &rate, x, 1.0));
+        let found = Part::in_doubles(&self.doubles, &doubles(&rate)).steep(&at, 1.0);
+        let found = found.or_else(|| Part::of(&run.medium.basis, &rate).steep(&at, 1.0));
         let (delta, least, _) = found.ok_or(open)?;
         let rest = evaluate(trace, &at).to_f64().abs() * (1.0 + SLACK) + own;
         let steep = least / len * (1.0 - SLACK);
         let late = (self.trace_off(run.damping(), time) + own + rest) / steep;
-        if delta * len < 4.0 * (late + self.latest()) || !pressed((0.0, x - delta)) {
+        if delta * len < 4.0 * (late + self.latest()) || !pressed(at - zero.double(delta)) {
             return Err(open);
         }
         self.note(run, time, 0.0);
@@ -355,34 +357,37 @@ impl<S: RoundedSpecial> Proof<S> {
             return Err(touch(2.0 * bound(trace, 0)));
         }
         let (quick, low) = (doubles(trace), doubles(height));
-        let mut from = 0.0;
+        let (zero, one) = (trace[0].zero(), trace[0].one());
+        let mut from = zero.clone();
         if let Some(([_, late], true)) = late {
             // It rises faster and faster, and is above F from τ on.
             let rate = doubles(&derivative(trace));
-            let rate = Part::of(&self.doubles, &rate);
-            let start = at_zero(trace, &trace[0].zero()).to_f64().abs() + own;
+            let rate = Part::in_doubles(&self.doubles, &rate);
+            let start = at_zero(trace, &zero).to_f64().abs() + own;
             let fast = self.trace_off(run.damping(), time) + own;
             let rises = (1..160).map(|k| (-f64::from(k)).exp2()).find(|to| {
-                let (least, _) = rate.range(0.0, *to);
+                let (least, _) = rate.range(&zero, &zero.double(*to));
                 (fast + start) * len <= late * least && to * len >= 2.0 * late
             });
-            from = rises.ok_or(Open { what: Near::Release, differ: 2.0 * bound(trace, 0) })?;
+            from = zero.double(rises.ok_or(Open { what: Near::Release, differ: 2.0 * bound(trace, 0) })?);
         }
         if let Some((off, _)) = late {
             self.release = None;
             self.event(off);
         }
-        let shown = |part: (f64, f64), rising: &mut bool| {
+        let [low, quick] = [&low, &quick].map(|c| Part::in_doubles(&self.doubles, c));
+        let [height_on, trace_on] = [height, trace].map(|c| Part::of(&run.medium.basis, c));
+        let shown = |part: (S, S), rising: &mut bool| {
             let mut again = *rising;
             part.0 >= part.1
-                || clear(&self.doubles, (&low, &quick), part, (high, fast), rising)
-                || clear(&run.medium.basis, (height, trace), part, (high, fast), &mut again) && {
+                || clear((&low, &quick), part.clone(), (high, fast), rising)
+                || clear((&height_on, &trace_on), part, (high, fast), &mut again) && {
                     *rising = again;
                     true
                 }
         };
         let Some((cut, true)) = cut else {
-            let to = cut.map_or(1.0, |(cut, _)| (cut.to_f64() / len).min(1.0));
+            let to = cut.map_or(one, |(cut, _)| cut.clone() / &run.state.segments[0].len);
             if !shown((from, to), &mut rising) {
                 return Err(touch(2.0 * (bound(trace, 0) + fast)));
             }
@@ -391,12 +396,11 @@ impl<S: RoundedSpecial> Proof<S> {
             return Ok(());
         };
         let at = cut.clone() / &run.state.segments[0].len;
-        let x = at.to_f64();
-        let found = steep(&self.doubles, &quick, x, -1.0).or_else(|| steep(&run.medium.basis, trace, x, -1.0));
+        let found = quick.steep(&at, -1.0).or_else(|| trace_on.steep(&at, -1.0));
         let (delta, least, most) = found.ok_or_else(|| touch(2.0 * fast))?;
         let rest = evaluate(height, &at).to_f64().abs();
         let late = (high + rest) / (least * (1.0 - SLACK)) * (1.0 + SLACK);
-        let shown = x - delta <= from || shown((from, x - delta), &mut rising);
+        let shown = shown((from, at - zero.double(delta)), &mut rising);
         if least <= fast || delta * len < 4.0 * (late + self.latest()) || !shown || rising {
             return Err(touch(2.0 * (most + fast)));
         }

@@ -6,6 +6,8 @@ use crate::number::Rounded;
 
 /// Parts of a strip that are looked at before a question is left open.
 const MOST_PARTS: usize = 400;
+/// Halvings of a strip that are looked at for a stretch around an event.
+const MOST_HALVINGS: i32 = 300;
 
 /// The least and the greatest that a series may be, whose coefficients are off by so much of `size`.
 pub(super) fn range<T: Rounded>(c: &[T], size: f64) -> (f64, f64) {
@@ -15,67 +17,89 @@ pub(super) fn range<T: Rounded>(c: &[T], size: f64) -> (f64, f64) {
     (middle - spread - rounding, middle + spread + rounding)
 }
 
-/// A part of a series, and the size of the whole.
-pub(super) struct Part<'a, T> {
+/// A series on parts of its interval, whose ends are numbers `S` of the run: an event may be closer to the end of a strip
+/// than doubles tell. A series in doubles rounds them, which moves its values by `2N²u` of its size, less than [`range`]
+/// counts.
+pub(super) struct Part<'a, S, T> {
     basis: &'a Basis<T>,
     whole: &'a [T],
     size: f64,
+    place: fn(&S) -> T,
 }
 
-impl<'a, T: Rounded> Part<'a, T> {
-    pub(super) fn of(basis: &'a Basis<T>, whole: &'a [T]) -> Self {
-        Part { basis, whole, size: bound(whole, 0) }
+impl<'a, S: Rounded> Part<'a, S, S> {
+    pub(super) fn of(basis: &'a Basis<S>, whole: &'a [S]) -> Self {
+        Part { basis, whole, size: bound(whole, 0), place: S::clone }
     }
+}
 
-    pub(super) fn range(&self, from: f64, to: f64) -> (f64, f64) {
-        if from == 0.0 && to == 1.0 {
+impl<'a, S: Rounded> Part<'a, S, f64> {
+    pub(super) fn in_doubles(basis: &'a Basis<f64>, whole: &'a [f64]) -> Self {
+        Part { basis, whole, size: bound(whole, 0), place: S::to_f64 }
+    }
+}
+
+impl<S: Rounded, T: Rounded> Part<'_, S, T> {
+    pub(super) fn range(&self, from: &S, to: &S) -> (f64, f64) {
+        if from.is_zero() && *to == to.one() {
             return range(self.whole, self.size);
         }
-        let zero = self.whole[0].zero();
-        let part = self.basis.restrict(self.whole, &zero.double(from), &zero.double(to), self.basis.size());
+        let part = self.basis.restrict(self.whole, &(self.place)(from), &(self.place)(to), self.basis.size());
         range(&part, self.size)
+    }
+
+    /// Whether it is below `−off` on a part.
+    pub(super) fn below(&self, part: (S, S), off: f64) -> bool {
+        // Where it surely is not, halves are of no use.
+        let mut not = false;
+        settle(part, |from, to| {
+            let (low, high) = self.range(from, to);
+            not = not || low > -off;
+            not || high < -off
+        }) && !not
+    }
+
+    /// A stretch `x ± δ` on which `sign` times it is positive: δ, and the least and the greatest of it there.
+    pub(super) fn steep(&self, x: &S, sign: f64) -> Option<(f64, f64, f64)> {
+        (1..MOST_HALVINGS).find_map(|k| {
+            let delta = (-f64::from(k)).exp2();
+            let (from, to) = (x.clone() - x.double(delta), x.clone() + x.double(delta));
+            if from.is_negative() || to > to.one() {
+                return None;
+            }
+            let (low, high) = self.range(&from, &to);
+            let (least, most) = if sign > 0.0 { (low, high) } else { (-high, -low) };
+            (least > 0.0).then_some((delta, least, most))
+        })
     }
 }
 
 /// Goes over parts, the earlier first, until each is settled; those that are not are halved.
-fn settle((from, to): (f64, f64), mut settled: impl FnMut(f64, f64) -> bool) -> bool {
+fn settle<S: Rounded>((from, to): (S, S), mut settled: impl FnMut(&S, &S) -> bool) -> bool {
+    let half = from.ratio(1, 2);
     let mut parts = vec![(from, to)];
     let mut count = 0;
     while let Some((from, to)) = parts.pop() {
-        if settled(from, to) {
+        if settled(&from, &to) {
             continue;
         }
         count += 1;
-        let middle = 0.5 * (from + to);
+        let middle = (from.clone() + &to) * &half;
         if count > MOST_PARTS || middle <= from || middle >= to {
             return false;
         }
-        parts.extend([(middle, to), (from, middle)]);
+        parts.extend([(middle.clone(), to), (from, middle)]);
     }
     true
 }
 
-/// Whether a series is below `−off` on a part.
-pub(super) fn below<T: Rounded>(basis: &Basis<T>, c: &[T], part: (f64, f64), off: f64) -> bool {
-    let c = Part::of(basis, c);
-    // Where it surely is not, halves are of no use.
-    let mut not = false;
-    settle(part, |from, to| {
-        let (low, high) = c.range(from, to);
-        not = not || low > -off;
-        not || high < -off
-    }) && !not
-}
-
 /// Whether the end surely does not touch the ground on a part: it is clear of it, or still only rises.
-pub(super) fn clear<T: Rounded>(
-    basis: &Basis<T>,
-    (height, trace): (&[T], &[T]),
-    part: (f64, f64),
+pub(super) fn clear<S: Rounded, T: Rounded>(
+    (height, trace): (&Part<'_, S, T>, &Part<'_, S, T>),
+    part: (S, S),
     (high, fast): (f64, f64),
     rising: &mut bool,
 ) -> bool {
-    let (height, trace) = (Part::of(basis, height), Part::of(basis, trace));
     let (mut rises, mut not) = (*rising, false);
     let shown = settle(part, |from, to| {
         let (low, most) = height.range(from, to);
@@ -88,21 +112,6 @@ pub(super) fn clear<T: Rounded>(
     }) && !not;
     *rising = rises;
     shown
-}
-
-/// A stretch `x ± δ` on which `sign · g` is positive: δ, and the least and the greatest of it there.
-pub(super) fn steep<T: Rounded>(basis: &Basis<T>, g: &[T], x: f64, sign: f64) -> Option<(f64, f64, f64)> {
-    let g = Part::of(basis, g);
-    (1..160).find_map(|k| {
-        let delta = (-f64::from(k)).exp2();
-        let (from, to) = (x - delta, x + delta);
-        if from < 0.0 || to > 1.0 {
-            return None;
-        }
-        let (low, high) = g.range(from, to);
-        let (least, most) = if sign > 0.0 { (low, high) } else { (-high, -low) };
-        (least > 0.0).then_some((delta, least, most))
-    })
 }
 
 pub(super) fn doubles<S: Rounded>(c: &[S]) -> Vec<f64> {

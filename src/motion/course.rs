@@ -306,13 +306,15 @@ pub enum Ending {
     Undecided(Reason),
 }
 
-#[cfg(feature = "cli")]
 impl Ending {
     /// Whether the history may be shorter than what was asked for, because what follows is not known.
     pub(crate) fn is_open(&self) -> bool {
         matches!(self, Ending::ExactnessEnds { .. } | Ending::Undecided(_) | Ending::Bounce | Ending::Unproved { .. })
     }
+}
 
+#[cfg(feature = "cli")]
+impl Ending {
     /// The reason with the time that it holds for: `ends at t = 12: …`.
     pub(crate) fn at(&self, end: &str) -> String {
         match self {

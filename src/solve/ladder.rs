@@ -268,9 +268,9 @@ fn needs_bits<S: Scalar>(engine: &dyn Motion<S>) -> bool {
     engine.warnings().iter().any(Warning::needs_bits)
 }
 
-/// Whether a run does not get as far as another.
+/// Whether a run breaks off before another ends.
 fn ends_before<S: Scalar>(engine: &dyn Motion<S>, other: &dyn Motion<S>) -> bool {
-    engine.end().to_f64() < other.end().to_f64() * (1.0 - 1e-6)
+    engine.ending().is_open() && engine.end().to_f64() < other.end().to_f64() * (1.0 - 1e-6)
 }
 
 /// `log₂` of the least of the natural scales of displacement, velocity, strain and energy.

@@ -16,6 +16,7 @@ use crate::lattice::Undamped;
 use crate::motion::{Ending, Motion};
 use crate::number::{Estimate, Float, Interval, IntervalPrecision, Reads, Scalar};
 use crate::problem::{Parameters, Problem};
+use crate::reason::Warning;
 
 impl Target for Float {
     fn run(problem: &Problem, plan: &Plan, rung: Rung, observe: &Observer) -> Result<Engined<Float>, Error> {
@@ -84,10 +85,9 @@ fn estimates(problem: &Problem, plan: &Plan, bits: u32, observe: &Observer) -> R
             }
             Arc::new(history)
         }
-        Engine::Cells => match shown(problem, plan, bits, observe)? {
-            Some(run) => run,
-            None => Arc::new(Damped::<Float>::solve_observed(problem, &bits, effort, 1, &**observe)?),
-        },
+        Engine::Cells => marched(problem, plan, bits, observe, &|| {
+            Ok(Arc::new(Damped::<Float>::solve_observed(problem, &bits, effort, 1, &**observe)?))
+        })?,
         Engine::ClosedForm if !plan.settles_events => {
             Arc::new(ContactHistory::<Estimate<Float>>::solve(problem, &bits)?)
         }
@@ -100,26 +100,37 @@ fn estimates(problem: &Problem, plan: &Plan, bits: u32, observe: &Observer) -> R
             if plan.engine == Engine::ClosedForm {
                 return Ok(Arc::new(ContactThenCells::<Float>::first_contact(problem, &bits, bounce)?));
             }
-            if matches!(bounce, Bounce::At { .. })
-                && let Some(run) = shown(problem, plan, bits, observe)?
-            {
-                return Ok(run);
-            }
-            Arc::new(ContactThenCells::<Float>::solve_observed(problem, &bits, effort, bounce, None, &**observe)?)
+            let bounces = matches!(bounce, Bounce::At { .. });
+            let march = || {
+                let bounce = bounce.clone();
+                let run = ContactThenCells::<Float>::solve_observed(problem, &bits, effort, bounce, None, &**observe)?;
+                Ok(Arc::new(run) as Engined<Float>)
+            };
+            if bounces { marched(problem, plan, bits, observe, &march)? } else { march()? }
         }
     })
 }
 
-/// A damped run in so many bits with what is proved of it, where the plan proves it and that reaches its end.
-fn shown(problem: &Problem, plan: &Plan, bits: u32, observe: &Observer) -> Result<Option<Engined<Float>>, Error> {
-    if !plan.proves(bits) {
-        return Ok(None);
+/// A damped run in so many bits: with what is proved of it, where that reaches its end, as `march` finds it else. In
+/// digits the proof comes first; for an answer in doubles it is made where the bounds of `march` leave events open.
+fn marched(
+    problem: &Problem,
+    plan: &Plan,
+    bits: u32,
+    observe: &Observer,
+    march: &dyn Fn() -> Result<Engined<Float>, Error>,
+) -> Result<Engined<Float>, Error> {
+    let first = plan.proves_first();
+    let run = if first { None } else { Some(march()?) };
+    let open = |run: &Engined<Float>| run.warnings().iter().any(Warning::needs_bits);
+    if bits <= MOST_PROVED && run.as_ref().is_none_or(open) {
+        match prove(problem, plan, bits, observe) {
+            Ok(run) if !matches!(run.ending(), Ending::Unproved { .. }) => return Ok(Arc::new(run)),
+            Ok(_) | Err(Error::NotDecided { .. }) => {}
+            Err(error) => return Err(error),
+        }
     }
-    match prove(problem, plan, bits, observe) {
-        Ok(run) if !matches!(run.ending(), Ending::Unproved { .. }) => Ok(Some(Arc::new(run))),
-        Ok(_) | Err(Error::NotDecided { .. }) => Ok(None),
-        Err(error) => Err(error),
-    }
+    run.map_or_else(march, Ok)
 }
 
 fn prove(problem: &Problem, plan: &Plan, bits: u32, observe: &Observer) -> Result<Damped<Float>, Error> {

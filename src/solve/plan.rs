@@ -379,6 +379,9 @@ impl Plan {
             Numbers::Double(accuracy) => {
                 let exactly = match self.engine {
                     Engine::Lattice => "; exact ones where an event and a ray coincide within their bounds",
+                    _ if self.cells.is_some() && self.climb.bits.is_some() => {
+                        "; those and a proof where bounds leave open what happens at the ground"
+                    }
                     _ => "",
                 };
                 format!(
@@ -469,11 +472,10 @@ impl Plan {
         Effort { digits, cells, until_lost: self.climb.bits.is_some(), most_digits, marched_trips }
     }
 
-    /// Whether a run in so many bits is one that is proved: digits of a damped rod, as far as the account of proofs
-    /// goes.
+    /// Whether a damped run in long numbers is proved before it is left to bounds: where digits are asked for.
     #[cfg(feature = "mp")]
-    pub(super) fn proves(&self, bits: u32) -> bool {
-        self.cells.is_some() && matches!(self.numbers, Numbers::Digits(_)) && bits <= MOST_PROVED
+    pub(super) fn proves_first(&self) -> bool {
+        matches!(self.numbers, Numbers::Digits(_))
     }
 
     /// The run of an undamped rod.

@@ -26,7 +26,7 @@ fn holds(what: &str, found: &Interval, truth: &Float, digits: i32) {
 
 /// Events, contacts and values between them, held against a run in so many more digits; how many were compared. What is
 /// proved may end earlier.
-fn compare(name: &str, proved: &History<Interval>, digits: &History<Float>, known: i32) -> usize {
+pub(crate) fn compare(name: &str, proved: &History<Interval>, digits: &History<Float>, known: i32) -> usize {
     let mut count = 0;
     let mut check = |what: &str, found: &Interval, truth: &Float| {
         holds(&format!("{name}: {what}"), found, truth, known);
@@ -240,10 +240,10 @@ fn enclosed_times_and_points_are_covered() {
 }
 
 /// Numbers that look random, the same on every machine.
-struct Dice(u64);
+pub(crate) struct Dice(pub(crate) u64);
 
 impl Dice {
-    fn between(&mut self, low: f64, high: f64) -> f64 {
+    pub(crate) fn between(&mut self, low: f64, high: f64) -> f64 {
         self.0 = self.0.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
         low + (high - low) * ((self.0 >> 11) as f64 / (1u64 << 53) as f64)
     }
@@ -255,7 +255,7 @@ impl Dice {
 }
 
 /// A damped rod: free or held, in SI units or its own, from the ground, above it, or strained.
-fn any_rod(dice: &mut Dice) -> Problem {
+pub(crate) fn any_rod(dice: &mut Dice) -> Problem {
     let (mut rod, unit) = if dice.between(0.0, 1.0) < 0.3 {
         (
             Problem::uniform(

@@ -65,6 +65,8 @@ mod first_contact_undamped;
 mod guide;
 mod hard_cases;
 #[cfg(feature = "mp")]
+mod near_coincidences;
+#[cfg(feature = "mp")]
 mod near_thresholds;
 #[cfg(feature = "mp")]
 mod number_interval;
