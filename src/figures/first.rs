@@ -9,7 +9,7 @@ use crate::mapped::{CollectVec, mapped, try_mapped};
 use crate::motion::{Motion, Side};
 use crate::number::{Analytic, Estimate, Number, Scalar};
 use crate::paper::formulas::limit;
-use crate::problem::{Parameters, Problem};
+use crate::problem::{Parameters, Problem, Run};
 use crate::quantity::{Restitution, energy_shares, restitution};
 use crate::solve::{Numbers, Plan, Question};
 use crate::sweep::{Axis, Grid, threshold_near};
@@ -121,7 +121,7 @@ pub(crate) fn kernel(damping: &str, per_trip: i32) -> Result<Vec<Vec<Option<Doub
 /// `e_E²` of the tenth contact over `impact.speed`, without damping; `None` where it is not defined or not settled.
 pub(crate) fn tenth(grid: &Grid, threads: Threads) -> Result<Vec<Option<Double>>, Failed> {
     let one = |index: usize| {
-        let rod = grid.problem(index).ok()?.with_run(crate::Run::Impacts(10)).ok()?;
+        let rod = grid.problem(index).ok()?.with_run(Run::Impacts(10)).ok()?;
         let query = |motion: &dyn Motion<Double>| {
             let contact = motion.contacts().get(9);
             contact.map(|contact| restitution(motion, contact.times())).transpose()

@@ -3,7 +3,6 @@
 use std::ops::Range;
 
 use super::{Number, NumberError, Scalar, rational, short};
-use crate::mapped::{CollectVec, mapped};
 
 /// The most values that one range may hold.
 const MOST: u32 = 10_000_000;
@@ -32,7 +31,7 @@ impl List {
         let Some((from, rest)) = text.split_once("..") else {
             return Ok((List::Numbers(text.split(',').map(number).collect::<Result<_, _>>()?), false));
         };
-        let (to, count, log) = match *rest.split(':').collect_vec() {
+        let (to, count, log) = match *rest.split(':').collect::<Vec<_>>() {
             [to, count] => (to, count, false),
             [to, count, "log"] if geometric => (to, count, true),
             _ if geometric => return Err(refused("V1,V2,…, A..B:N or A..B:N:log")),
@@ -102,7 +101,7 @@ impl List {
     pub(crate) fn lift_part<S: Scalar>(&self, part: Range<usize>, precision: &S::Precision) -> Vec<S> {
         let lift = |number: &Number| S::spelling(number, precision);
         if let List::Numbers(numbers) = self {
-            return mapped(&numbers[part], lift);
+            return numbers[part].iter().map(lift).collect();
         }
         let number = |number: &Number| S::from_number(number, precision);
         let (one, last) = (S::from_number(&1.into(), precision), self.len() as i64 - 1);
@@ -117,7 +116,7 @@ impl List {
             (List::Steps(step, _), None) => one.int(k) * number(step),
             (List::Numbers(_), _) => one.zero(),
         };
-        part.map(|k| at(k as i64)).collect_vec()
+        part.map(|k| at(k as i64)).collect()
     }
 
     /// All numbers as they would be written; `None` where one is too long to be read again.

@@ -7,7 +7,6 @@ use std::sync::atomic::{self, AtomicU64};
 use rug::{Assign, Float, Integer, Rational};
 
 use super::float::{down, up};
-use crate::mapped::{MapEach, mapped};
 
 /// A positive square root, or a number of which nothing is known but that it is always the same. By depth first, so
 /// that a radicand has only roots before its own.
@@ -86,11 +85,11 @@ impl Radical {
     }
 
     pub(super) fn scaled(&self, by: &Rational) -> Option<Self> {
-        Radical::checked(mapped(&self.terms, |(p, c)| (p.clone(), Rational::from(c * by))))
+        Radical::checked(self.terms.iter().map(|(p, c)| (p.clone(), Rational::from(c * by))).collect())
     }
 
     pub(super) fn neg(&self) -> Self {
-        Radical { terms: mapped(&self.terms, |(p, c)| (p.clone(), Rational::from(-c))) }
+        Radical { terms: self.terms.iter().map(|(p, c)| (p.clone(), Rational::from(-c))).collect() }
     }
 
     pub(super) fn add(&self, other: &Self) -> Option<Self> {
@@ -159,7 +158,7 @@ impl Radical {
         let has = |product: &Product| product.last() == Some(&last);
         let (with, without): (Vec<_>, Vec<_>) = self.terms.iter().cloned().partition(|(product, _)| has(product));
         let mut factor: Vec<(Product, Rational)> =
-            mapped(with, |(product, c)| (product[..product.len() - 1].to_vec(), c));
+            with.into_iter().map(|(product, c)| (product[..product.len() - 1].to_vec(), c)).collect();
         factor.sort();
         Some((Radical { terms: without }, Radical { terms: factor }, last))
     }
@@ -201,7 +200,7 @@ impl Radical {
 
     /// Between two numbers of so many bits; `None` where something is only named.
     fn enclosed(&self, bits: u32) -> Option<[Float; 2]> {
-        let [mut lo, mut hi] = [0, 0].map_each(|zero| Float::with_val(bits, zero));
+        let [mut lo, mut hi] = [0, 0].map(|zero| Float::with_val(bits, zero));
         for (product, c) in &self.terms {
             // The size of the term first, whose factors are all positive.
             let size = Rational::from(c.abs_ref());

@@ -6,6 +6,7 @@ use serde_json::json;
 use super::dataset::{Column, Dataset};
 use crate::draw::{Axis, Key, Layer, Mark, Panel, Shape, Sheet, Size, Stroke, plain, power_of_ten};
 use crate::mapped::{CollectVec, MapEach, mapped};
+use crate::number::Number;
 use crate::routes::cost::{Difference, Family, Row, Table};
 
 /// A time in the unit that suits it, to three digits: `3.21 ms`.
@@ -88,7 +89,7 @@ pub(crate) fn cost_data(cost: &Table, title: Option<&str>) -> Dataset {
             ("title", title.into()),
             ("quantity", cost.quantity.name().into()),
             ("unit", cost.unit.into()),
-            ("time", cost.time.as_ref().map(crate::Number::to_f64).into()),
+            ("time", cost.time.as_ref().map(Number::to_f64).into()),
             ("truth", truth.into()),
             ("truth_log10_half_width", cost.truth.log10_half_width.into()),
             ("truth_proved", cost.truth.proved.into()),

@@ -10,6 +10,7 @@ use glam::{DVec2, DVec3};
 use crate::error::Error;
 use crate::mapped::mapped;
 use crate::motion::EventKind;
+use crate::number::Number;
 use crate::problem::{Parameters, Problem, Profile, Run, Start, Top};
 
 /// What a march leaves: events, and the motion at the first release and at the end.
@@ -121,7 +122,7 @@ impl Grid {
             Start::Uniform(_) | Start::Above { .. } => &empty,
             Start::Profile(profile) => profile,
         };
-        let lift = |list: &[(crate::Number, crate::Number)]| -> Vec<DVec2> {
+        let lift = |list: &[(Number, Number)]| -> Vec<DVec2> {
             mapped(list, |(x, v)| DVec2::new(x.to_f64(), v.to_f64()))
         };
         let (mut displacement, velocity) = (lift(&profile.displacement), lift(&profile.velocity));
