@@ -122,9 +122,8 @@ impl Grid {
             Start::Uniform(_) | Start::Above { .. } => &empty,
             Start::Profile(profile) => profile,
         };
-        let lift = |list: &[(Number, Number)]| -> Vec<DVec2> {
-            mapped(list, |(x, v)| DVec2::new(x.to_f64(), v.to_f64()))
-        };
+        let lift =
+            |list: &[(Number, Number)]| -> Vec<DVec2> { mapped(list, |(x, v)| DVec2::new(x.to_f64(), v.to_f64())) };
         let (mut displacement, velocity) = (lift(&profile.displacement), lift(&profile.velocity));
         displacement.extend(problem.gap().map(|gap| DVec2::new(0.0, gap.to_f64())));
         let place = |x: f64| between(&displacement, x);
