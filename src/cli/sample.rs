@@ -17,16 +17,16 @@ use crate::solve::{History, Question, Target};
 #[derive(Args, Debug)]
 #[command(
     after_help = "Examples:\n  dalembert sample paper-strong --quantity stress --times 0.3,1.2,2 --side left\n  \
-    dalembert sample doyen-ern-piperno --quantity end --times 0..16/3:9 --exact\n  \
+    dalembert sample doyen-ern-piperno --quantity end,energy --times 0..16/3:9 --exact\n  \
     dalembert sample paper-weak --quantity field --times 1/3 --points 0.25,0.9\n  \
     dalembert sample figure-4-r02 --quantity stress --times 0.1,0.3 --derivatives speed,damping"
 )]
 pub(super) struct Sample {
     /// A scene file, `-`, or a built-in scene. It is followed as far as the last time, whatever its own run says
     scene: String,
-    /// What to sample
-    #[arg(long, value_enum)]
-    quantity: Quantity,
+    /// What to sample: one, or several over time with commas between them, whose columns are then named as in reference
+    #[arg(long, value_enum, value_delimiter = ',', required = true)]
+    quantity: Vec<Quantity>,
     /// Times: numbers such as 0.3 or 1/3 separated by commas, or A..B:N for N times from A to B
     #[arg(long, value_name = "LIST", value_parser = List::equally_spaced, allow_hyphen_values = true)]
     times: List,
@@ -51,8 +51,17 @@ impl Sample {
         let (Some(first), Some(last)) = (self.times.least(), self.times.greatest()) else {
             return Err(failure!("found no times, expected at least one"));
         };
-        if self.points.is_some() && !matches!(self.quantity, Quantity::Field) {
+        let of_field = self.quantity.contains(&Quantity::Field);
+        if self.points.is_some() && !of_field {
             return Err(failure!("found --points, expected them with --quantity field only"));
+        }
+        if of_field && self.quantity.len() > 1 {
+            return Err(failure!(
+                "found field beside others, expected it alone: its rows are points, theirs are times"
+            ));
+        }
+        if let Some(k) = (1..self.quantity.len()).find(|k| self.quantity[..*k].contains(&self.quantity[*k])) {
+            return Err(failure!("found --quantity {} twice, expected each once", self.quantity[k].name()));
         }
         if last.to_f64() < 0.0 {
             return Err(failure!("found time {last}, expected times from 0 on"));
@@ -67,7 +76,7 @@ impl Sample {
             Some(points) => points.lift::<S>(&precision),
             None => vec![length.zero(), length.clone() / length.int(2), length],
         };
-        samples(history, self.quantity, (&self.times.lift(&precision), &points), self.side, head)
+        samples(history, &self.quantity, (&self.times.lift(&precision), &points), self.side, head)
     }
 }
 
@@ -77,9 +86,9 @@ impl Visit for Sample {
         let mut samples = gathered(history, &progress, |motion| self.gather(motion, &head))?;
         for by in self.derivatives.iter().copied() {
             let too_long = || Error::Derivative { parameter: by.name(), expected: "times and points of fewer digits" };
-            let points = match (&self.points, self.quantity) {
+            let points = match (&self.points, &self.quantity[..]) {
                 (Some(points), _) => points.numbers(),
-                (None, Quantity::Field) => List::Range(0.into(), history.problem().rod.length.clone(), 3).numbers(),
+                (None, [Quantity::Field]) => List::Range(0.into(), history.problem().rod.length.clone(), 3).numbers(),
                 (None, _) => Some(Vec::new()),
             };
             let (times, points) = self.times.numbers().zip(points).ok_or_else(too_long)?;

@@ -12,12 +12,12 @@ use super::source;
 use crate::error::Error;
 use crate::mapped::CollectVec;
 use crate::motion::Motion;
-use crate::number::Scalar;
+use crate::number::{Number, Scalar};
 use crate::output::{
     CONTACT, Derived, EVENT, Form, Head, LEGEND, Part, Record, history_json, history_part, history_table, outline,
     record, shared,
 };
-use crate::problem::Parameter;
+use crate::problem::{Parameter, Run};
 use crate::solve::{History, Question, Target};
 
 const EXAMPLES: &str = "Examples:\n  dalembert solve doyen-ern-piperno --exact\n  \
@@ -30,6 +30,12 @@ const EXAMPLES: &str = "Examples:\n  dalembert solve doyen-ern-piperno --exact\n
 pub(super) struct Solve {
     /// A scene file, `-`, or a built-in scene
     scene: String,
+    /// The last time, in place of the scene's own run
+    #[arg(long, value_name = "T", conflicts_with = "impacts", allow_hyphen_values = true)]
+    to: Option<Number>,
+    /// How many contacts, each with the flight after it, in place of the scene's own run
+    #[arg(long, value_name = "N", value_parser = contacts)]
+    impacts: Option<u32>,
     #[command(flatten)]
     numbers: NumberArgs,
     #[command(flatten)]
@@ -50,6 +56,10 @@ pub(super) struct Solve {
     coefficients: bool,
 }
 
+fn contacts(text: &str) -> Result<u32, String> {
+    text.parse().map_err(|_| "expected a whole number of contacts, such as 10".into())
+}
+
 impl Solve {
     pub(super) fn run(&self) -> Result<(), Failure> {
         if self.part.is_some() && self.output.format()? != Format::Csv {
@@ -63,7 +73,10 @@ impl Solve {
         if self.part == Some(Part::Stress) && !self.derivatives.is_empty() {
             return Err(failure!("found --derivatives with --part stress, expected them of events or contacts"));
         }
-        let scene = source::read(&self.scene)?;
+        let mut scene = source::read(&self.scene)?;
+        if let Some(run) = self.to.clone().map(Run::Time).or(self.impacts.map(Run::Impacts)) {
+            scene.problem = scene.problem.with_run(run)?;
+        }
         solve(&scene, &Question::run(self.numbers.numbers(&scene)), self)
     }
 

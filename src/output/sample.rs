@@ -45,52 +45,70 @@ impl Quantity {
             Quantity::Field => &[(PointDisplacement, 0), (PointVelocity, 1), (PointStrain, 2), (PointStress, 2)],
         }
     }
+
+    /// The name that stands for it on the command line.
+    pub(crate) fn name(self) -> String {
+        self.to_possible_value().map_or_else(String::new, |value| value.get_name().into())
+    }
+
+    /// What the history answers; the field needs a point.
+    fn at<S: Scalar>(self, history: &dyn Motion<S>, time: &S, point: Option<&S>, side: Side) -> Result<Vec<S>, Error> {
+        let pair = |(value, rate): (S, S)| vec![value, rate];
+        Ok(match (self, point) {
+            (Quantity::Stress, _) => vec![history.strain(time, side)?],
+            (Quantity::End, _) => pair(history.ground_end(time, side)?),
+            (Quantity::Top, _) => pair(history.top_end(time, side)?),
+            (Quantity::Centre, _) => pair(history.centre(time)?),
+            (Quantity::Energy, _) => mapped(history.energy(time)?.numbers(), Clone::clone),
+            (Quantity::Field, Some(point)) => mapped(history.field(point, time, side)?.numbers(), Clone::clone),
+            (Quantity::Field, None) => Vec::new(),
+        })
+    }
 }
 
-/// Values of a quantity, ready to be printed.
+/// What gives a column its name: of one quantity its key, of several its whole name, since each may have a `v`.
+fn naming(wanted: &[Quantity]) -> fn(quantity::Quantity) -> String {
+    if wanted.len() == 1 { |quantity| quantity.key().into() } else { |quantity| quantity.name().into() }
+}
+
+/// Values of quantities, ready to be printed.
 pub(crate) struct Samples {
-    quantity: Quantity,
+    wanted: Vec<Quantity>,
     /// What is printed of each.
     pub(crate) quantities: Vec<quantity::Quantity>,
     data: Dataset,
     pub(crate) derivatives: Vec<(Parameter, Derivatives<Shared>)>,
 }
 
-/// The values of `quantity` at every time and, for the field, at every point; and every number among them.
+/// The values of all that is wanted at every time or, of the field, which stands alone, at every point then; and every
+/// number among them.
 pub(crate) fn samples<S: Scalar>(
     history: &dyn Motion<S>,
-    quantity: Quantity,
+    wanted: &[Quantity],
     (times, points): (&[S], &[S]),
     side: Side,
     head: &Head,
 ) -> Result<(Samples, Vec<S>), Error> {
     let mut found: Vec<(&S, Option<&S>, Vec<S>)> = Vec::new();
-    let pair = |(value, rate): (S, S)| vec![value, rate];
+    let of_field = wanted.contains(&Quantity::Field);
     for time in times {
-        let values = match quantity {
-            Quantity::Stress => vec![history.strain(time, side)?],
-            Quantity::End => pair(history.ground_end(time, side)?),
-            Quantity::Top => pair(history.top_end(time, side)?),
-            Quantity::Centre => pair(history.centre(time)?),
-            Quantity::Energy => mapped(history.energy(time)?.numbers(), Clone::clone),
-            Quantity::Field => {
-                for point in points {
-                    found.push((time, Some(point), mapped(history.field(point, time, side)?.numbers(), Clone::clone)));
-                }
-                continue;
+        let points = if of_field { mapped(points, Some) } else { vec![None] };
+        for point in points {
+            let mut values = Vec::new();
+            for quantity in wanted {
+                let answer = quantity.at(history, time, point, side)?;
+                values.extend(quantity.columns().iter().filter_map(|(_, place)| answer.get(*place).cloned()));
             }
-        };
-        found.push((time, None, values));
+            found.push((time, point, values));
+        }
     }
     let units = &head.units;
-    let has_points = quantity == Quantity::Field && !found.is_empty();
-    let asked = mapped(quantity.columns(), |column| column.0);
-    let values = mapped(&found, |(.., values)| mapped(quantity.columns(), |(_, place)| values.get(*place)));
-    let column = |quantity: quantity::Quantity| {
-        let key = quantity.key();
-        Column::new(key).keyed(format!("values/{key}"))
-    };
-    let mut data = listed(history, &asked, column, head, &values);
+    let has_points = of_field && !found.is_empty();
+    let asked = wanted.iter().flat_map(|quantity| quantity.columns()).map(|column| column.0).collect_vec();
+    let values = mapped(&found, |(.., values)| mapped(values, Some));
+    let name = naming(wanted);
+    let column = |quantity| Column::new(name(quantity)).keyed(format!("values/{}", name(quantity)));
+    let mut data = listed(history, &asked, &column, head, &values);
     let point = if has_points { Column::new("point").headed("x") } else { Column::data("point") };
     let time = Column::new("time").headed("t").with_unit(units.name(Measure::Time));
     data.columns.splice(0..0, [time, point.with_unit(units.name(Measure::Length)), Column::new("side")]);
@@ -101,24 +119,25 @@ pub(crate) fn samples<S: Scalar>(
         numbers.extend(values.into_iter().chain(point.cloned()).chain([time.clone()]));
     }
     let quantities = asked.into_iter().filter(|quantity| quantity.is_listed(units.has_material())).collect_vec();
-    Ok((Samples { quantity, quantities, data, derivatives: Vec::new() }, numbers))
+    Ok((Samples { wanted: wanted.to_vec(), quantities, data, derivatives: Vec::new() }, numbers))
 }
 
 /// A row for each sample.
 pub(crate) fn samples_data(samples: Samples, head: &Head) -> Dataset {
     let units = &head.units;
-    let Samples { quantity, quantities, data, derivatives } = samples;
-    let key = |row: &Vec<Cell>| {
+    let Samples { wanted, quantities, data, derivatives } = samples;
+    let place = |row: &Vec<Cell>| {
         let places = ["t = ", "x = "].into_iter().zip(row).filter(|(_, cell)| !cell.is_empty());
         let texts = places.map(|(name, cell)| format!("{name}{}", cell.text(table_digits(head.digits), "")));
         texts.collect_vec().join("   ")
     };
-    let keys = mapped(&data.rows, key);
+    let keys = mapped(&data.rows, place);
     let symbols = quantities.iter().map(|quantity| quantity.symbol()).enumerate().collect_vec();
     let tables = derivatives.iter().map(|by| derivatives::table(("at", keys.clone()), &symbols, (by.0, &by.1), head));
     let tables = tables.collect_vec().concat();
     let end = head.exact_until.as_ref().map_or_else(String::new, |end| format!("{end}; these are {}\n", head.number));
-    let measures = quantity.columns().iter().filter_map(|(quantity, _)| quantity.measure()).collect_vec();
+    let columns = wanted.iter().flat_map(|quantity| quantity.columns());
+    let measures = columns.filter_map(|(quantity, _)| quantity.measure()).collect_vec();
     let below = end + &named_units(&measures, units) + &head.warning_lines();
     let space = if below.is_empty() { "" } else { "\n" };
     let mut data = Dataset {
@@ -126,7 +145,7 @@ pub(crate) fn samples_data(samples: Samples, head: &Head) -> Dataset {
             ("schema", 1.into()),
             ("title", head.title.clone().into()),
             ("number", head.number.clone().into()),
-            ("quantity", quantity.to_possible_value().map(|value| value.get_name().to_string()).into()),
+            ("quantity", mapped(&wanted, |quantity| quantity.name()).join(",").into()),
             ("units", units_json(units)),
             ("exact_until", head.exact_until_json()),
             ("warnings", head.warning_texts().into()),
@@ -137,7 +156,7 @@ pub(crate) fn samples_data(samples: Samples, head: &Head) -> Dataset {
         ..data
     };
     for (by, rows) in &derivatives {
-        derivatives::add_columns(&mut data, &quantities, (*by, rows), |quantity| quantity.key().into());
+        derivatives::add_columns(&mut data, &quantities, (*by, rows), naming(&wanted));
     }
     data
 }

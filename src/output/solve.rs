@@ -65,7 +65,7 @@ fn column(quantity: Quantity) -> Column {
 pub(super) fn listed<S: Scalar>(
     history: &dyn Motion<S>,
     quantities: &[Quantity],
-    column: fn(Quantity) -> Column,
+    column: &dyn Fn(Quantity) -> Column,
     head: &Head,
     rows: &[Vec<Option<&S>>],
 ) -> Dataset {
@@ -128,7 +128,7 @@ fn pieces<S: Scalar>(history: &dyn Motion<S>, pieces: &[StressPiece<S>], head: &
     let rows = mapped(pieces, |StressPiece { from, to, left, right, .. }| {
         vec![Some(from), Some(to), Some(left), Some(right), Some(left), Some(right)]
     });
-    listed(history, &PIECE, column, head, &rows)
+    listed(history, &PIECE, &column, head, &rows)
 }
 
 /// The stress at the ground, as it is printed.
@@ -161,7 +161,7 @@ pub(crate) fn record<S: Scalar>(
             }
         }
         let defined = mapped(&rows, |row| mapped(row, |value| value.as_ref().ok()));
-        Ok::<_, Error>((listed(history, quantities, column, head, &defined), rows))
+        Ok::<_, Error>((listed(history, quantities, &column, head, &defined), rows))
     };
     let (mut events, _) = gather(&EVENT)?;
     let (mut contacts, ends) = gather(&CONTACT)?;

@@ -303,6 +303,42 @@ fn samples() {
     }
 }
 
+/// Several quantities stand beside each other under their whole names, since two of them may have a `v`.
+#[test]
+fn samples_of_several_quantities() {
+    let args = ["sample", "paper-strong", "--quantity", "end,energy", "--times", "0,1", "--format", "json"];
+    let several = json(&args);
+    assert_eq!(several["quantity"], "end,energy");
+    for (k, row) in several["rows"].as_array().unwrap().iter().enumerate() {
+        keys(&row["values"], &["u_end", "v_end", "E_total", "E_h", "E_z"]);
+        for (quantity, names) in [
+            ("end", &[("v", "u_end"), ("v_t", "v_end")][..]),
+            ("energy", &[("total", "E_total"), ("vibrational", "E_z")]),
+        ] {
+            let alone = json(&[&args[..3], &[quantity], &args[4..]].concat());
+            for (one, of_several) in names {
+                assert_eq!(row["values"][of_several], alone["rows"][k]["values"][one], "{quantity}");
+            }
+        }
+    }
+    for (quantity, said) in [("field,energy", "expected it alone"), ("end,top,end", "--quantity end twice")] {
+        refused(&["sample", "paper-strong", "--quantity", quantity, "--times", "1"], &[said]);
+    }
+}
+
+/// `--to` and `--impacts` take the place of the scene's own run, which for this one is one contact.
+#[test]
+fn a_run_of_another_length() {
+    let contacts =
+        |args: &[&str]| json(&[&["solve", "paper-strong", "--format", "json"], args].concat())["contacts"].clone();
+    assert_eq!(contacts(&[]).as_array().unwrap().len(), 1);
+    // t_b = 2, and every flight is as long as 2 μ/g = 6: impacts at 0, 8, 16.
+    assert_eq!(contacts(&["--impacts", "3"]).as_array().unwrap().len(), 3);
+    assert_eq!(contacts(&["--to", "15"]).as_array().unwrap().len(), 2);
+    assert_eq!(contacts(&["--to", "16.5"]).as_array().unwrap().len(), 3);
+    refused(&["solve", "paper-strong", "--impacts", "0"], &["found impacts = 0, expected a whole number"]);
+}
+
 #[cfg(feature = "mp")]
 #[test]
 fn samples_in_fractions_have_two_sides() {
