@@ -181,7 +181,10 @@ impl Visit for Gather<'_> {
         let short_of = self.asked.to.map_or(!runs_on, |asked| asked > end * (1.0 + 1e-12));
         if end < history.end().to_f64() {
             note(format!("drawn up to t = {}, as far as the events are settled", short(to)));
-        } else if self.asked.to.is_none() && (to < end || from > self.asked.from.unwrap_or(0.0)) {
+        } else if self.asked.over_time()
+            && self.asked.to.is_none()
+            && (to < end || from > self.asked.from.unwrap_or(0.0))
+        {
             let (from, to, end) = (short(from), short(to), short(end));
             note(format!("drawn from t = {from} to {to} of {end}; --from and --to draw another span"));
         } else if short_of {

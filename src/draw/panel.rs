@@ -180,7 +180,14 @@ impl Panel {
 
     /// The ticks of the vertical axis.
     fn up(&self, height: f64, em: f64) -> Vec<(f64, String)> {
-        self.y.ticks((height / em / 2.4).max(2.5))
+        let ticks = self.y.ticks((height / em / 2.4).max(2.5));
+        if ticks.len() > 1 {
+            return ticks;
+        }
+        // One number is no scale: more of them, where there is room.
+        let closer = self.y.ticks(5.0);
+        let apart = |pair: &[(f64, String)]| (self.y.share(pair[1].0) - self.y.share(pair[0].0)) * height >= em;
+        if closer.len() > 1 && closer.windows(2).all(apart) { closer } else { ticks }
     }
 
     /// How many numbers fit beside an axis of a height, and how wide the widest of them is, in letters.

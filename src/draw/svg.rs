@@ -48,7 +48,6 @@ pub(crate) struct Svg {
     text: String,
     /// The height of letters, mm.
     pub(crate) em: f64,
-    gradients: usize,
 }
 
 /// A length: a hundredth of a millimetre, without zeros at the end.
@@ -63,6 +62,13 @@ pub(super) fn length(x: f64) -> String {
 /// The characters that XML keeps for itself.
 pub(super) fn escaped(text: &str) -> String {
     text.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;").replace('"', "&quot;")
+}
+
+/// A number of texts (FNV-1a). In a document that holds several pictures, as a notebook does, a name must not mean
+/// something else in each.
+fn fingerprint(texts: &[&str]) -> u64 {
+    let bytes = texts.iter().flat_map(|text| text.bytes());
+    bytes.fold(0xcbf2_9ce4_8422_2325, |hash, byte| (hash ^ u64::from(byte)).wrapping_mul(0x0100_0000_01b3))
 }
 
 /// A text of a user, in which `_` is no subscript.
@@ -119,7 +125,7 @@ impl Svg {
              font-family=\"{FAMILY}\" font-size=\"{size}\" fill=\"#000000\" stroke-linejoin=\"round\">\n\
              <rect width=\"{w}\" height=\"{h}\" fill=\"#ffffff\"/>\n"
         );
-        Svg { text, em, gradients: 0 }
+        Svg { text, em }
     }
 
     /// Begins a group that [`Svg::close`] ends: its class, and other attributes.
@@ -138,24 +144,22 @@ impl Svg {
 
     /// What is inside of a line through points.
     pub(crate) fn polygon(&mut self, points: &[DVec2], fill: &Fill) {
+        let corners = places(points);
         let paint = match fill {
             Fill::Flat(color) => color.clone(),
             Fill::Gradient([from, to], stops) => {
-                self.gradients += 1;
-                let id = self.gradients;
                 let [x1, y1, x2, y2] = [from.x, from.y, to.x, to.y].map_each(length);
-                self.text += &format!(
-                    "<linearGradient id=\"fill{id}\" gradientUnits=\"userSpaceOnUse\" x1=\"{x1}\" y1=\"{y1}\" \
-                     x2=\"{x2}\" y2=\"{y2}\">"
-                );
+                let mut gradient =
+                    format!("gradientUnits=\"userSpaceOnUse\" x1=\"{x1}\" y1=\"{y1}\" x2=\"{x2}\" y2=\"{y2}\">");
                 for (share, color) in stops {
-                    self.text += &format!("<stop offset=\"{share:.4}\" stop-color=\"{color}\"/>");
+                    gradient += &format!("<stop offset=\"{share:.4}\" stop-color=\"{color}\"/>");
                 }
-                self.text += "</linearGradient>\n";
-                format!("url(#fill{id})")
+                let id = fingerprint(&[&corners, &gradient]);
+                self.text += &format!("<linearGradient id=\"fill{id:x}\" {gradient}</linearGradient>\n");
+                format!("url(#fill{id:x})")
             }
         };
-        self.text += &format!("<polygon points=\"{}\" fill=\"{paint}\"/>\n", places(points));
+        self.text += &format!("<polygon points=\"{corners}\" fill=\"{paint}\"/>\n");
     }
 
     /// What an odd number of closed lines is about.

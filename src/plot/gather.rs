@@ -87,7 +87,7 @@ impl Gathered {
     /// What of the history is drawn, where that is less than all and no span was asked for.
     pub(crate) fn cut(&self, asked: &Asked, axis: &Axis) -> Option<String> {
         let ([from, to], (shown, all)) = (self.span, (self.contacts.len(), self.of_contacts));
-        (asked.from.is_none() && asked.to.is_none() && to != self.end).then(|| {
+        (asked.over_time() && asked.from.is_none() && asked.to.is_none() && to != self.end).then(|| {
             let [from, to, end] = [from, to, self.end].map_each(|time| axis.told(time));
             format!("from t = {from} to {to} of {end}, {shown} of {all} contacts")
         })
@@ -103,6 +103,11 @@ impl Asked {
     /// Whether a picture is among those asked for.
     fn wants(&self, picture: Picture) -> bool {
         self.pictures.contains(&picture)
+    }
+
+    /// Whether any of the pictures shows the span; restitution is that of all contacts.
+    pub(crate) fn over_time(&self) -> bool {
+        self.pictures.iter().any(|picture| *picture != Picture::Restitution)
     }
 
     /// Asks a history for all that the pictures show.

@@ -1,5 +1,6 @@
 //! `dalembert plot` and `dalembert figures`: the structure of what they draw, and the numbers of the figures.
 
+use std::collections::BTreeSet;
 use std::fs;
 
 #[cfg(feature = "mp")]
@@ -141,6 +142,15 @@ fn long_histories_are_cut_and_said() {
     assert!(said.code == Some(0) && said.out.len() < 300_000);
     let title = "from t = 0 to 0.0008 of 0.138";
     assert!(said.out.contains(title) && said.out.contains("1 of 1 contacts<"), "{}", structure(&said.out));
+    // Restitution is that of all contacts: no span is cut, and none is said.
+    let restitution = quiet(&["plot", "steel-bar", "--quantity", "restitution", "-o", "-"]);
+    assert!(!restitution.contains("from t ="));
+    // A notebook holds several pictures in one document: a colour of one has no name of another.
+    let names = |svg: &str| -> BTreeSet<String> {
+        svg.split("id=\"").skip(1).filter_map(|part| Some(part.split('"').next()?.to_string())).collect()
+    };
+    let other = names(&quiet(&["plot", "doyen-ern-piperno", "--to", "5", "-o", "-"]));
+    assert!(other.len() > 1 && names(&said.out).is_disjoint(&other));
     // The contact of 4e-4 in 0.13 is a mark in each of four pictures, and no band.
     let whole = quiet(&["plot", "steel-bar", "--to", "0.13", "-o", "-"]);
     assert_eq!(structure(&whole).matches("text short contact").count(), 4);
