@@ -6,7 +6,7 @@ from decimal import Decimal
 from fractions import Fraction
 from functools import cached_property
 from html import escape
-from typing import TYPE_CHECKING, Any, Callable, Iterable, Literal, NamedTuple, Sequence
+from typing import TYPE_CHECKING, Any, Callable, Iterable, Literal, NamedTuple, Sequence, get_args
 
 import numpy as np
 
@@ -23,6 +23,7 @@ if TYPE_CHECKING:
 Slice = Literal["points", "averages", "p1"]
 Parameter = Literal["length", "wave_speed", "modulus", "density", "damping", "gravity", "speed", "gap"]
 TableName = Literal["events", "contacts", "restitution", "flights", "stress_history"]
+_TABLES = get_args(TableName)
 
 
 class Motion(NamedTuple):
@@ -361,6 +362,8 @@ class History:
         """
         from pandas import DataFrame
 
+        if table not in _TABLES:
+            raise ValueError(f"found table {table!r}, expected one of {', '.join(_TABLES)}")
         found = getattr(self, table)
         return DataFrame({_FRAME.get(name, name): found[name] for name in found.dtype.names})
 
@@ -394,7 +397,7 @@ class History:
         quantities: Literal["xt"] | Sequence[str] = ("u_end", "h", "u_top"),
         ax: matplotlib.axes.Axes | None = None,
         *,
-        start: float = 0.0,
+        start: float | None = None,
         end: float | None = None,
     ) -> matplotlib.axes.Axes:
         """Draw it with matplotlib, in the colours of ``dalembert plot``.
@@ -406,7 +409,8 @@ class History:
         ax : matplotlib.axes.Axes, optional
             Where to; by default on new axes.
         start, end : float, optional
-            The span of time; by default the whole history.
+            The span of time; by default the whole history, and of the strain along the rod what shows its first
+            contacts, as in :meth:`to_svg`.
 
         Returns
         -------
@@ -423,12 +427,12 @@ class History:
             return np.ascontiguousarray(array.ravel(), dtype=np.float64)
         return np.asarray(values, dtype=object).ravel().tolist()
 
-    def columns(self, names: Sequence[str], t: Numbers, side: Side | None = None) -> dict[str, Array]:
+    def columns(self, names: str | Sequence[str], t: Numbers, side: Side | None = None) -> dict[str, Array]:
         """Give columns as ``dalembert reference`` writes them.
 
         Parameters
         ----------
-        names : sequence of str
+        names : str or sequence of str
             Of ``u_end``, ``v_end``, ``strain``, ``stress``, ``force``, ``u_top``, ``v_top``, ``h``, ``h_rate``,
             ``E_total``, ``E_h``, ``E_z``, ``kinetic``, ``strain_energy``, ``gravity``, ``contact``, ``impulse``, ``t``
             and ``side``.
@@ -447,7 +451,8 @@ class History:
         >>> solve("paper-strong").columns(["t", "side", "strain"], [1, 2])["strain"].tolist()
         [-4.0, -5.0, 0.0]
         """
-        return dict(zip(names, map(self._array, self._core.columns(list(names), self._places(t), side))))
+        names = [names] if isinstance(names, str) else list(names)
+        return dict(zip(names, map(self._array, self._core.columns(names, self._places(t), side))))
 
     def _at(self, t: Numbers, side: Side, *names: str) -> list[Any]:
         return _shaped(self.columns(names, t, side).values(), np.asarray(t).shape)

@@ -36,7 +36,7 @@ class Sweep:
 
     def __repr__(self) -> str:
         shape = next(iter(self.values.values())).shape
-        return f"<dalembert.Sweep: {', '.join(self.values)} of shape {shape}, {len(self.notes)} notes>"
+        return f"<dalembert.Sweep: {', '.join(self.values)} of shape {shape}, notes on {len(self.notes)}>"
 
 
 _PROFILES = ("displacement", "velocity")

@@ -182,6 +182,12 @@ impl History {
         })
     }
 
+    /// The first and the last time of that sheet.
+    fn span(&self, py: Python<'_>) -> PyResult<[f64; 2]> {
+        let rod = self.solved.0.clone();
+        self.ask(py, move |solution| each!(solution, |history, _| Drawing::default().drawn_span(history, &rod)))
+    }
+
     fn error_estimate(&self) -> f64 {
         each!(&*self.solution, |history, _| history.error_estimate())
     }

@@ -110,6 +110,7 @@ def test_frames_and_datasets():
     assert isinstance(frame, pandas.DataFrame) and frame["end"].tolist() == [5, 8]
     assert history.to_frame("events")["kind"].tolist()[:2] == ["impact", "release"]
     data = history.to_xarray([0, 0.5, 1], [1, 1.5])
+    assert history.columns("h", [1, 2])["h"].tolist() == history.h([1, 2]).tolist()
     assert isinstance(data, xarray.Dataset) and float(data.strain.sel(x=0, t=1.5)) == -0.5
 
 
@@ -128,6 +129,12 @@ def test_pictures():
     assert len(ax.patches) == len(history.contacts)
     mesh = dalembert.solve("paper-strong").plot("xt").collections[0]
     assert mesh.get_clim() == (-5, 5)
+    # A steel rod is on the ground for 0.4 ms of 0.14 s: what shows its waves is drawn, and numbers say their power.
+    steel = dalembert.solve("steel-bar")
+    assert steel.plot("xt", pyplot.subplots()[1]).get_xlim()[1] < 0.001 < steel.plot("h").get_xlim()[1]
+    ax = steel.plot("strain", pyplot.subplots()[1], end=0.0008)
+    ax.figure.canvas.draw()
+    assert [axis.get_offset_text().get_text() != "" for axis in (ax.xaxis, ax.yaxis)] == [True, True]
     pyplot.close("all")
 
 
@@ -214,6 +221,7 @@ def test_files(tmp_path):
         (ValueError, "found velocity = NaN", lambda: rod(impact_speed=None, velocity=[(0, np.nan), (1, 0)])),
         (ValueError, "found time NaN, expected one between 0 and 8.0", lambda: rod().solve().strain(np.nan)),
         (ValueError, "expected one between 0 and 1.0, the rod's length", lambda: rod().solve().field(2, 1)),
+        (ValueError, "found table 'contact', expected one of events", lambda: rod().solve().to_frame("contact")),
         (ValueError, "found side = up, expected left", lambda: dalembert.solve("paper-strong").strain(1, "up")),
         (TypeError, "found time = None", lambda: dalembert.solve("paper-strong").strain(None)),
         (ValueError, "found no file and no built-in scene", lambda: dalembert.solve("paper-stronk")),
