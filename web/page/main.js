@@ -42,7 +42,11 @@ function solve(another = false) {
 async function busily(act) {
   doing += 1;
   document.documentElement.dataset.busy = "";
-  await act();
+  try {
+    await act();
+  } catch (error) {
+    refused(error);
+  }
   doing -= 1;
   if (doing === 0) delete document.documentElement.dataset.busy;
 }
@@ -58,7 +62,8 @@ const SPANS = {
 const natural = () => (shot.events[1] < shot.end / 50 ? "contacts" : "all");
 
 function show(fresh) {
-  const span = fresh.another || !view ? null : $("span").value;
+  // What another rod is shown by is not chosen for this one.
+  const span = fresh.another || !view || $("span").value === natural() ? null : $("span").value;
   shot = fresh;
   now = fresh.another ? 0 : within(now);
   if (span !== "") setSpan(span ?? natural());
@@ -79,11 +84,16 @@ async function solved({ text, ...rest }) {
     say("", found.doubts);
     return { ...found, ...rest };
   } catch (error) {
-    const [, beyond] = error.message.match(/^beyond doubles: ([^]*)/) ?? [];
-    const failed = "The engine has failed at this scene; please report it, and load the page again";
-    say(beyond ? "" : error.failed ? failed : named(error.message), beyond ? [beyond] : []);
+    refused(error);
     return null;
   }
+}
+
+/** Shows why there is no answer. */
+function refused(error) {
+  const [, beyond] = error.message.match(/^beyond doubles: ([^]*)/) ?? [];
+  const failed = "The engine has failed at this scene; please report it, and load the page again";
+  say(beyond ? "" : error.failed ? failed : named(error.message), beyond ? [beyond] : []);
 }
 
 /** A text with its subscripts: `E_h` in parts, every other one a subscript. */
@@ -189,7 +199,7 @@ function pose() {
     while (moved) {
       moved = false;
       const look = [...sized($("rod"), 176), enlarged(), diagram.greatest];
-      const found = await engine.ask("at", shot.number, now, ...look).catch(({ message }) => say(message, []));
+      const found = await engine.ask("at", shot.number, now, ...look).catch(refused);
       if (!found) continue;
       const [h, E, E_h, E_z, end, strain] = found.values;
       fill($("values"), { h, E_h, E_z, E, "v(0,t)": end, "v_x(0,t)": strain });
@@ -443,7 +453,7 @@ async function open() {
     sliders.refit();
     mark();
     await solve(true);
-    say(`The link holds no scene: ${mistake}`, []);
+    say(`The scene of the link is not shown: ${mistake}`, []);
   }
   if (shot) await moveTo(time ?? rounded(0.3 * (view.to < shot.end ? view.to : shot.round)));
   performance.mark("shown");

@@ -37,6 +37,15 @@ fn beyond(error: impl std::fmt::Display) -> JsError {
     JsError::new(&format!("beyond doubles: {error}"))
 }
 
+/// What a history does not answer.
+fn failed(error: Error) -> JsError {
+    match error {
+        Error::NoMultiprecision => beyond("some of its numbers need more digits than doubles have"),
+        Error::NotDecided { .. } | Error::Open(_) => beyond(error),
+        error => refuse(error),
+    }
+}
+
 fn text<S: Scalar>(x: &S) -> String {
     show(x, DIGITS)
 }
@@ -70,13 +79,12 @@ impl Run {
         });
         match plan.solve(&scene.problem, observe) {
             Ok(Solution::Double(history)) => {
-                let sizes = Sizes::of(&history).map_err(refuse)?;
+                let sizes = Sizes::of(&history).map_err(failed)?;
                 Ok(Run { scene, history, sizes })
             }
             Ok(_) => Err(refuse("found numbers other than doubles")),
             Err(Error::Interrupted) => Err(beyond(format!("no answer within {milliseconds} ms"))),
-            Err(error @ (Error::NotDecided { .. } | Error::NoMultiprecision | Error::Open(_))) => Err(beyond(error)),
-            Err(error) => Err(refuse(error)),
+            Err(error) => Err(failed(error)),
         }
     }
 
@@ -141,7 +149,7 @@ impl Run {
             },
             |rows| rows.iter().flatten().flatten().collect(),
         );
-        Ok(rows.map_err(refuse)?.iter().flatten().map(|x| optional(x.as_ref())).collect())
+        Ok(rows.map_err(failed)?.iter().flatten().map(|x| optional(x.as_ref())).collect())
     }
 
     /// `h`, `E`, `E_h`, `E_z`, `v(0,t)` and `v_x(0,t)` at a time.
@@ -156,7 +164,7 @@ impl Run {
             },
             |found| found.iter().collect(),
         );
-        Ok(found.map_err(refuse)?.iter().map(text).collect())
+        Ok(found.map_err(failed)?.iter().map(text).collect())
     }
 
     /// The rod at a time, on a part of the screen in mm; displacements are so many times what fits, or as they are, and
@@ -171,7 +179,7 @@ impl Run {
         greatest: f64,
     ) -> Result<String, JsError> {
         let pose = Pose { width, height, letters, enlarged, greatest };
-        pose.draw(&self.history, &self.scene.problem, &self.sizes, time).map_err(refuse)
+        pose.draw(&self.history, &self.scene.problem, &self.sizes, time).map_err(failed)
     }
 
     /// The greatest `|v_x(0,t)|`.
@@ -182,7 +190,7 @@ impl Run {
     /// The first and the last time of what shows the first contacts.
     pub fn span(&self) -> Result<Vec<f64>, JsError> {
         let found = Drawing::default().drawn_span(&self.history, &self.scene.problem);
-        Ok(found.map_err(refuse)?.to_vec())
+        Ok(found.map_err(failed)?.to_vec())
     }
 
     /// Field, stress and energy between two times, for a part of the screen in mm.
@@ -199,7 +207,7 @@ impl Run {
     fn picture(&self, span: Option<[f64; 2]>, canvas: Canvas) -> Result<Picture, JsError> {
         let drawing = Drawing { title: self.scene.title.clone(), span, canvas };
         let units = Units::of(&self.scene.problem, self.scene.units);
-        let Drawn { svg, greatest } = drawing.draw(&self.history, &self.scene.problem, units).map_err(refuse)?;
+        let Drawn { svg, greatest } = drawing.draw(&self.history, &self.scene.problem, units).map_err(failed)?;
         Ok(Picture { svg, greatest })
     }
 }

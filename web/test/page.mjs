@@ -254,8 +254,16 @@ for (const hash of ["#mu=2.5&n=4", "#mu=1.5&n=20", "#mu=3&r=0.1&n=10", "#L=0.5&c
 
 // A link that holds no scene is said, and the first story stands in for it.
 await open("#mu=fast");
-assert.match(await text("doubt"), /^The link holds no scene: found/);
+assert.match(await text("doubt"), /^The scene of the link is not shown: found/);
 assert.match(await text("status"), /t₁ = 2/);
+await open("#mu=1e8&n=4");
+assert.match(await text("doubt"), /is not shown: Not settled by doubles: some of its numbers/);
+
+// A rod of steel that is entered value by value: its waves are shown, and not its flight of thousands of round trips.
+await open("");
+assert.equal(await field("span"), "all");
+for (const [id, value] of [["L-field", "0.3"], ["c-field", "3780"], ["g-field", "9.81"]]) await enter(id, value);
+assert.equal(await field("span"), "contacts");
 
 // Keys.
 await open("");
