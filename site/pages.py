@@ -127,9 +127,11 @@ def on_files(files, config):
 def on_page_markdown(markdown, page, **_):
     """Links to files of the repository lead to pages of the site, or to the files in it."""
     if page.file.src_uri == "page.md":
-        markdown += (
-            '\n[The page by itself](live.html), which you may also save.\n'
+        title, rest = markdown.split("\n", 1)
+        markdown = (
+            f'{title}\n\n[The page by itself](live.html), which you may also save.\n'
             '\n<iframe src="live.html" title="The page" style="width: 100%; height: 48rem; border: 0"></iframe>\n'
+            f'{rest}'
         )
     here = "../" if page.file.src_uri.startswith("guide/") else ""
     for link, target in [

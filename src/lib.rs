@@ -25,6 +25,21 @@
 //! | [`Problem::exact`] | fractions | no error, as far as they reach; undamped rods |
 //! | [`Problem::certified`] | enclosures | every digit is proved; `docs/proofs.md` says what of |
 //!
+//! A rod of one's own, here in SI units, through ten impacts, and the force of the ground at the times of a test. What a
+//! scene file says is `Scene::parse(&text)?.problem`.
+//!
+//! ```
+//! use dalembert::{Problem, Quantity, Side};
+//!
+//! let ruler = Problem::builder().length("0.3").material(10e9, 700, "6e-5").gravity("9.81").drop_height("0.1");
+//! let history = ruler.impacts(10).build()?.solve()?;
+//! assert_eq!(history.contacts().len(), 10);
+//! let force = &history.columns(&[Quantity::Force], &[1e-5, 1e-3], Some(Side::Right))?[0];
+//! // (μ + g t) S √(E ρ) with μ = √(2 g 0.1) = 1.400714, and nothing in flight.
+//! assert!((force[0] - 222.3720).abs() < 1e-4 && force[1] == 0.0);
+//! # Ok::<(), dalembert::Error>(())
+//! ```
+//!
 //! [`History::text`] is a number with the digits that were asked for. An [`Interval`] has its ends, `lo()` and `hi()`,
 //! and `{}` prints the digits that both prove. [`History::units`] turns strains and values per `ρS` into those of the
 //! material.
