@@ -236,6 +236,12 @@ pub enum Warning {
         /// How many landings they may belong to.
         landings: usize,
     },
+    /// Digits of a damped rod in more bits than its runs are proved in.
+    #[error("these digits rest on an estimated bound: runs of a damped rod are proved in up to {most} bits")]
+    NotProved {
+        /// So many bits.
+        most: u32,
+    },
     /// A fall from `drop_height` that the damping would not let become so fast.
     #[error(
         "the speed at impact, √(2 g drop_height) = {}, takes no account of drag; with this damping no fall is \

@@ -439,8 +439,10 @@ impl<S: Target> History<S> {
 
     /// What a user should know of the answer.
     pub fn warnings(&self) -> Vec<Warning> {
-        let engine = self.current().engine;
+        let Attempt { engine, rung, .. } = self.current();
         let mut warnings = engine.warnings().to_vec();
+        // A first contact that does not end is in closed form.
+        warnings.extend(self.plan.not_proved(rung).filter(|_| engine.events().len() > 1));
         warnings.extend(self.problem.neglected());
         let mut covered = locked(&self.covered).clone();
         for engine in [&self.first.engine, &engine] {

@@ -12,6 +12,7 @@ use crate::lattice::{Limits, Undamped};
 use crate::mapped::CollectVec;
 use crate::number::{Bounded, Number, bits_for_digits};
 use crate::problem::{Parameters, Problem, Run};
+use crate::reason::Warning;
 
 /// How a question is going to be answered. No engine and no caller decides any of it again.
 ///
@@ -476,6 +477,12 @@ impl Plan {
     #[cfg(feature = "mp")]
     pub(super) fn proves_first(&self) -> bool {
         matches!(self.numbers, Numbers::Digits(_))
+    }
+
+    /// What is said of digits of a damped march in so many bits that it is not proved.
+    pub(super) fn not_proved(&self, rung: Rung) -> Option<Warning> {
+        let digits = self.cells.is_some() && matches!(self.numbers, Numbers::Digits(_));
+        (digits && rung.bits() > MOST_PROVED).then_some(Warning::NotProved { most: MOST_PROVED })
     }
 
     /// The run of an undamped rod.

@@ -4,7 +4,7 @@ use crate::common::{number, problem, reference};
 use dalembert::number::Scalar;
 use dalembert::{
     Ending, Estimate, EventKind, Field, Float, History, Interval, Needs, Number, Parameters, Problem, Profile,
-    Quantity, Run, Side, Speed, Start, Top,
+    Quantity, Run, Side, Speed, Start, Top, Warning,
 };
 
 fn number_of(text: &str) -> Number {
@@ -153,6 +153,13 @@ fn fixed_tops_strained_starts_and_gaps_are_proved() {
         count += compare(name, &proved, &digits, 55);
     }
     assert!(count >= 170, "{count}");
+}
+
+#[test]
+fn digits_beyond_proofs_say_so() {
+    let problem = rod("0.1", "3", "1", 1);
+    assert_eq!(problem.digits(30).unwrap().warnings(), []);
+    assert_eq!(problem.digits(260).unwrap().warnings(), [Warning::NotProved { most: 900 }]);
 }
 
 /// A flight of 8e-25 s: its release and the impact after it have the same 17 digits and other values.
