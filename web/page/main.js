@@ -67,6 +67,7 @@ function show(fresh) {
   shot = fresh;
   now = fresh.another ? 0 : within(now);
   if (span !== "") setSpan(span ?? natural());
+  if (span === null && now > view.to) now = rounded(0.3 * view.to);
   else if (view.to > shot.end) setSpan("all");
   sliders.ratios(shot.parameters);
   $("status").textContent = `c = ${shot.parameters[0]}, t₁ = ${shot.parameters[1]}; ${shot.ending}`;

@@ -264,6 +264,7 @@ await open("");
 assert.equal(await field("span"), "all");
 for (const [id, value] of [["L-field", "0.3"], ["c-field", "3780"], ["g-field", "9.81"]]) await enter(id, value);
 assert.equal(await field("span"), "contacts");
+assert.ok(Number(await text("now")) < 0.001);
 
 // Keys.
 await open("");
