@@ -470,7 +470,8 @@ impl<S: Target> std::fmt::Debug for History<S> {
 
 /// Two times as doubles print them, where that is shorter and tells them apart.
 fn told_apart(found: String, end: String) -> (String, String) {
-    let double = |text: &String| Some(text.parse::<Number>().ok()?.to_f64());
+    // NaN is no number of a scene.
+    let double = |text: &String| text.parse().map(|number: Number| number.to_f64()).or(text.parse()).ok();
     let both = double(&found).zip(double(&end)).filter(|(found, end)| found != end);
     let shorter = |text: String, value: f64| if text.len() > 24 { value.to_string() } else { text };
     match both {
