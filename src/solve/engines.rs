@@ -15,8 +15,8 @@ use crate::first_contact::{Bounce, ContactHistory, FirstContact};
 use crate::mapped::mapped;
 use crate::modal::Modal;
 use crate::motion::{Ending, Motion, Side};
-use crate::number::{DOUBLE_DIGITS, Estimate, Rational, Reads};
-use crate::problem::{Parameter, Parameters, Problem};
+use crate::number::{Estimate, Rational, Reads};
+use crate::problem::{Parameters, Problem};
 
 impl Target for f64 {
     fn run(problem: &Problem, plan: &Plan, rung: Rung, observe: &Observer) -> Result<Engined<f64>, Error> {
@@ -68,19 +68,15 @@ impl Target for f64 {
         Ok(Telling::of(engine, problem, Open::Ask(longer)))
     }
 
-    /// As many digits as a double has where a run takes no time. Otherwise from doubles, where no more is asked for
-    /// than they have and nothing jumps or bends; where they do not settle it, one digit more than the run is asked
-    /// for.
+    /// From doubles, where no more is asked for than they have and nothing jumps or bends; where they do not settle it,
+    /// one digit more than the run is asked for.
     fn derivatives(asked: &Asked<'_>, run: &Engined<f64>) -> Result<Derivatives<Estimate<f64>>, Error> {
-        let quick = asked.plan.engine == Engine::Lattice && asked.by != Parameter::Damping;
-        let plain = asked.plan.goal.digits <= -DEFAULT_ACCURACY.log10();
-        if !quick
-            && plain
+        if asked.plan.goal.digits <= -DEFAULT_ACCURACY.log10()
             && let Ok(Some(found)) = interpolated::of(asked, run)
         {
             return Ok(found);
         }
-        let digits = if quick { DOUBLE_DIGITS } else { asked.plan.goal.digits.ceil() as u32 };
+        let digits = asked.plan.goal.digits.ceil() as u32;
         let found = differences::of(asked, digits)?;
         Ok(mapped(found, |row| mapped(row, |cell| cell.map(|it| it.map(Reads::read)))))
     }

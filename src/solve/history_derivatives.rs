@@ -18,12 +18,12 @@ impl<S: Target> History<S> {
     /// `None`.
     ///
     /// **Accuracy**: *exact* in fractions; where the two sides differ, difference quotients have confirmed them.
-    /// Otherwise each derivative is *within its own bound*. In doubles, as accurate as they are by default, that of a
-    /// damped rod is within 1e-5 of its natural size, mostly 1e-8, and takes three runs: it is that of a cubic through
-    /// four, and the bound what a quadratic differs by. Where these do not settle it, where more is asked for and in
-    /// digits it is a difference quotient of runs in long numbers, with a step as small as the last of the digits, and
-    /// the bound has what the quotients of both sides, or of two steps, differ by. A threshold that is nearer than the
-    /// step counts as met.
+    /// Otherwise each derivative is *within its own bound*. In doubles, as accurate as they are by default, it is within
+    /// 1e-5 of its natural size, mostly 1e-8, and takes three runs: it is that of a cubic through four, and the bound
+    /// what a quadratic differs by. Where these do not settle it, where more is asked for and in digits it is a
+    /// difference quotient of runs in long numbers, with a step as small as the last of the digits, and the bound has
+    /// what the quotients of both sides, or of two steps, differ by. A threshold that is nearer than the step counts as
+    /// met.
     ///
     /// **Errors**: [`Error::Derivative`] where the problem has no such value, in fractions for damping, and for
     /// enclosures; [`Error::Digits`] for more than 60; [`Error::NoMultiprecision`] without the feature `mp`, but for

@@ -9,13 +9,13 @@
 
 use super::derivative::{Asked, Derivative, Derivatives, Rows, at, of_each};
 use super::ladder::{Engined, Ladder};
-use super::plan::Plan;
+use super::plan::{Engine, Plan};
 use super::question::Question;
 use crate::error::Error;
-use crate::mapped::CollectVec;
+use crate::mapped::{CollectVec, try_mapped};
 use crate::motion::Motion;
 use crate::number::{Estimate, Number, Rational, Scalar};
-use crate::problem::{Parameter, Problem};
+use crate::problem::Problem;
 use crate::threads::Threads;
 
 type Double = Estimate<f64>;
@@ -33,9 +33,6 @@ const BEND: f64 = 100.0;
 /// [`WANTED`].
 pub(super) fn of(asked: &Asked<'_>, run: &Engined<f64>) -> Result<Option<Derivatives<Double>>, Error> {
     let value = asked.by.value_in::<f64>(asked.problem, &())?;
-    if value == 0.0 && asked.by == Parameter::Gravity {
-        return Ok(None);
-    }
     let (base, scales) = rows(asked, asked.problem, &**run)?;
     let size = |(number, scale): (&Option<Double>, &f64)| {
         let number = number.as_ref()?;
@@ -73,7 +70,11 @@ fn with_step(
         )?;
         Ok::<Rows<Double>, Error>(found.1.0)
     };
-    let runs = Threads::default().all(3, run)?;
+    // On the lattice a run takes less time than a thread to begin.
+    let runs = match asked.plan.engine {
+        Engine::Lattice => try_mapped(0..3, run)?,
+        _ => Threads::default().all(3, run)?,
+    };
     let scale = if value == 0.0 { asked.by.scale_of_zero(asked.problem).to_f64() } else { value };
     let cubic = Cubic { part: step.to_f64(), value: scale / asked.by.power(asked.problem) as f64, one_sided };
     let mut settled = true;

@@ -57,7 +57,7 @@ fn the_second_landing() {
     let [left, right] = found[2][0].as_ref().unwrap().sides().map(|side| side.unwrap().clone());
     meets(&left, 0.6);
     meets(&right, 0.12);
-    assert!(left.bound() < 1e-15 && right.bound() < 1e-15);
+    assert!(left.bound() < 1e-9 && right.bound() < 1e-9);
     // The release before it is on its own ray, from both sides.
     assert_eq!(exact[1][0], Some(Derivative::One(Rational::new())));
     for (n, m) in [(2.0, "1.1"), (2.0, "1.3"), (3.0, "1.7"), (3.0, "1.9")] {
@@ -340,11 +340,11 @@ fn restitution_by_damping() {
     }
 }
 
-/// A damped rod of decimals that hits the ground once, above it at first or not.
-fn damped() -> impl Strategy<Value = Problem> {
+/// A damped rod of decimals that hits the ground so often, above it at first or not.
+fn damped(impacts: std::ops::RangeInclusive<u32>) -> impl Strategy<Value = Problem> {
     let rod =
         (0.02f64..0.8, prop::option::weighted(0.7, 0.2f64..2.0), 0.5f64..3.0, prop::option::weighted(0.3, 0.1f64..1.0));
-    (rod, 0.5f64..2.0, any::<bool>()).prop_map(|((r, g, m, gap), l, fixed)| {
+    (rod, 0.5f64..2.0, any::<bool>(), impacts).prop_map(|((r, g, m, gap), l, fixed, impacts)| {
         let number = |x: f64| number(&format!("{x:.3}"));
         let mut problem = Problem::uniform(number(l), number(1.5), number(g.unwrap_or(0.0)), number(m));
         problem.rod.damping = Some(number(r));
@@ -352,49 +352,90 @@ fn damped() -> impl Strategy<Value = Problem> {
         if let Some(gap) = gap {
             problem.start = Start::Above { gap: number(gap), speed: number(m) };
         }
-        problem.run = Run::Impacts(1);
+        problem.run = Run::Impacts(impacts);
         problem
     })
 }
 
-/// Of a damped rod by one of its values: what doubles give against difference quotients of long numbers, whose bounds
-/// are those of 14 digits.
-fn doubles_against_long_numbers(cases: u32, least: [u32; 1]) {
-    compares(cases, least, (damped(), 0usize..6), |(problem, which)| {
+/// `problem` with one of its values `factor` times what it is.
+fn times(problem: &Problem, by: Parameter, factor: &Rational) -> Problem {
+    let mut changed = problem.clone();
+    let Problem { rod, gravity, start, .. } = &mut changed;
+    let value = match (by, &mut rod.material, start) {
+        (Parameter::Length, ..) => &mut rod.length,
+        (Parameter::WaveSpeed, dalembert::Material::WaveSpeed(c), _) => c,
+        (Parameter::Damping, ..) => rod.damping.as_mut().unwrap(),
+        (Parameter::Gravity, ..) => gravity.as_mut().unwrap(),
+        (Parameter::Gap, _, Start::Above { gap, .. }) => gap,
+        (Parameter::Speed, _, Start::Above { speed, .. } | Start::Uniform(Speed::Given(speed))) => speed,
+        _ => unreachable!(),
+    };
+    *value = number(&(value.to_rational() * factor).to_string());
+    changed
+}
+
+/// Of a damped rod by one of its values: what doubles give against difference quotients of runs in 40 digits, both a
+/// part of 1e-14 apart from the value itself, one to each side. Returns the greatest share of its bound that a
+/// derivative is off by.
+fn doubles_against_long_numbers(cases: u32, least: [u32; 1], impacts: std::ops::RangeInclusive<u32>) -> f64 {
+    let worst = std::cell::Cell::new(0.0);
+    compares(cases, least, (damped(impacts), 0usize..6), |(problem, which)| {
         let mut given = given(&problem);
-        given.push((Parameter::Damping, Rational::new()));
-        let by = given[which % given.len()].0;
+        given.push((Parameter::Damping, problem.rod.damping.as_ref().unwrap().to_rational()));
+        let (by, value) = given[which % given.len()].clone();
         let found = problem.solve().unwrap().derivatives(by, &EVENT).unwrap();
-        let expected = problem.digits(14).unwrap().derivatives(by, &EVENT).unwrap();
+        let step = rational("1e-14");
+        let runs = [-1, 0, 1].map(|side| {
+            let run = times(&problem, by, &(Rational::from(1) + step.clone() * side)).digits(40).unwrap();
+            let numbers = |event: &dalembert::Event<Float>| {
+                [&event.time, &event.end_velocity, &event.centre, &event.centre_velocity].map(Float::clone)
+            };
+            run.events().iter().map(numbers).collect::<Vec<_>>()
+        });
+        let step = value.clone() * step;
         let mut compared = 0;
-        for (found, expected) in found.iter().flatten().zip(expected.iter().flatten()) {
-            let (Some(found), Some(expected)) = (found, expected) else { continue };
-            for (found, expected) in found.sides().into_iter().zip(expected.sides()) {
-                let (Ok(found), Ok(expected)) = (found, expected) else { continue };
-                let off = (expected.value().to_f64() - found.value()).abs();
-                let bound = found.bound() + expected.bound() + 2e-16 * found.value().abs();
-                prop_assert!(off <= bound, "by {:?}: {:?} {:?}", by, found, expected);
-                compared += 1;
+        for (i, row) in found.iter().enumerate() {
+            for (j, found) in row.iter().enumerate() {
+                let [Some(left), Some(here), Some(right)] = [0, 1, 2].map(|k| runs[k].get(i).map(|row| &row[j])) else {
+                    continue;
+                };
+                let quotient = |from: &Float, to: &Float| ((to.clone() - from) / &step).to_f64();
+                let quotients = [quotient(left, here), quotient(here, right)];
+                // What the step makes of them, and of the number in the table.
+                let natural = here.to_f64().abs().max(1.0) / value.to_f64();
+                let found = found.as_ref().unwrap();
+                let same = found.value().is_some();
+                for (found, quotient) in found.sides().into_iter().zip(quotients) {
+                    let Ok(found) = found else { continue };
+                    let quotient = if same { quotients[0].midpoint(quotients[1]) } else { quotient };
+                    let slack = if same { (quotients[1] - quotients[0]).abs() } else { 1e-10 * natural };
+                    let off = (quotient - found.value()).abs() - slack - 1e-15 * natural;
+                    prop_assert!(off <= found.bound(), "by {:?}: {:?} {} in {:?}", by, found, quotient, problem);
+                    worst.set(f64::max(worst.get(), off / found.bound()));
+                    compared += 1;
+                }
             }
         }
         Ok([compared])
     });
+    worst.get()
 }
 
 #[test]
 fn doubles_against_quotients_of_long_numbers() {
-    doubles_against_long_numbers(12, [11]);
+    doubles_against_long_numbers(12, [12], 1..=2);
 }
 
 #[test]
 #[ignore = "minutes: make explore"]
 fn doubles_against_quotients_of_long_numbers_at_length() {
-    doubles_against_long_numbers(300, [290]);
+    let worst = doubles_against_long_numbers(1000, [1000], 1..=4);
+    println!("1000 damped rods: a derivative is off by {worst:.3} of its bound at most");
 }
 
 /// Both of Euler's identities of a damped rod, within what the bounds of the derivatives leave.
 fn euler_identities_damped(cases: u32, least: [u32; 1]) {
-    compares(cases, least, damped(), |problem| {
+    compares(cases, least, damped(1..=1), |problem| {
         let history = problem.solve().unwrap();
         let mut given = given(&problem);
         given.extend(problem.rod.damping.as_ref().map(|damping| (Parameter::Damping, damping.to_rational())));
