@@ -15,8 +15,10 @@
 //! - *Of the first sample*, which a scheme is given and does not compute, at most half of what the value changes is
 //!   left. Where it is the energy that the value changes there and at most a quarter is left, the start itself says
 //!   the value: then half of ‖e‖₂² may be left over all columns, and no column may get worse.
-//! - The value is more than twice its standard error. That has two parts: the scatter of the parts about the value,
-//!   and the step.
+//! - The value is more than twice its standard error. That has three parts: the step; the scatter of the parts about
+//!   the value; and what is off alike in all of them, as where a soft contact lasts longer, which no scatter shows. It
+//!   is taken to be as great as what is left beside it, ‖e‖₂/‖s‖₂ where the value changes the signals by s; where the
+//!   start says the value it is what the two differ by.
 //!
 //! Of those that pass, the one with the least left over all columns is said.
 
@@ -289,18 +291,21 @@ impl Judge<'_> {
     ) -> Option<Fitted> {
         let square = |errors: &[f64], part| self.product(errors, errors, part);
         let by_itself = hypothesis.place().is_some();
-        let total = |errors: &[Vec<f64>]| match by_itself {
-            true => self.squares(errors),
-            false => self.over(concerned, errors, errors),
+        // A start that is given says an origin of its own; all else is about what is left of all.
+        let total = |errors: &[Vec<f64>]| match hypothesis {
+            Hypothesis::Factor(_) => self.squares(errors),
+            _ => self.over(concerned, errors, errors),
         };
         let mut holds = true;
-        let mut start_tells = false;
+        let mut start_tells = None;
         for j in 0..found.len() {
             // The start is given to a scheme and not computed by it.
             let by = (p * slope[j][0]).abs();
             holds &= by <= NONE * self.trip || found[j][0].abs() <= by / 2.0;
             let energy = self.model.signals[j].what == Quantity::Energy;
-            start_tells |= energy && by > NONE * self.trip && found[j][0].abs() <= by / 4.0;
+            if energy && by > NONE * self.trip && found[j][0].abs() <= by / 4.0 {
+                start_tells = Some(found[j][0] / slope[j][0]);
+            }
         }
         let (mut scatter, mut weight, mut count, mut early) = (0.0, 0.0, 0.0, false);
         for j in (0..found.len()).filter(|j| concerned[*j]) {
@@ -317,16 +322,18 @@ impl Judge<'_> {
                 holds &= apart.abs() <= p.abs() / 2.0 + resolution;
                 (scatter, weight, count) = (scatter + own * apart * apart, weight + own, count + 1.0);
             }
-            let share = if start_tells { 1.0 } else { 0.5 };
+            let share = if start_tells.is_some() { 1.0 } else { 0.5 };
             holds &= !told || square(&found[j], None) <= square(&self.base[j], None) * share;
         }
         // A contact that is soft, or late, is much like a clock.
         let clock = matches!(hypothesis, Hypothesis::Clock | Hypothesis::Late);
-        let most = if start_tells { LEFT } else { LEFT * LEFT } * if clock { LEFT * LEFT } else { 1.0 };
+        let most = if start_tells.is_some() { LEFT } else { LEFT * LEFT } * if clock { LEFT * LEFT } else { 1.0 };
         holds &= total(found) <= most * total(&self.base);
         let span: f64 = self.model.weights.iter().sum::<f64>() * count / (self.ends.len() + 1) as f64;
         let resolution = self.model.step * (span / weight).sqrt() / f64::max(count, 1.0).sqrt();
-        let error = (scatter / weight / f64::max(count - 1.0, 1.0) + resolution * resolution).sqrt();
+        let scatter = scatter / weight / f64::max(count - 1.0, 1.0);
+        let alike = start_tells.map_or_else(|| self.over(concerned, found, found) / weight, |apart| apart * apart);
+        let error = (scatter + alike + resolution * resolution).sqrt();
         // What is off by a factor has its errors off by it as well.
         let error = if matches!(hypothesis, Hypothesis::Factor(_)) { error * (1.0 + p).abs() } else { error };
         // Where nothing is left that the step resolves, the flight alone may tell.
