@@ -40,9 +40,9 @@
 //! # Ok::<(), dalembert::Error>(())
 //! ```
 //!
-//! [`History::text`] is a number with the digits that were asked for. An [`Interval`] has its ends, `lo()` and `hi()`,
-//! and `{}` prints the digits that both prove. [`History::units`] turns strains and values per `ρS` into those of the
-//! material.
+//! A history in fractions is asked at fractions: `exact.at("1/2".parse()?, "1".parse()?)?`. [`History::text`] is a
+//! number with the digits that were asked for. An [`Interval`] has its ends, `lo()` and `hi()`, and `{}` prints the
+//! digits that both prove. [`History::units`] turns strains and values per `ρS` into those of the material.
 //!
 //! The types in daily use stand at the root. [`engine`] has the engines by themselves, [`number`] what numbers can do
 //! in each system, [`special`] the functions of the closed forms, [`paper`] the printed formulas.
