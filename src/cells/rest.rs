@@ -20,8 +20,8 @@ const OVER: f64 = 3.0;
 impl<S: RoundedSpecial> Follower<'_, S> {
     /// Why no impact can follow the flight, if that is certain. Only where gravity does not pull the end back.
     ///
-    /// In flight the end swings about a stress-free state at height `s = v_s′(0)/2` (top fixed) or about the centre of
-    /// mass (top free, `g = 0`), whose height `h` tends monotonely to `h + h′/2r`. The deviation `d` has an energy `E`
+    /// In flight the end swings about a state at height `s = v_s′(0)/2`, stress-free at the ground and with the strain
+    /// of its weight `v_x = gx` above (top fixed), or about the centre of mass (top free, `g = 0`), whose height `h` tends monotonely to `h + h′/2r`. The deviation `d` has an energy `E`
     /// that cannot grow and `|d(0)| ≤ √ℓ ‖d_x‖`, `‖d_x‖ ≤ √(2E)`, with `ℓ = ½` for a fixed top; `ℓ = ⅙` where the mean
     /// of `d` vanishes, as then `d(0) = −∫(1 − 2x) d_x dx`. No impact follows once `√(2ℓE)` is less than the least
     /// height.
@@ -49,7 +49,8 @@ impl<S: RoundedSpecial> Follower<'_, S> {
             let rise = rate / (4.0 * medium.kappa.to_f64());
             (mean.min(mean + rise), sum(&|_, v_t, v_x| (v_t - rate).powi(2) + v_x.powi(2)) / 6.0)
         } else {
-            (slope / 2.0, sum(&|_, v_t, v_x| v_t.powi(2) + v_x.powi(2)) / 2.0)
+            let weight = medium.gravity.to_f64();
+            (slope / 2.0, sum(&|x, v_t, v_x| v_t.powi(2) + (v_x - weight * x).powi(2)) / 2.0)
         };
         let swing = share.sqrt() + 8.0 * (self.trace_error() + self.height_most(0.0));
         (least > swing).then(|| {

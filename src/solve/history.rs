@@ -14,7 +14,7 @@ use crate::motion::{
 use crate::number::{Answer, Number, Scalar, show};
 use crate::problem::Problem;
 use crate::quantity::{self, Flight, Quantity, Restitution, Slice, Table, UnitSystem, Units, flights, restitution};
-use crate::reason::Warning;
+use crate::reason::{Reason, Warning};
 
 /// The motion of a rod: its impacts and releases, and the values of every quantity at any time, in numbers `S`.
 ///
@@ -441,8 +441,9 @@ impl<S: Target> History<S> {
     pub fn warnings(&self) -> Vec<Warning> {
         let Attempt { engine, rung, .. } = self.current();
         let mut warnings = engine.warnings().to_vec();
-        // A first contact that does not end is in closed form.
-        warnings.extend(self.plan.not_proved(rung).filter(|_| engine.events().len() > 1));
+        // The first contact is in closed form.
+        let closed = engine.events().len() < 2 || matches!(engine.ending(), Ending::Undecided(Reason::MostDigits(_)));
+        warnings.extend(self.plan.not_proved(rung).filter(|_| !closed));
         warnings.extend(self.problem.neglected());
         let mut covered = locked(&self.covered).clone();
         for engine in [&self.first.engine, &engine] {

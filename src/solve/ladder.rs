@@ -5,13 +5,13 @@ use std::sync::Arc;
 
 use super::derivative::{Asked, Derivatives};
 use super::plan::{Engine, Goal, Lacks, Plan, Rung};
-use super::question::{Observer, UNOBSERVED};
+use super::question::{Numbers, Observer, UNOBSERVED};
 use crate::error::Error;
 use crate::mapped::mapped;
 use crate::motion::{Ending, Motion, Scales};
 use crate::number::{Answer, Scalar};
 use crate::problem::Problem;
-use crate::reason::Warning;
+use crate::reason::{Reason, Warning};
 
 impl Plan {
     /// The answer to one `query` of `problem`, in numbers that carry their bound, and nothing that it does not ask for:
@@ -83,6 +83,8 @@ pub(crate) struct Attempt<S: Answer> {
     pub(crate) engine: Engined<S>,
     /// Whether exact numbers have been tried where events coincide within their bounds, and did not decide either.
     tried: bool,
+    /// Whether longer numbers break off before it ends.
+    farthest: bool,
 }
 
 /// A number of an answer, as far as it matters whether it is settled.
@@ -141,6 +143,7 @@ impl Ladder<'_> {
         query: Query<'_, S>,
     ) -> Result<(Attempt<S>, usize), Error> {
         let tried = known.iter().any(|attempt| attempt.tried);
+        let farthest = known.iter().find(|attempt| attempt.farthest).map(|attempt| attempt.rung);
         let mut known = known.into_iter().map(|attempt| (attempt.rung, Some(attempt.engine)));
         let (mut rung, mut engine) = known.next().unwrap_or((self.plan.rung, None));
         let mut reserve = None;
@@ -161,14 +164,17 @@ impl Ladder<'_> {
                 Ok((engine, (answer, sizes)))
             });
             // Errors on the way to an open comparison mean nothing, except where no bits can help.
-            let (lacks, reached) = match answer {
+            let lacks = match answer {
                 Ok((engine, (answer, sizes))) => {
+                    // With more bits such a run breaks off sooner.
+                    let last = breaks_off(self.plan, rung, &*engine);
                     let longer = |(kept, _, settled): &mut (Attempt<S>, usize, bool)| {
-                        *settled && ends_before(&*engine, &*kept.engine)
+                        (*settled || last) && ends_before(&*engine, &*kept.engine)
                     };
                     if let Some((kept, answer, _)) = kept.take_if(longer) {
-                        return Ok((Attempt { tried: true, ..kept }, answer));
+                        return Ok((Attempt { tried: true, farthest: last, ..kept }, answer));
                     }
+                    let last = last || farthest == Some(rung);
                     let missing = self.missing(&*engine, &sizes, &mut doubts);
                     let coincides = !tried && coincides(self.plan, &*engine);
                     let open = !tried && self.plan.engine != Engine::Lattice && needs_bits(&*engine);
@@ -176,36 +182,40 @@ impl Ladder<'_> {
                         doubts.push(engine.end().to_f64());
                     }
                     let climbs = open && doubts.len() < SAME_DOUBT;
-                    let reached = Some((Attempt { rung, engine, tried: tried || open && !climbs }, answer));
+                    let tried = tried || open && !climbs;
+                    let reached = Some((Attempt { rung, engine, tried, farthest: last }, answer));
                     match reached {
-                        Some(settled) if missing <= 0.0 && !coincides && !climbs => return Ok(settled),
+                        Some(settled) if missing <= 0.0 && !coincides && !climbs || last => return Ok(settled),
                         _ if climbs => {
                             kept = reached.map(|(attempt, answer)| (attempt, answer, missing <= 0.0));
-                            (Lacks::Bits(f64::INFINITY), None)
+                            Lacks::Bits(f64::INFINITY)
                         }
                         _ if missing <= 0.0 => {
                             reserve = reached;
-                            (Lacks::Exactness, None)
+                            Lacks::Exactness
                         }
-                        _ => (Lacks::Bits(missing), reached),
+                        _ => {
+                            if rung == Rung::Double {
+                                kept = reached.map(|(attempt, answer)| (attempt, answer, false));
+                            }
+                            Lacks::Bits(missing)
+                        }
                     }
                 }
-                Err(Error::NotDecided { .. } | Error::Open(_)) => (Lacks::Bits(f64::INFINITY), None),
+                Err(Error::NotDecided { .. } | Error::Open(_)) => Lacks::Bits(f64::INFINITY),
                 Err(error) => return Err(error),
             };
             // Where exact roots do not decide, the numbers that are known say what they take for one.
             let open = matches!((rung, lacks), (Rung::Confirmed(_) | Rung::Enclosures(_), Lacks::Bits(f64::INFINITY)));
             let next = self.plan.next(rung, lacks).filter(|_| reserve.is_none() || !open);
-            match (next, reserve.take_if(|_| next.is_none()), reached) {
-                (Some(next), ..) => (rung, engine) = known.next().unwrap_or((next, None)),
-                (None, Some((attempt, answer)), _) => return Ok((Attempt { tried: true, ..attempt }, answer)),
-                (None, None, reached) => {
-                    let kept = kept.filter(|(kept, _, settled)| *settled || kept.rung == Rung::Double);
-                    let kept = kept.map(|(kept, answer, _)| (Attempt { tried: true, ..kept }, answer));
-                    let reached = reached.filter(|_| rung == Rung::Double);
-                    return kept.or(reached).ok_or_else(|| self.unsettled(rung));
-                }
+            if let Some(next) = next {
+                (rung, engine) = known.next().unwrap_or((next, None));
+                continue;
             }
+            let kept = kept.filter(|(kept, _, settled)| *settled || kept.rung == Rung::Double);
+            let best = reserve.or(kept.map(|(kept, answer, _)| (kept, answer)));
+            let best = best.map(|(attempt, answer)| (Attempt { tried: true, ..attempt }, answer));
+            return best.ok_or_else(|| self.unsettled(rung));
         }
     }
 
@@ -266,6 +276,12 @@ fn ends_at_event<S: Scalar>(engine: &dyn Motion<S>) -> bool {
 /// Whether a damped run says that its bounds leave events open.
 fn needs_bits<S: Scalar>(engine: &dyn Motion<S>) -> bool {
     engine.warnings().iter().any(Warning::needs_bits)
+}
+
+/// Whether an answer in doubles is from a run in long numbers that has computed as much as it may.
+fn breaks_off<S: Scalar>(plan: &Plan, rung: Rung, engine: &dyn Motion<S>) -> bool {
+    let limited = matches!((plan.numbers, rung), (Numbers::Double(_), Rung::Bits(_)));
+    limited && matches!(engine.ending(), Ending::Undecided(Reason::Effort { .. }))
 }
 
 /// Whether a run breaks off before another ends.

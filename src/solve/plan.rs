@@ -186,7 +186,7 @@ const FEWEST_BITS: u32 = 128;
 const CELLS: CellLimits = CellLimits {
     double_digits: 13.0,
     double_cells: 20_000_000,
-    long_cells: Some(200_000),
+    long_cells: Some(30_000),
     most_digits: 300.0,
     marched_trips: [4.0, 64.0],
 };

@@ -3,7 +3,9 @@
 use crate::common::{close, number, problem, reference, uniform};
 use crate::stripped::{Stripped, damped as in_cells};
 use dalembert::engine::{Damped, Motion};
-use dalembert::{Ending, Error, EventKind, Material, Number, Problem, Profile, Rod, Run, Side, Start, Top, Warning};
+use dalembert::{
+    Ending, Error, EventKind, Material, Number, Problem, Profile, Reason, Rod, Run, Side, Start, Top, Warning,
+};
 
 fn damped(gravity: &str, speed: &str, damping: &str, run: Run) -> Problem {
     let mut problem = uniform("1", "1", gravity, speed, run);
@@ -293,4 +295,20 @@ mod in_many_digits {
             }
         }
     }
+}
+
+/// A rod that hangs clear of the ground swings about the height that its weight leaves: `0.595 − gL²/2c²`. Only the
+/// deviation from that state says that it never comes down again, and not the strain of the weight.
+#[test]
+fn a_rod_that_hangs_above_the_ground_touches_it_once() {
+    let rod = Problem::builder().length("1.232").wave_speed("1.5").damping("0.473").top(Top::Fixed).gravity("1.045");
+    let problem = rod.gap("0.595").impact_speed("0.99").impacts(1).build().unwrap();
+    let history = problem.solve().unwrap();
+    let Ending::NoFurtherImpact(Reason::StaysAbove { height, swing, .. }) = history.ending() else {
+        panic!("{:?}", history.ending())
+    };
+    let expected = 0.595 - 1.045 * 1.232f64.powi(2) / (2.0 * 1.5f64.powi(2));
+    assert!((height - expected).abs() < 1e-12 && swing < height, "{height} {expected} {swing}");
+    let longer = Problem { run: Run::Time(200.into()), ..problem }.solve().unwrap();
+    assert_eq!(longer.events(), history.events());
 }
