@@ -55,8 +55,12 @@ fn main() {
             black_box(black_box(&problem).solve().unwrap().events().len());
         });
         let ratio = |by: Parameter| {
-            // A rod without damping is another problem than one with some.
-            let other = by == Parameter::Damping && problem.rod.damping.is_none();
+            // A rod without damping or gravity is another problem than one with some.
+            let other = match by {
+                Parameter::Damping => problem.rod.damping.is_none(),
+                Parameter::Gravity => problem.gravity.is_none(),
+                _ => false,
+            };
             if other || history.derivatives(by, &EVENT).is_err() {
                 return "-".to_owned();
             }

@@ -66,8 +66,11 @@ fn the_page_on_output_lists_all_columns() {
 #[test]
 fn the_docstring_of_python_lists_all_columns() {
     let source = include_str!("../../python/dalembert/_history.py");
-    let doc =
-        source.split("def columns(").nth(1).and_then(|rest| rest.split("names : str or sequence of str").nth(1)).unwrap();
+    let doc = source
+        .split("def columns(")
+        .nth(1)
+        .and_then(|rest| rest.split("names : str or sequence of str").nth(1))
+        .unwrap();
     let doc = doc.split("t : number").next().unwrap();
     let mut listed: Vec<&str> = doc.split("``").skip(1).step_by(2).collect();
     let mut known: Vec<&str> = Needs::Time.quantities().map(Quantity::name).collect();
