@@ -25,7 +25,7 @@ const searches = [["index", "coefficient of restitution", "guide/04"], ["guide/0
 for (const [from, words, found] of searches) {
   await page.goto(`${SITE}/${from}.html`);
   await page.fill("[data-md-component=search-query]", words);
-  await page.waitForSelector(`.md-search-result__item a[href*="${found}"]`, { state: "attached" });
+  await page.waitForSelector(`.md-search-result__item a[href*="${found}"]`, { state: "attached", timeout: 120000 });
 }
 await page.goto(`${SITE}/page.html`);
 await page.frameLocator("iframe[title='The page']").locator("#contacts tbody tr").first().waitFor();
