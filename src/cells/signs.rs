@@ -17,9 +17,9 @@ pub(super) fn range<T: Rounded>(c: &[T], size: f64) -> (f64, f64) {
     (middle - spread - rounding, middle + spread + rounding)
 }
 
-/// A series on parts of its interval, whose ends are numbers `S` of the run: an event may be closer to the end of a strip
-/// than doubles tell. A series in doubles rounds them, which moves its values by `2N²u` of its size, less than [`range`]
-/// counts.
+/// A series on parts of its interval. Their ends are numbers `S` of the run, since an event may be closer to the end of
+/// a strip than doubles tell. For a series in doubles they are rounded, which moves its values by `2N²u` of its size:
+/// less than [`range`] counts.
 pub(super) struct Part<'a, S, T> {
     basis: &'a Basis<T>,
     whole: &'a [T],

@@ -181,8 +181,8 @@ const MOST_EXACT: u32 = 1000;
 const EXACT_ROOT: u32 = 4;
 /// The fewest bits of a number with an error bound that follows doubles.
 const FEWEST_BITS: u32 = 128;
-/// Cells: thirteen digits in doubles; some ten seconds in doubles and in numbers of 128 bits. The cost of more digits
-/// grows with their cube.
+/// Cells: thirteen digits in doubles; some ten seconds in doubles, and a few in numbers of 128 bits. The cost of more
+/// digits grows with their cube.
 const CELLS: CellLimits = CellLimits {
     double_digits: 13.0,
     double_cells: 20_000_000,

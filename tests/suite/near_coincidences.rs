@@ -131,7 +131,7 @@ fn explore(seed: u64, rods: usize) -> [usize; 4] {
     counts
 }
 
-/// The third contact begins 1e-14 round trips after a ray of the first release.
+/// The third contact begins 4e-20 round trips before the ray of the first impact arrives for the twelfth time.
 #[test]
 fn a_landing_next_to_a_ray_is_told_from_it() {
     let speed = "5.8670384569083794322048775022552845";
