@@ -6,7 +6,7 @@ use super::ours::Ours;
 use crate::error::Error;
 use crate::motion::Side;
 use crate::problem::{Parameter, Problem};
-use crate::quantity::{Measure, Quantity, Rays};
+use crate::quantity::{Measure, Quantity};
 use crate::solve::History;
 
 /// A column as it is held against a run: itself where it has no jumps, its integral over time where it has them. An
@@ -91,7 +91,7 @@ impl<'a> Model<'a> {
                 _ => *what,
             };
             let mut values: Vec<f64> = theirs.iter().map(|value| value * ours.force_per(*what)).collect();
-            if what.rays() == Rays::Jump {
+            if what.jumps() {
                 let start = history.columns(&[model, *what], &times[..1], Some(Side::Right))?;
                 // A row with the stress that is there before the start, on which nothing has acted yet.
                 let before = own[0] != start[1][0] && own[0] != 0.0;

@@ -4,7 +4,7 @@ use super::ours::Ours;
 use crate::error::Error;
 use crate::number::Number;
 use crate::problem::Parameter;
-use crate::quantity::{Measure, Quantity, Sign};
+use crate::quantity::{Measure, Quantity};
 
 /// The sign of forces, stresses and strains where the rod is compressed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -86,14 +86,12 @@ impl Options {
     /// The factor that brings a quantity to our convention: forces are positive in compression, strains and stresses in
     /// tension.
     fn factor(&self, quantity: Quantity) -> f64 {
-        let turned = match quantity.sign() {
-            Sign::Upwards => self.axis == Axis::Down,
-            Sign::Tension => self.compression == Some(Compression::Positive),
-            Sign::Compression => self.compression == Some(Compression::Negative),
-            Sign::None if quantity.measure() == Some(Measure::Energy) => {
-                return self.energy_scale.as_ref().map_or(1.0, Number::to_f64);
-            }
-            Sign::None => false,
+        let turned = match quantity.measure() {
+            Some(Measure::Length | Measure::Velocity) => self.axis == Axis::Down,
+            Some(Measure::Strain | Measure::Stress) => self.compression == Some(Compression::Positive),
+            Some(Measure::Force | Measure::Impulse) => self.compression == Some(Compression::Negative),
+            Some(Measure::Energy) => return self.energy_scale.as_ref().map_or(1.0, Number::to_f64),
+            Some(Measure::Time) | None => false,
         };
         if turned { -1.0 } else { 1.0 }
     }

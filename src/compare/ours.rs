@@ -7,7 +7,7 @@ use crate::error::Error;
 use crate::motion::{Field, Motion, RayRegister, Side, StressPiece};
 use crate::number::{Estimate, Number, Scalar};
 use crate::problem::{Material, Parameters};
-use crate::quantity::{Measure, Quantity, Rays};
+use crate::quantity::{Measure, Quantity};
 use crate::solve::History;
 use crate::special::gauss_legendre;
 
@@ -174,7 +174,7 @@ impl<'a> Ours<'a> {
             (_, Some(points)) => up_and_down(points[k] / self.rod.wave_speed, *time),
             _ => nearest(&self.jumps, *time),
         };
-        let jumps = what.rays() == Rays::Jump;
+        let jumps = what.jumps();
         grid.times.iter().enumerate().filter(|_| jumps).map(at).collect()
     }
 

@@ -12,7 +12,7 @@ use super::touch::Touch;
 use super::unfitted::ToldFrom;
 use crate::aligned::table;
 use crate::number::Scalar;
-use crate::quantity::{Quantity, Rays, Units};
+use crate::quantity::{Quantity, Units};
 
 /// What the norms are.
 const WEIGHTS: &str = "sums over the samples by the trapezoidal rule: each weighs half the way to its neighbours";
@@ -177,7 +177,7 @@ fn norms_table(agreement: &Agreement, units: &Units) -> String {
             count => format!("{count} samples on jumps"),
         };
         let names = [name, on_jumps, String::new(), String::new()];
-        let shown = if what.rays() == Rays::Jump { 4 } else { 3 };
+        let shown = if what.jumps() { 4 } else { 3 };
         for (name, (_, title, norm)) in names.into_iter().zip(NORMS).take(shown) {
             let norm = norm(norms);
             let point = norm.and_then(|norm| norm.point).map_or_else(String::new, |x| format!(", x = {}", number(x)));

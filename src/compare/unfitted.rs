@@ -9,7 +9,7 @@ use super::ours::Ours;
 use crate::error::Error;
 use crate::motion::Side;
 use crate::number::Scalar;
-use crate::quantity::{Quantity, Rays};
+use crate::quantity::Quantity;
 
 /// One number that is wrong.
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -132,7 +132,7 @@ pub(super) fn spread(ours: &Ours<'_>, agreement: &Agreement) -> Result<Option<f6
     let events: Vec<f64> = events.filter(|time| *time > 0.0 && *time <= released).collect();
     let first = history.contacts().first().map_or(0.0, |contact| contact.from);
     let mut widths = Vec::new();
-    for column in columns.iter().filter(|column| column.what.rays() == Rays::Jump && column.what.measure().is_some()) {
+    for column in columns.iter().filter(|column| column.what.jumps() && column.what.measure().is_some()) {
         let times = if column.what == Quantity::TopVelocity { vec![first + trip / 2.0] } else { events.clone() };
         for time in times.into_iter().filter(|time| *time < *history.end()) {
             let limit = |side| Ok::<_, Error>(history.columns(&[column.what], &[time], Some(side))?[0][0]);

@@ -112,7 +112,8 @@ impl Pose {
         let reach = 1.12 * length + factor * sizes.rise;
         let place = |y: f64| ground - y / reach * (ground - top);
         let narrow = width < 120.0 * unit;
-        let (left, thick) = if narrow { (4.0 * unit, 22.0 * unit) } else { (22.0 * unit, 44.0 * unit) };
+        let [left, thick, tick, beside] =
+            if narrow { [4.0, 18.0, 4.0, 1.5] } else { [22.0, 44.0, 6.0, 3.0] }.map(|size| size * unit);
         let line = |width: f64| Stroke::new(INK, width * unit);
 
         let mut svg = Svg::new(width, height, letters);
@@ -134,8 +135,8 @@ impl Pose {
         let mut level = |from: f64, to: f64, y: f64, stroke: Stroke| {
             svg.line(&[DVec2::new(from, y), DVec2::new(to, y)], stroke);
         };
-        level(left - 6.0 * unit, left, middle, line(2.0));
-        level(left + thick, left + thick + 6.0 * unit, middle, line(2.0));
+        level(left - tick, left, middle, line(2.0));
+        level(left + thick, left + thick + tick, middle, line(2.0));
         // The colours of the rod are the same where those of lines are not.
         level(left, left + thick, middle, Stroke::new("#000001", 2.0 * unit));
         let edge = left + thick + if narrow { 4.0 } else { 16.0 } * unit;
@@ -145,8 +146,8 @@ impl Pose {
         }
 
         // E_h is below zero where the centre of mass is deeper than its speed can lift it.
-        let (bar, apart) = if narrow { (16.0 * unit, 9.0 * unit) } else { (22.0 * unit, 4.0 * unit) };
-        let from = width - 2.0 * bar - if narrow { 11.0 } else { 14.0 } * unit;
+        let [bar, apart, margin] = if narrow { [12.0, 6.0, 3.0] } else { [22.0, 4.0, 10.0] }.map(|size| size * unit);
+        let from = width - 2.0 * bar - apart - margin;
         let [least, most] = sizes.energy;
         let scale = (ground - top) / if most > least { most - least } else { 1.0 };
         let zero = ground + scale * least;
@@ -158,7 +159,7 @@ impl Pose {
             svg.text(DVec2::new(x + bar / 2.0, height - 8.0 * unit), Anchor::Middle, name);
         }
         svg.line(&[DVec2::new(from - 3.0 * unit, zero), DVec2::new(width - 2.0 * unit, zero)], line(1.0));
-        svg.text(DVec2::new(left + thick + 9.0 * unit, middle + 4.0 * unit), Anchor::Start, "h");
+        svg.text(DVec2::new(left + thick + tick + beside, middle + 4.0 * unit), Anchor::Start, "h");
         svg.finish()
     }
 }

@@ -24,6 +24,7 @@ pub fn columns<S: Scalar>(
     if let Some(other) = columns.iter().find(|quantity| quantity.needs() != Needs::Time) {
         return Err(Error::NotOverTime { quantity: other.name() });
     }
+    finite(&motion.end(), times)?;
     let Asked { sided, plain, places, count } = Asked::of(columns);
     let factors = mapped(columns, |column| column.factor(&motion.scales(), units));
     let pushes = if plain.contains(&Source::Impulse) { Some(Pushes::of(motion)) } else { None };
@@ -109,6 +110,12 @@ pub(super) fn at<S: Scalar>(
     let [displacement, velocity, strain] = field.numbers();
     let numbers = [point, displacement, velocity, strain];
     Ok(mapped(quantities, |quantity| quantity.in_unit(numbers[quantity.source().1].clone(), &motion.scales(), units)))
+}
+
+/// Refuses times that are no numbers, for a history that ends at `end`.
+pub(crate) fn finite<S: Scalar>(end: &S, times: &[S]) -> Result<(), Error> {
+    let outside = |time: &S| Error::TimeOutside { found: time.text(), end: end.text() };
+    times.iter().find(|time| !time.is_finite()).map_or(Ok(()), |time| Err(outside(time)))
 }
 
 /// What is asked at each time, and where the answers stand in a row.

@@ -23,7 +23,7 @@ mod table;
 mod unit;
 
 pub use column::columns;
-pub(crate) use column::{along, of_one_size};
+pub(crate) use column::{along, finite, of_one_size};
 #[cfg(feature = "compare")]
 pub(crate) use convert::Conversion;
 #[cfg(feature = "cli")]
@@ -40,6 +40,4 @@ pub use restitution::{Flight, Restitution, Undefined, flights, restitution};
 pub(crate) use slice::SLICE;
 pub use slice::{Slice, slices};
 pub use table::{Needs, Quantity};
-#[cfg(feature = "compare")]
-pub(crate) use table::{Rays, Sign};
 pub use unit::{Measure, UnitSystem, Units};

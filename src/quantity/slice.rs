@@ -1,6 +1,6 @@
 //! The field along the rod at chosen times: at points, averaged over cells, or projected on linear elements.
 
-use super::column::same;
+use super::column::{finite, same};
 use super::table::Quantity;
 use crate::error::Error;
 use crate::mapped::{MapEach, mapped, try_mapped};
@@ -50,6 +50,7 @@ pub fn slices<S: Scalar>(
     times: &[S],
     side: Option<Side>,
 ) -> Result<Vec<Vec<S>>, Error> {
+    finite(&motion.end(), times)?;
     let mut table: Vec<Vec<S>> = mapped(0..6, |_| Vec::with_capacity(points.len() * times.len()));
     let mut add = |time: &S, limit: i64, x: &S, values: [S; 3]| {
         let row = [time.clone(), time.int(limit), x.clone()].into_iter().chain(values);

@@ -64,30 +64,6 @@ pub enum Needs {
     Run,
 }
 
-/// What a ray leaves in a quantity where it passes.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Rays {
-    /// A jump.
-    Jump,
-    /// A jump of its rate.
-    Kink,
-    /// Neither.
-    Smooth,
-}
-
-/// Which way a quantity counts.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Sign {
-    /// Positive upwards: displacements and velocities.
-    Upwards,
-    /// Positive in tension: strains and stresses.
-    Tension,
-    /// Positive in compression: forces and impulses.
-    Compression,
-    /// One way only: times, energies, ratios.
-    None,
-}
-
 /// All that is known of a quantity.
 struct Facts {
     name: &'static str,
@@ -97,7 +73,6 @@ struct Facts {
     measure: Option<Measure>,
     /// Where it comes from, and which of the answers there it is.
     source: (Source, usize),
-    rays: Rays,
     meaning: &'static str,
 }
 
@@ -119,7 +94,7 @@ macro_rules! names {
 
 macro_rules! quantities {
     ($($quantity:ident: $name:literal $(as $key:literal)? $(also $also:tt)?, $symbol:literal, $measure:expr,
-        $source:ident $answer:literal, $rays:ident, $meaning:literal;)+) => {
+        $source:ident $answer:literal, $meaning:literal;)+) => {
         /// A quantity of a motion, by name. The table holds every one that is printed, asked for or compared.
         ///
         /// Displacements are measured from the undeformed rod that stands on the ground, upwards. Strains and stresses
@@ -159,7 +134,6 @@ macro_rules! quantities {
                         symbol: $symbol,
                         measure: $measure,
                         source: (Source::$source, $answer),
-                        rays: Rays::$rays,
                         meaning: $meaning,
                     },)+
                 }
@@ -169,109 +143,102 @@ macro_rules! quantities {
 }
 
 // Each quantity: its name, the key in lists of its own kind where that is another one, and what else it is called;
-// symbol, measure, where it comes from and which of the answers there it is; what a ray leaves in it; its meaning.
+// symbol, measure, where it comes from and which of the answers there it is; its meaning.
 #[rustfmt::skip]
 quantities! {
     // Over time.
-    Time: "t" also ["time"], "t", Some(Time), Time 0, Kink, "time";
-    Side: "side", "", None, Side 0, Kink,
-        "which limit at a jump: from earlier times, from later ones, or both the same";
-    EndDisplacement: "u_end" as "v" also ["u", "displacement", "disp", "gap", "u_y", "uy"],
-        "v(0,t)", Some(Length), End 0, Kink, "displacement of the end at the ground, upwards: its gap";
-    EndVelocity: "v_end" as "v_t" also ["v", "velocity", "vel", "v_y", "vy"],
-        "v_t(0,t)", Some(Velocity), End 1, Jump, "velocity of the end at the ground, upwards";
-    Strain: "strain" as "v_x" also ["eps"], "v_x(0,t)", Some(Strain), Strain 0, Jump,
+    Time: "t" also ["time"], "t", Some(Time), Time 0, "time";
+    Side: "side", "", None, Side 0, "which limit at a jump: from earlier times, from later ones, or both the same";
+    EndDisplacement: "u_end" as "v" also ["u", "displacement", "disp", "gap", "u_y", "uy"], "v(0,t)", Some(Length),
+        End 0, "displacement of the end at the ground, upwards: its gap";
+    EndVelocity: "v_end" as "v_t" also ["v", "velocity", "vel", "v_y", "vy"], "v_t(0,t)", Some(Velocity), End 1,
+        "velocity of the end at the ground, upwards";
+    Strain: "strain" as "v_x" also ["eps"], "v_x(0,t)", Some(Strain), Strain 0,
         "strain at the ground, positive in tension";
-    Stress: "stress" also ["sigma"], "E v_x(0,t)", Some(Stress), Strain 0, Jump,
-        "stress at the ground, positive in tension";
+    Stress: "stress" also ["sigma"], "E v_x(0,t)", Some(Stress), Strain 0, "stress at the ground, positive in tension";
     Force: "force"
         also ["f", "contact_force", "reaction", "reaction_force", "lambda", "f_n", "fn", "normal_force", "rf"],
-        "−E S v_x(0,t)", Some(Force), Strain 0, Jump, "contact force, positive in compression";
-    TopDisplacement: "u_top" as "v" also ["top_displacement", "u_tip", "tip_displacement"],
-        "v(L,t)", Some(Length), Top 0, Kink, "displacement of the upper end";
-    TopVelocity: "v_top" as "v_t" also ["top_velocity", "v_tip", "tip_velocity"],
-        "v_t(L,t)", Some(Velocity), Top 1, Jump, "velocity of the upper end";
-    Centre: "h" also ["centre"], "h", Some(Length), Centre 0, Smooth,
+        "−E S v_x(0,t)", Some(Force), Strain 0, "contact force, positive in compression";
+    TopDisplacement: "u_top" as "v" also ["top_displacement", "u_tip", "tip_displacement"], "v(L,t)", Some(Length),
+        Top 0, "displacement of the upper end";
+    TopVelocity: "v_top" as "v_t" also ["top_velocity", "v_tip", "tip_velocity"], "v_t(L,t)", Some(Velocity), Top 1,
+        "velocity of the upper end";
+    Centre: "h" also ["centre"], "h", Some(Length), Centre 0,
         "centre of mass above its place in the undeformed rod on the ground";
-    CentreVelocity: "h_rate" also ["h'", "h_dot"], "h′", Some(Velocity), Centre 1, Kink,
-        "velocity of the centre of mass";
-    Energy: "E_total" as "total" also ["E", "energy", "total", "total_energy", "etot"],
-        "E", Some(Energy), Energy 0, Smooth, "energy: E_h + E_z, or kinetic + strain_energy + gravity";
-    TranslationalEnergy: "E_h" as "translational", "E_h", Some(Energy), Energy 1, Kink,
+    CentreVelocity: "h_rate" also ["h'", "h_dot"], "h′", Some(Velocity), Centre 1, "velocity of the centre of mass";
+    Energy: "E_total" as "total" also ["E", "energy", "total", "total_energy", "etot"], "E", Some(Energy), Energy 0,
+        "energy: E_h + E_z, or kinetic + strain_energy + gravity";
+    TranslationalEnergy: "E_h" as "translational", "E_h", Some(Energy), Energy 1,
         "energy of the centre of mass: ρSL(h′²/2 + g h)";
-    VibrationalEnergy: "E_z" as "vibrational" also ["vibrational"], "E_z", Some(Energy), Energy 2, Kink,
+    VibrationalEnergy: "E_z" as "vibrational" also ["vibrational"], "E_z", Some(Energy), Energy 2,
         "energy of the vibration: ½ρS∫((v_t − h′)² + c²v_x²)dx";
-    KineticEnergy: "kinetic" also ["kinetic_energy", "elke"],
-        "½ρS∫v_t²dx", Some(Energy), Parts 0, Kink, "kinetic energy";
-    StrainEnergy: "strain_energy" also ["internal_energy", "else"],
-        "½ES∫v_x²dx", Some(Energy), Parts 1, Kink, "strain energy";
-    GravityEnergy: "gravity", "ρSLg h", Some(Energy), Centre 0, Smooth, "energy in gravity, zero at h = 0";
-    Contact: "contact", "", None, Contact 0, Jump, "1 on the ground, 0 in flight";
-    Impulse: "impulse", "∫force dt", Some(Impulse), Impulse 0, Kink, "impulse of the contact force since t = 0";
+    KineticEnergy: "kinetic" also ["kinetic_energy", "elke"], "½ρS∫v_t²dx", Some(Energy), Parts 0, "kinetic energy";
+    StrainEnergy: "strain_energy" also ["internal_energy", "else"], "½ES∫v_x²dx", Some(Energy), Parts 1,
+        "strain energy";
+    GravityEnergy: "gravity", "ρSLg h", Some(Energy), Centre 0, "energy in gravity, zero at h = 0";
+    Contact: "contact", "", None, Contact 0, "1 on the ground, 0 in flight";
+    Impulse: "impulse", "∫force dt", Some(Impulse), Impulse 0, "impulse of the contact force since t = 0";
 
     // Along the rod.
-    Point: "x", "x", Some(Length), Field 0, Smooth, "place along the rod, from the end at the ground";
-    PointDisplacement: "u" as "v" also ["u_end"], "v", Some(Length), Field 1, Kink, "displacement, upwards";
-    PointVelocity: "v" as "v_t" also ["v_end"], "v_t", Some(Velocity), Field 2, Jump, "velocity, upwards";
-    PointStrain: "strain" as "v_x" also ["eps"], "v_x", Some(Strain), Field 3, Jump, "strain, positive in tension";
-    PointStress: "stress" also ["sigma"], "E v_x", Some(Stress), Field 3, Jump, "stress, positive in tension";
+    Point: "x", "x", Some(Length), Field 0, "place along the rod, from the end at the ground";
+    PointDisplacement: "u" as "v" also ["u_end"], "v", Some(Length), Field 1, "displacement, upwards";
+    PointVelocity: "v" as "v_t" also ["v_end"], "v_t", Some(Velocity), Field 2, "velocity, upwards";
+    PointStrain: "strain" as "v_x" also ["eps"], "v_x", Some(Strain), Field 3, "strain, positive in tension";
+    PointStress: "stress" also ["sigma"], "E v_x", Some(Stress), Field 3, "stress, positive in tension";
 
     // Of an event.
-    EventTime: "time", "t", Some(Time), Event 0, Smooth, "time of an impact or a release";
-    EventVelocity: "end_velocity", "v_t(0,t)", Some(Velocity), Event 1, Smooth,
+    EventTime: "time", "t", Some(Time), Event 0, "time of an impact or a release";
+    EventVelocity: "end_velocity", "v_t(0,t)", Some(Velocity), Event 1,
         "velocity of the end, just before an impact, just after a release";
-    EventCentre: "centre", "h", Some(Length), Event 2, Smooth, "centre of mass at an impact or a release";
-    EventCentreVelocity: "centre_velocity", "h′", Some(Velocity), Event 3, Smooth, "its velocity then";
+    EventCentre: "centre", "h", Some(Length), Event 2, "centre of mass at an impact or a release";
+    EventCentreVelocity: "centre_velocity", "h′", Some(Velocity), Event 3, "its velocity then";
 
     // Of a contact.
-    Impact: "impact" as "from", "contact from", Some(Time), Span 0, Smooth, "time at which a contact begins";
-    Release: "release" as "to", "to", Some(Time), Span 1, Smooth, "time at which a contact ends";
-    Duration: "duration", "", Some(Time), Span 2, Smooth, "how long a contact lasts";
-    ImpactVelocity: "impact_velocity", "v_t(0,t⁻)", Some(Velocity), Ends 0, Smooth,
-        "velocity of the end just before a contact";
-    ReleaseVelocity: "release_velocity", "v_t(0,t⁺)", Some(Velocity), Ends 1, Smooth,
+    Impact: "impact" as "from", "contact from", Some(Time), Span 0, "time at which a contact begins";
+    Release: "release" as "to", "to", Some(Time), Span 1, "time at which a contact ends";
+    Duration: "duration", "", Some(Time), Span 2, "how long a contact lasts";
+    ImpactVelocity: "impact_velocity", "v_t(0,t⁻)", Some(Velocity), Ends 0, "velocity of the end just before a contact";
+    ReleaseVelocity: "release_velocity", "v_t(0,t⁺)", Some(Velocity), Ends 1,
         "velocity of the end just after a contact";
-    ContactImpulse: "impulse", "impulse", Some(Impulse), Push 0, Smooth, "impulse of a contact";
-    PeakStrain: "peak_strain", "peak v_x(0,t)", Some(Strain), Push 1, Smooth,
+    ContactImpulse: "impulse", "impulse", Some(Impulse), Push 0, "impulse of a contact";
+    PeakStrain: "peak_strain", "peak v_x(0,t)", Some(Strain), Push 1,
         "the most compressive strain at the ground in a contact";
-    PeakStress: "peak_stress", "peak stress", Some(Stress), Push 1, Smooth,
+    PeakStress: "peak_stress", "peak stress", Some(Stress), Push 1,
         "the most compressive stress at the ground in a contact";
-    PeakForce: "peak_force", "peak force", Some(Force), Push 1, Smooth, "the greatest force of the ground in a contact";
-    MomentumRestitution: "e_P" as "momentum", "e_P", None, Restitution 0, Smooth,
+    PeakForce: "peak_force", "peak force", Some(Force), Push 1, "the greatest force of the ground in a contact";
+    MomentumRestitution: "e_P" as "momentum", "e_P", None, Restitution 0,
         "ratio of the momenta at both ends of a contact";
-    EnergyRestitution: "e_E2" as "energy_squared" also ["restitution"], "e_E²", None, Restitution 1, Smooth,
+    EnergyRestitution: "e_E2" as "energy_squared" also ["restitution"], "e_E²", None, Restitution 1,
         "ratio of the energies of the centre of mass at both ends of a contact";
-    TranslationalShare: "translational_part", "E_h/E", None, Shares 0, Smooth,
+    TranslationalShare: "translational_part", "E_h/E", None, Shares 0,
         "what part of the energy at the end of a contact moves the centre of mass";
-    EnergyKept: "energy_kept", "E/E₀", None, Shares 1, Smooth, "what part of the energy a contact keeps";
-    EnergyLeft: "E_total_after" as "total", "E", Some(Energy), Left 0, Smooth, "energy at the end of a contact";
-    TranslationalLeft: "E_h_after" as "translational", "E_h", Some(Energy), Left 1, Smooth,
+    EnergyKept: "energy_kept", "E/E₀", None, Shares 1, "what part of the energy a contact keeps";
+    EnergyLeft: "E_total_after" as "total", "E", Some(Energy), Left 0, "energy at the end of a contact";
+    TranslationalLeft: "E_h_after" as "translational", "E_h", Some(Energy), Left 1,
         "energy of the centre of mass at the end of a contact";
-    VibrationalLeft: "E_z_after" as "vibrational", "E_z", Some(Energy), Left 2, Smooth,
+    VibrationalLeft: "E_z_after" as "vibrational", "E_z", Some(Energy), Left 2,
         "energy of the vibration at the end of a contact";
 
     // Of a flight.
-    FlightBegins: "flight" as "from", "flight from", Some(Time), Flight 0, Smooth, "time at which a flight begins";
-    FlightEnds: "landing" as "to", "to", Some(Time), Flight 1, Smooth, "time at which a flight ends";
-    TopTime: "top_time", "highest at", Some(Time), Flight 2, Smooth,
+    FlightBegins: "flight" as "from", "flight from", Some(Time), Flight 0, "time at which a flight begins";
+    FlightEnds: "landing" as "to", "to", Some(Time), Flight 1, "time at which a flight ends";
+    TopTime: "top_time", "highest at", Some(Time), Flight 2,
         "when the centre of mass is highest in a flight, if it turns";
-    Top: "top", "h_max", Some(Length), Flight 3, Smooth, "how high the centre of mass comes in a flight, if it turns";
+    Top: "top", "h_max", Some(Length), Flight 3, "how high the centre of mass comes in a flight, if it turns";
 
     // Of a piece of the stress at the ground.
-    PieceBegins: "from", "from", Some(Time), Piece 0, Smooth, "where a piece of the stress at the ground begins";
-    PieceEnds: "to", "to", Some(Time), Piece 1, Smooth, "where it ends";
-    PieceStrainBegins: "strain_from", "v_x(0,from⁺)", Some(Strain), Piece 2, Smooth,
-        "strain at the ground where it begins";
-    PieceStrainEnds: "strain_to", "v_x(0,to⁻)", Some(Strain), Piece 3, Smooth, "strain at the ground where it ends";
-    PieceStressBegins: "stress_from", "E v_x(0,from⁺)", Some(Stress), Piece 2, Smooth,
-        "stress at the ground where it begins";
-    PieceStressEnds: "stress_to", "E v_x(0,to⁻)", Some(Stress), Piece 3, Smooth, "stress at the ground where it ends";
+    PieceBegins: "from", "from", Some(Time), Piece 0, "where a piece of the stress at the ground begins";
+    PieceEnds: "to", "to", Some(Time), Piece 1, "where it ends";
+    PieceStrainBegins: "strain_from", "v_x(0,from⁺)", Some(Strain), Piece 2, "strain at the ground where it begins";
+    PieceStrainEnds: "strain_to", "v_x(0,to⁻)", Some(Strain), Piece 3, "strain at the ground where it ends";
+    PieceStressBegins: "stress_from", "E v_x(0,from⁺)", Some(Stress), Piece 2, "stress at the ground where it begins";
+    PieceStressEnds: "stress_to", "E v_x(0,to⁻)", Some(Stress), Piece 3, "stress at the ground where it ends";
 
     // Of the first contact, and of the whole run.
-    BounceTime: "bounce_time", "t_b", Some(Time), Bounce 0, Smooth, "time of the first release";
-    LastEvent: "last_event", "time of the last event", Some(Time), Last 0, Smooth,
+    BounceTime: "bounce_time", "t_b", Some(Time), Bounce 0, "time of the first release";
+    LastEvent: "last_event", "time of the last event", Some(Time), Last 0,
         "time of the last impact or release of the run";
-    ShortestPiece: "shortest_piece", "", Some(Time), Shortest 0, Smooth,
+    ShortestPiece: "shortest_piece", "", Some(Time), Shortest 0,
         "length of the shortest piece of the stress at the ground";
 }
 
@@ -376,18 +343,14 @@ impl Quantity {
         matches!(self.source().0, Source::Span | Source::Restitution | Source::Shares | Source::Left)
     }
 
-    /// What a ray leaves in it.
-    pub fn rays(self) -> Rays {
-        self.facts().rays
-    }
-
-    /// Which way it counts.
-    pub fn sign(self) -> Sign {
-        match self.measure() {
-            Some(Length | Velocity) => Sign::Upwards,
-            Some(Strain | Stress) => Sign::Tension,
-            Some(Force | Impulse) => Sign::Compression,
-            Some(Time | Energy) | None => Sign::None,
+    /// Whether it jumps where a ray passes, or contact begins or ends.
+    #[cfg(feature = "compare")]
+    pub(crate) fn jumps(self) -> bool {
+        match self.source() {
+            (Source::Strain | Source::Contact, _) => true,
+            (Source::End | Source::Top, answer) => answer == 1,
+            (Source::Field, answer) => answer > 1,
+            _ => false,
         }
     }
 

@@ -264,7 +264,7 @@ impl<S: Target> History<S> {
 
     /// `v_x(0,t)`: the strain at the ground, which is the stress there divided by the modulus; zero in flight.
     pub fn strain(&self, time: S, side: Side) -> Result<S, Error> {
-        let time = time.carry();
+        let time = self.time(&time)?;
         Ok(S::strip(self.ask(|engine| engine.strain(&time, side), |value| vec![value])?))
     }
 
@@ -283,15 +283,21 @@ impl<S: Target> History<S> {
         self.pair(time, |engine, time| engine.centre(time))
     }
 
-    fn pair(&self, time: S, ask: impl Fn(&dyn Motion<S::Carried>, &S::Carried) -> Pair<S>) -> Result<(S, S), Error> {
+    /// A time as the engine is asked at it. **Errors**: [`Error::TimeOutside`] for what is no number.
+    fn time(&self, time: &S) -> Result<S::Carried, Error> {
         let time = time.carry();
+        quantity::finite(&self.end.carry(), std::slice::from_ref(&time)).map(|()| time)
+    }
+
+    fn pair(&self, time: S, ask: impl Fn(&dyn Motion<S::Carried>, &S::Carried) -> Pair<S>) -> Result<(S, S), Error> {
+        let time = self.time(&time)?;
         let (a, b) = self.ask(|engine| ask(engine, &time), |(a, b)| vec![a, b])?;
         Ok((S::strip(a), S::strip(b)))
     }
 
     /// `E(t)`, `E_h(t)`, `E_z(t)`: the energies, per linear density.
     pub fn energy(&self, time: S) -> Result<Energy<S>, Error> {
-        let time = time.carry();
+        let time = self.time(&time)?;
         Ok(self.ask(|engine| engine.energy(&time), |energy| energy.numbers().to_vec())?.map(S::strip))
     }
 
@@ -398,11 +404,12 @@ impl<S: Target> History<S> {
     /// together.
     pub fn field(&self, points: &[S], times: &[S], side: Side) -> Result<Vec<Field<S>>, Error> {
         let points: Vec<_> = mapped(points, Answer::carry);
-        let value = |(time, point): (S::Carried, _)| {
+        let value = |(time, point): (&S, _)| {
+            let time = self.time(time)?;
             let value = self.ask(|engine| engine.field(point, &time, side), |field| field.numbers().to_vec())?;
             Ok(value.map(S::strip))
         };
-        try_mapped(times.iter().flat_map(|time| points.iter().map(|point| (time.carry(), point))), value)
+        try_mapped(times.iter().flat_map(|time| points.iter().map(move |point| (time, point))), value)
     }
 
     /// The rays that leave the ground in round trip `trip`, counted from 0, with the jumps that they carry.

@@ -9,7 +9,7 @@ use std::sync::Arc;
 
 use dalembert::engine::Target;
 use dalembert::number::Scalar;
-use dalembert::{Error, EventKind, History, Number, Numbers, Plan, Problem, Question, Scene, Side, Solution, Warning};
+use dalembert::{EventKind, History, Number, Numbers, Plan, Problem, Question, Scene, Side, Solution, Warning};
 use rug::Float;
 
 /// Bits in which values are compared.
@@ -184,24 +184,6 @@ fn a_ray_of_the_start_is_met_exactly() {
     assert!(named.is_empty());
     let [left, right] = &found[0];
     assert!(left[0].0 < -2 && left[0].1 < 1e-12 && right[0].0 == 0, "{left:?} {right:?}");
-}
-
-/// What is no number is no time, also where fractions confirm the doubles.
-#[test]
-fn no_number_is_no_time() {
-    for scene_text in [
-        "[rod]\nlength = \"3/5\"\nwave_speed = \"4/5\"\n[impact]\nspeed = \"3/8\"\n[gravity]\nacceleration = \"5/2\"\n\
-         [run]\nimpacts = 5\n",
-        "[rod]\nlength = 1\nwave_speed = 1\ndamping = 0.1\n[impact]\nspeed = 2\n[gravity]\nacceleration = 1\n\
-         [run]\nimpacts = 2\n",
-    ] {
-        let history = scene(scene_text).solve().unwrap();
-        for side in [Side::Left, Side::Right] {
-            assert!(matches!(history.strain(f64::NAN, side), Err(Error::TimeOutside { .. })));
-            assert!(matches!(history.at(0.25, f64::NAN), Err(Error::TimeOutside { .. })));
-            assert!(matches!(history.centre(f64::NAN), Err(Error::TimeOutside { .. })));
-        }
-    }
 }
 
 /// Numbers from 0 to 1, one after the other (splitmix64).

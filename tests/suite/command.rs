@@ -62,12 +62,12 @@ pub(crate) fn json(args: &[&str]) -> Value {
 }
 
 #[track_caller]
-fn keys(value: &Value, expected: &[&str]) {
+pub(crate) fn keys(value: &Value, expected: &[&str]) {
     let found: Vec<&str> = value.as_object().unwrap().keys().map(String::as_str).collect();
     assert_eq!(found, expected);
 }
 
-const SCENE: &str = "[rod]\nlength = 1\nwave_speed = 1\n[impact]\nspeed = 3\n[gravity]\nacceleration = 1\n";
+pub(crate) const SCENE: &str = "[rod]\nlength = 1\nwave_speed = 1\n[impact]\nspeed = 3\n[gravity]\nacceleration = 1\n";
 
 /// Every key of schema 1, and that `is_number` holds of every number.
 #[track_caller]
@@ -263,69 +263,6 @@ fn tables_of_fractions() {
     });
 }
 
-#[test]
-fn samples() {
-    let out = quiet(&["sample", "paper-strong", "--quantity", "stress", "--times", "1,2", "--side", "left"]);
-    let cells: Vec<Vec<&str>> = out.lines().map(|line| line.split_whitespace().collect()).collect();
-    assert_eq!(cells[0], ["t", "side", "v_x"]);
-    // −(μ + g t)/c.
-    assert_eq!(cells[2..], [["1", "left", "-4"], ["2", "left", "-5"]]);
-
-    for (quantity, names) in [
-        ("stress", &["v_x"][..]),
-        ("end", &["v", "v_t"]),
-        ("top", &["v", "v_t"]),
-        ("centre", &["h", "h_rate"]),
-        ("energy", &["total", "translational", "vibrational"]),
-        ("field", &["v", "v_t", "v_x"]),
-    ] {
-        let args = ["sample", "paper-strong", "--quantity", quantity, "--times", "0..2:3"];
-        let samples = json(&[&args[..], &["--format", "json"]].concat());
-        assert_eq!((&samples["schema"], &samples["quantity"]), (&1.into(), &quantity.into()));
-        let rows = samples["rows"].as_array().unwrap();
-        // The field has two ends and the middle for each time.
-        assert_eq!(rows.len(), if quantity == "field" { 9 } else { 3 });
-        for row in rows {
-            keys(row, &["time", "point", "side", "values", "uncertainty"]);
-            keys(&row["uncertainty"], names);
-            keys(&row["values"], names);
-            assert_eq!(row["side"], "right");
-            assert!(row["time"].is_number() && row["values"].as_object().unwrap().values().all(Value::is_number));
-            assert_eq!(row["point"].is_number(), quantity == "field");
-        }
-        assert_eq!(rows[rows.len() - 1]["time"], 2.0);
-        let csv = quiet(&[&args[..], &["--format", "csv"]].concat());
-        let unit = if quantity == "energy" { " [per ρS]" } else { "" };
-        let heads = ["", "_uncertainty"].map(|end| names.iter().map(move |name| format!("{name}{end}{unit}")));
-        let heads: Vec<String> = heads.into_iter().flatten().collect();
-        assert_eq!(csv.lines().next().unwrap(), format!("time,point,side,{}", heads.join(",")));
-        assert_eq!(csv.lines().count(), rows.len() + 1);
-    }
-}
-
-/// Several quantities stand beside each other under their whole names, since two of them may have a `v`.
-#[test]
-fn samples_of_several_quantities() {
-    let args = ["sample", "paper-strong", "--quantity", "end,energy", "--times", "0,1", "--format", "json"];
-    let several = json(&args);
-    assert_eq!(several["quantity"], "end,energy");
-    for (k, row) in several["rows"].as_array().unwrap().iter().enumerate() {
-        keys(&row["values"], &["u_end", "v_end", "E_total", "E_h", "E_z"]);
-        for (quantity, names) in [
-            ("end", &[("v", "u_end"), ("v_t", "v_end")][..]),
-            ("energy", &[("total", "E_total"), ("vibrational", "E_z")]),
-        ] {
-            let alone = json(&[&args[..3], &[quantity], &args[4..]].concat());
-            for (one, of_several) in names {
-                assert_eq!(row["values"][of_several], alone["rows"][k]["values"][one], "{quantity}");
-            }
-        }
-    }
-    for (quantity, said) in [("field,energy", "expected it alone"), ("end,top,end", "--quantity end twice")] {
-        refused(&["sample", "paper-strong", "--quantity", quantity, "--times", "1"], &[said]);
-    }
-}
-
 /// `--to` and `--impacts` take the place of the scene's own run, which for this one is one contact.
 #[test]
 fn a_run_of_another_length() {
@@ -337,22 +274,6 @@ fn a_run_of_another_length() {
     assert_eq!(contacts(&["--to", "15"]).as_array().unwrap().len(), 2);
     assert_eq!(contacts(&["--to", "16.5"]).as_array().unwrap().len(), 3);
     refused(&["solve", "paper-strong", "--impacts", "0"], &["found impacts = 0, expected a whole number"]);
-}
-
-#[cfg(feature = "mp")]
-#[test]
-fn samples_in_fractions_have_two_sides() {
-    let at = |side| {
-        let args = ["sample", "paper-strong", "--quantity", "field", "--times", "2", "--points", "0,1/3", "--exact"];
-        json(&[&args[..], &["--format", "json", "--side", side]].concat())
-    };
-    // At the release: −(μ + 2g)/c before it, nothing after it.
-    assert_eq!(at("left")["rows"][0]["values"]["v_x"], "-5");
-    assert_eq!(at("right")["rows"][0]["values"]["v_x"], "0");
-    assert_eq!(at("right")["rows"][1]["point"], "1/3");
-    // A zero in digits is a zero, not what rounding leaves of it.
-    let args = ["sample", "doyen-ern-piperno", "--quantity", "centre", "--times", "0", "--digits", "38"];
-    assert_eq!(json(&[&args[..], &["--format", "json"]].concat())["rows"][0]["values"]["h"], "0");
 }
 
 #[test]
@@ -411,48 +332,6 @@ fn scenes_are_printed_and_solve_as_printed() {
         assert_eq!(run_with(&["solve", "-"], &source).out, quiet(&["solve", name]), "{name}");
     }
     refused(&["scenes", "nope"], &["no built-in scene called `nope`", "dalembert scenes"]);
-}
-
-#[test]
-fn bad_scenes_are_refused_where_they_are_wrong() {
-    refused_with(&["solve", "-"], "[rod]\nlength = -1\n", &["length = -1", "expected a length above zero", "2:10"]);
-    refused_with(&["sample", "-", "--quantity", "end", "--times", "1"], "", &["no [rod]"]);
-    refused_with(&["explain", "-"], "[rod]\nlength = 1\nwavespeed = 1\n", &["did you mean wave_speed?"]);
-    let damped = SCENE.replace("wave_speed = 1", "wave_speed = 1\ndamping = 0.1");
-    refused_with(&["solve", "-", "--exact"], &damped, &["found damping = 0.1 in fractions", "ask for digits"]);
-    refused_with(&["solve", "-", "--accuracy", "2"], &damped, &["found accuracy 2", "between 1e-300 and 0.1"]);
-    refused(&["solve", "no-such-file.toml"], &["found no file and no built-in scene called `no-such-file.toml`"]);
-    refused(&["solve", "doyen"], &["did you mean `doyen-ern-piperno`?"]);
-    refused(&["solve", env!("CARGO_MANIFEST_DIR")], &["found the folder", "as a scene", "a scene file in it"]);
-}
-
-#[test]
-fn wrong_usage_is_refused() {
-    for args in [&["solve"][..], &["frobnicate"], &["solve", "paper-weak", "--format", "yaml"], &[]] {
-        let Run { code, out, err } = run(args);
-        assert_eq!((code, out.as_str()), (Some(2), ""), "{args:?}");
-        assert!(err.contains("Usage") || err.contains("possible values"), "{args:?}: {err}");
-    }
-    refused(&["solve", "paper-weak", "--digits", "0"], &[if cfg!(feature = "mp") { "1 to 100000" } else { "found" }]);
-    let sample = |more: &[&'static str]| [&["sample", "paper-weak", "--quantity", "field"][..], more].concat();
-    refused(&sample(&["--times", "1..2"]), &["found `1..2`, expected A..B:N"]);
-    refused(&sample(&["--times", "1..2:1"]), &["found `1..2:1`, expected a count of 2"]);
-    refused(&sample(&["--times", "one"]), &["found `one`"]);
-    refused(&sample(&["--times", "-1,2"]), &["found time -1"]);
-    refused(&sample(&["--times", "1", "--points", "3/2"]), &["found point 1.5, expected one between 0 and 1"]);
-    refused(
-        &["sample", "paper-weak", "--quantity", "end", "--times", "1", "--points", "0"],
-        &["--quantity field only"],
-    );
-}
-
-#[cfg(not(feature = "mp"))]
-#[test]
-fn digits_need_the_feature() {
-    refused(&["solve", "paper-weak", "--digits", "20"], &["found a build without arbitrary precision"]);
-    let digits_after = ["solve", "paper-weak", "--exact", "--digits", "20"];
-    refused(&digits_after, &["found a build without arbitrary precision"]);
-    refused(&["solve", "paper-weak", "--certified"], &["found a build without arbitrary precision"]);
 }
 
 /// The damped scenes go through the same commands and formats.
@@ -526,44 +405,6 @@ fn help_completions_and_version() {
     }
 }
 
-#[test]
-fn what_was_expected_is_said() {
-    refused(&["solve", "paper-strong", "--digits", "abc"], &["expected a whole number of digits, such as 50"]);
-    refused(&["solve", "paper-strong", "--accuracy", "abc"], &["expected a number such as 1e-10"]);
-    #[cfg(target_os = "linux")]
-    refused(&["solve", "paper-strong", "-o", "/proc/x.csv"], &["cannot write", "no file can be made in /proc"]);
-    // μ = √(2 · 9.81 · 0.5), and g/2r.
-    let scene =
-        "rod = { length = 1, wave_speed = 10, damping = 2 }\nimpact.drop_height = 0.5\ngravity.acceleration = 9.81\n";
-    let Run { out, .. } = run_with(&["solve", "-", "--wide"], scene);
-    assert!(out.contains("= 3.13, takes no account") && out.contains("g/2r = 2.45: a gap of this height"), "{out}");
-}
-
-#[test]
-fn files_are_written_whole_or_not_at_all() {
-    let folder = tempfile::tempdir().unwrap();
-    let path = |name: &str| folder.path().join(name).to_string_lossy().into_owned();
-    let content = |name: &str| std::fs::read_to_string(folder.path().join(name)).unwrap();
-    let names = || std::fs::read_dir(folder.path()).unwrap().count();
-
-    // The ending of the file chooses the format; nothing stands on standard output.
-    for (file, format) in [("a.json", "json"), ("a.csv", "csv"), ("a.txt", "table")] {
-        assert_eq!(quiet(&["solve", "paper-strong", "-o", &path(file)]), "");
-        assert_eq!(content(file), quiet(&["solve", "paper-strong", "--format", format, "-o", "-"]));
-    }
-    assert_eq!(names(), 3);
-
-    // A run that fails leaves an old file as it was.
-    refused(
-        &["sample", "paper-strong", "--quantity", "end", "--times", "-1", "-o", &path("a.txt")],
-        &["found time -1"],
-    );
-    assert_eq!(content("a.txt"), quiet(&["solve", "paper-strong"]));
-    refused(&["solve", "paper-strong", "-o", &path("missing/a.json")], &["cannot write", "no folder"]);
-    refused(&["solve", "paper-strong", "-o", &folder.path().to_string_lossy()], &["cannot write"]);
-    assert_eq!(names(), 3, "nothing is left behind");
-}
-
 /// What the README shows is what the command prints; `…` stands for lines left out.
 #[cfg(feature = "mp")]
 #[test]
@@ -580,70 +421,6 @@ fn the_readme_shows_real_output() {
         }
     }
     assert!(shown > 10);
-}
-
-/// The published values of the built-in scenes: ours round to them, or are within what the scene says.
-#[test]
-fn published_values_beside_ours() {
-    let rows = json(&["scenes", "ansys-vm265", "--targets", "--format", "json"]);
-    let rows = rows.as_array().unwrap();
-    for row in rows {
-        keys(row, &["quantity", "time", "published", "ours", "difference", "within", "agrees", "source"]);
-    }
-    // gap/μ, and 2L/c after it.
-    let close = |value: &Value, truth: f64| assert!((value.as_f64().unwrap() - truth).abs() < 1e-12 * truth, "{value}");
-    close(&rows[0]["ours"], 0.01 / 202.2);
-    close(&rows[2]["ours"], 0.01 / 202.2 + 20.0 / (3e7f64 / 0.73e-3).sqrt());
-    assert_eq!((&rows[0]["quantity"], &rows[0]["time"]), (&"impact".into(), &Value::Null));
-
-    let table = quiet(&["scenes", "code-aster-sdnv100", "--targets"]);
-    assert!(table.lines().all(|line| line.chars().count() <= 80), "{table}");
-    assert!(table.contains("E_total, J                   2e-6      3200.0     3200            0   yes (2)"), "{table}");
-    let csv = quiet(&["scenes", "ansys-vm85", "--targets", "--format", "csv"]);
-    assert!(
-        csv.starts_with(
-            "quantity,unit,time,published,ours,difference,within,agrees,source\nimpact,s,,0.0064,0.0064,0,"
-        ),
-        "{csv}"
-    );
-
-    // One half off is seen as that.
-    let scene = "rod = { length = 1, wave_speed = 1 }\nimpact.speed = 1\n[[target]]\nquantity = 'release'\n\
-                 published = 2.5\nsource = 'nowhere'\n";
-    let Run { out, code, .. } = run_with(&["scenes", "-", "--targets", "--format", "json"], scene);
-    let rows: Value = serde_json::from_str(&out).unwrap();
-    assert_eq!((&rows[0]["ours"], &rows[0]["difference"]), (&2.0.into(), &(-0.5).into()));
-    assert_eq!((code, &rows[0]["within"], &rows[0]["agrees"]), (Some(1), &0.05.into(), &false.into()));
-    // Unless the scene says so.
-    let wide = scene.replace("published", "within = 0.5\npublished");
-    assert_eq!(run_with(&["scenes", "-", "--targets"], &wide).code, Some(0));
-
-    // All scenes of a folder, and all that are built in.
-    let folder = tempfile::TempDir::new().unwrap();
-    let path = |name: &str| folder.path().join(name);
-    std::fs::write(path("a.toml"), scene).unwrap();
-    std::fs::write(path("b.toml"), &wide).unwrap();
-    std::fs::write(path("notes.txt"), "no scene").unwrap();
-    let shown = folder.path().display().to_string();
-    let Run { out, code, .. } = run_with(&["scenes", &shown, "--targets", "--format", "json"], "");
-    let rows: Value = serde_json::from_str(&out).unwrap();
-    let said = |k: usize| (rows[k]["scene"].as_str().unwrap().ends_with("b.toml"), &rows[k]["agrees"]);
-    assert_eq!((code, said(0), said(1)), (Some(1), (false, &false.into()), (true, &true.into())));
-    let Run { out, code, .. } = run_with(&["scenes", &shown, "--targets"], "");
-    assert!(
-        code == Some(1) && out.contains("NO (1)") && out.ends_with("2 published values: 1 agree, 1 differ\n"),
-        "{out}"
-    );
-    let all = json(&["scenes", "--targets", "--format", "json"]);
-    let all = all.as_array().unwrap();
-    assert!(all.len() >= 30 && all.iter().all(|row| row["agrees"] == Value::Bool(true)));
-    std::fs::remove_file(path("a.toml")).unwrap();
-    std::fs::remove_file(path("b.toml")).unwrap();
-    refused(&["scenes", &shown, "--targets"], &["found no .toml in the folder"]);
-    let missing = scene.replace("published = 2.5", "contact = 3\npublished = 2.5");
-    refused_with(&["scenes", "-", "--targets"], &missing, &["found contact 2 asked for"]);
-    assert_eq!(quiet(&["scenes", "figure-2", "--targets"]).lines().count(), 3);
-    refused(&["scenes", "ansys-vm85", "--format", "json"], &["found --format, expected it with --targets"]);
 }
 
 #[test]

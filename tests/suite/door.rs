@@ -2,7 +2,10 @@
 
 use dalembert::engine::{Motion, restitution};
 use dalembert::number::Scalar;
-use dalembert::{DEFAULT_ACCURACY, Engine, Error, Estimate, Numbers, Plan, Problem, Question, Reach, Rung, Side};
+use dalembert::{
+    DEFAULT_ACCURACY, Engine, Error, Estimate, Needs, Numbers, Plan, Problem, Quantity, Question, Reach, Rung, Side,
+    Slice,
+};
 
 fn rod(speed: &str) -> Problem {
     Problem::builder().length(1).wave_speed(1).gravity(1).impact_speed(speed).build().unwrap()
@@ -158,5 +161,30 @@ fn doubles_turn_to_longer_numbers_by_themselves() {
     assert_eq!(far.events().len(), truth.events().len());
     for (ours, truth) in far.events().iter().zip(truth.events()) {
         assert!((ours.time - truth.time.to_f64()).abs() <= DEFAULT_ACCURACY * 120.0);
+    }
+}
+
+/// What is no number is no time, in whatever build: no longer numbers are asked for.
+#[test]
+fn no_number_is_no_time() {
+    for rod in [rod("3"), damped("0.1", "2"), rod("3").to_builder().impacts(5).build().unwrap()] {
+        let history = rod.solve().unwrap();
+        for time in [f64::NAN, f64::INFINITY] {
+            let mut said: Vec<Error> = Vec::new();
+            for side in [Side::Left, Side::Right] {
+                said.extend(history.strain(time, side).err());
+                said.extend(history.ground_end(time, side).err());
+            }
+            said.extend(history.at(0.25, time).err());
+            said.extend(history.centre(time).err());
+            said.extend(history.energy(time).err());
+            let over_time: Vec<Quantity> = Needs::Time.quantities().collect();
+            let columns = over_time.iter().map(|quantity| history.columns(&[*quantity], &[0.5, time], None));
+            said.extend(columns.filter_map(Result::err));
+            let slices = [Slice::Points, Slice::Averages, Slice::P1];
+            said.extend(slices.iter().filter_map(|slice| history.slices(*slice, &[0.0, 1.0], &[time], None).err()));
+            assert_eq!(said.len(), 10 + over_time.len());
+            assert!(said.iter().all(|error| matches!(error, Error::TimeOutside { .. })), "{said:?}");
+        }
     }
 }

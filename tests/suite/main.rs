@@ -24,6 +24,10 @@ mod command;
 mod command_data;
 #[cfg(all(feature = "cli", feature = "mp"))]
 mod command_ends;
+#[cfg(feature = "cli")]
+mod command_errors;
+#[cfg(feature = "cli")]
+mod command_samples;
 mod common;
 #[cfg(feature = "cli")]
 mod compare_command;

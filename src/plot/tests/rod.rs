@@ -8,11 +8,11 @@ fn the_rod_and_the_bars_are_to_scale() {
     let mut found = Found { strains: vec![0.0; PARTS + 1], end: 0.2, centre: 0.2, energy: [1.0, 0.5] };
     let svg = pose.svg(&found, &sizes, 1.0, false);
     for part in [
-        "<path fill=\"#f7f7f7\" d=\"M4 4H26V129H4z\"/>",
-        "x=\"4\" y=\"4\" width=\"22\" height=\"125\" fill=\"none\"",
-        "<polyline points=\"4,66.5 26,66.5\"",
-        "M57 84H73V154H57z",
-        "M82 119H98V154H82z",
+        "<path fill=\"#f7f7f7\" d=\"M4 4H22V129H4z\"/>",
+        "x=\"4\" y=\"4\" width=\"18\" height=\"125\" fill=\"none\"",
+        "<polyline points=\"4,66.5 22,66.5\"",
+        "M67 84H79V154H67z",
+        "M85 119H97V154H85z",
     ] {
         assert!(svg.contains(part), "{part} in {svg}");
     }

@@ -1,0 +1,83 @@
+//! What the command refuses, and what it leaves then.
+
+use crate::command::{Run, SCENE, quiet, refused, refused_with, run, run_with};
+
+#[test]
+fn bad_scenes_are_refused_where_they_are_wrong() {
+    refused_with(&["solve", "-"], "[rod]\nlength = -1\n", &["length = -1", "expected a length above zero", "2:10"]);
+    refused_with(&["sample", "-", "--quantity", "end", "--times", "1"], "", &["no [rod]"]);
+    refused_with(&["explain", "-"], "[rod]\nlength = 1\nwavespeed = 1\n", &["did you mean wave_speed?"]);
+    let damped = SCENE.replace("wave_speed = 1", "wave_speed = 1\ndamping = 0.1");
+    refused_with(&["solve", "-", "--exact"], &damped, &["found damping = 0.1 in fractions", "ask for digits"]);
+    refused_with(&["solve", "-", "--accuracy", "2"], &damped, &["found accuracy 2", "between 1e-300 and 0.1"]);
+    refused(&["solve", "no-such-file.toml"], &["found no file and no built-in scene called `no-such-file.toml`"]);
+    refused(&["solve", "doyen"], &["did you mean `doyen-ern-piperno`?"]);
+    refused(&["solve", env!("CARGO_MANIFEST_DIR")], &["found the folder", "as a scene", "a scene file in it"]);
+}
+
+#[test]
+fn wrong_usage_is_refused() {
+    for args in [&["solve"][..], &["frobnicate"], &["solve", "paper-weak", "--format", "yaml"], &[]] {
+        let Run { code, out, err } = run(args);
+        assert_eq!((code, out.as_str()), (Some(2), ""), "{args:?}");
+        assert!(err.contains("Usage") || err.contains("possible values"), "{args:?}: {err}");
+    }
+    refused(&["solve", "paper-weak", "--digits", "0"], &[if cfg!(feature = "mp") { "1 to 100000" } else { "found" }]);
+    let sample = |more: &[&'static str]| [&["sample", "paper-weak", "--quantity", "field"][..], more].concat();
+    refused(&sample(&["--times", "1..2"]), &["found `1..2`, expected A..B:N"]);
+    refused(&sample(&["--times", "1..2:1"]), &["found `1..2:1`, expected a count of 2"]);
+    refused(&sample(&["--times", "one"]), &["found `one`"]);
+    refused(&sample(&["--times", "-1,2"]), &["found time -1"]);
+    refused(&sample(&["--times", "1", "--points", "3/2"]), &["found point 1.5, expected one between 0 and 1"]);
+    refused(
+        &["sample", "paper-weak", "--quantity", "end", "--times", "1", "--points", "0"],
+        &["--quantity field only"],
+    );
+}
+
+#[cfg(not(feature = "mp"))]
+#[test]
+fn digits_need_the_feature() {
+    refused(&["solve", "paper-weak", "--digits", "20"], &["found a build without arbitrary precision"]);
+    let digits_after = ["solve", "paper-weak", "--exact", "--digits", "20"];
+    refused(&digits_after, &["found a build without arbitrary precision"]);
+    refused(&["solve", "paper-weak", "--certified"], &["found a build without arbitrary precision"]);
+}
+
+#[test]
+fn what_was_expected_is_said() {
+    refused(&["solve", "paper-strong", "--digits", "abc"], &["expected a whole number of digits, such as 50"]);
+    refused(&["solve", "paper-strong", "--accuracy", "abc"], &["expected a number such as 1e-10"]);
+    #[cfg(target_os = "linux")]
+    refused(&["solve", "paper-strong", "-o", "/proc/x.csv"], &["cannot write", "no file can be made in /proc"]);
+    // μ = √(2 · 9.81 · 0.5), and g/2r.
+    let scene =
+        "rod = { length = 1, wave_speed = 10, damping = 2 }\nimpact.drop_height = 0.5\ngravity.acceleration = 9.81\n";
+    let Run { out, .. } = run_with(&["solve", "-", "--wide"], scene);
+    assert!(out.contains("= 3.13, takes no account") && out.contains("g/2r = 2.45: a gap of this height"), "{out}");
+}
+
+#[test]
+fn files_are_written_whole_or_not_at_all() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = |name: &str| folder.path().join(name).to_string_lossy().into_owned();
+    let content = |name: &str| std::fs::read_to_string(folder.path().join(name)).unwrap();
+    let names = || std::fs::read_dir(folder.path()).unwrap().count();
+
+    // The ending of the file chooses the format; nothing stands on standard output.
+    for (file, format) in [("a.json", "json"), ("a.csv", "csv"), ("a.txt", "table")] {
+        assert_eq!(quiet(&["solve", "paper-strong", "-o", &path(file)]), "");
+        assert_eq!(content(file), quiet(&["solve", "paper-strong", "--format", format, "-o", "-"]));
+    }
+    assert_eq!(names(), 3);
+
+    // A run that fails leaves an old file as it was.
+    refused(
+        &["sample", "paper-strong", "--quantity", "end", "--times", "-1", "-o", &path("a.txt")],
+        &["found time -1"],
+    );
+    assert_eq!(content("a.txt"), quiet(&["solve", "paper-strong"]));
+    refused(&["solve", "paper-strong", "-o", &path("missing/a.json")], &["cannot write", "no folder"]);
+    refused(&["solve", "paper-strong", "-o", &folder.path().to_string_lossy()], &["cannot write"]);
+    assert_eq!(names(), 3, "nothing is left behind");
+}
