@@ -15,7 +15,6 @@ use crate::quantity::{Measure, Units};
 use crate::scene::{Effect, Scene};
 use crate::solve::{History, Plan, Question, Target, Visitor};
 
-/// What stands above the numbers of a scene.
 fn head(scene: &Scene, plan: &Plan) -> Head {
     let units = Units::of(&scene.problem, scene.units);
     let time = |time: f64| format!("{} {}", time.decimal(6), units.name(Measure::Time)).trim_end().to_string();
@@ -35,7 +34,6 @@ pub(super) trait Visit {
     fn visit<S: Target>(&self, history: &History<S>, head: Head, progress: source::Progress) -> Result<(), Failure>;
 }
 
-/// What makes the bytes of an answer.
 pub(super) type Bytes<'a> = Box<dyn FnOnce(&Head, Format) -> Result<Vec<u8>, Failure> + 'a>;
 
 /// Prints what `bytes` makes of an answer, below the warnings of `head`.
@@ -100,7 +98,6 @@ pub(super) fn solve(scene: &Scene, question: &Question, visit: &impl Visit) -> R
     solution.visit(Visited { visit, head, progress })
 }
 
-/// A visit with what it is given.
 struct Visited<'a, V> {
     visit: &'a V,
     head: Head,

@@ -47,7 +47,6 @@ fn accuracy(text: &str) -> Result<f64, String> {
 }
 
 impl NumberArgs {
-    /// Whether the answers are doubles.
     pub(super) fn in_doubles(self) -> bool {
         self.digits.is_none() && !self.certified && !self.exact
     }

@@ -61,7 +61,6 @@ pub(super) struct Compare {
 
 const BOUNDS: &str = "--fail-above NAME=BOUND and --fail-below NAME=BOUND, or a file of --gates";
 
-/// A file of bounds.
 #[derive(Debug, Default, serde::Deserialize)]
 #[serde(default, deny_unknown_fields)]
 struct Gates {

@@ -8,7 +8,6 @@ use annotate_snippets::{AnnotationKind, Level, Renderer, Snippet};
 use crate::error::Error;
 use crate::scene::SceneError;
 
-/// Why a command ends without an answer.
 pub(super) struct Failure {
     message: String,
     help: Option<String>,

@@ -24,11 +24,8 @@ const FORMATS: [(Format, &str, &str, &str); 8] = [
     (Format::Pdf, "pdf", "pdf", ""),
 ];
 
-/// The pictures.
 pub(super) const PICTURES: &[Format] = &[Format::Svg, Format::Png, Format::Pdf];
-/// How rows are written.
 pub(super) const ROWS: &[Format] = &[Format::Table, Format::Json, Format::Csv];
-/// Rows, or a picture of them.
 pub(super) const ROWS_OR_PICTURE: &[Format] =
     &[Format::Table, Format::Json, Format::Csv, Format::Svg, Format::Png, Format::Pdf];
 
@@ -120,7 +117,6 @@ pub(super) fn made(what: &str, made: Result<impl Into<Vec<u8>>, impl std::fmt::D
     made.map(Into::into).map_err(|error| failure!("cannot write {what}: {error}"))
 }
 
-/// The bytes of a file of rows.
 pub(super) fn rows(data: &Dataset, format: Format) -> Result<Vec<u8>, Failure> {
     match format {
         Format::Table => Ok(data.table().into_bytes()),
@@ -130,7 +126,6 @@ pub(super) fn rows(data: &Dataset, format: Format) -> Result<Vec<u8>, Failure> {
     }
 }
 
-/// The bytes of a JSON file.
 pub(super) fn json(value: &serde_json::Value) -> Vec<u8> {
     format!("{value:#}\n").into_bytes()
 }

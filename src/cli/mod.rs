@@ -29,7 +29,6 @@ use clap::{CommandFactory, Parser, Subcommand};
 use crate::output::SCHEMA;
 use failure::Failure;
 
-/// The version and the features of this build.
 const VERSION: &str = match (cfg!(feature = "mp"), cfg!(feature = "plot")) {
     (true, true) => concat!(env!("CARGO_PKG_VERSION"), " (features: cli, mp, plot)"),
     (true, false) => concat!(env!("CARGO_PKG_VERSION"), " (features: cli, mp)"),

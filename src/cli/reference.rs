@@ -160,7 +160,6 @@ fn event_times<S: Scalar>(motion: &dyn Motion<S>) -> Result<Vec<S>, Error> {
 }
 
 impl Series<'_> {
-    /// The rows of some times.
     fn ask<S: Target>(&self, history: &History<S>, chunk: Option<&Chunk<'_>>) -> Result<Vec<Vec<S::Carried>>, Error> {
         let times = |motion: &dyn Motion<S::Carried>| match chunk {
             Some((list, part)) => Ok(list.lift_part(part.clone(), &motion.end().precision())),
@@ -202,7 +201,6 @@ impl Visit for Series<'_> {
     }
 }
 
-/// The exact solution as a function.
 struct Function<'a> {
     asked: &'a Reference,
     scene: &'a Scene,

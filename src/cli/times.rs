@@ -8,7 +8,6 @@ use std::path::Path;
 use super::failure::{Failure, cannot};
 use crate::number::{List, Number};
 
-/// Where the times come from.
 #[derive(Debug)]
 pub(super) enum Times {
     List(List),
@@ -120,5 +119,4 @@ impl Times {
     }
 }
 
-/// A part of a list of times.
 pub(super) type Chunk<'a> = (&'a List, Range<usize>);

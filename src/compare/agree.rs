@@ -13,7 +13,6 @@ use crate::number::Number;
 use crate::problem::Top;
 use crate::quantity::Quantity;
 
-/// Data beside a history.
 #[derive(Debug, Default)]
 pub(crate) struct Agreement {
     pub(crate) grid: Grid,
@@ -31,7 +30,6 @@ pub(crate) struct Agreement {
     pub(crate) notes: Vec<String>,
 }
 
-/// How much of the scene the data cover.
 #[derive(Clone, Debug, Default, PartialEq, Serialize)]
 pub(crate) struct Coverage {
     /// Where the data end, and where the run of the scene does.

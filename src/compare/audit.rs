@@ -9,7 +9,6 @@ pub(crate) struct Extreme {
     pub time: f64,
 }
 
-/// How the energy goes, beside ours.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub(crate) struct EnergyChange {
     /// `theirs − ours` at the end, less what it is at the start.

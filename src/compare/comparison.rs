@@ -17,7 +17,6 @@ use crate::quantity::{Quantity, Units};
 use crate::reason::Warning;
 use crate::solve::{Numbers, Observer, Plan, Question, Solution};
 
-/// Why data cannot be compared.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum CompareError {
     #[error(transparent)]
@@ -119,25 +118,19 @@ impl Options {
 #[derive(Debug)]
 pub struct Prepared {
     problem: Problem,
-    /// How the run is to be solved.
     pub plan: Plan,
     data: Vec<(String, Samples)>,
     until: Option<f64>,
     options: Options,
 }
 
-/// Data beside the exact history: what is reported.
 #[derive(Debug)]
 pub struct Comparison {
-    /// One for each source.
     pub files: Vec<ComparedFile>,
-    /// The orders of convergence that several show.
     pub(crate) orders: Vec<Order>,
-    /// What a user should know of the history.
     pub warnings: Vec<Warning>,
 }
 
-/// One source that was compared.
 #[derive(Debug)]
 pub struct ComparedFile {
     pub(crate) file: String,

@@ -12,18 +12,15 @@ use crate::problem::{Parameter, Problem};
 use crate::quantity::Quantity;
 use crate::solve::History;
 
-/// A value that was fitted.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub(crate) struct FittedValue {
     pub(crate) name: String,
     pub(crate) scene: f64,
-    /// What explains the data best.
     pub(crate) value: f64,
     /// Its standard error, from what remains.
     pub(crate) error: f64,
 }
 
-/// A fit, with the comparison that the fitted values give.
 #[derive(Debug)]
 pub(crate) struct Fit {
     pub(crate) values: Vec<FittedValue>,
@@ -32,7 +29,6 @@ pub(crate) struct Fit {
     pub(crate) history: History<f64>,
 }
 
-/// Why values cannot be fitted.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum FitError {
     #[error(
@@ -56,7 +52,6 @@ const WIDTH: f64 = 1e-6;
 /// Residuals of a problem; derivatives are taken of it.
 type Residuals<'a> = &'a dyn Fn(&Problem) -> Option<Vec<f64>>;
 
-/// `problem` with the values of `parameters`.
 fn varied(problem: &Problem, parameters: &[Parameter], values: &[f64]) -> Option<Problem> {
     let set = |problem: Problem, (parameter, value): (&Parameter, &f64)| parameter.set(&problem, *value).ok();
     parameters.iter().zip(values).try_fold(problem.clone(), set)

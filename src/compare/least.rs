@@ -1,6 +1,5 @@
 //! Least squares in a few unknowns.
 
-/// What a fit found.
 #[derive(Clone, Debug)]
 pub(super) struct Least {
     pub(super) values: Vec<f64>,

@@ -20,7 +20,6 @@ pub struct Limit {
     below: bool,
 }
 
-/// A bound, and what it was held against.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Outcome {
     /// The source; several for an order.
@@ -52,7 +51,6 @@ impl std::str::FromStr for Limit {
     }
 }
 
-/// What a bound looks like.
 const FORM: &str = "QUANTITY.NORM=BOUND with l1, l2, linf or linf_off_jumps, order.QUANTITY=BOUND, or one of coverage, \
                     energy, momentum, impulse, penetration, tension, missed and invented with its bound";
 
@@ -176,7 +174,6 @@ pub(crate) struct Order {
     pub(crate) widths: [f64; 2],
     #[serde(flatten)]
     pub(crate) orders: BTreeMap<&'static str, Option<f64>>,
-    /// Why it says nothing.
     pub(crate) meaningless: Option<&'static str>,
 }
 

@@ -10,7 +10,6 @@ pub(crate) fn compared(name: &str, field: bool) -> Option<Quantity> {
     found.filter(|quantity| !matches!(quantity, Quantity::Time | Quantity::Side | Quantity::Point))
 }
 
-/// Which places of a file hold what.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Map {
     /// The columns that are read: first those of [`PLACES`], but for times that are counted, then what is compared.
@@ -19,7 +18,6 @@ pub(crate) struct Map {
     pub(crate) unused: Vec<String>,
 }
 
-/// Why columns cannot be mapped.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum MapError {
     #[error("found no quantity in the columns {found}, expected some of {}, or a map such as t=0,u=1", known(*field))]
@@ -113,7 +111,6 @@ impl Map {
         Ok(map)
     }
 
-    /// The place of a column.
     pub(crate) fn place(&self, what: Quantity) -> Option<usize> {
         self.columns.iter().find(|(other, _)| *other == what).map(|(_, place)| *place)
     }

@@ -13,20 +13,17 @@ use crate::solve::History;
 /// integral does not see how far a front is spread about its time, and changes steadily with the values of the scene.
 #[derive(Debug)]
 pub(super) struct Signal {
-    /// The column.
     pub(super) what: Quantity,
     /// The quantity that the values below are of.
     pub(super) model: Quantity,
     /// Theirs, at the times of the [`Model`].
     pub(super) theirs: Vec<f64>,
-    /// Whether the column is zero throughout.
     pub(super) is_empty: bool,
     /// What makes it a time: an error of so much is one of a unit of time.
     pub(super) rate: f64,
 }
 
 impl Signal {
-    /// Whether it is an integral over the column.
     pub(super) fn is_integral(&self) -> bool {
         self.what != self.model
     }
@@ -40,7 +37,6 @@ pub(super) struct Model<'a> {
     mass: f64,
     pub(super) times: Vec<f64>,
     pub(super) signals: Vec<Signal>,
-    /// What each sample weighs.
     pub(super) weights: Vec<f64>,
     /// The median step of the data.
     pub(super) step: f64,

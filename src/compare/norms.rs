@@ -13,7 +13,6 @@ pub struct Norm {
     pub absolute: f64,
     /// The same divided by `‖ours‖` at the same samples; `None` where ours is zero there.
     pub relative: Option<f64>,
-    /// When.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub time: Option<f64>,
     /// Where in the rod, for a field.
@@ -33,7 +32,6 @@ pub(crate) struct Compared {
 /// The norms of the difference of two lists of samples.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Norms {
-    /// How many samples there are.
     pub samples: usize,
     /// How many of them are on a jump of ours.
     pub on_jumps: usize,
@@ -65,7 +63,6 @@ pub struct Grid {
     pub times: Vec<f64>,
     /// Points of the rod, for a field: in order at each time.
     pub points: Option<Vec<f64>>,
-    /// The weight of each sample.
     pub weights: Vec<f64>,
 }
 

@@ -14,10 +14,8 @@ use crate::aligned::table;
 use crate::number::Scalar;
 use crate::quantity::{Quantity, Units};
 
-/// What the norms are.
 const WEIGHTS: &str = "sums over the samples by the trapezoidal rule: each weighs half the way to its neighbours";
 
-/// What the words of the report mean, a line each.
 pub const LEGEND: &str = "\
 norm                L1 = ∫|e| dt, L2 = √∫e² dt, L∞ = max |e| of e = theirs − ours, by the
                     trapezoidal rule; relative to the same norm of ours
@@ -82,7 +80,6 @@ fn share(x: Option<f64>) -> String {
     }
 }
 
-/// The whole report of one file.
 fn file_table(compared: &ComparedFile, title: Option<&str>, units: &Units) -> String {
     let ComparedFile { file, agreement, judgement, fit } = compared;
     let times = &agreement.grid.times;
@@ -299,7 +296,6 @@ fn joined(mut value: Value, more: Value) -> Value {
     value
 }
 
-/// One file, schema 1.
 fn file_json(ComparedFile { file, agreement, judgement, fit }: &ComparedFile, units: &Units) -> Value {
     let quantities = agreement.quantities.iter().map(|Compared { what, norms, .. }| {
         joined(json!({"name": what.name(), "unit": what.unit(units)}), json!(norms))
@@ -324,7 +320,6 @@ fn file_json(ComparedFile { file, agreement, judgement, fit }: &ComparedFile, un
 }
 
 impl Comparison {
-    /// Everything as tables.
     pub fn table(&self, title: Option<&str>, units: &Units) -> String {
         let mut tables: Vec<String> = self.files.iter().map(|file| file_table(file, title, units)).collect();
         tables.extend((self.files.len() > 1).then(|| orders_table(&self.orders)));

@@ -15,7 +15,6 @@ pub(crate) struct Samples {
     pub(crate) step: f64,
     /// How many rows lie before `t = 0`.
     pub(crate) outside: usize,
-    /// What is to be said of how the file was read.
     pub(crate) notes: Vec<String>,
     pub(crate) rounding: Rounding,
     /// Which limit each row holds at a jump, where that is known.

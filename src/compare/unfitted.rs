@@ -32,7 +32,6 @@ pub(crate) struct ToldFrom {
     pub(crate) value: f64,
 }
 
-/// What is said of data.
 #[derive(Debug, Default)]
 pub(crate) struct Judgement {
     pub(crate) hints: Vec<Verdict>,

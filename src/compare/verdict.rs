@@ -79,14 +79,12 @@ const WIDTH: f64 = 1e-4;
 const NONE: f64 = 1e-9;
 /// A fit that leaves more of ‖e‖₂² after three steps is given up.
 const HOPELESS: f64 = 0.8;
-/// Steps of a fit.
 const STEPS: usize = 12;
 /// Where a fit of what may have been left out, a speed or the weight, starts besides at 0: nearly nothing of it.
 const NOTHING: f64 = -0.999;
 /// A gravity that is known no better than this, in standard errors, may be none.
 pub(super) const NO_GRAVITY: f64 = 0.009;
 
-/// A hypothesis that was fitted.
 #[derive(Debug)]
 pub(super) struct Fitted {
     pub(super) value: f64,
@@ -100,7 +98,6 @@ pub(super) struct Judge<'a> {
     pub(super) model: Model<'a>,
     base: Vec<Vec<f64>>,
     exact: Vec<Vec<f64>>,
-    /// Ends of the parts.
     ends: Vec<f64>,
     pub(super) trip: f64,
 }
@@ -419,7 +416,6 @@ fn hints(ours: &Ours<'_>, agreement: &Agreement) -> Result<(Vec<Verdict>, Vec<To
     Ok((said, told_from))
 }
 
-/// So many samples are looked at.
 const SAMPLES: usize = 150;
 
 impl Judge<'_> {

@@ -3,7 +3,6 @@
 use crate::mapped::{CollectVec, MapEach, mapped};
 use crate::number::Scalar;
 
-/// An axis: what it measures, from where to where.
 #[derive(Clone, Debug)]
 pub(crate) struct Axis {
     /// The symbol with its unit: `t [ms]`.

@@ -1,14 +1,4 @@
 //! Drawing: axes, lines, areas and fields as SVG in millimetres. The same picture has the same bytes.
-//!
-//! | file | |
-//! |---|---|
-//! | `svg` | shapes and texts |
-//! | `axis` | ranges, units, round numbers |
-//! | `color` | palettes |
-//! | `clip` | what lies in a frame |
-//! | `panel` | one picture with axes and legend |
-//! | `render` | SVG to PNG and PDF |
-//! | `sheet` | several of them, and what they are made for |
 
 #![cfg_attr(not(feature = "cli"), allow(dead_code, unused_imports, reason = "the command draws more"))]
 

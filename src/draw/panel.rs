@@ -10,7 +10,6 @@ use super::color::{diverging, diverging_stops};
 use super::svg::{Anchor, Fill, Stroke, Svg, width};
 use crate::mapped::{CollectVec, MapEach, mapped};
 
-/// A picture with axes.
 #[derive(Clone, Debug)]
 pub(crate) struct Panel {
     pub(crate) title: String,
@@ -18,7 +17,6 @@ pub(crate) struct Panel {
     pub(crate) y: Axis,
     /// The first one lies lowest.
     pub(crate) layers: Vec<Layer>,
-    /// What stands in the legend, in order.
     pub(crate) legend: Vec<Key>,
 }
 
@@ -34,9 +32,7 @@ pub(crate) struct Layer {
 
 #[derive(Clone, Debug)]
 pub(crate) enum Shape {
-    /// Lines of one look.
     Lines(Vec<Vec<DVec2>>, Stroke),
-    /// Areas of one colour.
     Areas(Vec<Vec<DVec2>>, &'static str),
     /// Pieces of a field whose values are linear on each.
     Pieces(Vec<Piece>),
@@ -44,7 +40,6 @@ pub(crate) enum Shape {
     Runs(Vec<(String, Vec<[DVec2; 2]>)>),
     /// What an odd number of closed lines is about, inside of the frame.
     Region(Vec<Vec<DVec2>>, &'static str),
-    /// Marks.
     Marks(Vec<DVec2>, Mark, &'static str),
     /// A text beside a point.
     Note(DVec2, Anchor, String),
@@ -75,7 +70,6 @@ pub(crate) enum Mark {
     Star,
 }
 
-/// An entry of the legend.
 #[derive(Clone, Debug)]
 pub(crate) enum Key {
     Line(String, Stroke),
@@ -133,7 +127,6 @@ pub(super) struct Place {
 }
 
 impl Panel {
-    /// Axes without anything between them.
     pub(crate) fn new(title: impl Into<String>, x: Axis, y: Axis) -> Self {
         Panel { title: title.into(), x, y, layers: Vec::new(), legend: Vec::new() }
     }
@@ -303,7 +296,6 @@ fn draw_key(svg: &mut Svg, key: &Key, at: DVec2) {
     svg.text(to(beside, 0.0), Anchor::Start, key.text());
 }
 
-/// A frame that cuts nothing.
 const EVERYWHERE: [DVec2; 2] = [DVec2::NEG_INFINITY, DVec2::INFINITY];
 /// How far, in mm, neighbours of a field overlap, so that no viewer shows the paper between them: less than a ray.
 const OVERLAP: f64 = 0.04;

@@ -36,7 +36,6 @@ pub enum Canvas {
     },
 }
 
-/// Pictures with a title above all.
 #[derive(Clone, Debug)]
 pub(crate) struct Sheet {
     pub(crate) title: Vec<String>,
@@ -80,7 +79,6 @@ impl Sheet {
         }
     }
 
-    /// The sheet as SVG.
     pub(crate) fn svg(&self, size: Size) -> String {
         let (wide, letters, frames) = size.measures();
         let across = if size == Size::Column || self.panels.len() < 2 { 1 } else { 2 };

@@ -34,7 +34,6 @@ pub(crate) enum Anchor {
     End,
 }
 
-/// What is inside of a closed line.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) enum Fill {
     Flat(String),
@@ -42,7 +41,6 @@ pub(crate) enum Fill {
     Gradient([DVec2; 2], Vec<(f64, String)>),
 }
 
-/// A picture that is being written.
 #[derive(Debug)]
 pub(crate) struct Svg {
     text: String,
@@ -137,7 +135,6 @@ impl Svg {
         self.text += "</g>\n";
     }
 
-    /// A line through points.
     pub(crate) fn line(&mut self, points: &[DVec2], stroke: Stroke) {
         self.text += &format!("<polyline points=\"{}\" fill=\"none\"{stroke}/>\n", places(points));
     }
@@ -178,7 +175,6 @@ impl Svg {
         self.text += &format!("<path fill=\"{fill}\" d=\"{}\"/>\n", path.concat());
     }
 
-    /// A frame.
     pub(crate) fn frame(&mut self, [from, to]: [DVec2; 2], stroke: Stroke) {
         let [x, y, w, h] = [from.x, from.y, to.x - from.x, to.y - from.y].map_each(length);
         self.text += &format!("<rect x=\"{x}\" y=\"{y}\" width=\"{w}\" height=\"{h}\" fill=\"none\"{stroke}/>\n");
@@ -223,7 +219,6 @@ impl Svg {
         self.text += "</text>\n";
     }
 
-    /// The whole picture.
     pub(crate) fn finish(self) -> String {
         self.text + "</svg>\n"
     }

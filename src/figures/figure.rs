@@ -7,13 +7,11 @@ use crate::number::{Estimate, Scalar};
 use crate::sweep::{Grid, Map};
 use crate::threads::Threads;
 
-/// A figure of the paper, or one that it could not have.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Figure {
     /// `4`; in files `figure-4`.
     pub(crate) name: &'static str,
     pub(crate) of: Of,
-    /// What is shown, in a sentence.
     pub(crate) shown: &'static str,
     /// What is corrected or added, in a sentence.
     pub(crate) corrected: &'static str,
@@ -42,7 +40,6 @@ pub(crate) struct Data {
     pub(crate) map: Option<Map>,
 }
 
-/// All figures.
 pub(crate) const ALL: [Figure; 10] = [
     Figure {
         name: "1",

@@ -18,7 +18,6 @@ use crate::threads::Threads;
 /// `r` of Figures 4–7, where `c = L = g = 1`.
 pub(crate) const DAMPINGS: [&str; 4] = ["0", "0.1", "0.2", "0.3"];
 
-/// A double with its bound.
 pub(crate) type Double = Estimate<f64>;
 /// A first contact that ends with a bounce: `t_b`, and what is asked there.
 pub(crate) type Ended = Option<(Double, Vec<Option<Double>>)>;
@@ -132,7 +131,6 @@ pub(crate) fn tenth(grid: &Grid, threads: Threads) -> Result<Vec<Option<Double>>
     threads.all(grid.len(), |index| Ok(one(index)))
 }
 
-/// The values of the axis of speeds.
 pub(crate) fn speeds(grid: &Grid) -> Vec<Double> {
     let exact = |value: &Number| Estimate::exact(value.to_f64());
     grid.axes.last().map_or_else(Vec::new, |axis| mapped(&axis.values, exact))

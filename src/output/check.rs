@@ -9,7 +9,6 @@ use crate::mapped::{CollectVec, mapped};
 use crate::routes::Published;
 use crate::routes::check::{Checked, CheckedQuestion, Group};
 
-/// How many digits are right, in words.
 fn digits(right: Option<f64>) -> String {
     match right {
         None => "–".into(),
@@ -18,7 +17,6 @@ fn digits(right: Option<f64>) -> String {
     }
 }
 
-/// The cases that were run, by group.
 pub(crate) type Groups = [(Group, Vec<Checked>)];
 
 /// How many cases came to each verdict, in the order of their first appearance.
@@ -73,7 +71,6 @@ fn below(groups: &Groups, published: &[Published]) -> String {
     out
 }
 
-/// A line a case, and the counts.
 pub(crate) fn check_summary(groups: &Groups, published: &[Published]) -> String {
     let cases = groups.iter().flat_map(|(group, cases)| cases.iter().map(move |checked| (group, checked)));
     let rows = cases.map(|(group, checked)| {

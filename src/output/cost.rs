@@ -101,7 +101,6 @@ pub(crate) fn cost_data(cost: &Table, title: Option<&str>) -> Dataset {
     }
 }
 
-/// What each effect costs.
 pub(crate) fn effects_data(rows: &[Difference], title: Option<&str>) -> Dataset {
     let row = |row: &Difference| {
         vec![

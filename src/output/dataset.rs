@@ -38,14 +38,12 @@ impl<S: Scalar> Shown for S {
 /// A number that several rows show.
 pub(crate) type Shared = Rc<dyn Shown>;
 
-/// A value of a row.
 #[derive(Clone)]
 pub(crate) enum Cell {
     /// A text, a count, a flag, a double without a bound, or nothing.
     Plain(Value),
     /// A number that carries its bound.
     Number(Shared),
-    /// Several of them.
     Numbers(Vec<Shared>),
 }
 
@@ -193,18 +191,15 @@ impl Column {
         Column { unit, ..self }
     }
 
-    /// With the bounds of its numbers in CSV and JSON.
     pub(crate) fn bounded(self) -> Self {
         Column { is_bounded: true, ..self }
     }
 
-    /// JSON leaves it out where it is empty.
     pub(crate) fn optional(self) -> Self {
         Column { is_optional: true, ..self }
     }
 }
 
-/// Rows below a header.
 #[derive(Default)]
 pub(crate) struct Dataset {
     /// What JSON has above the rows, in its order.

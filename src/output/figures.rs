@@ -68,10 +68,8 @@ pub(crate) fn figures_index(figures: &[&Figure], data: &[Data], endings: &[&str]
     Ok(text)
 }
 
-/// Values of the columns of a figure.
 type Row = Vec<Option<f64>>;
 
-/// A figure as a sheet of one panel.
 pub(crate) fn figure_sheet(figure: &Figure, data: &Data) -> Result<Sheet, Failed> {
     let rows = &data.values();
     let panel = match figure.of {

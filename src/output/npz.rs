@@ -5,7 +5,6 @@ use std::io::{self, Seek, Write};
 use ndarray::ArrayD;
 use ndarray_npy::{NpzWriter, WritableElement, WriteNpzError};
 
-/// An archive that arrays are added to.
 pub(super) struct Npz<W: Write + Seek>(NpzWriter<W>);
 
 fn failed(error: WriteNpzError) -> io::Error {
@@ -13,18 +12,15 @@ fn failed(error: WriteNpzError) -> io::Error {
 }
 
 impl<W: Write + Seek> Npz<W> {
-    /// No arrays yet.
     pub(super) fn new(to: W, compressed: bool) -> Self {
         Npz(if compressed { NpzWriter::new_compressed(to) } else { NpzWriter::new(to) })
     }
 
-    /// Adds the values of an array of this shape, row by row.
     pub(super) fn add<T: WritableElement>(&mut self, name: &str, shape: &[usize], values: Vec<T>) -> io::Result<()> {
         let array = ArrayD::from_shape_vec(shape, values).map_err(io::Error::other)?;
         self.0.add_array(name, &array).map_err(failed)
     }
 
-    /// Writes the archive to its end.
     pub(super) fn finish(self) -> io::Result<()> {
         self.0.finish().map(drop).map_err(failed)
     }

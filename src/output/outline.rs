@@ -6,7 +6,6 @@ use crate::motion::{Motion, StressPiece, straight};
 use crate::number::Scalar;
 use crate::quantity::Measure;
 
-/// Blocks of the line.
 const BLOCKS: usize = 76;
 const HEIGHTS: [char; 8] = ['▁', '▂', '▃', '▄', '▅', '▆', '▇', '█'];
 const FLIGHT: char = '·';

@@ -45,13 +45,11 @@ impl Head {
         mapped(&self.warnings, |warning| self.line(&format!("warning: {warning}"))).concat()
     }
 
-    /// What the numbers do not say.
     pub(super) fn notes(&self) -> Vec<String> {
         let end = self.exact_until.iter().map(|end| format!("{end}; the numbers are {}", self.number));
         end.chain(self.warnings.iter().map(|warning| format!("warning: {warning}"))).collect_vec()
     }
 
-    /// Where fractions ended.
     pub(super) fn exact_until_json(&self) -> Value {
         match &self.exact_until {
             None => Value::Null,
@@ -64,7 +62,6 @@ impl Head {
     }
 }
 
-/// Derivatives by one value, of the quantities of a list.
 pub(crate) struct Derived {
     pub(crate) by: Parameter,
     pub(crate) events: Derivatives<Shared>,
@@ -73,7 +70,6 @@ pub(crate) struct Derived {
 
 /// A history, ready to be printed, whatever its numbers.
 pub(crate) struct Record {
-    /// Impacts and releases.
     pub(super) events: Dataset,
     /// Contacts with their coefficients and the energies at their ends.
     pub(super) contacts: Dataset,

@@ -34,7 +34,6 @@ pub(crate) struct Preamble<'a> {
     pub each: &'a str,
     /// Why the history ends, where its end is among the rows.
     pub ends: Option<String>,
-    /// How far the history is followed.
     pub until: f64,
     /// Whether a CSV leaves out the comments.
     pub bare: bool,
@@ -43,7 +42,6 @@ pub(crate) struct Preamble<'a> {
 const SIGNS: &str = "x and displacements upwards from the undeformed rod on the ground; strain and stress positive in \
                      tension, force positive in compression";
 const SIDE: &str = "left is the limit from earlier times, right from later ones; both: they are the same";
-/// How others read a CSV below its comments.
 const READ: &str = "pandas.read_csv(FILE, comment=\"#\"), or \
     numpy.genfromtxt((s for s in open(FILE) if s[0] != \"#\"), delimiter=\",\", names=True, dtype=None)";
 const CITE: &str = concat!(
@@ -53,7 +51,6 @@ const CITE: &str = concat!(
 );
 
 impl Preamble<'_> {
-    /// What the numbers are worth.
     fn promise(&self, npz: bool) -> String {
         let promise = match self.numbers {
             Numbers::Double(_) => return format!("{} within its bound, carried through the computation", self.each),
@@ -72,7 +69,6 @@ impl Preamble<'_> {
         self.scene.lines().map(str::trim_end).filter(|line| !line.is_empty() && !line.trim_start().starts_with('#'))
     }
 
-    /// Everything as JSON.
     fn json(&self, columns: &[Described], bounds: &[f64], npz: bool) -> Value {
         let columns = columns.iter().zip(bounds).map(|((column, unit), bound)| {
             let mut value = json!({
@@ -134,7 +130,6 @@ impl Preamble<'_> {
         lines.into_iter()
     }
 
-    /// Everything as comments above the rows of a CSV.
     fn comments(&self, columns: &[Described], bounds: &[f64]) -> String {
         if self.bare {
             return String::new();

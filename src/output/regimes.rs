@@ -127,7 +127,6 @@ pub(crate) fn regimes_panel(map: &Map) -> Panel {
     Panel { title: "when the first contact ends".into(), x, y, layers, legend }
 }
 
-/// The map as SVG.
 pub(crate) fn regimes_svg(map: &Map) -> String {
     Sheet { title: Vec::new(), panels: vec![regimes_panel(map)] }.svg(Size::Page)
 }

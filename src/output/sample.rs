@@ -71,10 +71,8 @@ fn naming(wanted: &[Quantity]) -> fn(quantity::Quantity) -> String {
     if wanted.len() == 1 { |quantity| quantity.key().into() } else { |quantity| quantity.name().into() }
 }
 
-/// Values of quantities, ready to be printed.
 pub(crate) struct Samples {
     wanted: Vec<Quantity>,
-    /// What is printed of each.
     pub(crate) quantities: Vec<quantity::Quantity>,
     data: Dataset,
     pub(crate) derivatives: Vec<(Parameter, Derivatives<Shared>)>,
@@ -122,7 +120,6 @@ pub(crate) fn samples<S: Scalar>(
     Ok((Samples { wanted: wanted.to_vec(), quantities, data, derivatives: Vec::new() }, numbers))
 }
 
-/// A row for each sample.
 pub(crate) fn samples_data(samples: Samples, head: &Head) -> Dataset {
     let units = &head.units;
     let Samples { wanted, quantities, data, derivatives } = samples;

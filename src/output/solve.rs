@@ -16,9 +16,7 @@ use crate::number::{DOUBLE_DIGITS, Scalar};
 use crate::quantity::Quantity::{self, *};
 use crate::quantity::{Measure, Row, Undefined, Units, rows};
 
-/// What is listed of an event.
 pub(crate) const EVENT: [Quantity; 4] = [EventTime, EventVelocity, EventCentre, EventCentreVelocity];
-/// What is listed of a contact.
 pub(crate) const CONTACT: [Quantity; 13] = [
     Impact,
     Release,
@@ -103,7 +101,6 @@ pub(crate) enum Part {
 const STRAIGHT: f64 = 1e-6;
 
 impl Record {
-    /// Adds derivatives by one value of the scene.
     pub(crate) fn add(&mut self, derived: Derived) {
         add_columns(&mut self.events, &EVENT, (derived.by, &derived.events), csv_name);
         add_columns(&mut self.contacts, &CONTACT, (derived.by, &derived.contacts), csv_name);
@@ -111,7 +108,6 @@ impl Record {
     }
 }
 
-/// The name of a quantity in CSV.
 fn csv_name(quantity: Quantity) -> String {
     column(quantity).name.map_or_else(|| quantity.key().to_string(), Into::into)
 }
@@ -134,7 +130,6 @@ fn pieces<S: Scalar>(history: &dyn Motion<S>, pieces: &[StressPiece<S>], head: &
 /// The stress at the ground, as it is printed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Form {
-    /// In straight pieces.
     Straight,
     /// With the coefficients of its Chebyshev series.
     Series,
@@ -283,7 +278,6 @@ pub(crate) fn history_part(record: Record, part: Part, coefficients: bool, head:
     data
 }
 
-/// What the symbols of the tables mean.
 pub(crate) const LEGEND: &str = "\
 time           t, from the first touch or, where there is a gap, from before it
 v_t(0,t)       velocity of the end, just before an impact, just after a release

@@ -94,7 +94,6 @@ pub(crate) fn published_page(published: &[Published]) -> String {
     out
 }
 
-/// The same as JSON.
 pub(crate) fn published_json(published: &[Published]) -> Value {
     let scene = |published: &Published| {
         let values = targets_data(std::slice::from_ref(published), false).objects();

@@ -9,7 +9,6 @@ use super::npz::Npz;
 use crate::mapped::{CollectVec, mapped};
 use crate::number::DOUBLE_DIGITS;
 
-/// What is written.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Format {
     Table,
@@ -40,7 +39,6 @@ impl Dataset {
         header.chain([(self.list.to_string(), self.objects().into())]).collect()
     }
 
-    /// The rows as objects.
     pub(super) fn objects(&self) -> Vec<Value> {
         mapped(&self.rows, |row| object(self, row))
     }

@@ -24,7 +24,6 @@ pub(crate) struct Break {
     pub(crate) share: f64,
 }
 
-/// A field over the span.
 #[derive(Clone, Debug)]
 pub(crate) struct Cells {
     pub(crate) breaks: Vec<Break>,

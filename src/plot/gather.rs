@@ -14,7 +14,6 @@ use crate::quantity::{Quantity, Units};
 use crate::reason::Warning;
 use crate::solve::{History, Target};
 
-/// What is asked of every scene.
 #[derive(Clone, Debug)]
 pub(crate) struct Asked {
     pub(crate) pictures: Vec<Picture>,
@@ -29,13 +28,11 @@ pub(crate) struct Asked {
 /// Times and values.
 pub(crate) type Line = Vec<(f64, f64)>;
 
-/// A scene, ready to be drawn.
 #[derive(Clone, Debug)]
 pub(crate) struct Gathered {
     pub(crate) name: String,
     pub(crate) units: Units,
     pub(crate) rod: Parameters<f64>,
-    /// The span that is drawn.
     pub(crate) span: [f64; 2],
     /// Where the history ends, or what is known of it.
     pub(crate) end: f64,
@@ -54,7 +51,6 @@ pub(crate) struct Gathered {
     pub(crate) world: Vec<(f64, Line)>,
 }
 
-/// A rod, and the span that is drawn of its motion.
 struct Drawn {
     rod: Parameters<f64>,
     span: [f64; 2],
@@ -73,7 +69,6 @@ const DENSE: usize = 8000;
 pub(super) const UNSEEN: f64 = 1e-6;
 /// How far a straight piece of the stress may be off, as a share of the greatest.
 const STRAIGHT: f64 = 1e-3;
-/// Contacts whose restitution is drawn.
 const MOST_CONTACTS: usize = 400;
 /// Points of the rod whose world lines are drawn.
 const WORLD: usize = 5;
@@ -93,14 +88,12 @@ impl Gathered {
         })
     }
 
-    /// How many columns of its grid the field has in a round trip, where they are too few to show its waves.
     pub(crate) fn coarse(&self) -> Option<f64> {
         self.cells.as_ref()?.coarse()
     }
 }
 
 impl Asked {
-    /// Whether a picture is among those asked for.
     fn wants(&self, picture: Picture) -> bool {
         self.pictures.contains(&picture)
     }

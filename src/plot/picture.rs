@@ -2,7 +2,6 @@
 
 use crate::quantity::{Measure, Needs, Quantity, Units};
 
-/// A picture of a scene.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Picture {
     /// The rod over time: rays, field, contacts.
@@ -52,7 +51,6 @@ impl Picture {
         ("restitution", Picture::Restitution),
     ];
 
-    /// The picture of this name.
     pub(crate) fn named(name: &str) -> Option<Picture> {
         let own = Picture::NAMES.iter().find(|known| known.0 == name).map(|known| known.1);
         let column = || Needs::Time.named(name).filter(|column| !matches!(column, Quantity::Time | Quantity::Side));

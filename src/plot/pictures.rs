@@ -34,7 +34,6 @@ const WIDTH: f64 = 0.4;
 const DASHES: [&str; 3] = ["", "2 0.9", "0.5 0.7"];
 /// Bars of so many scenes have their values above them.
 const MOST_TOLD: usize = 3;
-/// More jumps than this are not drawn.
 const MOST_JUMPS: usize = 2000;
 
 /// The pictures asked for, of all scenes.
@@ -104,7 +103,6 @@ fn contacts(panel: &mut Panel, scene: &Gathered, high: f64) {
     }
 }
 
-/// Adds a line at a height.
 fn level(panel: &mut Panel, y: f64) {
     let line = [panel.x.from, panel.x.to].map_each(|x| DVec2::new(x, y)).to_vec();
     panel.add("zero", Shape::Lines(vec![line], Stroke::new("#808080", 0.15)));
@@ -320,7 +318,6 @@ fn energy(scene: &Gathered, scenes: &[Gathered]) -> Panel {
     panel
 }
 
-/// The rod over time.
 fn along(asked: &Asked, scene: &Gathered, scenes: &[Gathered]) -> Panel {
     let x = time_axis(scenes);
     if asked.deformed {

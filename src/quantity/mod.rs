@@ -1,15 +1,5 @@
 //! What follows from a history: the table of quantities, and how each is asked; slices along the rod, units. Nothing
 //! here looks back at the scene.
-//!
-//! | file | |
-//! |---|---|
-//! | `table` | all that is known of each quantity |
-//! | `unit` | units, and the factors that belong to them |
-//! | `convert` | units by their names, and what brings one to another |
-//! | `column`, `slice` | quantities over time, and along the rod |
-//! | `listing` | quantities of all contacts, events, flights and pieces |
-//! | `one` | one number of a run |
-//! | `restitution` | coefficients of a contact, and how high a flight goes |
 
 mod column;
 #[cfg(feature = "compare")]

@@ -43,13 +43,11 @@ pub(super) fn holds(value: &Value, truth: &Value, place: f64) -> bool {
     *value.lo() <= truth.clone() + &slack && *value.hi() >= truth - slack
 }
 
-/// A formula in so many digits.
 pub(super) fn formula(digits: u32, formula: Formula) -> Value {
     let bits = bits_for_digits(digits) + SPARE_BITS;
     unbounded(formula(&|p, q| Float::with_val(bits, Rational::from((p, q))))).into()
 }
 
-/// The closed form of the first contact in so many digits.
 pub(super) fn closed_form(question: &Question, digits: u32) -> Result<Value, NoAnswer> {
     let bits = bits_for_digits(digits) + SPARE_BITS;
     let rod = Parameters::<Estimate<Float>>::of(&question.problem, &bits)?;

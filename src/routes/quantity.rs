@@ -14,7 +14,6 @@ use crate::solve::{History, Plan, Solution, Target};
 /// What is made of an answer: claims of the paper that are no quantities of a motion.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Claimed {
-    /// The answer itself.
     Itself,
     /// The jump of it, the later limit minus the earlier.
     Jump,
@@ -83,7 +82,6 @@ impl Question {
         self.claim(rod, find, bounce).map(Into::into)
     }
 
-    /// The answer of an engine.
     pub(crate) fn ask_engine<S: System>(&self, motion: &dyn Motion<S>) -> Result<Value, NoAnswer> {
         self.find_in(motion)?.map(Into::into)
     }
@@ -94,7 +92,6 @@ impl Question {
         plan.ask::<f64, _>(&self.problem, query, |found| found.iter().collect_vec())?.map(Into::into)
     }
 
-    /// The answer of a solution, settled to its digits.
     pub(crate) fn ask_solution(&self, solution: &Solution) -> Result<Value, NoAnswer> {
         match solution {
             Solution::Double(history) => self.ask_history(history),

@@ -16,7 +16,6 @@ use crate::quantity::{One, Quantity};
 pub(crate) use crate::solve::Numbers;
 use crate::solve::{self, Plan, Solution};
 
-/// A route at a setting.
 #[derive(Clone, Copy, Debug)]
 pub(crate) enum Route {
     /// A formula in plain doubles, as it stands in print or as a reader would program it.
@@ -84,7 +83,6 @@ pub(crate) fn plan(question: &Question, numbers: Numbers) -> Result<Plan, NoAnsw
     Ok(Plan::of(&question.problem, &solve::Question::of(*quantity, time.as_ref(), numbers))?)
 }
 
-/// The answer to `question` as its plan finds it.
 fn planned(question: &Question, numbers: Numbers) -> Result<Value, NoAnswer> {
     let plan = plan(question, numbers)?;
     match numbers {

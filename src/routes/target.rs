@@ -11,10 +11,8 @@ use crate::solve::{Numbers, Plan, Question, Solution, unobserved};
 
 type Double = Estimate<f64>;
 
-/// A scene with its published values and ours.
 #[derive(Clone, Debug)]
 pub(crate) struct Published {
-    /// What it is called.
     pub(crate) scene: String,
     pub(crate) title: Option<String>,
     pub(crate) units: Units,
@@ -51,7 +49,6 @@ impl Published {
     }
 }
 
-/// A published value and ours.
 #[derive(Clone, Debug)]
 pub(crate) struct Reached {
     pub(crate) target: Target,

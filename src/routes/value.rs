@@ -3,16 +3,11 @@
 use crate::error::Error;
 use crate::number::{Analytic, Bounded, Estimate, Float, Interval, Rational, Scalar, show};
 
-/// A number in any number system.
 #[derive(Clone, Debug)]
 pub(crate) enum Value {
-    /// In double precision.
     Double(Estimate<f64>),
-    /// In more bits.
     Float(Estimate<Float>),
-    /// Without any error.
     Fraction(Rational),
-    /// Between two bounds.
     Enclosure(Box<Interval>),
 }
 
@@ -96,13 +91,10 @@ systems! {
 /// Why there is no answer, or nothing can be asked.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub(crate) enum NoAnswer {
-    /// The solver refuses.
     #[error(transparent)]
     Solve(#[from] Error),
-    /// The rod has no such quantity.
     #[error("found {quantity} asked of a scene that has none: {why}; expected another quantity")]
     NoSuchQuantity { quantity: &'static str, why: String },
-    /// This route has no answer, or nothing can be asked.
     #[error("{0}")]
     GaveUp(String),
 }
@@ -113,7 +105,6 @@ impl NoAnswer {
         NoAnswer::NoSuchQuantity { quantity: "", why: why.into() }
     }
 
-    /// This route has no answer.
     pub(crate) fn gave_up(why: impl std::fmt::Display) -> Self {
         NoAnswer::GaveUp(why.to_string())
     }

@@ -4,10 +4,8 @@ use crate::mapped::{CollectVec, mapped, try_mapped};
 use crate::number::{List, Number};
 use crate::problem::{Builder, Problem, ProblemError, Written};
 
-/// The most points of a sweep.
 const MOST_POINTS: usize = 10_000_000;
 
-/// What is wrong with a sweep: what was found, and what was expected.
 #[derive(Debug, thiserror::Error)]
 #[error("{0}")]
 pub(crate) struct SweepError(String);
@@ -83,7 +81,6 @@ impl Grid {
         Ok(Grid { problem, axes })
     }
 
-    /// How many points there are.
     pub(crate) fn len(&self) -> usize {
         self.axes.iter().map(|axis| axis.values.len()).product()
     }
@@ -100,7 +97,6 @@ impl Grid {
         values
     }
 
-    /// The problem of a point.
     pub(crate) fn problem(&self, index: usize) -> Result<Problem, ProblemError> {
         let values = self.axes.iter().zip(self.values(index));
         values.fold(self.problem.to_builder(), |builder, (axis, value)| builder.at(axis.path, value)).build()

@@ -13,7 +13,6 @@ use serde_json::Value;
 
 use super::run::Point;
 
-/// The journal of a sweep that writes to a file.
 #[derive(Debug)]
 pub(crate) struct Journal {
     path: PathBuf,
@@ -55,7 +54,6 @@ impl Journal {
         Ok((Journal { path, file: Mutex::new(file) }, points))
     }
 
-    /// Adds a finished point.
     pub(crate) fn add(&self, point: &Point) -> Result<(), Error> {
         let line = serde_json::to_string(point)? + "\n";
         self.file.lock().unwrap_or_else(PoisonError::into_inner).write_all(line.as_bytes())

@@ -1,12 +1,4 @@
 //! Sweeps: one scene with some of its values varied, and a few numbers of each point.
-//!
-//! | file | |
-//! |---|---|
-//! | `contour` | closed lines about what is up to a level |
-//! | `grid` | which values are varied, and the problem of each point |
-//! | `journal` | finished points on disk, so that an interrupted sweep goes on |
-//! | `run` | what is asked of the points, and their answers, on all threads |
-//! | `regimes` | how the first contact ends, over all dampings and speeds |
 
 mod contour;
 mod grid;

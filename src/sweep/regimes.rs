@@ -16,12 +16,10 @@ use crate::solve::{Engine, Numbers, Plan, Question, Rung};
 use crate::special::{i0_scaled, i1_scaled};
 use crate::threads::Threads;
 
-/// How a first contact ends.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum Regime {
     /// With a bounce at so many round trips, `t_b/t₁`.
     Bounce(f64),
-    /// It does not end.
     Never,
     /// Neither is shown.
     Undecided,

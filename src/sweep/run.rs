@@ -15,14 +15,12 @@ use crate::quantity::{Needs, One, Quantity, UnitSystem, Units};
 use crate::solve::{ExactnessEnd, History, Numbers, Plan, Question, Solution, Target, Visitor, unobserved};
 use crate::threads::Threads;
 
-/// The numbers that are asked of every point.
 #[derive(Clone, Debug)]
 pub(crate) struct Asked {
     pub(crate) quantities: Vec<Quantity>,
     /// For quantities at a time; at the first bounce without it.
     pub(crate) time: Option<Number>,
     pub(crate) numbers: Numbers,
-    /// The units of the numbers.
     pub(crate) units: UnitSystem,
 }
 
@@ -38,7 +36,6 @@ pub(crate) struct Point {
 pub struct Cell {
     /// As JSON has it: a number for a double, otherwise a text, or an enclosure; null where there is none.
     pub(crate) value: Value,
-    /// How far it may be off.
     pub(crate) uncertainty: Value,
     /// Why there is no value, or what a user should know of it: where exactness ends, and warnings of the history.
     #[serde(skip_serializing_if = "Option::is_none", default)]
@@ -106,7 +103,6 @@ impl Asked {
     }
 }
 
-/// One number of a point, as a cell.
 struct Found<'a> {
     one: &'a One,
     units: &'a Units,
@@ -175,7 +171,6 @@ pub fn sweep(
     })
 }
 
-/// A sweep: what is varied, and what is asked.
 #[derive(Debug)]
 pub(crate) struct Sweep {
     pub(crate) grid: Grid,

@@ -2,7 +2,6 @@
 
 use crate::number::short;
 
-/// Data that cannot be used: what was found, where, and what was expected.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[error("{file}{}: {kind}", place.as_ref().map_or_else(String::new, |place| format!(", {place}")))]
 pub struct DataError {
@@ -11,7 +10,6 @@ pub struct DataError {
     kind: DataErrorKind,
 }
 
-/// What is wrong.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum DataErrorKind {
     #[error("cannot be read: {0}")]
@@ -49,13 +47,11 @@ pub enum DataErrorKind {
 }
 
 impl DataErrorKind {
-    /// A field that is no number.
     pub(crate) fn not_a_number(field: &str) -> Self {
         let kind = if field.contains(',') { DataErrorKind::DecimalComma } else { DataErrorKind::NotANumber };
         kind(short(field))
     }
 
-    /// The error at a place of a file.
     pub(crate) fn at(self, file: &str, place: Option<String>) -> DataError {
         DataError { file: file.into(), place, kind: self }
     }

@@ -12,11 +12,8 @@ type Line = Result<(usize, String), DataError>;
 pub(super) struct Text {
     lines: Box<dyn Iterator<Item = Line> + Send>,
     separator: Option<char>,
-    /// The names of the columns; empty where there are none.
     pub(super) names: Vec<String>,
-    /// How many names a header has, where they are not as many as the columns.
     pub(super) misnamed: Option<usize>,
-    /// Whether a first line `rows columns` was skipped.
     pub(super) sized: bool,
     pub(super) width: usize,
 }
@@ -40,7 +37,6 @@ fn trimmed(line: &str) -> &str {
     line.trim_start_matches('\u{feff}').trim()
 }
 
-/// What a comment begins with.
 const COMMENTS: [char; 3] = ['#', '%', '!'];
 
 /// The fields of a row; a separator at its end begins no other field.

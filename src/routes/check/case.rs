@@ -18,18 +18,12 @@ use crate::scene::Scene;
 
 pub(super) type Text = &'static str;
 
-/// The rod of a question.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Rod {
-    /// `L`.
     pub(super) length: Text,
-    /// `c`.
     pub(super) wave_speed: Text,
-    /// `r`.
     pub(super) damping: Text,
-    /// `g`.
     pub(super) gravity: Text,
-    /// `μ`.
     pub(super) speed: Text,
     /// Followed to this time; empty: through the first contact and the flight after it.
     pub(super) until: Text,
@@ -43,17 +37,14 @@ pub(super) const fn unit(damping: Text, speed: Text) -> Rod {
 }
 
 impl Rod {
-    /// The same rod without gravity.
     pub(super) const fn weightless(self) -> Rod {
         Rod { gravity: "0", ..self }
     }
 
-    /// The same rod followed to a time.
     pub(super) const fn until(self, until: Text) -> Rod {
         Rod { until, ..self }
     }
 
-    /// The rod of a scene.
     pub(super) const fn of(scene: Text) -> Rod {
         Rod { scene, ..unit("0", "1") }
     }
@@ -73,7 +64,6 @@ impl Rod {
     }
 }
 
-/// A route and what it promises.
 pub(super) type Promised = (Route, Promise);
 
 const MOST_FORMULAS: usize = 4;
@@ -118,12 +108,10 @@ impl Entry {
         Entry { place: ("", time), side: Side::Left, ..self }
     }
 
-    /// At this point and time.
     pub(super) const fn at_point(self, point: Text, time: Text) -> Entry {
         Entry { place: (point, time), ..self }
     }
 
-    /// What is made of the answer.
     pub(super) const fn claims(self, claimed: Claimed) -> Entry {
         Entry { claimed, ..self }
     }
@@ -220,7 +208,6 @@ pub(super) const NEVER: &[Promised] = &[
     (CERTIFIED, Promise::Digits(0)),
 ];
 
-/// The closed form in so many digits.
 pub(super) const fn closed(digits: u32) -> Route {
     Route::ClosedForm(Numbers::Digits(digits))
 }
@@ -235,13 +222,11 @@ pub(super) fn printed(damping: f64, speed: f64) -> Printed {
     Printed::new(&Parameters { length: 1.0, wave_speed: 1.0, damping, gravity: 1.0, speed }, 1e-13)
 }
 
-/// What belongs together in the catalogue.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Group {
     /// The name on the command line.
     pub(crate) name: Text,
     pub(crate) title: Text,
-    /// What the cases show.
     pub(crate) lesson: Text,
     pub(crate) cases: &'static [Case],
 }
@@ -265,7 +250,6 @@ pub(crate) struct Case {
     pub(super) entries: Entries,
 }
 
-/// A claim of the paper.
 pub(super) const fn claim(name: Text, verdict: Verdict, source: Text, about: Text, entries: &'static [Entry]) -> Case {
     Case { name, source, about, verdict, entries }
 }
@@ -279,17 +263,14 @@ impl Case {
     }
 }
 
-/// The answers to a question.
 #[derive(Clone, Debug)]
 pub(crate) struct CheckedQuestion {
-    /// In words.
     pub(crate) what: Text,
     /// As the catalogue spells it.
     pub(crate) truth: Text,
     pub(crate) rows: Vec<Row>,
 }
 
-/// A case that was run.
 #[derive(Clone, Debug)]
 pub(crate) struct Checked {
     pub(crate) case: &'static Case,

@@ -1,13 +1,5 @@
 //! The catalogue of hard cases and of the paper's claims: each asked of every route that can answer, held against the
 //! truth.
-//!
-//! | module | |
-//! |---|---|
-//! | `hard` | where double precision breaks |
-//! | `section_2`, `section_3`, `section_4` | the paper, section by section |
-//! | `case` | what a case of the catalogue is, and how it is run |
-//! | `catalogue` | all of them, by group |
-//! | `verdict` | promises, and whether they are kept |
 
 mod case;
 mod catalogue;

@@ -6,7 +6,6 @@ use crate::routes::value::{NoAnswer, Value};
 /// The one truth that is no number.
 pub(super) const NO_BOUNCE: &str = "no bounce";
 
-/// What a route promises of its answer.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum Promise {
     /// So many right digits.
@@ -42,13 +41,11 @@ named! {
     /// What came of a promise.
     #[derive(Clone, Copy, Debug, PartialEq, Eq)]
     pub(crate) enum Outcome {
-        /// It is kept.
         Kept = "kept",
         /// Nothing was promised, and digits are lost as foreseen.
         Breaks = "breaks",
         /// The route leaves the answer undecided, which it may.
         Undecided = "says so",
-        /// It is not kept.
         Failed = "FAILED",
     }
 }
@@ -72,10 +69,8 @@ named! {
     }
 }
 
-/// One route's answer to one question.
 #[derive(Clone, Debug)]
 pub(crate) struct Row {
-    /// The route, in words.
     pub(crate) route: String,
     pub(crate) found: Result<Value, NoAnswer>,
     pub(crate) promise: Promise,

@@ -5,14 +5,12 @@ use std::time::{Duration, Instant};
 
 use crate::routes::value::NoAnswer;
 
-/// How long something took, from repeated runs.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Timing {
     /// The median, seconds.
     pub(crate) seconds: f64,
     /// The distance of the quartiles, seconds; `None` where it ran once.
     pub(crate) spread: Option<f64>,
-    /// How many samples were taken.
     pub(crate) runs: usize,
 }
 

@@ -11,12 +11,10 @@ use crate::routes::value::NoAnswer;
 use crate::scene::{Effect, Scene};
 use crate::solve::Numbers;
 
-/// What one effect costs.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Difference {
     /// The effect; `None` for the plan itself, which decides what to leave out.
     pub(crate) effect: Option<Effect>,
-    /// Whether the scene calls for it.
     pub(crate) called: bool,
     /// The scene as it is planned.
     pub(crate) with: Timing,
@@ -80,7 +78,6 @@ pub(crate) fn effects(
     Ok(rows)
 }
 
-/// The scene's problem without one effect.
 fn switched_off(scene: &Scene, effect: Effect) -> Result<Problem, NoAnswer> {
     let mut problem = scene.problem.clone();
     match effect {
@@ -105,7 +102,6 @@ fn switched_off(scene: &Scene, effect: Effect) -> Result<Problem, NoAnswer> {
     Ok(problem)
 }
 
-/// A speed as a number.
 fn spelt(speed: f64) -> Result<Number, NoAnswer> {
     format!("{speed:e}").parse().map_err(|_| NoAnswer::GaveUp(format!("an impact speed of {speed}")))
 }

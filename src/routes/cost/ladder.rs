@@ -11,7 +11,6 @@ named! {
     /// Routes that share a name in a table and a colour in a picture, in the order in which they are shown.
     #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
     pub(crate) enum Family {
-        /// The closed form of the first contact.
         ClosedForm = "closed form",
         /// The lattice: undamped, from event to event.
         Lattice = "lattice",
@@ -19,7 +18,6 @@ named! {
         ContactThenCells = "closed form, then cells",
         /// Characteristic cells from the start.
         Cells = "cells",
-        /// The modal sum.
         Modes = "modal sum",
         /// The paper's integrals by adaptive quadrature.
         Printed = "printed integrals",
@@ -30,7 +28,6 @@ named! {
     }
 }
 
-/// One route at one setting.
 pub(super) struct Candidate {
     pub(super) family: Family,
     pub(super) route: Route,
@@ -46,7 +43,6 @@ pub(super) struct Candidate {
 /// Settings of one route, the cheapest first.
 pub(super) type Ladder = Vec<Candidate>;
 
-/// Digits that a double holds.
 const DOUBLE: u32 = 17;
 const LONG: [u32; 4] = [50, 100, 300, 1000];
 

@@ -1,12 +1,5 @@
 //! What accuracy costs in time: one quantity of one scene by every route that can give it, measured on the spot, with
 //! the true error of each; and what each effect of a scene costs.
-//!
-//! | module | |
-//! |---|---|
-//! | `ladder` | every route at every setting, the cheapest first |
-//! | `work` | which of them fit into the time, and the table of what they cost |
-//! | `clock` | medians and spreads |
-//! | `effects` | the same scene with each effect switched off |
 
 mod clock;
 mod effects;

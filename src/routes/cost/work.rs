@@ -24,7 +24,6 @@ pub(crate) struct Row {
     /// `log₁₀` of the error relative to the truth, −∞ where there is none. Relative to 1 where the truth is zero.
     pub(crate) log10_error: f64,
     pub(crate) timing: Timing,
-    /// Whether this is what the plan does.
     pub(crate) chosen: bool,
 }
 
@@ -44,19 +43,15 @@ pub(crate) struct LeftOut {
     pub(crate) why: String,
 }
 
-/// Work and precision of one quantity.
 #[derive(Clone, Debug)]
 pub(crate) struct Table {
     pub(crate) quantity: Quantity,
     /// Its unit; empty where there is none or none is known.
     pub(crate) unit: &'static str,
-    /// When, for a quantity at a time.
     pub(crate) time: Option<Number>,
-    /// What errors are measured against.
     pub(crate) truth: Truth,
     /// By route, and each route's settings in order.
     pub(crate) rows: Vec<Row>,
-    /// What is not there, and why.
     pub(crate) left_out: Vec<LeftOut>,
 }
 
