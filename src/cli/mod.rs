@@ -1,4 +1,4 @@
-//! The command: one file per subcommand; `args`, `answer`, `source`, `file`, `times` and `failure` are what they share.
+//! The command: one file per subcommand; `args`, `answer`, `source`, `file` and `failure` are what they share.
 
 #[macro_use]
 mod failure;
@@ -19,7 +19,6 @@ mod scenes;
 mod solve;
 mod source;
 mod sweep;
-mod times;
 
 use std::ffi::OsString;
 use std::process::ExitCode;

@@ -1,15 +1,17 @@
 //! `dalembert reference`.
 
-use std::path::PathBuf;
+use std::fs::File;
+use std::io::{BufRead, BufReader, Read};
+use std::ops::Range;
+use std::path::{Path, PathBuf};
 
 use clap::Args;
 
 use super::answer::{Visit, noted_end, solve, warned};
 use super::args::NumberArgs;
-use super::failure::{self, Failure};
+use super::failure::{Failure, cannot};
 use super::file::{self, Format, formats};
 use super::source;
-use super::times::{CHUNK, Chunk, Times};
 use crate::error::Error;
 use crate::mapped::{CollectVec, mapped};
 use crate::motion::{Motion, Side};
@@ -104,13 +106,17 @@ impl Reference {
         if let Some(twice) = (1..columns.len()).find(|k| columns[..*k].contains(&columns[*k])) {
             return Err(failure!("found the column {} twice, expected each once", columns[twice].name()));
         }
-        let question = match times.ends()? {
+        let question = match times.as_ref().map(|list| (list.least(), list.greatest())) {
             None => Question::run(numbers),
+            Some((Some(first), _)) if first.to_f64() < 0.0 => {
+                return Err(failure!("found time {first}, expected times from 0 on"));
+            }
             // What has happened before the first time is part of these.
-            Some([_, last]) if columns.iter().any(|column| column.is_of_past()) => {
+            Some((Some(_), Some(last))) if columns.iter().any(|column| column.is_of_past()) => {
                 Question::between(0.into(), last, numbers)
             }
-            Some([first, last]) => Question::between(first, last, numbers),
+            Some((Some(first), Some(last))) => Question::between(first, last, numbers),
+            Some(_) => return Err(failure!("found no times, expected at least one")),
         };
         solve(&scene, &question, &Series { asked: self, scene: &scene, format, times, columns })
     }
@@ -128,22 +134,56 @@ impl Reference {
         Preamble { head, scene: scene.source(), numbers, each, until, bare: self.bare, ends }
     }
 
-    fn times(&self) -> Result<Times, Failure> {
-        Ok(match (&self.times, &self.times_from, &self.dt, &self.to) {
-            (Some(list), ..) => Times::List(list.clone()),
-            (_, Some(path), ..) => Times::open(path)?,
-            (_, _, Some(dt), Some(to)) => Times::List(List::steps(dt, to).map_err(|error| failure!("{error}"))?),
-            _ => Times::Events,
-        })
+    /// The times that are asked for; `None` for the start, every impact and release, and the end.
+    fn times(&self) -> Result<Option<List>, Failure> {
+        match (&self.times, &self.times_from, &self.dt, &self.to) {
+            (Some(list), ..) => Ok(Some(list.clone())),
+            (_, Some(path), ..) => times_of(path).map(Some),
+            (_, _, Some(dt), Some(to)) => List::steps(dt, to).map(Some).map_err(|error| failure!("{error}")),
+            _ => Ok(None),
+        }
     }
 }
+
+/// The times of a file, or of standard input for `-`: one a line; empty lines and what follows a `#` do not count.
+fn times_of(path: &Path) -> Result<List, Failure> {
+    let stdin = path == Path::new("-");
+    let name = if stdin { "standard input".to_string() } else { path.display().to_string() };
+    let read = || cannot(&format!("read {name}"));
+    let opened: Box<dyn Read> =
+        if stdin { Box::new(std::io::stdin()) } else { Box::new(File::open(path).map_err(read())?) };
+    let mut times = Vec::new();
+    for (line, row) in BufReader::new(opened).lines().zip(1..) {
+        let line = line.map_err(read())?;
+        let text = line.split('#').next().unwrap_or_default().trim_start_matches('\u{feff}').trim();
+        let values = text.split(|c: char| c == ',' || c == ';' || c.is_whitespace()).filter(|part| !part.is_empty());
+        match values.count() {
+            0 if text.is_empty() => continue,
+            1 => (),
+            count => return Err(failure!("{name}, row {row}: found {count} values, expected one time a line")),
+        }
+        let time: Number = text.parse().map_err(|error| failure!("{name}, row {row}: {error}"))?;
+        if time.to_f64() < 0.0 {
+            return Err(failure!("{name}, row {row}: found time {time}, expected times from 0 on"));
+        }
+        times.push(time);
+    }
+    if times.is_empty() {
+        Err(failure!("{name}: found no times, expected one a line"))
+    } else {
+        Ok(List::Numbers(times))
+    }
+}
+
+/// Rows that are asked about at once.
+const CHUNK: usize = 1 << 14;
 
 /// Columns over time.
 struct Series<'a> {
     asked: &'a Reference,
     scene: &'a Scene,
     format: Format,
-    times: Times,
+    times: Option<List>,
     columns: Vec<Quantity>,
 }
 
@@ -160,9 +200,10 @@ fn event_times<S: Scalar>(motion: &dyn Motion<S>) -> Result<Vec<S>, Error> {
 }
 
 impl Series<'_> {
-    fn ask<S: Target>(&self, history: &History<S>, chunk: Option<&Chunk<'_>>) -> Result<Vec<Vec<S::Carried>>, Error> {
-        let times = |motion: &dyn Motion<S::Carried>| match chunk {
-            Some((list, part)) => Ok(list.lift_part(part.clone(), &motion.end().precision())),
+    /// The rows of a part of the times.
+    fn ask<S: Target>(&self, history: &History<S>, part: &Range<usize>) -> Result<Vec<Vec<S::Carried>>, Error> {
+        let times = |motion: &dyn Motion<S::Carried>| match &self.times {
+            Some(list) => Ok(list.lift_part(part.clone(), &motion.end().precision())),
             None => event_times(motion),
         };
         match &self.asked.points {
@@ -182,20 +223,20 @@ impl Visit for Series<'_> {
             None => &self.columns,
         };
         let described = mapped(described, |column| (*column, column.unit(&head.units)));
-        let keep = || failure::cannot("keep the rows");
+        let keep = || cannot("keep the rows");
         let mut rows = Rows::new(self.format, described, head.digits).map_err(keep())?;
         let at_once = CHUNK / self.asked.points.as_ref().map_or(1, List::len).min(CHUNK);
         let (mut table, mut written) = (Vec::new(), Ok(()));
-        self.times.chunks(at_once, &mut |chunk| {
-            let mut next = Ok(Vec::new());
-            beside(&mut || written = rows.push(&table), &mut || next = self.ask(history, chunk.as_ref()));
+        let count = self.times.as_ref().map_or(1, List::len);
+        for from in (0..count).step_by(at_once) {
+            let (part, mut next) = (from..(from + at_once).min(count), Ok(Vec::new()));
+            beside(&mut || written = rows.push(&table), &mut || next = self.ask(history, &part));
             table = next?;
-            std::mem::replace(&mut written, Ok(())).map_err(keep())
-        })?;
+            std::mem::replace(&mut written, Ok(())).map_err(keep())?;
+        }
         rows.push(&table).map_err(keep())?;
         drop(progress);
-        let ends = matches!(self.times, Times::Events);
-        let preamble = self.asked.preamble(history, head, (self.scene, "each column", ends));
+        let preamble = self.asked.preamble(history, head, (self.scene, "each column", self.times.is_none()));
         let path = self.asked.output.as_deref();
         rows.finish(&preamble, path).map_err(file::unwritten(path))
     }

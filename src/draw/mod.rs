@@ -14,7 +14,7 @@ mod svg;
 pub(crate) use axis::Axis;
 pub(crate) use axis::power_of_ten;
 pub(crate) use color::{AREAS, LINES, diverging};
-pub(crate) use panel::{Key, Layer, Mark, Panel, Piece, Shape, thinned};
+pub(crate) use panel::{Key, Mark, Panel, Piece, Shape, thinned};
 #[cfg(feature = "plot")]
 pub(crate) use render::Rendered;
 pub use sheet::Canvas;

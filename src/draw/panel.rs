@@ -27,7 +27,7 @@ pub(crate) struct Layer {
     pub(crate) class: &'static str,
     pub(crate) shape: Shape,
     /// Whether it may reach over the frame.
-    pub(crate) over: bool,
+    over: bool,
 }
 
 #[derive(Clone, Debug)]
@@ -79,12 +79,6 @@ pub(crate) enum Key {
     Colors(String, [String; 3]),
 }
 
-impl Layer {
-    pub(crate) fn new(class: &'static str, shape: Shape) -> Self {
-        Layer { class, shape, over: false }
-    }
-}
-
 impl Key {
     pub(crate) fn text(&self) -> &str {
         let (Key::Line(text, _) | Key::Area(text, _) | Key::Mark(text, ..) | Key::Colors(text, _)) = self;
@@ -133,7 +127,22 @@ impl Panel {
 
     /// Puts a layer over all others.
     pub(crate) fn add(&mut self, class: &'static str, shape: Shape) {
-        self.layers.push(Layer::new(class, shape));
+        self.layers.push(Layer { class, shape, over: false });
+    }
+
+    /// Puts a layer over all others that may reach over the frame.
+    pub(crate) fn add_over(&mut self, class: &'static str, shape: Shape) {
+        self.layers.push(Layer { class, shape, over: true });
+    }
+
+    /// Adds lines of one look.
+    pub(crate) fn lines(&mut self, class: &'static str, lines: Vec<Vec<DVec2>>, stroke: Stroke) {
+        self.add(class, Shape::Lines(lines, stroke));
+    }
+
+    /// Adds a line at a height.
+    pub(crate) fn level(&mut self, class: &'static str, y: f64, stroke: Stroke) {
+        self.lines(class, vec![vec![DVec2::new(self.x.from, y), DVec2::new(self.x.to, y)]], stroke);
     }
 
     /// The rows of the legend in a width of so many letters; in a stack the first one follows the title.

@@ -4,7 +4,7 @@ use glam::DVec2;
 
 use super::dataset::{Column, Dataset};
 use crate::compare::{Compared, ComparedFile};
-use crate::draw::{Axis, Key, Layer, Panel, Shape, Sheet, Size, Stroke, plain, thinned};
+use crate::draw::{Axis, Key, Panel, Sheet, Size, Stroke, plain, thinned};
 use crate::mapped::{CollectVec, MapEach};
 use crate::quantity::{Measure, Units};
 
@@ -16,13 +16,13 @@ pub(crate) fn compare_svg(compared: &ComparedFile, title: Option<&str>, units: &
     let panel = |title: &str, unit: &str, curves: Vec<(Vec<f64>, &str, Stroke)>| {
         let values = curves.iter().flat_map(|curve| &curve.0).copied();
         let y = Axis::new(&plain(title), unit, Axis::range(values, false));
-        let (mut layers, mut legend) = (Vec::new(), Vec::new());
+        let mut panel = Panel::new(plain(title), Axis::new("t", units.name(Measure::Time), span), y);
         for (values, name, stroke) in curves {
             let points = times.iter().zip(values).map(|(time, value)| DVec2::new(*time, value)).collect_vec();
-            layers.push(Layer::new("curve", Shape::Lines(vec![thinned(points)], stroke)));
-            legend.push(Key::Line(plain(name), stroke));
+            panel.lines("curve", vec![thinned(points)], stroke);
+            panel.legend.push(Key::Line(plain(name), stroke));
         }
-        Panel { title: plain(title), x: Axis::new("t", units.name(Measure::Time), span), y, layers, legend }
+        panel
     };
     let panels = compared.agreement.quantities.iter().flat_map(|Compared { what, ours, theirs, .. }| {
         let unit = if what.unit(units) == "1" { "" } else { what.unit(units) };

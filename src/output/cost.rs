@@ -4,8 +4,8 @@ use glam::DVec2;
 use serde_json::json;
 
 use super::dataset::{Column, Dataset};
-use crate::draw::{Axis, Key, Layer, Mark, Panel, Shape, Sheet, Size, Stroke, plain, power_of_ten};
-use crate::mapped::{CollectVec, MapEach, mapped};
+use crate::draw::{Axis, Key, Mark, Panel, Shape, Sheet, Size, Stroke, plain, power_of_ten};
+use crate::mapped::{CollectVec, mapped};
 use crate::number::Number;
 use crate::routes::cost::{Difference, Family, Row, Table};
 
@@ -202,26 +202,24 @@ pub(crate) fn cost_svg(cost: &Table, title: Option<&str>) -> String {
         place if exact && place <= lowest + 0.5 => "no error".into(),
         place => power_of_ten(-digits_at(place, decades) as i32),
     }));
-    let (mut layers, mut legend) = (Vec::new(), Vec::new());
+    let mut panel = Panel::new(format!("{}: error against time", asked(cost)), x, y);
     if long {
-        let ends = [first, last].map_each(|time| DVec2::new(time, place_of(DOUBLES_END, decades))).to_vec();
-        layers.push(Layer::new("doubles-end", Shape::Lines(vec![ends], Stroke::new("#666666", 0.2).dashed("1.5 1"))));
+        panel.level("doubles-end", place_of(DOUBLES_END, decades), Stroke::new("#666666", 0.2).dashed("1.5 1"));
     }
     // The rows come by family, and in it by ladder.
     for rows in cost.rows.chunk_by(|a, b| a.family == b.family) {
         let ladders = rows.chunk_by(|a, b| a.ladder == b.ladder);
         let lines: Vec<Vec<DVec2>> = ladders.map(|rows| mapped(rows, place)).collect_vec();
         let (color, mark) = look(rows[0].family);
-        layers.push(Layer::new("curve", Shape::Lines(lines.clone(), Stroke::new(color, 0.3))));
-        layers.push(Layer::new("marks", Shape::Marks(lines.concat(), mark, color)));
-        legend.push(Key::Mark(rows[0].family.name().into(), mark, color));
+        panel.lines("curve", lines.clone(), Stroke::new(color, 0.3));
+        panel.add("marks", Shape::Marks(lines.concat(), mark, color));
+        panel.legend.push(Key::Mark(rows[0].family.name().into(), mark, color));
     }
     let chosen: Vec<DVec2> = cost.rows.iter().filter(|row| row.chosen).map(place).collect_vec();
     for mark in [Mark::Ring, Mark::Star] {
-        layers.push(Layer::new("chosen", Shape::Marks(chosen.clone(), mark, "#000000")));
+        panel.add("chosen", Shape::Marks(chosen.clone(), mark, "#000000"));
     }
-    legend.push(Key::Mark("the plan's choice".into(), Mark::Star, "#000000"));
-    let panel = Panel { title: format!("{}: error against time", asked(cost)), x, y, layers, legend };
+    panel.legend.push(Key::Mark("the plan's choice".into(), Mark::Star, "#000000"));
     Sheet { title: vec![plain(title.unwrap_or("What accuracy costs"))], panels: vec![panel] }.svg(Size::Page)
 }
 

@@ -4,7 +4,7 @@ use glam::DVec2;
 
 use super::dataset::{Cell, Column, Dataset};
 use super::regimes::{regimes_data, regimes_panel};
-use crate::draw::{Anchor, Axis, Key, LINES, Layer, Mark, Panel, Shape, Sheet, Stroke};
+use crate::draw::{Anchor, Axis, Key, LINES, Mark, Panel, Shape, Sheet, Stroke};
 use crate::figures::{DAMPINGS, Data, Failed, Figure, Of, STRONG, dot, limits};
 use crate::mapped::{CollectVec, MapEach, mapped};
 use crate::number::Analytic;
@@ -111,22 +111,15 @@ fn color(k: usize) -> &'static str {
     [UNDAMPED, LINES[0], LINES[2], LINES[3]][k % 4]
 }
 
-fn lines(class: &'static str, lines: Vec<Vec<DVec2>>, stroke: Stroke) -> Layer {
-    Layer::new(class, Shape::Lines(lines, stroke))
-}
-
-fn level(x: &Axis, y: f64, stroke: Stroke) -> Layer {
-    lines("limit", vec![vec![DVec2::new(x.from, y), DVec2::new(x.to, y)]], stroke)
-}
-
-fn marks(points: Vec<DVec2>, color: &'static str) -> Layer {
-    Layer { over: true, ..Layer::new("marks", Shape::Marks(points, Mark::Dot, color)) }
+fn dots(panel: &mut Panel, points: Vec<DVec2>, color: &'static str) {
+    panel.add_over("marks", Shape::Marks(points, Mark::Dot, color));
 }
 
 fn kernel(rows: &[Row]) -> Panel {
-    let x = Axis::new("t", "", [0.0, 4.0]);
     let y = Axis::new("Ψ_r(t)", "", Axis::range(rows.iter().filter_map(|row| row[3]), true));
-    let (mut layers, mut legend) = (vec![level(&x, 0.0, Stroke::new("#808080", THIN))], Vec::new());
+    let title = "the stress of a rod that is held: g = 0, t₁ = μ = c = 1";
+    let mut panel = Panel::new(title, Axis::new("t", "", [0.0, 4.0]), y);
+    panel.level("limit", 0.0, Stroke::new("#808080", THIN));
     for (k, damping) in STRONG.into_iter().enumerate() {
         let (rows, stroke) = (of(rows, damping).collect_vec(), Stroke::new(LINES[k], LINE));
         // A jump lies between two rows of one time.
@@ -134,73 +127,75 @@ fn kernel(rows: &[Row]) -> Panel {
         let stretches: Vec<Vec<DVec2>> = mapped(rows.chunk_by(|a, b| a[1] != b[1]), points);
         let jumps =
             stretches.windows(2).filter_map(|pair| Some(vec![*pair[0].last()?, *pair[1].first()?])).collect_vec();
-        layers.push(lines("jumps", jumps, Stroke::new(LINES[k], 0.15).dashed("0.5 0.5")));
-        layers.push(lines("curve", stretches, stroke));
-        legend.push(Key::Line(format!("r = {damping}"), stroke));
-        layers.extend(rows.first().and_then(|row| row[4]).map(|time| marks(vec![DVec2::new(time, 0.0)], LINES[k])));
+        panel.lines("jumps", jumps, Stroke::new(LINES[k], 0.15).dashed("0.5 0.5"));
+        panel.lines("curve", stretches, stroke);
+        panel.legend.push(Key::Line(format!("r = {damping}"), stroke));
+        let bounce = rows.first().and_then(|row| row[4]);
+        bounce.into_iter().for_each(|time| dots(&mut panel, vec![DVec2::new(time, 0.0)], LINES[k]));
     }
-    legend.push(Key::Mark("first bounce, t_b".into(), Mark::Dot, BLACK));
-    Panel { title: "the stress of a rod that is held: g = 0, t₁ = μ = c = 1".into(), x, y, layers, legend }
+    panel.legend.push(Key::Mark("first bounce, t_b".into(), Mark::Dot, BLACK));
+    panel
 }
 
 fn energies(rows: &[Row], label: &str, columns: &[(usize, &str)]) -> Panel {
-    let x = Axis::new("μ", "", [0.0, 8.0]);
     let values = columns.iter().flat_map(|(column, _)| rows.iter().filter_map(|row| row[*column]));
-    let y = Axis::new(label, "", Axis::range(values, true));
-    let (mut layers, mut legend) = (Vec::new(), Vec::new());
+    let (x, y) = (Axis::new("μ", "", [0.0, 8.0]), Axis::new(label, "", Axis::range(values, true)));
+    let mut panel = Panel::new("energy at the first bounce: r = 0, c = L = g = 1", x, y);
     for (k, (column, name)) in columns.iter().enumerate() {
         let stroke = Stroke::new(LINES[k], LINE);
-        layers.push(lines("curve", stretches(rows.iter(), 0, *column), stroke));
+        panel.lines("curve", stretches(rows.iter(), 0, *column), stroke);
         let dot = rows.iter().filter(|row| row[0] == Some(2.0)).filter_map(|row| row[*column]);
-        layers.push(marks(dot.map(|value| DVec2::new(2.0, value)).collect_vec(), UNDAMPED));
+        dots(&mut panel, dot.map(|value| DVec2::new(2.0, value)).collect_vec(), UNDAMPED);
         if columns.len() > 1 {
-            legend.push(Key::Line((*name).into(), stroke));
+            panel.legend.push(Key::Line((*name).into(), stroke));
         }
     }
-    legend.push(Key::Mark("μ = μ₀".into(), Mark::Dot, UNDAMPED));
-    Panel { title: "energy at the first bounce: r = 0, c = L = g = 1".into(), x, y, layers, legend }
+    panel.legend.push(Key::Mark("μ = μ₀".into(), Mark::Dot, UNDAMPED));
+    panel
 }
 
 fn restitution(rows: &[Row]) -> Result<Panel, Failed> {
-    let x = Axis::new("μ", "", [0.0, 12.5]);
-    let y = Axis::new("e_E²", "", [0.0, 1.05]);
-    let (mut layers, mut legend, mut dots) = (Vec::new(), Vec::new(), Vec::new());
+    let (x, y) = (Axis::new("μ", "", [0.0, 12.5]), Axis::new("e_E²", "", [0.0, 1.05]));
+    let mut panel = Panel::new("restitution of the first bounce: c = L = g = 1", x, y);
+    let mut begins = Vec::new();
     for (k, damping) in DAMPINGS.into_iter().enumerate() {
         let stroke = Stroke::new(color(k), LINE);
         let limit = limits(damping)?.restitution.value().powi(2);
-        layers.push(level(&x, limit, Stroke { width: THIN, ..stroke.dashed("1.6 0.9") }));
+        panel.level("limit", limit, Stroke { width: THIN, ..stroke.dashed("1.6 0.9") });
         let curve = stretches(of(rows, damping), 1, 3);
         // Where t_b = t₁ begins: between two points of the curve.
         let at = dot(damping);
         let pairs = curve.iter().flat_map(|line| line.windows(2));
         let about = pairs.filter(|pair| (pair[0].x..pair[1].x).contains(&at));
-        dots.extend(about.map(|pair| pair[0].lerp(pair[1], (at - pair[0].x) / (pair[1].x - pair[0].x))));
-        layers.push(lines("curve", curve, stroke));
-        legend.push(Key::Line(format!("r = {damping}"), stroke));
+        begins.extend(about.map(|pair| pair[0].lerp(pair[1], (at - pair[0].x) / (pair[1].x - pair[0].x))));
+        panel.lines("curve", curve, stroke);
+        panel.legend.push(Key::Line(format!("r = {damping}"), stroke));
     }
-    layers.push(marks(dots, BLACK));
-    legend.push(Key::Mark("t_b = t₁ from here on".into(), Mark::Dot, BLACK));
-    legend.push(Key::Line("limit for μ → ∞".into(), Stroke::new(BLACK, THIN).dashed("1.6 0.9")));
-    Ok(Panel { title: "restitution of the first bounce: c = L = g = 1".into(), x, y, layers, legend })
+    dots(&mut panel, begins, BLACK);
+    panel.legend.push(Key::Mark("t_b = t₁ from here on".into(), Mark::Dot, BLACK));
+    panel.legend.push(Key::Line("limit for μ → ∞".into(), Stroke::new(BLACK, THIN).dashed("1.6 0.9")));
+    Ok(panel)
 }
 
 fn shares(rows: &[Row], label: &str) -> Panel {
-    let x = Axis::new("μ", "", [3.2, 12.5]);
     let y = Axis::new(label, "", Axis::range(rows.iter().flat_map(|row| [row[2], row[3], row[4]]).flatten(), false));
-    let (mut layers, mut legend) = (Vec::new(), Vec::new());
+    let title = "energy at the first bounce, t_b = t₁: c = L = g = 1";
+    let mut panel = Panel::new(title, Axis::new("μ", "", [3.2, 12.5]), y);
     let supposed = Stroke::new("#808080", THIN).dashed("0.4 0.6");
     for (k, damping) in DAMPINGS.into_iter().enumerate() {
         let stroke = Stroke::new(color(k), LINE);
         if let Some(row) = of(rows, damping).next() {
-            layers.extend(row[4].map(|value| level(&x, value, supposed)));
-            layers.extend(row[3].map(|value| level(&x, value, Stroke { width: THIN, ..stroke.dashed("1.6 0.9") })));
+            let limit = Stroke { width: THIN, ..stroke.dashed("1.6 0.9") };
+            for (value, stroke) in [(row[4], supposed), (row[3], limit)] {
+                value.into_iter().for_each(|value| panel.level("limit", value, stroke));
+            }
         }
-        layers.push(lines("curve", stretches(of(rows, damping), 1, 2), stroke));
-        legend.push(Key::Line(format!("r = {damping}"), stroke));
+        panel.lines("curve", stretches(of(rows, damping), 1, 2), stroke);
+        panel.legend.push(Key::Line(format!("r = {damping}"), stroke));
     }
-    legend.push(Key::Line("limit for μ → ∞".into(), Stroke::new(BLACK, THIN).dashed("1.6 0.9")));
-    legend.push(Key::Line("as the paper supposes".into(), supposed));
-    Panel { title: "energy at the first bounce, t_b = t₁: c = L = g = 1".into(), x, y, layers, legend }
+    panel.legend.push(Key::Line("limit for μ → ∞".into(), Stroke::new(BLACK, THIN).dashed("1.6 0.9")));
+    panel.legend.push(Key::Line("as the paper supposes".into(), supposed));
+    panel
 }
 
 fn regions(rows: &[Row]) -> Panel {
@@ -209,36 +204,31 @@ fn regions(rows: &[Row]) -> Panel {
     x.ticks = Some(ticks.map_each(|(y, text)| (y, text.into())).into());
     let mut y = Axis::new("time", "", [0.0, 2.2]);
     y.ticks = Some(vec![(0.0, "0".into()), (2.0, "t₁".into())]);
-    let mut layers = Vec::new();
+    let mut panel = Panel::new("regions of integration for the point (x, t₁), x = L/2", x, y);
     for ((region, color), name) in [1.0, 2.0, 3.0].into_iter().zip(REGIONS).zip(["A", "B", "C"]) {
         let rows = rows.iter().filter(|row| row[0] == Some(region));
         let corners: Vec<DVec2> = rows.filter_map(|row| Some(DVec2::new(row[1]?, row[2]?))).collect_vec();
         let middle = corners.iter().sum::<DVec2>() / corners.len().max(1) as f64;
         let edge = corners.iter().chain(corners.first()).copied().collect_vec();
-        layers.push(Layer::new("area", Shape::Areas(vec![corners], color)));
-        layers.push(lines("curve", vec![edge], Stroke::new(BLACK, THIN)));
-        layers.push(Layer::new("note", Shape::Note(middle, Anchor::Middle, name.into())));
+        panel.add("area", Shape::Areas(vec![corners], color));
+        panel.lines("curve", vec![edge], Stroke::new(BLACK, THIN));
+        panel.add("note", Shape::Note(middle, Anchor::Middle, name.into()));
     }
-    layers.push(marks(vec![DVec2::new(0.5, 2.0)], BLACK));
-    let legend = vec![Key::Area("g continued as −g".into(), REGIONS[0]), Key::Area("as g".into(), REGIONS[1])];
-    Panel { title: "regions of integration for the point (x, t₁), x = L/2".into(), x, y, layers, legend }
+    dots(&mut panel, vec![DVec2::new(0.5, 2.0)], BLACK);
+    panel.legend = vec![Key::Area("g continued as −g".into(), REGIONS[0]), Key::Area("as g".into(), REGIONS[1])];
+    panel
 }
 
 fn tenth(rows: &[Row]) -> Panel {
-    let x = Axis::new("μ", "", [0.0, 10.0]);
-    let y = Axis::new("e_E²", "", [0.0, 2.0]);
-    let mut layers = vec![level(&x, 1.0, Stroke::new("#808080", THIN))];
+    let (x, y) = (Axis::new("μ", "", [0.0, 10.0]), Axis::new("e_E²", "", [0.0, 2.0]));
+    let mut panel = Panel::new("restitution of the first and of the tenth bounce: r = 0, c = L = g = 1", x, y);
+    panel.level("limit", 1.0, Stroke::new("#808080", THIN));
     let first = Stroke::new(UNDAMPED, LINE);
     // It jumps wherever an earlier landing comes or goes: points, without lines between them.
     let tenth = stretches(rows.iter(), 0, 2).concat();
-    layers.push(Layer::new("marks", Shape::Marks(tenth, Mark::Point, LINES[0])));
-    layers.push(lines("curve", stretches(rows.iter(), 0, 1), first));
-    let legend = vec![Key::Line("first bounce".into(), first), Key::Mark("tenth bounce".into(), Mark::Point, LINES[0])];
-    Panel {
-        title: "restitution of the first and of the tenth bounce: r = 0, c = L = g = 1".into(),
-        x,
-        y,
-        layers,
-        legend,
-    }
+    panel.add("marks", Shape::Marks(tenth, Mark::Point, LINES[0]));
+    panel.lines("curve", stretches(rows.iter(), 0, 1), first);
+    panel.legend =
+        vec![Key::Line("first bounce".into(), first), Key::Mark("tenth bounce".into(), Mark::Point, LINES[0])];
+    panel
 }

@@ -6,6 +6,8 @@ use std::path::Path;
 
 use tempfile::NamedTempFile;
 
+use crate::mapped::{CollectVec, mapped};
+
 /// Writes bytes to each path, or to standard output for `-` or none: all files appear, each complete, or none.
 pub(crate) fn write_together(files: &[(Option<&Path>, &[u8])]) -> Result<(), (usize, io::Error)> {
     let (mut staged, mut printed) = (Vec::new(), Vec::new());
@@ -78,18 +80,13 @@ fn plain(error: &io::Error, folder: &Path) -> io::Error {
     io::Error::new(ErrorKind::NotFound, format!("{what} {}", folder.display()))
 }
 
-/// Writes files into a folder, which is made where there is none. All are complete beside it before any is moved to
-/// its place.
+/// Writes files into a folder, which is made where there is none: all of them, or none.
 pub(crate) fn write_files(folder: &Path, files: &[(String, Vec<u8>)]) -> io::Result<()> {
-    let parent = folder.parent().filter(|parent| !parent.as_os_str().is_empty()).unwrap_or(Path::new("."));
-    let beside = if folder.is_dir() { folder } else { parent };
-    let whole =
-        tempfile::Builder::new().prefix(".dalembert-").tempdir_in(beside).map_err(|error| plain(&error, parent))?;
-    for (name, bytes) in files {
-        std::fs::write(whole.path().join(name), bytes)?;
-    }
     if !folder.is_dir() {
-        std::fs::create_dir(folder)?;
+        let parent = folder.parent().filter(|parent| !parent.as_os_str().is_empty()).unwrap_or(Path::new("."));
+        std::fs::create_dir(folder).map_err(|error| plain(&error, parent))?;
     }
-    files.iter().try_for_each(|(name, _)| std::fs::rename(whole.path().join(name), folder.join(name)))
+    let paths = mapped(files, |(name, _)| folder.join(name));
+    let files: Vec<_> = paths.iter().zip(files).map(|(path, (_, bytes))| (Some(&**path), &**bytes)).collect_vec();
+    write_together(&files).map_err(|(_, error)| error)
 }

@@ -6,7 +6,7 @@ use glam::DVec2;
 
 use super::dataset::{Column, Dataset};
 use super::npz::Npz;
-use crate::draw::{Axis, Key, Layer, Panel, Shape, Sheet, Size, Stroke};
+use crate::draw::{Axis, Key, Panel, Shape, Sheet, Size, Stroke};
 use crate::mapped::{CollectVec, MapEach, mapped};
 use crate::number::{Estimate, Number, Scalar, double_bound_text};
 use crate::sweep::{BANDS, Map, Regime, Spread, threshold, threshold_near};
@@ -101,12 +101,14 @@ pub(crate) fn regimes_panel(map: &Map) -> Panel {
     let ((x, across), (y, up)) = (axis("R = r t₁", &map.damping), axis("M = μ/(g t₁)", &map.speed));
     let known = if map.regimes.contains(&Regime::Undecided) { COLORS.len() } else { COLORS.len() - 1 };
     let whole = [[x.from, y.from], [x.to, y.from], [x.to, y.to], [x.from, y.to]].map_each(DVec2::from_array).to_vec();
-    let mut layers = vec![Layer::new("bands", Shape::Region(vec![whole], COLORS[known - 1].0))];
+    let [bottom, top] = [y.from, y.to];
+    let mut panel = Panel::new("when the first contact ends", x, y);
+    panel.add("bands", Shape::Region(vec![whole], COLORS[known - 1].0));
     let place = |steps: DVec2| DVec2::new(across.border(steps.x), up.border(steps.y));
     // Each band lies over those after it.
     for (lines, (color, _)) in map.regions.iter().zip(COLORS).rev().filter(|(lines, _)| !lines.is_empty()) {
         let lines = mapped(lines, |line| mapped(line, |point| place(*point)));
-        layers.push(Layer::new("bands", Shape::Region(lines, color)));
+        panel.add("bands", Shape::Region(lines, color));
     }
     // Closer and closer to I₀(R) = 2, where it is infinite.
     let (mut below, mut above) = (1.8, 1.81);
@@ -116,15 +118,15 @@ pub(crate) fn regimes_panel(map: &Map) -> Panel {
     }
     let curve = (0..=800).map(|k| below * (1.0 - (-f64::from(k) / 20.0).exp2()));
     let curve = curve.map(|r| DVec2::new(r, threshold_near(r))).filter(|point| point.y.is_finite()).collect_vec();
-    let pi = [y.from, y.to].map_each(|m| DVec2::new(std::f64::consts::PI, m)).to_vec();
+    let pi = [bottom, top].map_each(|m| DVec2::new(std::f64::consts::PI, m)).to_vec();
     // Apart from every colour of the map, and from paper.
     let (solid, dashed) = (Stroke::new("#ff5a1f", 0.6), Stroke::new("#000000", 0.25).dashed("1.8 1.2"));
-    layers.push(Layer::new("threshold", Shape::Lines(vec![curve], solid)));
-    layers.push(Layer::new("curve", Shape::Lines(vec![pi], dashed)));
-    let mut legend: Vec<Key> = mapped(&COLORS[..known], |(color, text)| Key::Area((*text).into(), color));
-    legend.push(Key::Line("M = (I₀(R) + I₁(R))/(2 − I₀(R))".into(), solid));
-    legend.push(Key::Line("R = π".into(), dashed));
-    Panel { title: "when the first contact ends".into(), x, y, layers, legend }
+    panel.lines("threshold", vec![curve], solid);
+    panel.lines("curve", vec![pi], dashed);
+    panel.legend = mapped(&COLORS[..known], |(color, text)| Key::Area((*text).into(), color));
+    panel.legend.push(Key::Line("M = (I₀(R) + I₁(R))/(2 − I₀(R))".into(), solid));
+    panel.legend.push(Key::Line("R = π".into(), dashed));
+    panel
 }
 
 pub(crate) fn regimes_svg(map: &Map) -> String {

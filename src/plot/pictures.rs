@@ -27,6 +27,7 @@ const RAYS: [(f64, Stroke); 4] = [
     (0.05, Stroke::new("#808080", 0.08)),
     (0.01, Stroke::new("#a8a8a8", 0.06)),
 ];
+const ZERO: Stroke = Stroke::new("#808080", 0.15);
 const KINK: Stroke = Stroke::new("#707070", 0.1).dashed("0.8 0.6");
 const JUMP: &str = "0.5 0.5";
 const WIDTH: f64 = 0.4;
@@ -103,11 +104,6 @@ fn contacts(panel: &mut Panel, scene: &Gathered, high: f64) {
     }
 }
 
-fn level(panel: &mut Panel, y: f64) {
-    let line = [panel.x.from, panel.x.to].map_each(|x| DVec2::new(x, y)).to_vec();
-    panel.add("zero", Shape::Lines(vec![line], Stroke::new("#808080", 0.15)));
-}
-
 /// Lines over time, or over bounces, of all scenes.
 fn lines(picture: Picture, scenes: &[Gathered]) -> Result<Panel, String> {
     if picture == Picture::Restitution {
@@ -141,7 +137,7 @@ fn lines(picture: Picture, scenes: &[Gathered]) -> Result<Panel, String> {
         let high = panel.y.to;
         contacts(&mut panel, scene, high);
     }
-    level(&mut panel, 0.0);
+    panel.level("zero", 0.0, ZERO);
     let each = columns.len();
     for (k, (scene, stretches)) in curves.iter().enumerate() {
         let (of_scene, of_quantity) = (k / each, k % each);
@@ -152,10 +148,10 @@ fn lines(picture: Picture, scenes: &[Gathered]) -> Result<Panel, String> {
         let jumps = stretches.windows(2).filter_map(|pair| Some(points(&[*pair[0].last()?, *pair[1].first()?])));
         let jumps: Vec<Vec<DVec2>> = jumps.collect_vec();
         if !jumps.is_empty() && jumps.len() <= MOST_JUMPS {
-            panel.add("jumps", Shape::Lines(jumps, Stroke { width: 0.15, dash: JUMP, ..look }));
+            panel.lines("jumps", jumps, Stroke { width: 0.15, dash: JUMP, ..look });
         }
         let stretches = stretches.iter().filter(|stretch| stretch.len() > 1);
-        panel.add("curve", Shape::Lines(stretches.map(|stretch| thinned(points(stretch))).collect_vec(), look));
+        panel.lines("curve", stretches.map(|stretch| thinned(points(stretch))).collect_vec(), look);
         if scenes.len() > 1 && of_quantity == 0 {
             panel.legend.push(Key::Line(plain(&scene.name), look));
         } else if scenes.len() == 1 && each > 1 {
@@ -222,7 +218,7 @@ fn restitution(scenes: &[Gathered]) -> Panel {
         x.ticks = Some(mapped(1..=most, |k| (k as f64, k.to_string())));
     }
     let mut panel = Panel::new("restitution of each bounce", x, y);
-    level(&mut panel, 1.0);
+    panel.level("zero", 1.0, ZERO);
     for (s, scene) in scenes.iter().enumerate() {
         let of = if scenes.len() == 1 { String::new() } else { format!(", {}", plain(&scene.name)) };
         for (q, (name, mark)) in series.into_iter().enumerate() {
@@ -232,7 +228,7 @@ fn restitution(scenes: &[Gathered]) -> Panel {
             let stretches = numbered.split(|(_, pair)| pair[q].is_none()).filter(|known| !known.is_empty());
             let place = |(k, pair): &(usize, &[Option<f64>; 2])| Some(DVec2::new((k + 1) as f64, pair[q]?));
             let lines = stretches.map(|known| known.iter().filter_map(place).collect_vec()).collect_vec();
-            panel.add("curve", Shape::Lines(lines.clone(), Stroke::new(color, 0.15).dashed(DASHES[q])));
+            panel.lines("curve", lines.clone(), Stroke::new(color, 0.15).dashed(DASHES[q]));
             panel.add("marks", Shape::Marks(lines.concat(), mark, color));
             panel.legend.push(Key::Mark(format!("{name}{of}"), mark, color));
         }
@@ -278,7 +274,7 @@ fn single_bounce(scenes: &[Gathered], names: [&str; 2], mut y: Axis) -> Panel {
             panel.legend.push(Key::Area(plain(&scene.name), color));
         }
     }
-    [0.0, 1.0].into_iter().for_each(|y| level(&mut panel, y));
+    [0.0, 1.0].into_iter().for_each(|y| panel.level("zero", y, ZERO));
     if (2..=MOST_TOLD).contains(&scenes.len()) {
         notes.into_iter().for_each(|note| panel.add("note", note));
     }
@@ -312,8 +308,8 @@ fn energy(scene: &Gathered, scenes: &[Gathered]) -> Panel {
         panel.legend.push(Key::Area(name, color));
         below = edge;
     }
-    panel.add("curve", Shape::Lines(vec![thinned(below)], Stroke::new("#000000", 0.25)));
-    level(&mut panel, 0.0);
+    panel.lines("curve", vec![thinned(below)], Stroke::new("#000000", 0.25));
+    panel.level("zero", 0.0, ZERO);
     contacts(&mut panel, scene, base);
     panel
 }
@@ -386,7 +382,7 @@ fn rays(panel: &mut Panel, cells: &Cells, scene: &Gathered) {
         let rays = cells.breaks.iter().filter(|ray| wanted(ray));
         let lines: Vec<Vec<DVec2>> = rays.map(|ray| path(ray.time)).collect_vec();
         if !lines.is_empty() {
-            panel.add(class, Shape::Lines(lines, look));
+            panel.lines(class, lines, look);
         }
     };
     add(&|ray| !ray.jump, "kinks", KINK);
@@ -418,9 +414,9 @@ fn world(scene: &Gathered, x: Axis) -> Panel {
     if let [low, inner @ .., top] = lines.as_slice() {
         let body = [low.clone(), top.iter().rev().copied().collect_vec()].concat();
         panel.add("area", Shape::Areas(vec![body], AREAS[1]));
-        level(&mut panel, 0.0);
-        panel.add("curve", Shape::Lines(inner.to_vec(), Stroke::new("#000000", 0.12)));
-        panel.add("curve", Shape::Lines(vec![low.clone(), top.clone()], Stroke::new(LINES[0], WIDTH)));
+        panel.level("zero", 0.0, ZERO);
+        panel.lines("curve", inner.to_vec(), Stroke::new("#000000", 0.12));
+        panel.lines("curve", vec![low.clone(), top.clone()], Stroke::new(LINES[0], WIDTH));
     }
     panel.legend.push(Key::Area("rod".into(), AREAS[1]));
     contacts(&mut panel, scene, 0.0);

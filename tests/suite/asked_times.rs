@@ -9,7 +9,7 @@ use std::sync::Arc;
 
 use dalembert::engine::Target;
 use dalembert::number::Scalar;
-use dalembert::{EventKind, History, Number, Numbers, Plan, Problem, Question, Scene, Side, Solution, Warning};
+use dalembert::{Error, EventKind, History, Number, Numbers, Plan, Problem, Question, Scene, Side, Solution, Warning};
 use rug::Float;
 
 /// Bits in which values are compared.

@@ -18,11 +18,11 @@ pub struct Source {
     pub(crate) misnamed: Option<usize>,
     /// Whether a first line `rows columns` was skipped.
     pub(crate) is_sized: bool,
-    body: Body,
+    pub(super) body: Body,
 }
 
-enum Body {
-    Text(Box<Text>),
+pub(super) enum Body {
+    Text(Text),
     Arrays(Vec<Column>),
 }
 
@@ -68,16 +68,7 @@ impl Source {
             let found = arrays(reader, &file)?;
             return Ok(Self::of(&file, found));
         }
-        let mut text = Text::open(reader, &file)?;
-        let (names, width) = (std::mem::take(&mut text.names), text.width);
-        Ok(Source {
-            file,
-            names,
-            width,
-            misnamed: text.misnamed,
-            is_sized: text.sized,
-            body: Body::Text(Box::new(text)),
-        })
+        Text::open(reader, &file)
     }
 
     fn folder(path: &Path) -> Result<Self, DataError> {

@@ -3,19 +3,17 @@
 use std::io::{BufRead, BufReader, Read};
 
 use super::error::{DataError, DataErrorKind};
+use super::source::{Body, Source};
 use crate::number::{Number, short};
 
 /// A line that is not empty, with its number.
 type Line = Result<(usize, String), DataError>;
 
-/// A text, read up to its first row.
+/// The rows of a text, of so many fields each.
 pub(super) struct Text {
     lines: Box<dyn Iterator<Item = Line> + Send>,
     separator: Option<char>,
-    pub(super) names: Vec<String>,
-    pub(super) misnamed: Option<usize>,
-    pub(super) sized: bool,
-    pub(super) width: usize,
+    width: usize,
 }
 
 /// The lines of a text; a `\r` before the end of one is white space.
@@ -109,7 +107,7 @@ fn names(header: &str, separator: Option<char>) -> Vec<String> {
 impl Text {
     /// Reads up to the first row. A first line that begins with a word is the header; so is the last comment before
     /// the first row where it has as many words as the row has numbers.
-    pub(super) fn open(mut reader: BufReader<Box<dyn Read + Send>>, file: &str) -> Result<Self, DataError> {
+    pub(super) fn open(mut reader: BufReader<Box<dyn Read + Send>>, file: &str) -> Result<Source, DataError> {
         let start = reader.fill_buf().map_err(|error| DataErrorKind::Unreadable(error.to_string()).at(file, None))?;
         let end = if start.contains(&b'\r') && !start.contains(&b'\n') { b'\r' } else { b'\n' };
         let mut lines = lines(reader, end, file.into());
@@ -145,7 +143,8 @@ impl Text {
                 names.clear();
             }
             let lines = Box::new(first.into_iter().map(Ok).chain(lines));
-            return Ok(Text { lines, separator, names, misnamed, sized, width });
+            let body = Body::Text(Text { lines, separator, width });
+            return Ok(Source { file: file.into(), names, width, misnamed, is_sized: sized, body });
         }
         Err(DataErrorKind::Empty.at(file, None))
     }

@@ -1,11 +1,22 @@
-//! Which figures there are, what is reproduced and corrected in each, and their numbers.
+//! The figures of the paper, from its parameters: which there are, what is reproduced and corrected in each, and their
+//! numbers.
 
-use super::Failed;
-use super::first::{self, DAMPINGS, Double, ENERGIES, Limits, RESTITUTION, SHARES, grid};
+use std::iter::once;
+
+use crate::error::Error;
+use crate::first_contact::FirstContact;
 use crate::mapped::{CollectVec, MapEach, mapped, try_mapped};
-use crate::number::{Estimate, Scalar};
-use crate::sweep::{Grid, Map};
+use crate::motion::{Motion, Side};
+use crate::number::{Analytic, Estimate, Scalar};
+use crate::paper::formulas::limit;
+use crate::problem::{Parameters, Problem, Run};
+use crate::quantity::{Restitution, energy_shares, restitution};
+use crate::solve::{Numbers, Plan, Question};
+use crate::sweep::{Axis, Grid, Map, threshold_near};
 use crate::threads::Threads;
+
+pub(crate) type Failed = Box<dyn std::error::Error + Send + Sync>;
+type Double = Estimate<f64>;
 
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Figure {
@@ -110,6 +121,8 @@ pub(crate) const ALL: [Figure; 10] = [
     },
 ];
 
+/// `r` of Figures 4–7, where `c = L = g = 1`.
+pub(crate) const DAMPINGS: [&str; 4] = ["0", "0.1", "0.2", "0.3"];
 /// `r` of Figure 1.
 pub(crate) const STRONG: [&str; 3] = ["2.6", "2.9", "3.0"];
 /// Points of Figure 1 in each round trip.
@@ -119,10 +132,6 @@ const PER_TRIP: i32 = 100;
 const SHARP: f64 = 9e-14;
 /// Of Figure 4, where the bound of doubles is some 1e-11 at the later bounces and the CSV prints no digit beyond it.
 const IN_DOUBLES: f64 = 1e-10;
-
-fn exact(value: f64) -> Double {
-    Estimate::exact(value)
-}
 
 impl Data {
     /// The numbers without their bounds, for a picture.
@@ -143,16 +152,16 @@ impl Figure {
     /// **Accuracy**: *within its own bound*, which is at most 1e-10 for Figure 4, 1e-9 for the tenth bounce and 1e-13
     /// for the others, relative to the numbers or to 1.
     pub(crate) fn data(&self, threads: Threads) -> Result<Data, Failed> {
-        let point = |grid: &Grid, k: usize| mapped(grid.values(k), |value| Some(exact(value.to_f64())));
+        let point = |grid: &Grid, k: usize| mapped(grid.values(k), |value| Some(Double::exact(value.to_f64())));
         let (columns, rows): (&[&'static str], Vec<Vec<Option<Double>>>) = match self.of {
             Of::Kernel => {
-                let rows = try_mapped(&STRONG, |damping| first::kernel(damping, PER_TRIP))?;
+                let rows = try_mapped(STRONG, kernel)?;
                 (&["damping", "t", "side", "psi", "bounce_time"], rows.concat())
             }
             Of::Vibration | Of::Shares => {
                 let grid = grid("0", "0.01..8:800")?;
-                let found = first::contacts(&grid, ENERGIES, SHARP, threads)?;
-                let rows = first::speeds(&grid).into_iter().zip(found).map(|(speed, ended)| {
+                let found = contacts(&grid, ENERGIES, SHARP, threads)?;
+                let rows = speeds(&grid).into_iter().zip(found).map(|(speed, ended)| {
                     let (time, energies) = ended.unzip();
                     let energies = energies.unwrap_or_else(|| vec![None, None]);
                     let whole = speed.clone() * &speed / speed.int(2);
@@ -163,7 +172,7 @@ impl Figure {
             }
             Of::Restitution => {
                 let grid = grid(&DAMPINGS.join(","), "0.0125..12.5:1000")?;
-                let found = first::contacts(&grid, RESTITUTION, IN_DOUBLES, threads)?;
+                let found = contacts(&grid, RESTITUTION, IN_DOUBLES, threads)?;
                 let rows = found.into_iter().enumerate().map(|(k, ended)| {
                     let (time, restitution) = ended.unzip();
                     [point(&grid, k), vec![time, restitution.and_then(|values| values[0].clone())]].concat()
@@ -172,16 +181,18 @@ impl Figure {
             }
             Of::Translational | Of::Kept | Of::Decay => {
                 let grid = grid(&DAMPINGS.join(","), "3.2..12.5:373")?;
-                let found = first::contacts(&grid, SHARES, SHARP, threads)?;
-                let limits = try_mapped(&DAMPINGS, |damping| first::limits(damping))?;
+                let found = contacts(&grid, SHARES, SHARP, threads)?;
+                let limits = try_mapped(DAMPINGS, limits)?;
                 let each = found.len() / limits.len();
                 let rows = found.into_iter().enumerate().map(|(k, ended)| {
                     let Limits { translational, kept, decay, .. } = limits[k / each].clone();
                     let shares = ended.map_or([None, None], |(_, shares)| [shares[0].clone(), shares[1].clone()]);
                     let ([value, limit], supposed) = match (self.of, shares) {
-                        (Of::Translational, [share, _]) => ([share, translational], exact(1.0)),
+                        (Of::Translational, [share, _]) => ([share, translational], Double::exact(1.0)),
                         (Of::Kept, [_, share]) => ([share, kept], decay),
-                        (_, [_, share]) => ([share, kept].map_each(|kept| kept.map(|kept| kept / &decay)), exact(1.0)),
+                        (_, [_, share]) => {
+                            ([share, kept].map_each(|kept| kept.map(|kept| kept / &decay)), Double::exact(1.0))
+                        }
                     };
                     [point(&grid, k), vec![value, limit, Some(supposed)]].concat()
                 });
@@ -201,7 +212,7 @@ impl Figure {
                 ];
                 let corners = [1.0, 2.0, 3.0].into_iter().zip(corners);
                 let rows = corners.flat_map(|(region, corners)| corners.iter().map(move |[y, t]| [region, *y, *t]));
-                (&["region", "y", "t"], mapped(rows, |row| row.map_each(|x| Some(exact(x))).to_vec()))
+                (&["region", "y", "t"], mapped(rows, |row| row.map_each(|x| Some(Double::exact(x))).to_vec()))
             }
             Of::Regimes => {
                 let map = Map::new("0..4:240", "0.05..1e4:240:log", threads, &|| ())?.with_regions(threads, &|| ());
@@ -209,9 +220,9 @@ impl Figure {
             }
             Of::Tenth => {
                 let grid = grid("0", "0.005..10:2000")?;
-                let tenth = first::tenth(&grid, threads)?;
-                let first = first::contacts(&grid, RESTITUTION, SHARP, threads)?;
-                let rows = first::speeds(&grid).into_iter().zip(tenth).zip(first).map(|((speed, tenth), first)| {
+                let tenth = tenth(&grid, threads)?;
+                let first = contacts(&grid, RESTITUTION, SHARP, threads)?;
+                let rows = speeds(&grid).into_iter().zip(tenth).zip(first).map(|((speed, tenth), first)| {
                     vec![Some(speed), first.and_then(|(_, values)| values[0].clone()), tenth]
                 });
                 (&["speed", "first_restitution_squared", "tenth_restitution_squared"], rows.collect_vec())
@@ -219,4 +230,118 @@ impl Figure {
         };
         Ok(Data { columns: columns.to_vec(), rows, map: None })
     }
+}
+
+/// A first contact that ends with a bounce: `t_b`, and what is asked there.
+type Ended = Option<(Double, Vec<Option<Double>>)>;
+
+/// What is asked of a first contact between its impact and its bounce.
+type Wanted = fn(&dyn Motion<Double>, [&Double; 2]) -> Result<Vec<Option<Double>>, Error>;
+
+/// `e_E²`.
+const RESTITUTION: Wanted = |motion, [from, to]| Ok(vec![restitution(motion, (from, Some(to)))?.energy_squared.ok()]);
+
+/// `E_h(t_b)/E(t_b)` and `E(t_b)/E(0)`.
+const SHARES: Wanted = |motion, [from, to]| Ok(energy_shares(motion, (from, Some(to)))?.map(Result::ok).to_vec());
+
+/// `E_h(t_b)` and `E_z(t_b)`.
+const ENERGIES: Wanted =
+    |motion, [_, to]| motion.energy(to).map(|energy| vec![Some(energy.translational), Some(energy.vibrational)]);
+
+/// The first contacts of a grid over `impact.speed` and `rod.damping`, the speed varying fastest, to `accuracy` of the
+/// numbers, or of 1 where they are less.
+fn contacts(grid: &Grid, wanted: Wanted, accuracy: f64, threads: Threads) -> Result<Vec<Ended>, Failed> {
+    threads.all(grid.len(), |index| contact(&grid.problem(index)?, wanted, accuracy))
+}
+
+/// The grid of the paper's rod, `c = L = g = 1`.
+fn grid(dampings: &str, speeds: &str) -> Result<Grid, Failed> {
+    let rod = Problem::uniform(1.into(), 1.into(), 1.into(), 1.into());
+    let axes = [format!("rod.damping={dampings}"), format!("impact.speed={speeds}")];
+    Ok(Grid::new(rod, try_mapped(&axes, |axis| axis.parse::<Axis>())?)?)
+}
+
+fn contact(problem: &Problem, wanted: Wanted, accuracy: f64) -> Result<Ended, Failed> {
+    let plan = Plan::of(problem, &Question::bounce(Numbers::Double(Some(accuracy))))?;
+    let query = |motion: &dyn Motion<Double>| {
+        let Some((from, Some(to))) = motion.contact_times(0) else { return Ok(None) };
+        let values = wanted(motion, [&from, &to])?;
+        // The time relative to itself, and the others to 1.
+        let whole = to.clone() / Double::exact(*to.value());
+        Ok(Some((whole, (to, values))))
+    };
+    let found = plan.ask::<f64, _>(problem, query, |ended| {
+        ended.iter().flat_map(|(whole, (_, values))| once(whole).chain(values.iter().flatten())).collect_vec()
+    })?;
+    Ok(found.map(|(_, ended)| ended))
+}
+
+/// What Figures 4–7 tend to for `μ → ∞`, as long as `t_b = t₁`.
+#[derive(Clone, Debug)]
+pub(crate) struct Limits {
+    /// `lim e_E = 2e^{−R}(I₀(R) − I₁(R)) − e^{−2R}`.
+    pub(crate) restitution: Double,
+    /// `lim E_h/E` and `lim E/E(0)`.
+    pub(crate) translational: Option<Double>,
+    pub(crate) kept: Option<Double>,
+    /// `e^{−2R}`, `R = r t₁`: what the paper supposes of `E/E(0)`.
+    pub(crate) decay: Double,
+}
+
+/// The limits for a damping: the motion is linear in `μ` and `g`, so for `μ → ∞` all ratios are those of `g = 0`.
+pub(crate) fn limits(damping: &str) -> Result<Limits, Failed> {
+    let rod = Problem::builder().length(1).wave_speed(1).damping(damping).impact_speed(1).build()?;
+    let shares = contact(&rod, SHARES, 1e-13)?.map_or(Vec::new(), |(_, shares)| shares);
+    let share = |k: usize| shares.get(k).cloned().flatten();
+    let r = Double::from_number(&damping.parse()?, &());
+    let decay = (-r.int(4) * &r).exp();
+    Ok(Limits { restitution: limit(&r), translational: share(0), kept: share(1), decay })
+}
+
+/// `μ` from which the bounce comes at `t₁`: `μ₀` times the threshold of (2.32).
+pub(crate) fn dot(damping: &str) -> f64 {
+    2.0 * threshold_near(2.0 * damping.parse().unwrap_or(f64::NAN))
+}
+
+/// Rows of Figure 1: `r`, `t`, which limit, `Ψ_r(t)` for `g = 0`, `t₁ = μ = c = 1`, and `t_b`. Two are of each whole
+/// `t`.
+///
+/// **Source**: (2.28), `Ψ_r = e^{rt} v_x(0,t)` while the end is held.
+fn kernel(damping: &str) -> Result<Vec<Vec<Option<Double>>>, Failed> {
+    let rod = Problem::builder().length("1/2").wave_speed(1).damping(damping).impact_speed(1).build()?;
+    let form = FirstContact::new(&Parameters::<Double>::of(&rod, &())?);
+    let r = Double::from_number(&damping.parse()?, &());
+    // As sharp as doubles can be: the index prints 14 decimals.
+    let bounce = contact(&rod, |_, _| Ok(Vec::new()), 1e-15)?.map(|bounce| bounce.0);
+    let row = |(k, side): (i32, Side)| {
+        let time = Double::exact(f64::from(k) / f64::from(PER_TRIP));
+        let value = (r.clone() * &time).exp() * form.strain(&time, side);
+        let side = Double::exact(if side == Side::Left { -1.0 } else { 1.0 });
+        vec![damping.parse().ok().map(Double::exact), Some(time), Some(side), Some(value), bounce.clone()]
+    };
+    let sides = |k: i32| match k {
+        0 => vec![(k, Side::Right)],
+        k if k == 4 * PER_TRIP => vec![(k, Side::Left)],
+        k if k % PER_TRIP == 0 => vec![(k, Side::Left), (k, Side::Right)],
+        k => vec![(k, Side::Right)],
+    };
+    Ok(mapped((0..=4 * PER_TRIP).flat_map(sides), row))
+}
+
+/// `e_E²` of the tenth contact over `impact.speed`, without damping; `None` where it is not defined or not settled.
+fn tenth(grid: &Grid, threads: Threads) -> Result<Vec<Option<Double>>, Failed> {
+    let one = |index: usize| {
+        let rod = grid.problem(index).ok()?.with_run(Run::Impacts(10)).ok()?;
+        let query = |motion: &dyn Motion<Double>| {
+            let contact = motion.contacts().get(9);
+            contact.map(|contact| restitution(motion, contact.times())).transpose()
+        };
+        let found = rod.solve().ok()?.ask(query, |found| found.iter().flat_map(Restitution::numbers).collect_vec());
+        found.ok()??.energy_squared.ok()
+    };
+    threads.all(grid.len(), |index| Ok(one(index)))
+}
+
+fn speeds(grid: &Grid) -> Vec<Double> {
+    grid.axes.last().map_or_else(Vec::new, |axis| mapped(&axis.values, |value| Double::exact(value.to_f64())))
 }
