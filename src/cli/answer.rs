@@ -34,14 +34,12 @@ pub(super) trait Visit {
     fn visit<S: Target>(&self, history: &History<S>, head: Head, progress: source::Progress) -> Result<(), Failure>;
 }
 
-pub(super) type Bytes<'a> = Box<dyn FnOnce(&Head, Format) -> Result<Vec<u8>, Failure> + 'a>;
-
 /// Prints what `bytes` makes of an answer, below the warnings of `head`.
 pub(super) fn print(
     output: &OutputArgs,
     head: Head,
     progress: source::Progress,
-    bytes: Bytes<'_>,
+    bytes: impl FnOnce(&Head, Format) -> Result<Vec<u8>, Failure>,
 ) -> Result<(), Failure> {
     let format = output.format()?;
     let head = progress.aside(|| warned(head, output.output.is_none() && format == Format::Table));

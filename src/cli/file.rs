@@ -112,7 +112,6 @@ pub(super) fn write_each(
     write_all(&mapped(&files, |(path, bytes)| (*path, bytes.as_slice())))
 }
 
-/// The bytes of a file that can be made.
 pub(super) fn made(what: &str, made: Result<impl Into<Vec<u8>>, impl std::fmt::Display>) -> Result<Vec<u8>, Failure> {
     made.map(Into::into).map_err(|error| failure!("cannot write {what}: {error}"))
 }

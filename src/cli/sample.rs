@@ -96,7 +96,7 @@ impl Visit for Sample {
             samples.derivatives.push((by, shared(found)));
         }
         let head = Head { warnings: history.warnings(), ..head };
-        print(&self.output, head, progress, Box::new(|head, format| file::rows(&samples_data(samples, head), format)))?;
+        print(&self.output, head, progress, |head, format| file::rows(&samples_data(samples, head), format))?;
         // Where that is not for the time asked for, as at rest.
         if !matches!(history.ending(), Ending::Time | Ending::NextImpact) {
             eprintln!("note: {}", history.ending());

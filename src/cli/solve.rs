@@ -127,6 +127,6 @@ impl Visit for Solve {
             record.add(Derived { by, events, contacts });
         }
         let head = Head { warnings: history.warnings(), ..head };
-        print(&self.output, head, progress, Box::new(|head, format| self.bytes(record, head, format)))
+        print(&self.output, head, progress, |head, format| self.bytes(record, head, format))
     }
 }

@@ -5,7 +5,6 @@ mod audit;
 mod comparison;
 pub mod data;
 mod fit;
-mod least;
 mod limit;
 mod map;
 mod model;

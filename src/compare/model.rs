@@ -23,12 +23,6 @@ pub(super) struct Signal {
     pub(super) rate: f64,
 }
 
-impl Signal {
-    pub(super) fn is_integral(&self) -> bool {
-        self.what != self.model
-    }
-}
-
 /// Times and columns of data, with the problem that they are of.
 #[derive(Debug)]
 pub(super) struct Model<'a> {
@@ -42,7 +36,6 @@ pub(super) struct Model<'a> {
     pub(super) step: f64,
 }
 
-/// The history of `problem` in doubles up to a time.
 pub(super) fn solved(problem: &Problem, until: f64) -> Result<History<f64>, Error> {
     // A rounding further, for times that are as many.
     problem.to_builder().time(until * (1.0 + 4.0 * f64::EPSILON)).build()?.solve()

@@ -29,7 +29,6 @@ pub(crate) struct Compared {
     pub(crate) norms: Norms,
 }
 
-/// The norms of the difference of two lists of samples.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Norms {
     pub samples: usize,

@@ -6,7 +6,6 @@ use crate::number::Number;
 use crate::problem::Parameter;
 use crate::quantity::{Measure, Quantity};
 
-/// The sign of forces, stresses and strains where the rod is compressed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[cfg_attr(feature = "cli", derive(clap::ValueEnum))]
 pub enum Compression {
@@ -18,7 +17,6 @@ pub enum Compression {
     Negative,
 }
 
-/// Where displacements are zero.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[cfg_attr(feature = "cli", derive(clap::ValueEnum))]
 pub enum Origin {
@@ -29,7 +27,6 @@ pub enum Origin {
     Start,
 }
 
-/// Which way displacements and velocities count.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[cfg_attr(feature = "cli", derive(clap::ValueEnum))]
 pub enum Axis {

@@ -275,7 +275,6 @@ fn orders_table(orders: &[Order]) -> String {
     out
 }
 
-/// Values with their errors, and the norms and contacts that they leave.
 fn fit_json(fit: &Fit, then: &Agreement) -> Value {
     let norms = then.quantities.iter().map(|compared| json!({"name": compared.what.name(), "l2": compared.norms.l2}));
     let contacts = then.contacts.iter().map(|(ours, theirs)| json!({"fitted": ours, "theirs": theirs}));

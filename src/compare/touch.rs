@@ -41,7 +41,6 @@ impl Touch {
         apart
     }
 
-    /// About when it is.
     fn middle(&self) -> f64 {
         self.centroid.unwrap_or_else(|| self.to.map_or(self.from, |to| f64::midpoint(self.from, to)))
     }

@@ -127,7 +127,9 @@ impl Judge<'_> {
     /// Values on another clock: what is integrated begins where the samples do, and grows with their steps.
     fn integrated(&self, mut values: Vec<Vec<f64>>, steps: f64) -> Option<Vec<Vec<f64>>> {
         let signals = self.model.signals.iter().zip(&self.exact);
-        for (values, (_, exact)) in values.iter_mut().zip(signals).filter(|(_, (signal, _))| signal.is_integral()) {
+        for (values, (_, exact)) in
+            values.iter_mut().zip(signals).filter(|(_, (signal, _))| signal.what != signal.model)
+        {
             let first = *values.first()?;
             values.iter_mut().for_each(|value| *value = exact[0] + steps * (*value - first));
         }
@@ -338,6 +340,18 @@ impl Judge<'_> {
         let holds = holds && early && count > 0.0 && p.abs() > 2.0 * error;
         holds.then(|| Fitted { value: p, error, left: self.squares(found) })
     }
+
+    /// Takes what is wrong with a column out of it; `false` where it is not one column that is wrong.
+    fn put_right(&mut self, hypothesis: Hypothesis, p: f64) -> bool {
+        let (place, factor, offset) = match hypothesis {
+            Hypothesis::Factor(place) => (place, 1.0 + p, 0.0),
+            Hypothesis::Origin(place) => (place, 1.0, p * self.trip * self.model.signals[place].rate),
+            _ => return false,
+        };
+        self.model.signals[place].theirs.iter_mut().for_each(|value| *value = (*value - offset) / factor);
+        self.base = self.model.errors(&self.exact);
+        true
+    }
 }
 
 /// What is wrong, as far as one number says it.
@@ -417,17 +431,3 @@ fn hints(ours: &Ours<'_>, agreement: &Agreement) -> Result<(Vec<Verdict>, Vec<To
 }
 
 const SAMPLES: usize = 150;
-
-impl Judge<'_> {
-    /// Takes what is wrong with a column out of it; `false` where it is not one column that is wrong.
-    fn put_right(&mut self, hypothesis: Hypothesis, p: f64) -> bool {
-        let (place, factor, offset) = match hypothesis {
-            Hypothesis::Factor(place) => (place, 1.0 + p, 0.0),
-            Hypothesis::Origin(place) => (place, 1.0, p * self.trip * self.model.signals[place].rate),
-            _ => return false,
-        };
-        self.model.signals[place].theirs.iter_mut().for_each(|value| *value = (*value - offset) / factor);
-        self.base = self.model.errors(&self.exact);
-        true
-    }
-}

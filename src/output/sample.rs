@@ -16,7 +16,6 @@ use crate::quantity::Quantity::*;
 use crate::quantity::{self, Measure};
 use crate::solve::Derivatives;
 
-/// What `sample` can be asked for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, clap::ValueEnum)]
 pub(crate) enum Quantity {
     /// The strain at the ground `v_x(0,t)`, and with a material the stress and the force there

@@ -85,7 +85,6 @@ pub(super) fn listed<S: Scalar>(
     data
 }
 
-/// The part of a history that a CSV file holds.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, clap::ValueEnum)]
 pub(crate) enum Part {
     /// Impacts and releases.

@@ -3,7 +3,7 @@
 use serde_json::{Value, json};
 
 use super::dataset::{Cell, Column, Dataset};
-use crate::mapped::{CollectVec, mapped};
+use crate::mapped::mapped;
 use crate::number::{Estimate, Scalar, show};
 use crate::routes::Published;
 use crate::scene::Target;
@@ -51,13 +51,8 @@ pub(crate) fn targets_data(all: &[Published], wide: bool) -> Dataset {
         _ => format!("\n\n{listed}\n{count} published values: {agreed} agree, {} differ\n", count - agreed),
     };
     let above = title.map_or_else(String::new, |title| format!("{title}\n\n"));
-    let columns = several.then(|| Column::new("scene").text()).into_iter().chain(target_columns()).collect_vec();
-    let keys = (!wide && !several).then_some(1);
-    Dataset { columns, rows, around: [above, below], keys, ..Dataset::default() }
-}
-
-fn target_columns() -> [Column; 14] {
-    [
+    let mut columns = if several { vec![Column::new("scene").text()] } else { Vec::new() };
+    columns.extend([
         Column::table("quantity").text(),
         Column::data("quantity").text(),
         Column::csv("unit").text(),
@@ -72,7 +67,9 @@ fn target_columns() -> [Column; 14] {
         Column::table("agrees").text(),
         Column::data("agrees"),
         Column::data("source"),
-    ]
+    ]);
+    let keys = (!wide && !several).then_some(1);
+    Dataset { columns, rows, around: [above, below], keys, ..Dataset::default() }
 }
 
 /// The same for the repository's page.

@@ -62,7 +62,7 @@ pub(crate) fn of<S: Target>(
     breaks: Vec<Break>,
 ) -> Result<Cells, Error> {
     let fine = strip
-        .damped
+        .is_damped()
         .then(|| strip.trip / PARTS.min((4.0 * MOST_CELLS as f64 / (strip.trips() * 16.0)).sqrt()).max(2.0));
     let [rising, falling] = [0.0, strip.trip].map_each(|late| strip.knots(&breaks, late, fine));
     let mut greatest = 0.0f64;
@@ -104,7 +104,7 @@ pub(super) fn settled<S: Scalar>(x: &S) -> f64 {
 }
 
 fn ask<S: Target>(history: &History<S>, along: Along, strip: &Strip, points: &[DVec2]) -> Result<Vec<f64>, Error> {
-    if !strip.damped {
+    if !strip.is_damped() {
         let waves = history.waves()?.map(|x| x.to_f64());
         return Ok(mapped(points, |point| along.part(waves.at(&point.y, &point.x))));
     }
@@ -125,7 +125,7 @@ fn ask<S: Target>(history: &History<S>, along: Along, strip: &Strip, points: &[D
 fn grid<S: Target>(history: &History<S>, along: Along, strip: &Strip) -> Result<Vec<f64>, Error> {
     let [across, up] = GRID;
     let middle = |k: usize, count: usize| (k as f64 + 0.5) / count as f64;
-    if !strip.damped {
+    if !strip.is_damped() {
         let place = |k: usize| strip.place(middle(k % across, across), middle(k / across, up));
         return ask(history, along, strip, &mapped(0..across * up, place));
     }
@@ -178,36 +178,30 @@ fn slope([a, b]: [DVec2; 2], [da, db]: [f64; 2]) -> DVec2 {
 
 /// The rod over the span: `from ≤ t ≤ to`, `0 ≤ x ≤ L`.
 pub(super) struct Strip {
-    from: f64,
-    to: f64,
-    length: f64,
-    speed: f64,
-    trip: f64,
-    damped: bool,
+    pub(super) rod: Parameters<f64>,
+    pub(super) span: [f64; 2],
+    pub(super) trip: f64,
 }
 
 impl Strip {
-    pub(super) fn of(rod: &Parameters<f64>, [from, to]: [f64; 2]) -> Self {
-        let (length, speed, trip) = (rod.length, rod.wave_speed, rod.round_trip());
-        Strip { from, to, length, speed, trip, damped: rod.damping > 0.0 }
+    pub(super) fn is_damped(&self) -> bool {
+        self.rod.damping > 0.0
     }
 
     fn trips(&self) -> f64 {
-        (self.to - self.from) / self.trip
+        (self.span[1] - self.span[0]) / self.trip
     }
 
     fn place(&self, across: f64, up: f64) -> DVec2 {
-        DVec2::new(self.from + (self.to - self.from) * across, self.length * up)
+        let [from, to] = self.span;
+        DVec2::new(from + (to - from) * across, self.rod.length * up)
     }
 
     /// The values of `t ∓ x/c` at the rays, so much `late`, and at the ends of the strip; no two farther apart than
     /// `fine`.
     fn knots(&self, breaks: &[Break], late: f64, fine: Option<f64>) -> Vec<f64> {
-        let half = 0.5 * self.trip;
-        let (least, most) = match late {
-            0.0 => (self.from - half, self.to),
-            _ => (self.from, self.to + half),
-        };
+        let ([from, to], half) = (self.span, 0.5 * self.trip);
+        let (least, most) = if late == 0.0 { (from - half, to) } else { (from, to + half) };
         let inner = breaks.iter().map(|ray| ray.time + late).filter(|knot| *knot > least && *knot < most);
         let mut knots: Vec<f64> = [least].into_iter().chain(inner).chain([most]).collect_vec();
         knots.dedup_by(|b, a| *b - *a < 1e-9 * self.trip);
@@ -229,7 +223,7 @@ impl Strip {
         for xi in up.windows(2) {
             let first = down.partition_point(|eta| *eta <= xi[0]).saturating_sub(1);
             for eta in down[first..].windows(2).take_while(|eta| eta[0] < xi[1] + self.trip) {
-                let corner = |xi: f64, eta: f64| DVec2::new(0.5 * (xi + eta), 0.5 * self.speed * (eta - xi));
+                let corner = |xi: f64, eta: f64| DVec2::new(0.5 * (xi + eta), 0.5 * self.rod.wave_speed * (eta - xi));
                 let cell = [(0, 0), (1, 0), (1, 1), (0, 1)].map_each(|(a, b)| corner(xi[a], eta[b]));
                 let inside = self.clipped(cell.to_vec());
                 if !inside.is_empty() {
@@ -245,8 +239,9 @@ impl Strip {
 
     /// What of a convex polygon lies in the strip; empty where that is nothing.
     fn clipped(&self, polygon: Vec<DVec2>) -> Vec<DVec2> {
-        let polygon = clip::polygon(polygon, [DVec2::new(self.from, 0.0), DVec2::new(self.to, self.length)]);
-        let none = 2.0 * clip::area(&polygon).abs() < 1e-9 * self.length * self.trip;
+        let ([from, to], length) = (self.span, self.rod.length);
+        let polygon = clip::polygon(polygon, [DVec2::new(from, 0.0), DVec2::new(to, length)]);
+        let none = 2.0 * clip::area(&polygon).abs() < 1e-9 * length * self.trip;
         if none { Vec::new() } else { polygon }
     }
 }

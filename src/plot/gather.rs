@@ -51,11 +51,6 @@ pub(crate) struct Gathered {
     pub(crate) world: Vec<(f64, Line)>,
 }
 
-struct Drawn {
-    rod: Parameters<f64>,
-    span: [f64; 2],
-}
-
 /// Round trips that are drawn where nothing is said: as many as can be told apart.
 const TRIPS: f64 = 12.0;
 /// After the last event that is drawn.
@@ -120,9 +115,9 @@ impl Asked {
         let contacts = contacts
             .map(|contact| [contact.from.to_f64(), contact.to.as_ref().map_or(end, Scalar::to_f64)])
             .filter(|[from, to]| *to >= span[0] && *from <= span[1]);
-        let drawn = Drawn { rod, span };
-        let breaks = breaks(history, &drawn)?;
-        let columns = self.gather_columns(history, &drawn, &breaks)?;
+        let strip = Strip { trip: rod.round_trip(), rod, span };
+        let breaks = breaks(history, &strip)?;
+        let columns = self.gather_columns(history, &strip, &breaks)?;
         let (mut stress, mut restitution, mut cells, mut world) = (Vec::new(), Vec::new(), None, Vec::new());
         if self.wants(Picture::Stress) {
             let pieces = history.stress_history()?.pieces.into_iter().map(|piece| piece.map(|x| x.to_f64()));
@@ -137,13 +132,13 @@ impl Asked {
             }
         }
         if self.wants(Picture::Along) && self.deformed {
-            world = world_lines(history, &drawn, &breaks)?;
+            world = world_lines(history, &strip, &breaks)?;
         } else if self.wants(Picture::Along) {
             let factor = units.factor::<f64>(self.along.told(&units).0, &()).unwrap_or(1.0);
-            cells = Some(cells::of(history, (self.along, factor), &Strip::of(&drawn.rod, span), breaks)?);
+            cells = Some(cells::of(history, (self.along, factor), &strip, breaks)?);
         }
         let (contacts, of_contacts) = (contacts.collect_vec(), history.contacts().len());
-        let Drawn { rod, span } = drawn;
+        let Strip { rod, span, .. } = strip;
         Ok(Gathered { name, units, rod, span, end, contacts, of_contacts, columns, stress, restitution, cells, world })
     }
 
@@ -171,7 +166,7 @@ impl Asked {
     fn gather_columns<S: Target>(
         &self,
         history: &History<S>,
-        drawn: &Drawn,
+        strip: &Strip,
         breaks: &[Break],
     ) -> Result<Vec<(Quantity, Vec<Line>)>, Error> {
         let mut columns = vec![Quantity::Time, Quantity::Side];
@@ -183,7 +178,7 @@ impl Asked {
         if columns.len() == 2 {
             return Ok(Vec::new());
         }
-        let table = history.ask_columns(&columns, None, |motion| times(motion, drawn, breaks))?;
+        let table = history.ask_columns(&columns, None, |motion| times(motion, strip, breaks))?;
         let table: Vec<Vec<f64>> = mapped(&table, |column| mapped(column, settled));
         let (times, sides) = (&table[0], &table[1]);
         // A time at which a value is open, as beside a ray in enclosures, is left out of all lines.
@@ -212,12 +207,11 @@ fn known_until<S: Target>(history: &History<S>) -> f64 {
 }
 
 /// The rays of a history, by the time at which each leaves the ground: every ray that is in the rod during the span.
-fn breaks<S: Target>(history: &History<S>, drawn: &Drawn) -> Result<Vec<Break>, Error> {
-    let trip = drawn.rod.round_trip();
-    let [from, to] = drawn.span;
+fn breaks<S: Target>(history: &History<S>, strip: &Strip) -> Result<Vec<Break>, Error> {
+    let Strip { span: [from, to], trip, .. } = *strip;
     let inside = |time: &f64| *time >= from - 1.001 * trip && *time <= to;
     let mut breaks: Vec<Break> = Vec::new();
-    if drawn.rod.damping == 0.0 {
+    if strip.rod.damping == 0.0 {
         let waves = history.waves()?.map(|x| x.to_f64());
         let greatest = waves.pieces.iter().map(|piece| piece.rate.abs()).fold(f64::MIN_POSITIVE, f64::max);
         let of = |pair: &[WavePiece<f64>]| {
@@ -227,7 +221,7 @@ fn breaks<S: Target>(history: &History<S>, drawn: &Drawn) -> Result<Vec<Break>, 
         return Ok(waves.pieces.windows(2).filter(|pair| inside(&pair[1].from)).map(of).collect_vec());
     }
     // A ray of a damped rod comes back for ever, and fades.
-    let faded = drawn.rod.damping.recip() * -FADED.ln();
+    let faded = strip.rod.damping.recip() * -FADED.ln();
     let jumps = |motion: &dyn Motion<S::Carried>| {
         let (end, scales) = (motion.end(), motion.scales());
         let mut rays = RayRegister::of(motion).passing(&end.zero(), from - trip, to);
@@ -262,9 +256,8 @@ fn breaks<S: Target>(history: &History<S>, drawn: &Drawn) -> Result<Vec<Break>, 
 const FADED: f64 = 1e-3;
 
 /// Times at which lines are drawn: evenly spaced, at events, and where rays are at the ends.
-fn times<S: Scalar>(motion: &dyn Motion<S>, drawn: &Drawn, breaks: &[Break]) -> Result<Vec<S>, Error> {
-    let (end, [from, to]) = (motion.end(), drawn.span);
-    let trip = drawn.rod.round_trip();
+fn times<S: Scalar>(motion: &dyn Motion<S>, strip: &Strip, breaks: &[Break]) -> Result<Vec<S>, Error> {
+    let (end, [from, to], trip) = (motion.end(), strip.span, strip.trip);
     let count = if breaks.len() > MOST_BREAKS { DENSE } else { POINTS };
     let even = (0..=count).map(|k| from + (to - from) * k as f64 / count as f64);
     // The numbers of the engine itself where two limits may differ: they meet the rays.
@@ -300,13 +293,13 @@ fn times<S: Scalar>(motion: &dyn Motion<S>, drawn: &Drawn, breaks: &[Break]) -> 
 }
 
 /// `v(x,t)` of points along the rod.
-fn world_lines<S: Target>(history: &History<S>, drawn: &Drawn, breaks: &[Break]) -> Result<Vec<(f64, Line)>, Error> {
+fn world_lines<S: Target>(history: &History<S>, strip: &Strip, breaks: &[Break]) -> Result<Vec<(f64, Line)>, Error> {
     let inner: Vec<f64> = mapped(0..WORLD, |k| k as f64 / (WORLD - 1) as f64);
     let found = history.ask(
         |motion| {
             let length = motion.scales().length;
             let mut rows = Vec::new();
-            for time in times(motion, drawn, breaks)? {
+            for time in times(motion, strip, breaks)? {
                 for share in &inner {
                     let point = length.double(*share) * &length;
                     rows.push((time.clone(), motion.field(&point, &time, Side::Right)?.displacement));
@@ -317,5 +310,5 @@ fn world_lines<S: Target>(history: &History<S>, drawn: &Drawn, breaks: &[Break])
         |rows| mapped(rows, |row| &row.1),
     )?;
     let line = |k: usize| found.iter().skip(k).step_by(WORLD).map(|(t, v)| (t.to_f64(), v.to_f64())).collect_vec();
-    Ok(inner.iter().enumerate().map(|(k, share)| (share * drawn.rod.length, line(k))).collect_vec())
+    Ok(inner.iter().enumerate().map(|(k, share)| (share * strip.rod.length, line(k))).collect_vec())
 }

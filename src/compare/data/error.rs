@@ -1,7 +1,5 @@
 //! What is wrong with data, and where; columns that may be wrong.
 
-use crate::number::short;
-
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[error("{file}{}: {kind}", place.as_ref().map_or_else(String::new, |place| format!(", {place}")))]
 pub struct DataError {
@@ -47,11 +45,6 @@ pub enum DataErrorKind {
 }
 
 impl DataErrorKind {
-    pub(crate) fn not_a_number(field: &str) -> Self {
-        let kind = if field.contains(',') { DataErrorKind::DecimalComma } else { DataErrorKind::NotANumber };
-        kind(short(field))
-    }
-
     pub(crate) fn at(self, file: &str, place: Option<String>) -> DataError {
         DataError { file: file.into(), place, kind: self }
     }

@@ -12,7 +12,7 @@ use crate::number::short;
 /// has a column for each index of its second. A number alone is no column.
 pub(super) fn read(bytes: Vec<u8>, is_array: bool) -> Result<Arrays, DataErrorKind> {
     if is_array {
-        let array = numbers(&mut Array(&bytes))?;
+        let array = numbers(Held::Array(&bytes))?;
         let shape = array.shape().to_vec();
         let columns = columns(array);
         let none = columns.is_empty() || columns.iter().any(Result::is_err);
@@ -22,7 +22,7 @@ pub(super) fn read(bytes: Vec<u8>, is_array: bool) -> Result<Arrays, DataErrorKi
     let mut archive = NpzReader::new(Cursor::new(bytes)).map_err(unreadable)?;
     let names = archive.names().map_err(unreadable)?;
     let read = |name: String| {
-        let columns = numbers(&mut Entry(&mut archive, &name)).map_or_else(|kind| vec![Err(kind)], columns);
+        let columns = numbers(Held::Entry(&mut archive, &name)).map_or_else(|kind| vec![Err(kind)], columns);
         (Some(name), columns)
     };
     Ok(names.into_iter().map(read).collect())
@@ -37,43 +37,37 @@ fn columns(array: ArrayD<f64>) -> Vec<Column> {
     }
 }
 
-/// What an array can be read from, whatever its elements.
-trait Fetch {
-    fn fetch<T: ReadableElement>(&mut self) -> Result<ArrayD<T>, ReadNpyError>;
+/// An array as it is held: by itself, or in an archive by its name.
+enum Held<'a> {
+    Array(&'a [u8]),
+    Entry(&'a mut NpzReader<Cursor<Vec<u8>>>, &'a str),
 }
 
-struct Array<'a>(&'a [u8]);
-
-impl Fetch for Array<'_> {
-    fn fetch<T: ReadableElement>(&mut self) -> Result<ArrayD<T>, ReadNpyError> {
-        ArrayD::read_npy(self.0)
-    }
-}
-
-struct Entry<'a>(&'a mut NpzReader<Cursor<Vec<u8>>>, &'a str);
-
-impl Fetch for Entry<'_> {
-    fn fetch<T: ReadableElement>(&mut self) -> Result<ArrayD<T>, ReadNpyError> {
-        self.0.by_name::<OwnedRepr<T>, IxDyn>(self.1).map_err(|error| match error {
-            ReadNpzError::Npy(error) => error,
-            ReadNpzError::Zip(error) => ReadNpyError::Io(std::io::Error::other(error.to_string())),
-        })
+impl Held<'_> {
+    fn read<T: ReadableElement>(&mut self) -> Result<ArrayD<T>, ReadNpyError> {
+        match self {
+            Held::Array(bytes) => ArrayD::read_npy(*bytes),
+            Held::Entry(archive, name) => archive.by_name::<OwnedRepr<T>, IxDyn>(name).map_err(|error| match error {
+                ReadNpzError::Npy(error) => error,
+                ReadNpzError::Zip(error) => ReadNpyError::Io(std::io::Error::other(error.to_string())),
+            }),
+        }
     }
 }
 
 /// The elements as doubles, from whichever of the common types they are.
-fn numbers(array: &mut impl Fetch) -> Result<ArrayD<f64>, DataErrorKind> {
+fn numbers(mut array: Held<'_>) -> Result<ArrayD<f64>, DataErrorKind> {
     macro_rules! of {
         ($($element:ty),*) => {$(
-            if let Ok(found) = array.fetch::<$element>() {
+            if let Ok(found) = array.read::<$element>() {
                 return Ok(found.mapv(|x| x as f64));
             }
         )*};
     }
-    let refused = match array.fetch::<f64>() {
+    let refused = match array.read::<f64>() {
         Err(ReadNpyError::WrongDescriptor(found)) => DataErrorKind::ElementType { found: short(&found.to_string()) },
         read => return read.map_err(|error| DataErrorKind::Unreadable(error.to_string())),
     };
     of!(f32, i64, i32, i16, i8, u64, u32, u16, u8);
-    array.fetch::<bool>().map(|flags| flags.mapv(|flag| f64::from(u8::from(flag)))).map_err(|_| refused)
+    array.read::<bool>().map(|flags| flags.mapv(|flag| f64::from(u8::from(flag)))).map_err(|_| refused)
 }

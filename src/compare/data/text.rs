@@ -174,11 +174,12 @@ impl Text {
                     let is_side = words == Some(found);
                     let Some(value) = (if is_side { side(field) } else { number(field) }) else {
                         let place = Some(format!("line {line_number}, column {}", found + 1));
-                        let kind = match is_side {
-                            true => DataErrorKind::Side(short(field)),
-                            false => DataErrorKind::not_a_number(field),
+                        let kind = match field.contains(',') {
+                            _ if is_side => DataErrorKind::Side,
+                            true => DataErrorKind::DecimalComma,
+                            false => DataErrorKind::NotANumber,
                         };
-                        return Err(kind.at(file, place));
+                        return Err(kind(short(field)).at(file, place));
                     };
                     values[*taker].push(value);
                 }

@@ -3,7 +3,8 @@ use super::*;
 /// The polygons cover the strip once.
 #[test]
 fn cells_cover_the_strip() {
-    let strip = Strip { from: 0.3, to: 5.1, length: 2.0, speed: 3.0, trip: 4.0 / 3.0, damped: false };
+    let rod = Parameters { length: 2.0, wave_speed: 3.0, damping: 0.0, gravity: 0.0, speed: 1.0 };
+    let strip = Strip { rod, span: [0.3, 5.1], trip: 4.0 / 3.0 };
     let breaks: Vec<Break> =
         (-3..40).map(|k| Break { time: 0.17 * f64::from(k * k) - 1.0, jump: true, share: 1.0 }).collect();
     for fine in [None, Some(0.2)] {

@@ -2,7 +2,7 @@
 
 use std::time::Instant;
 
-use super::verdict::{Outcome, Promise, Row, Verdict};
+use super::verdict::{Outcome, Promise, Row, Verdict, outcome};
 use crate::mapped::{CollectVec, mapped};
 use crate::motion::Side;
 use crate::number::Number;
@@ -153,11 +153,15 @@ impl Entry {
         let question = self.question();
         let routes = self.formulas.iter().flatten().chain(self.routes);
         let rows = routes.filter_map(|(route, promise)| {
-            let (name, long) = described(*route);
-            let start = Instant::now();
-            let answer = || question.as_ref().map_err(Clone::clone).and_then(|asked| route.run(asked, f64::INFINITY));
-            let judged = |answer| Row::judged(name, *promise, truth.as_ref(), answer, start.elapsed().as_secs_f64());
-            (long::AVAILABLE || !long).then(|| judged(answer()))
+            let ((route_name, long), start) = (described(*route), Instant::now());
+            if long && !long::AVAILABLE {
+                return None;
+            }
+            let found = question.as_ref().map_err(Clone::clone).and_then(|asked| route.run(asked, f64::INFINITY));
+            let seconds = start.elapsed().as_secs_f64();
+            let digits = truth.as_ref().and_then(|truth| Some(truth.right_digits(found.as_ref().ok()?)));
+            let outcome = outcome(*promise, truth.as_ref(), &found, digits.unwrap_or(0.0));
+            Some(Row { route: route_name, found, promise: *promise, digits, outcome, seconds })
         });
         CheckedQuestion { what: self.what, truth: self.truth, rows: rows.collect_vec() }
     }
@@ -235,8 +239,6 @@ pub(super) const fn group(name: Text, title: Text, lesson: Text, cases: &'static
     Group { name, title, lesson, cases }
 }
 
-pub(super) type Entries = &'static [Entry];
-
 /// A hard case, or a claim of the paper.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Case {
@@ -247,7 +249,7 @@ pub(crate) struct Case {
     pub(crate) about: Text,
     /// What the case comes to when all promises are kept.
     pub(super) verdict: Verdict,
-    pub(super) entries: Entries,
+    pub(super) entries: &'static [Entry],
 }
 
 pub(super) const fn claim(name: Text, verdict: Verdict, source: Text, about: Text, entries: &'static [Entry]) -> Case {

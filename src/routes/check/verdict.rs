@@ -1,5 +1,6 @@
 //! What a route promises, whether it keeps that, and what a case comes to.
 
+use crate::routes::account::Found;
 use crate::routes::truth::Truth;
 use crate::routes::value::{NoAnswer, Value};
 
@@ -72,7 +73,7 @@ named! {
 #[derive(Clone, Debug)]
 pub(crate) struct Row {
     pub(crate) route: String,
-    pub(crate) found: Result<Value, NoAnswer>,
+    pub(crate) found: Found<Value>,
     pub(crate) promise: Promise,
     /// How many of its digits are right: `None` where there is no number, infinite for the truth itself.
     pub(crate) digits: Option<f64>,
@@ -81,19 +82,6 @@ pub(crate) struct Row {
 }
 
 impl Row {
-    /// `truth` is `None` where there is no bounce.
-    pub(super) fn judged(
-        route: String,
-        promise: Promise,
-        truth: Option<&Truth>,
-        answer: Result<Value, NoAnswer>,
-        seconds: f64,
-    ) -> Self {
-        let digits = truth.and_then(|truth| Some(truth.right_digits(answer.as_ref().ok()?)));
-        let outcome = outcome(promise, truth, &answer, digits.unwrap_or(0.0));
-        Row { route, found: answer, promise, digits, outcome, seconds }
-    }
-
     /// The answer in words: `no bounce`, or a number.
     pub(crate) fn found(&self) -> String {
         match &self.found {
@@ -104,7 +92,8 @@ impl Row {
     }
 }
 
-fn outcome(promise: Promise, truth: Option<&Truth>, answer: &Result<Value, NoAnswer>, digits: f64) -> Outcome {
+/// What comes of a promise; `truth` is `None` where there is no bounce.
+pub(super) fn outcome(promise: Promise, truth: Option<&Truth>, answer: &Found<Value>, digits: f64) -> Outcome {
     let kept = |holds: bool| if holds { Outcome::Kept } else { Outcome::Failed };
     let broken = |breaks: bool| if breaks { Outcome::Breaks } else { Outcome::Failed };
     match (answer, truth, promise) {
