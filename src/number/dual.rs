@@ -1,72 +1,87 @@
-//! Fractions with a derivative.
+//! Numbers with a derivative.
 
 use std::cmp::Ordering;
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
-use super::{Bounded, Number, Open, Rational, Scalar};
+use super::{Bounded, Number, Open, Scalar};
 
-/// A fraction and how fast it grows with a value of the problem that becomes a little greater: `a + b ε`, `ε > 0` and
+/// A number and how fast it grows with a value of the problem that becomes a little greater: `a + b ε`, `ε > 0` and
 /// `ε² = 0`.
 ///
-/// Comparisons are those of the problem with the greater value: where the fractions are equal, their rates decide. So
-/// events come in the order that they have beside a threshold, and the derivative is that from the right.
+/// Comparisons are those of the problem with the greater value: where the numbers are equal, their rates decide. So
+/// events come in the order that they have beside a threshold, and the derivative is that from the right. Rounded
+/// numbers are equal within their bounds only, so that no rate decides between them: then it is open.
 ///
 /// What first order does not tell, such as a quotient by `b ε` or the root of one, is open in every comparison.
+///
+/// What a system of numbers counts beside a formula is counted for `a` and `b` alike: each is a stored number and the
+/// deviation from it, and the formula holds for the sums `a + b ε` of both.
 #[derive(Clone, Debug)]
-pub(crate) struct Dual {
-    value: Rational,
-    rate: Rational,
+pub(crate) struct Dual<S> {
+    value: S,
+    rate: S,
     known: bool,
 }
 
-impl Dual {
+impl<S: Bounded> Dual<S> {
     /// `value + rate ε`.
-    pub(crate) fn new(value: Rational, rate: Rational) -> Self {
+    pub(crate) fn new(value: S, rate: S) -> Self {
         Dual { value, rate, known: true }
     }
 
     /// A number that does not change.
-    pub(crate) fn constant(value: Rational) -> Self {
-        Dual::new(value, Rational::default())
+    pub(crate) fn constant(value: S) -> Self {
+        Dual { rate: value.zero(), value, known: true }
     }
 
     /// `b`; `None` where first order does not tell.
-    pub(crate) fn rate(&self) -> Option<&Rational> {
+    pub(crate) fn rate(&self) -> Option<&S> {
         Some(&self.rate).filter(|_| self.known)
     }
 
     /// `a`.
-    pub(crate) fn value(&self) -> &Rational {
+    pub(crate) fn value(&self) -> &S {
         &self.value
     }
 
-    fn unknown() -> Self {
-        Dual { known: false, ..Dual::constant(Rational::default()) }
+    fn unknown(near: &S) -> Self {
+        Dual { known: false, ..Dual::constant(near.zero()) }
+    }
+
+    /// `f` of both numbers.
+    fn each(self, f: impl Fn(S) -> S) -> Self {
+        Dual { value: f(self.value), rate: f(self.rate), known: self.known }
+    }
+
+    /// `f` of both numbers and those of `other`.
+    fn with(self, other: &Self, f: impl Fn(S, &S) -> S) -> Self {
+        let known = self.known && other.known;
+        Dual { value: f(self.value, &other.value), rate: f(self.rate, &other.rate), known }
     }
 }
 
-impl Neg for Dual {
+impl<S: Bounded> Neg for Dual<S> {
     type Output = Self;
     fn neg(self) -> Self {
-        Dual { value: -self.value, rate: -self.rate, known: self.known }
+        self.each(S::neg)
     }
 }
 
-impl Add<&Dual> for Dual {
+impl<S: Bounded> Add<&Dual<S>> for Dual<S> {
     type Output = Self;
     fn add(self, other: &Self) -> Self {
-        Dual { value: self.value + &other.value, rate: self.rate + &other.rate, known: self.known && other.known }
+        self.with(other, |a, b| a + b)
     }
 }
 
-impl Sub<&Dual> for Dual {
+impl<S: Bounded> Sub<&Dual<S>> for Dual<S> {
     type Output = Self;
     fn sub(self, other: &Self) -> Self {
-        Dual { value: self.value - &other.value, rate: self.rate - &other.rate, known: self.known && other.known }
+        self.with(other, |a, b| a - b)
     }
 }
 
-impl Mul<&Dual> for Dual {
+impl<S: Bounded> Mul<&Dual<S>> for Dual<S> {
     type Output = Self;
     fn mul(self, other: &Self) -> Self {
         let rate = self.rate * &other.value + other.rate.clone() * &self.value;
@@ -74,30 +89,32 @@ impl Mul<&Dual> for Dual {
     }
 }
 
-impl Div<&Dual> for Dual {
+impl<S: Bounded> Div<&Dual<S>> for Dual<S> {
     type Output = Self;
     fn div(self, other: &Self) -> Self {
-        if !other.known || other.value.vanishes() == Ok(true) {
-            return Dual::unknown();
+        if !other.known || other.value.vanishes() != Ok(false) {
+            return Dual::unknown(&self.value);
         }
         let value = self.value / &other.value;
         Dual { rate: (self.rate - other.rate.clone() * &value) / &other.value, value, known: self.known }
     }
 }
 
-by_value!([] Dual);
+by_value!([S: Bounded] Dual<S>);
 
-impl Scalar for Dual {
-    type Precision = ();
+impl<S: Bounded> Scalar for Dual<S> {
+    type Precision = S::Precision;
 
-    fn from_number(number: &Number, (): &()) -> Self {
-        Dual::constant(number.to_rational())
+    fn from_number(number: &Number, precision: &S::Precision) -> Self {
+        Dual::constant(S::from_number(number, precision))
     }
 
-    fn precision(&self) {}
+    fn precision(&self) -> S::Precision {
+        self.value.precision()
+    }
 
     fn int(&self, n: i64) -> Self {
-        Dual::constant(n.into())
+        Dual::constant(self.value.int(n))
     }
 
     fn double(&self, x: f64) -> Self {
@@ -107,39 +124,108 @@ impl Scalar for Dual {
     /// `√(a + b ε) = √a + b ε/2√a`: a step of Newton's method.
     fn try_sqrt(&self) -> Option<Self> {
         let root = self.value.try_sqrt()?;
-        if root.vanishes() == Ok(true) {
-            return Some(Dual::unknown());
+        if root.vanishes() != Ok(false) {
+            return Some(Dual::unknown(&root));
         }
         Some(Dual { rate: (self.rate.clone() / &root).halved(), value: root, known: self.known })
     }
 
     fn to_f64(&self) -> f64 {
-        Scalar::to_f64(&self.value)
+        self.value.to_f64()
+    }
+
+    fn roundoff(&self) -> Self {
+        Dual::constant(self.value.roundoff())
+    }
+
+    fn bits(&self) -> Option<u32> {
+        self.value.bits()
     }
 
     fn sign(&self) -> Result<Ordering, Open> {
-        if self.known { Ok(Scalar::sign(&self.value)?.then(Scalar::sign(&self.rate)?)) } else { Err(Open) }
+        let sign = if self.known { self.value.sign()? } else { return Err(Open) };
+        if sign.is_ne() {
+            return Ok(sign);
+        }
+        let sign = self.rate.sign()?;
+        if sign.is_ne() && self.bits().is_some() { Err(Open) } else { Ok(sign) }
     }
 
     fn floor_int(&self) -> Option<i64> {
         let floor = self.value.floor_int()?;
-        let whole = self.value.compare(&Rational::from(floor)) == Ok(Ordering::Equal);
-        let just_below = self.known && whole && self.rate.negative() == Ok(true);
-        self.known.then_some(floor - i64::from(just_below))
+        let past = self.clone() - self.int(floor);
+        Some(floor - i64::from(past.negative().ok()?))
     }
 
     fn is_finite(&self) -> bool {
-        self.known
+        self.known && self.value.is_finite()
     }
 
     fn text(&self) -> String {
         self.value.text()
     }
+
+    fn widened(self, by: &Self) -> Self {
+        self.with(by, S::widened)
+    }
 }
 
-impl Bounded for Dual {
+impl<S: Bounded> Bounded for Dual<S> {
+    /// Never zero: numbers may be equal in first order only.
+    fn roundoffs(&self) -> f64 {
+        self.value.roundoffs().max(f64::MIN_POSITIVE)
+    }
+
+    fn nominal(self) -> Self {
+        self.each(S::nominal)
+    }
+
+    fn minus_stored(self, other: &Self) -> Self {
+        self.with(other, S::minus_stored)
+    }
+
+    fn times_stored(self, other: &Self) -> Self {
+        let rate = self.rate.times_stored(&other.value) + self.value.clone().times_stored(&other.rate);
+        Dual { value: self.value.times_stored(&other.value), rate, known: self.known && other.known }
+    }
+
+    fn deviation(&self) -> Option<Self> {
+        let [value, rate] = [&self.value, &self.rate].map(S::deviation);
+        let zero = || self.value.zero();
+        (value.is_some() || rate.is_some()).then(|| Dual::new(value.unwrap_or_else(zero), rate.unwrap_or_else(zero)))
+    }
+
+    fn taken_for_zero(&self) -> Self {
+        Dual { value: self.value.taken_for_zero(), rate: self.rate.taken_for_zero(), known: self.known }
+    }
+
+    fn joined(self, other: &Self) -> Self {
+        self.with(other, S::joined)
+    }
+
+    /// The rate of `[rate] δ + [bend] δ²/2`, where δ is the deviation of the place.
+    fn cross_break(&mut self, place: &Self, before: [&Self; 2], after: [&Self; 2]) {
+        let values = |line: [&Self; 2]| line.map(|number| number.value.clone());
+        self.value.cross_break(&place.value, values(before).each_ref(), values(after).each_ref());
+        let Some(late) = place.deviation() else { return };
+        let [rate, bend] = [0, 1].map(|k| after[k].clone() - before[k]);
+        let by = (bend * &late).halved() + &rate;
+        self.rate = self.rate.clone().widened(&(by * &late).rate);
+    }
+
+    /// First order does not tell which of a root and a break comes first where both are one in it; in rounded numbers
+    /// it does not tell the rate either.
+    fn root_deviation(&self, rate: &Self, bend: &Self) -> Option<Self> {
+        let value = self.value.root_deviation(&rate.value, &bend.value).unwrap_or_else(|| self.value.zero());
+        Some(Dual { known: self.bits().is_none(), ..Dual::constant(value) })
+    }
+
     fn halved(self) -> Self {
-        Dual { value: self.value.halved(), rate: self.rate.halved(), known: self.known }
+        self.each(S::halved)
+    }
+
+    fn doubled(self) -> Self {
+        self.each(S::doubled)
     }
 }
 

@@ -8,7 +8,7 @@
 //! | [`Interval`] (feature `mp`) | enclosures | ends rounded outwards, with the exact number where it has a root form |
 //! | [`Estimate`] | a rounded number and its error | the bound is carried through every operation |
 //!
-//! `Dual`, a fraction with a derivative, is for computations inside.
+//! `Dual`, a number with a derivative, is for computations inside.
 //!
 //! Formulas are written once: [`Scalar`] has the field operations and the square root, [`Analytic`] the elementary
 //! functions; [`Rounded`] numbers round, and [`Bounded`] ones answer for their own error.

@@ -1,6 +1,6 @@
 //! Derivatives of what a history lists by a value of the problem, from both sides.
 
-use super::plan::Plan;
+use super::plan::{Plan, Rung};
 use super::question::{Observer, Want};
 use crate::error::Error;
 use crate::mapped::{MapEach, mapped, try_mapped};
@@ -67,6 +67,8 @@ pub(super) fn at<S>(rows: &Rows<S>, (row, column): (usize, usize)) -> Option<&S>
 pub struct Asked<'a> {
     pub(super) problem: &'a Problem,
     pub(super) plan: &'a Plan,
+    /// The numbers that have settled the run whose numbers they are of.
+    pub(super) rung: Rung,
     /// What a run with another value is to answer.
     pub(super) want: Want,
     pub(super) observe: &'a Observer,

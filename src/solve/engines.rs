@@ -8,7 +8,7 @@ use super::derivative::{Asked, Derivatives};
 use super::ladder::{Engined, Target};
 use super::plan::{DEFAULT_ACCURACY, Engine, Plan, Rung};
 use super::question::Observer;
-use super::{differences, exact, interpolated, long};
+use super::{differences, interpolated, long, rates};
 use crate::cells::{ContactThenCells, Damped};
 use crate::error::Error;
 use crate::first_contact::{Bounce, ContactHistory, FirstContact};
@@ -71,10 +71,12 @@ impl Target for f64 {
     /// From doubles, where no more is asked for than they have and nothing jumps or bends; where they do not settle it,
     /// one digit more than the run is asked for.
     fn derivatives(asked: &Asked<'_>, run: &Engined<f64>) -> Result<Derivatives<Estimate<f64>>, Error> {
-        if asked.plan.goal.digits <= -DEFAULT_ACCURACY.log10()
-            && let Ok(Some(found)) = interpolated::of(asked, run)
-        {
-            return Ok(found);
+        if asked.plan.goal.digits <= -DEFAULT_ACCURACY.log10() {
+            for way in [rates::in_doubles, rates::by_fractions, interpolated::of] {
+                if let Ok(Some(found)) = way(asked, run) {
+                    return Ok(found);
+                }
+            }
         }
         let digits = asked.plan.goal.digits.ceil() as u32;
         let found = differences::of(asked, digits)?;
@@ -88,7 +90,7 @@ impl Target for Rational {
     }
 
     fn derivatives(asked: &Asked<'_>, _: &Engined<Self>) -> Result<Derivatives<Rational>, Error> {
-        exact::derivatives(asked)
+        rates::in_fractions(asked)
     }
 }
 

@@ -17,13 +17,14 @@ impl<S: Target> History<S> {
     /// density, one by gravity at the same impact speed. What there is not, such as the end of a contact that lasts, is
     /// `None`.
     ///
-    /// **Accuracy**: *exact* in fractions; where the two sides differ, difference quotients have confirmed them.
-    /// Otherwise each derivative is *within its own bound*. In doubles, as accurate as they are by default, it is within
-    /// 1e-5 of its natural size, mostly 1e-8, and takes three runs: it is that of a cubic through four, and the bound
-    /// what a quadratic differs by. Where these do not settle it, where more is asked for and in digits it is a
-    /// difference quotient of runs in long numbers, with a step as small as the last of the digits, and the bound has
-    /// what the quotients of both sides, or of two steps, differ by. A threshold that is nearer than the step counts as
-    /// met.
+    /// **Accuracy**: *exact* in fractions; where first order does not tell which of two events comes first, difference
+    /// quotients have confirmed them. Otherwise each derivative is *within its own bound*. In doubles, as accurate as
+    /// they are by default, one of an undamped rod is carried through the run beside each number, with a bound of its
+    /// own, in fractions where these decide an order of events; one of a damped rod is within 1e-5 of its natural size,
+    /// mostly 1e-8, and takes three runs: it is that of a cubic through four, and the bound what a quadratic differs by.
+    /// Where these do not settle it, where more is asked for and in digits it is a difference quotient of runs in long
+    /// numbers, with a step as small as the last of the digits, and the bound has what the quotients of both sides, or
+    /// of two steps, differ by. A threshold that is nearer than the step counts as met.
     ///
     /// **Errors**: [`Error::Derivative`] where the problem has no such value, in fractions for damping, and for
     /// enclosures; [`Error::Digits`] for more than 60; [`Error::NoMultiprecision`] without the feature `mp`, but for
@@ -92,6 +93,6 @@ impl<S: Target> History<S> {
 
     fn asked<'a>(&'a self, by: Parameter, quantities: &'a [Quantity]) -> Asked<'a> {
         let (problem, plan, observe) = (self.problem(), self.plan(), &self.observe);
-        Asked { problem, plan, want: plan.want(), observe, by, quantities, at: None }
+        Asked { problem, plan, rung: self.first.rung, want: plan.want(), observe, by, quantities, at: None }
     }
 }

@@ -1,4 +1,4 @@
-//! Derivatives as those of the cubic through four runs in doubles.
+//! Derivatives as those of the cubic through four runs in doubles: where no engine carries rates.
 //!
 //! With a step `h` of the value, relative to it, that of the cubic is off by about `h³ f⁗/4` and what doubles are known
 //! to, `n`, divided by h; the quadratic through three of the runs by `h² f‴/6` or `/3`. What the two differ by is taken
@@ -9,10 +9,10 @@
 
 use super::derivative::{Asked, Derivative, Derivatives, Rows, at, of_each};
 use super::ladder::{Engined, Ladder};
-use super::plan::{Engine, Plan};
+use super::plan::Plan;
 use super::question::Question;
 use crate::error::Error;
-use crate::mapped::{CollectVec, try_mapped};
+use crate::mapped::CollectVec;
 use crate::motion::Motion;
 use crate::number::{Estimate, Number, Rational, Scalar};
 use crate::problem::Problem;
@@ -70,11 +70,7 @@ fn with_step(
         )?;
         Ok::<Rows<Double>, Error>(found.1.0)
     };
-    // On the lattice a run takes less time than a thread to begin.
-    let runs = match asked.plan.engine {
-        Engine::Lattice => try_mapped(0..3, run)?,
-        _ => Threads::default().all(3, run)?,
-    };
+    let runs = Threads::default().all(3, run)?;
     let scale = if value == 0.0 { asked.by.scale_of_zero(asked.problem).to_f64() } else { value };
     let cubic = Cubic { part: step.to_f64(), value: scale / asked.by.power(asked.problem) as f64, one_sided };
     let mut settled = true;

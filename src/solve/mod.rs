@@ -21,7 +21,6 @@ mod derivative;
 #[cfg_attr(not(feature = "mp"), path = "differences_absent.rs")]
 mod differences;
 mod engines;
-mod exact;
 mod foresee;
 mod history;
 mod history_derivatives;
@@ -31,6 +30,7 @@ mod ladder;
 mod long;
 mod plan;
 mod question;
+mod rates;
 #[cfg(feature = "cli")]
 mod sensitivity;
 mod solution;

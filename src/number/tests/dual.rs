@@ -1,6 +1,7 @@
 use super::*;
+use crate::number::{Estimate, Rational};
 
-fn dual(value: (i64, i64), rate: (i64, i64)) -> Dual {
+fn dual(value: (i64, i64), rate: (i64, i64)) -> Dual<Rational> {
     let fraction = |(p, q): (i64, i64)| Rational::from(p) / Rational::from(q);
     Dual::new(fraction(value), fraction(rate))
 }
@@ -23,4 +24,20 @@ fn rates_decide_between_equal_numbers() {
     // ε/ε is not of first order, and neither is √ε.
     let step = more - &one;
     assert_eq!(((one / &step).sign(), step.try_sqrt().unwrap().sign()), (Err(Open), Err(Open)));
+}
+
+/// `√(x² + 3)/(2 x)` at x = 0.1 has the rate `−3/(2 x² √(x² + 3))`: in doubles the number and its rate are each within
+/// their own bound, which is some roundings of them.
+#[test]
+fn rates_in_doubles_carry_their_bounds() {
+    let x = Dual::new(Estimate::rounded(0.1, 1.0), Estimate::exact(1.0));
+    let found = (x.square() + x.int(3)).try_sqrt().unwrap() / x.doubled();
+    let rate = found.rate().unwrap();
+    // 3.01 has the root 1.7349351572897473 and a tenth.
+    let expected = -3.0 / (2.0 * 0.01 * 1.734_935_157_289_747_3);
+    assert!((rate.value() - expected).abs() <= rate.bound() && rate.bound() < 40.0 * f64::EPSILON * expected.abs());
+    // Equal within bounds: no rate says which one is greater.
+    let tenths = x.clone() + &x + &x;
+    let three = Dual::constant(Estimate::rounded(0.3, 1.0));
+    assert_eq!((tenths.compare(&three), three.compare(&three)), (Err(Open), Ok(Ordering::Equal)));
 }

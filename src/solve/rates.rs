@@ -1,0 +1,197 @@
+//! Derivatives of undamped rods by their histories in numbers `a + b ε`: in fractions for a value that grows and one that
+//! shrinks, in doubles for one that grows, as long as no threshold is met.
+
+use super::derivative::{Asked, Derivative, Derivatives, NoDerivative, Rows, at, of_each};
+use super::differences;
+use super::ladder::Engined;
+use super::plan::{Engine, Rung};
+use crate::error::Error;
+use crate::lattice::{Scaled, Undamped};
+use crate::mapped::{MapEach, mapped};
+use crate::motion::{AtStart, Datum, Motion};
+use crate::number::{Bounded, DOUBLE_DIGITS, Dual, Estimate, Float, Number, Rational, Reads, Scalar};
+use crate::problem::{Material, Parameter, Parameters, Problem};
+use crate::quantity::{Measure, Quantity};
+
+type OneSide = Result<Rational, NoDerivative>;
+
+/// The derivatives in fractions that are `asked` for; none for damping and for a gravity that is zero.
+pub(super) fn in_fractions(asked: &Asked<'_>) -> Result<Derivatives<Rational>, Error> {
+    let value = asked.by.value_in::<Rational>(asked.problem, &())?;
+    let zero = value.vanishes() == Ok(true);
+    if zero && matches!(asked.by, Parameter::Gravity | Parameter::Length) || asked.by == Parameter::Damping {
+        let expected = "digits or doubles: a rod without it is another problem in fractions";
+        return Err(Error::Derivative { parameter: asked.by.name(), expected });
+    }
+    let problem = &*asked.plan.reaching(asked.problem);
+    let base = asked.values(problem, &asked.plan.lattice::<Rational>(problem, &(), asked.observe)?)?;
+    let (right, mut settled) = with_rates(asked, problem, &value, 1)?;
+    let left = match asked.by.only_grows(problem) {
+        true => None,
+        false => {
+            let (left, both) = with_rates(asked, problem, &value, -1)?;
+            settled &= both;
+            Some(left)
+        }
+    };
+    // A time that is asked for may be that of a ray in first order only.
+    settled &= asked.at.is_none();
+    let rates = of_each(&base, |place, number| {
+        let right = side(&right, number, place);
+        let there = |rows: &&Rows<Dual<Rational>>| !asked.is_stretched() || at(rows, place).is_some();
+        let left = left.as_ref().filter(there);
+        let left = left.map_or_else(|| right.clone(), |rows| side(rows, number, place).map(|rate| -rate));
+        settled &= left.is_ok() && right.is_ok();
+        [left, right]
+    });
+    let quotients = if settled { Err(Error::NoMultiprecision) } else { differences::of(asked, DOUBLE_DIGITS) };
+    let quotients = match quotients {
+        Err(Error::NoMultiprecision) => None,
+        quotients => Some(quotients?),
+    };
+    Ok(of_each(&rates, |place, [left, right]| {
+        let sides = [left.clone(), right.clone()];
+        let [left, right] = match &quotients {
+            Some(quotients) => confirmed(sides, at(quotients, place)),
+            None if settled || left == right => sides,
+            None => [Err(NoDerivative::Unsettled), Err(NoDerivative::Unsettled)],
+        };
+        match (left, right) {
+            (Ok(left), Ok(right)) if left == right => Derivative::One(right),
+            (left, right) => Derivative::Sides { left, right },
+        }
+    }))
+}
+
+/// The rates on both sides, as far as difference quotients confirm them.
+///
+/// Beside a threshold events may be apart by `ε²`, which decides what comes first as well as `ε` does.
+fn confirmed(rates: [OneSide; 2], quotient: Option<&Derivative<Estimate<Float>>>) -> [OneSide; 2] {
+    let unsettled = NoDerivative::Unsettled;
+    let Some(quotient) = quotient.map(Derivative::sides) else { return [Err(unsettled), Err(unsettled)] };
+    let [left, right] = rates;
+    let [to_left, to_right] = quotient;
+    [(left, to_left), (right, to_right)].map_each(|(rate, quotient)| {
+        let (rate, quotient) = (rate, quotient?);
+        rate.ok().filter(|rate| meets(rate, quotient)).ok_or(unsettled)
+    })
+}
+
+/// Whether a quotient is a rate within its bound.
+fn meets(rate: &Rational, quotient: &Estimate<Float>) -> bool {
+    let number = Number::of_rational(rate);
+    number.is_some_and(|number| Estimate::from_number(&number, &quotient.precision()).same(quotient))
+}
+
+/// The rate of a number on a side, where the same number is there: otherwise events do not move in first order only.
+fn side(rows: &Rows<Dual<Rational>>, number: &Rational, place: (usize, usize)) -> OneSide {
+    let there = at(rows, place).filter(|there| there.value() == number);
+    there.and_then(Dual::rate).cloned().ok_or(NoDerivative::Unsettled)
+}
+
+/// A derivative in doubles may be off by so much of its size or of the natural one.
+const WANTED: f64 = 1e-5;
+
+/// The derivatives in doubles that are `asked` for, of the numbers of this `run`; `None` where it is not one of the
+/// lattice, where a threshold is met and where bounds are too wide.
+pub(super) fn in_doubles(asked: &Asked<'_>, run: &Engined<f64>) -> Result<Option<Derivatives<Estimate<f64>>>, Error> {
+    let value = asked.by.value_in::<Estimate<f64>>(asked.problem, &())?;
+    if asked.plan.engine != Engine::Lattice || asked.by == Parameter::Damping || value.vanishes() == Ok(true) {
+        return Ok(None);
+    }
+    let problem = &*asked.plan.reaching(asked.problem);
+    let (rows, settled) = with_rates(asked, problem, &value, 1)?;
+    let (base, scales) = (asked.values(problem, &**run)?, asked.scales(problem, &**run));
+    let mut settled = settled && base.len() == rows.len();
+    let found = of_each(&base, |place, number| {
+        let rate = at(&rows, place).filter(|there| there.value().same(number)).and_then(Dual::rate);
+        let natural = number.value().abs().max(scales[place.1]) / value.value();
+        let rate = rate.filter(|rate| rate.bound() <= WANTED * (rate.value().abs() + natural));
+        settled &= rate.is_some();
+        Derivative::One(rate.unwrap_or(number).clone())
+    });
+    Ok(settled.then_some(found))
+}
+
+/// The derivatives in doubles that are `asked` for, by fractions, which have told what comes first in this `run`.
+pub(super) fn by_fractions(asked: &Asked<'_>, run: &Engined<f64>) -> Result<Option<Derivatives<Estimate<f64>>>, Error> {
+    if asked.rung != Rung::Fractions {
+        return Ok(None);
+    }
+    let found = mapped(in_fractions(asked)?, |row| mapped(row, |cell| cell.map(|it| it.map(Estimate::read))));
+    let base = asked.values(asked.problem, &**run)?;
+    let listed = |row: &Vec<Option<Estimate<f64>>>| mapped(row, Option::is_some);
+    let same = found.iter().map(|row| mapped(row, Option::is_some)).eq(base.iter().map(listed));
+    Ok(same.then_some(found))
+}
+
+/// The numbers of the problem with a value that grows, or shrinks, with their rates; and whether all comparisons on the
+/// way are settled.
+fn with_rates<S: Bounded>(
+    asked: &Asked<'_>,
+    problem: &Problem,
+    value: &S,
+    sign: i64,
+) -> Result<(Rows<Dual<S>>, bool), Error> {
+    let precision = value.precision();
+    let given = Parameters::<S>::of(problem, &precision)?;
+    let sign = value.int(sign);
+    let dual = |number: S, by: Parameter| {
+        let rate = if asked.by == by { sign.clone() } else { sign.zero() };
+        Dual::new(number, rate)
+    };
+    // √(E/ρ) has the rate c/2E, or −c/2ρ.
+    let share = |c: &S| (c.clone() / value).halved() * &sign;
+    let wave_speed = match asked.by {
+        Parameter::Modulus => Dual::new(given.wave_speed.clone(), share(&given.wave_speed)),
+        Parameter::Density => Dual::new(given.wave_speed.clone(), -share(&given.wave_speed)),
+        _ => dual(given.wave_speed, Parameter::WaveSpeed),
+    };
+    let given = Parameters {
+        length: dual(given.length, Parameter::Length),
+        wave_speed,
+        damping: Dual::constant(given.damping),
+        gravity: dual(given.gravity, Parameter::Gravity),
+        speed: dual(given.speed, Parameter::Speed),
+    };
+    let datum = |datum: Datum, number: &Number| {
+        let number = S::from_number(number, &precision);
+        let rate = match (datum, asked.by) {
+            (Datum::Point, Parameter::Length) => number.clone() / value,
+            (Datum::Displacement(_), Parameter::Gap) => number.one(),
+            (Datum::Displacement(_), Parameter::StartDisplacement(None)) => number.clone(),
+            (Datum::Velocity(_), Parameter::StartVelocity(None)) => number.clone(),
+            (Datum::Displacement(k), Parameter::StartDisplacement(Some(node)))
+            | (Datum::Velocity(k), Parameter::StartVelocity(Some(node))) => number.int(i64::from(k == node)),
+            _ => number.zero(),
+        };
+        Dual::new(number, rate * &sign)
+    };
+    let data = AtStart::with(problem, &given, &datum);
+    let scaled = Scaled::with(problem, &given, data)?;
+    let limits = asked.plan.lattice_limits(problem);
+    let history = Undamped::<Dual<S>>::solve_scaled(scaled, &problem.run, limits, &**asked.observe)?;
+    let mut rows = asked.values(problem, &history)?;
+    for row in &mut rows {
+        for (number, quantity) in row.iter_mut().zip(asked.quantities) {
+            let power = unit_power(asked.by, *quantity, &problem.rod.material);
+            if let Some(number) = number.as_mut().filter(|_| power != 0) {
+                *number = number.clone() * Dual::new(value.one(), sign.clone() * value.int(power) / value);
+            }
+        }
+    }
+    let settled = history.warnings().is_empty() && !history.ending().is_open();
+    Ok((rows, settled))
+}
+
+/// The power of the value in the unit of `quantity`: stress and force have `E`, which is `c² ρ` at the same density,
+/// impulse and energy `ρ`.
+fn unit_power(by: Parameter, quantity: Quantity, material: &Material) -> i64 {
+    match (by, quantity.measure(), material) {
+        (_, _, Material::WaveSpeed(_)) => 0,
+        (Parameter::Modulus, Some(Measure::Stress | Measure::Force), _) => 1,
+        (Parameter::WaveSpeed, Some(Measure::Stress | Measure::Force), _) => 2,
+        (Parameter::Density, Some(Measure::Impulse | Measure::Energy), _) => 1,
+        _ => 0,
+    }
+}
