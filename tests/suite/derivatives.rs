@@ -447,7 +447,8 @@ fn doubles_against_quotients_of_long_numbers() {
 #[test]
 #[ignore = "minutes: make explore"]
 fn doubles_against_quotients_of_long_numbers_at_length() {
-    let worst = doubles_against_long_numbers(1000, [1000], 1..=4);
+    // Some never touch the ground.
+    let worst = doubles_against_long_numbers(1000, [950], 1..=4);
     println!("1000 damped rods: a derivative is off by {worst:.3} of its bound at most");
 }
 

@@ -31,7 +31,7 @@ fn rates_decide_between_equal_numbers() {
 #[test]
 fn rates_in_doubles_carry_their_bounds() {
     let x = Dual::new(Estimate::rounded(0.1, 1.0), Estimate::exact(1.0));
-    let found = (x.square() + x.int(3)).try_sqrt().unwrap() / x.doubled();
+    let found = (x.square() + x.int(3)).try_sqrt().unwrap() / x.clone().doubled();
     let rate = found.rate().unwrap();
     // 3.01 has the root 1.7349351572897473 and a tenth.
     let expected = -3.0 / (2.0 * 0.01 * 1.734_935_157_289_747_3);
