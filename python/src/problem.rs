@@ -46,7 +46,7 @@ impl Problem {
             }
             Err(_) => {
                 let Scene { problem, accuracy, title, units, .. } = Scene::parse(first.extract()?).map_err(refuse)?;
-                Problem { problem, accuracy: accuracy.as_ref().map(Number::to_f64), title, units }
+                Problem { problem, accuracy, title, units }
             }
         };
         for values in replaced {

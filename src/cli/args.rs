@@ -7,7 +7,6 @@ use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
 
 use super::failure::Failure;
 use super::file::{self, Format, ROWS, formats};
-use crate::number::Number;
 use crate::quantity::Quantity;
 use crate::scene::Scene;
 use crate::solve::{CERTIFIED_DIGITS, Numbers};
@@ -58,7 +57,7 @@ impl NumberArgs {
             NumberArgs { exact: true, digits: None, .. } => Numbers::Exact,
             NumberArgs { exact: true, digits: Some(digits), .. } => Numbers::ExactThenDigits(digits),
             NumberArgs { digits: Some(digits), .. } => Numbers::Digits(digits),
-            NumberArgs { accuracy, .. } => Numbers::Double(accuracy.or(scene.accuracy.as_ref().map(Number::to_f64))),
+            NumberArgs { accuracy, .. } => Numbers::Double(accuracy.or(scene.accuracy)),
         }
     }
 }

@@ -13,7 +13,6 @@ use crate::compare::data::Source;
 use crate::compare::{CompareError, LEGEND, Limit, Options, Outcome, Prepared};
 use crate::draw::Size;
 use crate::mapped::{CollectVec, try_mapped};
-use crate::number::Number;
 use crate::output::{compare_data, compare_svg};
 use crate::quantity::Units;
 
@@ -93,9 +92,9 @@ impl Compare {
         let scene = source::read(&self.scene)?;
         let limits = self.limits()?;
         let sources = try_mapped(&self.data, |path| Source::open(path))?;
-        let accuracy = scene.accuracy.as_ref().map(Number::to_f64);
         let units = Units::of(&scene.problem, scene.units);
-        let prepared = Prepared::new(&scene.problem, &units, accuracy, sources, &self.options).map_err(with_flag)?;
+        let prepared =
+            Prepared::new(&scene.problem, &units, scene.accuracy, sources, &self.options).map_err(with_flag)?;
         let progress = source::Progress::of(&scene, &prepared.plan);
         let comparison = prepared.compare(progress.observer()).map_err(with_flag)?;
         drop(progress);

@@ -15,7 +15,7 @@ use crate::number::Number;
 use crate::problem::{Parameters, Problem, Run};
 use crate::quantity::{Quantity, Units};
 use crate::reason::Warning;
-use crate::solve::{Numbers, Observer, Plan, Question, Solution};
+use crate::solve::{History, Numbers, Observer, Plan, Question};
 
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum CompareError {
@@ -208,9 +208,7 @@ impl Prepared {
     /// **Errors**: those of the history, and of a fit.
     pub fn compare(self, observer: Observer) -> Result<Comparison, CompareError> {
         let Prepared { problem, plan, data, until, options } = self;
-        let Solution::Double(history) = plan.solve(&problem, observer)? else {
-            return Err(Error::NoMultiprecision.into());
-        };
+        let history = History::<f64>::solve(&problem, &plan, observer)?;
         let mut files = Vec::new();
         for (file, samples) in data {
             let ours = Ours::of(&history)?;

@@ -14,7 +14,7 @@ use crate::paper::{Printed, UndampedContact};
 use crate::problem::{Parameters, Problem, Run};
 use crate::quantity::{One, Quantity};
 pub(crate) use crate::solve::Numbers;
-use crate::solve::{self, Plan, Solution};
+use crate::solve::{self, History, Plan};
 
 #[derive(Clone, Copy, Debug)]
 pub(crate) enum Route {
@@ -116,12 +116,8 @@ pub(crate) fn within_first_contact(question: &Question) -> Result<(), String> {
 
 /// The whole run of `problem` in doubles as its plan does it, with the energy at its end if that is asked for.
 pub(crate) fn run_planned(problem: &Problem, numbers: Numbers, energies: bool) -> Result<f64, NoAnswer> {
-    let plan = Plan::of(problem, &solve::Question::run(numbers))?;
-    match plan.solve(problem, solve::unobserved())? {
-        Solution::Double(history) if energies => Ok(history.energy(*history.end())?.total),
-        Solution::Double(history) => Ok(*history.end()),
-        _ => Err(NoAnswer::gave_up("effects are measured in doubles")),
-    }
+    let history: History<f64> = problem.answer(&solve::Question::run(numbers))?;
+    Ok(if energies { history.energy(*history.end())?.total } else { *history.end() })
 }
 
 /// The same by calling the engine that the plan calls.

@@ -3,11 +3,11 @@
 use crate::error::Error;
 use crate::mapped::try_mapped;
 use crate::motion::Motion;
-use crate::number::{Estimate, Number, Scalar};
+use crate::number::{Estimate, Scalar};
 use crate::quantity::{Units, columns, of_contact};
 use crate::reason::Warning;
 use crate::scene::{Scene, Target, builtin};
-use crate::solve::{Numbers, Plan, Question, Solution, unobserved};
+use crate::solve::{History, Numbers, Question};
 
 type Double = Estimate<f64>;
 
@@ -24,11 +24,7 @@ impl Published {
     /// What `scene` lists, beside its history in doubles to its accuracy.
     pub(crate) fn of(called: &str, scene: &Scene) -> Result<Self, Error> {
         let (problem, units) = (&scene.problem, Units::of(&scene.problem, scene.units));
-        let numbers = Numbers::Double(scene.accuracy.as_ref().map(Number::to_f64));
-        let history = match Plan::of(problem, &Question::run(numbers))?.solve(problem, unobserved())? {
-            Solution::Double(history) => history,
-            _ => return Err(Error::NoMultiprecision),
-        };
+        let history: History<f64> = problem.answer(&Question::run(Numbers::Double(scene.accuracy)))?;
         let reached =
             |motion: &dyn Motion<Double>| try_mapped(&scene.targets, |target| Reached::of(target, motion, &units));
         let reached = history.ask(reached, |_| Vec::new())?;

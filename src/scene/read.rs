@@ -113,7 +113,7 @@ pub struct Scene {
     /// What is to be solved.
     pub problem: Problem,
     /// `run.accuracy`: the relative accuracy asked for.
-    pub accuracy: Option<Number>,
+    pub accuracy: Option<f64>,
     /// `[[target]]`: what others have published of this scene.
     pub targets: Vec<Target>,
     source: String,
@@ -285,11 +285,12 @@ impl<'a> Reader<'a> {
         })
     }
 
-    fn accuracy(&self) -> Result<Option<Number>, SceneError> {
+    fn accuracy(&self) -> Result<Option<f64>, SceneError> {
         let Some(written) = self.number("run.accuracy")? else { return Ok(None) };
         let given = Given::new("run.accuracy", "accuracy", &written).map_err(|error| self.located(error))?;
-        if within(given.number.to_f64(), ACCURACY) {
-            return Ok(Some(given.number.clone()));
+        let accuracy = given.number.to_f64();
+        if within(accuracy, ACCURACY) {
+            return Ok(Some(accuracy));
         }
         let expected = "a relative accuracy between 1e-300 and 0.1";
         Err(self.located(given.error(Kind::OutOfRange, "", expected)))

@@ -521,7 +521,7 @@ impl Problem {
         self.answer(&Question::first_contact(Numbers::default()))
     }
 
-    fn answer<S: Target>(&self, question: &Question) -> Result<History<S>, Error> {
+    pub(crate) fn answer<S: Target>(&self, question: &Question) -> Result<History<S>, Error> {
         History::solve(self, &Plan::of(self, question)?, unobserved())
     }
 }

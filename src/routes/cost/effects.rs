@@ -57,7 +57,7 @@ pub(crate) fn effects(
     mut observe: impl FnMut(f64, &str),
 ) -> Result<Vec<Difference>, NoAnswer> {
     check_budget(seconds)?;
-    let numbers = Numbers::Double(scene.accuracy.as_ref().map(Number::to_f64));
+    let numbers = Numbers::Double(scene.accuracy);
     let called_effects = scene.called_effects();
     let called = |effect: Effect| match effect {
         Effect::FieldEnergies => energies,
