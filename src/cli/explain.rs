@@ -79,19 +79,11 @@ const BECAUSE: usize = 40;
 
 /// The effects of the scene, and those that the question calls for.
 fn effects(scene: &Scene, plan: &Plan) -> Vec<EffectUse> {
-    let mut effects = scene.effects();
-    effects.push(scene.effect(Effect::FieldEnergies));
-    effects.push(match plan.numbers {
-        Numbers::Double(_) => {
-            let effect = scene.effect(Effect::ArbitraryPrecision);
-            EffectUse { because: format!("{}; --digits and --exact do", effect.because), ..effect }
-        }
-        numbers => EffectUse {
-            effect: Effect::ArbitraryPrecision,
-            called: true,
-            line: None,
-            because: format!("{numbers} asked for"),
-        },
-    });
-    effects
+    let mut precision = scene.effect(Effect::ArbitraryPrecision);
+    if let Numbers::Double(_) = plan.numbers {
+        precision.because += "; --digits and --exact do";
+    } else {
+        (precision.called, precision.because) = (true, format!("{} asked for", plan.numbers));
+    }
+    [scene.effects(), vec![scene.effect(Effect::FieldEnergies), precision]].concat()
 }

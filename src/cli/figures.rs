@@ -7,8 +7,8 @@ use clap::Args;
 use super::failure::{self, Failure};
 use super::file::{self, Format};
 use crate::draw::Size;
-use crate::figures::{ALL, Data, Failed, Figure};
-use crate::mapped::{CollectVec, mapped};
+use crate::figures::{ALL, Failed, Figure};
+use crate::mapped::{CollectVec, mapped, try_mapped};
 use crate::output::{figure_data, figure_sheet, figures_index, write_files};
 use crate::threads::Threads;
 
@@ -59,10 +59,7 @@ impl Figures {
     fn files(&self, figures: &[&Figure]) -> Result<Vec<(String, Vec<u8>)>, Failure> {
         let failed = |error: Failed| failure!("{error}");
         let threads = Threads::of(self.threads);
-        let mut data: Vec<Data> = Vec::new();
-        for figure in figures {
-            data.push(figure.data(threads).map_err(failed)?);
-        }
+        let data = try_mapped(figures, |figure| figure.data(threads)).map_err(failed)?;
         let files = threads.all(figures.len(), |k| {
             let (figure, data) = (figures[k], &data[k]);
             let svg = figure_sheet(figure, data).map_err(failed)?.svg(self.size);

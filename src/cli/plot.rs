@@ -102,10 +102,8 @@ impl Plot {
         }
         let asked = Asked { pictures, along: self.field, deformed: self.deformed, from, to };
         let scenes = try_mapped(&self.scenes, |name| source::read(name))?;
-        let mut gathered = Vec::new();
-        for (name, scene) in self.scenes.iter().zip(&scenes) {
-            gathered.push(self.gather(name, scene, &asked)?);
-        }
+        let gather = |(name, scene): (&String, &Scene)| self.gather(name, scene, &asked);
+        let mut gathered = try_mapped(self.scenes.iter().zip(&scenes), gather)?;
         let title = match scenes.as_slice() {
             [scene] => {
                 // What comes from standard input has no name.

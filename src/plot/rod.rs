@@ -146,7 +146,8 @@ impl Pose {
         }
 
         // E_h is below zero where the centre of mass is deeper than its speed can lift it.
-        let [bar, apart, margin] = if narrow { [12.0, 6.0, 3.0] } else { [22.0, 4.0, 10.0] }.map(|size| size * unit);
+        let [bar, apart, margin, over] =
+            if narrow { [12.0, 6.0, 3.0, 1.0] } else { [22.0, 4.0, 10.0, 3.0] }.map(|size| size * unit);
         let from = width - 2.0 * bar - apart - margin;
         let [least, most] = sizes.energy;
         let scale = (ground - top) / if most > least { most - least } else { 1.0 };
@@ -158,7 +159,7 @@ impl Pose {
             svg.rectangles(&[corners], AREAS[k + 1]);
             svg.text(DVec2::new(x + bar / 2.0, height - 8.0 * unit), Anchor::Middle, name);
         }
-        svg.line(&[DVec2::new(from - 3.0 * unit, zero), DVec2::new(width - 2.0 * unit, zero)], line(1.0));
+        svg.line(&[DVec2::new(from - over, zero), DVec2::new(width - 2.0 * unit, zero)], line(1.0));
         svg.text(DVec2::new(left + thick + tick + beside, middle + 4.0 * unit), Anchor::Start, "h");
         svg.finish()
     }
