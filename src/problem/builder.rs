@@ -17,7 +17,7 @@ pub struct Builder {
     base: Draft,
 }
 
-const IMPACT: &[&str] = &["impact.speed", "impact.gap", "impact.drop_height"];
+pub(super) const IMPACT: &[&str] = &["impact.speed", "impact.gap", "impact.drop_height"];
 /// What is set replaces what the base has of its group: in place of the wave speed it can have those of the
 /// material; a gap goes with a speed, and a drop height with neither.
 const EXCLUSIVE: [&[&str]; 4] = [

@@ -1,5 +1,6 @@
 //! The one set of checks that every problem goes through, from a scene file or from the builder.
 
+use super::builder::IMPACT;
 use super::given::{ByPath, Given, UNITS, range, within};
 use super::parameters::touch_speed;
 use super::profile::{self, Points};
@@ -70,7 +71,7 @@ impl Draft {
 
     /// The motion at `t = 0` of a rod with this length and round trip under the gravity `g`.
     fn start(&self, length: &Number, t1: f64, g: f64) -> Result<Start, ProblemError> {
-        let impact = ["impact.speed", "impact.gap", "impact.drop_height"].iter().any(|path| self.has(path));
+        let impact = IMPACT.iter().any(|path| self.has(path));
         match (impact, !self.profiles.is_empty()) {
             (true, false) => match self.non_negative("impact.gap", "a gap")? {
                 Some(gap) => self.above(&gap, t1, g),
