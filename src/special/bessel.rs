@@ -11,6 +11,11 @@ use crate::number::{Analytic, Rounded};
 /// enclosures, within the bound that the result carries.
 pub trait Special: Analytic {
     /// `e^{−z} I_n(z)` for `z ≥ 0`.
+    ///
+    /// **Source**: `I_n = I_0 Π r_k`, `r_k = I_k/I_{k−1} = z/(2k + z r_{k+1})` downwards, all terms positive; for long
+    /// numbers and `z ≤ bits + 64` the series.
+    ///
+    /// **Accuracy**: within `≈ 8n + 2z ln n` roundings; for long numbers and `z ≤ bits + 64` within 1.1.
     fn in_scaled(&self, n: u32) -> Self;
 
     /// `e^{−rt} ψ₀` of a ray.
@@ -110,16 +115,6 @@ pub fn i0_scaled<S: Special>(z: &S) -> S {
 /// ```
 pub fn i1_scaled<S: Special>(z: &S) -> S {
     z.in_scaled(1)
-}
-
-/// `e^{−z} I_n(z)` for `z ≥ 0`.
-///
-/// **Source**: `I_n = I_0 Π r_k`, `r_k = I_k/I_{k−1} = z/(2k + z r_{k+1})` downwards, all terms positive; for long
-/// numbers and `z ≤ bits + 64` the series.
-///
-/// **Accuracy**: within `≈ 8n + 2z ln n` roundings; for long numbers and `z ≤ bits + 64` within 1.1.
-pub fn in_scaled<S: Special>(z: &S, n: u32) -> S {
-    z.in_scaled(n)
 }
 
 /// `e^{−z} I_n(z)` from `e^{−z} I₀(z)` and the ratios of successive functions.

@@ -47,12 +47,9 @@ pub fn gauss_legendre<S: Analytic>(like: &S, n: usize) -> Vec<(S, S)> {
     rule
 }
 
-/// `P_n(x)` and `P_n′(x)`, by the three-term recurrence.
+/// `P_n(x)` and `P_n′(x)`, n ≥ 1, by the three-term recurrence.
 fn legendre<S: Analytic>(x: &S, n: usize) -> (S, S) {
     let (mut before, mut value) = (x.one(), x.clone());
-    if n == 0 {
-        return (before, x.zero());
-    }
     for k in 2..=n as i64 {
         let next = (x.int(2 * k - 1) * x * &value - x.int(k - 1) * &before) / x.int(k);
         before = std::mem::replace(&mut value, next);

@@ -26,61 +26,40 @@ impl Spare {
     }
 }
 
-/// `I_n(z)` for the exact number z ≥ 0, and a bound of the relative error in units of `2^{−p}`, p the precision of z.
+/// Rounded to p bits, with its roundings; infinitely many where there is no value.
+pub(super) fn finish(value: Option<Spare>, p: u32) -> (Float, f64) {
+    value.map_or_else(|| (Float::with_val(p, rug::float::Special::Nan), f64::INFINITY), |value| value.rounded(p))
+}
+
+/// `e^{−z} I_n(z)` for the exact number z ≥ 0, and a bound of the relative error in units of `2^{−p}`, p the precision
+/// of z.
 ///
 /// **Source**: `(z/2)ⁿ/n! ₀F₁(; n+1; z²/4)`; the expansion at infinity, for n = 0, 1, where it reaches the precision.
 ///
 /// **Accuracy**: within the second value, less than 1.1, which is infinite for `z ≥ 2²⁴` with n ≥ 2, z < 0, and what is
 /// not finite.
-///
-/// ```
-/// use dalembert::special::in_bounded;
-/// let (value, roundings) = in_bounded(&rug::Float::with_val(100, 2), 1);
-/// assert!((value.to_f64() - 1.590636854637329).abs() < 1e-15 && roundings < 1.1);
-/// ```
-pub fn in_bounded(z: &Float, n: u32) -> (Float, f64) {
-    bounded(z, n, false)
-}
-
-/// `e^{−z} I_n(z)` for the exact number z ≥ 0, and a bound of the relative error, as in [`in_bounded`].
-///
-/// **Source**: [`in_bounded`].
-///
-/// **Accuracy**: within the second value, less than 1.1 where it is finite.
-pub fn in_scaled_bounded(z: &Float, n: u32) -> (Float, f64) {
-    bounded(z, n, true)
-}
-
-/// `ψ_n(ξ,η) = (ξⁿ/n!) ₀F₁(; n+1; r²ξη/4)` for exact numbers r, ξ, η ≥ 0, and a bound of the relative error in units of
-/// `2^{−p}`, p the precision of ξ.
-///
-/// **Source**: [`Ray`](super::Ray).
-///
-/// **Accuracy**: within the second value, less than 1.1; infinite where `r²ξη ≥ 2⁴⁸`, or for what is negative or not
-/// finite.
-pub fn psi_bounded(damping: &Float, xi: &Float, eta: &Float, n: u32) -> (Float, f64) {
-    // Exact: the series takes of it what matters.
-    let product = Float::with_val(xi.prec() + eta.prec(), xi * eta);
-    let square = Float::with_val(2 * damping.prec(), damping.square_ref());
-    let y = Float::with_val(product.prec() + square.prec(), &product * &square) >> 2;
-    finish(with_power(xi, &y, n, None), xi.prec())
-}
-
-fn finish(value: Option<Spare>, p: u32) -> (Float, f64) {
-    value.map_or_else(|| (Float::with_val(p, rug::float::Special::Nan), f64::INFINITY), |value| value.rounded(p))
+pub(super) fn in_scaled_bounded(z: &Float, n: u32) -> (Float, f64) {
+    let p = z.prec();
+    if n <= 1 && z.is_finite() && *z > f64::from(p) + 64.0 {
+        // Term k has 4k roundings, all terms after the first are below 1/8 together, and the rest is below one: all in
+        // all less than 8p + 512, and 32 bits are enough for that.
+        let long = expansion(&Float::with_val(p + 64, z), i64::from(n));
+        return finish(Some(Spare { long, small: 0.25 }), p);
+    }
+    let half = Float::with_val(p, z >> 1u32);
+    let y = Float::with_val(2 * p, half.square_ref());
+    finish(with_power(&half, &y, n, &Float::with_val(p, -z)), p)
 }
 
 /// `(base)ⁿ/n! ₀F₁(; n+1; y) e^{exponent}` to 16 bits more than base has, and its roundings there: one each for the
 /// power, n!, the quotient, the exponential and two products.
-fn with_power(base: &Float, y: &Float, n: u32, exponent: Option<&Float>) -> Option<Spare> {
+fn with_power(base: &Float, y: &Float, n: u32, exponent: &Float) -> Option<Spare> {
     let bits = base.prec() + GUARD_BITS;
     let (mut value, error) = hypergeometric(y, n, bits)?;
     if n > 0 {
         value *= Float::with_val(bits, base.pow(n)) / Float::with_val(bits, Float::factorial(n));
     }
-    if let Some(exponent) = exponent {
-        value *= Float::with_val(bits, exponent.exp_ref());
-    }
+    value *= Float::with_val(bits, exponent.exp_ref());
     Some(Spare { long: value, small: error + 6.0 })
 }
 
@@ -123,25 +102,7 @@ pub(super) fn damped_start(half: &Float, xi: &Float, eta: &Float) -> Option<Spar
         return None;
     }
     let one = Float::with_val(p, 1);
-    with_power(&one, &y, 0, Some(&damped)).map(|value| Spare { small: value.small + 1.0, ..value })
-}
-
-fn bounded(z: &Float, n: u32, scaled: bool) -> (Float, f64) {
-    let p = z.prec();
-    if n <= 1 && z.is_finite() && *z > f64::from(p) + 64.0 {
-        // Term k has 4k roundings, all terms after the first are below 1/8 together, and the rest is below one: all in
-        // all less than 8p + 512, and 32 bits are enough for that.
-        let long = Float::with_val(p + 64, z);
-        let mut value = expansion(&long, i64::from(n));
-        if !scaled {
-            value *= long.exp();
-        }
-        return finish(Some(Spare { long: value, small: 0.25 }), p);
-    }
-    let half = Float::with_val(p, z >> 1u32);
-    let y = Float::with_val(2 * p, half.square_ref());
-    let exponent = Float::with_val(p, -z);
-    finish(with_power(&half, &y, n, scaled.then_some(&exponent)), p)
+    with_power(&one, &y, 0, &damped).map(|value| Spare { small: value.small + 1.0, ..value })
 }
 
 /// `(2πz)^{−1/2} Σ_k (−1)ᵏ a_k(n)/zᵏ`, for n = 0, 1 and z > bits + 64; from k = 2 on all terms have one sign.

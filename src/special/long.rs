@@ -3,10 +3,10 @@
 use rug::Float;
 
 use super::bessel::{RoundedSpecial, by_ratios};
-use super::hypergeometric::{Spare, damped_start, in_scaled_bounded};
+use super::hypergeometric::{Spare, damped_start, finish, in_scaled_bounded};
 use super::ray::{Ray, RaySums, RoundedSums, bits};
 
-/// `Backward::sums` has fewer.
+/// [`backward`] has fewer.
 const SUM_ROUNDINGS: f64 = 2.0;
 
 /// A ray that arrives now may do so a rounding later.
@@ -25,10 +25,7 @@ impl RoundedSpecial for Float {
 
     fn ray_start_rounded(ray: &Ray<Float>) -> (Float, f64) {
         let ray = arrived(ray);
-        match damped_start(&ray.half(), &ray.xi, &ray.eta) {
-            Some(start) => start.rounded(ray.xi.prec()),
-            None => (Float::with_val(ray.xi.prec(), rug::float::Special::Nan), f64::INFINITY),
-        }
+        finish(damped_start(&ray.half(), &ray.xi, &ray.eta), ray.xi.prec())
     }
 
     /// By the recurrence without divisions where it can be, by the ratios elsewhere.
@@ -39,7 +36,7 @@ impl RoundedSpecial for Float {
     ) -> RoundedSums<Float, K> {
         let ray = arrived(ray);
         let terms = ray.terms(first.iter().copied().max().unwrap_or(1));
-        if let Some((start, sums)) = Backward::new(&ray, terms).sums(first, &weight) {
+        if let Some((start, sums)) = backward(&ray, terms, first, &weight) {
             let (start, start_roundings) = start.rounded(ray.xi.prec());
             let values = RaySums { start, sums };
             return RoundedSums { values, start_roundings, sum_roundings: SUM_ROUNDINGS, terms, mean: terms as f64 };
@@ -48,141 +45,126 @@ impl RoundedSpecial for Float {
     }
 }
 
-/// A ray, and where its terms end.
-struct Backward<'a> {
-    ray: &'a Ray<Float>,
-    /// `r/2`.
-    half: Float,
-    /// `r√(ξη)`.
-    argument: f64,
-    /// The last term.
-    terms: i64,
-}
-
 /// More terms than this are left to the recurrence of the ratios.
 const MOST_TERMS: i64 = 100_000;
 /// The least precision of a term.
 const FEWEST_BITS: u32 = 64;
 
-impl<'a> Backward<'a> {
-    /// `ray` with terms up to `terms`.
-    fn new(ray: &'a Ray<Float>, terms: i64) -> Self {
-        Backward { half: ray.half(), argument: ray.argument(), ray, terms }
+/// `e^{−rt} ψ₀`, and `e^{−rt} Σ_{n≥n₀} c_n (r/2)^{n−n₀} ψ_n`, with fewer than two roundings; `None` where this way
+/// is not open: for `r ξ = 0`, far too many terms, or a first weight below 1.
+///
+/// **Source**: `f_n = (r/2)ⁿ ψ_n` obeys `f_{n−1} = (n f_n + w f_{n+1})/x` with `x = rξ/2`, `w = rη/2`. It is
+/// followed downwards from `f_N = 1`, `f_{N+1} = 0`, and the sums over f are divided by f₀ once.
+///
+/// **Accuracy**: the ratios `σ_n = f_n/f_{n−1} = x/(n + wσ_{n+1})` pass on a relative error of their successor
+/// times `θ_n = wσ_nσ_{n+1}/x = I_{n+1}/I_{n−1} < 1`, and `f_{n−1}` has one of its own, `τ_n ≤ 6·2^{−p_n}`:
+/// coefficients cut to `p_n` bits, two products, a product with n, a sum. So that of `σ_n` is at most
+/// `Σ_{j≥n} τ_j Π_{k=n}^{j−1} θ_k`. The bits grow with the terms, `2^{−p_n} ≤ 4·2^{−W} max(1, f_{n₀}/f_{n−1})` for
+/// the greatest n₀, and so `τ_j Π θ_k` is at most `24·2^{−W} (f_{n₀}/f_{n−1} Π θ_k/σ_k + 1)`. There
+/// `θ_k/σ_k = wσ_{k+1}/x < 2w/(k + ½ + √((k+½)² + z²)) = b_k` (Segura 2011), which falls with k: with
+/// `B = Σ_{j≥1} Π_{k<j} b_k`, the error of `σ_n` is at most `24·2^{−W} (B f_{n₀}/f_{n−1} + N)`. That of `f_n/f₀`, a
+/// product of n ratios, is at most `24·2^{−W} (B n f_{n₀}/f_n + N²)`, since f falls with n. In the sum it has the
+/// weight `c_n f_n/S` with `c_n ≤ n³` and `S ≥ f_{n₀}`: all in all `24·2^{−W} (B N⁵ + N²)`, and W makes that less
+/// than a tenth of a rounding. N is such that the start with `f_{N+1} = 0` and the terms left out are less than
+/// another tenth.
+///
+/// The number is rounded once more when the spare bits are dropped.
+fn backward<const K: usize>(
+    ray: &Ray<Float>,
+    terms: i64,
+    first: [i64; K],
+    weight: impl Fn(i64) -> [i64; K],
+) -> Option<(Spare, [Float; K])> {
+    let (xi, eta, half) = (&ray.xi, &ray.eta, &ray.half());
+    let p = xi.prec();
+    let last = first.iter().copied().max().unwrap_or(1);
+    let x = Float::with_val(p + 64, half * xi);
+    let grows = first.iter().enumerate().any(|(k, n)| *n < 1 || weight(*n)[k] < 1);
+    if !(x.is_finite() && x > 0) || terms >= MOST_TERMS || grows {
+        return None;
     }
-
-    /// `e^{−rt} ψ₀`, and `e^{−rt} Σ_{n≥n₀} c_n (r/2)^{n−n₀} ψ_n`, with fewer than two roundings; `None` where this way
-    /// is not open: for `r ξ = 0`, far too many terms, or a first weight below 1.
-    ///
-    /// **Source**: `f_n = (r/2)ⁿ ψ_n` obeys `f_{n−1} = (n f_n + w f_{n+1})/x` with `x = rξ/2`, `w = rη/2`. It is
-    /// followed downwards from `f_N = 1`, `f_{N+1} = 0`, and the sums over f are divided by f₀ once.
-    ///
-    /// **Accuracy**: the ratios `σ_n = f_n/f_{n−1} = x/(n + wσ_{n+1})` pass on a relative error of their successor
-    /// times `θ_n = wσ_nσ_{n+1}/x = I_{n+1}/I_{n−1} < 1`, and `f_{n−1}` has one of its own, `τ_n ≤ 6·2^{−p_n}`:
-    /// coefficients cut to `p_n` bits, two products, a product with n, a sum. So that of `σ_n` is at most
-    /// `Σ_{j≥n} τ_j Π_{k=n}^{j−1} θ_k`. The bits grow with the terms, `2^{−p_n} ≤ 4·2^{−W} max(1, f_{n₀}/f_{n−1})` for
-    /// the greatest n₀, and so `τ_j Π θ_k` is at most `24·2^{−W} (f_{n₀}/f_{n−1} Π θ_k/σ_k + 1)`. There
-    /// `θ_k/σ_k = wσ_{k+1}/x < 2w/(k + ½ + √((k+½)² + z²)) = b_k` (Segura 2011), which falls with k: with
-    /// `B = Σ_{j≥1} Π_{k<j} b_k`, the error of `σ_n` is at most `24·2^{−W} (B f_{n₀}/f_{n−1} + N)`. That of `f_n/f₀`, a
-    /// product of n ratios, is at most `24·2^{−W} (B n f_{n₀}/f_n + N²)`, since f falls with n. In the sum it has the
-    /// weight `c_n f_n/S` with `c_n ≤ n³` and `S ≥ f_{n₀}`: all in all `24·2^{−W} (B N⁵ + N²)`, and W makes that less
-    /// than a tenth of a rounding. N is such that the start with `f_{N+1} = 0` and the terms left out are less than
-    /// another tenth.
-    ///
-    /// The number is rounded once more when the spare bits are dropped.
-    fn sums<const K: usize>(&self, first: [i64; K], weight: impl Fn(i64) -> [i64; K]) -> Option<(Spare, [Float; K])> {
-        let (xi, eta, half) = (&self.ray.xi, &self.ray.eta, &self.half);
-        let p = xi.prec();
-        let last = first.iter().copied().max().unwrap_or(1);
-        let x = Float::with_val(p + 64, half * xi);
-        let grows = first.iter().enumerate().any(|(k, n)| *n < 1 || weight(*n)[k] < 1);
-        if !(x.is_finite() && x > 0) || self.terms >= MOST_TERMS || grows {
-            return None;
-        }
-        let w = Float::with_val(p + 64, half * eta);
-        let n = self.terms as f64;
-        let spread = self.spread(w.to_f64());
-        let extra = (spread + 5.0 * n.log2() + 1.0).ceil() + 8.0;
-        if extra.is_nan() || extra >= f64::from(p) {
-            return None;
-        }
-        let full = p + extra as u32;
-        // One for x or w, one for the quotient, within the τ_n above.
-        let (x, w) = (Float::with_val(full + 8, half * xi), Float::with_val(full + 8, half * eta));
-        let (by_x, by_w) = (Float::with_val(full + 8, x.recip_ref()), Float::with_val(full + 8, &w / &x));
-        let start = damped_start(half, xi, eta)?;
-
-        let mut bits = FEWEST_BITS + extra as u32;
-        loop {
-            let (sums, zeroth, reached) = self.descend(&by_x, &by_w, (bits, full), last, (&first, &weight));
-            if reached < full {
-                // Terms were fewer than the bits that they must leave: begin with more.
-                bits += full - reached + 8;
-                continue;
-            }
-            let factor = Float::with_val(full, &start.long / &zeroth);
-            let mut k = 0;
-            let sums = sums.map(|sum| {
-                let power = Float::with_val(full, rug::ops::Pow::pow(half, first[k] as u32));
-                k += 1;
-                Float::with_val(p, sum * &factor / power)
-            });
-            return Some((start, sums));
-        }
+    let w = Float::with_val(p + 64, half * eta);
+    let n = terms as f64;
+    let spread = spread(ray.argument(), w.to_f64(), terms);
+    let extra = (spread + 5.0 * n.log2() + 1.0).ceil() + 8.0;
+    if extra.is_nan() || extra >= f64::from(p) {
+        return None;
     }
+    let full = p + extra as u32;
+    // One for x or w, one for the quotient, within the τ_n above.
+    let (x, w) = (Float::with_val(full + 8, half * xi), Float::with_val(full + 8, half * eta));
+    let (by_x, by_w) = (Float::with_val(full + 8, x.recip_ref()), Float::with_val(full + 8, &w / &x));
+    let start = damped_start(half, xi, eta)?;
 
-    /// `log₂ B` with a margin.
-    fn spread(&self, w: f64) -> f64 {
-        let z = self.argument * (1.0 - 1e-12);
-        let (mut log, mut greatest) = (0.0f64, 0.0f64);
-        for k in 1..=self.terms {
-            let m = k as f64 + 0.5;
-            log += (2.0 * w / (m + (m * m + z * z).sqrt())).log2();
-            greatest = greatest.max(log);
+    let mut bits = FEWEST_BITS + extra as u32;
+    loop {
+        let (sums, zeroth, reached) = descend((terms, last), (&by_x, &by_w), (bits, full), (&first, &weight));
+        if reached < full {
+            // Terms were fewer than the bits that they must leave: begin with more.
+            bits += full - reached + 8;
+            continue;
         }
-        greatest + ((self.terms + 1) as f64).log2() + 1.0
+        let factor = Float::with_val(full, &start.long / &zeroth);
+        let mut k = 0;
+        let sums = sums.map(|sum| {
+            let power = Float::with_val(full, rug::ops::Pow::pow(half, first[k] as u32));
+            k += 1;
+            Float::with_val(p, sum * &factor / power)
+        });
+        return Some((start, sums));
     }
+}
 
-    /// The sums over f, f₀, and the precision that the term `last` has; `bits` at the start and at most.
-    fn descend<const K: usize>(
-        &self,
-        by_x: &Float,
-        by_w: &Float,
-        (bits, full): (u32, u32),
-        last: i64,
-        (first, weight): (&[i64; K], &impl Fn(i64) -> [i64; K]),
-    ) -> ([Float; K], Float, u32) {
-        let mut sums: [Float; K] = std::array::from_fn(|_| Float::new(full));
-        let (mut value, mut above) = (Float::with_val(bits, 1), Float::new(bits));
-        let (mut precision, mut reached) = (bits.min(full), bits);
-        let (mut cut_x, mut cut_w) = (Float::with_val(precision, by_x), Float::with_val(precision, by_w));
-        for n in (1..=self.terms).rev() {
-            if n >= first.iter().copied().min().unwrap_or(1) {
-                let weights = weight(n);
-                for k in 0..K {
-                    if n >= first[k] && weights[k] != 0 {
-                        sums[k] += Float::with_val(precision, &value * weights[k]);
-                    }
+/// `log₂ B` with a margin.
+fn spread(argument: f64, w: f64, terms: i64) -> f64 {
+    let z = argument * (1.0 - 1e-12);
+    let (mut log, mut greatest) = (0.0f64, 0.0f64);
+    for k in 1..=terms {
+        let m = k as f64 + 0.5;
+        log += (2.0 * w / (m + (m * m + z * z).sqrt())).log2();
+        greatest = greatest.max(log);
+    }
+    greatest + ((terms + 1) as f64).log2() + 1.0
+}
+
+/// The sums over f, f₀, and the precision that the term `last` has; `bits` at the start and at most.
+fn descend<const K: usize>(
+    (terms, last): (i64, i64),
+    (by_x, by_w): (&Float, &Float),
+    (bits, full): (u32, u32),
+    (first, weight): (&[i64; K], &impl Fn(i64) -> [i64; K]),
+) -> ([Float; K], Float, u32) {
+    let mut sums: [Float; K] = std::array::from_fn(|_| Float::new(full));
+    let (mut value, mut above) = (Float::with_val(bits, 1), Float::new(bits));
+    let (mut precision, mut reached) = (bits.min(full), bits);
+    let (mut cut_x, mut cut_w) = (Float::with_val(precision, by_x), Float::with_val(precision, by_w));
+    for n in (1..=terms).rev() {
+        if n >= first.iter().copied().min().unwrap_or(1) {
+            let weights = weight(n);
+            for k in 0..K {
+                if n >= first[k] && weights[k] != 0 {
+                    sums[k] += Float::with_val(precision, &value * weights[k]);
                 }
             }
-            if n == last {
-                reached = precision;
-            }
-            let mut next = Float::with_val(precision, &value * &cut_x);
-            let grown = i64::from(bits) + i64::from(next.get_exp().unwrap_or(0)) + i64::from(n.ilog2());
-            let grown = grown.max(i64::from(bits)).min(i64::from(full)) as u32;
-            if grown > precision {
-                // Rounded up to whole words; the product is repeated with the bits that it deserves.
-                precision = grown.next_multiple_of(64).min(full);
-                (cut_x, cut_w) = (Float::with_val(precision, by_x), Float::with_val(precision, by_w));
-                next = Float::with_val(precision, &value * &cut_x);
-            }
-            next *= n;
-            above *= &cut_w;
-            next += &above;
-            above = std::mem::replace(&mut value, next);
         }
-        (sums, value, reached)
+        if n == last {
+            reached = precision;
+        }
+        let mut next = Float::with_val(precision, &value * &cut_x);
+        let grown = i64::from(bits) + i64::from(next.get_exp().unwrap_or(0)) + i64::from(n.ilog2());
+        let grown = grown.max(i64::from(bits)).min(i64::from(full)) as u32;
+        if grown > precision {
+            // Rounded up to whole words; the product is repeated with the bits that it deserves.
+            precision = grown.next_multiple_of(64).min(full);
+            (cut_x, cut_w) = (Float::with_val(precision, by_x), Float::with_val(precision, by_w));
+            next = Float::with_val(precision, &value * &cut_x);
+        }
+        next *= n;
+        above *= &cut_w;
+        next += &above;
+        above = std::mem::replace(&mut value, next);
     }
+    (sums, value, reached)
 }
 
 #[cfg(test)]

@@ -13,11 +13,9 @@ mod long;
 mod phi;
 mod ray;
 
-pub use bessel::{RoundedSpecial, Special, i0_scaled, i1_scaled, in_scaled};
+pub use bessel::{RoundedSpecial, Special, i0_scaled, i1_scaled};
 pub use estimated::BoundedSpecial;
 pub use gauss::gauss_legendre;
-#[cfg(feature = "mp")]
-pub use hypergeometric::{in_bounded, in_scaled_bounded, psi_bounded};
 pub use phi::{log_mean, log_rest, phi1, phi2};
 use ray::bits;
 pub use ray::{Ray, RaySums, RoundedSums};

@@ -17,7 +17,7 @@ fn against_the_integral() {
     for z in [0.0, 1e-8, 0.3, 1.0, 1.8, 7.0, 50.0, 700.0, 1e4] {
         assert!((i0_scaled(&z) - by_integral(z, 0)).abs() < 1e-15 + 1e-13 * by_integral(z, 0), "{z}");
         for n in [1, 2, 3, 8, 20] {
-            let wrong = (in_scaled(&z, n) - by_integral(z, n as i32)).abs();
+            let wrong = (z.in_scaled(n) - by_integral(z, n as i32)).abs();
             assert!(wrong < 4e-16 + 1e-13 * by_integral(z, n as i32), "{z} {n} {wrong}");
         }
     }
@@ -32,7 +32,7 @@ fn doubles_and_many_digits_agree() {
         assert!((i0_scaled(&many).to_f64() / i0_scaled(&z) - 1.0).abs() < accuracy);
         assert!((i1_scaled(&many).to_f64() / i1_scaled(&z) - 1.0).abs() < accuracy);
         for n in if z < 1e5 { vec![2, 5, 30] } else { vec![] } {
-            let (double, exact) = (in_scaled(&z, n), in_scaled(&many, n).to_f64());
+            let (double, exact) = (z.in_scaled(n), many.in_scaled(n).to_f64());
             assert!((double - exact).abs() <= 1e-13 * exact, "{z} {n} {double} {exact}");
         }
     }

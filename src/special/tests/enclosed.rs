@@ -1,6 +1,6 @@
 use super::*;
 use crate::number::IntervalPrecision;
-use crate::special::{i0_scaled, i1_scaled, in_scaled};
+use crate::special::{i0_scaled, i1_scaled};
 use rug::Rational;
 
 /// From few bits, where every cut is coarse, to many; the truth has twice as many.
@@ -20,7 +20,7 @@ fn sums_in_many_bits_lie_inside() {
             );
             assert!(holds(&i0_scaled(&few), &i0_scaled(&many), bits), "{z} {bits}");
             assert!(holds(&i1_scaled(&few), &i1_scaled(&many), bits), "{z} {bits}");
-            assert!(holds(&in_scaled(&few, 5), &in_scaled(&many, 5), bits), "{z} {bits}");
+            assert!(holds(&few.in_scaled(5), &many.in_scaled(5), bits), "{z} {bits}");
             for (travel, time) in [(0, 700), (1000, 1000), (1000, 1001), (2300, 5000)] {
                 let few = Ray::new(
                     &few,
