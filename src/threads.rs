@@ -2,7 +2,7 @@
 
 use std::num::NonZero;
 use std::sync::atomic::{AtomicUsize, Ordering};
-use std::sync::{Mutex, PoisonError};
+use std::sync::{Mutex, MutexGuard, PoisonError};
 
 /// How many threads work at the same time.
 #[derive(Clone, Copy, Debug)]
@@ -39,7 +39,7 @@ impl Threads {
         self.each(count, &|k| {
             let answer = one(k);
             let fine = answer.is_ok();
-            *found[k].lock().unwrap_or_else(PoisonError::into_inner) = Some(answer);
+            *locked(&found[k]) = Some(answer);
             fine
         });
         let mut all = Vec::with_capacity(count);
@@ -71,6 +71,11 @@ impl Threads {
             work();
         });
     }
+}
+
+/// What is kept is replaced whole: what a panic left behind is as good as any.
+pub(crate) fn locked<T>(kept: &Mutex<T>) -> MutexGuard<'_, T> {
+    kept.lock().unwrap_or_else(PoisonError::into_inner)
 }
 
 /// `one` on this thread, while `other` is done on another.

@@ -1,12 +1,9 @@
 //! The paper's rod from the first contact on: closed form while the contact lasts, cells after it.
 
-use std::ops::ControlFlow;
-
 use super::bounds::bounded_piece;
-use super::effort::Effort;
+use super::effort::{Effort, MOST_DIGITS, Task};
 use super::history::Damped;
-use super::piece::Unresolved;
-use super::uncertainty::{meant, rounded, within};
+use super::uncertainty::{meant, within};
 use crate::error::Error;
 use crate::first_contact::{Bounce, ContactHistory, FirstContact};
 use crate::motion::moments::Moments;
@@ -49,20 +46,17 @@ impl<S: RoundedSpecial> ContactThenCells<S> {
         digits: f64,
         bounce: Bounce<Estimate<S>>,
     ) -> Result<Self, Error> {
-        Self::solve_observed(problem, precision, Effort::of(digits), bounce, None, &unobserved)
+        Self::march(&Task { problem, precision, effort: Effort::of(digits), observe: &unobserved }, bounce, None)
     }
 
-    /// [`Self::solve`], observed; `rate` is `h′` at the bounce where it is known better than here.
-    pub(crate) fn solve_observed(
-        problem: &Problem,
-        precision: &S::Precision,
-        effort: Effort,
+    /// The same of a `task`; `rate` is `h′` at the bounce where it is known better than here.
+    pub(crate) fn march(
+        task: &Task<'_, S>,
         bounce: Bounce<Estimate<S>>,
         rate: Option<Estimate<S>>,
-        observe: &dyn Fn(usize, usize) -> ControlFlow<()>,
     ) -> Result<Self, Error> {
-        let mut history = Self::first_contact(problem, precision, bounce)?;
-        history.follow(problem, precision, effort, rate, observe)?;
+        let mut history = Self::first_contact(task.problem, task.precision, bounce)?;
+        history.follow(task, rate)?;
         Ok(history)
     }
 
@@ -92,24 +86,17 @@ impl<S: RoundedSpecial> ContactThenCells<S> {
     }
 
     /// The flight and all that comes after it, from the cells.
-    fn follow(
-        &mut self,
-        problem: &Problem,
-        precision: &S::Precision,
-        effort: Effort,
-        rate: Option<Estimate<S>>,
-        observe: &dyn Fn(usize, usize) -> ControlFlow<()>,
-    ) -> Result<(), Error> {
+    fn follow(&mut self, task: &Task<'_, S>, rate: Option<Estimate<S>>) -> Result<(), Error> {
         let (Some(rebound), Some(release)) = (self.contact.rebound(), self.course.events.get(1)) else { return Ok(()) };
-        if effort.digits > effort.most_digits {
-            self.course.ending = Ending::Undecided(Reason::MostDigits(effort.most_digits as u32));
+        if task.effort.digits > MOST_DIGITS {
+            self.course.ending = Ending::Undecided(Reason::MostDigits(MOST_DIGITS as u32));
             return Ok(());
         }
         let release = (release.time.value(), release.time_error, release.end_velocity.value());
         // The cells account for the roundings of the parameters themselves.
-        let form = FirstContact::new(&Parameters::<S>::of(problem, precision)?.carry());
+        let form = FirstContact::new(&Parameters::<S>::of(task.problem, task.precision)?.carry());
         let rate = rate.unwrap_or_else(|| rebound.velocity.clone());
-        let mut march = Damped::after_bounce(problem, precision, effort, &form, release, &rate, observe)?;
+        let mut march = Damped::after_bounce(task, &form, release, &rate)?;
         march.rebound = Some(rebound.clone());
         let Course { end, ending, events, contacts, warnings } = march.course().clone();
         self.course.events.extend(events.into_iter().skip(1));
@@ -121,11 +108,6 @@ impl<S: RoundedSpecial> ContactThenCells<S> {
         self.course = Course { end, ending, warnings, ..self.course.clone() };
         self.march = Some(march);
         Ok(())
-    }
-
-    /// Hops that the bound of the error does not tell apart from contact, if there may be any.
-    pub fn unresolved(&self) -> Option<&Unresolved<S>> {
-        self.march.as_ref().and_then(Damped::unresolved)
     }
 
     /// `t_b`.
@@ -149,7 +131,7 @@ impl<S: RoundedSpecial> ContactThenCells<S> {
         let time = meant(&self.course.events, time);
         Ok(match self.later(time)? {
             Some(march) => (march, time.clone()),
-            None => (&self.contact, rounded(time.value())),
+            None => (&self.contact, time.value().carry()),
         })
     }
 }
@@ -167,7 +149,7 @@ impl<S: RoundedSpecial> Motion<Estimate<S>> for ContactThenCells<S> {
         let bounded = |piece: StressPiece<Estimate<S>>| {
             // Between the rays its own bounds hardly change.
             let own = |time: &Estimate<S>, side| {
-                self.contact.strain(&rounded(time.value()), side).map_or(0.0, |strain| strain.bound())
+                self.contact.strain(&time.value().carry(), side).map_or(0.0, |strain| strain.bound())
             };
             let strain = self.strain.max(own(&piece.from, Side::Right)).max(own(&piece.to, Side::Left));
             bounded_piece(piece.map(Estimate::into_value), strain)
@@ -197,7 +179,7 @@ impl<S: RoundedSpecial> Motion<Estimate<S>> for ContactThenCells<S> {
 
     fn field(&self, point: &Estimate<S>, time: &Estimate<S>, side: Side) -> Result<Field<Estimate<S>>, Error> {
         let (part, time) = self.part(time)?;
-        part.field(&rounded(point.value()), &time, side)
+        part.field(&point.value().carry(), &time, side)
     }
 
     fn moments(&self, time: &Estimate<S>, points: &[Estimate<S>]) -> Result<Vec<Moments<Estimate<S>>>, Error> {
@@ -205,8 +187,8 @@ impl<S: RoundedSpecial> Motion<Estimate<S>> for ContactThenCells<S> {
         match self.later(time)? {
             Some(march) => march.moments(time, points),
             None => {
-                let points: Vec<_> = points.iter().map(|point| rounded(point.value())).collect();
-                self.contact.moments(&rounded(time.value()), &points)
+                let points: Vec<_> = points.iter().map(|point| point.value().carry()).collect();
+                self.contact.moments(&time.value().carry(), &points)
             }
         }
     }
@@ -217,7 +199,7 @@ impl<S: RoundedSpecial> Motion<Estimate<S>> for ContactThenCells<S> {
         while first < times.len() && self.later(&times[first])?.is_none() {
             first += 1;
         }
-        let contact: Vec<_> = times[..first].iter().map(|time| rounded(time.value())).collect();
+        let contact: Vec<_> = times[..first].iter().map(|time| time.value().carry()).collect();
         let mut rates = self.contact.rates(points, &contact)?;
         if let Some(march) = self.march.as_ref().filter(|_| first < times.len()) {
             rates.extend(march.rates(points, &times[first..])?);

@@ -1,26 +1,40 @@
-//! How much is computed of a run.
+//! What is followed, and how much is computed of it.
+
+use std::ops::ControlFlow;
+
+use crate::number::Scalar;
+use crate::problem::Problem;
 
 /// How much is computed of a run at most.
 #[derive(Clone, Copy, Debug)]
-pub struct Effort {
+pub(crate) struct Effort {
     /// Decimal digits of the natural scales that cells are marched to.
-    pub digits: f64,
+    pub(crate) digits: f64,
     /// Cells that are crossed.
-    pub cells: u64,
+    pub(crate) cells: u64,
     /// Whether the run is given up where its bounds no longer tell the events apart.
-    pub until_lost: bool,
-    /// Digits beyond which nothing is marched.
-    pub most_digits: f64,
-    /// A first contact of up to so many round trips is marched over; up to the second of them, it is if that is known
-    /// better than the closed form.
-    pub marched_trips: [f64; 2],
+    pub(crate) until_lost: bool,
 }
 
 impl Effort {
     /// So many digits, however many cells they take.
-    pub fn of(digits: f64) -> Self {
-        Effort { digits, cells: u64::MAX, until_lost: false, most_digits: 300.0, marched_trips: [4.0, 64.0] }
+    pub(super) fn of(digits: f64) -> Self {
+        Effort { digits, cells: u64::MAX, until_lost: false }
     }
+}
+
+/// Digits beyond which nothing is marched.
+pub(crate) const MOST_DIGITS: f64 = 300.0;
+/// A first contact of up to so many round trips is marched over; up to the second of them, it is if that is known better
+/// than the closed form.
+pub(crate) const MARCHED_TRIPS: [f64; 2] = [4.0, 64.0];
+
+/// What is followed: a problem in numbers of a precision, how much may be computed, and who is told how far a run is.
+pub(crate) struct Task<'a, S: Scalar> {
+    pub(crate) problem: &'a Problem,
+    pub(crate) precision: &'a S::Precision,
+    pub(crate) effort: Effort,
+    pub(crate) observe: &'a dyn Fn(usize, usize) -> ControlFlow<()>,
 }
 
 /// The most strips that are followed: some hundred megabytes.

@@ -4,15 +4,13 @@
 //! `y = v_t`, and it lands when `v(0,·) = ∫ y` returns to zero. A landing at which `y` is not negative, and at `y = 0`
 //! not falling, is none: the flight goes on.
 
-use std::ops::ControlFlow;
-
 use super::account::Proof;
 use super::bounce::Held;
 use super::budget::{Budget, CUT_CELLS, FIRST_CELLS, MOST_LATE};
-use super::effort::{Effort, MOST_PIECES, MOST_SEGMENTS};
+use super::effort::{MOST_PIECES, MOST_SEGMENTS, Task};
 use super::flight::Flight;
 use super::march::{Medium, State};
-use super::piece::{Checkpoint, Found, Mark, Piece, Unresolved};
+use super::piece::{Checkpoint, Found, Mark, Piece};
 use super::root::first_descent;
 use super::series::{at_one, at_zero, bound, derivative, evaluate};
 use super::start::{Data, on_grid};
@@ -20,11 +18,10 @@ use super::uncertainty::{Off, Uncertainty};
 use crate::error::Error;
 use crate::motion::{Ending, EventKind};
 use crate::number::Estimate;
-use crate::problem::{Problem, Run};
+use crate::problem::Run;
 use crate::reason::{Near, Reason, Warning};
 use crate::special::RoundedSpecial;
 
-/// How far to go.
 #[derive(Clone, Debug)]
 pub(super) enum Goal<S> {
     /// This many contacts with the flights after them.
@@ -34,11 +31,11 @@ pub(super) enum Goal<S> {
 }
 
 impl<S: RoundedSpecial> Goal<S> {
-    /// As far as the run of `problem` says.
-    pub(super) fn of(problem: &Problem, precision: &S::Precision, data: &Data<S>) -> Self {
-        match &problem.run {
+    /// As far as the run of the problem says.
+    fn of(task: &Task<'_, S>, data: &Data<S>) -> Self {
+        match &task.problem.run {
             Run::Impacts(count) => Goal::Impacts(*count),
-            Run::Time(time) => Goal::Time(S::from_number(time, precision) / &data.units.time),
+            Run::Time(time) => Goal::Time(S::from_number(time, task.precision) / &data.units.time),
         }
     }
 }
@@ -52,7 +49,6 @@ pub(super) struct Follower<'a, S> {
     /// `q` of the deviation from the static state, or of the vibration in a flight that is taken apart.
     pub(super) state: State<S>,
     pub(super) contact: bool,
-    /// Contacts so far.
     pub(super) landed: u32,
     /// Whether events are in doubt.
     pub(super) lost: bool,
@@ -63,12 +59,11 @@ pub(super) struct Follower<'a, S> {
     /// Whether the end has only gone up since the release, and is not yet clear of the ground.
     pub(super) rising: bool,
     /// Hops that the bound does not tell apart from contact.
-    pub(super) unresolved: Option<Unresolved<S>>,
+    pub(super) unresolved: Option<Warning>,
     /// When the last contact began, in whole round trips and the fraction.
     pub(super) landing: Option<(i64, S)>,
     /// The flight that is under way, where it is taken apart.
     pub(super) flight: Option<usize>,
-    /// All of these flights.
     pub(super) flights: Vec<Flight<S>>,
     /// `v(0,b)`.
     pub(super) height: S,
@@ -79,7 +74,6 @@ pub(super) struct Follower<'a, S> {
     /// States at the beginning of each round trip and on both sides of a leap.
     pub(super) checkpoints: Vec<Checkpoint<S>>,
     pub(super) warnings: Vec<Warning>,
-    /// Cells that have been crossed.
     crossed: u64,
     /// Error of `p`, `q` made in one cell.
     pub(super) cell_error: f64,
@@ -88,7 +82,6 @@ pub(super) struct Follower<'a, S> {
     pub(super) last_trace: Option<S>,
     /// How far values may be off before the first event.
     pub(super) before: Uncertainty,
-    /// The account of a run that is to be proved.
     pub(super) proof: Option<Proof<S>>,
 }
 
@@ -110,18 +103,10 @@ impl<'a, S: RoundedSpecial> Follower<'a, S> {
             follower.landed = 1;
             follower.landing = Some((0, data.slope.zero()));
             follower.prove(|proof, _| proof.contact());
-            let (velocity, after) = (data.end_velocity(), Uncertainty::default());
-            follower.marks.push(Mark {
-                kind: EventKind::Impact,
-                time: data.slope.zero(),
-                velocity,
-                time_error: 0.0,
-                at: None,
-                after,
-            });
+            let impact = Mark::new(EventKind::Impact, data.slope.zero(), data.end_velocity());
+            follower.marks.push(Mark { time_error: 0.0, ..impact });
         } else {
-            let velocity = data.end_velocity();
-            follower.take_off(&velocity, Off::default(), None);
+            follower.take_off(&data.end_velocity(), Off::default(), None);
         }
         follower.note_slope();
         follower
@@ -147,11 +132,11 @@ impl<'a, S: RoundedSpecial> Follower<'a, S> {
         follower.let_go(&velocity, off, None);
         if let Some(flight) = follower.flying() {
             let off = (flight.rate.clone() - rate.value()).to_f64().abs() + rate.bound();
-            follower.budget.know_rate(off);
+            follower.budget.flight.known = Some(off);
         }
-        let (time, after) = (held.release.clone(), Uncertainty::default());
         let at = follower.at_event();
-        follower.marks.push(Mark { kind: EventKind::Release, time, velocity, time_error, at, after });
+        let mark = Mark::new(EventKind::Release, held.release.clone(), velocity);
+        follower.marks.push(Mark { time_error, at, ..mark });
         follower
     }
 
@@ -180,7 +165,7 @@ impl<'a, S: RoundedSpecial> Follower<'a, S> {
             warnings: Vec::new(),
             crossed: 0,
             cell_error: 0.0,
-            budget: Budget::new(2.0 * medium.kappa.to_f64()),
+            budget: Budget::new(2.0 * medium.kappa.to_f64(), medium.splits()),
             last_trace: None,
             before: Uncertainty::default(),
             proof: None,
@@ -190,7 +175,6 @@ impl<'a, S: RoundedSpecial> Follower<'a, S> {
         follower
     }
 
-    /// The error of a cell now.
     pub(super) fn weigh(&mut self) {
         self.cell_error = self.medium.cell_error(&self.state);
     }
@@ -203,7 +187,7 @@ impl<'a, S: RoundedSpecial> Follower<'a, S> {
 
     /// What roundings and truncations make of `p` and `q`: what is smaller decides nothing.
     pub(super) fn noise(&self) -> f64 {
-        self.budget.noise(self.medium.splits())
+        self.budget.noise()
     }
 
     /// The same of `v(0,·)` up to `len` from now. Where the bound leaves `open` what happens, the noise alone decides,
@@ -219,19 +203,18 @@ impl<'a, S: RoundedSpecial> Follower<'a, S> {
 
     /// The error of `p` and `q` at the ground, by the better account.
     pub(super) fn trace_error(&self) -> f64 {
-        self.budget.trace(self.medium.splits())
+        self.budget.trace()
     }
 
     /// A bound of the error of `v(0,·)` from now until `len` later, by the better account.
     pub(super) fn height_most(&self, len: f64) -> f64 {
         let flown = self.flying().map(|flight| {
-            let age = flight.age((self.state.round, &self.state.segments[0].at)).to_f64();
+            let age = flight.age(&self.state).to_f64();
             [age, age + len].map(|age| (age, flight.rate_at(&self.height.double(age)).to_f64()))
         });
         self.budget.end_most(flown, len)
     }
 
-    /// `R`.
     pub(super) fn damping(&self) -> f64 {
         2.0 * self.medium.kappa.to_f64()
     }
@@ -248,13 +231,13 @@ impl<'a, S: RoundedSpecial> Follower<'a, S> {
 
     /// `h` and `h′` now, in such a flight.
     pub(super) fn centre(&self) -> Option<(S, S)> {
-        self.flying().map(|flight| flight.at(&flight.age((self.state.round, &self.state.segments[0].at))))
+        self.flying().map(|flight| flight.at(&flight.age(&self.state)))
     }
 
     /// The error of `v(0,·)` up to `len` from now.
     pub(super) fn height_error(&self, len: f64) -> Off {
         let then = self.flying().map(|flight| {
-            let age = flight.age((self.state.round, &self.state.segments[0].at)).to_f64() + len;
+            let age = flight.age(&self.state).to_f64() + len;
             let rate = flight.rate_at(&self.height.double(age)).to_f64();
             (age, rate, (self.place() + len).fract())
         });
@@ -292,14 +275,21 @@ impl<'a, S: RoundedSpecial> Follower<'a, S> {
         }
     }
 
+    /// What is found on the way to the goal.
+    pub(super) fn run(mut self, task: &Task<'_, S>) -> Result<Found<S>, Error> {
+        let ending = self.follow(&Goal::of(task, self.data), task)?;
+        let last = self.budget.since();
+        match self.marks.last_mut() {
+            Some(mark) => mark.after = last,
+            None => self.before = last,
+        }
+        let Follower { pieces, checkpoints, flights, marks, warnings, unresolved, before, end_error, proof, .. } = self;
+        Ok(Found { pieces, checkpoints, flights, marks, warnings, unresolved, before, ending, end_error, proof })
+    }
+
     /// Goes on until the goal; `observe` receives the round trips, or the contacts where so many are asked for, and the
     /// number of pieces.
-    pub(super) fn run(
-        &mut self,
-        goal: &Goal<S>,
-        effort: Effort,
-        observe: &dyn Fn(usize, usize) -> ControlFlow<()>,
-    ) -> Result<Ending, Error> {
+    fn follow(&mut self, goal: &Goal<S>, Task { effort, observe, .. }: &Task<'_, S>) -> Result<Ending, Error> {
         let unit = self.height.log2_roundoff().exp2();
         let mut round = i64::MIN;
         let mut calm = None;
@@ -403,7 +393,7 @@ impl<'a, S: RoundedSpecial> Follower<'a, S> {
                 let left = end.clone() - self.state.time();
                 if let Some(x) = found.as_ref().filter(|x| ((*x).clone() - &left).to_f64().abs() < MOST_LATE) {
                     let off = self.event_error(&trace, &height, &(x.clone() / &len), &len, vague);
-                    if (x.clone() - &left).to_f64().abs() <= self.budget.better(off, self.medium.splits()) {
+                    if (x.clone() - &left).to_f64().abs() <= self.budget.better(off) {
                         self.not_told(left.to_f64(), Near::End, 0.0);
                     }
                 }
@@ -444,17 +434,6 @@ impl<'a, S: RoundedSpecial> Follower<'a, S> {
                 return Ok(ending);
             }
         }
-    }
-
-    /// What a run that ends like this has found.
-    pub(super) fn found(mut self, ending: Ending) -> Found<S> {
-        let last = self.budget.since(self.medium.splits());
-        match self.marks.last_mut() {
-            Some(mark) => mark.after = last,
-            None => self.before = last,
-        }
-        let Follower { pieces, checkpoints, flights, marks, warnings, unresolved, before, end_error, proof, .. } = self;
-        Found { pieces, checkpoints, flights, marks, warnings, unresolved, before, ending, end_error, proof }
     }
 
     /// A round trip begins: the state is kept, and what is summed up in it is computed anew.
@@ -534,13 +513,11 @@ impl<'a, S: RoundedSpecial> Follower<'a, S> {
             self.budget.note_end(self.height_error(0.0));
         }
         self.budget.strip(len.to_f64(), self.cell_error, self.contact);
-        let (contact, flight) = (self.contact, self.flight);
         let cut = cut.is_some();
-        self.pieces.push(Piece { from, len, contact, flight, cut, still: false, leap: 0, trace, height });
+        self.pieces.push(Piece { cut, trace, height, ..Piece::new(from, len, self.contact, self.flight) });
     }
 }
 
-/// `target += series`.
 fn add<S: RoundedSpecial>(target: &mut Vec<S>, series: Vec<S>) {
     if target.len() < series.len() {
         target.resize(series.len(), series[0].zero());

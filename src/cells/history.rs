@@ -1,19 +1,17 @@
 //! The solution of the damped problem, and the answers to what is asked of it.
 
-use std::ops::ControlFlow;
-
 use super::account::Proof;
 use super::bounce::Held;
 use super::budget::AtEvent;
-use super::effort::Effort;
+use super::effort::{Effort, Task};
 use super::flight::Flight;
-use super::follow::{Follower, Goal};
+use super::follow::Follower;
 use super::march::{Medium, State};
-use super::piece::{Checkpoint, Found, Mark, Piece, Unresolved};
+use super::piece::{Checkpoint, Found, Mark, Piece};
 use super::record::Record;
 use super::root::smallest;
 use super::series::{at_one, at_zero, evaluate};
-use super::start::{Data, Units, medium};
+use super::start::{Data, medium};
 use super::strips::{Line, Node, Pool};
 use super::uncertainty::{Uncertainty, within};
 use crate::error::Error;
@@ -63,8 +61,6 @@ pub struct Damped<S> {
     pub(super) uncertain: Vec<Uncertainty>,
     /// At each event, where that is known better.
     pub(super) at_events: Vec<Option<AtEvent>>,
-    unresolved: Option<Unresolved<S>>,
-    /// Whether its bounds are proved.
     pub(super) proved: bool,
     /// Cells that earlier questions have marched.
     pool: Pool<S>,
@@ -83,46 +79,17 @@ impl<S: RoundedSpecial> Damped<S> {
     ///
     /// **Errors**: [`Error::DampingTooStrong`] for `r t₁ > 2000`; [`Error::Irrational`] from the parameters.
     pub fn solve(problem: &Problem, precision: &S::Precision, digits: f64) -> Result<Self, Error> {
-        Self::solve_observed(problem, precision, Effort::of(digits), 1, &unobserved)
+        Self::march(&Task { problem, precision, effort: Effort::of(digits), observe: &unobserved }, 1, false)
     }
 
-    /// [`Self::solve`] with segments `shorten` times shorter than need be, observed.
-    pub(crate) fn solve_observed(
-        problem: &Problem,
-        precision: &S::Precision,
-        effort: Effort,
-        shorten: i64,
-        observe: &dyn Fn(usize, usize) -> ControlFlow<()>,
-    ) -> Result<Self, Error> {
-        Self::marched(problem, precision, effort, (shorten, false), observe)
-    }
-
-    /// The same from the start, with a proof of its bounds, as far as that goes.
+    /// The same of a `task`, with segments `shorten` times shorter than need be, and with a proof of its bounds, as far
+    /// as that goes, where it `proves`.
     ///
     /// **Errors**: [`Error::NotDecided`] where not even the first strip is shown.
-    #[cfg(feature = "mp")]
-    pub(crate) fn prove(
-        problem: &Problem,
-        precision: &S::Precision,
-        effort: Effort,
-        observe: &dyn Fn(usize, usize) -> ControlFlow<()>,
-    ) -> Result<Self, Error> {
-        Self::marched(problem, precision, effort, (1, true), observe)
-    }
-
-    fn marched(
-        problem: &Problem,
-        precision: &S::Precision,
-        effort: Effort,
-        (shorten, proves): (i64, bool),
-        observe: &dyn Fn(usize, usize) -> ControlFlow<()>,
-    ) -> Result<Self, Error> {
-        let (medium, data) = medium(problem, precision, effort.digits, shorten)?;
-        let goal = Goal::of(problem, precision, &data);
-        let mut follower = Follower::new(&medium, &data, proves.then(|| Proof::new(&medium)));
-        let ending = follower.run(&goal, effort, observe)?;
-        let found = follower.found(ending);
-        Self::record_of(medium, data, None, found, problem, precision)
+    pub(crate) fn march(task: &Task<'_, S>, shorten: i64, proves: bool) -> Result<Self, Error> {
+        let (medium, data) = medium(task.problem, task.precision, task.effort.digits, shorten)?;
+        let found = Follower::new(&medium, &data, proves.then(|| Proof::new(&medium))).run(task)?;
+        Self::record_of(task, (medium, data), None, found)
     }
 
     /// The motion after the first release, at `time`, known to `time_error`, with the velocity `leaves` of the end and
@@ -130,61 +97,45 @@ impl<S: RoundedSpecial> Damped<S> {
     ///
     /// The first event is that release; no question may be asked about what came before it.
     pub(super) fn after_bounce(
-        problem: &Problem,
-        precision: &S::Precision,
-        effort: Effort,
+        task: &Task<'_, S>,
         contact: &FirstContact<Estimate<S>>,
         (time, time_error, leaves): (&S, f64, &S),
         rate: &Estimate<S>,
-        observe: &dyn Fn(usize, usize) -> ControlFlow<()>,
     ) -> Result<Self, Error> {
-        let (medium, data) = medium(problem, precision, effort.digits, 1)?;
+        let (medium, data) = medium(task.problem, task.precision, task.effort.digits, 1)?;
         let held = Held::until(contact, &data, time);
-        let state = held.state(&medium, &data, effort.marched_trips);
+        let state = held.state(&medium, &data);
         let unit = &data.units.velocity;
         let release = (leaves.clone() / unit, time_error / data.units.time.to_f64());
         let rate = rate.clone() / &Estimate::rounded(unit.clone(), 8.0);
-        Self::released(problem, precision, effort, (medium, data), (held, state), (release, rate), observe)
+        Self::released(task, (medium, data), (held, state), (release, rate))
     }
 
     /// The motion after a release in this state, whose error has this bound; with the velocity of the end, how far the
     /// time is off, and `h′`.
     pub(super) fn released(
-        problem: &Problem,
-        precision: &S::Precision,
-        effort: Effort,
+        task: &Task<'_, S>,
         (medium, data): (Medium<S>, Data<S>),
         (held, state): (Held<S>, (State<S>, f64)),
         (release, rate): ((S, f64), Estimate<S>),
-        observe: &dyn Fn(usize, usize) -> ControlFlow<()>,
     ) -> Result<Self, Error> {
-        let goal = Goal::of(problem, precision, &data);
-        let mut follower = Follower::released(&medium, &data, &held, state, release, &rate);
-        let ending = follower.run(&goal, effort, observe)?;
-        let found = follower.found(ending);
-        Self::record_of(medium, data, Some(held), found, problem, precision)
+        let found = Follower::released(&medium, &data, &held, state, release, &rate).run(task)?;
+        Self::record_of(task, (medium, data), Some(held), found)
     }
 
     pub(super) fn record_of(
-        medium: Medium<S>,
-        data: Data<S>,
+        task: &Task<'_, S>,
+        (medium, data): (Medium<S>, Data<S>),
         held: Option<Held<S>>,
         found: Found<S>,
-        problem: &Problem,
-        precision: &S::Precision,
     ) -> Result<Self, Error> {
         let proved = found.proof.is_some();
-        let found = found.proved(&medium, &data)?;
         let Found { pieces, checkpoints, flights, marks, mut warnings, unresolved, before, ending, end_error, .. } =
-            found;
-        let unresolved = unresolved.map(|found| {
-            let unit = &data.units.time;
-            Unresolved { from: found.from * unit, longest: found.longest * unit.to_f64(), ..found }
-        });
-        warnings.extend(unresolved.as_ref().map(Unresolved::warning));
-        let end = match &problem.run {
+            found.proved(&medium, &data)?;
+        warnings.extend(unresolved);
+        let end = match &task.problem.run {
             Run::Time(time) if ending == Ending::Time || pieces.last().is_some_and(|piece| piece.still) => {
-                S::from_number(time, precision)
+                S::from_number(time, task.precision)
             }
             _ => {
                 let start = || held.as_ref().map_or_else(|| data.slope.zero(), |held| held.release.clone());
@@ -193,7 +144,7 @@ impl<S: RoundedSpecial> Damped<S> {
         };
         let mut history = Damped {
             course: Course { warnings, ..Course::new(within(&end, end_error * data.units.time.to_f64()), ending) },
-            scales: data.units.scales().map(|scale| scale.to_f64()),
+            scales: data.units.clone().map(|scale| scale.to_f64()),
             rebound: None,
             medium,
             data,
@@ -203,7 +154,6 @@ impl<S: RoundedSpecial> Damped<S> {
             flights,
             at_events: marks.iter().map(|mark| mark.at).collect(),
             uncertain: std::iter::once(before).chain(marks.iter().map(|mark| mark.after)).collect(),
-            unresolved,
             proved,
             pool: Pool::default(),
         };
@@ -224,18 +174,12 @@ impl<S: RoundedSpecial> Damped<S> {
         history.with_bounds()
     }
 
-    /// Hops that the bound of the error does not tell apart from contact, if there may be any.
-    pub fn unresolved(&self) -> Option<&Unresolved<S>> {
-        self.unresolved.as_ref()
-    }
-
     /// The data, where `time` is the start seen from before it.
     fn given_at(&self, point: &S, time: &S, side: Side) -> Result<Option<Field<S>>, Error> {
         let before = side == Side::Left && time.is_zero() && self.held.is_none();
         Ok(if before { Some(self.data.given.at(point)?) } else { None })
     }
 
-    /// What the field follows from.
     fn record(&self) -> Record<'_, S> {
         let Damped { medium, data, held, pieces, checkpoints, flights, pool, .. } = self;
         Record { medium, data, held: held.as_ref(), pieces, checkpoints, flights, pool }
@@ -253,6 +197,12 @@ impl<S: RoundedSpecial> Damped<S> {
             Some(k) if time.meets(&(unit.int(k) * unit)) => time.int(k),
             _ => trips,
         })
+    }
+
+    fn check(&self, point: &S) -> Result<(), Error> {
+        let length = &self.data.units.length;
+        let outside = point.is_negative() || point > length || !point.is_finite();
+        if outside { Err(Error::PointOutside { found: point.text(), length: length.text() }) } else { Ok(()) }
     }
 
     /// `h` and `h′` from the nodes of the whole rod: `⟨v⟩ = v(0) + (1/L)∫(L−x) v_x dx`.
@@ -273,7 +223,7 @@ impl<S: RoundedSpecial> Damped<S> {
             Some(flight) => flight.at(&flight.age_at(t)),
             None => self.mean(t, &self.record().whole_line(t)),
         };
-        (mean * &self.data.units.displacement, rate * &self.data.units.velocity)
+        (mean * &self.data.displacement, rate * &self.data.units.velocity)
     }
 
     /// `v(x,t)`, dimensionless.
@@ -300,7 +250,7 @@ impl<S: RoundedSpecial> Damped<S> {
             for piece in pieces {
                 let mut area = piece.trace.clone();
                 self.medium.basis.integrate(&mut area);
-                let push = at_one(&area, &piece.len.zero()) * &piece.len * &units.displacement * &units.wave_speed;
+                let push = at_one(&area, &piece.len.zero()) * &piece.len * &self.data.displacement * &units.wave_speed;
                 impulse = impulse - push;
                 let least = smallest(&self.medium.basis, &piece.trace);
                 let strain = least.map(|least| least * &units.velocity / &units.wave_speed);
@@ -311,9 +261,7 @@ impl<S: RoundedSpecial> Damped<S> {
             (impulse, peak)
         })
     }
-}
 
-impl<S: RoundedSpecial> Damped<S> {
     /// The nodes of a quadrature along the rod, from the ground to the first of some points and from each to the next,
     /// and how many rays cut each of these.
     pub(super) fn lines(&self, time: &S, points: &[S]) -> Result<Vec<Cut<S>>, Error> {
@@ -327,7 +275,7 @@ impl<S: RoundedSpecial> Damped<S> {
             x: node.x * &reach,
             strain: node.strain * &strain,
         };
-        let line = |line: Line<S>| (line.nodes.into_iter().map(node).collect(), line.parts.saturating_sub(1));
+        let line = |(nodes, parts): Line<S>| (nodes.into_iter().map(node).collect(), parts.saturating_sub(1));
         Ok(self.record().lines(&t, &cuts).into_iter().map(line).collect())
     }
 
@@ -376,7 +324,6 @@ impl<S: RoundedSpecial> Damped<S> {
         self.record().piece(&time, side).map(|(piece, _)| piece.contact)
     }
 
-    /// `v_x(0,t)`.
     pub(super) fn strain_of(&self, time: &S, side: Side) -> Result<S, Error> {
         if let Some(given) = self.given_at(&time.zero(), time, side)? {
             return Ok(given.strain);
@@ -390,21 +337,18 @@ impl<S: RoundedSpecial> Damped<S> {
         })
     }
 
-    /// `v(0,t)` and `v_t(0,t)`.
     pub(super) fn ground_of(&self, time: &S, side: Side) -> Result<[S; 2], Error> {
         if let Some(given) = self.given_at(&time.zero(), time, side)? {
             return Ok([given.displacement, given.velocity]);
         }
         let (height, rate) = self.record().end(&self.time(time)?, side);
-        Ok([height * &self.data.units.displacement, rate * &self.data.units.velocity])
+        Ok([height * &self.data.displacement, rate * &self.data.units.velocity])
     }
 
-    /// `h` and `h′`.
     pub(super) fn centre_of(&self, time: &S) -> Result<[S; 2], Error> {
         Ok(self.centre_at(&self.time(time)?).into())
     }
 
-    /// `E_z`.
     pub(super) fn vibration_of(&self, time: &S) -> Result<S, Error> {
         let (t, units) = (self.time(time)?, &self.data.units);
         let nodes = self.record().whole_line(&t);
@@ -418,7 +362,6 @@ impl<S: RoundedSpecial> Damped<S> {
         Ok(summed(&nodes, &t, square) * &units.length * units.velocity.square())
     }
 
-    /// The kinetic and the strain energy.
     pub(super) fn parts_of(&self, time: &S) -> Result<[S; 2], Error> {
         let (t, units) = (self.time(time)?, &self.data.units);
         let nodes = self.record().whole_line(&t);
@@ -429,13 +372,10 @@ impl<S: RoundedSpecial> Damped<S> {
         Ok(parts.map(|part| part * &unit))
     }
 
-    /// `v`, `v_t`, `v_x` at a point.
     pub(super) fn field_of(&self, point: &S, time: &S, side: Side) -> Result<Field<S>, Error> {
         let t = self.time(time)?;
         let units = &self.data.units;
-        if point.is_negative() || *point > units.length || !point.is_finite() {
-            return Err(Error::PointOutside { found: point.text(), length: units.length.text() });
-        }
+        self.check(point)?;
         if let Some(given) = self.given_at(point, time, side)? {
             return Ok(given);
         }
@@ -446,19 +386,15 @@ impl<S: RoundedSpecial> Damped<S> {
         let x = point.clone() / &units.length * t.ratio(1, 2);
         let (velocity, strain) = self.record().at(&x, &t, side);
         Ok(Field {
-            displacement: self.displacement(&x, &t) * &units.displacement,
+            displacement: self.displacement(&x, &t) * &self.data.displacement,
             velocity: velocity * &units.velocity,
             strain: strain * &units.velocity / &units.wave_speed,
         })
     }
 
-    /// `v_t` and `v_x` on a grid.
     pub(super) fn rates_of(&self, points: &[S], times: &[S]) -> Result<Vec<[S; 2]>, Error> {
         let units = &self.data.units;
-        let outside = |x: &&S| x.is_negative() || **x > units.length || !x.is_finite();
-        if let Some(point) = points.iter().find(outside) {
-            return Err(Error::PointOutside { found: point.text(), length: units.length.text() });
-        }
+        points.iter().try_for_each(|point| self.check(point))?;
         let points: Vec<S> = points.iter().map(|x| x.clone() / &units.length * x.ratio(1, 2)).collect();
         let times = times.iter().map(|time| self.time(time)).collect::<Result<Vec<S>, Error>>()?;
         let scaled =
@@ -469,7 +405,7 @@ impl<S: RoundedSpecial> Damped<S> {
     /// `t*` and `h(t*)` of the flight after a release.
     pub(super) fn turn_after(&self, release: usize) -> Option<(S, S)> {
         let release = self.course.events.get(release)?.clone().map(Estimate::into_value);
-        let Units { gravity, time, .. } = &self.data.units;
+        let Scales { gravity, time, .. } = &self.data.units;
         if gravity.is_zero() || !self.medium.free_top || release.centre_velocity.is_negative() {
             return None;
         }
@@ -491,7 +427,6 @@ impl<S: RoundedSpecial> Damped<S> {
 /// The nodes along a part of the rod, and how many rays cut it.
 type Cut<S> = (Vec<moments::Node<S>>, usize);
 
-/// A weighted sum over nodes.
 fn summed<S: RoundedSpecial>(nodes: &[Node<S>], like: &S, part: impl Fn(&Node<S>) -> S) -> S {
     nodes.iter().fold(like.zero(), |sum, node| sum + part(node) * &node.weight)
 }

@@ -43,6 +43,5 @@ mod strips;
 mod uncertainty;
 
 pub use contact_then_cells::ContactThenCells;
-pub use effort::Effort;
+pub(crate) use effort::{Effort, MARCHED_TRIPS, MOST_DIGITS, Task};
 pub use history::Damped;
-pub use piece::Unresolved;

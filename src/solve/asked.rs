@@ -4,7 +4,7 @@
 //! after it. It is asked of longer runs, which are made for such times alone and kept; where none of them tells, the
 //! answer covers both sides. All other times are answered as if there were none of this.
 
-use std::sync::{Arc, Mutex, MutexGuard, OnceLock, PoisonError};
+use std::sync::{Arc, Mutex, OnceLock};
 
 use super::ladder::Engined;
 use super::plan::Rung;
@@ -15,6 +15,7 @@ use crate::motion::{StressPiece, Stretch, Waves};
 use crate::number::{Answer, Estimate, Rational, Rounded, Scalar, Spelling, spelled_as};
 use crate::problem::{Material, Problem, Start};
 use crate::reason::Warning;
+use crate::threads::locked;
 
 /// Where a motion has rays: those of the start, and those of events that are off in time.
 pub(super) struct Windows<N> {
@@ -115,7 +116,7 @@ pub(super) enum Open<S: Answer> {
 }
 
 /// An engine with what is done with times that it does not tell.
-pub(super) struct Telling<S: Rounded + Answer<Carried = Estimate<S>>> {
+pub(super) struct Telling<S: Rounded> {
     engine: Engined<S>,
     windows: OnceLock<Windows<Estimate<S>>>,
     start: StartRays,
@@ -124,7 +125,7 @@ pub(super) struct Telling<S: Rounded + Answer<Carried = Estimate<S>>> {
     covered: Mutex<Vec<f64>>,
 }
 
-impl<S: Rounded + Answer<Carried = Estimate<S>>> Telling<S> {
+impl<S: Rounded> Telling<S> {
     pub(super) fn of(engine: Engined<S>, problem: &Problem, open: Open<S>) -> Engined<S> {
         let (windows, made, covered) = (OnceLock::new(), Mutex::default(), Mutex::default());
         Arc::new(Telling { engine, windows, start: StartRays::of(problem), open, made, covered })
@@ -226,11 +227,6 @@ impl<S: Rounded + Answer<Carried = Estimate<S>>> Telling<S> {
     }
 }
 
-/// What is kept is replaced whole: what a panic left behind is as good as any.
-pub(super) fn locked<T>(kept: &Mutex<T>) -> MutexGuard<'_, T> {
-    kept.lock().unwrap_or_else(PoisonError::into_inner)
-}
-
 /// The number that covers both, within their bounds.
 fn hull<S: Rounded>(a: Estimate<S>, b: &Estimate<S>) -> Estimate<S> {
     let apart = b.value().clone() - a.value();
@@ -247,7 +243,7 @@ fn hull<S: Rounded>(a: Estimate<S>, b: &Estimate<S>) -> Estimate<S> {
     Estimate::new(middle, (high - low) / 2.0 + rounding)
 }
 
-impl<S: Rounded + Answer<Carried = Estimate<S>>> Motion<Estimate<S>> for Telling<S> {
+impl<S: Rounded> Motion<Estimate<S>> for Telling<S> {
     fn strain(&self, time: &Estimate<S>, side: Side) -> Result<Estimate<S>, Error> {
         self.answer(&time.zero(), time, side, |engine, time, side| engine.strain(time, side), hull)
     }
@@ -316,9 +312,6 @@ impl<S: Rounded + Answer<Carried = Estimate<S>>> Motion<Estimate<S>> for Telling
     }
     fn warnings(&self) -> &[Warning] {
         self.engine.warnings()
-    }
-    fn centre(&self, time: &Estimate<S>) -> Result<(Estimate<S>, Estimate<S>), Error> {
-        self.engine.centre(time)
     }
     fn rates(&self, points: &[Estimate<S>], times: &[Estimate<S>]) -> Result<Vec<[Estimate<S>; 2]>, Error> {
         self.engine.rates(points, times)

@@ -247,7 +247,7 @@ impl<N: Scalar, M: Reads<N>> Motion<M> for Converted<N, M> {
 
 /// Doubles, which answer faster than exact numbers, and within their bounds where all that they took for equal is
 /// equal; otherwise the exact ones.
-pub(super) fn confirmed<N>(
+pub(super) fn confirmed<N: Bounded>(
     problem: &Problem,
     plan: &Plan,
     exact: Undamped<N>,
@@ -255,8 +255,6 @@ pub(super) fn confirmed<N>(
     observe: &Observer,
 ) -> Result<Engined<f64>, Error>
 where
-    N: Bounded,
-    Undamped<N>: Motion<N>,
     Estimate<f64>: Reads<N>,
 {
     let mut doubles = plan.lattice::<Estimate<f64>>(problem, &(), observe)?;

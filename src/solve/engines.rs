@@ -9,14 +9,16 @@ use super::ladder::{Engined, Target};
 use super::plan::{DEFAULT_ACCURACY, Engine, Plan, Rung};
 use super::question::Observer;
 use super::{differences, interpolated, long, rates};
-use crate::cells::{ContactThenCells, Damped};
+use crate::cells::{ContactThenCells, Damped, Task};
 use crate::error::Error;
 use crate::first_contact::{Bounce, ContactHistory, FirstContact};
+use crate::lattice::Undamped;
 use crate::mapped::mapped;
 use crate::modal::Modal;
 use crate::motion::{Ending, Motion, Side};
 use crate::number::{Estimate, Rational, Reads};
 use crate::problem::{Parameters, Problem};
+use crate::special::RoundedSpecial;
 
 impl Target for f64 {
     fn run(problem: &Problem, plan: &Plan, rung: Rung, observe: &Observer) -> Result<Engined<f64>, Error> {
@@ -36,35 +38,9 @@ impl Target for f64 {
             rung => return long::in_doubles(problem, plan, (rung, longer), observe),
         }
         let problem = &*plan.reaching(problem);
-        let engine: Engined<f64> = match plan.engine {
-            Engine::Lattice => {
-                let history = plan.lattice::<Estimate<f64>>(problem, &(), observe)?;
-                if cfg!(feature = "mp") && history.undetermined_from().is_some() {
-                    return Err(Error::NotDecided { what: "in which order the events come", bits: 53 });
-                }
-                Arc::new(history)
-            }
-            Engine::Cells => Arc::new(Damped::<f64>::solve_observed(problem, &(), plan.effort(rung), 1, &**observe)?),
-            Engine::ClosedForm | Engine::ClosedFormThenCells => {
-                let rod = Parameters::<Estimate<f64>>::of(problem, &())?;
-                let contact = FirstContact::new(&rod);
-                let mut bounce = contact.bounce();
-                if matches!(&bounce, Bounce::Undecided { why, .. } if why.needs_bits()) {
-                    let undecided = Error::NotDecided { what: "how the first contact ends", bits: 53 };
-                    bounce = by_modes(&contact, problem, plan.modes.ok_or(undecided)?)?;
-                }
-                if plan.engine == Engine::ClosedFormThenCells {
-                    let rate = plan.rate_bits.and_then(|bits| long::rate_after(problem, &bounce, bits));
-                    let effort = plan.effort(rung);
-                    let run = ContactThenCells::<f64>::solve_observed(problem, &(), effort, bounce, rate, &**observe)?;
-                    Arc::new(run)
-                } else if plan.settles_events {
-                    Arc::new(ContactThenCells::<f64>::first_contact(problem, &(), bounce)?)
-                } else {
-                    Arc::new(ContactHistory::new(contact, bounce, None)?)
-                }
-            }
-        };
+        let task = plan.task::<f64>(problem, &(), rung, observe);
+        let rate = |bounce: &Bounce<_>| plan.rate_bits.and_then(|bits| long::rate_after(problem, bounce, bits));
+        let engine = estimates(plan, &task, rung.bits(), rate, |march| march())?;
         Ok(Telling::of(engine, problem, Open::Ask(longer)))
     }
 
@@ -82,6 +58,50 @@ impl Target for f64 {
         let found = differences::of(asked, digits)?;
         Ok(mapped(found, |row| mapped(row, |cell| cell.map(|it| it.map(Reads::read)))))
     }
+}
+
+/// A damped run.
+pub(super) type March<'a, S> = &'a dyn Fn() -> Result<Engined<S>, Error>;
+
+/// The planned engine, in numbers with their error bound; `rate` is `h′` at the bounce, where it is known better than a
+/// march has it, and `marched` what is made of a march.
+pub(super) fn estimates<S: RoundedSpecial>(
+    plan: &Plan,
+    task: &Task<'_, S>,
+    bits: u32,
+    rate: impl Fn(&Bounce<Estimate<S>>) -> Option<Estimate<S>>,
+    marched: impl Fn(March<'_, S>) -> Result<Engined<S>, Error>,
+) -> Result<Engined<S>, Error> {
+    let Task { problem, precision, .. } = *task;
+    let undecided = |what| Error::NotDecided { what, bits };
+    Ok(match plan.engine {
+        Engine::Lattice => {
+            let limits = plan.lattice_limits(problem);
+            let history = Undamped::<Estimate<S>>::solve_within(problem, precision, limits, task.observe)?;
+            if plan.climb.bits.is_some() && history.undetermined_from().is_some() {
+                return Err(undecided("in which order the events come"));
+            }
+            Arc::new(history)
+        }
+        Engine::Cells => marched(&|| Ok(Arc::new(Damped::march(task, 1, false)?)))?,
+        Engine::ClosedForm | Engine::ClosedFormThenCells => {
+            let contact = FirstContact::new(&Parameters::<Estimate<S>>::of(problem, precision)?);
+            let mut bounce = contact.bounce();
+            if matches!(&bounce, Bounce::Undecided { why, .. } if why.needs_bits()) {
+                let modes = plan.modes.ok_or_else(|| undecided("how the first contact ends"))?;
+                bounce = by_modes(&contact, &Modal::new(&Parameters::<S>::of(problem, precision)?, modes));
+            }
+            if plan.engine == Engine::ClosedFormThenCells {
+                let (rate, bounces) = (rate(&bounce), matches!(bounce, Bounce::At { .. }));
+                let march = || Ok(Arc::new(ContactThenCells::march(task, bounce.clone(), rate.clone())?) as Engined<S>);
+                if bounces { marched(&march)? } else { march()? }
+            } else if plan.settles_events {
+                Arc::new(ContactThenCells::<S>::first_contact(problem, precision, bounce)?)
+            } else {
+                Arc::new(ContactHistory::new(contact, bounce, None)?)
+            }
+        }
+    })
 }
 
 impl Target for Rational {
@@ -109,15 +129,10 @@ fn longer(problem: &Problem, plan: &Plan, rung: Rung, observe: &Observer) -> Lon
     Longer { rungs, exact_contacts, run: Box::new(run) }
 }
 
-/// How the first contact ends by the sum over so many modes, which does not cancel late in the contact as that over
+/// How the first contact ends by the sum over modes, which does not cancel late in the contact as that over
 /// rays does.
-fn by_modes(
-    contact: &FirstContact<Estimate<f64>>,
-    problem: &Problem,
-    modes: u32,
-) -> Result<Bounce<Estimate<f64>>, Error> {
-    let modal = Modal::new(&Parameters::<f64>::of(problem, &())?, modes);
+fn by_modes<S: RoundedSpecial>(contact: &FirstContact<Estimate<S>>, modal: &Modal<S>) -> Bounce<Estimate<S>> {
     // The last moment of a cell belongs to it.
-    let side = |trips: &f64, k: i64| if *trips == (k + 1) as f64 { Side::Left } else { Side::Right };
-    Ok(contact.bounce_by(&|trips, k| modal.ground(trips, side(trips.value(), k))))
+    let side = |trips: &S, k: i64| if *trips == trips.int(k + 1) { Side::Left } else { Side::Right };
+    contact.bounce_by(&|trips, k| modal.ground(trips, side(trips.value(), k)))
 }

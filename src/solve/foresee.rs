@@ -1,6 +1,7 @@
 //! How many bits a run is going to lose, foreseen in doubles.
 
-use crate::lattice::{Limits, Undamped, unobserved};
+use crate::lattice::{Limits, Undamped};
+use crate::motion::unobserved;
 use crate::number::{Estimate, Number};
 use crate::problem::{Parameters, Problem, Run};
 

@@ -2,7 +2,6 @@
 
 use std::sync::{Mutex, OnceLock};
 
-use super::asked::locked;
 use super::ladder::{Attempt, Ladder, Query, Target, settled};
 use super::plan::{Plan, Rung};
 use super::question::{Numbers, Observer, Question, unobserved};
@@ -15,6 +14,7 @@ use crate::number::{Answer, Number, Scalar, show};
 use crate::problem::Problem;
 use crate::quantity::{self, Flight, Quantity, Restitution, Slice, Table, UnitSystem, Units, flights, restitution};
 use crate::reason::{Reason, Warning};
+use crate::threads::locked;
 
 /// The motion of a rod: its impacts and releases, and the values of every quantity at any time, in numbers `S`.
 ///
@@ -57,7 +57,6 @@ pub struct History<S: Target> {
 }
 
 impl<S: Target> History<S> {
-    /// Solves `problem` by `plan`.
     pub(crate) fn solve(problem: &Problem, plan: &Plan, observe: Observer) -> Result<Self, Error> {
         let ladder = Ladder { problem, plan, observe: &observe };
         let ask_events = plan.settles_events;
@@ -201,7 +200,6 @@ impl<S: Target> History<S> {
         Units::of(&self.problem, UnitSystem::default())
     }
 
-    /// What was solved.
     pub(crate) fn problem(&self) -> &Problem {
         &self.problem
     }

@@ -274,7 +274,7 @@ fn ends_at_event<S: Scalar>(engine: &dyn Motion<S>) -> bool {
 }
 
 /// Whether a damped run says that its bounds leave events open.
-fn needs_bits<S: Scalar>(engine: &dyn Motion<S>) -> bool {
+pub(super) fn needs_bits<S: Scalar>(engine: &dyn Motion<S>) -> bool {
     engine.warnings().iter().any(Warning::needs_bits)
 }
 

@@ -6,17 +6,17 @@ use super::asked::{Longer, Open, Telling, not_told};
 use super::converted::{Converted, confirmed};
 use super::derivative::{Asked, Derivatives};
 use super::differences;
-use super::ladder::{Engined, Target};
+use super::engines::{self, March};
+use super::ladder::{Engined, Target, needs_bits};
 use super::plan::{Engine, Lacks, MOST_PROVED, Plan, Rung};
-use super::question::Observer;
-use crate::cells::{ContactThenCells, Damped, Effort};
+use super::question::{Numbers, Observer};
+use crate::cells::{Damped, Effort, Task};
 use crate::error::Error;
 use crate::first_contact::{Bounce, ContactHistory, FirstContact};
 use crate::lattice::Undamped;
 use crate::motion::{Ending, Motion};
 use crate::number::{Estimate, Float, Interval, IntervalPrecision, Reads, Scalar};
 use crate::problem::{Parameters, Problem};
-use crate::reason::Warning;
 
 impl Target for Float {
     fn run(problem: &Problem, plan: &Plan, rung: Rung, observe: &Observer) -> Result<Engined<Float>, Error> {
@@ -76,55 +76,16 @@ pub(super) fn read(problem: &Problem, plan: &Plan, rung: Rung, observe: &Observe
 
 fn estimates(problem: &Problem, plan: &Plan, bits: u32, observe: &Observer) -> Result<Engined<Float>, Error> {
     let problem = &*plan.reaching(problem);
-    let effort = plan.effort(Rung::Bits(bits));
-    Ok(match plan.engine {
-        Engine::Lattice => {
-            let history = plan.lattice::<Estimate<Float>>(problem, &bits, observe)?;
-            if history.undetermined_from().is_some() {
-                return Err(Error::NotDecided { what: "in which order the events come", bits });
-            }
-            Arc::new(history)
-        }
-        Engine::Cells => marched(problem, plan, bits, observe, &|| {
-            Ok(Arc::new(Damped::<Float>::solve_observed(problem, &bits, effort, 1, &**observe)?))
-        })?,
-        Engine::ClosedForm if !plan.settles_events => {
-            Arc::new(ContactHistory::<Estimate<Float>>::solve(problem, &bits)?)
-        }
-        Engine::ClosedForm | Engine::ClosedFormThenCells => {
-            let rod = Parameters::<Estimate<Float>>::of(problem, &bits)?;
-            let bounce = FirstContact::new(&rod).bounce();
-            if matches!(&bounce, Bounce::Undecided { why, .. } if why.needs_bits()) {
-                return Err(Error::NotDecided { what: "how the first contact ends", bits });
-            }
-            if plan.engine == Engine::ClosedForm {
-                return Ok(Arc::new(ContactThenCells::<Float>::first_contact(problem, &bits, bounce)?));
-            }
-            let bounces = matches!(bounce, Bounce::At { .. });
-            let march = || {
-                let bounce = bounce.clone();
-                let run = ContactThenCells::<Float>::solve_observed(problem, &bits, effort, bounce, None, &**observe)?;
-                Ok(Arc::new(run) as Engined<Float>)
-            };
-            if bounces { marched(problem, plan, bits, observe, &march)? } else { march()? }
-        }
-    })
+    let task = plan.task::<Float>(problem, &bits, Rung::Bits(bits), observe);
+    engines::estimates(plan, &task, bits, |_| None, |march| marched(plan, &task, march))
 }
 
-/// A damped run in so many bits: with what is proved of it, where that reaches its end, as `march` finds it else. In
-/// digits the proof comes first; for an answer in doubles it is made where the bounds of `march` leave events open.
-fn marched(
-    problem: &Problem,
-    plan: &Plan,
-    bits: u32,
-    observe: &Observer,
-    march: &dyn Fn() -> Result<Engined<Float>, Error>,
-) -> Result<Engined<Float>, Error> {
-    let first = plan.proves_first();
-    let run = if first { None } else { Some(march()?) };
-    let open = |run: &Engined<Float>| run.warnings().iter().any(Warning::needs_bits);
-    if bits <= MOST_PROVED && run.as_ref().is_none_or(open) {
-        match prove(problem, plan, bits, observe) {
+/// A damped run: with what is proved of it, where that reaches its end, as `march` finds it else. In digits the proof
+/// comes first; for an answer in doubles it is made where the bounds of `march` leave events open.
+fn marched(plan: &Plan, task: &Task<'_, Float>, march: March<'_, Float>) -> Result<Engined<Float>, Error> {
+    let run = if matches!(plan.numbers, Numbers::Digits(_)) { None } else { Some(march()?) };
+    if *task.precision <= MOST_PROVED && run.as_ref().is_none_or(|run| needs_bits(&**run)) {
+        match prove(task) {
             Ok(run) if !matches!(run.ending(), Ending::Unproved { .. }) => return Ok(Arc::new(run)),
             Ok(_) | Err(Error::NotDecided { .. }) => {}
             Err(error) => return Err(error),
@@ -133,10 +94,10 @@ fn marched(
     run.map_or_else(march, Ok)
 }
 
-fn prove(problem: &Problem, plan: &Plan, bits: u32, observe: &Observer) -> Result<Damped<Float>, Error> {
-    let digits = f64::from(bits) * std::f64::consts::LOG10_2;
-    let effort = Effort { digits, until_lost: false, ..plan.effort(Rung::Bits(bits)) };
-    Damped::<Float>::prove(problem, &bits, effort, &**observe)
+fn prove(task: &Task<'_, Float>) -> Result<Damped<Float>, Error> {
+    let digits = f64::from(*task.precision) * std::f64::consts::LOG10_2;
+    let effort = Effort { digits, until_lost: false, ..task.effort };
+    Damped::march(&Task { effort, ..*task }, 1, true)
 }
 
 /// `h′` at the bounce that doubles have found, in numbers of so many bits: the first flight, and all that follows,
@@ -174,12 +135,10 @@ fn enclosures(problem: &Problem, plan: &Plan, bits: u32, observe: &Observer) -> 
     }
 }
 
-/// The first contact in closed form.
 fn contact(problem: &Problem, bits: u32) -> Result<Engined<Interval>, Error> {
     Ok(Arc::new(ContactHistory::<Interval>::solve(problem, &IntervalPrecision::with_exact(bits))?))
 }
 
-/// Whether the first contact ends with a bounce.
 fn bounces(problem: &Problem, bits: u32) -> Result<bool, Error> {
     let rod = Parameters::<Interval>::of(problem, &IntervalPrecision::bits(bits))?;
     match FirstContact::new(&rod).bounce() {
@@ -200,7 +159,7 @@ fn proved(problem: &Problem, plan: &Plan, bits: u32, observe: &Observer) -> Resu
     if bits > MOST_PROVED {
         return Err(Error::Undecided { digits: plan.goal.digits as u32, bits: MOST_PROVED });
     }
-    let run = prove(problem, plan, bits, observe)?;
+    let run = prove(&plan.task(problem, &bits, Rung::Bits(bits), observe))?;
     if matches!(run.ending(), Ending::Unproved { .. }) && !last_proof(plan, bits) {
         return Err(Error::NotDecided { what: "what happens at the ground", bits });
     }

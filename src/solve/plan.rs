@@ -6,11 +6,11 @@ use serde::Serialize;
 
 use super::foresee;
 use super::question::{Numbers, Observer, Question, Want};
-use crate::cells::Effort;
+use crate::cells::{Effort, MARCHED_TRIPS, MOST_DIGITS, Task};
 use crate::error::Error;
 use crate::lattice::{Limits, Undamped};
 use crate::mapped::CollectVec;
-use crate::number::{Bounded, Number, bits_for_digits};
+use crate::number::{Bounded, Number, Scalar, bits_for_digits};
 use crate::problem::{Parameters, Problem, Run};
 use crate::reason::Warning;
 
@@ -187,8 +187,8 @@ const CELLS: CellLimits = CellLimits {
     double_digits: 13.0,
     double_cells: 20_000_000,
     long_cells: Some(30_000),
-    most_digits: 300.0,
-    marched_trips: [4.0, 64.0],
+    most_digits: MOST_DIGITS,
+    marched_trips: MARCHED_TRIPS,
 };
 /// With so many modes the stress is known to some 10⁻¹¹ of the lowest mode at `τR² ≈ 300`, which is `R → π` and 30
 /// round trips.
@@ -303,7 +303,6 @@ impl Plan {
         }
     }
 
-    /// The same plan in decimal digits.
     pub(crate) fn in_digits(&self, problem: &Problem, digits: u32) -> Self {
         let keeps = (self.keep_from, self.settles_events);
         Self::with(problem, Numbers::Digits(digits), self.engine, self.reach.clone(), keeps)
@@ -460,9 +459,8 @@ impl Plan {
 
     /// How much a damped march computes at most in the numbers of `rung`. A run that has lost its events is worth
     /// nothing where longer numbers follow.
-    pub(super) fn effort(&self, rung: Rung) -> Effort {
-        let CellLimits { double_digits, double_cells, long_cells, most_digits, marched_trips } =
-            self.cells.unwrap_or(CELLS);
+    fn effort(&self, rung: Rung) -> Effort {
+        let CellLimits { double_digits, double_cells, long_cells, .. } = self.cells.unwrap_or(CELLS);
         let (digits, cells) = match rung {
             Rung::Bits(bits) | Rung::Enclosures(bits) => {
                 let fewer = |cells: u64| (cells as f64 * (f64::from(FEWEST_BITS) / f64::from(bits)).powi(2)) as u64;
@@ -470,13 +468,18 @@ impl Plan {
             }
             _ => (double_digits, double_cells),
         };
-        Effort { digits, cells, until_lost: self.climb.bits.is_some(), most_digits, marched_trips }
+        Effort { digits, cells, until_lost: self.climb.bits.is_some() }
     }
 
-    /// Whether a damped run in long numbers is proved before it is left to bounds: where digits are asked for.
-    #[cfg(feature = "mp")]
-    pub(super) fn proves_first(&self) -> bool {
-        matches!(self.numbers, Numbers::Digits(_))
+    /// A damped march in the numbers of `rung`.
+    pub(super) fn task<'a, S: Scalar>(
+        &self,
+        problem: &'a Problem,
+        precision: &'a S::Precision,
+        rung: Rung,
+        observe: &'a Observer,
+    ) -> Task<'a, S> {
+        Task { problem, precision, effort: self.effort(rung), observe: &**observe }
     }
 
     /// What is said of digits of a damped march in so many bits that it is not proved.
@@ -485,7 +488,6 @@ impl Plan {
         (digits && rung.bits() > MOST_PROVED).then_some(Warning::NotProved { most: MOST_PROVED })
     }
 
-    /// The run of an undamped rod.
     pub(super) fn lattice<N: Bounded>(
         &self,
         problem: &Problem,

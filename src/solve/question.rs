@@ -115,9 +115,8 @@ impl std::fmt::Display for Numbers {
 /// many pieces it has; may end the run with [`Error::Interrupted`](crate::Error::Interrupted).
 pub type Observer = Arc<dyn Fn(usize, usize) -> ControlFlow<()> + Send + Sync>;
 
-pub(super) static UNOBSERVED: LazyLock<Observer> = LazyLock::new(|| Arc::new(crate::lattice::unobserved));
+pub(super) static UNOBSERVED: LazyLock<Observer> = LazyLock::new(|| Arc::new(crate::motion::unobserved));
 
-/// An observer that does nothing.
 pub(crate) fn unobserved() -> Observer {
     UNOBSERVED.clone()
 }
