@@ -123,7 +123,6 @@ impl<S: RoundedSpecial> Proof<S> {
         self.even += defect * (1.0 + SLACK);
     }
 
-    /// A cell on its way past.
     pub(super) fn cell(&mut self, medium: &Medium<S>, cell: &Cell<'_, S>) {
         let (defect, most) = self.steps.cell(medium, cell);
         self.most = self.most.max(most);
@@ -135,11 +134,6 @@ impl<S: RoundedSpecial> Proof<S> {
         let size = 2.0 * self.most + medium.gravity.to_f64() + medium.slope.to_f64().abs();
         let defect = self.steps.joining(medium.least(), size);
         self.add(joined as f64 * defect);
-    }
-
-    /// What vibrates is dropped.
-    pub(super) fn drop(&mut self, most: f64) {
-        self.add(most);
     }
 
     /// A function of x of this size is added to `q`: the static state, or `h′`.
@@ -183,7 +177,6 @@ impl<S: RoundedSpecial> Proof<S> {
         [off, self.clock + late]
     }
 
-    /// How far any ray may be off.
     pub(super) fn latest(&self) -> f64 {
         self.clock + self.late
     }

@@ -7,11 +7,12 @@
 use std::collections::VecDeque;
 
 use super::budget::{CUT_CELLS, FIRST_CELLS};
+use super::effort::MARCHED_TRIPS;
 use super::march::{Medium, State};
-use super::start::{Data, Units};
-use super::uncertainty::Off;
+use super::start::Data;
+use super::uncertainty::{Off, slack};
 use crate::first_contact::FirstContact;
-use crate::motion::Side;
+use crate::motion::{Scales, Side};
 use crate::number::Estimate;
 use crate::special::RoundedSpecial;
 
@@ -19,9 +20,6 @@ use crate::special::RoundedSpecial;
 #[derive(Clone, Debug)]
 pub(super) struct Held<S> {
     contact: FirstContact<Estimate<S>>,
-    units: Units<S>,
-    gravity: S,
-    slope: S,
     /// `t_b`.
     pub(super) release: S,
     /// A bound of the motion from the release on, where that is as good as none.
@@ -33,31 +31,27 @@ impl<S: RoundedSpecial> Held<S> {
     pub(super) fn until(contact: &FirstContact<Estimate<S>>, data: &Data<S>, release: &S) -> Self {
         let trips = release.clone() / &data.units.time;
         let near = (trips.clone() + trips.ratio(1, 2)).floor_int();
-        let lattice = near.filter(|k| (trips.clone() - trips.int(*k)).magnitude() <= rounding(&trips));
+        let lattice = near.filter(|k| (trips.clone() - trips.int(*k)).magnitude() <= slack(&trips, 16));
         Held {
             faded: contact.faded(trips.to_f64()).map(f64::exp2),
             contact: contact.clone(),
-            units: data.units.clone(),
-            gravity: data.gravity.clone(),
-            slope: data.slope.clone(),
             release: lattice.map_or_else(|| trips.clone(), |k| trips.int(k)),
         }
     }
 
     /// `p`, `q` of `z` at a point with `ξ ≤ t_b ≤ t`, and a bound of the error of either.
-    pub(super) fn invariants(&self, x: &S, t: &S, side: Side) -> (S, S, f64) {
+    pub(super) fn invariants(&self, data: &Data<S>, x: &S, t: &S, side: Side) -> (S, S, f64) {
         if let Some(most) = self.faded {
             return (x.zero(), x.zero(), most);
         }
-        let point = x.clone() * x.int(2) * &self.units.length;
+        let Scales { time, velocity: unit, length, wave_speed, .. } = &data.units;
         // Within eight roundings of a ray is on it.
-        let time = Estimate::rounded(t.clone() * &self.units.time, 8.0);
-        let field = self.contact.field(&Estimate::rounded(point, 8.0), &time, side);
-        let error = (field.velocity.bound() + self.units.wave_speed.to_f64() * field.strain.bound())
-            / self.units.velocity.to_f64();
-        let velocity = field.velocity.into_value() / &self.units.velocity;
-        let strain = field.strain.into_value() * &self.units.wave_speed / &self.units.velocity;
-        let z_x = strain - self.gravity.clone() * x - &self.slope;
+        let [point, time] = [x.clone() * x.int(2) * length, t.clone() * time].map(|at| Estimate::rounded(at, 8.0));
+        let field = self.contact.field(&point, &time, side);
+        let error = (field.velocity.bound() + wave_speed.to_f64() * field.strain.bound()) / unit.to_f64();
+        let velocity = field.velocity.into_value() / unit;
+        let strain = field.strain.into_value() * wave_speed / unit;
+        let z_x = strain - data.gravity.clone() * x - &data.slope;
         (velocity.clone() - &z_x, velocity + z_x, error)
     }
 
@@ -78,24 +72,22 @@ impl<S: RoundedSpecial> Held<S> {
         }
         cuts.push(to.clone());
         cuts.sort_by(|a, b| a.partial_cmp(b).unwrap_or(std::cmp::Ordering::Equal));
-        let long = |pair: &&[S]| pair[1].clone() - &pair[0] > rounding(t);
+        let long = |pair: &&[S]| pair[1].clone() - &pair[0] > slack(t, 16);
         cuts.windows(2).filter(long).map(|pair| (pair[0].clone(), pair[1].clone())).collect()
     }
 
     /// The state on the characteristic that leaves the ground at `t_b`, and a bound of its error: from cells since the
-    /// impact where the contact is short, otherwise from the closed form if that is known better. `marched` is what
-    /// the effort allows.
-    pub(super) fn state(&self, medium: &Medium<S>, data: &Data<S>, marched: [f64; 2]) -> (State<S>, f64) {
-        let trips = self.release.to_f64();
-        let [surely, most] = marched;
+    /// impact where the contact is short, otherwise from the closed form if that is known better.
+    pub(super) fn state(&self, medium: &Medium<S>, data: &Data<S>) -> (State<S>, f64) {
+        let (trips, [surely, most]) = (self.release.to_f64(), MARCHED_TRIPS);
         if !medium.splits() || trips > most {
-            return self.closed(medium);
+            return self.closed(medium, data);
         }
         let marched = self.marched(medium, data);
         if trips <= surely {
             return marched;
         }
-        let closed = self.closed(medium);
+        let closed = self.closed(medium, data);
         if closed.1 < marched.1 { closed } else { marched }
     }
 
@@ -105,11 +97,11 @@ impl<S: RoundedSpecial> Held<S> {
         let mut error = FIRST_CELLS * medium.cell_error(&state);
         loop {
             let left = self.release.clone() - state.time();
-            if left <= rounding(&self.release) {
+            if left <= slack(&self.release, 16) {
                 break;
             }
             let cell = medium.cell_error(&state);
-            if state.segments[0].len.clone() - &left > rounding(&self.release) {
+            if state.segments[0].len.clone() - &left > slack(&self.release, 16) {
                 medium.cut_first(&mut state, &left, Off::default());
                 error += CUT_CELLS * cell;
             }
@@ -125,7 +117,7 @@ impl<S: RoundedSpecial> Held<S> {
     /// The same from the closed form.
     ///
     /// Between the rays `q` is of the form that the module `cell` says lasts, so the medium's number of terms serves.
-    fn closed(&self, medium: &Medium<S>) -> (State<S>, f64) {
+    fn closed(&self, medium: &Medium<S>, data: &Data<S>) -> (State<S>, f64) {
         let release = &self.release;
         let round = release.floor_int().unwrap_or(0);
         let (from, one) = (release.clone() - release.int(round), release.one());
@@ -142,7 +134,7 @@ impl<S: RoundedSpecial> Held<S> {
             for k in 0..count {
                 let value = |node: &S| {
                     let x = (node.clone() * &len + &eta - release) * &half;
-                    let (_, q, off) = self.invariants(&x, &(release.clone() + &x), Side::Left);
+                    let (_, q, off) = self.invariants(data, &x, &(release.clone() + &x), Side::Left);
                     error = error.max(off);
                     q
                 };
@@ -155,9 +147,4 @@ impl<S: RoundedSpecial> Held<S> {
         let error = error + FIRST_CELLS * medium.cell_error(&state);
         (state, error)
     }
-}
-
-/// How close to a lattice time a time is taken to be that time: a few roundings.
-fn rounding<S: RoundedSpecial>(t: &S) -> S {
-    (t.magnitude() + t.one()) * &t.roundoff() * &t.int(16)
 }

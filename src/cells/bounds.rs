@@ -2,12 +2,11 @@
 
 use super::budget::AtEvent;
 use super::history::Damped;
-use super::start::Units;
-use super::uncertainty::{Uncertainty, meant, rounded, wider, within};
+use super::uncertainty::{Uncertainty, meant, wider, within};
 use crate::error::Error;
 use crate::motion::moments::{self, Moments, Sums};
 use crate::motion::{Contact, Course, Event, EventKind, Field, Motion, Pair, Scales, Side, StressPiece};
-use crate::number::{Estimate, Rounded, Scalar};
+use crate::number::{Answer, Estimate, Rounded, Scalar};
 use crate::special::RoundedSpecial;
 
 /// Bounds near a time, in the units of the problem.
@@ -16,14 +15,12 @@ struct Bounds {
     rise: f64,
     /// Of `h` likewise.
     centre: f64,
-    /// Of velocities.
     speed: f64,
     /// Of that of the end.
     end: f64,
     strain: f64,
     /// Of `h′`.
     rate: f64,
-    /// Of the times of events.
     late: f64,
 }
 
@@ -254,7 +251,7 @@ impl<S: RoundedSpecial> Motion<Estimate<S>> for Damped<S> {
     }
 
     fn scales(&self) -> Scales<Estimate<S>> {
-        self.data.units.scales().map(|scale| within(&scale, 0.0))
+        self.data.units.clone().map(|scale| within(&scale, 0.0))
     }
 
     fn stress_pieces(&self) -> Vec<StressPiece<Estimate<S>>> {
@@ -289,7 +286,7 @@ impl<S: RoundedSpecial> Motion<Estimate<S>> for Damped<S> {
     fn pair(&self, pair: Pair, time: &Estimate<S>, side: Side) -> Result<[Estimate<S>; 2], Error> {
         let time = meant(&self.course.events, time);
         if let (Pair::Centre, Some(flight)) = (pair, self.first_flight(time)) {
-            return Ok(flight.flight(&rounded(time.value())).into());
+            return Ok(flight.flight(&time.value().carry()).into());
         }
         Ok(match pair {
             Pair::GroundEnd => {
@@ -309,7 +306,7 @@ impl<S: RoundedSpecial> Motion<Estimate<S>> for Damped<S> {
             }
             Pair::Energy => {
                 let (height, rate) = self.centre(time)?;
-                let Units { length, gravity, .. } = &self.data.units;
+                let Scales { length, gravity, .. } = &self.data.units;
                 let (speed, place) = (rate.value(), height.value());
                 let translational = (speed.square() * speed.ratio(1, 2) + gravity.clone() * place) * length;
                 let of_height = self.scales.length * self.scales.gravity * height.bound();
@@ -344,7 +341,7 @@ impl<S: RoundedSpecial> Motion<Estimate<S>> for Damped<S> {
     }
 
     fn corners(&self) -> Vec<Estimate<S>> {
-        self.data.given.corners.iter().map(rounded).collect()
+        self.data.given.corners.iter().map(S::carry).collect()
     }
 
     /// The integrals of `v_t` and `v_x` over a cell of a grid, with the weights 1 and `(x − a)/h`, are sums over

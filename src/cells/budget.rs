@@ -25,13 +25,11 @@ pub(super) const MOST_LATE: f64 = 0.01;
 /// How far the values at an event may be off, whenever it is, dimensionless.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct AtEvent {
-    /// Displacements.
     pub(super) rise: f64,
     /// `h`.
     pub(super) centre: f64,
     /// Velocities and `c v_x`.
     pub(super) speed: f64,
-    /// The velocity of the end.
     pub(super) end: f64,
     /// `h′`.
     pub(super) rate: f64,
@@ -60,6 +58,8 @@ struct Fixed {
 pub(super) struct Budget {
     /// `R`.
     damping: f64,
+    /// Whether flights are taken apart.
+    apart: bool,
     /// Of `p` and `q`, by truncation and rounding, and by what was open.
     even: f64,
     /// The latter, by which nothing is decided.
@@ -69,7 +69,7 @@ pub(super) struct Budget {
     rest: Rest,
     /// `even`, and the rest, when the flight began.
     began: (f64, Rest),
-    flight: TakeOff,
+    pub(super) flight: TakeOff,
     landing: Option<Landing>,
     /// The most that rays are off in time.
     rays: f64,
@@ -132,9 +132,8 @@ impl Fixed {
 }
 
 impl Budget {
-    /// No error yet, with the damping `R`.
-    pub(super) fn new(damping: f64) -> Self {
-        Budget { damping, ..Budget::default() }
+    pub(super) fn new(damping: f64, apart: bool) -> Self {
+        Budget { damping, apart, ..Budget::default() }
     }
 
     /// Adds an error of `p` and `q`.
@@ -146,14 +145,14 @@ impl Budget {
 
     /// What is too small to decide anything: what roundings and truncations make of `p` and `q`, and where flights are
     /// not taken apart also what displaced rays scatter.
-    pub(super) fn noise(&self, apart: bool) -> f64 {
-        (if apart { self.even } else { self.fixed.points() } - self.covered).max(0.0)
+    pub(super) fn noise(&self) -> f64 {
+        (if self.apart { self.even } else { self.fixed.points() } - self.covered).max(0.0)
     }
 
     /// What nothing is decided by that is less: the error of `p` and `q` at the ground.
-    pub(super) fn trace(&self, apart: bool) -> f64 {
-        let Off { fixed, apart: moving } = self.point();
-        self.better(Off { fixed, apart: moving + self.worst.slope * self.events.late() }, apart)
+    pub(super) fn trace(&self) -> f64 {
+        let Off { fixed, apart } = self.point();
+        self.better(Off { fixed, apart: apart + self.worst.slope * self.events.late.bound() })
     }
 
     /// The same of `v(0,·)` up to `len` from now; in a flight that is taken apart `flown` has the ages and `h′` now and
@@ -162,7 +161,8 @@ impl Budget {
         let apart = flown.map(|[(from, before), (to, after)]| {
             let (start, (_, slowed)) = (self.flight.end_rate, aged(self.damping, to));
             let moves = (start + before).abs().max((start + after).abs());
-            let followed = moves * self.events.late() + slowed * self.events.rate() + 2.0 * self.events.mass();
+            let followed =
+                moves * self.events.late.bound() + slowed * self.events.rate.bound() + 2.0 * self.events.mass();
             followed + self.not_followed(to) + self.scattered(from, to)
         });
         let fixed = self.fixed.height + self.fixed.points() * len;
@@ -179,7 +179,7 @@ impl Budget {
 
     /// The error of `p` and `q`, but next to rays that are off; in contact at equal times since the landing.
     pub(super) fn point(&self) -> Off {
-        let displaced = self.landing.map_or(0.0, |landing| landing.slope * self.events.late());
+        let displaced = self.landing.map_or(0.0, |landing| landing.slope * self.events.late.bound());
         Off { fixed: self.fixed.points(), apart: self.loose() + displaced + self.events.between() }
     }
 
@@ -200,7 +200,7 @@ impl Budget {
         let since = (self.even - self.began.0).max(0.0);
         let loose = self.mean_of(self.even) + self.rest.mean;
         let known = self.flight.known.map(|known| known + self.mean_of(since));
-        self.events.rate() + known.map_or(loose, |known| known.min(loose))
+        self.events.rate.bound() + known.map_or(loose, |known| known.min(loose))
     }
 
     /// What `h′ = ∫ e^{R(η−b)} q dη` is off by if `q` is off by so much.
@@ -208,15 +208,10 @@ impl Budget {
         phi1(&self.damping) * even
     }
 
-    /// `h′` of the flight that has just begun is off by no more than this, as is known otherwise.
-    pub(super) fn know_rate(&mut self, known: f64) {
-        self.flight.known = Some(known);
-    }
-
     /// The errors at the last event, whenever that is; if it was a release, with the greatest slope of the vibration,
     /// its variation, and `z_tt` at the end.
     pub(super) fn at_event(&self, begins: Option<(f64, f64, f64)>) -> AtEvent {
-        let late = self.events.late();
+        let late = self.events.late.bound();
         let (at, end_rate, near, slope, variation, bend) = match (begins, self.landing) {
             (None, Some(Landing { at, velocity, rate, off, slope, variation, bend, .. })) => {
                 (at, velocity - rate, off.apart.max(NEAR), slope, variation, bend)
@@ -238,12 +233,12 @@ impl Budget {
 
     /// By how much the clock may be late: in contact that of the landing, in flight that of the vibration.
     pub(super) fn clock(&self, contact: bool) -> f64 {
-        if contact { self.events.time() } else { self.events.clock() }
+        if contact { self.events.time() } else { self.events.clock.bound() }
     }
 
     /// The time of the last event, by the better of both accounts.
-    pub(super) fn last(&self, off: Off, apart: bool) -> f64 {
-        if apart { off.fixed.min(off.apart).min(self.events.time()) } else { off.fixed }
+    pub(super) fn last(&self, off: Off) -> f64 {
+        if self.apart { off.fixed.min(off.apart).min(self.events.time()) } else { off.fixed }
     }
 
     /// The error of `v(0,·)` in flight, up to `len` from now; in a flight that is taken apart `flown` is the age, `h′`
@@ -296,24 +291,24 @@ impl Budget {
         self.events.mass() * left.min(2.0 * self.damping + turned).min(2.0 * self.damping * age)
     }
 
-    /// What has been off since this was last asked, of a run whose flights are taken apart or are not.
-    pub(super) fn since(&mut self, apart: bool) -> Uncertainty {
+    /// What has been off since this was last asked.
+    pub(super) fn since(&mut self) -> Uncertainty {
         let fixed = self.fixed.worst + self.fixed.rays;
         self.fixed.worst = self.fixed.points().max(self.fixed.height);
         let worst = std::mem::take(&mut self.worst);
         self.note();
-        if apart && worst.rise.max(worst.speed) < fixed {
+        if self.apart && worst.rise.max(worst.speed) < fixed {
             return worst;
         }
         // What h′ of a flight that is taken apart owes to an error of `q` on the characteristic that it begins with.
-        let rate = if apart { self.damping.exp() * fixed } else { fixed };
+        let rate = if self.apart { self.damping.exp() * fixed } else { fixed };
         Uncertainty { rise: fixed, speed: fixed, rate, late: 0.0, ..worst }
     }
 
     /// The time of an event, and the ray that it starts, may be off so far.
-    pub(super) fn note_event(&mut self, off: Off, apart: bool) {
+    pub(super) fn note_event(&mut self, off: Off) {
         self.fixed.worst = self.fixed.worst.max(off.fixed);
-        self.rays = self.rays.max(self.better(off, apart));
+        self.rays = self.rays.max(self.better(off));
         self.worst.rays = self.rays;
     }
 
@@ -438,7 +433,7 @@ impl Budget {
     fn after_round_trip(&mut self, landing: &Landing, flight: &TakeOff) -> f64 {
         let r = self.damping;
         let kappa = 0.5 * r;
-        let (late, rate, mass) = (self.events.late(), self.events.rate(), self.events.mass());
+        let (late, rate, mass) = (self.events.late.bound(), self.events.rate.bound(), self.events.mass());
         // The ray of the landing comes back to the release with e^{−R} of its mass, and what it has lost is scattered.
         let scattered = r * (2.0 * landing.velocity.abs() * late + mass);
         let rigid = (5.0 * r).min(2.0) * rate;
@@ -487,7 +482,7 @@ impl Budget {
     /// The landing of a flight that is taken apart. From here on times count from it.
     pub(super) fn land(&mut self, landing: Landing) {
         let Landing { at, velocity, curvature, off, age, rate, fall, range, .. } = landing;
-        let (speed, clock) = (velocity.abs(), self.events.clock());
+        let (speed, clock) = (velocity.abs(), self.events.clock.bound());
         let (kept, _) = aged(self.damping, age);
         let fade = (-self.damping * age).exp();
         let (form, more) = self.flown((age, rate, at), off.apart.max(NEAR));
@@ -507,17 +502,16 @@ impl Budget {
         self.rest.point += scattered;
         // A vibration that has died out takes its clock from what the landing makes.
         if range <= self.damping * speed {
-            self.rest.wave += landing.variation * self.events.late();
-            self.rest.point += landing.slope * self.events.late();
+            self.rest.wave += landing.variation * self.events.late.bound();
+            self.rest.point += landing.slope * self.events.late.bound();
             self.events.reset_clock();
         }
         self.landing = Some(landing);
         self.note();
     }
 
-    /// The better of both accounts.
-    pub(super) fn better(&self, off: Off, apart: bool) -> f64 {
-        if apart { off.fixed.min(off.apart) } else { off.fixed }
+    pub(super) fn better(&self, off: Off) -> f64 {
+        if self.apart { off.fixed.min(off.apart) } else { off.fixed }
     }
 
     /// The end may lie on the ground before a ray lets it go again: a ray of so much mass may start.
@@ -530,17 +524,16 @@ impl Budget {
     }
 
     /// Whether both accounts have lost the events.
-    pub(super) fn lost(&self, off: Off, apart: bool, most: f64) -> bool {
-        off.fixed > most && (!apart || off.apart > most)
+    pub(super) fn lost(&self, off: Off) -> bool {
+        off.fixed > MOST_LATE && (!self.apart || off.apart > MOST_LATE)
     }
 
-    /// Keeps the greatest.
     fn note(&mut self) {
-        let (speed, late) = (self.point().apart, self.events.time().max(self.events.clock()));
+        let (speed, late) = (self.point().apart, self.events.time().max(self.events.clock.bound()));
         let (mut rise, mut rate) = (self.beyond(), self.rate());
         if let Some(landing) = self.landing {
             // At equal times since the landing: v(x) = ∫ v_x, and h′ is a mean of `p` and `q`.
-            rise += 0.5 * (rate + landing.variation * self.events.late());
+            rise += 0.5 * (rate + landing.variation * self.events.late.bound());
             rate = 2.0 * rise;
         }
         self.worst = self.worst.max(Uncertainty { rise, speed, rate, late, ..Uncertainty::default() });

@@ -43,9 +43,7 @@ pub(super) struct Cell<'a, S> {
     pub(super) size: (S, S),
     /// `κΔξ`, `κΔη`.
     pub(super) depth: (S, S),
-    /// Incoming `p`.
     pub(super) p: &'a [S],
-    /// Incoming `q`.
     pub(super) q: &'a [S],
     /// What `p` lacks and `q` has too much: the stress-free ground end is reflected about it.
     pub(super) offset: S,
@@ -100,13 +98,12 @@ pub(super) fn cross<S: Rounded>(
 }
 
 /// `target += factor · series`, as far as `target` goes.
-fn add_scaled<S: Rounded>(target: &mut [S], series: &[S], factor: &S) {
+pub(super) fn add_scaled<S: Rounded>(target: &mut [S], series: &[S], factor: &S) {
     for (t, s) in target.iter_mut().zip(series) {
         *t = s.clone() * factor + &*t;
     }
 }
 
-/// `series *= factor`.
 pub(super) fn scale<S: Rounded>(series: &mut [S], factor: &S) {
     for term in series {
         *term = factor.clone() * &*term;

@@ -23,9 +23,7 @@ const E: f64 = 3.0;
 /// What the steps in a medium may be off by.
 #[derive(Clone, Debug)]
 pub(super) struct Steps {
-    /// A rounding.
     pub(super) unit: f64,
-    /// `κ`.
     kappa: f64,
     log2_accuracy: f64,
     /// The most terms of a series.
@@ -36,7 +34,6 @@ pub(super) struct Steps {
     falls: Vec<f64>,
 }
 
-/// The absolute values of coefficients.
 pub(super) fn sizes<S: Rounded>(c: &[S]) -> Vec<f64> {
     c.iter().map(|term| term.to_f64().abs()).collect()
 }
@@ -102,7 +99,6 @@ impl Steps {
         Steps { unit: medium.kappa.unit(), kappa, log2_accuracy, size: size as f64, weights, falls }
     }
 
-    /// What series are cut at.
     fn accuracy(&self) -> f64 {
         self.log2_accuracy.exp2()
     }
@@ -118,7 +114,6 @@ impl Steps {
         2.0 * self.size * self.unit * values(c) + self.through(size, 0.0)
     }
 
-    /// Of the product of two series.
     fn product(&self, (a, of_a): (&[f64], f64), (b, of_b): (&[f64], f64)) -> f64 {
         2.0 * self.size * self.unit * (of_b * values(a) + of_a * values(b)) + self.through(of_a * of_b, 0.0)
     }
@@ -154,7 +149,6 @@ impl Steps {
         factor * (3.0 * exponential_rest(z, n) + self.through(E, 32.0))
     }
 
-    /// Of joining two segments of this size.
     pub(super) fn joining(&self, least: f64, size: f64) -> f64 {
         least * size + self.through(38.0 * self.size * size, 0.0)
     }
@@ -164,7 +158,6 @@ impl Steps {
         2.0 * self.anew(&sizes(&segment.q)) + FLOOR
     }
 
-    /// Of the trace over the first segment.
     pub(super) fn trace<S: RoundedSpecial>(&self, medium: &Medium<S>, segment: &Segment<S>, contact: bool) -> f64 {
         let depth = self.kappa * segment.len.to_f64();
         let offset = if contact { 0.0 } else { medium.offset.to_f64().abs() };

@@ -29,7 +29,6 @@ impl Form {
         }
     }
 
-    /// A multiple of it.
     fn times(&self, factor: f64) -> Form {
         Form(self.0.iter().map(|x| factor * x).collect())
     }
@@ -57,11 +56,11 @@ struct Stripe {
 pub(super) struct Dependence {
     sources: usize,
     /// By how much the clock that the vibration is compared in is late.
-    clock: Form,
+    pub(super) clock: Form,
     /// By how much the last event is late in that clock.
-    late: Form,
+    pub(super) late: Form,
     /// `δh′` at equal times since.
-    rate: Form,
+    pub(super) rate: Form,
     /// By their places.
     stripes: Vec<Stripe>,
 }
@@ -131,32 +130,16 @@ fn arch(x: f64) -> f64 {
     0.5 * x * (1.0 - x)
 }
 
-/// How far apart two places are.
 fn distance(a: f64, b: f64) -> f64 {
     0.5 - sawtooth(a - b).abs()
 }
 
 impl Dependence {
-    /// At most so much is the last event late in the clock of the vibration.
-    pub(super) fn late(&self) -> f64 {
-        self.late.bound()
-    }
-
-    /// At most so much is this clock late.
-    pub(super) fn clock(&self) -> f64 {
-        self.clock.bound()
-    }
-
     /// At most so much is the last event late.
     pub(super) fn time(&self) -> f64 {
         let mut time = self.clock.clone();
         time.add(1.0, &self.late);
         time.bound()
-    }
-
-    /// At most so much is `|δh′|`.
-    pub(super) fn rate(&self) -> f64 {
-        self.rate.bound()
     }
 
     /// At most so much are all masses, and what is between them, in all.

@@ -5,9 +5,9 @@ use super::budget::{AtEvent, LEAP_CELLS, MOST_LATE, weight_rest};
 use super::dependence::{Landing, TakeOff};
 use super::follow::{Follower, Goal};
 use super::near::{open_release, open_touch};
-use super::piece::{Mark, Unresolved};
+use super::piece::Mark;
 use super::series::{at_zero, bound, derivative, evaluate};
-use super::uncertainty::{Off, Uncertainty};
+use super::uncertainty::Off;
 use crate::motion::EventKind;
 use crate::reason::{Near, Warning};
 use crate::special::RoundedSpecial;
@@ -61,7 +61,7 @@ impl<S: RoundedSpecial> Follower<'_, S> {
             && self.landed >= *count
         {
             let rounding = self.rounding();
-            let last = self.budget.better(off, self.medium.splits()).max(rounding);
+            let last = self.budget.better(off).max(rounding);
             self.end_error = if self.lost { f64::INFINITY } else { last };
             return true;
         }
@@ -88,8 +88,7 @@ impl<S: RoundedSpecial> Follower<'_, S> {
             _ => at_zero(&self.held_trace(), &zero),
         };
         let time = self.state.time();
-        let apart = self.medium.splits();
-        if self.budget.lost(off, apart, MOST_LATE) && !self.lost {
+        if self.budget.lost(off) && !self.lost {
             self.lost = true;
             let from = (time.clone() * &self.data.units.time).to_f64();
             self.warnings.push(Warning::EventsOverlap { from });
@@ -101,21 +100,14 @@ impl<S: RoundedSpecial> Follower<'_, S> {
             self.prove(|proof, run| proof.let_go_at_ray(run, &last, &run.state.segments[0].at));
         }
         let rounding = self.rounding();
-        self.budget.note_event(off, apart);
-        let since = self.budget.since(apart);
+        self.budget.note_event(off);
+        let since = self.budget.since();
         match self.marks.last_mut() {
             Some(last) => last.after = since,
             None => self.before = since,
         }
         let mark = self.marks.len();
-        self.marks.push(Mark {
-            kind,
-            time,
-            velocity: velocity.clone(),
-            time_error: f64::INFINITY,
-            at: None,
-            after: Uncertainty::default(),
-        });
+        self.marks.push(Mark::new(kind, time, velocity.clone()));
         if self.contact {
             self.contact = false;
             self.rising = true;
@@ -127,7 +119,7 @@ impl<S: RoundedSpecial> Follower<'_, S> {
             self.weigh();
         }
         if !self.lost {
-            self.marks[mark].time_error = self.budget.last(off, apart).max(rounding);
+            self.marks[mark].time_error = self.budget.last(off).max(rounding);
             self.marks[mark].at = self.at_event();
         }
     }
@@ -163,7 +155,6 @@ impl<S: RoundedSpecial> Follower<'_, S> {
         self.budget.note_slope(slope, (moving + still, self.state.bound()));
     }
 
-    /// Takes the flight that begins here apart.
     pub(super) fn take_off(&mut self, velocity: &S, off: Off, slope: Option<f64>) {
         if !self.medium.splits() {
             return;
@@ -209,7 +200,7 @@ impl<S: RoundedSpecial> Follower<'_, S> {
         let (Some(flight), Some((_, rate))) = (self.flying().cloned(), self.centre()) else { return };
         let (slope, range, variation) = self.medium.variation(&self.state);
         let (phase, sup) = (self.medium.phase(&self.state), self.state.bound());
-        let age = flight.age((self.state.round, &self.state.segments[0].at)).to_f64();
+        let age = flight.age(&self.state).to_f64();
         let fall = -self.medium.gravity.to_f64() - 2.0 * damping * rate.to_f64();
         let landing = Landing {
             at: self.place(),
@@ -235,7 +226,7 @@ impl<S: RoundedSpecial> Follower<'_, S> {
     /// Counts a landing that the bound does not tell apart from a ray that passes: between the two the end may rise for
     /// as long, now or whenever both return. A landing without speed starts no ray.
     fn compare_rays(&mut self, speed: f64, off: Off) {
-        let off = self.budget.better(off, self.medium.splits());
+        let off = self.budget.better(off);
         let segments = &self.state.segments;
         let last = &segments[segments.len() - 1];
         // The ray of the release itself does not count.
@@ -342,8 +333,12 @@ impl<S: RoundedSpecial> Follower<'_, S> {
 
     /// Counts one more hop or contact that is not told from what comes before and after it, and is at most so long.
     fn count_unresolved(&mut self, longest: f64) {
-        let from = self.unresolved.as_ref().map_or_else(|| self.state.time(), |unresolved| unresolved.from.clone());
-        let (count, most) = self.unresolved.as_ref().map_or((0, 0.0), |old| (old.count, old.longest));
-        self.unresolved = Some(Unresolved { from, count: count + 1, longest: longest.max(most) });
+        let unit = &self.data.units.time;
+        let (from, most, landings) = match self.unresolved {
+            Some(Warning::HopsUnresolved { from, longest, landings }) => (from, longest, landings),
+            _ => ((self.state.time() * unit).to_f64(), 0.0, 0),
+        };
+        let longest = most.max(longest * unit.to_f64());
+        self.unresolved = Some(Warning::HopsUnresolved { from, longest, landings: landings + 1 });
     }
 }

@@ -34,12 +34,12 @@ pub(super) struct Flight<S> {
 }
 
 impl<S: RoundedSpecial> Flight<S> {
-    /// The age at a time in whole round trips and the fraction.
-    pub(super) fn age(&self, (round, at): (i64, &S)) -> S {
-        at.clone() - &self.from.1 + at.int(round - self.from.0)
+    /// The age of a characteristic when it leaves the ground.
+    pub(super) fn age(&self, state: &State<S>) -> S {
+        let at = &state.segments[0].at;
+        at.clone() - &self.from.1 + at.int(state.round - self.from.0)
     }
 
-    /// The age at a time.
     pub(super) fn age_at(&self, t: &S) -> S {
         t.clone() - t.int(self.from.0) - &self.from.1
     }
@@ -51,7 +51,6 @@ impl<S: RoundedSpecial> Flight<S> {
         (phi1(&fall) * age * &self.rate + &self.height - drop, self.rate_at(age))
     }
 
-    /// `h′`.
     pub(super) fn rate_at(&self, age: &S) -> S {
         let fall = -(self.drag.clone() * age);
         fall.exp() * &self.rate - phi1(&fall) * age * &self.gravity
@@ -146,7 +145,7 @@ impl<S: RoundedSpecial> Medium<S> {
 
     /// Puts them together again, at an age of the flight.
     pub(super) fn touch_down(&self, state: &mut State<S>, flight: &Flight<S>) {
-        let age = flight.age((state.round, &state.segments[0].at));
+        let age = flight.age(state);
         let rate = flight.rate_at(&age);
         let now = Flight { rate, ..flight.clone() };
         self.shift(state, &|x| now.rate_at(x) - self.gravity.clone() * x - &self.slope);
@@ -158,7 +157,7 @@ impl<S: RoundedSpecial> Medium<S> {
             self.touch_down(state, from);
         }
         if let Some(to) = to {
-            let age = to.age((state.round, &state.segments[0].at));
+            let age = to.age(state);
             let now = Flight { rate: to.rate_at(&age), ..to.clone() };
             self.shift(state, &|x| self.gravity.clone() * x + &self.slope - now.rate_at(x));
         }

@@ -19,11 +19,9 @@ impl<S: RoundedSpecial> Follower<'_, S> {
     pub(super) fn leap_length(&self, goal: &Goal<S>) -> Option<i64> {
         let flight = self.flying()?;
         let (damping, gravity) = (self.damping(), self.medium.gravity.to_f64());
-        let age = flight.age((self.state.round, &self.state.segments[0].at));
+        let age = flight.age(&self.state);
         let (height, rate) = flight.at(&age);
-        let most = self.state.bound() + self.noise();
-        let rho = damping / (2.0 * std::f64::consts::PI);
-        let bound = (0.5 * damping).exp() * most * ((1.0 + rho) / (1.0 - rho) / 12.0).sqrt();
+        let bound = self.swing(self.state.bound() + self.noise());
         let passing = self.medium.passing(&self.state);
         let concave = rate.to_f64() >= -gravity / (2.0 * damping);
         let clear = |trips: f64| {
@@ -57,7 +55,12 @@ impl<S: RoundedSpecial> Follower<'_, S> {
         Some(low as i64)
     }
 
-    /// Leaps over so many round trips of a flight.
+    /// B of [`Self::leap_length`], where `|q| ≤ most`.
+    fn swing(&self, most: f64) -> f64 {
+        let rho = self.damping() / (2.0 * std::f64::consts::PI);
+        (0.5 * self.damping()).exp() * most * ((1.0 + rho) / (1.0 - rho) / 12.0).sqrt()
+    }
+
     pub(super) fn leap(&mut self, trips: i64) {
         let from = self.state.time();
         let passing = self.medium.passing(&self.state);
@@ -67,17 +70,8 @@ impl<S: RoundedSpecial> Follower<'_, S> {
         self.prove(|proof, run| proof.leap(run, trips as f64, least, &count, before));
         self.budget.leap(trips as f64, LEAP_CELLS * self.cell_error, passing);
         (self.rising, self.last_trace) = (false, None);
-        self.pieces.push(Piece {
-            len: from.int(trips),
-            from,
-            contact: false,
-            flight: self.flight,
-            cut: false,
-            still: false,
-            leap: trips,
-            trace: Vec::new(),
-            height: Vec::new(),
-        });
+        let len = from.int(trips);
+        self.pieces.push(Piece { leap: trips, ..Piece::new(from, len, false, self.flight) });
         self.forget();
         self.add_chain();
         if let Some((height, _)) = self.centre() {
@@ -92,7 +86,7 @@ impl<S: RoundedSpecial> Follower<'_, S> {
         let least = self.medium.least() * self.medium.gravity.to_f64();
         if most > 0.0 && most <= least {
             self.budget.add(most);
-            self.prove(|proof, _| proof.drop(most));
+            self.prove(|proof, _| proof.add(most));
             self.medium.still(&mut self.state);
         } else {
             let joined = self.medium.join_all(&mut self.state);
@@ -106,10 +100,9 @@ impl<S: RoundedSpecial> Follower<'_, S> {
     fn least_over(&self, trips: f64) -> f64 {
         let Some(flight) = self.flying() else { return f64::NEG_INFINITY };
         let (damping, gravity) = (self.damping(), self.medium.gravity.to_f64());
-        let age = flight.age((self.state.round, &self.state.segments[0].at));
+        let age = flight.age(&self.state);
         let (now, rate) = flight.at(&age);
-        let rho = damping / (2.0 * std::f64::consts::PI);
-        let bound = (0.5 * damping).exp() * self.state.bound() * ((1.0 + rho) / (1.0 - rho) / 12.0).sqrt();
+        let bound = self.swing(self.state.bound());
         let later = flight.at(&(age.clone() + age.double(trips))).0.to_f64();
         let concave = rate.to_f64() >= -gravity / (2.0 * damping) * (1.0 - 1e-9);
         let (start, fade) = if concave { (now.to_f64(), (-damping * trips).exp()) } else { (f64::INFINITY, 1.0) };

@@ -11,10 +11,12 @@
 use std::collections::VecDeque;
 use std::sync::OnceLock;
 
-use super::cell::{Cell, cross, diagonal, scale};
-use super::series::{Basis, at_one, at_zero, bound, evaluate, terms_for, unit_rule};
+use super::cell::{Cell, add_scaled, cross, diagonal, scale};
+use super::series::{Basis, at_one, at_zero, bound, derivative, evaluate, terms_for};
+use super::start::on_circle;
 use super::uncertainty::Off;
 use crate::number::Rounded;
+use crate::special::gauss_legendre;
 
 /// The strongest damping `R` for which flights are leapt over: `R²‖D⁻²‖ ≤ 0.13`.
 pub(super) const MOST_DAMPING: f64 = 2.0;
@@ -22,7 +24,6 @@ pub(super) const MOST_DAMPING: f64 = 2.0;
 /// What stays the same during a run.
 #[derive(Clone, Debug)]
 pub(super) struct Medium<S> {
-    /// Tables.
     pub(super) basis: Basis<S>,
     /// `κ = r t₁/2`.
     pub(super) kappa: S,
@@ -32,11 +33,9 @@ pub(super) struct Medium<S> {
     pub(super) slope: S,
     /// What flight has of it, `z_x = −slope`: nothing where z is the vibration about the centre of mass.
     pub(super) offset: S,
-    /// Whether the top is free.
     pub(super) free_top: bool,
     /// Truncation of one cell relative to `V`, as `log₂`.
     pub(super) log2_accuracy: f64,
-    /// The longest segment.
     pub(super) longest: S,
     /// See [`Medium::rule`].
     rules: [OnceLock<Vec<(S, S)>>; RULES],
@@ -58,7 +57,6 @@ pub(super) struct Segment<S> {
     pub(super) len: S,
     /// `e^{−κ len}`.
     pub(super) decay: S,
-    /// Coefficients.
     pub(super) q: Vec<S>,
     /// How far the ray at its lower end may be off.
     pub(super) off: Off,
@@ -97,7 +95,10 @@ impl<S: Rounded> Medium<S> {
         while k + 1 < RULES && len.int(2) * len <= longest {
             (k, longest) = (k + 1, longest.clone() / longest.int(2));
         }
-        self.rules[k].get_or_init(|| unit_rule(&self.kappa, self.terms(&longest, 4.0) / 2 + 2))
+        let (one, half) = (len.one(), len.ratio(1, 2));
+        let on_unit = |(x, weight): (S, S)| ((x + &one) * &half, weight * &half);
+        let rule = || gauss_legendre(&self.kappa, self.terms(&longest, 4.0) / 2 + 2);
+        self.rules[k].get_or_init(|| rule().into_iter().map(on_unit).collect())
     }
 
     /// What is too small to be told, relative to the greatest `|q|`: the truncation of a cell, or a rounding.
@@ -137,8 +138,7 @@ impl<S: Rounded> Medium<S> {
         let mut high = self.basis.restrict(&segment.q, &fraction, &one, self.terms(&rest, 1.0));
         let decay = (-(self.kappa.clone() * cut)).exp();
         scale(&mut high, &decay);
-        let at = segment.at.clone() + cut;
-        let at = if at >= one { at - &one } else { at };
+        let at = on_circle(segment.at.clone() + cut);
         let high_decay = (-(self.kappa.clone() * &rest)).exp();
         (
             Segment { at: segment.at.clone(), len: cut.clone(), decay, q: low, off: segment.off },
@@ -146,16 +146,22 @@ impl<S: Rounded> Medium<S> {
         )
     }
 
+    /// `q + offset`.
+    pub(super) fn raised(&self, segment: &Segment<S>, offset: &S) -> Vec<S> {
+        let mut q = segment.q.clone();
+        self.raise(&mut q, &(self.kappa.clone() * &segment.len), offset);
+        q
+    }
+
+    fn raise(&self, q: &mut [S], depth: &S, offset: &S) {
+        if !offset.is_zero() {
+            add_scaled(q, &self.basis.exponential(depth, q.len()), offset);
+        }
+    }
+
     /// The data at the ground that are mirrored: `q` in contact, `q + offset` in flight.
     fn mirrored(&self, segment: &Segment<S>, contact: bool) -> Vec<S> {
-        let mut q = segment.q.clone();
-        if !contact && !self.offset.is_zero() {
-            let growth = self.basis.exponential(&(self.kappa.clone() * &segment.len), q.len());
-            for (term, e) in q.iter_mut().zip(growth) {
-                *term = e * &self.offset + &*term;
-            }
-        }
-        q
+        if contact { segment.q.clone() } else { self.raised(segment, &self.offset) }
     }
 
     /// `v_t + c v_x` at the ground while the first segment comes down: the velocity in flight, `c v_x` in contact.
@@ -199,12 +205,7 @@ impl<S: Rounded> Medium<S> {
         visit(&Cell { corner, size, depth: depths, p: &p, q: &q, offset: offset.clone() });
         let mut out = q;
         self.cross((&mut p, &mut out), (&depth, &depth), (&first.decay, &first.decay));
-        if !offset.is_zero() {
-            let growth = self.basis.exponential(&depth, p.len());
-            for (term, e) in p.iter_mut().zip(growth) {
-                *term = e * &offset + &*term;
-            }
-        }
+        self.raise(&mut p, &depth, &offset);
         eta = eta + &first.len;
         for segment in &mut state.segments {
             let (corner, size, depths) = cell(&eta, &segment.len);
@@ -221,7 +222,9 @@ impl<S: Rounded> Medium<S> {
         let wraps = state.segments.front().is_none_or(|next| next.at <= first.at);
         state.round += i64::from(wraps);
         state.segments.push_back(Segment { q, ..first });
-        self.join_last(state);
+        if let Some(last) = state.segments.len().checked_sub(2) {
+            self.join(state, last);
+        }
     }
 
     /// Marches over a first segment that starts from given `p` and `q` instead of the ground, with its lower corner at
@@ -257,13 +260,6 @@ impl<S: Rounded> Medium<S> {
         cross(&self.basis, sides, depth, decay, self.log2_accuracy);
     }
 
-    /// Forgets the ray between the last two segments.
-    fn join_last(&self, state: &mut State<S>) {
-        if let Some(last) = state.segments.len().checked_sub(2) {
-            self.join(state, last);
-        }
-    }
-
     /// Forgets all rays that can be, and says how many that were.
     pub(super) fn join_all(&self, state: &mut State<S>) -> usize {
         let count = state.segments.len();
@@ -288,8 +284,7 @@ impl<S: Rounded> Medium<S> {
         let (mut variation, mut ends) = (0.0, Vec::new());
         for segment in &state.segments {
             let (len, zero) = (segment.len.to_f64(), segment.len.zero());
-            let rate =
-                bound(&super::series::derivative(&segment.q), 0) / len + self.kappa.to_f64() * bound(&segment.q, 0);
+            let rate = bound(&derivative(&segment.q), 0) / len + self.kappa.to_f64() * bound(&segment.q, 0);
             slope = slope.max(rate);
             variation += rate * len;
             ends.push((at_zero(&segment.q, &zero).to_f64(), (at_one(&segment.q, &zero) * &segment.decay).to_f64()));
@@ -352,8 +347,7 @@ impl<S: Rounded> Medium<S> {
             return;
         }
         let decay = (-(self.kappa.clone() * &len)).exp();
-        let joined = Segment { at: a.at.clone(), len, decay, q, off: a.off };
-        state.segments[k] = joined;
+        state.segments[k] = Segment { at: a.at.clone(), len, decay, q, off: a.off };
         state.segments.remove(k + 1);
     }
 

@@ -12,11 +12,8 @@ use crate::special::RoundedSpecial;
 /// What happened at the ground during one strip, or during a flight that was leapt over, dimensionless.
 #[derive(Clone, Debug)]
 pub(super) struct Piece<S> {
-    /// Its beginning.
     pub(super) from: S,
-    /// Its length.
     pub(super) len: S,
-    /// Whether the ground end is in contact.
     pub(super) contact: bool,
     /// The flight that it belongs to, where centre of mass and vibration are apart.
     pub(super) flight: Option<usize>,
@@ -33,7 +30,12 @@ pub(super) struct Piece<S> {
 }
 
 impl<S: RoundedSpecial> Piece<S> {
-    /// Its end.
+    /// A strip of which the ground has felt nothing.
+    pub(super) fn new(from: S, len: S, contact: bool, flight: Option<usize>) -> Self {
+        let (trace, height) = (Vec::new(), Vec::new());
+        Piece { from, len, contact, flight, cut: false, still: false, leap: 0, trace, height }
+    }
+
     pub(super) fn to(&self) -> S {
         self.from.clone() + &self.len
     }
@@ -54,13 +56,10 @@ pub(super) struct Checkpoint<S> {
 /// An event, dimensionless.
 #[derive(Clone, Debug)]
 pub(super) struct Mark<S> {
-    /// Landing or leaving.
     pub(super) kind: EventKind,
-    /// Its time.
     pub(super) time: S,
     /// `v_t(0,·)`, just before or just after.
     pub(super) velocity: S,
-    /// How far the time may be off.
     pub(super) time_error: f64,
     /// How far values may be off then, where flights are taken apart.
     pub(super) at: Option<AtEvent>,
@@ -68,24 +67,10 @@ pub(super) struct Mark<S> {
     pub(super) after: Uncertainty,
 }
 
-/// Hops that are not told apart from contact.
-///
-/// Where events lie on rays exactly, as they often do without damping, there are none in truth: nothing but the bound
-/// says that there may be.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Unresolved<S> {
-    /// From this time on.
-    pub from: S,
-    /// How many landings they may belong to.
-    pub count: usize,
-    /// How long each of them may be at most.
-    pub longest: f64,
-}
-
-impl<S: RoundedSpecial> Unresolved<S> {
-    /// The same for a user.
-    pub(super) fn warning(&self) -> Warning {
-        Warning::HopsUnresolved { from: self.from.to_f64(), longest: self.longest, landings: self.count }
+impl<S> Mark<S> {
+    /// With nothing known of how far it is off.
+    pub(super) fn new(kind: EventKind, time: S, velocity: S) -> Self {
+        Mark { kind, time, velocity, time_error: f64::INFINITY, at: None, after: Uncertainty::default() }
     }
 }
 
@@ -96,7 +81,7 @@ pub(super) struct Found<S> {
     pub(super) flights: Vec<Flight<S>>,
     pub(super) marks: Vec<Mark<S>>,
     pub(super) warnings: Vec<Warning>,
-    pub(super) unresolved: Option<Unresolved<S>>,
+    pub(super) unresolved: Option<Warning>,
     pub(super) before: Uncertainty,
     pub(super) ending: Ending,
     /// How far its time may be off where it is an event.

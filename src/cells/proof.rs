@@ -22,7 +22,7 @@ use super::march::Medium;
 use super::piece::Found;
 use super::series::{at_one, at_zero, bound, derivative, evaluate};
 use super::signs::{Part, clear, doubles};
-use super::start::{Data, on_grid};
+use super::start::{Data, on_circle, on_grid};
 use super::uncertainty::Uncertainty;
 use crate::error::Error;
 use crate::motion::{Ending, EventKind};
@@ -48,7 +48,6 @@ impl<S: RoundedSpecial> Follower<'_, S> {
 }
 
 impl<S: RoundedSpecial> Proof<S> {
-    /// At the start.
     pub(super) fn start(&mut self, run: &Follower<'_, S>) {
         let (unit, data) = (self.steps.unit, run.data);
         let defect = self.steps.start(&run.state, data.most, data.shortest);
@@ -273,8 +272,7 @@ impl<S: RoundedSpecial> Proof<S> {
             return Err(open);
         }
         self.note(run, time, 0.0);
-        let place = on_grid(run.state.segments[0].at.clone() + cut);
-        let place = if place >= place.one() { place.clone() - place.one() } else { place };
+        let place = on_circle(on_grid(run.state.segments[0].at.clone() + cut));
         self.release =
             Some(Release { pieces: run.pieces.len(), left: None, late, steep, ray: f64::INFINITY, at: place });
         Ok(())
@@ -405,8 +403,7 @@ impl<S: RoundedSpecial> Proof<S> {
             return Err(touch(2.0 * (most + fast)));
         }
         self.note(run, time, high);
-        let place = on_grid(run.state.segments[0].at.clone() + cut);
-        let place = if place >= place.one() { place.clone() - place.one() } else { place };
+        let place = on_circle(on_grid(run.state.segments[0].at.clone() + cut));
         // Either the clock is set, or p has the wrong sign for a while.
         let mass = 2.0 * (most + fast);
         if change.between + change.jumps < mass {
@@ -502,7 +499,7 @@ fn ends_so<S: RoundedSpecial>(ending: &Ending, off: f64, medium: &Medium<S>, dat
     match ending {
         Ending::Time | Ending::NextImpact | Ending::Undecided(_) => true,
         Ending::NoFurtherImpact(Reason::StaysAbove { swing, height, .. }) => {
-            let unit = data.units.displacement.to_f64();
+            let unit = data.displacement.to_f64();
             height - swing > 1e-6 * (height + swing) + 16.0 * off * unit * (1.0 + 1.0 / damping)
         }
         Ending::Rest(Reason::StaysPressed { part, .. }) | Ending::NoBounce(Reason::StaysPressed { part, .. }) => {

@@ -11,7 +11,8 @@ use super::march::Medium;
 use super::piece::{Checkpoint, Piece};
 use super::series::evaluate;
 use super::start::Data;
-use super::strips::{Kept, Line, Node, Nodes, Pool, Strips};
+use super::strips::{Kept, Line, MOST_KEPT, Node, Nodes, Pool, Strips};
+use super::uncertainty::slack;
 use crate::motion::Side;
 use crate::special::RoundedSpecial;
 
@@ -49,7 +50,7 @@ impl<S: RoundedSpecial> Record<'_, S> {
         let mut next = kept.index;
         for (strip, piece) in self.pieces[..until].iter().skip(kept.index).enumerate() {
             if strip == strips.count() {
-                if piece.leap > 0 || strips.is_full() {
+                if piece.leap > 0 || strips.size >= MOST_KEPT {
                     break;
                 }
                 strips.keep(self.medium, self.flights, piece);
@@ -106,7 +107,7 @@ impl<S: RoundedSpecial> Record<'_, S> {
 
     /// [`Record::lines`] on `0 ≤ x ≤ reach`.
     pub(super) fn line(&self, t: &S, reach: &S) -> Vec<Node<S>> {
-        self.lines(t, std::slice::from_ref(reach)).pop().unwrap_or_default().nodes
+        self.lines(t, std::slice::from_ref(reach)).pop().unwrap_or_default().0
     }
 
     /// Gauss–Legendre nodes at time `t` from the ground to the first of `cuts`, and from each to the next, between all
@@ -116,7 +117,7 @@ impl<S: RoundedSpecial> Record<'_, S> {
     /// which the tables hold enough terms, and the rule is exact to twice its nodes.
     pub(super) fn lines(&self, t: &S, cuts: &[S]) -> Vec<Line<S>> {
         let zero = t.zero();
-        let mut lines = vec![Line::default(); cuts.len()];
+        let mut lines = vec![Line::<S>::default(); cuts.len()];
         let Some(reach) = cuts.last() else { return lines };
         // Between two rays, part by part.
         let mut add = |from: &S, to: &S, values: &Values<'_, S>| {
@@ -132,9 +133,9 @@ impl<S: RoundedSpecial> Record<'_, S> {
             let nodes: Vec<_> = nodes.collect();
             let places: Vec<S> = nodes.iter().map(|(_, x, _)| x.clone()).collect();
             for ((line, x, weight), (rigid, motion, strain)) in nodes.into_iter().zip(values(&places)) {
-                lines[line].nodes.push(Node { weight, x, rigid, motion, strain });
+                lines[line].0.push(Node { weight, x, rigid, motion, strain });
             }
-            lines.iter_mut().skip(first).take(parts.len()).for_each(|line| line.parts += 1);
+            lines.iter_mut().skip(first).take(parts.len()).for_each(|(_, parts)| *parts += 1);
         };
         if let Some(contact) = self.at_rest(t) {
             let still = |x: &S| (zero.clone(), zero.clone(), self.rest_strain(x, contact));
@@ -143,12 +144,12 @@ impl<S: RoundedSpecial> Record<'_, S> {
         }
         self.sweep(&(t.clone() - reach), t, &mut |(cell, flight)| {
             let (xi, eta) = &cell.corner;
-            let low = larger(larger(t.clone() - xi - &cell.size.0, eta.clone() - t), zero.clone());
+            let low = (t.clone() - xi - &cell.size.0).larger(eta.clone() - t).larger(zero.clone());
             let high = smaller(smaller(t.clone() - xi, eta.clone() + &cell.size.1 - t), reach.clone());
             add(&low, &high, &|places| self.inside((cell, flight), places, t));
         });
         if let Some(held) = self.held {
-            for (from, to) in held.between_rays(t, &larger(t.clone() - &held.release, zero.clone()), reach) {
+            for (from, to) in held.between_rays(t, &(t.clone() - &held.release).larger(zero.clone()), reach) {
                 let before = |x: &S| self.before(held, x, t, Side::Right);
                 add(&from, &to, &|places| places.iter().map(before).collect());
             }
@@ -166,7 +167,6 @@ impl<S: RoundedSpecial> Record<'_, S> {
         self.data.gravity.clone() * x + &self.data.slope
     }
 
-    /// `v_x` at rest.
     fn rest_strain(&self, x: &S, contact: bool) -> S {
         let strain = self.static_strain(x);
         if contact { strain } else { strain - &self.data.slope }
@@ -189,7 +189,7 @@ impl<S: RoundedSpecial> Record<'_, S> {
 
     /// The same before the first release.
     fn before(&self, held: &Held<S>, x: &S, t: &S, side: Side) -> (S, S, S) {
-        let (p, q, _) = held.invariants(x, t, side);
+        let (p, q, _) = held.invariants(self.data, x, t, side);
         let half = x.ratio(1, 2);
         (x.zero(), (p.clone() + &q) * &half, (q - p) * half + self.static_strain(x))
     }
@@ -200,7 +200,7 @@ impl<S: RoundedSpecial> Record<'_, S> {
             return (t.zero(), self.rest_strain(x, contact));
         }
         let (xi, eta) = (t.clone() - x, t.clone() + x);
-        let slack = slack(t);
+        let slack = slack(t, 8);
         let first = |held: &&Held<S>| match side {
             Side::Right => xi < held.release.clone() - &slack,
             Side::Left => xi <= held.release.clone() + &slack,
@@ -233,7 +233,7 @@ impl<S: RoundedSpecial> Record<'_, S> {
         let (Some(first), Some(last), Some(reach)) = (times.first(), times.last(), points.last()) else {
             return Vec::new();
         };
-        let slack = slack(last);
+        let slack = slack(last, 8);
         let mut values = vec![(slack.zero(), slack.zero()); points.len() * times.len()];
         self.sweep(&(first.clone() - reach - &slack), &(last.clone() + &slack), &mut |(cell, flight)| {
             let (xi, eta) = (cell.corner.0.clone() - &slack, cell.corner.1.clone() - &slack);
@@ -243,7 +243,7 @@ impl<S: RoundedSpecial> Record<'_, S> {
                 if t.int(2) * t > xi_end.clone() + &eta_end {
                     break;
                 }
-                let low = larger(t.clone() - &xi_end, eta.clone() - t);
+                let low = (t.clone() - &xi_end).larger(eta.clone() - t);
                 let high = smaller(t.clone() - &xi, eta_end.clone() - t);
                 let from = points.partition_point(|x| *x < low);
                 let len = points[from..].partition_point(|x| *x <= high);
@@ -273,14 +273,14 @@ impl<S: RoundedSpecial> Record<'_, S> {
 
     /// The piece of the trace at time `t`, and where in it: `0 … 1`.
     pub(super) fn piece(&self, t: &S, side: Side) -> Option<(&Piece<S>, S)> {
-        let slack = slack(t);
+        let slack = slack(t, 8);
         let next = match side {
             Side::Right => self.pieces.partition_point(|piece| piece.from <= t.clone() + &slack),
             Side::Left => self.pieces.partition_point(|piece| piece.from < t.clone() - &slack),
         };
         let piece = self.pieces.get(next.saturating_sub(1))?;
         let at = (t.clone() - &piece.from) / &piece.len;
-        Some((piece, smaller(larger(at, t.zero()), t.one())))
+        Some((piece, smaller(at.larger(t.zero()), t.one())))
     }
 
     /// `v(0,t)` and `v_t(0,t)`.
@@ -302,20 +302,9 @@ impl<S: RoundedSpecial> Record<'_, S> {
         }
     }
 
-    /// `v(0,t)`.
     pub(super) fn height(&self, t: &S) -> S {
         self.end(t, Side::Left).0
     }
-}
-
-/// How close to a ray a time is taken to be on it: a few roundings.
-fn slack<S: RoundedSpecial>(t: &S) -> S {
-    let unit = t.double(t.log2_roundoff().exp2());
-    (t.magnitude() + t.one()) * unit * t.int(8)
-}
-
-fn larger<S: RoundedSpecial>(a: S, b: S) -> S {
-    if a < b { b } else { a }
 }
 
 fn smaller<S: RoundedSpecial>(a: S, b: S) -> S {

@@ -54,7 +54,7 @@ impl<S: RoundedSpecial> Follower<'_, S> {
         };
         let swing = share.sqrt() + 8.0 * (self.trace_error() + self.height_most(0.0));
         (least > swing).then(|| {
-            let unit = data.units.displacement.to_f64();
+            let unit = data.displacement.to_f64();
             let from = (t * &data.units.time).to_f64();
             Ending::NoFurtherImpact(Reason::StaysAbove { from, swing: swing * unit, height: least * unit })
         })
@@ -96,21 +96,14 @@ impl<S: RoundedSpecial> Follower<'_, S> {
     ///   of the end now, or in later flights from a contact, in which `|h| ≤ B/4`, the centre moves by at most `B/2r`;
     ///   the end is at most `B/4` from it, and neither moves faster than `B`, whatever it meets.
     fn left(&self, time: f64) -> Option<(f64, f64)> {
-        let Medium { slope, kappa, free_top, basis, .. } = self.medium;
+        let Medium { slope, kappa, free_top, .. } = self.medium;
         let value = slope.to_f64();
         // In a flight that is taken apart h′ tends to zero where there is no gravity.
         let mut most = self.state.bound() + self.centre().map_or(0.0, |(_, rate)| rate.to_f64().abs());
         if value > 0.0 && !self.contact {
-            most = 0.0;
-            for segment in &self.state.segments {
-                // q of the deviation from the hanging rod: q + slope.
-                let mut q = segment.q.clone();
-                let growth = basis.exponential(&(kappa.clone() * &segment.len), q.len());
-                for (term, e) in q.iter_mut().zip(growth) {
-                    *term = e * slope + &*term;
-                }
-                most = most.max(bound(&q, 0));
-            }
+            // q of the deviation from the hanging rod: q + slope.
+            let raised = self.state.segments.iter().map(|segment| bound(&self.medium.raised(segment, slope), 0));
+            most = raised.fold(0.0, f64::max);
         }
         let velocity = most + self.noise();
         let clear = if self.contact { value <= 0.0 } else { value >= 0.0 };
@@ -154,7 +147,7 @@ impl<S: RoundedSpecial> Follower<'_, S> {
         let ending = if self.contact && !neither {
             self.held(still(StillState::Pressed))
         } else if !self.contact && rest.to_f64() > far + self.height_most(0.0) {
-            Ending::NoFurtherImpact(still(StillState::Above(rest.to_f64() * units.displacement.to_f64())))
+            Ending::NoFurtherImpact(still(StillState::Above(rest.to_f64() * self.data.displacement.to_f64())))
         } else {
             Ending::Rest(still(StillState::Faint))
         };
@@ -166,18 +159,7 @@ impl<S: RoundedSpecial> Follower<'_, S> {
         self.budget.rest(far);
         self.budget.add(velocity);
         let len = end.clone() - &now;
-        let contact = self.contact;
-        self.pieces.push(Piece {
-            from: now,
-            len,
-            contact,
-            flight: None,
-            cut: false,
-            still: true,
-            leap: 0,
-            trace,
-            height,
-        });
+        self.pieces.push(Piece { still: true, trace, height, ..Piece::new(now, len, self.contact, None) });
         Some(ending)
     }
 }

@@ -1,7 +1,6 @@
 //! Chebyshev series on the unit interval: integration, products with `x`, restriction, and how many terms are needed.
 
 use crate::number::Rounded;
-use crate::special::gauss_legendre;
 
 /// Tables that every series of a solution shares. A series is `c₀ + c₁T₁(2x−1) + c₂T₂(2x−1) + …` on `0 ≤ x ≤ 1`.
 #[derive(Clone, Debug)]
@@ -40,7 +39,6 @@ impl<S: Rounded> Basis<S> {
         self.nodes.len()
     }
 
-    /// The Chebyshev nodes.
     pub(super) fn nodes(&self) -> &[S] {
         &self.nodes
     }
@@ -90,7 +88,6 @@ impl<S: Rounded> Basis<S> {
         self.through(&values, terms)
     }
 
-    /// The product of two series, to `terms` terms.
     pub(super) fn product(&self, a: &[S], b: &[S], terms: usize) -> Vec<S> {
         let values: Vec<S> = self.nodes.iter().map(|x| evaluate(a, x) * evaluate(b, x)).collect();
         self.through(&values, terms)
@@ -139,12 +136,10 @@ pub(super) fn evaluate_all<S: Rounded>(c: &[S], xs: &[S]) -> Vec<S> {
     states.into_iter().map(|[two_u, b1, b2]| two_u * first.ratio(1, 2) * b1 - b2 + first).collect()
 }
 
-/// The value at `x = 1`.
 pub(super) fn at_one<S: Rounded>(c: &[S], zero: &S) -> S {
     c.iter().fold(zero.clone(), |sum, term| sum + term)
 }
 
-/// The value at `x = 0`.
 pub(super) fn at_zero<S: Rounded>(c: &[S], zero: &S) -> S {
     c.iter().enumerate().fold(zero.clone(), |sum, (k, term)| if k % 2 == 0 { sum + term } else { sum - term })
 }
@@ -186,14 +181,7 @@ pub(super) fn spread<S: Rounded>(c: &[S]) -> f64 {
     }
 }
 
-/// Below the roundings of doubles.
 const DOUBLE_BITS: f64 = -60.0;
-
-/// Gauss–Legendre nodes and weights on `0 … 1`.
-pub(super) fn unit_rule<S: Rounded>(like: &S, n: usize) -> Vec<(S, S)> {
-    let half = like.ratio(1, 2);
-    gauss_legendre(like, n).into_iter().map(|(x, weight)| ((x + like.one()) * &half, weight * &half)).collect()
-}
 
 /// How many Chebyshev terms hold a function that is entire, with `|f(s)| ≤ (a + b|s|) e^{θ|s|}` for every complex `s`,
 /// on `0 ≤ s ≤ 1`, to `2^log2_accuracy`.

@@ -15,9 +15,9 @@ use std::collections::VecDeque;
 use super::cell::Cell;
 use super::march::{Medium, State};
 use crate::error::Error;
-use crate::motion::{AtStart, Scales};
-use crate::number::{Number, Rounded};
-use crate::problem::{Parameters, Problem, Profile, Start, Top};
+use crate::motion::{AtStart, Scales, Segment};
+use crate::number::Rounded;
+use crate::problem::{Parameters, Problem, Start, Top};
 use crate::special::RoundedSpecial;
 
 /// What series leave out is so many bits below a rounding, so that both together are hardly more than the rounding.
@@ -29,9 +29,7 @@ const MOST_DAMPING: f64 = 2000.0;
 /// Linear data on an interval.
 #[derive(Clone, Debug)]
 pub(super) struct Linear<S> {
-    /// Where it begins.
     from: S,
-    /// Its length.
     len: S,
     /// `z_x` there: `b`.
     strain: S,
@@ -95,6 +93,12 @@ pub(super) fn on_grid<S: Rounded>(place: S) -> S {
     place + &one - &one
 }
 
+/// The place on the circle of a round trip, `0 … 2` given.
+pub(super) fn on_circle<S: Rounded>(place: S) -> S {
+    let one = place.one();
+    if place >= one { place - one } else { place }
+}
+
 /// `φ₁(z) = (eᶻ − 1)/z = Σ zᵏ/(k+1)!` for `|z| ≤ 2`, without a division by `z`.
 fn phi_one<S: Rounded>(z: &S) -> S {
     let (mut sum, mut term) = (z.one(), z.one());
@@ -109,36 +113,13 @@ fn phi_one<S: Rounded>(z: &S) -> S {
     sum
 }
 
-/// The units of a solution.
-#[derive(Clone, Debug)]
-pub(super) struct Units<S> {
-    /// `t₁`.
-    pub(super) time: S,
-    /// `V = max(|data|, g t₁)`, or 1 where all of these vanish.
-    pub(super) velocity: S,
-    /// `V t₁`.
-    pub(super) displacement: S,
-    /// `c`.
-    pub(super) wave_speed: S,
-    /// `L`.
-    pub(super) length: S,
-    /// `g`.
-    pub(super) gravity: S,
-}
-
-impl<S: Clone> Units<S> {
-    /// The natural scales.
-    pub(super) fn scales(&self) -> Scales<S> {
-        let Units { time, velocity, length, wave_speed, gravity, .. } = self.clone();
-        Scales { time, velocity, length, wave_speed, gravity }
-    }
-}
-
 /// The start in dimensionless form.
 #[derive(Clone, Debug)]
 pub(super) struct Data<S> {
-    /// Units.
-    pub(super) units: Units<S>,
+    /// `t₁`, `V = max(|data|, g t₁)` or 1 where all of these vanish, and those of the problem.
+    pub(super) units: Scales<S>,
+    /// `V t₁`.
+    pub(super) displacement: S,
     /// `R = r t₁`.
     pub(super) damping: S,
     /// `g t₁/V`.
@@ -166,29 +147,7 @@ impl<S: Rounded> Data<S> {
     pub(super) fn of(problem: &Problem, parameters: &Parameters<S>, free_top: bool) -> Self {
         let time = parameters.round_trip();
         let zero = time.zero();
-        let lift = |n: &Number| S::from_number(n, &time.precision());
-        let empty = Profile::default();
-        let profile = match &problem.start {
-            Start::Uniform(_) | Start::Above { .. } => &empty,
-            Start::Profile(profile) => profile,
-        };
-        let reach = parameters.length.int(2) * &parameters.length;
-        let points = |list: &[(Number, Number)]| -> Vec<(S, S)> {
-            list.iter().map(|(x, v)| (lift(x) / &reach, lift(v))).collect()
-        };
-        let mut displacement = points(&profile.displacement);
-        displacement.extend(problem.gap().map(|gap| (zero.clone(), lift(gap))));
-        let mut velocity = points(&profile.velocity);
-        if velocity.is_empty() {
-            velocity = vec![(zero.clone(), -parameters.speed.clone())];
-        }
-        // Breaks of either, from 0 to ½.
-        let half = zero.ratio(1, 2);
-        let mut breaks: Vec<S> = vec![zero.clone(), half.clone()];
-        breaks.extend(displacement.iter().chain(&velocity).map(|(x, _)| x.clone()));
-        breaks.retain(|x| !x.is_negative() && *x <= half);
-        breaks.sort_by(|x, y| x.partial_cmp(y).unwrap_or(std::cmp::Ordering::Equal));
-        breaks.dedup();
+        let given = AtStart::of(problem, parameters);
         // V.
         let gravity_speed = parameters.critical_speed();
         let mut scale = gravity_speed.clone();
@@ -197,57 +156,49 @@ impl<S: Rounded> Data<S> {
                 scale = candidate;
             }
         };
-        velocity.iter().for_each(|(_, v)| raise(v.magnitude()));
-        for pair in breaks.windows(2) {
-            raise((slope(&displacement, &pair[0], &pair[1]) / &time).magnitude());
+        for Segment { velocities: [low, high], strain, .. } in &given.segments {
+            [low.magnitude(), high.magnitude()].into_iter().for_each(&mut raise);
+            raise((strain.clone() * &parameters.wave_speed).magnitude());
         }
-        if let Some((_, v)) = displacement.first() {
+        if let Some((_, v)) = given.displacement.first() {
             raise((v.clone() / &time).magnitude());
         }
         if scale.is_zero() {
             scale = zero.one();
         }
         let gravity = gravity_speed / &scale;
-        let displacement_unit = scale.clone() * &time;
+        let displacement = scale.clone() * &time;
         // v_s = g x²/2 + slope·x, stress-free or at its given height at x = ½.
-        let first = displacement.first().map_or_else(|| zero.clone(), |(_, v)| v.clone() / &displacement_unit);
-        let last = displacement.last().map_or_else(|| zero.clone(), |(_, v)| v.clone() / &displacement_unit);
-        let static_slope = if free_top {
+        let scaled = |end: Option<&(S, S)>| end.map_or_else(|| zero.clone(), |(_, v)| v.clone() / &displacement);
+        let (ground, last) = (scaled(given.displacement.first()), scaled(given.displacement.last()));
+        let slope = if free_top {
             gravity.clone() * zero.ratio(-1, 2)
         } else {
             last * zero.int(2) - gravity.clone() * zero.ratio(1, 4)
         };
-        let piece = |pair: &[S]| {
-            let len = pair[1].clone() - &pair[0];
-            let (left, right) = (after(&velocity, &pair[0]) / &scale, before(&velocity, &pair[1]) / &scale);
-            let strain = slope(&displacement, &pair[0], &pair[1]) / &displacement_unit;
+        let reach = parameters.length.int(2) * &parameters.length;
+        let piece = |Segment { ends, velocities, strain }: &Segment<S>| {
+            let [from, to] = ends.each_ref().map(|x| x.clone() / &reach);
+            let ([left, right], len) = (velocities.each_ref().map(|v| v.clone() / &scale), to - &from);
             Linear {
-                from: pair[0].clone(),
-                strain: strain - &static_slope - gravity.clone() * &pair[0],
+                strain: strain.clone() * &reach / &displacement - &slope - gravity.clone() * &from,
                 strain_slope: -gravity.clone(),
                 velocity_slope: (right - &left) / &len,
                 velocity: left,
+                from,
                 len,
             }
         };
-        let half: Vec<Linear<S>> = breaks.windows(2).map(piece).collect();
+        let half: Vec<Linear<S>> = given.segments.iter().map(piece).collect();
         let shortest = half.iter().map(|piece| piece.len.to_f64()).fold(1.0, f64::min);
-        let of = |(_, v): &(S, S)| v.to_f64().abs();
-        let far = displacement.iter().map(of).fold(0.0, f64::max) / displacement_unit.to_f64();
-        let fast = velocity.iter().map(of).fold(0.0, f64::max) / scale.to_f64();
-        let most = 2.0 * far / shortest + 2.0 * fast / shortest + gravity.to_f64() + static_slope.to_f64().abs();
-        let units = Units {
-            displacement: displacement_unit,
-            velocity: scale,
-            wave_speed: parameters.wave_speed.clone(),
-            length: parameters.length.clone(),
-            gravity: parameters.gravity.clone(),
-            time,
-        };
-        let damping = parameters.damping.clone() * &units.time;
-        let given = AtStart::of(problem, parameters);
+        let greatest = |list: &[(S, S)]| list.iter().map(|(_, v)| v.to_f64().abs()).fold(0.0, f64::max);
+        let far = greatest(&given.displacement) / displacement.to_f64();
+        let fast = greatest(&given.velocity) / scale.to_f64();
+        let most = 2.0 * far / shortest + 2.0 * fast / shortest + gravity.to_f64() + slope.to_f64().abs();
+        let damping = parameters.damping.clone() * &time;
+        let units = Scales { time, velocity: scale, ..Scales::of(parameters) };
         let rigid = !matches!(problem.start, Start::Profile(_));
-        Data { units, damping, given, gravity, slope: static_slope, ground: first, rigid, half, most, shortest }
+        Data { units, displacement, damping, gravity, slope, given, ground, rigid, half, most, shortest }
     }
 
     /// `v_t(0⁺, 0)`.
@@ -317,33 +268,4 @@ pub(super) fn medium<S: RoundedSpecial>(
         return Err(Error::DampingTooStrong { found, most: MOST_DAMPING });
     }
     Ok((Medium::new(&data.damping, (data.gravity.clone(), data.slope.clone()), free_top, log2_accuracy, shorten), data))
-}
-
-/// The slope between two neighbouring breaks.
-fn slope<S: Rounded>(points: &[(S, S)], from: &S, to: &S) -> S {
-    (before(points, to) - after(points, from)) / (to.clone() - from)
-}
-
-/// The value just after `x`: linear between points, constant beyond them, zero without any.
-fn after<S: Rounded>(points: &[(S, S)], x: &S) -> S {
-    let next = points.partition_point(|(at, _)| at <= x);
-    between(points, next, x)
-}
-
-/// The value just before `x`.
-fn before<S: Rounded>(points: &[(S, S)], x: &S) -> S {
-    let next = points.partition_point(|(at, _)| at < x);
-    between(points, next, x)
-}
-
-/// The value at `x` on the line that ends at point `next`.
-fn between<S: Rounded>(points: &[(S, S)], next: usize, x: &S) -> S {
-    let low = next.checked_sub(1).and_then(|k| points.get(k));
-    match (low, points.get(next)) {
-        (Some((x0, v0)), Some((x1, v1))) if x1 > x0 => {
-            v0.clone() + (v1.clone() - v0) * (x.clone() - x0) / (x1.clone() - x0)
-        }
-        (Some((_, v)), _) | (None, Some((_, v))) => v.clone(),
-        (None, None) => x.zero(),
-    }
 }

@@ -4,13 +4,14 @@
 //! whatever was asked before it.
 
 use std::num::NonZero;
-use std::sync::{Arc, LazyLock, Mutex, PoisonError};
+use std::sync::{Arc, LazyLock, Mutex};
 
 use super::cell::Cell;
 use super::flight::Flight;
 use super::march::{Medium, State};
 use super::piece::{Checkpoint, Piece};
 use crate::special::RoundedSpecial;
+use crate::threads::locked;
 
 /// A cell, and the data that come into it.
 #[derive(Clone, Debug)]
@@ -44,7 +45,7 @@ pub(super) struct Strips<S> {
     start: usize,
     strips: Vec<Vec<Kept<S>>>,
     /// How many coefficients are kept.
-    size: usize,
+    pub(super) size: usize,
     /// What comes after them.
     pub(super) state: State<S>,
     pub(super) flight: Option<usize>,
@@ -52,10 +53,9 @@ pub(super) struct Strips<S> {
 }
 
 /// The most coefficients that strips keep, 2 MB in doubles: some 50 rays over two round trips.
-const MOST: usize = 1 << 18;
+pub(super) const MOST_KEPT: usize = 1 << 18;
 
 impl<S: RoundedSpecial> Strips<S> {
-    /// None yet.
     pub(super) fn after(start: usize, kept: &Checkpoint<S>) -> Self {
         let Checkpoint { flight, state, ground, .. } = kept.clone();
         Strips { start, strips: Vec::new(), size: 0, state, flight, ground }
@@ -70,10 +70,6 @@ impl<S: RoundedSpecial> Strips<S> {
 
     pub(super) fn count(&self) -> usize {
         self.strips.len()
-    }
-
-    pub(super) fn is_full(&self) -> bool {
-        self.size >= MOST
     }
 
     /// Takes the vibration that is held to `flight`.
@@ -119,9 +115,7 @@ pub(super) struct Pool<S> {
 /// A node of a quadrature along the rod.
 #[derive(Clone, Debug)]
 pub(super) struct Node<S> {
-    /// Weight.
     pub(super) weight: S,
-    /// `x`.
     pub(super) x: S,
     /// `h′` of the flight that the vibration is taken apart from; zero without one.
     pub(super) rigid: S,
@@ -138,39 +132,22 @@ impl<S: RoundedSpecial> Node<S> {
     }
 }
 
-/// A part of the rod at a time.
-#[derive(Clone, Debug)]
-pub(super) struct Line<S> {
-    pub(super) nodes: Vec<Node<S>>,
-    /// How many parts of it lie between rays.
-    pub(super) parts: usize,
-}
-
-impl<S> Default for Line<S> {
-    fn default() -> Self {
-        Line { nodes: Vec::new(), parts: 0 }
-    }
-}
+/// The nodes along a part of the rod at a time, and how many parts of it lie between rays.
+pub(super) type Line<S> = (Vec<Node<S>>, usize);
 
 /// The nodes along the whole rod at a time.
 pub(super) type Nodes<S> = Arc<Vec<Node<S>>>;
 
 /// Each core goes from one checkpoint to the next.
-static MOST_KEPT: LazyLock<usize> = LazyLock::new(|| 2 * std::thread::available_parallelism().map_or(1, NonZero::get));
-
-/// Works on the list. No panic leaves it half changed, so a poisoned lock is taken as any other.
-fn with<T, R>(list: &Mutex<Vec<T>>, work: impl FnOnce(&mut Vec<T>) -> R) -> R {
-    work(&mut list.lock().unwrap_or_else(PoisonError::into_inner))
-}
+static MOST: LazyLock<usize> = LazyLock::new(|| 2 * std::thread::available_parallelism().map_or(1, NonZero::get));
 
 /// Puts `item` last, and drops the first where there are too many.
 fn push<T>(list: &Mutex<Vec<T>>, item: T) {
-    with(list, |all| {
-        if all.len() >= *MOST_KEPT {
-            all.remove(0);
-        }
-        all.push(item);
-    });
+    let mut all = locked(list);
+    if all.len() >= *MOST {
+        all.remove(0);
+    }
+    all.push(item);
 }
 
 impl<S> Default for Pool<S> {
@@ -189,7 +166,8 @@ impl<S> Clone for Pool<S> {
 impl<S: PartialEq> Pool<S> {
     /// The strips after checkpoint `start`, if they are kept.
     pub(super) fn take(&self, start: usize) -> Option<Strips<S>> {
-        with(&self.strips, |all| all.iter().position(|strips| strips.start == start).map(|k| all.remove(k)))
+        let mut all = locked(&self.strips);
+        all.iter().position(|strips| strips.start == start).map(|k| all.remove(k))
     }
 
     pub(super) fn put(&self, strips: Strips<S>) {
@@ -201,7 +179,7 @@ impl<S: PartialEq> Pool<S> {
     where
         S: Clone,
     {
-        let known = with(&self.lines, |all| all.iter().find(|(at, _)| at == time).map(|(_, line)| line.clone()));
+        let known = locked(&self.lines).iter().find(|(at, _)| at == time).map(|(_, line)| line.clone());
         known.unwrap_or_else(|| {
             let line = Arc::new(find());
             push(&self.lines, (time.clone(), line.clone()));

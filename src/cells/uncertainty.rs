@@ -13,7 +13,6 @@ pub(super) struct Off {
 }
 
 impl Off {
-    /// The greater in both.
     pub(super) fn max(self, other: Off) -> Off {
         Off { fixed: self.fixed.max(other.fixed), apart: self.apart.max(other.apart) }
     }
@@ -43,7 +42,6 @@ pub(super) struct Uncertainty {
 }
 
 impl Uncertainty {
-    /// The greater in all.
     pub(super) fn max(self, other: Self) -> Self {
         Uncertainty {
             rise: self.rise.max(other.rise),
@@ -59,9 +57,9 @@ impl Uncertainty {
     }
 }
 
-/// `value` as it is stored.
-pub(super) fn rounded<S: Rounded>(value: &S) -> Estimate<S> {
-    Estimate::rounded(value.clone(), 1.0)
+/// So many roundings of a time, or of a round trip: how close to a ray or a lattice time it is taken to be on it.
+pub(super) fn slack<S: Rounded>(t: &S, roundings: i64) -> S {
+    (t.magnitude() + t.one()) * &t.roundoff() * &t.int(roundings)
 }
 
 /// `value` within `bound`.

@@ -4,9 +4,9 @@ use std::cell::RefCell;
 use std::collections::BTreeMap;
 use std::rc::Rc;
 
+use super::bounce::{Bounce, BounceKind};
 use super::field::{FirstContact, Shares, Trips};
 use super::first_root::{FirstRoot, coefficients, first_root};
-use super::outcome::{Bounce, BounceKind};
 use crate::reason::{Doubt, NoBounceReason};
 use crate::special::BoundedSpecial;
 
@@ -18,7 +18,6 @@ pub(super) struct Search<'a, N> {
     pub(super) contact: &'a FirstContact<N>,
     /// The rays where there is none.
     pub(super) route: Option<Route<'a, N>>,
-    /// What is known of the rays already.
     pub(super) kernels: Option<&'a Kernels<N>>,
 }
 

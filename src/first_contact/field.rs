@@ -37,9 +37,7 @@ pub struct FirstContact<N> {
     pub(super) critical: N,
     /// `R = r t₁`.
     pub(super) damping: N,
-    /// `1/c`.
     pub(super) slowness: N,
-    /// Whether `g = 0`.
     pub(super) weightless: bool,
 }
 
@@ -62,7 +60,6 @@ impl<N> Trips<N> {
         self.on_lattice.then_some(self.passed)
     }
 
-    /// How many rays have returned to the ground.
     pub(super) fn returned(&self, side: Side) -> i64 {
         (self.passed - i64::from(self.on_lattice && side == Side::Left)).max(0)
     }
@@ -76,13 +73,11 @@ pub(super) struct Shares<N> {
 }
 
 impl<N: Scalar> Shares<N> {
-    /// The difference, share by share.
     pub(super) fn minus(&self, other: &Self) -> Self {
         Shares { impact: self.impact.clone() - &other.impact, weight: self.weight.clone() - &other.weight }
     }
 }
 
-/// More rays than this are not summed.
 const MOST_RAYS: i64 = 1 << 20;
 
 /// Adds `(−1)^j term`.
@@ -90,7 +85,6 @@ fn alternate<N: Scalar>(sum: &mut N, j: i64, term: &N) {
     *sum = if j % 2 == 0 { sum.clone() + term } else { sum.clone() - term };
 }
 
-/// A number of which nothing is known.
 pub(super) fn unknown<N: Scalar>(like: &N) -> N {
     like.zero().widened(&like.double(f64::INFINITY))
 }
@@ -356,7 +350,6 @@ impl<N: BoundedSpecial> FirstContact<N> {
 /// `log₂` of what a motion is at most of which nothing but a bound is asked.
 const FADED_BITS: f64 = -128.0;
 
-/// A field of which nothing is known.
 fn nowhere<N: Scalar>(like: &N) -> Field<N> {
     Field { displacement: unknown(like), velocity: unknown(like), strain: unknown(like) }
 }

@@ -2,8 +2,8 @@
 
 use std::sync::OnceLock;
 
+use super::bounce::{Bounce, BounceKind};
 use super::field::{FirstContact, Trips};
-use super::outcome::{Bounce, BounceKind};
 use super::rebound::Rebound;
 use super::static_state::{StaticState, faded_after};
 use crate::error::Error;
@@ -58,7 +58,6 @@ pub struct ContactHistory<N> {
 
 /// A time of the history.
 enum Moment<'a, N> {
-    /// The bounce itself.
     Bounce(BounceKind),
     Contact(Trips<N>),
     /// A contact without end in which nothing moves any more.
@@ -108,7 +107,11 @@ impl<N: BoundedSpecial> ContactHistory<N> {
                 Some(asked) if open("whether the contact lasts so long", asked, asked.below(&time))? => {
                     (None, Ending::Time)
                 }
-                _ => return Ok(Self::up_to(contact, time, Ending::Bounce, trips, Some(kind), None)),
+                _ => {
+                    let (release, rebound, course) = (Some(kind), OnceLock::new(), OnceLock::new());
+                    let (end, ending, followed, rest) = (time, Ending::Bounce, trips, None);
+                    return Ok(ContactHistory { contact, end, ending, followed, release, rest, rebound, course });
+                }
             },
             Bounce::Undecided { until, why } => (Some(until), Ending::Undecided(Reason::Doubt(why))),
             Bounce::Never(reason) => (None, Ending::NoBounce(Reason::NoBounce(reason))),
@@ -130,22 +133,10 @@ impl<N: BoundedSpecial> ContactHistory<N> {
             Some(rest) => contact.lattice(rest),
             None => trips_at(&contact, &end)?,
         };
-        Ok(Self::up_to(contact, end, ending, followed, None, rest))
-    }
-
-    fn up_to(
-        contact: FirstContact<N>,
-        end: N,
-        ending: Ending,
-        followed: Trips<N>,
-        release: Option<BounceKind>,
-        rest: Option<i64>,
-    ) -> Self {
         let (rebound, course) = (OnceLock::new(), OnceLock::new());
-        ContactHistory { contact, end, ending, followed, release, rest, rebound, course }
+        Ok(ContactHistory { contact, end, ending, followed, release: None, rest, rebound, course })
     }
 
-    /// Events, impulse and peak.
     fn measured(&self) -> Course<N> {
         let (zero, rod) = (self.end.zero(), &self.contact.rod);
         let mut events = vec![Event {

@@ -21,7 +21,6 @@ enum Excess<N> {
         at: N,
         /// Where the bound holds.
         between: [N; 2],
-        /// The bound.
         bend: N,
     },
     /// Not known; but it is at most this.

@@ -18,7 +18,6 @@ pub(super) struct StaticState<'a, N> {
 }
 
 impl<'a, N: Scalar> StaticState<'a, N> {
-    /// That of `rod`.
     pub(super) fn of(rod: &'a Parameters<N>) -> Self {
         let curvature = rod.gravity.clone() / rod.wave_speed.square();
         let left = (rod.critical_speed() + &rod.speed) * &rod.length.roundoff();
@@ -42,7 +41,6 @@ impl<'a, N: Scalar> StaticState<'a, N> {
         }
     }
 
-    /// Those of [`Motion::moments`](crate::Motion::moments).
     pub(super) fn moments(&self, points: &[N]) -> Result<Vec<Moments<N>>, Error> {
         let length = &self.rod.length;
         let (zero, slope) = (length.zero(), self.curvature.clone());

@@ -77,7 +77,7 @@ impl<N: Bounded> Motion<N> for Undamped<N> {
         }
         // `E_z = ½ ∫ (w − h′)² ds` with `w` of [`Undamped::visit_rod`], times `L`.
         let (gravity, mut sum) = (&self.problem.gravity, rate.zero());
-        self.visit_rod(&trip[0], &trip[1], &mut |part| {
+        self.visit_rod(&trip, &mut |part| {
             let value = part.value - gravity.clone() * (rate.one() - &part.offset) - &rate;
             let vibration = Part { value, slope: part.slope + gravity, ..part };
             sum = sum.clone() + vibration.square_integral();

@@ -239,28 +239,19 @@ impl<N: Bounded> Undamped<N> {
     /// `w(s) = value − g s`, where `w` is `p` at `x = 2Ls` for `s < ½` and `q` at `x = 2L(1 − s)` behind the top.
     ///
     /// **Source**: the delay recursion; gravity takes `g s` from what left the ground `s` ago.
-    pub(super) fn visit_rod(
-        &self,
-        from: &Place<N>,
-        until: &Place<N>,
-        visit: &mut dyn FnMut(Part<N>),
-    ) -> Result<(), Open> {
+    pub(super) fn visit_rod(&self, trip: &[Place<N>; 2], visit: &mut dyn FnMut(Part<N>)) -> Result<(), Open> {
         if self.problem.top == Top::Fixed {
-            return self.visit_ways(from, until, &mut |_, part| visit(part));
+            return self.visit_ways(trip, &mut |_, part| visit(part));
         }
+        let [from, until] = trip;
         let summed = self.summed(until.index);
         self.ground.trace.window(from, until, &mut |part| visit(summed(part)));
         Ok(())
     }
 
     /// The same with the parts cut at the top, and whether each is on its way up.
-    pub(super) fn visit_ways(
-        &self,
-        from: &Place<N>,
-        until: &Place<N>,
-        visit: &mut dyn FnMut(bool, Part<N>),
-    ) -> Result<(), Open> {
-        let trace = &self.ground.trace;
+    pub(super) fn visit_ways(&self, trip: &[Place<N>; 2], visit: &mut dyn FnMut(bool, Part<N>)) -> Result<(), Open> {
+        let (trace, [from, until]) = (&self.ground.trace, trip);
         let summed = self.summed(until.index);
         let mut visit = |up: bool, part: Part<N>| visit(up, summed(part));
         let (gravity, half) = (&self.problem.gravity, until.age.one().halved());
@@ -287,12 +278,12 @@ impl<N: Bounded> Undamped<N> {
     ///
     /// **Source**: with `w` of [`Undamped::visit_rod`] and times in round trips, `h′ = ∫ w ds` and
     /// `h = v(0,t) + ∫ (s − ½) value ds − g/12`, from `v_x` integrated from the ground up.
-    pub(super) fn centre_at(&self, [from, until]: &[Place<N>; 2]) -> Result<Centre<N>, Open> {
+    pub(super) fn centre_at(&self, trip: &[Place<N>; 2]) -> Result<Centre<N>, Open> {
         let gravity = &self.problem.gravity;
         let half = gravity.one().halved();
-        let (mut rate, mut height) = (-gravity.clone().halved(), self.height_at(until));
+        let (mut rate, mut height) = (-gravity.clone().halved(), self.height_at(&trip[1]));
         height = height - gravity.clone() / gravity.int(12);
-        self.visit_rod(from, until, &mut |part| {
+        self.visit_rod(trip, &mut |part| {
             let first = part.integral();
             height = height.clone() + first.clone() * (half.clone() - &part.offset) - part.moment();
             rate = rate.clone() + first;

@@ -27,7 +27,6 @@ mod parts;
 mod start;
 mod trace;
 
-pub(crate) use crate::motion::unobserved;
 pub use history::Undamped;
 pub use march::{GroundMotion, Halt, Limits, Until, march};
 pub use start::{Scaled, Units};

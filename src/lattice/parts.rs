@@ -62,10 +62,10 @@ impl<N: Bounded> Undamped<N> {
         Ok(stretches)
     }
 
-    fn visit_both(&self, [from, until]: &[Place<N>; 2], visit: &mut dyn FnMut(Both<N>)) -> Result<(), Open> {
-        let (gravity, one) = (&self.problem.gravity, until.age.one());
+    fn visit_both(&self, trip: &[Place<N>; 2], visit: &mut dyn FnMut(Both<N>)) -> Result<(), Open> {
+        let (gravity, one) = (&self.problem.gravity, trip[1].age.one());
         let (mut down, mut up) = (Vec::new(), Vec::new());
-        self.visit_ways(from, until, &mut |rises, part| {
+        self.visit_ways(trip, &mut |rises, part| {
             // w of `visit_rod`.
             let value = part.value - gravity.clone() * (one.clone() - &part.offset);
             let part = Part { value, slope: part.slope + gravity, ..part };

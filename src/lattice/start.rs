@@ -1,10 +1,10 @@
 //! The problem in its own units: one round trip, and the speed that gravity gives in it.
 
 use crate::error::Error;
-use crate::mapped::{CollectVec, MapEach, mapped};
-use crate::motion::AtStart;
-use crate::number::{Bounded, Number, Open};
-use crate::problem::{Parameters, Problem, Profile, Start, Top};
+use crate::mapped::mapped;
+use crate::motion::{AtStart, Segment};
+use crate::number::{Bounded, Open};
+use crate::problem::{Parameters, Problem, Start, Top};
 
 /// The units in which the lattice computes: with them a break returns after exactly 1, and gravity is 1 or 0.
 #[derive(Clone, Debug)]
@@ -59,80 +59,31 @@ impl<N: Bounded> Scaled<N> {
         let one = given.length.one();
         let gravity = if has_gravity { one.clone() } else { one.zero() };
         let first = |list: &[(N, N)]| list.first().map_or_else(|| one.zero(), |(_, value)| value.clone());
-        let segments = match &problem.start {
-            Start::Uniform(_) | Start::Above { .. } => None,
-            Start::Profile(profile) => Some(segments(profile, (&problem.rod.length, &given.length), &data)),
-        };
-        let velocity = match &segments {
+        let profile = matches!(problem.start, Start::Profile(_));
+        let velocity = match profile {
             _ if has_gravity => given.critical_speed(),
-            None => given.speed.clone(),
-            Some(segments) => greatest_speed(segments, &given.wave_speed)?,
+            false => given.speed.clone(),
+            true => greatest_speed(&data.segments, &given.wave_speed)?,
         };
         let (length, wave_speed, top) = (given.length.clone(), given.wave_speed.clone(), problem.rod.top);
         let ground_start = first(&data.displacement) / &velocity / &round_trip;
         let ground_velocity = first(&data.velocity) / &velocity;
         let units = Units { round_trip, velocity, length, wave_speed };
-        let before = match (segments, top) {
-            (Some(segments), _) => before(&segments, &units, &gravity, top),
-            (None, Top::Free) => vec![(one.zero(), gravity.clone() + &ground_velocity, -gravity.clone())],
-            (None, Top::Fixed) => vec![
+        let before = match (profile, top) {
+            (true, _) => before(&data.segments, &units, &gravity, top),
+            (false, Top::Free) => vec![(one.zero(), gravity.clone() + &ground_velocity, -gravity.clone())],
+            (false, Top::Fixed) => vec![
                 (one.zero(), -ground_velocity.clone(), gravity.clone()),
                 (one.clone().halved(), gravity.clone().halved() + &ground_velocity, -gravity.clone()),
             ],
         };
         Ok(Scaled { units, gravity, top, data, ground_start, ground_velocity, before })
     }
-}
 
-impl<N: Bounded> Scaled<N> {
     /// The greatest of the speeds at the start and of 1, in lattice units.
     pub fn greatest_speed(&self) -> f64 {
         self.before.iter().map(|(_, p, _)| p.to_f64().abs()).fold(1.0, f64::max)
     }
-}
-
-/// A stretch of the rod on which displacement and velocity are linear.
-struct Segment<N> {
-    /// `x_a`, `x_b`.
-    ends: [N; 2],
-    /// `v_t(x_a⁺)`, `v_t(x_b⁻)`.
-    velocities: [N; 2],
-    /// `v_x`.
-    strain: N,
-}
-
-/// The stretches on which both lists of `profile`, whose numbers are `data`, are linear.
-fn segments<N: Bounded>(profile: &Profile, (place, length): (&Number, &N), data: &AtStart<N>) -> Vec<Segment<N>> {
-    let or_rest = |places: &[(Number, Number)], numbers: &[(N, N)]| -> Vec<(Number, N, N)> {
-        let zero = length.zero();
-        if places.is_empty() {
-            return vec![(0.into(), zero.clone(), zero.clone()), (place.clone(), length.clone(), zero)];
-        }
-        places
-            .iter()
-            .zip(numbers)
-            .map(|((place, _), (x, value))| (place.clone(), x.clone(), value.clone()))
-            .collect_vec()
-    };
-    let displacement = or_rest(&profile.displacement, &data.displacement);
-    let velocity = or_rest(&profile.velocity, &data.velocity);
-    let mut segments = Vec::new();
-    let (mut i, mut j) = (0, 0);
-    while let (Some([ya, yb]), Some([va, vb])) = (displacement.get(i..i + 2), velocity.get(j..j + 2)) {
-        let from = if ya.0.compare(&va.0).is_gt() { ya } else { va };
-        let to = if yb.0.compare(&vb.0).is_lt() { yb } else { vb };
-        if from.0.compare(&to.0).is_lt() {
-            let slope = |a: &(Number, N, N), b: &(Number, N, N)| (b.2.clone() - &a.2) / (b.1.clone() - &a.1);
-            let (strain, rate) = (slope(ya, yb), slope(va, vb));
-            let velocities = [from, to].map_each(|(_, x, _)| va.2.clone() + rate.clone() * (x.clone() - &va.1));
-            segments.push(Segment { ends: [from.1.clone(), to.1.clone()], velocities, strain });
-        }
-        // Whichever list's segment ends first is left behind; both where they end together.
-        let order = yb.0.compare(&vb.0);
-        i += usize::from(order.is_le());
-        j += usize::from(order.is_ge());
-    }
-    segments
 }
 
 /// The greatest of the speeds `v_t` and `c v_x`, or `c` where all are zero.

@@ -266,12 +266,7 @@ impl<N: Bounded> Trace<N> {
 
     /// The slot that stands for trip `index`, and how many trips after its own that is.
     fn slot(&self, index: usize) -> (usize, usize) {
-        // The march asks for the last two trips only.
-        let last = self.slots.len() - 1;
-        let slot = (last.saturating_sub(1)..=last)
-            .rev()
-            .find(|k| self.slots[*k].first <= index)
-            .unwrap_or_else(|| self.slots.partition_point(|slot| slot.first <= index).max(1) - 1);
+        let slot = self.slots.partition_point(|slot| slot.first <= index).max(1) - 1;
         (slot, index - self.slots[slot].first)
     }
 
@@ -314,7 +309,6 @@ impl<N: Bounded> Trace<N> {
         self.top == Top::Free && self.gravity.to_f64() > 0.0
     }
 
-    /// Where the pieces of the last trip begin.
     pub(super) fn last_start(&self) -> usize {
         self.slots.last().map_or(0, |slot| slot.start)
     }

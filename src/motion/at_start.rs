@@ -1,9 +1,9 @@
 //! The data at `t = 0`, in the numbers of an engine.
 
 use super::Field;
-use crate::mapped::mapped;
+use crate::mapped::{CollectVec, MapEach, mapped};
 use crate::number::{Number, Open, Scalar};
-use crate::problem::{Parameters, Problem, Start, Top};
+use crate::problem::{Parameters, Problem, Profile, Start, Top};
 
 /// The given displacement and velocity: the limit `t → 0⁻` of the motion.
 ///
@@ -13,19 +13,30 @@ use crate::problem::{Parameters, Problem, Start, Top};
 pub(crate) struct AtStart<S> {
     pub(crate) displacement: Vec<(S, S)>,
     pub(crate) velocity: Vec<(S, S)>,
+    /// In order, from the ground up.
+    pub(crate) segments: Vec<Segment<S>>,
     /// The points from which it sends rays.
     pub(crate) corners: Vec<S>,
     zero: S,
 }
 
+/// A stretch of the rod on which displacement and velocity are linear.
+#[derive(Clone, Debug)]
+pub(crate) struct Segment<S> {
+    /// `x_a`, `x_b`.
+    pub(crate) ends: [S; 2],
+    /// `v_t(x_a⁺)`, `v_t(x_b⁻)`.
+    pub(crate) velocities: [S; 2],
+    /// `v_x`.
+    pub(crate) strain: S,
+}
+
 /// Which number of a start that is no speed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Datum {
-    /// A place along the rod.
     Point,
     /// The displacement there, by the place in its list; that of all points where there is one only.
     Displacement(usize),
-    /// The velocity there.
     Velocity(usize),
 }
 
@@ -51,15 +62,19 @@ impl<S: Scalar> AtStart<S> {
                 (Vec::from_iter(gap), vec![(zero.clone(), -given.speed.clone())])
             }
         };
-        let mut corners: Vec<S> = Vec::new();
-        if let Start::Profile(_) = &problem.start {
+        let (mut corners, mut segments) = (Vec::new(), Vec::new());
+        if let Start::Profile(profile) = &problem.start {
+            segments = self::segments(profile, (&problem.rod.length, &given.length), &displacement, &velocity);
             corners.extend(displacement.iter().chain(&velocity).map(|(x, _)| x.clone()));
             corners.extend([zero.clone(), given.length.clone()]);
+        } else {
+            let (ends, speed) = ([zero.clone(), given.length.clone()], -given.speed.clone());
+            segments.push(Segment { ends, velocities: [speed.clone(), speed], strain: zero.clone() });
         }
         if problem.rod.top == Top::Fixed {
             corners.push(given.length.clone());
         }
-        AtStart { displacement, velocity, corners, zero }
+        AtStart { displacement, velocity, segments, corners, zero }
     }
 
     /// `v`, `v_t`, `v_x` at `t = 0` and the point `x` of the rod.
@@ -84,4 +99,39 @@ impl<S: Scalar> AtStart<S> {
             None => (self.zero.clone(), self.zero.clone()),
         })
     }
+}
+
+/// The stretches on which both lists of `profile`, whose numbers are `displacement` and `velocity`, are linear.
+fn segments<S: Scalar>(
+    profile: &Profile,
+    (place, length): (&Number, &S),
+    displacement: &[(S, S)],
+    velocity: &[(S, S)],
+) -> Vec<Segment<S>> {
+    let or_rest = |places: &[(Number, Number)], numbers: &[(S, S)]| -> Vec<(Number, S, S)> {
+        let zero = length.zero();
+        if places.is_empty() {
+            return vec![(0.into(), zero.clone(), zero.clone()), (place.clone(), length.clone(), zero)];
+        }
+        let points = places.iter().zip(numbers);
+        points.map(|((place, _), (x, value))| (place.clone(), x.clone(), value.clone())).collect_vec()
+    };
+    let (displacement, velocity) = (or_rest(&profile.displacement, displacement), or_rest(&profile.velocity, velocity));
+    let mut segments = Vec::new();
+    let (mut i, mut j) = (0, 0);
+    while let (Some([ya, yb]), Some([va, vb])) = (displacement.get(i..i + 2), velocity.get(j..j + 2)) {
+        let from = if ya.0.compare(&va.0).is_gt() { ya } else { va };
+        let to = if yb.0.compare(&vb.0).is_lt() { yb } else { vb };
+        if from.0.compare(&to.0).is_lt() {
+            let slope = |a: &(Number, S, S), b: &(Number, S, S)| (b.2.clone() - &a.2) / (b.1.clone() - &a.1);
+            let (strain, rate) = (slope(ya, yb), slope(va, vb));
+            let velocities = [from, to].map_each(|(_, x, _)| va.2.clone() + rate.clone() * (x.clone() - &va.1));
+            segments.push(Segment { ends: [from.1.clone(), to.1.clone()], velocities, strain });
+        }
+        // Whichever list's segment ends first is left behind; both where they end together.
+        let order = yb.0.compare(&vb.0);
+        i += usize::from(order.is_le());
+        j += usize::from(order.is_ge());
+    }
+    segments
 }

@@ -108,7 +108,6 @@ impl<S> Event<S> {
         }
     }
 
-    /// Every number in it.
     pub(crate) fn numbers(&self) -> [&S; 4] {
         [&self.time, &self.end_velocity, &self.centre, &self.centre_velocity]
     }
@@ -125,7 +124,6 @@ impl<S> Contact<S> {
         (&self.from, self.to.as_ref())
     }
 
-    /// Every number in it.
     pub(crate) fn numbers(&self) -> Vec<&S> {
         [&self.from, &self.impulse, &self.peak_strain].into_iter().chain(&self.to).collect_vec()
     }
@@ -150,7 +148,6 @@ impl<S> Energy<S> {
         Energy { total: f(self.total), translational: f(self.translational), vibrational: f(self.vibrational) }
     }
 
-    /// Every number in it.
     pub(crate) fn numbers(&self) -> [&S; 3] {
         [&self.total, &self.translational, &self.vibrational]
     }
@@ -311,11 +308,9 @@ impl Ending {
     pub(crate) fn is_open(&self) -> bool {
         matches!(self, Ending::ExactnessEnds { .. } | Ending::Undecided(_) | Ending::Bounce | Ending::Unproved { .. })
     }
-}
 
-#[cfg(feature = "cli")]
-impl Ending {
     /// The reason with the time that it holds for: `ends at t = 12: …`.
+    #[cfg(feature = "cli")]
     pub(crate) fn at(&self, end: &str) -> String {
         match self {
             Ending::ExactnessEnds { .. } => self.to_string(),

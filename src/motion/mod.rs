@@ -9,7 +9,7 @@ mod register;
 mod straight;
 mod wave;
 
-pub(crate) use at_start::{AtStart, Datum};
+pub(crate) use at_start::{AtStart, Datum, Segment};
 pub use course::{Contact, Course, Ending, Energy, Event, EventKind, Side, StressHistory, StressPiece};
 pub use query::{Motion, Pair, Scales, unobserved};
 pub use register::{Passing, RayRegister};

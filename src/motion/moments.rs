@@ -49,9 +49,7 @@ pub(crate) fn of_stretches<S: Scalar>(stretches: &[Stretch<S>], points: &[S]) ->
 /// A node of a quadrature along the rod.
 #[derive(Clone, Debug)]
 pub(crate) struct Node<S> {
-    /// Weight.
     pub(crate) weight: S,
-    /// `x`.
     pub(crate) x: S,
     /// `v_t`.
     pub(crate) velocity: S,
@@ -60,7 +58,6 @@ pub(crate) struct Node<S> {
 }
 
 impl<S> Node<S> {
-    /// The same node in other numbers.
     pub(crate) fn map<T>(&self, f: impl Fn(&S) -> T) -> Node<T> {
         Node { weight: f(&self.weight), x: f(&self.x), velocity: f(&self.velocity), strain: f(&self.strain) }
     }
@@ -75,7 +72,6 @@ pub(crate) struct Sums<S> {
 }
 
 impl<S: Scalar> Sums<S> {
-    /// Those of these nodes.
     pub(crate) fn of(from: &S, nodes: impl IntoIterator<Item = Node<S>>) -> Self {
         let zero = || from.zero();
         let mut sums = Sums { from: from.clone(), strain: [zero(), zero(), zero()], velocity: [zero(), zero()] };

@@ -23,7 +23,6 @@ impl<S> Field<S> {
         Field { displacement: f(self.displacement), velocity: f(self.velocity), strain: f(self.strain) }
     }
 
-    /// Every number in it.
     pub(crate) fn numbers(&self) -> [&S; 3] {
         [&self.displacement, &self.velocity, &self.strain]
     }
@@ -178,13 +177,11 @@ impl<S: Scalar> Waves<S> {
         self.pieces[begun.max(1) - 1].at(s)
     }
 
-    /// Every number in them.
     pub(crate) fn numbers(&self) -> Vec<&S> {
         let pieces = self.pieces.iter().flat_map(|piece| [&piece.from, &piece.sum, &piece.rate, &piece.slope]);
         [&self.constant, &self.linear, &self.quadratic].into_iter().chain(pieces).collect_vec()
     }
 
-    /// The same waves in other numbers.
     pub(crate) fn map<T>(self, f: impl Fn(S) -> T) -> Waves<T> {
         let piece = |piece: WavePiece<S>| WavePiece {
             from: f(piece.from),

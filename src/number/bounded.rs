@@ -15,19 +15,16 @@ pub trait Bounded: Scalar {
     }
 
     /// The stored value, without the error: for formulas that count it elsewhere.
-    #[must_use]
     fn nominal(self) -> Self {
         self
     }
 
     /// The difference of the stored values.
-    #[must_use]
     fn minus_stored(self, other: &Self) -> Self {
         self - other
     }
 
     /// The product with the stored value of `other`.
-    #[must_use]
     fn times_stored(self, other: &Self) -> Self {
         self * other
     }
@@ -38,13 +35,11 @@ pub trait Bounded: Scalar {
     }
 
     /// Zero, within what this number may differ from zero: for a number that has been taken for zero.
-    #[must_use]
     fn taken_for_zero(&self) -> Self {
         self.zero()
     }
 
     /// One number for two that are the same within their bounds.
-    #[must_use]
     fn joined(self, other: &Self) -> Self {
         let _ = other;
         self
@@ -69,34 +64,29 @@ pub trait Bounded: Scalar {
     }
 
     /// `self/2`.
-    #[must_use]
     fn halved(self) -> Self {
         let two = self.int(2);
         self / two
     }
 
     /// `2 self`.
-    #[must_use]
     fn doubled(self) -> Self {
         self.clone() + &self
     }
 
     /// With a symbol for the exact number where nothing else is known of it, so that it equals itself. For enclosures.
-    #[must_use]
     fn with_identity(self) -> Self {
         self
     }
 
     /// The same number by a formula that keeps the exact number, or the ends, where this one has lost them. For
     /// enclosures.
-    #[must_use]
     fn or_exactly(self, other: impl FnOnce() -> Self) -> Self {
         let _ = other;
         self
     }
 
     /// Without the exact number, which outgrows any use in long sums. For enclosures.
-    #[must_use]
     fn without_exact(self) -> Self {
         self
     }

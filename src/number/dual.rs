@@ -29,7 +29,6 @@ impl<S: Bounded> Dual<S> {
         Dual { value, rate, known: true }
     }
 
-    /// A number that does not change.
     pub(crate) fn constant(value: S) -> Self {
         Dual { rate: value.zero(), value, known: true }
     }
@@ -39,7 +38,6 @@ impl<S: Bounded> Dual<S> {
         Some(&self.rate).filter(|_| self.known)
     }
 
-    /// `a`.
     pub(crate) fn value(&self) -> &S {
         &self.value
     }

@@ -109,6 +109,11 @@ impl<S: Rounded> Estimate<S> {
         let error = if self.error == 0.0 { 0.0 } else { self.error * slope };
         Estimate { error: error + 2.0 * size(&value), value }
     }
+
+    /// `√(e u)` in roundoffs: the error of the square root of a number that may be zero.
+    fn root_of_error(&self) -> f64 {
+        (self.error.log2() / 2.0 - self.value.log2_roundoff() / 2.0).exp2()
+    }
 }
 
 /// What a rounding of `value` is counted as: its size, but at least the least normal double where it is not zero, below
@@ -309,29 +314,12 @@ impl<S: Rounded> Scalar for Estimate<S> {
         Estimate { value: self.value.magnitude(), error: self.error }
     }
 
-    #[inline]
-    fn zero(&self) -> Self {
-        Estimate::exact(self.value.zero())
-    }
-
-    #[inline]
-    fn one(&self) -> Self {
-        Estimate::exact(self.value.one())
-    }
-
     fn alike(&self, other: &Self) -> bool {
         self.value == other.value
     }
 
     fn widened(self, by: &Self) -> Self {
         Estimate { error: self.error + by.error_of_zero(), value: self.value }
-    }
-}
-
-impl<S: Rounded> Estimate<S> {
-    /// `√(e u)` in roundoffs: the error of the square root of a number that may be zero.
-    fn root_of_error(&self) -> f64 {
-        (self.error.log2() / 2.0 - self.value.log2_roundoff() / 2.0).exp2()
     }
 }
 

@@ -80,10 +80,6 @@ impl Scalar for Rational {
             (false, _) => format!("{self} {} {root}", if plus { '+' } else { '−' }),
         }
     }
-
-    fn zero(&self) -> Self {
-        Rational::default()
-    }
 }
 
 impl Bounded for Rational {

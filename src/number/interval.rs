@@ -95,7 +95,6 @@ impl Interval {
         Interval { lo, hi, inside }
     }
 
-    /// From −∞ to ∞.
     pub(crate) fn everything(bits: u32) -> Self {
         let [lo, hi] = [Special::NegInfinity, Special::Infinity].map(|end| Float::with_val(bits, end));
         Interval { lo, hi, inside: Inside::Off }

@@ -89,7 +89,6 @@ impl List {
         }
     }
 
-    /// All numbers, in some number system.
     pub(crate) fn lift<S: Scalar>(&self, precision: &S::Precision) -> Vec<S> {
         self.lift_part(0..self.len(), precision)
     }

@@ -76,7 +76,7 @@ pub use rational::Rational;
 pub use rug::Float;
 pub use scalar::{Analytic, Open, Reads, Rounded, Scalar, Spelling};
 #[doc(hidden)]
-pub use text::{DOUBLE_DIGITS, bits_for_digits, bound_of_log2, double_bound_text, show, shown_bound_text};
+pub use text::{DOUBLE_DIGITS, bits_for_digits, bound_of_log2, show};
 #[doc(hidden)]
 #[cfg(feature = "cli")]
 pub(crate) use text::{bound_json, double_bound, number_json, shown_bound};

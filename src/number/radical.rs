@@ -37,7 +37,6 @@ pub(super) struct Radical {
 /// Longer numbers are not worth carrying.
 const MOST_TERMS: usize = 16;
 const MOST_BITS: u32 = 1 << 12;
-/// Deeper roots are not followed.
 const MOST_DEPTH: u32 = 3;
 /// Square factors below this leave the root of a fraction.
 const SMALL_FACTOR: u32 = 200;

@@ -1,4 +1,4 @@
-//! Fractions in Rust alone.
+//! Fractions in Rust alone: what `rational_gmp` has.
 
 use std::cmp::Ordering;
 
@@ -11,17 +11,14 @@ pub(super) fn quotient(p: Integer, q: Integer) -> Rational {
     Rational::from_parts_signed(p, q)
 }
 
-/// Numerator and denominator.
 pub(super) fn parts(x: &Rational) -> (Integer, Integer) {
     (x.numerator().clone(), x.denominator().clone().into())
 }
 
-/// The nearest double.
 pub(super) fn nearest_double(x: &Rational) -> f64 {
     x.to_f64().value()
 }
 
-/// The greatest integer `≤ x`; `None` where it does not fit.
 pub(super) fn floor(x: &Rational) -> Option<i64> {
     x.floor().try_into().ok()
 }
@@ -34,12 +31,10 @@ pub(super) fn sign(x: &Rational) -> Ordering {
     }
 }
 
-/// `x/2`.
 pub(super) fn half(x: Rational) -> Rational {
     x / Rational::from(2)
 }
 
-/// `√n` of a perfect square; `None` for any other integer.
 pub(super) fn exact_root(n: &Integer) -> Option<Integer> {
     let (root, rest) = UBig::try_from(n.clone()).ok()?.sqrt_rem();
     rest.is_zero().then(|| root.into())

@@ -37,23 +37,15 @@ fn shown_digits<S: Scalar>(x: &S, digits: u32) -> Option<u32> {
     (known >= 1.0).then(|| x.proved(digits.min(known as u32))).filter(|digits| *digits > 0)
 }
 
-/// The bound of the error of the shortest text that reads as the same double, which may be half a unit of the last bit
-/// off that double; `0` where the double is exact.
-pub fn double_bound_text<S: Scalar>(x: &S) -> String {
-    bound_of_log2(double_bound(x))
-}
-
-/// `log₂` of what [`double_bound_text`] says.
+/// `log₂` of the bound of the error of the shortest text that reads as the same double, which may be half a unit of the
+/// last bit off that double.
+#[cfg(any(feature = "cli", all(test, feature = "mp")))]
 pub(crate) fn double_bound<S: Scalar>(x: &S) -> f64 {
     with_rounding(x, x.to_f64().abs().log2() - f64::from(f64::MANTISSA_DIGITS))
 }
 
-/// The bound of the error of [`show`]'s text, with the rounding to its digits; `0` where the text is exact.
-pub fn shown_bound_text<S: Scalar>(x: &S, digits: u32) -> String {
-    bound_of_log2(shown_bound(x, digits))
-}
-
-/// `log₂` of what [`shown_bound_text`] says.
+/// `log₂` of the bound of the error of [`show`]'s text, with the rounding to its digits.
+#[cfg(any(feature = "cli", all(test, feature = "mp")))]
 pub(crate) fn shown_bound<S: Scalar>(x: &S, digits: u32) -> f64 {
     let size = x.to_f64().abs();
     let rounding = shown_digits(x, digits).map_or(size.log2(), |digits| {
@@ -66,6 +58,7 @@ pub(crate) fn shown_bound<S: Scalar>(x: &S, digits: u32) -> f64 {
 }
 
 /// The bound of `x` and of a rounding of the size `2^rounding` together.
+#[cfg(any(feature = "cli", all(test, feature = "mp")))]
 fn with_rounding<S: Scalar>(x: &S, rounding: f64) -> f64 {
     let own = x.log2_error();
     if own.is_infinite() {
@@ -113,10 +106,11 @@ pub(crate) fn bound_json<S: Scalar>(x: &S, digits: u32) -> serde_json::Value {
     if x.ends(1).is_some() {
         return serde_json::Value::Null;
     }
-    let text = match x.as_double() {
-        Some(_) if show(x, DOUBLE_DIGITS) != "0" => double_bound_text(x),
-        _ => shown_bound_text(x, if digits == 0 { DOUBLE_DIGITS } else { digits }),
+    let log2 = match x.as_double() {
+        Some(_) if show(x, DOUBLE_DIGITS) != "0" => double_bound(x),
+        _ => shown_bound(x, if digits == 0 { DOUBLE_DIGITS } else { digits }),
     };
+    let text = bound_of_log2(log2);
     match text.parse::<f64>() {
         Ok(bound) if bound > 0.0 || text == "0" => bound.into(),
         _ => text.into(),

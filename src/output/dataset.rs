@@ -6,7 +6,7 @@ use std::rc::Rc;
 use serde_json::Value;
 
 use crate::mapped::{MapEach, mapped};
-use crate::number::{Number, Scalar, bound_json, number_json, show, shown_bound_text};
+use crate::number::{Number, Scalar, bound_json, bound_of_log2, number_json, show, shown_bound};
 
 /// A number of any system, as writers ask it.
 pub(crate) trait Shown {
@@ -22,7 +22,7 @@ impl<S: Scalar> Shown for S {
         show(self, digits)
     }
     fn printed_bound(&self, digits: u32) -> String {
-        shown_bound_text(self, digits)
+        bound_of_log2(shown_bound(self, digits))
     }
     fn json(&self, digits: u32) -> Value {
         number_json(self, digits)

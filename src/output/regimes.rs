@@ -8,7 +8,7 @@ use super::dataset::{Column, Dataset};
 use super::npz::Npz;
 use crate::draw::{Axis, Key, Panel, Shape, Sheet, Size, Stroke};
 use crate::mapped::{CollectVec, MapEach, mapped};
-use crate::number::{Estimate, Number, Scalar, double_bound_text};
+use crate::number::{Estimate, Number, Scalar, bound_of_log2, double_bound};
 use crate::sweep::{BANDS, Map, Regime, Spread, threshold, threshold_near};
 
 /// The colour of each band, and its name: those with a bounce, none, not decided.
@@ -44,7 +44,7 @@ pub(crate) fn regimes_data(map: &Map) -> Dataset {
 pub(crate) fn threshold_data(map: &Map) -> Dataset {
     let row = |r: &Number| {
         let m = threshold(&Estimate::from_number(r, &()));
-        let [m, bound] = m.map(|m| [m.text(), double_bound_text(&m)]).unwrap_or_default();
+        let [m, bound] = m.map(|m| [m.text(), bound_of_log2(double_bound(&m))]).unwrap_or_default();
         vec![r.to_string().into(), m.into(), bound.into()]
     };
     let columns = ["damping_ratio", "threshold", "uncertainty"].map_each(Column::new).to_vec();

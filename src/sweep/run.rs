@@ -9,7 +9,7 @@ use super::grid::Grid;
 use crate::error::Error;
 use crate::mapped::mapped;
 use crate::motion::Motion;
-use crate::number::{Number, Scalar, bound_json, number_json, shown_bound_text};
+use crate::number::{Number, Scalar, bound_json, bound_of_log2, number_json, shown_bound};
 use crate::problem::{Problem, ProblemError, Run};
 use crate::quantity::{Needs, One, Quantity, UnitSystem, Units};
 use crate::solve::{ExactnessEnd, History, Numbers, Plan, Question, Solution, Target, Visitor, unobserved};
@@ -123,7 +123,7 @@ impl Visitor for Found<'_> {
             Ok(Ok([value, _])) => Cell {
                 value: number_json(&value, digits),
                 uncertainty: match bound_json(&value, digits) {
-                    Value::Null => shown_bound_text(&value, digits).into(),
+                    Value::Null => bound_of_log2(shown_bound(&value, digits)).into(),
                     bound => bound,
                 },
                 note: None,

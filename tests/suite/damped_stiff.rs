@@ -6,7 +6,7 @@ use crate::stripped::Stripped;
 #[cfg(feature = "mp")]
 use crate::stripped::damped;
 use dalembert::engine::{ContactThenCells, FirstContact, Motion};
-use dalembert::{EventKind, Material, Number, Parameters, Problem, Run, Side, Speed, Start};
+use dalembert::{EventKind, Material, Number, Parameters, Problem, Run, Side, Speed, Start, Warning};
 use serde_json::Value;
 
 /// The rod of a case, dropped.
@@ -140,8 +140,12 @@ fn hops_are_found_or_said() {
     }
     assert!(history.error_estimate() < 1e-8);
     // The pair at t = 39.80692656283, 5e-13 apart, is not resolved.
-    let unresolved = history.carried().unresolved().unwrap();
-    assert!(unresolved.from < 37.9 && unresolved.longest > 5e-13 && unresolved.longest < 1e-7, "{unresolved:?}");
+    let warnings = history.carried().warnings();
+    let hops = |warning: &Warning| match warning {
+        Warning::HopsUnresolved { from, longest, .. } => *from < 37.9 && *longest > 5e-13 && *longest < 1e-7,
+        _ => false,
+    };
+    assert!(warnings.iter().any(hops), "{warnings:?}");
 }
 
 /// No stretch of the stress history is shorter than what its ends may be off, in the scenes that had such spikes.

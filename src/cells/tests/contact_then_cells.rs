@@ -26,15 +26,9 @@ fn events_move_with_a_displaced_release_as_the_bound_says() {
             let (time, leaves) = (first.time.into_value() + displaced, first.end_velocity.into_value());
             let release = (time, f64::abs(displaced) + first.time_error, leaves);
             let form = straight.contact.form();
-            let off = Damped::after_bounce(
-                &problem,
-                &(),
-                Effort::of(13.0),
-                form,
-                (&release.0, release.1, &release.2),
-                &Estimate::new(0.0, f64::INFINITY),
-                &unobserved,
-            )?;
+            let task = Task { problem: &problem, precision: &(), effort: Effort::of(13.0), observe: &unobserved };
+            let nothing = Estimate::new(0.0, f64::INFINITY);
+            let off = Damped::after_bounce(&task, form, (&release.0, release.1, &release.2), &nothing)?;
             Ok((straight, off))
         };
         let (straight, off) = solve().unwrap_or_else(|error| unreachable!("{error}"));

@@ -1,17 +1,15 @@
 //! The bounds of a run from a state that is displaced by hand: they hold without room to spare, while roundings alone
 //! stay far below them.
 
-use std::ops::ControlFlow;
-
 use proptest::prelude::*;
 
 use super::bounce::Held;
-use super::effort::Effort;
+use super::effort::{Effort, Task};
 use super::history::Damped;
 use super::start::medium;
 use crate::error::Error;
 use crate::first_contact::ContactHistory;
-use crate::motion::{Motion, Side};
+use crate::motion::{Motion, Side, unobserved};
 use crate::number::{Estimate, Number, Scalar};
 use crate::problem::{Problem, Run};
 use crate::reason::Warning;
@@ -60,7 +58,7 @@ fn both(case: &Displaced) -> Result<Option<(History, History)>, Error> {
         let effort = Effort { cells: 200_000, ..Effort::of(13.0) };
         let (medium, data) = medium::<f64>(&problem, &(), effort.digits, 1)?;
         let held = Held::until(contact.form(), &data, release.time.value());
-        let (mut state, error) = held.state(&medium, &data, Effort::of(12.0).marched_trips);
+        let (mut state, error) = held.state(&medium, &data);
         for (segment, (part, up)) in state.segments.iter_mut().zip(case.shape.iter().cycle()) {
             segment.q[0] += size * part;
             segment.q[1] += size * (1.0 - part.abs()) * if *up { 1.0 } else { -1.0 };
@@ -70,7 +68,8 @@ fn both(case: &Displaced) -> Result<Option<(History, History)>, Error> {
         let rate = Estimate::new(0.0, f64::INFINITY);
         let release = ((leaves, release.time_error / data.units.time), rate);
         let state = (held, (state, error + size));
-        Damped::released(&problem, &(), effort, (medium, data), state, release, &|_, _| ControlFlow::Continue(()))
+        let task = Task { problem: &problem, precision: &(), effort, observe: &unobserved };
+        Damped::released(&task, (medium, data), state, release)
     };
     Ok(Some((run(0.0)?, run(case.size)?)))
 }

@@ -1,16 +1,13 @@
 //! What is proved of a motion whose start is known to so much only holds of the one whose start is off by as much: no
 //! rounding is near, so that it is the propagation of errors that is held to account.
 
-use std::ops::ControlFlow;
-
 use rug::Float;
 
 use super::*;
-use crate::cells::effort::Effort;
-use crate::cells::follow::Goal;
+use crate::cells::effort::{Effort, Task};
 use crate::cells::history::Damped;
 use crate::cells::start::medium;
-use crate::motion::{Motion, Pair, Side};
+use crate::motion::{Motion, Pair, Side, unobserved};
 use crate::number::{Estimate, Number, Scalar};
 use crate::problem::{Problem, Profile, Run, Start};
 
@@ -23,11 +20,9 @@ fn proved(problem: &Problem, (even, masses): (f64, f64)) -> Damped<Float> {
     let mut proof = Proof::new(&medium);
     let unit = data.units.velocity.to_f64();
     (proof.even, proof.masses) = (even / unit, masses / unit);
-    let mut follower = Follower::new(&medium, &data, Some(proof));
-    let goal = Goal::of(problem, &BITS, &data);
-    let ending = follower.run(&goal, effort, &|_, _| ControlFlow::Continue(())).unwrap();
-    let found = follower.found(ending);
-    Damped::record_of(medium, data, None, found, problem, &BITS).unwrap()
+    let task = Task { problem, precision: &BITS, effort, observe: &unobserved };
+    let found = Follower::new(&medium, &data, Some(proof)).run(&task).unwrap();
+    Damped::record_of(&task, (medium, data), None, found).unwrap()
 }
 
 /// The most that a number is off, as a part of its bound; and how many were compared.
