@@ -90,7 +90,8 @@ fn a_start_with_another_velocity_is_within_what_is_proved() {
     for damping in ["0.001", "0.02", "0.1", "0.4"] {
         for speed in ["0.3", "3", "10", "100"] {
             let start = |speed: Number| {
-                let profile = Profile { displacement: Vec::new(), velocity: vec![(0.into(), speed)] };
+                let velocity = vec![(0.into(), speed.clone()), (1.into(), speed)];
+                let profile = Profile { displacement: Vec::new(), velocity };
                 Problem { start: Start::Profile(profile), ..rod(damping, 4) }
             };
             // 1e-30 faster.
@@ -113,7 +114,7 @@ fn a_start_with_another_kink_is_within_what_is_proved() {
                 // v_x = bend up to the kink, and nothing beyond it.
                 let height = number(&(number(bend).to_rational() * kink.to_rational()).to_string());
                 let displacement = vec![(0.into(), 0.into()), (kink, height.clone()), (1.into(), height)];
-                let velocity = vec![(0.into(), number(&format!("-{speed}")))];
+                let velocity = [0, 1].map(|x: i64| (x.into(), number(&format!("-{speed}")))).to_vec();
                 Problem { start: Start::Profile(Profile { displacement, velocity }), ..rod(damping, 3) }
             };
             // The jump of v_x is moved by 1e-30 of 2L: in q, and in p.
