@@ -12,6 +12,7 @@ use crate::motion::{AtStart, Datum, Motion};
 use crate::number::{Bounded, DOUBLE_DIGITS, Dual, Estimate, Float, Number, Rational, Reads, Scalar};
 use crate::problem::{Material, Parameter, Parameters, Problem};
 use crate::quantity::{Measure, Quantity};
+use crate::reason::Warning;
 
 type OneSide = Result<Rational, NoDerivative>;
 
@@ -118,11 +119,19 @@ pub(super) fn by_fractions(asked: &Asked<'_>, run: &Engined<f64>) -> Result<Opti
     if asked.rung != Rung::Fractions {
         return Ok(None);
     }
-    let found = mapped(in_fractions(asked)?, |row| mapped(row, |cell| cell.map(|it| it.map(Estimate::read))));
+    let mut settled = true;
+    let found = mapped(in_fractions(asked)?, |row| {
+        mapped(row, |cell| {
+            cell.map(|found| {
+                settled &= !found.sides().contains(&Err(NoDerivative::Unsettled));
+                found.map(Estimate::read)
+            })
+        })
+    });
     let base = asked.values(asked.problem, &**run)?;
     let listed = |row: &Vec<Option<Estimate<f64>>>| mapped(row, Option::is_some);
     let same = found.iter().map(|row| mapped(row, Option::is_some)).eq(base.iter().map(listed));
-    Ok(same.then_some(found))
+    Ok((same && settled).then_some(found))
 }
 
 /// The numbers of the problem with a value that grows, or shrinks, with their rates; and whether all comparisons on the
@@ -180,7 +189,10 @@ fn with_rates<S: Bounded>(
             }
         }
     }
-    let settled = history.warnings().is_empty() && !history.ending().is_open();
+    // What is listed comes before a coincidence in the trip that begins then.
+    let before = |from: f64| asked.at.is_none() && history.events().iter().all(|event| event.time.to_f64() < from);
+    let settled = |warning: &Warning| matches!(warning, Warning::Coincidence { from } if before(*from));
+    let settled = history.warnings().iter().all(settled) && !history.ending().is_open();
     Ok((rows, settled))
 }
 
