@@ -219,7 +219,7 @@ def test_files(tmp_path):
         (TypeError, r"found length = \[1\], of type list", lambda: rod(length=[1])),
         (TypeError, "array of shape", lambda: rod(velocity=np.zeros((3, 3)))),
         (ValueError, "found velocity = NaN", lambda: rod(impact_speed=None, velocity=[(0, np.nan), (1, 0)])),
-        (ValueError, "found time NaN, expected one between 0 and 8, ", lambda: rod().solve().strain(np.nan)),
+        (ValueError, "found time NaN, expected one between 0 and 8.0, ", lambda: rod().solve().strain(np.nan)),
         (ValueError, "expected one between 0 and 1.0, the rod's length", lambda: rod().solve().field(2, 1)),
         (ValueError, "found table 'contact', expected one of events", lambda: rod().solve().to_frame("contact")),
         (ValueError, "found side = up, expected left", lambda: dalembert.solve("paper-strong").strain(1, "up")),

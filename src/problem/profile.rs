@@ -24,6 +24,22 @@ pub(super) fn check(given: &ByPath<Points>, length: &Number) -> Result<Profile, 
     Ok(Profile { displacement: read("displacement")?, velocity: read("velocity")? })
 }
 
+/// Whether each list of a profile that was put together by hand is empty or reaches over the whole rod.
+pub(crate) fn spans(profile: &Profile, length: &Number) -> Result<(), ProblemError> {
+    for (key, list) in [("displacement", &profile.displacement), ("velocity", &profile.velocity)] {
+        let whole = match list.as_slice() {
+            [] => true,
+            [(first, _), .., (last, _)] => first.is_zero() && last.compare(length).is_eq(),
+            [_] => false,
+        };
+        if !whole {
+            let (path, found) = (format!("start.{key}"), format!("{} points of the {key}", list.len()));
+            return Err(ProblemError::new(Kind::Profile, &path, found, format!("2 to {MAX_POINTS} {SHAPE}")));
+        }
+    }
+    Ok(())
+}
+
 /// The points of one function on the whole rod.
 fn read(key: &str, points: &Points, length: &Number) -> Result<Vec<(Number, Number)>, ProblemError> {
     if !(2..=MAX_POINTS).contains(&points.len()) {

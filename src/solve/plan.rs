@@ -11,7 +11,7 @@ use crate::error::Error;
 use crate::lattice::{Limits, Undamped};
 use crate::mapped::CollectVec;
 use crate::number::{Bounded, Number, Scalar, bits_for_digits};
-use crate::problem::{Parameters, Problem, Run};
+use crate::problem::{Parameters, Problem, Run, Start, profile};
 use crate::reason::Warning;
 
 /// How a question is going to be answered. No engine and no caller decides any of it again.
@@ -533,6 +533,9 @@ const SPARE_DIGITS: u32 = 8;
 const FLOOR_DIGITS: u32 = 30;
 
 fn check(problem: &Problem, numbers: Numbers) -> Result<(), Error> {
+    if let Start::Profile(start) = &problem.start {
+        profile::spans(start, &problem.rod.length)?;
+    }
     let digits = match numbers {
         Numbers::Double(accuracy) => {
             return match accuracy.filter(|accuracy| !(1e-300..=0.1).contains(accuracy)) {

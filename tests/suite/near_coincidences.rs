@@ -48,8 +48,8 @@ fn tuned(dice: &mut Dice) -> Option<(Problem, Float)> {
     let phase = |history: &History<Float>| {
         let events = history.events();
         let alike = events.len() > later && events.iter().zip(&kinds).all(|(event, kind)| event.kind == *kind);
-        let from = earlier.map_or_else(|| Float::new(200), |k| events[k].time.clone());
-        alike.then(|| (Float::with_val(200, &events[later].time) - from) / &trip)
+        let from = || earlier.map_or_else(|| Float::new(200), |k| events[k].time.clone());
+        alike.then(|| (Float::with_val(200, &events[later].time) - from()) / &trip)
     };
     let start = phase(&first)?;
     let whole = start.to_f64().round().max(if earlier.is_some() { 1.0 } else { 0.0 });

@@ -1,7 +1,8 @@
 //! The builder, and that it and a scene file end in the same checks.
 
 use dalembert::{
-    Builder, Material, Number, Problem, ProblemError, ProblemErrorKind as Kind, Run, Scene, Speed, Start, Top, Written,
+    Builder, Error, Material, Number, Problem, ProblemError, ProblemErrorKind as Kind, Profile, Run, Scene, Speed,
+    Start, Top, Written,
 };
 use proptest::prelude::*;
 use proptest::strategy::ValueTree;
@@ -518,6 +519,22 @@ fn draft() -> impl Strategy<Value = Draft> {
             Draft { numbers, fixed, profiles, impacts }
         },
     )
+}
+
+/// What nothing has checked is an error too, not a panic.
+#[test]
+fn a_start_that_is_put_together_reaches_over_the_whole_rod() {
+    let start = |points: &[&str]| points.iter().map(|x| (n(x), n("-3"))).collect::<Vec<_>>();
+    for damping in [None, Some(n("0.1"))] {
+        for (points, expected) in [(&["0"][..], 1), (&["0", "0.9"], 2), (&["0.1", "1"], 2)] {
+            let mut problem = rod().build().unwrap();
+            problem.rod.damping.clone_from(&damping);
+            problem.start = Start::Profile(Profile { displacement: Vec::new(), velocity: start(points) });
+            let Err(Error::Problem(error)) = problem.solve() else { panic!("{points:?}") };
+            assert_eq!((error.kind, error.path.as_str()), (Kind::Profile, "start.velocity"));
+            assert!(error.to_string().contains(&format!("{expected} points of the velocity")), "{error}");
+        }
+    }
 }
 
 proptest! {
