@@ -211,11 +211,19 @@ impl<S: Bounded> Bounded for Dual<S> {
         self.rate = self.rate.clone().widened(&(by * &late).rate);
     }
 
-    /// First order does not tell which of a root and a break comes first where both are one in it; in rounded numbers
-    /// it does not tell the rate either.
+    /// The root s has the rate `−(ȧ + ḃ s + ċ s²/2)/(b + c s)`, for `a + b s + c s²/2`. Never `None`: root and break may
+    /// be one in first order only.
     fn root_deviation(&self, rate: &Self, bend: &Self) -> Option<Self> {
-        let value = self.value.root_deviation(&rate.value, &bend.value).unwrap_or_else(|| self.value.zero());
-        Some(Dual { known: self.bits().is_none(), ..Dual::constant(value) })
+        let zero = || self.value.zero();
+        let root = self.value.root_deviation(&rate.value, &bend.value).unwrap_or_else(zero);
+        let slope = bend.value.clone() * &root + &rate.value;
+        let rise = ((bend.rate.clone() * &root).halved() + &rate.rate) * &root + &self.rate;
+        let rate = match slope.vanishes() {
+            Ok(false) => rise / slope,
+            _ if self.bits().is_some() => zero().widened(&self.value.double(f64::INFINITY)),
+            _ => zero(),
+        };
+        Some(Dual::new(root, rate))
     }
 
     fn halved(self) -> Self {

@@ -9,10 +9,10 @@
 
 use super::derivative::{Asked, Derivative, Derivatives, Rows, at, of_each};
 use super::ladder::{Engined, Ladder};
-use super::plan::Plan;
+use super::plan::{Engine, Plan};
 use super::question::Question;
 use crate::error::Error;
-use crate::mapped::CollectVec;
+use crate::mapped::{CollectVec, try_mapped};
 use crate::motion::Motion;
 use crate::number::{Estimate, Number, Rational, Scalar};
 use crate::problem::Problem;
@@ -70,7 +70,11 @@ fn with_step(
         )?;
         Ok::<Rows<Double>, Error>(found.1.0)
     };
-    let runs = Threads::default().all(3, run)?;
+    // On the lattice a run takes less time than a thread to begin.
+    let runs = match asked.plan.engine {
+        Engine::Lattice => try_mapped(0..3, run)?,
+        _ => Threads::default().all(3, run)?,
+    };
     let scale = if value == 0.0 { asked.by.scale_of_zero(asked.problem).to_f64() } else { value };
     let cubic = Cubic { part: step.to_f64(), value: scale / asked.by.power(asked.problem) as f64, one_sided };
     let mut settled = true;

@@ -18,6 +18,30 @@ type OneSide = Result<Rational, NoDerivative>;
 
 /// The derivatives in fractions that are `asked` for; none for damping and for a gravity that is zero.
 pub(super) fn in_fractions(asked: &Asked<'_>) -> Result<Derivatives<Rational>, Error> {
+    let (rates, settled) = on_both_sides(asked)?;
+    let quotients = if settled { Err(Error::NoMultiprecision) } else { differences::of(asked, DOUBLE_DIGITS) };
+    let quotients = match quotients {
+        Err(Error::NoMultiprecision) => None,
+        quotients => Some(quotients?),
+    };
+    Ok(of_each(&rates, |place, sides| {
+        derivative(match &quotients {
+            Some(quotients) => confirmed(sides.clone(), at(quotients, place)),
+            None if settled || sides[0] == sides[1] => sides.clone(),
+            None => [Err(NoDerivative::Unsettled), Err(NoDerivative::Unsettled)],
+        })
+    }))
+}
+
+fn derivative([left, right]: [OneSide; 2]) -> Derivative<Rational> {
+    match (left, right) {
+        (Ok(left), Ok(right)) if left == right => Derivative::One(right),
+        (left, right) => Derivative::Sides { left, right },
+    }
+}
+
+/// The rates from the left and from the right, and whether first order settles them all.
+fn on_both_sides(asked: &Asked<'_>) -> Result<(Rows<[OneSide; 2]>, bool), Error> {
     let value = asked.by.value_in::<Rational>(asked.problem, &())?;
     let zero = value.vanishes() == Ok(true);
     if zero && matches!(asked.by, Parameter::Gravity | Parameter::Length) || asked.by == Parameter::Damping {
@@ -45,23 +69,7 @@ pub(super) fn in_fractions(asked: &Asked<'_>) -> Result<Derivatives<Rational>, E
         settled &= left.is_ok() && right.is_ok();
         [left, right]
     });
-    let quotients = if settled { Err(Error::NoMultiprecision) } else { differences::of(asked, DOUBLE_DIGITS) };
-    let quotients = match quotients {
-        Err(Error::NoMultiprecision) => None,
-        quotients => Some(quotients?),
-    };
-    Ok(of_each(&rates, |place, [left, right]| {
-        let sides = [left.clone(), right.clone()];
-        let [left, right] = match &quotients {
-            Some(quotients) => confirmed(sides, at(quotients, place)),
-            None if settled || left == right => sides,
-            None => [Err(NoDerivative::Unsettled), Err(NoDerivative::Unsettled)],
-        };
-        match (left, right) {
-            (Ok(left), Ok(right)) if left == right => Derivative::One(right),
-            (left, right) => Derivative::Sides { left, right },
-        }
-    }))
+    Ok((rates, settled))
 }
 
 /// The rates on both sides, as far as difference quotients confirm them.
@@ -114,28 +122,21 @@ pub(super) fn in_doubles(asked: &Asked<'_>, run: &Engined<f64>) -> Result<Option
     Ok(settled.then_some(found))
 }
 
-/// The derivatives in doubles that are `asked` for, by fractions, which have told what comes first in this `run`.
+/// The derivatives in doubles that are `asked` for, by fractions, which have told what comes first in this `run`; `None`
+/// where first order does not settle them.
 pub(super) fn by_fractions(asked: &Asked<'_>, run: &Engined<f64>) -> Result<Option<Derivatives<Estimate<f64>>>, Error> {
     if asked.rung != Rung::Fractions {
         return Ok(None);
     }
-    let mut settled = true;
-    let found = mapped(in_fractions(asked)?, |row| {
-        mapped(row, |cell| {
-            cell.map(|found| {
-                settled &= !found.sides().contains(&Err(NoDerivative::Unsettled));
-                found.map(Estimate::read)
-            })
-        })
-    });
+    let (rates, settled) = on_both_sides(asked)?;
     let base = asked.values(asked.problem, &**run)?;
     let listed = |row: &Vec<Option<Estimate<f64>>>| mapped(row, Option::is_some);
-    let same = found.iter().map(|row| mapped(row, Option::is_some)).eq(base.iter().map(listed));
-    Ok((same && settled).then_some(found))
+    let settled = settled && rates.iter().map(|row| mapped(row, Option::is_some)).eq(base.iter().map(listed));
+    Ok(settled.then(|| of_each(&rates, |_, sides| derivative(sides.clone()).map(Estimate::read))))
 }
 
-/// The numbers of the problem with a value that grows, or shrinks, with their rates; and whether all comparisons on the
-/// way are settled.
+/// The numbers of the problem with a value that grows, or shrinks, with their rates, as far as comparisons are settled;
+/// and whether no two events were taken for one on the way.
 fn with_rates<S: Bounded>(
     asked: &Asked<'_>,
     problem: &Problem,
@@ -192,8 +193,7 @@ fn with_rates<S: Bounded>(
     // What is listed comes before a coincidence in the trip that begins then.
     let before = |from: f64| asked.at.is_none() && history.events().iter().all(|event| event.time.to_f64() < from);
     let settled = |warning: &Warning| matches!(warning, Warning::Coincidence { from } if before(*from));
-    let settled = history.warnings().iter().all(settled) && !history.ending().is_open();
-    Ok((rows, settled))
+    Ok((rows, history.warnings().iter().all(settled)))
 }
 
 /// The power of the value in the unit of `quantity`: stress and force have `E`, which is `c² ρ` at the same density,

@@ -41,3 +41,20 @@ fn rates_in_doubles_carry_their_bounds() {
     let three = Dual::constant(Estimate::rounded(0.3, 1.0));
     assert_eq!((tenths.compare(&three), three.compare(&three)), (Err(Open), Ok(Ordering::Equal)));
 }
+
+/// `a + b s` vanishes at `s = −a/b`, which has the rate `−ȧ/b + a ḃ/b²`: with a = 0 within 2⁻⁴³, ȧ = 2⁻⁴⁰, b = −2 and
+/// ḃ = 1 that is 2⁻⁴¹ within 2⁻⁴⁵, and the bound at most four times that.
+#[test]
+fn a_root_next_to_a_break_has_a_rate() {
+    let known = |x: f64| Estimate::exact(x);
+    let height = Dual::new(Estimate::new(0.0, 1024.0), known(0.5f64.powi(40)));
+    let slope = Dual::new(known(-2.0), known(1.0));
+    let found = height.root_deviation(&slope, &Dual::constant(known(0.0))).unwrap();
+    let rate = found.rate().unwrap();
+    let (size, within) = (rate.value().abs(), rate.bound());
+    assert!((size - 0.5f64.powi(41)).abs() <= within, "{rate:?}");
+    assert!((0.5f64.powi(45)..0.5f64.powi(43)).contains(&within), "{rate:?}");
+    // No slope, no rate: nothing is known of it.
+    let flat = height.root_deviation(&Dual::constant(known(0.0)), &Dual::constant(known(0.0))).unwrap();
+    assert_eq!(flat.rate().unwrap().bound(), f64::INFINITY);
+}
