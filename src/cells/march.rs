@@ -13,7 +13,6 @@ use std::sync::OnceLock;
 
 use super::cell::{Cell, add_scaled, cross, diagonal, scale};
 use super::series::{Basis, at_one, at_zero, bound, derivative, evaluate, terms_for};
-use super::start::on_circle;
 use super::uncertainty::Off;
 use crate::number::Rounded;
 use crate::special::gauss_legendre;
@@ -372,4 +371,10 @@ impl<S: Rounded> State<S> {
     pub(super) fn bound(&self) -> f64 {
         self.segments.iter().map(|segment| bound(&segment.q, 0)).fold(0.0, f64::max)
     }
+}
+
+/// The place on the circle of a round trip, `0 … 2` given.
+pub(super) fn on_circle<S: Rounded>(place: S) -> S {
+    let one = place.one();
+    if place >= one { place - one } else { place }
 }

@@ -93,12 +93,6 @@ pub(super) fn on_grid<S: Rounded>(place: S) -> S {
     place + &one - &one
 }
 
-/// The place on the circle of a round trip, `0 … 2` given.
-pub(super) fn on_circle<S: Rounded>(place: S) -> S {
-    let one = place.one();
-    if place >= one { place - one } else { place }
-}
-
 /// `φ₁(z) = (eᶻ − 1)/z = Σ zᵏ/(k+1)!` for `|z| ≤ 2`, without a division by `z`.
 fn phi_one<S: Rounded>(z: &S) -> S {
     let (mut sum, mut term) = (z.one(), z.one());

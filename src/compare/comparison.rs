@@ -85,17 +85,18 @@ impl Options {
     fn samples(&self, source: Source, length: f64, units: &Units) -> Result<Samples, CompareError> {
         let of = |number: &Option<Number>| number.as_ref().map_or(0.0, Number::to_f64);
         let counted = self.dt.is_some();
-        let sized = source.is_sized;
-        let guess =
-            (sized && self.map.is_none() && !counted && source.names.is_empty() && source.width > 3).then_some(PLAIN);
-        let map = Map::of(guess.or(self.map.as_deref()), &source.names, source.width, counted).and_then(|map| {
-            let names = if self.map.is_none() { source.names.as_slice() } else { &[] };
-            let (conversions, converted) = map.conversions(names, units)?;
-            Ok((map, conversions, converted))
-        });
+        let sized = source.head.is_sized;
+        let guess = (sized && self.map.is_none() && !counted && source.head.names.is_empty() && source.head.width > 3)
+            .then_some(PLAIN);
+        let map =
+            Map::of(guess.or(self.map.as_deref()), &source.head.names, source.head.width, counted).and_then(|map| {
+                let names = if self.map.is_none() { source.head.names.as_slice() } else { &[] };
+                let (conversions, converted) = map.conversions(names, units)?;
+                Ok((map, conversions, converted))
+            });
         let (map, conversions, converted) = map.map_err(|error| {
-            let error = match (error, source.misnamed) {
-                (MapError::NoNames, Some(found)) => MapError::Names { found, expected: source.width },
+            let error = match (error, source.head.misnamed) {
+                (MapError::NoNames, Some(found)) => MapError::Names { found, expected: source.head.width },
                 (error, _) => error,
             };
             CompareError::Map { file: source.file.clone(), error }

@@ -1,44 +1,13 @@
 //! How the contact ends: the bounce time `t_b`, the first root or jump of the stress, or the reason why there is none.
 
 use super::cells::{Kernels, Search};
-use super::field::{FirstContact, Trips};
+use super::field::FirstContact;
+use super::outcome::{Bounce, BounceKind};
 use crate::reason::{Doubt, NoBounceReason};
 use crate::special::BoundedSpecial;
 
 /// Cells `(k t₁, (k+1) t₁)` that are searched.
 const MOST_CELLS: i64 = 256;
-
-/// How the contact ends.
-#[derive(Clone, Debug)]
-pub enum Bounce<N> {
-    /// The ground lets go.
-    At {
-        /// `t_b`.
-        time: N,
-        /// The same in round trips.
-        trips: Trips<N>,
-        /// At a jump of the stress or at a root.
-        kind: BounceKind,
-    },
-    /// The stress never becomes tensile.
-    Never(NoBounceReason),
-    /// Neither could be shown.
-    Undecided {
-        /// Up to here there is no bounce.
-        until: N,
-        /// What stands in the way.
-        why: Doubt,
-    },
-}
-
-/// What the stress does at the bounce.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum BounceKind {
-    /// It jumps to a tensile value at a lattice time `k t₁`.
-    Jump,
-    /// It rises through zero.
-    Root,
-}
 
 impl<N: BoundedSpecial> FirstContact<N> {
     /// `t_b` (1.10): the end of the first contact.

@@ -4,9 +4,9 @@ use std::cell::RefCell;
 use std::collections::BTreeMap;
 use std::rc::Rc;
 
-use super::bounce::{Bounce, BounceKind};
 use super::field::{FirstContact, Shares, Trips};
 use super::first_root::{FirstRoot, coefficients, first_root};
+use super::outcome::{Bounce, BounceKind};
 use crate::reason::{Doubt, NoBounceReason};
 use crate::special::BoundedSpecial;
 

@@ -2,8 +2,8 @@
 
 use std::sync::OnceLock;
 
-use super::bounce::{Bounce, BounceKind};
 use super::field::{FirstContact, Trips};
+use super::outcome::{Bounce, BounceKind};
 use super::rebound::Rebound;
 use super::static_state::{StaticState, faded_after};
 use crate::error::Error;

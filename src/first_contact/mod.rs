@@ -11,13 +11,14 @@ mod field;
 mod first_root;
 mod history;
 mod integrals;
+mod outcome;
 mod peak;
 mod pieces;
 mod rebound;
 mod static_state;
 
-pub use bounce::{Bounce, BounceKind};
 pub use cells::Kernels;
 pub use field::{FirstContact, Trips};
 pub use history::ContactHistory;
+pub use outcome::{Bounce, BounceKind};
 pub use rebound::Rebound;

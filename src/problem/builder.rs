@@ -1,7 +1,7 @@
 //! A problem put together value by value.
 
 use super::profile::Points;
-use super::validate::Draft;
+use super::validate::{Draft, IMPACT};
 use super::{Material, Problem, ProblemError, Profile, Run, Speed, Start, Top, Written};
 use crate::mapped::mapped;
 use crate::number::Number;
@@ -17,7 +17,6 @@ pub struct Builder {
     base: Draft,
 }
 
-pub(super) const IMPACT: &[&str] = &["impact.speed", "impact.gap", "impact.drop_height"];
 /// What is set replaces what the base has of its group: in place of the wave speed it can have those of the
 /// material; a gap goes with a speed, and a drop height with neither.
 const EXCLUSIVE: [&[&str]; 4] = [

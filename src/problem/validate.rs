@@ -1,11 +1,12 @@
 //! The one set of checks that every problem goes through, from a scene file or from the builder.
 
-use super::builder::IMPACT;
 use super::given::{ByPath, Given, UNITS, range, within};
 use super::parameters::touch_speed;
 use super::profile::{self, Points};
 use super::{Material, Problem, ProblemError, ProblemErrorKind as Kind, Rod, Run, Speed, Start, Top, Written};
 use crate::number::Number;
+
+pub(super) const IMPACT: &[&str] = &["impact.speed", "impact.gap", "impact.drop_height"];
 
 const DAMPING_RATIO: (f64, f64) = (1e-305, 1e6);
 const SPEED_RATIO: (f64, f64) = (1e-12, 1e12);

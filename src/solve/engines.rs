@@ -6,19 +6,16 @@ use super::asked::{Longer, Open, Telling};
 use super::converted::{Converted, confirmed};
 use super::derivative::{Asked, Derivatives};
 use super::ladder::{Engined, Target};
-use super::plan::{DEFAULT_ACCURACY, Engine, Plan, Rung};
+use super::plan::{DEFAULT_ACCURACY, Plan, Rung};
+use super::planned::estimates;
 use super::question::Observer;
 use super::{differences, interpolated, long, rates};
-use crate::cells::{ContactThenCells, Damped, Task};
 use crate::error::Error;
-use crate::first_contact::{Bounce, ContactHistory, FirstContact};
-use crate::lattice::Undamped;
+use crate::first_contact::Bounce;
 use crate::mapped::mapped;
-use crate::modal::Modal;
-use crate::motion::{Ending, Motion, Side};
+use crate::motion::{Ending, Motion};
 use crate::number::{Estimate, Rational, Reads};
-use crate::problem::{Parameters, Problem};
-use crate::special::RoundedSpecial;
+use crate::problem::Problem;
 
 impl Target for f64 {
     fn run(problem: &Problem, plan: &Plan, rung: Rung, observe: &Observer) -> Result<Engined<f64>, Error> {
@@ -60,50 +57,6 @@ impl Target for f64 {
     }
 }
 
-/// A damped run.
-pub(super) type March<'a, S> = &'a dyn Fn() -> Result<Engined<S>, Error>;
-
-/// The planned engine, in numbers with their error bound; `rate` is `h′` at the bounce, where it is known better than a
-/// march has it, and `marched` what is made of a march.
-pub(super) fn estimates<S: RoundedSpecial>(
-    plan: &Plan,
-    task: &Task<'_, S>,
-    bits: u32,
-    rate: impl Fn(&Bounce<Estimate<S>>) -> Option<Estimate<S>>,
-    marched: impl Fn(March<'_, S>) -> Result<Engined<S>, Error>,
-) -> Result<Engined<S>, Error> {
-    let Task { problem, precision, .. } = *task;
-    let undecided = |what| Error::NotDecided { what, bits };
-    Ok(match plan.engine {
-        Engine::Lattice => {
-            let limits = plan.lattice_limits(problem);
-            let history = Undamped::<Estimate<S>>::solve_within(problem, precision, limits, task.observe)?;
-            if plan.climb.bits.is_some() && history.undetermined_from().is_some() {
-                return Err(undecided("in which order the events come"));
-            }
-            Arc::new(history)
-        }
-        Engine::Cells => marched(&|| Ok(Arc::new(Damped::march(task, 1, false)?)))?,
-        Engine::ClosedForm | Engine::ClosedFormThenCells => {
-            let contact = FirstContact::new(&Parameters::<Estimate<S>>::of(problem, precision)?);
-            let mut bounce = contact.bounce();
-            if matches!(&bounce, Bounce::Undecided { why, .. } if why.needs_bits()) {
-                let modes = plan.modes.ok_or_else(|| undecided("how the first contact ends"))?;
-                bounce = by_modes(&contact, &Modal::new(&Parameters::<S>::of(problem, precision)?, modes));
-            }
-            if plan.engine == Engine::ClosedFormThenCells {
-                let (rate, bounces) = (rate(&bounce), matches!(bounce, Bounce::At { .. }));
-                let march = || Ok(Arc::new(ContactThenCells::march(task, bounce.clone(), rate.clone())?) as Engined<S>);
-                if bounces { marched(&march)? } else { march()? }
-            } else if plan.settles_events {
-                Arc::new(ContactThenCells::<S>::first_contact(problem, precision, bounce)?)
-            } else {
-                Arc::new(ContactHistory::new(contact, bounce, None)?)
-            }
-        }
-    })
-}
-
 impl Target for Rational {
     fn run(problem: &Problem, plan: &Plan, _: Rung, observe: &Observer) -> Result<Engined<Rational>, Error> {
         Ok(Arc::new(plan.lattice::<Rational>(problem, &(), observe)?))
@@ -127,12 +80,4 @@ fn longer(problem: &Problem, plan: &Plan, rung: Rung, observe: &Observer) -> Lon
         rung => long::read(&problem, &plan, rung, &observe),
     };
     Longer { rungs, exact_contacts, run: Box::new(run) }
-}
-
-/// How the first contact ends by the sum over modes, which does not cancel late in the contact as that over
-/// rays does.
-fn by_modes<S: RoundedSpecial>(contact: &FirstContact<Estimate<S>>, modal: &Modal<S>) -> Bounce<Estimate<S>> {
-    // The last moment of a cell belongs to it.
-    let side = |trips: &S, k: i64| if *trips == trips.int(k + 1) { Side::Left } else { Side::Right };
-    contact.bounce_by(&|trips, k| modal.ground(trips, side(trips.value(), k)))
 }

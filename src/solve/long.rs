@@ -6,9 +6,9 @@ use super::asked::{Longer, Open, Telling, not_told};
 use super::converted::{Converted, confirmed};
 use super::derivative::{Asked, Derivatives};
 use super::differences;
-use super::engines::{self, March};
 use super::ladder::{Engined, Target, needs_bits};
 use super::plan::{Engine, Lacks, MOST_PROVED, Plan, Rung};
+use super::planned::{self, March};
 use super::question::{Numbers, Observer};
 use crate::cells::{Damped, Effort, Task};
 use crate::error::Error;
@@ -77,7 +77,7 @@ pub(super) fn read(problem: &Problem, plan: &Plan, rung: Rung, observe: &Observe
 fn estimates(problem: &Problem, plan: &Plan, bits: u32, observe: &Observer) -> Result<Engined<Float>, Error> {
     let problem = &*plan.reaching(problem);
     let task = plan.task::<Float>(problem, &bits, Rung::Bits(bits), observe);
-    engines::estimates(plan, &task, bits, |_| None, |march| marched(plan, &task, march))
+    planned::estimates(plan, &task, bits, |_| None, |march| marched(plan, &task, march))
 }
 
 /// A damped run: with what is proved of it, where that reaches its end, as `march` finds it else. In digits the proof

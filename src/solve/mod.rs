@@ -14,6 +14,7 @@ mod ladder;
 #[cfg_attr(not(feature = "mp"), path = "long_absent.rs")]
 mod long;
 mod plan;
+mod planned;
 mod question;
 mod rates;
 #[cfg(feature = "cli")]

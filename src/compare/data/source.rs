@@ -6,18 +6,12 @@ use std::path::Path;
 
 use super::error::{Arrays, Column, DataError, DataErrorKind};
 use super::numpy;
-use super::text::Text;
+use super::text::{Head, Text};
 
 /// A source of columns, opened far enough to know how many there are and what they are called.
 pub struct Source {
     pub(crate) file: String,
-    /// The names of the columns; empty where they have none.
-    pub(crate) names: Vec<String>,
-    pub(crate) width: usize,
-    /// How many names a header has, where they are not as many as the columns.
-    pub(crate) misnamed: Option<usize>,
-    /// Whether a first line `rows columns` was skipped.
-    pub(crate) is_sized: bool,
+    pub(crate) head: Head,
     pub(super) body: Body,
 }
 
@@ -68,7 +62,8 @@ impl Source {
             let found = arrays(reader, &file)?;
             return Ok(Self::of(&file, found));
         }
-        Text::open(reader, &file)
+        let (text, head) = Text::open(reader, &file)?;
+        Ok(Source { file, head, body: Body::Text(text) })
     }
 
     fn folder(path: &Path) -> Result<Self, DataError> {
@@ -108,7 +103,7 @@ impl Source {
     /// its place.
     pub fn arrays(file: &str, names: Vec<String>, columns: Vec<Column>) -> Self {
         let (width, body) = (columns.len(), Body::Arrays(columns));
-        Source { file: file.into(), names, width, misnamed: None, is_sized: false, body }
+        Source { file: file.into(), head: Head { names, width, misnamed: None, is_sized: false }, body }
     }
 
     /// Reads the columns of these places, counted from 0; in that at `side` a text has words for −1, 0 and 1.
@@ -116,7 +111,7 @@ impl Source {
         let (values, lines) = match self.body {
             Body::Text(text) => text.read(which, side, &self.file)?,
             Body::Arrays(all) => {
-                let called = |place: usize| self.names.get(place).cloned().unwrap_or_else(|| place.to_string());
+                let called = |place: usize| self.head.names.get(place).cloned().unwrap_or_else(|| place.to_string());
                 let mut values: Vec<Vec<f64>> = Vec::with_capacity(which.len());
                 for place in which {
                     let named = |kind: DataErrorKind| kind.at(&self.file, Some(format!("`{}`", called(*place))));

@@ -3,7 +3,6 @@
 use std::io::{BufRead, BufReader, Read};
 
 use super::error::{DataError, DataErrorKind};
-use super::source::{Body, Source};
 use crate::number::{Number, short};
 
 /// A line that is not empty, with its number.
@@ -104,10 +103,21 @@ fn names(header: &str, separator: Option<char>) -> Vec<String> {
     names
 }
 
+/// What is known of a source before its rows are read.
+pub(crate) struct Head {
+    /// The names of the columns; empty where they have none.
+    pub(crate) names: Vec<String>,
+    pub(crate) width: usize,
+    /// How many names a header has, where they are not as many as the columns.
+    pub(crate) misnamed: Option<usize>,
+    /// Whether a first line `rows columns` was skipped.
+    pub(crate) is_sized: bool,
+}
+
 impl Text {
     /// Reads up to the first row. A first line that begins with a word is the header; so is the last comment before
     /// the first row where it has as many words as the row has numbers.
-    pub(super) fn open(mut reader: BufReader<Box<dyn Read + Send>>, file: &str) -> Result<Source, DataError> {
+    pub(super) fn open(mut reader: BufReader<Box<dyn Read + Send>>, file: &str) -> Result<(Self, Head), DataError> {
         let start = reader.fill_buf().map_err(|error| DataErrorKind::Unreadable(error.to_string()).at(file, None))?;
         let end = if start.contains(&b'\r') && !start.contains(&b'\n') { b'\r' } else { b'\n' };
         let mut lines = lines(reader, end, file.into());
@@ -143,8 +153,7 @@ impl Text {
                 names.clear();
             }
             let lines = Box::new(first.into_iter().map(Ok).chain(lines));
-            let body = Body::Text(Text { lines, separator, width });
-            return Ok(Source { file: file.into(), names, width, misnamed, is_sized: sized, body });
+            return Ok((Text { lines, separator, width }, Head { names, width, misnamed, is_sized: sized }));
         }
         Err(DataErrorKind::Empty.at(file, None))
     }

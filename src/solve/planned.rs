@@ -1,0 +1,67 @@
+//! The planned engine in rounded numbers with their error bound.
+
+use std::sync::Arc;
+
+use super::ladder::Engined;
+use super::plan::{Engine, Plan};
+use crate::cells::{ContactThenCells, Damped, Task};
+use crate::error::Error;
+use crate::first_contact::{Bounce, ContactHistory, FirstContact};
+use crate::lattice::Undamped;
+use crate::modal::Modal;
+use crate::motion::Side;
+use crate::number::Estimate;
+use crate::problem::Parameters;
+use crate::special::RoundedSpecial;
+
+/// A damped run.
+pub(super) type March<'a, S> = &'a dyn Fn() -> Result<Engined<S>, Error>;
+
+/// The planned engine, in numbers with their error bound; `rate` is `h′` at the bounce, where it is known better than a
+/// march has it, and `marched` what is made of a march.
+pub(super) fn estimates<S: RoundedSpecial>(
+    plan: &Plan,
+    task: &Task<'_, S>,
+    bits: u32,
+    rate: impl Fn(&Bounce<Estimate<S>>) -> Option<Estimate<S>>,
+    marched: impl Fn(March<'_, S>) -> Result<Engined<S>, Error>,
+) -> Result<Engined<S>, Error> {
+    let Task { problem, precision, .. } = *task;
+    let undecided = |what| Error::NotDecided { what, bits };
+    Ok(match plan.engine {
+        Engine::Lattice => {
+            let limits = plan.lattice_limits(problem);
+            let history = Undamped::<Estimate<S>>::solve_within(problem, precision, limits, task.observe)?;
+            if plan.climb.bits.is_some() && history.undetermined_from().is_some() {
+                return Err(undecided("in which order the events come"));
+            }
+            Arc::new(history)
+        }
+        Engine::Cells => marched(&|| Ok(Arc::new(Damped::march(task, 1, false)?)))?,
+        Engine::ClosedForm | Engine::ClosedFormThenCells => {
+            let contact = FirstContact::new(&Parameters::<Estimate<S>>::of(problem, precision)?);
+            let mut bounce = contact.bounce();
+            if matches!(&bounce, Bounce::Undecided { why, .. } if why.needs_bits()) {
+                let modes = plan.modes.ok_or_else(|| undecided("how the first contact ends"))?;
+                bounce = by_modes(&contact, &Modal::new(&Parameters::<S>::of(problem, precision)?, modes));
+            }
+            if plan.engine == Engine::ClosedFormThenCells {
+                let (rate, bounces) = (rate(&bounce), matches!(bounce, Bounce::At { .. }));
+                let march = || Ok(Arc::new(ContactThenCells::march(task, bounce.clone(), rate.clone())?) as Engined<S>);
+                if bounces { marched(&march)? } else { march()? }
+            } else if plan.settles_events {
+                Arc::new(ContactThenCells::<S>::first_contact(problem, precision, bounce)?)
+            } else {
+                Arc::new(ContactHistory::new(contact, bounce, None)?)
+            }
+        }
+    })
+}
+
+/// How the first contact ends by the sum over modes, which does not cancel late in the contact as that over
+/// rays does.
+fn by_modes<S: RoundedSpecial>(contact: &FirstContact<Estimate<S>>, modal: &Modal<S>) -> Bounce<Estimate<S>> {
+    // The last moment of a cell belongs to it.
+    let side = |trips: &S, k: i64| if *trips == trips.int(k + 1) { Side::Left } else { Side::Right };
+    contact.bounce_by(&|trips, k| modal.ground(trips, side(trips.value(), k)))
+}
