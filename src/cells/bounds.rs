@@ -191,11 +191,12 @@ impl<S: RoundedSpecial> Damped<S> {
         Bounds { rise, centre: rise, speed, end: speed, strain, rate, late: late * time }
     }
 
-    /// Whether the rod has yet to touch the ground, and moves as a whole.
+    /// Whether the rod has yet to touch the ground, and moves as a whole: a fixed top stops it from the start on.
     fn is_rigid(&self, time: &Estimate<S>) -> bool {
         let touches = self.course.events.first();
         let before = |event: &Event<Estimate<S>>| time.to_f64() + time.bound() < event.time.to_f64() - event.time_error;
-        self.data.rigid && (time.value().is_zero() || touches.is_none_or(before))
+        let flies = self.medium.free_top && touches.is_none_or(before);
+        self.data.rigid && (time.value().is_zero() || flies)
     }
 
     /// What the force of the ground makes of `h′` while events are `late`: `h″ = −c² v_x(0,t)/L`.

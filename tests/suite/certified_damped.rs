@@ -155,6 +155,35 @@ fn fixed_tops_strained_starts_and_gaps_are_proved() {
     assert!(count >= 170, "{count}");
 }
 
+/// A rod that starts in the air at one speed vibrates from the start on where its top is fixed: with next to no damping
+/// as the lattice says of none, in every number system; with some, as doubles say.
+#[test]
+fn a_fixed_top_stops_a_rod_in_the_air() {
+    let rod = |damping: Option<&str>| {
+        let rod = Problem::builder().length("0.4").wave_speed(3).gravity("0.2").impact_speed("0.02").gap("0.06");
+        let mut rod = rod.top(Top::Fixed).time("0.2").build().unwrap();
+        rod.rod.damping = damping.map(number_of);
+        rod
+    };
+    for time in ["0.05", "0.13", "0.19"] {
+        let truth = rod(None).exact().unwrap().energy(number_of(time).to_rational()).unwrap().vibrational.to_f64();
+        assert!(truth > 1e-9);
+        for (damping, truth) in [
+            ("1e-9", truth),
+            ("0.4", rod(Some("0.4")).solve().unwrap().energy(time.parse().unwrap()).unwrap().vibrational),
+        ] {
+            let rod = rod(Some(damping));
+            let digits = rod.digits(20).unwrap().energy(Float::with_val(128, number_of(time).to_rational())).unwrap();
+            let proved = rod.certified(12).unwrap();
+            let given = Interval::from_number(&number_of(time), &proved.end().precision());
+            let proved = proved.energy(given).unwrap().vibrational;
+            for found in [digits.vibrational.to_f64(), proved.to_f64()] {
+                assert!((found / truth - 1.0).abs() < 1e-7, "r = {damping}, t = {time}: {found} {truth}");
+            }
+        }
+    }
+}
+
 #[test]
 fn digits_beyond_proofs_say_so() {
     let problem = rod("0.1", "3", "1", 1);
