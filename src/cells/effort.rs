@@ -25,8 +25,8 @@ impl Effort {
 
 /// Digits beyond which nothing is marched.
 pub(crate) const MOST_DIGITS: f64 = 300.0;
-/// A first contact of up to so many round trips is marched over; up to the second of them, it is if that is known better
-/// than the closed form.
+/// A first contact of up to so many round trips is marched over; one of up to the second of them is if the march knows
+/// it better than the closed form.
 pub(crate) const MARCHED_TRIPS: [f64; 2] = [4.0, 64.0];
 
 /// What is followed: a problem in numbers of a precision, how much may be computed, and who is told how far a run is.

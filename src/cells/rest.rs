@@ -22,9 +22,9 @@ impl<S: RoundedSpecial> Follower<'_, S> {
     ///
     /// In flight the end swings about a state at height `s = v_s′(0)/2`, stress-free at the ground and with the strain
     /// of its weight `v_x = gx` above (top fixed), or about the centre of mass (top free, `g = 0`), whose height `h`
-    /// tends monotonely to `h + h′/2r`. The deviation `d` has an energy `E` that cannot grow and `|d(0)| ≤ √ℓ ‖d_x‖`, `‖d_x‖ ≤ √(2E)`, with `ℓ = ½` for a fixed top; `ℓ = ⅙` where the mean
-    /// of `d` vanishes, as then `d(0) = −∫(1 − 2x) d_x dx`. No impact follows once `√(2ℓE)` is less than the least
-    /// height.
+    /// tends monotonely to `h + h′/2r`. The deviation `d` has an energy `E` that cannot grow, and `|d(0)| ≤ √ℓ ‖d_x‖`,
+    /// `‖d_x‖ ≤ √(2E)`, with `ℓ = ½` for a fixed top; `ℓ = ⅙` where the mean of `d` vanishes, as then
+    /// `d(0) = −∫(1 − 2x) d_x dx`. No impact follows once `√(2ℓE)` is less than the least height.
     pub(super) fn escapes(&self) -> Option<Ending> {
         let (medium, data) = (self.medium, self.data);
         let slope = medium.slope.to_f64();

@@ -211,7 +211,7 @@ impl<S: Bounded> Bounded for Dual<S> {
         self.rate = self.rate.clone().widened(&(by * &late).rate);
     }
 
-    /// The root s has the rate `−(ȧ + ḃ s + ċ s²/2)/(b + c s)`, for `a + b s + c s²/2`. Never `None`: root and break may
+    /// The root s of `a + b s + c s²/2` has the rate `−(ȧ + ḃ s + ċ s²/2)/(b + c s)`. Never `None`: root and break may
     /// be one in first order only.
     fn root_deviation(&self, rate: &Self, bend: &Self) -> Option<Self> {
         let zero = || self.value.zero();

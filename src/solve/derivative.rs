@@ -5,7 +5,7 @@ use super::question::{Observer, Want};
 use crate::error::Error;
 use crate::mapped::{MapEach, mapped, try_mapped};
 use crate::motion::{Motion, Side};
-use crate::number::{Number, Scalar};
+use crate::number::{Estimate, Number, Scalar};
 use crate::problem::{Parameter, Problem};
 use crate::quantity::{self, Measure, Quantity, UnitSystem, Units};
 
@@ -61,6 +61,14 @@ pub(super) fn of_each<S, T>(rows: &Rows<S>, mut f: impl FnMut((usize, usize), &S
 /// What there is in that row and column.
 pub(super) fn at<S>(rows: &Rows<S>, (row, column): (usize, usize)) -> Option<&S> {
     rows.get(row)?.get(column)?.as_ref()
+}
+
+/// A derivative in doubles may be off by so much of its size or of the natural one.
+const WANTED: f64 = 1e-5;
+
+/// Whether a derivative in doubles whose `natural` size is known has a bound that is small enough.
+pub(super) fn is_settled(found: &Estimate<f64>, natural: f64) -> bool {
+    found.bound() <= WANTED * (found.value().abs() + natural)
 }
 
 /// What derivatives are asked for.

@@ -20,8 +20,8 @@ impl<S: Target> History<S> {
     /// **Accuracy**: *exact* in fractions; where first order does not tell which of two events comes first, difference
     /// quotients have confirmed them. Otherwise each derivative is *within its own bound*. In doubles, as accurate as
     /// they are by default, one of an undamped rod is carried through the run beside each number, with a bound of its
-    /// own, in fractions where these decide an order of events; one of a damped rod is within 1e-5 of its natural size,
-    /// mostly 1e-8, and takes three runs: it is that of a cubic through four, and the bound what a quadratic differs by.
+    /// own, in fractions where these decide an order of events; one of a damped rod takes three runs, is within 1e-5 of
+    /// its natural size, mostly 1e-8, and is that of a cubic through four, with what a quadratic differs by for bound.
     /// Where these do not settle it, where more is asked for and in digits it is a difference quotient of runs in long
     /// numbers, with a step as small as the last of the digits, and the bound has what the quotients of both sides, or
     /// of two steps, differ by. A threshold that is nearer than the step counts as met.

@@ -1,4 +1,5 @@
-//! Derivatives as those of the cubic through four runs in doubles: where no engine carries rates.
+//! Derivatives as those of the cubic through four runs in doubles: of damped rods, and where rates that a run carries
+//! do not settle them.
 //!
 //! With a step `h` of the value, relative to it, that of the cubic is off by about `h³ f⁗/4` and what doubles are known
 //! to, `n`, divided by h; the quadratic through three of the runs by `h² f‴/6` or `/3`. What the two differ by is taken
@@ -7,7 +8,7 @@
 //! Next to a kink the third difference is as great as the change of the slope, but for one half a step away, which
 //! makes the second difference as great: where either is, runs in long numbers settle it.
 
-use super::derivative::{Asked, Derivative, Derivatives, Rows, at, of_each};
+use super::derivative::{Asked, Derivative, Derivatives, Rows, at, is_settled, of_each};
 use super::ladder::{Engined, Ladder};
 use super::plan::{Engine, Plan};
 use super::question::Question;
@@ -24,13 +25,10 @@ type Double = Estimate<f64>;
 const STEPS: [f64; 2] = [1e-5, 1e-3];
 /// Where a step does not settle it, one shorter by this does.
 const FINER: f64 = 10.0;
-/// A derivative may be off by so much of its size or of the natural one.
-const WANTED: f64 = 1e-5;
 /// A second derivative may be so many times its natural size.
 const BEND: f64 = 100.0;
 
-/// The derivatives that are `asked` for by three runs beside this `run`; `None` where some are not settled to
-/// [`WANTED`].
+/// The derivatives that are `asked` for by three runs beside this `run`; `None` where some are not settled.
 pub(super) fn of(asked: &Asked<'_>, run: &Engined<f64>) -> Result<Option<Derivatives<Double>>, Error> {
     let value = asked.by.value_in::<f64>(asked.problem, &())?;
     let (base, scales) = rows(asked, asked.problem, &**run)?;
@@ -119,7 +117,7 @@ impl Cubic {
         let natural = here.value().abs().max(scale) / self.value;
         let slope = (quadratic + &third).widened(&third).widened(&here.double(natural * self.part.powi(3)));
         let size = slope.value().abs() + natural;
-        let settled = slope.bound() <= WANTED * size && bend.value().abs() <= BEND * self.part * size;
+        let settled = is_settled(&slope, natural) && bend.value().abs() <= BEND * self.part * size;
         settled.then_some(slope)
     }
 }

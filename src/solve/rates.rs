@@ -1,7 +1,7 @@
-//! Derivatives of undamped rods by their histories in numbers `a + b ε`: in fractions for a value that grows and one that
-//! shrinks, in doubles for one that grows, as long as no threshold is met.
+//! Derivatives of undamped rods by their histories in numbers `a + b ε`: in fractions for a value that grows and for
+//! one that shrinks; in doubles, where no threshold may be met, for one that grows.
 
-use super::derivative::{Asked, Derivative, Derivatives, NoDerivative, Rows, at, of_each};
+use super::derivative::{Asked, Derivative, Derivatives, NoDerivative, Rows, at, is_settled, of_each};
 use super::differences;
 use super::ladder::Engined;
 use super::plan::{Engine, Rung};
@@ -19,11 +19,11 @@ type OneSide = Result<Rational, NoDerivative>;
 /// The derivatives in fractions that are `asked` for; none for damping and for a gravity that is zero.
 pub(super) fn in_fractions(asked: &Asked<'_>) -> Result<Derivatives<Rational>, Error> {
     let (rates, settled) = on_both_sides(asked)?;
-    let quotients = if settled { Err(Error::NoMultiprecision) } else { differences::of(asked, DOUBLE_DIGITS) };
-    let quotients = match quotients {
-        Err(Error::NoMultiprecision) => None,
-        quotients => Some(quotients?),
+    let quotients = || match differences::of(asked, DOUBLE_DIGITS) {
+        Err(Error::NoMultiprecision) => Ok(None),
+        quotients => quotients.map(Some),
     };
+    let quotients = if settled { None } else { quotients()? };
     Ok(of_each(&rates, |place, sides| {
         derivative(match &quotients {
             Some(quotients) => confirmed(sides.clone(), at(quotients, place)),
@@ -98,9 +98,6 @@ fn side(rows: &Rows<Dual<Rational>>, number: &Rational, place: (usize, usize)) -
     there.and_then(Dual::rate).cloned().ok_or(NoDerivative::Unsettled)
 }
 
-/// A derivative in doubles may be off by so much of its size or of the natural one.
-const WANTED: f64 = 1e-5;
-
 /// The derivatives in doubles that are `asked` for, of the numbers of this `run`; `None` where it is not one of the
 /// lattice, where a threshold is met and where bounds are too wide.
 pub(super) fn in_doubles(asked: &Asked<'_>, run: &Engined<f64>) -> Result<Option<Derivatives<Estimate<f64>>>, Error> {
@@ -115,15 +112,15 @@ pub(super) fn in_doubles(asked: &Asked<'_>, run: &Engined<f64>) -> Result<Option
     let found = of_each(&base, |place, number| {
         let rate = at(&rows, place).filter(|there| there.value().same(number)).and_then(Dual::rate);
         let natural = number.value().abs().max(scales[place.1]) / value.value();
-        let rate = rate.filter(|rate| rate.bound() <= WANTED * (rate.value().abs() + natural));
+        let rate = rate.filter(|rate| is_settled(rate, natural));
         settled &= rate.is_some();
         Derivative::One(rate.unwrap_or(number).clone())
     });
     Ok(settled.then_some(found))
 }
 
-/// The derivatives in doubles that are `asked` for, by fractions, which have told what comes first in this `run`; `None`
-/// where first order does not settle them.
+/// The derivatives in doubles that are `asked` for, by fractions, where these have told what comes first in this `run`;
+/// `None` where first order does not settle them.
 pub(super) fn by_fractions(asked: &Asked<'_>, run: &Engined<f64>) -> Result<Option<Derivatives<Estimate<f64>>>, Error> {
     if asked.rung != Rung::Fractions {
         return Ok(None);

@@ -216,8 +216,8 @@ fn euler_identities_of_other_starts() {
     euler_identities_in_fractions(60, [40, 0], linear_starts());
 }
 
-/// Fractions, and doubles where they have one derivative, against difference quotients of long numbers, side by side:
-/// these follow no rates.
+/// Fractions against difference quotients of long numbers, which follow no rates, and doubles against fractions, side
+/// by side.
 fn exact_against_quotients(cases: u32, least: [u32; 3]) {
     let quantities = [&EVENT[..], &[Quantity::ContactImpulse, Quantity::PeakStrain, Quantity::MomentumRestitution]];
     let exactly = |found: &f64| Rational::from_f64(*found).unwrap();
