@@ -8,8 +8,9 @@ use std::sync::Arc;
 use std::time::Instant;
 
 use criterion::{Criterion, criterion_group, criterion_main};
-use dalembert::engine::{Bounce, FirstContact, Motion, Undamped, restitution};
+use dalembert::engine::{Bounce, FirstContact, Motion, Undamped};
 use dalembert::number::Scalar;
+use dalembert::quantity::restitution;
 use dalembert::special::{i0_scaled, i1_scaled};
 use dalembert::{Error, Estimate, Numbers, Parameters, Plan, Problem, Question, Scene, Side, builtin};
 

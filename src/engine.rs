@@ -10,5 +10,3 @@ pub use crate::modal::Modal;
 pub use crate::motion::{
     Course, Motion, Pair, Passing, RayRegister, Scales, Stretch, WavePiece, Waves, reflection, unobserved,
 };
-pub use crate::quantity::{Columns, columns, flights, restitution, slices, table};
-pub use crate::solve::{CellLimits, Climb, Goal, MAX_DIGITS, Target, Visitor};

@@ -196,7 +196,8 @@ impl Error {
 /// What is wrong with a problem: which value, what was found and what was expected.
 ///
 /// ```
-/// use dalembert::{Problem, ProblemErrorKind};
+/// use dalembert::Problem;
+/// use dalembert::problem::ProblemErrorKind;
 /// let error = Problem::builder().length("1 m").wave_speed(1).impact_speed(3).build().unwrap_err();
 /// assert_eq!((error.kind, error.path.as_str()), (ProblemErrorKind::NotANumber, "rod.length"));
 /// let expected = "a number such as 3, 0.1, 1e-9 or \"1/3\", without a unit";

@@ -44,8 +44,10 @@
 //! number with the digits that were asked for. An [`Interval`] has its ends, `lo()` and `hi()`, and `{}` prints the
 //! digits that both prove. [`History::units`] turns strains and values per `ρS` into those of the material.
 //!
-//! The types in daily use stand at the root. [`engine`] has the engines by themselves, [`number`] what numbers can do
-//! in each system, [`special`] the functions of the closed forms, [`paper`] the printed formulas.
+//! The types in daily use stand at the root. The rest of each subject is in its module: [`problem`], [`solve`],
+//! [`quantity`], [`reason`] (why a run ends, and its warnings), [`plot`]. [`engine`] has the engines by themselves,
+//! [`number`] what numbers can do in each system, [`special`] the functions of the closed forms, [`paper`] the printed
+//! formulas.
 //!
 //! Equation numbers are those of F. Wang and S. W. Hansen, *Explicit solutions and coefficient of restitution for an
 //! elastic rod with viscous damping*, IMA Preprint 2473, Institute for Mathematics and its Applications, University of
@@ -65,7 +67,6 @@ mod cells;
 #[doc(hidden)]
 pub mod cli;
 #[cfg(feature = "compare")]
-#[doc(hidden)]
 pub mod compare;
 #[cfg(feature = "svg")]
 mod draw;
@@ -84,14 +85,14 @@ mod order;
 mod output;
 pub mod paper;
 #[cfg(feature = "svg")]
-mod plot;
-mod problem;
-mod quantity;
-mod reason;
+pub mod plot;
+pub mod problem;
+pub mod quantity;
+pub mod reason;
 #[cfg(feature = "cli")]
 mod routes;
 mod scene;
-mod solve;
+pub mod solve;
 pub mod special;
 #[cfg(feature = "cli")]
 mod sweep;
@@ -100,22 +101,14 @@ mod threads;
 pub use error::Error;
 pub use glam;
 pub use motion::{Contact, Ending, Energy, Event, EventKind, Field, Ray, Side, StressHistory, StressPiece};
-pub use number::{Estimate, Float, Interval, Number, NumberError, Rational};
-#[cfg(feature = "svg")]
-pub use plot::{Canvas, Drawing, Drawn, Pose, Sizes};
-pub use problem::{
-    Builder, Dimensionless, Material, Parameter, Parameters, Problem, ProblemError, ProblemErrorKind, Profile, Rod,
-    Run, Speed, Start, Top, Written,
-};
-pub use quantity::{Flight, Measure, Needs, Quantity, Restitution, Slice, Table, Undefined, UnitSystem, Units};
-pub use reason::{Doubt, Near, NoBounceReason, Reason, StillState, Warning};
+pub use number::{Estimate, Float, Interval, Number, Rational};
+pub use problem::{Material, Parameter, Parameters, Problem, Profile, Rod, Run, Speed, Start, Top};
+pub use quantity::{Quantity, Units};
+pub use reason::{Reason, Warning};
 #[cfg(feature = "mp")]
 pub use rug;
 pub use scene::{Effect, EffectUse, Scene, SceneError, Target, builtin};
-pub use solve::{
-    CERTIFIED_DIGITS, DEFAULT_ACCURACY, Derivative, Derivatives, Engine, ExactnessEnd, History, NoDerivative, Numbers,
-    Observer, Plan, Question, Reach, Rung, Solution, Want,
-};
+pub use solve::{Derivative, Engine, History, Numbers, Observer, Plan, Question, Solution};
 #[cfg(feature = "cli")]
 pub use sweep::{Cell, sweep};
 

@@ -3,12 +3,12 @@
 use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
 
-use dalembert::engine::{Motion, slices};
+use dalembert::engine::Motion;
 use dalembert::number::{Answer, Scalar, show};
-use dalembert::{
-    Derivative, Derivatives, Drawing, Error, Needs, Number, Parameter, Problem, Quantity, Side, Slice, Solution, Table,
-    Units,
-};
+use dalembert::plot::Drawing;
+use dalembert::quantity::{Needs, Slice, Table, slices};
+use dalembert::solve::Derivatives;
+use dalembert::{Derivative, Error, Number, Parameter, Problem, Quantity, Side, Solution, Units};
 use numpy::{PyArray1, PyReadonlyArray1};
 use pyo3::IntoPyObjectExt;
 use pyo3::prelude::*;

@@ -1,6 +1,7 @@
 //! Numbers as Python has them.
 
-use dalembert::{Number, Written};
+use dalembert::Number;
+use dalembert::problem::Written;
 use pyo3::exceptions::PyTypeError;
 use pyo3::prelude::*;
 use pyo3::types::{PyBool, PyFloat, PyString};

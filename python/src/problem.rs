@@ -2,11 +2,10 @@
 
 use std::sync::Arc;
 
-use dalembert::engine::MAX_DIGITS;
-use dalembert::{
-    Builder, CERTIFIED_DIGITS, Material, Number, Numbers, Parameters, Plan, Question, Run, Scene, Speed, Start, Top,
-    UnitSystem, Units, Written,
-};
+use dalembert::problem::{Builder, Written};
+use dalembert::quantity::UnitSystem;
+use dalembert::solve::{CERTIFIED_DIGITS, MAX_DIGITS};
+use dalembert::{Material, Number, Numbers, Parameters, Plan, Question, Run, Scene, Speed, Start, Top, Units};
 use pyo3::exceptions::PyTypeError;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;

@@ -17,7 +17,9 @@ use crate::quantity::{Quantity, Units};
 use crate::reason::Warning;
 use crate::solve::{History, Numbers, Observer, Plan, Question};
 
+/// Data that cannot be compared, and why; the message says what was found and what was expected.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[allow(missing_docs, reason = "each case is described by its message")]
 pub enum CompareError {
     #[error(transparent)]
     Data(#[from] DataError),
@@ -119,19 +121,24 @@ impl Options {
 #[derive(Debug)]
 pub struct Prepared {
     problem: Problem,
+    /// What the run will be.
     pub plan: Plan,
     data: Vec<(String, Samples)>,
     until: Option<f64>,
     options: Options,
 }
 
+/// What a comparison has found: a table, JSON, and samples beside ours.
 #[derive(Debug)]
 pub struct Comparison {
+    /// One for each source, in their order.
     pub files: Vec<ComparedFile>,
     pub(crate) orders: Vec<Order>,
+    /// Those of our own run.
     pub warnings: Vec<Warning>,
 }
 
+/// One source beside our history.
 #[derive(Debug)]
 pub struct ComparedFile {
     pub(crate) file: String,

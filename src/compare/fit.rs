@@ -28,7 +28,9 @@ pub(crate) struct Fit {
     pub(crate) history: History<f64>,
 }
 
+/// Why values cannot be fitted.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[allow(missing_docs, reason = "each case is described by its message")]
 pub enum FitError {
     #[error(
         "found {0} to be fitted, expected one that the scene has: a material, a start above the ground, an impact, \

@@ -20,6 +20,7 @@ pub struct Limit {
     below: bool,
 }
 
+/// What comes of one [`Limit`] for one source.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Outcome {
     /// The source; several for an order.

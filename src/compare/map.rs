@@ -18,7 +18,9 @@ pub(crate) struct Map {
     pub(crate) unused: Vec<String>,
 }
 
+/// Why the columns of a source cannot be told.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[allow(missing_docs, reason = "each case is described by its message")]
 pub enum MapError {
     #[error("found no quantity in the columns {found}, expected some of {}, or a map such as t=0,u=1", known(*field))]
     Nothing { found: String, field: bool },

@@ -62,6 +62,7 @@ pub struct Grid {
     pub times: Vec<f64>,
     /// Points of the rod, for a field: in order at each time.
     pub points: Option<Vec<f64>>,
+    /// One for each sample.
     pub weights: Vec<f64>,
 }
 

@@ -6,6 +6,7 @@ use crate::number::Number;
 use crate::problem::Parameter;
 use crate::quantity::{Measure, Quantity};
 
+/// The sign of compression in data.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[cfg_attr(feature = "cli", derive(clap::ValueEnum))]
 pub enum Compression {
@@ -17,6 +18,7 @@ pub enum Compression {
     Negative,
 }
 
+/// Where displacements are zero in data.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[cfg_attr(feature = "cli", derive(clap::ValueEnum))]
 pub enum Origin {
@@ -27,6 +29,7 @@ pub enum Origin {
     Start,
 }
 
+/// Which way displacements and velocities count in data.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[cfg_attr(feature = "cli", derive(clap::ValueEnum))]
 pub enum Axis {

@@ -16,6 +16,7 @@ use crate::quantity::{Quantity, Units};
 
 const WEIGHTS: &str = "sums over the samples by the trapezoidal rule: each weighs half the way to its neighbours";
 
+/// What the words of the table mean.
 pub const LEGEND: &str = "\
 norm                L1 = ∫|e| dt, L2 = √∫e² dt, L∞ = max |e| of e = theirs − ours, by the
                     trapezoidal rule; relative to the same norm of ours
@@ -319,6 +320,7 @@ fn file_json(ComparedFile { file, agreement, judgement, fit }: &ComparedFile, un
 }
 
 impl Comparison {
+    /// The report as text, values in these `units`.
     pub fn table(&self, title: Option<&str>, units: &Units) -> String {
         let mut tables: Vec<String> = self.files.iter().map(|file| file_table(file, title, units)).collect();
         tables.extend((self.files.len() > 1).then(|| orders_table(&self.orders)));

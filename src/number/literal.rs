@@ -19,7 +19,7 @@ use super::rational::{self, Integer, Rational};
 /// assert_eq!(tenth.to_f64(), 0.1);
 /// assert_eq!(tenth.to_string(), "0.1");
 /// assert!("0x10".parse::<Number>().is_err());
-/// # Ok::<(), dalembert::NumberError>(())
+/// # Ok::<(), dalembert::number::NumberError>(())
 /// ```
 #[derive(Clone, Debug)]
 pub struct Number {
@@ -69,7 +69,7 @@ impl Number {
     /// let third: Number = "1/3".parse()?;
     /// assert_eq!(third.compare(&"2/6".parse()?), Ordering::Equal);
     /// assert_eq!(third.compare(&"0.333333333333333333333333333333".parse()?), Ordering::Greater);
-    /// # Ok::<(), dalembert::NumberError>(())
+    /// # Ok::<(), dalembert::number::NumberError>(())
     /// ```
     pub fn compare(&self, other: &Number) -> Ordering {
         // Both values are within 1.5 ulp: where they lie farther apart than that, doubles decide.

@@ -114,7 +114,7 @@ impl Builder {
     /// let rod = Problem::builder().length(1).wave_speed(1).fixed_top();
     /// let compressed = rod.displacement([(0, "1/2"), (1, "0")]).build()?;
     /// assert_eq!(compressed.dimensionless().speed_ratio, None);
-    /// # Ok::<(), dalembert::ProblemError>(())
+    /// # Ok::<(), dalembert::problem::ProblemError>(())
     /// ```
     #[must_use]
     pub fn displacement<X: Into<Written>, V: Into<Written>>(

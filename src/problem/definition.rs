@@ -21,7 +21,7 @@ use crate::reason::Warning;
 /// assert_eq!(rod.dimensionless().speed_ratio, Some(1.5));
 /// let error = rod.to_builder().length(-1).build().unwrap_err();
 /// assert_eq!(error.to_string(), "found length = -1, expected a length above zero");
-/// # Ok::<(), dalembert::ProblemError>(())
+/// # Ok::<(), dalembert::problem::ProblemError>(())
 /// ```
 ///
 /// # Limits
@@ -155,7 +155,7 @@ impl Problem {
     /// use dalembert::Problem;
     /// let rod = Problem::builder().length(1).wave_speed(1).gravity("9.81").impact_speed(3).build()?;
     /// assert!(rod.rod.damping.is_none() && rod.has_closed_form());
-    /// # Ok::<(), dalembert::ProblemError>(())
+    /// # Ok::<(), dalembert::problem::ProblemError>(())
     /// ```
     pub fn builder() -> Builder {
         Builder::default()
@@ -170,7 +170,7 @@ impl Problem {
     /// let damped = rod.to_builder().damping(0.1).time(40).build()?;
     /// assert_eq!(damped.dimensionless().damping_ratio, 0.2);
     /// assert_eq!(damped.to_builder().damping(0).impacts(1).build()?, rod);
-    /// # Ok::<(), dalembert::ProblemError>(())
+    /// # Ok::<(), dalembert::problem::ProblemError>(())
     /// ```
     pub fn to_builder(&self) -> Builder {
         Builder::from_problem(self)
@@ -185,7 +185,7 @@ impl Problem {
     /// let rod = Problem::builder().length(1).wave_speed(1).impact_speed(3).build()?;
     /// assert_eq!(rod.with_run(Run::Impacts(3))?.run, Run::Impacts(3));
     /// assert!(rod.with_run(Run::Impacts(0)).is_err());
-    /// # Ok::<(), dalembert::ProblemError>(())
+    /// # Ok::<(), dalembert::problem::ProblemError>(())
     /// ```
     pub fn with_run(&self, run: Run) -> Result<Self, ProblemError> {
         let builder = self.to_builder();
@@ -203,7 +203,7 @@ impl Problem {
     /// let rod = Problem::builder().length(1).wave_speed(1).impact_speed(2).gap("0.5").build()?;
     /// assert_eq!(rod.gap().map(|gap| gap.to_f64()), Some(0.5));
     /// assert_eq!(rod.to_builder().gap(0).build()?.gap(), None);
-    /// # Ok::<(), dalembert::ProblemError>(())
+    /// # Ok::<(), dalembert::problem::ProblemError>(())
     /// ```
     pub fn gap(&self) -> Option<&Number> {
         match &self.start {
@@ -227,7 +227,7 @@ impl Problem {
     /// let rod = Problem::builder().length(1).wave_speed(1).gravity(2).drop_height(1).damping(0.1).build()?;
     /// assert_eq!(rod.neglected(), None); // μ = 2, g/2r = 10
     /// assert!(rod.to_builder().damping(1).build()?.neglected().is_some()); // g/2r = 1
-    /// # Ok::<(), dalembert::ProblemError>(())
+    /// # Ok::<(), dalembert::problem::ProblemError>(())
     /// ```
     pub fn neglected(&self) -> Option<Warning> {
         let (damping, gravity) = (self.rod.damping.as_ref()?.to_f64(), self.gravity.as_ref()?.to_f64());

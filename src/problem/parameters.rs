@@ -90,7 +90,7 @@ impl Problem {
     /// let rod = Problem::builder().length(6).wave_speed(3).damping("1/8").gravity(2).impact_speed(4).build()?;
     /// assert_eq!(rod.dimensionless().damping_ratio, 0.5);
     /// assert_eq!(rod.dimensionless().speed_ratio, Some(0.5));
-    /// # Ok::<(), dalembert::ProblemError>(())
+    /// # Ok::<(), dalembert::problem::ProblemError>(())
     /// ```
     pub fn dimensionless(&self) -> Dimensionless {
         let or_zero = |n: &Option<Number>| n.as_ref().map_or(0.0, Number::to_f64);

@@ -282,7 +282,7 @@ impl Needs {
     /// The quantity of this name among them.
     ///
     /// ```
-    /// use dalembert::{Needs, Quantity};
+    /// use dalembert::{Quantity, quantity::Needs};
     /// assert_eq!(Needs::Time.named("impulse"), Some(Quantity::Impulse));
     /// assert_eq!(Needs::Contact.named("impulse"), Some(Quantity::ContactImpulse));
     /// assert_eq!(Needs::Time.named("u"), None);
@@ -367,7 +367,7 @@ impl Quantity {
     /// The unit: `Pa` with a material, `per ρ` without one; empty where there is none or none is known.
     ///
     /// ```
-    /// use dalembert::{Problem, Quantity, UnitSystem, Units};
+    /// use dalembert::{Problem, Quantity, Units, quantity::UnitSystem};
     /// let bare = Problem::builder().length(1).wave_speed(1).impact_speed(3).build()?;
     /// assert_eq!(Quantity::Force.unit(&Units::of(&bare, UnitSystem::Si)), "per ρS");
     /// # Ok::<(), dalembert::Error>(())

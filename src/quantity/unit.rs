@@ -98,7 +98,8 @@ impl UnitSystem {
 /// units say so. Without a material there is neither stress nor force, and impulse and energy stay per linear density.
 ///
 /// ```
-/// use dalembert::{Measure, Problem, UnitSystem, Units};
+/// use dalembert::{Problem, Units};
+/// use dalembert::quantity::{Measure, UnitSystem};
 /// let rod = Problem::builder().length(1).impact_speed(3);
 /// let units = Units::of(&rod.clone().material(900, 2, 3).build()?, UnitSystem::Si);
 /// assert_eq!((units.factor::<f64>(Measure::Stress, &()), units.name(Measure::Stress)), (Some(900.0), "Pa"));
@@ -109,7 +110,7 @@ impl UnitSystem {
 /// let units = Units::of(&rod.wave_speed(1).build()?, UnitSystem::Si);
 /// assert_eq!((units.factor::<f64>(Measure::Force, &()), units.name(Measure::Force)), (None, ""));
 /// assert_eq!((units.factor::<f64>(Measure::Energy, &()), units.name(Measure::Energy)), (Some(1.0), "per ρS"));
-/// # Ok::<(), dalembert::ProblemError>(())
+/// # Ok::<(), dalembert::problem::ProblemError>(())
 /// ```
 #[derive(Clone, Debug, PartialEq)]
 pub struct Units {

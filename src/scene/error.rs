@@ -10,7 +10,8 @@ use crate::problem::ProblemErrorKind;
 /// What is wrong with a scene: what was found, where, and what was expected.
 ///
 /// ```
-/// use dalembert::{ProblemErrorKind, Scene};
+/// use dalembert::Scene;
+/// use dalembert::problem::ProblemErrorKind;
 /// let error = Scene::parse("[rod]\nlength = -1\nwave_speed = 1\n[impact]\nspeed = 3\n").unwrap_err();
 /// assert_eq!(error.kind, ProblemErrorKind::OutOfRange);
 /// assert_eq!(error.to_string(), "line 2, column 10: found length = -1, expected a length above zero");

@@ -187,7 +187,7 @@ impl<S: Target> History<S> {
     /// What turns strains into stress and force, and values per `ρS` into impulse and energy.
     ///
     /// ```
-    /// use dalembert::{Measure, Problem};
+    /// use dalembert::{Problem, quantity::Measure};
     /// // c = √(E/ρ) = 2, and nothing but the momentum ρS L μ turns round: an impulse of 2ρS L μ, of which ρS = 2.
     /// let rod = Problem::builder().length(2).material(4, 1, 2).impact_speed(1).build()?;
     /// let history = rod.solve()?;
@@ -334,7 +334,7 @@ impl<S: Target> History<S> {
     /// **Errors**: [`Error::Grid`].
     ///
     /// ```
-    /// use dalembert::{Problem, Slice};
+    /// use dalembert::{Problem, quantity::Slice};
     /// let rod = Problem::builder().length(1).wave_speed(1).impact_speed(2).build()?;
     /// // At t = 1/4 the strain is −2 below x = 1/4 and 0 above.
     /// let slice = rod.solve()?.slices(Slice::Averages, &[0.0, 0.5, 1.0], &[0.25], None)?;
@@ -370,7 +370,7 @@ impl<S: Target> History<S> {
     /// **Accuracy**: that of the [`Plan`].
     ///
     /// ```
-    /// use dalembert::{Problem, Table};
+    /// use dalembert::{Problem, quantity::Table};
     /// let rod = Problem::builder().length(2).material(4, 1, 2).impact_speed(1).build()?;
     /// // c = 2 and t₁ = 2; ρS L μ turns round.
     /// let contacts = rod.solve()?.table(Table::Contacts)?;
@@ -487,7 +487,7 @@ fn told_apart(found: String, end: String) -> (String, String) {
 }
 
 impl Problem {
-    /// The motion in doubles. **Accuracy**: [`DEFAULT_ACCURACY`](crate::DEFAULT_ACCURACY) of the natural scales.
+    /// The motion in doubles. **Accuracy**: [`DEFAULT_ACCURACY`](crate::solve::DEFAULT_ACCURACY) of the natural scales.
     pub fn solve(&self) -> Result<History<f64>, Error> {
         self.answer(&Question::run(Numbers::default()))
     }

@@ -7,8 +7,8 @@
 
 use std::sync::Arc;
 
-use dalembert::engine::Target;
 use dalembert::number::Scalar;
+use dalembert::solve::Target;
 use dalembert::{Error, EventKind, History, Number, Numbers, Plan, Problem, Question, Scene, Side, Solution, Warning};
 use rug::Float;
 

@@ -2,9 +2,10 @@
 
 use crate::common::{number, problem, reference};
 use dalembert::number::Scalar;
+use dalembert::quantity::Needs;
 use dalembert::{
-    Ending, Estimate, EventKind, Field, Float, History, Interval, Needs, Number, Parameters, Problem, Profile,
-    Quantity, Run, Side, Speed, Start, Top, Warning,
+    Ending, Estimate, EventKind, Field, Float, History, Interval, Number, Parameters, Problem, Profile, Quantity, Run,
+    Side, Speed, Start, Top, Warning,
 };
 
 fn number_of(text: &str) -> Number {

@@ -2,7 +2,8 @@
 
 use dalembert::engine::{Bounce, ContactHistory, FirstContact, Modal, Motion};
 use dalembert::number::{Answer, IntervalPrecision, Scalar};
-use dalembert::{Ending, Energy, Error, Interval, NoBounceReason, Number, Parameters, Problem, Reason, Side};
+use dalembert::reason::NoBounceReason;
+use dalembert::{Ending, Energy, Error, Interval, Number, Parameters, Problem, Reason, Side};
 use proptest::prelude::*;
 use rug::ops::Pow;
 use rug::{Float, Integer, Rational};

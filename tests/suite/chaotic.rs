@@ -2,7 +2,8 @@
 
 use crate::stripped::{undamped, undamped_within};
 use dalembert::engine::{Limits, Motion};
-use dalembert::{Error, Numbers, Plan, Problem, Question, Run, Rung, Side, Solution, Warning};
+use dalembert::solve::Rung;
+use dalembert::{Error, Numbers, Plan, Problem, Question, Run, Side, Solution, Warning};
 use rug::Float;
 
 fn chaotic(time: i64) -> Problem {

@@ -1,7 +1,8 @@
 //! The columns of a table over time, each against a route of its own: integrals of the field over the rod, momentum
 //! balance, and what pencil and paper give.
 
-use dalembert::{Needs, Number, Problem, Quantity, Rational, Run, Scene, Side};
+use dalembert::quantity::Needs;
+use dalembert::{Number, Problem, Quantity, Rational, Run, Scene, Side};
 
 fn scene(name: &str) -> Problem {
     let source = dalembert::builtin::get(name).unwrap().source;

@@ -190,7 +190,7 @@ fn both_limits_of_a_reference_file() {
     // run. GetFEM's strain jumps on t = x, then on both diagonals but where they cross, then on t = 1 − x: at 15 of the
     // points.
     // All but the times and the sides.
-    let all = dalembert::Needs::Time.quantities().count() - 2;
+    let all = dalembert::quantity::Needs::Time.quantities().count() - 2;
     let cases: [(&str, &[&str], usize, u64); 5] = [
         ("doyen-ern-piperno", &["--dt", "1/128", "--to", "8"], all, 6),
         ("doyen-ern-piperno", &[], all, 26),

@@ -3,8 +3,9 @@
 use std::fmt::Write as _;
 
 use dalembert::compare::data::Source;
-use dalembert::compare::{Options, Parameter, Prepared};
-use dalembert::{Problem, Quantity, Side, Top, UnitSystem, Units};
+use dalembert::compare::{Options, Prepared};
+use dalembert::quantity::UnitSystem;
+use dalembert::{Parameter, Problem, Quantity, Side, Top, Units};
 use serde_json::Value;
 
 /// The values of a rod that starts above the ground: length, wave speed, damping, gravity, speed, gap.

@@ -239,9 +239,9 @@ fn fractions_conform() {
 #[cfg(feature = "mp")]
 mod long {
     use super::*;
-    use dalembert::engine::Target;
     use dalembert::number::IntervalPrecision;
-    use dalembert::{Float, Interval, Numbers, Observer, Plan, Question, Rung};
+    use dalembert::solve::{Rung, Target};
+    use dalembert::{Float, Interval, Numbers, Observer, Plan, Question};
 
     /// The planned engine in the numbers of a rung, read in numbers `S`.
     fn read<S: Target>(problem: &Problem, rung: Rung) -> Arc<dyn Motion<S::Carried>> {

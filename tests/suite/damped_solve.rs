@@ -2,8 +2,9 @@
 //! cases.
 
 use crate::common::{close, number, problem, reference};
+use dalembert::solve::Rung;
 use dalembert::{
-    Ending, EventKind, History, Number, Numbers, Parameters, Plan, Problem, Question, Run, Rung, Side, Solution,
+    Ending, EventKind, History, Number, Numbers, Parameters, Plan, Problem, Question, Run, Side, Solution,
 };
 use serde_json::Value;
 use std::sync::Arc;

@@ -5,9 +5,8 @@ use std::str::FromStr;
 
 use crate::command::{json, quiet};
 use crate::common::{compares, uniform};
-use dalembert::{
-    Derivative, Error, Estimate, History, NoDerivative, Number, Parameter, Problem, Quantity, Run, Speed, Start, Top,
-};
+use dalembert::solve::NoDerivative;
+use dalembert::{Derivative, Error, Estimate, History, Number, Parameter, Problem, Quantity, Run, Speed, Start, Top};
 use proptest::prelude::*;
 use rug::{Float, Rational};
 
@@ -185,7 +184,7 @@ fn euler_identities_in_fractions(cases: u32, least: [u32; 2], rods: impl Strateg
         for (i, event) in history.events().iter().enumerate() {
             let numbers = [&event.time, &event.end_velocity, &event.centre, &event.centre_velocity];
             for (j, number) in numbers.into_iter().enumerate() {
-                let one = |(by, value, rows): &(Parameter, Rational, dalembert::Derivatives<Rational>)| {
+                let one = |(by, value, rows): &(Parameter, Rational, dalembert::solve::Derivatives<Rational>)| {
                     if value.is_zero() {
                         return Some((*by, Rational::new()));
                     }
@@ -466,7 +465,7 @@ fn euler_identities_damped(cases: u32, least: [u32; 1]) {
         for (i, event) in history.events().iter().enumerate() {
             let numbers = [event.time, event.end_velocity, event.centre, event.centre_velocity];
             for (j, number) in numbers.into_iter().enumerate() {
-                let one = |(by, value, rows): &(Parameter, f64, dalembert::Derivatives<Estimate<f64>>)| {
+                let one = |(by, value, rows): &(Parameter, f64, dalembert::solve::Derivatives<Estimate<f64>>)| {
                     let found = rows[i][j].as_ref()?.value()?;
                     Some((*by, value * found.value(), value * (found.bound() + 1e-15 * found.value().abs())))
                 };

@@ -1,11 +1,10 @@
 //! One door: what a question is planned as, and that every number system gives the same answer through it.
 
-use dalembert::engine::{Motion, restitution};
+use dalembert::engine::Motion;
 use dalembert::number::Scalar;
-use dalembert::{
-    DEFAULT_ACCURACY, Engine, Error, Estimate, Needs, Numbers, Plan, Problem, Quantity, Question, Reach, Rung, Side,
-    Slice,
-};
+use dalembert::quantity::{Needs, Slice, restitution};
+use dalembert::solve::{DEFAULT_ACCURACY, Reach, Rung};
+use dalembert::{Engine, Error, Estimate, Numbers, Plan, Problem, Quantity, Question, Side};
 
 fn rod(speed: &str) -> Problem {
     Problem::builder().length(1).wave_speed(1).gravity(1).impact_speed(speed).build().unwrap()
@@ -107,7 +106,7 @@ fn a_meeting_is_decided_by_fractions() {
         dalembert::Scene::parse(scene.source).unwrap().problem.solve().unwrap()
     };
     let history = solved("doyen-ern-piperno");
-    assert_eq!((history.rung(), history.warnings()), (dalembert::Rung::Fractions, vec![]));
+    assert_eq!((history.rung(), history.warnings()), (dalembert::solve::Rung::Fractions, vec![]));
     let warnings = solved("mu-1-period-36").warnings();
     let undecided = matches!(warnings[..], [dalembert::Warning::Coincidence { .. }]);
     assert_eq!(undecided, cfg!(not(feature = "mp")), "{warnings:?}");

@@ -2,8 +2,9 @@
 
 use crate::common::{bounce_time, first_contact};
 use dalembert::engine::{Bounce, BounceKind, FirstContact};
+use dalembert::reason::NoBounceReason;
 use dalembert::special::RoundedSpecial;
-use dalembert::{Ending, Estimate, NoBounceReason, Number, Parameters, Reason, Side};
+use dalembert::{Ending, Estimate, Number, Parameters, Reason, Side};
 use serde_json::Value;
 
 type Contact<S> = FirstContact<Estimate<S>>;
@@ -132,7 +133,8 @@ fn close_to_the_overdamped_rod() {
 #[cfg(feature = "mp")]
 #[test]
 fn lost_digits_are_noticed_and_fetched() {
-    use dalembert::{History, Numbers, Plan, Problem, Question, Rung, Solution};
+    use dalembert::solve::Rung;
+    use dalembert::{History, Numbers, Plan, Problem, Question, Solution};
     let solved = |damping: &str, accuracy: f64| -> History<f64> {
         let problem = Problem::builder().length("1/2").wave_speed(1).damping(damping).impact_speed(1).build().unwrap();
         let plan = Plan::of(&problem, &Question::first_contact(Numbers::Double(Some(accuracy)))).unwrap();

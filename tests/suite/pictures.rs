@@ -3,8 +3,9 @@
 use std::collections::BTreeSet;
 use std::fs;
 
+use dalembert::quantity::Table;
 #[cfg(feature = "mp")]
-use dalembert::{History, Numbers, Plan, Problem, Question, Solution, Table};
+use dalembert::{History, Numbers, Plan, Problem, Question, Solution};
 
 use crate::command::{quiet, refused, run};
 use crate::common::close;

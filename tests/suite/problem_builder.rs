@@ -1,9 +1,7 @@
 //! The builder, and that it and a scene file end in the same checks.
 
-use dalembert::{
-    Builder, Error, Material, Number, Problem, ProblemError, ProblemErrorKind as Kind, Profile, Run, Scene, Speed,
-    Start, Top, Written,
-};
+use dalembert::problem::{Builder, ProblemError, ProblemErrorKind as Kind, Written};
+use dalembert::{Error, Material, Number, Problem, Profile, Run, Scene, Speed, Start, Top};
 use proptest::prelude::*;
 use proptest::strategy::ValueTree;
 use proptest::test_runner::TestRunner;
@@ -93,7 +91,8 @@ fn a_problem_goes_back_to_a_builder() {
 /// Without an area S is 1.
 #[test]
 fn a_material_without_an_area_has_forces_per_area() {
-    use dalembert::{Quantity, Side, UnitSystem, Units};
+    use dalembert::quantity::UnitSystem;
+    use dalembert::{Quantity, Side, Units};
     let rod = Problem::builder().length(2).modulus(4).density(1).impact_speed(3);
     for (rod, area, units) in
         [(rod.clone(), 1.0, ["Pa", "N/m²", "N s/m²", "J/m²"]), (rod.area(5), 5.0, ["Pa", "N", "N s", "J"])]

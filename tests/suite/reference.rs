@@ -3,7 +3,8 @@
 use std::fs::File;
 use std::process::Command;
 
-use dalembert::{Number, Problem, Rational, Run, Scene, Side, Slice};
+use dalembert::quantity::Slice;
+use dalembert::{Number, Problem, Rational, Run, Scene, Side};
 use ndarray::Array1;
 use ndarray_npy::NpzReader;
 use serde_json::Value;

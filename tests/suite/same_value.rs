@@ -1,9 +1,10 @@
 //! A value is the same whether it is asked alone or with others, in any order, and in every number system: on rays, at
 //! events and at ordinary times, from both sides, of random rods with and without damping.
 
-use dalembert::engine::{Motion, Target};
+use dalembert::engine::Motion;
 use dalembert::number::Scalar;
-use dalembert::{Error, Float, History, Interval, Number, Numbers, Plan, Problem, Question, Rational, Run, Rung, Side};
+use dalembert::solve::{Rung, Target};
+use dalembert::{Error, Float, History, Interval, Number, Numbers, Plan, Problem, Question, Rational, Run, Side};
 use proptest::prelude::*;
 use std::sync::Arc;
 
@@ -182,7 +183,14 @@ fn in_any_order(problem: &Problem, times: &[Number]) -> Result<usize, TestCaseEr
         prop_assert_eq!(a.len(), b.len());
         let scale = a.iter().fold(0.0, |most: f64, x| most.max(x.abs()));
         for (k, (a, b)) in a.iter().zip(&b).enumerate() {
-            prop_assert!((a - b).abs() <= 2.0 * dalembert::DEFAULT_ACCURACY * scale, "{} of {}: {} {}", k, time, a, b);
+            prop_assert!(
+                (a - b).abs() <= 2.0 * dalembert::solve::DEFAULT_ACCURACY * scale,
+                "{} of {}: {} {}",
+                k,
+                time,
+                a,
+                b
+            );
         }
         compared += a.len();
     }

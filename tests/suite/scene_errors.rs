@@ -1,6 +1,7 @@
 //! Every mistake in a scene is answered with its place, what was found and what was expected.
 
-use dalembert::{ProblemErrorKind as Kind, Scene, Start};
+use dalembert::problem::ProblemErrorKind as Kind;
+use dalembert::{Scene, Start};
 
 /// A scene, the rule that it breaks, and the line, column and text that the answer has to point at.
 struct Case {

@@ -1,6 +1,7 @@
 //! Whatever stands in a scene file, reading it ends in a scene or in an error that points into the file.
 
-use dalembert::{Material, Number, ProblemErrorKind, Run, Scene, Speed, Start, builtin};
+use dalembert::problem::ProblemErrorKind;
+use dalembert::{Material, Number, Run, Scene, Speed, Start, builtin};
 use proptest::prelude::*;
 
 /// The error, if there is one, points at characters of the source.

@@ -1,10 +1,11 @@
 //! Means and projections of damped rods, each within the bound that it carries: against fractions where nothing is
 //! damped, against finer cells, against the closed form, and against quadratures of the field in forty digits.
 
-use dalembert::engine::{ContactHistory, Damped, Motion, slices};
+use dalembert::engine::{ContactHistory, Damped, Motion};
 use dalembert::number::{IntervalPrecision, Scalar};
+use dalembert::quantity::{Slice, slices};
 use dalembert::special::gauss_legendre;
-use dalembert::{Ending, Estimate, Float, Interval, Number, Problem, Rational, Reason, Side, Slice, Start};
+use dalembert::{Ending, Estimate, Float, Interval, Number, Problem, Rational, Reason, Side, Start};
 use proptest::prelude::*;
 
 use crate::common::compares;

@@ -155,7 +155,7 @@ fn questions_beyond_the_end() {
 #[test]
 fn mu_4_3_has_the_least_restitution() {
     let history = first_contact("mu_4_3", ["1", "1", "1", "4/3"]);
-    let e = dalembert::engine::restitution(&history, history.contacts()[0].times()).unwrap();
+    let e = dalembert::quantity::restitution(&history, history.contacts()[0].times()).unwrap();
     // (4.72) at μ = 2μ₀/3.
     assert_eq!(e.energy_squared.unwrap(), q(5, 9));
 }

@@ -13,7 +13,7 @@ fn n(text: &str) -> Number {
 }
 
 /// `c = L = 1`.
-fn above(gravity: &str, speed: &str, gap: &str) -> dalembert::Builder {
+fn above(gravity: &str, speed: &str, gap: &str) -> dalembert::problem::Builder {
     Problem::builder().length(1).wave_speed(1).gravity(gravity).impact_speed(speed).gap(gap)
 }
 

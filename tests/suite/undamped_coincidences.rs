@@ -1,9 +1,8 @@
 //! Events that coincide with a ray, and events that nearly do: rounded numbers do not tell the two apart.
 
-use dalembert::engine::{Motion, Target};
-use dalembert::{
-    Estimate, Event, EventKind, History, Numbers, Plan, Problem, Question, Run, Rung, Scene, Warning, builtin,
-};
+use dalembert::engine::Motion;
+use dalembert::solve::{Rung, Target};
+use dalembert::{Estimate, Event, EventKind, History, Numbers, Plan, Problem, Question, Run, Scene, Warning, builtin};
 use proptest::prelude::*;
 use rug::{Float, Rational};
 use std::sync::Arc;

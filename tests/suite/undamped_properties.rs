@@ -2,8 +2,9 @@
 //! multiples of `g t₁` are common among them, so that rays and events often coincide.
 
 use crate::stripped::undamped;
-use dalembert::engine::{Motion, Undamped, flights, reflection, restitution};
+use dalembert::engine::{Motion, Undamped, reflection};
 use dalembert::number::Scalar;
+use dalembert::quantity::{flights, restitution};
 use dalembert::{Ending, EventKind, Number, Parameters, Problem, Profile, Run, Side, Speed, Start, Top, paper};
 use proptest::prelude::*;
 use rug::{Float, Rational};

@@ -3,11 +3,12 @@
 use std::ops::ControlFlow;
 use std::sync::Arc;
 
-use dalembert::engine::restitution;
 use dalembert::number::{Answer, Scalar, bound_of_log2, show};
+use dalembert::plot::{Canvas, Drawing, Drawn, Pose, Sizes};
+use dalembert::quantity::restitution;
 use dalembert::{
-    Canvas, Contact, Drawing, Drawn, Ending, Energy, Error, History, Numbers, Parameters, Plan, Pose, Question, Scene,
-    SceneError, Side, Sizes, Solution, Units, Warning,
+    Contact, Ending, Energy, Error, History, Numbers, Parameters, Plan, Question, Scene, SceneError, Side, Solution,
+    Units, Warning,
 };
 use wasm_bindgen::prelude::*;
 

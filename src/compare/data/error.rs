@@ -1,5 +1,6 @@
 //! What is wrong with data, and where; columns that may be wrong.
 
+/// Data that cannot be read: the source, the place in it, and what is wrong there.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[error("{file}{}: {kind}", place.as_ref().map_or_else(String::new, |place| format!(", {place}")))]
 pub struct DataError {
@@ -8,7 +9,9 @@ pub struct DataError {
     kind: DataErrorKind,
 }
 
+/// What is wrong with data.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[allow(missing_docs, reason = "each case is described by its message")]
 pub enum DataErrorKind {
     #[error("cannot be read: {0}")]
     Unreadable(String),

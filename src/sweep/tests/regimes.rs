@@ -45,7 +45,7 @@ fn pixels_keep_to_the_curves() {
             let plan = Plan::of(&rod, &Question::first_contact(Numbers::default())).unwrap();
             match (by_plan(&rod, &plan), *regime) {
                 (Regime::Bounce(a), Regime::Bounce(b)) => {
-                    assert!((a - b).abs() <= 2.0 * crate::DEFAULT_ACCURACY * a);
+                    assert!((a - b).abs() <= 2.0 * crate::solve::DEFAULT_ACCURACY * a);
                 }
                 (a, b) => assert_eq!(a, b, "R = {r}, M = {m}"),
             }
