@@ -43,7 +43,7 @@ docs: m4
 explore: m4
 	PROPTEST_RNG_SEED=$$(date +%s) $(CARGO) test --no-fail-fast --test suite -- properties first_contact_bounce
 	PROPTEST_RNG_SEED=$$(date +%s) $(CARGO) test --release --lib -- --ignored displaced
-	PROPTEST_RNG_SEED=$$(date +%s) $(CARGO) test --release --test suite -- --ignored near_thresholds near_coincidences derivatives asked_times certified_damped
+	PROPTEST_RNG_SEED=$$(date +%s) $(CARGO) test --release --test suite -- --ignored near_thresholds near_coincidences derivatives asked_times certified_damped any_scene
 
 WASM = wasm32-unknown-unknown
 PACKED = --manifest-path web/Cargo.toml --target-dir target/web

@@ -192,6 +192,9 @@ pub trait Motion<S: Scalar>: Send + Sync {
     /// Whether the end is on the ground just before or just after a time: 1 or 0.
     fn in_contact(&self, time: &S, side: Side) -> Result<S, Error> {
         let like = self.end();
+        if like.below(time) == Ok(true) || time.negative() == Ok(true) {
+            return Err(Error::TimeOutside { found: time.text(), end: like.text() });
+        }
         // The impact that ends a history is no event of it.
         if side == Side::Right && *self.ending() == Ending::NextImpact && !time.below(&like)? {
             return Ok(like.one());

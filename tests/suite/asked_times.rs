@@ -7,6 +7,7 @@
 
 use std::sync::Arc;
 
+use crate::common::Random;
 use dalembert::number::Scalar;
 use dalembert::solve::Target;
 use dalembert::{Error, EventKind, History, Number, Numbers, Plan, Problem, Question, Scene, Side, Solution, Warning};
@@ -149,6 +150,23 @@ fn at_a_printed_event_the_value_is_that_of_the_time() {
     }
 }
 
+/// Fractions end before the third impact, at a root in a root: they do not say that the end is in flight just after it.
+/// The impact is at 231.9966664943179601…, the time asked for 6e-14 later.
+#[test]
+fn contact_is_not_asked_beyond_the_end_of_a_run() {
+    let rod = Problem::builder().length("1.4863").wave_speed("0.5133").gravity("0.0138648");
+    let history = rod.drop_height("14600041/693240").impacts(3).build().unwrap().solve().unwrap();
+    let time: Number = "231.99666649431802".parse().unwrap();
+    for side in [Side::Left, Side::Right] {
+        let columns = [dalembert::Quantity::Contact, dalembert::Quantity::Strain];
+        let spelled = |time: &Number| dalembert::Estimate::<f64>::spelling(time, &());
+        let found = history.ask_columns(&columns, Some(side), |_| Ok(vec![spelled(&time)])).unwrap();
+        assert!(*found[0][0].value() == 1.0 && *found[1][0].value() < -1.0, "{found:?}");
+        let beyond = history.columns(&columns[..1], &[*history.end() * 1.01], Some(side));
+        assert!(matches!(beyond, Err(Error::BeyondEnd { .. } | Error::TimeOutside { .. })), "{beyond:?}");
+    }
+}
+
 /// Twenty digits next to an event are more than doubles spell: the bound covers the jump, and a warning says so.
 #[test]
 fn what_no_double_spells_is_covered() {
@@ -186,30 +204,16 @@ fn a_ray_of_the_start_is_met_exactly() {
     assert!(left[0].0 < -2 && left[0].1 < 1e-12 && right[0].0 == 0, "{left:?} {right:?}");
 }
 
-/// Numbers from 0 to 1, one after the other (splitmix64).
-struct Random(u64);
-
-impl Random {
-    fn between(&mut self, from: f64, to: f64) -> f64 {
-        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
-        let mut z = self.0;
-        z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-        z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-        let part = ((z ^ (z >> 31)) >> 11) as f64 / (1u64 << 53) as f64;
-        format!("{:.3e}", from + (to - from) * part).parse().unwrap()
-    }
-}
-
 fn random_rods(count: usize, seed: u64) -> Counts {
     let (mut random, mut counts) = (Random(seed), Counts::default());
     for k in 0..count {
-        let (length, wave_speed) = (random.between(0.3, 2.0), random.between(0.5, 3.0));
+        let (length, wave_speed) = (random.typed(0.3, 2.0), random.typed(0.5, 3.0));
         let trip = 2.0 * length / wave_speed;
-        let gravity = random.between(0.2, 1.0) / trip;
-        let speed = random.between(0.3, 4.0);
+        let gravity = random.typed(0.2, 1.0) / trip;
+        let speed = random.typed(0.3, 4.0);
         let mut rod = Problem::builder().length(length).wave_speed(wave_speed).gravity(gravity).impact_speed(speed);
         if k % 3 != 0 {
-            rod = rod.damping(format!("{:.3e}", random.between(0.01, 0.5) / trip).parse::<f64>().unwrap());
+            rod = rod.damping(format!("{:.3e}", random.typed(0.01, 0.5) / trip).parse::<f64>().unwrap());
         }
         held(&rod.impacts(3).build().unwrap(), &MODES, &mut counts);
     }
@@ -227,7 +231,7 @@ fn at_printed_events_of_random_rods() {
 #[test]
 #[ignore = "minutes: make explore"]
 fn at_printed_events_of_many_random_rods() {
-    let seed = std::env::var("PROPTEST_RNG_SEED").ok().and_then(|seed| seed.parse().ok()).unwrap_or(1);
+    let seed = Random::explored();
     let counts = random_rods(150, seed);
     println!("{counts:?}");
     assert!(counts.times >= 2000 && counts.values >= 60_000, "{counts:?}");

@@ -1,6 +1,6 @@
 //! Damped runs that are proved: every enclosure holds what more digits and other programs say.
 
-use crate::common::{number, problem, reference};
+use crate::common::{Random, number, problem, reference};
 use dalembert::number::Scalar;
 use dalembert::quantity::Needs;
 use dalembert::{
@@ -276,23 +276,8 @@ fn enclosed_times_and_points_are_covered() {
     assert!(held >= 200 && refused <= 6, "{held} {refused}");
 }
 
-/// Numbers that look random, the same on every machine.
-pub(crate) struct Dice(pub(crate) u64);
-
-impl Dice {
-    pub(crate) fn between(&mut self, low: f64, high: f64) -> f64 {
-        self.0 = self.0.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
-        low + (high - low) * ((self.0 >> 11) as f64 / (1u64 << 53) as f64)
-    }
-
-    /// Between powers of ten, in so many digits.
-    fn size(&mut self, low: f64, high: f64) -> String {
-        format!("{:.4e}", 10f64.powf(self.between(low, high)))
-    }
-}
-
 /// A damped rod: free or held, in SI units or its own, from the ground, above it, or strained.
-pub(crate) fn any_rod(dice: &mut Dice) -> Problem {
+pub(crate) fn any_rod(dice: &mut Random) -> Problem {
     let (mut rod, unit) = if dice.between(0.0, 1.0) < 0.3 {
         (
             Problem::uniform(
@@ -326,7 +311,7 @@ pub(crate) fn any_rod(dice: &mut Dice) -> Problem {
         rod.rod.top = Top::Fixed;
     } else if kind < 0.5 {
         let (length, strain) = (rod.rod.length.clone(), critical * trip);
-        let any = |dice: &mut Dice, by: f64| number_of(&format!("{:.4e}", by * dice.between(-1.0, 1.0)));
+        let any = |dice: &mut Random, by: f64| number_of(&format!("{:.4e}", by * dice.between(-1.0, 1.0)));
         let ground =
             if kind < 0.35 { 0.into() } else { number_of(&format!("{:.4e}", strain * dice.between(0.1, 0.5))) };
         let displacement = vec![(0.into(), ground), (length.clone(), any(dice, 0.2 * strain))];
@@ -339,7 +324,7 @@ pub(crate) fn any_rod(dice: &mut Dice) -> Problem {
 
 /// Compares so many random scenes; how many are proved to their end, and how many numbers were compared.
 fn explore(seed: u64, scenes: usize) -> (usize, usize) {
-    let mut dice = Dice(seed);
+    let mut dice = Random(seed);
     let (mut whole, mut count) = (0, 0);
     for k in 0..scenes {
         let problem = any_rod(&mut dice);

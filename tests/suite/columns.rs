@@ -1,6 +1,7 @@
 //! The columns of a table over time, each against a route of its own: integrals of the field over the rod, momentum
 //! balance, and what pencil and paper give.
 
+use crate::common::Random;
 use dalembert::quantity::Needs;
 use dalembert::{Number, Problem, Quantity, Rational, Run, Scene, Side};
 
@@ -245,11 +246,8 @@ fn both_limits_at_a_jump() {
 /// any order: random scenes, times at random, at events, where rays meet the ends, and twice, from both sides.
 #[test]
 fn one_march_has_the_values_of_many() {
-    let mut state = 1878u64;
-    let mut random = move || {
-        state = state.wrapping_mul(6364136223846793005).wrapping_add(1442695040888963407);
-        (state >> 11) as f64 / (1u64 << 53) as f64
-    };
+    let mut random = Random(1878);
+    let mut random = move || random.between(0.0, 1.0);
     let any = || Problem::builder().length(2).wave_speed(3).gravity(1);
     let rod = || any().impacts(4);
     let mut problems = vec![

@@ -105,3 +105,48 @@ pub(crate) fn to_accuracy(problem: &Problem, accuracy: f64) -> History<f64> {
 pub(crate) fn bounce_time(history: &History<f64>) -> Option<(f64, f64)> {
     history.events().get(1).map(|release| (release.time, release.time_error))
 }
+
+/// Numbers that look random, the same on every machine (splitmix64).
+#[cfg(any(feature = "mp", feature = "cli"))]
+pub(crate) struct Random(pub(crate) u64);
+
+#[cfg(any(feature = "mp", feature = "cli"))]
+impl Random {
+    /// What `make explore` draws from.
+    #[cfg(feature = "mp")]
+    pub(crate) fn explored() -> u64 {
+        std::env::var("PROPTEST_RNG_SEED").ok().and_then(|seed| seed.parse().ok()).unwrap_or(1)
+    }
+
+    pub(crate) fn between(&mut self, low: f64, high: f64) -> f64 {
+        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
+        let mut z = self.0;
+        z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+        z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
+        low + (high - low) * (((z ^ (z >> 31)) >> 11) as f64 / (1u64 << 53) as f64)
+    }
+
+    /// Four digits, so that a failure can be typed.
+    #[cfg(feature = "mp")]
+    pub(crate) fn typed(&mut self, low: f64, high: f64) -> f64 {
+        format!("{:.3e}", self.between(low, high)).parse().unwrap()
+    }
+
+    /// Between powers of ten, in five digits.
+    #[cfg(feature = "mp")]
+    pub(crate) fn size(&mut self, low: f64, high: f64) -> String {
+        format!("{:.4e}", 10f64.powf(self.between(low, high)))
+    }
+
+    /// Whether something of this probability happens.
+    #[cfg(feature = "mp")]
+    pub(crate) fn is(&mut self, probability: f64) -> bool {
+        self.between(0.0, 1.0) < probability
+    }
+
+    /// One of them.
+    #[cfg(feature = "mp")]
+    pub(crate) fn of<T: Copy>(&mut self, list: &[T]) -> T {
+        list[self.between(0.0, list.len() as f64) as usize]
+    }
+}

@@ -4,6 +4,8 @@
 #![allow(clippy::approx_constant, clippy::expect_used, clippy::panic, clippy::unwrap_used, clippy::useless_conversion)]
 
 #[cfg(feature = "mp")]
+mod any_scene;
+#[cfg(feature = "mp")]
 mod asked_times;
 #[cfg(feature = "mp")]
 mod certified_damped;

@@ -1,7 +1,8 @@
 //! Damped rods of which a later event falls on a ray of an earlier one, or next to it: proofs tell the two apart, and the
 //! numbers of a run in doubles stay within their bounds or come after a warning.
 
-use crate::certified_damped::{Dice, any_rod, compare};
+use crate::certified_damped::{any_rod, compare};
+use crate::common::Random;
 use dalembert::{Estimate, EventKind, Float, History, Parameters, Problem, Run, Speed, Start};
 
 /// Digits of the speeds that are found.
@@ -34,7 +35,7 @@ fn with_speed(problem: &Problem, speed: &Float) -> Problem {
 
 /// A rod of which event `later` comes a whole number of round trips after event `earlier`, or after the start, by
 /// secants; its run ends a little later. `None` where they find none.
-fn tuned(dice: &mut Dice) -> Option<(Problem, Float)> {
+fn tuned(dice: &mut Random) -> Option<(Problem, Float)> {
     let mut problem = any_rod(dice);
     let trip = Parameters::<Estimate<Float>>::of(&problem, &200).ok()?.round_trip().value().clone();
     let first = problem.digits(DIGITS as u32).ok()?;
@@ -108,7 +109,7 @@ fn doubles_hold(name: &str, problem: &Problem, truth: &History<Float>) -> usize 
 /// Compares so many rods at a coincidence and three places next to it. Counts: scenes, those proved to their end,
 /// numbers in enclosures, numbers in doubles.
 fn explore(seed: u64, rods: usize) -> [usize; 4] {
-    let mut dice = Dice(seed);
+    let mut dice = Random(seed);
     let mut counts = [0; 4];
     for _ in 0..rods {
         let Some((problem, at)) = std::iter::repeat_with(|| tuned(&mut dice)).take(200).flatten().next() else {

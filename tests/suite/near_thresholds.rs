@@ -17,6 +17,7 @@
 
 use std::sync::Arc;
 
+use crate::common::Random;
 use dalembert::{
     EventKind, Material, Number, Numbers, Plan, Problem, Profile, Question, Rod, Run, Scene, Solution, Start, Top,
     Warning,
@@ -33,21 +34,6 @@ fn float(x: f64) -> Float {
 
 fn number(x: &Float) -> Number {
     x.to_string_radix(10, Some(60)).parse().unwrap()
-}
-
-/// Numbers from 0 to 1, one after the other (splitmix64).
-struct Random(u64);
-
-impl Random {
-    fn between(&mut self, from: f64, to: f64) -> f64 {
-        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
-        let mut z = self.0;
-        z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-        z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-        // Four digits, so that a failure can be typed.
-        let part = ((z ^ (z >> 31)) >> 11) as f64 / (1u64 << 53) as f64;
-        format!("{:.3e}", from + (to - from) * part).parse().unwrap()
-    }
 }
 
 /// What is tuned.
@@ -79,22 +65,22 @@ struct Case {
 
 impl Case {
     fn random(kind: Kind, real: bool, random: &mut Random) -> Self {
-        let (length, wave_speed) = if real { (random.between(0.2, 2.0), 5172.0) } else { (1.0, 1.0) };
+        let (length, wave_speed) = if real { (random.typed(0.2, 2.0), 5172.0) } else { (1.0, 1.0) };
         let trip = length / wave_speed;
         let (most, speed) = (if real { 0.02 } else { 2.0 }, if real { 0.01 } else { 1.0 });
         let slow = kind == Kind::AfterLongFall;
-        let gravity = random.between(0.01, 0.4) * if slow { 0.02 } else { 1.0 } * speed / trip;
+        let gravity = random.typed(0.01, 0.4) * if slow { 0.02 } else { 1.0 } * speed / trip;
         let start = match kind {
-            Kind::Graze => (random.between(0.1, 0.6) * speed / wave_speed, 0.0),
-            Kind::AfterLongFall => (random.between(-0.5, -0.3) * speed, random.between(0.25, 0.6) * speed),
-            _ => (random.between(-1.4, -0.6) * speed, random.between(1.5, 3.5) * speed),
+            Kind::Graze => (random.typed(0.1, 0.6) * speed / wave_speed, 0.0),
+            Kind::AfterLongFall => (random.typed(-0.5, -0.3) * speed, random.typed(0.25, 0.6) * speed),
+            _ => (random.typed(-1.4, -0.6) * speed, random.typed(1.5, 3.5) * speed),
         };
         let damping = match kind {
-            Kind::AfterLongFall => random.between(0.001, 0.02),
-            Kind::Graze => random.between(1.5, 3.0),
-            _ => random.between(0.01, 0.7) * most,
+            Kind::AfterLongFall => random.typed(0.001, 0.02),
+            Kind::Graze => random.typed(1.5, 3.0),
+            _ => random.typed(0.01, 0.7) * most,
         };
-        let place = if kind == Kind::Graze { 0.9 } else { random.between(0.2, 0.8) };
+        let place = if kind == Kind::Graze { 0.9 } else { random.typed(0.2, 0.8) };
         Case { kind, length, wave_speed, damping: damping / trip, gravity, start, place }
     }
 
@@ -331,7 +317,7 @@ fn tries(kind: Kind, real: bool, count: u32, seed: u64) -> [u32; 3] {
     let mut wrong = Vec::new();
     while tried < count {
         let case = Case::random(kind, real, &mut random);
-        let exponent = random.between(-20.0, -8.0);
+        let exponent = random.typed(-20.0, -8.0);
         let Some(threshold) = case.threshold() else { continue };
         tried += 1;
         let wide = case.trip() / 60u32;
@@ -435,6 +421,6 @@ fn no_event_is_missing_or_invented_next_to_a_threshold() {
 #[test]
 #[ignore = "minutes: make explore"]
 fn no_event_is_missing_or_invented_next_to_many_thresholds() {
-    let seed = std::env::var("PROPTEST_RNG_SEED").ok().and_then(|seed| seed.parse().ok()).unwrap_or(1);
+    let seed = Random::explored();
     all(30, seed);
 }

@@ -326,10 +326,9 @@ fn complementarity_at_ten_thousand_times() {
         let problem = crate::common::uniform("1", "1", "1", &k.to_string(), Run::Time(400.into()));
         let history = Exact::solve(&problem, &()).unwrap();
         assert_eq!(history.ending(), &Ending::Time);
-        let mut seed = 12345u64 + k;
+        let mut random = crate::common::Random(12345 + k);
         for _ in 0..2000 {
-            seed = seed.wrapping_mul(6364136223846793005).wrapping_add(1442695040888963407);
-            let time = Rational::from((seed >> 24, 1u64 << 40)) * 400;
+            let time = Rational::from(((random.between(0.0, 1.0) * 2f64.powi(40)) as u64, 1u64 << 40)) * 400;
             let (v, _) = history.ground_end(&time, Side::Right).unwrap();
             let stress = history.strain(&time, Side::Right).unwrap();
             assert!(v >= 0 && stress <= 0 && Rational::from(&v * &stress) == 0, "μ = {k}, t = {time}");
