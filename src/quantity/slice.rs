@@ -101,8 +101,11 @@ fn check<S: Scalar>(points: &[S], length: &S) -> Result<(), Error> {
             return Err(Error::Grid { found: format!("the point {} after {}", pair[1].text(), pair[0].text()) });
         }
     }
-    let outside =
-        if first.negative()? { Some(first) } else { Some(last).filter(|last| length.below(last) != Ok(false)) };
+    // An end that is not told from that of the rod is taken for it.
+    let outside = match first.negative() == Ok(true) {
+        true => Some(first),
+        false => Some(last).filter(|last| length.below(last) == Ok(true)),
+    };
     outside.map_or(Ok(()), |point| Err(Error::PointOutside { found: point.text(), length: length.text() }))
 }
 

@@ -2,10 +2,10 @@
 
 use crate::common::{Random, number, problem, reference};
 use dalembert::number::Scalar;
-use dalembert::quantity::Needs;
+use dalembert::quantity::{Needs, Slice, slices};
 use dalembert::{
-    Ending, Estimate, EventKind, Field, Float, History, Interval, Number, Parameters, Problem, Profile, Quantity, Run,
-    Side, Speed, Start, Top, Warning,
+    Ending, Error, Estimate, EventKind, Field, Float, History, Interval, Number, Parameters, Problem, Profile,
+    Quantity, Run, Side, Speed, Start, Top, Warning,
 };
 
 fn number_of(text: &str) -> Number {
@@ -347,4 +347,29 @@ fn random_damped_scenes_are_enclosed() {
 fn explore_damped_scenes_that_are_proved() {
     let (whole, count) = explore(2473, 2000);
     assert!(whole >= 1900 && count >= 80_000, "{whole} {count}");
+}
+
+/// The mean of `v_x` over the rod is what its ends are apart, also where no double holds the length.
+#[test]
+fn means_reach_up_to_any_top() {
+    for text in ["1.2845", "4/3", "2/5"] {
+        let rod = Problem::builder().length(text).wave_speed("1.3").gravity(1).damping("0.1").impact_speed(1);
+        let proved = rod.build().unwrap().certified(12).unwrap();
+        let top: Number = text.parse().unwrap();
+        let both = proved.ask(
+            |motion| {
+                let length = motion.scales().length;
+                let [zero, top] = [length.zero(), Interval::from_number(&top, &length.precision())];
+                let times = [length.ratio(1, 10)];
+                let end = |x: &Interval| Ok::<_, Error>(motion.field(x, &times[0], Side::Right)?.displacement);
+                let ends = end(&top)? - &end(&zero)?;
+                let columns = slices(motion, Slice::Averages, &[zero, top], &times, Some(Side::Right))?;
+                Ok([ends, columns[5][0].clone() * &length])
+            },
+            |both| both.iter().collect(),
+        );
+        let [ends, mean] = both.unwrap();
+        let apart = ends - &mean;
+        assert!(*apart.lo() <= 0 && *apart.hi() >= 0 && *apart.hi() < 1e-10, "{text}: {apart:?}");
+    }
 }
