@@ -1,5 +1,6 @@
 //! A history in one number system, read in another.
 
+use std::cmp::Ordering;
 use std::sync::Arc;
 
 use super::asked::{Longer, Open, Telling, Windows, not_told};
@@ -8,7 +9,7 @@ use super::plan::Plan;
 use super::question::Observer;
 use crate::error::Error;
 use crate::lattice::Undamped;
-use crate::mapped::{MapEach, mapped, try_mapped};
+use crate::mapped::{CollectVec, MapEach, mapped, try_mapped};
 use crate::motion::moments::{self, Moments};
 use crate::motion::{Course, Field, Motion, Pair, Ray, RayRegister, Scales, Side, StressPiece, Stretch, Waves};
 use crate::number::{Bounded, Estimate, Reads, Scalar, Spelling};
@@ -78,11 +79,56 @@ impl<N: Scalar, M: Reads<N>> Converted<N, M> {
     /// A time that is none of the engine's own.
     fn given(&self, time: &M) -> N {
         let given = time.give(&self.precision);
-        if spelled(time) != Some(Spelling::Near) {
+        // Exact numbers and enclosures are asked around it.
+        if spelled(time) != Some(Spelling::Near) || self.windows.is_none() {
             return given;
         }
         let roundings = given.double(2.0 * time.log2_roundoff().exp2() * time.to_f64());
         given.widened(&roundings)
+    }
+
+    /// How far what was spelled may lie from a point or a time that stands for it, where numbers without roundings are
+    /// asked: what a double does not spell was rounded to it, and is given as the decimal of that; a longer number was
+    /// rounded once.
+    fn late(&self, x: &M) -> Option<N> {
+        let rounded = match x.as_double() {
+            Some(_) => x.spelled_as() == Some(Spelling::Near),
+            None => x.spelled_as().is_some(),
+        };
+        let late = || (x.magnitude() * x.roundoff() * x.int(2)).give(&self.precision);
+        (rounded && self.windows.is_none()).then(late)
+    }
+
+    /// [`Converted::late`] of a time that is none of the engine's own.
+    fn late_time(&self, time: &M) -> Option<N> {
+        if self.known(time).is_some() { None } else { self.late(time) }
+    }
+
+    /// [`Converted::late`] of a time at which a point is asked about; in longer numbers that of a ray there is the
+    /// ray's.
+    fn late_at(&self, point: &N, time: &M, given: &N) -> Option<N> {
+        let late = self.late_time(time)?;
+        let ray = time.as_double().is_none() && {
+            let own = time.give(&self.precision);
+            own.compare(given) != Ok(Ordering::Equal) || !self.rays.near(point, given).is_empty()
+        };
+        (!ray).then_some(late)
+    }
+
+    /// What is asked at a time, which may be off by `late`, within what it changes meanwhile.
+    ///
+    /// **Source**: between events and rays all is a polynomial in t of degree four at most. One of that degree is
+    /// `f(t) + Σ ℓₖ(s) (f(t + sₖ late) − f(t))` for `sₖ` = −1, −½, ½, 1, with `|ℓₖ| < 2` on all of −1 … 1. What jumps
+    /// meanwhile has both values among these.
+    fn around<X: Scalar>(
+        &self,
+        time: &N,
+        late: Option<N>,
+        read: fn(X) -> M,
+        ask: &dyn Fn(&N) -> Result<Vec<X>, Error>,
+    ) -> Result<Vec<M>, Error> {
+        let nodes = late.into_iter().flat_map(|late| [-2, -1, 1, 2].map(|s| time.clone() + late.ratio(s, 2) * &late));
+        covering(ask(time)?, read, nodes.map(|time| ask(&time)))
     }
 
     /// What is no number has none in another system that stands for it.
@@ -119,7 +165,16 @@ impl<N: Scalar, M: Reads<N>> Converted<N, M> {
         let rounded = point.ends(0).is_some()
             && point.log2_error() <= rounding.log2()
             && (self.scales.length.clone() - point).vanishes() != Ok(false);
-        Ok(if rounded || self.scales.length.alike(point) { length } else { point.give(&self.precision) })
+        if rounded || self.scales.length.alike(point) {
+            return Ok(length);
+        }
+        // Widened like a time.
+        Ok(self.given(point))
+    }
+
+    /// [`Converted::late`] of a point. The top is where it is.
+    fn late_point(&self, point: &M, given: &N) -> Option<N> {
+        if self.engine.scales().length.alike(given) { None } else { self.late(point) }
     }
 
     /// A time at which `point` is asked about: that of a ray there, where the roundings of `M` alone set a computed one
@@ -127,6 +182,11 @@ impl<N: Scalar, M: Reads<N>> Converted<N, M> {
     ///
     /// **Errors**: where it is not told from another event or ray.
     fn time_at(&self, point: &N, time: &M) -> Result<N, Error> {
+        self.time_at_point(point, false, time)
+    }
+
+    /// The same where the point may have more digits than a double, and is `near` what was spelled.
+    fn time_at_point(&self, point: &N, near: bool, time: &M) -> Result<N, Error> {
         self.finite(time)?;
         if let Some(known) = self.known(time) {
             return Ok(known);
@@ -141,7 +201,7 @@ impl<N: Scalar, M: Reads<N>> Converted<N, M> {
         let wide = is_wide(time, &given);
         if spelled(time).is_none() && !wide {
             let met = self.rays.meant(point, given.clone(), roundings);
-            if met.compare(&given).is_ok_and(std::cmp::Ordering::is_ne) {
+            if met.compare(&given).is_ok_and(Ordering::is_ne) {
                 return Ok(met);
             }
             given = met;
@@ -150,6 +210,7 @@ impl<N: Scalar, M: Reads<N>> Converted<N, M> {
         let near = match spelled(time) {
             // What more digits than a double has were rounded from is known no better.
             Some(Spelling::Near) => windows.all(point, &given),
+            Some(_) if near => windows.all(point, &given),
             None if wide => windows.all(point, &given),
             _ => windows.displaced(point, &given),
         };
@@ -159,6 +220,43 @@ impl<N: Scalar, M: Reads<N>> Converted<N, M> {
     fn time_at_ground(&self, time: &M) -> Result<N, Error> {
         self.time_at(&self.engine.end().zero(), time)
     }
+
+    fn at_ground<const K: usize>(&self, time: &M, ask: impl Fn(&N) -> Result<[N; K], Error>) -> Result<[M; K], Error> {
+        let (ground, given) = (self.engine.end().zero(), self.time_at_ground(time)?);
+        let late = self.late_at(&ground, time, &given);
+        self.around(&given, late, M::read, &|time| ask(time).map(Vec::from)).map(array)
+    }
+}
+
+/// The numbers of `found`, within all that the same numbers of `others` are off, twice over. Beyond the end and the rod
+/// there is nothing to be covered.
+fn covering<X: Scalar, M: Scalar>(
+    found: Vec<X>,
+    read: fn(X) -> M,
+    others: impl Iterator<Item = Result<Vec<X>, Error>>,
+) -> Result<Vec<M>, Error> {
+    let mut off: Option<Vec<X>> = None;
+    for other in others {
+        let other = match other {
+            Err(Error::TimeOutside { .. } | Error::PointOutside { .. }) => continue,
+            other => other?,
+        };
+        let sums = off.get_or_insert_with(|| mapped(&found, Scalar::zero));
+        for ((sum, other), found) in sums.iter_mut().zip(other).zip(&found) {
+            *sum = sum.clone() + (other - found).magnitude();
+        }
+    }
+    let Some(off) = off else { return Ok(mapped(found, read)) };
+    let widened = |(found, off): (X, X)| {
+        let off = read(off);
+        read(found).widened(&(off.clone() + off))
+    };
+    Ok(mapped(found.into_iter().zip(off), widened))
+}
+
+/// The numbers of a list that was made of so many.
+fn array<S, const K: usize>(list: Vec<S>) -> [S; K] {
+    list.try_into().unwrap_or_else(|_| unreachable!("as many numbers as were put in"))
 }
 
 impl<N: Scalar, M: Reads<N>> Motion<M> for Converted<N, M> {
@@ -171,22 +269,45 @@ impl<N: Scalar, M: Reads<N>> Motion<M> for Converted<N, M> {
     }
 
     fn strain(&self, time: &M, side: Side) -> Result<M, Error> {
-        self.engine.strain(&self.time_at_ground(time)?, side).map(M::read)
+        self.at_ground(time, |time| Ok([self.engine.strain(time, side)?])).map(|[strain]| strain)
     }
 
     fn pair(&self, pair: Pair, time: &M, side: Side) -> Result<[M; 2], Error> {
-        let time = if pair == Pair::GroundEnd { self.time_at_ground(time)? } else { self.time(time)? };
-        Ok(self.engine.pair(pair, &time, side)?.map_each(M::read))
+        let ask = |time: &N| self.engine.pair(pair, time, side);
+        if pair == Pair::GroundEnd {
+            return self.at_ground(time, ask);
+        }
+        let (given, late) = (self.time(time)?, self.late_time(time));
+        self.around(&given, late, M::read, &|time| ask(time).map(Vec::from)).map(array)
     }
 
+    /// On the rectangle of what may be meant v is a quadratic function: with the values at its corners and in the
+    /// middle of its sides, that in its own middle is interpolated by coefficients of at most 1.
     fn field(&self, point: &M, time: &M, side: Side) -> Result<Field<M>, Error> {
-        let point = self.point(point)?;
-        let field = self.engine.field(&point, &self.time_at(&point, time)?, side)?;
-        Ok(field.map(M::read))
+        let given = self.point(point)?;
+        let near = point.spelled_as() == Some(Spelling::Near);
+        let at = self.time_at_point(&given, near, time)?;
+        let ask = |point: &N, time: &N| {
+            let Field { displacement, velocity, strain } = self.engine.field(point, time, side)?;
+            Ok(vec![displacement, velocity, strain])
+        };
+        let late = self.late_at(&given, time, &at);
+        // What is on a ray is there as a whole.
+        let on_ray = late.is_none() && time.as_double().is_none();
+        let aside = if on_ray { None } else { self.late_point(point, &given) };
+        let around = |x: &N, late: &Option<N>| match late {
+            Some(late) => vec![x.clone(), x.clone() - late, x.clone() + late],
+            None => vec![x.clone()],
+        };
+        let times = around(&at, &late);
+        let nodes = around(&given, &aside).into_iter().flat_map(|x| times.iter().map(move |t| (x.clone(), t))).skip(1);
+        let found = covering(ask(&given, &at)?, M::read, nodes.map(|(x, t)| ask(&x, t)))?;
+        let [displacement, velocity, strain] = array(found);
+        Ok(Field { displacement, velocity, strain })
     }
 
     fn in_contact(&self, time: &M, side: Side) -> Result<M, Error> {
-        self.engine.in_contact(&self.time_at_ground(time)?, side).map(M::read)
+        self.at_ground(time, |time| Ok([self.engine.in_contact(time, side)?])).map(|[contact]| contact)
     }
 
     /// In one march, where no time is that of an event or of a ray at a point of its own.
@@ -219,13 +340,34 @@ impl<N: Scalar, M: Reads<N>> Motion<M> for Converted<N, M> {
     }
 
     fn moments(&self, time: &M, points: &[M]) -> Result<Vec<Moments<M>>, Error> {
-        match self.stretches(time) {
-            Err(Error::NoWaves) => {}
-            stretches => return moments::of_stretches(&stretches?, points),
+        let (given, late) = (self.time(time)?, self.late_time(time));
+        let flat = |cells: Vec<Moments<_>>| cells.into_iter().flatten().flatten().collect_vec();
+        let numbers = match self.engine.stretches(&given) {
+            Err(Error::NoWaves) => None,
+            // Differences of exact numbers have no roundings.
+            Ok(_) if late.is_some() && given.bits().is_none() => None,
+            Ok(_) => Some(self.around(&given, late.clone(), |x: M| x, &|time| {
+                let stretches = mapped(self.engine.stretches(time)?, |stretch| stretch.map(M::read));
+                moments::of_stretches(&stretches, points).map(flat)
+            })?),
+            Err(error) => return Err(error),
+        };
+        let numbers = match numbers {
+            Some(numbers) => numbers,
+            None => {
+                let points = try_mapped(points, |point| self.point(point))?;
+                let flat = |cells: Vec<Moments<N>>| cells.into_iter().flatten().flatten().collect_vec();
+                self.around(&given, late, M::read, &|time| self.engine.moments(time, &points).map(flat))?
+            }
+        };
+        let mut numbers = numbers.into_iter();
+        let mut cells = Vec::with_capacity(points.len());
+        while let Some(first) = numbers.next() {
+            let rest = array::<_, 5>(numbers.by_ref().take(5).collect_vec());
+            let [a, b, c, d, e] = rest;
+            cells.push([[first, a], [b, c], [d, e]]);
         }
-        let points = try_mapped(points, |point| self.point(point))?;
-        let moments = self.engine.moments(&self.time(time)?, &points)?;
-        Ok(mapped(moments, |cell| cell.map_each(|pair| pair.map_each(M::read))))
+        Ok(cells)
     }
 
     fn waves(&self) -> Result<Waves<M>, Error> {
@@ -267,4 +409,5 @@ where
 
 #[cfg(all(test, feature = "mp"))]
 #[path = "tests/converted.rs"]
+#[allow(clippy::unwrap_used)]
 mod tests;
