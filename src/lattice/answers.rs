@@ -1,10 +1,12 @@
 //! What is answered of an undamped history; its events and contacts in the units of the scene.
 
 use super::history::{Centre, Moment, Undamped};
+use super::parts::{self, Parted};
 use super::start::Units;
 use super::trace::{GroundEvent, Line, Part, Piece, Place};
 use crate::error::Error;
 use crate::mapped::MapEach;
+use crate::motion::moments::{self, Moments};
 use crate::motion::{
     Contact, Course, Event, EventKind, Field, Motion, Pair, Ray, Scales, Side, StressPiece, Stretch, WavePiece, Waves,
 };
@@ -177,10 +179,14 @@ impl<N: Bounded> Motion<N> for Undamped<N> {
     }
 
     fn stretches(&self, time: &N) -> Result<Vec<Stretch<N>>, Error> {
-        let moment = self.locate(time)?;
-        let Units { round_trip, velocity, .. } = &self.problem.units;
-        let height = self.height_at(&self.place(&moment, Side::Left)?) * velocity * round_trip;
-        Ok(self.stretches_at(&self.last_trip(&moment)?, height)?)
+        Ok(self.stretches_and_shifts(time)?.0)
+    }
+
+    fn moments(&self, time: &N, points: &[N]) -> Result<Vec<Moments<N>>, Error> {
+        let (stretches, shifts) = self.stretches_and_shifts(time)?;
+        let mut cells = moments::of_stretches(&stretches, points)?;
+        parts::widened(&mut cells, &shifts, points);
+        Ok(cells)
     }
 
     /// What is at the top has left the ground half a round trip before.
@@ -273,6 +279,13 @@ impl<N: Bounded> Motion<N> for Undamped<N> {
 }
 
 impl<N: Bounded> Undamped<N> {
+    fn stretches_and_shifts(&self, time: &N) -> Result<Parted<N>, Error> {
+        let moment = self.locate(time)?;
+        let Units { round_trip, velocity, .. } = &self.problem.units;
+        let height = self.height_at(&self.place(&moment, Side::Left)?) * velocity * round_trip;
+        Ok(self.stretches_at(&self.last_trip(&moment)?, height)?)
+    }
+
     pub(super) fn in_scene_units(&self) -> Result<Vec<Event<N>>, Error> {
         let Units { round_trip, velocity, .. } = &self.problem.units;
         let rise = velocity.clone() * round_trip;

@@ -240,12 +240,16 @@ impl<N: Bounded> Undamped<N> {
     ///
     /// **Source**: the delay recursion; gravity takes `g s` from what left the ground `s` ago.
     pub(super) fn visit_rod(&self, trip: &[Place<N>; 2], visit: &mut dyn FnMut(Part<N>)) -> Result<(), Open> {
-        if self.problem.top == Top::Fixed {
-            return self.visit_ways(trip, &mut |_, part| visit(part));
-        }
-        let [from, until] = trip;
+        let (trace, [from, until]) = (&self.ground.trace, trip);
         let summed = self.summed(until.index);
-        self.ground.trace.window(from, until, &mut |part| visit(summed(part)));
+        match self.problem.top {
+            Top::Fixed => self.visit_ways(trip, &mut |_, part| visit(part))?,
+            Top::Free => trace.window_from(from, until, &mut |part| visit(summed(part))),
+        }
+        // The break at the ground that may come before the end of the window.
+        if let Some(edge) = trace.edge(until, Side::Left) {
+            visit(summed(Part { offset: until.age.one(), ..edge }));
+        }
         Ok(())
     }
 
@@ -257,14 +261,14 @@ impl<N: Bounded> Undamped<N> {
         let (gravity, half) = (&self.problem.gravity, until.age.one().halved());
         let now = Moment { index: until.index, age: until.age.clone() };
         let middle = self.place(&self.shifted(&now, &-half.clone())?, Side::Right)?;
-        trace.window(from, &middle, &mut |part| match self.problem.top {
+        trace.window_from(from, &middle, &mut |part| match self.problem.top {
             Top::Free => visit(false, part),
             Top::Fixed => {
                 let shift = part.shift.map(|(jump, late)| (-jump, late));
                 visit(false, Part { value: gravity.clone() - part.value, slope: -part.slope, shift, ..part });
             }
         });
-        trace.window(&middle, until, &mut |part| visit(true, Part { offset: part.offset + &half, ..part }));
+        trace.window_from(&middle, until, &mut |part| visit(true, Part { offset: part.offset + &half, ..part }));
         Ok(())
     }
 

@@ -6,7 +6,8 @@ use super::history::Undamped;
 use super::start::Units;
 use super::trace::{Part, Place};
 use crate::mapped::mapped;
-use crate::motion::Stretch;
+use crate::motion::moments::Moments;
+use crate::motion::{Side, Stretch};
 use crate::number::{Bounded, Open};
 
 /// A stretch of the rod on which both invariants are linear.
@@ -17,6 +18,40 @@ struct Both<N> {
     slopes: [N; 2],
     /// Jumps across its beginning, each with the deviation in place.
     shifts: Vec<(N, N)>,
+}
+
+/// A jump that may lie elsewhere than where it is taken to be.
+pub(super) struct Shift<N> {
+    /// Where it is.
+    at: N,
+    /// Zero, within what `∫ |v_t| dx` and `∫ |v_x| dx` are off by that.
+    off: [N; 2],
+}
+
+/// The rod in stretches, and the jumps between them that may lie elsewhere.
+pub(super) type Parted<N> = (Vec<Stretch<N>>, Vec<Shift<N>>);
+
+/// The moments of the cells between `points`, within what `shifts` make of them: v_x that lies elsewhere moves all that
+/// is above it.
+pub(super) fn widened<N: Bounded>(cells: &mut [Moments<N>], shifts: &[Shift<N>], points: &[N]) {
+    let (Some(first), Some(point)) = (shifts.first(), points.first()) else { return };
+    let (mut rest, mut below) = (shifts, first.off[1].zero());
+    for (cell, pair) in cells.iter_mut().zip(points.windows(2)) {
+        let (a, b, width) = (&pair[0], &pair[1], pair[1].clone() - &pair[0]);
+        while let Some((shift, others)) = rest.split_first().filter(|(shift, _)| shift.at.below(a) == Ok(true)) {
+            (rest, below) = (others, below + &shift.off[1]);
+        }
+        let mut off = [point.zero(), point.zero()];
+        for shift in rest.iter().filter(|shift| b.below(&shift.at) != Ok(true)) {
+            off = std::array::from_fn(|k| off[k].clone() + &shift.off[k]);
+        }
+        let [velocity, strain] = off;
+        let displacement = (below.clone() + &strain) * &width;
+        for (sum, off) in cell.iter_mut().zip([displacement, velocity, strain]) {
+            sum[1] = sum[1].clone() + off.clone() * &width;
+            sum[0] = sum[0].clone() + off;
+        }
+    }
 }
 
 impl<N: Bounded> Undamped<N> {
@@ -41,14 +76,23 @@ impl<N: Bounded> Undamped<N> {
         Ok(sums)
     }
 
-    /// The rod at a moment, in the units of the scene; `height` is `v(0,t)`.
-    pub(super) fn stretches_at(&self, trip: &[Place<N>; 2], height: N) -> Result<Vec<Stretch<N>>, Open> {
+    /// The rod at a moment, in the units of the scene, with the jumps between its stretches that may lie elsewhere;
+    /// `height` is `v(0,t)`.
+    pub(super) fn stretches_at(&self, trip: &[Place<N>; 2], height: N) -> Result<Parted<N>, Open> {
         let Units { velocity, length, wave_speed, .. } = &self.problem.units;
         let twice = length.clone().doubled();
         let rates = [velocity.clone(), velocity.clone() / wave_speed];
-        let (mut from, mut displacement) = (length.zero(), height);
-        let mut stretches = Vec::new();
+        let (zero, mut from, mut displacement) = (length.zero(), length.zero(), height);
+        let (mut stretches, mut shifts) = (Vec::new(), Vec::new());
         self.visit_both(trip, &mut |both| {
+            for (jump, late) in both.shifts {
+                let (half, late) = (jump.halved(), late * &twice);
+                let off = rates.each_ref().map(|rate| half.clone() * rate * &late);
+                shifts.push(Shift { at: late + &from, off });
+            }
+            if both.width.alike(&zero) {
+                return;
+            }
             let width = both.width * &twice;
             let [velocity, strain] = std::array::from_fn(|k| {
                 let slope = both.slopes[k].clone() * &rates[k] / &twice;
@@ -59,7 +103,7 @@ impl<N: Bounded> Undamped<N> {
             displacement = stretch.displacement_after(&stretch.width);
             stretches.push(stretch);
         })?;
-        Ok(stretches)
+        Ok((stretches, shifts))
     }
 
     fn visit_both(&self, trip: &[Place<N>; 2], visit: &mut dyn FnMut(Both<N>)) -> Result<(), Open> {
@@ -71,15 +115,28 @@ impl<N: Bounded> Undamped<N> {
             let part = Part { value, slope: part.slope + gravity, ..part };
             (if rises { &mut up } else { &mut down }).push(part);
         })?;
-        // What goes up is met from its last part on: x falls with the age, and a jump is across the other end.
+        // What goes up is met from its last part on: x falls with the age, and a jump is across the other end; that
+        // of the last part is at the ground, that of the first at the top.
         let mut edges = mapped(&mut up, |part| part.shift.take());
-        edges.rotate_left(1);
+        edges.push(self.ground.trace.edge(&trip[1], Side::Left).and_then(|edge| edge.shift));
+        let at_top = edges.remove(0);
+        let top = up.first().zip(down.last()).map(|(p, q)| (p.value.clone(), q.slope.clone() * &q.width + &q.value));
         let turned = |(part, shift): (Part<N>, _)| {
             let value = part.slope.clone() * &part.width + &part.value;
             Part { value, slope: -part.slope, shift, ..part }
         };
-        join(mapped(up.into_iter().zip(edges).rev(), turned), down, visit)
+        join(mapped(up.into_iter().zip(edges).rev(), turned), down, visit)?;
+        if let (Some(shift), Some((p, q))) = (at_top, top) {
+            let (width, slopes) = (one.zero(), [one.zero(), one.zero()]);
+            visit(Both { width, values: halves(&p, &q), slopes, shifts: vec![shift] });
+        }
+        Ok(())
     }
+}
+
+/// `(p + q)/2` and `(q − p)/2`.
+fn halves<N: Bounded>(p: &N, q: &N) -> [N; 2] {
+    [(q.clone() + p).halved(), (q.clone() - p).halved()]
 }
 
 /// Two lists in the order of x that end together, cut where either is.
@@ -91,7 +148,6 @@ fn join<N: Bounded>(up: Vec<Part<N>>, down: Vec<Part<N>>, visit: &mut dyn FnMut(
         let last = up.as_slice().is_empty() && down.as_slice().is_empty();
         let order = if last { Ordering::Equal } else { rising.width.compare(&falling.width)? };
         let width = if order.is_le() { rising.width.clone() } else { falling.width.clone() };
-        let halves = |p: &N, q: &N| [(q.clone() + p).halved(), (q.clone() - p).halved()];
         let mut shifts = Vec::from_iter(rising.shift.clone());
         shifts.extend(falling.shift.clone());
         visit(Both {

@@ -390,6 +390,37 @@ impl<N: Bounded> Trace<N> {
         }
     }
 
+    /// What an end of a window may miss of a break that it is not told from: nothing on the one side of it, on the other
+    /// `[p]` times how far the two may be apart. The place is one from this side.
+    pub(super) fn edge(&self, place: &Place<N>, side: Side) -> Option<Part<N>> {
+        let (mut index, mut piece, mut age) = (place.index, place.piece, place.age.clone());
+        if side == Side::Left {
+            piece += 1;
+            if piece == self.slice(index).len() {
+                (index, piece, age) = (index + 1, 0, age.clone() - age.one());
+            }
+        }
+        // What was before the first trip that is stored is not known.
+        let first = self.slots.first().map_or(0, |slot| slot.first);
+        if index >= self.end || (index, piece) <= (first, 0) {
+            return None;
+        }
+        let Piece { age: begins, line, .. } = self.piece(&Place { index, piece, age: age.clone() });
+        let apart = age - &begins;
+        let late = if apart.vanishes() == Ok(true) { apart.taken_for_zero().deviation()? } else { return None };
+        let left = self.place_before(index, piece, &begins);
+        let (value, zero) = (line.value_at(&begins), begins.zero());
+        let jump = value.clone() - self.piece(&left).line.value_at(&left.age);
+        let (offset, width, slope) = (zero.clone(), zero, line.slope);
+        Some(Part { offset, width, value, slope, shift: Some((jump, late)), late_end: None })
+    }
+
+    /// [`Trace::window`] from a place from the right, whose break it may lie before.
+    pub(super) fn window_from(&self, from: &Place<N>, until: &Place<N>, visit: &mut dyn FnMut(Part<N>)) {
+        let mut first = self.edge(from, Side::Right).and_then(|edge| edge.shift);
+        self.window(from, until, &mut |part| visit(Part { shift: part.shift.or_else(|| first.take()), ..part }));
+    }
+
     /// `p` from one place to another, in parts.
     pub(super) fn window(&self, from: &Place<N>, until: &Place<N>, visit: &mut dyn FnMut(Part<N>)) {
         let (mut index, mut k) = (from.index, from.piece);

@@ -645,11 +645,7 @@ fn times(problem: &Problem, history: &History<f64>, random: &mut Random) -> Vec<
         let half = problem.rod.length.to_rational() / c.to_rational();
         let count = (end / half.to_f64()).min(1e6) as i64;
         let k = random.between(0.0, count as f64 + 1.0) as i64;
-        let ray = (half * k).to_string();
-        // A longer fraction is no more than the double next to it.
-        if ray.len() < 9 {
-            times.push(ray.parse().unwrap());
-        }
+        times.push((half * k).to_string().parse().unwrap());
     }
     // What is rounded up may be beyond the end.
     times.retain(|time| time.to_f64() < end * (1.0 - 1e-5));
