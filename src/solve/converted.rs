@@ -160,11 +160,10 @@ impl<N: Scalar, M: Reads<N>> Converted<N, M> {
         if !point.is_finite() {
             return Err(Error::PointOutside { found: point.text(), length: length.text() });
         }
-        // An enclosure of the length in other bits is one of it too.
+        // The length in other bits, or an enclosure of it, is the length too.
         let rounding = 8.0 * point.log2_roundoff().exp2() * point.to_f64();
-        let rounded = point.ends(0).is_some()
-            && point.log2_error() <= rounding.log2()
-            && (self.scales.length.clone() - point).vanishes() != Ok(false);
+        let rounded =
+            point.log2_error() <= rounding.log2() && (self.scales.length.clone() - point).vanishes() != Ok(false);
         if rounded || self.scales.length.alike(point) {
             return Ok(length);
         }

@@ -4,7 +4,7 @@
 use dalembert::engine::Motion;
 use dalembert::number::Scalar;
 use dalembert::solve::{Rung, Target};
-use dalembert::{Error, Float, History, Interval, Number, Numbers, Plan, Problem, Question, Rational, Run, Side};
+use dalembert::{Error, Float, History, Interval, Number, Numbers, Plan, Problem, Question, Rational, Run, Side, Top};
 use proptest::prelude::*;
 use std::sync::Arc;
 
@@ -319,5 +319,34 @@ fn the_top_is_the_top_in_longer_numbers() {
     for k in 1..40 {
         // A free top has no strain.
         assert_eq!(motion.at(1.0 / 3.0, 2.0 * f64::from(k) - 0.3217).unwrap().strain, 0.0);
+    }
+}
+
+/// A place that spells the length is the top, in whatever numbers: a fixed one stands still from the start on.
+#[test]
+fn the_top_is_where_the_length_is() {
+    for length in ["1.2855", "2/5", "4/3"] {
+        let top: Number = length.parse().unwrap();
+        let rod = Problem::builder().length(length).wave_speed("0.86874").gravity("0.117388").top(Top::Fixed);
+        let rod = rod.displacement([("0", "0"), (length, "0.5")]).velocity([("0", "-1"), (length, "0.25")]).impacts(2);
+        let problem = rod.build().unwrap();
+        fn still<S: Target>(history: &History<S>, top: &Number) -> f64 {
+            let velocity = history.ask(
+                |motion| {
+                    let precision = motion.end().precision();
+                    let [top, zero] = [top, &Number::from(0)].map(|number| S::Carried::spelling(number, &precision));
+                    Ok::<_, Error>(motion.field(&top, &zero, Side::Right)?.velocity)
+                },
+                |velocity| vec![velocity],
+            );
+            velocity.unwrap().to_f64()
+        }
+        let found = [
+            still(&problem.solve().unwrap(), &top),
+            still(&problem.digits(5).unwrap(), &top),
+            still(&problem.digits(28).unwrap(), &top),
+            still(&problem.certified(12).unwrap(), &top),
+        ];
+        assert_eq!(found, [0.0; 4], "{length}");
     }
 }
