@@ -25,8 +25,8 @@
 //! | [`Problem::exact`] | fractions | no error, as far as they reach; undamped rods |
 //! | [`Problem::certified`] | enclosures | every digit is proved; `docs/proofs.md` says what of |
 //!
-//! A rod of one's own, here in SI units, through ten impacts, and the force of the ground at the times of a test. What a
-//! scene file says is `Scene::parse(&text)?.problem`.
+//! A rod of one's own, here in SI units, through ten impacts, and the force of the ground at the times of a test. What
+//! a scene file says is `Scene::parse(&text)?.problem`.
 //!
 //! ```
 //! use dalembert::{Problem, Quantity, Side};

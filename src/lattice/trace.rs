@@ -390,8 +390,8 @@ impl<N: Bounded> Trace<N> {
         }
     }
 
-    /// What an end of a window may miss of a break that it is not told from: nothing on the one side of it, on the other
-    /// `[p]` times how far the two may be apart. The place is one from this side.
+    /// What an end of a window, at `place` from this side, may miss of a break that it is not told from: nothing on the
+    /// one side of the break, on the other `[p]` times how far the two may be apart.
     pub(super) fn edge(&self, place: &Place<N>, side: Side) -> Option<Part<N>> {
         let (mut index, mut piece, mut age) = (place.index, place.piece, place.age.clone());
         if side == Side::Left {

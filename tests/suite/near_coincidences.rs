@@ -1,5 +1,5 @@
-//! Damped rods of which a later event falls on a ray of an earlier one, or next to it: proofs tell the two apart, and the
-//! numbers of a run in doubles stay within their bounds or come after a warning.
+//! Damped rods of which a later event falls on a ray of an earlier one, or next to it: proofs tell the two apart, and
+//! the numbers of a run in doubles stay within their bounds or come after a warning.
 
 use crate::certified_damped::{any_rod, compare};
 use crate::common::Random;
