@@ -1,6 +1,6 @@
 //! What is answered of an undamped history; its events and contacts in the units of the scene.
 
-use super::history::{Centre, Moment, Undamped};
+use super::history::{Centre, Moment, Trip, Undamped};
 use super::parts::{self, Parted};
 use super::start::Units;
 use super::trace::{GroundEvent, Line, Part, Piece, Place};
@@ -68,7 +68,7 @@ impl<N: Bounded> Motion<N> for Undamped<N> {
             let height = self.height_at(&self.place(&moment, Side::Left)?);
             return Ok([height * velocity * round_trip, rate * velocity]);
         }
-        let (trip, unit) = (self.last_trip(&moment)?, velocity.square() * length);
+        let (trip, unit) = (self.last_trip(&moment, time)?, velocity.square() * length);
         if pair == Pair::EnergyParts {
             // On the rod `v_t = (p + q)/2` and `c v_x = (q − p)/2`, whose breaks are those of both.
             return Ok(self.squares(&trip)?.map_each(|part| part * &unit));
@@ -283,7 +283,7 @@ impl<N: Bounded> Undamped<N> {
         let moment = self.locate(time)?;
         let Units { round_trip, velocity, .. } = &self.problem.units;
         let height = self.height_at(&self.place(&moment, Side::Left)?) * velocity * round_trip;
-        Ok(self.stretches_at(&self.last_trip(&moment)?, height)?)
+        Ok(self.stretches_at(&self.last_trip(&moment, time)?, height)?)
     }
 
     pub(super) fn in_scene_units(&self) -> Result<Vec<Event<N>>, Error> {
@@ -322,7 +322,7 @@ impl<N: Bounded> Undamped<N> {
     fn centre_at_event(&self, event: &GroundEvent<N>) -> Result<Centre<N>, Open> {
         let a_trip_before = Place { index: event.trip, piece: event.incoming, age: event.age.clone() };
         let [_, until] = self.places(event);
-        self.centre_at(&[a_trip_before, until])
+        self.centre_at(&Trip { ends: [a_trip_before, until], at_event: true })
     }
 
     /// The centre at the next event of the same round trip: under a free top `h″ = −(c²/L) v_x(0,t) − g`. Started

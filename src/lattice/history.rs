@@ -31,6 +31,14 @@ pub(super) struct Moment<N> {
     pub(super) age: N,
 }
 
+/// The round trip up to a moment.
+pub(super) struct Trip<N> {
+    /// Where it begins, and where it ends from the left.
+    pub(super) ends: [Place<N>; 2],
+    /// Whether the moment is an event's own, and not only one that is not told from it.
+    pub(super) at_event: bool,
+}
+
 /// `h` and `h′` in lattice units.
 pub(super) struct Centre<N> {
     pub(super) height: N,
@@ -239,53 +247,71 @@ impl<N: Bounded> Undamped<N> {
     /// `w(s) = value − g s`, where `w` is `p` at `x = 2Ls` for `s < ½` and `q` at `x = 2L(1 − s)` behind the top.
     ///
     /// **Source**: the delay recursion; gravity takes `g s` from what left the ground `s` ago.
-    pub(super) fn visit_rod(&self, trip: &[Place<N>; 2], visit: &mut dyn FnMut(Part<N>)) -> Result<(), Open> {
-        let (trace, [from, until]) = (&self.ground.trace, trip);
+    pub(super) fn visit_rod(&self, trip: &Trip<N>, visit: &mut dyn FnMut(Part<N>)) -> Result<(), Open> {
+        let (trace, [from, until]) = (&self.ground.trace, &trip.ends);
         let summed = self.summed(until.index);
         match self.problem.top {
             Top::Fixed => self.visit_ways(trip, &mut |_, part| visit(part))?,
-            Top::Free => trace.window_from(from, until, &mut |part| visit(summed(part))),
+            Top::Free => {
+                trace.window_from(from, until, self.edge(trip, from, Side::Right), &mut |part| visit(summed(part)));
+            }
         }
         // The break at the ground that may come before the end of the window.
-        if let Some(edge) = trace.edge(until, Side::Left) {
+        if let Some(edge) = self.edge(trip, until, Side::Left) {
             visit(summed(Part { offset: until.age.one(), ..edge }));
         }
         Ok(())
     }
 
     /// The same with the parts cut at the top, and whether each is on its way up.
-    pub(super) fn visit_ways(&self, trip: &[Place<N>; 2], visit: &mut dyn FnMut(bool, Part<N>)) -> Result<(), Open> {
-        let (trace, [from, until]) = (&self.ground.trace, trip);
+    pub(super) fn visit_ways(&self, trip: &Trip<N>, visit: &mut dyn FnMut(bool, Part<N>)) -> Result<(), Open> {
+        let (trace, [from, until]) = (&self.ground.trace, &trip.ends);
         let summed = self.summed(until.index);
         let mut visit = |up: bool, part: Part<N>| visit(up, summed(part));
         let (gravity, half) = (&self.problem.gravity, until.age.one().halved());
         let now = Moment { index: until.index, age: until.age.clone() };
         let middle = self.place(&self.shifted(&now, &-half.clone())?, Side::Right)?;
-        trace.window_from(from, &middle, &mut |part| match self.problem.top {
+        let edge = |place| self.edge(trip, place, Side::Right);
+        trace.window_from(from, &middle, edge(from), &mut |part| match self.problem.top {
             Top::Free => visit(false, part),
             Top::Fixed => {
                 let shift = part.shift.map(|(jump, late)| (-jump, late));
                 visit(false, Part { value: gravity.clone() - part.value, slope: -part.slope, shift, ..part });
             }
         });
-        trace.window_from(&middle, until, &mut |part| visit(true, Part { offset: part.offset + &half, ..part }));
+        let second = edge(&middle);
+        trace
+            .window_from(&middle, until, second, &mut |part| visit(true, Part { offset: part.offset + &half, ..part }));
         Ok(())
     }
 
-    /// The places a round trip before a moment and just before it.
-    pub(super) fn last_trip(&self, moment: &Moment<N>) -> Result<[Place<N>; 2], Open> {
+    /// [`Trace::edge`](super::trace::Trace::edge) of a part of a round trip; an event's own moment misses nothing.
+    pub(super) fn edge(&self, trip: &Trip<N>, place: &Place<N>, side: Side) -> Option<Part<N>> {
+        if trip.at_event { None } else { self.ground.trace.edge(place, side) }
+    }
+
+    /// The round trip up to a moment, which is that of `time`.
+    pub(super) fn last_trip(&self, moment: &Moment<N>, time: &N) -> Result<Trip<N>, Open> {
         let from = self.ground.trace.place(moment.index - 1, &moment.age, Side::Right)?;
-        Ok([from, self.place(moment, Side::Left)?])
+        Ok(Trip { ends: [from, self.place(moment, Side::Left)?], at_event: self.is_event(time) })
+    }
+
+    /// Whether a time is an event's own. One that was spelled stands for itself.
+    fn is_event(&self, time: &N) -> bool {
+        let events = &self.course.events;
+        let first = events.partition_point(|event| event.time.below(time) == Ok(true));
+        let near = events[first..].iter().take_while(|event| time.below(&event.time) != Ok(true));
+        time.spelled_as().is_none() && near.into_iter().any(|event| event.time.alike(time))
     }
 
     /// `h`, `h′` in lattice units at the end of a round trip.
     ///
     /// **Source**: with `w` of [`Undamped::visit_rod`] and times in round trips, `h′ = ∫ w ds` and
     /// `h = v(0,t) + ∫ (s − ½) value ds − g/12`, from `v_x` integrated from the ground up.
-    pub(super) fn centre_at(&self, trip: &[Place<N>; 2]) -> Result<Centre<N>, Open> {
+    pub(super) fn centre_at(&self, trip: &Trip<N>) -> Result<Centre<N>, Open> {
         let gravity = &self.problem.gravity;
         let half = gravity.one().halved();
-        let (mut rate, mut height) = (-gravity.clone().halved(), self.height_at(&trip[1]));
+        let (mut rate, mut height) = (-gravity.clone().halved(), self.height_at(&trip.ends[1]));
         height = height - gravity.clone() / gravity.int(12);
         self.visit_rod(trip, &mut |part| {
             let first = part.integral();

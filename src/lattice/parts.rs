@@ -2,9 +2,9 @@
 
 use std::cmp::Ordering;
 
-use super::history::Undamped;
+use super::history::{Trip, Undamped};
 use super::start::Units;
-use super::trace::{Part, Place};
+use super::trace::Part;
 use crate::mapped::mapped;
 use crate::motion::moments::Moments;
 use crate::motion::{Side, Stretch};
@@ -56,7 +56,7 @@ pub(super) fn widened<N: Bounded>(cells: &mut [Moments<N>], shifts: &[Shift<N>],
 
 impl<N: Bounded> Undamped<N> {
     /// `∫ ((p + q)/2)²` and `∫ ((q − p)/2)²` over the rod at the end of a round trip, in parts of `2L`.
-    pub(super) fn squares(&self, trip: &[Place<N>; 2]) -> Result<[N; 2], Open> {
+    pub(super) fn squares(&self, trip: &Trip<N>) -> Result<[N; 2], Open> {
         let zero = self.problem.gravity.zero();
         let mut sums = [zero.clone(), zero.clone()];
         self.visit_both(trip, &mut |both| {
@@ -78,7 +78,7 @@ impl<N: Bounded> Undamped<N> {
 
     /// The rod at a moment, in the units of the scene, with the jumps between its stretches that may lie elsewhere;
     /// `height` is `v(0,t)`.
-    pub(super) fn stretches_at(&self, trip: &[Place<N>; 2], height: N) -> Result<Parted<N>, Open> {
+    pub(super) fn stretches_at(&self, trip: &Trip<N>, height: N) -> Result<Parted<N>, Open> {
         let Units { velocity, length, wave_speed, .. } = &self.problem.units;
         let twice = length.clone().doubled();
         let rates = [velocity.clone(), velocity.clone() / wave_speed];
@@ -106,8 +106,9 @@ impl<N: Bounded> Undamped<N> {
         Ok((stretches, shifts))
     }
 
-    fn visit_both(&self, trip: &[Place<N>; 2], visit: &mut dyn FnMut(Both<N>)) -> Result<(), Open> {
-        let (gravity, one) = (&self.problem.gravity, trip[1].age.one());
+    fn visit_both(&self, trip: &Trip<N>, visit: &mut dyn FnMut(Both<N>)) -> Result<(), Open> {
+        let until = &trip.ends[1];
+        let (gravity, one) = (&self.problem.gravity, until.age.one());
         let (mut down, mut up) = (Vec::new(), Vec::new());
         self.visit_ways(trip, &mut |rises, part| {
             // w of `visit_rod`.
@@ -118,7 +119,7 @@ impl<N: Bounded> Undamped<N> {
         // What goes up is met from its last part on: x falls with the age, and a jump is across the other end; that
         // of the last part is at the ground, that of the first at the top.
         let mut edges = mapped(&mut up, |part| part.shift.take());
-        edges.push(self.ground.trace.edge(&trip[1], Side::Left).and_then(|edge| edge.shift));
+        edges.push(self.edge(trip, until, Side::Left).and_then(|edge| edge.shift));
         let at_top = edges.remove(0);
         let top = up.first().zip(down.last()).map(|(p, q)| (p.value.clone(), q.slope.clone() * &q.width + &q.value));
         let turned = |(part, shift): (Part<N>, _)| {

@@ -415,9 +415,15 @@ impl<N: Bounded> Trace<N> {
         Some(Part { offset, width, value, slope, shift: Some((jump, late)), late_end: None })
     }
 
-    /// [`Trace::window`] from a place from the right, whose break it may lie before.
-    pub(super) fn window_from(&self, from: &Place<N>, until: &Place<N>, visit: &mut dyn FnMut(Part<N>)) {
-        let mut first = self.edge(from, Side::Right).and_then(|edge| edge.shift);
+    /// [`Trace::window`] with the [`Trace::edge`] of its beginning.
+    pub(super) fn window_from(
+        &self,
+        from: &Place<N>,
+        until: &Place<N>,
+        edge: Option<Part<N>>,
+        visit: &mut dyn FnMut(Part<N>),
+    ) {
+        let mut first = edge.and_then(|edge| edge.shift);
         self.window(from, until, &mut |part| visit(Part { shift: part.shift.or_else(|| first.take()), ..part }));
     }
 

@@ -8,9 +8,13 @@
 use std::sync::Arc;
 
 use crate::common::Random;
+use dalembert::engine::{Motion, Undamped};
 use dalembert::number::Scalar;
 use dalembert::solve::Target;
-use dalembert::{Error, EventKind, History, Number, Numbers, Plan, Problem, Question, Scene, Side, Solution, Warning};
+use dalembert::{
+    Error, Estimate, EventKind, History, Number, Numbers, Plan, Problem, Question, Rational, Scene, Side, Solution,
+    Warning,
+};
 use rug::Float;
 
 /// Bits in which values are compared.
@@ -159,7 +163,7 @@ fn contact_is_not_asked_beyond_the_end_of_a_run() {
     let time: Number = "231.99666649431802".parse().unwrap();
     for side in [Side::Left, Side::Right] {
         let columns = [dalembert::Quantity::Contact, dalembert::Quantity::Strain];
-        let spelled = |time: &Number| dalembert::Estimate::<f64>::spelling(time, &());
+        let spelled = |time: &Number| Estimate::<f64>::spelling(time, &());
         let found = history.ask_columns(&columns, Some(side), |_| Ok(vec![spelled(&time)])).unwrap();
         assert!(*found[0][0].value() == 1.0 && *found[1][0].value() < -1.0, "{found:?}");
         let beyond = history.columns(&columns[..1], &[*history.end() * 1.01], Some(side));
@@ -172,13 +176,11 @@ fn of_the_rod<S: Target>(history: &History<S>, time: &Number, float: fn(&S::Carr
     use dalembert::Quantity::{Centre, CentreVelocity, KineticEnergy, StrainEnergy, TranslationalEnergy};
     use dalembert::quantity::{Slice, slices};
     let columns = [StrainEnergy, KineticEnergy, dalembert::Quantity::VibrationalEnergy, TranslationalEnergy, Centre];
-    let lift = |motion: &dyn dalembert::engine::Motion<S::Carried>, x: &Number| {
-        S::Carried::spelling(x, &motion.end().precision())
-    };
+    let lift = |motion: &dyn Motion<S::Carried>, x: &Number| S::Carried::spelling(x, &motion.end().precision());
     let ask = |columns: &[_]| history.ask_columns(columns, None, |run| Ok(vec![lift(run, time)])).unwrap();
     let mut found = [ask(&columns), ask(&[CentreVelocity])].concat();
     let grid = ["0", "0.25", "1"].map(|x| x.parse::<Number>().unwrap());
-    let means = |run: &dyn dalembert::engine::Motion<S::Carried>| {
+    let means = |run: &dyn Motion<S::Carried>| {
         let grid: Vec<_> = grid.iter().map(|x| lift(run, x)).collect();
         Ok(slices(run, Slice::Averages, &grid, &[lift(run, time)], None)?.split_off(3))
     };
@@ -277,4 +279,18 @@ fn at_printed_events_of_many_random_rods() {
     println!("{counts:?}");
     assert!(counts.times >= 2000 && counts.values >= 60_000, "{counts:?}");
     assert!(counts.warned * 100 <= counts.times, "{counts:?}");
+}
+
+/// The time of an event that a run has found stands for the event: its energies miss no strip, however fast the rod.
+#[test]
+fn an_event_has_its_own_energies() {
+    let rod = Problem::builder().length(1).wave_speed(1).gravity(1).impact_speed(100_000_000);
+    let problem = rod.impacts(1).build().unwrap();
+    let doubles = Undamped::<Estimate<f64>>::solve(&problem, &()).unwrap();
+    let exact = Undamped::<Rational>::solve(&problem, &()).unwrap();
+    let release = exact.energy(&exact.events()[1].time).unwrap().vibrational;
+    assert_eq!(release, Rational::from((2, 3)));
+    let found = doubles.energy(&doubles.events()[1].time).unwrap().vibrational;
+    let off = (Rational::from_f64(*found.value()).unwrap() - release).to_f64().abs();
+    assert!(off <= found.bound() && found.bound() < 1e-6, "{found:?}");
 }
