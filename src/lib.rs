@@ -45,9 +45,9 @@
 //! digits that both prove. [`History::units`] turns strains and values per `ρS` into those of the material.
 //!
 //! The types in daily use stand at the root. The rest of each subject is in its module: [`problem`], [`solve`],
-//! [`quantity`], [`reason`] (why a run ends, and its warnings), [`plot`]. [`engine`] has the engines by themselves,
-//! [`number`] what numbers can do in each system, [`special`] the functions of the closed forms, [`paper`] the printed
-//! formulas.
+//! [`quantity`], [`reason`] (why a run ends, and its warnings), [`compare`] (other people's data), [`plot`]. [`engine`]
+//! has the engines by themselves, [`number`] what numbers can do in each system, [`special`] the functions of the
+//! closed forms, [`paper`] the printed formulas.
 //!
 //! Equation numbers are those of F. Wang and S. W. Hansen, *Explicit solutions and coefficient of restitution for an
 //! elastic rod with viscous damping*, IMA Preprint 2473, Institute for Mathematics and its Applications, University of

@@ -76,7 +76,7 @@ impl<N: Scalar, M: Reads<N>> Converted<N, M> {
         }
     }
 
-    /// A time that is none of the engine's own.
+    /// A point or a time that is none of the engine's own.
     fn given(&self, time: &M) -> N {
         let given = time.give(&self.precision);
         // Exact numbers and enclosures are asked around it.
@@ -87,9 +87,8 @@ impl<N: Scalar, M: Reads<N>> Converted<N, M> {
         given.widened(&roundings)
     }
 
-    /// How far what was spelled may lie from a point or a time that stands for it, where numbers without roundings are
-    /// asked: what a double does not spell was rounded to it, and is given as the decimal of that; a longer number was
-    /// rounded once.
+    /// How far the point or the time that was spelled may lie from the number `x` that it was rounded to, by twice that
+    /// rounding; `None` where it was not rounded, and where [`Converted::given`] is widened by the rounding.
     fn late(&self, x: &M) -> Option<N> {
         let rounded = match x.as_double() {
             Some(_) => x.spelled_as() == Some(Spelling::Near),
@@ -101,11 +100,11 @@ impl<N: Scalar, M: Reads<N>> Converted<N, M> {
 
     /// [`Converted::late`] of a time that is none of the engine's own.
     fn late_time(&self, time: &M) -> Option<N> {
-        if self.known(time).is_some() { None } else { self.late(time) }
+        self.late(time).filter(|_| self.known(time).is_none())
     }
 
-    /// [`Converted::late`] of a time at which a point is asked about; in longer numbers that of a ray there is the
-    /// ray's.
+    /// [`Converted::late`] of a time at which a point is asked about; `None` where a long number is taken for the time
+    /// of a ray at the point, which is known.
     fn late_at(&self, point: &N, time: &M, given: &N) -> Option<N> {
         let late = self.late_time(time)?;
         let ray = time.as_double().is_none() && {
@@ -115,11 +114,11 @@ impl<N: Scalar, M: Reads<N>> Converted<N, M> {
         (!ray).then_some(late)
     }
 
-    /// What is asked at a time, which may be off by `late`, within what it changes meanwhile.
+    /// The numbers that `ask` has at `time`, widened by what they change where the time is off by up to `late`.
     ///
     /// **Source**: between events and rays all is a polynomial in t of degree four at most. One of that degree is
-    /// `f(t) + Σ ℓₖ(s) (f(t + sₖ late) − f(t))` for `sₖ` = −1, −½, ½, 1, with `|ℓₖ| < 2` on all of −1 … 1. What jumps
-    /// meanwhile has both values among these.
+    /// `f(t) + Σ ℓₖ(s) (f(t + sₖ late) − f(t))` for `sₖ` = −1, −½, ½, 1, with `|ℓₖ| < 2` on all of −1 … 1. Of what jumps
+    /// within `late`, both values are among these.
     fn around<X: Scalar>(
         &self,
         time: &N,
@@ -220,6 +219,7 @@ impl<N: Scalar, M: Reads<N>> Converted<N, M> {
         self.time_at(&self.engine.end().zero(), time)
     }
 
+    /// What `ask` has of the ground at a time, which is that of an event or a ray there where roundings alone set it off.
     fn at_ground<const K: usize>(&self, time: &M, ask: impl Fn(&N) -> Result<[N; K], Error>) -> Result<[M; K], Error> {
         let (ground, given) = (self.engine.end().zero(), self.time_at_ground(time)?);
         let late = self.late_at(&ground, time, &given);
@@ -227,8 +227,8 @@ impl<N: Scalar, M: Reads<N>> Converted<N, M> {
     }
 }
 
-/// The numbers of `found`, within all that the same numbers of `others` are off, twice over. Beyond the end and the rod
-/// there is nothing to be covered.
+/// `found`, each number widened by twice the sum of what the same number of each of `others` is away from it. Those of
+/// `others` that are outside of the run or of the rod count nothing.
 fn covering<X: Scalar, M: Scalar>(
     found: Vec<X>,
     read: fn(X) -> M,
@@ -340,33 +340,26 @@ impl<N: Scalar, M: Reads<N>> Motion<M> for Converted<N, M> {
 
     fn moments(&self, time: &M, points: &[M]) -> Result<Vec<Moments<M>>, Error> {
         let (given, late) = (self.time(time)?, self.late_time(time));
-        let flat = |cells: Vec<Moments<_>>| cells.into_iter().flatten().flatten().collect_vec();
-        let numbers = match self.engine.stretches(&given) {
-            Err(Error::NoWaves) => None,
-            // Differences of exact numbers have no roundings.
-            Ok(_) if late.is_some() && given.bits().is_none() => None,
-            Ok(_) => Some(self.around(&given, late.clone(), |x: M| x, &|time| {
-                let stretches = mapped(self.engine.stretches(time)?, |stretch| stretch.map(M::read));
-                moments::of_stretches(&stretches, points).map(flat)
-            })?),
-            Err(error) => return Err(error),
-        };
-        let numbers = match numbers {
-            Some(numbers) => numbers,
-            None => {
-                let points = try_mapped(points, |point| self.point(point))?;
-                let flat = |cells: Vec<Moments<N>>| cells.into_iter().flatten().flatten().collect_vec();
-                self.around(&given, late, M::read, &|time| self.engine.moments(time, &points).map(flat))?
+        if late.is_none() {
+            match self.engine.stretches(&given) {
+                Err(Error::NoWaves) => {}
+                stretches => {
+                    let stretches = mapped(stretches?, |stretch| stretch.map(M::read));
+                    return moments::of_stretches(&stretches, points);
+                }
             }
-        };
-        let mut numbers = numbers.into_iter();
-        let mut cells = Vec::with_capacity(points.len());
-        while let Some(first) = numbers.next() {
-            let rest = array::<_, 5>(numbers.by_ref().take(5).collect_vec());
-            let [a, b, c, d, e] = rest;
-            cells.push([[first, a], [b, c], [d, e]]);
         }
-        Ok(cells)
+        let points = try_mapped(points, |point| self.point(point))?;
+        let ask = |time: &N| {
+            let cells = self.engine.moments(time, &points)?;
+            Ok(cells.into_iter().flatten().flatten().collect_vec())
+        };
+        let mut numbers = self.around(&given, late, M::read, &ask)?.into_iter();
+        let mut cell = || {
+            let [a, b, c, d, e, f] = array(numbers.by_ref().take(6).collect_vec());
+            [[a, b], [c, d], [e, f]]
+        };
+        Ok((1..points.len()).map(|_| cell()).collect_vec())
     }
 
     fn waves(&self) -> Result<Waves<M>, Error> {

@@ -129,7 +129,9 @@ proptest! {
         let scene = match Scene::parse(&source) {
             Ok(scene) => scene,
             // Numbers of ordinary size can still make a speed ratio that is out of range.
-            Err(error) if error.kind == ProblemErrorKind::Combination => return Err(TestCaseError::reject("combination")),
+            Err(error) if error.kind == ProblemErrorKind::Combination => {
+                return Err(TestCaseError::reject("combination"));
+            }
             Err(error) => return Err(TestCaseError::fail(error.to_string())),
         };
         let kept = |text: &str| text.parse::<Number>().unwrap();
